@@ -1,0 +1,1 @@
+//! slowlight-routine

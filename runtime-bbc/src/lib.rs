@@ -1,0 +1,1 @@
+//! slowlight-runtime-bbc
