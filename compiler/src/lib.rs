@@ -1,1 +1,6 @@
-//! slowlight-compiler
+//! The compiler of `slowlight`: from a scene to programs for slow machines.
+//!
+//! A pure library: no files, no clock, no terminal.
+
+pub mod source;
+pub mod syntax;
