@@ -1,1 +1,214 @@
-//! slowlight-routine
+//! What a scalar operation means, how a value is represented, and what a
+//! runtime offers to compute one from the other.
+//!
+//! Three notions meet here and nowhere else:
+//!
+//! - [`Op`]: an operation over the reals, the integers or the booleans, with
+//!   one canonical definition, [`Op::eval`], in `f64` and `i32`. The native
+//!   evaluation and constant folding use it; every routine is held against it.
+//! - [`Format`]: how a machine holds a value. A value in a format is a
+//!   [`Bits`], whose layout is the runtime's affair.
+//! - [`Routine`]: one way to compute an [`Op`] from arguments in given formats
+//!   on one machine: how the target writes it, which [`Part`]s of source it
+//!   needs, what it costs, where it may be used, and a bit-exact model.
+//!
+//! A [`Runtime`] is a list of routines and parts. The planner picks, for each
+//! operation of a graph, the first routine in the list whose formats match and
+//! whose domain the value ranges prove; so runtimes list the cheap, restricted
+//! routines first and end with one that is total.
+
+mod op;
+mod range;
+
+pub use op::{Op, Type, Value};
+pub use range::Range;
+
+/// How a machine holds a value.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum Format {
+    /// True or false. As [`Bits`]: 1 or 0.
+    Bool,
+    /// Two's complement of so many bits. As [`Bits`]: sign-extended to 64 bits.
+    Int { bits: u8 },
+    /// The 40-bit real of BBC BASIC II.
+    Real40,
+    /// Sign, exponent (bias 127) and 14-bit mantissa, truncating, of the Jack ray marcher.
+    Float316,
+    /// Two's complement of `bits` bits, `frac` of them after the point. As [`Bits`]: sign-extended.
+    Fixed { bits: u8, frac: u8 },
+}
+
+impl Format {
+    /// The scalar type that it holds.
+    pub fn scalar(self) -> Type {
+        match self {
+            Format::Bool => Type::Bool,
+            Format::Int { .. } => Type::Int,
+            Format::Real40 | Format::Float316 | Format::Fixed { .. } => Type::Real,
+        }
+    }
+}
+
+impl std::fmt::Display for Format {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            Format::Bool => f.write_str("bool"),
+            Format::Int { bits } => write!(f, "int{bits}"),
+            Format::Real40 => f.write_str("real40"),
+            Format::Float316 => f.write_str("f316"),
+            Format::Fixed { bits, frac } => write!(f, "fixed{}.{frac}", bits - frac),
+        }
+    }
+}
+
+/// A value in some format, as the machine holds it. The layout belongs to the
+/// format: see [`Format`] and the runtime that defines it.
+pub type Bits = u64;
+
+/// How a target writes the use of a routine.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Form {
+    /// An expression with `{0}`, `{1}`, `{2}` for the arguments.
+    ///
+    /// `level` says how tightly the whole binds and `operands` how tightly each
+    /// argument must bind at least (greater binds tighter); the target puts
+    /// parentheses around an argument whose level is lower.
+    Expression {
+        template: &'static str,
+        level: u8,
+        operands: &'static [u8],
+    },
+    /// Statements or instructions, in the target's own convention, given as a
+    /// template or as the name of what to call; the target's docs say which.
+    Statement(&'static str),
+}
+
+/// How far a routine's result may be from [`Op::eval`] of its arguments.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Error {
+    /// Always the exact result (integers, booleans, copies).
+    Exact,
+    /// At most so many times the magnitude of the exact result.
+    Relative(f64),
+    /// At most so much.
+    Absolute(f64),
+}
+
+/// Where a routine may be used: given the ranges of its arguments and of its
+/// exact result, whether it is right (and cannot trap) throughout.
+pub type Domain = fn(args: &[Range], result: Range) -> bool;
+
+/// Everywhere: the domain of a total routine.
+pub fn everywhere(_: &[Range], _: Range) -> bool {
+    true
+}
+
+/// One way to compute an operation on a machine.
+#[derive(Clone, Copy, Debug)]
+pub struct Routine {
+    /// Unique within its runtime; shown in plans and listings.
+    pub name: &'static str,
+    /// What it computes.
+    pub op: Op,
+    /// The formats of its arguments; as many as [`Op::arity`].
+    pub args: &'static [Format],
+    /// The format of its result.
+    pub result: Format,
+    /// How it is written.
+    pub form: Form,
+    /// The parts of source that it needs, by name (each may need more).
+    pub needs: &'static [&'static str],
+    /// Mean cost in the machine's own cycles, its parts included, its operands' loads not.
+    pub cycles: u32,
+    /// Bytes (or words) of code at each use.
+    pub bytes: u32,
+    /// Where it may be used.
+    pub domain: Domain,
+    /// How far it may be off within its domain.
+    pub error: Error,
+    /// What it computes, bit for bit, for every pattern of its argument formats.
+    pub model: fn(&[Bits]) -> Bits,
+}
+
+/// What a part of a runtime is made of.
+#[derive(Clone, Copy, Debug)]
+pub enum Source {
+    /// Text in the target's language.
+    Text(&'static str),
+    /// Generated data: a table, as bytes or words.
+    Table(fn() -> Vec<i32>),
+}
+
+/// A piece of source that routines share: a subroutine, a class, a table.
+#[derive(Clone, Copy, Debug)]
+pub struct Part {
+    /// Unique within its runtime.
+    pub name: &'static str,
+    /// What it is made of.
+    pub source: Source,
+    /// Other parts that it needs.
+    pub needs: &'static [&'static str],
+    /// Bytes (or words) in the machine.
+    pub bytes: u32,
+}
+
+/// All that one machine offers in one choice of formats.
+#[derive(Clone, Copy, Debug)]
+pub struct Runtime {
+    /// Its name in messages and plans: `bbc`, `jack`, `6502`.
+    pub name: &'static str,
+    /// What `--format` calls this choice: `real40`, `f316`, `fixed16.16`.
+    pub format: &'static str,
+    /// The format of every real.
+    pub real: Format,
+    /// The format of every int.
+    pub int: Format,
+    /// What it can compute, cheap and restricted before dear and total.
+    pub routines: &'static [Routine],
+    /// The source that the routines need.
+    pub parts: &'static [Part],
+    /// The bits of a constant, as the generated source will write it: the
+    /// nearest value that the format and the source's notation have; saturating.
+    pub encode: fn(Value, Format) -> Bits,
+    /// What bits stand for.
+    pub decode: fn(Bits, Format) -> Value,
+    /// How a real `param` is written in the generated source: `None` as a
+    /// decimal, `Some(d)` as an integer scaled by 10^d, for a value of this range.
+    pub param_digits: fn(Range) -> Option<u8>,
+    /// The bits that the generated program makes at its start of a real param
+    /// written as the integer `scaled` with `digits` decimal digits.
+    pub param_bits: fn(scaled: i64, digits: u8) -> Bits,
+}
+
+impl Runtime {
+    /// The format of a scalar type here.
+    pub fn format_of(&self, ty: Type) -> Format {
+        match ty {
+            Type::Bool => Format::Bool,
+            Type::Int => self.int,
+            Type::Real => self.real,
+        }
+    }
+
+    /// A part by name.
+    pub fn part(&self, name: &str) -> Option<&'static Part> {
+        self.parts.iter().find(|p| p.name == name)
+    }
+
+    /// All parts that the named ones need, themselves included, each once, in
+    /// the runtime's own order.
+    pub fn closure<'a>(&self, names: impl IntoIterator<Item = &'a str>) -> Vec<&'static Part> {
+        let mut wanted: Vec<&str> = names.into_iter().collect();
+        let mut seen: Vec<&str> = Vec::new();
+        while let Some(name) = wanted.pop() {
+            if !seen.contains(&name) {
+                seen.push(name);
+                wanted.extend(self.part(name).map_or(&[][..], |p| p.needs));
+            }
+        }
+        self.parts
+            .iter()
+            .filter(|p| seen.contains(&p.name))
+            .collect()
+    }
+}
