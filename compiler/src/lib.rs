@@ -2,5 +2,6 @@
 //!
 //! A pure library: no files, no clock, no terminal.
 
+pub mod flow;
 pub mod source;
 pub mod syntax;

@@ -1,0 +1,315 @@
+//! Building a graph, node by node.
+//!
+//! The builder keeps one node for each distinct value (hash-consing), and
+//! computes what is known: an operation on constants is a constant, a select
+//! on a constant is its arm. Both leave every value as it was, so the native
+//! evaluation may start from what the builder makes. Whatever could change a
+//! rounding is a pass.
+
+use super::graph::*;
+use crate::source::Span;
+use slowlight_routine::{Op, Type, Value};
+use std::collections::HashMap;
+
+/// A graph under construction.
+#[derive(Clone, Debug, Default)]
+pub struct Builder {
+    nodes: Vec<Node>,
+    types: Vec<Type>,
+    spans: Vec<Span>,
+    names: HashMap<NodeId, String>,
+    known: HashMap<Node, NodeId>,
+    params: Vec<Param>,
+    tables: Vec<Table>,
+    loops: Vec<Loop>,
+    effects: Vec<EffectUse>,
+}
+
+impl Builder {
+    /// An empty graph.
+    pub fn new() -> Builder {
+        Builder::default()
+    }
+
+    /// How many nodes there are, for limits.
+    pub fn len(&self) -> usize {
+        self.nodes.len()
+    }
+
+    /// Whether there are none yet.
+    pub fn is_empty(&self) -> bool {
+        self.nodes.is_empty()
+    }
+
+    fn add(&mut self, node: Node, ty: Type, span: Span) -> NodeId {
+        if let Some(&id) = self.known.get(&node) {
+            return id;
+        }
+        let id = NodeId(u32::try_from(self.nodes.len()).unwrap_or(u32::MAX));
+        self.nodes.push(node);
+        self.types.push(ty);
+        self.spans.push(span);
+        self.known.insert(node, id);
+        id
+    }
+
+    /// The node behind an id.
+    pub fn node(&self, id: NodeId) -> Node {
+        self.nodes
+            .get(id.0 as usize)
+            .copied()
+            .unwrap_or(Node::Undefined(Type::Real))
+    }
+
+    /// The type of a node.
+    pub fn ty(&self, id: NodeId) -> Type {
+        self.types.get(id.0 as usize).copied().unwrap_or(Type::Real)
+    }
+
+    /// The value of a node that is a constant.
+    pub fn value(&self, id: NodeId) -> Option<Value> {
+        match self.node(id) {
+            Node::Const(c) => Some(c.value()),
+            _ => None,
+        }
+    }
+
+    fn undefined_type(&self, id: NodeId) -> bool {
+        matches!(self.node(id), Node::Undefined(_))
+    }
+
+    /// A constant.
+    pub fn constant(&mut self, value: Value, span: Span) -> NodeId {
+        let value = match value {
+            Value::Real(r) if r.is_nan() => Value::Real(0.0),
+            Value::Real(r) => Value::Real(r.clamp(f64::MIN, f64::MAX)),
+            other => other,
+        };
+        self.add(Node::Const(Constant::new(value)), value.ty(), span)
+    }
+
+    /// The pixel's column or row.
+    pub fn axis(&mut self, axis: Axis, span: Span) -> NodeId {
+        self.add(Node::Axis(axis), Type::Int, span)
+    }
+
+    /// Declares a live param's scalar.
+    pub fn param(&mut self, param: Param) -> NodeId {
+        let (ty, span) = (param.ty, param.span);
+        let id = ParamId(u32::try_from(self.params.len()).unwrap_or(u32::MAX));
+        self.params.push(param);
+        self.add(Node::Param(id), ty, span)
+    }
+
+    /// Declares a table; the same table twice is one.
+    pub fn table(&mut self, table: Table) -> TableId {
+        let at = self
+            .tables
+            .iter()
+            .position(|t| *t == table)
+            .unwrap_or_else(|| {
+                self.tables.push(table);
+                self.tables.len() - 1
+            });
+        TableId(u32::try_from(at).unwrap_or(u32::MAX))
+    }
+
+    /// What is never needed.
+    pub fn undefined(&mut self, ty: Type) -> NodeId {
+        self.add(Node::Undefined(ty), ty, Span::default())
+    }
+
+    /// An operation. An int where the operation wants a real is widened.
+    pub fn apply(&mut self, op: Op, args: &[NodeId], span: Span) -> NodeId {
+        let mut wide: Vec<NodeId> = Vec::with_capacity(2);
+        for (&arg, &want) in args.iter().zip(op.args()) {
+            wide.push(if want == Type::Real && self.ty(arg) == Type::Int {
+                self.apply(Op::ToReal, &[arg], span)
+            } else {
+                arg
+            });
+        }
+        if wide.iter().any(|&a| self.undefined_type(a)) || wide.is_empty() {
+            return self.undefined(op.result());
+        }
+        let known: Option<Vec<Value>> = wide.iter().map(|&a| self.value(a)).collect();
+        if let Some(values) = known {
+            return self.constant(op.eval(&values), span);
+        }
+        let first = wide[0];
+        let second = wide.get(1).copied().unwrap_or(first);
+        self.add(Node::Apply(op, [first, second]), op.result(), span)
+    }
+
+    /// A choice. Both arms have one type (an int arm beside a real one is widened).
+    pub fn select(&mut self, cond: NodeId, yes: NodeId, no: NodeId, span: Span) -> NodeId {
+        if self.undefined_type(yes) {
+            return no;
+        }
+        if self.undefined_type(no) || yes == no {
+            return yes;
+        }
+        let (yes, no) = match (self.ty(yes), self.ty(no)) {
+            (Type::Int, Type::Real) => (self.apply(Op::ToReal, &[yes], span), no),
+            (Type::Real, Type::Int) => (yes, self.apply(Op::ToReal, &[no], span)),
+            _ => (yes, no),
+        };
+        match self.value(cond) {
+            Some(value) if value.truth() => yes,
+            Some(_) => no,
+            None if yes == no => yes,
+            None => self.add(Node::Select { cond, yes, no }, self.ty(yes), span),
+        }
+    }
+
+    /// An entry of a table, by int column and row (clamped).
+    pub fn lookup(&mut self, table: TableId, column: NodeId, row: NodeId, span: Span) -> NodeId {
+        let Some(found) = self.tables.get(table.0 as usize) else {
+            return self.undefined(Type::Int);
+        };
+        let ty = found.ty;
+        if self.undefined_type(column) || self.undefined_type(row) {
+            return self.undefined(ty);
+        }
+        if let (Some(c), Some(r)) = (self.value(column), self.value(row)) {
+            let value = found.at(c.int(), r.int());
+            return self.constant(value, span);
+        }
+        self.add(Node::Lookup { table, column, row }, ty, span)
+    }
+
+    /// Opens a loop with carried values; close it with [`Builder::close_loop`].
+    pub fn open_loop(
+        &mut self,
+        max: u32,
+        carried: &[(String, Type, NodeId)],
+        span: Span,
+    ) -> LoopId {
+        let again = self.constant(Value::Bool(false), span);
+        let init = carried
+            .iter()
+            .map(|&(_, ty, init)| match (ty, self.ty(init)) {
+                (Type::Real, Type::Int) => self.apply(Op::ToReal, &[init], span),
+                _ => init,
+            })
+            .collect();
+        self.loops.push(Loop {
+            max: max.clamp(1, 65535),
+            names: carried.iter().map(|(name, ..)| name.clone()).collect(),
+            types: carried.iter().map(|&(_, ty, _)| ty).collect(),
+            init,
+            again,
+            next: Vec::new(),
+            done: Vec::new(),
+            otherwise: Vec::new(),
+            span,
+        });
+        LoopId(u32::try_from(self.loops.len() - 1).unwrap_or(u32::MAX))
+    }
+
+    fn carried_type(&self, of: LoopId, index: u32) -> Type {
+        let found = self
+            .loops
+            .get(of.0 as usize)
+            .and_then(|l| l.types.get(index as usize));
+        found.copied().unwrap_or(Type::Real)
+    }
+
+    /// A carried value, in the body.
+    pub fn carried(&mut self, of: LoopId, index: u32, span: Span) -> NodeId {
+        let ty = self.carried_type(of, index);
+        self.add(Node::Carried { of, index }, ty, span)
+    }
+
+    /// What the last `next` gave, in the `else`.
+    pub fn last(&mut self, of: LoopId, index: u32, span: Span) -> NodeId {
+        let ty = self.carried_type(of, index);
+        self.add(Node::Last { of, index }, ty, span)
+    }
+
+    /// Closes a loop: whether it goes on, the next carried values, its results
+    /// when it ends by itself and when `max` turns have passed. Answers the
+    /// results' nodes. `next`, `done` and `otherwise` are widened to the types
+    /// of the carried values and of each other.
+    pub fn close_loop(
+        &mut self,
+        of: LoopId,
+        again: NodeId,
+        next: &[NodeId],
+        done: &[NodeId],
+        otherwise: &[NodeId],
+    ) -> Vec<NodeId> {
+        let Some(at) = self.loops.get(of.0 as usize) else {
+            return Vec::new();
+        };
+        let (types, span) = (at.types.clone(), at.span);
+        let widen = |b: &mut Builder, id: NodeId, want: Type| match (want, b.ty(id)) {
+            (Type::Real, Type::Int) => b.apply(Op::ToReal, &[id], span),
+            _ => id,
+        };
+        let next: Vec<NodeId> = next
+            .iter()
+            .zip(&types)
+            .map(|(&n, &ty)| widen(self, n, ty))
+            .collect();
+        let (mut ends, mut elses, mut results) = (Vec::new(), Vec::new(), Vec::new());
+        for (index, (&d, &o)) in done.iter().zip(otherwise).enumerate() {
+            let undefined = |b: &Builder, id| b.undefined_type(id);
+            let ty = match (undefined(self, d), undefined(self, o)) {
+                (true, _) => self.ty(o),
+                (_, true) => self.ty(d),
+                _ if self.ty(d) == Type::Real || self.ty(o) == Type::Real => Type::Real,
+                _ => self.ty(d),
+            };
+            ends.push(widen(self, d, ty));
+            elses.push(widen(self, o, ty));
+            results.push((index as u32, ty));
+        }
+        if let Some(l) = self.loops.get_mut(of.0 as usize) {
+            (l.again, l.next, l.done, l.otherwise) = (again, next, ends, elses);
+        }
+        results
+            .into_iter()
+            .map(|(index, ty)| self.add(Node::Result { of, index }, ty, span))
+            .collect()
+    }
+
+    /// Remembers what the scene calls a value; the first name stays.
+    pub fn name(&mut self, id: NodeId, name: &str) {
+        if !matches!(
+            self.node(id),
+            Node::Const(_) | Node::Undefined(_) | Node::Param(_)
+        ) {
+            self.names.entry(id).or_insert_with(|| name.to_owned());
+        }
+    }
+
+    /// Counts a call of an effect.
+    pub fn effect(&mut self, name: &str) {
+        match self.effects.iter_mut().find(|e| e.name == name) {
+            Some(found) => found.calls += 1,
+            None => self.effects.push(EffectUse {
+                name: name.to_owned(),
+                calls: 1,
+            }),
+        }
+    }
+
+    /// The finished graph.
+    pub fn finish(mut self, image: Image, ink: NodeId, shade: Option<NodeId>) -> Graph {
+        self.effects.sort_by(|a, b| a.name.cmp(&b.name));
+        Graph {
+            image,
+            params: self.params,
+            tables: self.tables,
+            loops: self.loops,
+            nodes: self.nodes,
+            types: self.types,
+            spans: self.spans,
+            names: self.names,
+            ink,
+            shade,
+            effects: self.effects,
+        }
+    }
+}

@@ -1,0 +1,322 @@
+//! The graph: pure scalar operations in an arena.
+//!
+//! A picture is one function from a pixel (x, y) and the params to an ink. The
+//! graph holds that function as scalar [`Node`]s, each applied to nodes made
+//! before it (a [`NodeId`] is an index into the arena, so the arena is in
+//! topological order, loops included: see below). Vectors, records, optional
+//! values, shapes and function calls are gone: specialisation took them apart.
+//!
+//! Nothing here says *when* a value is computed. [`Node::Select`] needs its
+//! condition and then only one of its arms; whoever evaluates a graph does so
+//! by need. The statement tree ([`super::tree`]) is derived from the graph by
+//! the demand pass; it is a side table, and so are all analyses.
+//!
+//! A [`Loop`] carries values. [`Node::Carried`] is a carried value in the body,
+//! [`Node::Last`] is what the last `next` gave, seen by the `else`, and
+//! [`Node::Result`] is one of the loop's results. The body is the set of nodes
+//! that depend on `Carried`; it is described by three lists of roots in the
+//! [`Loop`]: whether to go on, the next values, the results when done. Those
+//! roots are nodes made after the `Carried` nodes and before the `Result`s.
+//!
+//! [`Node::Undefined`] stands where no value is ever needed: the arm of a
+//! select that is taken only when the loop goes on, say.
+
+use crate::source::Span;
+use slowlight_routine::{Op, Range, Type, Value};
+use std::collections::HashMap;
+
+/// Which node; an index into the graph's arena.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub struct NodeId(pub u32);
+
+/// Which loop; an index into [`Graph::loops`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub struct LoopId(pub u32);
+
+/// Which table; an index into [`Graph::tables`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub struct TableId(pub u32);
+
+/// Which scalar of which param; an index into [`Graph::params`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub struct ParamId(pub u32);
+
+/// A pixel's coordinate.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum Axis {
+    /// The column, from 0 at the left.
+    X,
+    /// The row, from 0 at the top.
+    Y,
+}
+
+/// A scalar constant that can be a key: reals by their bits.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum Constant {
+    Bool(bool),
+    Int(i32),
+    /// The bits of an `f64` that is neither NaN nor -0.
+    Real(u64),
+}
+
+impl Constant {
+    /// From a value; -0 becomes 0.
+    pub fn new(value: Value) -> Constant {
+        match value {
+            Value::Bool(b) => Constant::Bool(b),
+            Value::Int(i) => Constant::Int(i),
+            Value::Real(r) => Constant::Real((r + 0.0).to_bits()),
+        }
+    }
+
+    /// The value.
+    pub fn value(self) -> Value {
+        match self {
+            Constant::Bool(b) => Value::Bool(b),
+            Constant::Int(i) => Value::Int(i),
+            Constant::Real(bits) => Value::Real(f64::from_bits(bits)),
+        }
+    }
+}
+
+/// A scalar value.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Node {
+    /// Known at compile time.
+    Const(Constant),
+    /// A scalar of a param.
+    Param(ParamId),
+    /// The pixel's column or row, an int.
+    Axis(Axis),
+    /// An operation; unused arguments repeat the first.
+    Apply(Op, [NodeId; 2]),
+    /// `yes` where `cond` holds, else `no`; only that one is needed.
+    Select {
+        cond: NodeId,
+        yes: NodeId,
+        no: NodeId,
+    },
+    /// An entry of a table; both indices are ints and clamp to the table.
+    Lookup {
+        table: TableId,
+        column: NodeId,
+        row: NodeId,
+    },
+    /// A carried value of a loop, in its body.
+    Carried { of: LoopId, index: u32 },
+    /// What the last `next` gave, in the loop's `else`.
+    Last { of: LoopId, index: u32 },
+    /// A result of a loop.
+    Result { of: LoopId, index: u32 },
+    /// Never needed.
+    Undefined(Type),
+}
+
+impl Node {
+    /// The nodes that it refers to directly (a loop's results: none; see [`Loop::roots`]).
+    pub fn operands(&self) -> impl Iterator<Item = NodeId> + use<> {
+        let list: [Option<NodeId>; 3] = match *self {
+            Node::Apply(op, [a, b]) => [Some(a), (op.arity() > 1).then_some(b), None],
+            Node::Select { cond, yes, no } => [Some(cond), Some(yes), Some(no)],
+            Node::Lookup { column, row, .. } => [Some(column), Some(row), None],
+            _ => [None; 3],
+        };
+        list.into_iter().flatten()
+    }
+}
+
+/// A bounded loop.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Loop {
+    /// How often the body runs at most; 1 to 65535.
+    pub max: u32,
+    /// The carried values' names in the scene.
+    pub names: Vec<String>,
+    /// The carried values' types.
+    pub types: Vec<Type>,
+    /// Their values at the start.
+    pub init: Vec<NodeId>,
+    /// A bool: whether this turn ends in `next`.
+    pub again: NodeId,
+    /// What `next` gives, where `again` holds.
+    pub next: Vec<NodeId>,
+    /// The results, where `again` does not hold.
+    pub done: Vec<NodeId>,
+    /// The results when `max` turns have passed; may use [`Node::Last`].
+    pub otherwise: Vec<NodeId>,
+    /// Where it is written.
+    pub span: Span,
+}
+
+impl Loop {
+    /// Every node that the loop refers to.
+    pub fn roots(&self) -> impl Iterator<Item = NodeId> + '_ {
+        let lists = [&self.init, &self.next, &self.done, &self.otherwise];
+        lists.into_iter().flatten().copied().chain([self.again])
+    }
+}
+
+/// A constant table, indexed by column and row.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Table {
+    /// Its name in the scene, for the generated source.
+    pub name: String,
+    /// Columns; at least 1.
+    pub width: u32,
+    /// Rows; at least 1.
+    pub height: u32,
+    /// The type of every entry.
+    pub ty: Type,
+    /// The entries, row by row.
+    pub entries: Vec<Constant>,
+}
+
+impl Table {
+    /// The entry at a column and row, both clamped.
+    pub fn at(&self, column: i32, row: i32) -> Value {
+        let clamp = |i: i32, n: u32| i.max(0).min(n as i32 - 1).max(0) as usize;
+        let index = clamp(row, self.height) * self.width as usize + clamp(column, self.width);
+        self.entries.get(index).map_or(Value::Int(0), |e| e.value())
+    }
+}
+
+/// A scalar that stays changeable in the generated program.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Param {
+    /// The param's name.
+    pub name: String,
+    /// `x`, `y`, `z` for a vector's components, else empty.
+    pub component: &'static str,
+    /// Bool, int or real (angles in radians).
+    pub ty: Type,
+    /// Its value.
+    pub value: f64,
+    /// The range that may be trusted, if the scene gives one.
+    pub range: Option<Range>,
+    /// Where it is declared.
+    pub span: Span,
+}
+
+impl Param {
+    /// What to call it in generated source: `eye_y`.
+    pub fn label(&self) -> String {
+        if self.component.is_empty() {
+            self.name.clone()
+        } else {
+            format!("{}_{}", self.name, self.component)
+        }
+    }
+}
+
+/// The picture that a graph draws.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Image {
+    /// Columns.
+    pub width: u32,
+    /// Rows.
+    pub height: u32,
+    /// Red, green and blue of each ink, dark to light.
+    pub palette: Vec<[u8; 3]>,
+}
+
+/// An effect that the graph calls.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct EffectUse {
+    /// Its name.
+    pub name: String,
+    /// How often it was expanded.
+    pub calls: u32,
+}
+
+/// A scene as one function from pixel and params to ink.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Graph {
+    /// The picture, with the inks of the screen that it is meant for.
+    pub image: Image,
+    /// The live params, scalar by scalar.
+    pub params: Vec<Param>,
+    /// The constant tables.
+    pub tables: Vec<Table>,
+    /// The loops.
+    pub loops: Vec<Loop>,
+    /// The nodes, operands before users.
+    pub nodes: Vec<Node>,
+    /// Each node's type; as long as `nodes`.
+    pub types: Vec<Type>,
+    /// Where each node comes from; as long as `nodes`.
+    pub spans: Vec<Span>,
+    /// Names that the scene gives to nodes (`let`, params of functions), for
+    /// readable output; a node may have none.
+    pub names: HashMap<NodeId, String>,
+    /// The pixel's ink, an int in 0..inks-1.
+    pub ink: NodeId,
+    /// The shade before the dither, if `draw` ends in one. It is looked at,
+    /// never computed for its own sake.
+    pub shade: Option<NodeId>,
+    /// The effects that were called, by name.
+    pub effects: Vec<EffectUse>,
+}
+
+impl Graph {
+    /// A node; [`Node::Undefined`] for an id that is not of this graph.
+    pub fn node(&self, id: NodeId) -> Node {
+        self.nodes
+            .get(id.0 as usize)
+            .copied()
+            .unwrap_or(Node::Undefined(Type::Real))
+    }
+
+    /// Where a node comes from.
+    pub fn span(&self, id: NodeId) -> Span {
+        self.spans.get(id.0 as usize).copied().unwrap_or_default()
+    }
+
+    /// The ids of all nodes, operands first.
+    pub fn ids(&self) -> impl DoubleEndedIterator<Item = NodeId> + use<> {
+        (0..self.nodes.len() as u32).map(NodeId)
+    }
+
+    /// A node's constant, if it is one.
+    pub fn constant(&self, id: NodeId) -> Option<Value> {
+        match self.node(id) {
+            Node::Const(c) => Some(c.value()),
+            _ => None,
+        }
+    }
+
+    /// A node's type.
+    pub fn ty(&self, id: NodeId) -> Type {
+        self.types.get(id.0 as usize).copied().unwrap_or(Type::Real)
+    }
+
+    /// What each node refers to, loops' roots included for their results.
+    pub fn references(&self, id: NodeId) -> Vec<NodeId> {
+        match self.node(id) {
+            Node::Result { of, .. } => self
+                .loops
+                .get(of.0 as usize)
+                .map_or(Vec::new(), |l| l.roots().collect()),
+            node => node.operands().collect(),
+        }
+    }
+
+    /// Which nodes the outputs can reach; as long as `nodes`.
+    pub fn reached(&self) -> Vec<bool> {
+        let mut seen = vec![false; self.nodes.len()];
+        let mut todo: Vec<NodeId> = self.outputs().collect();
+        while let Some(id) = todo.pop() {
+            if let Some(flag) = seen.get_mut(id.0 as usize)
+                && !*flag
+            {
+                *flag = true;
+                todo.extend(self.references(id));
+            }
+        }
+        seen
+    }
+
+    /// The pixel's ink and shade.
+    pub fn outputs(&self) -> impl Iterator<Item = NodeId> + use<> {
+        [Some(self.ink), self.shade].into_iter().flatten()
+    }
+}

@@ -1,0 +1,6 @@
+//! The graph of scalar operations, its printer and its verifier.
+
+pub mod build;
+pub mod graph;
+pub mod print;
+pub mod verify;

@@ -1,0 +1,143 @@
+//! Whether a graph keeps the rules that every pass relies on.
+//!
+//! **Invariants**: operands stand before their users; an operation's operands
+//! have its argument types; arms of a select have one type; a loop's carried
+//! values are used only by what decides, continues or ends that loop, and what
+//! the last `next` gave only by its `else`; the ink is an int.
+
+use super::graph::*;
+use slowlight_routine::Type;
+
+/// A rule that is broken, and where.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("{node}: {rule}")]
+pub struct Broken {
+    /// The node.
+    pub node: NodeId,
+    /// The rule.
+    pub rule: String,
+}
+
+/// Checks every node that the outputs reach. Linear in the graph, except for
+/// the scopes, which cost a pass over the graph a loop.
+pub fn verify(graph: &Graph) -> Result<(), Broken> {
+    let reached = graph.reached();
+    let live = |id: &NodeId| reached.get(id.0 as usize) == Some(&true);
+    for id in graph.ids().filter(live) {
+        node(graph, id)?;
+    }
+    for k in 0..graph.loops.len() as u32 {
+        scope(graph, LoopId(k), &reached)?;
+    }
+    match graph.ty(graph.ink) {
+        Type::Int => Ok(()),
+        _ => Err(Broken {
+            node: graph.ink,
+            rule: "the ink is not an int".to_owned(),
+        }),
+    }
+}
+
+fn node(graph: &Graph, id: NodeId) -> Result<(), Broken> {
+    let broken = |rule: String| Err(Broken { node: id, rule });
+    for operand in graph.references(id) {
+        if operand >= id {
+            return broken(format!("{operand} does not stand before it"));
+        }
+    }
+    match graph.node(id) {
+        Node::Apply(op, args) => {
+            for (&want, arg) in op.args().iter().zip(args) {
+                if graph.ty(arg) != want {
+                    return broken(format!("{} wants {want:?}, {arg} is not", op.name()));
+                }
+            }
+        }
+        Node::Select { cond, yes, no } => {
+            if graph.ty(cond) != Type::Bool {
+                return broken(format!("its condition {cond} is no bool"));
+            }
+            if graph.ty(yes) != graph.ty(no) {
+                return broken(format!("its arms {yes} and {no} differ in type"));
+            }
+        }
+        Node::Lookup { table, .. } => {
+            let Some(t) = graph.tables.get(table.0 as usize) else {
+                return broken(format!("there is no table {}", table.0));
+            };
+            if t.entries.len() as u64 != u64::from(t.width) * u64::from(t.height) {
+                return broken(format!("table {} is not full", table.0));
+            }
+        }
+        Node::Result { of, index } => {
+            let found = graph.loops.get(of.0 as usize);
+            if found.is_none_or(|l| index as usize >= l.done.len().min(l.otherwise.len())) {
+                return broken(format!("loop {} has no result {index}", of.0));
+            }
+        }
+        _ => {}
+    }
+    Ok(())
+}
+
+/// Marks what depends on a loop's `Carried` or `Last` and does not pass
+/// through its results; the outputs and other loops' ends must not.
+fn scope(graph: &Graph, of: LoopId, reached: &[bool]) -> Result<(), Broken> {
+    #[derive(Clone, Copy, PartialEq)]
+    enum In {
+        Outside,
+        Body,
+        Else,
+    }
+    let mut state = vec![In::Outside; graph.nodes.len()];
+    for id in graph.ids() {
+        let at = id.0 as usize;
+        if !reached[at] {
+            continue;
+        }
+        let mut here = match graph.node(id) {
+            Node::Carried { of: l, .. } if l == of => In::Body,
+            Node::Last { of: l, .. } if l == of => In::Else,
+            Node::Result { of: l, .. } if l == of => In::Outside,
+            _ => {
+                let mut here = In::Outside;
+                for operand in graph.references(id) {
+                    match (here, state[operand.0 as usize]) {
+                        (_, In::Outside) => {}
+                        (In::Outside, s) => here = s,
+                        (h, s) if h == s => {}
+                        _ => {
+                            let rule = "mixes a loop's body with its else".to_owned();
+                            return Err(Broken { node: id, rule });
+                        }
+                    }
+                }
+                here
+            }
+        };
+        std::mem::swap(&mut state[at], &mut here);
+    }
+    let Some(l) = graph.loops.get(of.0 as usize) else {
+        return Ok(());
+    };
+    let body = l.next.iter().chain(&l.done).chain([&l.again]);
+    let leaks = (l
+        .otherwise
+        .iter()
+        .filter(|n| state[n.0 as usize] == In::Body))
+    .chain(body.filter(|n| state[n.0 as usize] == In::Else))
+    .chain(l.init.iter().filter(|n| state[n.0 as usize] != In::Outside))
+    .copied()
+    .chain(
+        graph
+            .outputs()
+            .filter(|n| state[n.0 as usize] != In::Outside),
+    );
+    match leaks.into_iter().next() {
+        Some(node) => Err(Broken {
+            node,
+            rule: format!("leaves the scope of loop {}", of.0),
+        }),
+        None => Ok(()),
+    }
+}
