@@ -1,1 +1,3 @@
 //! slowlight-isa
+
+pub mod opcodes;

@@ -1,1 +1,3 @@
-//! mos6502
+//! The 6502: a processor, an assembler, and machines around them.
+
+pub mod cpu;
