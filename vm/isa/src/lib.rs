@@ -1,3 +1,4 @@
 //! slowlight-isa
 
 pub mod opcodes;
+pub mod real40;
