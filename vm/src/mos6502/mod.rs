@@ -1,3 +1,8 @@
 //! The 6502: a processor, an assembler, and machines around them.
 
+pub mod asm;
 pub mod cpu;
+pub mod plain;
+
+pub use asm::{Assembly, LineSpan, assemble};
+pub use plain::{Plain, Run};

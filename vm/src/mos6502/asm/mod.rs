@@ -1,0 +1,127 @@
+//! A two-pass assembler for the part of the language that most 6502 assemblers share.
+//!
+//! ```text
+//! * = $0800            ; where the program lies; before its first byte
+//! width = 320          ; a symbol; may mention later ones
+//! start: lda #<(width) ; a label (with its colon) and an instruction
+//!        sta count     ; zero page where the value is known here and below 256
+//!        asl           ; on the accumulator; `asl a` is the same
+//!        jmp (vector)
+//! data:  .byte 1, $02, %11, 'c', "text"
+//!        .word start, data + 2
+//!        .res 16       ; so many bytes, zero unless `.res 16, 255`
+//! ```
+//!
+//! ca65 with `--feature pc_assignment` makes the same bytes of what this one
+//! accepts (undocumented opcodes there need `--cpu 6502X`). Where assemblers read
+//! an expression differently, it is an error here: see `expr`.
+//!
+//! - Whether an operand is in the zero page is decided where it stands: a symbol
+//!   that is defined later counts as absolute, so define zero-page symbols first.
+//!   All sizes are therefore known after the first pass, and two passes are enough.
+//! - The origin cannot move once there are bytes: pad with `.res`.
+//! - Numbers are of 32 bits, signed or not; instructions and symbols in any case,
+//!   symbols distinguishing it. Symbols are ASCII letters, digits and `_`.
+
+mod emit;
+mod expr;
+mod layout;
+mod lexer;
+mod listing;
+mod parse;
+mod symbols;
+#[cfg(test)]
+mod tests;
+
+use std::collections::BTreeMap;
+
+use crate::Fault;
+use symbols::Symbols;
+
+/// At most so many faults are reported.
+const FAULTS: usize = 100;
+
+/// Some bytes of the program and the line of source that they come from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct LineSpan {
+    /// Address of the first byte.
+    pub address: u16,
+    /// How many bytes.
+    pub length: u32,
+    /// Line of the source, from 1.
+    pub line: u32,
+    /// Whether they are an instruction (else data).
+    pub code: bool,
+}
+
+/// A program, assembled.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Assembly {
+    /// Address of the first byte, which is also where the program is entered.
+    pub origin: u16,
+    /// The program.
+    pub bytes: Vec<u8>,
+    /// Every symbol's value; labels are addresses.
+    pub symbols: BTreeMap<String, i64>,
+    /// Which line made which bytes, by rising address, without gaps.
+    pub lines: Vec<LineSpan>,
+}
+
+impl Assembly {
+    /// The program as a file for [`super::Plain::load`]: two bytes of origin, low
+    /// byte first, then the bytes.
+    pub fn image(&self) -> Vec<u8> {
+        let mut image = self.origin.to_le_bytes().to_vec();
+        image.extend(&self.bytes);
+        image
+    }
+
+    /// The line that made the byte at an address.
+    pub fn line_at(&self, address: u16) -> Option<u32> {
+        let behind = self.lines.partition_point(|span| span.address <= address);
+        let span = self.lines.get(behind.checked_sub(1)?)?;
+        (u32::from(address - span.address) < span.length).then_some(span.line)
+    }
+}
+
+/// Where things go wrong, collected up to a limit.
+struct Faults(Vec<Fault>);
+
+impl Faults {
+    fn add(&mut self, line: u32, column: u32, message: impl Into<String>) {
+        if self.0.len() < FAULTS {
+            self.0.push(Fault {
+                message: message.into(),
+                file: None,
+                line: Some(line),
+                column: Some(column),
+            });
+        }
+    }
+}
+
+/// Assembles a program, or says all that is wrong with it.
+///
+/// # Errors
+/// One fault a line at most, in the order of the lines within a pass, 100 in all.
+pub fn assemble(source: &str) -> Result<Assembly, Vec<Fault>> {
+    let mut faults = Faults(Vec::new());
+    let mut symbols = Symbols::default();
+    let mut statements = Vec::new();
+    for (line, text) in (1u32..).zip(source.lines()) {
+        let end = text.chars().count() as u32 + 1;
+        let parsed = lexer::tokens(text)
+            .and_then(|tokens| parse::statement(&tokens, line, end, &mut symbols));
+        match parsed {
+            Ok(found) => statements.extend(found),
+            Err(wrong) => faults.add(line, wrong.column, wrong.message),
+        }
+    }
+    let placed = layout::layout(&statements, &mut symbols, &mut faults);
+    let assembly = emit::emit(&placed, &symbols, &mut faults);
+    if faults.0.is_empty() {
+        Ok(assembly)
+    } else {
+        Err(faults.0)
+    }
+}
