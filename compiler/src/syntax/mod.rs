@@ -1,3 +1,21 @@
 //! Text to tree: lexer (logos), parser (chumsky), tree, and the way back.
+//!
+//! [`parse`] is total: any text gives a tree and diagnostics, in time linear in
+//! its length and with bounded depth. [`decode`] comes before it where a scene
+//! is read as bytes.
 
+mod check;
+mod cut;
+mod lexer;
+mod parser;
+pub mod print;
+mod token;
 pub mod tree;
+pub mod walk;
+
+pub use cut::MAX_DEPTH;
+pub use lexer::{MAX_BYTES, decode};
+pub use parser::parse;
+
+#[cfg(test)]
+mod tests;

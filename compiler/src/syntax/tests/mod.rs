@@ -1,0 +1,43 @@
+//! The tests of the syntax, by what they ask.
+#![allow(clippy::unwrap_used)]
+
+mod good;
+
+use super::parse;
+use crate::source::{Diagnostic, SourceFile, Sources};
+
+const MIRRORS: &str = include_str!("../../../../examples/mirrors.scn");
+const TORUS: &str = include_str!("scenes/torus.scn");
+const MAZE: &str = include_str!("scenes/maze.scn");
+const PRIMITIVES: &str = include_str!("scenes/primitives.scn");
+const SCENES: [&str; 4] = [MIRRORS, TORUS, MAZE, PRIMITIVES];
+
+/// Diagnostics as plain text: place, message, label, help.
+fn plain(text: &str, diagnostics: &[Diagnostic]) -> String {
+    let mut sources = Sources::default();
+    sources.add(SourceFile {
+        name: "scene".into(),
+        text: text.into(),
+        library: false,
+    });
+    let mut out = String::new();
+    for diagnostic in diagnostics {
+        let (line, column) = sources.line_column(diagnostic.span);
+        out += &format!("{line}:{column} {}", diagnostic.message);
+        if !sources.text(diagnostic.span).is_empty() {
+            out += &format!(" [{}]", sources.text(diagnostic.span).escape_debug());
+        }
+        if !diagnostic.label.is_empty() {
+            out += &format!(" ({})", diagnostic.label);
+        }
+        for other in &diagnostic.others {
+            let (line, column) = sources.line_column(other.span);
+            out += &format!("\n     {line}:{column} {}", other.text);
+        }
+        if let Some(help) = &diagnostic.help {
+            out += &format!("\n     help: {help}");
+        }
+        out.push('\n');
+    }
+    out
+}
