@@ -2,6 +2,8 @@
 //!
 //! A pure library: no files, no clock, no terminal.
 
+pub mod eval;
 pub mod flow;
+pub mod passes;
 pub mod source;
 pub mod syntax;

@@ -172,11 +172,17 @@ pub struct Table {
 }
 
 impl Table {
+    /// Where the entry at a column and row stands in `entries`, both clamped.
+    pub fn index(&self, column: i32, row: i32) -> usize {
+        let clamp = |i: i32, n: u32| i.max(0).min(n as i32 - 1).max(0) as usize;
+        clamp(row, self.height) * self.width as usize + clamp(column, self.width)
+    }
+
     /// The entry at a column and row, both clamped.
     pub fn at(&self, column: i32, row: i32) -> Value {
-        let clamp = |i: i32, n: u32| i.max(0).min(n as i32 - 1).max(0) as usize;
-        let index = clamp(row, self.height) * self.width as usize + clamp(column, self.width);
-        self.entries.get(index).map_or(Value::Int(0), |e| e.value())
+        self.entries
+            .get(self.index(column, row))
+            .map_or(Value::Int(0), |e| e.value())
     }
 }
 

@@ -3,4 +3,5 @@
 pub mod build;
 pub mod graph;
 pub mod print;
+pub mod tree;
 pub mod verify;

@@ -1,0 +1,260 @@
+//! Runs a statement tree, pixel by pixel, in any arithmetic.
+//!
+//! The same walk serves the tree in `f64` (to hold the passes against the
+//! native evaluation) and in the routines' models (to hold the machines
+//! against the plan). It also watches the homes: reading one that was not
+//! written on this path is counted, which a correct schedule never does.
+
+use crate::flow::graph::*;
+use crate::flow::tree::*;
+use slowlight_routine::{Op, Value};
+
+/// How values are held and computed.
+pub trait Arithmetic {
+    /// A value.
+    type Value: Copy;
+    /// A constant of the graph, or an entry of a table.
+    fn constant(&self, value: Value) -> Self::Value;
+    /// A live param.
+    fn param(&self, id: ParamId) -> Self::Value;
+    /// A node's operation on its arguments.
+    fn apply(&self, id: NodeId, op: Op, args: &[Self::Value]) -> Self::Value;
+    /// A condition.
+    fn truth(&self, value: Self::Value) -> bool;
+    /// An int.
+    fn int(&self, value: Self::Value) -> i32;
+}
+
+/// Runs a tree over a graph.
+pub struct Run<'t, A: Arithmetic> {
+    graph: &'t Graph,
+    tree: &'t Tree,
+    arithmetic: A,
+    values: Vec<Option<A::Value>>,
+    carried: Vec<Vec<Option<A::Value>>>,
+    scratch: Vec<Vec<Option<A::Value>>>,
+    /// What the row and the pixel block write, to forget between turns.
+    row_places: Vec<Place>,
+    pixel_places: Vec<Place>,
+    /// The constants, ahead of time.
+    constants: Vec<Option<A::Value>>,
+    entries: Vec<Vec<A::Value>>,
+    position: (i32, i32),
+    row: Option<i32>,
+    unset: u64,
+}
+
+fn places(block: &Block) -> Vec<Place> {
+    let mut all = Vec::new();
+    walk(block, &mut |s| match s {
+        Statement::Let(id) => all.push(Place::Node(*id)),
+        Statement::Set { place, .. } => all.push(*place),
+        _ => {}
+    });
+    all
+}
+
+impl<'t, A: Arithmetic> Run<'t, A> {
+    /// Runs the frame's block.
+    pub fn new(graph: &'t Graph, tree: &'t Tree, arithmetic: A) -> Run<'t, A> {
+        let constants = graph
+            .ids()
+            .map(|id| graph.constant(id).map(|v| arithmetic.constant(v)))
+            .collect();
+        let entries = graph.tables.iter().map(|t| {
+            t.entries
+                .iter()
+                .map(|e| arithmetic.constant(e.value()))
+                .collect()
+        });
+        let slots = |l: &Loop| vec![None; l.types.len()];
+        let mut run = Run {
+            values: vec![None; graph.nodes.len()],
+            carried: graph.loops.iter().map(slots).collect(),
+            scratch: graph.loops.iter().map(slots).collect(),
+            row_places: places(&tree.row),
+            pixel_places: places(&tree.pixel),
+            constants,
+            entries: entries.collect(),
+            position: (0, 0),
+            row: None,
+            unset: 0,
+            graph,
+            tree,
+            arithmetic,
+        };
+        run.block(&tree.frame);
+        run
+    }
+
+    /// How often a home was read that nothing had written on this path.
+    pub fn unset_reads(&self) -> u64 {
+        self.unset
+    }
+
+    /// Runs the pixel at column `x`, row `y`; answers its ink.
+    pub fn pixel(&mut self, x: i32, y: i32) -> A::Value {
+        let tree = self.tree;
+        self.position = (x, y);
+        if self.row != Some(y) {
+            self.forget(true);
+            self.row = Some(y);
+            self.block(&tree.row);
+        }
+        self.forget(false);
+        self.block(&tree.pixel);
+        self.read(self.graph.ink)
+    }
+
+    /// A node's value after the last pixel, if the tree computed it.
+    pub fn last(&self, id: NodeId) -> Option<A::Value> {
+        match self.graph.node(id) {
+            Node::Const(c) => Some(self.arithmetic.constant(c.value())),
+            _ => self.values.get(id.0 as usize).copied().flatten(),
+        }
+    }
+
+    fn forget(&mut self, row: bool) {
+        let places = std::mem::take(if row {
+            &mut self.row_places
+        } else {
+            &mut self.pixel_places
+        });
+        for &place in &places {
+            *self.slot(place) = None;
+        }
+        *(if row {
+            &mut self.row_places
+        } else {
+            &mut self.pixel_places
+        }) = places;
+    }
+
+    fn slot(&mut self, place: Place) -> &mut Option<A::Value> {
+        match place {
+            Place::Node(id) => &mut self.values[id.0 as usize],
+            Place::Carried(l, k) => &mut self.carried[l.0 as usize][k as usize],
+            Place::Scratch(l, k) => &mut self.scratch[l.0 as usize][k as usize],
+        }
+    }
+
+    fn checked(&mut self, found: Option<A::Value>) -> A::Value {
+        found.unwrap_or_else(|| {
+            self.unset += 1;
+            self.arithmetic.constant(Value::Int(0))
+        })
+    }
+
+    fn read(&mut self, id: NodeId) -> A::Value {
+        match self.graph.node(id) {
+            Node::Const(_) => self.checked(self.constants[id.0 as usize]),
+            Node::Param(p) => self.arithmetic.param(p),
+            Node::Axis(Axis::X) => self.arithmetic.constant(Value::Int(self.position.0)),
+            Node::Axis(Axis::Y) => self.arithmetic.constant(Value::Int(self.position.1)),
+            Node::Carried { of, index } | Node::Last { of, index } => {
+                self.checked(self.carried[of.0 as usize][index as usize])
+            }
+            _ => self.checked(self.values[id.0 as usize]),
+        }
+    }
+
+    fn compute(&mut self, id: NodeId) -> A::Value {
+        match self.graph.node(id) {
+            Node::Apply(op, [a, b]) => {
+                let a = self.read(a);
+                let b = if op.arity() > 1 { self.read(b) } else { a };
+                self.arithmetic.apply(id, op, &[a, b][..op.arity()])
+            }
+            Node::Lookup { table, column, row } => {
+                let (column, row) = (self.read(column), self.read(row));
+                let (column, row) = (self.arithmetic.int(column), self.arithmetic.int(row));
+                let at = self
+                    .graph
+                    .tables
+                    .get(table.0 as usize)
+                    .map_or(0, |t| t.index(column, row));
+                let found = self.entries[table.0 as usize].get(at).copied();
+                self.checked(found)
+            }
+            _ => self.read(id),
+        }
+    }
+
+    fn block(&mut self, block: &'t Block) {
+        for statement in block {
+            match statement {
+                Statement::Let(id) => {
+                    let value = self.compute(*id);
+                    self.values[id.0 as usize] = Some(value);
+                }
+                Statement::Set { place, from } => {
+                    let value = match *from {
+                        Origin::Node(id) => self.read(id),
+                        Origin::Scratch(l, k) => {
+                            self.checked(self.scratch[l.0 as usize][k as usize])
+                        }
+                    };
+                    *self.slot(*place) = Some(value);
+                }
+                Statement::If { cond, yes, no } => {
+                    let cond = self.read(*cond);
+                    self.block(if self.arithmetic.truth(cond) { yes } else { no });
+                }
+                Statement::Loop {
+                    of,
+                    start,
+                    body,
+                    again,
+                    next,
+                    done,
+                    otherwise,
+                } => {
+                    self.block(start);
+                    let max = self.graph.loops.get(of.0 as usize).map_or(1, |l| l.max);
+                    let mut turns = 0;
+                    loop {
+                        self.block(body);
+                        let again = self.read(*again);
+                        if !self.arithmetic.truth(again) {
+                            self.block(done);
+                            break;
+                        }
+                        self.block(next);
+                        turns += 1;
+                        if turns == max {
+                            self.block(otherwise);
+                            break;
+                        }
+                    }
+                }
+            }
+        }
+    }
+}
+
+/// The graph's own arithmetic: `f64` and `i32`, as [`Op::eval`] defines them.
+pub struct Exact<'g>(pub &'g Graph);
+
+impl Arithmetic for Exact<'_> {
+    type Value = Value;
+
+    fn constant(&self, value: Value) -> Value {
+        value
+    }
+
+    fn param(&self, id: ParamId) -> Value {
+        super::native::param_value(self.0, id)
+    }
+
+    fn apply(&self, _: NodeId, op: Op, args: &[Value]) -> Value {
+        op.eval(args)
+    }
+
+    fn truth(&self, value: Value) -> bool {
+        value.truth()
+    }
+
+    fn int(&self, value: Value) -> i32 {
+        value.int()
+    }
+}

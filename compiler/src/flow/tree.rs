@@ -1,0 +1,179 @@
+//! The statement tree: when each value of a graph is computed.
+//!
+//! A picture is drawn by three nested blocks: `frame` runs once, `row` before
+//! each row's pixels, `pixel` for each pixel, which then plots the ink. Every
+//! value that needs computing has one place where it is computed:
+//!
+//! - [`Statement::Let`] computes an operation, a lookup into its home;
+//! - [`Statement::Set`] assigns a select (in either arm), a loop's carried
+//!   value or a loop's result;
+//! - constants, params and the axes need no statement.
+//!
+//! A value's home keeps it from there on: an `If` on a condition may leave
+//! values behind that a later `If` on the same condition uses.
+
+use super::graph::*;
+use std::fmt::{self, Display};
+
+/// Statements in order.
+pub type Block = Vec<Statement>;
+
+/// What a [`Statement::Set`] assigns.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum Place {
+    /// A select's or a loop result's home.
+    Node(NodeId),
+    /// A carried value's home; [`Node::Last`] reads the same home.
+    Carried(LoopId, u32),
+    /// A second home of a carried value, for exchanges.
+    Scratch(LoopId, u32),
+}
+
+/// Where a [`Statement::Set`] reads from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Origin {
+    /// A node's value.
+    Node(NodeId),
+    /// What was put into a scratch home.
+    Scratch(LoopId, u32),
+}
+
+/// One step of a program.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Statement {
+    /// Computes a node into its home.
+    Let(NodeId),
+    /// Assigns a home.
+    Set { place: Place, from: Origin },
+    /// Takes one of two ways; at least one of them does something.
+    If { cond: NodeId, yes: Block, no: Block },
+    /// A bounded loop. `start` sets the carried values; then up to `max` times
+    /// `body` runs, and `again` decides: `next` sets the carried values for
+    /// another turn, or `done` sets the results and ends the loop. Where a
+    /// `next` was the last turn allowed, `otherwise` sets the results instead.
+    Loop {
+        of: LoopId,
+        start: Block,
+        body: Block,
+        again: NodeId,
+        next: Block,
+        done: Block,
+        otherwise: Block,
+    },
+}
+
+/// A picture's statements.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Tree {
+    /// Once a picture.
+    pub frame: Block,
+    /// Once a row.
+    pub row: Block,
+    /// Once a pixel; after it the ink is known.
+    pub pixel: Block,
+}
+
+/// Calls `visit` for every statement of a block, in order, inner ones after
+/// the statement that holds them.
+pub fn walk<'t>(block: &'t [Statement], visit: &mut dyn FnMut(&'t Statement)) {
+    for statement in block {
+        visit(statement);
+        for inner in inner(statement) {
+            walk(inner, visit);
+        }
+    }
+}
+
+/// The blocks inside a statement.
+pub fn inner(statement: &Statement) -> Vec<&Block> {
+    match statement {
+        Statement::Let(_) | Statement::Set { .. } => Vec::new(),
+        Statement::If { yes, no, .. } => vec![yes, no],
+        Statement::Loop {
+            start,
+            body,
+            next,
+            done,
+            otherwise,
+            ..
+        } => {
+            vec![start, body, next, done, otherwise]
+        }
+    }
+}
+
+impl Display for Place {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Place::Node(id) => write!(f, "{id}"),
+            Place::Carried(l, k) => write!(f, "carried {}.{k}", l.0),
+            Place::Scratch(l, k) => write!(f, "scratch {}.{k}", l.0),
+        }
+    }
+}
+
+impl Display for Origin {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Origin::Node(id) => write!(f, "{id}"),
+            Origin::Scratch(l, k) => write!(f, "scratch {}.{k}", l.0),
+        }
+    }
+}
+
+fn block(f: &mut fmt::Formatter<'_>, statements: &[Statement], depth: usize) -> fmt::Result {
+    let pad = "  ".repeat(depth);
+    let part = |f: &mut fmt::Formatter<'_>, name: &str, inner: &Block| -> fmt::Result {
+        if inner.is_empty() {
+            return Ok(());
+        }
+        writeln!(f, "{pad}{name}")?;
+        block(f, inner, depth + 1)
+    };
+    for statement in statements {
+        match statement {
+            Statement::Let(id) => writeln!(f, "{pad}let {id}")?,
+            Statement::Set { place, from } => writeln!(f, "{pad}set {place} := {from}")?,
+            Statement::If { cond, yes, no } => {
+                part(f, &format!("if {cond}"), yes)?;
+                let name = if yes.is_empty() {
+                    format!("unless {cond}")
+                } else {
+                    "else".to_owned()
+                };
+                part(f, &name, no)?;
+            }
+            Statement::Loop {
+                of,
+                start,
+                body,
+                again,
+                next,
+                done,
+                otherwise,
+            } => {
+                part(f, &format!("start {}", of.0), start)?;
+                writeln!(f, "{pad}loop {}", of.0)?;
+                block(f, body, depth + 1)?;
+                part(f, &format!("again {again}: next"), next)?;
+                part(f, "done", done)?;
+                part(f, "exhausted", otherwise)?;
+            }
+        }
+    }
+    Ok(())
+}
+
+impl Display for Tree {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        for (name, statements) in [
+            ("frame", &self.frame),
+            ("row", &self.row),
+            ("pixel", &self.pixel),
+        ] {
+            writeln!(f, "{name}:")?;
+            block(f, statements, 1)?;
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,215 @@
+//! Demand: where each value is placed.
+//!
+//! The places are regions: the frame, the row, the pixel, the two arms of an
+//! `If`, the parts of a loop. A value belongs to the innermost region that
+//! holds all its uses, so a value that only one path uses is computed on that
+//! path only. From there it moves out to the row or the frame where its rate
+//! allows (a row has hundreds of pixels, so this pays even where some rows do
+//! not need it; every operation is total, so computing it in vain cannot
+//! matter), and out of a loop's body where every turn would compute it again.
+//!
+//! Conditions imply others: where a sphere is hit, its discriminant was not
+//! negative. So a value that is used under both conditions belongs under the
+//! weaker one: it is computed at its first use and kept for the second. Without
+//! this, every value that an optional's presence and its content share would
+//! be computed on paths that need neither.
+//!
+//! Users are placed before what they use, so the nodes are visited backwards.
+
+use super::rate::{Dependence, Rates, rates};
+use super::region::*;
+use crate::flow::graph::*;
+
+/// Which nodes the ink needs, carried values only where they are read. As long
+/// as the graph's nodes.
+pub fn needed(graph: &Graph) -> Vec<bool> {
+    let mut seen = vec![false; graph.nodes.len()];
+    let mut todo = vec![graph.ink];
+    while let Some(id) = todo.pop() {
+        let Some(flag) = seen.get_mut(id.0 as usize).filter(|flag| !**flag) else {
+            continue;
+        };
+        *flag = true;
+        let of_loop = |of: LoopId| graph.loops.get(of.0 as usize);
+        let pick = |list: &[NodeId], index: u32| list.get(index as usize).copied();
+        match graph.node(id) {
+            Node::Result { of, index } => todo.extend(of_loop(of).into_iter().flat_map(|l| {
+                [
+                    Some(l.again),
+                    pick(&l.done, index),
+                    pick(&l.otherwise, index),
+                ]
+                .into_iter()
+                .flatten()
+            })),
+            Node::Carried { of, index } | Node::Last { of, index } => {
+                todo.extend(of_loop(of).into_iter().flat_map(|l| {
+                    [pick(&l.init, index), pick(&l.next, index)]
+                        .into_iter()
+                        .flatten()
+                }));
+            }
+            node => todo.extend(node.operands()),
+        }
+    }
+    seen
+}
+
+/// Which carried values of a loop are read, by index, given what is [`needed`].
+pub fn live_carried(graph: &Graph, needed: &[bool], of: LoopId) -> Vec<u32> {
+    let mut live: Vec<u32> = graph
+        .ids()
+        .filter(|id| needed.get(id.0 as usize) == Some(&true))
+        .filter_map(|id| match graph.node(id) {
+            Node::Carried { of: l, index } | Node::Last { of: l, index } if l == of => Some(index),
+            _ => None,
+        })
+        .collect();
+    live.sort_unstable();
+    live.dedup();
+    live
+}
+
+/// Places every value that the ink needs.
+pub fn place(graph: &Graph) -> Regions {
+    let mut placer = Placer {
+        graph,
+        needed: needed(graph),
+        rates: rates(graph),
+        regions: Regions::new(graph),
+        uses: vec![None; graph.nodes.len()],
+    };
+    placer.need(graph.ink, PIXEL);
+    for id in graph.ids().rev() {
+        placer.visit(id);
+    }
+    placer.regions
+}
+
+struct Placer<'g> {
+    graph: &'g Graph,
+    needed: Vec<bool>,
+    rates: Rates,
+    regions: Regions,
+    /// The innermost region that holds all uses seen so far.
+    uses: Vec<Option<RegionId>>,
+}
+
+impl Placer<'_> {
+    fn need(&mut self, id: NodeId, region: RegionId) {
+        let at = id.0 as usize;
+        self.uses[at] = Some(self.uses[at].map_or(region, |r| self.regions.common(r, region)));
+    }
+
+    fn visit(&mut self, id: NodeId) {
+        let graph = self.graph;
+        let Some(used) = self.uses[id.0 as usize] else {
+            return;
+        };
+        match self.graph.node(id) {
+            Node::Apply(op, args) => {
+                let region = self.settle(id, used);
+                for arg in args.into_iter().take(op.arity()) {
+                    self.need(arg, region);
+                }
+            }
+            Node::Lookup { column, row, .. } => {
+                let region = self.settle(id, used);
+                self.need(column, region);
+                self.need(row, region);
+            }
+            Node::Select { cond, yes, no } => {
+                let region = self.settle(id, used);
+                self.need(cond, region);
+                for (arm, holds) in [(yes, true), (no, false)] {
+                    let inner =
+                        self.regions
+                            .make_child(graph, region, RegionKind::Arm { cond, holds });
+                    self.need(arm, inner);
+                }
+            }
+            Node::Result { of, .. } => self.visit_loop(of),
+            // Known without computing.
+            Node::Const(_) | Node::Param(_) | Node::Axis(_) => {}
+            Node::Carried { .. } | Node::Last { .. } | Node::Undefined(_) => {}
+        }
+    }
+
+    /// Places a loop, with all its results, on meeting the last of them.
+    fn visit_loop(&mut self, of: LoopId) {
+        if self.regions.loops[of.0 as usize].is_some() {
+            return;
+        }
+        let graph = self.graph;
+        let mut results = Vec::new();
+        for id in graph.ids() {
+            if let Node::Result { of: l, index } = graph.node(id)
+                && l == of
+                && self.uses[id.0 as usize].is_some()
+            {
+                results.push((id, index as usize));
+            }
+        }
+        let all = results
+            .iter()
+            .filter_map(|(id, _)| self.uses[id.0 as usize]);
+        let Some(used) = all.reduce(|a, b| self.regions.common(a, b)) else {
+            return;
+        };
+        let Some(&(first, _)) = results.first() else {
+            return;
+        };
+        let region = self.settle(first, used);
+        self.regions.loops[of.0 as usize] = Some(region);
+        let found = &graph.loops[of.0 as usize];
+        let body = self.regions.make_child(graph, region, RegionKind::Body(of));
+        let next = self.regions.make_child(graph, body, RegionKind::Next(of));
+        let done = self.regions.make_child(graph, body, RegionKind::Done(of));
+        let otherwise = self
+            .regions
+            .make_child(graph, region, RegionKind::Otherwise(of));
+        for index in live_carried(graph, &self.needed, of) {
+            self.need(found.init[index as usize], region);
+            self.need(found.next[index as usize], next);
+        }
+        self.need(found.again, body);
+        for (id, index) in results {
+            self.regions.of[id.0 as usize] = Some(region);
+            self.need(found.done[index], done);
+            self.need(found.otherwise[index], otherwise);
+        }
+    }
+
+    /// Moves a value outward where its rate allows, and notes its region.
+    fn settle(&mut self, id: NodeId, used: RegionId) -> RegionId {
+        let mut region = used;
+        while let Some(outer) = self.leave(id, region) {
+            region = outer;
+        }
+        self.regions.of[id.0 as usize] = Some(region);
+        region
+    }
+
+    /// A region further out that is entered less often and still has all that
+    /// the value depends on.
+    fn leave(&self, id: NodeId, region: RegionId) -> Option<RegionId> {
+        let depends = |d| self.rates.depends(id, d);
+        let loops = self
+            .rates
+            .rate(id)
+            .iter()
+            .any(|d| matches!(d, Dependence::Loop(_) | Dependence::Last(_)));
+        let (x, y) = (depends(Dependence::Column), depends(Dependence::Row));
+        if !x && !loops && region != ROW && self.regions.holds(PIXEL, region) {
+            return Some(ROW);
+        }
+        if !x && !y && !loops && region != FRAME && self.regions.holds(ROW, region) {
+            return Some(FRAME);
+        }
+        match self.regions.get(region).kind {
+            // Every turn of the loop would compute it.
+            RegionKind::Body(l) if !depends(Dependence::Loop(l)) => self.regions.get(region).parent,
+            _ => None,
+        }
+    }
+}

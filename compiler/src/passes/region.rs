@@ -1,0 +1,223 @@
+//! Regions: the places that a value can be computed in, and what is known there.
+//!
+//! Regions form a tree: the frame holds the row, the row holds the pixel, and
+//! below them stand the arms of conditions and the parts of loops. What is
+//! known on entering a region (that a condition holds) may imply more.
+
+use crate::flow::graph::*;
+use std::collections::HashMap;
+
+/// Which region; an index into [`Regions::regions`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub struct RegionId(pub u32);
+
+/// What a region is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum RegionKind {
+    /// Once a picture; the outermost.
+    Frame,
+    /// Once a row.
+    Row,
+    /// Once a pixel.
+    Pixel,
+    /// Where a condition holds, or does not.
+    Arm { cond: NodeId, holds: bool },
+    /// A loop's body, up to the decision.
+    Body(LoopId),
+    /// Where the loop goes on; inside its body.
+    Next(LoopId),
+    /// Where the loop ends by itself; inside its body.
+    Done(LoopId),
+    /// Where the loop has run `max` turns.
+    Otherwise(LoopId),
+}
+
+/// A region and where it stands.
+#[derive(Clone, Copy, Debug)]
+pub struct Region {
+    /// What it is.
+    pub kind: RegionKind,
+    /// The region around it.
+    pub parent: Option<RegionId>,
+    /// How many regions are around it.
+    pub depth: u32,
+}
+
+/// A condition and whether it holds.
+pub type Fact = (NodeId, bool);
+
+/// All that follows from a condition's holding or not, itself included.
+pub fn implied(graph: &Graph, cond: NodeId, holds: bool) -> Vec<Fact> {
+    let known = |id| graph.constant(id).map(slowlight_routine::Value::truth);
+    let mut facts = vec![(cond, holds)];
+    let mut at = 0;
+    while let Some(&(id, holds)) = facts.get(at) {
+        at += 1;
+        match graph.node(id) {
+            Node::Apply(slowlight_routine::Op::Not, [a, _]) => facts.push((a, !holds)),
+            Node::Select { cond, yes, no } => {
+                // The arm that would give the other answer was not taken.
+                if known(yes) == Some(!holds) {
+                    facts.extend([(cond, false), (no, holds)]);
+                } else if known(no) == Some(!holds) {
+                    facts.extend([(cond, true), (yes, holds)]);
+                }
+            }
+            _ => {}
+        }
+    }
+    facts
+}
+
+/// Every value's region.
+#[derive(Clone, Debug, Default)]
+pub struct Regions {
+    /// All regions; the first three are frame, row and pixel.
+    pub regions: Vec<Region>,
+    /// Each node's region; `None` where the ink does not need it, or where it
+    /// needs no computing.
+    pub of: Vec<Option<RegionId>>,
+    /// Each loop's region, if it runs.
+    pub loops: Vec<Option<RegionId>>,
+    /// What is known on entering each region.
+    pub facts: Vec<Vec<Fact>>,
+    children: HashMap<(RegionId, RegionKind), RegionId>,
+}
+
+/// The frame's region.
+pub const FRAME: RegionId = RegionId(0);
+/// The row's region.
+pub const ROW: RegionId = RegionId(1);
+/// The pixel's region.
+pub const PIXEL: RegionId = RegionId(2);
+
+impl Regions {
+    /// The outermost three regions.
+    pub(super) fn new(graph: &Graph) -> Regions {
+        let region = |kind, parent, depth| Region {
+            kind,
+            parent,
+            depth,
+        };
+        Regions {
+            regions: vec![
+                region(RegionKind::Frame, None, 0),
+                region(RegionKind::Row, Some(FRAME), 1),
+                region(RegionKind::Pixel, Some(ROW), 2),
+            ],
+            of: vec![None; graph.nodes.len()],
+            loops: vec![None; graph.loops.len()],
+            facts: vec![Vec::new(); 3],
+            children: HashMap::new(),
+        }
+    }
+
+    /// A region.
+    pub fn get(&self, id: RegionId) -> Region {
+        self.regions[id.0 as usize]
+    }
+
+    /// The child of a region of some kind, if there is one.
+    pub fn child(&self, parent: RegionId, kind: RegionKind) -> Option<RegionId> {
+        self.children.get(&(parent, kind)).copied()
+    }
+
+    /// The child of a region of some kind, made where there is none.
+    pub(super) fn make_child(
+        &mut self,
+        graph: &Graph,
+        parent: RegionId,
+        kind: RegionKind,
+    ) -> RegionId {
+        if let Some(found) = self.child(parent, kind) {
+            return found;
+        }
+        let id = RegionId(self.regions.len() as u32);
+        let depth = self.get(parent).depth + 1;
+        self.regions.push(Region {
+            kind,
+            parent: Some(parent),
+            depth,
+        });
+        self.children.insert((parent, kind), id);
+        let again = |of: LoopId, holds| {
+            graph
+                .loops
+                .get(of.0 as usize)
+                .map_or(Vec::new(), |l| implied(graph, l.again, holds))
+        };
+        self.facts.push(match kind {
+            RegionKind::Arm { cond, holds } => implied(graph, cond, holds),
+            RegionKind::Next(of) => again(of, true),
+            RegionKind::Done(of) => again(of, false),
+            _ => Vec::new(),
+        });
+        id
+    }
+
+    /// The innermost region around both.
+    fn around(&self, mut a: RegionId, mut b: RegionId) -> RegionId {
+        while a != b {
+            let deeper = if self.get(a).depth >= self.get(b).depth {
+                &mut a
+            } else {
+                &mut b
+            };
+            match self.get(*deeper).parent {
+                Some(parent) => *deeper = parent,
+                None => return FRAME,
+            }
+        }
+        a
+    }
+
+    /// The innermost region whose values both may use: around both, or an arm
+    /// around one whose condition follows from where the other stands.
+    pub fn common(&self, a: RegionId, b: RegionId) -> RegionId {
+        let mut region = self.around(a, b);
+        let (facts_a, facts_b) = (self.facts_up_to(region, a), self.facts_up_to(region, b));
+        loop {
+            let step = |to: RegionId, facts: &[Fact]| {
+                let child = self.toward(region, to)?;
+                let RegionKind::Arm { cond, holds } = self.get(child).kind else {
+                    return None;
+                };
+                facts.contains(&(cond, holds)).then_some(child)
+            };
+            match step(a, &facts_b).or_else(|| step(b, &facts_a)) {
+                Some(child) => region = child,
+                None => return region,
+            }
+        }
+    }
+
+    /// What is known in `inner` that is not known in `outer` around it.
+    fn facts_up_to(&self, outer: RegionId, mut inner: RegionId) -> Vec<Fact> {
+        let mut facts = Vec::new();
+        while inner != outer {
+            facts.extend(&self.facts[inner.0 as usize]);
+            match self.get(inner).parent {
+                Some(parent) => inner = parent,
+                None => break,
+            }
+        }
+        facts
+    }
+
+    /// The child of `outer` that holds `inner`, or `None` where `inner` is
+    /// `outer` or not inside it.
+    pub fn toward(&self, outer: RegionId, mut inner: RegionId) -> Option<RegionId> {
+        loop {
+            let parent = self.get(inner).parent?;
+            if parent == outer {
+                return Some(inner);
+            }
+            inner = parent;
+        }
+    }
+
+    /// Whether `inner` is `outer` or inside it.
+    pub fn holds(&self, outer: RegionId, inner: RegionId) -> bool {
+        inner == outer || self.toward(outer, inner).is_some()
+    }
+}

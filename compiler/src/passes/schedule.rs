@@ -1,0 +1,395 @@
+//! Schedule: from the placement of values to statements in order.
+//!
+//! Each region becomes a block. What stands in a region, directly or inside
+//! its arms and loops, is cut into units: a value to compute, a select to
+//! assign, a loop to run, or a value that an arm computes for a later reader
+//! under an implied condition. Units wait for the units that they read from;
+//! selects on one condition that are ready together share one `If`.
+
+use super::demand::{live_carried, needed, place};
+use super::region::*;
+use crate::flow::graph::*;
+use crate::flow::tree::*;
+use std::collections::{BTreeMap, BTreeSet};
+
+/// The statements that draw a graph's picture.
+pub fn schedule(graph: &Graph) -> Tree {
+    let regions = place(graph);
+    let mut emitter = Emitter {
+        graph,
+        needed: needed(graph),
+        emitted: vec![false; graph.nodes.len()],
+        loops_done: vec![false; graph.loops.len()],
+        seen: vec![0; graph.nodes.len()],
+        stamp: 0,
+        regions,
+    };
+    let ink = [graph.ink];
+    Tree {
+        frame: emitter.block(FRAME, &ink, &[ROW]),
+        row: emitter.block(ROW, &ink, &[PIXEL]),
+        pixel: emitter.block(PIXEL, &ink, &[]),
+    }
+}
+
+/// What is emitted as one step of a block.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+enum Unit {
+    /// An operation or lookup.
+    Compute(NodeId),
+    /// A loop with all its results.
+    Loop(LoopId),
+    /// A select.
+    Choose(NodeId),
+    /// A value inside an arm, read from outside it.
+    Inside(NodeId, RegionId),
+}
+
+struct Emitter<'g> {
+    graph: &'g Graph,
+    regions: Regions,
+    needed: Vec<bool>,
+    emitted: Vec<bool>,
+    loops_done: Vec<bool>,
+    /// When each node was last met by a search.
+    seen: Vec<u32>,
+    stamp: u32,
+}
+
+impl Emitter<'_> {
+    /// The statements of a region that lead to `roots`; what stands in the
+    /// child regions `open` is looked through, not emitted.
+    fn block(&mut self, region: RegionId, roots: &[NodeId], open: &[RegionId]) -> Block {
+        let mut waiting: BTreeMap<Unit, BTreeSet<Unit>> = BTreeMap::new();
+        let mut todo: Vec<Unit> = self.search(region, roots, open).into_iter().collect();
+        while let Some(unit) = todo.pop() {
+            if waiting.contains_key(&unit) {
+                continue;
+            }
+            let reads = self.reads(region, unit);
+            todo.extend(reads.iter().copied());
+            waiting.insert(unit, reads);
+        }
+        let mut block = Block::new();
+        while !waiting.is_empty() {
+            let step = self.choose(&waiting);
+            for unit in &step {
+                waiting.remove(unit);
+            }
+            for reads in waiting.values_mut() {
+                for unit in &step {
+                    reads.remove(unit);
+                }
+            }
+            self.emit(region, &step, &mut block);
+        }
+        block
+    }
+
+    /// The next units to emit: one value or loop, or the ready selects on one condition.
+    fn choose(&self, waiting: &BTreeMap<Unit, BTreeSet<Unit>>) -> Vec<Unit> {
+        let ready: Vec<Unit> = waiting
+            .iter()
+            .filter(|(_, reads)| reads.is_empty())
+            .map(|(&unit, _)| unit)
+            .collect();
+        let single = |u: &&Unit| matches!(u, Unit::Compute(_) | Unit::Loop(_));
+        if let Some(&unit) = ready.iter().find(single) {
+            return vec![unit];
+        }
+        // A group that is ready as a whole needs no second `If`.
+        let cond_of = |unit: &Unit| self.condition(*unit);
+        let mut groups: BTreeMap<Option<NodeId>, Vec<Unit>> = BTreeMap::new();
+        for &unit in &ready {
+            groups.entry(cond_of(&unit)).or_default().push(unit);
+        }
+        let late: BTreeSet<Option<NodeId>> = waiting
+            .iter()
+            .filter(|(_, reads)| !reads.is_empty())
+            .map(|(u, _)| cond_of(u))
+            .collect();
+        let whole = groups.iter().find(|(cond, _)| !late.contains(cond));
+        match whole.or_else(|| groups.iter().next()) {
+            Some((_, units)) => units.clone(),
+            // A cycle cannot be; should it, the verifier of trees will say so.
+            None => waiting.keys().take(1).copied().collect(),
+        }
+    }
+
+    /// The condition that a unit stands under.
+    fn condition(&self, unit: Unit) -> Option<NodeId> {
+        match unit {
+            Unit::Choose(id) => match self.graph.node(id) {
+                Node::Select { cond, .. } => Some(cond),
+                _ => None,
+            },
+            Unit::Inside(_, arm) => match self.regions.get(arm).kind {
+                RegionKind::Arm { cond, .. } => Some(cond),
+                _ => None,
+            },
+            Unit::Compute(_) | Unit::Loop(_) => None,
+        }
+    }
+
+    /// The units of a region that a unit of it reads from.
+    fn reads(&mut self, region: RegionId, unit: Unit) -> BTreeSet<Unit> {
+        let graph = self.graph;
+        let mut reads = match unit {
+            Unit::Compute(id) => {
+                let operands: Vec<NodeId> = graph.node(id).operands().collect();
+                self.search(region, &operands, &[])
+            }
+            Unit::Choose(id) => {
+                let Node::Select { cond, yes, no } = graph.node(id) else {
+                    return BTreeSet::new();
+                };
+                let mut reads = self.search(region, &[cond], &[]);
+                for (arm, holds) in [(yes, true), (no, false)] {
+                    let open: Vec<RegionId> = self
+                        .regions
+                        .child(region, RegionKind::Arm { cond, holds })
+                        .into_iter()
+                        .collect();
+                    reads.extend(self.search(region, &[arm], &open));
+                }
+                reads
+            }
+            Unit::Inside(id, arm) => {
+                let cond: Vec<NodeId> = self.condition(unit).into_iter().collect();
+                let mut reads = self.search(region, &cond, &[]);
+                reads.extend(self.search(region, &[id], &[arm]));
+                reads
+            }
+            Unit::Loop(of) => {
+                let parts = [RegionKind::Body(of), RegionKind::Otherwise(of)];
+                let open: Vec<RegionId> = parts
+                    .into_iter()
+                    .filter_map(|k| self.regions.child(region, k))
+                    .collect();
+                let roots = self.loop_roots(of);
+                self.search(region, &roots, &open)
+            }
+        };
+        reads.remove(&unit);
+        reads
+    }
+
+    /// Everything that a loop refers to and that is needed.
+    fn loop_roots(&self, of: LoopId) -> Vec<NodeId> {
+        let graph = self.graph;
+        let found = &graph.loops[of.0 as usize];
+        let mut roots = vec![found.again];
+        for index in live_carried(graph, &self.needed, of) {
+            roots.extend([found.init[index as usize], found.next[index as usize]]);
+        }
+        for (_, index) in self.results(of) {
+            roots.extend([found.done[index], found.otherwise[index]]);
+        }
+        roots
+    }
+
+    /// A loop's needed results: node and index.
+    fn results(&self, of: LoopId) -> Vec<(NodeId, usize)> {
+        let needed = self.graph.ids().filter(|id| self.needed[id.0 as usize]);
+        needed
+            .filter_map(|id| match self.graph.node(id) {
+                Node::Result { of: l, index } if l == of => Some((id, index as usize)),
+                _ => None,
+            })
+            .collect()
+    }
+
+    /// The units of `region` not yet emitted that `roots` lead to, looking
+    /// through what stands in the child regions `open`.
+    fn search(&mut self, region: RegionId, roots: &[NodeId], open: &[RegionId]) -> BTreeSet<Unit> {
+        self.stamp += 1;
+        let mut found = BTreeSet::new();
+        let mut todo = roots.to_vec();
+        while let Some(id) = todo.pop() {
+            let at = id.0 as usize;
+            if self.seen[at] == self.stamp {
+                continue;
+            }
+            self.seen[at] = self.stamp;
+            let Some(home) = self.regions.of[at] else {
+                continue;
+            };
+            if home == region {
+                let unit = match self.graph.node(id) {
+                    Node::Select { .. } => Unit::Choose(id),
+                    Node::Result { of, .. } => Unit::Loop(of),
+                    _ => Unit::Compute(id),
+                };
+                if !self.is_emitted(unit) {
+                    found.insert(unit);
+                }
+            } else if let Some(child) = self.regions.toward(region, home) {
+                if open.contains(&child) {
+                    match self.graph.node(id) {
+                        Node::Result { of, .. } => todo.extend(self.loop_roots(of)),
+                        node => todo.extend(node.operands()),
+                    }
+                } else if !self.emitted[at] {
+                    found.insert(Unit::Inside(id, child));
+                }
+            }
+        }
+        found
+    }
+
+    fn is_emitted(&self, unit: Unit) -> bool {
+        match unit {
+            Unit::Compute(id) | Unit::Choose(id) | Unit::Inside(id, _) => {
+                self.emitted[id.0 as usize]
+            }
+            Unit::Loop(of) => self.loops_done[of.0 as usize],
+        }
+    }
+
+    fn emit(&mut self, region: RegionId, step: &[Unit], block: &mut Block) {
+        match step.first() {
+            Some(&Unit::Compute(id)) => {
+                self.emitted[id.0 as usize] = true;
+                block.push(Statement::Let(id));
+            }
+            Some(&Unit::Loop(of)) => {
+                let statement = self.emit_loop(region, of);
+                block.push(statement);
+            }
+            Some(&unit) => {
+                if let Some(cond) = self.condition(unit) {
+                    let [yes, no] = [true, false].map(|holds| self.arm(region, cond, holds, step));
+                    if !yes.is_empty() || !no.is_empty() {
+                        block.push(Statement::If { cond, yes, no });
+                    }
+                }
+            }
+            None => {}
+        }
+    }
+
+    /// One arm of an `If` that computes a group of units.
+    fn arm(&mut self, region: RegionId, cond: NodeId, holds: bool, group: &[Unit]) -> Block {
+        let arm = self.regions.child(region, RegionKind::Arm { cond, holds });
+        let (mut roots, mut sets) = (Vec::new(), Vec::new());
+        for &unit in group {
+            match unit {
+                Unit::Choose(id) => {
+                    if let Node::Select { yes, no, .. } = self.graph.node(id) {
+                        let value = if holds { yes } else { no };
+                        roots.push(value);
+                        sets.push(Statement::Set {
+                            place: Place::Node(id),
+                            from: Origin::Node(value),
+                        });
+                        self.emitted[id.0 as usize] = true;
+                    }
+                }
+                Unit::Inside(id, inside) if Some(inside) == arm => roots.push(id),
+                _ => {}
+            }
+        }
+        let mut block = arm.map_or(Block::new(), |arm| self.block(arm, &roots, &[]));
+        block.extend(sets);
+        block
+    }
+
+    fn emit_loop(&mut self, region: RegionId, of: LoopId) -> Statement {
+        let graph = self.graph;
+        let found = &graph.loops[of.0 as usize];
+        self.loops_done[of.0 as usize] = true;
+        let live = live_carried(graph, &self.needed, of);
+        let results = self.results(of);
+        let kinds = [RegionKind::Body(of), RegionKind::Otherwise(of)];
+        let [body, otherwise] =
+            kinds.map(|kind| self.regions.child(region, kind).unwrap_or(region));
+        let kinds = [RegionKind::Next(of), RegionKind::Done(of)];
+        let [next, done] = kinds.map(|kind| self.regions.child(body, kind).unwrap_or(body));
+        let nexts: Vec<NodeId> = live.iter().map(|&k| found.next[k as usize]).collect();
+        let dones: Vec<NodeId> = results.iter().map(|&(_, k)| found.done[k]).collect();
+        let elses: Vec<NodeId> = results.iter().map(|&(_, k)| found.otherwise[k]).collect();
+        let set = |place, value| Statement::Set {
+            place,
+            from: Origin::Node(value),
+        };
+        let start = live
+            .iter()
+            .map(|&k| set(Place::Carried(of, k), found.init[k as usize]))
+            .collect();
+        let ends: Vec<NodeId> = [found.again]
+            .iter()
+            .chain(&nexts)
+            .chain(&dones)
+            .copied()
+            .collect();
+        let body = self.block(body, &ends, &[next, done]);
+        let mut next = self.block(next, &nexts, &[]);
+        next.extend(moves(graph, of, &live));
+        let mut done = self.block(done, &dones, &[]);
+        let mut otherwise = self.block(otherwise, &elses, &[]);
+        for &(id, k) in &results {
+            self.emitted[id.0 as usize] = true;
+            done.push(set(Place::Node(id), found.done[k]));
+            otherwise.push(set(Place::Node(id), found.otherwise[k]));
+        }
+        Statement::Loop {
+            of,
+            start,
+            body,
+            again: found.again,
+            next,
+            done,
+            otherwise,
+        }
+    }
+}
+
+/// Sets a loop's carried values to their next ones, all at once: a value that
+/// another move still reads is saved first.
+fn moves(graph: &Graph, of: LoopId, live: &[u32]) -> Block {
+    let found = &graph.loops[of.0 as usize];
+    let next_of = |k: u32| found.next[k as usize];
+    let read = |id| match graph.node(id) {
+        Node::Carried { of: l, index } if l == of => Some(index),
+        _ => None,
+    };
+    let mut left: Vec<u32> = live
+        .iter()
+        .copied()
+        .filter(|&k| read(next_of(k)) != Some(k))
+        .collect();
+    let (mut block, mut saved) = (Block::new(), BTreeSet::new());
+    while !left.is_empty() {
+        let free = |k: &u32| {
+            !left
+                .iter()
+                .any(|&other| other != *k && !saved.contains(k) && read(next_of(other)) == Some(*k))
+        };
+        match left.iter().copied().find(free) {
+            Some(k) => {
+                left.retain(|&other| other != k);
+                let from = match read(next_of(k)) {
+                    Some(source) if saved.contains(&source) => Origin::Scratch(of, source),
+                    _ => Origin::Node(next_of(k)),
+                };
+                block.push(Statement::Set {
+                    place: Place::Carried(of, k),
+                    from,
+                });
+            }
+            None => {
+                let k = left[0];
+                saved.insert(k);
+                let Some(carried) = graph.ids().find(|&id| read(id) == Some(k)) else {
+                    break;
+                };
+                let from = Origin::Node(carried);
+                block.push(Statement::Set {
+                    place: Place::Scratch(of, k),
+                    from,
+                });
+            }
+        }
+    }
+    block
+}
