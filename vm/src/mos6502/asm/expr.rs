@@ -118,6 +118,8 @@ pub(super) struct Reader<'t, 'a> {
     next: usize,
     /// The column behind the last token.
     end: u32,
+    /// Whether an expression has mentioned `*`.
+    here: bool,
 }
 
 impl<'t, 'a> Reader<'t, 'a> {
@@ -126,6 +128,7 @@ impl<'t, 'a> Reader<'t, 'a> {
             tokens,
             next: 0,
             end,
+            here: false,
         }
     }
 
@@ -158,6 +161,16 @@ impl<'t, 'a> Reader<'t, 'a> {
             && matches!(self.peek_second(), Some(Lexeme::Name(n)) if n.eq_ignore_ascii_case(register));
         self.next += 2 * usize::from(found);
         found
+    }
+
+    /// Reads something and says whether it mentions `*`.
+    pub fn watch_here<T>(
+        &mut self,
+        read: impl FnOnce(&mut Self) -> Result<T, Wrong>,
+    ) -> Result<(T, bool), Wrong> {
+        self.here = false;
+        let found = read(self)?;
+        Ok((found, self.here))
     }
 
     pub fn at_end(&self) -> bool {
@@ -300,7 +313,10 @@ impl<'t, 'a> Reader<'t, 'a> {
                 super::parse::check_name(name, column)?;
                 ops.push(Op::Symbol(symbols.mention(name, line, column)));
             }
-            Some(Lexeme::Mark('*')) => ops.push(Op::Here),
+            Some(Lexeme::Mark('*')) => {
+                self.here = true;
+                ops.push(Op::Here);
+            }
             Some(Lexeme::Mark('(')) => {
                 if depth >= NESTING {
                     return wrong(column, format!("parentheses nest deeper than {NESTING}"));

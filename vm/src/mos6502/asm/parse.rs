@@ -185,7 +185,15 @@ fn list<'t, 'a, T>(
 ) -> Result<Vec<T>, Wrong> {
     let mut all = vec![one(reader)?];
     while reader.eat(',') {
-        all.push(one(reader)?);
+        let column = reader.column();
+        let (element, here) = reader.watch_here(&mut one)?;
+        if here {
+            return wrong(
+                column,
+                "assemblers read `*` differently behind a comma: use a label",
+            );
+        }
+        all.push(element);
     }
     Ok(all)
 }
