@@ -5,5 +5,8 @@
 pub mod eval;
 pub mod flow;
 pub mod passes;
+pub mod plan;
+pub mod range;
 pub mod source;
 pub mod syntax;
+pub mod target;

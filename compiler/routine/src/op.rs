@@ -157,6 +157,17 @@ fn div(a: f64, b: f64) -> f64 {
     }
 }
 
+/// The remainder with the divisor's sign; `%` is exact, so this errs by at most the last sum.
+fn modulus(a: f64, b: f64) -> f64 {
+    match b == 0.0 {
+        true => 0.0,
+        false => {
+            let rest = a % b;
+            if rest != 0.0 && (rest < 0.0) != (b < 0.0) { rest + b } else { rest }
+        }
+    }
+}
+
 fn int_div(a: i32, b: i32) -> i32 {
     match b {
         0 if a == 0 => 0,
@@ -217,8 +228,7 @@ impl Op {
             Op::Min => real(if b < a { b } else { a }),
             Op::Max => real(if b > a { b } else { a }),
             Op::Sqrt => real(if a > 0.0 { a.sqrt() } else { 0.0 }),
-            Op::Mod if b == 0.0 => real(0.0),
-            Op::Mod => real(a - b * (a / b).floor()),
+            Op::Mod => real(modulus(a, b)),
             Op::Sin => real(libm::sin(a)),
             Op::Cos => real(libm::cos(a)),
             Op::Tan => real(libm::tan(a)),

@@ -212,3 +212,17 @@ fn the_schedule_draws_what_the_graph_means() {
     }
     assert_eq!(run.unset_reads(), 0);
 }
+
+#[test]
+fn folding_changes_no_pixel() {
+    let graph = mirrors();
+    let folded = crate::passes::fold::fold(&graph);
+    verify(&folded).unwrap();
+    assert!(folded.nodes.len() < graph.nodes.len());
+    let (mut before, mut after) = (Native::new(&graph), Native::new(&folded));
+    for y in (0..240).step_by(5) {
+        for x in 0..320 {
+            assert_eq!(before.pixel(x, y), after.pixel(x, y), "({x}, {y})");
+        }
+    }
+}

@@ -1,0 +1,79 @@
+//! The model: a plan run in the routines' bit-exact models.
+//!
+//! What the generated program computes on its machine is what this computes,
+//! ink by ink; the difference between the two is a fault of ours.
+
+use super::native::Pixel;
+use super::run::{Arithmetic, Run};
+use crate::flow::graph::*;
+use crate::plan::Plan;
+use slowlight_routine::{Bits, Format, Op, Value};
+
+/// A plan's arithmetic: bits and models.
+pub struct Model<'p>(&'p Plan);
+
+impl Arithmetic for Model<'_> {
+    type Value = Bits;
+
+    fn constant(&self, value: Value) -> Bits {
+        self.0.bits(value)
+    }
+
+    fn param(&self, id: ParamId) -> Bits {
+        self.0.params.get(id.0 as usize).map_or(0, |p| p.bits)
+    }
+
+    fn apply(&self, id: NodeId, _: Op, args: &[Bits]) -> Bits {
+        self.0
+            .routine(id)
+            .map_or(0, |routine| (routine.model)(args))
+    }
+
+    fn truth(&self, value: Bits) -> bool {
+        (self.0.runtime.decode)(value, Format::Bool).truth()
+    }
+
+    fn int(&self, value: Bits) -> i32 {
+        (self.0.runtime.decode)(value, self.0.runtime.int).int()
+    }
+}
+
+/// Evaluates a plan pixel by pixel; row by row is cheapest.
+pub struct ModelRun<'p> {
+    plan: &'p Plan,
+    run: Run<'p, Model<'p>>,
+}
+
+impl<'p> ModelRun<'p> {
+    /// Runs the frame's statements.
+    pub fn new(plan: &'p Plan) -> ModelRun<'p> {
+        ModelRun {
+            plan,
+            run: Run::new(&plan.graph, &plan.tree, Model(plan)),
+        }
+    }
+
+    /// The ink and shade of the picture's column `x`, row `y`. Where the plan
+    /// does not compute the shade, it is ink/(inks - 1).
+    pub fn pixel(&mut self, x: i32, y: i32) -> Pixel {
+        let plan = self.plan;
+        let top = plan.graph.image.palette.len().saturating_sub(1) as i32;
+        let bits = self.run.pixel(x, y);
+        let ink = (plan.runtime.decode)(bits, plan.runtime.int).int();
+        let ink = ink.clamp(0, top.max(0));
+        let shade = plan.graph.shade.and_then(|id| {
+            let bits = self.run.last(id)?;
+            Some((plan.runtime.decode)(bits, plan.format(id)).real())
+        });
+        let shade = shade.unwrap_or(f64::from(ink) / f64::from(top.max(1)));
+        Pixel {
+            ink: ink as u8,
+            shade,
+        }
+    }
+
+    /// How often the schedule read what it had not written; 0 if it is right.
+    pub fn unset_reads(&self) -> u64 {
+        self.run.unset_reads()
+    }
+}

@@ -1,0 +1,161 @@
+//! Rebuilding a graph node by node: what every rewriting pass shares.
+
+use crate::flow::build::Builder;
+use crate::flow::graph::*;
+use crate::source::Span;
+use std::collections::HashMap;
+
+/// A rewriting rule: given the node's old id and the node with its operands
+/// already rebuilt, what stands for it instead, if anything.
+pub type Rule<'r> = &'r mut dyn FnMut(&mut Builder, NodeId, Node, Span) -> Option<NodeId>;
+
+/// The graph with `rule` applied to every node that the outputs reach.
+pub fn rebuild(graph: &Graph, rule: Rule<'_>) -> Graph {
+    let mut rebuilder = Rebuilder {
+        graph,
+        builder: Builder::new(),
+        made: vec![None; graph.nodes.len()],
+        loops: HashMap::new(),
+        results: HashMap::new(),
+    };
+    let reached = graph.reached();
+    // Params keep their numbers, used or not: they are the program's interface.
+    let params: Vec<NodeId> = graph
+        .params
+        .iter()
+        .map(|p| rebuilder.builder.param(p.clone()))
+        .collect();
+    for id in graph.ids().filter(|id| reached[id.0 as usize]) {
+        let made = match graph.node(id) {
+            Node::Param(p) => params[p.0 as usize],
+            Node::Result { of, index } => rebuilder.result(of, index),
+            node => {
+                let node = rebuilder.moved(node, id);
+                let span = graph.span(id);
+                match rule(&mut rebuilder.builder, id, node, span) {
+                    Some(other) => other,
+                    None => rebuilder.plain(node, span),
+                }
+            }
+        };
+        rebuilder.made[id.0 as usize] = Some(made);
+        if let Some(name) = graph.names.get(&id) {
+            rebuilder.builder.name(made, name);
+        }
+    }
+    let (ink, shade) = (
+        rebuilder.at(graph.ink),
+        graph.shade.map(|s| rebuilder.at(s)),
+    );
+    for effect in &graph.effects {
+        (0..effect.calls).for_each(|_| rebuilder.builder.effect(&effect.name));
+    }
+    rebuilder.builder.finish(graph.image.clone(), ink, shade)
+}
+
+struct Rebuilder<'g> {
+    graph: &'g Graph,
+    builder: Builder,
+    made: Vec<Option<NodeId>>,
+    /// The new number of each old loop.
+    loops: HashMap<LoopId, LoopId>,
+    /// The new results of each old loop that is closed.
+    results: HashMap<LoopId, Vec<NodeId>>,
+}
+
+impl Rebuilder<'_> {
+    /// The new node for an old one; operands stand before their users, so it is there.
+    fn at(&mut self, id: NodeId) -> NodeId {
+        match self.made.get(id.0 as usize).copied().flatten() {
+            Some(made) => made,
+            None => self.builder.undefined(self.graph.ty(id)),
+        }
+    }
+
+    /// A node with its operands and loop replaced by the new ones.
+    fn moved(&mut self, node: Node, id: NodeId) -> Node {
+        match node {
+            Node::Apply(op, [a, b]) => Node::Apply(op, [self.at(a), self.at(b)]),
+            Node::Select { cond, yes, no } => Node::Select {
+                cond: self.at(cond),
+                yes: self.at(yes),
+                no: self.at(no),
+            },
+            Node::Lookup { table, column, row } => {
+                let table = self.graph.tables.get(table.0 as usize).cloned();
+                let table = table.map_or(TableId(0), |t| self.builder.table(t));
+                Node::Lookup {
+                    table,
+                    column: self.at(column),
+                    row: self.at(row),
+                }
+            }
+            Node::Carried { of, index } => Node::Carried {
+                of: self.open(of),
+                index,
+            },
+            Node::Last { of, index } => Node::Last {
+                of: self.open(of),
+                index,
+            },
+            Node::Undefined(_) => Node::Undefined(self.graph.ty(id)),
+            other => other,
+        }
+    }
+
+    fn plain(&mut self, node: Node, span: Span) -> NodeId {
+        let b = &mut self.builder;
+        match node {
+            Node::Const(c) => b.constant(c.value(), span),
+            Node::Axis(axis) => b.axis(axis, span),
+            Node::Apply(op, args) => b.apply(op, &args[..op.arity()], span),
+            Node::Select { cond, yes, no } => b.select(cond, yes, no, span),
+            Node::Lookup { table, column, row } => b.lookup(table, column, row, span),
+            Node::Carried { of, index } => b.carried(of, index, span),
+            Node::Last { of, index } => b.last(of, index, span),
+            Node::Undefined(ty) => b.undefined(ty),
+            Node::Param(_) | Node::Result { .. } => b.undefined(slowlight_routine::Type::Real),
+        }
+    }
+
+    /// The new loop for an old one. Its start values stand before anything
+    /// that uses its carried values.
+    fn open(&mut self, of: LoopId) -> LoopId {
+        if let Some(&found) = self.loops.get(&of) {
+            return found;
+        }
+        let old = &self.graph.loops[of.0 as usize];
+        let init: Vec<NodeId> = old.init.iter().map(|&n| self.at(n)).collect();
+        let carried: Vec<_> = (old
+            .names
+            .iter()
+            .cloned()
+            .zip(old.types.iter().copied())
+            .zip(init))
+        .map(|((name, ty), init)| (name, ty, init))
+        .collect();
+        let made = self.builder.open_loop(old.max, &carried, old.span);
+        self.loops.insert(of, made);
+        made
+    }
+
+    fn result(&mut self, of: LoopId, index: u32) -> NodeId {
+        if !self.results.contains_key(&of) {
+            let new = self.open(of);
+            let old = &self.graph.loops[of.0 as usize];
+            let again = self.at(old.again);
+            let [next, done, otherwise] = [&old.next, &old.done, &old.otherwise]
+                .map(|list| list.iter().map(|&n| self.at(n)).collect::<Vec<_>>());
+            let made = self
+                .builder
+                .close_loop(new, again, &next, &done, &otherwise);
+            self.results.insert(of, made);
+        }
+        let found = self
+            .results
+            .get(&of)
+            .and_then(|r| r.get(index as usize))
+            .copied();
+        found.unwrap_or_else(|| self.builder.undefined(slowlight_routine::Type::Real))
+    }
+}

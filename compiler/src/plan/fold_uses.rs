@@ -1,0 +1,105 @@
+//! Which values may be written where they are read.
+
+use crate::flow::graph::*;
+use crate::flow::tree::*;
+use std::collections::HashMap;
+
+/// For each node: whether it is computed by a `Let`, read exactly once, and
+/// that by a later statement of the same block with nothing in between that
+/// could change what it reads.
+pub fn folded(graph: &Graph, tree: &Tree) -> Vec<bool> {
+    let mut uses = Uses {
+        graph,
+        count: vec![0; graph.nodes.len()],
+        reader: HashMap::new(),
+        blocks: 0,
+        home: HashMap::new(),
+    };
+    for block in [&tree.frame, &tree.row, &tree.pixel] {
+        let number = uses.block(block);
+        if std::ptr::eq(block, &raw const tree.pixel) {
+            uses.read(graph.ink, number);
+        }
+    }
+    let fits = |id: NodeId| {
+        let at = id.0 as usize;
+        uses.count[at] == 1
+            && uses.home.contains_key(&id)
+            && uses.home.get(&id) == uses.reader.get(&id)
+    };
+    graph.ids().map(fits).collect()
+}
+
+struct Uses<'g> {
+    graph: &'g Graph,
+    count: Vec<u32>,
+    /// The block that a node was last read in; 0 where it must not be folded.
+    reader: HashMap<NodeId, u32>,
+    blocks: u32,
+    /// The block that a node is computed in.
+    home: HashMap<NodeId, u32>,
+}
+
+impl Uses<'_> {
+    fn read(&mut self, id: NodeId, block: u32) {
+        self.count[id.0 as usize] += 1;
+        self.reader.insert(id, block);
+    }
+
+    fn block(&mut self, block: &Block) -> u32 {
+        self.blocks += 1;
+        let number = self.blocks;
+        // Several moves of carried values happen at once: what a later one
+        // reads must have been computed before the first.
+        let carried = |s: &&Statement| {
+            matches!(
+                s,
+                Statement::Set {
+                    place: Place::Carried(..),
+                    ..
+                }
+            )
+        };
+        let moves = block.iter().filter(carried).count();
+        for statement in block {
+            match statement {
+                Statement::Let(id) => {
+                    self.home.insert(*id, number);
+                    for operand in self.graph.node(*id).operands() {
+                        self.read(operand, number);
+                    }
+                }
+                Statement::Set {
+                    place,
+                    from: Origin::Node(id),
+                } => {
+                    let several = matches!(place, Place::Carried(..)) && moves > 1;
+                    self.read(*id, if several { 0 } else { number });
+                }
+                Statement::Set { .. } => {}
+                Statement::If { cond, yes, no } => {
+                    self.read(*cond, number);
+                    self.block(yes);
+                    self.block(no);
+                }
+                Statement::Loop {
+                    start,
+                    body,
+                    again,
+                    next,
+                    done,
+                    otherwise,
+                    ..
+                } => {
+                    self.block(start);
+                    let inner = self.block(body);
+                    self.read(*again, inner);
+                    self.block(next);
+                    self.block(done);
+                    self.block(otherwise);
+                }
+            }
+        }
+        number
+    }
+}

@@ -1,0 +1,370 @@
+//! The plan: how one machine computes a scene. Targets start from here.
+//!
+//! A [`Plan`] is a graph, the statement tree that says when each value is
+//! computed ([`crate::flow::tree`]), and, for each value, a format, a routine
+//! and a home. Emission only writes it down: everything that can fail has
+//! failed before.
+//!
+//! What a target has to know:
+//!
+//! - The program draws picture rows `rows.0..=rows.1` and picture columns
+//!   `columns.0..=columns.1` (both inclusive): `tree.frame` once, then for each
+//!   y `tree.row`, then for each x `tree.pixel`, after which [`Graph::ink`] is
+//!   the ink to plot at screen position (x + offset.0, y + offset.1), if the
+//!   plan says [`Plan::plot`].
+//! - [`Statement::Let`] computes node `id` by `plan.routine(id)` (operations) or
+//!   by reading `graph.tables` (lookups; both indices clamp to the table unless
+//!   `plan.ranges` proves them inside) and keeps it in the node's home.
+//! - Homes: one variable for each node that is computed or set, one for each
+//!   carried value that is read ([`Node::Carried`] and [`Node::Last`] share it),
+//!   and one for each scratch place that is set. [`Plan::home`] names them:
+//!   names are unique in the program, valid identifiers (lower-case letters,
+//!   digits, `_`), and follow the scene.
+//! - [`Plan::folded`]: a value read exactly once, by a later statement of the
+//!   same block, whose operands still hold what they held: its expression may
+//!   be written where it is read, and needs no home. Targets may also give it one.
+//! - A loop needs a count of its turns; see [`Statement::Loop`].
+//! - Constants, params and axes are read as such: [`Plan::bits`] gives a
+//!   constant's bits, `params` how the parameter block writes each param.
+//!
+//! The model ([`crate::eval::model`]) runs the same plan bit for bit.
+
+mod fold_uses;
+mod names;
+
+use crate::flow::graph::*;
+use crate::flow::tree::*;
+use crate::passes::fold::fold;
+use crate::passes::narrow::narrow;
+use crate::passes::schedule::schedule;
+use crate::range::{Ranges, Slack, ranges};
+use crate::source::Diagnostic;
+use crate::target::{Mode, Target};
+use slowlight_routine::{Bits, Format, Range, Routine, Runtime, Type, Value};
+use std::collections::HashMap;
+
+/// How the parameter block of the generated source writes a param's scalar.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ParamPlan {
+    /// Its name there: `eye_y`.
+    pub label: String,
+    /// `None`: written as a decimal; `Some(d)`: as an integer, the value times 10^d.
+    pub digits: Option<u8>,
+    /// The value as written.
+    pub text: String,
+    /// The range as written, least and greatest; none where the scene gives none.
+    pub range: Option<(String, String)>,
+    /// What the program makes of it.
+    pub bits: Bits,
+    /// The value that `text` stands for.
+    pub value: f64,
+}
+
+/// What to build, beside the scene and the target.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Goal {
+    /// The scene's name, for headers and file names.
+    pub name: String,
+    /// The screen's mode.
+    pub mode: Mode,
+    /// First and last picture row to draw; all where `None`.
+    pub rows: Option<(u32, u32)>,
+    /// Whether the program draws, or only computes (for timing).
+    pub plot: bool,
+}
+
+/// How one machine computes a scene.
+#[derive(Clone, Debug)]
+pub struct Plan {
+    /// The scene's name.
+    pub name: String,
+    /// The target.
+    pub target: &'static Target,
+    /// Its routines in the formats chosen.
+    pub runtime: &'static Runtime,
+    /// The screen's mode.
+    pub mode: Mode,
+    /// Where the picture's top left stands on the screen; negative where it is cropped.
+    pub offset: (i32, i32),
+    /// First and last picture column drawn.
+    pub columns: (u32, u32),
+    /// First and last picture row drawn.
+    pub rows: (u32, u32),
+    /// Whether to draw.
+    pub plot: bool,
+    /// The values.
+    pub graph: Graph,
+    /// When each is computed.
+    pub tree: Tree,
+    /// Between which bounds each stays on this machine.
+    pub ranges: Ranges,
+    /// The live params, in the graph's order.
+    pub params: Vec<ParamPlan>,
+    routines: Vec<Option<&'static Routine>>,
+    folded: Vec<bool>,
+    homes: HashMap<Place, String>,
+}
+
+impl Plan {
+    /// The routine that computes an operation.
+    pub fn routine(&self, id: NodeId) -> Option<&'static Routine> {
+        self.routines.get(id.0 as usize).copied().flatten()
+    }
+
+    /// Whether a value may be written where it is read.
+    pub fn folded(&self, id: NodeId) -> bool {
+        self.folded.get(id.0 as usize) == Some(&true)
+    }
+
+    /// The format of a node's value.
+    pub fn format(&self, id: NodeId) -> Format {
+        self.runtime.format_of(self.graph.ty(id))
+    }
+
+    /// A constant's bits in its type's format.
+    pub fn bits(&self, value: Value) -> Bits {
+        (self.runtime.encode)(value, self.runtime.format_of(value.ty()))
+    }
+
+    /// The name of a place's variable.
+    pub fn home(&self, place: Place) -> &str {
+        self.homes.get(&place).map_or("unused", String::as_str)
+    }
+
+    /// The place that a node is read from; `None` for constants, params and axes.
+    pub fn place(&self, id: NodeId) -> Option<Place> {
+        match self.graph.node(id) {
+            Node::Const(_) | Node::Param(_) | Node::Axis(_) | Node::Undefined(_) => None,
+            Node::Carried { of, index } | Node::Last { of, index } => {
+                Some(Place::Carried(of, index))
+            }
+            _ => Some(Place::Node(id)),
+        }
+    }
+
+    /// Every place that the tree writes, in order of first writing, with its format.
+    pub fn places(&self) -> Vec<(Place, Format)> {
+        let mut all: Vec<(Place, Format)> = Vec::new();
+        let mut seen = std::collections::HashSet::new();
+        for block in [&self.tree.frame, &self.tree.row, &self.tree.pixel] {
+            walk(block, &mut |statement| {
+                let place = match statement {
+                    Statement::Let(id) => Place::Node(*id),
+                    Statement::Set { place, .. } => *place,
+                    _ => return,
+                };
+                if seen.insert(place) {
+                    all.push((place, self.place_format(place)));
+                }
+            });
+        }
+        all
+    }
+
+    /// The format of what a place holds.
+    pub fn place_format(&self, place: Place) -> Format {
+        match place {
+            Place::Node(id) => self.format(id),
+            Place::Carried(l, k) | Place::Scratch(l, k) => {
+                let found = self
+                    .graph
+                    .loops
+                    .get(l.0 as usize)
+                    .and_then(|l| l.types.get(k as usize));
+                self.runtime.format_of(found.copied().unwrap_or(Type::Real))
+            }
+        }
+    }
+
+    /// The names of the parts of the runtime that the routines need, closed
+    /// over what those need; in the runtime's order.
+    pub fn parts(&self) -> Vec<&'static slowlight_routine::Part> {
+        let names = self
+            .routines
+            .iter()
+            .flatten()
+            .flat_map(|r| r.needs.iter().copied());
+        self.runtime.closure(names)
+    }
+}
+
+/// Plans a graph that `sema` lowered for this target's inks and offset.
+pub fn plan(graph: &Graph, target: &'static Target, goal: &Goal) -> Result<Plan, Vec<Diagnostic>> {
+    let runtime = target.runtime;
+    check_params(graph, runtime)?;
+    let slack = Slack::of(runtime);
+    let mut graph = fold(graph);
+    let mut tree = schedule(&graph);
+    let mut ranges_now = ranges(&graph, &tree, &slack);
+    // What the ranges decide may let more be folded; a few rounds settle it.
+    for _ in 0..3 {
+        let next = fold(&narrow(&graph, &ranges_now));
+        if next.nodes == graph.nodes {
+            break;
+        }
+        graph = next;
+        tree = schedule(&graph);
+        ranges_now = ranges(&graph, &tree, &slack);
+    }
+    let routines = choose(&graph, &tree, &ranges_now, runtime)?;
+    let folded = fold_uses::folded(&graph, &tree);
+    let (offset, columns, rows) = frame(&graph.image, &goal.mode);
+    let rows = match goal.rows {
+        Some((first, last)) => (first.clamp(rows.0, rows.1), last.clamp(rows.0, rows.1)),
+        None => rows,
+    };
+    let params = graph.params.iter().map(|p| param(p, runtime)).collect();
+    let homes = names::homes(&graph, &tree);
+    Ok(Plan {
+        name: goal.name.clone(),
+        target,
+        runtime,
+        mode: goal.mode,
+        offset,
+        columns,
+        rows,
+        plot: goal.plot,
+        ranges: ranges_now,
+        params,
+        routines,
+        folded,
+        homes,
+        graph,
+        tree,
+    })
+}
+
+/// Where the picture stands on the screen, and which of it is seen: centred
+/// where the screen is larger, cropped where it is smaller.
+fn frame(image: &Image, mode: &Mode) -> ((i32, i32), (u32, u32), (u32, u32)) {
+    let axis = |picture: u32, screen: u32| {
+        let offset = (i64::from(screen) - i64::from(picture)).div_euclid(2);
+        let first = (-offset).max(0);
+        let last = (first + i64::from(screen.min(picture)) - 1).min(i64::from(picture) - 1);
+        (offset as i32, (first as u32, last.max(first) as u32))
+    };
+    let (left, columns) = axis(image.width, mode.width);
+    let (top, rows) = axis(image.height, mode.height);
+    ((left, top), columns, rows)
+}
+
+fn check_params(graph: &Graph, runtime: &Runtime) -> Result<(), Vec<Diagnostic>> {
+    let limited = matches!(runtime.real, Format::Fixed { .. });
+    let lacking = graph
+        .params
+        .iter()
+        .filter(|p| limited && p.ty == Type::Real && p.range.is_none());
+    let said: Vec<Diagnostic> = lacking
+        .map(|p| {
+            let message = format!(
+                "`{}` has no range, and {} is a fixed-point format",
+                p.name, runtime.format
+            );
+            Diagnostic::error(p.span, message)
+                .label("how large may it become?")
+                .help("say it: `param ... = value in least .. greatest;`, or fold it with --freeze")
+        })
+        .collect();
+    if said.is_empty() { Ok(()) } else { Err(said) }
+}
+
+fn param(p: &Param, runtime: &Runtime) -> ParamPlan {
+    let range = p.range.unwrap_or(Range::ALL);
+    let digits = if p.ty == Type::Real {
+        (runtime.param_digits)(range)
+    } else {
+        Some(0)
+    };
+    let scale = 10f64.powi(i32::from(digits.unwrap_or(0)));
+    let whole = |x: f64| (x * scale).round() as i64;
+    let (text, bits, value) = match (digits, p.ty) {
+        (Some(d), Type::Real) => {
+            let n = whole(p.value);
+            (n.to_string(), (runtime.param_bits)(n, d), n as f64 / scale)
+        }
+        (_, Type::Real) => {
+            let bits = (runtime.encode)(Value::Real(p.value), runtime.real);
+            (decimal(p.value), bits, p.value)
+        }
+        _ => {
+            let value = if p.ty == Type::Int {
+                Value::Int(p.value as i32)
+            } else {
+                Value::Bool(p.value != 0.0)
+            };
+            let bits = (runtime.encode)(value, runtime.format_of(p.ty));
+            ((p.value as i64).to_string(), bits, p.value)
+        }
+    };
+    let written = |x: f64| {
+        if digits.is_some() {
+            whole(x).to_string()
+        } else {
+            decimal(x)
+        }
+    };
+    let range = p.range.map(|r| (written(r.lo), written(r.hi)));
+    ParamPlan {
+        label: p.label(),
+        digits,
+        text,
+        range,
+        bits,
+        value,
+    }
+}
+
+/// A decimal with up to ten digits, as BASIC reads it.
+fn decimal(x: f64) -> String {
+    let plain = format!("{x}");
+    if plain.bytes().filter(u8::is_ascii_digit).count() <= 10 {
+        return plain;
+    }
+    let short = format!("{x:.9e}");
+    match short.parse::<f64>() {
+        Ok(y) if (1e-3..1e9).contains(&y.abs()) => format!("{y}"),
+        _ => short.replace('e', "E"),
+    }
+}
+
+type Chosen = Vec<Option<&'static Routine>>;
+
+/// The first routine in the runtime's list, for each operation, whose domain
+/// the ranges prove.
+fn choose(
+    graph: &Graph,
+    tree: &Tree,
+    ranges: &Ranges,
+    runtime: &'static Runtime,
+) -> Result<Chosen, Vec<Diagnostic>> {
+    let mut chosen: Chosen = vec![None; graph.nodes.len()];
+    let mut missing = Vec::new();
+    for block in [&tree.frame, &tree.row, &tree.pixel] {
+        walk(block, &mut |statement| {
+            let Statement::Let(id) = *statement else {
+                return;
+            };
+            let Node::Apply(op, _) = graph.node(id) else {
+                return;
+            };
+            let at = id.0 as usize;
+            let args = &ranges.args[at][..op.arity()];
+            let fits = |r: &&Routine| r.op == op && (r.domain)(args, ranges.exact[at]);
+            match runtime.routines.iter().find(fits) {
+                Some(routine) => chosen[at] = Some(routine),
+                None => missing.push(
+                    Diagnostic::error(
+                        graph.span(id),
+                        format!("{} cannot compute `{}` yet", runtime.name, op.name()),
+                    )
+                    .help("`slowlight targets` lists what each target can compute"),
+                ),
+            }
+        });
+    }
+    if missing.is_empty() {
+        Ok(chosen)
+    } else {
+        Err(missing)
+    }
+}

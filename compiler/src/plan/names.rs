@@ -1,0 +1,81 @@
+//! Names of homes: the scene's own where it has them, unique in the program.
+
+use crate::flow::graph::*;
+use crate::flow::tree::*;
+use std::collections::{HashMap, HashSet};
+
+/// A name for every place that the tree writes.
+pub fn homes(graph: &Graph, tree: &Tree) -> HashMap<Place, String> {
+    let mut taken: HashSet<String> = graph.params.iter().map(Param::label).collect();
+    taken.extend(["x".to_owned(), "y".to_owned()]);
+    let mut homes = HashMap::new();
+    for block in [&tree.frame, &tree.row, &tree.pixel] {
+        walk(block, &mut |statement| {
+            let place = match statement {
+                Statement::Let(id) => Place::Node(*id),
+                Statement::Set { place, .. } => *place,
+                _ => return,
+            };
+            homes
+                .entry(place)
+                .or_insert_with(|| unique(&wanted(graph, place), &mut taken));
+        });
+    }
+    homes
+}
+
+fn wanted(graph: &Graph, place: Place) -> String {
+    let carried = |l: LoopId, k: u32| {
+        let found = graph
+            .loops
+            .get(l.0 as usize)
+            .and_then(|l| l.names.get(k as usize));
+        found.cloned().unwrap_or_default()
+    };
+    match place {
+        Place::Node(id) => graph
+            .names
+            .get(&id)
+            .cloned()
+            .unwrap_or_else(|| match graph.node(id) {
+                Node::Apply(op, _) => op.name().to_owned(),
+                Node::Lookup { table, .. } => graph
+                    .tables
+                    .get(table.0 as usize)
+                    .map_or(String::new(), |t| format!("{}_cell", t.name)),
+                Node::Select { .. } => "either".to_owned(),
+                _ => "result".to_owned(),
+            }),
+        Place::Carried(l, k) => carried(l, k),
+        Place::Scratch(l, k) => format!("{}_saved", carried(l, k)),
+    }
+}
+
+/// The name cleaned to an identifier, numbered where it is taken.
+fn unique(name: &str, taken: &mut HashSet<String>) -> String {
+    let mut clean: String = name
+        .chars()
+        .map(|c| {
+            if c.is_ascii_alphanumeric() {
+                c.to_ascii_lowercase()
+            } else {
+                '_'
+            }
+        })
+        .take(24)
+        .collect();
+    if !clean.starts_with(|c: char| c.is_ascii_lowercase()) {
+        clean.insert(0, 'v');
+    }
+    if taken.insert(clean.clone()) {
+        return clean;
+    }
+    let mut number = 2;
+    loop {
+        let candidate = format!("{clean}_{number}");
+        if taken.insert(candidate.clone()) {
+            return candidate;
+        }
+        number += 1;
+    }
+}

@@ -1,0 +1,364 @@
+//! Ranges: between which bounds every value of a scheduled graph stays.
+//!
+//! The statement tree is run once with intervals for values: arms refine what
+//! their condition compares, loops are run until nothing grows (bounds that
+//! keep growing are widened to the format's ends). What a machine computes is
+//! not exact, so every operation's interval is enlarged by the error that the
+//! machine's routines may make, and cut to what its formats can hold.
+
+mod interval;
+mod refine;
+
+use crate::flow::graph::*;
+use crate::flow::tree::*;
+use interval::interval;
+use slowlight_routine::{Error, Format, Op, Range, Runtime, Type};
+
+/// What the ranges of a scene are, on one machine. Side tables by node.
+#[derive(Clone, Debug, Default)]
+pub struct Ranges {
+    /// What each node's value stays within, once computed.
+    pub result: Vec<Range>,
+    /// What each operation's exact result stays within, before the format cuts it.
+    pub exact: Vec<Range>,
+    /// What each operation's arguments stay within where it is computed.
+    pub args: Vec<[Range; 2]>,
+}
+
+/// How a machine departs from exact arithmetic.
+pub struct Slack {
+    /// Relative and absolute error, by [`Op`].
+    errors: Vec<(Op, f64, f64)>,
+    /// What reals can be.
+    reals: Range,
+    /// What ints can be.
+    ints: Range,
+}
+
+impl Slack {
+    /// No departure: the graph's own arithmetic.
+    pub fn exact() -> Slack {
+        let reals = Range::new(f64::MIN, f64::MAX);
+        Slack {
+            errors: Vec::new(),
+            reals,
+            ints: Range::new(f64::from(i32::MIN), f64::from(i32::MAX)),
+        }
+    }
+
+    /// As the routines of a runtime state it.
+    pub fn of(runtime: &Runtime) -> Slack {
+        let ends = |format: Format| match format {
+            Format::Int { bits } => {
+                let top = 2f64.powi(i32::from(bits) - 1);
+                Range::new(-top, top - 1.0)
+            }
+            Format::Fixed { bits, frac } => {
+                let top = 2f64.powi(i32::from(bits) - 1 - i32::from(frac));
+                Range::new(-top, top)
+            }
+            _ => Range::new(f64::MIN, f64::MAX),
+        };
+        let mut errors: Vec<(Op, f64, f64)> = Vec::new();
+        for routine in runtime.routines {
+            let (relative, absolute) = match routine.error {
+                Error::Exact => (0.0, 0.0),
+                Error::Relative(r) => (r, 0.0),
+                Error::Absolute(a) => (0.0, a),
+            };
+            match errors.iter_mut().find(|(op, ..)| *op == routine.op) {
+                Some((_, r, a)) => (*r, *a) = (r.max(relative), a.max(absolute)),
+                None => errors.push((routine.op, relative, absolute)),
+            }
+        }
+        Slack {
+            errors,
+            reals: ends(runtime.real),
+            ints: ends(runtime.int),
+        }
+    }
+
+    fn enlarge(&self, op: Op, range: Range) -> Range {
+        let found = self.errors.iter().find(|(o, ..)| *o == op);
+        let Some(&(_, relative, absolute)) = found else {
+            return range;
+        };
+        if relative == 0.0 && absolute == 0.0 {
+            return range;
+        }
+        let grow = |x: f64| x.abs().mul_add(relative, absolute);
+        let mut wide = Range::new(range.lo - grow(range.lo), range.hi + grow(range.hi));
+        wide.nonzero |= range.nonzero && absolute == 0.0;
+        wide
+    }
+
+    fn cut(&self, ty: Type, range: Range) -> Range {
+        let ends = match ty {
+            Type::Bool => Range::new(0.0, 1.0),
+            Type::Int => self.ints,
+            Type::Real => self.reals,
+        };
+        let clamp = |x: f64| x.clamp(ends.lo, ends.hi);
+        Range {
+            nonzero: range.nonzero,
+            ..Range::new(clamp(range.lo), clamp(range.hi))
+        }
+    }
+}
+
+/// The ranges of a scheduled graph.
+pub fn ranges(graph: &Graph, tree: &Tree, slack: &Slack) -> Ranges {
+    let mut walk = Walk {
+        graph,
+        slack,
+        now: graph.ids().map(|id| known(graph, slack, id)).collect(),
+        carried: graph
+            .loops
+            .iter()
+            .map(|l| vec![None; l.types.len()])
+            .collect(),
+        grown: vec![0; graph.loops.len()],
+        out: Ranges {
+            result: graph.ids().map(|id| known(graph, slack, id)).collect(),
+            exact: vec![Range::ALL; graph.nodes.len()],
+            args: vec![[Range::ALL; 2]; graph.nodes.len()],
+        },
+    };
+    walk.block(&tree.frame);
+    walk.block(&tree.row);
+    walk.block(&tree.pixel);
+    walk.out
+}
+
+/// What is known of a value that needs no computing.
+fn known(graph: &Graph, slack: &Slack, id: NodeId) -> Range {
+    match graph.node(id) {
+        Node::Const(c) => slack.cut(graph.ty(id), Range::point(c.value().real())),
+        Node::Param(p) => {
+            let range = graph
+                .params
+                .get(p.0 as usize)
+                .and_then(|p| p.range)
+                .unwrap_or(Range::ALL);
+            slack.cut(graph.ty(id), slack.enlarge(Op::Add, range))
+        }
+        Node::Axis(Axis::X) => Range::new(0.0, f64::from(graph.image.width.saturating_sub(1))),
+        Node::Axis(Axis::Y) => Range::new(0.0, f64::from(graph.image.height.saturating_sub(1))),
+        _ => slack.cut(graph.ty(id), Range::ALL),
+    }
+}
+
+/// How often a carried value may grow before its bounds are widened.
+const PATIENCE: u32 = 3;
+
+pub(crate) struct Walk<'g> {
+    graph: &'g Graph,
+    slack: &'g Slack,
+    /// Each node's range here: refined by the conditions around.
+    now: Vec<Range>,
+    carried: Vec<Vec<Option<Range>>>,
+    /// How often each loop's carried values have grown.
+    grown: Vec<u32>,
+    out: Ranges,
+}
+
+impl Walk<'_> {
+    fn block(&mut self, block: &Block) {
+        for statement in block {
+            self.statement(statement);
+        }
+    }
+
+    fn statement(&mut self, statement: &Statement) {
+        match statement {
+            Statement::Let(id) => self.compute(*id),
+            Statement::Set { place, from } => {
+                let range = match *from {
+                    Origin::Node(id) => self.read(id),
+                    Origin::Scratch(l, k) => self.carried_range(l, k),
+                };
+                self.write(*place, range);
+            }
+            Statement::If { cond, yes, no } => {
+                let before = self.arm(*cond, true, yes);
+                let after = self.arm(*cond, false, no);
+                for (place, range) in before {
+                    if after.iter().any(|(p, _)| *p == place) {
+                        let both = self.place_range(place).join(range);
+                        self.write(place, both);
+                    }
+                }
+            }
+            Statement::Loop {
+                of,
+                start,
+                body,
+                again,
+                next,
+                done,
+                otherwise,
+            } => {
+                self.run_loop(*of, [start, body, next, done, otherwise], *again);
+            }
+        }
+    }
+
+    /// Walks an arm under its condition; answers what it sets, and to what.
+    fn arm(&mut self, cond: NodeId, holds: bool, block: &Block) -> Vec<(Place, Range)> {
+        let saved = refine::refine(self.graph, &mut self.now, cond, holds);
+        self.block(block);
+        for (id, range) in saved.into_iter().rev() {
+            self.now[id.0 as usize] = range;
+        }
+        self.sets(block)
+    }
+
+    fn sets(&self, block: &Block) -> Vec<(Place, Range)> {
+        let places = block.iter().filter_map(|s| match s {
+            Statement::Set { place, .. } => Some(*place),
+            _ => None,
+        });
+        places
+            .map(|place| (place, self.place_range(place)))
+            .collect()
+    }
+
+    fn run_loop(
+        &mut self,
+        of: LoopId,
+        [start, body, next, done, otherwise]: [&Block; 5],
+        again: NodeId,
+    ) {
+        let at = of.0 as usize;
+        let held = self.carried[at].clone();
+        self.block(start);
+        self.join_carried(at, &held);
+        loop {
+            let before = self.carried[at].clone();
+            for id in self.graph.ids() {
+                if let Node::Carried { of: l, index } | Node::Last { of: l, index } =
+                    self.graph.node(id)
+                    && l == of
+                {
+                    self.now[id.0 as usize] = self.carried_range(of, index);
+                    self.out.result[id.0 as usize] = self.now[id.0 as usize];
+                }
+            }
+            self.block(body);
+            self.arm(again, true, next);
+            self.join_carried(at, &before);
+            if self.carried[at] == before {
+                break;
+            }
+            self.grown[at] += 1;
+            if self.grown[at] > PATIENCE {
+                self.widen(of, &before);
+            }
+        }
+        let ended = self.arm(again, false, done);
+        self.block(otherwise);
+        for (place, range) in ended {
+            let both = self.place_range(place).join(range);
+            self.write(place, both);
+        }
+    }
+
+    fn join_carried(&mut self, at: usize, held: &[Option<Range>]) {
+        for (now, held) in self.carried[at].iter_mut().zip(held) {
+            *now = match (*now, *held) {
+                (Some(a), Some(b)) => Some(a.join(b)),
+                (a, b) => a.or(b),
+            };
+        }
+    }
+
+    /// Moves every bound that still grows to the format's end.
+    fn widen(&mut self, of: LoopId, before: &[Option<Range>]) {
+        let types = &self.graph.loops[of.0 as usize].types;
+        for ((now, before), &ty) in self.carried[of.0 as usize]
+            .iter_mut()
+            .zip(before)
+            .zip(types)
+        {
+            if let (Some(range), Some(old)) = (now.as_mut(), before) {
+                let lo = if range.lo < old.lo {
+                    f64::NEG_INFINITY
+                } else {
+                    range.lo
+                };
+                let hi = if range.hi > old.hi {
+                    f64::INFINITY
+                } else {
+                    range.hi
+                };
+                let nonzero = range.nonzero;
+                *range = self.slack.cut(
+                    ty,
+                    Range {
+                        nonzero,
+                        ..Range::new(lo, hi)
+                    },
+                );
+            }
+        }
+    }
+
+    fn carried_range(&self, of: LoopId, index: u32) -> Range {
+        let found = self.carried[of.0 as usize]
+            .get(index as usize)
+            .copied()
+            .flatten();
+        let ty = self.graph.loops[of.0 as usize]
+            .types
+            .get(index as usize)
+            .copied();
+        found.unwrap_or_else(|| self.slack.cut(ty.unwrap_or(Type::Real), Range::ALL))
+    }
+
+    fn place_range(&self, place: Place) -> Range {
+        match place {
+            Place::Node(id) => self.now[id.0 as usize],
+            Place::Carried(l, k) | Place::Scratch(l, k) => self.carried_range(l, k),
+        }
+    }
+
+    fn read(&self, id: NodeId) -> Range {
+        self.now[id.0 as usize]
+    }
+
+    fn write(&mut self, place: Place, range: Range) {
+        match place {
+            Place::Node(id) => {
+                self.now[id.0 as usize] = range;
+                self.out.result[id.0 as usize] = range;
+            }
+            Place::Carried(l, k) => self.carried[l.0 as usize][k as usize] = Some(range),
+            Place::Scratch(..) => {}
+        }
+    }
+
+    fn compute(&mut self, id: NodeId) {
+        let at = id.0 as usize;
+        let range = match self.graph.node(id) {
+            Node::Apply(op, [a, b]) => {
+                let args = [self.read(a), self.read(b)];
+                let exact = interval(op, args, a == b);
+                self.out.args[at] = args;
+                self.out.exact[at] = exact;
+                self.slack.cut(op.result(), self.slack.enlarge(op, exact))
+            }
+            Node::Lookup { table, .. } => {
+                let entries = self
+                    .graph
+                    .tables
+                    .get(table.0 as usize)
+                    .into_iter()
+                    .flat_map(|t| &t.entries);
+                let values = entries.map(|e| Range::point(e.value().real()));
+                values.reduce(Range::join).unwrap_or(Range::ALL)
+            }
+            _ => Range::ALL,
+        };
+        self.write(Place::Node(id), range);
+    }
+}

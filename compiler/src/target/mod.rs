@@ -1,0 +1,86 @@
+//! The targets: from a plan to source text, with the scene's line behind each line.
+//!
+//! Emission cannot fail: what does not fit a machine is found by whoever
+//! measures the text with the machine's own tools.
+
+use crate::plan::Plan;
+use crate::source::Span;
+use slowlight_routine::Runtime;
+
+/// A screen mode of a machine.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Mode {
+    /// What the machine calls it; empty where there is only one.
+    pub name: &'static str,
+    /// Pixels in a row.
+    pub width: u32,
+    /// Rows.
+    pub height: u32,
+    /// Inks.
+    pub inks: u32,
+}
+
+/// A machine that scenes are compiled for.
+#[derive(Debug)]
+pub struct Target {
+    /// `jack`, `bbc:micro`, `6502:plain`.
+    pub name: &'static str,
+    /// One sentence on the machine.
+    pub about: &'static str,
+    /// Its routines.
+    pub runtime: &'static Runtime,
+    /// Its screen modes, in the machine's order.
+    pub modes: &'static [Mode],
+    /// The least distance along a ray that counts as in front, given the
+    /// format's precision at the scenes' scale.
+    pub offset: f64,
+    /// Cycles a second, for estimates of the machine's time.
+    pub hertz: f64,
+    /// Writes a plan down.
+    pub emit: fn(&Plan) -> Vec<Document>,
+}
+
+/// A generated source file.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Document {
+    /// Its file name.
+    pub name: String,
+    /// Its text, with `\n` line ends.
+    pub text: String,
+    /// For each line, the place in the scene that it comes from, if any.
+    pub lines: Vec<Option<Span>>,
+}
+
+/// Every target.
+pub static TARGETS: &[&Target] = &[];
+
+/// A target by its name; a family's name alone means its first.
+pub fn find(name: &str) -> Option<&'static Target> {
+    let family = |t: &&&Target| t.name.split(':').next() == Some(name);
+    TARGETS
+        .iter()
+        .find(|t| t.name == name)
+        .or_else(|| TARGETS.iter().find(family))
+        .copied()
+}
+
+/// The mode for a picture: of those that hold it whole the one with most inks,
+/// else the one with most pixels.
+pub fn default_mode(target: &Target, width: u32, height: u32) -> Option<Mode> {
+    let holds = |m: &&Mode| m.width >= width && m.height >= height;
+    // The first of equals, so that the machine's order decides.
+    let whole = target
+        .modes
+        .iter()
+        .rev()
+        .filter(holds)
+        .max_by_key(|m| m.inks);
+    let largest = || {
+        target
+            .modes
+            .iter()
+            .rev()
+            .max_by_key(|m| u64::from(m.width) * u64::from(m.height))
+    };
+    whole.or_else(largest).copied()
+}
