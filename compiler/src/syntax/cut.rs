@@ -33,9 +33,7 @@ pub fn items<'t, 'a>(tokens: &'t [Spanned<'a>]) -> Vec<&'t [Spanned<'a>]> {
     for (at, (token, _)) in tokens.iter().enumerate() {
         let next = tokens.get(at + 1).map(|t| t.0);
         match token {
-            Token::Item(word)
-                if begins_item(word, next) || stands_first(tokens, start, at, depth) =>
-            {
+            Token::Item(word) if begins_item(word, next) || stands_first(tokens, at, depth) => {
                 push(start, at);
                 start = at;
                 depth = 0;
@@ -70,15 +68,11 @@ fn begins_item(word: &str, next: Option<Token>) -> bool {
     }
 }
 
-/// Whether the item word at `at` stands where only an item can: at the top, and
-/// not as a type or as another item's would-be name.
-fn stands_first(tokens: &[Spanned], start: usize, at: usize, depth: usize) -> bool {
-    let before = at.checked_sub(1).filter(|b| *b >= start);
-    match before.and_then(|b| tokens.get(b)) {
-        None => true,
-        Some((Token::Sym(":" | "->") | Token::Item(_), _)) => false,
-        Some(_) => depth == 0,
-    }
+/// Whether the item word at `at` stands at the top, behind the end of an item:
+/// an item then, though not a right one.
+fn stands_first(tokens: &[Spanned], at: usize, depth: usize) -> bool {
+    let before = at.checked_sub(1).and_then(|before| tokens.get(before));
+    depth == 0 && matches!(before, None | Some((Token::Sym(";" | "}"), _)))
 }
 
 /// Whether an item that begins so ends at its closing brace.
@@ -150,7 +144,7 @@ struct Level {
 }
 
 impl Level {
-    /// A bound on the depth of what this level has read.
+    /// A bound on the levels above the leaves of what this level has read.
     fn depth(&self) -> usize {
         self.deepest.max(self.inside + self.operators)
     }
@@ -174,7 +168,7 @@ pub fn too_deep(tokens: &[Spanned]) -> Option<Diagnostic> {
         step(&mut levels, *token, before);
         before = Some(*token);
         let innermost = levels.last().map_or(0, Level::depth);
-        if levels.len() > MAX_DEPTH || innermost > MAX_DEPTH {
+        if levels.len() > MAX_DEPTH || innermost >= MAX_DEPTH {
             return Some(deeper(*span));
         }
     }
@@ -184,7 +178,7 @@ pub fn too_deep(tokens: &[Spanned]) -> Option<Diagnostic> {
     }
     let whole = levels.last().map_or(0, Level::depth);
     let (_, end) = tokens.last()?;
-    (whole > MAX_DEPTH).then(|| deeper(*end))
+    (whole >= MAX_DEPTH).then(|| deeper(*end))
 }
 
 fn deeper(span: Span) -> Diagnostic {
@@ -196,8 +190,8 @@ fn deeper(span: Span) -> Diagnostic {
 fn step(levels: &mut Vec<Level>, token: Token, before: Option<Token>) {
     match token {
         Token::Sym("(" | "[" | "{") => {
-            // A call or an index is a level of its own beside its arguments'.
-            if before.is_some_and(Token::ends_operand) {
+            // What is called or indexed again stands a level deeper each time.
+            if let Some(Token::Sym(")" | "]" | "}")) = before {
                 operator(levels);
             }
             levels.push(Level::default());

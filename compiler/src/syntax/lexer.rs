@@ -14,6 +14,8 @@ pub const MAX_BYTES: usize = 1 << 20;
 /// After so many diagnostics the rest is not worth reading.
 pub const MAX_DIAGNOSTICS: usize = 50;
 
+const STRAY: &str = "cannot stand here";
+
 /// What the lexer makes of a text.
 #[derive(Clone, Debug, Default)]
 pub struct Lexed<'a> {
@@ -111,14 +113,28 @@ impl<'a> Lexed<'a> {
                 self.tokens.push((token, span));
             }
             Token::LeadingPoint(text) => {
+                let behind = self.tokens.last().is_some_and(|(token, last)| {
+                    last.end == span.start
+                        && matches!(token, Token::Ident(_) | Token::Sym(")" | "]"))
+                });
+                if behind {
+                    let help = "the parts of a vector are `.x`, `.y` and `.z`";
+                    self.report(span, "a part has a name, not a number", Some(help.into()));
+                    return self.tokens.push((Token::Bad, span));
+                }
                 self.digits_around_point(span, format!("0{text}"));
-                self.tokens.push((Token::Real("0.5"), span));
+                let digits = text.get(1..).unwrap_or("0");
+                self.tokens
+                    .push(match digits.ends_with(|c: char| c.is_ascii_digit()) {
+                        true => (Token::Real(digits), span),
+                        false => (Token::Angle(digits), span),
+                    });
             }
             Token::NumberWord(text) => self.number_word(text, span),
-            Token::OpenText(text) => {
+            Token::OpenText(_) => {
                 let help = "a string ends with `\"` on the line where it begins";
                 self.report(span, "this string has no end", Some(help.into()));
-                self.tokens.push((Token::Text(text), span));
+                self.tokens.push((Token::Bad, span));
             }
             Token::BadChar(_) => {
                 let help = "write one character between `'` and `'`, or a string between `\"`";
@@ -170,8 +186,10 @@ impl<'a> Lexed<'a> {
             .find(|c: char| c.is_ascii_alphabetic() || c == '_')
             .unwrap_or(text.len());
         let (number, word) = text.split_at(split);
-        let help = if word.starts_with('x') && word[1..].bytes().all(|b| b.is_ascii_digit()) {
-            format!("set them apart: `{number} x {}`", &word[1..]).replace(" `", "`")
+        let height = word.strip_prefix('x').unwrap_or("-");
+        let help = if height.bytes().all(|b| b.is_ascii_digit()) {
+            let all = format!("{number} x {height}");
+            format!("set them apart: `{}`", all.trim_end())
         } else if matches!(word, "degrees" | "d" | "turns" | "t" | "r" | "radians") {
             let unit = match word.as_bytes().first() {
                 Some(b'd') => "deg",
@@ -245,11 +263,13 @@ impl<'a> Lexed<'a> {
             _ => (Token::Bad, "remove it"),
         };
         let shown: String = text.chars().take(12).flat_map(char::escape_debug).collect();
-        self.report(
-            span,
-            format!("`{shown}` cannot stand here"),
-            Some(help.into()),
-        );
+        // Neighbours are one mistake.
+        match self.diagnostics.last_mut() {
+            Some(last) if last.span.end == span.start && last.message.ends_with(STRAY) => {
+                last.span.end = span.end;
+            }
+            _ => self.report(span, format!("`{shown}` {STRAY}"), Some(help.into())),
+        }
         // One unreadable stretch is one token: the parser need not count them.
         match self.tokens.last() {
             Some((Token::Bad, _)) if token == Token::Bad => {}

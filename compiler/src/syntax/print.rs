@@ -154,7 +154,7 @@ fn item(item: &Item) -> Node {
             Node::list(format!("record {}", name.text), fields.iter().map(binding))
         }
         ItemKind::Map { name, rows, cells } => {
-            let rows = rows.iter().map(|(row, _)| Node::word(format!("{row:?}")));
+            let rows = rows.iter().map(|(row, _)| Node::word(format!("\"{row}\"")));
             let cells = cells
                 .iter()
                 .map(|(cell, value)| Node::list(format!("'{cell}'"), [expr(value)]));
@@ -163,7 +163,7 @@ fn item(item: &Item) -> Node {
         ItemKind::Draw { x, y, body } => {
             Node::list(format!("draw {} {}", x.text, y.text), [expr(body)])
         }
-        ItemKind::Use { path, .. } => Node::list("use", [Node::word(format!("{path:?}"))]),
+        ItemKind::Use { path, .. } => Node::list("use", [Node::word(format!("\"{path}\""))]),
     }
 }
 

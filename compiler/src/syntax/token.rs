@@ -81,17 +81,6 @@ pub enum Token<'a> {
 }
 
 impl Token<'_> {
-    /// Whether an operand can end with it, so that a bracket behind it is a
-    /// call or an index rather than the start of an operand.
-    pub fn ends_operand(self) -> bool {
-        match self {
-            Token::Ident(_) | Token::Int(_) | Token::Real(_) | Token::Angle(_) => true,
-            Token::Sym(s) => matches!(s, ")" | "]" | "}"),
-            Token::Word(w) => matches!(w, "true" | "false" | "none"),
-            _ => false,
-        }
-    }
-
     /// Whether it compares: `==` `!=` `<` `<=` `>` `>=`.
     pub fn is_comparison(self) -> bool {
         matches!(self, Token::Sym("==" | "!=" | "<" | "<=" | ">" | ">="))

@@ -3,10 +3,9 @@
 //! Every alternative is known by its first token (or, for a named argument, by
 //! its first two), so that no text is read twice and time stays linear.
 
-use super::super::tree::{
-    AngleUnit, Argument, BinaryOp, Claim, Expr, ExprKind, Statement, UnaryOp,
-};
-use super::{Raw, Rule, Tokens, contextual, name, semicolon, sign, skip, word};
+use super::super::tree::{AngleUnit, Argument, BinaryOp, Expr, ExprKind, UnaryOp};
+use super::block::block;
+use super::{Raw, Rule, Tokens, contextual, name, sign, word};
 use crate::source::Span;
 use crate::syntax::token::Token;
 use chumsky::pratt::{infix, left, postfix, prefix, right};
@@ -164,6 +163,7 @@ fn arguments<'t>(expr: Rule<'t, Expr>) -> Rule<'t, Vec<Argument>> {
         .separated_by(sign(","))
         .collect()
         .delimited_by(sign("("), sign(")"))
+        .labelled("an operator")
         .boxed()
 }
 
@@ -315,78 +315,4 @@ fn next<'t>(expr: Rule<'t, Expr>) -> Rule<'t, Expr> {
             span: e.span(),
         })
         .boxed()
-}
-
-/// `{ let a = b; c }`
-fn block<'t>(expr: Rule<'t, Expr>) -> Rule<'t, Expr> {
-    // An unreadable result is skipped up to the brace.
-    let result = expr
-        .clone()
-        .then_ignore(just(Token::Sym("}")).rewind())
-        .recover_with(via_parser(skip().map(error)));
-    statement(expr)
-        .repeated()
-        .collect()
-        .then(result)
-        .delimited_by(sign("{"), sign("}"))
-        .map_with(|(statements, result), e| Expr {
-            kind: ExprKind::Block {
-                statements,
-                result: Box::new(result),
-            },
-            span: e.span(),
-        })
-        .boxed()
-}
-
-/// What stands in the tree for what could not be read.
-pub fn error(span: Span) -> Expr {
-    Expr {
-        kind: ExprKind::Error,
-        span,
-    }
-}
-
-fn statement<'t>(expr: Rule<'t, Expr>) -> Rule<'t, Statement> {
-    let value = expr
-        .clone()
-        .then_ignore(semicolon())
-        .recover_with(via_parser(skip().map(error)));
-    let binding = claim()
-        .or_not()
-        .then_ignore(word("let").labelled("`let`"))
-        .then(name())
-        .then_ignore(sign("="))
-        .then(value)
-        .map(|((claim, name), value)| Statement::Let { claim, name, value });
-
-    let shares = expr
-        .clone()
-        .then_ignore(sign(":"))
-        .then(expr.clone())
-        .boxed();
-    let to = contextual("to")
-        .ignore_then(comma(shares).delimited_by(sign("{"), sign("}")))
-        .then_ignore(semicolon());
-    let spread = word("spread")
-        .ignore_then(expr)
-        .then(to)
-        .map_with(|(value, to), e| Statement::Spread {
-            value,
-            to,
-            span: e.span(),
-        });
-    choice((binding.boxed(), spread.boxed())).boxed()
-}
-
-/// `frame`, `row` or `column`, where `let` follows; they are names elsewhere.
-fn claim<'t>() -> Rule<'t, (Claim, Span)> {
-    select! {
-        Token::Ident("frame") => Claim::Frame,
-        Token::Ident("row") => Claim::Row,
-        Token::Ident("column") => Claim::Column,
-    }
-    .map_with(|claim, e| (claim, e.span()))
-    .then_ignore(just(Token::Word("let")).rewind())
-    .boxed()
 }

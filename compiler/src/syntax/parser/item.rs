@@ -4,7 +4,8 @@ use super::super::tree::{
     Binding, Expr, Facet, Function, Image, InkColour, Item, ItemKind, Member, Name, Param, Type,
     TypeKind,
 };
-use super::expression::{comma, error, expression};
+use super::block::{body, error};
+use super::expression::{comma, expression};
 use super::{Raw, Rule, Tokens, contextual, name, semicolon, sign, skip, word};
 use crate::source::Span;
 use crate::syntax::token::Token;
@@ -37,14 +38,6 @@ pub fn item<'t>() -> Rule<'t, Item> {
 
 fn begins<'t>(text: &'static str) -> Rule<'t, ()> {
     just(Token::Item(text)).ignored().boxed()
-}
-
-/// `= expr ;`; an unreadable expression costs only itself.
-fn body<'t>(expr: Rule<'t, Expr>) -> Rule<'t, Expr> {
-    let value = expr
-        .then_ignore(semicolon())
-        .recover_with(via_parser(skip().map(error)));
-    sign("=").ignore_then(value).boxed()
 }
 
 /// `image 320 x 240 inks black, #ff0000;`
@@ -195,13 +188,10 @@ fn shape<'t>(expr: Rule<'t, Expr>) -> Rule<'t, ItemKind> {
 /// `scene name { shape is tag; .. }`
 fn scene<'t>(expr: Rule<'t, Expr>) -> Rule<'t, ItemKind> {
     let tag = word("is").ignore_then(expr.clone()).or_not();
-    let broken = just(Token::Sym("}"))
-        .not()
-        .ignore_then(skip())
-        .map(|span| Member {
-            shape: error(span),
-            tag: None,
-        });
+    let broken = skip().map(|span| Member {
+        shape: error(span),
+        tag: None,
+    });
     let member = expr
         .then(tag)
         .then_ignore(semicolon())

@@ -5,7 +5,10 @@
 //! put into the user's words by [`message`]. Inside an item the parser goes on
 //! behind the next `;` of the same depth, so that one `let` costs one `let`.
 
+mod between;
+mod block;
 mod expression;
+mod guess;
 mod item;
 mod message;
 
@@ -57,20 +60,24 @@ pub fn parse(text: &str, file: u16) -> (File, Vec<Diagnostic>) {
     let mut items = Vec::new();
     let rule = item::item();
     let mut between = false;
+    // Items that were left open: what follows the next one may be their ends.
+    let mut unclosed = 0usize;
     for tokens in cut::items(&lexed.tokens) {
         if diagnostics.len() >= MAX_DIAGNOSTICS {
             break;
         }
         if !matches!(tokens.first(), Some((Token::Item(_), _))) {
             // A stretch without items is one mistake.
-            if !between {
-                diagnostics.extend(message::not_an_item(tokens));
+            if !between && unclosed == 0 {
+                diagnostics.extend(between::not_an_item(tokens));
             }
             between = true;
+            unclosed = unclosed.saturating_sub(1);
             continue;
         }
         between = false;
         items.extend(one(&rule, text, tokens, &mut diagnostics));
+        unclosed += usize::from(cut::unpaired(tokens).is_some());
     }
     let file = File { items };
     diagnostics.extend(super::check::check(&file));
@@ -139,13 +146,14 @@ fn semicolon<'t>() -> Rule<'t, ()> {
         end(),
         just(Token::Word("let")).ignored(),
         just(Token::Word("spread")).ignored(),
+        just(Token::Sym("}")).ignored(),
     ))
     .rewind();
     sign(";").recover_with(via_parser(over)).boxed()
 }
 
-/// Skips to behind the next `;` of this depth, or to the closing bracket or the
-/// end of the item.
+/// Skips at least one token: to behind the next `;` of this depth, or to the
+/// closing bracket or the end of the item.
 fn skip<'t>() -> Rule<'t, Span> {
     let nested = recursive(
         |nested: Recursive<dyn Parser<'t, Tokens<'t>, (), extra::Err<Raw<'t>>>>| {
@@ -165,10 +173,7 @@ fn skip<'t>() -> Rule<'t, Span> {
     let plain = any()
         .filter(|t| !matches!(t, Token::Sym("(" | ")" | "[" | "]" | "{" | "}" | ";")))
         .ignored();
-    nested
-        .or(plain)
-        .repeated()
-        .map_with(|(), e| e.span())
-        .then_ignore(sign(";").or_not())
-        .boxed()
+    let some = nested.or(plain).repeated().at_least(1);
+    let something = some.then_ignore(sign(";").or_not()).or(sign(";"));
+    something.map_with(|(), e| e.span()).boxed()
 }

@@ -2,6 +2,8 @@
 #![allow(clippy::unwrap_used)]
 
 mod good;
+mod hard;
+mod wrong;
 
 use super::parse;
 use crate::source::{Diagnostic, SourceFile, Sources};
@@ -40,4 +42,11 @@ fn plain(text: &str, diagnostics: &[Diagnostic]) -> String {
         out.push('\n');
     }
     out
+}
+
+/// Compares with the file of that name; `INSTA_UPDATE=always` rewrites it.
+fn snapshot(name: &str, text: &str) {
+    insta::with_settings!({ omit_expression => true, prepend_module_to_snapshot => false }, {
+        insta::assert_snapshot!(name, text);
+    });
 }
