@@ -31,6 +31,7 @@
 
 mod fold_uses;
 mod names;
+pub mod print;
 
 use crate::flow::graph::*;
 use crate::flow::tree::*;
