@@ -1,1 +1,97 @@
-//! slowlight-runtime-6502
+//! What a 6502 computes with: 32-bit fixed point and 32-bit ints, as routines.
+//!
+//! A real is two's complement 16.16: 16 bits before the point, the sign among
+//! them, and 16 behind; an int is two's complement of 32 bits; a bool is a byte,
+//! 0 or 1. Numbers lie in memory low byte first. Results that do not fit saturate;
+//! roundings go to the nearest, halves away from zero. Every routine has a model
+//! in [`model`] that computes the same bits.
+//!
+//! # How a routine is written
+//! A [`Form::Statement`](slowlight_routine::Form::Statement) is here one of two things:
+//!
+//! - a **name**: a subroutine. Its operands go to `acc` and `arg` in the zero
+//!   page, its result is in `acc`;
+//! - a **template**: instructions, one a line. `{0.2}` is byte 2 of the first
+//!   argument and `{r.2}` of the result; `{n}` is a number that makes labels unique.
+//!   Where an argument is a constant its bytes become immediate operands.
+//!   The result may be the place of an argument only where the template says so
+//!   (none does): bytes of the result are written before all arguments are read.
+//!
+//! A bool that a routine computes is left in the **carry** flag, for a branch or
+//! to be stored. [`write`](mod@write) does all this.
+//!
+//! Costs are of such a use as a whole, with all places in the zero page: loads,
+//! call and stores included. Cycles are means over operands drawn evenly from
+//! -8 to 8 (reals; roots from 0) and -1000 to 1000 (ints), measured by the tests.
+//!
+//! # Memory
+//! `$00-$1d` is the runtime's (see the part `zero_page`), `$0200-$09ff` its tables
+//! of quarter squares, made by `make_squares` at the start. All else is free.
+
+pub mod model;
+mod parts;
+mod routines;
+mod templates;
+pub mod write;
+
+#[cfg(test)]
+mod tests;
+
+use slowlight_routine::{Bits, Format, Range, Runtime, Value};
+
+/// The first byte of the zero page that the runtime leaves alone.
+pub const FREE_ZERO_PAGE: u8 = 0x1E;
+/// The first byte behind the stack that the runtime leaves alone.
+pub const FREE_MEMORY: u16 = 0x0A00;
+
+/// Format of the reals.
+pub const FIXED: Format = Format::Fixed { bits: 32, frac: 16 };
+/// Format of the ints.
+pub const INT: Format = Format::Int { bits: 32 };
+
+/// The runtime of reals in 16.16.
+pub static FIXED16_16: Runtime = Runtime {
+    name: "6502",
+    format: "fixed16.16",
+    real: FIXED,
+    int: INT,
+    routines: routines::ALL,
+    parts: parts::ALL,
+    encode,
+    decode,
+    param_digits,
+    param_bits,
+};
+
+/// The nearest bits, saturating.
+fn encode(value: Value, format: Format) -> Bits {
+    match format {
+        Format::Bool => Bits::from(value.truth()),
+        Format::Fixed { frac, .. } => {
+            model::bits((value.real() * f64::from(1u32 << frac)).round() as i32)
+        }
+        _ => model::bits(value.int()),
+    }
+}
+
+fn decode(bits: Bits, format: Format) -> Value {
+    match format {
+        Format::Bool => Value::Bool(bits != 0),
+        Format::Fixed { frac, .. } => {
+            Value::Real(f64::from(model::int(bits)) / f64::from(1u32 << frac))
+        }
+        _ => Value::Int(model::int(bits)),
+    }
+}
+
+/// Thousandths, which fit 32 bits for every value that the format has.
+fn param_digits(_: Range) -> Option<u8> {
+    Some(3)
+}
+
+/// The program divides the two integers as if they were 16.16.
+fn param_bits(scaled: i64, digits: u8) -> Bits {
+    let clamp = |n: i64| n.clamp(i64::from(i32::MIN), i64::from(i32::MAX)) as i32;
+    let unit = clamp(10i64.saturating_pow(u32::from(digits)));
+    model::bits(model::fixed_divide(clamp(scaled), unit))
+}

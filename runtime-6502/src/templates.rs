@@ -1,0 +1,166 @@
+//! Routines that are written in place. Instructions are separated by `|` or a
+//! line's end; see the crate's documentation for the placeholders.
+
+pub(crate) const ADD: &str = "
+    clc | lda {0.0} | adc {1.0} | sta {r.0}
+          lda {0.1} | adc {1.1} | sta {r.1}
+          lda {0.2} | adc {1.2} | sta {r.2}
+          lda {0.3} | adc {1.3} | sta {r.3}";
+
+pub(crate) const SUBTRACT: &str = "
+    sec | lda {0.0} | sbc {1.0} | sta {r.0}
+          lda {0.1} | sbc {1.1} | sta {r.1}
+          lda {0.2} | sbc {1.2} | sta {r.2}
+          lda {0.3} | sbc {1.3} | sta {r.3}";
+
+pub(crate) const NEGATE: &str = "
+    sec | lda #0 | sbc {0.0} | sta {r.0}
+          lda #0 | sbc {0.1} | sta {r.1}
+          lda #0 | sbc {0.2} | sta {r.2}
+          lda #0 | sbc {0.3} | sta {r.3}";
+
+/// The most negative stays as it is.
+pub(crate) const ABS: &str = "
+    lda {0.3} | bmi negative{n}
+    sta {r.3} | lda {0.2} | sta {r.2} | lda {0.1} | sta {r.1} | lda {0.0} | jmp low{n}
+    negative{n}:
+    sec | lda #0 | sbc {0.0} | tax
+          lda #0 | sbc {0.1} | sta {r.1}
+          lda #0 | sbc {0.2} | sta {r.2}
+          lda #0 | sbc {0.3} | sta {r.3} | txa
+    low{n}:
+    sta {r.0}";
+
+/// Leaves in bit 7 of the accumulator, and in N, whether argument 0 is less than argument 1.
+macro_rules! less {
+    ($then:literal) => {
+        concat!(
+            "
+    lda {0.0} | cmp {1.0} | lda {0.1} | sbc {1.1} | lda {0.2} | sbc {1.2} | lda {0.3} | sbc {1.3}
+    bvc even{n} | eor #$80
+    even{n}:
+    ",
+            $then
+        )
+    };
+}
+
+/// Copies argument 0 or 1; `second` is where the second begins.
+macro_rules! pick {
+    ($branch:literal) => {
+        concat!(
+            $branch,
+            " second{n}
+    lda {0.0} | sta {r.0} | lda {0.1} | sta {r.1} | lda {0.2} | sta {r.2} | lda {0.3} | jmp high{n}
+    second{n}:
+    lda {1.0} | sta {r.0} | lda {1.1} | sta {r.1} | lda {1.2} | sta {r.2} | lda {1.3}
+    high{n}:
+    sta {r.3}"
+        )
+    };
+}
+
+pub(crate) const MIN: &str = concat!(less!(""), pick!("bpl"));
+pub(crate) const MAX: &str = concat!(less!(""), pick!("bmi"));
+pub(crate) const LESS: &str = less!("asl");
+
+/// Not (b < a): the subtraction the other way round, its sign inverted.
+pub(crate) const LESS_EQUAL: &str = "
+    lda {1.0} | cmp {0.0} | lda {1.1} | sbc {0.1} | lda {1.2} | sbc {0.2} | lda {1.3} | sbc {0.3}
+    bvs even{n} | eor #$80
+    even{n}:
+    asl";
+
+/// Below 0: the sign alone.
+pub(crate) const NEGATIVE: &str = "lda {0.3} | asl";
+
+/// Not below 0.
+pub(crate) const NOT_NEGATIVE: &str = "lda {1.3} | eor #$80 | asl";
+
+/// A comparison of equals leaves the carry set.
+pub(crate) const EQUAL: &str = "
+    lda {0.0} | cmp {1.0} | bne unlike{n}
+    lda {0.1} | cmp {1.1} | bne unlike{n}
+    lda {0.2} | cmp {1.2} | bne unlike{n}
+    lda {0.3} | cmp {1.3} | beq alike{n}
+    unlike{n}: | clc
+    alike{n}:";
+
+pub(crate) const NOT: &str = "lda {0.0} | eor #1 | lsr";
+
+/// -1, 0 or 1.
+pub(crate) const SIGN: &str = "
+    ldx #0 | lda {0.3} | bmi negative{n}
+    ora {0.2} | ora {0.1} | ora {0.0} | beq zero{n}
+    lda #1 | bne zero{n}
+    negative{n}:
+    dex | txa
+    zero{n}:
+    sta {r.0} | stx {r.1} | stx {r.2} | stx {r.3}";
+
+/// The upper half, sign-extended.
+pub(crate) const FLOOR: &str = "
+    ldx #0 | lda {0.2} | sta {r.0} | lda {0.3} | sta {r.1} | bpl positive{n} | dex
+    positive{n}:
+    stx {r.2} | stx {r.3}";
+
+pub(crate) const TO_REAL: &str =
+    "lda #0 | sta {r.0} | sta {r.1} | lda {0.0} | sta {r.2} | lda {0.1} | sta {r.3}";
+
+pub(crate) const AND: &str = "
+    lda {0.0} | and {1.0} | sta {r.0} | lda {0.1} | and {1.1} | sta {r.1}
+    lda {0.2} | and {1.2} | sta {r.2} | lda {0.3} | and {1.3} | sta {r.3}";
+
+/// By a power of two up to 128: the bits below it.
+pub(crate) const MOD_POWER: &str = "
+    sec | lda {1.0} | sbc #1 | and {0.0} | sta {r.0}
+    lda #0 | sta {r.1} | sta {r.2} | sta {r.3}";
+
+/// Argument 0 halved, towards minus infinity, into the result; the rest is left in the carry.
+macro_rules! halve {
+    () => {
+        "
+    lda {0.3} | cmp #$80 | ror | sta {r.3} | lda {0.2} | ror | sta {r.2}
+    lda {0.1} | ror | sta {r.1} | lda {0.0} | ror | sta {r.0}
+    "
+    };
+}
+
+/// The result halved once more.
+macro_rules! again {
+    () => {
+        "
+    lda {r.3} | cmp #$80 | ror {r.3} | ror {r.2} | ror {r.1} | ror {r.0}
+    "
+    };
+}
+
+/// One more where the bit shifted out last was 1.
+macro_rules! carry_in {
+    () => {
+        "
+    bcc even{n} | inc {r.0} | bne even{n} | inc {r.1} | bne even{n} | inc {r.2} | bne even{n} | inc {r.3}
+    even{n}:"
+    };
+}
+
+pub(crate) const HALF: &str = concat!(halve!(), carry_in!());
+pub(crate) const QUARTER: &str = concat!(halve!(), again!(), carry_in!());
+pub(crate) const INT_HALF: &str = halve!();
+pub(crate) const INT_QUARTER: &str = concat!(halve!(), again!());
+pub(crate) const INT_EIGHTH: &str = concat!(halve!(), again!(), again!());
+pub(crate) const INT_SIXTEENTH: &str = concat!(halve!(), again!(), again!(), again!());
+
+/// Argument 0 doubled, wrapping.
+macro_rules! double {
+    () => {
+        "
+    lda {0.0} | asl | sta {r.0} | lda {0.1} | rol | sta {r.1}
+    lda {0.2} | rol | sta {r.2} | lda {0.3} | rol | sta {r.3}
+    "
+    };
+}
+
+pub(crate) const TWICE: &str = double!();
+pub(crate) const FOUR_TIMES: &str =
+    concat!(double!(), "asl {r.0} | rol {r.1} | rol {r.2} | rol {r.3}");
