@@ -1,1 +1,3 @@
-//! One integration-test binary.
+//! One integration-test binary: a file a subject.
+
+mod house;

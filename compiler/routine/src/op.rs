@@ -163,7 +163,11 @@ fn modulus(a: f64, b: f64) -> f64 {
         true => 0.0,
         false => {
             let rest = a % b;
-            if rest != 0.0 && (rest < 0.0) != (b < 0.0) { rest + b } else { rest }
+            if rest != 0.0 && (rest < 0.0) != (b < 0.0) {
+                rest + b
+            } else {
+                rest
+            }
         }
     }
 }

@@ -1,0 +1,81 @@
+//! The house: which crate may know which (ARCHITECTURE.md, "Arrows point down only").
+
+use std::collections::BTreeSet;
+use std::process::Command;
+
+/// The workspace's own crates that a crate's normal dependencies name.
+fn arrows() -> Vec<(String, BTreeSet<String>)> {
+    let output = Command::new(env!("CARGO"))
+        .args([
+            "metadata",
+            "--format-version",
+            "1",
+            "--no-deps",
+            "--offline",
+        ])
+        .current_dir(env!("CARGO_MANIFEST_DIR"))
+        .output()
+        .expect("cargo runs");
+    let json: serde_json::Value =
+        serde_json::from_slice(&output.stdout).expect("cargo prints JSON");
+    let packages = json["packages"].as_array().expect("packages");
+    let name = |v: &serde_json::Value| v["name"].as_str().unwrap_or_default().to_owned();
+    let own: BTreeSet<String> = packages.iter().map(name).collect();
+    let normal = |p: &serde_json::Value| {
+        let all = p["dependencies"].as_array().cloned().unwrap_or_default();
+        let kept = all
+            .into_iter()
+            .filter(|d| d["kind"].is_null())
+            .map(|d| name(&d));
+        kept.filter(|d| own.contains(d)).collect()
+    };
+    packages.iter().map(|p| (name(p), normal(p))).collect()
+}
+
+#[test]
+fn arrows_point_down_only() {
+    let allowed = [
+        (
+            "slowlight",
+            &["slowlight-compiler", "slowlight-routine", "slowlight-vm"][..],
+        ),
+        (
+            "slowlight-compiler",
+            &[
+                "slowlight-isa",
+                "slowlight-routine",
+                "slowlight-runtime-6502",
+                "slowlight-runtime-bbc",
+                "slowlight-runtime-jack",
+            ],
+        ),
+        (
+            "slowlight-runtime-jack",
+            &["slowlight-routine", "slowlight-isa"],
+        ),
+        (
+            "slowlight-runtime-bbc",
+            &["slowlight-routine", "slowlight-isa"],
+        ),
+        (
+            "slowlight-runtime-6502",
+            &["slowlight-routine", "slowlight-isa"],
+        ),
+        ("slowlight-routine", &[]),
+        ("slowlight-vm", &["slowlight-isa"]),
+        ("slowlight-isa", &[]),
+    ];
+    let found = arrows();
+    assert_eq!(
+        found.len(),
+        allowed.len(),
+        "a crate is missing from this list"
+    );
+    for (name, uses) in found {
+        let rule = allowed.iter().find(|(n, _)| *n == name);
+        let (_, may) = rule.unwrap_or_else(|| panic!("no rule for {name}"));
+        for used in uses {
+            assert!(may.contains(&used.as_str()), "{name} must not use {used}");
+        }
+    }
+}
