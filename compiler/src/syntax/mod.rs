@@ -2,10 +2,11 @@
 //!
 //! [`parse`] is total: any text gives a tree and diagnostics, in time linear in
 //! its length and with bounded depth. [`decode`] comes before it where a scene
-//! is read as bytes.
+//! is read as bytes; [`format::format`] and [`print`] are the ways back.
 
 mod check;
 mod cut;
+pub mod format;
 mod lexer;
 mod parser;
 pub mod print;

@@ -1,6 +1,7 @@
 //! The tests of the syntax, by what they ask.
 #![allow(clippy::unwrap_used)]
 
+mod formatted;
 mod good;
 mod hard;
 mod wrong;
