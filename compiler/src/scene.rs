@@ -1,0 +1,149 @@
+//! A scene from its text: parsed, checked, lowered, with all that is to be said
+//! about it.
+
+use crate::flow::graph::Graph;
+use crate::prelude::PRELUDE;
+use crate::sema::{self, Options, Program};
+use crate::source::{Diagnostic, SourceFile, Sources, Span};
+use crate::syntax::tree::{File, ItemKind};
+use crate::syntax::{self};
+
+/// How many files a scene may have, those that it uses included.
+const FILES: usize = 64;
+
+/// A checked scene.
+#[derive(Clone, Debug)]
+pub struct Scene {
+    /// All texts: the scene is number 0, then what it uses, then the library.
+    pub sources: Sources,
+    /// What it says; to be lowered only if it [`is_right`](Scene::is_right).
+    pub program: Program,
+    /// Errors and warnings in source order.
+    pub diagnostics: Vec<Diagnostic>,
+}
+
+impl Scene {
+    /// Whether no diagnostic is an error.
+    pub fn is_right(&self) -> bool {
+        !self.diagnostics.iter().any(Diagnostic::is_error)
+    }
+
+    /// The scene's graph. Errors where the scene is wrong, or wrong for these
+    /// options.
+    pub fn lower(&self, options: &Options) -> Result<Graph, Vec<Diagnostic>> {
+        if !self.is_right() {
+            return Err(self.diagnostics.clone());
+        }
+        sema::lower(&self.program, options)
+    }
+}
+
+/// Reads another file: given who uses it and the path as written, its name and
+/// text, or why there is none. Two paths to one file must give one name.
+pub type Read<'r> = &'r mut dyn FnMut(&str, &str) -> Result<(String, String), String>;
+
+/// A scene that uses no other files, with the embedded library.
+pub fn check(name: &str, text: &str) -> Scene {
+    let mut read = |_: &str, path: &str| Err(format!("there is no file `{path}` here"));
+    load(name, text, None, &mut read)
+}
+
+/// A scene from its text; `prelude` (names and texts) replaces the embedded
+/// library. Never fails: what is wrong is in [`Scene::diagnostics`].
+pub fn load(name: &str, text: &str, prelude: Option<&[(String, String)]>, read: Read<'_>) -> Scene {
+    let mut loader = Loader {
+        sources: Sources::default(),
+        files: Vec::new(),
+        diagnostics: Vec::new(),
+    };
+    loader.add(name.to_owned(), text.to_owned(), false);
+    loader.follow(read);
+    match prelude {
+        Some(texts) => {
+            for (name, text) in texts {
+                loader.add(name.clone(), text.clone(), true);
+            }
+        }
+        None => {
+            for (name, text) in PRELUDE {
+                loader.add((*name).to_owned(), (*text).to_owned(), true);
+            }
+        }
+    }
+    let Loader {
+        sources,
+        files,
+        mut diagnostics,
+    } = loader;
+    // Where an item could not be read, what refers to it would be called
+    // unknown: the mistakes of the text come first.
+    let (program, said) = sema::check(&files);
+    if !diagnostics.iter().any(Diagnostic::is_error) {
+        diagnostics.extend(said);
+    }
+    if !diagnostics.iter().any(Diagnostic::is_error)
+        && let Err(said) = sema::lower(&program, &Options::default())
+    {
+        diagnostics.extend(said);
+    }
+    sema::tidy(&mut diagnostics);
+    Scene {
+        sources,
+        program,
+        diagnostics,
+    }
+}
+
+struct Loader {
+    sources: Sources,
+    files: Vec<(File, bool)>,
+    diagnostics: Vec<Diagnostic>,
+}
+
+impl Loader {
+    fn add(&mut self, name: String, text: String, library: bool) {
+        let number = u16::try_from(self.sources.files.len()).unwrap_or(u16::MAX);
+        let (tree, said) = syntax::parse(&text, number);
+        self.sources.add(SourceFile {
+            name,
+            text,
+            library,
+        });
+        self.files.push((tree, library));
+        self.diagnostics.extend(said);
+    }
+
+    /// Reads what `use` names, each file once.
+    fn follow(&mut self, read: Read<'_>) {
+        let mut at = 0;
+        while let Some((file, _)) = self.files.get(at) {
+            let mut paths: Vec<(String, Span)> = Vec::new();
+            for item in &file.items {
+                if let ItemKind::Use { path, path_span } = &item.kind {
+                    paths.push((path.clone(), *path_span));
+                }
+            }
+            let from = self
+                .sources
+                .files
+                .get(at)
+                .map_or(String::new(), |f| f.name.clone());
+            for (path, span) in paths {
+                if self.files.len() >= FILES {
+                    let message = format!("a scene has at most {FILES} files");
+                    self.diagnostics.push(Diagnostic::error(span, message));
+                    return;
+                }
+                match read(&from, &path) {
+                    Ok((name, text)) => {
+                        if !self.sources.files.iter().any(|f| f.name == name) {
+                            self.add(name, text, false);
+                        }
+                    }
+                    Err(why) => self.diagnostics.push(Diagnostic::error(span, why)),
+                }
+            }
+            at += 1;
+        }
+    }
+}

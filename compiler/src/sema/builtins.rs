@@ -1,0 +1,173 @@
+//! What the language itself can call: operations over scalars, and what the
+//! compiler derives for shapes, scenes, tables and maps. Everything else is the library's,
+//! written in the language.
+
+use super::ty::Ty;
+use slowlight_routine::Op;
+
+/// An operation of the language.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Builtin {
+    /// A scalar operation.
+    Op(Op),
+    /// The ink of a number, clamped to the palette.
+    Ink,
+    /// The n x n ordered-dither matrix over n^2; n a power of two.
+    Bayer,
+    /// A ray from a point; the direction has length 1 by contract.
+    Ray,
+    /// Entries of a table.
+    Count,
+    /// The nearest hit of a shape.
+    ShapeHit,
+    /// The unit normal of a shape at a point of its surface.
+    ShapeNormal,
+    /// The signed distance of a point from a shape.
+    ShapeDist,
+    /// A shape's implicit function.
+    ShapeImplicit,
+    /// The nearest hit of a scene.
+    Trace,
+    /// Whether a ray hits anything.
+    Blocked,
+    /// Sphere tracing.
+    March,
+    /// The distance of a point from a scene.
+    SceneDist,
+    /// The tag of what is nearest to a point.
+    SceneTag,
+}
+
+/// A parameter of a builtin: its name, type and whether a call may leave it out.
+pub struct Param(pub &'static str, pub Ty, pub bool);
+
+/// One way to call a builtin.
+pub struct Signature {
+    /// Its name in scenes.
+    pub name: &'static str,
+    /// What it does.
+    pub builtin: Builtin,
+    /// Its parameters.
+    pub params: Vec<Param>,
+    /// Its result; hits and tags of a scene take their tag from the argument.
+    pub result: Ty,
+}
+
+fn need(name: &'static str, ty: Ty) -> Param {
+    Param(name, ty, false)
+}
+
+/// Every way to call every builtin, exact types before those that widen.
+pub fn signatures() -> Vec<Signature> {
+    use Ty::*;
+    let mut all = Vec::new();
+    let mut add = |name, builtin, params, result| {
+        all.push(Signature {
+            name,
+            builtin,
+            params,
+            result,
+        });
+    };
+    let one = |name: &'static str, ty: Ty| vec![need(name, ty)];
+    for (name, int, real) in [("min", Op::IntMin, Op::Min), ("max", Op::IntMax, Op::Max)] {
+        for (ty, op) in [(Int, int), (Real, real), (Angle, real)] {
+            let params = vec![need("a", ty.clone()), need("b", ty.clone())];
+            add(name, Builtin::Op(op), params, ty);
+        }
+    }
+    for (ty, op) in [(Int, Op::IntAbs), (Real, Op::Abs), (Angle, Op::Abs)] {
+        add("abs", Builtin::Op(op), one("a", ty.clone()), ty);
+    }
+    for (ty, op) in [(Int, Op::IntSign), (Real, Op::Sign), (Angle, Op::Sign)] {
+        add("sign", Builtin::Op(op), one("a", ty), Int);
+    }
+    add("floor", Builtin::Op(Op::Floor), one("a", Real), Int);
+    add("round", Builtin::Op(Op::Round), one("a", Real), Int);
+    add("sqrt", Builtin::Op(Op::Sqrt), one("a", Real), Real);
+    add("exp", Builtin::Op(Op::Exp), one("a", Real), Real);
+    add("log", Builtin::Op(Op::Log), one("a", Real), Real);
+    for (name, op) in [("sin", Op::Sin), ("cos", Op::Cos), ("tan", Op::Tan)] {
+        add(name, Builtin::Op(op), one("a", Angle), Real);
+    }
+    for (name, op) in [("asin", Op::Asin), ("acos", Op::Acos)] {
+        add(name, Builtin::Op(op), one("a", Real), Angle);
+    }
+    let pair = |a, b, ty: Ty| vec![need(a, ty.clone()), need(b, ty)];
+    add("atan2", Builtin::Op(Op::Atan2), pair("y", "x", Real), Angle);
+    add("bit_and", Builtin::Op(Op::BitAnd), pair("a", "b", Int), Int);
+    add("ink", Builtin::Ink, one("i", Int), Ink);
+    add(
+        "bayer",
+        Builtin::Bayer,
+        one("n", Int),
+        Table(Box::new(Real)),
+    );
+    add("ray", Builtin::Ray, pair("from", "dir", Vector(3)), Ray);
+    add(
+        "count",
+        Builtin::Count,
+        one("table", Table(Box::new(Error))),
+        Int,
+    );
+
+    let hit = || Optional(Box::new(Hit(None)));
+    let on = |of: Ty, rest: Vec<Param>| {
+        let mut params = vec![need("self", of)];
+        params.extend(rest);
+        params
+    };
+    let far = || Param("far", Real, true);
+    add("hit", Builtin::ShapeHit, on(Shape, one("r", Ray)), hit());
+    add(
+        "normal",
+        Builtin::ShapeNormal,
+        on(Shape, one("p", Vector(3))),
+        Vector(3),
+    );
+    add(
+        "dist",
+        Builtin::ShapeDist,
+        on(Shape, one("p", Vector(3))),
+        Real,
+    );
+    add(
+        "f",
+        Builtin::ShapeImplicit,
+        on(Shape, one("p", Vector(3))),
+        Real,
+    );
+    let scene = || Scene(None);
+    add(
+        "trace",
+        Builtin::Trace,
+        on(scene(), vec![need("r", Ray), far()]),
+        hit(),
+    );
+    add(
+        "blocked",
+        Builtin::Blocked,
+        on(scene(), vec![need("r", Ray), far()]),
+        Bool,
+    );
+    let march = vec![
+        need("r", Ray),
+        need("steps", Int),
+        need("near", Real),
+        need("far", Real),
+    ];
+    add("march", Builtin::March, on(scene(), march), hit());
+    add(
+        "dist",
+        Builtin::SceneDist,
+        on(scene(), one("p", Vector(3))),
+        Real,
+    );
+    add(
+        "tag",
+        Builtin::SceneTag,
+        on(scene(), one("p", Vector(3))),
+        Error,
+    );
+    all
+}

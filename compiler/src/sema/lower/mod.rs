@@ -1,0 +1,279 @@
+//! From the program to the graph, by partial evaluation.
+//!
+//! Expressions are evaluated with values whose structure is known and whose
+//! scalars are nodes ([`value`]). A call is its callee's body with the
+//! arguments in its frame; a condition that is known chooses, another merges
+//! both results scalar by scalar; a loop's body is evaluated once, with nodes
+//! that stand for the carried values ([`flow`]).
+//!
+//! **Invariant**: whatever the program, this ends: items form no cycles (the
+//! checker saw to it), and steps, depth and nodes are counted.
+
+mod call;
+mod claims;
+mod expr;
+mod flow;
+mod ops;
+mod params;
+mod scene;
+mod shape;
+mod tables;
+mod value;
+
+use crate::flow::build::Builder;
+use crate::flow::graph::{Axis, Graph, Image, NodeId};
+use crate::sema::program::*;
+use crate::source::{Diagnostic, Span};
+use slowlight_routine::{Op, Value};
+use std::collections::HashMap;
+use value::Val;
+
+/// Nodes at most.
+const NODES: usize = 1_000_000;
+/// Steps of evaluation at most.
+const STEPS: usize = 8_000_000;
+/// Expressions inside expressions at most, calls included.
+const DEPTH: usize = 1200;
+
+/// A value, or why there is none.
+type Found<T> = Result<T, Box<Diagnostic>>;
+
+/// Which params become constants.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub enum Freeze {
+    /// None: all stay changeable.
+    #[default]
+    Nothing,
+    /// These.
+    Some(Vec<String>),
+    /// All.
+    All,
+}
+
+/// What a graph is made for.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Options {
+    /// How many inks the screen has; the image's where absent.
+    pub inks: Option<u32>,
+    /// Params' values: name and scalars, angles in radians.
+    pub set: Vec<(String, Vec<f64>)>,
+    /// Params that become constants.
+    pub freeze: Freeze,
+    /// Effects that are replaced by their `else`.
+    pub without: Vec<String>,
+    /// The number format's self-intersection offset: a hit nearer than this is
+    /// the surface that the ray leaves.
+    pub offset: f64,
+}
+
+impl Default for Options {
+    fn default() -> Self {
+        Options {
+            inks: None,
+            set: Vec::new(),
+            freeze: Freeze::Nothing,
+            without: Vec::new(),
+            offset: 1e-9,
+        }
+    }
+}
+
+/// The state of a lowering.
+struct Lower<'a> {
+    program: &'a Program,
+    options: &'a Options,
+    b: Builder,
+    /// The locals of the function that is being expanded.
+    frame: Vec<Val>,
+    locals: &'a [Local],
+    /// Where the scene calls into the library, while inside it.
+    place: Option<Span>,
+    image: Image,
+    params: Vec<Val>,
+    consts: HashMap<ConstId, Val>,
+    scenes: HashMap<SceneId, Vec<std::rc::Rc<value::Shape>>>,
+    claims: Vec<claims::Claimed>,
+    /// Above 0 where only constants may come out.
+    constant: usize,
+    depth: usize,
+    steps: usize,
+}
+
+/// The graph of a program that was checked without errors.
+pub fn lower(program: &Program, options: &Options) -> Result<Graph, Vec<Diagnostic>> {
+    let (Some(image), Some(draw)) = (&program.image, &program.draw) else {
+        let error = Diagnostic::error(Span::default(), "the scene has no `image` or no `draw`");
+        return Err(vec![error]);
+    };
+    let mut lower = Lower {
+        program,
+        options,
+        b: Builder::new(),
+        frame: Vec::new(),
+        locals: &[],
+        place: None,
+        image: Image {
+            width: image.width,
+            height: image.height,
+            palette: thin(&image.palette, options.inks),
+        },
+        params: Vec::new(),
+        consts: HashMap::new(),
+        scenes: HashMap::new(),
+        claims: Vec::new(),
+        constant: 0,
+        depth: 0,
+        steps: 0,
+    };
+    lower.check_options(image.span)?;
+    let mut said = Vec::new();
+    lower.declare_params(&mut said);
+    lower.evaluate_consts(&mut said);
+    if !said.is_empty() {
+        return Err(said);
+    }
+    let (ink, shade) = lower.picture(draw).map_err(|e| vec![*e])?;
+    let claims = std::mem::take(&mut lower.claims);
+    let graph = lower.b.finish(lower.image, ink, shade);
+    let broken = claims::check(&graph, &claims);
+    if broken.is_empty() {
+        Ok(graph)
+    } else {
+        Err(broken)
+    }
+}
+
+/// The palette on a screen of `inks` inks: evenly, first and last kept.
+fn thin(palette: &[[u8; 3]], inks: Option<u32>) -> Vec<[u8; 3]> {
+    let have = palette.len();
+    let want = inks.map_or(have, |n| (n as usize).clamp(2, have.max(2)));
+    if want >= have {
+        return palette.to_vec();
+    }
+    let at = |k: usize| (2 * k * (have - 1) + (want - 1)) / (2 * (want - 1));
+    (0..want)
+        .filter_map(|k| palette.get(at(k)).copied())
+        .collect()
+}
+
+impl<'a> Lower<'a> {
+    /// The ink and the shade of the pixel.
+    fn picture(&mut self, draw: &'a Draw) -> Found<(NodeId, Option<NodeId>)> {
+        let x = self.b.axis(Axis::X, draw.span);
+        let y = self.b.axis(Axis::Y, draw.span);
+        self.enter(&draw.body, vec![Val::Node(x), Val::Node(y)], |l| {
+            let found = l.shaded(&draw.body.value)?;
+            let ink = l.node(found.0, &draw.body.value.ty, draw.span)?;
+            Ok((ink, found.1))
+        })
+    }
+
+    /// Evaluates a body in a frame of its own.
+    fn enter<T>(
+        &mut self,
+        body: &'a Body,
+        args: Vec<Val>,
+        work: impl FnOnce(&mut Self) -> Found<T>,
+    ) -> Found<T> {
+        let mut frame = args;
+        frame.resize(body.locals.len(), Val::Undefined);
+        let outer = (
+            std::mem::replace(&mut self.frame, frame),
+            std::mem::replace(&mut self.locals, &body.locals),
+        );
+        let result = work(self);
+        (self.frame, self.locals) = outer;
+        result
+    }
+
+    /// Where a node or message belongs: the scene's own line that called into
+    /// the library.
+    fn at(&self, span: Span) -> Span {
+        self.place.unwrap_or(span)
+    }
+
+    fn error(&self, span: Span, message: impl Into<String>) -> Diagnostic {
+        let error = Diagnostic::error(self.at(span), message);
+        match self.place {
+            Some(place) if place != span => error.also(span, "in the library, here"),
+            _ => error,
+        }
+    }
+
+    /// A program that was not checked, or a mistake of the checker.
+    fn confused(&self, span: Span) -> Box<Diagnostic> {
+        Box::new(self.error(span, "this could not be made sense of"))
+    }
+
+    fn missing(&self, span: Span, what: &str, help: &str) -> Box<Diagnostic> {
+        Box::new(
+            self.error(span, format!("{what} is not built yet"))
+                .help(help),
+        )
+    }
+
+    /// Counts a step of work.
+    fn step(&mut self, span: Span) -> Found<()> {
+        self.steps += 1;
+        if self.steps > STEPS || self.b.len() > NODES {
+            let error = self.error(
+                span,
+                "the scene grows too large when its calls are expanded",
+            );
+            return Err(Box::new(
+                error.help("use a `loop` where calls repeat themselves"),
+            ));
+        }
+        Ok(())
+    }
+
+    /// An operation; a constant outside its domain is an error.
+    fn apply(&mut self, op: Op, args: &[NodeId], span: Span) -> Found<NodeId> {
+        self.step(span)?;
+        let values: Vec<Option<Value>> = args.iter().map(|&a| self.b.value(a)).collect();
+        let first = values.first().copied().flatten().map(Value::real);
+        let last = values.last().copied().flatten().map(Value::real);
+        let wrong = match op {
+            Op::Div | Op::Mod | Op::IntDiv | Op::IntMod => {
+                (last == Some(0.0)).then_some("this divides by zero")
+            }
+            Op::Sqrt => first
+                .filter(|&a| a < 0.0)
+                .map(|_| "this is the square root of a negative"),
+            Op::Log => first
+                .filter(|&a| a <= 0.0)
+                .map(|_| "this is the logarithm of 0 or less"),
+            Op::Asin | Op::Acos => {
+                (first.filter(|&a| a.abs() > 1.0)).map(|_| "no angle has this sine or cosine")
+            }
+            Op::Pow => match (first, last) {
+                (Some(a), Some(b)) if a < 0.0 && b.fract() != 0.0 => {
+                    Some("this is a negative to a power that is not whole")
+                }
+                (Some(0.0), Some(b)) if b < 0.0 => Some("this divides by zero"),
+                _ => None,
+            },
+            _ => None,
+        };
+        if let Some(wrong) = wrong {
+            return Err(Box::new(self.error(span, wrong)));
+        }
+        let span = self.at(span);
+        Ok(self.b.apply(op, args, span))
+    }
+
+    fn int(&mut self, value: i32, span: Span) -> NodeId {
+        let span = self.at(span);
+        self.b.constant(Value::Int(value), span)
+    }
+
+    fn real(&mut self, value: f64, span: Span) -> NodeId {
+        let span = self.at(span);
+        self.b.constant(Value::Real(value), span)
+    }
+
+    fn bool(&mut self, value: bool, span: Span) -> NodeId {
+        let span = self.at(span);
+        self.b.constant(Value::Bool(value), span)
+    }
+}

@@ -1,0 +1,218 @@
+//! Scenes: the nearest of their shapes.
+
+use super::value::{Shape, Val};
+use super::{Found, Lower};
+use crate::flow::graph::NodeId;
+use crate::sema::builtins::Builtin;
+use crate::sema::program::*;
+use crate::sema::ty::Ty;
+use crate::source::Span;
+use crate::syntax::tree::BinaryOp;
+use std::rc::Rc;
+
+impl<'a> Lower<'a> {
+    /// A scene's shapes, made once.
+    fn shapes_of(&mut self, id: SceneId, span: Span) -> Found<Vec<Rc<Shape>>> {
+        if let Some(found) = self.scenes.get(&id) {
+            return Ok(found.clone());
+        }
+        let Some(scene) = self.program.scenes.get(id.0) else {
+            return Err(self.confused(span));
+        };
+        let mut found = Vec::new();
+        for member in &scene.members {
+            let place = self.place.take();
+            let shape = self.enter(&member.shape, Vec::new(), |l| {
+                let value = l.expr(&member.shape.value)?;
+                l.force(value)
+            });
+            self.place = place;
+            match shape? {
+                Val::Shape(shape) => found.push(shape),
+                _ => return Err(self.confused(span)),
+            }
+        }
+        self.scenes.insert(id, found.clone());
+        Ok(found)
+    }
+
+    /// What is asked of a scene.
+    pub(super) fn ask_scene(
+        &mut self,
+        what: Builtin,
+        scene: SceneId,
+        arg: Val,
+        more: Vec<Option<Val>>,
+        ty: &Ty,
+        span: Span,
+    ) -> Found<Val> {
+        let far = more.into_iter().next().flatten();
+        match what {
+            Builtin::Trace => self.trace(scene, arg, far, ty, span),
+            Builtin::Blocked => self.blocked(scene, arg, far, span),
+            Builtin::March => Err(self.missing(
+                span,
+                "`march`",
+                "use `trace`, which finds the hits of shapes with `hit(r)` exactly",
+            )),
+            Builtin::SceneDist => {
+                let (distance, _) = self.nearest(scene, &arg, span)?;
+                Ok(Val::Node(distance))
+            }
+            _ => {
+                let (_, wins) = self.nearest(scene, &arg, span)?;
+                self.tag_of(scene, &wins, arg, span)
+            }
+        }
+    }
+
+    /// The least distance, and for each shape whether it is nearer than those
+    /// before it (the later one on a tie).
+    fn nearest(&mut self, id: SceneId, p: &Val, span: Span) -> Found<(NodeId, Vec<NodeId>)> {
+        let mut best: Option<NodeId> = None;
+        let mut wins = Vec::new();
+        for shape in self.shapes_of(id, span)? {
+            let d = self.ask(Builtin::ShapeDist, &shape, p.clone(), span)?;
+            let d = self.node(d, &Ty::Real, span)?;
+            let (win, next) = match best {
+                None => (self.bool(true, span), d),
+                Some(best) => {
+                    let win = self.scalar(BinaryOp::Le, &Ty::Real, d, best, span)?;
+                    (win, self.select(win, d, best, span))
+                }
+            };
+            wins.push(win);
+            best = Some(next);
+        }
+        match best {
+            Some(best) => Ok((best, wins)),
+            None => Err(self.confused(span)),
+        }
+    }
+
+    /// What the last winner gives: `of` makes each shape's value.
+    fn of_winner(
+        &mut self,
+        wins: &[NodeId],
+        span: Span,
+        mut of: impl FnMut(&mut Self, usize) -> Found<Val>,
+    ) -> Found<Val> {
+        let mut value = Val::Undefined;
+        for (k, &win) in wins.iter().enumerate() {
+            let mine = of(self, k)?;
+            value = self.merge(win, mine, value, span)?;
+        }
+        self.force(value)
+    }
+
+    fn tag_of(&mut self, id: SceneId, wins: &[NodeId], p: Val, span: Span) -> Found<Val> {
+        let Some(scene) = self.program.scenes.get(id.0) else {
+            return Err(self.confused(span));
+        };
+        self.of_winner(wins, span, |l, k| {
+            let Some(tag) = scene.members.get(k).and_then(|m| m.tag.as_ref()) else {
+                return Err(l.confused(span));
+            };
+            let place = l.place.take();
+            let value = l.enter(tag, vec![p.clone()], |l| l.expr(&tag.value));
+            l.place = place;
+            value
+        })
+    }
+
+    /// The nearest hit; the later shape on a tie.
+    fn trace(
+        &mut self,
+        id: SceneId,
+        ray: Val,
+        far: Option<Val>,
+        ty: &Ty,
+        span: Span,
+    ) -> Found<Val> {
+        let mut best = match far {
+            Some(far) => self.node(far, &Ty::Real, span)?,
+            None => self.real(f64::MAX, span),
+        };
+        let mut present = self.bool(false, span);
+        let mut wins = Vec::new();
+        let shapes = self.shapes_of(id, span)?;
+        for shape in &shapes {
+            let (there, t) = self.distance_of(shape, &ray, span)?;
+            let near = self.scalar(BinaryOp::Le, &Ty::Real, t, best, span)?;
+            let no = self.bool(false, span);
+            let win = self.select(there, near, no, span);
+            best = self.select(win, t, best, span);
+            let yes = self.bool(true, span);
+            present = self.select(win, yes, present, span);
+            wins.push(win);
+        }
+        self.b.name(best, "t");
+        let t = Val::Node(best);
+        let point = self.lazy_point(ray, t.clone(), span);
+        let place = self.place;
+        let (at, won) = (point.clone(), wins.clone());
+        let normal = Val::lazy(Box::new(move |l: &mut Lower<'_>| {
+            let outer = std::mem::replace(&mut l.place, place);
+            let normal = l.of_winner(&won, span, |l, k| match shapes.get(k) {
+                Some(shape) => l.shape_normal(shape, at.clone(), span),
+                None => Err(l.confused(span)),
+            });
+            l.place = outer;
+            let normal = normal?;
+            l.name(&normal, &Ty::Vector(3), "normal");
+            Ok(normal)
+        }));
+        let mut parts = vec![point.clone(), normal, t];
+        if let Ty::Optional(hit) = ty
+            && let Ty::Hit(Some(_)) = **hit
+        {
+            parts.push(Val::lazy(Box::new(move |l: &mut Lower<'_>| {
+                let outer = std::mem::replace(&mut l.place, place);
+                let tag = l.tag_of(id, &wins, point, span);
+                l.place = outer;
+                tag
+            })));
+        }
+        Ok(Val::Optional {
+            present,
+            value: Rc::new(Val::parts(parts)),
+        })
+    }
+
+    /// Whether and where a shape is hit.
+    fn distance_of(&mut self, shape: &Rc<Shape>, ray: &Val, span: Span) -> Found<(NodeId, NodeId)> {
+        match self.shape_distance(shape, ray.clone(), span)? {
+            Val::Optional { present, value } => {
+                let t = self.node((*value).clone(), &Ty::Real, span)?;
+                Ok((present, t))
+            }
+            _ => Err(self.confused(span)),
+        }
+    }
+
+    /// Whether anything is hit nearer than `far`: stops at the first.
+    fn blocked(&mut self, id: SceneId, ray: Val, far: Option<Val>, span: Span) -> Found<Val> {
+        let far = match far {
+            Some(far) => Some(self.node(far, &Ty::Real, span)?),
+            None => None,
+        };
+        let mut hits = Vec::new();
+        for shape in self.shapes_of(id, span)? {
+            let (there, t) = self.distance_of(&shape, &ray, span)?;
+            hits.push(match far {
+                Some(far) => {
+                    let near = self.scalar(BinaryOp::Lt, &Ty::Real, t, far, span)?;
+                    let no = self.bool(false, span);
+                    self.select(there, near, no, span)
+                }
+                None => there,
+            });
+        }
+        let mut any = self.bool(false, span);
+        for hit in hits.into_iter().rev() {
+            let yes = self.bool(true, span);
+            any = self.select(hit, yes, any, span);
+        }
+        Ok(Val::Node(any))
+    }
+}

@@ -1,0 +1,147 @@
+//! Shapes: what their facets say, and what follows from them.
+
+use super::value::{Shape, Val};
+use super::{Found, Lower};
+use crate::sema::builtins::Builtin;
+use crate::sema::program::*;
+use crate::sema::ty::Ty;
+use crate::source::Span;
+use crate::syntax::tree::BinaryOp;
+use std::rc::Rc;
+
+impl<'a> Lower<'a> {
+    fn shape_name(&self, shape: &Shape) -> String {
+        let found = self.program.shapes.get(shape.id.0);
+        found.map_or_else(String::new, |s| s.name.clone())
+    }
+
+    /// A facet's value, if the shape has it.
+    pub(super) fn facet(
+        &mut self,
+        shape: &Rc<Shape>,
+        kind: FacetKind,
+        arg: Val,
+        span: Span,
+    ) -> Found<Option<Val>> {
+        let Some(item) = self.program.shapes.get(shape.id.0) else {
+            return Err(self.confused(span));
+        };
+        let Some(facet) = item.facets.iter().find(|f| f.kind == kind) else {
+            return Ok(None);
+        };
+        let mut args = shape.args.clone();
+        args.push(arg);
+        let found = self.inside(item.library, span, |l| {
+            l.enter(&facet.body, args, |l| {
+                let value = l.expr(&facet.body.value)?;
+                l.force(value)
+            })
+        });
+        found.map(Some)
+    }
+
+    /// What a scene asks of a shape.
+    pub(super) fn ask(
+        &mut self,
+        what: Builtin,
+        shape: &Rc<Shape>,
+        arg: Val,
+        span: Span,
+    ) -> Found<Val> {
+        match what {
+            Builtin::ShapeHit => self.shape_hit(shape, arg, span),
+            Builtin::ShapeNormal => self.shape_normal(shape, arg, span),
+            Builtin::ShapeDist => self.required(shape, FacetKind::Dist, arg, span),
+            _ => self.required(shape, FacetKind::Implicit, arg, span),
+        }
+    }
+
+    fn required(&mut self, shape: &Rc<Shape>, kind: FacetKind, arg: Val, span: Span) -> Found<Val> {
+        if let Some(value) = self.facet(shape, kind, arg, span)? {
+            return Ok(value);
+        }
+        let (name, facet) = (self.shape_name(shape), kind.name());
+        let error = self.error(span, format!("`{name}` has no `{facet}`"));
+        Err(Box::new(
+            error.help(format!("give the shape a facet `{facet}(p) = ..`")),
+        ))
+    }
+
+    /// The distance along a ray: optional, a real.
+    pub(super) fn shape_distance(&mut self, shape: &Rc<Shape>, ray: Val, span: Span) -> Found<Val> {
+        if let Some(t) = self.facet(shape, FacetKind::Hit, ray, span)? {
+            return Ok(t);
+        }
+        let name = self.shape_name(shape);
+        Err(self.missing(
+            span,
+            &format!("`hit` of a shape without `hit(r)`, here `{name}`,"),
+            "give the shape a facet `hit(r) = ..`: the distance along the ray, or `none`",
+        ))
+    }
+
+    pub(super) fn shape_normal(&mut self, shape: &Rc<Shape>, p: Val, span: Span) -> Found<Val> {
+        if let Some(normal) = self.facet(shape, FacetKind::Normal, p, span)? {
+            return Ok(normal);
+        }
+        let name = self.shape_name(shape);
+        Err(self.missing(
+            span,
+            &format!("the normal of a shape without `normal(p)`, here `{name}`,"),
+            "give the shape a facet `normal(p) = ..`, of length 1",
+        ))
+    }
+
+    /// The point of a ray at a distance.
+    pub(super) fn along(&mut self, ray: &Val, t: Val, span: Span) -> Found<Val> {
+        let from = self.part(ray.clone(), 0, span)?;
+        let dir = self.part(ray.clone(), 1, span)?;
+        let (from, dir) = (self.vector(from, 3, span)?, self.vector(dir, 3, span)?);
+        let t = self.node(t, &Ty::Real, span)?;
+        let mut parts = Vec::new();
+        for (from, dir) in from.into_iter().zip(dir) {
+            let step = self.scalar(BinaryOp::Mul, &Ty::Real, dir, t, span)?;
+            let sum = self.scalar(BinaryOp::Add, &Ty::Real, from, step, span)?;
+            parts.push(Val::Node(sum));
+        }
+        let point = Val::parts(parts);
+        self.name(&point, &Ty::Vector(3), "point");
+        Ok(point)
+    }
+
+    /// A hit of a bare shape; its point and normal are worked out if used.
+    fn shape_hit(&mut self, shape: &Rc<Shape>, ray: Val, span: Span) -> Found<Val> {
+        let t = self.shape_distance(shape, ray.clone(), span)?;
+        let (present, t) = match t {
+            Val::Optional { present, value } => (present, (*value).clone()),
+            _ => return Err(self.confused(span)),
+        };
+        if let Val::Node(node) = &t {
+            self.b.name(*node, "t");
+        }
+        let point = self.lazy_point(ray, t.clone(), span);
+        let (of, at, place) = (shape.clone(), point.clone(), self.place);
+        let normal = Val::lazy(Box::new(move |l: &mut Lower<'_>| {
+            let outer = std::mem::replace(&mut l.place, place);
+            let normal = l.shape_normal(&of, at, span);
+            l.place = outer;
+            let normal = normal?;
+            l.name(&normal, &Ty::Vector(3), "normal");
+            Ok(normal)
+        }));
+        Ok(Val::Optional {
+            present,
+            value: Rc::new(Val::parts(vec![point, normal, t])),
+        })
+    }
+
+    pub(super) fn lazy_point(&mut self, ray: Val, t: Val, span: Span) -> Val {
+        let place = self.place;
+        Val::lazy(Box::new(move |l: &mut Lower<'_>| {
+            let outer = std::mem::replace(&mut l.place, place);
+            let point = l.along(&ray, t, span);
+            l.place = outer;
+            point
+        }))
+    }
+}

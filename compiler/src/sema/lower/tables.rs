@@ -1,0 +1,152 @@
+//! Tables and maps: known entries, looked up by values that may not be known.
+
+use super::value::{Table, Val};
+use super::{Found, Lower};
+use crate::flow::graph::{self, Constant, NodeId};
+use crate::sema::program::*;
+use crate::sema::ty::Ty;
+use crate::source::Span;
+use slowlight_routine::{Type, Value};
+use std::rc::Rc;
+
+impl<'a> Lower<'a> {
+    pub(super) fn index(&mut self, base: &'a Expr, indices: &'a [Expr], span: Span) -> Found<Val> {
+        let value = self.expr(base)?;
+        let mut nodes = Vec::new();
+        for index in indices {
+            let value = self.expr(index)?;
+            nodes.push(self.node(value, &Ty::Int, span)?);
+        }
+        let Some(&column) = nodes.first() else {
+            return Err(self.confused(span));
+        };
+        let row = match nodes.get(1) {
+            Some(&row) => row,
+            None => self.int(0, span),
+        };
+        match self.force(value)? {
+            Val::Table(table) => {
+                if nodes.len() == 1 && table.height() > 1 {
+                    let error = self.error(span, "this table has several rows");
+                    return Err(Box::new(error.help("index it by `[column, row]`")));
+                }
+                let Ty::Table(of) = &base.ty else {
+                    return Err(self.confused(span));
+                };
+                self.entry(&table, of, column, row, span)
+            }
+            Val::Map(id) => {
+                let Some(map) = self.program.maps.get(id.0) else {
+                    return Err(self.confused(span));
+                };
+                let entries = map.cells.iter();
+                let table = graph::Table {
+                    name: map.name.clone(),
+                    width: map.width as u32,
+                    height: map.height as u32,
+                    ty: Type::Int,
+                    entries: entries.map(|&c| Constant::new(Value::Int(c))).collect(),
+                };
+                Ok(Val::Node(self.look_up(table, column, row, span)))
+            }
+            Val::Undefined => Ok(Val::Undefined),
+            _ => Err(self.confused(span)),
+        }
+    }
+
+    fn look_up(&mut self, table: graph::Table, column: NodeId, row: NodeId, span: Span) -> NodeId {
+        let span = self.at(span);
+        let id = self.b.table(table);
+        self.b.lookup(id, column, row, span)
+    }
+
+    /// An entry; both indices clamp.
+    fn entry(
+        &mut self,
+        table: &Rc<Table>,
+        of: &Ty,
+        column: NodeId,
+        row: NodeId,
+        span: Span,
+    ) -> Found<Val> {
+        let clamp = |i: i32, n: usize| (i.max(0) as usize).min(n.saturating_sub(1));
+        if let (Some(c), Some(r)) = (self.b.value(column), self.b.value(row)) {
+            let at = clamp(r.int(), table.height()) * table.width + clamp(c.int(), table.width);
+            return match table.entries.get(at) {
+                Some(entry) => self.force(entry.clone()),
+                None => Err(self.confused(span)),
+            };
+        }
+        let layout = self.layout(of, &table.name, span)?;
+        if !of.is_data() || layout.is_empty() {
+            let error = self.error(span, "which entry this is must be known when compiling");
+            return Err(Box::new(error));
+        }
+        let mut columns: Vec<Vec<Constant>> = vec![Vec::new(); layout.len()];
+        for entry in &table.entries {
+            self.step(span)?;
+            let mut nodes = Vec::new();
+            self.flatten(entry.clone(), of, &mut nodes, span)?;
+            for (column, node) in columns.iter_mut().zip(nodes) {
+                let Some(value) = self.b.value(node) else {
+                    let error = self.error(span, "this table's entries are not constant");
+                    return Err(Box::new(error.help(
+                        "choose by `if`, or index it by what is known when compiling",
+                    )));
+                };
+                column.push(Constant::new(value));
+            }
+        }
+        let mut found = Vec::new();
+        for ((name, ty), entries) in layout.into_iter().zip(columns) {
+            let table = graph::Table {
+                name,
+                width: table.width as u32,
+                height: table.height() as u32,
+                ty,
+                entries,
+            };
+            found.push(self.look_up(table, column, row, span));
+        }
+        Ok(self.unflatten(of, &mut found.into_iter()))
+    }
+
+    /// The n x n ordered-dither matrix over n^2 (Bayer 1973): each entry of the
+    /// half-sized matrix four times over, plus its quadrant's rank.
+    pub(super) fn bayer(&mut self, n: &'a Expr, span: Span) -> Found<Val> {
+        let side = self.known_int(n, "the size of a Bayer matrix")?;
+        if !(1..=64).contains(&side) || side.count_ones() != 1 {
+            let message = format!("no Bayer matrix has {side} rows");
+            let error = self.error(n.span, message);
+            return Err(Box::new(
+                error.help("its size is a power of two, at most 64"),
+            ));
+        }
+        let rank = |x: i32, y: i32| match (x & 1, y & 1) {
+            (0, 0) => 0,
+            (1, 0) => 2,
+            (0, _) => 3,
+            _ => 1,
+        };
+        let mut entries = Vec::new();
+        for y in 0..side {
+            for x in 0..side {
+                let mut value = 0;
+                let mut bit = side / 2;
+                let mut weight = 1;
+                while bit > 0 {
+                    value += weight * rank(x / bit, y / bit);
+                    weight *= 4;
+                    bit /= 2;
+                }
+                let node = self.real(f64::from(value) / f64::from(side * side), span);
+                entries.push(Val::Node(node));
+            }
+        }
+        Ok(Val::Table(Rc::new(Table {
+            name: format!("bayer{side}"),
+            width: side as usize,
+            entries,
+        })))
+    }
+}

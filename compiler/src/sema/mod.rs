@@ -1,0 +1,25 @@
+//! Names, types, specialisation: from trees to a typed program, and from the
+//! program to the graph.
+//!
+//! [`check`] looks at every item and finds every mistake that does not depend
+//! on how the scene is used. [`lower`] then evaluates `draw` as far as the
+//! scene alone allows: functions are expanded at their calls; vectors, records,
+//! optional values, shapes and functions exist only while compiling; what is
+//! left are scalars, which become nodes of the [`Graph`](crate::flow::graph::Graph).
+
+mod builtins;
+mod check;
+mod colours;
+mod lower;
+mod print;
+mod program;
+mod ty;
+
+#[cfg(test)]
+mod tests;
+
+pub use builtins::Builtin;
+pub use check::{check, tidy};
+pub use lower::{Freeze, Options, lower};
+pub use program::*;
+pub use ty::Ty;
