@@ -226,3 +226,25 @@ fn folding_changes_no_pixel() {
         }
     }
 }
+
+#[test]
+fn a_printed_graph_reads_back() {
+    let printed = mirrors().to_string();
+    let read = crate::flow::read::read(&printed).unwrap();
+    verify(&read).unwrap();
+    assert_eq!(read.to_string(), printed);
+    let mut native = Native::new(&read);
+    assert_eq!(
+        native.pixel(160, 120),
+        Native::new(&mirrors()).pixel(160, 120)
+    );
+    for wrong in [
+        "%0: int",
+        "%9999999999: int = axis x",
+        "%0: real = mul %1",
+        "loop 0 max (",
+        "nonsense",
+    ] {
+        assert!(crate::flow::read::read(wrong).is_err(), "{wrong}");
+    }
+}

@@ -3,5 +3,6 @@
 pub mod build;
 pub mod graph;
 pub mod print;
+pub mod read;
 pub mod tree;
 pub mod verify;
