@@ -3,6 +3,7 @@
 pub mod demand;
 pub mod fold;
 pub mod narrow;
+mod queue;
 pub mod rate;
 pub mod rebuild;
 pub mod region;

@@ -7,17 +7,27 @@
 //! selects on one condition that are ready together share one `If`.
 
 use super::demand::{live_carried, needed, place};
+use super::queue::{Queue, Unit};
 use super::region::*;
 use crate::flow::graph::*;
 use crate::flow::tree::*;
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeSet;
 
 /// The statements that draw a graph's picture.
 pub fn schedule(graph: &Graph) -> Tree {
     let regions = place(graph);
+    let needed = needed(graph);
+    let mut results = vec![Vec::new(); graph.loops.len()];
+    for id in graph.ids().filter(|id| needed[id.0 as usize]) {
+        if let Node::Result { of, index } = graph.node(id) {
+            results[of.0 as usize].push((id, index as usize));
+        }
+    }
+    let loops = (0..graph.loops.len() as u32).map(LoopId);
     let mut emitter = Emitter {
         graph,
-        needed: needed(graph),
+        live: loops.map(|of| live_carried(graph, &needed, of)).collect(),
+        results,
         emitted: vec![false; graph.nodes.len()],
         loops_done: vec![false; graph.loops.len()],
         seen: vec![0; graph.nodes.len()],
@@ -32,23 +42,38 @@ pub fn schedule(graph: &Graph) -> Tree {
     }
 }
 
-/// What is emitted as one step of a block.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-enum Unit {
-    /// An operation or lookup.
-    Compute(NodeId),
-    /// A loop with all its results.
-    Loop(LoopId),
-    /// A select.
-    Choose(NodeId),
-    /// A value inside an arm, read from outside it.
-    Inside(NodeId, RegionId),
+/// A needed value that a tree does not compute; none in a tree from [`schedule`].
+pub fn missing(graph: &Graph, tree: &Tree) -> Option<NodeId> {
+    let mut written = vec![false; graph.nodes.len()];
+    for block in [&tree.frame, &tree.row, &tree.pixel] {
+        walk(block, &mut |statement| match statement {
+            Statement::Let(id)
+            | Statement::Set {
+                place: Place::Node(id),
+                ..
+            } => {
+                written[id.0 as usize] = true;
+            }
+            _ => {}
+        });
+    }
+    let needed = needed(graph);
+    graph.ids().find(|id| {
+        let computed = matches!(
+            graph.node(*id),
+            Node::Apply(..) | Node::Select { .. } | Node::Lookup { .. } | Node::Result { .. }
+        );
+        computed && needed[id.0 as usize] && !written[id.0 as usize]
+    })
 }
 
 struct Emitter<'g> {
     graph: &'g Graph,
     regions: Regions,
-    needed: Vec<bool>,
+    /// For each loop, the carried values that are read, by index.
+    live: Vec<Vec<u32>>,
+    /// For each loop, its needed results: node and index.
+    results: Vec<Vec<(NodeId, usize)>>,
     emitted: Vec<bool>,
     loops_done: Vec<bool>,
     /// When each node was last met by a search.
@@ -60,59 +85,22 @@ impl Emitter<'_> {
     /// The statements of a region that lead to `roots`; what stands in the
     /// child regions `open` is looked through, not emitted.
     fn block(&mut self, region: RegionId, roots: &[NodeId], open: &[RegionId]) -> Block {
-        let mut waiting: BTreeMap<Unit, BTreeSet<Unit>> = BTreeMap::new();
+        let mut queue = Queue::default();
         let mut todo: Vec<Unit> = self.search(region, roots, open).into_iter().collect();
         while let Some(unit) = todo.pop() {
-            if waiting.contains_key(&unit) {
-                continue;
+            if !queue.holds(unit) {
+                let reads = self.reads(region, unit);
+                todo.extend(reads.iter().copied());
+                queue.add(unit, self.condition(unit), reads);
             }
-            let reads = self.reads(region, unit);
-            todo.extend(reads.iter().copied());
-            waiting.insert(unit, reads);
         }
         let mut block = Block::new();
-        while !waiting.is_empty() {
-            let step = self.choose(&waiting);
-            for unit in &step {
-                waiting.remove(unit);
-            }
-            for reads in waiting.values_mut() {
-                for unit in &step {
-                    reads.remove(unit);
-                }
+        loop {
+            let step = queue.take();
+            if step.is_empty() {
+                return block;
             }
             self.emit(region, &step, &mut block);
-        }
-        block
-    }
-
-    /// The next units to emit: one value or loop, or the ready selects on one condition.
-    fn choose(&self, waiting: &BTreeMap<Unit, BTreeSet<Unit>>) -> Vec<Unit> {
-        let ready: Vec<Unit> = waiting
-            .iter()
-            .filter(|(_, reads)| reads.is_empty())
-            .map(|(&unit, _)| unit)
-            .collect();
-        let single = |u: &&Unit| matches!(u, Unit::Compute(_) | Unit::Loop(_));
-        if let Some(&unit) = ready.iter().find(single) {
-            return vec![unit];
-        }
-        // A group that is ready as a whole needs no second `If`.
-        let cond_of = |unit: &Unit| self.condition(*unit);
-        let mut groups: BTreeMap<Option<NodeId>, Vec<Unit>> = BTreeMap::new();
-        for &unit in &ready {
-            groups.entry(cond_of(&unit)).or_default().push(unit);
-        }
-        let late: BTreeSet<Option<NodeId>> = waiting
-            .iter()
-            .filter(|(_, reads)| !reads.is_empty())
-            .map(|(u, _)| cond_of(u))
-            .collect();
-        let whole = groups.iter().find(|(cond, _)| !late.contains(cond));
-        match whole.or_else(|| groups.iter().next()) {
-            Some((_, units)) => units.clone(),
-            // A cycle cannot be; should it, the verifier of trees will say so.
-            None => waiting.keys().take(1).copied().collect(),
         }
     }
 
@@ -179,24 +167,13 @@ impl Emitter<'_> {
         let graph = self.graph;
         let found = &graph.loops[of.0 as usize];
         let mut roots = vec![found.again];
-        for index in live_carried(graph, &self.needed, of) {
+        for &index in &self.live[of.0 as usize] {
             roots.extend([found.init[index as usize], found.next[index as usize]]);
         }
-        for (_, index) in self.results(of) {
+        for &(_, index) in &self.results[of.0 as usize] {
             roots.extend([found.done[index], found.otherwise[index]]);
         }
         roots
-    }
-
-    /// A loop's needed results: node and index.
-    fn results(&self, of: LoopId) -> Vec<(NodeId, usize)> {
-        let needed = self.graph.ids().filter(|id| self.needed[id.0 as usize]);
-        needed
-            .filter_map(|id| match self.graph.node(id) {
-                Node::Result { of: l, index } if l == of => Some((id, index as usize)),
-                _ => None,
-            })
-            .collect()
     }
 
     /// The units of `region` not yet emitted that `roots` lead to, looking
@@ -298,8 +275,8 @@ impl Emitter<'_> {
         let graph = self.graph;
         let found = &graph.loops[of.0 as usize];
         self.loops_done[of.0 as usize] = true;
-        let live = live_carried(graph, &self.needed, of);
-        let results = self.results(of);
+        let live = self.live[of.0 as usize].clone();
+        let results = self.results[of.0 as usize].clone();
         let kinds = [RegionKind::Body(of), RegionKind::Otherwise(of)];
         let [body, otherwise] =
             kinds.map(|kind| self.regions.child(region, kind).unwrap_or(region));

@@ -37,7 +37,7 @@ use crate::flow::graph::*;
 use crate::flow::tree::*;
 use crate::passes::fold::fold;
 use crate::passes::narrow::narrow;
-use crate::passes::schedule::schedule;
+use crate::passes::schedule::{missing, schedule};
 use crate::range::{Ranges, Slack, ranges};
 use crate::source::Diagnostic;
 use crate::target::{Mode, Target};
@@ -206,6 +206,10 @@ pub fn plan(graph: &Graph, target: &'static Target, goal: &Goal) -> Result<Plan,
         graph = next;
         tree = schedule(&graph);
         ranges_now = ranges(&graph, &tree, &slack);
+    }
+    if let Some(id) = missing(&graph, &tree) {
+        let message = format!("the schedule lost {id}: a fault of the compiler, please report it");
+        return Err(vec![Diagnostic::error(graph.span(id), message)]);
     }
     let routines = choose(&graph, &tree, &ranges_now, runtime)?;
     let folded = fold_uses::folded(&graph, &tree);

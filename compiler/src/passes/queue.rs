@@ -1,0 +1,103 @@
+//! The order of a block's units: each after those that it reads from.
+
+use super::region::RegionId;
+use crate::flow::graph::*;
+use std::collections::{BTreeMap, BTreeSet, HashMap};
+
+/// What is emitted as one step of a block.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Unit {
+    /// An operation or lookup.
+    Compute(NodeId),
+    /// A loop with all its results.
+    Loop(LoopId),
+    /// A select.
+    Choose(NodeId),
+    /// A value inside an arm, read from outside it.
+    Inside(NodeId, RegionId),
+}
+
+/// Units that wait for the units that they read from.
+#[derive(Default)]
+pub struct Queue {
+    /// How many units each one still waits for.
+    waits: HashMap<Unit, usize>,
+    /// Who waits for each unit.
+    readers: HashMap<Unit, Vec<Unit>>,
+    /// The condition of each unit that has one.
+    conditions: HashMap<Unit, NodeId>,
+    /// How many units on each condition are not ready yet.
+    late: HashMap<NodeId, usize>,
+    /// What can be emitted alone.
+    single: BTreeSet<Unit>,
+    /// What can be emitted under one `If`.
+    groups: BTreeMap<NodeId, Vec<Unit>>,
+}
+
+impl Queue {
+    /// Whether a unit was added.
+    pub fn holds(&self, unit: Unit) -> bool {
+        self.waits.contains_key(&unit)
+    }
+
+    /// Adds a unit, its condition if it stands under one, and what it waits for.
+    pub fn add(&mut self, unit: Unit, condition: Option<NodeId>, reads: BTreeSet<Unit>) {
+        self.waits.insert(unit, reads.len());
+        if let Some(cond) = condition {
+            self.conditions.insert(unit, cond);
+            *self.late.entry(cond).or_default() += 1;
+        }
+        if reads.is_empty() {
+            self.ready(unit);
+        }
+        for read in reads {
+            self.readers.entry(read).or_default().push(unit);
+        }
+    }
+
+    fn ready(&mut self, unit: Unit) {
+        match self.conditions.get(&unit) {
+            Some(&cond) => {
+                if let Some(late) = self.late.get_mut(&cond) {
+                    *late -= 1;
+                }
+                self.groups.entry(cond).or_default().push(unit);
+            }
+            None => {
+                self.single.insert(unit);
+            }
+        }
+    }
+
+    /// The next units to emit: one value or loop, or the ready units on one
+    /// condition (one that is ready as a whole, if there is one, since it then
+    /// needs no second `If`). Nothing when all is emitted.
+    pub fn take(&mut self) -> Vec<Unit> {
+        let step = match self.single.pop_first() {
+            Some(unit) => vec![unit],
+            None => {
+                let whole = self
+                    .groups
+                    .keys()
+                    .find(|cond| self.late.get(cond) == Some(&0));
+                let cond = whole.or_else(|| self.groups.keys().next()).copied();
+                let mut units = cond
+                    .and_then(|c| self.groups.remove(&c))
+                    .unwrap_or_default();
+                units.sort_unstable();
+                units
+            }
+        };
+        for unit in &step {
+            for reader in self.readers.remove(unit).unwrap_or_default() {
+                if let Some(waits) = self.waits.get_mut(&reader) {
+                    *waits -= 1;
+                    if *waits == 0 {
+                        self.ready(reader);
+                    }
+                }
+            }
+        }
+        step
+    }
+}
