@@ -1,1 +1,242 @@
-//! bbc
+//! BBC BASIC II and the machines around it.
+//!
+//! A program is tokenised ([`tokenise`]), decoded once into statements over resolved names
+//! (`decode`), and run by walking small expression trees (`exec`, `eval`). Reals are the
+//! machine's 40 bits ([`slowlight_isa::real40`]), integers its 32; errors carry its numbers,
+//! messages and lines.
+//!
+//! - **Cycles** are BASIC II's at 2 MHz, charged statement by statement from what was measured
+//!   on the genuine ROM (`cost`); drawing in the operating system is also counted apart.
+//! - **Memory** is the machine's: the program at PAGE, variables above it in their sizes and
+//!   order, the stack below HIMEM; what does not fit is "No room". On the Micro the screen is
+//!   in the same 64K, so that pokes draw.
+//! - **Left out**: the assembler, USR and CALL, sound, text on the graphics screen (there is no
+//!   font; text is captured instead), programs that change their own lines, keyboard input
+//!   (GET sees RETURN, INPUT empty lines). Reaching one of the first is an error that says so.
+//! - **Dialects**: `Agon` and `BasicV` have their screens and their integers (which become
+//!   reals instead of wrapping), but Micro's 40-bit arithmetic; Brandy's reals are doubles, and
+//!   the Agon's 40 bits round otherwise.
+
+mod ast;
+mod calls;
+mod code;
+mod cost;
+mod cursor;
+mod decode;
+mod display;
+mod error;
+mod eval;
+mod exec;
+mod files;
+mod functions;
+mod io;
+mod modes;
+mod names;
+mod plot;
+mod state;
+mod statements;
+mod strings;
+mod tokenise;
+mod values;
+
+use std::cell::RefCell;
+use std::collections::BTreeMap;
+
+use slowlight_isa::real40::Real40;
+
+use crate::{Fault, Screen, Stop, Watch};
+use error::Error;
+use state::State;
+pub use tokenise::{detokenise, tokenise};
+
+/// PI, as the ROM has it.
+const PI: Real40 = Real40::from_bits(0x82_490f_daa2);
+
+/// Whose BASIC.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub enum Dialect {
+    /// BBC Micro, BASIC II, OS 1.20.
+    #[default]
+    Micro,
+    /// Agon Light, BBC BASIC (Z80).
+    Agon,
+    /// Matrix Brandy and others with BASIC V.
+    BasicV,
+}
+
+/// A machine's make.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Config {
+    /// Whose BASIC and screen.
+    pub dialect: Dialect,
+    /// Where programs start: &1900 with a disc, &E00 without.
+    pub page: u16,
+}
+
+impl Default for Config {
+    fn default() -> Self {
+        Self {
+            dialect: Dialect::Micro,
+            page: 0x1900,
+        }
+    }
+}
+
+/// What a run leaves.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Run {
+    /// Why it ended.
+    pub stop: Stop,
+    /// Cycles of 2 MHz, drawing included.
+    pub cycles: u64,
+    /// Those of them spent in the operating system's drawing.
+    pub plot_cycles: u64,
+    /// The picture; no pixels in a text mode.
+    pub screen: Screen,
+    /// What was printed, without control codes but line feeds.
+    pub text: String,
+    /// The files, by name.
+    pub files: BTreeMap<String, Vec<u8>>,
+    /// Bytes of the tokenised program.
+    pub program_bytes: usize,
+    /// The most bytes that variables and stack took together.
+    pub ram_bytes: usize,
+    /// The fewest bytes that were left free between them.
+    pub free_bytes: usize,
+}
+
+/// A machine with a program in it.
+pub struct Machine {
+    config: Config,
+    program: Vec<u8>,
+    files: BTreeMap<String, Vec<u8>>,
+}
+
+impl Machine {
+    /// An empty machine.
+    pub fn new(config: Config) -> Self {
+        Self {
+            config,
+            program: vec![0x0d, 0xff],
+            files: BTreeMap::new(),
+        }
+    }
+
+    /// Tokenises and loads program text.
+    pub fn load_text(&mut self, text: &str) -> Result<(), Fault> {
+        self.program = tokenise(text, self.config.dialect)?;
+        Ok(())
+    }
+
+    /// Loads a tokenised program. Bytes after its end stay part of it, as on the machine.
+    pub fn load_tokenised(&mut self, bytes: &[u8]) -> Result<(), Fault> {
+        tokenise::lines(bytes)?;
+        self.program = bytes.to_vec();
+        Ok(())
+    }
+
+    /// Gives the program a file to read.
+    pub fn add_file(&mut self, name: &str, bytes: Vec<u8>) {
+        self.files.insert(name.to_owned(), bytes);
+    }
+
+    /// Bytes of the tokenised program.
+    pub fn program_bytes(&self) -> usize {
+        self.program.len()
+    }
+
+    /// Runs the program from its first line on a fresh machine.
+    ///
+    /// Stops after `cycle_limit` cycles; `watch` is asked about every ten million.
+    pub fn run(&self, cycle_limit: u64, watch: Watch<'_>) -> Run {
+        let mut state = State::new(self.config);
+        state.files.contents = self.files.clone();
+        let stop = self.run_in(&mut state, cycle_limit, watch);
+        let room = state.himem.saturating_sub(state.top) as usize;
+        let free = state.least_free as usize;
+        Run {
+            stop,
+            cycles: state.cycles,
+            plot_cycles: state.plot_cycles,
+            screen: state.display.screen(&state.mem),
+            text: state.text.iter().map(|c| char::from(*c)).collect(),
+            files: state.files.contents,
+            program_bytes: self.program.len(),
+            ram_bytes: room.saturating_sub(free),
+            free_bytes: free,
+        }
+    }
+
+    fn run_in(&self, state: &mut State, limit: u64, watch: Watch<'_>) -> Stop {
+        let fault = |message: &str| {
+            Stop::Fault(Fault {
+                message: message.to_owned(),
+                file: None,
+                line: None,
+                column: None,
+            })
+        };
+        let lines = match tokenise::lines(&self.program) {
+            Ok(lines) => lines,
+            Err(f) => return Stop::Fault(f),
+        };
+        if state.place_program(&self.program).is_err() {
+            return fault("No room: the program is longer than the memory from PAGE to HIMEM");
+        }
+        let program = decode::decode(&lines, &mut state.names);
+        state.fit_names();
+        let code = code::Code {
+            program: &program,
+            watch: RefCell::new(watch),
+            limit,
+        };
+        let mut start = 0;
+        loop {
+            let Err(error) = state.run_ops(&code, start) else {
+                return Stop::Ended;
+            };
+            if let (Error::Halt, Some(stop)) = (error, state.stop.take()) {
+                return stop;
+            }
+            let number = state.note_error(&program, error);
+            match state.on_error {
+                Some(handler) if error != Error::Stop => {
+                    state.unwind();
+                    state.data = 0;
+                    start = handler;
+                }
+                _ => {
+                    let (_, message) = error.number_and_message();
+                    return Stop::Fault(Fault {
+                        message: message.to_owned(),
+                        file: None,
+                        line: number.map(u32::from),
+                        column: None,
+                    });
+                }
+            }
+        }
+    }
+}
+
+impl State {
+    /// Sets ERR and ERL; answers the line's number.
+    fn note_error(&mut self, program: &ast::Program, error: Error) -> Option<u16> {
+        let line = program
+            .ops
+            .get(self.op as usize)
+            .and_then(|op| program.lines.get(op.line as usize))
+            .map(|l| l.number);
+        self.err = error.number_and_message().0;
+        self.erl = line.unwrap_or(0);
+        self.error = error;
+        line
+    }
+
+    fn last_error(&self) -> (u8, &'static str) {
+        self.error.number_and_message()
+    }
+}
+
+#[cfg(test)]
+mod tests;

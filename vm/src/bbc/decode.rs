@@ -1,0 +1,323 @@
+//! Tokenised program to [`Program`]: cuts lines into statements.
+//!
+//! Control flow within a line is flat, as in the ROM: IF jumps to what stands after the first
+//! ELSE on the line when it is false; an ELSE reached from above skips the rest of the line.
+
+use slowlight_isa::basic_tokens::token as t;
+
+use super::ast::{Datum, Def, Kind, Line, Op, Place, Program, Stmt, Target};
+use super::cost;
+use super::cursor::Cursor;
+use super::error::Error;
+use super::names::Names;
+use super::tokenise::RawLine;
+
+/// Decodes all lines. Never fails: what is wrong is raised when it is reached.
+pub(crate) fn decode(lines: &[RawLine<'_>], names: &mut Names) -> Program {
+    let mut program = Program::default();
+    for (index, line) in lines.iter().enumerate() {
+        program.lines.push(Line {
+            number: line.number,
+            op: program.ops.len() as u32,
+        });
+        let mut decoder = Decoder {
+            cursor: Cursor::new(line.text, 0, names),
+            lines,
+            line: index as u32,
+            program: &mut program,
+            waiting: Vec::new(),
+        };
+        decoder.line();
+    }
+    program.ops.push(Op {
+        stmt: Stmt::End,
+        cost: 0,
+        line: lines.len().saturating_sub(1) as u32,
+    });
+    program.fns.resize(names.count(Kind::Fn), None);
+    program.procs.resize(names.count(Kind::Proc), None);
+    program
+}
+
+pub(crate) struct Decoder<'a, 'b> {
+    pub cursor: Cursor<'a>,
+    lines: &'b [RawLine<'b>],
+    line: u32,
+    program: &'b mut Program,
+    /// Ops of this line's IFs that do not know yet where to go when false.
+    waiting: Vec<usize>,
+}
+
+impl Decoder<'_, '_> {
+    fn push(&mut self, stmt: Stmt) {
+        // At least something, so that no endless loop is free.
+        let cost = cost::stmt(&stmt).max(20) + std::mem::take(&mut self.cursor.cost);
+        self.program.ops.push(Op {
+            stmt,
+            cost,
+            line: self.line,
+        });
+    }
+
+    fn line(&mut self) {
+        loop {
+            match self.statement() {
+                Ok(()) => {}
+                Err(e) => {
+                    self.push(Stmt::Bad(e));
+                    if !self.skip_to_else() {
+                        break;
+                    }
+                }
+            }
+            match self.cursor.peek() {
+                None => break,
+                Some(b':') => self.cursor.at += 1,
+                Some(t::ELSE) => {
+                    self.cursor.at += 1;
+                    self.push(Stmt::EndLine);
+                    self.meet_else();
+                    self.branch();
+                }
+                Some(_) => {
+                    // A statement that goes on where it should end is not carried out.
+                    self.program.ops.pop();
+                    self.push(Stmt::Bad(Error::Syntax));
+                    if !self.skip_to_else() {
+                        break;
+                    }
+                }
+            }
+        }
+        // IFs without ELSE: on to the next line, whose first op comes next.
+        self.meet_else();
+    }
+
+    fn meet_else(&mut self) {
+        let here = self.program.ops.len() as u32;
+        for at in self.waiting.drain(..) {
+            if let Some(op) = self.program.ops.get_mut(at) {
+                match &mut op.stmt {
+                    Stmt::If(_, to) => *to = here,
+                    Stmt::On(_, _, _, to) => *to = to.map(|_| here),
+                    _ => {}
+                }
+            }
+        }
+    }
+
+    /// After an error: to the next ELSE, for the IFs that jump there. None: the line is over.
+    fn skip_to_else(&mut self) -> bool {
+        if self.waiting.is_empty() {
+            return false;
+        }
+        let rest = self.cursor.text.get(self.cursor.at..).unwrap_or(&[]);
+        match rest.iter().position(|c| *c == t::ELSE) {
+            Some(offset) => {
+                self.cursor.at += offset;
+                true
+            }
+            None => false,
+        }
+    }
+
+    /// After THEN or ELSE: a line number is a GOTO.
+    fn branch(&mut self) {
+        if let Some(number) = self.cursor.line_number() {
+            let target = self.find_line(number);
+            self.push(Stmt::Goto(target));
+        }
+    }
+
+    fn find_line(&self, number: u16) -> Target {
+        match self.lines.binary_search_by_key(&number, |l| l.number) {
+            Ok(index) => Target::Line(index as u32, cost::PER_LINE * index as u32),
+            // Lines out of order cannot be searched so; the ROM stops at the first larger one.
+            Err(_) => match self.lines.iter().position(|l| l.number == number) {
+                Some(index) => Target::Line(index as u32, cost::PER_LINE * index as u32),
+                None => Target::Missing,
+            },
+        }
+    }
+
+    pub fn target(&mut self) -> Result<Target, Error> {
+        match self.cursor.line_number() {
+            Some(number) => Ok(self.find_line(number)),
+            None => Ok(Target::Computed(self.cursor.expr()?)),
+        }
+    }
+
+    /// One statement (or none) from the cursor.
+    fn statement(&mut self) -> Result<(), Error> {
+        match self.cursor.peek() {
+            None | Some(b':' | t::ELSE) => Ok(()),
+            Some(t::IF) => self.if_statement(),
+            Some(t::ON) => self.on_statement(),
+            Some(t::DEF) => self.def_statement(),
+            Some(t::DATA) => {
+                self.data();
+                Ok(())
+            }
+            Some(t::REM) => {
+                self.cursor.at = self.cursor.text.len();
+                self.push(Stmt::EndLine);
+                Ok(())
+            }
+            Some(_) => {
+                let stmt = self.simple()?;
+                self.push(stmt);
+                Ok(())
+            }
+        }
+    }
+
+    fn if_statement(&mut self) -> Result<(), Error> {
+        self.cursor.at += 1;
+        let condition = self.cursor.expr()?;
+        self.waiting.push(self.program.ops.len());
+        self.push(Stmt::If(condition, 0));
+        if self.cursor.eat(t::THEN) {
+            self.branch();
+        }
+        if !self.cursor.at_end() {
+            return self.statement();
+        }
+        Ok(())
+    }
+
+    fn on_statement(&mut self) -> Result<(), Error> {
+        self.cursor.at += 1;
+        if self.cursor.eat(t::ERROR) {
+            if self.cursor.eat(t::OFF) {
+                self.push(Stmt::OnErrorOff);
+                return Ok(());
+            }
+            // The handler is the rest of the line; reached in sequence, it is skipped.
+            self.push(Stmt::OnError);
+            self.cursor.peek();
+            return self.statement();
+        }
+        let selector = self.cursor.expr()?;
+        let kind = match self.cursor.peek() {
+            Some(t::GOTO) => super::ast::OnKind::Goto,
+            Some(t::GOSUB) => super::ast::OnKind::Gosub,
+            _ => return Err(Error::OnSyntax),
+        };
+        self.cursor.at += 1;
+        let mut targets = vec![self.target()?];
+        while self.cursor.eat(b',') {
+            targets.push(self.target()?);
+        }
+        let otherwise = (self.cursor.peek() == Some(t::ELSE)).then_some(0);
+        self.waiting.push(self.program.ops.len());
+        self.push(Stmt::On(kind, selector, targets.into(), otherwise));
+        Ok(())
+    }
+
+    fn def_statement(&mut self) -> Result<(), Error> {
+        self.cursor.at += 1;
+        self.push(Stmt::EndLine);
+        let kind = match self.cursor.peek() {
+            Some(t::FN) => Kind::Fn,
+            Some(t::PROC) => Kind::Proc,
+            _ => return Ok(()),
+        };
+        self.cursor.at += 1;
+        let name = self.cursor.word();
+        let slot = self.cursor.names.slot(kind, name) as usize;
+        let params = self.params();
+        let def = Def {
+            op: self.program.ops.len() as u32,
+            params,
+        };
+        let table = match kind {
+            Kind::Fn => &mut self.program.fns,
+            _ => &mut self.program.procs,
+        };
+        if table.len() <= slot {
+            table.resize(slot + 1, None);
+        }
+        if let Some(entry) = table.get_mut(slot) {
+            entry.get_or_insert(def);
+        }
+        if self.cursor.at_end() {
+            return Ok(());
+        }
+        self.statement()
+    }
+
+    fn params(&mut self) -> Result<Box<[Place]>, Error> {
+        let mut params = Vec::new();
+        if self.cursor.peek_raw() == Some(b'(') {
+            self.cursor.at += 1;
+            loop {
+                params.push(self.cursor.place()?.ok_or(Error::Arguments)?);
+                if !self.cursor.eat(b',') {
+                    break;
+                }
+            }
+            self.cursor.bracket()?;
+        }
+        Ok(params.into())
+    }
+
+    /// DATA: items separated by commas, leading spaces dropped, quoted ones as they are.
+    fn data(&mut self) {
+        let text = self.cursor.text.get(self.cursor.at + 1..).unwrap_or(&[]);
+        self.cursor.at = self.cursor.text.len();
+        // The ROM finds DATA only at the start of a line.
+        let first =
+            self.program.lines.last().map(|l| l.op as usize) == Some(self.program.ops.len());
+        self.push(Stmt::EndLine);
+        let mut at = 0;
+        if !first {
+            return;
+        }
+        loop {
+            at += spaces(text, at);
+            let rest = text.get(at..).unwrap_or(&[]);
+            let item = if rest.first() == Some(&b'"') {
+                let mut string = vec![b'"'];
+                let mut length = 1;
+                while let Some(c) = rest.get(length) {
+                    length += 1;
+                    if *c == b'"' {
+                        if rest.get(length) != Some(&b'"') {
+                            break;
+                        }
+                        length += 1;
+                    }
+                    string.push(*c);
+                }
+                at += length;
+                at += text
+                    .get(at..)
+                    .unwrap_or(&[])
+                    .iter()
+                    .take_while(|c| **c != b',')
+                    .count();
+                string
+            } else {
+                let length = rest.iter().take_while(|c| **c != b',').count();
+                at += length;
+                rest.get(..length).unwrap_or(&[]).to_vec()
+            };
+            self.program.data.push(Datum {
+                line: self.line,
+                text: item.into(),
+            });
+            if text.get(at) != Some(&b',') {
+                break;
+            }
+            at += 1;
+        }
+    }
+}
+
+fn spaces(text: &[u8], at: usize) -> usize {
+    text.get(at..)
+        .unwrap_or(&[])
+        .iter()
+        .take_while(|c| **c == b' ')
+        .count()
+}

@@ -1,0 +1,294 @@
+use super::*;
+
+/// Each line: a program's body and what it prints (the machine's own field of ten apart).
+fn check(cases: &[(&str, &str)]) {
+    for (body, wanted) in cases {
+        let text = format!("10{body}");
+        assert_eq!(prints(&text).trim_end_matches('\n'), *wanted, "{body}");
+    }
+}
+
+#[test]
+fn numbers_as_on_the_rom() {
+    check(
+        &[
+            (
+                "PRINT 7 DIV 2;-7 DIV 2;-7 MOD 3;7.9 DIV 2.9",
+                "         3-3-13",
+            ),
+            (
+                "PRINT;INT-2.5;\" \";SGN-3;\" \";ABS-2.5;\" \";NOT 0",
+                "-3 -1 2.5 -1",
+            ),
+            (
+                "PRINT;2^3^2;\" \";-2^2;\" \";1=1=-1;\" \";INT(5.5)+2 AND 1",
+                "64 4 -1 1",
+            ),
+            (
+                "PRINT;.1+.2=.3;\" \";100000*3;\" \";65536*65536",
+                "-1 300000 4.2949673E9",
+            ),
+            (
+                "PRINT;2147483647+1;\" \";&FFFFFFFF;\" \";~255;\" \";~-1",
+                "-2.14748365E9 -1 FF FFFFFFFF",
+            ),
+            (
+                "PRINT;PI;\" \";SQR2;\" \";1/3;\" \";1E-5",
+                "3.14159265 1.41421356 0.333333333 1E-5",
+            ),
+            ("PRINT;VAL\"12abc\";VAL\"-3.5E2\";VAL\"x\"", "12-3500"),
+            ("A%=7.9:B%=-7.9:PRINT;A%;B%", "7-7"),
+            ("PRINT;3>2;2>3;2<=2;2<>2;2>=3", "-10-100"),
+            ("PRINT;6 AND 3;6 OR 3;6 EOR 3", "275"),
+            (
+                "PRINT 1,-5'TAB(3)1;SPC2;2",
+                "         1        -5\n            1  2",
+            ),
+            ("@%=&2020A:PRINT 1.5;STR$1.5", "      1.501.5"),
+            ("PRINT;X=0:X=X+1:PRINT;X", "No such variable"),
+        ][..12],
+    );
+    check(&[("X=X+1:PRINT;X", "1")]);
+}
+
+#[test]
+fn random_numbers_follow_the_rom_s_register() {
+    // The same sequence as measured on the ROM.
+    check(&[("A=RND(-5):PRINT;RND(1)", "0.989364654")]);
+    assert_eq!(
+        prints("10X%=RND(-77):FORI=1TO3:PRINT;RND(100);\" \";:NEXT")
+            .split(' ')
+            .count(),
+        4
+    );
+}
+
+#[test]
+fn strings() {
+    check(&[
+        (
+            "A$=\"hello\":PRINT LEFT$(A$,2)RIGHT$(A$,2)MID$(A$,2,3)MID$(A$,4)",
+            "heloelllo",
+        ),
+        (
+            "PRINT;LEN\"abc\";ASC\"A\";ASC\"\";INSTR(\"hello\",\"l\");INSTR(\"hello\",\"l\",4)",
+            "365-134",
+        ),
+        (
+            "PRINT CHR$65+CHR$321;STRING$(3,\"ab\");STR$12;STR$~255",
+            "AAababab12FF",
+        ),
+        ("PRINT;\"a\"<\"b\";\"ab\">\"abc\"", "-10"),
+        ("PRINT \"say \"\"hi\"\"\"", "say \"hi\""),
+        ("A$=\"1+2*3\":PRINT;EVALA$;EVAL\"LEN\"\"abc\"\"\"", "73"),
+        ("DIM B 20:$B=\"text\":PRINT $B;B?4", "text13"),
+    ]);
+}
+
+#[test]
+fn memory() {
+    check(&[
+        (
+            "DIM P% 9:!P%=&12345678:PRINT;~?P%;~P%?3;~P%!0",
+            "781212345678",
+        ),
+        ("DIM P% 9:P%?2=300:PRINT;P%?2", "44"),
+        ("A%=&102:PRINT;?&404;?&405:?&404=5:PRINT;A%", "21\n261"),
+        (
+            "PRINT;PAGE;\" \";HIMEM;\" \";TOP-PAGE;\" \";LOMEM-TOP",
+            "6400 31744 33 0",
+        ),
+        ("MODE1:PRINT;HIMEM", "12288"),
+        ("DIM A%(2,3):A%(1,2)=5:PRINT;A%(1,2);A%(2,1)", "50"),
+        (
+            "DIM A$(2),B(3):A$(1)=\"x\":B(3)=.5:PRINT A$(1)A$(0);B(3)",
+            "x0.5",
+        ),
+    ]);
+}
+
+#[test]
+fn flow() {
+    check(&[
+        ("IF 1 THEN PRINT \"a\" ELSE PRINT \"b\"", "a"),
+        ("IF 0 THEN PRINT \"a\" ELSE PRINT \"b\"", "b"),
+        // A false IF goes to the first ELSE on the line, whosever it is.
+        ("IF 0 THEN IF 1 THEN PRINT \"a\" ELSE PRINT \"b\"", "b"),
+        ("FOR I%=1TO3:PRINT;I%;:NEXT:PRINT;I%", "1234"),
+        (
+            "FOR I=3TO1STEP-1:PRINT;I;:NEXT:FORI=5TO1:PRINT;I:NEXT",
+            "3215",
+        ),
+        ("FOR I=1TO2:FOR J=1TO2:PRINT;I;J;:NEXT J,I", "11122122"),
+        ("FOR I=0 TO 1 STEP 0.1:PRINT;\"x\";:NEXT", "xxxxxxxxxx"),
+        ("REPEAT:X=X+1:UNTIL X>4:PRINT;X", "5"),
+    ]);
+    let text = "10A%=1\n20ON A% GOTO 100,200 ELSE 300\n100PRINT\"one\":A%=2:GOTO 20\n200PRINT\"two\":A%=3:GOTO 20\n300PRINT\"other\":GOSUB 400:END\n400PRINT\"sub\":RETURN";
+    assert_eq!(prints(text), "one\ntwo\nother\nsub\n");
+    let text = "10ON 2 GOSUB 100,200:PRINT\"back\"\n20END\n100PRINT\"no\"\n200PRINT\"yes\":RETURN";
+    assert_eq!(prints(text), "yes\nback\n");
+    assert_eq!(
+        prints("10IF 1 THEN 30\n20PRINT\"no\"\n30PRINT\"yes\""),
+        "yes\n"
+    );
+}
+
+#[test]
+fn procedures_and_functions() {
+    let text = "10PRINT;FNfact(10);\" \";FNadd(1,2.5);\" \";FNjoin(\"a\",\"b\"):x=1:PROCp(5):PRINT;x;y\n20END\n30DEFFNfact(n):IF n<2 THEN =1 ELSE =n*FNfact(n-1)\n40DEF FNadd(a%,b)\n50=a%+b\n60DEFFNjoin(a$,b$)=a$+b$\n70DEFPROCp(x):LOCAL y:y=9:x=x+1:PROCq:ENDPROC\n80DEFPROCq:PRINT;x;y:y=7:ENDPROC";
+    assert_eq!(prints(text), "3628800 3.5 ab\n69\n10\n");
+}
+
+#[test]
+fn data_is_read_in_order_and_restored() {
+    let text = "10READ A%,A$,B,C$\n20PRINT;A%;A$;B;C$\n30RESTORE 60:READ A$:PRINT A$\n40RESTORE:READ A%:PRINT;A%\n50DATA 5, word ,-2.5,\"a, b\"\n60DATA last";
+    assert_eq!(prints(text), "5word -2.5a, b\nlast\n5\n");
+}
+
+#[test]
+fn errors_can_be_caught() {
+    let text = "10ON ERROR PRINT;ERR;\" \";ERL:REPORT:END\n20FOR I=1TO2\n30PRINT 1/0";
+    assert_eq!(
+        prints(text),
+        "        18 30\n\nDivision by zero".replacen("        ", "", 1)
+    );
+    assert_eq!(
+        fails("10ON ERROR PRINT\n20ON ERROR OFF\n30PRINT 1/0"),
+        ("Division by zero".into(), 30)
+    );
+}
+
+#[test]
+fn files_are_written_and_read() {
+    let text = "10F%=OPENOUT(\"pic\")\n20FORI%=0TO9:BPUT#F%,I%*I%:NEXT:PRINT;EXT#F%:CLOSE#F%\n30F%=OPENIN\"pic\":PTR#F%=3:PRINT;BGET#F%;\" \";BGET#F%;EOF#F%:CLOSE#0\n40F%=OPENOUT\"d\":PRINT#F%,1,2.5,\"abc\":CLOSE#F%:F%=OPENIN\"d\":INPUT#F%,A,B,C$:PRINT;A;B;C$;OPENIN\"no\"";
+    let run = run(text);
+    assert_eq!(run.stop, Stop::Ended);
+    assert_eq!(run.text, "10\n9 160\n12.5abc0\n");
+    assert_eq!(run.files["pic"], [0, 1, 4, 9, 16, 25, 36, 49, 64, 81]);
+}
+
+/// Ink at a pixel counted from the top left.
+fn ink(run: &Run, x: u32, y: u32) -> u8 {
+    run.screen.pixels[(y * run.screen.width + x) as usize]
+}
+
+#[test]
+fn points_and_pokes_draw_the_same() {
+    let drawn = run("10MODE 1:GCOL 0,2:PLOT 69,4*5,4*(255-9):PRINT;POINT(20,984);POINT(0,0)");
+    let poked = run("10MODE 1:?(HIMEM+9DIV8*640+5DIV4*8+9MOD8)=&40");
+    assert_eq!(drawn.stop, Stop::Ended);
+    assert_eq!((drawn.screen.width, drawn.screen.height), (320, 256));
+    assert!(drawn.screen == poked.screen, "{:?}", poked.stop);
+    assert_eq!(ink(&drawn, 5, 9), 2);
+    assert_eq!(drawn.screen.pixels.iter().filter(|p| **p != 0).count(), 1);
+    assert_eq!(
+        drawn.screen.palette,
+        [[0, 0, 0], [255, 0, 0], [255, 255, 0], [255; 3]]
+    );
+    assert_eq!(drawn.text, "20\n");
+}
+
+#[test]
+fn every_graphics_mode_holds_every_ink() {
+    for (mode, width, inks) in [
+        (0, 640, 2),
+        (1, 320, 4),
+        (2, 160, 16),
+        (4, 320, 2),
+        (5, 160, 4),
+    ] {
+        let step = 1280 / width;
+        let run = run(&format!(
+            "10MODE {mode}:FOR I%=0TO{}:GCOL0,I%:PLOT69,I%*{step},0:PLOT 69,1279-I%*{step},1023:NEXT",
+            inks - 1
+        ));
+        for i in 0..inks {
+            assert_eq!(u32::from(ink(&run, i, 255)), i, "mode {mode}");
+            assert_eq!(u32::from(ink(&run, width - 1 - i, 0)), i);
+        }
+    }
+}
+
+#[test]
+fn lines_fills_triangles_windows_and_palette() {
+    let r = run("10MODE 4:MOVE 0,0:DRAW 1276,0:MOVE 0,1020:MOVE 0,512:PLOT 85,512,512");
+    assert!((0..320).all(|x| ink(&r, x, 255) == 1));
+    let filled = r.screen.pixels.iter().filter(|p| **p != 0).count() as i32 - 320;
+    assert!((filled - 128 * 128 / 2).abs() < 200, "{filled}");
+    let r = run(
+        "10MODE 1:VDU 19,1,4;0;:VDU 24,0;0;100;100;:GCOL 0,129:CLG:GCOL 3,3:PLOT 69,0,0:PLOT 69,200,200",
+    );
+    assert_eq!(r.screen.palette[1], [0, 0, 255]);
+    assert_eq!(
+        r.screen.pixels.iter().filter(|p| **p == 1).count(),
+        26 * 26 - 1
+    );
+    assert_eq!(ink(&r, 0, 255), 2);
+    let r = run("10MODE 1:VDU 29,640;512;:PLOT 69,0,0:VDU 25,69,4;4;");
+    assert_eq!((ink(&r, 160, 127), ink(&r, 161, 126)), (3, 3));
+}
+
+#[test]
+fn agon_and_basic_v_have_their_screens_and_integers() {
+    let r = run_on(
+        Dialect::Agon,
+        "10MODE 10:GCOL 0,3:PLOT 69,0,0:PLOT 69,1279,1023:PRINT;2147483647+1;1 DIV 0",
+    );
+    assert_eq!(
+        (r.screen.width, r.screen.height, r.screen.palette.len()),
+        (320, 240, 4)
+    );
+    assert_eq!((ink(&r, 0, 239), ink(&r, 319, 0)), (3, 3));
+    assert_eq!(r.text, "2.14748365E9-1\n");
+    let r = run_on(Dialect::BasicV, "10MODE 9:GCOL 0,15:PLOT 69,4,4");
+    assert_eq!(ink(&r, 1, 254), 15);
+}
+
+#[test]
+fn cycles_are_near_the_rom_s() {
+    // Whole statements measured on the ROM, in loops of a thousand with the loop taken off.
+    for (body, measured) in [
+        ("X=A", 1243),
+        ("C%=A%", 804),
+        ("x%=y%", 1200),
+        ("X=A+B", 2239),
+        ("X=A*B", 5022),
+        ("X=A/B", 5230),
+        ("X=SQRA", 19244),
+        ("C%=A%+B%", 1245),
+        ("C%=A%*B%", 2020),
+        ("C%=A%DIVB%", 3275),
+        ("C%=A%AND3", 1330),
+        ("X=A(K%)", 1876),
+        ("C%=P%?K%", 1126),
+        ("X=FNa", 2717),
+        ("PROCp", 982),
+        ("IF A>B", 1722),
+        ("IF A%<B%", 1171),
+    ] {
+        let setup = "10A=1.7:B=2.3:X=0:A%=7:B%=9:x%=0:y%=1:K%=1:P%=&1900:DIM A(3)\n";
+        let tail = "90END\n100DEFFNa=A\n110DEFPROCp:ENDPROC";
+        let cost = |body: &str| {
+            let text = format!("{setup}20FORI%=1TO1000:{body}\n30NEXT\n{tail}");
+            let run = run(&text);
+            assert_eq!(run.stop, Stop::Ended);
+            run.cycles
+        };
+        let one = (cost(body) - cost("")) as f64 / 1000.0;
+        let off = one / f64::from(measured) - 1.0;
+        assert!(off.abs() < 0.12, "{body}: {one} against {measured}");
+    }
+}
+
+#[test]
+fn memory_is_accounted() {
+    let r = run("10A=1:DIM B(9):C$=\"hello\"");
+    // A: 2+1+5; B(: 2+1+1+2, block 1+2+50; C$: 2+1+1+4, five letters.
+    assert_eq!(r.ram_bytes, 8 + 6 + 53 + 8 + 5);
+    assert_eq!(
+        r.program_bytes,
+        tokenise("10A=1:DIM B(9):C$=\"hello\"", Dialect::Micro)
+            .unwrap()
+            .len()
+    );
+}
