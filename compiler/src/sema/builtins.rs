@@ -38,6 +38,28 @@ pub enum Builtin {
     SceneTag,
 }
 
+impl Builtin {
+    /// How the printed program writes it.
+    pub fn text(self) -> String {
+        match self {
+            Builtin::Op(op) => op.name().to_owned(),
+            Builtin::Ink => "ink".into(),
+            Builtin::Bayer => "bayer".into(),
+            Builtin::Ray => "ray".into(),
+            Builtin::Count => "count".into(),
+            Builtin::ShapeHit => "shape.hit".into(),
+            Builtin::ShapeNormal => "shape.normal".into(),
+            Builtin::ShapeDist => "shape.dist".into(),
+            Builtin::ShapeImplicit => "shape.f".into(),
+            Builtin::Trace => "scene.trace".into(),
+            Builtin::Blocked => "scene.blocked".into(),
+            Builtin::March => "scene.march".into(),
+            Builtin::SceneDist => "scene.dist".into(),
+            Builtin::SceneTag => "scene.tag".into(),
+        }
+    }
+}
+
 /// A parameter of a builtin: its name, type and whether a call may leave it out.
 pub struct Param(pub &'static str, pub Ty, pub bool);
 

@@ -118,7 +118,11 @@ impl Checker<'_> {
             if let Some(misfit) = misfit
                 && known
             {
-                self.report(misfit.diagnostic);
+                let several = self.first_wrong(name, candidates, &given);
+                self.report(match several {
+                    Some(error) if misfit.fitted == 0 => error,
+                    _ => misfit.diagnostic,
+                });
             }
             return Expr::error(span);
         };
@@ -133,6 +137,44 @@ impl Checker<'_> {
             })
             .collect();
         self.finish_call(entity, args, span)
+    }
+
+    /// Where a name has several meanings and the first argument fits none.
+    fn first_wrong(
+        &self,
+        name: &tree::Name,
+        candidates: &[Entity],
+        given: &[Given],
+    ) -> Option<Diagnostic> {
+        let first = given.first().filter(|g| g.name.is_none())?;
+        let mut types: Vec<Ty> = Vec::new();
+        for &candidate in candidates {
+            let ty = self.slots(candidate).first()?.ty.clone();
+            if first.value.ty.fits(&ty) {
+                return None;
+            }
+            if !types.contains(&ty) {
+                types.push(ty);
+            }
+        }
+        if types.len() < 2 {
+            return None;
+        }
+        let shown: Vec<String> = types.iter().take(6).map(|t| self.a(t)).collect();
+        let message = format!(
+            "`{}` begins with {}; this is {}",
+            name.text,
+            shown.join(" or "),
+            self.a(&first.value.ty)
+        );
+        Some(Diagnostic::error(first.value.span, message))
+    }
+
+    /// Whether `base.name(..)` might be meant.
+    pub(super) fn is_method(&self, name: &str, base: &Ty) -> bool {
+        let entities = self.entities(name).into_iter();
+        let mut callable = entities.filter(|e| e.callable());
+        callable.any(|e| self.slots(e).first().is_some_and(|s| base.fits(&s.ty)))
     }
 
     fn slots(&self, entity: Entity) -> Vec<Slot> {
@@ -296,7 +338,7 @@ impl Checker<'_> {
                     "self" => format!("what `{callee}` is called on"),
                     label => format!("`{label}` of `{callee}`"),
                 };
-                let message = format!("{which} is {}, not {}", self.a(want), self.a(have));
+                let message = format!("{which} is {}; this is {}", self.a(want), self.a(have));
                 let mut error = Diagnostic::error(argument.value.span, message);
                 error.help = self.conversion(have, want);
                 return Err(misfit(error));
@@ -327,6 +369,14 @@ pub(super) fn count(n: usize, what: &str) -> String {
     match n {
         1 => format!("1 {what}"),
         n => format!("{n} {what}s"),
+    }
+}
+
+/// `1 entry`, `2 entries`.
+pub(super) fn entries(n: usize) -> String {
+    match n {
+        1 => "1 entry".into(),
+        n => format!("{n} entries"),
     }
 }
 

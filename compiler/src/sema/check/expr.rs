@@ -196,7 +196,10 @@ impl<'a> Checker<'a> {
         for row in rows {
             if row.len() != width {
                 let place = row.first().map_or(span, |e| e.span);
-                let message = format!("this row has {} entries, the first has {width}", row.len());
+                let message = format!(
+                    "this row has {}, the first has {width}",
+                    super::call::entries(row.len())
+                );
                 self.error(place, message);
                 return Expr::error(span);
             }
@@ -284,7 +287,7 @@ impl<'a> Checker<'a> {
         let mut error = Diagnostic::error(name.span, message);
         error.help = match &base.ty {
             Ty::Optional(_) => Some("take it apart first: `if let v = .. then .. else ..`".into()),
-            _ if self.entities(&name.text).iter().any(|e| e.callable()) => {
+            _ if self.is_method(&name.text, &base.ty) => {
                 Some(format!("call it: `.{}(..)`", name.text))
             }
             _ if names.is_empty() => None,
@@ -308,12 +311,10 @@ impl<'a> Checker<'a> {
             _ => {
                 let message = format!("{} has no part `{}`", self.a(&base.ty), name.text);
                 let mut error = Diagnostic::error(name.span, message);
-                error.help = Some(
-                    match self.entities(&name.text).iter().any(|e| e.callable()) {
-                        true => format!("call it: `.{}(..)`", name.text),
-                        false => format!("it has {}, or several such as `.xy`", letters.join(", ")),
-                    },
-                );
+                error.help = Some(match self.is_method(&name.text, &base.ty) {
+                    true => format!("call it: `.{}(..)`", name.text),
+                    false => format!("it has {}, or several such as `.xy`", letters.join(", ")),
+                });
                 self.report(error);
                 return Expr::error(span);
             }

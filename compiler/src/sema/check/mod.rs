@@ -24,6 +24,7 @@ use super::ty::Ty;
 use crate::source::{Diagnostic, Span};
 use crate::syntax::tree;
 use names::{Entity, Layers};
+pub(super) use ops::symbol;
 
 /// How deep expressions may nest, constants that refer to constants included.
 const DEPTH: usize = 320;
@@ -187,7 +188,7 @@ impl Checker<'_> {
     /// says what is wanted.
     fn coerce(&mut self, value: Expr, want: &Ty, what: &str) -> Expr {
         if !value.ty.fits(want) {
-            let message = format!("{what} is {}, not {}", self.a(want), self.a(&value.ty));
+            let message = format!("{what} is {}; this is {}", self.a(want), self.a(&value.ty));
             let mut error = Diagnostic::error(value.span, message);
             if let Some(help) = self.conversion(&value.ty, want) {
                 error = error.help(help);

@@ -95,7 +95,11 @@ impl Checker<'_> {
             BinaryOp::And | BinaryOp::Or => {
                 format!("`{symbol}` joins bools, not {left} and {right}")
             }
-            _ => format!("there is no {left} {symbol} {right}"),
+            _ => format!(
+                "there is no `{} {symbol} {}`",
+                a.ty.show(&self.program),
+                b.ty.show(&self.program)
+            ),
         };
         let mut error = Diagnostic::error(span, message);
         let either = |f: fn(&Ty) -> bool| f(&a.ty) || f(&b.ty);

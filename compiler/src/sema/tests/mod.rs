@@ -1,6 +1,7 @@
 //! Small scenes to programs and graphs; wrong scenes to diagnostics.
 #![allow(clippy::unwrap_used)]
 
+use crate::eval::native::Native;
 use crate::flow::verify::verify;
 use crate::scene::{Scene, check};
 use crate::sema::Options;
@@ -55,7 +56,54 @@ fn snapshot(name: &str, text: &str) {
 
 #[test]
 fn mirrors_becomes_a_graph() {
-    let graph = right(MIRRORS).lower(&Options::default()).unwrap();
+    let scene = right(MIRRORS);
+    let graph = scene.lower(&Options::default()).unwrap();
     verify(&graph).unwrap();
-    snapshot("mirrors", &format!("{MIRRORS}\n---\n{graph}"));
+    let program = &scene.program;
+    snapshot(
+        "mirrors",
+        &format!("{MIRRORS}\n---\n{program}\n---\n{graph}"),
+    );
+}
+
+/// The picture that BBC BASIC's demo draws, in `f64`; its first nine rows are
+/// not drawn.
+#[test]
+fn mirrors_is_the_picture_of_the_reference() {
+    let graph = right(MIRRORS).lower(&Options::default()).unwrap();
+    let file: &[u8] = include_bytes!("../../../../tests/reference/mirrors-f64.pgm");
+    let inks = &file[file.len() - 320 * 240..];
+    let mut native = Native::new(&graph);
+    for y in 9..240 {
+        for x in 0..320 {
+            let ink = native.pixel(x, y).ink;
+            assert_eq!(ink, inks[(y * 320 + x) as usize], "({x}, {y})");
+        }
+    }
+}
+
+/// A mistake a paragraph: `== what`, then the scene. What every scene needs is
+/// added where it is missing.
+#[test]
+fn every_mistake_is_named() {
+    let mut out = String::new();
+    let mut count = 0;
+    for case in include_str!("wrong.txt").split("\n== ") {
+        let (what, text) = case.trim_start_matches("== ").split_once('\n').unwrap();
+        let mut text = format!("{text}\n");
+        if !text.contains("image ") && !text.contains("draw ") {
+            text += "image 8 x 8 inks black, white;\ndraw (x, y) = ink(0);\n";
+        } else if what == "two images" {
+            text += "draw (x, y) = ink(0);\n";
+        }
+        let scene = check("scene", &text);
+        assert!(!scene.is_right(), "{what} passes");
+        for d in &scene.diagnostics {
+            assert_eq!(d.span.file, 0, "{what}: {d:?} lies in the library");
+        }
+        out += &format!("== {what}\n{}", plain(&scene.sources, &scene.diagnostics));
+        count += 1;
+    }
+    assert!(count >= 60);
+    snapshot("wrong", &out);
 }
