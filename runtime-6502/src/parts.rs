@@ -64,11 +64,5 @@ pub(crate) static ALL: &[Part] = &[
         104,
     ),
     part("root", include_str!("../asm/root.asm"), &["zero_page"], 317),
-    part(
-        "saturating",
-        include_str!("../asm/saturating.asm"),
-        &["sign"],
-        91,
-    ),
     part("convert", include_str!("../asm/convert.asm"), &["sign"], 80),
 ];

@@ -1,23 +1,41 @@
 //! Routines that are written in place. Instructions are separated by `|` or a
 //! line's end; see the crate's documentation for the placeholders.
 
-pub(crate) const ADD: &str = "
+macro_rules! add {
+    () => {
+        "
     clc | lda {0.0} | adc {1.0} | sta {r.0}
           lda {0.1} | adc {1.1} | sta {r.1}
           lda {0.2} | adc {1.2} | sta {r.2}
-          lda {0.3} | adc {1.3} | sta {r.3}";
+          lda {0.3} | adc {1.3} | sta {r.3}"
+    };
+}
 
-pub(crate) const SUBTRACT: &str = "
+pub(crate) const ADD: &str = add!();
+
+macro_rules! subtract {
+    () => {
+        "
     sec | lda {0.0} | sbc {1.0} | sta {r.0}
           lda {0.1} | sbc {1.1} | sta {r.1}
           lda {0.2} | sbc {1.2} | sta {r.2}
-          lda {0.3} | sbc {1.3} | sta {r.3}";
+          lda {0.3} | sbc {1.3} | sta {r.3}"
+    };
+}
 
-pub(crate) const NEGATE: &str = "
+pub(crate) const SUBTRACT: &str = subtract!();
+
+macro_rules! negate {
+    () => {
+        "
     sec | lda #0 | sbc {0.0} | sta {r.0}
           lda #0 | sbc {0.1} | sta {r.1}
           lda #0 | sbc {0.2} | sta {r.2}
-          lda #0 | sbc {0.3} | sta {r.3}";
+          lda #0 | sbc {0.3} | sta {r.3}"
+    };
+}
+
+pub(crate) const NEGATE: &str = negate!();
 
 /// The most negative stays as it is.
 pub(crate) const ABS: &str = "
@@ -30,6 +48,29 @@ pub(crate) const ABS: &str = "
           lda #0 | sbc {0.3} | sta {r.3} | txa
     low{n}:
     sta {r.0}";
+
+/// Where the last addition or subtraction of a sum overflowed, its sign came
+/// out wrong: the largest or most negative number in its place.
+macro_rules! saturate {
+    () => {
+        "
+    bvc fits{n} | eor #$80 | rol | lda #$7f | adc #0 | sta {r.3}
+    eor #$80 | sta {r.2} | sta {r.1} | sta {r.0}
+    fits{n}:"
+    };
+}
+
+pub(crate) const SATURATING_ADD: &str = concat!(add!(), saturate!());
+pub(crate) const SATURATING_SUBTRACT: &str = concat!(subtract!(), saturate!());
+pub(crate) const SATURATING_NEGATE: &str = concat!(negate!(), saturate!());
+
+pub(crate) const SATURATING_ABS: &str = concat!(
+    "lda {0.3} | bmi negative{n}
+    sta {r.3} | lda {0.2} | sta {r.2} | lda {0.1} | sta {r.1} | lda {0.0} | sta {r.0} | jmp fits{n}
+    negative{n}:",
+    negate!(),
+    saturate!()
+);
 
 /// Leaves in bit 7 of the accumulator, and in N, whether argument 0 is less than argument 1.
 macro_rules! less {

@@ -29,7 +29,7 @@ pub fn size(format: Format) -> u8 {
 }
 
 /// Byte `k` of what lies at a symbol.
-fn byte_at(symbol: &str, k: u8) -> String {
+pub fn byte_at(symbol: &str, k: u8) -> String {
     if k == 0 {
         symbol.to_owned()
     } else {
@@ -80,9 +80,7 @@ pub fn instructions(
     if text.contains(char::is_whitespace) {
         template(text, args, goal, serial, lines);
     } else {
-        for ((place, format), to) in args.iter().zip(routine.args).zip(["acc", "arg"]) {
-            copy(place, to, *format, lines);
-        }
+        operands(routine, args, lines);
         lines.push(format!("        jsr {text}"));
         if let (Goal::At(to), false) = (goal, routine.result == Format::Bool) {
             copy(&Place::At("acc".to_owned()), to, routine.result, lines);
@@ -90,6 +88,24 @@ pub fn instructions(
     }
     if let (Goal::At(to), Format::Bool) = (goal, routine.result) {
         store_carry(to, lines);
+    }
+}
+
+/// Copies a subroutine's operands to where it wants them.
+fn operands(routine: &Routine, args: &[Place], lines: &mut Vec<String>) {
+    if let [a @ Place::At(_), b] = args
+        && a == b
+    {
+        // A square: each byte is loaded once.
+        for k in 0..4 {
+            lines.push(format!("        lda {}", byte(a, k)));
+            lines.push(format!("        sta {}", byte_at("acc", k)));
+            lines.push(format!("        sta {}", byte_at("arg", k)));
+        }
+        return;
+    }
+    for ((place, format), to) in args.iter().zip(routine.args).zip(["acc", "arg"]) {
+        copy(place, to, *format, lines);
     }
 }
 

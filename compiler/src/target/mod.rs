@@ -3,6 +3,8 @@
 //! Emission cannot fail: what does not fit a machine is found by whoever
 //! measures the text with the machine's own tools.
 
+pub mod mos6502;
+
 use crate::plan::Plan;
 use crate::source::Span;
 use slowlight_routine::Runtime;
@@ -12,7 +14,7 @@ use slowlight_routine::Runtime;
 pub struct Mode {
     /// What the machine calls it; empty where there is only one.
     pub name: &'static str,
-    /// Pixels in a row.
+    /// Pixels in a row; 0 for a screen that is as large as the picture.
     pub width: u32,
     /// Rows.
     pub height: u32,
@@ -52,7 +54,7 @@ pub struct Document {
 }
 
 /// Every target.
-pub static TARGETS: &[&Target] = &[];
+pub static TARGETS: &[&Target] = &[&mos6502::PLAIN];
 
 /// A target by its name; a family's name alone means its first.
 pub fn find(name: &str) -> Option<&'static Target> {
@@ -67,6 +69,13 @@ pub fn find(name: &str) -> Option<&'static Target> {
 /// The mode for a picture: of those that hold it whole the one with most inks,
 /// else the one with most pixels.
 pub fn default_mode(target: &Target, width: u32, height: u32) -> Option<Mode> {
+    if let Some(any) = target.modes.iter().find(|m| m.width == 0) {
+        return Some(Mode {
+            width,
+            height,
+            ..*any
+        });
+    }
     let holds = |m: &&Mode| m.width >= width && m.height >= height;
     // The first of equals, so that the machine's order decides.
     let whole = target

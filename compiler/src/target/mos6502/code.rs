@@ -1,0 +1,231 @@
+//! Statements.
+
+use super::Text;
+use super::comment;
+use super::homes::{Homes, Slot, turns};
+use crate::flow::graph::*;
+use crate::flow::tree::*;
+use crate::plan::Plan;
+use slowlight_routine::Format;
+use slowlight_runtime_6502::write::{self, Goal, Place as Operand};
+
+/// Bytes that a branch reaches at least, whatever lies between.
+const NEAR: usize = 120;
+
+/// Writes statements.
+pub(super) struct Code<'p> {
+    pub plan: &'p Plan,
+    pub homes: &'p Homes,
+    pub text: &'p mut Text,
+    /// Whether some index had to be clamped.
+    pub clamps: bool,
+}
+
+/// Bytes of some lines of assembly, at most.
+fn most_bytes(text: &Text) -> usize {
+    let instruction = |line: &&(String, _)| line.0.starts_with(' ');
+    3 * text.lines.iter().filter(instruction).count()
+}
+
+impl<'p> Code<'p> {
+    pub fn block(&mut self, block: &Block) {
+        for statement in block {
+            self.statement(statement);
+        }
+    }
+
+    /// Statements apart, to see how long they are.
+    fn apart(&mut self, write: impl FnOnce(&mut Code<'_>)) -> Text {
+        let mut text = Text {
+            serial: self.text.serial,
+            span: self.text.span,
+            ..Text::default()
+        };
+        let mut code = Code {
+            plan: self.plan,
+            homes: self.homes,
+            text: &mut text,
+            clamps: false,
+        };
+        write(&mut code);
+        self.clamps |= code.clamps;
+        self.text.serial = text.serial;
+        text
+    }
+
+    fn append(&mut self, text: Text) {
+        self.text.lines.extend(text.lines);
+    }
+
+    fn statement(&mut self, statement: &Statement) {
+        match statement {
+            Statement::Let(id) => self.compute(*id),
+            Statement::Set { place, from } => {
+                let format = self.plan.place_format(*place);
+                let (from, said) = match *from {
+                    Origin::Node(id) => (
+                        self.homes.operand(self.plan, id),
+                        comment::operand(self.plan, self.homes, id),
+                    ),
+                    Origin::Scratch(l, k) => {
+                        let name = self.homes.place(Place::Scratch(l, k)).to_owned();
+                        (Operand::At(name.clone()), name)
+                    }
+                };
+                let to = self.homes.place(*place).to_owned();
+                if from != Operand::At(to.clone()) {
+                    self.text.line(format!("        ; {to} = {said}"));
+                    self.copy(&from, &to, format);
+                }
+            }
+            Statement::If { cond, yes, no } => self.choose(*cond, yes, no),
+            Statement::Loop {
+                of,
+                start,
+                body,
+                again,
+                next,
+                done,
+                otherwise,
+            } => {
+                self.block(start);
+                self.repeat(*of, body, *again, [next, done, otherwise]);
+            }
+        }
+    }
+
+    fn compute(&mut self, id: NodeId) {
+        self.text.span = Some(self.plan.graph.span(id));
+        self.text.line(format!(
+            "        {}",
+            comment::of_value(self.plan, self.homes, id)
+        ));
+        match self.plan.graph.node(id) {
+            Node::Apply(_, [a, b]) => {
+                let Some(routine) = self.plan.routine(id) else {
+                    return;
+                };
+                let args = [a, b].map(|arg| self.homes.operand(self.plan, arg));
+                let home = self.homes.place(Place::Node(id));
+                let goal = if self.homes.fused.contains(&id) {
+                    Goal::Carry
+                } else {
+                    Goal::At(home)
+                };
+                let mut lines = Vec::new();
+                let serial = self.text.next_serial();
+                let args = args.get(..routine.args.len()).unwrap_or_default();
+                write::instructions(routine, args, &goal, serial, &mut lines);
+                lines.iter().for_each(|line| self.text.line(line));
+            }
+            Node::Lookup { table, column, row } => self.lookup(id, table, column, row),
+            _ => {}
+        }
+    }
+
+    pub fn copy(&mut self, from: &Operand, to: &str, format: Format) {
+        let mut lines = Vec::new();
+        write::copy(from, to, format, &mut lines);
+        lines.iter().for_each(|line| self.text.line(line));
+    }
+
+    /// Copies an int or a real.
+    pub fn copy_to(&mut self, from: &Operand, to: &str) {
+        self.copy(from, to, self.plan.runtime.int);
+    }
+
+    /// Leaves a condition where a branch finds it: `bcc` or `beq` goes where it does not hold.
+    fn test(&mut self, cond: NodeId) -> (&'static str, &'static str) {
+        if self.homes.fused.contains(&cond) {
+            return ("bcc", "bcs");
+        }
+        let place = self.homes.operand(self.plan, cond);
+        self.text.code(&format!("lda {}", write::byte(&place, 0)));
+        ("beq", "bne")
+    }
+
+    fn choose(&mut self, cond: NodeId, yes: &Block, no: &Block) {
+        let (fails, holds) = self.test(cond);
+        let n = self.text.next_serial();
+        let first = self.apart(|code| code.block(yes));
+        let second = self.apart(|code| code.block(no));
+        if yes.is_empty() {
+            self.branch(holds, fails, &format!("end{n}"), most_bytes(&second));
+        } else {
+            let target = if no.is_empty() { "end" } else { "else" };
+            self.branch(
+                fails,
+                holds,
+                &format!("{target}{n}"),
+                most_bytes(&first) + 3,
+            );
+            self.append(first);
+            if !no.is_empty() {
+                self.text.code(&format!("jmp end{n}"));
+                self.text.label(&format!("else{n}"));
+            }
+        }
+        self.append(second);
+        self.text.label(&format!("end{n}"));
+    }
+
+    /// Branches forward over so many bytes, around a jump where that is too far.
+    fn branch(&mut self, branch: &str, opposite: &str, target: &str, bytes: usize) {
+        if bytes <= NEAR {
+            self.text.code(&format!("{branch} {target}"));
+        } else {
+            let n = self.text.next_serial();
+            self.text.code(&format!("{opposite} go{n} | jmp {target}"));
+            self.text.label(&format!("go{n}"));
+        }
+    }
+
+    fn repeat(
+        &mut self,
+        of: LoopId,
+        body: &Block,
+        again: NodeId,
+        [next, done, otherwise]: [&Block; 3],
+    ) {
+        let n = self.text.next_serial();
+        let counter = self.homes.name(Slot::Turns(of)).to_owned();
+        let [lo, hi, ..] = turns(self.plan, of).to_le_bytes();
+        let wide = hi > 0;
+        self.text
+            .line(format!("        ; at most {} turns", turns(self.plan, of)));
+        self.text.code(&format!("lda #{lo} | sta {counter}"));
+        if wide {
+            self.text.code(&format!("lda #{hi} | sta {counter}+1"));
+        }
+        self.text.label(&format!("loop{n}"));
+        self.block(body);
+        let (fails, holds) = self.test(again);
+        let turn = self.apart(|code| code.block(next));
+        let rest = self.apart(|code| code.block(otherwise));
+        let over = most_bytes(&turn) + most_bytes(&rest) + 30;
+        self.branch(fails, holds, &format!("done{n}"), over);
+        self.append(turn);
+        if wide {
+            // Sixteen bits: down to 0, the high byte borrowing where the low one is 0.
+            self.text
+                .code(&format!("lda {counter} | bne low{n} | dec {counter}+1"));
+            self.text.label(&format!("low{n}"));
+            self.text
+                .code(&format!("dec {counter} | lda {counter} | ora {counter}+1"));
+        } else {
+            self.text.code(&format!("dec {counter}"));
+        }
+        self.text.code(&format!("beq out{n} | jmp loop{n}"));
+        self.text.label(&format!("out{n}"));
+        self.append(rest);
+        let ending = self.apart(|code| code.block(done));
+        if ending.lines.is_empty() {
+            self.text.label(&format!("done{n}"));
+            return;
+        }
+        self.text.code(&format!("jmp after{n}"));
+        self.text.label(&format!("done{n}"));
+        self.append(ending);
+        self.text.label(&format!("after{n}"));
+    }
+}

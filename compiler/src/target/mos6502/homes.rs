@@ -1,0 +1,338 @@
+//! Where values live, and what they are called in the program.
+
+use crate::flow::graph::*;
+use crate::flow::tree::*;
+use crate::plan::Plan;
+use slowlight_isa::opcodes;
+use slowlight_routine::{Format, Source};
+use slowlight_runtime_6502::write::{self, Place as Operand};
+use slowlight_runtime_6502::{FREE_MEMORY, FREE_ZERO_PAGE};
+use std::collections::{BTreeMap, BTreeSet};
+
+/// Something that the program keeps in memory.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(super) enum Slot {
+    /// A value, carried value or scratch place of the tree.
+    Value(Place),
+    /// A param, made a real (or what it is) at the start.
+    Param(u32),
+    /// The pixel's column or row.
+    Axis(Axis),
+    /// The turns that a loop has left.
+    Turns(LoopId),
+    /// First and last row to draw.
+    Rows(bool),
+    /// Which param is being made.
+    Which,
+}
+
+/// A slot's place in memory.
+#[derive(Clone, Debug)]
+pub(super) struct Home {
+    pub name: String,
+    pub address: u16,
+}
+
+/// Every slot's home, and where the program may begin behind them.
+pub(super) struct Homes {
+    homes: BTreeMap<Slot, Home>,
+    /// Each param's name in the parameter block.
+    pub params: Vec<String>,
+    /// Conditions that the statement after them branches on: they have no home.
+    pub fused: BTreeSet<NodeId>,
+    /// The first free address behind the homes.
+    pub origin: u16,
+}
+
+/// Labels and symbols of the frame; see there.
+const RESERVED: &[&str] = &[
+    "start",
+    "next_row",
+    "next_column",
+    "next_pixel",
+    "more_pixels",
+    "last_pixel",
+    "more_rows",
+    "picture_done",
+    "halted",
+    "take_params",
+    "take_param",
+    "take_value",
+    "take_least",
+    "take_greatest",
+    "take_wrong",
+    "take_right",
+    "take_int",
+    "first_row",
+    "last_row",
+    "clamp_index",
+    "clamp_index_above",
+    "clamp_index_done",
+    "width_port",
+    "height_port",
+    "inks_port",
+    "x_port",
+    "y_port",
+    "ink_port",
+    "exit_port",
+    "palette_port",
+    "colours",
+];
+
+impl Homes {
+    pub fn new(plan: &Plan) -> Homes {
+        let fused = fused(plan);
+        let mut uses = Uses {
+            plan,
+            fused: &fused,
+            weight: 1,
+            count: BTreeMap::new(),
+        };
+        uses.frame();
+        let mut slots: Vec<(Slot, u64)> = uses.count.into_iter().collect();
+        slots.sort_by_key(|(slot, count)| (std::cmp::Reverse(*count), *slot));
+
+        let mut names = Names::new(plan);
+        let params = plan.params.iter().map(|p| names.fresh(&p.label)).collect();
+        let mut homes = BTreeMap::new();
+        let (mut zero_page, mut memory) = (u16::from(FREE_ZERO_PAGE), FREE_MEMORY);
+        for (slot, _) in slots {
+            let size = size(plan, slot);
+            let next = if zero_page + size <= 0x100 {
+                &mut zero_page
+            } else {
+                &mut memory
+            };
+            let home = Home {
+                name: names.fresh(&wanted(plan, slot)),
+                address: *next,
+            };
+            *next = next.saturating_add(size);
+            homes.insert(slot, home);
+        }
+        // A page of its own keeps the program's addresses easy to read.
+        let origin = memory.saturating_add(0xFF) & 0xFF00;
+        Homes {
+            homes,
+            params,
+            fused,
+            origin,
+        }
+    }
+
+    /// Every home, by address.
+    pub fn by_address(&self) -> Vec<&Home> {
+        let mut all: Vec<&Home> = self.homes.values().collect();
+        all.sort_by_key(|home| home.address);
+        all
+    }
+
+    pub fn name(&self, slot: Slot) -> &str {
+        self.homes.get(&slot).map_or("acc", |home| &home.name)
+    }
+
+    pub fn place(&self, place: Place) -> &str {
+        self.name(Slot::Value(place))
+    }
+
+    /// Where a node's value is read from.
+    pub fn operand(&self, plan: &Plan, id: NodeId) -> Operand {
+        let at = |slot| Operand::At(self.name(slot).to_owned());
+        match (plan.place(id), plan.graph.node(id)) {
+            (Some(place), _) => at(Slot::Value(place)),
+            (None, Node::Const(c)) => Operand::Constant(plan.bits(c.value())),
+            (None, Node::Param(p)) => at(Slot::Param(p.0)),
+            (None, Node::Axis(axis)) => at(Slot::Axis(axis)),
+            (None, _) => Operand::Constant(0),
+        }
+    }
+}
+
+/// Bools that are computed directly before the one statement that branches on them.
+fn fused(plan: &Plan) -> BTreeSet<NodeId> {
+    let mut found = BTreeSet::new();
+    let mut visit = |first: Option<&Statement>, cond: NodeId| {
+        let computes = first == Some(&Statement::Let(cond));
+        let compares = plan.routine(cond).is_some_and(|r| r.result == Format::Bool);
+        if computes && compares && plan.folded(cond) {
+            found.insert(cond);
+        }
+    };
+    fn pairs(block: &Block, visit: &mut dyn FnMut(Option<&Statement>, NodeId)) {
+        for (i, statement) in block.iter().enumerate() {
+            match statement {
+                Statement::If { cond, .. } => {
+                    visit(i.checked_sub(1).and_then(|before| block.get(before)), *cond);
+                }
+                Statement::Loop { body, again, .. } => visit(body.last(), *again),
+                _ => {}
+            }
+            for inner in inner(statement) {
+                pairs(inner, visit);
+            }
+        }
+    }
+    for block in [&plan.tree.frame, &plan.tree.row, &plan.tree.pixel] {
+        pairs(block, &mut visit);
+    }
+    found
+}
+
+fn size(plan: &Plan, slot: Slot) -> u16 {
+    match slot {
+        Slot::Value(place) => u16::from(write::size(plan.place_format(place))),
+        Slot::Turns(of) => 1 + u16::from(turns(plan, of) > 0xFF),
+        Slot::Which => 1,
+        Slot::Param(_) | Slot::Axis(_) | Slot::Rows(_) => 4,
+    }
+}
+
+/// How often a loop's body runs at most.
+pub(super) fn turns(plan: &Plan, of: LoopId) -> u32 {
+    plan.graph.loops.get(of.0 as usize).map_or(1, |l| l.max)
+}
+
+fn wanted(plan: &Plan, slot: Slot) -> String {
+    match slot {
+        Slot::Value(place) => plan.home(place).to_owned(),
+        Slot::Param(p) => {
+            let label = plan.params.get(p as usize).map_or("param", |p| &p.label);
+            format!("{label}_value")
+        }
+        Slot::Axis(Axis::X) => "pixel_x".to_owned(),
+        Slot::Axis(Axis::Y) => "pixel_y".to_owned(),
+        Slot::Turns(of) => format!("turns_{}", of.0),
+        Slot::Rows(false) => "first_row_value".to_owned(),
+        Slot::Rows(true) => "last_row_value".to_owned(),
+        Slot::Which => "which_param".to_owned(),
+    }
+}
+
+/// Counts reads and writes of slots, loops eightfold, pixels and rows more.
+struct Uses<'p> {
+    plan: &'p Plan,
+    fused: &'p BTreeSet<NodeId>,
+    weight: u64,
+    count: BTreeMap<Slot, u64>,
+}
+
+impl Uses<'_> {
+    fn frame(&mut self) {
+        for slot in [Slot::Rows(false), Slot::Rows(true), Slot::Which] {
+            self.add(slot);
+        }
+        for k in 0..self.plan.params.len() as u32 {
+            self.add(Slot::Param(k));
+        }
+        let tree = &self.plan.tree;
+        for (block, weight) in [
+            (&tree.frame, 1),
+            (&tree.row, 1 << 8),
+            (&tree.pixel, 1 << 16),
+        ] {
+            self.weight = weight;
+            self.block(block);
+        }
+        self.read(self.plan.graph.ink);
+        self.add(Slot::Axis(Axis::X));
+        self.add(Slot::Axis(Axis::Y));
+    }
+
+    fn add(&mut self, slot: Slot) {
+        *self.count.entry(slot).or_default() += self.weight;
+    }
+
+    fn read(&mut self, id: NodeId) {
+        if self.fused.contains(&id) {
+            return;
+        }
+        match (self.plan.place(id), self.plan.graph.node(id)) {
+            (Some(place), _) => self.add(Slot::Value(place)),
+            (None, Node::Param(p)) => self.add(Slot::Param(p.0)),
+            (None, Node::Axis(axis)) => self.add(Slot::Axis(axis)),
+            _ => {}
+        }
+    }
+
+    fn block(&mut self, block: &Block) {
+        for statement in block {
+            match statement {
+                Statement::Let(id) => {
+                    self.plan
+                        .graph
+                        .node(*id)
+                        .operands()
+                        .for_each(|operand| self.read(operand));
+                    self.read(*id);
+                }
+                Statement::Set { place, from } => {
+                    self.add(Slot::Value(*place));
+                    match *from {
+                        Origin::Node(id) => self.read(id),
+                        Origin::Scratch(l, k) => self.add(Slot::Value(Place::Scratch(l, k))),
+                    }
+                }
+                Statement::If { cond, yes, no } => {
+                    self.read(*cond);
+                    self.block(yes);
+                    self.block(no);
+                }
+                Statement::Loop {
+                    of,
+                    start,
+                    body,
+                    again,
+                    next,
+                    done,
+                    otherwise,
+                } => {
+                    self.block(start);
+                    let outside = self.weight;
+                    self.weight = self.weight.saturating_mul(8);
+                    self.add(Slot::Turns(*of));
+                    self.block(body);
+                    self.read(*again);
+                    self.block(next);
+                    self.weight = outside;
+                    self.block(done);
+                    self.block(otherwise);
+                }
+            }
+        }
+    }
+}
+
+/// Makes names that the assembler and the rest of the program leave free.
+struct Names(BTreeSet<String>);
+
+impl Names {
+    fn new(plan: &Plan) -> Names {
+        let mut taken: BTreeSet<String> = RESERVED.iter().map(|n| (*n).to_owned()).collect();
+        taken.extend(["a", "x", "y", "s"].map(str::to_owned));
+        for part in plan.runtime.parts {
+            let Source::Text(text) = part.source else {
+                continue;
+            };
+            for line in text.lines() {
+                let name = line.split([' ', ':', '=']).next().unwrap_or_default();
+                taken.insert(name.to_owned());
+            }
+        }
+        Names(taken)
+    }
+
+    fn fresh(&mut self, wanted: &str) -> String {
+        let mut name = wanted.to_owned();
+        // Numbered labels are a word and a number; a table's have its plane's behind that.
+        let numbered = wanted.ends_with(|c: char| c.is_ascii_digit()) && !wanted.contains('_');
+        if numbered || wanted.starts_with("table") || opcodes::is_mnemonic(wanted) {
+            name.push('_');
+        }
+        let mut number = 1;
+        while !self.0.insert(name.clone()) {
+            number += 1;
+            name = format!("{wanted}_{number}");
+        }
+        name
+    }
+}

@@ -1,0 +1,108 @@
+//! From a plan to 6502 assembly.
+//!
+//! The text assembles with the bundled assembler, and with ca65 as
+//! `ca65 --feature pc_assignment`, to the same bytes. It reads from the top:
+//!
+//! 1. the parameter block: what may be changed, as scaled integers;
+//! 2. the ports of the machine, the runtime's zero page, the homes of values;
+//! 3. the program: once a picture, once a row, once a pixel;
+//! 4. constant tables, and the parts of the runtime that are used.
+//!
+//! A value lives in memory: in the zero page those that are used most (loops
+//! count eightfold), the others behind the runtime's tables. Routines are
+//! written as [`slowlight_runtime_6502::write`] says; a condition that the next
+//! statement branches on stays in the carry flag.
+//!
+//! - `homes`: where values live and what they are called;
+//! - `code`: statements; `table`: lookups; `comment`: what a statement means;
+//! - `frame`: the parameter block and everything around the statements.
+
+mod code;
+mod comment;
+mod frame;
+mod homes;
+mod table;
+#[cfg(test)]
+mod tests;
+
+use super::{Document, Mode, Target};
+use crate::plan::Plan;
+use crate::source::Span;
+use slowlight_runtime_6502::FIXED16_16;
+
+/// The plain machine: 64K of RAM and a port that takes ink by ink.
+pub static PLAIN: Target = Target {
+    name: "6502:plain",
+    about: "a 6502 with 64K of RAM and a page of ports that draw",
+    runtime: &FIXED16_16,
+    // As large as the picture.
+    modes: &[Mode {
+        name: "",
+        width: 0,
+        height: 0,
+        inks: 256,
+    }],
+    // 1/256: far above the last place (1/65536), far below what a pixel sees.
+    offset: 0.003_906_25,
+    hertz: 2_000_000.0,
+    emit,
+};
+
+/// Writes a plan down as one file of assembly.
+fn emit(plan: &Plan) -> Vec<Document> {
+    let homes = homes::Homes::new(plan);
+    let mut text = Text::default();
+    frame::program(plan, &homes, &mut text);
+    let mut document = Document {
+        name: format!("{}.asm", plan.name),
+        text: String::new(),
+        lines: Vec::with_capacity(text.lines.len()),
+    };
+    for (line, span) in text.lines {
+        document.text.push_str(line.trim_end());
+        document.text.push('\n');
+        document.lines.push(span);
+    }
+    vec![document]
+}
+
+/// Lines of assembly, each with the place in the scene that it comes from.
+#[derive(Default)]
+struct Text {
+    lines: Vec<(String, Option<Span>)>,
+    /// The place that lines come from now.
+    span: Option<Span>,
+    /// Makes labels unique.
+    serial: u32,
+}
+
+impl Text {
+    /// A line as it stands; several if it has line ends.
+    fn line(&mut self, text: impl AsRef<str>) {
+        for line in text.as_ref().split('\n') {
+            self.lines.push((line.to_owned(), self.span));
+        }
+    }
+
+    /// Instructions, separated by `|`.
+    fn code(&mut self, instructions: &str) {
+        for instruction in instructions.split('|') {
+            self.line(format!("        {}", instruction.trim()));
+        }
+    }
+
+    fn label(&mut self, name: &str) {
+        self.line(format!("{name}:"));
+    }
+
+    fn next_serial(&mut self) -> u32 {
+        self.serial += 1;
+        self.serial
+    }
+
+    /// A headline over a part of the program.
+    fn headline(&mut self, title: &str) {
+        self.line("");
+        self.line(format!("; ---- {title}"));
+    }
+}
