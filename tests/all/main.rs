@@ -1,3 +1,5 @@
 //! One integration-test binary: a file a subject.
 
+mod cli;
+mod cli_wrong;
 mod house;

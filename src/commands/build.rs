@@ -1,0 +1,174 @@
+//! `build`: sources ready for the real machine, or a stage on the way there.
+
+use crate::failure::{Failure, Outcome};
+use crate::format::{count, duration, table};
+use crate::scene::{NATIVE_OFFSET, Scene, SceneArgs};
+use crate::target_args::{self, ScreenArgs};
+use crate::trial::{self, mode_json};
+use crate::{estimate, files, say, say_json};
+use clap::ValueEnum;
+use serde_json::json;
+use slowlight_compiler::passes::rate::rates;
+use slowlight_compiler::plan::Plan;
+use slowlight_compiler::plan::print::{ranges_text, rates_text};
+use slowlight_compiler::syntax::print;
+use slowlight_compiler::target::Target;
+use std::path::{Path, PathBuf};
+
+/// Options of `build`.
+#[derive(clap::Args, Debug)]
+pub struct Args {
+    #[command(flatten)]
+    scene: SceneArgs,
+    /// The machine: see `slowlight targets`
+    #[arg(short, long, value_name = "T", value_parser = target_args::target,
+          required_unless_present = "emit")]
+    target: Option<&'static Target>,
+    #[command(flatten)]
+    screen: ScreenArgs,
+    /// The directory to write to
+    #[arg(short, long, value_name = "DIR", default_value = ".")]
+    output: PathBuf,
+    /// Print a stage instead of writing files
+    #[arg(long, value_name = "STAGE")]
+    emit: Option<Stage>,
+    /// Print what was written as JSON
+    #[arg(long, conflicts_with = "emit")]
+    json: bool,
+}
+
+/// A stage of compilation.
+#[derive(ValueEnum, Clone, Copy, Debug, PartialEq, Eq)]
+enum Stage {
+    /// What the lexer makes of the text
+    Tokens,
+    /// What the parser makes of the tokens
+    Tree,
+    /// The scene with every name and type known
+    Program,
+    /// Scalar operations
+    Graph,
+    /// How often each value changes
+    Rates,
+    /// Between which bounds each value stays on the target
+    Ranges,
+    /// Which routine computes each value, when, and where it is kept
+    Plan,
+    /// The generated sources
+    Text,
+}
+
+/// Builds.
+pub fn run(args: &Args) -> Outcome<()> {
+    let scene = Scene::load(&args.scene)?;
+    if let Some(stage) = args.emit {
+        say(&emit(args, &scene, stage)?);
+        return Ok(());
+    }
+    scene.warn();
+    let plan = plan(args, &scene)?;
+    let built = trial::build(&plan)?;
+    let dir = &args.output;
+    std::fs::create_dir_all(dir)
+        .map_err(|e| Failure::Wrong(format!("cannot make {}: {e}", dir.display())))?;
+    let written: Vec<(PathBuf, &[u8])> = built
+        .sources
+        .iter()
+        .chain(&built.loaded.binaries)
+        .map(|f| (dir.join(&f.name), f.bytes.as_slice()))
+        .collect();
+    let list: Vec<(&Path, &[u8])> = written.iter().map(|(p, b)| (p.as_path(), *b)).collect();
+    files::write_all(&list)?;
+    let cycles = estimate::cycles(&plan);
+    let seconds = cycles / plan.target.hertz;
+    let sizes = built.loaded.sizes;
+    if args.json {
+        let files: Vec<_> = written
+            .iter()
+            .map(|(path, bytes)| json!({"path": path.display().to_string(), "bytes": bytes.len()}))
+            .collect();
+        say_json(&json!({
+            "scene": scene.name,
+            "target": plan.target.name,
+            "mode": mode_json(plan.mode.name),
+            "format": plan.runtime.format,
+            "files": files,
+            "code_bytes": sizes.code,
+            "table_bytes": sizes.tables,
+            "ram_bytes": sizes.ram,
+            "modelled_cycles": cycles.round(),
+            "modelled_seconds": seconds,
+        }));
+        return Ok(());
+    }
+    let mut rows: Vec<Vec<String>> = written
+        .iter()
+        .map(|(path, bytes)| {
+            let size = format!("{} bytes", count(bytes.len() as u64));
+            vec![path.display().to_string(), size]
+        })
+        .collect();
+    let parts = [
+        ("code", sizes.code),
+        ("tables", sizes.tables),
+        ("RAM", sizes.ram),
+    ];
+    for (what, size) in parts {
+        if let Some(size) = size {
+            rows.push(vec![what.to_owned(), format!("{} bytes", count(size))]);
+        }
+    }
+    say(&table(&rows));
+    say(&format!(
+        "at least {} on the machine (modelled: the operations alone; `run` measures)\n",
+        duration(seconds)
+    ));
+    Ok(())
+}
+
+fn plan(args: &Args, scene: &Scene) -> Outcome<Plan> {
+    let target = args.target.ok_or_else(|| {
+        Failure::Usage("this stage depends on the machine: say --target".to_owned())
+    })?;
+    args.screen.plan(scene, target, &[])
+}
+
+fn emit(args: &Args, scene: &Scene, stage: Stage) -> Outcome<String> {
+    let file = scene.checked.sources.files.first();
+    let text = file.map_or("", |f| f.text.as_str());
+    let graph = || match args.target {
+        Some(target) => {
+            let mode = args.screen.mode(target, scene.size())?;
+            scene.graph(Some(mode.inks), target.offset)
+        }
+        None => scene.graph(None, NATIVE_OFFSET),
+    };
+    Ok(match stage {
+        Stage::Tokens => print::tokens(text),
+        Stage::Tree => print::tree(&slowlight_compiler::syntax::parse(text, 0).0),
+        Stage::Program => scene.checked.program.to_string(),
+        Stage::Graph => graph()?.to_string(),
+        Stage::Rates => {
+            let graph = graph()?;
+            rates_text(&graph, &rates(&graph))
+        }
+        Stage::Ranges => {
+            let plan = plan(args, scene)?;
+            ranges_text(&plan.graph, &plan.ranges)
+        }
+        Stage::Plan => plan(args, scene)?.to_string(),
+        Stage::Text => {
+            let plan = plan(args, scene)?;
+            let documents = (plan.target.emit)(&plan);
+            let many = documents.len() > 1;
+            let mut out = String::new();
+            for document in documents {
+                if many {
+                    out.push_str(&format!("==> {} <==\n", document.name));
+                }
+                out.push_str(&document.text);
+            }
+            out
+        }
+    })
+}

@@ -1,0 +1,49 @@
+//! The subcommands, one a file.
+
+mod build;
+mod check;
+mod compare;
+mod render;
+mod run;
+mod targets;
+mod vm;
+
+use crate::failure::Outcome;
+use clap::Subcommand;
+
+/// What to do.
+#[derive(Subcommand, Debug)]
+pub enum Command {
+    /// Draw the native picture
+    Render(render::Args),
+    /// Say what is wrong with a scene, or may surprise
+    Check(check::Args),
+    /// Write sources ready for the real machine
+    Build(build::Args),
+    /// Build, run on the bundled machine, compare with model and native picture
+    Run(run::Args),
+    /// Run on several targets: pictures side by side, one table
+    Compare(compare::Args),
+    /// Run any program on a bundled machine
+    Vm(vm::Args),
+    /// List the targets, their modes and formats
+    Targets(targets::Args),
+}
+
+impl Command {
+    /// Does it.
+    ///
+    /// # Errors
+    /// Whatever goes wrong.
+    pub fn run(&self) -> Outcome<()> {
+        match self {
+            Command::Render(args) => render::run(args),
+            Command::Check(args) => check::run(args),
+            Command::Build(args) => build::run(args),
+            Command::Run(args) => run::run(args),
+            Command::Compare(args) => compare::run(args),
+            Command::Vm(args) => vm::run(args),
+            Command::Targets(args) => targets::run(args),
+        }
+    }
+}

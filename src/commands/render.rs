@@ -1,0 +1,76 @@
+//! `render`: the native picture.
+
+use crate::draw::{Window, native};
+use crate::failure::Outcome;
+use crate::picture::PictureFile;
+use crate::scene::{NATIVE_OFFSET, Scene, SceneArgs};
+use crate::target_args::{self, ScreenArgs};
+use crate::{say, say_json};
+use serde_json::json;
+use slowlight_compiler::target::Target;
+use std::path::PathBuf;
+
+/// Options of `render`.
+#[derive(clap::Args, Debug)]
+pub struct Args {
+    #[command(flatten)]
+    scene: SceneArgs,
+    /// In the inks of this target's screen
+    #[arg(short, long, value_name = "T", value_parser = target_args::target)]
+    target: Option<&'static Target>,
+    /// The screen's mode, whose inks count
+    #[arg(long, value_name = "N", requires = "target")]
+    mode: Option<String>,
+    /// Only these rows, both ends included
+    #[arg(long, value_name = "A..B")]
+    rows: Option<String>,
+    /// Where to write the picture: .png, .pgm (ink indices) or .pbm (two inks)
+    #[arg(short, long, value_name = "FILE")]
+    output: Option<PathBuf>,
+    /// Print size and digest as JSON
+    #[arg(long)]
+    json: bool,
+}
+
+/// Draws and writes it.
+pub fn run(args: &Args) -> Outcome<()> {
+    let output = PictureFile::named(args.output.as_deref())?;
+    let scene = Scene::load(&args.scene)?;
+    let (width, height) = scene.size();
+    let screen = ScreenArgs {
+        mode: args.mode.clone(),
+        ..ScreenArgs::default()
+    };
+    let inks = match args.target {
+        Some(target) => Some(screen.mode(target, (width, height))?.inks),
+        None => None,
+    };
+    let mut window = Window::whole(width, height);
+    if let Some(rows) = &args.rows {
+        window.rows = target_args::rows(rows, height)?;
+    }
+    scene.warn();
+    let graph = scene.graph(inks, NATIVE_OFFSET)?;
+    let drawn = native(&graph, window)?;
+    let picture = drawn.picture();
+    output.write(&picture)?;
+    if args.json {
+        say_json(&json!({
+            "scene": scene.name,
+            "inks": picture.palette.len(),
+            "width": picture.width,
+            "height": picture.height,
+            "pixels": picture.inks.len(),
+            "inks_sha256": picture.sha256(),
+        }));
+    } else {
+        say(&format!(
+            "{}: {} x {} pixels, {} inks\n",
+            scene.name,
+            picture.width,
+            picture.height,
+            picture.palette.len()
+        ));
+    }
+    Ok(())
+}

@@ -1,0 +1,143 @@
+//! `run`: build, run on the bundled machine, compare.
+
+use crate::failure::{Failure, Outcome};
+use crate::format::{count, duration, table};
+use crate::machine::Loaded;
+use crate::measure::{Difference, psnr};
+use crate::picture::PictureFile;
+use crate::scene::{Scene, SceneArgs};
+use crate::target_args::{self, ScreenArgs};
+use crate::trial::{self, LIMIT, Trial};
+use crate::{program, say, say_json};
+use slowlight_compiler::plan::Plan;
+use slowlight_compiler::target::Target;
+use std::path::PathBuf;
+
+/// How many differing pixels are listed.
+const LISTED: usize = 10;
+
+/// Options of `run`.
+#[derive(clap::Args, Debug)]
+pub struct Args {
+    #[command(flatten)]
+    scene: SceneArgs,
+    /// The machine: see `slowlight targets`
+    #[arg(short, long, value_name = "T", value_parser = target_args::target)]
+    target: &'static Target,
+    #[command(flatten)]
+    screen: ScreenArgs,
+    /// Where to write the machine's picture (the rows asked for): .png, .pgm or .pbm
+    #[arg(short, long, value_name = "FILE", conflicts_with = "no_plot")]
+    output: Option<PathBuf>,
+    /// Print one JSON object
+    #[arg(long)]
+    json: bool,
+    /// Run the sources in this directory, an edited copy of what `build` wrote
+    #[arg(long, value_name = "DIR")]
+    program: Option<PathBuf>,
+    /// Give up after so many cycles of the machine
+    #[arg(long, value_name = "CYCLES", default_value_t = LIMIT)]
+    limit: u64,
+}
+
+/// Runs, reports, and fails where machine and model differ.
+pub fn run(args: &Args) -> Outcome<()> {
+    let output = PictureFile::named(args.output.as_deref())?;
+    let scene = Scene::load(&args.scene)?;
+    scene.warn();
+    let (plan, set, loaded) = prepare(args, &scene)?;
+    let trial = trial::run(&scene, plan, &set, loaded, args.limit)?;
+    if let Some(picture) = &trial.picture {
+        output.write(picture)?;
+    }
+    if args.json {
+        say_json(&trial.to_json());
+    } else {
+        say(&report(&trial));
+    }
+    match &trial.from_model {
+        Some(differences) if !differences.is_empty() => Err(Failure::Differs),
+        _ => Ok(()),
+    }
+}
+
+/// Params by name, with the values of their components.
+type Values = Vec<(String, Vec<f64>)>;
+
+fn prepare(args: &Args, scene: &Scene) -> Outcome<(Plan, Values, Loaded)> {
+    let plan = args.screen.plan(scene, args.target, &[])?;
+    let Some(dir) = &args.program else {
+        let loaded = trial::build(&plan)?.loaded;
+        return Ok((plan, Vec::new(), loaded));
+    };
+    let machine = trial::machine(args.target)?;
+    let sources = program::read(dir, &scene.name, machine)?;
+    let set = program::values(&plan, &sources)?;
+    let plan = args.screen.plan(scene, args.target, &set)?;
+    Ok((plan, set, machine.load(&sources)?))
+}
+
+fn report(trial: &Trial) -> String {
+    let plan = &trial.plan;
+    let mode = match plan.mode.name {
+        "" => String::new(),
+        name => format!(" in mode {name}"),
+    };
+    let size = trial.native.window;
+    let title = format!(
+        "{} on {}{mode}: {} x {} pixels, {} inks, {}\n",
+        trial.scene,
+        plan.target.name,
+        size.width(),
+        size.height(),
+        plan.graph.image.palette.len(),
+        plan.runtime.format
+    );
+    let mut rows: Vec<Vec<String>> = Vec::new();
+    let mut row = |what: &str, text: String| rows.push(vec![format!("  {what}"), text]);
+    row("cycles", count(trial.run.cycles));
+    row("cycles a pixel", format!("{:.1}", trial.cycles_per_pixel()));
+    if let Some(plot) = trial.run.plot_cycles {
+        row("cycles of drawing", count(plot));
+    }
+    row("machine time", duration(trial.seconds()));
+    let sizes = trial.run.sizes;
+    let parts = [
+        ("code bytes", sizes.code),
+        ("table bytes", sizes.tables),
+        ("RAM bytes", sizes.ram),
+    ];
+    for (what, size) in parts {
+        if let Some(size) = size {
+            row(what, count(size));
+        }
+    }
+    let counted = |found: &Option<Vec<Difference>>| match found {
+        Some(list) => count(list.len() as u64),
+        None => "not drawn".to_owned(),
+    };
+    row("differs from model", counted(&trial.from_model));
+    row("differs from native", counted(&trial.from_native));
+    row("rmse of shades", format!("{:.6}", trial.rmse));
+    if let Some(db) = psnr(trial.rmse) {
+        row("PSNR", format!("{db:.1} dB"));
+    }
+    let mut out = title + &table(&rows);
+    out.push_str(&listed("model", &trial.from_model));
+    out.push_str(&listed("native", &trial.from_native));
+    out
+}
+
+/// The first pixels that differ.
+fn listed(from: &str, found: &Option<Vec<Difference>>) -> String {
+    let Some(found) = found.as_ref().filter(|f| !f.is_empty()) else {
+        return String::new();
+    };
+    let shown: Vec<String> = found
+        .iter()
+        .take(LISTED)
+        .map(|d| format!("({}, {}) {} not {}", d.place.0, d.place.1, d.is, d.should))
+        .collect();
+    let more = if found.len() > LISTED { ", ..." } else { "" };
+    format!("  inks unlike the {from}'s: {}{more}\n", shown.join(", "))
+}

@@ -1,0 +1,80 @@
+//! `targets`: what can be compiled for.
+
+use crate::failure::Outcome;
+use crate::format::table;
+use crate::machine::Machine;
+use crate::trial::mode_json;
+use crate::{say, say_json};
+use serde_json::{Value, json};
+use slowlight_compiler::target::{TARGETS, Target};
+
+/// Options of `targets`.
+#[derive(clap::Args, Debug)]
+pub struct Args {
+    /// Print as JSON
+    #[arg(long)]
+    json: bool,
+}
+
+/// Lists them.
+pub fn run(args: &Args) -> Outcome<()> {
+    if args.json {
+        let all: Vec<Value> = TARGETS.iter().map(|t| object(t)).collect();
+        say_json(&Value::Array(all));
+        return Ok(());
+    }
+    for target in TARGETS {
+        let format = target.runtime.format;
+        say(&format!(
+            "{}: {}; reals are {format}\n",
+            target.name, target.about
+        ));
+        let rows: Vec<Vec<String>> = target
+            .modes
+            .iter()
+            .map(|m| {
+                let name = match m.name {
+                    "" => "  screen".to_owned(),
+                    name => format!("  mode {name}"),
+                };
+                let size = format!("{} x {}", m.width, m.height);
+                vec![name, size, format!("{} inks", m.inks)]
+            })
+            .collect();
+        say(&table(&rows));
+    }
+    Ok(())
+}
+
+fn object(target: &Target) -> Value {
+    let modes: Vec<Value> = target
+        .modes
+        .iter()
+        .map(|m| {
+            json!({
+                "mode": mode_json(m.name),
+                "width": m.width,
+                "height": m.height,
+                "inks": m.inks,
+            })
+        })
+        .collect();
+    let mut operations: Vec<&str> = target
+        .runtime
+        .routines
+        .iter()
+        .map(|r| r.op.name())
+        .collect();
+    operations.sort_unstable();
+    operations.dedup();
+    json!({
+        "target": target.name,
+        "about": target.about,
+        "formats": [target.runtime.format],
+        "hertz": target.hertz,
+        "offset": target.offset,
+        "machine": Machine::of(target.name).is_some(),
+        "operations": operations,
+        "modes": modes,
+    })
+}

@@ -1,0 +1,173 @@
+//! The pictures that the compiler's own evaluations make, rows in parallel.
+
+use crate::failure::{Failure, Outcome};
+use crate::interrupt;
+use crate::picture::Picture;
+use crate::progress::Progress;
+use rayon::prelude::*;
+use slowlight_compiler::eval::model::ModelRun;
+use slowlight_compiler::eval::native::{Native, Pixel};
+use slowlight_compiler::flow::graph::Graph;
+use slowlight_compiler::plan::Plan;
+
+/// Stack of a thread that compiles or evaluates, in bytes: deep scenes recurse.
+pub const STACK: usize = 256 << 20;
+
+/// Part of a picture, both ends included.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Window {
+    /// First and last column.
+    pub columns: (u32, u32),
+    /// First and last row.
+    pub rows: (u32, u32),
+}
+
+impl Window {
+    /// A whole picture.
+    pub fn whole(width: u32, height: u32) -> Window {
+        Window {
+            columns: (0, width.saturating_sub(1)),
+            rows: (0, height.saturating_sub(1)),
+        }
+    }
+
+    /// What a plan draws.
+    pub fn of(plan: &Plan) -> Window {
+        Window {
+            columns: plan.columns,
+            rows: plan.rows,
+        }
+    }
+
+    /// Columns.
+    pub fn width(&self) -> u32 {
+        self.columns.1 - self.columns.0 + 1
+    }
+
+    /// Rows.
+    pub fn height(&self) -> u32 {
+        self.rows.1 - self.rows.0 + 1
+    }
+
+    /// Where its pixels are, row by row.
+    pub fn places(&self) -> impl Iterator<Item = (u32, u32)> + use<> {
+        let (columns, rows) = (self.columns, self.rows);
+        (rows.0..=rows.1).flat_map(move |y| (columns.0..=columns.1).map(move |x| (x, y)))
+    }
+}
+
+/// Inks and shades, row by row.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Drawn {
+    /// What part of the picture.
+    pub window: Window,
+    /// The inks' colours.
+    pub palette: Vec<[u8; 3]>,
+    /// A pixel each.
+    pub pixels: Vec<Pixel>,
+}
+
+impl Drawn {
+    /// The inks alone.
+    pub fn picture(&self) -> Picture {
+        Picture {
+            width: self.window.width(),
+            height: self.window.height(),
+            palette: self.palette.clone(),
+            inks: self.pixels.iter().map(|p| p.ink).collect(),
+        }
+    }
+}
+
+/// Runs work on a thread of its own, whose stack is deep enough for any scene.
+///
+/// # Errors
+/// What the work says, or that no thread could be had.
+pub fn deep<T: Send>(work: impl FnOnce() -> Outcome<T> + Send) -> Outcome<T> {
+    let none = |e: std::io::Error| Failure::Wrong(format!("cannot start a thread: {e}"));
+    std::thread::scope(|scope| {
+        let thread = std::thread::Builder::new()
+            .stack_size(STACK)
+            .spawn_scoped(scope, work)
+            .map_err(none)?;
+        match thread.join() {
+            Ok(done) => done,
+            Err(panic) => std::panic::resume_unwind(panic),
+        }
+    })
+}
+
+/// Lets rayon's threads have deep stacks too. To be called once, first.
+pub fn set_up_threads() {
+    // Fails only where a pool exists, as in a test; then that one serves.
+    let _ = rayon::ThreadPoolBuilder::new()
+        .stack_size(STACK)
+        .build_global();
+}
+
+/// The native picture of a graph.
+///
+/// # Errors
+/// Only an interruption.
+pub fn native(graph: &Graph, window: Window) -> Outcome<Drawn> {
+    let pixels = rows("native picture", window, || {
+        let mut native = Native::new(graph);
+        move |x, y| native.pixel(x, y)
+    })?;
+    Ok(Drawn {
+        window,
+        palette: graph.image.palette.clone(),
+        pixels,
+    })
+}
+
+/// The picture of a plan in its routines' models.
+///
+/// # Errors
+/// An interruption, or a schedule that reads what it has not computed.
+pub fn model(plan: &Plan) -> Outcome<Drawn> {
+    let window = Window::of(plan);
+    let pixels = rows("model", window, || {
+        let mut model = ModelRun::new(plan);
+        move |x, y| model.pixel(x, y)
+    })?;
+    Ok(Drawn {
+        window,
+        palette: plan.graph.image.palette.clone(),
+        pixels,
+    })
+}
+
+/// Evaluates a window, each thread with an evaluation of its own.
+fn rows<E>(
+    what: &'static str,
+    window: Window,
+    start: impl Fn() -> E + Sync + Send,
+) -> Outcome<Vec<Pixel>>
+where
+    E: FnMut(i32, i32) -> Pixel,
+{
+    let progress = Progress::new(what, u64::from(window.height()));
+    // Starting an evaluation costs a walk over the graph: not for each row.
+    let share = (window.height() as usize).div_ceil(8 * rayon::current_num_threads());
+    let rows: Vec<u32> = (window.rows.0..=window.rows.1).collect();
+    let parts: Vec<Option<Vec<Pixel>>> = rows
+        .par_chunks(share.max(1))
+        .map(|rows| {
+            let mut pixel = start();
+            let mut out = Vec::with_capacity(rows.len() * window.width() as usize);
+            for &y in rows {
+                for x in window.columns.0..=window.columns.1 {
+                    if interrupt::pressed() {
+                        return None;
+                    }
+                    out.push(pixel(x as i32, y as i32));
+                }
+                progress.step(1);
+            }
+            Some(out)
+        })
+        .collect();
+    let all: Option<Vec<Vec<Pixel>>> = parts.into_iter().collect();
+    Ok(all.ok_or(Failure::Interrupted)?.concat())
+}

@@ -1,0 +1,113 @@
+//! An estimate of a machine's time: what the routines say they cost, times how
+//! often the model runs each, on a sample of the pixels.
+//!
+//! Loads, stores, jumps and drawing are left out, so the machine takes longer;
+//! `run` measures. The sample is a grid; a picture of few pixels is run whole.
+
+use crate::draw::Window;
+use slowlight_compiler::eval::run::{Arithmetic, Run};
+use slowlight_compiler::flow::graph::{NodeId, ParamId};
+use slowlight_compiler::plan::Plan;
+use slowlight_routine::{Bits, Format, Op, Value};
+use std::cell::Cell;
+
+/// Rows and columns of the sample.
+const GRID: u32 = 24;
+
+/// The models, with their cycles added up.
+struct Costed<'p> {
+    plan: &'p Plan,
+    cycles: &'p Cell<u64>,
+}
+
+impl Arithmetic for Costed<'_> {
+    type Value = Bits;
+
+    fn constant(&self, value: Value) -> Bits {
+        self.plan.bits(value)
+    }
+
+    fn param(&self, id: ParamId) -> Bits {
+        self.plan.params.get(id.0 as usize).map_or(0, |p| p.bits)
+    }
+
+    fn apply(&self, id: NodeId, _: Op, args: &[Bits]) -> Bits {
+        self.plan.routine(id).map_or(0, |routine| {
+            self.cycles
+                .set(self.cycles.get() + u64::from(routine.cycles));
+            (routine.model)(args)
+        })
+    }
+
+    fn truth(&self, value: Bits) -> bool {
+        (self.plan.runtime.decode)(value, Format::Bool).truth()
+    }
+
+    fn int(&self, value: Bits) -> i32 {
+        (self.plan.runtime.decode)(value, self.plan.runtime.int).int()
+    }
+}
+
+/// The cycles that a plan's operations take, all rows and columns together.
+pub fn cycles(plan: &Plan) -> f64 {
+    let window = Window::of(plan);
+    let spent = Cell::new(0);
+    let costed = Costed {
+        plan,
+        cycles: &spent,
+    };
+    let mut run = Run::new(&plan.graph, &plan.tree, costed);
+    let mut lap = {
+        let mut before = 0;
+        let spent = &spent;
+        move || {
+            let now = spent.get();
+            let gone = now - before;
+            before = now;
+            gone as f64
+        }
+    };
+    let frame = lap();
+    let (mut row_cycles, mut pixel_cycles) = (0.0, 0.0);
+    let (rows, columns) = (sample(window.rows), sample(window.columns));
+    for &y in &rows {
+        for (k, &x) in columns.iter().enumerate() {
+            run.pixel(x as i32, y as i32);
+            let mut here = lap();
+            if k == 0 {
+                // The same pixel again does without the row's statements.
+                run.pixel(x as i32, y as i32);
+                let again = lap();
+                row_cycles += here - again;
+                here = again;
+            }
+            pixel_cycles += here;
+        }
+    }
+    let sampled = (rows.len() * columns.len()).max(1) as f64;
+    let pixels = f64::from(window.width()) * f64::from(window.height());
+    let row = row_cycles / rows.len().max(1) as f64;
+    frame + row * f64::from(window.height()) + pixel_cycles / sampled * pixels
+}
+
+/// Up to [`GRID`] numbers spread evenly between two, both included.
+fn sample((first, last): (u32, u32)) -> Vec<u32> {
+    let span = last - first;
+    let steps = span.min(GRID - 1);
+    let at = |k: u32| first + (u64::from(span) * u64::from(k) / u64::from(steps.max(1))) as u32;
+    (0..=steps).map(at).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn samples_reach_both_ends() {
+        assert_eq!(sample((5, 5)), [5]);
+        assert_eq!(sample((0, 3)), [0, 1, 2, 3]);
+        let wide = sample((9, 239));
+        assert_eq!(wide.len(), GRID as usize);
+        assert_eq!((wide.first(), wide.last()), (Some(&9), Some(&239)));
+    }
+}

@@ -1,0 +1,73 @@
+//! Why a command did not do what was asked, and the exit status for it.
+
+use crate::scene::Said;
+use std::process::ExitCode;
+
+/// Why a command stopped.
+#[derive(Debug)]
+pub enum Failure {
+    /// The scene is wrong; the diagnostics say where.
+    Scene(Box<Said>),
+    /// A file, a generated program or its machine is wrong.
+    Wrong(String),
+    /// What was asked for does not exist or does not fit together.
+    Usage(String),
+    /// The machine's picture is not the model's. Already reported.
+    Differs,
+    /// Somebody pressed Ctrl-C.
+    Interrupted,
+}
+
+/// What a command comes to.
+pub type Outcome<T> = Result<T, Failure>;
+
+impl Failure {
+    /// The exit status: 1 the scene or program is wrong, 2 wrong usage, 3 the
+    /// machine differs from the model, 130 interrupted (128 + SIGINT, as shells have it).
+    pub fn status(&self) -> u8 {
+        match self {
+            Failure::Scene(_) | Failure::Wrong(_) => 1,
+            Failure::Usage(_) => 2,
+            Failure::Differs => 3,
+            Failure::Interrupted => 130,
+        }
+    }
+
+    /// Says it on standard error.
+    pub fn report(&self) -> ExitCode {
+        match self {
+            Failure::Scene(said) => crate::diagnostics::print(&said.sources, &said.diagnostics),
+            Failure::Wrong(message) | Failure::Usage(message) => eprintln!("error: {message}"),
+            Failure::Differs => {}
+            Failure::Interrupted => eprintln!("interrupted"),
+        }
+        ExitCode::from(self.status())
+    }
+}
+
+/// The name nearest to a misspelt one, where one is near enough to be meant.
+pub fn nearest<'a>(name: &str, known: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
+    known
+        .into_iter()
+        .map(|k| (strsim::normalized_damerau_levenshtein(name, k), k))
+        .filter(|(like, _)| *like >= 0.5)
+        .max_by(|a, b| a.0.total_cmp(&b.0))
+        .map(|(_, k)| k)
+}
+
+/// `no param `eya`; did you mean `eye`?`, or the list of what there is.
+pub fn unknown<'a>(
+    what: &str,
+    name: &str,
+    known: impl IntoIterator<Item = &'a str> + Clone,
+) -> String {
+    if let Some(near) = nearest(name, known.clone()) {
+        return format!("no {what} `{name}`; did you mean `{near}`?");
+    }
+    let all: Vec<&str> = known.into_iter().collect();
+    if all.is_empty() {
+        format!("no {what} `{name}`; there is none")
+    } else {
+        format!("no {what} `{name}`; there is {}", all.join(", "))
+    }
+}

@@ -1,0 +1,67 @@
+//! The command line of `slowlight`.
+//!
+//! Everything that touches the world is here: files, the terminal, pictures,
+//! and the meeting of the compiler with the machines. One file a subcommand
+//! in [`commands`]; the compiler and the machines know nothing of each other.
+
+pub mod commands;
+pub mod diagnostics;
+pub mod draw;
+pub mod estimate;
+pub mod failure;
+pub mod files;
+pub mod format;
+pub mod interrupt;
+pub mod machine;
+pub mod measure;
+pub mod picture;
+pub mod program;
+pub mod progress;
+pub mod scene;
+pub mod target_args;
+pub mod trial;
+
+use clap::Parser;
+use std::process::ExitCode;
+
+/// Compiles ray-traced scenes for machines where light is slow, runs the
+/// programs on bundled machines, and shows what accuracy costs in time.
+#[derive(Parser, Debug)]
+#[command(version, propagate_version = true)]
+struct Cli {
+    #[command(subcommand)]
+    command: commands::Command,
+}
+
+/// Runs the command line; answers the exit status.
+pub fn main() -> ExitCode {
+    let cli = Cli::parse();
+    interrupt::install();
+    draw::set_up_threads();
+    match draw::deep(|| cli.command.run()) {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(failure) => failure.report(),
+    }
+}
+
+/// Prints to standard output, where a reader that has gone away is no error.
+pub fn say(text: &str) {
+    use std::io::Write;
+    let mut out = std::io::stdout().lock();
+    let _ = out.write_all(text.as_bytes()).and_then(|()| out.flush());
+}
+
+/// Prints a JSON value and a line's end.
+pub fn say_json(value: &serde_json::Value) {
+    say(&format!("{value:#}\n"));
+}
+
+#[cfg(test)]
+mod tests {
+    use clap::CommandFactory;
+
+    #[test]
+    fn the_command_line_is_sound() {
+        super::Cli::command().debug_assert();
+    }
+}

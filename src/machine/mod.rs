@@ -1,0 +1,200 @@
+//! The bundled machines as the command line uses them: sources in; files for
+//! the real machine, counts and a screen out.
+//!
+//! The machines know nothing of scenes, and the compiler nothing of machines.
+//! This is where a target's name chooses its machine.
+
+mod bbc;
+mod mos6502;
+
+use crate::failure::{Failure, Outcome};
+use crate::interrupt;
+use crate::picture::Picture;
+use slowlight_vm::bbc::Dialect;
+use slowlight_vm::{Progress, Screen, Stop};
+
+/// A machine that is bundled.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Machine {
+    /// BBC BASIC and its screen.
+    Bbc(Dialect),
+    /// The plain machine around a 6502.
+    Mos6502,
+}
+
+/// A source text or binary by its file name.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct File {
+    /// Its name, without directories.
+    pub name: String,
+    /// What is in it.
+    pub bytes: Vec<u8>,
+}
+
+impl File {
+    /// A text.
+    pub fn text(name: &str, text: &str) -> File {
+        File {
+            name: name.to_owned(),
+            bytes: text.as_bytes().to_vec(),
+        }
+    }
+
+    /// The text, with what is not UTF-8 replaced.
+    pub fn as_text(&self) -> std::borrow::Cow<'_, str> {
+        String::from_utf8_lossy(&self.bytes)
+    }
+
+    fn extension(&self) -> String {
+        let end = self.name.rsplit_once('.').map_or("", |(_, e)| e);
+        end.to_ascii_lowercase()
+    }
+}
+
+/// How large a program is, in bytes; what is not known is absent.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Sizes {
+    /// Code.
+    pub code: Option<u64>,
+    /// Tables in the program.
+    pub tables: Option<u64>,
+    /// Memory beside the program: variables, arrays, stack.
+    pub ram: Option<u64>,
+}
+
+/// A program that a machine's own tools have accepted.
+pub struct Loaded {
+    /// What the real machine loads, beside the sources; may be empty.
+    pub binaries: Vec<File>,
+    /// Sizes as far as they are known before it runs.
+    pub sizes: Sizes,
+    program: Program,
+}
+
+enum Program {
+    Bbc(slowlight_vm::bbc::Machine),
+    Mos6502(Box<slowlight_vm::mos6502::Plain>),
+}
+
+/// How a run on a machine went.
+#[derive(Clone, Debug)]
+pub struct MachineRun {
+    /// Why it ended.
+    pub stop: Stop,
+    /// The machine's own cycles (VM instructions on the Hack VM).
+    pub cycles: u64,
+    /// Of those, what drawing took, where the machine can tell.
+    pub plot_cycles: Option<u64>,
+    /// Calls of the operating system's functions (Jack).
+    pub os_calls: Option<u64>,
+    /// The screen; none where the program showed nothing.
+    pub screen: Option<Screen>,
+    /// What the program printed, if it prints beside the screen.
+    pub output: Vec<u8>,
+    /// Sizes as far as they are known now.
+    pub sizes: Sizes,
+}
+
+impl Machine {
+    /// The machine of a target.
+    pub fn of(name: &str) -> Option<Machine> {
+        match name {
+            "bbc:micro" => Some(Machine::Bbc(Dialect::Micro)),
+            "bbc:agon" => Some(Machine::Bbc(Dialect::Agon)),
+            "bbc:basicv" => Some(Machine::Bbc(Dialect::BasicV)),
+            "6502:plain" => Some(Machine::Mos6502),
+            _ => None,
+        }
+    }
+
+    /// The extension of its source files.
+    pub fn extension(self) -> &'static str {
+        match self {
+            Machine::Bbc(_) => "bas",
+            Machine::Mos6502 => "asm",
+        }
+    }
+
+    /// Whether a program is several sources together.
+    pub fn many_sources(self) -> bool {
+        false
+    }
+
+    /// Compiles, tokenises or assembles files for the machine.
+    ///
+    /// # Errors
+    /// Whatever the machine's tools say of the files.
+    pub fn load(self, files: &[File]) -> Outcome<Loaded> {
+        match self {
+            Machine::Bbc(dialect) => bbc::load(files, dialect),
+            Machine::Mos6502 => mos6502::load(files),
+        }
+    }
+}
+
+impl Loaded {
+    /// Runs the program until it ends, faults, has used `limit` cycles, or is interrupted.
+    ///
+    /// # Errors
+    /// Only an interruption: how a program ended is in the answer.
+    pub fn run(&mut self, limit: u64, progress: &mut dyn FnMut(Progress)) -> Outcome<MachineRun> {
+        let mut watch = |now: Progress| {
+            progress(now);
+            !interrupt::pressed()
+        };
+        let run = match &mut self.program {
+            Program::Bbc(machine) => bbc::run(machine, limit, &mut watch),
+            Program::Mos6502(machine) => mos6502::run(machine, self.sizes, limit, &mut watch),
+        };
+        if run.stop == Stop::Interrupted {
+            return Err(Failure::Interrupted);
+        }
+        Ok(run)
+    }
+}
+
+impl MachineRun {
+    /// The screen as a picture.
+    pub fn picture(&self) -> Option<Picture> {
+        self.screen.as_ref().map(|s| Picture {
+            width: s.width,
+            height: s.height,
+            palette: s.palette.clone(),
+            inks: s.pixels.clone(),
+        })
+    }
+}
+
+/// Why a run ended, in a word for JSON.
+pub fn stop_word(stop: &Stop) -> &'static str {
+    match stop {
+        Stop::Ended => "ended",
+        Stop::CycleLimit => "limit",
+        Stop::Interrupted => "interrupted",
+        Stop::Fault(_) => "fault",
+    }
+}
+
+/// What is wrong with a run that did not end by itself; `None` where it did.
+pub fn complaint(run: &MachineRun, limit: u64) -> Option<String> {
+    match &run.stop {
+        Stop::Ended => None,
+        Stop::CycleLimit => Some(format!(
+            "the program did not end within {limit} cycles; give more with --limit"
+        )),
+        Stop::Interrupted => Some("interrupted".to_owned()),
+        Stop::Fault(fault) => Some(fault.to_string()),
+    }
+}
+
+/// Several faults as one failure.
+fn refused(what: &str, name: &str, faults: &[slowlight_vm::Fault]) -> Failure {
+    let mut message = format!("the {what} refuses {name}:");
+    for fault in faults.iter().take(10) {
+        message.push_str(&format!("\n  {fault}"));
+    }
+    if faults.len() > 10 {
+        message.push_str(&format!("\n  and {} more", faults.len() - 10));
+    }
+    Failure::Wrong(message)
+}

@@ -1,0 +1,70 @@
+//! The plain 6502 machine: assembly or binary in, a picture out.
+
+use super::{File, Loaded, MachineRun, Program, Sizes, refused};
+use crate::failure::{Failure, Outcome};
+use slowlight_vm::mos6502::{Assembly, Plain, assemble};
+use slowlight_vm::{Fault, Watch};
+
+/// Takes one assembly source (`.asm`, `.s`, `.a65`), or one binary that begins
+/// with its load address.
+pub fn load(files: &[File]) -> Outcome<Loaded> {
+    let [file] = files else {
+        let message = "the 6502 takes one file: an assembly source or a binary".to_owned();
+        return Err(Failure::Usage(message));
+    };
+    let mut machine = Plain::new();
+    let refuse = |fault: Fault| refused("machine", &file.name, &[fault]);
+    if !matches!(file.extension().as_str(), "asm" | "s" | "a65" | "inc") {
+        machine.load(&file.bytes).map_err(refuse)?;
+        let code = file.bytes.len().saturating_sub(2) as u64;
+        return Ok(Loaded {
+            binaries: Vec::new(),
+            sizes: Sizes {
+                code: Some(code),
+                ..Sizes::default()
+            },
+            program: Program::Mos6502(Box::new(machine)),
+        });
+    }
+    let assembly =
+        assemble(&file.as_text()).map_err(|faults| refused("assembler", &file.name, &faults))?;
+    let image = assembly.image();
+    machine.load(&image).map_err(refuse)?;
+    let stem = file.name.rsplit_once('.').map_or("", |(stem, _)| stem);
+    Ok(Loaded {
+        binaries: vec![File {
+            name: format!("{stem}.bin"),
+            bytes: image,
+        }],
+        sizes: sizes(&assembly),
+        program: Program::Mos6502(Box::new(machine)),
+    })
+}
+
+/// Instructions are code, what `.byte` and `.word` make is tables, and RAM is
+/// what symbols name in the zero page.
+fn sizes(assembly: &Assembly) -> Sizes {
+    let bytes = |code: bool| {
+        let spans = assembly.lines.iter().filter(|l| l.code == code);
+        Some(spans.map(|l| u64::from(l.length)).sum())
+    };
+    Sizes {
+        code: bytes(true),
+        tables: bytes(false),
+        ram: None,
+    }
+}
+
+/// Runs a program that was loaded.
+pub fn run(machine: &mut Plain, sizes: Sizes, limit: u64, watch: Watch<'_>) -> MachineRun {
+    let run = machine.run(limit, watch);
+    MachineRun {
+        stop: run.stop,
+        cycles: run.cycles,
+        plot_cycles: None,
+        os_calls: None,
+        screen: run.screen,
+        output: Vec::new(),
+        sizes,
+    }
+}

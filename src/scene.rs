@@ -1,0 +1,273 @@
+//! From a scene's file to a graph: reading, parsing, checking, lowering.
+
+use crate::failure::{Failure, Outcome, unknown};
+use crate::files;
+use clap::Args;
+use slowlight_compiler::flow::graph::Graph;
+use slowlight_compiler::scene;
+use slowlight_compiler::sema::{self, Freeze, FunctionKind, Options, Program};
+use slowlight_compiler::source::{Diagnostic, SourceFile, Sources};
+use slowlight_compiler::syntax;
+use std::path::{Path, PathBuf};
+
+/// The self-intersection offset of the native evaluation.
+pub const NATIVE_OFFSET: f64 = 1e-9;
+
+/// Which scene, and what is changed about it.
+#[derive(Args, Clone, Debug)]
+pub struct SceneArgs {
+    /// The scene's file
+    pub scene: PathBuf,
+    /// Give a param another value: eye=0.35,0.25,3.6 or heading=45deg
+    #[arg(long, value_name = "PARAM=VALUE", allow_hyphen_values = true)]
+    pub set: Vec<String>,
+    /// Fold a param like a constant: its name, or all
+    #[arg(long, value_name = "PARAM|all")]
+    pub freeze: Vec<String>,
+    /// Replace an effect by its `else`
+    #[arg(long, value_name = "EFFECT")]
+    pub without: Vec<String>,
+    /// Use this directory's *.scn as the library
+    #[arg(long, value_name = "DIR", hide = true)]
+    pub prelude: Option<PathBuf>,
+}
+
+/// Texts and what was said about them.
+#[derive(Debug)]
+pub struct Said {
+    /// The texts.
+    pub sources: Sources,
+    /// What was said.
+    pub diagnostics: Vec<Diagnostic>,
+}
+
+/// A scene that was read and found right.
+#[derive(Debug)]
+pub struct Scene {
+    /// The file's name without extension; names the generated files.
+    pub name: String,
+    /// Texts, program and warnings.
+    pub checked: scene::Scene,
+    options: Options,
+}
+
+/// Reads a scene's text; bytes that are no text are a diagnostic.
+fn text(path: &Path) -> Outcome<(String, String)> {
+    let bytes = files::read(path)?;
+    let name = path.display().to_string();
+    let (text, said) = syntax::decode(&bytes, 0);
+    if said.is_empty() {
+        return Ok((name, text));
+    }
+    let mut sources = Sources::default();
+    sources.add(SourceFile {
+        name,
+        text,
+        library: false,
+    });
+    Err(wrong(sources, said))
+}
+
+/// A file that a scene uses, beside the file that uses it.
+fn used(from: &str, path: &str) -> Result<(String, String), String> {
+    let beside = Path::new(from).parent().unwrap_or(Path::new(""));
+    // Without `.` and `..`, one file has one name.
+    let path = beside.join(path);
+    let path = std::fs::canonicalize(&path)
+        .ok()
+        .and_then(|full| {
+            let here = std::env::current_dir().ok()?;
+            Some(full.strip_prefix(here).map_or(full.clone(), Path::to_owned))
+        })
+        .unwrap_or(path);
+    text(&path).map_err(|failure| match failure {
+        Failure::Wrong(why) => why,
+        _ => format!("{} is not UTF-8", path.display()),
+    })
+}
+
+fn prelude(dir: &Path) -> Outcome<Vec<(String, String)>> {
+    let paths = files::list(dir, "scn")?;
+    paths.iter().map(|path| text(path)).collect()
+}
+
+impl Scene {
+    /// Reads and checks a scene.
+    ///
+    /// # Errors
+    /// Where its file cannot be read, where it is wrong, or where the arguments
+    /// name a param or effect that it does not have.
+    pub fn load(args: &SceneArgs) -> Outcome<Scene> {
+        let (name, text) = text(&args.scene)?;
+        let library = args.prelude.as_deref().map(prelude).transpose()?;
+        let checked = scene::load(&name, &text, library.as_deref(), &mut used);
+        if !checked.is_right() {
+            return Err(wrong(checked.sources, checked.diagnostics));
+        }
+        let options = options(args, &checked.program)?;
+        Ok(Scene {
+            name: name_of(&args.scene),
+            options,
+            checked,
+        })
+    }
+
+    /// The image's columns and rows.
+    pub fn size(&self) -> (u32, u32) {
+        self.checked
+            .program
+            .image
+            .as_ref()
+            .map_or((1, 1), |i| (i.width, i.height))
+    }
+
+    /// The scene's graph for a screen of so many inks (the image's own where
+    /// `None`) and a format with a self-intersection offset.
+    ///
+    /// # Errors
+    /// Where it does not compile.
+    pub fn graph(&self, inks: Option<u32>, offset: f64) -> Outcome<Graph> {
+        self.graph_with(inks, offset, &[])
+    }
+
+    /// As [`Scene::graph`], with other values for some params.
+    ///
+    /// # Errors
+    /// Where it does not compile, or a value is outside its param's range.
+    pub fn graph_with(
+        &self,
+        inks: Option<u32>,
+        offset: f64,
+        set: &[(String, Vec<f64>)],
+    ) -> Outcome<Graph> {
+        let mut options = self.options.clone();
+        options.inks = inks;
+        options.offset = offset;
+        options.set.extend_from_slice(set);
+        sema::lower(&self.checked.program, &options).map_err(|said| self.wrong(said))
+    }
+
+    /// A failure with something said about this scene.
+    pub fn wrong(&self, said: Vec<Diagnostic>) -> Failure {
+        wrong(self.checked.sources.clone(), said)
+    }
+
+    /// Says the warnings on standard error.
+    pub fn warn(&self) {
+        if !self.checked.diagnostics.is_empty() {
+            crate::diagnostics::print(&self.checked.sources, &self.checked.diagnostics);
+        }
+    }
+}
+
+fn wrong(sources: Sources, diagnostics: Vec<Diagnostic>) -> Failure {
+    Failure::Scene(Box::new(Said {
+        sources,
+        diagnostics,
+    }))
+}
+
+/// A name that every target's files can bear.
+fn name_of(path: &Path) -> String {
+    let stem = path.file_stem().map(|s| s.to_string_lossy().into_owned());
+    let clean = |c: char| if c.is_ascii_alphanumeric() { c } else { '_' };
+    let name: String = stem.unwrap_or_default().chars().map(clean).collect();
+    if name.is_empty() {
+        "scene".to_owned()
+    } else {
+        name
+    }
+}
+
+fn options(args: &SceneArgs, program: &Program) -> Outcome<Options> {
+    let params = || program.params.iter().map(|p| p.name.as_str());
+    let known = |name: &str| {
+        if params().any(|p| p == name) {
+            return Ok(());
+        }
+        let names: Vec<&str> = params().collect();
+        let message = unknown("param", name, names.iter().copied());
+        Err(Failure::Usage(message))
+    };
+    let mut set = Vec::new();
+    for text in &args.set {
+        let (name, values) = text
+            .split_once('=')
+            .ok_or_else(|| Failure::Usage(format!("--set {text}: write param=value")))?;
+        known(name.trim())?;
+        let values: Option<Vec<f64>> = values.split(',').map(scalar).collect();
+        let values = values.ok_or_else(|| {
+            let form = "numbers with commas between, angles in deg, turn or rad";
+            Failure::Usage(format!("--set {text}: the value must be {form}"))
+        })?;
+        set.push((name.trim().to_owned(), values));
+    }
+    let freeze = if args.freeze.iter().any(|f| f == "all") {
+        Freeze::All
+    } else if args.freeze.is_empty() {
+        Freeze::Nothing
+    } else {
+        args.freeze.iter().try_for_each(|name| known(name))?;
+        Freeze::Some(args.freeze.clone())
+    };
+    let effects: Vec<&str> = program
+        .functions
+        .iter()
+        .filter(|f| matches!(f.kind, FunctionKind::Effect { .. }))
+        .map(|f| f.name.as_str())
+        .collect();
+    for name in &args.without {
+        if !effects.contains(&name.as_str()) {
+            let message = unknown("effect", name, effects.iter().copied());
+            return Err(Failure::Usage(message));
+        }
+    }
+    Ok(Options {
+        set,
+        freeze,
+        without: args.without.clone(),
+        offset: NATIVE_OFFSET,
+        ..Options::default()
+    })
+}
+
+/// A number, `true`, `false`, or an angle with its unit, in radians.
+fn scalar(text: &str) -> Option<f64> {
+    let text = text.trim();
+    let units = [
+        ("deg", std::f64::consts::PI / 180.0),
+        ("turn", std::f64::consts::TAU),
+        ("rad", 1.0),
+        ("", 1.0),
+    ];
+    match text {
+        "true" => return Some(1.0),
+        "false" => return Some(0.0),
+        _ => {}
+    }
+    units.iter().find_map(|(unit, size)| {
+        let number: f64 = text.strip_suffix(unit)?.trim_end().parse().ok()?;
+        number.is_finite().then_some(number * size)
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn scalars_have_units() {
+        assert_eq!(scalar(" -0.5"), Some(-0.5));
+        assert_eq!(scalar("0.5turn"), Some(std::f64::consts::PI));
+        assert_eq!(scalar("180 deg"), Some(std::f64::consts::PI));
+        for wrong in ["", "nan", "inf", "1m", "1,2", "--1"] {
+            assert_eq!(scalar(wrong), None, "{wrong}");
+        }
+    }
+
+    #[test]
+    fn names_are_identifiers() {
+        assert_eq!(name_of(Path::new("a/two mirrors.scn")), "two_mirrors");
+        assert_eq!(name_of(Path::new("..")), "scene");
+    }
+}

@@ -1,0 +1,140 @@
+//! Which machine and screen: the options that choose a target, and the plan
+//! that they lead to.
+
+use crate::failure::{Failure, Outcome, unknown};
+use crate::scene::Scene;
+use clap::Args;
+use slowlight_compiler::plan::{Goal, Plan, plan};
+use slowlight_compiler::target::{self, Mode, TARGETS, Target};
+
+/// Screen and rows.
+#[derive(Args, Clone, Debug, Default)]
+pub struct ScreenArgs {
+    /// The screen's mode, where the machine has several (see `slowlight targets`)
+    #[arg(long, value_name = "N")]
+    pub mode: Option<String>,
+    /// Only these rows of the picture, both ends included
+    #[arg(long, value_name = "A..B")]
+    pub rows: Option<String>,
+    /// Compute without drawing
+    #[arg(long)]
+    pub no_plot: bool,
+}
+
+/// Reads `--target`.
+///
+/// # Errors
+/// Where there is no such target: what there is.
+pub fn target(name: &str) -> Result<&'static Target, String> {
+    let names = TARGETS.iter().map(|t| t.name);
+    target::find(name).ok_or_else(|| unknown("target", name, names))
+}
+
+/// Reads `A..B` or `A` as rows of a picture.
+///
+/// # Errors
+/// Where it is not that, or not in the picture.
+pub fn rows(text: &str, height: u32) -> Outcome<(u32, u32)> {
+    let (first, last) = text.split_once("..").unwrap_or((text, text));
+    let last = last.strip_prefix('=').unwrap_or(last);
+    let number = |t: &str| t.trim().parse::<u32>().ok();
+    match (number(first), number(last)) {
+        (Some(first), Some(last)) if first <= last && last < height => Ok((first, last)),
+        (Some(first), Some(last)) if first > last => Err(Failure::Usage(format!(
+            "--rows {text}: the first row is below the last"
+        ))),
+        (Some(_), Some(_)) => Err(Failure::Usage(format!(
+            "--rows {text}: the picture has rows 0..{}",
+            height - 1
+        ))),
+        _ => Err(Failure::Usage(format!(
+            "--rows {text}: write first..last, as in 0..{}",
+            height - 1
+        ))),
+    }
+}
+
+impl ScreenArgs {
+    /// The mode of a target for a picture.
+    ///
+    /// # Errors
+    /// Where the target has no mode of that name.
+    pub fn mode(&self, target: &'static Target, size: (u32, u32)) -> Outcome<Mode> {
+        let Some(name) = &self.mode else {
+            return target::default_mode(target, size.0, size.1)
+                .ok_or_else(|| Failure::Wrong(format!("{} has no screen", target.name)));
+        };
+        let found = target.modes.iter().find(|m| m.name == name);
+        found.copied().ok_or_else(|| {
+            let names: Vec<&str> = target
+                .modes
+                .iter()
+                .map(|m| m.name)
+                .filter(|n| !n.is_empty())
+                .collect();
+            let what = format!("{} has no mode {name}", target.name);
+            Failure::Usage(match names.is_empty() {
+                true => format!("{what}: its screen has one mode"),
+                false => format!("{what}; its modes are {}", names.join(", ")),
+            })
+        })
+    }
+
+    /// Plans a scene for a target, `set` being values read from edited source.
+    ///
+    /// # Errors
+    /// Where the scene does not compile for it, or the options do not fit.
+    pub fn plan(
+        &self,
+        scene: &Scene,
+        target: &'static Target,
+        set: &[(String, Vec<f64>)],
+    ) -> Outcome<Plan> {
+        let (width, height) = scene.size();
+        let mode = self.mode(target, (width, height))?;
+        let asked = self.rows.as_deref().map(|r| rows(r, height)).transpose()?;
+        let graph = scene.graph_with(Some(mode.inks), target.offset, set)?;
+        let goal = Goal {
+            name: scene.name.clone(),
+            mode,
+            rows: asked,
+            plot: !self.no_plot,
+        };
+        let plan = plan(&graph, target, &goal).map_err(|said| scene.wrong(said))?;
+        match asked {
+            // The screen is lower than the picture, and these are cropped away.
+            Some(asked) if asked != plan.rows => Err(Failure::Usage(format!(
+                "--rows {}..{}: this screen shows rows {}..{} of the picture",
+                asked.0,
+                asked.1,
+                seen(height, mode.height).0,
+                seen(height, mode.height).1
+            ))),
+            _ => Ok(plan),
+        }
+    }
+}
+
+/// The rows of a picture that a screen shows: the middle ones.
+fn seen(picture: u32, screen: u32) -> (u32, u32) {
+    let first = picture.saturating_sub(screen).div_ceil(2);
+    (first, first + picture.min(screen).max(1) - 1)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn rows_include_both_ends() {
+        assert_eq!(rows("9..239", 240).ok(), Some((9, 239)));
+        assert_eq!(rows("9..=10", 240).ok(), Some((9, 10)));
+        assert_eq!(rows("7", 240).ok(), Some((7, 7)));
+        for wrong in ["", "..", "1..", "3..2", "0..240", "a..b", "-1..2"] {
+            assert!(
+                matches!(rows(wrong, 240), Err(Failure::Usage(_))),
+                "{wrong}"
+            );
+        }
+    }
+}

@@ -1,0 +1,219 @@
+//! A trial: a scene built for a target, run on its machine, and held against
+//! the model and the native evaluation.
+
+use crate::draw::{Drawn, Window, model, native};
+use crate::failure::{Failure, Outcome};
+use crate::machine::{File, Loaded, Machine, MachineRun, complaint};
+use crate::measure::{self, Difference};
+use crate::picture::Picture;
+use crate::progress::Progress;
+use crate::scene::{NATIVE_OFFSET, Scene};
+use serde_json::{Value, json};
+use slowlight_compiler::plan::Plan;
+use slowlight_compiler::target::Target;
+
+/// Cycles after which a run is given up, unless the user says otherwise.
+pub const LIMIT: u64 = 1_000_000_000_000;
+
+/// A plan written down, and accepted by the machine's own tools.
+pub struct Built {
+    /// The sources.
+    pub sources: Vec<File>,
+    /// The program in its machine.
+    pub loaded: Loaded,
+}
+
+/// The machine of a target.
+///
+/// # Errors
+/// Where none is bundled.
+pub fn machine(target: &Target) -> Outcome<Machine> {
+    Machine::of(target.name)
+        .ok_or_else(|| Failure::Wrong(format!("no machine is bundled for {}", target.name)))
+}
+
+/// Writes a plan down and gives it to the machine.
+///
+/// # Errors
+/// Where the machine's tools refuse the text, which is a fault of ours.
+pub fn build(plan: &Plan) -> Outcome<Built> {
+    let documents = (plan.target.emit)(plan);
+    let sources: Vec<File> = documents
+        .iter()
+        .map(|d| File::text(&d.name, &d.text))
+        .collect();
+    let loaded = machine(plan.target)?.load(&sources)?;
+    Ok(Built { sources, loaded })
+}
+
+/// What a trial showed.
+pub struct Trial {
+    /// The scene's name.
+    pub scene: String,
+    /// The plan.
+    pub plan: Plan,
+    /// The machine's counts.
+    pub run: MachineRun,
+    /// The machine's picture: what was asked for of it, without the screen
+    /// around; none where the program was not to draw.
+    pub picture: Option<Picture>,
+    /// The native picture in the target's inks.
+    pub native: Drawn,
+    /// Where machine and model differ; unknown without the machine's picture.
+    pub from_model: Option<Vec<Difference>>,
+    /// Where machine and native picture differ; unknown without the machine's picture.
+    pub from_native: Option<Vec<Difference>>,
+    /// Root of the mean square of model shade less native shade.
+    pub rmse: f64,
+}
+
+/// Runs a program and holds it against its plan. `set` are values that the
+/// program's source has instead of the scene's.
+///
+/// # Errors
+/// Where the program does not end by itself, or shows no such picture.
+pub fn run(
+    scene: &Scene,
+    plan: Plan,
+    set: &[(String, Vec<f64>)],
+    mut loaded: Loaded,
+    limit: u64,
+) -> Outcome<Trial> {
+    let window = Window::of(&plan);
+    let progress = Progress::new(plan.target.name, u64::from(window.height()));
+    let top = i64::from(window.rows.0) + i64::from(plan.offset.1);
+    let run = loaded.run(limit, &mut |now| {
+        if let Some(row) = now.row {
+            progress.reach(u64::try_from(i64::from(row) - top).unwrap_or(0));
+        }
+    })?;
+    drop(progress);
+    if let Some(wrong) = complaint(&run, limit) {
+        let name = plan.target.name;
+        return Err(Failure::Wrong(format!("{name}: {wrong}")));
+    }
+    let modelled = model(&plan)?;
+    let graph = scene.graph_with(Some(plan.mode.inks), NATIVE_OFFSET, set)?;
+    let native = native(&graph, window)?;
+    let picture = plan.plot.then(|| shown(&plan, &run)).transpose()?;
+    let differences = |other: &Drawn| {
+        let inks = picture.as_ref().map(|p| &p.inks)?;
+        Some(measure::differences(window.places(), inks, &other.pixels))
+    };
+    Ok(Trial {
+        scene: scene.name.clone(),
+        from_model: differences(&modelled),
+        from_native: differences(&native),
+        rmse: measure::rmse(&modelled.pixels, &native.pixels),
+        plan,
+        run,
+        picture,
+        native,
+    })
+}
+
+/// The part of the screen that the plan draws, in the picture's inks.
+fn shown(plan: &Plan, run: &MachineRun) -> Outcome<Picture> {
+    let name = plan.target.name;
+    let Some(screen) = &run.screen else {
+        return Err(Failure::Wrong(format!("{name}: the program drew nothing")));
+    };
+    let window = Window::of(plan);
+    let mut inks = Vec::with_capacity((window.width() * window.height()) as usize);
+    for (x, y) in window.places() {
+        let column = i64::from(x) + i64::from(plan.offset.0);
+        let row = i64::from(y) + i64::from(plan.offset.1);
+        let inside = (0..i64::from(screen.width)).contains(&column)
+            && (0..i64::from(screen.height)).contains(&row);
+        let at = inside.then(|| (row * i64::from(screen.width) + column) as usize);
+        match at.and_then(|at| screen.pixels.get(at)) {
+            Some(&ink) => inks.push(ink),
+            None => {
+                let size = format!("{} x {}", screen.width, screen.height);
+                return Err(Failure::Wrong(format!(
+                    "{name}: the program's screen of {size} pixels does not hold the picture"
+                )));
+            }
+        }
+    }
+    // A machine whose palette is fixed shows its own colours.
+    let mut palette = plan.graph.image.palette.clone();
+    for (k, colour) in palette.iter_mut().enumerate() {
+        if let Some(&own) = screen.palette.get(k) {
+            *colour = own;
+        }
+    }
+    // An ink beyond the picture's shows that something is wrong: it must be visible.
+    let most = inks.iter().copied().max().unwrap_or(0);
+    for ink in palette.len()..=usize::from(most) {
+        palette.push(screen.palette.get(ink).copied().unwrap_or([255, 0, 255]));
+    }
+    Ok(Picture {
+        width: window.width(),
+        height: window.height(),
+        palette,
+        inks,
+    })
+}
+
+impl Trial {
+    /// Pixels counted.
+    pub fn pixels(&self) -> u64 {
+        self.native.pixels.len() as u64
+    }
+
+    /// The machine's time in seconds.
+    pub fn seconds(&self) -> f64 {
+        self.run.cycles as f64 / self.plan.target.hertz
+    }
+
+    /// Cycles a pixel.
+    pub fn cycles_per_pixel(&self) -> f64 {
+        self.run.cycles as f64 / self.pixels().max(1) as f64
+    }
+
+    /// The object of `run --json`.
+    pub fn to_json(&self) -> Value {
+        let plan = &self.plan;
+        let effects: Vec<&str> = plan.graph.effects.iter().map(|e| e.name.as_str()).collect();
+        let mut object = json!({
+            "scene": self.scene,
+            "target": plan.target.name,
+            "mode": mode_json(plan.mode.name),
+            "inks": plan.graph.image.palette.len(),
+            "offset": plan.target.offset,
+            "format": plan.runtime.format,
+            "width": self.native.window.width(),
+            "height": self.native.window.height(),
+            "pixels": self.pixels(),
+            "cycles": self.run.cycles,
+            "plot_cycles": self.run.plot_cycles,
+            "cycles_per_pixel": self.cycles_per_pixel(),
+            "machine_seconds": self.seconds(),
+            "code_bytes": self.run.sizes.code,
+            "table_bytes": self.run.sizes.tables,
+            "ram_bytes": self.run.sizes.ram,
+            "inks_sha256": self.picture.as_ref().map(Picture::sha256),
+            "differs_from_model": self.from_model.as_ref().map(Vec::len),
+            "differs_from_native": self.from_native.as_ref().map(Vec::len),
+            "rmse": self.rmse,
+            "psnr": measure::psnr(self.rmse),
+            "effects": effects,
+        });
+        if let (Some(calls), Some(object)) = (self.run.os_calls, object.as_object_mut()) {
+            object.insert("vm_instructions".to_owned(), json!(self.run.cycles));
+            object.insert("os_calls".to_owned(), json!(calls));
+            object.insert("rom_words".to_owned(), Value::Null);
+        }
+        object
+    }
+}
+
+/// A mode as JSON: its number, its name, or null where there is only one.
+pub fn mode_json(name: &str) -> Value {
+    match name.parse::<u32>() {
+        Ok(number) => json!(number),
+        Err(_) if name.is_empty() => Value::Null,
+        Err(_) => json!(name),
+    }
+}
