@@ -1,0 +1,151 @@
+//! The functions of BASIC that routines need: lines without numbers.
+//!
+//! A false IF goes to the first ELSE on its line, so there is never more than one. Their bytes
+//! are those of the tokenised lines.
+
+use slowlight_routine::{Part, Source};
+
+macro_rules! part {
+    ($name:literal [$($need:literal),*] $bytes:literal $text:literal) => {
+        Part { name: $name, source: Source::Text($text), needs: &[$($need),*], bytes: $bytes }
+    };
+}
+
+#[rustfmt::skip]
+pub(crate) static ALL: &[Part] = &[
+    part!("FNadd" [] 81 "\
+DEF FNadd(a,b)
+IF ABS(a/2+b/2)<8.5E37 THEN =a+b
+IF a/2+b/2<0 THEN =-1.7E38 ELSE =1.7E38
+"),
+    part!("FNsub" ["FNadd"] 26 "\
+DEF FNsub(a,b)=FNadd(a,-b)
+"),
+    part!("FNneg" [] 16 "\
+DEF FNneg(a)=-a
+"),
+    part!("FNabs" [] 18 "\
+DEF FNabs(a)=ABS(a)
+"),
+    part!("FNmul" [] 85 "\
+DEF FNmul(a,b)
+IF ABS(b)<=1 THEN =a*b
+IF ABS(a)<=1.7E38/ABS(b) THEN =a*b ELSE =SGN(a)*SGN(b)*1.7E38
+"),
+    part!("FNdiv" [] 109 "\
+DEF FNdiv(a,b)
+IF b=0 THEN =SGN(a)*1.7E38
+IF ABS(b)>=1 THEN =a/b
+IF ABS(a)<=ABS(b)*1.7E38 THEN =a/b ELSE =SGN(a)*SGN(b)*1.7E38
+"),
+    part!("FNsqr" [] 35 "\
+DEF FNsqr(a)
+IF a>0 THEN =SQR(a) ELSE =0
+"),
+    part!("FNmin" [] 34 "\
+DEF FNmin(a,b)
+IF b<a THEN =b ELSE =a
+"),
+    part!("FNmax" [] 34 "\
+DEF FNmax(a,b)
+IF b>a THEN =b ELSE =a
+"),
+    part!("FNmod" [] 188 "\
+DEF FNmod(a,b)
+LOCAL c,d
+IF b=0 THEN =0
+c=ABS(a):d=ABS(b)
+IF d<=c/2 THEN REPEAT:d=d*2:UNTIL d>c/2
+REPEAT
+IF c>=d THEN c=c-d
+d=d/2
+UNTIL d<ABS(b) OR d=0
+IF a<0 THEN c=-c
+IF c<>0 AND (c<0)<>(b<0) THEN =c+b ELSE =c
+"),
+    part!("FNfloor" [] 93 "\
+DEF FNfloor(a)
+IF a>=2147483648 THEN =2147483647
+IF a<=-2147483648 THEN =-2147483647-1 ELSE =INT(a)
+"),
+    part!("FNround" [] 124 "\
+DEF FNround(a)
+IF a>=2147483647 THEN =2147483647
+IF a<=-2147483648 THEN =-2147483647-1
+=SGN(a)*(INT(ABS(a))-(ABS(a)-INT(ABS(a))>=0.5))
+"),
+    part!("FNangle" ["FNmod"] 49 "\
+DEF FNangle(a)
+IF ABS(a)<1E5 THEN =a ELSE =FNmod(a,2*PI)
+"),
+    part!("FNtan" ["FNangle", "FNdiv"] 45 "\
+DEF FNtan(a)=FNdiv(SIN(FNangle(a)),COS(FNangle(a)))
+"),
+    part!("FNclamp" [] 40 "\
+DEF FNclamp(a)
+IF ABS(a)>1 THEN =SGN(a) ELSE =a
+"),
+    part!("FNatan2" [] 117 "\
+DEF FNatan2(a,b)
+IF ABS(a)>ABS(b) THEN =SGN(a)*PI/2-ATN(b/a)
+IF b=0 THEN =0
+IF b>0 THEN =ATN(a/b)
+IF a<0 THEN =ATN(a/b)-PI ELSE =ATN(a/b)+PI
+"),
+    part!("FNexp" [] 57 "\
+DEF FNexp(a)
+IF a>88 THEN =1.7E38
+IF a<-88 THEN =0 ELSE =EXP(a)
+"),
+    part!("FNln" [] 40 "\
+DEF FNln(a)
+IF a>0 THEN =LN(a) ELSE =-1.7E38
+"),
+    part!("FNpow" ["FNmod", "FNexp", "FNmul"] 172 "\
+DEF FNpow(a,b)
+LOCAL c,d
+IF b=0 THEN =1
+IF a=0 AND b<0 THEN =1.7E38
+IF a=0 THEN =0
+d=1
+IF a<0 THEN c=FNmod(b,2):IF c<>c^2 THEN =0
+IF a<0 AND c<>0 THEN d=-1
+=d*FNexp(FNmul(b,LN(ABS(a))))
+"),
+    part!("FNsat" [] 86 "\
+DEF FNsat(a)
+IF a>2147483647 THEN =2147483647
+IF a<-2147483647 THEN =-2147483647-1 ELSE =a
+"),
+    part!("FNiadd" ["FNsat"] 26 "\
+DEF FNiadd(a,b)=FNsat(a+b)
+"),
+    part!("FNisub" ["FNsat"] 26 "\
+DEF FNisub(a,b)=FNsat(a-b)
+"),
+    part!("FNimul" ["FNsat"] 26 "\
+DEF FNimul(a,b)=FNsat(a*b)
+"),
+    part!("FNineg" ["FNsat"] 23 "\
+DEF FNineg(a)=FNsat(-a)
+"),
+    part!("FNimin" [] 41 "\
+DEF FNimin(a%,b%)
+IF b%<a% THEN =b% ELSE =a%
+"),
+    part!("FNimax" [] 41 "\
+DEF FNimax(a%,b%)
+IF b%>a% THEN =b% ELSE =a%
+"),
+    part!("FNidiv" ["FNineg"] 145 "\
+DEF FNidiv(a%,b%)
+IF b%=-1 THEN =FNineg(a%)
+IF b%<>0 THEN =a% DIV b%+((a% MOD b%<>0) AND ((a%<0)<>(b%<0)))
+IF a%<0 THEN =-2147483647-1 ELSE =2147483647*SGN(a%)
+"),
+    part!("FNimod" [] 91 "\
+DEF FNimod(a%,b%)
+IF b%=0 THEN =0
+IF a% MOD b%<>0 AND (a%<0)<>(b%<0) THEN =a% MOD b%+b% ELSE =a% MOD b%
+"),
+];

@@ -1,0 +1,204 @@
+//! The list of routines: for each operation the cheap and restricted ones first.
+//!
+//! Cycles are BASIC II's for the operation alone, from the table of whole statements measured on
+//! the ROM; bytes are those of the operator.
+
+use slowlight_isa::real40::{arith, elementary};
+use slowlight_routine::{Error, Form, Format, Op, Range, Routine, everywhere};
+
+use crate::level::{AND, COMPARE, OPERAND, POWER, PRODUCT, SUM};
+use crate::model::{self as m, from_int, int, plain, real};
+use crate::{INT as I, REAL as R};
+
+const B: Format = Format::Bool;
+const EXACT: Error = Error::Exact;
+/// The worst of + - * and /: 0.56 units in the last place of 32 bits.
+const ULP: Error = Error::Relative(2.7e-10);
+/// SQR's worst: 0.75 units.
+const ROOT: Error = Error::Relative(3.6e-10);
+
+/// Sums of what may be BASIC integers stay far from wrapping.
+const SMALL: f64 = 1_073_741_824.0;
+/// Far from overflow.
+const HUGE: f64 = 1e38;
+/// Ints without the ends, which may stand for what saturated.
+const WHOLE: f64 = i32::MAX as f64 - 1.0;
+/// BASIC integers lie within this.
+const INTEGERS: f64 = 2_147_483_648.0;
+
+/// A sum: small, or no overflow and one side certainly a real in BASIC.
+fn sum(args: &[Range], result: Range) -> bool {
+    result.within(-SMALL, SMALL)
+        || result.within(-HUGE, HUGE) && args.iter().any(|a| !a.within(-INTEGERS, INTEGERS))
+}
+
+/// Not the least BASIC integer, which has no negative.
+fn negatable(args: &[Range], _: Range) -> bool {
+    args.iter()
+        .all(|a| a.lo > -INTEGERS || !a.within(-INTEGERS, INTEGERS))
+}
+
+fn finite(_: &[Range], result: Range) -> bool {
+    result.within(-HUGE, HUGE)
+}
+
+fn fits_int(_: &[Range], result: Range) -> bool {
+    result.within(-WHOLE, WHOLE)
+}
+
+fn nonzero(args: &[Range], k: usize) -> bool {
+    args.get(k).is_some_and(|r| r.nonzero)
+}
+
+fn arg(args: &[Range], lo: f64, hi: f64) -> bool {
+    args.first().is_some_and(|a| a.within(lo, hi))
+}
+
+fn constant(args: &[Range], k: usize) -> Option<f64> {
+    args.get(k).and_then(|r| r.constant())
+}
+
+/// BASIC's ^ by repeated multiplication: exact powers, any base.
+fn whole_power(args: &[Range], result: Range) -> bool {
+    matches!(constant(args, 1), Some(p) if (1.0..=8.0).contains(&p) && p.fract() == 0.0)
+        && result.within(-1e37, 1e37)
+}
+
+/// Both not negative, the second not 0: truncation floors.
+fn natural(args: &[Range], _: Range) -> bool {
+    args.iter().all(|a| a.lo >= 0.0) && nonzero(args, 1)
+}
+
+const fn form(template: &'static str, level: u8, operands: &'static [u8]) -> Form {
+    Form::Expression {
+        template,
+        level,
+        operands,
+    }
+}
+
+const fn call(template: &'static str) -> Form {
+    form(template, OPERAND, &[0, 0])
+}
+
+/// A routine: name, operation, formats, form, needs, domain, error, model, cycles, bytes.
+/// The letter before each argument says how the model reads it.
+macro_rules! routine {
+    ($name:literal $op:ident($($arg:ident),+) -> $result:ident, $form:expr, [$($need:literal),*],
+     $domain:expr, $error:expr, |$($x:ident: $read:ident),+| $body:expr, $cycles:literal, $bytes:literal) => {
+        Routine {
+            name: $name,
+            op: Op::$op,
+            args: &[$($arg),+],
+            result: $result,
+            form: $form,
+            needs: &[$($need),*],
+            cycles: $cycles,
+            bytes: $bytes,
+            domain: $domain,
+            error: $error,
+            model: |args| {
+                let mut args = args.iter().copied();
+                $(let $x = $read(args.next().unwrap_or(0));)+
+                routine!(@ $result $body)
+            },
+        }
+    };
+    (@ R $body:expr) => { $body.to_bits() };
+    (@ I $body:expr) => { from_int($body) };
+    (@ B $body:expr) => { u64::from($body) };
+}
+
+/// MOD by a power of two, which floors by itself in two's complement.
+macro_rules! and_mask {
+    ($name:literal $n:literal $template:literal) => {
+        routine!($name IntMod(I, I) -> I, form($template, AND, &[COMPARE, 0]), [],
+            |args, _| constant(args, 1) == Some($n as f64), EXACT, |a: int, _b: int| a & ($n - 1), 526, 3)
+    };
+}
+
+const ADD: Form = form("{0}+{1}", SUM, &[SUM, PRODUCT]);
+const SUB: Form = form("{0}-{1}", SUM, &[SUM, PRODUCT]);
+const MUL: Form = form("{0}*{1}", PRODUCT, &[PRODUCT, POWER]);
+const NEG: Form = form("-{0}", SUM, &[PRODUCT]);
+const LESS: Form = form("{0}<{1}", COMPARE, &[SUM, SUM]);
+const LESS_EQUAL: Form = form("{0}<={1}", COMPARE, &[SUM, SUM]);
+const EQUAL: Form = form("{0}={1}", COMPARE, &[SUM, SUM]);
+
+#[rustfmt::skip]
+pub(crate) static ALL: &[Routine] = &[
+    routine!("add" Add(R, R) -> R, ADD, [], sum, ULP, |a: real, b: real| m::add(a, b), 436, 1),
+    routine!("FNadd" Add(R, R) -> R, call("FNadd({0},{1})"), ["FNadd"], everywhere, ULP, |a: real, b: real| m::fn_add(a, b), 24000, 9),
+    routine!("sub" Sub(R, R) -> R, SUB, [], sum, ULP, |a: real, b: real| m::add(a, b.negate()), 558, 1),
+    routine!("FNsub" Sub(R, R) -> R, call("FNsub({0},{1})"), ["FNsub"], everywhere, ULP, |a: real, b: real| m::fn_add(a, b.negate()), 30000, 9),
+    routine!("mul" Mul(R, R) -> R, MUL, [], finite, ULP, |a: real, b: real| m::mul(a, b), 3219, 1),
+    routine!("FNmul" Mul(R, R) -> R, call("FNmul({0},{1})"), ["FNmul"], everywhere, ULP, |a: real, b: real| m::fn_mul(a, b), 17000, 9),
+    routine!("div" Div(R, R) -> R, form("{0}/{1}", PRODUCT, &[PRODUCT, POWER]), [],
+        |args, result| nonzero(args, 1) && finite(args, result), ULP, |a: real, b: real| m::div(a, b), 3427, 1),
+    routine!("FNdiv" Div(R, R) -> R, call("FNdiv({0},{1})"), ["FNdiv"], everywhere, ULP, |a: real, b: real| m::fn_div(a, b), 17000, 9),
+    routine!("neg" Neg(R) -> R, NEG, [], negatable, EXACT, |a: real| a.negate(), 120, 1),
+    routine!("FNneg" Neg(R) -> R, call("FNneg({0})"), ["FNneg"], everywhere, EXACT, |a: real| a.negate(), 5000, 8),
+    routine!("abs" Abs(R) -> R, call("ABS({0})"), [], negatable, EXACT, |a: real| a.abs(), 200, 3),
+    routine!("FNabs" Abs(R) -> R, call("FNabs({0})"), ["FNabs"], everywhere, EXACT, |a: real| a.abs(), 5000, 8),
+    routine!("FNmin" Min(R, R) -> R, call("FNmin({0},{1})"), ["FNmin"], everywhere, EXACT, |a: real, b: real| a.min(b), 9000, 9),
+    routine!("FNmax" Max(R, R) -> R, call("FNmax({0},{1})"), ["FNmax"], everywhere, EXACT, |a: real, b: real| a.max(b), 9000, 9),
+    routine!("sqr" Sqrt(R) -> R, call("SQR({0})"), [], |args, _| arg(args, 0.0, f64::MAX), ROOT, |a: real| plain(arith::sqrt(a.abs())), 18100, 3),
+    routine!("FNsqr" Sqrt(R) -> R, call("FNsqr({0})"), ["FNsqr"], everywhere, ROOT, |a: real| m::fn_sqr(a), 24000, 8),
+    routine!("FNmod" Mod(R, R) -> R, call("FNmod({0},{1})"), ["FNmod"], everywhere, ULP, |a: real, b: real| m::fn_mod(a, b), 90000, 9),
+    routine!("sin" Sin(R) -> R, call("SIN({0})"), [], |args, _| arg(args, -1e5, 1e5), Error::Absolute(1e-9), |a: real| plain(elementary::sin(a)), 56000, 3),
+    routine!("FNsin" Sin(R) -> R, call("SIN(FNangle({0}))"), ["FNangle"], everywhere, Error::Absolute(2.0), |a: real| m::fn_sin(a), 65000, 12),
+    routine!("cos" Cos(R) -> R, call("COS({0})"), [], |args, _| arg(args, -1e5, 1e5), Error::Absolute(1e-9), |a: real| plain(elementary::cos(a)), 35000, 3),
+    routine!("FNcos" Cos(R) -> R, call("COS(FNangle({0}))"), ["FNangle"], everywhere, Error::Absolute(2.0), |a: real| m::fn_cos(a), 44000, 12),
+    routine!("tan" Tan(R) -> R, call("TAN({0})"), [], |args, _| arg(args, -1.5, 1.5), Error::Relative(1e-8), |a: real| plain(elementary::tan(a)), 95000, 3),
+    routine!("FNtan" Tan(R) -> R, call("FNtan({0})"), ["FNtan"], everywhere, Error::Absolute(f64::MAX), |a: real| m::fn_tan(a), 140000, 8),
+    routine!("asn" Asin(R) -> R, call("ASN({0})"), [], |args, _| arg(args, -1.0, 1.0), Error::Absolute(1e-9), |a: real| plain(elementary::asn(a)), 75000, 3),
+    routine!("FNasn" Asin(R) -> R, call("ASN(FNclamp({0}))"), ["FNclamp"], everywhere, Error::Absolute(1e-9), |a: real| m::fn_asin(a), 82000, 12),
+    routine!("acs" Acos(R) -> R, call("ACS({0})"), [], |args, _| arg(args, -1.0, 1.0), Error::Absolute(1e-9), |a: real| plain(elementary::acs(a)), 75000, 3),
+    routine!("FNacs" Acos(R) -> R, call("ACS(FNclamp({0}))"), ["FNclamp"], everywhere, Error::Absolute(1e-9), |a: real| m::fn_acos(a), 82000, 12),
+    routine!("FNatan2" Atan2(R, R) -> R, call("FNatan2({0},{1})"), ["FNatan2"], everywhere, Error::Absolute(4e-9), |a: real, b: real| m::fn_atan2(a, b), 52000, 11),
+    routine!("exp" Exp(R) -> R, call("EXP({0})"), [], |args, _| arg(args, -80.0, 80.0), Error::Relative(1e-9), |a: real| plain(elementary::exp(a)), 32500, 3),
+    routine!("FNexp" Exp(R) -> R, call("FNexp({0})"), ["FNexp"], everywhere, Error::Relative(1e-9), |a: real| m::fn_exp(a), 42000, 8),
+    routine!("ln" Log(R) -> R, call("LN({0})"), [], |args, _| arg(args, 1e-37, f64::MAX), Error::Absolute(1e-7), |a: real| plain(elementary::ln(a)), 29400, 3),
+    routine!("FNln" Log(R) -> R, call("FNln({0})"), ["FNln"], everywhere, Error::Absolute(1e-7), |a: real| m::fn_ln(a), 36000, 7),
+    routine!("whole_power" Pow(R, R) -> R, form("{0}^{1}", POWER, &[OPERAND, OPERAND]), [], whole_power, Error::Relative(3e-9), |a: real, b: real| plain(elementary::pow(a, b)), 9000, 1),
+    routine!("FNpow" Pow(R, R) -> R, call("FNpow({0},{1})"), ["FNpow"], everywhere, Error::Relative(1e-6), |a: real, b: real| m::fn_pow(a, b), 90000, 9),
+    routine!("floor" Floor(R) -> I, call("INT({0})"), [], fits_int, EXACT, |a: real| a.int_floor().unwrap_or(0), 1400, 3),
+    routine!("FNfloor" Floor(R) -> I, call("FNfloor({0})"), ["FNfloor"], everywhere, EXACT, |a: real| m::fn_floor(a), 15000, 10),
+    routine!("FNround" Round(R) -> I, call("FNround({0})"), ["FNround"], everywhere, EXACT, |a: real| m::fn_round(a), 28000, 10),
+    routine!("sgn" Sign(R) -> I, call("SGN({0})"), [], everywhere, EXACT, |a: real| a.signum(), 640, 3),
+    routine!("to_real" ToReal(I) -> R, form("{0}", OPERAND, &[OPERAND]), [], everywhere, EXACT, |a: int| slowlight_isa::real40::Real40::from_i32(a), 0, 0),
+    routine!("less" Less(R, R) -> B, LESS, [], everywhere, EXACT, |a: real, b: real| a < b, 280, 1),
+    routine!("less_equal" LessEqual(R, R) -> B, LESS_EQUAL, [], everywhere, EXACT, |a: real, b: real| a <= b, 280, 2),
+    routine!("equal" Equal(R, R) -> B, EQUAL, [], everywhere, EXACT, |a: real, b: real| a == b, 280, 1),
+
+    routine!("int_add" IntAdd(I, I) -> I, ADD, [], fits_int, EXACT, |a: int, b: int| a.wrapping_add(b), 117, 1),
+    routine!("FNiadd" IntAdd(I, I) -> I, call("FNiadd({0},{1})"), ["FNiadd"], everywhere, EXACT, |a: int, b: int| a.saturating_add(b), 20000, 10),
+    routine!("int_sub" IntSub(I, I) -> I, SUB, [], fits_int, EXACT, |a: int, b: int| a.wrapping_sub(b), 125, 1),
+    routine!("FNisub" IntSub(I, I) -> I, call("FNisub({0},{1})"), ["FNisub"], everywhere, EXACT, |a: int, b: int| a.saturating_sub(b), 20000, 10),
+    routine!("int_mul" IntMul(I, I) -> I, MUL, [], fits_int, EXACT, |a: int, b: int| a.wrapping_mul(b), 892, 1),
+    routine!("FNimul" IntMul(I, I) -> I, call("FNimul({0},{1})"), ["FNimul"], everywhere, EXACT, |a: int, b: int| a.saturating_mul(b), 23000, 10),
+    routine!("int_div" IntDiv(I, I) -> I, form("{0} DIV {1}", PRODUCT, &[PRODUCT, POWER]), [], natural, EXACT, |a: int, b: int| a.checked_div(b).unwrap_or(0), 2147, 3),
+    routine!("FNidiv" IntDiv(I, I) -> I, call("FNidiv({0},{1})"), ["FNidiv"], everywhere, EXACT, |a: int, b: int| m::fn_idiv(a, b), 15000, 10),
+    and_mask!("and_1" 2 "{0} AND 1"),
+    and_mask!("and_3" 4 "{0} AND 3"),
+    and_mask!("and_7" 8 "{0} AND 7"),
+    and_mask!("and_15" 16 "{0} AND 15"),
+    and_mask!("and_31" 32 "{0} AND 31"),
+    and_mask!("and_63" 64 "{0} AND 63"),
+    and_mask!("and_127" 128 "{0} AND 127"),
+    and_mask!("and_255" 256 "{0} AND 255"),
+    routine!("int_mod" IntMod(I, I) -> I, form("{0} MOD {1}", PRODUCT, &[PRODUCT, POWER]), [], natural, EXACT, |a: int, b: int| a.checked_rem(b).unwrap_or(0), 2123, 3),
+    routine!("FNimod" IntMod(I, I) -> I, call("FNimod({0},{1})"), ["FNimod"], everywhere, EXACT, |a: int, b: int| m::fn_imod(a, b), 13000, 10),
+    routine!("int_neg" IntNeg(I) -> I, NEG, [], fits_int, EXACT, |a: int| a.wrapping_neg(), 120, 1),
+    routine!("FNineg" IntNeg(I) -> I, call("FNineg({0})"), ["FNineg"], everywhere, EXACT, |a: int| a.saturating_neg(), 15000, 9),
+    routine!("int_abs" IntAbs(I) -> I, call("ABS({0})"), [], fits_int, EXACT, |a: int| a.wrapping_abs(), 200, 3),
+    routine!("FNiabs" IntAbs(I) -> I, call("FNineg(-ABS({0}))"), ["FNineg"], everywhere, EXACT, |a: int| a.saturating_abs(), 15200, 13),
+    routine!("FNimin" IntMin(I, I) -> I, call("FNimin({0},{1})"), ["FNimin"], everywhere, EXACT, |a: int, b: int| a.min(b), 9000, 9),
+    routine!("FNimax" IntMax(I, I) -> I, call("FNimax({0},{1})"), ["FNimax"], everywhere, EXACT, |a: int, b: int| a.max(b), 9000, 9),
+    routine!("int_sgn" IntSign(I) -> I, call("SGN({0})"), [], everywhere, EXACT, |a: int| a.signum(), 400, 3),
+    routine!("and" BitAnd(I, I) -> I, form("{0} AND {1}", AND, &[AND, COMPARE]), [], everywhere, EXACT, |a: int, b: int| a & b, 218, 3),
+    routine!("int_less" IntLess(I, I) -> B, LESS, [], everywhere, EXACT, |a: int, b: int| a < b, 200, 1),
+    routine!("int_less_equal" IntLessEqual(I, I) -> B, LESS_EQUAL, [], everywhere, EXACT, |a: int, b: int| a <= b, 200, 2),
+    routine!("int_equal" IntEqual(I, I) -> B, EQUAL, [], everywhere, EXACT, |a: int, b: int| a == b, 200, 1),
+    routine!("not" Not(B) -> B, form("NOT {0}", OPERAND, &[OPERAND]), [], everywhere, EXACT, |a: int| a == 0, 150, 1),
+];

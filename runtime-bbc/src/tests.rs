@@ -1,0 +1,355 @@
+#![allow(clippy::unwrap_used)]
+
+//! Every routine is run in the BASIC machine on edges and random operands of its domain and
+//! compared with its model, bit for bit; and the model with the operation's definition.
+
+use super::*;
+use proptest::prelude::*;
+use proptest::strategy::ValueTree;
+use proptest::test_runner::TestRunner;
+use slowlight_routine::{Error, Form, Op, Part, Routine, Source};
+use slowlight_vm::Stop;
+use slowlight_vm::bbc::{Config, Dialect, Machine, tokenise};
+
+/// Operands of a format: edges, then random ones.
+fn operands(format: Format) -> Vec<Bits> {
+    let mut runner = TestRunner::deterministic();
+    let mut draw = |s: BoxedStrategy<Bits>, n: usize| -> Vec<Bits> {
+        (0..n)
+            .map(|_| s.new_tree(&mut runner).unwrap().current())
+            .collect()
+    };
+    match format {
+        Format::Bool => vec![0, 1],
+        Format::Real40 => {
+            let edges = [
+                0.0,
+                1.0,
+                -1.0,
+                2.0,
+                0.5,
+                -0.5,
+                1.5,
+                -2.5,
+                3.0,
+                8.0,
+                0.3,
+                -0.1,
+                1e-3,
+                1e3,
+                88.0,
+                89.0,
+                -89.0,
+                1e-38,
+                3e-39,
+                1e5,
+                -123456.0,
+                2147483647.0,
+                2147483648.0,
+                -2147483648.0,
+                -2147483649.0,
+                2147483646.5,
+                1e10,
+                1e37,
+                8.5e37,
+                -9e37,
+                1.7e38,
+                -1.7e38,
+                1.701411834e38,
+            ];
+            let mut list: Vec<Bits> = edges.iter().map(|x| nearest(*x).to_bits()).collect();
+            list.extend(draw(
+                (-8.0f64..8.0).prop_map(|x| nearest(x).to_bits()).boxed(),
+                12,
+            ));
+            list.extend(draw(
+                (124u64..=134, any::<u32>())
+                    .prop_map(|(e, m)| Real40::from_bits(e << 32 | u64::from(m)).to_bits())
+                    .boxed(),
+                12,
+            ));
+            list.extend(draw(
+                (1u64..=255, any::<u32>())
+                    .prop_map(|(e, m)| Real40::from_bits(e << 32 | u64::from(m)).to_bits())
+                    .boxed(),
+                8,
+            ));
+            list
+        }
+        _ => {
+            let edges = [
+                0,
+                1,
+                -1,
+                2,
+                -2,
+                3,
+                4,
+                7,
+                8,
+                16,
+                32,
+                64,
+                128,
+                256,
+                -256,
+                1000,
+                65535,
+                46341,
+                i32::MAX,
+                i32::MAX - 1,
+                i32::MIN,
+                i32::MIN + 1,
+            ];
+            let mut list: Vec<Bits> = edges.iter().map(|n| model::from_int(*n)).collect();
+            list.extend(draw((-1000i32..1000).prop_map(model::from_int).boxed(), 10));
+            list.extend(draw(any::<i32>().prop_map(model::from_int).boxed(), 10));
+            list
+        }
+    }
+}
+
+fn value(bits: Bits, format: Format) -> Value {
+    (RUNTIME.decode)(bits, format)
+}
+
+/// The operand tuples of a routine's domain.
+fn cases(r: &Routine) -> Vec<Vec<Bits>> {
+    let pools: Vec<Vec<Bits>> = r.args.iter().map(|f| operands(*f)).collect();
+    let mut all = vec![Vec::new()];
+    for pool in &pools {
+        all = all
+            .iter()
+            .flat_map(|head: &Vec<Bits>| pool.iter().map(|b| [head.as_slice(), &[*b]].concat()))
+            .collect();
+    }
+    all.retain(|args| {
+        let values: Vec<Value> = args
+            .iter()
+            .zip(r.args)
+            .map(|(b, f)| value(*b, *f))
+            .collect();
+        let ranges: Vec<Range> = values.iter().map(|v| Range::point(v.real())).collect();
+        (r.domain)(&ranges, Range::point(r.op.eval(&values).real()))
+    });
+    all
+}
+
+/// A value as PRINT# writes it to a file.
+fn record(bits: Bits, format: Format) -> Vec<u8> {
+    match format {
+        Format::Real40 => [
+            &[0xff][..],
+            &Real40::from_bits(bits)
+                .to_bytes()
+                .iter()
+                .rev()
+                .copied()
+                .collect::<Vec<u8>>(),
+        ]
+        .concat(),
+        Format::Bool => [&[0x40][..], &(-i32::from(bits != 0)).to_be_bytes()].concat(),
+        _ => [&[0x40][..], &model::int(bits).to_be_bytes()].concat(),
+    }
+}
+
+/// The results that a program wrote, in a format.
+fn results(mut file: &[u8], format: Format) -> Vec<Bits> {
+    let mut out = Vec::new();
+    while let Some((kind, rest)) = file.split_first() {
+        let real = *kind == 0xff;
+        let (bytes, rest) = rest.split_at(if real { 5 } else { 4 });
+        let number = if real {
+            let b: Vec<u8> = bytes.iter().rev().copied().collect();
+            Real40::from_bytes(b.try_into().unwrap())
+        } else {
+            Real40::from_i32(i32::from_be_bytes(bytes.try_into().unwrap()))
+        };
+        out.push(match format {
+            Format::Real40 => number.to_bits(),
+            Format::Bool => u64::from(!number.is_zero()),
+            _ if real => model::from_int(number.to_i32().unwrap()),
+            _ => model::from_int(i32::from_be_bytes(bytes.try_into().unwrap())),
+        });
+        file = rest;
+    }
+    out
+}
+
+fn text(part: &Part) -> &'static str {
+    match part.source {
+        Source::Text(text) => text,
+        Source::Table(_) => panic!("BASIC's parts are text"),
+    }
+}
+
+/// Runs a routine on all cases; answers the results and the cycles of each use.
+fn run(r: &Routine, cases: &[Vec<Bits>]) -> Vec<Bits> {
+    let Form::Expression { template, .. } = r.form else {
+        panic!("{}: not an expression", r.name);
+    };
+    let names: Vec<&str> = r
+        .args
+        .iter()
+        .zip([["p", "q"], ["p%", "q%"]].map(|n| n).iter().cycle())
+        .enumerate()
+        .map(|(k, (f, _))| match (f, k) {
+            (Format::Real40, 0) => "p",
+            (Format::Real40, _) => "q",
+            (_, 0) => "p%",
+            _ => "q%",
+        })
+        .collect();
+    let mut expression = template.to_owned();
+    for (k, name) in names.iter().enumerate() {
+        expression = expression.replace(&format!("{{{k}}}"), name);
+    }
+    let result = match r.result {
+        Format::Real40 => "s",
+        _ => "s%",
+    };
+    let mut program = format!(
+        "F%=OPENIN\"in\"\nG%=OPENOUT\"out\"\nREPEAT\nINPUT#F%,{}\n{result}={expression}\nPRINT#G%,{result}\nUNTIL EOF#F%\nEND\n",
+        names.join(",")
+    );
+    for part in RUNTIME.closure(r.needs.iter().copied()) {
+        program.push_str(text(part));
+    }
+    let mut machine = Machine::new(Config {
+        dialect: Dialect::Micro,
+        page: 0x1900,
+    });
+    machine.load_text(&program).unwrap();
+    let input = cases
+        .iter()
+        .flat_map(|args| args.iter().zip(r.args).flat_map(|(b, f)| record(*b, *f)))
+        .collect();
+    machine.add_file("in", input);
+    let run = machine.run(u64::MAX, &mut |_| true);
+    assert_eq!(run.stop, Stop::Ended, "{}\n{program}", r.name);
+    results(&run.files["out"], r.result)
+}
+
+#[test]
+fn routines_do_on_the_machine_what_their_models_say() {
+    for r in RUNTIME.routines {
+        let cases = cases(r);
+        assert!(cases.len() > 1, "{}: nothing to test", r.name);
+        let got = run(r, &cases);
+        assert_eq!(got.len(), cases.len(), "{}", r.name);
+        for (args, got) in cases.iter().zip(got) {
+            let wanted = (r.model)(args);
+            let shown: Vec<Value> = args
+                .iter()
+                .zip(r.args)
+                .map(|(b, f)| value(*b, *f))
+                .collect();
+            assert_eq!(
+                got,
+                wanted,
+                "{}{shown:?}: {:?} on the machine, {:?} by the model",
+                r.name,
+                value(got, r.result),
+                value(wanted, r.result)
+            );
+        }
+    }
+}
+
+#[test]
+fn models_are_as_close_as_they_say() {
+    for r in RUNTIME.routines {
+        for args in cases(r) {
+            let values: Vec<Value> = args
+                .iter()
+                .zip(r.args)
+                .map(|(b, f)| value(*b, *f))
+                .collect();
+            let got = value((r.model)(&args), r.result).real();
+            // Reals saturate at BIG and vanish below 2^-128.
+            let exact = r.op.eval(&values).real();
+            let exact = if r.result == REAL {
+                exact.clamp(-BIG, BIG)
+            } else {
+                exact
+            };
+            let off = (got - exact).abs();
+            let allowed = match r.error {
+                Error::Exact => 0.0,
+                Error::Relative(e) => e * exact.abs() + 1e-38,
+                Error::Absolute(e) => e,
+            };
+            // Above BIG the format goes on a little.
+            let end = got.abs() > BIG * 0.999_999_999 && exact.abs() >= BIG * 0.999;
+            assert!(
+                off <= allowed || end,
+                "{}{values:?} = {got}, not {exact}: off by {off}, allowed {allowed}",
+                r.name
+            );
+        }
+    }
+}
+
+#[test]
+fn every_operation_ends_with_a_total_routine() {
+    for op in Op::ALL {
+        let last = RUNTIME.routines.iter().rfind(|r| r.op == *op).unwrap();
+        let all = vec![Range::ALL; op.arity()];
+        assert!((last.domain)(&all, Range::ALL), "{}", last.name);
+    }
+}
+
+#[test]
+fn parts_have_the_bytes_they_say_and_exist() {
+    for part in RUNTIME.parts {
+        let bytes = tokenise(text(part), Dialect::Micro).unwrap().len() as u32 - 2;
+        assert_eq!(part.bytes, bytes, "{}", part.name);
+        assert!(
+            part.needs.iter().all(|n| RUNTIME.part(n).is_some()),
+            "{}",
+            part.name
+        );
+    }
+    for r in RUNTIME.routines {
+        assert!(
+            r.needs.iter().all(|n| RUNTIME.part(n).is_some()),
+            "{}",
+            r.name
+        );
+        assert_eq!(r.args.len(), r.op.arity());
+    }
+}
+
+#[test]
+fn literals_are_short_and_read_back() {
+    for (x, text) in [
+        (0.0, "0"),
+        (1.0, "1"),
+        (-0.5, "-0.5"),
+        (0.1, "0.1"),
+        (1.0 / 3.0, "0.3333333333"),
+        (1e9, "1000000000"),
+        (1e10, "1E10"),
+        (1.5e-7, "1.5E-7"),
+        (-2e20, "-2E20"),
+        (f64::MAX, "1.7E38"),
+        (159.5, "159.5"),
+        (1234567890.0, "1234567890"),
+        (0.001, "0.001"),
+    ] {
+        assert_eq!(literal(x), text);
+    }
+}
+
+proptest! {
+    #[test]
+    fn literals_are_the_nearest_ten_digits(bits in any::<u64>()) {
+        let x = Real40::from_bits(bits).to_f64();
+        prop_assume!(x.abs() < BIG && x.abs() > 1e-37);
+        let text = literal(x);
+        let digits = text.split('E').next().unwrap().replace(['-', '.'], "");
+        prop_assert!(digits.trim_start_matches('0').len() <= 10, "{text}");
+        prop_assert!((nearest(x).to_f64() - x).abs() <= 1e-9 * x.abs(), "{text}");
+        prop_assert!((text.parse::<f64>().unwrap() - x).abs() <= 0.51e-9 * x.abs());
+    }
+}
