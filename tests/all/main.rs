@@ -3,3 +3,4 @@
 mod cli;
 mod cli_wrong;
 mod house;
+mod snapshots;
