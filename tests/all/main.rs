@@ -3,4 +3,5 @@
 mod cli;
 mod cli_wrong;
 mod house;
+mod mos6502;
 mod snapshots;
