@@ -51,9 +51,12 @@ pub fn say(text: &str) {
     let _ = out.write_all(text.as_bytes()).and_then(|()| out.flush());
 }
 
-/// Prints a JSON value and a line's end.
-pub fn say_json(value: &serde_json::Value) {
-    say(&format!("{value:#}\n"));
+/// Prints a value as JSON, and a line's end.
+pub fn say_json(value: &impl serde::Serialize) {
+    // Fails only for maps with keys that are no strings, of which there are none.
+    if let Ok(text) = serde_json::to_string_pretty(value) {
+        say(&(text + "\n"));
+    }
 }
 
 #[cfg(test)]

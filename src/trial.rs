@@ -8,6 +8,7 @@ use crate::measure::{self, Difference};
 use crate::picture::Picture;
 use crate::progress::Progress;
 use crate::scene::{NATIVE_OFFSET, Scene};
+use serde::Serialize;
 use serde_json::{Value, json};
 use slowlight_compiler::plan::Plan;
 use slowlight_compiler::target::Target;
@@ -172,41 +173,82 @@ impl Trial {
         self.run.cycles as f64 / self.pixels().max(1) as f64
     }
 
-    /// The object of `run --json`.
-    pub fn to_json(&self) -> Value {
+    /// What `run --json` prints.
+    pub fn report(&self) -> Report<'_> {
         let plan = &self.plan;
-        let effects: Vec<&str> = plan.graph.effects.iter().map(|e| e.name.as_str()).collect();
-        let mut object = json!({
-            "scene": self.scene,
-            "target": plan.target.name,
-            "mode": mode_json(plan.mode.name),
-            "inks": plan.graph.image.palette.len(),
-            "offset": plan.target.offset,
-            "format": plan.runtime.format,
-            "width": self.native.window.width(),
-            "height": self.native.window.height(),
-            "pixels": self.pixels(),
-            "cycles": self.run.cycles,
-            "plot_cycles": self.run.plot_cycles,
-            "cycles_per_pixel": self.cycles_per_pixel(),
-            "machine_seconds": self.seconds(),
-            "code_bytes": self.run.sizes.code,
-            "table_bytes": self.run.sizes.tables,
-            "ram_bytes": self.run.sizes.ram,
-            "inks_sha256": self.picture.as_ref().map(Picture::sha256),
-            "differs_from_model": self.from_model.as_ref().map(Vec::len),
-            "differs_from_native": self.from_native.as_ref().map(Vec::len),
-            "rmse": self.rmse,
-            "psnr": measure::psnr(self.rmse),
-            "effects": effects,
-        });
-        if let (Some(calls), Some(object)) = (self.run.os_calls, object.as_object_mut()) {
-            object.insert("vm_instructions".to_owned(), json!(self.run.cycles));
-            object.insert("os_calls".to_owned(), json!(calls));
-            object.insert("rom_words".to_owned(), Value::Null);
+        let run = &self.run;
+        let jack = run.os_calls.is_some();
+        Report {
+            scene: &self.scene,
+            target: plan.target.name,
+            mode: mode_json(plan.mode.name),
+            inks: plan.graph.image.palette.len(),
+            offset: plan.target.offset,
+            format: plan.runtime.format,
+            width: self.native.window.width(),
+            height: self.native.window.height(),
+            pixels: self.pixels(),
+            cycles: run.cycles,
+            plot_cycles: run.plot_cycles,
+            cycles_per_pixel: self.cycles_per_pixel(),
+            machine_seconds: self.seconds(),
+            code_bytes: run.sizes.code,
+            table_bytes: run.sizes.tables,
+            ram_bytes: run.sizes.ram,
+            inks_sha256: self.picture.as_ref().map(Picture::sha256),
+            differs_from_model: self.from_model.as_ref().map(Vec::len),
+            differs_from_native: self.from_native.as_ref().map(Vec::len),
+            rmse: self.rmse,
+            psnr: measure::psnr(self.rmse),
+            effects: plan.graph.effects.iter().map(|e| e.name.as_str()).collect(),
+            vm_instructions: jack.then_some(run.cycles),
+            os_calls: run.os_calls,
+            rom_words: jack.then_some(None),
         }
-        object
     }
+}
+
+/// The object of `run --json`, counted over the rows asked for. What is not
+/// known is null; what only Jack has is absent elsewhere.
+#[derive(Clone, Debug, Serialize)]
+pub struct Report<'t> {
+    scene: &'t str,
+    target: &'t str,
+    /// The machine's number or name for it; null where there is only one.
+    mode: Value,
+    inks: usize,
+    /// The format's self-intersection offset.
+    offset: f64,
+    format: &'t str,
+    /// Columns drawn.
+    width: u32,
+    /// Rows drawn.
+    height: u32,
+    pixels: u64,
+    cycles: u64,
+    /// Of those, what drawing took, where the machine can tell.
+    plot_cycles: Option<u64>,
+    cycles_per_pixel: f64,
+    machine_seconds: f64,
+    code_bytes: Option<u64>,
+    table_bytes: Option<u64>,
+    ram_bytes: Option<u64>,
+    /// Null with `--no-plot`, as are the two counts that need the machine's picture.
+    inks_sha256: Option<String>,
+    differs_from_model: Option<usize>,
+    differs_from_native: Option<usize>,
+    /// Over shades, model against native.
+    rmse: f64,
+    /// In dB; null where the shades are equal.
+    psnr: Option<f64>,
+    effects: Vec<&'t str>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    vm_instructions: Option<u64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    os_calls: Option<u64>,
+    /// Null while nothing is translated to Hack machine code.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    rom_words: Option<Option<u64>>,
 }
 
 /// A mode as JSON: its number, its name, or null where there is only one.

@@ -6,9 +6,8 @@ use crate::format::{count, duration, table};
 use crate::picture::{self, FileFormat, Picture};
 use crate::scene::{Scene, SceneArgs};
 use crate::target_args::{self, ScreenArgs};
-use crate::trial::{self, LIMIT, Trial};
+use crate::trial::{self, LIMIT, Report, Trial};
 use crate::{files, say, say_json};
-use serde_json::{Value, json};
 use slowlight_compiler::target::{TARGETS, Target};
 use std::path::PathBuf;
 
@@ -66,8 +65,8 @@ pub fn run(args: &Args) -> Outcome<()> {
         files::write(output, &side_by_side(&trials)?)?;
     }
     if args.json {
-        let all: Vec<Value> = trials.iter().map(Trial::to_json).collect();
-        say_json(&json!(all));
+        let all: Vec<Report<'_>> = trials.iter().map(Trial::report).collect();
+        say_json(&all);
     } else {
         say(&report(&trials));
     }

@@ -51,7 +51,7 @@ pub fn run(args: &Args) -> Outcome<()> {
         output.write(picture)?;
     }
     if args.json {
-        say_json(&trial.to_json());
+        say_json(&trial.report());
     } else {
         say(&report(&trial));
     }

@@ -37,7 +37,10 @@ pub fn run(args: &Args) -> Outcome<()> {
                     "" => "  screen".to_owned(),
                     name => format!("  mode {name}"),
                 };
-                let size = format!("{} x {}", m.width, m.height);
+                let size = match m.width {
+                    0 => "any size".to_owned(),
+                    width => format!("{width} x {}", m.height),
+                };
                 vec![name, size, format!("{} inks", m.inks)]
             })
             .collect();
@@ -53,8 +56,9 @@ fn object(target: &Target) -> Value {
         .map(|m| {
             json!({
                 "mode": mode_json(m.name),
-                "width": m.width,
-                "height": m.height,
+                // Null: as large as the picture.
+                "width": (m.width > 0).then_some(m.width),
+                "height": (m.height > 0).then_some(m.height),
                 "inks": m.inks,
             })
         })

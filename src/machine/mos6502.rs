@@ -2,6 +2,7 @@
 
 use super::{File, Loaded, MachineRun, Program, Sizes, refused};
 use crate::failure::{Failure, Outcome};
+use slowlight_vm::mos6502::plain::port;
 use slowlight_vm::mos6502::{Assembly, Plain, assemble};
 use slowlight_vm::{Fault, Watch};
 
@@ -41,8 +42,7 @@ pub fn load(files: &[File]) -> Outcome<Loaded> {
     })
 }
 
-/// Instructions are code, what `.byte` and `.word` make is tables, and RAM is
-/// what symbols name in the zero page.
+/// Instructions are code, and what `.byte` and `.word` make is tables.
 fn sizes(assembly: &Assembly) -> Sizes {
     let bytes = |code: bool| {
         let spans = assembly.lines.iter().filter(|l| l.code == code);
@@ -55,9 +55,15 @@ fn sizes(assembly: &Assembly) -> Sizes {
     }
 }
 
-/// Runs a program that was loaded.
+/// Runs a program that was loaded. RAM is what it leaves changed: memory is 0 at first.
 pub fn run(machine: &mut Plain, sizes: Sizes, limit: u64, watch: Watch<'_>) -> MachineRun {
+    let before: Vec<u8> = (0..port::WIDTH).map(|at| machine.peek(at)).collect();
     let run = machine.run(limit, watch);
+    let changed = before
+        .iter()
+        .zip(0..)
+        .filter(|(was, at)| machine.peek(*at) != **was);
+    let ram = Some(changed.count() as u64);
     MachineRun {
         stop: run.stop,
         cycles: run.cycles,
@@ -65,6 +71,6 @@ pub fn run(machine: &mut Plain, sizes: Sizes, limit: u64, watch: Watch<'_>) -> M
         os_calls: None,
         screen: run.screen,
         output: Vec::new(),
-        sizes,
+        sizes: Sizes { ram, ..sizes },
     }
 }

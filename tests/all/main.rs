@@ -1,6 +1,7 @@
 //! One integration-test binary: a file a subject.
 
 mod cli;
+mod cli_run;
 mod cli_wrong;
 mod house;
 mod mos6502;

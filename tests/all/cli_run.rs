@@ -1,0 +1,300 @@
+//! `run`, `build` and `compare` on every target: the machine against the model
+//! and the native picture, edited programs, exit statuses.
+
+use crate::cli::{STEPS, directory, json, names, slowlight, success};
+use serde_json::Value;
+use std::path::Path;
+
+/// A scene with everything that the pipeline has: params, an effect, a loop,
+/// a table, a dither; smooth, so that formats differ by little.
+const SPOT: &str = "image 12 x 8 inks black, white;
+param at: vec2 = (5.5, 3.5) in (0, 0) .. (11, 7);
+const cells = [0.2, 0.6; 0.8, 0.4];
+effect glow(v: real) -> real else v = min(v + 0.1, 1);
+fn halved(v: real, n: int) -> real =
+  loop (w = v, k = n) max 3 { if k > 0 then next(w / 2, k - 1) else w } else w;
+dither dots(v: real, x: int, y: int) -> ink =
+  ink(if v > cells[x mod 2, y mod 2] then inks - 1 else 0);
+draw (x, y) = {
+  let p = (x, y) - at;
+  dots(glow(halved(2 * (1 - dot(p, p) / 40), 1)), x, y)
+};
+";
+
+fn targets(dir: &Path) -> Vec<String> {
+    let listed = json(dir, &["targets", "--json"]);
+    let all = listed.as_array().expect("a list").iter();
+    let names = all.map(|t| t["target"].as_str().expect("a name").to_owned());
+    names.collect()
+}
+
+const FIELDS: &[&str] = &[
+    "scene",
+    "target",
+    "mode",
+    "inks",
+    "offset",
+    "format",
+    "width",
+    "height",
+    "pixels",
+    "cycles",
+    "plot_cycles",
+    "cycles_per_pixel",
+    "machine_seconds",
+    "code_bytes",
+    "table_bytes",
+    "ram_bytes",
+    "inks_sha256",
+    "differs_from_model",
+    "differs_from_native",
+    "rmse",
+    "psnr",
+    "effects",
+];
+
+#[test]
+fn machines_draw_what_their_models_do() {
+    let dir = directory(&[("spot.scn", SPOT)]);
+    let dir = dir.path();
+    assert!(!targets(dir).is_empty());
+    for target in targets(dir) {
+        let run = |more: &[&str]| {
+            let mut args = vec!["run", "spot.scn", "--target", &target, "--json"];
+            args.extend(more);
+            json(dir, &args)
+        };
+        let whole = run(&["-o", "spot.pgm"]);
+        let mut keys: Vec<&str> = FIELDS.to_vec();
+        if target == "jack" {
+            keys.extend(["vm_instructions", "os_calls", "rom_words"]);
+        }
+        let object = whole.as_object().expect("an object");
+        for key in &keys {
+            assert!(object.contains_key(*key), "{target}: no {key}");
+        }
+        assert_eq!(object.len(), keys.len(), "{target}: {whole}");
+        assert_eq!(whole["differs_from_model"], 0, "{target}");
+        assert!(
+            whole["differs_from_native"].as_u64() <= Some(2),
+            "{target}: {whole}"
+        );
+        assert_eq!(
+            (&whole["width"], &whole["pixels"]),
+            (&12.into(), &96.into())
+        );
+        assert_eq!(whole["effects"], Value::from(vec!["glow"]));
+        assert!(whole["cycles"].as_u64() > Some(96), "{target}");
+        let drawn = std::fs::read(dir.join("spot.pgm")).expect("a picture");
+        assert_eq!(drawn.len(), b"P5\n12 8\n1\n".len() + 96);
+
+        let rows = run(&["--rows", "2..4"]);
+        assert_eq!((&rows["height"], &rows["pixels"]), (&3.into(), &36.into()));
+        assert_eq!(rows["differs_from_model"], 0, "{target}");
+        assert!(
+            rows["cycles"].as_u64() < whole["cycles"].as_u64(),
+            "{target}"
+        );
+
+        let moved = run(&["--set", "at=2,6"]);
+        assert_eq!(moved["differs_from_model"], 0, "{target}");
+        assert_ne!(moved["inks_sha256"], whole["inks_sha256"], "{target}");
+        let frozen = run(&["--set", "at=2,6", "--freeze", "at"]);
+        assert_eq!(frozen["inks_sha256"], moved["inks_sha256"], "{target}");
+
+        let without = run(&["--without", "glow"]);
+        assert_eq!(without["differs_from_model"], 0, "{target}");
+        assert_eq!(without["effects"], Value::from(Vec::<Value>::new()));
+
+        let blind = run(&["--no-plot"]);
+        assert_eq!(blind["differs_from_model"], Value::Null);
+        assert!(
+            blind["cycles"].as_u64() < whole["cycles"].as_u64(),
+            "{target}"
+        );
+    }
+}
+
+/// The sources that `build` writes for a target, in a directory of their own.
+fn built(dir: &Path, target: &str) -> Vec<String> {
+    success(dir, &["build", "spot.scn", "--target", target, "-o", "out"]);
+    names(&dir.join("out"))
+}
+
+/// Changes the files of `out` with `change`; answers how many it changed.
+fn edit(dir: &Path, change: impl Fn(&str) -> Option<String>) -> usize {
+    let mut changed = 0;
+    for name in names(dir) {
+        let path = dir.join(name);
+        if let Ok(text) = std::fs::read_to_string(&path)
+            && let Some(new) = change(&text)
+        {
+            std::fs::write(&path, new).expect("a file");
+            changed += 1;
+        }
+    }
+    changed
+}
+
+/// The text with the number behind `label =` replaced.
+fn with_value(text: &str, label: &str, value: impl Fn(&str) -> String) -> Option<String> {
+    let mut found = false;
+    let line = |line: &str| {
+        let assigned = line.find(label).and_then(|at| {
+            let rest = &line[at + label.len()..];
+            let equals = rest.find('=')?;
+            let number = rest[equals + 1..].trim_start();
+            let end = number.find(|c: char| !c.is_ascii_digit() && c != '.' && c != '-');
+            let number = &number[..end.unwrap_or(number.len())];
+            (rest[..equals].trim().is_empty() && !number.is_empty()).then_some(number)
+        });
+        match assigned {
+            Some(number) if !found => {
+                found = true;
+                line.replacen(number, &value(number), 1)
+            }
+            _ => line.to_owned(),
+        }
+    };
+    let new: Vec<String> = text.lines().map(line).collect();
+    found.then(|| new.join("\n") + "\n")
+}
+
+#[test]
+fn edited_parameters_change_the_picture() {
+    let dir = directory(&[("spot.scn", SPOT)]);
+    let dir = dir.path();
+    for target in targets(dir) {
+        let files = built(dir, &target);
+        assert!(!files.is_empty(), "{target}");
+        let out = dir.join("out");
+        let run = ["run", "spot.scn", "--target", &target, "--program", "out"];
+        let untouched = success(dir, &run);
+        assert!(!untouched.is_empty());
+        // 5.5 becomes 2, in the block's own scale.
+        let scaled = |number: &str| {
+            let old: f64 = number.parse().expect("a number");
+            (old / 5.5 * 2.0).round().to_string()
+        };
+        assert_eq!(edit(&out, |t| with_value(t, "at_x", scaled)), 1, "{target}");
+        let edited = json(dir, &[&run[..], &["--json"]].concat());
+        assert_eq!(edited["differs_from_model"], 0, "{target}");
+        let set = [
+            "run", "spot.scn", "--target", &target, "--json", "--set", "at=2,3.5",
+        ];
+        assert_eq!(
+            edited["inks_sha256"],
+            json(dir, &set)["inks_sha256"],
+            "{target}"
+        );
+
+        let fails = |part: &str| {
+            let output = slowlight(dir, &run);
+            let said = String::from_utf8_lossy(&output.stderr);
+            assert_eq!(output.status.code(), Some(1), "{target}: {said}");
+            assert!(said.contains(part), "{target}: {said}");
+        };
+        edit(&out, |t| with_value(t, "at_x", |_| "20000".to_owned()));
+        fails("outside its range");
+        edit(&out, |t| Some(t.replace("at_x", "at_q")));
+        fails("at_x");
+        std::fs::remove_dir_all(&out).expect("removed");
+        fails("out");
+    }
+}
+
+#[test]
+fn build_writes_what_machines_load() {
+    let dir = directory(&[("spot.scn", SPOT)]);
+    let dir = dir.path();
+    for target in targets(dir) {
+        let files = built(dir, &target);
+        let expected: &[&str] = match target.split(':').next() {
+            Some("6502") => &["spot.asm", "spot.bin"],
+            Some("bbc") => &["spot.bas", "spot.bbc"],
+            _ => &["Main.jack"],
+        };
+        for name in expected {
+            assert!(files.iter().any(|f| f == name), "{target}: {files:?}");
+        }
+        let text = success(dir, &["build", "spot.scn", "-t", &target, "--emit", "text"]);
+        assert!(text.lines().count() > 20, "{target}");
+        let plan = success(dir, &["build", "spot.scn", "-t", &target, "--emit", "plan"]);
+        assert!(plan.contains("pixel:"), "{target}: {plan}");
+        std::fs::remove_dir_all(dir.join("out")).expect("removed");
+    }
+    assert_eq!(names(dir), ["spot.scn"]);
+}
+
+#[test]
+fn what_was_built_runs_by_itself() {
+    let dir = directory(&[("spot.scn", SPOT)]);
+    let dir = dir.path();
+    for (machine, file) in [("6502", "out/spot.asm"), ("6502", "out/spot.bin")] {
+        built(dir, machine);
+        let alone = json(dir, &["vm", machine, file, "--json"]);
+        let run = json(dir, &["run", "spot.scn", "-t", machine, "--json"]);
+        assert_eq!(alone["cycles"], run["cycles"]);
+        assert_eq!(alone["inks_sha256"], run["inks_sha256"]);
+    }
+}
+
+#[test]
+fn a_program_that_draws_otherwise_is_status_3() {
+    let dir = directory(&[("spot.scn", SPOT)]);
+    let dir = dir.path();
+    built(dir, "6502");
+    // Every pixel in ink 0.
+    let other = |text: &str| {
+        let draws = text.contains("sta ink_port");
+        draws.then(|| text.replace("sta ink_port", "lda #0\n        sta ink_port"))
+    };
+    assert_eq!(edit(&dir.join("out"), other), 1);
+    let args = ["run", "spot.scn", "-t", "6502", "--program", "out"];
+    let output = slowlight(dir, &[&args[..], &["-o", "out.png", "--json"]].concat());
+    assert_eq!(output.status.code(), Some(3));
+    let said: Value = serde_json::from_slice(&output.stdout).expect("JSON");
+    assert!(said["differs_from_model"].as_u64() > Some(0));
+    assert!(dir.join("out.png").exists());
+}
+
+#[test]
+fn a_run_can_be_cut_short() {
+    let dir = directory(&[("steps.scn", STEPS)]);
+    for target in targets(dir.path()) {
+        let args = [
+            "run",
+            "steps.scn",
+            "-t",
+            &target,
+            "--limit",
+            "100",
+            "-o",
+            "x.png",
+        ];
+        let output = slowlight(dir.path(), &args);
+        let said = String::from_utf8_lossy(&output.stderr);
+        assert_eq!(output.status.code(), Some(1), "{target}: {said}");
+        assert!(said.contains("--limit"), "{target}: {said}");
+    }
+    assert_eq!(names(dir.path()), ["steps.scn"]);
+}
+
+#[test]
+fn compare_puts_all_targets_in_one_table() {
+    let dir = directory(&[("spot.scn", SPOT)]);
+    let dir = dir.path();
+    let table = success(dir, &["compare", "spot.scn", "-o", "all.png"]);
+    for target in targets(dir) {
+        let row = table.lines().find(|l| l.starts_with(target.as_str()));
+        assert_eq!(
+            row.map(|r| r.split("  ").count() > 5),
+            Some(true),
+            "{table}"
+        );
+    }
+    assert!(dir.join("all.png").exists());
+    let one = json(dir, &["compare", "spot.scn", "-t", "6502", "--json"]);
+    assert_eq!(one.as_array().map(Vec::len), Some(1));
+    assert_eq!(one[0]["target"], "6502:plain");
+}
