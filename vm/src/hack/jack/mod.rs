@@ -1,0 +1,123 @@
+//! Compiles Jack, the language of *The Elements of Computing Systems*
+//! (Nisan and Schocken, chapters 9 to 11), to VM code.
+//!
+//! text → tokens ([`lexer`]) → tree ([`tree`], built by [`parser`]) → the
+//! signatures of every class ([`classes`]) → checks and VM commands, class by
+//! class ([`emit`]).
+//!
+//! The commands are those of the official compiler, in its order and with its
+//! labels, so that counts of VM instructions agree with it: `let a[i] = e`
+//! keeps `e` in `temp 0` while `pointer 1` is set, `while` negates its
+//! condition bitwise (so it wants 0 or -1, which every comparison gives; `if`
+//! takes anything but 0), there is no operator precedence, and nothing is
+//! folded. One command differs: a constructor of a class without fields
+//! allocates one word, as `Memory.alloc(0)` is an error of the OS.
+//!
+//! What the official compiler or the web IDE reject is rejected here, except
+//! that types are not compared: Jack lets an `int` stand for an address.
+
+mod classes;
+mod emit;
+mod lexer;
+mod parser;
+mod statement;
+mod symbols;
+#[cfg(test)]
+mod tests;
+mod tree;
+mod value;
+
+use crate::Fault;
+use classes::Classes;
+
+/// Statics that all classes together may have: RAM words 16 to 255.
+pub const STATICS: u32 = 240;
+
+/// The largest constant and the largest index of a segment: what 15 bits hold.
+pub const LARGEST: u16 = 32_767;
+
+/// How deep expressions and statements may nest, together.
+pub const NESTING: u32 = 256;
+
+/// Faults reported at most; what comes after them is left out.
+const FAULTS: usize = 100;
+
+/// One class as VM code.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct VmFile {
+    /// `Class.vm`.
+    pub name: String,
+    /// The commands, one a line; every line ends in a line feed.
+    pub text: String,
+    /// How many statics the class has: indices 0 up to this of its `static` segment.
+    pub statics: u32,
+}
+
+/// Compiles a program: for each file its name (`Main.jack`, folders before it
+/// allowed) and its text. The answers come in the same order.
+///
+/// The classes of the standard OS are known, except those that the program
+/// brings itself, which replace them whole.
+///
+/// # Errors
+/// Everything that is wrong, in the order of the files, at most 100 faults,
+/// each with its place.
+pub fn compile(files: &[(String, String)]) -> Result<Vec<VmFile>, Vec<Fault>> {
+    let mut faults = Faults::default();
+    let mut parsed = Vec::with_capacity(files.len());
+    for (file, text) in files {
+        faults.file = file;
+        if let Some(class) = parser::parse(text, &mut faults) {
+            parsed.push((file.as_str(), class));
+        }
+    }
+    faults.check()?;
+    let classes = Classes::of(&parsed, &mut faults);
+    let mut compiled = Vec::with_capacity(parsed.len());
+    let mut statics = 0;
+    for (file, class) in &parsed {
+        faults.file = file;
+        compiled.push(emit::class(class, &classes, &mut statics, &mut faults));
+    }
+    faults.check()?;
+    Ok(compiled)
+}
+
+/// Where a token begins, from 1; a column is a character.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+struct Place {
+    line: u32,
+    column: u32,
+}
+
+/// The faults so far, and the file at hand.
+#[derive(Default)]
+struct Faults<'a> {
+    file: &'a str,
+    list: Vec<Fault>,
+}
+
+impl Faults<'_> {
+    fn add(&mut self, place: Place, message: impl Into<String>) {
+        if !self.full() {
+            self.list.push(Fault {
+                message: message.into(),
+                file: Some(self.file.to_string()),
+                line: Some(place.line),
+                column: Some(place.column),
+            });
+        }
+    }
+
+    fn full(&self) -> bool {
+        self.list.len() >= FAULTS
+    }
+
+    fn check(&mut self) -> Result<(), Vec<Fault>> {
+        if self.list.is_empty() {
+            Ok(())
+        } else {
+            Err(std::mem::take(&mut self.list))
+        }
+    }
+}
