@@ -1,1 +1,101 @@
-//! slowlight-runtime-jack
+//! What Jack computes with: the 14-bit floats of the Jack ray marcher, and ints.
+//!
+//! A real is a `Float`: an object of three words, sign, exponent and mantissa,
+//! with the arithmetic of a published ray marcher in Jack, "Float316": 14 bits
+//! that truncate, no guard bit, no infinities. An int is Jack's own, 16 bits.
+//! Every routine has a model in [`model`] that computes the same bits.
+//!
+//! # Ends
+//! Exponents stay within -8000..8000 (2^±8000; a comparison of sums of two such
+//! fits 16 bits also where a machine compares by subtracting): what would be
+//! larger is the largest value, what would be smaller is zero. Ints saturate at
+//! ±32767; only `&` can make -32768, which the saturating routines take for
+//! -32767. A zero may have either sign, which nothing looks at.
+//!
+//! # How a routine is written
+//! - [`Form::Expression`](slowlight_routine::Form::Expression): a Jack
+//!   expression of ints, booleans, and variables that hold Floats. Jack has no
+//!   precedence, so there are two levels: [`TERM`], and [`SUM`], which takes
+//!   parentheses inside another expression.
+//! - [`Form::Statement`](slowlight_routine::Form::Statement): what follows `do`;
+//!   `{r}` is the variable that holds the result, a Float made beforehand, and
+//!   `{0}`, `{1}` are the arguments. It may be that of an argument, save for the
+//!   second of `mod`.
+//!
+//! Nothing is allocated: results go into Floats that exist. [`classes`] puts
+//! the classes together from the parts that a program needs.
+//!
+//! # Costs
+//! Cycles are VM commands, means over operands drawn at random, measured by the
+//! tests, the loads of the operands and the store of the result left out; a
+//! call of the operating system counts 1. Bytes are words of ROM as the usual
+//! translation makes them, roughly.
+
+pub mod model;
+mod parts;
+mod routines;
+
+#[cfg(test)]
+mod tests;
+
+pub use parts::{classes, has_init};
+
+use model::Float;
+use slowlight_routine::{Bits, Format, Range, Runtime, Value};
+
+/// The level of a variable, a call, or what stands in parentheses.
+pub const TERM: u8 = 1;
+/// The level of an expression with an operator.
+pub const SUM: u8 = 0;
+
+/// Format of the ints.
+pub const INT: Format = Format::Int { bits: 16 };
+
+/// The runtime of reals in Float316.
+pub static F316: Runtime = Runtime {
+    name: "jack",
+    format: "f316",
+    real: Format::Float316,
+    int: INT,
+    routines: routines::ALL,
+    parts: parts::ALL,
+    encode,
+    decode,
+    param_digits,
+    param_bits,
+};
+
+/// The nearest bits, saturating.
+fn encode(value: Value, format: Format) -> Bits {
+    match format {
+        Format::Bool => Bits::from(value.truth()),
+        Format::Float316 => Float::nearest(value.real()).bits(),
+        _ => model::int_bits(model::saturate(value.int())),
+    }
+}
+
+fn decode(bits: Bits, format: Format) -> Value {
+    match format {
+        Format::Bool => Value::Bool(bits != 0),
+        Format::Float316 => Value::Real(Float::from_bits(bits).value()),
+        _ => Value::Int(model::int(bits)),
+    }
+}
+
+/// As many digits, up to four, as leave the greatest magnitude within an int.
+fn param_digits(range: Range) -> Option<u8> {
+    if !range.magnitude().is_finite() {
+        return Some(3);
+    }
+    let fits = |d: &u8| range.magnitude() * 10f64.powi(i32::from(*d)) <= f64::from(model::MOST);
+    Some((0..=4).rev().find(fits).unwrap_or(0))
+}
+
+/// The program divides the two ints as Floats.
+fn param_bits(scaled: i64, digits: u8) -> Bits {
+    let most = i64::from(model::MOST);
+    let clamp = |n: i64| n.clamp(-most, most) as i32;
+    let unit = clamp(10i64.saturating_pow(u32::from(digits)));
+    let quotient = Float::from_int(clamp(scaled)).div(Float::from_int(unit));
+    quotient.bits()
+}

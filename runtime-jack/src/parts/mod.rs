@@ -1,0 +1,128 @@
+//! The Jack source of the routines: a part is one subroutine of a class, or the
+//! class's declarations.
+//!
+//! A part is named `Class.subroutine`; the class's own name alone is its head.
+//! [`classes`] puts together the classes that are needed. A subroutine called
+//! `make...` fills a static and is called once, by the class's `init`.
+//!
+//! Rules that the source keeps: no division of or by a negative (the official
+//! system truncates, the web's floors), no difference beyond 16 bits in a
+//! comparison (a translated program compares by subtracting), parentheses
+//! everywhere (Jack has no precedence), nothing allocated but in `make...`.
+
+mod float;
+mod int;
+
+use slowlight_routine::{Part, Source};
+
+macro_rules! part {
+    ($name:literal, [$($need:literal),*], $words:literal, $text:expr) => {
+        Part { name: $name, source: Source::Text($text), needs: &[$($need),*], bytes: $words }
+    };
+}
+
+#[rustfmt::skip]
+pub(crate) static ALL: &[Part] = &[
+    part!("Float", [], 60, float::HEAD),
+    part!("Float.makePowers", [], 120, float::MAKE_POWERS),
+    part!("Float.makeRoot", [], 40, float::MAKE_ROOT),
+    part!("Float.constant", [], 40, float::CONSTANT),
+    part!("Float.copy", [], 60, float::COPY),
+    part!("Float.neg", [], 60, float::NEG),
+    part!("Float.abs", [], 60, float::ABS),
+    part!("Float.mul", [], 360, float::MUL),
+    part!("Float.scale", [], 140, float::SCALE),
+    part!("Float.add", ["Float.makePowers", "Float.copy"], 520, float::ADD),
+    part!("Float.sub", ["Float.makePowers", "Float.copy", "Float.neg"], 530, float::SUB),
+    part!("Float.div", [], 420, float::DIV),
+    part!("Float.sqrt", ["Float.makeRoot", "Float.add", "Float.div", "Float.scale", "Float.copy"], 260, float::SQRT),
+    part!("Float.less", [], 260, float::LESS),
+    part!("Float.equal", [], 120, float::EQUAL),
+    part!("Float.negative", [], 40, float::NEGATIVE),
+    part!("Float.positive", [], 40, float::POSITIVE),
+    part!("Float.min", ["Float.less", "Float.copy"], 80, float::MIN),
+    part!("Float.max", ["Float.less", "Float.copy"], 80, float::MAX),
+    part!("Float.sign", [], 40, float::SIGN),
+    part!("Float.floor", ["Float.makePowers"], 240, float::FLOOR),
+    part!("Float.round", ["Float.makePowers"], 220, float::ROUND),
+    part!("Float.mod", ["Float.copy", "Float.add"], 340, float::MOD),
+    part!("Float.fromInt", [], 180, float::FROM_INT),
+    part!("Int", [], 0, ""),
+    part!("Int.magnitude", [], 60, int::MAGNITUDE),
+    part!("Int.add", [], 120, int::ADD),
+    part!("Int.sub", [], 120, int::SUB),
+    part!("Int.mul", ["Int.magnitude"], 140, int::MUL),
+    part!("Int.div", ["Int.magnitude"], 160, int::DIV),
+    part!("Int.mod", ["Int.magnitude"], 160, int::MOD),
+    part!("Int.sign", [], 60, int::SIGN),
+    part!("Int.less", [], 100, int::LESS),
+    part!("Int.min", ["Int.less"], 60, int::MIN),
+    part!("Int.max", ["Int.less"], 60, int::MAX),
+];
+
+/// The classes that hold the given parts (closed over their needs, in the
+/// runtime's order), each as its name and its text. A class's `init`, where
+/// there is one, must be called once before anything else of it.
+pub fn classes(parts: &[&Part]) -> Vec<(&'static str, String)> {
+    let mut names: Vec<&'static str> = Vec::new();
+    for part in parts {
+        let name = class_of(part);
+        if !names.contains(&name) {
+            names.push(name);
+        }
+    }
+    let text = |name| {
+        let own: Vec<&Part> = parts
+            .iter()
+            .copied()
+            .filter(|p| class_of(p) == name)
+            .collect();
+        (name, class(name, &own))
+    };
+    names.into_iter().map(text).collect()
+}
+
+/// Whether a class with these parts has an `init`.
+pub fn has_init(class: &str, parts: &[&Part]) -> bool {
+    makers(class, parts).next().is_some()
+}
+
+fn class_of(part: &Part) -> &'static str {
+    part.name.split('.').next().unwrap_or(part.name)
+}
+
+/// The subroutines that `init` calls.
+fn makers<'p>(class: &'p str, parts: &'p [&Part]) -> impl Iterator<Item = &'static str> + 'p {
+    let own = parts.iter().filter(move |p| class_of(p) == class);
+    own.map(|p| p.name).filter(|name| name.contains(".make"))
+}
+
+fn class(name: &str, parts: &[&Part]) -> String {
+    let head = ALL.iter().filter(|p| p.name == name);
+    let rest = parts.iter().copied().filter(|p| p.name != name);
+    // Jack wants declarations first: those of a part go up.
+    let mut declared = String::new();
+    let mut written: Vec<String> = Vec::new();
+    for part in head.chain(rest) {
+        let Source::Text(text) = part.source else {
+            continue;
+        };
+        let mut code = String::new();
+        for line in text.lines().map(|line| format!("{line}\n")) {
+            match line.trim_start().split(' ').next() {
+                Some("field" | "static") => declared.push_str(&line),
+                _ => code.push_str(&line),
+            }
+        }
+        written.push(code.trim_start_matches('\n').to_owned());
+    }
+    if has_init(name, parts) {
+        let calls = makers(name, parts).map(|maker| format!("        do {maker}();\n"));
+        let calls: String = calls.collect();
+        let init = format!("    function void init() {{\n{calls}        return;\n    }}\n");
+        written.insert(1.min(written.len()), init);
+    }
+    written.insert(0, declared);
+    written.retain(|t| !t.is_empty());
+    format!("class {name} {{\n{}}}\n", written.join("\n"))
+}

@@ -1,0 +1,176 @@
+//! The list of routines: for each operation the cheap and restricted ones first.
+
+use slowlight_routine::{Error, Form, Format, Op, Range, Routine, everywhere};
+
+use crate::model::{self, Float, int, int_bits, wrap};
+use crate::{INT as I, SUM, TERM};
+
+const R: Format = Format::Float316;
+const B: Format = Format::Bool;
+const EXACT: Error = Error::Exact;
+
+/// A product is short of the exact one by up to 2^-11.08 of it.
+const MUL: Error = Error::Relative(4.63e-4);
+/// A difference may be twice the exact one: 1 - (1 - 2^-14).
+const ADD: Error = Error::Relative(1.0);
+/// The divisor's halves are cut, so a quotient may also be too large.
+const DIV: Error = Error::Relative(1.2e-3);
+/// Two steps of Newton's leave 1.73e-3; the quotients add to that.
+const SQRT: Error = Error::Relative(2e-3);
+/// Above 16383 the last bit of an int is cut.
+const CUT: Error = Error::Relative(6.2e-5);
+
+/// Ints whose exact result needs no saturation.
+fn fits(_: &[Range], result: Range) -> bool {
+    result.within(-32767.0, 32767.0)
+}
+
+/// Ints that a machine may compare by subtracting.
+fn near(args: &[Range], _: Range) -> bool {
+    match args {
+        [a, b, ..] => a.hi - b.lo <= 32767.0 && b.hi - a.lo <= 32767.0,
+        _ => false,
+    }
+}
+
+/// A dividend of at least 0 and a divisor above 0.
+fn positive(args: &[Range], _: Range) -> bool {
+    matches!(args, [a, b, ..] if a.lo >= 0.0 && b.lo > 0.0)
+}
+
+/// An operand whose negative is an int too.
+fn symmetric(args: &[Range], _: Range) -> bool {
+    args.first().is_some_and(|a| a.within(-32767.0, 32767.0))
+}
+
+/// A domain: operand `$k` is the constant `$value`.
+macro_rules! with {
+    ($k:literal = $value:literal) => {
+        |args, _| args.get($k).and_then(|r| r.constant()) == Some($value)
+    };
+}
+
+const fn sum(template: &'static str) -> Form {
+    Form::Expression {
+        template,
+        level: SUM,
+        operands: &[TERM, TERM],
+    }
+}
+
+/// Operands stand between commas or not at all: any level will do.
+const fn call(template: &'static str) -> Form {
+    Form::Expression {
+        template,
+        level: TERM,
+        operands: &[SUM, SUM],
+    }
+}
+
+/// A Float or an int from bits, and to bits, by the name of the format.
+macro_rules! from {
+    (R $bits:expr) => {
+        Float::from_bits($bits)
+    };
+    (I $bits:expr) => {
+        int($bits)
+    };
+    (B $bits:expr) => {
+        $bits != 0
+    };
+}
+macro_rules! to {
+    (R $value:expr) => {
+        Float::bits($value)
+    };
+    (I $value:expr) => {
+        int_bits(wrap($value))
+    };
+    (B $value:expr) => {
+        u64::from($value)
+    };
+}
+
+/// A routine: name, operation, formats, text, needs, domain, error, model, and
+/// its cost in VM commands and words.
+macro_rules! routine {
+    ($name:literal $op:ident($($arg:ident),+) -> $result:ident, $form:expr, [$($need:literal),*],
+     $domain:expr, $error:expr, |$($x:ident),+| $body:expr, $cycles:literal, $bytes:literal) => {
+        Routine {
+            name: $name,
+            op: Op::$op,
+            args: &[$($arg),+],
+            result: $result,
+            form: $form,
+            needs: &[$($need),*],
+            cycles: $cycles,
+            bytes: $bytes,
+            domain: $domain,
+            error: $error,
+            model: |args| {
+                let mut args = args.iter().copied();
+                $(let $x = from!($arg args.next().unwrap_or(0));)+
+                to!($result $body)
+            },
+        }
+    };
+}
+
+use Form::Statement as Do;
+
+#[rustfmt::skip]
+pub(crate) static ALL: &[Routine] = &[
+    routine!("add" Add(R, R) -> R, Do("{r}.add({0}, {1})"), ["Float.add"], everywhere, ADD, |a, b| a.add(b), 120, 50),
+    routine!("sub" Sub(R, R) -> R, Do("{r}.sub({0}, {1})"), ["Float.sub"], everywhere, ADD, |a, b| a.sub(b), 120, 50),
+    routine!("half" Mul(R, R) -> R, Do("{r}.scale({0}, -1)"), ["Float.scale"], with!(1 = 0.5), EXACT, |a, _b| a.scale(-1), 50, 50),
+    routine!("half_of" Mul(R, R) -> R, Do("{r}.scale({1}, -1)"), ["Float.scale"], with!(0 = 0.5), EXACT, |_a, b| b.scale(-1), 50, 50),
+    routine!("quarter" Mul(R, R) -> R, Do("{r}.scale({0}, -2)"), ["Float.scale"], with!(1 = 0.25), EXACT, |a, _b| a.scale(-2), 50, 50),
+    routine!("quarter_of" Mul(R, R) -> R, Do("{r}.scale({1}, -2)"), ["Float.scale"], with!(0 = 0.25), EXACT, |_a, b| b.scale(-2), 50, 50),
+    routine!("four_times" Mul(R, R) -> R, Do("{r}.scale({0}, 2)"), ["Float.scale"], with!(1 = 4.0), EXACT, |a, _b| a.scale(2), 50, 50),
+    routine!("four" Mul(R, R) -> R, Do("{r}.scale({1}, 2)"), ["Float.scale"], with!(0 = 4.0), EXACT, |_a, b| b.scale(2), 50, 50),
+    routine!("mul" Mul(R, R) -> R, Do("{r}.mul({0}, {1})"), ["Float.mul"], everywhere, MUL, |a, b| a.mul(b), 120, 50),
+    routine!("div" Div(R, R) -> R, Do("{r}.div({0}, {1})"), ["Float.div"], everywhere, DIV, |a, b| a.div(b), 500, 50),
+    routine!("sqrt" Sqrt(R) -> R, Do("{r}.sqrt({0})"), ["Float.sqrt"], everywhere, SQRT, |a| a.sqrt(), 1400, 43),
+    routine!("mod" Mod(R, R) -> R, Do("{r}.mod({0}, {1})"), ["Float.mod"], everywhere, ADD, |a, b| a.modulo(b), 200, 50),
+    routine!("neg" Neg(R) -> R, Do("{r}.neg({0})"), ["Float.neg"], everywhere, EXACT, |a| a.neg(), 25, 43),
+    routine!("abs" Abs(R) -> R, Do("{r}.abs({0})"), ["Float.abs"], everywhere, EXACT, |a| a.abs(), 25, 43),
+    routine!("min" Min(R, R) -> R, Do("{r}.min({0}, {1})"), ["Float.min"], everywhere, EXACT, |a, b| a.min(b), 70, 50),
+    routine!("max" Max(R, R) -> R, Do("{r}.max({0}, {1})"), ["Float.max"], everywhere, EXACT, |a, b| a.max(b), 70, 50),
+    routine!("floor" Floor(R) -> I, call("{0}.floor()"), ["Float.floor"], everywhere, EXACT, |a| a.floor(), 40, 36),
+    routine!("round" Round(R) -> I, call("{0}.round()"), ["Float.round"], everywhere, EXACT, |a| a.round(), 40, 36),
+    routine!("sign" Sign(R) -> I, call("{0}.sign()"), ["Float.sign"], everywhere, EXACT, |a| a.sign(), 12, 36),
+    routine!("from_int" ToReal(I) -> R, Do("{r}.fromInt({0})"), ["Float.fromInt"], everywhere, CUT, |a| Float::from_int(a), 80, 43),
+    routine!("negative" Less(R, R) -> B, call("{0}.negative()"), ["Float.negative"], with!(1 = 0.0), EXACT, |a, _b| a.less(Float::ZERO), 12, 36),
+    routine!("positive" Less(R, R) -> B, call("{1}.positive()"), ["Float.positive"], with!(0 = 0.0), EXACT, |_a, b| Float::ZERO.less(b), 12, 36),
+    routine!("less" Less(R, R) -> B, call("{0}.less({1})"), ["Float.less"], everywhere, EXACT, |a, b| a.less(b), 40, 43),
+    routine!("not_negative" LessEqual(R, R) -> B, sum("~{1}.negative()"), ["Float.negative"], with!(0 = 0.0), EXACT, |_a, b| !b.less(Float::ZERO), 13, 38),
+    routine!("not_positive" LessEqual(R, R) -> B, sum("~{0}.positive()"), ["Float.positive"], with!(1 = 0.0), EXACT, |a, _b| !Float::ZERO.less(a), 13, 38),
+    routine!("less_equal" LessEqual(R, R) -> B, sum("~{1}.less({0})"), ["Float.less"], everywhere, EXACT, |a, b| !b.less(a), 41, 45),
+    routine!("equal" Equal(R, R) -> B, call("{0}.equal({1})"), ["Float.equal"], everywhere, EXACT, |a, b| a.equal(b), 30, 43),
+
+    routine!("int_add" IntAdd(I, I) -> I, sum("{0} + {1}"), [], fits, EXACT, |a, b| a + b, 1, 7),
+    routine!("int_saturating_add" IntAdd(I, I) -> I, call("Int.add({0}, {1})"), ["Int.add"], everywhere, EXACT, |a, b| model::sum(a, b), 20, 36),
+    routine!("int_sub" IntSub(I, I) -> I, sum("{0} - {1}"), [], fits, EXACT, |a, b| a - b, 1, 7),
+    routine!("int_saturating_sub" IntSub(I, I) -> I, call("Int.sub({0}, {1})"), ["Int.sub"], everywhere, EXACT, |a, b| model::difference(a, b), 20, 36),
+    routine!("int_mul" IntMul(I, I) -> I, sum("{0} * {1}"), [], fits, EXACT, |a, b| a * b, 1, 36),
+    routine!("int_saturating_mul" IntMul(I, I) -> I, call("Int.mul({0}, {1})"), ["Int.mul"], everywhere, EXACT, |a, b| model::multiply(a, b), 50, 36),
+    routine!("int_quotient" IntDiv(I, I) -> I, sum("{0} / {1}"), [], positive, EXACT, |a, b| if b == 0 { 0 } else { a / b }, 1, 36),
+    routine!("int_div" IntDiv(I, I) -> I, call("Int.div({0}, {1})"), ["Int.div"], everywhere, EXACT, |a, b| model::divide(a, b), 50, 36),
+    routine!("int_mod" IntMod(I, I) -> I, call("Int.mod({0}, {1})"), ["Int.mod"], everywhere, EXACT, |a, b| model::modulo(a, b), 50, 36),
+    routine!("int_neg" IntNeg(I) -> I, sum("-{0}"), [], symmetric, EXACT, |a| -a, 1, 4),
+    routine!("int_saturating_neg" IntNeg(I) -> I, call("Int.sub(0, {0})"), ["Int.sub"], everywhere, EXACT, |a| model::difference(0, a), 20, 36),
+    routine!("int_abs" IntAbs(I) -> I, call("Math.abs({0})"), [], symmetric, EXACT, |a| a.abs(), 1, 36),
+    routine!("int_saturating_abs" IntAbs(I) -> I, call("Int.magnitude({0})"), ["Int.magnitude"], everywhere, EXACT, |a| model::magnitude(a), 12, 36),
+    routine!("int_min" IntMin(I, I) -> I, call("Math.min({0}, {1})"), [], near, EXACT, |a, b| a.min(b), 1, 36),
+    routine!("int_far_min" IntMin(I, I) -> I, call("Int.min({0}, {1})"), ["Int.min"], everywhere, EXACT, |a, b| a.min(b), 20, 36),
+    routine!("int_max" IntMax(I, I) -> I, call("Math.max({0}, {1})"), [], near, EXACT, |a, b| a.max(b), 1, 36),
+    routine!("int_far_max" IntMax(I, I) -> I, call("Int.max({0}, {1})"), ["Int.max"], everywhere, EXACT, |a, b| a.max(b), 20, 36),
+    routine!("int_sign" IntSign(I) -> I, call("Int.sign({0})"), ["Int.sign"], everywhere, EXACT, |a| a.signum(), 12, 36),
+    routine!("and" BitAnd(I, I) -> I, sum("{0} & {1}"), [], everywhere, EXACT, |a, b| a & b, 1, 7),
+    routine!("int_less" IntLess(I, I) -> B, sum("{0} < {1}"), [], near, EXACT, |a, b| a < b, 1, 12),
+    routine!("int_far_less" IntLess(I, I) -> B, call("Int.less({0}, {1})"), ["Int.less"], everywhere, EXACT, |a, b| a < b, 15, 36),
+    routine!("int_less_equal" IntLessEqual(I, I) -> B, sum("~({0} > {1})"), [], near, EXACT, |a, b| a <= b, 2, 14),
+    routine!("int_far_less_equal" IntLessEqual(I, I) -> B, sum("~Int.less({1}, {0})"), ["Int.less"], everywhere, EXACT, |a, b| a <= b, 16, 38),
+    routine!("int_equal" IntEqual(I, I) -> B, sum("{0} = {1}"), [], everywhere, EXACT, |a, b| a == b, 1, 12),
+    routine!("not" Not(B) -> B, sum("~{0}"), [], everywhere, EXACT, |a| !a, 1, 3),
+];

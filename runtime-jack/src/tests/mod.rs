@@ -1,0 +1,172 @@
+#![allow(clippy::unwrap_used)]
+//! The models against the facts, and the Jack source against the models.
+
+mod errors;
+mod facts;
+
+use crate::F316;
+use crate::model::{BOTTOM, Float, TOP, int_bits};
+use slowlight_routine::{Bits, Format};
+
+/// A generator of test values (xorshift).
+pub struct Random(pub u64);
+
+impl Random {
+    pub fn next(&mut self) -> u64 {
+        self.0 ^= self.0 << 13;
+        self.0 ^= self.0 >> 7;
+        self.0 ^= self.0 << 17;
+        self.0
+    }
+
+    pub fn below(&mut self, n: u64) -> i32 {
+        (self.next() >> 11).checked_rem(n).unwrap_or(0) as i32
+    }
+
+    /// A Float near 1 mostly, of any exponent now and then.
+    pub fn float(&mut self) -> Float {
+        let e = match self.below(8) {
+            0 => BOTTOM + self.below(16001),
+            1 => 127,
+            _ => 117 + self.below(20),
+        };
+        let s = self.below(2);
+        let m = 8192 + self.below(8192);
+        if self.below(50) == 0 {
+            Float { s, ..Float::ZERO }
+        } else {
+            Float { s, e, m }
+        }
+    }
+
+    pub fn int(&mut self) -> i32 {
+        let wide = self.below(65536) - 32768;
+        match self.below(3) {
+            0 => wide,
+            1 => wide / 64,
+            _ => wide / 4096,
+        }
+    }
+
+    pub fn bits(&mut self, format: Format) -> Bits {
+        match format {
+            Format::Bool => self.next() & 1,
+            Format::Float316 => self.float().bits(),
+            _ => int_bits(self.int()),
+        }
+    }
+}
+
+/// Floats at every edge: zeros, ends, powers of two and their neighbours.
+pub fn float_edges() -> Vec<Float> {
+    let mut all = vec![
+        Float::ZERO,
+        Float {
+            s: 1,
+            ..Float::ZERO
+        },
+    ];
+    for e in [
+        BOTTOM,
+        BOTTOM + 1,
+        -1,
+        0,
+        1,
+        113,
+        114,
+        126,
+        127,
+        128,
+        139,
+        140,
+        141,
+        142,
+        143,
+        TOP - 1,
+        TOP,
+    ] {
+        for m in [8192, 8193, 12288, 16382, 16383] {
+            all.extend([Float { s: 0, e, m }, Float { s: 1, e, m }]);
+        }
+    }
+    all
+}
+
+/// Every edge operand of a format.
+pub fn edges(format: Format) -> Vec<Bits> {
+    let ints = [
+        -32768, -32767, -32766, -16385, -16384, -16383, -256, -128, -127, -3, -2, -1, 0, 1, 2, 3,
+        7, 8, 127, 128, 181, 182, 255, 16383, 16384, 16385, 32766, 32767,
+    ];
+    match format {
+        Format::Bool => vec![0, 1],
+        Format::Float316 => float_edges().into_iter().map(Float::bits).collect(),
+        _ => ints.into_iter().map(int_bits).collect(),
+    }
+}
+
+#[test]
+fn bits_go_there_and_back() {
+    for f in float_edges() {
+        assert_eq!(Float::from_bits(f.bits()), f);
+    }
+    assert_eq!(Float::from_bits(u64::MAX).m, 0, "no value of the format");
+}
+
+#[test]
+fn names_are_unique_and_needs_exist() {
+    let mut names: Vec<&str> = F316.routines.iter().map(|r| r.name).collect();
+    names.sort_unstable();
+    names.dedup();
+    assert_eq!(names.len(), F316.routines.len());
+    for need in F316
+        .routines
+        .iter()
+        .flat_map(|r| r.needs)
+        .chain(F316.parts.iter().flat_map(|p| p.needs))
+    {
+        assert!(F316.part(need).is_some(), "{need}");
+    }
+}
+
+#[test]
+fn a_class_holds_what_is_needed_and_no_more() {
+    let text = |need| {
+        let classes = crate::classes(&F316.closure([need]));
+        assert_eq!(classes.len(), 1);
+        classes[0].1.clone()
+    };
+    let mul = text("Float.mul");
+    assert!(
+        mul.starts_with("class Float {\n    field int s, e, m;\n"),
+        "{mul}"
+    );
+    assert!(
+        !mul.contains("powers") && !mul.contains("init") && !mul.contains(" add("),
+        "{mul}"
+    );
+    let sqrt = text("Float.sqrt");
+    for wanted in [
+        "void add(",
+        "void div(",
+        "do Float.makePowers();",
+        "static Array powers;",
+    ] {
+        assert!(sqrt.contains(wanted), "{wanted} in {sqrt}");
+    }
+    assert!(!text("Int.mod").contains("Int.less"));
+}
+
+#[test]
+fn params_have_as_many_digits_as_an_int_holds() {
+    use slowlight_routine::Range;
+    let digits = |lo, hi| (F316.param_digits)(Range::new(lo, hi));
+    assert_eq!(digits(-3.0, 3.0), Some(4));
+    assert_eq!(digits(-3.0, 3.5), Some(3));
+    assert_eq!(digits(0.0, 327.67), Some(2));
+    assert_eq!(digits(0.0, 1e9), Some(0));
+    assert_eq!((F316.param_digits)(Range::ALL), Some(3));
+    let value = Float::from_bits((F316.param_bits)(-100, 3)).value();
+    assert!((value + 0.1).abs() < 0.1 / 4096.0, "{value}");
+    assert_eq!((F316.param_bits)(1_000_000, 0), (F316.param_bits)(32767, 0));
+}
