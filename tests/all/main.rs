@@ -6,3 +6,4 @@ mod cli_wrong;
 mod house;
 mod mos6502;
 mod snapshots;
+mod wrong;

@@ -38,7 +38,7 @@ fn planned(scene: &Scene, name: &str, target: &'static Target) -> Plan {
     plan(&graph, target, &goal).expect("a plan")
 }
 
-fn check(name: &str, output: &str) {
+pub fn check(name: &str, output: &str) {
     let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/snapshots");
     insta::with_settings!({ snapshot_path => folder, prepend_module_to_snapshot => false, omit_expression => true }, {
         insta::assert_snapshot!(name, output);
