@@ -4,7 +4,7 @@
 //! megabyte, so only the lines around a place are handed to the renderer, and
 //! of a very long line only a piece.
 
-use annotate_snippets::{Annotation, AnnotationKind, Level, Renderer, Snippet};
+use annotate_snippets::{Annotation, AnnotationKind, Level, Origin, Renderer, Snippet};
 use serde_json::{Value, json};
 use slowlight_compiler::source::{Diagnostic, SourceFile, Sources, Span};
 use std::fmt::Write;
@@ -13,8 +13,9 @@ use std::ops::Range;
 
 /// How many diagnostics are shown in full.
 const SHOWN: usize = 20;
-/// Bytes of a line that are shown on each side of a place.
-const SIDE: usize = 200;
+/// Bytes of a line on each side of a place that are handed to the renderer,
+/// which shows as many of them as fit.
+const SIDE: usize = 2000;
 /// Lines between two places that are still shown in one piece.
 const NEAR: usize = 200;
 
@@ -63,6 +64,8 @@ struct Piece<'t> {
     first_line: usize,
     /// Where the piece begins in the text.
     start: usize,
+    /// Whether that is inside a line.
+    line_cut: bool,
 }
 
 fn one(renderer: &Renderer, sources: &Sources, d: &Diagnostic) -> String {
@@ -94,9 +97,15 @@ fn one(renderer: &Renderer, sources: &Sources, d: &Diagnostic) -> String {
             all.start.min(p.0.range().start)..all.end.max(p.0.range().end)
         });
         let piece = cut(&file.text, bounds);
-        let mut snippet = Snippet::source(piece.text)
-            .line_start(piece.first_line)
-            .path(file.name.as_str());
+        let mut snippet = Snippet::source(piece.text).line_start(piece.first_line);
+        if piece.line_cut {
+            // The renderer would count columns from the cut.
+            let (line, column) = sources.line_column(first);
+            let origin = Origin::path(file.name.as_str());
+            group = group.element(origin.line(line).char_column(column));
+        } else {
+            snippet = snippet.path(file.name.as_str());
+        }
         for (span, kind, label) in here {
             let mut note = kind.span(inside(&piece, span.range()));
             if !label.is_empty() {
@@ -130,11 +139,12 @@ fn cut(text: &str, range: Range<usize>) -> Piece<'_> {
     let line_end = text[to..].find('\n').map_or(text.len(), |k| to + k);
     let end = floor(text, line_end.min(to + SIDE));
     // A span over many bytes shows its beginning.
-    let end = floor(text, end.min(start + 40 * SIDE));
+    let end = floor(text, end.min(start + 8 * SIDE));
     Piece {
         text: &text[start..end],
         first_line: text[..start].matches('\n').count() + 1,
         start,
+        line_cut: start != before,
     }
 }
 
@@ -185,4 +195,45 @@ pub fn to_json(sources: &Sources, diagnostics: &[Diagnostic]) -> Value {
         })
     });
     Value::Array(all.collect())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn shown(text: &str, at: &str) -> String {
+        let mut sources = Sources::default();
+        sources.add(SourceFile {
+            name: "a.scn".to_owned(),
+            text: text.to_owned(),
+            library: false,
+        });
+        let start = text.find(at).unwrap_or(0);
+        let span = Span::new(0, start, start + at.len());
+        render(&sources, &[Diagnostic::error(span, "wrong")], false)
+    }
+
+    #[test]
+    fn places_are_right_in_long_texts() {
+        assert!(shown("x\ny here\n", "here").contains("a.scn:2:3"));
+        let deep = "line\n".repeat(1000) + "here\n" + &"line\n".repeat(1000);
+        assert!(shown(&deep, "here").contains("a.scn:1001:1"));
+        let wide = "\u{e9}".repeat(100_000) + "here" + &"\u{e9}".repeat(100_000);
+        let said = shown(&wide, "here");
+        assert!(said.contains("a.scn:1:100001"), "{said}");
+        assert!(said.len() < 2000, "{said}");
+    }
+
+    #[test]
+    fn a_place_outside_its_text_is_no_panic() {
+        let mut sources = Sources::default();
+        let far = Diagnostic::error(Span::new(7, 10, 20), "nowhere").also(Span::new(0, 9, 9), "");
+        assert!(render(&sources, std::slice::from_ref(&far), false).contains("nowhere"));
+        sources.add(SourceFile {
+            name: "a.scn".to_owned(),
+            text: "\u{e9}".to_owned(),
+            library: false,
+        });
+        assert!(render(&sources, &[far], false).contains("nowhere"));
+    }
 }

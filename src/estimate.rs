@@ -1,8 +1,9 @@
 //! An estimate of a machine's time: what the routines say they cost, times how
 //! often the model runs each, on a sample of the pixels.
 //!
-//! Loads, stores, jumps and drawing are left out, so the machine takes longer;
-//! `run` measures. The sample is a grid; a picture of few pixels is run whole.
+//! A routine's cost is a mean over its arguments; loads, stores, jumps and
+//! drawing are left out. `run` measures. The sample is a grid of pixels; a small
+//! picture is run whole.
 
 use crate::draw::Window;
 use slowlight_compiler::eval::run::{Arithmetic, Run};

@@ -2,14 +2,23 @@
 
 use crate::failure::{Failure, Outcome};
 use std::sync::atomic::{AtomicBool, Ordering};
+use std::time::Duration;
 
 static INTERRUPTED: AtomicBool = AtomicBool::new(false);
 
+/// How long work has to notice the flag before the process ends regardless.
+const PATIENCE: Duration = Duration::from_secs(1);
+
 /// From now on Ctrl-C sets the flag instead of ending the process, so that
-/// temporary files are removed on the way out.
+/// temporary files are removed on the way out. A single pixel may take long,
+/// and nothing is being written meanwhile: then the process ends at once.
 pub fn install() {
     // Where it cannot be installed, Ctrl-C ends the process as it always did.
-    let _ = ctrlc::set_handler(|| INTERRUPTED.store(true, Ordering::Relaxed));
+    let _ = ctrlc::set_handler(|| {
+        INTERRUPTED.store(true, Ordering::Relaxed);
+        std::thread::sleep(PATIENCE);
+        std::process::exit(i32::from(Failure::Interrupted.status()));
+    });
 }
 
 /// Whether somebody pressed Ctrl-C.

@@ -120,7 +120,7 @@ pub fn run(args: &Args) -> Outcome<()> {
     }
     say(&table(&rows));
     say(&format!(
-        "at least {} on the machine (modelled: the operations alone; `run` measures)\n",
+        "about {} on the machine (modelled: what its routines cost; `run` measures)\n",
         duration(seconds)
     ));
     Ok(())

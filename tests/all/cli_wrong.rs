@@ -112,3 +112,35 @@ fn files_that_are_no_scenes_have_a_diagnostic() {
     wrong_file("draw (x, y) = ".as_bytes(), "wrong.scn:1:");
     wrong_file("-".repeat(500_000).as_bytes(), "wrong.scn:1:");
 }
+
+/// A picture that takes hours, interrupted: neither the file nor a piece of it.
+#[cfg(unix)]
+#[test]
+fn an_interruption_leaves_nothing() {
+    use std::process::{Command, Stdio};
+    let long = "image 4096 x 4096 inks black, white;
+        fn turns(n: int) -> int = loop (m = n) max 65535 { if m < 0 then m else next(m + 1) } else m;
+        draw (x, y) = ink(loop (n = x + y) max 65535 {
+          if n < 0 then n else next(turns(n))
+        } else 1);";
+    let dir = directory(&[("long.scn", long)]);
+    let mut child = Command::new(env!("CARGO_BIN_EXE_slowlight"))
+        .args(["render", "long.scn", "-o", "x.png"])
+        .current_dir(dir.path())
+        .stderr(Stdio::null())
+        .spawn()
+        .expect("the binary runs");
+    std::thread::sleep(std::time::Duration::from_millis(300));
+    assert!(
+        child.try_wait().expect("it runs").is_none(),
+        "it ended early"
+    );
+    let kill = Command::new("kill")
+        .args(["-INT", &child.id().to_string()])
+        .status();
+    assert!(kill.expect("kill runs").success());
+    let status = child.wait().expect("it ends");
+    // By the signal itself, where it came before anybody listened for it.
+    assert!(status.code().is_none_or(|code| code == 130), "{status}");
+    assert_eq!(names(dir.path()), ["long.scn"]);
+}
