@@ -15,6 +15,8 @@ pub const PRELUDE: &[Text] = texts! {
     "vectors.scn"
     "cameras.scn"
     "shapes.scn"
+    "solve.scn"
+    "grid.scn"
     "lights.scn"
     "dithers.scn"
 };

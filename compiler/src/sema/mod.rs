@@ -10,6 +10,7 @@
 mod builtins;
 mod check;
 mod colours;
+mod expr;
 mod lower;
 mod print;
 mod program;

@@ -5,7 +5,7 @@ use super::{Checker, Context, Pending, State};
 use crate::sema::program::*;
 use crate::sema::ty::Ty;
 use crate::source::{Diagnostic, Span};
-use crate::syntax::tree::{self, ItemKind, TypeKind};
+use crate::syntax::tree::{self, ItemKind};
 use std::collections::BTreeMap;
 
 impl<'a> Checker<'a> {
@@ -278,63 +278,6 @@ impl<'a> Checker<'a> {
             });
         }
         found
-    }
-
-    /// The type that is written.
-    pub(super) fn ty(&mut self, written: &tree::Type) -> Ty {
-        match &written.kind {
-            TypeKind::Error => Ty::Error,
-            TypeKind::Table(of) => Ty::Table(Box::new(self.ty(of))),
-            TypeKind::Optional(of) => self.ty(of).optional(),
-            TypeKind::Function(args, result) => {
-                let args = args.iter().map(|a| self.ty(a)).collect();
-                Ty::Function(args, Box::new(self.ty(result)))
-            }
-            TypeKind::Name(name) => self.named_type(name, written.span),
-        }
-    }
-
-    fn named_type(&mut self, name: &str, span: Span) -> Ty {
-        const NAMES: [&str; 11] = [
-            "bool", "int", "real", "angle", "ink", "vec2", "vec3", "ray", "hit", "shape", "scene",
-        ];
-        for entity in self.entities(name) {
-            if let Entity::Record(id) = entity {
-                self.mention(entity, span);
-                return Ty::Record(id);
-            }
-        }
-        match name {
-            "bool" => Ty::Bool,
-            "int" => Ty::Int,
-            "real" => Ty::Real,
-            "angle" => Ty::Angle,
-            "ink" => Ty::Ink,
-            "vec2" => Ty::Vector(2),
-            "vec3" => Ty::Vector(3),
-            "ray" => Ty::Ray,
-            "hit" => Ty::Hit(None),
-            "shape" => Ty::Shape,
-            "scene" => Ty::Scene(None),
-            "map" => Ty::Map,
-            _ => {
-                let records: Vec<String> = self
-                    .program
-                    .records
-                    .iter()
-                    .map(|r| r.name.clone())
-                    .collect();
-                let names = NAMES.into_iter().chain(records.iter().map(String::as_str));
-                let help = match name {
-                    "float" | "double" | "number" => Some("did you mean `real`?".to_owned()),
-                    _ => self.among(name, names.chain(["map"])),
-                };
-                let mut error = Diagnostic::error(span, format!("no type `{name}`"));
-                error.help = help;
-                self.report(error);
-                Ty::Error
-            }
-        }
     }
 
     /// Two items of one file with one name: only functions may, if their first

@@ -17,6 +17,7 @@ mod items;
 mod literal;
 mod names;
 mod ops;
+mod types;
 
 use super::builtins::{Signature, signatures};
 use super::program::*;

@@ -202,6 +202,7 @@ impl<'a> Lower<'a> {
         }
         let here = self.at(span);
         let id = self.b.open_loop(count as u32, &list, here);
+        self.loops = id.0 + 1;
         let scalars: Vec<NodeId> = (0..list.len() as u32)
             .map(|k| self.b.carried(id, k, here))
             .collect();

@@ -11,10 +11,14 @@
 
 mod call;
 mod claims;
+mod compact;
+mod derive;
 mod expr;
 mod flow;
+mod merge;
 mod ops;
 mod params;
+mod polynomial;
 mod scene;
 mod shape;
 mod tables;
@@ -93,6 +97,10 @@ struct Lower<'a> {
     consts: HashMap<ConstId, Val>,
     scenes: HashMap<SceneId, Vec<std::rc::Rc<value::Shape>>>,
     claims: Vec<claims::Claimed>,
+    /// How many loops were opened.
+    loops: u32,
+    /// What stands for the point where a facet is read as a formula.
+    markers: Option<derive::Markers>,
     /// Above 0 where only constants may come out.
     constant: usize,
     depth: usize,
@@ -121,6 +129,8 @@ pub fn lower(program: &Program, options: &Options) -> Result<Graph, Vec<Diagnost
         consts: HashMap::new(),
         scenes: HashMap::new(),
         claims: Vec::new(),
+        loops: 0,
+        markers: None,
         constant: 0,
         depth: 0,
         steps: 0,
@@ -137,7 +147,7 @@ pub fn lower(program: &Program, options: &Options) -> Result<Graph, Vec<Diagnost
     let graph = lower.b.finish(lower.image, ink, shade);
     let broken = claims::check(&graph, &claims);
     if broken.is_empty() {
-        Ok(graph)
+        Ok(compact::compact(graph))
     } else {
         Err(broken)
     }

@@ -46,15 +46,21 @@ impl<'a> Lower<'a> {
         ty: &Ty,
         span: Span,
     ) -> Found<Val> {
-        let far = more.into_iter().next().flatten();
+        let mut more = more.into_iter().map(Some).chain([None, None, None]);
+        let mut take = || more.next().flatten().flatten();
+        // `march` has steps and near before far.
+        let (steps, near, far) = match what {
+            Builtin::March => (take(), take(), take()),
+            _ => (None, None, take()),
+        };
         match what {
             Builtin::Trace => self.trace(scene, arg, far, ty, span),
             Builtin::Blocked => self.blocked(scene, arg, far, span),
-            Builtin::March => Err(self.missing(
-                span,
-                "`march`",
-                "use `trace`, which finds the hits of shapes with `hit(r)` exactly",
-            )),
+            Builtin::March => {
+                let mut args = vec![Val::Scene(scene), arg.clone()];
+                args.extend([steps, near, far].into_iter().flatten());
+                self.march(scene, arg, args, ty, span)
+            }
             Builtin::SceneDist => {
                 let (distance, _) = self.nearest(scene, &arg, span)?;
                 Ok(Val::Node(distance))
@@ -163,11 +169,46 @@ impl<'a> Lower<'a> {
             Ok(normal)
         }));
         let mut parts = vec![point.clone(), normal, t];
-        if let Ty::Optional(hit) = ty
-            && let Ty::Hit(Some(_)) = **hit
-        {
+        if has_tag(ty) {
             parts.push(Val::lazy(Box::new(move |l: &mut Lower<'_>| {
                 let outer = std::mem::replace(&mut l.place, place);
+                let tag = l.tag_of(id, &wins, point, span);
+                l.place = outer;
+                tag
+            })));
+        }
+        Ok(Val::Optional {
+            present,
+            value: Rc::new(Val::parts(parts)),
+        })
+    }
+
+    /// Sphere tracing: the hit's normal and tag are those of the shape nearest
+    /// to the point where it stops.
+    fn march(&mut self, id: SceneId, ray: Val, args: Vec<Val>, ty: &Ty, span: Span) -> Found<Val> {
+        let (present, t) = match self.library("marched", Ty::Scene(None), args, span)? {
+            Val::Optional { present, value } => (present, (*value).clone()),
+            _ => return Err(self.confused(span)),
+        };
+        let point = self.lazy_point(ray, t.clone(), span);
+        let place = self.place;
+        let at = point.clone();
+        let normal = Val::lazy(Box::new(move |l: &mut Lower<'_>| {
+            let outer = std::mem::replace(&mut l.place, place);
+            let shapes = l.shapes_of(id, span)?;
+            let (_, wins) = l.nearest(id, &at, span)?;
+            let normal = l.of_winner(&wins, span, |l, k| match shapes.get(k) {
+                Some(shape) => l.shape_normal(shape, at.clone(), span),
+                None => Err(l.confused(span)),
+            });
+            l.place = outer;
+            normal
+        }));
+        let mut parts = vec![point.clone(), normal, t];
+        if has_tag(ty) {
+            parts.push(Val::lazy(Box::new(move |l: &mut Lower<'_>| {
+                let outer = std::mem::replace(&mut l.place, place);
+                let (_, wins) = l.nearest(id, &point, span)?;
                 let tag = l.tag_of(id, &wins, point, span);
                 l.place = outer;
                 tag
@@ -215,4 +256,9 @@ impl<'a> Lower<'a> {
         }
         Ok(Val::Node(any))
     }
+}
+
+/// Whether an optional hit has a tag.
+fn has_tag(ty: &Ty) -> bool {
+    matches!(ty, Ty::Optional(hit) if matches!(**hit, Ty::Hit(Some(_))))
 }

@@ -9,6 +9,9 @@ use crate::source::Span;
 use crate::syntax::tree::BinaryOp;
 use std::rc::Rc;
 
+/// How far shapes that have nothing but `dist` are looked for.
+const REACH: f64 = 1000.0;
+
 impl<'a> Lower<'a> {
     fn shape_name(&self, shape: &Shape) -> String {
         let found = self.program.shapes.get(shape.id.0);
@@ -23,6 +26,21 @@ impl<'a> Lower<'a> {
         arg: Val,
         span: Span,
     ) -> Found<Option<Val>> {
+        self.facet_of(shape, kind, vec![arg], span)
+    }
+
+    fn has(&self, shape: &Shape, kind: FacetKind) -> bool {
+        let found = self.program.shapes.get(shape.id.0);
+        found.is_some_and(|s| s.facets.iter().any(|f| f.kind == kind))
+    }
+
+    fn facet_of(
+        &mut self,
+        shape: &Rc<Shape>,
+        kind: FacetKind,
+        arg: Vec<Val>,
+        span: Span,
+    ) -> Found<Option<Val>> {
         let Some(item) = self.program.shapes.get(shape.id.0) else {
             return Err(self.confused(span));
         };
@@ -30,7 +48,7 @@ impl<'a> Lower<'a> {
             return Ok(None);
         };
         let mut args = shape.args.clone();
-        args.push(arg);
+        args.extend(arg);
         let found = self.inside(item.library, span, |l| {
             l.enter(&facet.body, args, |l| {
                 let value = l.expr(&facet.body.value)?;
@@ -69,19 +87,32 @@ impl<'a> Lower<'a> {
 
     /// The distance along a ray: optional, a real.
     pub(super) fn shape_distance(&mut self, shape: &Rc<Shape>, ray: Val, span: Span) -> Found<Val> {
-        if let Some(t) = self.facet(shape, FacetKind::Hit, ray, span)? {
+        if let Some(t) = self.facet(shape, FacetKind::Hit, ray.clone(), span)? {
+            return Ok(t);
+        }
+        if let Some(t) = self.derived_root(shape, &ray, span)? {
             return Ok(t);
         }
         let name = self.shape_name(shape);
-        Err(self.missing(
-            span,
-            &format!("`hit` of a shape without `hit(r)`, here `{name}`,"),
-            "give the shape a facet `hit(r) = ..`: the distance along the ray, or `none`",
-        ))
+        let itself = Val::Shape(shape.clone());
+        if self.has(shape, FacetKind::Implicit) {
+            let Some(bound) = self.facet_of(shape, FacetKind::Bound, Vec::new(), span)? else {
+                let error = self.error(span, format!("nothing says where to look for `{name}`"));
+                return Err(Box::new(error.help(
+                    "give the shape a finite `bound = box(..);`, or its own `hit(r) = ..`",
+                )));
+            };
+            return self.library("search", Ty::Shape, vec![itself, bound, ray], span);
+        }
+        let far = Val::Node(self.real(REACH, span));
+        self.library("approach", Ty::Shape, vec![itself, ray, far], span)
     }
 
     pub(super) fn shape_normal(&mut self, shape: &Rc<Shape>, p: Val, span: Span) -> Found<Val> {
-        if let Some(normal) = self.facet(shape, FacetKind::Normal, p, span)? {
+        if let Some(normal) = self.facet(shape, FacetKind::Normal, p.clone(), span)? {
+            return Ok(normal);
+        }
+        if let Some(normal) = self.derived_normal(shape, p, span)? {
             return Ok(normal);
         }
         let name = self.shape_name(shape);

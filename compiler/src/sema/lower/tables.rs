@@ -112,7 +112,8 @@ impl<'a> Lower<'a> {
     }
 
     /// The n x n ordered-dither matrix over n^2 (Bayer 1973): each entry of the
-    /// half-sized matrix four times over, plus its quadrant's rank.
+    /// half-sized matrix four times over, plus its quadrant's rank. The first
+    /// row of the 2 x 2 matrix is 0, 3, the second 2, 1.
     pub(super) fn bayer(&mut self, n: &'a Expr, span: Span) -> Found<Val> {
         let side = self.known_int(n, "the size of a Bayer matrix")?;
         if !(1..=64).contains(&side) || side.count_ones() != 1 {
@@ -124,8 +125,8 @@ impl<'a> Lower<'a> {
         }
         let rank = |x: i32, y: i32| match (x & 1, y & 1) {
             (0, 0) => 0,
-            (1, 0) => 2,
-            (0, _) => 3,
+            (1, 0) => 3,
+            (0, _) => 2,
             _ => 1,
         };
         let mut entries = Vec::new();

@@ -1,10 +1,13 @@
 //! Small scenes to programs and graphs; wrong scenes to diagnostics.
 #![allow(clippy::unwrap_used)]
 
+mod hard;
+mod pictures;
+
 use crate::eval::native::Native;
 use crate::flow::verify::verify;
 use crate::scene::{Scene, check};
-use crate::sema::Options;
+use crate::sema::{Freeze, Options};
 use crate::source::{Diagnostic, Sources};
 
 const MIRRORS: &str = include_str!("../../../../examples/mirrors.scn");
@@ -106,4 +109,82 @@ fn every_mistake_is_named() {
     }
     assert!(count >= 60);
     snapshot("wrong", &out);
+}
+
+/// A scene a paragraph: its program and graph, library items left out.
+#[test]
+fn small_scenes_become_graphs() {
+    for case in include_str!("good.txt").split("\n== ") {
+        let (name, text) = case.trim_start_matches("== ").split_once('\n').unwrap();
+        let mut full = text.to_owned();
+        if !full.contains("image ") {
+            full += "\nimage 8 x 8 inks black, grey, white;\n";
+        }
+        let scene = right(&full);
+        let graph = scene.lower(&Options::default()).unwrap();
+        verify(&graph).unwrap();
+        let program = scene.program.to_string();
+        let own: Vec<&str> = program
+            .lines()
+            .take_while(|l| !l.starts_with("library"))
+            .collect();
+        let own = own.join("\n");
+        let name = name.replace(' ', "_");
+        snapshot(
+            &format!("good_{name}"),
+            &format!("{text}\n---\n{own}\n---\n{graph}"),
+        );
+    }
+}
+
+#[test]
+fn options_change_the_graph() {
+    let scene = right(MIRRORS);
+    let mut out = String::new();
+    let mut show = |what: &str, options: Options| {
+        out += &format!("== {what}\n");
+        match scene.lower(&options) {
+            Ok(graph) => {
+                verify(&graph).unwrap();
+                let text = graph.to_string();
+                let head = text.lines().take_while(|l| !l.starts_with('%'));
+                let tail = text.lines().filter(|l| l.starts_with("effect"));
+                for line in head.chain(tail) {
+                    out += &format!("{line}\n");
+                }
+            }
+            Err(said) => out += &plain(&scene.sources, &said),
+        }
+    };
+    let set = |name: &str, values: &[f64]| Options {
+        set: vec![(name.into(), values.to_vec())],
+        ..Options::default()
+    };
+    let freeze = |freeze| Options {
+        freeze,
+        ..Options::default()
+    };
+    let without = |name: &str| Options {
+        without: vec![name.into()],
+        ..Options::default()
+    };
+    let inks = |n| Options {
+        inks: Some(n),
+        ..Options::default()
+    };
+    show("set", set("eye", &[0.35, 0.25, 3.6]));
+    show("set outside the range", set("eye", &[0.35, 0.25, 9.0]));
+    show("set too few", set("eye", &[1.0]));
+    show("set not a number", set("eye", &[f64::NAN, 0.0, 3.0]));
+    show("set unknown", set("eyes", &[1.0]));
+    show("freeze all", freeze(Freeze::All));
+    show("freeze eye", freeze(Freeze::Some(vec!["eye".into()])));
+    show("freeze unknown", freeze(Freeze::Some(vec!["ear".into()])));
+    show("without mirrors", without("mirrors"));
+    show("without tiles", without("tiles"));
+    show("without unknown", without("fog"));
+    show("two inks", inks(2));
+    show("three inks", inks(3));
+    show("sixteen inks", inks(16));
+    snapshot("options", &out);
 }

@@ -310,6 +310,7 @@ fn ty<'t>() -> Rule<'t, Type> {
                 Token::Ident(text) => text,
                 Token::Item("shape") => "shape",
                 Token::Item("scene") => "scene",
+                Token::Item("map") => "map",
             }
             .map(|text| TypeKind::Name(text.to_string()));
             let table = ty
