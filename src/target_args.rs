@@ -3,7 +3,7 @@
 
 use crate::failure::{Failure, Outcome, unknown};
 use crate::scene::Scene;
-use clap::Args;
+use clap::{Args, ValueEnum};
 use slowlight_compiler::plan::{Goal, Plan, plan};
 use slowlight_compiler::target::{self, Mode, TARGETS, Target};
 
@@ -19,6 +19,16 @@ pub struct ScreenArgs {
     /// Compute without drawing
     #[arg(long)]
     pub no_plot: bool,
+    /// Jack's operating system: `native`, the machine's own [default: native]
+    #[arg(long, value_name = "OS")]
+    pub os: Option<Os>,
+}
+
+/// An operating system for Jack programs.
+#[derive(ValueEnum, Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Os {
+    /// The machine's own: a call counts as one VM instruction
+    Native,
 }
 
 /// Reads `--target`.
@@ -90,6 +100,10 @@ impl ScreenArgs {
         target: &'static Target,
         set: &[(String, Vec<f64>)],
     ) -> Outcome<Plan> {
+        if self.os.is_some() && target.name != "jack" {
+            let message = format!("--os is Jack's, and {} has its own", target.name);
+            return Err(Failure::Usage(message));
+        }
         let (width, height) = scene.size();
         let mode = self.mode(target, (width, height))?;
         let asked = self.rows.as_deref().map(|r| rows(r, height)).transpose()?;

@@ -298,3 +298,32 @@ fn compare_puts_all_targets_in_one_table() {
     assert_eq!(one.as_array().map(Vec::len), Some(1));
     assert_eq!(one[0]["target"], "6502:plain");
 }
+
+#[test]
+fn what_a_scene_does_not_call_costs_nothing() {
+    let library = Path::new(env!("CARGO_MANIFEST_DIR")).join("compiler/prelude");
+    let dir = directory(&[("spot.scn", SPOT)]);
+    let dir = dir.path();
+    let changed = dir.join("prelude");
+    std::fs::create_dir(&changed).expect("a directory");
+    for name in names(&library) {
+        std::fs::copy(library.join(&name), changed.join(&name)).expect("copied");
+    }
+    let more = "effect haze(v: real, p: vec3) -> real else v = v * exp(-length(p));\n";
+    std::fs::write(changed.join("zz_more.scn"), more).expect("a file");
+    for target in targets(dir) {
+        let emit = ["build", "spot.scn", "-t", &target, "--emit", "text"];
+        let with = success(dir, &[&emit[..], &["--prelude", "prelude"]].concat());
+        assert!(with == success(dir, &emit), "{target}");
+    }
+    // The directory was really read.
+    let caller = SPOT
+        .replace("glow(halved", "haze(halved")
+        .replace(", 1)), x, y)", ", 1), (0, 0, 0)), x, y)");
+    std::fs::write(dir.join("hazy.scn"), caller).expect("a file");
+    success(dir, &["check", "hazy.scn", "--prelude", "prelude"]);
+    assert_eq!(
+        slowlight(dir, &["check", "hazy.scn"]).status.code(),
+        Some(1)
+    );
+}

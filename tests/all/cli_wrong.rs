@@ -50,6 +50,16 @@ fn wrong_usage_is_status_2() {
     );
     fails(&["build", "steps.scn", "--emit", "plan"], 2, "--target");
     fails(&["build", "steps.scn", "--emit", "planets"], 2, "plan");
+    fails(
+        &["run", "steps.scn", "-t", "6502", "--os", "native"],
+        2,
+        "Jack",
+    );
+    fails(
+        &["run", "steps.scn", "-t", "6502", "--mode", "7"],
+        2,
+        "one mode",
+    );
     fails(&["vm", "z80", "steps.scn"], 2, "6502");
     fails(&["vm", "6502", "steps.scn", "steps.scn"], 2, "one file");
     fails(&["compare", "steps.scn", "-o", "x.pgm"], 2, ".png");
