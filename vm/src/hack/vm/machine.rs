@@ -1,0 +1,214 @@
+//! The machine's state, and the run that switches between the engines.
+
+use super::command::{ARG, CONSTANTS, FRAME, KEYBOARD, LCL, Memory, RAM_MASK, SCREEN, SP, STACK};
+use super::fast::Exit;
+use super::link::Program;
+use super::os::{self, Native, Os, Trap};
+use super::parse::fault;
+use crate::{Fault, Progress, Screen, Stop, Watch};
+
+/// How many commands lie between two calls of the watcher.
+const WATCH_EVERY: u64 = 10_000_000;
+
+/// Words touched by long native calls that bring the watcher's next call forward.
+pub(super) const EFFORT_LIMIT: u64 = 50_000_000;
+
+/// A machine with a program in it.
+#[derive(Clone, Debug)]
+pub struct Machine<'p> {
+    pub(super) program: &'p Program,
+    pub(super) memory: Box<Memory>,
+    pub(super) os: Os,
+    /// The next command.
+    pub(super) at: u32,
+    /// Commands executed.
+    pub(super) count: u64,
+    stopped: Option<Stop>,
+}
+
+/// What a run did.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Run {
+    /// Why it ended.
+    pub stop: Stop,
+    /// VM commands executed; a call of a native function is one.
+    pub instructions: u64,
+    /// Calls of native functions of the operating system.
+    pub os_calls: u64,
+    /// The same by full name, for those called at all, in alphabetic order.
+    pub os_calls_by_name: Vec<(String, u64)>,
+    /// 512 x 256; ink 0 is black (the bit set), ink 1 white.
+    pub screen: Screen,
+    /// What `Output` printed; at most about a megabyte of it.
+    pub text: String,
+}
+
+impl<'p> Machine<'p> {
+    /// A machine about to start the program, everything else in the RAM zero.
+    pub fn new(program: &'p Program) -> Self {
+        let mut memory: Box<Memory> = Box::new([0; 0x10000]);
+        let (_, constants) = memory.split_at_mut(usize::from(CONSTANTS));
+        for (word, value) in constants.iter_mut().zip(0..) {
+            *word = value;
+        }
+        if program.native_heap {
+            os::init(&mut memory);
+        }
+        // As if something at return site 0 had called the function.
+        memory[usize::from(ARG)] = STACK;
+        memory[usize::from(LCL)] = STACK + FRAME;
+        memory[usize::from(SP)] = STACK + FRAME;
+        let start = program.functions.get(program.start as usize);
+        let mut os = Os::new();
+        if let Some(fused) = &program.fused {
+            os.odd = STACK + FRAME > fused.room(program.start);
+        }
+        Machine {
+            program,
+            memory,
+            os,
+            at: start.map_or(0, |function| function.start),
+            count: 0,
+            stopped: None,
+        }
+    }
+
+    /// Runs until the program ends or `limit` commands have been executed in
+    /// all. After [`Stop::CycleLimit`] and [`Stop::Interrupted`] a further
+    /// call goes on where this one stopped.
+    pub fn run(&mut self, limit: u64, watch: Watch) -> Run {
+        let stop = match &self.stopped {
+            Some(stop) => stop.clone(),
+            None => self.go(limit, watch),
+        };
+        if matches!(stop, Stop::Ended | Stop::Fault(_)) {
+            self.stopped = Some(stop.clone());
+        }
+        self.report(stop)
+    }
+
+    /// The word at an address of the RAM (the address is taken modulo 32,768), signed.
+    pub fn peek(&self, address: u16) -> i16 {
+        self.memory[usize::from(address & RAM_MASK)].cast_signed()
+    }
+
+    fn go(&mut self, limit: u64, watch: Watch) -> Stop {
+        let fused = self.program.fused.as_ref();
+        // Between two of its checks the fused engine runs less than a function.
+        let margin = fused.map_or(0, |fused| fused.longest);
+        let mut next_watch = self.count.saturating_add(WATCH_EVERY);
+        loop {
+            if self.os.effort >= EFFORT_LIMIT || self.count >= next_watch {
+                self.os.effort = 0;
+                next_watch = self.count.saturating_add(WATCH_EVERY);
+                if !watch(self.progress()) {
+                    return Stop::Interrupted;
+                }
+            }
+            if self.count >= limit {
+                return Stop::CycleLimit;
+            }
+            let pause = next_watch.min(limit.saturating_sub(margin));
+            let ready = !self.os.odd && self.count < pause;
+            let entry = fused.filter(|_| ready).and_then(|f| f.entry(self.at));
+            let result = match (fused, entry) {
+                (Some(fused), Some(entry)) => match self.fast(fused, entry, pause) {
+                    Exit::Pause => Ok(()),
+                    Exit::Plain => self.step(),
+                    Exit::Trap(trap) => Err(trap),
+                },
+                _ => self.plain(next_watch.min(limit), fused.filter(|_| ready)),
+            };
+            if let Err(trap) = result
+                && let Some(stop) = self.trap(trap)
+            {
+                return stop;
+            }
+        }
+    }
+
+    fn progress(&self) -> Progress {
+        let row = |address: u16| u32::from((address - SCREEN) / 32);
+        Progress {
+            cycles: self.count,
+            row: self.os.drawn.map(row),
+        }
+    }
+
+    /// What becomes of a command that did not work; `None` if the program's
+    /// own `Sys.error` has a say.
+    fn trap(&mut self, trap: Trap) -> Option<Stop> {
+        match trap {
+            Trap::Halt => Some(Stop::Ended),
+            Trap::Fault(message) => Some(Stop::Fault(self.fault(message))),
+            Trap::Error(number, why) => {
+                if let Some(function) = self.program.on_error {
+                    return match self.enter_error(function, number) {
+                        Ok(()) => None,
+                        Err(Trap::Fault(message)) => Some(Stop::Fault(self.fault(message))),
+                        Err(_) => Some(Stop::Ended),
+                    };
+                }
+                let function = self.function();
+                let colon = if why.is_empty() { "" } else { ": " };
+                let number = number.cast_signed();
+                let message = format!("Sys.error({number}) in {function}{colon}{why}");
+                Some(Stop::Fault(self.fault(message)))
+            }
+        }
+    }
+
+    /// The name of the function that the next command belongs to.
+    pub(super) fn function(&self) -> &str {
+        let function = self.program.function_at(self.at);
+        function.map_or("(no function)", |function| &function.name)
+    }
+
+    /// A fault at the next command.
+    fn fault(&self, message: String) -> Fault {
+        let origin = self.program.origins.get(self.at as usize);
+        let file = origin.and_then(|(file, _)| self.program.files.get(*file as usize));
+        match (origin, file) {
+            (Some((_, line)), Some(file)) => fault(file, *line, message),
+            _ => Fault {
+                message,
+                file: None,
+                line: None,
+                column: None,
+            },
+        }
+    }
+
+    fn report(&self, stop: Stop) -> Run {
+        let mut by_name: Vec<(String, u64)> = Native::ALL
+            .iter()
+            .zip(self.os.calls)
+            .filter(|(_, count)| *count > 0)
+            .map(|(native, count)| (native.name().to_owned(), count))
+            .collect();
+        by_name.sort();
+        Run {
+            stop,
+            instructions: self.count,
+            os_calls: self.os.calls.iter().sum(),
+            os_calls_by_name: by_name,
+            screen: self.screen(),
+            text: self.os.text.clone(),
+        }
+    }
+
+    /// What the screen shows now.
+    pub fn screen(&self) -> Screen {
+        let words = self.memory.get(usize::from(SCREEN)..usize::from(KEYBOARD));
+        let pixels = words
+            .unwrap_or(&[])
+            .iter()
+            .flat_map(|word| (0..16).map(move |bit| u8::from(word >> bit & 1 == 0)));
+        Screen {
+            width: 512,
+            height: 256,
+            pixels: pixels.collect(),
+            palette: vec![[0, 0, 0], [255, 255, 255]],
+        }
+    }
+}
