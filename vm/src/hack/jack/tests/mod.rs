@@ -3,6 +3,7 @@
 
 mod good;
 mod hard;
+mod run;
 mod wrong;
 
 use super::{VmFile, compile};
