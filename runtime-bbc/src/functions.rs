@@ -1,6 +1,7 @@
 //! The functions of BASIC that routines need: lines without numbers.
 //!
-//! A false IF goes to the first ELSE on its line, so there is never more than one. Their bytes
+//! A part that is no DEF is done once, before anything else: `BIG` is a variable because BASIC
+//! II takes long over large literals. A false IF goes to the first ELSE on its line, so there is never more than one. Their bytes
 //! are those of the tokenised lines.
 
 use slowlight_routine::{Part, Source};
@@ -13,10 +14,13 @@ macro_rules! part {
 
 #[rustfmt::skip]
 pub(crate) static ALL: &[Part] = &[
-    part!("FNadd" [] 81 "\
+    part!("BIG" [] 14 "\
+BIG=1.7E38
+"),
+    part!("FNadd" ["BIG"] 100 "\
 DEF FNadd(a,b)
-IF ABS(a/2+b/2)<8.5E37 THEN =a+b
-IF a/2+b/2<0 THEN =-1.7E38 ELSE =1.7E38
+IF ABS(a)<BIG/2 THEN IF ABS(b)<BIG/2 THEN =a+b
+IF ABS(a/2+b/2)<BIG/2 THEN =a+b ELSE =SGN(a/2+b/2)*BIG
 "),
     part!("FNsub" ["FNadd"] 26 "\
 DEF FNsub(a,b)=FNadd(a,-b)
@@ -27,16 +31,16 @@ DEF FNneg(a)=-a
     part!("FNabs" [] 18 "\
 DEF FNabs(a)=ABS(a)
 "),
-    part!("FNmul" [] 85 "\
+    part!("FNmul" ["BIG"] 79 "\
 DEF FNmul(a,b)
 IF ABS(b)<=1 THEN =a*b
-IF ABS(a)<=1.7E38/ABS(b) THEN =a*b ELSE =SGN(a)*SGN(b)*1.7E38
+IF ABS(a)<=BIG/ABS(b) THEN =a*b ELSE =SGN(a)*SGN(b)*BIG
 "),
-    part!("FNdiv" [] 109 "\
+    part!("FNdiv" ["BIG"] 100 "\
 DEF FNdiv(a,b)
-IF b=0 THEN =SGN(a)*1.7E38
+IF b=0 THEN =SGN(a)*BIG
 IF ABS(b)>=1 THEN =a/b
-IF ABS(a)<=ABS(b)*1.7E38 THEN =a/b ELSE =SGN(a)*SGN(b)*1.7E38
+IF ABS(a)<=ABS(b)*BIG THEN =a/b ELSE =SGN(a)*SGN(b)*BIG
 "),
     part!("FNsqr" [] 35 "\
 DEF FNsqr(a)
@@ -92,20 +96,20 @@ IF b=0 THEN =0
 IF b>0 THEN =ATN(a/b)
 IF a<0 THEN =ATN(a/b)-PI ELSE =ATN(a/b)+PI
 "),
-    part!("FNexp" [] 57 "\
+    part!("FNexp" ["BIG"] 54 "\
 DEF FNexp(a)
-IF a>88 THEN =1.7E38
+IF a>88 THEN =BIG
 IF a<-88 THEN =0 ELSE =EXP(a)
 "),
-    part!("FNln" [] 40 "\
+    part!("FNln" ["BIG"] 37 "\
 DEF FNln(a)
-IF a>0 THEN =LN(a) ELSE =-1.7E38
+IF a>0 THEN =LN(a) ELSE =-BIG
 "),
-    part!("FNpow" ["FNmod", "FNexp", "FNmul"] 172 "\
+    part!("FNpow" ["BIG", "FNmod", "FNexp", "FNmul"] 169 "\
 DEF FNpow(a,b)
 LOCAL c,d
 IF b=0 THEN =1
-IF a=0 AND b<0 THEN =1.7E38
+IF a=0 AND b<0 THEN =BIG
 IF a=0 THEN =0
 d=1
 IF a<0 THEN c=FNmod(b,2):IF c<>c^2 THEN =0

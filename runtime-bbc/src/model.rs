@@ -52,8 +52,9 @@ pub fn div(a: Real40, b: Real40) -> Real40 {
 
 /// `FNadd`.
 pub fn fn_add(a: Real40, b: Real40) -> Real40 {
+    let limit = div(big(), whole(2));
     let half = add(div(a, whole(2)), div(b, whole(2)));
-    if half.abs() < nearest(8.5e37) {
+    if (a.abs() < limit && b.abs() < limit) || half.abs() < limit {
         return add(a, b);
     }
     signed_big(half.signum())

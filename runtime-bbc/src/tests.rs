@@ -212,8 +212,13 @@ fn run(r: &Routine, cases: &[Vec<Bits>]) -> Vec<Bits> {
         "F%=OPENIN\"in\"\nG%=OPENOUT\"out\"\nREPEAT\nINPUT#F%,{}\n{result}={expression}\nPRINT#G%,{result}\nUNTIL EOF#F%\nEND\n",
         names.join(",")
     );
+    // What is no DEF is done first.
     for part in RUNTIME.closure(r.needs.iter().copied()) {
-        program.push_str(text(part));
+        if text(part).starts_with("DEF") {
+            program.push_str(text(part));
+        } else {
+            program.insert_str(0, text(part));
+        }
     }
     let mut machine = Machine::new(Config {
         dialect: Dialect::Micro,

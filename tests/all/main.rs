@@ -1,5 +1,6 @@
 //! One integration-test binary: a file a subject.
 
+mod bbc;
 mod cli;
 mod cli_run;
 mod cli_wrong;

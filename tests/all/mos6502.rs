@@ -163,7 +163,7 @@ fn large_tables_long_loops_and_wide_pictures() {
 }
 
 /// Scenes of random expressions over everything that the target computes.
-struct Scribe(u64);
+pub(crate) struct Scribe(pub(crate) u64);
 
 impl Scribe {
     fn below(&mut self, n: u64) -> u64 {
@@ -243,7 +243,7 @@ impl Scribe {
     }
 
     /// A scene without mistakes: a constant outside an operation's domain is one.
-    fn scene(&mut self) -> String {
+    pub(crate) fn scene(&mut self) -> String {
         loop {
             let source = self.any_scene();
             if scene::check("random", &source).is_right() {

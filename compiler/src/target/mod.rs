@@ -3,6 +3,7 @@
 //! Emission cannot fail: what does not fit a machine is found by whoever
 //! measures the text with the machine's own tools.
 
+pub mod bbc;
 pub mod mos6502;
 
 use crate::plan::Plan;
@@ -54,7 +55,7 @@ pub struct Document {
 }
 
 /// Every target.
-pub static TARGETS: &[&Target] = &[&mos6502::PLAIN];
+pub static TARGETS: &[&Target] = &[&bbc::MICRO, &bbc::AGON, &bbc::BASIC_V, &mos6502::PLAIN];
 
 /// A target by its name; a family's name alone means its first.
 pub fn find(name: &str) -> Option<&'static Target> {

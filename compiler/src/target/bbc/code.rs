@@ -1,0 +1,167 @@
+//! Statements: assignments, IF and loops over GOTO.
+
+use super::expression::Expressions;
+use super::lines::{Labels, Lines};
+use crate::flow::graph::LoopId;
+use crate::flow::tree::*;
+use crate::plan::Plan;
+use crate::source::Span;
+
+/// An IF with all it does fits one line up to this length.
+const ONE_LINE: usize = 90;
+
+/// Writes blocks of statements.
+pub struct Code<'p> {
+    pub values: Expressions<'p>,
+    pub lines: Lines,
+    labels: Labels,
+    span: Option<Span>,
+}
+
+impl<'p> Code<'p> {
+    pub fn new(plan: &'p Plan) -> Code<'p> {
+        Code {
+            values: Expressions::new(plan),
+            lines: Lines::default(),
+            labels: Labels::default(),
+            span: None,
+        }
+    }
+
+    /// A statement that comes from no place in the scene.
+    pub fn statement(&mut self, text: impl Into<String>) {
+        self.lines.statement(text, None);
+    }
+
+    /// A line that comes from no place in the scene.
+    pub fn line(&mut self, text: impl Into<String>) {
+        self.lines.line(text, None);
+    }
+
+    pub fn block(&mut self, block: &Block) {
+        for statement in block {
+            self.one(statement);
+        }
+    }
+
+    /// A block's lines by themselves.
+    fn apart(&mut self, block: &Block) -> Lines {
+        let outer = std::mem::take(&mut self.lines);
+        self.block(block);
+        std::mem::replace(&mut self.lines, outer)
+    }
+
+    fn one(&mut self, statement: &Statement) {
+        match statement {
+            Statement::Let(id) => {
+                self.span = Some(self.values.plan.graph.span(*id));
+                let text = self.values.compute(*id);
+                if !self.values.fold(*id, &text) {
+                    let home = self.values.names.home(Place::Node(*id));
+                    self.lines
+                        .statement(format!("{home}={}", text.text), self.span);
+                }
+            }
+            Statement::Set { place, from } => {
+                let text = match *from {
+                    Origin::Node(id) => self.values.read(id).text,
+                    Origin::Scratch(l, k) => {
+                        self.values.names.home(Place::Scratch(l, k)).to_owned()
+                    }
+                };
+                let home = self.values.names.home(*place);
+                if home != text {
+                    self.lines.statement(format!("{home}={text}"), self.span);
+                }
+            }
+            Statement::If { cond, yes, no } => {
+                let holds = self.values.condition(*cond, true);
+                let fails = self.values.condition(*cond, false);
+                let span = self.span;
+                let yes = self.apart(yes);
+                let no = self.apart(no);
+                self.branch(&holds, &fails, yes, no, span);
+            }
+            Statement::Loop {
+                of,
+                start,
+                body,
+                again,
+                next,
+                done,
+                otherwise,
+            } => {
+                self.block(start);
+                self.repeat(*of, body, *again, [next, done, otherwise]);
+            }
+        }
+    }
+
+    /// Two ways, on one line if they fit.
+    fn branch(&mut self, holds: &str, fails: &str, yes: Lines, no: Lines, span: Option<Span>) {
+        if let (Some(a), Some(b)) = (yes.in_one_line(ONE_LINE), no.in_one_line(ONE_LINE)) {
+            let text = match (a.as_str(), b.as_str()) {
+                (a, "") => format!("IF {holds} THEN {a}"),
+                ("", b) => format!("IF {fails} THEN {b}"),
+                (a, b) => format!("IF {holds} THEN {a} ELSE {b}"),
+            };
+            if a.is_empty() && b.is_empty() {
+                return;
+            }
+            if text.len() <= ONE_LINE + 40 {
+                self.lines.line(text, span);
+                return;
+            }
+        }
+        let end = self.labels.next();
+        if yes.is_empty() {
+            self.lines.line(format!("IF {holds} THEN {end}"), span);
+            self.lines.append(no);
+        } else if no.is_empty() {
+            self.lines.line(format!("IF {fails} THEN {end}"), span);
+            self.lines.append(yes);
+        } else {
+            let other = self.labels.next();
+            self.lines.line(format!("IF {fails} THEN {other}"), span);
+            self.lines.append(yes);
+            self.lines.line(format!("GOTO {end}"), span);
+            self.lines.place(other);
+            self.lines.append(no);
+        }
+        self.lines.place(end);
+    }
+
+    /// A loop: turns are counted, so that it ends.
+    fn repeat(
+        &mut self,
+        of: LoopId,
+        body: &Block,
+        again: crate::flow::graph::NodeId,
+        [next, done, otherwise]: [&Block; 3],
+    ) {
+        let plan = self.values.plan;
+        let (max, span) = plan
+            .graph
+            .loops
+            .get(of.0 as usize)
+            .map_or((1, None), |l| (l.max, Some(l.span)));
+        let turn = self.values.names.unique("turn", "%");
+        let (top, leave, end) = (self.labels.next(), self.labels.next(), self.labels.next());
+        self.lines.statement(format!("{turn}=0"), span);
+        self.lines.place(top);
+        self.block(body);
+        let fails = self.values.condition(again, false);
+        self.lines.line(format!("IF {fails} THEN {leave}"), span);
+        self.block(next);
+        self.lines.statement(format!("{turn}={turn}+1"), span);
+        self.lines.line(format!("IF {turn}<{max} THEN {top}"), span);
+        self.block(otherwise);
+        let done = self.apart(done);
+        if !done.is_empty() {
+            self.lines.line(format!("GOTO {end}"), span);
+        }
+        self.lines.place(leave);
+        self.lines.append(done);
+        self.lines.place(end);
+    }
+}

@@ -1,0 +1,172 @@
+//! Everything around a scene's statements.
+
+use super::code::Code;
+use super::lines::Lines;
+use super::names::param_name;
+use super::screen;
+use crate::plan::Plan;
+use slowlight_routine::{Source, Type, Value};
+use slowlight_runtime_bbc::literal;
+
+/// A table's index clamped to 0..n.
+const FN_INDEX: &str = "\
+DEF FNindex(i%,n%)
+IF i%<0 THEN =0
+IF i%>n% THEN =n% ELSE =i%
+";
+
+/// The whole program.
+pub fn program(plan: &Plan) -> Lines {
+    let mut code = Code::new(plan);
+    let first = code.values.names.unique("first", "%");
+    let last = code.values.names.unique("last", "%");
+    parameters(plan, &mut code, &first, &last);
+    picture(plan, &mut code, &first, &last);
+    setup(plan, &mut code, &first, &last);
+    functions(plan, &mut code);
+    data(plan, &mut code);
+    code.lines
+}
+
+fn parameters(plan: &Plan, code: &mut Code<'_>, first: &str, last: &str) {
+    let mode = plan.mode;
+    code.line(format!(
+        "REM {}, {}x{} in {} inks, by slowlight for {}",
+        plan.name, mode.width, mode.height, mode.inks, plan.target.name
+    ));
+    code.line("REM Change what you like here:");
+    for (param, written) in plan.graph.params.iter().zip(&plan.params) {
+        let name = param_name(&written.label, param.ty);
+        let range = match &written.range {
+            Some((lo, hi)) => format!(":REM {lo} to {hi}"),
+            None => String::new(),
+        };
+        let text = format!("{name}={}{range}", written.text);
+        code.lines.line(text, Some(param.span));
+    }
+    let (top, bottom) = screen::rows(plan);
+    code.line(format!(
+        "{first}={}:{last}={}:REM rows to draw, from {top} to {bottom}",
+        plan.rows.0, plan.rows.1
+    ));
+}
+
+fn picture(plan: &Plan, code: &mut Code<'_>, first: &str, last: &str) {
+    // MODE must stand outside procedures, and after nothing but small tables.
+    code.statement("PROCsetup");
+    if plan.plot {
+        code.statement(format!("MODE {}", plan.mode.name));
+        code.statement("VDU 23,1,0;0;0;0;");
+        for (ink, rgb) in plan.graph.image.palette.iter().enumerate() {
+            if let Some(text) = screen::colour(plan, ink, *rgb) {
+                code.statement(text);
+            }
+        }
+    }
+    code.block(&plan.tree.frame);
+    code.line(format!("FOR Y%={first} TO {last}"));
+    if plan.plot {
+        code.statement(format!("R%={}", screen::y_expression(plan)));
+    }
+    code.block(&plan.tree.row);
+    code.line(format!("FOR X%={} TO {}", plan.columns.0, plan.columns.1));
+    code.block(&plan.tree.pixel);
+    let ink = code.values.read(plan.graph.ink).text;
+    code.statement(format!("I%={ink}"));
+    if plan.plot {
+        // After MODE the screen is ink 0 already.
+        let x = screen::x_expression(plan);
+        code.line(format!("IF I% THEN GCOL 0,I%:PLOT 69,{x},R%"));
+    }
+    code.line("NEXT");
+    code.line("NEXT");
+    code.line("END");
+}
+
+fn setup(plan: &Plan, code: &mut Code<'_>, first: &str, last: &str) {
+    code.line("DEF PROCsetup");
+    for (param, written) in plan.graph.params.iter().zip(&plan.params) {
+        let name = param_name(&written.label, param.ty);
+        if let Some((lo, hi)) = &written.range {
+            code.lines.line(
+                format!("IF {name}<{lo} OR {name}>{hi} THEN PRINT \"{name} must be from {lo} to {hi}\":END"),
+                Some(param.span),
+            );
+        }
+        if param.ty == Type::Bool {
+            code.statement(format!("{name}={name}<>0"));
+        }
+    }
+    let (top, bottom) = screen::rows(plan);
+    code.line(format!(
+        "IF {first}<{top} OR {last}>{bottom} OR {first}>{last} THEN PRINT \"rows must be from {top} to {bottom}\":END"
+    ));
+    for part in plan.parts() {
+        if let Source::Text(text) = part.source
+            && !text.starts_with("DEF")
+        {
+            text.lines().for_each(|l| code.statement(l));
+        }
+    }
+    let constants: Vec<String> = code.values.names.constants().collect();
+    for text in constants {
+        code.statement(text);
+    }
+    for (t, table) in plan.graph.tables.iter().enumerate() {
+        let Some(name) = code.values.names.tables.get(t).cloned() else {
+            continue;
+        };
+        let (w, h) = (table.width - 1, table.height - 1);
+        match (w, h) {
+            (_, 0) => {
+                code.line(format!(
+                    "DIM {name}({w}):FOR X%=0 TO {w}:READ {name}(X%):NEXT"
+                ));
+            }
+            (0, _) => {
+                code.line(format!(
+                    "DIM {name}({h}):FOR Y%=0 TO {h}:READ {name}(Y%):NEXT"
+                ));
+            }
+            _ => code.line(format!(
+                "DIM {name}({w},{h}):FOR Y%=0 TO {h}:FOR X%=0 TO {w}:READ {name}(X%,Y%):NEXT:NEXT"
+            )),
+        }
+    }
+    code.line("ENDPROC");
+}
+
+fn functions(plan: &Plan, code: &mut Code<'_>) {
+    let mut whole = |text: &str| text.lines().for_each(|l| code.line(l));
+    for part in plan.parts() {
+        if let Source::Text(text) = part.source
+            && text.starts_with("DEF")
+        {
+            whole(text);
+        }
+    }
+    if code.values.clamps {
+        FN_INDEX.lines().for_each(|l| code.line(l));
+    }
+}
+
+fn data(plan: &Plan, code: &mut Code<'_>) {
+    for table in &plan.graph.tables {
+        let mut line = String::new();
+        for entry in &table.entries {
+            let text = match entry.value() {
+                Value::Real(x) => literal(x),
+                Value::Int(n) => n.to_string(),
+                Value::Bool(b) => (-i32::from(b)).to_string(),
+            };
+            if line.len() + text.len() > 60 {
+                code.line(std::mem::take(&mut line));
+            }
+            line.push_str(if line.is_empty() { "DATA " } else { "," });
+            line.push_str(&text);
+        }
+        if !line.is_empty() {
+            code.line(line);
+        }
+    }
+}

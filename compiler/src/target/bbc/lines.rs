@@ -1,0 +1,167 @@
+//! Lines of BASIC with labels for line numbers.
+
+use crate::source::Span;
+
+/// What a GOTO names before lines have numbers.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Label(u32);
+
+/// Encloses a label's number in a line's text.
+const MARK: char = '\u{1}';
+
+impl std::fmt::Display for Label {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(f, "{MARK}{}{MARK}", self.0)
+    }
+}
+
+#[derive(Clone, Debug)]
+enum Item {
+    /// Statements, to which more may be joined while `open`.
+    Line {
+        text: String,
+        span: Option<Span>,
+        open: bool,
+    },
+    Label(Label),
+}
+
+/// Statements are joined to a line up to this length: few lines are quick to search and save
+/// memory, short ones read well.
+const WIDTH: usize = 66;
+
+/// A program or a part of one.
+#[derive(Clone, Debug, Default)]
+pub struct Lines {
+    items: Vec<Item>,
+}
+
+impl Lines {
+    /// A statement that others may stand beside.
+    pub fn statement(&mut self, text: impl Into<String>, span: Option<Span>) {
+        let text = text.into();
+        if let Some(Item::Line {
+            text: line,
+            open: true,
+            ..
+        }) = self.items.last_mut()
+            && line.len() + 1 + text.len() <= WIDTH
+        {
+            line.push(':');
+            line.push_str(&text);
+            return;
+        }
+        self.items.push(Item::Line {
+            text,
+            span,
+            open: true,
+        });
+    }
+
+    /// A line of its own: nothing is joined to it.
+    pub fn line(&mut self, text: impl Into<String>, span: Option<Span>) {
+        self.items.push(Item::Line {
+            text: text.into(),
+            span,
+            open: false,
+        });
+    }
+
+    /// The next line gets this label.
+    pub fn place(&mut self, label: Label) {
+        self.items.push(Item::Label(label));
+    }
+
+    pub fn append(&mut self, mut other: Lines) {
+        if let (
+            Some(Item::Line { open: last, .. }),
+            Some(Item::Line {
+                text,
+                span,
+                open: true,
+            }),
+        ) = (self.items.last(), other.items.first())
+            && *last
+        {
+            let (text, span) = (text.clone(), *span);
+            other.items.remove(0);
+            self.statement(text, span);
+        }
+        self.items.append(&mut other.items);
+    }
+
+    /// All of it as one line's worth of statements, if it is only that and no longer than `most`.
+    pub fn in_one_line(&self, most: usize) -> Option<String> {
+        let mut all = String::new();
+        for item in &self.items {
+            let Item::Line {
+                text, open: true, ..
+            } = item
+            else {
+                return None;
+            };
+            if !all.is_empty() {
+                all.push(':');
+            }
+            all.push_str(text);
+        }
+        (all.len() <= most).then_some(all)
+    }
+
+    pub fn is_empty(&self) -> bool {
+        self.items.is_empty()
+    }
+
+    /// Numbers the lines in tens, or in ones where tens do not suffice.
+    pub fn finish(self) -> (String, Vec<Option<Span>>) {
+        let is_line = |i: &Item| matches!(i, Item::Line { .. });
+        let count = self.items.iter().filter(|i| is_line(i)).count();
+        let step = if count <= 3000 { 10 } else { 1 };
+        let mut numbers: Vec<(u32, usize)> = Vec::new();
+        let mut next = step;
+        for item in &self.items {
+            match item {
+                Item::Line { .. } => next += step,
+                Item::Label(Label(n)) => numbers.push((*n, next)),
+            }
+        }
+        let number_of = |n: &str| {
+            let n: u32 = n.parse().unwrap_or(0);
+            let found = numbers.iter().find(|(label, _)| *label == n);
+            found.map_or(0, |(_, number)| *number).to_string()
+        };
+        let mut text = String::new();
+        let mut spans = Vec::new();
+        let mut number = step;
+        for item in &self.items {
+            if let Item::Line {
+                text: line, span, ..
+            } = item
+            {
+                text.push_str(&number.to_string());
+                for (i, piece) in line.split(MARK).enumerate() {
+                    if i % 2 == 0 {
+                        text.push_str(piece);
+                    } else {
+                        text.push_str(&number_of(piece));
+                    }
+                }
+                text.push('\n');
+                spans.push(*span);
+                number += step;
+            }
+        }
+        (text, spans)
+    }
+}
+
+/// Makes labels, each once.
+#[derive(Default)]
+pub struct Labels(u32);
+
+impl Labels {
+    pub fn next(&mut self) -> Label {
+        self.0 += 1;
+        Label(self.0)
+    }
+}

@@ -1,0 +1,116 @@
+//! What variables, constants and tables are called.
+
+use crate::flow::tree::Place;
+use crate::plan::Plan;
+use slowlight_routine::{Format, Type};
+use std::collections::{HashMap, HashSet};
+
+/// Names of everything in the program.
+pub struct Names {
+    homes: HashMap<Place, String>,
+    pub tables: Vec<String>,
+    taken: HashSet<String>,
+    /// Decimal constants by their text, in order of first use.
+    constants: Vec<(String, String)>,
+}
+
+fn suffixed(name: &str, format: Format) -> String {
+    if format == Format::Real40 {
+        name.to_owned()
+    } else {
+        format!("{name}%")
+    }
+}
+
+impl Names {
+    pub fn new(plan: &Plan) -> Names {
+        let mut names = Names {
+            homes: HashMap::new(),
+            tables: Vec::new(),
+            taken: HashSet::new(),
+            constants: Vec::new(),
+        };
+        for p in &plan.graph.params {
+            names.taken.insert(param_name(&p.label(), p.ty));
+        }
+        for (place, format) in plan.places() {
+            let name = suffixed(plan.home(place), format);
+            names.taken.insert(name.clone());
+            names.homes.insert(place, name);
+        }
+        for table in &plan.graph.tables {
+            let clean: String = table
+                .name
+                .chars()
+                .filter(|c| c.is_ascii_alphanumeric() || *c == '_')
+                .map(|c| c.to_ascii_lowercase())
+                .take(16)
+                .collect();
+            let clean = if clean.starts_with(|c: char| c.is_ascii_lowercase()) {
+                clean
+            } else {
+                format!("table{clean}")
+            };
+            let suffix = if table.ty == Type::Real { "" } else { "%" };
+            // With its bracket, an array's name is its own.
+            let name = names.unique(&clean, &format!("{suffix}("));
+            names.tables.push(name.trim_end_matches('(').to_owned());
+        }
+        names
+    }
+
+    /// A name that is not taken yet.
+    pub fn unique(&mut self, base: &str, suffix: &str) -> String {
+        let mut name = format!("{base}{suffix}");
+        let mut number = 2;
+        while !self.taken.insert(name.clone()) {
+            name = format!("{base}{number}{suffix}");
+            number += 1;
+        }
+        name
+    }
+
+    pub fn home(&self, place: Place) -> &str {
+        self.homes.get(&place).map_or("unused", String::as_str)
+    }
+
+    /// The variable of a decimal constant.
+    pub fn constant(&mut self, text: &str) -> String {
+        if let Some((_, name)) = self.constants.iter().find(|(t, _)| t == text) {
+            return name.clone();
+        }
+        // 0.3 is c0_3; what would be long is numbered.
+        let spelt: String = text
+            .chars()
+            .map(|c| match c {
+                '.' => '_',
+                '-' => 'm',
+                c => c.to_ascii_lowercase(),
+            })
+            .collect();
+        let name = if spelt.len() <= 6 {
+            self.unique(&format!("c{spelt}"), "")
+        } else {
+            let number = self.constants.len() + 1;
+            self.unique(&format!("c_{number}"), "")
+        };
+        self.constants.push((text.to_owned(), name.clone()));
+        name
+    }
+
+    /// Assignments of all constants used.
+    pub fn constants(&self) -> impl Iterator<Item = String> + '_ {
+        self.constants
+            .iter()
+            .map(|(text, name)| format!("{name}={text}"))
+    }
+}
+
+/// What a param is called.
+pub fn param_name(label: &str, ty: Type) -> String {
+    if ty == Type::Real {
+        label.to_owned()
+    } else {
+        format!("{label}%")
+    }
+}

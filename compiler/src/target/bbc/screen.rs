@@ -1,0 +1,124 @@
+//! Modes, colours and coordinates.
+
+use super::super::Mode;
+use crate::plan::Plan;
+
+const fn mode(name: &'static str, width: u32, height: u32, inks: u32) -> Mode {
+    Mode {
+        name,
+        width,
+        height,
+        inks,
+    }
+}
+
+pub static MICRO: &[Mode] = &[
+    mode("1", 320, 256, 4),
+    mode("0", 640, 256, 2),
+    mode("2", 160, 256, 16),
+    mode("4", 320, 256, 2),
+    mode("5", 160, 256, 4),
+];
+
+pub static AGON: &[Mode] = &[
+    mode("9", 320, 240, 16),
+    mode("10", 320, 240, 4),
+    mode("11", 320, 240, 2),
+    mode("4", 640, 240, 16),
+    mode("5", 640, 240, 4),
+    mode("0", 640, 480, 16),
+    mode("1", 640, 480, 4),
+    mode("2", 640, 480, 2),
+];
+
+pub static BASIC_V: &[Mode] = &[
+    mode("9", 320, 256, 16),
+    mode("1", 320, 256, 4),
+    mode("4", 320, 256, 2),
+    mode("2", 160, 256, 16),
+    mode("12", 640, 256, 16),
+    mode("8", 640, 256, 4),
+    mode("0", 640, 256, 2),
+    mode("20", 640, 512, 16),
+];
+
+/// Red, green and blue of a physical colour (0 to 7).
+fn physical(colour: u8) -> [u8; 3] {
+    [1, 2, 4].map(|bit| if colour & bit != 0 { 255 } else { 0 })
+}
+
+/// The physical colours of a mode's inks when it starts.
+fn first_colour(mode: &Mode, ink: usize) -> u8 {
+    match (mode.inks, ink) {
+        (2, i) => [0, 7][i & 1],
+        (4, i) => [0, 1, 3, 7][i & 3],
+        (_, i) => (i & 7) as u8,
+    }
+}
+
+/// The VDU statement that gives an ink the scene's colour; none where it has it already.
+pub fn colour(plan: &Plan, ink: usize, rgb: [u8; 3]) -> Option<String> {
+    if physical(first_colour(&plan.mode, ink)) == rgb {
+        return None;
+    }
+    let exact = (0..8).find(|c| physical(*c) == rgb);
+    let [r, g, b] = rgb;
+    Some(match plan.target.name {
+        "bbc:agon" => format!("VDU 19,{ink},255,{r},{g},{b}"),
+        "bbc:basicv" if exact.is_none() => format!("VDU 19,{ink},16,{r},{g},{b}"),
+        _ => {
+            let off = |c: &u8| -> u32 {
+                let near = physical(*c);
+                (0..3)
+                    .map(|i| u32::from(near[i].abs_diff(rgb[i])).pow(2))
+                    .sum()
+            };
+            let nearest = (0..8).min_by_key(off).unwrap_or(7);
+            if nearest == first_colour(&plan.mode, ink) {
+                return None;
+            }
+            format!("VDU 19,{ink},{nearest};0;")
+        }
+    })
+}
+
+/// `a-4*Y%` and so on: a sum of a constant and a multiple.
+fn linear(constant: i64, factor: i64, name: &str) -> String {
+    let product = match factor.abs() {
+        1 => name.to_owned(),
+        f => format!("{f}*{name}"),
+    };
+    match (constant, factor < 0) {
+        (0, false) => product,
+        (0, true) => format!("-{product}"),
+        (c, false) if c < 0 => format!("{product}-{}", -c),
+        (c, false) => format!("{product}+{c}"),
+        (c, true) => format!("{c}-{product}"),
+    }
+}
+
+/// The first and last picture row that the screen has.
+pub fn rows(plan: &Plan) -> (i64, i64) {
+    let top = i64::from(plan.offset.1);
+    let screen = i64::from(plan.mode.height);
+    let picture = i64::from(plan.graph.image.height);
+    ((-top).max(0), (screen - top).min(picture) - 1)
+}
+
+/// The graphics x of picture column `X%`.
+pub fn x_expression(plan: &Plan) -> String {
+    let unit = 1280 / i64::from(plan.mode.width.max(1));
+    linear(unit * i64::from(plan.offset.0), unit, "X%")
+}
+
+/// The graphics y of picture row `Y%`: y runs up, over 1024 units.
+pub fn y_expression(plan: &Plan) -> String {
+    let height = i64::from(plan.mode.height.max(1));
+    let bottom = height - 1 - i64::from(plan.offset.1);
+    if 1024 % height == 0 {
+        let unit = 1024 / height;
+        return linear(unit * bottom, -unit, "Y%");
+    }
+    // The middle of the row, since units are no whole part of it.
+    format!("(512+1024*({})) DIV {height}", linear(bottom, -1, "Y%"))
+}
