@@ -5,6 +5,7 @@
 //! This is where a target's name chooses its machine.
 
 mod bbc;
+mod hack;
 mod mos6502;
 
 use crate::failure::{Failure, Outcome};
@@ -16,6 +17,8 @@ use slowlight_vm::{Progress, Screen, Stop};
 /// A machine that is bundled.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Machine {
+    /// The Hack computer's VM.
+    Hack,
     /// BBC BASIC and its screen.
     Bbc(Dialect),
     /// The plain machine around a 6502.
@@ -72,6 +75,7 @@ pub struct Loaded {
 }
 
 enum Program {
+    Hack(Box<slowlight_vm::hack::vm::Program>),
     Bbc(slowlight_vm::bbc::Machine),
     Mos6502(Box<slowlight_vm::mos6502::Plain>),
 }
@@ -99,6 +103,7 @@ impl Machine {
     /// The machine of a target.
     pub fn of(name: &str) -> Option<Machine> {
         match name {
+            "jack" => Some(Machine::Hack),
             "bbc:micro" => Some(Machine::Bbc(Dialect::Micro)),
             "bbc:agon" => Some(Machine::Bbc(Dialect::Agon)),
             "bbc:basicv" => Some(Machine::Bbc(Dialect::BasicV)),
@@ -110,6 +115,7 @@ impl Machine {
     /// The extension of its source files.
     pub fn extension(self) -> &'static str {
         match self {
+            Machine::Hack => "jack",
             Machine::Bbc(_) => "bas",
             Machine::Mos6502 => "asm",
         }
@@ -117,7 +123,7 @@ impl Machine {
 
     /// Whether a program is several sources together.
     pub fn many_sources(self) -> bool {
-        false
+        self == Machine::Hack
     }
 
     /// Compiles, tokenises or assembles files for the machine.
@@ -126,6 +132,7 @@ impl Machine {
     /// Whatever the machine's tools say of the files.
     pub fn load(self, files: &[File]) -> Outcome<Loaded> {
         match self {
+            Machine::Hack => hack::load(files),
             Machine::Bbc(dialect) => bbc::load(files, dialect),
             Machine::Mos6502 => mos6502::load(files),
         }
@@ -143,6 +150,7 @@ impl Loaded {
             !interrupt::pressed()
         };
         let run = match &mut self.program {
+            Program::Hack(program) => hack::run(program, limit, &mut watch),
             Program::Bbc(machine) => bbc::run(machine, limit, &mut watch),
             Program::Mos6502(machine) => mos6502::run(machine, self.sizes, limit, &mut watch),
         };

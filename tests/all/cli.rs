@@ -202,6 +202,10 @@ const ASSEMBLY: &str = "* = $0800
 #[test]
 fn any_program_runs_on_a_machine() {
     let basic = "10 MODE 1\n20 GCOL 0,3\n30 PLOT 69,0,1020\n40 PRINT 6*7\n50 END\n";
+    let jack = "class Main { function void main() {
+        do Screen.drawPixel(0, 0); do Output.printInt(42); return; } }";
+    let vm = "function Main.main 0\npush constant 0\npush constant 0\n\
+        call Screen.drawPixel 2\npop temp 0\npush constant 0\nreturn\n";
     let dir = directory(&[("dot.asm", ASSEMBLY), ("dot.bas", basic)]);
     let dir = dir.path();
     let said = json(dir, &["vm", "6502", "dot.asm", "--json", "-o", "dot.pgm"]);
@@ -215,28 +219,50 @@ fn any_program_runs_on_a_machine() {
     let pixels = &drawn[drawn.len() - 320 * 256..];
     assert_eq!(pixels[0], 3);
     assert!(pixels[1..].iter().all(|&ink| ink == 0));
+    for (machine, file, text) in [("jack", "Main.jack", jack), ("hack", "Main.vm", vm)] {
+        std::fs::create_dir(dir.join(machine)).expect("a directory");
+        std::fs::write(dir.join(machine).join(file), text).expect("a file");
+        success(dir, &["vm", machine, machine, "-o", "dot.pbm"]);
+        let drawn = std::fs::read(dir.join("dot.pbm")).expect("a picture");
+        assert_eq!(&drawn[..11], b"P4\n512 256\n", "{machine}");
+        assert_eq!(drawn[11], 0x80, "{machine}: the pixel is black");
+        let said = json(
+            dir,
+            &["vm", machine, &format!("{machine}/{file}"), "--json"],
+        );
+        assert_eq!(said["output"], if machine == "jack" { "42" } else { "" });
+    }
 }
 
 #[test]
 fn programs_that_do_not_end_are_stopped() {
     let dir = directory(&[
         ("loop.asm", "* = $0800\nloop: jmp loop\n"),
-        ("loop.bas", "10 GOTO 10\n"),
+        ("loop.bas", "10 MODE 4\n20 GOTO 20\n"),
         ("stop.bas", "10 PRINT 1/0\n"),
+        (
+            "Main.vm",
+            "function Main.main 0\nlabel a\npush constant 0\npop temp 0\ngoto a\n",
+        ),
     ]);
     for (machine, file, stopped) in [
         ("6502", "loop.asm", "limit"),
         ("bbc", "loop.bas", "limit"),
         ("bbc", "stop.bas", "fault"),
+        ("hack", "Main.vm", "limit"),
     ] {
-        let args = [
-            "vm", machine, file, "--limit", "100000", "--json", "-o", "x.png",
-        ];
-        let output = slowlight(dir.path(), &args);
+        let picture = format!("{machine}.png");
+        let more = ["--limit", "100000", "--json", "-o", &picture];
+        let output = slowlight(dir.path(), &[&["vm", machine, file][..], &more].concat());
         assert_eq!(output.status.code(), Some(1), "{file}");
         let said: Value = serde_json::from_slice(&output.stdout).expect("JSON");
         assert_eq!(said["stopped"], stopped, "{file}");
         assert!(!output.stderr.is_empty());
     }
-    assert_eq!(names(dir.path()), ["loop.asm", "loop.bas", "stop.bas"]);
+    // What it had drawn so far; the assembly opened no picture.
+    let drawn: Vec<String> = names(dir.path())
+        .into_iter()
+        .filter(|n| n.ends_with(".png"))
+        .collect();
+    assert_eq!(drawn, ["bbc.png", "hack.png"]);
 }
