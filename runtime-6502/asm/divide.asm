@@ -37,6 +37,9 @@ divide_zero:
         rts
 
 divide_byte:
+        lda arg+3
+        beq divide_short
+divide_long:
         stx low
         lda acc,x
         sta bits
@@ -74,8 +77,56 @@ divide_less:
         ldx low
         sta acc,x
         dex
-        bpl divide_byte
+        bpl divide_long
         rts
+
+divide_short:               ; arg and remainder fit 24 bits
+        stx low
+        lda acc,x
+        sta bits
+        lda #8
+        sta count
+divide_short_bit:
+        rol bits
+        rol prod
+        rol prod+1
+        rol prod+2
+        bcs divide_short_more
+        sec
+        lda prod
+        sbc arg
+        tay
+        lda prod+1
+        sbc arg+1
+        tax
+        lda prod+2
+        sbc arg+2
+        bcc divide_short_less
+divide_short_store:
+        sta prod+2
+        stx prod+1
+        sty prod
+divide_short_less:
+        dec count
+        bne divide_short_bit
+        lda bits
+        rol
+        ldx low
+        sta acc,x
+        dex
+        bpl divide_short
+        rts
+divide_short_more:          ; a 25th bit: not below arg, and the borrow takes it
+        lda prod
+        sbc arg
+        tay
+        lda prod+1
+        sbc arg+1
+        tax
+        lda prod+2
+        sbc arg+2
+        sec
+        bcs divide_short_store
 
 ; acc = x / 0 for the x in acc: 0, or saturated by its sign.
 divide_by_zero:

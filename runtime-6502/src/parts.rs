@@ -44,7 +44,7 @@ pub(crate) static ALL: &[Part] = &[
         &["sign", "multiply"],
         40,
     ),
-    part("divide", include_str!("../asm/divide.asm"), &["sign"], 144),
+    part("divide", include_str!("../asm/divide.asm"), &["sign"], 223),
     part(
         "fixed_divide",
         include_str!("../asm/fixed_divide.asm"),
