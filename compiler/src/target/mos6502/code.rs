@@ -23,7 +23,8 @@ pub(super) struct Code<'p> {
 
 /// Bytes of some lines of assembly, at most.
 fn most_bytes(text: &Text) -> usize {
-    let instruction = |line: &&(String, _)| line.0.starts_with(' ');
+    let instruction =
+        |line: &&(String, _)| line.0.starts_with(' ') && !line.0.trim_start().starts_with(';');
     3 * text.lines.iter().filter(instruction).count()
 }
 
@@ -140,6 +141,8 @@ impl<'p> Code<'p> {
             return ("bcc", "bcs");
         }
         let place = self.homes.operand(self.plan, cond);
+        let said = comment::operand(self.plan, self.homes, cond);
+        self.text.line(format!("        ; {said}?"));
         self.text.code(&format!("lda {}", write::byte(&place, 0)));
         ("beq", "bne")
     }

@@ -15,12 +15,13 @@
 //!
 //! - `homes`: where values live and what they are called;
 //! - `code`: statements; `table`: lookups; `comment`: what a statement means;
-//! - `frame`: the parameter block and everything around the statements.
+//! - `params`: the parameter block's checks; `frame`: everything around the statements.
 
 mod code;
 mod comment;
 mod frame;
 mod homes;
+mod params;
 mod table;
 #[cfg(test)]
 mod tests;

@@ -1,0 +1,194 @@
+//! The params: scaled integers in the parameter block, checked once at the
+//! start and made what the program computes with.
+
+use super::Text;
+use super::homes::{Homes, Slot};
+use crate::plan::Plan;
+use slowlight_routine::Type;
+
+/// What is written into the table of params.
+pub(super) struct Entry {
+    /// Its symbol in the parameter block, and where its value goes.
+    pub symbol: String,
+    pub slot: Slot,
+    /// The value as written, and what it may be.
+    pub text: String,
+    pub least: String,
+    pub greatest: String,
+    pub unit: String,
+    /// What to divide it by for a real; 0 for an int.
+    pub divisor: u32,
+}
+
+pub(super) fn entries(plan: &Plan, homes: &Homes) -> Vec<Entry> {
+    let bound = |text: Option<&String>, end: i32| {
+        let parsed = text
+            .and_then(|t| t.parse::<i64>().ok())
+            .unwrap_or(i64::from(end));
+        parsed
+            .clamp(i64::from(i32::MIN), i64::from(i32::MAX))
+            .to_string()
+    };
+    let mut all: Vec<Entry> = Vec::new();
+    for (k, (p, symbol)) in plan.params.iter().zip(&homes.params).enumerate() {
+        let digits = u32::from(p.digits.unwrap_or(0));
+        let real = plan.graph.params.get(k).is_some_and(|p| p.ty == Type::Real);
+        all.push(Entry {
+            symbol: symbol.clone(),
+            slot: Slot::Param(k as u32),
+            text: p.text.clone(),
+            least: bound(p.range.as_ref().map(|r| &r.0), i32::MIN),
+            greatest: bound(p.range.as_ref().map(|r| &r.1), i32::MAX),
+            unit: unit(real, digits),
+            divisor: if real {
+                10u32.saturating_pow(digits)
+            } else {
+                0
+            },
+        });
+    }
+    let last = plan.graph.image.height.saturating_sub(1);
+    for (slot, row) in [
+        (Slot::Rows(false), plan.rows.0),
+        (Slot::Rows(true), plan.rows.1),
+    ] {
+        all.push(Entry {
+            symbol: if slot == Slot::Rows(true) {
+                "last_row"
+            } else {
+                "first_row"
+            }
+            .to_owned(),
+            slot,
+            text: row.to_string(),
+            least: "0".to_owned(),
+            greatest: last.to_string(),
+            unit: "a row".to_owned(),
+            divisor: 0,
+        });
+    }
+    all
+}
+
+fn unit(real: bool, digits: u32) -> String {
+    match (real, digits) {
+        (true, 1) => "tenths".to_owned(),
+        (true, 2) => "hundredths".to_owned(),
+        (true, 3) => "thousandths".to_owned(),
+        (true, d) => format!("the value times 10^{d}"),
+        (false, _) => "a whole number".to_owned(),
+    }
+}
+
+/// The check of the params, and their making.
+pub(super) fn take_params(homes: &Homes, entries: &[Entry], text: &mut Text) {
+    text.headline("the parameters, checked and made numbers of the runtime's");
+    let which = homes.name(Slot::Which);
+    text.label("take_params");
+    for (k, entry) in entries.iter().enumerate() {
+        let home = homes.name(entry.slot);
+        let number = (k + 1).min(255);
+        text.line(format!("        ; {}", entry.symbol));
+        text.code(&format!(
+            "lda #<(param{k}) | sta prod | lda #>(param{k}) | sta prod+1 | lda #{number}"
+        ));
+        text.code(&format!(
+            "jsr take_param | lda acc | sta {home} | lda acc+1 | sta {home}+1"
+        ));
+        text.code(&format!(
+            "lda acc+2 | sta {home}+2 | lda acc+3 | sta {home}+3"
+        ));
+    }
+    text.code("rts");
+    let divide = entries.iter().any(|e| e.divisor > 0);
+    let template = if divide { TAKE_REAL } else { TAKE_INT };
+    text.line(TAKE.replace("WHICH", which));
+    text.line(template);
+    for (k, entry) in entries.iter().enumerate() {
+        let symbol = &entry.symbol;
+        text.line(format!(
+            "param{k}:{:20}; {symbol}: value, least, greatest, divisor",
+            ""
+        ));
+        text.line(format!(
+            "        .byte <({symbol}), >({symbol}), <(({symbol}) >> 16), <(({symbol}) >> 24)"
+        ));
+        let numbers = [&entry.least, &entry.greatest, &entry.divisor.to_string()];
+        for number in numbers.map(|n| n.parse::<i64>().unwrap_or(0)) {
+            let [a, b, c, d, ..] = number.to_le_bytes();
+            text.line(format!("        .byte {a}, {b}, {c}, {d}"));
+        }
+    }
+}
+
+/// The check of one param.
+const TAKE: &str = "
+; acc = the parameter whose entry prod points to; its number is in a
+take_param:
+        sta WHICH
+        ldy #3
+take_value:
+        lda (prod),y
+        sta acc,y
+        dey
+        bpl take_value
+        ldy #4                      ; below the least?
+        lda acc
+        cmp (prod),y
+        iny
+        lda acc+1
+        sbc (prod),y
+        iny
+        lda acc+2
+        sbc (prod),y
+        iny
+        lda acc+3
+        sbc (prod),y
+        bvc take_least
+        eor #$80
+take_least:
+        bmi take_wrong
+        ldy #8                      ; above the greatest?
+        lda (prod),y
+        cmp acc
+        iny
+        lda (prod),y
+        sbc acc+1
+        iny
+        lda (prod),y
+        sbc acc+2
+        iny
+        lda (prod),y
+        sbc acc+3
+        bvc take_greatest
+        eor #$80
+take_greatest:
+        bpl take_right
+take_wrong:
+        lda WHICH
+        sta exit_port
+take_right:";
+
+/// Reals are divided; ints have the divisor 0.
+const TAKE_REAL: &str = "        ldy #12
+        lda (prod),y
+        sta arg
+        iny
+        lda (prod),y
+        sta arg+1
+        iny
+        lda (prod),y
+        sta arg+2
+        iny
+        lda (prod),y
+        sta arg+3
+        ora arg+2
+        ora arg+1
+        ora arg
+        beq take_int
+        jmp fixed_divide
+take_int:
+        rts
+";
+
+const TAKE_INT: &str = "        rts\n";
