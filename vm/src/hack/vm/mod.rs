@@ -27,13 +27,13 @@
 //! command but labels counts one, `function` included; a call of a native
 //! function is one command in all.
 //!
-//! Two things differ from run to run of other machines too and are not
-//! promised: the words above the stack pointer, and the return addresses in
-//! frames (here, numbers of calls).
+//! Two things are this machine's own, as on every implementation: what the
+//! words above the stack pointer hold, and the return addresses in frames
+//! (here, numbers of call sites).
 //!
 //! # How it is fast
 //!
-//! There are two engines over one state. [`plain`](self) steps command by
+//! There are two engines over one state. The plain one steps command by
 //! command, checks everything, and defines what each command does. The fused
 //! engine runs commands joined several at a time, on programs whose stack
 //! heights the linker could prove; it checks the limit only at jumps, calls

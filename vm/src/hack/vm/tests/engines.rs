@@ -137,6 +137,9 @@ enum Statement {
     SetElement(Expression, Expression),
     If(Expression, Vec<Statement>, Vec<Statement>),
     Repeat(u16, Vec<Statement>),
+    /// Stores to, and reads, the word at an address among temps and statics
+    /// through `that`, which the fused engine leaves to the plain one.
+    Low(u16, Expression),
 }
 
 #[derive(Clone, Debug)]
@@ -197,6 +200,7 @@ fn statements() -> impl Strategy<Value = Vec<Statement>> {
     let leaf = prop_oneof![
         ((0..VARIABLES.len()), expression()).prop_map(|(to, value)| Statement::Set(to, value)),
         (expression(), expression()).prop_map(|(at, value)| Statement::SetElement(at, value)),
+        ((5..40u16), expression()).prop_map(|(at, value)| Statement::Low(at, value)),
     ];
     let statement = leaf.prop_recursive(3, 24, 4, |inner| {
         let block = prop::collection::vec(inner, 0..4);
@@ -263,6 +267,11 @@ impl Emitter {
                     self.line("add");
                     self.expression(value);
                     self.line("pop temp 0\npop pointer 1\npush temp 0\npop that 0");
+                }
+                Statement::Low(at, value) => {
+                    self.expression(value);
+                    self.line(&format!("push constant {}\npop pointer 1", at - 3));
+                    self.line("pop that 3\npush that 3\npop local 2");
                 }
                 Statement::If(test, then, other) => {
                     self.expression(test);

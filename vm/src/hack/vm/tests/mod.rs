@@ -5,6 +5,7 @@ mod commands;
 mod engines;
 mod limits;
 mod os;
+mod screen;
 mod wrong;
 
 use super::{Machine, Program, Run};
