@@ -93,17 +93,11 @@ impl Binary {
             Binary::Sub => x.wrapping_sub(y),
             Binary::And => x & y,
             Binary::Or => x | y,
-            Binary::Eq => truth(x == y),
-            Binary::Gt => truth(x.cast_signed() > y.cast_signed()),
-            Binary::Lt => truth(x.cast_signed() < y.cast_signed()),
+            Binary::Eq => u16::from(x == y).wrapping_neg(),
+            Binary::Gt => u16::from(x.cast_signed() > y.cast_signed()).wrapping_neg(),
+            Binary::Lt => u16::from(x.cast_signed() < y.cast_signed()).wrapping_neg(),
         }
     }
-}
-
-/// A comparison's result as a word.
-#[inline(always)]
-pub(super) fn truth(holds: bool) -> u16 {
-    u16::from(holds).wrapping_neg()
 }
 
 /// A linked command. Labels are gone: jumps and calls hold indices of commands.

@@ -3,7 +3,7 @@
 //! It holds SP in a register; all else is in the RAM. What it leaves to the
 //! plain engine it leaves before having done any of it.
 
-use super::command::{ARG, FRAME, HEAP, LCL, Memory, Place, SCREEN, SP, THAT, THIS, truth};
+use super::command::{ARG, Binary, FRAME, HEAP, LCL, Memory, Place, SCREEN, SP, THAT, THIS};
 use super::fuse::{Fused, Op};
 use super::machine::{EFFORT_LIMIT, Machine};
 use super::os::{self, Native, Trap};
@@ -40,12 +40,6 @@ fn address(memory: &Memory, place: Place) -> u16 {
 #[inline(always)]
 fn is_far(address: u16) -> bool {
     address.cast_signed() >= HEAP.cast_signed()
-}
-
-/// Comparisons, as `Binary::apply` has them, without the truth as a word.
-#[inline(always)]
-fn less(x: u16, y: u16) -> bool {
-    x.cast_signed() < y.cast_signed()
 }
 
 impl Machine<'_> {
@@ -96,60 +90,60 @@ impl Machine<'_> {
             }
             // An operation on the stack, on the stack and a place, on places.
             macro_rules! zero {
-                (|$x:ident, $y:ident| $value:expr) => {{
-                    let $y = pop!();
-                    let $x = memory[usize::from(sp.wrapping_sub(1))];
-                    memory[usize::from(sp.wrapping_sub(1))] = $value;
+                ($op:ident) => {{
+                    let y = pop!();
+                    let x = memory[usize::from(sp.wrapping_sub(1))];
+                    memory[usize::from(sp.wrapping_sub(1))] = Binary::$op.apply(x, y);
                 }};
             }
             macro_rules! one {
-                ($b:ident, |$x:ident, $y:ident| $value:expr) => {{
-                    let $y = get(memory, $b);
-                    let $x = memory[usize::from(sp.wrapping_sub(1))];
-                    memory[usize::from(sp.wrapping_sub(1))] = $value;
+                ($b:ident, $op:ident) => {{
+                    let y = get(memory, $b);
+                    let x = memory[usize::from(sp.wrapping_sub(1))];
+                    memory[usize::from(sp.wrapping_sub(1))] = Binary::$op.apply(x, y);
                 }};
             }
             macro_rules! two {
-                ($a:ident, $b:ident, |$x:ident, $y:ident| $value:expr) => {{
-                    let ($x, $y) = (get(memory, $a), get(memory, $b));
-                    push!($value)
+                ($a:ident, $b:ident, $op:ident) => {{
+                    let (x, y) = (get(memory, $a), get(memory, $b));
+                    push!(Binary::$op.apply(x, y))
                 }};
             }
             macro_rules! one_to {
-                ($b:ident, $to:ident, |$x:ident, $y:ident| $value:expr) => {{
-                    let $y = get(memory, $b);
-                    let $x = pop!();
-                    set(memory, $to, $value);
+                ($b:ident, $to:ident, $op:ident) => {{
+                    let y = get(memory, $b);
+                    let x = pop!();
+                    set(memory, $to, Binary::$op.apply(x, y));
                 }};
             }
             macro_rules! two_to {
-                ($a:ident, $b:ident, $to:ident, |$x:ident, $y:ident| $value:expr) => {{
-                    let ($x, $y) = (get(memory, $a), get(memory, $b));
-                    set(memory, $to, $value);
+                ($a:ident, $b:ident, $to:ident, $op:ident) => {{
+                    let (x, y) = (get(memory, $a), get(memory, $b));
+                    set(memory, $to, Binary::$op.apply(x, y));
                 }};
             }
             macro_rules! if0 {
-                ($to:ident, |$x:ident, $y:ident| $holds:expr) => {{
-                    let $y = pop!();
-                    let $x = pop!();
-                    if $holds {
+                ($to:ident, $op:ident, $holds:literal) => {{
+                    let y = pop!();
+                    let x = pop!();
+                    if (Binary::$op.apply(x, y) != 0) == $holds {
                         jump!($to)
                     }
                 }};
             }
             macro_rules! if1 {
-                ($b:ident, $to:ident, |$x:ident, $y:ident| $holds:expr) => {{
-                    let $y = get(memory, $b);
-                    let $x = pop!();
-                    if $holds {
+                ($b:ident, $to:ident, $op:ident, $holds:literal) => {{
+                    let y = get(memory, $b);
+                    let x = pop!();
+                    if (Binary::$op.apply(x, y) != 0) == $holds {
                         jump!($to)
                     }
                 }};
             }
             macro_rules! if2 {
-                ($a:ident, $b:ident, $to:ident, |$x:ident, $y:ident| $holds:expr) => {{
-                    let ($x, $y) = (get(memory, $a), get(memory, $b));
-                    if $holds {
+                ($a:ident, $b:ident, $to:ident, $op:ident, $holds:literal) => {{
+                    let (x, y) = (get(memory, $a), get(memory, $b));
+                    if (Binary::$op.apply(x, y) != 0) == $holds {
                         jump!($to)
                     }
                 }};
@@ -216,35 +210,35 @@ impl Machine<'_> {
                     *top = !*top;
                 }
 
-                Op::Add0 => zero!(|x, y| x.wrapping_add(y)),
-                Op::Sub0 => zero!(|x, y| x.wrapping_sub(y)),
-                Op::And0 => zero!(|x, y| x & y),
-                Op::Or0 => zero!(|x, y| x | y),
-                Op::Eq0 => zero!(|x, y| truth(x == y)),
-                Op::Gt0 => zero!(|x, y| truth(less(y, x))),
-                Op::Lt0 => zero!(|x, y| truth(less(x, y))),
-                Op::Add1(b) => one!(b, |x, y| x.wrapping_add(y)),
-                Op::Sub1(b) => one!(b, |x, y| x.wrapping_sub(y)),
-                Op::And1(b) => one!(b, |x, y| x & y),
-                Op::Or1(b) => one!(b, |x, y| x | y),
-                Op::Eq1(b) => one!(b, |x, y| truth(x == y)),
-                Op::Gt1(b) => one!(b, |x, y| truth(less(y, x))),
-                Op::Lt1(b) => one!(b, |x, y| truth(less(x, y))),
-                Op::Add2(a, b) => two!(a, b, |x, y| x.wrapping_add(y)),
-                Op::Sub2(a, b) => two!(a, b, |x, y| x.wrapping_sub(y)),
-                Op::And2(a, b) => two!(a, b, |x, y| x & y),
-                Op::Or2(a, b) => two!(a, b, |x, y| x | y),
-                Op::Eq2(a, b) => two!(a, b, |x, y| truth(x == y)),
-                Op::Gt2(a, b) => two!(a, b, |x, y| truth(less(y, x))),
-                Op::Lt2(a, b) => two!(a, b, |x, y| truth(less(x, y))),
-                Op::Add1To(b, to) => one_to!(b, to, |x, y| x.wrapping_add(y)),
-                Op::Sub1To(b, to) => one_to!(b, to, |x, y| x.wrapping_sub(y)),
-                Op::And1To(b, to) => one_to!(b, to, |x, y| x & y),
-                Op::Or1To(b, to) => one_to!(b, to, |x, y| x | y),
-                Op::Add2To(a, b, to) => two_to!(a, b, to, |x, y| x.wrapping_add(y)),
-                Op::Sub2To(a, b, to) => two_to!(a, b, to, |x, y| x.wrapping_sub(y)),
-                Op::And2To(a, b, to) => two_to!(a, b, to, |x, y| x & y),
-                Op::Or2To(a, b, to) => two_to!(a, b, to, |x, y| x | y),
+                Op::Add0 => zero!(Add),
+                Op::Sub0 => zero!(Sub),
+                Op::And0 => zero!(And),
+                Op::Or0 => zero!(Or),
+                Op::Eq0 => zero!(Eq),
+                Op::Gt0 => zero!(Gt),
+                Op::Lt0 => zero!(Lt),
+                Op::Add1(b) => one!(b, Add),
+                Op::Sub1(b) => one!(b, Sub),
+                Op::And1(b) => one!(b, And),
+                Op::Or1(b) => one!(b, Or),
+                Op::Eq1(b) => one!(b, Eq),
+                Op::Gt1(b) => one!(b, Gt),
+                Op::Lt1(b) => one!(b, Lt),
+                Op::Add2(a, b) => two!(a, b, Add),
+                Op::Sub2(a, b) => two!(a, b, Sub),
+                Op::And2(a, b) => two!(a, b, And),
+                Op::Or2(a, b) => two!(a, b, Or),
+                Op::Eq2(a, b) => two!(a, b, Eq),
+                Op::Gt2(a, b) => two!(a, b, Gt),
+                Op::Lt2(a, b) => two!(a, b, Lt),
+                Op::Add1To(b, to) => one_to!(b, to, Add),
+                Op::Sub1To(b, to) => one_to!(b, to, Sub),
+                Op::And1To(b, to) => one_to!(b, to, And),
+                Op::Or1To(b, to) => one_to!(b, to, Or),
+                Op::Add2To(a, b, to) => two_to!(a, b, to, Add),
+                Op::Sub2To(a, b, to) => two_to!(a, b, to, Sub),
+                Op::And2To(a, b, to) => two_to!(a, b, to, And),
+                Op::Or2To(a, b, to) => two_to!(a, b, to, Or),
 
                 Op::Fetch0 => {
                     let y = memory[usize::from(sp.wrapping_sub(1))];
@@ -319,24 +313,24 @@ impl Machine<'_> {
                         jump!(to)
                     }
                 }
-                Op::IfEq0(to) => if0!(to, |x, y| x == y),
-                Op::IfNe0(to) => if0!(to, |x, y| x != y),
-                Op::IfLt0(to) => if0!(to, |x, y| less(x, y)),
-                Op::IfGe0(to) => if0!(to, |x, y| !less(x, y)),
-                Op::IfGt0(to) => if0!(to, |x, y| less(y, x)),
-                Op::IfLe0(to) => if0!(to, |x, y| !less(y, x)),
-                Op::IfEq1(b, to) => if1!(b, to, |x, y| x == y),
-                Op::IfNe1(b, to) => if1!(b, to, |x, y| x != y),
-                Op::IfLt1(b, to) => if1!(b, to, |x, y| less(x, y)),
-                Op::IfGe1(b, to) => if1!(b, to, |x, y| !less(x, y)),
-                Op::IfGt1(b, to) => if1!(b, to, |x, y| less(y, x)),
-                Op::IfLe1(b, to) => if1!(b, to, |x, y| !less(y, x)),
-                Op::IfEq2(a, b, to) => if2!(a, b, to, |x, y| x == y),
-                Op::IfNe2(a, b, to) => if2!(a, b, to, |x, y| x != y),
-                Op::IfLt2(a, b, to) => if2!(a, b, to, |x, y| less(x, y)),
-                Op::IfGe2(a, b, to) => if2!(a, b, to, |x, y| !less(x, y)),
-                Op::IfGt2(a, b, to) => if2!(a, b, to, |x, y| less(y, x)),
-                Op::IfLe2(a, b, to) => if2!(a, b, to, |x, y| !less(y, x)),
+                Op::IfEq0(to) => if0!(to, Eq, true),
+                Op::IfNe0(to) => if0!(to, Eq, false),
+                Op::IfLt0(to) => if0!(to, Lt, true),
+                Op::IfGe0(to) => if0!(to, Lt, false),
+                Op::IfGt0(to) => if0!(to, Gt, true),
+                Op::IfLe0(to) => if0!(to, Gt, false),
+                Op::IfEq1(b, to) => if1!(b, to, Eq, true),
+                Op::IfNe1(b, to) => if1!(b, to, Eq, false),
+                Op::IfLt1(b, to) => if1!(b, to, Lt, true),
+                Op::IfGe1(b, to) => if1!(b, to, Lt, false),
+                Op::IfGt1(b, to) => if1!(b, to, Gt, true),
+                Op::IfLe1(b, to) => if1!(b, to, Gt, false),
+                Op::IfEq2(a, b, to) => if2!(a, b, to, Eq, true),
+                Op::IfNe2(a, b, to) => if2!(a, b, to, Eq, false),
+                Op::IfLt2(a, b, to) => if2!(a, b, to, Lt, true),
+                Op::IfGe2(a, b, to) => if2!(a, b, to, Lt, false),
+                Op::IfGt2(a, b, to) => if2!(a, b, to, Gt, true),
+                Op::IfLe2(a, b, to) => if2!(a, b, to, Gt, false),
 
                 Op::Call {
                     target,
@@ -382,7 +376,9 @@ impl Machine<'_> {
                 }
                 Op::Multiply => {
                     os.calls[Native::Multiply as usize] += 1;
-                    zero!(|x, y| x.wrapping_mul(y));
+                    let y = pop!();
+                    let top = &mut memory[usize::from(sp.wrapping_sub(1))];
+                    *top = top.wrapping_mul(y);
                 }
                 Op::Divide => {
                     let y = memory[usize::from(sp.wrapping_sub(1))];
