@@ -10,8 +10,12 @@ use crate::progress::Progress;
 use crate::scene::{NATIVE_OFFSET, Scene};
 use serde::Serialize;
 use serde_json::{Value, json};
+use slowlight_compiler::flow::graph::{Node, TableId};
+use slowlight_compiler::flow::tree::Place;
 use slowlight_compiler::plan::Plan;
 use slowlight_compiler::target::Target;
+use slowlight_routine::Format;
+use std::collections::BTreeSet;
 
 /// Cycles after which a run is given up, unless the user says otherwise.
 pub const LIMIT: u64 = 1_000_000_000_000;
@@ -83,7 +87,7 @@ pub fn run(
     let window = Window::of(&plan);
     let progress = Progress::new(plan.target.name, u64::from(window.height()));
     let top = i64::from(window.rows.0) + i64::from(plan.offset.1);
-    let run = loaded.run(limit, &mut |now| {
+    let mut run = loaded.run(limit, &mut |now| {
         if let Some(row) = now.row {
             progress.reach(u64::try_from(i64::from(row) - top).unwrap_or(0));
         }
@@ -93,6 +97,7 @@ pub fn run(
         let name = plan.target.name;
         return Err(Failure::Wrong(format!("{name}: {wrong}")));
     }
+    run.sizes.tables = run.sizes.tables.or(Some(table_bytes(&plan)));
     let modelled = model(&plan)?;
     let graph = scene.graph_with(Some(plan.mode.inks), NATIVE_OFFSET, set)?;
     let native = native(&graph, window)?;
@@ -111,6 +116,36 @@ pub fn run(
         picture,
         native,
     })
+}
+
+/// Bytes of the tables that a plan looks into, as its machine holds them.
+fn table_bytes(plan: &Plan) -> u64 {
+    let bytes = |format: Format| match format {
+        Format::Real40 => 5,
+        // An object of three words.
+        Format::Float316 => 6,
+        Format::Int { bits } | Format::Fixed { bits, .. } => u64::from(bits.div_ceil(8)),
+        Format::Bool => match plan.runtime.int {
+            Format::Int { bits } => u64::from(bits.div_ceil(8)),
+            _ => 1,
+        },
+    };
+    let graph = &plan.graph;
+    let used: BTreeSet<TableId> = plan
+        .places()
+        .into_iter()
+        .filter_map(|(place, _)| match place {
+            Place::Node(id) => match graph.node(id) {
+                Node::Lookup { table, .. } => Some(table),
+                _ => None,
+            },
+            _ => None,
+        })
+        .collect();
+    used.into_iter()
+        .filter_map(|t| graph.tables.get(t.0 as usize))
+        .map(|t| t.entries.len() as u64 * bytes(plan.runtime.format_of(t.ty)))
+        .sum()
 }
 
 /// The part of the screen that the plan draws, in the picture's inks.

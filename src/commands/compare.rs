@@ -96,7 +96,7 @@ fn report(trials: &[Trial]) -> String {
             t.plan.runtime.format.to_owned(),
             differing(&t.from_model),
             differing(&t.from_native),
-            format!("{:.5}", t.rmse),
+            format!("{:.2e}", t.rmse),
             count(t.run.cycles),
             duration(t.seconds()),
         ]);

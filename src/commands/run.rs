@@ -118,7 +118,7 @@ fn report(trial: &Trial) -> String {
     };
     row("differs from model", counted(&trial.from_model));
     row("differs from native", counted(&trial.from_native));
-    row("rmse of shades", format!("{:.6}", trial.rmse));
+    row("rmse of shades", format!("{:.3e}", trial.rmse));
     if let Some(db) = psnr(trial.rmse) {
         row("PSNR", format!("{db:.1} dB"));
     }

@@ -59,7 +59,7 @@ impl File {
 pub struct Sizes {
     /// Code.
     pub code: Option<u64>,
-    /// Tables in the program.
+    /// Tables: in the program, or in memory where the program makes them.
     pub tables: Option<u64>,
     /// Memory beside the program: variables, arrays, stack.
     pub ram: Option<u64>,
