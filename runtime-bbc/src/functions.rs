@@ -1,6 +1,6 @@
 //! The functions of BASIC that routines need: lines without numbers.
 //!
-//! A part that is no DEF is done once, before anything else: `BIG` is a variable because BASIC
+//! A part that is no DEF is done once, before anything else: the limits are variables because BASIC
 //! II takes long over large literals. A false IF goes to the first ELSE on its line, so there is never more than one. Their bytes
 //! are those of the tokenised lines.
 
@@ -14,16 +14,18 @@ macro_rules! part {
 
 #[rustfmt::skip]
 pub(crate) static ALL: &[Part] = &[
-    part!("BIG" [] 14 "\
-BIG=1.7E38
+    part!("BIG" [] 62 "\
+BIG=1.7E38:HALF=BIG/2:ROOT=1E19:TINY=1E-19:WIDE=2147483648
 "),
-    part!("FNadd" ["BIG"] 100 "\
+    part!("FNadd" ["BIG"] 97 "\
 DEF FNadd(a,b)
-IF ABS(a)<BIG/2 THEN IF ABS(b)<BIG/2 THEN =a+b
-IF ABS(a/2+b/2)<BIG/2 THEN =a+b ELSE =SGN(a/2+b/2)*BIG
+IF ABS(a)<HALF THEN IF ABS(b)<HALF THEN =a+b
+IF ABS(a/2+b/2)<HALF THEN =a+b ELSE =SGN(a/2+b/2)*BIG
 "),
-    part!("FNsub" ["FNadd"] 26 "\
-DEF FNsub(a,b)=FNadd(a,-b)
+    part!("FNsub" ["FNadd"] 66 "\
+DEF FNsub(a,b)
+IF ABS(a)<HALF THEN IF ABS(b)<HALF THEN =a-b
+=FNadd(a,-b)
 "),
     part!("FNneg" [] 16 "\
 DEF FNneg(a)=-a
@@ -31,13 +33,15 @@ DEF FNneg(a)=-a
     part!("FNabs" [] 18 "\
 DEF FNabs(a)=ABS(a)
 "),
-    part!("FNmul" ["BIG"] 79 "\
+    part!("FNmul" ["BIG"] 115 "\
 DEF FNmul(a,b)
+IF ABS(a)<ROOT THEN IF ABS(b)<ROOT THEN =a*b
 IF ABS(b)<=1 THEN =a*b
 IF ABS(a)<=BIG/ABS(b) THEN =a*b ELSE =SGN(a)*SGN(b)*BIG
 "),
-    part!("FNdiv" ["BIG"] 100 "\
+    part!("FNdiv" ["BIG"] 136 "\
 DEF FNdiv(a,b)
+IF ABS(a)<ROOT THEN IF ABS(b)>TINY THEN =a/b
 IF b=0 THEN =SGN(a)*BIG
 IF ABS(b)>=1 THEN =a/b
 IF ABS(a)<=ABS(b)*BIG THEN =a/b ELSE =SGN(a)*SGN(b)*BIG
@@ -67,10 +71,10 @@ UNTIL d<ABS(b) OR d=0
 IF a<0 THEN c=-c
 IF c<>0 AND (c<0)<>(b<0) THEN =c+b ELSE =c
 "),
-    part!("FNfloor" [] 93 "\
+    part!("FNfloor" ["BIG"] 78 "\
 DEF FNfloor(a)
-IF a>=2147483648 THEN =2147483647
-IF a<=-2147483648 THEN =-2147483647-1 ELSE =INT(a)
+IF ABS(a)<WIDE THEN =INT(a)
+IF a>0 THEN =2147483647 ELSE =-2147483647-1
 "),
     part!("FNround" [] 124 "\
 DEF FNround(a)
@@ -116,10 +120,10 @@ IF a<0 THEN c=FNmod(b,2):IF c<>c^2 THEN =0
 IF a<0 AND c<>0 THEN d=-1
 =d*FNexp(FNmul(b,LN(ABS(a))))
 "),
-    part!("FNsat" [] 86 "\
+    part!("FNsat" ["BIG"] 73 "\
 DEF FNsat(a)
-IF a>2147483647 THEN =2147483647
-IF a<-2147483647 THEN =-2147483647-1 ELSE =a
+IF ABS(a)<WIDE THEN =a
+IF a>0 THEN =2147483647 ELSE =-2147483647-1
 "),
     part!("FNiadd" ["FNsat"] 26 "\
 DEF FNiadd(a,b)=FNsat(a+b)
