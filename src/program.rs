@@ -4,12 +4,20 @@
 //! `name = number`, perhaps with a line number or `let` before it and `;`, `:`
 //! or a comment behind it. Whoever edits the number edits the picture, and the
 //! model and native evaluation follow.
+//!
+//! A target may have to write a name differently (`lda_`, `count_2`, `turns%`).
+//! How it did is seen in the unedited program, where names and numbers are
+//! both known; the edited one is then searched for those names.
 
 use crate::failure::{Failure, Outcome};
 use crate::files;
 use crate::machine::{File, Machine};
 use slowlight_compiler::plan::{ParamPlan, Plan};
+use slowlight_compiler::target::Document;
 use std::path::Path;
+
+/// Params by name, with the values of their components.
+pub type Values = Vec<(String, Vec<f64>)>;
 
 /// The sources of a program in a directory: all Jack classes, or the one
 /// BASIC or assembly source, which is named like the scene if there are several.
@@ -37,14 +45,29 @@ pub fn read(dir: &Path, scene: &str, machine: Machine) -> Outcome<Vec<File>> {
     Ok(found)
 }
 
-/// The params' values in edited sources, as `--set` would give them.
+/// The params' values in edited sources, as `--set` would give them. `plan` and
+/// `unedited` are the scene's own.
 ///
 /// # Errors
 /// Where a line is missing or its number is odd.
-pub fn values(plan: &Plan, sources: &[File]) -> Outcome<Vec<(String, Vec<f64>)>> {
-    let mut found: Vec<(String, Vec<f64>)> = Vec::new();
-    for (param, written) in plan.graph.params.iter().zip(&plan.params) {
-        let value = value(written, sources)?;
+pub fn values(plan: &Plan, unedited: &[Document], edited: &[File]) -> Outcome<Values> {
+    let mut found: Values = Vec::new();
+    if plan.params.is_empty() {
+        return Ok(found);
+    }
+    let (file, names) = unedited
+        .iter()
+        .find_map(|d| Some((d.name.as_str(), block(plan, &d.text)?)))
+        .ok_or_else(|| Failure::Wrong("the program has no parameter block".to_owned()))?;
+    let source = match edited {
+        [only] => only,
+        many => many.iter().find(|f| f.name == file).ok_or_else(|| {
+            Failure::Wrong(format!("{file}, which has the parameters, is missing"))
+        })?,
+    };
+    let text = source.as_text();
+    for ((param, written), name) in plan.graph.params.iter().zip(&plan.params).zip(names) {
+        let value = value(written, name, &source.name, &text)?;
         match found.last_mut() {
             Some((name, values)) if *name == param.name => values.push(value),
             _ => found.push((param.name.clone(), vec![value])),
@@ -53,38 +76,60 @@ pub fn values(plan: &Plan, sources: &[File]) -> Outcome<Vec<(String, Vec<f64>)>>
     Ok(found)
 }
 
-fn value(param: &ParamPlan, sources: &[File]) -> Outcome<f64> {
-    let label = &param.label;
-    for source in sources {
-        let text = source.as_text();
-        for (k, line) in text.lines().enumerate() {
-            let Some(number) = assigned(line, label) else {
-                continue;
-            };
-            let odd = |why: &str| {
-                let place = format!("{}:{}", source.name, k + 1);
-                Failure::Wrong(format!(
-                    "{place}: `{number}` is no value for {label}: {why}"
-                ))
-            };
-            let value: f64 = number.parse().map_err(|_| odd("it is no number"))?;
-            if !value.is_finite() {
-                return Err(odd("it is no number"));
-            }
-            return match param.digits {
-                None => Ok(value),
-                Some(_) if value.fract() != 0.0 => Err(odd("it must be whole")),
-                Some(digits) => Ok(value / 10f64.powi(i32::from(digits))),
-            };
-        }
+/// What an unedited text calls the params, if it has the parameter block: lines
+/// in the params' order, with their values.
+fn block<'d>(plan: &Plan, text: &'d str) -> Option<Vec<&'d str>> {
+    let mut lines = text.lines();
+    let mut names = Vec::new();
+    for param in &plan.params {
+        let expected: f64 = param.text.parse().ok()?;
+        let name = lines.find_map(|line| {
+            let (name, value) = assigned(line)?;
+            let same = value.parse::<f64>().is_ok_and(|v| v == expected);
+            (same && stands_for(name, &param.label)).then_some(name)
+        })?;
+        names.push(name);
     }
-    Err(Failure::Wrong(format!(
-        "the program's parameter block has no line `{label} = number`"
-    )))
+    Some(names)
 }
 
-/// What a line gives to a name, if it does.
-fn assigned<'l>(line: &'l str, label: &str) -> Option<&'l str> {
+/// Whether a target may have made `name` of a label: with a number or `_`
+/// behind it where it is taken, and with the sign of its type.
+fn stands_for(name: &str, label: &str) -> bool {
+    let name = name.trim_end_matches('%');
+    let rest = name.strip_prefix(label);
+    rest.is_some_and(|r| r.is_empty() || r.strip_prefix('_').is_some_and(is_digits))
+}
+
+fn is_digits(text: &str) -> bool {
+    text.bytes().all(|b| b.is_ascii_digit())
+}
+
+fn value(param: &ParamPlan, name: &str, file: &str, text: &str) -> Outcome<f64> {
+    let mut lines = text.lines().zip(1..);
+    let found = lines.find_map(|(line, number)| {
+        let (found, value) = assigned(line)?;
+        (found == name).then_some((value, number))
+    });
+    let Some((number, line)) = found else {
+        let message = format!("{file}: the parameter block has no line `{name} = number`");
+        return Err(Failure::Wrong(message));
+    };
+    let odd = |why: &str| {
+        let message = format!("{file}:{line}: `{number}` is no value for {name}: {why}");
+        Failure::Wrong(message)
+    };
+    let value: f64 = number.parse().map_err(|_| odd("it is no number"))?;
+    match param.digits {
+        _ if !value.is_finite() => Err(odd("it is no number")),
+        None => Ok(value),
+        Some(_) if value.fract() != 0.0 => Err(odd("it must be whole")),
+        Some(digits) => Ok(value / 10f64.powi(i32::from(digits))),
+    }
+}
+
+/// The name and the value of a line that gives one to the other.
+fn assigned(line: &str) -> Option<(&str, &str)> {
     let line = line.trim_start();
     let line = line.trim_start_matches(|c: char| c.is_ascii_digit());
     let line = line.trim_start();
@@ -92,18 +137,16 @@ fn assigned<'l>(line: &'l str, label: &str) -> Option<&'l str> {
         .strip_prefix("let ")
         .or_else(|| line.strip_prefix("LET "))
         .map_or(line, str::trim_start);
-    let line = line.strip_prefix(label)?.trim_start();
-    let value = line.strip_prefix('=')?.trim_start();
-    // A comparison is not an assignment.
-    if value.starts_with('=') {
+    let (name, value) = line.split_once('=')?;
+    let name = name.trim_end();
+    let identifier = |c: char| c.is_ascii_alphanumeric() || c == '_' || c == '%';
+    if name.is_empty() || !name.chars().all(identifier) {
         return None;
     }
-    let end = value
-        .find(|c: char| c == ';' || c == ':' || (c == '/' && value.contains("//")))
-        .unwrap_or(value.len());
-    let value = value.get(..end)?;
-    let end = value.find(" REM").unwrap_or(value.len());
-    Some(value.get(..end)?.trim())
+    let value = value.split([';', ':']).next().unwrap_or(value);
+    let value = value.split("//").next().unwrap_or(value);
+    let value = value.split("REM").next().unwrap_or(value);
+    Some((name, value.trim()))
 }
 
 #[cfg(test)]
@@ -120,16 +163,28 @@ mod tests {
             "  let eye_y = -0.1; // up",
             "eye_y = -0.1 ; up",
         ] {
-            assert_eq!(assigned(line, "eye_y"), Some("-0.1"), "{line}");
+            assert_eq!(assigned(line), Some(("eye_y", "-0.1")), "{line}");
         }
+        assert_eq!(assigned("30 n%=2"), Some(("n%", "2")));
         for line in [
-            "eye_yy = 1",
-            "my_eye_y = 1",
-            "eye_y == 1",
             "; eye_y = 1",
             "eye_y + 1 = 2",
+            "* = $0800",
+            "eye_y",
+            "= 1",
+            "",
         ] {
-            assert_eq!(assigned(line, "eye_y"), None, "{line}");
+            assert_eq!(assigned(line), None, "{line}");
+        }
+    }
+
+    #[test]
+    fn targets_may_change_names() {
+        for name in ["eye", "eye_", "eye_2", "eye%", "eye_2%"] {
+            assert!(stands_for(name, "eye"), "{name}");
+        }
+        for name in ["eye_x", "eyes", "ey", "my_eye", "Eye"] {
+            assert!(!stands_for(name, "eye"), "{name}");
         }
     }
 }

@@ -61,10 +61,7 @@ pub fn run(args: &Args) -> Outcome<()> {
     }
 }
 
-/// Params by name, with the values of their components.
-type Values = Vec<(String, Vec<f64>)>;
-
-fn prepare(args: &Args, scene: &Scene) -> Outcome<(Plan, Values, Loaded)> {
+fn prepare(args: &Args, scene: &Scene) -> Outcome<(Plan, program::Values, Loaded)> {
     let plan = args.screen.plan(scene, args.target, &[])?;
     let Some(dir) = &args.program else {
         let loaded = trial::build(&plan)?.loaded;
@@ -72,7 +69,8 @@ fn prepare(args: &Args, scene: &Scene) -> Outcome<(Plan, Values, Loaded)> {
     };
     let machine = trial::machine(args.target)?;
     let sources = program::read(dir, &scene.name, machine)?;
-    let set = program::values(&plan, &sources)?;
+    let unedited = (args.target.emit)(&plan);
+    let set = program::values(&plan, &unedited, &sources)?;
     let plan = args.screen.plan(scene, args.target, &set)?;
     Ok((plan, set, machine.load(&sources)?))
 }

@@ -203,6 +203,35 @@ fn edited_parameters_change_the_picture() {
     }
 }
 
+/// Names that mean something to some machine, and each type.
+const ODD: &str = "image 8 x 4 inks black, white;
+param a: real = 1 in 0 .. 4;
+param field: real = 1 in 0 .. 4;
+param Left: int = 1 in 0 .. 4;
+param lda: real = 1 in 0 .. 4;
+param sign: real = 1 in 0 .. 4;
+param x1: bool = true;
+param Count: real = 1 in 0 .. 4;
+param count: real = 1 in 0 .. 4;
+draw (x, y) = {
+  let sum = a + field + Left + lda + sign + Count + count;
+  ink(floor((sum + x) / 8) + (if x1 then 0 else 1))
+};
+";
+
+#[test]
+fn parameters_are_found_under_any_name() {
+    let dir = directory(&[("spot.scn", ODD)]);
+    let dir = dir.path();
+    for target in targets(dir) {
+        built(dir, &target);
+        let run = ["run", "spot.scn", "--target", &target, "--program", "out"];
+        let same = json(dir, &[&run[..], &["--json"]].concat());
+        assert_eq!(same["differs_from_model"], 0, "{target}");
+        std::fs::remove_dir_all(dir.join("out")).expect("removed");
+    }
+}
+
 #[test]
 fn build_writes_what_machines_load() {
     let dir = directory(&[("spot.scn", SPOT)]);
