@@ -4,6 +4,7 @@
 //! measures the text with the machine's own tools.
 
 pub mod bbc;
+pub mod jack;
 pub mod mos6502;
 
 use crate::plan::Plan;
@@ -55,7 +56,13 @@ pub struct Document {
 }
 
 /// Every target.
-pub static TARGETS: &[&Target] = &[&bbc::MICRO, &bbc::AGON, &bbc::BASIC_V, &mos6502::PLAIN];
+pub static TARGETS: &[&Target] = &[
+    &jack::JACK,
+    &bbc::MICRO,
+    &bbc::AGON,
+    &bbc::BASIC_V,
+    &mos6502::PLAIN,
+];
 
 /// A target by its name; a family's name alone means its first.
 pub fn find(name: &str) -> Option<&'static Target> {

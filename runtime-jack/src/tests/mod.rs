@@ -3,6 +3,7 @@
 
 mod errors;
 mod facts;
+mod machine;
 
 use crate::F316;
 use crate::model::{BOTTOM, Float, TOP, int_bits};
@@ -57,6 +58,27 @@ impl Random {
     }
 }
 
+pub const EXPONENTS: &[i32] = &[
+    BOTTOM,
+    BOTTOM + 1,
+    -1,
+    0,
+    1,
+    113,
+    114,
+    126,
+    127,
+    128,
+    139,
+    140,
+    141,
+    142,
+    143,
+    TOP - 1,
+    TOP,
+];
+pub const MANTISSAS: &[i32] = &[8192, 8193, 12288, 16382, 16383];
+
 /// Floats at every edge: zeros, ends, powers of two and their neighbours.
 pub fn float_edges() -> Vec<Float> {
     let mut all = vec![
@@ -66,42 +88,27 @@ pub fn float_edges() -> Vec<Float> {
             ..Float::ZERO
         },
     ];
-    for e in [
-        BOTTOM,
-        BOTTOM + 1,
-        -1,
-        0,
-        1,
-        113,
-        114,
-        126,
-        127,
-        128,
-        139,
-        140,
-        141,
-        142,
-        143,
-        TOP - 1,
-        TOP,
-    ] {
-        for m in [8192, 8193, 12288, 16382, 16383] {
+    for &e in EXPONENTS {
+        for &m in MANTISSAS {
             all.extend([Float { s: 0, e, m }, Float { s: 1, e, m }]);
         }
     }
     all
 }
 
-/// Every edge operand of a format.
-pub fn edges(format: Format) -> Vec<Bits> {
-    let ints = [
+pub fn int_edges() -> Vec<i32> {
+    vec![
         -32768, -32767, -32766, -16385, -16384, -16383, -256, -128, -127, -3, -2, -1, 0, 1, 2, 3,
         7, 8, 127, 128, 181, 182, 255, 16383, 16384, 16385, 32766, 32767,
-    ];
+    ]
+}
+
+/// Every edge operand of a format.
+pub fn edges(format: Format) -> Vec<Bits> {
     match format {
         Format::Bool => vec![0, 1],
         Format::Float316 => float_edges().into_iter().map(Float::bits).collect(),
-        _ => ints.into_iter().map(int_bits).collect(),
+        _ => int_edges().into_iter().map(int_bits).collect(),
     }
 }
 

@@ -1,0 +1,410 @@
+//! Statements and expressions.
+
+use super::names::Names;
+use super::object::Object;
+use super::{Line, Text};
+use crate::flow::graph::*;
+use crate::flow::tree::*;
+use crate::plan::Plan;
+use slowlight_routine::{Form, Format, Routine, Value};
+use slowlight_runtime_jack::{SUM, TERM};
+use std::collections::{BTreeSet, HashMap};
+
+/// Lines that a subroutine holds at most before it is divided.
+const LONG: usize = 60;
+/// Characters of an expression that is still written where it is read.
+const WIDE: usize = 56;
+
+/// An expression: its text, and how tightly it binds.
+#[derive(Clone, Debug)]
+pub(super) struct Expression {
+    pub text: String,
+    pub level: u8,
+}
+
+impl Expression {
+    pub fn term(text: impl Into<String>) -> Expression {
+        Expression {
+            text: text.into(),
+            level: TERM,
+        }
+    }
+
+    /// With parentheses where it binds less than `level`.
+    pub fn at(&self, level: u8) -> String {
+        if self.level < level {
+            format!("({})", self.text)
+        } else {
+            self.text.clone()
+        }
+    }
+}
+
+/// An int as Jack writes it.
+pub(super) fn int(value: i32) -> Expression {
+    match value {
+        0..=32767 => Expression::term(value.to_string()),
+        -32767..0 => Expression {
+            text: value.to_string(),
+            level: SUM,
+        },
+        _ => Expression {
+            text: "-32767 - 1".to_owned(),
+            level: SUM,
+        },
+    }
+}
+
+/// A method that holds a part of the program.
+pub(super) struct Method {
+    pub name: String,
+    pub lines: Vec<Line>,
+}
+
+/// The program under way.
+pub(super) struct Code<'p> {
+    pub plan: &'p Plan,
+    pub names: Names,
+    pub object: Object,
+    /// The parts of the runtime that are needed, beside those of the routines.
+    pub needs: BTreeSet<&'static str>,
+    /// Homes that are written, by format: those that become fields.
+    pub written: Vec<(Place, Format)>,
+    /// What became a method of its own.
+    pub methods: Vec<Method>,
+    /// Values that are written where they are read.
+    folded: HashMap<NodeId, Expression>,
+    text: Text,
+}
+
+impl<'p> Code<'p> {
+    pub fn new(plan: &'p Plan) -> Code<'p> {
+        Code {
+            plan,
+            names: Names::new(plan),
+            object: Object::default(),
+            needs: BTreeSet::new(),
+            written: Vec::new(),
+            methods: Vec::new(),
+            folded: HashMap::new(),
+            text: Text::default(),
+        }
+    }
+
+    /// The body of a subroutine that runs a block; long ones are divided into
+    /// methods named after `name`.
+    pub fn body(&mut self, block: &Block, name: &str) -> Vec<Line> {
+        let mut whole = Vec::new();
+        let mut part = Vec::new();
+        for statement in block {
+            part.extend(self.apart(|code| code.statement(statement, name)));
+            if part.len() > LONG {
+                whole.push(self.outlined(std::mem::take(&mut part), name));
+            }
+        }
+        if !whole.is_empty() && part.len() > LONG / 4 {
+            whole.push(self.outlined(std::mem::take(&mut part), name));
+        }
+        whole.extend(part);
+        whole
+    }
+
+    /// Lines divided into methods where they are too many.
+    pub fn divided(&mut self, lines: Vec<Line>, name: &str) -> Vec<Line> {
+        if lines.len() <= LONG {
+            return lines;
+        }
+        let mut calls = Vec::new();
+        for part in lines.chunks(LONG) {
+            calls.push(self.outlined(part.to_vec(), name));
+        }
+        calls
+    }
+
+    /// Makes a method of lines; answers the line that calls it.
+    fn outlined(&mut self, lines: Vec<Line>, name: &str) -> Line {
+        let span = lines.first().and_then(|line| line.span);
+        let name = self.names.fresh(&format!("{name}Part"));
+        let call = format!("do {name}();");
+        self.methods.push(Method { name, lines });
+        Line {
+            depth: 0,
+            text: call,
+            span,
+        }
+    }
+
+    /// What `write` writes, apart from the text so far.
+    fn apart(&mut self, write: impl FnOnce(&mut Self)) -> Vec<Line> {
+        let fresh = Text {
+            span: self.text.span,
+            ..Text::default()
+        };
+        let outer = std::mem::replace(&mut self.text, fresh);
+        write(self);
+        std::mem::replace(&mut self.text, outer).lines
+    }
+
+    /// A block inside a statement.
+    fn block(&mut self, block: &Block, name: &str) {
+        let lines = self.body(block, name);
+        if lines.len() > LONG {
+            let call = self.outlined(lines, name);
+            self.text.append(vec![call]);
+        } else {
+            self.text.append(lines);
+        }
+    }
+
+    fn statement(&mut self, statement: &Statement, name: &str) {
+        match statement {
+            Statement::Let(id) => self.compute(*id),
+            Statement::Set { place, from } => self.set(*place, *from),
+            Statement::If { cond, yes, no } => {
+                let cond = self.read(*cond);
+                if yes.is_empty() {
+                    self.text.open(format!("if (~{}) {{", cond.at(TERM)));
+                    self.block(no, name);
+                } else {
+                    self.text.open(format!("if ({}) {{", cond.text));
+                    self.block(yes, name);
+                    if !no.is_empty() {
+                        self.text.close("}");
+                        self.text.open("else {");
+                        self.block(no, name);
+                    }
+                }
+                self.text.close("}");
+            }
+            Statement::Loop {
+                of,
+                start,
+                body,
+                again,
+                next,
+                done,
+                otherwise,
+            } => {
+                self.block(start, name);
+                self.repeat(*of, body, *again, [next, done, otherwise], name);
+            }
+        }
+    }
+
+    /// A loop: the counter reaches the greatest number of turns also where the
+    /// loop ends by itself. It may pass 32767; being equal does not mind.
+    fn repeat(
+        &mut self,
+        of: LoopId,
+        body: &Block,
+        again: NodeId,
+        [next, done, otherwise]: [&Block; 3],
+        name: &str,
+    ) {
+        let counter = self.names.turns(of);
+        let most = self
+            .plan
+            .graph
+            .loops
+            .get(of.0 as usize)
+            .map_or(1, |l| l.max);
+        let most = int(i32::from(most as u16 as i16)).at(TERM);
+        self.text.line(format!("let {counter} = 0;"));
+        self.text.open(format!("while (~({counter} = {most})) {{"));
+        self.block(body, name);
+        let again = self.read(again);
+        self.text.open(format!("if ({}) {{", again.text));
+        self.block(next, name);
+        self.text.line(format!("let {counter} = {counter} + 1;"));
+        if !otherwise.is_empty() {
+            self.text.open(format!("if ({counter} = {most}) {{"));
+            self.block(otherwise, name);
+            self.text.close("}");
+        }
+        self.text.close("}");
+        self.text.open("else {");
+        self.block(done, name);
+        self.text.line(format!("let {counter} = {most};"));
+        self.text.close("}");
+        self.text.close("}");
+    }
+
+    fn set(&mut self, place: Place, from: Origin) {
+        let format = self.plan.place_format(place);
+        let from = match from {
+            Origin::Node(id) => self.read(id),
+            Origin::Scratch(l, k) => Expression::term(self.names.home(Place::Scratch(l, k))),
+        };
+        let home = self.home(place, format);
+        if from.text == home {
+            return;
+        }
+        if format == Format::Float316 {
+            self.needs.insert("Float.copy");
+            self.text.line(format!("do {home}.copy({});", from.text));
+        } else {
+            self.text.line(format!("let {home} = {};", from.text));
+        }
+    }
+
+    /// The field of a place that is written.
+    pub fn home(&mut self, place: Place, format: Format) -> String {
+        if !self.written.iter().any(|(p, _)| *p == place) {
+            self.written.push((place, format));
+        }
+        self.names.home(place).to_owned()
+    }
+
+    /// Computes a value into its home, or keeps its expression for its reader.
+    fn compute(&mut self, id: NodeId) {
+        self.text.span = Some(self.plan.graph.span(id));
+        let place = Place::Node(id);
+        let format = self.plan.format(id);
+        let expression = match self.plan.graph.node(id) {
+            Node::Apply(_, args) => {
+                let Some(routine) = self.plan.routine(id) else {
+                    return;
+                };
+                match routine.form {
+                    Form::Expression { .. } => self.apply(routine, args),
+                    Form::Statement(template) => {
+                        let home = self.home(place, format);
+                        let call = self.fill(template, args, &[], Some(&home));
+                        let said = self.meaning(id);
+                        self.text.line(format!("do {call}; // {home} = {said}"));
+                        return;
+                    }
+                }
+            }
+            Node::Lookup { table, column, row } => self.entry(table, column, row),
+            _ => return,
+        };
+        if format == Format::Float316 {
+            let home = self.home(place, format);
+            self.needs.insert("Float.copy");
+            self.text
+                .line(format!("do {home}.copy({});", expression.text));
+        } else if self.plan.folded(id) && expression.text.len() <= WIDE {
+            self.folded.insert(id, expression);
+        } else {
+            let home = self.home(place, format);
+            self.text.line(format!("let {home} = {};", expression.text));
+        }
+    }
+
+    fn apply(&mut self, routine: &Routine, args: [NodeId; 2]) -> Expression {
+        let Form::Expression {
+            template,
+            level,
+            operands,
+        } = routine.form
+        else {
+            return Expression::term("0");
+        };
+        Expression {
+            text: self.fill(template, args, operands, None),
+            level,
+        }
+    }
+
+    /// A routine's template with its arguments and result. What stands before
+    /// a point or a comma is as it is.
+    fn fill(
+        &mut self,
+        template: &str,
+        args: [NodeId; 2],
+        levels: &[u8],
+        result: Option<&str>,
+    ) -> String {
+        let mut text = template.to_owned();
+        for (k, (id, hole)) in args.into_iter().zip(["{0}", "{1}"]).enumerate() {
+            if text.contains(hole) {
+                let level = levels.get(k).copied().unwrap_or(SUM);
+                text = text.replace(hole, &self.read(id).at(level));
+            }
+        }
+        text.replace("{r}", result.unwrap_or_default())
+    }
+
+    /// A value where it is used.
+    pub fn read(&mut self, id: NodeId) -> Expression {
+        if let Some(expression) = self.folded.get(&id) {
+            return expression.clone();
+        }
+        if let Some(place) = self.plan.place(id) {
+            return Expression::term(self.names.home(place));
+        }
+        match self.plan.graph.node(id) {
+            Node::Const(c) => self.constant(c.value()),
+            Node::Param(p) => self.object.param(self.plan, &mut self.names, p),
+            Node::Axis(Axis::X) => Expression::term(&self.names.axes[0]),
+            Node::Axis(Axis::Y) => Expression::term(&self.names.axes[1]),
+            Node::Undefined(ty) => self.constant(match ty {
+                slowlight_routine::Type::Real => Value::Real(0.0),
+                slowlight_routine::Type::Int => Value::Int(0),
+                slowlight_routine::Type::Bool => Value::Bool(false),
+            }),
+            _ => Expression::term("0"),
+        }
+    }
+
+    fn constant(&mut self, value: Value) -> Expression {
+        let bits = self.plan.bits(value);
+        match value {
+            Value::Bool(b) => Expression::term(b.to_string()),
+            Value::Int(_) => int((self.plan.runtime.decode)(bits, self.plan.runtime.int).int()),
+            Value::Real(r) => Expression::term(self.object.constant(&mut self.names, bits, r)),
+        }
+    }
+
+    /// An entry of a table, its indices clamped where the ranges do not prove them inside.
+    fn entry(&mut self, id: TableId, column: NodeId, row: NodeId) -> Expression {
+        let Some(table) = self.plan.graph.tables.get(id.0 as usize) else {
+            return Expression::term("0");
+        };
+        let (width, height) = (table.width, table.height);
+        let name = self.names.table(self.plan, id);
+        let column = self.index(column, width);
+        let at = match (width, height) {
+            (_, 1) => column,
+            (1, _) => self.index(row, height),
+            _ => {
+                let row = self.index(row, height).at(TERM);
+                let text = format!("({row} * {width}) + {}", column.at(TERM));
+                Expression { text, level: SUM }
+            }
+        };
+        Expression::term(format!("{name}[{}]", at.text))
+    }
+
+    fn index(&mut self, id: NodeId, n: u32) -> Expression {
+        let inside = self
+            .plan
+            .ranges
+            .result
+            .get(id.0 as usize)
+            .is_some_and(|r| r.within(0.0, f64::from(n) - 1.0));
+        let index = self.read(id);
+        if inside {
+            return index;
+        }
+        let last = n.saturating_sub(1);
+        Expression::term(format!("Math.max(0, Math.min({last}, {}))", index.text))
+    }
+
+    /// What an operation means, in the scene's names.
+    fn meaning(&mut self, id: NodeId) -> String {
+        let Node::Apply(op, args) = self.plan.graph.node(id) else {
+            return String::new();
+        };
+        let args = args.map(|arg| self.said(arg));
+        super::names::operation(op, &args[0], &args[1])
+    }
+
+    fn said(&mut self, id: NodeId) -> String {
+        match self.plan.graph.constant(id) {
+            Some(value) => format!("{}", value.real()),
+            None => self.read(id).at(TERM),
+        }
+    }
+}

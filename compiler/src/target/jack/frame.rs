@@ -1,0 +1,461 @@
+//! The classes around the statements: parameter block, checks, start, loops.
+
+use super::code::{Code, Expression, int};
+use super::{Document, Line, Text};
+use crate::flow::tree::Place;
+use crate::plan::{ParamPlan, Plan};
+use slowlight_routine::{Format, Type, Value};
+use slowlight_runtime_jack::model::{Float, MOST};
+use slowlight_runtime_jack::{TERM, classes, has_init};
+
+/// Writes a plan down as the classes of a program, `Main` first.
+pub(super) fn program(plan: &Plan) -> Vec<Document> {
+    let mut code = Code::new(plan);
+    let drawing = drawing(&mut code);
+    let making = making(&mut code);
+    let checks = checks(&mut code);
+    let class = code.names.class.clone();
+    let mut needs: Vec<&str> = plan.parts().iter().map(|p| p.name).collect();
+    needs.extend(&code.needs);
+    let parts = plan.runtime.closure(needs);
+    let scene = scene(&code, making, checks, drawing);
+    let mut documents = vec![
+        main(&class, &parts).document("Main"),
+        scene.document(&class),
+    ];
+    for (name, text) in classes(&parts) {
+        let mut lines = Text::default();
+        text.lines().for_each(|line| lines.line(line));
+        documents.push(lines.document(name));
+    }
+    documents
+}
+
+fn main(class: &str, parts: &[&slowlight_routine::Part]) -> Text {
+    let mut text = Text::default();
+    text.line("/** Draws the scene, and stops. */");
+    text.open("class Main {");
+    text.open("function void main() {");
+    text.line(format!("var {class} scene;"));
+    for library in ["Float", "Int"] {
+        if has_init(library, parts) {
+            text.line(format!("do {library}.init();"));
+        }
+    }
+    text.line(format!("let scene = {class}.new();"));
+    text.line("if (scene.inRange()) { do scene.drawPicture(); }");
+    text.line("do Sys.halt();");
+    text.line("return;");
+    text.close("}");
+    text.close("}");
+    text
+}
+
+/// A subroutine under construction: what stands over it, its first line, its body.
+struct Subroutine {
+    about: String,
+    head: String,
+    body: Vec<Line>,
+}
+
+fn subroutine(about: impl Into<String>, head: impl Into<String>, body: Vec<Line>) -> Subroutine {
+    Subroutine {
+        about: about.into(),
+        head: head.into(),
+        body,
+    }
+}
+
+/// The whole class of the scene.
+fn scene(
+    code: &Code,
+    making: Vec<Subroutine>,
+    checks: Vec<Line>,
+    drawing: Vec<Subroutine>,
+) -> Text {
+    let plan = code.plan;
+    let image = &plan.graph.image;
+    let mut text = Text::default();
+    text.line(format!(
+        "/** The scene {}, {} x {} pixels, its top left at ({}, {}) of the screen. */",
+        plan.name.replace("*/", "* /"),
+        image.width,
+        image.height,
+        plan.offset.0,
+        plan.offset.1
+    ));
+    text.open(format!("class {} {{", code.names.class));
+    fields(code, &mut text);
+    let block = "What may be changed: whole numbers, each in its range.";
+    let mut all = vec![subroutine(
+        block,
+        "method void setParameters()",
+        parameters(code),
+    )];
+    let new = format!("constructor {} new()", code.names.class);
+    let mut start: Vec<Line> = vec![line("do setParameters();")];
+    for made in &making {
+        let name = made.head.trim_start_matches("method void ");
+        if name != "takeParameters()" {
+            start.push(line(&format!("do {name};")));
+        }
+    }
+    start.push(line("return this;"));
+    all.push(subroutine(
+        "Makes everything that drawing needs.",
+        new,
+        start,
+    ));
+    let about = "Whether every parameter is in its range; says which is not.";
+    all.push(subroutine(about, "method boolean inRange()", checks));
+    all.extend(drawing);
+    all.extend(making);
+    for method in &code.methods {
+        let head = format!("method void {}()", method.name);
+        all.push(subroutine("", head, method.lines.clone()));
+    }
+    for part in all {
+        text.span = None;
+        text.line("");
+        if !part.about.is_empty() {
+            text.line(format!("/** {} */", part.about));
+        }
+        text.open(format!("{} {{", part.head));
+        let returns = part
+            .body
+            .last()
+            .is_some_and(|l| l.text.starts_with("return"));
+        text.append(part.body);
+        if !returns {
+            text.line("return;");
+        }
+        text.close("}");
+    }
+    text.close("}");
+    text
+}
+
+/// The declarations, a few names a line.
+fn fields(code: &Code, text: &mut Text) {
+    let names = &code.names;
+    let of = |format: Format| {
+        let all = code.written.iter().filter(move |(_, f)| *f == format);
+        all.map(|(place, _): &(Place, Format)| names.home(*place))
+    };
+    let mut declare = |ty: &str, all: Vec<&str>, about: &str| {
+        let mut rest = all.as_slice();
+        while !rest.is_empty() {
+            let mut wide = 0;
+            let fits = |name: &&&str| {
+                wide += name.len() + 2;
+                wide <= 80
+            };
+            let count = rest.iter().take_while(fits).count().max(1);
+            let (now, later) = rest.split_at(count);
+            text.line(format!("field {ty} {};{about}", now.join(", ")));
+            rest = later;
+        }
+    };
+    let params = names.params.iter().map(String::as_str).collect();
+    declare("int", params, " // parameters");
+    declare("int", names.rows.iter().map(String::as_str).collect(), "");
+    declare(
+        "int",
+        names.axes.iter().map(String::as_str).collect(),
+        " // the pixel",
+    );
+    let floats = code.object.values().map(|(_, name)| name);
+    declare("Float", floats.collect(), " // parameters");
+    let constants = code.object.constants().iter().map(|c| c.name.as_str());
+    declare("Float", constants.collect(), " // constants");
+    declare(
+        "Array",
+        names.tables().map(|(_, name)| name).collect(),
+        " // tables",
+    );
+    declare("Float", of(Format::Float316).collect(), "");
+    declare(
+        "int",
+        of(code.plan.runtime.int).chain(names.counters()).collect(),
+        "",
+    );
+    declare("boolean", of(Format::Bool).collect(), "");
+}
+
+fn line(text: &str) -> Line {
+    Line {
+        depth: 0,
+        text: text.to_owned(),
+        span: None,
+    }
+}
+
+/// The rows of the picture that the screen has.
+fn visible(plan: &Plan) -> (i64, i64) {
+    let top = i64::from(plan.offset.1);
+    let first = (-top).max(0);
+    let last = (i64::from(plan.mode.height) - 1 - top).min(i64::from(plan.graph.image.height) - 1);
+    (first, last)
+}
+
+/// An int of the parameter block, kept within what Jack can write.
+fn written(text: &str) -> i32 {
+    let most = f64::from(MOST);
+    text.parse::<f64>()
+        .map_or(0, |x| x.clamp(-most, most) as i32)
+}
+
+fn parameters(code: &Code) -> Vec<Line> {
+    let plan = code.plan;
+    let mut rows: Vec<(String, String, String)> = Vec::new();
+    let scale = |p: &ParamPlan| match p.digits {
+        Some(digits) if digits > 0 => format!("times {}, ", 10u32.pow(u32::from(digits))),
+        _ => String::new(),
+    };
+    for (name, param) in code.names.params.iter().zip(&plan.params) {
+        let range = match &param.range {
+            Some((least, greatest)) => format!("from {} to {}", written(least), written(greatest)),
+            None => "in no range".to_owned(),
+        };
+        rows.push((
+            name.clone(),
+            written(&param.text).to_string(),
+            scale(param) + &range,
+        ));
+    }
+    let (first, last) = visible(plan);
+    for (name, row) in code.names.rows.iter().zip([plan.rows.0, plan.rows.1]) {
+        rows.push((
+            name.clone(),
+            row.to_string(),
+            format!("from {first} to {last}"),
+        ));
+    }
+    let lines = rows.iter().map(|(name, value, about)| {
+        let assignment = format!("let {name} = {value};");
+        line(&format!("{assignment:<28} // {about}"))
+    });
+    lines.collect()
+}
+
+/// One condition a parameter that has a range.
+fn checks(code: &mut Code) -> Vec<Line> {
+    let plan = code.plan;
+    let rows = visible(plan);
+    let names = code.names.params.iter().chain(&code.names.rows).cloned();
+    let ranges = plan.params.iter().map(|p| {
+        let (least, greatest) = p.range.as_ref()?;
+        Some((written(least), written(greatest)))
+    });
+    let ranges = ranges.chain([Some((rows.0 as i32, rows.1 as i32)); 2]);
+    let all: Vec<_> = names.zip(ranges).collect();
+    let mut text = Text::default();
+    for (name, range) in all {
+        let Some((least, greatest)) = range else {
+            continue;
+        };
+        // A translated program compares by subtracting, which must not overflow.
+        let outside = if greatest.saturating_sub(least) <= MOST {
+            let (least, greatest) = (int(least).at(TERM), int(greatest).at(TERM));
+            format!("({name} < {least}) | ({name} > {greatest})")
+        } else {
+            code.needs.insert("Int.less");
+            let (least, greatest) = (int(least).text, int(greatest).text);
+            format!("Int.less({name}, {least}) | Int.less({greatest}, {name})")
+        };
+        text.open(format!("if ({outside}) {{"));
+        let said = format!("{name} is outside its range, {least} to {greatest}");
+        text.line(format!("do Output.printString(\"{said}\");"));
+        text.line("return false;");
+        text.close("}");
+    }
+    text.line("return true;");
+    text.lines
+}
+
+/// What is worked out once a picture, once a row, once a pixel.
+fn drawing(code: &mut Code) -> Vec<Subroutine> {
+    let plan = code.plan;
+    let frame = code.body(&plan.tree.frame, "drawPicture");
+    let row = code.body(&plan.tree.row, "drawRow");
+    let pixel = code.body(&plan.tree.pixel, "drawPixel");
+    let ink = code.read(plan.graph.ink);
+    let [x, y] = code.names.axes.clone();
+    let [first_row, last_row] = code.names.rows.clone();
+
+    let mut picture = Text::default();
+    if code.object.values().next().is_some() {
+        picture.line("do takeParameters();");
+    }
+    picture.append(frame);
+    if plan.plot {
+        picture.line("do Screen.setColor(true);");
+    }
+    picture.line(format!("let {y} = {first_row};"));
+    picture.open(format!("while (~({y} > {last_row})) {{"));
+    picture.line("do drawRow();");
+    picture.line(format!("let {y} = {y} + 1;"));
+    picture.close("}");
+
+    let mut across = Text::default();
+    across.append(row);
+    across.line(format!("let {x} = {};", plan.columns.0));
+    across.open(format!(
+        "while ({x} < {}) {{",
+        plan.columns.1.saturating_add(1)
+    ));
+    across.line("do drawPixel();");
+    across.line(format!("let {x} = {x} + 1;"));
+    across.close("}");
+
+    let mut dot = Text::default();
+    dot.append(pixel);
+    dot.span = Some(plan.graph.span(plan.graph.ink));
+    if plan.plot {
+        let at = [(&x, plan.offset.0), (&y, plan.offset.1)].map(|(axis, by)| match by {
+            0 => axis.clone(),
+            1.. => format!("{axis} + {by}"),
+            _ => format!("{axis} - {}", by.unsigned_abs()),
+        });
+        dot.open(format!("if ({} = 0) {{", ink.at(TERM)));
+        dot.line(format!("do Screen.drawPixel({}, {});", at[0], at[1]));
+        dot.close("}");
+    } else if let Some(place) = plan.place(plan.graph.ink) {
+        // Worked out, not drawn.
+        let home = code.home(place, plan.runtime.int);
+        if ink.text != home {
+            dot.line(format!("let {home} = {};", ink.text));
+        }
+    }
+    let (first, last) = plan.columns;
+    vec![
+        subroutine(
+            "Once a picture.",
+            "method void drawPicture()",
+            picture.lines,
+        ),
+        subroutine(
+            format!("Row {y}: columns {first} to {last}."),
+            "method void drawRow()",
+            across.lines,
+        ),
+        subroutine(
+            format!("The pixel at ({x}, {y})."),
+            "method void drawPixel()",
+            dot.lines,
+        ),
+    ]
+}
+
+/// What fills the fields before anything is drawn.
+fn making(code: &mut Code) -> Vec<Subroutine> {
+    let plan = code.plan;
+    let mut all = Vec::new();
+
+    let mut taking = Vec::new();
+    let values: Vec<(usize, String)> = code
+        .object
+        .values()
+        .map(|(p, name)| (p as usize, name.to_owned()))
+        .collect();
+    for (at, value) in &values {
+        let (Some(label), Some(param)) =
+            (code.names.params.get(*at).cloned(), plan.params.get(*at))
+        else {
+            continue;
+        };
+        taking.push(line(&format!("do {value}.fromInt({label});")));
+        code.needs.insert("Float.fromInt");
+        if let Some(digits) = param.digits.filter(|d| *d > 0) {
+            code.needs.insert("Float.div");
+            let unit = 10f64.powi(i32::from(digits));
+            let bits = plan.bits(Value::Real(unit));
+            let scale = code.object.constant(&mut code.names, bits, unit);
+            let said = format!("{value} = {label} / {unit}");
+            taking.push(line(&format!(
+                "do {value}.div({value}, {scale}); // {said}"
+            )));
+        }
+    }
+
+    let constants = code.object.constants().iter().map(|c| {
+        let Float { s, e, m } = Float::from_bits(c.bits);
+        let (name, value) = (&c.name, c.value);
+        line(&format!(
+            "let {name} = Float.constant({s}, {e}, {m}); // {value}"
+        ))
+    });
+    let constants: Vec<Line> = constants.collect();
+    if !constants.is_empty() {
+        code.needs.insert("Float.constant");
+    }
+    let floats = code.written.iter().filter(|(_, f)| *f == Format::Float316);
+    let floats = floats.map(|(place, _)| code.names.home(*place).to_owned());
+    let floats: Vec<String> = values.iter().map(|v| v.1.clone()).chain(floats).collect();
+    let made = floats
+        .iter()
+        .map(|name| line(&format!("let {name} = Float.new();")));
+    let made: Vec<Line> = made.collect();
+    if !made.is_empty() {
+        code.needs.insert("Float");
+    }
+    let tables = tables(code);
+    for (name, about, lines) in [
+        (
+            "makeConstants",
+            "Floats that never change: sign, exponent, mantissa.",
+            constants,
+        ),
+        ("makeValues", "A Float for each value.", made),
+        ("makeTables", "The scene's tables.", tables),
+    ] {
+        if !lines.is_empty() {
+            let body = code.divided(lines, name);
+            all.push(subroutine(about, format!("method void {name}()"), body));
+        }
+    }
+    if !taking.is_empty() {
+        let about = "The parameters as Floats.";
+        let body = code.divided(taking, "takeParameters");
+        all.push(subroutine(about, "method void takeParameters()", body));
+    }
+    all
+}
+
+fn tables(code: &mut Code) -> Vec<Line> {
+    let plan = code.plan;
+    let mut lines = Vec::new();
+    let all: Vec<_> = code
+        .names
+        .tables()
+        .map(|(id, name)| (id, name.to_owned()))
+        .collect();
+    for (id, name) in all {
+        let Some(table) = plan.graph.tables.get(id.0 as usize) else {
+            continue;
+        };
+        lines.push(line(&format!(
+            "let {name} = Array.new({});",
+            table.entries.len()
+        )));
+        for (at, entry) in table.entries.iter().enumerate() {
+            let value = entry.value();
+            let bits = plan.bits(value);
+            let text = match (plan.runtime.decode)(bits, plan.runtime.format_of(table.ty)) {
+                Value::Int(i) => int(i),
+                Value::Bool(b) => Expression::term(b.to_string()),
+                Value::Real(_) => {
+                    code.needs.insert("Float.constant");
+                    let Float { s, e, m } = Float::from_bits(bits);
+                    Expression::term(format!("Float.constant({s}, {e}, {m})"))
+                }
+            };
+            let said = match table.ty {
+                Type::Real => format!(" // {}", value.real()),
+                _ => String::new(),
+            };
+            lines.push(line(&format!("let {name}[{at}] = {};{said}", text.text)));
+        }
+    }
+    lines
+}

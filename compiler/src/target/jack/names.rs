@@ -1,0 +1,198 @@
+//! What everything is called in the generated classes.
+//!
+//! Fields keep the names that the plan gives its homes, in lower case with
+//! underscores; methods have a capital letter in their names, so the two never
+//! meet. A param keeps its label whatever happens, unless Jack reserves it.
+
+use crate::flow::graph::*;
+use crate::flow::tree::Place;
+use crate::plan::Plan;
+use slowlight_routine::Op;
+use std::collections::{BTreeMap, BTreeSet, HashMap};
+
+/// Words that no variable may have for a name.
+const KEYWORDS: &[&str] = &[
+    "class",
+    "constructor",
+    "function",
+    "method",
+    "field",
+    "static",
+    "var",
+    "int",
+    "char",
+    "boolean",
+    "void",
+    "true",
+    "false",
+    "null",
+    "this",
+    "let",
+    "do",
+    "if",
+    "else",
+    "while",
+    "return",
+];
+
+/// Classes of the system and of the generated program.
+const CLASSES: &[&str] = &[
+    "Main", "Float", "Int", "Math", "String", "Array", "Output", "Screen", "Keyboard", "Memory",
+    "Sys",
+];
+
+/// Methods of the scene's class.
+const METHODS: &[&str] = &[
+    "new",
+    "setParameters",
+    "inRange",
+    "makeConstants",
+    "makeTables",
+    "makeValues",
+    "takeParameters",
+    "drawPicture",
+    "drawRow",
+    "drawPixel",
+];
+
+/// Names in use, and the fields' names.
+pub(super) struct Names {
+    /// The scene's class.
+    pub class: String,
+    /// Each param's label, as the parameter block writes it.
+    pub params: Vec<String>,
+    /// First and last row to draw.
+    pub rows: [String; 2],
+    /// The pixel's column and row.
+    pub axes: [String; 2],
+    homes: HashMap<Place, String>,
+    tables: BTreeMap<TableId, String>,
+    turns: BTreeMap<LoopId, String>,
+    taken: BTreeSet<String>,
+}
+
+impl Names {
+    pub fn new(plan: &Plan) -> Names {
+        let taken = KEYWORDS.iter().chain(CLASSES).chain(METHODS);
+        let taken = taken.map(|w| (*w).to_owned());
+        let mut names = Names {
+            class: class_name(&plan.name),
+            params: Vec::new(),
+            rows: Default::default(),
+            axes: Default::default(),
+            homes: HashMap::new(),
+            tables: BTreeMap::new(),
+            turns: BTreeMap::new(),
+            taken: taken.collect(),
+        };
+        names.taken.insert(names.class.clone());
+        names.params = plan.params.iter().map(|p| names.fresh(&p.label)).collect();
+        names.rows = ["first_row", "last_row"].map(|n| names.fresh(n));
+        names.axes = ["x", "y"].map(|n| names.fresh(n));
+        for (place, _) in plan.places() {
+            let name = names.fresh(plan.home(place));
+            names.homes.insert(place, name);
+        }
+        names
+    }
+
+    /// A name like this one that nothing else has.
+    pub fn fresh(&mut self, wanted: &str) -> String {
+        let tries = (2..).map(|n| format!("{wanted}_{n}"));
+        let mut tries = std::iter::once(wanted.to_owned()).chain(tries);
+        let found = tries.find(|name| !self.taken.contains(name));
+        let name = found.unwrap_or_default();
+        self.taken.insert(name.clone());
+        name
+    }
+
+    pub fn home(&self, place: Place) -> &str {
+        self.homes.get(&place).map_or("unused", String::as_str)
+    }
+
+    /// The array of a table.
+    pub fn table(&mut self, plan: &Plan, id: TableId) -> String {
+        if let Some(name) = self.tables.get(&id) {
+            return name.clone();
+        }
+        let written = plan.graph.tables.get(id.0 as usize).map_or("", |t| &t.name);
+        let name = self.fresh(&identifier(written, "table"));
+        self.tables.insert(id, name.clone());
+        name
+    }
+
+    /// The tables that were asked for.
+    pub fn tables(&self) -> impl Iterator<Item = (TableId, &str)> {
+        self.tables.iter().map(|(id, name)| (*id, name.as_str()))
+    }
+
+    /// The counter of a loop's turns.
+    pub fn turns(&mut self, of: LoopId) -> String {
+        if let Some(name) = self.turns.get(&of) {
+            return name.clone();
+        }
+        let name = self.fresh("turns");
+        self.turns.insert(of, name.clone());
+        name
+    }
+
+    /// The counters that were asked for.
+    pub fn counters(&self) -> impl Iterator<Item = &str> {
+        self.turns.values().map(String::as_str)
+    }
+}
+
+/// Letters, digits and underscores only, a lower-case letter in front.
+pub(super) fn identifier(text: &str, otherwise: &str) -> String {
+    let clean = |c: char| {
+        if c.is_ascii_alphanumeric() {
+            c.to_ascii_lowercase()
+        } else {
+            '_'
+        }
+    };
+    let name: String = text.chars().map(clean).take(24).collect();
+    match name.chars().next() {
+        Some(c) if c.is_ascii_lowercase() => name,
+        _ => format!("{otherwise}{name}"),
+    }
+}
+
+/// `two-mirrors` as `TwoMirrors`.
+fn class_name(scene: &str) -> String {
+    let words = scene.split(|c: char| !c.is_ascii_alphanumeric());
+    let capital = |word: &str| {
+        let mut chars = word.chars();
+        let first = chars.next().map(|c| c.to_ascii_uppercase());
+        first.into_iter().chain(chars).collect::<String>()
+    };
+    let name: String = words
+        .map(capital)
+        .collect::<String>()
+        .chars()
+        .take(32)
+        .collect();
+    let starts = name.starts_with(|c: char| c.is_ascii_alphabetic());
+    // Some file systems take Main.jack and MAIN.jack for one.
+    if starts && !CLASSES.iter().any(|c| c.eq_ignore_ascii_case(&name)) {
+        name
+    } else {
+        format!("Scene{name}")
+    }
+}
+
+/// An operation as the scene would write it, for comments.
+pub(super) fn operation(op: Op, a: &str, b: &str) -> String {
+    let infix = match op {
+        Op::Add => "+",
+        Op::Sub => "-",
+        Op::Mul => "*",
+        Op::Div => "/",
+        Op::Mod => "mod",
+        Op::Neg => return format!("-{a}"),
+        Op::ToReal => return a.to_owned(),
+        _ if op.arity() > 1 => return format!("{}({a}, {b})", op.name()),
+        _ => return format!("{}({a})", op.name()),
+    };
+    format!("{a} {infix} {b}")
+}
