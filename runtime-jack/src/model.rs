@@ -131,11 +131,11 @@ impl Float {
     }
 
     pub fn add(self, b: Float) -> Float {
-        if self.m == 0 {
-            return b;
-        }
         if b.m == 0 {
             return self;
+        }
+        if self.m == 0 {
+            return b;
         }
         let (big, small) = if (self.e, self.m) < (b.e, b.m) {
             (b, self)

@@ -351,9 +351,20 @@ fn mul_model(args: &[Bits]) -> Bits {
         .bits()
 }
 
-/// Commands of a use over those of its surroundings, without the operands' loads.
+/// Commands of a use over those of its surroundings, without the operands'
+/// loads; operands from 2^-10 to 2^11, roots from 0.
 fn cost(routine: &Routine) -> u32 {
-    let count = |step: &str| run(&program(routine, step, false, 20_000)).instructions;
+    let count = |step: &str| {
+        let mut files = program(routine, step, false, 20_000);
+        let main = files[0]
+            .1
+            .replace("if (kind = 0) { let f[1]", "if (kind = 9) { let f[1]");
+        files[0].1 = match routine.name {
+            "sqrt" => main.replace("let f[0] = Main.random() / 16384;", "let f[0] = 0;"),
+            _ => main,
+        };
+        run(&files).instructions
+    };
     let (idle, stored) = match routine.form {
         Form::Statement(_) => ("", 0),
         Form::Expression { .. } if routine.result == Format::Bool => ("let said = 0;", 1),
