@@ -5,6 +5,7 @@ mod cli;
 mod cli_run;
 mod cli_wrong;
 mod house;
+mod jack;
 mod mos6502;
 mod snapshots;
 mod wrong;

@@ -397,14 +397,19 @@ impl<'p> Code<'p> {
         let Node::Apply(op, args) = self.plan.graph.node(id) else {
             return String::new();
         };
-        let args = args.map(|arg| self.said(arg));
+        let level = if op == slowlight_routine::Op::ToReal {
+            SUM
+        } else {
+            TERM
+        };
+        let args = args.map(|arg| self.said(arg, level));
         super::names::operation(op, &args[0], &args[1])
     }
 
-    fn said(&mut self, id: NodeId) -> String {
+    fn said(&mut self, id: NodeId, level: u8) -> String {
         match self.plan.graph.constant(id) {
             Some(value) => format!("{}", value.real()),
-            None => self.read(id).at(TERM),
+            None => self.read(id).at(level),
         }
     }
 }
