@@ -94,7 +94,7 @@ fn two_mirrors_are_drawn_as_the_model_says() {
         let run = agrees(&plan, &documents(&plan), "mirrors");
         // The border stays white.
         let black = run.screen.pixels.iter().filter(|ink| **ink == 0).count();
-        let inside = (0..320 * (rows.1 - rows.0 + 1)).len();
+        let inside = 320 * (rows.1 - rows.0 + 1) as usize;
         assert!(black > 0 && black < inside, "{black}");
     }
 }
@@ -113,8 +113,7 @@ fn two_mirrors_are_near_the_native_picture() {
                 all += 1;
             }
         }
-        assert!(off * 50 <= all, "{off} of {all}");
-        println!("{set:?}: {off} of {all}");
+        assert!(off * 500 <= all, "{off} of {all}");
     }
 }
 
