@@ -59,6 +59,7 @@ pub static FIXED16_16: Runtime = Runtime {
     parts: parts::ALL,
     encode,
     decode,
+    quotient: f64::INFINITY,
     param_digits,
     param_bits,
 };

@@ -14,8 +14,8 @@ macro_rules! part {
 
 #[rustfmt::skip]
 pub(crate) static ALL: &[Part] = &[
-    part!("BIG" [] 62 "\
-BIG=1.7E38:HALF=BIG/2:ROOT=1E19:TINY=1E-19:WIDE=2147483648
+    part!("BIG" [] 71 "\
+BIG=1.7E38:HALF=BIG/2:ROOT=1E18:TINY=1E-18:FAR=1E36:WIDE=2147483648
 "),
     part!("FNadd" ["BIG"] 97 "\
 DEF FNadd(a,b)
@@ -39,12 +39,11 @@ IF ABS(a)<ROOT THEN IF ABS(b)<ROOT THEN =a*b
 IF ABS(b)<=1 THEN =a*b
 IF ABS(a)<=BIG/ABS(b) THEN =a*b ELSE =SGN(a)*SGN(b)*BIG
 "),
-    part!("FNdiv" ["BIG"] 136 "\
+    part!("FNdiv" ["BIG"] 115 "\
 DEF FNdiv(a,b)
 IF ABS(a)<ROOT THEN IF ABS(b)>TINY THEN =a/b
-IF b=0 THEN =SGN(a)*BIG
-IF ABS(b)>=1 THEN =a/b
-IF ABS(a)<=ABS(b)*BIG THEN =a/b ELSE =SGN(a)*SGN(b)*BIG
+IF b=0 THEN =SGN(a)*FAR
+IF ABS(a/FAR)>ABS(b) THEN =SGN(a)*SGN(b)*FAR ELSE =a/b
 "),
     part!("FNsqr" [] 35 "\
 DEF FNsqr(a)

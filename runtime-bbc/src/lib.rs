@@ -36,6 +36,10 @@ pub const INT: Format = Format::Int { bits: 32 };
 /// Where reals saturate: the largest power of ten's tidy multiple below 2^127.
 pub const BIG: f64 = 1.7e38;
 
+/// Where guarded quotients saturate: near enough to [`BIG`] to stand for it,
+/// far enough from it that a few products and sums of one need no guard.
+pub const FAR: f64 = 1e36;
+
 /// How tightly BASIC's operators bind.
 pub mod level {
     /// OR and EOR.
@@ -64,6 +68,7 @@ pub static RUNTIME: Runtime = Runtime {
     parts: functions::ALL,
     encode,
     decode,
+    quotient: FAR,
     param_digits: decimal,
     param_bits,
 };

@@ -3,7 +3,7 @@
 use slowlight_isa::real40::{Real40, arith, elementary};
 use slowlight_routine::Bits;
 
-use crate::{BIG, nearest};
+use crate::{BIG, FAR, nearest};
 
 /// The bits of an int: sign-extended.
 pub fn from_int(n: i32) -> Bits {
@@ -70,11 +70,16 @@ pub fn fn_mul(a: Real40, b: Real40) -> Real40 {
 
 /// `FNdiv`.
 pub fn fn_div(a: Real40, b: Real40) -> Real40 {
+    let far = nearest(FAR);
     if b.is_zero() {
-        return mul(whole(a.signum()), big());
+        return mul(whole(a.signum()), far);
     }
-    if b.abs() < Real40::ONE && a.abs() > mul(b.abs(), big()) {
-        return signed_big(a.signum() * b.signum());
+    if div(a, far).abs() > b.abs() {
+        return if a.signum() * b.signum() < 0 {
+            far.negate()
+        } else {
+            far
+        };
     }
     div(a, b)
 }

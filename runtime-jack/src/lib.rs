@@ -61,6 +61,7 @@ pub static F316: Runtime = Runtime {
     parts: parts::ALL,
     encode,
     decode,
+    quotient: f64::INFINITY,
     param_digits,
     param_bits,
 };

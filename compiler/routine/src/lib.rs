@@ -172,6 +172,10 @@ pub struct Runtime {
     pub encode: fn(Value, Format) -> Bits,
     /// What bits stand for.
     pub decode: fn(Bits, Format) -> Value,
+    /// The greatest magnitude of a division's result; greater quotients, those
+    /// by 0 among them, saturate there. A runtime may choose it below its
+    /// format's end, so that what is computed from a quotient needs no guard.
+    pub quotient: f64,
     /// How a real `param` is written in the generated source: `None` as a
     /// decimal, `Some(d)` as an integer scaled by 10^d, for a value of this range.
     pub param_digits: fn(Range) -> Option<u8>,

@@ -9,7 +9,7 @@
 use super::graph::*;
 use crate::source::Span;
 use slowlight_routine::{Op, Type, Value};
-use std::collections::HashMap;
+use std::collections::{BTreeSet, HashMap};
 
 /// A graph under construction.
 #[derive(Clone, Debug, Default)]
@@ -23,6 +23,7 @@ pub struct Builder {
     tables: Vec<Table>,
     loops: Vec<Loop>,
     effects: Vec<EffectUse>,
+    directions: BTreeSet<NodeId>,
 }
 
 impl Builder {
@@ -284,6 +285,13 @@ impl Builder {
         }
     }
 
+    /// Says that a node is a component of a vector of length 1 by contract.
+    pub fn direction(&mut self, id: NodeId) {
+        if self.ty(id) == Type::Real && self.value(id).is_none() {
+            self.directions.insert(id);
+        }
+    }
+
     /// Counts a call of an effect.
     pub fn effect(&mut self, name: &str) {
         match self.effects.iter_mut().find(|e| e.name == name) {
@@ -307,6 +315,7 @@ impl Builder {
             types: self.types,
             spans: self.spans,
             names: self.names,
+            directions: self.directions,
             ink,
             shade,
             effects: self.effects,

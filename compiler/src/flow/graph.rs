@@ -23,7 +23,7 @@
 
 use crate::source::Span;
 use slowlight_routine::{Op, Range, Type, Value};
-use std::collections::HashMap;
+use std::collections::{BTreeSet, HashMap};
 
 /// Which node; an index into the graph's arena.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -254,6 +254,9 @@ pub struct Graph {
     /// Names that the scene gives to nodes (`let`, params of functions), for
     /// readable output; a node may have none.
     pub names: HashMap<NodeId, String>,
+    /// Components of rays' directions and of normals, which have length 1 by
+    /// contract: what may be trusted where no range could be found.
+    pub directions: BTreeSet<NodeId>,
     /// The pixel's ink, an int in 0..inks-1.
     pub ink: NodeId,
     /// The shade before the dither, if `draw` ends in one. It is looked at,

@@ -128,6 +128,11 @@ impl Display for Graph {
                 None => writeln!(f)?,
             }
         }
+        let live = |id: &&NodeId| reached.get(id.0 as usize) == Some(&true);
+        let directions: Vec<NodeId> = self.directions.iter().filter(live).copied().collect();
+        if !directions.is_empty() {
+            writeln!(f, "directions {}", list(&directions))?;
+        }
         for effect in &self.effects {
             writeln!(f, "effect {} {}", effect.name, effect.calls)?;
         }

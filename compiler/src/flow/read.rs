@@ -7,7 +7,7 @@
 use super::graph::*;
 use crate::source::Span;
 use slowlight_routine::{Op, Range, Type, Value};
-use std::collections::HashMap;
+use std::collections::{BTreeSet, HashMap};
 
 /// A line that is not understood.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
@@ -36,6 +36,7 @@ pub fn read(text: &str) -> Result<Graph, Unread> {
         types: Vec::new(),
         spans: Vec::new(),
         names: HashMap::new(),
+        directions: BTreeSet::new(),
         ink: NodeId(0),
         shade: None,
         effects: Vec::new(),
@@ -65,6 +66,7 @@ fn line(graph: &mut Graph, line: &str) -> Read<()> {
             });
             Ok(())
         }
+        "directions" => node_list(rest).map(|ids| graph.directions.extend(ids)),
         "shade" => node_id(rest).map(|id| graph.shade = Some(id)),
         "ink" => node_id(rest).map(|id| graph.ink = id),
         _ => node(graph, line),

@@ -42,6 +42,9 @@ pub fn rebuild(graph: &Graph, rule: Rule<'_>) -> Graph {
         if let Some(name) = graph.names.get(&id) {
             rebuilder.builder.name(made, name);
         }
+        if graph.directions.contains(&id) {
+            rebuilder.builder.direction(made);
+        }
     }
     let (ink, shade) = (
         rebuilder.at(graph.ink),

@@ -1,8 +1,9 @@
 //! Ranges: between which bounds every value of a scheduled graph stays.
 //!
 //! The statement tree is run once with intervals for values: arms refine what
-//! their condition compares, loops are run until nothing grows (bounds that
-//! keep growing are widened to the format's ends). What a machine computes is
+//! their condition compares, loops are walked turn by turn until nothing grows
+//! or `max` is reached (in long loops, bounds that keep growing are widened to
+//! the format's ends). What a machine computes is
 //! not exact, so every operation's interval is enlarged by the error that the
 //! machine's routines may make, and cut to what its formats can hold.
 
@@ -29,6 +30,10 @@ pub struct Ranges {
 pub struct Slack {
     /// Relative and absolute error, by [`Op`].
     errors: Vec<(Op, f64, f64)>,
+    /// What a component of a direction is trusted to be, if anything.
+    direction: Option<Range>,
+    /// The greatest magnitude of a quotient.
+    quotient: f64,
     /// What reals can be.
     reals: Range,
     /// What ints can be.
@@ -41,6 +46,8 @@ impl Slack {
         let reals = Range::new(f64::MIN, f64::MAX);
         Slack {
             errors: Vec::new(),
+            direction: None,
+            quotient: f64::INFINITY,
             reals,
             ints: Range::new(f64::from(i32::MIN), f64::from(i32::MAX)),
         }
@@ -71,8 +78,13 @@ impl Slack {
                 None => errors.push((routine.op, relative, absolute)),
             }
         }
+        // In a format whose ends are near, a scene that breaks the contract
+        // would wrap: there the routines saturate instead.
+        let floats = matches!(runtime.real, Format::Real40 | Format::Float316);
         Slack {
             errors,
+            direction: floats.then(|| Range::new(-2.0, 2.0)),
+            quotient: runtime.quotient,
             reals: ends(runtime.real),
             ints: ends(runtime.int),
         }
@@ -90,6 +102,21 @@ impl Slack {
         let mut wide = Range::new(range.lo - grow(range.lo), range.hi + grow(range.hi));
         wide.nonzero |= range.nonzero && absolute == 0.0;
         wide
+    }
+
+    /// What an operation's result stays within, given its exact range.
+    fn rounded(&self, op: Op, exact: Range) -> Range {
+        let exact = match op {
+            Op::Div if self.quotient.is_finite() => {
+                let held = |x: f64| x.clamp(-self.quotient, self.quotient);
+                Range {
+                    nonzero: exact.nonzero,
+                    ..Range::new(held(exact.lo), held(exact.hi))
+                }
+            }
+            _ => exact,
+        };
+        self.cut(op.result(), self.enlarge(op, exact))
     }
 
     fn cut(&self, ty: Type, range: Range) -> Range {
@@ -117,7 +144,7 @@ pub fn ranges(graph: &Graph, tree: &Tree, slack: &Slack) -> Ranges {
             .iter()
             .map(|l| vec![None; l.types.len()])
             .collect(),
-        grown: vec![0; graph.loops.len()],
+        turns: 0,
         out: Ranges {
             result: graph.ids().map(|id| known(graph, slack, id)).collect(),
             exact: vec![Range::ALL; graph.nodes.len()],
@@ -148,8 +175,8 @@ fn known(graph: &Graph, slack: &Slack, id: NodeId) -> Range {
     }
 }
 
-/// How often a carried value may grow before its bounds are widened.
-const PATIENCE: u32 = 3;
+/// How many turns of loops are walked before bounds that still grow are widened.
+const PATIENCE: u32 = 2000;
 
 pub(crate) struct Walk<'g> {
     graph: &'g Graph,
@@ -157,8 +184,8 @@ pub(crate) struct Walk<'g> {
     /// Each node's range here: refined by the conditions around.
     now: Vec<Range>,
     carried: Vec<Vec<Option<Range>>>,
-    /// How often each loop's carried values have grown.
-    grown: Vec<u32>,
+    /// How many turns of loops have been walked.
+    turns: u32,
     out: Ranges,
 }
 
@@ -233,7 +260,8 @@ impl Walk<'_> {
         let held = self.carried[at].clone();
         self.block(start);
         self.join_carried(at, &held);
-        loop {
+        let max = self.graph.loops[at].max;
+        for turn in 1.. {
             let before = self.carried[at].clone();
             for id in self.graph.ids() {
                 if let Node::Carried { of: l, index } | Node::Last { of: l, index } =
@@ -247,11 +275,13 @@ impl Walk<'_> {
             self.block(body);
             self.arm(again, true, next);
             self.join_carried(at, &before);
-            if self.carried[at] == before {
+            // After `max` turns the bounds hold all that the loop can carry,
+            // whether or not they would grow in one more.
+            if self.carried[at] == before || turn > max {
                 break;
             }
-            self.grown[at] += 1;
-            if self.grown[at] > PATIENCE {
+            self.turns += 1;
+            if self.turns > PATIENCE {
                 self.widen(of, &before);
             }
         }
@@ -337,6 +367,17 @@ impl Walk<'_> {
         }
     }
 
+    /// A component of a direction whose range is unknown is trusted to be what
+    /// the contract says, twice over for what roundings add.
+    fn trust(&self, id: NodeId, range: Range) -> Range {
+        match self.slack.direction {
+            Some(unit) if range.magnitude() > 16.0 && self.graph.directions.contains(&id) => {
+                range.meet(unit)
+            }
+            _ => range,
+        }
+    }
+
     fn compute(&mut self, id: NodeId) {
         let at = id.0 as usize;
         let range = match self.graph.node(id) {
@@ -345,7 +386,7 @@ impl Walk<'_> {
                 let exact = interval(op, args, a == b);
                 self.out.args[at] = args;
                 self.out.exact[at] = exact;
-                self.slack.cut(op.result(), self.slack.enlarge(op, exact))
+                self.slack.rounded(op, exact)
             }
             Node::Lookup { table, .. } => {
                 let entries = self
@@ -359,6 +400,7 @@ impl Walk<'_> {
             }
             _ => Range::ALL,
         };
+        let range = self.trust(id, range);
         self.write(Place::Node(id), range);
     }
 }

@@ -155,7 +155,10 @@ impl<'a> Lower<'a> {
                 Ok(Val::Node(self.apply(Op::IntMax, &[below, least], span)?))
             }
             Builtin::Ray => match second {
-                Some((_, dir)) => Ok(Val::parts(vec![value, dir])),
+                Some((_, dir)) => {
+                    let dir = self.direction(dir, span)?;
+                    Ok(Val::parts(vec![value, dir]))
+                }
                 None => Err(self.confused(span)),
             },
             Builtin::Count => match self.force(value)? {

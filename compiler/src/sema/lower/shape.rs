@@ -110,10 +110,10 @@ impl<'a> Lower<'a> {
 
     pub(super) fn shape_normal(&mut self, shape: &Rc<Shape>, p: Val, span: Span) -> Found<Val> {
         if let Some(normal) = self.facet(shape, FacetKind::Normal, p.clone(), span)? {
-            return Ok(normal);
+            return self.direction(normal, span);
         }
         if let Some(normal) = self.derived_normal(shape, p, span)? {
-            return Ok(normal);
+            return self.direction(normal, span);
         }
         let name = self.shape_name(shape);
         Err(self.missing(
@@ -121,6 +121,13 @@ impl<'a> Lower<'a> {
             &format!("the normal of a shape without `normal(p)`, here `{name}`,"),
             "give the shape a facet `normal(p) = ..`, of length 1",
         ))
+    }
+
+    /// A vector that has length 1 by contract: the ranges may trust that.
+    pub(super) fn direction(&mut self, value: Val, span: Span) -> Found<Val> {
+        let nodes = self.vector(value.clone(), 3, span)?;
+        nodes.into_iter().for_each(|node| self.b.direction(node));
+        Ok(value)
     }
 
     /// The point of a ray at a distance.
