@@ -8,4 +8,5 @@ mod house;
 mod jack;
 mod mos6502;
 mod snapshots;
+mod whole;
 mod wrong;
