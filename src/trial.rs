@@ -218,7 +218,7 @@ impl Trial {
             target: plan.target.name,
             mode: mode_json(plan.mode.name),
             inks: plan.graph.image.palette.len(),
-            offset: plan.target.offset,
+            offset: [plan.offset.0, plan.offset.1],
             format: plan.runtime.format,
             width: self.native.window.width(),
             height: self.native.window.height(),
@@ -252,8 +252,9 @@ pub struct Report<'t> {
     /// The machine's number or name for it; null where there is only one.
     mode: Value,
     inks: usize,
-    /// The format's self-intersection offset.
-    offset: f64,
+    /// Column and row of the screen where the picture's top left stands;
+    /// negative where the picture is cropped.
+    offset: [i32; 2],
     format: &'t str,
     /// Columns drawn.
     width: u32,

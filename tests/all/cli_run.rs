@@ -115,6 +115,20 @@ fn machines_draw_what_their_models_do() {
     }
 }
 
+#[test]
+fn the_offset_is_where_the_picture_stands_on_the_screen() {
+    let wide = "image 600 x 4 inks black, white; draw (x, y) = ink(x mod 2);";
+    let dir = directory(&[("spot.scn", SPOT), ("wide.scn", wide)]);
+    let dir = dir.path();
+    let offset = |scene: &str, target: &str| {
+        json(dir, &["run", scene, "--target", target, "--json"])["offset"].clone()
+    };
+    // In the middle of 512 x 256; on the 6502's screen, which is as large as the picture.
+    assert_eq!(offset("spot.scn", "jack"), serde_json::json!([250, 124]));
+    assert_eq!(offset("wide.scn", "jack"), serde_json::json!([-44, 126]));
+    assert_eq!(offset("spot.scn", "6502:plain"), serde_json::json!([0, 0]));
+}
+
 /// The sources that `build` writes for a target, in a directory of their own.
 fn built(dir: &Path, target: &str) -> Vec<String> {
     success(dir, &["build", "spot.scn", "--target", target, "-o", "out"]);
