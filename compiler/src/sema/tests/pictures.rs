@@ -88,3 +88,23 @@ fn derived_facets_agree_with_explicit_ones() {
         "shape fourth(k: real) { f(p) = dot(p, p)^2 - k^4; bound = box((-2, -2, -2), (2, 2, 2)); }";
     same(fourth, "sphere((0, 0, 0), 1.5)", "fourth(1.5)", 1e-5, 4);
 }
+
+#[test]
+fn a_ray_goes_straight_on_through_glass() {
+    // Behind the first sphere hangs a second: all that hit the first, and only
+    // those in the second's smaller outline, hit it too.
+    let text = |onward: &str| {
+        format!(
+            "image 16 x 16 inks black, white;
+            draw (x, y) = {{
+              let r = ray((0, 0, 4), unit(((x - 7.5) / 8, (7.5 - y) / 8, -2)));
+              if let h = sphere((0, 0, 0), 1).hit(r)
+                then (if let k = sphere((0, 0, -4), 1).hit({onward}) then ink(1) else ink(0))
+                else ink(0)
+            }};"
+        )
+    };
+    let through = seen(&text("beyond(r, h)"), 1);
+    assert_eq!(through, seen(&text("r"), 1));
+    assert!(through.contains('.'), "{through}");
+}
