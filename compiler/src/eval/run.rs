@@ -200,33 +200,26 @@ impl<'t, A: Arithmetic> Run<'t, A> {
                     let cond = self.read(*cond);
                     self.block(if self.arithmetic.truth(cond) { yes } else { no });
                 }
-                Statement::Loop {
-                    of,
-                    start,
-                    body,
-                    again,
-                    next,
-                    done,
-                    otherwise,
-                } => {
-                    self.block(start);
-                    let max = self.graph.loops.get(of.0 as usize).map_or(1, |l| l.max);
-                    let mut turns = 0;
-                    loop {
-                        self.block(body);
-                        let again = self.read(*again);
-                        if !self.arithmetic.truth(again) {
-                            self.block(done);
-                            break;
-                        }
-                        self.block(next);
-                        turns += 1;
-                        if turns == max {
-                            self.block(otherwise);
-                            break;
-                        }
-                    }
-                }
+                Statement::Loop(turns) => self.turns(turns),
+            }
+        }
+    }
+
+    fn turns(&mut self, turns: &'t Turns) {
+        self.block(&turns.start);
+        let found = self.graph.loops.get(turns.of.0 as usize);
+        let max = found.map_or(1, |l| l.max);
+        let mut taken = 0;
+        loop {
+            self.block(&turns.body);
+            let again = self.read(turns.again);
+            if !self.arithmetic.truth(again) {
+                return self.block(&turns.done);
+            }
+            self.block(&turns.next);
+            taken += 1;
+            if taken == max {
+                return self.block(&turns.otherwise);
             }
         }
     }

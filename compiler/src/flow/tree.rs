@@ -47,19 +47,43 @@ pub enum Statement {
     Set { place: Place, from: Origin },
     /// Takes one of two ways; at least one of them does something.
     If { cond: NodeId, yes: Block, no: Block },
-    /// A bounded loop. `start` sets the carried values; then up to `max` times
-    /// `body` runs, and `again` decides: `next` sets the carried values for
-    /// another turn, or `done` sets the results and ends the loop. Where a
-    /// `next` was the last turn allowed, `otherwise` sets the results instead.
-    Loop {
-        of: LoopId,
-        start: Block,
-        body: Block,
-        again: NodeId,
-        next: Block,
-        done: Block,
-        otherwise: Block,
-    },
+    /// A bounded loop.
+    Loop(Turns),
+}
+
+/// The turns of a bounded loop: `start`, then `body` up to [`Loop::max`]
+/// times. After each `body`, `again` decides between `next` and another turn,
+/// and `done`, which ends the loop. Where a `next` was the last one allowed,
+/// `otherwise` ends it instead.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Turns {
+    /// The loop in the graph: its limit, its names, its span.
+    pub of: LoopId,
+    /// Sets the carried values for the first turn.
+    pub start: Block,
+    /// Computes what `again`, and both ways after it, need.
+    pub body: Block,
+    /// Whether to go on; read once a turn, after `body`.
+    pub again: NodeId,
+    /// Sets the carried values for another turn.
+    pub next: Block,
+    /// Sets the results where the loop ends by itself.
+    pub done: Block,
+    /// Sets the results where no turn is left.
+    pub otherwise: Block,
+}
+
+impl Turns {
+    /// The blocks, in the order in which they are written down.
+    pub fn blocks(&self) -> [&Block; 5] {
+        [
+            &self.start,
+            &self.body,
+            &self.next,
+            &self.done,
+            &self.otherwise,
+        ]
+    }
 }
 
 /// A picture's statements.
@@ -89,16 +113,7 @@ pub fn inner(statement: &Statement) -> Vec<&Block> {
     match statement {
         Statement::Let(_) | Statement::Set { .. } => Vec::new(),
         Statement::If { yes, no, .. } => vec![yes, no],
-        Statement::Loop {
-            start,
-            body,
-            next,
-            done,
-            otherwise,
-            ..
-        } => {
-            vec![start, body, next, done, otherwise]
-        }
+        Statement::Loop(turns) => turns.blocks().to_vec(),
     }
 }
 
@@ -143,21 +158,13 @@ fn block(f: &mut fmt::Formatter<'_>, statements: &[Statement], depth: usize) -> 
                 };
                 part(f, &name, no)?;
             }
-            Statement::Loop {
-                of,
-                start,
-                body,
-                again,
-                next,
-                done,
-                otherwise,
-            } => {
-                part(f, &format!("start {}", of.0), start)?;
-                writeln!(f, "{pad}loop {}", of.0)?;
-                block(f, body, depth + 1)?;
-                part(f, &format!("again {again}: next"), next)?;
-                part(f, "done", done)?;
-                part(f, "exhausted", otherwise)?;
+            Statement::Loop(turns) => {
+                part(f, &format!("start {}", turns.of.0), &turns.start)?;
+                writeln!(f, "{pad}loop {}", turns.of.0)?;
+                block(f, &turns.body, depth + 1)?;
+                part(f, &format!("again {}: next", turns.again), &turns.next)?;
+                part(f, "done", &turns.done)?;
+                part(f, "exhausted", &turns.otherwise)?;
             }
         }
     }

@@ -309,7 +309,7 @@ impl Emitter<'_> {
             done.push(set(Place::Node(id), found.done[k]));
             otherwise.push(set(Place::Node(id), found.otherwise[k]));
         }
-        Statement::Loop {
+        Statement::Loop(Turns {
             of,
             start,
             body,
@@ -317,7 +317,7 @@ impl Emitter<'_> {
             next,
             done,
             otherwise,
-        }
+        })
     }
 }
 

@@ -82,21 +82,13 @@ impl Uses<'_> {
                     self.block(yes);
                     self.block(no);
                 }
-                Statement::Loop {
-                    start,
-                    body,
-                    again,
-                    next,
-                    done,
-                    otherwise,
-                    ..
-                } => {
-                    self.block(start);
-                    let inner = self.block(body);
-                    self.read(*again, inner);
-                    self.block(next);
-                    self.block(done);
-                    self.block(otherwise);
+                Statement::Loop(turns) => {
+                    self.block(&turns.start);
+                    let inner = self.block(&turns.body);
+                    self.read(turns.again, inner);
+                    self.block(&turns.next);
+                    self.block(&turns.done);
+                    self.block(&turns.otherwise);
                 }
             }
         }

@@ -183,22 +183,15 @@ impl Plan {
                         self.block(f, no, depth + 1)?;
                     }
                 }
-                Statement::Loop {
-                    of,
-                    start,
-                    body,
-                    again,
-                    next,
-                    done,
-                    otherwise,
-                } => {
-                    self.block(f, start, depth)?;
-                    let max = self.graph.loops.get(of.0 as usize).map_or(1, |l| l.max);
+                Statement::Loop(turns) => {
+                    self.block(f, &turns.start, depth)?;
+                    let found = self.graph.loops.get(turns.of.0 as usize);
+                    let max = found.map_or(1, |l| l.max);
                     writeln!(f, "{pad}loop at most {max}")?;
-                    self.block(f, body, depth + 1)?;
-                    writeln!(f, "{pad}while {}", self.operand(*again))?;
-                    self.block(f, next, depth + 1)?;
-                    for (name, part) in [("done", done), ("exhausted", otherwise)] {
+                    self.block(f, &turns.body, depth + 1)?;
+                    writeln!(f, "{pad}while {}", self.operand(turns.again))?;
+                    self.block(f, &turns.next, depth + 1)?;
+                    for (name, part) in [("done", &turns.done), ("exhausted", &turns.otherwise)] {
                         if !part.is_empty() {
                             writeln!(f, "{pad}{name}")?;
                             self.block(f, part, depth + 1)?;

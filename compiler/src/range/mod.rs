@@ -216,17 +216,7 @@ impl Walk<'_> {
                     }
                 }
             }
-            Statement::Loop {
-                of,
-                start,
-                body,
-                again,
-                next,
-                done,
-                otherwise,
-            } => {
-                self.run_loop(*of, [start, body, next, done, otherwise], *again);
-            }
+            Statement::Loop(turns) => self.run_loop(turns),
         }
     }
 
@@ -250,15 +240,11 @@ impl Walk<'_> {
             .collect()
     }
 
-    fn run_loop(
-        &mut self,
-        of: LoopId,
-        [start, body, next, done, otherwise]: [&Block; 5],
-        again: NodeId,
-    ) {
+    fn run_loop(&mut self, turns: &Turns) {
+        let of = turns.of;
         let at = of.0 as usize;
         let held = self.carried[at].clone();
-        self.block(start);
+        self.block(&turns.start);
         self.join_carried(at, &held);
         let max = self.graph.loops[at].max;
         for turn in 1.. {
@@ -272,8 +258,8 @@ impl Walk<'_> {
                     self.out.result[id.0 as usize] = self.now[id.0 as usize];
                 }
             }
-            self.block(body);
-            self.arm(again, true, next);
+            self.block(&turns.body);
+            self.arm(turns.again, true, &turns.next);
             self.join_carried(at, &before);
             // After `max` turns the bounds hold all that the loop can carry,
             // whether or not they would grow in one more.
@@ -285,8 +271,8 @@ impl Walk<'_> {
                 self.widen(of, &before);
             }
         }
-        let ended = self.arm(again, false, done);
-        self.block(otherwise);
+        let ended = self.arm(turns.again, false, &turns.done);
+        self.block(&turns.otherwise);
         for (place, range) in ended {
             let both = self.place_range(place).join(range);
             self.write(place, both);

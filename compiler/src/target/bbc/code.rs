@@ -2,7 +2,6 @@
 
 use super::expression::Expressions;
 use super::lines::{Labels, Lines};
-use crate::flow::graph::LoopId;
 use crate::flow::tree::*;
 use crate::plan::Plan;
 use crate::source::Span;
@@ -82,18 +81,7 @@ impl<'p> Code<'p> {
                 let no = self.apart(no);
                 self.branch(&holds, &fails, yes, no, span);
             }
-            Statement::Loop {
-                of,
-                start,
-                body,
-                again,
-                next,
-                done,
-                otherwise,
-            } => {
-                self.block(start);
-                self.repeat(*of, body, *again, [next, done, otherwise]);
-            }
+            Statement::Loop(turns) => self.repeat(turns),
         }
     }
 
@@ -132,31 +120,26 @@ impl<'p> Code<'p> {
     }
 
     /// A loop: turns are counted, so that it ends.
-    fn repeat(
-        &mut self,
-        of: LoopId,
-        body: &Block,
-        again: crate::flow::graph::NodeId,
-        [next, done, otherwise]: [&Block; 3],
-    ) {
+    fn repeat(&mut self, turns: &Turns) {
+        self.block(&turns.start);
         let plan = self.values.plan;
         let (max, span) = plan
             .graph
             .loops
-            .get(of.0 as usize)
+            .get(turns.of.0 as usize)
             .map_or((1, None), |l| (l.max, Some(l.span)));
         let turn = self.values.names.unique("turn", "%");
         let (top, leave, end) = (self.labels.next(), self.labels.next(), self.labels.next());
         self.lines.statement(format!("{turn}=0"), span);
         self.lines.place(top);
-        self.block(body);
-        let fails = self.values.condition(again, false);
+        self.block(&turns.body);
+        let fails = self.values.condition(turns.again, false);
         self.lines.line(format!("IF {fails} THEN {leave}"), span);
-        self.block(next);
+        self.block(&turns.next);
         self.lines.statement(format!("{turn}={turn}+1"), span);
         self.lines.line(format!("IF {turn}<{max} THEN {top}"), span);
-        self.block(otherwise);
-        let done = self.apart(done);
+        self.block(&turns.otherwise);
+        let done = self.apart(&turns.done);
         if !done.is_empty() {
             self.lines.line(format!("GOTO {end}"), span);
         }

@@ -176,54 +176,37 @@ impl<'p> Code<'p> {
                 }
                 self.text.close("}");
             }
-            Statement::Loop {
-                of,
-                start,
-                body,
-                again,
-                next,
-                done,
-                otherwise,
-            } => {
-                self.block(start, name);
-                self.repeat(*of, body, *again, [next, done, otherwise], name);
-            }
+            Statement::Loop(turns) => self.repeat(turns, name),
         }
     }
 
     /// A loop: the counter reaches the greatest number of turns also where the
     /// loop ends by itself. It may pass 32767; being equal does not mind.
-    fn repeat(
-        &mut self,
-        of: LoopId,
-        body: &Block,
-        again: NodeId,
-        [next, done, otherwise]: [&Block; 3],
-        name: &str,
-    ) {
-        let counter = self.names.turns(of);
+    fn repeat(&mut self, turns: &Turns, name: &str) {
+        let counter = self.names.turns(turns.of);
         let most = self
             .plan
             .graph
             .loops
-            .get(of.0 as usize)
+            .get(turns.of.0 as usize)
             .map_or(1, |l| l.max);
         let most = int(i32::from(most as u16 as i16)).at(TERM);
+        self.block(&turns.start, name);
         self.text.line(format!("let {counter} = 0;"));
         self.text.open(format!("while (~({counter} = {most})) {{"));
-        self.block(body, name);
-        let again = self.read(again);
+        self.block(&turns.body, name);
+        let again = self.read(turns.again);
         self.text.open(format!("if ({}) {{", again.text));
-        self.block(next, name);
+        self.block(&turns.next, name);
         self.text.line(format!("let {counter} = {counter} + 1;"));
-        if !otherwise.is_empty() {
+        if !turns.otherwise.is_empty() {
             self.text.open(format!("if ({counter} = {most}) {{"));
-            self.block(otherwise, name);
+            self.block(&turns.otherwise, name);
             self.text.close("}");
         }
         self.text.close("}");
         self.text.open("else {");
-        self.block(done, name);
+        self.block(&turns.done, name);
         self.text.line(format!("let {counter} = {most};"));
         self.text.close("}");
         self.text.close("}");

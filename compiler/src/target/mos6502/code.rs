@@ -2,7 +2,7 @@
 
 use super::Text;
 use super::comment;
-use super::homes::{Homes, Slot, turns};
+use super::homes::{Homes, Slot, most_turns};
 use crate::flow::graph::*;
 use crate::flow::tree::*;
 use crate::plan::Plan;
@@ -80,18 +80,7 @@ impl<'p> Code<'p> {
                 }
             }
             Statement::If { cond, yes, no } => self.choose(*cond, yes, no),
-            Statement::Loop {
-                of,
-                start,
-                body,
-                again,
-                next,
-                done,
-                otherwise,
-            } => {
-                self.block(start);
-                self.repeat(*of, body, *again, [next, done, otherwise]);
-            }
+            Statement::Loop(turns) => self.repeat(turns),
         }
     }
 
@@ -183,28 +172,23 @@ impl<'p> Code<'p> {
         }
     }
 
-    fn repeat(
-        &mut self,
-        of: LoopId,
-        body: &Block,
-        again: NodeId,
-        [next, done, otherwise]: [&Block; 3],
-    ) {
+    fn repeat(&mut self, turns: &Turns) {
+        self.block(&turns.start);
         let n = self.text.next_serial();
-        let counter = self.homes.name(Slot::Turns(of)).to_owned();
-        let [lo, hi, ..] = turns(self.plan, of).to_le_bytes();
+        let counter = self.homes.name(Slot::Turns(turns.of)).to_owned();
+        let most = most_turns(self.plan, turns.of);
+        let [lo, hi, ..] = most.to_le_bytes();
         let wide = hi > 0;
-        self.text
-            .line(format!("        ; at most {} turns", turns(self.plan, of)));
+        self.text.line(format!("        ; at most {most} turns"));
         self.text.code(&format!("lda #{lo} | sta {counter}"));
         if wide {
             self.text.code(&format!("lda #{hi} | sta {counter}+1"));
         }
         self.text.label(&format!("loop{n}"));
-        self.block(body);
-        let (fails, holds) = self.test(again);
-        let turn = self.apart(|code| code.block(next));
-        let rest = self.apart(|code| code.block(otherwise));
+        self.block(&turns.body);
+        let (fails, holds) = self.test(turns.again);
+        let turn = self.apart(|code| code.block(&turns.next));
+        let rest = self.apart(|code| code.block(&turns.otherwise));
         let over = most_bytes(&turn) + most_bytes(&rest) + 30;
         self.branch(fails, holds, &format!("done{n}"), over);
         self.append(turn);
@@ -221,7 +205,7 @@ impl<'p> Code<'p> {
         self.text.code(&format!("beq out{n} | jmp loop{n}"));
         self.text.label(&format!("out{n}"));
         self.append(rest);
-        let ending = self.apart(|code| code.block(done));
+        let ending = self.apart(|code| code.block(&turns.done));
         if ending.lines.is_empty() {
             self.text.label(&format!("done{n}"));
             return;

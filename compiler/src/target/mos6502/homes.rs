@@ -164,7 +164,7 @@ fn fused(plan: &Plan) -> BTreeSet<NodeId> {
                 Statement::If { cond, .. } => {
                     visit(i.checked_sub(1).and_then(|before| block.get(before)), *cond);
                 }
-                Statement::Loop { body, again, .. } => visit(body.last(), *again),
+                Statement::Loop(turns) => visit(turns.body.last(), turns.again),
                 _ => {}
             }
             for inner in inner(statement) {
@@ -181,14 +181,14 @@ fn fused(plan: &Plan) -> BTreeSet<NodeId> {
 fn size(plan: &Plan, slot: Slot) -> u16 {
     match slot {
         Slot::Value(place) => u16::from(write::size(plan.place_format(place))),
-        Slot::Turns(of) => 1 + u16::from(turns(plan, of) > 0xFF),
+        Slot::Turns(of) => 1 + u16::from(most_turns(plan, of) > 0xFF),
         Slot::Which => 1,
         Slot::Param(_) | Slot::Axis(_) | Slot::Rows(_) => 4,
     }
 }
 
 /// How often a loop's body runs at most.
-pub(super) fn turns(plan: &Plan, of: LoopId) -> u32 {
+pub(super) fn most_turns(plan: &Plan, of: LoopId) -> u32 {
     plan.graph.loops.get(of.0 as usize).map_or(1, |l| l.max)
 }
 
@@ -277,25 +277,17 @@ impl Uses<'_> {
                     self.block(yes);
                     self.block(no);
                 }
-                Statement::Loop {
-                    of,
-                    start,
-                    body,
-                    again,
-                    next,
-                    done,
-                    otherwise,
-                } => {
-                    self.block(start);
+                Statement::Loop(turns) => {
+                    self.block(&turns.start);
                     let outside = self.weight;
                     self.weight = self.weight.saturating_mul(8);
-                    self.add(Slot::Turns(*of));
-                    self.block(body);
-                    self.read(*again);
-                    self.block(next);
+                    self.add(Slot::Turns(turns.of));
+                    self.block(&turns.body);
+                    self.read(turns.again);
+                    self.block(&turns.next);
                     self.weight = outside;
-                    self.block(done);
-                    self.block(otherwise);
+                    self.block(&turns.done);
+                    self.block(&turns.otherwise);
                 }
             }
         }
