@@ -7,6 +7,10 @@ mod cli_wrong;
 mod house;
 mod jack;
 mod mos6502;
+#[cfg(feature = "peers")]
+mod peers_brandy;
+#[cfg(feature = "peers")]
+mod peers_ca65;
 mod snapshots;
 mod whole;
 mod wrong;
