@@ -56,6 +56,41 @@ fn first_colour(mode: &Mode, ink: usize) -> u8 {
     }
 }
 
+/// The physical colours that stand for a palette: near ones, and different
+/// ones as long as there are enough, so that no two inks look alike. Among
+/// equally near ones the brightness decides.
+fn colours(palette: &[[u8; 3]]) -> Vec<u8> {
+    let bright = |[r, g, b]: [u8; 3]| 299 * u32::from(r) + 587 * u32::from(g) + 114 * u32::from(b);
+    let off = |a: [u8; 3], b: [u8; 3]| -> u32 {
+        (0..3).map(|i| u32::from(a[i].abs_diff(b[i])).pow(2)).sum()
+    };
+    let mut pairs: Vec<(u32, u32, usize, u8)> = Vec::new();
+    for (ink, &rgb) in palette.iter().enumerate() {
+        for colour in 0..8 {
+            let near = physical(colour);
+            pairs.push((
+                off(near, rgb),
+                bright(near).abs_diff(bright(rgb)),
+                ink,
+                colour,
+            ));
+        }
+    }
+    pairs.sort_unstable();
+    let mut given = vec![None; palette.len()];
+    // With more inks than colours, further rounds give them out again.
+    while given.contains(&None) {
+        let mut left = 0xffu8;
+        for &(_, _, ink, colour) in &pairs {
+            if given[ink].is_none() && left & (1 << colour) != 0 {
+                given[ink] = Some(colour);
+                left &= !(1 << colour);
+            }
+        }
+    }
+    given.into_iter().flatten().collect()
+}
+
 /// The VDU statement that gives an ink the scene's colour; none where it has it already.
 pub fn colour(plan: &Plan, ink: usize, rgb: [u8; 3]) -> Option<String> {
     if physical(first_colour(&plan.mode, ink)) == rgb {
@@ -67,17 +102,12 @@ pub fn colour(plan: &Plan, ink: usize, rgb: [u8; 3]) -> Option<String> {
         "bbc:agon" => format!("VDU 19,{ink},255,{r},{g},{b}"),
         "bbc:basicv" if exact.is_none() => format!("VDU 19,{ink},16,{r},{g},{b}"),
         _ => {
-            let off = |c: &u8| -> u32 {
-                let near = physical(*c);
-                (0..3)
-                    .map(|i| u32::from(near[i].abs_diff(rgb[i])).pow(2))
-                    .sum()
-            };
-            let nearest = (0..8).min_by_key(off).unwrap_or(7);
-            if nearest == first_colour(&plan.mode, ink) {
+            let given = colours(&plan.graph.image.palette);
+            let own = given.get(ink).copied().unwrap_or(7);
+            if own == first_colour(&plan.mode, ink) {
                 return None;
             }
-            format!("VDU 19,{ink},{nearest};0;")
+            format!("VDU 19,{ink},{own};0;")
         }
     })
 }
@@ -121,4 +151,24 @@ pub fn y_expression(plan: &Plan) -> String {
     }
     // The middle of the row, since units are no whole part of it.
     format!("(512+1024*({})) DIV {height}", linear(bottom, -1, "Y%"))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn no_two_inks_look_alike_while_there_are_colours() {
+        let grey = [128; 3];
+        assert_eq!(colours(&[[0; 3], grey, [255; 3]]), [0, 5, 7]);
+        assert_eq!(
+            colours(&[[0; 3], [255, 0, 0], [255, 255, 0], [255; 3]]),
+            [0, 1, 3, 7]
+        );
+        let ramp: Vec<[u8; 3]> = (0..8).map(|k| [k * 36; 3]).collect();
+        let mut given = colours(&ramp);
+        given.sort_unstable();
+        assert_eq!(given, [0, 1, 2, 3, 4, 5, 6, 7]);
+        assert_eq!(colours(&[grey; 16]).len(), 16);
+    }
 }
