@@ -11,6 +11,7 @@ mod mos6502;
 mod peers_brandy;
 #[cfg(feature = "peers")]
 mod peers_ca65;
+mod renderers;
 mod snapshots;
 mod whole;
 mod wrong;
