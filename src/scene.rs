@@ -51,8 +51,11 @@ pub struct Scene {
     options: Options,
 }
 
-/// Reads a scene's text; bytes that are no text are a diagnostic.
-fn text(path: &Path) -> Outcome<(String, String)> {
+/// Reads a scene's name and text; bytes that are no text are a diagnostic.
+///
+/// # Errors
+/// Where it cannot be read, or is no text.
+pub fn text(path: &Path) -> Outcome<(String, String)> {
     let bytes = files::read(path)?;
     let name = path.display().to_string();
     let (text, said) = syntax::decode(&bytes, 0);
@@ -160,7 +163,8 @@ impl Scene {
     }
 }
 
-fn wrong(sources: Sources, diagnostics: Vec<Diagnostic>) -> Failure {
+/// The failure of texts about which something was said.
+pub fn wrong(sources: Sources, diagnostics: Vec<Diagnostic>) -> Failure {
     Failure::Scene(Box::new(Said {
         sources,
         diagnostics,

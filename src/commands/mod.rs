@@ -3,6 +3,7 @@
 mod build;
 mod check;
 mod compare;
+mod fmt;
 mod render;
 mod run;
 mod targets;
@@ -24,6 +25,8 @@ pub enum Command {
     Run(run::Args),
     /// Run on several targets: pictures side by side, one table
     Compare(compare::Args),
+    /// Format scenes in place
+    Fmt(fmt::Args),
     /// Run any program on a bundled machine
     Vm(vm::Args),
     /// List the targets, their modes and formats
@@ -42,6 +45,7 @@ impl Command {
             Command::Build(args) => build::run(args),
             Command::Run(args) => run::run(args),
             Command::Compare(args) => compare::run(args),
+            Command::Fmt(args) => fmt::run(args),
             Command::Vm(args) => vm::run(args),
             Command::Targets(args) => targets::run(args),
         }

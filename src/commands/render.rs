@@ -5,7 +5,7 @@ use crate::failure::Outcome;
 use crate::picture::PictureFile;
 use crate::scene::{NATIVE_OFFSET, Scene, SceneArgs};
 use crate::target_args::{self, ScreenArgs};
-use crate::{say, say_json};
+use crate::{ascii, say, say_json};
 use serde_json::json;
 use slowlight_compiler::target::Target;
 use std::path::PathBuf;
@@ -27,8 +27,11 @@ pub struct Args {
     /// Where to write the picture: .png, .pgm (ink indices) or .pbm (two inks)
     #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
-    /// Print size and digest as JSON
+    /// Show the picture as text
     #[arg(long)]
+    ascii: bool,
+    /// Print size and digest as JSON
+    #[arg(long, conflicts_with = "ascii")]
     json: bool,
 }
 
@@ -54,7 +57,9 @@ pub fn run(args: &Args) -> Outcome<()> {
     let drawn = native(&graph, window)?;
     let picture = drawn.picture();
     output.write(&picture)?;
-    if args.json {
+    if args.ascii {
+        say(&ascii::text(&picture, ascii::COLUMNS));
+    } else if args.json {
         say_json(&json!({
             "scene": scene.name,
             "inks": picture.palette.len(),

@@ -2,6 +2,7 @@
 
 mod bbc;
 mod cli;
+mod cli_fmt;
 mod cli_run;
 mod cli_wrong;
 mod house;
