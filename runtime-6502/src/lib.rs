@@ -37,7 +37,7 @@ pub mod write;
 #[cfg(test)]
 mod tests;
 
-use slowlight_routine::{Bits, Format, Range, Runtime, Value};
+use slowlight_routine::{Bits, Format, Runtime, Value};
 
 /// The first byte of the zero page that the runtime leaves alone.
 pub const FREE_ZERO_PAGE: u8 = 0x1E;
@@ -60,6 +60,7 @@ pub static FIXED16_16: Runtime = Runtime {
     encode,
     decode,
     quotient: f64::INFINITY,
+    param_most: 32767.0,
     param_digits,
     param_bits,
 };
@@ -86,7 +87,7 @@ fn decode(bits: Bits, format: Format) -> Value {
 }
 
 /// Thousandths, which fit 32 bits for every value that the format has.
-fn param_digits(_: Range) -> Option<u8> {
+fn param_digits(_: f64, _: bool) -> Option<u8> {
     Some(3)
 }
 

@@ -26,7 +26,7 @@ mod routines;
 
 use slowlight_isa::real40::Real40;
 use slowlight_isa::real40::text::{Parsed, parse};
-use slowlight_routine::{Bits, Format, Range, Runtime, Value};
+use slowlight_routine::{Bits, Format, Runtime, Value};
 
 /// The reals.
 pub const REAL: Format = Format::Real40;
@@ -69,6 +69,7 @@ pub static RUNTIME: Runtime = Runtime {
     encode,
     decode,
     quotient: FAR,
+    param_most: BIG,
     param_digits: decimal,
     param_bits,
 };
@@ -136,7 +137,7 @@ fn decode(bits: Bits, format: Format) -> Value {
 }
 
 /// Params are decimals.
-fn decimal(_: Range) -> Option<u8> {
+fn decimal(_: f64, _: bool) -> Option<u8> {
     None
 }
 

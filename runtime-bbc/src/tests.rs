@@ -7,7 +7,7 @@ use super::*;
 use proptest::prelude::*;
 use proptest::strategy::ValueTree;
 use proptest::test_runner::TestRunner;
-use slowlight_routine::{Error, Form, Op, Part, Routine, Source};
+use slowlight_routine::{Error, Form, Op, Part, Range, Routine, Source};
 use slowlight_vm::Stop;
 use slowlight_vm::bbc::{Config, Dialect, Machine, tokenise};
 

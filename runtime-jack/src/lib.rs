@@ -41,7 +41,7 @@ mod tests;
 pub use parts::{classes, has_init};
 
 use model::Float;
-use slowlight_routine::{Bits, Format, Range, Runtime, Value};
+use slowlight_routine::{Bits, Format, Runtime, Value};
 
 /// The level of a variable, a call, or what stands in parentheses.
 pub const TERM: u8 = 1;
@@ -62,6 +62,7 @@ pub static F316: Runtime = Runtime {
     encode,
     decode,
     quotient: f64::INFINITY,
+    param_most: model::MOST as f64,
     param_digits,
     param_bits,
 };
@@ -83,13 +84,12 @@ fn decode(bits: Bits, format: Format) -> Value {
     }
 }
 
-/// As many digits, up to four, as leave the greatest magnitude within an int.
-fn param_digits(range: Range) -> Option<u8> {
-    if !range.magnitude().is_finite() {
-        return Some(3);
-    }
-    let fits = |d: &u8| range.magnitude() * 10f64.powi(i32::from(*d)) <= f64::from(model::MOST);
-    Some((0..=4).rev().find(fits).unwrap_or(0))
+/// As many digits, up to four, as leave the greatest magnitude within an int;
+/// up to three without a range, so that there is room for other values.
+fn param_digits(greatest: f64, ranged: bool) -> Option<u8> {
+    let fits = |d: &u8| greatest * 10f64.powi(i32::from(*d)) <= f64::from(model::MOST);
+    let most = if ranged { 4 } else { 3 };
+    Some((0..=most).rev().find(fits).unwrap_or(0))
 }
 
 /// The program divides the two ints as Floats.

@@ -176,9 +176,14 @@ pub struct Runtime {
     /// by 0 among them, saturate there. A runtime may choose it below its
     /// format's end, so that what is computed from a quotient needs no guard.
     pub quotient: f64,
+    /// The greatest magnitude of a real `param`, its range included, that the
+    /// generated source can write and the program can take.
+    pub param_most: f64,
     /// How a real `param` is written in the generated source: `None` as a
-    /// decimal, `Some(d)` as an integer scaled by 10^d, for a value of this range.
-    pub param_digits: fn(Range) -> Option<u8>,
+    /// decimal, `Some(d)` as an integer scaled by 10^d. `greatest` is the
+    /// magnitude of its value and range, at most [`Runtime::param_most`];
+    /// without a range, what it may be changed to is not known.
+    pub param_digits: fn(greatest: f64, ranged: bool) -> Option<u8>,
     /// The bits that the generated program makes at its start of a real param
     /// written as the integer `scaled` with `digits` decimal digits.
     pub param_bits: fn(scaled: i64, digits: u8) -> Bits,

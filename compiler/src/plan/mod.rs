@@ -31,7 +31,10 @@
 
 mod fold_uses;
 mod names;
+mod params;
 pub mod print;
+
+pub use params::ParamPlan;
 
 use crate::flow::graph::*;
 use crate::flow::tree::*;
@@ -41,25 +44,8 @@ use crate::passes::schedule::{missing, schedule};
 use crate::range::{Ranges, Slack, ranges};
 use crate::source::Diagnostic;
 use crate::target::{Mode, Target};
-use slowlight_routine::{Bits, Format, Range, Routine, Runtime, Type, Value};
+use slowlight_routine::{Bits, Format, Routine, Runtime, Type, Value};
 use std::collections::HashMap;
-
-/// How the parameter block of the generated source writes a param's scalar.
-#[derive(Clone, Debug, PartialEq)]
-pub struct ParamPlan {
-    /// Its name there: `eye_y`.
-    pub label: String,
-    /// `None`: written as a decimal; `Some(d)`: as an integer, the value times 10^d.
-    pub digits: Option<u8>,
-    /// The value as written.
-    pub text: String,
-    /// The range as written, least and greatest; none where the scene gives none.
-    pub range: Option<(String, String)>,
-    /// What the program makes of it.
-    pub bits: Bits,
-    /// The value that `text` stands for.
-    pub value: f64,
-}
 
 /// What to build, beside the scene and the target.
 #[derive(Clone, Debug, PartialEq)]
@@ -192,7 +178,7 @@ impl Plan {
 /// Plans a graph that `sema` lowered for this target's inks and offset.
 pub fn plan(graph: &Graph, target: &'static Target, goal: &Goal) -> Result<Plan, Vec<Diagnostic>> {
     let runtime = target.runtime;
-    check_params(graph, runtime)?;
+    let params = params::params(graph, runtime)?;
     let slack = Slack::of(runtime);
     let mut graph = fold(graph);
     let mut tree = schedule(&graph);
@@ -218,7 +204,6 @@ pub fn plan(graph: &Graph, target: &'static Target, goal: &Goal) -> Result<Plan,
         Some((first, last)) => (first.clamp(rows.0, rows.1), last.clamp(rows.0, rows.1)),
         None => rows,
     };
-    let params = graph.params.iter().map(|p| param(p, runtime)).collect();
     let homes = names::homes(&graph, &tree);
     Ok(Plan {
         name: goal.name.clone(),
@@ -251,85 +236,6 @@ fn frame(image: &Image, mode: &Mode) -> ((i32, i32), (u32, u32), (u32, u32)) {
     let (left, columns) = axis(image.width, mode.width);
     let (top, rows) = axis(image.height, mode.height);
     ((left, top), columns, rows)
-}
-
-fn check_params(graph: &Graph, runtime: &Runtime) -> Result<(), Vec<Diagnostic>> {
-    let limited = matches!(runtime.real, Format::Fixed { .. });
-    let lacking = graph
-        .params
-        .iter()
-        .filter(|p| limited && p.ty == Type::Real && p.range.is_none());
-    let said: Vec<Diagnostic> = lacking
-        .map(|p| {
-            let message = format!(
-                "`{}` has no range, and {} is a fixed-point format",
-                p.name, runtime.format
-            );
-            Diagnostic::error(p.span, message)
-                .label("how large may it become?")
-                .help("say it: `param ... = value in least .. greatest;`, or fold it with --freeze")
-        })
-        .collect();
-    if said.is_empty() { Ok(()) } else { Err(said) }
-}
-
-fn param(p: &Param, runtime: &Runtime) -> ParamPlan {
-    let range = p.range.unwrap_or(Range::ALL);
-    let digits = if p.ty == Type::Real {
-        (runtime.param_digits)(range)
-    } else {
-        Some(0)
-    };
-    let scale = 10f64.powi(i32::from(digits.unwrap_or(0)));
-    let whole = |x: f64| (x * scale).round() as i64;
-    let (text, bits, value) = match (digits, p.ty) {
-        (Some(d), Type::Real) => {
-            let n = whole(p.value);
-            (n.to_string(), (runtime.param_bits)(n, d), n as f64 / scale)
-        }
-        (_, Type::Real) => {
-            let bits = (runtime.encode)(Value::Real(p.value), runtime.real);
-            (decimal(p.value), bits, p.value)
-        }
-        _ => {
-            let value = if p.ty == Type::Int {
-                Value::Int(p.value as i32)
-            } else {
-                Value::Bool(p.value != 0.0)
-            };
-            let bits = (runtime.encode)(value, runtime.format_of(p.ty));
-            ((p.value as i64).to_string(), bits, p.value)
-        }
-    };
-    let written = |x: f64| {
-        if digits.is_some() {
-            whole(x).to_string()
-        } else {
-            decimal(x)
-        }
-    };
-    let range = p.range.map(|r| (written(r.lo), written(r.hi)));
-    ParamPlan {
-        label: p.label(),
-        digits,
-        text,
-        range,
-        bits,
-        value,
-    }
-}
-
-/// A decimal with up to ten digits, as BASIC reads it.
-fn decimal(x: f64) -> String {
-    let plain = format!("{x}");
-    if plain.bytes().filter(u8::is_ascii_digit).count() <= 10 {
-        return plain;
-    }
-    let short = format!("{x:.9e}");
-    match short.parse::<f64>() {
-        Ok(y) if (1e-3..1e9).contains(&y.abs()) => format!("{y}"),
-        _ => short.replace('e', "E"),
-    }
 }
 
 type Chosen = Vec<Option<&'static Routine>>;

@@ -166,13 +166,13 @@ fn a_class_holds_what_is_needed_and_no_more() {
 
 #[test]
 fn params_have_as_many_digits_as_an_int_holds() {
-    use slowlight_routine::Range;
-    let digits = |lo, hi| (F316.param_digits)(Range::new(lo, hi));
-    assert_eq!(digits(-3.0, 3.0), Some(4));
-    assert_eq!(digits(-3.0, 3.5), Some(3));
-    assert_eq!(digits(0.0, 327.67), Some(2));
-    assert_eq!(digits(0.0, 1e9), Some(0));
-    assert_eq!((F316.param_digits)(Range::ALL), Some(3));
+    let digits = |greatest| (F316.param_digits)(greatest, true);
+    assert_eq!(digits(3.0), Some(4));
+    assert_eq!(digits(3.5), Some(3));
+    assert_eq!(digits(327.67), Some(2));
+    assert_eq!(digits(F316.param_most), Some(0));
+    assert_eq!((F316.param_digits)(0.5, false), Some(3));
+    assert_eq!((F316.param_digits)(100.0, false), Some(2));
     let value = Float::from_bits((F316.param_bits)(-100, 3)).value();
     assert!((value + 0.1).abs() < 0.1 / 4096.0, "{value}");
     assert_eq!((F316.param_bits)(1_000_000, 0), (F316.param_bits)(32767, 0));
