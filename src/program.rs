@@ -93,11 +93,14 @@ fn block<'d>(plan: &Plan, text: &'d str) -> Option<Vec<&'d str>> {
     Some(names)
 }
 
-/// Whether a target may have made `name` of a label: with a number or `_`
-/// behind it where it is taken, and with the sign of its type.
+/// Whether a target may have made `name` of a label: in small letters, with a
+/// number or `_` behind it where it is taken, and with the sign of its type.
 fn stands_for(name: &str, label: &str) -> bool {
     let name = name.trim_end_matches('%');
-    let rest = name.strip_prefix(label);
+    let small = label.to_ascii_lowercase();
+    let rest = name
+        .strip_prefix(label)
+        .or_else(|| name.strip_prefix(&small));
     rest.is_some_and(|r| r.is_empty() || r.strip_prefix('_').is_some_and(is_digits))
 }
 
@@ -185,6 +188,9 @@ mod tests {
         }
         for name in ["eye_x", "eyes", "ey", "my_eye", "Eye"] {
             assert!(!stands_for(name, "eye"), "{name}");
+        }
+        for name in ["ENDpoint_x", "endpoint_x", "endpoint_x_2%"] {
+            assert!(stands_for(name, "ENDpoint_x"), "{name}");
         }
     }
 }

@@ -227,8 +227,14 @@ param sign: real = 1 in 0 .. 4;
 param x1: bool = true;
 param Count: real = 1 in 0 .. 4;
 param count: real = 1 in 0 .. 4;
+param COUNT: real = 0.5 in 0 .. 4;
+param TO: int = 2 in 0 .. 4;
+param X: int = 3 in 0 .. 4;
+param ENDpoint: vec2 = (0.25, 1.5) in (0, 0) .. (4, 4);
 draw (x, y) = {
-  let sum = a + field + Left + lda + sign + Count + count;
+  let endpoint_x = a + field + Left + lda + sign + Count + count;
+  let to = (if endpoint_x > 2 then TO + y else X) + x;
+  let sum = endpoint_x + COUNT + TO * X + ENDpoint.x * ENDpoint.y + to * to;
   ink(floor((sum + x) / 8) + (if x1 then 0 else 1))
 };
 ";
@@ -242,8 +248,27 @@ fn parameters_are_found_under_any_name() {
         let run = ["run", "spot.scn", "--target", &target, "--program", "out"];
         let same = json(dir, &[&run[..], &["--json"]].concat());
         assert_eq!(same["differs_from_model"], 0, "{target}");
-        std::fs::remove_dir_all(dir.join("out")).expect("removed");
+        // Each under its own name: one changed is that one.
+        let out = dir.join("out");
+        let names = ["ENDpoint_y", "endpoint_y"];
+        let edited: usize = names
+            .iter()
+            .map(|name| edit(&out, |t| with_value(t, name, double)))
+            .sum();
+        assert_eq!(edited, 1, "{target}");
+        let edited = json(dir, &[&run[..], &["--json"]].concat());
+        let set = ["run", "spot.scn", "--target", &target, "--json"];
+        let set = json(dir, &[&set[..], &["--set", "ENDpoint=0.25,3"]].concat());
+        assert_eq!(edited["differs_from_model"], 0, "{target}");
+        assert_eq!(edited["inks_sha256"], set["inks_sha256"], "{target}");
+        std::fs::remove_dir_all(out).expect("removed");
     }
+}
+
+/// A number of the parameter block, doubled.
+fn double(number: &str) -> String {
+    let old: f64 = number.parse().expect("a number");
+    (2.0 * old).to_string()
 }
 
 #[test]

@@ -1,6 +1,6 @@
 //! Values as text.
 
-use super::names::{Names, param_name};
+use super::names::Names;
 use crate::flow::graph::*;
 use crate::plan::Plan;
 use slowlight_routine::{Form, Op, Value};
@@ -64,10 +64,7 @@ impl<'p> Expressions<'p> {
         let plan = self.plan;
         match (plan.graph.node(id), plan.place(id)) {
             (Node::Const(c), _) => self.constant(c.value()),
-            (Node::Param(p), _) => {
-                let param = plan.graph.params.get(p.0 as usize);
-                Text::operand(param.map_or("0".to_owned(), |p| param_name(&p.label(), p.ty)))
-            }
+            (Node::Param(p), _) => Text::operand(self.names.param(p.0 as usize)),
             (Node::Axis(Axis::X), _) => Text::operand("X%"),
             (Node::Axis(Axis::Y), _) => Text::operand("Y%"),
             (_, Some(place)) => Text::operand(self.names.home(place)),

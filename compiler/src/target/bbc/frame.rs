@@ -2,7 +2,6 @@
 
 use super::code::Code;
 use super::lines::Lines;
-use super::names::param_name;
 use super::screen;
 use crate::plan::Plan;
 use slowlight_routine::{Source, Type, Value};
@@ -35,8 +34,8 @@ fn parameters(plan: &Plan, code: &mut Code<'_>, first: &str, last: &str) {
         plan.name, mode.width, mode.height, mode.inks, plan.target.name
     ));
     code.line("REM Change what you like here:");
-    for (param, written) in plan.graph.params.iter().zip(&plan.params) {
-        let name = param_name(&written.label, param.ty);
+    for (k, (param, written)) in plan.graph.params.iter().zip(&plan.params).enumerate() {
+        let name = code.values.names.param(k);
         let range = match &written.range {
             Some((lo, hi)) => format!(":REM {lo} to {hi}"),
             None => String::new(),
@@ -85,8 +84,8 @@ fn picture(plan: &Plan, code: &mut Code<'_>, first: &str, last: &str) {
 
 fn setup(plan: &Plan, code: &mut Code<'_>, first: &str, last: &str) {
     code.line("DEF PROCsetup");
-    for (param, written) in plan.graph.params.iter().zip(&plan.params) {
-        let name = param_name(&written.label, param.ty);
+    for (k, (param, written)) in plan.graph.params.iter().zip(&plan.params).enumerate() {
+        let name = code.values.names.param(k).to_owned();
         if let Some((lo, hi)) = &written.range {
             code.lines.line(
                 format!("IF {name}<{lo} OR {name}>{hi} THEN PRINT \"{name} must be from {lo} to {hi}\":END"),

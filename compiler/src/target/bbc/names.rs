@@ -2,40 +2,42 @@
 
 use crate::flow::tree::Place;
 use crate::plan::Plan;
-use slowlight_routine::{Format, Type};
+use slowlight_routine::Type;
 use std::collections::{HashMap, HashSet};
 
 /// Names of everything in the program.
 pub struct Names {
     homes: HashMap<Place, String>,
+    /// The params, in the plan's order.
+    params: Vec<String>,
     pub tables: Vec<String>,
     taken: HashSet<String>,
     /// Decimal constants by their text, in order of first use.
     constants: Vec<(String, String)>,
 }
 
-fn suffixed(name: &str, format: Format) -> String {
-    if format == Format::Real40 {
-        name.to_owned()
-    } else {
-        format!("{name}%")
-    }
+/// What a name ends in.
+fn suffix(ty: Type) -> &'static str {
+    if ty == Type::Real { "" } else { "%" }
 }
 
 impl Names {
     pub fn new(plan: &Plan) -> Names {
         let mut names = Names {
             homes: HashMap::new(),
+            params: Vec::new(),
             tables: Vec::new(),
             taken: HashSet::new(),
             constants: Vec::new(),
         };
         for p in &plan.graph.params {
-            names.taken.insert(param_name(&p.label(), p.ty));
+            // In capitals `COUNT` and `TOp` would hold keywords, and `X%` is
+            // the picture's own; no machine here knows keywords in small letters.
+            let name = names.unique(&p.label().to_ascii_lowercase(), suffix(p.ty));
+            names.params.push(name);
         }
         for (place, format) in plan.places() {
-            let name = suffixed(plan.home(place), format);
-            names.taken.insert(name.clone());
+            let name = names.unique(plan.home(place), suffix(format.scalar()));
             names.homes.insert(place, name);
         }
         for table in &plan.graph.tables {
@@ -51,9 +53,8 @@ impl Names {
             } else {
                 format!("table{clean}")
             };
-            let suffix = if table.ty == Type::Real { "" } else { "%" };
             // With its bracket, an array's name is its own.
-            let name = names.unique(&clean, &format!("{suffix}("));
+            let name = names.unique(&clean, &format!("{}(", suffix(table.ty)));
             names.tables.push(name.trim_end_matches('(').to_owned());
         }
         names
@@ -64,10 +65,14 @@ impl Names {
         let mut name = format!("{base}{suffix}");
         let mut number = 2;
         while !self.taken.insert(name.clone()) {
-            name = format!("{base}{number}{suffix}");
+            name = format!("{base}_{number}{suffix}");
             number += 1;
         }
         name
+    }
+
+    pub fn param(&self, at: usize) -> &str {
+        self.params.get(at).map_or("0", String::as_str)
     }
 
     pub fn home(&self, place: Place) -> &str {
@@ -103,14 +108,5 @@ impl Names {
         self.constants
             .iter()
             .map(|(text, name)| format!("{name}={text}"))
-    }
-}
-
-/// What a param is called.
-pub fn param_name(label: &str, ty: Type) -> String {
-    if ty == Type::Real {
-        label.to_owned()
-    } else {
-        format!("{label}%")
     }
 }

@@ -295,6 +295,8 @@ impl Uses<'_> {
 }
 
 /// Makes names that the assembler and the rest of the program leave free.
+/// Kept in small letters: assemblers know their own words, and many know all
+/// symbols, in either case.
 struct Names(BTreeSet<String>);
 
 impl Names {
@@ -307,7 +309,7 @@ impl Names {
             };
             for line in text.lines() {
                 let name = line.split([' ', ':', '=']).next().unwrap_or_default();
-                taken.insert(name.to_owned());
+                taken.insert(name.to_ascii_lowercase());
             }
         }
         Names(taken)
@@ -317,11 +319,12 @@ impl Names {
         let mut name = wanted.to_owned();
         // Numbered labels are a word and a number; a table's have its plane's behind that.
         let numbered = wanted.ends_with(|c: char| c.is_ascii_digit()) && !wanted.contains('_');
-        if numbered || wanted.starts_with("table") || opcodes::is_mnemonic(wanted) {
+        let small = wanted.to_ascii_lowercase();
+        if numbered || small.starts_with("table") || opcodes::is_mnemonic(&small) {
             name.push('_');
         }
         let mut number = 1;
-        while !self.0.insert(name.clone()) {
+        while !self.0.insert(name.to_ascii_lowercase()) {
             number += 1;
             name = format!("{wanted}_{number}");
         }
