@@ -3,6 +3,7 @@
 //! pixel differs, and every other difference has a count and a cause.
 #![allow(clippy::unwrap_used)]
 
+mod gradients;
 mod maze;
 mod mirrors;
 mod original;
