@@ -9,10 +9,10 @@ use dashu_float::ops::SquareRoot;
 use std::fmt::Write;
 
 /// A number of 200 bits.
-type Big = FBig;
-type Point = [Big; 3];
+pub type Big = FBig;
+pub type Point = [Big; 3];
 
-fn big(v: f64) -> Big {
+pub fn big(v: f64) -> Big {
     Big::try_from(v).unwrap().with_precision(200).value()
 }
 
@@ -36,6 +36,21 @@ fn across(q: &Point) -> Point {
 }
 
 const CENTRE: [f64; 3] = [0.5, -0.25, 0.125];
+
+/// The implicit functions of shapes round `CENTRE`.
+pub fn sphere(p: &Point) -> Big {
+    let q = minus(p, CENTRE);
+    dot(&q, &q) - big(1.0)
+}
+
+pub fn plane(p: &Point) -> Big {
+    dot(p, &[0.6, 0.8, 0.0].map(big)) - big(0.3)
+}
+
+pub fn cylinder(p: &Point) -> Big {
+    let q = across(&minus(p, CENTRE));
+    dot(&q, &q) - big(0.7) * big(0.7)
+}
 
 /// A shape in the language, the facet that is differentiated, and the same by hand.
 type Case = (&'static str, &'static str, fn(&Point) -> Big);
@@ -100,15 +115,19 @@ const CASES: [Case; 9] = [
 
 const POINTS: usize = 1000;
 
-/// Points within 2 of the origin, a multiple of 1/4096 in each coordinate.
-fn points() -> Vec<[f64; 3]> {
+/// Multiples of 1/4096 from -2 to 2.
+pub fn random() -> impl FnMut() -> f64 {
     let mut state = 1u64;
-    let mut next = || {
+    move || {
         state = state
             .wrapping_mul(6364136223846793005)
             .wrapping_add(1442695040888963407);
         (state >> 50) as f64 / 4096.0 - 2.0
-    };
+    }
+}
+
+fn points() -> Vec<[f64; 3]> {
+    let mut next = random();
     (0..POINTS).map(|_| [next(), next(), next()]).collect()
 }
 

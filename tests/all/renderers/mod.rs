@@ -4,6 +4,7 @@
 #![allow(clippy::unwrap_used)]
 
 mod gradients;
+mod hits;
 mod maze;
 mod mirrors;
 mod original;
