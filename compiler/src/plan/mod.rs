@@ -38,13 +38,14 @@ pub use params::ParamPlan;
 
 use crate::flow::graph::*;
 use crate::flow::tree::*;
+use crate::flow::verify::verify;
 use crate::passes::fold::fold;
 use crate::passes::narrow::narrow;
 use crate::passes::schedule::{missing, schedule};
 use crate::range::{Ranges, Slack, ranges};
 use crate::source::Diagnostic;
-use crate::target::{Mode, Target};
-use slowlight_routine::{Bits, Format, Routine, Runtime, Type, Value};
+use crate::target::{Mode, TARGETS, Target};
+use slowlight_routine::{Bits, Format, Op, Routine, Runtime, Type, Value};
 use std::collections::HashMap;
 
 /// What to build, beside the scene and the target.
@@ -178,6 +179,11 @@ impl Plan {
 /// Plans a graph that `sema` lowered for this target's inks and offset.
 pub fn plan(graph: &Graph, target: &'static Target, goal: &Goal) -> Result<Plan, Vec<Diagnostic>> {
     let runtime = target.runtime;
+    if let Err(broken) = verify(graph) {
+        let message =
+            format!("the graph is broken: {broken}; a fault of the compiler, please report it");
+        return Err(vec![Diagnostic::error(graph.span(broken.node), message)]);
+    }
     let params = params::params(graph, runtime)?;
     let slack = Slack::of(runtime);
     let mut graph = fold(graph);
@@ -238,6 +244,16 @@ fn frame(image: &Image, mode: &Mode) -> ((i32, i32), (u32, u32), (u32, u32)) {
     ((left, top), columns, rows)
 }
 
+/// Which targets can compute an operation.
+fn elsewhere(op: Op) -> String {
+    let can = |t: &&&Target| t.runtime.routines.iter().any(|r| r.op == op);
+    let names: Vec<&str> = TARGETS.iter().filter(can).map(|t| t.name).collect();
+    match names.is_empty() {
+        true => "no target can yet".to_owned(),
+        false => format!("these can: {}", names.join(", ")),
+    }
+}
+
 type Chosen = Vec<Option<&'static Routine>>;
 
 /// The first routine in the runtime's list, for each operation, whose domain
@@ -268,7 +284,7 @@ fn choose(
                         graph.span(id),
                         format!("{} cannot compute `{}` yet", runtime.name, op.name()),
                     )
-                    .help("`slowlight targets` lists what each target can compute"),
+                    .help(elsewhere(op)),
                 ),
             }
         });
