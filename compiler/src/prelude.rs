@@ -19,4 +19,6 @@ pub const PRELUDE: &[Text] = texts! {
     "grid.scn"
     "lights.scn"
     "dithers.scn"
+    "noise.scn"
+    "forms.scn"
 };

@@ -7,6 +7,7 @@ mod cli_run;
 mod cli_wrong;
 mod house;
 mod jack;
+mod library;
 mod mos6502;
 #[cfg(feature = "peers")]
 mod peers_brandy;
