@@ -182,7 +182,7 @@ fn options_change_the_graph() {
     show("freeze unknown", freeze(Freeze::Some(vec!["ear".into()])));
     show("without mirrors", without("mirrors"));
     show("without tiles", without("tiles"));
-    show("without unknown", without("fog"));
+    show("without unknown", without("haze"));
     show("two inks", inks(2));
     show("three inks", inks(3));
     show("sixteen inks", inks(16));
