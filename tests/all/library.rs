@@ -102,7 +102,7 @@ fn what_is_not_called_costs_nothing() {
             }
         }
         // The effects, and the shapes made of shapes, are among them.
-        for part in ["effect ", "shape quadric", "shape twist", "fn refract"] {
+        for part in ["effect ", "shape quadric", "shape twist", "fn stripes"] {
             assert!(spared.iter().any(|i| i.starts_with(part)), "{name}: {part}");
         }
         let effects = spared.iter().filter(|i| i.starts_with("effect ")).count();
