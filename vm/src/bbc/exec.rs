@@ -1,11 +1,11 @@
-//! Carries out statements.
+//! Carries out statements: the run from one to the next, conditions and jumps.
+//! `loops` has FOR and NEXT, `arrays` DIM and READ, `io` what deals with the world.
 
-use super::ast::{DimItem, Expr, Kind, OnKind, Place, Program, Stmt, Target};
+use super::ast::{Expr, Kind, OnKind, Program, Stmt, Target};
 use super::code::Code;
 use super::cost;
 use super::error::Error;
 use super::state::State;
-use super::values::{Array, Elements, Home, Loop, Num, Value, array_index, is_numeric};
 use crate::{Progress, Stop};
 
 type Result<T> = std::result::Result<T, Error>;
@@ -13,7 +13,6 @@ type Result<T> = std::result::Result<T, Error>;
 /// "The next op" after a function's result: leave the loop.
 pub(crate) const DONE: u32 = u32::MAX;
 
-const MOST_FORS: usize = 10;
 const MOST_REPEATS: usize = 20;
 const MOST_GOSUBS: usize = 26;
 /// Cycles between two looks at the limit and the watcher.
@@ -265,165 +264,5 @@ impl State {
             self.gosubs.push(at + 1);
         }
         self.go(p, target)
-    }
-
-    fn start_for(
-        &mut self,
-        p: &Code<'_>,
-        place: &Place,
-        from: &Expr,
-        to: &Expr,
-        step: Option<&Expr>,
-        body: u32,
-    ) -> Result<()> {
-        let home = self.home(p, place)?;
-        let start = self.num(p, from)?;
-        self.store(home, Value::Num(start))?;
-        if self.loops.len() >= MOST_FORS {
-            return Err(Error::TooManyFors);
-        }
-        let to = self.num(p, to)?;
-        let step = match step {
-            Some(e) => self.num(p, e)?,
-            None => Num::Int(1),
-        };
-        let int = matches!(home, Home::Int(_));
-        let fit = |n: Num| -> Result<Num> {
-            Ok(if int {
-                Num::Int(n.int()?)
-            } else {
-                Num::Real(n.real())
-            })
-        };
-        self.loops.push(Loop {
-            home,
-            to: fit(to)?,
-            step: fit(step)?,
-            body,
-        });
-        Ok(())
-    }
-
-    fn next_for(&mut self, p: &Code<'_>, list: &[Option<Place>], next: u32) -> Result<u32> {
-        for place in list {
-            let wanted = match place {
-                Some(place) => Some(self.home(p, place)?),
-                None => None,
-            };
-            if let Some(back) = self.turn(wanted)? {
-                return Ok(back);
-            }
-        }
-        Ok(next)
-    }
-
-    /// One turn of the innermost loop (or of the wanted variable's, dropping those within).
-    /// Answers where it goes on, if it does.
-    fn turn(&mut self, wanted: Option<Home>) -> Result<Option<u32>> {
-        if self.loops.is_empty() {
-            return Err(Error::NoFor);
-        }
-        if let Some(home) = wanted {
-            while self.loops.last().is_some_and(|l| l.home != home) {
-                self.loops.pop();
-            }
-        }
-        let Some(l) = self.loops.last().cloned() else {
-            return Err(Error::CantMatchFor);
-        };
-        let int = matches!(l.home, Home::Int(_));
-        self.cycles += cost::next(int);
-        let over = match (l.home, l.to, l.step) {
-            (Home::Int(slot), Num::Int(to), Num::Int(step)) => {
-                let v = self
-                    .ints
-                    .get_mut(slot as usize)
-                    .ok_or(Error::NoSuchVariable)?;
-                v.value = v.value.wrapping_add(step);
-                if step < 0 { v.value < to } else { v.value > to }
-            }
-            (Home::Real(slot), Num::Real(to), Num::Real(step)) => {
-                let v = self
-                    .reals
-                    .get_mut(slot as usize)
-                    .ok_or(Error::NoSuchVariable)?;
-                v.value = slowlight_isa::real40::arith::add(v.value, step)?;
-                if step.is_negative() {
-                    v.value < to
-                } else {
-                    v.value > to
-                }
-            }
-            _ => return Err(Error::ForVariable),
-        };
-        if over {
-            self.loops.pop();
-            return Ok(None);
-        }
-        Ok(Some(l.body))
-    }
-
-    fn dim(&mut self, p: &Code<'_>, item: &DimItem) -> Result<()> {
-        match item {
-            DimItem::Block(place, e) => {
-                let home = self.home(p, place)?;
-                // DIM P% -1 takes nothing and gives the heap's end.
-                let bytes = self.int(p, e)?.checked_add(1).ok_or(Error::DimSpace)?;
-                let bytes = u32::try_from(bytes).map_err(|_| Error::BadDim)?;
-                let start = self.allocate(bytes).map_err(|_| Error::DimSpace)?;
-                self.store(home, Value::Num(Num::Int(start as i32)))
-            }
-            DimItem::Array(kind, slot, bounds) => {
-                if self.array(*kind, *slot).is_ok() {
-                    return Err(Error::BadDim);
-                }
-                let mut dims = Vec::with_capacity(bounds.len());
-                let mut count = 1usize;
-                for e in bounds {
-                    let bound = self.int(p, e)?;
-                    let n = usize::try_from(bound).map_err(|_| Error::BadDim)? + 1;
-                    dims.push(n);
-                    count = count
-                        .checked_mul(n)
-                        .filter(|n| *n < 0x10000)
-                        .ok_or(Error::DimSpace)?;
-                }
-                let size = if *kind == Kind::Reals { 5 } else { 4 };
-                let bytes = 1 + 2 * dims.len() + size * count;
-                let lookup = self.enter(*kind, *slot)?;
-                self.allocate(bytes as u32).map_err(|_| Error::DimSpace)?;
-                self.cycles += 20 * bytes as u64;
-                let elements = match kind {
-                    Kind::Ints => Elements::Int(vec![0; count]),
-                    Kind::Reals => Elements::Real(vec![Default::default(); count]),
-                    _ => Elements::Str(vec![Vec::new(); count]),
-                };
-                let array = Array {
-                    dims,
-                    elements,
-                    lookup,
-                };
-                if let Some(entry) = self.arrays[array_index(*kind)].get_mut(*slot as usize) {
-                    *entry = Some(array);
-                }
-                Ok(())
-            }
-        }
-    }
-
-    fn read(&mut self, p: &Code<'_>, place: &Place) -> Result<()> {
-        let home = self.home(p, place)?;
-        let datum = p.data.get(self.data).ok_or(Error::OutOfData)?;
-        self.data += 1;
-        let text = &datum.text;
-        let value = if is_numeric(place) {
-            // Numbers in DATA may be expressions; most are plain.
-            Value::Num(super::strings::val(text)?)
-        } else {
-            let text = text.strip_prefix(b"\"").unwrap_or(text);
-            Value::Str(text.to_vec())
-        };
-        self.cycles += 100 * text.len() as u64;
-        self.store(home, value)
     }
 }

@@ -17,6 +17,7 @@
 //!   reals instead of wrapping), but Micro's 40-bit arithmetic; Brandy's reals are doubles, and
 //!   the Agon's 40 bits round otherwise.
 
+mod arrays;
 mod ast;
 mod calls;
 mod code;
@@ -27,9 +28,11 @@ mod display;
 mod error;
 mod eval;
 mod exec;
+mod expressions;
 mod files;
 mod functions;
 mod io;
+mod loops;
 mod modes;
 mod names;
 mod plot;

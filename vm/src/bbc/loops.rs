@@ -1,0 +1,116 @@
+//! FOR and NEXT: the machine's stack of ten loops, each of which knows its
+//! variable, its end, its step and where its body starts.
+
+use super::ast::{Expr, Place};
+use super::code::Code;
+use super::cost;
+use super::error::Error;
+use super::state::State;
+use super::values::{Home, Loop, Num, Value};
+
+type Result<T> = std::result::Result<T, Error>;
+
+const MOST_FORS: usize = 10;
+
+impl State {
+    pub(super) fn start_for(
+        &mut self,
+        p: &Code<'_>,
+        place: &Place,
+        from: &Expr,
+        to: &Expr,
+        step: Option<&Expr>,
+        body: u32,
+    ) -> Result<()> {
+        let home = self.home(p, place)?;
+        let start = self.num(p, from)?;
+        self.store(home, Value::Num(start))?;
+        if self.loops.len() >= MOST_FORS {
+            return Err(Error::TooManyFors);
+        }
+        let to = self.num(p, to)?;
+        let step = match step {
+            Some(e) => self.num(p, e)?,
+            None => Num::Int(1),
+        };
+        let int = matches!(home, Home::Int(_));
+        let fit = |n: Num| -> Result<Num> {
+            Ok(if int {
+                Num::Int(n.int()?)
+            } else {
+                Num::Real(n.real())
+            })
+        };
+        self.loops.push(Loop {
+            home,
+            to: fit(to)?,
+            step: fit(step)?,
+            body,
+        });
+        Ok(())
+    }
+
+    pub(super) fn next_for(
+        &mut self,
+        p: &Code<'_>,
+        list: &[Option<Place>],
+        next: u32,
+    ) -> Result<u32> {
+        for place in list {
+            let wanted = match place {
+                Some(place) => Some(self.home(p, place)?),
+                None => None,
+            };
+            if let Some(back) = self.turn(wanted)? {
+                return Ok(back);
+            }
+        }
+        Ok(next)
+    }
+
+    /// One turn of the innermost loop (or of the wanted variable's, dropping those within).
+    /// Answers where it goes on, if it does.
+    fn turn(&mut self, wanted: Option<Home>) -> Result<Option<u32>> {
+        if self.loops.is_empty() {
+            return Err(Error::NoFor);
+        }
+        if let Some(home) = wanted {
+            while self.loops.last().is_some_and(|l| l.home != home) {
+                self.loops.pop();
+            }
+        }
+        let Some(l) = self.loops.last().cloned() else {
+            return Err(Error::CantMatchFor);
+        };
+        let int = matches!(l.home, Home::Int(_));
+        self.cycles += cost::next(int);
+        let over = match (l.home, l.to, l.step) {
+            (Home::Int(slot), Num::Int(to), Num::Int(step)) => {
+                let v = self
+                    .ints
+                    .get_mut(slot as usize)
+                    .ok_or(Error::NoSuchVariable)?;
+                v.value = v.value.wrapping_add(step);
+                if step < 0 { v.value < to } else { v.value > to }
+            }
+            (Home::Real(slot), Num::Real(to), Num::Real(step)) => {
+                let v = self
+                    .reals
+                    .get_mut(slot as usize)
+                    .ok_or(Error::NoSuchVariable)?;
+                v.value = slowlight_isa::real40::arith::add(v.value, step)?;
+                if step.is_negative() {
+                    v.value < to
+                } else {
+                    v.value > to
+                }
+            }
+            _ => return Err(Error::ForVariable),
+        };
+        if over {
+            self.loops.pop();
+            return Ok(None);
+        }
+        Ok(Some(l.body))
+    }
+}
