@@ -20,10 +20,12 @@
 //! their parentheses, as Jack has no precedence.
 //!
 //! - `names`: what everything is called; `code`: statements and expressions;
-//! - `object`: the fields and what fills them; `frame`: the classes around.
+//! - `object`: constants and params; `making`: what fills the fields at the start;
+//! - `frame`: the classes around.
 
 mod code;
 mod frame;
+mod making;
 mod names;
 mod object;
 #[cfg(test)]
@@ -49,7 +51,8 @@ pub static JACK: Target = Target {
     // from its own surface comes out as large; four times that is still far
     // below what a pixel sees.
     offset: 0.015_625,
-    // VM commands a second of the official VM emulator (12.6 to 13.9 million).
+    // VM commands a second of the official VM emulator. Its calls of the operating
+    // system take longer, about 10 microseconds each, which one rate cannot say.
     hertz: 12.6e6,
     emit: frame::program,
 };

@@ -134,4 +134,5 @@ fn classes_are_named_after_the_scene() {
     assert_eq!(class("main"), "SceneMain.jack");
     assert_eq!(class("3d"), "Scene3d.jack");
     assert_eq!(class("\u{e9}"), "Scene.jack");
+    assert_eq!(class("a*/\nb"), "AB.jack");
 }

@@ -1,0 +1,120 @@
+//! What fills the scene's object before anything is drawn.
+
+use super::Line;
+use super::code::{Code, Expression, int};
+use super::frame::{Subroutine, line, subroutine};
+use slowlight_routine::{Format, Type, Value};
+use slowlight_runtime_jack::model::Float;
+
+/// The methods that make constants, Floats and tables, and read the params.
+pub(super) fn making(code: &mut Code) -> Vec<Subroutine> {
+    let plan = code.plan;
+    let mut all = Vec::new();
+
+    let mut taking = Vec::new();
+    let values: Vec<(usize, String)> = code
+        .object
+        .values()
+        .map(|(p, name)| (p as usize, name.to_owned()))
+        .collect();
+    for (at, value) in &values {
+        let (Some(label), Some(param)) =
+            (code.names.params.get(*at).cloned(), plan.params.get(*at))
+        else {
+            continue;
+        };
+        taking.push(line(&format!("do {value}.fromInt({label});")));
+        code.needs.insert("Float.fromInt");
+        if let Some(digits) = param.digits.filter(|d| *d > 0) {
+            code.needs.insert("Float.div");
+            let unit = 10f64.powi(i32::from(digits));
+            let bits = plan.bits(Value::Real(unit));
+            let scale = code.object.constant(&mut code.names, bits, unit);
+            let said = format!("{value} = {label} / {unit}");
+            taking.push(line(&format!(
+                "do {value}.div({value}, {scale}); // {said}"
+            )));
+        }
+    }
+
+    let constants = code.object.constants().iter().map(|c| {
+        let Float { s, e, m } = Float::from_bits(c.bits);
+        let (name, value) = (&c.name, c.value);
+        line(&format!(
+            "let {name} = Float.constant({s}, {e}, {m}); // {value}"
+        ))
+    });
+    let constants: Vec<Line> = constants.collect();
+    if !constants.is_empty() {
+        code.needs.insert("Float.constant");
+    }
+    let floats = code.written.iter().filter(|(_, f)| *f == Format::Float316);
+    let floats = floats.map(|(place, _)| code.names.home(*place).to_owned());
+    let floats: Vec<String> = values.iter().map(|v| v.1.clone()).chain(floats).collect();
+    let made = floats
+        .iter()
+        .map(|name| line(&format!("let {name} = Float.new();")));
+    let made: Vec<Line> = made.collect();
+    if !made.is_empty() {
+        code.needs.insert("Float");
+    }
+    let tables = tables(code);
+    for (name, about, lines) in [
+        (
+            "makeConstants",
+            "Floats that never change: sign, exponent, mantissa.",
+            constants,
+        ),
+        ("makeValues", "A Float for each value.", made),
+        ("makeTables", "The scene's tables.", tables),
+    ] {
+        if !lines.is_empty() {
+            let body = code.divided(lines, name);
+            all.push(subroutine(about, format!("method void {name}()"), body));
+        }
+    }
+    if !taking.is_empty() {
+        let about = "The parameters as Floats.";
+        let body = code.divided(taking, "takeParameters");
+        all.push(subroutine(about, "method void takeParameters()", body));
+    }
+    all
+}
+
+fn tables(code: &mut Code) -> Vec<Line> {
+    let plan = code.plan;
+    let mut lines = Vec::new();
+    let all: Vec<_> = code
+        .names
+        .tables()
+        .map(|(id, name)| (id, name.to_owned()))
+        .collect();
+    for (id, name) in all {
+        let Some(table) = plan.graph.tables.get(id.0 as usize) else {
+            continue;
+        };
+        lines.push(line(&format!(
+            "let {name} = Array.new({});",
+            table.entries.len()
+        )));
+        for (at, entry) in table.entries.iter().enumerate() {
+            let value = entry.value();
+            let bits = plan.bits(value);
+            let text = match (plan.runtime.decode)(bits, plan.runtime.format_of(table.ty)) {
+                Value::Int(i) => int(i),
+                Value::Bool(b) => Expression::term(b.to_string()),
+                Value::Real(_) => {
+                    code.needs.insert("Float.constant");
+                    let Float { s, e, m } = Float::from_bits(bits);
+                    Expression::term(format!("Float.constant({s}, {e}, {m})"))
+                }
+            };
+            let said = match table.ty {
+                Type::Real => format!(" // {}", value.real()),
+                _ => String::new(),
+            };
+            lines.push(line(&format!("let {name}[{at}] = {};{said}", text.text)));
+        }
+    }
+    lines
+}
