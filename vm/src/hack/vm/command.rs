@@ -4,8 +4,8 @@
 //! the upper half holds, at `CONSTANTS + c`, the constant `c`. So every
 //! operand of every command, constants included, is *the word at the sum of
 //! a base cell and an offset*, and an index of 16 bits never needs a check.
-//! No store ever reaches the upper half: a program's own addresses are
-//! masked to 15 bits.
+//! No store ever reaches the upper half: where a program's own address is
+//! above the keyboard's, the run ends in a fault.
 
 /// All the words that commands can name.
 pub(super) type Memory = [u16; 0x10000];

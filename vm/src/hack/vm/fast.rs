@@ -3,7 +3,9 @@
 //! It holds SP in a register; all else is in the RAM. What it leaves to the
 //! plain engine it leaves before having done any of it.
 
-use super::command::{ARG, Binary, FRAME, HEAP, LCL, Memory, Place, SCREEN, SP, THAT, THIS};
+use super::command::{
+    ARG, Binary, FRAME, HEAP, KEYBOARD, LCL, Memory, Place, SCREEN, SP, THAT, THIS,
+};
 use super::fuse::{Fused, Op};
 use super::machine::{EFFORT_LIMIT, Machine};
 use super::os::{self, Native, Trap};
@@ -36,10 +38,11 @@ fn address(memory: &Memory, place: Place) -> u16 {
 }
 
 /// Whether an address that a program computed is in the heap, on the screen
-/// or above: not among the pointers, the statics or the stack, and in the RAM.
+/// or the keyboard's: not among the pointers, the statics or the stack, and
+/// not where there is no memory.
 #[inline(always)]
 fn is_far(address: u16) -> bool {
-    address.cast_signed() >= HEAP.cast_signed()
+    address.wrapping_sub(HEAP) <= KEYBOARD - HEAP
 }
 
 impl Machine<'_> {

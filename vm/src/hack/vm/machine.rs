@@ -141,6 +141,12 @@ impl<'p> Machine<'p> {
         match trap {
             Trap::Halt => Some(Stop::Ended),
             Trap::Fault(message) => Some(Stop::Fault(self.fault(message))),
+            Trap::Address(address) => {
+                let function = self.function();
+                let message =
+                    format!("{function} uses address {address}, and the memory ends at {KEYBOARD}");
+                Some(Stop::Fault(self.fault(message)))
+            }
             Trap::Error(number, why) => {
                 if let Some(function) = self.program.on_error {
                     return match self.enter_error(function, number) {

@@ -37,12 +37,12 @@ impl Machine<'_> {
         let mut next = at + 1;
         match *command {
             Command::Push(place) => {
-                let value = self.memory[usize::from(self.address(place))];
+                let value = self.memory[usize::from(self.address(place)?)];
                 self.push(value)?;
             }
             Command::Pop(place) => {
                 let value = self.pop()?;
-                let address = self.address(place);
+                let address = self.address(place)?;
                 if place.is_field() {
                     self.os.store(&mut self.memory, address, value);
                 } else {
@@ -97,11 +97,11 @@ impl Machine<'_> {
     }
 
     /// The address of an operand.
-    fn address(&self, place: Place) -> u16 {
+    fn address(&self, place: Place) -> Result<u16, Trap> {
         if place.base == CONSTANTS {
-            place.offset
+            Ok(place.offset)
         } else {
-            self.memory[usize::from(place.base)].wrapping_add(place.offset) & RAM_MASK
+            os::inside(self.memory[usize::from(place.base)].wrapping_add(place.offset))
         }
     }
 

@@ -24,6 +24,8 @@ pub(super) enum Trap {
     Error(u16, &'static str),
     /// The machine cannot carry on.
     Fault(String),
+    /// An address where there is no memory.
+    Address(u16),
 }
 
 /// The state of the operating system that is not in the RAM.
@@ -80,6 +82,16 @@ impl Os {
             self.text.push(c);
         }
     }
+}
+
+/// An address that a program computed, if there is memory: the keyboard's is
+/// the last.
+#[inline]
+pub(super) fn inside(address: u16) -> Result<u16, Trap> {
+    if address > KEYBOARD {
+        return Err(Trap::Address(address));
+    }
+    Ok(address)
 }
 
 /// The word at an address that a program computed.
@@ -168,6 +180,28 @@ natives! {
     Wait "Sys.wait" 1
 }
 
+impl Native {
+    /// Whether the first argument is an address: of a word, an array, a string.
+    const fn takes_address(self) -> bool {
+        matches!(
+            self,
+            Native::Peek
+                | Native::Poke
+                | Native::DeAlloc
+                | Native::ArrayDispose
+                | Native::StringDispose
+                | Native::Length
+                | Native::CharAt
+                | Native::SetCharAt
+                | Native::AppendChar
+                | Native::EraseLastChar
+                | Native::IntValue
+                | Native::SetInt
+                | Native::PrintString
+        )
+    }
+}
+
 /// Carries out a call whose arguments are on the stack; answers the result.
 pub(super) fn call(native: Native, memory: &mut Memory, os: &mut Os) -> Result<u16, Trap> {
     if let Some(count) = os.calls.get_mut(native as usize) {
@@ -176,6 +210,9 @@ pub(super) fn call(native: Native, memory: &mut Memory, os: &mut Os) -> Result<u
     let first = memory[usize::from(SP)].wrapping_sub(native.arguments());
     let argument = |n: u16| load(memory, first.wrapping_add(n));
     let [a, b, c, d] = [argument(0), argument(1), argument(2), argument(3)];
+    if native.takes_address() {
+        inside(a)?;
+    }
     match native {
         Native::MathInit | Native::OutputInit | Native::KeyboardInit => Ok(0),
         Native::Abs => Ok(a.cast_signed().wrapping_abs().cast_unsigned()),

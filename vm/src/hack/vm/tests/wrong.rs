@@ -69,6 +69,46 @@ fn every_wrong_line_is_named() {
     }
 }
 
+/// Reads and writes through THAT, of a field, of an array, by the operating
+/// system: all on both engines.
+#[test]
+fn there_is_no_memory_above_the_keyboard() {
+    let address = |n: i32| match n {
+        0..=32767 => format!("push constant {n}"),
+        32768 => "push constant 32767\npush constant 1\nadd".to_owned(),
+        _ => format!("push constant {}\nneg", 65536 - n),
+    };
+    let uses = |at: &str| {
+        [
+            format!("{at}\npop pointer 1\npush that 0\npop static 0"),
+            format!("{at}\npop pointer 0\npush this 0\npop static 0"),
+            format!("{at}\npop pointer 1\npush constant 1\npop that 0"),
+            format!("{at}\npop pointer 1\npush static 1\npop that 0"),
+            format!("{at}\npush constant 0\nadd\npop pointer 1\npush that 0\npop static 0"),
+            format!(
+                "{at}\npush constant 0\nadd\npush constant 1\npop temp 0\npop pointer 1\npush temp 0\npop that 0"
+            ),
+            format!("{at}\ncall Memory.peek 1\npop temp 0"),
+            format!("{at}\npush constant 1\ncall Memory.poke 2\npop temp 0"),
+            format!("{at}\ncall String.length 1\npop temp 0"),
+        ]
+    };
+    for n in [24577, 32767, 32768, 65535] {
+        for body in uses(&address(n)) {
+            assert_eq!(
+                message(0, &body),
+                format!("Main.main uses address {n}, and the memory ends at 24576"),
+                "{body}"
+            );
+        }
+    }
+    for n in [2048, 16384, 24575, 24576] {
+        for body in uses(&address(n)) {
+            assert_eq!(main(0, &body).0.stop, Stop::Ended, "{body}");
+        }
+    }
+}
+
 #[test]
 fn a_long_word_is_cut() {
     let message = said(&"x".repeat(5000));
