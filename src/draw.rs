@@ -1,4 +1,5 @@
-//! The pictures that the compiler's own evaluations make, rows in parallel.
+//! The pictures that the compiler's own evaluations make, rows in parallel;
+//! where a scene spreads its dither's error, in order from the first row.
 
 use crate::failure::{Failure, Outcome};
 use crate::interrupt;
@@ -110,7 +111,7 @@ pub fn set_up_threads() {
 /// # Errors
 /// Only an interruption.
 pub fn native(graph: &Graph, window: Window) -> Outcome<Drawn> {
-    let pixels = rows("native picture", window, || {
+    let pixels = rows("native picture", graph, window, || {
         let mut native = Native::new(graph);
         move |x, y| native.pixel(x, y)
     })?;
@@ -127,7 +128,7 @@ pub fn native(graph: &Graph, window: Window) -> Outcome<Drawn> {
 /// An interruption, or a schedule that reads what it has not computed.
 pub fn model(plan: &Plan) -> Outcome<Drawn> {
     let window = Window::of(plan);
-    let pixels = rows("model", window, || {
+    let pixels = rows("model", &plan.graph, window, || {
         let mut model = ModelRun::new(plan);
         move |x, y| model.pixel(x, y)
     })?;
@@ -138,9 +139,12 @@ pub fn model(plan: &Plan) -> Outcome<Drawn> {
     })
 }
 
-/// Evaluates a window, each thread with an evaluation of its own.
+/// Evaluates a window, each thread with an evaluation of its own. An evaluation
+/// that spreads errors draws by itself what comes before the window, so only
+/// one thread draws then.
 fn rows<E>(
     what: &'static str,
+    graph: &Graph,
     window: Window,
     start: impl Fn() -> E + Sync + Send,
 ) -> Outcome<Vec<Pixel>>
@@ -149,7 +153,11 @@ where
 {
     let progress = Progress::new(what, u64::from(window.height()));
     // Starting an evaluation costs a walk over the graph: not for each row.
-    let share = (window.height() as usize).div_ceil(8 * rayon::current_num_threads());
+    let shares = match graph.diffusion {
+        Some(_) => 1,
+        None => 8 * rayon::current_num_threads(),
+    };
+    let share = (window.height() as usize).div_ceil(shares);
     let rows: Vec<u32> = (window.rows.0..=window.rows.1).collect();
     let parts: Vec<Option<Vec<Pixel>>> = rows
         .par_chunks(share.max(1))

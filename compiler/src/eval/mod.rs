@@ -1,9 +1,12 @@
 //! Evaluations of a scene inside the compiler: the graph in `f64`, the plan in
 //! the routines' models.
 
+pub mod diffuse;
 pub mod model;
 pub mod native;
 pub mod run;
 
+#[cfg(test)]
+mod spread_tests;
 #[cfg(test)]
 mod tests;

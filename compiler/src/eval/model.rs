@@ -29,6 +29,12 @@ impl Arithmetic for Model<'_> {
             .map_or(0, |routine| (routine.model)(args))
     }
 
+    fn gather(&self, received: Bits, sent: Bits) -> Bits {
+        self.0
+            .gather()
+            .map_or(received, |routine| (routine.model)(&[received, sent]))
+    }
+
     fn truth(&self, value: Bits) -> bool {
         (self.0.runtime.decode)(value, Format::Bool).truth()
     }

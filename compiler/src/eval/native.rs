@@ -8,9 +8,10 @@
 //! The evaluation keeps a stack of its own: graphs may be deeper than the
 //! host's stack. Only nested loops recurse.
 
+use super::diffuse::Pending;
 use crate::flow::graph::*;
 use crate::passes::rate::{Dependence, Rates, rates};
-use slowlight_routine::Value;
+use slowlight_routine::{Op, Value};
 
 /// What a pixel comes to.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -28,7 +29,9 @@ enum End {
     Otherwise,
 }
 
-/// Evaluates one graph, pixel by pixel, in any order of pixels (row by row is cheapest).
+/// Evaluates one graph, pixel by pixel, in any order of pixels (row by row is
+/// cheapest). Where a graph spreads its error, a pixel needs those before it in
+/// the picture: they are evaluated too, each once if pixels are asked for in order.
 pub struct Native<'g> {
     graph: &'g Graph,
     rates: Rates,
@@ -48,6 +51,9 @@ pub struct Native<'g> {
     loop_sets: Vec<u32>,
     position: Option<(i32, i32)>,
     operations: u64,
+    /// What later pixels will receive, and what this one has received.
+    pending: Option<Pending<Value>>,
+    received: Value,
 }
 
 fn number(d: Dependence) -> usize {
@@ -94,6 +100,8 @@ impl<'g> Native<'g> {
             loop_sets,
             position: None,
             operations: 0,
+            pending: Pending::new(graph, Value::Real(0.0)),
+            received: Value::Real(0.0),
             graph,
             rates,
         }
@@ -106,6 +114,33 @@ impl<'g> Native<'g> {
 
     /// The picture's ink and shade at column `x`, row `y`.
     pub fn pixel(&mut self, x: i32, y: i32) -> Pixel {
+        if let Some(pending) = &mut self.pending {
+            for number in pending.due(x, y) {
+                if let Some((x, y)) = self.pending.as_ref().map(|p| p.place(number)) {
+                    self.spreading(x, y);
+                }
+            }
+            return self.spreading(x, y);
+        }
+        self.plain(x, y)
+    }
+
+    /// A pixel of a graph that spreads its error, the next in order.
+    fn spreading(&mut self, x: i32, y: i32) -> Pixel {
+        if let Some(pending) = &mut self.pending {
+            self.received = pending.receive(x, y);
+        }
+        let pixel = self.plain(x, y);
+        for share in self.graph.shares() {
+            let sent = self.value(share.node);
+            if let Some(pending) = &mut self.pending {
+                pending.send(x, y, share, sent, |a, b| Op::Add.eval(&[a, b]));
+            }
+        }
+        pixel
+    }
+
+    fn plain(&mut self, x: i32, y: i32) -> Pixel {
         let (was_x, was_y) = self
             .position
             .map_or((None, None), |(x, y)| (Some(x), Some(y)));
@@ -215,6 +250,7 @@ impl<'g> Native<'g> {
                 let value = list.get(index as usize).map(|&n| self.get(n, stack));
                 value.unwrap_or(Some(Value::Int(0)))
             }
+            Node::Received => Some(self.received),
             Node::Undefined(_) => Some(Value::Int(0)),
         }
     }

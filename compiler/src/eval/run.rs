@@ -5,6 +5,7 @@
 //! against the plan). It also watches the homes: reading one that was not
 //! written on this path is counted, which a correct schedule never does.
 
+use super::diffuse::Pending;
 use crate::flow::graph::*;
 use crate::flow::tree::*;
 use slowlight_routine::{Op, Value};
@@ -19,6 +20,8 @@ pub trait Arithmetic {
     fn param(&self, id: ParamId) -> Self::Value;
     /// A node's operation on its arguments.
     fn apply(&self, id: NodeId, op: Op, args: &[Self::Value]) -> Self::Value;
+    /// Adds what a pixel sends to what another has received so far.
+    fn gather(&self, received: Self::Value, sent: Self::Value) -> Self::Value;
     /// A condition.
     fn truth(&self, value: Self::Value) -> bool;
     /// An int.
@@ -42,6 +45,9 @@ pub struct Run<'t, A: Arithmetic> {
     position: (i32, i32),
     row: Option<i32>,
     unset: u64,
+    /// What later pixels will receive, and what this one has received.
+    pending: Option<Pending<A::Value>>,
+    received: A::Value,
 }
 
 fn places(block: &Block) -> Vec<Place> {
@@ -68,7 +74,10 @@ impl<'t, A: Arithmetic> Run<'t, A> {
                 .collect()
         });
         let slots = |l: &Loop| vec![None; l.types.len()];
+        let zero = arithmetic.constant(Value::Real(0.0));
         let mut run = Run {
+            pending: Pending::new(graph, zero),
+            received: zero,
             values: vec![None; graph.nodes.len()],
             carried: graph.loops.iter().map(slots).collect(),
             scratch: graph.loops.iter().map(slots).collect(),
@@ -92,8 +101,35 @@ impl<'t, A: Arithmetic> Run<'t, A> {
         self.unset
     }
 
-    /// Runs the pixel at column `x`, row `y`; answers its ink.
+    /// Runs the pixel at column `x`, row `y`; answers its ink. Where the graph
+    /// spreads its error, the pixels before it run too, if they have not.
     pub fn pixel(&mut self, x: i32, y: i32) -> A::Value {
+        let due = self.pending.as_mut().map_or(0..0, |p| p.due(x, y));
+        for number in due {
+            if let Some((x, y)) = self.pending.as_ref().map(|p| p.place(number)) {
+                self.next(x, y);
+            }
+        }
+        self.next(x, y)
+    }
+
+    /// Runs a pixel, the next in order where that matters.
+    fn next(&mut self, x: i32, y: i32) -> A::Value {
+        if let Some(pending) = &mut self.pending {
+            self.received = pending.receive(x, y);
+        }
+        let ink = self.plain(x, y);
+        for share in self.graph.shares() {
+            let sent = self.read(share.node);
+            let arithmetic = &self.arithmetic;
+            if let Some(pending) = &mut self.pending {
+                pending.send(x, y, share, sent, |a, b| arithmetic.gather(a, b));
+            }
+        }
+        ink
+    }
+
+    fn plain(&mut self, x: i32, y: i32) -> A::Value {
         let tree = self.tree;
         self.position = (x, y);
         if self.row != Some(y) {
@@ -151,6 +187,7 @@ impl<'t, A: Arithmetic> Run<'t, A> {
             Node::Param(p) => self.arithmetic.param(p),
             Node::Axis(Axis::X) => self.arithmetic.constant(Value::Int(self.position.0)),
             Node::Axis(Axis::Y) => self.arithmetic.constant(Value::Int(self.position.1)),
+            Node::Received => self.received,
             Node::Carried { of, index } | Node::Last { of, index } => {
                 self.checked(self.carried[of.0 as usize][index as usize])
             }
@@ -241,6 +278,10 @@ impl Arithmetic for Exact<'_> {
 
     fn apply(&self, _: NodeId, op: Op, args: &[Value]) -> Value {
         op.eval(args)
+    }
+
+    fn gather(&self, received: Value, sent: Value) -> Value {
+        Op::Add.eval(&[received, sent])
     }
 
     fn truth(&self, value: Value) -> bool {

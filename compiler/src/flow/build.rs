@@ -24,6 +24,7 @@ pub struct Builder {
     loops: Vec<Loop>,
     effects: Vec<EffectUse>,
     directions: BTreeSet<NodeId>,
+    diffusion: Option<Diffusion>,
 }
 
 impl Builder {
@@ -92,6 +93,21 @@ impl Builder {
     /// The pixel's column or row.
     pub fn axis(&mut self, axis: Axis, span: Span) -> NodeId {
         self.add(Node::Axis(axis), Type::Int, span)
+    }
+
+    /// What earlier pixels sent to this one.
+    pub fn received(&mut self, span: Span) -> NodeId {
+        self.add(Node::Received, Type::Real, span)
+    }
+
+    /// Sends shares to later pixels, after those that are sent already.
+    pub fn spread(&mut self, shares: &[Share], span: Span) {
+        let none = || Diffusion {
+            shares: Vec::new(),
+            span,
+        };
+        let diffusion = self.diffusion.get_or_insert_with(none);
+        diffusion.shares.extend_from_slice(shares);
     }
 
     /// Declares a live param's scalar.
@@ -318,6 +334,7 @@ impl Builder {
             directions: self.directions,
             ink,
             shade,
+            diffusion: self.diffusion,
             effects: self.effects,
         }
     }

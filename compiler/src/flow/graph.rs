@@ -108,6 +108,9 @@ pub enum Node {
     Last { of: LoopId, index: u32 },
     /// A result of a loop.
     Result { of: LoopId, index: u32 },
+    /// What earlier pixels sent to this one ([`Graph::diffusion`]); a real, 0
+    /// where none did.
+    Received,
     /// Never needed.
     Undefined(Type),
 }
@@ -234,6 +237,41 @@ pub struct EffectUse {
     pub calls: u32,
 }
 
+/// What a pixel sends to one that the scan reaches later.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Share {
+    /// Columns to the right; negative to the left, and then `dy` is above 0.
+    pub dx: i32,
+    /// Rows down, at least 0.
+    pub dy: i32,
+    /// What is sent: a real, the weight times the error.
+    pub node: NodeId,
+}
+
+/// Error diffusion: the pixels are drawn row by row, each from left to right,
+/// and each sends a part of its error to pixels still to come (Floyd and
+/// Steinberg, An Adaptive Algorithm for Spatial Greyscale, 1976).
+///
+/// **Order of accumulation**: a pixel's [`Node::Received`] starts at 0, and every
+/// share is added to it on the right (received + share) when its sender is
+/// drawn: senders in scan order, a sender's shares in the order of `shares`. A
+/// share for a pixel outside of the picture is dropped.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Diffusion {
+    /// What a pixel sends, in the order of the scene.
+    pub shares: Vec<Share>,
+    /// The `spread` in the scene.
+    pub span: Span,
+}
+
+impl Diffusion {
+    /// How many rows down the furthest share goes.
+    pub fn reach(&self) -> usize {
+        let downs = self.shares.iter().map(|s| usize::try_from(s.dy));
+        downs.filter_map(Result::ok).max().unwrap_or(0)
+    }
+}
+
 /// A scene as one function from pixel and params to ink.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Graph {
@@ -262,6 +300,8 @@ pub struct Graph {
     /// The shade before the dither, if `draw` ends in one. It is looked at,
     /// never computed for its own sake.
     pub shade: Option<NodeId>,
+    /// What the pixel sends to later ones, if the dither spreads its error.
+    pub diffusion: Option<Diffusion>,
     /// The effects that were called, by name.
     pub effects: Vec<EffectUse>,
 }
@@ -324,8 +364,19 @@ impl Graph {
         seen
     }
 
-    /// The pixel's ink and shade.
-    pub fn outputs(&self) -> impl Iterator<Item = NodeId> + use<> {
-        [Some(self.ink), self.shade].into_iter().flatten()
+    /// The pixel's ink and shade, and what it sends to later pixels.
+    pub fn outputs(&self) -> impl Iterator<Item = NodeId> + '_ {
+        let pixel = [Some(self.ink), self.shade].into_iter().flatten();
+        pixel.chain(self.shares().map(|s| s.node))
+    }
+
+    /// What has to be computed for each pixel: its ink and what it sends.
+    pub fn roots(&self) -> impl Iterator<Item = NodeId> + '_ {
+        std::iter::once(self.ink).chain(self.shares().map(|s| s.node))
+    }
+
+    /// What the pixel sends to later ones, in order.
+    pub fn shares(&self) -> impl Iterator<Item = Share> + '_ {
+        self.diffusion.iter().flat_map(|d| d.shares.iter().copied())
     }
 }

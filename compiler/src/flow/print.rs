@@ -67,6 +67,7 @@ pub fn node_text(graph: &Graph, node: Node) -> String {
         Node::Carried { of, index } => format!("carried {}.{index}", of.0),
         Node::Last { of, index } => format!("last {}.{index}", of.0),
         Node::Result { of, index } => format!("result {}.{index}", of.0),
+        Node::Received => "received".to_owned(),
         Node::Undefined(_) => "undefined".to_owned(),
     }
 }
@@ -138,6 +139,9 @@ impl Display for Graph {
         }
         if let Some(shade) = self.shade {
             writeln!(f, "shade {shade}")?;
+        }
+        for Share { dx, dy, node } in self.shares() {
+            writeln!(f, "send {dx} {dy} {node}")?;
         }
         writeln!(f, "ink {}", self.ink)
     }

@@ -39,6 +39,7 @@ pub fn read(text: &str) -> Result<Graph, Unread> {
         directions: BTreeSet::new(),
         ink: NodeId(0),
         shade: None,
+        diffusion: None,
         effects: Vec::new(),
     };
     for (at, line) in text.lines().enumerate() {
@@ -68,6 +69,14 @@ fn line(graph: &mut Graph, line: &str) -> Read<()> {
         }
         "directions" => node_list(rest).map(|ids| graph.directions.extend(ids)),
         "shade" => node_id(rest).map(|id| graph.shade = Some(id)),
+        "send" => share(rest).map(|share| {
+            let none = || Diffusion {
+                shares: Vec::new(),
+                span: Span::default(),
+            };
+            let diffusion = graph.diffusion.get_or_insert_with(none);
+            diffusion.shares.push(share);
+        }),
         "ink" => node_id(rest).map(|id| graph.ink = id),
         _ => node(graph, line),
     }
@@ -119,6 +128,17 @@ fn parenthesised<'t>(text: &'t str, after: &str) -> Read<(&'t str, &'t str)> {
     inner
         .split_once(')')
         .ok_or_else(|| format!("no `)` behind `{after}`"))
+}
+
+fn share(text: &str) -> Read<Share> {
+    match text.split_whitespace().collect::<Vec<_>>()[..] {
+        [dx, dy, node] => Ok(Share {
+            dx: number(dx)?,
+            dy: number(dy)?,
+            node: node_id(node)?,
+        }),
+        _ => Err("what is sent has two offsets and a node".to_owned()),
+    }
 }
 
 fn image(graph: &mut Graph, text: &str) -> Read<()> {
@@ -252,6 +272,7 @@ fn node_body(ty: Type, body: &str) -> Read<Node> {
         "carried" => part(rest).map(|(of, index)| Node::Carried { of, index })?,
         "last" => part(rest).map(|(of, index)| Node::Last { of, index })?,
         "result" => part(rest).map(|(of, index)| Node::Result { of, index })?,
+        "received" => Node::Received,
         "undefined" => Node::Undefined(ty),
         "select" => match node_list(rest)?[..] {
             [cond, yes, no] => Node::Select { cond, yes, no },

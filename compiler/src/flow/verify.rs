@@ -3,7 +3,9 @@
 //! **Invariants**: operands stand before their users; an operation's operands
 //! have its argument types; arms of a select have one type; a loop's carried
 //! values are used only by what decides, continues or ends that loop, and what
-//! the last `next` gave only by its `else`; the ink is an int.
+//! the last `next` gave only by its `else`; the ink is an int; what a pixel
+//! sends is real and goes to pixels that the scan has yet to reach, and only a
+//! graph that sends something receives.
 
 use super::graph::*;
 use slowlight_routine::Type;
@@ -28,6 +30,19 @@ pub fn verify(graph: &Graph) -> Result<(), Broken> {
     }
     for k in 0..graph.loops.len() as u32 {
         scope(graph, LoopId(k), &reached)?;
+    }
+    for share in graph.shares() {
+        let rule = match share {
+            _ if graph.ty(share.node) != Type::Real => "is sent to other pixels, and is not real",
+            Share { dx, dy, .. } if dy < 0 || (dy == 0 && dx <= 0) => {
+                "is sent to a pixel that is already drawn"
+            }
+            _ => continue,
+        };
+        return Err(Broken {
+            node: share.node,
+            rule: rule.to_owned(),
+        });
     }
     match graph.ty(graph.ink) {
         Type::Int => Ok(()),
@@ -68,6 +83,9 @@ fn node(graph: &Graph, id: NodeId) -> Result<(), Broken> {
             if t.entries.len() as u64 != u64::from(t.width) * u64::from(t.height) {
                 return broken(format!("table {} is not full", table.0));
             }
+        }
+        Node::Received if graph.diffusion.is_none() => {
+            return broken("receives, but no pixel sends".to_owned());
         }
         Node::Result { of, index } => {
             let found = graph.loops.get(of.0 as usize);

@@ -20,11 +20,11 @@ use super::rate::{Dependence, Rates, rates};
 use super::region::*;
 use crate::flow::graph::*;
 
-/// Which nodes the ink needs, carried values only where they are read. As long
+/// Which nodes the ink and what is sent to later pixels need, carried values only where they are read. As long
 /// as the graph's nodes.
 pub fn needed(graph: &Graph) -> Vec<bool> {
     let mut seen = vec![false; graph.nodes.len()];
-    let mut todo = vec![graph.ink];
+    let mut todo: Vec<NodeId> = graph.roots().collect();
     while let Some(id) = todo.pop() {
         let Some(flag) = seen.get_mut(id.0 as usize).filter(|flag| !**flag) else {
             continue;
@@ -79,7 +79,9 @@ pub fn place(graph: &Graph) -> Regions {
         regions: Regions::new(graph),
         uses: vec![None; graph.nodes.len()],
     };
-    placer.need(graph.ink, PIXEL);
+    for root in graph.roots() {
+        placer.need(root, PIXEL);
+    }
     for id in graph.ids().rev() {
         placer.visit(id);
     }
@@ -130,7 +132,7 @@ impl Placer<'_> {
             }
             Node::Result { of, .. } => self.visit_loop(of),
             // Known without computing.
-            Node::Const(_) | Node::Param(_) | Node::Axis(_) => {}
+            Node::Const(_) | Node::Param(_) | Node::Axis(_) | Node::Received => {}
             Node::Carried { .. } | Node::Last { .. } | Node::Undefined(_) => {}
         }
     }

@@ -136,6 +136,8 @@ pub fn rates(graph: &Graph) -> Rates {
             Node::Param(_) => sets.intern(vec![Dependence::Frame]),
             Node::Axis(Axis::Y) => sets.intern(vec![Dependence::Row]),
             Node::Axis(Axis::X) => sets.intern(vec![Dependence::Column]),
+            // Another value in every pixel: it stands in the pixel's own block.
+            Node::Received => sets.intern(vec![Dependence::Row, Dependence::Column]),
             Node::Carried { of, .. } => sets.intern(vec![Dependence::Loop(of)]),
             Node::Last { of, .. } => sets.intern(vec![Dependence::Last(of)]),
             Node::Result { of: l, .. } => *ends.entry(l).or_insert_with(|| {

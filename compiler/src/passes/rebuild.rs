@@ -50,6 +50,15 @@ pub fn rebuild(graph: &Graph, rule: Rule<'_>) -> Graph {
         rebuilder.at(graph.ink),
         graph.shade.map(|s| rebuilder.at(s)),
     );
+    if let Some(diffusion) = &graph.diffusion {
+        let shares: Vec<Share> = (diffusion.shares.iter())
+            .map(|&share| Share {
+                node: rebuilder.at(share.node),
+                ..share
+            })
+            .collect();
+        rebuilder.builder.spread(&shares, diffusion.span);
+    }
     for effect in &graph.effects {
         (0..effect.calls).for_each(|_| rebuilder.builder.effect(&effect.name));
     }
@@ -116,6 +125,7 @@ impl Rebuilder<'_> {
             Node::Lookup { table, column, row } => b.lookup(table, column, row, span),
             Node::Carried { of, index } => b.carried(of, index, span),
             Node::Last { of, index } => b.last(of, index, span),
+            Node::Received => b.received(span),
             Node::Undefined(ty) => b.undefined(ty),
             Node::Param(_) | Node::Result { .. } => b.undefined(slowlight_routine::Type::Real),
         }

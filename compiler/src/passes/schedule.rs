@@ -34,11 +34,11 @@ pub fn schedule(graph: &Graph) -> Tree {
         stamp: 0,
         regions,
     };
-    let ink = [graph.ink];
+    let roots: Vec<NodeId> = graph.roots().collect();
     Tree {
-        frame: emitter.block(FRAME, &ink, &[ROW]),
-        row: emitter.block(ROW, &ink, &[PIXEL]),
-        pixel: emitter.block(PIXEL, &ink, &[]),
+        frame: emitter.block(FRAME, &roots, &[ROW]),
+        row: emitter.block(ROW, &roots, &[PIXEL]),
+        pixel: emitter.block(PIXEL, &roots, &[]),
     }
 }
 

@@ -19,6 +19,8 @@ pub fn folded(graph: &Graph, tree: &Tree) -> Vec<bool> {
         let number = uses.block(block);
         if std::ptr::eq(block, &raw const tree.pixel) {
             uses.read(graph.ink, number);
+            // What is sent is read after the ink.
+            graph.shares().for_each(|s| uses.read(s.node, 0));
         }
     }
     let fits = |id: NodeId| {

@@ -45,7 +45,7 @@ use crate::passes::schedule::{missing, schedule};
 use crate::range::{Ranges, Slack, ranges};
 use crate::source::Diagnostic;
 use crate::target::{Mode, TARGETS, Target};
-use slowlight_routine::{Bits, Format, Op, Routine, Runtime, Type, Value};
+use slowlight_routine::{Bits, Format, Op, Range, Routine, Runtime, Type, Value};
 use std::collections::HashMap;
 
 /// What to build, beside the scene and the target.
@@ -89,6 +89,7 @@ pub struct Plan {
     /// The live params, in the graph's order.
     pub params: Vec<ParamPlan>,
     routines: Vec<Option<&'static Routine>>,
+    gather: Option<&'static Routine>,
     folded: Vec<bool>,
     homes: HashMap<Place, String>,
 }
@@ -97,6 +98,12 @@ impl Plan {
     /// The routine that computes an operation.
     pub fn routine(&self, id: NodeId) -> Option<&'static Routine> {
         self.routines.get(id.0 as usize).copied().flatten()
+    }
+
+    /// The routine that adds what a pixel sends to what another has received
+    /// so far, in that order, where the graph spreads its error.
+    pub fn gather(&self) -> Option<&'static Routine> {
+        self.gather
     }
 
     /// Whether a value may be written where it is read.
@@ -122,7 +129,11 @@ impl Plan {
     /// The place that a node is read from; `None` for constants, params and axes.
     pub fn place(&self, id: NodeId) -> Option<Place> {
         match self.graph.node(id) {
-            Node::Const(_) | Node::Param(_) | Node::Axis(_) | Node::Undefined(_) => None,
+            Node::Const(_)
+            | Node::Param(_)
+            | Node::Axis(_)
+            | Node::Received
+            | Node::Undefined(_) => None,
             Node::Carried { of, index } | Node::Last { of, index } => {
                 Some(Place::Carried(of, index))
             }
@@ -178,6 +189,23 @@ impl Plan {
 
 /// Plans a graph that `sema` lowered for this target's inks and offset.
 pub fn plan(graph: &Graph, target: &'static Target, goal: &Goal) -> Result<Plan, Vec<Diagnostic>> {
+    if let Some(diffusion) = &graph.diffusion {
+        let message = "error diffusion is not built for this target yet";
+        let error = Diagnostic::error(diffusion.span, message).help(
+            "use an ordered dither such as `threshold(v, bayer(8)[x mod 8, y mod 8])`, \
+             or draw the picture with `slowlight render`",
+        );
+        return Err(vec![error]);
+    }
+    planned(graph, target, goal)
+}
+
+/// Plans a graph, whether or not the target's emission can write all of it.
+pub(crate) fn planned(
+    graph: &Graph,
+    target: &'static Target,
+    goal: &Goal,
+) -> Result<Plan, Vec<Diagnostic>> {
     let runtime = target.runtime;
     if let Err(broken) = verify(graph) {
         let message =
@@ -204,6 +232,7 @@ pub fn plan(graph: &Graph, target: &'static Target, goal: &Goal) -> Result<Plan,
         return Err(vec![Diagnostic::error(graph.span(id), message)]);
     }
     let routines = choose(&graph, &tree, &ranges_now, runtime)?;
+    let gather = graph.diffusion.as_ref().and_then(|_| gathering(runtime));
     let folded = fold_uses::folded(&graph, &tree);
     let (offset, columns, rows) = frame(&graph.image, &goal.mode);
     let rows = match goal.rows {
@@ -223,11 +252,20 @@ pub fn plan(graph: &Graph, target: &'static Target, goal: &Goal) -> Result<Plan,
         ranges: ranges_now,
         params,
         routines,
+        gather,
         folded,
         homes,
         graph,
         tree,
     })
+}
+
+/// The addition that is right for all arguments: what a pixel receives has no
+/// bounds that could be known beforehand.
+fn gathering(runtime: &'static Runtime) -> Option<&'static Routine> {
+    let all = Range::ALL;
+    let fits = |r: &&Routine| r.op == Op::Add && (r.domain)(&[all, all], all);
+    runtime.routines.iter().find(fits)
 }
 
 /// Where the picture stands on the screen, and which of it is seen: centred

@@ -108,6 +108,9 @@ impl Display for Plan {
             writeln!(f, "{name}:")?;
             self.block(f, block, 1)?;
         }
+        for Share { dx, dy, node } in self.graph.shares() {
+            writeln!(f, "send {dx} {dy} {}", self.operand(node))?;
+        }
         writeln!(f, "ink {}", self.operand(self.graph.ink))
     }
 }

@@ -55,7 +55,13 @@ pub enum Statement {
         value: Expr,
     },
     /// Gives a part of an error to pixels that come later.
-    Spread { span: Span },
+    Spread {
+        /// The error.
+        value: Expr,
+        /// Columns right, rows down, and the weight.
+        to: Vec<(i32, i32, Expr)>,
+        span: Span,
+    },
 }
 
 /// The forms of an expression.

@@ -360,7 +360,17 @@ impl Printer<'_> {
                             let value = self.expr(body, value, deep + 1);
                             out += &format!("{claim}let {name}: {ty} = {value}");
                         }
-                        Statement::Spread { .. } => out += "spread ..",
+                        Statement::Spread { value, to, .. } => {
+                            let shares: Vec<String> = to
+                                .iter()
+                                .map(|(dx, dy, weight)| {
+                                    let weight = self.expr(body, weight, deep + 1);
+                                    format!("({dx}, {dy}): {weight}")
+                                })
+                                .collect();
+                            let value = self.expr(body, value, deep + 1);
+                            out += &format!("spread {value} to {{ {} }}", shares.join(", "));
+                        }
                     }
                 }
                 let result = self.expr(body, result, deep + 1);

@@ -125,10 +125,11 @@ impl Checker<'_> {
             );
         }
         let value = self.expr(value, false);
-        self.coerce(value, &Ty::Real, "what is spread");
+        let value = self.coerce(value, &Ty::Real, "what is spread");
+        let mut shares = Vec::new();
         for (offset, weight) in to {
             let weight = self.expr(weight, false);
-            self.coerce(weight, &Ty::Real, "a weight");
+            let weight = self.coerce(weight, &Ty::Real, "a weight");
             let tree::ExprKind::Tuple(parts) = &offset.kind else {
                 self.error(offset.span, "an offset is two whole numbers, `(1, 0)`");
                 continue;
@@ -136,7 +137,10 @@ impl Checker<'_> {
             let numbers: Option<Vec<f64>> = parts.iter().map(whole).collect();
             match numbers.as_deref() {
                 Some(&[dx, dy])
-                    if dx.abs() <= 8.0 && (0.0..=8.0).contains(&dy) && (dy > 0.0 || dx > 0.0) => {}
+                    if dx.abs() <= 8.0 && (0.0..=8.0).contains(&dy) && (dy > 0.0 || dx > 0.0) =>
+                {
+                    shares.push((dx as i32, dy as i32, weight));
+                }
                 Some(&[dx, dy]) if dy < 0.0 || (dy == 0.0 && dx <= 0.0) => {
                     let message = format!("`spread` to ({dx}, {dy}): that pixel is already drawn");
                     let error = Diagnostic::error(offset.span, message);
@@ -146,7 +150,11 @@ impl Checker<'_> {
                 _ => self.error(offset.span, "an offset is two whole numbers, `(1, 0)`"),
             }
         }
-        found.push(Statement::Spread { span });
+        found.push(Statement::Spread {
+            value,
+            to: shares,
+            span,
+        });
     }
 
     pub(super) fn next(&mut self, values: &[tree::Expr], tail: bool, span: Span) -> Expr {

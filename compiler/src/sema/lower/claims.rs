@@ -47,6 +47,7 @@ fn axes(graph: &Graph) -> Vec<u8> {
             let mut set = match graph.node(id) {
                 Node::Axis(Axis::X) => X,
                 Node::Axis(Axis::Y) => Y,
+                Node::Received => X | Y,
                 _ => 0,
             };
             for operand in references(graph, id) {
@@ -128,7 +129,11 @@ fn path(graph: &Graph, axes: &[u8], from: NodeId, axis: u8) -> Vec<NodeId> {
     let mut before: Vec<Option<NodeId>> = vec![None; graph.nodes.len()];
     let mut queue = std::collections::VecDeque::from([from]);
     while let Some(id) = queue.pop_front() {
-        if matches!(graph.node(id), Node::Axis(a) if (a == Axis::X) == (axis == X)) {
+        let found = match graph.node(id) {
+            Node::Axis(a) => (a == Axis::X) == (axis == X),
+            node => node == Node::Received,
+        };
+        if found {
             let mut path = vec![id];
             let mut at = id;
             while at != from {

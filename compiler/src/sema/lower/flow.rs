@@ -141,11 +141,7 @@ impl<'a> Lower<'a> {
                 }
                 Ok(())
             }
-            Statement::Spread { span } => Err(self.missing(
-                *span,
-                "`spread`",
-                "use an ordered dither such as `threshold(v, bayer(8)[x mod 8, y mod 8])`",
-            )),
+            Statement::Spread { span, .. } => Err(self.misplaced_spread(*span)),
         }
     }
 

@@ -21,6 +21,7 @@ mod params;
 mod polynomial;
 mod scene;
 mod shape;
+mod spread;
 mod tables;
 mod value;
 
@@ -103,6 +104,8 @@ struct Lower<'a> {
     markers: Option<derive::Markers>,
     /// Above 0 where only constants may come out.
     constant: usize,
+    /// How many conditions that only the pixel decides choose among inks here.
+    choices: usize,
     depth: usize,
     steps: usize,
 }
@@ -132,6 +135,7 @@ pub fn lower(program: &Program, options: &Options) -> Result<Graph, Vec<Diagnost
         loops: 0,
         markers: None,
         constant: 0,
+        choices: 0,
         depth: 0,
         steps: 0,
     };

@@ -199,8 +199,10 @@ impl<'a> Lower<'a> {
                 if let Some(known) = self.b.value(test) {
                     return self.shaded(if known.truth() { yes } else { no });
                 }
+                self.choices += 1;
                 let yes = self.shaded(yes)?;
                 let no = self.shaded(no)?;
+                self.choices -= 1;
                 let shade = match (yes.1, no.1) {
                     (None, None) => None,
                     (a, b) => {
@@ -227,7 +229,7 @@ impl<'a> Lower<'a> {
                     }
                     _ => None,
                 };
-                Ok((self.expand(function, values, e.span)?, shade))
+                Ok((self.pixel_ink(function, values, e.span)?, shade))
             }
             _ => {
                 let Leaf { done, .. } = self.tail(e)?;

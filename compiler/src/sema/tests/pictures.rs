@@ -32,7 +32,7 @@ fn the_scenes_of_the_language_page_are_seen() {
     snapshot("seen_march", &seen(&march, 8));
     let maze = include_str!("../../syntax/tests/scenes/maze.scn");
     snapshot("seen_maze", &seen(maze, 1));
-    // Until `spread` is built, without it.
+    // Without its `spread`: that needs every pixel, not every eighth.
     let primitives = include_str!("../../syntax/tests/scenes/primitives.scn");
     let lines = primitives
         .lines()
