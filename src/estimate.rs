@@ -40,6 +40,14 @@ impl Arithmetic for Costed<'_> {
         })
     }
 
+    fn gather(&self, received: Bits, sent: Bits) -> Bits {
+        self.plan.gather().map_or(received, |routine| {
+            self.cycles
+                .set(self.cycles.get() + u64::from(routine.cycles));
+            (routine.model)(&[received, sent])
+        })
+    }
+
     fn truth(&self, value: Bits) -> bool {
         (self.plan.runtime.decode)(value, Format::Bool).truth()
     }

@@ -15,5 +15,6 @@ mod peers_brandy;
 mod peers_ca65;
 mod renderers;
 mod snapshots;
+mod spread;
 mod whole;
 mod wrong;
