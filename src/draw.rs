@@ -125,7 +125,7 @@ pub fn native(graph: &Graph, window: Window) -> Outcome<Drawn> {
 /// The picture of a plan in its routines' models.
 ///
 /// # Errors
-/// An interruption, or a schedule that reads what it has not computed.
+/// Only an interruption.
 pub fn model(plan: &Plan) -> Outcome<Drawn> {
     let window = Window::of(plan);
     let pixels = rows("model", &plan.graph, window, || {
