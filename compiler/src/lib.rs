@@ -10,6 +10,8 @@ pub mod prelude;
 pub mod range;
 pub mod scene;
 pub mod sema;
-pub mod source;
-pub mod syntax;
 pub mod target;
+
+/// Text to tree and back; its own crate because its parser is slow to compile.
+pub use slowlight_syntax as syntax;
+pub use slowlight_syntax::source;

@@ -47,6 +47,7 @@ fn arrows_point_down_only() {
                 "slowlight-runtime-6502",
                 "slowlight-runtime-bbc",
                 "slowlight-runtime-jack",
+                "slowlight-syntax",
             ],
         ),
         (
@@ -62,6 +63,7 @@ fn arrows_point_down_only() {
             &["slowlight-routine", "slowlight-isa"],
         ),
         ("slowlight-routine", &[]),
+        ("slowlight-syntax", &[]),
         ("slowlight-vm", &["slowlight-isa"]),
         ("slowlight-isa", &[]),
     ];

@@ -140,7 +140,7 @@ fn torus_by_hand() {
 /// roots the library may miss two that are nearer than a step.
 #[test]
 fn primitives_by_hand() {
-    let text = include_str!("../../../compiler/src/syntax/tests/scenes/primitives.scn");
+    let text = include_str!("../../../compiler/syntax/src/tests/scenes/primitives.scn");
     let kept = text
         .lines()
         .filter(|l| !l.trim_start().starts_with("spread"));

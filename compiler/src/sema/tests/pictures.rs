@@ -24,16 +24,16 @@ fn seen(text: &str, step: usize) -> String {
 
 #[test]
 fn the_scenes_of_the_language_page_are_seen() {
-    let torus = include_str!("../../syntax/tests/scenes/torus.scn");
+    let torus = include_str!("../../../syntax/src/tests/scenes/torus.scn");
     let flat = torus.replace("bayer(8)[x mod 8, y mod 8]", "0.5");
     snapshot("seen_torus", &seen(&flat, 8));
     let march = "world.march(r, steps: 64, near: 0.01, far: 12)";
     let march = flat.replace("world.trace(r, far: 12)", march);
     snapshot("seen_march", &seen(&march, 8));
-    let maze = include_str!("../../syntax/tests/scenes/maze.scn");
+    let maze = include_str!("../../../syntax/src/tests/scenes/maze.scn");
     snapshot("seen_maze", &seen(maze, 1));
     // Without its `spread`: that needs every pixel, not every eighth.
-    let primitives = include_str!("../../syntax/tests/scenes/primitives.scn");
+    let primitives = include_str!("../../../syntax/src/tests/scenes/primitives.scn");
     let lines = primitives
         .lines()
         .filter(|l| !l.trim_start().starts_with("spread"));

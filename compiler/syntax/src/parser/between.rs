@@ -1,8 +1,8 @@
 //! What stands where an item should begin.
 
+use crate::cut::Spanned;
 use crate::source::Diagnostic;
-use crate::syntax::cut::Spanned;
-use crate::syntax::token::Token;
+use crate::token::Token;
 
 /// The words that begin items.
 const ITEMS: [&str; 12] = [

@@ -8,7 +8,7 @@ use super::block::{body, error};
 use super::expression::{comma, expression};
 use super::{Raw, Rule, Tokens, contextual, name, semicolon, sign, skip, word};
 use crate::source::Span;
-use crate::syntax::token::Token;
+use crate::token::Token;
 use chumsky::prelude::*;
 
 /// Any item, from its word to its end.

@@ -1,8 +1,8 @@
 //! The formatter keeps what a scene says and settles how it looks.
 
 use super::*;
-use crate::syntax::format::format;
-use crate::syntax::{lexer, print};
+use crate::format::format;
+use crate::{lexer, print};
 use proptest::prelude::*;
 
 /// Formats, and holds what is true of every right scene.

@@ -3,7 +3,7 @@
 
 use super::message::Spot;
 use crate::source::Diagnostic;
-use crate::syntax::token::Token;
+use crate::token::Token;
 
 impl Spot<'_> {
     /// Something that was left out.

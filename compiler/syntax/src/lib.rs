@@ -10,6 +10,7 @@ pub mod format;
 mod lexer;
 mod parser;
 pub mod print;
+pub mod source;
 mod token;
 pub mod tree;
 pub mod walk;

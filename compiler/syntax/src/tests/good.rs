@@ -1,7 +1,7 @@
 //! What is right parses to the tree that it says.
 
 use super::*;
-use crate::syntax::print;
+use crate::print;
 
 #[test]
 fn the_four_scenes_parse_without_diagnostics() {
@@ -150,12 +150,12 @@ fn spans_cover_what_they_say() {
     let scene = "const a = (b + c) * f(d).e;";
     let (file, _) = parse(scene, 7);
     let mut seen = Vec::new();
-    fn visit(expr: &crate::syntax::tree::Expr, scene: &str, seen: &mut Vec<String>) {
+    fn visit(expr: &crate::tree::Expr, scene: &str, seen: &mut Vec<String>) {
         assert_eq!(expr.span.file, 7);
         seen.push(scene[expr.span.range()].to_string());
-        crate::syntax::walk::children(expr, &mut |child| visit(child, scene, seen));
+        crate::walk::children(expr, &mut |child| visit(child, scene, seen));
     }
-    crate::syntax::walk::roots(&file, &mut |expr| visit(expr, scene, &mut seen));
+    crate::walk::roots(&file, &mut |expr| visit(expr, scene, &mut seen));
     assert_eq!(
         seen,
         ["(b + c) * f(d).e", "b + c", "b", "c", "f(d).e", "f(d)", "d"]
@@ -164,8 +164,7 @@ fn spans_cover_what_they_say() {
 
 #[test]
 fn bytes_that_are_not_utf8_are_reported_once() {
-    let (text, diagnostics) =
-        crate::syntax::decode(b"\xEF\xBB\xBF// caf\xE9 \xFF\nconst a = 1;", 0);
+    let (text, diagnostics) = crate::decode(b"\xEF\xBB\xBF// caf\xE9 \xFF\nconst a = 1;", 0);
     assert_eq!(text, "// caf\u{fffd} \u{fffd}\nconst a = 1;");
     assert_eq!(
         plain(&text, &diagnostics),

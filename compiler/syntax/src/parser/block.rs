@@ -4,8 +4,8 @@
 use super::expression::comma;
 use super::{Rule, contextual, name, semicolon, sign, skip, word};
 use crate::source::Span;
-use crate::syntax::token::Token;
-use crate::syntax::tree::{Claim, Expr, ExprKind, Statement};
+use crate::token::Token;
+use crate::tree::{Claim, Expr, ExprKind, Statement};
 use chumsky::prelude::*;
 
 /// `{ let a = b; c }`

@@ -2,9 +2,9 @@
 //! three expectations, and a way out where one can be guessed.
 
 use super::Raw;
+use crate::cut::Spanned;
 use crate::source::{Diagnostic, Span};
-use crate::syntax::cut::Spanned;
-use crate::syntax::token::Token;
+use crate::token::Token;
 use chumsky::error::RichPattern;
 
 /// Where a rule failed.

@@ -7,7 +7,7 @@ use super::super::tree::{AngleUnit, Argument, BinaryOp, Expr, ExprKind, UnaryOp}
 use super::block::block;
 use super::{Raw, Rule, Tokens, contextual, name, sign, word};
 use crate::source::Span;
-use crate::syntax::token::Token;
+use crate::token::Token;
 use chumsky::pratt::{infix, left, postfix, prefix, right};
 use chumsky::prelude::*;
 

@@ -4,9 +4,9 @@
 //! Rust's default): a recursion that follows the text would overflow it.
 
 use super::*;
-use crate::syntax::lexer::MAX_DIAGNOSTICS;
-use crate::syntax::tree::{Expr, File};
-use crate::syntax::{MAX_BYTES, MAX_DEPTH, decode, print, walk};
+use crate::lexer::MAX_DIAGNOSTICS;
+use crate::tree::{Expr, File};
+use crate::{MAX_BYTES, MAX_DEPTH, decode, print, walk};
 use proptest::prelude::*;
 
 /// Parses, and holds what is true of every text.

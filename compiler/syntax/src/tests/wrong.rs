@@ -2,7 +2,7 @@
 //! user reads; a change of words is a change of the product.
 
 use super::*;
-use crate::syntax::print;
+use crate::print;
 
 /// Each scene as written, what is said of it, and what is left of its tree
 /// where that is not nothing.
