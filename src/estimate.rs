@@ -59,13 +59,25 @@ impl Arithmetic for Costed<'_> {
 
 /// The cycles that a plan's operations take, all rows and columns together.
 pub fn cycles(plan: &Plan) -> f64 {
-    let window = Window::of(plan);
+    let mut window = Window::of(plan);
+    let mut graph = plan.graph.clone();
+    let mut sends = 0.0;
+    if let Some(errors) = plan.error_rows() {
+        // Pixels are sampled as if nothing had been sent to them: else all
+        // those before had to be run.
+        graph.diffusion = None;
+        window.columns = plan.computed_columns();
+        window.rows.0 = 0;
+        let each = plan.gather().map_or(0, |routine| routine.cycles);
+        let pixels = f64::from(window.width()) * f64::from(window.height());
+        sends = f64::from(each) * errors.shares.len() as f64 * pixels;
+    }
     let spent = Cell::new(0);
     let costed = Costed {
         plan,
         cycles: &spent,
     };
-    let mut run = Run::new(&plan.graph, &plan.tree, costed);
+    let mut run = Run::new(&graph, &plan.tree, costed);
     let mut lap = {
         let mut before = 0;
         let spent = &spent;
@@ -96,7 +108,7 @@ pub fn cycles(plan: &Plan) -> f64 {
     let sampled = (rows.len() * columns.len()).max(1) as f64;
     let pixels = f64::from(window.width()) * f64::from(window.height());
     let row = row_cycles / rows.len().max(1) as f64;
-    frame + row * f64::from(window.height()) + pixel_cycles / sampled * pixels
+    frame + sends + row * f64::from(window.height()) + pixel_cycles / sampled * pixels
 }
 
 /// Up to [`GRID`] numbers spread evenly between two, both included.

@@ -24,6 +24,10 @@
 //!   same block, whose operands still hold what they held: its expression may
 //!   be written where it is read, and needs no home. Targets may also give it one.
 //! - A loop needs a count of its turns; see [`Statement::Loop`].
+//! - Where the graph spreads its error ([`Plan::error_rows`]), [`Node::Received`]
+//!   is what has come to the pixel, and after `tree.pixel` each share is added,
+//!   by [`Plan::gather`], to what its pixel has received so far. Then all rows
+//!   from 0 and all columns are computed, and only those above are drawn.
 //! - Constants, params and axes are read as such: [`Plan::bits`] gives a
 //!   constant's bits, `params` how the parameter block writes each param.
 //!
@@ -33,8 +37,10 @@ mod fold_uses;
 mod names;
 mod params;
 pub mod print;
+mod spread;
 
 pub use params::ParamPlan;
+pub use spread::ErrorRows;
 
 use crate::flow::graph::*;
 use crate::flow::tree::*;
@@ -181,6 +187,7 @@ impl Plan {
         let names = self
             .routines
             .iter()
+            .chain([&self.gather])
             .flatten()
             .flat_map(|r| r.needs.iter().copied());
         self.runtime.closure(names)
@@ -189,23 +196,6 @@ impl Plan {
 
 /// Plans a graph that `sema` lowered for this target's inks and offset.
 pub fn plan(graph: &Graph, target: &'static Target, goal: &Goal) -> Result<Plan, Vec<Diagnostic>> {
-    if let Some(diffusion) = &graph.diffusion {
-        let message = "error diffusion is not built for this target yet";
-        let error = Diagnostic::error(diffusion.span, message).help(
-            "use an ordered dither such as `threshold(v, bayer(8)[x mod 8, y mod 8])`, \
-             or draw the picture with `slowlight render`",
-        );
-        return Err(vec![error]);
-    }
-    planned(graph, target, goal)
-}
-
-/// Plans a graph, whether or not the target's emission can write all of it.
-pub(crate) fn planned(
-    graph: &Graph,
-    target: &'static Target,
-    goal: &Goal,
-) -> Result<Plan, Vec<Diagnostic>> {
     let runtime = target.runtime;
     if let Err(broken) = verify(graph) {
         let message =

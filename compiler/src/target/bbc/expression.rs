@@ -44,6 +44,8 @@ pub struct Expressions<'p> {
     inline: HashMap<NodeId, Text>,
     /// Whether a table's index needs clamping.
     pub clamps: bool,
+    /// The variable of what earlier pixels sent to this one.
+    pub received: String,
 }
 
 impl<'p> Expressions<'p> {
@@ -53,6 +55,7 @@ impl<'p> Expressions<'p> {
             names: Names::new(plan),
             inline: HashMap::new(),
             clamps: false,
+            received: String::new(),
         }
     }
 
@@ -67,6 +70,7 @@ impl<'p> Expressions<'p> {
             (Node::Param(p), _) => Text::operand(self.names.param(p.0 as usize)),
             (Node::Axis(Axis::X), _) => Text::operand("X%"),
             (Node::Axis(Axis::Y), _) => Text::operand("Y%"),
+            (Node::Received, _) => Text::operand(&self.received),
             (_, Some(place)) => Text::operand(self.names.home(place)),
             _ => Text::operand("0"),
         }
@@ -126,6 +130,21 @@ impl<'p> Expressions<'p> {
             }
         }
         Text { text, level }
+    }
+
+    /// What a place has received so far and what a pixel sends to it, added.
+    pub fn gather(&mut self, so_far: &str, sent: NodeId) -> String {
+        let sent = self.read(sent);
+        match self.plan.gather().map(|routine| routine.form) {
+            Some(Form::Expression {
+                template, operands, ..
+            }) => {
+                let need = operands.get(1).copied().unwrap_or(OPERAND);
+                let text = template.replace("{0}", so_far);
+                text.replace("{1}", &sent.at(need))
+            }
+            _ => so_far.to_owned(),
+        }
     }
 
     fn lookup(&mut self, table: TableId, column: NodeId, row: NodeId) -> Text {

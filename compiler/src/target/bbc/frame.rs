@@ -3,6 +3,7 @@
 use super::code::Code;
 use super::lines::Lines;
 use super::screen;
+use super::spread::Spread;
 use crate::plan::Plan;
 use slowlight_routine::{Source, Type, Value};
 use slowlight_runtime_bbc::literal;
@@ -19,8 +20,9 @@ pub fn program(plan: &Plan) -> Lines {
     let mut code = Code::new(plan);
     let first = code.values.names.unique("first", "%");
     let last = code.values.names.unique("last", "%");
+    let spread = Spread::new(plan, &mut code);
     parameters(plan, &mut code, &first, &last);
-    picture(plan, &mut code, &first, &last);
+    picture(plan, &mut code, &first, &last, spread.as_ref());
     setup(plan, &mut code, &first, &last);
     functions(plan, &mut code);
     data(plan, &mut code);
@@ -50,7 +52,7 @@ fn parameters(plan: &Plan, code: &mut Code<'_>, first: &str, last: &str) {
     ));
 }
 
-fn picture(plan: &Plan, code: &mut Code<'_>, first: &str, last: &str) {
+fn picture(plan: &Plan, code: &mut Code<'_>, first: &str, last: &str, spread: Option<&Spread>) {
     // MODE must stand outside procedures, and after nothing but small tables.
     code.statement("PROCsetup");
     if plan.plot {
@@ -62,24 +64,57 @@ fn picture(plan: &Plan, code: &mut Code<'_>, first: &str, last: &str) {
             }
         }
     }
+    if let Some(spread) = spread {
+        spread.start(code);
+    }
     code.block(&plan.tree.frame);
-    code.line(format!("FOR Y%={first} TO {last}"));
+    // Errors come from the rows above, drawn or not.
+    let top = if spread.is_some() { "0" } else { first };
+    code.line(format!("FOR Y%={top} TO {last}"));
     if plan.plot {
         code.statement(format!("R%={}", screen::y_expression(plan)));
     }
     code.block(&plan.tree.row);
-    code.line(format!("FOR X%={} TO {}", plan.columns.0, plan.columns.1));
+    let columns = plan.computed_columns();
+    code.line(format!("FOR X%={} TO {}", columns.0, columns.1));
+    if let Some(spread) = spread {
+        spread.receive(code);
+    }
     code.block(&plan.tree.pixel);
     let ink = code.values.read(plan.graph.ink).text;
     code.statement(format!("I%={ink}"));
     if plan.plot {
         // After MODE the screen is ink 0 already.
         let x = screen::x_expression(plan);
-        code.line(format!("IF I% THEN GCOL 0,I%:PLOT 69,{x},R%"));
+        let seen = seen(plan, first);
+        code.line(format!("IF I%{seen} THEN GCOL 0,I%:PLOT 69,{x},R%"));
+    }
+    if let Some(spread) = spread {
+        spread.send(code);
     }
     code.line("NEXT");
+    if let Some(spread) = spread {
+        spread.turn(code);
+    }
     code.line("NEXT");
     code.line("END");
+}
+
+/// What a pixel that is computed must pass beside to be drawn.
+fn seen(plan: &Plan, first: &str) -> String {
+    let mut text = String::new();
+    if plan.graph.diffusion.is_none() {
+        return text;
+    }
+    text.push_str(&format!(" AND Y%>={first}"));
+    let (computed, drawn) = (plan.computed_columns(), plan.columns);
+    if computed.0 < drawn.0 {
+        text.push_str(&format!(" AND X%>={}", drawn.0));
+    }
+    if computed.1 > drawn.1 {
+        text.push_str(&format!(" AND X%<={}", drawn.1));
+    }
+    text
 }
 
 fn setup(plan: &Plan, code: &mut Code<'_>, first: &str, last: &str) {

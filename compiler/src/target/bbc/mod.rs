@@ -17,7 +17,8 @@
 //! ELSE on a line, no loops over fractions.
 //!
 //! - `lines`: lines with labels, numbered at the end; `names`; `expression`: values;
-//! - `code`: statements; `frame`: everything around them; `screen`: modes, colours, coordinates.
+//! - `code`: statements; `frame`: everything around them; `screen`: modes, colours, coordinates;
+//! - `spread`: error diffusion.
 
 mod code;
 mod expression;
@@ -25,6 +26,7 @@ mod frame;
 mod lines;
 mod names;
 mod screen;
+mod spread;
 #[cfg(test)]
 mod tests;
 

@@ -95,3 +95,9 @@ fn a_program_that_does_not_draw_changes_no_screen() {
         assert!(!text.contains(word), "{text}");
     }
 }
+
+#[test]
+fn a_dither_that_spreads_reads_well() {
+    let source = "image 8 x 4 inks black, grey, white; draw (x, y) = floyd(x / 8, x, y);";
+    insta::assert_snapshot!(format!("{source}\n\n{}", text("bbc:micro", source, true)));
+}

@@ -2,6 +2,7 @@
 
 use super::names::Names;
 use super::object::Object;
+use super::spread::Spread;
 use super::{Line, Text};
 use crate::flow::graph::*;
 use crate::flow::tree::*;
@@ -66,6 +67,8 @@ pub(super) struct Code<'p> {
     pub plan: &'p Plan,
     pub names: Names,
     pub object: Object,
+    /// What pixels send to later ones.
+    pub spread: Option<Spread>,
     /// The parts of the runtime that are needed, beside those of the routines.
     pub needs: BTreeSet<&'static str>,
     /// Homes that are written, by format: those that become fields.
@@ -79,9 +82,11 @@ pub(super) struct Code<'p> {
 
 impl<'p> Code<'p> {
     pub fn new(plan: &'p Plan) -> Code<'p> {
+        let mut names = Names::new(plan);
         Code {
             plan,
-            names: Names::new(plan),
+            spread: Spread::new(plan, &mut names),
+            names,
             object: Object::default(),
             needs: BTreeSet::new(),
             written: Vec::new(),
@@ -322,6 +327,9 @@ impl<'p> Code<'p> {
             Node::Param(p) => self.object.param(self.plan, &mut self.names, p),
             Node::Axis(Axis::X) => Expression::term(&self.names.axes[0]),
             Node::Axis(Axis::Y) => Expression::term(&self.names.axes[1]),
+            Node::Received => {
+                Expression::term(self.spread.as_ref().map_or("0", |s| s.received.as_str()))
+            }
             Node::Undefined(ty) => self.constant(match ty {
                 slowlight_routine::Type::Real => Value::Real(0.0),
                 slowlight_routine::Type::Int => Value::Int(0),
@@ -331,7 +339,7 @@ impl<'p> Code<'p> {
         }
     }
 
-    fn constant(&mut self, value: Value) -> Expression {
+    pub fn constant(&mut self, value: Value) -> Expression {
         let bits = self.plan.bits(value);
         match value {
             Value::Bool(b) => Expression::term(b.to_string()),

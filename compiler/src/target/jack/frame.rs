@@ -185,6 +185,11 @@ fn fields(code: &Code, text: &mut Text) {
     declare("Float", floats.collect(), " // parameters");
     let constants = code.object.constants().iter().map(|c| c.name.as_str());
     declare("Float", constants.collect(), " // constants");
+    if let Some(spread) = &code.spread {
+        let rows = spread.ring.iter().map(String::as_str).collect();
+        declare("Array", rows, " // what pixels send to later ones");
+        declare("Float", vec![&spread.received, &spread.sum], "");
+    }
     declare(
         "Array",
         names.tables().map(|(_, name)| name).collect(),
@@ -290,6 +295,30 @@ fn checks(code: &mut Code) -> Vec<Line> {
     text.lines
 }
 
+/// What a pixel that is computed must pass beside to be drawn.
+fn seen(plan: &Plan, [x, y]: &[&str; 2], first_row: &str) -> Vec<String> {
+    let mut tests = Vec::new();
+    if plan.graph.diffusion.is_some() {
+        tests.push(format!("~({y} < {first_row})"));
+        let (computed, drawn) = (plan.computed_columns(), plan.columns);
+        if computed.0 < drawn.0 {
+            tests.push(format!("~({x} < {})", drawn.0));
+        }
+        if computed.1 > drawn.1 {
+            tests.push(format!("~({x} > {})", drawn.1));
+        }
+    }
+    tests
+}
+
+/// The condition for a pixel to be drawn: those of ink 1 are white already.
+fn black(ink: &str, tests: &[String]) -> String {
+    match tests {
+        [] => format!("{ink} = 0"),
+        _ => format!("({ink} = 0) & {}", tests.join(" & ")),
+    }
+}
+
 /// What is worked out once a picture, once a row, once a pixel.
 fn drawing(code: &mut Code) -> Vec<Subroutine> {
     let plan = code.plan;
@@ -297,6 +326,7 @@ fn drawing(code: &mut Code) -> Vec<Subroutine> {
     let row = code.body(&plan.tree.row, "drawRow");
     let pixel = code.body(&plan.tree.pixel, "drawPixel");
     let ink = code.read(plan.graph.ink);
+    let spread = code.spread.clone();
     let [x, y] = code.names.axes.clone();
     let [first_row, last_row] = code.names.rows.clone();
 
@@ -308,24 +338,30 @@ fn drawing(code: &mut Code) -> Vec<Subroutine> {
     if plan.plot {
         picture.line("do Screen.setColor(true);");
     }
-    picture.line(format!("let {y} = {first_row};"));
+    // Errors come from the rows above, drawn or not.
+    let top = if spread.is_some() { "0" } else { &first_row };
+    picture.line(format!("let {y} = {top};"));
     picture.open(format!("while (~({y} > {last_row})) {{"));
     picture.line("do drawRow();");
+    if let Some(spread) = &spread {
+        spread.turn(&mut picture);
+    }
     picture.line(format!("let {y} = {y} + 1;"));
     picture.close("}");
 
     let mut across = Text::default();
     across.append(row);
-    across.line(format!("let {x} = {};", plan.columns.0));
-    across.open(format!(
-        "while ({x} < {}) {{",
-        plan.columns.1.saturating_add(1)
-    ));
+    let columns = plan.computed_columns();
+    across.line(format!("let {x} = {};", columns.0));
+    across.open(format!("while ({x} < {}) {{", columns.1.saturating_add(1)));
     across.line("do drawPixel();");
     across.line(format!("let {x} = {x} + 1;"));
     across.close("}");
 
     let mut dot = Text::default();
+    if let Some(spread) = &spread {
+        spread.receive(&x, &mut dot);
+    }
     dot.append(pixel);
     dot.span = Some(plan.graph.span(plan.graph.ink));
     if plan.plot {
@@ -334,7 +370,8 @@ fn drawing(code: &mut Code) -> Vec<Subroutine> {
             1.. => format!("{axis} + {by}"),
             _ => format!("{axis} - {}", by.unsigned_abs()),
         });
-        dot.open(format!("if ({} = 0) {{", ink.at(TERM)));
+        let seen = seen(plan, &[&x, &y], &first_row);
+        dot.open(format!("if ({}) {{", black(&ink.at(TERM), &seen)));
         dot.line(format!("do Screen.drawPixel({}, {});", at[0], at[1]));
         dot.close("}");
     } else if let Some(place) = plan.place(plan.graph.ink) {
@@ -344,7 +381,10 @@ fn drawing(code: &mut Code) -> Vec<Subroutine> {
             dot.line(format!("let {home} = {};", ink.text));
         }
     }
-    let (first, last) = plan.columns;
+    if let Some(spread) = &spread {
+        dot.append(spread.send(code, &x));
+    }
+    let (first, last) = columns;
     vec![
         subroutine(
             "Once a picture.",

@@ -58,6 +58,9 @@ pub(super) fn making(code: &mut Code) -> Vec<Subroutine> {
     if !made.is_empty() {
         code.needs.insert("Float");
     }
+    if let Some(spread) = code.spread.clone() {
+        all.push(spread.making(code));
+    }
     let tables = tables(code);
     for (name, about, lines) in [
         (

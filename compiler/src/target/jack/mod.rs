@@ -21,13 +21,14 @@
 //!
 //! - `names`: what everything is called; `code`: statements and expressions;
 //! - `object`: constants and params; `making`: what fills the fields at the start;
-//! - `frame`: the classes around.
+//! - `frame`: the classes around; `spread`: error diffusion.
 
 mod code;
 mod frame;
 mod making;
 mod names;
 mod object;
+mod spread;
 #[cfg(test)]
 mod tests;
 

@@ -49,6 +49,7 @@ const METHODS: &[&str] = &[
     "makeConstants",
     "makeTables",
     "makeValues",
+    "makeErrors",
     "takeParameters",
     "drawPicture",
     "drawRow",

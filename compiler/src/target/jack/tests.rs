@@ -136,3 +136,9 @@ fn classes_are_named_after_the_scene() {
     assert_eq!(class("\u{e9}"), "Scene.jack");
     assert_eq!(class("a*/\nb"), "AB.jack");
 }
+
+#[test]
+fn a_dither_that_spreads_reads_well() {
+    let source = "image 8 x 4 inks black, white; draw (x, y) = floyd(x / 8, x, y);";
+    insta::assert_snapshot!(format!("{source}\n\n{}", text("ramp", &lowered(source))));
+}

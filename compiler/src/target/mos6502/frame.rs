@@ -118,6 +118,9 @@ fn symbols(homes: &Homes, parts: &[&'static Part], text: &mut Text) {
         let width = if home.address < 0x100 { 2 } else { 4 };
         text.line(format!("{} = ${:0width$x}", home.name, home.address));
     }
+    if let Some(at) = homes.errors {
+        text.line(format!("errors = ${at:04x}"));
+    }
     text.line("");
     text.line(format!("* = ${:04x}", homes.origin));
 }
@@ -140,6 +143,10 @@ fn main(plan: &Plan, homes: &Homes, parts: &[&'static Part], text: &mut Text) ->
         text,
         clamps: false,
     };
+    let errors = plan.error_rows();
+    if let Some(rows) = &errors {
+        code.start_errors(rows);
+    }
     if !plan.tree.frame.is_empty() {
         code.text.headline("once a picture");
         code.block(&plan.tree.frame);
@@ -147,12 +154,17 @@ fn main(plan: &Plan, homes: &Homes, parts: &[&'static Part], text: &mut Text) ->
     code.text.span = None;
     let [x, y] = [Axis::X, Axis::Y].map(|axis| homes.name(Slot::Axis(axis)).to_owned());
     let [first, last] = [false, true].map(|end| homes.name(Slot::Rows(end)).to_owned());
-    code.copy_to(&Operand::At(first), &y);
+    // Errors come from the rows above, drawn or not.
+    let top = match errors {
+        Some(_) => Operand::Constant(0),
+        None => Operand::At(first.clone()),
+    };
+    code.copy_to(&top, &y);
 
     code.text.headline("once a row");
     code.text.label("next_row");
     if plan.plot {
-        let left = (i64::from(plan.columns.0) + i64::from(plan.offset.0)) as u64;
+        let left = (i64::from(plan.computed_columns().0) + i64::from(plan.offset.0)) as u64;
         let [x0, x1] = [0, 1].map(|k| write::byte(&Operand::Constant(left), k));
         code.text
             .code(&format!("lda {x0} | sta x_port | lda {x1} | sta x_port+1"));
@@ -163,21 +175,36 @@ fn main(plan: &Plan, homes: &Homes, parts: &[&'static Part], text: &mut Text) ->
         code.text
             .code(&format!("lda {y}+1 | adc {dy1} | sta y_port+1"));
     }
-    code.copy_to(&Operand::Constant(u64::from(plan.columns.0)), &x);
+    let columns = plan.computed_columns();
+    code.copy_to(&Operand::Constant(u64::from(columns.0)), &x);
     code.block(&plan.tree.row);
     code.text.span = None;
 
     code.text.headline("once a pixel");
     code.text.label("next_pixel");
+    if let Some(rows) = &errors {
+        code.receive_errors(rows);
+    }
     code.block(&plan.tree.pixel);
     code.text.span = None;
     if plan.plot {
         let ink = write::byte(&homes.operand(plan, plan.graph.ink), 0);
+        if errors.is_some() {
+            code.text.code(&format!(
+                "lda {y} | cmp {first} | lda {y}+1 | sbc {first}+1 | bcc unseen_pixel"
+            ));
+        }
         code.text.code(&format!("lda {ink} | sta ink_port"));
+        if errors.is_some() {
+            code.text.label("unseen_pixel");
+        }
+    }
+    if let Some(rows) = &errors {
+        code.send_errors(rows);
     }
     let clamps = code.clamps;
-    let [end0, end1] =
-        [0, 1].map(|k| write::byte(&Operand::Constant(u64::from(plan.columns.1) + 1), k));
+    let [end0, end1] = [0, 1].map(|k| write::byte(&Operand::Constant(u64::from(columns.1) + 1), k));
+    let text = &mut *code.text;
     text.code(&format!("inc {x} | bne next_column | inc {x}+1"));
     text.label("next_column");
     text.code(&format!("lda {x} | cmp {end0} | bne more_pixels"));
@@ -185,6 +212,10 @@ fn main(plan: &Plan, homes: &Homes, parts: &[&'static Part], text: &mut Text) ->
     text.label("more_pixels");
     text.code("jmp next_pixel");
     text.label("last_pixel");
+    if let Some(rows) = &errors {
+        code.turn_errors(rows);
+    }
+    let text = &mut *code.text;
     text.code(&format!(
         "lda {y} | cmp {last} | lda {y}+1 | sbc {last}+1 | bcs picture_done"
     ));

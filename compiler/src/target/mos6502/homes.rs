@@ -1,5 +1,6 @@
 //! Where values live, and what they are called in the program.
 
+use super::spread;
 use crate::flow::graph::*;
 use crate::flow::tree::*;
 use crate::plan::Plan;
@@ -24,6 +25,10 @@ pub(super) enum Slot {
     Rows(bool),
     /// Which param is being made.
     Which,
+    /// What earlier pixels sent to this one.
+    Received,
+    /// A pointer into a row of errors.
+    Errors(u32),
 }
 
 /// A slot's place in memory.
@@ -40,6 +45,8 @@ pub(super) struct Homes {
     pub params: Vec<String>,
     /// Conditions that the statement after them branches on: they have no home.
     pub fused: BTreeSet<NodeId>,
+    /// Where rows of errors are, if there are some.
+    pub errors: Option<u16>,
     /// The first free address behind the homes.
     pub origin: u16,
 }
@@ -77,6 +84,9 @@ const RESERVED: &[&str] = &[
     "exit_port",
     "palette_port",
     "colours",
+    "unseen_pixel",
+    "errors",
+    "clear_errors",
 ];
 
 impl Homes {
@@ -111,11 +121,18 @@ impl Homes {
             homes.insert(slot, home);
         }
         // A page of its own keeps the program's addresses easy to read.
-        let origin = memory.saturating_add(0xFF) & 0xFF00;
+        let mut origin = memory.saturating_add(0xFF) & 0xFF00;
+        let errors = plan.error_rows().map(|rows| {
+            let at = origin;
+            let bytes = u16::try_from(spread::bytes(&rows)).unwrap_or(0xFF00);
+            origin = origin.saturating_add(bytes) & 0xFF00;
+            at
+        });
         Homes {
             homes,
             params,
             fused,
+            errors,
             origin,
         }
     }
@@ -143,6 +160,7 @@ impl Homes {
             (None, Node::Const(c)) => Operand::Constant(plan.bits(c.value())),
             (None, Node::Param(p)) => at(Slot::Param(p.0)),
             (None, Node::Axis(axis)) => at(Slot::Axis(axis)),
+            (None, Node::Received) => at(Slot::Received),
             (None, _) => Operand::Constant(0),
         }
     }
@@ -183,7 +201,8 @@ fn size(plan: &Plan, slot: Slot) -> u16 {
         Slot::Value(place) => u16::from(write::size(plan.place_format(place))),
         Slot::Turns(of) => 1 + u16::from(most_turns(plan, of) > 0xFF),
         Slot::Which => 1,
-        Slot::Param(_) | Slot::Axis(_) | Slot::Rows(_) => 4,
+        Slot::Errors(_) => 2,
+        Slot::Param(_) | Slot::Axis(_) | Slot::Rows(_) | Slot::Received => 4,
     }
 }
 
@@ -205,6 +224,8 @@ fn wanted(plan: &Plan, slot: Slot) -> String {
         Slot::Rows(false) => "first_row_value".to_owned(),
         Slot::Rows(true) => "last_row_value".to_owned(),
         Slot::Which => "which_param".to_owned(),
+        Slot::Received => "received".to_owned(),
+        Slot::Errors(k) => format!("errors_{k}"),
     }
 }
 
@@ -234,6 +255,13 @@ impl Uses<'_> {
             self.block(block);
         }
         self.read(self.plan.graph.ink);
+        if let Some(rows) = self.plan.error_rows() {
+            rows.shares.iter().for_each(|s| self.read(s.node));
+            self.add(Slot::Received);
+            // Only what is in the zero page can point.
+            let pointers = (0..rows.rows).map(|k| (Slot::Errors(k), u64::MAX));
+            self.count.extend(pointers);
+        }
         self.add(Slot::Axis(Axis::X));
         self.add(Slot::Axis(Axis::Y));
     }
@@ -250,6 +278,7 @@ impl Uses<'_> {
             (Some(place), _) => self.add(Slot::Value(place)),
             (None, Node::Param(p)) => self.add(Slot::Param(p.0)),
             (None, Node::Axis(axis)) => self.add(Slot::Axis(axis)),
+            (None, Node::Received) => self.add(Slot::Received),
             _ => {}
         }
     }

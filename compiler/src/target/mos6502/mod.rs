@@ -15,13 +15,15 @@
 //!
 //! - `homes`: where values live and what they are called;
 //! - `code`: statements; `table`: lookups; `comment`: what a statement means;
-//! - `params`: the parameter block's checks; `frame`: everything around the statements.
+//! - `params`: the parameter block's checks; `frame`: everything around the statements;
+//! - `spread`: error diffusion.
 
 mod code;
 mod comment;
 mod frame;
 mod homes;
 mod params;
+mod spread;
 mod table;
 #[cfg(test)]
 mod tests;

@@ -116,3 +116,12 @@ fn only_what_is_used_is_written() {
 fn output_is_a_function_of_the_scene() {
     assert_eq!(text(GRADIENT), text(GRADIENT));
 }
+
+#[test]
+fn a_dither_that_spreads_reads_well() {
+    let source = "image 8 x 4 inks black, grey, white; draw (x, y) = floyd(x / 8, x, y);";
+    // The runtime's parts are tested elsewhere.
+    let all = text(source);
+    let own = all.split("; ---- runtime").next().unwrap();
+    insta::assert_snapshot!(format!("{source}\n\n{own}"));
+}

@@ -1,0 +1,137 @@
+//! Error diffusion: what pixels send to later ones waits in memory, a row for
+//! each that a share reaches ([`ErrorRows`]), with a pointer into each.
+//!
+//! A pointer stands as far left of the pixel as a share may reach, so that an
+//! index of one byte finds all that a pixel sends to. The pointers move on with
+//! the pixels; behind a row they go back, and change places.
+
+use super::code::Code;
+use super::homes::{Homes, Slot};
+use crate::plan::ErrorRows;
+use slowlight_runtime_6502::write::{self, Goal, Place as Operand};
+
+/// Bytes of an error.
+const SIZE: u32 = 4;
+
+/// Bytes of all rows, to whole pages.
+pub(super) fn bytes(rows: &ErrorRows) -> u32 {
+    (rows.rows * rows.length() * SIZE + 0xFF) & !0xFF
+}
+
+fn pointer(homes: &Homes, row: u32) -> String {
+    homes.name(Slot::Errors(row)).to_owned()
+}
+
+impl Code<'_> {
+    /// All errors 0, and the pointers at their rows' beginnings.
+    pub(super) fn start_errors(&mut self, rows: &ErrorRows) {
+        let first = pointer(self.homes, 0);
+        let pages = bytes(rows) >> 8;
+        let text = &mut *self.text;
+        text.headline("no errors yet");
+        text.code(&format!(
+            "lda #<(errors) | sta {first} | lda #>(errors) | sta {first}+1"
+        ));
+        text.code(&format!("ldx #{pages} | ldy #0 | tya"));
+        text.label("clear_errors");
+        text.code(&format!(
+            "sta ({first}),y | iny | bne clear_errors | inc {first}+1 | dex | bne clear_errors"
+        ));
+        for k in 0..rows.rows {
+            let name = pointer(self.homes, k);
+            let at = k * rows.length() * SIZE;
+            self.text.code(&format!(
+                "lda #<(errors+{at}) | sta {name} | lda #>(errors+{at}) | sta {name}+1"
+            ));
+        }
+    }
+
+    /// Takes what a pixel has received, and leaves 0.
+    pub(super) fn receive_errors(&mut self, rows: &ErrorRows) {
+        let (row, home) = (pointer(self.homes, 0), self.homes.name(Slot::Received));
+        self.text.line(format!("        ; {home} = what came here"));
+        for k in 0..SIZE {
+            let load = if k == 0 {
+                format!("ldy #{}", SIZE * rows.left)
+            } else {
+                "iny".to_owned()
+            };
+            let to = write::byte_at(home, k as u8);
+            self.text.code(&format!(
+                "{load} | lda ({row}),y | sta {to} | lda #0 | sta ({row}),y"
+            ));
+        }
+    }
+
+    /// Sends a pixel's shares, and moves the pointers on.
+    pub(super) fn send_errors(&mut self, rows: &ErrorRows) {
+        for share in &rows.shares {
+            let row = pointer(self.homes, u32::try_from(share.dy).unwrap_or(0));
+            let right = i64::from(rows.left) + i64::from(share.dx);
+            let at = i64::from(SIZE) * right;
+            self.text.span = Some(self.plan.graph.span(share.node));
+            self.text
+                .line(format!("        ; to ({}, {})", share.dx, share.dy));
+            self.text.code(&format!("ldy #{at}"));
+            self.each_byte(&format!("lda ({row}),y | sta acc"));
+            if let Some(routine) = self.plan.gather() {
+                let args = [
+                    Operand::At("acc".to_owned()),
+                    self.homes.operand(self.plan, share.node),
+                ];
+                let mut lines = Vec::new();
+                let serial = self.text.next_serial();
+                write::instructions(routine, &args, &Goal::At("prod"), serial, &mut lines);
+                lines.iter().for_each(|line| self.text.line(line));
+            }
+            self.text.code(&format!("ldy #{at}"));
+            self.each_byte(&format!("lda prod | sta ({row}),y"));
+        }
+        self.text.span = None;
+        for k in 0..rows.rows {
+            let name = pointer(self.homes, k);
+            self.text.code(&format!(
+                "clc | lda {name} | adc #{SIZE} | sta {name} | bcc moved{k} | inc {name}+1"
+            ));
+            self.text.label(&format!("moved{k}"));
+        }
+    }
+
+    /// Instructions for each byte of an error; `acc` and `prod` in them stand
+    /// for the byte's place, and y moves on.
+    fn each_byte(&mut self, instructions: &str) {
+        for k in 0..SIZE as u8 {
+            let text = ["acc", "prod"]
+                .iter()
+                .fold(instructions.to_owned(), |t, n| {
+                    t.replace(n, &write::byte_at(n, k))
+                });
+            let step = if k == 0 { "" } else { "iny | " };
+            self.text.code(&format!("{step}{text}"));
+        }
+    }
+
+    /// Behind a row: back to its beginning, and the row that is done becomes
+    /// the furthest one.
+    pub(super) fn turn_errors(&mut self, rows: &ErrorRows) {
+        let names: Vec<String> = (0..rows.rows).map(|k| pointer(self.homes, k)).collect();
+        let [lo, hi, ..] = (SIZE * rows.width).to_le_bytes();
+        for name in &names {
+            self.text.code(&format!(
+                "sec | lda {name} | sbc #{lo} | sta {name} | lda {name}+1 | sbc #{hi} | sta {name}+1"
+            ));
+        }
+        let [first, .., last] = names.as_slice() else {
+            return;
+        };
+        self.text.code(&format!("ldx {first} | ldy {first}+1"));
+        for pair in names.windows(2) {
+            if let [to, from] = pair {
+                self.text.code(&format!(
+                    "lda {from} | sta {to} | lda {from}+1 | sta {to}+1"
+                ));
+            }
+        }
+        self.text.code(&format!("stx {last} | sty {last}+1"));
+    }
+}
