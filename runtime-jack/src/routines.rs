@@ -11,8 +11,10 @@ const EXACT: Error = Error::Exact;
 
 /// A product is short of the exact one by up to 2^-11.08 of it.
 const MUL: Error = Error::Relative(4.63e-4);
-/// A difference may be twice the exact one: 1 - (1 - 2^-14).
-const ADD: Error = Error::Relative(1.0);
+/// The smaller summand is cut at the last place of the larger, and a sum that
+/// is longer loses one place more: a difference may be twice the exact one,
+/// 1 - (1 - 2^-14).
+const ADD: Error = Error::Larger(1.2207031250000002e-4);
 /// The divisor's halves are cut, so a quotient may also be too large.
 const DIV: Error = Error::Relative(1.2e-3);
 /// Two steps of Newton's leave 1.73e-3; the quotients add to that.

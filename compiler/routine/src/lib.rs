@@ -39,6 +39,17 @@ pub enum Format {
 }
 
 impl Format {
+    /// The greatest magnitude that it holds, or a little more.
+    pub fn most(self) -> f64 {
+        match self {
+            Format::Bool => 1.0,
+            Format::Int { bits } => 2f64.powi(i32::from(bits) - 1),
+            Format::Fixed { bits, frac } => 2f64.powi(i32::from(bits) - 1 - i32::from(frac)),
+            Format::Real40 => 2f64.powi(127),
+            Format::Float316 => f64::MAX,
+        }
+    }
+
     /// The scalar type that it holds.
     pub fn scalar(self) -> Type {
         match self {
@@ -90,8 +101,27 @@ pub enum Error {
     Exact,
     /// At most so many times the magnitude of the exact result.
     Relative(f64),
+    /// At most so many times the greatest magnitude among the arguments and
+    /// the exact result: sums in a format that cuts the smaller summand.
+    Larger(f64),
     /// At most so much.
     Absolute(f64),
+}
+
+impl Error {
+    /// The most that a result may be off whose exact value is `exact`, its
+    /// arguments as given.
+    pub fn most(self, args: &[Range], exact: f64) -> f64 {
+        match self {
+            Error::Exact => 0.0,
+            Error::Relative(part) => part * exact.abs(),
+            Error::Absolute(most) => most,
+            Error::Larger(part) => {
+                let most = |m: f64, r: &Range| m.max(r.magnitude());
+                part * args.iter().fold(exact.abs(), most)
+            }
+        }
+    }
 }
 
 /// Where a routine may be used: given the ranges of its arguments and of its

@@ -3,12 +3,15 @@
 //! Bounds are computed in `f64` to nearest; the enlargement by the machine's
 //! error, far larger than an `f64` ulp, covers that.
 
-use slowlight_routine::{Op, Range, Value};
+use slowlight_routine::{Op, Range, Type, Value};
 use std::f64::consts::PI;
 
 /// The range of `op`; `same` says that both arguments are one value.
 pub fn interval(op: Op, [a, b]: [Range; 2], same: bool) -> Range {
     let one = |x: f64| op.eval(&[Value::Real(x)]).real();
+    if let Some(made) = point(op, a, b) {
+        return made;
+    }
     match op {
         Op::Add => bounds(a.lo + b.lo, a.hi + b.hi),
         Op::Sub if same => Range::point(0.0),
@@ -33,11 +36,17 @@ pub fn interval(op: Op, [a, b]: [Range; 2], same: bool) -> Range {
             }
         }
         Op::Mod => modulus(b, 0.0),
-        Op::Sin | Op::Cos => Range::new(-1.0, 1.0),
-        Op::Asin => Range::new(-PI / 2.0, PI / 2.0),
-        Op::Acos => Range::new(0.0, PI),
+        Op::Sin => wave(a, 0.25),
+        Op::Cos => wave(a, 0.0),
+        Op::Asin => bounds(one(a.lo), one(a.hi)),
+        Op::Acos => bounds(one(a.hi), one(a.lo)),
         Op::Atan2 => Range::new(-PI, PI),
         Op::Exp | Op::Log => bounds(one(a.lo), one(a.hi)),
+        Op::Pow if a.lo > 0.0 => {
+            let corners = [(a.lo, b.lo), (a.lo, b.hi), (a.hi, b.lo), (a.hi, b.hi)];
+            let all = corners.map(|(x, y)| Range::point(x.powf(y).min(f64::MAX)));
+            all.into_iter().reduce(Range::join).unwrap_or(Range::ALL)
+        }
         Op::Pow if a.lo >= 0.0 => Range::new(0.0, f64::INFINITY),
         Op::Pow | Op::Tan => Range::ALL,
         Op::Floor => Range::new(whole(a.lo.floor()), whole(a.hi.floor())),
@@ -63,6 +72,44 @@ pub fn interval(op: Op, [a, b]: [Range; 2], same: bool) -> Range {
         Op::Less | Op::LessEqual | Op::Equal | Op::Not => truth(op, a, b),
         Op::IntLess | Op::IntLessEqual | Op::IntEqual => truth(op, a, b),
     }
+}
+
+/// The operation itself, where both arguments are known.
+fn point(op: Op, a: Range, b: Range) -> Option<Range> {
+    let value = |ty: Type, x: f64| match ty {
+        Type::Bool => Value::Bool(x != 0.0),
+        Type::Int => Value::Int(x as i32),
+        Type::Real => Value::Real(x),
+    };
+    let args = op.args();
+    let first = value(*args.first()?, a.constant()?);
+    let made = match args.get(1) {
+        Some(&ty) => op.eval(&[first, value(ty, b.constant()?)]),
+        None => op.eval(&[first]),
+    };
+    Some(Range::point(made.real()))
+}
+
+/// The cosine of a range; `turn` is how far its peaks lie from whole turns.
+fn wave(a: Range, turn: f64) -> Range {
+    if !a.lo.is_finite() || !a.hi.is_finite() || a.magnitude() > 1e9 {
+        return Range::new(-1.0, 1.0);
+    }
+    let (lo, hi) = (a.lo / (2.0 * PI) - turn, a.hi / (2.0 * PI) - turn);
+    let ends = [lo, hi].map(|x| (x * 2.0 * PI).cos());
+    // Whether a whole number plus `at` lies between the ends.
+    let meets = |at: f64| (lo - at).ceil() <= hi - at;
+    let least = if meets(0.5) {
+        -1.0
+    } else {
+        ends[0].min(ends[1])
+    };
+    let most = if meets(0.0) {
+        1.0
+    } else {
+        ends[0].max(ends[1])
+    };
+    bounds((least - 1e-9).max(-1.0), (most + 1e-9).min(1.0))
 }
 
 /// A range whose bounds may have come out of inf - inf.
@@ -102,7 +149,7 @@ fn magnitude(a: Range) -> Range {
     }
 }
 
-fn product(a: Range, b: Range) -> Range {
+pub(super) fn product(a: Range, b: Range) -> Range {
     let times = |x: f64, y: f64| if x == 0.0 || y == 0.0 { 0.0 } else { x * y };
     let corners = [
         times(a.lo, b.lo),

@@ -7,6 +7,7 @@
 //! not exact, so every operation's interval is enlarged by the error that the
 //! machine's routines may make, and cut to what its formats can hold.
 
+pub mod error;
 mod interval;
 mod refine;
 
@@ -28,8 +29,8 @@ pub struct Ranges {
 
 /// How a machine departs from exact arithmetic.
 pub struct Slack {
-    /// Relative and absolute error, by [`Op`].
-    errors: Vec<(Op, f64, f64)>,
+    /// How far results may be off, by [`Op`]: every routine's.
+    errors: Vec<(Op, Error)>,
     /// What a component of a direction is trusted to be, if anything.
     direction: Option<Range>,
     /// The greatest magnitude of a quotient.
@@ -56,33 +57,16 @@ impl Slack {
     /// As the routines of a runtime state it.
     pub fn of(runtime: &Runtime) -> Slack {
         let ends = |format: Format| match format {
-            Format::Int { bits } => {
-                let top = 2f64.powi(i32::from(bits) - 1);
-                Range::new(-top, top - 1.0)
-            }
-            Format::Fixed { bits, frac } => {
-                let top = 2f64.powi(i32::from(bits) - 1 - i32::from(frac));
-                Range::new(-top, top)
-            }
+            Format::Int { .. } => Range::new(-format.most(), format.most() - 1.0),
+            Format::Fixed { .. } => Range::new(-format.most(), format.most()),
             _ => Range::new(f64::MIN, f64::MAX),
         };
-        let mut errors: Vec<(Op, f64, f64)> = Vec::new();
-        for routine in runtime.routines {
-            let (relative, absolute) = match routine.error {
-                Error::Exact => (0.0, 0.0),
-                Error::Relative(r) => (r, 0.0),
-                Error::Absolute(a) => (0.0, a),
-            };
-            match errors.iter_mut().find(|(op, ..)| *op == routine.op) {
-                Some((_, r, a)) => (*r, *a) = (r.max(relative), a.max(absolute)),
-                None => errors.push((routine.op, relative, absolute)),
-            }
-        }
+        let errors = runtime.routines.iter().map(|r| (r.op, r.error));
         // In a format whose ends are near, a scene that breaks the contract
         // would wrap: there the routines saturate instead.
         let floats = matches!(runtime.real, Format::Real40 | Format::Float316);
         Slack {
-            errors,
+            errors: errors.collect(),
             direction: floats.then(|| Range::new(-2.0, 2.0)),
             quotient: runtime.quotient,
             reals: ends(runtime.real),
@@ -90,22 +74,25 @@ impl Slack {
         }
     }
 
-    fn enlarge(&self, op: Op, range: Range) -> Range {
-        let found = self.errors.iter().find(|(o, ..)| *o == op);
-        let Some(&(_, relative, absolute)) = found else {
-            return range;
+    /// A range with what the routines of an operation may add to it.
+    fn enlarge(&self, op: Op, args: &[Range], range: Range) -> Range {
+        let all = self.errors.iter().filter(|(o, _)| *o == op);
+        let worst = |x: f64| {
+            let off = all.clone().map(|(_, error)| error.most(args, x));
+            off.fold(0.0, f64::max)
         };
-        if relative == 0.0 && absolute == 0.0 {
+        let (low, high) = (worst(range.lo), worst(range.hi));
+        if low == 0.0 && high == 0.0 {
             return range;
         }
-        let grow = |x: f64| x.abs().mul_add(relative, absolute);
-        let mut wide = Range::new(range.lo - grow(range.lo), range.hi + grow(range.hi));
-        wide.nonzero |= range.nonzero && absolute == 0.0;
+        let mut wide = Range::new(range.lo - low, range.hi + high);
+        // What is off by a part of itself keeps its sign.
+        wide.nonzero |= range.nonzero && worst(0.0) == 0.0;
         wide
     }
 
     /// What an operation's result stays within, given its exact range.
-    fn rounded(&self, op: Op, exact: Range) -> Range {
+    fn rounded(&self, op: Op, args: &[Range], exact: Range) -> Range {
         let exact = match op {
             Op::Div if self.quotient.is_finite() => {
                 let held = |x: f64| x.clamp(-self.quotient, self.quotient);
@@ -116,7 +103,7 @@ impl Slack {
             }
             _ => exact,
         };
-        self.cut(op.result(), self.enlarge(op, exact))
+        self.cut(op.result(), self.enlarge(op, args, exact))
     }
 
     fn cut(&self, ty: Type, range: Range) -> Range {
@@ -167,7 +154,7 @@ fn known(graph: &Graph, slack: &Slack, id: NodeId) -> Range {
                 .get(p.0 as usize)
                 .and_then(|p| p.range)
                 .unwrap_or(Range::ALL);
-            slack.cut(graph.ty(id), slack.enlarge(Op::Add, range))
+            slack.cut(graph.ty(id), slack.enlarge(Op::Mul, &[], range))
         }
         Node::Axis(Axis::X) => Range::new(0.0, f64::from(graph.image.width.saturating_sub(1))),
         Node::Axis(Axis::Y) => Range::new(0.0, f64::from(graph.image.height.saturating_sub(1))),
@@ -372,7 +359,7 @@ impl Walk<'_> {
                 let exact = interval(op, args, a == b);
                 self.out.args[at] = args;
                 self.out.exact[at] = exact;
-                self.slack.rounded(op, exact)
+                self.slack.rounded(op, &args[..op.arity()], exact)
             }
             Node::Lookup { table, .. } => {
                 let entries = self

@@ -5,7 +5,7 @@
 mod bench;
 
 use bench::{Bench, Random};
-use slowlight_routine::{Error, Format, Op, Range, Routine, Value};
+use slowlight_routine::{Format, Op, Range, Routine, Value};
 use std::collections::BTreeSet;
 
 use crate::{FIXED16_16 as RUNTIME, model, write::Place};
@@ -77,11 +77,7 @@ fn check(bench: &mut Bench, routine: &Routine, args: &[i32]) {
     };
     let off =
         ((RUNTIME.decode)(expected, routine.result).real() - exact.lo.clamp(least, most)).abs();
-    let bound = match routine.error {
-        Error::Exact => 0.0,
-        Error::Absolute(bound) => bound,
-        Error::Relative(bound) => bound * exact.lo.abs(),
-    };
+    let bound = routine.error.most(&[], exact.lo);
     assert!(off <= bound, "{}({args:x?}) is {off} off", routine.name);
 }
 

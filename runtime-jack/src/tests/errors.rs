@@ -34,7 +34,7 @@ fn stated(op: Op) -> f64 {
     let of = |error| match error {
         Error::Relative(r) => r,
         Error::Exact => 0.0,
-        Error::Absolute(a) => panic!("{a}"),
+        Error::Absolute(a) | Error::Larger(a) => panic!("{a}"),
     };
     F316.routines
         .iter()
@@ -118,10 +118,9 @@ fn routines_keep_within_their_errors() {
                 _ => exact,
             };
             let within = match routine.error {
-                Error::Relative(r) => (made - exact).abs() <= r * exact.abs(),
-                Error::Absolute(a) => (made - exact).abs() <= a,
                 // Saturating ints end one short of the format's least.
                 Error::Exact => made == exact || exact.abs() >= 32767.0 && made.abs() >= 32767.0,
+                error => (made - exact).abs() <= error.most(&ranges, exact),
             };
             assert!(
                 within || made.abs() == f64::MAX,
