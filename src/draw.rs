@@ -10,6 +10,7 @@ use slowlight_compiler::eval::model::ModelRun;
 use slowlight_compiler::eval::native::{Native, Pixel};
 use slowlight_compiler::flow::graph::Graph;
 use slowlight_compiler::plan::Plan;
+use std::ops::Range;
 
 /// Stack of a thread that compiles or evaluates, in bytes: deep scenes recurse.
 pub const STACK: usize = 256 << 20;
@@ -113,7 +114,7 @@ pub fn set_up_threads() {
 pub fn native(graph: &Graph, window: Window) -> Outcome<Drawn> {
     let pixels = rows("native picture", graph, window, || {
         let mut native = Native::new(graph);
-        move |x, y| native.pixel(x, y)
+        move |columns, y, out| native.pixels(columns, y, out)
     })?;
     Ok(Drawn {
         window,
@@ -130,7 +131,7 @@ pub fn model(plan: &Plan) -> Outcome<Drawn> {
     let window = Window::of(plan);
     let pixels = rows("model", &plan.graph, window, || {
         let mut model = ModelRun::new(plan);
-        move |x, y| model.pixel(x, y)
+        move |columns, y, out| out.extend(columns.map(|x| model.pixel(x, y)))
     })?;
     Ok(Drawn {
         window,
@@ -139,7 +140,11 @@ pub fn model(plan: &Plan) -> Outcome<Drawn> {
     })
 }
 
-/// Evaluates a window, each thread with an evaluation of its own. An evaluation
+/// Pixels that are drawn between looks at whether Ctrl-C was pressed.
+const BLOCK: usize = 64;
+
+/// Evaluates a window, each thread with an evaluation of its own, which is
+/// given some columns of a row and where to put their pixels. An evaluation
 /// that spreads errors draws by itself what comes before the window, so only
 /// one thread draws then.
 fn rows<E>(
@@ -149,7 +154,7 @@ fn rows<E>(
     start: impl Fn() -> E + Sync + Send,
 ) -> Outcome<Vec<Pixel>>
 where
-    E: FnMut(i32, i32) -> Pixel,
+    E: FnMut(Range<i32>, i32, &mut Vec<Pixel>),
 {
     let progress = Progress::new(what, u64::from(window.height()));
     // Starting an evaluation costs a walk over the graph: not for each row.
@@ -162,14 +167,15 @@ where
     let parts: Vec<Option<Vec<Pixel>>> = rows
         .par_chunks(share.max(1))
         .map(|rows| {
-            let mut pixel = start();
+            let mut pixels = start();
+            let (from, to) = (window.columns.0 as i32, window.columns.1 as i32 + 1);
             let mut out = Vec::with_capacity(rows.len() * window.width() as usize);
             for &y in rows {
-                for x in window.columns.0..=window.columns.1 {
+                for x in (from..to).step_by(BLOCK) {
                     if interrupt::pressed() {
                         return None;
                     }
-                    out.push(pixel(x as i32, y as i32));
+                    pixels(x..to.min(x + BLOCK as i32), y as i32, &mut out);
                 }
                 progress.step(1);
             }

@@ -27,6 +27,7 @@ impl Value {
     }
 
     /// As a real: ints widen, true is 1.
+    #[inline]
     pub fn real(self) -> f64 {
         match self {
             Value::Bool(b) => f64::from(u8::from(b)),
@@ -36,6 +37,7 @@ impl Value {
     }
 
     /// As an int: reals truncate and saturate.
+    #[inline]
     pub fn int(self) -> i32 {
         match self {
             Value::Bool(b) => i32::from(b),
@@ -45,6 +47,7 @@ impl Value {
     }
 
     /// As a condition: whatever is not 0 is true.
+    #[inline]
     pub fn truth(self) -> bool {
         match self {
             Value::Bool(b) => b,
@@ -71,11 +74,13 @@ macro_rules! ops {
             }
 
             /// The types of its arguments.
+            #[inline]
             pub fn args(self) -> &'static [Type] {
                 match self { $(Op::$name => &[$(Type::$arg,)*],)* }
             }
 
             /// The type of its result.
+            #[inline]
             pub fn result(self) -> Type {
                 match self { $(Op::$name => Type::$result,)* }
             }
@@ -141,6 +146,7 @@ ops! {
 }
 
 /// Keeps a real finite: overflow saturates, what is no number is 0.
+#[inline]
 fn finite(x: f64) -> f64 {
     if x.is_nan() {
         0.0
@@ -149,6 +155,7 @@ fn finite(x: f64) -> f64 {
     }
 }
 
+#[inline]
 fn div(a: f64, b: f64) -> f64 {
     match b == 0.0 {
         true if a == 0.0 => 0.0,
@@ -158,6 +165,7 @@ fn div(a: f64, b: f64) -> f64 {
 }
 
 /// The remainder with the divisor's sign; `%` is exact, so this errs by at most the last sum.
+#[inline]
 fn modulus(a: f64, b: f64) -> f64 {
     match b == 0.0 {
         true => 0.0,
@@ -172,6 +180,7 @@ fn modulus(a: f64, b: f64) -> f64 {
     }
 }
 
+#[inline]
 fn int_div(a: i32, b: i32) -> i32 {
     match b {
         0 if a == 0 => 0,
@@ -185,6 +194,7 @@ fn int_div(a: i32, b: i32) -> i32 {
     }
 }
 
+#[inline]
 fn int_mod(a: i32, b: i32) -> i32 {
     if b == 0 {
         return 0;
@@ -200,6 +210,7 @@ fn int_mod(a: i32, b: i32) -> i32 {
 
 impl Op {
     /// How many arguments it takes.
+    #[inline]
     pub fn arity(self) -> usize {
         self.args().len()
     }
@@ -220,7 +231,10 @@ impl Op {
         }
     }
 
-    fn eval_real(self, a: f64, b: f64) -> Value {
+    /// An operation on reals; 0 for any other. Inlined, so that a loop over one
+    /// known operation holds that one alone.
+    #[inline(always)]
+    pub fn eval_real(self, a: f64, b: f64) -> Value {
         let real = |x| Value::Real(finite(x));
         match self {
             Op::Add => real(a + b),
@@ -252,7 +266,9 @@ impl Op {
         }
     }
 
-    fn eval_int(self, a: i32, b: i32) -> Value {
+    /// An operation on ints; 0 for any other.
+    #[inline(always)]
+    pub fn eval_int(self, a: i32, b: i32) -> Value {
         Value::Int(match self {
             Op::ToReal => return Value::Real(f64::from(a)),
             Op::IntLess => return Value::Bool(a < b),

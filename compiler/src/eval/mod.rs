@@ -7,6 +7,12 @@ pub mod native;
 pub mod run;
 
 #[cfg(test)]
+mod lane_tests;
+#[cfg(test)]
+mod random_graphs;
+#[cfg(test)]
+mod scalar;
+#[cfg(test)]
 mod spread_tests;
 #[cfg(test)]
 mod tests;

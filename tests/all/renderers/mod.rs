@@ -3,6 +3,7 @@
 //! pixel differs, and every other difference has a count and a cause.
 #![allow(clippy::unwrap_used)]
 
+mod bayer;
 mod gradients;
 mod hits;
 mod maze;
@@ -12,6 +13,7 @@ mod primitives;
 mod torus;
 mod vectors;
 
+use bayer::bayer8;
 use primitives::Hills;
 use slowlight_compiler::eval::native::Native;
 use slowlight_compiler::scene;
@@ -58,15 +60,6 @@ fn bitmap(file: &[u8]) -> Vec<u8> {
             .collect::<Vec<_>>()
     };
     bits.iter().flat_map(of).collect()
-}
-
-/// The 8 x 8 matrix of Bayer over 64: the bits of x xor y and of x in turn,
-/// the lowest first in rank.
-fn bayer8(x: i32, y: i32) -> f64 {
-    let rank = (0..3).fold(0, |rank, k| {
-        rank * 4 + ((x ^ y) >> k & 1) * 2 + (x >> k & 1)
-    });
-    f64::from(rank) / 64.0
 }
 
 const FLOAT: &[u8] = include_bytes!("../../reference/torus-float.pbm");

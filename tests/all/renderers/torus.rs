@@ -47,8 +47,8 @@ impl Torus {
                 break;
             }
             let q = from + t * dir - TORUS;
-            let out = q.0.hypot(q.2) - 1.0;
-            let d = out.hypot(q.1) - 0.25;
+            let out = (q.0 * q.0 + q.2 * q.2).sqrt() - 1.0;
+            let d = (out * out + q.1 * q.1).sqrt() - 0.25;
             if d < NEAR {
                 return Some(t);
             }

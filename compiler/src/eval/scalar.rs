@@ -1,26 +1,15 @@
-//! The native evaluation: a graph in `f64`, by need.
+//! The native evaluation's meaning, written as plainly as it can be: a graph in
+//! `f64`, by need, one pixel at a time. The tests hold the lanes of
+//! [`super::native`] against it, in what they compute and in how much.
 //!
 //! A value is computed when it is first needed and remembered until something
-//! that it depends on changes (its rate says what that is). So a value that a
-//! path does not use is not computed on that path, and a value that depends on
-//! the row alone is computed once a row. The operations computed are counted.
-//!
-//! The evaluation keeps a stack of its own: graphs may be deeper than the
-//! host's stack. Only nested loops recurse.
+//! that it depends on changes (its rate says what that is).
 
 use super::diffuse::Pending;
+use super::native::{Pixel, param_value};
 use crate::flow::graph::*;
 use crate::passes::rate::{Dependence, Rates, rates};
 use slowlight_routine::{Op, Value};
-
-/// What a pixel comes to.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Pixel {
-    /// The ink, in 0..inks-1.
-    pub ink: u8,
-    /// The shade before the dither; ink/(inks - 1) where there is none.
-    pub shade: f64,
-}
 
 /// How a loop's last run ended.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -32,7 +21,7 @@ enum End {
 /// Evaluates one graph, pixel by pixel, in any order of pixels (row by row is
 /// cheapest). Where a graph spreads its error, a pixel needs those before it in
 /// the picture: they are evaluated too, each once if pixels are asked for in order.
-pub struct Native<'g> {
+pub struct Scalar<'g> {
     graph: &'g Graph,
     rates: Rates,
     /// The sets that each dependence is in, by dependence number.
@@ -66,9 +55,9 @@ fn number(d: Dependence) -> usize {
     }
 }
 
-impl<'g> Native<'g> {
+impl<'g> Scalar<'g> {
     /// Prepares a graph that [`crate::flow::verify`] accepts.
-    pub fn new(graph: &'g Graph) -> Native<'g> {
+    pub fn new(graph: &'g Graph) -> Scalar<'g> {
         let rates = rates(graph);
         let mut members = vec![Vec::new(); 3 + 2 * graph.loops.len()];
         for (k, set) in rates.sets.iter().enumerate() {
@@ -84,7 +73,7 @@ impl<'g> Native<'g> {
                 *set = rates.set(id).0;
             }
         }
-        Native {
+        Scalar {
             members,
             changed: vec![1; rates.sets.len()],
             values: vec![Value::Int(0); graph.nodes.len()],
@@ -288,17 +277,4 @@ impl<'g> Native<'g> {
         }
         self.ran[at] = self.clock;
     }
-}
-
-/// A param's value as the graph's type has it.
-pub fn param_value(graph: &Graph, id: ParamId) -> Value {
-    use slowlight_routine::Type;
-    graph
-        .params
-        .get(id.0 as usize)
-        .map_or(Value::Real(0.0), |p| match p.ty {
-            Type::Bool => Value::Bool(p.value != 0.0),
-            Type::Int => Value::Int(p.value as i32),
-            Type::Real => Value::Real(p.value),
-        })
 }

@@ -1,0 +1,400 @@
+//! The native evaluation: a graph in `f64`, by need, up to 64 pixels of a row
+//! at once.
+//!
+//! A value is computed when it is first needed and remembered until something
+//! that it depends on changes (its rate says what that is). So a value that a
+//! path does not use is not computed on that path, and a value that depends on
+//! the row alone is computed once a row. The operations computed are counted.
+//!
+//! The pixels of a block are lanes ([`lanes`]). What is needed is needed in a
+//! set of lanes, a [`Mask`]; a node knows in which lanes it is known, and is
+//! computed in the others that are asked for. A [`Node::Select`] asks for its
+//! arms in the lanes that take them, a loop goes on with the lanes that have
+//! not ended. So each lane computes exactly what that pixel by itself would,
+//! while the work of finding out what to do next is shared by all.
+//!
+//! A value that cannot differ along the row is computed once, in lane 0, and
+//! spread. Where a graph spreads errors, [`spread`] orders the work.
+//!
+//! The evaluation keeps a stack of its own: graphs may be deeper than the
+//! host's stack. Only nested loops recurse.
+//!
+//! [`Node::Select`]: crate::flow::graph::Node
+
+mod lanes;
+mod plan;
+mod spread;
+
+use crate::flow::graph::*;
+use crate::passes::rate::Dependence;
+use lanes::{Lanes, Mask};
+use plan::{Move, Plan, Source, Task};
+use slowlight_routine::{Type, Value};
+use std::ops::Range;
+
+/// What a pixel comes to.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Pixel {
+    /// The ink, in 0..inks-1.
+    pub ink: u8,
+    /// The shade before the dither; ink/(inks - 1) where there is none.
+    pub shade: f64,
+}
+
+/// Pixels of a row.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+struct Block {
+    x: i32,
+    y: i32,
+    /// From 1 to 64.
+    count: usize,
+}
+
+impl Block {
+    fn mask(self) -> Mask {
+        ALL >> (Mask::BITS as usize - self.count)
+    }
+}
+
+/// Evaluates one graph, in any order of pixels (row by row is cheapest). Where
+/// a graph spreads its error, a pixel needs those before it in the picture: they
+/// are evaluated too, each once if pixels are asked for in order.
+pub struct Native<'g> {
+    graph: &'g Graph,
+    plan: Plan,
+    lanes: Lanes,
+    /// In which lanes each node is known, and behind the nodes in which each
+    /// loop has been run.
+    known: Vec<Mask>,
+    /// In which lanes each loop was done when it was last run.
+    done: Vec<Mask>,
+    /// What is to be computed next, last first, and in which lanes.
+    stack: Vec<(u32, Mask)>,
+    block: Option<Block>,
+    operations: u64,
+    spreading: Option<spread::Spreading>,
+}
+
+/// Every lane.
+const ALL: Mask = !0;
+
+impl<'g> Native<'g> {
+    /// Prepares a graph that [`crate::flow::verify`] accepts.
+    pub fn new(graph: &'g Graph) -> Native<'g> {
+        let plan = Plan::new(graph);
+        let mut lanes = Lanes::new(plan.count);
+        let mut known = vec![0; plan.ran(plan.loops.len() as u32)];
+        for (at, step) in plan.steps.iter().enumerate() {
+            if matches!(step.task, Task::Given) {
+                known[at] = ALL;
+            }
+        }
+        for (id, step) in graph.ids().zip(&plan.steps) {
+            let value = match graph.node(id) {
+                Node::Const(c) => c.value(),
+                Node::Param(p) => param_value(graph, p),
+                _ => continue,
+            };
+            // Slot 0 is what no output reaches.
+            if step.slot != 0 {
+                lanes.fill(step.ty, step.slot, value);
+            }
+        }
+        Native {
+            done: vec![0; plan.loops.len()],
+            stack: Vec::new(),
+            block: None,
+            operations: 0,
+            spreading: spread::Spreading::new(graph),
+            graph,
+            plan,
+            lanes,
+            known,
+        }
+    }
+
+    /// How many operations, selects, lookups and loop turns were computed so
+    /// far, each lane's by itself.
+    pub fn operations(&self) -> u64 {
+        self.operations
+    }
+
+    /// The picture's ink and shade at column `x`, row `y`.
+    pub fn pixel(&mut self, x: i32, y: i32) -> Pixel {
+        let mut out = Vec::with_capacity(1);
+        self.pixels(x..x.saturating_add(1), y, &mut out);
+        out.first().copied().unwrap_or(Pixel { ink: 0, shade: 0.0 })
+    }
+
+    /// Appends the pixels of some columns of row `y`.
+    pub fn pixels(&mut self, columns: Range<i32>, y: i32, out: &mut Vec<Pixel>) {
+        if self.spreading.is_some() {
+            return self.spread(columns, y, out);
+        }
+        for block in blocks(columns, y, self.lanes.lanes()) {
+            self.enter(block);
+            self.shown(block.mask());
+            out.extend((0..block.count).map(|lane| self.look(lane)));
+        }
+    }
+
+    /// Comes to other pixels: forgets what depends on where they are.
+    fn enter(&mut self, block: Block) {
+        let was = self.block.replace(block);
+        if was.is_none_or(|was| was.y != block.y) {
+            self.forget(Dependence::Row, ALL);
+        }
+        // The same column again keeps what depends on it alone.
+        let same = |was: Block| was.count == 1 && block.count == 1 && was.x == block.x;
+        if !was.is_some_and(same) {
+            self.forget(Dependence::Column, ALL);
+        }
+        for &(axis, slot) in &self.plan.axes {
+            match axis {
+                Axis::X => self.lanes.count_up(slot, block.x),
+                Axis::Y => self.lanes.fill(Type::Int, slot, Value::Int(block.y)),
+            }
+        }
+    }
+
+    /// Computes what is looked at.
+    fn shown(&mut self, mask: Mask) {
+        self.need(self.graph.ink.0, mask);
+        if let Some(shade) = self.graph.shade {
+            self.need(shade.0, mask);
+        }
+    }
+
+    /// A lane's pixel.
+    fn look(&self, lane: usize) -> Pixel {
+        let top = self.graph.image.palette.len().saturating_sub(1) as i32;
+        let ink = self.get(self.graph.ink, lane).int().clamp(0, top);
+        let shade = match self.graph.shade {
+            Some(shade) => self.get(shade, lane).real(),
+            None => f64::from(ink) / f64::from(top.max(1)),
+        };
+        Pixel {
+            ink: ink as u8,
+            shade,
+        }
+    }
+
+    fn get(&self, id: NodeId, lane: usize) -> Value {
+        let step = self.plan.steps.get(id.0 as usize);
+        step.map_or(Value::Int(0), |s| self.lanes.get(s.ty, s.slot, lane))
+    }
+
+    fn forget(&mut self, what: Dependence, mask: Mask) {
+        for at in self.plan.dependents(what) {
+            self.known[at as usize] &= !mask;
+        }
+    }
+
+    /// Computes a node in the lanes of the mask.
+    fn need(&mut self, root: u32, mask: Mask) {
+        let base = self.stack.len();
+        self.stack.push((root, mask));
+        while self.stack.len() > base {
+            let Some(&(id, want)) = self.stack.last() else {
+                return;
+            };
+            let Some(&step) = self.plan.steps.get(id as usize) else {
+                self.stack.pop();
+                continue;
+            };
+            let mut todo = want & !self.known[id as usize];
+            if step.uniform {
+                todo = Mask::from(todo != 0);
+            }
+            if todo == 0 {
+                self.stack.pop();
+            } else if self.step(&step.task, step.ty, step.slot, todo) {
+                self.known[id as usize] |= todo;
+                if step.uniform {
+                    self.lanes.spread(step.ty, step.slot);
+                    self.known[id as usize] = ALL;
+                }
+                self.stack.pop();
+            }
+        }
+    }
+
+    /// Whether a value is known in the lanes of the mask; else it is to be
+    /// computed next.
+    fn ask(&mut self, source: Source, mask: Mask) -> bool {
+        let missing = mask & !self.known[source.node as usize];
+        if missing != 0 {
+            self.stack.push((source.node, missing));
+        }
+        missing == 0
+    }
+
+    /// Computes some lanes of a node if all that they need is known; else what
+    /// they need is pushed on the stack.
+    fn step(&mut self, task: &Task, ty: Type, slot: u32, mask: Mask) -> bool {
+        match *task {
+            Task::Given => {}
+            Task::Apply { op, args: [a, b] } => {
+                if !(self.ask(a, mask) & self.ask(b, mask)) {
+                    return false;
+                }
+                self.lanes.apply(op, [a.slot, b.slot], slot, mask);
+                self.operations += u64::from(mask.count_ones());
+            }
+            Task::Select { cond, yes, no } => {
+                if !self.ask(cond, mask) {
+                    return false;
+                }
+                let holds = self.lanes.truth(cond.slot);
+                if !self.choose(holds, [yes, no], (ty, slot), mask) {
+                    return false;
+                }
+                self.operations += u64::from(mask.count_ones());
+            }
+            Task::Lookup { table, column, row } => {
+                if !(self.ask(column, mask) & self.ask(row, mask)) {
+                    return false;
+                }
+                self.look_up(table, [column.slot, row.slot], (ty, slot), mask);
+                self.operations += u64::from(mask.count_ones());
+            }
+            Task::Result {
+                of,
+                done,
+                otherwise,
+            } => {
+                let missing = mask & !self.known[self.plan.ran(of)];
+                if missing != 0 {
+                    if !self.ask_start(of, missing) {
+                        return false;
+                    }
+                    self.run(of, missing);
+                }
+                let ended = self.done[of as usize];
+                return self.choose(ended, [done, otherwise], (ty, slot), mask);
+            }
+        }
+        true
+    }
+
+    /// One value where a bool holds, another where it does not.
+    fn choose(
+        &mut self,
+        holds: Mask,
+        [yes, no]: [Source; 2],
+        (ty, slot): (Type, u32),
+        mask: Mask,
+    ) -> bool {
+        if !(self.ask(yes, mask & holds) & self.ask(no, mask & !holds)) {
+            return false;
+        }
+        self.lanes.copy(ty, yes.slot, slot, mask & holds);
+        self.lanes.copy(ty, no.slot, slot, mask & !holds);
+        true
+    }
+
+    fn look_up(
+        &mut self,
+        table: u32,
+        [column, row]: [u32; 2],
+        (ty, slot): (Type, u32),
+        mask: Mask,
+    ) {
+        let Some(table) = self.graph.tables.get(table as usize) else {
+            return;
+        };
+        let mut rest = mask;
+        while rest != 0 {
+            let lane = rest.trailing_zeros() as usize;
+            let at = [column, row].map(|slot| self.lanes.get(Type::Int, slot, lane).int());
+            self.lanes.set(ty, slot, lane, table.at(at[0], at[1]));
+            rest &= rest - 1;
+        }
+    }
+
+    /// Whether a loop's start values are known; else they are to be computed next.
+    fn ask_start(&mut self, of: u32, mask: Mask) -> bool {
+        let Native {
+            plan, known, stack, ..
+        } = self;
+        let before = stack.len();
+        for &node in &plan.loops[of as usize].init {
+            let missing = mask & !known[node as usize];
+            if missing != 0 {
+                stack.push((node, missing));
+            }
+        }
+        stack.len() == before
+    }
+
+    /// Runs a loop to its end in the lanes of the mask, its start values being
+    /// known; its carried values stay as each lane's last turn has them.
+    fn run(&mut self, of: u32, mask: Mask) {
+        let at = of as usize;
+        let (uniform, max) = (self.plan.loops[at].uniform, self.plan.loops[at].max);
+        let again = self.plan.loops[at].again;
+        let lanes = if uniform { ALL } else { mask };
+        let mut active = lanes;
+        self.done[at] &= !lanes;
+        carry(&mut self.lanes, &self.plan.loops[at].start, active);
+        for _ in 0..max {
+            self.forget(Dependence::Loop(LoopId(of)), active);
+            self.operations += if uniform {
+                1
+            } else {
+                u64::from(active.count_ones())
+            };
+            self.need(again.node, active);
+            let goes_on = active & self.lanes.truth(again.slot);
+            self.done[at] |= active & !goes_on;
+            active = goes_on;
+            if active == 0 {
+                break;
+            }
+            for k in 0..self.plan.loops[at].next.len() {
+                let node = self.plan.loops[at].next[k];
+                self.need(node, active);
+            }
+            carry(&mut self.lanes, &self.plan.loops[at].shift, active);
+        }
+        if active != 0 {
+            self.forget(Dependence::Last(LoopId(of)), active);
+        }
+        let ran = self.plan.ran(of);
+        self.known[ran] |= lanes;
+    }
+}
+
+/// Gives a loop's carried values other ones, all at once.
+fn carry(lanes: &mut Lanes, moves: &[Move], mask: Mask) {
+    for m in moves {
+        if let Some(via) = m.via {
+            lanes.copy(m.ty, m.from, via, mask);
+        }
+    }
+    for m in moves {
+        lanes.copy(m.ty, m.via.unwrap_or(m.from), m.to, mask);
+    }
+}
+
+/// Columns of a row in blocks.
+fn blocks(columns: Range<i32>, y: i32, lanes: usize) -> impl Iterator<Item = Block> {
+    let (from, to) = (i64::from(columns.start), i64::from(columns.end));
+    (from..to).step_by(lanes).map(move |x| Block {
+        x: x as i32,
+        y,
+        count: (to - x).min(lanes as i64) as usize,
+    })
+}
+
+/// A param's value as the graph's type has it.
+pub fn param_value(graph: &Graph, id: ParamId) -> Value {
+    graph
+        .params
+        .get(id.0 as usize)
+        .map_or(Value::Real(0.0), |p| match p.ty {
+            Type::Bool => Value::Bool(p.value != 0.0),
+            Type::Int => Value::Int(p.value as i32),
+            Type::Real => Value::Real(p.value),
+        })
+}

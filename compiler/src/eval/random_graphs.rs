@@ -1,0 +1,193 @@
+//! Graphs at random, for holding evaluations against each other: operations,
+//! choices, tables and loops in loops over what stands in their scope, some of
+//! it the same for a whole row or picture.
+
+use crate::flow::build::Builder;
+use crate::flow::graph::*;
+use crate::source::Span;
+use slowlight_routine::{Op, Type, Value};
+
+const AT: Span = Span {
+    file: 0,
+    start: 0,
+    end: 0,
+};
+
+/// Marsaglia's xorshift with 64 bits.
+struct Random(u64);
+
+impl Random {
+    fn below(&mut self, n: usize) -> usize {
+        self.0 ^= self.0 << 13;
+        self.0 ^= self.0 >> 7;
+        self.0 ^= self.0 << 17;
+        (self.0 >> 33) as usize % n
+    }
+
+    fn pick<T: Copy>(&mut self, from: &[T]) -> T {
+        from[self.below(from.len())]
+    }
+}
+
+struct Maker {
+    random: Random,
+    b: Builder,
+    table: TableId,
+    /// What may be used here, by type.
+    scope: Vec<NodeId>,
+}
+
+impl Maker {
+    fn constant(&mut self, ty: Type) -> NodeId {
+        let value = match ty {
+            Type::Bool => Value::Bool(self.random.below(2) == 0),
+            Type::Int => Value::Int(self.random.pick(&[0, 1, -1, 3, 8, -5, i32::MAX])),
+            Type::Real => Value::Real(self.random.pick(&[0.0, 0.5, -1.25, 3.0, 1e9, 1e-9])),
+        };
+        self.b.constant(value, AT)
+    }
+
+    /// Something of this type that may be used here, late nodes more likely.
+    fn any(&mut self, ty: Type) -> NodeId {
+        let fits: Vec<NodeId> = (self.scope.iter().copied())
+            .filter(|&id| self.b.ty(id) == ty)
+            .collect();
+        if fits.is_empty() || self.random.below(8) == 0 {
+            return self.constant(ty);
+        }
+        let (a, b) = (self.random.below(fits.len()), self.random.below(fits.len()));
+        fits[a.max(b)]
+    }
+
+    /// The sum of a small part of each of several, so that much of the graph is
+    /// reached and nothing is drowned.
+    fn mixed(&mut self, ty: Type) -> NodeId {
+        let first = self.constant(ty);
+        let fifteen = self.b.constant(Value::Int(15), AT);
+        (0..10).fold(first, |sum, _| {
+            let other = self.any(ty);
+            let (small, add) = match ty {
+                Type::Real => (self.b.apply(Op::Sin, &[other], AT), Op::Add),
+                _ => (self.b.apply(Op::BitAnd, &[other, fifteen], AT), Op::IntAdd),
+            };
+            self.b.apply(add, &[sum, small], AT)
+        })
+    }
+
+    fn ty(&mut self) -> Type {
+        self.random
+            .pick(&[Type::Real, Type::Real, Type::Int, Type::Bool])
+    }
+
+    fn grow(&mut self, nodes: usize, depth: usize) {
+        for _ in 0..nodes {
+            let made = match self.random.below(12) {
+                0 if depth > 0 => {
+                    self.turns(depth - 1);
+                    continue;
+                }
+                0..=2 => {
+                    let ty = self.ty();
+                    let (cond, yes, no) = (self.any(Type::Bool), self.any(ty), self.any(ty));
+                    self.b.select(cond, yes, no, AT)
+                }
+                3 => {
+                    let (column, row) = (self.any(Type::Int), self.any(Type::Int));
+                    self.b.lookup(self.table, column, row, AT)
+                }
+                _ => {
+                    let op = self.random.pick(Op::ALL);
+                    let args: Vec<NodeId> = op.args().iter().map(|&ty| self.any(ty)).collect();
+                    self.b.apply(op, &args, AT)
+                }
+            };
+            self.scope.push(made);
+        }
+    }
+
+    fn turns(&mut self, depth: usize) {
+        let types: Vec<Type> = (0..1 + self.random.below(3)).map(|_| self.ty()).collect();
+        let carried: Vec<_> = (types.iter())
+            .map(|&ty| (String::new(), ty, self.any(ty)))
+            .collect();
+        let max = 1 + self.random.below(6) as u32;
+        let of = self.b.open_loop(max, &carried, AT);
+        let outside = self.scope.len();
+        for k in 0..types.len() as u32 {
+            let carried = self.b.carried(of, k, AT);
+            self.scope.push(carried);
+        }
+        let nodes = 2 + self.random.below(10);
+        self.grow(nodes, depth);
+        let again = self.any(Type::Bool);
+        let next: Vec<NodeId> = types.iter().map(|&ty| self.any(ty)).collect();
+        let results: Vec<Type> = (0..1 + self.random.below(2)).map(|_| self.ty()).collect();
+        let done: Vec<NodeId> = results.iter().map(|&ty| self.any(ty)).collect();
+        self.scope.truncate(outside);
+        for k in 0..types.len() as u32 {
+            let last = self.b.last(of, k, AT);
+            self.scope.push(last);
+        }
+        self.grow(2, 0);
+        let otherwise: Vec<NodeId> = results.iter().map(|&ty| self.any(ty)).collect();
+        self.scope.truncate(outside);
+        let made = self.b.close_loop(of, again, &next, &done, &otherwise);
+        self.scope.extend(made);
+    }
+}
+
+/// A graph by its number; every third spreads an error.
+pub fn graph(seed: u64) -> Graph {
+    let mut b = Builder::new();
+    let entries = [3, 1, 4, 1, 5, 9].map(Constant::Int).to_vec();
+    let table = b.table(Table {
+        name: "t".to_owned(),
+        width: 3,
+        height: 2,
+        ty: Type::Int,
+        entries,
+    });
+    let mut scope: Vec<NodeId> = [Type::Real, Type::Int, Type::Bool]
+        .into_iter()
+        .map(|ty| {
+            b.param(Param {
+                name: format!("p{ty:?}"),
+                component: "",
+                ty,
+                value: 2.0,
+                range: None,
+                span: AT,
+            })
+        })
+        .collect();
+    let spreads = seed.is_multiple_of(3);
+    let axes = [Axis::Y, Axis::X].map(|axis| b.axis(axis, AT));
+    scope.extend(axes);
+    scope.extend(axes.map(|axis| b.apply(Op::ToReal, &[axis], AT)));
+    if spreads {
+        scope.push(b.received(AT));
+    }
+    let seed = seed.wrapping_add(1).wrapping_mul(0x9e37_79b9_7f4a_7c15);
+    let mut maker = Maker {
+        random: Random(seed | 1),
+        b,
+        table,
+        scope,
+    };
+    maker.grow(60, 3);
+    let ink = maker.mixed(Type::Int);
+    let shade = maker.mixed(Type::Real);
+    if spreads {
+        let node = maker.any(Type::Real);
+        let half = maker.b.constant(Value::Real(0.375), AT);
+        let node = maker.b.apply(Op::Mul, &[node, half], AT);
+        let shares = [(1, 0), (-1, 1), (0, 2)].map(|(dx, dy)| Share { dx, dy, node });
+        maker.b.spread(&shares, AT);
+    }
+    let image = Image {
+        width: 71,
+        height: 5,
+        palette: vec![[0; 3]; 256],
+    };
+    maker.b.finish(image, ink, Some(shade))
+}
