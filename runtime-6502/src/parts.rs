@@ -2,6 +2,8 @@
 
 use slowlight_routine::{Part, Source};
 
+use crate::model::{ARCTANGENT, LOGARITHM, POWER_OF_TWO, SINE};
+
 const fn part(
     name: &'static str,
     text: &'static str,
@@ -12,6 +14,16 @@ const fn part(
         name,
         source: Source::Text(text),
         needs,
+        bytes,
+    }
+}
+
+/// The terms of a polynomial, as bytes.
+const fn terms(name: &'static str, make: fn() -> Vec<i32>, bytes: u32) -> Part {
+    Part {
+        name,
+        source: Source::Table(make),
+        needs: &[],
         bytes,
     }
 }
@@ -65,4 +77,62 @@ pub(crate) static ALL: &[Part] = &[
     ),
     part("root", include_str!("../asm/root.asm"), &["zero_page"], 317),
     part("convert", include_str!("../asm/convert.asm"), &["sign"], 80),
+    part(
+        "series",
+        include_str!("../asm/series.asm"),
+        &["multiply"],
+        132,
+    ),
+    terms("sine_terms", || SINE.table(), 22),
+    part(
+        "sine",
+        include_str!("../asm/sine.asm"),
+        &["sign", "series", "sine_terms"],
+        140,
+    ),
+    part(
+        "tangent",
+        include_str!("../asm/tangent.asm"),
+        &["sine", "fixed_divide"],
+        110,
+    ),
+    terms("arctangent_terms", || ARCTANGENT.table(), 30),
+    part(
+        "arctangent",
+        include_str!("../asm/arctangent.asm"),
+        &["divide", "series", "arctangent_terms"],
+        262,
+    ),
+    part(
+        "arccosine",
+        include_str!("../asm/arccosine.asm"),
+        &["root", "arctangent"],
+        205,
+    ),
+    terms("power_of_two_terms", || POWER_OF_TWO.table(), 34),
+    part(
+        "power_of_two",
+        include_str!("../asm/power_of_two.asm"),
+        &["series", "power_of_two_terms"],
+        127,
+    ),
+    part(
+        "exponential",
+        include_str!("../asm/exponential.asm"),
+        &["sign", "power_of_two"],
+        88,
+    ),
+    terms("logarithm_terms", || LOGARITHM.table(), 26),
+    part(
+        "logarithm",
+        include_str!("../asm/logarithm.asm"),
+        &["divide", "series", "logarithm_terms"],
+        323,
+    ),
+    part(
+        "power",
+        include_str!("../asm/power.asm"),
+        &["logarithm", "power_of_two"],
+        195,
+    ),
 ];

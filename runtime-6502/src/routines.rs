@@ -19,6 +19,37 @@ const B: Format = Format::Bool;
 const EXACT: Error = Error::Exact;
 const NEAREST: Error = Error::Absolute(HALF_PLACE);
 
+/// A place: half of one for the rounding, and at most 0.24 for the rest, which
+/// is 0.01 or less but for angles far from 0 (see `tests/functions.rs`).
+const PLACE: Error = Error::Absolute(1.0 / 65_536.0);
+/// The exponent is cut at 2^-32; so up to six places where e^x nears 32768.
+const EXP: Error = Error::Mixed {
+    relative: 3.8e-9,
+    absolute: 1.0 / 65_536.0,
+};
+/// The logarithm's error, at most three times 2^-31, is multiplied by the exponent: here by 64,
+const POWER: Error = Error::Mixed {
+    relative: 1.2e-7,
+    absolute: 1.0 / 65_536.0,
+};
+/// and here by 32768.
+const ANY_POWER: Error = Error::Mixed {
+    relative: 6.1e-5,
+    absolute: 1.0 / 65_536.0,
+};
+/// Beside a pole the last place of the angle decides the sign.
+const POLE: Error = Error::Absolute(65_536.0);
+
+/// Where the tangent is at most 14.2.
+fn far_from_poles(args: &[Range], _: Range) -> bool {
+    args.first().is_some_and(|a| a.within(-1.5, 1.5))
+}
+
+/// Where errors grow 64-fold at most.
+fn small_exponent(args: &[Range], _: Range) -> bool {
+    args.get(1).is_some_and(|b| b.within(-64.0, 64.0))
+}
+
 fn fits_real(_: &[Range], result: Range) -> bool {
     result.within(-REAL, REAL)
 }
@@ -98,6 +129,17 @@ pub(crate) static ALL: &[Routine] = &[
     routine!("div" Div(R, R) -> R, "fixed_divide", ["fixed_divide"], everywhere, NEAREST, |a, b| model::fixed_divide(a, b), 1736, 51),
     routine!("sqrt" Sqrt(R) -> R, "root", ["root"], everywhere, NEAREST, |a| model::root(a), 2228, 35),
     routine!("mod" Mod(R, R) -> R, "modulo", ["modulo"], everywhere, EXACT, |a, b| model::modulo(a, b), 760, 51),
+    routine!("sin" Sin(R) -> R, "sine", ["sine"], everywhere, PLACE, |a| model::sine(a), 8109, 35),
+    routine!("cos" Cos(R) -> R, "cosine", ["sine"], everywhere, PLACE, |a| model::cosine(a), 8090, 35),
+    routine!("tan" Tan(R) -> R, "tangent", ["tangent"], far_from_poles, PLACE, |a| model::tangent(a), 14934, 35),
+    routine!("tan_anywhere" Tan(R) -> R, "tangent", ["tangent"], everywhere, POLE, |a| model::tangent(a), 17200, 35),
+    routine!("asin" Asin(R) -> R, "arcsine", ["arccosine"], everywhere, PLACE, |a| model::arcsine(a), 11193, 35),
+    routine!("acos" Acos(R) -> R, "arccosine", ["arccosine"], everywhere, PLACE, |a| model::arccosine(a), 11150, 35),
+    routine!("atan2" Atan2(R, R) -> R, "arctangent2", ["arctangent"], everywhere, PLACE, |a, b| model::arctangent2(a, b), 12572, 51),
+    routine!("exp" Exp(R) -> R, "exponential", ["exponential"], everywhere, EXP, |a| model::exponential(a), 9004, 35),
+    routine!("log" Log(R) -> R, "logarithm", ["logarithm"], everywhere, PLACE, |a| model::logarithm(a), 12735, 35),
+    routine!("pow" Pow(R, R) -> R, "power", ["power"], small_exponent, POWER, |a, b| model::power(a, b), 19862, 51),
+    routine!("any_pow" Pow(R, R) -> R, "power", ["power"], everywhere, ANY_POWER, |a, b| model::power(a, b), 19862, 51),
     routine!("floor" Floor(R) -> I, t::FLOOR, [], everywhere, EXACT, |a| a >> 16, 23, 17),
     routine!("round" Round(R) -> I, "fixed_round", ["convert"], everywhere, EXACT, |a| model::fixed_round(a), 104, 35),
     routine!("sign" Sign(R) -> I, t::SIGN, [], everywhere, EXACT, |a| a.signum(), 30, 28),

@@ -106,6 +106,10 @@ pub enum Error {
     Larger(f64),
     /// At most so much.
     Absolute(f64),
+    /// At most the sum of both: `relative` times the magnitude of the exact
+    /// result, and `absolute`. In fixed point, what a function with large
+    /// results loses on the way, and the rounding of the last place.
+    Mixed { relative: f64, absolute: f64 },
 }
 
 impl Error {
@@ -116,6 +120,7 @@ impl Error {
             Error::Exact => 0.0,
             Error::Relative(part) => part * exact.abs(),
             Error::Absolute(most) => most,
+            Error::Mixed { relative, absolute } => relative * exact.abs() + absolute,
             Error::Larger(part) => {
                 let most = |m: f64, r: &Range| m.max(r.magnitude());
                 part * args.iter().fold(exact.abs(), most)

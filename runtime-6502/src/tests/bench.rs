@@ -40,8 +40,12 @@ fn parts(names: &[&str]) -> (String, bool) {
     let mut text = String::new();
     let closure = RUNTIME.closure(names.iter().copied());
     for part in &closure {
-        let Source::Text(source) = part.source else {
-            panic!("{}", part.name)
+        let source = match part.source {
+            Source::Text(source) => source.to_owned(),
+            Source::Table(make) => {
+                let bytes: Vec<String> = make().iter().map(|b| b.to_string()).collect();
+                format!("{}:\n        .byte {}", part.name, bytes.join(", "))
+            }
         };
         text += &format!("begin_{0}:\n{source}\nend_{0}:\n", part.name);
     }

@@ -3,6 +3,7 @@
 #![allow(clippy::unwrap_used)]
 
 mod bench;
+mod functions;
 
 use bench::{Bench, Random};
 use slowlight_routine::{Format, Op, Range, Routine, Value};
@@ -12,6 +13,15 @@ use crate::{FIXED16_16 as RUNTIME, model, write::Place};
 
 /// Random pairs of operands for each routine.
 const PAIRS: u32 = 100_000;
+
+/// Fewer where each takes thousands of cycles.
+fn pairs(routine: &Routine) -> u32 {
+    if routine.cycles > 5000 {
+        PAIRS / 20
+    } else {
+        PAIRS
+    }
+}
 
 /// Operands at which something changes: signs, bytes' and format's ends, powers of two.
 fn edges() -> Vec<i32> {
@@ -77,7 +87,7 @@ fn check(bench: &mut Bench, routine: &Routine, args: &[i32]) {
     };
     let off =
         ((RUNTIME.decode)(expected, routine.result).real() - exact.lo.clamp(least, most)).abs();
-    let bound = routine.error.most(&[], exact.lo);
+    let bound = routine.error.most(&[], exact.lo.clamp(least, most));
     assert!(off <= bound, "{}({args:x?}) is {off} off", routine.name);
 }
 
@@ -124,7 +134,8 @@ fn agree(wanted: fn(&Routine) -> bool) {
         }
         let mut random = Random(1);
         let mut checked = 0;
-        for _ in 0..4 * PAIRS {
+        let pairs = pairs(routine);
+        for _ in 0..4 * pairs {
             // A domain that asks for constants gets them.
             let formats = routine.args.iter().zip(&let_through);
             let operands = formats.map(|(format, few)| match few.len() {
@@ -139,13 +150,13 @@ fn agree(wanted: fn(&Routine) -> bool) {
             if in_domain(routine, &args) {
                 check(&mut bench, routine, &args);
                 checked += 1;
-                if checked == PAIRS {
+                if checked == pairs {
                     break;
                 }
             }
         }
         assert!(
-            checked == PAIRS,
+            checked == pairs,
             "{}: only {checked} operands are in its domain",
             routine.name
         );
@@ -215,7 +226,7 @@ fn costs_are_as_measured() {
                 let which = random.next() as usize % args.len();
                 args[which] = specials[random.next() as usize % specials.len()];
             }
-            if routine.op == Op::Sqrt {
+            if matches!(routine.op, Op::Sqrt | Op::Log | Op::Pow) {
                 args[0] = args[0].abs();
             }
             if in_domain(routine, &args) {
@@ -241,24 +252,13 @@ fn costs_are_as_measured() {
 }
 
 #[test]
-fn every_operation_of_arithmetic_has_a_total_routine() {
-    let missing = [
-        Op::Sin,
-        Op::Cos,
-        Op::Tan,
-        Op::Asin,
-        Op::Acos,
-        Op::Atan2,
-        Op::Exp,
-        Op::Log,
-        Op::Pow,
-    ];
+fn every_operation_has_a_total_routine() {
     for op in Op::ALL {
         let total = RUNTIME
             .routines
             .iter()
             .any(|r| r.op == *op && (r.domain)(&[Range::ALL, Range::ALL], Range::ALL));
-        assert_eq!(total, !missing.contains(op), "{op:?}");
+        assert!(total, "{op:?}");
     }
     for routine in RUNTIME.routines {
         assert_eq!(routine.args.len(), routine.op.arity(), "{}", routine.name);

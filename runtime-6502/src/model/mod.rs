@@ -1,5 +1,8 @@
 //! What the routines compute, bit for bit, on the raw bits of their operands.
 
+mod functions;
+pub use functions::*;
+
 use slowlight_routine::Bits;
 
 /// The 32 bits that a value's [`Bits`] hold.
