@@ -2,6 +2,7 @@
 //!
 //! Each function mirrors one subroutine of [`crate::parts`]; the test runs both.
 
+mod functions;
 mod int;
 pub use int::*;
 
@@ -106,7 +107,11 @@ impl Float {
         let e = (self.e - 140).clamp(-1200, 1200);
         let magnitude = f64::from(self.m) * 2f64.powi(e / 2) * 2f64.powi(e - e / 2);
         let magnitude = magnitude.min(f64::MAX);
-        if self.s == 1 { -magnitude } else { magnitude }
+        if self.s == 1 && self.m > 0 {
+            -magnitude
+        } else {
+            magnitude
+        }
     }
 
     /// Halves h and l of 7 bits each; the product of the low ones is dropped.

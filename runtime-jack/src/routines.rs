@@ -22,6 +22,18 @@ const SQRT: Error = Error::Relative(2e-3);
 /// Above 16383 the last bit of an int is cut.
 const CUT: Error = Error::Relative(6.2e-5);
 
+/// Two units in the last place of 1 and less; every angle of 2^14 and less was tried.
+const SINE: Error = Error::Absolute(1.7e-4);
+/// From 32768 on an angle counts as 0.
+const ANY_SINE: Error = Error::Absolute(2.0);
+/// The quotient, the polynomial and the product round, the difference from pi
+/// is cut: 3.5e-4 if all were worst at once; 2.3e-4 is the worst of a million.
+const ARC: Error = Error::Relative(4e-4);
+/// 1.6e-4 up to 2^8, and one place of the exponent more beyond.
+const EXP: Error = Error::Relative(2.5e-4);
+/// Beside a pole, or with a large exponent, the last place of an operand decides all.
+const UNKNOWN: Error = Error::Absolute(f64::MAX);
+
 /// Ints whose exact result needs no saturation.
 fn fits(_: &[Range], result: Range) -> bool {
     result.within(-32767.0, 32767.0)
@@ -49,6 +61,13 @@ fn symmetric(args: &[Range], _: Range) -> bool {
 macro_rules! with {
     ($k:literal = $value:literal) => {
         |args, _| args.get($k).and_then(|r| r.constant()) == Some($value)
+    };
+}
+
+/// A domain: operand `$k` is at most `$most` in magnitude.
+macro_rules! within {
+    ($k:literal: $most:literal) => {
+        |args, _| args.get($k).is_some_and(|r| r.within(-$most, $most))
     };
 }
 
@@ -138,6 +157,20 @@ pub(crate) static ALL: &[Routine] = &[
     routine!("abs" Abs(R) -> R, Do("{r}.abs({0})"), ["Float.abs"], everywhere, EXACT, |a| a.abs(), 22, 43),
     routine!("min" Min(R, R) -> R, Do("{r}.min({0}, {1})"), ["Float.min"], everywhere, EXACT, |a, b| a.min(b), 78, 50),
     routine!("max" Max(R, R) -> R, Do("{r}.max({0}, {1})"), ["Float.max"], everywhere, EXACT, |a, b| a.max(b), 78, 50),
+    routine!("sin" Sin(R) -> R, Do("{r}.sin({0})"), ["Float.sin"], within!(0: 32000.0), SINE, |a| a.sin(), 883, 43),
+    routine!("any_sin" Sin(R) -> R, Do("{r}.sin({0})"), ["Float.sin"], everywhere, ANY_SINE, |a| a.sin(), 883, 43),
+    routine!("cos" Cos(R) -> R, Do("{r}.cos({0})"), ["Float.cos"], within!(0: 32000.0), SINE, |a| a.cos(), 1195, 43),
+    routine!("any_cos" Cos(R) -> R, Do("{r}.cos({0})"), ["Float.cos"], everywhere, ANY_SINE, |a| a.cos(), 1195, 43),
+    routine!("tan" Tan(R) -> R, Do("{r}.tan({0})"), ["Float.tan"], within!(0: 1.5), Error::Relative(2.5e-4), |a| a.tan(), 2498, 43),
+    routine!("any_tan" Tan(R) -> R, Do("{r}.tan({0})"), ["Float.tan"], everywhere, UNKNOWN, |a| a.tan(), 2498, 43),
+    routine!("asin" Asin(R) -> R, Do("{r}.asin({0})"), ["Float.asin"], everywhere, Error::Relative(2.8e-4), |a| a.asin(), 624, 43),
+    routine!("acos" Acos(R) -> R, Do("{r}.acos({0})"), ["Float.acos"], everywhere, Error::Absolute(2.9e-4), |a| a.acos(), 673, 43),
+    routine!("atan2" Atan2(R, R) -> R, Do("{r}.atan2({0}, {1})"), ["Float.atan2"], everywhere, ARC, |a, b| a.atan2(b), 1157, 50),
+    routine!("exp" Exp(R) -> R, Do("{r}.exp({0})"), ["Float.exp"], everywhere, EXP, |a| a.exp(), 476, 43),
+    routine!("log" Log(R) -> R, Do("{r}.log({0})"), ["Float.log"], everywhere, Error::Relative(2.5e-4), |a| a.log(), 998, 43),
+    routine!("pow" Pow(R, R) -> R, Do("{r}.pow({0}, {1})"), ["Float.pow"], within!(1: 8.0), Error::Relative(1e-3), |a, b| a.pow(b), 766, 50),
+    routine!("large_pow" Pow(R, R) -> R, Do("{r}.pow({0}, {1})"), ["Float.pow"], within!(1: 64.0), Error::Relative(8e-3), |a, b| a.pow(b), 766, 50),
+    routine!("any_pow" Pow(R, R) -> R, Do("{r}.pow({0}, {1})"), ["Float.pow"], everywhere, UNKNOWN, |a, b| a.pow(b), 766, 50),
     routine!("floor" Floor(R) -> I, call("{0}.floor()"), ["Float.floor"], everywhere, EXACT, |a| a.floor(), 29, 36),
     routine!("round" Round(R) -> I, call("{0}.round()"), ["Float.round"], everywhere, EXACT, |a| a.round(), 36, 36),
     routine!("sign" Sign(R) -> I, call("{0}.sign()"), ["Float.sign"], everywhere, EXACT, |a| a.sign(), 15, 36),

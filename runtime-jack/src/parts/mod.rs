@@ -11,6 +11,7 @@
 //! everywhere (Jack has no precedence), nothing allocated but in `make...`.
 
 mod float;
+mod functions;
 mod int;
 
 use slowlight_routine::{Part, Source};
@@ -47,6 +48,29 @@ pub(crate) static ALL: &[Part] = &[
     part!("Float.round", ["Float.makePowers"], 220, float::ROUND),
     part!("Float.mod", ["Float.copy", "Float.add"], 340, float::MOD),
     part!("Float.fromInt", [], 180, float::FROM_INT),
+    part!("Float.fraction", [], 180, functions::FRACTION),
+    part!("Float.part", ["Float.makePowers"], 300, functions::PART),
+    part!("Float.set", [], 80, functions::SET),
+    part!("Float.product", [], 520, functions::PRODUCT),
+    part!("Float.ratio", [], 500, functions::RATIO),
+    part!("Float.makeShape", [], 80, functions::MAKE_SHAPE),
+    part!("Float.makeQuarter", ["Float.set"], 100, functions::MAKE_QUARTER),
+    part!("Float.makeExcess", ["Float.set"], 120, functions::MAKE_EXCESS),
+    part!("Float.quarterSine", ["Float.makeShape", "Float.makeQuarter", "Float.makeExcess", "Float.fraction", "Float.part", "Float.product", "Float.add", "Float.sub", "Float.scale", "Float.fromInt"], 980, functions::SINE),
+    part!("Float.sin", ["Float.quarterSine"], 100, functions::SIN),
+    part!("Float.cos", ["Float.quarterSine"], 60, functions::COS),
+    part!("Float.makeTangent", [], 80, functions::MAKE_TANGENT),
+    part!("Float.tan", ["Float.makeTangent", "Float.sin", "Float.cos", "Float.ratio"], 80, functions::TAN),
+    part!("Float.atan2", ["Float.makeShape", "Float.makeQuarter", "Float.fraction", "Float.part", "Float.product", "Float.ratio", "Float.sub", "Float.scale"], 700, functions::ATAN2),
+    part!("Float.arc", ["Float.makeShape", "Float.fraction", "Float.part", "Float.product", "Float.ratio", "Float.sqrt", "Float.add", "Float.scale", "Float.fromInt"], 720, functions::ARC),
+    part!("Float.asin", ["Float.makeQuarter", "Float.arc", "Float.sub"], 120, functions::ASIN),
+    part!("Float.acos", ["Float.makeQuarter", "Float.arc", "Float.sub"], 220, functions::ACOS),
+    part!("Float.exponent", ["Float.makePowers", "Float.fraction"], 1400, functions::EXPONENT),
+    part!("Float.exp", ["Float.exponent"], 100, functions::EXP),
+    part!("Float.nearLog", ["Float.makeShape", "Float.fraction", "Float.part", "Float.product"], 640, functions::NEAR_LOG),
+    part!("Float.makeLog", ["Float.set"], 120, functions::MAKE_LOG),
+    part!("Float.log", ["Float.makeLog", "Float.nearLog", "Float.fromInt", "Float.product", "Float.add"], 200, functions::LOG),
+    part!("Float.pow", ["Float.makeLog", "Float.nearLog", "Float.exponent", "Float.copy", "Float.product"], 840, functions::POW),
     part!("Int", [], 0, ""),
     part!("Int.magnitude", [], 60, int::MAGNITUDE),
     part!("Int.add", [], 120, int::ADD),

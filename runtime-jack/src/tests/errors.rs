@@ -34,7 +34,7 @@ fn stated(op: Op) -> f64 {
     let of = |error| match error {
         Error::Relative(r) => r,
         Error::Exact => 0.0,
-        Error::Absolute(a) | Error::Larger(a) => panic!("{a}"),
+        Error::Larger(a) | Error::Absolute(a) | Error::Mixed { absolute: a, .. } => panic!("{a}"),
     };
     F316.routines
         .iter()

@@ -3,6 +3,7 @@
 
 mod errors;
 mod facts;
+mod functions;
 mod machine;
 
 use crate::F316;
@@ -176,4 +177,15 @@ fn params_have_as_many_digits_as_an_int_holds() {
     let value = Float::from_bits((F316.param_bits)(-100, 3)).value();
     assert!((value + 0.1).abs() < 0.1 / 4096.0, "{value}");
     assert_eq!((F316.param_bits)(1_000_000, 0), (F316.param_bits)(32767, 0));
+}
+
+#[test]
+fn every_operation_has_a_total_routine() {
+    use slowlight_routine::{Op, Range};
+    for op in Op::ALL {
+        let total = |r: &&slowlight_routine::Routine| {
+            r.op == *op && (r.domain)(&[Range::ALL, Range::ALL], Range::ALL)
+        };
+        assert!(F316.routines.iter().any(|r| total(&r)), "{op:?}");
+    }
 }

@@ -1,0 +1,515 @@
+//! Sines, arcs, powers and logarithms: see [`crate::model`] for how they work.
+
+pub(crate) const FRACTION: &str =
+    "    /** a * b to the nearest, of fractions of 14 bits: 16384 is 1. */
+    function int fraction(int a, int b) {
+        var int h, k;
+        let h = a / 128;
+        let k = b / 128;
+        let a = a & 127;
+        let b = b & 127;
+        return (h * k) + (((((h * b) + (a * k)) + ((a * b) / 128)) + 64) / 128);
+    }
+";
+
+pub(crate) const PART: &str =
+    "    /** This, at most 1, as a fraction of 14 bits; the rest is cut. */
+    method int part() {
+        if (e > 126) { return 16384; }
+        if (e < 113) { return 0; }
+        return m / powers[126 - e];
+    }
+
+    /** this = a fraction of 14 bits, at most 2, whose 15th is rounded. */
+    method void setPart(int a) {
+        let s = 0;
+        let e = 126;
+        let m = a;
+        if (a = 0) { let e = 0; return; }
+        if (a > 16383) { let m = (a + 1) / 2; let e = 127; }
+        while (m < 8192) { let m = m + m; let e = e - 1; }
+        return;
+    }
+";
+
+pub(crate) const SET: &str = "    method void set(int sign, int exponent, int mantissa) {
+        let s = sign;
+        let e = exponent;
+        let m = mantissa;
+        return;
+    }
+";
+
+pub(crate) const PRODUCT: &str = "    /** this = a * b, to the nearest */
+    method void product(Array a, Array b) {
+        var int p, q, h, k, r, x;
+        let p = a[2];
+        let q = b[2];
+        let x = (a[1] + b[1]) - 126;
+        let s = (a[0] + b[0]) & 1;
+        if ((p = 0) | (q = 0)) { let e = 0; let m = 0; return; }
+        let h = p / 128;
+        let k = q / 128;
+        let p = p & 127;
+        let q = q & 127;
+        let r = ((h * q) + (p * k)) + ((p * q) / 128);
+        let p = (h * k) + (r / 128);
+        let r = r & 127;
+        if (p < 8192) {
+            let r = r + r;
+            let p = (p + p) + (r / 128);
+            let r = r & 127;
+            let x = x - 1;
+        }
+        let p = p + (r / 64);
+        if (p > 16383) { let p = 8192; let x = x + 1; }
+        if (x > 8000) { let x = 8000; let p = 16383; }
+        if (x < (-8000)) { let s = 0; let x = 0; let p = 0; }
+        let e = x;
+        let m = p;
+        return;
+    }
+";
+
+pub(crate) const RATIO: &str = "    /** this = a / b, to the nearest; by zero as div */
+    method void ratio(Array a, Array b) {
+        var int r, d, q, x;
+        let r = a[2];
+        let d = b[2];
+        if (r = 0) { let s = 0; let e = 0; let m = 0; return; }
+        if (d = 0) { let s = a[0]; let e = 8000; let m = 16383; return; }
+        let x = (a[1] - b[1]) + 127;
+        let s = (a[0] + b[0]) & 1;
+        if (r < d) { let r = r + r; let x = x - 1; }
+        let r = r - d;
+        let q = 1;
+        while (q < 8192) {
+            let r = r + r;
+            let q = q + q;
+            if (~(r < d)) { let r = r - d; let q = q + 1; }
+        }
+        if (~((r + r) < d)) { let q = q + 1; }
+        if (q > 16383) { let q = 8192; let x = x + 1; }
+        if (x > 8000) { let x = 8000; let q = 16383; }
+        if (x < (-8000)) { let s = 0; let x = 0; let q = 0; }
+        let e = x;
+        let m = q;
+        return;
+    }
+";
+
+pub(crate) const MAKE_SHAPE: &str =
+    "    static Float shape; // what a reduced argument is multiplied by
+
+    function void makeShape() {
+        let shape = Float.new();
+        return;
+    }
+";
+
+pub(crate) const MAKE_QUARTER: &str = "    static Float quarter; // pi / 2, too large by excess
+
+    function void makeQuarter() {
+        let quarter = Float.new();
+        do quarter.set(0, 127, 12868);
+        return;
+    }
+";
+
+pub(crate) const MAKE_EXCESS: &str = "    static Float excess, spare; // while a sine is found
+
+    function void makeExcess() {
+        let excess = Float.new();
+        do excess.set(0, 109, 9566);
+        let spare = Float.new();
+        return;
+    }
+";
+
+pub(crate) const SINE: &str =
+    "    /** this = the rest of the magnitude of a by whole quarter turns; returns
+        their number. From 32768 on, with Floats more than a radian apart, 0. */
+    method int reduce(Array a) {
+        var int r, k, n;
+        let s = 0;
+        let e = a[1];
+        let m = a[2];
+        if (e < 127) { return 0; }
+        if ((e > 141) | (m = 0)) { let e = 0; let m = 0; return 0; }
+        let r = m;
+        let k = 0;
+        let n = e - 127;
+        while (~(n < 0)) {
+            let k = k + k;
+            if (r > 12867) { let r = r - 12868; let k = k + 1; }
+            if (n > 0) { let r = r + r; }
+            let n = n - 1;
+        }
+        let m = r;
+        let e = 127;
+        if (r = 0) { let e = 0; return k; }
+        while (m < 8192) { let m = m + m; let e = e - 1; }
+        return k;
+    }
+
+    /** this = the sine of the magnitude of a and n quarter turns */
+    method void quarterSine(Array a, int n) {
+        var int k, z, c;
+        let k = reduce(a);
+        let n = n + k;
+        if ((n & 1) = 1) {
+            do sub(quarter, this);
+            do spare.fromInt(k + 1);
+            do spare.product(excess, spare);
+            do sub(this, spare);
+        }
+        else {
+            if (k > 0) {
+                do spare.fromInt(k);
+                do spare.product(excess, spare);
+                do add(this, spare);
+            }
+        }
+        do shape.scale(this, -1);
+        let z = shape.part();
+        let z = Float.fraction(z, z);
+        let c = 208 - Float.fraction(z, 11);
+        let c = 2184 - Float.fraction(z, c);
+        let c = 10923 - Float.fraction(z, c);
+        do shape.setPart(16384 - Float.fraction(z, c));
+        do product(this, shape);
+        if ((n & 2) = 2) { let s = 1 - s; }
+        return;
+    }
+";
+
+pub(crate) const SIN: &str = "    /** this = the sine of a */
+    method void sin(Array a) {
+        var int sign;
+        let sign = a[0];
+        do quarterSine(a, 0);
+        let s = (s + sign) & 1;
+        return;
+    }
+";
+
+pub(crate) const COS: &str = "    /** this = the cosine of a */
+    method void cos(Array a) {
+        do quarterSine(a, 1);
+        return;
+    }
+";
+
+pub(crate) const MAKE_TANGENT: &str = "    static Float rise; // while a tangent is found
+
+    function void makeTangent() {
+        let rise = Float.new();
+        return;
+    }
+";
+
+pub(crate) const TAN: &str = "    /** this = the tangent of a */
+    method void tan(Array a) {
+        do rise.sin(a);
+        do cos(a);
+        do ratio(rise, this);
+        return;
+    }
+";
+
+pub(crate) const ATAN2: &str = "    /** this = the angle of (y, x), of (0, 0) zero */
+    method void atan2(Array y, Array x) {
+        var int p, d, sign, z, c;
+        var boolean flat, left;
+        let p = y[2];
+        if ((p = 0) & (x[2] = 0)) { let s = 0; let e = 0; let m = 0; return; }
+        let sign = 0;
+        if (p > 0) { let sign = y[0]; }
+        let left = (x[0] = 1) & (x[2] > 0);
+        let d = y[1] - x[1];
+        if (p = 0) { let flat = true; }
+        else {
+            if (x[2] = 0) { let flat = false; }
+            else {
+                if (d = 0) { let d = p - x[2]; }
+                let flat = (d < 0);
+            }
+        }
+        if (flat) { do ratio(y, x); }
+        else { do ratio(x, y); }
+        let s = 0;
+        let z = part();
+        let z = Float.fraction(z, z);
+        let c = 613 - Float.fraction(z, 131);
+        let c = 1382 - Float.fraction(z, c);
+        let c = 2214 - Float.fraction(z, c);
+        let c = 3258 - Float.fraction(z, c);
+        let c = 5460 - Float.fraction(z, c);
+        do shape.setPart(16384 - Float.fraction(z, c));
+        do product(this, shape);
+        if (~flat) { do sub(quarter, this); }
+        if (left) {
+            do shape.scale(quarter, 1);
+            do sub(shape, this);
+        }
+        let s = sign;
+        return;
+    }
+";
+
+pub(crate) const ARC: &str =
+    "    /** this = the arc sine of the magnitude of a below 1/2; from there on its
+        arc cosine, twice the arc sine of the root of (1 - a)/2: returns true. */
+    method boolean arc(Array a) {
+        var int z, c;
+        var boolean large;
+        let z = a[1];
+        let m = a[2];
+        let large = (z > 125) & (m > 0);
+        if (large) {
+            let z = 16384 - m;
+            if (a[1] > 126) { let z = 0; }
+            do shape.fromInt(z);
+            do shape.scale(shape, -9);
+            do shape.scale(shape, -6);
+            do nearRoot(shape);
+            let z = z / 2;
+        }
+        else {
+            let s = 0;
+            let e = z;
+            let z = part();
+            let z = Float.fraction(z, z);
+        }
+        let c = 688 + Float.fraction(z, 749);
+        let c = 1231 + Float.fraction(z, c);
+        let c = 2731 + Float.fraction(z, c);
+        do shape.setPart(16384 + Float.fraction(z, c));
+        do product(this, shape);
+        if (large) { do scale(this, 1); }
+        return large;
+    }
+
+    /** this = the root of a, nearer than sqrt */
+    method void nearRoot(Array a) {
+        do sqrt(a);
+        if (m = 0) { return; }
+        do quotient.ratio(a, this);
+        do add(this, quotient);
+        do scale(this, -1);
+        return;
+    }
+";
+
+pub(crate) const ASIN: &str = "    /** this = the angle whose sine is a, kept within -1 and 1 */
+    method void asin(Array a) {
+        var int sign;
+        let sign = a[0];
+        if (arc(a)) { do sub(quarter, this); }
+        let s = sign;
+        return;
+    }
+";
+
+pub(crate) const ACOS: &str = "    /** this = the angle whose cosine is a, kept within -1 and 1 */
+    method void acos(Array a) {
+        var int sign;
+        let sign = a[0];
+        if (arc(a)) {
+            if (sign = 1) {
+                do shape.scale(quarter, 1);
+                do sub(shape, this);
+            }
+            return;
+        }
+        let s = sign;
+        do sub(quarter, this);
+        return;
+    }
+";
+
+pub(crate) const EXPONENT: &str =
+    "    static int whole, rest; // an exponent of 2: whole + rest/16384
+
+    /** Adds (h + l/16384) / 2^places; beyond all results, sets 32767. */
+    function void split(int h, int l, int places, boolean minus) {
+        var int unit;
+        while (places < 0) {
+            if ((h > 8191) | (places < (-30))) {
+                let whole = 32767;
+                if (minus) { let whole = -32767; }
+                let rest = 0;
+                return;
+            }
+            let l = l + l;
+            let h = (h + h) + (l / 16384);
+            let l = l & 16383;
+            let places = places + 1;
+        }
+        if (places > 14) { let l = h / 2; let h = 0; let places = places - 15; }
+        if (places > 14) { let l = 0; }
+        else {
+            let unit = powers[places];
+            let l = (l / unit) + ((h & (unit - 1)) * (16384 / unit));
+            let h = h / unit;
+        }
+        if (minus) {
+            let whole = whole - h;
+            if (l > 0) { let whole = whole - 1; let rest = rest + (16384 - l); }
+        }
+        else { let whole = whole + h; let rest = rest + l; }
+        if (rest > 16383) { let rest = rest - 16384; let whole = whole + 1; }
+        return;
+    }
+
+    /** Adds a * log2(e), which is 1 + 7253/2^14 + 1893/2^28. */
+    function void natural(Array a) {
+        var int p, q, h, l, x;
+        let p = a[2];
+        let x = a[1];
+        if (p = 0) { return; }
+        if (x > 140) { do Float.split(16383, 0, -1, a[0] = 1); return; }
+        let h = p / 128;
+        let l = p & 127;
+        let q = (h * 85) + (l * 56);
+        let l = ((q & 127) * 128) + (l * 85);
+        let h = ((h * 56) + (q / 128)) + p;
+        if (l > 16383) { let l = l - 16384; let h = h + 1; }
+        let l = l + Float.fraction(p, 1893);
+        if (l > 16383) { let l = l - 16384; let h = h + 1; }
+        do Float.split(h, l, 140 - x, a[0] = 1);
+        return;
+    }
+
+    /** this = 2 to the exponent */
+    method void raise() {
+        var int c;
+        let s = 0;
+        if (whole > 7873) { let e = 8000; let m = 16383; return; }
+        if (whole < (-8127)) { let e = 0; let m = 0; return; }
+        let c = 151 + Float.fraction(rest, 29);
+        let c = 912 + Float.fraction(rest, c);
+        let c = 3936 + Float.fraction(rest, c);
+        let c = 11357 + Float.fraction(rest, c);
+        let m = 8192 + ((Float.fraction(rest, c) + 1) / 2);
+        let e = 127 + whole;
+        if (m > 16383) { let m = 8192; let e = e + 1; }
+        if (e > 8000) { let e = 8000; let m = 16383; }
+        return;
+    }
+";
+
+pub(crate) const EXP: &str = "    /** this = e to the power a */
+    method void exp(Array a) {
+        let whole = 0;
+        let rest = 0;
+        do Float.natural(a);
+        do raise();
+        return;
+    }
+";
+
+pub(crate) const NEAR_LOG: &str =
+    "    /** The magnitude of a is 2^n r, with r from 0.707 to 1.414: this = the
+        logarithm of r; returns n. */
+    method int nearLog(Array a) {
+        var int n, z, c, sign;
+        let z = a[2];
+        let n = a[1] - 127;
+        if (z > 11585) {
+            let n = n + 1;
+            let z = 16384 - z;
+            let sign = 1;
+            let c = 3077 + Float.fraction(z, 2001);
+            let c = 3351 + Float.fraction(z, c);
+            let c = 4079 + Float.fraction(z, c);
+            let c = 5459 + Float.fraction(z, c);
+            let c = 8192 + Float.fraction(z, c);
+            let c = 16384 + Float.fraction(z, c);
+        }
+        else {
+            let z = (z - 8192) * 2;
+            let sign = 0;
+            let c = 3077 - Float.fraction(z, 2001);
+            let c = 3351 - Float.fraction(z, c);
+            let c = 4079 - Float.fraction(z, c);
+            let c = 5459 - Float.fraction(z, c);
+            let c = 8192 - Float.fraction(z, c);
+            let c = 16384 - Float.fraction(z, c);
+        }
+        do setPart(z);
+        do shape.setPart(c);
+        do product(this, shape);
+        let s = sign;
+        return n;
+    }
+";
+
+pub(crate) const MAKE_LOG: &str = "    static Float ln2, doublings; // while a logarithm is found
+
+    function void makeLog() {
+        let ln2 = Float.new();
+        do ln2.set(0, 126, 11357);
+        let doublings = Float.new();
+        return;
+    }
+";
+
+pub(crate) const LOG: &str =
+    "    /** this = the natural logarithm of a; of zero or a negative the most negative value */
+    method void log(Array a) {
+        if ((a[2] = 0) | (a[0] = 1)) { let s = 1; let e = 8000; let m = 16383; return; }
+        do doublings.fromInt(nearLog(a));
+        do doublings.product(ln2, doublings);
+        do add(doublings, this);
+        return;
+    }
+";
+
+pub(crate) const POW: &str =
+    "    /** this = a to the power b; to the power zero it is 1. Zero to a negative is
+        the largest value, a negative to a fraction zero. */
+    method void pow(Array a, Array b) {
+        var int sign, n, p, q, h, l, x, unit;
+        var boolean minus;
+        let p = b[2];
+        let x = b[1];
+        let minus = (b[0] = 1);
+        if (p = 0) { let s = 0; let e = 127; let m = 8192; return; }
+        if (a[2] = 0) {
+            let s = 0;
+            let e = 0;
+            let m = 0;
+            if (minus) { let e = 8000; let m = 16383; }
+            return;
+        }
+        let sign = 0;
+        if ((a[0] = 1) & (x < 141)) {
+            let q = 0;
+            let unit = 2;
+            if (x > 126) { let unit = powers[140 - x]; let q = p / unit; }
+            if (~((q * unit) = p)) { let s = 0; let e = 0; let m = 0; return; }
+            let sign = q & 1;
+        }
+        let whole = 0;
+        let rest = 0;
+        do doublings.copy(b);
+        let n = nearLog(a);
+        do product(this, doublings);
+        do Float.natural(this);
+        if (~(n = 0)) {
+            if (n < 0) { let n = -n; let minus = ~minus; }
+            let h = p / 128;
+            let l = p & 127;
+            let q = n / 128;
+            let n = n & 127;
+            let unit = (h * n) + (l * q);
+            let l = ((unit & 127) * 128) + (l * n);
+            let h = ((h * q) + (unit / 128)) + (l / 16384);
+            do Float.split(h, l & 16383, 126 - x, minus);
+        }
+        do raise();
+        let s = sign;
+        return;
+    }
+";
