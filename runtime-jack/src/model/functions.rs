@@ -76,7 +76,7 @@ impl Exponent {
                 return;
             }
             low += low;
-            high += high + low / 16384;
+            high = 2 * high + low / 16384;
             low &= 16383;
             places += 1;
         }
@@ -183,7 +183,7 @@ impl Float {
         let (mut m, mut rest, mut e) = (h * k + middle / 128, middle & 127, self.e + b.e - 126);
         if m < 8192 {
             rest += rest;
-            m += m + rest / 128;
+            m = 2 * m + rest / 128;
             rest &= 127;
             e -= 1;
         }
