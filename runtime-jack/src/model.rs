@@ -4,6 +4,7 @@
 
 mod functions;
 mod int;
+mod powers;
 pub use int::*;
 
 use slowlight_routine::Bits;

@@ -13,6 +13,7 @@
 mod float;
 mod functions;
 mod int;
+mod powers;
 
 use slowlight_routine::{Part, Source};
 
@@ -65,12 +66,12 @@ pub(crate) static ALL: &[Part] = &[
     part!("Float.arc", ["Float.makeShape", "Float.fraction", "Float.part", "Float.product", "Float.ratio", "Float.sqrt", "Float.add", "Float.scale", "Float.fromInt"], 720, functions::ARC),
     part!("Float.asin", ["Float.makeQuarter", "Float.arc", "Float.sub"], 120, functions::ASIN),
     part!("Float.acos", ["Float.makeQuarter", "Float.arc", "Float.sub"], 220, functions::ACOS),
-    part!("Float.exponent", ["Float.makePowers", "Float.fraction"], 1400, functions::EXPONENT),
-    part!("Float.exp", ["Float.exponent"], 100, functions::EXP),
-    part!("Float.nearLog", ["Float.makeShape", "Float.fraction", "Float.part", "Float.product"], 640, functions::NEAR_LOG),
-    part!("Float.makeLog", ["Float.set"], 120, functions::MAKE_LOG),
-    part!("Float.log", ["Float.makeLog", "Float.nearLog", "Float.fromInt", "Float.product", "Float.add"], 200, functions::LOG),
-    part!("Float.pow", ["Float.makeLog", "Float.nearLog", "Float.exponent", "Float.copy", "Float.product"], 840, functions::POW),
+    part!("Float.exponent", ["Float.makePowers", "Float.fraction"], 1400, powers::EXPONENT),
+    part!("Float.exp", ["Float.exponent"], 100, powers::EXP),
+    part!("Float.nearLog", ["Float.makeShape", "Float.fraction", "Float.part", "Float.product"], 640, powers::NEAR_LOG),
+    part!("Float.makeLog", ["Float.set"], 120, powers::MAKE_LOG),
+    part!("Float.log", ["Float.makeLog", "Float.nearLog", "Float.fromInt", "Float.product", "Float.add"], 200, powers::LOG),
+    part!("Float.pow", ["Float.makeLog", "Float.nearLog", "Float.exponent", "Float.copy", "Float.product"], 840, powers::POW),
     part!("Int", [], 0, ""),
     part!("Int.magnitude", [], 60, int::MAGNITUDE),
     part!("Int.add", [], 120, int::ADD),
