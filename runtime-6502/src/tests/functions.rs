@@ -1,9 +1,8 @@
 //! How far the functions are from the exact results, in places of 2^-16.
 //!
 //! Where every operand can be tried in the time of a test, every one is. The
-//! others (sines, logarithms: 2^32 operands) are tried in strides of a prime;
-//! with a stride of 1, which takes minutes, they gave the same figures, save
-//! where a comment says otherwise.
+//! others (sines, logarithms: 2^32 operands) are sampled in strides of a prime,
+//! so their figures are the worst of the sample; `SLOWLIGHT_STRIDE=1` tries all.
 
 use crate::model;
 use slowlight_routine::{Op, Value};
