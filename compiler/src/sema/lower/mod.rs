@@ -34,7 +34,7 @@ use std::collections::HashMap;
 use value::Val;
 
 /// Nodes at most.
-const NODES: usize = 1_000_000;
+const NODES: usize = 400_000;
 /// Steps of evaluation at most.
 const STEPS: usize = 8_000_000;
 /// Expressions inside expressions at most, calls included.
