@@ -213,7 +213,7 @@ impl Checker<'_> {
             }
             (Ty::Angle, Ty::Real | Ty::Int) => "divide the angle by `1rad` or `1turn`".into(),
             (Ty::Int | Ty::Real, Ty::Ink) => "`ink(i)` is the palette's ink number i".into(),
-            (Ty::Optional(inner), want) if inner.fits(want) => format!(
+            (Ty::Optional(inner), want) if **inner != Ty::Never && inner.fits(want) => format!(
                 "take it apart: `if let v = .. then .. else ..`; `v` is {}",
                 self.a(inner)
             ),
