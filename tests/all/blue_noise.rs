@@ -1,4 +1,5 @@
-//! The library's blue-noise mask: where its ranks come from, and that they are blue.
+//! The library's tables of noise: where the ranks of the blue-noise mask come
+//! from, that they are blue, and the shuffle that the hash is made of.
 //!
 //! The ranks are Ulichney's void-and-cluster (The void-and-cluster method for
 //! dither array generation, 1993) on a torus of 16 x 16, so that the mask tiles
@@ -113,6 +114,17 @@ fn ranks() -> [usize; PLACES] {
     ranks
 }
 
+/// 0 to 255 as `hash` shuffles them (Fisher and Yates; the generator is that of [`first`]).
+fn shuffled() -> [usize; PLACES] {
+    let mut all = std::array::from_fn(|k| k);
+    let mut seed: u32 = 1;
+    for k in (1..PLACES).rev() {
+        seed = seed.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+        all.swap(k, ((seed >> 16) as usize * (k + 1)) >> 16);
+    }
+    all
+}
+
 /// The ranks as the library's file holds them.
 fn shown(ranks: &[usize]) -> String {
     let row = |row: &[usize]| {
@@ -125,9 +137,14 @@ fn shown(ranks: &[usize]) -> String {
 
 /// What a mask of the library is on the first 16 x 16 pixels, in 1/256.
 fn mask(name: &str) -> Vec<usize> {
-    let inks = vec!["black"; 256].join(", ");
-    let text = format!("image 16 x 16 inks {inks};\ndraw (x, y) = ink(floor(256 * {name}(x, y)));");
-    let scene = scene::check(name, &text);
+    inks(&format!("floor(256 * {name}(x, y))"))
+}
+
+/// The ints of an expression over x and y, 0 to 255, on 16 x 16 pixels.
+fn inks(number: &str) -> Vec<usize> {
+    let palette = vec!["black"; 256].join(", ");
+    let text = format!("image 16 x 16 inks {palette};\ndraw (x, y) = ink({number});");
+    let scene = scene::check(number, &text);
     let graph = scene.lower(&Options::default()).expect("a graph");
     let mut native = Native::new(&graph);
     let pixels = (0..PLACES as i32).map(|p| (p % SIDE as i32, p / SIDE as i32));
@@ -175,6 +192,17 @@ fn blue_noise_is_void_and_cluster() {
     let mut sorted = ranks;
     sorted.sort_unstable();
     assert!(sorted.iter().copied().eq(0..PLACES));
+}
+
+#[test]
+fn the_hash_is_made_of_a_shuffle() {
+    assert_eq!(inks("shuffled[16 * y + x]"), shuffled());
+    // So is every column of the hash.
+    for line in ["hash(3, 16 * y + x)", "hash(-70, 16 * y + x, 9)"] {
+        let mut all = inks(line);
+        all.sort_unstable();
+        assert!(all.into_iter().eq(0..PLACES), "{line}");
+    }
 }
 
 #[test]
