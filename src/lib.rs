@@ -11,6 +11,7 @@ pub mod draw;
 pub mod estimate;
 pub mod failure;
 pub mod files;
+pub mod fit;
 pub mod format;
 pub mod interrupt;
 pub mod machine;

@@ -2,6 +2,7 @@
 //! that they lead to.
 
 use crate::failure::{Failure, Outcome, unknown};
+use crate::fit;
 use crate::scene::Scene;
 use clap::{Args, ValueEnum};
 use slowlight_compiler::plan::{Goal, Plan, plan};
@@ -65,17 +66,24 @@ pub fn rows(text: &str, height: u32) -> Outcome<(u32, u32)> {
 }
 
 impl ScreenArgs {
-    /// The mode of a target for a picture.
+    /// The best mode of a target for a picture.
     ///
     /// # Errors
     /// Where the target has no mode of that name.
     pub fn mode(&self, target: &'static Target, size: (u32, u32)) -> Outcome<Mode> {
+        let modes = self.modes(target, size)?;
+        let first = modes.first().copied();
+        first.ok_or_else(|| Failure::Wrong(format!("{} has no screen", target.name)))
+    }
+
+    /// The modes to try: the one asked for, else the best first.
+    fn modes(&self, target: &'static Target, size: (u32, u32)) -> Outcome<Vec<Mode>> {
         let Some(name) = &self.mode else {
-            return target::default_mode(target, size.0, size.1)
-                .ok_or_else(|| Failure::Wrong(format!("{} has no screen", target.name)));
+            return Ok(target::modes_for(target, size.0, size.1));
         };
         let found = target.modes.iter().find(|m| m.name == name);
-        found.copied().ok_or_else(|| {
+        let found = found.map(|mode| vec![*mode]);
+        found.ok_or_else(|| {
             let names: Vec<&str> = target
                 .modes
                 .iter()
@@ -90,12 +98,38 @@ impl ScreenArgs {
         })
     }
 
-    /// Plans a scene for a target, `set` being values read from edited source.
+    /// Plans a scene for a target and the best mode in which its program fits
+    /// the machine, `set` being values read from edited source.
+    ///
+    /// # Errors
+    /// Where the scene does not compile for it, the options do not fit, or the
+    /// program does not.
+    pub fn plan(
+        &self,
+        scene: &Scene,
+        target: &'static Target,
+        set: &[(String, Vec<f64>)],
+    ) -> Outcome<Plan> {
+        let modes = self.modes(target, scene.size())?;
+        fit::fit(
+            modes
+                .into_iter()
+                .map(|mode| self.plan_in(mode, scene, target, set)),
+        )
+    }
+
+    /// Plans a scene for the best mode, whether or not its program fits.
     ///
     /// # Errors
     /// Where the scene does not compile for it, or the options do not fit.
-    pub fn plan(
+    pub fn draft(&self, scene: &Scene, target: &'static Target) -> Outcome<Plan> {
+        let mode = self.mode(target, scene.size())?;
+        self.plan_in(mode, scene, target, &[])
+    }
+
+    fn plan_in(
         &self,
+        mode: Mode,
         scene: &Scene,
         target: &'static Target,
         set: &[(String, Vec<f64>)],
@@ -104,8 +138,7 @@ impl ScreenArgs {
             let message = format!("--os is Jack's, and {} has its own", target.name);
             return Err(Failure::Usage(message));
         }
-        let (width, height) = scene.size();
-        let mode = self.mode(target, (width, height))?;
+        let (_, height) = scene.size();
         let asked = self.rows.as_deref().map(|r| rows(r, height)).transpose()?;
         let graph = scene.graph_with(Some(mode.inks), target.offset, set)?;
         let goal = Goal {

@@ -66,7 +66,7 @@ pub fn run(args: &Args) -> Outcome<()> {
         return Ok(());
     }
     scene.warn();
-    let plan = plan(args, &scene)?;
+    let plan = args.screen.plan(&scene, target(args)?, &[])?;
     let built = trial::build(&plan)?;
     let dir = &args.output;
     std::fs::create_dir_all(dir)
@@ -126,11 +126,18 @@ pub fn run(args: &Args) -> Outcome<()> {
     Ok(())
 }
 
+fn target(args: &Args) -> Outcome<&'static Target> {
+    args.target
+        .ok_or_else(|| Failure::Usage("this stage depends on the machine: say --target".to_owned()))
+}
+
+/// The plan of a stage, which may be looked at also where its program does not fit.
 fn plan(args: &Args, scene: &Scene) -> Outcome<Plan> {
-    let target = args.target.ok_or_else(|| {
-        Failure::Usage("this stage depends on the machine: say --target".to_owned())
-    })?;
-    args.screen.plan(scene, target, &[])
+    let target = target(args)?;
+    match args.screen.plan(scene, target, &[]) {
+        Err(Failure::Wrong(_)) => args.screen.draft(scene, target),
+        plan => plan,
+    }
 }
 
 fn emit(args: &Args, scene: &Scene, stage: Stage) -> Outcome<String> {

@@ -34,11 +34,13 @@
 //! The model ([`crate::eval::model`]) runs the same plan bit for bit.
 
 mod fold_uses;
+mod lifetimes;
 mod names;
 mod params;
 pub mod print;
 mod spread;
 
+pub use lifetimes::shared_homes;
 pub use params::ParamPlan;
 pub use spread::ErrorRows;
 
@@ -86,6 +88,9 @@ pub struct Plan {
     pub rows: (u32, u32),
     /// Whether to draw.
     pub plot: bool,
+    /// Whether to write it as small as it goes, where that costs the text its
+    /// readability; the values are the same.
+    pub tight: bool,
     /// The values.
     pub graph: Graph,
     /// When each is computed.
@@ -239,6 +244,7 @@ pub fn plan(graph: &Graph, target: &'static Target, goal: &Goal) -> Result<Plan,
         columns,
         rows,
         plot: goal.plot,
+        tight: false,
         ranges: ranges_now,
         params,
         routines,

@@ -77,27 +77,22 @@ pub fn find(name: &str) -> Option<&'static Target> {
 /// The mode for a picture: of those that hold it whole the one with most inks,
 /// else the one with most pixels.
 pub fn default_mode(target: &Target, width: u32, height: u32) -> Option<Mode> {
+    modes_for(target, width, height).first().copied()
+}
+
+/// The modes for a picture, the best first: those that hold it whole by their
+/// inks, then the others by their pixels. Of equals the machine's order decides.
+pub fn modes_for(target: &Target, width: u32, height: u32) -> Vec<Mode> {
     if let Some(any) = target.modes.iter().find(|m| m.width == 0) {
-        return Some(Mode {
+        return vec![Mode {
             width,
             height,
             ..*any
-        });
+        }];
     }
     let holds = |m: &&Mode| m.width >= width && m.height >= height;
-    // The first of equals, so that the machine's order decides.
-    let whole = target
-        .modes
-        .iter()
-        .rev()
-        .filter(holds)
-        .max_by_key(|m| m.inks);
-    let largest = || {
-        target
-            .modes
-            .iter()
-            .rev()
-            .max_by_key(|m| u64::from(m.width) * u64::from(m.height))
-    };
-    whole.or_else(largest).copied()
+    let (mut whole, mut part): (Vec<&Mode>, Vec<&Mode>) = target.modes.iter().partition(holds);
+    whole.sort_by_key(|m| std::cmp::Reverse(m.inks));
+    part.sort_by_key(|m| std::cmp::Reverse(u64::from(m.width) * u64::from(m.height)));
+    whole.into_iter().chain(part).copied().collect()
 }

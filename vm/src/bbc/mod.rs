@@ -148,6 +148,23 @@ impl Machine {
         self.program.len()
     }
 
+    /// Bytes that the entries of all variables, functions and procedures take that the program
+    /// names, arrays' elements and the contents of strings left out.
+    pub fn entry_bytes(&self) -> usize {
+        let mut names = names::Names::new();
+        if let Ok(lines) = tokenise::lines(&self.program) {
+            decode::decode(&lines, &mut names);
+        }
+        names.all_bytes() as usize
+    }
+
+    /// Bytes from PAGE to HIMEM in a mode, for a program, its variables and its stack. `None`
+    /// where the machine has no such mode.
+    pub fn memory(&self, mode: u8) -> Option<usize> {
+        let found = modes::find(self.config.dialect, mode)?;
+        Some(found.himem.saturating_sub(u32::from(self.config.page)) as usize)
+    }
+
     /// Runs the program from its first line on a fresh machine.
     ///
     /// Stops after `cycle_limit` cycles; `watch` is asked about every ten million.

@@ -42,6 +42,32 @@ impl Names {
         self.by_kind[kind as usize].len()
     }
 
+    /// Bytes that a name's entry in its list takes: link, rest of the name, zero, value.
+    pub fn entry_bytes(&self, kind: Kind, slot: Slot) -> u32 {
+        let suffix = match kind {
+            Kind::Int | Kind::Str | Kind::Reals => 1,
+            Kind::Ints | Kind::Strs => 2,
+            _ => 0,
+        };
+        let value = match kind {
+            Kind::Int | Kind::Str => 4,
+            Kind::Real => 5,
+            _ => 2,
+        };
+        2 + (self.name(kind, slot).len() as u32).saturating_sub(1) + suffix + 1 + value
+    }
+
+    /// Bytes of the entries of all names but the resident ones.
+    pub fn all_bytes(&self) -> u32 {
+        use Kind::*;
+        let kinds = [Int, Real, Str, Ints, Reals, Strs, Fn, Proc];
+        let of = |kind: Kind| {
+            let first = if kind == Int { RESIDENT } else { 0 };
+            (first..self.count(kind)).map(move |slot| self.entry_bytes(kind, slot as Slot))
+        };
+        kinds.into_iter().flat_map(of).sum()
+    }
+
     pub fn name(&self, kind: Kind, slot: Slot) -> &[u8] {
         self.by_kind[kind as usize]
             .get(slot as usize)

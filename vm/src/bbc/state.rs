@@ -240,19 +240,8 @@ impl State {
     /// A new entry in the list of a name's first letter: link, rest of the name, zero, value.
     /// Answers what looking it up will cost.
     pub fn enter(&mut self, kind: Kind, slot: Slot) -> Result<u32, Error> {
-        let name = self.names.name(kind, slot);
-        let first = name.first().copied().unwrap_or(0);
-        let suffix = match kind {
-            Kind::Int | Kind::Str | Kind::Reals => 1,
-            Kind::Ints | Kind::Strs => 2,
-            _ => 0,
-        };
-        let value = match kind {
-            Kind::Int | Kind::Str => 4,
-            Kind::Real => 5,
-            _ => 2,
-        };
-        let bytes = 2 + name.len() as u32 - 1 + suffix + 1 + value;
+        let first = self.names.name(kind, slot).first().copied().unwrap_or(0);
+        let bytes = self.names.entry_bytes(kind, slot);
         self.allocate(bytes)?;
         // FNs and PROCs have lists of their own.
         let list = match kind {

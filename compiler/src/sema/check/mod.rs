@@ -17,7 +17,6 @@ mod items;
 mod literal;
 mod names;
 mod ops;
-mod scopes;
 mod types;
 
 use super::builtins::{Signature, signatures};
@@ -27,7 +26,6 @@ use crate::source::{Diagnostic, Span};
 use crate::syntax::tree;
 use names::{Entity, Layers};
 pub(super) use ops::symbol;
-use scopes::Scopes;
 
 /// How deep expressions may nest, constants that refer to constants included.
 const DEPTH: usize = 320;
@@ -36,8 +34,6 @@ const DEPTH: usize = 320;
 const LOOPS: usize = 6;
 /// How many expressions are checked at most, repetitions counted.
 const STEPS: usize = 3_000_000;
-/// How many functions of a scene may share a name: a call looks at all of them.
-const SHARERS: usize = 64;
 /// Errors shown at most; more would only bury the first.
 const SHOWN: usize = 100;
 
@@ -57,7 +53,7 @@ struct Context {
     /// Whether it is the library's.
     library: bool,
     locals: Vec<Local>,
-    scopes: Scopes,
+    scopes: Vec<(String, LocalId)>,
     loops: Vec<OpenLoop>,
     /// How many loops enclose this place, in whatever part of them.
     nest: usize,
@@ -185,7 +181,7 @@ impl Checker<'_> {
             name: name.to_owned(),
             ty,
         });
-        self.cx.scopes.push(name, id);
+        self.cx.scopes.push((name.to_owned(), id));
         id
     }
 
@@ -213,7 +209,7 @@ impl Checker<'_> {
             }
             (Ty::Angle, Ty::Real | Ty::Int) => "divide the angle by `1rad` or `1turn`".into(),
             (Ty::Int | Ty::Real, Ty::Ink) => "`ink(i)` is the palette's ink number i".into(),
-            (Ty::Optional(inner), want) if **inner != Ty::Never && inner.fits(want) => format!(
+            (Ty::Optional(inner), want) if inner.fits(want) => format!(
                 "take it apart: `if let v = .. then .. else ..`; `v` is {}",
                 self.a(inner)
             ),

@@ -1,7 +1,6 @@
 //! Small scenes to programs and graphs; wrong scenes to diagnostics.
 #![allow(clippy::unwrap_used)]
 
-mod any;
 mod hard;
 mod pictures;
 

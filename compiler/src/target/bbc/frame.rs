@@ -4,6 +4,8 @@ use super::code::Code;
 use super::lines::Lines;
 use super::screen;
 use super::spread::Spread;
+use super::tight::tight;
+use crate::flow::graph::Table;
 use crate::plan::Plan;
 use slowlight_routine::{Source, Type, Value};
 use slowlight_runtime_bbc::literal;
@@ -26,7 +28,12 @@ pub fn program(plan: &Plan) -> Lines {
     setup(plan, &mut code, &first, &last);
     functions(plan, &mut code);
     data(plan, &mut code);
-    code.lines
+    if !plan.tight {
+        return code.lines;
+    }
+    let params = (0..plan.params.len()).map(|k| code.values.names.param(k).to_owned());
+    let keep: Vec<String> = params.chain([first, last]).collect();
+    tight(code.lines, &keep)
 }
 
 fn parameters(plan: &Plan, code: &mut Code<'_>, first: &str, last: &str) {
@@ -151,21 +158,25 @@ fn setup(plan: &Plan, code: &mut Code<'_>, first: &str, last: &str) {
             continue;
         };
         let (w, h) = (table.width - 1, table.height - 1);
-        match (w, h) {
-            (_, 0) => {
-                code.line(format!(
-                    "DIM {name}({w}):FOR X%=0 TO {w}:READ {name}(X%):NEXT"
-                ));
-            }
-            (0, _) => {
-                code.line(format!(
-                    "DIM {name}({h}):FOR Y%=0 TO {h}:READ {name}(Y%):NEXT"
-                ));
-            }
-            _ => code.line(format!(
-                "DIM {name}({w},{h}):FOR Y%=0 TO {h}:FOR X%=0 TO {w}:READ {name}(X%,Y%):NEXT:NEXT"
-            )),
-        }
+        // The element, the bounds, and the loops around reading it.
+        let (index, bounds, loops, ends) = match (w, h) {
+            (_, 0) => ("X%", format!("{w}"), format!("FOR X%=0 TO {w}"), "NEXT"),
+            (0, _) => ("Y%", format!("{h}"), format!("FOR Y%=0 TO {h}"), "NEXT"),
+            _ => (
+                "X%,Y%",
+                format!("{w},{h}"),
+                format!("FOR Y%=0 TO {h}:FOR X%=0 TO {w}"),
+                "NEXT:NEXT",
+            ),
+        };
+        let element = format!("{name}({index})");
+        let shrink = match scale(plan, table) {
+            1 => String::new(),
+            scale => format!(":{element}={element}/{scale}"),
+        };
+        code.line(format!(
+            "DIM {name}({bounds}):{loops}:READ {element}{shrink}:{ends}"
+        ));
     }
     code.line("ENDPROC");
 }
@@ -184,16 +195,35 @@ fn functions(plan: &Plan, code: &mut Code<'_>) {
     }
 }
 
+/// By what a table's entries are multiplied in DATA: where memory is short,
+/// fractions of a power of two are written as whole numbers, which are shorter
+/// and, divided again, the same bits.
+fn scale(plan: &Plan, table: &Table) -> u32 {
+    if !plan.tight || table.ty != Type::Real {
+        return 1;
+    }
+    let whole = |scale: &u32| {
+        let mut entries = table.entries.iter().map(|e| e.value().real());
+        entries.all(|x| {
+            let scaled = x * f64::from(*scale);
+            scaled.fract() == 0.0 && scaled.abs() < 1e6
+        })
+    };
+    (0..=16).map(|k| 1 << k).find(whole).unwrap_or(1)
+}
+
 fn data(plan: &Plan, code: &mut Code<'_>) {
+    let width = if plan.tight { 200 } else { 60 };
     for table in &plan.graph.tables {
+        let scale = f64::from(scale(plan, table));
         let mut line = String::new();
         for entry in &table.entries {
             let text = match entry.value() {
-                Value::Real(x) => literal(x),
+                Value::Real(x) => literal(x * scale),
                 Value::Int(n) => n.to_string(),
                 Value::Bool(b) => (-i32::from(b)).to_string(),
             };
-            if line.len() + text.len() > 60 {
+            if line.len() + text.len() > width {
                 code.line(std::mem::take(&mut line));
             }
             line.push_str(if line.is_empty() { "DATA " } else { "," });

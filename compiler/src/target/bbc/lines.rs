@@ -7,7 +7,7 @@ use crate::source::Span;
 pub struct Label(u32);
 
 /// Encloses a label's number in a line's text.
-const MARK: char = '\u{1}';
+pub const MARK: char = '\u{1}';
 
 impl std::fmt::Display for Label {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
@@ -106,6 +106,65 @@ impl Lines {
             all.push_str(text);
         }
         (all.len() <= most).then_some(all)
+    }
+
+    /// Every line's text.
+    pub fn texts(&self) -> impl Iterator<Item = &str> {
+        self.items.iter().filter_map(|item| match item {
+            Item::Line { text, .. } => Some(text.as_str()),
+            Item::Label(_) => None,
+        })
+    }
+
+    /// Changes every line's text.
+    pub fn each_text(&mut self, mut change: impl FnMut(&mut String)) {
+        for item in &mut self.items {
+            if let Item::Line { text, .. } = item {
+                change(text);
+            }
+        }
+    }
+
+    /// Leaves out lines without text.
+    pub fn remove_empty(&mut self) {
+        self.items
+            .retain(|item| !matches!(item, Item::Line { text, .. } if text.is_empty()));
+    }
+
+    /// The lines up to the one that holds some text, and those behind it.
+    pub fn split_behind(mut self, holds: &str) -> (Lines, Lines) {
+        let found = |item: &Item| matches!(item, Item::Line { text, .. } if text.contains(holds));
+        let at = self.items.iter().position(found).map_or(0, |at| at + 1);
+        let behind = self.items.split_off(at);
+        (self, Lines { items: behind })
+    }
+
+    /// These lines and then others, none joined.
+    pub fn followed_by(mut self, mut other: Lines) -> Lines {
+        self.items.append(&mut other.items);
+        self
+    }
+
+    /// As few lines as their meaning and a width allow: an `IF` takes the rest
+    /// of its line with it, a `DEF` and `DATA` begin one.
+    pub fn joined(self, width: usize) -> Lines {
+        let ends = |text: &str| ["IF", "REM", "DATA"].iter().any(|w| text.contains(w));
+        let begins = |text: &str| text.starts_with("DEF") || text.starts_with("DATA");
+        let mut all = Lines::default();
+        for item in self.items {
+            if let Item::Line { text, .. } = &item
+                && let Some(Item::Line { text: last, .. }) = all.items.last_mut()
+                && !ends(last)
+                && !begins(text)
+                && last.len() + 1 + text.len() <= width
+            {
+                last.push(':');
+                last.push_str(text);
+            } else {
+                all.items.push(item);
+            }
+        }
+        all
     }
 
     pub fn is_empty(&self) -> bool {

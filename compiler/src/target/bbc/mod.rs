@@ -18,7 +18,7 @@
 //!
 //! - `lines`: lines with labels, numbered at the end; `names`; `expression`: values;
 //! - `code`: statements; `frame`: everything around them; `screen`: modes, colours, coordinates;
-//! - `spread`: error diffusion.
+//! - `spread`: error diffusion; `tight`: the same program in less memory.
 
 mod code;
 mod expression;
@@ -29,6 +29,7 @@ mod screen;
 mod spread;
 #[cfg(test)]
 mod tests;
+mod tight;
 
 use super::{Document, Target};
 use crate::plan::Plan;

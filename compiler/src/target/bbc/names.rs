@@ -1,8 +1,8 @@
 //! What variables, constants and tables are called.
 
 use crate::flow::tree::Place;
-use crate::plan::Plan;
-use slowlight_routine::Type;
+use crate::plan::{Plan, shared_homes};
+use slowlight_routine::{Format, Type};
 use std::collections::{HashMap, HashSet};
 
 /// Names of everything in the program.
@@ -36,8 +36,15 @@ impl Names {
             let name = names.unique(&p.label().to_ascii_lowercase(), suffix(p.ty));
             names.params.push(name);
         }
+        // In little memory values share variables.
+        let shared = plan.tight.then(|| shared_homes(plan));
+        let mut sharing: HashMap<(Format, usize), String> = HashMap::new();
         for (place, format) in plan.places() {
-            let name = names.unique(plan.home(place), suffix(format.scalar()));
+            let mut fresh = || names.unique(plan.home(place), suffix(format.scalar()));
+            let name = match shared.as_ref().and_then(|s| s.get(&place)) {
+                Some(&at) => sharing.entry((format, at)).or_insert_with(fresh).clone(),
+                None => fresh(),
+            };
             names.homes.insert(place, name);
         }
         for table in &plan.graph.tables {

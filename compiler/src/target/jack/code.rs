@@ -71,8 +71,10 @@ pub(super) struct Code<'p> {
     pub spread: Option<Spread>,
     /// The parts of the runtime that are needed, beside those of the routines.
     pub needs: BTreeSet<&'static str>,
-    /// Homes that are written, by format: those that become fields.
-    pub written: Vec<(Place, Format)>,
+    /// The fields of homes that are written, by format.
+    pub written: Vec<(String, Format)>,
+    /// Their names, to find them quickly.
+    known: BTreeSet<String>,
     /// What became a method of its own.
     pub methods: Vec<Method>,
     /// Values that are written where they are read.
@@ -90,6 +92,7 @@ impl<'p> Code<'p> {
             object: Object::default(),
             needs: BTreeSet::new(),
             written: Vec::new(),
+            known: BTreeSet::new(),
             methods: Vec::new(),
             folded: HashMap::new(),
             text: Text::default(),
@@ -237,10 +240,11 @@ impl<'p> Code<'p> {
 
     /// The field of a place that is written.
     pub fn home(&mut self, place: Place, format: Format) -> String {
-        if !self.written.iter().any(|(p, _)| *p == place) {
-            self.written.push((place, format));
+        let name = self.names.home(place).to_owned();
+        if self.known.insert(name.clone()) {
+            self.written.push((name.clone(), format));
         }
-        self.names.home(place).to_owned()
+        name
     }
 
     /// Computes a value into its home, or keeps its expression for its reader.

@@ -3,7 +3,6 @@
 use super::code::{Code, int};
 use super::making::making;
 use super::{Document, Line, Text};
-use crate::flow::tree::Place;
 use crate::plan::{ParamPlan, Plan};
 use slowlight_routine::Format;
 use slowlight_runtime_jack::model::MOST;
@@ -157,7 +156,7 @@ fn fields(code: &Code, text: &mut Text) {
     let names = &code.names;
     let of = |format: Format| {
         let all = code.written.iter().filter(move |(_, f)| *f == format);
-        all.map(|(place, _): &(Place, Format)| names.home(*place))
+        all.map(|(name, _): &(String, Format)| name.as_str())
     };
     let mut declare = |ty: &str, all: Vec<&str>, about: &str| {
         let mut rest = all.as_slice();

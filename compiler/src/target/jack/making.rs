@@ -49,7 +49,7 @@ pub(super) fn making(code: &mut Code) -> Vec<Subroutine> {
         code.needs.insert("Float.constant");
     }
     let floats = code.written.iter().filter(|(_, f)| *f == Format::Float316);
-    let floats = floats.map(|(place, _)| code.names.home(*place).to_owned());
+    let floats = floats.map(|(name, _)| name.clone());
     let floats: Vec<String> = values.iter().map(|v| v.1.clone()).chain(floats).collect();
     let made = floats
         .iter()

@@ -6,8 +6,8 @@
 
 use crate::flow::graph::*;
 use crate::flow::tree::Place;
-use crate::plan::Plan;
-use slowlight_routine::Op;
+use crate::plan::{Plan, shared_homes};
+use slowlight_routine::{Format, Op};
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 
 /// Words that no variable may have for a name.
@@ -90,8 +90,15 @@ impl Names {
         names.params = plan.params.iter().map(|p| names.fresh(&p.label)).collect();
         names.rows = ["first_row", "last_row"].map(|n| names.fresh(n));
         names.axes = ["x", "y"].map(|n| names.fresh(n));
-        for (place, _) in plan.places() {
-            let name = names.fresh(plan.home(place));
+        // In little memory values share fields.
+        let shared = plan.tight.then(|| shared_homes(plan));
+        let mut sharing: HashMap<(Format, usize), String> = HashMap::new();
+        for (place, format) in plan.places() {
+            let mut fresh = || names.fresh(plan.home(place));
+            let name = match shared.as_ref().and_then(|s| s.get(&place)) {
+                Some(&at) => sharing.entry((format, at)).or_insert_with(fresh).clone(),
+                None => fresh(),
+            };
             names.homes.insert(place, name);
         }
         names

@@ -34,10 +34,12 @@ pub(super) struct Placed<'s> {
 pub(super) struct Layout<'s> {
     pub origin: u32,
     pub placed: Vec<Placed<'s>>,
+    /// The address behind the last byte; beyond 64K where the program is too long.
+    pub end: u32,
 }
 
 /// Memory ends here.
-const END: u32 = 0x1_0000;
+pub(super) const END: u32 = 0x1_0000;
 
 struct Pass<'s, 'f> {
     symbols: &'f mut Symbols,
@@ -61,11 +63,13 @@ pub(super) fn layout<'s>(
         layout: Layout {
             origin: 0,
             placed: Vec::new(),
+            end: 0,
         },
         here: 0,
         waiting: Vec::new(),
         waiting_lines: Vec::new(),
     };
+    let mut over = None;
     for statement in statements {
         if let Some(label) = statement.label {
             pass.symbols.set(label, i64::from(pass.here));
@@ -73,14 +77,17 @@ pub(super) fn layout<'s>(
         if let Some(action) = &statement.action {
             pass.place(statement, action);
         }
-        if pass.here > END {
-            pass.faults.add(
-                statement.line,
-                statement.column,
-                "the program goes beyond $FFFF",
-            );
-            break;
+        if pass.here > END && over.is_none() {
+            over = Some((statement.line, statement.column));
         }
+    }
+    pass.layout.end = pass.here;
+    if let Some((line, column)) = over {
+        // What else is wrong may well follow from this.
+        let more = pass.here - END;
+        let message = format!("the program goes beyond $FFFF, by {more} bytes");
+        pass.faults.add(line, column, message);
+        return pass.layout;
     }
     let Pass {
         symbols,
@@ -190,7 +197,7 @@ impl<'s> Pass<'s, '_> {
             output,
         };
         self.layout.placed.push(placed);
-        self.here += length;
+        self.here = self.here.saturating_add(length);
     }
 
     fn origin(&mut self, expr: &Expr, line: u32) {

@@ -100,6 +100,31 @@ impl Faults {
     }
 }
 
+/// The addresses of a program's first byte and behind its last one, which is
+/// beyond 64K where the program is too long. Nothing is said of what is wrong.
+pub fn extent(source: &str) -> (u32, u32) {
+    let mut faults = Faults(Vec::new());
+    let mut symbols = Symbols::default();
+    let statements = statements(source, &mut symbols, &mut faults);
+    let placed = layout::layout(&statements, &mut symbols, &mut faults);
+    (placed.origin, placed.end)
+}
+
+/// Reads a program's statements.
+fn statements(source: &str, symbols: &mut Symbols, faults: &mut Faults) -> Vec<parse::Statement> {
+    let mut statements = Vec::new();
+    for (line, text) in (1u32..).zip(source.lines()) {
+        let end = text.chars().count() as u32 + 1;
+        let parsed =
+            lexer::tokens(text).and_then(|tokens| parse::statement(&tokens, line, end, symbols));
+        match parsed {
+            Ok(found) => statements.extend(found),
+            Err(wrong) => faults.add(line, wrong.column, wrong.message),
+        }
+    }
+    statements
+}
+
 /// Assembles a program, or says all that is wrong with it.
 ///
 /// # Errors
@@ -107,17 +132,11 @@ impl Faults {
 pub fn assemble(source: &str) -> Result<Assembly, Vec<Fault>> {
     let mut faults = Faults(Vec::new());
     let mut symbols = Symbols::default();
-    let mut statements = Vec::new();
-    for (line, text) in (1u32..).zip(source.lines()) {
-        let end = text.chars().count() as u32 + 1;
-        let parsed = lexer::tokens(text)
-            .and_then(|tokens| parse::statement(&tokens, line, end, &mut symbols));
-        match parsed {
-            Ok(found) => statements.extend(found),
-            Err(wrong) => faults.add(line, wrong.column, wrong.message),
-        }
-    }
+    let statements = statements(source, &mut symbols, &mut faults);
     let placed = layout::layout(&statements, &mut symbols, &mut faults);
+    if placed.end > layout::END {
+        return Err(faults.0);
+    }
     let assembly = emit::emit(&placed, &symbols, &mut faults);
     if faults.0.is_empty() {
         Ok(assembly)

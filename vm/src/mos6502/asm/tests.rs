@@ -184,7 +184,12 @@ fn faults_have_their_place() {
     );
     assert_eq!(
         fault("* = $FFFF\n.word 1"),
-        "2:1: the program goes beyond $FFFF"
+        "2:1: the program goes beyond $FFFF, by 1 bytes"
+    );
+    assert_eq!(super::extent("* = $FF00\n.res 256"), (0xFF00, 0x1_0000));
+    assert_eq!(
+        super::extent("* = $FF00\n.res 300\nlda 1"),
+        (0xFF00, 0x1_002E)
     );
     assert_eq!(fault(" lda (4)+1"), {
         "1:6: an operand that begins with `(` is indirect: its `)` must end it; for an address write `0+(...)`"

@@ -1,0 +1,143 @@
+//! Homes shared by values that are never alive together.
+//!
+//! The statements are numbered as they are written down; a place is alive from
+//! its first writing to its last reading. A loop runs its statements again, so
+//! what was written before its body and is read inside it stays alive to its
+//! end. What the frame or a row computes stays alive throughout.
+
+use super::Plan;
+use crate::flow::graph::*;
+use crate::flow::tree::*;
+use slowlight_routine::Format;
+use std::collections::HashMap;
+
+/// From the first writing to the last reading, as numbers of statements.
+#[derive(Clone, Copy, Debug)]
+struct Life {
+    from: usize,
+    to: usize,
+}
+
+struct Lives<'p> {
+    plan: &'p Plan,
+    now: usize,
+    lives: HashMap<Place, Life>,
+    /// Bodies of loops, inner ones first.
+    bodies: Vec<Life>,
+}
+
+/// For each place, the number of the home that it shares with others of its
+/// format; numbers begin at 0 for each format.
+pub fn shared_homes(plan: &Plan) -> HashMap<Place, usize> {
+    let mut lives = Lives {
+        plan,
+        now: 0,
+        lives: HashMap::new(),
+        bodies: Vec::new(),
+    };
+    lives.block(&plan.tree.frame);
+    lives.block(&plan.tree.row);
+    // The number of the last statement before the pixel's.
+    let pixel = lives.now;
+    lives.block(&plan.tree.pixel);
+    lives.read(plan.graph.ink);
+    plan.graph.shares().for_each(|s| lives.read(s.node));
+    lives.extend();
+    let end = lives.now + 1;
+    let mut all: Vec<(Place, Format)> = plan.places();
+    let life = |place: &Place| match lives.lives.get(place) {
+        Some(life) if life.from > pixel => *life,
+        _ => Life { from: 0, to: end },
+    };
+    // Stable: places that begin together stay in the order of their writing.
+    all.sort_by_key(|(place, _)| life(place).from);
+    let mut ends: HashMap<Format, Vec<usize>> = HashMap::new();
+    let mut homes = HashMap::new();
+    for (place, format) in all {
+        let Life { from, to } = life(&place);
+        let taken = ends.entry(format).or_default();
+        let free = taken.iter().position(|end| *end < from);
+        let at = free.unwrap_or_else(|| {
+            taken.push(0);
+            taken.len() - 1
+        });
+        if let Some(end) = taken.get_mut(at) {
+            *end = to;
+        }
+        homes.insert(place, at);
+    }
+    homes
+}
+
+impl Lives<'_> {
+    fn touch(&mut self, place: Place) {
+        let now = self.now;
+        let life = self.lives.entry(place);
+        life.or_insert(Life { from: now, to: now }).to = now;
+    }
+
+    /// Reads a value; what it is written from too, where it may be written here.
+    fn read(&mut self, id: NodeId) {
+        let Some(place) = self.plan.place(id) else {
+            return;
+        };
+        self.touch(place);
+        if self.plan.folded(id) {
+            let operands = self.plan.graph.node(id).operands();
+            operands.for_each(|operand| self.read(operand));
+        }
+    }
+
+    fn block(&mut self, block: &Block) {
+        for statement in block {
+            self.now += 1;
+            match statement {
+                Statement::Let(id) => {
+                    let operands = self.plan.graph.node(*id).operands();
+                    operands.for_each(|operand| self.read(operand));
+                    self.touch(Place::Node(*id));
+                }
+                Statement::Set { place, from } => {
+                    match *from {
+                        Origin::Node(id) => self.read(id),
+                        Origin::Scratch(l, k) => self.touch(Place::Scratch(l, k)),
+                    }
+                    self.touch(*place);
+                }
+                Statement::If { cond, yes, no } => {
+                    self.read(*cond);
+                    self.block(yes);
+                    self.block(no);
+                }
+                Statement::Loop(turns) => self.turns(turns),
+            }
+        }
+    }
+
+    fn turns(&mut self, turns: &Turns) {
+        self.block(&turns.start);
+        self.now += 1;
+        let from = self.now;
+        self.block(&turns.body);
+        self.now += 1;
+        self.read(turns.again);
+        self.block(&turns.next);
+        self.now += 1;
+        self.bodies.push(Life { from, to: self.now });
+        self.block(&turns.done);
+        self.block(&turns.otherwise);
+    }
+
+    /// What enters a loop's body alive, or is set for its next turn, stays so
+    /// to the body's end.
+    fn extend(&mut self) {
+        let bodies = &self.bodies;
+        for life in self.lives.values_mut() {
+            for body in bodies {
+                if life.from < body.from && life.to >= body.from {
+                    life.to = life.to.max(body.to);
+                }
+            }
+        }
+    }
+}
