@@ -8,6 +8,7 @@ pub mod passes;
 pub mod plan;
 pub mod prelude;
 pub mod range;
+pub mod report;
 pub mod scene;
 pub mod sema;
 pub mod target;

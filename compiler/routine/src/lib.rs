@@ -50,6 +50,17 @@ impl Format {
         }
     }
 
+    /// How coarse it is: the unit roundoff of a float (of a truncating one, the
+    /// last place), the quantum in fixed point, 1 for whole numbers.
+    pub fn unit(self) -> f64 {
+        match self {
+            Format::Bool | Format::Int { .. } => 1.0,
+            Format::Real40 => 2f64.powi(-32),
+            Format::Float316 => 2f64.powi(-13),
+            Format::Fixed { frac, .. } => 2f64.powi(-i32::from(frac)),
+        }
+    }
+
     /// The scalar type that it holds.
     pub fn scalar(self) -> Type {
         match self {
@@ -102,7 +113,8 @@ pub enum Error {
     /// At most so many times the magnitude of the exact result.
     Relative(f64),
     /// At most so many times the greatest magnitude among the arguments and
-    /// the exact result: sums in a format that cuts the smaller summand.
+    /// the exact result, and never on the other side of 0: sums in a format
+    /// that cuts the smaller summand.
     Larger(f64),
     /// At most so much.
     Absolute(f64),

@@ -85,7 +85,13 @@ impl Slack {
         if low == 0.0 && high == 0.0 {
             return range;
         }
-        let mut wide = Range::new(range.lo - low, range.hi + high);
+        let (mut lo, mut hi) = (range.lo - low, range.hi + high);
+        // Only an absolute error leads across 0.
+        if !all.clone().any(|(_, e)| matches!(e, Error::Absolute(_))) {
+            lo = if range.lo >= 0.0 { lo.max(0.0) } else { lo };
+            hi = if range.hi <= 0.0 { hi.min(0.0) } else { hi };
+        }
+        let mut wide = Range::new(lo, hi);
         // What is off by a part of itself keeps its sign.
         wide.nonzero |= range.nonzero && worst(0.0) == 0.0;
         wide

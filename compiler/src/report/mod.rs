@@ -1,0 +1,8 @@
+//! What is to be known of a plan beside its code. Data, not text: the command
+//! line renders it.
+
+pub mod fragile;
+mod shadow;
+#[cfg(test)]
+mod tests;
+pub mod words;

@@ -1,0 +1,122 @@
+//! Scenes with the stable form defeated by hand, and scenes without fault.
+#![allow(clippy::unwrap_used)]
+
+use super::fragile::fragile;
+use super::words::warnings;
+use crate::plan::{Goal, plan};
+use crate::scene::{self, Scene};
+use crate::sema::Options;
+use crate::source::Diagnostic;
+use crate::target::{default_mode, find};
+
+fn said(target: &str, scene: &Scene) -> Vec<Diagnostic> {
+    let target = find(target).unwrap();
+    let options = Options {
+        offset: target.offset,
+        ..Options::default()
+    };
+    let graph = scene.lower(&options).unwrap();
+    let goal = Goal {
+        name: "test".to_owned(),
+        mode: default_mode(target, graph.image.width, graph.image.height).unwrap(),
+        rows: None,
+        plot: true,
+    };
+    let plan = plan(&graph, target, &goal).unwrap();
+    warnings(&plan, &fragile(&plan))
+}
+
+/// The line of a warning, as the scene has it.
+fn line<'s>(scene: &'s Scene, said: &Diagnostic) -> &'s str {
+    let file = &scene.sources.files[said.span.file as usize];
+    let at = said.span.start as usize;
+    let from = file.text[..at].rfind('\n').map_or(0, |k| k + 1);
+    file.text[from..].lines().next().unwrap_or_default()
+}
+
+/// Each scene marks the lines that a warning must fall on.
+const DEFEATED: &[(&str, &str, &[&str])] = &[
+    (
+        "huge_floor",
+        include_str!("../../../tests/fragile/huge_floor.scn"),
+        &["jack", "6502:plain"],
+    ),
+    (
+        "far_sphere",
+        include_str!("../../../tests/fragile/far_sphere.scn"),
+        &["jack", "6502:plain"],
+    ),
+    (
+        "horizon",
+        include_str!("../../../tests/fragile/horizon.scn"),
+        &["jack", "6502:plain"],
+    ),
+    (
+        "facing_mirrors",
+        include_str!("../../../tests/fragile/facing_mirrors.scn"),
+        &["jack", "6502:plain"],
+    ),
+    (
+        "straight_down",
+        include_str!("../../../tests/fragile/straight_down.scn"),
+        &["jack", "bbc:micro", "6502:plain"],
+    ),
+    (
+        "smooth_exp",
+        include_str!("../../../tests/fragile/smooth_exp.scn"),
+        &["bbc:micro"],
+    ),
+    (
+        "sliver",
+        include_str!("../../../tests/fragile/sliver.scn"),
+        &["jack", "6502:plain"],
+    ),
+];
+
+#[test]
+fn a_defeated_form_is_found_on_its_line() {
+    let mut text = String::new();
+    for (name, source, targets) in DEFEATED {
+        let scene = scene::check(name, source);
+        assert!(scene.is_right(), "{name}: {:?}", scene.diagnostics);
+        for target in *targets {
+            let all = said(target, &scene);
+            let first = all
+                .first()
+                .unwrap_or_else(|| panic!("{name} on {target}: nothing said"));
+            let place = line(&scene, first);
+            assert!(
+                place.contains("// weak"),
+                "{name} on {target}: {} at {place}",
+                first.message
+            );
+            text += &format!("{name} on {target}: {}\n", first.message);
+        }
+    }
+    insta::assert_snapshot!(text);
+}
+
+#[test]
+fn sound_scenes_get_a_word_on_ties_at_most() {
+    let scenes = [
+        ("mirrors", include_str!("../../../examples/mirrors.scn")),
+        ("torus", include_str!("../../../examples/torus.scn")),
+        ("maze", include_str!("../../../examples/maze.scn")),
+        (
+            "primitives",
+            include_str!("../../../examples/primitives.scn"),
+        ),
+    ];
+    for (name, source) in scenes {
+        let scene = scene::check(name, source);
+        for target in ["jack", "bbc:micro", "6502:plain"] {
+            for word in said(target, &scene) {
+                assert!(
+                    word.message.starts_with("a tie"),
+                    "{name} on {target}: {}",
+                    word.message
+                );
+            }
+        }
+    }
+}
