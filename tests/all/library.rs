@@ -6,6 +6,7 @@ use slowlight_compiler::prelude::PRELUDE;
 use slowlight_compiler::scene::{self, Scene};
 use slowlight_compiler::sema::Options;
 use slowlight_compiler::syntax;
+use std::collections::BTreeSet;
 use std::path::Path;
 
 /// What claims speak of: points all around, two shapes, a yard with a ball, a camera.
@@ -58,73 +59,174 @@ fn every_claim_holds_at_every_pixel() {
     assert!(count >= 50, "{count} claims");
 }
 
-/// An item's first line, and the texts of the library without it.
-fn without_each() -> Vec<(String, Vec<(String, String)>)> {
-    let whole: Vec<(String, String)> = PRELUDE
-        .iter()
-        .map(|(name, text)| ((*name).to_owned(), (*text).to_owned()))
-        .collect();
+/// The library's files: names and texts.
+type Texts = Vec<(String, String)>;
+
+fn library() -> Texts {
+    let own = |(name, text): &(&str, &str)| ((*name).to_owned(), (*text).to_owned());
+    PRELUDE.iter().map(own).collect()
+}
+
+/// The items of a file, from first to last byte.
+fn items(text: &str) -> Vec<std::ops::Range<usize>> {
+    let items = syntax::parse(text, 0).0.items.into_iter();
+    items.map(|item| item.span.range()).collect()
+}
+
+/// An item's first line, and the library without it.
+fn without_each() -> Vec<(String, Texts)> {
+    let whole = library();
     let mut all = Vec::new();
     for (k, (_, text)) in whole.iter().enumerate() {
-        for item in syntax::parse(text, 0).0.items {
-            let (start, end) = (item.span.start as usize, item.span.end as usize);
-            // Constants are folded in the graph's own arena, which moves the
-            // numbers of the nodes behind them and nothing else.
-            if text[start..end].starts_with("const ") {
-                continue;
-            }
+        for item in items(text) {
             let mut left = whole.clone();
-            left[k].1.replace_range(start..end, "");
-            let head = text[start..end].lines().next().unwrap_or_default();
+            left[k].1.replace_range(item.clone(), "");
+            let head = text[item].lines().next().unwrap_or_default();
             all.push((head.to_owned(), left));
         }
     }
     all
 }
 
-/// An item of the library that a scene can do without leaves nothing in its graph.
+fn words(text: &str) -> impl Iterator<Item = &str> {
+    let code = text
+        .lines()
+        .map(|l| l.split("//").next().unwrap_or_default());
+    code.flat_map(|l| l.split(|c: char| !c.is_alphanumeric() && c != '_'))
+}
+
+/// The library without every item that a scene cannot reach, and how many those
+/// are. What the compiler itself calls stays: `solve.scn`, which it says is for that.
+fn without_unreached(scene: &str) -> (Texts, usize) {
+    let mut whole = library();
+    let mut known: BTreeSet<String> = words(scene).map(str::to_owned).collect();
+    let solve = whole.iter().filter(|(name, _)| name == "solve.scn");
+    known.extend(solve.flat_map(|(_, text)| words(text).map(str::to_owned)));
+    loop {
+        let before = known.len();
+        for (_, text) in &whole {
+            for item in items(text) {
+                let text = &text[item];
+                if words(text).nth(1).is_some_and(|name| known.contains(name)) {
+                    known.extend(words(text).map(str::to_owned));
+                }
+            }
+        }
+        if known.len() == before {
+            break;
+        }
+    }
+    let mut gone = 0;
+    for (_, text) in &mut whole {
+        for item in items(text).into_iter().rev() {
+            let name = words(&text[item.clone()]).nth(1).map(str::to_owned);
+            if name.is_none_or(|name| !known.contains(&name)) {
+                text.replace_range(item, "");
+                gone += 1;
+            }
+        }
+    }
+    (whole, gone)
+}
+
+/// A scene with another library; none where the scene needs what that lacks.
+fn with(name: &str, text: &str, library: &Texts) -> Option<String> {
+    let mut none = |_: &str, _: &str| Err(String::new());
+    let scene = scene::load(name, text, Some(library), &mut none);
+    printed(&scene)
+}
+
+fn printed(scene: &Scene) -> Option<String> {
+    scene.lower(&Options::default()).ok().map(|g| g.to_string())
+}
+
+/// An item of the library that a scene can do without leaves nothing in its
+/// graph: not a node, not a number of a node.
 #[test]
 fn what_is_not_called_costs_nothing() {
-    let mut none = |_: &str, _: &str| Err(String::new());
+    let each = without_each();
     for (name, text) in [
         ("mirrors", include_str!("../../examples/mirrors.scn")),
         ("torus", include_str!("../../examples/torus.scn")),
         ("maze", include_str!("../../examples/maze.scn")),
+        ("primitives", include_str!("../../examples/primitives.scn")),
     ] {
-        let graph = |scene: &Scene| scene.lower(&Options::default()).map(|g| g.to_string());
-        let whole = graph(&right(name, text)).expect("a graph");
+        let whole = printed(&right(name, text)).expect("a graph");
         let mut spared = Vec::new();
-        for (item, left) in without_each() {
-            let scene = scene::load(name, text, Some(&left), &mut none);
-            if scene.is_right() {
-                assert!(graph(&scene) == Ok(whole.clone()), "{name} without {item}");
+        for (item, left) in &each {
+            if let Some(graph) = with(name, text, left) {
+                assert!(graph == whole, "{name} without {item}");
                 spared.push(item);
             }
         }
         // The effects, and the shapes made of shapes, are among them.
-        for part in ["effect ", "shape quadric", "shape twist", "fn stripes"] {
+        for part in [
+            "const pi",
+            "effect ",
+            "shape quadric",
+            "shape twist",
+            "fn stripes",
+        ] {
             assert!(spared.iter().any(|i| i.starts_with(part)), "{name}: {part}");
         }
-        let effects = spared.iter().filter(|i| i.starts_with("effect ")).count();
-        assert_eq!(effects, 5, "{name}: all effects of the library");
+        let effects = |all: &[&String]| all.iter().filter(|i| i.starts_with("effect ")).count();
+        let all: Vec<&String> = each.iter().map(|(item, _)| item).collect();
+        assert_eq!(
+            effects(&spared),
+            effects(&all),
+            "{name}: all effects of the library"
+        );
+        assert!(spared.len() > each.len() / 2, "{name}: {}", spared.len());
     }
+}
+
+/// All that a scene does not reach leaves nothing together, in every scene.
+#[test]
+fn a_scene_needs_only_what_it_reaches() {
+    for (name, text) in scenes() {
+        let whole = printed(&right(&name, &text)).expect("a graph");
+        let (left, gone) = without_unreached(&text);
+        assert!(gone >= 20, "{name}: {gone} items are not reached");
+        assert!(with(&name, &text, &left) == Some(whole), "{name}");
+    }
+}
+
+/// What the two tests above would see, did an item that is not called leave
+/// something: a constant that stands in a scene, a function that it calls.
+#[test]
+fn what_is_called_shows() {
+    let text = include_str!("../../examples/mirrors.scn");
+    let whole = printed(&right("mirrors", text)).expect("a graph");
+    let mut other = library();
+    let vectors = other.iter_mut().find(|(name, _)| name == "vectors.scn");
+    let (_, vectors) = vectors.expect("vectors");
+    *vectors = vectors.replace("d - 2 * dot(d, n) * n", "d - (2 + 0 * pi) * dot(d, n) * n");
+    let graph = with("mirrors", text, &other).expect("a graph");
+    assert!(graph != whole);
+}
+
+/// The example scenes: names and texts.
+fn scenes() -> Vec<(String, String)> {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("examples");
+    let mut found = Vec::new();
+    for entry in std::fs::read_dir(folder).expect("examples") {
+        let path = entry.expect("an entry").path();
+        if path.extension().is_some_and(|e| e == "scn") {
+            let text = std::fs::read_to_string(&path).expect("a text");
+            found.push((path.display().to_string(), text));
+        }
+    }
+    assert!(found.len() >= 12, "{} examples", found.len());
+    found
 }
 
 /// Every example checks without a remark and begins with a line that says what it is.
 #[test]
 fn examples_are_right() {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("examples");
-    let mut count = 0;
-    for entry in std::fs::read_dir(folder).expect("examples") {
-        let path = entry.expect("an entry").path();
-        if path.extension().is_some_and(|e| e == "scn") {
-            let text = std::fs::read_to_string(&path).expect("a text");
-            let name = path.display().to_string();
-            assert!(text.starts_with("// "), "{name}");
-            let scene = right(&name, &text);
-            scene.lower(&Options::default()).expect("a graph");
-            count += 1;
-        }
+    for (name, text) in scenes() {
+        assert!(text.starts_with("// "), "{name}");
+        right(&name, &text)
+            .lower(&Options::default())
+            .expect("a graph");
     }
-    assert!(count >= 12, "{count} examples");
 }

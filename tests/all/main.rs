@@ -1,6 +1,7 @@
 //! One integration-test binary: a file a subject.
 
 mod bbc;
+mod blue_noise;
 mod cli;
 mod cli_fmt;
 mod cli_run;
@@ -10,6 +11,7 @@ mod house;
 mod jack;
 mod library;
 mod mos6502;
+mod need;
 #[cfg(feature = "peers")]
 mod peers_brandy;
 #[cfg(feature = "peers")]

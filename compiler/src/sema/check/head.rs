@@ -1,7 +1,7 @@
 //! Items' heads: their names and the types that are written.
 
 use super::names::Entity;
-use super::{Checker, Context, Pending, State};
+use super::{Checker, Context, Pending, SHARERS, State};
 use crate::sema::program::*;
 use crate::sema::ty::Ty;
 use crate::source::{Diagnostic, Span};
@@ -301,6 +301,15 @@ impl<'a> Checker<'a> {
                     found.push((name.clone(), earlier, later));
                 }
             }
+        }
+        let many = |(name, list): (&String, &Vec<Entity>)| {
+            let first = list.get(SHARERS).filter(|_| !library)?;
+            Some((name.clone(), self.span_of(*first)?))
+        };
+        let crowds: Vec<(String, Span)> = layer.iter().filter_map(many).collect();
+        for (name, span) in crowds {
+            let message = format!("more than {SHARERS} items are called `{name}`");
+            self.error(span, message);
         }
         for (name, earlier, later) in found {
             let (Some(first), Some(span)) = (self.span_of(earlier), self.span_of(later)) else {

@@ -1,6 +1,7 @@
 //! What must be written out: the image, maps, the offsets of `spread`.
 
 use super::Checker;
+use super::call::count;
 use crate::sema::colours::{COLOURS, colour};
 use crate::sema::program::*;
 use crate::source::{Diagnostic, Span};
@@ -104,7 +105,10 @@ impl Checker<'_> {
         for (row, span) in rows {
             let length = row.chars().count();
             if length != width {
-                let message = format!("this row has {length} cells, the first has {width}");
+                let message = format!(
+                    "this row has {}, the first has {width}",
+                    count(length, "cell")
+                );
                 let error = Diagnostic::error(*span, message);
                 self.report(error.also(rows[0].1, "the first row"));
                 return;

@@ -17,6 +17,7 @@ mod items;
 mod literal;
 mod names;
 mod ops;
+mod scopes;
 mod types;
 
 use super::builtins::{Signature, signatures};
@@ -26,6 +27,7 @@ use crate::source::{Diagnostic, Span};
 use crate::syntax::tree;
 use names::{Entity, Layers};
 pub(super) use ops::symbol;
+use scopes::Scopes;
 
 /// How deep expressions may nest, constants that refer to constants included.
 const DEPTH: usize = 320;
@@ -34,6 +36,8 @@ const DEPTH: usize = 320;
 const LOOPS: usize = 6;
 /// How many expressions are checked at most, repetitions counted.
 const STEPS: usize = 3_000_000;
+/// How many functions of a scene may share a name: a call looks at all of them.
+const SHARERS: usize = 64;
 /// Errors shown at most; more would only bury the first.
 const SHOWN: usize = 100;
 
@@ -53,7 +57,7 @@ struct Context {
     /// Whether it is the library's.
     library: bool,
     locals: Vec<Local>,
-    scopes: Vec<(String, LocalId)>,
+    scopes: Scopes,
     loops: Vec<OpenLoop>,
     /// How many loops enclose this place, in whatever part of them.
     nest: usize,
@@ -181,7 +185,7 @@ impl Checker<'_> {
             name: name.to_owned(),
             ty,
         });
-        self.cx.scopes.push((name.to_owned(), id));
+        self.cx.scopes.push(name, id);
         id
     }
 
@@ -209,7 +213,7 @@ impl Checker<'_> {
             }
             (Ty::Angle, Ty::Real | Ty::Int) => "divide the angle by `1rad` or `1turn`".into(),
             (Ty::Int | Ty::Real, Ty::Ink) => "`ink(i)` is the palette's ink number i".into(),
-            (Ty::Optional(inner), want) if inner.fits(want) => format!(
+            (Ty::Optional(inner), want) if **inner != Ty::Never && inner.fits(want) => format!(
                 "take it apart: `if let v = .. then .. else ..`; `v` is {}",
                 self.a(inner)
             ),

@@ -87,7 +87,8 @@ impl Checker<'_> {
             false => self.layers.user.get(name).unwrap_or(&none),
         };
         let library = self.layers.library.get(name).unwrap_or(&none);
-        user.iter().chain(library).copied().collect()
+        let all = user.iter().take(super::SHARERS).chain(library);
+        all.copied().collect()
     }
 
     /// Remembers that the current item mentions another.
@@ -99,8 +100,7 @@ impl Checker<'_> {
 
     /// The local that a name stands for, innermost first.
     pub(super) fn find_local(&self, name: &str) -> Option<LocalId> {
-        let found = self.cx.scopes.iter().rev().find(|(n, _)| n == name);
-        found.map(|&(_, id)| id)
+        self.cx.scopes.find(name)
     }
 
     /// The nearest name that may stand here, and what it is.
@@ -120,8 +120,8 @@ impl Checker<'_> {
                 let entity = list.iter().copied().find(|&e| want(e))?;
                 Some((n.clone(), Some(entity)))
             });
-        let scopes = self.cx.scopes.iter().filter(|_| locals);
-        let scopes = scopes.map(|(n, _)| (n.clone(), None));
+        let scopes = self.cx.scopes.names().filter(|_| locals);
+        let scopes = scopes.map(|n| (n.to_owned(), None));
         scopes
             .chain(items)
             .filter_map(|(n, e)| Some((near(name, &n)?, n, e)))
@@ -165,6 +165,9 @@ impl Checker<'_> {
         name: &str,
         names: impl Iterator<Item = &'n str>,
     ) -> Option<String> {
+        if self.diagnostics.len() > super::SHOWN {
+            return None;
+        }
         names
             .filter_map(|n| Some((near(name, n)?, n)))
             .min()

@@ -45,16 +45,12 @@ impl Checker<'_> {
             "scene" => Ty::Scene(None),
             "map" => Ty::Map,
             _ => {
-                let records: Vec<String> = self
-                    .program
-                    .records
-                    .iter()
-                    .map(|r| r.name.clone())
-                    .collect();
-                let names = NAMES.into_iter().chain(records.iter().map(String::as_str));
                 let help = match name {
                     "float" | "double" | "number" => Some("did you mean `real`?".to_owned()),
-                    _ => self.among(name, names.chain(["map"])),
+                    _ => {
+                        let records = self.program.records.iter().map(|r| r.name.as_str());
+                        self.among(name, NAMES.into_iter().chain(["map"]).chain(records))
+                    }
                 };
                 let mut error = Diagnostic::error(span, format!("no type `{name}`"));
                 error.help = help;

@@ -111,9 +111,11 @@ fn wrong(
     let mut shown: Vec<Span> = vec![claim.span];
     for id in path.iter().rev().skip(1) {
         let span = graph.span(*id);
-        if !shown.contains(&span) && shown.len() < 4 {
+        let name = graph.names.get(id);
+        let itself = shown.len() > 1 && name == Some(&claim.name);
+        if !shown.contains(&span) && shown.len() < 4 && !itself {
             shown.push(span);
-            let text = match graph.names.get(id) {
+            let text = match name {
                 _ if shown.len() == 2 => format!("`{letter}` comes in here"),
                 Some(name) => format!("through `{name}`"),
                 None => "through this".to_owned(),

@@ -1,6 +1,6 @@
 //! Choices between values, and widenings of them, scalar by scalar.
 
-use super::value::{Table, Val};
+use super::value::{Table, Val, WAITING};
 use super::{Found, Lower};
 use crate::flow::graph::NodeId;
 use crate::sema::ty::Ty;
@@ -19,10 +19,16 @@ impl Lower<'_> {
             (Val::Undefined, other) | (other, Val::Undefined) => other,
             (Val::Lazy(a), Val::Lazy(b)) if Rc::ptr_eq(&a, &b) => Val::Lazy(a),
             (yes @ Val::Lazy(_), no) | (yes, no @ Val::Lazy(_)) => {
-                Val::lazy(Box::new(move |l: &mut Lower<'_>| {
+                let depth = yes.depth().max(no.depth());
+                if depth > WAITING {
+                    let (yes, no) = (self.force(yes)?, self.force(no)?);
+                    return self.merge(condition, yes, no, span);
+                }
+                let work = Box::new(move |l: &mut Lower<'_>| {
                     let (yes, no) = (l.force(yes)?, l.force(no)?);
                     l.merge(condition, yes, no, span)
-                }))
+                });
+                Val::waiting(depth, work)
             }
             (Val::Node(a), Val::Node(b)) => Val::Node(self.select(condition, a, b, span)),
             (Val::Parts(a), Val::Parts(b)) => {

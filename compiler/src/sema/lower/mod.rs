@@ -34,7 +34,7 @@ use std::collections::HashMap;
 use value::Val;
 
 /// Nodes at most.
-const NODES: usize = 1_000_000;
+const NODES: usize = 400_000;
 /// Steps of evaluation at most.
 const STEPS: usize = 8_000_000;
 /// Expressions inside expressions at most, calls included.
@@ -98,6 +98,7 @@ struct Lower<'a> {
     consts: HashMap<ConstId, Val>,
     scenes: HashMap<SceneId, Vec<std::rc::Rc<value::Shape>>>,
     claims: Vec<claims::Claimed>,
+    tables: tables::Made,
     /// How many loops were opened.
     loops: u32,
     /// What stands for the point where a facet is read as a formula.
@@ -116,33 +117,13 @@ pub fn lower(program: &Program, options: &Options) -> Result<Graph, Vec<Diagnost
         let error = Diagnostic::error(Span::default(), "the scene has no `image` or no `draw`");
         return Err(vec![error]);
     };
-    let mut lower = Lower {
-        program,
-        options,
-        b: Builder::new(),
-        frame: Vec::new(),
-        locals: &[],
-        place: None,
-        image: Image {
-            width: image.width,
-            height: image.height,
-            palette: thin(&image.palette, options.inks),
-        },
-        params: Vec::new(),
-        consts: HashMap::new(),
-        scenes: HashMap::new(),
-        claims: Vec::new(),
-        loops: 0,
-        markers: None,
-        constant: 0,
-        choices: 0,
-        depth: 0,
-        steps: 0,
-    };
+    let mut lower = Lower::new(program, options, image);
     lower.check_options(image.span)?;
     let mut said = Vec::new();
+    // A constant that nothing uses leaves nothing, but its mistakes are the
+    // scene's: they are looked for in a lowering that is thrown away.
+    Lower::new(program, options, image).evaluate_consts(&mut said);
     lower.declare_params(&mut said);
-    lower.evaluate_consts(&mut said);
     if !said.is_empty() {
         return Err(said);
     }
@@ -171,6 +152,33 @@ fn thin(palette: &[[u8; 3]], inks: Option<u32>) -> Vec<[u8; 3]> {
 }
 
 impl<'a> Lower<'a> {
+    fn new(program: &'a Program, options: &'a Options, image: &crate::sema::Image) -> Lower<'a> {
+        Lower {
+            program,
+            options,
+            b: Builder::new(),
+            frame: Vec::new(),
+            locals: &[],
+            place: None,
+            image: Image {
+                width: image.width,
+                height: image.height,
+                palette: thin(&image.palette, options.inks),
+            },
+            params: Vec::new(),
+            consts: HashMap::new(),
+            scenes: HashMap::new(),
+            claims: Vec::new(),
+            tables: tables::Made::default(),
+            loops: 0,
+            markers: None,
+            constant: 0,
+            choices: 0,
+            depth: 0,
+            steps: 0,
+        }
+    }
+
     /// The ink and the shade of the pixel.
     fn picture(&mut self, draw: &'a Draw) -> Found<(NodeId, Option<NodeId>)> {
         let x = self.b.axis(Axis::X, draw.span);

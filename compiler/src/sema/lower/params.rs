@@ -172,10 +172,12 @@ impl<'a> Lower<'a> {
         Ok(found)
     }
 
-    /// Evaluates every constant, used or not: their mistakes are the scene's.
+    /// Evaluates every constant of the scene, used or not.
     pub(super) fn evaluate_consts(&mut self, said: &mut Vec<Diagnostic>) {
         for (k, item) in self.program.consts.iter().enumerate() {
-            if let Err(error) = self.constant_item(ConstId(k), item.span) {
+            if !item.library
+                && let Err(error) = self.constant_item(ConstId(k), item.span)
+            {
                 said.push(*error);
             }
         }

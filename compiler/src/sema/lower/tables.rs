@@ -2,12 +2,25 @@
 
 use super::value::{Table, Val};
 use super::{Found, Lower};
-use crate::flow::graph::{self, Constant, NodeId};
+use crate::flow::graph::{self, Constant, NodeId, TableId};
 use crate::sema::program::*;
 use crate::sema::ty::Ty;
 use crate::source::Span;
 use slowlight_routine::{Type, Value};
+use std::collections::HashMap;
 use std::rc::Rc;
+
+/// The most rows of a Bayer matrix, whose steps are then 1/65536 of the range.
+const BAYER: i32 = 256;
+
+/// Tables that were made already: a scene may look into a large one often.
+#[derive(Default)]
+pub(super) struct Made {
+    maps: HashMap<MapId, TableId>,
+    /// By address; the table is kept, so that no other gets its address.
+    columns: HashMap<*const Table, (Rc<Table>, Rc<[TableId]>)>,
+    bayer: HashMap<i32, Rc<Table>>,
+}
 
 impl<'a> Lower<'a> {
     pub(super) fn index(&mut self, base: &'a Expr, indices: &'a [Expr], span: Span) -> Found<Val> {
@@ -36,28 +49,33 @@ impl<'a> Lower<'a> {
                 self.entry(&table, of, column, row, span)
             }
             Val::Map(id) => {
-                let Some(map) = self.program.maps.get(id.0) else {
-                    return Err(self.confused(span));
-                };
-                let entries = map.cells.iter();
-                let table = graph::Table {
-                    name: map.name.clone(),
-                    width: map.width as u32,
-                    height: map.height as u32,
-                    ty: Type::Int,
-                    entries: entries.map(|&c| Constant::new(Value::Int(c))).collect(),
-                };
-                Ok(Val::Node(self.look_up(table, column, row, span)))
+                let table = self.cells(id, span)?;
+                let span = self.at(span);
+                Ok(Val::Node(self.b.lookup(table, column, row, span)))
             }
             Val::Undefined => Ok(Val::Undefined),
             _ => Err(self.confused(span)),
         }
     }
 
-    fn look_up(&mut self, table: graph::Table, column: NodeId, row: NodeId, span: Span) -> NodeId {
-        let span = self.at(span);
-        let id = self.b.table(table);
-        self.b.lookup(id, column, row, span)
+    /// A map as the graph has it, made once.
+    fn cells(&mut self, id: MapId, span: Span) -> Found<TableId> {
+        if let Some(&found) = self.tables.maps.get(&id) {
+            return Ok(found);
+        }
+        let Some(map) = self.program.maps.get(id.0) else {
+            return Err(self.confused(span));
+        };
+        let entries = map.cells.iter();
+        let found = self.b.table(graph::Table {
+            name: map.name.clone(),
+            width: map.width as u32,
+            height: map.height as u32,
+            ty: Type::Int,
+            entries: entries.map(|&c| Constant::new(Value::Int(c))).collect(),
+        });
+        self.tables.maps.insert(id, found);
+        Ok(found)
     }
 
     /// An entry; both indices clamp.
@@ -82,6 +100,26 @@ impl<'a> Lower<'a> {
             let error = self.error(span, "which entry this is must be known when compiling");
             return Err(Box::new(error));
         }
+        let tables = self.columns(table, of, layout, span)?;
+        let span = self.at(span);
+        let found: Vec<NodeId> = tables
+            .iter()
+            .map(|&id| self.b.lookup(id, column, row, span))
+            .collect();
+        Ok(self.unflatten(of, &mut found.into_iter()))
+    }
+
+    /// A table as the graph has it, one for each scalar of an entry, made once.
+    fn columns(
+        &mut self,
+        table: &Rc<Table>,
+        of: &Ty,
+        layout: Vec<(String, Type)>,
+        span: Span,
+    ) -> Found<Rc<[TableId]>> {
+        if let Some((_, found)) = self.tables.columns.get(&Rc::as_ptr(table)) {
+            return Ok(found.clone());
+        }
         let mut columns: Vec<Vec<Constant>> = vec![Vec::new(); layout.len()];
         for entry in &table.entries {
             self.step(span)?;
@@ -97,18 +135,22 @@ impl<'a> Lower<'a> {
                 column.push(Constant::new(value));
             }
         }
-        let mut found = Vec::new();
-        for ((name, ty), entries) in layout.into_iter().zip(columns) {
-            let table = graph::Table {
-                name,
-                width: table.width as u32,
-                height: table.height() as u32,
-                ty,
-                entries,
-            };
-            found.push(self.look_up(table, column, row, span));
-        }
-        Ok(self.unflatten(of, &mut found.into_iter()))
+        let found: Rc<[TableId]> = layout
+            .into_iter()
+            .zip(columns)
+            .map(|((name, ty), entries)| {
+                self.b.table(graph::Table {
+                    name,
+                    width: table.width as u32,
+                    height: table.height() as u32,
+                    ty,
+                    entries,
+                })
+            })
+            .collect();
+        let kept = (table.clone(), found.clone());
+        self.tables.columns.insert(Rc::as_ptr(table), kept);
+        Ok(found)
     }
 
     /// The n x n ordered-dither matrix over n^2 (Bayer 1973): each entry of the
@@ -116,12 +158,15 @@ impl<'a> Lower<'a> {
     /// row of the 2 x 2 matrix is 0, 3, the second 2, 1.
     pub(super) fn bayer(&mut self, n: &'a Expr, span: Span) -> Found<Val> {
         let side = self.known_int(n, "the size of a Bayer matrix")?;
-        if !(1..=64).contains(&side) || side.count_ones() != 1 {
+        if !(1..=BAYER).contains(&side) || side.count_ones() != 1 {
             let message = format!("no Bayer matrix has {side} rows");
             let error = self.error(n.span, message);
             return Err(Box::new(
-                error.help("its size is a power of two, at most 64"),
+                error.help(format!("its size is a power of two, at most {BAYER}")),
             ));
+        }
+        if let Some(found) = self.tables.bayer.get(&side) {
+            return Ok(Val::Table(found.clone()));
         }
         let rank = |x: i32, y: i32| match (x & 1, y & 1) {
             (0, 0) => 0,
@@ -144,10 +189,12 @@ impl<'a> Lower<'a> {
                 entries.push(Val::Node(node));
             }
         }
-        Ok(Val::Table(Rc::new(Table {
+        let table = Rc::new(Table {
             name: format!("bayer{side}"),
             width: side as usize,
             entries,
-        })))
+        });
+        self.tables.bayer.insert(side, table.clone());
+        Ok(Val::Table(table))
     }
 }

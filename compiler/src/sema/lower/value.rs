@@ -21,6 +21,16 @@ pub(super) enum Thunk {
     Done(Val),
 }
 
+/// Work that waits, and how many works wait for each other in it at most.
+pub(super) struct Lazy {
+    pub(super) depth: usize,
+    thunk: RefCell<Thunk>,
+}
+
+/// Works that may wait for each other: working them out, and dropping them,
+/// follows the chain on the host's stack.
+pub(super) const WAITING: usize = 64;
+
 /// A value while compiling.
 #[derive(Clone)]
 pub(super) enum Val {
@@ -39,7 +49,7 @@ pub(super) enum Val {
     Shape(Rc<Shape>),
     Scene(SceneId),
     /// At its first use.
-    Lazy(Rc<RefCell<Thunk>>),
+    Lazy(Rc<Lazy>),
     /// What no path needs.
     Undefined,
 }
@@ -79,16 +89,31 @@ impl Val {
     }
 
     pub(super) fn lazy(work: Work) -> Val {
-        Val::Lazy(Rc::new(RefCell::new(Thunk::Todo(work))))
+        Val::waiting(0, work)
+    }
+
+    /// Work that needs other work, which is `depth` deep.
+    pub(super) fn waiting(depth: usize, work: Work) -> Val {
+        let thunk = RefCell::new(Thunk::Todo(work));
+        Val::Lazy(Rc::new(Lazy { depth, thunk }))
+    }
+
+    /// How many works wait for each other in it.
+    pub(super) fn depth(&self) -> usize {
+        match self {
+            Val::Lazy(lazy) => lazy.depth + 1,
+            _ => 0,
+        }
     }
 }
 
 impl Lower<'_> {
     /// The value itself.
     pub(super) fn force(&mut self, value: Val) -> Found<Val> {
-        let Val::Lazy(cell) = value else {
+        let Val::Lazy(lazy) = value else {
             return Ok(value);
         };
+        let cell = &lazy.thunk;
         let thunk = std::mem::replace(&mut *cell.borrow_mut(), Thunk::Done(Val::Undefined));
         let value = match thunk {
             Thunk::Done(value) => value,

@@ -1,6 +1,7 @@
 //! Small scenes to programs and graphs; wrong scenes to diagnostics.
 #![allow(clippy::unwrap_used)]
 
+mod any;
 mod hard;
 mod pictures;
 

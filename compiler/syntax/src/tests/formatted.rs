@@ -37,6 +37,23 @@ fn the_four_scenes() {
     snapshot("formatted_scenes", &all.join("---\n"));
 }
 
+/// Every scene of the repository, the library's files included.
+#[test]
+fn whole_files() {
+    let root = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
+    let mut count = 0;
+    for folder in ["examples", "compiler/prelude", "tests/scenes"] {
+        for entry in std::fs::read_dir(root.join(folder)).unwrap() {
+            let path = entry.unwrap().path();
+            if path.extension().is_some_and(|e| e == "scn") {
+                formatted(&std::fs::read_to_string(&path).unwrap());
+                count += 1;
+            }
+        }
+    }
+    assert!(count >= 28, "{count} scenes");
+}
+
 #[test]
 fn spacing_and_lines() {
     let messy = "\n\n\n//first\nimage  8x8 inks black,white ;// frame\n".replace("8x8", "8 x 8")
