@@ -63,6 +63,11 @@ impl Builder {
             .unwrap_or(Node::Undefined(Type::Real))
     }
 
+    /// A loop, which is whole once it is closed.
+    pub fn loop_of(&self, id: LoopId) -> Option<&Loop> {
+        self.loops.get(id.0 as usize)
+    }
+
     /// The type of a node.
     pub fn ty(&self, id: NodeId) -> Type {
         self.types.get(id.0 as usize).copied().unwrap_or(Type::Real)

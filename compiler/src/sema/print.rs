@@ -157,7 +157,7 @@ impl Printer<'_> {
                 let mut out = format!("{}shape {}({params}) {{\n", library(s.library), s.name);
                 for facet in &s.facets {
                     let arg = match facet.kind {
-                        FacetKind::Bound => String::new(),
+                        FacetKind::Bound | FacetKind::Steps => String::new(),
                         _ => format!(
                             "({})",
                             facet

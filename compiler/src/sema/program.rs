@@ -138,6 +138,8 @@ pub enum FacetKind {
     Normal,
     /// A shape that encloses this one.
     Bound,
+    /// In how many steps roots of `f` are looked for within the bound.
+    Steps,
 }
 
 impl FacetKind {
@@ -149,6 +151,7 @@ impl FacetKind {
             FacetKind::Hit => "hit",
             FacetKind::Normal => "normal",
             FacetKind::Bound => "bound",
+            FacetKind::Steps => "steps",
         }
     }
 }

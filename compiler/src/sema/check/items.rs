@@ -236,11 +236,14 @@ impl<'a> Checker<'a> {
                 "hit" => (FacetKind::Hit, Some(Ty::Ray), Ty::Real.optional()),
                 "normal" => (FacetKind::Normal, Some(Ty::Vector(3)), Ty::Vector(3)),
                 "bound" => (FacetKind::Bound, None, Ty::Shape),
+                "steps" => (FacetKind::Steps, None, Ty::Int),
                 other => {
-                    let names = ["dist", "f", "hit", "normal", "bound"];
+                    let names = ["dist", "f", "hit", "normal", "bound", "steps"];
                     let message = format!("a shape has no facet `{other}`");
                     let help = self.among(other, names.into_iter());
-                    let help = help.or(Some("facets are dist, f, hit, normal and bound".into()));
+                    let help = help.or(Some(
+                        "facets are dist, f, hit, normal, bound and steps".into(),
+                    ));
                     let mut error = Diagnostic::error(tree.name.span, message);
                     error.help = help;
                     self.report(error);
@@ -258,6 +261,7 @@ impl<'a> Checker<'a> {
                 let form = match kind {
                     FacetKind::Hit => "hit(r) = ..",
                     FacetKind::Bound => "bound = ..",
+                    FacetKind::Steps => "steps = ..",
                     _ => "dist(p), f(p) and normal(p) take a point",
                 };
                 let message = format!("`{}` is not written like this", kind.name());
@@ -277,7 +281,12 @@ impl<'a> Checker<'a> {
                 span: tree.name.span,
             });
         }
-        let surface = |f: &Facet| !matches!(f.kind, FacetKind::Normal | FacetKind::Bound);
+        let surface = |f: &Facet| {
+            matches!(
+                f.kind,
+                FacetKind::Dist | FacetKind::Implicit | FacetKind::Hit
+            )
+        };
         if !facets.iter().any(surface) && facets.len() == trees.len() {
             let span = self.program.shapes[id.0].span;
             let error = Diagnostic::error(span, "this shape has no surface");

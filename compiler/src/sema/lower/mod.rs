@@ -13,6 +13,7 @@ mod call;
 mod claims;
 mod compact;
 mod derive;
+mod dual;
 mod expr;
 mod flow;
 mod merge;
@@ -21,6 +22,7 @@ mod params;
 mod polynomial;
 mod scene;
 mod shape;
+mod slope;
 mod spread;
 mod tables;
 mod value;
@@ -225,13 +227,6 @@ impl<'a> Lower<'a> {
     /// A program that was not checked, or a mistake of the checker.
     fn confused(&self, span: Span) -> Box<Diagnostic> {
         Box::new(self.error(span, "this could not be made sense of"))
-    }
-
-    fn missing(&self, span: Span, what: &str, help: &str) -> Box<Diagnostic> {
-        Box::new(
-            self.error(span, format!("{what} is not built yet"))
-                .help(help),
-        )
     }
 
     /// Counts a step of work.

@@ -1,4 +1,9 @@
 //! Shapes: what their facets say, and what follows from them.
+//!
+//! A distance is an implicit function too, so `f` of a shape without one is its
+//! `dist`; nothing else stands for anything else. A shape of the library made of
+//! shapes, a union say, has an exact `hit` where those have; where one of them
+//! has nothing but `dist`, so has the whole: one search instead of one in another.
 
 use super::value::{Shape, Val};
 use super::{Found, Lower};
@@ -11,6 +16,10 @@ use std::rc::Rc;
 
 /// How far shapes that have nothing but `dist` are looked for.
 const REACH: f64 = 1000.0;
+
+/// In how many steps roots of `f` are looked for within `bound`, unless the
+/// shape says otherwise.
+const STEPS: i32 = 32;
 
 impl<'a> Lower<'a> {
     fn shape_name(&self, shape: &Shape) -> String {
@@ -75,7 +84,12 @@ impl<'a> Lower<'a> {
     }
 
     fn required(&mut self, shape: &Rc<Shape>, kind: FacetKind, arg: Val, span: Span) -> Found<Val> {
-        if let Some(value) = self.facet(shape, kind, arg, span)? {
+        if let Some(value) = self.facet(shape, kind, arg.clone(), span)? {
+            return Ok(value);
+        }
+        if kind == FacetKind::Implicit
+            && let Some(value) = self.facet(shape, FacetKind::Dist, arg, span)?
+        {
             return Ok(value);
         }
         let (name, facet) = (self.shape_name(shape), kind.name());
@@ -85,27 +99,62 @@ impl<'a> Lower<'a> {
         ))
     }
 
+    /// Whether a shape is found by its distance alone.
+    fn approached(&mut self, shape: &Rc<Shape>) -> Found<bool> {
+        if !self.has(shape, FacetKind::Dist) {
+            return Ok(false);
+        }
+        if !self.has(shape, FacetKind::Hit) && !self.has(shape, FacetKind::Implicit) {
+            return Ok(true);
+        }
+        let item = self.program.shapes.get(shape.id.0);
+        if !item.is_some_and(|s| s.library) {
+            return Ok(false);
+        }
+        for part in &shape.args {
+            if let Val::Shape(part) = self.force(part.clone())?
+                && self.approached(&part)?
+            {
+                return Ok(true);
+            }
+        }
+        Ok(false)
+    }
+
     /// The distance along a ray: optional, a real.
     pub(super) fn shape_distance(&mut self, shape: &Rc<Shape>, ray: Val, span: Span) -> Found<Val> {
+        let itself = Val::Shape(shape.clone());
+        let bound = |l: &mut Self| l.facet_of(shape, FacetKind::Bound, Vec::new(), span);
+        if self.approached(shape)? {
+            return match bound(self)? {
+                Some(bound) => {
+                    self.library("approach_in", Ty::Shape, vec![itself, bound, ray], span)
+                }
+                None => {
+                    let (near, far) = (self.real(0.0, span), self.real(REACH, span));
+                    let args = vec![itself, ray, Val::Node(near), Val::Node(far)];
+                    self.library("approach", Ty::Shape, args, span)
+                }
+            };
+        }
         if let Some(t) = self.facet(shape, FacetKind::Hit, ray.clone(), span)? {
             return Ok(t);
         }
         if let Some(t) = self.derived_root(shape, &ray, span)? {
             return Ok(t);
         }
-        let name = self.shape_name(shape);
-        let itself = Val::Shape(shape.clone());
-        if self.has(shape, FacetKind::Implicit) {
-            let Some(bound) = self.facet_of(shape, FacetKind::Bound, Vec::new(), span)? else {
-                let error = self.error(span, format!("nothing says where to look for `{name}`"));
-                return Err(Box::new(error.help(
-                    "give the shape a finite `bound = box(..);`, or its own `hit(r) = ..`",
-                )));
-            };
-            return self.library("search", Ty::Shape, vec![itself, bound, ray], span);
-        }
-        let far = Val::Node(self.real(REACH, span));
-        self.library("approach", Ty::Shape, vec![itself, ray, far], span)
+        let Some(bound) = bound(self)? else {
+            let name = self.shape_name(shape);
+            let error = self.error(span, format!("nothing says where to look for `{name}`"));
+            return Err(Box::new(error.help(
+                "give the shape a finite `bound = box(..);`, or its own `hit(r) = ..`",
+            )));
+        };
+        let steps = match self.facet_of(shape, FacetKind::Steps, Vec::new(), span)? {
+            Some(steps) => steps,
+            None => Val::Node(self.int(STEPS, span)),
+        };
+        self.library("search", Ty::Shape, vec![itself, bound, ray, steps], span)
     }
 
     pub(super) fn shape_normal(&mut self, shape: &Rc<Shape>, p: Val, span: Span) -> Found<Val> {
@@ -116,11 +165,13 @@ impl<'a> Lower<'a> {
             return self.direction(normal, span);
         }
         let name = self.shape_name(shape);
-        Err(self.missing(
+        let error = self.error(
             span,
-            &format!("the normal of a shape without `normal(p)`, here `{name}`,"),
-            "give the shape a facet `normal(p) = ..`, of length 1",
-        ))
+            format!("`{name}` has only `hit`, and a normal is the gradient of `f` or `dist`"),
+        );
+        Err(Box::new(error.help(
+            "give the shape a facet `normal(p) = ..`, of length 1, or `f(p)` beside `hit`",
+        )))
     }
 
     /// A vector that has length 1 by contract: the ranges may trust that.
