@@ -1,17 +1,8 @@
 //! Every primitive of the lecture: shades before the dither. Quadrics by the
 //! roots of a parabola through three values, the polygon (a parallelogram) by
-//! its sides, the hills by steps that the slope bounds, or as the library does.
+//! its sides, the hills by steps that the slope bounds.
 
 use super::vectors::V;
-
-/// How hits of the hills are found.
-#[derive(Clone, Copy)]
-pub enum Hills {
-    /// By steps too short to pass a root.
-    Bounded,
-    /// Where the sign changes between equal steps through the bound, this many.
-    Equal(u32),
-}
 
 const AHEAD: f64 = 1e-9;
 const HILLS: f64 = 0.25;
@@ -72,107 +63,78 @@ fn polygon(from: V, dir: V) -> Option<f64> {
     (t > AHEAD && within).then_some(t)
 }
 
-impl Hills {
-    fn hit(self, from: V, dir: V) -> Option<f64> {
-        // Where the ray is in the bound: 20 to each side, as high as the hills.
-        let (mut near, mut far) = (0f64, f64::INFINITY);
-        for (from, dir, half) in [
-            (from.0, dir.0, 20.0),
-            (from.1, dir.1, HILLS),
-            (from.2, dir.2, 20.0),
-        ] {
-            let (a, b) = ((-half - from) / dir, (half - from) / dir);
-            near = near.max(a.min(b));
-            far = far.min(a.max(b));
-        }
-        let f = |t: f64| hills(from + t * dir);
-        if near >= far {
-            return None;
-        }
-        match self {
-            Hills::Bounded => {
-                let steepest = (1.0 + HILLS * HILLS).sqrt();
-                let mut t = near;
-                while t < far {
-                    if f(t) < 1e-11 {
-                        return Some(t);
-                    }
-                    t += f(t) / steepest;
-                }
-                None
-            }
-            Hills::Equal(steps) => {
-                let step = (far - near) / f64::from(steps);
-                let outside = f(near) > 0.0;
-                let mut t = near;
-                for _ in 0..steps {
-                    if (f(t + step) > 0.0) != outside {
-                        let (mut low, mut high) = (t, t + step);
-                        for _ in 0..50 {
-                            let middle = (low + high) / 2.0;
-                            if (f(middle) > 0.0) == outside {
-                                low = middle;
-                            } else {
-                                high = middle;
-                            }
-                        }
-                        return Some(low);
-                    }
-                    t += step;
-                }
-                None
-            }
-        }
+/// By steps too short to pass a root.
+fn hit_hills(from: V, dir: V) -> Option<f64> {
+    // Where the ray is in the bound: 20 to each side, as high as the hills.
+    let (mut near, mut far) = (0f64, f64::INFINITY);
+    for (from, dir, half) in [
+        (from.0, dir.0, 20.0),
+        (from.1, dir.1, HILLS),
+        (from.2, dir.2, 20.0),
+    ] {
+        let (a, b) = ((-half - from) / dir, (half - from) / dir);
+        near = near.max(a.min(b));
+        far = far.min(a.max(b));
     }
+    let steepest = (1.0 + HILLS * HILLS).sqrt();
+    let mut t = near;
+    while t < far {
+        let f = hills(from + t * dir);
+        if f < 1e-11 {
+            return Some(t);
+        }
+        t += f / steepest;
+    }
+    None
+}
 
-    /// The nearest hit: how far, which shape.
-    fn nearest(self, from: V, dir: V) -> Option<(f64, usize)> {
-        let slab = |p: V| (0.0..=2.0).contains(&p.1);
-        let cut = |p: V| between(p, V(-1.5, 0.0, -7.0), V(2.5, 3.0, -3.0));
-        let hits = [
-            polygon(from, dir),
-            quadric(cone, from, dir, slab),
-            quadric(cylinder, from, dir, slab),
-            quadric(saddle, from, dir, cut),
-            quadric(ball, from, dir, |_| true),
-            self.hit(from, dir),
-        ];
-        let found = hits.into_iter().enumerate();
-        let found = found.filter_map(|(k, t)| t.map(|t| (t, k)));
-        found
-            .filter(|h| h.0 <= 40.0)
-            .min_by(|a, b| a.0.total_cmp(&b.0))
-    }
+/// The nearest hit: how far, which shape.
+fn nearest(from: V, dir: V) -> Option<(f64, usize)> {
+    let slab = |p: V| (0.0..=2.0).contains(&p.1);
+    let cut = |p: V| between(p, V(-1.5, 0.0, -7.0), V(2.5, 3.0, -3.0));
+    let hits = [
+        polygon(from, dir),
+        quadric(cone, from, dir, slab),
+        quadric(cylinder, from, dir, slab),
+        quadric(saddle, from, dir, cut),
+        quadric(ball, from, dir, |_| true),
+        hit_hills(from, dir),
+    ];
+    let found = hits.into_iter().enumerate();
+    let found = found.filter_map(|(k, t)| t.map(|t| (t, k)));
+    found
+        .filter(|h| h.0 <= 40.0)
+        .min_by(|a, b| a.0.total_cmp(&b.0))
+}
 
-    /// The shade, and which shapes the pixel's ray met (bit k for shape k).
-    pub fn shade(self, x: i32, y: i32) -> (f64, u8) {
-        let eye = V(0.0, 2.0, 8.0);
-        let back = (eye - V(0.0, 1.0, 0.0)).unit();
-        let right = V(0.0, 1.0, 0.0).cross(back).unit();
-        let up = back.cross(right);
-        let wide = 30f64.to_radians().tan();
-        let across = (f64::from(x) + 0.5 - 160.0) / 160.0 * wide;
-        let upward = (128.0 - 0.5 - f64::from(y)) / 160.0 * wide;
-        let dir = (across * right + upward * up - back).unit();
-        let (mut from, mut seen, mut weight, mut met) = (eye, 0.0, 1.0, 0);
-        for _ in 0..4 {
-            let Some((t, which)) = self.nearest(from, dir) else {
-                return (seen + weight * 0.8, met);
-            };
-            met |= 1 << which;
-            let p = from + t * dir;
-            let light = V(1.0, 2.0, 1.0).unit();
-            let facing = normal(which, p).dot(light).max(0.1);
-            let albedo = [0.7, 0.9, 0.8, 0.6, 0.1, 0.5][which];
-            if which != 4 {
-                return (seen + weight * albedo * facing, met);
-            }
-            seen += weight * 0.2 * albedo * facing;
-            weight *= 0.8;
-            from = p;
+/// The shade, and which shapes the pixel's ray met (bit k for shape k).
+pub fn shade(x: i32, y: i32) -> (f64, u8) {
+    let eye = V(0.0, 2.0, 8.0);
+    let back = (eye - V(0.0, 1.0, 0.0)).unit();
+    let right = V(0.0, 1.0, 0.0).cross(back).unit();
+    let up = back.cross(right);
+    let wide = 30f64.to_radians().tan();
+    let across = (f64::from(x) + 0.5 - 160.0) / 160.0 * wide;
+    let upward = (128.0 - 0.5 - f64::from(y)) / 160.0 * wide;
+    let dir = (across * right + upward * up - back).unit();
+    let (mut from, mut seen, mut weight, mut met) = (eye, 0.0, 1.0, 0);
+    for _ in 0..4 {
+        let Some((t, which)) = nearest(from, dir) else {
+            return (seen + weight * 0.8, met);
+        };
+        met |= 1 << which;
+        let p = from + t * dir;
+        let light = V(1.0, 2.0, 1.0).unit();
+        let facing = normal(which, p).dot(light).max(0.1);
+        let albedo = [0.7, 0.9, 0.8, 0.6, 0.1, 0.5][which];
+        if which != 4 {
+            return (seen + weight * albedo * facing, met);
         }
-        (seen, met)
+        seen += weight * 0.2 * albedo * facing;
+        weight *= 0.8;
+        from = p;
     }
+    (seen, met)
 }
 
 fn normal(which: usize, p: V) -> V {
@@ -193,4 +155,36 @@ fn normal(which: usize, p: V) -> V {
         ),
     };
     n.unit()
+}
+
+/// What Floyd and Steinberg's dither sends on, a row at a time.
+pub struct Error {
+    row: [f64; 322],
+    below: [f64; 322],
+}
+
+impl Default for Error {
+    fn default() -> Error {
+        Error {
+            row: [0.0; 322],
+            below: [0.0; 322],
+        }
+    }
+}
+
+impl Error {
+    /// The ink of four for a shade and what it received; pixels in order.
+    pub fn dither(&mut self, x: usize, shade: f64) -> u8 {
+        if x == 0 {
+            self.row = std::mem::replace(&mut self.below, [0.0; 322]);
+        }
+        let v = shade + self.row[x + 1];
+        let q = (v * 3.0).round().clamp(0.0, 3.0);
+        let error = v - q / 3.0;
+        self.row[x + 2] += error * (7.0 / 16.0);
+        self.below[x] += error * (3.0 / 16.0);
+        self.below[x + 1] += error * (5.0 / 16.0);
+        self.below[x + 2] += error * (1.0 / 16.0);
+        q as u8
+    }
 }
