@@ -36,7 +36,7 @@ fn evaluated(graph: &Graph) -> Vec<u8> {
 /// The same inks by hand, with the library's limit to a ray's steps.
 fn by_hand() -> Vec<u8> {
     let torus = torus::Torus {
-        steps: black_box(256),
+        steps: black_box(1024),
     };
     let places = (0..HEIGHT).flat_map(|y| (0..WIDTH).map(move |x| (x, y)));
     places.map(|(x, y)| u8::from(torus.white(x, y))).collect()
