@@ -176,7 +176,8 @@ fn what_is_not_called_costs_nothing() {
             effects(&all),
             "{name}: all effects of the library"
         );
-        assert!(spared.len() > each.len() / 2, "{name}: {}", spared.len());
+        // Many others serve items that a scene may call, and cannot go alone.
+        assert!(spared.len() > each.len() / 3, "{name}: {}", spared.len());
     }
 }
 
