@@ -14,6 +14,8 @@ pub enum Failure {
     Usage(String),
     /// The machine's picture is not the model's. Already reported.
     Differs,
+    /// A hard case does not pass. Already reported.
+    Cases,
     /// Somebody pressed Ctrl-C.
     Interrupted,
 }
@@ -26,7 +28,7 @@ impl Failure {
     /// machine differs from the model, 130 interrupted (128 + SIGINT, as shells have it).
     pub fn status(&self) -> u8 {
         match self {
-            Failure::Scene(_) | Failure::Wrong(_) => 1,
+            Failure::Scene(_) | Failure::Wrong(_) | Failure::Cases => 1,
             Failure::Usage(_) => 2,
             Failure::Differs => 3,
             Failure::Interrupted => 130,
@@ -38,7 +40,7 @@ impl Failure {
         match self {
             Failure::Scene(said) => crate::diagnostics::print(&said.sources, &said.diagnostics),
             Failure::Wrong(message) | Failure::Usage(message) => eprintln!("error: {message}"),
-            Failure::Differs => {}
+            Failure::Differs | Failure::Cases => {}
             Failure::Interrupted => eprintln!("interrupted"),
         }
         ExitCode::from(self.status())

@@ -5,6 +5,7 @@
 //! in [`commands`]; the compiler and the machines know nothing of each other.
 
 pub mod ascii;
+pub mod cases;
 pub mod commands;
 pub mod diagnostics;
 pub mod draw;

@@ -8,10 +8,38 @@ use slowlight_compiler::scene;
 use slowlight_compiler::sema::{self, Freeze, FunctionKind, Options, Program};
 use slowlight_compiler::source::{Diagnostic, SourceFile, Sources};
 use slowlight_compiler::syntax;
+use slowlight_compiler::target::Target;
+use slowlight_routine::Format;
 use std::path::{Path, PathBuf};
 
-/// The self-intersection offset of the native evaluation.
-pub const NATIVE_OFFSET: f64 = 1e-9;
+/// What a scene knows of the number format that it is computed in.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Precision {
+    /// The self-intersection offset.
+    pub offset: f64,
+    /// The unit roundoff.
+    pub epsilon: f64,
+    /// Whether its reals have an exponent.
+    pub floats: bool,
+}
+
+impl Precision {
+    /// Of the native evaluation.
+    pub const NATIVE: Precision = Precision {
+        offset: 1e-9,
+        epsilon: f64::EPSILON / 2.0,
+        floats: true,
+    };
+
+    /// Of a target.
+    pub fn of(target: &Target) -> Precision {
+        Precision {
+            offset: target.offset,
+            epsilon: target.runtime.real.epsilon(),
+            floats: !matches!(target.runtime.real, Format::Fixed { .. }),
+        }
+    }
+}
 
 /// Which scene, and what is changed about it.
 #[derive(Args, Clone, Debug)]
@@ -125,12 +153,12 @@ impl Scene {
     }
 
     /// The scene's graph for a screen of so many inks (the image's own where
-    /// `None`) and a format with a self-intersection offset.
+    /// `None`) and a number format.
     ///
     /// # Errors
     /// Where it does not compile.
-    pub fn graph(&self, inks: Option<u32>, offset: f64) -> Outcome<Graph> {
-        self.graph_with(inks, offset, &[])
+    pub fn graph(&self, inks: Option<u32>, precision: Precision) -> Outcome<Graph> {
+        self.graph_with(inks, precision, &[])
     }
 
     /// As [`Scene::graph`], with other values for some params.
@@ -140,12 +168,14 @@ impl Scene {
     pub fn graph_with(
         &self,
         inks: Option<u32>,
-        offset: f64,
+        precision: Precision,
         set: &[(String, Vec<f64>)],
     ) -> Outcome<Graph> {
         let mut options = self.options.clone();
         options.inks = inks;
-        options.offset = offset;
+        options.offset = precision.offset;
+        options.epsilon = precision.epsilon;
+        options.floats = precision.floats;
         options.set.extend_from_slice(set);
         sema::lower(&self.checked.program, &options).map_err(|said| self.wrong(said))
     }
@@ -230,7 +260,7 @@ fn options(args: &SceneArgs, program: &Program) -> Outcome<Options> {
         set,
         freeze,
         without: args.without.clone(),
-        offset: NATIVE_OFFSET,
+        offset: Precision::NATIVE.offset,
         ..Options::default()
     })
 }

@@ -3,7 +3,7 @@
 
 use crate::failure::{Failure, Outcome, unknown};
 use crate::fit;
-use crate::scene::Scene;
+use crate::scene::{Precision, Scene};
 use clap::{Args, ValueEnum};
 use slowlight_compiler::plan::{Goal, Plan, plan};
 use slowlight_compiler::target::{self, Mode, TARGETS, Target};
@@ -140,7 +140,7 @@ impl ScreenArgs {
         }
         let (_, height) = scene.size();
         let asked = self.rows.as_deref().map(|r| rows(r, height)).transpose()?;
-        let graph = scene.graph_with(Some(mode.inks), target.offset, set)?;
+        let graph = scene.graph_with(Some(mode.inks), Precision::of(target), set)?;
         let goal = Goal {
             name: scene.name.clone(),
             mode,

@@ -7,7 +7,7 @@ use crate::machine::{File, Loaded, Machine, MachineRun, complaint};
 use crate::measure::{self, Difference};
 use crate::picture::Picture;
 use crate::progress::Progress;
-use crate::scene::{NATIVE_OFFSET, Scene};
+use crate::scene::{Precision, Scene};
 use serde::Serialize;
 use serde_json::{Value, json};
 use slowlight_compiler::flow::graph::{Node, TableId};
@@ -99,7 +99,7 @@ pub fn run(
     }
     run.sizes.tables = run.sizes.tables.or(Some(table_bytes(&plan)));
     let modelled = model(&plan)?;
-    let graph = scene.graph_with(Some(plan.mode.inks), NATIVE_OFFSET, set)?;
+    let graph = scene.graph_with(Some(plan.mode.inks), Precision::NATIVE, set)?;
     let native = native(&graph, window)?;
     let picture = plan.plot.then(|| shown(&plan, &run)).transpose()?;
     let differences = |other: &Drawn| {

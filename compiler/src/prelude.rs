@@ -21,4 +21,5 @@ pub const PRELUDE: &[Text] = texts! {
     "dithers.scn"
     "noise.scn"
     "forms.scn"
+    "stable.scn"
 };

@@ -2,7 +2,7 @@
 
 use crate::failure::{Failure, Outcome};
 use crate::format::{count, duration, table};
-use crate::scene::{NATIVE_OFFSET, Scene, SceneArgs};
+use crate::scene::{Precision, Scene, SceneArgs};
 use crate::target_args::{self, ScreenArgs};
 use crate::trial::{self, mode_json};
 use crate::{estimate, files, say, say_json};
@@ -146,9 +146,9 @@ fn emit(args: &Args, scene: &Scene, stage: Stage) -> Outcome<String> {
     let graph = || match args.target {
         Some(target) => {
             let mode = args.screen.mode(target, scene.size())?;
-            scene.graph(Some(mode.inks), target.offset)
+            scene.graph(Some(mode.inks), Precision::of(target))
         }
-        None => scene.graph(None, NATIVE_OFFSET),
+        None => scene.graph(None, Precision::NATIVE),
     };
     Ok(match stage {
         Stage::Tokens => print::tokens(text),

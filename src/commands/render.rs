@@ -3,7 +3,7 @@
 use crate::draw::{Window, native};
 use crate::failure::Outcome;
 use crate::picture::PictureFile;
-use crate::scene::{NATIVE_OFFSET, Scene, SceneArgs};
+use crate::scene::{Precision, Scene, SceneArgs};
 use crate::target_args::{self, ScreenArgs};
 use crate::{ascii, say, say_json};
 use serde_json::json;
@@ -53,7 +53,7 @@ pub fn run(args: &Args) -> Outcome<()> {
         window.rows = target_args::rows(rows, height)?;
     }
     scene.warn();
-    let graph = scene.graph(inks, NATIVE_OFFSET)?;
+    let graph = scene.graph(inks, Precision::NATIVE)?;
     let drawn = native(&graph, window)?;
     let picture = drawn.picture();
     output.write(&picture)?;

@@ -71,6 +71,20 @@ impl Format {
     }
 }
 
+impl Format {
+    /// The unit roundoff of its reals: the greatest relative error of one
+    /// operation that is rounded (or cut, as in Float316) once, or the last
+    /// place of a fixed-point format. 0 where it holds no reals.
+    pub fn epsilon(self) -> f64 {
+        match self {
+            Format::Bool | Format::Int { .. } => 0.0,
+            Format::Real40 => 1.0 / 4_294_967_296.0,
+            Format::Float316 => 1.0 / 8192.0,
+            Format::Fixed { frac, .. } => 0.5f64.powi(i32::from(frac)),
+        }
+    }
+}
+
 impl std::fmt::Display for Format {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         match self {

@@ -78,6 +78,12 @@ impl<'p> ModelRun<'p> {
         }
     }
 
+    /// The bits of what the graph reports, after the last pixel.
+    pub fn reports(&mut self) -> Vec<Bits> {
+        let ids = self.plan.graph.reports.iter();
+        ids.map(|&id| self.run.report(id)).collect()
+    }
+
     /// How often the schedule read what it had not written; 0 if it is right.
     pub fn unset_reads(&self) -> u64 {
         self.run.unset_reads()

@@ -150,6 +150,11 @@ impl<'t, A: Arithmetic> Run<'t, A> {
         }
     }
 
+    /// A value that the graph reports, after the last pixel.
+    pub fn report(&mut self, id: NodeId) -> A::Value {
+        self.read(id)
+    }
+
     fn forget(&mut self, row: bool) {
         let places = std::mem::take(if row {
             &mut self.row_places

@@ -25,6 +25,7 @@ pub struct Builder {
     effects: Vec<EffectUse>,
     directions: BTreeSet<NodeId>,
     diffusion: Option<Diffusion>,
+    reports: Vec<NodeId>,
 }
 
 impl Builder {
@@ -113,6 +114,11 @@ impl Builder {
         };
         let diffusion = self.diffusion.get_or_insert_with(none);
         diffusion.shares.extend_from_slice(shares);
+    }
+
+    /// Reports a value, after those that are reported already.
+    pub fn report(&mut self, node: NodeId) {
+        self.reports.push(node);
     }
 
     /// Declares a live param's scalar.
@@ -341,6 +347,7 @@ impl Builder {
             shade,
             diffusion: self.diffusion,
             effects: self.effects,
+            reports: self.reports,
         }
     }
 }

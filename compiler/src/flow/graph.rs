@@ -304,6 +304,9 @@ pub struct Graph {
     pub diffusion: Option<Diffusion>,
     /// The effects that were called, by name.
     pub effects: Vec<EffectUse>,
+    /// Values that are computed beside the ink and kept where the program
+    /// ends: what a test of a single function looks at. None in a picture.
+    pub reports: Vec<NodeId>,
 }
 
 impl Graph {
@@ -364,15 +367,19 @@ impl Graph {
         seen
     }
 
-    /// The pixel's ink and shade, and what it sends to later pixels.
+    /// The pixel's ink and shade, what it sends to later pixels, and what is reported.
     pub fn outputs(&self) -> impl Iterator<Item = NodeId> + '_ {
         let pixel = [Some(self.ink), self.shade].into_iter().flatten();
-        pixel.chain(self.shares().map(|s| s.node))
+        let sent = self.shares().map(|s| s.node);
+        pixel.chain(sent).chain(self.reports.iter().copied())
     }
 
-    /// What has to be computed for each pixel: its ink and what it sends.
+    /// What has to be computed for each pixel: its ink, what it sends, and what is reported.
     pub fn roots(&self) -> impl Iterator<Item = NodeId> + '_ {
-        std::iter::once(self.ink).chain(self.shares().map(|s| s.node))
+        let sent = self.shares().map(|s| s.node);
+        std::iter::once(self.ink)
+            .chain(sent)
+            .chain(self.reports.iter().copied())
     }
 
     /// What the pixel sends to later ones, in order.

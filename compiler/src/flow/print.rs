@@ -143,6 +143,9 @@ impl Display for Graph {
         for Share { dx, dy, node } in self.shares() {
             writeln!(f, "send {dx} {dy} {node}")?;
         }
+        for report in &self.reports {
+            writeln!(f, "report {report}")?;
+        }
         writeln!(f, "ink {}", self.ink)
     }
 }

@@ -41,6 +41,7 @@ pub fn read(text: &str) -> Result<Graph, Unread> {
         shade: None,
         diffusion: None,
         effects: Vec::new(),
+        reports: Vec::new(),
     };
     for (at, line) in text.lines().enumerate() {
         self::line(&mut graph, line.trim()).map_err(|what| Unread { line: at + 1, what })?;
@@ -77,6 +78,7 @@ fn line(graph: &mut Graph, line: &str) -> Read<()> {
             let diffusion = graph.diffusion.get_or_insert_with(none);
             diffusion.shares.push(share);
         }),
+        "report" => node_id(rest).map(|id| graph.reports.push(id)),
         "ink" => node_id(rest).map(|id| graph.ink = id),
         _ => node(graph, line),
     }

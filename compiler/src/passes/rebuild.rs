@@ -59,6 +59,10 @@ pub fn rebuild(graph: &Graph, rule: Rule<'_>) -> Graph {
             .collect();
         rebuilder.builder.spread(&shares, diffusion.span);
     }
+    for &report in &graph.reports {
+        let report = rebuilder.at(report);
+        rebuilder.builder.report(report);
+    }
     for effect in &graph.effects {
         (0..effect.calls).for_each(|_| rebuilder.builder.effect(&effect.name));
     }

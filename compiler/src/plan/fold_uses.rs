@@ -19,8 +19,9 @@ pub fn folded(graph: &Graph, tree: &Tree) -> Vec<bool> {
         let number = uses.block(block);
         if std::ptr::eq(block, &raw const tree.pixel) {
             uses.read(graph.ink, number);
-            // What is sent is read after the ink.
+            // What is sent is read after the ink, and what is reported last of all.
             graph.shares().for_each(|s| uses.read(s.node, 0));
+            graph.reports.iter().for_each(|&id| uses.read(id, 0));
         }
     }
     let fits = |id: NodeId| {

@@ -26,6 +26,10 @@ pub enum Known {
     Width,
     /// Rows of the image.
     Height,
+    /// The format's unit roundoff.
+    Epsilon,
+    /// Whether the format's reals have an exponent.
+    Floats,
     /// The format's self-intersection offset.
     Offset,
 }

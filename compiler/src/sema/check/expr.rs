@@ -128,7 +128,10 @@ impl<'a> Checker<'a> {
             Entity::Scene(id) => (ExprKind::Scene(id), self.scene(id)),
             Entity::Map(id) => (ExprKind::Map(id), Ty::Map),
             Entity::Known(k) => match KNOWN.get(k) {
-                Some((_, known @ Known::Offset)) => (ExprKind::Known(*known), Ty::Real),
+                Some((_, known @ (Known::Offset | Known::Epsilon))) => {
+                    (ExprKind::Known(*known), Ty::Real)
+                }
+                Some((_, known @ Known::Floats)) => (ExprKind::Known(*known), Ty::Bool),
                 Some((_, known)) => (ExprKind::Known(*known), Ty::Int),
                 None => (ExprKind::Error, Ty::Error),
             },

@@ -15,7 +15,7 @@ pub(super) enum Entity {
     Scene(SceneId),
     Record(RecordId),
     Map(MapId),
-    /// `inks`, `width`, `height`, `offset`, by place in [`KNOWN`].
+    /// `inks`, `width`, `height`, `offset`, `epsilon`, `floats`, by place in [`KNOWN`].
     Known(usize),
     /// An index into the checker's signatures.
     Builtin(usize),
@@ -48,11 +48,13 @@ impl Entity {
 }
 
 /// Values that the language knows by name.
-pub(super) const KNOWN: [(&str, Known); 4] = [
+pub(super) const KNOWN: [(&str, Known); 6] = [
     ("inks", Known::Inks),
     ("width", Known::Width),
     ("height", Known::Height),
     ("offset", Known::Offset),
+    ("epsilon", Known::Epsilon),
+    ("floats", Known::Floats),
 ];
 
 /// The library's names and the user's, sorted so that suggestions never vary.

@@ -48,6 +48,8 @@ impl<'a> Lower<'a> {
                 Known::Width => self.int(self.image.width as i32, span),
                 Known::Height => self.int(self.image.height as i32, span),
                 Known::Offset => self.real(self.options.offset, span),
+                Known::Floats => self.bool(self.options.floats, span),
+                Known::Epsilon => self.real(self.options.epsilon, span),
             })),
             ExprKind::Function(callee) => Ok(Val::Function(callee.clone())),
             ExprKind::Tuple(parts) => {

@@ -30,8 +30,9 @@ mod value;
 use crate::flow::build::Builder;
 use crate::flow::graph::{Axis, Graph, Image, NodeId};
 use crate::sema::program::*;
+use crate::sema::ty::Ty;
 use crate::source::{Diagnostic, Span};
-use slowlight_routine::{Op, Value};
+use slowlight_routine::{Op, Type, Value};
 use std::collections::HashMap;
 use value::Val;
 
@@ -71,6 +72,14 @@ pub struct Options {
     /// The number format's self-intersection offset: a hit nearer than this is
     /// the surface that the ray leaves.
     pub offset: f64,
+    /// The number format's unit roundoff: the greatest relative error of one
+    /// operation, or the last place of a fixed-point format.
+    pub epsilon: f64,
+    /// Whether its reals have an exponent.
+    pub floats: bool,
+    /// A function without parameters whose result's scalars the graph reports,
+    /// beside the picture.
+    pub report: Option<String>,
 }
 
 impl Default for Options {
@@ -81,6 +90,9 @@ impl Default for Options {
             freeze: Freeze::Nothing,
             without: Vec::new(),
             offset: 1e-9,
+            epsilon: f64::EPSILON / 2.0,
+            floats: true,
+            report: None,
         }
     }
 }
@@ -130,6 +142,7 @@ pub fn lower(program: &Program, options: &Options) -> Result<Graph, Vec<Diagnost
         return Err(said);
     }
     let (ink, shade) = lower.picture(draw).map_err(|e| vec![*e])?;
+    lower.report().map_err(|e| vec![*e])?;
     let claims = std::mem::take(&mut lower.claims);
     let graph = lower.b.finish(lower.image, ink, shade);
     let broken = claims::check(&graph, &claims);
@@ -190,6 +203,47 @@ impl<'a> Lower<'a> {
             let ink = l.node(found.0, &draw.body.value.ty, draw.span)?;
             Ok((ink, found.1))
         })
+    }
+
+    /// Reports the scalars of the function that the options name. What is
+    /// absent is reported as such (a bool), and its scalars as 0.
+    fn report(&mut self) -> Found<()> {
+        let Some(name) = &self.options.report else {
+            return Ok(());
+        };
+        let mut all = self.program.functions.iter();
+        let found = all.find(|f| f.name == *name && !f.library && f.params.is_empty());
+        let Some(function) = found else {
+            let message = format!("there is no function `{name}` without parameters to report");
+            return Err(Box::new(Diagnostic::error(Span::default(), message)));
+        };
+        let span = function.span;
+        let value = self.expand(function, Vec::new(), span)?;
+        let (mut nodes, mut there) = (Vec::new(), None);
+        match (&function.result, value) {
+            (Ty::Optional(inner), Val::Optional { present, value }) => {
+                self.b.report(present);
+                there = Some(present);
+                self.flatten((*value).clone(), inner, &mut nodes, span)?;
+            }
+            (ty, value) => self.flatten(value, ty, &mut nodes, span)?,
+        }
+        for node in nodes {
+            let node = match there {
+                Some(there) => {
+                    let ty = self.b.ty(node);
+                    let nothing = match ty {
+                        Type::Real => self.real(0.0, span),
+                        Type::Int => self.int(0, span),
+                        Type::Bool => self.bool(false, span),
+                    };
+                    self.select(there, node, nothing, span)
+                }
+                None => node,
+            };
+            self.b.report(node);
+        }
+        Ok(())
     }
 
     /// Evaluates a body in a frame of its own.

@@ -1,0 +1,160 @@
+//! The arithmetics that cases are tried in, and what an input becomes there.
+
+use slowlight_compiler::target::Target;
+use slowlight_isa::real40::Real40;
+use slowlight_routine::{Bits, Format, Value};
+
+/// A number format, as cases see it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Arithmetic {
+    /// `f64`.
+    Native,
+    /// A runtime's.
+    Of(Format),
+}
+
+/// The overlay that a format asks for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Key {
+    /// Significant bits.
+    Bits(&'static str),
+    /// A fixed-point format.
+    Quantum(&'static str),
+    /// The file says nothing about such a format.
+    None,
+}
+
+impl Arithmetic {
+    /// That of a target's plans.
+    pub fn of(target: &Target) -> Arithmetic {
+        Arithmetic::Of(target.runtime.real)
+    }
+
+    /// Its unit roundoff, or last place.
+    pub fn epsilon(self) -> f64 {
+        match self {
+            Arithmetic::Native => f64::EPSILON / 2.0,
+            Arithmetic::Of(format) => format.epsilon(),
+        }
+    }
+
+    /// Whether it is fixed point.
+    pub fn is_fixed(self) -> bool {
+        matches!(self, Arithmetic::Of(Format::Fixed { .. }))
+    }
+
+    /// Greatest and least exponent, where values have them: below 2^emax, at least 2^emin.
+    fn exponents(self) -> Option<(i32, i32)> {
+        match self {
+            Arithmetic::Native => Some((1024, -1074)),
+            Arithmetic::Of(Format::Real40) => Some((127, -128)),
+            Arithmetic::Of(_) => None,
+        }
+    }
+
+    /// The least magnitude; 0 where there is none or where every bound is in last places.
+    pub fn tiny(self) -> f64 {
+        // 2^-1074 is no normal number: powi would pass through infinity.
+        self.exponents().map_or(0.0, |(_, emin)| {
+            2f64.powi(emin / 2) * 2f64.powi(emin - emin / 2)
+        })
+    }
+
+    /// Whether it cannot hold 2^(hi-1) or 2^lo.
+    pub fn cannot_hold(self, hi: i32, lo: i32) -> bool {
+        match (self, self.exponents()) {
+            (Arithmetic::Of(Format::Fixed { bits, frac }), _) => {
+                hi > i32::from(bits) - i32::from(frac) - 1 || lo < -i32::from(frac)
+            }
+            (_, Some((emax, emin))) => hi > emax || lo < emin,
+            _ => false,
+        }
+    }
+
+    /// Which overlay of a case counts.
+    pub fn key(self) -> Key {
+        match self {
+            Arithmetic::Native => Key::Bits("53"),
+            Arithmetic::Of(Format::Real40) => Key::Bits("32"),
+            Arithmetic::Of(Format::Float316) => Key::Bits("14"),
+            Arithmetic::Of(Format::Fixed { bits: 32, frac: 16 }) => Key::Quantum("16.16"),
+            Arithmetic::Of(Format::Fixed { bits: 16, frac: 8 }) => Key::Quantum("8.8"),
+            Arithmetic::Of(_) => Key::None,
+        }
+    }
+
+    /// An input, rounded to nearest, halves to even; `None` where it does not fit.
+    pub fn round(self, x: f64) -> Option<f64> {
+        let rounded = match self {
+            Arithmetic::Native => x,
+            Arithmetic::Of(Format::Real40) => significant(x, 32),
+            Arithmetic::Of(Format::Float316) => significant(x, 14),
+            Arithmetic::Of(Format::Fixed { bits, frac }) => {
+                let scale = 2f64.powi(i32::from(frac));
+                let n = (x * scale).round_ties_even();
+                let end = 2f64.powi(i32::from(bits) - 1);
+                return (-end..end).contains(&n).then_some(n / scale);
+            }
+            Arithmetic::Of(_) => return None,
+        };
+        let fits = match self.exponents() {
+            _ if rounded == 0.0 => x == 0.0,
+            Some((emax, emin)) => {
+                let exponent = rounded.abs().log2();
+                rounded.is_finite() && exponent < f64::from(emax) && exponent >= f64::from(emin)
+            }
+            None => rounded.is_finite(),
+        };
+        fits.then_some(rounded)
+    }
+}
+
+/// `x` with so many significant bits, to nearest, halves to even.
+fn significant(x: f64, bits: i32) -> f64 {
+    if x == 0.0 || !x.is_finite() {
+        return x;
+    }
+    let exponent = x.abs().log2().floor() as i32;
+    // In two steps, each a power of two, so that nothing over- or underflows.
+    let scale = bits - 1 - exponent;
+    let (half, rest) = (scale / 2, scale - scale / 2);
+    let grown = x * 2f64.powi(half) * 2f64.powi(rest);
+    grown.round_ties_even() / 2f64.powi(half) / 2f64.powi(rest)
+}
+
+/// The bits of a value that the format holds exactly.
+pub fn bits(target: &Target, value: Value) -> Bits {
+    match (target.runtime.real, value) {
+        // What BASIC reads from ten digits would be another value.
+        (Format::Real40, Value::Real(x)) => Real40::from_f64(x).unwrap_or(Real40::MAX).to_bits(),
+        _ => (target.runtime.encode)(value, target.runtime.format_of(value.ty())),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn inputs_are_rounded_to_the_format() {
+        let jack = Arithmetic::Of(Format::Float316);
+        assert_eq!(jack.round(1.0 + 0.5f64.powi(14)), Some(1.0));
+        assert_eq!(
+            jack.round(1.0 + 1.5 * 0.5f64.powi(13)),
+            Some(1.0 + 2.0 * 0.5f64.powi(13))
+        );
+        assert_eq!(jack.round(1e300).map(|x| x > 9.9e299), Some(true));
+        let bbc = Arithmetic::Of(Format::Real40);
+        assert_eq!(bbc.round(2f64.powi(127)), None);
+        assert_eq!(bbc.round(1.0 - 0.5f64.powi(33)), Some(1.0));
+        let fixed = Arithmetic::Of(Format::Fixed { bits: 32, frac: 16 });
+        assert_eq!(fixed.round(0.5f64.powi(17)), Some(0.0));
+        assert_eq!(fixed.round(3.0 * 0.5f64.powi(17)), Some(0.5f64.powi(15)));
+        assert_eq!(
+            (fixed.round(32768.0), fixed.round(-32768.0)),
+            (None, Some(-32768.0))
+        );
+        assert_eq!(Arithmetic::Native.tiny(), f64::from_bits(1));
+        assert_eq!(Arithmetic::Native.round(f64::INFINITY), None);
+    }
+}

@@ -1,0 +1,258 @@
+//! Whether a result passes.
+
+use super::exact::{Exact, dot};
+use super::file::{Predicate, Wanted};
+use super::format::Arithmetic;
+use serde_json::Value as Json;
+
+/// What a kernel gave.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Got {
+    /// Whether there is a result.
+    pub there: bool,
+    /// Its scalars, in the order of the entry's outputs, or cell by cell.
+    pub values: Vec<f64>,
+    /// Where values left the format, in words; what such a result is worth.
+    pub left: Option<String>,
+}
+
+/// What a judgement comes to.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Verdict {
+    /// Whether it passes.
+    pub passed: bool,
+    /// Of what was measured, the greatest error over its bound.
+    pub worst: f64,
+    /// That bound; none where nothing was measured.
+    pub bound: Option<f64>,
+    /// Whether it passes only because leaving the format was allowed, and said.
+    pub refused: bool,
+}
+
+impl Verdict {
+    fn plain(passed: bool) -> Verdict {
+        Verdict {
+            passed,
+            worst: 0.0,
+            bound: None,
+            refused: false,
+        }
+    }
+
+    fn measured(error: f64, bound: f64) -> Verdict {
+        let worst = if error == 0.0 { 0.0 } else { error / bound };
+        Verdict {
+            passed: error <= bound,
+            worst,
+            bound: Some(bound),
+            refused: false,
+        }
+    }
+
+    /// Both pass; the worse measure counts.
+    fn and(self, other: Verdict) -> Verdict {
+        let worse = self.bound.is_none() || (other.bound.is_some() && other.worst > self.worst);
+        let (worst, bound) = match worse {
+            true => (other.worst, other.bound),
+            false => (self.worst, self.bound),
+        };
+        Verdict {
+            passed: self.passed && other.passed,
+            worst,
+            bound,
+            refused: self.refused || other.refused,
+        }
+    }
+}
+
+/// A result to be judged.
+pub struct Judge<'j> {
+    /// The arithmetic that it was computed in.
+    pub arithmetic: Arithmetic,
+    /// The outputs' names.
+    pub outputs: &'j [String],
+    /// The result.
+    pub got: &'j Got,
+    /// What is wanted.
+    pub wanted: &'j Wanted,
+}
+
+impl Judge<'_> {
+    /// Judges by the case's own predicate. What the predicate cannot make sense
+    /// of does not pass.
+    pub fn verdict(&self) -> Verdict {
+        self.by(&self.wanted.predicate)
+            .unwrap_or(Verdict::plain(false))
+    }
+
+    fn by(&self, predicate: &Predicate) -> Option<Verdict> {
+        let u = self.arithmetic.epsilon();
+        let tiny = self.arithmetic.tiny();
+        Some(match predicate {
+            Predicate::All { of } => {
+                let mut all = Verdict::plain(true);
+                for one in of {
+                    all = all.and(self.by(one)?);
+                }
+                all
+            }
+            Predicate::Present { value } => Verdict::plain(self.got.there == *value),
+            Predicate::IfPresent { predicate } => match self.got.there {
+                true => self.by(predicate)?,
+                false => Verdict::plain(true),
+            },
+            Predicate::Decided {
+                margin,
+                k,
+                predicate,
+            } => match *margin <= k * u {
+                true => Verdict::plain(true),
+                false => self.by(predicate)?,
+            },
+            Predicate::RefuseOr { hi, lo, predicate } => {
+                let inner = self.by(predicate)?;
+                match self.got.left.is_some() && self.arithmetic.cannot_hold(*hi, *lo) {
+                    true if !inner.passed => Verdict {
+                        refused: true,
+                        ..Verdict::plain(true)
+                    },
+                    _ => inner,
+                }
+            }
+            _ if !self.got.there => Verdict::plain(false),
+            Predicate::Rel {
+                output,
+                k,
+                cond,
+                kq,
+            } => match (self.want(output)?, cond) {
+                (None, _) => Verdict::plain(true),
+                (Some(want), _) if self.arithmetic.is_fixed() => {
+                    self.within_quanta(output, &want, *kq, 0.0)?
+                }
+                (_, None) => Verdict::plain(true),
+                (Some(want), Some(cond)) => {
+                    let bound = tiny + k * u * cond.max(1.0) * want.near().abs();
+                    Verdict::measured(self.value(output)?.distance(&want), bound)
+                }
+            },
+            Predicate::Abs {
+                output,
+                k,
+                scale,
+                pow,
+                slack,
+                kq,
+            } => match self.want(output)? {
+                None => Verdict::plain(true),
+                Some(want) if self.arithmetic.is_fixed() => {
+                    self.within_quanta(output, &want, *kq, *slack)?
+                }
+                Some(want) => {
+                    let bound = tiny + slack + k * u.powf(*pow) * scale;
+                    Verdict::measured(self.value(output)?.distance(&want), bound)
+                }
+            },
+            Predicate::Sign { output, zero } => match self.want(output)? {
+                None => Verdict::plain(true),
+                Some(want) => {
+                    let allowed = zero.as_bool().unwrap_or(zero.as_f64() == Some(1.0));
+                    let got = self.value(output)?.sign();
+                    Verdict::plain(got == want.sign() || (allowed && got == 0))
+                }
+            },
+            Predicate::Equal { output } => self.equal(output)?,
+            Predicate::Interval {
+                output,
+                lo,
+                hi,
+                k,
+                scale,
+            } => {
+                let slack = k * u * scale;
+                let fits = |x: f64| x >= lo - slack && x <= hi + slack;
+                Verdict::plain(match output.as_str() {
+                    "*" => self.got.values.iter().all(|x| fits(*x)),
+                    name => fits(*self.got.values.get(self.place(name)?)?),
+                })
+            }
+            Predicate::UnitVector { outputs, k } => {
+                let parts: Option<Vec<Exact>> = outputs.iter().map(|o| self.value(o)).collect();
+                let parts = parts?;
+                let error = dot(&parts, &parts).distance(&Exact::new(1.0));
+                Verdict::measured(error, k * u)
+            }
+            Predicate::Orthonormal { k } => self.orthonormal(k * u)?,
+        })
+    }
+
+    fn place(&self, output: &str) -> Option<usize> {
+        self.outputs.iter().position(|o| o == output)
+    }
+
+    fn value(&self, output: &str) -> Option<Exact> {
+        let found = self.got.values.get(self.place(output)?)?;
+        Some(Exact::new(*found))
+    }
+
+    /// What is wanted of an output; `Some(None)` where nothing is prescribed.
+    fn want(&self, output: &str) -> Option<Option<Exact>> {
+        match self.wanted.expected.get(output)? {
+            Json::Null => Some(None),
+            Json::String(text) => Exact::parse(text).map(Some),
+            Json::Number(number) => Exact::parse(&number.to_string()).map(Some),
+            _ => None,
+        }
+    }
+
+    /// Fixed point: within so many last places.
+    fn within_quanta(
+        &self,
+        output: &str,
+        want: &Exact,
+        kq: Option<f64>,
+        slack: f64,
+    ) -> Option<Verdict> {
+        let Some(kq) = kq else {
+            return Some(Verdict::plain(true));
+        };
+        let bound = kq * self.arithmetic.epsilon() + slack;
+        Some(Verdict::measured(self.value(output)?.distance(want), bound))
+    }
+
+    fn equal(&self, output: &str) -> Option<Verdict> {
+        let want = self.wanted.expected.get(output)?;
+        Some(Verdict::plain(match want {
+            Json::Null => true,
+            Json::Array(cells) => {
+                let pairs = cells.iter().filter_map(Json::as_array).flatten();
+                let want: Vec<f64> = pairs.filter_map(Json::as_f64).collect();
+                !want.is_empty() && self.got.values.get(..want.len()) == Some(&want)
+            }
+            _ => self.value(output)?.distance(&self.want(output)??) == 0.0,
+        }))
+    }
+
+    /// Three vectors of length 1, perpendicular to each other, right-handed.
+    fn orthonormal(&self, bound: f64) -> Option<Verdict> {
+        let all: Vec<Exact> = self.got.values.iter().map(|x| Exact::new(*x)).collect();
+        let [x, y, z] = [all.get(0..3)?, all.get(3..6)?, all.get(6..9)?];
+        let one = Exact::new(1.0);
+        let none = Exact::new(0.0);
+        let mut errors = Vec::new();
+        for (a, b) in [(x, x), (y, y), (z, z)] {
+            errors.push(dot(a, b).distance(&one));
+        }
+        for (a, b) in [(x, y), (y, z), (z, x)] {
+            errors.push(dot(a, b).distance(&none));
+        }
+        let minor = |i: usize, j: usize| {
+            let (a, b) = (y.get(i)?.times(z.get(j)?), y.get(j)?.times(z.get(i)?));
+            Some(a.minus(&b))
+        };
+        let cross = [minor(1, 2)?, minor(2, 0)?, minor(0, 1)?];
+        errors.push(dot(x, &cross).distance(&one));
+        let measured = errors.iter().map(|e| Verdict::measured(*e, bound));
+        measured.reduce(Verdict::and)
+    }
+}

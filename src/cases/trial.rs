@@ -1,0 +1,309 @@
+//! Trying every vector in every way asked for.
+
+use super::file::{CaseFile, Overlay, Vector};
+use super::format::{self, Arithmetic, Key};
+use super::judge::{Got, Judge, Verdict};
+use super::kernel::Kernel;
+use super::watch;
+use crate::failure::{Failure, Outcome};
+use crate::interrupt;
+use crate::progress::Progress;
+use crate::scene::Precision;
+use slowlight_compiler::eval::model::ModelRun;
+use slowlight_compiler::eval::native::Native;
+use slowlight_compiler::flow::graph::Graph;
+use slowlight_compiler::plan::{Goal, Plan, plan};
+use slowlight_compiler::target::{Target, default_mode};
+use slowlight_routine::{Type, Value};
+use std::collections::BTreeMap;
+
+/// A way to try a vector.
+#[derive(Clone, Copy, Debug)]
+pub enum Way {
+    /// The native evaluation.
+    Native,
+    /// A target's format, in its model.
+    Model(&'static Target),
+    /// A target's machine.
+    Machine(&'static Target),
+}
+
+impl Way {
+    /// The arithmetic.
+    pub fn arithmetic(self) -> Arithmetic {
+        match self {
+            Way::Native => Arithmetic::Native,
+            Way::Model(target) | Way::Machine(target) => Arithmetic::of(target),
+        }
+    }
+
+    /// The format's name.
+    pub fn format(self) -> &'static str {
+        match self {
+            Way::Native => "f64",
+            Way::Model(target) | Way::Machine(target) => target.runtime.format,
+        }
+    }
+
+    /// What computes: `native`, `model`, or the machine.
+    pub fn place(self) -> &'static str {
+        match self {
+            Way::Native => "native",
+            Way::Model(_) => "model",
+            Way::Machine(target) => target.name,
+        }
+    }
+
+    fn precision(self) -> Precision {
+        match self {
+            Way::Native => Precision::NATIVE,
+            Way::Model(target) | Way::Machine(target) => Precision::of(target),
+        }
+    }
+}
+
+/// A vector tried in one way.
+#[derive(Clone, Debug)]
+pub struct Row {
+    /// The vector's.
+    pub id: String,
+    /// Its family.
+    pub family: String,
+    /// How it was tried.
+    pub way: Way,
+    /// The result; none where the kernel cannot be compiled, or its machine failed.
+    pub got: Got,
+    /// Why there is no result.
+    pub failure: Option<String>,
+    /// The outputs' names.
+    pub outputs: Vec<String>,
+    /// How it was judged.
+    pub verdict: Verdict,
+}
+
+/// What was tried.
+#[derive(Debug, Default)]
+pub struct Rows {
+    /// In the order of ways, then of the file.
+    pub rows: Vec<Row>,
+    /// How many say nothing in their format.
+    pub skipped: usize,
+}
+
+/// The native evaluation, the model of every format, and every machine.
+pub fn ways(targets: &[&'static Target]) -> Vec<Way> {
+    let mut all = vec![Way::Native];
+    let mut seen = Vec::new();
+    for target in targets {
+        if !seen.contains(&target.runtime.format) {
+            seen.push(target.runtime.format);
+            all.push(Way::Model(target));
+        }
+        all.push(Way::Machine(target));
+    }
+    all
+}
+
+/// Tries every vector of a file in every way.
+///
+/// # Errors
+/// Where the file does not fit together, or somebody interrupts.
+pub fn run(file: &CaseFile, ways: &[Way], naive: bool) -> Outcome<Rows> {
+    let mut kernels = BTreeMap::new();
+    let progress = Progress::new("cases", (file.vectors.len() * ways.len()) as u64);
+    let mut found = Rows::default();
+    for &way in ways {
+        let mut graphs: BTreeMap<(&str, &str), Prepared> = BTreeMap::new();
+        for vector in &file.vectors {
+            if interrupt::pressed() {
+                return Err(Failure::Interrupted);
+            }
+            progress.step(1);
+            let overlay = overlay(vector, way.arithmetic());
+            if overlay.is_some_and(|o| o.reason.is_some()) || way.arithmetic().key() == Key::None {
+                found.skipped += 1;
+                continue;
+            }
+            let key = (vector.family(), vector.entry.as_str());
+            let entry = file.families.get(key.0).and_then(|f| f.entry.get(key.1));
+            let Some(entry) = entry else {
+                let message = format!("{}: no family has the kernel `{}`", vector.id, vector.entry);
+                return Err(Failure::Wrong(message));
+            };
+            if !kernels.contains_key(&key) {
+                kernels.insert(key, Kernel::new(key.1, entry, vector, naive)?);
+            }
+            let Some(kernel) = kernels.get(&key) else {
+                continue;
+            };
+            let prepared = graphs
+                .entry(key)
+                .or_insert_with(|| Prepared::new(kernel, way, key.1));
+            let (got, failure) = match prepared.run(kernel, vector, &entry.ints) {
+                Ok(got) => (got, None),
+                Err(Failure::Interrupted) => return Err(Failure::Interrupted),
+                Err(why) => (Got::default(), Some(words(&why))),
+            };
+            let wanted = vector.wanted(overlay);
+            let judge = Judge {
+                arithmetic: way.arithmetic(),
+                outputs: &entry.outputs,
+                got: &got,
+                wanted: &wanted,
+            };
+            let mut verdict = judge.verdict();
+            verdict.passed &= failure.is_none();
+            found.rows.push(Row {
+                id: vector.id.clone(),
+                family: vector.family().to_owned(),
+                way,
+                got,
+                failure,
+                outputs: entry.outputs.clone(),
+                verdict,
+            });
+        }
+    }
+    Ok(found)
+}
+
+/// What a case has to say of a format's rounding.
+fn overlay(vector: &Vector, arithmetic: Arithmetic) -> Option<&Overlay> {
+    match arithmetic.key() {
+        Key::Bits(bits) => vector.expected_by_bits.get(bits),
+        Key::Quantum(quantum) => vector.expected_by_quantum.get(quantum),
+        Key::None => None,
+    }
+}
+
+fn words(why: &Failure) -> String {
+    match why {
+        Failure::Scene(said) => {
+            let all = said.diagnostics.iter().map(|d| d.message.as_str());
+            all.collect::<Vec<_>>().join("; ")
+        }
+        Failure::Wrong(message) | Failure::Usage(message) => message.clone(),
+        Failure::Cases => "a case does not pass".to_owned(),
+        Failure::Differs => "the machine differs from the model".to_owned(),
+        Failure::Interrupted => "interrupted".to_owned(),
+    }
+}
+
+/// A kernel compiled for one way, or why it cannot be.
+enum Prepared {
+    Native(Box<Graph>),
+    Plan(Way, Box<Plan>),
+    Not(String),
+}
+
+impl Prepared {
+    fn new(kernel: &Kernel, way: Way, name: &str) -> Prepared {
+        let graph = match kernel.graph(way.precision(), way.arithmetic().is_fixed()) {
+            Ok(graph) => graph,
+            Err(why) => return Prepared::Not(words(&why)),
+        };
+        let target = match way {
+            Way::Native => return Prepared::Native(Box::new(graph)),
+            Way::Model(target) | Way::Machine(target) => target,
+        };
+        let Some(mode) = default_mode(target, 1, 1) else {
+            return Prepared::Not(format!("{} has no screen", target.name));
+        };
+        let goal = Goal {
+            name: name.to_owned(),
+            mode,
+            rows: None,
+            plot: false,
+        };
+        match plan(&graph, target, &goal) {
+            Ok(plan) => Prepared::Plan(way, Box::new(plan)),
+            Err(said) => {
+                let all: Vec<&str> = said.iter().map(|d| d.message.as_str()).collect();
+                Prepared::Not(all.join("; "))
+            }
+        }
+    }
+
+    /// The kernel's result for a vector's inputs.
+    fn run(&mut self, kernel: &Kernel, vector: &Vector, ints: &[String]) -> Outcome<Got> {
+        let arithmetic = match self {
+            Prepared::Native(_) => Arithmetic::Native,
+            Prepared::Plan(way, _) => way.arithmetic(),
+            Prepared::Not(why) => return Err(Failure::Wrong(why.clone())),
+        };
+        let mut inputs = Vec::new();
+        for name in &kernel.inputs {
+            let input = vector.inputs.get(name).map_or("", |i| &i.dec);
+            let Ok(exact) = input.parse::<f64>() else {
+                let message = format!("{}: `{input}` is no number", vector.id);
+                return Err(Failure::Wrong(message));
+            };
+            let whole = ints.contains(name);
+            let value = match whole {
+                true => Some(exact),
+                false => arithmetic.round(exact),
+            };
+            match value {
+                Some(x) if whole => inputs.push(Value::Int(x as i32)),
+                Some(x) => inputs.push(Value::Real(x)),
+                None => {
+                    let left = Some(format!("{name} = {input} does not fit the format"));
+                    return Ok(Got {
+                        left,
+                        ..Got::default()
+                    });
+                }
+            }
+        }
+        match self {
+            Prepared::Native(graph) => {
+                set(graph, &inputs);
+                let values = {
+                    let mut native = Native::new(graph);
+                    native.pixel(0, 0);
+                    native.reports()
+                };
+                Ok(taken(kernel, &values, watch::native(graph)))
+            }
+            Prepared::Plan(way, plan) => {
+                let (Way::Model(target) | Way::Machine(target)) = *way else {
+                    return Err(Failure::Wrong("a plan has a target".to_owned()));
+                };
+                set(&mut plan.graph, &inputs);
+                for (param, value) in plan.params.iter_mut().zip(&inputs) {
+                    param.bits = format::bits(target, *value);
+                }
+                let mut model = ModelRun::new(plan);
+                model.pixel(0, 0);
+                let bits = model.reports();
+                let types = plan.graph.reports.iter().map(|&id| plan.graph.ty(id));
+                let decoded = types
+                    .zip(&bits)
+                    .map(|(ty, &bits)| (plan.runtime.decode)(bits, plan.runtime.format_of(ty)));
+                let values: Vec<Value> = decoded.collect();
+                Ok(taken(kernel, &values, watch::plan(plan)))
+            }
+            Prepared::Not(why) => Err(Failure::Wrong(why.clone())),
+        }
+    }
+}
+
+fn set(graph: &mut Graph, inputs: &[Value]) {
+    for (param, value) in graph.params.iter_mut().zip(inputs) {
+        debug_assert!(param.ty != Type::Bool);
+        param.value = value.real();
+    }
+}
+
+/// What was reported, as the kernel's result.
+fn taken(kernel: &Kernel, values: &[Value], left: Option<String>) -> Got {
+    let (there, values) = match (kernel.optional, values.split_first()) {
+        (true, Some((there, rest))) => (there.truth(), rest),
+        _ => (true, values),
+    };
+    Got {
+        there,
+        values: values.iter().map(|v| v.real()).collect(),
+        left,
+    }
+}
