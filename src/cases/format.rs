@@ -1,7 +1,6 @@
 //! The arithmetics that cases are tried in, and what an input becomes there.
 
 use slowlight_compiler::target::Target;
-use slowlight_isa::real40::Real40;
 use slowlight_routine::{Bits, Format, Value};
 
 /// A number format, as cases see it.
@@ -122,11 +121,24 @@ fn significant(x: f64, bits: i32) -> f64 {
     grown.round_ties_even() / 2f64.powi(half) / 2f64.powi(rest)
 }
 
+/// The 40 bits of a real that BBC BASIC has: the exponent with bias 128, then a
+/// mantissa from 1/2 to 1 whose first bit gives its place to the sign.
+fn real40(x: f64) -> Bits {
+    if x == 0.0 {
+        return 0;
+    }
+    let exponent = x.abs().log2().floor() as i32 + 1;
+    let (half, rest) = ((32 - exponent) / 2, (32 - exponent) - (32 - exponent) / 2);
+    let mantissa = (x.abs() * 2f64.powi(half) * 2f64.powi(rest)) as u32 & 0x7FFF_FFFF;
+    let sign = u32::from(x < 0.0) << 31;
+    Bits::from((exponent + 128).clamp(0, 255) as u8) << 32 | Bits::from(mantissa | sign)
+}
+
 /// The bits of a value that the format holds exactly.
 pub fn bits(target: &Target, value: Value) -> Bits {
     match (target.runtime.real, value) {
         // What BASIC reads from ten digits would be another value.
-        (Format::Real40, Value::Real(x)) => Real40::from_f64(x).unwrap_or(Real40::MAX).to_bits(),
+        (Format::Real40, Value::Real(x)) => real40(x),
         _ => (target.runtime.encode)(value, target.runtime.format_of(value.ty())),
     }
 }

@@ -4,6 +4,7 @@ use super::file::{CaseFile, Overlay, Vector};
 use super::format::{self, Arithmetic, Key};
 use super::judge::{Got, Judge, Verdict};
 use super::kernel::Kernel;
+use super::machine;
 use super::watch;
 use crate::failure::{Failure, Outcome};
 use crate::interrupt;
@@ -90,16 +91,20 @@ pub struct Rows {
     pub skipped: usize,
 }
 
-/// The native evaluation, the model of every format, and every machine.
-pub fn ways(targets: &[&'static Target]) -> Vec<Way> {
+/// The native evaluation, the model of every format, and every machine; with
+/// `one`, of the machines that share a format the first.
+pub fn ways(targets: &[&'static Target], one: bool) -> Vec<Way> {
     let mut all = vec![Way::Native];
     let mut seen = Vec::new();
     for target in targets {
-        if !seen.contains(&target.runtime.format) {
+        let first = !seen.contains(&target.runtime.format);
+        if first {
             seen.push(target.runtime.format);
             all.push(Way::Model(target));
         }
-        all.push(Way::Machine(target));
+        if first || !one {
+            all.push(Way::Machine(target));
+        }
     }
     all
 }
@@ -270,8 +275,9 @@ impl Prepared {
                     return Err(Failure::Wrong("a plan has a target".to_owned()));
                 };
                 set(&mut plan.graph, &inputs);
+                let format = plan.runtime.real;
                 for (param, value) in plan.params.iter_mut().zip(&inputs) {
-                    param.bits = format::bits(target, *value);
+                    machine::give(param, *value, format::bits(target, *value), format);
                 }
                 let mut model = ModelRun::new(plan);
                 model.pixel(0, 0);
@@ -281,6 +287,9 @@ impl Prepared {
                     .zip(&bits)
                     .map(|(ty, &bits)| (plan.runtime.decode)(bits, plan.runtime.format_of(ty)));
                 let values: Vec<Value> = decoded.collect();
+                if matches!(way, Way::Machine(_)) && machine::run(plan)? != values {
+                    return Err(Failure::Differs);
+                }
                 Ok(taken(kernel, &values, watch::plan(plan)))
             }
             Prepared::Not(why) => Err(Failure::Wrong(why.clone())),

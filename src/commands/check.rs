@@ -48,7 +48,7 @@ pub fn run(args: &Args) -> Outcome<()> {
 fn try_cases(args: &Args, path: &Path) -> Outcome<()> {
     let text = files::read_text(path)?;
     let file = cases::parse(&path.display().to_string(), &text)?;
-    let all = cases::ways(TARGETS);
+    let all = cases::ways(TARGETS, false);
     for name in &args.target {
         let known = all.iter().map(|w| w.place());
         if wanted(&all, name).next().is_none() {
@@ -69,7 +69,8 @@ fn try_cases(args: &Args, path: &Path) -> Outcome<()> {
                 .any(|n| wanted(&all, n).any(|w| w.place() == way.place()));
         target && (args.format.is_empty() || args.format.iter().any(|f| f == way.format()))
     };
-    let ways: Vec<Way> = all.iter().copied().filter(asked).collect();
+    let ways = cases::ways(TARGETS, args.target.is_empty());
+    let ways: Vec<Way> = ways.into_iter().filter(asked).collect();
     let found = cases::run(&file, &ways, args.naive)?;
     match args.json {
         true => say_json(&cases::table::to_json(&found)),

@@ -52,6 +52,7 @@ pub fn run(machine: &Machine, limit: u64, watch: Watch<'_>) -> MachineRun {
         os_calls: None,
         screen: drawn.then_some(run.screen),
         output: run.text.into_bytes(),
+        files: run.files,
         sizes: Sizes {
             code: Some(run.program_bytes as u64),
             tables: None,

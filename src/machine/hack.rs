@@ -5,6 +5,7 @@ use super::{File, Loaded, MachineRun, Program, Sizes, refused};
 use crate::failure::{Failure, Outcome};
 use slowlight_vm::Watch;
 use slowlight_vm::hack::{jack, vm};
+use std::collections::BTreeMap;
 
 /// Words of RAM before the screen, from the first static.
 const RAM: std::ops::Range<u16> = 16..16384;
@@ -49,6 +50,7 @@ pub fn run(program: &vm::Program, limit: u64, watch: Watch<'_>) -> MachineRun {
         os_calls: Some(run.os_calls),
         screen: Some(run.screen),
         output: run.text.into_bytes(),
+        files: BTreeMap::new(),
         sizes: Sizes {
             ram: Some(2 * words as u64),
             ..Sizes::default()

@@ -13,6 +13,7 @@ use crate::interrupt;
 use crate::picture::Picture;
 use slowlight_vm::bbc::Dialect;
 use slowlight_vm::{Progress, Screen, Stop};
+use std::collections::BTreeMap;
 
 /// A machine that is bundled.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -95,6 +96,8 @@ pub struct MachineRun {
     pub screen: Option<Screen>,
     /// What the program printed, if it prints beside the screen.
     pub output: Vec<u8>,
+    /// The files that it wrote, by name.
+    pub files: BTreeMap<String, Vec<u8>>,
     /// Sizes as far as they are known now.
     pub sizes: Sizes,
 }

@@ -5,6 +5,7 @@ use crate::failure::{Failure, Outcome};
 use slowlight_vm::mos6502::plain::port;
 use slowlight_vm::mos6502::{Assembly, Plain, assemble};
 use slowlight_vm::{Fault, Watch};
+use std::collections::BTreeMap;
 
 /// Takes one assembly source (`.asm`, `.s`, `.a65`), or one binary that begins
 /// with its load address.
@@ -71,6 +72,7 @@ pub fn run(machine: &mut Plain, sizes: Sizes, limit: u64, watch: Watch<'_>) -> M
         os_calls: None,
         screen: run.screen,
         output: Vec::new(),
+        files: BTreeMap::new(),
         sizes: Sizes { ram, ..sizes },
     }
 }

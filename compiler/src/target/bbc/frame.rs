@@ -17,6 +17,9 @@ IF i%<0 THEN =0
 IF i%>n% THEN =n% ELSE =i%
 ";
 
+/// The file of what a graph reports.
+const REPORTS: &str = "REPORTS";
+
 /// The whole program.
 pub fn program(plan: &Plan) -> Lines {
     let mut code = Code::new(plan);
@@ -104,6 +107,7 @@ fn picture(plan: &Plan, code: &mut Code<'_>, first: &str, last: &str, spread: Op
         spread.turn(code);
     }
     code.line("NEXT");
+    reports(plan, code);
     code.line("END");
 }
 
@@ -122,6 +126,20 @@ fn seen(plan: &Plan, first: &str) -> String {
         text.push_str(&format!(" AND X%<={}", drawn.1));
     }
     text
+}
+
+/// Writes what the graph reports to a file, in the machine's own bytes.
+fn reports(plan: &Plan, code: &mut Code<'_>) {
+    if plan.graph.reports.is_empty() {
+        return;
+    }
+    let channel = code.values.names.unique("channel", "%");
+    code.line(format!("{channel}=OPENOUT(\"{REPORTS}\")"));
+    for &id in &plan.graph.reports {
+        let value = code.values.read(id).text;
+        code.line(format!("PRINT#{channel},{value}"));
+    }
+    code.line(format!("CLOSE#{channel}"));
 }
 
 fn setup(plan: &Plan, code: &mut Code<'_>, first: &str, last: &str) {

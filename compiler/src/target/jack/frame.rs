@@ -2,6 +2,7 @@
 
 use super::code::{Code, int};
 use super::making::making;
+use super::report::reports;
 use super::{Document, Line, Text};
 use crate::plan::{ParamPlan, Plan};
 use slowlight_routine::Format;
@@ -347,6 +348,7 @@ fn drawing(code: &mut Code) -> Vec<Subroutine> {
     }
     picture.line(format!("let {y} = {y} + 1;"));
     picture.close("}");
+    let told = reports(code, &mut picture);
 
     let mut across = Text::default();
     across.append(row);
@@ -384,7 +386,7 @@ fn drawing(code: &mut Code) -> Vec<Subroutine> {
         dot.append(spread.send(code, &x));
     }
     let (first, last) = columns;
-    vec![
+    let mut all = vec![
         subroutine(
             "Once a picture.",
             "method void drawPicture()",
@@ -400,5 +402,7 @@ fn drawing(code: &mut Code) -> Vec<Subroutine> {
             "method void drawPixel()",
             dot.lines,
         ),
-    ]
+    ];
+    all.extend(told);
+    all
 }

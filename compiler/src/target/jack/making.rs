@@ -23,6 +23,13 @@ pub(super) fn making(code: &mut Code) -> Vec<Subroutine> {
         else {
             continue;
         };
+        if param.digits.is_none() {
+            // Given by its bits, which no scaled int can say.
+            code.needs.insert("Float.constant");
+            let Float { s, e, m } = Float::from_bits(param.bits);
+            taking.push(line(&format!("let {value} = Float.constant({s}, {e}, {m});")));
+            continue;
+        }
         taking.push(line(&format!("do {value}.fromInt({label});")));
         code.needs.insert("Float.fromInt");
         if let Some(digits) = param.digits.filter(|d| *d > 0) {

@@ -28,6 +28,7 @@ mod frame;
 mod making;
 mod names;
 mod object;
+mod report;
 mod spread;
 #[cfg(test)]
 mod tests;

@@ -54,6 +54,7 @@ const METHODS: &[&str] = &[
     "drawPicture",
     "drawRow",
     "drawPixel",
+    "reportFloat",
 ];
 
 /// Names in use, and the fields' names.

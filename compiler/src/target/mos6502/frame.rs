@@ -7,7 +7,7 @@ use super::params::{Entry, entries, take_params};
 use super::{Text, table};
 use crate::flow::graph::Axis;
 use crate::plan::Plan;
-use slowlight_routine::{Part, Source};
+use slowlight_routine::{Format, Part, Source};
 use slowlight_runtime_6502::write::{self, Place as Operand};
 
 /// The whole program.
@@ -223,10 +223,38 @@ fn main(plan: &Plan, homes: &Homes, parts: &[&'static Part], text: &mut Text) ->
     text.label("more_rows");
     text.code("jmp next_row");
     text.label("picture_done");
+    reports(plan, homes, text);
     text.code("lda #0 | sta exit_port");
     text.label("halted");
     text.code("jmp halted");
     clamps
+}
+
+/// Gives out what the graph reports through the one port for bytes that there
+/// is: as a picture of one row, four inks a value, low byte first.
+fn reports(plan: &Plan, homes: &Homes, text: &mut Text) {
+    if plan.graph.reports.is_empty() || plan.plot {
+        return;
+    }
+    let [lo, hi, ..] = (4 * plan.graph.reports.len()).to_le_bytes();
+    text.code(&format!(
+        "lda #{lo} | sta width_port | lda #{hi} | sta width_port+1"
+    ));
+    text.code("lda #1 | sta height_port | lda #0 | sta height_port+1 | sta inks_port");
+    for &id in &plan.graph.reports {
+        let value = homes.operand(plan, id);
+        let bytes = match plan.format(id) {
+            Format::Bool => 1,
+            _ => 4,
+        };
+        for k in 0..4 {
+            let byte = match k < bytes {
+                true => write::byte(&value, k),
+                false => "#0".to_owned(),
+            };
+            text.code(&format!("lda {byte} | sta ink_port"));
+        }
+    }
 }
 
 /// Opens the picture and tells its palette.

@@ -254,7 +254,9 @@ impl Uses<'_> {
             self.weight = weight;
             self.block(block);
         }
-        self.read(self.plan.graph.ink);
+        let graph = &self.plan.graph;
+        self.read(graph.ink);
+        graph.reports.iter().for_each(|&id| self.read(id));
         if let Some(rows) = self.plan.error_rows() {
             rows.shares.iter().for_each(|s| self.read(s.node));
             self.add(Slot::Received);

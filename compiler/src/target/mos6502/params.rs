@@ -40,10 +40,10 @@ pub(super) fn entries(plan: &Plan, homes: &Homes) -> Vec<Entry> {
             least: bound(p.range.as_ref().map(|r| &r.0), i32::MIN),
             greatest: bound(p.range.as_ref().map(|r| &r.1), i32::MAX),
             unit: unit(real, digits),
-            divisor: if real {
-                10u32.saturating_pow(digits)
-            } else {
-                0
+            // Without digits it is the number's bits that are written.
+            divisor: match p.digits {
+                Some(_) if real => 10u32.saturating_pow(digits),
+                _ => 0,
             },
         });
     }
