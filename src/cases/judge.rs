@@ -256,3 +256,104 @@ impl Judge<'_> {
         measured.reduce(Verdict::and)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used)]
+
+    use super::*;
+    use slowlight_routine::Format;
+
+    fn passes(arithmetic: Arithmetic, predicate: &str, want: &str, got: &[f64]) -> bool {
+        let text = format!("{{\"expected\": {want}, \"predicate\": {predicate}}}");
+        let wanted: Wanted = serde_json::from_str(&text).unwrap();
+        let outputs: Vec<String> = ["a", "b", "c"].map(str::to_owned).to_vec();
+        let got = Got {
+            there: !got.is_empty(),
+            values: got.to_vec(),
+            left: None,
+        };
+        let judge = Judge {
+            arithmetic,
+            outputs: &outputs,
+            got: &got,
+            wanted: &wanted,
+        };
+        judge.verdict().passed
+    }
+
+    const JACK: Arithmetic = Arithmetic::Of(Format::Float316);
+    const FIXED: Arithmetic = Arithmetic::Of(Format::Fixed { bits: 32, frac: 16 });
+
+    #[test]
+    fn errors_are_held_against_their_bounds() {
+        let rel = r#"{"kind": "rel", "output": "a", "k": 2, "cond": 1, "kq": 3}"#;
+        let third = r#"{"a": "0.333333333333333333333333333333"}"#;
+        let near = 1.0 / 3.0;
+        assert!(passes(Arithmetic::Native, rel, third, &[near]));
+        // One unit is within two roundoffs, two are not.
+        assert!(passes(Arithmetic::Native, rel, third, &[near.next_up()]));
+        assert!(!passes(
+            Arithmetic::Native,
+            rel,
+            third,
+            &[near.next_up().next_up()]
+        ));
+        assert!(passes(JACK, rel, third, &[near * (1.0 + 1.9 / 8192.0)]));
+        assert!(!passes(JACK, rel, third, &[near * (1.0 + 2.1 / 8192.0)]));
+        assert!(passes(FIXED, rel, third, &[near + 2.9 / 65536.0]));
+        assert!(!passes(FIXED, rel, third, &[near + 3.1 / 65536.0]));
+        assert!(!passes(JACK, rel, third, &[]));
+    }
+
+    #[test]
+    fn other_predicates_say_no_too() {
+        let one = r#"{"a": "1", "b": "-2", "c": [[0, 1], [2, 3]]}"#;
+        let native = |predicate: &str, got: &[f64]| passes(Arithmetic::Native, predicate, one, got);
+        let sign = r#"{"kind": "sign", "output": "b", "zero": 1}"#;
+        assert!(native(sign, &[0.0, -1e-300, 0.0]) && native(sign, &[0.0, 0.0, 0.0]));
+        assert!(!native(sign, &[0.0, 1e-300, 0.0]));
+        let equal = r#"{"kind": "equal", "output": "c"}"#;
+        assert!(native(equal, &[0.0, 1.0, 2.0, 3.0, 9.0, 9.0]));
+        assert!(!native(equal, &[0.0, 1.0, 2.0, 4.0]));
+        let decided = r#"{"kind": "decided", "margin": 1e-10, "k": 8, "predicate": {"kind": "present", "value": false}}"#;
+        assert!(!native(decided, &[1.0]) && passes(JACK, decided, one, &[1.0]));
+        let length = r#"{"kind": "unit_vector", "outputs": ["a", "b"], "k": 4}"#;
+        assert!(native(length, &[0.6, 0.8]) && !native(length, &[0.6, 0.80001]));
+        let frame = r#"{"kind": "orthonormal", "k": 8}"#;
+        let right = [1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0];
+        let left = [1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, -1.0];
+        assert!(native(frame, &right) && !native(frame, &left) && !native(frame, &[0.0; 9]));
+        let unknown = r#"{"kind": "rel", "output": "d", "k": 1, "cond": 1}"#;
+        assert!(!native(unknown, &[1.0]));
+        let interval =
+            r#"{"kind": "interval", "output": "*", "lo": 0, "hi": 1, "k": 0, "scale": 0}"#;
+        assert!(native(interval, &[0.0, 1.0]) && !native(interval, &[0.0, 1.1]));
+    }
+
+    #[test]
+    fn a_refusal_must_be_allowed_and_said() {
+        let text = r#"{"expected": {"a": "1"}, "predicate": {"kind": "refuse_or", "hi": 17, "lo": 0,
+            "predicate": {"kind": "rel", "output": "a", "k": 1, "cond": 1, "kq": 1}}}"#;
+        let wanted: Wanted = serde_json::from_str(text).unwrap();
+        let outputs = ["a".to_owned()];
+        for (arithmetic, left, passed) in [
+            (FIXED, Some("mul saturates".to_owned()), true),
+            (FIXED, None, false),
+            (JACK, Some("mul saturates".to_owned()), false),
+        ] {
+            let got = Got {
+                there: true,
+                values: vec![5.0],
+                left,
+            };
+            let judge = Judge {
+                arithmetic,
+                outputs: &outputs,
+                got: &got,
+                wanted: &wanted,
+            };
+            assert_eq!(judge.verdict().passed, passed);
+        }
+    }
+}

@@ -70,7 +70,12 @@ pub fn run(plan: &Plan) -> Outcome<Vec<Value>> {
     if let Some(wrong) = complaint(&run, LIMIT) {
         return Err(Failure::Wrong(format!("{}: {wrong}", plan.target.name)));
     }
-    let formats: Vec<Format> = plan.graph.reports.iter().map(|&id| plan.format(id)).collect();
+    let formats: Vec<Format> = plan
+        .graph
+        .reports
+        .iter()
+        .map(|&id| plan.format(id))
+        .collect();
     let found = match plan.runtime.real {
         Format::Real40 => from_file(&run, &formats, plan),
         Format::Float316 => from_text(&run, &formats, plan),

@@ -16,7 +16,7 @@ use slowlight_compiler::flow::graph::Graph;
 use slowlight_compiler::plan::{Goal, Plan, plan};
 use slowlight_compiler::target::{Target, default_mode};
 use slowlight_routine::{Type, Value};
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, btree_map};
 
 /// A way to try a vector.
 #[derive(Clone, Copy, Debug)]
@@ -114,7 +114,7 @@ pub fn ways(targets: &[&'static Target], one: bool) -> Vec<Way> {
 /// # Errors
 /// Where the file does not fit together, or somebody interrupts.
 pub fn run(file: &CaseFile, ways: &[Way], naive: bool) -> Outcome<Rows> {
-    let mut kernels = BTreeMap::new();
+    let mut kernels: BTreeMap<(&str, &str), Kernel> = BTreeMap::new();
     let progress = Progress::new("cases", (file.vectors.len() * ways.len()) as u64);
     let mut found = Rows::default();
     for &way in ways {
@@ -135,11 +135,11 @@ pub fn run(file: &CaseFile, ways: &[Way], naive: bool) -> Outcome<Rows> {
                 let message = format!("{}: no family has the kernel `{}`", vector.id, vector.entry);
                 return Err(Failure::Wrong(message));
             };
-            if !kernels.contains_key(&key) {
-                kernels.insert(key, Kernel::new(key.1, entry, vector, naive)?);
-            }
-            let Some(kernel) = kernels.get(&key) else {
-                continue;
+            let kernel = match kernels.entry(key) {
+                btree_map::Entry::Occupied(found) => found.into_mut(),
+                btree_map::Entry::Vacant(free) => {
+                    free.insert(Kernel::new(key.1, entry, vector, naive)?)
+                }
             };
             let prepared = graphs
                 .entry(key)

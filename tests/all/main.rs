@@ -7,6 +7,7 @@ mod cli_fmt;
 mod cli_run;
 mod cli_wrong;
 mod fit;
+mod hard_cases;
 mod house;
 mod jack;
 mod library;

@@ -27,7 +27,9 @@ pub(super) fn making(code: &mut Code) -> Vec<Subroutine> {
             // Given by its bits, which no scaled int can say.
             code.needs.insert("Float.constant");
             let Float { s, e, m } = Float::from_bits(param.bits);
-            taking.push(line(&format!("let {value} = Float.constant({s}, {e}, {m});")));
+            taking.push(line(&format!(
+                "let {value} = Float.constant({s}, {e}, {m});"
+            )));
             continue;
         }
         taking.push(line(&format!("do {value}.fromInt({label});")));

@@ -1,0 +1,147 @@
+//! Hard cases: every vector natively, in every format's model, on every kind of
+//! machine; and what the textbook's forms make of the same vectors.
+
+use crate::cli::{directory, json, slowlight, success};
+use slowlight::cases::{self, Row, Way, ways};
+use slowlight_compiler::target::TARGETS;
+use std::collections::BTreeSet;
+
+const FILES: [&str; 2] = ["tests/hard_cases.json", "tests/orientation_cases.json"];
+
+/// What an arithmetic without guard bit and with the low product dropped cannot
+/// pass, whatever the formula (facts of the original Float316).
+const ORIGINAL: [&str; 5] = [
+    "no_guard_bit/guard_1",
+    "no_guard_bit/guard_2",
+    "no_guard_bit/guard_3",
+    "mul_dropped_low/worst_pair",
+    "fog_exp/near",
+];
+
+fn rows(ways: &[Way], naive: bool) -> Vec<Row> {
+    let tried = FILES.into_iter().flat_map(|path| {
+        let path = format!("{}/{path}", env!("CARGO_MANIFEST_DIR"));
+        let text = std::fs::read_to_string(&path).expect("the file is there");
+        let file = cases::parse(&path, &text).expect("it is a file of cases");
+        cases::run(&file, ways, naive).expect("it runs").rows
+    });
+    tried.collect()
+}
+
+#[test]
+fn every_vector_passes_everywhere() {
+    let rows = rows(&ways(TARGETS, true), false);
+    let places: BTreeSet<&str> = rows.iter().map(|r| r.way.place()).collect();
+    assert_eq!(
+        places.into_iter().collect::<Vec<_>>(),
+        ["6502:plain", "bbc:micro", "jack", "model", "native"]
+    );
+    assert!(rows.len() > 1200, "{}", rows.len());
+    for row in rows.iter().filter(|r| !r.verdict.passed) {
+        let known = row.way.format() == "f316" && ORIGINAL.contains(&row.id.as_str());
+        // A missing function is said, never silent.
+        let said = row
+            .failure
+            .as_ref()
+            .is_some_and(|f| f.contains("cannot compute"));
+        assert!(
+            known || said,
+            "{} {}: {row:?}",
+            row.way.format(),
+            row.way.place()
+        );
+    }
+    // And the original's faults are shown.
+    let shown = |id: &str| {
+        let f316 = rows
+            .iter()
+            .filter(|r| r.way.format() == "f316" && r.id == id);
+        f316.clone().count() == 2 && f316.into_iter().all(|r| !r.verdict.passed)
+    };
+    for id in [
+        "no_guard_bit/guard_1",
+        "no_guard_bit/guard_3",
+        "mul_dropped_low/worst_pair",
+    ] {
+        assert!(shown(id), "{id}");
+    }
+}
+
+#[test]
+fn the_stable_forms_are_what_passes() {
+    let native = rows(&[Way::Native], true);
+    let failed = native.iter().filter(|r| !r.verdict.passed).count();
+    assert!(
+        (50..native.len()).contains(&failed),
+        "{failed} of {}",
+        native.len()
+    );
+    // Every vector of our own search catches the naive determinant somewhere.
+    let models: Vec<Way> = ways(TARGETS, true)
+        .into_iter()
+        .filter(|w| !matches!(w, Way::Machine(_)))
+        .collect();
+    let all = rows(&models, true);
+    let ids: BTreeSet<&str> = all.iter().map(|r| r.id.as_str()).collect();
+    for id in ids
+        .into_iter()
+        .filter(|id| id.starts_with("orientation/naive"))
+    {
+        let wrong = |r: &&Row| r.id == id && !r.verdict.passed && r.failure.is_none();
+        assert!(all.iter().any(|r| wrong(&r)), "{id}");
+    }
+}
+
+#[test]
+fn check_tries_a_file_of_cases() {
+    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/hard_cases.json");
+    let dir = directory(&[
+        ("odd.json", "{\"families\": {}, \"vectors\": [{\"id\": 1}]}"),
+        (
+            "lost.json",
+            r#"{"families": {}, "vectors": [{"id": "a/b", "entry": "c",
+            "inputs": {}, "expected": {}, "predicate": {"kind": "present", "value": true}}]}"#,
+        ),
+    ]);
+    let found = json(
+        dir.path(),
+        &["check", "--cases", path, "--target", "native", "--json"],
+    );
+    assert_eq!(
+        (&found["count"], &found["passed"]),
+        (&176.into(), &176.into())
+    );
+    let first = &found["cases"][0];
+    assert_eq!(first["id"], "quadratic_cancellation/k3");
+    assert_eq!(
+        (&first["format"], &first["target"]),
+        (&"f64".into(), &"native".into())
+    );
+    assert!(
+        first["got"]["root_small"]
+            .as_f64()
+            .is_some_and(|r| (0.03..0.04).contains(&r))
+    );
+    let text = success(dir.path(), &["check", "--cases", path, "--target", "bbc"]);
+    assert!(text.contains("| real40 bbc:micro"), "{text}");
+    for (args, status) in [
+        (&["check", "--cases", "odd.json"][..], 1),
+        (&["check", "--cases", "lost.json"], 1),
+        (&["check", "--cases", "none.json"], 1),
+        (
+            &[
+                "check", "--cases", path, "--format", "f316", "--target", "model",
+            ],
+            1,
+        ),
+        (&["check", "--cases", path, "--target", "zx"], 2),
+        (&["check", "--cases", path, "scene.scn"], 2),
+        (&["check"], 2),
+    ] {
+        assert_eq!(
+            slowlight(dir.path(), args).status.code(),
+            Some(status),
+            "{args:?}"
+        );
+    }
+}
