@@ -152,12 +152,6 @@ impl<'g> Scalar<'g> {
         }
     }
 
-    /// The values that the graph reports, of the last pixel asked for.
-    pub fn reports(&mut self) -> Vec<Value> {
-        let graph = self.graph;
-        graph.reports.iter().map(|&id| self.value(id)).collect()
-    }
-
     fn change(&mut self, what: Dependence) {
         self.clock += 1;
         for &set in &self.members[number(what)] {

@@ -138,6 +138,18 @@ impl<'g> Native<'g> {
         }
     }
 
+    /// The values that the graph reports, of the first pixel of the block that
+    /// was last asked for.
+    pub fn reports(&mut self) -> Vec<Value> {
+        let graph = self.graph;
+        let mut all = Vec::with_capacity(graph.reports.len());
+        for &id in &graph.reports {
+            self.need(id.0, 1);
+            all.push(self.get(id, 0));
+        }
+        all
+    }
+
     /// Comes to other pixels: forgets what depends on where they are.
     fn enter(&mut self, block: Block) {
         let was = self.block.replace(block);
