@@ -18,6 +18,7 @@ pub mod interrupt;
 pub mod machine;
 pub mod measure;
 pub mod picture;
+pub mod precise;
 pub mod program;
 pub mod progress;
 pub mod scene;

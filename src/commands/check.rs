@@ -1,12 +1,15 @@
-//! `check`: diagnostics, without anything else; and how hard cases are passed.
+//! `check`: diagnostics, and where a scene is numerically fragile in the
+//! targets' formats; and how hard cases are passed.
 
 use crate::cases::{self, Way};
 use crate::failure::{Failure, Outcome, unknown};
+use crate::precise::{self, Fared};
 use crate::scene::{Precision, Scene, SceneArgs};
+use crate::target_args::target;
 use crate::{diagnostics, files, say, say_json};
 use serde_json::json;
-use slowlight_compiler::source::{Diagnostic, Sources};
-use slowlight_compiler::target::{TARGETS, find};
+use slowlight_compiler::source::Diagnostic;
+use slowlight_compiler::target::{TARGETS, Target, find};
 use std::path::{Path, PathBuf};
 
 /// Options of `check`.
@@ -21,12 +24,16 @@ pub struct Args {
     /// format's model, and on every machine
     #[arg(long, value_name = "FILE.json", conflicts_with = "scene")]
     cases: Option<PathBuf>,
-    /// Only so: native, model, or a target's name
-    #[arg(long, value_name = "TARGET", requires = "cases")]
+    /// Only for a target [default: one of each format]; with --cases also
+    /// native and model
+    #[arg(long, value_name = "TARGET")]
     target: Vec<String>,
-    /// Only in a format: f64 or a target's
-    #[arg(long, value_name = "FORMAT", requires = "cases")]
+    /// Only in a format; with --cases also f64
+    #[arg(long, value_name = "FORMAT")]
     format: Vec<String>,
+    /// Only the scene itself, in no format
+    #[arg(long, conflicts_with_all = ["cases", "target", "format"])]
+    quick: bool,
     /// With the textbook's forms of the kernels
     #[arg(long, hide = true, requires = "cases")]
     naive: bool,
@@ -88,29 +95,44 @@ fn wanted<'w>(all: &'w [Way], name: &'w str) -> impl Iterator<Item = &'w Way> {
     all.iter().filter(move |way| way.place() == full)
 }
 
+/// The targets whose formats a scene is looked at in.
+fn targets(args: &Args) -> Outcome<Vec<&'static Target>> {
+    if args.quick {
+        return Ok(Vec::new());
+    }
+    let named = args.target.iter().map(|n| target(n));
+    let named: Vec<&'static Target> = named.collect::<Result<_, _>>().map_err(Failure::Usage)?;
+    let all = match named.is_empty() {
+        true => precise::formats(),
+        false => named,
+    };
+    for name in &args.format {
+        if !all.iter().any(|t| t.runtime.format == name) {
+            let known = all.iter().map(|t| t.runtime.format);
+            return Err(Failure::Usage(unknown("format", name, known)));
+        }
+    }
+    let wanted =
+        |t: &&Target| args.format.is_empty() || args.format.iter().any(|f| f == t.runtime.format);
+    Ok(all.into_iter().filter(wanted).collect())
+}
+
 fn check(args: &Args, of: &SceneArgs) -> Outcome<()> {
+    let targets = targets(args)?;
     let checked = Scene::load(of).and_then(|scene| {
         scene.graph(None, Precision::NATIVE)?;
-        Ok(scene)
+        let fared = precise::look(&scene, &targets)?;
+        Ok((scene, fared))
     });
     match checked {
-        Ok(scene) => {
-            let said = &scene.checked.diagnostics;
-            if args.json {
-                tell(&scene.checked.sources, said);
-            } else {
-                scene.warn();
-                say(&match said.len() {
-                    0 => format!("{}: nothing to remark\n", of.scene.display()),
-                    1 => format!("{}: 1 warning\n", of.scene.display()),
-                    n => format!("{}: {n} warnings\n", of.scene.display()),
-                });
-            }
+        Ok((scene, fared)) => {
+            report(args, of, &scene, &fared);
             Ok(())
         }
         Err(Failure::Scene(said)) => {
             if args.json {
-                tell(&said.sources, &said.diagnostics);
+                let found = diagnostics::to_json(&said.sources, &said.diagnostics);
+                say_json(&json!({ "diagnostics": found }));
             }
             Err(Failure::Scene(said))
         }
@@ -118,6 +140,30 @@ fn check(args: &Args, of: &SceneArgs) -> Outcome<()> {
     }
 }
 
-fn tell(sources: &Sources, said: &[Diagnostic]) {
-    say_json(&json!({ "diagnostics": diagnostics::to_json(sources, said) }));
+fn report(args: &Args, of: &SceneArgs, scene: &Scene, fared: &[Fared]) {
+    let sources = &scene.checked.sources;
+    let weak = fared.iter().flat_map(|f| &f.said);
+    let said: Vec<Diagnostic> = scene
+        .checked
+        .diagnostics
+        .iter()
+        .chain(weak)
+        .cloned()
+        .collect();
+    if args.json {
+        let found = diagnostics::to_json(sources, &said);
+        return say_json(&json!({ "diagnostics": found, "formats": precise::to_json(fared) }));
+    }
+    if !said.is_empty() {
+        diagnostics::print(sources, &said);
+    }
+    let remarks = match said.len() {
+        0 => "nothing to remark".to_owned(),
+        1 => "1 warning".to_owned(),
+        n => format!("{n} warnings"),
+    };
+    say(&format!("{}: {remarks}\n", of.scene.display()));
+    if !fared.is_empty() {
+        say(&precise::text(fared));
+    }
 }

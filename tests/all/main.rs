@@ -17,6 +17,7 @@ mod need;
 mod peers_brandy;
 #[cfg(feature = "peers")]
 mod peers_ca65;
+mod precise;
 mod renderers;
 mod snapshots;
 mod spread;

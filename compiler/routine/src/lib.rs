@@ -50,17 +50,6 @@ impl Format {
         }
     }
 
-    /// How coarse it is: the unit roundoff of a float (of a truncating one, the
-    /// last place), the quantum in fixed point, 1 for whole numbers.
-    pub fn unit(self) -> f64 {
-        match self {
-            Format::Bool | Format::Int { .. } => 1.0,
-            Format::Real40 => 2f64.powi(-32),
-            Format::Float316 => 2f64.powi(-13),
-            Format::Fixed { frac, .. } => 2f64.powi(-i32::from(frac)),
-        }
-    }
-
     /// The scalar type that it holds.
     pub fn scalar(self) -> Type {
         match self {

@@ -25,7 +25,7 @@ use std::collections::{BTreeMap, BTreeSet};
 const SAMPLE: u32 = 4096;
 
 /// How many operations are run before the sample is called large enough.
-const PATIENCE: u64 = 30_000_000;
+const PATIENCE: u64 = 10_000_000;
 
 /// An operation is to blame where its result is off by so many times more
 /// units in the last place than its arguments.

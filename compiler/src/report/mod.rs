@@ -1,6 +1,7 @@
 //! What is to be known of a plan beside its code. Data, not text: the command
 //! line renders it.
 
+pub mod bounded;
 pub mod fragile;
 mod shadow;
 #[cfg(test)]

@@ -74,7 +74,7 @@ impl<'p> Shadow<'p> {
         let real = plan.runtime.real;
         Shadow {
             plan,
-            unit: real.unit(),
+            unit: real.epsilon(),
             fixed: matches!(real, Format::Fixed { .. }),
             log: RefCell::default(),
         }

@@ -94,7 +94,7 @@ fn lost(plan: &Plan, f: &Fragile) -> String {
         Format::Fixed { .. } if f.units > 1e6 => "the value leaves the range".to_owned(),
         Format::Fixed { .. } => format!("the result is off by up to {}", units(f.units)),
         real => {
-            let bits = -real.unit().log2();
+            let bits = -real.epsilon().log2();
             let left = (bits - f.units.log2()).floor();
             match left >= 1.0 {
                 true => format!("as few as {left} of {bits} bits are left"),

@@ -68,6 +68,8 @@ pub struct Bounds {
     pub values: Vec<Option<Bound>>,
     /// Comparisons and steps that may give the machine another answer.
     pub undecided: BTreeSet<NodeId>,
+    /// How many roundings were followed.
+    pub operations: u32,
 }
 
 impl Bounds {

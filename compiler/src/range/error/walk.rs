@@ -37,6 +37,7 @@ pub fn walk(plan: &Plan, tile: &Tile) -> Bounds {
     for block in [&plan.tree.frame, &plan.tree.row, &plan.tree.pixel] {
         walk.block(block);
     }
+    walk.out.operations = walk.sources;
     walk.out
 }
 
@@ -77,6 +78,8 @@ fn known(plan: &Plan, tile: &Tile, id: NodeId) -> Value {
             };
             Value::exact(Range::new(f64::from(first), f64::from(last.max(first))))
         }
+        // Where errors are spread, what comes from other pixels is not known.
+        Node::Received if graph.diffusion.is_none() => Value::exact(Range::point(0.0)),
         _ => unknown(),
     }
 }

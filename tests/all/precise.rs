@@ -1,0 +1,57 @@
+//! `check` in the targets' formats: what is fragile, what is proved.
+
+use crate::cli::{json, slowlight, success};
+use std::path::Path;
+
+fn root() -> &'static Path {
+    Path::new(env!("CARGO_MANIFEST_DIR"))
+}
+
+#[test]
+fn a_fragile_line_is_named_with_a_way_out() {
+    let args = ["check", "tests/fragile/huge_floor.scn", "--target", "jack"];
+    let output = slowlight(root(), &args);
+    let said = String::from_utf8_lossy(&output.stderr);
+    assert_eq!(output.status.code(), Some(0), "{said}");
+    assert!(
+        said.contains("in f316 as few as 5 of 13 bits are left here"),
+        "{said}"
+    );
+    assert!(said.contains("huge_floor.scn:8:"), "{said}");
+    assert!(said.contains("help: nearly equal values are subtracted"));
+    // Forty bits are enough for it.
+    let fine = [
+        "check",
+        "tests/fragile/huge_floor.scn",
+        "--format",
+        "real40",
+    ];
+    assert!(success(root(), &fine).contains("nothing to remark"));
+}
+
+#[test]
+fn what_is_proved_stands_beside_what_is_measured() {
+    let found = json(root(), &["check", "examples/mirrors.scn", "--json"]);
+    let formats = found["formats"].as_array().expect("formats");
+    assert_eq!(formats.len(), 3);
+    for row in formats {
+        let number = |name: &str| row[name].as_f64().expect("a number");
+        assert!(number("proved") > 0.5 * number("pixels"), "{row}");
+        assert!(number("bound_proved") >= number("error_measured"), "{row}");
+        assert!(number("error_measured") > 0.0, "{row}");
+    }
+    let quick = json(
+        root(),
+        &["check", "examples/mirrors.scn", "--quick", "--json"],
+    );
+    assert_eq!(quick["formats"].as_array().map(Vec::len), Some(0));
+}
+
+#[test]
+fn a_format_that_no_target_has_is_wrong_usage() {
+    let args = ["check", "examples/mirrors.scn", "--format", "f32"];
+    let output = slowlight(root(), &args);
+    assert_eq!(output.status.code(), Some(2));
+    let said = String::from_utf8_lossy(&output.stderr);
+    assert!(said.contains("no format `f32`"), "{said}");
+}
