@@ -12,10 +12,12 @@ pub enum Failure {
     Wrong(String),
     /// What was asked for does not exist or does not fit together.
     Usage(String),
-    /// The machine's picture is not the model's. Already reported.
+    /// The machine's picture is not the model's, or a snapshot changed. Already reported.
     Differs,
     /// A hard case does not pass. Already reported.
     Cases,
+    /// Some of several works failed, the first with this status. Already reported.
+    Several(u8),
     /// Somebody pressed Ctrl-C.
     Interrupted,
 }
@@ -25,13 +27,31 @@ pub type Outcome<T> = Result<T, Failure>;
 
 impl Failure {
     /// The exit status: 1 the scene or program is wrong, 2 wrong usage, 3 the
-    /// machine differs from the model, 130 interrupted (128 + SIGINT, as shells have it).
+    /// machine differs from the model or a snapshot changed, 130 interrupted (128 + SIGINT, as shells have it).
     pub fn status(&self) -> u8 {
         match self {
             Failure::Scene(_) | Failure::Wrong(_) | Failure::Cases => 1,
             Failure::Usage(_) => 2,
             Failure::Differs => 3,
+            Failure::Several(status) => *status,
             Failure::Interrupted => 130,
+        }
+    }
+
+    /// It in one line, for a table.
+    pub fn reason(&self) -> String {
+        match self {
+            Failure::Scene(said) => {
+                let first = said.diagnostics.iter().find(|d| d.is_error());
+                first.map_or("the scene is wrong".to_owned(), |d| d.message.clone())
+            }
+            Failure::Wrong(message) | Failure::Usage(message) => {
+                // What was wrong, and the first of the facts under it.
+                let lines = message.lines().map(str::trim).take(2);
+                lines.collect::<Vec<&str>>().join(" ")
+            }
+            Failure::Differs | Failure::Cases | Failure::Several(_) => "failed".to_owned(),
+            Failure::Interrupted => "interrupted".to_owned(),
         }
     }
 
@@ -40,7 +60,7 @@ impl Failure {
         match self {
             Failure::Scene(said) => crate::diagnostics::print(&said.sources, &said.diagnostics),
             Failure::Wrong(message) | Failure::Usage(message) => eprintln!("error: {message}"),
-            Failure::Differs | Failure::Cases => {}
+            Failure::Differs | Failure::Cases | Failure::Several(_) => {}
             Failure::Interrupted => eprintln!("interrupted"),
         }
         ExitCode::from(self.status())

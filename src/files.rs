@@ -12,6 +12,14 @@ pub const MAX_BYTES: usize = slowlight_compiler::syntax::MAX_BYTES;
 /// # Errors
 /// Where it cannot be read, is a directory, or is longer.
 pub fn read(path: &Path) -> Outcome<Vec<u8>> {
+    read_bounded(path, MAX_BYTES)
+}
+
+/// Reads a file of at most `most` bytes, a few megabytes.
+///
+/// # Errors
+/// Where it cannot be read, is a directory, or is longer.
+pub fn read_bounded(path: &Path, most: usize) -> Outcome<Vec<u8>> {
     let shown = path.display();
     let wrong = |e: std::io::Error| Failure::Wrong(format!("cannot read {shown}: {}", plain(&e)));
     let meta = std::fs::metadata(path).map_err(wrong)?;
@@ -20,11 +28,11 @@ pub fn read(path: &Path) -> Outcome<Vec<u8>> {
     }
     let file = std::fs::File::open(path).map_err(wrong)?;
     let mut bytes = Vec::new();
-    file.take(MAX_BYTES as u64 + 1)
+    file.take(most as u64 + 1)
         .read_to_end(&mut bytes)
         .map_err(wrong)?;
-    if bytes.len() > MAX_BYTES {
-        let limit = MAX_BYTES >> 20;
+    if bytes.len() > most {
+        let limit = most >> 20;
         let message = format!("{shown} is longer than {limit} MB, the most that is read");
         return Err(Failure::Wrong(message));
     }

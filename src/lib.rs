@@ -15,6 +15,7 @@ pub mod files;
 pub mod fit;
 pub mod format;
 pub mod interrupt;
+pub mod jobs;
 pub mod machine;
 pub mod measure;
 pub mod picture;
@@ -22,6 +23,7 @@ pub mod precise;
 pub mod program;
 pub mod progress;
 pub mod scene;
+pub mod snapshot;
 pub mod target_args;
 pub mod trial;
 

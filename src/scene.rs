@@ -60,6 +60,50 @@ pub struct SceneArgs {
     pub prelude: Option<PathBuf>,
 }
 
+/// Several scenes, and what is changed about each.
+#[derive(Args, Clone, Debug)]
+pub struct ScenesArgs {
+    /// The scenes' files
+    #[arg(required = true, value_name = "SCENE")]
+    pub scenes: Vec<PathBuf>,
+    #[command(flatten)]
+    pub changes: Changes,
+}
+
+/// What is changed about each of several scenes: as in [`SceneArgs`], which is
+/// flat because clap knows no optional struct with another one inside.
+#[derive(Args, Clone, Debug)]
+pub struct Changes {
+    /// Give a param another value: eye=0.35,0.25,3.6 or heading=45deg
+    #[arg(long, value_name = "PARAM=VALUE", allow_hyphen_values = true)]
+    pub set: Vec<String>,
+    /// Fold a param like a constant: its name, or all
+    #[arg(long, value_name = "PARAM|all")]
+    pub freeze: Vec<String>,
+    /// Replace an effect by its `else`
+    #[arg(long, value_name = "EFFECT")]
+    pub without: Vec<String>,
+    /// Use this directory's *.scn as the library
+    #[arg(long, value_name = "DIR", hide = true)]
+    pub prelude: Option<PathBuf>,
+}
+
+impl Changes {
+    /// As they are written on the command line; empty where nothing is changed.
+    pub fn text(&self) -> String {
+        let all = [
+            ("--set", &self.set),
+            ("--freeze", &self.freeze),
+            ("--without", &self.without),
+        ];
+        let each = all.into_iter().flat_map(|(option, values)| {
+            let one = move |value: &String| format!("{option} {value}");
+            values.iter().map(one)
+        });
+        each.collect::<Vec<String>>().join(" ")
+    }
+}
+
 /// Texts and what was said about them.
 #[derive(Debug)]
 pub struct Said {
@@ -129,15 +173,29 @@ impl Scene {
     /// Where its file cannot be read, where it is wrong, or where the arguments
     /// name a param or effect that it does not have.
     pub fn load(args: &SceneArgs) -> Outcome<Scene> {
-        let (name, text) = text(&args.scene)?;
-        let library = args.prelude.as_deref().map(prelude).transpose()?;
+        let changes = Changes {
+            set: args.set.clone(),
+            freeze: args.freeze.clone(),
+            without: args.without.clone(),
+            prelude: args.prelude.clone(),
+        };
+        Scene::open(&args.scene, &changes)
+    }
+
+    /// Reads and checks one of several scenes.
+    ///
+    /// # Errors
+    /// As [`Scene::load`].
+    pub fn open(path: &Path, changes: &Changes) -> Outcome<Scene> {
+        let (name, text) = text(path)?;
+        let library = changes.prelude.as_deref().map(prelude).transpose()?;
         let checked = scene::load(&name, &text, library.as_deref(), &mut used);
         if !checked.is_right() {
             return Err(wrong(checked.sources, checked.diagnostics));
         }
-        let options = options(args, &checked.program)?;
+        let options = options(changes, &checked.program)?;
         Ok(Scene {
-            name: name_of(&args.scene),
+            name: name_of(path),
             options,
             checked,
         })
@@ -213,7 +271,7 @@ fn name_of(path: &Path) -> String {
     }
 }
 
-fn options(args: &SceneArgs, program: &Program) -> Outcome<Options> {
+fn options(args: &Changes, program: &Program) -> Outcome<Options> {
     let params = || program.params.iter().map(|p| p.name.as_str());
     let known = |name: &str| {
         if params().any(|p| p == name) {

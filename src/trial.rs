@@ -85,7 +85,10 @@ pub fn run(
     limit: u64,
 ) -> Outcome<Trial> {
     let window = Window::of(&plan);
-    let progress = Progress::new(plan.target.name, u64::from(window.height()));
+    let progress = Progress::new(
+        format!("{} {}", scene.name, plan.target.name),
+        u64::from(window.height()),
+    );
     let top = i64::from(window.rows.0) + i64::from(plan.offset.1);
     let mut run = loaded.run(limit, &mut |now| {
         if let Some(row) = now.row {

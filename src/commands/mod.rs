@@ -6,6 +6,7 @@ mod compare;
 mod fmt;
 mod render;
 mod run;
+mod snapshot;
 mod targets;
 mod vm;
 
@@ -23,8 +24,10 @@ pub enum Command {
     Build(build::Args),
     /// Build, run on the bundled machine, compare with model and native picture
     Run(run::Args),
-    /// Run on several targets: pictures side by side, one table
+    /// Run scenes on several targets: pictures side by side, one table
     Compare(compare::Args),
+    /// Keep generated code, digests and cycles beside a scene; fail where they change
+    Snapshot(snapshot::Args),
     /// Format scenes in place
     Fmt(fmt::Args),
     /// Run any program on a bundled machine
@@ -45,6 +48,7 @@ impl Command {
             Command::Build(args) => build::run(args),
             Command::Run(args) => run::run(args),
             Command::Compare(args) => compare::run(args),
+            Command::Snapshot(args) => snapshot::run(args),
             Command::Fmt(args) => fmt::run(args),
             Command::Vm(args) => vm::run(args),
             Command::Targets(args) => targets::run(args),

@@ -354,9 +354,10 @@ fn compare_puts_all_targets_in_one_table() {
     let dir = dir.path();
     let table = success(dir, &["compare", "spot.scn", "-o", "all.png"]);
     for target in targets(dir) {
-        let row = table.lines().find(|l| l.starts_with(target.as_str()));
+        let starts = |l: &&str| l.split_whitespace().take(2).eq(["spot", target.as_str()]);
+        let row = table.lines().find(starts);
         assert_eq!(
-            row.map(|r| r.split("  ").count() > 5),
+            row.map(|r| r.split_whitespace().count() > 9),
             Some(true),
             "{table}"
         );
@@ -365,6 +366,33 @@ fn compare_puts_all_targets_in_one_table() {
     let one = json(dir, &["compare", "spot.scn", "-t", "6502", "--json"]);
     assert_eq!(one.as_array().map(Vec::len), Some(1));
     assert_eq!(one[0]["target"], "6502:plain");
+}
+
+#[test]
+fn compare_goes_on_where_a_scene_is_wrong() {
+    let wrong = "image 4 x 4 inks black, white; draw (x, y) = ink(flor(x));";
+    let scenes = [("spot.scn", SPOT), ("odd.scn", wrong), ("wave.scn", SPOT)];
+    let dir = directory(&scenes);
+    let args = ["compare", "odd.scn", "spot.scn", "wave.scn", "-t", "6502"];
+    let output = slowlight(dir.path(), &[&args[..], &["--rows", "1..2"]].concat());
+    assert_eq!(output.status.code(), Some(1));
+    let table = String::from_utf8_lossy(&output.stdout);
+    let starts: Vec<&str> = table.lines().take(4).map(|l| &l[..4]).collect();
+    assert_eq!(starts, ["scen", "odd ", "spot", "wave"], "{table}");
+    assert!(table.contains("no function `flor`"), "{table}");
+    let said = String::from_utf8_lossy(&output.stderr);
+    assert!(said.contains("odd.scn:1:"), "{said}");
+    // A row that the picture does not have is wrong usage, and each scene's own.
+    let args = ["compare", "spot.scn", "-t", "6502", "--rows", "9..10"];
+    let output = slowlight(dir.path(), &args);
+    assert_eq!(output.status.code(), Some(2));
+    assert!(output.stdout.is_empty());
+    let args = ["compare", "spot.scn", "-t", "6502", "--markdown"];
+    let lines = success(dir.path(), &args);
+    assert!(
+        lines.lines().take(3).all(|l| l.matches('|').count() == 14),
+        "{lines}"
+    );
 }
 
 #[test]

@@ -5,6 +5,7 @@ mod blue_noise;
 mod cli;
 mod cli_fmt;
 mod cli_run;
+mod cli_snapshot;
 mod cli_wrong;
 mod fit;
 mod hard_cases;
