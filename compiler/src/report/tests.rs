@@ -71,6 +71,21 @@ const DEFEATED: &[(&str, &str, &[&str])] = &[
         include_str!("../../../tests/fragile/sliver.scn"),
         &["jack", "6502:plain"],
     ),
+    (
+        "tangent_spheres",
+        include_str!("../../../tests/fragile/tangent_spheres.scn"),
+        &["jack", "6502:plain"],
+    ),
+    (
+        "edge_torus",
+        include_str!("../../../tests/fragile/edge_torus.scn"),
+        &["jack", "6502:plain"],
+    ),
+    (
+        "axis_maze",
+        include_str!("../../../tests/fragile/axis_maze.scn"),
+        &["jack", "bbc:micro", "6502:plain"],
+    ),
 ];
 
 #[test]
