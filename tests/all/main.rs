@@ -22,5 +22,6 @@ mod precise;
 mod renderers;
 mod snapshots;
 mod spread;
+mod stress;
 mod whole;
 mod wrong;
