@@ -9,7 +9,7 @@ use crate::scene::Scene;
 use crate::target_args::ScreenArgs;
 use serde_json::{Value, json};
 use slowlight_compiler::report::bounded::{Bounded, bounded};
-use slowlight_compiler::report::{fragile::fragile, words::warnings};
+use slowlight_compiler::report::{bounces, fragile::fragile, words::warnings};
 use slowlight_compiler::source::{Diagnostic, Severity};
 use slowlight_compiler::target::{TARGETS, Target};
 
@@ -58,7 +58,8 @@ pub fn look(scene: &Scene, targets: &[&'static Target]) -> Outcome<Vec<Fared>> {
             }
             Err(other) => return Err(other),
         };
-        let said = warnings(&plan, &fragile(&plan));
+        let mut said = warnings(&plan, &fragile(&plan));
+        said.extend(bounces::warnings(&plan, &bounces::measure(&plan)));
         progress.step(1);
         interrupt::check()?;
         all.push(Fared {

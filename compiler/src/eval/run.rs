@@ -26,6 +26,9 @@ pub trait Arithmetic {
     fn truth(&self, value: Self::Value) -> bool;
     /// An int.
     fn int(&self, value: Self::Value) -> i32;
+    /// Told what a loop carries into its turn number `turn`, the first after
+    /// the start being 1; for who measures.
+    fn turn(&self, _of: LoopId, _turn: u32, _carried: &[Option<Self::Value>]) {}
 }
 
 /// Runs a tree over a graph.
@@ -260,6 +263,9 @@ impl<'t, A: Arithmetic> Run<'t, A> {
             }
             self.block(&turns.next);
             taken += 1;
+            if let Some(carried) = self.carried.get(turns.of.0 as usize) {
+                self.arithmetic.turn(turns.of, taken, carried);
+            }
             if taken == max {
                 return self.block(&turns.otherwise);
             }

@@ -1,6 +1,9 @@
 //! What is to be known of a plan beside its code. Data, not text: the command
 //! line renders it.
 
+pub mod bounces;
+#[cfg(test)]
+mod bounces_tests;
 pub mod bounded;
 pub mod fragile;
 mod shadow;

@@ -28,6 +28,13 @@ pub struct Pair {
     event: Option<u32>,
 }
 
+impl Pair {
+    /// The native value.
+    pub fn exact(&self) -> Value {
+        self.exact
+    }
+}
+
 /// One operation that was run.
 #[derive(Clone, Copy, Debug)]
 pub struct Event {
@@ -128,7 +135,8 @@ impl<'p> Shadow<'p> {
         self.log.borrow_mut().seen.push(what);
     }
 
-    fn machine(&self, pair: Pair, ty: Type) -> f64 {
+    /// The machine's value.
+    pub fn machine(&self, pair: Pair, ty: Type) -> f64 {
         let format = self.plan.runtime.format_of(ty);
         (self.plan.runtime.decode)(pair.bits, format).real()
     }
