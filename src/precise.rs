@@ -33,8 +33,18 @@ pub fn formats() -> Vec<&'static Target> {
     TARGETS.iter().filter(new).copied().collect()
 }
 
+fn as_written() -> ScreenArgs {
+    ScreenArgs {
+        as_written: true,
+        ..ScreenArgs::default()
+    }
+}
+
 /// Looks at a scene in the formats of some targets. A target that it does not
 /// compile for is a row of the table, unless it is the only one.
+///
+/// The formulas are looked at as the scene has them: what the compiler makes of
+/// them depends on ranges, and a reader is to know what they lose by themselves.
 ///
 /// # Errors
 /// Where the only target cannot compile it, or the user interrupts.
@@ -43,7 +53,7 @@ pub fn look(scene: &Scene, targets: &[&'static Target]) -> Outcome<Vec<Fared>> {
     let mut all = Vec::new();
     for &target in targets {
         interrupt::check()?;
-        let plan = match ScreenArgs::default().draft(scene, target) {
+        let plan = match as_written().draft(scene, target) {
             Ok(plan) => plan,
             Err(Failure::Scene(said)) if targets.len() > 1 => {
                 let first = said.diagnostics.iter().find(|d| d.is_error());

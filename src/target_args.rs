@@ -5,7 +5,7 @@ use crate::failure::{Failure, Outcome, unknown};
 use crate::fit;
 use crate::scene::{Precision, Scene};
 use clap::{Args, ValueEnum};
-use slowlight_compiler::plan::{Goal, Plan, plan};
+use slowlight_compiler::plan::{Goal, Plan, plan, plan_as_written};
 use slowlight_compiler::target::{self, Mode, TARGETS, Target};
 
 /// Screen and rows.
@@ -23,6 +23,9 @@ pub struct ScreenArgs {
     /// Jack's operating system: `native`, the machine's own [default: native]
     #[arg(long, value_name = "OS")]
     pub os: Option<Os>,
+    /// Without the stable forms: every formula as the scene has it
+    #[arg(long, hide = true)]
+    pub as_written: bool,
 }
 
 /// An operating system for Jack programs.
@@ -147,7 +150,11 @@ impl ScreenArgs {
             rows: asked,
             plot: !self.no_plot,
         };
-        let plan = plan(&graph, target, &goal).map_err(|said| scene.wrong(said))?;
+        let planned = match self.as_written {
+            true => plan_as_written(&graph, target, &goal),
+            false => plan(&graph, target, &goal),
+        };
+        let plan = planned.map_err(|said| scene.wrong(said))?;
         match asked {
             // The screen is lower than the picture, and these are cropped away.
             Some(asked) if asked != plan.rows => Err(Failure::Usage(format!(

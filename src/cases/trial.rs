@@ -13,7 +13,7 @@ use crate::scene::Precision;
 use slowlight_compiler::eval::model::ModelRun;
 use slowlight_compiler::eval::native::Native;
 use slowlight_compiler::flow::graph::Graph;
-use slowlight_compiler::plan::{Goal, Plan, plan};
+use slowlight_compiler::plan::{Goal, Plan, plan_as_written};
 use slowlight_compiler::target::{Target, default_mode};
 use slowlight_routine::{Type, Value};
 use std::collections::{BTreeMap, btree_map};
@@ -220,7 +220,8 @@ impl Prepared {
             rows: None,
             plot: false,
         };
-        match plan(&graph, target, &goal) {
+        // The kernels are judged, not what the compiler makes of them.
+        match plan_as_written(&graph, target, &goal) {
             Ok(plan) => Prepared::Plan(way, Box::new(plan)),
             Err(said) => {
                 let all: Vec<&str> = said.iter().map(|d| d.message.as_str()).collect();

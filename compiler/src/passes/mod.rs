@@ -8,3 +8,4 @@ pub mod rate;
 pub mod rebuild;
 pub mod region;
 pub mod schedule;
+pub mod stable;

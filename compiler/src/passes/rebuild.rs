@@ -9,8 +9,29 @@ use std::collections::HashMap;
 /// already rebuilt, what stands for it instead, if anything.
 pub type Rule<'r> = &'r mut dyn FnMut(&mut Builder, NodeId, Node, Span) -> Option<NodeId>;
 
+/// A rule that looks at the old graph: given what stands for each old node so
+/// far, and the node's old id, what stands for it instead, if anything.
+pub type OldRule<'r> =
+    &'r mut dyn FnMut(&mut Builder, &[Option<NodeId>], NodeId, Span) -> Option<NodeId>;
+
 /// The graph with `rule` applied to every node that the outputs reach.
 pub fn rebuild(graph: &Graph, rule: Rule<'_>) -> Graph {
+    rebuild_by(graph, &mut |builder, _, id, node, span| {
+        rule(builder, id, node, span)
+    })
+}
+
+/// The same by a rule that matches the old graph, several nodes deep.
+pub fn rebuild_old(graph: &Graph, rule: OldRule<'_>) -> Graph {
+    rebuild_by(graph, &mut |builder, made, id, _, span| {
+        rule(builder, made, id, span)
+    })
+}
+
+type AnyRule<'r> =
+    &'r mut dyn FnMut(&mut Builder, &[Option<NodeId>], NodeId, Node, Span) -> Option<NodeId>;
+
+fn rebuild_by(graph: &Graph, rule: AnyRule<'_>) -> Graph {
     let mut rebuilder = Rebuilder {
         graph,
         builder: Builder::new(),
@@ -32,7 +53,7 @@ pub fn rebuild(graph: &Graph, rule: Rule<'_>) -> Graph {
             node => {
                 let node = rebuilder.moved(node, id);
                 let span = graph.span(id);
-                match rule(&mut rebuilder.builder, id, node, span) {
+                match rule(&mut rebuilder.builder, &rebuilder.made, id, node, span) {
                     Some(other) => other,
                     None => rebuilder.plain(node, span),
                 }

@@ -50,6 +50,7 @@ use crate::flow::verify::verify;
 use crate::passes::fold::fold;
 use crate::passes::narrow::narrow;
 use crate::passes::schedule::{missing, schedule};
+use crate::passes::stable::stable;
 use crate::range::{Ranges, Slack, ranges};
 use crate::source::Diagnostic;
 use crate::target::{Mode, TARGETS, Target};
@@ -201,6 +202,28 @@ impl Plan {
 
 /// Plans a graph that `sema` lowered for this target's inks and offset.
 pub fn plan(graph: &Graph, target: &'static Target, goal: &Goal) -> Result<Plan, Vec<Diagnostic>> {
+    planned(graph, target, goal, true)
+}
+
+/// The same without [`crate::passes::stable`]: every formula as the scene has
+/// it. For warnings about what the formulas lose, and to show what the pass does.
+pub fn plan_as_written(
+    graph: &Graph,
+    target: &'static Target,
+    goal: &Goal,
+) -> Result<Plan, Vec<Diagnostic>> {
+    planned(graph, target, goal, false)
+}
+
+/// How often stable forms are looked for: what one makes may let another in.
+const STABLE_ROUNDS: u32 = 4;
+
+fn planned(
+    graph: &Graph,
+    target: &'static Target,
+    goal: &Goal,
+    stably: bool,
+) -> Result<Plan, Vec<Diagnostic>> {
     let runtime = target.runtime;
     if let Err(broken) = verify(graph) {
         let message =
@@ -212,6 +235,14 @@ pub fn plan(graph: &Graph, target: &'static Target, goal: &Goal) -> Result<Plan,
     let mut graph = fold(graph);
     let mut tree = schedule(&graph);
     let mut ranges_now = ranges(&graph, &tree, &slack);
+    for _ in 0..if stably { STABLE_ROUNDS } else { 0 } {
+        let Some(next) = stable(&graph, &ranges_now, slack.most()) else {
+            break;
+        };
+        graph = fold(&next);
+        tree = schedule(&graph);
+        ranges_now = ranges(&graph, &tree, &slack);
+    }
     // What the ranges decide may let more be folded; a few rounds settle it.
     for _ in 0..3 {
         let next = fold(&narrow(&graph, &ranges_now));

@@ -74,6 +74,11 @@ impl Slack {
         }
     }
 
+    /// The greatest real that can be held: what reaches it has no known bound.
+    pub fn most(&self) -> f64 {
+        self.reals.magnitude()
+    }
+
     /// A range with what the routines of an operation may add to it.
     fn enlarge(&self, op: Op, args: &[Range], range: Range) -> Range {
         let all = self.errors.iter().filter(|(o, _)| *o == op);
