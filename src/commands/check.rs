@@ -8,6 +8,7 @@ use crate::scene::{Precision, Scene, SceneArgs};
 use crate::target_args::target;
 use crate::{diagnostics, files, say, say_json};
 use serde_json::json;
+use slowlight_compiler::report::domain;
 use slowlight_compiler::source::Diagnostic;
 use slowlight_compiler::target::{TARGETS, Target, find};
 use std::path::{Path, PathBuf};
@@ -120,13 +121,14 @@ fn targets(args: &Args) -> Outcome<Vec<&'static Target>> {
 fn check(args: &Args, of: &SceneArgs) -> Outcome<()> {
     let targets = targets(args)?;
     let checked = Scene::load(of).and_then(|scene| {
-        scene.graph(None, Precision::NATIVE)?;
+        let graph = scene.graph(None, Precision::NATIVE)?;
+        let zero = domain::warnings(&graph, &scene.checked.sources);
         let fared = precise::look(&scene, &targets)?;
-        Ok((scene, fared))
+        Ok((scene, zero, fared))
     });
     match checked {
-        Ok((scene, fared)) => {
-            report(args, of, &scene, &fared);
+        Ok((scene, zero, fared)) => {
+            report(args, of, &scene, &zero, &fared);
             Ok(())
         }
         Err(Failure::Scene(said)) => {
@@ -140,13 +142,14 @@ fn check(args: &Args, of: &SceneArgs) -> Outcome<()> {
     }
 }
 
-fn report(args: &Args, of: &SceneArgs, scene: &Scene, fared: &[Fared]) {
+fn report(args: &Args, of: &SceneArgs, scene: &Scene, zero: &[Diagnostic], fared: &[Fared]) {
     let sources = &scene.checked.sources;
     let weak = fared.iter().flat_map(|f| &f.said);
     let said: Vec<Diagnostic> = scene
         .checked
         .diagnostics
         .iter()
+        .chain(zero)
         .chain(weak)
         .cloned()
         .collect();

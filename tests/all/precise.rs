@@ -1,6 +1,6 @@
 //! `check` in the targets' formats: what is fragile, what is proved.
 
-use crate::cli::{json, slowlight, success};
+use crate::cli::{directory, json, slowlight, success};
 use std::path::Path;
 
 fn root() -> &'static Path {
@@ -54,4 +54,19 @@ fn a_format_that_no_target_has_is_wrong_usage() {
     assert_eq!(output.status.code(), Some(2));
     let said = String::from_utf8_lossy(&output.stderr);
     assert!(said.contains("no format `f32`"), "{said}");
+}
+
+#[test]
+fn a_divisor_that_may_be_zero_is_named_with_its_range() {
+    let scene = "image 8 x 8 inks black, white;\n\
+        param d: vec3 = (0.5, 0, 1) in (-1, -1, -1) .. (1, 1, 1);\n\
+        draw (x, y) = threshold(1 / d.x + (if d.y > 0 then 1 / d.y else 0) + 1 / (2 + d.z), 0.5);\n";
+    let dir = directory(&[("zero.scn", scene)]);
+    let output = slowlight(dir.path(), &["check", "zero.scn", "--quick"]);
+    let said = String::from_utf8_lossy(&output.stderr);
+    assert_eq!(output.status.code(), Some(0), "{said}");
+    let wanted = "`1 / d.x` may divide by zero: `d.x` lies in [-1, 1]";
+    assert!(said.contains(wanted), "{said}");
+    // What a condition or a range excludes is no fault.
+    assert_eq!(said.matches("may divide").count(), 1, "{said}");
 }

@@ -5,6 +5,7 @@ pub mod bounces;
 #[cfg(test)]
 mod bounces_tests;
 pub mod bounded;
+pub mod domain;
 pub mod fragile;
 mod shadow;
 #[cfg(test)]
