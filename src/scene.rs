@@ -46,18 +46,8 @@ impl Precision {
 pub struct SceneArgs {
     /// The scene's file
     pub scene: PathBuf,
-    /// Give a param another value: eye=0.35,0.25,3.6 or heading=45deg
-    #[arg(long, value_name = "PARAM=VALUE", allow_hyphen_values = true)]
-    pub set: Vec<String>,
-    /// Fold a param like a constant: its name, or all
-    #[arg(long, value_name = "PARAM|all")]
-    pub freeze: Vec<String>,
-    /// Replace an effect by its `else`
-    #[arg(long, value_name = "EFFECT")]
-    pub without: Vec<String>,
-    /// Use this directory's *.scn as the library
-    #[arg(long, value_name = "DIR", hide = true)]
-    pub prelude: Option<PathBuf>,
+    #[command(flatten)]
+    pub changes: Changes,
 }
 
 /// Several scenes, and what is changed about each.
@@ -70,9 +60,8 @@ pub struct ScenesArgs {
     pub changes: Changes,
 }
 
-/// What is changed about each of several scenes: as in [`SceneArgs`], which is
-/// flat because clap knows no optional struct with another one inside.
-#[derive(Args, Clone, Debug)]
+/// What is changed about a scene.
+#[derive(Args, Clone, Debug, Default)]
 pub struct Changes {
     /// Give a param another value: eye=0.35,0.25,3.6 or heading=45deg
     #[arg(long, value_name = "PARAM=VALUE", allow_hyphen_values = true)]
@@ -173,13 +162,7 @@ impl Scene {
     /// Where its file cannot be read, where it is wrong, or where the arguments
     /// name a param or effect that it does not have.
     pub fn load(args: &SceneArgs) -> Outcome<Scene> {
-        let changes = Changes {
-            set: args.set.clone(),
-            freeze: args.freeze.clone(),
-            without: args.without.clone(),
-            prelude: args.prelude.clone(),
-        };
-        Scene::open(&args.scene, &changes)
+        Scene::open(&args.scene, &args.changes)
     }
 
     /// Reads and checks one of several scenes.

@@ -4,7 +4,7 @@
 use crate::cases::{self, Way};
 use crate::failure::{Failure, Outcome, unknown};
 use crate::precise::{self, Fared};
-use crate::scene::{Precision, Scene, SceneArgs};
+use crate::scene::{Changes, Precision, Scene};
 use crate::target_args::target;
 use crate::{diagnostics, files, say, say_json};
 use serde_json::json;
@@ -16,8 +16,10 @@ use std::path::{Path, PathBuf};
 /// Options of `check`.
 #[derive(clap::Args, Debug)]
 pub struct Args {
+    /// The scene's file
+    scene: Option<PathBuf>,
     #[command(flatten)]
-    scene: Option<SceneArgs>,
+    changes: Changes,
     /// Print the diagnostics, or how the cases were passed, as JSON
     #[arg(long)]
     json: bool,
@@ -118,9 +120,9 @@ fn targets(args: &Args) -> Outcome<Vec<&'static Target>> {
     Ok(all.into_iter().filter(wanted).collect())
 }
 
-fn check(args: &Args, of: &SceneArgs) -> Outcome<()> {
+fn check(args: &Args, of: &Path) -> Outcome<()> {
     let targets = targets(args)?;
-    let checked = Scene::load(of).and_then(|scene| {
+    let checked = Scene::open(of, &args.changes).and_then(|scene| {
         let graph = scene.graph(None, Precision::NATIVE)?;
         let zero = domain::warnings(&graph, &scene.checked.sources);
         let fared = precise::look(&scene, &targets)?;
@@ -142,7 +144,7 @@ fn check(args: &Args, of: &SceneArgs) -> Outcome<()> {
     }
 }
 
-fn report(args: &Args, of: &SceneArgs, scene: &Scene, zero: &[Diagnostic], fared: &[Fared]) {
+fn report(args: &Args, of: &Path, scene: &Scene, zero: &[Diagnostic], fared: &[Fared]) {
     let sources = &scene.checked.sources;
     let weak = fared.iter().flat_map(|f| &f.said);
     let said: Vec<Diagnostic> = scene
@@ -165,7 +167,7 @@ fn report(args: &Args, of: &SceneArgs, scene: &Scene, zero: &[Diagnostic], fared
         1 => "1 warning".to_owned(),
         n => format!("{n} warnings"),
     };
-    say(&format!("{}: {remarks}\n", of.scene.display()));
+    say(&format!("{}: {remarks}\n", of.display()));
     if !fared.is_empty() {
         say(&precise::text(fared));
     }

@@ -115,10 +115,7 @@ fn said(plan: &Plan) -> Vec<String> {
 fn faults(path: &Path, target: &str) -> Vec<String> {
     let args = SceneArgs {
         scene: path.to_owned(),
-        set: Vec::new(),
-        freeze: Vec::new(),
-        without: Vec::new(),
-        prelude: None,
+        changes: Default::default(),
     };
     let scene = Scene::load(&args)
         .map_err(|f| format!("{f:?}"))

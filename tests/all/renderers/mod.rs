@@ -11,6 +11,7 @@ mod maze;
 mod mirrors;
 mod original;
 mod primitives;
+mod shape_cases;
 mod shapes;
 mod torus;
 mod vectors;

@@ -1,33 +1,13 @@
 //! Every shape of the library against its own definition with sixty digits.
 //!
-//! The files of `tests/shapes/` say which: a line is
-//!
-//! ```text
-//! analytic | SHAPE | FACETS | ROOT | REGION
-//! combined | SHAPE | FACETS | ROOT | REGION
-//! searched | SHAPE | FACETS | ROOT | REGION
-//! claim | EXPRESSION
-//! ```
-//!
-//! FACETS (`f`, `dist`) are those whose derived gradient is held against
-//! central differences of the facet at a thousand random points. Hits along a
-//! thousand random rays, and along tangents (pairs of rays 2^-40 apart of which
-//! one hits and one misses), are where the `f` of ROOT (without one: SHAPE)
-//! changes its sign, within REGION if there is one, and nowhere before: signs
-//! and dips between equal steps are followed up with sixty digits. The normal
-//! at each hit is the gradient. `analytic` hits are right to what rounding the
-//! coefficients moves them by; so are `combined` ones, which may miss what is
-//! thinner than the offset that keeps rays off surfaces. `searched` shapes are
-//! found by steps, to 1e-8, and rays that meet them at less than 2 degrees may
-//! miss them.
-//! A claim holds at every point `p` of a grid.
+//! The cases are `shape_cases`'.
 
 use super::exact::Exact;
 use super::gradients::{Big, Point, big, random};
 use super::shades;
+use super::shape_cases::{Case, cases, lines};
 use rayon::prelude::*;
 use std::fmt::Write;
-use std::path::Path;
 
 /// What the table's shapes are made of.
 const ITEMS: &str = "
@@ -44,54 +24,6 @@ const POINTS: usize = 1000;
 /// Samples along a ray, `STEP` apart: past everything that is within 2 of (0, 0, 0).
 const SAMPLES: usize = 97;
 const STEP: f64 = 1.0 / 12.0;
-
-struct Case {
-    shape: String,
-    facets: Vec<String>,
-    root: String,
-    region: Option<String>,
-    kind: &'static Kind,
-}
-
-/// How a shape's hits are found, and so what may be asked of them.
-struct Kind {
-    name: &'static str,
-    rays: usize,
-    tangents: usize,
-    /// How far off a hit may be, in terms of `f`.
-    tolerance: f64,
-    /// How deep a ray may go in unseen, where it comes out again.
-    depth: f64,
-    /// How slowly `f` may change where a ray that crosses it is not seen to.
-    grazing: f64,
-}
-
-const KINDS: [Kind; 3] = [
-    Kind {
-        name: "analytic",
-        rays: 1000,
-        tangents: 100,
-        tolerance: 1e-12,
-        depth: 1e-12,
-        grazing: 0.0,
-    },
-    Kind {
-        name: "combined",
-        rays: 1000,
-        tangents: 60,
-        tolerance: 1e-12,
-        depth: 2e-9,
-        grazing: 0.0,
-    },
-    Kind {
-        name: "searched",
-        rays: 250,
-        tangents: 20,
-        tolerance: 1e-8,
-        depth: 3e-4,
-        grazing: 0.035,
-    },
-];
 
 fn table(rows: &[Vec<f64>]) -> String {
     let mut out = String::new();
@@ -363,41 +295,6 @@ fn hits(case: &Case) -> (usize, usize) {
     }
     assert!(kinks * 20 <= met, "{}: {kinks} hits of edges", case.shape);
     (met, rays.len() - met)
-}
-
-/// The lines of every file, comments left out.
-fn lines() -> Vec<String> {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/shapes");
-    let mut files: Vec<_> = std::fs::read_dir(folder)
-        .unwrap()
-        .map(|e| e.unwrap().path())
-        .collect();
-    files.sort();
-    let texts = files.iter().map(|f| std::fs::read_to_string(f).unwrap());
-    let all: Vec<String> = texts
-        .flat_map(|t| t.lines().map(str::to_owned).collect::<Vec<_>>())
-        .collect();
-    let said = |l: &String| !l.trim().is_empty() && !l.starts_with("//");
-    all.into_iter().filter(said).collect()
-}
-
-fn cases() -> Vec<Case> {
-    let mut found = Vec::new();
-    for line in lines() {
-        let parts: Vec<&str> = line.split('|').map(str::trim).collect();
-        if parts[0] == "claim" {
-            continue;
-        }
-        let kind = KINDS.iter().find(|k| k.name == parts[0]);
-        found.push(Case {
-            shape: parts[1].to_owned(),
-            facets: parts[2].split_whitespace().map(str::to_owned).collect(),
-            root: parts.get(3).unwrap_or(&parts[1]).to_string(),
-            region: parts.get(4).map(|r| r.to_string()),
-            kind: kind.unwrap_or_else(|| panic!("{line}")),
-        });
-    }
-    found
 }
 
 #[test]
