@@ -123,20 +123,30 @@ pub fn native(graph: &Graph, window: Window) -> Outcome<Drawn> {
     })
 }
 
-/// The picture of a plan in its routines' models.
+/// The picture of a plan in its routines' models; the shades are computed for
+/// their own sake where the plan gets its inks without.
 ///
 /// # Errors
 /// Only an interruption.
 pub fn model(plan: &Plan) -> Outcome<Drawn> {
     let window = Window::of(plan);
-    let pixels = rows("model", &plan.graph, window, || {
-        let mut model = ModelRun::new(plan);
-        move |columns, y, out| out.extend(columns.map(|x| model.pixel(x, y)))
-    })?;
+    let mut pixels = modelled("model", plan)?;
+    if let Some(shaded) = plan.shaded() {
+        for (pixel, other) in pixels.iter_mut().zip(modelled("shades", &shaded)?) {
+            pixel.shade = other.shade;
+        }
+    }
     Ok(Drawn {
         window,
         palette: plan.graph.image.palette.clone(),
         pixels,
+    })
+}
+
+fn modelled(what: &'static str, plan: &Plan) -> Outcome<Vec<Pixel>> {
+    rows(what, &plan.graph, Window::of(plan), || {
+        let mut model = ModelRun::new(plan);
+        move |columns, y, out| out.extend(columns.map(|x| model.pixel(x, y)))
     })
 }
 

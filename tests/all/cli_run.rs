@@ -1,5 +1,5 @@
 //! `run`, `build` and `compare` on every target: the machine against the model
-//! and the native picture, edited programs, exit statuses.
+//! and the native picture, exit statuses.
 
 use crate::cli::{STEPS, directory, json, names, slowlight, success};
 use serde_json::Value;
@@ -7,7 +7,7 @@ use std::path::Path;
 
 /// A scene with everything that the pipeline has: params, an effect, a loop,
 /// a table, a dither; smooth, so that formats differ by little.
-const SPOT: &str = "image 12 x 8 inks black, white;
+pub const SPOT: &str = "image 12 x 8 inks black, white;
 param at: vec2 = (5.5, 3.5) in (0, 0) .. (11, 7);
 const cells = [0.2, 0.6; 0.8, 0.4];
 effect glow(v: real) -> real else v = min(v + 0.1, 1);
@@ -21,7 +21,8 @@ draw (x, y) = {
 };
 ";
 
-fn targets(dir: &Path) -> Vec<String> {
+/// The names of all targets.
+pub fn targets(dir: &Path) -> Vec<String> {
     let listed = json(dir, &["targets", "--json"]);
     let all = listed.as_array().expect("a list").iter();
     let names = all.map(|t| t["target"].as_str().expect("a name").to_owned());
@@ -130,13 +131,13 @@ fn the_offset_is_where_the_picture_stands_on_the_screen() {
 }
 
 /// The sources that `build` writes for a target, in a directory of their own.
-fn built(dir: &Path, target: &str) -> Vec<String> {
+pub fn built(dir: &Path, target: &str) -> Vec<String> {
     success(dir, &["build", "spot.scn", "--target", target, "-o", "out"]);
     names(&dir.join("out"))
 }
 
 /// Changes the files of `out` with `change`; answers how many it changed.
-fn edit(dir: &Path, change: impl Fn(&str) -> Option<String>) -> usize {
+pub fn edit(dir: &Path, change: impl Fn(&str) -> Option<String>) -> usize {
     let mut changed = 0;
     for name in names(dir) {
         let path = dir.join(name);
@@ -148,127 +149,6 @@ fn edit(dir: &Path, change: impl Fn(&str) -> Option<String>) -> usize {
         }
     }
     changed
-}
-
-/// The text with the number behind `label =` replaced.
-fn with_value(text: &str, label: &str, value: impl Fn(&str) -> String) -> Option<String> {
-    let mut found = false;
-    let line = |line: &str| {
-        let assigned = line.find(label).and_then(|at| {
-            let rest = &line[at + label.len()..];
-            let equals = rest.find('=')?;
-            let number = rest[equals + 1..].trim_start();
-            let end = number.find(|c: char| !c.is_ascii_digit() && c != '.' && c != '-');
-            let number = &number[..end.unwrap_or(number.len())];
-            (rest[..equals].trim().is_empty() && !number.is_empty()).then_some(number)
-        });
-        match assigned {
-            Some(number) if !found => {
-                found = true;
-                line.replacen(number, &value(number), 1)
-            }
-            _ => line.to_owned(),
-        }
-    };
-    let new: Vec<String> = text.lines().map(line).collect();
-    found.then(|| new.join("\n") + "\n")
-}
-
-#[test]
-fn edited_parameters_change_the_picture() {
-    let dir = directory(&[("spot.scn", SPOT)]);
-    let dir = dir.path();
-    for target in targets(dir) {
-        let files = built(dir, &target);
-        assert!(!files.is_empty(), "{target}");
-        let out = dir.join("out");
-        let run = ["run", "spot.scn", "--target", &target, "--program", "out"];
-        let untouched = success(dir, &run);
-        assert!(!untouched.is_empty());
-        // 5.5 becomes 2, in the block's own scale.
-        let scaled = |number: &str| {
-            let old: f64 = number.parse().expect("a number");
-            (old / 5.5 * 2.0).round().to_string()
-        };
-        assert_eq!(edit(&out, |t| with_value(t, "at_x", scaled)), 1, "{target}");
-        let edited = json(dir, &[&run[..], &["--json"]].concat());
-        assert_eq!(edited["differs_from_model"], 0, "{target}");
-        let set = [
-            "run", "spot.scn", "--target", &target, "--json", "--set", "at=2,3.5",
-        ];
-        assert_eq!(
-            edited["inks_sha256"],
-            json(dir, &set)["inks_sha256"],
-            "{target}"
-        );
-
-        let fails = |part: &str| {
-            let output = slowlight(dir, &run);
-            let said = String::from_utf8_lossy(&output.stderr);
-            assert_eq!(output.status.code(), Some(1), "{target}: {said}");
-            assert!(said.contains(part), "{target}: {said}");
-        };
-        edit(&out, |t| with_value(t, "at_x", |_| "20000".to_owned()));
-        fails("outside its range");
-        edit(&out, |t| Some(t.replace("at_x", "at_q")));
-        fails("at_x");
-        std::fs::remove_dir_all(&out).expect("removed");
-        fails("out");
-    }
-}
-
-/// Names that mean something to some machine, and each type.
-const ODD: &str = "image 8 x 4 inks black, white;
-param a: real = 1 in 0 .. 4;
-param field: real = 1 in 0 .. 4;
-param Left: int = 1 in 0 .. 4;
-param lda: real = 1 in 0 .. 4;
-param sign: real = 1 in 0 .. 4;
-param x1: bool = true;
-param Count: real = 1 in 0 .. 4;
-param count: real = 1 in 0 .. 4;
-param COUNT: real = 0.5 in 0 .. 4;
-param TO: int = 2 in 0 .. 4;
-param X: int = 3 in 0 .. 4;
-param ENDpoint: vec2 = (0.25, 1.5) in (0, 0) .. (4, 4);
-draw (x, y) = {
-  let endpoint_x = a + field + Left + lda + sign + Count + count;
-  let to = (if endpoint_x > 2 then TO + y else X) + x;
-  let sum = endpoint_x + COUNT + TO * X + ENDpoint.x * ENDpoint.y + to * to;
-  ink(floor((sum + x) / 8) + (if x1 then 0 else 1))
-};
-";
-
-#[test]
-fn parameters_are_found_under_any_name() {
-    let dir = directory(&[("spot.scn", ODD)]);
-    let dir = dir.path();
-    for target in targets(dir) {
-        built(dir, &target);
-        let run = ["run", "spot.scn", "--target", &target, "--program", "out"];
-        let same = json(dir, &[&run[..], &["--json"]].concat());
-        assert_eq!(same["differs_from_model"], 0, "{target}");
-        // Each under its own name: one changed is that one.
-        let out = dir.join("out");
-        let names = ["ENDpoint_y", "endpoint_y"];
-        let edited: usize = names
-            .iter()
-            .map(|name| edit(&out, |t| with_value(t, name, double)))
-            .sum();
-        assert_eq!(edited, 1, "{target}");
-        let edited = json(dir, &[&run[..], &["--json"]].concat());
-        let set = ["run", "spot.scn", "--target", &target, "--json"];
-        let set = json(dir, &[&set[..], &["--set", "ENDpoint=0.25,3"]].concat());
-        assert_eq!(edited["differs_from_model"], 0, "{target}");
-        assert_eq!(edited["inks_sha256"], set["inks_sha256"], "{target}");
-        std::fs::remove_dir_all(out).expect("removed");
-    }
-}
-
-/// A number of the parameter block, doubled.
-fn double(number: &str) -> String {
-    let old: f64 = number.parse().expect("a number");
-    (2.0 * old).to_string()
 }
 
 #[test]
@@ -346,6 +226,26 @@ fn a_run_can_be_cut_short() {
         assert!(said.contains("--limit"), "{target}: {said}");
     }
     assert_eq!(names(dir.path()), ["steps.scn"]);
+}
+
+/// A dither of halves: the ink of the dark half needs no shade.
+const HALVES: &str = "image 16 x 16 inks black, white;
+draw (x, y) = {
+  let v = (x + 0.5) / width;
+  if y mod 8 == 7 then ink(0) else threshold(v * v, bayer(4)[x mod 4, y mod 4])
+};
+";
+
+#[test]
+fn errors_are_of_shades_even_where_the_program_needs_none() {
+    let dir = directory(&[("halves.scn", HALVES)]);
+    for target in targets(dir.path()) {
+        let run = json(dir.path(), &["run", "halves.scn", "-t", &target, "--json"]);
+        assert_eq!(run["differs_from_model"], 0, "{target}");
+        // The inks alone would differ from the shades by a third.
+        let rmse = run["rmse"].as_f64().expect("a number");
+        assert!(rmse < 0.001, "{target}: {rmse}");
+    }
 }
 
 #[test]

@@ -4,6 +4,7 @@ mod bbc;
 mod blue_noise;
 mod cli;
 mod cli_fmt;
+mod cli_params;
 mod cli_run;
 mod cli_snapshot;
 mod cli_wrong;

@@ -33,6 +33,7 @@
 //!
 //! The model ([`crate::eval::model`]) runs the same plan bit for bit.
 
+mod choose;
 mod fold_uses;
 mod lifetimes;
 mod names;
@@ -53,7 +54,7 @@ use crate::passes::schedule::{missing, schedule};
 use crate::passes::stable::stable;
 use crate::range::{Ranges, Slack, ranges};
 use crate::source::Diagnostic;
-use crate::target::{Mode, TARGETS, Target};
+use crate::target::{Mode, Target};
 use slowlight_routine::{Bits, Format, Op, Range, Routine, Runtime, Type, Value};
 use std::collections::HashMap;
 
@@ -104,6 +105,8 @@ pub struct Plan {
     gather: Option<&'static Routine>,
     folded: Vec<bool>,
     homes: HashMap<Place, String>,
+    /// What was planned, and whether its formulas could be rewritten.
+    origin: (Box<Graph>, bool),
 }
 
 impl Plan {
@@ -187,6 +190,34 @@ impl Plan {
         }
     }
 
+    /// A plan of the same scene that computes the shade at every pixel, where
+    /// this one does not: the dither may need less than the shade, and a
+    /// picture's error is measured on shades. None where this plan will do.
+    pub fn shaded(&self) -> Option<Plan> {
+        let shade = self.graph.shade?;
+        let always = |b: &Block| b.iter().any(|s| writes(s, shade));
+        let tree = &self.tree;
+        if self.place(shade).is_none()
+            || [&tree.frame, &tree.row, &tree.pixel]
+                .into_iter()
+                .any(always)
+        {
+            return None;
+        }
+        let (graph, stably) = &self.origin;
+        let mut graph = (**graph).clone();
+        graph.reports.extend(graph.shade);
+        let goal = Goal {
+            name: self.name.clone(),
+            mode: self.mode,
+            rows: Some(self.rows),
+            plot: self.plot,
+        };
+        let mut plan = planned(&graph, self.target, &goal, *stably).ok()?;
+        plan.params = self.params.clone();
+        Some(plan)
+    }
+
     /// The names of the parts of the runtime that the routines need, closed
     /// over what those need; in the runtime's order.
     pub fn parts(&self) -> Vec<&'static slowlight_routine::Part> {
@@ -197,6 +228,15 @@ impl Plan {
             .flatten()
             .flat_map(|r| r.needs.iter().copied());
         self.runtime.closure(names)
+    }
+}
+
+/// Whether a statement is the one that gives a node its value.
+fn writes(statement: &Statement, node: NodeId) -> bool {
+    match statement {
+        Statement::Let(id) => *id == node,
+        Statement::Set { place, .. } => *place == Place::Node(node),
+        _ => false,
     }
 }
 
@@ -219,20 +259,20 @@ pub fn plan_as_written(
 const STABLE_ROUNDS: u32 = 4;
 
 fn planned(
-    graph: &Graph,
+    origin: &Graph,
     target: &'static Target,
     goal: &Goal,
     stably: bool,
 ) -> Result<Plan, Vec<Diagnostic>> {
     let runtime = target.runtime;
-    if let Err(broken) = verify(graph) {
+    if let Err(broken) = verify(origin) {
         let message =
             format!("the graph is broken: {broken}; a fault of the compiler, please report it");
-        return Err(vec![Diagnostic::error(graph.span(broken.node), message)]);
+        return Err(vec![Diagnostic::error(origin.span(broken.node), message)]);
     }
-    let params = params::params(graph, runtime)?;
+    let params = params::params(origin, runtime)?;
     let slack = Slack::of(runtime);
-    let mut graph = fold(graph);
+    let mut graph = fold(origin);
     let mut tree = schedule(&graph);
     let mut ranges_now = ranges(&graph, &tree, &slack);
     for _ in 0..if stably { STABLE_ROUNDS } else { 0 } {
@@ -257,7 +297,7 @@ fn planned(
         let message = format!("the schedule lost {id}: a fault of the compiler, please report it");
         return Err(vec![Diagnostic::error(graph.span(id), message)]);
     }
-    let routines = choose(&graph, &tree, &ranges_now, runtime)?;
+    let routines = choose::choose(&graph, &tree, &ranges_now, runtime)?;
     let gather = graph.diffusion.as_ref().and_then(|_| gathering(runtime));
     let folded = fold_uses::folded(&graph, &tree);
     let (offset, columns, rows) = frame(&graph.image, &goal.mode);
@@ -284,6 +324,7 @@ fn planned(
         homes,
         graph,
         tree,
+        origin: (Box::new(origin.clone()), stably),
     })
 }
 
@@ -307,56 +348,4 @@ fn frame(image: &Image, mode: &Mode) -> ((i32, i32), (u32, u32), (u32, u32)) {
     let (left, columns) = axis(image.width, mode.width);
     let (top, rows) = axis(image.height, mode.height);
     ((left, top), columns, rows)
-}
-
-/// Which targets can compute an operation.
-fn elsewhere(op: Op) -> String {
-    let can = |t: &&&Target| t.runtime.routines.iter().any(|r| r.op == op);
-    let names: Vec<&str> = TARGETS.iter().filter(can).map(|t| t.name).collect();
-    match names.is_empty() {
-        true => "no target can yet".to_owned(),
-        false => format!("these can: {}", names.join(", ")),
-    }
-}
-
-type Chosen = Vec<Option<&'static Routine>>;
-
-/// The first routine in the runtime's list, for each operation, whose domain
-/// the ranges prove.
-fn choose(
-    graph: &Graph,
-    tree: &Tree,
-    ranges: &Ranges,
-    runtime: &'static Runtime,
-) -> Result<Chosen, Vec<Diagnostic>> {
-    let mut chosen: Chosen = vec![None; graph.nodes.len()];
-    let mut missing = Vec::new();
-    for block in [&tree.frame, &tree.row, &tree.pixel] {
-        walk(block, &mut |statement| {
-            let Statement::Let(id) = *statement else {
-                return;
-            };
-            let Node::Apply(op, _) = graph.node(id) else {
-                return;
-            };
-            let at = id.0 as usize;
-            let args = &ranges.args[at][..op.arity()];
-            let fits = |r: &&Routine| r.op == op && (r.domain)(args, ranges.exact[at]);
-            match runtime.routines.iter().find(fits) {
-                Some(routine) => chosen[at] = Some(routine),
-                None => missing.push(
-                    Diagnostic::error(
-                        graph.span(id),
-                        format!("{} cannot compute `{}` yet", runtime.name, op.name()),
-                    )
-                    .help(elsewhere(op)),
-                ),
-            }
-        });
-    }
-    if missing.is_empty() {
-        Ok(chosen)
-    } else {
-        Err(missing)
-    }
 }

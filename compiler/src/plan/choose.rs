@@ -1,0 +1,60 @@
+//! Which routine computes each operation.
+
+use crate::flow::graph::*;
+use crate::flow::tree::*;
+use crate::range::Ranges;
+use crate::source::Diagnostic;
+use crate::target::{TARGETS, Target};
+use slowlight_routine::{Op, Routine, Runtime};
+
+/// Which targets can compute an operation.
+fn elsewhere(op: Op) -> String {
+    let can = |t: &&&Target| t.runtime.routines.iter().any(|r| r.op == op);
+    let names: Vec<&str> = TARGETS.iter().filter(can).map(|t| t.name).collect();
+    match names.is_empty() {
+        true => "no target can yet".to_owned(),
+        false => format!("these can: {}", names.join(", ")),
+    }
+}
+
+type Chosen = Vec<Option<&'static Routine>>;
+
+/// The first routine in the runtime's list, for each operation, whose domain
+/// the ranges prove.
+pub(super) fn choose(
+    graph: &Graph,
+    tree: &Tree,
+    ranges: &Ranges,
+    runtime: &'static Runtime,
+) -> Result<Chosen, Vec<Diagnostic>> {
+    let mut chosen: Chosen = vec![None; graph.nodes.len()];
+    let mut missing = Vec::new();
+    for block in [&tree.frame, &tree.row, &tree.pixel] {
+        walk(block, &mut |statement| {
+            let Statement::Let(id) = *statement else {
+                return;
+            };
+            let Node::Apply(op, _) = graph.node(id) else {
+                return;
+            };
+            let at = id.0 as usize;
+            let args = &ranges.args[at][..op.arity()];
+            let fits = |r: &&Routine| r.op == op && (r.domain)(args, ranges.exact[at]);
+            match runtime.routines.iter().find(fits) {
+                Some(routine) => chosen[at] = Some(routine),
+                None => missing.push(
+                    Diagnostic::error(
+                        graph.span(id),
+                        format!("{} cannot compute `{}` yet", runtime.name, op.name()),
+                    )
+                    .help(elsewhere(op)),
+                ),
+            }
+        });
+    }
+    if missing.is_empty() {
+        Ok(chosen)
+    } else {
+        Err(missing)
+    }
+}
