@@ -16,6 +16,9 @@ pub enum Builtin {
     Bayer,
     /// A ray from a point; the direction has length 1 by contract.
     Ray,
+    /// A hit from its point, unit normal and distance along the ray; what a
+    /// shape's own solution may give.
+    Hit,
     /// Entries of a table.
     Count,
     /// The nearest hit of a shape.
@@ -46,6 +49,7 @@ impl Builtin {
             Builtin::Ink => "ink".into(),
             Builtin::Bayer => "bayer".into(),
             Builtin::Ray => "ray".into(),
+            Builtin::Hit => "hit".into(),
             Builtin::Count => "count".into(),
             Builtin::ShapeHit => "shape.hit".into(),
             Builtin::ShapeNormal => "shape.normal".into(),
@@ -140,6 +144,9 @@ pub fn signatures() -> Vec<Signature> {
         params
     };
     let far = || Param("far", Real, true);
+    let mut parts = pair("point", "normal", Vector(3));
+    parts.push(need("t", Real));
+    add("hit", Builtin::Hit, parts, Hit(None));
     add("hit", Builtin::ShapeHit, on(Shape, one("r", Ray)), hit());
     add(
         "normal",

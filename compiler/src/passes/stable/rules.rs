@@ -30,6 +30,7 @@ const GOLDBERG: &str =
     "Goldberg, What Every Computer Scientist Should Know About Floating-Point Arithmetic (1991)";
 const HAINES: &str = "Haines, Günther, Akenine-Möller, Precision Improvements for Ray/Sphere Intersection (Ray Tracing Gems, 2019)";
 const HIGHAM: &str = "Higham, Accuracy and Stability of Numerical Algorithms (2002), chapter 1";
+const BLUE: &str = "Blue, A Portable Fortran Program to Find the Euclidean Norm of a Vector (1978)";
 const SHEWCHUK: &str = "Shewchuk, Adaptive Precision Floating-Point Arithmetic (1997)";
 const BLANCHARD: &str =
     "Blanchard, Higham, Higham, Accurately Computing the Log-Sum-Exp and Softmax Functions (2021)";
@@ -251,6 +252,14 @@ pub static RULES: &[Rule] = &[
         when: |s| ["a", "b"].iter().any(|l| steep(s, l)),
         condition: "an exponent may exceed 4 in magnitude",
         source: BLANCHARD,
+    },
+    Rule {
+        name: "divisor beyond the format",
+        left: &[form!((Div x k))],
+        right: form!((Div (Div x 16.0) (Div k 16.0))),
+        when: |s| s.constant("k").is_some_and(|k| k.abs() > s.known.most),
+        condition: "k is a constant greater than the format's greatest real",
+        source: BLUE,
     },
     Rule {
         name: "orientation by differences",

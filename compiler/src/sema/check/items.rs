@@ -274,7 +274,13 @@ impl<'a> Checker<'a> {
             }
             let what = format!("`{}`", kind.name());
             let cx = Self::context(item, library);
-            let body = self.body(cx, &locals, &tree.body, Some((&result, &what)));
+            let mut body = self.body(cx, &locals, &tree.body, None);
+            let result = match kind {
+                // A solution may know the point and the normal too.
+                FacetKind::Hit if is_hit(&body.value.ty) => Ty::Hit(None).optional(),
+                _ => result,
+            };
+            body.value = self.coerce(body.value, &result, &what);
             facets.push(Facet {
                 kind,
                 body,
@@ -338,5 +344,13 @@ impl<'a> Checker<'a> {
             let error = Diagnostic::error(place, "the scene has no `draw`");
             self.report(error.help("add `draw (x, y) = ink(0);`"));
         }
+    }
+}
+
+/// Whether a value is a hit, present or not.
+fn is_hit(ty: &Ty) -> bool {
+    match ty {
+        Ty::Optional(inner) => is_hit(inner),
+        other => matches!(other, Ty::Hit(_)),
     }
 }

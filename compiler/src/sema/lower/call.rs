@@ -161,6 +161,13 @@ impl<'a> Lower<'a> {
                 }
                 None => Err(self.confused(span)),
             },
+            Builtin::Hit => match (second, rest.get(1).cloned().flatten()) {
+                (Some((_, normal)), Some((_, t))) => {
+                    let normal = self.direction(normal, span)?;
+                    Ok(Val::parts(vec![value, normal, t]))
+                }
+                _ => Err(self.confused(span)),
+            },
             Builtin::Count => match self.force(value)? {
                 Val::Table(table) if table.height() == 1 => {
                     Ok(Val::Node(self.int(table.width as i32, span)))

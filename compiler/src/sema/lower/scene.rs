@@ -1,5 +1,6 @@
 //! Scenes: the nearest of their shapes.
 
+use super::shape::Solution;
 use super::value::{Shape, Val};
 use super::{Found, Lower};
 use crate::flow::graph::NodeId;
@@ -67,7 +68,7 @@ impl<'a> Lower<'a> {
             }
             _ => {
                 let (_, wins) = self.nearest(scene, &arg, span)?;
-                self.tag_of(scene, &wins, arg, span)
+                self.tag_of(scene, &wins, span, |_, _| Ok(arg.clone()))
             }
         }
     }
@@ -111,7 +112,14 @@ impl<'a> Lower<'a> {
         self.force(value)
     }
 
-    fn tag_of(&mut self, id: SceneId, wins: &[NodeId], p: Val, span: Span) -> Found<Val> {
+    /// The winner's tag, which sees the point that `point` gives for it.
+    fn tag_of(
+        &mut self,
+        id: SceneId,
+        wins: &[NodeId],
+        span: Span,
+        mut point: impl FnMut(&mut Self, usize) -> Found<Val>,
+    ) -> Found<Val> {
         let Some(scene) = self.program.scenes.get(id.0) else {
             return Err(self.confused(span));
         };
@@ -119,8 +127,9 @@ impl<'a> Lower<'a> {
             let Some(tag) = scene.members.get(k).and_then(|m| m.tag.as_ref()) else {
                 return Err(l.confused(span));
             };
+            let p = point(l, k)?;
             let place = l.place.take();
-            let value = l.enter(tag, vec![p.clone()], |l| l.expr(&tag.value));
+            let value = l.enter(tag, vec![p], |l| l.expr(&tag.value));
             l.place = place;
             value
         })
@@ -141,41 +150,44 @@ impl<'a> Lower<'a> {
         };
         let mut present = self.bool(false, span);
         let mut wins = Vec::new();
+        let mut found = Vec::new();
         let shapes = self.shapes_of(id, span)?;
         for shape in &shapes {
-            let (there, t) = self.distance_of(shape, &ray, span)?;
-            let near = self.scalar(BinaryOp::Le, &Ty::Real, t, best, span)?;
+            let solution = self.solved(shape, ray.clone(), span)?;
+            let near = self.scalar(BinaryOp::Le, &Ty::Real, solution.t, best, span)?;
             let no = self.bool(false, span);
-            let win = self.select(there, near, no, span);
-            best = self.select(win, t, best, span);
+            let win = self.select(solution.present, near, no, span);
+            best = self.select(win, solution.t, best, span);
             let yes = self.bool(true, span);
             present = self.select(win, yes, present, span);
             wins.push(win);
+            found.push(solution);
         }
         self.b.name(best, "t");
-        let t = Val::Node(best);
-        let point = self.lazy_point(ray, t.clone(), span);
-        let place = self.place;
-        let (at, won) = (point.clone(), wins.clone());
-        let normal = Val::lazy(Box::new(move |l: &mut Lower<'_>| {
-            let outer = std::mem::replace(&mut l.place, place);
-            let normal = l.of_winner(&won, span, |l, k| match shapes.get(k) {
-                Some(shape) => l.shape_normal(shape, at.clone(), span),
-                None => Err(l.confused(span)),
-            });
-            l.place = outer;
-            let normal = normal?;
-            l.name(&normal, &Ty::Vector(3), "normal");
-            Ok(normal)
-        }));
-        let mut parts = vec![point.clone(), normal, t];
+        // The winner's distance is the best one; so those whose solutions do not
+        // say the point share one.
+        found.iter_mut().for_each(|solution| solution.t = best);
+        let winner = Rc::new(Winner {
+            ray,
+            shapes,
+            wins,
+            found,
+        });
+        let of = winner.clone();
+        let point = self.later("point", move |l| {
+            l.of_winner(&of.wins, span, |l, k| of.point(l, k, span))
+        });
+        let of = winner.clone();
+        let normal = self.later("normal", move |l| {
+            l.of_winner(&of.wins, span, |l, k| of.normal(l, k, span))
+        });
+        let mut parts = vec![point, normal, Val::Node(best)];
         if has_tag(ty) {
-            parts.push(Val::lazy(Box::new(move |l: &mut Lower<'_>| {
-                let outer = std::mem::replace(&mut l.place, place);
-                let tag = l.tag_of(id, &wins, point, span);
-                l.place = outer;
-                tag
-            })));
+            parts.push(
+                self.here(move |l| {
+                    l.tag_of(id, &winner.wins, span, |l, k| winner.point(l, k, span))
+                }),
+            );
         }
         Ok(Val::Optional {
             present,
@@ -190,45 +202,28 @@ impl<'a> Lower<'a> {
             Val::Optional { present, value } => (present, (*value).clone()),
             _ => return Err(self.confused(span)),
         };
-        let point = self.lazy_point(ray, t.clone(), span);
-        let place = self.place;
+        let along = t.clone();
+        let point = self.later("point", move |l| l.along(&ray, along, span));
         let at = point.clone();
-        let normal = Val::lazy(Box::new(move |l: &mut Lower<'_>| {
-            let outer = std::mem::replace(&mut l.place, place);
+        let normal = self.later("normal", move |l| {
             let shapes = l.shapes_of(id, span)?;
             let (_, wins) = l.nearest(id, &at, span)?;
-            let normal = l.of_winner(&wins, span, |l, k| match shapes.get(k) {
+            l.of_winner(&wins, span, |l, k| match shapes.get(k) {
                 Some(shape) => l.shape_normal(shape, at.clone(), span),
                 None => Err(l.confused(span)),
-            });
-            l.place = outer;
-            normal
-        }));
+            })
+        });
         let mut parts = vec![point.clone(), normal, t];
         if has_tag(ty) {
-            parts.push(Val::lazy(Box::new(move |l: &mut Lower<'_>| {
-                let outer = std::mem::replace(&mut l.place, place);
+            parts.push(self.here(move |l| {
                 let (_, wins) = l.nearest(id, &point, span)?;
-                let tag = l.tag_of(id, &wins, point, span);
-                l.place = outer;
-                tag
-            })));
+                l.tag_of(id, &wins, span, |_, _| Ok(point.clone()))
+            }));
         }
         Ok(Val::Optional {
             present,
             value: Rc::new(Val::parts(parts)),
         })
-    }
-
-    /// Whether and where a shape is hit.
-    fn distance_of(&mut self, shape: &Rc<Shape>, ray: &Val, span: Span) -> Found<(NodeId, NodeId)> {
-        match self.shape_distance(shape, ray.clone(), span)? {
-            Val::Optional { present, value } => {
-                let t = self.node((*value).clone(), &Ty::Real, span)?;
-                Ok((present, t))
-            }
-            _ => Err(self.confused(span)),
-        }
     }
 
     /// Whether anything is hit nearer than `far`: stops at the first.
@@ -239,7 +234,9 @@ impl<'a> Lower<'a> {
         };
         let mut hits = Vec::new();
         for shape in self.shapes_of(id, span)? {
-            let (there, t) = self.distance_of(&shape, &ray, span)?;
+            let Solution {
+                present: there, t, ..
+            } = self.solved(&shape, ray.clone(), span)?;
             hits.push(match far {
                 Some(far) => {
                     let near = self.scalar(BinaryOp::Lt, &Ty::Real, t, far, span)?;
@@ -261,4 +258,31 @@ impl<'a> Lower<'a> {
 /// Whether an optional hit has a tag.
 fn has_tag(ty: &Ty) -> bool {
     matches!(ty, Ty::Optional(hit) if matches!(**hit, Ty::Hit(Some(_))))
+}
+
+/// What `trace` found of each shape; the last whose test in `wins` holds is nearest.
+struct Winner {
+    ray: Val,
+    shapes: Vec<Rc<Shape>>,
+    wins: Vec<NodeId>,
+    found: Vec<Solution>,
+}
+
+impl Winner {
+    /// The point hit, if it is shape `k`'s.
+    fn point(&self, l: &mut Lower<'_>, k: usize, span: Span) -> Found<Val> {
+        match self.found.get(k) {
+            Some(found) => l.point_of(found, &self.ray, span),
+            None => Err(l.confused(span)),
+        }
+    }
+
+    /// The normal there.
+    fn normal(&self, l: &mut Lower<'_>, k: usize, span: Span) -> Found<Val> {
+        let point = self.point(l, k, span)?;
+        match self.shapes.get(k).zip(self.found.get(k)) {
+            Some((shape, found)) => l.normal_of(shape, found, point, span),
+            None => Err(l.confused(span)),
+        }
+    }
 }

@@ -7,6 +7,7 @@
 
 use super::value::{Shape, Val};
 use super::{Found, Lower};
+use crate::flow::graph::NodeId;
 use crate::sema::builtins::Builtin;
 use crate::sema::program::*;
 use crate::sema::ty::Ty;
@@ -20,6 +21,17 @@ const REACH: f64 = 1000.0;
 /// In how many steps roots of `f` are looked for within `bound`, unless the
 /// shape says otherwise.
 const STEPS: i32 = 32;
+
+/// What is known of the nearest hit of a shape.
+#[derive(Clone)]
+pub(super) struct Solution {
+    /// Whether there is one: a bool.
+    pub(super) present: NodeId,
+    /// The distance along the ray.
+    pub(super) t: NodeId,
+    /// The point and the unit normal, where the shape's `hit` says them.
+    known: Option<(Val, Val)>,
+}
 
 impl<'a> Lower<'a> {
     fn shape_name(&self, shape: &Shape) -> String {
@@ -121,8 +133,25 @@ impl<'a> Lower<'a> {
         Ok(false)
     }
 
-    /// The distance along a ray: optional, a real.
-    pub(super) fn shape_distance(&mut self, shape: &Rc<Shape>, ray: Val, span: Span) -> Found<Val> {
+    /// The nearest hit along a ray.
+    pub(super) fn solved(&mut self, shape: &Rc<Shape>, ray: Val, span: Span) -> Found<Solution> {
+        let Val::Optional { present, value } = self.distance_along(shape, ray, span)? else {
+            return Err(self.confused(span));
+        };
+        let (t, known) = match (*value).clone() {
+            Val::Parts(parts) => match &*parts {
+                [point, normal, t, ..] => (t.clone(), Some((point.clone(), normal.clone()))),
+                _ => return Err(self.confused(span)),
+            },
+            t => (t, None),
+        };
+        let t = self.node(t, &Ty::Real, span)?;
+        Ok(Solution { present, t, known })
+    }
+
+    /// The distance along a ray: optional; a real, or a hit where the
+    /// shape's own solution gives one.
+    fn distance_along(&mut self, shape: &Rc<Shape>, ray: Val, span: Span) -> Found<Val> {
         let itself = Val::Shape(shape.clone());
         let bound = |l: &mut Self| l.facet_of(shape, FacetKind::Bound, Vec::new(), span);
         if self.approached(shape)? {
@@ -155,6 +184,28 @@ impl<'a> Lower<'a> {
             None => Val::Node(self.int(STEPS, span)),
         };
         self.library("search", Ty::Shape, vec![itself, bound, ray, steps], span)
+    }
+
+    /// The point of a hit: the solution's own, else that of the ray.
+    pub(super) fn point_of(&mut self, found: &Solution, ray: &Val, span: Span) -> Found<Val> {
+        match &found.known {
+            Some((point, _)) => Ok(point.clone()),
+            None => self.along(ray, Val::Node(found.t), span),
+        }
+    }
+
+    /// The normal of a hit: the solution's own, else the shape's at the point.
+    pub(super) fn normal_of(
+        &mut self,
+        shape: &Rc<Shape>,
+        found: &Solution,
+        point: Val,
+        span: Span,
+    ) -> Found<Val> {
+        match &found.known {
+            Some((_, normal)) => self.direction(normal.clone(), span),
+            None => self.shape_normal(shape, point, span),
+        }
     }
 
     pub(super) fn shape_normal(&mut self, shape: &Rc<Shape>, p: Val, span: Span) -> Found<Val> {
@@ -193,44 +244,48 @@ impl<'a> Lower<'a> {
             let sum = self.scalar(BinaryOp::Add, &Ty::Real, from, step, span)?;
             parts.push(Val::Node(sum));
         }
-        let point = Val::parts(parts);
-        self.name(&point, &Ty::Vector(3), "point");
-        Ok(point)
+        Ok(Val::parts(parts))
     }
 
     /// A hit of a bare shape; its point and normal are worked out if used.
     fn shape_hit(&mut self, shape: &Rc<Shape>, ray: Val, span: Span) -> Found<Val> {
-        let t = self.shape_distance(shape, ray.clone(), span)?;
-        let (present, t) = match t {
-            Val::Optional { present, value } => (present, (*value).clone()),
-            _ => return Err(self.confused(span)),
-        };
-        if let Val::Node(node) = &t {
-            self.b.name(*node, "t");
-        }
-        let point = self.lazy_point(ray, t.clone(), span);
-        let (of, at, place) = (shape.clone(), point.clone(), self.place);
-        let normal = Val::lazy(Box::new(move |l: &mut Lower<'_>| {
-            let outer = std::mem::replace(&mut l.place, place);
-            let normal = l.shape_normal(&of, at, span);
-            l.place = outer;
-            let normal = normal?;
-            l.name(&normal, &Ty::Vector(3), "normal");
-            Ok(normal)
-        }));
+        let found = self.solved(shape, ray.clone(), span)?;
+        self.b.name(found.t, "t");
+        let (present, t) = (found.present, Val::Node(found.t));
+        let solution = found.clone();
+        let point = self.later("point", move |l| l.point_of(&solution, &ray, span));
+        let (of, at) = (shape.clone(), point.clone());
+        let normal = self.later("normal", move |l| l.normal_of(&of, &found, at, span));
         Ok(Val::Optional {
             present,
             value: Rc::new(Val::parts(vec![point, normal, t])),
         })
     }
 
-    pub(super) fn lazy_point(&mut self, ray: Val, t: Val, span: Span) -> Val {
+    /// The vector `name`, worked out in this place of the source if used.
+    pub(super) fn later(
+        &self,
+        name: &'static str,
+        work: impl for<'b> FnOnce(&mut Lower<'b>) -> Found<Val> + 'static,
+    ) -> Val {
+        self.here(move |l| {
+            let vector = work(l)?;
+            l.name(&vector, &Ty::Vector(3), name);
+            Ok(vector)
+        })
+    }
+
+    /// A value worked out in this place of the source if used.
+    pub(super) fn here(
+        &self,
+        work: impl for<'b> FnOnce(&mut Lower<'b>) -> Found<Val> + 'static,
+    ) -> Val {
         let place = self.place;
         Val::lazy(Box::new(move |l: &mut Lower<'_>| {
             let outer = std::mem::replace(&mut l.place, place);
-            let point = l.along(&ray, t, span);
+            let value = work(l);
             l.place = outer;
-            point
+            value
         }))
     }
 }

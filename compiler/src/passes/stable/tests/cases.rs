@@ -280,6 +280,13 @@ pub const CASES: &[Case] = &[
         vectors: SLIVER,
     },
     Case {
+        rules: &["divisor beyond the format"],
+        on: "6502:plain",
+        params: &[("x", -1000.0, 1000.0)],
+        value: "x / 240000",
+        vectors: &[("near the greatest", &[900.0]), ("small", &[47.5])],
+    },
+    Case {
         rules: &["equal terms"],
         on: "jack",
         params: &[("x", 500.0, 1000.0), ("y", -1.0, 1.0), ("z", -1.0, 1.0)],

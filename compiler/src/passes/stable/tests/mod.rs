@@ -84,7 +84,7 @@ impl Numbers {
 fn both_sides_are_equal_over_the_reals() {
     let tiny = big(1e-45);
     for case in CASES {
-        let (before, after, names) = both("jack", &graph("jack", &scene_of(case, &middle(case))));
+        let (before, after, names) = both(case.on, &graph(case.on, &scene_of(case, &middle(case))));
         for rule in case.rules {
             assert!(
                 names.contains(rule),
