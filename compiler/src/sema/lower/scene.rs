@@ -68,7 +68,7 @@ impl<'a> Lower<'a> {
             }
             _ => {
                 let (_, wins) = self.nearest(scene, &arg, span)?;
-                self.tag_of(scene, &wins, span, |_, _| Ok(arg.clone()))
+                self.tag_of(scene, &wins, arg, span)
             }
         }
     }
@@ -112,14 +112,7 @@ impl<'a> Lower<'a> {
         self.force(value)
     }
 
-    /// The winner's tag, which sees the point that `point` gives for it.
-    fn tag_of(
-        &mut self,
-        id: SceneId,
-        wins: &[NodeId],
-        span: Span,
-        mut point: impl FnMut(&mut Self, usize) -> Found<Val>,
-    ) -> Found<Val> {
+    fn tag_of(&mut self, id: SceneId, wins: &[NodeId], p: Val, span: Span) -> Found<Val> {
         let Some(scene) = self.program.scenes.get(id.0) else {
             return Err(self.confused(span));
         };
@@ -127,9 +120,8 @@ impl<'a> Lower<'a> {
             let Some(tag) = scene.members.get(k).and_then(|m| m.tag.as_ref()) else {
                 return Err(l.confused(span));
             };
-            let p = point(l, k)?;
             let place = l.place.take();
-            let value = l.enter(tag, vec![p], |l| l.expr(&tag.value));
+            let value = l.enter(tag, vec![p.clone()], |l| l.expr(&tag.value));
             l.place = place;
             value
         })
@@ -164,30 +156,21 @@ impl<'a> Lower<'a> {
             found.push(solution);
         }
         self.b.name(best, "t");
-        // The winner's distance is the best one; so those whose solutions do not
-        // say the point share one.
-        found.iter_mut().for_each(|solution| solution.t = best);
-        let winner = Rc::new(Winner {
-            ray,
-            shapes,
-            wins,
-            found,
-        });
-        let of = winner.clone();
-        let point = self.later("point", move |l| {
-            l.of_winner(&of.wins, span, |l, k| of.point(l, k, span))
-        });
-        let of = winner.clone();
+        // One point of the ray, whoever wins: a point of each shape's solution
+        // would cost a choice for each.
+        let t = Val::Node(best);
+        let along = t.clone();
+        let point = self.later("point", move |l| l.along(&ray, along, span));
+        let (at, won) = (point.clone(), wins.clone());
         let normal = self.later("normal", move |l| {
-            l.of_winner(&of.wins, span, |l, k| of.normal(l, k, span))
+            l.of_winner(&won, span, |l, k| match shapes.get(k).zip(found.get(k)) {
+                Some((shape, found)) => l.normal_of(shape, found, at.clone(), span),
+                None => Err(l.confused(span)),
+            })
         });
-        let mut parts = vec![point, normal, Val::Node(best)];
+        let mut parts = vec![point.clone(), normal, t];
         if has_tag(ty) {
-            parts.push(
-                self.here(move |l| {
-                    l.tag_of(id, &winner.wins, span, |l, k| winner.point(l, k, span))
-                }),
-            );
+            parts.push(self.here(move |l| l.tag_of(id, &wins, point, span)));
         }
         Ok(Val::Optional {
             present,
@@ -217,7 +200,7 @@ impl<'a> Lower<'a> {
         if has_tag(ty) {
             parts.push(self.here(move |l| {
                 let (_, wins) = l.nearest(id, &point, span)?;
-                l.tag_of(id, &wins, span, |_, _| Ok(point.clone()))
+                l.tag_of(id, &wins, point, span)
             }));
         }
         Ok(Val::Optional {
@@ -258,31 +241,4 @@ impl<'a> Lower<'a> {
 /// Whether an optional hit has a tag.
 fn has_tag(ty: &Ty) -> bool {
     matches!(ty, Ty::Optional(hit) if matches!(**hit, Ty::Hit(Some(_))))
-}
-
-/// What `trace` found of each shape; the last whose test in `wins` holds is nearest.
-struct Winner {
-    ray: Val,
-    shapes: Vec<Rc<Shape>>,
-    wins: Vec<NodeId>,
-    found: Vec<Solution>,
-}
-
-impl Winner {
-    /// The point hit, if it is shape `k`'s.
-    fn point(&self, l: &mut Lower<'_>, k: usize, span: Span) -> Found<Val> {
-        match self.found.get(k) {
-            Some(found) => l.point_of(found, &self.ray, span),
-            None => Err(l.confused(span)),
-        }
-    }
-
-    /// The normal there.
-    fn normal(&self, l: &mut Lower<'_>, k: usize, span: Span) -> Found<Val> {
-        let point = self.point(l, k, span)?;
-        match self.shapes.get(k).zip(self.found.get(k)) {
-            Some((shape, found)) => l.normal_of(shape, found, point, span),
-            None => Err(l.confused(span)),
-        }
-    }
 }
