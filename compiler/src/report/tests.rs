@@ -74,6 +74,28 @@ fn stable_forms_mend_pictures() {
     insta::assert_snapshot!(text);
 }
 
+/// The gradient of a box's distance next to it is that of a length whose squares
+/// are less than a unit in the last place.
+#[test]
+fn a_boxs_distance_has_a_slope_next_to_it_in_fixed_point() {
+    let source = "image 16 x 16 inks black, grey, silver, white;
+        shape bent(a: shape) { dist(p) = a.dist(p); }
+        draw (x, y) = {
+          let n = bent(box((-1, -1, -1), (1, 1, 1))).normal((1 + (y + 1) / 4096, x / 16, 0.5));
+          threshold(0.7 * n.x, 0.5)
+        };";
+    let scene = scene::check("box", source);
+    let target = find("6502:plain").unwrap();
+    let options = Options {
+        offset: target.offset,
+        floats: false,
+        ..Options::default()
+    };
+    let graph = scene.lower(&options).unwrap();
+    let plan = plan(&graph, target, &goal(target, &graph)).unwrap();
+    assert_eq!(wrong_inks(&plan, &graph), 0);
+}
+
 /// The line of a warning, as the scene has it.
 fn line<'s>(scene: &'s Scene, said: &Diagnostic) -> &'s str {
     let file = &scene.sources.files[said.span.file as usize];
