@@ -5,10 +5,14 @@
 //! tell is bounded: BASIC's stack, the heap of a Jack program at its start.
 //! A program that does not fit as it reads best is tried once more, written as
 //! tight as the target can; without `--mode`, the next mode is tried after that.
+//! Where no mode holds it either way, all are tried with subroutines for what the
+//! program has several times: slower, and much smaller.
 
 use crate::failure::{Failure, Outcome};
 use crate::format::count;
+use slowlight_compiler::flow::tree::{Statement, Tree, walk};
 use slowlight_compiler::plan::Plan;
+use slowlight_compiler::source::Span;
 use slowlight_compiler::target::Document;
 use slowlight_vm::bbc::{Config, Dialect, Machine, tokenise};
 use slowlight_vm::mos6502::{extent, plain::port};
@@ -17,6 +21,10 @@ use slowlight_vm::mos6502::{extent, plain::port};
 /// inside each other, of 28 bytes and 8 an argument, and as much as a call more
 /// for what an expression holds meanwhile.
 const BASIC_STACK: u64 = 160;
+
+/// What a procedure without arguments leaves on it while it runs: the
+/// processor's stack, and where to return to.
+const BASIC_CALL: u64 = 28;
 
 /// Words of the Hack computer's heap, and those that each object has beside its own.
 const HEAP: u64 = 16384 - 2048;
@@ -99,10 +107,31 @@ fn basic(plan: &Plan, document: &Document, dialect: Dialect) -> Outcome<Option<N
             ("program", machine.program_bytes() as u64),
             ("variables", machine.entry_bytes() as u64),
             ("arrays", arrays(&document.text)),
-            ("stack", BASIC_STACK),
+            ("stack", BASIC_STACK + BASIC_CALL * depth(&plan.tree)),
         ],
         room: room as u64,
     }))
+}
+
+/// How many subroutines run inside each other at most.
+fn depth(tree: &Tree) -> u64 {
+    let mut depths: Vec<u64> = vec![0; tree.subroutines.len()];
+    // One that is called stands before or behind who calls it; no chain of
+    // calls is longer than there are subroutines.
+    for _ in 0..depths.len() {
+        for (k, subroutine) in tree.subroutines.iter().enumerate() {
+            let mut inner = 0;
+            walk(&subroutine.body, &mut |statement| {
+                if let Statement::Call(id) = statement {
+                    inner = inner.max(depths.get(id.0 as usize).copied().unwrap_or(0));
+                }
+            });
+            if let Some(depth) = depths.get_mut(k) {
+                *depth = inner + 1;
+            }
+        }
+    }
+    depths.into_iter().max().unwrap_or(0)
 }
 
 /// Bytes of the arrays that a program makes with constant bounds.
@@ -168,43 +197,74 @@ fn heap(documents: &[Document]) -> Need {
     }
 }
 
-/// The first of the plans whose program fits, as it reads best or tight.
+/// The first of the plans whose program fits, as it reads best or tight; where
+/// none does, the first that does with subroutines. `name` says what the scene
+/// calls what stands at a place of it.
 ///
 /// # Errors
 /// Where none does: how far each is from it, and what would help.
-pub fn fit(plans: impl IntoIterator<Item = Outcome<Plan>>) -> Outcome<Plan> {
-    let mut said = String::new();
-    let mut last: Option<Plan> = None;
+pub fn fit(
+    plans: impl IntoIterator<Item = Outcome<Plan>>,
+    name: &dyn Fn(Span) -> Option<String>,
+) -> Outcome<Plan> {
+    let mut large: Vec<(Plan, Need)> = Vec::new();
     for plan in plans {
-        let mut plan = plan?;
-        for tight in [false, true] {
-            plan.tight = tight;
-            let need = need(&plan)?;
-            match need {
-                Some(need) if !need.fits() => {
-                    // Of both ways, the smaller one counts.
-                    if tight {
-                        let mode = match plan.mode.name {
-                            "" => String::new(),
-                            name => format!("mode {name}: "),
-                        };
-                        said.push_str(&format!("\n  {mode}{}", need.text()));
-                    }
-                }
-                _ => return Ok(plan),
+        match as_is_or_tight(plan?)? {
+            Fitted::Fits(plan) => return Ok(*plan),
+            Fitted::TooLarge(plan, need) => large.push((*plan, need)),
+        }
+    }
+    let mut said = String::new();
+    for (plan, need) in &large {
+        let mut least = need.clone();
+        // A fault of the plan with subroutines would be one of the plan without.
+        if let Ok(outlined) = plan.outlined(name) {
+            match as_is_or_tight(outlined)? {
+                Fitted::Fits(plan) => return Ok(*plan),
+                Fitted::TooLarge(_, need) if need.total() < least.total() => least = need,
+                Fitted::TooLarge(..) => {}
             }
         }
-        last = Some(plan);
+        let mode = match plan.mode.name {
+            "" => String::new(),
+            name => format!("mode {name}: "),
+        };
+        said.push_str(&format!("\n  {mode}{}", least.text()));
     }
-    let Some(plan) = last else {
+    let Some((plan, _)) = large.last() else {
         return Err(Failure::Wrong("there is no mode to draw in".to_owned()));
     };
-    let name = &plan.name;
-    let target = plan.target.name;
     Err(Failure::Wrong(format!(
-        "{name} does not fit {target}:{said}\n{}",
-        help(&plan)
+        "{} does not fit {}:{said}\n{}",
+        plan.name,
+        plan.target.name,
+        help(plan)
     )))
+}
+
+/// A plan that fits, or how large its smallest program is.
+enum Fitted {
+    Fits(Box<Plan>),
+    TooLarge(Box<Plan>, Need),
+}
+
+fn as_is_or_tight(mut plan: Plan) -> Outcome<Fitted> {
+    let mut least: Option<Need> = None;
+    for tight in [false, true] {
+        plan.tight = tight;
+        match need(&plan)? {
+            Some(need) if !need.fits() => {
+                if least.as_ref().is_none_or(|l| need.total() < l.total()) {
+                    least = Some(need);
+                }
+            }
+            _ => return Ok(Fitted::Fits(Box::new(plan))),
+        }
+    }
+    Ok(match least {
+        Some(need) => Fitted::TooLarge(Box::new(plan), need),
+        None => Fitted::Fits(Box::new(plan)),
+    })
 }
 
 /// What makes a program smaller.

@@ -6,7 +6,7 @@ use clap::Args;
 use slowlight_compiler::flow::graph::Graph;
 use slowlight_compiler::scene;
 use slowlight_compiler::sema::{self, Freeze, FunctionKind, Options, Program};
-use slowlight_compiler::source::{Diagnostic, SourceFile, Sources};
+use slowlight_compiler::source::{Diagnostic, SourceFile, Sources, Span};
 use slowlight_compiler::syntax;
 use slowlight_compiler::target::Target;
 use slowlight_routine::Format;
@@ -219,6 +219,14 @@ impl Scene {
         options.floats = precision.floats;
         options.set.extend_from_slice(set);
         sema::lower(&self.checked.program, &options).map_err(|said| self.wrong(said))
+    }
+
+    /// What the source calls at a place: `sphere` where it has `sphere((0, 0, 0), 1)`.
+    pub fn called_at(&self, span: Span) -> Option<String> {
+        let (path, _) = self.checked.sources.text(span).split_once('(')?;
+        let name = path.rsplit('.').next().unwrap_or(path).trim();
+        let word = |c: char| c.is_alphanumeric() || c == '_';
+        (!name.is_empty() && path.chars().all(|c| word(c) || c == '.')).then(|| name.to_owned())
     }
 
     /// A failure with something said about this scene.

@@ -114,10 +114,10 @@ impl ScreenArgs {
         set: &[(String, Vec<f64>)],
     ) -> Outcome<Plan> {
         let modes = self.modes(target, scene.size())?;
+        let plans = modes.into_iter();
         fit::fit(
-            modes
-                .into_iter()
-                .map(|mode| self.plan_in(mode, scene, target, set)),
+            plans.map(|mode| self.plan_in(mode, scene, target, set)),
+            &|span| scene.called_at(span),
         )
     }
 

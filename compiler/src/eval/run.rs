@@ -42,6 +42,8 @@ pub struct Run<'t, A: Arithmetic> {
     /// What the row and the pixel block write, to forget between turns.
     row_places: Vec<Place>,
     pixel_places: Vec<Place>,
+    /// What each subroutine computes, to forget before it runs.
+    own_places: Vec<Vec<Place>>,
     /// The constants, ahead of time.
     constants: Vec<Option<A::Value>>,
     entries: Vec<Vec<A::Value>>,
@@ -53,13 +55,45 @@ pub struct Run<'t, A: Arithmetic> {
     received: A::Value,
 }
 
-fn places(block: &Block) -> Vec<Place> {
+/// What each subroutine computes itself. What it sets for those that it calls
+/// may have been set before: that is not forgotten.
+fn own_places(graph: &Graph, tree: &Tree) -> Vec<Vec<Place>> {
+    let of = |subroutine: &Subroutine| {
+        let mut own = Vec::new();
+        walk(&subroutine.body, &mut |s| match s {
+            Statement::Let(id) => own.push(Place::Node(*id)),
+            Statement::Set { place, .. } => own.push(*place),
+            _ => {}
+        });
+        let slot = |place: &Place| match place {
+            Place::Node(id) => matches!(graph.node(*id), Node::Slot(_)),
+            _ => false,
+        };
+        own.retain(|place| !slot(place));
+        own
+    };
+    tree.subroutines.iter().map(of).collect()
+}
+
+/// What a block writes, subroutines included.
+fn places(tree: &Tree, block: &[Statement]) -> Vec<Place> {
     let mut all = Vec::new();
-    walk(block, &mut |s| match s {
-        Statement::Let(id) => all.push(Place::Node(*id)),
-        Statement::Set { place, .. } => all.push(*place),
-        _ => {}
-    });
+    let mut called = vec![false; tree.subroutines.len()];
+    let mut todo = vec![block];
+    while let Some(block) = todo.pop() {
+        walk(block, &mut |s| match s {
+            Statement::Let(id) => all.push(Place::Node(*id)),
+            Statement::Set { place, .. } => all.push(*place),
+            Statement::Call(id) => {
+                if let Some(called) = called.get_mut(id.0 as usize)
+                    && !std::mem::replace(called, true)
+                {
+                    todo.push(tree.body(*id));
+                }
+            }
+            _ => {}
+        });
+    }
     all
 }
 
@@ -84,8 +118,9 @@ impl<'t, A: Arithmetic> Run<'t, A> {
             values: vec![None; graph.nodes.len()],
             carried: graph.loops.iter().map(slots).collect(),
             scratch: graph.loops.iter().map(slots).collect(),
-            row_places: places(&tree.row),
-            pixel_places: places(&tree.pixel),
+            row_places: places(tree, &tree.row),
+            pixel_places: places(tree, &tree.pixel),
+            own_places: own_places(graph, tree),
             constants,
             entries: entries.collect(),
             position: (0, 0),
@@ -225,7 +260,20 @@ impl<'t, A: Arithmetic> Run<'t, A> {
         }
     }
 
-    fn block(&mut self, block: &'t Block) {
+    /// Runs a subroutine. What it left behind when it ran before is forgotten.
+    fn call(&mut self, id: SubroutineId) {
+        let at = id.0 as usize;
+        let own = self.own_places.get_mut(at).map(std::mem::take);
+        for &place in own.iter().flatten() {
+            *self.slot(place) = None;
+        }
+        if let (Some(held), Some(own)) = (self.own_places.get_mut(at), own) {
+            *held = own;
+        }
+        self.block(self.tree.body(id));
+    }
+
+    fn block(&mut self, block: &'t [Statement]) {
         for statement in block {
             match statement {
                 Statement::Let(id) => {
@@ -246,6 +294,7 @@ impl<'t, A: Arithmetic> Run<'t, A> {
                     self.block(if self.arithmetic.truth(cond) { yes } else { no });
                 }
                 Statement::Loop(turns) => self.turns(turns),
+                Statement::Call(id) => self.call(*id),
             }
         }
     }

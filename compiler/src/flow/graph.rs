@@ -111,6 +111,9 @@ pub enum Node {
     /// What earlier pixels sent to this one ([`Graph::diffusion`]); a real, 0
     /// where none did.
     Received,
+    /// A home that is only set: what a subroutine is given, or leaves behind
+    /// on one of several ways. None in a graph before [`crate::passes::outline`].
+    Slot(Type),
     /// Never needed.
     Undefined(Type),
 }

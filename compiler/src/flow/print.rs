@@ -68,6 +68,7 @@ pub fn node_text(graph: &Graph, node: Node) -> String {
         Node::Last { of, index } => format!("last {}.{index}", of.0),
         Node::Result { of, index } => format!("result {}.{index}", of.0),
         Node::Received => "received".to_owned(),
+        Node::Slot(_) => "slot".to_owned(),
         Node::Undefined(_) => "undefined".to_owned(),
     }
 }

@@ -275,6 +275,7 @@ fn node_body(ty: Type, body: &str) -> Read<Node> {
         "last" => part(rest).map(|(of, index)| Node::Last { of, index })?,
         "result" => part(rest).map(|(of, index)| Node::Result { of, index })?,
         "received" => Node::Received,
+        "slot" => Node::Slot(ty),
         "undefined" => Node::Undefined(ty),
         "select" => match node_list(rest)?[..] {
             [cond, yes, no] => Node::Select { cond, yes, no },

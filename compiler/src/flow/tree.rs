@@ -9,14 +9,51 @@
 //!   value or a loop's result;
 //! - constants, params and the axes need no statement.
 //!
+//! What is written down several times may be a [`Subroutine`] instead
+//! ([`crate::passes::outline`]): a block over nodes of its own, which a
+//! [`Statement::Call`] runs. It is given values in homes of its own that are
+//! set before the call ([`Node::Slot`]), and what it leaves is read from its
+//! nodes' homes after. Subroutines call others, never themselves.
+//!
 //! A value's home keeps it from there on: an `If` on a condition may leave
 //! values behind that a later `If` on the same condition uses.
 
 use super::graph::*;
+use crate::source::Span;
 use std::fmt::{self, Display};
 
 /// Statements in order.
 pub type Block = Vec<Statement>;
+
+/// Which subroutine; an index into [`Tree::subroutines`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub struct SubroutineId(pub u32);
+
+/// Statements that stand once and run wherever they are called.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Subroutine {
+    /// What it does, after the scene's source; not unique, may be empty.
+    pub name: String,
+    /// Where the source has what it was first made from.
+    pub span: Span,
+    /// The statements.
+    pub body: Block,
+}
+
+impl Subroutine {
+    /// Its name as an identifier in small letters; `part` where it has none.
+    pub fn label(&self) -> String {
+        let plain = |c: char| match c {
+            c if c.is_ascii_alphanumeric() => c.to_ascii_lowercase(),
+            _ => '_',
+        };
+        let name: String = self.name.chars().map(plain).take(16).collect();
+        match name.starts_with(|c: char| c.is_ascii_lowercase()) {
+            true => name,
+            false => format!("part{name}"),
+        }
+    }
+}
 
 /// What a [`Statement::Set`] assigns.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -49,6 +86,8 @@ pub enum Statement {
     If { cond: NodeId, yes: Block, no: Block },
     /// A bounded loop.
     Loop(Turns),
+    /// Runs a subroutine.
+    Call(SubroutineId),
 }
 
 /// The turns of a bounded loop: `start`, then `body` up to [`Loop::max`]
@@ -95,6 +134,37 @@ pub struct Tree {
     pub row: Block,
     /// Once a pixel; after it the ink is known.
     pub pixel: Block,
+    /// What these call, and what they call themselves; none reaches itself.
+    pub subroutines: Vec<Subroutine>,
+}
+
+impl Tree {
+    /// Every block that is written down: the frame's, the row's, the pixel's,
+    /// then the subroutines'.
+    pub fn blocks(&self) -> impl Iterator<Item = &Block> {
+        let outer = [&self.frame, &self.row, &self.pixel];
+        outer
+            .into_iter()
+            .chain(self.subroutines.iter().map(|s| &s.body))
+    }
+
+    /// How many calls of a subroutine are written down.
+    pub fn calls(&self, id: SubroutineId) -> usize {
+        let mut calls = 0;
+        for block in self.blocks() {
+            walk(block, &mut |s| {
+                calls += usize::from(*s == Statement::Call(id))
+            });
+        }
+        calls
+    }
+
+    /// What a call runs; nothing where there is no such subroutine.
+    pub fn body(&self, id: SubroutineId) -> &[Statement] {
+        self.subroutines
+            .get(id.0 as usize)
+            .map_or(&[][..], |s| &s.body)
+    }
 }
 
 /// Calls `visit` for every statement of a block, in order, inner ones after
@@ -111,7 +181,7 @@ pub fn walk<'t>(block: &'t [Statement], visit: &mut dyn FnMut(&'t Statement)) {
 /// The blocks inside a statement.
 pub fn inner(statement: &Statement) -> Vec<&Block> {
     match statement {
-        Statement::Let(_) | Statement::Set { .. } => Vec::new(),
+        Statement::Let(_) | Statement::Set { .. } | Statement::Call(_) => Vec::new(),
         Statement::If { yes, no, .. } => vec![yes, no],
         Statement::Loop(turns) => turns.blocks().to_vec(),
     }
@@ -149,6 +219,7 @@ fn block(f: &mut fmt::Formatter<'_>, statements: &[Statement], depth: usize) -> 
         match statement {
             Statement::Let(id) => writeln!(f, "{pad}let {id}")?,
             Statement::Set { place, from } => writeln!(f, "{pad}set {place} := {from}")?,
+            Statement::Call(id) => writeln!(f, "{pad}call {}", id.0)?,
             Statement::If { cond, yes, no } => {
                 part(f, &format!("if {cond}"), yes)?;
                 let name = if yes.is_empty() {
@@ -180,6 +251,10 @@ impl Display for Tree {
         ] {
             writeln!(f, "{name}:")?;
             block(f, statements, 1)?;
+        }
+        for (k, subroutine) in self.subroutines.iter().enumerate() {
+            writeln!(f, "subroutine {k} {}:", subroutine.name)?;
+            block(f, &subroutine.body, 1)?;
         }
         Ok(())
     }

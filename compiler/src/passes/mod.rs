@@ -3,6 +3,7 @@
 pub mod demand;
 pub mod fold;
 pub mod narrow;
+pub mod outline;
 mod queue;
 pub mod rate;
 pub mod rebuild;

@@ -17,9 +17,22 @@ pub enum Unit {
     Inside(NodeId, RegionId),
 }
 
+/// Which of the ready units comes first.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Order {
+    /// Values, then loops, then what stands under conditions: few `If`s.
+    #[default]
+    Ready,
+    /// The one that stands first in the graph.
+    Graph,
+}
+
 /// Units that wait for the units that they read from.
 #[derive(Default)]
 pub struct Queue {
+    order: Order,
+    /// Each unit's place in the graph.
+    nodes: HashMap<Unit, NodeId>,
     /// How many units each one still waits for.
     waits: HashMap<Unit, usize>,
     /// Who waits for each unit.
@@ -35,13 +48,29 @@ pub struct Queue {
 }
 
 impl Queue {
+    /// An empty queue.
+    pub fn new(order: Order) -> Queue {
+        Queue {
+            order,
+            ..Queue::default()
+        }
+    }
+
     /// Whether a unit was added.
     pub fn holds(&self, unit: Unit) -> bool {
         self.waits.contains_key(&unit)
     }
 
-    /// Adds a unit, its condition if it stands under one, and what it waits for.
-    pub fn add(&mut self, unit: Unit, condition: Option<NodeId>, reads: BTreeSet<Unit>) {
+    /// Adds a unit, its place in the graph, its condition if it stands under
+    /// one, and what it waits for.
+    pub fn add(
+        &mut self,
+        unit: Unit,
+        node: NodeId,
+        condition: Option<NodeId>,
+        reads: BTreeSet<Unit>,
+    ) {
+        self.nodes.insert(unit, node);
         self.waits.insert(unit, reads.len());
         if let Some(cond) = condition {
             self.conditions.insert(unit, cond);
@@ -73,20 +102,9 @@ impl Queue {
     /// condition (one that is ready as a whole, if there is one, since it then
     /// needs no second `If`). Nothing when all is emitted.
     pub fn take(&mut self) -> Vec<Unit> {
-        let step = match self.single.pop_first() {
-            Some(unit) => vec![unit],
-            None => {
-                let whole = self
-                    .groups
-                    .keys()
-                    .find(|cond| self.late.get(cond) == Some(&0));
-                let cond = whole.or_else(|| self.groups.keys().next()).copied();
-                let mut units = cond
-                    .and_then(|c| self.groups.remove(&c))
-                    .unwrap_or_default();
-                units.sort_unstable();
-                units
-            }
+        let step = match self.order {
+            Order::Ready => self.take_ready(),
+            Order::Graph => self.take_first(),
         };
         for unit in &step {
             for reader in self.readers.remove(unit).unwrap_or_default() {
@@ -99,5 +117,44 @@ impl Queue {
             }
         }
         step
+    }
+
+    fn take_ready(&mut self) -> Vec<Unit> {
+        if let Some(unit) = self.single.pop_first() {
+            return vec![unit];
+        }
+        let whole = self.groups.keys().find(|cond| self.is_whole(**cond));
+        let cond = whole.or_else(|| self.groups.keys().next()).copied();
+        cond.map_or(Vec::new(), |cond| self.take_group(cond))
+    }
+
+    fn take_first(&mut self) -> Vec<Unit> {
+        let node = |unit: &Unit| self.nodes.get(unit).copied();
+        let single = self.single.iter().map(|u| (node(u), *u)).min();
+        let of_group = |(cond, units): (&NodeId, &Vec<Unit>)| {
+            let first = units.iter().map(node).min().flatten();
+            (!self.is_whole(*cond), first, *cond)
+        };
+        let group = self.groups.iter().map(of_group).min();
+        match (single, group) {
+            (Some((at, _)), Some((false, first, cond))) if first < at => self.take_group(cond),
+            (Some((_, unit)), _) => {
+                self.single.remove(&unit);
+                vec![unit]
+            }
+            (None, Some((_, _, cond))) => self.take_group(cond),
+            (None, None) => Vec::new(),
+        }
+    }
+
+    /// Whether no unit on a condition is still to come.
+    fn is_whole(&self, cond: NodeId) -> bool {
+        self.late.get(&cond) == Some(&0)
+    }
+
+    fn take_group(&mut self, cond: NodeId) -> Vec<Unit> {
+        let mut units = self.groups.remove(&cond).unwrap_or_default();
+        units.sort_unstable();
+        units
     }
 }

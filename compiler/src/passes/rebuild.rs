@@ -151,7 +151,8 @@ impl Rebuilder<'_> {
             Node::Carried { of, index } => b.carried(of, index, span),
             Node::Last { of, index } => b.last(of, index, span),
             Node::Received => b.received(span),
-            Node::Undefined(ty) => b.undefined(ty),
+            // Graphs are rebuilt before they have subroutines.
+            Node::Slot(ty) | Node::Undefined(ty) => b.undefined(ty),
             Node::Param(_) | Node::Result { .. } => b.undefined(slowlight_routine::Type::Real),
         }
     }

@@ -7,7 +7,7 @@
 //! selects on one condition that are ready together share one `If`.
 
 use super::demand::{live_carried, needed, place};
-use super::queue::{Queue, Unit};
+use super::queue::{Order, Queue, Unit};
 use super::region::*;
 use crate::flow::graph::*;
 use crate::flow::tree::*;
@@ -15,6 +15,17 @@ use std::collections::BTreeSet;
 
 /// The statements that draw a graph's picture.
 pub fn schedule(graph: &Graph) -> Tree {
+    schedule_by(graph, Order::Ready)
+}
+
+/// The same with the statements of a block as near to their order in the graph
+/// as may be. There what makes a shape stands together, so that the same shape
+/// elsewhere has the same run of statements.
+pub fn schedule_together(graph: &Graph) -> Tree {
+    schedule_by(graph, Order::Graph)
+}
+
+fn schedule_by(graph: &Graph, order: Order) -> Tree {
     let regions = place(graph);
     let needed = needed(graph);
     let mut results = vec![Vec::new(); graph.loops.len()];
@@ -26,6 +37,7 @@ pub fn schedule(graph: &Graph) -> Tree {
     let loops = (0..graph.loops.len() as u32).map(LoopId);
     let mut emitter = Emitter {
         graph,
+        order,
         live: loops.map(|of| live_carried(graph, &needed, of)).collect(),
         results,
         emitted: vec![false; graph.nodes.len()],
@@ -39,6 +51,7 @@ pub fn schedule(graph: &Graph) -> Tree {
         frame: emitter.block(FRAME, &roots, &[ROW]),
         row: emitter.block(ROW, &roots, &[PIXEL]),
         pixel: emitter.block(PIXEL, &roots, &[]),
+        subroutines: Vec::new(),
     }
 }
 
@@ -69,6 +82,7 @@ pub fn missing(graph: &Graph, tree: &Tree) -> Option<NodeId> {
 
 struct Emitter<'g> {
     graph: &'g Graph,
+    order: Order,
     regions: Regions,
     /// For each loop, the carried values that are read, by index.
     live: Vec<Vec<u32>>,
@@ -85,13 +99,13 @@ impl Emitter<'_> {
     /// The statements of a region that lead to `roots`; what stands in the
     /// child regions `open` is looked through, not emitted.
     fn block(&mut self, region: RegionId, roots: &[NodeId], open: &[RegionId]) -> Block {
-        let mut queue = Queue::default();
+        let mut queue = Queue::new(self.order);
         let mut todo: Vec<Unit> = self.search(region, roots, open).into_iter().collect();
         while let Some(unit) = todo.pop() {
             if !queue.holds(unit) {
                 let reads = self.reads(region, unit);
                 todo.extend(reads.iter().copied());
-                queue.add(unit, self.condition(unit), reads);
+                queue.add(unit, self.first_node(unit), self.condition(unit), reads);
             }
         }
         let mut block = Block::new();
@@ -101,6 +115,17 @@ impl Emitter<'_> {
                 return block;
             }
             self.emit(region, &step, &mut block);
+        }
+    }
+
+    /// The node by which a unit has its place in the graph's order.
+    fn first_node(&self, unit: Unit) -> NodeId {
+        match unit {
+            Unit::Compute(id) | Unit::Choose(id) | Unit::Inside(id, _) => id,
+            Unit::Loop(of) => {
+                let results = self.results.get(of.0 as usize).into_iter().flatten();
+                results.map(|(id, _)| *id).min().unwrap_or(NodeId(0))
+            }
         }
     }
 

@@ -29,7 +29,7 @@ pub(super) fn choose(
 ) -> Result<Chosen, Vec<Diagnostic>> {
     let mut chosen: Chosen = vec![None; graph.nodes.len()];
     let mut missing = Vec::new();
-    for block in [&tree.frame, &tree.row, &tree.pixel] {
+    for block in tree.blocks() {
         walk(block, &mut |statement| {
             let Statement::Let(id) = *statement else {
                 return;

@@ -15,7 +15,7 @@ pub fn folded(graph: &Graph, tree: &Tree) -> Vec<bool> {
         blocks: 0,
         home: HashMap::new(),
     };
-    for block in [&tree.frame, &tree.row, &tree.pixel] {
+    for block in tree.blocks() {
         let number = uses.block(block);
         if std::ptr::eq(block, &raw const tree.pixel) {
             uses.read(graph.ink, number);
@@ -79,7 +79,7 @@ impl Uses<'_> {
                     let several = matches!(place, Place::Carried(..)) && moves > 1;
                     self.read(*id, if several { 0 } else { number });
                 }
-                Statement::Set { .. } => {}
+                Statement::Set { .. } | Statement::Call(_) => {}
                 Statement::If { cond, yes, no } => {
                     self.read(*cond, number);
                     self.block(yes);

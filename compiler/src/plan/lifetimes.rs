@@ -3,7 +3,9 @@
 //! The statements are numbered as they are written down; a place is alive from
 //! its first writing to its last reading. A loop runs its statements again, so
 //! what was written before its body and is read inside it stays alive to its
-//! end. What the frame or a row computes stays alive throughout.
+//! end. What the frame or a row computes stays alive throughout. Calls count as
+//! what they run: a subroutine's own places are alive from its first call to
+//! its last, and every other place that is alive during a call keeps clear of them.
 
 use super::Plan;
 use crate::flow::graph::*;
@@ -88,7 +90,7 @@ impl Lives<'_> {
         }
     }
 
-    fn block(&mut self, block: &Block) {
+    fn block(&mut self, block: &[Statement]) {
         for statement in block {
             self.now += 1;
             match statement {
@@ -110,6 +112,7 @@ impl Lives<'_> {
                     self.block(no);
                 }
                 Statement::Loop(turns) => self.turns(turns),
+                Statement::Call(id) => self.block(self.plan.tree.body(*id)),
             }
         }
     }

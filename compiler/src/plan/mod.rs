@@ -37,6 +37,7 @@ mod choose;
 mod fold_uses;
 mod lifetimes;
 mod names;
+mod outlined;
 mod params;
 pub mod print;
 mod spread;
@@ -160,7 +161,7 @@ impl Plan {
     pub fn places(&self) -> Vec<(Place, Format)> {
         let mut all: Vec<(Place, Format)> = Vec::new();
         let mut seen = std::collections::HashSet::new();
-        for block in [&self.tree.frame, &self.tree.row, &self.tree.pixel] {
+        for block in self.tree.blocks() {
             walk(block, &mut |statement| {
                 let place = match statement {
                     Statement::Let(id) => Place::Node(*id),
@@ -297,6 +298,19 @@ fn planned(
         let message = format!("the schedule lost {id}: a fault of the compiler, please report it");
         return Err(vec![Diagnostic::error(graph.span(id), message)]);
     }
+    assemble(graph, tree, ranges_now, params, target, goal)
+}
+
+/// A plan of statements whose ranges are known.
+fn assemble(
+    graph: Graph,
+    tree: Tree,
+    ranges_now: Ranges,
+    params: Vec<ParamPlan>,
+    target: &'static Target,
+    goal: &Goal,
+) -> Result<Plan, Vec<Diagnostic>> {
+    let runtime = target.runtime;
     let routines = choose::choose(&graph, &tree, &ranges_now, runtime)?;
     let gather = graph.diffusion.as_ref().and_then(|_| gathering(runtime));
     let folded = fold_uses::folded(&graph, &tree);

@@ -9,7 +9,7 @@ pub fn homes(graph: &Graph, tree: &Tree) -> HashMap<Place, String> {
     let mut taken: HashSet<String> = graph.params.iter().map(Param::label).collect();
     taken.extend(["x".to_owned(), "y".to_owned()]);
     let mut homes = HashMap::new();
-    for block in [&tree.frame, &tree.row, &tree.pixel] {
+    for block in tree.blocks() {
         walk(block, &mut |statement| {
             let place = match statement {
                 Statement::Let(id) => Place::Node(*id),
@@ -44,6 +44,7 @@ fn wanted(graph: &Graph, place: Place) -> String {
                     .get(table.0 as usize)
                     .map_or(String::new(), |t| format!("{}_cell", t.name)),
                 Node::Select { .. } => "either".to_owned(),
+                Node::Slot(_) => "given".to_owned(),
                 _ => "result".to_owned(),
             }),
         Place::Carried(l, k) => carried(l, k),

@@ -108,6 +108,10 @@ impl Display for Plan {
             writeln!(f, "{name}:")?;
             self.block(f, block, 1)?;
         }
+        for (k, subroutine) in self.tree.subroutines.iter().enumerate() {
+            writeln!(f, "subroutine {k} {}:", subroutine.name)?;
+            self.block(f, &subroutine.body, 1)?;
+        }
         for Share { dx, dy, node } in self.graph.shares() {
             writeln!(f, "send {dx} {dy} {}", self.operand(node))?;
         }
@@ -185,6 +189,11 @@ impl Plan {
                         writeln!(f, "{pad}else")?;
                         self.block(f, no, depth + 1)?;
                     }
+                }
+                Statement::Call(id) => {
+                    let found = self.tree.subroutines.get(id.0 as usize);
+                    let name = found.map_or("", |s| s.name.as_str());
+                    writeln!(f, "{pad}call {} {name}", id.0)?;
                 }
                 Statement::Loop(turns) => {
                     self.block(f, &turns.start, depth)?;

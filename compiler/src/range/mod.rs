@@ -148,6 +148,8 @@ pub fn ranges(graph: &Graph, tree: &Tree, slack: &Slack) -> Ranges {
             exact: vec![Range::ALL; graph.nodes.len()],
             args: vec![[Range::ALL; 2]; graph.nodes.len()],
         },
+        tree,
+        shared: shared(graph, tree),
     };
     walk.block(&tree.frame);
     walk.block(&tree.row);
@@ -185,10 +187,41 @@ pub(crate) struct Walk<'g> {
     /// How many turns of loops have been walked.
     turns: u32,
     out: Ranges,
+    tree: &'g Tree,
+    /// Each node that several calls of a subroutine compute or give it:
+    /// whether one was walked already.
+    shared: Vec<Option<bool>>,
+}
+
+/// Nodes that belong to subroutines, none of them written yet.
+fn shared(graph: &Graph, tree: &Tree) -> Vec<Option<bool>> {
+    let mut shared: Vec<Option<bool>> = (graph.nodes.iter())
+        .map(|node| matches!(node, Node::Slot(_)).then_some(false))
+        .collect();
+    let mut loops = vec![false; graph.loops.len()];
+    for subroutine in &tree.subroutines {
+        walk(&subroutine.body, &mut |statement| match statement {
+            Statement::Let(id)
+            | Statement::Set {
+                place: Place::Node(id),
+                ..
+            } => shared[id.0 as usize] = Some(false),
+            Statement::Loop(turns) => loops[turns.of.0 as usize] = true,
+            _ => {}
+        });
+    }
+    for id in graph.ids() {
+        if let Node::Carried { of, .. } | Node::Last { of, .. } = graph.node(id)
+            && loops.get(of.0 as usize) == Some(&true)
+        {
+            shared[id.0 as usize] = Some(false);
+        }
+    }
+    shared
 }
 
 impl Walk<'_> {
-    fn block(&mut self, block: &Block) {
+    fn block(&mut self, block: &[Statement]) {
         for statement in block {
             self.statement(statement);
         }
@@ -215,6 +248,8 @@ impl Walk<'_> {
                 }
             }
             Statement::Loop(turns) => self.run_loop(turns),
+            // In the ranges that its values have here.
+            Statement::Call(id) => self.block(self.tree.body(*id)),
         }
     }
 
@@ -252,8 +287,7 @@ impl Walk<'_> {
                     self.graph.node(id)
                     && l == of
                 {
-                    self.now[id.0 as usize] = self.carried_range(of, index);
-                    self.out.result[id.0 as usize] = self.now[id.0 as usize];
+                    self.write(Place::Node(id), self.carried_range(of, index));
                 }
             }
             self.block(&turns.body);
@@ -343,8 +377,16 @@ impl Walk<'_> {
     fn write(&mut self, place: Place, range: Range) {
         match place {
             Place::Node(id) => {
-                self.now[id.0 as usize] = range;
-                self.out.result[id.0 as usize] = range;
+                let at = id.0 as usize;
+                self.now[at] = range;
+                self.out.result[at] = match &mut self.shared[at] {
+                    // What is recorded holds for every call.
+                    Some(true) => self.out.result[at].join(range),
+                    shared => {
+                        *shared = shared.map(|_| true);
+                        range
+                    }
+                };
             }
             Place::Carried(l, k) => self.carried[l.0 as usize][k as usize] = Some(range),
             Place::Scratch(..) => {}
@@ -368,8 +410,14 @@ impl Walk<'_> {
             Node::Apply(op, [a, b]) => {
                 let args = [self.read(a), self.read(b)];
                 let exact = interval(op, args, a == b);
-                self.out.args[at] = args;
-                self.out.exact[at] = exact;
+                if self.shared[at] == Some(true) {
+                    let [a, b] = self.out.args[at];
+                    self.out.args[at] = [a.join(args[0]), b.join(args[1])];
+                    self.out.exact[at] = self.out.exact[at].join(exact);
+                } else {
+                    self.out.args[at] = args;
+                    self.out.exact[at] = exact;
+                }
                 self.slack.rounded(op, &args[..op.arity()], exact)
             }
             Node::Lookup { table, .. } => {

@@ -7,6 +7,7 @@ pub mod bbc;
 pub mod jack;
 pub mod mos6502;
 
+use crate::passes::outline::Sizes;
 use crate::plan::Plan;
 use crate::source::Span;
 use slowlight_routine::Runtime;
@@ -40,6 +41,8 @@ pub struct Target {
     pub offset: f64,
     /// Cycles a second, for estimates of the machine's time.
     pub hertz: f64,
+    /// What statements take in its programs where memory is short.
+    pub sizes: Sizes,
     /// Writes a plan down.
     pub emit: fn(&Plan) -> Vec<Document>,
 }

@@ -98,7 +98,7 @@ struct Walk<'p> {
 }
 
 impl<'p> Walk<'p> {
-    fn block(&mut self, block: &'p Block) {
+    fn block(&mut self, block: &'p [Statement]) {
         for statement in block {
             match statement {
                 Statement::Let(id) => {
@@ -114,6 +114,7 @@ impl<'p> Walk<'p> {
                 }
                 Statement::If { cond, yes, no } => self.choice(*cond, yes, no),
                 Statement::Loop(turns) => self.run_loop(turns),
+                Statement::Call(id) => self.block(self.plan.tree.body(*id)),
             }
         }
     }

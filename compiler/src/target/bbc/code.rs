@@ -82,6 +82,10 @@ impl<'p> Code<'p> {
                 self.branch(&holds, &fails, yes, no, span);
             }
             Statement::Loop(turns) => self.repeat(turns),
+            Statement::Call(id) => {
+                let name = self.values.names.procedure(*id);
+                self.lines.statement(format!("PROC{name}"), self.span);
+            }
         }
     }
 

@@ -6,6 +6,7 @@ use super::screen;
 use super::spread::Spread;
 use super::tight::tight;
 use crate::flow::graph::Table;
+use crate::flow::tree::SubroutineId;
 use crate::plan::Plan;
 use slowlight_routine::{Source, Type, Value};
 use slowlight_runtime_bbc::literal;
@@ -28,6 +29,7 @@ pub fn program(plan: &Plan) -> Lines {
     let spread = Spread::new(plan, &mut code);
     parameters(plan, &mut code, &first, &last);
     picture(plan, &mut code, &first, &last, spread.as_ref());
+    procedures(plan, &mut code);
     setup(plan, &mut code, &first, &last);
     functions(plan, &mut code);
     data(plan, &mut code);
@@ -197,6 +199,23 @@ fn setup(plan: &Plan, code: &mut Code<'_>, first: &str, last: &str) {
         ));
     }
     code.line("ENDPROC");
+}
+
+/// What is called from several places.
+fn procedures(plan: &Plan, code: &mut Code<'_>) {
+    for (k, subroutine) in plan.tree.subroutines.iter().enumerate() {
+        let id = SubroutineId(k as u32);
+        let name = code.values.names.procedure(id).to_owned();
+        let span = Some(subroutine.span);
+        if !plan.tight {
+            let calls = plan.tree.calls(id);
+            let about = format!("REM {}, called from {calls} places", subroutine.label());
+            code.lines.line(about, span);
+        }
+        code.lines.line(format!("DEF PROC{name}"), span);
+        code.block(&subroutine.body);
+        code.lines.line("ENDPROC", span);
+    }
 }
 
 fn functions(plan: &Plan, code: &mut Code<'_>) {

@@ -32,12 +32,25 @@ mod tests;
 mod tight;
 
 use super::{Document, Target};
+use crate::passes::outline::Sizes;
 use crate::plan::Plan;
 use slowlight_runtime_bbc::RUNTIME;
 
 /// The least distance along a ray that counts as in front: reals of 32 bits are good to 1E-9
 /// at the scenes' scale, a pixel to 1E-3.
 const OFFSET: f64 = 1e-5;
+
+/// Bytes of tokens in a tight program.
+const SIZES: Sizes = Sizes {
+    operation: 5,
+    copy_bool: 6,
+    copy: 6,
+    home: 8,
+    test: 14,
+    turns: 40,
+    call: 4,
+    around: 20,
+};
 
 /// A BBC Micro with BASIC II.
 pub static MICRO: Target = Target {
@@ -47,6 +60,7 @@ pub static MICRO: Target = Target {
     modes: screen::MICRO,
     offset: OFFSET,
     hertz: 2_000_000.0,
+    sizes: SIZES,
     emit,
 };
 
@@ -59,6 +73,7 @@ pub static AGON: Target = Target {
     offset: OFFSET,
     // Measured: the two mirrors in 11.6 minutes for BASIC II's 17.8e9 cycles.
     hertz: 25_500_000.0,
+    sizes: SIZES,
     emit,
 };
 
@@ -71,6 +86,7 @@ pub static BASIC_V: Target = Target {
     offset: OFFSET,
     // Measured: 0.15 seconds for the same program.
     hertz: 1.2e11,
+    sizes: SIZES,
     emit,
 };
 

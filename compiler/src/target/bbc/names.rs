@@ -1,6 +1,6 @@
 //! What variables, constants and tables are called.
 
-use crate::flow::tree::Place;
+use crate::flow::tree::{Place, SubroutineId};
 use crate::plan::{Plan, shared_homes};
 use slowlight_routine::{Format, Type};
 use std::collections::{HashMap, HashSet};
@@ -11,6 +11,8 @@ pub struct Names {
     /// The params, in the plan's order.
     params: Vec<String>,
     pub tables: Vec<String>,
+    /// Of the procedures for subroutines.
+    procedures: Vec<String>,
     taken: HashSet<String>,
     /// Decimal constants by their text, in order of first use.
     constants: Vec<(String, String)>,
@@ -27,6 +29,7 @@ impl Names {
             homes: HashMap::new(),
             params: Vec::new(),
             tables: Vec::new(),
+            procedures: Vec::new(),
             taken: HashSet::new(),
             constants: Vec::new(),
         };
@@ -64,6 +67,15 @@ impl Names {
             let name = names.unique(&clean, &format!("{}(", suffix(table.ty)));
             names.tables.push(name.trim_end_matches('(').to_owned());
         }
+        for (k, subroutine) in plan.tree.subroutines.iter().enumerate() {
+            // Procedures have names of their own, short where memory is.
+            let letter = u8::try_from(k).ok().filter(|k| *k < 26).map(|k| b'a' + k);
+            let name = match letter.filter(|_| plan.tight) {
+                Some(letter) => char::from(letter).to_string(),
+                None => names.unique(&format!("do_{}", subroutine.label()), ""),
+            };
+            names.procedures.push(name);
+        }
         names
     }
 
@@ -80,6 +92,13 @@ impl Names {
 
     pub fn param(&self, at: usize) -> &str {
         self.params.get(at).map_or("0", String::as_str)
+    }
+
+    /// The procedure of a subroutine.
+    pub fn procedure(&self, id: SubroutineId) -> &str {
+        self.procedures
+            .get(id.0 as usize)
+            .map_or("unused", String::as_str)
     }
 
     pub fn home(&self, place: Place) -> &str {

@@ -58,6 +58,8 @@ pub(super) fn int(value: i32) -> Expression {
 
 /// A method that holds a part of the program.
 pub(super) struct Method {
+    /// What it is, for the comment over it; empty where its name says it.
+    pub about: String,
     pub name: String,
     pub lines: Vec<Line>,
 }
@@ -129,12 +131,26 @@ impl<'p> Code<'p> {
         calls
     }
 
+    /// Makes a method of each subroutine.
+    pub fn subroutines(&mut self) {
+        let plan = self.plan;
+        for (k, subroutine) in plan.tree.subroutines.iter().enumerate() {
+            let id = SubroutineId(k as u32);
+            let name = self.names.subroutine(id);
+            let lines = self.body(&subroutine.body, &name);
+            let calls = plan.tree.calls(id);
+            let about = format!("{}, called from {calls} places.", subroutine.label());
+            self.methods.push(Method { about, name, lines });
+        }
+    }
+
     /// Makes a method of lines; answers the line that calls it.
     fn outlined(&mut self, lines: Vec<Line>, name: &str) -> Line {
         let span = lines.first().and_then(|line| line.span);
         let name = self.names.fresh(&format!("{name}Part"));
         let call = format!("do {name}();");
-        self.methods.push(Method { name, lines });
+        let about = String::new();
+        self.methods.push(Method { about, name, lines });
         Line {
             depth: 0,
             text: call,
@@ -185,6 +201,10 @@ impl<'p> Code<'p> {
                 self.text.close("}");
             }
             Statement::Loop(turns) => self.repeat(turns, name),
+            Statement::Call(id) => {
+                let name = self.names.subroutine(*id);
+                self.text.line(format!("do {name}();"));
+            }
         }
     }
 

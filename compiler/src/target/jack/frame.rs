@@ -129,7 +129,11 @@ fn scene(
     all.extend(making);
     for method in &code.methods {
         let head = format!("method void {}()", method.name);
-        all.push(subroutine("", head, method.lines.clone()));
+        all.push(subroutine(
+            method.about.as_str(),
+            head,
+            method.lines.clone(),
+        ));
     }
     for part in all {
         text.span = None;
@@ -325,6 +329,7 @@ fn drawing(code: &mut Code) -> Vec<Subroutine> {
     let frame = code.body(&plan.tree.frame, "drawPicture");
     let row = code.body(&plan.tree.row, "drawRow");
     let pixel = code.body(&plan.tree.pixel, "drawPixel");
+    code.subroutines();
     let ink = code.read(plan.graph.ink);
     let spread = code.spread.clone();
     let [x, y] = code.names.axes.clone();

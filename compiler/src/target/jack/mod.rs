@@ -34,6 +34,7 @@ mod spread;
 mod tests;
 
 use super::{Document, Mode, Target};
+use crate::passes::outline::Sizes;
 use crate::source::Span;
 use slowlight_runtime_jack::F316;
 
@@ -56,6 +57,17 @@ pub static JACK: Target = Target {
     // VM commands a second of the official VM emulator. Its calls of the operating
     // system take longer, about 10 microseconds each, which one rate cannot say.
     hertz: 12.6e6,
+    // Words of the heap: code does not count there, values do.
+    sizes: Sizes {
+        operation: 4,
+        copy_bool: 2,
+        copy: 4,
+        home: 6,
+        test: 6,
+        turns: 12,
+        call: 3,
+        around: 4,
+    },
     emit: frame::program,
 };
 

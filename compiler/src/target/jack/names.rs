@@ -5,7 +5,7 @@
 //! meet. A param keeps its label whatever happens, unless Jack reserves it.
 
 use crate::flow::graph::*;
-use crate::flow::tree::Place;
+use crate::flow::tree::{Place, SubroutineId};
 use crate::plan::{Plan, shared_homes};
 use slowlight_routine::{Format, Op};
 use std::collections::{BTreeMap, BTreeSet, HashMap};
@@ -70,6 +70,7 @@ pub(super) struct Names {
     homes: HashMap<Place, String>,
     tables: BTreeMap<TableId, String>,
     turns: BTreeMap<LoopId, String>,
+    subroutines: Vec<String>,
     taken: BTreeSet<String>,
 }
 
@@ -85,6 +86,7 @@ impl Names {
             homes: HashMap::new(),
             tables: BTreeMap::new(),
             turns: BTreeMap::new(),
+            subroutines: Vec::new(),
             taken: taken.collect(),
         };
         names.taken.insert(names.class.clone());
@@ -101,6 +103,10 @@ impl Names {
                 None => fresh(),
             };
             names.homes.insert(place, name);
+        }
+        for subroutine in &plan.tree.subroutines {
+            let name = names.fresh(&format!("do{}", capital(&subroutine.label())));
+            names.subroutines.push(name);
         }
         names
     }
@@ -145,6 +151,12 @@ impl Names {
         name
     }
 
+    /// The method of a subroutine.
+    pub fn subroutine(&self, id: SubroutineId) -> String {
+        let found = self.subroutines.get(id.0 as usize);
+        found.cloned().unwrap_or_default()
+    }
+
     /// The counters that were asked for.
     pub fn counters(&self) -> impl Iterator<Item = &str> {
         self.turns.values().map(String::as_str)
@@ -167,14 +179,16 @@ pub(super) fn identifier(text: &str, otherwise: &str) -> String {
     }
 }
 
+/// A word with a capital letter in front.
+fn capital(word: &str) -> String {
+    let mut chars = word.chars();
+    let first = chars.next().map(|c| c.to_ascii_uppercase());
+    first.into_iter().chain(chars).collect()
+}
+
 /// `two-mirrors` as `TwoMirrors`.
 fn class_name(scene: &str) -> String {
     let words = scene.split(|c: char| !c.is_ascii_alphanumeric());
-    let capital = |word: &str| {
-        let mut chars = word.chars();
-        let first = chars.next().map(|c| c.to_ascii_uppercase());
-        first.into_iter().chain(chars).collect::<String>()
-    };
     let name: String = words
         .map(capital)
         .collect::<String>()

@@ -81,6 +81,10 @@ impl<'p> Code<'p> {
             }
             Statement::If { cond, yes, no } => self.choose(*cond, yes, no),
             Statement::Loop(turns) => self.repeat(turns),
+            Statement::Call(id) => {
+                let name = self.homes.subroutine(*id);
+                self.text.code(&format!("jsr {name}"));
+            }
         }
     }
 

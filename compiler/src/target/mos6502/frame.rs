@@ -6,6 +6,7 @@ use super::homes::{Homes, Slot};
 use super::params::{Entry, entries, take_params};
 use super::{Text, table};
 use crate::flow::graph::Axis;
+use crate::flow::tree::SubroutineId;
 use crate::plan::Plan;
 use slowlight_routine::{Format, Part, Source};
 use slowlight_runtime_6502::write::{self, Place as Operand};
@@ -202,8 +203,8 @@ fn main(plan: &Plan, homes: &Homes, parts: &[&'static Part], text: &mut Text) ->
     if let Some(rows) = &errors {
         code.send_errors(rows);
     }
-    let clamps = code.clamps;
     let [end0, end1] = [0, 1].map(|k| write::byte(&Operand::Constant(u64::from(columns.1) + 1), k));
+    let clamps = code.clamps;
     let text = &mut *code.text;
     text.code(&format!("inc {x} | bne next_column | inc {x}+1"));
     text.label("next_column");
@@ -227,6 +228,31 @@ fn main(plan: &Plan, homes: &Homes, parts: &[&'static Part], text: &mut Text) ->
     text.code("lda #0 | sta exit_port");
     text.label("halted");
     text.code("jmp halted");
+    subroutines(plan, homes, text) || clamps
+}
+
+/// What is called from several places; answers whether it clamps an index.
+fn subroutines(plan: &Plan, homes: &Homes, text: &mut Text) -> bool {
+    let mut clamps = false;
+    for (k, subroutine) in plan.tree.subroutines.iter().enumerate() {
+        let calls = plan.tree.calls(SubroutineId(k as u32));
+        text.headline(&format!(
+            "{}, called from {calls} places",
+            subroutine.label()
+        ));
+        text.label(homes.subroutine(SubroutineId(k as u32)));
+        let mut code = Code {
+            plan,
+            homes,
+            text,
+            clamps: false,
+        };
+        code.block(&subroutine.body);
+        clamps |= code.clamps;
+        text.span = Some(subroutine.span);
+        text.code("rts");
+        text.span = None;
+    }
     clamps
 }
 

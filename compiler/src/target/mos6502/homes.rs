@@ -3,12 +3,12 @@
 use super::spread;
 use crate::flow::graph::*;
 use crate::flow::tree::*;
-use crate::plan::Plan;
+use crate::plan::{Plan, shared_homes};
 use slowlight_isa::opcodes;
 use slowlight_routine::{Format, Source};
 use slowlight_runtime_6502::write::{self, Place as Operand};
 use slowlight_runtime_6502::{FREE_MEMORY, FREE_ZERO_PAGE};
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::{BTreeMap, BTreeSet, HashMap};
 
 /// Something that the program keeps in memory.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -49,6 +49,23 @@ pub(super) struct Homes {
     pub errors: Option<u16>,
     /// The first free address behind the homes.
     pub origin: u16,
+    /// The subroutines' labels.
+    subroutines: Vec<String>,
+    /// Where memory is short: the place whose home each place shares.
+    shared: HashMap<Place, Place>,
+}
+
+/// For each place, the first of those that it shares a home with.
+fn sharing(plan: &Plan) -> HashMap<Place, Place> {
+    let homes = shared_homes(plan);
+    let mut first: HashMap<(Format, usize), Place> = HashMap::new();
+    let mut shared = HashMap::new();
+    for (place, format) in plan.places() {
+        if let Some(&at) = homes.get(&place) {
+            shared.insert(place, *first.entry((format, at)).or_insert(place));
+        }
+    }
+    shared
 }
 
 /// Labels and symbols of the frame; see there.
@@ -92,8 +109,13 @@ const RESERVED: &[&str] = &[
 impl Homes {
     pub fn new(plan: &Plan) -> Homes {
         let fused = fused(plan);
+        let shared = match plan.tight {
+            true => sharing(plan),
+            false => HashMap::new(),
+        };
         let mut uses = Uses {
             plan,
+            shared: &shared,
             fused: &fused,
             weight: 1,
             count: BTreeMap::new(),
@@ -128,8 +150,14 @@ impl Homes {
             origin = origin.saturating_add(bytes) & 0xFF00;
             at
         });
+        let named = plan.tree.subroutines.iter();
+        let subroutines = named
+            .map(|s| names.fresh(&format!("do_{}", s.label())))
+            .collect();
         Homes {
             homes,
+            subroutines,
+            shared,
             params,
             fused,
             errors,
@@ -149,14 +177,23 @@ impl Homes {
     }
 
     pub fn place(&self, place: Place) -> &str {
-        self.name(Slot::Value(place))
+        self.name(Slot::Value(
+            self.shared.get(&place).copied().unwrap_or(place),
+        ))
+    }
+
+    /// A subroutine's label.
+    pub fn subroutine(&self, id: SubroutineId) -> &str {
+        self.subroutines
+            .get(id.0 as usize)
+            .map_or("unused", String::as_str)
     }
 
     /// Where a node's value is read from.
     pub fn operand(&self, plan: &Plan, id: NodeId) -> Operand {
         let at = |slot| Operand::At(self.name(slot).to_owned());
         match (plan.place(id), plan.graph.node(id)) {
-            (Some(place), _) => at(Slot::Value(place)),
+            (Some(place), _) => Operand::At(self.place(place).to_owned()),
             (None, Node::Const(c)) => Operand::Constant(plan.bits(c.value())),
             (None, Node::Param(p)) => at(Slot::Param(p.0)),
             (None, Node::Axis(axis)) => at(Slot::Axis(axis)),
@@ -190,7 +227,7 @@ fn fused(plan: &Plan) -> BTreeSet<NodeId> {
             }
         }
     }
-    for block in [&plan.tree.frame, &plan.tree.row, &plan.tree.pixel] {
+    for block in plan.tree.blocks() {
         pairs(block, &mut visit);
     }
     found
@@ -232,6 +269,7 @@ fn wanted(plan: &Plan, slot: Slot) -> String {
 /// Counts reads and writes of slots, loops eightfold, pixels and rows more.
 struct Uses<'p> {
     plan: &'p Plan,
+    shared: &'p HashMap<Place, Place>,
     fused: &'p BTreeSet<NodeId>,
     weight: u64,
     count: BTreeMap<Slot, u64>,
@@ -268,6 +306,12 @@ impl Uses<'_> {
         self.add(Slot::Axis(Axis::Y));
     }
 
+    fn add_place(&mut self, place: Place) {
+        self.add(Slot::Value(
+            self.shared.get(&place).copied().unwrap_or(place),
+        ));
+    }
+
     fn add(&mut self, slot: Slot) {
         *self.count.entry(slot).or_default() += self.weight;
     }
@@ -277,7 +321,7 @@ impl Uses<'_> {
             return;
         }
         match (self.plan.place(id), self.plan.graph.node(id)) {
-            (Some(place), _) => self.add(Slot::Value(place)),
+            (Some(place), _) => self.add_place(place),
             (None, Node::Param(p)) => self.add(Slot::Param(p.0)),
             (None, Node::Axis(axis)) => self.add(Slot::Axis(axis)),
             (None, Node::Received) => self.add(Slot::Received),
@@ -285,7 +329,7 @@ impl Uses<'_> {
         }
     }
 
-    fn block(&mut self, block: &Block) {
+    fn block(&mut self, block: &[Statement]) {
         for statement in block {
             match statement {
                 Statement::Let(id) => {
@@ -297,10 +341,10 @@ impl Uses<'_> {
                     self.read(*id);
                 }
                 Statement::Set { place, from } => {
-                    self.add(Slot::Value(*place));
+                    self.add_place(*place);
                     match *from {
                         Origin::Node(id) => self.read(id),
-                        Origin::Scratch(l, k) => self.add(Slot::Value(Place::Scratch(l, k))),
+                        Origin::Scratch(l, k) => self.add_place(Place::Scratch(l, k)),
                     }
                 }
                 Statement::If { cond, yes, no } => {
@@ -320,6 +364,7 @@ impl Uses<'_> {
                     self.block(&turns.done);
                     self.block(&turns.otherwise);
                 }
+                Statement::Call(id) => self.block(self.plan.tree.body(*id)),
             }
         }
     }

@@ -29,6 +29,7 @@ mod table;
 mod tests;
 
 use super::{Document, Mode, Target};
+use crate::passes::outline::Sizes;
 use crate::plan::Plan;
 use crate::source::Span;
 use slowlight_runtime_6502::FIXED16_16;
@@ -48,6 +49,16 @@ pub static PLAIN: Target = Target {
     // 1/256: far above the last place (1/65536), far below what a pixel sees.
     offset: 0.003_906_25,
     hertz: 2_000_000.0,
+    sizes: Sizes {
+        operation: 0,
+        copy_bool: 4,
+        copy: 20,
+        home: 4,
+        test: 9,
+        turns: 30,
+        call: 3,
+        around: 1,
+    },
     emit,
 };
 

@@ -42,7 +42,7 @@ fn label(table: TableId, k: usize) -> String {
 fn used(plan: &Plan) -> Vec<TableId> {
     let tree = &plan.tree;
     let mut found = Vec::new();
-    for block in [&tree.frame, &tree.row, &tree.pixel] {
+    for block in tree.blocks() {
         crate::flow::tree::walk(block, &mut |statement| {
             if let crate::flow::tree::Statement::Let(id) = statement
                 && let Node::Lookup { table, .. } = plan.graph.node(*id)

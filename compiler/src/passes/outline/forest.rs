@@ -1,0 +1,528 @@
+//! Statements with every block in one arena, so that runs of them can be
+//! numbered, compared and replaced.
+
+use super::Sizes;
+use crate::flow::graph::*;
+use crate::flow::tree::*;
+use crate::source::Span;
+use std::collections::HashMap;
+
+/// Which block of a forest.
+pub(super) type BlockId = usize;
+
+/// A statement, its blocks elsewhere.
+#[derive(Clone, Debug)]
+pub(super) enum Step {
+    Let(NodeId),
+    Set {
+        place: Place,
+        from: Origin,
+    },
+    If {
+        cond: NodeId,
+        arms: [BlockId; 2],
+    },
+    Loop {
+        of: LoopId,
+        again: NodeId,
+        parts: [BlockId; 5],
+    },
+    Call(SubroutineId),
+}
+
+/// What a statement, or the beginning or end of one, has to agree in, and what it refers to.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Token {
+    /// Kind, operation, types: as numbers.
+    pub shape: [u32; 4],
+    /// What is read.
+    pub uses: Vec<NodeId>,
+    /// The node that is written.
+    pub def: Option<NodeId>,
+    /// The loop whose carried value is written or saved one read.
+    pub within: Option<LoopId>,
+    /// The loop that begins here.
+    pub opens: Option<LoopId>,
+    /// Whether it runs whenever the statement that it belongs to does.
+    pub sure: bool,
+    /// What it takes in the program.
+    pub bytes: u32,
+}
+
+/// A block's place: in which block, before which statement of it.
+type Above = Option<(BlockId, usize)>;
+
+/// Statements under work.
+pub(super) struct Forest {
+    /// Each block's statements; each may be replaced by several or none.
+    pub blocks: Vec<Vec<Vec<Step>>>,
+    /// Each statement's tokens, those inside it included.
+    pub tokens: Vec<Vec<Vec<Token>>>,
+    /// What has been replaced, or holds something that has.
+    pub touched: Vec<Vec<bool>>,
+    /// The subroutine that each block belongs to.
+    pub owner: Vec<Option<SubroutineId>>,
+    /// The subroutine that each node belongs to, if it belongs to one.
+    pub node_owner: Vec<Option<SubroutineId>>,
+    /// How often each node is read anywhere.
+    pub reads: Vec<u32>,
+    /// The statement after which a node is computed on every way.
+    assigned: HashMap<NodeId, (BlockId, usize)>,
+    /// Where what was computed before a block stands.
+    before: Vec<Above>,
+    /// The statement that holds a block.
+    pub around: Vec<Above>,
+    /// Frame, row, pixel, then the subroutines' bodies.
+    tops: Vec<BlockId>,
+    /// The subroutines' names and spans.
+    pub named: Vec<(String, Span)>,
+}
+
+impl Forest {
+    pub fn new(graph: &Graph, tree: Tree, bytes: &[u32], sizes: &Sizes) -> Forest {
+        let mut forest = Forest {
+            blocks: Vec::new(),
+            tokens: Vec::new(),
+            touched: Vec::new(),
+            owner: Vec::new(),
+            node_owner: vec![None; graph.nodes.len()],
+            reads: vec![0; graph.nodes.len()],
+            assigned: HashMap::new(),
+            before: Vec::new(),
+            around: Vec::new(),
+            tops: Vec::new(),
+            named: Vec::new(),
+        };
+        let mut above = None;
+        for block in [tree.frame, tree.row, tree.pixel] {
+            let end = block.len();
+            let made = forest.block(block, None, above, None);
+            forest.tops.push(made);
+            above = Some((made, end));
+        }
+        for (k, subroutine) in tree.subroutines.into_iter().enumerate() {
+            let id = SubroutineId(k as u32);
+            let made = forest.block(subroutine.body, Some(id), None, None);
+            forest.tops.push(made);
+            forest.named.push((subroutine.name, subroutine.span));
+        }
+        for root in graph.roots().chain(graph.shade) {
+            forest.reads[root.0 as usize] += 1;
+        }
+        forest.own(graph);
+        forest.describe(graph, bytes, sizes);
+        forest
+    }
+
+    /// Takes a block apart. `before` is where what is computed earlier stands.
+    fn block(
+        &mut self,
+        block: Block,
+        owner: Option<SubroutineId>,
+        before: Above,
+        around: Above,
+    ) -> BlockId {
+        let id = self.blocks.len();
+        self.blocks.push(Vec::new());
+        self.tokens.push(Vec::new());
+        self.touched.push(vec![false; block.len()]);
+        self.owner.push(owner);
+        self.before.push(before);
+        self.around.push(around);
+        let mut steps = Vec::with_capacity(block.len());
+        for (at, statement) in block.into_iter().enumerate() {
+            let here = Some((id, at));
+            let step = match statement {
+                Statement::Let(node) => {
+                    self.assigned.insert(node, (id, at));
+                    Step::Let(node)
+                }
+                Statement::Set { place, from } => {
+                    if let Place::Node(node) = place {
+                        self.assigned.insert(node, (id, at));
+                    }
+                    Step::Set { place, from }
+                }
+                Statement::Call(called) => Step::Call(called),
+                Statement::If { cond, yes, no } => {
+                    let arms = [yes, no].map(|arm| self.block(arm, owner, here, here));
+                    let [yes, no] = arms;
+                    self.join(
+                        &steps_of(&self.blocks[yes]),
+                        &steps_of(&self.blocks[no]),
+                        (id, at),
+                    );
+                    Step::If { cond, arms }
+                }
+                Statement::Loop(turns) => {
+                    let mut last = here;
+                    let part = |forest: &mut Forest, block: Block, before: Above| {
+                        let end = block.len();
+                        let made = forest.block(block, owner, before, here);
+                        (made, Some((made, end)))
+                    };
+                    let (start, after_start) = part(self, turns.start, last);
+                    let (body, after_body) = part(self, turns.body, after_start);
+                    let (next, after_next) = part(self, turns.next, after_body);
+                    let (done, _) = part(self, turns.done, after_body);
+                    last = after_next;
+                    let (otherwise, _) = part(self, turns.otherwise, last);
+                    let (a, b) = (
+                        steps_of(&self.blocks[done]),
+                        steps_of(&self.blocks[otherwise]),
+                    );
+                    self.join(&a, &b, (id, at));
+                    Step::Loop {
+                        of: turns.of,
+                        again: turns.again,
+                        parts: [start, body, next, done, otherwise],
+                    }
+                }
+            };
+            steps.push(vec![step]);
+        }
+        self.blocks[id] = steps;
+        id
+    }
+
+    /// What two ways both set is set after them.
+    fn join(&mut self, a: &[Step], b: &[Step], at: (BlockId, usize)) {
+        let set = |step: &Step| match step {
+            Step::Set {
+                place: Place::Node(id),
+                ..
+            } => Some(*id),
+            _ => None,
+        };
+        let others: Vec<NodeId> = b.iter().filter_map(set).collect();
+        for id in a.iter().filter_map(set).filter(|id| others.contains(id)) {
+            self.assigned.insert(id, at);
+        }
+    }
+
+    /// Finds out which nodes belong to subroutines: what their bodies write,
+    /// and the slots that they read.
+    fn own(&mut self, graph: &Graph) {
+        // A body may set the slots of what it calls, so those who read come first.
+        for writes in [false, true] {
+            for (block, owner) in self.owner.iter().enumerate() {
+                let Some(owner) = *owner else {
+                    continue;
+                };
+                for step in self.blocks[block].iter().flatten() {
+                    let ids = match step {
+                        Step::Let(id)
+                        | Step::Set {
+                            place: Place::Node(id),
+                            ..
+                        } if writes => vec![*id],
+                        _ if writes => Vec::new(),
+                        step => reads_of(graph, step),
+                    };
+                    for id in ids {
+                        let slot = matches!(graph.node(id), Node::Slot(_));
+                        let held = &mut self.node_owner[id.0 as usize];
+                        if held.is_none() && (slot || writes) {
+                            *held = Some(owner);
+                        }
+                    }
+                }
+            }
+        }
+    }
+
+    fn describe(&mut self, graph: &Graph, bytes: &[u32], sizes: &Sizes) {
+        for top in self.tops.clone() {
+            self.describe_block(graph, bytes, sizes, top);
+        }
+        for block in 0..self.tokens.len() {
+            for step in self.blocks[block].iter().flatten() {
+                for id in reads_of(graph, step) {
+                    self.reads[id.0 as usize] += 1;
+                }
+            }
+        }
+    }
+
+    fn describe_block(&mut self, graph: &Graph, bytes: &[u32], sizes: &Sizes, block: BlockId) {
+        for at in 0..self.blocks[block].len() {
+            let mut tokens = Vec::new();
+            for step in self.blocks[block][at].clone() {
+                self.describe_step(graph, bytes, sizes, &step, &mut tokens);
+            }
+            self.tokens[block].push(tokens);
+        }
+    }
+
+    fn describe_step(
+        &mut self,
+        graph: &Graph,
+        bytes: &[u32],
+        sizes: &Sizes,
+        step: &Step,
+        tokens: &mut Vec<Token>,
+    ) {
+        let mut token = plain(graph, step, sizes);
+        if let Step::Let(id) = step {
+            let routine = bytes.get(id.0 as usize).copied().unwrap_or(0);
+            token.bytes = routine + sizes.operation;
+        }
+        tokens.push(token);
+        let mark = |kind: u32| Token {
+            shape: [kind, 0, 0, 0],
+            sure: true,
+            ..Token::default()
+        };
+        let parts: Vec<(BlockId, bool)> = match *step {
+            Step::If {
+                arms: [yes, no], ..
+            } => vec![(yes, false), (no, false)],
+            Step::Loop {
+                parts: [start, body, next, done, otherwise],
+                ..
+            } => vec![
+                (start, true),
+                (body, true),
+                (next, false),
+                (done, false),
+                (otherwise, false),
+            ],
+            _ => return,
+        };
+        for (k, (part, sure)) in parts.into_iter().enumerate() {
+            self.describe_block(graph, bytes, sizes, part);
+            for token in self.tokens[part].iter().flatten() {
+                tokens.push(Token {
+                    sure: token.sure && sure,
+                    ..token.clone()
+                });
+            }
+            tokens.push(mark(100 + k as u32));
+            if let (Step::Loop { again, .. }, 1) = (step, k) {
+                tokens.push(Token {
+                    uses: vec![*again],
+                    ..mark(110)
+                });
+            }
+        }
+    }
+
+    /// Whether a node is computed on every way to a statement.
+    pub fn is_assigned(&self, graph: &Graph, id: NodeId, block: BlockId, at: usize) -> bool {
+        match graph.node(id) {
+            Node::Const(_) | Node::Param(_) | Node::Axis(_) | Node::Received => return true,
+            Node::Carried { .. } | Node::Last { .. } => return true,
+            // Set by every call.
+            Node::Slot(_) => return self.node_owner[id.0 as usize] == self.owner[block],
+            _ => {}
+        }
+        let Some(&(home, after)) = self.assigned.get(&id) else {
+            return false;
+        };
+        let mut here = Some((block, at));
+        while let Some((block, at)) = here {
+            if block == home {
+                return after < at;
+            }
+            here = self.before[block];
+        }
+        false
+    }
+
+    /// Whether a run computes a node on every way through it.
+    pub fn is_assigned_in(&self, id: NodeId, block: BlockId, run: std::ops::Range<usize>) -> bool {
+        self.assigned
+            .get(&id)
+            .is_some_and(|(home, at)| *home == block && run.contains(at))
+    }
+
+    /// Notes that a run is replaced: nothing that holds it or is in it may be
+    /// compared with its tokens any more.
+    pub fn touch(&mut self, block: BlockId, run: std::ops::Range<usize>) {
+        for at in run {
+            self.touch_down(block, at);
+        }
+        let mut above = self.around[block];
+        while let Some((block, at)) = above {
+            self.touched[block][at] = true;
+            above = self.around[block];
+        }
+    }
+
+    fn touch_down(&mut self, block: BlockId, at: usize) {
+        self.touched[block][at] = true;
+        let inner: Vec<BlockId> = self.blocks[block][at]
+            .iter()
+            .flat_map(|step| match step {
+                Step::If { arms, .. } => arms.to_vec(),
+                Step::Loop { parts, .. } => parts.to_vec(),
+                _ => Vec::new(),
+            })
+            .collect();
+        for block in inner {
+            for at in 0..self.blocks[block].len() {
+                self.touch_down(block, at);
+            }
+        }
+    }
+
+    /// A new subroutine.
+    pub fn add(&mut self, name: String, span: Span, body: Vec<Step>) -> SubroutineId {
+        let id = SubroutineId(self.named.len() as u32);
+        self.named.push((name, span));
+        let body = self.add_block(body);
+        self.tops.push(body);
+        id
+    }
+
+    /// A new block, which is compared with none in this round.
+    pub fn add_block(&mut self, steps: Vec<Step>) -> BlockId {
+        self.touched.push(vec![true; steps.len()]);
+        self.blocks
+            .push(steps.into_iter().map(|s| vec![s]).collect());
+        self.tokens.push(Vec::new());
+        self.owner.push(None);
+        self.before.push(None);
+        self.around.push(None);
+        self.blocks.len() - 1
+    }
+
+    pub fn into_tree(mut self) -> Tree {
+        let mut tops = std::mem::take(&mut self.tops).into_iter();
+        let mut next = |forest: &mut Forest| tops.next().map_or(Block::new(), |b| forest.take(b));
+        let mut tree = Tree {
+            frame: next(&mut self),
+            row: next(&mut self),
+            pixel: next(&mut self),
+            subroutines: Vec::new(),
+        };
+        for (name, span) in std::mem::take(&mut self.named) {
+            tree.subroutines.push(Subroutine {
+                name,
+                span,
+                body: next(&mut self),
+            });
+        }
+        tree
+    }
+
+    fn take(&mut self, block: BlockId) -> Block {
+        let steps = std::mem::take(&mut self.blocks[block]);
+        let mut all = Block::new();
+        for step in steps.into_iter().flatten() {
+            all.push(match step {
+                Step::Let(id) => Statement::Let(id),
+                Step::Set { place, from } => Statement::Set { place, from },
+                Step::Call(id) => Statement::Call(id),
+                Step::If {
+                    cond,
+                    arms: [yes, no],
+                } => Statement::If {
+                    cond,
+                    yes: self.take(yes),
+                    no: self.take(no),
+                },
+                Step::Loop {
+                    of,
+                    again,
+                    parts: [start, body, next, done, otherwise],
+                } => Statement::Loop(Turns {
+                    of,
+                    start: self.take(start),
+                    body: self.take(body),
+                    again,
+                    next: self.take(next),
+                    done: self.take(done),
+                    otherwise: self.take(otherwise),
+                }),
+            });
+        }
+        all
+    }
+}
+
+fn steps_of(block: &[Vec<Step>]) -> Vec<Step> {
+    block.iter().flatten().cloned().collect()
+}
+
+/// What a statement itself reads, without those inside it.
+fn reads_of(graph: &Graph, step: &Step) -> Vec<NodeId> {
+    match step {
+        Step::Let(id) => graph.node(*id).operands().collect(),
+        Step::Set {
+            from: Origin::Node(id),
+            ..
+        } => vec![*id],
+        Step::If { cond, .. } => vec![*cond],
+        Step::Loop { again, .. } => vec![*again],
+        Step::Set { .. } | Step::Call(_) => Vec::new(),
+    }
+}
+
+/// A statement's first token.
+fn plain(graph: &Graph, step: &Step, sizes: &Sizes) -> Token {
+    let mut token = Token {
+        uses: reads_of(graph, step),
+        sure: true,
+        ..Token::default()
+    };
+    match *step {
+        Step::Let(id) => {
+            let (kind, what) = match graph.node(id) {
+                Node::Apply(op, _) => (1, op as u32),
+                Node::Lookup { table, .. } => (2, table.0),
+                _ => (3, id.0),
+            };
+            token.shape = [kind, what, graph.ty(id) as u32, 0];
+            token.def = Some(id);
+        }
+        Step::Set { place, from } => {
+            let (kind, what, ty) = match place {
+                Place::Node(id) => {
+                    token.def = Some(id);
+                    (4, 0, graph.ty(id))
+                }
+                Place::Carried(of, index) => {
+                    token.within = Some(of);
+                    (5, index, carried_type(graph, of, index))
+                }
+                Place::Scratch(of, index) => {
+                    token.within = Some(of);
+                    (6, index, carried_type(graph, of, index))
+                }
+            };
+            let saved = match from {
+                Origin::Node(_) => 0,
+                Origin::Scratch(of, index) => {
+                    token.within = Some(of);
+                    index + 1
+                }
+            };
+            token.shape = [kind, what, ty as u32, saved];
+            token.bytes = sizes.copy_of(ty);
+        }
+        Step::If { .. } => {
+            token.shape = [7, 0, 0, 0];
+            token.bytes = sizes.test;
+        }
+        Step::Loop { of, .. } => {
+            let max = graph.loops.get(of.0 as usize).map_or(1, |l| l.max);
+            token.shape = [8, max, 0, 0];
+            token.opens = Some(of);
+            // It is read behind the body, where its own token stands.
+            token.uses.clear();
+            token.bytes = sizes.turns;
+        }
+        Step::Call(id) => {
+            token.shape = [9, id.0, 0, 0];
+            token.bytes = sizes.call;
+        }
+    }
+    token
+}
+
+fn carried_type(graph: &Graph, of: LoopId, index: u32) -> slowlight_routine::Type {
+    let found = graph.loops.get(of.0 as usize);
+    let found = found.and_then(|l| l.types.get(index as usize));
+    found.copied().unwrap_or(slowlight_routine::Type::Real)
+}

@@ -1,0 +1,33 @@
+//! The plan of the same scene with subroutines, for machines that cannot hold
+//! everything where it is used.
+
+use super::{Goal, Plan, assemble};
+use crate::passes::outline::outline;
+use crate::passes::schedule::schedule_together;
+use crate::range::{Slack, ranges};
+use crate::source::{Diagnostic, Span};
+
+impl Plan {
+    /// The plan with [`crate::passes::outline`]; `name` says what the source
+    /// calls what stands at a place. Where bounds differ between the calls of a
+    /// subroutine, its routines are right for all of them: a program with
+    /// subroutines may take guarded routines where one without does not.
+    ///
+    /// # Errors
+    /// Where an operation has no routine, as for [`super::plan`].
+    pub fn outlined(&self, name: &dyn Fn(Span) -> Option<String>) -> Result<Plan, Vec<Diagnostic>> {
+        let bytes: Vec<u32> = (self.graph.ids())
+            .map(|id| self.routine(id).map_or(0, |routine| routine.bytes))
+            .collect();
+        let tree = schedule_together(&self.graph);
+        let (graph, tree) = outline(&self.graph, tree, &bytes, &self.target.sizes, name);
+        let found = ranges(&graph, &tree, &Slack::of(self.runtime));
+        let goal = Goal {
+            name: self.name.clone(),
+            mode: self.mode,
+            rows: Some(self.rows),
+            plot: self.plot,
+        };
+        assemble(graph, tree, found, self.params.clone(), self.target, &goal)
+    }
+}
