@@ -10,6 +10,7 @@
 
 use crate::failure::{Failure, Outcome};
 use crate::format::count;
+use slowlight_compiler::flow::graph::Table;
 use slowlight_compiler::flow::tree::{Statement, Tree, walk};
 use slowlight_compiler::plan::Plan;
 use slowlight_compiler::source::Span;
@@ -283,7 +284,11 @@ fn help(plan: &Plan) -> String {
     if plan.graph.diffusion.is_some() {
         ways.push("dither by a matrix, which keeps no rows of errors".to_owned());
     }
-    ways.push("draw fewer shapes: each is written out wherever it is met".to_owned());
+    let large = |t: &Table| t.entries.len() > 1000;
+    if plan.graph.tables.iter().any(large) {
+        ways.push("make tables smaller".to_owned());
+    }
+    ways.push("draw fewer shapes, or more of one kind: what is alike is written once".to_owned());
     format!("what would help: {}", ways.join("; "))
 }
 

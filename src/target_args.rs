@@ -26,6 +26,9 @@ pub struct ScreenArgs {
     /// Without the stable forms: every formula as the scene has it
     #[arg(long, hide = true)]
     pub as_written: bool,
+    /// With subroutines for what the program has several times, also where it fits without
+    #[arg(long, hide = true)]
+    pub outlined: bool,
 }
 
 /// An operating system for Jack programs.
@@ -153,6 +156,10 @@ impl ScreenArgs {
         let planned = match self.as_written {
             true => plan_as_written(&graph, target, &goal),
             false => plan(&graph, target, &goal),
+        };
+        let planned = match self.outlined {
+            true => planned.and_then(|plan| plan.outlined(&|span| scene.called_at(span))),
+            false => planned,
         };
         let plan = planned.map_err(|said| scene.wrong(said))?;
         match asked {

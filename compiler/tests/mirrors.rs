@@ -34,6 +34,7 @@ static PLAIN: Target = Target {
     modes: &[MODE],
     offset: 1.0 / 256.0,
     hertz: 1e6,
+    sizes: slowlight_compiler::target::mos6502::PLAIN.sizes,
     emit: |_| Vec::new(),
 };
 

@@ -27,13 +27,12 @@ fn a_tight_program_draws_the_same() {
     assert!(bytes("code_bytes") + bytes("ram_bytes") <= 5888);
 }
 
-/// Nothing is written where nothing fits, and the message says by how much.
-#[test]
-fn what_does_not_fit_is_said_in_bytes() {
+/// Sixty spheres: far too many for the machines if each is written out.
+fn many() -> String {
     let spheres: Vec<String> = (0..60)
         .map(|k| format!("sphere(({k} - 30, sin({k}rad), 0.{k}), 0.4) is 0.{k};"))
         .collect();
-    let scene = format!(
+    format!(
         "image 64 x 48 inks black, white;
         param eye: vec3 = (0, 0, 9) in (-1, -1, 8) .. (1, 1, 10);
         scene world {{ {} }}
@@ -44,31 +43,116 @@ fn what_does_not_fit_is_said_in_bytes() {
           threshold(v, bayer(2)[x mod 2, y mod 2])
         }};",
         spheres.join("\n")
-    );
-    let dir = directory(&[("many.scn", &scene)]);
-    for target in ["bbc:micro", "6502:plain"] {
-        let args = ["build", "many.scn", "-t", target, "-o", "out"];
-        let output = slowlight(dir.path(), &args);
-        let said = String::from_utf8_lossy(&output.stderr);
-        assert_eq!(output.status.code(), Some(1), "{said}");
-        let parts = [
-            "many does not fit",
-            "too many (",
-            "program",
-            "--without lit",
-        ];
-        for part in parts.into_iter().chain([target, "--freeze all"]) {
-            assert!(said.contains(part), "{part}: {said}");
+    )
+}
+
+/// Where shapes are too many to be written out, they share subroutines, and
+/// the program still draws what its model does.
+#[test]
+fn shapes_share_subroutines_where_memory_is_short() {
+    let fifty = include_str!("../../examples/fifty.scn");
+    let csg = include_str!("../../examples/csg.scn");
+    let scenes = [
+        ("fifty.scn", fifty),
+        ("csg.scn", csg),
+        ("many.scn", &many()),
+    ];
+    let dir = directory(&scenes);
+    for (scene, rows) in [
+        ("fifty.scn", "150..150"),
+        ("csg.scn", "110..110"),
+        ("many.scn", "24..24"),
+    ] {
+        for (target, room) in [("bbc:micro", 16_128), ("6502:plain", 65_280)] {
+            let args = ["run", scene, "-t", target, "--rows", rows, "--json"];
+            let said = json(dir.path(), &args);
+            assert_eq!(said["differs_from_model"], 0, "{scene} {target}");
+            let bytes = |name: &str| said[name].as_u64().expect("bytes");
+            let all = bytes("code_bytes") + bytes("ram_bytes");
+            assert!(all <= room, "{scene} {target}: {all}");
         }
-        assert_eq!(names(dir.path()), ["many.scn"]);
-        // A stage may be looked at all the same.
-        let args = ["build", "many.scn", "-t", target, "--emit", "text"];
-        let output = slowlight(dir.path(), &args);
-        assert_eq!(output.status.code(), Some(0));
     }
     // Values that are never alive together share what they are kept in.
     let args = [
         "run", "many.scn", "-t", "jack", "--rows", "24..24", "--json",
     ];
     assert_eq!(json(dir.path(), &args)["differs_from_model"], 0);
+}
+
+/// A program reads as the scene does: subroutines are named after what the
+/// scene calls there.
+#[test]
+fn subroutines_are_named_after_the_scene() {
+    let csg = include_str!("../../examples/csg.scn");
+    let dir = directory(&[("csg.scn", csg)]);
+    let args = ["build", "csg.scn", "-t", "6502:plain", "-o", "."];
+    let output = slowlight(dir.path(), &args);
+    assert_eq!(output.status.code(), Some(0));
+    let text = std::fs::read_to_string(dir.path().join("csg.asm")).expect("written");
+    for line in ["; ---- trace, called from ", "do_trace:", "jsr do_trace"] {
+        assert!(text.contains(line), "{line}");
+    }
+}
+
+/// With subroutines or without, a program draws what its own model does.
+#[test]
+fn subroutines_draw_the_same_everywhere() {
+    let dir = directory(&[("room.scn", ROOM)]);
+    for target in ["bbc:micro", "bbc:agon", "jack", "6502:plain"] {
+        let rows = "100..100";
+        let args = [
+            "run",
+            "room.scn",
+            "-t",
+            target,
+            "--rows",
+            rows,
+            "--json",
+            "--outlined",
+        ];
+        assert_eq!(json(dir.path(), &args)["differs_from_model"], 0, "{target}");
+    }
+}
+
+/// Nothing is written where nothing fits, and the message says by how much.
+#[test]
+fn what_does_not_fit_is_said_in_bytes() {
+    let entries: Vec<String> = (0..18_000)
+        .map(|k| format!("0.{:04}", k * 7919 % 10_000))
+        .collect();
+    let scene = format!(
+        "image 64 x 48 inks black, white;
+        param eye: vec3 = (0, 0, 9) in (-1, -1, 8) .. (1, 1, 10);
+        scene world {{ sphere((0, 0, 0), 1) is 0.5; }}
+        const noise = [{}];
+        effect lit(h: hit) -> real else 0 = max(h.normal.z, 0);
+        draw (x, y) = {{
+          let r = ray(eye, unit((x / 32 - 1, 0.75 - y / 32, -1)));
+          let v = if let h = world.trace(r, far: 30) then lit(h) * h.tag else 0;
+          threshold(v, noise[x + 64 * y, 0])
+        }};",
+        entries.join(", ")
+    );
+    let dir = directory(&[("large.scn", &scene)]);
+    for target in ["bbc:micro", "6502:plain"] {
+        let args = ["build", "large.scn", "-t", target, "-o", "out"];
+        let output = slowlight(dir.path(), &args);
+        let said = String::from_utf8_lossy(&output.stderr);
+        assert_eq!(output.status.code(), Some(1), "{said}");
+        let parts = [
+            "large does not fit",
+            "too many (",
+            "program",
+            "--without lit",
+            "make tables smaller",
+        ];
+        for part in parts.into_iter().chain([target, "--freeze all"]) {
+            assert!(said.contains(part), "{part}: {said}");
+        }
+        assert_eq!(names(dir.path()), ["large.scn"]);
+        // A stage may be looked at all the same.
+        let args = ["build", "large.scn", "-t", target, "--emit", "text"];
+        let output = slowlight(dir.path(), &args);
+        assert_eq!(output.status.code(), Some(0));
+    }
 }

@@ -9,7 +9,7 @@ pub mod run;
 #[cfg(test)]
 mod lane_tests;
 #[cfg(test)]
-mod random_graphs;
+pub(crate) mod random_graphs;
 #[cfg(test)]
 mod scalar;
 #[cfg(test)]

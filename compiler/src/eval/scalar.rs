@@ -240,7 +240,7 @@ impl<'g> Scalar<'g> {
                 value.unwrap_or(Some(Value::Int(0)))
             }
             Node::Received => Some(self.received),
-            Node::Undefined(_) => Some(Value::Int(0)),
+            Node::Slot(_) | Node::Undefined(_) => Some(Value::Int(0)),
         }
     }
 

@@ -19,6 +19,7 @@
 use super::rate::{Dependence, Rates, rates};
 use super::region::*;
 use crate::flow::graph::*;
+use slowlight_routine::Op;
 
 /// Which nodes the ink and what is sent to later pixels need, carried values only where they are read. As long
 /// as the graph's nodes.
@@ -72,8 +73,19 @@ pub fn live_carried(graph: &Graph, needed: &[bool], of: LoopId) -> Vec<u32> {
 
 /// Places every value that the ink needs.
 pub fn place(graph: &Graph) -> Regions {
+    place_all(graph, false)
+}
+
+/// The same, but a sum of what needs no computing stays where it is used, for
+/// machines short of memory: it costs less there than its home does.
+pub fn place_near(graph: &Graph) -> Regions {
+    place_all(graph, true)
+}
+
+fn place_all(graph: &Graph, near: bool) -> Regions {
     let mut placer = Placer {
         graph,
+        near,
         needed: needed(graph),
         rates: rates(graph),
         regions: Regions::new(graph),
@@ -90,6 +102,8 @@ pub fn place(graph: &Graph) -> Regions {
 
 struct Placer<'g> {
     graph: &'g Graph,
+    /// Whether cheap values stay where they are used.
+    near: bool,
     needed: Vec<bool>,
     rates: Rates,
     regions: Regions,
@@ -193,9 +207,29 @@ impl Placer<'_> {
         region
     }
 
+    /// Whether a value is a sum of what needs no computing.
+    fn is_cheap(&self, id: NodeId) -> bool {
+        let graph = self.graph;
+        let leaf = |id: NodeId| {
+            matches!(
+                graph.node(id),
+                Node::Const(_) | Node::Param(_) | Node::Axis(_)
+            )
+        };
+        match graph.node(id) {
+            Node::Apply(Op::Add | Op::Sub | Op::IntAdd | Op::IntSub, args) => {
+                args.into_iter().all(leaf)
+            }
+            _ => false,
+        }
+    }
+
     /// A region further out that is entered less often and still has all that
     /// the value depends on.
     fn leave(&self, id: NodeId, region: RegionId) -> Option<RegionId> {
+        if self.near && self.is_cheap(id) {
+            return None;
+        }
         let depends = |d| self.rates.depends(id, d);
         let loops = self
             .rates

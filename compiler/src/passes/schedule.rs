@@ -6,7 +6,7 @@
 //! under an implied condition. Units wait for the units that they read from;
 //! selects on one condition that are ready together share one `If`.
 
-use super::demand::{live_carried, needed, place};
+use super::demand::{live_carried, needed, place, place_near};
 use super::queue::{Order, Queue, Unit};
 use super::region::*;
 use crate::flow::graph::*;
@@ -18,15 +18,18 @@ pub fn schedule(graph: &Graph) -> Tree {
     schedule_by(graph, Order::Ready)
 }
 
-/// The same with the statements of a block as near to their order in the graph
-/// as may be. There what makes a shape stands together, so that the same shape
+/// The same for machines short of memory: cheap values stay where they are used,
+/// and the statements of a block are as near to their order in the graph as may be. There what makes a shape stands together, so that the same shape
 /// elsewhere has the same run of statements.
 pub fn schedule_together(graph: &Graph) -> Tree {
     schedule_by(graph, Order::Graph)
 }
 
 fn schedule_by(graph: &Graph, order: Order) -> Tree {
-    let regions = place(graph);
+    let regions = match order {
+        Order::Ready => place(graph),
+        Order::Graph => place_near(graph),
+    };
     let needed = needed(graph);
     let mut results = vec![Vec::new(); graph.loops.len()];
     for id in graph.ids().filter(|id| needed[id.0 as usize]) {

@@ -8,6 +8,7 @@
 //! its last, and every other place that is alive during a call keeps clear of them.
 
 use super::Plan;
+use super::merge::merged;
 use crate::flow::graph::*;
 use crate::flow::tree::*;
 use slowlight_routine::Format;
@@ -24,6 +25,8 @@ struct Lives<'p> {
     plan: &'p Plan,
     now: usize,
     lives: HashMap<Place, Life>,
+    /// For places that are one home for more than their lives: which one.
+    merged: HashMap<Place, Place>,
     /// Bodies of loops, inner ones first.
     bodies: Vec<Life>,
 }
@@ -35,6 +38,7 @@ pub fn shared_homes(plan: &Plan) -> HashMap<Place, usize> {
         plan,
         now: 0,
         lives: HashMap::new(),
+        merged: merged(plan),
         bodies: Vec::new(),
     };
     lives.block(&plan.tree.frame);
@@ -47,6 +51,7 @@ pub fn shared_homes(plan: &Plan) -> HashMap<Place, usize> {
     lives.extend();
     let end = lives.now + 1;
     let mut all: Vec<(Place, Format)> = plan.places();
+    all.retain(|(place, _)| !lives.merged.contains_key(place));
     let life = |place: &Place| match lives.lives.get(place) {
         Some(life) if life.from > pixel => *life,
         _ => Life { from: 0, to: end },
@@ -68,12 +73,18 @@ pub fn shared_homes(plan: &Plan) -> HashMap<Place, usize> {
         }
         homes.insert(place, at);
     }
+    for (&place, &one) in &lives.merged {
+        if let Some(&at) = homes.get(&one) {
+            homes.insert(place, at);
+        }
+    }
     homes
 }
 
 impl Lives<'_> {
     fn touch(&mut self, place: Place) {
         let now = self.now;
+        let place = self.merged.get(&place).copied().unwrap_or(place);
         let life = self.lives.entry(place);
         life.or_insert(Life { from: now, to: now }).to = now;
     }

@@ -36,6 +36,7 @@
 mod choose;
 mod fold_uses;
 mod lifetimes;
+mod merge;
 mod names;
 mod outlined;
 mod params;

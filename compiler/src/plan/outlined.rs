@@ -8,6 +8,11 @@ use crate::range::{Slack, ranges};
 use crate::source::{Diagnostic, Span};
 
 impl Plan {
+    /// Whether it has subroutines.
+    pub fn is_outlined(&self) -> bool {
+        !self.tree.subroutines.is_empty()
+    }
+
     /// The plan with [`crate::passes::outline`]; `name` says what the source
     /// calls what stands at a place. Where bounds differ between the calls of a
     /// subroutine, its routines are right for all of them: a program with

@@ -22,13 +22,15 @@
 //! all, or there is no call: a home that was not written is never read.
 //!
 //! - `forest`: the statements with every block in one arena, and what is known
-//!   of their places; `runs`: which runs have one shape; `make`: subroutines and calls.
+//!   of their places; `token`: what statements have to agree in; `runs`: which
+//!   runs have one shape; `make`: subroutines and calls.
 
 mod forest;
 mod make;
 mod runs;
 #[cfg(test)]
 mod tests;
+mod token;
 
 use crate::flow::graph::*;
 use crate::flow::tree::*;

@@ -1,7 +1,8 @@
 //! Which runs of statements have one shape, and which of them are worth a subroutine.
 
-use super::forest::{BlockId, Forest, Token};
+use super::forest::{BlockId, Forest};
 use super::make::Maker;
+use super::token::Token;
 use crate::flow::graph::*;
 use slowlight_routine::Type;
 use std::collections::{BTreeMap, BinaryHeap, HashMap};
@@ -30,6 +31,10 @@ pub(super) enum Reference {
     /// Anything else of this type.
     Outside(Type),
 }
+
+/// What a token reads, what it writes, and the loop whose values it sets, by
+/// number from 1.
+type References = (Vec<Reference>, Option<Reference>, u32);
 
 /// Reads tokens one by one and numbers what they refer to.
 pub(super) struct Reader<'f> {
@@ -73,7 +78,7 @@ impl<'f> Reader<'f> {
 
     /// A token's references: what it reads, what it writes, the loop whose
     /// values it sets. `None` where it writes to a loop outside of the run.
-    pub fn token(&mut self, token: &Token) -> Option<(Vec<Reference>, Option<Reference>, u32)> {
+    pub fn token(&mut self, token: &Token) -> Option<References> {
         let uses = token.uses.iter().map(|&id| self.used(id)).collect();
         if let Some(of) = token.opens {
             let number = self.loops.len() as u32;
@@ -122,7 +127,7 @@ pub(super) enum Given {
 
 /// What one run is made of, as the others have to be.
 struct Read {
-    key: Vec<(Vec<Reference>, Option<Reference>, u32, [u32; 4])>,
+    key: Vec<(References, [u32; 4])>,
     outside: Vec<NodeId>,
     /// Whether each position is read on every way.
     sure: Vec<bool>,
@@ -153,7 +158,7 @@ fn read(graph: &Graph, forest: &Forest, run: Run) -> Option<Read> {
             all.own.push(id);
         }
         all.bytes += token.bytes;
-        all.key.push((uses, def, within, token.shape));
+        all.key.push(((uses, def, within), token.shape));
     }
     Some(all)
 }

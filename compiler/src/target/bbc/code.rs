@@ -1,7 +1,7 @@
 //! Statements: assignments, IF and loops over GOTO.
 
 use super::expression::Expressions;
-use super::lines::{Labels, Lines};
+use super::lines::{Label, Labels, Lines};
 use crate::flow::tree::*;
 use crate::plan::Plan;
 use crate::source::Span;
@@ -106,6 +106,15 @@ impl<'p> Code<'p> {
             }
         }
         let end = self.labels.next();
+        if self.values.plan.is_outlined() && self.jump_behind(holds, fails, &yes, &no, end, span) {
+            self.lines.append(if yes.in_one_line(ONE_LINE).is_some() {
+                no
+            } else {
+                yes
+            });
+            self.lines.place(end);
+            return;
+        }
         if yes.is_empty() {
             self.lines.line(format!("IF {holds} THEN {end}"), span);
             self.lines.append(no);
@@ -121,6 +130,32 @@ impl<'p> Code<'p> {
             self.lines.append(no);
         }
         self.lines.place(end);
+    }
+
+    /// Where memory is shortest: a way that fits the line of its test stands
+    /// there with a jump behind it, if both ways do something.
+    fn jump_behind(
+        &mut self,
+        holds: &str,
+        fails: &str,
+        yes: &Lines,
+        no: &Lines,
+        end: Label,
+        span: Option<Span>,
+    ) -> bool {
+        if yes.is_empty() || no.is_empty() {
+            return false;
+        }
+        let short = [(holds, yes), (fails, no)]
+            .into_iter()
+            .find_map(|(test, way)| {
+                let way = way.in_one_line(ONE_LINE)?;
+                Some(format!("IF {test} THEN {way}:GOTO {end}"))
+            });
+        if let Some(text) = &short {
+            self.lines.line(text.clone(), span);
+        }
+        short.is_some()
     }
 
     /// A loop: turns are counted, so that it ends.
