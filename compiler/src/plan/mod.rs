@@ -217,6 +217,9 @@ impl Plan {
         };
         let mut plan = planned(&graph, self.target, &goal, *stably).ok()?;
         plan.params = self.params.clone();
+        if self.is_outlined() {
+            plan = plan.outlined(&|_| None).ok()?;
+        }
         Some(plan)
     }
 
@@ -299,7 +302,8 @@ fn planned(
         let message = format!("the schedule lost {id}: a fault of the compiler, please report it");
         return Err(vec![Diagnostic::error(graph.span(id), message)]);
     }
-    assemble(graph, tree, ranges_now, params, target, goal)
+    let origin = (Box::new(origin.clone()), stably);
+    assemble(graph, tree, ranges_now, params, target, goal, origin)
 }
 
 /// A plan of statements whose ranges are known.
@@ -310,6 +314,7 @@ fn assemble(
     params: Vec<ParamPlan>,
     target: &'static Target,
     goal: &Goal,
+    origin: (Box<Graph>, bool),
 ) -> Result<Plan, Vec<Diagnostic>> {
     let runtime = target.runtime;
     let routines = choose::choose(&graph, &tree, &ranges_now, runtime)?;
@@ -339,7 +344,7 @@ fn assemble(
         homes,
         graph,
         tree,
-        origin: (Box::new(origin.clone()), stably),
+        origin,
     })
 }
 

@@ -33,6 +33,7 @@ impl Plan {
             rows: Some(self.rows),
             plot: self.plot,
         };
-        assemble(graph, tree, found, self.params.clone(), self.target, &goal)
+        let (params, origin) = (self.params.clone(), self.origin.clone());
+        assemble(graph, tree, found, params, self.target, &goal, origin)
     }
 }
