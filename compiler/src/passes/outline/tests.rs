@@ -70,14 +70,6 @@ fn grid(columns: u32, rows: u32, step: usize) -> Vec<(i32, i32)> {
     .collect()
 }
 
-fn statements(tree: &Tree) -> usize {
-    let mut count = 0;
-    for block in tree.blocks() {
-        walk(block, &mut |_| count += 1);
-    }
-    count
-}
-
 fn calls(block: &[Statement]) -> usize {
     let mut calls = 0;
     walk(block, &mut |s| {
@@ -159,7 +151,7 @@ fn the_examples_draw_the_same() {
         compared += 1;
         called += usize::from(!tree.subroutines.is_empty());
     }
-    assert!(compared > 20 && called > 10, "{compared} {called}");
+    assert!(compared > 20 && called > 5, "{compared} {called}");
 }
 
 const BALLS: &str = "image 32 x 32 inks black, white;
