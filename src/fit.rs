@@ -95,7 +95,7 @@ fn basic(plan: &Plan, document: &Document, dialect: Dialect) -> Outcome<Option<N
     let tokens = tokenise(&document.text, dialect).map_err(refuse)?;
     let mut machine = Machine::new(Config {
         dialect,
-        ..Config::default()
+        page: plan.page.unwrap_or(Config::default().page),
     });
     machine.load_tokenised(&tokens).map_err(refuse)?;
     let mode = plan.mode.name.parse().ok();
@@ -251,8 +251,8 @@ enum Fitted {
 
 fn as_is_or_tight(mut plan: Plan) -> Outcome<Fitted> {
     let mut least: Option<Need> = None;
-    for tight in [false, true] {
-        plan.tight = tight;
+    for (lean, tight) in [(false, false), (true, false), (true, true)] {
+        (plan.lean, plan.tight) = (lean, tight);
         match need(&plan)? {
             Some(need) if !need.fits() => {
                 if least.as_ref().is_none_or(|l| need.total() < l.total()) {

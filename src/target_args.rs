@@ -23,6 +23,13 @@ pub struct ScreenArgs {
     /// Jack's operating system: `native`, the machine's own [default: native]
     #[arg(long, value_name = "OS")]
     pub os: Option<Os>,
+    /// How BASIC is written: `fast`, or `listing`, to be read [default: fast]
+    #[arg(long, value_name = "STYLE")]
+    pub style: Option<Style>,
+    /// Where programs begin on a BBC Micro, in hexadecimal: 1900 with a disc, E00 without
+    /// [default: 1900]
+    #[arg(long, value_name = "PAGE", value_parser = page)]
+    pub page: Option<u16>,
     /// Without the stable forms: every formula as the scene has it
     #[arg(long, hide = true)]
     pub as_written: bool,
@@ -38,6 +45,15 @@ pub enum Os {
     Native,
 }
 
+/// How a program in BASIC is written.
+#[derive(ValueEnum, Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Style {
+    /// To be quick: one-letter names, long lines
+    Fast,
+    /// To be read: the scene's names, a remark for each of its items
+    Listing,
+}
+
 /// Reads `--target`.
 ///
 /// # Errors
@@ -45,6 +61,18 @@ pub enum Os {
 pub fn target(name: &str) -> Result<&'static Target, String> {
     let names = TARGETS.iter().map(|t| t.name);
     target::find(name).ok_or_else(|| unknown("target", name, names))
+}
+
+/// Reads `--page`: hexadecimal, with or without `&`, a whole page of memory.
+///
+/// # Errors
+/// Where it is none that programs may begin at.
+pub fn page(text: &str) -> Result<u16, String> {
+    let digits = text.strip_prefix('&').unwrap_or(text);
+    match u16::from_str_radix(digits, 16) {
+        Ok(page) if page % 256 == 0 && (0xe00..=0x2f00).contains(&page) => Ok(page),
+        _ => Err("programs begin at a whole page from E00 to 2F00, as in --page E00".to_owned()),
+    }
 }
 
 /// Reads `A..B` or `A` as rows of a picture.
@@ -144,6 +172,14 @@ impl ScreenArgs {
             let message = format!("--os is Jack's, and {} has its own", target.name);
             return Err(Failure::Usage(message));
         }
+        if self.style.is_some() && !target.name.starts_with("bbc:") {
+            let message = format!("--style is BASIC's; {} has one way to write", target.name);
+            return Err(Failure::Usage(message));
+        }
+        if self.page.is_some() && target.name != "bbc:micro" {
+            let message = format!("--page is the BBC Micro's; {} has none", target.name);
+            return Err(Failure::Usage(message));
+        }
         let (_, height) = scene.size();
         let asked = self.rows.as_deref().map(|r| rows(r, height)).transpose()?;
         let graph = scene.graph_with(Some(mode.inks), Precision::of(target), set)?;
@@ -161,7 +197,9 @@ impl ScreenArgs {
             true => planned.and_then(|plan| plan.outlined(&|span| scene.called_at(span))),
             false => planned,
         };
-        let plan = planned.map_err(|said| scene.wrong(said))?;
+        let mut plan = planned.map_err(|said| scene.wrong(said))?;
+        plan.listing = self.style == Some(Style::Listing);
+        plan.page = self.page;
         match asked {
             // The screen is lower than the picture, and these are cropped away.
             Some(asked) if asked != plan.rows => Err(Failure::Usage(format!(
@@ -185,6 +223,15 @@ fn seen(picture: u32, screen: u32) -> (u32, u32) {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn pages_are_hexadecimal() {
+        assert_eq!(page("E00"), Ok(0xe00));
+        assert_eq!(page("&1900"), Ok(0x1900));
+        for wrong in ["", "19", "e01", "8000", "d00", "g00", "-e00"] {
+            assert!(page(wrong).is_err(), "{wrong}");
+        }
+    }
 
     #[test]
     fn rows_include_both_ends() {

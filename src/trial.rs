@@ -47,7 +47,7 @@ pub fn build(plan: &Plan) -> Outcome<Built> {
         .iter()
         .map(|d| File::text(&d.name, &d.text))
         .collect();
-    let loaded = machine(plan.target)?.load(&sources)?;
+    let loaded = machine(plan.target)?.at_page(plan.page).load(&sources)?;
     Ok(Built { sources, loaded })
 }
 

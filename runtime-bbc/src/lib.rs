@@ -21,6 +21,7 @@
 //!   LOCALs, so that they cannot disturb the program's variables.
 
 mod functions;
+pub mod guards;
 mod model;
 mod routines;
 

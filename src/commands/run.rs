@@ -67,7 +67,7 @@ fn prepare(args: &Args, scene: &Scene) -> Outcome<(Plan, program::Values, Loaded
         let loaded = trial::build(&plan)?.loaded;
         return Ok((plan, Vec::new(), loaded));
     };
-    let machine = trial::machine(args.target)?;
+    let machine = trial::machine(args.target)?.at_page(args.screen.page);
     let sources = program::read(dir, &scene.name, machine)?;
     let unedited = (args.target.emit)(&plan);
     let set = program::values(&plan, &unedited, &sources)?;

@@ -1,14 +1,14 @@
 //! `vm`: any program on a bundled machine.
 
 use crate::failure::{Failure, Outcome};
-use crate::format::count;
-use crate::machine::{File, Machine, complaint, stop_word};
+use crate::format::{count, table};
+use crate::machine::{File, Loaded, Machine, complaint, stop_word};
 use crate::picture::{Picture, PictureFile};
 use crate::progress::Progress;
 use crate::{files, say, say_json};
 use clap::ValueEnum;
 use serde::Serialize;
-use slowlight_vm::bbc::Dialect;
+use slowlight_vm::bbc::{Config, LineCost};
 use std::path::PathBuf;
 
 /// Cycles after which a program is stopped, unless the user says otherwise.
@@ -31,6 +31,9 @@ pub struct Args {
     /// Print cycles, why it stopped, and the screen's digest as JSON
     #[arg(long)]
     json: bool,
+    /// Print what each line of a BASIC program took
+    #[arg(long, conflicts_with = "json")]
+    profile: bool,
 }
 
 /// A machine by its name here.
@@ -78,12 +81,30 @@ fn paths(args: &Args) -> Outcome<Vec<PathBuf>> {
     Ok(all)
 }
 
+/// Runs a BASIC program and prints a line for each of its lines that was run.
+fn profile(loaded: &mut Loaded, limit: u64) -> Outcome<()> {
+    let (run, lines) = loaded.profile(limit)?;
+    let share = |cycles: u64| 100.0 * cycles as f64 / run.cycles.max(1) as f64;
+    let row = |l: &LineCost| {
+        vec![
+            l.line.to_string(),
+            format!("{} times", count(l.times)),
+            format!("{} cycles", count(l.cycles)),
+            format!("{:.1}%", share(l.cycles)),
+        ]
+    };
+    let rows: Vec<Vec<String>> = lines.iter().filter(|l| l.times > 0).map(row).collect();
+    say(&table(&rows));
+    say(&format!("{} cycles\n", count(run.cycles)));
+    complaint(&run, limit).map_or(Ok(()), |wrong| Err(Failure::Wrong(wrong)))
+}
+
 /// Runs the program to its end.
 pub fn run(args: &Args) -> Outcome<()> {
     let output = PictureFile::named(args.output.as_deref())?;
     let machine = match args.machine {
         Kind::Jack | Kind::Hack => Machine::Hack,
-        Kind::Bbc => Machine::Bbc(Dialect::Micro),
+        Kind::Bbc => Machine::Bbc(Config::default()),
         Kind::Mos6502 => Machine::Mos6502,
     };
     let mut program = Vec::new();
@@ -95,6 +116,9 @@ pub fn run(args: &Args) -> Outcome<()> {
         });
     }
     let mut loaded = machine.load(&program)?;
+    if args.profile {
+        return profile(&mut loaded, args.limit);
+    }
     let progress = Progress::new("cycles", args.limit);
     let run = loaded.run(args.limit, &mut |now| progress.reach(now.cycles))?;
     drop(progress);

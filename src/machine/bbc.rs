@@ -1,21 +1,20 @@
 //! BBC BASIC: text or tokens in, a picture and text out.
 
+use super::dfs;
 use super::{File, Loaded, MachineRun, Program, Sizes, refused};
 use crate::failure::{Failure, Outcome};
-use slowlight_vm::bbc::{Config, Dialect, Machine, tokenise};
+use slowlight_vm::bbc::{Config, Dialect, LineCost, Machine, tokenise};
 use slowlight_vm::{Fault, Watch};
 
 /// Takes one program: text (`.bas`), or tokens, known by the byte 13 in front.
-pub fn load(files: &[File], dialect: Dialect) -> Outcome<Loaded> {
+pub fn load(files: &[File], config: Config) -> Outcome<Loaded> {
     let [file] = files else {
         let message = "BBC BASIC takes one file: a program as text or tokens".to_owned();
         return Err(Failure::Usage(message));
     };
     let refuse = |fault: Fault| refused("tokeniser", &file.name, &[fault]);
-    let mut machine = Machine::new(Config {
-        dialect,
-        ..Config::default()
-    });
+    let Config { dialect, page } = config;
+    let mut machine = Machine::new(config);
     let mut binaries = Vec::new();
     // A line of tokens begins with 13 and its number's high byte; a text with
     // an empty line begins with 13 and 10.
@@ -25,10 +24,16 @@ pub fn load(files: &[File], dialect: Dialect) -> Outcome<Loaded> {
         let tokens = tokenise(&file.as_text(), dialect).map_err(refuse)?;
         machine.load_tokenised(&tokens).map_err(refuse)?;
         let stem = file.name.rsplit_once('.').map_or("", |(stem, _)| stem);
-        binaries.push(File {
-            name: format!("{stem}.bbc"),
-            bytes: tokens,
-        });
+        let disc = match dialect {
+            Dialect::Micro => dfs::bootable(stem, &tokens, page),
+            _ => None,
+        };
+        let named = |extension: &str, bytes| File {
+            name: format!("{stem}.{extension}"),
+            bytes,
+        };
+        binaries.push(named("bbc", tokens));
+        binaries.extend(disc.map(|bytes| named("ssd", bytes)));
     }
     let sizes = Sizes {
         code: Some(machine.program_bytes() as u64),
@@ -43,7 +48,16 @@ pub fn load(files: &[File], dialect: Dialect) -> Outcome<Loaded> {
 
 /// Runs a program that was loaded.
 pub fn run(machine: &Machine, limit: u64, watch: Watch<'_>) -> MachineRun {
-    let run = machine.run(limit, watch);
+    finished(machine.run(limit, watch))
+}
+
+/// The same, with what each line took.
+pub fn profile(machine: &Machine, limit: u64, watch: Watch<'_>) -> (MachineRun, Vec<LineCost>) {
+    let (run, lines) = machine.profile(limit, watch);
+    (finished(run), lines)
+}
+
+fn finished(run: slowlight_vm::bbc::Run) -> MachineRun {
     let drawn = !run.screen.pixels.is_empty();
     MachineRun {
         stop: run.stop,

@@ -5,13 +5,14 @@
 //! This is where a target's name chooses its machine.
 
 mod bbc;
+mod dfs;
 mod hack;
 mod mos6502;
 
 use crate::failure::{Failure, Outcome};
 use crate::interrupt;
 use crate::picture::Picture;
-use slowlight_vm::bbc::Dialect;
+use slowlight_vm::bbc::{Config, Dialect, LineCost};
 use slowlight_vm::{Progress, Screen, Stop};
 use std::collections::BTreeMap;
 
@@ -21,7 +22,7 @@ pub enum Machine {
     /// The Hack computer's VM.
     Hack,
     /// BBC BASIC and its screen.
-    Bbc(Dialect),
+    Bbc(Config),
     /// The plain machine around a 6502.
     Mos6502,
 }
@@ -105,13 +106,27 @@ pub struct MachineRun {
 impl Machine {
     /// The machine of a target.
     pub fn of(name: &str) -> Option<Machine> {
+        let bbc = |dialect| {
+            Some(Machine::Bbc(Config {
+                dialect,
+                ..Config::default()
+            }))
+        };
         match name {
             "jack" => Some(Machine::Hack),
-            "bbc:micro" => Some(Machine::Bbc(Dialect::Micro)),
-            "bbc:agon" => Some(Machine::Bbc(Dialect::Agon)),
-            "bbc:basicv" => Some(Machine::Bbc(Dialect::BasicV)),
+            "bbc:micro" => bbc(Dialect::Micro),
+            "bbc:agon" => bbc(Dialect::Agon),
+            "bbc:basicv" => bbc(Dialect::BasicV),
             "6502:plain" => Some(Machine::Mos6502),
             _ => None,
+        }
+    }
+
+    /// The same with programs beginning elsewhere, where the machine knows that.
+    pub fn at_page(self, page: Option<u16>) -> Machine {
+        match (self, page) {
+            (Machine::Bbc(config), Some(page)) => Machine::Bbc(Config { page, ..config }),
+            (machine, _) => machine,
         }
     }
 
@@ -136,7 +151,7 @@ impl Machine {
     pub fn load(self, files: &[File]) -> Outcome<Loaded> {
         match self {
             Machine::Hack => hack::load(files),
-            Machine::Bbc(dialect) => bbc::load(files, dialect),
+            Machine::Bbc(config) => bbc::load(files, config),
             Machine::Mos6502 => mos6502::load(files),
         }
     }
@@ -161,6 +176,22 @@ impl Loaded {
             return Err(Failure::Interrupted);
         }
         Ok(run)
+    }
+
+    /// Runs a BASIC program, and counts what each of its lines takes.
+    ///
+    /// # Errors
+    /// An interruption, and a machine that has no lines to count.
+    pub fn profile(&mut self, limit: u64) -> Outcome<(MachineRun, Vec<LineCost>)> {
+        let Program::Bbc(machine) = &self.program else {
+            let message = "--profile counts lines of BASIC; this machine has none".to_owned();
+            return Err(Failure::Usage(message));
+        };
+        let (run, lines) = bbc::profile(machine, limit, &mut |_| !interrupt::pressed());
+        if run.stop == Stop::Interrupted {
+            return Err(Failure::Interrupted);
+        }
+        Ok((run, lines))
     }
 }
 

@@ -5,7 +5,7 @@ use crate::mos6502::Scribe;
 use slowlight_compiler::eval::{model::ModelRun, native::Native};
 use slowlight_compiler::plan::{Goal, Plan, plan};
 use slowlight_compiler::scene;
-use slowlight_compiler::sema::Options;
+use slowlight_compiler::sema::{Freeze, Options};
 use slowlight_compiler::target::{default_mode, find};
 use slowlight_vm::Stop;
 use slowlight_vm::bbc::{Config, Dialect, Machine, Run};
@@ -123,6 +123,88 @@ fn two_mirrors_fit_a_disc_micro() {
         run.ram_bytes,
         run.cycles / 320
     ));
+}
+
+/// A scene's plan for a mode of the Micro, its params folded.
+fn folded(source: &str, mode: &str, rows: (u32, u32), plot: bool) -> Plan {
+    let target = find("bbc:micro").unwrap();
+    let mode = *target.modes.iter().find(|m| m.name == mode).unwrap();
+    let options = Options {
+        offset: target.offset,
+        inks: Some(mode.inks),
+        freeze: Freeze::All,
+        ..Options::default()
+    };
+    let graph = scene::check("test", source).lower(&options).unwrap();
+    let goal = Goal {
+        name: "test".to_owned(),
+        mode,
+        rows: Some(rows),
+        plot,
+    };
+    plan(&graph, target, &goal).unwrap()
+}
+
+#[test]
+fn cycles_of_sampled_rows_are_known() {
+    let mut said = String::new();
+    for row in [20, 60, 100, 150, 200] {
+        let mut cycles = [false, true].map(|plot| {
+            let plan = folded(MIRRORS, "1", (row, row), plot);
+            let run = run(Dialect::Micro, &text(&plan));
+            assert_eq!(run.stop, Stop::Ended);
+            if plot {
+                assert_eq!(differences(&plan, &run), 0);
+            }
+            run.cycles / 320
+        });
+        cycles[1] -= cycles[0];
+        let [traced, drawn] = cycles;
+        said.push_str(&format!(
+            "row {row}: {traced} a pixel, drawing {drawn} more\n"
+        ));
+    }
+    insta::assert_snapshot!(said);
+}
+
+#[test]
+fn every_mode_of_the_micro_is_drawn_as_the_model_says() {
+    for (mode, width) in [("0", 640), ("1", 320), ("2", 160), ("4", 320), ("5", 160)] {
+        // Once at whole bytes, and once not: then it plots.
+        for width in [width, 151] {
+            let source = format!(
+                "image {width} x 20 inks black, red, green, yellow, blue, magenta, cyan, white;
+                 draw (x, y) = ink((x * 5 + y * 3 + x * y) mod 8);"
+            );
+            let plan = folded(&source, mode, (3, 17), true);
+            let text = text(&plan);
+            assert_eq!(text.contains("PLOT"), width == 151);
+            let run = run(Dialect::Micro, &text);
+            assert_eq!(run.stop, Stop::Ended);
+            assert_eq!(differences(&plan, &run), 0, "mode {mode}, {width} columns");
+            // Nothing stands outside the rows asked for.
+            let above = (plan.offset.1 + 2) as usize * run.screen.width as usize;
+            assert!(run.screen.pixels[..above].iter().all(|ink| *ink == 0));
+        }
+    }
+}
+
+#[test]
+fn a_listing_computes_the_same() {
+    let mut plan = planned("bbc:micro", MIRRORS, &[], Some((60, 61)));
+    plan.listing = true;
+    let run = run(Dialect::Micro, &text(&plan));
+    assert_eq!(run.stop, Stop::Ended);
+    assert_eq!(differences(&plan, &run), 0);
+}
+
+#[test]
+fn a_small_program_computes_the_same() {
+    let mut plan = planned("bbc:micro", MIRRORS, &[], Some((60, 61)));
+    plan.tight = true;
+    let run = run(Dialect::Micro, &text(&plan));
+    assert_eq!(run.stop, Stop::Ended);
+    assert_eq!(differences(&plan, &run), 0);
 }
 
 #[test]

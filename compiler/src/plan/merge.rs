@@ -12,9 +12,10 @@ use crate::flow::tree::*;
 use std::collections::HashMap;
 
 /// For each place that another's home serves: whose.
-pub fn merged(plan: &Plan) -> HashMap<Place, Place> {
+/// `always`: also in programs that have no subroutines.
+pub fn merged(plan: &Plan, always: bool) -> HashMap<Place, Place> {
     // Programs that fit stay as they are.
-    if !plan.is_outlined() {
+    if !always && !plan.is_outlined() {
         return HashMap::new();
     }
     let mut all = Accesses::default();

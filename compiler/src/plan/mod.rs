@@ -43,7 +43,7 @@ mod params;
 pub mod print;
 mod spread;
 
-pub use lifetimes::shared_homes;
+pub use lifetimes::{quick_homes, shared_homes};
 pub use params::ParamPlan;
 pub use spread::ErrorRows;
 
@@ -95,6 +95,14 @@ pub struct Plan {
     /// Whether to write it as small as it goes, where that costs the text its
     /// readability; the values are the same.
     pub tight: bool,
+    /// Whether to write it for reading rather than for speed, where the target
+    /// knows the difference; the values are the same.
+    pub listing: bool,
+    /// Whether to write it short, but not so short that it becomes slow to read
+    /// for the machine: between neither and [`Plan::tight`].
+    pub lean: bool,
+    /// Where programs begin in a BBC Micro's memory, where that was asked for.
+    pub page: Option<u16>,
     /// The values.
     pub graph: Graph,
     /// When each is computed.
@@ -336,6 +344,9 @@ fn assemble(
         rows,
         plot: goal.plot,
         tight: false,
+        listing: false,
+        lean: false,
+        page: None,
         ranges: ranges_now,
         params,
         routines,

@@ -22,14 +22,25 @@ impl State {
     /// Runs from an op until a function's result, or until an error (END is one, too).
     pub fn run_ops(&mut self, p: &Code<'_>, start: u32) -> Result<()> {
         let mut at = start;
+        let mut caller = None;
         while at != DONE {
             let op = p.program.ops.get(at as usize).ok_or(Error::BadProgram)?;
             self.op = at;
+            if let Some(profile) = &mut self.profile {
+                let left = profile.enter(op.line, self.cycles);
+                caller.get_or_insert(left);
+                if p.lines.get(op.line as usize).is_some_and(|l| l.op == at) {
+                    profile.begin(op.line);
+                }
+            }
             self.cycles += u64::from(op.cost);
             if self.cycles >= self.next_check {
                 self.check(p)?;
             }
             at = self.exec(p, &op.stmt, at)?;
+        }
+        if let (Some(profile), Some(line)) = (&mut self.profile, caller) {
+            profile.enter(line, self.cycles);
         }
         Ok(())
     }

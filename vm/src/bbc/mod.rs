@@ -36,6 +36,7 @@ mod loops;
 mod modes;
 mod names;
 mod plot;
+mod profile;
 mod state;
 mod statements;
 mod strings;
@@ -49,6 +50,8 @@ use slowlight_isa::real40::Real40;
 
 use crate::{Fault, Screen, Stop, Watch};
 use error::Error;
+pub use profile::LineCost;
+use profile::Profile;
 use state::State;
 pub use tokenise::{detokenise, tokenise};
 
@@ -169,12 +172,43 @@ impl Machine {
     ///
     /// Stops after `cycle_limit` cycles; `watch` is asked about every ten million.
     pub fn run(&self, cycle_limit: u64, watch: Watch<'_>) -> Run {
+        self.run_from(State::new(self.config), cycle_limit, watch).0
+    }
+
+    /// Runs the program as [`Machine::run`] does, and counts what each of its lines takes.
+    pub fn profile(&self, cycle_limit: u64, watch: Watch<'_>) -> (Run, Vec<LineCost>) {
+        let lines = tokenise::lines(&self.program).unwrap_or_default();
         let mut state = State::new(self.config);
+        state.profile = Some(Box::new(Profile::new(lines.len())));
+        let (run, profile) = self.run_from(state, cycle_limit, watch);
+        let profile = profile.unwrap_or_default();
+        let counts = profile.times.into_iter().zip(profile.cycles);
+        let costs = lines
+            .iter()
+            .zip(counts)
+            .map(|(line, (times, cycles))| LineCost {
+                line: line.number,
+                times,
+                cycles,
+            });
+        (run, costs.collect())
+    }
+
+    fn run_from(
+        &self,
+        mut state: State,
+        cycle_limit: u64,
+        watch: Watch<'_>,
+    ) -> (Run, Option<Box<Profile>>) {
         state.files.contents = self.files.clone();
         let stop = self.run_in(&mut state, cycle_limit, watch);
+        if let Some(profile) = &mut state.profile {
+            profile.enter(0, state.cycles);
+        }
+        let profile = state.profile.take();
         let room = state.himem.saturating_sub(state.top) as usize;
         let free = state.least_free as usize;
-        Run {
+        let run = Run {
             stop,
             cycles: state.cycles,
             plot_cycles: state.plot_cycles,
@@ -184,7 +218,8 @@ impl Machine {
             program_bytes: self.program.len(),
             ram_bytes: room.saturating_sub(free),
             free_bytes: free,
-        }
+        };
+        (run, profile)
     }
 
     fn run_in(&self, state: &mut State, limit: u64, watch: Watch<'_>) -> Stop {

@@ -13,6 +13,7 @@ use super::display::Display;
 use super::error::Error;
 use super::files::Files;
 use super::names::{Names, RESIDENT};
+use super::profile::Profile;
 use super::values::{Array, Frame, Loop, Num, Saved, Scalar, Text, Value, array_index};
 use super::{Config, cost};
 use crate::Stop;
@@ -69,6 +70,8 @@ pub(crate) struct State {
     pub width: u32,
     pub display: Display,
     pub files: Files,
+    /// Counts by line, where they are wanted.
+    pub profile: Option<Box<Profile>>,
 }
 
 /// What nested functions may use of the host's stack. Past it: "No room".
@@ -120,6 +123,7 @@ impl State {
             width: 0,
             display,
             files: Files::default(),
+            profile: None,
         };
         state.fit_names();
         for v in &mut state.ints {

@@ -1,13 +1,22 @@
 //! Statements: assignments, IF and loops over GOTO.
 
+use super::Style;
 use super::expression::Expressions;
 use super::lines::{Label, Labels, Lines};
+use super::text::Text;
+use crate::flow::graph::{Node, NodeId};
 use crate::flow::tree::*;
 use crate::plan::Plan;
 use crate::source::Span;
+use slowlight_routine::Op;
 
-/// An IF with all it does fits one line up to this length.
-const ONE_LINE: usize = 90;
+/// About how many turns a loop takes, and how often an arm is taken: for the
+/// weights of names only.
+const TURNS: u64 = 2;
+const ARM: u64 = 2;
+
+/// An assignment with a test and both its ways stands on one line.
+const TWO_WAYS: usize = 225;
 
 /// Writes blocks of statements.
 pub struct Code<'p> {
@@ -45,33 +54,58 @@ impl<'p> Code<'p> {
 
     /// A block's lines by themselves.
     fn apart(&mut self, block: &Block) -> Lines {
-        let outer = std::mem::take(&mut self.lines);
+        let weight = (self.lines.weight / ARM).max(1);
+        let outer = std::mem::replace(&mut self.lines, Lines::of_weight(weight));
         self.block(block);
         std::mem::replace(&mut self.lines, outer)
+    }
+
+    /// A block that is carried out `times` as often as what is around it.
+    pub fn often(&mut self, block: &Block, times: u64) {
+        let weight = self.lines.weight;
+        self.lines.weight = weight.saturating_mul(times);
+        self.block(block);
+        self.lines.weight = weight;
+    }
+
+    /// A way as statements for the line of its test, if it fits.
+    fn on_one_line(&self, way: &Lines) -> Option<String> {
+        let text = way.in_one_line()?;
+        (self.values.length(&text) <= self.one_line()).then_some(text)
+    }
+
+    /// How long an IF with all it does may be to stand on one line: as long as
+    /// it reads well, or as the machine takes it.
+    fn one_line(&self) -> usize {
+        match self.values.style {
+            Style::Listing => 90,
+            _ => 190,
+        }
     }
 
     fn one(&mut self, statement: &Statement) {
         match statement {
             Statement::Let(id) => {
                 self.span = Some(self.values.plan.graph.span(*id));
+                if self.extreme(*id) {
+                    return;
+                }
                 let text = self.values.compute(*id);
+                self.assign_before();
                 if !self.values.fold(*id, &text) {
-                    let home = self.values.names.home(Place::Node(*id));
-                    self.lines
-                        .statement(format!("{home}={}", text.text), self.span);
+                    let home = self.values.names.home(Place::Node(*id)).to_owned();
+                    self.assign(&home, &text);
                 }
             }
             Statement::Set { place, from } => {
                 let text = match *from {
-                    Origin::Node(id) => self.values.read(id).text,
+                    Origin::Node(id) => self.values.read(id),
                     Origin::Scratch(l, k) => {
-                        self.values.names.home(Place::Scratch(l, k)).to_owned()
+                        Text::operand(self.values.names.home(Place::Scratch(l, k)))
                     }
                 };
-                let home = self.values.names.home(*place);
-                if home != text {
-                    self.lines.statement(format!("{home}={text}"), self.span);
-                }
+                let home = self.values.names.home(*place).to_owned();
+                self.assign(&home, &text);
             }
             Statement::If { cond, yes, no } => {
                 let holds = self.values.condition(*cond, true);
@@ -89,9 +123,64 @@ impl<'p> Code<'p> {
         }
     }
 
+    /// An assignment; of two ways to compute the value, tests choose.
+    pub fn assign(&mut self, home: &str, text: &Text) {
+        if home == text.text {
+            return;
+        }
+        let slow = format!("{home}={}", text.text);
+        let Some(fast) = &text.fast else {
+            self.lines.statement(slow, self.span);
+            return;
+        };
+        let tests = fast.tests.join(" AND ");
+        let both = format!("IF {tests} THEN {home}={} ELSE {slow}", fast.text);
+        if self.values.length(&both) <= TWO_WAYS {
+            self.lines.line(both, self.span);
+        } else {
+            self.lines.statement(slow, self.span);
+        }
+    }
+
+    /// Assigns what must be variables for what was computed last.
+    fn assign_before(&mut self) {
+        for (home, text) in std::mem::take(&mut self.values.before) {
+            self.assign(&home, &text);
+        }
+    }
+
+    /// The smaller or larger of two values by an IF, which is quicker than a
+    /// function; whether the node is one.
+    fn extreme(&mut self, id: NodeId) -> bool {
+        if self.values.style == Style::Listing {
+            return false;
+        }
+        let Node::Apply(op, [a, b]) = self.values.plan.graph.node(id) else {
+            return false;
+        };
+        let sign = match op {
+            Op::Min | Op::IntMin => ">",
+            Op::Max | Op::IntMax => "<",
+            _ => return false,
+        };
+        if !self.values.simple(b) {
+            return false;
+        }
+        let (first, second) = (self.values.read(a), self.values.read(b).text);
+        let home = self.values.names.home(Place::Node(id)).to_owned();
+        self.assign_before();
+        if home == second {
+            return false;
+        }
+        self.assign(&home, &first);
+        let text = format!("IF {home}{sign}{second} THEN {home}={second}");
+        self.lines.line(text, self.span);
+        true
+    }
+
     /// Two ways, on one line if they fit.
     fn branch(&mut self, holds: &str, fails: &str, yes: Lines, no: Lines, span: Option<Span>) {
-        if let (Some(a), Some(b)) = (yes.in_one_line(ONE_LINE), no.in_one_line(ONE_LINE)) {
+        if let (Some(a), Some(b)) = (self.on_one_line(&yes), self.on_one_line(&no)) {
             let text = match (a.as_str(), b.as_str()) {
                 (a, "") => format!("IF {holds} THEN {a}"),
                 ("", b) => format!("IF {fails} THEN {b}"),
@@ -100,14 +189,15 @@ impl<'p> Code<'p> {
             if a.is_empty() && b.is_empty() {
                 return;
             }
-            if text.len() <= ONE_LINE + 40 {
+            if self.values.length(&text) <= self.one_line() + 30 {
                 self.lines.line(text, span);
                 return;
             }
         }
         let end = self.labels.next();
-        if self.values.plan.is_outlined() && self.jump_behind(holds, fails, &yes, &no, end, span) {
-            self.lines.append(if yes.in_one_line(ONE_LINE).is_some() {
+        let short = self.values.style != Style::Listing;
+        if short && self.jump_behind(holds, fails, &yes, &no, end, span) {
+            self.lines.append(if self.on_one_line(&yes).is_some() {
                 no
             } else {
                 yes
@@ -149,7 +239,7 @@ impl<'p> Code<'p> {
         let short = [(holds, yes), (fails, no)]
             .into_iter()
             .find_map(|(test, way)| {
-                let way = way.in_one_line(ONE_LINE)?;
+                let way = self.on_one_line(way)?;
                 Some(format!("IF {test} THEN {way}:GOTO {end}"))
             });
         if let Some(text) = &short {
@@ -171,7 +261,7 @@ impl<'p> Code<'p> {
         let (top, leave, end) = (self.labels.next(), self.labels.next(), self.labels.next());
         self.lines.statement(format!("{turn}=0"), span);
         self.lines.place(top);
-        self.block(&turns.body);
+        self.often(&turns.body, TURNS);
         let fails = self.values.condition(turns.again, false);
         self.lines.line(format!("IF {fails} THEN {leave}"), span);
         self.block(&turns.next);

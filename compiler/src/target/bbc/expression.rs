@@ -1,44 +1,28 @@
 //! Values as text.
 
+use super::Style;
+use super::guard::filled;
 use super::names::Names;
+use super::pieces::{depth, short_length};
+use super::text::{Fast, Text};
 use crate::flow::graph::*;
 use crate::plan::Plan;
-use slowlight_routine::{Form, Op, Value};
+use slowlight_routine::{Form, Op, Range, Type, Value};
 use slowlight_runtime_bbc::level::{OPERAND, SUM};
 use slowlight_runtime_bbc::literal;
 use std::collections::HashMap;
 
-/// An expression and how tightly it binds.
-#[derive(Clone, Debug)]
-pub struct Text {
-    pub text: String,
-    pub level: u8,
-}
-
-impl Text {
-    fn operand(text: impl Into<String>) -> Text {
-        Text {
-            text: text.into(),
-            level: OPERAND,
-        }
-    }
-
-    /// In brackets, if it binds less tightly than needed.
-    fn at(&self, level: u8) -> String {
-        if self.level < level {
-            format!("({})", self.text)
-        } else {
-            self.text.clone()
-        }
-    }
-}
-
-/// Longer expressions are given a variable: lines stay short, and BASIC II's stack shallow.
+/// Longer expressions are given a variable, so that lines stay short.
 const LONGEST: usize = 100;
+/// The same where lines are to be few.
+const LONGEST_SHORT: usize = 150;
+/// BASIC II's evaluator takes its room from the processor's stack of 256 bytes.
+const DEEPEST: usize = 6;
 
 /// Writes the values of a plan.
 pub struct Expressions<'p> {
     pub plan: &'p Plan,
+    pub style: Style,
     pub names: Names,
     /// Values that are written where they are read.
     inline: HashMap<NodeId, Text>,
@@ -46,16 +30,20 @@ pub struct Expressions<'p> {
     pub clamps: bool,
     /// The variable of what earlier pixels sent to this one.
     pub received: String,
+    /// Values that must be assigned before what was computed last, since it reads them twice.
+    pub before: Vec<(String, Text)>,
 }
 
 impl<'p> Expressions<'p> {
     pub fn new(plan: &'p Plan) -> Expressions<'p> {
         Expressions {
             plan,
+            style: Style::of(plan),
             names: Names::new(plan),
             inline: HashMap::new(),
             clamps: false,
             received: String::new(),
+            before: Vec::new(),
         }
     }
 
@@ -67,7 +55,10 @@ impl<'p> Expressions<'p> {
         let plan = self.plan;
         match (plan.graph.node(id), plan.place(id)) {
             (Node::Const(c), _) => self.constant(c.value()),
-            (Node::Param(p), _) => Text::operand(self.names.param(p.0 as usize)),
+            (Node::Param(p), _) => match self.style {
+                Style::Fast | Style::Lean => Text::operand(self.names.copy(p.0 as usize)),
+                _ => Text::operand(self.names.param(p.0 as usize)),
+            },
             (Node::Axis(Axis::X), _) => Text::operand("X%"),
             (Node::Axis(Axis::Y), _) => Text::operand("Y%"),
             (Node::Received, _) => Text::operand(&self.received),
@@ -76,7 +67,8 @@ impl<'p> Expressions<'p> {
         }
     }
 
-    fn constant(&mut self, value: Value) -> Text {
+    pub fn constant(&mut self, value: Value) -> Text {
+        let listing = self.style == Style::Listing;
         let text = match value {
             Value::Bool(true) => return Text::operand("TRUE"),
             Value::Bool(false) => return Text::operand("FALSE"),
@@ -86,14 +78,17 @@ impl<'p> Expressions<'p> {
             Value::Real(x) => {
                 let text = literal(x);
                 let size = text.trim_start_matches('-');
-                if size.len() > 3 || size.contains('.') || size.contains('E') {
+                // A digit and its turn into a real take as long as a variable.
+                let most = if listing { 3 } else { 1 };
+                let long = size.len() > most || !listing && x < 0.0;
+                if long || size.contains('.') || size.contains('E') {
                     return Text::operand(self.names.constant(&text));
                 }
                 text
             }
         };
         let level = if text.starts_with('-') { SUM } else { OPERAND };
-        Text { text, level }
+        Text::new(text, level)
     }
 
     /// The expression that computes a node.
@@ -109,27 +104,34 @@ impl<'p> Expressions<'p> {
         let Some(routine) = self.plan.routine(id) else {
             return Text::operand("0");
         };
-        let Form::Expression {
-            template,
-            level,
-            operands,
-        } = routine.form
-        else {
+        let Form::Expression { template, .. } = routine.form else {
             return Text::operand("0");
         };
         if template == "{0}" {
             return self.read(args[0]);
         }
-        let mut text = template.to_owned();
-        for (k, arg) in args.into_iter().take(op.arity()).enumerate() {
-            let need = operands.get(k).copied().unwrap_or(OPERAND);
-            let hole = format!("{{{k}}}");
-            if text.contains(&hole) {
-                let operand = self.read(arg).at(need);
-                text = text.replace(&hole, &operand);
+        let args = &args[..op.arity()];
+        let guard = self.few_tests(id, routine.name, args);
+        let operands: Vec<Text> = args.iter().map(|arg| self.read(*arg)).collect();
+        let text = filled(routine.form, &operands, false);
+        let short = match &guard {
+            Some(guard) => guard.form,
+            None => routine.form,
+        };
+        let tests = guard.iter().flat_map(|g| g.tests.iter());
+        let below = guard.as_ref().and_then(|g| g.below);
+        let fast = self.fast(&operands, tests, filled(short, &operands, true), below);
+        match fast {
+            // All is proved.
+            Some(fast) if guard.is_some() && fast.tests.is_empty() => {
+                Text::new(fast.text, fast.level)
             }
+            fast if guard.is_some() || operands.iter().any(|o| o.fast.is_some()) => Text {
+                fast: fast.map(Box::new),
+                ..text
+            },
+            _ => text,
         }
-        Text { text, level }
     }
 
     /// What a place has received so far and what a pixel sends to it, added.
@@ -160,28 +162,81 @@ impl<'p> Expressions<'p> {
         if height > 1 {
             indices.push(self.index(row, height));
         }
-        Text::operand(format!("{name}({})", indices.join(",")))
+        let list = |fast: bool| {
+            let all: Vec<String> = indices
+                .iter()
+                .map(|i| if fast { i.fast_at(0) } else { i.text.clone() })
+                .collect();
+            Text::operand(format!("{name}({})", all.join(",")))
+        };
+        let fast = self.fast(&indices, [].iter(), list(true), None);
+        Text {
+            fast: fast.filter(|f| !f.tests.is_empty()).map(Box::new),
+            ..list(false)
+        }
     }
 
     /// An index, clamped unless its range proves it inside.
-    fn index(&mut self, id: NodeId, length: u32) -> String {
-        let text = self.read(id).text;
+    fn index(&mut self, id: NodeId, length: u32) -> Text {
+        let text = self.read(id);
         let last = f64::from(length - 1);
-        let range = self.plan.ranges.result.get(id.0 as usize);
-        if range.is_some_and(|r| r.within(0.0, last)) {
+        let range = self.plan.ranges.result.get(id.0 as usize).copied();
+        let range = range.unwrap_or(Range::ALL);
+        if range.within(0.0, last) {
             return text;
         }
         self.clamps = true;
-        format!("FNindex({text},{last})")
+        let clamped = |text: &str| Text::operand(format!("FNindex({text},{last})"));
+        if self.style != Style::Fast || !self.simple(id) {
+            return clamped(&text.text);
+        }
+        let text = self.read(id);
+        let mut tests = Vec::new();
+        if range.lo < 0.0 {
+            tests.push(format!("{}>=0", text.text));
+        }
+        if range.hi > last {
+            tests.push(format!("{}<={last}", text.text));
+        }
+        Text {
+            fast: Some(Box::new(Fast {
+                text: text.text.clone(),
+                level: text.level,
+                tests,
+                below: Some(last + 1.0),
+            })),
+            ..clamped(&text.text)
+        }
+    }
+
+    /// How long a text will be in the program.
+    pub fn length(&self, text: &str) -> usize {
+        match self.style {
+            Style::Listing => text.len(),
+            _ => short_length(text),
+        }
     }
 
     /// Whether a node that was just computed is to be written where it is read.
     pub fn fold(&mut self, id: NodeId, text: &Text) -> bool {
-        let fold = self.plan.folded(id) && text.text.len() <= LONGEST;
+        let most = match self.style {
+            Style::Listing => LONGEST,
+            _ => LONGEST_SHORT,
+        };
+        let fold = self.plan.folded(id)
+            && self.length(&text.text) <= most
+            && depth(&text.text) <= DEEPEST
+            // A condition is read as it stands.
+            && (text.fast.is_none() || self.plan.graph.ty(id) != Type::Bool);
         if fold {
             self.inline.insert(id, text.clone());
         }
         fold
+    }
+
+    /// Takes back that a value is written where it is read; whether it was.
+    pub fn unfold(&mut self, id: NodeId) -> bool {
+        self.inline.remove(&id).is_some()
     }
 
     /// A condition, or its opposite.

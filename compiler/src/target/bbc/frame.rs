@@ -1,14 +1,16 @@
 //! Everything around a scene's statements.
 
+use super::Style;
 use super::code::Code;
 use super::lines::Lines;
+use super::poke::Poke;
 use super::screen;
+use super::short::short;
 use super::spread::Spread;
-use super::tight::tight;
 use crate::flow::graph::Table;
 use crate::flow::tree::SubroutineId;
 use crate::plan::Plan;
-use slowlight_routine::{Source, Type, Value};
+use slowlight_routine::{Part, Source, Type, Value};
 use slowlight_runtime_bbc::literal;
 
 /// A table's index clamped to 0..n.
@@ -21,6 +23,11 @@ IF i%>n% THEN =n% ELSE =i%
 /// The file of what a graph reports.
 const REPORTS: &str = "REPORTS";
 
+/// How often a row's and a pixel's statements are carried out, roughly: for
+/// the weights of names only.
+const ROW: u64 = 300;
+const PIXEL: u64 = 100_000;
+
 /// The whole program.
 pub fn program(plan: &Plan) -> Lines {
     let mut code = Code::new(plan);
@@ -29,22 +36,33 @@ pub fn program(plan: &Plan) -> Lines {
     let spread = Spread::new(plan, &mut code);
     parameters(plan, &mut code, &first, &last);
     picture(plan, &mut code, &first, &last, spread.as_ref());
+    code.lines.weight = PIXEL;
     procedures(plan, &mut code);
-    setup(plan, &mut code, &first, &last);
-    functions(plan, &mut code);
+    code.lines.weight = 1;
+    let parts = called(plan, &code);
+    setup(plan, &mut code, &parts, &first, &last);
+    // Called for many pixels, but not for all.
+    code.lines.weight = 5_000;
+    functions(&mut code, &parts);
+    code.lines.weight = 1;
     data(plan, &mut code);
-    if !plan.tight {
+    let style = code.values.style;
+    if style == Style::Listing {
         return code.lines;
     }
     let params = (0..plan.params.len()).map(|k| code.values.names.param(k).to_owned());
     let keep: Vec<String> = params.chain([first, last]).collect();
-    tight(code.lines, &keep)
+    short(code.lines, &keep, style)
 }
 
 fn parameters(plan: &Plan, code: &mut Code<'_>, first: &str, last: &str) {
     let mode = plan.mode;
+    let page = match plan.page {
+        Some(page) => format!(" at PAGE &{page:X}"),
+        None => String::new(),
+    };
     code.line(format!(
-        "REM {}, {}x{} in {} inks, by slowlight for {}",
+        "REM {}, {}x{} in {} inks, by slowlight for {}{page}",
         plan.name, mode.width, mode.height, mode.inks, plan.target.name
     ));
     code.line("REM Change what you like here:");
@@ -82,20 +100,28 @@ fn picture(plan: &Plan, code: &mut Code<'_>, first: &str, last: &str, spread: Op
     code.block(&plan.tree.frame);
     // Errors come from the rows above, drawn or not.
     let top = if spread.is_some() { "0" } else { first };
+    let poke = Poke::new(plan, code);
     code.line(format!("FOR Y%={top} TO {last}"));
-    if plan.plot {
+    code.lines.weight = ROW;
+    if plan.plot && poke.is_none() {
         code.statement(format!("R%={}", screen::y_expression(plan)));
     }
     code.block(&plan.tree.row);
     let columns = plan.computed_columns();
-    code.line(format!("FOR X%={} TO {}", columns.0, columns.1));
+    match &poke {
+        Some(poke) => poke.columns(plan, code),
+        None => code.line(format!("FOR X%={} TO {}", columns.0, columns.1)),
+    }
+    code.lines.weight = PIXEL;
     if let Some(spread) = spread {
         spread.receive(code);
     }
     code.block(&plan.tree.pixel);
-    let ink = code.values.read(plan.graph.ink).text;
-    code.statement(format!("I%={ink}"));
-    if plan.plot {
+    let ink = code.values.read(plan.graph.ink);
+    code.assign("I%", &ink);
+    if let Some(poke) = &poke {
+        poke.gather(code);
+    } else if plan.plot {
         // After MODE the screen is ink 0 already.
         let x = screen::x_expression(plan);
         let seen = seen(plan, first);
@@ -105,10 +131,15 @@ fn picture(plan: &Plan, code: &mut Code<'_>, first: &str, last: &str, spread: Op
         spread.send(code);
     }
     code.line("NEXT");
+    if let Some(poke) = &poke {
+        poke.put(plan, code, first);
+    }
+    code.lines.weight = ROW;
     if let Some(spread) = spread {
         spread.turn(code);
     }
     code.line("NEXT");
+    code.lines.weight = 1;
     reports(plan, code);
     code.line("END");
 }
@@ -144,7 +175,21 @@ fn reports(plan: &Plan, code: &mut Code<'_>) {
     code.line(format!("CLOSE#{channel}"));
 }
 
-fn setup(plan: &Plan, code: &mut Code<'_>, first: &str, last: &str) {
+/// The parts that the program calls, as far as it is written, and those that
+/// they need: an expression may have taken a function's place.
+fn called(plan: &Plan, code: &Code<'_>) -> Vec<&'static Part> {
+    let calls = |text: &str, name: &str| text.contains(&format!("{name}("));
+    let names: Vec<&'static str> = plan
+        .runtime
+        .parts
+        .iter()
+        .map(|part| part.name)
+        .filter(|name| code.lines.texts().any(|text| calls(text, name)))
+        .collect();
+    plan.runtime.closure(names.into_iter())
+}
+
+fn setup(plan: &Plan, code: &mut Code<'_>, parts: &[&Part], first: &str, last: &str) {
     code.line("DEF PROCsetup");
     for (k, (param, written)) in plan.graph.params.iter().zip(&plan.params).enumerate() {
         let name = code.values.names.param(k).to_owned();
@@ -162,14 +207,15 @@ fn setup(plan: &Plan, code: &mut Code<'_>, first: &str, last: &str) {
     code.line(format!(
         "IF {first}<{top} OR {last}>{bottom} OR {first}>{last} THEN PRINT \"rows must be from {top} to {bottom}\":END"
     ));
-    for part in plan.parts() {
+    for part in parts {
         if let Source::Text(text) = part.source
             && !text.starts_with("DEF")
         {
             text.lines().for_each(|l| code.statement(l));
         }
     }
-    let constants: Vec<String> = code.values.names.constants().collect();
+    let names = &code.values.names;
+    let constants: Vec<String> = names.constants().chain(names.copies()).collect();
     for text in constants {
         code.statement(text);
     }
@@ -207,7 +253,7 @@ fn procedures(plan: &Plan, code: &mut Code<'_>) {
         let id = SubroutineId(k as u32);
         let name = code.values.names.procedure(id).to_owned();
         let span = Some(subroutine.span);
-        if !plan.tight {
+        if code.values.style == Style::Listing {
             let calls = plan.tree.calls(id);
             let about = format!("REM {}, called from {calls} places", subroutine.label());
             code.lines.line(about, span);
@@ -218,9 +264,9 @@ fn procedures(plan: &Plan, code: &mut Code<'_>) {
     }
 }
 
-fn functions(plan: &Plan, code: &mut Code<'_>) {
+fn functions(code: &mut Code<'_>, parts: &[&Part]) {
     let mut whole = |text: &str| text.lines().for_each(|l| code.line(l));
-    for part in plan.parts() {
+    for part in parts {
         if let Source::Text(text) = part.source
             && text.starts_with("DEF")
         {

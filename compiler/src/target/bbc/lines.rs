@@ -22,6 +22,8 @@ enum Item {
         text: String,
         span: Option<Span>,
         open: bool,
+        /// About how often it is carried out.
+        weight: u64,
     },
     Label(Label),
 }
@@ -31,20 +33,41 @@ enum Item {
 const WIDTH: usize = 66;
 
 /// A program or a part of one.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug)]
 pub struct Lines {
     items: Vec<Item>,
+    /// About how often what is written next is carried out.
+    pub weight: u64,
+}
+
+impl Default for Lines {
+    fn default() -> Self {
+        Lines {
+            items: Vec::new(),
+            weight: 1,
+        }
+    }
 }
 
 impl Lines {
+    /// No lines yet, of what is carried out so often.
+    pub fn of_weight(weight: u64) -> Lines {
+        Lines {
+            weight,
+            ..Lines::default()
+        }
+    }
+
     /// A statement that others may stand beside.
     pub fn statement(&mut self, text: impl Into<String>, span: Option<Span>) {
         let text = text.into();
         if let Some(Item::Line {
             text: line,
             open: true,
+            weight,
             ..
         }) = self.items.last_mut()
+            && *weight == self.weight
             && line.len() + 1 + text.len() <= WIDTH
         {
             line.push(':');
@@ -55,6 +78,7 @@ impl Lines {
             text,
             span,
             open: true,
+            weight: self.weight,
         });
     }
 
@@ -64,6 +88,7 @@ impl Lines {
             text: text.into(),
             span,
             open: false,
+            weight: self.weight,
         });
     }
 
@@ -79,19 +104,22 @@ impl Lines {
                 text,
                 span,
                 open: true,
+                weight,
             }),
         ) = (self.items.last(), other.items.first())
             && *last
         {
             let (text, span) = (text.clone(), *span);
+            let outer = std::mem::replace(&mut self.weight, *weight);
             other.items.remove(0);
             self.statement(text, span);
+            self.weight = outer;
         }
         self.items.append(&mut other.items);
     }
 
-    /// All of it as one line's worth of statements, if it is only that and no longer than `most`.
-    pub fn in_one_line(&self, most: usize) -> Option<String> {
+    /// All of it as one line's worth of statements, if it is only that.
+    pub fn in_one_line(&self) -> Option<String> {
         let mut all = String::new();
         for item in &self.items {
             let Item::Line {
@@ -105,13 +133,21 @@ impl Lines {
             }
             all.push_str(text);
         }
-        (all.len() <= most).then_some(all)
+        Some(all)
     }
 
     /// Every line's text.
     pub fn texts(&self) -> impl Iterator<Item = &str> {
         self.items.iter().filter_map(|item| match item {
             Item::Line { text, .. } => Some(text.as_str()),
+            Item::Label(_) => None,
+        })
+    }
+
+    /// Every line's text, and about how often it is carried out.
+    pub fn weighted(&self) -> impl Iterator<Item = (&str, u64)> {
+        self.items.iter().filter_map(|item| match item {
+            Item::Line { text, weight, .. } => Some((text.as_str(), *weight)),
             Item::Label(_) => None,
         })
     }
@@ -136,7 +172,12 @@ impl Lines {
         let found = |item: &Item| matches!(item, Item::Line { text, .. } if text.contains(holds));
         let at = self.items.iter().position(found).map_or(0, |at| at + 1);
         let behind = self.items.split_off(at);
-        (self, Lines { items: behind })
+        let weight = self.weight;
+        let behind = Lines {
+            items: behind,
+            weight,
+        };
+        (self, behind)
     }
 
     /// These lines and then others, none joined.

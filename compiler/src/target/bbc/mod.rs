@@ -16,20 +16,27 @@
 //! first on its line, lines under 250 characters, MODE outside procedures, never more than one
 //! ELSE on a line, no loops over fractions.
 //!
-//! - `lines`: lines with labels, numbered at the end; `names`; `expression`: values;
+//! - `lines`: lines with labels, numbered at the end; `names`; `expression`: values; `text`:
+//!   their text; `guard`: tests in place of functions;
 //! - `code`: statements; `frame`: everything around them; `screen`: modes, colours, coordinates;
-//! - `spread`: error diffusion; `tight`: the same program in less memory.
+//! - `poke`: pixels put into the Micro's memory;
+//! - `spread`: error diffusion; `short`: short names and lines, for speed and for size;
+//! - `pieces`: statements cut into names and words.
 
 mod code;
 mod expression;
 mod frame;
+mod guard;
 mod lines;
 mod names;
+mod pieces;
+mod poke;
 mod screen;
+mod short;
 mod spread;
 #[cfg(test)]
 mod tests;
-mod tight;
+mod text;
 
 use super::{Document, Target};
 use crate::passes::outline::Sizes;
@@ -89,6 +96,31 @@ pub static BASIC_V: Target = Target {
     sizes: SIZES,
     emit,
 };
+
+/// How a program is written.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Style {
+    /// To be read: the scene's names, short lines, a remark for each item.
+    Listing,
+    /// To be quick: one-letter names, few spaces, long lines.
+    Fast,
+    /// The same, with function calls in place of tests and two ways to
+    /// compute, which take memory.
+    Lean,
+    /// To be small: the same, and constants where they are read.
+    Small,
+}
+
+impl Style {
+    fn of(plan: &Plan) -> Style {
+        match plan {
+            Plan { tight: true, .. } => Style::Small,
+            Plan { lean: true, .. } => Style::Lean,
+            Plan { listing: true, .. } => Style::Listing,
+            _ => Style::Fast,
+        }
+    }
+}
 
 fn emit(plan: &Plan) -> Vec<Document> {
     let (text, lines) = frame::program(plan).finish();

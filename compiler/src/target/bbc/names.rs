@@ -1,7 +1,8 @@
 //! What variables, constants and tables are called.
 
+use super::Style;
 use crate::flow::tree::{Place, SubroutineId};
-use crate::plan::{Plan, shared_homes};
+use crate::plan::{Plan, quick_homes};
 use slowlight_routine::{Format, Type};
 use std::collections::{HashMap, HashSet};
 
@@ -10,6 +11,8 @@ pub struct Names {
     homes: HashMap<Place, String>,
     /// The params, in the plan's order.
     params: Vec<String>,
+    /// Copies of params in variables that may be renamed.
+    copies: Vec<Option<String>>,
     pub tables: Vec<String>,
     /// Of the procedures for subroutines.
     procedures: Vec<String>,
@@ -28,6 +31,7 @@ impl Names {
         let mut names = Names {
             homes: HashMap::new(),
             params: Vec::new(),
+            copies: vec![None; plan.graph.params.len()],
             tables: Vec::new(),
             procedures: Vec::new(),
             taken: HashSet::new(),
@@ -39,8 +43,8 @@ impl Names {
             let name = names.unique(&p.label().to_ascii_lowercase(), suffix(p.ty));
             names.params.push(name);
         }
-        // In little memory values share variables.
-        let shared = plan.tight.then(|| shared_homes(plan));
+        // Values share variables where names are short: few are quick, and small.
+        let shared = (Style::of(plan) != Style::Listing).then(|| quick_homes(plan));
         let mut sharing: HashMap<(Format, usize), String> = HashMap::new();
         for (place, format) in plan.places() {
             let mut fresh = || names.unique(plan.home(place), suffix(format.scalar()));
@@ -49,6 +53,9 @@ impl Names {
                 None => fresh(),
             };
             names.homes.insert(place, name);
+        }
+        if let (true, Some(Place::Node(ink))) = (shared.is_some(), plan.place(plan.graph.ink)) {
+            names.homes.insert(Place::Node(ink), "I%".to_owned());
         }
         for table in &plan.graph.tables {
             let clean: String = table
@@ -70,7 +77,8 @@ impl Names {
         for (k, subroutine) in plan.tree.subroutines.iter().enumerate() {
             // Procedures have names of their own, short where memory is.
             let letter = u8::try_from(k).ok().filter(|k| *k < 26).map(|k| b'a' + k);
-            let name = match letter.filter(|_| plan.tight) {
+            let short = Style::of(plan) != Style::Listing;
+            let name = match letter.filter(|_| short) {
                 Some(letter) => char::from(letter).to_string(),
                 None => names.unique(&format!("do_{}", subroutine.label()), ""),
             };
@@ -99,6 +107,26 @@ impl Names {
         self.procedures
             .get(id.0 as usize)
             .map_or("unused", String::as_str)
+    }
+
+    /// A copy of a param, whose own name is long.
+    pub fn copy(&mut self, at: usize) -> String {
+        if let Some(Some(name)) = self.copies.get(at) {
+            return name.clone();
+        }
+        let param = self.param(at).to_owned();
+        let suffix = if param.ends_with('%') { "%" } else { "" };
+        let name = self.unique(&format!("copy_{}", param.trim_end_matches('%')), suffix);
+        if let Some(copy) = self.copies.get_mut(at) {
+            *copy = Some(name.clone());
+        }
+        name
+    }
+
+    /// Assignments of all copies of params.
+    pub fn copies(&self) -> impl Iterator<Item = String> + '_ {
+        let pairs = self.copies.iter().zip(&self.params);
+        pairs.filter_map(|(copy, param)| Some(format!("{}={param}", copy.as_ref()?)))
     }
 
     pub fn home(&self, place: Place) -> &str {

@@ -3,6 +3,10 @@
 use super::super::Mode;
 use crate::plan::Plan;
 
+/// The resident variables that have their own use: the ink, the row's height on
+/// the screen, the column and the row. (`@%` formats numbers.)
+pub const OWN: &str = "IRXY";
+
 const fn mode(name: &'static str, width: u32, height: u32, inks: u32) -> Mode {
     Mode {
         name,

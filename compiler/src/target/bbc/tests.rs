@@ -61,6 +61,25 @@ fn two_mirrors() {
 }
 
 #[test]
+fn a_listing_is_written_for_reading() {
+    let mut plan = planned("bbc:micro", MIRRORS, true);
+    plan.listing = true;
+    insta::assert_snapshot!(super::emit(&plan)[0].text.clone());
+}
+
+#[test]
+fn the_screens_memory_is_written_where_bytes_are_whole() {
+    let poked = |width: u32, target: &str| {
+        let source = format!("image {width} x 4 inks black, white; draw (x, y) = ink(x mod 2);");
+        text(target, &source, true).contains('?')
+    };
+    assert!(poked(16, "bbc:micro"));
+    // Centred, it would begin within a byte.
+    assert!(!poked(18, "bbc:micro"));
+    assert!(!poked(16, "bbc:agon"));
+}
+
+#[test]
 fn lines_are_in_order_and_every_goto_goes_to_one() {
     let text = text("bbc:micro", MIRRORS, true);
     let mut numbers = Vec::new();
@@ -73,9 +92,9 @@ fn lines_are_in_order_and_every_goto_goes_to_one() {
     }
     assert!(numbers.is_sorted());
     let mut gotos = 0;
-    for word in ["GOTO ", "THEN "] {
+    for word in ["GOTO", "THEN"] {
         for (at, _) in text.match_indices(word) {
-            let rest = &text[at + word.len()..];
+            let rest = text[at + word.len()..].trim_start();
             let digits = rest
                 .find(|c: char| !c.is_ascii_digit())
                 .unwrap_or(rest.len());

@@ -292,3 +292,20 @@ fn memory_is_accounted() {
             .len()
     );
 }
+
+#[test]
+fn a_profile_charges_each_line_with_what_it_does_itself() {
+    let text =
+        "10FOR I%=1 TO 3:A=FNroot(I%):NEXT\n20A=FNroot(2):B=1\n30END\n40DEF FNroot(x)\n50=SQR(x)\n";
+    let mut machine = Machine::new(Config::default());
+    machine.load_text(text).unwrap();
+    let plain = machine.run(20_000_000, &mut |_| true);
+    let (run, lines) = machine.profile(20_000_000, &mut |_| true);
+    assert_eq!(run, plain);
+    assert_eq!(lines.iter().map(|l| l.cycles).sum::<u64>(), run.cycles);
+    let times: Vec<(u16, u64)> = lines.iter().map(|l| (l.line, l.times)).collect();
+    assert_eq!(times, [(10, 1), (20, 1), (30, 1), (40, 0), (50, 4)]);
+    // Four square roots of 18,000 cycles are the function's.
+    assert!(lines[4].cycles > 72_000);
+    assert!(lines[0].cycles < 30_000 && lines[1].cycles < 15_000);
+}

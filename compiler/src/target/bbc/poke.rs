@@ -1,0 +1,147 @@
+//! Pixels put into the screen's memory, on the Micro.
+//!
+//! PLOT takes several thousand cycles a point, a poke one. A byte holds 2, 4 or
+//! 8 pixels side by side, so a second loop inside the row's gathers their inks:
+//! what was gathered moves up by a bit, and the next ink's bits are added in
+//! the place of the byte's last pixel. Eight rows make a row of characters,
+//! whose bytes run down through each character before they go on to the next.
+
+use super::Style;
+use super::code::Code;
+use crate::plan::Plan;
+
+/// How a picture is put into memory, byte by byte.
+pub struct Poke {
+    /// Pixels in a byte.
+    pixels: u32,
+    /// The bits of each ink at the byte's last pixel; none where they are the
+    /// ink's number.
+    bits: Option<String>,
+    /// The byte being gathered, its address, and the first one's of the row.
+    byte: String,
+    at: String,
+    start: String,
+}
+
+/// The bits of an ink at a byte's last pixel: bit by bit, each so far from the next.
+fn bits(ink: u32, pixels: u32) -> u32 {
+    let each = 8 / pixels;
+    (0..each)
+        .map(|bit| (ink >> bit & 1) << (bit * pixels))
+        .sum()
+}
+
+impl Poke {
+    /// Where the program draws on a Micro, is not for reading, and the
+    /// picture begins and ends at whole bytes.
+    pub fn new(plan: &Plan, code: &mut Code<'_>) -> Option<Poke> {
+        let pixels = match plan.mode.inks {
+            2 => 8,
+            4 => 4,
+            _ => 2,
+        };
+        let (first, last) = plan.columns;
+        let left = plan.offset.0 + first as i32;
+        let whole = |n: i64| n.rem_euclid(i64::from(pixels)) == 0;
+        let fits = plan.plot
+            && plan.target.name == "bbc:micro"
+            && code.values.style != Style::Listing
+            && plan.computed_columns() == plan.columns
+            && whole(i64::from(left))
+            && whole(i64::from(last) + 1 - i64::from(first));
+        if !fits {
+            return None;
+        }
+        let names = &mut code.values.names;
+        let poke = Poke {
+            pixels,
+            bits: (pixels < 8).then(|| names.unique("bits", "%")),
+            byte: names.unique("byte", "%"),
+            at: names.unique("at", "%"),
+            start: names.unique("start", "%"),
+        };
+        poke.table(plan, code);
+        Some(poke)
+    }
+
+    /// Makes the table of bits, four inks a word.
+    fn table(&self, plan: &Plan, code: &mut Code<'_>) {
+        let Some(name) = &self.bits else {
+            return;
+        };
+        let inks = plan.mode.inks;
+        code.statement(format!("DIM {name} {}", inks - 1));
+        for first in (0..inks).step_by(4) {
+            let word: u32 = (0..4)
+                .map(|k| bits(first + k, self.pixels) << (8 * k))
+                .sum();
+            let place = match first {
+                0 => format!("!{name}"),
+                _ => format!("{name}!{first}"),
+            };
+            code.statement(format!("{place}=&{word:X}"));
+        }
+    }
+
+    /// The loops over a row's bytes and each byte's pixels.
+    pub fn columns(&self, plan: &Plan, code: &mut Code<'_>) {
+        let (first, last) = plan.columns;
+        let y = match plan.offset.1 {
+            0 => "Y%".to_owned(),
+            down if down > 0 => format!("(Y%+{down})"),
+            up => format!("(Y%{up})"),
+        };
+        // A row of characters: 8 rows of so many bytes.
+        let line = 8 * plan.mode.width / self.pixels;
+        let left = 8 * (plan.offset.0 + first as i32) / self.pixels as i32;
+        let left = match left {
+            0 => String::new(),
+            n => format!("+{n}"),
+        };
+        let (start, at) = (&self.start, &self.at);
+        code.statement(format!("{start}=HIMEM+{y} DIV 8*{line}+({y} AND 7){left}"));
+        code.statement(format!("X%={first}"));
+        let bytes = (last + 1 - first) / self.pixels;
+        let end = 8 * (bytes - 1);
+        code.line(format!("FOR {at}={start} TO {start}+{end} STEP 8"));
+        code.statement(format!("{}=0", self.byte));
+        code.line(format!("FOR X%=X% TO X%+{}", self.pixels - 1));
+    }
+
+    /// Adds a pixel's ink.
+    pub fn gather(&self, code: &mut Code<'_>) {
+        let byte = &self.byte;
+        let ink = match &self.bits {
+            Some(bits) => format!("{bits}?I%"),
+            None => "I%".to_owned(),
+        };
+        code.statement(format!("{byte}={byte}+{byte}+{ink}"));
+    }
+
+    /// Puts a byte, and ends the loop over them.
+    pub fn put(&self, plan: &Plan, code: &mut Code<'_>, first: &str) {
+        let put = format!("?{}={}", self.at, self.byte);
+        if plan.graph.diffusion.is_some() {
+            code.line(format!("IF Y%>={first} THEN {put}"));
+        } else {
+            code.statement(put);
+        }
+        code.line("NEXT");
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn inks_have_the_bits_of_the_last_pixel() {
+        let all = |inks: u32, pixels: u32| -> Vec<u32> {
+            (0..inks).map(|ink| bits(ink, pixels)).collect()
+        };
+        assert_eq!(all(2, 8), [0, 1]);
+        assert_eq!(all(4, 4), [0, 1, 16, 17]);
+        assert_eq!(all(16, 2)[..5], [0, 1, 4, 5, 16]);
+        assert_eq!(all(16, 2)[15], 0x55);
+    }
+}

@@ -1,0 +1,240 @@
+//! A program made short, which on these machines is quick and small at once:
+//! one-letter names for what is used most, integers in the resident variables,
+//! no spaces that BASIC II can do without, long lines. The parameter block
+//! stays as it is.
+//!
+//! BASIC II keeps a list of variables for each first letter, in the order in
+//! which they came, and looks through it at each use: the tenth of its letter
+//! costs a thousand cycles more, each letter of a name sixty. So reals get the
+//! 52 letters first, by how often they are used, and no letter twice before
+//! all have been given.
+//!
+//! What is computed is the same, in the same order. Where memory is short,
+//! constants are put in place too where that takes less than a variable.
+
+use super::Style;
+use super::lines::Lines;
+use super::pieces::{Piece, pieces, written};
+use std::collections::{BTreeMap, BTreeSet};
+
+/// A line of tokens may hold 251 bytes; labels become longer than their marks.
+const WIDTH: usize = 220;
+
+/// Makes a program short; the names in `keep` stay.
+pub fn short(lines: Lines, keep: &[String], style: Style) -> Lines {
+    let (head, mut body) = lines.split_behind("REM rows to draw");
+    if style == Style::Small {
+        let constants = in_place(&body);
+        body.each_text(|text| *text = without(text, &constants));
+        body.remove_empty();
+    }
+    let names = given(&uses(&body), keep);
+    body.each_text(|text| *text = written(text, &names));
+    head.followed_by(body.joined(WIDTH))
+}
+
+/// How often each name is met while the program runs, roughly. An array's name
+/// ends in its bracket.
+fn uses(body: &Lines) -> BTreeMap<String, u64> {
+    let mut counts: BTreeMap<String, u64> = BTreeMap::new();
+    for (text, weight) in body.weighted() {
+        let all = pieces(text);
+        for (k, piece) in all.iter().enumerate() {
+            let Piece::Name(name) = piece else {
+                continue;
+            };
+            let array = matches!(all.get(k + 1), Some(Piece::Sign("(")));
+            let name = format!("{name}{}", if array { "(" } else { "" });
+            let count = counts.entry(name).or_default();
+            *count = count.saturating_add(weight);
+        }
+    }
+    counts
+}
+
+/// Constants that cost less where they are read than in a variable: name and number.
+fn in_place(body: &Lines) -> BTreeMap<String, String> {
+    let mut numbers: BTreeMap<String, String> = BTreeMap::new();
+    let mut uses: BTreeMap<String, usize> = BTreeMap::new();
+    let mut changed: BTreeSet<String> = BTreeSet::new();
+    for text in body.texts() {
+        for statement in text.split(':') {
+            if let Some((name, number)) = statement.split_once('=')
+                && name.starts_with(|c: char| c.is_ascii_lowercase())
+                && number.starts_with(|c: char| c.is_ascii_digit())
+                && pieces(name).len() == 1
+                && number
+                    .bytes()
+                    .all(|b| b.is_ascii_digit() || b"E.-".contains(&b))
+                && !name.ends_with('%')
+                && numbers.insert(name.to_owned(), number.to_owned()).is_some()
+            {
+                changed.insert(name.to_owned());
+            }
+        }
+        for piece in pieces(text) {
+            if let Piece::Name(name) = piece {
+                *uses.entry(name.to_owned()).or_default() += 1;
+            }
+        }
+        // What is read or counted is no constant.
+        for word in ["READ ", "FOR "] {
+            for (at, _) in text.match_indices(word) {
+                if let Some(Piece::Name(name)) = pieces(&text[at + word.len()..]).first() {
+                    changed.insert((*name).to_owned());
+                }
+            }
+        }
+    }
+    numbers.retain(|name, number| {
+        // One use is the assignment. A variable takes an entry of about 8 bytes,
+        // its assignment the number and 3 more, each use 1 or 2.
+        let reads = uses.get(name).map_or(0, |n| n.saturating_sub(1));
+        !changed.contains(name)
+            && constant_name(name)
+            && reads * (number.len() - 1) < number.len() + 11
+    });
+    numbers
+}
+
+/// Whether a name is one that [`super::names`] gives to constants.
+fn constant_name(name: &str) -> bool {
+    name.strip_prefix('c')
+        .is_some_and(|rest| rest.starts_with(|c: char| c.is_ascii_digit() || c == '_'))
+}
+
+/// A statement with those constants in place, their assignments left out.
+fn without(text: &str, constants: &BTreeMap<String, String>) -> String {
+    if text.contains('"') || text.contains("REM") {
+        return text.to_owned();
+    }
+    let kept = text.split(':').filter(|statement| {
+        let name = statement.split_once('=').map(|(name, _)| name);
+        !name.is_some_and(|n| constants.contains_key(n))
+    });
+    let text = kept.collect::<Vec<_>>().join(":");
+    let put = |piece| match piece {
+        Piece::Name(name) => constants.get(name).map_or(name, String::as_str).to_owned(),
+        Piece::Word(t) | Piece::Fixed(t) | Piece::Sign(t) => t.to_owned(),
+        Piece::Space => " ".to_owned(),
+    };
+    pieces(&text).into_iter().map(put).collect()
+}
+
+/// First letters of the runtime's own variables come last: its constants and
+/// its functions' parameters would stand before ours in their lists. `TOP` is a
+/// keyword, so P is left out.
+const LETTERS: &str = "efghijklmnopqrstuvwxyzACDEGIJKLMNOQSUVXYZabcdBFHRTW";
+
+/// Names of one letter, then of two, whose first letters go round backwards:
+/// those that are used most share their list last.
+fn letters() -> impl Iterator<Item = String> {
+    let one = LETTERS.chars().map(String::from);
+    let second = ('a'..='z').chain('0'..='9');
+    let two = second.flat_map(|b| LETTERS.chars().rev().map(move |a| format!("{a}{b}")));
+    // No keyword begins with two letters of which the second is small.
+    one.chain(two).chain((0..).map(|n| format!("z_{n}")))
+}
+
+/// The quickest names for those used most.
+fn given(counts: &BTreeMap<String, u64>, keep: &[String]) -> BTreeMap<String, String> {
+    let mut by_use: Vec<(&String, &u64)> = counts.iter().collect();
+    by_use.sort_by_key(|(name, count)| (std::cmp::Reverse(**count), *name));
+    let own = super::screen::OWN;
+    let mut resident = ('A'..='Z').filter(|c| !own.contains(*c));
+    let mut small: Vec<String> = letters().take(by_use.len() + LETTERS.len()).collect();
+    let mut names = BTreeMap::new();
+    for (name, _) in by_use {
+        let plain = name.trim_end_matches('(');
+        if keep.iter().any(|k| k == plain) {
+            continue;
+        }
+        let int = plain.ends_with('%');
+        let scalar = int && plain == name;
+        // A capital with `%` is a resident variable.
+        let capital = |n: &String| scalar && n.len() == 1 && n.as_str() < "a";
+        let free =
+            |n: &String| !capital(n) && !keep.contains(n) && !keep.contains(&format!("{n}%"));
+        let letter = match scalar {
+            true => resident.next().map(String::from),
+            false => None,
+        };
+        let mut other = || {
+            let at = small.iter().position(free)?;
+            Some(small.remove(at))
+        };
+        if let Some(found) = letter.or_else(&mut other) {
+            let sign = if int { "%" } else { "" };
+            names.insert(name.clone(), format!("{found}{sign}"));
+        }
+    }
+    names
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn spaces_stay_where_basic_needs_them() {
+        let none = BTreeMap::new();
+        for (text, small) in [
+            ("IF a<1E5 THEN =a ELSE =0", "IFa<1E5 THEN=a ELSE=0"),
+            (
+                "IF b%>88 THEN c%=b% ELSE c%=2 DIV 3",
+                "IFb%>88THENc%=b%ELSEc%=2DIV3",
+            ),
+            ("q%=n% MOD E%:r%=n% MOD 7", "q%=n%MOD E%:r%=n%MOD 7"),
+            (
+                "IF NOT done AND TRUE THEN \u{1}4\u{1}",
+                "IFNOTdone ANDTRUE THEN\u{1}4\u{1}",
+            ),
+            (
+                "IF ABS(a)<HALF THEN =x EOR 2 EOR y",
+                "IFABS(a)<HALF THEN=x EOR 2 EOR y",
+            ),
+            (
+                "PRINT \"a  b\":REM as  it is",
+                "PRINT\"a  b\":REM as  it is",
+            ),
+        ] {
+            assert_eq!(written(text, &none), small);
+        }
+    }
+
+    #[test]
+    fn short_names_keep_out_of_each_others_way() {
+        let counts = [("long_one", 9), ("count%", 5), ("other%", 2), ("rare", 1)];
+        let counts = counts.map(|(name, n)| (name.to_owned(), n)).into();
+        let names = given(&counts, &["a".to_owned()]);
+        let found: Vec<&str> = counts
+            .keys()
+            .filter_map(|n| names.get(n))
+            .map(String::as_str)
+            .collect();
+        assert_eq!(found, ["A%", "e", "B%", "f"]);
+    }
+
+    #[test]
+    fn many_names_are_all_different_and_none_is_the_programs_own() {
+        let mut counts = BTreeMap::new();
+        for k in 0..150u64 {
+            counts.insert(format!("whole_{k}%"), k);
+            counts.insert(format!("real_{k}"), k);
+            counts.insert(format!("list_{k}%("), k);
+        }
+        let names = given(&counts, &["first%".to_owned()]);
+        assert_eq!(names.len(), 450);
+        let mut seen = std::collections::BTreeSet::new();
+        for (name, short) in &names {
+            // An array's name is its own.
+            let array = if name.ends_with('(') { "(" } else { "" };
+            assert!(seen.insert(format!("{short}{array}")), "{short}");
+            assert_eq!(
+                name.trim_end_matches('(').ends_with('%'),
+                short.ends_with('%')
+            );
+            assert!(array == "(" || !["I%", "R%", "X%", "Y%"].contains(&short.as_str()));
+        }
+    }
+}

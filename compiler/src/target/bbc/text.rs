@@ -1,0 +1,65 @@
+//! Expressions as text, and the tests under which they may be written shorter.
+
+use slowlight_runtime_bbc::level::OPERAND;
+
+/// The same value without a function call, where tests allow it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Fast {
+    pub text: String,
+    pub level: u8,
+    /// Conditions; all must hold.
+    pub tests: Vec<String>,
+    /// What the value's size stays below then, where that is known.
+    pub below: Option<f64>,
+}
+
+/// An expression and how tightly it binds.
+#[derive(Clone, Debug)]
+pub struct Text {
+    pub text: String,
+    pub level: u8,
+    pub fast: Option<Box<Fast>>,
+}
+
+fn at(text: &str, own: u8, level: u8) -> String {
+    if own < level {
+        format!("({text})")
+    } else {
+        text.to_owned()
+    }
+}
+
+impl Text {
+    pub fn new(text: impl Into<String>, level: u8) -> Text {
+        Text {
+            text: text.into(),
+            level,
+            fast: None,
+        }
+    }
+
+    pub fn operand(text: impl Into<String>) -> Text {
+        Text::new(text, OPERAND)
+    }
+
+    /// In brackets, if it binds less tightly than needed.
+    pub fn at(&self, level: u8) -> String {
+        at(&self.text, self.level, level)
+    }
+
+    /// The same where its tests have passed.
+    pub fn fast_at(&self, level: u8) -> String {
+        match &self.fast {
+            Some(fast) => at(&fast.text, fast.level, level),
+            None => self.at(level),
+        }
+    }
+
+    /// Whether it is a variable or a number: reading it twice costs no more
+    /// than keeping it.
+    pub fn is_simple(&self) -> bool {
+        let plain = |c: char| c.is_ascii_alphanumeric() || "_%.".contains(c);
+        let text = self.text.strip_prefix('-').unwrap_or(&self.text);
+        text.chars().all(plain)
+    }
+}
