@@ -186,7 +186,7 @@ fn called(plan: &Plan, code: &Code<'_>) -> Vec<&'static Part> {
         .map(|part| part.name)
         .filter(|name| code.lines.texts().any(|text| calls(text, name)))
         .collect();
-    plan.runtime.closure(names.into_iter())
+    plan.runtime.closure(names)
 }
 
 fn setup(plan: &Plan, code: &mut Code<'_>, parts: &[&Part], first: &str, last: &str) {
