@@ -6,6 +6,8 @@ use crate::fit;
 use crate::scene::{Precision, Scene};
 use clap::{Args, ValueEnum};
 use slowlight_compiler::plan::{Goal, Plan, plan, plan_as_written};
+use slowlight_compiler::sema::{FunctionKind, Program};
+use slowlight_compiler::source::Span;
 use slowlight_compiler::target::{self, Mode, TARGETS, Target};
 
 /// Screen and rows.
@@ -200,6 +202,9 @@ impl ScreenArgs {
         let mut plan = planned.map_err(|said| scene.wrong(said))?;
         plan.listing = self.style == Some(Style::Listing);
         plan.page = self.page;
+        if plan.listing {
+            plan.items = items(&scene.checked.program);
+        }
         match asked {
             // The screen is lower than the picture, and these are cropped away.
             Some(asked) if asked != plan.rows => Err(Failure::Usage(format!(
@@ -212,6 +217,31 @@ impl ScreenArgs {
             _ => Ok(plan),
         }
     }
+}
+
+/// A scene's items, the library's included: where each stands, and what to call
+/// it; nothing for those that compute nothing.
+fn items(program: &Program) -> Vec<(Span, String)> {
+    let from = |library: bool| if library { " (library)" } else { "" };
+    let functions = program.functions.iter().map(|f| {
+        let kind = match f.kind {
+            FunctionKind::Effect { .. } => "effect",
+            FunctionKind::Dither => "dither",
+            _ => "fn",
+        };
+        (f.span, format!("{kind} {}{}", f.name, from(f.library)))
+    });
+    let shapes = program.shapes.iter();
+    let shapes = shapes.map(|s| (s.span, format!("shape {}{}", s.name, from(s.library))));
+    let scenes = program
+        .scenes
+        .iter()
+        .map(|s| (s.span, format!("scene {}", s.name)));
+    let draw = program.draw.iter().map(|d| (d.span, "draw".to_owned()));
+    let params = program.params.iter().map(|p| (p.span, String::new()));
+    let consts = program.consts.iter().map(|c| (c.span, String::new()));
+    let all = functions.chain(shapes).chain(scenes).chain(draw);
+    all.chain(params).chain(consts).collect()
 }
 
 /// The rows of a picture that a screen shows: the middle ones.

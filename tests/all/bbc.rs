@@ -190,6 +190,36 @@ fn every_mode_of_the_micro_is_drawn_as_the_model_says() {
 }
 
 #[test]
+fn runs_in_two_versions_compute_the_same() {
+    // What grows threefold a turn is beyond every limit after some columns.
+    let source = "image 32 x 4 inks black, red, yellow, white;
+        draw (x, y) = {
+          let far = loop (t = 0.5, n = 0) max 40 {
+            if n < x then next(t * 3 - y, n + 1) else t
+          } else t;
+          let a = far * far + y;
+          let b = far * a - x + a * 0.37;
+          ink(abs(floor(b / 7)) mod 4)
+        };";
+    let plan = folded(source, "1", (0, 3), true);
+    let text = text(&plan);
+    let mut machine = Machine::new(Config::default());
+    machine.load_text(&text).unwrap();
+    let (run, lines) = machine.profile(100_000_000_000, &mut |_| true);
+    assert_eq!(run.stop, Stop::Ended);
+    assert_eq!(differences(&plan, &run), 0);
+    // The version for the rest ends in a jump back, and stands behind END.
+    let (_, rest) = text.split_once(":END\n").unwrap();
+    let rare = rest
+        .lines()
+        .find(|l| l.contains("FNmul(") && l.contains("GOTO"));
+    let number = rare.unwrap_or_else(|| panic!("{text}"));
+    let number: u16 = number[..3].parse().unwrap();
+    let times = lines.iter().find(|l| l.line == number).unwrap().times;
+    assert!(times > 20 && times < 32 * 4 - 20, "{times}\n{text}");
+}
+
+#[test]
 fn a_listing_computes_the_same() {
     let mut plan = planned("bbc:micro", MIRRORS, &[], Some((60, 61)));
     plan.listing = true;

@@ -176,6 +176,23 @@ fn build_writes_what_machines_load() {
 }
 
 #[test]
+fn a_listing_names_the_items_that_its_lines_come_from() {
+    let scene = include_str!("../../examples/mirrors.scn");
+    let dir = directory(&[("spot.scn", scene)]);
+    let build = |style: &str| {
+        let args = [
+            "build", "spot.scn", "-t", "bbc", "--style", style, "--emit", "text",
+        ];
+        success(dir.path(), &args)
+    };
+    let listing = build("listing");
+    for item in ["REM draw", "REM effect tiles", "REM dither demo"] {
+        assert!(listing.contains(item), "{item}\n{listing}");
+    }
+    assert!(!build("fast").contains("REM effect"));
+}
+
+#[test]
 fn what_was_built_runs_by_itself() {
     let dir = directory(&[("spot.scn", SPOT)]);
     let dir = dir.path();

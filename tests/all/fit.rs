@@ -84,7 +84,15 @@ fn shapes_share_subroutines_where_memory_is_short() {
 fn subroutines_are_named_after_the_scene() {
     let csg = include_str!("../../examples/csg.scn");
     let dir = directory(&[("csg.scn", csg)]);
-    let args = ["build", "csg.scn", "-t", "6502:plain", "-o", "."];
+    let args = [
+        "build",
+        "csg.scn",
+        "-t",
+        "6502:plain",
+        "-o",
+        ".",
+        "--outlined",
+    ];
     let output = slowlight(dir.path(), &args);
     assert_eq!(output.status.code(), Some(0));
     let text = std::fs::read_to_string(dir.path().join("csg.asm")).expect("written");

@@ -55,7 +55,7 @@ use crate::passes::narrow::narrow;
 use crate::passes::schedule::{missing, schedule};
 use crate::passes::stable::stable;
 use crate::range::{Ranges, Slack, ranges};
-use crate::source::Diagnostic;
+use crate::source::{Diagnostic, Span};
 use crate::target::{Mode, Target};
 use slowlight_routine::{Bits, Format, Op, Range, Routine, Runtime, Type, Value};
 use std::collections::HashMap;
@@ -98,6 +98,9 @@ pub struct Plan {
     /// Whether to write it for reading rather than for speed, where the target
     /// knows the difference; the values are the same.
     pub listing: bool,
+    /// Where the scene's items stand and what they are, in the order of the
+    /// text: for listings.
+    pub items: Vec<(Span, String)>,
     /// Whether to write it short, but not so short that it becomes slow to read
     /// for the machine: between neither and [`Plan::tight`].
     pub lean: bool,
@@ -345,6 +348,7 @@ fn assemble(
         plot: goal.plot,
         tight: false,
         listing: false,
+        items: Vec::new(),
         lean: false,
         page: None,
         ranges: ranges_now,

@@ -22,7 +22,11 @@ const TWO_WAYS: usize = 225;
 pub struct Code<'p> {
     pub values: Expressions<'p>,
     pub lines: Lines,
-    labels: Labels,
+    /// What is rarely carried out, and stands behind the rest.
+    pub rare: Lines,
+    /// Loops of the scene around what is written.
+    pub loops: u32,
+    pub labels: Labels,
     span: Option<Span>,
 }
 
@@ -31,6 +35,8 @@ impl<'p> Code<'p> {
         Code {
             values: Expressions::new(plan),
             lines: Lines::default(),
+            rare: Lines::default(),
+            loops: 0,
             labels: Labels::default(),
             span: None,
         }
@@ -44,12 +50,6 @@ impl<'p> Code<'p> {
     /// A line that comes from no place in the scene.
     pub fn line(&mut self, text: impl Into<String>) {
         self.lines.line(text, None);
-    }
-
-    pub fn block(&mut self, block: &Block) {
-        for statement in block {
-            self.one(statement);
-        }
     }
 
     /// A block's lines by themselves.
@@ -83,20 +83,9 @@ impl<'p> Code<'p> {
         }
     }
 
-    fn one(&mut self, statement: &Statement) {
+    pub fn one(&mut self, statement: &Statement) {
         match statement {
-            Statement::Let(id) => {
-                self.span = Some(self.values.plan.graph.span(*id));
-                if self.extreme(*id) {
-                    return;
-                }
-                let text = self.values.compute(*id);
-                self.assign_before();
-                if !self.values.fold(*id, &text) {
-                    let home = self.values.names.home(Place::Node(*id)).to_owned();
-                    self.assign(&home, &text);
-                }
-            }
+            Statement::Let(id) => self.assignment(*id, true),
             Statement::Set { place, from } => {
                 let text = match *from {
                     Origin::Node(id) => self.values.read(id),
@@ -123,6 +112,20 @@ impl<'p> Code<'p> {
         }
     }
 
+    /// Computes a node. `fold`: it may be written where it is read.
+    pub fn assignment(&mut self, id: NodeId, fold: bool) {
+        self.span = Some(self.values.plan.graph.span(id));
+        if self.extreme(id) {
+            return;
+        }
+        let text = self.values.compute(id);
+        self.assign_before();
+        if !(fold && self.values.fold(id, &text)) {
+            let home = self.values.names.home(Place::Node(id)).to_owned();
+            self.assign(&home, &text);
+        }
+    }
+
     /// An assignment; of two ways to compute the value, tests choose.
     pub fn assign(&mut self, home: &str, text: &Text) {
         if home == text.text {
@@ -143,7 +146,7 @@ impl<'p> Code<'p> {
     }
 
     /// Assigns what must be variables for what was computed last.
-    fn assign_before(&mut self) {
+    pub fn assign_before(&mut self) {
         for (home, text) in std::mem::take(&mut self.values.before) {
             self.assign(&home, &text);
         }
@@ -261,7 +264,9 @@ impl<'p> Code<'p> {
         let (top, leave, end) = (self.labels.next(), self.labels.next(), self.labels.next());
         self.lines.statement(format!("{turn}=0"), span);
         self.lines.place(top);
+        self.loops += 1;
         self.often(&turns.body, TURNS);
+        self.loops -= 1;
         let fails = self.values.condition(turns.again, false);
         self.lines.line(format!("IF {fails} THEN {leave}"), span);
         self.block(&turns.next);

@@ -32,6 +32,11 @@ pub struct Expressions<'p> {
     pub received: String,
     /// Values that must be assigned before what was computed last, since it reads them twice.
     pub before: Vec<(String, Text)>,
+    /// Between which bounds arguments stay in the version being written, where
+    /// that is better than what the ranges know.
+    pub assumed: HashMap<NodeId, [Range; 2]>,
+    /// Whether to call functions rather than to test.
+    pub calls: bool,
 }
 
 impl<'p> Expressions<'p> {
@@ -44,6 +49,8 @@ impl<'p> Expressions<'p> {
             clamps: false,
             received: String::new(),
             before: Vec::new(),
+            assumed: HashMap::new(),
+            calls: false,
         }
     }
 
@@ -187,7 +194,7 @@ impl<'p> Expressions<'p> {
         }
         self.clamps = true;
         let clamped = |text: &str| Text::operand(format!("FNindex({text},{last})"));
-        if self.style != Style::Fast || !self.simple(id) {
+        if self.style != Style::Fast || self.calls || !self.simple(id) {
             return clamped(&text.text);
         }
         let text = self.read(id);
@@ -232,6 +239,16 @@ impl<'p> Expressions<'p> {
             self.inline.insert(id, text.clone());
         }
         fold
+    }
+
+    /// What is written where it is read, at this point.
+    pub fn folds(&self) -> HashMap<NodeId, Text> {
+        self.inline.clone()
+    }
+
+    /// Goes back to that point.
+    pub fn set_folds(&mut self, folds: HashMap<NodeId, Text>) {
+        self.inline = folds;
     }
 
     /// Takes back that a value is written where it is read; whether it was.

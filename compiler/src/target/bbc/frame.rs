@@ -10,6 +10,7 @@ use super::spread::Spread;
 use crate::flow::graph::Table;
 use crate::flow::tree::SubroutineId;
 use crate::plan::Plan;
+use crate::source::Span;
 use slowlight_routine::{Part, Source, Type, Value};
 use slowlight_runtime_bbc::literal;
 
@@ -39,6 +40,8 @@ pub fn program(plan: &Plan) -> Lines {
     code.lines.weight = PIXEL;
     procedures(plan, &mut code);
     code.lines.weight = 1;
+    let rare = std::mem::take(&mut code.rare);
+    code.lines.append(rare);
     let parts = called(plan, &code);
     setup(plan, &mut code, &parts, &first, &last);
     // Called for many pixels, but not for all.
@@ -48,11 +51,22 @@ pub fn program(plan: &Plan) -> Lines {
     data(plan, &mut code);
     let style = code.values.style;
     if style == Style::Listing {
-        return code.lines;
+        return code.lines.remarked(|span| item(plan, span));
     }
     let params = (0..plan.params.len()).map(|k| code.values.names.param(k).to_owned());
     let keep: Vec<String> = params.chain([first, last]).collect();
     short(code.lines, &keep, style)
+}
+
+/// The scene's item that something comes from: the last that begins before it.
+fn item(plan: &Plan, span: Span) -> Option<String> {
+    let before = |(at, _): &&(Span, String)| at.file == span.file && at.start <= span.start;
+    let (_, name) = plan
+        .items
+        .iter()
+        .filter(before)
+        .max_by_key(|(at, _)| at.start)?;
+    (!name.is_empty()).then(|| name.clone())
 }
 
 fn parameters(plan: &Plan, code: &mut Code<'_>, first: &str, last: &str) {

@@ -54,7 +54,8 @@ pub fn filled(form: Form, operands: &[Text], fast: bool) -> Text {
 impl Expressions<'_> {
     /// How a routine may be left out, if it is one of those that may.
     pub fn guard(&mut self, id: NodeId, name: &str, args: &[NodeId]) -> Option<Guard> {
-        if self.style != Style::Fast {
+        let assumed = self.assumed.get(&id).copied();
+        if self.calls || self.style != Style::Fast && assumed.is_none() {
             return None;
         }
         let guarded = guards::guard(name)?;
@@ -62,11 +63,15 @@ impl Expressions<'_> {
         let mut tests = Vec::new();
         for &(k, test) in guarded.when {
             let arg = *args.get(k)?;
-            let ranges = self.plan.ranges.args.get(id.0 as usize);
-            let range = ranges.and_then(|r| r.get(k)).copied();
+            let known = self.plan.ranges.args.get(id.0 as usize).copied();
+            let ranges = assumed.or(known);
+            let range = ranges.and_then(|r| r.get(k).copied());
             let range = range.unwrap_or(Range::ALL);
             if test.proved(range) || self.stays(arg, test) {
                 continue;
+            }
+            if self.style != Style::Fast {
+                return None;
             }
             if !self.simple(arg) {
                 return None;
@@ -153,7 +158,7 @@ impl Expressions<'_> {
                 tests.push(test.clone());
             }
         }
-        (self.style == Style::Fast).then_some(Fast {
+        (self.style != Style::Listing).then_some(Fast {
             text: text.text,
             level: text.level,
             tests,

@@ -136,6 +136,33 @@ impl Lines {
         Some(all)
     }
 
+    /// With a remark before the lines of each item of the scene, as `name`
+    /// tells them; what a GOTO goes to stays.
+    pub fn remarked(self, name: impl Fn(Span) -> Option<String>) -> Lines {
+        let mut all = Lines::of_weight(self.weight);
+        let mut last = None;
+        for item in self.items {
+            if let Item::Line {
+                span: Some(span), ..
+            } = &item
+            {
+                let now = name(*span);
+                if now != last
+                    && let Some(text) = &now
+                {
+                    let labels = all.items.iter().rev();
+                    let labels = labels.take_while(|i| matches!(i, Item::Label(_))).count();
+                    let behind = all.items.split_off(all.items.len() - labels);
+                    all.line(format!("REM {text}"), Some(*span));
+                    all.items.extend(behind);
+                }
+                last = now;
+            }
+            all.items.push(item);
+        }
+        all
+    }
+
     /// Every line's text.
     pub fn texts(&self) -> impl Iterator<Item = &str> {
         self.items.iter().filter_map(|item| match item {

@@ -17,7 +17,8 @@
 //! ELSE on a line, no loops over fractions.
 //!
 //! - `lines`: lines with labels, numbered at the end; `names`; `expression`: values; `text`:
-//!   their text; `guard`: tests in place of functions;
+//!   their text; `guard`: tests in place of functions; `version`: one test
+//!   for a run of assignments;
 //! - `code`: statements; `frame`: everything around them; `screen`: modes, colours, coordinates;
 //! - `poke`: pixels put into the Micro's memory;
 //! - `spread`: error diffusion; `short`: short names and lines, for speed and for size;
@@ -37,6 +38,7 @@ mod spread;
 #[cfg(test)]
 mod tests;
 mod text;
+mod version;
 
 use super::{Document, Target};
 use crate::passes::outline::Sizes;
@@ -105,7 +107,7 @@ enum Style {
     /// To be quick: one-letter names, few spaces, long lines.
     Fast,
     /// The same, with function calls in place of tests and two ways to
-    /// compute, which take memory.
+    /// compute, which take memory, but in loops.
     Lean,
     /// To be small: the same, and constants where they are read.
     Small,

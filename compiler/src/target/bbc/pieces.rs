@@ -11,10 +11,13 @@ const FREE: &[&str] = &[
     "DIM", "READ", "GOTO", "PRINT",
 ];
 
+/// Variables of the runtime's functions, which are in capitals.
+const LIMITS: &[&str] = &["BIG", "HALF", "ROOT", "TINY", "FAR", "WIDE"];
+
 /// A piece of a statement.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Piece<'t> {
-    /// A name in small letters, with `%` if it has it.
+    /// A variable's name, with `%` if it has it.
     Name(&'t str),
     /// Capitals, digits and `.`: keywords, numbers, resident variables.
     Word(&'t str),
@@ -48,7 +51,8 @@ pub fn pieces<'t>(text: &'t str) -> Vec<Piece<'t>> {
             }
             'A'..='Z' | '0'..='9' | '.' => {
                 let word = run(|c| c.is_ascii_uppercase() || c.is_ascii_digit() || c == '.');
-                (word, Piece::Word)
+                let own = rest.get(..word).is_some_and(|w| LIMITS.contains(&w));
+                (word, if own { Piece::Name } else { Piece::Word })
             }
             ' ' => (1, |_| Piece::Space),
             _ => (first.len_utf8(), Piece::Sign),

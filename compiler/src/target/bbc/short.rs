@@ -121,9 +121,7 @@ fn without(text: &str, constants: &BTreeMap<String, String>) -> String {
     pieces(&text).into_iter().map(put).collect()
 }
 
-/// First letters of the runtime's own variables come last: its constants and
-/// its functions' parameters would stand before ours in their lists. `TOP` is a
-/// keyword, so P is left out.
+/// `TOP` is a keyword, so P is left out.
 const LETTERS: &str = "efghijklmnopqrstuvwxyzACDEGIJKLMNOQSUVXYZabcdBFHRTW";
 
 /// Names of one letter, then of two, whose first letters go round backwards:
