@@ -19,8 +19,11 @@ mod need;
 mod peers_brandy;
 #[cfg(feature = "peers")]
 mod peers_ca65;
+#[cfg(feature = "peers")]
+mod peers_jsbeeb;
 mod precise;
 mod renderers;
+mod rom_vectors;
 mod snapshots;
 mod spread;
 mod stress;

@@ -2,6 +2,7 @@
 
 use super::ast::{DimItem, Kind, Place};
 use super::code::Code;
+use super::cost;
 use super::error::Error;
 use super::state::State;
 use super::values::{Array, Elements, Num, Value, array_index, is_numeric};
@@ -61,6 +62,9 @@ impl State {
         let home = self.home(p, place)?;
         let datum = p.data.get(self.data).ok_or(Error::OutOfData)?;
         self.data += 1;
+        let lines = datum.line.saturating_sub(self.data_line);
+        self.cycles += u64::from(cost::PER_LINE_SCANNED * lines);
+        self.data_line = datum.line;
         let text = &datum.text;
         let value = if is_numeric(place) {
             // Numbers in DATA may be expressions; most are plain.
@@ -69,7 +73,11 @@ impl State {
             let text = text.strip_prefix(b"\"").unwrap_or(text);
             Value::Str(text.to_vec())
         };
-        self.cycles += 100 * text.len() as u64;
+        self.cycles += if is_numeric(place) {
+            super::strings::val_cost(text)
+        } else {
+            50 * text.len() as u64
+        };
         self.store(home, value)
     }
 }

@@ -285,8 +285,8 @@ pub(crate) enum Stmt {
     LetReal(Slot, Expr),
     Let(Place, Expr),
     Print(Box<[Item]>),
-    /// Jumps to the op when the condition is false.
-    If(Expr, u32),
+    /// Jumps to the op when the condition is false; the last is what finding it costs.
+    If(Expr, u32, u32),
     /// ELSE reached from above, DATA, REM, a DEF walked into: on to the next line.
     EndLine,
     Goto(Target),
@@ -357,6 +357,8 @@ pub(crate) struct Line {
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Def {
     pub op: u32,
+    /// What getting from its head to its first statement costs.
+    pub cost: u32,
     pub params: Result<Box<[Place]>, Error>,
 }
 

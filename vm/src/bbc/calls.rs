@@ -11,6 +11,7 @@ use super::cost;
 use super::error::Error;
 use super::exec::DONE;
 use super::state::{HOST_STACK, State};
+use super::work;
 use super::values::{Elements, Frame, Home, Num, Saved, Value, is_numeric};
 
 type Result<T> = std::result::Result<T, Error>;
@@ -79,7 +80,7 @@ impl State {
     pub fn store(&mut self, home: Home, value: Value) -> Result<()> {
         match (home, value) {
             (Home::Int(slot), Value::Num(n)) => {
-                let n = n.int()?;
+                let n = self.whole(n)?;
                 let v = self
                     .ints
                     .get_mut(slot as usize)
@@ -88,15 +89,17 @@ impl State {
                 v.value = n;
             }
             (Home::Real(slot), Value::Num(n)) => {
+                let x = self.real_of(n);
                 let v = self
                     .reals
                     .get_mut(slot as usize)
                     .ok_or(Error::NoSuchVariable)?;
                 self.cycles += u64::from(v.lookup);
-                v.value = n.real();
+                v.value = x;
             }
             (Home::Str(slot), Value::Str(s)) => {
                 self.room_for_text(slot, s.len())?;
+                self.cycles += work::text::STORED * s.len() as u64;
                 let v = self
                     .texts
                     .get_mut(slot as usize)
@@ -105,8 +108,14 @@ impl State {
                 v.value = s;
             }
             (Home::Element(kind, slot, at), value) => self.store_element(kind, slot, at, value)?,
-            (Home::Byte(address), Value::Num(n)) => self.set_byte(address, n.int()? as u8),
-            (Home::Word(address), Value::Num(n)) => self.set_word(address, n.int()?),
+            (Home::Byte(address), Value::Num(n)) => {
+                let byte = self.whole(n)? as u8;
+                self.set_byte(address, byte);
+            },
+            (Home::Word(address), Value::Num(n)) => {
+                let word = self.whole(n)?;
+                self.set_word(address, word);
+            },
             (Home::Text(address), Value::Str(s)) => {
                 for (i, c) in s.iter().chain(&[13]).enumerate() {
                     self.set_byte(address.wrapping_add(i as u16), *c);
@@ -127,6 +136,12 @@ impl State {
                 self.allocate(text_room(s.len()))?;
             }
         }
+        self.cycles += match (kind, &value) {
+            (Kind::Ints, Value::Num(Num::Real(x))) => u64::from(work::real_to_int(*x)),
+            (Kind::Reals, Value::Num(Num::Int(n))) => u64::from(work::int_to_real(*n)),
+            (_, Value::Str(s)) => work::text::STORED * s.len() as u64,
+            _ => 0,
+        };
         match (&mut self.array_mut(kind, slot)?.elements, value) {
             (Elements::Int(v), Value::Num(n)) => {
                 *v.get_mut(at).ok_or(Error::Subscript)? = n.int()?;
@@ -201,14 +216,20 @@ impl State {
             .get(slot as usize)
             .and_then(Option::as_ref)
             .ok_or(Error::NoSuchFnProc)?;
-        if let Some(seen) = self.met[met].get_mut(slot as usize)
-            && !std::mem::replace(seen, true)
-        {
-            self.enter(kind, slot)?;
-            // The first call searches the program for the DEF.
-            let line = p.ops.get(def.op as usize).map_or(0, |op| op.line);
-            self.cycles += 40 * u64::from(line);
-        }
+        let found = match self.met[met].get(slot as usize) {
+            Some(Some(lookup)) => *lookup,
+            _ => {
+                // The first call searches the program for the DEF.
+                let line = p.ops.get(def.op as usize).map_or(0, |op| op.line);
+                self.cycles += u64::from(cost::PER_LINE_SCANNED * line) + cost::CREATE_CALL;
+                let lookup = self.enter(kind, slot)?;
+                if let Some(seen) = self.met[met].get_mut(slot as usize) {
+                    *seen = Some(lookup);
+                }
+                lookup
+            }
+        };
+        self.cycles += u64::from(found + def.cost);
         let params = def.params.as_ref().map_err(|e| *e)?;
         if params.len() != list.len() {
             return Err(Error::Arguments);
@@ -225,7 +246,7 @@ impl State {
             });
             return Ok(def.op);
         }
-        self.cycles += u64::from(cost::PARAMETER) * list.len() as u64;
+        self.cycles += u64::from(params.iter().map(cost::parameter).sum::<u32>());
         let mut values = Vec::with_capacity(list.len());
         for e in list {
             values.push(self.value(p, e)?);

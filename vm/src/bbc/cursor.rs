@@ -117,7 +117,7 @@ impl<'a> Cursor<'a> {
         };
         let resident = kind == Kind::Int && name.len() == 1 && name[0].is_ascii_uppercase();
         if !resident {
-            self.cost += cost::NAME_CHAR * (name.len() as u32 - 1);
+            self.cost += cost::name(name.len(), kind == Kind::Real);
         }
         Some((kind, self.names.slot(kind, name)))
     }
@@ -137,10 +137,12 @@ impl<'a> Cursor<'a> {
         match self.peek() {
             Some(b'?') => {
                 self.at += 1;
+                self.cost += cost::PREFIX;
                 return Ok(Some(Place::Byte(self.factor()?)));
             }
             Some(b'!') => {
                 self.at += 1;
+                self.cost += cost::PREFIX;
                 return Ok(Some(Place::Word(self.factor()?)));
             }
             Some(b'$') => {

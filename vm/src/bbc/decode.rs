@@ -27,6 +27,7 @@ pub(crate) fn decode(lines: &[RawLine<'_>], names: &mut Names) -> Program {
             program: &mut program,
             waiting: Vec::new(),
         };
+        decoder.cursor.cost = cost::LINE;
         decoder.line();
     }
     program.ops.push(Op {
@@ -44,8 +45,8 @@ pub(crate) struct Decoder<'a, 'b> {
     lines: &'b [RawLine<'b>],
     line: u32,
     program: &'b mut Program,
-    /// Ops of this line's IFs that do not know yet where to go when false.
-    waiting: Vec<usize>,
+    /// Ops of this line's IFs that do not know yet where to go when false, and where they end.
+    waiting: Vec<(usize, usize)>,
 }
 
 impl Decoder<'_, '_> {
@@ -95,10 +96,14 @@ impl Decoder<'_, '_> {
 
     fn meet_else(&mut self) {
         let here = self.program.ops.len() as u32;
-        for at in self.waiting.drain(..) {
+        for (at, from) in self.waiting.drain(..) {
+            let passed = self.cursor.at.saturating_sub(from) as u32;
             if let Some(op) = self.program.ops.get_mut(at) {
                 match &mut op.stmt {
-                    Stmt::If(_, to) => *to = here,
+                    Stmt::If(_, to, skipped) => {
+                        *to = here;
+                        *skipped = cost::SKIPPED * passed;
+                    }
                     Stmt::On(_, _, _, to) => *to = to.map(|_| here),
                     _ => {}
                 }
@@ -130,13 +135,17 @@ impl Decoder<'_, '_> {
     }
 
     fn find_line(&self, number: u16) -> Target {
-        match self.lines.binary_search_by_key(&number, |l| l.number) {
-            Ok(index) => Target::Line(index as u32, cost::PER_LINE * index as u32),
-            // Lines out of order cannot be searched so; the ROM stops at the first larger one.
-            Err(_) => match self.lines.iter().position(|l| l.number == number) {
-                Some(index) => Target::Line(index as u32, cost::PER_LINE * index as u32),
-                None => Target::Missing,
-            },
+        // Lines out of order cannot be searched by halves; the ROM stops at the first larger one.
+        let found = match self.lines.binary_search_by_key(&number, |l| l.number) {
+            Ok(index) => Some(index),
+            Err(_) => self.lines.iter().position(|l| l.number == number),
+        };
+        match found {
+            Some(index) => {
+                let passed = self.lines.iter().take(index).map(|l| l.number);
+                Target::Line(index as u32, cost::search(passed, number))
+            }
+            None => Target::Missing,
         }
     }
 
@@ -150,7 +159,17 @@ impl Decoder<'_, '_> {
     /// One statement (or none) from the cursor.
     fn statement(&mut self) -> Result<(), Error> {
         match self.cursor.peek() {
-            None | Some(b':' | t::ELSE) => Ok(()),
+            None | Some(t::ELSE) => Ok(()),
+            Some(b':') => {
+                self.cursor.cost += cost::EMPTY;
+                Ok(())
+            }
+            Some(t::REPEAT) => {
+                // What follows may do so without a colon.
+                self.cursor.at += 1;
+                self.push(Stmt::Repeat);
+                self.statement()
+            }
             Some(t::IF) => self.if_statement(),
             Some(t::ON) => self.on_statement(),
             Some(t::DEF) => self.def_statement(),
@@ -159,7 +178,9 @@ impl Decoder<'_, '_> {
                 Ok(())
             }
             Some(t::REM) => {
-                self.cursor.at = self.cursor.text.len();
+                let end = self.cursor.text.len();
+                self.cursor.cost += cost::REMARK * (end - self.cursor.at) as u32;
+                self.cursor.at = end;
                 self.push(Stmt::EndLine);
                 Ok(())
             }
@@ -174,9 +195,10 @@ impl Decoder<'_, '_> {
     fn if_statement(&mut self) -> Result<(), Error> {
         self.cursor.at += 1;
         let condition = self.cursor.expr()?;
-        self.waiting.push(self.program.ops.len());
-        self.push(Stmt::If(condition, 0));
+        self.waiting.push((self.program.ops.len(), self.cursor.at));
+        self.push(Stmt::If(condition, 0, 0));
         if self.cursor.eat(t::THEN) {
+            self.cursor.cost += cost::THEN;
             self.branch();
         }
         if !self.cursor.at_end() {
@@ -209,7 +231,7 @@ impl Decoder<'_, '_> {
             targets.push(self.target()?);
         }
         let otherwise = (self.cursor.peek() == Some(t::ELSE)).then_some(0);
-        self.waiting.push(self.program.ops.len());
+        self.waiting.push((self.program.ops.len(), self.cursor.at));
         self.push(Stmt::On(kind, selector, targets.into(), otherwise));
         Ok(())
     }
@@ -226,8 +248,10 @@ impl Decoder<'_, '_> {
         let name = self.cursor.word();
         let slot = self.cursor.names.slot(kind, name) as usize;
         let params = self.params();
+        let headed = self.cursor.at_end();
         let def = Def {
             op: self.program.ops.len() as u32,
+            cost: if headed { cost::EMPTY } else { 0 },
             params,
         };
         let table = match kind {
@@ -264,6 +288,7 @@ impl Decoder<'_, '_> {
     /// DATA: items separated by commas, leading spaces dropped, quoted ones as they are.
     fn data(&mut self) {
         let text = self.cursor.text.get(self.cursor.at + 1..).unwrap_or(&[]);
+        self.cursor.cost += cost::REMARK * text.len() as u32;
         self.cursor.at = self.cursor.text.len();
         // The ROM finds DATA only at the start of a line.
         let first =

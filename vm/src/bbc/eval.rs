@@ -10,6 +10,7 @@ use super::code::Code;
 use super::error::Error;
 use super::state::State;
 use super::values::{Elements, Num, Value};
+use super::work;
 
 type Result<T> = std::result::Result<T, Error>;
 
@@ -33,6 +34,15 @@ impl State {
             Expr::Compare(op, ab) => {
                 let a = self.num(p, &ab.0)?;
                 let b = self.num(p, &ab.1)?;
+                let ints = matches!((a, b), (Num::Int(_), Num::Int(_)));
+                self.cycles += if ints { 208 } else { 311 };
+                if !ints {
+                    if let Num::Int(_) = a {
+                        self.cycles += work::LEFT_INT;
+                    }
+                    let sides = (Num::Real(self.real_of(a)), Num::Real(self.real_of(b)));
+                    return Ok(truth(holds(*op, order(sides.0, sides.1))));
+                }
                 Ok(truth(holds(*op, order(a, b))))
             }
             Expr::F1(f, x) => {
@@ -62,7 +72,26 @@ impl State {
 
     #[inline]
     pub fn int(&mut self, p: &Code<'_>, e: &Expr) -> Result<i32> {
-        self.num(p, e)?.int()
+        let n = self.num(p, e)?;
+        self.whole(n)
+    }
+
+    /// A number as an integer; the conversion is charged.
+    #[inline]
+    pub fn whole(&mut self, n: Num) -> Result<i32> {
+        if let Num::Real(x) = n {
+            self.cycles += u64::from(work::real_to_int(x));
+        }
+        n.int()
+    }
+
+    /// A number as a real; the conversion is charged.
+    #[inline]
+    pub fn real_of(&mut self, n: Num) -> Real40 {
+        if let Num::Int(n) = n {
+            self.cycles += u64::from(work::int_to_real(n));
+        }
+        n.real()
     }
 
     /// An address: 16 bits of an integer.
@@ -138,22 +167,53 @@ impl State {
         if let (Num::Int(x), Num::Int(y)) = (a, b) {
             return self.int_op2(op, x, y);
         }
-        let (x, y) = (a, b);
-        Ok(Num::Real(match op {
-            Op2::Add => arith::add(x.real(), y.real())?,
-            Op2::Sub => arith::sub(x.real(), y.real())?,
-            Op2::Mul => arith::mul(x.real(), y.real())?,
-            Op2::Div => arith::div(x.real(), y.real())?,
-            Op2::Pow => elementary::pow(x.real(), y.real())?,
-            Op2::IntDiv | Op2::Mod | Op2::And | Op2::Or | Op2::Eor => {
-                return self.int_op2(op, x.int()?, y.int()?);
+        if matches!(op, Op2::IntDiv | Op2::Mod | Op2::And | Op2::Or | Op2::Eor) {
+            let (x, y) = (self.whole(a)?, self.whole(b)?);
+            return self.int_op2(op, x, y);
+        }
+        let (x, y) = (self.real_of(a), self.real_of(b));
+        if let (Num::Int(_), Num::Real(_)) = (a, b) {
+            self.cycles += work::LEFT_INT;
+        }
+        self.real_op2(op, x, y)
+    }
+
+    /// `+ - * / ^` on reals.
+    #[inline]
+    fn real_op2(&mut self, op: Op2, x: Real40, y: Real40) -> Result<Num> {
+        let (result, cost) = match op {
+            Op2::Sub => {
+                let difference = arith::sub(x, y)?;
+                (difference, work::SUBTRACT + work::add(x, y, difference))
             }
-        }))
+            Op2::Mul => {
+                let product = arith::mul(x, y)?;
+                (product, work::mul(x, y, product))
+            }
+            Op2::Div => {
+                let quotient = arith::div(x, y)?;
+                (quotient, work::div(x, quotient))
+            }
+            Op2::Pow => (elementary::pow(x, y)?, work::pow(y)),
+            _ => {
+                let sum = arith::add(x, y)?;
+                (sum, work::add(x, y, sum))
+            }
+        };
+        self.cycles += u64::from(cost);
+        Ok(Num::Real(result))
     }
 
     fn int_op2(&mut self, op: Op2, a: i32, b: i32) -> Result<Num> {
         let micro = self.config.dialect == Dialect::Micro;
         let real = |n| Real40::from_i32(n);
+        self.cycles += u64::from(match op {
+            Op2::Add => 117,
+            Op2::Sub => 125,
+            Op2::IntDiv | Op2::Mod => work::int_div(a, b),
+            Op2::Mul => work::int_mul(a, b).unwrap_or(0),
+            _ => 0,
+        });
         Ok(Num::Int(match op {
             Op2::Add => match a.checked_add(b) {
                 Some(sum) => sum,
@@ -165,12 +225,12 @@ impl State {
                 None if micro => a.wrapping_sub(b),
                 None => return Ok(Num::Real(arith::sub(real(a), real(b))?)),
             },
-            Op2::Mul => match a.checked_mul(b) {
-                Some(product) => product,
-                None => return Ok(Num::Real(arith::mul(real(a), real(b))?)),
-            },
-            Op2::Div => return Ok(Num::Real(arith::div(real(a), real(b))?)),
-            Op2::Pow => return Ok(Num::Real(elementary::pow(real(a), real(b))?)),
+            Op2::Mul if work::int_mul(a, b).is_some() => a.wrapping_mul(b),
+            // Too long for the ROM's product of 16 bits: real from here on.
+            Op2::Mul | Op2::Div | Op2::Pow => {
+                let (x, y) = (self.real_of(Num::Int(a)), self.real_of(Num::Int(b)));
+                return self.real_op2(op, x, y);
+            }
             Op2::IntDiv | Op2::Mod if b == 0 => match self.config.dialect {
                 // Measured on the Z80 interpreters: -1, and no error.
                 Dialect::Agon => -1,
@@ -197,25 +257,28 @@ impl State {
             },
             Func1::Int => match x {
                 Num::Int(n) => Num::Int(n),
-                Num::Real(x) => Num::Int(x.int_floor()?),
+                Num::Real(x) => {
+                    self.cycles += u64::from(work::floor(x));
+                    Num::Int(x.int_floor()?)
+                }
             },
             Func1::Sgn => match x {
                 Num::Int(n) => Num::Int(n.signum()),
                 Num::Real(x) => Num::Int(x.signum()),
             },
-            Func1::Sqr => Num::Real(arith::sqrt(x.real())?),
+            Func1::Sqr => Num::Real(arith::sqrt(self.real_of(x))?),
             Func1::Byte => Num::Int(i32::from(self.byte(x.int()? as u16))),
             Func1::Word => Num::Int(self.word(x.int()? as u16)),
             Func1::Not => Num::Int(!x.int()?),
-            Func1::Sin => Num::Real(elementary::sin(x.real())?),
-            Func1::Cos => Num::Real(elementary::cos(x.real())?),
-            Func1::Tan => Num::Real(elementary::tan(x.real())?),
-            Func1::Asn => Num::Real(elementary::asn(x.real())?),
-            Func1::Acs => Num::Real(elementary::acs(x.real())?),
-            Func1::Atn => Num::Real(elementary::atn(x.real())?),
-            Func1::Exp => Num::Real(elementary::exp(x.real())?),
-            Func1::Ln => Num::Real(elementary::ln(x.real())?),
-            Func1::Log => Num::Real(elementary::log10(x.real())?),
+            Func1::Sin => Num::Real(elementary::sin(self.real_of(x))?),
+            Func1::Cos => Num::Real(elementary::cos(self.real_of(x))?),
+            Func1::Tan => Num::Real(elementary::tan(self.real_of(x))?),
+            Func1::Asn => Num::Real(elementary::asn(self.real_of(x))?),
+            Func1::Acs => Num::Real(elementary::acs(self.real_of(x))?),
+            Func1::Atn => Num::Real(elementary::atn(self.real_of(x))?),
+            Func1::Exp => Num::Real(elementary::exp(self.real_of(x))?),
+            Func1::Ln => Num::Real(elementary::ln(self.real_of(x))?),
+            Func1::Log => Num::Real(elementary::log10(self.real_of(x))?),
             Func1::Deg => Num::Real(Real40::from_f64(x.real().to_f64().to_degrees())?),
             Func1::Rad => Num::Real(Real40::from_f64(x.real().to_f64().to_radians())?),
             Func1::Rnd => self.rnd_of(x)?,
@@ -297,6 +360,7 @@ impl State {
         if n <= 1 {
             return Ok(Num::Real(fraction));
         }
+        self.cycles += 4_400;
         let scaled = arith::mul(fraction, Real40::from_i32(n))?;
         Ok(Num::Int(scaled.int_floor()? + 1))
     }
@@ -307,7 +371,12 @@ impl State {
         let b = self.value(p, b)?;
         let order = match (a, b) {
             (Value::Num(a), Value::Num(b)) => order(a, b),
-            (Value::Str(a), Value::Str(b)) => a.cmp(&b),
+            (Value::Str(a), Value::Str(b)) => {
+                let equal = a.iter().zip(&b).take_while(|(a, b)| a == b).count();
+                self.cycles += work::text::READ * a.len() as u64;
+                self.cycles += work::text::EQUAL * equal as u64;
+                a.cmp(&b)
+            }
             _ => return Err(Error::TypeMismatch),
         };
         Ok(truth(holds(op, order)))

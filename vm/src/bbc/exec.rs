@@ -72,7 +72,7 @@ impl State {
         match stmt {
             Stmt::LetInt(slot, e) => {
                 self.define_int(*slot)?;
-                let n = self.num(p, e)?.int()?;
+                let n = self.int(p, e)?;
                 if let Some(v) = self.ints.get_mut(*slot as usize) {
                     self.cycles += u64::from(v.lookup);
                     v.value = n;
@@ -80,7 +80,8 @@ impl State {
             }
             Stmt::LetReal(slot, e) => {
                 self.define_real(*slot)?;
-                let x = self.num(p, e)?.real();
+                let x = self.num(p, e)?;
+                let x = self.real_of(x);
                 if let Some(v) = self.reals.get_mut(*slot as usize) {
                     self.cycles += u64::from(v.lookup);
                     v.value = x;
@@ -91,8 +92,9 @@ impl State {
                 let value = self.value(p, e)?;
                 self.store(home, value)?;
             }
-            Stmt::If(e, otherwise) => {
-                if self.num(p, e)?.int()? == 0 {
+            Stmt::If(e, otherwise, skipped) => {
+                if self.int(p, e)? == 0 {
+                    self.cycles += u64::from(*skipped);
                     return Ok(*otherwise);
                 }
             }
@@ -121,7 +123,7 @@ impl State {
                 self.repeats.push(next);
             }
             Stmt::Until(e) => {
-                let done = self.num(p, e)?.int()? != 0;
+                let done = self.int(p, e)? != 0;
                 let back = *self.repeats.last().ok_or(Error::NoRepeat)?;
                 if !done {
                     return Ok(back);
@@ -164,17 +166,16 @@ impl State {
                 }
             }
             Stmt::Restore(target) => {
-                self.data = match target {
+                let line = match target {
                     None => 0,
-                    Some(target) => {
-                        let line = self.line_of(p, target)?;
-                        p.data.partition_point(|d| d.line < line)
-                    }
-                }
+                    Some(target) => self.line_of(p, target)?,
+                };
+                self.data = p.data.partition_point(|d| d.line < line);
+                self.data_line = line;
             }
             Stmt::SetTime(e) => {
                 let t = self.int(p, e)?;
-                self.time_base = self.cycles as i64 - i64::from(t) * 20_000;
+                self.time_base = cost::with_interrupts(self.cycles) as i64 - i64::from(t) * 20_000;
             }
             Stmt::SetHimem(e) => {
                 let to = u32::from(self.address(p, e)?);
@@ -237,7 +238,8 @@ impl State {
                     .iter()
                     .position(|l| i32::from(l.number) == number)
                     .ok_or(Error::NoSuchLine)?;
-                self.cycles += u64::from(cost::PER_LINE) * line as u64;
+                let passed = p.lines.iter().take(line).map(|l| l.number);
+                self.cycles += u64::from(cost::search(passed, number as u16));
                 Ok(line as u32)
             }
         }

@@ -154,6 +154,7 @@ impl Cursor<'_> {
                 self.at += 1;
                 let inner = self.expr()?;
                 self.bracket()?;
+                self.cost += cost::BRACKETS;
                 Ok(inner)
             }
             b'&' => self.hex(),

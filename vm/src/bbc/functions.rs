@@ -60,12 +60,17 @@ impl Cursor<'_> {
         self.func1(f1)
     }
 
+    fn constant(&mut self, cost: u32, value: Expr) -> Expr {
+        self.cost += cost;
+        value
+    }
+
     fn other_function(&mut self, token: u8) -> Result<Expr, Error> {
         self.at += 1;
         let f0 = match token {
-            t::TRUE => return Ok(Expr::Int(-1)),
-            t::FALSE => return Ok(Expr::Int(0)),
-            t::PI => return Ok(Expr::Real(super::PI)),
+            t::TRUE => return Ok(self.constant(cost::TRUE, Expr::Int(-1))),
+            t::FALSE => return Ok(self.constant(cost::FALSE, Expr::Int(0))),
+            t::PI => return Ok(self.constant(cost::PI, Expr::Real(super::PI))),
             t::TIME => Func0::Time,
             t::HIMEM => Func0::Himem,
             t::LOMEM => Func0::Lomem,
@@ -110,6 +115,7 @@ impl Cursor<'_> {
         if name.is_empty() {
             return Err(Error::BadCall);
         }
+        self.cost += cost::name(name.len(), false);
         let slot = self.names.slot(kind, name);
         let arguments = if self.peek_raw() == Some(b'(') {
             self.at += 1;

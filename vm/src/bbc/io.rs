@@ -10,6 +10,7 @@ use super::error::Error;
 use super::state::State;
 use super::strings::number_text;
 use super::values::{Num, Value, is_numeric};
+use super::work;
 
 type Result<T> = std::result::Result<T, Error>;
 
@@ -224,7 +225,11 @@ impl State {
                 return Ok(());
             }
             Value::Num(n) if hex => format!("{:X}", n.int()?),
-            Value::Num(n) => number_text(n, format),
+            Value::Num(n) => {
+                let x = self.real_of(n);
+                self.cycles += u64::from(work::number_text(x));
+                number_text(n, format)
+            }
         };
         if justify {
             for _ in text.len()..usize::from(format.width) {
@@ -240,6 +245,7 @@ impl State {
         for c in text {
             // The queue of a VDU command cannot fail on what PRINT sends, but for a bad mode.
             let _ = self.vdu(*c);
+            self.cycles += work::CHARACTER;
             self.count += 1;
             if self.width > 0 && self.count >= self.width {
                 self.new_line();
@@ -248,6 +254,7 @@ impl State {
     }
 
     pub fn new_line(&mut self) {
+        self.cycles += work::NEW_LINE;
         let _ = self.vdu(13);
         let _ = self.vdu(10);
         self.count = 0;
@@ -272,7 +279,7 @@ impl State {
             }
             command => {
                 if matches!(command, [12 | 16]) {
-                    self.charge(plot::CLEAR);
+                    self.charge(plot::CLEAR_BYTE * u64::from(0x8000u32.saturating_sub(self.himem)));
                 }
                 self.display.command(&mut self.mem, command);
             }
@@ -297,7 +304,7 @@ impl State {
             return Err(Error::BadMode);
         }
         self.display.set_mode(&mut self.mem, mode);
-        self.charge(plot::CLEAR);
+        self.charge(plot::CLEAR_BYTE * u64::from(0x8000u32.saturating_sub(self.himem)));
         self.himem = himem;
         self.stack = himem;
         self.least_free = self.least_free.min(himem - self.heap);

@@ -1,12 +1,15 @@
 //! FOR and NEXT: the machine's stack of ten loops, each of which knows its
 //! variable, its end, its step and where its body starts.
 
+use slowlight_isa::real40::Real40;
+
 use super::ast::{Expr, Place};
 use super::code::Code;
 use super::cost;
 use super::error::Error;
 use super::state::State;
 use super::values::{Home, Loop, Num, Value};
+use super::work;
 
 type Result<T> = std::result::Result<T, Error>;
 
@@ -30,21 +33,27 @@ impl State {
         }
         let to = self.num(p, to)?;
         let step = match step {
-            Some(e) => self.num(p, e)?,
-            None => Num::Int(1),
+            Some(e) => Some(self.num(p, e)?),
+            None => None,
         };
         let int = matches!(home, Home::Int(_));
-        let fit = |n: Num| -> Result<Num> {
+        let mut fit = |n: Num| -> Result<Num> {
             Ok(if int {
-                Num::Int(n.int()?)
+                Num::Int(self.whole(n)?)
             } else {
-                Num::Real(n.real())
+                Num::Real(self.real_of(n))
             })
+        };
+        let to = fit(to)?;
+        let step = match step {
+            Some(step) => fit(step)?,
+            None if int => Num::Int(1),
+            None => Num::Real(Real40::ONE),
         };
         self.loops.push(Loop {
             home,
-            to: fit(to)?,
-            step: fit(step)?,
+            to,
+            step,
             body,
         });
         Ok(())
@@ -98,7 +107,9 @@ impl State {
                     .reals
                     .get_mut(slot as usize)
                     .ok_or(Error::NoSuchVariable)?;
-                v.value = slowlight_isa::real40::arith::add(v.value, step)?;
+                let sum = slowlight_isa::real40::arith::add(v.value, step)?;
+                self.cycles += u64::from(work::add(v.value, step, sum));
+                v.value = sum;
                 if step.is_negative() {
                     v.value < to
                 } else {

@@ -5,8 +5,9 @@
 //! machine's 40 bits ([`slowlight_isa::real40`]), integers its 32; errors carry its numbers,
 //! messages and lines.
 //!
-//! - **Cycles** are BASIC II's at 2 MHz, charged statement by statement from what was measured
-//!   on the genuine ROM (`cost`); drawing in the operating system is also counted apart.
+//! - **Cycles** are BASIC II's at 2 MHz, from what was measured on the genuine ROM: a part that
+//!   the text decides (`cost`), a part for the values that are met (`work`), and the constant
+//!   share of interrupts; drawing in the operating system is also counted apart.
 //! - **Memory** is the machine's: the program at PAGE, variables above it in their sizes and
 //!   order, the stack below HIMEM; what does not fit is "No room". On the Micro the screen is
 //!   in the same 64K, so that pokes draw.
@@ -42,6 +43,7 @@ mod statements;
 mod strings;
 mod tokenise;
 mod values;
+mod work;
 
 use std::cell::RefCell;
 use std::collections::BTreeMap;
@@ -210,8 +212,8 @@ impl Machine {
         let free = state.least_free as usize;
         let run = Run {
             stop,
-            cycles: state.cycles,
-            plot_cycles: state.plot_cycles,
+            cycles: cost::with_interrupts(state.cycles),
+            plot_cycles: cost::with_interrupts(state.plot_cycles),
             screen: state.display.screen(&state.mem),
             text: state.text.iter().map(|c| char::from(*c)).collect(),
             files: state.files.contents,
@@ -243,7 +245,7 @@ impl Machine {
         let code = code::Code {
             program: &program,
             watch: RefCell::new(watch),
-            limit,
+            limit: cost::without_interrupts(limit),
         };
         let mut start = 0;
         loop {
@@ -258,6 +260,7 @@ impl Machine {
                 Some(handler) if error != Error::Stop => {
                     state.unwind();
                     state.data = 0;
+                    state.data_line = 0;
                     start = handler;
                 }
                 _ => {

@@ -68,6 +68,19 @@ impl Names {
         kinds.into_iter().flat_map(of).sum()
     }
 
+    /// The name with what marks its kind, as it stands in its list.
+    pub fn spelt(&self, kind: Kind, slot: Slot) -> Vec<u8> {
+        let mark: &[u8] = match kind {
+            Kind::Int => b"%",
+            Kind::Str => b"$",
+            Kind::Ints => b"%(",
+            Kind::Reals => b"(",
+            Kind::Strs => b"$(",
+            Kind::Real | Kind::Fn | Kind::Proc => b"",
+        };
+        [self.name(kind, slot), mark].concat()
+    }
+
     pub fn name(&self, kind: Kind, slot: Slot) -> &[u8] {
         self.by_kind[kind as usize]
             .get(slot as usize)

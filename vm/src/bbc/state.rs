@@ -27,10 +27,11 @@ pub(crate) struct State {
     /// Int, real and string arrays.
     pub arrays: [Vec<Option<Array>>; 3],
     pub mem: Vec<u8>,
-    /// Variables so far in each list of a first letter.
-    pub lists: [u32; 256],
-    /// Which FNs and PROCs have been called: their first call makes an entry in a list.
-    pub met: [Vec<bool>; 2],
+    /// The names so far in each list of a first letter.
+    pub lists: Vec<Vec<Vec<u8>>>,
+    /// FNs and PROCs that have been called: their first call makes an entry in a list, and later
+    /// ones cost what finding it there takes.
+    pub met: [Vec<Option<u32>>; 2],
     pub page: u32,
     pub top: u32,
     pub lomem: u32,
@@ -46,8 +47,9 @@ pub(crate) struct State {
     pub loops: Vec<Loop>,
     pub repeats: Vec<u32>,
     pub gosubs: Vec<u32>,
-    /// The next DATA item.
+    /// The next DATA item, and the line from which it is looked for.
     pub data: usize,
+    pub data_line: u32,
     pub on_error: Option<u32>,
     pub err: u8,
     pub error: Error,
@@ -97,7 +99,7 @@ impl State {
             texts: Vec::new(),
             arrays: Default::default(),
             mem: vec![0; 0x10000],
-            lists: [0; 256],
+            lists: vec![Vec::new(); 256],
             met: Default::default(),
             frames: Vec::new(),
             saved: Vec::new(),
@@ -105,6 +107,7 @@ impl State {
             repeats: Vec::new(),
             gosubs: Vec::new(),
             data: 0,
+            data_line: 0,
             on_error: None,
             err: 0,
             error: Error::Halt,
@@ -160,7 +163,7 @@ impl State {
         }
         for (i, kind) in [Kind::Fn, Kind::Proc].into_iter().enumerate() {
             let count = n(kind);
-            self.met[i].resize(count, false);
+            self.met[i].resize(count, None);
         }
     }
 
@@ -197,12 +200,13 @@ impl State {
             a.fill(None);
         }
         for m in &mut self.met {
-            m.fill(false);
+            m.fill(None);
         }
-        self.lists = [0; 256];
+        self.lists.fill(Vec::new());
         self.heap = self.lomem;
         self.unwind();
         self.data = 0;
+        self.data_line = 0;
     }
 
     /// Empties all stacks, as an error does.
@@ -253,9 +257,19 @@ impl State {
             Kind::Proc => 2,
             _ => usize::from(first),
         };
-        let before = self.lists[list];
-        self.lists[list] += 1;
-        Ok(before * cost::PER_LINK)
+        let name = self.names.spelt(kind, slot);
+        let same = |other: &Vec<u8>| {
+            let pairs = other.iter().zip(&name).skip(1);
+            pairs.take_while(|(a, b)| a == b).count() as u32
+        };
+        let before = &self.lists[list];
+        let passed = before
+            .iter()
+            .map(|other| cost::PER_LINK + cost::PER_SAME * same(other))
+            .sum();
+        self.lists[list].push(name);
+        self.cycles += cost::CREATE;
+        Ok(passed)
     }
 
     /// Makes a variable exist, as assigning to it does.
@@ -353,6 +367,7 @@ impl State {
 
     /// TIME, in hundredths of a second.
     pub fn time(&self) -> i32 {
-        ((self.cycles as i64 - self.time_base) / 20_000) as i32
+        let cycles = cost::with_interrupts(self.cycles);
+        ((cycles as i64 - self.time_base) / 20_000) as i32
     }
 }

@@ -3,6 +3,7 @@
 use slowlight_isa::basic_tokens::token as t;
 
 use super::ast::{DimItem, Expr, Item, Kind, Place, Stmt};
+use super::cost;
 use super::decode::Decoder;
 use super::error::Error;
 
@@ -18,7 +19,10 @@ impl Decoder<'_, '_> {
         }
         c.at += 1;
         Ok(match token {
-            t::LET => return self.assignment(),
+            t::LET => {
+                c.cost += cost::LET;
+                return self.assignment();
+            }
             t::PRINT => {
                 if c.peek() == Some(b'#') {
                     let channel = c.channel()?;
@@ -31,7 +35,6 @@ impl Decoder<'_, '_> {
             t::RETURN => Stmt::Return,
             t::FOR => return self.for_statement(),
             t::NEXT => return self.next_statement(),
-            t::REPEAT => Stmt::Repeat,
             t::UNTIL => Stmt::Until(c.expr()?),
             t::PROC => {
                 let (slot, list) = c.call(Kind::Proc)?;

@@ -9,6 +9,7 @@ use super::error::Error;
 use super::state::State;
 use super::tokenise::tokenise_line;
 use super::values::{Elements, Num, Value};
+use super::work::{self, text};
 
 type Result<T> = std::result::Result<T, Error>;
 
@@ -37,6 +38,13 @@ pub(crate) fn val(text: &[u8]) -> Result<Num> {
     })
 }
 
+/// What reading the number costs.
+pub(crate) fn val_cost(text: &[u8]) -> u64 {
+    let digit = |c: &&u8| c.is_ascii_digit() || matches!(c, b'.' | b'E' | b'-' | b'+');
+    let length = text.iter().take_while(digit).count();
+    u64::from(super::cost::literal(text.get(..length).unwrap_or(&[])))
+}
+
 impl State {
     /// The value of any expression.
     pub fn value(&mut self, p: &Code<'_>, e: &Expr) -> Result<Value> {
@@ -50,7 +58,7 @@ impl State {
                 if !v.defined {
                     return Err(Error::NoSuchVariable);
                 }
-                self.cycles += u64::from(v.lookup);
+                self.cycles += u64::from(v.lookup) + text::READ * v.value.len() as u64;
                 Ok(Value::Str(v.value.clone()))
             }
             Expr::Element(Kind::Strs, slot, index) => {
@@ -63,6 +71,7 @@ impl State {
             Expr::FS(f, list) => self.string_function(p, *f, list),
             Expr::Concat(ab) => match (self.value(p, &ab.0)?, self.value(p, &ab.1)?) {
                 (Value::Str(mut a), Value::Str(b)) => {
+                    self.cycles += text::JOINED * b.len() as u64;
                     if a.len() + b.len() > 255 {
                         return Err(Error::StringTooLong);
                     }
@@ -94,7 +103,11 @@ impl State {
                 None => number(-1),
             },
             FuncS::Len => number(self.string(p, first)?.len()),
-            FuncS::Val => Value::Num(val(&self.string(p, first)?)?),
+            FuncS::Val => {
+                let s = self.string(p, first)?;
+                self.cycles += val_cost(&s);
+                Value::Num(val(&s)?)
+            }
             FuncS::Eval => return self.eval(p, first),
             FuncS::Instr => self.instr(p, list)?,
             FuncS::Point => Value::Num(self.point(p, list)?),
@@ -109,6 +122,8 @@ impl State {
             FuncS::Chr => Value::Str(vec![self.int(p, first)? as u8]),
             FuncS::Str => {
                 let n = self.num(p, first)?;
+                let x = self.real_of(n);
+                self.cycles += u64::from(work::number_text(x));
                 let at = self.at_percent();
                 // Only a set top byte makes STR$ follow @%.
                 let format = if at as u32 >> 24 != 0 {
@@ -191,6 +206,8 @@ impl State {
         let found = hay
             .get(from..)
             .and_then(|h| h.windows(needle.len()).position(|w| w == needle));
+        let passed = found.unwrap_or_else(|| hay.len().saturating_sub(from));
+        self.cycles += text::SEARCHED * passed as u64 + text::HAY * hay.len() as u64;
         Ok(number(found.map_or(0, |i| from + i + 1)))
     }
 
@@ -199,6 +216,7 @@ impl State {
             return Err(Error::MissingComma);
         };
         let s = self.string(p, e)?;
+        self.cycles += text::PART * s.len() as u64;
         // Counts are single bytes in the ROM.
         let n = usize::from(self.int(p, n)? as u8);
         let part = match f {
@@ -224,6 +242,7 @@ impl State {
         };
         let n = usize::from(self.int(p, n)? as u8);
         let s = self.string(p, e)?;
+        self.cycles += text::REPEATED * (n * s.len()) as u64;
         if n * s.len() > 255 {
             return Err(Error::StringTooLong);
         }

@@ -1,0 +1,210 @@
+// Runs programs on a BBC Micro with the genuine OS 1.20 and BASIC II: a driver for jsbeeb.
+//
+//   node jsbeeb.mjs PATH-OF-THE-PACKAGE JOBS.json
+//
+// JOBS.json is a list of jobs; the answer, a list of results, goes to standard output as JSON.
+// A job has one of
+//   "tokenised": hex   bytes to stand at PAGE, then RUN
+//   "typed": text      lines for BASIC's own line editor and tokeniser, then RUN
+//   "disc": hex        an .ssd image, booted with SHIFT held
+// and may have
+//   "page"             PAGE, &1900 unless told (a number)
+//   "limit"            cycles of 2 MHz to stop after, 4e9 unless told
+//   "dump": [a, b]     memory to hand back, from a up to b
+//   "quiet": true      no interrupts while the program runs
+//   "cases"            see below
+//
+// A result has
+//   "stopped"          "prompt" (BASIC wants a line) or "limit"
+//   "cycles"           from the program's start to its end
+//   "marks"            [number, cycles since the start] for each write to &70
+//   "text"             what was written to the screen, control codes included
+//   "memory"           the dump, hex
+//   "cases"            see below
+//
+// Lines go in where BASIC asks the operating system for one (OSWORD 0), as if they had been
+// typed very quickly. A mark is the program's own `?&70=n`.
+//
+// "cases": many small calculations without a program's overhead. Each is a list of
+// [address, hex] to be written when the program says ?&70=1; when it says ?&70=2 the bytes
+// "read": [address, count] are taken, and the cycles since the 1; when it says ?&70=3 (from
+// ON ERROR) the byte at &71 is taken as an error's number. The answer has a [hex, cycles] a
+// case, or [error number, 0].
+
+import path from "node:path";
+import { readFileSync } from "node:fs";
+import { pathToFileURL } from "node:url";
+
+const root = path.resolve(process.argv[2]);
+const load = (file) => import(pathToFileURL(path.join(root, file)).href);
+// The emulator tells what it loads; standard output is for results alone.
+console.log = (...words) => console.error(...words);
+const { TestMachine } = await load("tests/test-machine.js");
+const { setNodeBasePath } = await load("src/utils.js");
+setNodeBasePath(root);
+
+const MARK = 0x70;
+const SECOND = 2_000_000;
+const SHIFT = 16;
+/** OS 1.20: where it waits for a key, and the file that stands for the keyboard, if any. */
+const WAIT_FOR_KEY = 0xe581;
+const EXEC_FILE = 0x256;
+/** Cycles between two fields, and the length of the pulse between them (the CRTC's). */
+const FIELD = 40_000;
+const PULSE = 256;
+
+const bytes = (hex) => Uint8Array.from(Buffer.from(hex, "hex"));
+
+class Micro {
+  async boot(job) {
+    this.machine = new TestMachine("B-DFS1.2");
+    await this.machine.initialise();
+    this.cpu = this.machine.processor;
+    this.fields();
+    this.marks = [];
+    this.start = 0;
+    this.cpu.debugInstruction.add((pc) => this.instruction(pc));
+    this.cpu.debugWrite.add((address, value) => {
+      if (address === MARK && this.running) this.mark(value);
+    });
+    if (job.disc) {
+      this.machine.loadDiscData(bytes(job.disc));
+      this.cpu.sysvia.keyDown(SHIFT);
+      await this.machine.runFor(SECOND);
+      this.cpu.sysvia.keyUp(SHIFT);
+    }
+  }
+
+  /** The vertical sync interrupts of a screen that nobody looks at. */
+  fields() {
+    let high = false;
+    const task = this.cpu.scheduler.newTask(() => {
+      high = !high;
+      this.cpu.sysvia.setVBlankInt(high ? 1 : 0);
+      task.reschedule(high ? PULSE : FIELD - PULSE);
+    });
+    task.schedule(FIELD);
+  }
+
+  now() {
+    return this.cpu.cycleSeconds * SECOND + this.cpu.currentCycles;
+  }
+
+  byte(address) {
+    return this.cpu.ramRomOs[address];
+  }
+
+  poke(address, list) {
+    this.cpu.ramRomOs.set(list, address);
+  }
+
+  word(address) {
+    return this.byte(address) | (this.byte(address + 1) << 8);
+  }
+
+  /** Before each instruction: notes characters, stops where BASIC wants a line. */
+  instruction(pc) {
+    if (pc === this.word(0x20e)) this.text.push(this.cpu.a);
+    // A disc's !BOOT file answers calls for lines itself, until it is at its end.
+    if (this.job.disc) return pc === WAIT_FOR_KEY && this.byte(EXEC_FILE) === 0;
+    return pc === this.word(0x20c) && this.cpu.a === 0;
+  }
+
+  mark(value) {
+    if (!this.job.cases) {
+      this.marks.push([value, this.now() - this.start]);
+      return;
+    }
+    const cases = this.job.cases;
+    if (value === 1) {
+      if (this.answers.length >= cases.length) return void this.cpu.stop();
+      for (const [address, hex] of cases[this.answers.length]) this.poke(address, bytes(hex));
+      this.begun = this.now();
+    } else if (value === 2) {
+      const [address, count] = this.job.read;
+      const result = this.cpu.ramRomOs.subarray(address, address + count);
+      this.answers.push([Buffer.from(result).toString("hex"), this.now() - this.begun]);
+    } else if (value === 3) {
+      this.answers.push([this.byte(0x71), 0]);
+    }
+  }
+
+  /** Runs until BASIC wants a line (true), until the limit, or until the cases are over. */
+  async run(limit) {
+    const end = this.now() + limit;
+    while (this.now() < end) {
+      const went = this.cpu.execute(Math.min(1_000_000, end - this.now()));
+      if (!went) return !this.over();
+    }
+    return false;
+  }
+
+  over() {
+    return this.job.cases && this.answers.length >= this.job.cases.length;
+  }
+
+  /** Answers the operating system's call for a line, and goes on after it. */
+  line(text) {
+    const cpu = this.cpu;
+    const block = cpu.x | (cpu.y << 8);
+    this.poke(this.word(block), Buffer.from(text + "\r", "latin1"));
+    cpu.y = text.length;
+    cpu.p.c = false;
+    const at = 0x100 + ((cpu.s + 1) & 0xff);
+    const back = this.word(at);
+    cpu.s = (cpu.s + 2) & 0xff;
+    cpu.pc = (back + 1) & 0xffff;
+  }
+
+  async type(lines) {
+    for (const line of lines) {
+      this.line(line);
+      if (!(await this.run(10 * SECOND))) throw new Error(`no prompt after ${line}`);
+    }
+  }
+
+  async load(job) {
+    if (!(await this.run(10 * SECOND))) throw new Error("no prompt");
+    await this.type([`PAGE=${job.page ?? 0x1900}`, "NEW"]);
+    if (job.typed !== undefined) {
+      await this.type(job.typed.split(/\r?\n/).filter((line) => line !== ""));
+    } else {
+      const program = bytes(job.tokenised);
+      const page = job.page ?? 0x1900;
+      this.poke(page, program);
+      await this.type(["OLD"]);
+    }
+  }
+
+  async go(job) {
+    this.job = job;
+    this.text = [];
+    this.answers = [];
+    await this.boot(job);
+    if (!job.disc) {
+      await this.load(job);
+      this.line("RUN");
+    }
+    if (job.quiet) this.cpu.p.i = true;
+    this.text.length = 0;
+    this.running = true;
+    this.start = this.now();
+    const prompt = await this.run(job.limit ?? 4e9);
+    const cycles = this.now() - this.start;
+    const [from, to] = job.dump ?? [0, 0];
+    return {
+      stopped: prompt ? "prompt" : "limit",
+      cycles,
+      marks: this.marks,
+      text: Buffer.from(this.text).toString("latin1"),
+      memory: Buffer.from(this.cpu.ramRomOs.subarray(from, to)).toString("hex"),
+      cases: this.answers,
+    };
+  }
+}
+
+const results = [];
+for (const job of JSON.parse(readFileSync(process.argv[3], "utf8"))) {
+  results.push(await new Micro().go(job));
+}
+process.stdout.write(JSON.stringify(results));
