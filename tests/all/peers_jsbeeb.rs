@@ -1,8 +1,11 @@
 //! The genuine BASIC II, under jsbeeb: `tests/peers/setup` installs it, `tests/peers/jsbeeb.mjs`
 //! drives it.
 
+use crate::cli::{directory, success};
 use crate::rom_vectors::{Gives, OPERATIONS, Operands, Operation, error_bytes};
 use serde_json::{Value, json};
+use slowlight_vm::Stop;
+use slowlight_vm::bbc::{Config, Machine, Run};
 use std::path::Path;
 use std::process::Command;
 
@@ -50,7 +53,10 @@ fn rom(operation: &Operation) -> Vec<Vec<u8>> {
         .map(|case| match case {
             Operands::Reals(a, b) => json!([[A, hex(&a.to_bytes())], [B, hex(&b.to_bytes())]]),
             Operands::Ints(a, b) => {
-                json!([[0x404, hex(&a.to_le_bytes())], [0x408, hex(&b.to_le_bytes())]])
+                json!([
+                    [0x404, hex(&a.to_le_bytes())],
+                    [0x408, hex(&b.to_le_bytes())]
+                ])
             }
             Operands::Text(text) => json!([[0x5000, hex(format!("{text}\r").as_bytes())]]),
         })
@@ -99,6 +105,146 @@ fn the_recorded_results_are_the_roms() {
             std::fs::write(operation.file(), &bytes).expect("a file");
         }
         let kept = std::fs::read(operation.file()).expect("recorded results");
-        assert!(kept == bytes, "{}: the ROM gives something else", operation.name);
+        assert!(
+            kept == bytes,
+            "{}: the ROM gives something else",
+            operation.name
+        );
+    }
+}
+
+/// Our machine on the same text.
+fn ours(text: &str) -> Run {
+    let mut machine = Machine::new(Config::default());
+    machine.load_text(text).expect("a program");
+    let run = machine.run(100_000_000_000, &mut |_| true);
+    assert_eq!(run.stop, Stop::Ended, "{text}");
+    run
+}
+
+/// How much more we count than the ROM takes, in parts of one. What RUN and the prompt take is
+/// taken off by way of an empty program.
+fn excess(ours: u64, rom: &Value, empty: (u64, u64)) -> f64 {
+    let rom = rom["cycles"].as_u64().expect("cycles") - empty.1;
+    (ours - empty.0) as f64 / rom as f64 - 1.0
+}
+
+const EMPTY: &str = "10END\n";
+
+/// Printed text without control codes but line feeds, and without the prompt.
+fn printed(result: &Value) -> String {
+    let text = result["text"].as_str().expect("text");
+    let kept = text.chars().filter(|c| *c == '\n' || *c >= ' ');
+    kept.collect::<String>()
+        .trim_end_matches('>')
+        .trim_end()
+        .to_owned()
+}
+
+#[test]
+fn other_programs_take_and_print_what_they_do_on_the_rom() {
+    let programs = [
+        ("strings", include_str!("../peers/programs/strings.bas")),
+        ("sieve", include_str!("../peers/programs/sieve.bas")),
+        ("proc", include_str!("../peers/programs/proc.bas")),
+        ("data", include_str!("../peers/programs/data.bas")),
+        ("plot", include_str!("../peers/programs/plot.bas")),
+    ];
+    let texts = programs.iter().map(|p| p.1).chain([EMPTY]);
+    let jobs: Vec<Value> = texts.map(|text| json!({"typed": text})).collect();
+    let results = jsbeeb(&jobs);
+    let empty = (
+        ours(EMPTY).cycles,
+        results[5]["cycles"].as_u64().expect("cycles"),
+    );
+    for ((name, text), result) in programs.iter().zip(&results) {
+        assert_eq!(result["stopped"], "prompt", "{name}");
+        let run = ours(text);
+        let excess = excess(run.cycles, result, empty);
+        println!(
+            "{name}: {} cycles, {:+.2}% of the ROM's",
+            run.cycles,
+            100.0 * excess
+        );
+        assert!(excess.abs() <= 0.03, "{name}: {excess}");
+        // PLOT's bytes go through the same vector as text.
+        if *name != "plot" {
+            assert_eq!(run.text.trim_end(), printed(result), "{name}");
+        }
+    }
+}
+
+/// The inks of a screen of MODE 1 (four pixels a byte) or 2 (two), from its memory at &3000.
+fn inks(mode: u32, memory: &[u8]) -> Vec<u8> {
+    let (columns, bits) = if mode == 1 { (4, 2) } else { (2, 4) };
+    let mut list = Vec::new();
+    for y in 0..256 {
+        for x in 0..80 * columns {
+            let byte = memory[y / 8 * 640 + x / columns * 8 + y % 8];
+            let bit = |b: usize| byte >> (7 - (x % columns) - b * columns) & 1;
+            list.push((0..bits).fold(0, |ink, b| ink << 1 | bit(b)));
+        }
+    }
+    list
+}
+
+/// A scene's rows, typed and as tokens, on the ROM and on ours: inks that differ, and cycles.
+fn compared(scene: &str, mode: u32, rows: &str) -> (usize, f64) {
+    let dir = directory(&[("scene.scn", scene)]);
+    let target = ["--target", "bbc:micro", "--mode", &mode.to_string()].map(str::to_owned);
+    let args: Vec<&str> = ["build", "scene.scn", "--rows", rows]
+        .into_iter()
+        .chain(target.iter().map(String::as_str))
+        .collect();
+    success(dir.path(), &args);
+    let text = std::fs::read_to_string(dir.path().join("scene.bas")).expect("a program");
+    let tokens = std::fs::read(dir.path().join("scene.bbc")).expect("a program");
+    let dump = json!([0x3000, 0x8000]);
+    let results = jsbeeb(&[
+        json!({"typed": text, "dump": dump}),
+        json!({"tokenised": hex(&tokens), "dump": dump}),
+        json!({"typed": EMPTY}),
+    ]);
+    let run = ours(&text);
+    assert!(
+        run.screen
+            .pixels
+            .iter()
+            .any(|ink| *ink != run.screen.pixels[0])
+    );
+    let empty = (
+        ours(EMPTY).cycles,
+        results[2]["cycles"].as_u64().expect("cycles"),
+    );
+    let mut different = 0;
+    for result in &results[..2] {
+        assert_eq!(result["stopped"], "prompt");
+        let rom = inks(mode, &unhex(result["memory"].as_str().expect("memory")));
+        assert_eq!(rom.len(), run.screen.pixels.len());
+        // BASIC's prompt is written over the first row of text.
+        let pairs = rom.iter().zip(&run.screen.pixels).skip(rom.len() / 32);
+        different += pairs.filter(|(a, b)| a != b).count();
+    }
+    (different, excess(run.cycles, &results[1], empty))
+}
+
+#[test]
+fn generated_programs_draw_and_take_what_they_do_on_the_rom() {
+    let mirrors = include_str!("../../examples/mirrors.scn");
+    let torus = include_str!("../../examples/torus.scn");
+    let maze = include_str!("../../examples/maze.scn");
+    for (name, scene, mode, rows, most) in [
+        ("mirrors", mirrors, 1, "120..121", 0),
+        ("torus", torus, 1, "30..30", 0),
+        // SIN and COS are not the ROM's to the last bit.
+        ("maze", maze, 2, "14..17", 4),
+    ] {
+        let (different, excess) = compared(scene, mode, rows);
+        println!(
+            "{name}, rows {rows}: {different} inks differ, cycles {:+.2}%",
+            100.0 * excess
+        );
+        assert!(different <= most, "{name}: {different}");
+        assert!(excess.abs() <= 0.03, "{name}: {excess}");
     }
 }

@@ -11,8 +11,8 @@ use super::cost;
 use super::error::Error;
 use super::exec::DONE;
 use super::state::{HOST_STACK, State};
-use super::work;
 use super::values::{Elements, Frame, Home, Num, Saved, Value, is_numeric};
+use super::work;
 
 type Result<T> = std::result::Result<T, Error>;
 
@@ -111,11 +111,11 @@ impl State {
             (Home::Byte(address), Value::Num(n)) => {
                 let byte = self.whole(n)? as u8;
                 self.set_byte(address, byte);
-            },
+            }
             (Home::Word(address), Value::Num(n)) => {
                 let word = self.whole(n)?;
                 self.set_word(address, word);
-            },
+            }
             (Home::Text(address), Value::Str(s)) => {
                 for (i, c) in s.iter().chain(&[13]).enumerate() {
                     self.set_byte(address.wrapping_add(i as u16), *c);

@@ -174,6 +174,10 @@ impl State {
         let (x, y) = (self.real_of(a), self.real_of(b));
         if let (Num::Int(_), Num::Real(_)) = (a, b) {
             self.cycles += work::LEFT_INT;
+            if op == Op2::Mul {
+                // It comes to be the side whose bits are scanned.
+                return self.real_op2(op, y, x);
+            }
         }
         self.real_op2(op, x, y)
     }
@@ -270,14 +274,12 @@ impl State {
             Func1::Byte => Num::Int(i32::from(self.byte(x.int()? as u16))),
             Func1::Word => Num::Int(self.word(x.int()? as u16)),
             Func1::Not => Num::Int(!x.int()?),
-            Func1::Sin => Num::Real(elementary::sin(self.real_of(x))?),
-            Func1::Cos => Num::Real(elementary::cos(self.real_of(x))?),
-            Func1::Tan => Num::Real(elementary::tan(self.real_of(x))?),
+            Func1::Sin | Func1::Cos | Func1::Tan | Func1::Atn | Func1::Exp | Func1::Ln => {
+                let x = self.real_of(x);
+                return self.curve(f, x);
+            }
             Func1::Asn => Num::Real(elementary::asn(self.real_of(x))?),
             Func1::Acs => Num::Real(elementary::acs(self.real_of(x))?),
-            Func1::Atn => Num::Real(elementary::atn(self.real_of(x))?),
-            Func1::Exp => Num::Real(elementary::exp(self.real_of(x))?),
-            Func1::Ln => Num::Real(elementary::ln(self.real_of(x))?),
             Func1::Log => Num::Real(elementary::log10(self.real_of(x))?),
             Func1::Deg => Num::Real(Real40::from_f64(x.real().to_f64().to_degrees())?),
             Func1::Rad => Num::Real(Real40::from_f64(x.real().to_f64().to_radians())?),
@@ -301,6 +303,20 @@ impl State {
             Func1::Ptr => Num::Int(self.files.position(x.int()?)? as i32),
             Func1::Eof => truth(self.files.at_end(x.int()?)?),
         })
+    }
+
+    /// The functions whose cost depends on their argument.
+    fn curve(&mut self, f: Func1, x: Real40) -> Result<Num> {
+        let (value, cost) = match f {
+            Func1::Sin => (elementary::sin(x)?, work::quarter_turns(x, 0)),
+            Func1::Cos => (elementary::cos(x)?, work::quarter_turns(x, 1)),
+            Func1::Tan => (elementary::tan(x)?, work::beyond_one(x, 4_900)),
+            Func1::Atn => (elementary::atn(x)?, work::beyond_one(x, 3_800)),
+            Func1::Exp => (elementary::exp(x)?, work::exp(x)),
+            _ => (elementary::ln(x)?, work::ln(x)),
+        };
+        self.cycles += u64::from(cost);
+        Ok(Num::Real(value))
     }
 
     fn func0(&mut self, f: Func0) -> Num {

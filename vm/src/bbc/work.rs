@@ -114,6 +114,38 @@ pub(crate) fn pow(y: Real40) -> u32 {
     }
 }
 
+/// SIN (`ahead` 0) and COS (1), more than near 0: angles of 1 and more are reduced to an eighth
+/// of a turn either way, and an odd number of quarter turns takes a square root.
+pub(crate) fn quarter_turns(x: Real40, ahead: u64) -> u32 {
+    let reduced = x.exponent() > 128;
+    let quarters = if reduced {
+        (x.to_f64().abs() * std::f64::consts::FRAC_2_PI).round() as u64
+    } else {
+        0
+    };
+    let root = !(quarters + ahead).is_multiple_of(2);
+    5_300 * u32::from(reduced) + 21_000 * u32::from(root)
+}
+
+/// TAN and ATN of 1 and more, beyond those of less.
+pub(crate) fn beyond_one(x: Real40, more: u32) -> u32 {
+    if x.exponent() > 128 { more } else { 0 }
+}
+
+/// EXP: the whole part of the power is a power of e.
+pub(crate) fn exp(x: Real40) -> u32 {
+    let size = x.to_f64().abs();
+    match size {
+        0.0..0.5 => 0,
+        _ => 3_900 + 3_400 * (size.min(99.0) as u32),
+    }
+}
+
+/// LN, and what it takes to bring a number between 1 and 2.
+pub(crate) fn ln(x: Real40) -> u32 {
+    if x.exponent() == 129 { 0 } else { 2_300 }
+}
+
 /// A number turned into decimal text.
 pub(crate) fn number_text(x: Real40) -> u32 {
     // Three digits take ten bits.

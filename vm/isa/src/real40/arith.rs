@@ -23,7 +23,7 @@ pub(crate) fn pack(negative: bool, exp: i32, mantissa: u32) -> Result<Real40, Re
 /// Rounds a normalised 40-bit accumulator to 32: up above &80 in the guard byte, down below
 /// it, and at &80 exactly the last bit is set (neither half-up nor half-even).
 #[inline]
-fn round(negative: bool, exp: i32, wide: u64) -> Result<Real40, RealError> {
+pub(super) fn round(negative: bool, exp: i32, wide: u64) -> Result<Real40, RealError> {
     let high = (wide >> 8) as u32;
     match (wide & 0xff).cmp(&0x80) {
         std::cmp::Ordering::Less => pack(negative, exp, high),

@@ -15,6 +15,7 @@
 //! to 2^-128, with exponent byte 0 and a mantissa that is not zero; here they are zero.)
 
 pub mod arith;
+mod decimal;
 pub mod elementary;
 pub mod text;
 

@@ -1,7 +1,7 @@
 //! Decimal text to reals and back, as BASIC II reads and prints numbers.
 
+use super::decimal::{self, Wide};
 use super::{Real40, RealError};
-use std::cmp::Ordering;
 
 /// How numbers are printed: the fields of `@%`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -64,26 +64,6 @@ fn exact_digits(x: Real40) -> (Vec<u8>, i32) {
     (digits, exponent.parse().unwrap_or(0))
 }
 
-/// Rounds digits to `keep` of them, half up. Answers the digits and whether the value grew a
-/// digit (9.99 to 10.0).
-fn round_digits(digits: &[u8], keep: usize) -> (Vec<u8>, bool) {
-    let mut kept: Vec<u8> = digits.iter().copied().take(keep).collect();
-    kept.resize(keep, b'0');
-    if digits.get(keep).is_some_and(|d| *d >= b'5') {
-        for d in kept.iter_mut().rev() {
-            if *d < b'9' {
-                *d += 1;
-                return (kept, false);
-            }
-            *d = b'0';
-        }
-        kept.insert(0, b'1');
-        kept.truncate(keep.max(1));
-        return (kept, true);
-    }
-    (kept, false)
-}
-
 /// A number as `PRINT` and `STR$` write it, without padding.
 pub fn to_text(x: Real40, format: NumberFormat) -> String {
     let mut out = String::new();
@@ -101,9 +81,7 @@ pub fn to_text(x: Real40, format: NumberFormat) -> String {
 /// General and exponent styles.
 fn floating(x: Real40, format: NumberFormat, out: &mut String) {
     let keep = usize::from(format.digits.max(1));
-    let (digits, power) = exact_digits(x);
-    let (mut digits, grew) = round_digits(&digits, keep);
-    let power = power + i32::from(grew);
+    let (mut digits, power) = decimal::digits(x, keep);
     let general = format.style == Style::General;
     if general {
         while digits.len() > 1 && digits.last() == Some(&b'0') {
@@ -132,7 +110,6 @@ fn floating(x: Real40, format: NumberFormat, out: &mut String) {
         }
         out.push(char::from(*d));
     }
-    let power = if x.is_zero() { 0 } else { power };
     out.push('E');
     out.push_str(&power.to_string());
     if !general {
@@ -155,10 +132,19 @@ fn fixed(x: Real40, places: u8, out: &mut String) {
     let rounded = if keep < 0 || x.is_zero() {
         vec![b'0'; places + 1]
     } else {
-        let (mut rounded, grew) = round_digits(&digits, keep as usize);
-        if grew && keep > 0 {
-            rounded.push(b'0');
-        }
+        let mut rounded = if keep == 0 {
+            // Half of the last place or more shows as a 1 there.
+            match digits.first() {
+                Some(b'5'..) => vec![b'1'],
+                _ => Vec::new(),
+            }
+        } else {
+            let (mut rounded, grown) = decimal::digits(x, keep as usize);
+            if grown > power {
+                rounded.push(b'0');
+            }
+            rounded
+        };
         let wanted = places + 1;
         while rounded.len() < wanted {
             rounded.insert(0, b'0');
@@ -188,7 +174,7 @@ pub enum Parsed {
 }
 
 /// Reads a number; answers it and how many bytes it took, `None` where no number starts.
-/// Correctly rounded; an exact tie sets the last bit.
+/// Rounded as the ROM does, which is not always to the nearest.
 pub fn parse(text: &[u8]) -> Result<Option<(Parsed, usize)>, RealError> {
     let digits_at = |from: usize| {
         text.get(from..)
@@ -237,48 +223,22 @@ pub fn parse(text: &[u8]) -> Result<Option<(Parsed, usize)>, RealError> {
     Ok(Some((Parsed::Real(x), end)))
 }
 
-/// digits-with-a-point x 10^power to the nearest real.
+/// Digits with a point x 10^power. The accumulator takes as many digits as fit 40 bits, the rest
+/// count by their places alone.
 fn round_decimal(mantissa: &[u8], power: i32) -> Result<Real40, RealError> {
-    let text = format!("{}e{power}", String::from_utf8_lossy(mantissa));
-    let near: f64 = if mantissa == b"." {
-        0.0
-    } else {
-        text.parse().unwrap_or(0.0)
-    };
-    let bits = near.to_bits();
-    // The 21 bits that 40-bit reals lack. Only where they are a tie can rounding twice go wrong.
-    if bits & 0x1f_ffff != 0x10_0000 {
-        return Real40::from_f64(near);
+    /// With this or more, ten times as much may not fit.
+    const FULL: u64 = 24 << 32;
+    let (mut digits, mut power) = (0u64, power);
+    let mut after_point = false;
+    for c in mantissa {
+        match c {
+            b'.' => after_point = true,
+            _ if digits >= FULL => power += i32::from(!after_point),
+            _ => {
+                digits = digits * 10 + u64::from(c.wrapping_sub(b'0'));
+                power -= i32::from(after_point);
+            }
+        }
     }
-    let low = f64::from_bits(bits & !0x1f_ffff);
-    let down = Real40::from_f64(low)?;
-    match compare_decimal(mantissa, power, near) {
-        Ordering::Less => Ok(down),
-        Ordering::Greater => Real40::from_f64(near),
-        Ordering::Equal => Ok(Real40::from_bits(down.to_bits() | 1)),
-    }
-}
-
-/// A decimal against a double, exactly, both positive: by their digits.
-fn compare_decimal(mantissa: &[u8], power: i32, other: f64) -> Ordering {
-    let point = mantissa
-        .iter()
-        .position(|c| *c == b'.')
-        .unwrap_or(mantissa.len());
-    let digits: Vec<u8> = mantissa.iter().copied().filter(|c| *c != b'.').collect();
-    let zeros = digits.iter().take_while(|c| **c == b'0').count();
-    let mine_power = point as i32 - 1 - zeros as i32 + power;
-    let text = format!("{other:.1100e}");
-    let (theirs, their_power) = text.split_once('e').unwrap_or((&text, "0"));
-    let their_power: i32 = their_power.parse().unwrap_or(0);
-    if mine_power != their_power {
-        return mine_power.cmp(&their_power);
-    }
-    let theirs = theirs.bytes().filter(u8::is_ascii_digit);
-    let mine = digits.iter().copied().skip(zeros);
-    let length = digits.len().max(1101);
-    let pad = std::iter::repeat(b'0');
-    mine.chain(pad.clone())
-        .take(length)
-        .cmp(theirs.chain(pad).take(length))
+    Wide::new(digits).scaled(power).real()
 }

@@ -1,0 +1,11 @@
+10DIM W$(20)
+20FOR I%=0 TO 20:W$(I%)=CHR$(65+I%)+STR$(I%*37 MOD 11):NEXT
+30T$="":N%=0
+40FOR J%=1 TO 8
+50FOR I%=0 TO 19
+60IF W$(I%)>W$(I%+1) THEN S$=W$(I%):W$(I%)=W$(I%+1):W$(I%+1)=S$
+70NEXT I%
+80T$=LEFT$(T$+MID$(W$(J%),1,2),40)+RIGHT$(W$(J%+3),1)
+90N%=N%+LEN T$+ASC T$+INSTR(T$,"C")+VAL MID$(W$(J%),2)
+100NEXT J%
+110PRINT T$;" ";N%;" ";STRING$(3,"ab")
