@@ -174,15 +174,24 @@ fn other_programs_take_and_print_what_they_do_on_the_rom() {
     }
 }
 
-/// The inks of a screen of MODE 1 (four pixels a byte) or 2 (two), from its memory at &3000.
+/// A screen's modes here: where its memory starts, bytes a row, pixels a byte.
+fn layout(mode: u32) -> (usize, usize, usize) {
+    match mode {
+        1 => (0x3000, 80, 4),
+        2 => (0x3000, 80, 2),
+        _ => (0x5800, 40, 8),
+    }
+}
+
+/// The inks of a screen, from its memory.
 fn inks(mode: u32, memory: &[u8]) -> Vec<u8> {
-    let (columns, bits) = if mode == 1 { (4, 2) } else { (2, 4) };
+    let (_, row, pixels) = layout(mode);
     let mut list = Vec::new();
     for y in 0..256 {
-        for x in 0..80 * columns {
-            let byte = memory[y / 8 * 640 + x / columns * 8 + y % 8];
-            let bit = |b: usize| byte >> (7 - (x % columns) - b * columns) & 1;
-            list.push((0..bits).fold(0, |ink, b| ink << 1 | bit(b)));
+        for x in 0..row * pixels {
+            let byte = memory[y / 8 * row * 8 + x / pixels * 8 + y % 8];
+            let bit = |b: usize| byte >> (7 - (x % pixels) - b * pixels) & 1;
+            list.push((0..8 / pixels).fold(0, |ink, b| ink << 1 | bit(b)));
         }
     }
     list
@@ -199,7 +208,7 @@ fn compared(scene: &str, mode: u32, rows: &str) -> (usize, f64) {
     success(dir.path(), &args);
     let text = std::fs::read_to_string(dir.path().join("scene.bas")).expect("a program");
     let tokens = std::fs::read(dir.path().join("scene.bbc")).expect("a program");
-    let dump = json!([0x3000, 0x8000]);
+    let dump = json!([layout(mode).0, 0x8000]);
     let results = jsbeeb(&[
         json!({"typed": text, "dump": dump}),
         json!({"tokenised": hex(&tokens), "dump": dump}),
@@ -235,7 +244,7 @@ fn generated_programs_draw_and_take_what_they_do_on_the_rom() {
     let maze = include_str!("../../examples/maze.scn");
     for (name, scene, mode, rows, most) in [
         ("mirrors", mirrors, 1, "120..121", 0),
-        ("torus", torus, 1, "30..30", 0),
+        ("torus", torus, 4, "60..60", 0),
         // SIN and COS are not the ROM's to the last bit.
         ("maze", maze, 2, "14..17", 4),
     ] {

@@ -185,14 +185,17 @@ impl Machine {
         let (run, profile) = self.run_from(state, cycle_limit, watch);
         let profile = profile.unwrap_or_default();
         let counts = profile.times.into_iter().zip(profile.cycles);
-        let costs = lines
-            .iter()
-            .zip(counts)
-            .map(|(line, (times, cycles))| LineCost {
+        // Each line has its share of the interrupts, so that the lines add up to the run.
+        let mut before = 0;
+        let costs = lines.iter().zip(counts).map(|(line, (times, cycles))| {
+            let start = cost::with_interrupts(before);
+            before += cycles;
+            LineCost {
                 line: line.number,
                 times,
-                cycles,
-            });
+                cycles: cost::with_interrupts(before) - start,
+            }
+        });
         (run, costs.collect())
     }
 

@@ -244,6 +244,15 @@ fn agon_and_basic_v_have_their_screens_and_integers() {
     assert_eq!(ink(&r, 1, 254), 15);
 }
 
+#[test]
+fn repeat_needs_no_colon() {
+    let counting = "10N%=0:REPEATN%=N%+1:UNTILN%=3:PRINT;N%";
+    assert_eq!(run(counting).text, "3\n");
+    let nested = "10N%=0:REPEATREPEATN%=N%+1:UNTILN%MOD3=0:UNTILN%=9:PRINT;N%";
+    assert_eq!(run(nested).text, "9\n");
+    assert_eq!(run("10REPEATUNTILTRUE:PRINT\"x\"").text, "x\n");
+}
+
 /// Statements on lines of their own, counted on the ROM with interrupts off.
 const COUNTED: &[(&str, u64)] = &[
     ("X=A", 1305),
