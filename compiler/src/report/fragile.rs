@@ -10,7 +10,9 @@
 //! by more than half a level are followed back likewise.
 //!
 //! A border that the native values themselves sit on is a tie: any format may
-//! go either way, and nothing can be done but to know it.
+//! go either way, and nothing can be done but to know it. Where they lie beside
+//! it by less than the format can tell, a finer format would do: on a few pixels
+//! that is an outline, on many a margin that the scene chose too small.
 
 use super::shadow::{Event, Shadow, What};
 use crate::eval::model::ModelRun;
@@ -44,6 +46,8 @@ pub enum Weakness {
     Coarse,
     /// A comparison or step that lies on its border natively.
     Tie,
+    /// One that natively lies beside its border, by less than the format can tell.
+    Close,
 }
 
 /// A weak place of a scene, seen in one format.
@@ -56,7 +60,8 @@ pub struct Fragile {
     /// On how many of the pixels looked at it mattered.
     pub pixels: usize,
     /// By how many units in the last place its result is off at most; where a
-    /// step is coarse, how large the last place is.
+    /// step is coarse, how large the last place is; where a border is close, by
+    /// how many units natively it is missed at most.
     pub units: f64,
     /// What came out otherwise because of it, a comparison or a step; none
     /// where it is the shade itself.
@@ -183,6 +188,7 @@ impl Tally {
             What::Tie(node) if differs => (node, Weakness::Tie, 0.0, Some(node)),
             What::NoMeaning(node) => (node, Weakness::NoMeaning, 0.0, None),
             What::Coarse { node, place } if differs => (node, Weakness::Coarse, place, Some(node)),
+            What::Close { node, units } if differs => (node, Weakness::Close, units, Some(node)),
             What::Off { event, flips } if differs => {
                 let (culprit, weakness) = blame(shadow, event);
                 (culprit.node, weakness, culprit.units, flips)

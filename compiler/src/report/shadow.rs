@@ -55,6 +55,9 @@ pub enum What {
     NoMeaning(NodeId),
     /// A step where the format's last place is not much less than a step.
     Coarse { node: NodeId, place: f64 },
+    /// A comparison or step whose native arguments are nearer to its border than
+    /// the format can tell, without an error that grew.
+    Close { node: NodeId, units: f64 },
     /// An event far off, and what came out otherwise because of it.
     Off { event: u32, flips: Option<NodeId> },
 }
@@ -191,7 +194,10 @@ impl<'p> Shadow<'p> {
             _ if op == Op::Floor && place * COARSE > 1.0 => {
                 self.saw(What::Coarse { node: id, place });
             }
-            _ => {}
+            _ => {
+                let units = self.units(margin, size);
+                self.saw(What::Close { node: id, units });
+            }
         }
     }
 }

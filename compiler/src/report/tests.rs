@@ -156,6 +156,11 @@ const DEFEATED: &[(&str, &str, &[&str])] = &[
         include_str!("../../../tests/fragile/axis_maze.scn"),
         &["jack", "bbc:micro", "6502:plain"],
     ),
+    (
+        "axis_walk",
+        include_str!("../../../tests/fragile/axis_walk.scn"),
+        &["jack"],
+    ),
 ];
 
 #[test]

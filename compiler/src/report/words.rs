@@ -10,10 +10,19 @@ use std::collections::BTreeSet;
 /// What happens on less than one pixel in so many is no more than rounding does.
 const RARE: usize = 200;
 
+/// What lies close to a border on less than one pixel in so many may be an outline.
+const OUTLINE: usize = 50;
+
 /// Warnings for the weak places of a plan, the worst first; one for each place
 /// in the scene.
 pub fn warnings(plan: &Plan, found: &Found) -> Vec<Diagnostic> {
-    let often = |f: &&Fragile| f.pixels * RARE >= found.looked || !f.rows.is_empty();
+    let often = |f: &&Fragile| {
+        let rare = match f.weakness {
+            Weakness::Close => OUTLINE,
+            _ => RARE,
+        };
+        f.pixels * rare >= found.looked || !f.rows.is_empty()
+    };
     let mut worst: Vec<&Fragile> = found.fragile.iter().filter(often).collect();
     worst.sort_by_key(|f| (std::cmp::Reverse(f.pixels), f.node));
     let mut places = BTreeSet::new();
@@ -54,6 +63,13 @@ fn warning(plan: &Plan, found: &Found, f: &Fragile) -> Diagnostic {
             format!("a tie on {share}: the exact value lies on the border itself"),
             "any format may go either way; move the border or the eye a little",
         ),
+        Weakness::Close => (
+            format!(
+                "in {format} the border is too close here, on {share}: the exact value lies within {} of it",
+                units(f.units.ceil())
+            ),
+            "keep clear of the border by several `epsilon` of the largest value, or choose a finer `--format`",
+        ),
     };
     let made = Diagnostic::warning(graph.span(f.node), message).help(help);
     let made = match rows(&f.rows) {
@@ -84,6 +100,7 @@ fn rows(rows: &[u32]) -> Option<String> {
 fn units(units: f64) -> String {
     match units {
         u if u >= 1e6 => "more than a million units in the last place".to_owned(),
+        u if u <= 1.0 => "a unit in the last place".to_owned(),
         u => format!("{u:.0} units in the last place"),
     }
 }
