@@ -39,6 +39,16 @@ impl Precision {
             floats: !matches!(target.runtime.real, Format::Fixed { .. }),
         }
     }
+
+    /// The options of a lowering for it.
+    pub fn options(self, options: Options) -> Options {
+        Options {
+            offset: self.offset,
+            epsilon: self.epsilon,
+            floats: self.floats,
+            ..options
+        }
+    }
 }
 
 /// Which scene, and what is changed about it.
@@ -212,11 +222,8 @@ impl Scene {
         precision: Precision,
         set: &[(String, Vec<f64>)],
     ) -> Outcome<Graph> {
-        let mut options = self.options.clone();
+        let mut options = precision.options(self.options.clone());
         options.inks = inks;
-        options.offset = precision.offset;
-        options.epsilon = precision.epsilon;
-        options.floats = precision.floats;
         options.set.extend_from_slice(set);
         sema::lower(&self.checked.program, &options).map_err(|said| self.wrong(said))
     }

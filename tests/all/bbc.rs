@@ -2,6 +2,7 @@
 #![allow(clippy::unwrap_used)]
 
 use crate::mos6502::Scribe;
+use slowlight::scene::Precision;
 use slowlight_compiler::eval::{model::ModelRun, native::Native};
 use slowlight_compiler::plan::{Goal, Plan, plan};
 use slowlight_compiler::scene;
@@ -25,11 +26,10 @@ fn planned(target: &str, source: &str, set: &[f64], rows: Option<(u32, u32)>) ->
     let (width, height) = (320, 240);
     let mode = default_mode(target, width, height).unwrap();
     let graph = scene
-        .lower(&Options {
-            offset: target.offset,
+        .lower(&Precision::of(target).options(Options {
             set,
             ..Options::default()
-        })
+        }))
         .unwrap();
     plan(
         &graph,

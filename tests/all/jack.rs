@@ -2,6 +2,7 @@
 #![allow(clippy::unwrap_used)]
 
 use crate::mos6502::Scribe;
+use slowlight::scene::Precision;
 use slowlight_compiler::eval::{model::ModelRun, native::Native};
 use slowlight_compiler::plan::{Goal, Plan, plan};
 use slowlight_compiler::scene;
@@ -23,12 +24,11 @@ fn planned(source: &str, set: &[f64], rows: Option<(u32, u32)>, plot: bool) -> P
     } else {
         vec![("eye".to_owned(), set.to_vec())]
     };
-    let options = Options {
+    let options = Precision::of(target).options(Options {
         inks: Some(2),
-        offset: target.offset,
         set,
         ..Options::default()
-    };
+    });
     let graph = scene.lower(&options).unwrap();
     let mode = default_mode(target, graph.image.width, graph.image.height).unwrap();
     let goal = Goal {

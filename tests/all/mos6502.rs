@@ -1,6 +1,7 @@
 //! Scenes compiled for the plain 6502, assembled, run and held against the model.
 #![allow(clippy::unwrap_used)]
 
+use slowlight::scene::Precision;
 use slowlight_compiler::eval::{model::ModelRun, native::Native};
 use slowlight_compiler::plan::{Goal, Plan, plan};
 use slowlight_compiler::scene;
@@ -22,11 +23,10 @@ fn planned(source: &str, set: &[f64], rows: Option<(u32, u32)>) -> Plan {
         vec![("eye".to_owned(), set.to_vec())]
     };
     let graph = scene
-        .lower(&Options {
-            offset: target.offset,
+        .lower(&Precision::of(target).options(Options {
             set,
             ..Options::default()
-        })
+        }))
         .unwrap();
     let mode = default_mode(target, graph.image.width, graph.image.height).unwrap();
     plan(

@@ -1,6 +1,7 @@
 //! Every stage of small scenes, and the generated code of mirrors for each
 //! target: source and output in one file, so that a change shows in review.
 
+use slowlight::scene::Precision;
 use slowlight_compiler::passes::rate::rates;
 use slowlight_compiler::passes::schedule::schedule;
 use slowlight_compiler::plan::print::{ranges_text, rates_text};
@@ -23,11 +24,10 @@ fn load(name: &str) -> (String, Scene) {
 fn planned(scene: &Scene, name: &str, target: &'static Target) -> Plan {
     let image = scene.lower(&Options::default()).expect("a graph").image;
     let mode = default_mode(target, image.width, image.height).expect("a mode");
-    let options = Options {
+    let options = Precision::of(target).options(Options {
         inks: Some(mode.inks),
-        offset: target.offset,
         ..Options::default()
-    };
+    });
     let graph = scene.lower(&options).expect("a graph");
     let goal = Goal {
         name: name.to_owned(),

@@ -215,9 +215,13 @@ fn svg(all: &[(String, Growth)]) -> String {
         let at = y(10f64.powi(-decade));
         let _ = writeln!(
             out,
-            "<path d=\"M60 {at:.1}H{:.1}\" stroke=\"#ddd\"/><text x=\"52\" y=\"{:.1}\" text-anchor=\"end\">1e-{decade}</text>",
+            "<path d=\"M60 {at:.1}H{:.1}\" stroke=\"#ddd\"/><text x=\"52\" y=\"{:.1}\" text-anchor=\"end\">{}</text>",
             width - 100.0,
-            at + 4.0
+            at + 4.0,
+            match decade {
+                0 => "1".to_owned(),
+                n => format!("1e-{n}"),
+            }
         );
     }
     for n in 0..SHOWN {

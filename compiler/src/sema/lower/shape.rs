@@ -22,6 +22,10 @@ const REACH: f64 = 1000.0;
 /// shape says otherwise.
 const STEPS: i32 = 32;
 
+/// A unit roundoff up to which a point found along the ray will do: a sphere a
+/// thousandth of its distance wide still has ten bits of a normal.
+const AMPLE: f64 = 1.0 / 1_048_576.0;
+
 /// What is known of the nearest hit of a shape.
 #[derive(Clone)]
 pub(super) struct Solution {
@@ -133,6 +137,13 @@ impl<'a> Lower<'a> {
         Ok(false)
     }
 
+    /// Whether what a solution knows is worth a choice for each shape: where
+    /// the format is short of digits, or nothing else tells the normal.
+    fn wants_solution(&self, shape: &Shape) -> bool {
+        let otherwise = [FacetKind::Normal, FacetKind::Implicit, FacetKind::Dist];
+        self.options.epsilon > AMPLE || !otherwise.iter().any(|&kind| self.has(shape, kind))
+    }
+
     /// The nearest hit along a ray.
     pub(super) fn solved(&mut self, shape: &Rc<Shape>, ray: Val, span: Span) -> Found<Solution> {
         let Val::Optional { present, value } = self.distance_along(shape, ray, span)? else {
@@ -140,7 +151,10 @@ impl<'a> Lower<'a> {
         };
         let (t, known) = match (*value).clone() {
             Val::Parts(parts) => match &*parts {
-                [point, normal, t, ..] => (t.clone(), Some((point.clone(), normal.clone()))),
+                [point, normal, t, ..] => {
+                    let known = Some((point.clone(), normal.clone()));
+                    (t.clone(), known.filter(|_| self.wants_solution(shape)))
+                }
                 _ => return Err(self.confused(span)),
             },
             t => (t, None),
