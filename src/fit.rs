@@ -210,7 +210,14 @@ pub fn fit(
 ) -> Outcome<Plan> {
     let mut large: Vec<(Plan, Need)> = Vec::new();
     for plan in plans {
-        match as_is_or_tight(plan?)? {
+        let mut found = as_is_or_tight(plan?)?;
+        // Rather slower than with fewer inks.
+        while let Fitted::TooLarge(plan, _) = &found
+            && let Some(smaller) = plan.smaller()
+        {
+            found = as_is_or_tight(smaller)?;
+        }
+        match found {
             Fitted::Fits(plan) => return Ok(*plan),
             Fitted::TooLarge(plan, need) => large.push((*plan, need)),
         }

@@ -69,6 +69,11 @@ impl Builder {
         self.loops.get(id.0 as usize)
     }
 
+    /// A table.
+    pub fn table_of(&self, id: TableId) -> Option<&Table> {
+        self.tables.get(id.0 as usize)
+    }
+
     /// The type of a node.
     pub fn ty(&self, id: NodeId) -> Type {
         self.types.get(id.0 as usize).copied().unwrap_or(Type::Real)

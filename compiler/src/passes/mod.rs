@@ -1,12 +1,16 @@
 //! One pass a file; each takes a graph and gives a graph or a side table.
 
+pub mod algebra;
 pub mod demand;
 pub mod fold;
 pub mod narrow;
 pub mod outline;
+pub mod peel;
 mod queue;
 pub mod rate;
 pub mod rebuild;
 pub mod region;
 pub mod schedule;
+pub mod squares;
 pub mod stable;
+pub mod threshold;

@@ -33,6 +33,7 @@
 //!
 //! The model ([`crate::eval::model`]) runs the same plan bit for bit.
 
+mod cheaper;
 mod choose;
 mod fold_uses;
 mod lifetimes;
@@ -41,6 +42,7 @@ mod names;
 mod outlined;
 mod params;
 pub mod print;
+mod settled;
 mod spread;
 
 pub use lifetimes::{quick_homes, shared_homes};
@@ -51,12 +53,13 @@ use crate::flow::graph::*;
 use crate::flow::tree::*;
 use crate::flow::verify::verify;
 use crate::passes::fold::fold;
-use crate::passes::narrow::narrow;
-use crate::passes::schedule::{missing, schedule};
+use crate::passes::schedule::missing;
 use crate::passes::stable::stable;
-use crate::range::{Ranges, Slack, ranges};
+use crate::range::{Ranges, Slack};
 use crate::source::{Diagnostic, Span};
 use crate::target::{Mode, Target};
+use cheaper::cheaper;
+use settled::{Settled, scheduled, settle};
 use slowlight_routine::{Bits, Format, Op, Range, Routine, Runtime, Type, Value};
 use std::collections::HashMap;
 
@@ -118,8 +121,8 @@ pub struct Plan {
     gather: Option<&'static Routine>,
     folded: Vec<bool>,
     homes: HashMap<Place, String>,
-    /// What was planned, and whether its formulas could be rewritten.
-    origin: (Box<Graph>, bool),
+    /// What was planned, and how its formulas could be rewritten.
+    origin: (Box<Graph>, Rewriting),
 }
 
 impl Plan {
@@ -217,20 +220,35 @@ impl Plan {
         {
             return None;
         }
-        let (graph, stably) = &self.origin;
-        let mut graph = (**graph).clone();
+        let mut graph = (*self.origin.0).clone();
         graph.reports.extend(graph.shade);
+        let mut plan = self.again(&graph, self.origin.1)?;
+        if self.is_outlined() {
+            plan = plan.outlined(&|_| None).ok()?;
+        }
+        Some(plan)
+    }
+
+    /// A plan of the same scene that spends less memory on speed. None where
+    /// this one spends none.
+    pub fn smaller(&self) -> Option<Plan> {
+        let less = match self.origin.1 {
+            Rewriting::Fast { thrifty: false } => Rewriting::Fast { thrifty: true },
+            Rewriting::Fast { thrifty: true } => Rewriting::Stable,
+            _ => return None,
+        };
+        self.again(&self.origin.0, less)
+    }
+
+    fn again(&self, graph: &Graph, rewriting: Rewriting) -> Option<Plan> {
         let goal = Goal {
             name: self.name.clone(),
             mode: self.mode,
             rows: Some(self.rows),
             plot: self.plot,
         };
-        let mut plan = planned(&graph, self.target, &goal, *stably).ok()?;
+        let mut plan = planned(graph, self.target, &goal, rewriting).ok()?;
         plan.params = self.params.clone();
-        if self.is_outlined() {
-            plan = plan.outlined(&|_| None).ok()?;
-        }
         Some(plan)
     }
 
@@ -258,17 +276,28 @@ fn writes(statement: &Statement, node: NodeId) -> bool {
 
 /// Plans a graph that `sema` lowered for this target's inks and offset.
 pub fn plan(graph: &Graph, target: &'static Target, goal: &Goal) -> Result<Plan, Vec<Diagnostic>> {
-    planned(graph, target, goal, true)
+    planned(graph, target, goal, Rewriting::Fast { thrifty: false })
 }
 
-/// The same without [`crate::passes::stable`]: every formula as the scene has
-/// it. For warnings about what the formulas lose, and to show what the pass does.
+/// The same without the passes that rewrite formulas ([`crate::passes::stable`]
+/// and those for speed): every one as the scene has it. For warnings about what the formulas lose, and to show what the pass does.
 pub fn plan_as_written(
     graph: &Graph,
     target: &'static Target,
     goal: &Goal,
 ) -> Result<Plan, Vec<Diagnostic>> {
-    planned(graph, target, goal, false)
+    planned(graph, target, goal, Rewriting::None)
+}
+
+/// Which passes may rewrite formulas.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Rewriting {
+    /// None: every formula as the scene has it.
+    None,
+    /// [`crate::passes::stable`].
+    Stable,
+    /// Those for speed, too; perhaps with little memory.
+    Fast { thrifty: bool },
 }
 
 /// How often stable forms are looked for: what one makes may let another in.
@@ -278,7 +307,7 @@ fn planned(
     origin: &Graph,
     target: &'static Target,
     goal: &Goal,
-    stably: bool,
+    rewriting: Rewriting,
 ) -> Result<Plan, Vec<Diagnostic>> {
     let runtime = target.runtime;
     if let Err(broken) = verify(origin) {
@@ -288,33 +317,32 @@ fn planned(
     }
     let params = params::params(origin, runtime)?;
     let slack = Slack::of(runtime);
-    let mut graph = fold(origin);
-    let mut tree = schedule(&graph);
-    let mut ranges_now = ranges(&graph, &tree, &slack);
-    for _ in 0..if stably { STABLE_ROUNDS } else { 0 } {
-        let Some(next) = stable(&graph, &ranges_now, slack.most()) else {
+    let mut now = scheduled(fold(origin), &slack);
+    let rounds = match rewriting {
+        Rewriting::None => 0,
+        _ => STABLE_ROUNDS,
+    };
+    for _ in 0..rounds {
+        let Some(next) = stable(&now.graph, &now.ranges, slack.most()) else {
             break;
         };
-        graph = fold(&next);
-        tree = schedule(&graph);
-        ranges_now = ranges(&graph, &tree, &slack);
+        now = scheduled(fold(&next), &slack);
     }
-    // What the ranges decide may let more be folded; a few rounds settle it.
-    for _ in 0..3 {
-        let next = fold(&narrow(&graph, &ranges_now));
-        if next.nodes == graph.nodes {
-            break;
-        }
-        graph = next;
-        tree = schedule(&graph);
-        ranges_now = ranges(&graph, &tree, &slack);
+    now = settle(&now.graph, &slack);
+    if let Rewriting::Fast { thrifty } = rewriting {
+        now = cheaper(now, &slack, runtime, thrifty);
     }
+    let Settled {
+        graph,
+        tree,
+        ranges,
+    } = now;
     if let Some(id) = missing(&graph, &tree) {
         let message = format!("the schedule lost {id}: a fault of the compiler, please report it");
         return Err(vec![Diagnostic::error(graph.span(id), message)]);
     }
-    let origin = (Box::new(origin.clone()), stably);
-    assemble(graph, tree, ranges_now, params, target, goal, origin)
+    let origin = (Box::new(origin.clone()), rewriting);
+    assemble(graph, tree, ranges, params, target, goal, origin)
 }
 
 /// A plan of statements whose ranges are known.
@@ -325,7 +353,7 @@ fn assemble(
     params: Vec<ParamPlan>,
     target: &'static Target,
     goal: &Goal,
-    origin: (Box<Graph>, bool),
+    origin: (Box<Graph>, Rewriting),
 ) -> Result<Plan, Vec<Diagnostic>> {
     let runtime = target.runtime;
     let routines = choose::choose(&graph, &tree, &ranges_now, runtime)?;

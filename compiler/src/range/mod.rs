@@ -9,11 +9,13 @@
 
 pub mod error;
 mod interval;
+mod parity;
 mod refine;
 
 use crate::flow::graph::*;
 use crate::flow::tree::*;
 use interval::interval;
+use parity::whole;
 use slowlight_routine::{Error, Format, Op, Range, Runtime, Type};
 use std::collections::HashMap;
 
@@ -440,7 +442,7 @@ impl Walk<'_> {
         let range = match self.graph.node(id) {
             Node::Apply(op, [a, b]) => {
                 let args = [self.read(a), self.read(b)];
-                let exact = interval(op, args, a == b);
+                let exact = whole(self.graph, id, args, interval(op, args, a == b));
                 if self.shared[at] == Some(true) {
                     let [a, b] = self.out.args[at];
                     self.out.args[at] = [a.join(args[0]), b.join(args[1])];

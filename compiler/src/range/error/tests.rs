@@ -6,7 +6,7 @@
 use super::*;
 use crate::eval::model::ModelRun;
 use crate::eval::native::Native;
-use crate::plan::{Goal, plan};
+use crate::plan::{Goal, plan_as_written};
 use crate::scene;
 use crate::sema::Options;
 use crate::target::{Target, default_mode, find};
@@ -139,7 +139,7 @@ fn planned(target: &'static Target, inputs: &[(String, f64, f64)], value: &str) 
         rows: None,
         plot: true,
     };
-    plan(&graph, target, &goal).unwrap_or_else(|e| panic!("{value}: {e:?}"))
+    plan_as_written(&graph, target, &goal).unwrap_or_else(|e| panic!("{value}: {e:?}"))
 }
 
 fn inputs(text: &str) -> Vec<(String, f64, f64)> {

@@ -1,0 +1,392 @@
+//! Forms: what a value is over the reals, as polynomials and inverse roots.
+//!
+//! A form is a sum of parts, each a polynomial times whole powers of inverse
+//! roots s = 1/sqrt(N), N a polynomial that is known to be above 0. Since s*s*N = 1,
+//! powers of s that differ by an even number are brought together, and a factor
+//! N goes against s*s. So a form has at most one part for each set of roots to
+//! an odd power: a component of a normalised vector is one part with s, its
+//! square a part without.
+//!
+//! Polynomials are in the pixel's place, in params, in what is the same for a
+//! whole row, and in ints of two values, whose squares are known.
+
+use super::number::Number;
+use super::poly::{Atom, Poly};
+use crate::flow::graph::*;
+use crate::passes::rate::{Dependence, Rates, rates};
+use crate::range::Ranges;
+use slowlight_routine::{Op, Range, Type};
+
+/// Powers of inverse roots, by the root's number, none 0.
+pub type Roots = Vec<(usize, i32)>;
+
+/// A polynomial times inverse roots.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Part {
+    pub roots: Roots,
+    pub poly: Poly,
+}
+
+/// A sum of parts.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Form {
+    pub parts: Vec<Part>,
+}
+
+/// How many parts a form may have.
+const PARTS: usize = 2;
+
+/// The forms of a graph's values.
+pub struct Forms<'g> {
+    pub graph: &'g Graph,
+    pub ranges: &'g Ranges,
+    pub rates: Rates,
+    of: Vec<Option<Form>>,
+    /// N of each root.
+    pub roots: Vec<Poly>,
+    /// What each atom beyond the nodes is the inverse of.
+    pub inverses: Vec<Poly>,
+}
+
+/// An int of two values: which they are.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Two {
+    pub low: i32,
+    pub high: i32,
+}
+
+impl<'g> Forms<'g> {
+    pub fn new(graph: &'g Graph, ranges: &'g Ranges) -> Forms<'g> {
+        let mut forms = Forms {
+            graph,
+            ranges,
+            rates: rates(graph),
+            of: vec![None; graph.nodes.len()],
+            roots: Vec::new(),
+            inverses: Vec::new(),
+        };
+        for id in graph.ids() {
+            forms.of[id.0 as usize] = forms.form(id);
+        }
+        forms
+    }
+
+    /// A value's form, if it has one.
+    pub fn get(&self, id: NodeId) -> Option<&Form> {
+        self.of.get(id.0 as usize).and_then(Option::as_ref)
+    }
+
+    /// Whether a node is another in every column.
+    pub fn pixel(&self, id: NodeId) -> bool {
+        self.rates.depends(id, Dependence::Column)
+    }
+
+    /// Whether an atom is another in every column.
+    pub fn varies(&self, atom: Atom) -> bool {
+        match self.inverse(atom) {
+            Some(of) => of.atoms().into_iter().any(|a| self.varies(a)),
+            None => self.pixel(NodeId(atom)),
+        }
+    }
+
+    /// What an atom is the inverse of, if it is one.
+    pub fn inverse(&self, atom: Atom) -> Option<&Poly> {
+        let at = (atom as usize).checked_sub(self.graph.nodes.len())?;
+        self.inverses.get(at)
+    }
+
+    /// The two values of an atom that has no more.
+    pub fn two(&self, atom: Atom) -> Option<Two> {
+        let id = NodeId(atom);
+        let range = self.ranges.result.get(atom as usize)?;
+        let few = range.hi - range.lo <= 2.0 && self.graph.ty(id) == Type::Int;
+        if self.inverse(atom).is_some() || !few {
+            return None;
+        }
+        let (low, high) = (range.lo as i32, range.hi as i32);
+        let sign = || match self.graph.node(id) {
+            Node::Apply(Op::Sign, [a, _]) => self.get(a).is_some_and(|f| self.never_zero(f)),
+            _ => false,
+        };
+        let fits = high - low == 1 || (low == -1 && high == 1 && sign());
+        fits.then_some(Two { low, high })
+    }
+
+    /// Whether a form is a whole odd number, but for a factor: never 0.
+    pub fn never_zero(&self, form: &Form) -> bool {
+        let [part] = form.parts.as_slice() else {
+            return false;
+        };
+        let odd = || {
+            let content = part.poly.content()?;
+            let whole = part.poly.scaled(content.inverse()?);
+            let ints = |atom: &Atom| {
+                self.inverse(*atom).is_none() && self.graph.ty(NodeId(*atom)) == Type::Int
+            };
+            let parity = |n: &Number| matches!(n, Number::Exact(n, 1) if n % 2 != 0);
+            let mut terms = whole.terms.iter();
+            let fits = whole.atoms().iter().all(ints)
+                && terms.all(|(monomial, n)| parity(n) == monomial.is_empty())
+                && whole.terms.contains_key(&Vec::new());
+            Some(fits)
+        };
+        odd() == Some(true)
+    }
+
+    fn form(&mut self, id: NodeId) -> Option<Form> {
+        if self.in_loop(id) {
+            return None;
+        }
+        match self.graph.node(id) {
+            Node::Const(c) if self.graph.ty(id) != Type::Bool => {
+                let number = Number::of(c.value().real());
+                Some(plain(Poly::constant(number)))
+            }
+            Node::Param(_) | Node::Axis(_) => Some(plain(Poly::atom(id.0))),
+            Node::Apply(op, [a, b]) => self.applied(id, op, a, b).or_else(|| self.opaque(id)),
+            _ => self.opaque(id),
+        }
+    }
+
+    fn in_loop(&self, id: NodeId) -> bool {
+        let inside = |d: &Dependence| matches!(d, Dependence::Loop(_) | Dependence::Last(_));
+        self.rates.rate(id).iter().any(inside)
+    }
+
+    /// A value of which nothing is known but that it is the same for a whole
+    /// row, or one of two.
+    fn opaque(&self, id: NodeId) -> Option<Form> {
+        let table = matches!(self.graph.node(id), Node::Lookup { .. });
+        let fits = match self.graph.ty(id) {
+            Type::Bool => false,
+            Type::Int => !self.pixel(id) || self.two(id.0).is_some(),
+            Type::Real => !self.pixel(id) || table,
+        };
+        fits.then(|| plain(Poly::atom(id.0)))
+    }
+
+    fn applied(&mut self, id: NodeId, op: Op, a: NodeId, b: NodeId) -> Option<Form> {
+        let fits = |r: Option<&Range>| r.is_some_and(|r| r.within(-2e9, 2e9));
+        let whole = fits(self.ranges.exact.get(id.0 as usize));
+        match op {
+            Op::IntAdd | Op::IntSub | Op::IntMul | Op::IntNeg if !whole => return None,
+            _ => {}
+        }
+        let x = self.get(a)?.clone();
+        let y = match op.arity() {
+            1 => Form::default(),
+            _ => self.get(b)?.clone(),
+        };
+        match op {
+            Op::ToReal => Some(x),
+            Op::Add | Op::IntAdd => self.sum(&x, &y),
+            Op::Sub | Op::IntSub => self.sum(&x, &scaled(&y, Number::whole(-1))),
+            Op::Neg | Op::IntNeg => Some(scaled(&x, Number::whole(-1))),
+            Op::Mul | Op::IntMul => self.product(&x, &y),
+            Op::Div => {
+                let divisor = self.ranges.args.get(id.0 as usize)?[1];
+                let safe = divisor.nonzero || self.never_zero(&y);
+                let inverse = safe.then(|| self.inverted(&y))??;
+                self.product(&x, &inverse)
+            }
+            Op::Sqrt => {
+                let argument = self.ranges.args.get(id.0 as usize)?[0];
+                (argument.lo > 0.0).then(|| self.root(&x))?
+            }
+            _ => None,
+        }
+    }
+
+    /// 1 divided by a form of one part, where it is a root's N, a constant or
+    /// the same for a whole row.
+    fn inverted(&mut self, form: &Form) -> Option<Form> {
+        let [part] = form.parts.as_slice() else {
+            return None;
+        };
+        let roots: Roots = part.roots.iter().map(|(r, k)| (*r, -k)).collect();
+        if let Some(number) = part.poly.value() {
+            let poly = Poly::constant(number.inverse()?);
+            return Some(one(roots, poly));
+        }
+        if part.poly.atoms().into_iter().any(|a| self.varies(a)) {
+            return None;
+        }
+        let (whole, factor) = primitive(&part.poly)?;
+        let at = match self.inverses.iter().position(|p| *p == whole) {
+            Some(at) => at,
+            None => {
+                self.inverses.push(whole);
+                self.inverses.len() - 1
+            }
+        };
+        let atom = u32::try_from(self.graph.nodes.len() + at).ok()?;
+        let poly = Poly::atom(atom).scaled(factor.inverse()?);
+        Some(one(roots, poly))
+    }
+
+    /// The square root of a polynomial above 0, as a root.
+    fn root(&mut self, form: &Form) -> Option<Form> {
+        let [part] = form.parts.as_slice() else {
+            return None;
+        };
+        if !part.roots.is_empty() || part.poly.value().is_some() {
+            return None;
+        }
+        let at = match self.roots.iter().position(|p| *p == part.poly) {
+            Some(at) => at,
+            None => {
+                self.roots.push(part.poly.clone());
+                self.roots.len() - 1
+            }
+        };
+        Some(one(vec![(at, -1)], Poly::constant(Number::ONE)))
+    }
+
+    /// The sum of two forms.
+    pub fn sum(&self, a: &Form, b: &Form) -> Option<Form> {
+        let mut sum = a.clone();
+        for part in &b.parts {
+            match sum
+                .parts
+                .iter()
+                .position(|p| together(&p.roots, &part.roots))
+            {
+                Some(at) => {
+                    let both = self.joined(&sum.parts[at], part)?;
+                    sum.parts[at] = both;
+                }
+                None => sum.parts.push(part.clone()),
+            }
+        }
+        sum.parts.retain(|p| !p.poly.is_zero());
+        (sum.parts.len() <= PARTS).then_some(sum)
+    }
+
+    /// Two parts whose roots differ by even powers, as one.
+    fn joined(&self, a: &Part, b: &Part) -> Option<Part> {
+        let mut roots = Roots::new();
+        let mut polys = [a.poly.clone(), b.poly.clone()];
+        for root in 0..self.roots.len() {
+            let powers = [power(&a.roots, root), power(&b.roots, root)];
+            let most = powers[0].max(powers[1]);
+            for (poly, power) in polys.iter_mut().zip(powers) {
+                // s^power = s^most N^((most - power) / 2)
+                for _ in 0..(most - power) / 2 {
+                    *poly = poly.mul(&self.roots[root])?;
+                }
+            }
+            if most != 0 {
+                roots.push((root, most));
+            }
+        }
+        let poly = polys[0].add(&polys[1])?;
+        self.reduced(Part { roots, poly })
+    }
+
+    /// The product of two forms.
+    pub fn product(&self, a: &Form, b: &Form) -> Option<Form> {
+        let mut sum = Form::default();
+        for x in &a.parts {
+            for y in &b.parts {
+                let part = self.reduced(Part {
+                    roots: multiplied(&x.roots, &y.roots),
+                    poly: x.poly.mul(&y.poly)?,
+                })?;
+                sum = self.sum(&sum, &Form { parts: vec![part] })?;
+            }
+        }
+        Some(sum)
+    }
+
+    /// A part with what its atoms and roots imply applied.
+    fn reduced(&self, mut part: Part) -> Option<Part> {
+        for atom in part.poly.atoms() {
+            if let Some(Two { low, high }) = self.two(atom) {
+                let (one, two) = match (low, high) {
+                    (-1, 1) => (Poly::atom(atom), Poly::constant(Number::ONE)),
+                    (0, 1) => (Poly::atom(atom), Poly::atom(atom)),
+                    _ => continue,
+                };
+                part.poly = part.poly.with_powers(atom, &one, &two)?;
+            }
+        }
+        for k in 0..part.roots.len() {
+            let (root, _) = part.roots[k];
+            let n = &self.roots[root];
+            let Some(main) = n.atoms().into_iter().find(|a| self.varies(*a)) else {
+                continue;
+            };
+            while part.roots[k].1 >= 2 {
+                let Some(less) = part.poly.divided(n, main) else {
+                    break;
+                };
+                part.poly = less;
+                part.roots[k].1 -= 2;
+            }
+        }
+        part.roots.retain(|(_, power)| *power != 0);
+        Some(part)
+    }
+}
+
+/// A polynomial divided by a number so that its coefficients are whole without
+/// a common divisor, or its last one is 1, and that number; the last
+/// coefficient is above 0.
+pub fn primitive(poly: &Poly) -> Option<(Poly, Number)> {
+    let lead = poly.lead();
+    let sign = Number::whole(if lead.real() < 0.0 { -1 } else { 1 });
+    let factor = match poly.content() {
+        Some(content) => content.mul(sign),
+        None => lead,
+    };
+    Some((poly.scaled(factor.inverse()?), factor))
+}
+
+fn plain(poly: Poly) -> Form {
+    one(Roots::new(), poly)
+}
+
+fn one(roots: Roots, poly: Poly) -> Form {
+    let parts = match poly.is_zero() {
+        true => Vec::new(),
+        false => vec![Part { roots, poly }],
+    };
+    Form { parts }
+}
+
+/// A form times a number.
+pub fn scaled(form: &Form, by: Number) -> Form {
+    let parts = form.parts.iter().map(|p| Part {
+        roots: p.roots.clone(),
+        poly: p.poly.scaled(by),
+    });
+    Form {
+        parts: parts.collect(),
+    }
+}
+
+fn power(roots: &Roots, root: usize) -> i32 {
+    roots
+        .iter()
+        .find(|(r, _)| *r == root)
+        .map_or(0, |(_, k)| *k)
+}
+
+/// Whether the powers of all roots differ by even numbers.
+fn together(a: &Roots, b: &Roots) -> bool {
+    multiplied(a, b).iter().all(|(_, k)| k % 2 == 0)
+}
+
+/// The powers of a product.
+pub fn multiplied(a: &Roots, b: &Roots) -> Roots {
+    let mut all: Roots = a.clone();
+    for (root, k) in b {
+        match all.iter_mut().find(|(r, _)| r == root) {
+            Some(held) => held.1 += k,
+            None => all.push((*root, *k)),
+        }
+    }
+    all.retain(|(_, k)| *k != 0);
+    all.sort_unstable();
+    all
+}

@@ -1,0 +1,204 @@
+//! Whether what algebra puts in the place of a value is worth it: the machine's
+//! cycles for a pixel, and what is lost to roundings.
+//!
+//! Roundings are followed through both formulas at pixels spread over the picture
+//! (and params over their ranges), to first order: each operation adds a unit in
+//! the last place of its result, exact ones nothing. That is an estimate, not a
+//! bound; it is compared with the same estimate for what stands there now.
+
+use crate::flow::graph::*;
+use slowlight_routine::{Op, Runtime, Type, Value};
+use std::collections::{HashMap, HashSet};
+
+/// Nodes of a graph that is there or being built.
+pub trait Nodes {
+    fn node(&self, id: NodeId) -> Node;
+}
+
+impl Nodes for Graph {
+    fn node(&self, id: NodeId) -> Node {
+        Graph::node(self, id)
+    }
+}
+
+impl Nodes for crate::flow::build::Builder {
+    fn node(&self, id: NodeId) -> Node {
+        crate::flow::build::Builder::node(self, id)
+    }
+}
+
+/// Cycles a pixel for all that a value needs and that is another in every column.
+pub fn cycles(nodes: &dyn Nodes, root: NodeId, runtime: &Runtime) -> u32 {
+    let mut varies = HashMap::new();
+    let mut seen = HashSet::new();
+    let mut todo = vec![root];
+    let mut sum = 0;
+    while let Some(id) = todo.pop() {
+        if !column(nodes, id, &mut varies, 0) || !seen.insert(id) {
+            continue;
+        }
+        let node = nodes.node(id);
+        if let Node::Apply(op, _) = node {
+            let found = runtime.routines.iter().find(|r| r.op == op);
+            sum += found.map_or(0, |r| r.cycles);
+        }
+        todo.extend(node.operands());
+    }
+    sum
+}
+
+/// Whether a node depends on the column (or on a loop); deep graphs count as such.
+fn column(nodes: &dyn Nodes, id: NodeId, known: &mut HashMap<NodeId, bool>, deep: u32) -> bool {
+    if let Some(&found) = known.get(&id) {
+        return found;
+    }
+    let made = match nodes.node(id) {
+        Node::Axis(Axis::X) => true,
+        _ if deep > 500 => true,
+        Node::Carried { .. } | Node::Last { .. } | Node::Result { .. } | Node::Received => true,
+        node => node.operands().any(|a| column(nodes, a, known, deep + 1)),
+    };
+    known.insert(id, made);
+    made
+}
+
+/// A pixel and params.
+#[derive(Clone, Debug)]
+pub struct Sample {
+    x: f64,
+    y: f64,
+    params: Vec<f64>,
+}
+
+/// Pixels spread over the picture, params over their ranges.
+pub fn samples(graph: &Graph) -> Vec<Sample> {
+    let places = |n: u32, count: u32| {
+        let last = n.saturating_sub(1);
+        (0..count).map(move |k| f64::from(last * k / (count - 1)))
+    };
+    let kinds = if graph.params.is_empty() { 1 } else { 5 };
+    let params = (0..kinds).map(|kind| {
+        let each = graph.params.iter().enumerate().map(|(k, p)| {
+            let (lo, hi) = p.range.map_or((p.value, p.value), |r| (r.lo, r.hi));
+            match kind {
+                0 => p.value,
+                1 => lo,
+                2 => hi,
+                n if (k + n).is_multiple_of(2) => lo + (hi - lo) * 0.27,
+                _ => lo + (hi - lo) * 0.81,
+            }
+        });
+        each.collect::<Vec<f64>>()
+    });
+    let params: Vec<Vec<f64>> = params.collect();
+    let mut all = Vec::new();
+    for y in places(graph.image.height, 6) {
+        for x in places(graph.image.width, 7) {
+            let of = |params: &Vec<f64>| Sample {
+                x,
+                y,
+                params: params.clone(),
+            };
+            all.extend(params.iter().map(of));
+        }
+    }
+    all
+}
+
+/// A value and how far roundings may have moved it, in units of the format's.
+#[derive(Clone, Copy, Debug)]
+pub struct Rounded {
+    pub value: f64,
+    pub off: f64,
+}
+
+impl Rounded {
+    fn exact(value: f64) -> Rounded {
+        Rounded { value, off: 0.0 }
+    }
+}
+
+/// A value at a sample; nothing where it depends on a loop.
+pub struct Follow<'n> {
+    pub nodes: &'n dyn Nodes,
+    pub tables: &'n dyn Fn(TableId) -> Option<&'n Table>,
+    pub sample: &'n Sample,
+    pub known: HashMap<NodeId, Rounded>,
+}
+
+impl Follow<'_> {
+    pub fn value(&mut self, id: NodeId, deep: u32) -> Option<Rounded> {
+        if let Some(found) = self.known.get(&id) {
+            return Some(*found);
+        }
+        if deep > 500 {
+            return None;
+        }
+        let made = match self.nodes.node(id) {
+            Node::Const(c) => constant(c.value()),
+            Node::Param(p) => Rounded::exact(*self.sample.params.get(p.0 as usize)?),
+            Node::Axis(Axis::X) => Rounded::exact(self.sample.x),
+            Node::Axis(Axis::Y) => Rounded::exact(self.sample.y),
+            Node::Select { cond, yes, no } => {
+                let cond = self.value(cond, deep + 1)?.value != 0.0;
+                self.value(if cond { yes } else { no }, deep + 1)?
+            }
+            Node::Lookup { table, column, row } => {
+                let place = [column, row].map(|id| self.value(id, deep + 1));
+                let [Some(column), Some(row)] = place else {
+                    return None;
+                };
+                let table = (self.tables)(table)?;
+                constant(table.at(column.value as i32, row.value as i32))
+            }
+            Node::Apply(op, [a, b]) => {
+                let a = self.value(a, deep + 1)?;
+                let b = match op.arity() {
+                    1 => a,
+                    _ => self.value(b, deep + 1)?,
+                };
+                applied(op, a, b)
+            }
+            _ => return None,
+        };
+        self.known.insert(id, made);
+        Some(made)
+    }
+}
+
+fn constant(value: Value) -> Rounded {
+    let value = value.real();
+    let off = if value.fract() == 0.0 {
+        0.0
+    } else {
+        value.abs() / 2.0
+    };
+    Rounded { value, off }
+}
+
+fn applied(op: Op, a: Rounded, b: Rounded) -> Rounded {
+    let args = [a.value, b.value].map(|x| match op.args().first() {
+        Some(Type::Int) => Value::Int(x as i32),
+        Some(Type::Bool) => Value::Bool(x != 0.0),
+        _ => Value::Real(x),
+    });
+    let value = op.eval(&args[..op.arity()]).real();
+    let carried = match op {
+        Op::Add | Op::Sub | Op::IntAdd | Op::IntSub => a.off + b.off,
+        Op::Mul | Op::IntMul => a.off * b.value.abs() + b.off * a.value.abs(),
+        Op::Div => (a.off + value.abs() * b.off) / b.value.abs().max(1e-300),
+        Op::Sqrt => a.off / (2.0 * value).max(1e-300),
+        Op::Min | Op::Max => a.off.max(b.off),
+        _ => a.off,
+    };
+    // Whole numbers that are not large are exact.
+    let whole = value.fract() == 0.0 && value.abs() < 4e9 && carried == 0.0;
+    let own = match op.result() {
+        Type::Real if !whole && !matches!(op, Op::Neg | Op::Abs) => value.abs(),
+        _ => 0.0,
+    };
+    Rounded {
+        value,
+        off: carried + own,
+    }
+}

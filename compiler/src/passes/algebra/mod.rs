@@ -1,0 +1,240 @@
+//! Algebra: values that are cheaper in another form over the reals.
+//!
+//! The rays of a picture without turns of a loop are algebra: a direction is an
+//! affine function of the column and the row divided by its length, and what a
+//! ray meets is decided by polynomials in it. This pass finds such [`form`]s and
+//! puts them, where a machine needs fewer cycles for them, in the place of
+//!
+//! - a comparison: of a difference's sign alone, so the length of a direction
+//!   that is a factor of it need not be known, and a discriminant is a quadratic
+//!   in the column, its coefficients the same for a whole row;
+//! - a comparison of a root with something else: of their squares, with their
+//!   signs kept, a|a| < b|b|, which is the same for all reals;
+//! - a value that something else needs: the place on a floor is affine in the
+//!   column, since the length of the ray's direction goes against itself.
+//!
+//! Both sides are equal over the reals wherever the value is needed: roots are of
+//! what is proved to be above 0, divisors proved not to be 0. What is lost to
+//! roundings is estimated on both sides ([`judge`]); the pass leaves formats
+//! alone that have nothing to lose.
+
+mod form;
+mod judge;
+mod number;
+mod poly;
+mod put;
+mod rooted;
+#[cfg(test)]
+mod tests;
+
+use super::rebuild::rebuild_old;
+use crate::flow::build::Builder;
+use crate::flow::graph::*;
+use crate::range::Ranges;
+use crate::source::Span;
+use form::{Form, Forms, Part, multiplied, scaled};
+use judge::{Follow, Nodes, Rounded, Sample, cycles, samples};
+use number::Number;
+use put::Put;
+use slowlight_routine::{Format, Op, Runtime, Type};
+use std::collections::HashMap;
+
+/// By how much a form's roundings may exceed those of what it replaces, given
+/// the format's unit roundoff: what leaves a picture twenty bits.
+fn allowance(format: Format) -> f64 {
+    match format {
+        Format::Real40 | Format::Float316 => (0.5f64.powi(20) / format.epsilon()).min(64.0),
+        // A fixed point has no relative roundings.
+        _ => 0.0,
+    }
+}
+
+/// A graph with cheaper forms in it.
+pub struct Cheaper {
+    pub graph: Graph,
+    /// The nodes of the old graph for which they stand.
+    pub sites: Vec<NodeId>,
+}
+
+/// The graph with cheaper forms in the place of nodes that `may` be replaced;
+/// nothing where there are none, or where the format bears none.
+pub fn algebra(
+    graph: &Graph,
+    ranges: &Ranges,
+    runtime: &Runtime,
+    may: &dyn Fn(NodeId) -> bool,
+) -> Option<Cheaper> {
+    let allowance = allowance(runtime.real);
+    if allowance < 1.0 {
+        return None;
+    }
+    let forms = Forms::new(graph, ranges);
+    let site = Site {
+        exits: exits(&forms),
+        samples: samples(graph),
+        forms,
+        runtime,
+        allowance,
+    };
+    let mut sites = Vec::new();
+    let next = rebuild_old(graph, &mut |builder, made, id, span| {
+        let new = |old: NodeId| made.get(old.0 as usize).copied().flatten();
+        let put = may(id).then(|| site.rewritten(builder, &new, id, span))??;
+        sites.push(id);
+        Some(put)
+    });
+    let some = !sites.is_empty();
+    some.then_some(Cheaper { graph: next, sites })
+}
+
+/// Which values with a form something needs that has none.
+fn exits(forms: &Forms<'_>) -> Vec<bool> {
+    let graph = forms.graph;
+    let mut exits = vec![false; graph.nodes.len()];
+    let reached = graph.reached();
+    for id in graph.ids().filter(|id| reached[id.0 as usize]) {
+        if forms.get(id).is_none_or(|f| atom_of(f) == Some(id.0)) {
+            for used in graph.references(id) {
+                exits[used.0 as usize] = true;
+            }
+        }
+    }
+    graph.roots().for_each(|id| exits[id.0 as usize] = true);
+    exits
+}
+
+/// The atom that a form is.
+fn atom_of(form: &Form) -> Option<u32> {
+    match form.parts.as_slice() {
+        [Part { roots, poly }] if roots.is_empty() => match poly.atoms().as_slice() {
+            [atom] if *poly == poly::Poly::atom(*atom) => Some(*atom),
+            _ => None,
+        },
+        _ => None,
+    }
+}
+
+struct Site<'g> {
+    forms: Forms<'g>,
+    exits: Vec<bool>,
+    samples: Vec<Sample>,
+    runtime: &'g Runtime,
+    allowance: f64,
+}
+
+type New<'n> = &'n dyn Fn(NodeId) -> Option<NodeId>;
+
+impl Site<'_> {
+    /// What stands for a node.
+    fn rewritten(&self, b: &mut Builder, new: New<'_>, id: NodeId, span: Span) -> Option<NodeId> {
+        let graph = self.forms.graph;
+        if !self.forms.pixel(id) {
+            return None;
+        }
+        let mut put = Put {
+            forms: &self.forms,
+            builder: b,
+            new,
+            span,
+        };
+        let made = match graph.node(id) {
+            Node::Apply(op @ (Op::Less | Op::LessEqual | Op::Equal), [x, y]) => {
+                let (x, y) = (self.forms.get(x)?, self.forms.get(y)?);
+                let difference = self.forms.sum(x, &scaled(y, Number::whole(-1)))?;
+                compared(&mut put, op, &difference)?
+            }
+            Node::Apply(Op::Sign, _) => {
+                let two = self.forms.two(id.0).filter(|two| two.low == -1)?;
+                put.sign(id, two)?
+            }
+            Node::Apply(..) if self.exits[id.0 as usize] && graph.ty(id) == Type::Real => {
+                let form = self.forms.get(id).filter(|f| atom_of(f).is_none())?;
+                put.value(form)?
+            }
+            _ => return None,
+        };
+        let (old, now) = (
+            cycles(graph, id, self.runtime),
+            cycles(&*b, made, self.runtime),
+        );
+        (now < old && self.sound(b, new, id, made)).then_some(made)
+    }
+
+    /// Whether roundings do no more to a value or a comparison than allowed.
+    fn sound(&self, b: &Builder, new: New<'_>, old: NodeId, made: NodeId) -> bool {
+        let graph = self.forms.graph;
+        let mut told = 0;
+        for sample in &self.samples {
+            let tables = |t: TableId| graph.tables.get(t.0 as usize);
+            let mut follow = Follow {
+                nodes: graph,
+                tables: &tables,
+                sample,
+                known: HashMap::new(),
+            };
+            let Some(before) = relative(&mut follow, graph, old) else {
+                continue;
+            };
+            // What both need is the same in both.
+            let shared = follow.known.iter().filter(|(id, _)| {
+                matches!(graph.node(**id), Node::Lookup { .. }) || graph.ty(**id) == Type::Int
+            });
+            let known = shared.filter_map(|(id, value)| Some((new(*id)?, *value)));
+            let tables = |t: TableId| b.table_of(t);
+            let mut follow = Follow {
+                nodes: b,
+                tables: &tables,
+                sample,
+                known: known.collect(),
+            };
+            let Some(after) = relative(&mut follow, b, made) else {
+                return false;
+            };
+            told += 1;
+            if after > self.allowance * before.max(2.0) {
+                return false;
+            }
+        }
+        told > 0
+    }
+}
+
+/// How much of a value, or of a comparison's difference, roundings may change:
+/// in units of the format, as a part of it.
+fn relative(follow: &mut Follow<'_>, nodes: &dyn Nodes, id: NodeId) -> Option<f64> {
+    let part = |r: Rounded| r.off / r.value.abs().max(1e-300);
+    match nodes.node(id) {
+        Node::Const(_) => Some(0.0),
+        Node::Apply(op, [a, b]) if op.result() == Type::Bool && op.arity() == 2 => {
+            let (a, b) = (follow.value(a, 0)?, follow.value(b, 0)?);
+            Some(part(Rounded {
+                value: a.value - b.value,
+                off: a.off + b.off,
+            }))
+        }
+        _ => follow.value(id, 0).map(part),
+    }
+}
+
+/// Whether a form is less than 0, at most 0, or 0.
+fn compared(put: &mut Put<'_, '_>, op: Op, form: &Form) -> Option<NodeId> {
+    match form.parts.as_slice() {
+        [part] => put.test(op, &part.poly),
+        [a, b] => {
+            // p s^k + q s^l < 0 as p s^(k-l) < -q, and that squared.
+            let down = |part: &Part| part.roots.iter().map(|(_, k)| *k).sum::<i32>();
+            let (a, b) = if down(a) >= down(b) { (a, b) } else { (b, a) };
+            let inverse = b.roots.iter().map(|(r, k)| (*r, -k)).collect();
+            let left = put.signed_square(&Part {
+                roots: multiplied(&a.roots, &inverse),
+                poly: a.poly.clone(),
+            })?;
+            let right = put.signed_square(&Part {
+                roots: Vec::new(),
+                poly: b.poly.scaled(Number::whole(-1)),
+            })?;
+            Some(put.builder.apply(op, &[left, right], put.span))
+        }
+        _ => None,
+    }
+}

@@ -1,0 +1,204 @@
+//! Polynomials in several atoms, with a bounded number of terms.
+
+use super::number::{Number, common};
+use std::collections::BTreeMap;
+
+/// What a polynomial is in: a node's number, or an inverse's beyond those.
+pub type Atom = u32;
+
+/// Atoms and their powers, sorted, none 0.
+pub type Monomial = Vec<(Atom, u32)>;
+
+/// How many terms and what degree a polynomial may have.
+const TERMS: usize = 160;
+const DEGREE: u32 = 8;
+
+/// A sum of monomials with coefficients that are not 0.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Poly {
+    pub terms: BTreeMap<Monomial, Number>,
+}
+
+impl Poly {
+    pub fn constant(number: Number) -> Poly {
+        let mut made = Poly::default();
+        made.accrue(Vec::new(), number);
+        made
+    }
+
+    pub fn atom(atom: Atom) -> Poly {
+        let mut made = Poly::default();
+        made.accrue(vec![(atom, 1)], Number::ONE);
+        made
+    }
+
+    fn accrue(&mut self, monomial: Monomial, number: Number) {
+        let sum = match self.terms.get(&monomial) {
+            Some(held) => held.add(number),
+            None => number,
+        };
+        if sum.is_zero() {
+            self.terms.remove(&monomial);
+        } else {
+            self.terms.insert(monomial, sum);
+        }
+    }
+
+    pub fn is_zero(&self) -> bool {
+        self.terms.is_empty()
+    }
+
+    /// Its value, if it is a constant.
+    pub fn value(&self) -> Option<Number> {
+        match self.terms.len() {
+            0 => Some(Number::ZERO),
+            1 => self.terms.get(&Vec::new()).copied(),
+            _ => None,
+        }
+    }
+
+    pub fn add(&self, other: &Poly) -> Option<Poly> {
+        let mut sum = self.clone();
+        for (monomial, number) in &other.terms {
+            sum.accrue(monomial.clone(), *number);
+        }
+        (sum.terms.len() <= TERMS).then_some(sum)
+    }
+
+    pub fn scaled(&self, by: Number) -> Poly {
+        let mut out = Poly::default();
+        for (monomial, number) in &self.terms {
+            out.accrue(monomial.clone(), number.mul(by));
+        }
+        out
+    }
+
+    pub fn mul(&self, other: &Poly) -> Option<Poly> {
+        if self.terms.len() * other.terms.len() > TERMS * 8 {
+            return None;
+        }
+        let mut out = Poly::default();
+        for (a, x) in &self.terms {
+            for (b, y) in &other.terms {
+                let both = product(a, b);
+                if both.iter().map(|(_, k)| k).sum::<u32>() > DEGREE {
+                    return None;
+                }
+                out.accrue(both, x.mul(*y));
+            }
+        }
+        (out.terms.len() <= TERMS).then_some(out)
+    }
+
+    /// The atoms in it, sorted.
+    pub fn atoms(&self) -> Vec<Atom> {
+        let mut all: Vec<Atom> = self.terms.keys().flatten().map(|(atom, _)| *atom).collect();
+        all.sort_unstable();
+        all.dedup();
+        all
+    }
+
+    /// As a polynomial in one atom: its coefficients, from power 0 on.
+    pub fn by(&self, atom: Atom) -> Vec<Poly> {
+        let mut all = vec![Poly::default()];
+        for (monomial, number) in &self.terms {
+            let power = monomial
+                .iter()
+                .find(|(a, _)| *a == atom)
+                .map_or(0, |(_, k)| *k);
+            let rest = monomial
+                .iter()
+                .copied()
+                .filter(|(a, _)| *a != atom)
+                .collect();
+            while all.len() <= power as usize {
+                all.push(Poly::default());
+            }
+            all[power as usize].accrue(rest, *number);
+        }
+        all
+    }
+
+    /// With every power of an atom replaced: by `one` where it is odd, by
+    /// `two` where it is even (and not 0).
+    pub fn with_powers(&self, atom: Atom, one: &Poly, two: &Poly) -> Option<Poly> {
+        let mut out = Poly::default();
+        for (power, part) in self.by(atom).iter().enumerate() {
+            out = out.add(&match power {
+                0 => part.clone(),
+                p if p % 2 == 1 => part.mul(one)?,
+                _ => part.mul(two)?,
+            })?;
+        }
+        Some(out)
+    }
+
+    /// With a number in the place of an atom.
+    pub fn at(&self, atom: Atom, value: i128) -> Option<Poly> {
+        let mut out = Poly::default();
+        for (power, part) in self.by(atom).iter().enumerate() {
+            let power = Number::whole(value.checked_pow(power as u32)?);
+            out = out.add(&part.scaled(power))?;
+        }
+        Some(out)
+    }
+
+    /// The quotient by a polynomial whose highest power of `atom` has a
+    /// constant coefficient; nothing where a rest is left.
+    pub fn divided(&self, by: &Poly, atom: Atom) -> Option<Poly> {
+        let divisor = by.by(atom);
+        let degree = divisor.len() - 1;
+        let inverse = divisor[degree].value()?.inverse()?;
+        if degree == 0 {
+            return None;
+        }
+        let (mut rest, mut out) = (self.clone(), Poly::default());
+        while !rest.is_zero() {
+            let parts = rest.by(atom);
+            let over = (parts.len() - 1).checked_sub(degree)?;
+            let power = Poly {
+                terms: BTreeMap::from([(power_of(atom, over as u32), Number::ONE)]),
+            };
+            let term = parts[parts.len() - 1].scaled(inverse).mul(&power)?;
+            out = out.add(&term)?;
+            rest = rest.add(&term.mul(by)?.scaled(Number::whole(-1)))?;
+        }
+        Some(out)
+    }
+
+    /// What it must be divided by, above 0, to have whole coefficients without
+    /// a common divisor; nothing where they are not all fractions.
+    pub fn content(&self) -> Option<Number> {
+        let (mut top, mut bottom) = (0i128, 1i128);
+        for number in self.terms.values() {
+            let Number::Exact(n, d) = *number else {
+                return None;
+            };
+            top = common(n, top);
+            bottom = bottom.checked_mul(d / common(bottom, d))?;
+        }
+        // Fractions in lowest terms: the divisor of the tops over the multiple of the bottoms.
+        (!self.is_zero()).then(|| Number::Exact(top, 1).mul(Number::Exact(1, bottom)))
+    }
+
+    /// The coefficient of the last monomial, which decides how it is turned.
+    pub fn lead(&self) -> Number {
+        let last = self.terms.iter().next_back();
+        last.map_or(Number::ZERO, |(_, number)| *number)
+    }
+}
+
+fn power_of(atom: Atom, power: u32) -> Monomial {
+    match power {
+        0 => Vec::new(),
+        _ => vec![(atom, power)],
+    }
+}
+
+fn product(a: &Monomial, b: &Monomial) -> Monomial {
+    let mut both: BTreeMap<Atom, u32> = a.iter().copied().collect();
+    for (atom, power) in b {
+        *both.entry(*atom).or_default() += power;
+    }
+    both.into_iter().collect()
+}

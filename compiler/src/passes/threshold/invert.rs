@@ -1,0 +1,269 @@
+//! Finding the monotone steps from a shade to an ink, and inverting them.
+
+use crate::flow::graph::*;
+use crate::range::Ranges;
+use slowlight_routine::{Op, Range, Type, Value};
+
+/// What the thresholds depend on, beside constants.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Selector {
+    /// An entry of a constant table.
+    Entry {
+        of: TableId,
+        column: NodeId,
+        row: NodeId,
+    },
+    /// An int of few values, from `low` on.
+    Int {
+        node: NodeId,
+        low: i32,
+        count: usize,
+    },
+}
+
+/// The steps from a value to what is monotone in it.
+#[derive(Clone, Debug)]
+pub struct Chain {
+    /// The value.
+    pub value: NodeId,
+    /// The steps, the last one first.
+    pub steps: Vec<NodeId>,
+    /// Whether the result grows with the value.
+    pub rising: bool,
+    /// What else the steps depend on.
+    pub selector: Option<Selector>,
+    /// The selector's node.
+    cell: Option<NodeId>,
+    /// Whether the result grows with each step's result.
+    slopes: Vec<bool>,
+}
+
+/// How a step moves with the argument that is followed.
+fn slope(op: Op, first: bool, other: Option<Range>) -> Option<bool> {
+    let sign = || match other {
+        Some(r) if r.lo >= 0.0 => Some(true),
+        Some(r) if r.hi <= 0.0 => Some(false),
+        _ => None,
+    };
+    match op {
+        Op::Add | Op::Min | Op::Max | Op::Sqrt | Op::Floor | Op::Round | Op::Sign => Some(true),
+        Op::ToReal | Op::IntAdd | Op::IntMin | Op::IntMax | Op::IntSign => Some(true),
+        Op::Sub | Op::IntSub => Some(first),
+        Op::Neg | Op::IntNeg => Some(false),
+        Op::Mul | Op::IntMul => sign(),
+        Op::Div | Op::IntDiv if first => sign(),
+        _ => None,
+    }
+}
+
+impl Chain {
+    /// The longest chain of monotone steps that ends in a node.
+    pub fn find(graph: &Graph, ranges: &Ranges, end: NodeId) -> Option<Chain> {
+        let mut chain = Chain {
+            value: end,
+            steps: Vec::new(),
+            rising: true,
+            selector: None,
+            cell: None,
+            slopes: Vec::new(),
+        };
+        while chain.step(graph, ranges).is_some() {}
+        // What is compared is a real.
+        while graph.ty(chain.value) != Type::Real {
+            (chain.value, chain.rising) = (chain.steps.pop()?, chain.slopes.pop()?);
+        }
+        (!chain.steps.is_empty()).then_some(chain)
+    }
+
+    fn step(&mut self, graph: &Graph, ranges: &Ranges) -> Option<()> {
+        let Node::Apply(op, [a, b]) = graph.node(self.value) else {
+            return None;
+        };
+        let (next, other) = if op.arity() == 1 {
+            (a, None)
+        } else if self.tabulates(graph, ranges, b) && graph.constant(a).is_none() {
+            (a, Some(b))
+        } else if self.tabulates(graph, ranges, a) {
+            (b, Some(a))
+        } else {
+            return None;
+        };
+        if graph.ty(next) == Type::Bool || self.tabulates(graph, ranges, next) {
+            return None;
+        }
+        let span = match other {
+            Some(other) => Some(self.span_of(graph, other)?),
+            None => None,
+        };
+        let rises = slope(op, next == a, span)?;
+        self.steps.push(self.value);
+        self.slopes.push(self.rising);
+        self.rising ^= !rises;
+        self.value = next;
+        Some(())
+    }
+
+    /// Whether a node depends on constants and the selector alone; the first
+    /// selector that is met is taken.
+    fn tabulates(&mut self, graph: &Graph, ranges: &Ranges, id: NodeId) -> bool {
+        let mut tried = self.clone();
+        let fits = tried.follows(graph, ranges, id, 12);
+        if fits {
+            (self.selector, self.cell) = (tried.selector, tried.cell);
+        }
+        fits
+    }
+
+    fn follows(&mut self, graph: &Graph, ranges: &Ranges, id: NodeId, deep: u32) -> bool {
+        if graph.constant(id).is_some() || self.cell == Some(id) {
+            return true;
+        }
+        let selector = match graph.node(id) {
+            _ if deep == 0 => return false,
+            Node::Apply(_, args) => {
+                let held = self.clone();
+                let arity = graph.node(id).operands().count();
+                let follow = |a: &NodeId| self.follows(graph, ranges, *a, deep - 1);
+                if args[..arity].iter().all(follow) {
+                    return true;
+                }
+                *self = held;
+                few(graph, ranges, id)
+            }
+            Node::Lookup { table, column, row } => {
+                let cells = graph.tables.get(table.0 as usize).map(|t| t.entries.len());
+                cells
+                    .filter(|n| *n <= super::CELLS)
+                    .map(|_| Selector::Entry {
+                        of: table,
+                        column,
+                        row,
+                    })
+            }
+            _ => few(graph, ranges, id),
+        };
+        match (selector, self.cell) {
+            (Some(selector), None) => {
+                (self.selector, self.cell) = (Some(selector), Some(id));
+                true
+            }
+            _ => false,
+        }
+    }
+
+    /// The selector's values.
+    fn cells(&self, graph: &Graph) -> Vec<Value> {
+        match self.selector {
+            None => vec![Value::Int(0)],
+            Some(Selector::Entry { of, .. }) => {
+                let table = graph.tables.get(of.0 as usize);
+                let entries = table.into_iter().flat_map(|t| &t.entries);
+                entries.map(|e| e.value()).collect()
+            }
+            Some(Selector::Int { low, count, .. }) => {
+                (0..count as i32).map(|k| Value::Int(low + k)).collect()
+            }
+        }
+    }
+
+    /// What a node that depends on the selector stays within.
+    fn span_of(&self, graph: &Graph, id: NodeId) -> Option<Range> {
+        let all = self.cells(graph).into_iter();
+        let ranges = all.map(|cell| Range::point(self.eval(graph, id, None, cell).real()));
+        ranges.reduce(Range::join)
+    }
+
+    /// A node's value, given that of the chain's start and the selector's.
+    fn eval(&self, graph: &Graph, id: NodeId, start: Option<f64>, cell: Value) -> Value {
+        if self.cell == Some(id) {
+            return cell;
+        }
+        if let Some(x) = start
+            && id == self.value
+        {
+            return Value::Real(x);
+        }
+        match graph.node(id) {
+            Node::Const(c) => c.value(),
+            Node::Apply(op, args) => {
+                let args = args.map(|a| self.eval(graph, a, start, cell));
+                op.eval(&args[..op.arity()])
+            }
+            _ => Value::Int(0),
+        }
+    }
+
+    /// For each result above the lowest, what the value is compared with, by
+    /// the selector's values: below it the result is on the one side, from it
+    /// on at the other.
+    pub fn thresholds(
+        &self,
+        graph: &Graph,
+        ranges: &Ranges,
+        low: i32,
+        high: i32,
+    ) -> Option<Vec<Vec<f64>>> {
+        let end = *self.steps.first()?;
+        let range = ranges.result.get(self.value.0 as usize)?;
+        // Where no value reaches a result, any number beyond them all will do.
+        let beyond = (range.magnitude() * 2.0 + 1.0).min(1e30);
+        let cells = self.cells(graph);
+        let find = |ink: i32, cell: Value| {
+            let above = |x: f64| self.eval(graph, end, Some(x), cell).int() >= ink;
+            least(|x| above(x) == self.rising).clamp(-beyond, beyond)
+        };
+        let inks = low + 1..=high;
+        Some(
+            inks.map(|ink| cells.iter().map(|cell| find(ink, *cell)).collect())
+                .collect(),
+        )
+    }
+}
+
+/// An int that can have few values only.
+fn few(graph: &Graph, ranges: &Ranges, id: NodeId) -> Option<Selector> {
+    let range = ranges.result.get(id.0 as usize)?;
+    let count = range.hi - range.lo + 1.0;
+    (count <= 16.0 && whole(graph, id, 12)).then_some(Selector::Int {
+        node: id,
+        low: range.lo as i32,
+        count: count as usize,
+    })
+}
+
+/// Whether a node is made of ints alone: of the pixel's place, say. What is
+/// rounded to an int may have few values too, but is what a chain follows.
+fn whole(graph: &Graph, id: NodeId, deep: u32) -> bool {
+    graph.ty(id) == Type::Int
+        && deep > 0
+        && match graph.node(id) {
+            Node::Const(_) | Node::Param(_) | Node::Axis(_) => true,
+            node @ Node::Apply(..) => node.operands().all(|a| whole(graph, a, deep - 1)),
+            _ => false,
+        }
+}
+
+/// The least real for which something holds that holds from there on; the
+/// greatest real where it never does.
+fn least(holds: impl Fn(f64) -> bool) -> f64 {
+    // The reals in order, as integers.
+    let real = |k: i64| {
+        f64::from_bits(if k < 0 {
+            (!k as u64) | (1 << 63)
+        } else {
+            k as u64
+        })
+    };
+    let top = f64::MAX.to_bits() as i64;
+    let (mut under, mut over) = (!top, top);
+    while under < over {
+        // Their mean, rounded down, without overflow.
+        let middle = (under & over) + ((under ^ over) >> 1);
+        if holds(real(middle)) {
+            over = middle;
+        } else {
+            under = middle + 1;
+        }
+    }
+    real(over) + 0.0
+}

@@ -1,0 +1,186 @@
+//! Threshold: an ink that grows or falls with a shade is found by comparing the
+//! shade, not by working the ink out.
+//!
+//! A dither takes a shade v through steps that are each monotone (a square root,
+//! a product with a constant, the addition of the dither's cell, a floor) to one
+//! of a few inks. So for every ink there is a number that v must reach, and the
+//! ink is a few comparisons: two for four inks. The numbers depend on the cell,
+//! so they are kept in tables of the cell's own shape, read at the same place.
+//!
+//! They are found by bisection over the reals of an `f64`, on the very operations
+//! of the scene: each step is monotone in `f64` too, since rounding is, and the
+//! comparison gives the ink that the steps would have given, for every `f64`.
+//! In the machine's format v and the threshold are rounded, and nothing else.
+//!
+//! A shade that is a choice is compared in either arm: the machine then needs
+//! no more than the arm's own value.
+
+mod invert;
+#[cfg(test)]
+mod tests;
+
+use super::rebuild::rebuild_old;
+use crate::flow::build::Builder;
+use crate::flow::graph::*;
+use crate::range::Ranges;
+use crate::source::Span;
+use invert::{Chain, Selector};
+use slowlight_routine::{Op, Runtime, Type, Value};
+
+/// How many inks may be told apart by comparisons.
+const INKS: i32 = 16;
+/// How many values the selector of a threshold may have.
+const CELLS: usize = 1024;
+/// How many arms of choices the comparisons may be copied into.
+const ARMS: u32 = 6;
+
+/// The graph with the ink found by comparisons; nothing where it is not
+/// monotone in a shade, or where that costs no less on this machine.
+pub fn threshold(graph: &Graph, ranges: &Ranges, runtime: &Runtime) -> Option<Graph> {
+    if graph.diffusion.is_some() {
+        return None; // The error needs the dither's own steps.
+    }
+    let chain = Chain::find(graph, ranges, graph.ink)?;
+    let inks = ranges.result.get(graph.ink.0 as usize)?;
+    let (low, high) = (inks.lo as i32, inks.hi as i32);
+    if high <= low || high - low >= INKS || !saves(graph, &chain, high - low, runtime) {
+        return None;
+    }
+    let bounds = chain.thresholds(graph, ranges, low, high)?;
+    let mut done = false;
+    let next = rebuild_old(graph, &mut |builder, made, id, span| {
+        if id != graph.ink {
+            return None;
+        }
+        let new = |old: NodeId| made.get(old.0 as usize).copied().flatten();
+        let compared = compared(graph, builder, &chain, &bounds, &new, span)?;
+        let tree = Tree {
+            graph,
+            compared: &compared,
+            rising: chain.rising,
+            low,
+            span,
+        };
+        let ink = tree.put(builder, &new, chain.value, ARMS)?;
+        done = true;
+        Some(ink)
+    });
+    done.then_some(next)
+}
+
+/// Whether comparisons and lookups cost less than the steps.
+fn saves(graph: &Graph, chain: &Chain, inks: i32, runtime: &Runtime) -> bool {
+    let cost = |op: Op| {
+        let found = runtime.routines.iter().find(|r| r.op == op);
+        found.map_or(0, |r| r.cycles)
+    };
+    let steps = chain.steps.iter().filter_map(|id| match graph.node(*id) {
+        Node::Apply(op, _) => Some(cost(op)),
+        _ => None,
+    });
+    let turns = 32 - (inks as u32).leading_zeros();
+    // Reading an entry costs about as much as comparing it.
+    steps.sum::<u32>() > turns * 2 * cost(Op::Less)
+}
+
+/// What the shade is compared with for each ink above the lowest.
+fn compared(
+    graph: &Graph,
+    b: &mut Builder,
+    chain: &Chain,
+    bounds: &[Vec<f64>],
+    new: &dyn Fn(NodeId) -> Option<NodeId>,
+    span: Span,
+) -> Option<Vec<NodeId>> {
+    let mut all = Vec::new();
+    for entries in bounds {
+        let same = entries.iter().all(|e| e == &entries[0]);
+        all.push(match chain.selector {
+            Some(selector) if !same => entry(graph, b, selector, entries, new, span)?,
+            _ => b.constant(Value::Real(*entries.first()?), span),
+        });
+    }
+    Some(all)
+}
+
+/// A threshold read from its table.
+fn entry(
+    graph: &Graph,
+    b: &mut Builder,
+    selector: Selector,
+    entries: &[f64],
+    new: &dyn Fn(NodeId) -> Option<NodeId>,
+    span: Span,
+) -> Option<NodeId> {
+    let reals = entries.iter().map(|e| Constant::new(Value::Real(*e)));
+    let table = |width, height| Table {
+        name: "threshold".to_owned(),
+        width,
+        height,
+        ty: Type::Real,
+        entries: reals.clone().collect(),
+    };
+    match selector {
+        Selector::Entry { of, column, row } => {
+            let cells = graph.tables.get(of.0 as usize)?;
+            let table = b.table(table(cells.width, cells.height));
+            Some(b.lookup(table, new(column)?, new(row)?, span))
+        }
+        Selector::Int { node, low, .. } => {
+            let table = b.table(table(entries.len() as u32, 1));
+            let (low, zero) = (
+                b.constant(Value::Int(low), span),
+                b.constant(Value::Int(0), span),
+            );
+            let index = b.apply(Op::IntSub, &[new(node)?, low], span);
+            Some(b.lookup(table, index, zero, span))
+        }
+    }
+}
+
+/// The comparisons, the middle one first.
+struct Tree<'t> {
+    graph: &'t Graph,
+    compared: &'t [NodeId],
+    rising: bool,
+    low: i32,
+    span: Span,
+}
+
+impl Tree<'_> {
+    /// The ink of a shade, in the arms of the choice that the shade may be.
+    fn put(
+        &self,
+        b: &mut Builder,
+        new: &dyn Fn(NodeId) -> Option<NodeId>,
+        shade: NodeId,
+        arms: u32,
+    ) -> Option<NodeId> {
+        match self.graph.node(shade) {
+            Node::Select { cond, yes, no } if arms > 1 => {
+                let cond = new(cond)?;
+                let yes = self.put(b, new, yes, arms / 2)?;
+                let no = self.put(b, new, no, arms - arms / 2)?;
+                Some(b.select(cond, yes, no, self.span))
+            }
+            _ => Some(self.between(b, new(shade)?, 0, self.compared.len())),
+        }
+    }
+
+    /// The ink among those from the lowest plus `from` to the lowest plus `to`.
+    fn between(&self, b: &mut Builder, shade: NodeId, from: usize, to: usize) -> NodeId {
+        if from == to {
+            return b.constant(Value::Int(self.low + from as i32), self.span);
+        }
+        let middle = (from + to) / 2;
+        let below = b.apply(Op::Less, &[shade, self.compared[middle]], self.span);
+        let (less, more) = (
+            self.between(b, shade, from, middle),
+            self.between(b, shade, middle + 1, to),
+        );
+        match self.rising {
+            true => b.select(below, less, more, self.span),
+            false => b.select(below, more, less, self.span),
+        }
+    }
+}
