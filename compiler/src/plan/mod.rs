@@ -249,6 +249,8 @@ impl Plan {
         };
         let mut plan = planned(graph, self.target, &goal, rewriting).ok()?;
         plan.params = self.params.clone();
+        plan.items = self.items.clone();
+        (plan.listing, plan.page) = (self.listing, self.page);
         Some(plan)
     }
 
