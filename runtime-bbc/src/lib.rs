@@ -41,6 +41,9 @@ pub const BIG: f64 = 1.7e38;
 /// far enough from it that a few products and sums of one need no guard.
 pub const FAR: f64 = 1e36;
 
+/// BASIC II's cycles for `C%=C%+S%` on resident variables, measured on the ROM.
+const RAMP: u32 = 1245;
+
 /// How tightly BASIC's operators bind.
 pub mod level {
     /// OR and EOR.
@@ -70,6 +73,7 @@ pub static RUNTIME: Runtime = Runtime {
     encode,
     decode,
     quotient: FAR,
+    ramp: Some(RAMP),
     param_most: BIG,
     param_digits: decimal,
     param_bits,

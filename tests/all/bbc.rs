@@ -45,11 +45,11 @@ fn fitting(plan: Plan) -> Plan {
     slowlight::fit::fit([Ok(plan)], &|_| None).unwrap_or_else(|e| panic!("{e:?}"))
 }
 
-fn text(plan: &Plan) -> String {
+pub fn text(plan: &Plan) -> String {
     (plan.target.emit)(plan).remove(0).text
 }
 
-fn run(dialect: Dialect, text: &str) -> Run {
+pub fn run(dialect: Dialect, text: &str) -> Run {
     let mut machine = Machine::new(Config {
         dialect,
         page: 0x1900,
@@ -67,7 +67,7 @@ fn ink(plan: &Plan, run: &Run, x: u32, y: u32) -> u8 {
 }
 
 /// Pixels of the plan's rows in which the machine and the model differ.
-fn differences(plan: &Plan, run: &Run) -> u32 {
+pub fn differences(plan: &Plan, run: &Run) -> u32 {
     let mut model = ModelRun::new(plan);
     let mut different = 0;
     for y in plan.rows.0..=plan.rows.1 {

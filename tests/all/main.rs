@@ -22,6 +22,7 @@ mod peers_ca65;
 #[cfg(feature = "peers")]
 mod peers_jsbeeb;
 mod precise;
+mod ramps;
 mod renderers;
 mod rom_vectors;
 mod snapshots;

@@ -226,6 +226,9 @@ pub struct Runtime {
     /// by 0 among them, saturate there. A runtime may choose it below its
     /// format's end, so that what is computed from a quotient needs no guard.
     pub quotient: f64,
+    /// Cycles for stepping an int from column to column, `n = n + step`, as a
+    /// statement of its own; `None` where programs do not do it.
+    pub ramp: Option<u32>,
     /// The greatest magnitude of a real `param`, its range included, that the
     /// generated source can write and the program can take.
     pub param_most: f64,

@@ -1,5 +1,5 @@
 //! Graphs at random, for holding evaluations against each other: operations,
-//! choices, tables and loops in loops over what stands in their scope, some of
+//! choices, tables, ramps and loops in loops over what stands in their scope, some of
 //! it the same for a whole row or picture.
 
 use crate::flow::build::Builder;
@@ -105,6 +105,28 @@ impl Maker {
         }
     }
 
+    /// Ramps of the first to the third degree; what stands in the scope so far
+    /// is the same for a whole row.
+    fn ramps(&mut self) {
+        for _ in 0..3 {
+            let ops = [Op::IntAdd, Op::IntSub, Op::IntMul];
+            let (op, a, b) = (self.random.pick(&ops), Type::Int, Type::Int);
+            let args = [self.any(a), self.any(b)];
+            let made = self.b.apply(op, &args, AT);
+            self.scope.push(made);
+        }
+        let mut made = Vec::new();
+        for degree in 1..=3 {
+            let mut ramp = self.any(Type::Int);
+            for _ in 0..degree {
+                let first = self.any(Type::Int);
+                ramp = self.b.ramp(first, ramp, AT);
+                made.push(ramp);
+            }
+        }
+        self.scope.extend(made);
+    }
+
     fn turns(&mut self, depth: usize) {
         let types: Vec<Type> = (0..1 + self.random.below(3)).map(|_| self.ty()).collect();
         let carried: Vec<_> = (types.iter())
@@ -162,11 +184,7 @@ pub fn graph(seed: u64) -> Graph {
         .collect();
     let spreads = seed.is_multiple_of(3);
     let axes = [Axis::Y, Axis::X].map(|axis| b.axis(axis, AT));
-    scope.extend(axes);
-    scope.extend(axes.map(|axis| b.apply(Op::ToReal, &[axis], AT)));
-    if spreads {
-        scope.push(b.received(AT));
-    }
+    scope.push(axes[0]);
     let seed = seed.wrapping_add(1).wrapping_mul(0x9e37_79b9_7f4a_7c15);
     let mut maker = Maker {
         random: Random(seed | 1),
@@ -174,6 +192,14 @@ pub fn graph(seed: u64) -> Graph {
         table,
         scope,
     };
+    maker.ramps();
+    maker.scope.push(axes[1]);
+    let reals = axes.map(|axis| maker.b.apply(Op::ToReal, &[axis], AT));
+    maker.scope.extend(reals);
+    if spreads {
+        let received = maker.b.received(AT);
+        maker.scope.push(received);
+    }
     maker.grow(60, 3);
     let ink = maker.mixed(Type::Int);
     let shade = maker.mixed(Type::Real);

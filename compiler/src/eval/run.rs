@@ -7,6 +7,7 @@
 
 use super::diffuse::Pending;
 use crate::flow::graph::*;
+use crate::flow::ramp;
 use crate::flow::tree::*;
 use slowlight_routine::{Op, Value};
 
@@ -22,6 +23,11 @@ pub trait Arithmetic {
     fn apply(&self, id: NodeId, op: Op, args: &[Self::Value]) -> Self::Value;
     /// Adds what a pixel sends to what another has received so far.
     fn gather(&self, received: Self::Value, sent: Self::Value) -> Self::Value;
+    /// A ramp at a column, its first value and its steps' given.
+    fn ramp(&self, x: i32, coefficients: &[Self::Value]) -> Self::Value {
+        let ints: Vec<i32> = coefficients.iter().map(|&c| self.int(c)).collect();
+        self.constant(Value::Int(ramp::at(x, &ints)))
+    }
     /// A condition.
     fn truth(&self, value: Self::Value) -> bool;
     /// An int.
@@ -234,8 +240,17 @@ impl<'t, A: Arithmetic> Run<'t, A> {
             Node::Carried { of, index } | Node::Last { of, index } => {
                 self.checked(self.carried[of.0 as usize][index as usize])
             }
+            Node::Ramp { .. } => self.ramp(id),
             _ => self.checked(self.values[id.0 as usize]),
         }
+    }
+
+    /// A ramp here: set where the row began, stepped at the end of each pixel.
+    fn ramp(&mut self, id: NodeId) -> A::Value {
+        self.checked(self.values[id.0 as usize]);
+        let parts = ramp::coefficients(self.graph, id);
+        let parts: Vec<A::Value> = parts.into_iter().map(|part| self.read(part)).collect();
+        self.arithmetic.ramp(self.position.0, &parts)
     }
 
     fn compute(&mut self, id: NodeId) -> A::Value {
@@ -256,6 +271,7 @@ impl<'t, A: Arithmetic> Run<'t, A> {
                 let found = self.entries[table.0 as usize].get(at).copied();
                 self.checked(found)
             }
+            Node::Ramp { first, .. } => self.read(first),
             _ => self.read(id),
         }
     }

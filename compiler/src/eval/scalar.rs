@@ -8,6 +8,7 @@
 use super::diffuse::Pending;
 use super::native::{Pixel, param_value};
 use crate::flow::graph::*;
+use crate::flow::ramp;
 use crate::passes::rate::{Dependence, Rates, rates};
 use slowlight_routine::{Op, Value};
 
@@ -218,6 +219,15 @@ impl<'g> Scalar<'g> {
                 let (column, row) = (column?.int(), row?.int());
                 self.operations += 1;
                 Some(graph.tables.get(table.0 as usize)?.at(column, row))
+            }
+            Node::Ramp { .. } => {
+                let parts = ramp::coefficients(graph, id).into_iter();
+                let parts: Vec<_> = parts.map(|part| self.get(part, stack)).collect();
+                let parts: Option<Vec<i32>> = parts.iter().map(|v| v.map(Value::int)).collect();
+                let parts = parts?;
+                self.operations += 1;
+                let x = self.position.map_or(0, |(x, _)| x);
+                Some(Value::Int(ramp::at(x, &parts)))
             }
             Node::Carried { of, index } | Node::Last { of, index } => {
                 let found = self

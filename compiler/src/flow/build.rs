@@ -211,6 +211,17 @@ impl Builder {
         self.add(Node::Lookup { table, column, row }, ty, span)
     }
 
+    /// An int that grows by `step` from column to column.
+    pub fn ramp(&mut self, first: NodeId, step: NodeId, span: Span) -> NodeId {
+        if self.undefined_type(first) || self.undefined_type(step) {
+            return self.undefined(Type::Int);
+        }
+        match self.value(step) {
+            Some(Value::Int(0)) => first,
+            _ => self.add(Node::Ramp { first, step }, Type::Int, span),
+        }
+    }
+
     /// Opens a loop with carried values; close it with [`Builder::close_loop`].
     pub fn open_loop(
         &mut self,

@@ -102,6 +102,10 @@ pub enum Node {
         column: NodeId,
         row: NodeId,
     },
+    /// An int that is `first` in column 0 and grows by `step` from each column
+    /// to the next, in 32 bits that wrap. `first` is the same for the whole row,
+    /// and so is `step`, or it is another ramp ([`super::ramp`]).
+    Ramp { first: NodeId, step: NodeId },
     /// A carried value of a loop, in its body.
     Carried { of: LoopId, index: u32 },
     /// What the last `next` gave, in the loop's `else`.
@@ -125,6 +129,7 @@ impl Node {
             Node::Apply(op, [a, b]) => [Some(a), (op.arity() > 1).then_some(b), None],
             Node::Select { cond, yes, no } => [Some(cond), Some(yes), Some(no)],
             Node::Lookup { column, row, .. } => [Some(column), Some(row), None],
+            Node::Ramp { first, step } => [Some(first), Some(step), None],
             _ => [None; 3],
         };
         list.into_iter().flatten()

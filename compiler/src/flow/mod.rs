@@ -3,6 +3,7 @@
 pub mod build;
 pub mod graph;
 pub mod print;
+pub mod ramp;
 pub mod read;
 pub mod tree;
 pub mod verify;

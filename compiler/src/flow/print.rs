@@ -64,6 +64,7 @@ pub fn node_text(graph: &Graph, node: Node) -> String {
         }
         Node::Select { cond, yes, no } => format!("select {cond}, {yes}, {no}"),
         Node::Lookup { table, column, row } => format!("lookup {} [{column}, {row}]", table.0),
+        Node::Ramp { first, step } => format!("ramp {first}, {step}"),
         Node::Carried { of, index } => format!("carried {}.{index}", of.0),
         Node::Last { of, index } => format!("last {}.{index}", of.0),
         Node::Result { of, index } => format!("result {}.{index}", of.0),

@@ -281,6 +281,10 @@ fn node_body(ty: Type, body: &str) -> Read<Node> {
             [cond, yes, no] => Node::Select { cond, yes, no },
             _ => return Err("a select has a condition and two arms".to_owned()),
         },
+        "ramp" => match node_list(rest)?[..] {
+            [first, step] => Node::Ramp { first, step },
+            _ => return Err("a ramp has a first value and a step".to_owned()),
+        },
         "lookup" => {
             let (table, indices) = rest.split_once('[').ok_or("no `[`")?;
             match node_list(indices.trim_end_matches(']'))?[..] {

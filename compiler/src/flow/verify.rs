@@ -1,13 +1,16 @@
 //! Whether a graph keeps the rules that every pass relies on.
 //!
 //! **Invariants**: operands stand before their users; an operation's operands
-//! have its argument types; arms of a select have one type; a loop's carried
+//! have its argument types; arms of a select have one type; a ramp's first value
+//! and its step are ints and the same for the whole row, or the step is a ramp; a loop's carried
 //! values are used only by what decides, continues or ends that loop, and what
 //! the last `next` gave only by its `else`; the ink is an int; what a pixel
 //! sends is real and goes to pixels that the scan has yet to reach, and only a
 //! graph that sends something receives.
 
 use super::graph::*;
+use super::ramp;
+use crate::passes::rate::{Dependence, Rates, rates};
 use slowlight_routine::Type;
 
 /// A rule that is broken, and where.
@@ -27,6 +30,13 @@ pub fn verify(graph: &Graph) -> Result<(), Broken> {
     let live = |id: &NodeId| reached.get(id.0 as usize) == Some(&true);
     for id in graph.ids().filter(live) {
         node(graph, id)?;
+    }
+    let ramps = |id: &NodeId| matches!(graph.node(*id), Node::Ramp { .. });
+    if graph.ids().any(|id| ramps(&id)) {
+        let rates = rates(graph);
+        for id in graph.ids().filter(live).filter(ramps) {
+            stepped(graph, &rates, id)?;
+        }
     }
     for k in 0..graph.loops.len() as u32 {
         scope(graph, LoopId(k), &reached)?;
@@ -94,6 +104,25 @@ fn node(graph: &Graph, id: NodeId) -> Result<(), Broken> {
             }
         }
         _ => {}
+    }
+    Ok(())
+}
+
+/// A ramp.
+fn stepped(graph: &Graph, rates: &Rates, id: NodeId) -> Result<(), Broken> {
+    let broken = |rule: String| Err(Broken { node: id, rule });
+    let all = ramp::coefficients(graph, id);
+    if all.len() > ramp::DEGREE + 1 {
+        return broken("too many ramps step each other".to_owned());
+    }
+    for part in all {
+        if graph.ty(part) != Type::Int {
+            return broken(format!("steps by {part}, which is no int"));
+        }
+        let outside = |d: &Dependence| matches!(d, Dependence::Frame | Dependence::Row);
+        if !rates.rate(part).iter().all(outside) {
+            return broken(format!("steps by {part}, which is not the same for a row"));
+        }
     }
     Ok(())
 }

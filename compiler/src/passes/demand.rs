@@ -144,6 +144,12 @@ impl Placer<'_> {
                     self.need(arm, inner);
                 }
             }
+            // Set where a row begins, whoever reads it.
+            Node::Ramp { first, step } => {
+                self.regions.of[id.0 as usize] = Some(ROW);
+                self.need(first, ROW);
+                self.need(step, ROW);
+            }
             Node::Result { of, .. } => self.visit_loop(of),
             // Known without computing.
             Node::Const(_) | Node::Param(_) | Node::Axis(_) | Node::Received => {}

@@ -138,6 +138,12 @@ pub fn rates(graph: &Graph) -> Rates {
             Node::Axis(Axis::X) => sets.intern(vec![Dependence::Column]),
             // Another value in every pixel: it stands in the pixel's own block.
             Node::Received => sets.intern(vec![Dependence::Row, Dependence::Column]),
+            Node::Ramp { first, step } => {
+                let at = |id: NodeId| of.get(id.0 as usize).copied().unwrap_or(SetId(0));
+                let both = sets.union(at(first), at(step));
+                let column = sets.intern(vec![Dependence::Column]);
+                sets.union(both, column)
+            }
             Node::Carried { of, .. } => sets.intern(vec![Dependence::Loop(of)]),
             Node::Last { of, .. } => sets.intern(vec![Dependence::Last(of)]),
             Node::Result { of: l, .. } => *ends.entry(l).or_insert_with(|| {

@@ -127,6 +127,10 @@ impl Rebuilder<'_> {
                     row: self.at(row),
                 }
             }
+            Node::Ramp { first, step } => Node::Ramp {
+                first: self.at(first),
+                step: self.at(step),
+            },
             Node::Carried { of, index } => Node::Carried {
                 of: self.open(of),
                 index,
@@ -148,6 +152,7 @@ impl Rebuilder<'_> {
             Node::Apply(op, args) => b.apply(op, &args[..op.arity()], span),
             Node::Select { cond, yes, no } => b.select(cond, yes, no, span),
             Node::Lookup { table, column, row } => b.lookup(table, column, row, span),
+            Node::Ramp { first, step } => b.ramp(first, step, span),
             Node::Carried { of, index } => b.carried(of, index, span),
             Node::Last { of, index } => b.last(of, index, span),
             Node::Received => b.received(span),

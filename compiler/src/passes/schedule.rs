@@ -77,7 +77,11 @@ pub fn missing(graph: &Graph, tree: &Tree) -> Option<NodeId> {
     graph.ids().find(|id| {
         let computed = matches!(
             graph.node(*id),
-            Node::Apply(..) | Node::Select { .. } | Node::Lookup { .. } | Node::Result { .. }
+            Node::Apply(..)
+                | Node::Select { .. }
+                | Node::Lookup { .. }
+                | Node::Ramp { .. }
+                | Node::Result { .. }
         );
         computed && needed[id.0 as usize] && !written[id.0 as usize]
     })

@@ -68,8 +68,14 @@ impl Uses<'_> {
             match statement {
                 Statement::Let(id) => {
                     self.home.insert(*id, number);
+                    let stepped = match self.graph.node(*id) {
+                        Node::Ramp { step, .. } => Some(step),
+                        _ => None,
+                    };
                     for operand in self.graph.node(*id).operands() {
-                        self.read(operand, number);
+                        // A step is read again at the end of every pixel.
+                        let here = if stepped == Some(operand) { 0 } else { number };
+                        self.read(operand, here);
                     }
                 }
                 Statement::Set {

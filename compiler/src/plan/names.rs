@@ -44,6 +44,7 @@ fn wanted(graph: &Graph, place: Place) -> String {
                     .get(table.0 as usize)
                     .map_or(String::new(), |t| format!("{}_cell", t.name)),
                 Node::Select { .. } => "either".to_owned(),
+                Node::Ramp { .. } => "ramp".to_owned(),
                 Node::Slot(_) => "given".to_owned(),
                 _ => "result".to_owned(),
             }),

@@ -152,6 +152,9 @@ impl Plan {
                     .map_or("", |t| t.name.as_str());
                 format!("{name}[{}, {}]", self.operand(column), self.operand(row))
             }
+            Node::Ramp { first, step } => {
+                format!("{}, then +{}", self.operand(first), self.operand(step))
+            }
             _ => self.operand(id),
         }
     }

@@ -13,6 +13,7 @@ mod parity;
 mod refine;
 
 use crate::flow::graph::*;
+use crate::flow::ramp;
 use crate::flow::tree::*;
 use interval::interval;
 use parity::whole;
@@ -452,6 +453,15 @@ impl Walk<'_> {
                     self.out.exact[at] = exact;
                 }
                 self.slack.rounded(op, &args[..op.arity()], exact)
+            }
+            Node::Ramp { .. } => {
+                let last = self.graph.image.width.saturating_sub(1) as i32;
+                let all = ramp::range(self.graph, id, 0..=last, |part| self.read(part));
+                match all.within(self.slack.ints.lo, self.slack.ints.hi) {
+                    true => all,
+                    // It may wrap.
+                    false => self.slack.ints,
+                }
             }
             Node::Lookup { table, .. } => {
                 let entries = self

@@ -43,6 +43,8 @@ pub struct Target {
     pub hertz: f64,
     /// What statements take in its programs where memory is short.
     pub sizes: Sizes,
+    /// Whether a sum of ints that leaves 32 bits silently loses what is above them.
+    pub wraps: bool,
     /// Writes a plan down.
     pub emit: fn(&Plan) -> Vec<Document>,
 }

@@ -112,7 +112,9 @@ impl Run<'_> {
                 self.carried[&(of, index)].clone()
             }
             Node::Result { of, index } => self.run(of, index as usize),
-            Node::Received | Node::Slot(_) | Node::Undefined(_) => panic!("needed: {id:?}"),
+            Node::Ramp { .. } | Node::Received | Node::Slot(_) | Node::Undefined(_) => {
+                panic!("needed: {id:?}")
+            }
         };
         self.known[at] = Some(found.clone());
         found

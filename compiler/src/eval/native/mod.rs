@@ -26,6 +26,7 @@ mod plan;
 mod spread;
 
 use crate::flow::graph::*;
+use crate::flow::ramp;
 use crate::passes::rate::Dependence;
 use lanes::{Lanes, Mask};
 use plan::{Move, Plan, Source, Task};
@@ -270,6 +271,13 @@ impl<'g> Native<'g> {
                 self.look_up(table, [column.slot, row.slot], (ty, slot), mask);
                 self.operations += u64::from(mask.count_ones());
             }
+            Task::Ramp(number) => {
+                if !self.ask_ramp(number, mask) {
+                    return false;
+                }
+                self.ramp(number, slot, mask);
+                self.operations += u64::from(mask.count_ones());
+            }
             Task::Result {
                 of,
                 done,
@@ -320,6 +328,32 @@ impl<'g> Native<'g> {
             let lane = rest.trailing_zeros() as usize;
             let at = [column, row].map(|slot| self.lanes.get(Type::Int, slot, lane).int());
             self.lanes.set(ty, slot, lane, table.at(at[0], at[1]));
+            rest &= rest - 1;
+        }
+    }
+
+    /// Whether all that a ramp depends on is known; else it is to be computed next.
+    fn ask_ramp(&mut self, number: u32, mask: Mask) -> bool {
+        let mut known = true;
+        for k in 0..self.plan.ramps[number as usize].len() {
+            let part = self.plan.ramps[number as usize][k];
+            known &= self.ask(part, mask);
+        }
+        known
+    }
+
+    fn ramp(&mut self, number: u32, slot: u32, mask: Mask) {
+        let first = self.block.map_or(0, |block| block.x);
+        let mut rest = mask;
+        while rest != 0 {
+            let lane = rest.trailing_zeros();
+            let parts = self.plan.ramps[number as usize].iter();
+            let parts: Vec<i32> = parts
+                .map(|part| self.lanes.get(Type::Int, part.slot, lane as usize).int())
+                .collect();
+            let value = ramp::at(first.wrapping_add(lane as i32), &parts);
+            self.lanes
+                .set(Type::Int, slot, lane as usize, Value::Int(value));
             rest &= rest - 1;
         }
     }

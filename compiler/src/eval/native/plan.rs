@@ -4,6 +4,7 @@
 
 use super::lanes::Count;
 use crate::flow::graph::*;
+use crate::flow::ramp;
 use crate::passes::rate::{Dependence, Rates, rates};
 use slowlight_routine::{Op, Type};
 
@@ -33,6 +34,8 @@ pub enum Task {
         column: Source,
         row: Source,
     },
+    /// By its number in [`Plan::ramps`].
+    Ramp(u32),
     /// A result of a loop: where it is done, and where its turns are used up.
     Result {
         of: u32,
@@ -80,6 +83,8 @@ pub struct Plan {
     /// does not have. Its type is never asked for, and its slot is 0 in every type.
     pub steps: Vec<Step>,
     pub loops: Vec<Turns>,
+    /// What each ramp's value depends on ([`ramp::coefficients`]).
+    pub ramps: Vec<Vec<Source>>,
     pub count: Count,
     /// Where the pixel's column and row go.
     pub axes: Vec<(Axis, u32)>,
@@ -112,6 +117,7 @@ impl Plan {
             graph,
             count: Count::default(),
             carried: Vec::new(),
+            ramps: Vec::new(),
             slots: Vec::with_capacity(graph.nodes.len()),
         };
         maker.slots();
@@ -135,6 +141,7 @@ impl Plan {
             members: vec![Vec::new(); 3 + 2 * graph.loops.len()],
             dependents: vec![Vec::new(); rates.sets.len()],
             count: maker.count,
+            ramps: maker.ramps,
             axes: Vec::new(),
             received: Vec::new(),
             steps,
@@ -218,6 +225,7 @@ struct Maker<'g> {
     count: Count,
     /// The slots of each loop's carried values.
     carried: Vec<Vec<u32>>,
+    ramps: Vec<Vec<Source>>,
     slots: Vec<u32>,
 }
 
@@ -269,7 +277,7 @@ impl Maker<'_> {
         }
     }
 
-    fn task(&self, id: NodeId) -> Task {
+    fn task(&mut self, id: NodeId) -> Task {
         let ty = self.graph.ty(id);
         match self.graph.node(id) {
             Node::Apply(op, [a, b]) if op.result() == ty => {
@@ -289,6 +297,12 @@ impl Maker<'_> {
                 column: self.source(column, Type::Int),
                 row: self.source(row, Type::Int),
             },
+            Node::Ramp { .. } => {
+                let parts = ramp::coefficients(self.graph, id).into_iter();
+                let parts = parts.map(|part| self.source(part, Type::Int)).collect();
+                self.ramps.push(parts);
+                Task::Ramp(self.ramps.len() as u32 - 1)
+            }
             Node::Result { of, index } if (of.0 as usize) < self.graph.loops.len() => {
                 let found = &self.graph.loops[of.0 as usize];
                 let source = |list: &[NodeId]| {

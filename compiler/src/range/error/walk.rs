@@ -4,6 +4,7 @@ use super::form::{Form, Source};
 use super::rules::inherited;
 use super::{Bound, Bounds, Tile, Value};
 use crate::flow::graph::*;
+use crate::flow::ramp;
 use crate::flow::tree::*;
 use crate::plan::Plan;
 use crate::range::interval::interval;
@@ -29,6 +30,7 @@ pub fn walk(plan: &Plan, tile: &Tile) -> Bounds {
         scratch: graph.loops.iter().map(slots).collect(),
         sources: 0,
         turns: 0,
+        columns: tile.columns,
         out: Bounds {
             values: vec![None; graph.nodes.len()],
             ..Bounds::default()
@@ -94,6 +96,7 @@ struct Walk<'p> {
     scratch: Vec<Vec<Value>>,
     sources: Source,
     turns: u32,
+    columns: (u32, u32),
     out: Bounds,
 }
 
@@ -274,7 +277,22 @@ impl<'p> Walk<'p> {
                 }
             }
             Node::Lookup { table, .. } => self.entries(table),
+            Node::Ramp { .. } => self.ramp(id),
             _ => unknown(),
+        }
+    }
+
+    /// A ramp: exact where it is stepped by the exact values and does not wrap.
+    fn ramp(&self, id: NodeId) -> Value {
+        let (first, last) = self.columns;
+        let parts = ramp::coefficients(self.graph, id);
+        let exact = |part: &NodeId| self.errors[part.0 as usize].is_exact();
+        let all = ramp::range(self.graph, id, first as i32..=last as i32, |part| {
+            self.ranges[part.0 as usize]
+        });
+        match parts.iter().all(exact) && all.within(f64::from(i32::MIN), f64::from(i32::MAX)) {
+            true => Value::exact(all),
+            false => unknown(),
         }
     }
 

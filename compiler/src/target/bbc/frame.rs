@@ -4,6 +4,7 @@ use super::Style;
 use super::code::Code;
 use super::lines::Lines;
 use super::poke::Poke;
+use super::ramp;
 use super::screen;
 use super::short::short;
 use super::spread::Spread;
@@ -121,6 +122,7 @@ fn picture(plan: &Plan, code: &mut Code<'_>, first: &str, last: &str, spread: Op
         code.statement(format!("R%={}", screen::y_expression(plan)));
     }
     code.block(&plan.tree.row);
+    ramp::start(plan, code);
     let columns = plan.computed_columns();
     match &poke {
         Some(poke) => poke.columns(plan, code),
@@ -144,6 +146,7 @@ fn picture(plan: &Plan, code: &mut Code<'_>, first: &str, last: &str, spread: Op
     if let Some(spread) = spread {
         spread.send(code);
     }
+    ramp::step(plan, code);
     code.line("NEXT");
     if let Some(poke) = &poke {
         poke.put(plan, code, first);

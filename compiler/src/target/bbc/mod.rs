@@ -21,6 +21,7 @@
 //!   for a run of assignments;
 //! - `code`: statements; `frame`: everything around them; `screen`: modes, colours, coordinates;
 //! - `poke`: pixels put into the Micro's memory;
+//! - `ramp`: ints that are stepped from column to column;
 //! - `spread`: error diffusion; `short`: short names and lines, for speed and for size;
 //! - `pieces`: statements cut into names and words.
 
@@ -32,6 +33,7 @@ mod lines;
 mod names;
 mod pieces;
 mod poke;
+mod ramp;
 mod screen;
 mod short;
 mod spread;
@@ -70,6 +72,7 @@ pub static MICRO: Target = Target {
     offset: OFFSET,
     hertz: 2_000_000.0,
     sizes: SIZES,
+    wraps: true,
     emit,
 };
 
@@ -83,6 +86,7 @@ pub static AGON: Target = Target {
     // Measured: the two mirrors in 11.6 minutes for BASIC II's 17.8e9 cycles.
     hertz: 25_500_000.0,
     sizes: SIZES,
+    wraps: false,
     emit,
 };
 
@@ -96,6 +100,7 @@ pub static BASIC_V: Target = Target {
     // Measured: 0.15 seconds for the same program.
     hertz: 1.2e11,
     sizes: SIZES,
+    wraps: false,
     emit,
 };
 

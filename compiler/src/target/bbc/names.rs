@@ -17,7 +17,7 @@ pub struct Names {
     /// Of the procedures for subroutines.
     procedures: Vec<String>,
     taken: HashSet<String>,
-    /// Decimal constants by their text, in order of first use.
+    /// Constants by their text, in order of first use.
     constants: Vec<(String, String)>,
 }
 
@@ -135,7 +135,8 @@ impl Names {
 
     /// The variable of a decimal constant.
     pub fn constant(&mut self, text: &str) -> String {
-        if let Some((_, name)) = self.constants.iter().find(|(t, _)| t == text) {
+        let known = |(t, name): &&(String, String)| t == text && !name.ends_with('%');
+        if let Some((_, name)) = self.constants.iter().find(known) {
             return name.clone();
         }
         // 0.3 is c0_3; what would be long is numbered.
@@ -153,6 +154,18 @@ impl Names {
             let number = self.constants.len() + 1;
             self.unique(&format!("c_{number}"), "")
         };
+        self.constants.push((text.to_owned(), name.clone()));
+        name
+    }
+
+    /// The variable of a whole constant.
+    pub fn whole(&mut self, text: &str) -> String {
+        let known = |(t, name): &&(String, String)| t == text && name.ends_with('%');
+        if let Some((_, name)) = self.constants.iter().find(known) {
+            return name.clone();
+        }
+        let spelt = text.replace('-', "m");
+        let name = self.unique(&format!("c{spelt}"), "%");
         self.constants.push((text.to_owned(), name.clone()));
         name
     }

@@ -58,6 +58,7 @@ pub static JACK: Target = Target {
     // system take longer, about 10 microseconds each, which one rate cannot say.
     hertz: 12.6e6,
     // Words of the heap: code does not count there, values do.
+    wraps: false,
     sizes: Sizes {
         operation: 4,
         copy_bool: 2,

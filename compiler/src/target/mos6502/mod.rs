@@ -49,6 +49,7 @@ pub static PLAIN: Target = Target {
     // 1/256: far above the last place (1/65536), far below what a pixel sees.
     offset: 0.003_906_25,
     hertz: 2_000_000.0,
+    wraps: false,
     sizes: Sizes {
         operation: 0,
         copy_bool: 4,

@@ -1,0 +1,61 @@
+//! Ramps: variables that are set where a row begins and stepped where a pixel ends.
+//!
+//! Every way through a pixel comes to its end, whatever it jumped over, and what
+//! steps another ramp is stepped after it, so that each is right at the next column.
+
+use super::Style;
+use super::code::Code;
+use super::text::Text;
+use crate::flow::graph::{Node, NodeId};
+use crate::flow::ramp;
+use crate::flow::tree::{Place, Statement, walk};
+use crate::plan::Plan;
+
+/// The plan's ramps and their steps, in the order of stepping.
+fn ramps(plan: &Plan) -> Vec<(NodeId, NodeId)> {
+    let mut set = Vec::new();
+    walk(&plan.tree.row, &mut |statement| {
+        if let Statement::Let(id) = statement {
+            set.push(*id);
+        }
+    });
+    ramp::in_steps(&plan.graph, set)
+}
+
+/// Brings the ramps to a row's first column.
+pub fn start(plan: &Plan, code: &mut Code<'_>) {
+    let (first, _) = plan.computed_columns();
+    if first > 0 && !ramps(plan).is_empty() {
+        code.line(format!("FOR X%=1 TO {first}"));
+        step(plan, code);
+        code.line("NEXT");
+    }
+}
+
+/// Brings the ramps to the next column.
+pub fn step(plan: &Plan, code: &mut Code<'_>) {
+    for (id, by) in ramps(plan) {
+        let home = code.values.names.home(Place::Node(id)).to_owned();
+        let by = amount(plan, code, by);
+        let text = match by.strip_prefix('-') {
+            Some(less) => format!("{home}={home}-{less}"),
+            None => format!("{home}={home}+{by}"),
+        };
+        code.statement(text);
+    }
+}
+
+/// A step. Each digit of a number takes BASIC II as long as a resident
+/// variable's name, and a step is taken at every pixel.
+fn amount(plan: &Plan, code: &mut Code<'_>, by: NodeId) -> String {
+    let text = match plan.graph.node(by) {
+        Node::Ramp { .. } => Text::operand(code.values.names.home(Place::Node(by))),
+        _ => code.values.read(by),
+    };
+    let number = plan.graph.constant(by).map(|value| value.int());
+    let quick = matches!(code.values.style, Style::Fast | Style::Lean);
+    match number.filter(|n| quick && n.unsigned_abs() > 9) {
+        Some(_) => code.values.names.whole(&text.text),
+        None => text.at(slowlight_runtime_bbc::level::PRODUCT),
+    }
+}
