@@ -268,6 +268,12 @@ fn as_is_or_tight(mut plan: Plan) -> Outcome<Fitted> {
             }
             _ => return Ok(Fitted::Fits(Box::new(plan))),
         }
+        // Steps take a few bytes; to write it short costs more than they save.
+        if let (false, Some(plain)) = (lean, plan.unstepped())
+            && need(&plain)?.is_some_and(|need| need.fits())
+        {
+            return Ok(Fitted::Fits(Box::new(plain)));
+        }
     }
     Ok(match least {
         Some(need) => Fitted::TooLarge(Box::new(plan), need),

@@ -35,6 +35,7 @@ static PLAIN: Target = Target {
     offset: 1.0 / 256.0,
     hertz: 1e6,
     sizes: slowlight_compiler::target::mos6502::PLAIN.sizes,
+    wraps: false,
     emit: |_| Vec::new(),
 };
 

@@ -60,7 +60,7 @@ pub static FIXED16_16: Runtime = Runtime {
     encode,
     decode,
     quotient: f64::INFINITY,
-    ramp: None,
+    stepping: None,
     param_most: 32767.0,
     param_digits,
     param_bits,

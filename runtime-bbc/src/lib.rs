@@ -27,7 +27,7 @@ mod routines;
 
 use slowlight_isa::real40::Real40;
 use slowlight_isa::real40::text::{Parsed, parse};
-use slowlight_routine::{Bits, Format, Runtime, Value};
+use slowlight_routine::{Bits, Format, Runtime, Stepping, Value};
 
 /// The reals.
 pub const REAL: Format = Format::Real40;
@@ -41,8 +41,16 @@ pub const BIG: f64 = 1.7e38;
 /// far enough from it that a few products and sums of one need no guard.
 pub const FAR: f64 = 1e36;
 
-/// BASIC II's cycles for `C%=C%+S%` on resident variables, measured on the ROM.
-const RAMP: u32 = 1245;
+/// BASIC II's cycles, from the whole statements measured on the ROM: `C%=C%+S%`
+/// on resident variables takes 1,245, `C%=A%` 804 and `X=A` 1,243.
+const STEPPING: Stepping = Stepping {
+    ramp: 1245,
+    read: [325, 560],
+    digit: 200,
+    write: [480, 680],
+    test: 320,
+    entry: 1800,
+};
 
 /// How tightly BASIC's operators bind.
 pub mod level {
@@ -73,7 +81,7 @@ pub static RUNTIME: Runtime = Runtime {
     encode,
     decode,
     quotient: FAR,
-    ramp: Some(RAMP),
+    stepping: Some(STEPPING),
     param_most: BIG,
     param_digits: decimal,
     param_bits,

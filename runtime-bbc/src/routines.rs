@@ -64,6 +64,11 @@ fn whole_power(args: &[Range], result: Range) -> bool {
         && result.within(-1e37, 1e37)
 }
 
+/// Factors that BASIC II multiplies as integers; it makes reals of larger ones first.
+fn narrow(args: &[Range], result: Range) -> bool {
+    args.iter().all(|a| a.within(-32_767.0, 32_767.0)) && fits_int(args, result)
+}
+
 /// Both not negative, the second not 0: truncation floors.
 fn natural(args: &[Range], _: Range) -> bool {
     args.iter().all(|a| a.lo >= 0.0) && nonzero(args, 1)
@@ -175,7 +180,8 @@ pub(crate) static ALL: &[Routine] = &[
     routine!("FNiadd" IntAdd(I, I) -> I, call("FNiadd({0},{1})"), ["FNiadd"], everywhere, EXACT, |a: int, b: int| a.saturating_add(b), 15000, 10),
     routine!("int_sub" IntSub(I, I) -> I, SUB, [], fits_int, EXACT, |a: int, b: int| a.wrapping_sub(b), 125, 1),
     routine!("FNisub" IntSub(I, I) -> I, call("FNisub({0},{1})"), ["FNisub"], everywhere, EXACT, |a: int, b: int| a.saturating_sub(b), 15000, 10),
-    routine!("int_mul" IntMul(I, I) -> I, MUL, [], fits_int, EXACT, |a: int, b: int| a.wrapping_mul(b), 892, 1),
+    routine!("int_mul" IntMul(I, I) -> I, MUL, [], narrow, EXACT, |a: int, b: int| a.wrapping_mul(b), 892, 1),
+    routine!("int_mul_wide" IntMul(I, I) -> I, MUL, [], fits_int, EXACT, |a: int, b: int| a.wrapping_mul(b), 4050, 1),
     routine!("FNimul" IntMul(I, I) -> I, call("FNimul({0},{1})"), ["FNimul"], everywhere, EXACT, |a: int, b: int| a.saturating_mul(b), 18000, 10),
     routine!("int_div" IntDiv(I, I) -> I, form("{0} DIV {1}", PRODUCT, &[PRODUCT, POWER]), [], natural, EXACT, |a: int, b: int| a.checked_div(b).unwrap_or(0), 2147, 3),
     routine!("FNidiv" IntDiv(I, I) -> I, call("FNidiv({0},{1})"), ["FNidiv"], everywhere, EXACT, |a: int, b: int| m::fn_idiv(a, b), 15000, 10),

@@ -62,7 +62,7 @@ pub static F316: Runtime = Runtime {
     encode,
     decode,
     quotient: f64::INFINITY,
-    ramp: None,
+    stepping: None,
     param_most: model::MOST as f64,
     param_digits,
     param_bits,

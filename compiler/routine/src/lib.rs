@@ -202,6 +202,25 @@ pub struct Part {
     pub bytes: u32,
 }
 
+/// What it costs to step an int from column to column, and what statements cost
+/// beside their routines, so that the one can be weighed against the other: in
+/// the machine's cycles.
+#[derive(Clone, Copy, Debug)]
+pub struct Stepping {
+    /// `n = n + step`, as a statement of its own.
+    pub ramp: u32,
+    /// Reading an int's and a real's variable.
+    pub read: [u32; 2],
+    /// Reading each digit of a whole constant.
+    pub digit: u32,
+    /// Assigning an int and a real, beside what is assigned.
+    pub write: [u32; 2],
+    /// A test, beside what is tested.
+    pub test: u32,
+    /// Reading an entry of a table, beside its indices.
+    pub entry: u32,
+}
+
 /// All that one machine offers in one choice of formats.
 #[derive(Clone, Copy, Debug)]
 pub struct Runtime {
@@ -226,9 +245,9 @@ pub struct Runtime {
     /// by 0 among them, saturate there. A runtime may choose it below its
     /// format's end, so that what is computed from a quotient needs no guard.
     pub quotient: f64,
-    /// Cycles for stepping an int from column to column, `n = n + step`, as a
-    /// statement of its own; `None` where programs do not do it.
-    pub ramp: Option<u32>,
+    /// What stepping an int from column to column costs; `None` where programs
+    /// do not do it.
+    pub stepping: Option<Stepping>,
     /// The greatest magnitude of a real `param`, its range included, that the
     /// generated source can write and the program can take.
     pub param_most: f64,

@@ -7,6 +7,7 @@ pub mod narrow;
 pub mod outline;
 pub mod peel;
 mod queue;
+pub mod ramps;
 pub mod rate;
 pub mod rebuild;
 pub mod region;

@@ -127,9 +127,14 @@ impl Site<'_> {
             let found = self.runtime.routines.iter().find(|r| r.op == op);
             found.map_or(0.0, |r| f64::from(r.cycles))
         };
+        let step = cycles(Op::Less);
         let weigh = Weigh {
-            step: cycles(Op::Less),
-            statement: &|id| routines[id.0 as usize].map_or(0.0, |r| f64::from(r.cycles)),
+            own: &|statement| match statement {
+                Statement::Let(id) => {
+                    step + routines[id.0 as usize].map_or(0.0, |r| f64::from(r.cycles))
+                }
+                _ => step,
+            },
         };
         let width = f64::from(plan.graph.image.width.max(1));
         let cycles = weigh.block(&plan.tree.row) / width + weigh.block(&plan.tree.pixel);
@@ -147,11 +152,10 @@ fn memory(plan: &Settled) -> f64 {
     f64::from(statements) + entries as f64 / 3.0
 }
 
-struct Weigh<'w> {
-    /// What a step that computes nothing costs.
-    step: f64,
-    /// What computing a node costs, its operands not.
-    statement: &'w dyn Fn(NodeId) -> f64,
+/// Adds up statements as often as they are likely to be carried out.
+pub(super) struct Weigh<'w> {
+    /// What a statement costs, those in it not.
+    pub own: &'w dyn Fn(&Statement) -> f64,
 }
 
 /// How likely a loop is thought to go on after a turn, and to be entered at all
@@ -159,22 +163,20 @@ struct Weigh<'w> {
 const ON: f64 = 0.25;
 
 impl Weigh<'_> {
-    fn block(&self, block: &Block) -> f64 {
+    pub fn block(&self, block: &Block) -> f64 {
         block.iter().map(|s| self.one(s)).sum()
     }
 
     fn one(&self, statement: &Statement) -> f64 {
         match statement {
-            Statement::Let(id) => self.step + (self.statement)(*id),
-            Statement::Call(_) => self.step,
-            Statement::Set { .. } => self.step,
+            Statement::Let(_) | Statement::Call(_) | Statement::Set { .. } => (self.own)(statement),
             Statement::If { yes, no, .. } => {
                 let likely = match (loops(yes), loops(no)) {
                     (true, false) => ON,
                     (false, true) => 1.0 - ON,
                     _ => 0.5,
                 };
-                self.step + likely * self.block(yes) + (1.0 - likely) * self.block(no)
+                (self.own)(statement) + likely * self.block(yes) + (1.0 - likely) * self.block(no)
             }
             Statement::Loop(turns) => {
                 let turns_on = self.block(&turns.body) + ON * self.block(&turns.next);

@@ -23,6 +23,10 @@
 //! - [`Plan::folded`]: a value read exactly once, by a later statement of the
 //!   same block, whose operands still hold what they held: its expression may
 //!   be written where it is read, and needs no home. Targets may also give it one.
+//! - [`Node::Ramp`], let in the row's block, is set to its first value there, and
+//!   stepped at the end of every pixel, whatever way the pixel took: `home = home +
+//!   step`, a ramp before what it is stepped by. Where the first column computed is
+//!   not 0, it is stepped there first.
 //! - A loop needs a count of its turns; see [`Statement::Loop`].
 //! - Where the graph spreads its error ([`Plan::error_rows`]), [`Node::Received`]
 //!   is what has come to the pixel, and after `tree.pixel` each share is added,
@@ -44,6 +48,7 @@ mod params;
 pub mod print;
 mod settled;
 mod spread;
+mod stepped;
 
 pub use lifetimes::{quick_homes, shared_homes};
 pub use params::ParamPlan;
@@ -62,6 +67,7 @@ use cheaper::cheaper;
 use settled::{Settled, scheduled, settle};
 use slowlight_routine::{Bits, Format, Op, Range, Routine, Runtime, Type, Value};
 use std::collections::HashMap;
+use stepped::stepped;
 
 /// What to build, beside the scene and the target.
 #[derive(Clone, Debug, PartialEq)]
@@ -233,11 +239,29 @@ impl Plan {
     /// this one spends none.
     pub fn smaller(&self) -> Option<Plan> {
         let less = match self.origin.1 {
-            Rewriting::Fast { thrifty: false } => Rewriting::Fast { thrifty: true },
-            Rewriting::Fast { thrifty: true } => Rewriting::Stable,
+            Rewriting::Fast { thrifty, .. } if !thrifty => Rewriting::Fast {
+                thrifty: true,
+                steps: true,
+            },
+            Rewriting::Fast { .. } => Rewriting::Stable,
             _ => return None,
         };
         self.again(&self.origin.0, less)
+    }
+
+    /// The same plan with nothing stepped from column to column, which takes a
+    /// little less memory. None where nothing is.
+    pub fn unstepped(&self) -> Option<Plan> {
+        let Rewriting::Fast { thrifty, .. } = self.origin.1 else {
+            return None;
+        };
+        let ramp = |node: &Node| matches!(node, Node::Ramp { .. });
+        let plain = Rewriting::Fast {
+            thrifty,
+            steps: false,
+        };
+        let stepped = self.graph.nodes.iter().any(ramp);
+        stepped.then(|| self.again(&self.origin.0, plain)).flatten()
     }
 
     fn again(&self, graph: &Graph, rewriting: Rewriting) -> Option<Plan> {
@@ -278,7 +302,11 @@ fn writes(statement: &Statement, node: NodeId) -> bool {
 
 /// Plans a graph that `sema` lowered for this target's inks and offset.
 pub fn plan(graph: &Graph, target: &'static Target, goal: &Goal) -> Result<Plan, Vec<Diagnostic>> {
-    planned(graph, target, goal, Rewriting::Fast { thrifty: false })
+    let all = Rewriting::Fast {
+        thrifty: false,
+        steps: true,
+    };
+    planned(graph, target, goal, all)
 }
 
 /// The same without the passes that rewrite formulas ([`crate::passes::stable`]
@@ -298,8 +326,9 @@ enum Rewriting {
     None,
     /// [`crate::passes::stable`].
     Stable,
-    /// Those for speed, too; perhaps with little memory.
-    Fast { thrifty: bool },
+    /// Those for speed, too; perhaps with little memory, perhaps with values
+    /// that are stepped from column to column.
+    Fast { thrifty: bool, steps: bool },
 }
 
 /// How often stable forms are looked for: what one makes may let another in.
@@ -331,8 +360,11 @@ fn planned(
         now = scheduled(fold(&next), &slack);
     }
     now = settle(&now.graph, &slack);
-    if let Rewriting::Fast { thrifty } = rewriting {
+    if let Rewriting::Fast { thrifty, steps } = rewriting {
         now = cheaper(now, &slack, runtime, thrifty);
+        if steps {
+            now = stepped(now, &slack, target);
+        }
     }
     let Settled {
         graph,
