@@ -269,6 +269,11 @@ impl Walk<'_> {
                     Origin::Node(id) => self.read(id),
                     Origin::Scratch(l, k) => self.carried_range(l, k),
                 };
+                let range = match *place {
+                    // What a subroutine left is still what it was computed for.
+                    Place::Node(id) => self.trust(id, range),
+                    _ => range,
+                };
                 self.write(*place, range);
             }
             Statement::If { cond, yes, no } => {
