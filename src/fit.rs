@@ -5,8 +5,9 @@
 //! tell is bounded: BASIC's stack, the heap of a Jack program at its start.
 //! A program that does not fit as it reads best is tried once more, written as
 //! tight as the target can; without `--mode`, the next mode is tried after that.
-//! Where no mode holds it either way, all are tried with subroutines for what the
-//! program has several times: slower, and much smaller.
+//! Where no mode that shows the whole picture holds it either way, they are tried
+//! with subroutines for what the program has several times: slower, and much
+//! smaller. Then come the modes that show a part of it, in the same way.
 
 use crate::failure::{Failure, Outcome};
 use crate::format::count;
@@ -199,8 +200,9 @@ fn heap(documents: &[Document]) -> Need {
 }
 
 /// The first of the plans whose program fits, as it reads best or tight; where
-/// none does, the first that does with subroutines. `name` says what the scene
-/// calls what stands at a place of it.
+/// none does, the first that does with subroutines. Modes that show a part of the
+/// picture only come after all that is tried for those that show the whole.
+/// `name` says what the scene calls what stands at a place of it.
 ///
 /// # Errors
 /// Where none does: how far each is from it, and what would help.
@@ -209,8 +211,16 @@ pub fn fit(
     name: &dyn Fn(Span) -> Option<String>,
 ) -> Outcome<Plan> {
     let mut large: Vec<(Plan, Need)> = Vec::new();
+    let mut tried = None;
     for plan in plans {
-        let mut found = as_is_or_tight(plan?)?;
+        let plan = plan?;
+        if tried.is_none() && crops(&plan) {
+            if let Some(fits) = outlined(&mut large, name)? {
+                return Ok(fits);
+            }
+            tried = Some(large.len());
+        }
+        let mut found = as_is_or_tight(plan)?;
         // Rather slower than with fewer inks.
         while let Fitted::TooLarge(plan, _) = &found
             && let Some(smaller) = plan.smaller()
@@ -222,17 +232,11 @@ pub fn fit(
             Fitted::TooLarge(plan, need) => large.push((*plan, need)),
         }
     }
+    if let Some(fits) = outlined(&mut large[tried.unwrap_or(0)..], name)? {
+        return Ok(fits);
+    }
     let mut said = String::new();
-    for (plan, need) in &large {
-        let mut least = need.clone();
-        // A fault of the plan with subroutines would be one of the plan without.
-        if let Ok(outlined) = plan.outlined(name) {
-            match as_is_or_tight(outlined)? {
-                Fitted::Fits(plan) => return Ok(*plan),
-                Fitted::TooLarge(_, need) if need.total() < least.total() => least = need,
-                Fitted::TooLarge(..) => {}
-            }
-        }
+    for (plan, least) in &large {
         let mode = match plan.mode.name {
             "" => String::new(),
             name => format!("mode {name}: "),
@@ -248,6 +252,32 @@ pub fn fit(
         plan.target.name,
         help(plan)
     )))
+}
+
+/// Whether the screen shows a part of the picture only.
+fn crops(plan: &Plan) -> bool {
+    let image = &plan.graph.image;
+    plan.mode.width < image.width || plan.mode.height < image.height
+}
+
+/// The first of the plans that fits with subroutines; where none does, what each
+/// takes at least is noted.
+fn outlined(
+    large: &mut [(Plan, Need)],
+    name: &dyn Fn(Span) -> Option<String>,
+) -> Outcome<Option<Plan>> {
+    for (plan, least) in large {
+        // A fault of the plan with subroutines would be one of the plan without.
+        let Ok(outlined) = plan.outlined(name) else {
+            continue;
+        };
+        match as_is_or_tight(outlined)? {
+            Fitted::Fits(plan) => return Ok(Some(*plan)),
+            Fitted::TooLarge(_, need) if need.total() < least.total() => *least = need,
+            Fitted::TooLarge(..) => {}
+        }
+    }
+    Ok(None)
 }
 
 /// A plan that fits, or how large its smallest program is.
