@@ -28,5 +28,6 @@ mod rom_vectors;
 mod snapshots;
 mod spread;
 mod stress;
+mod torus;
 mod whole;
 mod wrong;

@@ -116,8 +116,7 @@ fn maze_by_hand() {
     }
 }
 
-/// The library looks for a torus in 1,024 steps at most, which is enough for
-/// every ray of the picture; this goes on for as long as it takes.
+/// The library solves a quartic; this goes by steps, for as long as it takes.
 #[test]
 fn torus_by_hand() {
     let scene = native(include_str!("../../../examples/torus.scn"), &[]);
