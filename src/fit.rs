@@ -288,7 +288,14 @@ enum Fitted {
 
 fn as_is_or_tight(mut plan: Plan) -> Outcome<Fitted> {
     let mut least: Option<Need> = None;
-    for (lean, tight) in [(false, false), (true, false), (true, true)] {
+    let styles = [(false, false), (true, false), (true, true)];
+    // What is to be read stays so, rather slower, while it can be smaller.
+    let count = if plan.listing && plan.may_be_smaller() {
+        1
+    } else {
+        3
+    };
+    for (lean, tight) in styles.into_iter().take(count) {
         (plan.lean, plan.tight) = (lean, tight);
         match need(&plan)? {
             Some(need) if !need.fits() => {

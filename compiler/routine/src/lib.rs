@@ -248,6 +248,16 @@ pub struct Runtime {
     /// What stepping an int from column to column costs; `None` where programs
     /// do not do it.
     pub stepping: Option<Stepping>,
+    /// Whether programs go through a row in runs of columns within which
+    /// comparisons of the column with what the row knows do not change, and
+    /// compute what depends on these alone once a run.
+    pub segments: bool,
+    /// Whether programs work out tables at their start from one another.
+    pub derives: bool,
+    /// Cycles that a statement takes beside its routine, about.
+    pub statement: u32,
+    /// Cycles that reading a table takes beside reading a variable, an index, about.
+    pub index: u32,
     /// The greatest magnitude of a real `param`, its range included, that the
     /// generated source can write and the program can take.
     pub param_most: f64,

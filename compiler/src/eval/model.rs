@@ -19,6 +19,10 @@ impl Arithmetic for Model<'_> {
         self.0.bits(value)
     }
 
+    fn entry(&self, table: TableId, at: usize, _: Value) -> Bits {
+        self.0.entry(table, at)
+    }
+
     fn param(&self, id: ParamId) -> Bits {
         self.0.params.get(id.0 as usize).map_or(0, |p| p.bits)
     }

@@ -168,6 +168,7 @@ pub fn graph(seed: u64) -> Graph {
         height: 2,
         ty: Type::Int,
         entries,
+        seed: Vec::new(),
     });
     let mut scope: Vec<NodeId> = [Type::Real, Type::Int, Type::Bool]
         .into_iter()

@@ -15,8 +15,12 @@ use slowlight_routine::{Op, Value};
 pub trait Arithmetic {
     /// A value.
     type Value: Copy;
-    /// A constant of the graph, or an entry of a table.
+    /// A constant of the graph.
     fn constant(&self, value: Value) -> Self::Value;
+    /// An entry of a table.
+    fn entry(&self, _table: TableId, _at: usize, value: Value) -> Self::Value {
+        self.constant(value)
+    }
     /// A live param.
     fn param(&self, id: ParamId) -> Self::Value;
     /// A node's operation on its arguments.
@@ -110,10 +114,9 @@ impl<'t, A: Arithmetic> Run<'t, A> {
             .ids()
             .map(|id| graph.constant(id).map(|v| arithmetic.constant(v)))
             .collect();
-        let entries = graph.tables.iter().map(|t| {
-            t.entries
-                .iter()
-                .map(|e| arithmetic.constant(e.value()))
+        let entries = graph.tables.iter().zip(0..).map(|(t, k)| {
+            let each = t.entries.iter().enumerate();
+            each.map(|(at, e)| arithmetic.entry(TableId(k), at, e.value()))
                 .collect()
         });
         let slots = |l: &Loop| vec![None; l.types.len()];
@@ -125,7 +128,10 @@ impl<'t, A: Arithmetic> Run<'t, A> {
             carried: graph.loops.iter().map(slots).collect(),
             scratch: graph.loops.iter().map(slots).collect(),
             row_places: places(tree, &tree.row),
-            pixel_places: places(tree, &tree.pixel),
+            pixel_places: [&tree.segment, &tree.pixel]
+                .into_iter()
+                .flat_map(|block| places(tree, block))
+                .collect(),
             own_places: own_places(graph, tree),
             constants,
             entries: entries.collect(),
@@ -182,6 +188,7 @@ impl<'t, A: Arithmetic> Run<'t, A> {
             self.block(&tree.row);
         }
         self.forget(false);
+        self.block(&tree.segment);
         self.block(&tree.pixel);
         self.read(self.graph.ink)
     }

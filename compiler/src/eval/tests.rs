@@ -154,6 +154,7 @@ fn mirrors() -> Graph {
         height: 4,
         ty: Type::Int,
         entries: entries.map(Constant::Int).to_vec(),
+        seed: Vec::new(),
     });
     let (four, last) = (h.int(4), h.int(247));
     let column = h.op(Op::IntMod, &[x, four]);

@@ -26,6 +26,7 @@ pub struct Builder {
     directions: BTreeSet<NodeId>,
     diffusion: Option<Diffusion>,
     reports: Vec<NodeId>,
+    claims: HashMap<NodeId, (Op, [NodeId; 2])>,
 }
 
 impl Builder {
@@ -335,6 +336,13 @@ impl Builder {
         }
     }
 
+    /// Says that a bool is the same as a comparison.
+    pub fn claim(&mut self, id: NodeId, op: Op, args: [NodeId; 2]) {
+        if self.value(id).is_none() {
+            self.claims.insert(id, (op, args));
+        }
+    }
+
     /// Counts a call of an effect.
     pub fn effect(&mut self, name: &str) {
         match self.effects.iter_mut().find(|e| e.name == name) {
@@ -364,6 +372,7 @@ impl Builder {
             diffusion: self.diffusion,
             effects: self.effects,
             reports: self.reports,
+            claims: self.claims,
         }
     }
 }

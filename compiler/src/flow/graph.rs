@@ -180,6 +180,9 @@ pub struct Table {
     pub ty: Type,
     /// The entries, row by row.
     pub entries: Vec<Constant>,
+    /// The ints that the entries are images of, one for each, where they are
+    /// known to be; else empty.
+    pub seed: Vec<i32>,
 }
 
 impl Table {
@@ -303,6 +306,9 @@ pub struct Graph {
     /// Components of rays' directions and of normals, which have length 1 by
     /// contract: what may be trusted where no range could be found.
     pub directions: BTreeSet<NodeId>,
+    /// Bools that are decided in another way than the comparison that they stand
+    /// for and are the same as: which comparison. Its operands' ranges follow from the bool.
+    pub claims: HashMap<NodeId, (Op, [NodeId; 2])>,
     /// The pixel's ink, an int in 0..inks-1.
     pub ink: NodeId,
     /// The shade before the dither, if `draw` ends in one. It is looked at,

@@ -42,6 +42,7 @@ pub fn read(text: &str) -> Result<Graph, Unread> {
         diffusion: None,
         effects: Vec::new(),
         reports: Vec::new(),
+        claims: HashMap::new(),
     };
     for (at, line) in text.lines().enumerate() {
         self::line(&mut graph, line.trim()).map_err(|what| Unread { line: at + 1, what })?;
@@ -205,6 +206,7 @@ fn table(graph: &mut Graph, text: &str) -> Read<()> {
         height: number(height)?,
         ty,
         entries: entries.collect::<Read<_>>()?,
+        seed: Vec::new(),
     });
     Ok(())
 }

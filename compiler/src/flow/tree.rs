@@ -1,7 +1,9 @@
 //! The statement tree: when each value of a graph is computed.
 //!
-//! A picture is drawn by three nested blocks: `frame` runs once, `row` before
-//! each row's pixels, `pixel` for each pixel, which then plots the ink. Every
+//! A picture is drawn by nested blocks: `frame` runs once, `row` before
+//! each row's pixels, `segment` where a run of columns begins in which no
+//! comparison of the column with what the row knows changes (so it may run at
+//! every pixel, with the same result), `pixel` for each pixel, which then plots the ink. Every
 //! value that needs computing has one place where it is computed:
 //!
 //! - [`Statement::Let`] computes an operation, a lookup into its home;
@@ -132,6 +134,8 @@ pub struct Tree {
     pub frame: Block,
     /// Once a row.
     pub row: Block,
+    /// Once a run of columns, where the schedule has such; before its first pixel.
+    pub segment: Block,
     /// Once a pixel; after it the ink is known.
     pub pixel: Block,
     /// What these call, and what they call themselves; none reaches itself.
@@ -139,11 +143,15 @@ pub struct Tree {
 }
 
 impl Tree {
-    /// Every block that is written down: the frame's, the row's, the pixel's,
-    /// then the subroutines'.
+    /// The blocks around all others, outermost first.
+    pub fn outer(&self) -> [&Block; 4] {
+        [&self.frame, &self.row, &self.segment, &self.pixel]
+    }
+
+    /// Every block that is written down: the frame's, the row's, the segment's,
+    /// the pixel's, then the subroutines'.
     pub fn blocks(&self) -> impl Iterator<Item = &Block> {
-        let outer = [&self.frame, &self.row, &self.pixel];
-        outer
+        self.outer()
             .into_iter()
             .chain(self.subroutines.iter().map(|s| &s.body))
     }
@@ -247,8 +255,12 @@ impl Display for Tree {
         for (name, statements) in [
             ("frame", &self.frame),
             ("row", &self.row),
+            ("segment", &self.segment),
             ("pixel", &self.pixel),
         ] {
+            if name == "segment" && statements.is_empty() {
+                continue;
+            }
             writeln!(f, "{name}:")?;
             block(f, statements, 1)?;
         }

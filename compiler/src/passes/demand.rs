@@ -73,21 +73,32 @@ pub fn live_carried(graph: &Graph, needed: &[bool], of: LoopId) -> Vec<u32> {
 
 /// Places every value that the ink needs.
 pub fn place(graph: &Graph) -> Regions {
-    place_all(graph, false)
+    place_all(graph, false, false)
+}
+
+/// The same with what is the same for a run of columns placed in its segment.
+pub fn place_in_segments(graph: &Graph) -> Regions {
+    place_all(graph, false, true)
 }
 
 /// The same, but a sum of what needs no computing stays where it is used, for
 /// machines short of memory: it costs less there than its home does.
 pub fn place_near(graph: &Graph) -> Regions {
-    place_all(graph, true)
+    place_all(graph, true, false)
 }
 
-fn place_all(graph: &Graph, near: bool) -> Regions {
+fn place_all(graph: &Graph, near: bool, segments: bool) -> Regions {
+    let rates = rates(graph);
+    let needed = needed(graph);
     let mut placer = Placer {
         graph,
         near,
-        needed: needed(graph),
-        rates: rates(graph),
+        segment: match segments {
+            true => by_segment(graph, &rates, &needed),
+            false => vec![false; graph.nodes.len()],
+        },
+        needed,
+        rates,
         regions: Regions::new(graph),
         uses: vec![None; graph.nodes.len()],
     };
@@ -100,12 +111,58 @@ fn place_all(graph: &Graph, near: bool) -> Regions {
     placer.regions
 }
 
+/// In how many runs a row may be cut, and how many columns a run should have
+/// on the average at least.
+const RUNS: usize = 12;
+const COLUMNS: usize = 10;
+
+/// Whether an operation compares the column with what is the same for a whole row.
+pub fn bounds_segment(graph: &Graph, rates: &Rates, id: NodeId) -> bool {
+    let Node::Apply(Op::IntLess | Op::IntLessEqual, [a, b]) = graph.node(id) else {
+        return false;
+    };
+    let column = |id| graph.node(id) == Node::Axis(Axis::X);
+    let still = |id| {
+        let rate = rates.rate(id).iter();
+        let mut outside = rate.map(|d| matches!(d, Dependence::Frame | Dependence::Row));
+        outside.all(|o| o)
+    };
+    column(a) && still(b) || column(b) && still(a)
+}
+
+/// Which values depend on the column through such comparisons alone; none where
+/// those cut a row into too many runs.
+fn by_segment(graph: &Graph, rates: &Rates, needed: &[bool]) -> Vec<bool> {
+    let mut found = vec![false; graph.nodes.len()];
+    let mut bounds = 0;
+    for id in graph.ids().filter(|id| needed[id.0 as usize]) {
+        if bounds_segment(graph, rates, id) {
+            found[id.0 as usize] = true;
+            bounds += 1;
+            continue;
+        }
+        let fits = |a: NodeId| found[a.0 as usize] || !rates.depends(a, Dependence::Column);
+        found[id.0 as usize] = match graph.node(id) {
+            node @ (Node::Apply(..) | Node::Select { .. } | Node::Lookup { .. }) => {
+                rates.depends(id, Dependence::Column) && node.operands().all(fits)
+            }
+            _ => false,
+        };
+    }
+    if bounds >= RUNS || (bounds + 1) * COLUMNS > graph.image.width as usize {
+        return vec![false; graph.nodes.len()];
+    }
+    found
+}
+
 struct Placer<'g> {
     graph: &'g Graph,
     /// Whether cheap values stay where they are used.
     near: bool,
     needed: Vec<bool>,
     rates: Rates,
+    /// Which values are the same for a run of columns.
+    segment: Vec<bool>,
     regions: Regions,
     /// The innermost region that holds all uses seen so far.
     uses: Vec<Option<RegionId>>,
@@ -243,8 +300,12 @@ impl Placer<'_> {
             .iter()
             .any(|d| matches!(d, Dependence::Loop(_) | Dependence::Last(_)));
         let (x, y) = (depends(Dependence::Column), depends(Dependence::Row));
-        if !x && !loops && region != ROW && self.regions.holds(PIXEL, region) {
+        let inside = |outer| region != outer && self.regions.holds(outer, region);
+        if !x && !loops && (region == SEGMENT || inside(SEGMENT)) {
             return Some(ROW);
+        }
+        if self.segment[id.0 as usize] && !loops && (region == PIXEL || inside(PIXEL)) {
+            return Some(SEGMENT);
         }
         if !x && !y && !loops && region != FRAME && self.regions.holds(ROW, region) {
             return Some(FRAME);

@@ -79,6 +79,7 @@ impl<'g> Surgery<'g> {
                 spans: Vec::new(),
                 names: Default::default(),
                 directions: Default::default(),
+                claims: Default::default(),
                 ..graph.clone()
             },
             moved: vec![None; graph.nodes.len()],

@@ -84,6 +84,12 @@ fn rebuild_by(graph: &Graph, rule: AnyRule<'_>) -> Graph {
         let report = rebuilder.at(report);
         rebuilder.builder.report(report);
     }
+    for (&id, &(op, [a, b])) in &graph.claims {
+        let new = |id: NodeId| rebuilder.made.get(id.0 as usize).copied().flatten();
+        if let (Some(id), Some(a), Some(b)) = (new(id), new(a), new(b)) {
+            rebuilder.builder.claim(id, op, [a, b]);
+        }
+    }
     for effect in &graph.effects {
         (0..effect.calls).for_each(|_| rebuilder.builder.effect(&effect.name));
     }

@@ -1,6 +1,6 @@
 //! Regions: the places that a value can be computed in, and what is known there.
 //!
-//! Regions form a tree: the frame holds the row, the row holds the pixel, and
+//! Regions form a tree: the frame holds the row, the row its segments, these the pixel, and
 //! below them stand the arms of conditions and the parts of loops. What is
 //! known on entering a region (that a condition holds) may imply more.
 
@@ -18,6 +18,8 @@ pub enum RegionKind {
     Frame,
     /// Once a row.
     Row,
+    /// Once a run of columns in which comparisons with the row's values do not change.
+    Segment,
     /// Once a pixel.
     Pixel,
     /// Where a condition holds, or does not.
@@ -72,7 +74,7 @@ pub fn implied(graph: &Graph, cond: NodeId, holds: bool) -> Vec<Fact> {
 /// Every value's region.
 #[derive(Clone, Debug, Default)]
 pub struct Regions {
-    /// All regions; the first three are frame, row and pixel.
+    /// All regions; the first four are frame, row, segment and pixel.
     pub regions: Vec<Region>,
     /// Each node's region; `None` where the ink does not need it, or where it
     /// needs no computing.
@@ -88,11 +90,13 @@ pub struct Regions {
 pub const FRAME: RegionId = RegionId(0);
 /// The row's region.
 pub const ROW: RegionId = RegionId(1);
+/// The segment's region.
+pub const SEGMENT: RegionId = RegionId(2);
 /// The pixel's region.
-pub const PIXEL: RegionId = RegionId(2);
+pub const PIXEL: RegionId = RegionId(3);
 
 impl Regions {
-    /// The outermost three regions.
+    /// The outermost four regions.
     pub(super) fn new(graph: &Graph) -> Regions {
         let region = |kind, parent, depth| Region {
             kind,
@@ -103,11 +107,12 @@ impl Regions {
             regions: vec![
                 region(RegionKind::Frame, None, 0),
                 region(RegionKind::Row, Some(FRAME), 1),
-                region(RegionKind::Pixel, Some(ROW), 2),
+                region(RegionKind::Segment, Some(ROW), 2),
+                region(RegionKind::Pixel, Some(SEGMENT), 3),
             ],
             of: vec![None; graph.nodes.len()],
             loops: vec![None; graph.loops.len()],
-            facts: vec![Vec::new(); 3],
+            facts: vec![Vec::new(); 4],
             children: HashMap::new(),
         }
     }

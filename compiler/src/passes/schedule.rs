@@ -6,7 +6,7 @@
 //! under an implied condition. Units wait for the units that they read from;
 //! selects on one condition that are ready together share one `If`.
 
-use super::demand::{live_carried, needed, place, place_near};
+use super::demand::{live_carried, needed, place, place_in_segments, place_near};
 use super::queue::{Order, Queue, Unit};
 use super::region::*;
 use crate::flow::graph::*;
@@ -15,18 +15,25 @@ use std::collections::BTreeSet;
 
 /// The statements that draw a graph's picture.
 pub fn schedule(graph: &Graph) -> Tree {
-    schedule_by(graph, Order::Ready)
+    schedule_by(graph, Order::Ready, false)
+}
+
+/// The same for machines that go through a row in runs of columns: what depends
+/// on the column through comparisons with what the row knows is computed once a run.
+pub fn schedule_in_segments(graph: &Graph) -> Tree {
+    schedule_by(graph, Order::Ready, true)
 }
 
 /// The same for machines short of memory: cheap values stay where they are used,
 /// and the statements of a block are as near to their order in the graph as may be. There what makes a shape stands together, so that the same shape
 /// elsewhere has the same run of statements.
 pub fn schedule_together(graph: &Graph) -> Tree {
-    schedule_by(graph, Order::Graph)
+    schedule_by(graph, Order::Graph, false)
 }
 
-fn schedule_by(graph: &Graph, order: Order) -> Tree {
+fn schedule_by(graph: &Graph, order: Order, segments: bool) -> Tree {
     let regions = match order {
+        Order::Ready if segments => place_in_segments(graph),
         Order::Ready => place(graph),
         Order::Graph => place_near(graph),
     };
@@ -52,7 +59,8 @@ fn schedule_by(graph: &Graph, order: Order) -> Tree {
     let roots: Vec<NodeId> = graph.roots().collect();
     Tree {
         frame: emitter.block(FRAME, &roots, &[ROW]),
-        row: emitter.block(ROW, &roots, &[PIXEL]),
+        row: emitter.block(ROW, &roots, &[SEGMENT]),
+        segment: emitter.block(SEGMENT, &roots, &[PIXEL]),
         pixel: emitter.block(PIXEL, &roots, &[]),
         subroutines: Vec::new(),
     }
@@ -61,7 +69,7 @@ fn schedule_by(graph: &Graph, order: Order) -> Tree {
 /// A needed value that a tree does not compute; none in a tree from [`schedule`].
 pub fn missing(graph: &Graph, tree: &Tree) -> Option<NodeId> {
     let mut written = vec![false; graph.nodes.len()];
-    for block in [&tree.frame, &tree.row, &tree.pixel] {
+    for block in tree.outer() {
         walk(block, &mut |statement| match statement {
             Statement::Let(id)
             | Statement::Set {

@@ -12,12 +12,14 @@ use super::choose::choose;
 use super::settled::{Settled, settle};
 use crate::flow::graph::*;
 use crate::flow::tree::*;
-use crate::passes::algebra::algebra;
+use crate::passes::algebra::{Cheaper, algebra, spans};
+use crate::passes::demand::bounds_segment;
 use crate::passes::peel::peel;
+use crate::passes::rate::rates;
 use crate::passes::squares::squares;
 use crate::passes::threshold::threshold;
-use crate::range::Slack;
-use slowlight_routine::{Op, Runtime};
+use crate::range::{Ranges, Slack};
+use slowlight_routine::{Routine, Runtime};
 
 /// How many nodes of a loop's body are copied at most.
 const BODY: usize = 160;
@@ -29,10 +31,13 @@ const COPY: f64 = 0.9;
 /// its routines is not known so well.
 const FORMS: f64 = 0.9;
 
+/// By how much spans must.
+const SPANS: f64 = 0.99;
+
 /// What part of the plan's cycles a statement more must save, for its memory;
 /// three entries of a table take as much. Where there is plenty, and where
 /// there was not enough.
-const MEMORY: [f64; 2] = [0.0006, 0.0025];
+const MEMORY: [f64; 2] = [0.0002, 0.0025];
 
 /// How many nodes a graph may have to be looked at by algebra, and how many may
 /// be scheduled again to find out which forms pay.
@@ -60,6 +65,9 @@ pub fn cheaper(plain: Settled, slack: &Slack, runtime: &'static Runtime, thrifty
     best
 }
 
+/// A pass that puts something in the place of nodes that may be replaced.
+type Pass = fn(&Graph, &Ranges, &Runtime, &dyn Fn(NodeId) -> bool) -> Option<Cheaper>;
+
 struct Site<'s> {
     slack: &'s Slack,
     runtime: &'static Runtime,
@@ -74,21 +82,25 @@ impl Site<'_> {
             .map(|next| settle(&next, self.slack))
             .filter(|next| self.cost(next) < self.cost(plain));
         let base = compared.as_ref().unwrap_or(plain);
-        let found = self.algebraic(base).or(compared)?;
-        let shared = squares(&found.graph, &found.ranges)
+        let found = self.sited(base, FORMS, algebra).or(compared);
+        let base = found.as_ref().unwrap_or(plain);
+        let shared = squares(&base.graph, &base.ranges)
             .map(|next| settle(&next, self.slack))
-            .filter(|next| self.cost(next) < self.cost(&found));
-        Some(shared.unwrap_or(found))
+            .filter(|next| self.cost(next) < self.cost(base));
+        let found = shared.or(found);
+        let base = found.as_ref().unwrap_or(plain);
+        self.sited(base, SPANS, spans).or(found)
     }
 
-    fn algebraic(&self, plain: &Settled) -> Option<Settled> {
+    /// A plan with what a pass puts at the sites where that pays.
+    fn sited(&self, plain: &Settled, part: f64, pass: Pass) -> Option<Settled> {
         if plain.graph.nodes.len() > NODES {
             return None;
         }
         let mut best: Option<Settled> = None;
-        let mut limit = FORMS * self.cost(plain);
+        let mut limit = part * self.cost(plain);
         let mut without: Vec<NodeId> = Vec::new();
-        let sites = self.with(plain, &without)?.1;
+        let sites = self.with(plain, pass, &without)?.1;
         let patient = sites.len() * plain.graph.nodes.len() < PATIENCE;
         let comparisons = |id: &NodeId| plain.graph.ty(*id) == slowlight_routine::Type::Bool;
         // All of them, the comparisons alone, then each left out in turn.
@@ -99,7 +111,7 @@ impl Site<'_> {
         }
         for leave in tries {
             let all = without.iter().chain(&leave).copied().collect::<Vec<_>>();
-            let Some((next, _)) = self.with(plain, &all) else {
+            let Some((next, _)) = self.with(plain, pass, &all) else {
                 continue;
             };
             let cost = self.cost(&next);
@@ -111,10 +123,15 @@ impl Site<'_> {
         best
     }
 
-    /// The plan with algebra everywhere but at some nodes, and where it was.
-    fn with(&self, plain: &Settled, without: &[NodeId]) -> Option<(Settled, Vec<NodeId>)> {
+    /// The plan with a pass everywhere but at some nodes, and where it was.
+    fn with(
+        &self,
+        plain: &Settled,
+        pass: Pass,
+        without: &[NodeId],
+    ) -> Option<(Settled, Vec<NodeId>)> {
         let may = |id: NodeId| !without.contains(&id);
-        let found = algebra(&plain.graph, &plain.ranges, self.runtime, &may)?;
+        let found = pass(&plain.graph, &plain.ranges, self.runtime, &may)?;
         Some((settle(&found.graph, self.slack), found.sites))
     }
 
@@ -123,33 +140,60 @@ impl Site<'_> {
         let Ok(routines) = choose(&plan.graph, &plan.tree, &plan.ranges, self.runtime) else {
             return f64::INFINITY;
         };
-        let cycles = |op: Op| {
-            let found = self.runtime.routines.iter().find(|r| r.op == op);
-            found.map_or(0.0, |r| f64::from(r.cycles))
-        };
-        let step = cycles(Op::Less);
+        let step = f64::from(self.runtime.statement);
         let weigh = Weigh {
             own: &|statement| match statement {
-                Statement::Let(id) => {
-                    step + routines[id.0 as usize].map_or(0.0, |r| f64::from(r.cycles))
-                }
+                Statement::Let(id) => step + self.computing(plan, &routines, *id),
                 _ => step,
             },
         };
         let width = f64::from(plan.graph.image.width.max(1));
-        let cycles = weigh.block(&plan.tree.row) / width + weigh.block(&plan.tree.pixel);
+        let tree = &plan.tree;
+        let runs = 1.0 + bounds(plan) as f64;
+        let cycles = weigh.block(&tree.row) / width
+            + weigh.block(&tree.segment) * runs / width
+            + weigh.block(&tree.pixel);
         cycles * (1.0 + self.memory * memory(plan))
     }
+}
+
+impl Site<'_> {
+    /// What computing a node costs, its operands not.
+    fn computing(&self, plan: &Settled, routines: &[Option<&'static Routine>], id: NodeId) -> f64 {
+        if let Node::Lookup { table, .. } = plan.graph.node(id) {
+            let table = plan.graph.tables.get(table.0 as usize);
+            let flat = table.is_some_and(|t| t.width == 1 || t.height == 1);
+            return f64::from(self.runtime.index) * if flat { 1.0 } else { 2.0 };
+        }
+        let routine = routines.get(id.0 as usize).copied().flatten();
+        routine.map_or(0.0, |r| f64::from(r.cycles))
+    }
+}
+
+/// How many comparisons may end a run of columns.
+pub(super) fn bounds(plan: &Settled) -> usize {
+    let mut bounds = 0;
+    let rates = rates(&plan.graph);
+    walk(&plan.tree.segment, &mut |s| {
+        if let Statement::Let(id) = s {
+            bounds += usize::from(bounds_segment(&plan.graph, &rates, *id));
+        }
+    });
+    bounds
 }
 
 /// Memory in statements.
 fn memory(plan: &Settled) -> f64 {
     let mut statements = 0;
-    for block in [&plan.tree.frame, &plan.tree.row, &plan.tree.pixel] {
+    for block in plan.tree.outer() {
         walk(block, &mut |_| statements += 1);
     }
-    let entries: usize = plan.graph.tables.iter().map(|t| t.entries.len()).sum();
-    f64::from(statements) + entries as f64 / 3.0
+    let entries = plan.graph.tables.iter().map(|t| match t.seed.is_empty() {
+        true => t.entries.len() as f64 / 3.0,
+        // The array, and how it is worked out.
+        false => t.entries.len() as f64 / 4.0 + 3.0,
+    });
+    f64::from(statements) + entries.sum::<f64>()
 }
 
 /// Adds up statements as often as they are likely to be carried out.

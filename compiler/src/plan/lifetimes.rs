@@ -75,6 +75,7 @@ fn homes(plan: &Plan, move_less: bool) -> HashMap<Place, usize> {
     };
     lives.block(&plan.tree.frame);
     lives.block(&plan.tree.row);
+    lives.block(&plan.tree.segment);
     // The number of the last statement before the pixel's.
     let pixel = lives.now;
     lives.block(&plan.tree.pixel);

@@ -9,7 +9,8 @@
 //!
 //! - The program draws picture rows `rows.0..=rows.1` and picture columns
 //!   `columns.0..=columns.1` (both inclusive): `tree.frame` once, then for each
-//!   y `tree.row`, then for each x `tree.pixel`, after which [`Graph::ink`] is
+//!   y `tree.row`, then for each x `tree.segment` (or that only where one of its
+//!   comparisons with x has changed) and `tree.pixel`, after which [`Graph::ink`] is
 //!   the ink to plot at screen position (x + offset.0, y + offset.1), if the
 //!   plan says [`Plan::plot`].
 //! - [`Statement::Let`] computes node `id` by `plan.routine(id)` (operations) or
@@ -46,6 +47,7 @@ mod names;
 mod outlined;
 mod params;
 pub mod print;
+pub mod recipes;
 mod settled;
 mod spread;
 mod stepped;
@@ -124,6 +126,7 @@ pub struct Plan {
     /// The live params, in the graph's order.
     pub params: Vec<ParamPlan>,
     routines: Vec<Option<&'static Routine>>,
+    tables: Vec<recipes::Made>,
     gather: Option<&'static Routine>,
     folded: Vec<bool>,
     homes: HashMap<Place, String>,
@@ -141,6 +144,17 @@ impl Plan {
     /// so far, in that order, where the graph spreads its error.
     pub fn gather(&self) -> Option<&'static Routine> {
         self.gather
+    }
+
+    /// How the program has a table.
+    pub fn table(&self, id: TableId) -> Option<&recipes::Made> {
+        self.tables.get(id.0 as usize)
+    }
+
+    /// The bits of a table's entry.
+    pub fn entry(&self, table: TableId, at: usize) -> Bits {
+        let made = self.table(table).and_then(|made| made.bits.get(at));
+        made.copied().unwrap_or(0)
     }
 
     /// Whether a value may be written where it is read.
@@ -219,11 +233,7 @@ impl Plan {
         let shade = self.graph.shade?;
         let always = |b: &Block| b.iter().any(|s| writes(s, shade));
         let tree = &self.tree;
-        if self.place(shade).is_none()
-            || [&tree.frame, &tree.row, &tree.pixel]
-                .into_iter()
-                .any(always)
-        {
+        if self.place(shade).is_none() || tree.outer().into_iter().any(always) {
             return None;
         }
         let mut graph = (*self.origin.0).clone();
@@ -233,6 +243,11 @@ impl Plan {
             plan = plan.outlined(&|_| None).ok()?;
         }
         Some(plan)
+    }
+
+    /// Whether there is a plan that spends less memory on speed.
+    pub fn may_be_smaller(&self) -> bool {
+        matches!(self.origin.1, Rewriting::Fast { .. })
     }
 
     /// A plan of the same scene that spends less memory on speed. None where
@@ -391,6 +406,7 @@ fn assemble(
 ) -> Result<Plan, Vec<Diagnostic>> {
     let runtime = target.runtime;
     let routines = choose::choose(&graph, &tree, &ranges_now, runtime)?;
+    let tables = recipes::made(&graph, runtime);
     let gather = graph.diffusion.as_ref().and_then(|_| gathering(runtime));
     let folded = fold_uses::folded(&graph, &tree);
     let (offset, columns, rows) = frame(&graph.image, &goal.mode);
@@ -416,6 +432,7 @@ fn assemble(
         ranges: ranges_now,
         params,
         routines,
+        tables,
         gather,
         folded,
         homes,

@@ -103,8 +103,12 @@ impl Display for Plan {
         for (name, block) in [
             ("frame", &self.tree.frame),
             ("row", &self.tree.row),
+            ("segment", &self.tree.segment),
             ("pixel", &self.tree.pixel),
         ] {
+            if name == "segment" && block.is_empty() {
+                continue;
+            }
             writeln!(f, "{name}:")?;
             self.block(f, block, 1)?;
         }

@@ -4,7 +4,7 @@ use crate::flow::graph::*;
 use crate::flow::tree::Tree;
 use crate::passes::fold::fold;
 use crate::passes::narrow::narrow;
-use crate::passes::schedule::schedule;
+use crate::passes::schedule::{schedule, schedule_in_segments};
 use crate::range::{Ranges, Slack, ranges};
 
 /// A graph, when each value of it is computed, and what each stays within.
@@ -31,7 +31,10 @@ pub fn settle(graph: &Graph, slack: &Slack) -> Settled {
 
 /// A graph as it is, scheduled, with its ranges.
 pub fn scheduled(graph: Graph, slack: &Slack) -> Settled {
-    let tree = schedule(&graph);
+    let tree = match slack.segments() {
+        true => schedule_in_segments(&graph),
+        false => schedule(&graph),
+    };
     let ranges = ranges(&graph, &tree, slack);
     Settled {
         graph,

@@ -4,7 +4,7 @@
 //! or where computing it takes several multiplications. It is weighed against
 //! whole statements, with what is read and assigned, since a step is one.
 
-use super::cheaper::Weigh;
+use super::cheaper::{Weigh, bounds};
 use super::choose::choose;
 use super::fold_uses::folded;
 use super::settled::{Settled, settle};
@@ -117,7 +117,9 @@ fn cost(plan: &Settled, runtime: &'static Runtime, stepping: Stepping) -> f64 {
         steps += u32::from(matches!(statement, Statement::Let(id) if is_ramp(graph, *id)));
     });
     let width = f64::from(graph.image.width.max(1));
+    let runs = 1.0 + bounds(plan) as f64;
     weigh.block(&plan.tree.row) / width
+        + weigh.block(&plan.tree.segment) * runs / width
         + weigh.block(&plan.tree.pixel)
         + f64::from(steps * stepping.ramp)
 }

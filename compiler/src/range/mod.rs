@@ -11,13 +11,16 @@ pub mod error;
 mod interval;
 mod parity;
 mod refine;
+mod slack;
 
 use crate::flow::graph::*;
 use crate::flow::ramp;
 use crate::flow::tree::*;
+
 use interval::interval;
 use parity::whole;
-use slowlight_routine::{Error, Format, Op, Range, Runtime, Type};
+pub use slack::{ENTRIES, Slack};
+use slowlight_routine::{Op, Range, Runtime, Type};
 use std::collections::HashMap;
 
 /// What the ranges of a scene are, on one machine. Side tables by node.
@@ -31,110 +34,6 @@ pub struct Ranges {
     pub args: Vec<[Range; 2]>,
 }
 
-/// How a machine departs from exact arithmetic.
-pub struct Slack {
-    /// How far results may be off, by [`Op`]: every routine's.
-    errors: Vec<(Op, Error)>,
-    /// What a component of a direction is trusted to be, if anything.
-    direction: Option<Range>,
-    /// The greatest magnitude of a quotient.
-    quotient: f64,
-    /// What reals can be.
-    reals: Range,
-    /// What ints can be.
-    ints: Range,
-}
-
-impl Slack {
-    /// No departure: the graph's own arithmetic.
-    pub fn exact() -> Slack {
-        let reals = Range::new(f64::MIN, f64::MAX);
-        Slack {
-            errors: Vec::new(),
-            direction: None,
-            quotient: f64::INFINITY,
-            reals,
-            ints: Range::new(f64::from(i32::MIN), f64::from(i32::MAX)),
-        }
-    }
-
-    /// As the routines of a runtime state it.
-    pub fn of(runtime: &Runtime) -> Slack {
-        let ends = |format: Format| match format {
-            Format::Int { .. } => Range::new(-format.most(), format.most() - 1.0),
-            Format::Fixed { .. } => Range::new(-format.most(), format.most()),
-            _ => Range::new(f64::MIN, f64::MAX),
-        };
-        let errors = runtime.routines.iter().map(|r| (r.op, r.error));
-        // In a format whose ends are near, a scene that breaks the contract
-        // would wrap: there the routines saturate instead.
-        let floats = matches!(runtime.real, Format::Real40 | Format::Float316);
-        Slack {
-            errors: errors.collect(),
-            direction: floats.then(|| Range::new(-2.0, 2.0)),
-            quotient: runtime.quotient,
-            reals: ends(runtime.real),
-            ints: ends(runtime.int),
-        }
-    }
-
-    /// The greatest real that can be held: what reaches it has no known bound.
-    pub fn most(&self) -> f64 {
-        self.reals.magnitude()
-    }
-
-    /// A range with what the routines of an operation may add to it.
-    fn enlarge(&self, op: Op, args: &[Range], range: Range) -> Range {
-        let all = self.errors.iter().filter(|(o, _)| *o == op);
-        let worst = |x: f64| {
-            let off = all.clone().map(|(_, error)| error.most(args, x));
-            off.fold(0.0, f64::max)
-        };
-        let (low, high) = (worst(range.lo), worst(range.hi));
-        if low == 0.0 && high == 0.0 {
-            return range;
-        }
-        let (mut lo, mut hi) = (range.lo - low, range.hi + high);
-        // Only an absolute error leads across 0.
-        if !all.clone().any(|(_, e)| matches!(e, Error::Absolute(_))) {
-            lo = if range.lo >= 0.0 { lo.max(0.0) } else { lo };
-            hi = if range.hi <= 0.0 { hi.min(0.0) } else { hi };
-        }
-        let mut wide = Range::new(lo, hi);
-        // What is off by a part of itself keeps its sign.
-        wide.nonzero |= range.nonzero && worst(0.0) == 0.0;
-        wide
-    }
-
-    /// What an operation's result stays within, given its exact range.
-    fn rounded(&self, op: Op, args: &[Range], exact: Range) -> Range {
-        let exact = match op {
-            Op::Div if self.quotient.is_finite() => {
-                let held = |x: f64| x.clamp(-self.quotient, self.quotient);
-                Range {
-                    nonzero: exact.nonzero,
-                    ..Range::new(held(exact.lo), held(exact.hi))
-                }
-            }
-            _ => exact,
-        };
-        self.cut(op.result(), self.enlarge(op, args, exact))
-    }
-
-    fn cut(&self, ty: Type, range: Range) -> Range {
-        let ends = match ty {
-            Type::Bool => Range::new(0.0, 1.0),
-            Type::Int => self.ints,
-            Type::Real => self.reals,
-        };
-        let clamp = |x: f64| x.clamp(ends.lo, ends.hi);
-        Range {
-            nonzero: range.nonzero,
-            ..Range::new(clamp(range.lo), clamp(range.hi))
-        }
-    }
-}
-
 /// The ranges of a scheduled graph.
 pub fn ranges(graph: &Graph, tree: &Tree, slack: &Slack) -> Ranges {
     let mut walk = Walk {
@@ -146,6 +45,7 @@ pub fn ranges(graph: &Graph, tree: &Tree, slack: &Slack) -> Ranges {
             .iter()
             .map(|l| vec![None; l.types.len()])
             .collect(),
+        assumed: Vec::new(),
         turns: 0,
         out: Ranges {
             result: graph.ids().map(|id| known(graph, slack, id)).collect(),
@@ -157,6 +57,7 @@ pub fn ranges(graph: &Graph, tree: &Tree, slack: &Slack) -> Ranges {
     };
     walk.block(&tree.frame);
     walk.block(&tree.row);
+    walk.block(&tree.segment);
     walk.block(&tree.pixel);
     walk.out
 }
@@ -218,6 +119,8 @@ pub(crate) struct Walk<'g> {
     /// Each node's range here: refined by the conditions around.
     now: Vec<Range>,
     carried: Vec<Vec<Option<Range>>>,
+    /// What values that are computed here are known to stay within.
+    assumed: Vec<(NodeId, Range)>,
     /// How many turns of loops have been walked.
     turns: u32,
     out: Ranges,
@@ -295,7 +198,11 @@ impl Walk<'_> {
     /// Walks an arm under its condition; answers what it sets, and to what.
     fn arm(&mut self, cond: NodeId, holds: bool, block: &Block) -> Vec<(Place, Range)> {
         let saved = refine::refine(self.graph, &mut self.now, cond, holds);
+        let assumed = self.assumed.len();
+        self.assumed
+            .extend(refine::claimed(self.graph, cond, holds));
         self.block(block);
+        self.assumed.truncate(assumed);
         for (id, range) in saved.into_iter().rev() {
             self.now[id.0 as usize] = range;
         }
@@ -417,6 +324,11 @@ impl Walk<'_> {
         match place {
             Place::Node(id) => {
                 let at = id.0 as usize;
+                let mut claims = self.assumed.iter().filter(|(of, _)| *of == id);
+                let range = match claims.next() {
+                    Some((_, claim)) => range.meet(*claim),
+                    None => range,
+                };
                 self.now[at] = range;
                 self.out.result[at] = match &mut self.shared[at] {
                     // What is recorded holds for every call.
@@ -476,7 +388,12 @@ impl Walk<'_> {
                     .into_iter()
                     .flat_map(|t| &t.entries);
                 let values = entries.map(|e| Range::point(e.value().real()));
-                values.reduce(Range::join).unwrap_or(Range::ALL)
+                let all = values.reduce(Range::join).unwrap_or(Range::ALL);
+                let seeded = self.graph.tables.get(table.0 as usize);
+                match seeded.is_some_and(|t| !t.seed.is_empty()) {
+                    true => self.slack.entry(all),
+                    false => all,
+                }
             }
             _ => Range::ALL,
         };

@@ -224,6 +224,14 @@ fn border(op: Op, args: &[Pair]) -> (f64, f64) {
 impl Arithmetic for &Shadow<'_> {
     type Value = Pair;
 
+    fn entry(&self, table: TableId, at: usize, value: Value) -> Pair {
+        Pair {
+            exact: value,
+            bits: self.plan.entry(table, at),
+            event: None,
+        }
+    }
+
     fn constant(&self, value: Value) -> Pair {
         Pair {
             exact: value,

@@ -46,6 +46,8 @@ pub struct Forms<'g> {
     pub roots: Vec<Poly>,
     /// What each atom beyond the nodes is the inverse of.
     pub inverses: Vec<Poly>,
+    /// Whether what is the same for a whole row is not looked into.
+    by_row: bool,
 }
 
 /// An int of two values: which they are.
@@ -57,6 +59,16 @@ pub struct Two {
 
 impl<'g> Forms<'g> {
     pub fn new(graph: &'g Graph, ranges: &'g Ranges) -> Forms<'g> {
+        Forms::looked_into(graph, ranges, false)
+    }
+
+    /// The same in terms of the column and of what is the same for a whole row,
+    /// as it is computed there.
+    pub fn by_row(graph: &'g Graph, ranges: &'g Ranges) -> Forms<'g> {
+        Forms::looked_into(graph, ranges, true)
+    }
+
+    fn looked_into(graph: &'g Graph, ranges: &'g Ranges, by_row: bool) -> Forms<'g> {
         let mut forms = Forms {
             graph,
             ranges,
@@ -64,6 +76,7 @@ impl<'g> Forms<'g> {
             of: vec![None; graph.nodes.len()],
             roots: Vec::new(),
             inverses: Vec::new(),
+            by_row,
         };
         for id in graph.ids() {
             forms.of[id.0 as usize] = forms.form(id);
@@ -143,6 +156,7 @@ impl<'g> Forms<'g> {
                 Some(plain(Poly::constant(number)))
             }
             Node::Param(_) | Node::Axis(_) => Some(plain(Poly::atom(id.0))),
+            _ if self.by_row && !self.pixel(id) => self.opaque(id),
             Node::Apply(op, [a, b]) => self.applied(id, op, a, b).or_else(|| self.opaque(id)),
             _ => self.opaque(id),
         }

@@ -18,12 +18,16 @@
 //! roundings is estimated on both sides ([`judge`]); the pass leaves formats
 //! alone that have nothing to lose.
 
+mod extent;
 mod form;
 mod judge;
 mod number;
 mod poly;
 mod put;
 mod rooted;
+mod span;
+#[cfg(test)]
+mod span_tests;
 #[cfg(test)]
 mod tests;
 
@@ -37,6 +41,7 @@ use judge::{Follow, Nodes, Rounded, Sample, cycles, samples};
 use number::Number;
 use put::Put;
 use slowlight_routine::{Format, Op, Runtime, Type};
+pub use span::spans;
 use std::collections::HashMap;
 
 /// By how much a form's roundings may exceed those of what it replaces, given
@@ -157,14 +162,28 @@ impl Site<'_> {
             cycles(graph, id, self.runtime),
             cycles(&*b, made, self.runtime),
         );
-        (now < old && self.sound(b, new, id, made)).then_some(made)
+        let judge = Judge {
+            graph,
+            samples: &self.samples,
+            allowance: self.allowance,
+        };
+        (now < old && judge.sound(b, new, id, made)).then_some(made)
     }
+}
 
+/// What decides whether roundings do too much.
+struct Judge<'g> {
+    graph: &'g Graph,
+    samples: &'g [Sample],
+    allowance: f64,
+}
+
+impl Judge<'_> {
     /// Whether roundings do no more to a value or a comparison than allowed.
     fn sound(&self, b: &Builder, new: New<'_>, old: NodeId, made: NodeId) -> bool {
-        let graph = self.forms.graph;
+        let graph = self.graph;
         let mut told = 0;
-        for sample in &self.samples {
+        for sample in self.samples {
             let tables = |t: TableId| graph.tables.get(t.0 as usize);
             let mut follow = Follow {
                 nodes: graph,
@@ -205,6 +224,10 @@ fn relative(follow: &mut Follow<'_>, nodes: &dyn Nodes, id: NodeId) -> Option<f6
     let part = |r: Rounded| r.off / r.value.abs().max(1e-300);
     match nodes.node(id) {
         Node::Const(_) => Some(0.0),
+        Node::Select { cond, yes, no } => {
+            let holds = follow.value(cond, 0)?.value != 0.0;
+            relative(follow, nodes, if holds { yes } else { no })
+        }
         Node::Apply(op, [a, b]) if op.result() == Type::Bool && op.arity() == 2 => {
             let (a, b) = (follow.value(a, 0)?, follow.value(b, 0)?);
             Some(part(Rounded {

@@ -53,6 +53,11 @@ impl Put<'_, '_> {
         if let Some(square) = self.square(&parts, x) {
             return square;
         }
+        self.horner(&parts, x)
+    }
+
+    /// A polynomial in `x` by its coefficients, from power 0 on.
+    pub(super) fn horner(&mut self, parts: &[Poly], x: Out) -> Option<Out> {
         let (top, rest) = parts.split_last()?;
         let mut sum = self.poly(top)?;
         for part in rest.iter().rev() {
@@ -106,7 +111,7 @@ impl Put<'_, '_> {
     }
 
     /// Whether an atom of two values has the greater.
-    fn high(&mut self, atom: Atom, low: i32) -> Option<NodeId> {
+    pub(super) fn high(&mut self, atom: Atom, low: i32) -> Option<NodeId> {
         let forms = self.forms;
         if let Node::Apply(Op::Sign, [of, _]) = forms.graph.node(NodeId(atom))
             && let Some(form) = forms.get(of)

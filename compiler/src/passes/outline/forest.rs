@@ -79,7 +79,9 @@ impl Forest {
             named: Vec::new(),
         };
         let mut above = None;
-        for block in [tree.frame, tree.row, tree.pixel] {
+        // Programs with subroutines are not cut into segments.
+        let pixel = [tree.segment, tree.pixel].concat();
+        for block in [tree.frame, tree.row, pixel] {
             let end = block.len();
             let made = forest.block(block, None, above, None);
             forest.tops.push(made);
@@ -383,6 +385,7 @@ impl Forest {
         let mut tree = Tree {
             frame: next(&mut self),
             row: next(&mut self),
+            segment: Block::new(),
             pixel: next(&mut self),
             subroutines: Vec::new(),
         };

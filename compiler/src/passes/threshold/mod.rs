@@ -113,12 +113,24 @@ fn entry(
     span: Span,
 ) -> Option<NodeId> {
     let reals = entries.iter().map(|e| Constant::new(Value::Real(*e)));
+    let seed = match selector {
+        Selector::Entry { of, .. } => {
+            let cells = graph.tables.get(of.0 as usize)?.entries.iter();
+            let ints = cells.map(|e| match e.value() {
+                Value::Int(n) if n.abs() < 1_000_000 => Some(n),
+                _ => None,
+            });
+            ints.collect::<Option<Vec<i32>>>().unwrap_or_default()
+        }
+        Selector::Int { low, .. } => (low..).take(entries.len()).collect(),
+    };
     let table = |width, height| Table {
         name: "threshold".to_owned(),
         width,
         height,
         ty: Type::Real,
         entries: reals.clone().collect(),
+        seed: seed.clone(),
     };
     match selector {
         Selector::Entry { of, column, row } => {

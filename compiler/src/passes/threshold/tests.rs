@@ -95,3 +95,36 @@ fn what_is_not_monotone_is_left_alone() {
     let spread = "{ spread v / 2 to { (1, 0): 1 }; ink(floor(sqrt(v) * 3)) }";
     assert!(both(&scene_of(FOUR, spread, "x / 60")).1.is_none());
 }
+
+/// All thresholds of a dither by a matrix are worked out from its cells, as are
+/// the squares that algebra compares with; the bits stay near the entries.
+#[test]
+fn thresholds_are_worked_out_from_the_cells() {
+    let scene = crate::scene::check("test", include_str!("../../../../examples/mirrors.scn"));
+    let target = crate::target::find("bbc:micro").unwrap();
+    let options = crate::sema::Options {
+        offset: target.offset,
+        ..Default::default()
+    };
+    let graph = scene.lower(&options).unwrap();
+    let goal = crate::plan::Goal {
+        name: "test".to_owned(),
+        mode: crate::target::default_mode(target, 320, 240).unwrap(),
+        rows: None,
+        plot: true,
+    };
+    let plan = crate::plan::plan(&graph, target, &goal).unwrap();
+    assert!(plan.graph.tables.len() > 4);
+    for (k, table) in plan.graph.tables.iter().enumerate() {
+        let id = TableId(k as u32);
+        assert!(plan.table(id).unwrap().recipe.is_some(), "{}", table.name);
+        for (at, entry) in table.entries.iter().enumerate() {
+            let (real, bits) = (entry.value().real(), plan.entry(id, at));
+            let made = (plan.runtime.decode)(bits, plan.runtime.real).real();
+            assert!(
+                (made - real).abs() <= real.abs() / 4_194_304.0,
+                "{made} for {real}"
+            );
+        }
+    }
+}

@@ -36,7 +36,7 @@ pub fn walk(plan: &Plan, tile: &Tile) -> Bounds {
             ..Bounds::default()
         },
     };
-    for block in [&plan.tree.frame, &plan.tree.row, &plan.tree.pixel] {
+    for block in plan.tree.outer() {
         walk.block(block);
     }
     walk.out.operations = walk.sources;
@@ -299,11 +299,11 @@ impl<'p> Walk<'p> {
     /// What lies between the entries of a table.
     fn entries(&self, table: TableId) -> Value {
         let entries = self.graph.tables.get(table.0 as usize);
-        let entries = entries.into_iter().flat_map(|t| &t.entries);
-        let values = entries.map(|e| {
+        let entries = entries.into_iter().flat_map(|t| &t.entries).enumerate();
+        let values = entries.map(|(at, e)| {
             let exact = e.value();
             let format = self.plan.runtime.format_of(exact.ty());
-            let made = (self.plan.runtime.decode)(self.plan.bits(exact), format).real();
+            let made = (self.plan.runtime.decode)(self.plan.entry(table, at), format).real();
             Value {
                 range: Range::point(exact.real()),
                 error: Form::within((made - exact.real()).abs()),

@@ -73,6 +73,7 @@ impl<'a> Lower<'a> {
             height: map.height as u32,
             ty: Type::Int,
             entries: entries.map(|&c| Constant::new(Value::Int(c))).collect(),
+            seed: Vec::new(),
         });
         self.tables.maps.insert(id, found);
         Ok(found)
@@ -145,6 +146,7 @@ impl<'a> Lower<'a> {
                     height: table.height() as u32,
                     ty,
                     entries,
+                    seed: Vec::new(),
                 })
             })
             .collect();

@@ -3,6 +3,7 @@
 use super::Style;
 use super::expression::Expressions;
 use super::lines::{Label, Labels, Lines};
+use super::segment::Ends;
 use super::text::Text;
 use crate::flow::graph::{Node, NodeId};
 use crate::flow::tree::*;
@@ -27,6 +28,8 @@ pub struct Code<'p> {
     /// Loops of the scene around what is written.
     pub loops: u32,
     pub labels: Labels,
+    /// What ends a run of columns, where its block is being written.
+    pub ends: Option<Ends>,
     span: Option<Span>,
 }
 
@@ -38,8 +41,14 @@ impl<'p> Code<'p> {
             rare: Lines::default(),
             loops: 0,
             labels: Labels::default(),
+            ends: None,
             span: None,
         }
+    }
+
+    /// Where in the scene what is being written comes from.
+    pub fn span(&self) -> Option<Span> {
+        self.span
     }
 
     /// A statement that comes from no place in the scene.
@@ -115,6 +124,7 @@ impl<'p> Code<'p> {
     /// Computes a node. `fold`: it may be written where it is read.
     pub fn assignment(&mut self, id: NodeId, fold: bool) {
         self.span = Some(self.values.plan.graph.span(id));
+        self.end_run(id);
         if self.extreme(id) {
             return;
         }

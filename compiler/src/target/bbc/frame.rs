@@ -6,14 +6,14 @@ use super::lines::Lines;
 use super::poke::Poke;
 use super::ramp;
 use super::screen;
+use super::segment::Segments;
 use super::short::short;
 use super::spread::Spread;
-use crate::flow::graph::Table;
+use super::tables;
 use crate::flow::tree::SubroutineId;
 use crate::plan::Plan;
 use crate::source::Span;
-use slowlight_routine::{Part, Source, Type, Value};
-use slowlight_runtime_bbc::literal;
+use slowlight_routine::{Part, Source, Type};
 
 /// A table's index clamped to 0..n.
 const FN_INDEX: &str = "\
@@ -49,7 +49,7 @@ pub fn program(plan: &Plan) -> Lines {
     code.lines.weight = 5_000;
     functions(&mut code, &parts);
     code.lines.weight = 1;
-    data(plan, &mut code);
+    tables::data(plan, &mut code);
     let style = code.values.style;
     if style == Style::Listing {
         return code.lines.remarked(|span| item(plan, span));
@@ -124,9 +124,17 @@ fn picture(plan: &Plan, code: &mut Code<'_>, first: &str, last: &str, spread: Op
     code.block(&plan.tree.row);
     ramp::start(plan, code);
     let columns = plan.computed_columns();
-    match &poke {
-        Some(poke) => poke.columns(plan, code),
-        None => code.line(format!("FOR X%={} TO {}", columns.0, columns.1)),
+    let segments = Segments::new(plan, code);
+    let top_label = code.labels.next();
+    match (&poke, &segments) {
+        (Some(poke), _) => poke.columns(plan, code, segments.as_ref(), top_label),
+        (None, Some(segments)) => {
+            code.statement(format!("X%={}", columns.0));
+            code.lines.place(top_label);
+            segments.begin(plan, code);
+            code.line(format!("FOR X%=X% TO {}", segments.end()));
+        }
+        (None, None) => code.line(format!("FOR X%={} TO {}", columns.0, columns.1)),
     }
     code.lines.weight = PIXEL;
     if let Some(spread) = spread {
@@ -148,8 +156,10 @@ fn picture(plan: &Plan, code: &mut Code<'_>, first: &str, last: &str, spread: Op
     }
     ramp::step(plan, code);
     code.line("NEXT");
-    if let Some(poke) = &poke {
-        poke.put(plan, code, first);
+    match (&poke, &segments) {
+        (Some(poke), _) => poke.put(plan, code, first, segments.is_some().then_some(top_label)),
+        (None, Some(_)) => code.line(format!("IF X%<={} THEN {top_label}", columns.1)),
+        (None, None) => {}
     }
     code.lines.weight = ROW;
     if let Some(spread) = spread {
@@ -236,31 +246,7 @@ fn setup(plan: &Plan, code: &mut Code<'_>, parts: &[&Part], first: &str, last: &
     for text in constants {
         code.statement(text);
     }
-    for (t, table) in plan.graph.tables.iter().enumerate() {
-        let Some(name) = code.values.names.tables.get(t).cloned() else {
-            continue;
-        };
-        let (w, h) = (table.width - 1, table.height - 1);
-        // The element, the bounds, and the loops around reading it.
-        let (index, bounds, loops, ends) = match (w, h) {
-            (_, 0) => ("X%", format!("{w}"), format!("FOR X%=0 TO {w}"), "NEXT"),
-            (0, _) => ("Y%", format!("{h}"), format!("FOR Y%=0 TO {h}"), "NEXT"),
-            _ => (
-                "X%,Y%",
-                format!("{w},{h}"),
-                format!("FOR Y%=0 TO {h}:FOR X%=0 TO {w}"),
-                "NEXT:NEXT",
-            ),
-        };
-        let element = format!("{name}({index})");
-        let shrink = match scale(plan, table) {
-            1 => String::new(),
-            scale => format!(":{element}={element}/{scale}"),
-        };
-        code.line(format!(
-            "DIM {name}({bounds}):{loops}:READ {element}{shrink}:{ends}"
-        ));
-    }
+    tables::make(plan, code);
     code.line("ENDPROC");
 }
 
@@ -292,45 +278,5 @@ fn functions(code: &mut Code<'_>, parts: &[&Part]) {
     }
     if code.values.clamps {
         FN_INDEX.lines().for_each(|l| code.line(l));
-    }
-}
-
-/// By what a table's entries are multiplied in DATA: where memory is short,
-/// fractions of a power of two are written as whole numbers, which are shorter
-/// and, divided again, the same bits.
-fn scale(plan: &Plan, table: &Table) -> u32 {
-    if !plan.tight || table.ty != Type::Real {
-        return 1;
-    }
-    let whole = |scale: &u32| {
-        let mut entries = table.entries.iter().map(|e| e.value().real());
-        entries.all(|x| {
-            let scaled = x * f64::from(*scale);
-            scaled.fract() == 0.0 && scaled.abs() < 1e6
-        })
-    };
-    (0..=16).map(|k| 1 << k).find(whole).unwrap_or(1)
-}
-
-fn data(plan: &Plan, code: &mut Code<'_>) {
-    let width = if plan.tight { 200 } else { 60 };
-    for table in &plan.graph.tables {
-        let scale = f64::from(scale(plan, table));
-        let mut line = String::new();
-        for entry in &table.entries {
-            let text = match entry.value() {
-                Value::Real(x) => literal(x * scale),
-                Value::Int(n) => n.to_string(),
-                Value::Bool(b) => (-i32::from(b)).to_string(),
-            };
-            if line.len() + text.len() > width {
-                code.line(std::mem::take(&mut line));
-            }
-            line.push_str(if line.is_empty() { "DATA " } else { "," });
-            line.push_str(&text);
-        }
-        if !line.is_empty() {
-            code.line(line);
-        }
     }
 }

@@ -35,8 +35,10 @@ mod pieces;
 mod poke;
 mod ramp;
 mod screen;
+mod segment;
 mod short;
 mod spread;
+mod tables;
 #[cfg(test)]
 mod tests;
 mod text;

@@ -8,6 +8,8 @@
 
 use super::Style;
 use super::code::Code;
+use super::lines::Label;
+use super::segment::Segments;
 use crate::plan::Plan;
 
 /// How a picture is put into memory, byte by byte.
@@ -21,6 +23,10 @@ pub struct Poke {
     byte: String,
     at: String,
     start: String,
+    /// The byte's last column, and the last that is drawn before the next of
+    /// a row's segments or the next byte.
+    last: String,
+    until: String,
 }
 
 /// The bits of an ink at a byte's last pixel: bit by bit, each so far from the next.
@@ -59,6 +65,8 @@ impl Poke {
             byte: names.unique("byte", "%"),
             at: names.unique("at", "%"),
             start: names.unique("start", "%"),
+            last: names.unique("last_of_byte", "%"),
+            until: names.unique("until", "%"),
         };
         poke.table(plan, code);
         Some(poke)
@@ -83,8 +91,15 @@ impl Poke {
         }
     }
 
-    /// The loops over a row's bytes and each byte's pixels.
-    pub fn columns(&self, plan: &Plan, code: &mut Code<'_>) {
+    /// The loops over a row's bytes and each byte's pixels. In `segments`, the
+    /// inner loop begins at the label `again` as often as a byte has segments.
+    pub fn columns(
+        &self,
+        plan: &Plan,
+        code: &mut Code<'_>,
+        segments: Option<&Segments>,
+        again: Label,
+    ) {
         let (first, last) = plan.columns;
         let y = match plan.offset.1 {
             0 => "Y%".to_owned(),
@@ -103,9 +118,26 @@ impl Poke {
         code.statement(format!("X%={first}"));
         let bytes = (last + 1 - first) / self.pixels;
         let end = 8 * (bytes - 1);
+        if let Some(segments) = segments {
+            code.statement(format!("{}={}", segments.end(), i64::from(first) - 1));
+        }
         code.line(format!("FOR {at}={start} TO {start}+{end} STEP 8"));
         code.statement(format!("{}=0", self.byte));
-        code.line(format!("FOR X%=X% TO X%+{}", self.pixels - 1));
+        let Some(segments) = segments else {
+            code.line(format!("FOR X%=X% TO X%+{}", self.pixels - 1));
+            return;
+        };
+        let (last, until, end) = (&self.last, &self.until, segments.end());
+        code.statement(format!("{last}=X%+{}", self.pixels - 1));
+        code.lines.place(again);
+        let inside = code.labels.next();
+        code.line(format!("IF X%<={end} THEN {inside}"));
+        segments.begin(plan, code);
+        code.lines.place(inside);
+        code.line(format!(
+            "IF {last}<={end} THEN {until}={last} ELSE {until}={end}"
+        ));
+        code.line(format!("FOR X%=X% TO {until}"));
     }
 
     /// Adds a pixel's ink.
@@ -119,7 +151,10 @@ impl Poke {
     }
 
     /// Puts a byte, and ends the loop over them.
-    pub fn put(&self, plan: &Plan, code: &mut Code<'_>, first: &str) {
+    pub fn put(&self, plan: &Plan, code: &mut Code<'_>, first: &str, again: Option<Label>) {
+        if let Some(again) = again {
+            code.line(format!("IF X%<={} THEN {again}", self.last));
+        }
         let put = format!("?{}={}", self.at, self.byte);
         if plan.graph.diffusion.is_some() {
             code.line(format!("IF Y%>={first} THEN {put}"));

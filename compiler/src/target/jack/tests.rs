@@ -69,6 +69,7 @@ fn built_by_hand() -> Graph {
         entries: [0.5, -1.0, 2.0, 0.25]
             .map(|r| crate::flow::graph::Constant::new(Value::Real(r)))
             .to_vec(),
+        seed: Vec::new(),
     });
     let weight = b.lookup(weights, x, y, at);
     let start = b.apply(Op::ToReal, &[x], at);

@@ -1,0 +1,110 @@
+//! Between which bounds a polynomial stays where its atoms do.
+//!
+//! An interval for each monomial knows nothing of how they go together: of
+//! -4 y² + 8 y - 4 z² it does not see that it is always below 0 where z is not
+//! small. So the atoms' ranges are cut into pieces, and the bounds are those of
+//! all boxes of pieces: what is too wide shrinks with the pieces' width.
+
+use super::form::Forms;
+use super::number::Number;
+use super::poly::{Atom, Poly};
+use crate::flow::graph::NodeId;
+use slowlight_routine::Range;
+
+/// How many boxes are looked at.
+const BOXES: usize = 4096;
+
+/// The bounds of a polynomial by what is the same for a whole row (`rows`),
+/// which has a form itself (`full`).
+pub fn extent(rows: &Forms<'_>, full: &Forms<'_>, poly: &Poly) -> Range {
+    let of = |atom: Atom| {
+        let known = known(rows, atom);
+        let parts = full.get(NodeId(atom)).map(|form| form.parts.as_slice());
+        match parts {
+            Some([part]) if part.roots.is_empty() => {
+                known.meet(bounds(&part.poly, &|atom| self::known(full, atom)))
+            }
+            _ => known,
+        }
+    };
+    bounds(poly, &of)
+}
+
+fn known(forms: &Forms<'_>, atom: Atom) -> Range {
+    match forms.inverse(atom) {
+        Some(_) => Range::ALL,
+        None => (forms.ranges.result.get(atom as usize)).map_or(Range::ALL, |r| *r),
+    }
+}
+
+/// The bounds of a polynomial, its atoms' ranges cut into pieces.
+pub fn bounds(poly: &Poly, of: &dyn Fn(Atom) -> Range) -> Range {
+    let atoms = poly.atoms();
+    let ranges: Vec<Range> = atoms.iter().map(|atom| of(*atom)).collect();
+    let wide = |r: &&Range| r.constant().is_none() && r.magnitude().is_finite();
+    let count = ranges.iter().filter(wide).count().max(1);
+    let pieces = (BOXES as f64).powf(1.0 / count as f64 + 1e-9) as usize;
+    let all: Vec<Vec<Range>> = (ranges.iter())
+        .map(|range| cut(*range, if wide(&range) { pieces } else { 1 }))
+        .collect();
+    let boxes: usize = all.iter().map(Vec::len).product();
+    let each = (0..boxes).map(|mut number| {
+        let one = |pieces: &Vec<Range>| {
+            let piece = pieces[number % pieces.len()];
+            number /= pieces.len();
+            piece
+        };
+        let sides: Vec<Range> = all.iter().map(one).collect();
+        sum(poly, &atoms, &sides)
+    });
+    each.reduce(Range::join).unwrap_or(Range::ALL)
+}
+
+fn cut(range: Range, pieces: usize) -> Vec<Range> {
+    let at = |k: usize| range.lo + (range.hi - range.lo) * k as f64 / pieces as f64;
+    let piece = |k: usize| match (k, pieces) {
+        (_, 1) => range,
+        _ => Range::new(at(k), if k + 1 == pieces { range.hi } else { at(k + 1) }),
+    };
+    (0..pieces).map(piece).collect()
+}
+
+/// The bounds of a sum of monomials, each by itself.
+fn sum(poly: &Poly, atoms: &[Atom], sides: &[Range]) -> Range {
+    let (mut lo, mut hi) = (0.0, 0.0);
+    for (monomial, number) in &poly.terms {
+        let factor = number.real();
+        let mut ends = (factor, factor);
+        for (atom, power) in monomial {
+            let side = atoms.iter().position(|a| a == atom).map(|at| sides[at]);
+            ends = times(ends, raised(side.unwrap_or(Range::ALL), *power));
+        }
+        (lo, hi) = (lo + ends.0, hi + ends.1);
+    }
+    Range::new(lo, hi)
+}
+
+fn raised(x: Range, power: u32) -> (f64, f64) {
+    let [a, b] = [x.lo, x.hi].map(|x| x.powi(power as i32));
+    match power % 2 {
+        0 if x.lo < 0.0 && x.hi > 0.0 => (0.0, a.max(b)),
+        _ => (a.min(b), a.max(b)),
+    }
+}
+
+fn times(a: (f64, f64), b: (f64, f64)) -> (f64, f64) {
+    let product = |x: f64, y: f64| if x == 0.0 || y == 0.0 { 0.0 } else { x * y };
+    let all = [
+        product(a.0, b.0),
+        product(a.0, b.1),
+        product(a.1, b.0),
+        product(a.1, b.1),
+    ];
+    let lo = all.into_iter().fold(f64::INFINITY, f64::min);
+    (lo, all.into_iter().fold(f64::NEG_INFINITY, f64::max))
+}
+
+/// A polynomial's negative.
+pub fn negative(poly: &Poly) -> Poly {
+    poly.scaled(Number::whole(-1))
+}

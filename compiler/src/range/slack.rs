@@ -1,0 +1,139 @@
+//! How a machine departs from exact arithmetic, as its routines state it.
+
+use slowlight_routine::{Error, Format, Op, Range, Runtime, Type};
+
+/// How far an entry that a program works out itself may be off, as a part of it.
+pub const ENTRIES: f64 = 1.0 / 4_194_304.0;
+
+/// How a machine departs from exact arithmetic.
+pub struct Slack {
+    /// How far results may be off, by [`Op`]: every routine's.
+    errors: Vec<(Op, Error)>,
+    /// What a component of a direction is trusted to be, if anything.
+    pub(super) direction: Option<Range>,
+    /// The greatest magnitude of a quotient.
+    quotient: f64,
+    /// Whether its programs cut rows into segments.
+    segments: bool,
+    /// How far tables' entries may be off, as a part of the largest.
+    entries: f64,
+    /// What reals can be.
+    reals: Range,
+    /// What ints can be.
+    pub(super) ints: Range,
+}
+
+impl Slack {
+    /// No departure: the graph's own arithmetic.
+    pub fn exact() -> Slack {
+        let reals = Range::new(f64::MIN, f64::MAX);
+        Slack {
+            errors: Vec::new(),
+            direction: None,
+            quotient: f64::INFINITY,
+            segments: false,
+            entries: 0.0,
+            reals,
+            ints: Range::new(f64::from(i32::MIN), f64::from(i32::MAX)),
+        }
+    }
+
+    /// As the routines of a runtime state it.
+    pub fn of(runtime: &Runtime) -> Slack {
+        let ends = |format: Format| match format {
+            Format::Int { .. } => Range::new(-format.most(), format.most() - 1.0),
+            Format::Fixed { .. } => Range::new(-format.most(), format.most()),
+            _ => Range::new(f64::MIN, f64::MAX),
+        };
+        let errors = runtime.routines.iter().map(|r| (r.op, r.error));
+        // In a format whose ends are near, a scene that breaks the contract
+        // would wrap: there the routines saturate instead.
+        let floats = matches!(runtime.real, Format::Real40 | Format::Float316);
+        Slack {
+            errors: errors.collect(),
+            direction: floats.then(|| Range::new(-2.0, 2.0)),
+            quotient: runtime.quotient,
+            segments: runtime.segments,
+            entries: if runtime.derives { ENTRIES } else { 0.0 },
+            reals: ends(runtime.real),
+            ints: ends(runtime.int),
+        }
+    }
+
+    /// Whether what depends on spans of columns is computed once a segment.
+    pub fn segments(&self) -> bool {
+        self.segments
+    }
+
+    /// The greatest real that can be held: what reaches it has no known bound.
+    pub fn most(&self) -> f64 {
+        self.reals.magnitude()
+    }
+
+    /// A range with what the routines of an operation may add to it.
+    pub(super) fn enlarge(&self, op: Op, args: &[Range], range: Range) -> Range {
+        let all = self.errors.iter().filter(|(o, _)| *o == op);
+        let worst = |x: f64| {
+            let off = all.clone().map(|(_, error)| error.most(args, x));
+            off.fold(0.0, f64::max)
+        };
+        let (low, high) = (worst(range.lo), worst(range.hi));
+        if low == 0.0 && high == 0.0 {
+            return range;
+        }
+        let (mut lo, mut hi) = (range.lo - low, range.hi + high);
+        // Only an absolute error leads across 0.
+        if !all.clone().any(|(_, e)| matches!(e, Error::Absolute(_))) {
+            lo = if range.lo >= 0.0 { lo.max(0.0) } else { lo };
+            hi = if range.hi <= 0.0 { hi.min(0.0) } else { hi };
+        }
+        let mut wide = Range::new(lo, hi);
+        // What is off by a part of itself keeps its sign.
+        wide.nonzero |= range.nonzero && worst(0.0) == 0.0;
+        wide
+    }
+
+    /// What an operation's result stays within, given its exact range.
+    pub(super) fn rounded(&self, op: Op, args: &[Range], exact: Range) -> Range {
+        let exact = match op {
+            Op::Div if self.quotient.is_finite() => {
+                let held = |x: f64| x.clamp(-self.quotient, self.quotient);
+                Range {
+                    nonzero: exact.nonzero,
+                    ..Range::new(held(exact.lo), held(exact.hi))
+                }
+            }
+            _ => exact,
+        };
+        self.cut(op.result(), self.enlarge(op, args, exact))
+    }
+
+    pub(super) fn cut(&self, ty: Type, range: Range) -> Range {
+        let ends = match ty {
+            Type::Bool => Range::new(0.0, 1.0),
+            Type::Int => self.ints,
+            Type::Real => self.reals,
+        };
+        let clamp = |x: f64| x.clamp(ends.lo, ends.hi);
+        Range {
+            nonzero: range.nonzero,
+            ..Range::new(clamp(range.lo), clamp(range.hi))
+        }
+    }
+
+    /// The range of a table's entries that the program works out itself.
+    pub(super) fn entry(&self, exact: Range) -> Range {
+        widened(exact, self.entries)
+    }
+}
+
+/// A range of what may be off by a part of itself.
+fn widened(range: Range, part: f64) -> Range {
+    Range {
+        nonzero: range.nonzero,
+        ..Range::new(
+            range.lo - part * range.lo.abs(),
+            range.hi + part * range.hi.abs(),
+        )
+    }
+}

@@ -1,0 +1,88 @@
+//! Segments: a row's loop over its columns, cut where a comparison changes.
+//!
+//! What depends on the column only through comparisons with what the row knows
+//! stands in the plan's segment block. It is carried out at a run's first column;
+//! each comparison in it, as it is met, also says how far the run goes at most.
+//! So a comparison that is not reached there ends no run.
+
+use super::code::Code;
+use crate::flow::graph::*;
+use crate::passes::demand::bounds_segment;
+use crate::passes::rate::rates;
+use crate::plan::Plan;
+use slowlight_routine::Op;
+use std::collections::HashSet;
+
+/// How often a segment's statements are carried out, roughly: for the weights
+/// of names only.
+const SEGMENT: u64 = 1_500;
+
+/// A row in runs of columns.
+pub struct Segments {
+    /// The variable of a run's last column.
+    end: String,
+    /// The last column of all.
+    last: u32,
+}
+
+/// What the comparisons of a segment tell.
+pub struct Ends {
+    end: String,
+    bounds: HashSet<NodeId>,
+}
+
+impl Segments {
+    /// Where the plan has such.
+    pub fn new(plan: &Plan, code: &mut Code<'_>) -> Option<Segments> {
+        (!plan.tree.segment.is_empty()).then(|| Segments {
+            end: code.values.names.unique("end", "%"),
+            last: plan.computed_columns().1,
+        })
+    }
+
+    /// The variable of a run's last column.
+    pub fn end(&self) -> &str {
+        &self.end
+    }
+
+    /// The statements at a run's first column.
+    pub fn begin(&self, plan: &Plan, code: &mut Code<'_>) {
+        let weight = std::mem::replace(&mut code.lines.weight, SEGMENT);
+        code.statement(format!("{}={}", self.end, self.last));
+        let rates = rates(&plan.graph);
+        let bounds = plan.graph.ids();
+        code.ends = Some(Ends {
+            end: self.end.clone(),
+            bounds: bounds
+                .filter(|id| bounds_segment(&plan.graph, &rates, *id))
+                .collect(),
+        });
+        code.block(&plan.tree.segment);
+        code.ends = None;
+        code.lines.weight = weight;
+    }
+}
+
+impl Code<'_> {
+    /// Ends the run before a comparison with the column changes, if the node is one.
+    pub fn end_run(&mut self, id: NodeId) {
+        let Some(Ends { end, bounds }) = &self.ends else {
+            return;
+        };
+        let Node::Apply(op, [a, b]) = self.values.plan.graph.node(id) else {
+            return;
+        };
+        if !bounds.contains(&id) {
+            return;
+        }
+        let end = end.clone();
+        let first = self.values.plan.graph.node(a) == Node::Axis(Axis::X);
+        let column = self.values.read(if first { b } else { a }).text;
+        // x < c and c <= x change at c, the others behind it.
+        let text = match (op == Op::IntLess) == first {
+            true => format!("IF X%<{column} THEN IF {column}<={end} THEN {end}={column}-1"),
+            false => format!("IF X%<={column} THEN IF {column}<{end} THEN {end}={column}"),
+        };
+        self.lines.line(text, self.span());
+    }
+}
