@@ -39,6 +39,8 @@ pub trait Arithmetic {
     /// Told what a loop carries into its turn number `turn`, the first after
     /// the start being 1; for who measures.
     fn turn(&self, _of: LoopId, _turn: u32, _carried: &[Option<Self::Value>]) {}
+    /// Told of each statement before it runs; for who measures.
+    fn step(&self, _statement: &Statement) {}
 }
 
 /// Runs a tree over a graph.
@@ -298,6 +300,7 @@ impl<'t, A: Arithmetic> Run<'t, A> {
 
     fn block(&mut self, block: &'t [Statement]) {
         for statement in block {
+            self.arithmetic.step(statement);
             match statement {
                 Statement::Let(id) => {
                     let value = self.compute(*id);

@@ -9,7 +9,7 @@
 use super::graph::*;
 use crate::source::Span;
 use slowlight_routine::{Op, Type, Value};
-use std::collections::{BTreeSet, HashMap};
+use std::collections::{BTreeMap, HashMap};
 
 /// A graph under construction.
 #[derive(Clone, Debug, Default)]
@@ -23,7 +23,7 @@ pub struct Builder {
     tables: Vec<Table>,
     loops: Vec<Loop>,
     effects: Vec<EffectUse>,
-    directions: BTreeSet<NodeId>,
+    directions: BTreeMap<NodeId, f64>,
     diffusion: Option<Diffusion>,
     reports: Vec<NodeId>,
     claims: HashMap<NodeId, (Op, [NodeId; 2])>,
@@ -329,10 +329,11 @@ impl Builder {
         }
     }
 
-    /// Says that a node is a component of a vector of length 1 by contract.
-    pub fn direction(&mut self, id: NodeId) {
+    /// Says that a node is a component of a vector of that length by contract;
+    /// what was said first stays.
+    pub fn direction(&mut self, id: NodeId, length: f64) {
         if self.ty(id) == Type::Real && self.value(id).is_none() {
-            self.directions.insert(id);
+            self.directions.entry(id).or_insert(length);
         }
     }
 

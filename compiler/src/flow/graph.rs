@@ -23,7 +23,7 @@
 
 use crate::source::Span;
 use slowlight_routine::{Op, Range, Type, Value};
-use std::collections::{BTreeSet, HashMap};
+use std::collections::{BTreeMap, HashMap};
 
 /// Which node; an index into the graph's arena.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -133,6 +133,28 @@ impl Node {
             _ => [None; 3],
         };
         list.into_iter().flatten()
+    }
+
+    /// The same with other operands.
+    pub fn with(self, at: impl Fn(NodeId) -> NodeId) -> Node {
+        match self {
+            Node::Apply(op, args) => Node::Apply(op, args.map(at)),
+            Node::Select { cond, yes, no } => Node::Select {
+                cond: at(cond),
+                yes: at(yes),
+                no: at(no),
+            },
+            Node::Lookup { table, column, row } => Node::Lookup {
+                table,
+                column: at(column),
+                row: at(row),
+            },
+            Node::Ramp { first, step } => Node::Ramp {
+                first: at(first),
+                step: at(step),
+            },
+            other => other,
+        }
     }
 }
 
@@ -303,9 +325,10 @@ pub struct Graph {
     /// Names that the scene gives to nodes (`let`, params of functions), for
     /// readable output; a node may have none.
     pub names: HashMap<NodeId, String>,
-    /// Components of rays' directions and of normals, which have length 1 by
-    /// contract: what may be trusted where no range could be found.
-    pub directions: BTreeSet<NodeId>,
+    /// Components of vectors whose length is known by contract, and that length:
+    /// 1 for rays' directions and normals, more where a pass holds them longer.
+    /// It may be trusted where no range could be found.
+    pub directions: BTreeMap<NodeId, f64>,
     /// Bools that are decided in another way than the comparison that they stand
     /// for and are the same as: which comparison. Its operands' ranges follow from the bool.
     pub claims: HashMap<NodeId, (Op, [NodeId; 2])>,

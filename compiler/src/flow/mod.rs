@@ -2,6 +2,7 @@
 
 pub mod build;
 pub mod graph;
+pub mod often;
 pub mod print;
 pub mod ramp;
 pub mod read;

@@ -132,9 +132,14 @@ impl Display for Graph {
             }
         }
         let live = |id: &&NodeId| reached.get(id.0 as usize) == Some(&true);
-        let directions: Vec<NodeId> = self.directions.iter().filter(live).copied().collect();
-        if !directions.is_empty() {
-            writeln!(f, "directions {}", list(&directions))?;
+        let directions = self.directions.iter().filter(|(id, _)| live(id));
+        let (unit, long): (Vec<_>, Vec<_>) = directions.partition(|(_, length)| **length == 1.0);
+        if !unit.is_empty() {
+            let unit: Vec<NodeId> = unit.into_iter().map(|(id, _)| *id).collect();
+            writeln!(f, "directions {}", list(&unit))?;
+        }
+        for (id, length) in long {
+            writeln!(f, "long {id} {length}")?;
         }
         for effect in &self.effects {
             writeln!(f, "effect {} {}", effect.name, effect.calls)?;

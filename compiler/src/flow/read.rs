@@ -7,7 +7,7 @@
 use super::graph::*;
 use crate::source::Span;
 use slowlight_routine::{Op, Range, Type, Value};
-use std::collections::{BTreeSet, HashMap};
+use std::collections::{BTreeMap, HashMap};
 
 /// A line that is not understood.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
@@ -36,7 +36,7 @@ pub fn read(text: &str) -> Result<Graph, Unread> {
         types: Vec::new(),
         spans: Vec::new(),
         names: HashMap::new(),
-        directions: BTreeSet::new(),
+        directions: BTreeMap::new(),
         ink: NodeId(0),
         shade: None,
         diffusion: None,
@@ -69,7 +69,18 @@ fn line(graph: &mut Graph, line: &str) -> Read<()> {
             });
             Ok(())
         }
-        "directions" => node_list(rest).map(|ids| graph.directions.extend(ids)),
+        "directions" => node_list(rest).map(|ids| {
+            let unit = ids.into_iter().map(|id| (id, 1.0));
+            graph.directions.extend(unit)
+        }),
+        "long" => {
+            let (id, length) = rest
+                .split_once(' ')
+                .ok_or("a long direction needs a length")?;
+            let length: f64 = number(length)?;
+            graph.directions.insert(node_id(id)?, length);
+            Ok(())
+        }
         "shade" => node_id(rest).map(|id| graph.shade = Some(id)),
         "send" => share(rest).map(|share| {
             let none = || Diffusion {

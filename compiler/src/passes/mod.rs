@@ -1,8 +1,10 @@
 //! One pass a file; each takes a graph and gives a graph or a side table.
 
 pub mod algebra;
+pub mod apart;
 pub mod demand;
 pub mod fold;
+pub mod homogeneous;
 pub mod narrow;
 pub mod outline;
 pub mod peel;

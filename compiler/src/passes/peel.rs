@@ -107,8 +107,8 @@ impl<'g> Surgery<'g> {
         if let Some(name) = self.graph.names.get(&like) {
             self.out.names.insert(id, name.clone());
         }
-        if self.graph.directions.contains(&like) {
-            self.out.directions.insert(id);
+        if let Some(length) = self.graph.directions.get(&like) {
+            self.out.directions.insert(id, *length);
         }
         id
     }
@@ -118,7 +118,7 @@ impl<'g> Surgery<'g> {
         if self.moved[id.0 as usize].is_some() {
             return;
         }
-        let node = with_operands(self.graph.node(id), |a| self.at(a));
+        let node = self.graph.node(id).with(|a| self.at(a));
         let made = self.push(node, id);
         let made = match self.graph.node(id) {
             Node::Result { of, index } if of == self.of => self.ended(id, made, index),
@@ -147,7 +147,7 @@ impl<'g> Surgery<'g> {
                 init.map_or(NodeId(0), |init| self.at(*init))
             }
             node => {
-                let node = with_operands(node, |a| self.in_first(a));
+                let node = node.with(|a| self.in_first(a));
                 self.push(node, id)
             }
         };
@@ -198,21 +198,4 @@ impl<'g> Surgery<'g> {
 
 fn made_by(graph: &Graph, of: LoopId, id: NodeId) -> bool {
     matches!(graph.node(id), Node::Result { of: l, .. } if l == of)
-}
-
-fn with_operands(node: Node, at: impl Fn(NodeId) -> NodeId) -> Node {
-    match node {
-        Node::Apply(op, args) => Node::Apply(op, args.map(at)),
-        Node::Select { cond, yes, no } => Node::Select {
-            cond: at(cond),
-            yes: at(yes),
-            no: at(no),
-        },
-        Node::Lookup { table, column, row } => Node::Lookup {
-            table,
-            column: at(column),
-            row: at(row),
-        },
-        other => other,
-    }
 }

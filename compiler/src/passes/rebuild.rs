@@ -14,24 +14,79 @@ pub type Rule<'r> = &'r mut dyn FnMut(&mut Builder, NodeId, Node, Span) -> Optio
 pub type OldRule<'r> =
     &'r mut dyn FnMut(&mut Builder, &[Option<NodeId>], NodeId, Span) -> Option<NodeId>;
 
+/// Where a value leaves the nodes: it goes on to another place of its own.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum End {
+    /// A loop's carried value: its start or its next.
+    Carried(LoopId, u32),
+    /// A loop's result, either way.
+    Result(LoopId, u32),
+    /// The picture's: the shade, what is sent or reported.
+    Output,
+}
+
+/// What a rewriting pass does, for those that look at more than nodes.
+pub trait Rewrite {
+    /// What stands for a node, if anything else than itself.
+    fn node(
+        &mut self,
+        builder: &mut Builder,
+        made: &[Option<NodeId>],
+        id: NodeId,
+        moved: Node,
+        span: Span,
+    ) -> Option<NodeId>;
+
+    /// What stands for an old node where it ends, if anything else than what
+    /// stands for it elsewhere.
+    fn end(
+        &mut self,
+        _builder: &mut Builder,
+        _made: &[Option<NodeId>],
+        _id: NodeId,
+        _end: End,
+    ) -> Option<NodeId> {
+        None
+    }
+}
+
 /// The graph with `rule` applied to every node that the outputs reach.
 pub fn rebuild(graph: &Graph, rule: Rule<'_>) -> Graph {
-    rebuild_by(graph, &mut |builder, _, id, node, span| {
-        rule(builder, id, node, span)
-    })
+    rebuild_by(
+        graph,
+        &mut Nodes(|builder: &mut Builder, _: &[_], id, node, span| rule(builder, id, node, span)),
+    )
 }
 
 /// The same by a rule that matches the old graph, several nodes deep.
 pub fn rebuild_old(graph: &Graph, rule: OldRule<'_>) -> Graph {
-    rebuild_by(graph, &mut |builder, made, id, _, span| {
-        rule(builder, made, id, span)
-    })
+    rebuild_by(
+        graph,
+        &mut Nodes(|builder: &mut Builder, made: &[_], id, _, span| rule(builder, made, id, span)),
+    )
 }
 
-type AnyRule<'r> =
-    &'r mut dyn FnMut(&mut Builder, &[Option<NodeId>], NodeId, Node, Span) -> Option<NodeId>;
+/// A rule on nodes alone.
+struct Nodes<F>(F);
 
-fn rebuild_by(graph: &Graph, rule: AnyRule<'_>) -> Graph {
+impl<F> Rewrite for Nodes<F>
+where
+    F: FnMut(&mut Builder, &[Option<NodeId>], NodeId, Node, Span) -> Option<NodeId>,
+{
+    fn node(
+        &mut self,
+        builder: &mut Builder,
+        made: &[Option<NodeId>],
+        id: NodeId,
+        moved: Node,
+        span: Span,
+    ) -> Option<NodeId> {
+        (self.0)(builder, made, id, moved, span)
+    }
+}
+
+/// The same by any rewriting.
+pub fn rebuild_by(graph: &Graph, rewrite: &mut dyn Rewrite) -> Graph {
     let mut rebuilder = Rebuilder {
         graph,
         builder: Builder::new(),
@@ -49,11 +104,11 @@ fn rebuild_by(graph: &Graph, rule: AnyRule<'_>) -> Graph {
     for id in graph.ids().filter(|id| reached[id.0 as usize]) {
         let made = match graph.node(id) {
             Node::Param(p) => params[p.0 as usize],
-            Node::Result { of, index } => rebuilder.result(of, index),
+            Node::Result { of, index } => rebuilder.result(of, index, rewrite),
             node => {
-                let node = rebuilder.moved(node, id);
+                let node = rebuilder.moved(node, id, rewrite);
                 let span = graph.span(id);
-                match rule(&mut rebuilder.builder, &rebuilder.made, id, node, span) {
+                match rewrite.node(&mut rebuilder.builder, &rebuilder.made, id, node, span) {
                     Some(other) => other,
                     None => rebuilder.plain(node, span),
                 }
@@ -63,25 +118,25 @@ fn rebuild_by(graph: &Graph, rule: AnyRule<'_>) -> Graph {
         if let Some(name) = graph.names.get(&id) {
             rebuilder.builder.name(made, name);
         }
-        if graph.directions.contains(&id) {
-            rebuilder.builder.direction(made);
+        if let Some(length) = graph.directions.get(&id) {
+            rebuilder.builder.direction(made, *length);
         }
     }
     let (ink, shade) = (
         rebuilder.at(graph.ink),
-        graph.shade.map(|s| rebuilder.at(s)),
+        graph.shade.map(|s| rebuilder.end(s, End::Output, rewrite)),
     );
     if let Some(diffusion) = &graph.diffusion {
         let shares: Vec<Share> = (diffusion.shares.iter())
             .map(|&share| Share {
-                node: rebuilder.at(share.node),
+                node: rebuilder.end(share.node, End::Output, rewrite),
                 ..share
             })
             .collect();
         rebuilder.builder.spread(&shares, diffusion.span);
     }
     for &report in &graph.reports {
-        let report = rebuilder.at(report);
+        let report = rebuilder.end(report, End::Output, rewrite);
         rebuilder.builder.report(report);
     }
     for (&id, &(op, [a, b])) in &graph.claims {
@@ -115,8 +170,27 @@ impl Rebuilder<'_> {
         }
     }
 
+    /// The same where the value ends.
+    fn end(&mut self, id: NodeId, end: End, rewrite: &mut dyn Rewrite) -> NodeId {
+        let plain = self.at(id);
+        let other = rewrite.end(&mut self.builder, &self.made, id, end);
+        other.unwrap_or(plain)
+    }
+
+    fn ends(
+        &mut self,
+        list: &[NodeId],
+        end: impl Fn(u32) -> End,
+        rewrite: &mut dyn Rewrite,
+    ) -> Vec<NodeId> {
+        let numbered = (0..).zip(list);
+        numbered
+            .map(|(k, &id)| self.end(id, end(k), rewrite))
+            .collect()
+    }
+
     /// A node with its operands and loop replaced by the new ones.
-    fn moved(&mut self, node: Node, id: NodeId) -> Node {
+    fn moved(&mut self, node: Node, id: NodeId, rewrite: &mut dyn Rewrite) -> Node {
         match node {
             Node::Apply(op, [a, b]) => Node::Apply(op, [self.at(a), self.at(b)]),
             Node::Select { cond, yes, no } => Node::Select {
@@ -138,11 +212,11 @@ impl Rebuilder<'_> {
                 step: self.at(step),
             },
             Node::Carried { of, index } => Node::Carried {
-                of: self.open(of),
+                of: self.open(of, rewrite),
                 index,
             },
             Node::Last { of, index } => Node::Last {
-                of: self.open(of),
+                of: self.open(of, rewrite),
                 index,
             },
             Node::Undefined(_) => Node::Undefined(self.graph.ty(id)),
@@ -170,12 +244,12 @@ impl Rebuilder<'_> {
 
     /// The new loop for an old one. Its start values stand before anything
     /// that uses its carried values.
-    fn open(&mut self, of: LoopId) -> LoopId {
+    fn open(&mut self, of: LoopId, rewrite: &mut dyn Rewrite) -> LoopId {
         if let Some(&found) = self.loops.get(&of) {
             return found;
         }
         let old = &self.graph.loops[of.0 as usize];
-        let init: Vec<NodeId> = old.init.iter().map(|&n| self.at(n)).collect();
+        let init = self.ends(&old.init, |k| End::Carried(of, k), rewrite);
         let carried: Vec<_> = (old
             .names
             .iter()
@@ -189,13 +263,14 @@ impl Rebuilder<'_> {
         made
     }
 
-    fn result(&mut self, of: LoopId, index: u32) -> NodeId {
+    fn result(&mut self, of: LoopId, index: u32, rewrite: &mut dyn Rewrite) -> NodeId {
         if !self.results.contains_key(&of) {
-            let new = self.open(of);
+            let new = self.open(of, rewrite);
             let old = &self.graph.loops[of.0 as usize];
             let again = self.at(old.again);
-            let [next, done, otherwise] = [&old.next, &old.done, &old.otherwise]
-                .map(|list| list.iter().map(|&n| self.at(n)).collect::<Vec<_>>());
+            let next = self.ends(&old.next, |k| End::Carried(of, k), rewrite);
+            let done = self.ends(&old.done, |k| End::Result(of, k), rewrite);
+            let otherwise = self.ends(&old.otherwise, |k| End::Result(of, k), rewrite);
             let made = self
                 .builder
                 .close_loop(new, again, &next, &done, &otherwise);

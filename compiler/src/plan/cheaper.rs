@@ -1,25 +1,23 @@
 //! Which rewrites for speed are worth it on a machine, and in what order.
 //!
 //! The ink is found by comparisons, the first turn of a loop is copied before
-//! it, algebra looks at all of it, comparisons with thresholds included. What is
-//! kept of that is what makes the whole plan cheaper: its statements are added up
-//! with the cycles of the routines that the ranges then allow, for a pixel of
-//! which nothing is known. A formula that is cheaper by itself may cost more than
+//! it, directions are held at their own length, algebra looks at all of it,
+//! comparisons with thresholds included. What is kept of that is what makes the
+//! whole plan cheaper ([`super::price`]). A formula that is cheaper by itself may cost more than
 //! it saves where others needed its parts, or where the ranges cannot see its
 //! sign and it needs a guard.
 
-use super::choose::choose;
-use super::settled::{Settled, settle};
+use super::price::Price;
+use super::settled::{Settled, scheduled, settle};
 use crate::flow::graph::*;
-use crate::flow::tree::*;
 use crate::passes::algebra::{Cheaper, algebra, spans};
-use crate::passes::demand::bounds_segment;
+use crate::passes::apart::apart;
+use crate::passes::homogeneous::{homogeneous, lengths};
 use crate::passes::peel::peel;
-use crate::passes::rate::rates;
 use crate::passes::squares::squares;
 use crate::passes::threshold::threshold;
 use crate::range::{Ranges, Slack};
-use slowlight_routine::{Routine, Runtime};
+use slowlight_routine::{Format, Runtime, Type};
 
 /// How many nodes of a loop's body are copied at most.
 const BODY: usize = 160;
@@ -34,10 +32,11 @@ const FORMS: f64 = 0.9;
 /// By how much spans must.
 const SPANS: f64 = 0.99;
 
-/// What part of the plan's cycles a statement more must save, for its memory;
-/// three entries of a table take as much. Where there is plenty, and where
-/// there was not enough.
-const MEMORY: [f64; 2] = [0.0002, 0.0025];
+/// How often values are taken apart: what one needs may be taken apart after it.
+const APART: usize = 3;
+
+/// How many directions are tried at their own length.
+const LENGTHS: usize = 4;
 
 /// How many nodes a graph may have to be looked at by algebra, and how many may
 /// be scheduled again to find out which forms pay.
@@ -49,7 +48,7 @@ pub fn cheaper(plain: Settled, slack: &Slack, runtime: &'static Runtime, thrifty
     let site = Site {
         slack,
         runtime,
-        memory: MEMORY[usize::from(thrifty)],
+        price: Price::new(&plain, runtime, thrifty),
     };
     let mut best = site.rewritten(&plain).unwrap_or(plain.clone());
     for k in 0..plain.graph.loops.len() {
@@ -68,21 +67,53 @@ pub fn cheaper(plain: Settled, slack: &Slack, runtime: &'static Runtime, thrifty
 /// A pass that puts something in the place of nodes that may be replaced.
 type Pass = fn(&Graph, &Ranges, &Runtime, &dyn Fn(NodeId) -> bool) -> Option<Cheaper>;
 
+/// With values computed where they are needed rather than once for all, where
+/// that is less often: the last of the passes.
+pub fn apart_at_last(
+    plan: Settled,
+    slack: &Slack,
+    runtime: &'static Runtime,
+    thrifty: bool,
+) -> Settled {
+    let price = Price::new(&plan, runtime, thrifty);
+    let mut best = plan;
+    for _ in 0..APART {
+        let worth = price.worth(&best);
+        let Some(next) = apart(&best.graph, &best.tree, &worth) else {
+            break;
+        };
+        best = scheduled(next, slack);
+    }
+    best
+}
+
 struct Site<'s> {
     slack: &'s Slack,
     runtime: &'static Runtime,
-    memory: f64,
+    price: Price,
 }
 
 impl Site<'_> {
-    /// A plan with thresholds and algebra, as far as they make it cheaper;
-    /// nothing where they do not.
+    fn cost(&self, plan: &Settled) -> f64 {
+        self.price.of(plan)
+    }
+
+    /// A plan with thresholds, directions at their own length and algebra, as far
+    /// as they make it cheaper; nothing where they do not.
     fn rewritten(&self, plain: &Settled) -> Option<Settled> {
         let compared = threshold(&plain.graph, &plain.ranges, self.runtime)
             .map(|next| settle(&next, self.slack))
             .filter(|next| self.cost(next) < self.cost(plain));
         let base = compared.as_ref().unwrap_or(plain);
-        let found = self.sited(base, FORMS, algebra).or(compared);
+        let mut best = self.sited(base, FORMS, algebra).or(compared.clone());
+        for held in self.held(base) {
+            let found = self.sited(&held, FORMS, algebra).unwrap_or(held);
+            let limit = best.as_ref().unwrap_or(plain);
+            if self.cost(&found) < self.cost(limit) {
+                best = Some(found);
+            }
+        }
+        let found = best;
         let base = found.as_ref().unwrap_or(plain);
         let shared = squares(&base.graph, &base.ranges)
             .map(|next| settle(&next, self.slack))
@@ -92,32 +123,80 @@ impl Site<'_> {
         self.sited(base, SPANS, spans).or(found)
     }
 
+    /// The graph with one of its directions at its own length, each in turn.
+    fn held(&self, plain: &Settled) -> impl Iterator<Item = Settled> {
+        // A fixed point has the digits for directions of length 1.
+        let fixed = matches!(self.runtime.real, Format::Fixed { .. });
+        let few = plain.graph.nodes.len() <= NODES && !fixed;
+        let all = match few {
+            true => lengths(&plain.graph, &plain.ranges),
+            false => Vec::new(),
+        };
+        all.into_iter().take(LENGTHS).map(|length| {
+            settle(
+                &homogeneous(&plain.graph, &plain.ranges, length),
+                self.slack,
+            )
+        })
+    }
+
     /// A plan with what a pass puts at the sites where that pays.
     fn sited(&self, plain: &Settled, part: f64, pass: Pass) -> Option<Settled> {
         if plain.graph.nodes.len() > NODES {
             return None;
         }
-        let mut best: Option<Settled> = None;
-        let mut limit = part * self.cost(plain);
-        let mut without: Vec<NodeId> = Vec::new();
-        let sites = self.with(plain, pass, &without)?.1;
-        let patient = sites.len() * plain.graph.nodes.len() < PATIENCE;
-        let comparisons = |id: &NodeId| plain.graph.ty(*id) == slowlight_routine::Type::Bool;
-        // All of them, the comparisons alone, then each left out in turn.
-        let rest = sites.iter().copied().filter(|id| !comparisons(id));
-        let mut tries: Vec<Vec<NodeId>> = vec![Vec::new(), rest.collect()];
-        if patient {
+        let all = self.with(plain, pass, &[])?;
+        let sites = all.1;
+        let mut tries = vec![self.fewer(plain, pass, &sites, (Vec::new(), all.0))];
+        if sites.len() * plain.graph.nodes.len() < PATIENCE {
+            tries.push(self.more(plain, pass, &sites));
+        }
+        let cost = |plan: &Settled| self.cost(plan);
+        let best = tries
+            .into_iter()
+            .min_by(|a, b| cost(a).total_cmp(&cost(b)))?;
+        (cost(&best) < part * cost(plain)).then_some(best)
+    }
+
+    /// From forms everywhere: each is left out where that is cheaper, the values
+    /// first together, since what one needs another may have.
+    fn fewer(
+        &self,
+        plain: &Settled,
+        pass: Pass,
+        sites: &[NodeId],
+        all: (Vec<NodeId>, Settled),
+    ) -> Settled {
+        let (mut without, mut best) = all;
+        let mut limit = self.cost(&best);
+        let value = |id: &&NodeId| plain.graph.ty(**id) != Type::Bool;
+        let mut tries: Vec<Vec<NodeId>> = vec![sites.iter().filter(value).copied().collect()];
+        if sites.len() * plain.graph.nodes.len() < PATIENCE {
             tries.extend(sites.iter().map(|id| vec![*id]));
         }
         for leave in tries {
-            let all = without.iter().chain(&leave).copied().collect::<Vec<_>>();
-            let Some((next, _)) = self.with(plain, pass, &all) else {
-                continue;
-            };
-            let cost = self.cost(&next);
-            if cost < limit {
-                (limit, without) = (cost, all);
-                best = Some(next);
+            let out: Vec<NodeId> = without.iter().chain(&leave).copied().collect();
+            if let Some((next, _)) = self.with(plain, pass, &out)
+                && self.cost(&next) < limit
+            {
+                limit = self.cost(&next);
+                (without, best) = (out, next);
+            }
+        }
+        best
+    }
+
+    /// From no form: each is put where that is cheaper.
+    fn more(&self, plain: &Settled, pass: Pass, sites: &[NodeId]) -> Settled {
+        let (mut without, mut best) = (sites.to_vec(), plain.clone());
+        let mut limit = self.cost(&best);
+        for id in sites {
+            let out: Vec<NodeId> = without.iter().copied().filter(|o| o != id).collect();
+            if let Some((next, _)) = self.with(plain, pass, &out)
+                && self.cost(&next) < limit
+            {
+                limit = self.cost(&next);
+                (without, best) = (out, next);
             }
         }
         best
@@ -134,105 +213,4 @@ impl Site<'_> {
         let found = pass(&plain.graph, &plain.ranges, self.runtime, &may)?;
         Some((settle(&found.graph, self.slack), found.sites))
     }
-
-    /// Cycles for a pixel of which nothing is known, and something for memory.
-    fn cost(&self, plan: &Settled) -> f64 {
-        let Ok(routines) = choose(&plan.graph, &plan.tree, &plan.ranges, self.runtime) else {
-            return f64::INFINITY;
-        };
-        let step = f64::from(self.runtime.statement);
-        let weigh = Weigh {
-            own: &|statement| match statement {
-                Statement::Let(id) => step + self.computing(plan, &routines, *id),
-                _ => step,
-            },
-        };
-        let width = f64::from(plan.graph.image.width.max(1));
-        let tree = &plan.tree;
-        let runs = 1.0 + bounds(plan) as f64;
-        let cycles = weigh.block(&tree.row) / width
-            + weigh.block(&tree.segment) * runs / width
-            + weigh.block(&tree.pixel);
-        cycles * (1.0 + self.memory * memory(plan))
-    }
-}
-
-impl Site<'_> {
-    /// What computing a node costs, its operands not.
-    fn computing(&self, plan: &Settled, routines: &[Option<&'static Routine>], id: NodeId) -> f64 {
-        if let Node::Lookup { table, .. } = plan.graph.node(id) {
-            let table = plan.graph.tables.get(table.0 as usize);
-            let flat = table.is_some_and(|t| t.width == 1 || t.height == 1);
-            return f64::from(self.runtime.index) * if flat { 1.0 } else { 2.0 };
-        }
-        let routine = routines.get(id.0 as usize).copied().flatten();
-        routine.map_or(0.0, |r| f64::from(r.cycles))
-    }
-}
-
-/// How many comparisons may end a run of columns.
-pub(super) fn bounds(plan: &Settled) -> usize {
-    let mut bounds = 0;
-    let rates = rates(&plan.graph);
-    walk(&plan.tree.segment, &mut |s| {
-        if let Statement::Let(id) = s {
-            bounds += usize::from(bounds_segment(&plan.graph, &rates, *id));
-        }
-    });
-    bounds
-}
-
-/// Memory in statements.
-fn memory(plan: &Settled) -> f64 {
-    let mut statements = 0;
-    for block in plan.tree.outer() {
-        walk(block, &mut |_| statements += 1);
-    }
-    let entries = plan.graph.tables.iter().map(|t| match t.seed.is_empty() {
-        true => t.entries.len() as f64 / 3.0,
-        // The array, and how it is worked out.
-        false => t.entries.len() as f64 / 4.0 + 3.0,
-    });
-    f64::from(statements) + entries.sum::<f64>()
-}
-
-/// Adds up statements as often as they are likely to be carried out.
-pub(super) struct Weigh<'w> {
-    /// What a statement costs, those in it not.
-    pub own: &'w dyn Fn(&Statement) -> f64,
-}
-
-/// How likely a loop is thought to go on after a turn, and to be entered at all
-/// where that is a choice: rays mostly meet what is far.
-const ON: f64 = 0.25;
-
-impl Weigh<'_> {
-    pub fn block(&self, block: &Block) -> f64 {
-        block.iter().map(|s| self.one(s)).sum()
-    }
-
-    fn one(&self, statement: &Statement) -> f64 {
-        match statement {
-            Statement::Let(_) | Statement::Call(_) | Statement::Set { .. } => (self.own)(statement),
-            Statement::If { yes, no, .. } => {
-                let likely = match (loops(yes), loops(no)) {
-                    (true, false) => ON,
-                    (false, true) => 1.0 - ON,
-                    _ => 0.5,
-                };
-                (self.own)(statement) + likely * self.block(yes) + (1.0 - likely) * self.block(no)
-            }
-            Statement::Loop(turns) => {
-                let turns_on = self.block(&turns.body) + ON * self.block(&turns.next);
-                self.block(&turns.start) + turns_on / (1.0 - ON) + self.block(&turns.done)
-            }
-        }
-    }
-}
-
-/// Whether a block has a loop in it.
-fn loops(block: &Block) -> bool {
-    let mut found = false;
-    walk(block, &mut |s| found |= matches!(s, Statement::Loop(_)));
-    found
 }

@@ -46,6 +46,7 @@ mod merge;
 mod names;
 mod outlined;
 mod params;
+mod price;
 pub mod print;
 pub mod recipes;
 mod settled;
@@ -65,7 +66,7 @@ use crate::passes::stable::stable;
 use crate::range::{Ranges, Slack};
 use crate::source::{Diagnostic, Span};
 use crate::target::{Mode, Target};
-use cheaper::cheaper;
+use cheaper::{apart_at_last, cheaper};
 use settled::{Settled, scheduled, settle};
 use slowlight_routine::{Bits, Format, Op, Range, Routine, Runtime, Type, Value};
 use std::collections::HashMap;
@@ -233,7 +234,8 @@ impl Plan {
         let shade = self.graph.shade?;
         let always = |b: &Block| b.iter().any(|s| writes(s, shade));
         let tree = &self.tree;
-        if self.place(shade).is_none() || tree.outer().into_iter().any(always) {
+        let gone = matches!(self.graph.node(shade), Node::Undefined(_));
+        if !gone && (self.place(shade).is_none() || tree.outer().into_iter().any(always)) {
             return None;
         }
         let mut graph = (*self.origin.0).clone();
@@ -380,6 +382,7 @@ fn planned(
         if steps {
             now = stepped(now, &slack, target);
         }
+        now = apart_at_last(now, &slack, runtime, thrifty);
     }
     let Settled {
         graph,

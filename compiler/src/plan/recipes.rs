@@ -23,8 +23,9 @@ pub enum From {
     Table(TableId),
 }
 
-/// How an entry is worked out: (from + moved) * scale, which is squared with its
-/// sign if `squared`.
+/// How an entry is worked out: (from + moved) * scale; where there is `more`, that
+/// squared with its sign, and `more` added; all of it squared with its sign if
+/// `squared`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Recipe {
     /// From what.
@@ -33,7 +34,9 @@ pub struct Recipe {
     pub moved: f64,
     /// By what the sum is multiplied.
     pub scale: f64,
-    /// Whether the product is squared.
+    /// What is added to the product's square.
+    pub more: Option<f64>,
+    /// Whether the result is squared.
     pub squared: bool,
 }
 
@@ -77,8 +80,9 @@ impl Site<'_> {
                 .filter(|(_, (other, _))| same(other) && other.ty == Type::Real)
                 .map(|(k, (_, made))| (From::Table(TableId(k as u32)), &made.bits));
             for (from, source) in std::iter::once((From::Seed, &seed)).chain(tables) {
-                for squared in [false, true] {
-                    if let Some(made) = self.image(table, from, source, squared) {
+                for (bent, squared) in [(false, false), (false, true), (true, false), (true, true)]
+                {
+                    if let Some(made) = self.image(table, from, source, bent, squared) {
                         return made;
                     }
                 }
@@ -90,34 +94,30 @@ impl Site<'_> {
         }
     }
 
-    /// A table as an image of a source, if it is one.
-    fn image(&self, table: &Table, from: From, source: &[Bits], squared: bool) -> Option<Made> {
+    /// A table as an image of a source, if it is one: of a line in it, or of a
+    /// line's square where `bent`.
+    fn image(
+        &self,
+        table: &Table,
+        from: From,
+        source: &[Bits],
+        bent: bool,
+        squared: bool,
+    ) -> Option<Made> {
         let wanted: Vec<f64> = (table.entries.iter())
             .map(|e| e.value().real())
-            .map(|x| {
-                if squared {
-                    x.abs().sqrt().copysign(x)
-                } else {
-                    x
-                }
-            })
+            .map(|x| if squared { root(x) } else { x })
             .collect();
         let source_of = |k: usize| source.get(k).map(|bits| self.real(*bits));
         let sources: Vec<f64> = (0..wanted.len()).filter_map(source_of).collect();
-        let order = |a: &usize, b: &usize| sources[*a].total_cmp(&sources[*b]);
-        let least = (0..sources.len()).min_by(order)?;
-        let most = (0..sources.len()).max_by(order)?;
-        let (dx, dy) = (
-            sources[most] - sources[least],
-            wanted.get(most)? - wanted.get(least)?,
-        );
-        let scale = dy / dx;
-        let moved = wanted[least] / scale - sources[least];
-        if !scale.is_finite() || !moved.is_finite() || scale == 0.0 {
-            return None;
-        }
+        let mut points: Vec<(f64, f64)> = sources.iter().copied().zip(wanted).collect();
+        points.sort_by(|a, b| a.0.total_cmp(&b.0));
+        let (scale, moved, more) = match bent {
+            false => line(&points).map(|(scale, moved)| (scale, moved, None))?,
+            true => square(&points)?,
+        };
         // What is lost in the sources' last places is nothing.
-        let size = sources[least].abs().max(sources[most].abs());
+        let size = sources.iter().fold(0.0, |most, x: &f64| x.abs().max(most));
         let moved = if moved.abs() < 1e-8 * size {
             0.0
         } else {
@@ -127,6 +127,7 @@ impl Site<'_> {
             from,
             moved: tidy(moved),
             scale: tidy(scale),
+            more: more.map(tidy),
             squared,
         };
         let bits: Option<Vec<Bits>> = (source.iter().zip(&table.entries))
@@ -153,11 +154,24 @@ impl Site<'_> {
             1.0 => moved,
             by => self.apply(Op::Mul, &[moved, self.bits(Value::Real(by))])?,
         };
-        if !recipe.squared {
-            return Some(scaled);
+        let bent = match recipe.more {
+            None => scaled,
+            Some(0.0) => self.square(scaled)?,
+            Some(more) => {
+                let more = self.bits(Value::Real(more));
+                self.apply(Op::Add, &[self.square(scaled)?, more])?
+            }
+        };
+        match recipe.squared {
+            true => self.square(bent),
+            false => Some(bent),
         }
-        let size = self.apply(Op::Abs, &[scaled])?;
-        self.apply(Op::Mul, &[scaled, size])
+    }
+
+    /// The square, with its sign.
+    fn square(&self, of: Bits) -> Option<Bits> {
+        let size = self.apply(Op::Abs, &[of])?;
+        self.apply(Op::Mul, &[of, size])
     }
 
     /// An operation by the cheapest routine: nothing here is large.
@@ -177,6 +191,41 @@ impl Site<'_> {
     fn real(&self, bits: Bits) -> f64 {
         (self.runtime.decode)(bits, self.runtime.real).real()
     }
+}
+
+/// The root, with its sign.
+fn root(x: f64) -> f64 {
+    x.abs().sqrt().copysign(x)
+}
+
+/// The line through the ends of points: y = (x + moved) * scale.
+fn line(points: &[(f64, f64)]) -> Option<(f64, f64)> {
+    let (first, last) = (points.first()?, points.last()?);
+    let scale = (last.1 - first.1) / (last.0 - first.0);
+    let moved = first.1 / scale - first.0;
+    (scale.is_finite() && moved.is_finite() && scale != 0.0).then_some((scale, moved))
+}
+
+/// The parabola through points as y = u|u| + more, u = (x + moved) * scale, where
+/// its vertex is not among them.
+fn square(points: &[(f64, f64)]) -> Option<(f64, f64, Option<f64>)> {
+    let (a, b, c) = (
+        points.first()?,
+        points.get(points.len() / 2)?,
+        points.last()?,
+    );
+    let slope = |p: &(f64, f64), q: &(f64, f64)| (q.1 - p.1) / (q.0 - p.0);
+    let bend = (slope(b, c) - slope(a, b)) / (c.0 - a.0);
+    let moved = (slope(a, b) / bend - a.0 - b.0) / 2.0;
+    let more = a.1 - bend * (a.0 + moved).powi(2);
+    let (low, high) = (a.0 + moved, c.0 + moved);
+    if !(bend.is_finite() && moved.is_finite()) || bend == 0.0 || low * high < 0.0 {
+        return None;
+    }
+    // u has the sign of its square, with its sign.
+    let side = if low + high < 0.0 { -1.0 } else { 1.0 };
+    let more = if more.abs() < 1e-9 { 0.0 } else { more };
+    Some((root(bend) * side, moved, Some(more)))
 }
 
 /// A whole number or a short decimal where that is as good.

@@ -348,10 +348,13 @@ impl Walk<'_> {
     /// the contract says, twice over for what roundings add.
     fn trust(&self, id: NodeId, range: Range) -> Range {
         match self.slack.direction {
-            Some(unit) if range.magnitude() > 16.0 && self.graph.directions.contains(&id) => {
-                range.meet(unit)
-            }
-            _ => range,
+            Some(unit) => match self.graph.directions.get(&id) {
+                Some(length) if range.magnitude() > 16.0 * length => {
+                    range.meet(Range::new(unit.lo * length, unit.hi * length))
+                }
+                _ => range,
+            },
+            None => range,
         }
     }
 

@@ -59,8 +59,13 @@ fn small(graph: &Graph, id: NodeId) -> bool {
         Node::Axis(_) => true,
         Node::Const(c) => c.value().real().abs() < 1e5,
         Node::Apply(Op::IntAdd | Op::IntSub, [a, b]) => {
-            let leaf = |id| matches!(graph.node(id), Node::Axis(_) | Node::Const(_));
+            let leaf = |id| !matches!(graph.node(id), Node::Apply(Op::IntAdd | Op::IntSub, _));
             leaf(a) && leaf(b) && small(graph, a) && small(graph, b)
+        }
+        Node::Apply(Op::IntMul, [a, b]) => {
+            let place = |id| matches!(graph.node(id), Node::Axis(_));
+            let few = |id| matches!(graph.node(id), Node::Const(c) if c.value().real().abs() < 1e4);
+            (place(a) && few(b)) || (few(a) && place(b))
         }
         _ => false,
     }

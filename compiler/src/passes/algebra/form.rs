@@ -44,10 +44,19 @@ pub struct Forms<'g> {
     of: Vec<Option<Form>>,
     /// N of each root.
     pub roots: Vec<Poly>,
-    /// What each atom beyond the nodes is the inverse of.
-    pub inverses: Vec<Poly>,
+    /// What each atom beyond the nodes is.
+    pub others: Vec<Other>,
     /// Whether what is the same for a whole row is not looked into.
     by_row: bool,
+}
+
+/// An atom that no node is.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Other {
+    /// 1 divided by a polynomial that is the same for a whole row.
+    Inverse(Poly),
+    /// 1 where a condition holds, else 0.
+    Holds(NodeId),
 }
 
 /// An int of two values: which they are.
@@ -75,7 +84,7 @@ impl<'g> Forms<'g> {
             rates: rates(graph),
             of: vec![None; graph.nodes.len()],
             roots: Vec::new(),
-            inverses: Vec::new(),
+            others: Vec::new(),
             by_row,
         };
         for id in graph.ids() {
@@ -96,20 +105,44 @@ impl<'g> Forms<'g> {
 
     /// Whether an atom is another in every column.
     pub fn varies(&self, atom: Atom) -> bool {
-        match self.inverse(atom) {
-            Some(of) => of.atoms().into_iter().any(|a| self.varies(a)),
+        match self.other(atom) {
+            Some(Other::Inverse(of)) => of.atoms().into_iter().any(|a| self.varies(a)),
+            Some(Other::Holds(cond)) => self.pixel(*cond),
             None => self.pixel(NodeId(atom)),
         }
     }
 
+    /// What an atom is that no node is.
+    pub fn other(&self, atom: Atom) -> Option<&Other> {
+        let at = (atom as usize).checked_sub(self.graph.nodes.len())?;
+        self.others.get(at)
+    }
+
     /// What an atom is the inverse of, if it is one.
     pub fn inverse(&self, atom: Atom) -> Option<&Poly> {
-        let at = (atom as usize).checked_sub(self.graph.nodes.len())?;
-        self.inverses.get(at)
+        match self.other(atom)? {
+            Other::Inverse(of) => Some(of),
+            Other::Holds(_) => None,
+        }
+    }
+
+    /// The atom that stands for what no node is.
+    fn atom_for(&mut self, other: Other) -> Option<Atom> {
+        let at = match self.others.iter().position(|o| *o == other) {
+            Some(at) => at,
+            None => {
+                self.others.push(other);
+                self.others.len() - 1
+            }
+        };
+        u32::try_from(self.graph.nodes.len() + at).ok()
     }
 
     /// The two values of an atom that has no more.
     pub fn two(&self, atom: Atom) -> Option<Two> {
+        if let Some(Other::Holds(_)) = self.other(atom) {
+            return Some(Two { low: 0, high: 1 });
+        }
         let id = NodeId(atom);
         let range = self.ranges.result.get(atom as usize)?;
         let few = range.hi - range.lo <= 2.0 && self.graph.ty(id) == Type::Int;
@@ -134,7 +167,7 @@ impl<'g> Forms<'g> {
             let content = part.poly.content()?;
             let whole = part.poly.scaled(content.inverse()?);
             let ints = |atom: &Atom| {
-                self.inverse(*atom).is_none() && self.graph.ty(NodeId(*atom)) == Type::Int
+                self.other(*atom).is_none() && self.graph.ty(NodeId(*atom)) == Type::Int
             };
             let parity = |n: &Number| matches!(n, Number::Exact(n, 1) if n % 2 != 0);
             let mut terms = whole.terms.iter();
@@ -158,6 +191,9 @@ impl<'g> Forms<'g> {
             Node::Param(_) | Node::Axis(_) => Some(plain(Poly::atom(id.0))),
             _ if self.by_row && !self.pixel(id) => self.opaque(id),
             Node::Apply(op, [a, b]) => self.applied(id, op, a, b).or_else(|| self.opaque(id)),
+            Node::Select { cond, yes, no } => {
+                self.either(id, cond, yes, no).or_else(|| self.opaque(id))
+            }
             _ => self.opaque(id),
         }
     }
@@ -170,13 +206,31 @@ impl<'g> Forms<'g> {
     /// A value of which nothing is known but that it is the same for a whole
     /// row, or one of two.
     fn opaque(&self, id: NodeId) -> Option<Form> {
-        let table = matches!(self.graph.node(id), Node::Lookup { .. });
+        let table = matches!(
+            self.graph.node(id),
+            Node::Lookup { .. } | Node::Apply(Op::Sqrt, _)
+        );
         let fits = match self.graph.ty(id) {
             Type::Bool => false,
             Type::Int => !self.pixel(id) || self.two(id.0).is_some(),
             Type::Real => !self.pixel(id) || table,
         };
         fits.then(|| plain(Poly::atom(id.0)))
+    }
+
+    /// A choice between forms that differ by one part: no + [cond] (yes - no).
+    fn either(&mut self, id: NodeId, cond: NodeId, yes: NodeId, no: NodeId) -> Option<Form> {
+        if self.graph.ty(id) != Type::Real || !self.pixel(cond) {
+            return None;
+        }
+        let (yes, no) = (self.get(yes)?.clone(), self.get(no)?.clone());
+        let more = self.sum(&yes, &scaled(&no, Number::whole(-1)))?;
+        if more.parts.len() != 1 {
+            return None;
+        }
+        let holds = self.atom_for(Other::Holds(cond))?;
+        let more = self.product(&plain(Poly::atom(holds)), &more)?;
+        self.sum(&no, &more)
     }
 
     fn applied(&mut self, id: NodeId, op: Op, a: NodeId, b: NodeId) -> Option<Form> {
@@ -200,7 +254,7 @@ impl<'g> Forms<'g> {
             Op::Div => {
                 let divisor = self.ranges.args.get(id.0 as usize)?[1];
                 let safe = divisor.nonzero || self.never_zero(&y);
-                let inverse = safe.then(|| self.inverted(&y))??;
+                let inverse = safe.then(|| self.inverted(&y, divisor.lo > 0.0))??;
                 self.product(&x, &inverse)
             }
             Op::Sqrt => {
@@ -211,9 +265,9 @@ impl<'g> Forms<'g> {
         }
     }
 
-    /// 1 divided by a form of one part, where it is a root's N, a constant or
-    /// the same for a whole row.
-    fn inverted(&mut self, form: &Form) -> Option<Form> {
+    /// 1 divided by a form of one part, where it is known to be above 0, a
+    /// constant or the same for a whole row.
+    fn inverted(&mut self, form: &Form, above: bool) -> Option<Form> {
         let [part] = form.parts.as_slice() else {
             return None;
         };
@@ -223,17 +277,14 @@ impl<'g> Forms<'g> {
             return Some(one(roots, poly));
         }
         if part.poly.atoms().into_iter().any(|a| self.varies(a)) {
-            return None;
+            if !above || !roots.is_empty() {
+                return None;
+            }
+            let at = self.root_of(&part.poly);
+            return Some(one(vec![(at, 2)], Poly::constant(Number::ONE)));
         }
         let (whole, factor) = primitive(&part.poly)?;
-        let at = match self.inverses.iter().position(|p| *p == whole) {
-            Some(at) => at,
-            None => {
-                self.inverses.push(whole);
-                self.inverses.len() - 1
-            }
-        };
-        let atom = u32::try_from(self.graph.nodes.len() + at).ok()?;
+        let atom = self.atom_for(Other::Inverse(whole))?;
         let poly = Poly::atom(atom).scaled(factor.inverse()?);
         Some(one(roots, poly))
     }
@@ -246,14 +297,19 @@ impl<'g> Forms<'g> {
         if !part.roots.is_empty() || part.poly.value().is_some() {
             return None;
         }
-        let at = match self.roots.iter().position(|p| *p == part.poly) {
+        let at = self.root_of(&part.poly);
+        Some(one(vec![(at, -1)], Poly::constant(Number::ONE)))
+    }
+
+    /// The number of the root whose N is a polynomial.
+    fn root_of(&mut self, poly: &Poly) -> usize {
+        match self.roots.iter().position(|p| p == poly) {
             Some(at) => at,
             None => {
-                self.roots.push(part.poly.clone());
+                self.roots.push(poly.clone());
                 self.roots.len() - 1
             }
-        };
-        Some(one(vec![(at, -1)], Poly::constant(Number::ONE)))
+        }
     }
 
     /// The sum of two forms.

@@ -8,7 +8,7 @@
 
 use crate::flow::graph::*;
 use slowlight_routine::{Op, Runtime, Type, Value};
-use std::collections::{HashMap, HashSet};
+use std::collections::{BTreeMap, HashMap};
 
 /// Nodes of a graph that is there or being built.
 pub trait Nodes {
@@ -27,24 +27,46 @@ impl Nodes for crate::flow::build::Builder {
     }
 }
 
-/// Cycles a pixel for all that a value needs and that is another in every column.
-pub fn cycles(nodes: &dyn Nodes, root: NodeId, runtime: &Runtime) -> u32 {
+/// Cycles a pixel for all that a value needs and that is another in every
+/// column, beside what is there anyway; either arm of a choice is taken for half
+/// of the pixels.
+pub fn cycles(
+    nodes: &dyn Nodes,
+    root: NodeId,
+    runtime: &Runtime,
+    there: &dyn Fn(NodeId) -> bool,
+) -> u32 {
     let mut varies = HashMap::new();
-    let mut seen = HashSet::new();
-    let mut todo = vec![root];
-    let mut sum = 0;
-    while let Some(id) = todo.pop() {
-        if !column(nodes, id, &mut varies, 0) || !seen.insert(id) {
+    // How often each value is needed; users have greater numbers.
+    let mut todo: BTreeMap<NodeId, f64> = BTreeMap::from([(root, 1.0)]);
+    let mut sum = 0.0;
+    while let Some((id, often)) = todo.pop_last() {
+        if there(id) || !column(nodes, id, &mut varies, 0) {
             continue;
         }
-        let node = nodes.node(id);
-        if let Node::Apply(op, _) = node {
-            let found = runtime.routines.iter().find(|r| r.op == op);
-            sum += found.map_or(0, |r| r.cycles);
+        let mut needs = |id: NodeId, part: f64| {
+            let held = todo.entry(id).or_insert(0.0);
+            *held = match part < 1.0 {
+                true => (*held + often * part).min(1.0),
+                false => held.max(often),
+            };
+        };
+        match nodes.node(id) {
+            Node::Select { cond, yes, no } => {
+                needs(cond, 1.0);
+                needs(yes, 0.5);
+                needs(no, 0.5);
+            }
+            node => {
+                node.operands().for_each(|id| needs(id, 1.0));
+                if let Node::Apply(op, _) = node {
+                    let found = runtime.routines.iter().find(|r| r.op == op);
+                    sum += often * found.map_or(0.0, |r| f64::from(r.cycles));
+                }
+            }
         }
-        todo.extend(node.operands());
     }
-    sum
+    sum as u32
 }
 
 /// Whether a node depends on the column (or on a loop); deep graphs count as such.

@@ -40,9 +40,9 @@ use form::{Form, Forms, Part, multiplied, scaled};
 use judge::{Follow, Nodes, Rounded, Sample, cycles, samples};
 use number::Number;
 use put::Put;
-use slowlight_routine::{Format, Op, Runtime, Type};
+use slowlight_routine::{Format, Op, Runtime, Type, Value};
 pub use span::spans;
-use std::collections::HashMap;
+use std::collections::{BTreeSet, HashMap, HashSet};
 
 /// By how much a form's roundings may exceed those of what it replaces, given
 /// the format's unit roundoff: what leaves a picture twenty bits.
@@ -74,22 +74,102 @@ pub fn algebra(
         return None;
     }
     let forms = Forms::new(graph, ranges);
-    let site = Site {
+    let mut site = Site {
         exits: exits(&forms),
+        users: users(graph),
         samples: samples(graph),
         forms,
         runtime,
         allowance,
     };
-    let mut sites = Vec::new();
-    let next = rebuild_old(graph, &mut |builder, made, id, span| {
-        let new = |old: NodeId| made.get(old.0 as usize).copied().flatten();
-        let put = may(id).then(|| site.rewritten(builder, &new, id, span))??;
-        sites.push(id);
-        Some(put)
-    });
-    let some = !sites.is_empty();
-    some.then_some(Cheaper { graph: next, sites })
+    // What stays as it is needs its operands: they are looked at in turn.
+    for _ in 0..ROUNDS {
+        let found = site.rebuilt(may);
+        if !site.open(&found.sites) {
+            return (!found.sites.is_empty()).then_some(found);
+        }
+    }
+    let found = site.rebuilt(may);
+    (!found.sites.is_empty()).then_some(found)
+}
+
+/// How often it is looked for values that are needed since those that need
+/// them stay as they are.
+const ROUNDS: u32 = 8;
+
+/// What uses each value; a root of the graph or of a loop is used for good.
+fn users(graph: &Graph) -> Vec<Vec<NodeId>> {
+    let mut users = vec![Vec::new(); graph.nodes.len()];
+    let reached = graph.reached();
+    for id in graph.ids().filter(|id| reached[id.0 as usize]) {
+        for used in graph.references(id) {
+            users[used.0 as usize].push(id);
+        }
+    }
+    graph.roots().for_each(|id| users[id.0 as usize].push(id));
+    users
+}
+
+/// Values that are polynomials, multiplied by the least number that makes all of
+/// them whole, with whole coefficients; by 1 where there is none that is not large.
+pub struct Whole<'g> {
+    forms: Forms<'g>,
+    /// That number.
+    pub by: f64,
+}
+
+/// What such a number stays below.
+const LARGE: i128 = 100_000;
+
+impl<'g> Whole<'g> {
+    pub fn new(graph: &'g Graph, ranges: &'g Ranges, values: &[NodeId]) -> Whole<'g> {
+        let forms = Forms::new(graph, ranges);
+        let by = values.iter().try_fold(1i128, |by, id| {
+            let d = match Self::poly(&forms, *id)?.content()? {
+                Number::Exact(_, d) if d < LARGE => d,
+                _ => return None,
+            };
+            let both = by / number::common(by, d) * d;
+            (both < LARGE).then_some(both)
+        });
+        let by = by.map_or(1.0, |by| by as f64);
+        Whole { forms, by }
+    }
+
+    fn poly<'f>(forms: &'f Forms<'_>, id: NodeId) -> Option<&'f poly::Poly> {
+        match forms.get(id)?.parts.as_slice() {
+            [part] if part.roots.is_empty() => Some(&part.poly),
+            _ => None,
+        }
+    }
+
+    /// A value times the number, as whole numbers where it is.
+    pub fn put(
+        &self,
+        builder: &mut Builder,
+        new: New<'_>,
+        id: NodeId,
+        span: Span,
+    ) -> Option<NodeId> {
+        if self.by == 1.0 {
+            return new(id);
+        }
+        let by = Number::of(self.by);
+        let poly = Self::poly(&self.forms, id).map(|poly| poly.scaled(by));
+        let mut put = Put {
+            forms: &self.forms,
+            builder,
+            new,
+            span,
+        };
+        if let Some(out) = poly.and_then(|poly| put.poly(&poly))
+            && out.whole
+        {
+            return Some(put.real(out));
+        }
+        let by = builder.constant(Value::Real(self.by), span);
+        Some(builder.apply(Op::Mul, &[new(id)?, by], span))
+    }
 }
 
 /// Which values with a form something needs that has none.
@@ -122,6 +202,8 @@ fn atom_of(form: &Form) -> Option<u32> {
 struct Site<'g> {
     forms: Forms<'g>,
     exits: Vec<bool>,
+    /// What uses each value, itself where it is a root of the graph or of a loop.
+    users: Vec<Vec<NodeId>>,
     samples: Vec<Sample>,
     runtime: &'g Runtime,
     allowance: f64,
@@ -130,6 +212,66 @@ struct Site<'g> {
 type New<'n> = &'n dyn Fn(NodeId) -> Option<NodeId>;
 
 impl Site<'_> {
+    /// The graph with forms in the place of exits.
+    fn rebuilt(&self, may: &dyn Fn(NodeId) -> bool) -> Cheaper {
+        let mut sites = Vec::new();
+        let graph = rebuild_old(self.forms.graph, &mut |builder, made, id, span| {
+            let new = |old: NodeId| made.get(old.0 as usize).copied().flatten();
+            let try_it = may(id) && !self.at_hand(id, &sites);
+            let put = try_it.then(|| self.rewritten(builder, &new, id, span))??;
+            sites.push(id);
+            Some(put)
+        });
+        Cheaper { graph, sites }
+    }
+
+    /// Whether a comparison costs no more than itself: what it compares is
+    /// computed as it is for something else.
+    fn at_hand(&self, id: NodeId, replaced: &[NodeId]) -> bool {
+        let graph = self.forms.graph;
+        let Node::Apply(op, _) = graph.node(id) else {
+            return false;
+        };
+        let value = |user: &NodeId| graph.ty(*user) != Type::Bool;
+        op.result() == Type::Bool
+            && graph.node(id).operands().all(|x| {
+                !self.forms.pixel(x)
+                    || (self.users[x.0 as usize].iter().any(value) && !replaced.contains(&x))
+            })
+    }
+
+    /// What is computed for a value alone.
+    fn own(&self, id: NodeId) -> HashSet<NodeId> {
+        let graph = self.forms.graph;
+        let mut own = HashSet::from([id]);
+        let mut todo: BTreeSet<NodeId> = graph.node(id).operands().collect();
+        while let Some(next) = todo.pop_last() {
+            if self.users[next.0 as usize].iter().all(|u| own.contains(u)) {
+                own.insert(next);
+                todo.extend(graph.node(next).operands());
+            }
+        }
+        own
+    }
+
+    /// Makes exits of the operands of exits that stay as they are; whether
+    /// there are any that were none.
+    fn open(&mut self, replaced: &[NodeId]) -> bool {
+        let graph = self.forms.graph;
+        let mut more = false;
+        for id in graph.ids() {
+            if !self.exits[id.0 as usize] || replaced.contains(&id) {
+                continue;
+            }
+            for used in graph.references(id) {
+                let used = used.0 as usize;
+                more |= !self.exits[used];
+                self.exits[used] = true;
+            }
+        }
+        more
+    }
+
     /// What stands for a node.
     fn rewritten(&self, b: &mut Builder, new: New<'_>, id: NodeId, span: Span) -> Option<NodeId> {
         let graph = self.forms.graph;
@@ -158,16 +300,34 @@ impl Site<'_> {
             }
             _ => return None,
         };
-        let (old, now) = (
-            cycles(graph, id, self.runtime),
-            cycles(&*b, made, self.runtime),
-        );
         let judge = Judge {
             graph,
             samples: &self.samples,
             allowance: self.allowance,
         };
-        (now < old && judge.sound(b, new, id, made)).then_some(made)
+        (self.cheaper(b, new, id, made) && judge.sound(b, new, id, made)).then_some(made)
+    }
+
+    /// Whether a form costs less than what it stands for: for a comparison all
+    /// that it needs, since what else needs that may be a comparison, too; for a
+    /// value what is computed for it alone.
+    fn cheaper(&self, b: &Builder, new: New<'_>, id: NodeId, made: NodeId) -> bool {
+        let graph = self.forms.graph;
+        if graph.ty(id) == Type::Bool {
+            let none = |_| false;
+            return cycles(b, made, self.runtime, &none) < cycles(graph, id, self.runtime, &none);
+        }
+        let own = self.own(id);
+        let others = (0..id.0).map(NodeId).filter(|old| !own.contains(old));
+        let mut todo: Vec<NodeId> = others.filter_map(new).collect();
+        let mut shared = HashSet::new();
+        while let Some(id) = todo.pop() {
+            if shared.insert(id) {
+                todo.extend(b.node(id).operands());
+            }
+        }
+        let now = cycles(b, made, self.runtime, &|id| shared.contains(&id));
+        now < cycles(graph, id, self.runtime, &|id| !own.contains(&id))
     }
 }
 

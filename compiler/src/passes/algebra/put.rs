@@ -7,7 +7,7 @@
 //! see that it is no negative. An int of two values makes a choice between two
 //! polynomials.
 
-use super::form::{Forms, Two, primitive};
+use super::form::{Forms, Other, Two, primitive};
 use super::number::Number;
 use super::poly::{Atom, Poly};
 use crate::flow::build::Builder;
@@ -113,6 +113,9 @@ impl Put<'_, '_> {
     /// Whether an atom of two values has the greater.
     pub(super) fn high(&mut self, atom: Atom, low: i32) -> Option<NodeId> {
         let forms = self.forms;
+        if let Some(Other::Holds(cond)) = forms.other(atom) {
+            return (self.new)(*cond);
+        }
         if let Node::Apply(Op::Sign, [of, _]) = forms.graph.node(NodeId(atom))
             && let Some(form) = forms.get(of)
             && let [part] = form.parts.as_slice()

@@ -95,8 +95,8 @@ pub fn spans(
         if !judge.sound(put.builder, &new, id, asked?) {
             return None;
         }
-        let now = cycles(&*put.builder, made, runtime);
-        if now >= cycles(graph, id, runtime) {
+        let now = cycles(&*put.builder, made, runtime, &|_| false);
+        if now >= cycles(graph, id, runtime, &|_| false) {
             return None;
         }
         sites.push(id);

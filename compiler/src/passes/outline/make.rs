@@ -95,8 +95,10 @@ impl Maker<'_> {
             let node = self.node(Node::Slot(ty), own[k]);
             made.insert(own[k], node);
             let all = group.own.iter().filter_map(|own| own.get(k));
-            if all.clone().all(|id| self.graph.directions.contains(id)) {
-                self.graph.directions.insert(node);
+            let lengths = all.map(|id| self.graph.directions.get(id).copied());
+            if let Some(lengths) = lengths.collect::<Option<Vec<f64>>>() {
+                let longest = lengths.into_iter().fold(0.0, f64::max);
+                self.graph.directions.insert(node, longest);
             }
         }
         made

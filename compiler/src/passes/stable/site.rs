@@ -185,7 +185,7 @@ fn carried(graph: &Graph, vector: [NodeId; 3]) -> bool {
         |list: &[NodeId]| -> Option<[NodeId; 3]> { list.get(first..first + 3)?.try_into().ok() };
     let contract = |list: &[NodeId]| {
         three(list).is_some_and(|v| {
-            normalised(graph, v) || v.iter().all(|id| graph.directions.contains(id))
+            normalised(graph, v) || v.iter().all(|id| graph.directions.get(id) == Some(&1.0))
         })
     };
     follow(1) && follow(2) && contract(&turns.init) && contract(&turns.next)

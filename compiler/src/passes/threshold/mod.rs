@@ -12,20 +12,23 @@
 //! comparison gives the ink that the steps would have given, for every `f64`.
 //! In the machine's format v and the threshold are rounded, and nothing else.
 //!
-//! A shade that is a choice is compared in either arm: the machine then needs
-//! no more than the arm's own value.
+//! A shade that is a choice is compared in either arm, and one that is a loop's
+//! result where the loop ends: the machine then needs no more than the arm's own
+//! value.
 
 mod invert;
+mod sunk;
 #[cfg(test)]
 mod tests;
 
-use super::rebuild::rebuild_old;
+use super::rebuild::{End, Rewrite, rebuild_by};
 use crate::flow::build::Builder;
 use crate::flow::graph::*;
 use crate::range::Ranges;
 use crate::source::Span;
 use invert::{Chain, Selector};
 use slowlight_routine::{Op, Runtime, Type, Value};
+use sunk::Copy;
 
 /// How many inks may be told apart by comparisons.
 const INKS: i32 = 16;
@@ -47,25 +50,86 @@ pub fn threshold(graph: &Graph, ranges: &Ranges, runtime: &Runtime) -> Option<Gr
         return None;
     }
     let bounds = chain.thresholds(graph, ranges, low, high)?;
-    let mut done = false;
-    let next = rebuild_old(graph, &mut |builder, made, id, span| {
-        if id != graph.ink {
-            return None;
+    let mut comparing = Comparing {
+        graph,
+        sunk: sunk::results(graph, &chain),
+        chain,
+        bounds,
+        low,
+        done: false,
+    };
+    let next = rebuild_by(graph, &mut comparing);
+    comparing.done.then_some(next)
+}
+
+/// Finds the ink by comparisons while a graph is rebuilt.
+struct Comparing<'g> {
+    graph: &'g Graph,
+    chain: Chain,
+    bounds: Vec<Vec<f64>>,
+    low: i32,
+    /// The results of loops that become inks.
+    sunk: Vec<(LoopId, u32)>,
+    done: bool,
+}
+
+type Made<'m> = &'m [Option<NodeId>];
+
+impl Comparing<'_> {
+    /// The ink of a shade.
+    fn ink(&self, b: &mut Builder, made: Made<'_>, shade: NodeId, span: Span) -> Option<NodeId> {
+        let mut copy = Copy {
+            graph: self.graph,
+            made: made.to_vec(),
+        };
+        let mut compared = Vec::new();
+        for entries in &self.bounds {
+            let same = entries.iter().all(|e| e == &entries[0]);
+            compared.push(match self.chain.selector {
+                Some(selector) if !same => entry(&mut copy, b, selector, entries, span)?,
+                _ => b.constant(Value::Real(*entries.first()?), span),
+            });
         }
-        let new = |old: NodeId| made.get(old.0 as usize).copied().flatten();
-        let compared = compared(graph, builder, &chain, &bounds, &new, span)?;
         let tree = Tree {
-            graph,
+            graph: self.graph,
             compared: &compared,
-            rising: chain.rising,
-            low,
+            rising: self.chain.rising,
+            low: self.low,
+            sunk: &self.sunk,
             span,
         };
-        let ink = tree.put(builder, &new, chain.value, ARMS)?;
-        done = true;
+        let new = |old: NodeId| made.get(old.0 as usize).copied().flatten();
+        tree.put(b, &new, shade, ARMS)
+    }
+}
+
+impl Rewrite for Comparing<'_> {
+    fn node(
+        &mut self,
+        b: &mut Builder,
+        made: Made<'_>,
+        id: NodeId,
+        _moved: Node,
+        span: Span,
+    ) -> Option<NodeId> {
+        if id != self.graph.ink {
+            return None;
+        }
+        let ink = self.ink(b, made, self.chain.value, span)?;
+        self.done = true;
         Some(ink)
-    });
-    done.then_some(next)
+    }
+
+    fn end(&mut self, b: &mut Builder, made: Made<'_>, id: NodeId, end: End) -> Option<NodeId> {
+        match end {
+            End::Result(of, index) if self.sunk.contains(&(of, index)) => {
+                self.ink(b, made, id, self.graph.span(id))
+            }
+            // It is looked at, and gone where it became an ink.
+            End::Output => (!self.sunk.is_empty()).then(|| b.undefined(Type::Real)),
+            _ => None,
+        }
+    }
 }
 
 /// Whether comparisons and lookups cost less than the steps.
@@ -83,39 +147,18 @@ fn saves(graph: &Graph, chain: &Chain, inks: i32, runtime: &Runtime) -> bool {
     steps.sum::<u32>() > turns * 2 * cost(Op::Less)
 }
 
-/// What the shade is compared with for each ink above the lowest.
-fn compared(
-    graph: &Graph,
-    b: &mut Builder,
-    chain: &Chain,
-    bounds: &[Vec<f64>],
-    new: &dyn Fn(NodeId) -> Option<NodeId>,
-    span: Span,
-) -> Option<Vec<NodeId>> {
-    let mut all = Vec::new();
-    for entries in bounds {
-        let same = entries.iter().all(|e| e == &entries[0]);
-        all.push(match chain.selector {
-            Some(selector) if !same => entry(graph, b, selector, entries, new, span)?,
-            _ => b.constant(Value::Real(*entries.first()?), span),
-        });
-    }
-    Some(all)
-}
-
 /// A threshold read from its table.
 fn entry(
-    graph: &Graph,
+    copy: &mut Copy<'_>,
     b: &mut Builder,
     selector: Selector,
     entries: &[f64],
-    new: &dyn Fn(NodeId) -> Option<NodeId>,
     span: Span,
 ) -> Option<NodeId> {
     let reals = entries.iter().map(|e| Constant::new(Value::Real(*e)));
     let seed = match selector {
         Selector::Entry { of, .. } => {
-            let cells = graph.tables.get(of.0 as usize)?.entries.iter();
+            let cells = copy.graph.tables.get(of.0 as usize)?.entries.iter();
             let ints = cells.map(|e| match e.value() {
                 Value::Int(n) if n.abs() < 1_000_000 => Some(n),
                 _ => None,
@@ -134,9 +177,10 @@ fn entry(
     };
     match selector {
         Selector::Entry { of, column, row } => {
-            let cells = graph.tables.get(of.0 as usize)?;
+            let cells = copy.graph.tables.get(of.0 as usize)?;
             let table = b.table(table(cells.width, cells.height));
-            Some(b.lookup(table, new(column)?, new(row)?, span))
+            let (column, row) = (copy.of(b, column)?, copy.of(b, row)?);
+            Some(b.lookup(table, column, row, span))
         }
         Selector::Int { node, low, .. } => {
             let table = b.table(table(entries.len() as u32, 1));
@@ -144,7 +188,8 @@ fn entry(
                 b.constant(Value::Int(low), span),
                 b.constant(Value::Int(0), span),
             );
-            let index = b.apply(Op::IntSub, &[new(node)?, low], span);
+            let node = copy.of(b, node)?;
+            let index = b.apply(Op::IntSub, &[node, low], span);
             Some(b.lookup(table, index, zero, span))
         }
     }
@@ -156,6 +201,8 @@ struct Tree<'t> {
     compared: &'t [NodeId],
     rising: bool,
     low: i32,
+    /// Results of loops that are inks already.
+    sunk: &'t [(LoopId, u32)],
     span: Span,
 }
 
@@ -175,6 +222,7 @@ impl Tree<'_> {
                 let no = self.put(b, new, no, arms - arms / 2)?;
                 Some(b.select(cond, yes, no, self.span))
             }
+            Node::Result { of, index } if self.sunk.contains(&(of, index)) => new(shade),
             _ => Some(self.between(b, new(shade)?, 0, self.compared.len())),
         }
     }

@@ -242,7 +242,9 @@ impl<'a> Lower<'a> {
     /// A vector that has length 1 by contract: the ranges may trust that.
     pub(super) fn direction(&mut self, value: Val, span: Span) -> Found<Val> {
         let nodes = self.vector(value.clone(), 3, span)?;
-        nodes.into_iter().for_each(|node| self.b.direction(node));
+        nodes
+            .into_iter()
+            .for_each(|node| self.b.direction(node, 1.0));
         Ok(value)
     }
 

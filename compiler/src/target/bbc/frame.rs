@@ -10,6 +10,7 @@ use super::segment::Segments;
 use super::short::short;
 use super::spread::Spread;
 use super::tables;
+use super::thread::threaded;
 use crate::flow::tree::SubroutineId;
 use crate::plan::Plan;
 use crate::source::Span;
@@ -56,7 +57,8 @@ pub fn program(plan: &Plan) -> Lines {
     }
     let params = (0..plan.params.len()).map(|k| code.values.names.param(k).to_owned());
     let keep: Vec<String> = params.chain([first, last]).collect();
-    short(code.lines, &keep, style)
+    let lines = threaded(code.lines, &mut code.labels);
+    short(lines, &keep, style)
 }
 
 /// The scene's item that something comes from: the last that begins before it.

@@ -1,10 +1,19 @@
 //! Lines of BASIC with labels for line numbers.
 
 use crate::source::Span;
+use std::collections::HashMap;
 
 /// What a GOTO names before lines have numbers.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Label(u32);
+
+impl Label {
+    /// The label that a text ends with, and what stands before it.
+    pub fn last_of(text: &str) -> Option<(&str, Label)> {
+        let (before, number) = text.strip_suffix(MARK)?.rsplit_once(MARK)?;
+        Some((before, Label(number.parse().ok()?)))
+    }
+}
 
 /// Encloses a label's number in a line's text.
 pub const MARK: char = '\u{1}';
@@ -177,6 +186,40 @@ impl Lines {
             Item::Line { text, weight, .. } => Some((text.as_str(), *weight)),
             Item::Label(_) => None,
         })
+    }
+
+    /// Every label, and the number of the line that it stands before.
+    pub fn labelled(&self) -> impl Iterator<Item = (Label, usize)> {
+        let mut at = 0;
+        self.items.iter().filter_map(move |item| match item {
+            Item::Line { .. } => {
+                at += 1;
+                None
+            }
+            Item::Label(label) => Some((*label, at)),
+        })
+    }
+
+    /// The same lines with other texts, and with labels behind some of them.
+    pub fn with_texts(self, texts: Vec<String>, behind: &HashMap<usize, Label>) -> Lines {
+        let mut texts = texts.into_iter();
+        let mut all = Lines::of_weight(self.weight);
+        let mut at = 0;
+        for mut item in self.items {
+            let line = match &mut item {
+                Item::Line { text, .. } => {
+                    *text = texts.next().unwrap_or_default();
+                    at += 1;
+                    true
+                }
+                Item::Label(_) => false,
+            };
+            all.items.push(item);
+            if let Some(label) = line.then(|| behind.get(&(at - 1))).flatten() {
+                all.items.push(Item::Label(*label));
+            }
+        }
+        all
     }
 
     /// Changes every line's text.

@@ -42,6 +42,7 @@ mod tables;
 #[cfg(test)]
 mod tests;
 mod text;
+mod thread;
 mod version;
 
 use super::{Document, Target};

@@ -124,12 +124,26 @@ fn cook(
         text = if sum { format!("({text})") } else { text };
         text = format!("{text}*{}", literal(recipe.scale));
     }
+    let simple = |text: &str| text == from || text == entry;
+    let signs = table.entries.iter().any(|e| e.value().real() < 0.0);
+    if let Some(more) = recipe.more {
+        if !simple(&text) {
+            code.statement(format!("{entry}={text}"));
+        } else if text != entry {
+            code.statement(format!("{entry}={from}"));
+        }
+        text = format!("{entry}*ABS({entry})");
+        if more != 0.0 {
+            let more = literal(more);
+            let sign = if more.starts_with('-') { "" } else { "+" };
+            text = format!("{text}{sign}{more}");
+        }
+    }
     if !recipe.squared {
         code.statement(format!("{element}={text}"));
         return;
     }
-    let signs = table.entries.iter().any(|e| e.value().real() < 0.0);
-    let text = match text == from {
+    let text = match simple(&text) {
         true => text,
         false => {
             code.statement(format!("{entry}={text}"));

@@ -1,0 +1,354 @@
+//! What a plan costs a pixel: for choosing between plans of one scene.
+//!
+//! The statements are run in `f64` at pixels spread over the picture, with the
+//! params as they are, and each that runs is added up with the cycles of the
+//! routine that the ranges allow. So what few pixels need weighs little. Where
+//! that would take too long, or pixels depend on each other, either way of a
+//! choice is thought to be as likely ([`crate::flow::often`]).
+
+use super::choose::choose;
+use super::fold_uses::folded;
+use super::settled::Settled;
+use crate::eval::run::{Arithmetic, Exact, Run};
+use crate::flow::graph::*;
+use crate::flow::often;
+use crate::flow::tree::*;
+use crate::passes::demand::bounds_segment;
+use crate::passes::rate::rates;
+use slowlight_routine::{Op, Routine, Runtime, Stepping, Type, Value};
+use std::cell::Cell;
+use std::collections::HashSet;
+
+/// What part of the plan's cycles a statement more must save, for its memory;
+/// three entries of a table take as much. Where there is plenty, and where
+/// there was not enough.
+const MEMORY: [f64; 2] = [0.0002, 0.0025];
+
+/// Rows and columns that are looked at, and how many statements may run for that.
+const ROWS: u32 = 12;
+const COLUMNS: u32 = 13;
+const PATIENCE: u64 = 40_000;
+
+/// How plans are priced.
+pub struct Price {
+    runtime: &'static Runtime,
+    memory: f64,
+    /// The pixels that are looked at, row by row.
+    pixels: Vec<(i32, i32)>,
+}
+
+impl Price {
+    /// Prices for plans of the scene of a first one; `thrifty` with memory.
+    pub fn new(plain: &Settled, runtime: &'static Runtime, thrifty: bool) -> Price {
+        let mut price = Price {
+            runtime,
+            memory: MEMORY[usize::from(thrifty)],
+            pixels: Vec::new(),
+        };
+        if plain.graph.diffusion.is_none() {
+            let all = spread(&plain.graph.image);
+            let meter = Meter::new(&plain.graph, |_: &Statement| 1.0);
+            let run = price.run(plain, &all, &meter);
+            if run.is_some() {
+                price.pixels = all;
+            }
+        }
+        price
+    }
+
+    /// Cycles a pixel, and something for memory.
+    pub fn of(&self, plan: &Settled) -> f64 {
+        let Ok(routines) = choose(&plan.graph, &plan.tree, &plan.ranges, self.runtime) else {
+            return f64::INFINITY;
+        };
+        let beside = Beside {
+            graph: &plan.graph,
+            runtime: self.runtime,
+            folded: folded(&plan.graph, &plan.tree),
+            routines,
+        };
+        // What begins a run of columns is not carried out at each of them.
+        let mut runs = HashSet::new();
+        walk(&plan.tree.segment, &mut |s| {
+            runs.insert(std::ptr::from_ref(s));
+        });
+        let cost = |statement: &Statement| f64::from(beside.statement(statement));
+        let by_pixel = |statement: &Statement| match runs.contains(&std::ptr::from_ref(statement)) {
+            true => 0.0,
+            false => cost(statement),
+        };
+        let width = f64::from(plan.graph.image.width.max(1));
+        let guess = |block: &Block| guessed(block, &cost);
+        let pixel = match self.pixels.as_slice() {
+            [] => guess(&plan.tree.pixel),
+            pixels => {
+                let meter = Meter::new(&plan.graph, by_pixel);
+                let sum = self.run(plan, pixels, &meter);
+                sum.map_or_else(|| guess(&plan.tree.pixel), |sum| sum / pixels.len() as f64)
+            }
+        };
+        let often = 1.0 + bounds(plan) as f64;
+        let outside = guess(&plan.tree.row) + guess(&plan.tree.segment) * often;
+        let cycles = outside / width + pixel + beside.steps(&plan.tree.row);
+        cycles * (1.0 + self.memory * memory(plan))
+    }
+
+    /// Whether copies of a value are worth their memory: given how many times a
+    /// pixel less it is computed, and how many copies there are more.
+    pub fn worth(&self, plan: &Settled) -> impl Fn(NodeId, f64, usize) -> bool + use<> {
+        let routines = choose(&plan.graph, &plan.tree, &plan.ranges, self.runtime);
+        let routines = routines.unwrap_or_default();
+        let total = self.of(plan);
+        let (memory, runtime) = (self.memory, self.runtime);
+        let looked: Vec<bool> = (plan.graph.nodes.iter())
+            .map(|n| matches!(n, Node::Lookup { .. }))
+            .collect();
+        let kinds: Vec<usize> = plan.graph.types.iter().map(|ty| kind(*ty)).collect();
+        move |id, less, copies| {
+            let at = id.0 as usize;
+            let routine = routines.get(at).copied().flatten();
+            let own = match looked.get(at) {
+                Some(true) => runtime.index,
+                _ => routine.map_or(0, |r| r.cycles),
+            };
+            let kept = match (kinds.get(at), runtime.stepping) {
+                (Some(kind), Some(stepping)) => stepping.write[*kind],
+                _ => 0,
+            };
+            less * f64::from(own + kept) > memory * total * copies as f64
+        }
+    }
+
+    /// What the pixels cost together; nothing where too many statements run.
+    fn run(
+        &self,
+        plan: &Settled,
+        pixels: &[(i32, i32)],
+        meter: &Meter<'_, impl Fn(&Statement) -> f64>,
+    ) -> Option<f64> {
+        let mut run = Run::new(&plan.graph, &plan.tree, meter);
+        let mut row = None;
+        let mut sum = 0.0;
+        for &(x, y) in pixels {
+            // The row's own statements are counted apart.
+            if row.replace(y) != Some(y) {
+                run.pixel(x, y);
+            }
+            meter.sum.set(0.0);
+            run.pixel(x, y);
+            sum += meter.sum.get();
+            if meter.ran.get() > PATIENCE {
+                return None;
+            }
+        }
+        Some(sum)
+    }
+}
+
+/// Routines, and what statements cost beside them.
+struct Beside<'p> {
+    graph: &'p Graph,
+    runtime: &'static Runtime,
+    folded: Vec<bool>,
+    routines: Vec<Option<&'static Routine>>,
+}
+
+impl Beside<'_> {
+    /// Cycles of a statement by itself.
+    fn statement(&self, statement: &Statement) -> u32 {
+        let Some(stepping) = self.runtime.stepping else {
+            // Of these machines nothing better is known.
+            let step = self.runtime.statement;
+            return match statement {
+                Statement::Let(id) => step + self.own(*id),
+                Statement::Loop(_) => 0,
+                _ => step,
+            };
+        };
+        match statement {
+            Statement::Let(id) => self.computed(*id, stepping),
+            Statement::Set { place, from } => {
+                let reading = match from {
+                    Origin::Node(id) => self.read(*id, stepping),
+                    Origin::Scratch(..) => stepping.read[1],
+                };
+                let kind = match place {
+                    Place::Node(id) => kind(self.graph.ty(*id)),
+                    _ => 1,
+                };
+                reading + stepping.write[kind]
+            }
+            Statement::If { cond, .. } => stepping.test + self.read(*cond, stepping),
+            Statement::Loop(_) | Statement::Call(_) => stepping.test,
+        }
+    }
+
+    /// What computing a node costs, its operands not.
+    fn own(&self, id: NodeId) -> u32 {
+        if let Node::Lookup { table, .. } = self.graph.node(id) {
+            let table = self.graph.tables.get(table.0 as usize);
+            let flat = table.is_some_and(|t| t.width == 1 || t.height == 1);
+            return self.runtime.index * if flat { 1 } else { 2 };
+        }
+        let routine = self.routines.get(id.0 as usize).copied().flatten();
+        routine.map_or(0, |r| r.cycles)
+    }
+
+    fn inline(&self, id: NodeId) -> bool {
+        self.folded.get(id.0 as usize) == Some(&true)
+    }
+
+    fn read(&self, id: NodeId, stepping: Stepping) -> u32 {
+        let ty = self.graph.ty(id);
+        match self.graph.constant(id) {
+            _ if self.inline(id) => 0,
+            Some(value) if ty == Type::Int => {
+                stepping.digit * value.int().unsigned_abs().to_string().len() as u32
+            }
+            _ => stepping.read[kind(ty)],
+        }
+    }
+
+    fn computed(&self, id: NodeId, stepping: Stepping) -> u32 {
+        let node = self.graph.node(id);
+        let operands: u32 = node.operands().map(|used| self.read(used, stepping)).sum();
+        let own = self.own(id);
+        let kept = match self.inline(id) {
+            true => 0,
+            false => stepping.write[kind(self.graph.ty(id))],
+        };
+        own + operands + kept
+    }
+
+    /// What ramps take behind each pixel.
+    fn steps(&self, row: &Block) -> f64 {
+        let ramp = self.runtime.stepping.map_or(0, |s| s.ramp);
+        let mut ramps = 0;
+        walk(row, &mut |statement| {
+            let node = |id: &NodeId| self.graph.node(*id);
+            ramps += u32::from(
+                matches!(statement, Statement::Let(id) if matches!(node(id), Node::Ramp { .. })),
+            );
+        });
+        f64::from(ramps * ramp)
+    }
+}
+
+/// Where a type's costs stand in [`Stepping`].
+fn kind(ty: Type) -> usize {
+    usize::from(ty == Type::Real)
+}
+
+/// Pixels spread over a picture, none above another.
+fn spread(image: &Image) -> Vec<(i32, i32)> {
+    let at = |k: u32, of: u32, long: u32| {
+        ((u64::from(k) * 2 + 1) * u64::from(long) / 2 / u64::from(of)) as i32
+    };
+    let mut all = Vec::new();
+    for row in 0..ROWS {
+        let y = at(row, ROWS, image.height);
+        for column in 0..COLUMNS {
+            // Later rows a little further to the right.
+            let x = at(column * ROWS + row, COLUMNS * ROWS, image.width);
+            all.push((x, y));
+        }
+    }
+    all
+}
+
+/// How many comparisons may end a run of columns.
+fn bounds(plan: &Settled) -> usize {
+    let mut bounds = 0;
+    let rates = rates(&plan.graph);
+    walk(&plan.tree.segment, &mut |s| {
+        if let Statement::Let(id) = s {
+            bounds += usize::from(bounds_segment(&plan.graph, &rates, *id));
+        }
+    });
+    bounds
+}
+
+/// Memory in statements.
+fn memory(plan: &Settled) -> f64 {
+    let mut statements = 0;
+    for block in plan.tree.outer() {
+        walk(block, &mut |_| statements += 1);
+    }
+    let entries = plan.graph.tables.iter().map(|t| match t.seed.is_empty() {
+        true => t.entries.len() as f64 / 3.0,
+        // The array, and how it is worked out.
+        false => t.entries.len() as f64 / 4.0 + 3.0,
+    });
+    f64::from(statements) + entries.sum::<f64>()
+}
+
+/// Cycles of a block in a pixel of which nothing is known.
+fn guessed(block: &Block, cost: &dyn Fn(&Statement) -> f64) -> f64 {
+    let one = |statement: &Statement| {
+        let inner = match statement {
+            Statement::If { yes, no, .. } => {
+                let likely = often::likely(yes, no);
+                likely * guessed(yes, cost) + (1.0 - likely) * guessed(no, cost)
+            }
+            Statement::Loop(turns) => {
+                let blocks = often::turns(turns);
+                blocks.iter().map(|(b, n)| n * guessed(b, cost)).sum()
+            }
+            _ => 0.0,
+        };
+        cost(statement) + inner
+    };
+    block.iter().map(one).sum()
+}
+
+/// Computes in `f64` and adds up what the statements cost that run.
+struct Meter<'g, C> {
+    exact: Exact<'g>,
+    cost: C,
+    sum: Cell<f64>,
+    ran: Cell<u64>,
+}
+
+impl<'g, C: Fn(&Statement) -> f64> Meter<'g, C> {
+    fn new(graph: &'g Graph, cost: C) -> Meter<'g, C> {
+        Meter {
+            exact: Exact(graph),
+            cost,
+            sum: Cell::new(0.0),
+            ran: Cell::new(0),
+        }
+    }
+}
+
+impl<C: Fn(&Statement) -> f64> Arithmetic for &Meter<'_, C> {
+    type Value = Value;
+
+    fn constant(&self, value: Value) -> Value {
+        self.exact.constant(value)
+    }
+
+    fn param(&self, id: ParamId) -> Value {
+        self.exact.param(id)
+    }
+
+    fn apply(&self, id: NodeId, op: Op, args: &[Value]) -> Value {
+        self.exact.apply(id, op, args)
+    }
+
+    fn gather(&self, received: Value, sent: Value) -> Value {
+        self.exact.gather(received, sent)
+    }
+
+    fn truth(&self, value: Value) -> bool {
+        self.exact.truth(value)
+    }
+
+    fn int(&self, value: Value) -> i32 {
+        self.exact.int(value)
+    }
+
+    fn step(&self, statement: &Statement) {
+        self.ran.set(self.ran.get() + 1);
+        self.sum.set(self.sum.get() + (self.cost)(statement));
+    }
+}
