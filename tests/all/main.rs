@@ -30,4 +30,5 @@ mod spread;
 mod stress;
 mod torus;
 mod whole;
+mod written;
 mod wrong;

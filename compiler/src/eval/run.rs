@@ -2,8 +2,9 @@
 //!
 //! The same walk serves the tree in `f64` (to hold the passes against the
 //! native evaluation) and in the routines' models (to hold the machines
-//! against the plan). It also watches the homes: reading one that was not
-//! written on this path is counted, which a correct schedule never does.
+//! against the plan). It also watches the homes: using one that was not
+//! written on this path is counted, which a correct schedule never does. To
+//! copy one is not to use it: the copy was not written either.
 
 use super::diffuse::Pending;
 use crate::flow::graph::*;
@@ -254,6 +255,22 @@ impl<'t, A: Arithmetic> Run<'t, A> {
         }
     }
 
+    /// Whether nothing was written here that could be copied: what a search leaves
+    /// that has found nothing, say. Who copies it has as little; who uses it is
+    /// counted.
+    fn is_unset(&self, id: NodeId) -> bool {
+        match self.graph.node(id) {
+            Node::Undefined(_) => true,
+            Node::Carried { of, index } | Node::Last { of, index } => {
+                self.carried[of.0 as usize][index as usize].is_none()
+            }
+            Node::Apply(..) | Node::Select { .. } | Node::Lookup { .. } | Node::Result { .. } => {
+                self.values[id.0 as usize].is_none()
+            }
+            _ => false,
+        }
+    }
+
     /// A ramp here: set where the row began, stepped at the end of each pixel.
     fn ramp(&mut self, id: NodeId) -> A::Value {
         self.checked(self.values[id.0 as usize]);
@@ -307,13 +324,11 @@ impl<'t, A: Arithmetic> Run<'t, A> {
                     self.values[id.0 as usize] = Some(value);
                 }
                 Statement::Set { place, from } => {
-                    let value = match *from {
-                        Origin::Node(id) => self.read(id),
-                        Origin::Scratch(l, k) => {
-                            self.checked(self.scratch[l.0 as usize][k as usize])
-                        }
+                    *self.slot(*place) = match *from {
+                        Origin::Node(id) if self.is_unset(id) => None,
+                        Origin::Node(id) => Some(self.read(id)),
+                        Origin::Scratch(l, k) => self.scratch[l.0 as usize][k as usize],
                     };
-                    *self.slot(*place) = Some(value);
                 }
                 Statement::If { cond, yes, no } => {
                     let cond = self.read(*cond);
