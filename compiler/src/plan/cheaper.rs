@@ -10,7 +10,7 @@
 use super::price::Price;
 use super::settled::{Settled, scheduled, settle};
 use crate::flow::graph::*;
-use crate::passes::algebra::{Cheaper, algebra, spans};
+use crate::passes::algebra::{Cheaper, Verdicts, algebra, spans};
 use crate::passes::apart::apart;
 use crate::passes::homogeneous::{homogeneous, lengths};
 use crate::passes::peel::peel;
@@ -65,7 +65,7 @@ pub fn cheaper(plain: Settled, slack: &Slack, runtime: &'static Runtime, thrifty
 }
 
 /// A pass that puts something in the place of nodes that may be replaced.
-type Pass = fn(&Graph, &Ranges, &Runtime, &dyn Fn(NodeId) -> bool) -> Option<Cheaper>;
+type Pass = fn(&Graph, &Ranges, &Runtime, &dyn Fn(NodeId) -> bool, &Verdicts) -> Option<Cheaper>;
 
 /// With values computed where they are needed rather than once for all, where
 /// that is less often: the last of the passes.
@@ -145,6 +145,8 @@ impl Site<'_> {
         if plain.graph.nodes.len() > NODES {
             return None;
         }
+        let verdicts = Verdicts::default();
+        let pass = (pass, &verdicts);
         let all = self.with(plain, pass, &[])?;
         let sites = all.1;
         let mut tries = vec![self.fewer(plain, pass, &sites, (Vec::new(), all.0))];
@@ -163,7 +165,7 @@ impl Site<'_> {
     fn fewer(
         &self,
         plain: &Settled,
-        pass: Pass,
+        pass: (Pass, &Verdicts),
         sites: &[NodeId],
         all: (Vec<NodeId>, Settled),
     ) -> Settled {
@@ -187,7 +189,7 @@ impl Site<'_> {
     }
 
     /// From no form: each is put where that is cheaper.
-    fn more(&self, plain: &Settled, pass: Pass, sites: &[NodeId]) -> Settled {
+    fn more(&self, plain: &Settled, pass: (Pass, &Verdicts), sites: &[NodeId]) -> Settled {
         let (mut without, mut best) = (sites.to_vec(), plain.clone());
         let mut limit = self.cost(&best);
         for id in sites {
@@ -206,11 +208,12 @@ impl Site<'_> {
     fn with(
         &self,
         plain: &Settled,
-        pass: Pass,
+        pass: (Pass, &Verdicts),
         without: &[NodeId],
     ) -> Option<(Settled, Vec<NodeId>)> {
         let may = |id: NodeId| !without.contains(&id);
-        let found = pass(&plain.graph, &plain.ranges, self.runtime, &may)?;
+        let (pass, verdicts) = pass;
+        let found = pass(&plain.graph, &plain.ranges, self.runtime, &may, verdicts)?;
         Some((settle(&found.graph, self.slack), found.sites))
     }
 }

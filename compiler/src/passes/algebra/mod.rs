@@ -42,6 +42,7 @@ use number::Number;
 use put::Put;
 use slowlight_routine::{Format, Op, Runtime, Type, Value};
 pub use span::spans;
+use std::cell::RefCell;
 use std::collections::{BTreeSet, HashMap, HashSet};
 
 /// By how much a form's roundings may exceed those of what it replaces, given
@@ -53,6 +54,11 @@ fn allowance(format: Format) -> f64 {
         _ => 0.0,
     }
 }
+
+/// What was decided about the forms of a graph's nodes, for whoever asks again
+/// with others left out: it hardly depends on those.
+#[derive(Default)]
+pub struct Verdicts(RefCell<HashMap<NodeId, bool>>);
 
 /// A graph with cheaper forms in it.
 pub struct Cheaper {
@@ -68,6 +74,7 @@ pub fn algebra(
     ranges: &Ranges,
     runtime: &Runtime,
     may: &dyn Fn(NodeId) -> bool,
+    verdicts: &Verdicts,
 ) -> Option<Cheaper> {
     let allowance = allowance(runtime.real);
     if allowance < 1.0 {
@@ -77,6 +84,7 @@ pub fn algebra(
     let mut site = Site {
         exits: exits(&forms),
         users: users(graph),
+        verdicts,
         samples: samples(graph),
         forms,
         runtime,
@@ -204,6 +212,7 @@ struct Site<'g> {
     exits: Vec<bool>,
     /// What uses each value, itself where it is a root of the graph or of a loop.
     users: Vec<Vec<NodeId>>,
+    verdicts: &'g Verdicts,
     samples: Vec<Sample>,
     runtime: &'g Runtime,
     allowance: f64,
@@ -275,7 +284,7 @@ impl Site<'_> {
     /// What stands for a node.
     fn rewritten(&self, b: &mut Builder, new: New<'_>, id: NodeId, span: Span) -> Option<NodeId> {
         let graph = self.forms.graph;
-        if !self.forms.pixel(id) {
+        if !self.forms.pixel(id) || self.verdicts.0.borrow().get(&id) == Some(&false) {
             return None;
         }
         let mut put = Put {
@@ -305,7 +314,11 @@ impl Site<'_> {
             samples: &self.samples,
             allowance: self.allowance,
         };
-        (self.cheaper(b, new, id, made) && judge.sound(b, new, id, made)).then_some(made)
+        let held = self.verdicts.0.borrow().get(&id).copied();
+        let good =
+            held.unwrap_or_else(|| self.cheaper(b, new, id, made) && judge.sound(b, new, id, made));
+        self.verdicts.0.borrow_mut().insert(id, good);
+        good.then_some(made)
     }
 
     /// Whether a form costs less than what it stands for: for a comparison all

@@ -23,7 +23,7 @@ use super::judge::{cycles, samples};
 use super::number::Number;
 use super::poly::{Atom, Poly};
 use super::put::{Out, Put};
-use super::{Cheaper, Judge, allowance};
+use super::{Cheaper, Judge, Verdicts, allowance};
 use crate::flow::graph::*;
 use crate::passes::rebuild::rebuild_old;
 use crate::range::Ranges;
@@ -43,6 +43,7 @@ pub fn spans(
     ranges: &Ranges,
     runtime: &Runtime,
     may: &dyn Fn(NodeId) -> bool,
+    _: &Verdicts,
 ) -> Option<Cheaper> {
     let allowance = allowance(runtime.real);
     if allowance < 1.0 {

@@ -83,7 +83,7 @@ fn spanned(graph: &Graph) -> Option<Graph> {
     let tree = schedule(graph);
     let runtime = find("bbc:micro").unwrap().runtime;
     let ranges = ranges(graph, &tree, &Slack::of(runtime));
-    let found = spans(graph, &ranges, runtime, &|_| true)?;
+    let found = spans(graph, &ranges, runtime, &|_| true, &Default::default())?;
     verify(&found.graph).unwrap();
     Some(found.graph)
 }
