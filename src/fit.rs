@@ -306,10 +306,12 @@ fn as_is_or_tight(mut plan: Plan) -> Outcome<Fitted> {
             _ => return Ok(Fitted::Fits(Box::new(plan))),
         }
         // Steps take a few bytes; to write it short costs more than they save.
-        if let (false, Some(plain)) = (lean, plan.unstepped())
-            && need(&plain)?.is_some_and(|need| need.fits())
-        {
-            return Ok(Fitted::Fits(Box::new(plain)));
+        let mut less = if lean { None } else { plan.unstepped() };
+        while let Some(plain) = less {
+            if need(&plain)?.is_some_and(|need| need.fits()) {
+                return Ok(Fitted::Fits(Box::new(plain)));
+            }
+            less = plain.unstepped();
         }
     }
     Ok(match least {

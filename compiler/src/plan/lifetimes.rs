@@ -3,7 +3,8 @@
 //! The statements are numbered as they are written down; a place is alive from
 //! its first writing to its last reading. A loop runs its statements again, so
 //! what was written before its body and is read inside it stays alive to its
-//! end. What the frame or a row computes stays alive throughout. Calls count as
+//! end. What the frame or a row computes for others stays alive throughout; what
+//! is read only in the block that computes it, to its last reading. Calls count as
 //! what they run: a subroutine's own places are alive from its first call to
 //! its last, and every other place that is alive during a call keeps clear of them.
 //!
@@ -14,6 +15,7 @@
 use super::Plan;
 use super::merge::merged;
 use crate::flow::graph::*;
+use crate::flow::ramp;
 use crate::flow::tree::*;
 use slowlight_routine::Format;
 use std::collections::HashMap;
@@ -74,7 +76,10 @@ fn homes(plan: &Plan, move_less: bool) -> HashMap<Place, usize> {
         inside: Vec::new(),
     };
     lives.block(&plan.tree.frame);
+    // The numbers of the last statements of the frame and of the row.
+    let frame = lives.now;
     lives.block(&plan.tree.row);
+    let row = lives.now;
     lives.block(&plan.tree.segment);
     // The number of the last statement before the pixel's.
     let pixel = lives.now;
@@ -82,6 +87,7 @@ fn homes(plan: &Plan, move_less: bool) -> HashMap<Place, usize> {
     lives.read(plan.graph.ink);
     plan.graph.shares().for_each(|s| lives.read(s.node));
     plan.graph.reports.iter().for_each(|&id| lives.read(id));
+    lives.steps();
     let moved = if move_less {
         lives.moved(pixel)
     } else {
@@ -100,6 +106,8 @@ fn homes(plan: &Plan, move_less: bool) -> HashMap<Place, usize> {
     all.retain(|(place, _)| !moved.iter().any(|(from, _)| from == place));
     let life = |place: &Place| match lives.lives.get(place) {
         Some(life) if life.from > pixel => *life,
+        // What the row computes for itself alone, and what the frame does.
+        Some(life) if life.from > frame && life.to <= row || life.to <= frame => *life,
         _ => Life { from: 0, to: end },
     };
     // Stable: places that begin together stay in the order of their writing.
@@ -181,6 +189,21 @@ impl Lives<'_> {
                 Statement::Loop(turns) => self.turns(turns),
                 Statement::Call(id) => self.block(self.plan.tree.body(*id)),
             }
+        }
+    }
+
+    /// Ramps are stepped at the end of every pixel, read or not.
+    fn steps(&mut self) {
+        let tree = &self.plan.tree;
+        let mut set = Vec::new();
+        walk(&tree.row, &mut |statement| {
+            if let Statement::Let(id) = statement {
+                set.push(*id);
+            }
+        });
+        for (id, step) in ramp::in_steps(&self.plan.graph, set) {
+            self.touch(Place::Node(id));
+            self.read(step);
         }
     }
 

@@ -70,7 +70,7 @@ use cheaper::{apart_at_last, cheaper};
 use settled::{Settled, scheduled, settle};
 use slowlight_routine::{Bits, Format, Op, Range, Routine, Runtime, Type, Value};
 use std::collections::HashMap;
-use stepped::stepped;
+use stepped::{Steps, stepped};
 
 /// What to build, beside the scene and the target.
 #[derive(Clone, Debug, PartialEq)]
@@ -258,7 +258,7 @@ impl Plan {
         let less = match self.origin.1 {
             Rewriting::Fast { thrifty, .. } if !thrifty => Rewriting::Fast {
                 thrifty: true,
-                steps: true,
+                steps: Steps::All,
             },
             Rewriting::Fast { .. } => Rewriting::Stable,
             _ => return None,
@@ -266,19 +266,20 @@ impl Plan {
         self.again(&self.origin.0, less)
     }
 
-    /// The same plan with nothing stepped from column to column, which takes a
-    /// little less memory. None where nothing is.
+    /// The same plan with less that is stepped from column to column, which takes
+    /// a little less memory. None where nothing is.
     pub fn unstepped(&self) -> Option<Plan> {
-        let Rewriting::Fast { thrifty, .. } = self.origin.1 else {
+        let Rewriting::Fast { thrifty, steps } = self.origin.1 else {
             return None;
         };
         let ramp = |node: &Node| matches!(node, Node::Ramp { .. });
-        let plain = Rewriting::Fast {
-            thrifty,
-            steps: false,
+        let steps = match steps {
+            Steps::All => Steps::Whole,
+            Steps::Whole | Steps::None => Steps::None,
         };
+        let less = Rewriting::Fast { thrifty, steps };
         let stepped = self.graph.nodes.iter().any(ramp);
-        stepped.then(|| self.again(&self.origin.0, plain)).flatten()
+        stepped.then(|| self.again(&self.origin.0, less)).flatten()
     }
 
     fn again(&self, graph: &Graph, rewriting: Rewriting) -> Option<Plan> {
@@ -321,7 +322,7 @@ fn writes(statement: &Statement, node: NodeId) -> bool {
 pub fn plan(graph: &Graph, target: &'static Target, goal: &Goal) -> Result<Plan, Vec<Diagnostic>> {
     let all = Rewriting::Fast {
         thrifty: false,
-        steps: true,
+        steps: Steps::All,
     };
     planned(graph, target, goal, all)
 }
@@ -343,9 +344,8 @@ enum Rewriting {
     None,
     /// [`crate::passes::stable`].
     Stable,
-    /// Those for speed, too; perhaps with little memory, perhaps with values
-    /// that are stepped from column to column.
-    Fast { thrifty: bool, steps: bool },
+    /// Those for speed, too; perhaps with little memory.
+    Fast { thrifty: bool, steps: Steps },
 }
 
 /// How often stable forms are looked for: what one makes may let another in.
@@ -379,9 +379,7 @@ fn planned(
     now = settle(&now.graph, &slack);
     if let Rewriting::Fast { thrifty, steps } = rewriting {
         now = cheaper(now, &slack, runtime, thrifty);
-        if steps {
-            now = stepped(now, &slack, target);
-        }
+        now = stepped(now, &slack, target, steps);
         now = apart_at_last(now, &slack, runtime, thrifty);
     }
     let Settled {

@@ -8,8 +8,9 @@ use super::price::Price;
 use super::settled::{Settled, settle};
 use crate::flow::graph::*;
 use crate::flow::ramp;
+use crate::passes::ramps::phase::{parities, phases};
 use crate::passes::ramps::{ramps, sites};
-use crate::range::Slack;
+use crate::range::{Ranges, Slack};
 use crate::target::Target;
 
 /// By how much a ramp must make a plan cheaper.
@@ -18,32 +19,84 @@ const GAIN: f64 = 0.995;
 /// How many nodes may be scheduled again to find out which ramps pay.
 const PATIENCE: usize = 20_000;
 
+/// What may be stepped.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Steps {
+    /// Whole polynomials, and phases, which take some memory once a row.
+    All,
+    /// Whole polynomials.
+    Whole,
+    /// Nothing.
+    None,
+}
+
 /// The plan with ramps where they make it cheaper.
-pub fn stepped(plain: Settled, slack: &Slack, target: &'static Target) -> Settled {
-    if target.runtime.stepping.is_none() {
+pub fn stepped(plain: Settled, slack: &Slack, target: &'static Target, steps: Steps) -> Settled {
+    if target.runtime.stepping.is_none() || steps == Steps::None {
         return plain;
     }
-    let found = sites(&plain.graph, &plain.ranges);
-    if found.len() * plain.graph.nodes.len() > PATIENCE {
-        return plain;
-    }
-    let mut taken: Vec<NodeId> = Vec::new();
-    let mut best = plain.clone();
-    let price = Price::new(&plain, target.runtime, false);
-    let mut least = price.of(&best);
-    for site in found {
-        taken.push(site);
-        let next = ramps(&plain.graph, &plain.ranges, &taken)
-            .map(|graph| settle(&graph, slack))
-            .filter(|next| target.wraps || bounded(next));
-        match next.map(|next| (price.of(&next), next)) {
-            Some((cost, next)) if cost < GAIN * least => (least, best) = (cost, next),
-            _ => {
-                taken.pop();
+    let site = Site {
+        slack,
+        target,
+        price: Price::new(&plain, target.runtime, false),
+    };
+    let phased = match target.wraps && steps == Steps::All {
+        true => {
+            let found = parities(&plain.graph, &plain.ranges, target.runtime);
+            site.taken(plain, found, phases)
+        }
+        false => plain,
+    };
+    let found = sites(&phased.graph, &phased.ranges);
+    site.taken(phased, found, ramps)
+}
+
+struct Site<'s> {
+    slack: &'s Slack,
+    target: &'static Target,
+    price: Price,
+}
+
+/// What rewrites a graph at some of its nodes.
+type Rewrite = fn(&Graph, &Ranges, &[NodeId]) -> Option<Graph>;
+
+impl Site<'_> {
+    /// A plan rewritten where that makes it cheaper.
+    fn taken(&self, plain: Settled, found: Vec<NodeId>, rewrite: Rewrite) -> Settled {
+        if found.is_empty() || found.len() * plain.graph.nodes.len() > PATIENCE {
+            return plain;
+        }
+        let cost = |plan: &Settled| self.price.of(plan);
+        let rewritten = |at: &[NodeId]| {
+            let next = settle(&rewrite(&plain.graph, &plain.ranges, at)?, self.slack);
+            (self.target.wraps || bounded(&next)).then(|| (cost(&next), next))
+        };
+        let mut taken: Vec<NodeId> = Vec::new();
+        let mut least = cost(&plain);
+        let mut best: Option<Settled> = None;
+        for &site in &found {
+            taken.push(site);
+            match rewritten(&taken) {
+                Some((cost, next)) if cost < GAIN * least => (least, best) = (cost, Some(next)),
+                _ => {
+                    taken.pop();
+                }
             }
         }
+        // One that paid by itself may not beside those that came after it.
+        for site in found {
+            let rest: Vec<NodeId> = taken.iter().copied().filter(|id| *id != site).collect();
+            if rest.is_empty() || rest.len() == taken.len() {
+                continue;
+            }
+            if let Some((cost, next)) = rewritten(&rest)
+                && cost < least
+            {
+                (least, best, taken) = (cost, Some(next), rest);
+            }
+        }
+        best.unwrap_or(plain)
     }
-    best
 }
 
 /// Whether no ramp ever wraps, stepped once behind the last column too.

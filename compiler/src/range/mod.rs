@@ -377,11 +377,12 @@ impl Walk<'_> {
             Node::Ramp { .. } => {
                 let last = self.graph.image.width.saturating_sub(1) as i32;
                 let all = ramp::range(self.graph, id, 0..=last, |part| self.read(part));
-                match all.within(self.slack.ints.lo, self.slack.ints.hi) {
+                let range = match all.within(self.slack.ints.lo, self.slack.ints.hi) {
                     true => all,
                     // It may wrap.
                     false => self.slack.ints,
-                }
+                };
+                whole(self.graph, id, [Range::ALL; 2], range)
             }
             Node::Lookup { table, .. } => {
                 let entries = self

@@ -14,6 +14,10 @@ pub fn whole(graph: &Graph, id: NodeId, args: [Range; 2], range: Range) -> Range
             nonzero: range.nonzero || odd(graph, id, DEEP) == Some(true),
             ..range
         },
+        Node::Ramp { .. } => Range {
+            nonzero: range.nonzero || odd(graph, id, DEEP) == Some(true),
+            ..range
+        },
         // By a whole number that is not 0: no greater than the dividend.
         Node::Apply(Op::Div, [_, by]) if args[1].nonzero && is_whole(graph, by) => {
             let most = args[0].magnitude();
@@ -39,6 +43,8 @@ fn odd(graph: &Graph, id: NodeId, deep: u32) -> Option<bool> {
             Value::Int(n) => Some(n % 2 != 0),
             _ => None,
         },
+        // Wrapping takes whole powers of two away.
+        Node::Ramp { first, step } if of(step) == Some(false) => of(first),
         Node::Apply(_, [a, b]) if !small(graph, a) || !small(graph, b) => None,
         Node::Apply(Op::IntNeg, [a, _]) => of(a),
         Node::Apply(Op::IntAdd, [a, b]) if a == b => Some(false),

@@ -87,9 +87,9 @@ fn column(nodes: &dyn Nodes, id: NodeId, known: &mut HashMap<NodeId, bool>, deep
 /// A pixel and params.
 #[derive(Clone, Debug)]
 pub struct Sample {
-    x: f64,
-    y: f64,
-    params: Vec<f64>,
+    pub x: f64,
+    pub y: f64,
+    pub params: Vec<f64>,
 }
 
 /// Pixels spread over the picture, params over their ranges.
@@ -198,7 +198,7 @@ fn constant(value: Value) -> Rounded {
     Rounded { value, off }
 }
 
-fn applied(op: Op, a: Rounded, b: Rounded) -> Rounded {
+pub fn applied(op: Op, a: Rounded, b: Rounded) -> Rounded {
     let args = [a.value, b.value].map(|x| match op.args().first() {
         Some(Type::Int) => Value::Int(x as i32),
         Some(Type::Bool) => Value::Bool(x != 0.0),

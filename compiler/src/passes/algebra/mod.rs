@@ -20,7 +20,7 @@
 
 mod extent;
 mod form;
-mod judge;
+pub(super) mod judge;
 mod number;
 mod poly;
 mod put;

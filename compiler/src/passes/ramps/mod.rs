@@ -11,6 +11,11 @@
 //! so a ramp may wrap at columns where nobody needs it and is right where
 //! somebody does.
 
+mod lines;
+pub mod phase;
+#[cfg(test)]
+mod phase_tests;
+
 use super::rate::{Dependence, Rates, rates};
 use super::rebuild::rebuild_old;
 use crate::flow::build::Builder;
