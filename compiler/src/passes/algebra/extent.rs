@@ -30,6 +30,56 @@ pub fn extent(rows: &Forms<'_>, full: &Forms<'_>, poly: &Poly) -> Range {
     bounds(poly, &of)
 }
 
+/// The greatest size of b / a, both by what is the same for a whole row, where a
+/// is never 0. Both are looked at in the same boxes: params that make one large
+/// may make the other so.
+pub fn ratio(rows: &Forms<'_>, full: &Forms<'_>, b: &Poly, a: &Poly) -> f64 {
+    let apart = || {
+        let least = extent(rows, full, a);
+        extent(rows, full, b).magnitude() / least.lo.abs().min(least.hi.abs())
+    };
+    let (Some(over), Some(under)) = (expanded(full, b), expanded(full, a)) else {
+        return apart();
+    };
+    let mut atoms = over.atoms();
+    atoms.extend(under.atoms());
+    atoms.sort_unstable();
+    atoms.dedup();
+    let of = |atom: Atom| known(full, atom);
+    let mut most: f64 = 0.0;
+    for sides in boxes(&atoms, &of) {
+        let divisor = sum(&under, &atoms, &sides);
+        if divisor.contains(0.0) {
+            return apart();
+        }
+        let least = divisor.lo.abs().min(divisor.hi.abs());
+        most = most.max(sum(&over, &atoms, &sides).magnitude() / least);
+    }
+    most.min(apart())
+}
+
+/// A polynomial by what is the same for a whole row, by what that is made of.
+fn expanded(full: &Forms<'_>, poly: &Poly) -> Option<Poly> {
+    let mut out = Poly::default();
+    for (monomial, number) in &poly.terms {
+        let mut product = Poly::constant(*number);
+        for (atom, power) in monomial {
+            let form = full.get(NodeId(*atom))?;
+            let [part] = form.parts.as_slice() else {
+                return None;
+            };
+            if !part.roots.is_empty() {
+                return None;
+            }
+            for _ in 0..*power {
+                product = product.mul(&part.poly)?;
+            }
+        }
+        out = out.add(&product)?;
+    }
+    Some(out)
+}
+
 fn known(forms: &Forms<'_>, atom: Atom) -> Range {
     match forms.inverse(atom) {
         Some(_) => Range::ALL,
@@ -40,6 +90,12 @@ fn known(forms: &Forms<'_>, atom: Atom) -> Range {
 /// The bounds of a polynomial, its atoms' ranges cut into pieces.
 pub fn bounds(poly: &Poly, of: &dyn Fn(Atom) -> Range) -> Range {
     let atoms = poly.atoms();
+    let each = boxes(&atoms, of).map(|sides| sum(poly, &atoms, &sides));
+    each.reduce(Range::join).unwrap_or(Range::ALL)
+}
+
+/// The atoms' ranges cut into pieces, every box of them.
+fn boxes(atoms: &[Atom], of: &dyn Fn(Atom) -> Range) -> impl Iterator<Item = Vec<Range>> {
     let ranges: Vec<Range> = atoms.iter().map(|atom| of(*atom)).collect();
     let wide = |r: &&Range| r.constant().is_none() && r.magnitude().is_finite();
     let count = ranges.iter().filter(wide).count().max(1);
@@ -48,16 +104,14 @@ pub fn bounds(poly: &Poly, of: &dyn Fn(Atom) -> Range) -> Range {
         .map(|range| cut(*range, if wide(&range) { pieces } else { 1 }))
         .collect();
     let boxes: usize = all.iter().map(Vec::len).product();
-    let each = (0..boxes).map(|mut number| {
+    (0..boxes).map(move |mut number| {
         let one = |pieces: &Vec<Range>| {
             let piece = pieces[number % pieces.len()];
             number /= pieces.len();
             piece
         };
-        let sides: Vec<Range> = all.iter().map(one).collect();
-        sum(poly, &atoms, &sides)
-    });
-    each.reduce(Range::join).unwrap_or(Range::ALL)
+        all.iter().map(one).collect()
+    })
 }
 
 fn cut(range: Range, pieces: usize) -> Vec<Range> {

@@ -17,7 +17,7 @@
 //! An empty span begins behind its end. Columns are clamped to those beside the
 //! picture while they are reals, so that nothing overflows.
 
-use super::extent::{extent, negative};
+use super::extent::{extent, negative, ratio};
 use super::form::{Forms, Two};
 use super::judge::{cycles, samples};
 use super::number::Number;
@@ -214,14 +214,13 @@ impl Site<'_> {
         } else if lead.lo <= 0.0 {
             return None;
         }
-        let least = lead.lo.abs().min(lead.hi.abs());
         let asked = Asked {
             parts,
             strict: strict != turned,
         };
         match asked.parts.len() {
             2 => self.up_to(put, &asked, turned),
-            3 => self.between(put, &asked, turned, least),
+            3 => self.between(put, &asked, turned),
             _ => None,
         }
     }
@@ -247,17 +246,11 @@ impl Site<'_> {
     }
 
     /// The columns between two roots, or those that are not.
-    fn between(
-        &self,
-        put: &mut Put<'_, '_>,
-        asked: &Asked,
-        turned: bool,
-        least: f64,
-    ) -> Option<NodeId> {
+    fn between(&self, put: &mut Put<'_, '_>, asked: &Asked, turned: bool) -> Option<NodeId> {
         let [c, b, a] = asked.parts.as_slice() else {
             return None;
         };
-        let middle = extent(&self.rows, &self.full, b).magnitude() / (2.0 * least);
+        let middle = ratio(&self.rows, &self.full, b, a) / 2.0;
         if 2.0 * middle * self.unit.sqrt() > OFF {
             return None;
         }
