@@ -1,7 +1,7 @@
 //! What a plan costs a pixel: for choosing between plans of one scene.
 //!
 //! The statements are run in `f64` at pixels spread over the picture, with the
-//! params as they are, and each that runs is added up with the cycles of the
+//! params in the middle of their ranges, and each that runs is added up with the cycles of the
 //! routine that the ranges allow. So what few pixels need weighs little. Where
 //! that would take too long, or pixels depend on each other, either way of a
 //! choice is thought to be as likely ([`crate::flow::often`]).
@@ -327,8 +327,18 @@ impl<C: Fn(&Statement) -> f64> Arithmetic for &Meter<'_, C> {
         self.exact.constant(value)
     }
 
+    /// The middle of its range, whatever it is now: a program whose params are
+    /// edited keeps its plan.
     fn param(&self, id: ParamId) -> Value {
-        self.exact.param(id)
+        let Some(param) = self.exact.0.params.get(id.0 as usize) else {
+            return self.exact.param(id);
+        };
+        let middle = param.range.map_or(1.0, |r| (r.lo + r.hi) / 2.0);
+        match param.ty {
+            Type::Bool => Value::Bool(middle != 0.0),
+            Type::Int => Value::Int(middle as i32),
+            Type::Real => Value::Real(middle),
+        }
     }
 
     fn apply(&self, id: NodeId, op: Op, args: &[Value]) -> Value {
