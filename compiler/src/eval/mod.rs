@@ -7,6 +7,8 @@ pub mod native;
 pub mod run;
 
 #[cfg(test)]
+pub(crate) mod drawn;
+#[cfg(test)]
 mod lane_tests;
 #[cfg(test)]
 pub(crate) mod random_graphs;

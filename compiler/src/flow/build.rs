@@ -26,7 +26,7 @@ pub struct Builder {
     directions: BTreeMap<NodeId, f64>,
     diffusion: Option<Diffusion>,
     reports: Vec<NodeId>,
-    claims: HashMap<NodeId, (Op, [NodeId; 2])>,
+    claims: BTreeMap<NodeId, (Op, [NodeId; 2])>,
 }
 
 impl Builder {

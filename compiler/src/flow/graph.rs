@@ -331,7 +331,7 @@ pub struct Graph {
     pub directions: BTreeMap<NodeId, f64>,
     /// Bools that are decided in another way than the comparison that they stand
     /// for and are the same as: which comparison. Its operands' ranges follow from the bool.
-    pub claims: HashMap<NodeId, (Op, [NodeId; 2])>,
+    pub claims: BTreeMap<NodeId, (Op, [NodeId; 2])>,
     /// The pixel's ink, an int in 0..inks-1.
     pub ink: NodeId,
     /// The shade before the dither, if `draw` ends in one. It is looked at,

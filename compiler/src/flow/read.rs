@@ -42,7 +42,7 @@ pub fn read(text: &str) -> Result<Graph, Unread> {
         diffusion: None,
         effects: Vec::new(),
         reports: Vec::new(),
-        claims: HashMap::new(),
+        claims: BTreeMap::new(),
     };
     for (at, line) in text.lines().enumerate() {
         self::line(&mut graph, line.trim()).map_err(|what| Unread { line: at + 1, what })?;

@@ -9,7 +9,7 @@
 use crate::flow::graph::*;
 use crate::flow::often;
 use crate::flow::tree::*;
-use std::collections::{BTreeMap, HashMap};
+use std::collections::{BTreeMap, HashMap, HashSet};
 
 /// Whether copies are worth it: of which node, how many times a pixel less it is
 /// computed, how many copies there are more.
@@ -24,7 +24,7 @@ pub fn apart(graph: &Graph, tree: &Tree, worth: Worth<'_>) -> Option<Graph> {
         let Some(home) = places.home.get(id) else {
             continue;
         };
-        if places.fixed.contains_key(id) || uses.iter().any(|(_, at)| at == home) {
+        if places.fixed.contains(id) || uses.iter().any(|(_, at)| at == home) {
             continue;
         }
         let tops = places.tops(uses);
@@ -58,7 +58,7 @@ struct Places {
     /// The values that use each one, and where they do.
     uses: BTreeMap<NodeId, Vec<(NodeId, usize)>>,
     /// What is used otherwise.
-    fixed: HashMap<NodeId, ()>,
+    fixed: HashSet<NodeId>,
 }
 
 impl Places {
@@ -75,17 +75,17 @@ impl Places {
                 }
                 Statement::Set { from, .. } => {
                     if let Origin::Node(id) = from {
-                        self.fixed.insert(*id, ());
+                        self.fixed.insert(*id);
                     }
                 }
                 Statement::If { cond, yes, no } => {
-                    self.fixed.insert(*cond, ());
+                    self.fixed.insert(*cond);
                     let likely = often::likely(yes, no);
                     self.block(graph, yes, Some(at), often * likely);
                     self.block(graph, no, Some(at), often * (1.0 - likely));
                 }
                 Statement::Loop(turns) => {
-                    self.fixed.insert(turns.again, ());
+                    self.fixed.insert(turns.again);
                     for (inner, times) in often::turns(turns) {
                         self.block(graph, inner, Some(at), often * times);
                     }
@@ -126,10 +126,11 @@ fn copied(graph: &Graph, copies: &Copies) -> Graph {
         spans: Vec::new(),
         names: HashMap::new(),
         directions: BTreeMap::new(),
+        claims: BTreeMap::new(),
         ..graph.clone()
     };
     let mut moved: Vec<NodeId> = Vec::with_capacity(graph.nodes.len());
-    let mut made: HashMap<(NodeId, usize), NodeId> = HashMap::new();
+    let mut made: BTreeMap<(NodeId, usize), NodeId> = BTreeMap::new();
     for id in graph.ids() {
         let mut operands: HashMap<NodeId, NodeId> = HashMap::new();
         for used in graph.node(id).operands() {
@@ -168,6 +169,13 @@ fn copied(graph: &Graph, copies: &Copies) -> Graph {
             .shares
             .iter_mut()
             .for_each(|s| s.node = at(s.node));
+    }
+    // A copy is the same as what it is a copy of, so it is claimed of it, too.
+    let again = made.iter().map(|((id, _), copy)| (*id, *copy));
+    for (old, new) in graph.ids().map(|id| (id, at(id))).chain(again) {
+        if let Some((op, args)) = graph.claims.get(&old) {
+            out.claims.insert(new, (*op, args.map(at)));
+        }
     }
     out
 }

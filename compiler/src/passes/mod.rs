@@ -17,3 +17,8 @@ pub mod schedule;
 pub mod squares;
 pub mod stable;
 pub mod threshold;
+
+#[cfg(test)]
+mod apart_tests;
+#[cfg(test)]
+mod claim_tests;

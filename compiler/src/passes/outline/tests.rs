@@ -1,6 +1,7 @@
 #![allow(clippy::unwrap_used)]
 
 use super::*;
+use crate::eval::drawn::{drawn, grid, picture};
 use crate::eval::random_graphs;
 use crate::eval::run::{Exact, Run};
 use crate::flow::build::Builder;
@@ -38,36 +39,6 @@ fn graph(text: &str) -> Graph {
 fn outlined(graph: &Graph, sizes: &Sizes) -> (Graph, Tree) {
     let called = |_| Some("shape".to_owned());
     outline(graph, schedule_together(graph), &[], sizes, &called)
-}
-
-/// Inks and shades of some pixels, as text, nothing being read that was not written.
-fn picture(graph: &Graph, tree: &Tree, places: &[(i32, i32)]) -> Vec<String> {
-    let (all, unset) = drawn(graph, tree, places);
-    assert_eq!(unset, 0);
-    all
-}
-
-/// Inks and shades of some pixels, as text, and how often something was read
-/// that was not written.
-fn drawn(graph: &Graph, tree: &Tree, places: &[(i32, i32)]) -> (Vec<String>, u64) {
-    let mut run = Run::new(graph, tree, Exact(graph));
-    let all = places.iter().map(|&(x, y)| {
-        let ink = run.pixel(x, y);
-        let shade = graph.shade.and_then(|id| run.last(id));
-        format!("({x}, {y}): {ink:?} {shade:?}")
-    });
-    let all = all.collect();
-    (all, run.unset_reads())
-}
-
-fn grid(columns: u32, rows: u32, step: usize) -> Vec<(i32, i32)> {
-    let rows = (0..rows).step_by(step);
-    rows.flat_map(|y| {
-        (0..columns)
-            .step_by(step)
-            .map(move |x| (x as i32, y as i32))
-    })
-    .collect()
 }
 
 fn calls(block: &[Statement]) -> usize {
