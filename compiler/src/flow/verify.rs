@@ -4,7 +4,8 @@
 //! have its argument types; arms of a select have one type; a ramp's first value
 //! and its step are ints and the same for the whole row, or the step is a ramp; a loop's carried
 //! values are used only by what decides, continues or ends that loop, and what
-//! the last `next` gave only by its `else`; the ink is an int; what a pixel
+//! the last `next` gave only by its `else`; a loop's results stand together, before
+//! what uses any of them (they are placed together); the ink is an int; what a pixel
 //! sends is real and goes to pixels that the scan has yet to reach, and only a
 //! graph that sends something receives.
 
@@ -12,6 +13,7 @@ use super::graph::*;
 use super::ramp;
 use crate::passes::rate::{Dependence, Rates, rates};
 use slowlight_routine::Type;
+use std::collections::HashMap;
 
 /// A rule that is broken, and where.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
@@ -38,6 +40,7 @@ pub fn verify(graph: &Graph) -> Result<(), Broken> {
             stepped(graph, &rates, id)?;
         }
     }
+    together(graph, &reached)?;
     for k in 0..graph.loops.len() as u32 {
         scope(graph, LoopId(k), &reached)?;
     }
@@ -104,6 +107,28 @@ fn node(graph: &Graph, id: NodeId) -> Result<(), Broken> {
             }
         }
         _ => {}
+    }
+    Ok(())
+}
+
+/// Every loop's results.
+fn together(graph: &Graph, reached: &[bool]) -> Result<(), Broken> {
+    let mut last: HashMap<LoopId, NodeId> = HashMap::new();
+    for id in graph.ids().filter(|id| reached[id.0 as usize]) {
+        let Node::Result { of, .. } = graph.node(id) else {
+            continue;
+        };
+        let apart = |k: u32| {
+            let other = !matches!(graph.node(NodeId(k)), Node::Result { of: l, .. } if l == of);
+            other && reached[k as usize]
+        };
+        let before = last.insert(of, id);
+        if before.is_some_and(|before| (before.0 + 1..id.0).any(apart)) {
+            return Err(Broken {
+                node: id,
+                rule: format!("stands apart from the other results of loop {}", of.0),
+            });
+        }
     }
     Ok(())
 }

@@ -22,3 +22,5 @@ pub mod threshold;
 mod apart_tests;
 #[cfg(test)]
 mod claim_tests;
+#[cfg(test)]
+mod peel_tests;

@@ -118,13 +118,29 @@ impl<'g> Surgery<'g> {
         if self.moved[id.0 as usize].is_some() {
             return;
         }
-        let node = self.graph.node(id).with(|a| self.at(a));
-        let made = self.push(node, id);
-        let made = match self.graph.node(id) {
-            Node::Result { of, index } if of == self.of => self.ended(id, made, index),
-            _ => made,
+        match self.graph.node(id) {
+            Node::Result { of, .. } if of == self.of => self.results(),
+            node => {
+                let node = node.with(|a| self.at(a));
+                self.moved[id.0 as usize] = Some(self.push(node, id));
+            }
+        }
+    }
+
+    /// All of the loop's results, which stand together, and behind them what
+    /// chooses between them and the first turn's.
+    fn results(&mut self) {
+        let graph = self.graph;
+        let result = |id: NodeId| match graph.node(id) {
+            Node::Result { of, index } if of == self.of => Some((id, index)),
+            _ => None,
         };
-        self.moved[id.0 as usize] = Some(made);
+        let all: Vec<(NodeId, u32)> = graph.ids().filter_map(result).collect();
+        let of = |(id, _): &(NodeId, u32)| self.push(graph.node(*id), *id);
+        let made: Vec<NodeId> = all.iter().map(of).collect();
+        for ((id, index), result) in all.into_iter().zip(made) {
+            self.moved[id.0 as usize] = Some(self.ended(id, result, index));
+        }
     }
 
     /// A result: the loop's where the first turn went on, else that turn's.
@@ -191,6 +207,12 @@ impl<'g> Surgery<'g> {
             for (new, old) in new.shares.iter_mut().zip(&old.shares) {
                 new.node = moved[old.node.0 as usize].unwrap_or(NodeId(0));
             }
+        }
+        for (id, (op, args)) in &graph.claims {
+            // In the first turn the same is claimed of what stands there.
+            let first = (self.in_first(*id), (*op, args.map(|a| self.in_first(a))));
+            let kept = (self.at(*id), (*op, args.map(|a| self.at(a))));
+            self.out.claims.extend([first, kept]);
         }
         self.out
     }
