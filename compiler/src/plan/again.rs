@@ -1,0 +1,85 @@
+//! Other plans of the scene that a plan is of.
+
+use super::{Goal, Plan, Rewriting, Steps, planned};
+use crate::flow::graph::*;
+use crate::flow::tree::*;
+
+impl Plan {
+    /// A plan of the same scene that computes the shade at every pixel, where
+    /// this one does not: the dither may need less than the shade, and a
+    /// picture's error is measured on shades. None where this plan will do.
+    pub fn shaded(&self) -> Option<Plan> {
+        let shade = self.graph.shade?;
+        let always = |b: &Block| b.iter().any(|s| writes(s, shade));
+        let tree = &self.tree;
+        let gone = matches!(self.graph.node(shade), Node::Undefined(_));
+        if !gone && (self.place(shade).is_none() || tree.outer().into_iter().any(always)) {
+            return None;
+        }
+        let mut graph = (*self.origin.0).clone();
+        graph.reports.extend(graph.shade);
+        let mut plan = self.again(&graph, self.origin.1)?;
+        if self.is_outlined() {
+            plan = plan.outlined(&|_| None).ok()?;
+        }
+        Some(plan)
+    }
+
+    /// Whether there is a plan that spends less memory on speed.
+    pub fn may_be_smaller(&self) -> bool {
+        matches!(self.origin.1, Rewriting::Fast { .. })
+    }
+
+    /// A plan of the same scene that spends less memory on speed. None where
+    /// this one spends none.
+    pub fn smaller(&self) -> Option<Plan> {
+        let less = match self.origin.1 {
+            Rewriting::Fast { thrifty, .. } if !thrifty => Rewriting::Fast {
+                thrifty: true,
+                steps: Steps::All,
+            },
+            Rewriting::Fast { .. } => Rewriting::Stable,
+            _ => return None,
+        };
+        self.again(&self.origin.0, less)
+    }
+
+    /// The same plan with less that is stepped from column to column, which takes
+    /// a little less memory. None where nothing is.
+    pub fn unstepped(&self) -> Option<Plan> {
+        let Rewriting::Fast { thrifty, steps } = self.origin.1 else {
+            return None;
+        };
+        let ramp = |node: &Node| matches!(node, Node::Ramp { .. });
+        let steps = match steps {
+            Steps::All => Steps::Whole,
+            Steps::Whole | Steps::None => Steps::None,
+        };
+        let less = Rewriting::Fast { thrifty, steps };
+        let stepped = self.graph.nodes.iter().any(ramp);
+        stepped.then(|| self.again(&self.origin.0, less)).flatten()
+    }
+
+    fn again(&self, graph: &Graph, rewriting: Rewriting) -> Option<Plan> {
+        let goal = Goal {
+            name: self.name.clone(),
+            mode: self.mode,
+            rows: Some(self.rows),
+            plot: self.plot,
+        };
+        let mut plan = planned(graph, self.target, &goal, rewriting).ok()?;
+        plan.params = self.params.clone();
+        plan.items = self.items.clone();
+        (plan.listing, plan.page) = (self.listing, self.page);
+        Some(plan)
+    }
+}
+
+/// Whether a statement is the one that gives a node its value.
+fn writes(statement: &Statement, node: NodeId) -> bool {
+    match statement {
+        Statement::Let(id) => *id == node,
+        Statement::Set { place, .. } => *place == Place::Node(node),
+        _ => false,
+    }
+}
