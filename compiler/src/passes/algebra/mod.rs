@@ -18,6 +18,7 @@
 //! roundings is estimated on both sides ([`judge`]); the pass leaves formats
 //! alone that have nothing to lose.
 
+mod arithmetic;
 mod extent;
 mod form;
 pub(super) mod judge;
@@ -30,20 +31,23 @@ mod span;
 mod span_tests;
 #[cfg(test)]
 mod tests;
+mod whole;
 
 use super::rebuild::rebuild_old;
 use crate::flow::build::Builder;
 use crate::flow::graph::*;
 use crate::range::Ranges;
 use crate::source::Span;
-use form::{Form, Forms, Part, multiplied, scaled};
+use arithmetic::{multiplied, scaled};
+use form::{Form, Forms, Part};
 use judge::{Follow, Nodes, Rounded, Sample, cycles, samples};
 use number::Number;
 use put::Put;
-use slowlight_routine::{Format, Op, Runtime, Type, Value};
+use slowlight_routine::{Format, Op, Runtime, Type};
 pub use span::spans;
 use std::cell::RefCell;
 use std::collections::{BTreeSet, HashMap, HashSet};
+pub use whole::Whole;
 
 /// By how much a form's roundings may exceed those of what it replaces, given
 /// the format's unit roundoff: what leaves a picture twenty bits.
@@ -116,68 +120,6 @@ fn users(graph: &Graph) -> Vec<Vec<NodeId>> {
     }
     graph.roots().for_each(|id| users[id.0 as usize].push(id));
     users
-}
-
-/// Values that are polynomials, multiplied by the least number that makes all of
-/// them whole, with whole coefficients; by 1 where there is none that is not large.
-pub struct Whole<'g> {
-    forms: Forms<'g>,
-    /// That number.
-    pub by: f64,
-}
-
-/// What such a number stays below.
-const LARGE: i128 = 100_000;
-
-impl<'g> Whole<'g> {
-    pub fn new(graph: &'g Graph, ranges: &'g Ranges, values: &[NodeId]) -> Whole<'g> {
-        let forms = Forms::new(graph, ranges);
-        let by = values.iter().try_fold(1i128, |by, id| {
-            let d = match Self::poly(&forms, *id)?.content()? {
-                Number::Exact(_, d) if d < LARGE => d,
-                _ => return None,
-            };
-            let both = by / number::common(by, d) * d;
-            (both < LARGE).then_some(both)
-        });
-        let by = by.map_or(1.0, |by| by as f64);
-        Whole { forms, by }
-    }
-
-    fn poly<'f>(forms: &'f Forms<'_>, id: NodeId) -> Option<&'f poly::Poly> {
-        match forms.get(id)?.parts.as_slice() {
-            [part] if part.roots.is_empty() => Some(&part.poly),
-            _ => None,
-        }
-    }
-
-    /// A value times the number, as whole numbers where it is.
-    pub fn put(
-        &self,
-        builder: &mut Builder,
-        new: New<'_>,
-        id: NodeId,
-        span: Span,
-    ) -> Option<NodeId> {
-        if self.by == 1.0 {
-            return new(id);
-        }
-        let by = Number::of(self.by);
-        let poly = Self::poly(&self.forms, id).map(|poly| poly.scaled(by));
-        let mut put = Put {
-            forms: &self.forms,
-            builder,
-            new,
-            span,
-        };
-        if let Some(out) = poly.and_then(|poly| put.poly(&poly))
-            && out.whole
-        {
-            return Some(put.real(out));
-        }
-        let by = builder.constant(Value::Real(self.by), span);
-        Some(builder.apply(Op::Mul, &[new(id)?, by], span))
-    }
 }
 
 /// Which values with a form something needs that has none.
