@@ -15,8 +15,12 @@
 //! A vector that a number makes whole is held as whole numbers: so is then much of
 //! what is computed from it.
 //!
-//! All of that is equal over the reals where r > 0, which the ranges must prove.
+//! All of that is equal over the reals where r > 0, which the ranges must prove,
+//! but for quotients by 0: x/0 is the largest number at whatever length x is held.
 //! (Homogeneous coordinates: Möbius, Der barycentrische Calcul, 1827.)
+
+mod compare;
+mod degrees;
 
 use super::algebra::Whole;
 use super::rate::{Dependence, Rates, rates};
@@ -27,9 +31,6 @@ use crate::range::Ranges;
 use crate::source::Span;
 use slowlight_routine::{Op, Range, Type, Value};
 use std::collections::HashMap;
-
-/// Degrees stay within this; what would leave it is brought to 0.
-const DEGREES: i32 = 6;
 
 /// The lengths that vectors of a graph are divided by: roots of what is proved
 /// above 0, each of them the divisor of several values.
@@ -83,12 +84,6 @@ pub fn homogeneous(graph: &Graph, ranges: &Ranges, length: NodeId) -> Graph {
     rebuild_by(graph, &mut pass)
 }
 
-/// By how much a bound is moved away, as a part of it, for what roundings do.
-const MARGIN: f64 = 1e-6;
-
-/// A value in so many products may be a scalar that vectors are multiplied by.
-const VECTOR: u32 = 3;
-
 /// A value's degree; none for 0, which is of every degree.
 type Degree = Option<i32>;
 
@@ -115,111 +110,6 @@ type Made<'m> = &'m [Option<NodeId>];
 impl Pass<'_> {
     fn of(&self, id: NodeId) -> Degree {
         self.degrees.get(id.0 as usize).copied().flatten()
-    }
-
-    /// Finds every value's degree.
-    fn learn(&mut self) {
-        self.degrees.clear();
-        for id in self.graph.ids() {
-            let degree = self.degree(id);
-            self.degrees.push(degree);
-        }
-    }
-
-    /// Counts the products of values that are both of a degree.
-    fn count(&mut self) {
-        let reached = self.graph.reached();
-        for id in self.graph.ids().filter(|id| reached[id.0 as usize]) {
-            if let Node::Apply(Op::Mul, [a, b]) = self.graph.node(id)
-                && self.even(a, b)
-            {
-                self.products[a.0 as usize] += 1;
-                self.products[b.0 as usize] += 1;
-            }
-        }
-    }
-
-    /// Whether two different values are both of a degree, and their product of
-    /// an even one.
-    fn even(&self, a: NodeId, b: NodeId) -> bool {
-        let of = |id| self.of(id).unwrap_or(0);
-        a != b && of(a) != 0 && of(b) != 0 && (of(a) + of(b)) % 2 == 0
-    }
-
-    /// The degree at which a value comes cheapest, those before it known.
-    fn degree(&self, id: NodeId) -> Degree {
-        if self.graph.ty(id) != Type::Real {
-            return Some(0);
-        }
-        if id == self.length {
-            return Some(1);
-        }
-        let found = match self.graph.node(id) {
-            Node::Const(c) if c.value().real() == 0.0 => return None,
-            Node::Apply(op, [a, b]) => match op {
-                Op::Mul if self.scalar(a, b).is_some() => 0,
-                Op::Mul => self.of(a)? + self.of(b)?,
-                Op::Div => self.of(a)? - self.of(b).unwrap_or(0),
-                Op::Neg | Op::Abs => self.of(a)?,
-                Op::Sqrt => self.of(a)?.div_euclid(2),
-                Op::Add | Op::Sub | Op::Min | Op::Max => self.together(a, b)?,
-                _ => 0,
-            },
-            Node::Select { yes, no, .. } => self.together(yes, no)?,
-            Node::Carried { of, index } | Node::Last { of, index } => self.start(of, index),
-            Node::Result { of, index } => self.result(of, index)?,
-            _ => 0,
-        };
-        Some(if found.abs() > DEGREES { 0 } else { found })
-    }
-
-    /// The degree of what two values come together in.
-    fn together(&self, a: NodeId, b: NodeId) -> Degree {
-        match (self.of(a), self.of(b)) {
-            (None, other) | (other, None) => other,
-            (Some(x), Some(y)) if x == y => Some(x),
-            // A root is brought to any degree without a root more.
-            (Some(x), Some(y)) if (x - y) % 2 != 0 && self.pliant(a) != self.pliant(b) => {
-                Some(if self.pliant(a) { y } else { x })
-            }
-            (Some(0), _) | (_, Some(0)) => Some(0),
-            (Some(x), Some(y)) => Some(x.max(y)),
-        }
-    }
-
-    /// The factor of a product that is worth bringing to another degree, so that
-    /// the product is of degree 0, and the other one: what is multiplied by a vector.
-    fn scalar(&self, a: NodeId, b: NodeId) -> Option<(NodeId, NodeId)> {
-        if !self.even(a, b) {
-            return None;
-        }
-        let products = |id: NodeId| self.products[id.0 as usize];
-        let rank = |id: NodeId| (products(id), id);
-        let (scalar, other) = match rank(a) > rank(b) {
-            true => (a, b),
-            false => (b, a),
-        };
-        (products(scalar) >= VECTOR).then_some((scalar, other))
-    }
-
-    fn pliant(&self, id: NodeId) -> bool {
-        match self.graph.node(id) {
-            Node::Apply(Op::Sqrt, _) => true,
-            Node::Apply(Op::Neg, [a, _]) => self.pliant(a),
-            _ => false,
-        }
-    }
-
-    fn start(&self, of: LoopId, index: u32) -> i32 {
-        let init = self.graph.loops.get(of.0 as usize);
-        let init = init.and_then(|l| l.init.get(index as usize));
-        init.and_then(|id| self.of(*id)).unwrap_or(0)
-    }
-
-    fn result(&self, of: LoopId, index: u32) -> Degree {
-        let turns = self.graph.loops.get(of.0 as usize)?;
-        let at = index as usize;
-        self.together(*turns.done.get(at)?, *turns.otherwise.get(at)?)
     }
 
     /// What holds an old value at a degree.
@@ -314,155 +204,6 @@ impl Pass<'_> {
         }
     }
 
-    /// A comparison, its sides brought to one degree.
-    fn compared(
-        &mut self,
-        b: &mut Builder,
-        made: Made<'_>,
-        op: Op,
-        [x, y]: [NodeId; 2],
-        span: Span,
-    ) -> Option<NodeId> {
-        let (dx, dy) = match (self.of(x), self.of(y)) {
-            (Some(dx), Some(dy)) => (dx, dy),
-            (dx, dy) => {
-                let one = dx.or(dy).unwrap_or(0);
-                (one, one)
-            }
-        };
-        if let Some(found) = self.tabled(b, made, op, [x, y], span) {
-            return Some(found);
-        }
-        let constant = |id| self.graph.constant(id).map(Value::real);
-        let degree = match (constant(x), constant(y)) {
-            (Some(c), None) if (dx - dy) % 2 != 0 => {
-                return self.bounded(b, made, op, (c, true), (y, dy), span);
-            }
-            (None, Some(c)) if (dx - dy) % 2 != 0 => {
-                return self.bounded(b, made, op, (c, false), (x, dx), span);
-            }
-            (Some(_), None) => dy,
-            (None, Some(_)) => dx,
-            _ if dx == dy => dx,
-            _ if dx == 0 || dy == 0 => 0,
-            _ => dx.max(dy),
-        };
-        let (x, y) = (self.at(b, made, x, degree)?, self.at(b, made, y, degree)?);
-        Some(b.apply(op, &[x, y], span))
-    }
-
-    /// A comparison of a value at an odd degree, or of that and a constant, with an
-    /// entry of a table: of squares with their signs, a|a|, the table's worked
-    /// out beforehand.
-    fn tabled(
-        &mut self,
-        b: &mut Builder,
-        made: Made<'_>,
-        op: Op,
-        [x, y]: [NodeId; 2],
-        span: Span,
-    ) -> Option<NodeId> {
-        let plain = |id: NodeId| made.get(id.0 as usize).copied().flatten();
-        let looked = |id: NodeId| match self.graph.node(id) {
-            Node::Lookup { table, column, row } => Some((table, column, row)),
-            _ => None,
-        };
-        let (value, (table, column, row), first) = match (looked(x), looked(y)) {
-            (None, Some(entry)) => (x, entry, true),
-            (Some(entry), None) => (y, entry, false),
-            _ => return None,
-        };
-        let carried = |d: &Dependence| matches!(d, Dependence::Loop(_) | Dependence::Last(_));
-        if !self.rates.rate(value).iter().any(carried) {
-            return None; // What algebra can look into.
-        }
-        let (value, more) = self.apart(value);
-        let degree = self.of(value).filter(|degree| degree % 2 != 0)?;
-        let cells = self.graph.tables.get(table.0 as usize)?;
-        let square = |e: &Constant| {
-            let rest = e.value().real() - more;
-            Constant::new(Value::Real(rest * rest.abs()))
-        };
-        let table = b.table(Table {
-            ty: Type::Real,
-            entries: cells.entries.iter().map(square).collect(),
-            ..cells.clone()
-        });
-        let entry = b.lookup(table, plain(column)?, plain(row)?, span);
-        let value = plain(value)?;
-        let square = self.square(b, made, value, degree, span)?;
-        let pair = if first {
-            [square, entry]
-        } else {
-            [entry, square]
-        };
-        Some(b.apply(op, &pair, span))
-    }
-
-    /// A value and what constant is added to it.
-    fn apart(&self, id: NodeId) -> (NodeId, f64) {
-        let constant = |id| self.graph.constant(id).map(Value::real);
-        match self.graph.node(id) {
-            Node::Apply(Op::Add, [a, b]) => match (constant(a), constant(b)) {
-                (Some(c), None) => (b, c),
-                (None, Some(c)) => (a, c),
-                _ => (id, 0.0),
-            },
-            Node::Apply(Op::Sub, [a, b]) => (constant(b)).map_or((id, 0.0), |c| (a, -c)),
-            _ => (id, 0.0),
-        }
-    }
-
-    /// x|x| at degree 0 of a value that is held at a degree.
-    fn square(
-        &mut self,
-        b: &mut Builder,
-        made: Made<'_>,
-        value: NodeId,
-        degree: i32,
-        span: Span,
-    ) -> Option<NodeId> {
-        let size = b.apply(Op::Abs, &[value], span);
-        let square = b.apply(Op::Mul, &[value, size], span);
-        self.power(b, made, square, 2 * degree, span)
-    }
-
-    /// A comparison with a constant at an odd degree: by what the length stays
-    /// within where that decides, else of squares with their signs, a|a|.
-    fn bounded(
-        &mut self,
-        b: &mut Builder,
-        made: Made<'_>,
-        op: Op,
-        (constant, first): (f64, bool),
-        (id, degree): (NodeId, i32),
-        span: Span,
-    ) -> Option<NodeId> {
-        let plain = |id: NodeId| made.get(id.0 as usize).copied().flatten();
-        let x = plain(id)?;
-        let real = |b: &mut Builder, x: f64| b.constant(Value::Real(x), span);
-        let pair = |x: NodeId, y: NodeId| if first { [x, y] } else { [y, x] };
-        let square = self.square(b, made, x, degree, span)?;
-        let limit = real(b, constant * constant.abs());
-        let exact = b.apply(op, &pair(limit, square), span);
-        if op == Op::Equal {
-            return Some(exact);
-        }
-        let ends = [self.bounds.lo, self.bounds.hi].map(|r| constant * r.powi(-degree));
-        // A little more, for what roundings do to them.
-        let wide = MARGIN * ends[0].abs().max(ends[1].abs());
-        let low = real(b, ends[0].min(ends[1]) - wide);
-        let high = real(b, ends[0].max(ends[1]) + wide);
-        let [sure, never] = match first {
-            true => [[high, x], [x, low]],
-            false => [[x, low], [high, x]],
-        };
-        let [sure, never] = [sure, never].map(|pair| b.apply(Op::Less, &pair, span));
-        let [yes, no] = [true, false].map(|t| b.constant(Value::Bool(t), span));
-        let rest = b.select(never, no, exact, span);
-        Some(b.select(sure, yes, rest, span))
-    }
-
     /// A real value at its own degree.
     fn value(&mut self, b: &mut Builder, made: Made<'_>, id: NodeId, span: Span) -> Option<NodeId> {
         let own = self.of(id).unwrap_or(0);
@@ -527,7 +268,7 @@ impl Rewrite for Pass<'_> {
         b: &mut Builder,
         made: Made<'_>,
         id: NodeId,
-        _moved: Node,
+        moved: Node,
         span: Span,
     ) -> Option<NodeId> {
         match self.graph.node(id) {
@@ -550,7 +291,7 @@ impl Rewrite for Pass<'_> {
             }
             Node::Carried { .. } => {
                 let degree = self.of(id).filter(|degree| *degree != 0)?;
-                let Node::Carried { of, index } = _moved else {
+                let Node::Carried { of, index } = moved else {
                     return None;
                 };
                 let node = b.carried(of, index, span);
