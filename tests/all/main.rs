@@ -24,6 +24,7 @@ mod peers_jsbeeb;
 mod precise;
 mod ramps;
 mod renderers;
+mod rom_operations;
 mod rom_vectors;
 mod snapshots;
 mod spread;

@@ -7,9 +7,8 @@
 //!
 //! Arithmetic happens in an accumulator of 32 mantissa bits and 8 guard bits. [`arith`]
 //! follows the ROM's routines bit by bit for `+ - * /` and `SQR`, because a picture whose
-//! pixels hang on a comparison shows every last bit. The elementary functions
-//! ([`elementary`]) are the correctly rounded-ish values of double precision instead: they
-//! may differ from the ROM's in the last digits.
+//! pixels hang on a comparison shows every last bit; and so do the elementary functions
+//! ([`elementary`]), built on them.
 //!
 //! Measured on the genuine ROM: see each function. (The ROM can also hold numbers from 2^-129
 //! to 2^-128, with exponent byte 0 and a mantissa that is not zero; here they are zero.)
