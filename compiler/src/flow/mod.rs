@@ -1,6 +1,7 @@
 //! The graph of scalar operations, its printer and its verifier.
 
 pub mod build;
+pub mod diffusion;
 pub mod graph;
 pub mod often;
 pub mod print;

@@ -5,6 +5,7 @@ pub mod apart;
 pub mod demand;
 pub mod fold;
 pub mod homogeneous;
+mod moves;
 pub mod narrow;
 pub mod outline;
 pub mod peel;

@@ -7,6 +7,7 @@
 //! selects on one condition that are ready together share one `If`.
 
 use super::demand::{live_carried, needed, place, place_in_segments, place_near};
+use super::moves::moves;
 use super::queue::{Order, Queue, Unit};
 use super::region::*;
 use crate::flow::graph::*;
@@ -359,54 +360,4 @@ impl Emitter<'_> {
             otherwise,
         })
     }
-}
-
-/// Sets a loop's carried values to their next ones, all at once: a value that
-/// another move still reads is saved first.
-fn moves(graph: &Graph, of: LoopId, live: &[u32]) -> Block {
-    let found = &graph.loops[of.0 as usize];
-    let next_of = |k: u32| found.next[k as usize];
-    let read = |id| match graph.node(id) {
-        Node::Carried { of: l, index } if l == of => Some(index),
-        _ => None,
-    };
-    let mut left: Vec<u32> = live
-        .iter()
-        .copied()
-        .filter(|&k| read(next_of(k)) != Some(k))
-        .collect();
-    let (mut block, mut saved) = (Block::new(), BTreeSet::new());
-    while !left.is_empty() {
-        let free = |k: &u32| {
-            !left
-                .iter()
-                .any(|&other| other != *k && !saved.contains(k) && read(next_of(other)) == Some(*k))
-        };
-        match left.iter().copied().find(free) {
-            Some(k) => {
-                left.retain(|&other| other != k);
-                let from = match read(next_of(k)) {
-                    Some(source) if saved.contains(&source) => Origin::Scratch(of, source),
-                    _ => Origin::Node(next_of(k)),
-                };
-                block.push(Statement::Set {
-                    place: Place::Carried(of, k),
-                    from,
-                });
-            }
-            None => {
-                let k = left[0];
-                saved.insert(k);
-                let Some(carried) = graph.ids().find(|&id| read(id) == Some(k)) else {
-                    break;
-                };
-                let from = Origin::Node(carried);
-                block.push(Statement::Set {
-                    place: Place::Scratch(of, k),
-                    from,
-                });
-            }
-        }
-    }
-    block
 }

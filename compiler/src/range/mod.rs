@@ -7,6 +7,7 @@
 //! not exact, so every operation's interval is enlarged by the error that the
 //! machine's routines may make, and cut to what its formats can hold.
 
+mod assuming;
 pub mod error;
 mod interval;
 mod parity;
@@ -17,11 +18,11 @@ use crate::flow::graph::*;
 use crate::flow::ramp;
 use crate::flow::tree::*;
 
+pub use assuming::assuming;
 use interval::interval;
 use parity::whole;
 pub use slack::{ENTRIES, Slack};
-use slowlight_routine::{Op, Range, Runtime, Type};
-use std::collections::HashMap;
+use slowlight_routine::{Op, Range, Type};
 
 /// What the ranges of a scene are, on one machine. Side tables by node.
 #[derive(Clone, Debug, Default)]
@@ -60,36 +61,6 @@ pub fn ranges(graph: &Graph, tree: &Tree, slack: &Slack) -> Ranges {
     walk.block(&tree.segment);
     walk.block(&tree.pixel);
     walk.out
-}
-
-/// Between which bounds the arguments of a run of operations stay where some
-/// values are known to lie closer than `known` says.
-pub fn assuming(
-    graph: &Graph,
-    runtime: &Runtime,
-    known: &Ranges,
-    assumed: &[(NodeId, Range)],
-    run: &[NodeId],
-) -> HashMap<NodeId, [Range; 2]> {
-    let slack = Slack::of(runtime);
-    let mut now: HashMap<NodeId, Range> = assumed.iter().copied().collect();
-    let mut found = HashMap::new();
-    for &id in run {
-        let at = id.0 as usize;
-        let (Node::Apply(op, operands), Some(before)) = (graph.node(id), known.args.get(at)) else {
-            continue;
-        };
-        let closer = |k: usize| match now.get(&operands[k]) {
-            Some(range) => before[k].meet(*range),
-            None => before[k],
-        };
-        let args = [closer(0), closer(1)];
-        let exact = interval(op, args, operands[0] == operands[1]);
-        let result = slack.rounded(op, &args[..op.arity()], exact);
-        now.insert(id, result.meet(known.result[at]));
-        found.insert(id, args);
-    }
-    found
 }
 
 /// What is known of a value that needs no computing.

@@ -25,6 +25,7 @@
 //!   of their places; `token`: what statements have to agree in; `runs`: which
 //!   runs have one shape; `make`: subroutines and calls.
 
+mod describe;
 mod forest;
 mod make;
 mod runs;

@@ -1,7 +1,8 @@
 //! What fills the scene's object before anything is drawn.
 
 use super::Line;
-use super::code::{Code, Expression, int};
+use super::code::Code;
+use super::expression::{Expression, int};
 use super::frame::{Subroutine, line, subroutine};
 use slowlight_routine::{Format, Type, Value};
 use slowlight_runtime_jack::model::Float;

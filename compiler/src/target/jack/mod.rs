@@ -24,10 +24,12 @@
 //! - `frame`: the classes around; `spread`: error diffusion.
 
 mod code;
+mod expression;
 mod frame;
 mod making;
 mod names;
 mod object;
+mod params;
 mod report;
 mod spread;
 #[cfg(test)]

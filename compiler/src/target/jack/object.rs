@@ -1,6 +1,6 @@
 //! What the scene's object holds beside the values: constants, params, tables.
 
-use super::code::Expression;
+use super::expression::Expression;
 use super::names::{Names, identifier};
 use crate::flow::graph::*;
 use crate::plan::Plan;

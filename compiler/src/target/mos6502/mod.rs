@@ -22,6 +22,7 @@ mod code;
 mod comment;
 mod frame;
 mod homes;
+mod names;
 mod params;
 mod spread;
 mod table;

@@ -4,6 +4,7 @@
 mod commands;
 mod engines;
 mod limits;
+mod memory;
 mod os;
 mod screen;
 mod wrong;

@@ -1,0 +1,92 @@
+//! The parameter block, and what checks it.
+
+use super::code::Code;
+use super::expression::int;
+use super::frame::line;
+use super::{Line, Text};
+use crate::plan::{ParamPlan, Plan};
+use slowlight_runtime_jack::TERM;
+use slowlight_runtime_jack::model::MOST;
+
+/// The rows of the picture that the screen has.
+fn visible(plan: &Plan) -> (i64, i64) {
+    let top = i64::from(plan.offset.1);
+    let first = (-top).max(0);
+    let last = (i64::from(plan.mode.height) - 1 - top).min(i64::from(plan.graph.image.height) - 1);
+    (first, last)
+}
+
+/// An int of the parameter block, kept within what Jack can write.
+fn written(text: &str) -> i32 {
+    let most = f64::from(MOST);
+    text.parse::<f64>()
+        .map_or(0, |x| x.clamp(-most, most) as i32)
+}
+
+pub(super) fn parameters(code: &Code) -> Vec<Line> {
+    let plan = code.plan;
+    let mut rows: Vec<(String, String, String)> = Vec::new();
+    let scale = |p: &ParamPlan| match p.digits {
+        Some(digits) if digits > 0 => format!("times {}, ", 10u32.pow(u32::from(digits))),
+        _ => String::new(),
+    };
+    for (name, param) in code.names.params.iter().zip(&plan.params) {
+        let range = match &param.range {
+            Some((least, greatest)) => format!("from {} to {}", written(least), written(greatest)),
+            None => "in no range".to_owned(),
+        };
+        rows.push((
+            name.clone(),
+            written(&param.text).to_string(),
+            scale(param) + &range,
+        ));
+    }
+    let (first, last) = visible(plan);
+    for (name, row) in code.names.rows.iter().zip([plan.rows.0, plan.rows.1]) {
+        rows.push((
+            name.clone(),
+            row.to_string(),
+            format!("from {first} to {last}"),
+        ));
+    }
+    let lines = rows.iter().map(|(name, value, about)| {
+        let assignment = format!("let {name} = {value};");
+        line(&format!("{assignment:<28} // {about}"))
+    });
+    lines.collect()
+}
+
+/// One condition a parameter that has a range.
+pub(super) fn checks(code: &mut Code) -> Vec<Line> {
+    let plan = code.plan;
+    let rows = visible(plan);
+    let names = code.names.params.iter().chain(&code.names.rows).cloned();
+    let ranges = plan.params.iter().map(|p| {
+        let (least, greatest) = p.range.as_ref()?;
+        Some((written(least), written(greatest)))
+    });
+    let ranges = ranges.chain([Some((rows.0 as i32, rows.1 as i32)); 2]);
+    let all: Vec<_> = names.zip(ranges).collect();
+    let mut text = Text::default();
+    for (name, range) in all {
+        let Some((least, greatest)) = range else {
+            continue;
+        };
+        // A translated program compares by subtracting, which must not overflow.
+        let outside = if greatest.saturating_sub(least) <= MOST {
+            let (least, greatest) = (int(least).at(TERM), int(greatest).at(TERM));
+            format!("({name} < {least}) | ({name} > {greatest})")
+        } else {
+            code.needs.insert("Int.less");
+            let (least, greatest) = (int(least).text, int(greatest).text);
+            format!("Int.less({name}, {least}) | Int.less({greatest}, {name})")
+        };
+        text.open(format!("if ({outside}) {{"));
+        let said = format!("{name} is outside its range, {least} to {greatest}");
+        text.line(format!("do Output.printString(\"{said}\");"));
+        text.line("return false;");
+        text.close("}");
+    }
+    text.line("return true;");
+    text.lines
+}

@@ -1,0 +1,82 @@
+//! What things are called in a program.
+
+use crate::plan::Plan;
+use slowlight_isa::opcodes;
+use slowlight_routine::Source;
+use std::collections::BTreeSet;
+
+/// Labels and symbols of the frame; see there.
+const RESERVED: &[&str] = &[
+    "start",
+    "next_row",
+    "next_column",
+    "next_pixel",
+    "more_pixels",
+    "last_pixel",
+    "more_rows",
+    "picture_done",
+    "halted",
+    "take_params",
+    "take_param",
+    "take_value",
+    "take_least",
+    "take_greatest",
+    "take_wrong",
+    "take_right",
+    "take_int",
+    "first_row",
+    "last_row",
+    "clamp_index",
+    "clamp_index_above",
+    "clamp_index_done",
+    "width_port",
+    "height_port",
+    "inks_port",
+    "x_port",
+    "y_port",
+    "ink_port",
+    "exit_port",
+    "palette_port",
+    "colours",
+    "unseen_pixel",
+    "errors",
+    "clear_errors",
+];
+
+/// Makes names that the assembler and the rest of the program leave free.
+/// Kept in small letters: assemblers know their own words, and many know all
+/// symbols, in either case.
+pub(super) struct Names(BTreeSet<String>);
+
+impl Names {
+    pub fn new(plan: &Plan) -> Names {
+        let mut taken: BTreeSet<String> = RESERVED.iter().map(|n| (*n).to_owned()).collect();
+        taken.extend(["a", "x", "y", "s"].map(str::to_owned));
+        for part in plan.runtime.parts {
+            let Source::Text(text) = part.source else {
+                continue;
+            };
+            for line in text.lines() {
+                let name = line.split([' ', ':', '=']).next().unwrap_or_default();
+                taken.insert(name.to_ascii_lowercase());
+            }
+        }
+        Names(taken)
+    }
+
+    pub fn fresh(&mut self, wanted: &str) -> String {
+        let mut name = wanted.to_owned();
+        // Numbered labels are a word and a number; a table's have its plane's behind that.
+        let numbered = wanted.ends_with(|c: char| c.is_ascii_digit()) && !wanted.contains('_');
+        let small = wanted.to_ascii_lowercase();
+        if numbered || small.starts_with("table") || opcodes::is_mnemonic(&small) {
+            name.push('_');
+        }
+        let mut number = 1;
+        while !self.0.insert(name.to_ascii_lowercase()) {
+            number += 1;
+            name = format!("{wanted}_{number}");
+        }
+        name
+    }
+}
