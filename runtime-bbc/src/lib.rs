@@ -49,7 +49,6 @@ const STEPPING: Stepping = Stepping {
     digit: 200,
     write: [480, 680],
     test: 320,
-    entry: 1800,
 };
 
 /// How tightly BASIC's operators bind.

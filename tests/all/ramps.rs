@@ -3,6 +3,7 @@
 #![allow(clippy::unwrap_used)]
 
 use crate::bbc::{differences, run, text};
+use random::Random;
 use slowlight_compiler::eval::native::Native;
 use slowlight_compiler::flow::build::Builder;
 use slowlight_compiler::flow::graph::*;
@@ -13,22 +14,14 @@ use slowlight_routine::{Op, Type, Value};
 use slowlight_vm::Stop;
 use slowlight_vm::bbc::Dialect;
 
+#[path = "../../compiler/src/eval/random.rs"]
+mod random;
+
 const AT: Span = Span {
     file: 0,
     start: 0,
     end: 0,
 };
-
-struct Random(u64);
-
-impl Random {
-    fn below(&mut self, n: u64) -> u64 {
-        self.0 ^= self.0 << 13;
-        self.0 ^= self.0 >> 7;
-        self.0 ^= self.0 << 17;
-        (self.0 >> 20) % n
-    }
-}
 
 /// An int that is the same for a row and stays far within 31 bits.
 fn row(b: &mut Builder, random: &mut Random) -> NodeId {
@@ -47,7 +40,7 @@ fn row(b: &mut Builder, random: &mut Random) -> NodeId {
 
 /// A picture of the signs and low bits of some ramps, two bits of each pixel.
 fn picture(seed: u64, width: u32, spreads: bool) -> Graph {
-    let mut random = Random(seed.wrapping_add(1).wrapping_mul(0x9e37_79b9_7f4a_7c15) | 1);
+    let mut random = Random::new(seed);
     let mut b = Builder::new();
     let (zero, one, two) = (0, 1, 2);
     let [zero, one, two] = [zero, one, two].map(|n| b.constant(Value::Int(n), AT));

@@ -217,8 +217,6 @@ pub struct Stepping {
     pub write: [u32; 2],
     /// A test, beside what is tested.
     pub test: u32,
-    /// Reading an entry of a table, beside its indices.
-    pub entry: u32,
 }
 
 /// All that one machine offers in one choice of formats.

@@ -11,6 +11,8 @@ pub(crate) mod drawn;
 #[cfg(test)]
 mod lane_tests;
 #[cfg(test)]
+pub(crate) mod random;
+#[cfg(test)]
 pub(crate) mod random_graphs;
 #[cfg(test)]
 mod scalar;

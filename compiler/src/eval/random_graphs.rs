@@ -2,6 +2,7 @@
 //! choices, tables, ramps and loops in loops over what stands in their scope, some of
 //! it the same for a whole row or picture.
 
+use super::random::Random;
 use crate::flow::build::Builder;
 use crate::flow::graph::*;
 use crate::source::Span;
@@ -13,22 +14,6 @@ const AT: Span = Span {
     end: 0,
 };
 
-/// Marsaglia's xorshift with 64 bits.
-struct Random(u64);
-
-impl Random {
-    fn below(&mut self, n: usize) -> usize {
-        self.0 ^= self.0 << 13;
-        self.0 ^= self.0 >> 7;
-        self.0 ^= self.0 << 17;
-        (self.0 >> 33) as usize % n
-    }
-
-    fn pick<T: Copy>(&mut self, from: &[T]) -> T {
-        from[self.below(from.len())]
-    }
-}
-
 struct Maker {
     random: Random,
     b: Builder,
@@ -38,11 +23,19 @@ struct Maker {
 }
 
 impl Maker {
+    fn below(&mut self, n: usize) -> usize {
+        self.random.below(n as u64) as usize
+    }
+
+    fn pick<T: Copy>(&mut self, from: &[T]) -> T {
+        from[self.below(from.len())]
+    }
+
     fn constant(&mut self, ty: Type) -> NodeId {
         let value = match ty {
-            Type::Bool => Value::Bool(self.random.below(2) == 0),
-            Type::Int => Value::Int(self.random.pick(&[0, 1, -1, 3, 8, -5, i32::MAX])),
-            Type::Real => Value::Real(self.random.pick(&[0.0, 0.5, -1.25, 3.0, 1e9, 1e-9])),
+            Type::Bool => Value::Bool(self.below(2) == 0),
+            Type::Int => Value::Int(self.pick(&[0, 1, -1, 3, 8, -5, i32::MAX])),
+            Type::Real => Value::Real(self.pick(&[0.0, 0.5, -1.25, 3.0, 1e9, 1e-9])),
         };
         self.b.constant(value, AT)
     }
@@ -52,10 +45,10 @@ impl Maker {
         let fits: Vec<NodeId> = (self.scope.iter().copied())
             .filter(|&id| self.b.ty(id) == ty)
             .collect();
-        if fits.is_empty() || self.random.below(8) == 0 {
+        if fits.is_empty() || self.below(8) == 0 {
             return self.constant(ty);
         }
-        let (a, b) = (self.random.below(fits.len()), self.random.below(fits.len()));
+        let (a, b) = (self.below(fits.len()), self.below(fits.len()));
         fits[a.max(b)]
     }
 
@@ -75,13 +68,12 @@ impl Maker {
     }
 
     fn ty(&mut self) -> Type {
-        self.random
-            .pick(&[Type::Real, Type::Real, Type::Int, Type::Bool])
+        self.pick(&[Type::Real, Type::Real, Type::Int, Type::Bool])
     }
 
     fn grow(&mut self, nodes: usize, depth: usize) {
         for _ in 0..nodes {
-            let made = match self.random.below(12) {
+            let made = match self.below(12) {
                 0 if depth > 0 => {
                     self.turns(depth - 1);
                     continue;
@@ -96,7 +88,7 @@ impl Maker {
                     self.b.lookup(self.table, column, row, AT)
                 }
                 _ => {
-                    let op = self.random.pick(Op::ALL);
+                    let op = self.pick(Op::ALL);
                     let args: Vec<NodeId> = op.args().iter().map(|&ty| self.any(ty)).collect();
                     self.b.apply(op, &args, AT)
                 }
@@ -110,7 +102,7 @@ impl Maker {
     fn ramps(&mut self) {
         for _ in 0..3 {
             let ops = [Op::IntAdd, Op::IntSub, Op::IntMul];
-            let (op, a, b) = (self.random.pick(&ops), Type::Int, Type::Int);
+            let (op, a, b) = (self.pick(&ops), Type::Int, Type::Int);
             let args = [self.any(a), self.any(b)];
             let made = self.b.apply(op, &args, AT);
             self.scope.push(made);
@@ -128,22 +120,22 @@ impl Maker {
     }
 
     fn turns(&mut self, depth: usize) {
-        let types: Vec<Type> = (0..1 + self.random.below(3)).map(|_| self.ty()).collect();
+        let types: Vec<Type> = (0..1 + self.below(3)).map(|_| self.ty()).collect();
         let carried: Vec<_> = (types.iter())
             .map(|&ty| (String::new(), ty, self.any(ty)))
             .collect();
-        let max = 1 + self.random.below(6) as u32;
+        let max = 1 + self.below(6) as u32;
         let of = self.b.open_loop(max, &carried, AT);
         let outside = self.scope.len();
         for k in 0..types.len() as u32 {
             let carried = self.b.carried(of, k, AT);
             self.scope.push(carried);
         }
-        let nodes = 2 + self.random.below(10);
+        let nodes = 2 + self.below(10);
         self.grow(nodes, depth);
         let again = self.any(Type::Bool);
         let next: Vec<NodeId> = types.iter().map(|&ty| self.any(ty)).collect();
-        let results: Vec<Type> = (0..1 + self.random.below(2)).map(|_| self.ty()).collect();
+        let results: Vec<Type> = (0..1 + self.below(2)).map(|_| self.ty()).collect();
         let done: Vec<NodeId> = results.iter().map(|&ty| self.any(ty)).collect();
         self.scope.truncate(outside);
         for k in 0..types.len() as u32 {
@@ -186,9 +178,8 @@ pub fn graph(seed: u64) -> Graph {
     let spreads = seed.is_multiple_of(3);
     let axes = [Axis::Y, Axis::X].map(|axis| b.axis(axis, AT));
     scope.push(axes[0]);
-    let seed = seed.wrapping_add(1).wrapping_mul(0x9e37_79b9_7f4a_7c15);
     let mut maker = Maker {
-        random: Random(seed | 1),
+        random: Random::new(seed),
         b,
         table,
         scope,

@@ -78,8 +78,8 @@ pub fn apart_at_last(
     let price = Price::new(&plan, runtime, thrifty);
     let mut best = plan;
     for _ in 0..APART {
-        let worth = price.worth(&best);
-        let Some(next) = apart(&best.graph, &best.tree, &worth) else {
+        let next = apart(&best.graph, &best.tree, &price.worth(&best));
+        let Some(next) = next else {
             break;
         };
         best = scheduled(next, slack);

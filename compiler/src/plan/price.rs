@@ -1,10 +1,10 @@
 //! What a plan costs a pixel: for choosing between plans of one scene.
 //!
 //! The statements are run in `f64` at pixels spread over the picture, with the
-//! params in the middle of their ranges, and each that runs is added up with the cycles of the
-//! routine that the ranges allow. So what few pixels need weighs little. Where
-//! that would take too long, or pixels depend on each other, either way of a
-//! choice is thought to be as likely ([`crate::flow::often`]).
+//! params in the middle of their ranges, and each that runs is added up with the
+//! cycles of the routine that the ranges allow. So what few pixels need weighs
+//! little. Where that would take too long, or pixels depend on each other, either
+//! way of a choice is thought to be as likely ([`crate::flow::often`]).
 
 use super::choose::choose;
 use super::fold_uses::folded;
@@ -95,28 +95,17 @@ impl Price {
 
     /// Whether copies of a value are worth their memory: given how many times a
     /// pixel less it is computed, and how many copies there are more.
-    pub fn worth(&self, plan: &Settled) -> impl Fn(NodeId, f64, usize) -> bool + use<> {
+    pub fn worth<'p>(&self, plan: &'p Settled) -> impl Fn(NodeId, f64, usize) -> bool + use<'p> {
         let routines = choose(&plan.graph, &plan.tree, &plan.ranges, self.runtime);
-        let routines = routines.unwrap_or_default();
-        let total = self.of(plan);
-        let (memory, runtime) = (self.memory, self.runtime);
-        let looked: Vec<bool> = (plan.graph.nodes.iter())
-            .map(|n| matches!(n, Node::Lookup { .. }))
-            .collect();
-        let kinds: Vec<usize> = plan.graph.types.iter().map(|ty| kind(*ty)).collect();
-        move |id, less, copies| {
-            let at = id.0 as usize;
-            let routine = routines.get(at).copied().flatten();
-            let own = match looked.get(at) {
-                Some(true) => runtime.index,
-                _ => routine.map_or(0, |r| r.cycles),
-            };
-            let kept = match (kinds.get(at), runtime.stepping) {
-                (Some(kind), Some(stepping)) => stepping.write[*kind],
-                _ => 0,
-            };
-            less * f64::from(own + kept) > memory * total * copies as f64
-        }
+        let beside = Beside {
+            graph: &plan.graph,
+            runtime: self.runtime,
+            // A copy has a variable.
+            folded: Vec::new(),
+            routines: routines.unwrap_or_default(),
+        };
+        let limit = self.memory * self.of(plan);
+        move |id, less, copies| less * f64::from(beside.kept(id)) > limit * copies as f64
     }
 
     /// What the pixels cost together; nothing where too many statements run.
@@ -209,15 +198,19 @@ impl Beside<'_> {
         }
     }
 
+    /// What computing a node and keeping it costs, its operands not.
+    fn kept(&self, id: NodeId) -> u32 {
+        let kept = match self.runtime.stepping {
+            Some(stepping) if !self.inline(id) => stepping.write[kind(self.graph.ty(id))],
+            _ => 0,
+        };
+        self.own(id) + kept
+    }
+
     fn computed(&self, id: NodeId, stepping: Stepping) -> u32 {
         let node = self.graph.node(id);
         let operands: u32 = node.operands().map(|used| self.read(used, stepping)).sum();
-        let own = self.own(id);
-        let kept = match self.inline(id) {
-            true => 0,
-            false => stepping.write[kind(self.graph.ty(id))],
-        };
-        own + operands + kept
+        operands + self.kept(id)
     }
 
     /// What ramps take behind each pixel.

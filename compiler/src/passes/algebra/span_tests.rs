@@ -4,6 +4,7 @@
 use super::spans;
 use crate::eval::model::ModelRun;
 use crate::eval::native::Native;
+use crate::eval::random::Random;
 use crate::flow::build::Builder;
 use crate::flow::graph::*;
 use crate::flow::verify::verify;
@@ -21,16 +22,8 @@ const AT: Span = Span {
 };
 const WIDTH: i32 = 320;
 
-/// Marsaglia's xorshift with 64 bits.
-struct Random(u64);
-
-impl Random {
-    fn within(&mut self, lo: i64, hi: i64) -> i64 {
-        self.0 ^= self.0 << 13;
-        self.0 ^= self.0 >> 7;
-        self.0 ^= self.0 << 17;
-        lo + ((self.0 >> 20) % (hi - lo + 1) as u64) as i64
-    }
+fn within(random: &mut Random, lo: i64, hi: i64) -> i64 {
+    lo + random.below((hi - lo + 1) as u64) as i64
 }
 
 /// Ink 1 where a x² + b x + c compares with 0, the row's coefficients in a table.
@@ -95,17 +88,21 @@ fn quadratic(a: i64, [p, q]: [i64; 2], more: i64) -> [f64; 3] {
 /// Rows of quadratics with first coefficients from `low` to twice that: at random, double roots,
 /// roots on columns and beside the picture, empty ones, and whole rows.
 fn hard(low: i64) -> Vec<[f64; 3]> {
-    let mut random = Random(0x9e37_79b9_7f4a_7c15 + low as u64);
+    let mut random = Random::new(low as u64);
     let mut rows = Vec::new();
     for _ in 0..50 {
-        let a = random.within(low, 2 * low);
-        let roots = [random.within(-90, 400), random.within(-90, 400)];
-        let near = random.within(-3, 3);
+        let a = within(&mut random, low, 2 * low);
+        let roots = [within(&mut random, -90, 400), within(&mut random, -90, 400)];
+        let near = within(&mut random, -3, 3);
         rows.push(quadratic(a, roots, 0));
         rows.push(quadratic(a, roots, near));
         rows.push(quadratic(a, [roots[0]; 2], near));
         rows.push(quadratic(a, [roots[0], roots[0] + 1], near));
-        rows.push(quadratic(a, roots, random.within(-1_000_000, 1_000_000)));
+        rows.push(quadratic(
+            a,
+            roots,
+            within(&mut random, -1_000_000, 1_000_000),
+        ));
         // Never where the root is moved past all of it, always on the other side.
         rows.push(quadratic(a, roots, 200_000_000));
         rows.push(quadratic(a, roots, -200_000_000));
@@ -163,11 +160,11 @@ fn spans_of_whole_numbers_are_the_polynomials() {
 
 #[test]
 fn borders_of_lines_are_the_lines() {
-    let mut random = Random(77);
+    let mut random = Random::new(77);
     let line = |_| {
-        let b = random.within(1, 50);
-        let root = random.within(-50, 370);
-        [-b * root + random.within(-2, 2), b, 0].map(|n| n as f64)
+        let b = within(&mut random, 1, 50);
+        let root = within(&mut random, -50, 370);
+        [-b * root + within(&mut random, -2, 2), b, 0].map(|n| n as f64)
     };
     let lines: Vec<[f64; 3]> = (0..400).map(line).collect();
     as_whole_numbers(&lines);
@@ -183,10 +180,10 @@ fn spans_of_reals_are_the_polynomials_but_for_their_roundings() {
 /// Rows whose first coefficients are about as large as this; how many pixels
 /// were compared.
 fn as_reals(low: f64) -> usize {
-    let mut random = Random(5);
+    let mut random = Random::new(5);
     let mut row = |k: i64| {
-        let a = random.within(1000, 2000) as f64 / 1000.0 * low;
-        let [p, q] = [0; 2].map(|_| random.within(-90_000, 400_000) as f64 / 1000.0);
+        let a = within(&mut random, 1000, 2000) as f64 / 1000.0 * low;
+        let [p, q] = [0; 2].map(|_| within(&mut random, -90_000, 400_000) as f64 / 1000.0);
         let more = if k % 3 == 0 { a * 7.5 } else { 0.0 };
         [a * p * q + more, -a * (p + q), a]
     };

@@ -233,6 +233,7 @@ impl Put<'_> {
 mod tests {
     use super::*;
     use crate::eval::native::Native;
+    use crate::eval::random::Random;
     use crate::flow::verify::verify;
     use crate::passes::schedule::schedule;
     use crate::range::{Slack, ranges};
@@ -242,17 +243,6 @@ mod tests {
         start: 0,
         end: 0,
     };
-
-    struct Random(u64);
-
-    impl Random {
-        fn below(&mut self, n: u64) -> u64 {
-            self.0 ^= self.0 << 13;
-            self.0 ^= self.0 >> 7;
-            self.0 ^= self.0 << 17;
-            (self.0 >> 20) % n
-        }
-    }
 
     fn line(b: &mut Builder, random: &mut Random, axis: Axis) -> NodeId {
         let axis = b.axis(axis, AT);
@@ -265,7 +255,7 @@ mod tests {
 
     /// The low bits of a polynomial of the second degree at most, written in some way.
     fn picture(seed: u64) -> Graph {
-        let mut random = Random(seed.wrapping_add(1).wrapping_mul(0x9e37_79b9_7f4a_7c15) | 1);
+        let mut random = Random::new(seed);
         let mut b = Builder::new();
         let (x, again) = (Axis::X, random.below(2) == 0);
         let lines = [x, x, Axis::Y, Axis::Y].map(|axis| line(&mut b, &mut random, axis));

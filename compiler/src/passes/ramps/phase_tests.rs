@@ -4,6 +4,7 @@
 use super::phase::{parities, phases};
 use crate::eval::model::ModelRun;
 use crate::eval::native::Native;
+use crate::eval::random::Random;
 use crate::flow::build::Builder;
 use crate::flow::graph::*;
 use crate::flow::verify::verify;
@@ -24,20 +25,9 @@ const AT: Span = Span {
 const WIDTH: i32 = 320;
 const HEIGHT: i32 = 12;
 
-struct Random(u64);
-
-impl Random {
-    fn new(seed: u64) -> Random {
-        Random(seed.wrapping_add(1).wrapping_mul(0x9e37_79b9_7f4a_7c15) | 1)
-    }
-
-    /// From -most to most.
-    fn about(&mut self, most: i64) -> i64 {
-        self.0 ^= self.0 << 13;
-        self.0 ^= self.0 >> 7;
-        self.0 ^= self.0 << 17;
-        (self.0 >> 20) as i64 % (2 * most + 1) - most
-    }
+/// From -most to most.
+fn about(random: &mut Random, most: i64) -> i64 {
+    random.below(2 * most as u64 + 1) as i64 - most
 }
 
 /// floor((by x + down y + from)/over) + more y + turn x + some, and perhaps
@@ -56,24 +46,25 @@ struct Tiles {
 impl Tiles {
     /// `dyadic`: what is divided by is a power of two.
     fn random(seed: u64, dyadic: bool) -> Tiles {
-        let random = &mut Random::new(seed);
+        let mut random = Random::new(seed);
+        let mut about = |most| about(&mut random, most);
         let over = match dyadic {
             true => 4096,
             false => 7919,
         };
-        let second = (random.about(90_000), random.about(900_000), over);
+        let second = (about(90_000), about(900_000), over);
         Tiles {
             second: seed.is_multiple_of(3).then_some(second),
-            by: random.about(90_000),
-            down: random.about(90_000),
-            from: random.about(900_000),
+            by: about(90_000),
+            down: about(90_000),
+            from: about(900_000),
             over: match dyadic {
-                true => 1 << (10 + random.about(4)),
-                false => 3 * random.about(2000).abs() + 1009,
+                true => 1 << (10 + about(4)),
+                false => 3 * about(2000).abs() + 1009,
             },
-            more: random.about(3),
-            turn: random.about(1),
-            some: random.about(5),
+            more: about(3),
+            turn: about(1),
+            some: about(5),
         }
     }
 

@@ -127,27 +127,40 @@ fn commutes(op: Op) -> bool {
     matches!(op, Op::Add | Op::Mul)
 }
 
-/// Puts a form into a graph; `new` is what stands for a node of the old graph.
-pub fn put(
-    form: &Form,
-    builder: &mut Builder,
-    bound: &Bound,
-    new: &dyn Fn(NodeId) -> Option<NodeId>,
-    span: Span,
-) -> Option<NodeId> {
-    Some(match form {
-        Form::Value(letter) | Form::As(letter, _) => new(bound.get(letter)?)?,
-        Form::Number(n) => builder.constant(Value::Real(*n), span),
-        Form::Apply(op, forms) => {
-            let args = forms.iter().map(|f| put(f, builder, bound, new, span));
-            let args: Vec<NodeId> = args.collect::<Option<_>>()?;
-            builder.apply(*op, &args, span)
-        }
-        Form::Select(parts) => {
-            let [cond, yes, no] = parts.each_ref().map(|f| put(f, builder, bound, new, span));
-            builder.select(cond?, yes?, no?, span)
-        }
-    })
+/// Where a rule puts what it makes.
+pub struct Out<'o> {
+    pub builder: &'o mut Builder,
+    /// What stands for a node of the old graph.
+    pub new: &'o dyn Fn(NodeId) -> Option<NodeId>,
+    /// Where that came from which the rule replaces.
+    pub span: Span,
+}
+
+impl Out<'_> {
+    pub fn real(&mut self, value: f64) -> NodeId {
+        self.builder.constant(Value::Real(value), self.span)
+    }
+
+    pub fn apply(&mut self, op: Op, args: &[NodeId]) -> NodeId {
+        self.builder.apply(op, args, self.span)
+    }
+
+    /// Puts a form, given what its letters are.
+    pub fn form(&mut self, form: &Form, bound: &Bound) -> Option<NodeId> {
+        Some(match form {
+            Form::Value(letter) | Form::As(letter, _) => (self.new)(bound.get(letter)?)?,
+            Form::Number(n) => self.real(*n),
+            Form::Apply(op, forms) => {
+                let args = forms.iter().map(|f| self.form(f, bound));
+                let args: Vec<NodeId> = args.collect::<Option<_>>()?;
+                self.apply(*op, &args)
+            }
+            Form::Select(parts) => {
+                let [cond, yes, no] = parts.each_ref().map(|f| self.form(f, bound));
+                self.builder.select(cond?, yes?, no?, self.span)
+            }
+        })
+    }
 }
 
 impl fmt::Display for Form {

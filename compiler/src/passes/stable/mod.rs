@@ -27,10 +27,9 @@ pub mod sums;
 mod tests;
 
 use super::rebuild::rebuild_old;
-use crate::flow::build::Builder;
 use crate::flow::graph::*;
 use crate::range::Ranges;
-use crate::source::Span;
+use form::Out;
 use site::{Known, Site};
 
 /// The graph with the rules applied, each node once; nothing where none holds.
@@ -49,10 +48,13 @@ fn rewritten(graph: &Graph, ranges: &Ranges, most: f64) -> (Graph, Vec<&'static 
     let mut applied = Vec::new();
     let next = rebuild_old(graph, &mut |builder, made, id, span| {
         let new = |old: NodeId| made.get(old.0 as usize).copied().flatten();
-        let put = match formula(&known, id, builder, &new, span) {
-            None if !sums::inner(&known, &parts, id) => {
-                sums::rewrite(&known, id, builder, &new, span)
-            }
+        let mut out = Out {
+            builder,
+            new: &new,
+            span,
+        };
+        let put = match formula(&known, id, &mut out) {
+            None if !sums::inner(&known, &parts, id) => sums::rewrite(&known, id, &mut out),
             formula => formula,
         };
         let (name, put) = put?;
@@ -74,13 +76,7 @@ fn parts_of_sums(graph: &Graph) -> Vec<bool> {
 }
 
 /// What the first rule that fits makes of a node.
-fn formula(
-    known: &Known<'_>,
-    id: NodeId,
-    builder: &mut Builder,
-    new: &dyn Fn(NodeId) -> Option<NodeId>,
-    span: Span,
-) -> Option<(&'static str, NodeId)> {
+fn formula(known: &Known<'_>, id: NodeId, out: &mut Out<'_>) -> Option<(&'static str, NodeId)> {
     rules::RULES.iter().find_map(|rule| {
         let bound = rule
             .left
@@ -91,7 +87,7 @@ fn formula(
             bound: &bound,
         };
         let holds = (rule.when)(&site);
-        let put = holds.then(|| form::put(&rule.right, builder, &bound, new, span))??;
+        let put = holds.then(|| out.form(&rule.right, &bound))??;
         Some((rule.name, put))
     })
 }

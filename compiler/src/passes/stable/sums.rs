@@ -4,10 +4,9 @@
 //! else needs. Constants in it are worked out with twice the precision of an
 //! `f64` and rounded once.
 
+use super::form::Out;
 use super::site::{Known, LOST, may_cancel};
-use crate::flow::build::Builder;
 use crate::flow::graph::*;
-use crate::source::Span;
 use slowlight_routine::{Op, Type, Value};
 
 /// A rewrite of a sum.
@@ -124,13 +123,7 @@ struct Sum {
 }
 
 /// What stands for a node that is a sum, if a rule changes it.
-pub fn rewrite(
-    known: &Known<'_>,
-    id: NodeId,
-    builder: &mut Builder,
-    new: &dyn Fn(NodeId) -> Option<NodeId>,
-    span: Span,
-) -> Option<(&'static str, NodeId)> {
+pub fn rewrite(known: &Known<'_>, id: NodeId, out: &mut Out<'_>) -> Option<(&'static str, NodeId)> {
     if !is_sum(known.graph, id) {
         return None;
     }
@@ -142,7 +135,7 @@ pub fn rewrite(
             _ => take_apart(known, id, false)?,
         };
         if (rule.apply)(&mut sum, known) {
-            return Some((rule.name, sum.put(builder, new, span)?));
+            return Some((rule.name, sum.put(out)?));
         }
     }
     None
@@ -196,63 +189,54 @@ impl Sum {
     }
 
     /// Puts it into a graph: the terms in their order, a positive one first.
-    fn put(
-        &self,
-        builder: &mut Builder,
-        new: &dyn Fn(NodeId) -> Option<NodeId>,
-        span: Span,
-    ) -> Option<NodeId> {
+    fn put(&self, out: &mut Out<'_>) -> Option<NodeId> {
         let constant = self.constant.rounded();
         let mut terms = self.terms.clone();
         let first = terms.iter().position(|(minus, _)| !minus);
         let start = match first {
             Some(at) => {
                 let (_, part) = terms.remove(at);
-                Some(part.put(builder, new, span)?)
+                Some(part.put(out)?)
             }
             None => None,
         };
         let mut made = match start {
             Some(made) => made,
-            None => builder.constant(Value::Real(constant), span),
+            None => out.real(constant),
         };
         for (minus, part) in terms {
-            let term = part.put(builder, new, span)?;
+            let term = part.put(out)?;
             let op = if minus { Op::Sub } else { Op::Add };
-            made = builder.apply(op, &[made, term], span);
+            made = out.apply(op, &[made, term]);
         }
         if start.is_some() && constant != 0.0 {
             let op = if constant < 0.0 { Op::Sub } else { Op::Add };
-            let size = builder.constant(Value::Real(constant.abs()), span);
-            made = builder.apply(op, &[made, size], span);
+            let size = out.real(constant.abs());
+            made = out.apply(op, &[made, size]);
         }
         Some(made)
     }
 }
 
 impl Part {
-    fn put(
-        self,
-        builder: &mut Builder,
-        new: &dyn Fn(NodeId) -> Option<NodeId>,
-        span: Span,
-    ) -> Option<NodeId> {
+    fn put(self, out: &mut Out<'_>) -> Option<NodeId> {
         match self {
-            Part::Value(id) => new(id),
+            Part::Value(id) => (out.new)(id),
             Part::Shifted { x, by } => {
-                let x = new(x)?;
-                let by = builder.constant(Value::Real(by), span);
-                let other = builder.apply(Op::Add, &[x, by], span);
-                Some(builder.apply(Op::Mul, &[x, other], span))
+                let x = (out.new)(x)?;
+                let by = out.real(by);
+                let other = out.apply(Op::Add, &[x, by]);
+                Some(out.apply(Op::Mul, &[x, other]))
             }
             Part::Common {
                 factor,
                 plus,
                 minus,
             } => {
-                let [factor, plus, minus] = [new(factor)?, new(plus)?, new(minus)?];
-                let difference = builder.apply(Op::Sub, &[plus, minus], span);
-                Some(builder.apply(Op::Mul, &[factor, difference], span))
+                let [factor, plus, minus] = [factor, plus, minus].map(|id| (out.new)(id));
+                let (factor, plus, minus) = (factor?, plus?, minus?);
+                let difference = out.apply(Op::Sub, &[plus, minus]);
+                Some(out.apply(Op::Mul, &[factor, difference]))
             }
         }
     }

@@ -6,6 +6,7 @@
 use super::*;
 use crate::eval::model::ModelRun;
 use crate::eval::native::Native;
+use crate::eval::random::Random;
 use crate::plan::{Goal, plan_as_written};
 use crate::scene;
 use crate::sema::Options;
@@ -104,16 +105,10 @@ fn lit(eye: vec3) -> real = if let h = sphere((0, 0, 0), 1).hit(ray(eye, unit(-e
 dither shown(v: real, x: int, y: int) -> ink = ink(floor(v * 8) mod 2);
 ";
 
-/// A generator (xorshift64), from 0 to 1.
-struct Random(u64);
-
-impl Random {
-    fn next(&mut self) -> f64 {
-        self.0 ^= self.0 << 13;
-        self.0 ^= self.0 >> 7;
-        self.0 ^= self.0 << 17;
-        (self.0 >> 11) as f64 / (1u64 << 53) as f64
-    }
+/// From 0 to 1.
+fn part(random: &mut Random) -> f64 {
+    const ALL: u64 = 1 << 40;
+    random.below(ALL) as f64 / ALL as f64
 }
 
 /// The kernel as a scene of one pixel, its value the shade.
@@ -173,7 +168,7 @@ fn try_box(plan: &mut Plan, inputs: &[(String, f64, f64)], random: &mut Random) 
         .iter()
         .map(|(_, lo, hi)| {
             let wide = (hi - lo) / 1000.0;
-            let from = lo + (hi - lo - wide) * random.next();
+            let from = lo + (hi - lo - wide) * part(random);
             (from, from + wide)
         })
         .collect();
@@ -203,7 +198,7 @@ fn try_box(plan: &mut Plan, inputs: &[(String, f64, f64)], random: &mut Random) 
     };
     for _ in 0..POINTS {
         for (k, &(lo, hi)) in spans.iter().enumerate() {
-            let bits = held(lo + (hi - lo) * random.next());
+            let bits = held(lo + (hi - lo) * part(random));
             plan.params[k].bits = bits;
             plan.graph.params[k].value = value(bits);
         }
@@ -225,7 +220,7 @@ const BOXES: usize = 30;
 fn try_kernel(target: &'static Target, kernel: &(&str, &str, &str)) -> (usize, usize, Vec<f64>) {
     let inputs = inputs(kernel.1);
     let mut plan = planned(target, &inputs, kernel.2);
-    let mut random = Random(0x9e37_79b9_7f4a_7c15);
+    let mut random = Random::new(0);
     let (mut proved, mut points, mut ratios) = (0, 0, Vec::new());
     for _ in 0..BOXES {
         let tried = try_box(&mut plan, &inputs, &mut random);
