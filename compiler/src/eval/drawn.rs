@@ -1,8 +1,12 @@
 //! What a graph and a tree draw, for holding passes against each other.
+#![allow(clippy::unwrap_used)]
 
 use super::run::{Exact, Run};
 use crate::flow::graph::*;
 use crate::flow::tree::Tree;
+use crate::passes::fold::fold;
+use crate::scene::check;
+use crate::sema::Options;
 
 /// Inks and shades of some pixels, as text, nothing being read that was not written.
 pub fn picture(graph: &Graph, tree: &Tree, places: &[(i32, i32)]) -> Vec<String> {
@@ -33,4 +37,24 @@ pub fn grid(columns: u32, rows: u32, step: usize) -> Vec<(i32, i32)> {
             .map(move |x| (x as i32, y as i32))
     })
     .collect()
+}
+
+/// The graphs of the example scenes, hard ones included, by name; without
+/// those that read other files, which need the command line.
+pub fn examples() -> Vec<(String, Graph)> {
+    let directory = concat!(env!("CARGO_MANIFEST_DIR"), "/../examples");
+    let mut paths: Vec<_> = [directory.to_owned(), format!("{directory}/hard")]
+        .iter()
+        .flat_map(|d| std::fs::read_dir(d).unwrap())
+        .map(|entry| entry.unwrap().path())
+        .filter(|path| path.extension().is_some_and(|e| e == "scn"))
+        .collect();
+    paths.sort();
+    let graph = |path: std::path::PathBuf| {
+        let scene = check("test", &std::fs::read_to_string(&path).unwrap());
+        let graph = scene.is_right().then(|| scene.lower(&Options::default()))?;
+        let name = path.file_stem().unwrap().to_string_lossy().into_owned();
+        Some((name, fold(&graph.unwrap())))
+    };
+    paths.into_iter().filter_map(graph).collect()
 }

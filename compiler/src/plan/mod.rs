@@ -48,6 +48,8 @@ mod names;
 mod outlined;
 mod params;
 mod price;
+#[cfg(test)]
+mod price_tests;
 pub mod print;
 pub mod recipes;
 mod settled;

@@ -21,6 +21,8 @@
 
 mod compare;
 mod degrees;
+#[cfg(test)]
+mod tests;
 
 use super::algebra::Whole;
 use super::rate::{Dependence, Rates, rates};

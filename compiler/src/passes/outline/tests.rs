@@ -1,7 +1,7 @@
 #![allow(clippy::unwrap_used)]
 
 use super::*;
-use crate::eval::drawn::{drawn, grid, picture};
+use crate::eval::drawn::{drawn, examples, grid, picture};
 use crate::eval::random_graphs;
 use crate::eval::run::{Exact, Run};
 use crate::flow::build::Builder;
@@ -90,23 +90,8 @@ fn ranges_hold_for_every_call() {
 
 #[test]
 fn the_examples_draw_the_same() {
-    let directory = concat!(env!("CARGO_MANIFEST_DIR"), "/../examples");
-    let mut scenes: Vec<_> = [directory.to_owned(), format!("{directory}/hard")]
-        .iter()
-        .flat_map(|d| std::fs::read_dir(d).unwrap())
-        .map(|entry| entry.unwrap().path())
-        .filter(|path| path.extension().is_some_and(|e| e == "scn"))
-        .collect();
-    scenes.sort();
     let (mut compared, mut called) = (0, 0);
-    for path in scenes {
-        let text = std::fs::read_to_string(&path).unwrap();
-        let scene = check("test", &text);
-        // Those that read other files need the command line.
-        if !scene.is_right() {
-            continue;
-        }
-        let graph = fold(&scene.lower(&Options::default()).unwrap());
+    for (name, graph) in examples() {
         let plain = schedule(&graph);
         let (other, tree) = outlined(&graph, &crate::target::mos6502::PLAIN.sizes);
         let image = &graph.image;
@@ -117,8 +102,8 @@ fn the_examples_draw_the_same() {
         };
         let (first, unset) = drawn(&graph, &plain, &places);
         let (second, more) = drawn(&other, &tree, &places);
-        assert_eq!(first, second, "{}", path.display());
-        assert_eq!((unset, more), (0, 0), "{}", path.display());
+        assert_eq!(first, second, "{name}");
+        assert_eq!((unset, more), (0, 0), "{name}");
         compared += 1;
         called += usize::from(!tree.subroutines.is_empty());
     }

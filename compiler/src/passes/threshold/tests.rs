@@ -3,13 +3,18 @@
 
 use super::threshold;
 use crate::eval::native::Native;
+use crate::eval::random_graphs;
 use crate::flow::graph::*;
+use crate::flow::verify::verify;
 use crate::passes::fold::fold;
+use crate::passes::rate::{Dependence, rates};
 use crate::passes::schedule::schedule;
 use crate::range::{Slack, ranges};
 use crate::scene;
 use crate::sema::Options;
+use crate::source::Span;
 use crate::target::find;
+use slowlight_routine::{Op, Type, Value};
 
 /// A graph before and after the pass, if it does anything.
 fn both(source: &str) -> (Graph, Option<Graph>) {
@@ -127,4 +132,146 @@ fn thresholds_are_worked_out_from_the_cells() {
             );
         }
     }
+}
+
+/// How many results of loops a graph's inks need that are reals.
+fn real_results(graph: &Graph) -> usize {
+    let shadeless = Graph {
+        shade: None,
+        ..graph.clone()
+    };
+    let reached = shadeless.reached();
+    let result = |id: &NodeId| {
+        let real = graph.ty(*id) == Type::Real && reached[id.0 as usize];
+        real && matches!(graph.node(*id), Node::Result { .. })
+    };
+    graph.ids().filter(result).count()
+}
+
+/// Asserts that the pass leaves every ink as it was; answers how many loops'
+/// results it made inks.
+fn sunk(name: &str, before: &Graph, after: &Graph) -> usize {
+    verify(after).unwrap_or_else(|broken| panic!("{name}: {broken}"));
+    let [mut old, mut new] = [before, after].map(Native::new);
+    let image = &before.image;
+    for y in 0..image.height as i32 {
+        for x in 0..image.width as i32 {
+            let [was, is] = [old.pixel(x, y).ink, new.pixel(x, y).ink];
+            assert_eq!(was, is, "{name} at {x}, {y}");
+        }
+    }
+    real_results(before) - real_results(after)
+}
+
+/// Shades that are a loop's result, one of two loops', or neither.
+#[test]
+fn a_shade_is_compared_where_its_loop_ends() {
+    let dither =
+        "ink(inks - 1 - floor(16 * (inks - 1) * sqrt(v) + cells[x mod 4, y mod 4] / 3) div 16)";
+    let loops = "fn grown(from: real, by: real) -> real = loop (v = from, n = 1) max 6 {
+        if v < 1 then next(v * 1.5 + by, n + 1) else v / 3 + n / 40
+      } else 0.2;\n";
+    for (shade, results) in [
+        ("grown(x / 90, y / 99)", 1),
+        (
+            "if x < 20 then grown(x / 90, 0.01) else grown(0.05, y / 70)",
+            2,
+        ),
+        ("if x < y then x / 61 else grown(y / 50, x / 200)", 1),
+        // The first step is a root already.
+        ("sqrt(grown(x / 90, y / 99)) / 2", 1),
+        // Something else needs the result: it stays.
+        (
+            "{ let g = grown(x / 90, y / 99); if g < 0.4 then g else 0.5 }",
+            0,
+        ),
+    ] {
+        let (before, after) = both(&format!("{}{loops}", scene_of(FOUR, dither, shade)));
+        assert_eq!(sunk(shade, &before, &after.unwrap()), results, "{shade}");
+    }
+}
+
+fn push(graph: &mut Graph, node: Node, ty: Type) -> NodeId {
+    graph.nodes.push(node);
+    graph.types.push(ty);
+    graph.spans.push(Span::default());
+    NodeId(graph.nodes.len() as u32 - 1)
+}
+
+fn apply(graph: &mut Graph, op: Op, args: &[NodeId]) -> NodeId {
+    let args = [args[0], args[args.len() - 1]];
+    push(graph, Node::Apply(op, args), op.result())
+}
+
+fn constant(graph: &mut Graph, value: Value) -> NodeId {
+    push(graph, Node::Const(Constant::new(value)), value.ty())
+}
+
+/// A graph at random, its ink found by steps from reals that its loops end with;
+/// none where it has no such loop.
+fn stepping(seed: u64) -> Option<Graph> {
+    let mut graph = random_graphs::graph(seed);
+    let rates = rates(&graph);
+    let outside = |id: NodeId| {
+        let turn = |d: &Dependence| matches!(d, Dependence::Loop(_) | Dependence::Last(_));
+        !rates.rate(id).iter().any(turn)
+    };
+    let of_type = |ty: Type| {
+        let graph = &graph;
+        let fits = move |id: &NodeId| graph.ty(*id) == ty && outside(*id);
+        graph.ids().filter(fits)
+    };
+    let result = |id: &NodeId| matches!(graph.node(*id), Node::Result { .. });
+    let results: Vec<NodeId> = of_type(Type::Real).filter(result).collect();
+    let (first, last) = (*results.first()?, *results.last()?);
+    let cond = of_type(Type::Bool).next_back()?;
+    let (column, row) = (of_type(Type::Int).next_back()?, of_type(Type::Int).next()?);
+    let g = &mut graph;
+    let shade = match first == last {
+        true => first,
+        false => push(
+            g,
+            Node::Select {
+                cond,
+                yes: first,
+                no: last,
+            },
+            Type::Real,
+        ),
+    };
+    let [half, three] = [0.5, 3.0].map(|n| constant(g, Value::Real(n)));
+    let [low, high] = [0, 3].map(|n| constant(g, Value::Int(n)));
+    let cell = push(
+        g,
+        Node::Lookup {
+            table: TableId(0),
+            column,
+            row,
+        },
+        Type::Int,
+    );
+    let cell = apply(g, Op::ToReal, &[cell]);
+    let cell = apply(g, Op::Div, &[cell, three]);
+    let root = apply(g, Op::Sqrt, &[shade]);
+    let part = apply(g, Op::Mul, &[root, half]);
+    let sum = apply(g, Op::Add, &[part, cell]);
+    let whole = apply(g, Op::Floor, &[sum]);
+    let above = apply(g, Op::IntMax, &[whole, low]);
+    g.ink = apply(g, Op::IntMin, &[above, high]);
+    g.shade = Some(shade);
+    (g.diffusion.is_none()).then(|| fold(g))
+}
+
+#[test]
+fn random_shades_are_compared_where_their_loops_end() {
+    let (mut made, mut inks) = (0, std::collections::BTreeSet::new());
+    for graph in (0..400).filter_map(stepping) {
+        let found = ranges(&graph, &schedule(&graph), &Slack::exact());
+        let runtime = find("bbc:micro").unwrap().runtime;
+        if let Some(after) = threshold(&graph, &found, runtime) {
+            made += sunk("random", &graph, &fold(&after));
+            inks.insert(Native::new(&graph).pixel(3, 2).ink);
+        }
+    }
+    assert!(made > 50 && inks.len() > 2, "{made} {inks:?}");
 }
