@@ -8,6 +8,8 @@ use indicatif::{MultiProgress, ProgressBar, ProgressDrawTarget, ProgressStyle};
 use std::borrow::Cow;
 use std::sync::LazyLock;
 use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::mpsc::{RecvTimeoutError, Sender, channel};
+use std::thread::JoinHandle;
 use std::time::{Duration, Instant};
 
 /// How long to be silent.
@@ -60,6 +62,55 @@ impl Progress {
 
 impl Drop for Progress {
     fn drop(&mut self) {
+        self.bar.finish_and_clear();
+        LINES.remove(&self.bar);
+    }
+}
+
+/// Work of which nobody can say how far it has come: that it goes on is shown
+/// until this is dropped.
+pub struct Waiting {
+    bar: ProgressBar,
+    /// Dropped when the work is done.
+    done: Option<Sender<()>>,
+    shower: Option<JoinHandle<()>>,
+}
+
+/// How often what turns is turned.
+const TURN: Duration = Duration::from_millis(100);
+
+impl Waiting {
+    /// Waits for `what`.
+    pub fn new(what: impl Into<Cow<'static, str>>) -> Waiting {
+        let bar = ProgressBar::with_draw_target(None, ProgressDrawTarget::hidden());
+        if let Ok(style) = ProgressStyle::with_template("{msg:>16} {spinner} {elapsed}") {
+            bar.set_style(style);
+        }
+        bar.set_message(what);
+        let (done, waits) = channel::<()>();
+        let shown = bar.clone();
+        // Without a thread to spare nothing is shown.
+        let shower = std::thread::Builder::new().spawn(move || {
+            if waits.recv_timeout(SILENCE) == Err(RecvTimeoutError::Timeout) {
+                LINES.add(shown.clone());
+                shown.enable_steady_tick(TURN);
+            }
+        });
+        Waiting {
+            bar,
+            done: Some(done),
+            shower: shower.ok(),
+        }
+    }
+}
+
+impl Drop for Waiting {
+    fn drop(&mut self) {
+        drop(self.done.take());
+        // It must not add the line after it is removed; it only ever ends by itself.
+        if let Some(shower) = self.shower.take() {
+            let _ = shower.join();
+        }
         self.bar.finish_and_clear();
         LINES.remove(&self.bar);
     }

@@ -3,6 +3,7 @@
 
 use crate::failure::{Failure, Outcome, unknown};
 use crate::fit;
+use crate::progress::Waiting;
 use crate::scene::{Precision, Scene};
 use clap::{Args, ValueEnum};
 use slowlight_compiler::plan::{Goal, Plan, plan, plan_as_written};
@@ -148,6 +149,7 @@ impl ScreenArgs {
     ) -> Outcome<Plan> {
         let modes = self.modes(target, scene.size())?;
         let plans = modes.into_iter();
+        let _waiting = Waiting::new("planning");
         fit::fit(
             plans.map(|mode| self.plan_in(mode, scene, target, set)),
             &|span| scene.called_at(span),
