@@ -9,7 +9,8 @@
 //!
 //! They are found by bisection over the reals of an `f64`, on the very operations
 //! of the scene: each step is monotone in `f64` too, since rounding is, and the
-//! comparison gives the ink that the steps would have given, for every `f64`.
+//! comparison gives the ink that the steps would have given, for every `f64` below
+//! 1E30 in size.
 //! In the machine's format v and the threshold are rounded, and nothing else.
 //!
 //! A shade that is a choice is compared in either arm, and one that is a loop's
@@ -50,27 +51,34 @@ pub fn threshold(graph: &Graph, ranges: &Ranges, runtime: &Runtime) -> Option<Gr
         return None;
     }
     let bounds = chain.thresholds(graph, ranges, low, high)?;
-    let mut comparing = Comparing {
-        graph,
-        sunk: sunk::results(graph, &chain),
-        chain,
-        bounds,
-        low,
-        done: false,
+    let compared = |sunk: Vec<(LoopId, u32)>| {
+        let mut comparing = Comparing {
+            graph,
+            chain: &chain,
+            bounds: &bounds,
+            low,
+            sunk,
+            done: false,
+            failed: false,
+        };
+        let next = rebuild_by(graph, &mut comparing);
+        (comparing.done && !comparing.failed).then_some(next)
     };
-    let next = rebuild_by(graph, &mut comparing);
-    comparing.done.then_some(next)
+    // What selects a threshold may not be there yet where a loop ends.
+    compared(sunk::results(graph, &chain)).or_else(|| compared(Vec::new()))
 }
 
 /// Finds the ink by comparisons while a graph is rebuilt.
 struct Comparing<'g> {
     graph: &'g Graph,
-    chain: Chain,
-    bounds: Vec<Vec<f64>>,
+    chain: &'g Chain,
+    bounds: &'g [Vec<f64>],
     low: i32,
     /// The results of loops that become inks.
     sunk: Vec<(LoopId, u32)>,
     done: bool,
+    /// Whether one of those could not be compared.
+    failed: bool,
 }
 
 type Made<'m> = &'m [Option<NodeId>];
@@ -83,7 +91,7 @@ impl Comparing<'_> {
             made: made.to_vec(),
         };
         let mut compared = Vec::new();
-        for entries in &self.bounds {
+        for entries in self.bounds {
             let same = entries.iter().all(|e| e == &entries[0]);
             compared.push(match self.chain.selector {
                 Some(selector) if !same => entry(&mut copy, b, selector, entries, span)?,
@@ -123,7 +131,9 @@ impl Rewrite for Comparing<'_> {
     fn end(&mut self, b: &mut Builder, made: Made<'_>, id: NodeId, end: End) -> Option<NodeId> {
         match end {
             End::Result(of, index) if self.sunk.contains(&(of, index)) => {
-                self.ink(b, made, id, self.graph.span(id))
+                let ink = self.ink(b, made, id, self.graph.span(id));
+                self.failed |= ink.is_none();
+                ink
             }
             // It is looked at, and gone where it became an ink.
             End::Output => (!self.sunk.is_empty()).then(|| b.undefined(Type::Real)),
