@@ -47,13 +47,14 @@ pub fn ratio(rows: &Forms<'_>, full: &Forms<'_>, b: &Poly, a: &Poly) -> f64 {
     atoms.dedup();
     let of = |atom: Atom| known(full, atom);
     let mut most: f64 = 0.0;
+    let [over, under] = [over, under].map(|poly| Sum::new(&poly, &atoms));
     for sides in boxes(&atoms, &of) {
-        let divisor = sum(&under, &atoms, &sides);
+        let divisor = under.within(&sides);
         if divisor.contains(0.0) {
             return apart();
         }
         let least = divisor.lo.abs().min(divisor.hi.abs());
-        most = most.max(sum(&over, &atoms, &sides).magnitude() / least);
+        most = most.max(over.within(&sides).magnitude() / least);
     }
     most.min(apart())
 }
@@ -90,7 +91,8 @@ fn known(forms: &Forms<'_>, atom: Atom) -> Range {
 /// The bounds of a polynomial, its atoms' ranges cut into pieces.
 pub fn bounds(poly: &Poly, of: &dyn Fn(Atom) -> Range) -> Range {
     let atoms = poly.atoms();
-    let each = boxes(&atoms, of).map(|sides| sum(poly, &atoms, &sides));
+    let sum = Sum::new(poly, &atoms);
+    let each = boxes(&atoms, of).map(|sides| sum.within(&sides));
     each.reduce(Range::join).unwrap_or(Range::ALL)
 }
 
@@ -123,19 +125,39 @@ fn cut(range: Range, pieces: usize) -> Vec<Range> {
     (0..pieces).map(piece).collect()
 }
 
-/// The bounds of a sum of monomials, each by itself.
-fn sum(poly: &Poly, atoms: &[Atom], sides: &[Range]) -> Range {
-    let (mut lo, mut hi) = (0.0, 0.0);
-    for (monomial, number) in &poly.terms {
-        let factor = number.real();
-        let mut ends = (factor, factor);
-        for (atom, power) in monomial {
-            let side = atoms.iter().position(|a| a == atom).map(|at| sides[at]);
-            ends = times(ends, raised(side.unwrap_or(Range::ALL), *power));
+/// A polynomial whose bounds in many boxes are asked for.
+struct Sum {
+    /// Each monomial's coefficient, and its atoms by their places in a list, with
+    /// their powers.
+    terms: Vec<(f64, Vec<(usize, u32)>)>,
+}
+
+impl Sum {
+    /// `atoms` are all that are in it, and perhaps more.
+    fn new(poly: &Poly, atoms: &[Atom]) -> Sum {
+        let place = |atom: &Atom| atoms.iter().position(|a| a == atom).unwrap_or(usize::MAX);
+        let terms = poly.terms.iter().map(|(monomial, number)| {
+            let factors = monomial.iter().map(|(atom, power)| (place(atom), *power));
+            (number.real(), factors.collect())
+        });
+        Sum {
+            terms: terms.collect(),
         }
-        (lo, hi) = (lo + ends.0, hi + ends.1);
     }
-    Range::new(lo, hi)
+
+    /// Its bounds where the atoms stay within `sides`, each monomial by itself.
+    fn within(&self, sides: &[Range]) -> Range {
+        let (mut lo, mut hi) = (0.0, 0.0);
+        for (factor, factors) in &self.terms {
+            let mut ends = (*factor, *factor);
+            for (place, power) in factors {
+                let side = sides.get(*place).copied().unwrap_or(Range::ALL);
+                ends = times(ends, raised(side, *power));
+            }
+            (lo, hi) = (lo + ends.0, hi + ends.1);
+        }
+        Range::new(lo, hi)
+    }
 }
 
 fn raised(x: Range, power: u32) -> (f64, f64) {

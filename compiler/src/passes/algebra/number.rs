@@ -14,6 +14,16 @@ pub enum Number {
 
 /// The greatest common divisor, at least 1.
 pub fn common(mut a: i128, mut b: i128) -> i128 {
+    // Words divide several times as fast.
+    if let (Ok(mut x), Ok(mut y)) = (
+        u64::try_from(a.unsigned_abs()),
+        u64::try_from(b.unsigned_abs()),
+    ) {
+        while y != 0 {
+            (x, y) = (y, x % y);
+        }
+        return i128::from(x.max(1));
+    }
     while b != 0 {
         (a, b) = (b, a % b);
     }
@@ -52,6 +62,9 @@ impl Number {
     }
 
     fn ratio(num: i128, den: i128) -> Number {
+        if den == 1 {
+            return Number::Exact(num, 1);
+        }
         let by = common(num, den) * den.signum();
         Number::Exact(num / by, den / by)
     }

@@ -1,7 +1,9 @@
 //! Polynomials in several atoms, with a bounded number of terms.
 
 use super::number::{Number, common};
+use std::cmp::Ordering;
 use std::collections::BTreeMap;
+use std::collections::btree_map::Entry;
 
 /// What a polynomial is in: a node's number, or an inverse's beyond those.
 pub type Atom = u32;
@@ -33,14 +35,26 @@ impl Poly {
     }
 
     fn accrue(&mut self, monomial: Monomial, number: Number) {
-        let sum = match self.terms.get(&monomial) {
-            Some(held) => held.add(number),
-            None => number,
-        };
-        if sum.is_zero() {
-            self.terms.remove(&monomial);
-        } else {
-            self.terms.insert(monomial, sum);
+        match self.terms.entry(monomial) {
+            Entry::Occupied(mut held) => {
+                let sum = held.get().add(number);
+                if sum.is_zero() {
+                    held.remove();
+                } else {
+                    held.insert(sum);
+                }
+            }
+            Entry::Vacant(place) if !number.is_zero() => {
+                place.insert(number);
+            }
+            Entry::Vacant(_) => {}
+        }
+    }
+
+    /// Of monomials that are all different.
+    fn of(terms: impl Iterator<Item = (Monomial, Number)>) -> Poly {
+        Poly {
+            terms: terms.filter(|(_, number)| !number.is_zero()).collect(),
         }
     }
 
@@ -66,27 +80,36 @@ impl Poly {
     }
 
     pub fn scaled(&self, by: Number) -> Poly {
-        let mut out = Poly::default();
-        for (monomial, number) in &self.terms {
-            out.accrue(monomial.clone(), number.mul(by));
-        }
-        out
+        let each = self.terms.iter();
+        Poly::of(each.map(|(monomial, number)| (monomial.clone(), number.mul(by))))
     }
 
     pub fn mul(&self, other: &Poly) -> Option<Poly> {
         if self.terms.len() * other.terms.len() > TERMS * 8 {
             return None;
         }
-        let mut out = Poly::default();
-        for (a, x) in &self.terms {
-            for (b, y) in &other.terms {
-                let both = product(a, b);
-                if both.iter().map(|(_, k)| k).sum::<u32>() > DEGREE {
-                    return None;
-                }
-                out.accrue(both, x.mul(*y));
-            }
+        let degree = |p: &Poly| p.terms.keys().map(degree).max().unwrap_or(0);
+        if !self.is_zero() && !other.is_zero() && degree(self) + degree(other) > DEGREE {
+            return None;
         }
+        let pairs =
+            |(a, x): (&Monomial, &Number), (b, y): (&Monomial, &Number)| (product(a, b), x.mul(*y));
+        let out = match (self.terms.len(), other.terms.len()) {
+            // Products with one monomial are as different as what it is multiplied by.
+            (1, _) | (_, 1) => Poly::of(
+                (self.terms.iter()).flat_map(|a| other.terms.iter().map(move |b| pairs(a, b))),
+            ),
+            _ => {
+                let mut out = Poly::default();
+                for a in &self.terms {
+                    for b in &other.terms {
+                        let (monomial, number) = pairs(a, b);
+                        out.accrue(monomial, number);
+                    }
+                }
+                out
+            }
+        };
         (out.terms.len() <= TERMS).then_some(out)
     }
 
@@ -195,10 +218,30 @@ fn power_of(atom: Atom, power: u32) -> Monomial {
     }
 }
 
+fn degree(monomial: &Monomial) -> u32 {
+    monomial.iter().map(|(_, power)| power).sum()
+}
+
 fn product(a: &Monomial, b: &Monomial) -> Monomial {
-    let mut both: BTreeMap<Atom, u32> = a.iter().copied().collect();
-    for (atom, power) in b {
-        *both.entry(*atom).or_default() += power;
+    let mut both = Vec::with_capacity(a.len() + b.len());
+    let (mut a, mut b) = (a.as_slice(), b.as_slice());
+    while let ([x, more @ ..], [y, others @ ..]) = (a, b) {
+        match x.0.cmp(&y.0) {
+            Ordering::Less => {
+                both.push(*x);
+                a = more;
+            }
+            Ordering::Greater => {
+                both.push(*y);
+                b = others;
+            }
+            Ordering::Equal => {
+                both.push((x.0, x.1 + y.1));
+                (a, b) = (more, others);
+            }
+        }
     }
-    both.into_iter().collect()
+    both.extend(a);
+    both.extend(b);
+    both
 }
