@@ -8,6 +8,7 @@
 
 use super::graph::*;
 use crate::source::Span;
+use rustc_hash::FxHashMap;
 use slowlight_routine::{Op, Type, Value};
 use std::collections::{BTreeMap, HashMap};
 
@@ -18,7 +19,7 @@ pub struct Builder {
     types: Vec<Type>,
     spans: Vec<Span>,
     names: HashMap<NodeId, String>,
-    known: HashMap<Node, NodeId>,
+    known: FxHashMap<Node, NodeId>,
     params: Vec<Param>,
     tables: Vec<Table>,
     loops: Vec<Loop>,

@@ -2,7 +2,8 @@
 
 use super::region::RegionId;
 use crate::flow::graph::*;
-use std::collections::{BTreeMap, BTreeSet, HashMap};
+use rustc_hash::FxHashMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// What is emitted as one step of a block.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -32,15 +33,15 @@ pub enum Order {
 pub struct Queue {
     order: Order,
     /// Each unit's place in the graph.
-    nodes: HashMap<Unit, NodeId>,
+    nodes: FxHashMap<Unit, NodeId>,
     /// How many units each one still waits for.
-    waits: HashMap<Unit, usize>,
+    waits: FxHashMap<Unit, usize>,
     /// Who waits for each unit.
-    readers: HashMap<Unit, Vec<Unit>>,
+    readers: FxHashMap<Unit, Vec<Unit>>,
     /// The condition of each unit that has one.
-    conditions: HashMap<Unit, NodeId>,
+    conditions: FxHashMap<Unit, NodeId>,
     /// How many units on each condition are not ready yet.
-    late: HashMap<NodeId, usize>,
+    late: FxHashMap<NodeId, usize>,
     /// What can be emitted alone.
     single: BTreeSet<Unit>,
     /// What can be emitted under one `If`.

@@ -6,7 +6,7 @@
 //! allows. Sets are interned, since a graph has many values and few sets.
 
 use crate::flow::graph::*;
-use std::collections::HashMap;
+use rustc_hash::FxHashMap;
 use std::fmt;
 
 /// Something that a value may depend on.
@@ -70,16 +70,16 @@ impl Rates {
 
 struct Interner {
     sets: Vec<Vec<Dependence>>,
-    known: HashMap<Vec<Dependence>, SetId>,
-    unions: HashMap<(SetId, SetId), SetId>,
+    known: FxHashMap<Vec<Dependence>, SetId>,
+    unions: FxHashMap<(SetId, SetId), SetId>,
 }
 
 impl Interner {
     fn new() -> Interner {
         let mut made = Interner {
             sets: Vec::new(),
-            known: HashMap::new(),
-            unions: HashMap::new(),
+            known: FxHashMap::default(),
+            unions: FxHashMap::default(),
         };
         made.intern(Vec::new());
         made
@@ -127,7 +127,7 @@ impl Interner {
 pub fn rates(graph: &Graph) -> Rates {
     let mut sets = Interner::new();
     let mut of: Vec<SetId> = Vec::with_capacity(graph.nodes.len());
-    let mut ends: HashMap<LoopId, SetId> = HashMap::new();
+    let mut ends: FxHashMap<LoopId, SetId> = FxHashMap::default();
     // A carried value also changes with whatever its loop depends on, but the
     // loop's roots come later in the arena: they join in through the results.
     for id in graph.ids() {

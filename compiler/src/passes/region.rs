@@ -5,7 +5,7 @@
 //! known on entering a region (that a condition holds) may imply more.
 
 use crate::flow::graph::*;
-use std::collections::HashMap;
+use rustc_hash::FxHashMap;
 
 /// Which region; an index into [`Regions::regions`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -83,7 +83,7 @@ pub struct Regions {
     pub loops: Vec<Option<RegionId>>,
     /// What is known on entering each region.
     pub facts: Vec<Vec<Fact>>,
-    children: HashMap<(RegionId, RegionKind), RegionId>,
+    children: FxHashMap<(RegionId, RegionKind), RegionId>,
 }
 
 /// The frame's region.
@@ -113,7 +113,7 @@ impl Regions {
             of: vec![None; graph.nodes.len()],
             loops: vec![None; graph.loops.len()],
             facts: vec![Vec::new(); 4],
-            children: HashMap::new(),
+            children: FxHashMap::default(),
         }
     }
 

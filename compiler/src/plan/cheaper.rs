@@ -178,11 +178,12 @@ impl Site<'_> {
         }
         for leave in tries {
             let out: Vec<NodeId> = without.iter().chain(&leave).copied().collect();
-            if let Some((next, _)) = self.with(plain, pass, &out)
-                && self.cost(&next) < limit
-            {
-                limit = self.cost(&next);
-                (without, best) = (out, next);
+            let Some((next, _)) = self.with(plain, pass, &out) else {
+                continue;
+            };
+            let cost = self.cost(&next);
+            if cost < limit {
+                (limit, without, best) = (cost, out, next);
             }
         }
         best
@@ -194,11 +195,12 @@ impl Site<'_> {
         let mut limit = self.cost(&best);
         for id in sites {
             let out: Vec<NodeId> = without.iter().copied().filter(|o| o != id).collect();
-            if let Some((next, _)) = self.with(plain, pass, &out)
-                && self.cost(&next) < limit
-            {
-                limit = self.cost(&next);
-                (without, best) = (out, next);
+            let Some((next, _)) = self.with(plain, pass, &out) else {
+                continue;
+            };
+            let cost = self.cost(&next);
+            if cost < limit {
+                (limit, without, best) = (cost, out, next);
             }
         }
         best

@@ -15,9 +15,9 @@ use crate::flow::often;
 use crate::flow::tree::*;
 use crate::passes::demand::bounds_segment;
 use crate::passes::rate::rates;
+use rustc_hash::FxHashSet;
 use slowlight_routine::{Op, Routine, Runtime, Stepping, Type, Value};
 use std::cell::Cell;
-use std::collections::HashSet;
 
 /// What part of the plan's cycles a statement more must save, for its memory;
 /// three entries of a table take as much. Where there is plenty, and where
@@ -68,7 +68,7 @@ impl Price {
             routines,
         };
         // What begins a run of columns is not carried out at each of them.
-        let mut runs = HashSet::new();
+        let mut runs = FxHashSet::default();
         walk(&plan.tree.segment, &mut |s| {
             runs.insert(std::ptr::from_ref(s));
         });

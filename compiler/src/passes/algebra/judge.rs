@@ -7,8 +7,9 @@
 //! bound; it is compared with the same estimate for what stands there now.
 
 use crate::flow::graph::*;
+use rustc_hash::FxHashMap;
 use slowlight_routine::{Op, Runtime, Type, Value};
-use std::collections::{BTreeMap, HashMap};
+use std::collections::BTreeMap;
 
 /// Nodes of a graph that is there or being built.
 pub trait Nodes {
@@ -36,7 +37,7 @@ pub fn cycles(
     runtime: &Runtime,
     there: &dyn Fn(NodeId) -> bool,
 ) -> u32 {
-    let mut varies = HashMap::new();
+    let mut varies = FxHashMap::default();
     // How often each value is needed; users have greater numbers.
     let mut todo: BTreeMap<NodeId, f64> = BTreeMap::from([(root, 1.0)]);
     let mut sum = 0.0;
@@ -70,7 +71,7 @@ pub fn cycles(
 }
 
 /// Whether a node depends on the column (or on a loop); deep graphs count as such.
-fn column(nodes: &dyn Nodes, id: NodeId, known: &mut HashMap<NodeId, bool>, deep: u32) -> bool {
+fn column(nodes: &dyn Nodes, id: NodeId, known: &mut FxHashMap<NodeId, bool>, deep: u32) -> bool {
     if let Some(&found) = known.get(&id) {
         return found;
     }
@@ -145,7 +146,7 @@ pub struct Follow<'n> {
     pub nodes: &'n dyn Nodes,
     pub tables: &'n dyn Fn(TableId) -> Option<&'n Table>,
     pub sample: &'n Sample,
-    pub known: HashMap<NodeId, Rounded>,
+    pub known: FxHashMap<NodeId, Rounded>,
 }
 
 impl Follow<'_> {

@@ -304,7 +304,7 @@ impl Judge<'_> {
                 nodes: graph,
                 tables: &tables,
                 sample,
-                known: HashMap::new(),
+                known: Default::default(),
             };
             let Some(before) = relative(&mut follow, graph, old) else {
                 continue;

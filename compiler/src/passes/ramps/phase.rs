@@ -204,7 +204,7 @@ impl<'g> Find<'g> {
                 nodes: self.graph,
                 tables: &tables,
                 sample,
-                known: HashMap::new(),
+                known: Default::default(),
             };
             let mut numbers = Numbers { find: self, follow };
             for &floor in &terms.floors {
