@@ -242,7 +242,7 @@ fn stepping(seed: u64) -> Option<Graph> {
             Type::Real,
         ),
     };
-    let [half, three] = [0.5, 3.0].map(|n| constant(g, Value::Real(n)));
+    let [half, ten] = [0.5, 10.0].map(|n| constant(g, Value::Real(n)));
     let [low, high] = [0, 3].map(|n| constant(g, Value::Int(n)));
     let cell = push(
         g,
@@ -254,7 +254,7 @@ fn stepping(seed: u64) -> Option<Graph> {
         Type::Int,
     );
     let cell = apply(g, Op::ToReal, &[cell]);
-    let cell = apply(g, Op::Div, &[cell, three]);
+    let cell = apply(g, Op::Div, &[cell, ten]);
     let root = apply(g, Op::Sqrt, &[shade]);
     let part = apply(g, Op::Mul, &[root, half]);
     let sum = apply(g, Op::Add, &[part, cell]);
@@ -273,7 +273,8 @@ fn random_shades_are_compared_where_their_loops_end() {
         let runtime = find("bbc:micro").unwrap().runtime;
         if let Some(after) = threshold(&graph, &found, runtime) {
             made += sunk("random", &graph, &fold(&after));
-            inks.insert(Native::new(&graph).pixel(3, 2).ink);
+            let mut native = Native::new(&graph);
+            inks.extend((0..71).map(|x| native.pixel(x, 2).ink));
         }
     }
     assert!(made > 50 && inks.len() > 2, "{made} {inks:?}");
