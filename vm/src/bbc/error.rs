@@ -2,8 +2,10 @@
 
 use slowlight_isa::real40::RealError;
 
-/// What can go wrong in a running program.
+/// What can go wrong in a running program. (As wide as the parts of a number, whose place it takes
+/// in a result.)
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[repr(u32)]
 pub enum Error {
     /// Variables, stack or program do not fit between PAGE and HIMEM.
     NoRoom,

@@ -80,7 +80,7 @@ impl State {
             }
             Stmt::LetReal(slot, e) => {
                 self.define_real(*slot)?;
-                let x = self.num(p, e)?;
+                let x = self.operand(p, e)?;
                 let x = self.real_of(x);
                 if let Some(v) = self.reals.get_mut(*slot as usize) {
                     self.cycles += u64::from(v.lookup);
@@ -93,7 +93,7 @@ impl State {
                 self.store(home, value)?;
             }
             Stmt::If(e, otherwise, skipped) => {
-                if self.int(p, e)? == 0 {
+                if !self.condition(p, e)? {
                     self.cycles += u64::from(*skipped);
                     return Ok(*otherwise);
                 }
@@ -123,7 +123,7 @@ impl State {
                 self.repeats.push(next);
             }
             Stmt::Until(e) => {
-                let done = self.int(p, e)? != 0;
+                let done = self.condition(p, e)?;
                 let back = *self.repeats.last().ok_or(Error::NoRepeat)?;
                 if !done {
                     return Ok(back);

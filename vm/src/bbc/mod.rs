@@ -18,6 +18,7 @@
 //!   reals instead of wrapping), but Micro's 40-bit arithmetic; Brandy's reals are doubles, and
 //!   the Agon's 40 bits round otherwise.
 
+mod arithmetic;
 mod arrays;
 mod ast;
 mod calls;
@@ -36,6 +37,7 @@ mod io;
 mod loops;
 mod modes;
 mod names;
+mod numeric;
 mod plot;
 mod profile;
 mod state;

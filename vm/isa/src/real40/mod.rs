@@ -54,8 +54,9 @@ impl RealError {
 /// A 40-bit real: five bytes in the machine, eight here.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub struct Real40 {
-    /// Exponent + 128; 0 for zero.
-    exp: u8,
+    /// Exponent + 128, under 256; 0 for zero. As wide as the mantissa, so that no copy of a number
+    /// is made in pieces: reading back together what was written apart holds a processor up.
+    exp: u32,
     /// The mantissa with its top bit replaced by the sign; 0 for zero.
     man: u32,
 }
@@ -75,7 +76,7 @@ impl Real40 {
 
     /// From the 40 bits: exponent byte in bits 32 to 39, then sign and mantissa. Exponent 0 is zero.
     pub const fn from_bits(bits: u64) -> Self {
-        let exp = (bits >> 32) as u8;
+        let exp = (bits >> 32) as u32 & 0xff;
         if exp == 0 {
             return Self::ZERO;
         }
@@ -100,18 +101,19 @@ impl Real40 {
     /// The five bytes of a variable.
     pub fn to_bytes(self) -> [u8; 5] {
         let m = self.man.to_be_bytes();
-        [self.exp, m[0], m[1], m[2], m[3]]
+        [self.exponent(), m[0], m[1], m[2], m[3]]
     }
 
     /// From its parts: the mantissa has its top bit set; the exponent has its bias.
     pub(crate) const fn from_parts(negative: bool, exp: u8, mantissa: u32) -> Self {
         let man = (mantissa & !SIGN) | if negative { SIGN } else { 0 };
+        let exp = exp as u32;
         Self { exp, man }
     }
 
     /// The biased exponent; 0 for zero.
     pub const fn exponent(self) -> u8 {
-        self.exp
+        self.exp as u8
     }
 
     /// The mantissa with its top bit set; 0 for zero.
@@ -214,7 +216,7 @@ impl Real40 {
         if self.exp >= 160 {
             return Err(RealError::TooBig);
         }
-        let size = (self.mantissa() >> (160 - u32::from(self.exp))) as i32;
+        let size = (self.mantissa() >> (160 - self.exp)) as i32;
         Ok(if self.is_negative() { -size } else { size })
     }
 
