@@ -1,0 +1,106 @@
+//! Our interpreter of BASIC against Matrix Brandy: the whole picture of mirrors, the same file.
+//!
+//! `cargo bench --bench brandy`, where `brandy` is installed (see `tests/peers/setup`).
+//!
+//! What an empty program takes is subtracted on both sides: Brandy opens a window, we make a
+//! machine. Each time is the least of some runs, because anything else the computer does only
+//! adds to it.
+
+use slowlight::trial::LIMIT;
+use slowlight_compiler::plan::{Goal, plan};
+use slowlight_compiler::scene;
+use slowlight_compiler::sema::Options;
+use slowlight_compiler::target::{Target, default_mode, find};
+use slowlight_vm::Stop;
+use slowlight_vm::bbc::{Config, Dialect, Machine};
+use std::path::Path;
+use std::process::{Command, Stdio};
+use std::time::{Duration, Instant};
+
+const MIRRORS: &str = include_str!("../examples/mirrors.scn");
+const EMPTY: &str = "10END\n";
+const RUNS: usize = 15;
+
+/// The generated text.
+fn program(target: &'static Target) -> Option<String> {
+    let checked = scene::check("mirrors.scn", MIRRORS);
+    let image = checked.program.image.as_ref()?;
+    let mode = default_mode(target, image.width, image.height)?;
+    let options = Options {
+        inks: Some(mode.inks),
+        offset: target.offset,
+        ..Options::default()
+    };
+    let goal = Goal {
+        name: "mirrors".to_owned(),
+        mode,
+        rows: None,
+        plot: true,
+    };
+    let plan = plan(&checked.lower(&options).ok()?, target, &goal).ok()?;
+    let documents = (target.emit)(&plan);
+    documents.into_iter().next().map(|d| d.text)
+}
+
+fn least(mut once: impl FnMut()) -> Duration {
+    let times = (0..RUNS).map(|_| {
+        let start = Instant::now();
+        once();
+        start.elapsed()
+    });
+    times.min().unwrap_or_default()
+}
+
+/// Ours, cycles counted: what `slowlight run` does with the file.
+fn ours(text: &str) -> Duration {
+    let config = Config {
+        dialect: Dialect::BasicV,
+        ..Config::default()
+    };
+    least(|| {
+        let mut machine = Machine::new(config);
+        assert!(machine.load_text(text).is_ok());
+        let run = machine.run(LIMIT, &mut |_| true);
+        assert_eq!(run.stop, Stop::Ended);
+        assert!(run.cycles > 0);
+    })
+}
+
+fn brandy(directory: &Path, text: &str) -> Duration {
+    let file = directory.join("program.bas");
+    assert!(std::fs::write(&file, text).is_ok());
+    least(|| {
+        let status = Command::new("brandy")
+            .arg("-quit")
+            .arg(&file)
+            .env("SDL_VIDEODRIVER", "dummy")
+            .env("SDL_AUDIODRIVER", "dummy")
+            .stdin(Stdio::null())
+            .stdout(Stdio::null())
+            .stderr(Stdio::null())
+            .status();
+        assert!(status.is_ok_and(|s| s.success()), "brandy is installed");
+    })
+}
+
+fn main() {
+    let Some(text) = find("bbc:basicv").and_then(program) else {
+        panic!("mirrors does not build for bbc:basicv");
+    };
+    let Ok(directory) = tempfile::tempdir() else {
+        panic!("no temporary directory");
+    };
+    let less_empty = |time: &dyn Fn(&str) -> Duration| {
+        let (whole, empty) = (time(&text), time(EMPTY));
+        println!("  {whole:?}, an empty program {empty:?}");
+        whole.saturating_sub(empty).as_secs_f64()
+    };
+    println!("brandy");
+    let theirs = less_empty(&|text| brandy(directory.path(), text));
+    println!("ours");
+    let ours = less_empty(&|text| ours(text));
+    println!(
+        "ours / brandy: {ours:.4} s / {theirs:.4} s = {:.2}",
+        ours / theirs
+    );
+}
