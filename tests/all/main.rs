@@ -20,6 +20,8 @@ mod peers_brandy;
 #[cfg(feature = "peers")]
 mod peers_ca65;
 #[cfg(feature = "peers")]
+mod peers_dialect;
+#[cfg(feature = "peers")]
 mod peers_jsbeeb;
 mod precise;
 mod ramps;

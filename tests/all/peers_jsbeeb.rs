@@ -7,7 +7,7 @@ use serde_json::{Value, json};
 use slowlight_vm::Stop;
 use slowlight_vm::bbc::{Config, Machine, Run};
 use std::path::Path;
-use std::process::Command;
+use std::process::{Command, Stdio};
 
 /// Runs jobs (see the driver for what they are).
 pub fn jsbeeb(jobs: &[Value]) -> Vec<Value> {
@@ -19,6 +19,11 @@ pub fn jsbeeb(jobs: &[Value]) -> Vec<Value> {
         .arg(root.join("tests/peers/jsbeeb.mjs"))
         .arg(root.join("target/peers/node_modules/jsbeeb"))
         .arg(&file)
+        .stderr(if jobs.iter().any(|job| job.get("tell").is_some()) {
+            Stdio::inherit()
+        } else {
+            Stdio::piped()
+        })
         .output()
         .expect("node is installed: see tests/peers/setup");
     let said = String::from_utf8_lossy(&output.stderr);
@@ -115,7 +120,14 @@ fn the_recorded_results_are_the_roms() {
 
 /// Our machine on the same text.
 fn ours(text: &str) -> Run {
-    let mut machine = Machine::new(Config::default());
+    ours_at(Config::default().page, text)
+}
+
+fn ours_at(page: u16, text: &str) -> Run {
+    let mut machine = Machine::new(Config {
+        page,
+        ..Config::default()
+    });
     machine.load_text(text).expect("a program");
     let run = machine.run(100_000_000_000, &mut |_| true);
     assert_eq!(run.stop, Stop::Ended, "{text}");
@@ -197,44 +209,109 @@ fn inks(mode: u32, memory: &[u8]) -> Vec<u8> {
     list
 }
 
+/// What `slowlight build` writes of a scene.
+struct Written {
+    text: String,
+    tokens: Vec<u8>,
+    disc: Vec<u8>,
+}
+
+fn build(scene: &str, options: &[&str]) -> Written {
+    let dir = directory(&[("scene.scn", scene)]);
+    let args = [&["build", "scene.scn", "--target", "bbc:micro"], options].concat();
+    success(dir.path(), &args);
+    let read = |name: &str| std::fs::read(dir.path().join(name)).expect("a file");
+    Written {
+        text: String::from_utf8(read("scene.bas")).expect("a program"),
+        tokens: read("scene.bbc"),
+        disc: read("scene.ssd"),
+    }
+}
+
+/// Inks in which the ROM's screen differs from ours. BASIC's prompt is written over the first
+/// row of text.
+fn different_inks(mode: u32, rom: &Value, ours: &Run) -> usize {
+    assert_eq!(rom["stopped"], "prompt");
+    let memory = unhex(rom["memory"].as_str().expect("memory"));
+    let rom = inks(mode, &memory[memory.len() - (0x8000 - layout(mode).0)..]);
+    let ours = &ours.screen.pixels;
+    assert_eq!(rom.len(), ours.len());
+    assert!(ours.iter().any(|ink| *ink != ours[0]));
+    let pairs = rom.iter().zip(ours).skip(rom.len() / 32);
+    pairs.filter(|(a, b)| a != b).count()
+}
+
 /// A scene's rows, typed and as tokens, on the ROM and on ours: inks that differ, and cycles.
 fn compared(scene: &str, mode: u32, rows: &str) -> (usize, f64) {
-    let dir = directory(&[("scene.scn", scene)]);
-    let target = ["--target", "bbc:micro", "--mode", &mode.to_string()].map(str::to_owned);
-    let args: Vec<&str> = ["build", "scene.scn", "--rows", rows]
-        .into_iter()
-        .chain(target.iter().map(String::as_str))
-        .collect();
-    success(dir.path(), &args);
-    let text = std::fs::read_to_string(dir.path().join("scene.bas")).expect("a program");
-    let tokens = std::fs::read(dir.path().join("scene.bbc")).expect("a program");
+    let written = build(scene, &["--mode", &mode.to_string(), "--rows", rows]);
     let dump = json!([layout(mode).0, 0x8000]);
     let results = jsbeeb(&[
-        json!({"typed": text, "dump": dump}),
-        json!({"tokenised": hex(&tokens), "dump": dump}),
+        json!({"typed": written.text, "dump": dump}),
+        json!({"tokenised": hex(&written.tokens), "dump": dump}),
         json!({"typed": EMPTY}),
     ]);
-    let run = ours(&text);
-    assert!(
-        run.screen
-            .pixels
-            .iter()
-            .any(|ink| *ink != run.screen.pixels[0])
-    );
+    let run = ours(&written.text);
     let empty = (
         ours(EMPTY).cycles,
         results[2]["cycles"].as_u64().expect("cycles"),
     );
-    let mut different = 0;
-    for result in &results[..2] {
-        assert_eq!(result["stopped"], "prompt");
-        let rom = inks(mode, &unhex(result["memory"].as_str().expect("memory")));
-        assert_eq!(rom.len(), run.screen.pixels.len());
-        // BASIC's prompt is written over the first row of text.
-        let pairs = rom.iter().zip(&run.screen.pixels).skip(rom.len() / 32);
-        different += pairs.filter(|(a, b)| a != b).count();
-    }
+    let different = results[..2]
+        .iter()
+        .map(|result| different_inks(mode, result, &run))
+        .sum();
     (different, excess(run.cycles, &results[1], empty))
+}
+
+/// At both PAGEs; at &E00 the disc's program moves itself down first.
+#[test]
+fn discs_boot_and_typed_programs_have_our_tokens() {
+    let mirrors = include_str!("../../examples/mirrors.scn");
+    for page in [0x1900, 0xe00] {
+        let written = build(
+            mirrors,
+            &["--rows", "140..141", "--page", &format!("{page:X}")],
+        );
+        let dump = json!([page, 0x8000]);
+        let results = jsbeeb(&[
+            json!({"disc": hex(&written.disc), "dump": dump}),
+            json!({"typed": written.text, "page": page, "dump": dump}),
+        ]);
+        let run = ours_at(page, &written.text);
+        for result in &results {
+            assert_eq!(different_inks(1, result, &run), 0, "PAGE &{page:X}");
+            let memory = unhex(result["memory"].as_str().expect("memory"));
+            assert_eq!(memory[..written.tokens.len()], written.tokens);
+        }
+    }
+}
+
+/// Ten minutes or so.
+#[test]
+#[ignore = "long; says how far it is with --nocapture"]
+fn a_whole_picture_of_mirrors() {
+    let written = build(include_str!("../../examples/mirrors.scn"), &[]);
+    let job = json!({
+        "tokenised": hex(&written.tokens),
+        "dump": [layout(1).0, 0x8000],
+        "limit": 40_000_000_000u64,
+        "tell": 500_000_000,
+    });
+    let results = jsbeeb(&[job, json!({"typed": EMPTY})]);
+    let empty = (
+        ours(EMPTY).cycles,
+        results[1]["cycles"].as_u64().expect("cycles"),
+    );
+    let run = ours(&written.text);
+    let excess = excess(run.cycles, &results[0], empty);
+    let different = different_inks(1, &results[0], &run);
+    println!(
+        "the ROM's cycles {}, ours {} ({:+.2}%), {different} inks differ",
+        results[0]["cycles"],
+        run.cycles,
+        100.0 * excess
+    );
+    assert_eq!(different, 0);
+    assert!(excess.abs() <= 0.03, "{excess}");
 }
 
 #[test]

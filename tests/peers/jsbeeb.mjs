@@ -12,6 +12,7 @@
 //   "limit"            cycles of 2 MHz to stop after, 4e9 unless told
 //   "dump": [a, b]     memory to hand back, from a up to b
 //   "quiet": true      no interrupts while the program runs
+//   "tell": n          says on standard error how far it is, each n cycles
 //   "cases"            see below
 //
 // A result has
@@ -49,6 +50,10 @@ const SHIFT = 16;
 /** OS 1.20: where it waits for a key, and the file that stands for the keyboard, if any. */
 const WAIT_FOR_KEY = 0xe581;
 const EXEC_FILE = 0x256;
+/** The keyboard's buffer: where it is read and written next; and how far a soft key has been read. */
+const KEYS_OUT = 0x2d8;
+const KEYS_IN = 0x2e1;
+const SOFT_KEY_PLACE = 0x2c9;
 /** Cycles between two fields, and the length of the pulse between them (the CRTC's). */
 const FIELD = 40_000;
 const PULSE = 256;
@@ -105,9 +110,18 @@ class Micro {
   /** Before each instruction: notes characters, stops where BASIC wants a line. */
   instruction(pc) {
     if (pc === this.word(0x20e)) this.text.push(this.cpu.a);
-    // A disc's !BOOT file answers calls for lines itself, until it is at its end.
-    if (this.job.disc) return pc === WAIT_FOR_KEY && this.byte(EXEC_FILE) === 0;
+    // A disc's !BOOT file answers calls for lines itself, until it is at its end; it may leave a
+    // soft key pressed.
+    if (this.job.disc) return pc === WAIT_FOR_KEY && this.byte(EXEC_FILE) === 0 && this.idle();
     return pc === this.word(0x20c) && this.cpu.a === 0;
+  }
+
+  /** No key is left, and of a soft key nothing more came since the last time. */
+  idle() {
+    const place = this.byte(SOFT_KEY_PLACE);
+    const same = place === this.place;
+    this.place = place;
+    return same && this.byte(KEYS_OUT) === this.byte(KEYS_IN);
   }
 
   mark(value) {
@@ -135,8 +149,16 @@ class Micro {
     while (this.now() < end) {
       const went = this.cpu.execute(Math.min(1_000_000, end - this.now()));
       if (!went) return !this.over();
+      this.tell();
     }
     return false;
+  }
+
+  tell() {
+    if (!this.running || this.now() < this.told) return;
+    this.told += this.job.tell;
+    const million = Math.round((this.now() - this.start) / 1e6);
+    console.error(`${million} million cycles on the ROM`);
   }
 
   over() {
@@ -189,6 +211,7 @@ class Micro {
     this.text.length = 0;
     this.running = true;
     this.start = this.now();
+    this.told = this.start + (this.job.tell ?? Infinity);
     const prompt = await this.run(job.limit ?? 4e9);
     const cycles = this.now() - this.start;
     const [from, to] = job.dump ?? [0, 0];
