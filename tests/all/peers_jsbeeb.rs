@@ -285,7 +285,7 @@ fn discs_boot_and_typed_programs_have_our_tokens() {
     }
 }
 
-/// Ten minutes or so.
+/// Three minutes or so.
 #[test]
 #[ignore = "long; says how far it is with --nocapture"]
 fn a_whole_picture_of_mirrors() {

@@ -242,6 +242,11 @@ fn agon_and_basic_v_have_their_screens_and_integers() {
     assert_eq!(r.text, "2.14748365E9-1\n");
     let r = run_on(Dialect::BasicV, "10MODE 9:GCOL 0,15:PLOT 69,4,4");
     assert_eq!(ink(&r, 1, 254), 15);
+    // The numbers of errors are those of `tests/all/peers_dialect.rs`.
+    let text = "10ON ERROR PRINT;ERR:N%=N%+1:GOTO 30\n20N%=0:PRINT;-2147483647-2\n\
+                30IF N%=0 THEN A%=2147483647+1\n40IF N%=1 THEN A=1 DIV 0";
+    let r = run_on(Dialect::BasicV, text);
+    assert_eq!(r.text, "-2.14748365E9\n20\n18\n");
 }
 
 #[test]
