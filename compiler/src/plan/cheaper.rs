@@ -65,7 +65,13 @@ pub fn cheaper(plain: Settled, slack: &Slack, runtime: &'static Runtime, thrifty
 }
 
 /// A pass that puts something in the place of nodes that may be replaced.
-type Pass = fn(&Graph, &Ranges, &Runtime, &dyn Fn(NodeId) -> bool, &Verdicts) -> Option<Cheaper>;
+type Pass = for<'g> fn(
+    &'g Graph,
+    &'g Ranges,
+    &Runtime,
+    &dyn Fn(NodeId) -> bool,
+    &Verdicts<'g>,
+) -> Option<Cheaper>;
 
 /// With values computed where they are needed rather than once for all, where
 /// that is less often: the last of the passes.
@@ -149,26 +155,24 @@ impl Site<'_> {
         let pass = (pass, &verdicts);
         let all = self.with(plain, pass, &[])?;
         let sites = all.1;
+        let now = self.cost(plain);
         let mut tries = vec![self.fewer(plain, pass, &sites, (Vec::new(), all.0))];
         if sites.len() * plain.graph.nodes.len() < PATIENCE {
-            tries.push(self.more(plain, pass, &sites));
+            tries.push(self.more((now, plain), pass, &sites));
         }
-        let cost = |plan: &Settled| self.cost(plan);
-        let best = tries
-            .into_iter()
-            .min_by(|a, b| cost(a).total_cmp(&cost(b)))?;
-        (cost(&best) < part * cost(plain)).then_some(best)
+        let (cost, best) = tries.into_iter().min_by(|a, b| a.0.total_cmp(&b.0))?;
+        (cost < part * now).then_some(best)
     }
 
-    /// From forms everywhere: each is left out where that is cheaper, the values
+    /// The cost, and the plan, from forms everywhere: each is left out where that is cheaper, the values
     /// first together, since what one needs another may have.
-    fn fewer(
+    fn fewer<'p>(
         &self,
-        plain: &Settled,
-        pass: (Pass, &Verdicts),
+        plain: &'p Settled,
+        pass: (Pass, &Verdicts<'p>),
         sites: &[NodeId],
         all: (Vec<NodeId>, Settled),
-    ) -> Settled {
+    ) -> (f64, Settled) {
         let (mut without, mut best) = all;
         let mut limit = self.cost(&best);
         let value = |id: &&NodeId| plain.graph.ty(**id) != Type::Bool;
@@ -186,13 +190,18 @@ impl Site<'_> {
                 (limit, without, best) = (cost, out, next);
             }
         }
-        best
+        (limit, best)
     }
 
-    /// From no form: each is put where that is cheaper.
-    fn more(&self, plain: &Settled, pass: (Pass, &Verdicts), sites: &[NodeId]) -> Settled {
+    /// The same from no form: each is put where that is cheaper.
+    fn more<'p>(
+        &self,
+        (now, plain): (f64, &'p Settled),
+        pass: (Pass, &Verdicts<'p>),
+        sites: &[NodeId],
+    ) -> (f64, Settled) {
         let (mut without, mut best) = (sites.to_vec(), plain.clone());
-        let mut limit = self.cost(&best);
+        let mut limit = now;
         for id in sites {
             let out: Vec<NodeId> = without.iter().copied().filter(|o| o != id).collect();
             let Some((next, _)) = self.with(plain, pass, &out) else {
@@ -203,14 +212,14 @@ impl Site<'_> {
                 (limit, without, best) = (cost, out, next);
             }
         }
-        best
+        (limit, best)
     }
 
     /// The plan with a pass everywhere but at some nodes, and where it was.
-    fn with(
+    fn with<'p>(
         &self,
-        plain: &Settled,
-        pass: (Pass, &Verdicts),
+        plain: &'p Settled,
+        pass: (Pass, &Verdicts<'p>),
         without: &[NodeId],
     ) -> Option<(Settled, Vec<NodeId>)> {
         let may = |id: NodeId| !without.contains(&id);

@@ -194,18 +194,21 @@ impl Walk<'_> {
         let of = turns.of;
         let at = of.0 as usize;
         let held = self.carried[at].clone();
+        let graph = self.graph;
+        let reads = |id: NodeId| match graph.node(id) {
+            Node::Carried { of: l, index } | Node::Last { of: l, index } if l == of => {
+                Some((id, index))
+            }
+            _ => None,
+        };
+        let read: Vec<(NodeId, u32)> = graph.ids().filter_map(reads).collect();
         self.block(&turns.start);
         self.join_carried(at, &held);
         let max = self.graph.loops[at].max;
         for turn in 1.. {
             let before = self.carried[at].clone();
-            for id in self.graph.ids() {
-                if let Node::Carried { of: l, index } | Node::Last { of: l, index } =
-                    self.graph.node(id)
-                    && l == of
-                {
-                    self.write(Place::Node(id), self.carried_range(of, index));
-                }
+            for &(id, index) in &read {
+                self.write(Place::Node(id), self.carried_range(of, index));
             }
             self.block(&turns.body);
             self.arm(turns.again, true, &turns.next);

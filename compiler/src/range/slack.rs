@@ -7,8 +7,8 @@ pub const ENTRIES: f64 = 1.0 / 4_194_304.0;
 
 /// How a machine departs from exact arithmetic.
 pub struct Slack {
-    /// How far results may be off, by [`Op`]: every routine's.
-    errors: Vec<(Op, Error)>,
+    /// How far results may be off, by [`Op`]: every routine's that are not exact.
+    errors: Vec<Vec<Error>>,
     /// What a component of a direction is trusted to be, if anything.
     pub(super) direction: Option<Range>,
     /// The greatest magnitude of a quotient.
@@ -45,12 +45,18 @@ impl Slack {
             Format::Fixed { .. } => Range::new(-format.most(), format.most()),
             _ => Range::new(f64::MIN, f64::MAX),
         };
-        let errors = runtime.routines.iter().map(|r| (r.op, r.error));
+        let mut errors = vec![Vec::new(); Op::ALL.len()];
+        for routine in runtime.routines {
+            let own: &mut Vec<Error> = &mut errors[routine.op as usize];
+            if routine.error != Error::Exact && !own.contains(&routine.error) {
+                own.push(routine.error);
+            }
+        }
         // In a format whose ends are near, a scene that breaks the contract
         // would wrap: there the routines saturate instead.
         let floats = matches!(runtime.real, Format::Real40 | Format::Float316);
         Slack {
-            errors: errors.collect(),
+            errors,
             direction: floats.then(|| Range::new(-2.0, 2.0)),
             quotient: runtime.quotient,
             segments: runtime.segments,
@@ -72,9 +78,9 @@ impl Slack {
 
     /// A range with what the routines of an operation may add to it.
     pub(super) fn enlarge(&self, op: Op, args: &[Range], range: Range) -> Range {
-        let all = self.errors.iter().filter(|(o, _)| *o == op);
+        let all = self.errors.get(op as usize).map_or(&[][..], Vec::as_slice);
         let worst = |x: f64| {
-            let off = all.clone().map(|(_, error)| error.most(args, x));
+            let off = all.iter().map(|error| error.most(args, x));
             off.fold(0.0, f64::max)
         };
         let (low, high) = (worst(range.lo), worst(range.hi));
@@ -83,7 +89,7 @@ impl Slack {
         }
         let (mut lo, mut hi) = (range.lo - low, range.hi + high);
         // Only an absolute error leads across 0.
-        if !all.clone().any(|(_, e)| matches!(e, Error::Absolute(_))) {
+        if !all.iter().any(|e| matches!(e, Error::Absolute(_))) {
             lo = if range.lo >= 0.0 { lo.max(0.0) } else { lo };
             hi = if range.hi <= 0.0 { hi.min(0.0) } else { hi };
         }

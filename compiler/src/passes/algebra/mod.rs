@@ -45,7 +45,7 @@ use number::Number;
 use put::Put;
 use slowlight_routine::{Format, Op, Runtime, Type};
 pub use span::spans;
-use std::cell::RefCell;
+use std::cell::{OnceCell, RefCell};
 use std::collections::{BTreeSet, HashMap, HashSet};
 pub use whole::Whole;
 
@@ -59,10 +59,27 @@ fn allowance(format: Format) -> f64 {
     }
 }
 
-/// What was decided about the forms of a graph's nodes, for whoever asks again
-/// with others left out: it hardly depends on those.
+/// What was found out about a graph's nodes, for whoever asks again with others
+/// left out.
 #[derive(Default)]
-pub struct Verdicts(RefCell<HashMap<NodeId, bool>>);
+pub struct Verdicts<'g> {
+    /// Whether a form is good in a node's place: that hardly depends on those.
+    good: RefCell<HashMap<NodeId, bool>>,
+    full: OnceCell<Forms<'g>>,
+    rows: OnceCell<Forms<'g>>,
+}
+
+impl<'g> Verdicts<'g> {
+    /// The forms of the graph's values.
+    fn full(&self, graph: &'g Graph, ranges: &'g Ranges) -> &Forms<'g> {
+        self.full.get_or_init(|| Forms::new(graph, ranges))
+    }
+
+    /// The same by the column and what a row computes.
+    fn rows(&self, graph: &'g Graph, ranges: &'g Ranges) -> &Forms<'g> {
+        self.rows.get_or_init(|| Forms::by_row(graph, ranges))
+    }
+}
 
 /// A graph with cheaper forms in it.
 pub struct Cheaper {
@@ -73,22 +90,22 @@ pub struct Cheaper {
 
 /// The graph with cheaper forms in the place of nodes that `may` be replaced;
 /// nothing where there are none, or where the format bears none.
-pub fn algebra(
-    graph: &Graph,
-    ranges: &Ranges,
+pub fn algebra<'g>(
+    graph: &'g Graph,
+    ranges: &'g Ranges,
     runtime: &Runtime,
     may: &dyn Fn(NodeId) -> bool,
-    verdicts: &Verdicts,
+    verdicts: &Verdicts<'g>,
 ) -> Option<Cheaper> {
     let allowance = allowance(runtime.real);
     if allowance < 1.0 {
         return None;
     }
-    let forms = Forms::new(graph, ranges);
+    let forms = verdicts.full(graph, ranges);
     let mut site = Site {
-        exits: exits(&forms),
+        exits: exits(forms),
         users: users(graph),
-        verdicts,
+        good: &verdicts.good,
         samples: samples(graph),
         forms,
         runtime,
@@ -150,11 +167,12 @@ fn atom_of(form: &Form) -> Option<u32> {
 }
 
 struct Site<'g> {
-    forms: Forms<'g>,
+    forms: &'g Forms<'g>,
     exits: Vec<bool>,
     /// What uses each value, itself where it is a root of the graph or of a loop.
     users: Vec<Vec<NodeId>>,
-    verdicts: &'g Verdicts,
+    /// See [`Verdicts`].
+    good: &'g RefCell<HashMap<NodeId, bool>>,
     samples: Vec<Sample>,
     runtime: &'g Runtime,
     allowance: f64,
@@ -226,11 +244,11 @@ impl Site<'_> {
     /// What stands for a node.
     fn rewritten(&self, b: &mut Builder, new: New<'_>, id: NodeId, span: Span) -> Option<NodeId> {
         let graph = self.forms.graph;
-        if !self.forms.pixel(id) || self.verdicts.0.borrow().get(&id) == Some(&false) {
+        if !self.forms.pixel(id) || self.good.borrow().get(&id) == Some(&false) {
             return None;
         }
         let mut put = Put {
-            forms: &self.forms,
+            forms: self.forms,
             builder: b,
             new,
             span,
@@ -256,10 +274,10 @@ impl Site<'_> {
             samples: &self.samples,
             allowance: self.allowance,
         };
-        let held = self.verdicts.0.borrow().get(&id).copied();
+        let held = self.good.borrow().get(&id).copied();
         let good =
             held.unwrap_or_else(|| self.cheaper(b, new, id, made) && judge.sound(b, new, id, made));
-        self.verdicts.0.borrow_mut().insert(id, good);
+        self.good.borrow_mut().insert(id, good);
         good.then_some(made)
     }
 

@@ -38,12 +38,12 @@ const CHOICES: u32 = 4;
 
 /// The graph with comparisons of the column with a row's spans in the place of
 /// comparisons that `may` be replaced; nothing where there are none.
-pub fn spans(
-    graph: &Graph,
-    ranges: &Ranges,
+pub fn spans<'g>(
+    graph: &'g Graph,
+    ranges: &'g Ranges,
     runtime: &Runtime,
     may: &dyn Fn(NodeId) -> bool,
-    _: &Verdicts,
+    verdicts: &Verdicts<'g>,
 ) -> Option<Cheaper> {
     let allowance = allowance(runtime.real);
     if allowance < 1.0 {
@@ -59,8 +59,8 @@ pub fn spans(
         .ids()
         .find(|id| graph.node(*id) == Node::Axis(Axis::X))?;
     let site = Site {
-        full: Forms::new(graph, ranges),
-        rows: Forms::by_row(graph, ranges),
+        full: verdicts.full(graph, ranges),
+        rows: verdicts.rows(graph, ranges),
         unit: runtime.real.epsilon(),
         width: f64::from(graph.image.width),
         column,
@@ -82,7 +82,7 @@ pub fn spans(
             _ => return None,
         };
         let mut put = Put {
-            forms: &site.rows,
+            forms: site.rows,
             builder,
             new: &new,
             span,
@@ -115,9 +115,9 @@ pub fn spans(
 
 struct Site<'g> {
     /// Forms by params and the pixel's place.
-    full: Forms<'g>,
+    full: &'g Forms<'g>,
     /// Forms by the column and what a row computes.
-    rows: Forms<'g>,
+    rows: &'g Forms<'g>,
     /// The format's unit roundoff.
     unit: f64,
     width: f64,
@@ -206,7 +206,7 @@ impl Site<'_> {
 
     fn span(&self, put: &mut Put<'_, '_>, strict: bool, poly: &Poly) -> Option<NodeId> {
         let mut parts = poly.by(self.column.0);
-        let lead = extent(&self.rows, &self.full, parts.last()?);
+        let lead = extent(self.rows, self.full, parts.last()?);
         // p < 0 is no -p <= 0.
         let turned = lead.hi < 0.0;
         if turned {
@@ -250,7 +250,7 @@ impl Site<'_> {
         let [c, b, a] = asked.parts.as_slice() else {
             return None;
         };
-        let middle = ratio(&self.rows, &self.full, b, a) / 2.0;
+        let middle = ratio(self.rows, self.full, b, a) / 2.0;
         if 2.0 * middle * self.unit.sqrt() > OFF {
             return None;
         }
