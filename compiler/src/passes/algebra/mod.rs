@@ -113,9 +113,10 @@ pub fn algebra<'g>(
     };
     // What stays as it is needs its operands: they are looked at in turn.
     for _ in 0..ROUNDS {
-        let found = site.rebuilt(may);
-        if !site.open(&found.sites) {
-            return (!found.sites.is_empty()).then_some(found);
+        let sites = site.foreseen(may);
+        let sites = sites.unwrap_or_else(|| site.rebuilt(may).sites);
+        if !site.open(&sites) {
+            break;
         }
     }
     let found = site.rebuilt(may);
@@ -194,6 +195,31 @@ impl Site<'_> {
         Cheaper { graph, sites }
     }
 
+    /// Where forms would stand, if that is known of every node without putting any.
+    fn foreseen(&self, may: &dyn Fn(NodeId) -> bool) -> Option<Vec<NodeId>> {
+        let graph = self.forms.graph;
+        let reached = graph.reached();
+        let good = self.good.borrow();
+        let mut sites = Vec::new();
+        for id in graph.ids().filter(|id| reached[id.0 as usize]) {
+            if may(id) && !self.at_hand(id, &sites) && self.looks(id) && *good.get(&id)? {
+                sites.push(id);
+            }
+        }
+        Some(sites)
+    }
+
+    /// Whether a form is looked for in a node's place.
+    fn looks(&self, id: NodeId) -> bool {
+        let graph = self.forms.graph;
+        self.forms.pixel(id)
+            && match graph.node(id) {
+                Node::Apply(Op::Less | Op::LessEqual | Op::Equal | Op::Sign, _) => true,
+                Node::Apply(..) => self.exits[id.0 as usize] && graph.ty(id) == Type::Real,
+                _ => false,
+            }
+    }
+
     /// Whether a comparison costs no more than itself: what it compares is
     /// computed as it is for something else.
     fn at_hand(&self, id: NodeId, replaced: &[NodeId]) -> bool {
@@ -243,42 +269,45 @@ impl Site<'_> {
 
     /// What stands for a node.
     fn rewritten(&self, b: &mut Builder, new: New<'_>, id: NodeId, span: Span) -> Option<NodeId> {
-        let graph = self.forms.graph;
-        if !self.forms.pixel(id) || self.good.borrow().get(&id) == Some(&false) {
+        let held = self.good.borrow().get(&id).copied();
+        if !self.looks(id) || held == Some(false) {
             return None;
         }
+        let made = self.put(b, new, id, span);
+        let judge = Judge {
+            graph: self.forms.graph,
+            samples: &self.samples,
+            allowance: self.allowance,
+        };
+        let good = |made| self.cheaper(b, new, id, made) && judge.sound(b, new, id, made);
+        let good = held.unwrap_or_else(|| made.is_some_and(good));
+        self.good.borrow_mut().insert(id, good);
+        made.filter(|_| good)
+    }
+
+    /// A node's form.
+    fn put(&self, b: &mut Builder, new: New<'_>, id: NodeId, span: Span) -> Option<NodeId> {
         let mut put = Put {
             forms: self.forms,
             builder: b,
             new,
             span,
         };
-        let made = match graph.node(id) {
+        match self.forms.graph.node(id) {
             Node::Apply(op @ (Op::Less | Op::LessEqual | Op::Equal), [x, y]) => {
                 let (x, y) = (self.forms.get(x)?, self.forms.get(y)?);
                 let difference = self.forms.sum(x, &scaled(y, Number::whole(-1)))?;
-                compared(&mut put, op, &difference)?
+                compared(&mut put, op, &difference)
             }
             Node::Apply(Op::Sign, _) => {
                 let two = self.forms.two(id.0).filter(|two| two.low == -1)?;
-                put.sign(id, two)?
+                put.sign(id, two)
             }
-            Node::Apply(..) if self.exits[id.0 as usize] && graph.ty(id) == Type::Real => {
+            _ => {
                 let form = self.forms.get(id).filter(|f| atom_of(f).is_none())?;
-                put.value(form)?
+                put.value(form)
             }
-            _ => return None,
-        };
-        let judge = Judge {
-            graph,
-            samples: &self.samples,
-            allowance: self.allowance,
-        };
-        let held = self.good.borrow().get(&id).copied();
-        let good =
-            held.unwrap_or_else(|| self.cheaper(b, new, id, made) && judge.sound(b, new, id, made));
-        self.good.borrow_mut().insert(id, good);
-        good.then_some(made)
+        }
     }
 
     /// Whether a form costs less than what it stands for: for a comparison all
