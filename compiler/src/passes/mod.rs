@@ -2,9 +2,12 @@
 
 pub mod algebra;
 pub mod apart;
+mod arena;
 pub mod demand;
 pub mod fold;
+pub mod guard;
 pub mod homogeneous;
+pub mod identities;
 mod moves;
 pub mod narrow;
 pub mod outline;

@@ -10,6 +10,7 @@
 //! The loop then starts with what the first turn carries on, and may take one
 //! turn less. Whether the copy is worth its memory is for the caller to judge.
 
+use super::arena::Arena;
 use super::rate::{Dependence, Rates, rates};
 use crate::flow::graph::*;
 
@@ -19,20 +20,17 @@ use crate::flow::graph::*;
 pub fn peel(graph: &Graph, of: LoopId, most: usize) -> Option<Graph> {
     let turns = graph.loops.get(of.0 as usize)?;
     let rates = rates(graph);
-    let inside = |id: NodeId| rates.depends(id, Dependence::Loop(of));
-    let body: Vec<NodeId> = body(graph, turns)
-        .into_iter()
-        .filter(|n| inside(*n))
-        .collect();
+    let body = body(graph, &rates, of);
     if turns.max < 2 || body.len() > most || !alone(graph, &rates, of, &body) {
         return None;
     }
     Some(Surgery::new(graph, of, body, &rates).done())
 }
 
-/// What a turn of a loop needs, operands first.
-fn body(graph: &Graph, turns: &Loop) -> Vec<NodeId> {
+/// What is computed in each turn of a loop, operands first.
+pub(super) fn body(graph: &Graph, rates: &Rates, of: LoopId) -> Vec<NodeId> {
     let mut seen = vec![false; graph.nodes.len()];
+    let turns = &graph.loops[of.0 as usize];
     let mut todo = vec![turns.again];
     todo.extend(turns.next.iter().chain(&turns.done));
     while let Some(id) = todo.pop() {
@@ -43,11 +41,23 @@ fn body(graph: &Graph, turns: &Loop) -> Vec<NodeId> {
             todo.extend(graph.references(id));
         }
     }
-    graph.ids().filter(|id| seen[id.0 as usize]).collect()
+    let inside = |id: &NodeId| seen[id.0 as usize] && rates.depends(*id, Dependence::Loop(of));
+    graph.ids().filter(inside).collect()
+}
+
+/// What may stand before a loop: what needs nothing of it, up to where it ends.
+pub(super) fn before(graph: &Graph, rates: &Rates, of: LoopId) -> Vec<NodeId> {
+    let end = graph.loops[of.0 as usize].roots().max();
+    let own = [Dependence::Loop(of), Dependence::Last(of)];
+    let fits = |id: &NodeId| {
+        let made = matches!(graph.node(*id), Node::Result { of: l, .. } if l == of);
+        Some(*id) <= end && !made && own.iter().all(|d| !rates.depends(*id, *d))
+    };
+    graph.ids().filter(fits).collect()
 }
 
 /// Whether no other loop is in a loop's body, nor the loop in another's.
-fn alone(graph: &Graph, rates: &Rates, of: LoopId, body: &[NodeId]) -> bool {
+pub(super) fn alone(graph: &Graph, rates: &Rates, of: LoopId, body: &[NodeId]) -> bool {
     let other = |id: &NodeId| {
         matches!(graph.node(*id), Node::Result { of: l, .. } if l != of)
             || (rates.rate(*id).iter())
@@ -61,7 +71,7 @@ fn alone(graph: &Graph, rates: &Rates, of: LoopId, body: &[NodeId]) -> bool {
 struct Surgery<'g> {
     graph: &'g Graph,
     of: LoopId,
-    out: Graph,
+    out: Arena<'g>,
     /// The new id of each old node.
     moved: Vec<Option<NodeId>>,
     /// The new id of each old node in the first turn.
@@ -73,44 +83,15 @@ impl<'g> Surgery<'g> {
         let mut made = Surgery {
             graph,
             of,
-            out: Graph {
-                nodes: Vec::new(),
-                types: Vec::new(),
-                spans: Vec::new(),
-                names: Default::default(),
-                directions: Default::default(),
-                claims: Default::default(),
-                ..graph.clone()
-            },
+            out: Arena::new(graph),
             moved: vec![None; graph.nodes.len()],
             first: vec![None; graph.nodes.len()],
         };
-        let end = graph.loops[of.0 as usize]
-            .roots()
-            .max()
-            .unwrap_or(NodeId(0));
-        let before = |id: &NodeId| {
-            let own = [Dependence::Loop(of), Dependence::Last(of)];
-            *id <= end && !own.iter().any(|d| rates.depends(*id, *d)) && !made_by(graph, of, *id)
-        };
-        graph.ids().filter(before).for_each(|id| made.keep(id));
+        let before = before(graph, rates, of);
+        before.into_iter().for_each(|id| made.keep(id));
         body.iter().for_each(|id| made.copy(*id));
         graph.ids().for_each(|id| made.keep(id));
         made
-    }
-
-    fn push(&mut self, node: Node, like: NodeId) -> NodeId {
-        let id = NodeId(self.out.nodes.len() as u32);
-        self.out.nodes.push(node);
-        self.out.types.push(self.graph.ty(like));
-        self.out.spans.push(self.graph.span(like));
-        if let Some(name) = self.graph.names.get(&like) {
-            self.out.names.insert(id, name.clone());
-        }
-        if let Some(length) = self.graph.directions.get(&like) {
-            self.out.directions.insert(id, *length);
-        }
-        id
     }
 
     /// An old node in the new arena, once.
@@ -122,7 +103,7 @@ impl<'g> Surgery<'g> {
             Node::Result { of, .. } if of == self.of => self.results(),
             node => {
                 let node = node.with(|a| self.at(a));
-                self.moved[id.0 as usize] = Some(self.push(node, id));
+                self.moved[id.0 as usize] = Some(self.out.push(node, id));
             }
         }
     }
@@ -136,8 +117,8 @@ impl<'g> Surgery<'g> {
             _ => None,
         };
         let all: Vec<(NodeId, u32)> = graph.ids().filter_map(result).collect();
-        let of = |(id, _): &(NodeId, u32)| self.push(graph.node(*id), *id);
-        let made: Vec<NodeId> = all.iter().map(of).collect();
+        let push = |(id, _): &(NodeId, u32)| self.out.push(graph.node(*id), *id);
+        let made: Vec<NodeId> = all.iter().map(push).collect();
         for ((id, index), result) in all.into_iter().zip(made) {
             self.moved[id.0 as usize] = Some(self.ended(id, result, index));
         }
@@ -152,7 +133,7 @@ impl<'g> Surgery<'g> {
             yes: result,
             no: self.in_first(done),
         };
-        self.push(choice, id)
+        self.out.push(choice, id)
     }
 
     /// A node of the body, as it is in the first turn.
@@ -164,7 +145,7 @@ impl<'g> Surgery<'g> {
             }
             node => {
                 let node = node.with(|a| self.in_first(a));
-                self.push(node, id)
+                self.out.push(node, id)
             }
         };
         self.first[id.0 as usize] = Some(made);
@@ -178,46 +159,21 @@ impl<'g> Surgery<'g> {
         self.first[id.0 as usize].unwrap_or_else(|| self.at(id))
     }
 
-    fn done(mut self) -> Graph {
-        for k in 0..self.graph.loops.len() {
-            let old = self.graph.loops[k].clone();
-            let at = |list: &[NodeId]| list.iter().map(|id| self.at(*id)).collect();
-            let own = k == self.of.0 as usize;
-            let start = |id: &NodeId| self.in_first(*id);
-            let new = Loop {
-                max: old.max - u32::from(own),
-                init: match own {
-                    true => old.next.iter().map(start).collect(),
-                    false => at(&old.init),
-                },
-                again: self.at(old.again),
-                next: at(&old.next),
-                done: at(&old.done),
-                otherwise: at(&old.otherwise),
-                ..old
-            };
-            self.out.loops[k] = new;
-        }
-        let graph = self.graph;
-        self.out.ink = self.at(graph.ink);
-        self.out.shade = graph.shade.map(|id| self.at(id));
-        self.out.reports = graph.reports.iter().map(|id| self.at(*id)).collect();
-        if let (Some(new), Some(old)) = (&mut self.out.diffusion, &graph.diffusion) {
-            let moved = &self.moved;
-            for (new, old) in new.shares.iter_mut().zip(&old.shares) {
-                new.node = moved[old.node.0 as usize].unwrap_or(NodeId(0));
+    fn done(self) -> Graph {
+        let old = &self.graph.loops[self.of.0 as usize];
+        let init = old.next.iter().map(|id| self.in_first(*id)).collect();
+        let moved = |id: NodeId| self.moved[id.0 as usize].unwrap_or(NodeId(0));
+        let mut out = self.out.finish(&self.moved);
+        let turns = &mut out.loops[self.of.0 as usize];
+        turns.init = init;
+        turns.max -= 1;
+        for (id, (op, args)) in &self.graph.claims {
+            // In the first turn the same is claimed of what stands there.
+            if let Some(id) = self.first[id.0 as usize] {
+                let args = args.map(|a| self.first[a.0 as usize].unwrap_or(moved(a)));
+                out.claims.insert(id, (*op, args));
             }
         }
-        for (id, (op, args)) in &graph.claims {
-            // In the first turn the same is claimed of what stands there.
-            let first = (self.in_first(*id), (*op, args.map(|a| self.in_first(a))));
-            let kept = (self.at(*id), (*op, args.map(|a| self.at(a))));
-            self.out.claims.extend([first, kept]);
-        }
-        self.out
+        out
     }
-}
-
-fn made_by(graph: &Graph, of: LoopId, id: NodeId) -> bool {
-    matches!(graph.node(id), Node::Result { of: l, .. } if l == of)
 }

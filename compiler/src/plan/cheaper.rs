@@ -12,7 +12,9 @@ use super::settled::{Settled, scheduled, settle};
 use crate::flow::graph::*;
 use crate::passes::algebra::{Cheaper, Verdicts, algebra, spans};
 use crate::passes::apart::apart;
+use crate::passes::guard::guard;
 use crate::passes::homogeneous::{homogeneous, lengths};
+use crate::passes::identities::identities;
 use crate::passes::peel::peel;
 use crate::passes::squares::squares;
 use crate::passes::threshold::threshold;
@@ -25,9 +27,15 @@ const BODY: usize = 160;
 /// By how much a copy of a loop's body must make the plan cheaper.
 const COPY: f64 = 0.9;
 
+/// By how much a guard before its second turn must.
+const GUARD: f64 = 0.99;
+
 /// By how much algebra must make the plan cheaper: what a statement costs beside
 /// its routines is not known so well.
 const FORMS: f64 = 0.9;
+
+/// By how much identities must: they take no more statements.
+const SHORTER: f64 = 0.99;
 
 /// By how much spans must.
 const SPANS: f64 = 0.99;
@@ -52,10 +60,15 @@ pub fn cheaper(plain: Settled, slack: &Slack, runtime: &'static Runtime, thrifty
     };
     let mut best = site.rewritten(&plain).unwrap_or(plain.clone());
     for k in 0..plain.graph.loops.len() {
-        if let Some(peeled) = peel(&plain.graph, LoopId(k as u32), BODY) {
-            let peeled = settle(&peeled, slack);
-            if let Some(found) = site.rewritten(&peeled)
-                && site.cost(&found) < COPY * site.cost(&best)
+        let of = LoopId(k as u32);
+        let Some(peeled) = peel(&plain.graph, of, BODY) else {
+            continue;
+        };
+        let guarded = guard(&peeled, of, BODY);
+        for (graph, limit) in [(Some(peeled), COPY), (guarded, GUARD)] {
+            let tried = graph.map(|graph| settle(&graph, slack));
+            if let Some(found) = tried.and_then(|plan| site.rewritten(&plan))
+                && site.cost(&found) < limit * site.cost(&best)
             {
                 best = found;
             }
@@ -125,6 +138,8 @@ impl Site<'_> {
             .map(|next| settle(&next, self.slack))
             .filter(|next| self.cost(next) < self.cost(base));
         let found = shared.or(found);
+        let base = found.as_ref().unwrap_or(plain);
+        let found = self.sited(base, SHORTER, identities).or(found);
         let base = found.as_ref().unwrap_or(plain);
         self.sited(base, SPANS, spans).or(found)
     }

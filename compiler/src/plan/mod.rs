@@ -52,7 +52,7 @@ mod price;
 mod price_tests;
 pub mod print;
 pub mod recipes;
-mod settled;
+pub(crate) mod settled;
 mod spread;
 mod stepped;
 

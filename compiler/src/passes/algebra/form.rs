@@ -178,7 +178,7 @@ impl<'g> Forms<'g> {
     }
 
     fn form(&mut self, id: NodeId) -> Option<Form> {
-        if self.in_loop(id) {
+        if self.looped(id) {
             return None;
         }
         match self.graph.node(id) {
@@ -196,7 +196,8 @@ impl<'g> Forms<'g> {
         }
     }
 
-    fn in_loop(&self, id: NodeId) -> bool {
+    /// Whether a value is computed in a loop.
+    pub fn looped(&self, id: NodeId) -> bool {
         let inside = |d: &Dependence| matches!(d, Dependence::Loop(_) | Dependence::Last(_));
         self.rates.rate(id).iter().any(inside)
     }

@@ -33,15 +33,17 @@ mod span_tests;
 mod tests;
 mod whole;
 
+use super::identities::Found;
 use super::rebuild::rebuild_old;
 use crate::flow::build::Builder;
 use crate::flow::graph::*;
 use crate::range::Ranges;
 use crate::source::Span;
 use arithmetic::{multiplied, scaled};
-use form::{Form, Forms, Part};
+pub(super) use form::Forms;
+use form::{Form, Part};
 use judge::{Follow, Nodes, Rounded, Sample, cycles, samples};
-use number::Number;
+pub(super) use number::Number;
 use put::Put;
 use slowlight_routine::{Format, Op, Runtime, Type};
 pub use span::spans;
@@ -51,7 +53,7 @@ pub use whole::Whole;
 
 /// By how much a form's roundings may exceed those of what it replaces, given
 /// the format's unit roundoff: what leaves a picture twenty bits.
-fn allowance(format: Format) -> f64 {
+pub(super) fn allowance(format: Format) -> f64 {
     match format {
         Format::Real40 | Format::Float316 => (0.5f64.powi(20) / format.epsilon()).min(64.0),
         // A fixed point has no relative roundings.
@@ -67,17 +69,26 @@ pub struct Verdicts<'g> {
     good: RefCell<HashMap<NodeId, bool>>,
     full: OnceCell<Forms<'g>>,
     rows: OnceCell<Forms<'g>>,
+    formulas: OnceCell<Vec<(NodeId, Found)>>,
 }
 
 impl<'g> Verdicts<'g> {
     /// The forms of the graph's values.
-    fn full(&self, graph: &'g Graph, ranges: &'g Ranges) -> &Forms<'g> {
+    pub(super) fn full(&self, graph: &'g Graph, ranges: &'g Ranges) -> &Forms<'g> {
         self.full.get_or_init(|| Forms::new(graph, ranges))
     }
 
     /// The same by the column and what a row computes.
     fn rows(&self, graph: &'g Graph, ranges: &'g Ranges) -> &Forms<'g> {
         self.rows.get_or_init(|| Forms::by_row(graph, ranges))
+    }
+
+    /// The formulas found for a graph's values, looked for once.
+    pub(super) fn formulas(
+        &self,
+        find: impl FnOnce() -> Vec<(NodeId, Found)>,
+    ) -> &[(NodeId, Found)] {
+        self.formulas.get_or_init(find)
     }
 }
 
@@ -128,7 +139,7 @@ pub fn algebra<'g>(
 const ROUNDS: u32 = 8;
 
 /// What uses each value; a root of the graph or of a loop is used for good.
-fn users(graph: &Graph) -> Vec<Vec<NodeId>> {
+pub(super) fn users(graph: &Graph) -> Vec<Vec<NodeId>> {
     let mut users = vec![Vec::new(); graph.nodes.len()];
     let reached = graph.reached();
     for id in graph.ids().filter(|id| reached[id.0 as usize]) {
@@ -235,20 +246,6 @@ impl Site<'_> {
             })
     }
 
-    /// What is computed for a value alone.
-    fn own(&self, id: NodeId) -> HashSet<NodeId> {
-        let graph = self.forms.graph;
-        let mut own = HashSet::from([id]);
-        let mut todo: BTreeSet<NodeId> = graph.node(id).operands().collect();
-        while let Some(next) = todo.pop_last() {
-            if self.users[next.0 as usize].iter().all(|u| own.contains(u)) {
-                own.insert(next);
-                todo.extend(graph.node(next).operands());
-            }
-        }
-        own
-    }
-
     /// Makes exits of the operands of exits that stay as they are; whether
     /// there are any that were none.
     fn open(&mut self, replaced: &[NodeId]) -> bool {
@@ -319,7 +316,7 @@ impl Site<'_> {
             let none = |_| false;
             return cycles(b, made, self.runtime, &none) < cycles(graph, id, self.runtime, &none);
         }
-        let own = self.own(id);
+        let own = own(graph, &self.users, id);
         let others = (0..id.0).map(NodeId).filter(|old| !own.contains(old));
         let mut todo: Vec<NodeId> = others.filter_map(new).collect();
         let mut shared = HashSet::new();
@@ -333,16 +330,49 @@ impl Site<'_> {
     }
 }
 
-/// What decides whether roundings do too much.
-struct Judge<'g> {
-    graph: &'g Graph,
-    samples: &'g [Sample],
-    allowance: f64,
+/// What is computed for a value alone.
+pub(super) fn own(graph: &Graph, users: &[Vec<NodeId>], id: NodeId) -> HashSet<NodeId> {
+    let mut own = HashSet::from([id]);
+    let mut todo: BTreeSet<NodeId> = graph.node(id).operands().collect();
+    while let Some(next) = todo.pop_last() {
+        if users[next.0 as usize].iter().all(|u| own.contains(u)) {
+            own.insert(next);
+            todo.extend(graph.node(next).operands());
+        }
+    }
+    own
 }
+
+/// What decides whether roundings do too much.
+pub(super) struct Judge<'g> {
+    pub graph: &'g Graph,
+    pub samples: &'g [Sample],
+    pub allowance: f64,
+}
+
+/// Where two formulas for one value differ by more than that part, they are not
+/// where both hold.
+const APART: f64 = 1e-6;
 
 impl Judge<'_> {
     /// Whether roundings do no more to a value or a comparison than allowed.
     fn sound(&self, b: &Builder, new: New<'_>, old: NodeId, made: NodeId) -> bool {
+        self.judged(b, new, old, made, false)
+    }
+
+    /// The same of formulas that hold where roots are of what is not below 0.
+    pub fn equal(&self, b: &Builder, new: New<'_>, old: NodeId, made: NodeId) -> bool {
+        self.judged(b, new, old, made, true)
+    }
+
+    fn judged(
+        &self,
+        b: &Builder,
+        new: New<'_>,
+        old: NodeId,
+        made: NodeId,
+        where_equal: bool,
+    ) -> bool {
         let graph = self.graph;
         let mut told = 0;
         for sample in self.samples {
@@ -356,6 +386,7 @@ impl Judge<'_> {
             let Some(before) = relative(&mut follow, graph, old) else {
                 continue;
             };
+            let value = follow.value(old, 0);
             // What both need is the same in both.
             let shared = follow.known.iter().filter(|(id, _)| {
                 matches!(graph.node(**id), Node::Lookup { .. }) || graph.ty(**id) == Type::Int
@@ -371,6 +402,13 @@ impl Judge<'_> {
             let Some(after) = relative(&mut follow, b, made) else {
                 return false;
             };
+            let pair = [value, follow.value(made, 0)].map(|v| v.map(|v| v.value));
+            if let [Some(x), Some(y)] = pair
+                && where_equal
+                && (x - y).abs() > APART * x.abs().max(y.abs()).max(1.0)
+            {
+                continue;
+            }
             told += 1;
             if after > self.allowance * before.max(2.0) {
                 return false;

@@ -1,0 +1,111 @@
+//! Guard: what hardly any pixel's loop goes on for is decided before the loop.
+//!
+//! What a loop's first turn decides needs what the loop starts with, of which
+//! more is known before the loop than in its body, which serves every turn: that
+//! a ray starts on a sphere, say, and which one. So a part of the condition to go
+//! on, without which no turn does, is copied before the loop and has the starting
+//! values in it. Where it fails the first turn need not ask at all: the loop
+//! carries a bool that says so, and is false from the second turn on.
+
+use super::arena::Arena;
+use super::peel::{alone, before, body};
+use super::rate::{Dependence, Rates, rates};
+use crate::flow::graph::*;
+use slowlight_routine::{Op, Type, Value};
+use std::collections::HashMap;
+
+/// The graph with a loop behind a guard; nothing where the loop stands in another
+/// loop or has one in its body, or where its body has more than `most` nodes.
+pub fn guard(graph: &Graph, of: LoopId, most: usize) -> Option<Graph> {
+    let turns = graph.loops.get(of.0 as usize)?;
+    let rates = rates(graph);
+    let body = body(graph, &rates, of);
+    let fits = body.len() <= most
+        && alone(graph, &rates, of, &body)
+        && rates.depends(turns.again, Dependence::Loop(of));
+    fits.then(|| guarded(graph, of, &rates, &body))
+}
+
+/// A value without which a loop's turn does not go on, and whether it must hold.
+fn needed(graph: &Graph, again: NodeId) -> (NodeId, bool) {
+    let never = |id| graph.constant(id) == Some(Value::Bool(false));
+    match graph.node(again) {
+        Node::Select { cond, no, .. } if never(no) => (cond, true),
+        Node::Select { cond, yes, .. } if never(yes) => (cond, false),
+        _ => (again, true),
+    }
+}
+
+fn guarded(graph: &Graph, of: LoopId, rates: &Rates, body: &[NodeId]) -> Graph {
+    let turns = &graph.loops[of.0 as usize];
+    let mut out = Arena::new(graph);
+    let mut moved = vec![None; graph.nodes.len()];
+    let keep = |out: &mut Arena<'_>, moved: &mut Vec<Option<NodeId>>, id: NodeId| {
+        if moved[id.0 as usize].is_none() {
+            let at = |a: NodeId| moved[a.0 as usize].unwrap_or(NodeId(0));
+            let node = graph.node(id).with(at);
+            moved[id.0 as usize] = Some(out.push(node, id));
+        }
+    };
+    for id in before(graph, rates, of) {
+        keep(&mut out, &mut moved, id);
+    }
+    // The condition, given the starting values.
+    let at = |id: NodeId| moved[id.0 as usize].unwrap_or(NodeId(0));
+    let (cond, holds) = needed(graph, turns.again);
+    let mut first: HashMap<NodeId, NodeId> = HashMap::new();
+    for id in cone(graph, cond, body) {
+        let made = match graph.node(id) {
+            Node::Carried { of: l, index } if l == of => {
+                turns.init.get(index as usize).map_or(NodeId(0), |i| at(*i))
+            }
+            node => {
+                let node = node.with(|a| first.get(&a).copied().unwrap_or_else(|| at(a)));
+                out.push(node, id)
+            }
+        };
+        first.insert(id, made);
+    }
+    let fails = match (first.get(&cond).copied(), holds) {
+        (Some(cond), true) => out.push(Node::Apply(Op::Not, [cond; 2]), turns.again),
+        (cond, _) => cond.unwrap_or(NodeId(0)),
+    };
+    let never = Node::Const(Constant::new(Value::Bool(false)));
+    let never = out.push(never, turns.again);
+    let index = turns.init.len() as u32;
+    let failed = out.push(Node::Carried { of, index }, turns.again);
+    for id in body {
+        keep(&mut out, &mut moved, *id);
+    }
+    let again = Node::Select {
+        cond: failed,
+        yes: never,
+        no: moved[turns.again.0 as usize].unwrap_or(never),
+    };
+    let again = out.push(again, turns.again);
+    for id in graph.ids() {
+        keep(&mut out, &mut moved, id);
+    }
+    let mut out = out.finish(&moved);
+    let turns = &mut out.loops[of.0 as usize];
+    turns.names.push("ends".to_owned());
+    turns.types.push(Type::Bool);
+    turns.init.push(fails);
+    turns.next.push(never);
+    turns.again = again;
+    out
+}
+
+/// The body's nodes that a value needs, operands first.
+fn cone(graph: &Graph, root: NodeId, body: &[NodeId]) -> Vec<NodeId> {
+    let mut needed = Vec::new();
+    let mut todo = vec![root];
+    while let Some(id) = todo.pop() {
+        if body.binary_search(&id).is_ok() && !needed.contains(&id) {
+            needed.push(id);
+            todo.extend(graph.node(id).operands());
+        }
+    }
+    needed.sort_unstable();
+    needed
+}

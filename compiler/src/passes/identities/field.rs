@@ -1,0 +1,267 @@
+//! A graph's values in a finite field: two formulas for one value agree there.
+//!
+//! A value that is made of others by + - * / and roots is an algebraic function of
+//! them. Two such functions that agree at points drawn at random from a field of
+//! 2^61 - 1 elements are the same, but for a chance of about their degree in
+//! 2^61 at each point (Schwartz, Fast Probabilistic Algorithms for Verification
+//! of Polynomial Identities, 1980). Nothing is rounded there, so what agrees over
+//! the reals agrees, and roots are any element with that square: what would
+//! need a root's sign is not found.
+
+use crate::flow::graph::*;
+use crate::passes::algebra::{Forms, Number};
+use crate::range::Ranges;
+use slowlight_routine::{Op, Range, Type};
+use std::collections::HashMap;
+
+/// The field has so many elements: a Mersenne prime, 3 of 4.
+const PRIME: u64 = (1 << 61) - 1;
+
+/// At how many points values are looked at.
+pub const POINTS: usize = 4;
+
+/// A value at all the points.
+pub type Print = [u64; POINTS];
+
+/// How many roots are known to be such; others are values of which nothing is known.
+const ROOTS: usize = 6;
+
+/// How often other points are drawn where an argument has no root.
+const TRIES: u64 = 1 << (ROOTS + 4);
+
+pub fn add(a: u64, b: u64) -> u64 {
+    let sum = a + b;
+    if sum >= PRIME { sum - PRIME } else { sum }
+}
+
+pub fn sub(a: u64, b: u64) -> u64 {
+    add(a, PRIME - b)
+}
+
+pub fn mul(a: u64, b: u64) -> u64 {
+    let product = u128::from(a) * u128::from(b);
+    let (low, high) = (product as u64 & PRIME, (product >> 61) as u64);
+    add(low, high)
+}
+
+fn power(mut x: u64, mut n: u64) -> u64 {
+    let mut made = 1;
+    while n > 0 {
+        if n & 1 == 1 {
+            made = mul(made, x);
+        }
+        x = mul(x, x);
+        n >>= 1;
+    }
+    made
+}
+
+/// 1 / x; 0 for 0.
+pub fn inverse(x: u64) -> u64 {
+    power(x, PRIME - 2)
+}
+
+/// The inverses of many elements, 0 for 0 (Montgomery's trick: one inversion).
+pub fn inverses(all: &mut [u64]) {
+    let mut before = Vec::with_capacity(all.len());
+    let mut product = 1;
+    for x in all.iter() {
+        before.push(product);
+        product = if *x == 0 { product } else { mul(product, *x) };
+    }
+    let mut rest = inverse(product);
+    for (x, before) in all.iter_mut().zip(before).rev() {
+        if *x != 0 {
+            let own = mul(rest, before);
+            rest = mul(rest, *x);
+            *x = own;
+        }
+    }
+}
+
+/// An element with a square, if there is one.
+fn root(square: u64) -> Option<u64> {
+    let x = power(square, (PRIME + 1) / 4);
+    (mul(x, x) == square).then_some(x)
+}
+
+/// A whole number.
+pub fn whole(n: i128) -> u64 {
+    n.rem_euclid(i128::from(PRIME)) as u64
+}
+
+/// The fraction n/d with small n and d that an element is, if it is one
+/// (Wang, A p-adic Algorithm for Univariate Partial Fractions, 1981).
+pub fn fraction(x: u64) -> Option<(i64, i64)> {
+    const SMALL: i128 = 1 << 24;
+    let (mut a, mut b) = (i128::from(PRIME), i128::from(x));
+    let (mut s, mut t) = (0i128, 1i128);
+    while b > SMALL {
+        let q = a / b;
+        (a, b) = (b, a - q * b);
+        (s, t) = (t, s - q * t);
+    }
+    let (n, d) = if t < 0 { (-b, -t) } else { (b, t) };
+    (0 < d && d <= SMALL).then_some((n as i64, d as i64))
+}
+
+/// Elements drawn at random, the same for the same key (SplitMix64: Steele,
+/// Lea and Flood, Fast Splittable Pseudorandom Number Generators, 2014).
+fn drawn(key: u64) -> u64 {
+    let mut z = key.wrapping_mul(0x9e37_79b9_7f4a_7c15);
+    z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+    z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+    (z ^ (z >> 31)) % PRIME
+}
+
+/// Each real and int value of a graph at the points; nothing for bools, and nothing
+/// at all where no points were found at which the roots are there.
+pub fn prints(graph: &Graph, ranges: &Ranges, forms: &Forms<'_>) -> Option<Vec<Option<Print>>> {
+    let site = Site {
+        graph,
+        ranges,
+        forms,
+        roots: roots(graph, ranges),
+    };
+    let mut all = vec![Some([0; POINTS]); graph.nodes.len()];
+    let mut key = 1;
+    for point in 0..POINTS {
+        let found = (0..TRIES).find_map(|_| {
+            key += 1;
+            site.at(key)
+        })?;
+        for (print, value) in all.iter_mut().zip(found) {
+            match (print.as_mut(), value) {
+                (Some(print), Some(value)) => print[point] = value,
+                _ => *print = None,
+            }
+        }
+    }
+    Some(all)
+}
+
+/// Square roots of what is never below 0.
+fn roots(graph: &Graph, ranges: &Ranges) -> Vec<NodeId> {
+    let reached = graph.reached();
+    let fits = |id: &NodeId| {
+        let at = id.0 as usize;
+        reached[at]
+            && matches!(graph.node(*id), Node::Apply(Op::Sqrt, _))
+            && ranges.args.get(at).is_some_and(|a| a[0].lo >= 0.0)
+    };
+    graph.ids().filter(fits).take(ROOTS).collect()
+}
+
+struct Site<'g> {
+    graph: &'g Graph,
+    ranges: &'g Ranges,
+    forms: &'g Forms<'g>,
+    roots: Vec<NodeId>,
+}
+
+impl Site<'_> {
+    /// All values at a point drawn by a key; nothing where a root is not there.
+    fn at(&self, key: u64) -> Option<Vec<Option<u64>>> {
+        let mut values: Vec<Option<u64>> = Vec::with_capacity(self.graph.nodes.len());
+        let mut conds = HashMap::new();
+        for id in self.graph.ids() {
+            let any = || drawn(drawn(key) ^ u64::from(id.0));
+            let value = match self.graph.ty(id) {
+                Type::Bool => None,
+                _ => Some(match self.known(&values, &mut conds, key, id) {
+                    Some(Known::Value(value)) => value,
+                    Some(Known::Root(square)) => root(square)?,
+                    None => any(),
+                }),
+            };
+            values.push(value);
+        }
+        Some(values)
+    }
+
+    /// What a value is by those before it, if anything is known of it.
+    fn known(
+        &self,
+        values: &[Option<u64>],
+        conds: &mut HashMap<NodeId, bool>,
+        key: u64,
+        id: NodeId,
+    ) -> Option<Known> {
+        let of = |id: NodeId| values.get(id.0 as usize).copied().flatten();
+        let coin = |id: NodeId| drawn(drawn(key) ^ 0x5bd1_e995 ^ u64::from(id.0)) & 1 == 1;
+        let value = match self.graph.node(id) {
+            Node::Const(c) => match Number::of(c.value().real()) {
+                Number::Exact(n, d) => mul(whole(n), inverse(whole(d))),
+                Number::Near(x) => drawn(x.to_bits()),
+            },
+            Node::Select { cond, yes, no } => {
+                let (cond, turned) = self.turned(cond);
+                let holds = *conds.entry(cond).or_insert_with(|| coin(cond));
+                of(if holds != turned { yes } else { no })?
+            }
+            Node::Apply(Op::Sign, _) if self.forms.two(id.0).is_some_and(|two| two.low == -1) => {
+                if coin(id) { 1 } else { whole(-1) }
+            }
+            Node::Apply(Op::Sqrt, [x, _]) if self.roots.contains(&id) => {
+                return of(x).map(Known::Root);
+            }
+            Node::Apply(op, [a, b]) => self.applied(id, op, of(a)?, of(b)?)?,
+            _ => return None,
+        };
+        Some(Known::Value(value))
+    }
+
+    /// A condition without its negations, and whether those turn it.
+    fn turned(&self, mut cond: NodeId) -> (NodeId, bool) {
+        let mut turned = false;
+        while let Node::Apply(Op::Not, [inner, _]) = self.graph.node(cond) {
+            (cond, turned) = (inner, !turned);
+        }
+        (cond, turned)
+    }
+
+    fn applied(&self, id: NodeId, op: Op, a: u64, b: u64) -> Option<u64> {
+        let at = id.0 as usize;
+        let exact = |r: Option<&Range>| r.is_some_and(|r| r.within(-2e9, 2e9));
+        let ints = matches!(op, Op::IntAdd | Op::IntSub | Op::IntMul | Op::IntNeg);
+        if ints && !exact(self.ranges.exact.get(at)) {
+            return None;
+        }
+        match op {
+            Op::ToReal => Some(a),
+            Op::Add | Op::IntAdd => Some(add(a, b)),
+            Op::Sub | Op::IntSub => Some(sub(a, b)),
+            Op::Mul | Op::IntMul => Some(mul(a, b)),
+            Op::Neg | Op::IntNeg => Some(sub(0, a)),
+            Op::Div if self.ranges.args.get(at)?[1].nonzero => Some(mul(a, inverse(b))),
+            _ => None,
+        }
+    }
+}
+
+/// What is known of a value: what it is, or what its square is.
+enum Known {
+    Value(u64),
+    Root(u64),
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn fields_have_inverses_roots_and_fractions() {
+        for key in 1..200 {
+            let x = drawn(key);
+            assert_eq!(mul(x, inverse(x)), 1);
+            let r = root(mul(x, x)).expect("a square has a root");
+            assert!(r == x || add(r, x) == 0);
+        }
+        for (n, d) in [(1, 3), (-22, 7), (0, 1), (-4, 1), (1_000_003, 999)] {
+            assert_eq!(fraction(mul(whole(n), inverse(whole(d)))), Some((n as i64, d as i64)));
+        }
+        let mut all = [2, 0, 7];
+        inverses(&mut all);
+        assert_eq!(all, [inverse(2), 0, inverse(7)]);
+    }
+}

@@ -1,0 +1,109 @@
+//! Values that follow from others in ways nobody wrote down are found, and are
+//! what they were.
+#![allow(clippy::unwrap_used)]
+
+use super::{Cheaper, identities};
+use crate::eval::native::Native;
+use crate::eval::random_graphs;
+use crate::flow::graph::*;
+use crate::passes::algebra::Verdicts;
+use crate::plan::settled::{Settled, settle};
+use crate::range::Slack;
+use crate::scene;
+use crate::sema::Options;
+use crate::target::find;
+use slowlight_routine::Op;
+
+fn settled(graph: &Graph) -> Settled {
+    let runtime = find("bbc:micro").unwrap().runtime;
+    settle(graph, &Slack::of(runtime))
+}
+
+fn found(plain: &Settled) -> Option<Cheaper> {
+    let runtime = find("bbc:micro").unwrap().runtime;
+    let all = |_| true;
+    identities(&plain.graph, &plain.ranges, runtime, &all, &Verdicts::default())
+}
+
+fn lowered(source: &str) -> Graph {
+    let scene = scene::check("test", source);
+    assert!(scene.is_right(), "{source}: {:?}", scene.diagnostics);
+    scene.lower(&Options::default()).unwrap()
+}
+
+/// How many products pixels may need.
+fn products(graph: &Graph) -> usize {
+    let reached = graph.reached();
+    let product = |id: &NodeId| matches!(graph.node(*id), Node::Apply(Op::Mul | Op::Div, _));
+    graph
+        .ids()
+        .filter(|id| reached[id.0 as usize] && product(id))
+        .count()
+}
+
+fn same(a: &Graph, b: &Graph) {
+    let (mut a, mut b) = (Native::new(a), Native::new(b));
+    for y in (0..24).step_by(3) {
+        for x in (0..32).step_by(2) {
+            assert_eq!(a.pixel(x, y).ink, b.pixel(x, y).ink, "at {x}, {y}");
+        }
+    }
+}
+
+#[test]
+fn a_reflected_ray_has_of_a_normal_what_the_ray_had() {
+    // n is a unit vector and d' = d - 2 (d.n) n, so d'.n = -d.n.
+    let graph = lowered(
+        "image 32 x 24 inks black, white;
+         draw (x, y) = ink({
+           let a = (x - 15.5) / 40;
+           let b = (y - 11.5) / 40;
+           let c = sqrt(1 - a * a - b * b);
+           let dot = a * 0.3 + b * 0.5 + c;
+           let p = 0.3 - 2 * dot * a;
+           let q = 0.5 - 2 * dot * b;
+           let r = 1 - 2 * dot * c;
+           if p * q * r > -0.1 and a * p + b * q + c * r < -0.9 then 1 else 0
+         });",
+    );
+    let plain = settled(&graph);
+    let cheaper = found(&plain).expect("d'.n is -d.n");
+    assert!(products(&cheaper.graph) + 3 <= products(&plain.graph));
+    same(&plain.graph, &cheaper.graph);
+}
+
+#[test]
+fn what_does_not_follow_is_not_found() {
+    // As above, but n is a little too long to be a unit vector.
+    let graph = lowered(
+        "image 32 x 24 inks black, white;
+         draw (x, y) = ink({
+           let a = (x - 15.5) / 40;
+           let b = (y - 11.5) / 40;
+           let c = sqrt(1.001 - a * a - b * b);
+           let dot = a * 0.3 + b * 0.5 + c;
+           let p = 0.3 - 2 * dot * a;
+           let q = 0.5 - 2 * dot * b;
+           let r = 1 - 2 * dot * c;
+           if p * q * r > -0.1 and a * p + b * q + c * r < -0.9 then 1 else 0
+         });",
+    );
+    let plain = settled(&graph);
+    if let Some(cheaper) = found(&plain) {
+        assert!(products(&cheaper.graph) + 3 > products(&plain.graph));
+        same(&plain.graph, &cheaper.graph);
+    }
+}
+
+#[test]
+fn graphs_at_random_draw_what_they_drew() {
+    let mut sites = 0;
+    for seed in 1..400 {
+        let plain = settled(&random_graphs::graph(seed));
+        if let Some(cheaper) = found(&plain) {
+            sites += cheaper.sites.len();
+            same(&plain.graph, &cheaper.graph);
+        }
+    }
+    println!("{sites} sites");
+}
