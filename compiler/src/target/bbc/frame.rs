@@ -123,17 +123,24 @@ fn picture(plan: &Plan, code: &mut Code<'_>, first: &str, last: &str, spread: Op
     if plan.plot && poke.is_none() {
         code.statement(format!("R%={}", screen::y_expression(plan)));
     }
-    code.block(&plan.tree.row);
-    ramp::start(plan, code);
+    let mut apart = Vec::new();
+    if let Some(row) = behind(code, "row", |code| {
+        code.block(&plan.tree.row);
+        ramp::start(plan, code);
+    }) {
+        apart.push(row);
+    }
     let columns = plan.computed_columns();
     let segments = Segments::new(plan, code);
     let top_label = code.labels.next();
     match (&poke, &segments) {
-        (Some(poke), _) => poke.columns(plan, code, segments.as_ref(), top_label),
+        (Some(poke), _) => {
+            apart.extend(poke.columns(plan, code, segments.as_ref(), top_label));
+        }
         (None, Some(segments)) => {
             code.statement(format!("X%={}", columns.0));
             code.lines.place(top_label);
-            segments.begin(plan, code);
+            apart.extend(behind(code, "segment", |code| segments.begin(plan, code)));
             code.line(format!("FOR X%=X% TO {}", segments.end()));
         }
         (None, None) => code.line(format!("FOR X%={} TO {}", columns.0, columns.1)),
@@ -171,6 +178,33 @@ fn picture(plan: &Plan, code: &mut Code<'_>, first: &str, last: &str, spread: Op
     code.lines.weight = 1;
     reports(plan, code);
     code.line("END");
+    apart.into_iter().for_each(|lines| code.lines.append(lines));
+}
+
+/// Lines of code that stand close to the top are found sooner: a jump looks
+/// through all lines before its own. So what is done once a row or run, if it is
+/// of more than a few lines, becomes a procedure that stands behind the pixel's
+/// code; answers it.
+pub(super) fn behind<'p>(
+    code: &mut Code<'p>,
+    name: &str,
+    write: impl FnOnce(&mut Code<'p>),
+) -> Option<Lines> {
+    let weight = code.lines.weight;
+    let outer = std::mem::replace(&mut code.lines, Lines::of_weight(weight));
+    write(code);
+    let mut lines = std::mem::replace(&mut code.lines, outer);
+    if code.values.style == Style::Listing || lines.texts().count() <= 2 {
+        code.lines.append(lines);
+        return None;
+    }
+    let name = code.values.names.unique(&format!("PROC{name}"), "");
+    code.statement(name.clone());
+    let mut procedure = Lines::of_weight(weight);
+    procedure.line(format!("DEF {name}"), None);
+    lines.line("ENDPROC", None);
+    procedure.append(lines);
+    Some(procedure)
 }
 
 /// What a pixel that is computed must pass beside to be drawn.

@@ -8,7 +8,8 @@
 
 use super::Style;
 use super::code::Code;
-use super::lines::Label;
+use super::frame::behind;
+use super::lines::{Label, Lines};
 use super::segment::Segments;
 use crate::plan::Plan;
 
@@ -99,7 +100,7 @@ impl Poke {
         code: &mut Code<'_>,
         segments: Option<&Segments>,
         again: Label,
-    ) {
+    ) -> Option<Lines> {
         let (first, last) = plan.columns;
         let y = match plan.offset.1 {
             0 => "Y%".to_owned(),
@@ -125,19 +126,20 @@ impl Poke {
         code.statement(format!("{}=0", self.byte));
         let Some(segments) = segments else {
             code.line(format!("FOR X%=X% TO X%+{}", self.pixels - 1));
-            return;
+            return None;
         };
         let (last, until, end) = (&self.last, &self.until, segments.end());
         code.statement(format!("{last}=X%+{}", self.pixels - 1));
         code.lines.place(again);
         let inside = code.labels.next();
         code.line(format!("IF X%<={end} THEN {inside}"));
-        segments.begin(plan, code);
+        let apart = behind(code, "segment", |code| segments.begin(plan, code));
         code.lines.place(inside);
         code.line(format!(
             "IF {last}<={end} THEN {until}={last} ELSE {until}={end}"
         ));
         code.line(format!("FOR X%=X% TO {until}"));
+        apart
     }
 
     /// Adds a pixel's ink.
