@@ -28,10 +28,14 @@ pub fn merged(plan: &Plan, always: bool) -> HashMap<Place, Place> {
     let mut found = HashMap::new();
     for block in plan.tree.blocks() {
         walk(block, &mut |statement| {
-            if let Statement::If { yes, no, .. } = statement {
-                arm(plan, &all, yes, no, &mut found);
-                arm(plan, &all, no, yes, &mut found);
-            }
+            let (one, other) = match statement {
+                Statement::If { yes, no, .. } => (yes, no),
+                // A loop ends on one of two ways, too.
+                Statement::Loop(turns) => (&turns.done, &turns.otherwise),
+                _ => return,
+            };
+            arm(plan, &all, one, other, &mut found);
+            arm(plan, &all, other, one, &mut found);
         });
     }
     let last = |mut place: Place| {
@@ -60,7 +64,8 @@ fn arm(plan: &Plan, all: &Accesses, arm: &Block, other: &Block, found: &mut Hash
             continue;
         };
         let inner = Place::Node(from);
-        let choice = matches!(plan.graph.node(to), Node::Select { .. });
+        let node = plan.graph.node(to);
+        let choice = matches!(node, Node::Select { .. } | Node::Result { .. });
         let computed = plan.place(from) == Some(inner);
         let alike = plan.place_format(inner) == plan.place_format(outer);
         let once = all.reads.get(&from) == Some(&1) && all.writes.get(&to) == Some(&2);

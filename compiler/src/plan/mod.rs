@@ -57,6 +57,7 @@ mod spread;
 mod stepped;
 
 pub use lifetimes::{quick_homes, shared_homes};
+pub use merge::merged;
 pub use params::ParamPlan;
 pub use spread::ErrorRows;
 

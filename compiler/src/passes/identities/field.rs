@@ -12,13 +12,17 @@ use crate::flow::graph::*;
 use crate::passes::algebra::{Forms, Number};
 use crate::range::Ranges;
 use slowlight_routine::{Op, Range, Type};
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 
 /// The field has so many elements: a Mersenne prime, 3 of 4.
 const PRIME: u64 = (1 << 61) - 1;
 
 /// At how many points values are looked at.
-pub const POINTS: usize = 4;
+pub const POINTS: usize = 8;
+
+/// How many conditions a formula may hang on: it is looked at for all ways that
+/// they may go.
+const CONDITIONS: usize = 10;
 
 /// A value at all the points.
 pub type Print = [u64; POINTS];
@@ -114,30 +118,85 @@ fn drawn(key: u64) -> u64 {
     (z ^ (z >> 31)) % PRIME
 }
 
-/// Each real and int value of a graph at the points; nothing for bools, and nothing
-/// at all where no points were found at which the roots are there.
-pub fn prints(graph: &Graph, ranges: &Ranges, forms: &Forms<'_>) -> Option<Vec<Option<Print>>> {
-    let site = Site {
-        graph,
-        ranges,
-        forms,
-        roots: roots(graph, ranges),
-    };
-    let mut all = vec![Some([0; POINTS]); graph.nodes.len()];
-    let mut key = 1;
-    for point in 0..POINTS {
-        let found = (0..TRIES).find_map(|_| {
-            key += 1;
-            site.at(key)
-        })?;
-        for (print, value) in all.iter_mut().zip(found) {
-            match (print.as_mut(), value) {
-                (Some(print), Some(value)) => print[point] = value,
-                _ => *print = None,
-            }
+/// Values at a point.
+pub type Values<'v> = &'v dyn Fn(NodeId) -> u64;
+
+/// A graph's values in the field.
+pub struct Field<'g> {
+    graph: &'g Graph,
+    ranges: &'g Ranges,
+    forms: &'g Forms<'g>,
+    roots: Vec<NodeId>,
+}
+
+impl<'g> Field<'g> {
+    pub fn new(graph: &'g Graph, ranges: &'g Ranges, forms: &'g Forms<'g>) -> Field<'g> {
+        Field {
+            graph,
+            ranges,
+            forms,
+            roots: roots(graph, ranges),
         }
     }
-    Some(all)
+
+    /// Each real and int value at the points; nothing for bools, and nothing at all
+    /// where no points were found at which the roots are there.
+    pub fn prints(&self) -> Option<Vec<Option<Print>>> {
+        let mut all = vec![Some([0; POINTS]); self.graph.nodes.len()];
+        let mut key = 1;
+        for point in 0..POINTS {
+            let found = (0..TRIES).find_map(|_| {
+                key += 1;
+                self.at(key, &|_| true, &HashMap::new())
+            })?;
+            for (print, value) in all.iter_mut().zip(found) {
+                match (print.as_mut(), value) {
+                    (Some(print), Some(value)) => print[point] = value,
+                    _ => *print = None,
+                }
+            }
+        }
+        Some(all)
+    }
+
+    /// Whether what `holds` says of values holds whichever way the conditions go
+    /// that some values hang on.
+    pub fn always(&self, of: &[NodeId], holds: &dyn Fn(Values<'_>) -> bool) -> bool {
+        let mut cone: HashSet<NodeId> = HashSet::new();
+        let mut todo = of.to_vec();
+        let mut conditions = Vec::new();
+        while let Some(id) = todo.pop() {
+            if !cone.insert(id) {
+                continue;
+            }
+            match self.graph.node(id) {
+                Node::Select { cond, yes, no } => {
+                    conditions.push(self.turned(cond).0);
+                    todo.extend([yes, no]);
+                }
+                Node::Apply(Op::Sign, _) => conditions.push(id),
+                node => todo.extend(node.operands()),
+            }
+        }
+        conditions.sort_unstable();
+        conditions.dedup();
+        if conditions.len() > CONDITIONS {
+            return false;
+        }
+        let one = |ways: u64| {
+            let way = |k: usize| ways >> k & 1 == 1;
+            let forced = (0..)
+                .zip(&conditions)
+                .map(|(k, id)| (*id, way(k)))
+                .collect();
+            let key = TRIES * POINTS as u64 + (ways + 2) * TRIES;
+            let mut keys = key..key + TRIES;
+            let found = keys.find_map(|key| self.at(key, &|id| cone.contains(&id), &forced));
+            let of = |values: &[Option<u64>], id: NodeId| values[id.0 as usize].unwrap_or(0);
+            found.is_some_and(|values| holds(&|id| of(&values, id)))
+        };
+        (0..1 << conditions.len()).all(one)
+    }
 }
 
 /// Square roots of what is never below 0.
@@ -152,23 +211,22 @@ fn roots(graph: &Graph, ranges: &Ranges) -> Vec<NodeId> {
     graph.ids().filter(fits).take(ROOTS).collect()
 }
 
-struct Site<'g> {
-    graph: &'g Graph,
-    ranges: &'g Ranges,
-    forms: &'g Forms<'g>,
-    roots: Vec<NodeId>,
-}
-
-impl Site<'_> {
-    /// All values at a point drawn by a key; nothing where a root is not there.
-    fn at(&self, key: u64) -> Option<Vec<Option<u64>>> {
+impl Field<'_> {
+    /// The values that are asked for at a point drawn by a key, conditions going as
+    /// they are `forced` to; nothing where a root is not there.
+    fn at(
+        &self,
+        key: u64,
+        asked: &dyn Fn(NodeId) -> bool,
+        forced: &HashMap<NodeId, bool>,
+    ) -> Option<Vec<Option<u64>>> {
         let mut values: Vec<Option<u64>> = Vec::with_capacity(self.graph.nodes.len());
-        let mut conds = HashMap::new();
         for id in self.graph.ids() {
             let any = || drawn(drawn(key) ^ u64::from(id.0));
             let value = match self.graph.ty(id) {
                 Type::Bool => None,
-                _ => Some(match self.known(&values, &mut conds, key, id) {
+                _ if !asked(id) => None,
+                _ => Some(match self.known(&values, forced, key, id) {
                     Some(Known::Value(value)) => value,
                     Some(Known::Root(square)) => root(square)?,
                     None => any(),
@@ -183,12 +241,15 @@ impl Site<'_> {
     fn known(
         &self,
         values: &[Option<u64>],
-        conds: &mut HashMap<NodeId, bool>,
+        forced: &HashMap<NodeId, bool>,
         key: u64,
         id: NodeId,
     ) -> Option<Known> {
         let of = |id: NodeId| values.get(id.0 as usize).copied().flatten();
-        let coin = |id: NodeId| drawn(drawn(key) ^ 0x5bd1_e995 ^ u64::from(id.0)) & 1 == 1;
+        let coin = |id: NodeId| match forced.get(&id) {
+            Some(way) => *way,
+            None => drawn(drawn(key) ^ 0x5bd1_e995 ^ u64::from(id.0)) & 1 == 1,
+        };
         let value = match self.graph.node(id) {
             Node::Const(c) => match Number::of(c.value().real()) {
                 Number::Exact(n, d) => mul(whole(n), inverse(whole(d))),
@@ -196,11 +257,14 @@ impl Site<'_> {
             },
             Node::Select { cond, yes, no } => {
                 let (cond, turned) = self.turned(cond);
-                let holds = *conds.entry(cond).or_insert_with(|| coin(cond));
-                of(if holds != turned { yes } else { no })?
+                of(if coin(cond) != turned { yes } else { no })?
             }
             Node::Apply(Op::Sign, _) if self.forms.two(id.0).is_some_and(|two| two.low == -1) => {
-                if coin(id) { 1 } else { whole(-1) }
+                if coin(id) {
+                    1
+                } else {
+                    whole(-1)
+                }
             }
             Node::Apply(Op::Sqrt, [x, _]) if self.roots.contains(&id) => {
                 return of(x).map(Known::Root);
@@ -258,7 +322,10 @@ mod tests {
             assert!(r == x || add(r, x) == 0);
         }
         for (n, d) in [(1, 3), (-22, 7), (0, 1), (-4, 1), (1_000_003, 999)] {
-            assert_eq!(fraction(mul(whole(n), inverse(whole(d)))), Some((n as i64, d as i64)));
+            assert_eq!(
+                fraction(mul(whole(n), inverse(whole(d)))),
+                Some((n as i64, d as i64))
+            );
         }
         let mut all = [2, 0, 7];
         inverses(&mut all);

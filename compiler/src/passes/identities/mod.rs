@@ -21,13 +21,16 @@ use crate::flow::build::Builder;
 use crate::flow::graph::*;
 use crate::range::Ranges;
 use crate::source::Span;
-use field::{Print, prints};
+use field::{Field, Print};
 use search::{Formula, Fraction, Sums};
 use slowlight_routine::{Op, Runtime, Type, Value};
 use std::collections::{BTreeSet, HashSet};
 
 /// Among how many values that one is made of a formula is looked for.
 const VALUES: usize = 40;
+
+/// How many formulas of a value are looked at closely.
+const TRIES: usize = 8;
 
 /// The graph with shorter formulas in the place of values that `may` be replaced;
 /// nothing where there are none, or where the format bears none.
@@ -75,6 +78,7 @@ pub struct Found {
 
 struct Search<'g> {
     graph: &'g Graph,
+    ranges: &'g Ranges,
     forms: &'g Forms<'g>,
     runtime: &'g Runtime,
     prints: Vec<Option<Print>>,
@@ -90,7 +94,8 @@ impl<'g> Search<'g> {
     ) -> Option<Search<'g>> {
         Some(Search {
             graph,
-            prints: prints(graph, ranges, &forms)?,
+            ranges,
+            prints: Field::new(graph, ranges, forms).prints()?,
             forms,
             runtime,
             users: users(graph),
@@ -144,10 +149,20 @@ impl<'g> Search<'g> {
             self.cost(needed.iter()) + self.written(formula, &values)
         };
         let all = sums.formulas(&value, &by).into_iter();
-        let (cost, formula) = all
-            .map(|formula| (cost(&formula), formula))
-            .min_by_key(|(cost, _)| *cost)?;
-        (cost < limit).then_some(Found { formula, values })
+        let mut all: Vec<_> = all.map(|formula| (cost(&formula), formula)).collect();
+        all.retain(|(cost, _)| *cost < limit);
+        all.sort_by_key(|(cost, _)| *cost);
+        let mut tries = all.into_iter().map(|(_, formula)| formula).take(TRIES);
+        let formula = tries.find(|formula| self.holds(id, formula, &values))?;
+        Some(Found { formula, values })
+    }
+
+    /// Whether a value is a formula whichever way conditions go.
+    fn holds(&self, id: NodeId, formula: &Formula, values: &[NodeId]) -> bool {
+        let made = formula.values().map(|k| values[k]);
+        let all: Vec<NodeId> = made.chain([id]).collect();
+        let field = Field::new(self.graph, self.ranges, self.forms);
+        field.always(&all, &|of| formula.value(&|k| of(values[k])) == of(id))
     }
 
     /// Whether a value is one of two constants.

@@ -23,6 +23,9 @@ const FACTORS: [(i64, i64); 8] = [
 /// A constant.
 pub type Fraction = (i64, i64);
 
+/// u + s v, with v none for 1.
+pub type Sum = (usize, Option<(Fraction, Option<usize>)>);
+
 /// d w + c a (u + s v), the values by their place in the list that was looked
 /// through; none is 1 for a and v, and for w nothing.
 #[derive(Clone, Debug, PartialEq)]
@@ -30,10 +33,24 @@ pub struct Formula {
     pub product: Option<(Fraction, usize, Option<usize>)>,
     pub factor: Fraction,
     pub by: Option<usize>,
-    pub sum: (usize, Option<(Fraction, Option<usize>)>),
+    pub sum: Sum,
 }
 
 impl Formula {
+    /// What it is in the field, given the values.
+    pub fn value(&self, of: &dyn Fn(usize) -> u64) -> u64 {
+        let number = |f: Fraction| mul(whole(f.0.into()), inverse(whole(f.1.into())));
+        let maybe = |k: Option<usize>| k.map_or(1, of);
+        let (u, other) = self.sum;
+        let rest = other.map_or(0, |(s, v)| mul(number(s), maybe(v)));
+        let sum = add(of(u), rest);
+        let sum = mul(number(self.factor), mul(maybe(self.by), sum));
+        let product = self
+            .product
+            .map_or(0, |(d, a, b)| mul(number(d), mul(of(a), maybe(b))));
+        add(sum, product)
+    }
+
     /// The values that it is made of.
     pub fn values(&self) -> impl Iterator<Item = usize> + '_ {
         let product = self.product.iter().flat_map(|(_, a, b)| [Some(*a), *b]);
@@ -46,7 +63,7 @@ impl Formula {
 /// All sums u + s v but for a factor, by the ratio of their first two points.
 pub struct Sums<'p> {
     prints: &'p [Print],
-    found: HashMap<u64, (usize, Option<(Fraction, Option<usize>)>)>,
+    found: HashMap<u64, Sum>,
     factors: Vec<(Fraction, u64)>,
 }
 
@@ -121,12 +138,7 @@ impl<'p> Sums<'p> {
     }
 
     /// The constant c of rest = c a (u + s v) at all points.
-    fn factor(
-        &self,
-        rest: &Print,
-        a: &Print,
-        (u, other): (usize, Option<(Fraction, Option<usize>)>),
-    ) -> Option<Fraction> {
+    fn factor(&self, rest: &Print, a: &Print, (u, other): Sum) -> Option<Fraction> {
         let mut sum = self.prints[u];
         if let Some((s, v)) = other {
             let (_, s) = self.factors.iter().find(|(f, _)| *f == s)?;

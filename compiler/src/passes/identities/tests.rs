@@ -22,7 +22,13 @@ fn settled(graph: &Graph) -> Settled {
 fn found(plain: &Settled) -> Option<Cheaper> {
     let runtime = find("bbc:micro").unwrap().runtime;
     let all = |_| true;
-    identities(&plain.graph, &plain.ranges, runtime, &all, &Verdicts::default())
+    identities(
+        &plain.graph,
+        &plain.ranges,
+        runtime,
+        &all,
+        &Verdicts::default(),
+    )
 }
 
 fn lowered(source: &str) -> Graph {

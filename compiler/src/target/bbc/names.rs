@@ -2,7 +2,7 @@
 
 use super::Style;
 use crate::flow::tree::{Place, SubroutineId};
-use crate::plan::{Plan, quick_homes};
+use crate::plan::{Plan, merged, quick_homes};
 use slowlight_routine::{Format, Type};
 use std::collections::{HashMap, HashSet};
 
@@ -55,7 +55,12 @@ impl Names {
             names.homes.insert(place, name);
         }
         if let (true, Some(Place::Node(ink))) = (shared.is_some(), plan.place(plan.graph.ink)) {
-            names.homes.insert(Place::Node(ink), "I%".to_owned());
+            let ink = Place::Node(ink);
+            let own = merged(plan, true).into_iter();
+            let own = own.filter_map(|(place, one)| (one == ink).then_some(place));
+            for place in own.chain([ink]) {
+                names.homes.insert(place, "I%".to_owned());
+            }
         }
         for table in &plan.graph.tables {
             let clean: String = table

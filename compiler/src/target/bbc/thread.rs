@@ -1,8 +1,9 @@
 //! Jumps that lead to another jump go where that one goes.
 //!
 //! A way that ends in `v%=FALSE:GOTO a` where line a is `IF NOT v% THEN b` goes
-//! to b: the test would tell what is known. (Jump threading: Aho, Lam, Sethi and
-//! Ullman, Compilers, 2nd edition, 8.7.3.)
+//! to b: the test would tell what is known. Where line a is a choice between few
+//! statements, those of the known way are carried out on the way. (Jump threading
+//! and tail duplication: Aho, Lam, Sethi and Ullman, Compilers, 2nd edition, 8.7.3.)
 
 use super::lines::{Label, Labels, Lines};
 use std::collections::HashMap;
@@ -39,11 +40,26 @@ impl Road<'_> {
         let Some((before, mut to)) = jump(text) else {
             return text.to_owned();
         };
-        let known = before.strip_suffix(":GOTO ").and_then(assigned);
         let first = to;
+        let mut known = Known::default();
+        let mut before = before.to_owned();
+        if let Some(statements) = before.strip_suffix(":GOTO ") {
+            known.learn(last(statements));
+        }
         for _ in 0..HOPS {
-            match self.next(to, known) {
-                Some(next) if next != to => to = next,
+            match self.next(to, &known) {
+                Some(Step::Jump(next)) if next != to => to = next,
+                Some(Step::Way(way, next)) => {
+                    let Some(statements) = before.strip_suffix("GOTO ") else {
+                        break;
+                    };
+                    if statements.len() + way.len() > LONG {
+                        break;
+                    }
+                    way.split(':').for_each(|statement| known.learn(statement));
+                    before = format!("{statements}{way}:GOTO ");
+                    to = next;
+                }
                 _ => break,
             }
         }
@@ -53,50 +69,97 @@ impl Road<'_> {
         format!("{before}{to}")
     }
 
-    /// Where a jump to a label goes on to at once.
-    fn next(&mut self, to: Label, known: Option<(&str, bool)>) -> Option<Label> {
+    /// Where a jump to a label goes on to at once, or what it does on the way.
+    fn next(&mut self, to: Label, known: &Known) -> Option<Step> {
         let at = *self.placed.get(&to)?;
         let text = self.texts.get(at)?;
-        let (before, next) = jump(text)?;
-        if before == "GOTO " {
-            return Some(next);
+        let goes = jump(text);
+        if let Some(("GOTO ", next)) = goes {
+            return Some(Step::Jump(next));
         }
-        let (name, value) = known?;
-        let test = before.strip_prefix("IF ")?.strip_suffix(" THEN ")?;
-        let wanted = match test.strip_prefix("NOT ") {
-            Some(test) => (test == name).then_some(false),
-            None => (test == name).then_some(true),
+        let (test, ways) = text.strip_prefix("IF ")?.split_once(" THEN ")?;
+        let holds = match test.strip_prefix("NOT ") {
+            Some(test) => !known.of(test)?,
+            None => known.of(test)?,
         };
-        if wanted? == value {
-            return Some(next);
+        if let Some((before, next)) = goes {
+            if before.contains(" ELSE ") || before.matches("IF ").count() > 1 {
+                return None;
+            }
+            if !holds {
+                return Some(Step::Jump(self.label_behind(at)));
+            }
+            let (_, way) = before.split_once(" THEN ")?;
+            let way = way.strip_suffix("GOTO ").unwrap_or_default();
+            return Some(match way.strip_suffix(':') {
+                Some(way) => Step::Way(way.to_owned(), next),
+                None => Step::Jump(next),
+            });
         }
+        let (yes, no) = ways.split_once(" ELSE ").unwrap_or((ways, ""));
+        let way = if holds { yes } else { no }.to_owned();
+        let plain = !ways.contains("IF ") && !way.contains("GOTO");
+        let behind = plain.then(|| self.label_behind(at))?;
+        Some(match way.is_empty() {
+            true => Step::Jump(behind),
+            false => Step::Way(way, behind),
+        })
+    }
+
+    /// A label behind a line.
+    fn label_behind(&mut self, at: usize) -> Label {
         let label = match self.behind.get(&at) {
             Some(label) => *label,
             None => self.labels.next(),
         };
         self.behind.insert(at, label);
         self.placed.insert(label, at + 1);
-        Some(label)
+        label
     }
+}
+
+/// What a jump meets.
+enum Step {
+    Jump(Label),
+    /// Statements, and where it goes on behind them.
+    Way(String, Label),
+}
+
+/// How long a line may become by statements on the way.
+const LONG: usize = 120;
+
+/// Variables of which it is known whether they hold.
+#[derive(Default)]
+struct Known(HashMap<String, bool>);
+
+impl Known {
+    fn of(&self, name: &str) -> Option<bool> {
+        self.0.get(name).copied()
+    }
+
+    /// What a statement tells of a variable.
+    fn learn(&mut self, statement: &str) {
+        let Some((name, value)) = statement.split_once('=') else {
+            return;
+        };
+        match value {
+            "TRUE" => self.0.insert(name.to_owned(), true),
+            "FALSE" => self.0.insert(name.to_owned(), false),
+            _ => self.0.remove(name),
+        };
+    }
+}
+
+/// The last of some statements, without the test before it.
+fn last(statements: &str) -> &str {
+    let from = statements.rfind([':', ' ']).map_or(0, |at| at + 1);
+    &statements[from..]
 }
 
 /// What stands before the label that a line jumps to at its end, and that label.
 fn jump(text: &str) -> Option<(&str, Label)> {
     let (before, label) = Label::last_of(text)?;
     (before.ends_with("GOTO ") || before.ends_with("THEN ")).then_some((before, label))
-}
-
-/// The variable that statements set to a truth value last, and that value.
-fn assigned(text: &str) -> Option<(&str, bool)> {
-    let from = text.rfind([':', ' ']).map_or(0, |at| at + 1);
-    let (name, value) = text[from..].split_once('=')?;
-    let value = match value {
-        "TRUE" => true,
-        "FALSE" => false,
-        _ => return None,
-    };
-    let plain = |c: char| c.is_ascii_alphanumeric() || c == '_' || c == '%';
-    (!name.is_empty() && name.chars().all(plain)).then_some((name, value))
 }
 
 #[cfg(test)]
@@ -138,6 +201,26 @@ mod tests {
         let expected = "10IF x<0 THEN v%=FALSE:GOTO 90\n20IF x<1 THEN v%=TRUE:GOTO 60\n\
             30IF x<2 THEN w%=TRUE:GOTO 50\n40v%=y<1\n50IF NOT v% THEN 90\n60z=1\n70GOTO 90\n\
             80z=2\n90END\n";
+        assert_eq!(text, expected);
+    }
+
+    #[test]
+    fn what_a_known_way_does_is_done_on_the_way() {
+        let mut labels = Labels::default();
+        let all = [labels.next(), labels.next()];
+        let source = [
+            ("IF x<0 THEN v%=TRUE:GOTO @0", None),
+            ("v%=y<1", None),
+            ("IF v% THEN z=x ELSE z=y", Some(0)),
+            ("IF NOT v% THEN w%=TRUE", None),
+            ("IF v% THEN w%=FALSE ELSE w%=z<1", None),
+            ("IF w% THEN @1", None),
+            ("z=1", None),
+            ("END", Some(1)),
+        ];
+        let (text, _) = threaded(program(&source, &mut labels, &all), &mut labels).finish();
+        let expected = "10IF x<0 THEN v%=TRUE:z=x:w%=FALSE:GOTO 70\n20v%=y<1\n30IF v% THEN z=x ELSE z=y\n\
+            40IF NOT v% THEN w%=TRUE\n50IF v% THEN w%=FALSE ELSE w%=z<1\n60IF w% THEN 80\n70z=1\n80END\n";
         assert_eq!(text, expected);
     }
 
