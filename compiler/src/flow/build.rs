@@ -10,7 +10,7 @@ use super::graph::*;
 use crate::source::Span;
 use rustc_hash::FxHashMap;
 use slowlight_routine::{Op, Type, Value};
-use std::collections::{BTreeMap, HashMap};
+use std::collections::{BTreeMap, BTreeSet, HashMap};
 
 /// A graph under construction.
 #[derive(Clone, Debug, Default)]
@@ -28,6 +28,7 @@ pub struct Builder {
     diffusion: Option<Diffusion>,
     reports: Vec<NodeId>,
     claims: BTreeMap<NodeId, (Op, [NodeId; 2])>,
+    early: BTreeSet<NodeId>,
 }
 
 impl Builder {
@@ -345,6 +346,17 @@ impl Builder {
         }
     }
 
+    /// A bool that may be taken for false where that costs less.
+    pub fn early(&mut self, cond: NodeId, span: Span) -> NodeId {
+        if self.value(cond).is_some() || self.undefined_type(cond) {
+            return cond;
+        }
+        let [yes, no] = [true, false].map(|t| self.constant(Value::Bool(t), span));
+        let made = self.add(Node::Select { cond, yes, no }, Type::Bool, span);
+        self.early.insert(made);
+        made
+    }
+
     /// Counts a call of an effect.
     pub fn effect(&mut self, name: &str) {
         match self.effects.iter_mut().find(|e| e.name == name) {
@@ -375,6 +387,7 @@ impl Builder {
             effects: self.effects,
             reports: self.reports,
             claims: self.claims,
+            early: self.early,
         }
     }
 }

@@ -24,7 +24,7 @@
 pub use super::diffusion::{Diffusion, Share};
 use crate::source::Span;
 use slowlight_routine::{Op, Range, Type, Value};
-use std::collections::{BTreeMap, HashMap};
+use std::collections::{BTreeMap, BTreeSet, HashMap};
 
 /// Which node; an index into the graph's arena.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -298,6 +298,10 @@ pub struct Graph {
     /// Bools that are decided in another way than the comparison that they stand
     /// for and are the same as: which comparison. Its operands' ranges follow from the bool.
     pub claims: BTreeMap<NodeId, (Op, [NodeId; 2])>,
+    /// Choices between true and false by a bool that may be taken for false: what it
+    /// decides would come out the same without it, but later
+    /// ([`crate::passes::early`]).
+    pub early: BTreeSet<NodeId>,
     /// The pixel's ink, an int in 0..inks-1.
     pub ink: NodeId,
     /// The shade before the dither, if `draw` ends in one. It is looked at,

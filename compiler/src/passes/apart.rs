@@ -127,6 +127,7 @@ fn copied(graph: &Graph, copies: &Copies) -> Graph {
         names: HashMap::new(),
         directions: BTreeMap::new(),
         claims: BTreeMap::new(),
+        early: Default::default(),
         ..graph.clone()
     };
     let mut moved: Vec<NodeId> = Vec::with_capacity(graph.nodes.len());

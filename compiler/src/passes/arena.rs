@@ -19,6 +19,7 @@ impl<'g> Arena<'g> {
             names: Default::default(),
             directions: Default::default(),
             claims: Default::default(),
+            early: Default::default(),
             ..graph.clone()
         };
         Arena { graph, out }
@@ -32,6 +33,9 @@ impl<'g> Arena<'g> {
         self.out.spans.push(self.graph.span(like));
         if let Some(name) = self.graph.names.get(&like) {
             self.out.names.insert(id, name.clone());
+        }
+        if self.graph.early.contains(&like) && matches!(node, Node::Select { .. }) {
+            self.out.early.insert(id);
         }
         if let Some(length) = self.graph.directions.get(&like) {
             self.out.directions.insert(id, *length);

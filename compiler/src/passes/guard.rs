@@ -11,32 +11,48 @@ use super::arena::Arena;
 use super::peel::{alone, before, body};
 use super::rate::{Dependence, Rates, rates};
 use crate::flow::graph::*;
-use slowlight_routine::{Op, Type, Value};
+use slowlight_routine::{Type, Value};
 use std::collections::HashMap;
 
-/// The graph with a loop behind a guard; nothing where the loop stands in another
+/// The graph with a loop behind a guard of at most so many conditions; nothing where the loop stands in another
 /// loop or has one in its body, or where its body has more than `most` nodes.
-pub fn guard(graph: &Graph, of: LoopId, most: usize) -> Option<Graph> {
+pub fn guard(graph: &Graph, of: LoopId, conditions: usize, most: usize) -> Option<Graph> {
     let turns = graph.loops.get(of.0 as usize)?;
     let rates = rates(graph);
     let body = body(graph, &rates, of);
     let fits = body.len() <= most
         && alone(graph, &rates, of, &body)
         && rates.depends(turns.again, Dependence::Loop(of));
-    fits.then(|| guarded(graph, of, &rates, &body))
+    fits.then(|| guarded(graph, of, conditions, &rates, &body))
 }
 
-/// A value without which a loop's turn does not go on, and whether it must hold.
-fn needed(graph: &Graph, again: NodeId) -> (NodeId, bool) {
+/// Values without which a loop's turn does not go on, the first asked first, and
+/// whether each must hold: `most` at most.
+fn needed(graph: &Graph, again: NodeId, most: usize) -> Vec<(NodeId, bool)> {
     let never = |id| graph.constant(id) == Some(Value::Bool(false));
-    match graph.node(again) {
-        Node::Select { cond, no, .. } if never(no) => (cond, true),
-        Node::Select { cond, yes, .. } if never(yes) => (cond, false),
-        _ => (again, true),
+    let (mut all, mut rest) = (Vec::new(), again);
+    while all.len() < most {
+        let (cond, next) = match graph.node(rest) {
+            Node::Select { cond, yes, no } if never(no) => ((cond, true), yes),
+            Node::Select { cond, yes, no } if never(yes) => ((cond, false), no),
+            _ => break,
+        };
+        all.push(cond);
+        rest = next;
     }
+    if all.is_empty() {
+        all.push((again, true));
+    }
+    all
 }
 
-fn guarded(graph: &Graph, of: LoopId, rates: &Rates, body: &[NodeId]) -> Graph {
+fn guarded(
+    graph: &Graph,
+    of: LoopId,
+    conditions: usize,
+    rates: &Rates,
+    body: &[NodeId],
+) -> Graph {
     let turns = &graph.loops[of.0 as usize];
     let mut out = Arena::new(graph);
     let mut moved = vec![None; graph.nodes.len()];
@@ -52,9 +68,10 @@ fn guarded(graph: &Graph, of: LoopId, rates: &Rates, body: &[NodeId]) -> Graph {
     }
     // The condition, given the starting values.
     let at = |id: NodeId| moved[id.0 as usize].unwrap_or(NodeId(0));
-    let (cond, holds) = needed(graph, turns.again);
+    let needed = needed(graph, turns.again, conditions);
+    let roots: Vec<NodeId> = needed.iter().map(|(cond, _)| *cond).collect();
     let mut first: HashMap<NodeId, NodeId> = HashMap::new();
-    for id in cone(graph, cond, body) {
+    for id in cone(graph, &roots, body) {
         let made = match graph.node(id) {
             Node::Carried { of: l, index } if l == of => {
                 turns.init.get(index as usize).map_or(NodeId(0), |i| at(*i))
@@ -66,12 +83,17 @@ fn guarded(graph: &Graph, of: LoopId, rates: &Rates, body: &[NodeId]) -> Graph {
         };
         first.insert(id, made);
     }
-    let fails = match (first.get(&cond).copied(), holds) {
-        (Some(cond), true) => out.push(Node::Apply(Op::Not, [cond; 2]), turns.again),
-        (cond, _) => cond.unwrap_or(NodeId(0)),
-    };
-    let never = Node::Const(Constant::new(Value::Bool(false)));
-    let never = out.push(never, turns.again);
+    let [never, ever] = [false, true].map(|t| {
+        let node = Node::Const(Constant::new(Value::Bool(t)));
+        out.push(node, turns.again)
+    });
+    // Any of them ends it, the first asked first.
+    let mut fails = never;
+    for (cond, holds) in needed.into_iter().rev() {
+        let cond = first.get(&cond).copied().unwrap_or_else(|| at(cond));
+        let (yes, no) = if holds { (fails, ever) } else { (ever, fails) };
+        fails = out.push(Node::Select { cond, yes, no }, turns.again);
+    }
     let index = turns.init.len() as u32;
     let failed = out.push(Node::Carried { of, index }, turns.again);
     for id in body {
@@ -96,10 +118,10 @@ fn guarded(graph: &Graph, of: LoopId, rates: &Rates, body: &[NodeId]) -> Graph {
     out
 }
 
-/// The body's nodes that a value needs, operands first.
-fn cone(graph: &Graph, root: NodeId, body: &[NodeId]) -> Vec<NodeId> {
+/// The body's nodes that values need, operands first.
+fn cone(graph: &Graph, roots: &[NodeId], body: &[NodeId]) -> Vec<NodeId> {
     let mut needed = Vec::new();
-    let mut todo = vec![root];
+    let mut todo = roots.to_vec();
     while let Some(id) = todo.pop() {
         if body.binary_search(&id).is_ok() && !needed.contains(&id) {
             needed.push(id);

@@ -4,6 +4,7 @@ pub mod algebra;
 pub mod apart;
 mod arena;
 pub mod demand;
+pub mod early;
 pub mod fold;
 pub mod guard;
 pub mod homogeneous;
@@ -26,5 +27,7 @@ pub mod threshold;
 mod apart_tests;
 #[cfg(test)]
 mod claim_tests;
+#[cfg(test)]
+mod guard_tests;
 #[cfg(test)]
 mod peel_tests;

@@ -105,6 +105,10 @@ pub fn rebuild_by(graph: &Graph, rewrite: &mut dyn Rewrite) -> Graph {
         let made = match graph.node(id) {
             Node::Param(p) => params[p.0 as usize],
             Node::Result { of, index } => rebuilder.result(of, index, rewrite),
+            Node::Select { cond, .. } if graph.early.contains(&id) => {
+                let (cond, span) = (rebuilder.at(cond), graph.span(id));
+                rebuilder.builder.early(cond, span)
+            }
             node => {
                 let node = rebuilder.moved(node, id, rewrite);
                 let span = graph.span(id);

@@ -12,6 +12,7 @@ use super::settled::{Settled, scheduled, settle};
 use crate::flow::graph::*;
 use crate::passes::algebra::{Cheaper, Verdicts, algebra, spans};
 use crate::passes::apart::apart;
+use crate::passes::early::in_loops;
 use crate::passes::guard::guard;
 use crate::passes::homogeneous::{homogeneous, lengths};
 use crate::passes::identities::identities;
@@ -52,7 +53,14 @@ const NODES: usize = 1000;
 const PATIENCE: usize = 10_000;
 
 /// A graph that gives the same picture in fewer cycles; `thrifty` with memory.
-pub fn cheaper(plain: Settled, slack: &Slack, runtime: &'static Runtime, thrifty: bool) -> Settled {
+/// `early` is the same graph with the scene's shortcuts in it, if it has any.
+pub fn cheaper(
+    plain: Settled,
+    early: Option<&Graph>,
+    slack: &Slack,
+    runtime: &'static Runtime,
+    thrifty: bool,
+) -> Settled {
     let site = Site {
         slack,
         runtime,
@@ -64,8 +72,11 @@ pub fn cheaper(plain: Settled, slack: &Slack, runtime: &'static Runtime, thrifty
         let Some(peeled) = peel(&plain.graph, of, BODY) else {
             continue;
         };
-        let guarded = guard(&peeled, of, BODY);
-        for (graph, limit) in [(Some(peeled), COPY), (guarded, GUARD)] {
+        let guarded = guard(&peeled, of, 1, BODY);
+        let sooner = early
+            .and_then(|graph| in_loops(&peel(graph, of, BODY)?))
+            .and_then(|graph| guard(&graph, of, 2, BODY));
+        for (graph, limit) in [(Some(peeled), COPY), (guarded, GUARD), (sooner, GUARD)] {
             let tried = graph.map(|graph| settle(&graph, slack));
             if let Some(found) = tried.and_then(|plan| site.rewritten(&plan))
                 && site.cost(&found) < limit * site.cost(&best)

@@ -64,6 +64,7 @@ pub use spread::ErrorRows;
 use crate::flow::graph::*;
 use crate::flow::tree::*;
 use crate::flow::verify::verify;
+use crate::passes::early::without;
 use crate::passes::fold::fold;
 use crate::passes::schedule::missing;
 use crate::passes::stable::stable;
@@ -291,20 +292,15 @@ fn planned(
     }
     let params = params::params(origin, runtime)?;
     let slack = Slack::of(runtime);
-    let mut now = scheduled(fold(origin), &slack);
     let rounds = match rewriting {
         Rewriting::None => 0,
         _ => STABLE_ROUNDS,
     };
-    for _ in 0..rounds {
-        let Some(next) = stable(&now.graph, &now.ranges, slack.most()) else {
-            break;
-        };
-        now = scheduled(fold(&next), &slack);
-    }
-    now = settle(&now.graph, &slack);
+    let mut now = steady(&without(origin), &slack, rounds);
     if let Rewriting::Fast { thrifty, steps } = rewriting {
-        now = cheaper(now, &slack, runtime, thrifty);
+        let early = (!origin.early.is_empty()).then(|| steady(origin, &slack, rounds));
+        let early = early.as_ref().map(|settled| &settled.graph);
+        now = cheaper(now, early, &slack, runtime, thrifty);
         now = stepped(now, &slack, target, steps);
         now = apart_at_last(now, &slack, runtime, thrifty);
     }
@@ -319,6 +315,18 @@ fn planned(
     }
     let origin = (Box::new(origin.clone()), rewriting);
     assemble(graph, tree, ranges, params, target, goal, origin)
+}
+
+/// A graph with stable forms of its formulas.
+fn steady(origin: &Graph, slack: &Slack, rounds: u32) -> Settled {
+    let mut now = scheduled(fold(origin), slack);
+    for _ in 0..rounds {
+        let Some(next) = stable(&now.graph, &now.ranges, slack.most()) else {
+            break;
+        };
+        now = scheduled(fold(&next), slack);
+    }
+    settle(&now.graph, slack)
 }
 
 /// A plan of statements whose ranges are known.

@@ -23,6 +23,8 @@ pub enum Builtin {
     Count,
     /// The nearest hit of a shape.
     ShapeHit,
+    /// A bool that may be taken for false where that costs less.
+    Early,
     /// The unit normal of a shape at a point of its surface.
     ShapeNormal,
     /// The signed distance of a point from a shape.
@@ -51,6 +53,7 @@ impl Builtin {
             Builtin::Ray => "ray".into(),
             Builtin::Hit => "hit".into(),
             Builtin::Count => "count".into(),
+            Builtin::Early => "early".into(),
             Builtin::ShapeHit => "shape.hit".into(),
             Builtin::ShapeNormal => "shape.normal".into(),
             Builtin::ShapeDist => "shape.dist".into(),
@@ -121,6 +124,7 @@ pub fn signatures() -> Vec<Signature> {
     }
     let pair = |a, b, ty: Ty| vec![need(a, ty.clone()), need(b, ty)];
     add("atan2", Builtin::Op(Op::Atan2), pair("y", "x", Real), Angle);
+    add("early", Builtin::Early, one("c", Bool), Bool);
     add("bit_and", Builtin::Op(Op::BitAnd), pair("a", "b", Int), Int);
     add("ink", Builtin::Ink, one("i", Int), Ink);
     add(

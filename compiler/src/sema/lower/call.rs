@@ -154,6 +154,10 @@ impl<'a> Lower<'a> {
                 let below = self.apply(Op::IntMin, &[i, last], span)?;
                 Ok(Val::Node(self.apply(Op::IntMax, &[below, least], span)?))
             }
+            Builtin::Early => {
+                let c = self.node(value, &first.ty, span)?;
+                Ok(Val::Node(self.b.early(c, span)))
+            }
             Builtin::Ray => match second {
                 Some((_, dir)) => {
                     let dir = self.direction(dir, span)?;

@@ -1,0 +1,48 @@
+//! Early-outs: which of the shortcuts that a scene or the prelude offers are taken.
+//!
+//! `early(c)` says that what follows from c would come out the same without it, but
+//! later: a ray that leaves a sphere from outside of it does not meet it, which
+//! its roots would tell, too. Where c is cheap and often holds it saves what comes
+//! after it; elsewhere it costs cycles and memory. Which it is depends on the scene,
+//! the machine and the place, so the planner tries.
+
+use super::rate::{Dependence, rates};
+use super::rebuild::rebuild_old;
+use crate::flow::graph::*;
+use slowlight_routine::Value;
+use std::collections::BTreeSet;
+
+/// The graph without shortcuts.
+pub fn without(graph: &Graph) -> Graph {
+    chosen(graph, &|_| false)
+}
+
+/// The graph with the shortcuts in its loops and without the others; nothing
+/// where there are none.
+pub fn in_loops(graph: &Graph) -> Option<Graph> {
+    let rates = rates(graph);
+    let turns = |id: NodeId| {
+        let mut all = rates.rate(id).iter();
+        all.any(|d| matches!(d, Dependence::Loop(_)))
+    };
+    let any = graph.early.iter().any(|id| turns(*id));
+    any.then(|| chosen(graph, &turns))
+}
+
+/// The graph with the shortcuts that `taken` says, as choices like any other.
+fn chosen(graph: &Graph, taken: &dyn Fn(NodeId) -> bool) -> Graph {
+    if graph.early.is_empty() {
+        return graph.clone();
+    }
+    let plain = Graph {
+        early: BTreeSet::new(),
+        ..graph.clone()
+    };
+    rebuild_old(&plain, &mut |b, made, id, span| match graph.node(id) {
+        Node::Select { cond, .. } if graph.early.contains(&id) => match taken(id) {
+            true => *made.get(cond.0 as usize)?,
+            false => Some(b.constant(Value::Bool(false), span)),
+        },
+        _ => None,
+    })
+}
