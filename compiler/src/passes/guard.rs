@@ -46,13 +46,7 @@ fn needed(graph: &Graph, again: NodeId, most: usize) -> Vec<(NodeId, bool)> {
     all
 }
 
-fn guarded(
-    graph: &Graph,
-    of: LoopId,
-    conditions: usize,
-    rates: &Rates,
-    body: &[NodeId],
-) -> Graph {
+fn guarded(graph: &Graph, of: LoopId, conditions: usize, rates: &Rates, body: &[NodeId]) -> Graph {
     let turns = &graph.loops[of.0 as usize];
     let mut out = Arena::new(graph);
     let mut moved = vec![None; graph.nodes.len()];
