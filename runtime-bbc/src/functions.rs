@@ -15,7 +15,7 @@ macro_rules! part {
 #[rustfmt::skip]
 pub(crate) static ALL: &[Part] = &[
     part!("BIG" [] 71 "\
-BIG=1.7E38:HALF=BIG/2:ROOT=1E18:TINY=1E-18:FAR=1E36:WIDE=2147483648
+BIG=1.7E38:HALF=BIG/2:ROOT=1E18:TINY=1E-15:FAR=1E33:WIDE=2147483648
 "),
     part!("FNadd" ["BIG"] 97 "\
 DEF FNadd(a,b)

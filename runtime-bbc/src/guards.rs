@@ -72,7 +72,7 @@ pub static GUARDED: &[Guarded] = &[
     guarded!("FNadd" "add" [(0 Below(HALF_WORD)), (1 Below(HALF_WORD))] Some(2.0 * HALF_WORD)),
     guarded!("FNsub" "sub" [(0 Below(HALF_WORD)), (1 Below(HALF_WORD))] Some(2.0 * HALF_WORD)),
     guarded!("FNmul" "mul" [(0 Below(1e18)), (1 Below(1e18))] Some(1.1e36)),
-    guarded!("FNdiv" "div" [(0 Below(1e18)), (1 Above(1e-18))] None),
+    guarded!("FNdiv" "div" [(0 Below(1e18)), (1 Above(1e-15))] None),
     guarded!("FNsqr" "sqr" [(0 Least(0.0))] Some(2e19)),
     guarded!("FNsin" "sin" [(0 Below(1e5))] Some(1.1)),
     guarded!("FNcos" "cos" [(0 Below(1e5))] Some(1.1)),

@@ -38,8 +38,8 @@ pub const INT: Format = Format::Int { bits: 32 };
 pub const BIG: f64 = 1.7e38;
 
 /// Where guarded quotients saturate: near enough to [`BIG`] to stand for it,
-/// far enough from it that a few products and sums of one need no guard.
-pub const FAR: f64 = 1e36;
+/// far enough from it that products of one with lengths, and their sums, need no guard.
+pub const FAR: f64 = 1e33;
 
 /// BASIC II's cycles, from the whole statements measured on the ROM: `C%=C%+S%`
 /// on resident variables takes 1,245, `C%=A%` 804 and `X=A` 1,243.

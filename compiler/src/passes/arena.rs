@@ -2,6 +2,7 @@
 //! copy nodes more than once, which a rebuilding by equal nodes would undo.
 
 use crate::flow::graph::*;
+use slowlight_routine::Value;
 
 /// The new graph while it is made; its loops and outputs are those of the old one
 /// until [`Arena::finish`].
@@ -34,13 +35,19 @@ impl<'g> Arena<'g> {
         if let Some(name) = self.graph.names.get(&like) {
             self.out.names.insert(id, name.clone());
         }
-        if self.graph.early.contains(&like) && matches!(node, Node::Select { .. }) {
+        // Other nodes may be pushed like a shortcut, which they are not.
+        if self.graph.early.contains(&like) && self.is_shortcut(node) {
             self.out.early.insert(id);
         }
         if let Some(length) = self.graph.directions.get(&like) {
             self.out.directions.insert(id, *length);
         }
         id
+    }
+
+    fn is_shortcut(&self, node: Node) -> bool {
+        let truth = |id, value| self.out.constant(id) == Some(Value::Bool(value));
+        matches!(node, Node::Select { yes, no, .. } if truth(yes, true) && truth(no, false))
     }
 
     /// The new graph, its loops and outputs what `moved` says stands for the old

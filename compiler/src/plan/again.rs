@@ -34,11 +34,13 @@ impl Plan {
     /// this one spends none.
     pub fn smaller(&self) -> Option<Plan> {
         let less = match self.origin.1 {
-            Rewriting::Fast { thrifty, .. } if !thrifty => Rewriting::Fast {
-                thrifty: true,
-                steps: Steps::All,
+            Rewriting::Fast { thrift, .. } => match thrift.more() {
+                Some(thrift) => Rewriting::Fast {
+                    thrift,
+                    steps: Steps::All,
+                },
+                None => Rewriting::Stable,
             },
-            Rewriting::Fast { .. } => Rewriting::Stable,
             _ => return None,
         };
         self.again(&self.origin.0, less)
@@ -47,7 +49,7 @@ impl Plan {
     /// The same plan with less that is stepped from column to column, which takes
     /// a little less memory. None where nothing is.
     pub fn unstepped(&self) -> Option<Plan> {
-        let Rewriting::Fast { thrifty, steps } = self.origin.1 else {
+        let Rewriting::Fast { thrift, steps } = self.origin.1 else {
             return None;
         };
         let ramp = |node: &Node| matches!(node, Node::Ramp { .. });
@@ -55,7 +57,7 @@ impl Plan {
             Steps::All => Steps::Whole,
             Steps::Whole | Steps::None => Steps::None,
         };
-        let less = Rewriting::Fast { thrifty, steps };
+        let less = Rewriting::Fast { thrift, steps };
         let stepped = self.graph.nodes.iter().any(ramp);
         stepped.then(|| self.again(&self.origin.0, less)).flatten()
     }

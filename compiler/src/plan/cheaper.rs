@@ -7,7 +7,7 @@
 //! it saves where others needed its parts, or where the ranges cannot see its
 //! sign and it needs a guard.
 
-use super::price::Price;
+use super::price::{Price, Thrift};
 use super::settled::{Settled, scheduled, settle};
 use crate::flow::graph::*;
 use crate::passes::algebra::{Cheaper, Verdicts, algebra, spans};
@@ -52,19 +52,20 @@ const LENGTHS: usize = 4;
 const NODES: usize = 1000;
 const PATIENCE: usize = 10_000;
 
-/// A graph that gives the same picture in fewer cycles; `thrifty` with memory.
+/// A graph that gives the same picture in fewer cycles.
 /// `early` is the same graph with the scene's shortcuts in it, if it has any.
 pub fn cheaper(
     plain: Settled,
     early: Option<&Graph>,
     slack: &Slack,
     runtime: &'static Runtime,
-    thrifty: bool,
+    thrift: Thrift,
 ) -> Settled {
     let site = Site {
         slack,
         runtime,
-        price: Price::new(&plain, runtime, thrifty),
+        price: Price::new(&plain, runtime, thrift),
+        runs: thrift.runs(),
     };
     let mut best = site.rewritten(&plain).unwrap_or(plain.clone());
     for k in 0..plain.graph.loops.len() {
@@ -103,9 +104,9 @@ pub fn apart_at_last(
     plan: Settled,
     slack: &Slack,
     runtime: &'static Runtime,
-    thrifty: bool,
+    thrift: Thrift,
 ) -> Settled {
-    let price = Price::new(&plan, runtime, thrifty);
+    let price = Price::new(&plan, runtime, thrift);
     let mut best = plan;
     for _ in 0..APART {
         let next = apart(&best.graph, &best.tree, &price.worth(&best));
@@ -121,6 +122,8 @@ struct Site<'s> {
     slack: &'s Slack,
     runtime: &'static Runtime,
     price: Price,
+    /// Whether runs of columns may be looked for.
+    runs: bool,
 }
 
 impl Site<'_> {
@@ -152,7 +155,8 @@ impl Site<'_> {
         let base = found.as_ref().unwrap_or(plain);
         let found = self.sited(base, SHORTER, identities).or(found);
         let base = found.as_ref().unwrap_or(plain);
-        self.sited(base, SPANS, spans).or(found)
+        let cut = self.runs.then(|| self.sited(base, SPANS, spans)).flatten();
+        cut.or(found)
     }
 
     /// The graph with one of its directions at its own length, each in turn.

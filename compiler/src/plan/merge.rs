@@ -4,7 +4,7 @@
 //! on: written down, each level ends in a copy to the level around. Where the
 //! inner value is computed inside the arm, and read only to be copied at its
 //! end, both may have one home: until the arm's end the outer value is not
-//! there yet. Then the copy is none.
+//! there yet. Then the copy is none. A loop ends on one of two ways, too.
 
 use super::Plan;
 use crate::flow::graph::*;
@@ -30,7 +30,6 @@ pub fn merged(plan: &Plan, always: bool) -> HashMap<Place, Place> {
         walk(block, &mut |statement| {
             let (one, other) = match statement {
                 Statement::If { yes, no, .. } => (yes, no),
-                // A loop ends on one of two ways, too.
                 Statement::Loop(turns) => (&turns.done, &turns.otherwise),
                 _ => return,
             };

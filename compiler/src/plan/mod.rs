@@ -72,6 +72,7 @@ use crate::range::{Ranges, Slack};
 use crate::source::{Diagnostic, Span};
 use crate::target::{Mode, Target};
 use cheaper::{apart_at_last, cheaper};
+use price::Thrift;
 use settled::{Settled, scheduled, settle};
 use slowlight_routine::{Bits, Format, Op, Range, Routine, Runtime, Type, Value};
 use std::collections::HashMap;
@@ -248,7 +249,7 @@ impl Plan {
 /// Plans a graph that `sema` lowered for this target's inks and offset.
 pub fn plan(graph: &Graph, target: &'static Target, goal: &Goal) -> Result<Plan, Vec<Diagnostic>> {
     let all = Rewriting::Fast {
-        thrifty: false,
+        thrift: Thrift::default(),
         steps: Steps::All,
     };
     planned(graph, target, goal, all)
@@ -272,7 +273,7 @@ enum Rewriting {
     /// [`crate::passes::stable`].
     Stable,
     /// Those for speed, too; perhaps with little memory.
-    Fast { thrifty: bool, steps: Steps },
+    Fast { thrift: Thrift, steps: Steps },
 }
 
 /// How often stable forms are looked for: what one makes may let another in.
@@ -297,12 +298,12 @@ fn planned(
         _ => STABLE_ROUNDS,
     };
     let mut now = steady(&without(origin), &slack, rounds);
-    if let Rewriting::Fast { thrifty, steps } = rewriting {
+    if let Rewriting::Fast { thrift, steps } = rewriting {
         let early = (!origin.early.is_empty()).then(|| steady(origin, &slack, rounds));
         let early = early.as_ref().map(|settled| &settled.graph);
-        now = cheaper(now, early, &slack, runtime, thrifty);
+        now = cheaper(now, early, &slack, runtime, thrift);
         now = stepped(now, &slack, target, steps);
-        now = apart_at_last(now, &slack, runtime, thrifty);
+        now = apart_at_last(now, &slack, runtime, thrift);
     }
     let Settled {
         graph,

@@ -19,10 +19,34 @@ use rustc_hash::FxHashSet;
 use slowlight_routine::{Op, Routine, Runtime, Stepping, Type, Value};
 use std::cell::Cell;
 
-/// What part of the plan's cycles a statement more must save, for its memory;
-/// three entries of a table take as much. Where there is plenty, and where
-/// there was not enough.
-const MEMORY: [f64; 2] = [0.0002, 0.0025];
+/// What part of the plan's cycles a statement more must save, for its memory
+/// (three entries of a table take as much), and whether runs of columns may be
+/// looked for: their ends take many statements a row, which hardly count by cycles.
+/// From where there is plenty to where there was never enough.
+const THRIFT: [(f64, bool); 6] = [
+    (0.0002, true),
+    (0.0002, false),
+    (0.001, true),
+    (0.001, false),
+    (0.0025, true),
+    (0.01, true),
+];
+
+/// How much memory counts beside cycles: more where a program did not fit.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Thrift(usize);
+
+impl Thrift {
+    /// The next that spends less memory, if there is one.
+    pub fn more(self) -> Option<Thrift> {
+        (self.0 + 1 < THRIFT.len()).then_some(Thrift(self.0 + 1))
+    }
+
+    /// Whether runs of columns may be looked for.
+    pub fn runs(self) -> bool {
+        THRIFT[self.0].1
+    }
+}
 
 /// Rows and columns that are looked at, and how many statements may run for that.
 const ROWS: u32 = 12;
@@ -38,11 +62,11 @@ pub struct Price {
 }
 
 impl Price {
-    /// Prices for plans of the scene of a first one; `thrifty` with memory.
-    pub fn new(plain: &Settled, runtime: &'static Runtime, thrifty: bool) -> Price {
+    /// Prices for plans of the scene of a first one.
+    pub fn new(plain: &Settled, runtime: &'static Runtime, thrift: Thrift) -> Price {
         let mut price = Price {
             runtime,
-            memory: MEMORY[usize::from(thrifty)],
+            memory: THRIFT[thrift.0].0,
             pixels: Vec::new(),
         };
         if plain.graph.diffusion.is_none() {

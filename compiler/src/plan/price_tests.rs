@@ -1,7 +1,7 @@
 //! Prices depend on what a param may be, not on what it is now.
 #![allow(clippy::unwrap_used)]
 
-use super::price::Price;
+use super::price::{Price, Thrift};
 use super::settled::{Settled, settle};
 use crate::flow::graph::*;
 use crate::range::Slack;
@@ -18,7 +18,7 @@ fn graph(text: &str) -> Graph {
 
 fn price(graph: &Graph, runtime: &'static Runtime) -> f64 {
     let plan: Settled = settle(graph, &Slack::of(runtime));
-    let price = Price::new(&plan, runtime, false).of(&plan);
+    let price = Price::new(&plan, runtime, Thrift::default()).of(&plan);
     assert!(price.is_finite() && price > 0.0);
     price
 }

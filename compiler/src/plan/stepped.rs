@@ -4,7 +4,7 @@
 //! or where computing it takes several multiplications. It is weighed against
 //! whole statements, with what is read and assigned, since a step is one.
 
-use super::price::Price;
+use super::price::{Price, Thrift};
 use super::settled::{Settled, settle};
 use crate::flow::graph::*;
 use crate::flow::ramp;
@@ -38,7 +38,7 @@ pub fn stepped(plain: Settled, slack: &Slack, target: &'static Target, steps: St
     let site = Site {
         slack,
         target,
-        price: Price::new(&plain, target.runtime, false),
+        price: Price::new(&plain, target.runtime, Thrift::default()),
     };
     let phased = match target.wraps && steps == Steps::All {
         true => {

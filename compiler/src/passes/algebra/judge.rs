@@ -6,6 +6,8 @@
 //! the last place of its result, exact ones nothing. That is an estimate, not a
 //! bound; it is compared with the same estimate for what stands there now.
 
+use super::New;
+use crate::flow::build::Builder;
 use crate::flow::graph::*;
 use rustc_hash::FxHashMap;
 use slowlight_routine::{Op, Runtime, Type, Value};
@@ -189,6 +191,15 @@ impl Follow<'_> {
     }
 }
 
+impl Follow<'_> {
+    /// Whether a root was taken of what is below 0.
+    fn misses_root(&self) -> bool {
+        let below = |id: NodeId| self.known.get(&id).is_some_and(|a| a.value < 0.0);
+        let mut ids = self.known.keys();
+        ids.any(|id| matches!(self.nodes.node(*id), Node::Apply(Op::Sqrt, [a, _]) if below(a)))
+    }
+}
+
 fn constant(value: Value) -> Rounded {
     let value = value.real();
     let off = if value.fract() == 0.0 {
@@ -223,5 +234,107 @@ pub fn applied(op: Op, a: Rounded, b: Rounded) -> Rounded {
     Rounded {
         value,
         off: carried + own,
+    }
+}
+
+/// What decides whether roundings do too much.
+pub struct Judge<'g> {
+    pub graph: &'g Graph,
+    pub samples: &'g [Sample],
+    pub allowance: f64,
+}
+
+/// By which part two formulas for one value may differ in `f64`.
+const APART: f64 = 1e-6;
+
+impl Judge<'_> {
+    /// Whether roundings do no more to a value or a comparison than allowed.
+    pub fn sound(&self, b: &Builder, new: New<'_>, old: NodeId, made: NodeId) -> bool {
+        self.judged(b, new, old, made, false)
+    }
+
+    /// The same of formulas that hold where roots are of what is not below 0.
+    pub fn equal(&self, b: &Builder, new: New<'_>, old: NodeId, made: NodeId) -> bool {
+        self.judged(b, new, old, made, true)
+    }
+
+    fn judged(
+        &self,
+        b: &Builder,
+        new: New<'_>,
+        old: NodeId,
+        made: NodeId,
+        where_equal: bool,
+    ) -> bool {
+        let graph = self.graph;
+        let mut told = 0;
+        for sample in self.samples {
+            let tables = |t: TableId| graph.tables.get(t.0 as usize);
+            let mut follow = Follow {
+                nodes: graph,
+                tables: &tables,
+                sample,
+                known: Default::default(),
+            };
+            let Some(before) = relative(&mut follow, graph, old) else {
+                continue;
+            };
+            let value = follow.value(old, 0);
+            // There the value is not needed: its roots are of what is not below 0.
+            if where_equal && follow.misses_root() {
+                continue;
+            }
+            // What both need is the same in both.
+            let shared = follow.known.iter().filter(|(id, _)| {
+                matches!(graph.node(**id), Node::Lookup { .. }) || graph.ty(**id) == Type::Int
+            });
+            let known = shared.filter_map(|(id, value)| Some((new(*id)?, *value)));
+            let tables = |t: TableId| b.table_of(t);
+            let mut follow = Follow {
+                nodes: b,
+                tables: &tables,
+                sample,
+                known: known.collect(),
+            };
+            let Some(after) = relative(&mut follow, b, made) else {
+                return false;
+            };
+            told += 1;
+            let differs = where_equal && !agree(value, follow.value(made, 0));
+            if differs || after > self.allowance * before.max(2.0) {
+                return false;
+            }
+        }
+        told > 0
+    }
+}
+
+/// Whether two values are one but for roundings of `f64`.
+fn agree(a: Option<Rounded>, b: Option<Rounded>) -> bool {
+    let (Some(a), Some(b)) = (a, b) else {
+        return false;
+    };
+    let size = a.value.abs().max(b.value.abs()).max(1.0);
+    (a.value - b.value).abs() <= APART * size
+}
+
+/// How much of a value, or of a comparison's difference, roundings may change:
+/// in units of the format, as a part of it.
+fn relative(follow: &mut Follow<'_>, nodes: &dyn Nodes, id: NodeId) -> Option<f64> {
+    let part = |r: Rounded| r.off / r.value.abs().max(1e-300);
+    match nodes.node(id) {
+        Node::Const(_) => Some(0.0),
+        Node::Select { cond, yes, no } => {
+            let holds = follow.value(cond, 0)?.value != 0.0;
+            relative(follow, nodes, if holds { yes } else { no })
+        }
+        Node::Apply(op, [a, b]) if op.result() == Type::Bool && op.arity() == 2 => {
+            let (a, b) = (follow.value(a, 0)?, follow.value(b, 0)?);
+            Some(part(Rounded {
+                value: a.value - b.value,
+                off: a.off + b.off,
+            }))
+        }
+        _ => follow.value(id, 0).map(part),
     }
 }

@@ -42,7 +42,8 @@ use crate::source::Span;
 use arithmetic::{multiplied, scaled};
 pub(super) use form::Forms;
 use form::{Form, Part};
-use judge::{Follow, Nodes, Rounded, Sample, cycles, samples};
+pub(super) use judge::Judge;
+use judge::{Sample, cycles, samples};
 pub(super) use number::Number;
 use put::Put;
 use slowlight_routine::{Format, Op, Runtime, Type};
@@ -341,102 +342,6 @@ pub(super) fn own(graph: &Graph, users: &[Vec<NodeId>], id: NodeId) -> HashSet<N
         }
     }
     own
-}
-
-/// What decides whether roundings do too much.
-pub(super) struct Judge<'g> {
-    pub graph: &'g Graph,
-    pub samples: &'g [Sample],
-    pub allowance: f64,
-}
-
-/// Where two formulas for one value differ by more than that part, they are not
-/// where both hold.
-const APART: f64 = 1e-6;
-
-impl Judge<'_> {
-    /// Whether roundings do no more to a value or a comparison than allowed.
-    fn sound(&self, b: &Builder, new: New<'_>, old: NodeId, made: NodeId) -> bool {
-        self.judged(b, new, old, made, false)
-    }
-
-    /// The same of formulas that hold where roots are of what is not below 0.
-    pub fn equal(&self, b: &Builder, new: New<'_>, old: NodeId, made: NodeId) -> bool {
-        self.judged(b, new, old, made, true)
-    }
-
-    fn judged(
-        &self,
-        b: &Builder,
-        new: New<'_>,
-        old: NodeId,
-        made: NodeId,
-        where_equal: bool,
-    ) -> bool {
-        let graph = self.graph;
-        let mut told = 0;
-        for sample in self.samples {
-            let tables = |t: TableId| graph.tables.get(t.0 as usize);
-            let mut follow = Follow {
-                nodes: graph,
-                tables: &tables,
-                sample,
-                known: Default::default(),
-            };
-            let Some(before) = relative(&mut follow, graph, old) else {
-                continue;
-            };
-            let value = follow.value(old, 0);
-            // What both need is the same in both.
-            let shared = follow.known.iter().filter(|(id, _)| {
-                matches!(graph.node(**id), Node::Lookup { .. }) || graph.ty(**id) == Type::Int
-            });
-            let known = shared.filter_map(|(id, value)| Some((new(*id)?, *value)));
-            let tables = |t: TableId| b.table_of(t);
-            let mut follow = Follow {
-                nodes: b,
-                tables: &tables,
-                sample,
-                known: known.collect(),
-            };
-            let Some(after) = relative(&mut follow, b, made) else {
-                return false;
-            };
-            let pair = [value, follow.value(made, 0)].map(|v| v.map(|v| v.value));
-            if let [Some(x), Some(y)] = pair
-                && where_equal
-                && (x - y).abs() > APART * x.abs().max(y.abs()).max(1.0)
-            {
-                continue;
-            }
-            told += 1;
-            if after > self.allowance * before.max(2.0) {
-                return false;
-            }
-        }
-        told > 0
-    }
-}
-
-/// How much of a value, or of a comparison's difference, roundings may change:
-/// in units of the format, as a part of it.
-fn relative(follow: &mut Follow<'_>, nodes: &dyn Nodes, id: NodeId) -> Option<f64> {
-    let part = |r: Rounded| r.off / r.value.abs().max(1e-300);
-    match nodes.node(id) {
-        Node::Const(_) => Some(0.0),
-        Node::Select { cond, yes, no } => {
-            let holds = follow.value(cond, 0)?.value != 0.0;
-            relative(follow, nodes, if holds { yes } else { no })
-        }
-        Node::Apply(op, [a, b]) if op.result() == Type::Bool && op.arity() == 2 => {
-            let (a, b) = (follow.value(a, 0)?, follow.value(b, 0)?);
-            Some(part(Rounded {
-                value: a.value - b.value,
-                off: a.off + b.off,
-            }))
-        }
-        _ => follow.value(id, 0).map(part),
-    }
 }
 
 /// Whether a form is less than 0, at most 0, or 0.

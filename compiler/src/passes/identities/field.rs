@@ -5,8 +5,8 @@
 //! 2^61 - 1 elements are the same, but for a chance of about their degree in
 //! 2^61 at each point (Schwartz, Fast Probabilistic Algorithms for Verification
 //! of Polynomial Identities, 1980). Nothing is rounded there, so what agrees over
-//! the reals agrees, and roots are any element with that square: what would
-//! need a root's sign is not found.
+//! the reals agrees, and a root is either element with that square, by a coin:
+//! what would need its sign is not found.
 
 use crate::flow::graph::*;
 use crate::passes::algebra::{Forms, Number};
@@ -131,12 +131,21 @@ pub struct Field<'g> {
 
 impl<'g> Field<'g> {
     pub fn new(graph: &'g Graph, ranges: &'g Ranges, forms: &'g Forms<'g>) -> Field<'g> {
-        Field {
+        let mut field = Field {
             graph,
             ranges,
             forms,
-            roots: roots(graph, ranges),
+            roots: Vec::new(),
+        };
+        // The root of one value and that of three times it are never both there.
+        for root in roots(graph, ranges) {
+            field.roots.push(root);
+            let found = (0..TRIES).any(|key| field.at(key, &|_| true, &HashMap::new()).is_some());
+            if !found {
+                field.roots.pop();
+            }
         }
+        field
     }
 
     /// Each real and int value at the points; nothing for bools, and nothing at all
@@ -160,7 +169,7 @@ impl<'g> Field<'g> {
     }
 
     /// Whether what `holds` says of values holds whichever way the conditions go
-    /// that some values hang on.
+    /// that some values hang on, and whichever signs their roots have.
     pub fn always(&self, of: &[NodeId], holds: &dyn Fn(Values<'_>) -> bool) -> bool {
         let mut cone: HashSet<NodeId> = HashSet::new();
         let mut todo = of.to_vec();
@@ -175,7 +184,10 @@ impl<'g> Field<'g> {
                     todo.extend([yes, no]);
                 }
                 Node::Apply(Op::Sign, _) => conditions.push(id),
-                node => todo.extend(node.operands()),
+                node => {
+                    conditions.extend(self.roots.contains(&id).then_some(id));
+                    todo.extend(node.operands());
+                }
             }
         }
         conditions.sort_unstable();
@@ -196,6 +208,14 @@ impl<'g> Field<'g> {
             found.is_some_and(|values| holds(&|id| of(&values, id)))
         };
         (0..1 << conditions.len()).all(one)
+    }
+}
+
+/// Which way a condition, a sign or a root's sign goes at a point.
+fn coin(key: u64, forced: &HashMap<NodeId, bool>, id: NodeId) -> bool {
+    match forced.get(&id) {
+        Some(way) => *way,
+        None => drawn(drawn(key) ^ 0x5bd1_e995 ^ u64::from(id.0)) & 1 == 1,
     }
 }
 
@@ -228,7 +248,14 @@ impl Field<'_> {
                 _ if !asked(id) => None,
                 _ => Some(match self.known(&values, forced, key, id) {
                     Some(Known::Value(value)) => value,
-                    Some(Known::Root(square)) => root(square)?,
+                    Some(Known::Root(square)) => {
+                        let root = root(square)?;
+                        if coin(key, forced, id) {
+                            root
+                        } else {
+                            sub(0, root)
+                        }
+                    }
                     None => any(),
                 }),
             };
@@ -246,10 +273,7 @@ impl Field<'_> {
         id: NodeId,
     ) -> Option<Known> {
         let of = |id: NodeId| values.get(id.0 as usize).copied().flatten();
-        let coin = |id: NodeId| match forced.get(&id) {
-            Some(way) => *way,
-            None => drawn(drawn(key) ^ 0x5bd1_e995 ^ u64::from(id.0)) & 1 == 1,
-        };
+        let coin = |id: NodeId| coin(key, forced, id);
         let value = match self.graph.node(id) {
             Node::Const(c) => match Number::of(c.value().real()) {
                 Number::Exact(n, d) => mul(whole(n), inverse(whole(d))),
@@ -259,7 +283,7 @@ impl Field<'_> {
                 let (cond, turned) = self.turned(cond);
                 of(if coin(cond) != turned { yes } else { no })?
             }
-            Node::Apply(Op::Sign, _) if self.forms.two(id.0).is_some_and(|two| two.low == -1) => {
+            Node::Apply(Op::Sign, _) if self.is_unit(id) => {
                 if coin(id) {
                     1
                 } else {
@@ -273,6 +297,12 @@ impl Field<'_> {
             _ => return None,
         };
         Some(Known::Value(value))
+    }
+
+    /// Whether a sign is never 0.
+    fn is_unit(&self, id: NodeId) -> bool {
+        let two = self.forms.two(id.0);
+        two.is_some_and(|two| (two.low, two.high) == (-1, 1))
     }
 
     /// A condition without its negations, and whether those turn it.

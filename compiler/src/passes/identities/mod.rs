@@ -78,9 +78,9 @@ pub struct Found {
 
 struct Search<'g> {
     graph: &'g Graph,
-    ranges: &'g Ranges,
     forms: &'g Forms<'g>,
     runtime: &'g Runtime,
+    field: Field<'g>,
     prints: Vec<Option<Print>>,
     users: Vec<Vec<NodeId>>,
 }
@@ -92,10 +92,11 @@ impl<'g> Search<'g> {
         forms: &'g Forms<'g>,
         runtime: &'g Runtime,
     ) -> Option<Search<'g>> {
+        let field = Field::new(graph, ranges, forms);
         Some(Search {
             graph,
-            ranges,
-            prints: Field::new(graph, ranges, forms).prints()?,
+            prints: field.prints()?,
+            field,
             forms,
             runtime,
             users: users(graph),
@@ -161,8 +162,8 @@ impl<'g> Search<'g> {
     fn holds(&self, id: NodeId, formula: &Formula, values: &[NodeId]) -> bool {
         let made = formula.values().map(|k| values[k]);
         let all: Vec<NodeId> = made.chain([id]).collect();
-        let field = Field::new(self.graph, self.ranges, self.forms);
-        field.always(&all, &|of| formula.value(&|k| of(values[k])) == of(id))
+        self.field
+            .always(&all, &|of| formula.value(&|k| of(values[k])) == of(id))
     }
 
     /// Whether a value is one of two constants.
@@ -179,7 +180,8 @@ impl<'g> Search<'g> {
         self.forms.looped(id)
     }
 
-    /// Values that one is made of, the nearest first, and their prints; none twice.
+    /// Values that one is made of on every way, so that what is known where they are
+    /// computed is known where it is; the nearest first, and their prints; none twice.
     fn at_hand(&self, id: NodeId) -> (Vec<NodeId>, Vec<Print>) {
         let (mut values, mut all) = (Vec::new(), Vec::<Print>::new());
         let mut todo: BTreeSet<NodeId> = self.graph.node(id).operands().collect();
@@ -187,7 +189,10 @@ impl<'g> Search<'g> {
             if values.len() >= VALUES {
                 break;
             }
-            todo.extend(self.graph.node(next).operands());
+            match self.graph.node(next) {
+                Node::Select { cond, .. } => todo.extend([cond]),
+                node => todo.extend(node.operands()),
+            }
             let fits = self.forms.pixel(next) && !self.looped(next);
             let real = self.graph.ty(next) != Type::Bool && self.graph.constant(next).is_none();
             let print = self.prints[next.0 as usize];

@@ -2,7 +2,7 @@
 //!
 //! What is looked for is value = d w + c a (u + s v), with constants c, d and s, where
 //! w is one of the values at hand, a product of two, or nothing; a is a value,
-//! or 1; u and v are values, 1 or nothing. What the parentheses can be, but for
+//! or 1; u is a value, v one, 1 or nothing. What the parentheses can be, but for
 //! the factor c, is put into a table; then each d w and a is looked up.
 
 use super::field::*;
@@ -99,8 +99,7 @@ impl<'p> Sums<'p> {
         }
     }
 
-    /// The formulas of a value that need none but values that `may` be used, each
-    /// factor a out of `by`.
+    /// The formulas of a value, each factor a out of `by`.
     pub fn formulas(&self, value: &Print, by: &[usize]) -> Vec<Formula> {
         let mut tries = vec![(None, *value)];
         for (k, u) in self.prints.iter().enumerate() {

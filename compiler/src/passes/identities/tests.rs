@@ -102,6 +102,27 @@ fn what_does_not_follow_is_not_found() {
 }
 
 #[test]
+fn what_needs_a_roots_sign_is_not_found() {
+    // Of 9, 4 and 36 one root is no square in the field, which goes with the sign.
+    for factor in [9, 4, 36] {
+        let graph = lowered(&format!(
+            "image 32 x 24 inks black, white;
+             draw (x, y) = ink({{
+               let d = (x - 20.5) * (x - 20.5) + y * y + 1;
+               let s = sqrt(d);
+               let t = sqrt({factor} * d);
+               let near = (x - 15) * t * (y - 3.5) * (x - 7.25) + s;
+               if s > 12 and near > 40 then 1 else 0
+             }});"
+        ));
+        let plain = settled(&graph);
+        if let Some(cheaper) = found(&plain) {
+            same(&plain.graph, &cheaper.graph);
+        }
+    }
+}
+
+#[test]
 fn graphs_at_random_draw_what_they_drew() {
     let mut sites = 0;
     for seed in 1..400 {

@@ -57,7 +57,7 @@ pub fn program(plan: &Plan) -> Lines {
     }
     let params = (0..plan.params.len()).map(|k| code.values.names.param(k).to_owned());
     let keep: Vec<String> = params.chain([first, last]).collect();
-    let lines = threaded(code.lines, &mut code.labels);
+    let lines = threaded(code.lines, &mut code.labels, style != Style::Small);
     short(lines, &keep, style)
 }
 
@@ -194,7 +194,7 @@ pub(super) fn behind<'p>(
     let outer = std::mem::replace(&mut code.lines, Lines::of_weight(weight));
     write(code);
     let mut lines = std::mem::replace(&mut code.lines, outer);
-    if code.values.style == Style::Listing || lines.texts().count() <= 2 {
+    if code.values.style != Style::Fast || lines.texts().count() <= 2 {
         code.lines.append(lines);
         return None;
     }

@@ -12,13 +12,16 @@ use std::collections::HashMap;
 const HOPS: usize = 8;
 
 /// The lines with every jump to a jump shortened.
-pub fn threaded(lines: Lines, labels: &mut Labels) -> Lines {
+///
+/// `longer`: statements may stand on several ways, which takes memory.
+pub fn threaded(lines: Lines, labels: &mut Labels, longer: bool) -> Lines {
     let texts: Vec<String> = lines.texts().map(str::to_owned).collect();
     let mut road = Road {
         placed: lines.labelled().collect(),
         behind: HashMap::new(),
         texts: &texts,
         labels,
+        longer,
     };
     let changed: Vec<String> = texts.iter().map(|text| road.shortened(text)).collect();
     let behind = road.behind;
@@ -32,6 +35,7 @@ struct Road<'t> {
     behind: HashMap<usize, Label>,
     texts: &'t [String],
     labels: &'t mut Labels,
+    longer: bool,
 }
 
 impl Road<'_> {
@@ -92,6 +96,7 @@ impl Road<'_> {
             let (_, way) = before.split_once(" THEN ")?;
             let way = way.strip_suffix("GOTO ").unwrap_or_default();
             return Some(match way.strip_suffix(':') {
+                Some(_) if !self.longer => return None,
                 Some(way) => Step::Way(way.to_owned(), next),
                 None => Step::Jump(next),
             });
@@ -102,6 +107,7 @@ impl Road<'_> {
         let behind = plain.then(|| self.label_behind(at))?;
         Some(match way.is_empty() {
             true => Step::Jump(behind),
+            false if !self.longer => return None,
             false => Step::Way(way, behind),
         })
     }
@@ -137,10 +143,13 @@ impl Known {
         self.0.get(name).copied()
     }
 
-    /// What a statement tells of a variable.
+    /// What a statement tells of a variable; what is no assignment may change any.
     fn learn(&mut self, statement: &str) {
-        let Some((name, value)) = statement.split_once('=') else {
-            return;
+        let plain = |c: char| c.is_ascii_alphanumeric() || c == '_' || c == '%';
+        let Some((name, value)) = (statement.split_once('='))
+            .filter(|(name, _)| !name.is_empty() && name.chars().all(plain))
+        else {
+            return self.0.clear();
         };
         match value {
             "TRUE" => self.0.insert(name.to_owned(), true),
@@ -197,7 +206,7 @@ mod tests {
             ("z=2", None),
             ("END", Some(2)),
         ];
-        let (text, _) = threaded(program(&source, &mut labels, &all), &mut labels).finish();
+        let (text, _) = threaded(program(&source, &mut labels, &all), &mut labels, true).finish();
         let expected = "10IF x<0 THEN v%=FALSE:GOTO 90\n20IF x<1 THEN v%=TRUE:GOTO 60\n\
             30IF x<2 THEN w%=TRUE:GOTO 50\n40v%=y<1\n50IF NOT v% THEN 90\n60z=1\n70GOTO 90\n\
             80z=2\n90END\n";
@@ -207,7 +216,7 @@ mod tests {
     #[test]
     fn what_a_known_way_does_is_done_on_the_way() {
         let mut labels = Labels::default();
-        let all = [labels.next(), labels.next()];
+        let all = [labels.next(), labels.next(), labels.next()];
         let source = [
             ("IF x<0 THEN v%=TRUE:GOTO @0", None),
             ("v%=y<1", None),
@@ -217,19 +226,24 @@ mod tests {
             ("IF w% THEN @1", None),
             ("z=1", None),
             ("END", Some(1)),
+            // A procedure may set anything.
+            ("IF x<0 THEN v%=TRUE:GOTO @2", None),
+            ("IF v% THEN PROCa ELSE z=y", Some(2)),
+            ("IF v% THEN z=x", None),
         ];
-        let (text, _) = threaded(program(&source, &mut labels, &all), &mut labels).finish();
+        let (text, _) = threaded(program(&source, &mut labels, &all), &mut labels, true).finish();
         let expected = "10IF x<0 THEN v%=TRUE:z=x:w%=FALSE:GOTO 70\n20v%=y<1\n30IF v% THEN z=x ELSE z=y\n\
-            40IF NOT v% THEN w%=TRUE\n50IF v% THEN w%=FALSE ELSE w%=z<1\n60IF w% THEN 80\n70z=1\n80END\n";
+            40IF NOT v% THEN w%=TRUE\n50IF v% THEN w%=FALSE ELSE w%=z<1\n60IF w% THEN 80\n70z=1\n80END\n\
+            90IF x<0 THEN v%=TRUE:PROCa:GOTO 110\n100IF v% THEN PROCa ELSE z=y\n110IF v% THEN z=x\n";
         assert_eq!(text, expected);
     }
 
     #[test]
     fn jumps_in_a_ring_end() {
         let mut labels = Labels::default();
-        let all = [labels.next(), labels.next()];
+        let all = [labels.next(), labels.next(), labels.next()];
         let source = [("GOTO @1", Some(0)), ("GOTO @0", Some(1))];
-        let (text, _) = threaded(program(&source, &mut labels, &all), &mut labels).finish();
+        let (text, _) = threaded(program(&source, &mut labels, &all), &mut labels, true).finish();
         assert!(text.lines().count() == 2 && text.contains("GOTO"));
     }
 }
