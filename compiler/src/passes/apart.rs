@@ -6,6 +6,7 @@
 //! less. The copies are nodes of their own that are alike, so this is the last of
 //! the passes on a graph: whoever looks for equal nodes makes one of them again.
 
+use super::arena::Arena;
 use crate::flow::graph::*;
 use crate::flow::often;
 use crate::flow::tree::*;
@@ -120,78 +121,32 @@ impl Places {
 
 /// The graph with a copy of a value before the first of the users that have it.
 fn copied(graph: &Graph, copies: &Copies) -> Graph {
-    let mut out = Graph {
-        nodes: Vec::new(),
-        types: Vec::new(),
-        spans: Vec::new(),
-        names: HashMap::new(),
-        directions: BTreeMap::new(),
-        claims: BTreeMap::new(),
-        early: Default::default(),
-        ..graph.clone()
-    };
-    let mut moved: Vec<NodeId> = Vec::with_capacity(graph.nodes.len());
+    let mut out = Arena::new(graph);
+    let mut moved: Vec<Option<NodeId>> = Vec::with_capacity(graph.nodes.len());
     let mut made: BTreeMap<(NodeId, usize), NodeId> = BTreeMap::new();
     for id in graph.ids() {
         let mut operands: HashMap<NodeId, NodeId> = HashMap::new();
+        let at = |id: NodeId| moved[id.0 as usize].unwrap_or(NodeId(0));
         for used in graph.node(id).operands() {
-            let mut now = moved[used.0 as usize];
+            let mut now = at(used);
             if let Some(top) = copies.get(&(id, used)) {
-                now = *made.entry((used, *top)).or_insert_with(|| {
-                    let node = graph.node(used).with(|a| moved[a.0 as usize]);
-                    push(&mut out, graph, used, node)
-                });
+                now = *made
+                    .entry((used, *top))
+                    .or_insert_with(|| out.push(graph.node(used).with(at), used));
             }
             operands.insert(used, now);
         }
-        let node = graph
-            .node(id)
-            .with(|a| operands.get(&a).copied().unwrap_or(a));
-        moved.push(push(&mut out, graph, id, node));
+        let node = graph.node(id);
+        let node = node.with(|a| operands.get(&a).copied().unwrap_or(a));
+        moved.push(Some(out.push(node, id)));
     }
-    let at = |id: NodeId| moved[id.0 as usize];
-    for turns in &mut out.loops {
-        let lists = [
-            &mut turns.init,
-            &mut turns.next,
-            &mut turns.done,
-            &mut turns.otherwise,
-        ];
-        for id in lists.into_iter().flatten() {
-            *id = at(*id);
-        }
-        turns.again = at(turns.again);
-    }
-    out.ink = at(graph.ink);
-    out.shade = graph.shade.map(at);
-    out.reports.iter_mut().for_each(|id| *id = at(*id));
-    if let Some(diffusion) = &mut out.diffusion {
-        diffusion
-            .shares
-            .iter_mut()
-            .for_each(|s| s.node = at(s.node));
-    }
+    let mut out = out.finish(&moved);
     // A copy is the same as what it is a copy of, so it is claimed of it, too.
-    let again = made.iter().map(|((id, _), copy)| (*id, *copy));
-    for (old, new) in graph.ids().map(|id| (id, at(id))).chain(again) {
-        if let Some((op, args)) = graph.claims.get(&old) {
-            out.claims.insert(new, (*op, args.map(at)));
+    let at = |id: NodeId| moved[id.0 as usize].unwrap_or(NodeId(0));
+    for ((id, _), copy) in made {
+        if let Some((op, args)) = graph.claims.get(&id) {
+            out.claims.insert(copy, (*op, args.map(at)));
         }
     }
     out
-}
-
-/// Appends a node that is like an old one.
-fn push(out: &mut Graph, graph: &Graph, like: NodeId, node: Node) -> NodeId {
-    let id = NodeId(out.nodes.len() as u32);
-    out.nodes.push(node);
-    out.types.push(graph.ty(like));
-    out.spans.push(graph.span(like));
-    if let Some(name) = graph.names.get(&like) {
-        out.names.insert(id, name.clone());
-    }
-    if let Some(length) = graph.directions.get(&like) {
-        out.directions.insert(id, *length);
-    }
-    id
 }

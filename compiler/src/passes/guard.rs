@@ -14,8 +14,9 @@ use crate::flow::graph::*;
 use slowlight_routine::{Type, Value};
 use std::collections::HashMap;
 
-/// The graph with a loop behind a guard of at most so many conditions; nothing where the loop stands in another
-/// loop or has one in its body, or where its body has more than `most` nodes.
+/// The graph with a loop behind a guard of at most so many conditions; nothing where
+/// the loop stands in another or has one in its body, or where its body has more than
+/// `most` nodes.
 pub fn guard(graph: &Graph, of: LoopId, conditions: usize, most: usize) -> Option<Graph> {
     let turns = graph.loops.get(of.0 as usize)?;
     let rates = rates(graph);
@@ -60,34 +61,8 @@ fn guarded(graph: &Graph, of: LoopId, conditions: usize, rates: &Rates, body: &[
     for id in before(graph, rates, of) {
         keep(&mut out, &mut moved, id);
     }
-    // The condition, given the starting values.
-    let at = |id: NodeId| moved[id.0 as usize].unwrap_or(NodeId(0));
     let needed = needed(graph, turns.again, conditions);
-    let roots: Vec<NodeId> = needed.iter().map(|(cond, _)| *cond).collect();
-    let mut first: HashMap<NodeId, NodeId> = HashMap::new();
-    for id in cone(graph, &roots, body) {
-        let made = match graph.node(id) {
-            Node::Carried { of: l, index } if l == of => {
-                turns.init.get(index as usize).map_or(NodeId(0), |i| at(*i))
-            }
-            node => {
-                let node = node.with(|a| first.get(&a).copied().unwrap_or_else(|| at(a)));
-                out.push(node, id)
-            }
-        };
-        first.insert(id, made);
-    }
-    let [never, ever] = [false, true].map(|t| {
-        let node = Node::Const(Constant::new(Value::Bool(t)));
-        out.push(node, turns.again)
-    });
-    // Any of them ends it, the first asked first.
-    let mut fails = never;
-    for (cond, holds) in needed.into_iter().rev() {
-        let cond = first.get(&cond).copied().unwrap_or_else(|| at(cond));
-        let (yes, no) = if holds { (fails, ever) } else { (ever, fails) };
-        fails = out.push(Node::Select { cond, yes, no }, turns.again);
-    }
+    let (fails, never) = asked_first(&mut out, &moved, of, needed, body);
     let index = turns.init.len() as u32;
     let failed = out.push(Node::Carried { of, index }, turns.again);
     for id in body {
@@ -110,6 +85,45 @@ fn guarded(graph: &Graph, of: LoopId, conditions: usize, rates: &Rates, body: &[
     turns.next.push(never);
     turns.again = again;
     out
+}
+
+/// Copies what is needed to go on, the starting values in it: whether any of it
+/// fails, the first asked first, and the bool that never holds.
+fn asked_first(
+    out: &mut Arena<'_>,
+    moved: &[Option<NodeId>],
+    of: LoopId,
+    needed: Vec<(NodeId, bool)>,
+    body: &[NodeId],
+) -> (NodeId, NodeId) {
+    let graph = out.graph;
+    let turns = &graph.loops[of.0 as usize];
+    let at = |id: NodeId| moved[id.0 as usize].unwrap_or(NodeId(0));
+    let roots: Vec<NodeId> = needed.iter().map(|(cond, _)| *cond).collect();
+    let mut first: HashMap<NodeId, NodeId> = HashMap::new();
+    for id in cone(graph, &roots, body) {
+        let made = match graph.node(id) {
+            Node::Carried { of: l, index } if l == of => {
+                turns.init.get(index as usize).map_or(NodeId(0), |i| at(*i))
+            }
+            node => {
+                let node = node.with(|a| first.get(&a).copied().unwrap_or_else(|| at(a)));
+                out.push(node, id)
+            }
+        };
+        first.insert(id, made);
+    }
+    let [never, ever] = [false, true].map(|t| {
+        let node = Node::Const(Constant::new(Value::Bool(t)));
+        out.push(node, turns.again)
+    });
+    let mut fails = never;
+    for (cond, holds) in needed.into_iter().rev() {
+        let cond = first.get(&cond).copied().unwrap_or_else(|| at(cond));
+        let (yes, no) = if holds { (fails, ever) } else { (ever, fails) };
+        fails = out.push(Node::Select { cond, yes, no }, turns.again);
+    }
+    (fails, never)
 }
 
 /// The body's nodes that values need, operands first.
