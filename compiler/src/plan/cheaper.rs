@@ -10,7 +10,7 @@
 use super::price::{Price, Thrift};
 use super::settled::{Settled, scheduled, settle};
 use crate::flow::graph::*;
-use crate::passes::algebra::{Cheaper, Verdicts, algebra, spans};
+use crate::passes::algebra::{Cheaper, Verdicts, algebra, decided, spans};
 use crate::passes::apart::apart;
 use crate::passes::early::in_loops;
 use crate::passes::guard::guard;
@@ -169,11 +169,20 @@ impl Site<'_> {
             false => Vec::new(),
         };
         all.into_iter().take(LENGTHS).map(|length| {
-            settle(
-                &homogeneous(&plain.graph, &plain.ranges, length),
-                self.slack,
-            )
+            let held = homogeneous(&plain.graph, &plain.ranges, length);
+            self.decided(settle(&held, self.slack))
         })
+    }
+
+    /// The plan without comparisons that come out the same at every pixel.
+    fn decided(&self, plan: Settled) -> Settled {
+        if plan.graph.nodes.len() > NODES {
+            return plan;
+        }
+        match decided(&plan.graph, &plan.ranges, self.runtime) {
+            Some(next) => settle(&next, self.slack),
+            None => plan,
+        }
     }
 
     /// A plan with what a pass puts at the sites where that pays.

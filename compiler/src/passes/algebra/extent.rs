@@ -81,7 +81,8 @@ fn expanded(full: &Forms<'_>, poly: &Poly) -> Option<Poly> {
     Some(out)
 }
 
-fn known(forms: &Forms<'_>, atom: Atom) -> Range {
+/// Between which bounds an atom stays by itself.
+pub fn known(forms: &Forms<'_>, atom: Atom) -> Range {
     match forms.inverse(atom) {
         Some(_) => Range::ALL,
         None => (forms.ranges.result.get(atom as usize)).map_or(Range::ALL, |r| *r),
@@ -94,6 +95,16 @@ pub fn bounds(poly: &Poly, of: &dyn Fn(Atom) -> Range) -> Range {
     let sum = Sum::new(poly, &atoms);
     let each = boxes(&atoms, of).map(|sides| sum.within(&sides));
     each.reduce(Range::join).unwrap_or(Range::ALL)
+}
+
+/// Whether a polynomial is above 0 everywhere, by more than `margin` times the sizes
+/// that its terms sum up to.
+pub fn surely(poly: &Poly, of: &dyn Fn(Atom) -> Range, margin: f64) -> bool {
+    let atoms = poly.atoms();
+    let sum = Sum::new(poly, &atoms);
+    let sides: Vec<Range> = atoms.iter().map(|atom| of(*atom)).collect();
+    let least = margin * sum.size(&sides);
+    least.is_finite() && boxes(&atoms, of).all(|sides| sum.within(&sides).lo > least)
 }
 
 /// The atoms' ranges cut into pieces, every box of them.
@@ -143,6 +154,18 @@ impl Sum {
         Sum {
             terms: terms.collect(),
         }
+    }
+
+    /// What the sizes of its terms sum up to at most where the atoms stay within `sides`.
+    fn size(&self, sides: &[Range]) -> f64 {
+        let side = |place: usize| sides.get(place).map_or(f64::INFINITY, |s| s.magnitude());
+        let one = |(factor, factors): &(f64, Vec<(usize, u32)>)| {
+            let powers = factors
+                .iter()
+                .map(|(place, power)| side(*place).powi(*power as i32));
+            factor.abs() * powers.product::<f64>()
+        };
+        self.terms.iter().map(one).sum()
     }
 
     /// Its bounds where the atoms stay within `sides`, each monomial by itself.

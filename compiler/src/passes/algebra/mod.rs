@@ -19,6 +19,7 @@
 //! alone that have nothing to lose.
 
 mod arithmetic;
+mod decided;
 mod extent;
 mod form;
 pub(super) mod judge;
@@ -40,6 +41,7 @@ use crate::flow::graph::*;
 use crate::range::Ranges;
 use crate::source::Span;
 use arithmetic::{multiplied, scaled};
+pub use decided::decided;
 pub(super) use form::Forms;
 use form::{Form, Part};
 pub(super) use judge::Judge;

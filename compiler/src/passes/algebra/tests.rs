@@ -1,17 +1,18 @@
 //! Polynomials are divided exactly; pictures stay what they are.
 #![allow(clippy::unwrap_used)]
 
+use super::extent::surely;
 use super::number::Number;
 use super::poly::Poly;
 use crate::eval::model::ModelRun;
 use crate::eval::native::Native;
 use crate::flow::graph::*;
-use crate::flow::tree::Statement;
+use crate::flow::tree::{Statement, walk};
 use crate::plan::{Goal, Plan, plan, plan_as_written};
 use crate::scene;
 use crate::sema::Options;
 use crate::target::{default_mode, find};
-use slowlight_routine::Op;
+use slowlight_routine::{Op, Range};
 
 fn planned(source: &str, set: &[(String, Vec<f64>)]) -> (Graph, Plan, Plan) {
     let scene = scene::check("test", source);
@@ -152,4 +153,65 @@ fn what_loses_its_bits_is_left_alone() {
         };\n";
     let (graph, fast, written) = planned(source, &[]);
     assert_eq!(wrong(&graph, &fast), wrong(&graph, &written));
+}
+
+/// A ball seen from EYE, its inks by how far it is: nothing but the hit compares what
+/// has a root in it.
+const BALL: &str = "
+image 64 x 48 inks black, red, yellow, white;
+const eye = (EYE);
+fn seen(r: ray) -> int =
+  if let h = sphere((0.5, 0.25, 0), 1.5).hit(r) then 1 + floor(8 * h.normal.x + 4 * h.normal.y + 20) mod 3 else 0;
+draw (x, y) = ink(seen(ray(eye, unit(((x - 31.5) / 40, (23.5 - y) / 40, -1)))));
+";
+
+/// How many comparisons of what has a root in it a pixel makes.
+fn rooted_comparisons(plan: &Plan) -> usize {
+    let graph = &plan.graph;
+    let mut rooted = vec![false; graph.nodes.len()];
+    for id in graph.ids() {
+        let root = matches!(graph.node(id), Node::Apply(Op::Sqrt, _));
+        let any = graph.node(id).operands().any(|a| rooted[a.0 as usize]);
+        rooted[id.0 as usize] = root || any;
+    }
+    let mut asked = 0;
+    walk(&plan.tree.pixel, &mut |statement| {
+        if let Statement::Let(id) = statement
+            && matches!(graph.node(*id), Node::Apply(Op::Less, _))
+            && rooted[id.0 as usize]
+        {
+            asked += 1;
+        }
+    });
+    asked
+}
+
+/// From outside the nearer root is always ahead, unless the ball is behind.
+#[test]
+fn what_comes_out_the_same_everywhere_is_not_asked() {
+    for (eye, outside) in [
+        ("0.3, -0.1, 2.2", true),
+        ("0.25, 0.75, 2", true),
+        ("0.3, 0.5, 0.7", false),
+    ] {
+        let (graph, fast, written) = planned(&BALL.replace("EYE", eye), &[]);
+        assert!(rooted_comparisons(&written) > 0, "{eye}");
+        assert_eq!(rooted_comparisons(&fast) == 0, outside, "{eye}");
+        assert_eq!(wrong(&graph, &fast), 0, "{eye}");
+    }
+}
+
+#[test]
+fn what_is_surely_above_0_is_so_by_a_margin() {
+    let x = Poly::atom(0);
+    let of = |_| Range::new(0.0, 10.0);
+    // (x - 2)² + more
+    let sure = |more: f64| {
+        let square = x.mul(&x).unwrap().add(&x.scaled(Number::of(-4.0)));
+        let rest = Poly::constant(Number::of(4.0 + more));
+        surely(&square.unwrap().add(&rest).unwrap(), &of, 1e-3)
+    };
+    assert!(sure(1.0) && !sure(0.0) && !sure(-1.0));
+    assert!(!sure(0.1)); // Less than a part of 144 in 1000.
+    assert!(!surely(&x, &|_| Range::ALL, 1e-3));
 }
