@@ -15,7 +15,7 @@ use crate::passes::apart::apart;
 use crate::passes::early::in_loops;
 use crate::passes::guard::guard;
 use crate::passes::homogeneous::{homogeneous, lengths};
-use crate::passes::identities::identities;
+use crate::passes::identities::{around, identities};
 use crate::passes::peel::peel;
 use crate::passes::squares::squares;
 use crate::passes::threshold::threshold;
@@ -153,6 +153,8 @@ impl Site<'_> {
             .filter(|next| self.cost(next) < self.cost(base));
         let found = shared.or(found);
         let base = found.as_ref().unwrap_or(plain);
+        let found = self.around(base).or(found);
+        let base = found.as_ref().unwrap_or(plain);
         let found = self.sited(base, SHORTER, identities).or(found);
         let base = found.as_ref().unwrap_or(plain);
         let cut = self.runs.then(|| self.sited(base, SPANS, spans)).flatten();
@@ -172,6 +174,13 @@ impl Site<'_> {
             let held = homogeneous(&plain.graph, &plain.ranges, length);
             self.decided(settle(&held, self.slack))
         })
+    }
+
+    /// The plan without comparisons that the length of a vector decides.
+    fn around(&self, plan: &Settled) -> Option<Settled> {
+        let few = plan.graph.nodes.len() <= NODES;
+        let next = few.then(|| around(&plan.graph, &plan.ranges, self.runtime))??;
+        Some(settle(&next, self.slack))
     }
 
     /// The plan without comparisons that come out the same at every pixel.

@@ -9,6 +9,7 @@
 //! A formula stands for a value where the machine needs fewer cycles for it and
 //! its roundings do no more than algebra's may.
 
+mod around;
 pub mod field;
 mod search;
 #[cfg(test)]
@@ -21,6 +22,7 @@ use crate::flow::build::Builder;
 use crate::flow::graph::*;
 use crate::range::Ranges;
 use crate::source::Span;
+pub use around::around;
 use field::{Field, Print};
 use search::{Formula, Fraction, Sums};
 use slowlight_routine::{Op, Runtime, Type, Value};

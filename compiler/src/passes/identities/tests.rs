@@ -2,7 +2,7 @@
 //! what they were.
 #![allow(clippy::unwrap_used)]
 
-use super::{Cheaper, identities};
+use super::{Cheaper, around, identities};
 use crate::eval::native::Native;
 use crate::eval::random_graphs;
 use crate::flow::graph::*;
@@ -115,6 +115,43 @@ fn what_needs_a_roots_sign_is_not_found() {
     if let Some(cheaper) = found(&plain) {
         assert_eq!(roots(&cheaper.graph), 2);
         same(&plain.graph, &cheaper.graph);
+    }
+}
+
+/// A ball, and whether what is seen of it is outside of another.
+fn beside(centre: &str) -> Graph {
+    lowered(&format!(
+        "image 32 x 24 inks black, red, white;
+         fn outside(p: vec3) -> bool = dot(p - ({centre}), p - ({centre})) > 1;
+         fn seen(r: ray) -> int =
+           if let h = sphere((1, 0.5, -3), 1.5).hit(r) then (if outside(h.point) and dot(h.normal, (1, 2, 3)) > 0 then 1 else 2) else 0;
+         draw (x, y) = ink(seen(ray((0, 0, 0), unit(((x - 15.5) / 20, (11.5 - y) / 20, -1)))));"
+    ))
+}
+
+#[test]
+fn a_point_of_a_ball_is_outside_of_another_that_stands_apart() {
+    let runtime = find("bbc:micro").unwrap().runtime;
+    let asked = |graph: &Graph| {
+        let reached = graph.reached();
+        let less = |id: &NodeId| matches!(graph.node(*id), Node::Apply(Op::Less, _));
+        let here = graph.ids().filter(|id| reached[id.0 as usize]);
+        here.filter(less).count()
+    };
+    // 3 from the other centre: more than both radii, where no component tells.
+    // Then less, and then hardly more.
+    for (centre, apart) in [
+        ("-1, 2.5, -2", true),
+        ("-0.5, 1.5, -2", false),
+        ("1, 0.5, -5.5", false),
+    ] {
+        let plain = settled(&beside(centre));
+        let found = around(&plain.graph, &plain.ranges, runtime);
+        assert_eq!(found.is_some(), apart, "{centre}");
+        if let Some(next) = found {
+            assert_eq!(asked(&next) + 1, asked(&plain.graph));
+            same(&plain.graph, &next);
+        }
     }
 }
 
