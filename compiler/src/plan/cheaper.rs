@@ -21,6 +21,7 @@ use crate::passes::squares::squares;
 use crate::passes::threshold::threshold;
 use crate::range::{Ranges, Slack};
 use slowlight_routine::{Format, Runtime, Type};
+use std::cell::Cell;
 
 /// How many nodes of a loop's body are copied at most.
 const BODY: usize = 160;
@@ -52,7 +53,9 @@ const LENGTHS: usize = 4;
 const NODES: usize = 1000;
 const PATIENCE: usize = 10_000;
 
-/// A graph that gives the same picture in fewer cycles.
+/// Graphs that give the same picture in fewer cycles: the cheapest one, and the
+/// cheapest with directions so long that their products are whole, too, where that
+/// is another. Which of them is cheaper is seen only when values are stepped.
 /// `early` is the same graph with the scene's shortcuts in it, if it has any.
 pub fn cheaper(
     plain: Settled,
@@ -60,33 +63,21 @@ pub fn cheaper(
     slack: &Slack,
     runtime: &'static Runtime,
     thrift: Thrift,
-) -> Settled {
-    let site = Site {
+) -> Vec<Settled> {
+    let mut site = Site {
         slack,
         runtime,
         price: Price::new(&plain, runtime, thrift),
         runs: thrift.runs(),
+        products: false,
+        other: Cell::new(false),
     };
-    let mut best = site.rewritten(&plain).unwrap_or(plain.clone());
-    for k in 0..plain.graph.loops.len() {
-        let of = LoopId(k as u32);
-        let Some(peeled) = peel(&plain.graph, of, BODY) else {
-            continue;
-        };
-        let guarded = guard(&peeled, of, 1, BODY);
-        let sooner = early
-            .and_then(|graph| in_loops(&peel(graph, of, BODY)?))
-            .and_then(|graph| guard(&graph, of, 2, BODY));
-        for (graph, limit) in [(Some(peeled), COPY), (guarded, GUARD), (sooner, GUARD)] {
-            let tried = graph.map(|graph| settle(&graph, slack));
-            if let Some(found) = tried.and_then(|plan| site.rewritten(&plan))
-                && site.cost(&found) < limit * site.cost(&best)
-            {
-                best = found;
-            }
-        }
+    let mut all = vec![site.cheapest(&plain, early)];
+    if site.other.get() {
+        site.products = true;
+        all.push(site.cheapest(&plain, early));
     }
-    best
+    all
 }
 
 /// A pass that puts something in the place of nodes that may be replaced.
@@ -124,11 +115,39 @@ struct Site<'s> {
     price: Price,
     /// Whether runs of columns may be looked for.
     runs: bool,
+    /// Whether directions are so long that their products are whole, too.
+    products: bool,
+    /// Whether that makes a difference.
+    other: Cell<bool>,
 }
 
 impl Site<'_> {
     fn cost(&self, plan: &Settled) -> f64 {
         self.price.of(plan)
+    }
+
+    /// The cheapest plan, with turns of loops before them or not.
+    fn cheapest(&self, plain: &Settled, early: Option<&Graph>) -> Settled {
+        let mut best = self.rewritten(plain).unwrap_or(plain.clone());
+        for k in 0..plain.graph.loops.len() {
+            let of = LoopId(k as u32);
+            let Some(peeled) = peel(&plain.graph, of, BODY) else {
+                continue;
+            };
+            let guarded = guard(&peeled, of, 1, BODY);
+            let sooner = early
+                .and_then(|graph| in_loops(&peel(graph, of, BODY)?))
+                .and_then(|graph| guard(&graph, of, 2, BODY));
+            for (graph, limit) in [(Some(peeled), COPY), (guarded, GUARD), (sooner, GUARD)] {
+                let tried = graph.map(|graph| settle(&graph, self.slack));
+                if let Some(found) = tried.and_then(|plan| self.rewritten(&plan))
+                    && self.cost(&found) < limit * self.cost(&best)
+                {
+                    best = found;
+                }
+            }
+        }
+        best
     }
 
     /// A plan with thresholds, directions at their own length and algebra, as far
@@ -170,9 +189,11 @@ impl Site<'_> {
             true => lengths(&plain.graph, &plain.ranges),
             false => Vec::new(),
         };
-        all.into_iter().take(LENGTHS).map(|length| {
-            let held = homogeneous(&plain.graph, &plain.ranges, length);
-            self.decided(settle(&held, self.slack))
+        all.into_iter().take(LENGTHS).filter_map(|length| {
+            let (held, longer) = homogeneous(&plain.graph, &plain.ranges, length)?;
+            self.other.set(self.other.get() || longer.is_some());
+            let held = longer.filter(|_| self.products).unwrap_or(held);
+            Some(self.decided(settle(&held, self.slack)))
         })
     }
 

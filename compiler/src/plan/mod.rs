@@ -72,7 +72,7 @@ use crate::range::{Ranges, Slack};
 use crate::source::{Diagnostic, Span};
 use crate::target::{Mode, Target};
 use cheaper::{apart_at_last, cheaper};
-use price::Thrift;
+use price::{Price, Thrift};
 use settled::{Settled, scheduled, settle};
 use slowlight_routine::{Bits, Format, Op, Range, Routine, Runtime, Type, Value};
 use std::collections::HashMap;
@@ -301,8 +301,12 @@ fn planned(
     if let Rewriting::Fast { thrift, steps } = rewriting {
         let early = (!origin.early.is_empty()).then(|| steady(origin, &slack, rounds));
         let early = early.as_ref().map(|settled| &settled.graph);
-        now = cheaper(now, early, &slack, runtime, thrift);
-        now = stepped(now, &slack, target, steps);
+        let price = Price::new(&now, runtime, thrift);
+        let all = cheaper(now.clone(), early, &slack, runtime, thrift);
+        let all = all
+            .into_iter()
+            .map(|plan| stepped(plan, &slack, target, steps));
+        now = price.cheapest(all).unwrap_or(now);
         now = apart_at_last(now, &slack, runtime, thrift);
     }
     let Settled {

@@ -117,6 +117,17 @@ impl Price {
         cycles * (1.0 + self.memory * memory(plan))
     }
 
+    /// The cheapest of some plans, the first of several.
+    pub fn cheapest(&self, plans: impl Iterator<Item = Settled>) -> Option<Settled> {
+        let mut all: Vec<Settled> = plans.collect();
+        match all.len() {
+            0 | 1 => all.pop(),
+            _ => all
+                .into_iter()
+                .min_by(|a, b| self.of(a).total_cmp(&self.of(b))),
+        }
+    }
+
     /// Whether copies of a value are worth their memory: given how many times a
     /// pixel less it is computed, and how many copies there are more.
     pub fn worth<'p>(&self, plan: &'p Settled) -> impl Fn(NodeId, f64, usize) -> bool + use<'p> {

@@ -1,5 +1,5 @@
-//! What intervals cannot see of whole numbers: an odd one is not 0, and one that
-//! is not 0 is at least 1.
+//! What intervals cannot see of whole numbers: one whose last bits are not all 0 is
+//! not 0 (an odd one, or ten times that), and one that is not 0 is at least 1.
 
 use crate::flow::graph::*;
 use slowlight_routine::{Op, Range, Type, Value};
@@ -11,11 +11,11 @@ const DEEP: u32 = 8;
 pub fn whole(graph: &Graph, id: NodeId, args: [Range; 2], range: Range) -> Range {
     match graph.node(id) {
         Node::Apply(op, _) if op.result() == Type::Int => Range {
-            nonzero: range.nonzero || odd(graph, id, DEEP) == Some(true),
+            nonzero: range.nonzero || low(graph, id, DEEP).rest != 0,
             ..range
         },
         Node::Ramp { .. } => Range {
-            nonzero: range.nonzero || odd(graph, id, DEEP) == Some(true),
+            nonzero: range.nonzero || low(graph, id, DEEP).rest != 0,
             ..range
         },
         // By a whole number that is not 0: no greater than the dividend.
@@ -31,30 +31,64 @@ fn is_whole(graph: &Graph, id: NodeId) -> bool {
     matches!(graph.node(id), Node::Apply(Op::ToReal, _))
 }
 
-/// Whether an int is odd, if that can be told. Ints saturate at an odd and at
-/// an even end, so sums and products that might are left out.
-fn odd(graph: &Graph, id: NodeId, deep: u32) -> Option<bool> {
-    if deep == 0 {
-        return None;
+/// What is known of an int's last bits: it is `rest` modulo 2^`bits`.
+#[derive(Clone, Copy, Debug)]
+struct Low {
+    bits: u32,
+    rest: i64,
+}
+
+/// More bits than these are not kept.
+const BITS: u32 = 24;
+
+impl Low {
+    fn new(bits: u32, rest: i64) -> Low {
+        let bits = bits.min(BITS);
+        Low {
+            bits,
+            rest: rest.rem_euclid(1 << bits),
+        }
     }
-    let of = |id| odd(graph, id, deep - 1);
+
+    /// How many bits at its end are 0 for sure.
+    fn zeros(self) -> u32 {
+        self.bits.min(self.rest.trailing_zeros())
+    }
+
+    fn times(self, other: Low) -> Low {
+        let bits = (self.bits + other.zeros()).min(other.bits + self.zeros());
+        Low::new(bits, self.rest * other.rest)
+    }
+}
+
+/// An int's last bits, as far as they can be told. Ints saturate at an odd and
+/// at an even end, so sums and products that might are left out.
+fn low(graph: &Graph, id: NodeId, deep: u32) -> Low {
+    let none = Low::new(0, 0);
+    if deep == 0 {
+        return none;
+    }
+    let of = |id| low(graph, id, deep - 1);
     match graph.node(id) {
         Node::Const(c) => match c.value() {
-            Value::Int(n) => Some(n % 2 != 0),
-            _ => None,
+            Value::Int(n) => Low::new(BITS, i64::from(n)),
+            _ => none,
         },
         // Wrapping takes whole powers of two away.
-        Node::Ramp { first, step } if of(step) == Some(false) => of(first),
-        Node::Apply(_, [a, b]) if !small(graph, a) || !small(graph, b) => None,
-        Node::Apply(Op::IntNeg, [a, _]) => of(a),
-        Node::Apply(Op::IntAdd, [a, b]) if a == b => Some(false),
-        Node::Apply(Op::IntAdd | Op::IntSub, [a, b]) => Some(of(a)? != of(b)?),
-        Node::Apply(Op::IntMul, [a, b]) => match (of(a), of(b)) {
-            (Some(false), _) | (_, Some(false)) => Some(false),
-            (Some(true), Some(true)) => Some(true),
-            _ => None,
-        },
-        _ => None,
+        Node::Ramp { first, step } => {
+            let (first, moved) = (of(first), of(step).times(none));
+            Low::new(first.bits.min(moved.bits), first.rest)
+        }
+        Node::Apply(_, [a, b]) if !small(graph, a) || !small(graph, b) => none,
+        Node::Apply(Op::IntNeg, [a, _]) => Low::new(of(a).bits, -of(a).rest),
+        Node::Apply(Op::IntAdd, [a, b]) if a == b => Low::new(of(a).bits + 1, 2 * of(a).rest),
+        Node::Apply(op @ (Op::IntAdd | Op::IntSub), [a, b]) => {
+            let (a, b) = (of(a), of(b));
+            let sign = if op == Op::IntAdd { 1 } else { -1 };
+            Low::new(a.bits.min(b.bits), a.rest + sign * b.rest)
+        }
+        Node::Apply(Op::IntMul, [a, b]) => of(a).times(of(b)),
+        _ => none,
     }
 }
 
@@ -74,5 +108,29 @@ fn small(graph: &Graph, id: NodeId) -> bool {
             (place(a) && few(b)) || (few(a) && place(b))
         }
         _ => false,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn last_bits_of_products_are_what_is_said() {
+        let all = (0..4).flat_map(|bits| (0..1 << bits).map(move |rest| Low::new(bits, rest)));
+        let all: Vec<Low> = all.collect();
+        let some = |low: Low| (-20..20).map(move |k: i64| (k << low.bits) + low.rest);
+        for &a in &all {
+            for &b in &all {
+                let product = a.times(b);
+                for (n, m) in some(a).flat_map(|n| some(b).map(move |m| (n, m))) {
+                    let rest = (n * m).rem_euclid(1 << product.bits);
+                    assert_eq!(rest, product.rest, "{a:?} {b:?} {n} {m}");
+                }
+            }
+        }
+        // 20 y - 2390 is 2 modulo 4, never 0.
+        let (twenty, any) = (Low::new(BITS, 20), Low::new(0, 0));
+        assert_eq!(twenty.times(any).bits, 2);
     }
 }

@@ -35,6 +35,7 @@ pub struct Form {
 }
 
 /// The forms of a graph's values.
+#[derive(Clone)]
 pub struct Forms<'g> {
     pub graph: &'g Graph,
     pub ranges: &'g Ranges,

@@ -10,6 +10,7 @@
 use super::form::{Forms, Other, Two, primitive};
 use super::number::Number;
 use super::poly::{Atom, Poly};
+use super::rooted::isqrt;
 use crate::flow::build::Builder;
 use crate::flow::graph::*;
 use crate::source::Span;
@@ -188,10 +189,16 @@ impl Put<'_, '_> {
             return None;
         };
         let ((n, d), scale) = halved(a.value()?, b.value()?)?;
-        let fits = matches!(scale, Number::Exact(_, 1)) && n.unsigned_abs() < 40_000 && d < 1_000;
-        if !x.whole || !fits {
+        let fits = |n: i128, d: i128| n.unsigned_abs() < 40_000 && d < 1_000;
+        if !x.whole || !matches!(scale, Number::Exact(_, 1)) || !fits(n, d) {
             return None;
         }
+        // The square of a whole number goes into the line.
+        let root = match scale {
+            Number::Exact(scale, 1) => isqrt(scale).filter(|r| *r > 0 && fits(n * r, d * r)),
+            _ => None,
+        };
+        let (n, d, scale) = root.map_or((n, d, scale), |r| (n * r, d * r, Number::ONE));
         let (dx, n) = (Number::whole(d), Number::whole(n));
         let rest = c.add(&Poly::constant(n.mul(n).mul(scale).neg()))?;
         let by = self.constant(dx);

@@ -31,7 +31,7 @@ impl Put<'_, '_> {
             true => {
                 let negative = poly.lead().real() < 0.0;
                 let turned = poly.scaled(Number::whole(if negative { -1 } else { 1 }));
-                let (out, factor) = self.sized(&turned)?;
+                let (out, factor) = self.scaled_in(&turned)?;
                 let out = self.real(out);
                 let factor = if negative { factor.neg() } else { factor };
                 self.product(out, factor.real())
@@ -44,9 +44,25 @@ impl Put<'_, '_> {
         self.rooted(value, &part.roots)
     }
 
+    /// A polynomial but for a factor above 0, and that factor: 1 where it is whole
+    /// and goes into the coefficients.
+    fn scaled_in(&mut self, poly: &Poly) -> Option<(Out, Number)> {
+        let (whole, factor) = self.whole(poly)?;
+        if matches!(factor, Number::Exact(n, 1) if n > 1) {
+            let out = self.poly(&whole.scaled(factor))?;
+            if out.whole {
+                return Some((out, Number::ONE));
+            }
+        }
+        self.sized(poly)
+    }
+
     fn product(&mut self, node: NodeId, by: f64) -> NodeId {
         if by == 1.0 {
             return node;
+        }
+        if by == -1.0 {
+            return self.builder.apply(Op::Neg, &[node], self.span);
         }
         let by = self.builder.constant(Value::Real(by), self.span);
         self.builder.apply(Op::Mul, &[node, by], self.span)
@@ -54,7 +70,12 @@ impl Put<'_, '_> {
 
     /// N of a root but for a factor above 0, and that factor.
     fn root_poly(&self, root: usize) -> Option<(Poly, Number)> {
-        self.whole(self.forms.roots.get(root)?)
+        let (whole, factor) = self.whole(self.forms.roots.get(root)?)?;
+        Some(match factor {
+            // It is whole itself: what else needs it has it so.
+            Number::Exact(n, 1) if n > 1 => (whole.scaled(factor), Number::ONE),
+            _ => (whole, factor),
+        })
     }
 
     /// What a power of a root leaves as a factor beside N's own.
@@ -165,7 +186,8 @@ impl Put<'_, '_> {
     }
 }
 
-fn isqrt(n: i128) -> Option<i128> {
+/// The root of a square of a whole number.
+pub(super) fn isqrt(n: i128) -> Option<i128> {
     let root = (n as f64).sqrt().round() as i128;
     (root * root == n).then_some(root)
 }

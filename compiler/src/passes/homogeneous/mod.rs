@@ -24,7 +24,7 @@ mod degrees;
 #[cfg(test)]
 mod tests;
 
-use super::algebra::Whole;
+use super::algebra::{Number, Whole};
 use super::rate::{Dependence, Rates, rates};
 use super::rebuild::{End, Rewrite, rebuild_by};
 use crate::flow::build::Builder;
@@ -56,16 +56,30 @@ pub fn lengths(graph: &Graph, ranges: &Ranges) -> Vec<NodeId> {
 }
 
 /// The graph with every value that depends on a vector divided by `length`
-/// held at that length.
-pub fn homogeneous(graph: &Graph, ranges: &Ranges, length: NodeId) -> Graph {
+/// held at that length; and, where that is another graph, at one at which its products
+/// with other vectors are whole, too.
+pub fn homogeneous(
+    graph: &Graph,
+    ranges: &Ranges,
+    length: NodeId,
+) -> Option<(Graph, Option<Graph>)> {
     let Node::Apply(Op::Sqrt, [square, _]) = graph.node(length) else {
-        return graph.clone();
+        return None;
     };
     let divided = graph.ids().filter_map(|id| match graph.node(id) {
         Node::Apply(Op::Div, [v, r]) if r == length => Some(v),
         _ => None,
     });
-    let whole = Whole::new(graph, ranges, &divided.collect::<Vec<_>>());
+    let divided: Vec<NodeId> = divided.collect();
+    let whole = Whole::new(graph, ranges, &divided);
+    let held = |whole| held(graph, ranges, [length, square], whole);
+    let first = held(whole.clone());
+    Some((first, whole.with_products(length).map(held)))
+}
+
+/// The graph with what depends on a vector held at its length times a number.
+fn held(graph: &Graph, ranges: &Ranges, of: [NodeId; 2], whole: Whole<'_>) -> Graph {
+    let [length, square] = of;
     let by = whole.by;
     let bounds = ranges.result[length.0 as usize];
     let mut pass = Pass {
@@ -223,9 +237,9 @@ impl Pass<'_> {
                     Op::Mul if let Some((scalar, other)) = self.scalar(x, y) => {
                         let degree = own - self.of(other)?;
                         let scalar = self.at(b, made, scalar, degree)?;
-                        b.apply(op, &[scalar, plain(other)?], span)
+                        product(b, scalar, plain(other)?, span)
                     }
-                    Op::Mul if sum == own => b.apply(op, &[plain(x)?, plain(y)?], span),
+                    Op::Mul if sum == own => product(b, plain(x)?, plain(y)?, span),
                     Op::Div if difference == own => b.apply(op, &[plain(x)?, plain(y)?], span),
                     Op::Sqrt => {
                         let x = self.at(b, made, x, 2 * own)?;
@@ -262,6 +276,24 @@ impl Pass<'_> {
         }
         Some(b.apply(op, &held, span))
     }
+}
+
+/// a b. A number times a quotient of another by a whole number is one quotient where
+/// the numbers' product is whole: one rounding instead of two, and none where it
+/// divides.
+fn product(b: &mut Builder, x: NodeId, y: NodeId, span: Span) -> NodeId {
+    let number = |b: &Builder, id| b.value(id).map(|v| Number::of(v.real()));
+    for (factor, quotient) in [(x, y), (y, x)] {
+        if let Node::Apply(Op::Div, [over, by]) = b.node(quotient)
+            && matches!(b.node(by), Node::Apply(Op::ToReal, _))
+            && let (Some(factor), Some(over)) = (number(b, factor), number(b, over))
+            && let both @ Number::Exact(_, 1) = factor.mul(over)
+        {
+            let both = b.constant(Value::Real(both.real()), span);
+            return b.apply(Op::Div, &[both, by], span);
+        }
+    }
+    b.apply(Op::Mul, &[x, y], span)
 }
 
 impl Rewrite for Pass<'_> {

@@ -1,5 +1,7 @@
 //! Values held at a direction's own length give the inks that they gave.
 
+#![allow(clippy::unwrap_used)]
+
 use super::{homogeneous, lengths};
 use crate::eval::drawn::examples;
 use crate::eval::native::Native;
@@ -23,11 +25,14 @@ fn ranged(graph: &Graph) -> Ranges {
 /// many there were.
 fn hold(name: &str, graph: &Graph) -> usize {
     let ranges = ranged(graph);
-    let found = lengths(graph, &ranges);
-    for &length in &found {
-        let other = fold(&homogeneous(graph, &ranges, length));
+    let held = (lengths(graph, &ranges).into_iter())
+        .filter_map(|length| homogeneous(graph, &ranges, length))
+        .flat_map(|(held, longer)| std::iter::once(held).chain(longer));
+    let mut found = 0;
+    for other in held {
+        let other = fold(&other);
         if let Err(broken) = verify(&other) {
-            panic!("{name}, {length}: {broken}");
+            panic!("{name}, {found}: {broken}");
         }
         let [mut before, mut after] = [graph, &other].map(Native::new);
         let image = &graph.image;
@@ -37,10 +42,11 @@ fn hold(name: &str, graph: &Graph) -> usize {
                 native.pixels(0..image.width as i32, y, &mut row);
                 row.iter().map(|pixel| pixel.ink).collect::<Vec<u8>>()
             });
-            assert_eq!(was, is, "{name}, {length}, row {y}");
+            assert_eq!(was, is, "{name}, {found}, row {y}");
         }
+        found += 1;
     }
-    found.len()
+    found
 }
 
 #[test]
@@ -53,4 +59,27 @@ fn inks_stay_as_they_were() {
         }
     }
     assert!(shaded > 10 && compared > 5, "{shaded} {compared}");
+}
+
+/// What a vector is multiplied by has a decimal: the second length makes that product
+/// whole, too.
+#[test]
+fn products_are_whole_at_a_greater_length() {
+    let source = "image 32 x 24 inks black, white;
+        draw (x, y) = ink({
+          let d = unit(((x - 15.5) / 16, (11.5 - y) / 16, -1));
+          let b = dot((2, DECIMAL, 3), d);
+          if b * b > 4 + d.x then 1 else 0
+        });";
+    for (decimal, another) in [("0.1", true), ("1", false)] {
+        let scene = crate::scene::check("test", &source.replace("DECIMAL", decimal));
+        let graph = fold(&scene.lower(&Default::default()).unwrap());
+        let ranges = ranged(&graph);
+        let all = lengths(&graph, &ranges);
+        let made = all
+            .iter()
+            .map(|id| homogeneous(&graph, &ranges, *id).unwrap());
+        let longer = made.filter(|(_, longer)| longer.is_some()).count();
+        assert_eq!((all.len(), longer), (1, usize::from(another)), "{decimal}");
+    }
 }
