@@ -44,11 +44,11 @@ impl Put<'_, '_> {
         self.rooted(value, &part.roots)
     }
 
-    /// A polynomial but for a factor above 0, and that factor: 1 where it is whole
-    /// and goes into the coefficients.
+    /// A polynomial but for a factor above 0, and that factor: 1 for what a root is of,
+    /// where that is whole itself, since what else needs it has it so.
     fn scaled_in(&mut self, poly: &Poly) -> Option<(Out, Number)> {
         let (whole, factor) = self.whole(poly)?;
-        if matches!(factor, Number::Exact(n, 1) if n > 1) {
+        if matches!(factor, Number::Exact(n, 1) if n > 1) && self.forms.roots.contains(poly) {
             let out = self.poly(&whole.scaled(factor))?;
             if out.whole {
                 return Some((out, Number::ONE));
