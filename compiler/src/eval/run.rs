@@ -28,7 +28,7 @@ pub trait Arithmetic {
     fn apply(&self, id: NodeId, op: Op, args: &[Self::Value]) -> Self::Value;
     /// Adds what a pixel sends to what another has received so far.
     fn gather(&self, received: Self::Value, sent: Self::Value) -> Self::Value;
-    /// A ramp at a column, its first value and its steps' given.
+    /// A ramp at a column by its number in its pass, its first value and its steps' given.
     fn ramp(&self, x: i32, coefficients: &[Self::Value]) -> Self::Value {
         let ints: Vec<i32> = coefficients.iter().map(|&c| self.int(c)).collect();
         self.constant(Value::Int(ramp::at(x, &ints)))
@@ -131,7 +131,7 @@ impl<'t, A: Arithmetic> Run<'t, A> {
             carried: graph.loops.iter().map(slots).collect(),
             scratch: graph.loops.iter().map(slots).collect(),
             row_places: places(tree, &tree.row),
-            pixel_places: [&tree.segment, &tree.pixel]
+            pixel_places: [&tree.pass, &tree.segment, &tree.pixel]
                 .into_iter()
                 .flat_map(|block| places(tree, block))
                 .collect(),
@@ -191,6 +191,7 @@ impl<'t, A: Arithmetic> Run<'t, A> {
             self.block(&tree.row);
         }
         self.forget(false);
+        self.block(&tree.pass);
         self.block(&tree.segment);
         self.block(&tree.pixel);
         self.read(self.graph.ink)
@@ -246,6 +247,10 @@ impl<'t, A: Arithmetic> Run<'t, A> {
             Node::Param(p) => self.arithmetic.param(p),
             Node::Axis(Axis::X) => self.arithmetic.constant(Value::Int(self.position.0)),
             Node::Axis(Axis::Y) => self.arithmetic.constant(Value::Int(self.position.1)),
+            Node::Axis(Axis::Pass(n)) => {
+                let pass = self.position.0.rem_euclid(n.max(1) as i32);
+                self.arithmetic.constant(Value::Int(pass))
+            }
             Node::Received => self.received,
             Node::Carried { of, index } | Node::Last { of, index } => {
                 self.checked(self.carried[of.0 as usize][index as usize])
@@ -271,12 +276,13 @@ impl<'t, A: Arithmetic> Run<'t, A> {
         }
     }
 
-    /// A ramp here: set where the row began, stepped at the end of each pixel.
+    /// A ramp here: set where the row or pass began, stepped at the end of each pixel.
     fn ramp(&mut self, id: NodeId) -> A::Value {
         self.checked(self.values[id.0 as usize]);
         let parts = ramp::coefficients(self.graph, id);
         let parts: Vec<A::Value> = parts.into_iter().map(|part| self.read(part)).collect();
-        self.arithmetic.ramp(self.position.0, &parts)
+        let stride = ramp::stride(self.graph, id) as i32;
+        self.arithmetic.ramp(self.position.0.div_euclid(stride), &parts)
     }
 
     fn compute(&mut self, id: NodeId) -> A::Value {

@@ -50,7 +50,7 @@ fn number(d: Dependence) -> usize {
     match d {
         Dependence::Frame => 0,
         Dependence::Row => 1,
-        Dependence::Column => 2,
+        Dependence::Column | Dependence::Pass => 2,
         Dependence::Loop(l) => 3 + 2 * l.0 as usize,
         Dependence::Last(l) => 4 + 2 * l.0 as usize,
     }
@@ -191,7 +191,11 @@ impl<'g> Scalar<'g> {
             Node::Param(p) => Some(param_value(graph, p)),
             Node::Axis(axis) => {
                 let (x, y) = self.position.unwrap_or_default();
-                Some(Value::Int(if axis == Axis::X { x } else { y }))
+                Some(Value::Int(match axis {
+                    Axis::X => x,
+                    Axis::Y => y,
+                    Axis::Pass(n) => x.rem_euclid(n.max(1) as i32),
+                }))
             }
             Node::Apply(op, [a, b]) => {
                 let a = self.get(a, stack);
@@ -227,6 +231,7 @@ impl<'g> Scalar<'g> {
                 let parts = parts?;
                 self.operations += 1;
                 let x = self.position.map_or(0, |(x, _)| x);
+                let x = x.div_euclid(ramp::stride(graph, id) as i32);
                 Some(Value::Int(ramp::at(x, &parts)))
             }
             Node::Carried { of, index } | Node::Last { of, index } => {

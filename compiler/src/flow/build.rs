@@ -214,14 +214,21 @@ impl Builder {
         self.add(Node::Lookup { table, column, row }, ty, span)
     }
 
-    /// An int that grows by `step` from column to column.
-    pub fn ramp(&mut self, first: NodeId, step: NodeId, span: Span) -> NodeId {
+    /// An int that grows by `step` from each column to the one `stride` further.
+    pub fn ramp(&mut self, first: NodeId, step: NodeId, stride: u32, span: Span) -> NodeId {
         if self.undefined_type(first) || self.undefined_type(step) {
             return self.undefined(Type::Int);
         }
         match self.value(step) {
             Some(Value::Int(0)) => first,
-            _ => self.add(Node::Ramp { first, step }, Type::Int, span),
+            _ => {
+                let ramp = Node::Ramp {
+                    first,
+                    step,
+                    stride,
+                };
+                self.add(ramp, Type::Int, span)
+            }
         }
     }
 

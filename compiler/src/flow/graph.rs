@@ -49,6 +49,9 @@ pub enum Axis {
     X,
     /// The row, from 0 at the top.
     Y,
+    /// The column modulo so many, 2 or more: a row is drawn in as many passes,
+    /// each over every so manyth column. All of a graph's have the same number.
+    Pass(u32),
 }
 
 /// A scalar constant that can be a key: reals by their bits.
@@ -103,10 +106,15 @@ pub enum Node {
         column: NodeId,
         row: NodeId,
     },
-    /// An int that is `first` in column 0 and grows by `step` from each column
-    /// to the next, in 32 bits that wrap. `first` is the same for the whole row,
-    /// and so is `step`, or it is another ramp ([`super::ramp`]).
-    Ramp { first: NodeId, step: NodeId },
+    /// An int that is `first` in the first `stride` columns and grows by `step`
+    /// from each column to the one `stride` further, in 32 bits that wrap. `first`
+    /// is the same for the whole pass, and so is `step`, or it is another ramp of the
+    /// same stride ([`super::ramp`]).
+    Ramp {
+        first: NodeId,
+        step: NodeId,
+        stride: u32,
+    },
     /// A carried value of a loop, in its body.
     Carried { of: LoopId, index: u32 },
     /// What the last `next` gave, in the loop's `else`.
@@ -130,7 +138,7 @@ impl Node {
             Node::Apply(op, [a, b]) => [Some(a), (op.arity() > 1).then_some(b), None],
             Node::Select { cond, yes, no } => [Some(cond), Some(yes), Some(no)],
             Node::Lookup { column, row, .. } => [Some(column), Some(row), None],
-            Node::Ramp { first, step } => [Some(first), Some(step), None],
+            Node::Ramp { first, step, .. } => [Some(first), Some(step), None],
             _ => [None; 3],
         };
         list.into_iter().flatten()
@@ -150,9 +158,14 @@ impl Node {
                 column: at(column),
                 row: at(row),
             },
-            Node::Ramp { first, step } => Node::Ramp {
+            Node::Ramp {
+                first,
+                step,
+                stride,
+            } => Node::Ramp {
                 first: at(first),
                 step: at(step),
+                stride,
             },
             other => other,
         }

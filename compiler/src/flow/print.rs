@@ -58,13 +58,23 @@ pub fn node_text(graph: &Graph, node: Node) -> String {
         }
         Node::Axis(Axis::X) => "axis x".to_owned(),
         Node::Axis(Axis::Y) => "axis y".to_owned(),
+        Node::Axis(Axis::Pass(passes)) => format!("axis x mod {passes}"),
         Node::Apply(op, args) => {
             let shown: Vec<NodeId> = args.into_iter().take(op.arity()).collect();
             format!("{} {}", op.name(), list(&shown))
         }
         Node::Select { cond, yes, no } => format!("select {cond}, {yes}, {no}"),
         Node::Lookup { table, column, row } => format!("lookup {} [{column}, {row}]", table.0),
-        Node::Ramp { first, step } => format!("ramp {first}, {step}"),
+        Node::Ramp {
+            first,
+            step,
+            stride: 1,
+        } => format!("ramp {first}, {step}"),
+        Node::Ramp {
+            first,
+            step,
+            stride,
+        } => format!("ramp {first}, {step} every {stride}"),
         Node::Carried { of, index } => format!("carried {}.{index}", of.0),
         Node::Last { of, index } => format!("last {}.{index}", of.0),
         Node::Result { of, index } => format!("result {}.{index}", of.0),

@@ -6,7 +6,8 @@
 //! c0 + c1 x + c2 x(x-1)/2, and so on: Newton's forward differences (Knuth, The
 //! Art of Computer Programming, volume 2, 4.6.4, "Tabulating polynomial values").
 //! So a ramp means something at every column, whatever was drawn before; a
-//! machine that draws a row from left to right needs one addition a column.
+//! machine that draws a row from left to right needs one addition a column. Where
+//! it draws every nth column in a pass, x above is the column's number in its pass.
 
 use super::graph::*;
 use slowlight_routine::Range;
@@ -19,7 +20,7 @@ pub const DEGREE: usize = 3;
 pub fn coefficients(graph: &Graph, id: NodeId) -> Vec<NodeId> {
     let mut all = Vec::new();
     let mut at = id;
-    while let Node::Ramp { first, step } = graph.node(at)
+    while let Node::Ramp { first, step, .. } = graph.node(at)
         && step < at
     {
         all.push(first);
@@ -36,12 +37,21 @@ fn times(x: i32, k: usize) -> i128 {
     (0..k as i128).fold(1, |all, n| all * (i128::from(x) - n) / (n + 1))
 }
 
-/// A ramp at a column.
+/// A ramp at a column, by its number in its pass.
 pub fn at(x: i32, coefficients: &[i32]) -> i32 {
     let each = coefficients.iter().enumerate();
     each.fold(0i32, |sum, (k, &c)| {
         sum.wrapping_add(c.wrapping_mul(times(x, k) as i32))
     })
+}
+
+/// How far apart the columns are from one of which to the next a ramp grows by
+/// its step.
+pub fn stride(graph: &Graph, id: NodeId) -> u32 {
+    match graph.node(id) {
+        Node::Ramp { stride, .. } => stride.max(1),
+        _ => 1,
+    }
 }
 
 /// Between which bounds a ramp would stay over some columns if it did not wrap.
@@ -70,7 +80,8 @@ pub fn range(
     known: impl Fn(NodeId) -> Range,
 ) -> Range {
     let each: Vec<Range> = coefficients(graph, id).into_iter().map(known).collect();
-    within(columns, &each)
+    let stride = stride(graph, id) as i32;
+    within(columns.start() / stride..=columns.end() / stride, &each)
 }
 
 /// The ramps among some values in the order in which they are to be stepped:

@@ -284,7 +284,11 @@ fn node_body(ty: Type, body: &str) -> Read<Node> {
     Ok(match word {
         "const" => Node::Const(Constant::new(value(ty, rest)?)),
         "param" => Node::Param(ParamId(number(rest)?)),
-        "axis" => Node::Axis(if rest == "x" { Axis::X } else { Axis::Y }),
+        "axis" => Node::Axis(match rest.strip_prefix("x mod ") {
+            Some(passes) => Axis::Pass(number(passes)?),
+            None if rest == "x" => Axis::X,
+            None => Axis::Y,
+        }),
         "carried" => part(rest).map(|(of, index)| Node::Carried { of, index })?,
         "last" => part(rest).map(|(of, index)| Node::Last { of, index })?,
         "result" => part(rest).map(|(of, index)| Node::Result { of, index })?,
@@ -295,10 +299,20 @@ fn node_body(ty: Type, body: &str) -> Read<Node> {
             [cond, yes, no] => Node::Select { cond, yes, no },
             _ => return Err("a select has a condition and two arms".to_owned()),
         },
-        "ramp" => match node_list(rest)?[..] {
-            [first, step] => Node::Ramp { first, step },
-            _ => return Err("a ramp has a first value and a step".to_owned()),
-        },
+        "ramp" => {
+            let (rest, stride) = match rest.split_once(" every ") {
+                Some((rest, stride)) => (rest, number(stride)?),
+                None => (rest, 1),
+            };
+            match node_list(rest)?[..] {
+                [first, step] => Node::Ramp {
+                    first,
+                    step,
+                    stride,
+                },
+                _ => return Err("a ramp has a first value and a step".to_owned()),
+            }
+        }
         "lookup" => {
             let (table, indices) = rest.split_once('[').ok_or("no `[`")?;
             match node_list(indices.trim_end_matches(']'))?[..] {

@@ -1,7 +1,8 @@
 //! The statement tree: when each value of a graph is computed.
 //!
 //! A picture is drawn by nested blocks: `frame` runs once, `row` before
-//! each row's pixels, `segment` where a run of columns begins in which no
+//! each row's pixels, `pass` before each of the passes over every nth column in
+//! which a row may be drawn, `segment` where a run of columns begins in which no
 //! comparison of the column with what the row knows changes (so it may run at
 //! every pixel, with the same result), `pixel` for each pixel, which then plots the ink. Every
 //! value that needs computing has one place where it is computed:
@@ -134,6 +135,8 @@ pub struct Tree {
     pub frame: Block,
     /// Once a row.
     pub row: Block,
+    /// Once a pass over a row's columns, where the graph has such ([`Axis::Pass`]).
+    pub pass: Block,
     /// Once a run of columns, where the schedule has such; before its first pixel.
     pub segment: Block,
     /// Once a pixel; after it the ink is known.
@@ -144,12 +147,12 @@ pub struct Tree {
 
 impl Tree {
     /// The blocks around all others, outermost first.
-    pub fn outer(&self) -> [&Block; 4] {
-        [&self.frame, &self.row, &self.segment, &self.pixel]
+    pub fn outer(&self) -> [&Block; 5] {
+        let Tree { frame, row, pass, segment, pixel, .. } = self;
+        [frame, row, pass, segment, pixel]
     }
 
-    /// Every block that is written down: the frame's, the row's, the segment's,
-    /// the pixel's, then the subroutines'.
+    /// Every block that is written down: those, then the subroutines'.
     pub fn blocks(&self) -> impl Iterator<Item = &Block> {
         self.outer()
             .into_iter()
@@ -255,10 +258,11 @@ impl Display for Tree {
         for (name, statements) in [
             ("frame", &self.frame),
             ("row", &self.row),
+            ("pass", &self.pass),
             ("segment", &self.segment),
             ("pixel", &self.pixel),
         ] {
-            if name == "segment" && statements.is_empty() {
+            if matches!(name, "pass" | "segment") && statements.is_empty() {
                 continue;
             }
             writeln!(f, "{name}:")?;

@@ -11,7 +11,7 @@
 
 use super::graph::*;
 use super::ramp;
-use crate::passes::rate::{Dependence, Rates, rates};
+use crate::passes::rate::{Rates, rates};
 use slowlight_routine::Type;
 use std::collections::HashMap;
 
@@ -144,9 +144,8 @@ fn stepped(graph: &Graph, rates: &Rates, id: NodeId) -> Result<(), Broken> {
         if graph.ty(part) != Type::Int {
             return broken(format!("steps by {part}, which is no int"));
         }
-        let outside = |d: &Dependence| matches!(d, Dependence::Frame | Dependence::Row);
-        if !rates.rate(part).iter().all(outside) {
-            return broken(format!("steps by {part}, which is not the same for a row"));
+        if !rates.is_still(part) {
+            return broken(format!("steps by {part}, which is not the same for a pass"));
         }
     }
     Ok(())

@@ -122,11 +122,7 @@ pub fn bounds_segment(graph: &Graph, rates: &Rates, id: NodeId) -> bool {
         return false;
     };
     let column = |id| graph.node(id) == Node::Axis(Axis::X);
-    let still = |id| {
-        let rate = rates.rate(id).iter();
-        let mut outside = rate.map(|d| matches!(d, Dependence::Frame | Dependence::Row));
-        outside.all(|o| o)
-    };
+    let still = |id| rates.is_still(id);
     column(a) && still(b) || column(b) && still(a)
 }
 
@@ -201,11 +197,16 @@ impl Placer<'_> {
                     self.need(arm, inner);
                 }
             }
-            // Set where a row begins, whoever reads it.
-            Node::Ramp { first, step } => {
-                self.regions.of[id.0 as usize] = Some(ROW);
-                self.need(first, ROW);
-                self.need(step, ROW);
+            // Set where a row or pass begins, whoever reads it.
+            Node::Ramp {
+                first,
+                step,
+                stride,
+            } => {
+                let region = if stride == 1 { ROW } else { PASS };
+                self.regions.of[id.0 as usize] = Some(region);
+                self.need(first, region);
+                self.need(step, region);
             }
             Node::Result { of, .. } => self.visit_loop(of),
             // Known without computing.
@@ -300,14 +301,18 @@ impl Placer<'_> {
             .iter()
             .any(|d| matches!(d, Dependence::Loop(_) | Dependence::Last(_)));
         let (x, y) = (depends(Dependence::Column), depends(Dependence::Row));
+        let pass = depends(Dependence::Pass);
         let inside = |outer| region != outer && self.regions.holds(outer, region);
-        if !x && !loops && (region == SEGMENT || inside(SEGMENT)) {
+        if !x && !pass && !loops && (region == PASS || inside(PASS)) {
             return Some(ROW);
+        }
+        if !x && !loops && (region == SEGMENT || inside(SEGMENT)) {
+            return Some(PASS);
         }
         if self.segment[id.0 as usize] && !loops && (region == PIXEL || inside(PIXEL)) {
             return Some(SEGMENT);
         }
-        if !x && !y && !loops && region != FRAME && self.regions.holds(ROW, region) {
+        if !x && !pass && !y && !loops && region != FRAME && self.regions.holds(ROW, region) {
             return Some(FRAME);
         }
         match self.regions.get(region).kind {

@@ -9,6 +9,7 @@ pub mod fold;
 pub mod guard;
 pub mod homogeneous;
 pub mod identities;
+pub mod interlace;
 mod moves;
 pub mod narrow;
 pub mod outline;

@@ -1,7 +1,7 @@
 //! Rate: how often a value changes.
 //!
 //! A value's rate is the set of axes that it depends on: the params, the row,
-//! the column, and each loop that it stands in. The join is the union; the
+//! the pass over the row, the column, and each loop that it stands in. The join is the union; the
 //! empty set is a constant. A value can be computed as far out as its set
 //! allows. Sets are interned, since a graph has many values and few sets.
 
@@ -16,6 +16,8 @@ pub enum Dependence {
     Frame,
     /// y.
     Row,
+    /// x modulo the number of passes over a row.
+    Pass,
     /// x.
     Column,
     /// A loop's carried values.
@@ -29,6 +31,7 @@ impl fmt::Display for Dependence {
         match self {
             Dependence::Frame => f.write_str("frame"),
             Dependence::Row => f.write_str("row"),
+            Dependence::Pass => f.write_str("pass"),
             Dependence::Column => f.write_str("column"),
             Dependence::Loop(l) => write!(f, "loop {}", l.0),
             Dependence::Last(l) => write!(f, "end of loop {}", l.0),
@@ -49,6 +52,13 @@ pub struct Rates {
     pub of: Vec<SetId>,
 }
 
+impl Dependence {
+    /// Whether it changes between the pixels of a pass over a row.
+    pub fn within_pass(self) -> bool {
+        !matches!(self, Dependence::Frame | Dependence::Row | Dependence::Pass)
+    }
+}
+
 impl Rates {
     /// A node's rate.
     pub fn rate(&self, id: NodeId) -> &[Dependence] {
@@ -60,6 +70,11 @@ impl Rates {
     /// A node's set.
     pub fn set(&self, id: NodeId) -> SetId {
         self.of.get(id.0 as usize).copied().unwrap_or(SetId(0))
+    }
+
+    /// Whether a node is the same for a whole pass over a row.
+    pub fn is_still(&self, id: NodeId) -> bool {
+        !self.rate(id).iter().any(|d| d.within_pass())
     }
 
     /// Whether a node depends on something.
@@ -135,10 +150,11 @@ pub fn rates(graph: &Graph) -> Rates {
             Node::Const(_) | Node::Undefined(_) => SetId(0),
             Node::Param(_) => sets.intern(vec![Dependence::Frame]),
             Node::Axis(Axis::Y) => sets.intern(vec![Dependence::Row]),
+            Node::Axis(Axis::Pass(_)) => sets.intern(vec![Dependence::Pass]),
             Node::Axis(Axis::X) => sets.intern(vec![Dependence::Column]),
             // Another value in every pixel: it stands in the pixel's own block.
             Node::Received => sets.intern(vec![Dependence::Row, Dependence::Column]),
-            Node::Ramp { first, step } => {
+            Node::Ramp { first, step, .. } => {
                 let at = |id: NodeId| of.get(id.0 as usize).copied().unwrap_or(SetId(0));
                 let both = sets.union(at(first), at(step));
                 let column = sets.intern(vec![Dependence::Column]);

@@ -211,9 +211,14 @@ impl Rebuilder<'_> {
                     row: self.at(row),
                 }
             }
-            Node::Ramp { first, step } => Node::Ramp {
+            Node::Ramp {
+                first,
+                step,
+                stride,
+            } => Node::Ramp {
                 first: self.at(first),
                 step: self.at(step),
+                stride,
             },
             Node::Carried { of, index } => Node::Carried {
                 of: self.open(of, rewrite),
@@ -236,7 +241,11 @@ impl Rebuilder<'_> {
             Node::Apply(op, args) => b.apply(op, &args[..op.arity()], span),
             Node::Select { cond, yes, no } => b.select(cond, yes, no, span),
             Node::Lookup { table, column, row } => b.lookup(table, column, row, span),
-            Node::Ramp { first, step } => b.ramp(first, step, span),
+            Node::Ramp {
+                first,
+                step,
+                stride,
+            } => b.ramp(first, step, stride, span),
             Node::Carried { of, index } => b.carried(of, index, span),
             Node::Last { of, index } => b.last(of, index, span),
             Node::Received => b.received(span),

@@ -1,7 +1,7 @@
 //! Regions: the places that a value can be computed in, and what is known there.
 //!
-//! Regions form a tree: the frame holds the row, the row its segments, these the pixel, and
-//! below them stand the arms of conditions and the parts of loops. What is
+//! Regions form a tree: the frame holds the row, the row its passes, these their segments,
+//! these the pixel, and below them stand the arms of conditions and the parts of loops. What is
 //! known on entering a region (that a condition holds) may imply more.
 
 use crate::flow::graph::*;
@@ -18,6 +18,8 @@ pub enum RegionKind {
     Frame,
     /// Once a row.
     Row,
+    /// Once a pass over a row's columns.
+    Pass,
     /// Once a run of columns in which comparisons with the row's values do not change.
     Segment,
     /// Once a pixel.
@@ -74,7 +76,7 @@ pub fn implied(graph: &Graph, cond: NodeId, holds: bool) -> Vec<Fact> {
 /// Every value's region.
 #[derive(Clone, Debug, Default)]
 pub struct Regions {
-    /// All regions; the first four are frame, row, segment and pixel.
+    /// All regions; the first five are frame, row, pass, segment and pixel.
     pub regions: Vec<Region>,
     /// Each node's region; `None` where the ink does not need it, or where it
     /// needs no computing.
@@ -90,13 +92,15 @@ pub struct Regions {
 pub const FRAME: RegionId = RegionId(0);
 /// The row's region.
 pub const ROW: RegionId = RegionId(1);
+/// The pass's region.
+pub const PASS: RegionId = RegionId(2);
 /// The segment's region.
-pub const SEGMENT: RegionId = RegionId(2);
+pub const SEGMENT: RegionId = RegionId(3);
 /// The pixel's region.
-pub const PIXEL: RegionId = RegionId(3);
+pub const PIXEL: RegionId = RegionId(4);
 
 impl Regions {
-    /// The outermost four regions.
+    /// The outermost five regions.
     pub(super) fn new(graph: &Graph) -> Regions {
         let region = |kind, parent, depth| Region {
             kind,
@@ -107,12 +111,13 @@ impl Regions {
             regions: vec![
                 region(RegionKind::Frame, None, 0),
                 region(RegionKind::Row, Some(FRAME), 1),
-                region(RegionKind::Segment, Some(ROW), 2),
-                region(RegionKind::Pixel, Some(SEGMENT), 3),
+                region(RegionKind::Pass, Some(ROW), 2),
+                region(RegionKind::Segment, Some(PASS), 3),
+                region(RegionKind::Pixel, Some(SEGMENT), 4),
             ],
             of: vec![None; graph.nodes.len()],
             loops: vec![None; graph.loops.len()],
-            facts: vec![Vec::new(); 4],
+            facts: vec![Vec::new(); 5],
             children: FxHashMap::default(),
         }
     }

@@ -60,7 +60,8 @@ fn schedule_by(graph: &Graph, order: Order, segments: bool) -> Tree {
     let roots: Vec<NodeId> = graph.roots().collect();
     Tree {
         frame: emitter.block(FRAME, &roots, &[ROW]),
-        row: emitter.block(ROW, &roots, &[SEGMENT]),
+        row: emitter.block(ROW, &roots, &[PASS]),
+        pass: emitter.block(PASS, &roots, &[SEGMENT]),
         segment: emitter.block(SEGMENT, &roots, &[PIXEL]),
         pixel: emitter.block(PIXEL, &roots, &[]),
         subroutines: Vec::new(),

@@ -76,10 +76,12 @@ fn homes(plan: &Plan, move_less: bool) -> HashMap<Place, usize> {
         inside: Vec::new(),
     };
     lives.block(&plan.tree.frame);
-    // The numbers of the last statements of the frame and of the row.
+    // The numbers of the last statements of the frame, of the row and of a pass.
     let frame = lives.now;
     lives.block(&plan.tree.row);
     let row = lives.now;
+    lives.block(&plan.tree.pass);
+    let pass = lives.now;
     lives.block(&plan.tree.segment);
     // The number of the last statement before the pixel's.
     let pixel = lives.now;
@@ -104,19 +106,20 @@ fn homes(plan: &Plan, move_less: bool) -> HashMap<Place, usize> {
         }
     }
     all.retain(|(place, _)| !moved.iter().any(|(from, _)| from == place));
+    let ends = [(0, frame), (frame, row), (row, pass)];
     let life = |place: &Place| match lives.lives.get(place) {
         Some(life) if life.from > pixel => *life,
-        // What the row computes for itself alone, and what the frame does.
-        Some(life) if life.from > frame && life.to <= row || life.to <= frame => *life,
+        // What the frame, the row or a pass computes for itself alone.
+        Some(life) if ends.iter().any(|(from, to)| life.from > *from && life.to <= *to) => *life,
         _ => Life { from: 0, to: end },
     };
     // Stable: places that begin together stay in the order of their writing.
     all.sort_by_key(|(place, _)| life(place).from);
-    let mut ends: HashMap<Format, Vec<usize>> = HashMap::new();
+    let mut free_from: HashMap<Format, Vec<usize>> = HashMap::new();
     let mut homes = HashMap::new();
     for (place, format) in all {
         let Life { from, to } = life(&place);
-        let taken = ends.entry(format).or_default();
+        let taken = free_from.entry(format).or_default();
         let free = taken.iter().position(|end| *end < from);
         let at = free.unwrap_or_else(|| {
             taken.push(0);
@@ -196,11 +199,13 @@ impl Lives<'_> {
     fn steps(&mut self) {
         let tree = &self.plan.tree;
         let mut set = Vec::new();
-        walk(&tree.row, &mut |statement| {
-            if let Statement::Let(id) = statement {
-                set.push(*id);
-            }
-        });
+        for block in [&tree.row, &tree.pass] {
+            walk(block, &mut |statement| {
+                if let Statement::Let(id) = statement {
+                    set.push(*id);
+                }
+            });
+        }
         for (id, step) in ramp::in_steps(&self.plan.graph, set) {
             self.touch(Place::Node(id));
             self.read(step);

@@ -9,7 +9,8 @@
 //!
 //! - The program draws picture rows `rows.0..=rows.1` and picture columns
 //!   `columns.0..=columns.1` (both inclusive): `tree.frame` once, then for each
-//!   y `tree.row`, then for each x `tree.segment` (or that only where one of its
+//!   y `tree.row`, then `tree.pass` for each pass over the row's columns, where the
+//!   graph has such, then for each of its x `tree.segment` (or that only where one of its
 //!   comparisons with x has changed) and `tree.pixel`, after which [`Graph::ink`] is
 //!   the ink to plot at screen position (x + offset.0, y + offset.1), if the
 //!   plan says [`Plan::plot`].
@@ -66,6 +67,7 @@ use crate::flow::tree::*;
 use crate::flow::verify::verify;
 use crate::passes::early::without;
 use crate::passes::fold::fold;
+use crate::passes::interlace::interlaced;
 use crate::passes::schedule::missing;
 use crate::passes::stable::stable;
 use crate::range::{Ranges, Slack};
@@ -297,9 +299,15 @@ fn planned(
         Rewriting::None => 0,
         _ => STABLE_ROUNDS,
     };
-    let mut now = steady(&without(origin), &slack, rounds);
+    let drawn = |graph: Graph| match rewriting {
+        Rewriting::Fast { thrift, .. } if thrift.passes() && runtime.segments => {
+            interlaced(&graph, (target.pixels)(&goal.mode)).unwrap_or(graph)
+        }
+        _ => graph,
+    };
+    let mut now = steady(&drawn(fold(&without(origin))), &slack, rounds);
     if let Rewriting::Fast { thrift, steps } = rewriting {
-        let early = (!origin.early.is_empty()).then(|| steady(origin, &slack, rounds));
+        let early = (!origin.early.is_empty()).then(|| steady(&drawn(fold(origin)), &slack, rounds));
         let early = early.as_ref().map(|settled| &settled.graph);
         let price = Price::new(&now, runtime, thrift);
         let all = cheaper(now.clone(), early, &slack, runtime, thrift);

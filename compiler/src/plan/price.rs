@@ -14,22 +14,26 @@ use crate::flow::graph::*;
 use crate::flow::often;
 use crate::flow::tree::*;
 use crate::passes::demand::bounds_segment;
+use crate::passes::interlace::passes;
 use crate::passes::rate::rates;
 use rustc_hash::FxHashSet;
 use slowlight_routine::{Op, Routine, Runtime, Stepping, Type, Value};
 use std::cell::Cell;
 
 /// What part of the plan's cycles a statement more must save, for its memory
-/// (three entries of a table take as much), and whether runs of columns may be
-/// looked for: their ends take many statements a row, which hardly count by cycles.
+/// (three entries of a table take as much), whether runs of columns may be
+/// looked for and whether rows may be drawn in passes: both take many statements a row, which hardly count by cycles.
 /// From where there is plenty to where there was never enough.
-const THRIFT: [(f64, bool); 6] = [
-    (0.0002, true),
-    (0.0002, false),
-    (0.001, true),
-    (0.001, false),
-    (0.0025, true),
-    (0.01, true),
+const THRIFT: [(f64, bool, bool); 9] = [
+    (0.0002, true, true),
+    (0.0002, false, true),
+    (0.0002, true, false),
+    (0.001, true, true),
+    (0.001, false, true),
+    (0.001, true, false),
+    (0.001, false, false),
+    (0.0025, true, false),
+    (0.01, true, false),
 ];
 
 /// How much memory counts beside cycles: more where a program did not fit.
@@ -45,6 +49,11 @@ impl Thrift {
     /// Whether runs of columns may be looked for.
     pub fn runs(self) -> bool {
         THRIFT[self.0].1
+    }
+
+    /// Whether rows may be drawn in passes.
+    pub fn passes(self) -> bool {
+        THRIFT[self.0].2
     }
 }
 
@@ -91,11 +100,13 @@ impl Price {
             folded: folded(&plan.graph, &plan.tree),
             routines,
         };
-        // What begins a run of columns is not carried out at each of them.
+        // What begins a pass or run of columns is not carried out at each of them.
         let mut runs = FxHashSet::default();
-        walk(&plan.tree.segment, &mut |s| {
-            runs.insert(std::ptr::from_ref(s));
-        });
+        for block in [&plan.tree.pass, &plan.tree.segment] {
+            walk(block, &mut |s| {
+                runs.insert(std::ptr::from_ref(s));
+            });
+        }
         let cost = |statement: &Statement| f64::from(beside.statement(statement));
         let by_pixel = |statement: &Statement| match runs.contains(&std::ptr::from_ref(statement)) {
             true => 0.0,
@@ -112,8 +123,11 @@ impl Price {
             }
         };
         let often = 1.0 + bounds(plan) as f64;
-        let outside = guess(&plan.tree.row) + guess(&plan.tree.segment) * often;
-        let cycles = outside / width + pixel + beside.steps(&plan.tree.row);
+        let passes = f64::from(passes(&plan.graph));
+        let pass = guess(&plan.tree.pass) + guess(&plan.tree.segment) * often;
+        let outside = guess(&plan.tree.row) + pass * passes;
+        let steps = beside.steps(&plan.tree.row) + beside.steps(&plan.tree.pass);
+        let cycles = outside / width + pixel + steps;
         cycles * (1.0 + self.memory * memory(plan))
     }
 

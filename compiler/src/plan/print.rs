@@ -103,10 +103,11 @@ impl Display for Plan {
         for (name, block) in [
             ("frame", &self.tree.frame),
             ("row", &self.tree.row),
+            ("pass", &self.tree.pass),
             ("segment", &self.tree.segment),
             ("pixel", &self.tree.pixel),
         ] {
-            if name == "segment" && block.is_empty() {
+            if matches!(name, "pass" | "segment") && block.is_empty() {
                 continue;
             }
             writeln!(f, "{name}:")?;
@@ -156,7 +157,7 @@ impl Plan {
                     .map_or("", |t| t.name.as_str());
                 format!("{name}[{}, {}]", self.operand(column), self.operand(row))
             }
-            Node::Ramp { first, step } => {
+            Node::Ramp { first, step, .. } => {
                 format!("{}, then +{}", self.operand(first), self.operand(step))
             }
             _ => self.operand(id),

@@ -58,6 +58,7 @@ pub fn ranges(graph: &Graph, tree: &Tree, slack: &Slack) -> Ranges {
     };
     walk.block(&tree.frame);
     walk.block(&tree.row);
+    walk.block(&tree.pass);
     walk.block(&tree.segment);
     walk.block(&tree.pixel);
     walk.out
@@ -76,6 +77,7 @@ fn known(graph: &Graph, slack: &Slack, id: NodeId) -> Range {
             slack.cut(graph.ty(id), slack.enlarge(Op::Mul, &[], range))
         }
         Node::Axis(Axis::X) => Range::new(0.0, f64::from(graph.image.width.saturating_sub(1))),
+        Node::Axis(Axis::Pass(n)) => Range::new(0.0, f64::from(n.saturating_sub(1))),
         Node::Axis(Axis::Y) => Range::new(0.0, f64::from(graph.image.height.saturating_sub(1))),
         _ => slack.cut(graph.ty(id), Range::ALL),
     }

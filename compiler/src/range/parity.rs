@@ -75,7 +75,7 @@ fn low(graph: &Graph, id: NodeId, deep: u32) -> Low {
             _ => none,
         },
         // Wrapping takes whole powers of two away.
-        Node::Ramp { first, step } => {
+        Node::Ramp { first, step, .. } => {
             let (first, moved) = (of(first), of(step).times(none));
             Low::new(first.bits.min(moved.bits), first.rest)
         }

@@ -45,6 +45,9 @@ pub struct Target {
     pub sizes: Sizes,
     /// Whether a sum of ints that leaves 32 bits silently loses what is above them.
     pub wraps: bool,
+    /// How many pixels of a mode stand in a byte that the program writes; 1 where
+    /// it plots them one by one.
+    pub pixels: fn(&Mode) -> u32,
     /// Writes a plan down.
     pub emit: fn(&Plan) -> Vec<Document>,
 }

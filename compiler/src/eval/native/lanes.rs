@@ -238,6 +238,15 @@ impl Lanes {
         }
     }
 
+    /// The same modulo a number above 0.
+    pub fn count_modulo(&mut self, slot: u32, first: i32, modulus: u32) {
+        self.count_up(slot, first);
+        let lanes = self.ints.slot_mut(slot).as_flattened_mut();
+        for value in lanes {
+            *value = value.rem_euclid(modulus.max(1) as i32);
+        }
+    }
+
     /// Gives every lane what lane 0 has.
     pub fn spread(&mut self, ty: Type, slot: u32) {
         let value = self.get(ty, slot, 0);

@@ -166,6 +166,7 @@ impl<'g> Native<'g> {
             match axis {
                 Axis::X => self.lanes.count_up(slot, block.x),
                 Axis::Y => self.lanes.fill(Type::Int, slot, Value::Int(block.y)),
+                Axis::Pass(n) => self.lanes.count_modulo(slot, block.x, n),
             }
         }
     }

@@ -141,8 +141,8 @@ impl Native<'_> {
     /// Whether all that a ramp depends on is known; else it is to be computed next.
     fn ask_ramp(&mut self, number: u32, mask: Mask) -> bool {
         let mut known = true;
-        for k in 0..self.plan.ramps[number as usize].len() {
-            let part = self.plan.ramps[number as usize][k];
+        for k in 0..self.plan.ramps[number as usize].parts.len() {
+            let part = self.plan.ramps[number as usize].parts[k];
             known &= self.ask(part, mask);
         }
         known
@@ -153,11 +153,12 @@ impl Native<'_> {
         let mut rest = mask;
         while rest != 0 {
             let lane = rest.trailing_zeros();
-            let parts = self.plan.ramps[number as usize].iter();
-            let parts: Vec<i32> = parts
+            let ramp = &self.plan.ramps[number as usize];
+            let parts: Vec<i32> = (ramp.parts.iter())
                 .map(|part| self.lanes.get(Type::Int, part.slot, lane as usize).int())
                 .collect();
-            let value = ramp::at(first.wrapping_add(lane as i32), &parts);
+            let column = first.wrapping_add(lane as i32);
+            let value = ramp::at(column.div_euclid(ramp.stride), &parts);
             self.lanes
                 .set(Type::Int, slot, lane as usize, Value::Int(value));
             rest &= rest - 1;

@@ -77,14 +77,19 @@ pub struct Turns {
     pub uniform: bool,
 }
 
+/// A ramp: what its value depends on ([`ramp::coefficients`]).
+pub struct Ramp {
+    pub parts: Vec<Source>,
+    pub stride: i32,
+}
+
 /// A graph made ready.
 pub struct Plan {
     /// Every node, and one more: what stands for operands that a right graph
     /// does not have. Its type is never asked for, and its slot is 0 in every type.
     pub steps: Vec<Step>,
     pub loops: Vec<Turns>,
-    /// What each ramp's value depends on ([`ramp::coefficients`]).
-    pub ramps: Vec<Vec<Source>>,
+    pub ramps: Vec<Ramp>,
     pub count: Count,
     /// Where the pixel's column and row go.
     pub axes: Vec<(Axis, u32)>,
@@ -101,7 +106,7 @@ fn number(d: Dependence) -> usize {
     match d {
         Dependence::Frame => 0,
         Dependence::Row => 1,
-        Dependence::Column => 2,
+        Dependence::Column | Dependence::Pass => 2,
         Dependence::Loop(l) => 3 + 2 * l.0 as usize,
         Dependence::Last(l) => 4 + 2 * l.0 as usize,
     }
@@ -203,7 +208,7 @@ fn varying(rates: &Rates, loop_sets: &[u32]) -> Vec<bool> {
     let mut varying = vec![false; rates.sets.len()];
     loop {
         let differs = |d: &Dependence| match d {
-            Dependence::Column => true,
+            Dependence::Column | Dependence::Pass => true,
             Dependence::Loop(l) | Dependence::Last(l) => {
                 let set = loop_sets.get(l.0 as usize);
                 set.is_some_and(|&set| varying[set as usize])
@@ -225,7 +230,7 @@ struct Maker<'g> {
     count: Count,
     /// The slots of each loop's carried values.
     carried: Vec<Vec<u32>>,
-    ramps: Vec<Vec<Source>>,
+    ramps: Vec<Ramp>,
     slots: Vec<u32>,
 }
 
@@ -300,7 +305,8 @@ impl Maker<'_> {
             Node::Ramp { .. } => {
                 let parts = ramp::coefficients(self.graph, id).into_iter();
                 let parts = parts.map(|part| self.source(part, Type::Int)).collect();
-                self.ramps.push(parts);
+                let stride = ramp::stride(self.graph, id) as i32;
+                self.ramps.push(Ramp { parts, stride });
                 Task::Ramp(self.ramps.len() as u32 - 1)
             }
             Node::Result { of, index } if (of.0 as usize) < self.graph.loops.len() => {

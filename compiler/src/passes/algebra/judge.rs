@@ -78,7 +78,7 @@ fn column(nodes: &dyn Nodes, id: NodeId, known: &mut FxHashMap<NodeId, bool>, de
         return found;
     }
     let made = match nodes.node(id) {
-        Node::Axis(Axis::X) => true,
+        Node::Axis(Axis::X | Axis::Pass(_)) => true,
         _ if deep > 500 => true,
         Node::Carried { .. } | Node::Last { .. } | Node::Result { .. } | Node::Received => true,
         node => node.operands().any(|a| column(nodes, a, known, deep + 1)),
@@ -164,6 +164,9 @@ impl Follow<'_> {
             Node::Param(p) => Rounded::exact(*self.sample.params.get(p.0 as usize)?),
             Node::Axis(Axis::X) => Rounded::exact(self.sample.x),
             Node::Axis(Axis::Y) => Rounded::exact(self.sample.y),
+            Node::Axis(Axis::Pass(n)) => {
+                Rounded::exact(self.sample.x.rem_euclid(f64::from(n.max(1))))
+            }
             Node::Select { cond, yes, no } => {
                 let cond = self.value(cond, deep + 1)?.value != 0.0;
                 self.value(if cond { yes } else { no }, deep + 1)?

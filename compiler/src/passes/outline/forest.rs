@@ -80,7 +80,7 @@ impl Forest {
         };
         let mut above = None;
         // Programs with subroutines are not cut into segments.
-        let pixel = [tree.segment, tree.pixel].concat();
+        let pixel = [tree.pass, tree.segment, tree.pixel].concat();
         for block in [tree.frame, tree.row, pixel] {
             let end = block.len();
             let made = forest.block(block, None, above, None);
@@ -309,6 +309,7 @@ impl Forest {
         let mut tree = Tree {
             frame: next(&mut self),
             row: next(&mut self),
+            pass: Block::new(),
             segment: Block::new(),
             pixel: next(&mut self),
             subroutines: Vec::new(),

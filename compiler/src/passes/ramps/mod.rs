@@ -1,7 +1,7 @@
 //! Forward differences: whole polynomials in the column as ramps.
 //!
 //! An int that is a polynomial in the column, its coefficients the same for the
-//! whole row, takes an addition for each degree from one column to the next
+//! whole row or pass, takes an addition for each degree from one column to the next
 //! ([`crate::flow::ramp`]), where Horner's scheme takes a multiplication for
 //! each. The additions are taken at every pixel, so whether they pay depends on
 //! how many pixels need the value; the plan decides ([`crate::plan`]).
@@ -16,7 +16,8 @@ pub mod phase;
 #[cfg(test)]
 mod phase_tests;
 
-use super::rate::{Dependence, Rates, rates};
+use super::interlace::passes;
+use super::rate::{Rates, rates};
 use super::rebuild::rebuild_old;
 use crate::flow::build::Builder;
 use crate::flow::graph::*;
@@ -96,8 +97,7 @@ impl Degrees {
         if graph.ty(id) != Type::Int {
             return None;
         }
-        let outside = |d: &Dependence| matches!(d, Dependence::Frame | Dependence::Row);
-        if rates.rate(id).iter().all(outside) {
+        if rates.is_still(id) {
             return Some(0);
         }
         match graph.node(id) {
@@ -149,7 +149,15 @@ impl Put<'_> {
             return Some(vec![(node, range)]);
         }
         match self.graph.node(id) {
-            Node::Axis(Axis::X) => Some(vec![self.whole(0), self.whole(1)]),
+            // n columns of the pass before it make n times the stride.
+            Node::Axis(Axis::X) => match passes(self.graph) {
+                1 => Some(vec![self.whole(0), self.whole(1)]),
+                n => {
+                    let pass = self.builder.axis(Axis::Pass(n), self.span);
+                    let first = (pass, Range::new(0.0, f64::from(n - 1)));
+                    Some(vec![first, self.whole(n as i32)])
+                }
+            },
             Node::Apply(Op::IntNeg, [a, _]) => {
                 let (zero, a) = (vec![self.whole(0)], self.coefficients(a)?);
                 self.each(Op::IntSub, &zero, &a)
@@ -214,14 +222,15 @@ impl Put<'_> {
 
     /// c0 + c1 x + c2 x² is c0 + (c1 + c2) x + 2 c2 x(x-1)/2.
     fn ramp(&mut self, parts: &[Part]) -> Option<NodeId> {
+        let stride = passes(self.graph);
         match *parts {
             [a] => Some(a.0),
-            [a, b] => Some(self.builder.ramp(a.0, b.0, self.span)),
+            [a, b] => Some(self.builder.ramp(a.0, b.0, stride, self.span)),
             [a, b, c] => {
                 let first = self.both(Op::IntAdd, b, c)?;
                 let twice = self.both(Op::IntAdd, c, c)?;
-                let step = self.builder.ramp(first.0, twice.0, self.span);
-                Some(self.builder.ramp(a.0, step, self.span))
+                let step = self.builder.ramp(first.0, twice.0, stride, self.span);
+                Some(self.builder.ramp(a.0, step, stride, self.span))
             }
             _ => None,
         }

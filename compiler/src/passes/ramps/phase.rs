@@ -23,7 +23,8 @@ use super::{Degrees, Put};
 use crate::flow::build::Builder;
 use crate::flow::graph::*;
 use crate::passes::algebra::judge::{Follow, Sample, samples};
-use crate::passes::rate::{Dependence, Rates, rates};
+use crate::passes::interlace::passes;
+use crate::passes::rate::{Rates, rates};
 use crate::passes::rebuild::rebuild_old;
 use crate::range::Ranges;
 use crate::source::Span;
@@ -146,8 +147,7 @@ impl<'g> Find<'g> {
     }
 
     pub fn is_row(&self, id: NodeId) -> bool {
-        let outside = |d: &Dependence| matches!(d, Dependence::Frame | Dependence::Row);
-        self.rates.rate(id).iter().all(outside)
+        self.rates.is_still(id)
     }
 
     fn is_exact(&self, id: NodeId) -> bool {
@@ -329,7 +329,8 @@ impl Write<'_, '_> {
             Some(slope) => {
                 let slope = self.centred(slope);
                 let step = self.scaled(slope);
-                self.builder.ramp(first, step, self.span)
+                self.builder
+                    .ramp(first, step, passes(self.find.graph), self.span)
             }
             None => first,
         };

@@ -73,10 +73,10 @@ fn known(plan: &Plan, tile: &Tile, id: NodeId) -> Value {
             None => unknown(),
         },
         Node::Axis(axis) => {
-            let (first, last) = if axis == Axis::X {
-                tile.columns
-            } else {
-                tile.rows
+            let (first, last) = match axis {
+                Axis::X => tile.columns,
+                Axis::Y => tile.rows,
+                Axis::Pass(passes) => (0, passes.saturating_sub(1)),
             };
             Value::exact(Range::new(f64::from(first), f64::from(last.max(first))))
         }

@@ -68,6 +68,7 @@ impl<'p> Expressions<'p> {
             },
             (Node::Axis(Axis::X), _) => Text::operand("X%"),
             (Node::Axis(Axis::Y), _) => Text::operand("Y%"),
+            (Node::Axis(Axis::Pass(_)), _) => Text::operand(&self.names.pass),
             (Node::Received, _) => Text::operand(&self.received),
             (_, Some(place)) => Text::operand(self.names.home(place)),
             _ => Text::operand("0"),

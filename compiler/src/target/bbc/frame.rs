@@ -3,6 +3,7 @@
 use super::Style;
 use super::code::Code;
 use super::lines::Lines;
+use super::passes::Passes;
 use super::poke::Poke;
 use super::ramp;
 use super::screen;
@@ -117,16 +118,20 @@ fn picture(plan: &Plan, code: &mut Code<'_>, first: &str, last: &str, spread: Op
     code.block(&plan.tree.frame);
     // Errors come from the rows above, drawn or not.
     let top = if spread.is_some() { "0" } else { first };
-    let poke = Poke::new(plan, code);
+    let passes = Passes::new(plan, code);
+    let poke = passes.is_none().then(|| Poke::new(plan, code)).flatten();
     code.line(format!("FOR Y%={top} TO {last}"));
     code.lines.weight = ROW;
-    if plan.plot && poke.is_none() {
+    let pokes = poke.is_some() || passes.as_ref().is_some_and(Passes::pokes);
+    if plan.plot && !pokes {
         code.statement(format!("R%={}", screen::y_expression(plan)));
     }
     let mut apart = Vec::new();
     if let Some(row) = behind(code, "row", |code| {
         code.block(&plan.tree.row);
-        ramp::start(plan, code);
+        if passes.is_none() && plan.computed_columns().0 > 0 {
+            ramp::start(plan, code, &plan.computed_columns().0.to_string());
+        }
     }) {
         apart.push(row);
     }
@@ -134,6 +139,11 @@ fn picture(plan: &Plan, code: &mut Code<'_>, first: &str, last: &str, spread: Op
     let segments = Segments::new(plan, code);
     let top_label = code.labels.next();
     match (&poke, &segments) {
+        _ if passes.is_some() => {
+            let row = passes.iter();
+            let segments = segments.as_ref();
+            apart.extend(row.flat_map(|row| row.begin(plan, code, segments, top_label)));
+        }
         (Some(poke), _) => {
             apart.extend(poke.columns(plan, code, segments.as_ref(), top_label));
         }
@@ -154,6 +164,8 @@ fn picture(plan: &Plan, code: &mut Code<'_>, first: &str, last: &str, spread: Op
     code.assign("I%", &ink);
     if let Some(poke) = &poke {
         poke.gather(code);
+    } else if let Some(row) = passes.as_ref().filter(|row| row.pokes()) {
+        row.put(code);
     } else if plan.plot {
         // After MODE the screen is ink 0 already.
         let x = screen::x_expression(plan);
@@ -171,6 +183,9 @@ fn picture(plan: &Plan, code: &mut Code<'_>, first: &str, last: &str, spread: Op
         (None, None) => {}
     }
     code.lines.weight = ROW;
+    if passes.is_some() {
+        code.line("NEXT");
+    }
     if let Some(spread) = spread {
         spread.turn(code);
     }

@@ -20,7 +20,7 @@
 //!   their text; `guard`: tests in place of functions; `version`: one test
 //!   for a run of assignments;
 //! - `code`: statements; `frame`: everything around them; `screen`: modes, colours, coordinates;
-//! - `poke`: pixels put into the Micro's memory;
+//! - `poke`: pixels put into the Micro's memory; `passes`: rows drawn every nth column at a time;
 //! - `ramp`: ints that are stepped from column to column;
 //! - `spread`: error diffusion; `short`: short names and lines, for speed and for size;
 //! - `pieces`: statements cut into names and words.
@@ -31,6 +31,7 @@ mod frame;
 mod guard;
 mod lines;
 mod names;
+mod passes;
 mod pieces;
 mod poke;
 mod ramp;
@@ -76,6 +77,11 @@ pub static MICRO: Target = Target {
     hertz: 2_000_000.0,
     sizes: SIZES,
     wraps: true,
+    pixels: |mode| match mode.inks {
+        2 => 8,
+        4 => 4,
+        _ => 2,
+    },
     emit,
 };
 
@@ -90,6 +96,7 @@ pub static AGON: Target = Target {
     hertz: 25_500_000.0,
     sizes: SIZES,
     wraps: false,
+    pixels: |_| 1,
     emit,
 };
 
@@ -104,6 +111,7 @@ pub static BASIC_V: Target = Target {
     hertz: 1.2e11,
     sizes: SIZES,
     wraps: false,
+    pixels: |_| 1,
     emit,
 };
 

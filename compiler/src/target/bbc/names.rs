@@ -14,6 +14,8 @@ pub struct Names {
     /// Copies of params in variables that may be renamed.
     copies: Vec<Option<String>>,
     pub tables: Vec<String>,
+    /// Of the pass over a row.
+    pub pass: String,
     /// Of the procedures for subroutines.
     procedures: Vec<String>,
     taken: HashSet<String>,
@@ -33,10 +35,12 @@ impl Names {
             params: Vec::new(),
             copies: vec![None; plan.graph.params.len()],
             tables: Vec::new(),
+            pass: String::new(),
             procedures: Vec::new(),
             taken: HashSet::new(),
             constants: Vec::new(),
         };
+        names.pass = names.unique("pass", "%");
         for p in &plan.graph.params {
             // In capitals `COUNT` and `TOp` would hold keywords, and `X%` is
             // the picture's own; no machine here knows keywords in small letters.

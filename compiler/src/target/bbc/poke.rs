@@ -31,34 +31,50 @@ pub struct Poke {
 }
 
 /// The bits of an ink at a byte's last pixel: bit by bit, each so far from the next.
-fn bits(ink: u32, pixels: u32) -> u32 {
+pub fn bits(ink: u32, pixels: u32) -> u32 {
     let each = 8 / pixels;
     (0..each)
         .map(|bit| (ink >> bit & 1) << (bit * pixels))
         .sum()
 }
 
+/// How many pixels a byte of the screen holds, if they can be put there: where
+/// the program draws on a Micro, is not for reading, and the picture begins and
+/// ends at whole bytes.
+pub fn pixels_in_byte(plan: &Plan, style: Style) -> Option<u32> {
+    let pixels = (plan.target.pixels)(&plan.mode);
+    let (first, last) = plan.columns;
+    let left = plan.offset.0 + first as i32;
+    let whole = |n: i64| n.rem_euclid(i64::from(pixels)) == 0;
+    let fits = plan.plot
+        && pixels > 1
+        && style != Style::Listing
+        && plan.computed_columns() == plan.columns
+        && whole(i64::from(left))
+        && whole(i64::from(last) + 1 - i64::from(first));
+    fits.then_some(pixels)
+}
+
+/// The address of a row's first byte.
+pub fn first_byte(plan: &Plan, pixels: u32) -> String {
+    let y = match plan.offset.1 {
+        0 => "Y%".to_owned(),
+        down if down > 0 => format!("(Y%+{down})"),
+        up => format!("(Y%{up})"),
+    };
+    // A row of characters: 8 rows of so many bytes.
+    let line = 8 * plan.mode.width / pixels;
+    let left = match 8 * (plan.offset.0 + plan.columns.0 as i32) / pixels as i32 {
+        0 => String::new(),
+        n => format!("+{n}"),
+    };
+    format!("HIMEM+{y} DIV 8*{line}+({y} AND 7){left}")
+}
+
 impl Poke {
-    /// Where the program draws on a Micro, is not for reading, and the
-    /// picture begins and ends at whole bytes.
+    /// Where pixels can be put into memory.
     pub fn new(plan: &Plan, code: &mut Code<'_>) -> Option<Poke> {
-        let pixels = match plan.mode.inks {
-            2 => 8,
-            4 => 4,
-            _ => 2,
-        };
-        let (first, last) = plan.columns;
-        let left = plan.offset.0 + first as i32;
-        let whole = |n: i64| n.rem_euclid(i64::from(pixels)) == 0;
-        let fits = plan.plot
-            && plan.target.name == "bbc:micro"
-            && code.values.style != Style::Listing
-            && plan.computed_columns() == plan.columns
-            && whole(i64::from(left))
-            && whole(i64::from(last) + 1 - i64::from(first));
-        if !fits {
-            return None;
-        }
+        let pixels = pixels_in_byte(plan, code.values.style)?;
         let names = &mut code.values.names;
         let poke = Poke {
             pixels,
@@ -102,20 +118,8 @@ impl Poke {
         again: Label,
     ) -> Option<Lines> {
         let (first, last) = plan.columns;
-        let y = match plan.offset.1 {
-            0 => "Y%".to_owned(),
-            down if down > 0 => format!("(Y%+{down})"),
-            up => format!("(Y%{up})"),
-        };
-        // A row of characters: 8 rows of so many bytes.
-        let line = 8 * plan.mode.width / self.pixels;
-        let left = 8 * (plan.offset.0 + first as i32) / self.pixels as i32;
-        let left = match left {
-            0 => String::new(),
-            n => format!("+{n}"),
-        };
         let (start, at) = (&self.start, &self.at);
-        code.statement(format!("{start}=HIMEM+{y} DIV 8*{line}+({y} AND 7){left}"));
+        code.statement(format!("{start}={}", first_byte(plan, self.pixels)));
         code.statement(format!("X%={first}"));
         let bytes = (last + 1 - first) / self.pixels;
         let end = 8 * (bytes - 1);

@@ -1,4 +1,4 @@
-//! Ramps: variables that are set where a row begins and stepped where a pixel ends.
+//! Ramps: variables that are set where a row or pass begins and stepped where a pixel ends.
 //!
 //! Every way through a pixel comes to its end, whatever it jumped over, and what
 //! steps another ramp is stepped after it, so that each is right at the next column.
@@ -14,19 +14,20 @@ use crate::plan::Plan;
 /// The plan's ramps and their steps, in the order of stepping.
 fn ramps(plan: &Plan) -> Vec<(NodeId, NodeId)> {
     let mut set = Vec::new();
-    walk(&plan.tree.row, &mut |statement| {
-        if let Statement::Let(id) = statement {
-            set.push(*id);
-        }
-    });
+    for block in [&plan.tree.row, &plan.tree.pass] {
+        walk(block, &mut |statement| {
+            if let Statement::Let(id) = statement {
+                set.push(*id);
+            }
+        });
+    }
     ramp::in_steps(&plan.graph, set)
 }
 
-/// Brings the ramps to a row's first column.
-pub fn start(plan: &Plan, code: &mut Code<'_>) {
-    let (first, _) = plan.computed_columns();
-    if first > 0 && !ramps(plan).is_empty() {
-        code.line(format!("FOR X%=1 TO {first}"));
+/// Brings the ramps to a row's or pass's first column, which takes so many steps.
+pub fn start(plan: &Plan, code: &mut Code<'_>, steps: &str) {
+    if !ramps(plan).is_empty() {
+        code.line(format!("FOR I%=1 TO {steps}"));
         step(plan, code);
         code.line("NEXT");
     }

@@ -312,6 +312,8 @@ impl<'p> Code<'p> {
             Node::Param(p) => self.object.param(self.plan, &mut self.names, p),
             Node::Axis(Axis::X) => Expression::term(&self.names.axes[0]),
             Node::Axis(Axis::Y) => Expression::term(&self.names.axes[1]),
+            // Here rows are drawn in one pass.
+            Node::Axis(Axis::Pass(_)) => Expression::term("0"),
             Node::Received => {
                 Expression::term(self.spread.as_ref().map_or("0", |s| s.received.as_str()))
             }

@@ -61,6 +61,7 @@ pub static JACK: Target = Target {
     hertz: 12.6e6,
     // Words of the heap: code does not count there, values do.
     wraps: false,
+    pixels: |_| 1,
     sizes: Sizes {
         operation: 4,
         copy_bool: 2,

@@ -219,6 +219,8 @@ fn wanted(plan: &Plan, slot: Slot) -> String {
         }
         Slot::Axis(Axis::X) => "pixel_x".to_owned(),
         Slot::Axis(Axis::Y) => "pixel_y".to_owned(),
+        // Here rows are drawn in one pass.
+        Slot::Axis(Axis::Pass(_)) => "pixel_pass".to_owned(),
         Slot::Turns(of) => format!("turns_{}", of.0),
         Slot::Rows(false) => "first_row_value".to_owned(),
         Slot::Rows(true) => "last_row_value".to_owned(),

@@ -51,6 +51,7 @@ pub static PLAIN: Target = Target {
     offset: 0.003_906_25,
     hertz: 2_000_000.0,
     wraps: false,
+    pixels: |_| 1,
     sizes: Sizes {
         operation: 0,
         copy_bool: 4,

@@ -1,0 +1,161 @@
+//! Rows drawn in passes, each over every nth column ([`crate::passes::interlace`]).
+//!
+//! A pass begins at its first column: what is the same for the whole pass is
+//! computed there, then a loop over its columns draws them. On the Micro its
+//! pixels all stand at the same place in their bytes, so what an ink's bits are
+//! there is a part of a table, and each pixel is added to its byte.
+
+use super::code::Code;
+use super::frame::behind;
+use super::lines::Lines;
+use super::poke;
+use super::ramp;
+use super::segment::Segments;
+use crate::passes::interlace::passes;
+use crate::plan::Plan;
+
+/// A row in passes.
+pub struct Passes {
+    count: u32,
+    columns: (u32, u32),
+    spot: Option<Spot>,
+}
+
+/// Where in the Micro's memory a pass puts its pixels.
+struct Spot {
+    /// Pixels in a byte.
+    pixels: u32,
+    /// The bits of each ink at each place in a byte, and the pass's part of that.
+    bits: String,
+    here: String,
+    /// The row's first byte, and the pixel's.
+    start: String,
+    at: String,
+}
+
+impl Passes {
+    /// Where the plan has such.
+    pub fn new(plan: &Plan, code: &mut Code<'_>) -> Option<Passes> {
+        let count = passes(&plan.graph);
+        if count < 2 {
+            return None;
+        }
+        let pixels = poke::pixels_in_byte(plan, code.values.style);
+        let pixels = pixels.filter(|pixels| count % pixels == 0);
+        let names = &mut code.values.names;
+        let spot = pixels.map(|pixels| Spot {
+            pixels,
+            bits: names.unique("bits", "%"),
+            here: names.unique("here", "%"),
+            start: names.unique("start", "%"),
+            at: names.unique("at", "%"),
+        });
+        if let Some(spot) = &spot {
+            spot.table(plan, code);
+        }
+        Some(Passes {
+            count,
+            columns: plan.computed_columns(),
+            spot,
+        })
+    }
+
+    /// Whether pixels are put into memory.
+    pub fn pokes(&self) -> bool {
+        self.spot.is_some()
+    }
+
+    /// From a row's beginning to a pixel's; what stands behind the pixel's code.
+    pub fn begin(
+        &self,
+        plan: &Plan,
+        code: &mut Code<'_>,
+        segments: Option<&Segments>,
+        again: super::lines::Label,
+    ) -> Vec<Lines> {
+        let mut apart = Vec::new();
+        let (first, last) = self.columns;
+        if let Some(spot) = &self.spot {
+            let start = poke::first_byte(plan, spot.pixels);
+            code.statement(format!("{}={start}", spot.start));
+        }
+        let pass = code.values.names.pass.clone();
+        let n = self.count;
+        code.line(format!("FOR {pass}=0 TO {}", n - 1));
+        // Its first column, which is its own number modulo the passes.
+        code.statement(match first % n {
+            0 if first == 0 => format!("X%={pass}"),
+            0 => format!("X%={pass}+{first}"),
+            off => format!("X%=({pass}+{}) MOD {n}+{first}", n - off),
+        });
+        apart.extend(behind(code, "pass", |code| {
+            code.block(&plan.tree.pass);
+            if first >= n {
+                ramp::start(plan, code, &format!("X% DIV {n}"));
+            }
+        }));
+        if let Some(spot) = &self.spot {
+            spot.begin(plan, code, first);
+        }
+        match segments {
+            Some(segments) => {
+                code.lines.place(again);
+                apart.extend(behind(code, "segment", |code| segments.begin(plan, code)));
+                code.line(format!("FOR X%=X% TO {} STEP {n}", segments.end()));
+            }
+            None => code.line(format!("FOR X%=X% TO {last} STEP {n}")),
+        }
+        apart
+    }
+
+    /// Draws a pixel, where pixels are put into memory.
+    pub fn put(&self, code: &mut Code<'_>) {
+        if let Some(Spot {
+            pixels, here, at, ..
+        }) = &self.spot
+        {
+            code.statement(format!("?{at}=?{at}+{here}?I%"));
+            code.statement(format!("{at}={at}+{}", 8 * (self.count / pixels)));
+        }
+    }
+}
+
+impl Spot {
+    /// Makes the table of bits, four bytes a statement.
+    fn table(&self, plan: &Plan, code: &mut Code<'_>) {
+        let (name, inks) = (&self.bits, plan.mode.inks);
+        let all: Vec<u32> = (0..self.pixels)
+            .flat_map(|place| {
+                let behind = self.pixels - 1 - place;
+                (0..inks).map(move |ink| poke::bits(ink, self.pixels) << behind)
+            })
+            .collect();
+        code.statement(format!("DIM {name} {}", all.len() - 1));
+        for (k, four) in all.chunks(4).enumerate() {
+            let word = four.iter().rev().fold(0, |word, byte| word << 8 | byte);
+            let place = match k {
+                0 => format!("!{name}"),
+                _ => format!("{name}!{}", 4 * k),
+            };
+            code.statement(format!("{place}=&{word:X}"));
+        }
+    }
+
+    /// Where a pass begins, at column X%.
+    fn begin(&self, plan: &Plan, code: &mut Code<'_>, first: u32) {
+        let column = match first {
+            0 => "X%".to_owned(),
+            n => format!("(X%-{n})"),
+        };
+        let (pixels, inks) = (self.pixels, plan.mode.inks);
+        let Spot {
+            bits,
+            here,
+            start,
+            at,
+            ..
+        } = self;
+        code.statement(format!("{here}={bits}+({column} AND {})*{inks}", pixels - 1));
+        code.statement(format!("{at}={start}+{column} DIV {pixels}*8"));
+    }
+}
