@@ -183,6 +183,14 @@ impl<'t, A: Arithmetic> Run<'t, A> {
     }
 
     fn plain(&mut self, x: i32, y: i32) -> A::Value {
+        self.pass(x, y);
+        self.block(&self.tree.segment);
+        self.block(&self.tree.pixel);
+        self.read(self.graph.ink)
+    }
+
+    /// Runs what begins the row, if it is another, and the pass of a pixel.
+    fn pass(&mut self, x: i32, y: i32) {
         let tree = self.tree;
         self.position = (x, y);
         if self.row != Some(y) {
@@ -192,9 +200,30 @@ impl<'t, A: Arithmetic> Run<'t, A> {
         }
         self.forget(false);
         self.block(&tree.pass);
-        self.block(&tree.segment);
-        self.block(&tree.pixel);
-        self.read(self.graph.ink)
+    }
+
+    /// Runs what begins a run of columns as if one began at a pixel, of the same
+    /// pass as the last unless `first`; answers which of some bools it computed there,
+    /// and what they are. Not the pixel itself.
+    pub fn segment(
+        &mut self,
+        (x, y): (i32, i32),
+        first: bool,
+        bools: &[NodeId],
+    ) -> Vec<(NodeId, bool)> {
+        if first {
+            self.pass(x, y);
+        }
+        self.position = (x, y);
+        for id in bools {
+            self.values[id.0 as usize] = None;
+        }
+        self.block(&self.tree.segment);
+        let held = |id: &NodeId| {
+            let value = self.values.get(id.0 as usize).copied().flatten()?;
+            Some((*id, self.arithmetic.truth(value)))
+        };
+        bools.iter().filter_map(held).collect()
     }
 
     /// A node's value after the last pixel, if the tree computed it.

@@ -93,6 +93,7 @@ fn place_all(graph: &Graph, near: bool, segments: bool) -> Regions {
     let mut placer = Placer {
         graph,
         near,
+        arms: segments,
         segment: match segments {
             true => by_segment(graph, &rates, &needed),
             false => vec![false; graph.nodes.len()],
@@ -111,9 +112,9 @@ fn place_all(graph: &Graph, near: bool, segments: bool) -> Regions {
     placer.regions
 }
 
-/// In how many runs a row may be cut, and how many columns a run should have
-/// on the average at least.
-const RUNS: usize = 12;
+/// How many comparisons may cut a row into runs, and how many columns there
+/// should be for each at least. Whether the runs pay is for the plan to find out.
+const RUNS: usize = 32;
 const COLUMNS: usize = 10;
 
 /// Whether an operation compares the column with what is the same for a whole row.
@@ -155,6 +156,8 @@ struct Placer<'g> {
     graph: &'g Graph,
     /// Whether cheap values stay where they are used.
     near: bool,
+    /// Whether what moves outward stays under the conditions that are known there.
+    arms: bool,
     needed: Vec<bool>,
     rates: Rates,
     /// Which values are the same for a run of columns.
@@ -265,10 +268,55 @@ impl Placer<'_> {
     fn settle(&mut self, id: NodeId, used: RegionId) -> RegionId {
         let mut region = used;
         while let Some(outer) = self.leave(id, region) {
-            region = outer;
+            region = match outer {
+                ROW | PASS | SEGMENT if self.arms => self.arms_within(outer, region),
+                _ => outer,
+            };
         }
         self.regions.of[id.0 as usize] = Some(region);
         region
+    }
+
+    /// What is known of a region's conditions further out already: the arms of
+    /// those in a region around it. What only rows above the horizon need is not
+    /// computed in the others.
+    fn arms_within(&mut self, outer: RegionId, inner: RegionId) -> RegionId {
+        let mut path = Vec::new();
+        let mut at = inner;
+        while at != outer {
+            path.push(at);
+            match self.regions.get(at).parent {
+                Some(parent) => at = parent,
+                None => break,
+            }
+        }
+        let mut known = Vec::new();
+        for region in path.into_iter().rev() {
+            let arm = matches!(self.regions.get(region).kind, RegionKind::Arm { .. });
+            let facts = self.regions.facts[region.0 as usize].iter().filter(|_| arm);
+            for &fact in facts {
+                if self.is_known_in(fact.0, outer) && !known.contains(&fact) {
+                    known.push(fact);
+                }
+            }
+        }
+        let mut region = outer;
+        for (cond, holds) in known {
+            self.need(cond, region);
+            let kind = RegionKind::Arm { cond, holds };
+            region = self.regions.make_child(self.graph, region, kind);
+        }
+        region
+    }
+
+    /// Whether a condition is known in the row's, the pass's or the segment's region.
+    fn is_known_in(&self, cond: NodeId, region: RegionId) -> bool {
+        match region {
+            ROW => (self.rates.rate(cond).iter())
+                .all(|d| matches!(d, Dependence::Frame | Dependence::Row)),
+            PASS => self.rates.is_still(cond),
+            _ => self.rates.is_still(cond) || self.segment[cond.0 as usize],
+        }
     }
 
     /// Whether a value is a sum of what needs no computing.

@@ -62,6 +62,9 @@ const ROWS: u32 = 12;
 const COLUMNS: u32 = 13;
 const PATIENCE: u64 = 40_000;
 
+/// How many columns of a pass are looked at for where runs end, at most.
+const COLUMNS_LOOKED_AT: u32 = 80;
+
 /// How plans are priced.
 pub struct Price {
     runtime: &'static Runtime,
@@ -114,6 +117,7 @@ impl Price {
         };
         let width = f64::from(plan.graph.image.width.max(1));
         let guess = |block: &Block| guessed(block, &cost);
+        let bounds = bounds(plan);
         let pixel = match self.pixels.as_slice() {
             [] => guess(&plan.tree.pixel),
             pixels => {
@@ -122,9 +126,8 @@ impl Price {
                 sum.map_or_else(|| guess(&plan.tree.pixel), |sum| sum / pixels.len() as f64)
             }
         };
-        let often = 1.0 + bounds(plan) as f64;
         let passes = f64::from(passes(&plan.graph));
-        let pass = guess(&plan.tree.pass) + guess(&plan.tree.segment) * often;
+        let pass = guess(&plan.tree.pass) + self.begun(plan, &bounds, &cost);
         let outside = guess(&plan.tree.row) + pass * passes;
         let steps = beside.steps(&plan.tree.row) + beside.steps(&plan.tree.pass);
         let cycles = outside / width + pixel + steps;
@@ -140,6 +143,50 @@ impl Price {
                 .into_iter()
                 .min_by(|a, b| self.of(a).total_cmp(&self.of(b))),
         }
+    }
+
+    /// What it costs a pass to begin its runs of columns: some rows, a pass each,
+    /// are gone through by what ends runs alone. Where that would take too long, runs
+    /// are thought to be as many as there are comparisons.
+    fn begun(&self, plan: &Settled, bounds: &[NodeId], cost: &dyn Fn(&Statement) -> f64) -> f64 {
+        if plan.tree.segment.is_empty() {
+            return 0.0;
+        }
+        let guess = || guessed(&plan.tree.segment, cost) * (1.0 + bounds.len() as f64);
+        if self.pixels.is_empty() {
+            return guess();
+        }
+        let mut inside = FxHashSet::default();
+        walk(&plan.tree.segment, &mut |s| {
+            inside.insert(std::ptr::from_ref(s));
+        });
+        let meter = Meter::new(&plan.graph, |s: &Statement| {
+            match inside.contains(&std::ptr::from_ref(s)) {
+                true => cost(s),
+                false => 0.0,
+            }
+        });
+        let image = &plan.graph.image;
+        let (width, passes) = (image.width, passes(&plan.graph));
+        let step = passes * width.div_ceil(passes * COLUMNS_LOOKED_AT).max(1);
+        let mut run = Run::new(&plan.graph, &plan.tree, &meter);
+        let mut sum = 0.0;
+        for row in 0..ROWS {
+            let y = ((2 * row + 1) * image.height / (2 * ROWS)) as i32;
+            let mut before = None;
+            for x in (row % passes..width).step_by(step as usize) {
+                meter.sum.set(0.0);
+                let here = run.segment((x as i32, y), before.is_none(), bounds);
+                if before.as_ref() != Some(&here) {
+                    sum += meter.sum.get();
+                    before = Some(here);
+                }
+                if meter.ran.get() > PATIENCE {
+                    return guess();
+                }
+            }
+        }
+        sum / f64::from(ROWS)
     }
 
     /// Whether copies of a value are worth their memory: given how many times a
@@ -298,13 +345,18 @@ fn spread(image: &Image) -> Vec<(i32, i32)> {
     all
 }
 
-/// How many comparisons may end a run of columns.
-fn bounds(plan: &Settled) -> usize {
-    let mut bounds = 0;
+/// The comparisons that may end a run of columns.
+fn bounds(plan: &Settled) -> Vec<NodeId> {
+    let mut bounds = Vec::new();
+    if plan.tree.segment.is_empty() {
+        return bounds;
+    }
     let rates = rates(&plan.graph);
     walk(&plan.tree.segment, &mut |s| {
-        if let Statement::Let(id) = s {
-            bounds += usize::from(bounds_segment(&plan.graph, &rates, *id));
+        if let Statement::Let(id) = s
+            && bounds_segment(&plan.graph, &rates, *id)
+        {
+            bounds.push(*id);
         }
     });
     bounds

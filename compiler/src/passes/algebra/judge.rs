@@ -72,13 +72,13 @@ pub fn cycles(
     sum as u32
 }
 
-/// Whether a node depends on the column (or on a loop); deep graphs count as such.
+/// Whether a node depends on the column beyond its pass (or on a loop); deep graphs count as such.
 fn column(nodes: &dyn Nodes, id: NodeId, known: &mut FxHashMap<NodeId, bool>, deep: u32) -> bool {
     if let Some(&found) = known.get(&id) {
         return found;
     }
     let made = match nodes.node(id) {
-        Node::Axis(Axis::X | Axis::Pass(_)) => true,
+        Node::Axis(Axis::X) => true,
         _ if deep > 500 => true,
         Node::Carried { .. } | Node::Last { .. } | Node::Result { .. } | Node::Received => true,
         node => node.operands().any(|a| column(nodes, a, known, deep + 1)),
