@@ -18,6 +18,7 @@
 
 use super::rate::{Dependence, Rates, rates};
 use super::region::*;
+use super::still::{Still, still};
 use crate::flow::graph::*;
 use slowlight_routine::Op;
 
@@ -106,6 +107,9 @@ fn place_all(graph: &Graph, near: bool, segments: bool) -> Regions {
     for root in graph.roots() {
         placer.need(root, PIXEL);
     }
+    if let Some(still) = segments.then(|| still(graph)).flatten() {
+        placer.need_still(&still);
+    }
     for id in graph.ids().rev() {
         placer.visit(id);
     }
@@ -129,7 +133,7 @@ pub fn bounds_segment(graph: &Graph, rates: &Rates, id: NodeId) -> bool {
 
 /// Which values depend on the column through such comparisons alone; none where
 /// those cut a row into too many runs.
-fn by_segment(graph: &Graph, rates: &Rates, needed: &[bool]) -> Vec<bool> {
+pub fn by_segment(graph: &Graph, rates: &Rates, needed: &[bool]) -> Vec<bool> {
     let mut found = vec![false; graph.nodes.len()];
     let mut bounds = 0;
     for id in graph.ids().filter(|id| needed[id.0 as usize]) {
@@ -170,7 +174,23 @@ struct Placer<'g> {
 impl Placer<'_> {
     fn need(&mut self, id: NodeId, region: RegionId) {
         let at = id.0 as usize;
-        self.uses[at] = Some(self.uses[at].map_or(region, |r| self.regions.common(r, region)));
+        self.uses[at] = Some(match self.uses[at] {
+            Some(other) => self.common(other, region),
+            None => region,
+        });
+    }
+
+    /// The innermost region whose values both may use. Further out than the pixel
+    /// that may be an arm whose condition both are under.
+    fn common(&mut self, a: RegionId, b: RegionId) -> RegionId {
+        let region = self.regions.common(a, b);
+        if !self.arms || !matches!(region, ROW | PASS | SEGMENT) {
+            return region;
+        }
+        let facts = self.regions.facts_up_to(region, b);
+        let mut both = self.regions.facts_up_to(region, a);
+        both.retain(|fact| facts.contains(fact));
+        self.arms_of(region, both)
     }
 
     fn visit(&mut self, id: NodeId) {
@@ -277,6 +297,18 @@ impl Placer<'_> {
         region
     }
 
+    /// A run's ink, and each condition under those before it, is known before its
+    /// first pixel.
+    fn need_still(&mut self, still: &Still) {
+        let mut region = SEGMENT;
+        for &(cond, holds) in &still.conditions {
+            self.need(cond, region);
+            let kind = RegionKind::Arm { cond, holds };
+            region = self.regions.make_child(self.graph, region, kind);
+        }
+        self.need(still.ink, region);
+    }
+
     /// What is known of a region's conditions further out already: the arms of
     /// those in a region around it. What only rows above the horizon need is not
     /// computed in the others.
@@ -290,18 +322,21 @@ impl Placer<'_> {
                 None => break,
             }
         }
-        let mut known = Vec::new();
-        for region in path.into_iter().rev() {
-            let arm = matches!(self.regions.get(region).kind, RegionKind::Arm { .. });
-            let facts = self.regions.facts[region.0 as usize].iter().filter(|_| arm);
-            for &fact in facts {
-                if self.is_known_in(fact.0, outer) && !known.contains(&fact) {
-                    known.push(fact);
-                }
+        path.retain(|region| matches!(self.regions.get(*region).kind, RegionKind::Arm { .. }));
+        let facts = path.into_iter().rev();
+        let facts = facts.flat_map(|region| self.regions.facts[region.0 as usize].clone());
+        let facts = facts.collect();
+        self.arms_of(outer, facts)
+    }
+
+    /// The arm in the arm and so on of those conditions that are known in a region.
+    fn arms_of(&mut self, outer: RegionId, facts: Vec<Fact>) -> RegionId {
+        let (mut region, mut taken) = (outer, Vec::new());
+        for (cond, holds) in facts {
+            if !self.is_known_in(cond, outer) || taken.contains(&cond) {
+                continue;
             }
-        }
-        let mut region = outer;
-        for (cond, holds) in known {
+            taken.push(cond);
             self.need(cond, region);
             let kind = RegionKind::Arm { cond, holds };
             region = self.regions.make_child(self.graph, region, kind);

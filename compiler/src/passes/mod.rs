@@ -22,6 +22,7 @@ pub mod region;
 pub mod schedule;
 pub mod squares;
 pub mod stable;
+pub mod still;
 pub mod threshold;
 
 #[cfg(test)]

@@ -202,7 +202,7 @@ impl Regions {
     }
 
     /// What is known in `inner` that is not known in `outer` around it.
-    fn facts_up_to(&self, outer: RegionId, mut inner: RegionId) -> Vec<Fact> {
+    pub fn facts_up_to(&self, outer: RegionId, mut inner: RegionId) -> Vec<Fact> {
         let mut facts = Vec::new();
         while inner != outer {
             facts.extend(&self.facts[inner.0 as usize]);

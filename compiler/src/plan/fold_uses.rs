@@ -2,12 +2,13 @@
 
 use crate::flow::graph::*;
 use crate::flow::tree::*;
+use crate::passes::still::Still;
 use std::collections::HashMap;
 
 /// For each node: whether it is computed by a `Let`, read exactly once, and
 /// that by a later statement of the same block with nothing in between that
 /// could change what it reads.
-pub fn folded(graph: &Graph, tree: &Tree) -> Vec<bool> {
+pub fn folded(graph: &Graph, tree: &Tree, still: Option<&Still>) -> Vec<bool> {
     let mut uses = Uses {
         graph,
         count: vec![0; graph.nodes.len()],
@@ -22,6 +23,7 @@ pub fn folded(graph: &Graph, tree: &Tree) -> Vec<bool> {
             // What is sent is read after the ink, and what is reported last of all.
             graph.shares().for_each(|s| uses.read(s.node, 0));
             graph.reports.iter().for_each(|&id| uses.read(id, 0));
+            still.into_iter().flat_map(Still::reads).for_each(|id| uses.read(id, 0));
         }
     }
     let fits = |id: NodeId| {

@@ -83,6 +83,10 @@ fn homes(plan: &Plan, move_less: bool) -> HashMap<Place, usize> {
     lives.block(&plan.tree.pass);
     let pass = lives.now;
     lives.block(&plan.tree.segment);
+    if let Some(still) = &plan.still {
+        lives.now += 1;
+        still.reads().for_each(|id| lives.read(id));
+    }
     // The number of the last statement before the pixel's.
     let pixel = lives.now;
     lives.block(&plan.tree.pixel);

@@ -70,6 +70,7 @@ use crate::passes::fold::fold;
 use crate::passes::interlace::interlaced;
 use crate::passes::schedule::missing;
 use crate::passes::stable::stable;
+use crate::passes::still::{Still, still};
 use crate::range::{Ranges, Slack};
 use crate::source::{Diagnostic, Span};
 use crate::target::{Mode, Target};
@@ -138,6 +139,8 @@ pub struct Plan {
     tables: Vec<recipes::Made>,
     gather: Option<&'static Routine>,
     folded: Vec<bool>,
+    /// The runs of columns whose pixels need no computing, if there may be such.
+    pub still: Option<Still>,
     homes: HashMap<Place, String>,
     /// What was planned, and how its formulas could be rewritten.
     origin: (Box<Graph>, Rewriting),
@@ -356,7 +359,9 @@ fn assemble(
     let routines = choose::choose(&graph, &tree, &ranges_now, runtime)?;
     let tables = recipes::made(&graph, runtime);
     let gather = graph.diffusion.as_ref().and_then(|_| gathering(runtime));
-    let folded = fold_uses::folded(&graph, &tree);
+    let runs = !tree.segment.is_empty();
+    let still = runs.then(|| still(&graph)).flatten();
+    let folded = fold_uses::folded(&graph, &tree, still.as_ref());
     let (offset, columns, rows) = frame(&graph.image, &goal.mode);
     let rows = match goal.rows {
         Some((first, last)) => (first.clamp(rows.0, rows.1), last.clamp(rows.0, rows.1)),
@@ -383,6 +388,7 @@ fn assemble(
         tables,
         gather,
         folded,
+        still,
         homes,
         graph,
         tree,

@@ -15,7 +15,9 @@ use crate::flow::often;
 use crate::flow::tree::*;
 use crate::passes::demand::bounds_segment;
 use crate::passes::interlace::passes;
+use crate::passes::region::Fact;
 use crate::passes::rate::rates;
+use crate::passes::still::{Still, still};
 use rustc_hash::FxHashSet;
 use slowlight_routine::{Op, Routine, Runtime, Stepping, Type, Value};
 use std::cell::Cell;
@@ -84,7 +86,7 @@ impl Price {
         if plain.graph.diffusion.is_none() {
             let all = spread(&plain.graph.image);
             let meter = Meter::new(&plain.graph, |_: &Statement| 1.0);
-            let run = price.run(plain, &all, &meter);
+            let run = price.run(plain, &all, &meter, None);
             if run.is_some() {
                 price.pixels = all;
             }
@@ -97,10 +99,12 @@ impl Price {
         let Ok(routines) = choose(&plan.graph, &plan.tree, &plan.ranges, self.runtime) else {
             return f64::INFINITY;
         };
+        let runs = !plan.tree.segment.is_empty();
+        let still = runs.then(|| still(&plan.graph)).flatten();
         let beside = Beside {
             graph: &plan.graph,
             runtime: self.runtime,
-            folded: folded(&plan.graph, &plan.tree),
+            folded: folded(&plan.graph, &plan.tree, still.as_ref()),
             routines,
         };
         // What begins a pass or run of columns is not carried out at each of them.
@@ -122,7 +126,7 @@ impl Price {
             [] => guess(&plan.tree.pixel),
             pixels => {
                 let meter = Meter::new(&plan.graph, by_pixel);
-                let sum = self.run(plan, pixels, &meter);
+                let sum = self.run(plan, pixels, &meter, still.as_ref());
                 sum.map_or_else(|| guess(&plan.tree.pixel), |sum| sum / pixels.len() as f64)
             }
         };
@@ -210,6 +214,7 @@ impl Price {
         plan: &Settled,
         pixels: &[(i32, i32)],
         meter: &Meter<'_, impl Fn(&Statement) -> f64>,
+        still: Option<&Still>,
     ) -> Option<f64> {
         let mut run = Run::new(&plan.graph, &plan.tree, meter);
         let mut row = None;
@@ -221,7 +226,14 @@ impl Price {
             }
             meter.sum.set(0.0);
             run.pixel(x, y);
-            sum += meter.sum.get();
+            let holds = |(cond, holds): &Fact| match run.last(*cond) {
+                Some(value) => value.truth() == *holds,
+                None => false,
+            };
+            // Of a run whose ink is known before nothing is computed.
+            if !still.is_some_and(|still| still.conditions.iter().all(holds)) {
+                sum += meter.sum.get();
+            }
             if meter.ran.get() > PATIENCE {
                 return None;
             }

@@ -138,11 +138,12 @@ fn picture(plan: &Plan, code: &mut Code<'_>, first: &str, last: &str, spread: Op
     let columns = plan.computed_columns();
     let segments = Segments::new(plan, code);
     let top_label = code.labels.next();
+    let behind_run = code.labels.next();
     match (&poke, &segments) {
         _ if passes.is_some() => {
             let row = passes.iter();
             let segments = segments.as_ref();
-            apart.extend(row.flat_map(|row| row.begin(plan, code, segments, top_label)));
+            apart.extend(row.flat_map(|row| row.begin(plan, code, segments, (top_label, behind_run))));
         }
         (Some(poke), _) => {
             apart.extend(poke.columns(plan, code, segments.as_ref(), top_label));
@@ -150,7 +151,13 @@ fn picture(plan: &Plan, code: &mut Code<'_>, first: &str, last: &str, spread: Op
         (None, Some(segments)) => {
             code.statement(format!("X%={}", columns.0));
             code.lines.place(top_label);
-            apart.extend(behind(code, "segment", |code| segments.begin(plan, code)));
+            let draw = screen::run(plan, 1);
+            apart.extend(behind(code, "segment", |code| {
+                segments.begin(plan, code, Some(&draw));
+            }));
+            if plan.still.is_some() {
+                code.line(format!("IF X%>{} THEN {behind_run}", segments.end()));
+            }
             code.line(format!("FOR X%=X% TO {}", segments.end()));
         }
         (None, None) => code.line(format!("FOR X%={} TO {}", columns.0, columns.1)),
@@ -179,7 +186,10 @@ fn picture(plan: &Plan, code: &mut Code<'_>, first: &str, last: &str, spread: Op
     code.line("NEXT");
     match (&poke, &segments) {
         (Some(poke), _) => poke.put(plan, code, first, segments.is_some().then_some(top_label)),
-        (None, Some(_)) => code.line(format!("IF X%<={} THEN {top_label}", columns.1)),
+        (None, Some(_)) => {
+            code.lines.place(behind_run);
+            code.line(format!("IF X%<={} THEN {top_label}", columns.1));
+        }
         (None, None) => {}
     }
     code.lines.weight = ROW;

@@ -7,10 +7,11 @@
 
 use super::code::Code;
 use super::frame::behind;
-use super::lines::Lines;
+use super::lines::{Label, Lines};
 use super::poke;
 use super::ramp;
-use super::segment::Segments;
+use super::screen;
+use super::segment::{Draw, Segments};
 use crate::passes::interlace::passes;
 use crate::plan::Plan;
 
@@ -71,7 +72,7 @@ impl Passes {
         plan: &Plan,
         code: &mut Code<'_>,
         segments: Option<&Segments>,
-        again: super::lines::Label,
+        (again, behind_run): (Label, Label),
     ) -> Vec<Lines> {
         let mut apart = Vec::new();
         let (first, last) = self.columns;
@@ -100,7 +101,13 @@ impl Passes {
         match segments {
             Some(segments) => {
                 code.lines.place(again);
-                apart.extend(behind(code, "segment", |code| segments.begin(plan, code)));
+                let draw = self.run(plan, code);
+                apart.extend(behind(code, "segment", |code| {
+                    segments.begin(plan, code, Some(&draw));
+                }));
+                if plan.still.is_some() {
+                    code.line(format!("IF X%>{} THEN {behind_run}", segments.end()));
+                }
                 code.line(format!("FOR X%=X% TO {} STEP {n}", segments.end()));
             }
             None => code.line(format!("FOR X%=X% TO {last} STEP {n}")),
@@ -108,19 +115,38 @@ impl Passes {
         apart
     }
 
+    /// How a run of one ink is drawn.
+    fn run(&self, plan: &Plan, code: &mut Code<'_>) -> Draw {
+        let stride = self.count;
+        let Some(spot) = &self.spot else {
+            return screen::run(plan, stride);
+        };
+        let byte = code.values.names.unique("run", "%");
+        let at = &spot.at;
+        Draw {
+            stride,
+            once: vec![format!("{byte}={}?I%", spot.here)],
+            each: vec![format!("?{at}=?{at}+{byte}"), spot.next(stride)],
+        }
+    }
+
     /// Draws a pixel, where pixels are put into memory.
     pub fn put(&self, code: &mut Code<'_>) {
-        if let Some(Spot {
-            pixels, here, at, ..
-        }) = &self.spot
-        {
+        if let Some(spot) = &self.spot {
+            let Spot { here, at, .. } = spot;
             code.statement(format!("?{at}=?{at}+{here}?I%"));
-            code.statement(format!("{at}={at}+{}", 8 * (self.count / pixels)));
+            code.statement(spot.next(self.count));
         }
     }
 }
 
 impl Spot {
+    /// Goes to the pass's next byte.
+    fn next(&self, stride: u32) -> String {
+        let at = &self.at;
+        format!("{at}={at}+{}", 8 * (stride / self.pixels))
+    }
+
     /// Makes the table of bits, four bytes a statement.
     fn table(&self, plan: &Plan, code: &mut Code<'_>) {
         let (name, inks) = (&self.bits, plan.mode.inks);

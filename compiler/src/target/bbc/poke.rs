@@ -137,7 +137,7 @@ impl Poke {
         code.lines.place(again);
         let inside = code.labels.next();
         code.line(format!("IF X%<={end} THEN {inside}"));
-        let apart = behind(code, "segment", |code| segments.begin(plan, code));
+        let apart = behind(code, "segment", |code| segments.begin(plan, code, None));
         code.lines.place(inside);
         code.line(format!(
             "IF {last}<={end} THEN {until}={last} ELSE {until}={end}"

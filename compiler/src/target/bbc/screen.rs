@@ -1,5 +1,6 @@
 //! Modes, colours and coordinates.
 
+use super::segment::Draw;
 use super::super::Mode;
 use crate::plan::Plan;
 
@@ -137,6 +138,17 @@ pub fn rows(plan: &Plan) -> (i64, i64) {
     let screen = i64::from(plan.mode.height);
     let picture = i64::from(plan.graph.image.height);
     ((-top).max(0), (screen - top).min(picture) - 1)
+}
+
+/// How a run of pixels of one ink, every `stride`th of a row, is plotted.
+pub fn run(plan: &Plan, stride: u32) -> Draw {
+    let (mut once, mut each) = (Vec::new(), Vec::new());
+    // After MODE the screen is ink 0 already.
+    if plan.plot {
+        once.push("IF I% THEN GCOL 0,I%".to_owned());
+        each.push(format!("IF I% THEN PLOT 69,{},R%", x_expression(plan)));
+    }
+    Draw { stride, once, each }
 }
 
 /// The graphics x of picture column `X%`.

@@ -6,9 +6,11 @@
 //! So a comparison that is not reached there ends no run.
 
 use super::code::Code;
+use super::ramp;
 use crate::flow::graph::*;
 use crate::passes::demand::bounds_segment;
 use crate::passes::rate::rates;
+use crate::passes::still::Still;
 use crate::plan::Plan;
 use slowlight_routine::Op;
 use std::collections::HashSet;
@@ -16,6 +18,9 @@ use std::collections::HashSet;
 /// How often a segment's statements are carried out, roughly: for the weights
 /// of names only.
 const SEGMENT: u64 = 1_500;
+
+/// The same for the pixels of runs whose ink is known.
+const STILL: u64 = 20_000;
 
 /// A row in runs of columns.
 pub struct Segments {
@@ -45,8 +50,9 @@ impl Segments {
         &self.end
     }
 
-    /// The statements at a run's first column.
-    pub fn begin(&self, plan: &Plan, code: &mut Code<'_>) {
+    /// The statements at a run's first column. Where `draw` says how, runs whose ink
+    /// is known are drawn there; then X% is behind the run's end.
+    pub fn begin(&self, plan: &Plan, code: &mut Code<'_>, draw: Option<&Draw>) {
         let weight = std::mem::replace(&mut code.lines.weight, SEGMENT);
         code.statement(format!("{}={}", self.end, self.last));
         let rates = rates(&plan.graph);
@@ -59,7 +65,49 @@ impl Segments {
         });
         code.block(&plan.tree.segment);
         code.ends = None;
+        if let (Some(still), Some(draw)) = (&plan.still, draw) {
+            self.still(still, plan, code, draw);
+        }
         code.lines.weight = weight;
+    }
+}
+
+/// How a run of one ink, which is in I%, is drawn.
+pub struct Draw {
+    /// How far apart its columns are.
+    pub stride: u32,
+    /// What is done once, and at every column.
+    pub once: Vec<String>,
+    pub each: Vec<String>,
+}
+
+impl Segments {
+    /// Draws a run whose ink is known.
+    fn still(&self, still: &Still, plan: &Plan, code: &mut Code<'_>, draw: &Draw) {
+        let other = code.labels.next();
+        for &(cond, holds) in &still.conditions {
+            let fails = code.values.condition(cond, !holds);
+            code.line(format!("IF {fails} THEN {other}"));
+        }
+        let ink = code.values.read(still.ink);
+        code.assign("I%", &ink);
+        draw.once.iter().for_each(|text| code.line(text));
+        let step = match draw.stride {
+            1 => String::new(),
+            n => format!(" STEP {n}"),
+        };
+        code.line(format!("FOR X%=X% TO {}{step}", self.end));
+        let weight = std::mem::replace(&mut code.lines.weight, STILL);
+        for text in &draw.each {
+            match text.starts_with("IF ") {
+                true => code.line(text),
+                false => code.statement(text),
+            }
+        }
+        ramp::step(plan, code);
+        code.lines.weight = weight;
+        code.statement("NEXT");
+        code.lines.place(other);
     }
 }
 
