@@ -22,6 +22,7 @@ use crate::passes::threshold::threshold;
 use crate::range::{Ranges, Slack};
 use slowlight_routine::{Format, Runtime, Type};
 use std::cell::Cell;
+use std::collections::BTreeMap;
 
 /// How many nodes of a loop's body are copied at most.
 const BODY: usize = 160;
@@ -246,6 +247,7 @@ impl Site<'_> {
         let mut limit = self.cost(&best);
         let value = |id: &&NodeId| plain.graph.ty(**id) != Type::Bool;
         let mut tries: Vec<Vec<NodeId>> = vec![sites.iter().filter(value).copied().collect()];
+        tries.extend(together(&plain.graph, sites));
         if sites.len() * plain.graph.nodes.len() < PATIENCE {
             tries.extend(sites.iter().map(|id| vec![*id]));
         }
@@ -271,8 +273,11 @@ impl Site<'_> {
     ) -> (f64, Settled) {
         let (mut without, mut best) = (sites.to_vec(), plain.clone());
         let mut limit = now;
-        for id in sites {
-            let out: Vec<NodeId> = without.iter().copied().filter(|o| o != id).collect();
+        let mut tries: Vec<Vec<NodeId>> = sites.iter().map(|id| vec![*id]).collect();
+        tries.extend(together(&plain.graph, sites));
+        for more in tries {
+            let out = without.iter().copied().filter(|o| !more.contains(o));
+            let out: Vec<NodeId> = out.collect();
             let Some((next, _)) = self.with(plain, pass, &out) else {
                 continue;
             };
@@ -296,4 +301,17 @@ impl Site<'_> {
         let found = pass(&plain.graph, &plain.ranges, self.runtime, &may, verdicts)?;
         Some((settle(&found.graph, self.slack), found.sites))
     }
+}
+
+/// Sites that look at one value: what it costs is saved only where none of them is left.
+fn together(graph: &Graph, sites: &[NodeId]) -> Vec<Vec<NodeId>> {
+    let mut by_value: BTreeMap<NodeId, Vec<NodeId>> = BTreeMap::new();
+    for &site in sites {
+        for used in graph.node(site).operands() {
+            if graph.constant(used).is_none() {
+                by_value.entry(used).or_default().push(site);
+            }
+        }
+    }
+    by_value.into_values().filter(|group| group.len() > 1).collect()
 }

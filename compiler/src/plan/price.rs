@@ -26,15 +26,17 @@ use std::cell::Cell;
 /// (three entries of a table take as much), whether runs of columns may be
 /// looked for and whether rows may be drawn in passes: both take many statements a row, which hardly count by cycles.
 /// From where there is plenty to where there was never enough.
-const THRIFT: [(f64, bool, bool); 9] = [
+const THRIFT: [(f64, bool, bool); 11] = [
+    (0.0001, true, true),
     (0.0002, true, true),
-    (0.0002, false, true),
-    (0.0002, true, false),
-    (0.001, true, true),
-    (0.001, false, true),
-    (0.001, true, false),
-    (0.001, false, false),
+    (0.0004, true, true),
+    (0.0006, true, true),
+    (0.0008, true, true),
+    (0.0011, true, true),
+    (0.0015, true, true),
+    (0.0015, true, false),
     (0.0025, true, false),
+    (0.0025, false, false),
     (0.01, true, false),
 ];
 

@@ -156,6 +156,36 @@ impl Poly {
         Some(out)
     }
 
+    /// The greatest monomial that divides every term.
+    pub fn common(&self) -> Monomial {
+        let power = |monomial: &Monomial, atom: Atom| {
+            let found = monomial.iter().find(|(a, _)| *a == atom);
+            found.map_or(0, |(_, power)| *power)
+        };
+        let least = |atom: Atom| self.terms.keys().map(|m| power(m, atom)).min().unwrap_or(0);
+        let all = self.atoms().into_iter().map(|atom| (atom, least(atom)));
+        all.filter(|(_, power)| *power > 0).collect()
+    }
+
+    /// Its terms that a monomial divides, divided by it, and the others.
+    pub fn split(&self, by: &Monomial) -> (Poly, Poly) {
+        let (mut divided, mut others) = (Poly::default(), Poly::default());
+        for (monomial, number) in &self.terms {
+            let left = |(atom, power): &(Atom, u32)| {
+                let less = by.iter().find(|(a, _)| a == atom).map_or(0, |(_, k)| *k);
+                Some((*atom, power.checked_sub(less)?)).filter(|(_, power)| *power > 0)
+            };
+            let has = |(atom, power): &(Atom, u32)| {
+                monomial.iter().any(|(a, k)| a == atom && k >= power)
+            };
+            match by.iter().all(has) {
+                true => divided.accrue(monomial.iter().filter_map(left).collect(), *number),
+                false => others.accrue(monomial.clone(), *number),
+            }
+        }
+        (divided, others)
+    }
+
     /// With a number in the place of an atom.
     pub fn at(&self, atom: Atom, value: i128) -> Option<Poly> {
         let mut out = Poly::default();

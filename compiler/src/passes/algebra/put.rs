@@ -72,7 +72,7 @@ impl Put<'_, '_> {
     }
 
     /// over / of + rest: one rounding, and none where it is whole.
-    fn quotient(&mut self, over: &Poly, of: &Poly, rest: &Poly) -> Option<Out> {
+    pub(super) fn quotient(&mut self, over: &Poly, of: &Poly, rest: &Poly) -> Option<Out> {
         let (over, of) = (self.poly(over)?, self.poly(of)?);
         let (over, of) = (self.real(over), self.real(of));
         let quotient = real(self.builder.apply(Op::Div, &[over, of], self.span));
@@ -229,7 +229,7 @@ impl Put<'_, '_> {
         self.both(Op::Mul, Op::IntMul, a, b, &ends)
     }
 
-    fn plus(&mut self, a: Out, b: Out) -> Out {
+    pub(super) fn plus(&mut self, a: Out, b: Out) -> Out {
         let ends = [a.lo + b.lo, a.hi + b.hi];
         // A constant below 0 is subtracted.
         match self.builder.value(b.node) {

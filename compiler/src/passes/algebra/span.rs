@@ -21,7 +21,7 @@ use super::extent::{extent, negative, ratio};
 use super::form::{Forms, Two};
 use super::judge::{cycles, samples};
 use super::number::Number;
-use super::poly::{Atom, Poly};
+use super::poly::{Atom, Monomial, Poly};
 use super::put::{Out, Put};
 use super::{Cheaper, Judge, Verdicts, allowance};
 use crate::flow::graph::*;
@@ -113,6 +113,18 @@ pub fn spans<'g>(
     some.then_some(Cheaper { graph: next, sites })
 }
 
+/// The greatest monomial that divides every term of some polynomials.
+fn shared(parts: &[Poly]) -> Monomial {
+    let each = parts.iter().filter(|part| !part.is_zero());
+    let common = each.map(Poly::common);
+    let both = |a: Monomial, b: Monomial| {
+        let power = |atom: u32| b.iter().find(|(other, _)| *other == atom).map(|(_, k)| *k);
+        let least = |(atom, k): (u32, u32)| Some((atom, k.min(power(atom)?)));
+        a.into_iter().filter_map(least).collect()
+    };
+    common.reduce(both).unwrap_or_default()
+}
+
 struct Site<'g> {
     /// Forms by params and the pixel's place.
     full: &'g Forms<'g>,
@@ -133,6 +145,9 @@ struct Site<'g> {
 struct Asked {
     /// From power 0 on.
     parts: Vec<Poly>,
+    /// What is added to the first, one divided by the other: where all others have
+    /// a factor that the whole was divided by.
+    more: Option<(Poly, Poly)>,
     /// Whether it is to be below 0, or at most 0.
     strict: bool,
 }
@@ -191,10 +206,9 @@ impl Site<'_> {
 
     /// The polynomial itself, as it is asked at a border.
     fn plain(&self, put: &mut Put<'_, '_>, strict: bool, poly: &Poly) -> Option<NodeId> {
-        let asked = Asked {
-            parts: poly.by(self.column.0),
-            strict,
-        };
+        let parts = poly.by(self.column.0);
+        // It does not matter which way it is turned.
+        let asked = self.asked(parts, strict);
         let x = Out {
             node: (put.new)(self.column)?,
             whole: true,
@@ -214,14 +228,45 @@ impl Site<'_> {
         } else if lead.lo <= 0.0 {
             return None;
         }
-        let asked = Asked {
-            parts,
-            strict: strict != turned,
-        };
+        let asked = self.asked(parts, strict != turned);
         match asked.parts.len() {
             2 => self.up_to(put, &asked, turned),
             3 => self.between(put, &asked, turned),
             _ => None,
+        }
+    }
+
+    /// Divided by the factor above 0 that all coefficients but the constant one have.
+    fn asked(&self, mut parts: Vec<Poly>, strict: bool) -> Asked {
+        let none = |parts| Asked {
+            parts,
+            more: None,
+            strict,
+        };
+        let factor = shared(&parts[1..]);
+        let of = Poly {
+            terms: [(factor.clone(), Number::ONE)].into(),
+        };
+        if factor.is_empty() || extent(self.rows, self.full, &of).lo <= 0.0 {
+            return none(parts);
+        }
+        let (first, rest) = parts[0].split(&factor);
+        parts[0] = first;
+        for part in parts.iter_mut().skip(1) {
+            *part = part.split(&factor).0;
+        }
+        Asked {
+            parts,
+            more: (!rest.is_zero()).then_some((rest, of)),
+            strict,
+        }
+    }
+
+    /// The constant coefficient.
+    fn constant(&self, put: &mut Put<'_, '_>, asked: &Asked) -> Option<Out> {
+        match &asked.more {
+            Some((over, of)) => put.quotient(over, of, &asked.parts[0]),
+            None => put.poly(&asked.parts[0]),
         }
     }
 
@@ -230,10 +275,12 @@ impl Site<'_> {
         let [c, b] = asked.parts.as_slice() else {
             return None;
         };
-        if b.value() == Some(Number::ONE) && c.value().is_none() && c.terms.len() == 1 {
+        let alone = asked.more.is_none() && b.value() == Some(Number::ONE);
+        if alone && c.value().is_none() && c.terms.len() == 1 {
             return None; // The column against something already.
         }
-        let (c, b) = (self.real(put, c)?, self.real(put, b)?);
+        let c = self.constant(put, asked)?;
+        let (c, b) = (put.real(c), self.real(put, b)?);
         let root = put.builder.apply(Op::Div, &[c, b], put.span);
         let root = put.builder.apply(Op::Neg, &[root], put.span);
         let last = self.last(put, asked, root)?;
@@ -247,14 +294,15 @@ impl Site<'_> {
 
     /// The columns between two roots, or those that are not.
     fn between(&self, put: &mut Put<'_, '_>, asked: &Asked, turned: bool) -> Option<NodeId> {
-        let [c, b, a] = asked.parts.as_slice() else {
+        let [_, b, a] = asked.parts.as_slice() else {
             return None;
         };
         let middle = ratio(self.rows, self.full, b, a) / 2.0;
         if 2.0 * middle * self.unit.sqrt() > OFF {
             return None;
         }
-        let (c, b, a) = (self.real(put, c)?, self.real(put, b)?, self.real(put, a)?);
+        let c = self.constant(put, asked)?;
+        let (c, b, a) = (put.real(c), self.real(put, b)?, self.real(put, a)?);
         let at = put.span;
         let builder = &mut *put.builder;
         let two = builder.constant(Value::Real(-2.0), at);
@@ -266,6 +314,8 @@ impl Site<'_> {
         // What is further below 0 than it can be off has no roots.
         let off = builder.constant(Value::Real(-OFF * OFF), at);
         let some = builder.apply(Op::LessEqual, &[off, square], at);
+        let zero = builder.constant(Value::Real(0.0), at);
+        let square = builder.apply(Op::Max, &[square, zero], at);
         let size = builder.apply(Op::Sqrt, &[square], at);
         let low = builder.apply(Op::Sub, &[middle, size], at);
         let high = builder.apply(Op::Add, &[middle, size], at);
@@ -338,7 +388,15 @@ impl Site<'_> {
 
     /// Whether what is asked for holds at a column.
     fn inside(&self, put: &mut Put<'_, '_>, asked: &Asked, x: Out) -> Option<NodeId> {
-        let value = put.horner(&asked.parts, x)?;
+        let value = match &asked.more {
+            None => put.horner(&asked.parts, x)?,
+            Some(_) => {
+                let mut parts = asked.parts.clone();
+                parts[0] = Poly::default();
+                let (value, constant) = (put.horner(&parts, x)?, self.constant(put, asked)?);
+                put.plus(value, constant)
+            }
+        };
         if !value.whole {
             self.exact.set(false);
         }
