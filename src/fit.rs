@@ -299,7 +299,6 @@ fn as_is_or_tight(mut plan: Plan) -> Outcome<Fitted> {
         (plan.lean, plan.tight) = (lean, tight);
         match need(&plan)? {
             Some(need) if !need.fits() => {
- eprintln!("lean {lean} tight {tight} need {}", need.total());
                 if least.as_ref().is_none_or(|l| need.total() < l.total()) {
                     least = Some(need);
                 }

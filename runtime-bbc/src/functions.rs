@@ -119,22 +119,18 @@ IF a<0 THEN c=FNmod(b,2):IF c<>c^2 THEN =0
 IF a<0 AND c<>0 THEN d=-1
 =d*FNexp(FNmul(b,LN(ABS(a))))
 "),
-    part!("FNsat" ["BIG"] 73 "\
-DEF FNsat(a)
-IF ABS(a)<WIDE THEN =a
-IF a>0 THEN =2147483647 ELSE =-2147483647-1
+    // The floor of a whole real is itself, within 32 bits.
+    part!("FNiadd" ["FNfloor"] 28 "\
+DEF FNiadd(a,b)=FNfloor(a+b)
 "),
-    part!("FNiadd" ["FNsat"] 26 "\
-DEF FNiadd(a,b)=FNsat(a+b)
+    part!("FNisub" ["FNfloor"] 28 "\
+DEF FNisub(a,b)=FNfloor(a-b)
 "),
-    part!("FNisub" ["FNsat"] 26 "\
-DEF FNisub(a,b)=FNsat(a-b)
+    part!("FNimul" ["FNfloor"] 28 "\
+DEF FNimul(a,b)=FNfloor(a*b)
 "),
-    part!("FNimul" ["FNsat"] 26 "\
-DEF FNimul(a,b)=FNsat(a*b)
-"),
-    part!("FNineg" ["FNsat"] 23 "\
-DEF FNineg(a)=FNsat(-a)
+    part!("FNineg" ["FNfloor"] 25 "\
+DEF FNineg(a)=FNfloor(-a)
 "),
     part!("FNimin" [] 41 "\
 DEF FNimin(a%,b%)

@@ -31,7 +31,7 @@ const BODY: usize = 160;
 const COPY: f64 = 0.9;
 
 /// By how much a guard before its second turn must.
-const GUARD: f64 = 0.99;
+const GUARD: f64 = 0.999;
 
 /// By how much algebra must make the plan cheaper: what a statement costs beside
 /// its routines is not known so well.

@@ -9,8 +9,9 @@
 //! 52 letters first, by how often they are used, and no letter twice before
 //! all have been given.
 //!
-//! What is computed is the same, in the same order. Where memory is short,
-//! constants are put in place too where that takes less than a variable.
+//! What is computed is the same, in the same order. Constants that are seldom
+//! read are put in place where that takes less than a variable; where memory is
+//! short, the others too.
 
 use super::Style;
 use super::lines::Lines;
@@ -20,14 +21,20 @@ use std::collections::{BTreeMap, BTreeSet};
 /// A line of tokens may hold 251 bytes; labels become longer than their marks.
 const WIDTH: usize = 220;
 
+/// How often what is read for a row or pass is read in a picture, at most: each
+/// time a number in the text takes up to five thousand cycles more than a variable.
+const SELDOM: u64 = 2_000;
+
 /// Makes a program short; the names in `keep` stay.
 pub fn short(lines: Lines, keep: &[String], style: Style) -> Lines {
     let (head, mut body) = lines.split_behind("REM rows to draw");
-    if style == Style::Small {
-        let constants = in_place(&body);
-        body.each_text(|text| *text = without(text, &constants));
-        body.remove_empty();
-    }
+    let seldom = match style {
+        Style::Small => u64::MAX,
+        _ => SELDOM,
+    };
+    let constants = in_place(&body, seldom);
+    body.each_text(|text| *text = without(text, &constants));
+    body.remove_empty();
     let names = given(&uses(&body), keep);
     body.each_text(|text| *text = written(text, &names));
     head.followed_by(body.joined(WIDTH))
@@ -52,8 +59,10 @@ fn uses(body: &Lines) -> BTreeMap<String, u64> {
     counts
 }
 
-/// Constants that cost less where they are read than in a variable: name and number.
-fn in_place(body: &Lines) -> BTreeMap<String, String> {
+/// Constants that take less memory where they are read than in a variable, and are
+/// read so seldom: name and number.
+fn in_place(body: &Lines, seldom: u64) -> BTreeMap<String, String> {
+    let often = self::uses(body);
     let mut numbers: BTreeMap<String, String> = BTreeMap::new();
     let mut uses: BTreeMap<String, usize> = BTreeMap::new();
     let mut changed: BTreeSet<String> = BTreeSet::new();
@@ -91,6 +100,7 @@ fn in_place(body: &Lines) -> BTreeMap<String, String> {
         // its assignment the number and 3 more, each use 1 or 2.
         let reads = uses.get(name).map_or(0, |n| n.saturating_sub(1));
         !changed.contains(name)
+            && often.get(name).is_none_or(|often| *often <= seldom)
             && constant_name(name)
             && reads * (number.len() - 1) < number.len() + 11
     });
