@@ -113,6 +113,16 @@ pub fn spans<'g>(
     some.then_some(Cheaper { graph: next, sites })
 }
 
+/// What two columns of a x² + b x have as their sum where it is the same, if that is whole
+/// and the same for all rows: so the last column of a span is as far from there as
+/// the first.
+fn mirrored(a: &Poly, b: &Poly) -> Option<i32> {
+    match b.value()?.mul(a.value()?.inverse()?).neg() {
+        Number::Exact(sum, 1) => i32::try_from(sum).ok().filter(|sum| sum.abs() < 1 << 20),
+        _ => None,
+    }
+}
+
 /// The greatest monomial that divides every term of some polynomials.
 fn shared(parts: &[Poly]) -> Monomial {
     let each = parts.iter().filter(|part| !part.is_zero());
@@ -301,6 +311,7 @@ impl Site<'_> {
         if 2.0 * middle * self.unit.sqrt() > OFF {
             return None;
         }
+        let mirrored = mirrored(a, b);
         let c = self.constant(put, asked)?;
         let (c, b, a) = (put.real(c), self.real(put, b)?, self.real(put, a)?);
         let at = put.span;
@@ -319,11 +330,21 @@ impl Site<'_> {
         let size = builder.apply(Op::Sqrt, &[square], at);
         let low = builder.apply(Op::Sub, &[middle, size], at);
         let high = builder.apply(Op::Add, &[middle, size], at);
-        let (first, last) = (self.first(put, asked, low)?, self.last(put, asked, high)?);
+        let first = self.first(put, asked, low)?;
+        let behind = put.builder.constant(Value::Int(self.width as i32), at);
+        let first = put.builder.select(some, first, behind, at);
+        let last = match mirrored {
+            Some(sum) => {
+                let sum = put.builder.constant(Value::Int(sum), at);
+                put.builder.apply(Op::IntSub, &[sum, first], at)
+            }
+            None => {
+                let last = self.last(put, asked, high)?;
+                let before = put.builder.constant(Value::Int(-1), at);
+                put.builder.select(some, last, before, at)
+            }
+        };
         let builder = &mut *put.builder;
-        let [before, behind] = [-1, self.width as i32].map(|n| builder.constant(Value::Int(n), at));
-        let first = builder.select(some, first, behind, at);
-        let last = builder.select(some, last, before, at);
         let column = (put.new)(self.column)?;
         let [yes, no] = [true, false].map(|b| builder.constant(Value::Bool(b), at));
         Some(match turned {
