@@ -220,6 +220,9 @@ pub fn fit(
             }
             tried = Some(large.len());
         }
+        if let Some(fits) = mildly_smaller(&plan)? {
+            return Ok(fits);
+        }
         let mut found = as_is_or_tight(plan)?;
         // Rather slower than with fewer inks.
         while let Fitted::TooLarge(plan, _) = &found
@@ -284,6 +287,19 @@ fn outlined(
 enum Fitted {
     Fits(Box<Plan>),
     TooLarge(Box<Plan>, Need),
+}
+
+/// The plan, or one that spends a little less memory on speed, if that fits as it
+/// is: what is written short is slower.
+fn mildly_smaller(plan: &Plan) -> Outcome<Option<Plan>> {
+    let mut now = Some(plan.clone());
+    while let Some(tried) = now {
+        if need(&tried)?.is_none_or(|need| need.fits()) {
+            return Ok(Some(tried));
+        }
+        now = tried.mildly_smaller();
+    }
+    Ok(None)
 }
 
 fn as_is_or_tight(mut plan: Plan) -> Outcome<Fitted> {

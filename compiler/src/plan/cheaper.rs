@@ -8,6 +8,7 @@
 //! sign and it needs a guard.
 
 use super::price::{Price, Thrift};
+use super::recipes::followed;
 use super::settled::{Settled, scheduled, settle};
 use crate::flow::graph::*;
 use crate::passes::algebra::{Cheaper, Verdicts, algebra, decided, spans};
@@ -89,6 +90,22 @@ type Pass = for<'g> fn(
     &dyn Fn(NodeId) -> bool,
     &Verdicts<'g>,
 ) -> Option<Cheaper>;
+
+/// With tables' recipes followed where their entries are needed, if that is worth
+/// the memory.
+pub fn with_recipes_followed(
+    plan: Settled,
+    slack: &Slack,
+    runtime: &'static Runtime,
+    thrift: Thrift,
+) -> Settled {
+    let price = Price::new(&plan, runtime, thrift);
+    let next = followed(&plan.graph, runtime).map(|graph| settle(&graph, slack));
+    match next {
+        Some(next) if price.of(&next) < price.of(&plan) => next,
+        _ => plan,
+    }
+}
 
 /// With values computed where they are needed rather than once for all, where
 /// that is less often: the last of the passes.

@@ -74,7 +74,7 @@ use crate::passes::still::{Still, still};
 use crate::range::{Ranges, Slack};
 use crate::source::{Diagnostic, Span};
 use crate::target::{Mode, Target};
-use cheaper::{apart_at_last, cheaper};
+use cheaper::{apart_at_last, cheaper, with_recipes_followed};
 use price::{Price, Thrift};
 use settled::{Settled, scheduled, settle};
 use slowlight_routine::{Bits, Format, Op, Range, Routine, Runtime, Type, Value};
@@ -316,6 +316,7 @@ fn planned(
         let all = cheaper(now.clone(), early, &slack, runtime, thrift);
         let all = all
             .into_iter()
+            .map(|plan| with_recipes_followed(plan, &slack, runtime, thrift))
             .map(|plan| stepped(plan, &slack, target, steps));
         now = price.cheapest(all).unwrap_or(now);
         now = apart_at_last(now, &slack, runtime, thrift);

@@ -40,6 +40,9 @@ const THRIFT: [(f64, bool, bool); 11] = [
     (0.01, true, false),
 ];
 
+/// The first so many are tried before programs are written short.
+const MILD: usize = 4;
+
 /// How much memory counts beside cycles: more where a program did not fit.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Thrift(usize);
@@ -48,6 +51,11 @@ impl Thrift {
     /// The next that spends less memory, if there is one.
     pub fn more(self) -> Option<Thrift> {
         (self.0 + 1 < THRIFT.len()).then_some(Thrift(self.0 + 1))
+    }
+
+    /// Whether the next spends only a little less.
+    pub fn is_mild(self) -> bool {
+        self.0 + 1 < MILD
     }
 
     /// Whether runs of columns may be looked for.
@@ -385,7 +393,7 @@ fn memory(plan: &Settled) -> f64 {
     let entries = plan.graph.tables.iter().map(|t| match t.seed.is_empty() {
         true => t.entries.len() as f64 / 3.0,
         // The array, and how it is worked out.
-        false => t.entries.len() as f64 / 4.0 + 3.0,
+        false => t.entries.len() as f64 / 2.0 + 4.0,
     });
     f64::from(statements) + entries.sum::<f64>()
 }
