@@ -220,10 +220,12 @@ pub fn fit(
             }
             tried = Some(large.len());
         }
-        if let Some(fits) = mildly_smaller(&plan)? {
+        if let Some(fits) = quickest(&plan)? {
             return Ok(fits);
         }
-        let mut found = as_is_or_tight(plan)?;
+        // None of these fits as it is.
+        let least = plan.thriftier(plan.thrifts().saturating_sub(1));
+        let mut found = as_is_or_tight(least.unwrap_or(plan))?;
         // Rather slower than with fewer inks.
         while let Fitted::TooLarge(plan, _) = &found
             && let Some(smaller) = plan.smaller()
@@ -289,17 +291,24 @@ enum Fitted {
     TooLarge(Box<Plan>, Need),
 }
 
-/// The plan, or one that spends a little less memory on speed, if that fits as it
-/// is: what is written short is slower.
-fn mildly_smaller(plan: &Plan) -> Outcome<Option<Plan>> {
-    let mut now = Some(plan.clone());
-    while let Some(tried) = now {
-        if need(&tried)?.is_none_or(|need| need.fits()) {
-            return Ok(Some(tried));
-        }
-        now = tried.mildly_smaller();
+/// The plan, or the quickest of those that spend less memory on speed that fits as
+/// it is: what is written short is slower. Each step takes less memory than those
+/// before it, or nearly so.
+fn quickest(plan: &Plan) -> Outcome<Option<Plan>> {
+    let fits = |plan: &Plan| Ok(need(plan)?.is_none_or(|need| need.fits()));
+    if fits(plan)? {
+        return Ok(Some(plan.clone()));
     }
-    Ok(None)
+    let (mut large, mut small) = (0, plan.thrifts());
+    let mut found = None;
+    while small - large > 1 {
+        let middle = (large + small) / 2;
+        match plan.thriftier(middle) {
+            Some(tried) if fits(&tried)? => (small, found) = (middle, Some(tried)),
+            _ => large = middle,
+        }
+    }
+    Ok(found)
 }
 
 fn as_is_or_tight(mut plan: Plan) -> Outcome<Fitted> {

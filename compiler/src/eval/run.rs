@@ -311,7 +311,8 @@ impl<'t, A: Arithmetic> Run<'t, A> {
         let parts = ramp::coefficients(self.graph, id);
         let parts: Vec<A::Value> = parts.into_iter().map(|part| self.read(part)).collect();
         let stride = ramp::stride(self.graph, id) as i32;
-        self.arithmetic.ramp(self.position.0.div_euclid(stride), &parts)
+        self.arithmetic
+            .ramp(self.position.0.div_euclid(stride), &parts)
     }
 
     fn compute(&mut self, id: NodeId) -> A::Value {

@@ -148,7 +148,14 @@ pub struct Tree {
 impl Tree {
     /// The blocks around all others, outermost first.
     pub fn outer(&self) -> [&Block; 5] {
-        let Tree { frame, row, pass, segment, pixel, .. } = self;
+        let Tree {
+            frame,
+            row,
+            pass,
+            segment,
+            pixel,
+            ..
+        } = self;
         [frame, row, pass, segment, pixel]
     }
 

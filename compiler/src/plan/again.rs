@@ -1,5 +1,6 @@
 //! Other plans of the scene that a plan is of.
 
+use super::price::Thrift;
 use super::{Goal, Plan, Rewriting, Steps, planned};
 use crate::flow::graph::*;
 use crate::flow::tree::*;
@@ -46,12 +47,25 @@ impl Plan {
         self.again(&self.origin.0, less)
     }
 
-    /// A plan that spends a little less memory on speed, if that takes no more than that.
-    pub fn mildly_smaller(&self) -> Option<Plan> {
+    /// In how many steps plans may spend less and less memory on speed; 1 where
+    /// this one spends none.
+    pub fn thrifts(&self) -> usize {
         match self.origin.1 {
-            Rewriting::Fast { thrift, .. } if thrift.is_mild() => self.smaller(),
-            _ => None,
+            Rewriting::Fast { .. } => Thrift::COUNT,
+            _ => 1,
         }
+    }
+
+    /// A plan of the same scene by one of those steps, counted from 0.
+    pub fn thriftier(&self, step: usize) -> Option<Plan> {
+        let less = match self.origin.1 {
+            Rewriting::Fast { .. } => Rewriting::Fast {
+                thrift: Thrift::step(step)?,
+                steps: Steps::All,
+            },
+            _ => return None,
+        };
+        self.again(&self.origin.0, less)
     }
 
     /// The same plan with less that is stepped from column to column, which takes

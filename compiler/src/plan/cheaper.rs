@@ -330,5 +330,8 @@ fn together(graph: &Graph, sites: &[NodeId]) -> Vec<Vec<NodeId>> {
             }
         }
     }
-    by_value.into_values().filter(|group| group.len() > 1).collect()
+    by_value
+        .into_values()
+        .filter(|group| group.len() > 1)
+        .collect()
 }

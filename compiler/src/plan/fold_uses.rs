@@ -23,7 +23,10 @@ pub fn folded(graph: &Graph, tree: &Tree, still: Option<&Still>) -> Vec<bool> {
             // What is sent is read after the ink, and what is reported last of all.
             graph.shares().for_each(|s| uses.read(s.node, 0));
             graph.reports.iter().for_each(|&id| uses.read(id, 0));
-            still.into_iter().flat_map(Still::reads).for_each(|id| uses.read(id, 0));
+            still
+                .into_iter()
+                .flat_map(Still::reads)
+                .for_each(|id| uses.read(id, 0));
         }
     }
     let fits = |id: NodeId| {

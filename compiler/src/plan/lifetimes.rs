@@ -114,7 +114,13 @@ fn homes(plan: &Plan, move_less: bool) -> HashMap<Place, usize> {
     let life = |place: &Place| match lives.lives.get(place) {
         Some(life) if life.from > pixel => *life,
         // What the frame, the row or a pass computes for itself alone.
-        Some(life) if ends.iter().any(|(from, to)| life.from > *from && life.to <= *to) => *life,
+        Some(life)
+            if ends
+                .iter()
+                .any(|(from, to)| life.from > *from && life.to <= *to) =>
+        {
+            *life
+        }
         _ => Life { from: 0, to: end },
     };
     // Stable: places that begin together stay in the order of their writing.

@@ -310,14 +310,15 @@ fn planned(
     };
     let mut now = steady(&drawn(fold(&without(origin))), &slack, rounds);
     if let Rewriting::Fast { thrift, steps } = rewriting {
-        let early = (!origin.early.is_empty()).then(|| steady(&drawn(fold(origin)), &slack, rounds));
+        let early =
+            (!origin.early.is_empty()).then(|| steady(&drawn(fold(origin)), &slack, rounds));
         let early = early.as_ref().map(|settled| &settled.graph);
         let price = Price::new(&now, runtime, thrift);
         let all = cheaper(now.clone(), early, &slack, runtime, thrift);
         let all = all
             .into_iter()
             .map(|plan| with_recipes_followed(plan, &slack, runtime, thrift))
-            .map(|plan| stepped(plan, &slack, target, steps));
+            .map(|plan| stepped(plan, &slack, target, thrift, steps));
         now = price.cheapest(all).unwrap_or(now);
         now = apart_at_last(now, &slack, runtime, thrift);
     }

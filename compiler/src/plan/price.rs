@@ -15,8 +15,8 @@ use crate::flow::often;
 use crate::flow::tree::*;
 use crate::passes::demand::bounds_segment;
 use crate::passes::interlace::passes;
-use crate::passes::region::Fact;
 use crate::passes::rate::rates;
+use crate::passes::region::Fact;
 use crate::passes::still::{Still, still};
 use rustc_hash::FxHashSet;
 use slowlight_routine::{Op, Routine, Runtime, Stepping, Type, Value};
@@ -26,7 +26,7 @@ use std::cell::Cell;
 /// (three entries of a table take as much), whether runs of columns may be
 /// looked for and whether rows may be drawn in passes: both take many statements a row, which hardly count by cycles.
 /// From where there is plenty to where there was never enough.
-const THRIFT: [(f64, bool, bool); 11] = [
+const THRIFT: [(f64, bool, bool); 15] = [
     (0.0001, true, true),
     (0.0002, true, true),
     (0.0004, true, true),
@@ -34,28 +34,32 @@ const THRIFT: [(f64, bool, bool); 11] = [
     (0.0008, true, true),
     (0.0011, true, true),
     (0.0015, true, true),
-    (0.0015, true, false),
-    (0.0025, true, false),
-    (0.0025, false, false),
-    (0.01, true, false),
+    (0.0025, true, true),
+    (0.0001, false, true),
+    (0.0002, false, true),
+    (0.0006, false, true),
+    (0.001, false, true),
+    (0.0025, false, true),
+    (0.006, false, true),
+    (0.01, false, false),
 ];
-
-/// The first so many are tried before programs are written short.
-const MILD: usize = 4;
 
 /// How much memory counts beside cycles: more where a program did not fit.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Thrift(usize);
 
 impl Thrift {
+    /// How many steps there are.
+    pub const COUNT: usize = THRIFT.len();
+
+    /// A step by its number.
+    pub fn step(step: usize) -> Option<Thrift> {
+        (step < THRIFT.len()).then_some(Thrift(step))
+    }
+
     /// The next that spends less memory, if there is one.
     pub fn more(self) -> Option<Thrift> {
         (self.0 + 1 < THRIFT.len()).then_some(Thrift(self.0 + 1))
-    }
-
-    /// Whether the next spends only a little less.
-    pub fn is_mild(self) -> bool {
-        self.0 + 1 < MILD
     }
 
     /// Whether runs of columns may be looked for.

@@ -132,7 +132,11 @@ impl Follow<'_> {
                 value = self.with(Op::Add, value, more);
             }
         }
-        Some(if recipe.squared { self.square(value) } else { value })
+        Some(if recipe.squared {
+            self.square(value)
+        } else {
+            value
+        })
     }
 
     /// The cell that a table's entry is made of.

@@ -31,14 +31,20 @@ pub enum Steps {
 }
 
 /// The plan with ramps where they make it cheaper.
-pub fn stepped(plain: Settled, slack: &Slack, target: &'static Target, steps: Steps) -> Settled {
+pub fn stepped(
+    plain: Settled,
+    slack: &Slack,
+    target: &'static Target,
+    thrift: Thrift,
+    steps: Steps,
+) -> Settled {
     if target.runtime.stepping.is_none() || steps == Steps::None {
         return plain;
     }
     let site = Site {
         slack,
         target,
-        price: Price::new(&plain, target.runtime, Thrift::default()),
+        price: Price::new(&plain, target.runtime, thrift),
     };
     let phased = match target.wraps && steps == Steps::All {
         true => {

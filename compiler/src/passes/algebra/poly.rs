@@ -175,9 +175,8 @@ impl Poly {
                 let less = by.iter().find(|(a, _)| a == atom).map_or(0, |(_, k)| *k);
                 Some((*atom, power.checked_sub(less)?)).filter(|(_, power)| *power > 0)
             };
-            let has = |(atom, power): &(Atom, u32)| {
-                monomial.iter().any(|(a, k)| a == atom && k >= power)
-            };
+            let has =
+                |(atom, power): &(Atom, u32)| monomial.iter().any(|(a, k)| a == atom && k >= power);
             match by.iter().all(has) {
                 true => divided.accrue(monomial.iter().filter_map(left).collect(), *number),
                 false => others.accrue(monomial.clone(), *number),

@@ -143,7 +143,9 @@ fn picture(plan: &Plan, code: &mut Code<'_>, first: &str, last: &str, spread: Op
         _ if passes.is_some() => {
             let row = passes.iter();
             let segments = segments.as_ref();
-            apart.extend(row.flat_map(|row| row.begin(plan, code, segments, (top_label, behind_run))));
+            apart.extend(
+                row.flat_map(|row| row.begin(plan, code, segments, (top_label, behind_run))),
+            );
         }
         (Some(poke), _) => {
             apart.extend(poke.columns(plan, code, segments.as_ref(), top_label));

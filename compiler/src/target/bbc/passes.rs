@@ -181,7 +181,10 @@ impl Spot {
             at,
             ..
         } = self;
-        code.statement(format!("{here}={bits}+({column} AND {})*{inks}", pixels - 1));
+        code.statement(format!(
+            "{here}={bits}+({column} AND {})*{inks}",
+            pixels - 1
+        ));
         code.statement(format!("{at}={start}+{column} DIV {pixels}*8"));
     }
 }

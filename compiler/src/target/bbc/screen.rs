@@ -1,7 +1,7 @@
 //! Modes, colours and coordinates.
 
-use super::segment::Draw;
 use super::super::Mode;
+use super::segment::Draw;
 use crate::plan::Plan;
 
 /// The resident variables that have their own use: the ink, the row's height on
