@@ -36,6 +36,7 @@ static PLAIN: Target = Target {
     hertz: 1e6,
     sizes: slowlight_compiler::target::mos6502::PLAIN.sizes,
     wraps: false,
+    pixels: |_| 1,
     emit: |_| Vec::new(),
 };
 

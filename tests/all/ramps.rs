@@ -39,7 +39,7 @@ fn row(b: &mut Builder, random: &mut Random) -> NodeId {
 }
 
 /// A picture of the signs and low bits of some ramps, two bits of each pixel.
-fn picture(seed: u64, width: u32, spreads: bool) -> Graph {
+fn picture(seed: u64, width: u32, spreads: bool, passes: u32) -> Graph {
     let mut random = Random::new(seed);
     let mut b = Builder::new();
     let (zero, one, two) = (0, 1, 2);
@@ -48,8 +48,12 @@ fn picture(seed: u64, width: u32, spreads: bool) -> Graph {
     for degree in 1..=3 {
         let mut ramp = row(&mut b, &mut random);
         for _ in 0..degree {
-            let first = row(&mut b, &mut random);
-            ramp = b.ramp(first, ramp, AT);
+            let mut first = row(&mut b, &mut random);
+            if passes > 1 {
+                let pass = b.axis(Axis::Pass(passes), AT);
+                first = b.apply(Op::IntSub, &[pass, first], AT);
+            }
+            ramp = b.ramp(first, ramp, passes, AT);
         }
         let low = b.apply(Op::BitAnd, &[ramp, one], AT);
         let negative = b.apply(Op::IntLess, &[ramp, zero], AT);
@@ -90,7 +94,10 @@ fn ramps_on_the_machine_are_their_closed_form() {
     let mut wraps = 0;
     for seed in 0..40 {
         let width = [320, 77, 352, 500][seed as usize % 4];
-        let graph = picture(seed, width, seed % 5 == 4);
+        let spreads = seed % 5 == 4;
+        // Bytes hold four pixels: passes over every other column are plotted.
+        let passes = [1, 2, 4, 8][seed as usize / 4 % 4];
+        let graph = picture(seed, width, spreads, if spreads { 1 } else { passes });
         let goal = Goal {
             name: "ramps".to_owned(),
             mode: *target.modes.iter().find(|m| m.name == "1").unwrap(),
@@ -128,7 +135,7 @@ fn ramps_on_the_machine_are_their_closed_form() {
 fn who_cannot_step_says_so() {
     let mut b = Builder::new();
     let one = b.constant(Value::Int(1), AT);
-    let ramp = b.ramp(one, one, AT);
+    let ramp = b.ramp(one, one, 1, AT);
     assert_eq!(b.ty(ramp), Type::Int);
     let image = Image {
         width: 4,

@@ -98,8 +98,8 @@ impl Maker {
     }
 
     /// Ramps of the first to the third degree; what stands in the scope so far
-    /// is the same for a whole row.
-    fn ramps(&mut self) {
+    /// is the same for a whole pass, of which a row has one or more.
+    fn ramps(&mut self, passes: u32) {
         for _ in 0..3 {
             let ops = [Op::IntAdd, Op::IntSub, Op::IntMul];
             let (op, a, b) = (self.pick(&ops), Type::Int, Type::Int);
@@ -112,7 +112,7 @@ impl Maker {
             let mut ramp = self.any(Type::Int);
             for _ in 0..degree {
                 let first = self.any(Type::Int);
-                ramp = self.b.ramp(first, ramp, AT);
+                ramp = self.b.ramp(first, ramp, passes, AT);
                 made.push(ramp);
             }
         }
@@ -184,7 +184,17 @@ pub fn graph(seed: u64) -> Graph {
         table,
         scope,
     };
-    maker.ramps();
+    // Rows in one pass, or in four.
+    let passes = if spreads || seed.is_multiple_of(2) {
+        1
+    } else {
+        4
+    };
+    if passes > 1 {
+        let pass = maker.b.axis(Axis::Pass(passes), AT);
+        maker.scope.push(pass);
+    }
+    maker.ramps(passes);
     maker.scope.push(axes[1]);
     let reals = axes.map(|axis| maker.b.apply(Op::ToReal, &[axis], AT));
     maker.scope.extend(reals);

@@ -27,7 +27,12 @@ pub fn passes(graph: &Graph) -> u32 {
 /// `multiple`; nothing where it has none, or such that would take too many.
 /// Pixels that send something to others are drawn in order.
 pub fn interlaced(graph: &Graph, multiple: u32) -> Option<Graph> {
-    if graph.diffusion.is_some() || !graph.reports.is_empty() {
+    // What is stepped already is stepped from each column to the next.
+    let stepped = graph
+        .nodes
+        .iter()
+        .any(|node| matches!(node, Node::Ramp { .. }));
+    if graph.diffusion.is_some() || !graph.reports.is_empty() || stepped {
         return None;
     }
     let reached = graph.reached();
@@ -37,7 +42,7 @@ pub fn interlaced(graph: &Graph, multiple: u32) -> Option<Graph> {
         return None;
     }
     let count = moduli.into_iter().chain([multiple.max(1)]);
-    let count = count.fold(Some(1), |all: Option<u32>, n| Some(all? / gcd(all?, n) * n))?;
+    let count = count.fold(1, |all, n| all / gcd(all, n) * n);
     if !(2..=MOST).contains(&count) || count * 4 > graph.image.width {
         return None;
     }

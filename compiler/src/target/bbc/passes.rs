@@ -42,7 +42,7 @@ impl Passes {
             return None;
         }
         let pixels = poke::pixels_in_byte(plan, code.values.style);
-        let pixels = pixels.filter(|pixels| count % pixels == 0);
+        let pixels = pixels.filter(|pixels| count.is_multiple_of(*pixels));
         let names = &mut code.values.names;
         let spot = pixels.map(|pixels| Spot {
             pixels,
