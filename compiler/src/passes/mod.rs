@@ -33,3 +33,5 @@ mod claim_tests;
 mod guard_tests;
 #[cfg(test)]
 mod peel_tests;
+#[cfg(test)]
+mod still_tests;
