@@ -333,7 +333,10 @@ impl Placer<'_> {
     fn arms_of(&mut self, outer: RegionId, facts: Vec<Fact>) -> RegionId {
         let (mut region, mut taken) = (outer, Vec::new());
         for (cond, holds) in facts {
-            if !self.is_known_in(cond, outer) || taken.contains(&cond) {
+            // One that was placed already, further inside, cannot be asked here.
+            let placed = self.regions.of[cond.0 as usize];
+            let there = placed.is_none_or(|home| self.regions.holds(home, region));
+            if !there || !self.is_known_in(cond, outer) || taken.contains(&cond) {
                 continue;
             }
             taken.push(cond);

@@ -161,6 +161,22 @@ impl Emitter<'_> {
         }
     }
 
+    /// The conditions of the arms from a region down to one inside it.
+    fn conditions(&self, outer: RegionId, mut inner: RegionId) -> Vec<NodeId> {
+        let mut all = Vec::new();
+        while inner != outer {
+            let region = self.regions.get(inner);
+            if let RegionKind::Arm { cond, .. } = region.kind {
+                all.push(cond);
+            }
+            match region.parent {
+                Some(parent) => inner = parent,
+                None => break,
+            }
+        }
+        all
+    }
+
     /// The units of a region that a unit of it reads from.
     fn reads(&mut self, region: RegionId, unit: Unit) -> BTreeSet<Unit> {
         let graph = self.graph;
@@ -185,8 +201,14 @@ impl Emitter<'_> {
                 reads
             }
             Unit::Inside(id, arm) => {
-                let cond: Vec<NodeId> = self.condition(unit).into_iter().collect();
-                let mut reads = self.search(region, &cond, &[]);
+                let home = self.regions.of[id.0 as usize].unwrap_or(arm);
+                let mut asked = self.conditions(region, home);
+                // What this arm computes itself is computed with it.
+                asked.retain(|cond| {
+                    let home = self.regions.of[cond.0 as usize];
+                    home.is_none_or(|home| !self.regions.holds(arm, home))
+                });
+                let mut reads = self.search(region, &asked, &[]);
                 reads.extend(self.search(region, &[id], &[arm]));
                 reads
             }
@@ -244,6 +266,7 @@ impl Emitter<'_> {
                 }
             } else if let Some(child) = self.regions.toward(region, home) {
                 if open.contains(&child) {
+                    todo.extend(self.conditions(child, home));
                     match self.graph.node(id) {
                         Node::Result { of, .. } => todo.extend(self.loop_roots(of)),
                         node => todo.extend(node.operands()),

@@ -57,6 +57,9 @@ fn picture(seed: u64) -> Graph {
         let (yes, no) = (any(&bools), any(&bools));
         bools.push(b.select(cond, yes, no, AT));
         let (cond, yes, no) = (any(&bools), any(&ints), any(&ints));
+        let (one, other) = (any(&ints), any(&ints));
+        let sum = b.apply(Op::IntAdd, &[one, other], AT);
+        ints.push(b.apply(Op::BitAnd, &[sum, three], AT));
         ints.push(b.select(cond, yes, no, AT));
     }
     let ink = *ints.last().unwrap();

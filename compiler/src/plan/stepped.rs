@@ -112,7 +112,9 @@ fn bounded(plan: &Settled) -> bool {
     let result = |id: NodeId| plan.ranges.result[id.0 as usize];
     let mut all = graph.ids().filter(|id| is_ramp(graph, *id));
     all.all(|id| {
-        ramp::range(graph, id, 0..=width, result).within(f64::from(i32::MIN), f64::from(i32::MAX))
+        // A pass ends behind the last column by its stride at most.
+        let behind = width + ramp::stride(graph, id) as i32 - 1;
+        ramp::range(graph, id, 0..=behind, result).within(f64::from(i32::MIN), f64::from(i32::MAX))
     })
 }
 

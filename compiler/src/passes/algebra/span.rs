@@ -311,7 +311,9 @@ impl Site<'_> {
         if 2.0 * middle * self.unit.sqrt() > OFF {
             return None;
         }
-        let mirrored = mirrored(a, b);
+        // A first column that was clamped to the one before the picture has its last
+        // one behind it only if their sum is as large.
+        let mirrored = mirrored(a, b).filter(|sum| f64::from(*sum) >= self.width - 2.0);
         let c = self.constant(put, asked)?;
         let (c, b, a) = (put.real(c), self.real(put, b)?, self.real(put, a)?);
         let at = put.span;

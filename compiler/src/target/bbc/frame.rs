@@ -59,7 +59,11 @@ pub fn program(plan: &Plan) -> Lines {
     let params = (0..plan.params.len()).map(|k| code.values.names.param(k).to_owned());
     let keep: Vec<String> = params.chain([first, last]).collect();
     let lines = threaded(code.lines, &mut code.labels, style != Style::Small);
-    short(lines, &keep, style)
+    let assigned = code.values.names.constants();
+    let constants = assigned
+        .filter_map(|text| Some(text.split_once('=')?.0.to_owned()))
+        .collect();
+    short(lines, &keep, &constants, style)
 }
 
 /// The scene's item that something comes from: the last that begins before it.

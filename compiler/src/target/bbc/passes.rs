@@ -91,8 +91,8 @@ impl Passes {
         });
         apart.extend(behind(code, "pass", |code| {
             code.block(&plan.tree.pass);
-            if first >= n {
-                ramp::start(plan, code, &format!("X% DIV {n}"));
+            if first > 0 {
+                ramp::start_at(plan, code, n, first >= n);
             }
         }));
         if let Some(spot) = &self.spot {

@@ -33,6 +33,20 @@ pub fn start(plan: &Plan, code: &mut Code<'_>, steps: &str) {
     }
 }
 
+/// Brings the ramps to a pass's first column, X%; `surely` if that takes a step at least.
+pub fn start_at(plan: &Plan, code: &mut Code<'_>, passes: u32, surely: bool) {
+    if ramps(plan).is_empty() {
+        return;
+    }
+    // FOR runs its body once whatever its bounds are.
+    let there = code.labels.next();
+    if !surely {
+        code.line(format!("IF X%<{passes} THEN {there}"));
+    }
+    start(plan, code, &format!("X% DIV {passes}"));
+    code.lines.place(there);
+}
+
 /// Brings the ramps to the next column.
 pub fn step(plan: &Plan, code: &mut Code<'_>) {
     for (id, by) in ramps(plan) {

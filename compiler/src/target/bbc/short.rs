@@ -25,14 +25,15 @@ const WIDTH: usize = 220;
 /// time a number in the text takes up to five thousand cycles more than a variable.
 const SELDOM: u64 = 2_000;
 
-/// Makes a program short; the names in `keep` stay.
-pub fn short(lines: Lines, keep: &[String], style: Style) -> Lines {
+/// Makes a program short; the names in `keep` stay, those in `constants` are of
+/// numbers that never change.
+pub fn short(lines: Lines, keep: &[String], constants: &BTreeSet<String>, style: Style) -> Lines {
     let (head, mut body) = lines.split_behind("REM rows to draw");
     let seldom = match style {
         Style::Small => u64::MAX,
         _ => SELDOM,
     };
-    let constants = in_place(&body, seldom);
+    let constants = in_place(&body, constants, seldom);
     body.each_text(|text| *text = without(text, &constants));
     body.remove_empty();
     let names = given(&uses(&body), keep);
@@ -61,20 +62,26 @@ fn uses(body: &Lines) -> BTreeMap<String, u64> {
 
 /// Constants that take less memory where they are read than in a variable, and are
 /// read so seldom: name and number.
-fn in_place(body: &Lines, seldom: u64) -> BTreeMap<String, String> {
+fn in_place(body: &Lines, constants: &BTreeSet<String>, seldom: u64) -> BTreeMap<String, String> {
     let often = self::uses(body);
     let mut numbers: BTreeMap<String, String> = BTreeMap::new();
     let mut uses: BTreeMap<String, usize> = BTreeMap::new();
     let mut changed: BTreeSet<String> = BTreeSet::new();
     for text in body.texts() {
         for statement in text.split(':') {
-            if let Some((name, number)) = statement.split_once('=')
-                && name.starts_with(|c: char| c.is_ascii_lowercase())
+            let Some((name, number)) = statement.split_once('=') else {
+                continue;
+            };
+            let plain = number
+                .bytes()
+                .all(|b| b.is_ascii_digit() || b"E.-".contains(&b));
+            if !plain {
+                changed.insert(name.to_owned());
+            }
+            if name.starts_with(|c: char| c.is_ascii_lowercase())
                 && number.starts_with(|c: char| c.is_ascii_digit())
                 && pieces(name).len() == 1
-                && number
-                    .bytes()
-                    .all(|b| b.is_ascii_digit() || b"E.-".contains(&b))
+                && plain
                 && !name.ends_with('%')
                 && numbers.insert(name.to_owned(), number.to_owned()).is_some()
             {
@@ -101,16 +108,10 @@ fn in_place(body: &Lines, seldom: u64) -> BTreeMap<String, String> {
         let reads = uses.get(name).map_or(0, |n| n.saturating_sub(1));
         !changed.contains(name)
             && often.get(name).is_none_or(|often| *often <= seldom)
-            && constant_name(name)
+            && constants.contains(name)
             && reads * (number.len() - 1) < number.len() + 11
     });
     numbers
-}
-
-/// Whether a name is one that [`super::names`] gives to constants.
-fn constant_name(name: &str) -> bool {
-    name.strip_prefix('c')
-        .is_some_and(|rest| rest.starts_with(|c: char| c.is_ascii_digit() || c == '_'))
 }
 
 /// A statement with those constants in place, their assignments left out.
