@@ -6,7 +6,8 @@
 //! picture is run whole.
 
 use crate::draw::Window;
-use slowlight_compiler::eval::run::{Arithmetic, Run};
+use slowlight_compiler::eval::arithmetic::Arithmetic;
+use slowlight_compiler::eval::run::Run;
 use slowlight_compiler::flow::graph::{NodeId, ParamId};
 use slowlight_compiler::plan::Plan;
 use slowlight_routine::{Bits, Format, Op, Value};

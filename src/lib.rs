@@ -18,6 +18,7 @@ pub mod interrupt;
 pub mod jobs;
 pub mod machine;
 pub mod measure;
+pub mod need;
 pub mod picture;
 pub mod precise;
 pub mod program;

@@ -1,9 +1,10 @@
 //! The front end and the middle on the first example, without a machine.
 #![allow(clippy::unwrap_used)]
 
+use slowlight_compiler::eval::arithmetic::Exact;
 use slowlight_compiler::eval::model::ModelRun;
 use slowlight_compiler::eval::native::Native;
-use slowlight_compiler::eval::run::{Exact, Run};
+use slowlight_compiler::eval::run::Run;
 use slowlight_compiler::flow::graph::Graph;
 use slowlight_compiler::flow::verify::verify;
 use slowlight_compiler::passes::schedule::schedule;

@@ -3,7 +3,8 @@
 //!
 //! A machine goes on with what is left; whoever judges its result has to know.
 
-use slowlight_compiler::eval::run::{self, Run};
+use slowlight_compiler::eval::arithmetic::Arithmetic;
+use slowlight_compiler::eval::run::Run;
 use slowlight_compiler::flow::graph::{Graph, NodeId, ParamId};
 use slowlight_compiler::passes::schedule::schedule;
 use slowlight_compiler::plan::Plan;
@@ -39,7 +40,7 @@ struct Models<'p> {
     left: &'p RefCell<Option<String>>,
 }
 
-impl run::Arithmetic for Models<'_> {
+impl Arithmetic for Models<'_> {
     type Value = Bits;
 
     fn constant(&self, value: Value) -> Bits {
@@ -101,7 +102,7 @@ struct Natively<'g> {
     left: &'g RefCell<Option<String>>,
 }
 
-impl run::Arithmetic for Natively<'_> {
+impl Arithmetic for Natively<'_> {
     type Value = Value;
 
     fn constant(&self, value: Value) -> Value {

@@ -1,7 +1,8 @@
 //! What a graph and a tree draw, for holding passes against each other.
 #![allow(clippy::unwrap_used)]
 
-use super::run::{Exact, Run};
+use super::arithmetic::Exact;
+use super::run::Run;
 use crate::flow::graph::*;
 use crate::flow::tree::Tree;
 use crate::passes::fold::fold;

@@ -1,6 +1,7 @@
 //! Evaluations of a scene inside the compiler: the graph in `f64`, the plan in
 //! the routines' models.
 
+pub mod arithmetic;
 pub mod diffuse;
 pub mod model;
 pub mod native;

@@ -3,8 +3,9 @@
 //! What the generated program computes on its machine is what this computes,
 //! ink by ink; the difference between the two is a fault of ours.
 
+use super::arithmetic::Arithmetic;
 use super::native::Pixel;
-use super::run::{Arithmetic, Run};
+use super::run::Run;
 use crate::flow::graph::*;
 use crate::plan::Plan;
 use slowlight_routine::{Bits, Format, Op, Value};

@@ -1,9 +1,10 @@
 //! Error diffusion held against the same dithers written by hand.
 #![allow(clippy::unwrap_used)]
 
+use super::arithmetic::Exact;
 use super::model::ModelRun;
 use super::native::Native;
-use super::run::{Exact, Run};
+use super::run::Run;
 use crate::flow::graph::*;
 use crate::flow::tree::{Statement, walk};
 use crate::flow::verify::verify;

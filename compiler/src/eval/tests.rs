@@ -2,8 +2,9 @@
 //! mirrors, as a front end would build it.
 #![allow(clippy::unwrap_used)]
 
+use super::arithmetic::Exact;
 use super::native::Native;
-use super::run::{Exact, Run};
+use super::run::Run;
 use crate::flow::build::Builder;
 use crate::flow::graph::*;
 use crate::flow::verify::verify;

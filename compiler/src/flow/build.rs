@@ -18,16 +18,16 @@ pub struct Builder {
     nodes: Vec<Node>,
     types: Vec<Type>,
     spans: Vec<Span>,
-    names: HashMap<NodeId, String>,
+    pub(super) names: HashMap<NodeId, String>,
     known: FxHashMap<Node, NodeId>,
     params: Vec<Param>,
     tables: Vec<Table>,
     loops: Vec<Loop>,
-    effects: Vec<EffectUse>,
-    directions: BTreeMap<NodeId, f64>,
+    pub(super) effects: Vec<EffectUse>,
+    pub(super) directions: BTreeMap<NodeId, f64>,
     diffusion: Option<Diffusion>,
     reports: Vec<NodeId>,
-    claims: BTreeMap<NodeId, (Op, [NodeId; 2])>,
+    pub(super) claims: BTreeMap<NodeId, (Op, [NodeId; 2])>,
     early: BTreeSet<NodeId>,
 }
 
@@ -328,31 +328,6 @@ impl Builder {
             .collect()
     }
 
-    /// Remembers what the scene calls a value; the first name stays.
-    pub fn name(&mut self, id: NodeId, name: &str) {
-        if !matches!(
-            self.node(id),
-            Node::Const(_) | Node::Undefined(_) | Node::Param(_)
-        ) {
-            self.names.entry(id).or_insert_with(|| name.to_owned());
-        }
-    }
-
-    /// Says that a node is a component of a vector of that length by contract;
-    /// what was said first stays.
-    pub fn direction(&mut self, id: NodeId, length: f64) {
-        if self.ty(id) == Type::Real && self.value(id).is_none() {
-            self.directions.entry(id).or_insert(length);
-        }
-    }
-
-    /// Says that a bool is the same as a comparison.
-    pub fn claim(&mut self, id: NodeId, op: Op, args: [NodeId; 2]) {
-        if self.value(id).is_none() {
-            self.claims.insert(id, (op, args));
-        }
-    }
-
     /// A bool that may be taken for false where that costs less.
     pub fn early(&mut self, cond: NodeId, span: Span) -> NodeId {
         if self.value(cond).is_some() || self.undefined_type(cond) {
@@ -362,17 +337,6 @@ impl Builder {
         let made = self.add(Node::Select { cond, yes, no }, Type::Bool, span);
         self.early.insert(made);
         made
-    }
-
-    /// Counts a call of an effect.
-    pub fn effect(&mut self, name: &str) {
-        match self.effects.iter_mut().find(|e| e.name == name) {
-            Some(found) => found.calls += 1,
-            None => self.effects.push(EffectUse {
-                name: name.to_owned(),
-                calls: 1,
-            }),
-        }
     }
 
     /// The finished graph.

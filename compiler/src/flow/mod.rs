@@ -3,6 +3,8 @@
 pub mod build;
 pub mod diffusion;
 pub mod graph;
+pub mod node;
+mod notes;
 pub mod often;
 pub mod print;
 pub mod ramp;

@@ -2,8 +2,9 @@
 
 use super::rate::{Dependence, rates};
 use super::schedule::schedule;
+use crate::eval::arithmetic::Exact;
 use crate::eval::drawn::grid;
-use crate::eval::run::{Exact, Run};
+use crate::eval::run::Run;
 use crate::flow::graph::*;
 use slowlight_routine::Value;
 

@@ -16,61 +16,13 @@
 //!
 //! Users are placed before what they use, so the nodes are visited backwards.
 
+use super::needed::{live_carried, needed};
 use super::rate::{Dependence, Rates, rates};
 use super::region::*;
+use super::segment::by_segment;
 use super::still::{Still, still};
 use crate::flow::graph::*;
 use slowlight_routine::Op;
-
-/// Which nodes the ink and what is sent to later pixels need, carried values only where they are read. As long
-/// as the graph's nodes.
-pub fn needed(graph: &Graph) -> Vec<bool> {
-    let mut seen = vec![false; graph.nodes.len()];
-    let mut todo: Vec<NodeId> = graph.roots().collect();
-    while let Some(id) = todo.pop() {
-        let Some(flag) = seen.get_mut(id.0 as usize).filter(|flag| !**flag) else {
-            continue;
-        };
-        *flag = true;
-        let of_loop = |of: LoopId| graph.loops.get(of.0 as usize);
-        let pick = |list: &[NodeId], index: u32| list.get(index as usize).copied();
-        match graph.node(id) {
-            Node::Result { of, index } => todo.extend(of_loop(of).into_iter().flat_map(|l| {
-                [
-                    Some(l.again),
-                    pick(&l.done, index),
-                    pick(&l.otherwise, index),
-                ]
-                .into_iter()
-                .flatten()
-            })),
-            Node::Carried { of, index } | Node::Last { of, index } => {
-                todo.extend(of_loop(of).into_iter().flat_map(|l| {
-                    [pick(&l.init, index), pick(&l.next, index)]
-                        .into_iter()
-                        .flatten()
-                }));
-            }
-            node => todo.extend(node.operands()),
-        }
-    }
-    seen
-}
-
-/// Which carried values of a loop are read, by index, given what is [`needed`].
-pub fn live_carried(graph: &Graph, needed: &[bool], of: LoopId) -> Vec<u32> {
-    let mut live: Vec<u32> = graph
-        .ids()
-        .filter(|id| needed.get(id.0 as usize) == Some(&true))
-        .filter_map(|id| match graph.node(id) {
-            Node::Carried { of: l, index } | Node::Last { of: l, index } if l == of => Some(index),
-            _ => None,
-        })
-        .collect();
-    live.sort_unstable();
-    live.dedup();
-    live
-}
 
 /// Places every value that the ink needs.
 pub fn place(graph: &Graph) -> Regions {
@@ -114,46 +66,6 @@ fn place_all(graph: &Graph, near: bool, segments: bool) -> Regions {
         placer.visit(id);
     }
     placer.regions
-}
-
-/// How many comparisons may cut a row into runs, and how many columns there
-/// should be for each at least. Whether the runs pay is for the plan to find out.
-const RUNS: usize = 32;
-const COLUMNS: usize = 10;
-
-/// Whether an operation compares the column with what is the same for a whole row.
-pub fn bounds_segment(graph: &Graph, rates: &Rates, id: NodeId) -> bool {
-    let Node::Apply(Op::IntLess | Op::IntLessEqual, [a, b]) = graph.node(id) else {
-        return false;
-    };
-    let column = |id| graph.node(id) == Node::Axis(Axis::X);
-    let still = |id| rates.is_still(id);
-    column(a) && still(b) || column(b) && still(a)
-}
-
-/// Which values depend on the column through such comparisons alone; none where
-/// those cut a row into too many runs.
-pub fn by_segment(graph: &Graph, rates: &Rates, needed: &[bool]) -> Vec<bool> {
-    let mut found = vec![false; graph.nodes.len()];
-    let mut bounds = 0;
-    for id in graph.ids().filter(|id| needed[id.0 as usize]) {
-        if bounds_segment(graph, rates, id) {
-            found[id.0 as usize] = true;
-            bounds += 1;
-            continue;
-        }
-        let fits = |a: NodeId| found[a.0 as usize] || !rates.depends(a, Dependence::Column);
-        found[id.0 as usize] = match graph.node(id) {
-            node @ (Node::Apply(..) | Node::Select { .. } | Node::Lookup { .. }) => {
-                rates.depends(id, Dependence::Column) && node.operands().all(fits)
-            }
-            _ => false,
-        };
-    }
-    if bounds >= RUNS || (bounds + 1) * COLUMNS > graph.image.width as usize {
-        return vec![false; graph.nodes.len()];
-    }
-    found
 }
 
 struct Placer<'g> {

@@ -6,8 +6,9 @@
 //! under an implied condition. Units wait for the units that they read from;
 //! selects on one condition that are ready together share one `If`.
 
-use super::demand::{live_carried, needed, place, place_in_segments, place_near};
+use super::demand::{place, place_in_segments, place_near};
 use super::moves::moves;
+use super::needed::{live_carried, needed};
 use super::queue::{Order, Queue, Unit};
 use super::region::*;
 use crate::flow::graph::*;

@@ -4,9 +4,10 @@
 //! is met along it, say, and its shade crosses no threshold. Then the pixels
 //! need no computing at all; a target draws them in a loop that does nothing else.
 
-use super::demand::{by_segment, needed};
+use super::needed::needed;
 use super::rate::rates;
 use super::region::Fact;
+use super::segment::by_segment;
 use crate::flow::graph::*;
 use slowlight_routine::{Op, Value};
 

@@ -1,7 +1,9 @@
 //! Other plans of the scene that a plan is of.
 
-use super::price::Thrift;
-use super::{Goal, Plan, Rewriting, Steps, planned};
+use super::made::{Rewriting, planned};
+use super::stepped::Steps;
+use super::thrift::Thrift;
+use super::{Goal, Plan};
 use crate::flow::graph::*;
 use crate::flow::tree::*;
 

@@ -7,9 +7,10 @@
 //! it saves where others needed its parts, or where the ranges cannot see its
 //! sign and it needs a guard.
 
-use super::price::{Price, Thrift};
+use super::price::Price;
 use super::recipes::followed;
 use super::settled::{Settled, scheduled, settle};
+use super::thrift::Thrift;
 use crate::flow::graph::*;
 use crate::passes::algebra::{Cheaper, Verdicts, algebra, decided, spans};
 use crate::passes::apart::apart;
@@ -258,27 +259,18 @@ impl Site<'_> {
         plain: &'p Settled,
         pass: (Pass, &Verdicts<'p>),
         sites: &[NodeId],
-        all: (Vec<NodeId>, Settled),
+        (without, all): (Vec<NodeId>, Settled),
     ) -> (f64, Settled) {
-        let (mut without, mut best) = all;
-        let mut limit = self.cost(&best);
         let value = |id: &&NodeId| plain.graph.ty(**id) != Type::Bool;
         let mut tries: Vec<Vec<NodeId>> = vec![sites.iter().filter(value).copied().collect()];
         tries.extend(together(&plain.graph, sites));
         if sites.len() * plain.graph.nodes.len() < PATIENCE {
             tries.extend(sites.iter().map(|id| vec![*id]));
         }
-        for leave in tries {
-            let out: Vec<NodeId> = without.iter().chain(&leave).copied().collect();
-            let Some((next, _)) = self.with(plain, pass, &out) else {
-                continue;
-            };
-            let cost = self.cost(&next);
-            if cost < limit {
-                (limit, without, best) = (cost, out, next);
-            }
-        }
-        (limit, best)
+        let from = (self.cost(&all), without, all);
+        self.stepwise(plain, pass, from, tries, |without, leave| {
+            without.iter().chain(leave).copied().collect()
+        })
     }
 
     /// The same from no form: each is put where that is cheaper.
@@ -288,13 +280,27 @@ impl Site<'_> {
         pass: (Pass, &Verdicts<'p>),
         sites: &[NodeId],
     ) -> (f64, Settled) {
-        let (mut without, mut best) = (sites.to_vec(), plain.clone());
-        let mut limit = now;
         let mut tries: Vec<Vec<NodeId>> = sites.iter().map(|id| vec![*id]).collect();
         tries.extend(together(&plain.graph, sites));
-        for more in tries {
-            let out = without.iter().copied().filter(|o| !more.contains(o));
-            let out: Vec<NodeId> = out.collect();
+        let from = (now, sites.to_vec(), plain.clone());
+        self.stepwise(plain, pass, from, tries, |without, put| {
+            let rest = without.iter().copied().filter(|o| !put.contains(o));
+            rest.collect()
+        })
+    }
+
+    /// From a plan without a pass at some sites, and its cost, to another wherever
+    /// that is cheaper: `out` says what is left out after each of the tries.
+    fn stepwise<'p>(
+        &self,
+        plain: &'p Settled,
+        pass: (Pass, &Verdicts<'p>),
+        (mut limit, mut without, mut best): (f64, Vec<NodeId>, Settled),
+        tries: Vec<Vec<NodeId>>,
+        out: impl Fn(&[NodeId], &[NodeId]) -> Vec<NodeId>,
+    ) -> (f64, Settled) {
+        for sites in tries {
+            let out = out(&without, &sites);
             let Some((next, _)) = self.with(plain, pass, &out) else {
                 continue;
             };

@@ -1,7 +1,8 @@
 //! The plan of the same scene with subroutines, for machines that cannot hold
 //! everything where it is used.
 
-use super::{Goal, Plan, assemble};
+use super::made::assemble;
+use super::{Goal, Plan};
 use crate::passes::outline::outline;
 use crate::passes::schedule::schedule_together;
 use crate::range::{Slack, ranges};

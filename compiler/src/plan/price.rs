@@ -6,72 +6,24 @@
 //! little. Where that would take too long, or pixels depend on each other, either
 //! way of a choice is thought to be as likely ([`crate::flow::often`]).
 
+use super::beside::Beside;
 use super::choose::choose;
 use super::fold_uses::folded;
 use super::settled::Settled;
-use crate::eval::run::{Arithmetic, Exact, Run};
+use super::thrift::Thrift;
+use crate::eval::arithmetic::{Arithmetic, Exact};
+use crate::eval::run::Run;
 use crate::flow::graph::*;
 use crate::flow::often;
 use crate::flow::tree::*;
-use crate::passes::demand::bounds_segment;
 use crate::passes::interlace::passes;
 use crate::passes::rate::rates;
 use crate::passes::region::Fact;
+use crate::passes::segment::bounds_segment;
 use crate::passes::still::{Still, still};
 use rustc_hash::FxHashSet;
-use slowlight_routine::{Op, Routine, Runtime, Stepping, Type, Value};
+use slowlight_routine::{Op, Runtime, Type, Value};
 use std::cell::Cell;
-
-/// What part of the plan's cycles a statement more must save, for its memory
-/// (three entries of a table take as much), whether runs of columns may be
-/// looked for and whether rows may be drawn in passes: both take many statements a row, which hardly count by cycles.
-/// From where there is plenty to where there was never enough.
-const THRIFT: [(f64, bool, bool); 15] = [
-    (0.0001, true, true),
-    (0.0002, true, true),
-    (0.0004, true, true),
-    (0.0006, true, true),
-    (0.0008, true, true),
-    (0.0011, true, true),
-    (0.0015, true, true),
-    (0.0025, true, true),
-    (0.0001, false, true),
-    (0.0002, false, true),
-    (0.0006, false, true),
-    (0.001, false, true),
-    (0.0025, false, true),
-    (0.006, false, true),
-    (0.01, false, false),
-];
-
-/// How much memory counts beside cycles: more where a program did not fit.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Thrift(usize);
-
-impl Thrift {
-    /// How many steps there are.
-    pub const COUNT: usize = THRIFT.len();
-
-    /// A step by its number.
-    pub fn step(step: usize) -> Option<Thrift> {
-        (step < THRIFT.len()).then_some(Thrift(step))
-    }
-
-    /// The next that spends less memory, if there is one.
-    pub fn more(self) -> Option<Thrift> {
-        (self.0 + 1 < THRIFT.len()).then_some(Thrift(self.0 + 1))
-    }
-
-    /// Whether runs of columns may be looked for.
-    pub fn runs(self) -> bool {
-        THRIFT[self.0].1
-    }
-
-    /// Whether rows may be drawn in passes.
-    pub fn passes(self) -> bool {
-        THRIFT[self.0].2
-    }
-}
 
 /// Rows and columns that are looked at, and how many statements may run for that.
 const ROWS: u32 = 12;
@@ -94,7 +46,7 @@ impl Price {
     pub fn new(plain: &Settled, runtime: &'static Runtime, thrift: Thrift) -> Price {
         let mut price = Price {
             runtime,
-            memory: THRIFT[thrift.0].0,
+            memory: thrift.part(),
             pixels: Vec::new(),
         };
         if plain.graph.diffusion.is_none() {
@@ -254,104 +206,6 @@ impl Price {
         }
         Some(sum)
     }
-}
-
-/// Routines, and what statements cost beside them.
-struct Beside<'p> {
-    graph: &'p Graph,
-    runtime: &'static Runtime,
-    folded: Vec<bool>,
-    routines: Vec<Option<&'static Routine>>,
-}
-
-impl Beside<'_> {
-    /// Cycles of a statement by itself.
-    fn statement(&self, statement: &Statement) -> u32 {
-        let Some(stepping) = self.runtime.stepping else {
-            // Of these machines nothing better is known.
-            let step = self.runtime.statement;
-            return match statement {
-                Statement::Let(id) => step + self.own(*id),
-                Statement::Loop(_) => 0,
-                _ => step,
-            };
-        };
-        match statement {
-            Statement::Let(id) => self.computed(*id, stepping),
-            Statement::Set { place, from } => {
-                let reading = match from {
-                    Origin::Node(id) => self.read(*id, stepping),
-                    Origin::Scratch(..) => stepping.read[1],
-                };
-                let kind = match place {
-                    Place::Node(id) => kind(self.graph.ty(*id)),
-                    _ => 1,
-                };
-                reading + stepping.write[kind]
-            }
-            Statement::If { cond, .. } => stepping.test + self.read(*cond, stepping),
-            Statement::Loop(_) | Statement::Call(_) => stepping.test,
-        }
-    }
-
-    /// What computing a node costs, its operands not.
-    fn own(&self, id: NodeId) -> u32 {
-        if let Node::Lookup { table, .. } = self.graph.node(id) {
-            let table = self.graph.tables.get(table.0 as usize);
-            let flat = table.is_some_and(|t| t.width == 1 || t.height == 1);
-            return self.runtime.index * if flat { 1 } else { 2 };
-        }
-        let routine = self.routines.get(id.0 as usize).copied().flatten();
-        routine.map_or(0, |r| r.cycles)
-    }
-
-    fn inline(&self, id: NodeId) -> bool {
-        self.folded.get(id.0 as usize) == Some(&true)
-    }
-
-    fn read(&self, id: NodeId, stepping: Stepping) -> u32 {
-        let ty = self.graph.ty(id);
-        match self.graph.constant(id) {
-            _ if self.inline(id) => 0,
-            Some(value) if ty == Type::Int => {
-                stepping.digit * value.int().unsigned_abs().to_string().len() as u32
-            }
-            _ => stepping.read[kind(ty)],
-        }
-    }
-
-    /// What computing a node and keeping it costs, its operands not.
-    fn kept(&self, id: NodeId) -> u32 {
-        let kept = match self.runtime.stepping {
-            Some(stepping) if !self.inline(id) => stepping.write[kind(self.graph.ty(id))],
-            _ => 0,
-        };
-        self.own(id) + kept
-    }
-
-    fn computed(&self, id: NodeId, stepping: Stepping) -> u32 {
-        let node = self.graph.node(id);
-        let operands: u32 = node.operands().map(|used| self.read(used, stepping)).sum();
-        operands + self.kept(id)
-    }
-
-    /// What ramps take behind each pixel.
-    fn steps(&self, row: &Block) -> f64 {
-        let ramp = self.runtime.stepping.map_or(0, |s| s.ramp);
-        let mut ramps = 0;
-        walk(row, &mut |statement| {
-            let node = |id: &NodeId| self.graph.node(*id);
-            ramps += u32::from(
-                matches!(statement, Statement::Let(id) if matches!(node(id), Node::Ramp { .. })),
-            );
-        });
-        f64::from(ramps * ramp)
-    }
-}
-
-/// Where a type's costs stand in [`Stepping`].
-fn kind(ty: Type) -> usize {
-    usize::from(ty == Type::Real)
 }
 
 /// Pixels spread over a picture, none above another.

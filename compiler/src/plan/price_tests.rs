@@ -1,8 +1,9 @@
 //! Prices depend on what a param may be, not on what it is now.
 #![allow(clippy::unwrap_used)]
 
-use super::price::{Price, Thrift};
+use super::price::Price;
 use super::settled::{Settled, settle};
+use super::thrift::Thrift;
 use crate::flow::graph::*;
 use crate::range::Slack;
 use crate::scene::check;

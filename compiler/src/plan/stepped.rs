@@ -4,8 +4,9 @@
 //! or where computing it takes several multiplications. It is weighed against
 //! whole statements, with what is read and assigned, since a step is one.
 
-use super::price::{Price, Thrift};
+use super::price::Price;
 use super::settled::{Settled, settle};
+use super::thrift::Thrift;
 use crate::flow::graph::*;
 use crate::flow::ramp;
 use crate::passes::ramps::phase::{parities, phases};

@@ -15,7 +15,8 @@
 //! grow; they are left out of the fit.
 
 use super::shadow::{Pair, Shadow};
-use crate::eval::run::{Arithmetic, Run};
+use crate::eval::arithmetic::Arithmetic;
+use crate::eval::run::Run;
 use crate::flow::graph::*;
 use crate::plan::Plan;
 use crate::source::Diagnostic;

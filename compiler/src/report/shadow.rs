@@ -1,7 +1,7 @@
 //! Native values and a machine's side by side, on the native way.
 
+use crate::eval::arithmetic::Arithmetic;
 use crate::eval::native::param_value;
-use crate::eval::run::Arithmetic;
 use crate::flow::graph::*;
 use crate::plan::Plan;
 use slowlight_routine::{Bits, Format, Op, Type, Value};

@@ -4,6 +4,7 @@
 mod errors;
 mod facts;
 mod functions;
+mod generator;
 mod machine;
 
 use crate::F316;

@@ -20,6 +20,7 @@
 
 mod arithmetic;
 mod decided;
+mod ends;
 mod extent;
 mod form;
 pub(super) mod judge;

@@ -1,9 +1,10 @@
 #![allow(clippy::unwrap_used)]
 
 use super::*;
+use crate::eval::arithmetic::Exact;
 use crate::eval::drawn::{drawn, examples, grid, picture};
 use crate::eval::random_graphs;
-use crate::eval::run::{Exact, Run};
+use crate::eval::run::Run;
 use crate::flow::build::Builder;
 use crate::passes::fold::fold;
 use crate::passes::schedule::{schedule, schedule_together};

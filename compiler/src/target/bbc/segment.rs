@@ -8,8 +8,8 @@
 use super::code::Code;
 use super::ramp;
 use crate::flow::graph::*;
-use crate::passes::demand::bounds_segment;
 use crate::passes::rate::rates;
+use crate::passes::segment::bounds_segment;
 use crate::passes::still::Still;
 use crate::plan::Plan;
 use slowlight_routine::Op;

@@ -3,9 +3,8 @@
 //! It holds SP in a register; all else is in the RAM. What it leaves to the
 //! plain engine it leaves before having done any of it.
 
-use super::command::{
-    ARG, Binary, FRAME, HEAP, KEYBOARD, LCL, Memory, Place, SCREEN, SP, THAT, THIS,
-};
+use super::access::{address, get, is_far, set};
+use super::command::{ARG, Binary, FRAME, LCL, Memory, SCREEN, SP, THAT, THIS};
 use super::fuse::{Fused, Op};
 use super::machine::{EFFORT_LIMIT, Machine};
 use super::os::{self, Native, Trap};
@@ -19,30 +18,6 @@ pub(super) enum Exit {
     Plain,
     /// The next command was executed, and failed.
     Trap(Trap),
-}
-
-/// The word in a place.
-#[inline(always)]
-fn get(memory: &Memory, place: Place) -> u16 {
-    memory[usize::from(address(memory, place))]
-}
-
-#[inline(always)]
-fn set(memory: &mut Memory, place: Place, value: u16) {
-    memory[usize::from(address(memory, place))] = value;
-}
-
-#[inline(always)]
-fn address(memory: &Memory, place: Place) -> u16 {
-    memory[usize::from(place.base)].wrapping_add(place.offset)
-}
-
-/// Whether an address that a program computed is in the heap, on the screen
-/// or the keyboard's: not among the pointers, the statics or the stack, and
-/// not where there is no memory.
-#[inline(always)]
-fn is_far(address: u16) -> bool {
-    address.wrapping_sub(HEAP) <= KEYBOARD - HEAP
 }
 
 impl Machine<'_> {

@@ -42,6 +42,7 @@
 //! the stack itself, at every fault. So only the plain engine ever faults or
 //! meets the limit, and it does so at the exact command.
 
+mod access;
 mod command;
 mod fast;
 mod fuse;

@@ -1,0 +1,191 @@
+//! How a plan is made: the passes in their order, then a routine for each value.
+
+use super::cheaper::{apart_at_last, cheaper, with_recipes_followed};
+use super::params::{self, ParamPlan};
+use super::price::Price;
+use super::settled::{Settled, scheduled, settle};
+use super::stepped::{Steps, stepped};
+use super::thrift::Thrift;
+use super::{Goal, Plan, choose, fold_uses, names, recipes};
+use crate::flow::graph::*;
+use crate::flow::tree::*;
+use crate::flow::verify::verify;
+use crate::passes::early::without;
+use crate::passes::fold::fold;
+use crate::passes::interlace::interlaced;
+use crate::passes::schedule::missing;
+use crate::passes::stable::stable;
+use crate::passes::still::still;
+use crate::range::{Ranges, Slack};
+use crate::source::Diagnostic;
+use crate::target::{Mode, Target};
+use slowlight_routine::{Op, Range, Routine, Runtime};
+
+/// Plans a graph that `sema` lowered for this target's inks and offset.
+pub fn plan(graph: &Graph, target: &'static Target, goal: &Goal) -> Result<Plan, Vec<Diagnostic>> {
+    let all = Rewriting::Fast {
+        thrift: Thrift::default(),
+        steps: Steps::All,
+    };
+    planned(graph, target, goal, all)
+}
+
+/// The same without the passes that rewrite formulas ([`crate::passes::stable`]
+/// and those for speed): every one as the scene has it. For warnings about what the formulas lose, and to show what the pass does.
+pub fn plan_as_written(
+    graph: &Graph,
+    target: &'static Target,
+    goal: &Goal,
+) -> Result<Plan, Vec<Diagnostic>> {
+    planned(graph, target, goal, Rewriting::None)
+}
+
+/// Which passes may rewrite formulas.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Rewriting {
+    /// None: every formula as the scene has it.
+    None,
+    /// [`crate::passes::stable`].
+    Stable,
+    /// Those for speed, too; perhaps with little memory.
+    Fast { thrift: Thrift, steps: Steps },
+}
+
+/// How often stable forms are looked for: what one makes may let another in.
+const STABLE_ROUNDS: u32 = 4;
+
+pub(super) fn planned(
+    origin: &Graph,
+    target: &'static Target,
+    goal: &Goal,
+    rewriting: Rewriting,
+) -> Result<Plan, Vec<Diagnostic>> {
+    let runtime = target.runtime;
+    if let Err(broken) = verify(origin) {
+        let message =
+            format!("the graph is broken: {broken}; a fault of the compiler, please report it");
+        return Err(vec![Diagnostic::error(origin.span(broken.node), message)]);
+    }
+    let params = params::params(origin, runtime)?;
+    let slack = Slack::of(runtime);
+    let rounds = match rewriting {
+        Rewriting::None => 0,
+        _ => STABLE_ROUNDS,
+    };
+    let drawn = |graph: Graph| match rewriting {
+        Rewriting::Fast { thrift, .. } if thrift.passes() && runtime.segments => {
+            interlaced(&graph, (target.pixels)(&goal.mode)).unwrap_or(graph)
+        }
+        _ => graph,
+    };
+    let mut now = steady(&drawn(fold(&without(origin))), &slack, rounds);
+    if let Rewriting::Fast { thrift, steps } = rewriting {
+        let early =
+            (!origin.early.is_empty()).then(|| steady(&drawn(fold(origin)), &slack, rounds));
+        let early = early.as_ref().map(|settled| &settled.graph);
+        let price = Price::new(&now, runtime, thrift);
+        let all = cheaper(now.clone(), early, &slack, runtime, thrift);
+        let all = all
+            .into_iter()
+            .map(|plan| with_recipes_followed(plan, &slack, runtime, thrift))
+            .map(|plan| stepped(plan, &slack, target, thrift, steps));
+        now = price.cheapest(all).unwrap_or(now);
+        now = apart_at_last(now, &slack, runtime, thrift);
+    }
+    let Settled {
+        graph,
+        tree,
+        ranges,
+    } = now;
+    if let Some(id) = missing(&graph, &tree) {
+        let message = format!("the schedule lost {id}: a fault of the compiler, please report it");
+        return Err(vec![Diagnostic::error(graph.span(id), message)]);
+    }
+    let origin = (Box::new(origin.clone()), rewriting);
+    assemble(graph, tree, ranges, params, target, goal, origin)
+}
+
+/// A graph with stable forms of its formulas.
+fn steady(origin: &Graph, slack: &Slack, rounds: u32) -> Settled {
+    let mut now = scheduled(fold(origin), slack);
+    for _ in 0..rounds {
+        let Some(next) = stable(&now.graph, &now.ranges, slack.most()) else {
+            break;
+        };
+        now = scheduled(fold(&next), slack);
+    }
+    settle(&now.graph, slack)
+}
+
+/// A plan of statements whose ranges are known.
+pub(super) fn assemble(
+    graph: Graph,
+    tree: Tree,
+    ranges_now: Ranges,
+    params: Vec<ParamPlan>,
+    target: &'static Target,
+    goal: &Goal,
+    origin: (Box<Graph>, Rewriting),
+) -> Result<Plan, Vec<Diagnostic>> {
+    let runtime = target.runtime;
+    let routines = choose::choose(&graph, &tree, &ranges_now, runtime)?;
+    let tables = recipes::made(&graph, runtime);
+    let gather = graph.diffusion.as_ref().and_then(|_| gathering(runtime));
+    let runs = !tree.segment.is_empty();
+    let still = runs.then(|| still(&graph)).flatten();
+    let folded = fold_uses::folded(&graph, &tree, still.as_ref());
+    let (offset, columns, rows) = frame(&graph.image, &goal.mode);
+    let rows = match goal.rows {
+        Some((first, last)) => (first.clamp(rows.0, rows.1), last.clamp(rows.0, rows.1)),
+        None => rows,
+    };
+    let homes = names::homes(&graph, &tree);
+    Ok(Plan {
+        name: goal.name.clone(),
+        target,
+        runtime,
+        mode: goal.mode,
+        offset,
+        columns,
+        rows,
+        plot: goal.plot,
+        tight: false,
+        listing: false,
+        items: Vec::new(),
+        lean: false,
+        page: None,
+        ranges: ranges_now,
+        params,
+        routines,
+        tables,
+        gather,
+        folded,
+        still,
+        homes,
+        graph,
+        tree,
+        origin,
+    })
+}
+
+/// The addition that is right for all arguments: what a pixel receives has no
+/// bounds that could be known beforehand.
+fn gathering(runtime: &'static Runtime) -> Option<&'static Routine> {
+    let all = Range::ALL;
+    let fits = |r: &&Routine| r.op == Op::Add && (r.domain)(&[all, all], all);
+    runtime.routines.iter().find(fits)
+}
+
+/// Where the picture stands on the screen, and which of it is seen: centred
+/// where the screen is larger, cropped where it is smaller.
+fn frame(image: &Image, mode: &Mode) -> ((i32, i32), (u32, u32), (u32, u32)) {
+    let axis = |picture: u32, screen: u32| {
+        let offset = (i64::from(screen) - i64::from(picture)).div_euclid(2);
+        let first = (-offset).max(0);
+        let last = (first + i64::from(screen.min(picture)) - 1).min(i64::from(picture) - 1);
+        (offset as i32, (first as u32, last.max(first) as u32))
+    };
+    let (left, columns) = axis(image.width, mode.width);
+    let (top, rows) = axis(image.height, mode.height);
+    ((left, top), columns, rows)
+}

@@ -1,0 +1,73 @@
+//! The operands that the harness's Jack makes and the sums that it forms, a second time.
+
+use crate::model::{Float, int, int_bits, wrap};
+use slowlight_routine::{Bits, Format};
+
+/// The generator: what `Main.random` does.
+pub struct Generator(pub i32);
+
+impl Generator {
+    fn next(&mut self) -> i32 {
+        self.0 = wrap(self.0.wrapping_mul(25173).wrapping_add(13849));
+        self.0 & 32767
+    }
+
+    fn float(&mut self) -> Float {
+        let kind = self.next() / 4096;
+        let e = match kind {
+            0 => (self.next() - 8000).min(8000),
+            _ => 117 + self.next() / 1638,
+        };
+        let s = self.next() / 16384;
+        let m = 8192 + self.next() / 4;
+        if kind == 7 && self.next() < 4096 {
+            Float { s, e: 0, m: 0 }
+        } else {
+            Float { s, e, m }
+        }
+    }
+
+    fn int(&mut self) -> i32 {
+        let kind = self.next() / 8192;
+        let whole = self.next();
+        match kind {
+            0 => (whole - 16384) * 2 + self.next() / 16384,
+            1 => whole / 64 - 256,
+            _ => whole / 2048 - 8,
+        }
+    }
+
+    pub fn bits(&mut self, format: Format) -> Bits {
+        match format {
+            Format::Bool => Bits::from(self.next() < 16384),
+            Format::Float316 => self.float().bits(),
+            _ => int_bits(self.int()),
+        }
+    }
+}
+
+/// The two sums over results.
+#[derive(Debug, Default, PartialEq)]
+pub struct Sums(pub i32, pub i32);
+
+impl Sums {
+    fn note(&mut self, word: i32) {
+        self.0 = wrap(self.0.wrapping_mul(31).wrapping_add(word));
+        self.1 = wrap(
+            (self.1.wrapping_add(word))
+                .wrapping_mul(25173)
+                .wrapping_add(1),
+        );
+    }
+
+    pub fn result(&mut self, bits: Bits, format: Format) {
+        match format {
+            Format::Bool => self.note(if bits == 0 { 0 } else { -1 }),
+            Format::Float316 => {
+                let Float { s, e, m } = Float::from_bits(bits);
+                [s, e, m].into_iter().for_each(|word| self.note(word));
+            }
+            _ => self.note(int(bits)),
+        }
+    }
+}

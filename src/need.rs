@@ -1,0 +1,219 @@
+//! What a plan's program takes of the machine's memory.
+//!
+//! Sizes are those of the machine's own tools: the tokeniser's program and the
+//! list entries of its names, the assembler's bytes. What only running would
+//! tell is bounded: BASIC's stack, the heap of a Jack program at its start.
+
+use crate::failure::{Failure, Outcome};
+use crate::format::count;
+use slowlight_compiler::flow::tree::{Statement, Tree, walk};
+use slowlight_compiler::plan::Plan;
+use slowlight_compiler::target::Document;
+use slowlight_vm::bbc::{Config, Dialect, Machine, tokenise};
+use slowlight_vm::mos6502::{extent, plain::port};
+
+/// What BASIC's stack takes at most: three calls of the runtime's functions
+/// inside each other, of 28 bytes and 8 an argument, and as much as a call more
+/// for what an expression holds meanwhile.
+const BASIC_STACK: u64 = 160;
+
+/// What a procedure without arguments leaves on it while it runs: the
+/// processor's stack, and where to return to.
+const BASIC_CALL: u64 = 28;
+
+/// Words of the Hack computer's heap, and those that each object has beside its own.
+const HEAP: u64 = 16384 - 2048;
+const HEADER: u64 = 2;
+
+/// What a program takes of a machine's memory.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Need {
+    /// `bytes` or `words`.
+    unit: &'static str,
+    /// Each part and its size.
+    parts: Vec<(&'static str, u64)>,
+    /// What the machine has.
+    room: u64,
+}
+
+impl Need {
+    /// Everything together.
+    pub fn total(&self) -> u64 {
+        self.parts.iter().map(|(_, size)| size).sum()
+    }
+
+    /// Whether the machine holds it.
+    pub fn fits(&self) -> bool {
+        self.total() <= self.room
+    }
+
+    /// `6,120 of 5,888 bytes, 232 too many (program 5,300, ..)`.
+    pub fn text(&self) -> String {
+        let parts = self.parts.iter().filter(|(_, size)| *size > 0);
+        let parts: Vec<String> = parts.map(|(n, s)| format!("{n} {}", count(*s))).collect();
+        format!(
+            "{} of {} {}, {} too many ({})",
+            count(self.total()),
+            count(self.room),
+            self.unit,
+            count(self.total().saturating_sub(self.room)),
+            parts.join(", ")
+        )
+    }
+}
+
+/// What a plan's program takes; `None` where nothing is known of the machine.
+///
+/// # Errors
+/// Where the machine's tools refuse the text, which is a fault of ours.
+pub fn need(plan: &Plan) -> Outcome<Option<Need>> {
+    let documents = (plan.target.emit)(plan);
+    let dialect = match plan.target.name {
+        "bbc:micro" => Dialect::Micro,
+        "bbc:agon" => Dialect::Agon,
+        "bbc:basicv" => Dialect::BasicV,
+        "6502:plain" => return Ok(documents.first().map(assembly)),
+        "jack" => return Ok(Some(heap(&documents))),
+        _ => return Ok(None),
+    };
+    match documents.first() {
+        Some(document) => basic(plan, document, dialect),
+        None => Ok(None),
+    }
+}
+
+fn basic(plan: &Plan, document: &Document, dialect: Dialect) -> Outcome<Option<Need>> {
+    let refuse = |fault: slowlight_vm::Fault| {
+        Failure::Wrong(format!("the tokeniser refuses {}: {fault}", document.name))
+    };
+    let tokens = tokenise(&document.text, dialect).map_err(refuse)?;
+    let mut machine = Machine::new(Config {
+        dialect,
+        page: plan.page.unwrap_or(Config::default().page),
+    });
+    machine.load_tokenised(&tokens).map_err(refuse)?;
+    let mode = plan.mode.name.parse().ok();
+    let Some(room) = mode.and_then(|mode| machine.memory(mode)) else {
+        return Ok(None);
+    };
+    Ok(Some(Need {
+        unit: "bytes",
+        parts: vec![
+            ("program", machine.program_bytes() as u64),
+            ("variables", machine.entry_bytes() as u64),
+            ("arrays", arrays(&document.text)),
+            ("stack", BASIC_STACK + BASIC_CALL * depth(&plan.tree)),
+        ],
+        room: room as u64,
+    }))
+}
+
+/// How many subroutines run inside each other at most.
+fn depth(tree: &Tree) -> u64 {
+    let mut depths: Vec<u64> = vec![0; tree.subroutines.len()];
+    // One that is called stands before or behind who calls it; no chain of
+    // calls is longer than there are subroutines.
+    for _ in 0..depths.len() {
+        for (k, subroutine) in tree.subroutines.iter().enumerate() {
+            let mut inner = 0;
+            walk(&subroutine.body, &mut |statement| {
+                if let Statement::Call(id) = statement {
+                    inner = inner.max(depths.get(id.0 as usize).copied().unwrap_or(0));
+                }
+            });
+            if let Some(depth) = depths.get_mut(k) {
+                *depth = inner + 1;
+            }
+        }
+    }
+    depths.into_iter().max().unwrap_or(0)
+}
+
+/// Bytes of the arrays that a program makes with constant bounds.
+fn arrays(text: &str) -> u64 {
+    let mut bytes = 0;
+    for (at, _) in text.match_indices("DIM") {
+        let behind = text.get(at + 3..).unwrap_or_default();
+        let Some((name, rest)) = behind.split_once('(') else {
+            continue;
+        };
+        let bounds = rest.split_once(')').map_or("", |(inside, _)| inside);
+        let bounds: Vec<u64> = bounds.split(',').filter_map(|n| n.parse().ok()).collect();
+        let element = if name.ends_with('%') { 4 } else { 5 };
+        let elements: u64 = bounds.iter().map(|n| n + 1).product();
+        bytes += 1 + 2 * bounds.len() as u64 + element * elements;
+    }
+    bytes
+}
+
+fn assembly(document: &Document) -> Need {
+    let (origin, end) = extent(&document.text);
+    Need {
+        unit: "bytes",
+        parts: vec![
+            ("values and the runtime's tables", u64::from(origin)),
+            ("program", u64::from(end.saturating_sub(origin))),
+        ],
+        room: u64::from(port::WIDTH),
+    }
+}
+
+/// The heap of a Jack program before it draws: one object of fields, Floats and
+/// arrays. Rows of errors are made in a loop, one Float an element.
+fn heap(documents: &[Document]) -> Need {
+    let (mut fields, mut floats, mut arrays, mut rows) = (0, 0, 0, 0);
+    // Behind `Main` comes the scene's class.
+    let scene = documents.get(1).map_or("", |d| d.text.as_str());
+    for line in scene.lines().map(str::trim_start) {
+        if let Some(declared) = line.strip_prefix("field ") {
+            let names = declared.split(';').next().unwrap_or_default();
+            fields += names.split(',').count() as u64;
+        } else if let Some((_, size)) = line.split_once("= Array.new(") {
+            let size = size.split(')').next().and_then(|n| n.parse::<u64>().ok());
+            let size = size.unwrap_or(0);
+            arrays += size + HEADER;
+            if line.starts_with("let errors") {
+                rows += size;
+            }
+        } else if line.contains("= Float.constant(") || line.contains("= Float.new(") {
+            floats += 1;
+        }
+    }
+    let float = 3 + HEADER;
+    Need {
+        unit: "words",
+        parts: vec![
+            ("fields", fields + HEADER),
+            ("numbers", floats * float),
+            ("tables", arrays),
+            ("errors", rows * float),
+        ],
+        room: HEAP,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn arrays_are_counted_as_the_machine_makes_them() {
+        assert_eq!(arrays("10DIM a(7,7):b=1"), 5 + 5 * 64);
+        assert_eq!(arrays("10DIMn%(3):DIM error(9,1)"), 3 + 16 + 5 + 100);
+        assert_eq!(arrays("10PRINT"), 0);
+    }
+
+    #[test]
+    fn a_need_says_how_far_it_is_off() {
+        let need = Need {
+            unit: "bytes",
+            parts: vec![("program", 5000), ("arrays", 0), ("variables", 1000)],
+            room: 5888,
+        };
+        assert!(!need.fits());
+        assert_eq!(
+            need.text(),
+            "6,000 of 5,888 bytes, 112 too many (program 5,000, variables 1,000)"
+        );
+    }
+}
