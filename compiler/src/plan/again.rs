@@ -3,9 +3,11 @@
 use super::made::{Rewriting, planned};
 use super::stepped::Steps;
 use super::thrift::Thrift;
+use super::workshop::Workshop;
 use super::{Goal, Plan};
 use crate::flow::graph::*;
 use crate::flow::tree::*;
+use std::sync::Arc;
 
 impl Plan {
     /// A plan of the same scene that computes the shade at every pixel, where
@@ -19,9 +21,10 @@ impl Plan {
         if !gone && (self.place(shade).is_none() || tree.outer().into_iter().any(always)) {
             return None;
         }
-        let mut graph = (*self.origin.0).clone();
+        let mut graph = self.origin.0.origin.clone();
         graph.reports.extend(graph.shade);
-        let mut plan = self.again(&graph, self.origin.1)?;
+        let shop = Arc::new(Workshop::new(graph, self.runtime));
+        let mut plan = self.again(&shop, self.origin.1)?;
         if self.is_outlined() {
             plan = plan.outlined(&|_| None).ok()?;
         }
@@ -86,14 +89,14 @@ impl Plan {
         stepped.then(|| self.again(&self.origin.0, less)).flatten()
     }
 
-    fn again(&self, graph: &Graph, rewriting: Rewriting) -> Option<Plan> {
+    fn again(&self, shop: &Arc<Workshop>, rewriting: Rewriting) -> Option<Plan> {
         let goal = Goal {
             name: self.name.clone(),
             mode: self.mode,
             rows: Some(self.rows),
             plot: self.plot,
         };
-        let mut plan = planned(graph, self.target, &goal, rewriting).ok()?;
+        let mut plan = planned(shop, self.target, &goal, rewriting).ok()?;
         plan.params = self.params.clone();
         plan.items = self.items.clone();
         (plan.listing, plan.page) = (self.listing, self.page);

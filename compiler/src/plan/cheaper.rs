@@ -9,8 +9,9 @@
 
 use super::price::Price;
 use super::recipes::followed;
-use super::settled::{Settled, scheduled, settle};
+use super::settled::Settled;
 use super::thrift::Thrift;
+use super::workshop::{Rewritten, Workshop};
 use crate::flow::graph::*;
 use crate::passes::algebra::{Cheaper, Verdicts, algebra, decided, spans};
 use crate::passes::apart::apart;
@@ -21,7 +22,7 @@ use crate::passes::identities::{around, identities};
 use crate::passes::peel::peel;
 use crate::passes::squares::squares;
 use crate::passes::threshold::threshold;
-use crate::range::{Ranges, Slack};
+use crate::range::Ranges;
 use slowlight_routine::{Format, Runtime, Type};
 use std::cell::Cell;
 use std::collections::BTreeMap;
@@ -63,14 +64,13 @@ const PATIENCE: usize = 10_000;
 pub fn cheaper(
     plain: Settled,
     early: Option<&Graph>,
-    slack: &Slack,
-    runtime: &'static Runtime,
+    shop: &Workshop,
     thrift: Thrift,
 ) -> Vec<Settled> {
     let mut site = Site {
-        slack,
-        runtime,
-        price: Price::new(&plain, runtime, thrift),
+        shop,
+        runtime: shop.runtime,
+        price: Price::new(&plain, shop.runtime, thrift),
         runs: thrift.runs(),
         products: false,
         other: Cell::new(false),
@@ -92,16 +92,29 @@ type Pass = for<'g> fn(
     &Verdicts<'g>,
 ) -> Option<Cheaper>;
 
+/// Which of these.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Rewrite {
+    Forms,
+    Identities,
+    Spans,
+}
+
+impl Rewrite {
+    fn pass(self) -> Pass {
+        match self {
+            Rewrite::Forms => algebra,
+            Rewrite::Identities => identities,
+            Rewrite::Spans => spans,
+        }
+    }
+}
+
 /// With tables' recipes followed where their entries are needed, if that is worth
 /// the memory.
-pub fn with_recipes_followed(
-    plan: Settled,
-    slack: &Slack,
-    runtime: &'static Runtime,
-    thrift: Thrift,
-) -> Settled {
-    let price = Price::new(&plan, runtime, thrift);
-    let next = followed(&plan.graph, runtime).map(|graph| settle(&graph, slack));
+pub fn with_recipes_followed(plan: Settled, shop: &Workshop, thrift: Thrift) -> Settled {
+    let price = Price::new(&plan, shop.runtime, thrift);
+    let next = followed(&plan.graph, shop.runtime).map(|graph| shop.settle(&graph));
     match next {
         Some(next) if price.of(&next) < price.of(&plan) => next,
         _ => plan,
@@ -110,26 +123,21 @@ pub fn with_recipes_followed(
 
 /// With values computed where they are needed rather than once for all, where
 /// that is less often: the last of the passes.
-pub fn apart_at_last(
-    plan: Settled,
-    slack: &Slack,
-    runtime: &'static Runtime,
-    thrift: Thrift,
-) -> Settled {
-    let price = Price::new(&plan, runtime, thrift);
+pub fn apart_at_last(plan: Settled, shop: &Workshop, thrift: Thrift) -> Settled {
+    let price = Price::new(&plan, shop.runtime, thrift);
     let mut best = plan;
     for _ in 0..APART {
         let next = apart(&best.graph, &best.tree, &price.worth(&best));
         let Some(next) = next else {
             break;
         };
-        best = scheduled(next, slack);
+        best = shop.scheduled(next);
     }
     best
 }
 
 struct Site<'s> {
-    slack: &'s Slack,
+    shop: &'s Workshop,
     runtime: &'static Runtime,
     price: Price,
     /// Whether runs of columns may be looked for.
@@ -158,7 +166,7 @@ impl Site<'_> {
                 .and_then(|graph| in_loops(&peel(graph, of, BODY)?))
                 .and_then(|graph| guard(&graph, of, 2, BODY));
             for (graph, limit) in [(Some(peeled), COPY), (guarded, GUARD), (sooner, GUARD)] {
-                let tried = graph.map(|graph| settle(&graph, self.slack));
+                let tried = graph.map(|graph| self.shop.settle(&graph));
                 if let Some(found) = tried.and_then(|plan| self.rewritten(&plan))
                     && self.cost(&found) < limit * self.cost(&best)
                 {
@@ -173,12 +181,12 @@ impl Site<'_> {
     /// as they make it cheaper; nothing where they do not.
     fn rewritten(&self, plain: &Settled) -> Option<Settled> {
         let compared = threshold(&plain.graph, &plain.ranges, self.runtime)
-            .map(|next| settle(&next, self.slack))
+            .map(|next| self.shop.settle(&next))
             .filter(|next| self.cost(next) < self.cost(plain));
         let base = compared.as_ref().unwrap_or(plain);
-        let mut best = self.sited(base, FORMS, algebra).or(compared.clone());
+        let mut best = self.sited(base, FORMS, Rewrite::Forms).or(compared.clone());
         for held in self.held(base) {
-            let found = self.sited(&held, FORMS, algebra).unwrap_or(held);
+            let found = self.sited(&held, FORMS, Rewrite::Forms).unwrap_or(held);
             let limit = best.as_ref().unwrap_or(plain);
             if self.cost(&found) < self.cost(limit) {
                 best = Some(found);
@@ -187,15 +195,18 @@ impl Site<'_> {
         let found = best;
         let base = found.as_ref().unwrap_or(plain);
         let shared = squares(&base.graph, &base.ranges)
-            .map(|next| settle(&next, self.slack))
+            .map(|next| self.shop.settle(&next))
             .filter(|next| self.cost(next) < self.cost(base));
         let found = shared.or(found);
         let base = found.as_ref().unwrap_or(plain);
         let found = self.around(base).or(found);
         let base = found.as_ref().unwrap_or(plain);
-        let found = self.sited(base, SHORTER, identities).or(found);
+        let found = self.sited(base, SHORTER, Rewrite::Identities).or(found);
         let base = found.as_ref().unwrap_or(plain);
-        let cut = self.runs.then(|| self.sited(base, SPANS, spans)).flatten();
+        let cut = self
+            .runs
+            .then(|| self.sited(base, SPANS, Rewrite::Spans))
+            .flatten();
         cut.or(found)
     }
 
@@ -212,7 +223,7 @@ impl Site<'_> {
             let (held, longer) = homogeneous(&plain.graph, &plain.ranges, length)?;
             self.other.set(self.other.get() || longer.is_some());
             let held = longer.filter(|_| self.products).unwrap_or(held);
-            Some(self.decided(settle(&held, self.slack)))
+            Some(self.decided(self.shop.settle(&held)))
         })
     }
 
@@ -220,7 +231,7 @@ impl Site<'_> {
     fn around(&self, plan: &Settled) -> Option<Settled> {
         let few = plan.graph.nodes.len() <= NODES;
         let next = few.then(|| around(&plan.graph, &plan.ranges, self.runtime))??;
-        Some(settle(&next, self.slack))
+        Some(self.shop.settle(&next))
     }
 
     /// The plan without comparisons that come out the same at every pixel.
@@ -229,13 +240,13 @@ impl Site<'_> {
             return plan;
         }
         match decided(&plan.graph, &plan.ranges, self.runtime) {
-            Some(next) => settle(&next, self.slack),
+            Some(next) => self.shop.settle(&next),
             None => plan,
         }
     }
 
     /// A plan with what a pass puts at the sites where that pays.
-    fn sited(&self, plain: &Settled, part: f64, pass: Pass) -> Option<Settled> {
+    fn sited(&self, plain: &Settled, part: f64, pass: Rewrite) -> Option<Settled> {
         if plain.graph.nodes.len() > NODES {
             return None;
         }
@@ -257,7 +268,7 @@ impl Site<'_> {
     fn fewer<'p>(
         &self,
         plain: &'p Settled,
-        pass: (Pass, &Verdicts<'p>),
+        pass: (Rewrite, &Verdicts<'p>),
         sites: &[NodeId],
         (without, all): (Vec<NodeId>, Settled),
     ) -> (f64, Settled) {
@@ -277,7 +288,7 @@ impl Site<'_> {
     fn more<'p>(
         &self,
         (now, plain): (f64, &'p Settled),
-        pass: (Pass, &Verdicts<'p>),
+        pass: (Rewrite, &Verdicts<'p>),
         sites: &[NodeId],
     ) -> (f64, Settled) {
         let mut tries: Vec<Vec<NodeId>> = sites.iter().map(|id| vec![*id]).collect();
@@ -294,7 +305,7 @@ impl Site<'_> {
     fn stepwise<'p>(
         &self,
         plain: &'p Settled,
-        pass: (Pass, &Verdicts<'p>),
+        pass: (Rewrite, &Verdicts<'p>),
         (mut limit, mut without, mut best): (f64, Vec<NodeId>, Settled),
         tries: Vec<Vec<NodeId>>,
         out: impl Fn(&[NodeId], &[NodeId]) -> Vec<NodeId>,
@@ -316,13 +327,15 @@ impl Site<'_> {
     fn with<'p>(
         &self,
         plain: &'p Settled,
-        pass: (Pass, &Verdicts<'p>),
+        pass: (Rewrite, &Verdicts<'p>),
         without: &[NodeId],
-    ) -> Option<(Settled, Vec<NodeId>)> {
-        let may = |id: NodeId| !without.contains(&id);
+    ) -> Rewritten {
         let (pass, verdicts) = pass;
-        let found = pass(&plain.graph, &plain.ranges, self.runtime, &may, verdicts)?;
-        Some((settle(&found.graph, self.slack), found.sites))
+        self.shop.rewritten(plain, pass, without, || {
+            let may = |id: NodeId| !without.contains(&id);
+            let found = pass.pass()(&plain.graph, &plain.ranges, self.runtime, &may, verdicts)?;
+            Some((self.shop.settle(&found.graph), found.sites))
+        })
     }
 }
 

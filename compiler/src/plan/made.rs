@@ -3,9 +3,10 @@
 use super::cheaper::{apart_at_last, cheaper, with_recipes_followed};
 use super::params::{self, ParamPlan};
 use super::price::Price;
-use super::settled::{Settled, scheduled, settle};
+use super::settled::{Known, Settled};
 use super::stepped::{Steps, stepped};
 use super::thrift::Thrift;
+use super::workshop::Workshop;
 use super::{Goal, Plan, choose, fold_uses, names, recipes};
 use crate::flow::graph::*;
 use crate::flow::tree::*;
@@ -16,10 +17,11 @@ use crate::passes::interlace::interlaced;
 use crate::passes::schedule::missing;
 use crate::passes::stable::stable;
 use crate::passes::still::still;
-use crate::range::{Ranges, Slack};
+use crate::range::Ranges;
 use crate::source::Diagnostic;
 use crate::target::{Mode, Target};
 use slowlight_routine::{Op, Range, Routine, Runtime};
+use std::sync::Arc;
 
 /// Plans a graph that `sema` lowered for this target's inks and offset.
 pub fn plan(graph: &Graph, target: &'static Target, goal: &Goal) -> Result<Plan, Vec<Diagnostic>> {
@@ -27,7 +29,7 @@ pub fn plan(graph: &Graph, target: &'static Target, goal: &Goal) -> Result<Plan,
         thrift: Thrift::default(),
         steps: Steps::All,
     };
-    planned(graph, target, goal, all)
+    planned(&begun(graph, target), target, goal, all)
 }
 
 /// The same without the passes that rewrite formulas ([`crate::passes::stable`]
@@ -37,7 +39,11 @@ pub fn plan_as_written(
     target: &'static Target,
     goal: &Goal,
 ) -> Result<Plan, Vec<Diagnostic>> {
-    planned(graph, target, goal, Rewriting::None)
+    planned(&begun(graph, target), target, goal, Rewriting::None)
+}
+
+fn begun(graph: &Graph, target: &'static Target) -> Arc<Workshop> {
+    Arc::new(Workshop::new(graph.clone(), target.runtime))
 }
 
 /// Which passes may rewrite formulas.
@@ -55,19 +61,18 @@ pub(super) enum Rewriting {
 const STABLE_ROUNDS: u32 = 4;
 
 pub(super) fn planned(
-    origin: &Graph,
+    shop: &Arc<Workshop>,
     target: &'static Target,
     goal: &Goal,
     rewriting: Rewriting,
 ) -> Result<Plan, Vec<Diagnostic>> {
-    let runtime = target.runtime;
+    let (origin, runtime) = (&shop.origin, target.runtime);
     if let Err(broken) = verify(origin) {
         let message =
             format!("the graph is broken: {broken}; a fault of the compiler, please report it");
         return Err(vec![Diagnostic::error(origin.span(broken.node), message)]);
     }
     let params = params::params(origin, runtime)?;
-    let slack = Slack::of(runtime);
     let rounds = match rewriting {
         Rewriting::None => 0,
         _ => STABLE_ROUNDS,
@@ -78,43 +83,44 @@ pub(super) fn planned(
         }
         _ => graph,
     };
-    let mut now = steady(&drawn(fold(&without(origin))), &slack, rounds);
+    let mut now = steady(shop, &drawn(fold(&without(origin))), rounds);
     if let Rewriting::Fast { thrift, steps } = rewriting {
-        let early =
-            (!origin.early.is_empty()).then(|| steady(&drawn(fold(origin)), &slack, rounds));
+        let early = (!origin.early.is_empty()).then(|| steady(shop, &drawn(fold(origin)), rounds));
         let early = early.as_ref().map(|settled| &settled.graph);
         let price = Price::new(&now, runtime, thrift);
-        let all = cheaper(now.clone(), early, &slack, runtime, thrift);
+        let all = cheaper(now.clone(), early, shop, thrift);
         let all = all
             .into_iter()
-            .map(|plan| with_recipes_followed(plan, &slack, runtime, thrift))
-            .map(|plan| stepped(plan, &slack, target, thrift, steps));
+            .map(|plan| with_recipes_followed(plan, shop, thrift))
+            .map(|plan| stepped(plan, shop, target, thrift, steps));
         now = price.cheapest(all).unwrap_or(now);
-        now = apart_at_last(now, &slack, runtime, thrift);
+        now = apart_at_last(now, shop, thrift);
     }
-    let Settled {
+    let Known {
         graph,
         tree,
         ranges,
-    } = now;
-    if let Some(id) = missing(&graph, &tree) {
+        ..
+    } = &*now;
+    if let Some(id) = missing(graph, tree) {
         let message = format!("the schedule lost {id}: a fault of the compiler, please report it");
         return Err(vec![Diagnostic::error(graph.span(id), message)]);
     }
-    let origin = (Box::new(origin.clone()), rewriting);
+    let origin = (shop.clone(), rewriting);
+    let (graph, tree, ranges) = (graph.clone(), tree.clone(), ranges.clone());
     assemble(graph, tree, ranges, params, target, goal, origin)
 }
 
 /// A graph with stable forms of its formulas.
-fn steady(origin: &Graph, slack: &Slack, rounds: u32) -> Settled {
-    let mut now = scheduled(fold(origin), slack);
+fn steady(shop: &Workshop, origin: &Graph, rounds: u32) -> Settled {
+    let mut now = shop.scheduled(fold(origin));
     for _ in 0..rounds {
-        let Some(next) = stable(&now.graph, &now.ranges, slack.most()) else {
+        let Some(next) = stable(&now.graph, &now.ranges, shop.slack.most()) else {
             break;
         };
-        now = scheduled(fold(&next), slack);
+        now = shop.scheduled(fold(&next));
     }
-    settle(&now.graph, slack)
+    shop.settle(&now.graph)
 }
 
 /// A plan of statements whose ranges are known.
@@ -125,7 +131,7 @@ pub(super) fn assemble(
     params: Vec<ParamPlan>,
     target: &'static Target,
     goal: &Goal,
-    origin: (Box<Graph>, Rewriting),
+    origin: (Arc<Workshop>, Rewriting),
 ) -> Result<Plan, Vec<Diagnostic>> {
     let runtime = target.runtime;
     let routines = choose::choose(&graph, &tree, &ranges_now, runtime)?;

@@ -59,6 +59,9 @@ pub(crate) mod settled;
 mod spread;
 mod stepped;
 mod thrift;
+pub(crate) mod workshop;
+#[cfg(test)]
+mod workshop_tests;
 
 pub use lifetimes::{quick_homes, shared_homes};
 pub use made::{plan, plan_as_written};
@@ -75,6 +78,8 @@ use crate::target::{Mode, Target};
 use made::Rewriting;
 use slowlight_routine::{Bits, Format, Routine, Runtime, Type, Value};
 use std::collections::HashMap;
+use std::sync::Arc;
+use workshop::Workshop;
 
 /// What to build, beside the scene and the target.
 #[derive(Clone, Debug, PartialEq)]
@@ -137,8 +142,8 @@ pub struct Plan {
     /// The runs of columns whose pixels need no computing, if there may be such.
     pub still: Option<Still>,
     homes: HashMap<Place, String>,
-    /// What was planned, and how its formulas could be rewritten.
-    origin: (Box<Graph>, Rewriting),
+    /// What was planned and made on the way, and how its formulas could be rewritten.
+    origin: (Arc<Workshop>, Rewriting),
 }
 
 impl Plan {

@@ -62,6 +62,13 @@ impl Price {
 
     /// Cycles a pixel, and something for memory.
     pub fn of(&self, plan: &Settled) -> f64 {
+        let known = &plan.costs[usize::from(self.pixels.is_empty())];
+        let (cycles, memory) = *known.get_or_init(|| (self.cycles(plan), memory(plan)));
+        cycles * (1.0 + self.memory * memory)
+    }
+
+    /// Cycles a pixel.
+    fn cycles(&self, plan: &Settled) -> f64 {
         let Ok(routines) = choose(&plan.graph, &plan.tree, &plan.ranges, self.runtime) else {
             return f64::INFINITY;
         };
@@ -100,8 +107,7 @@ impl Price {
         let pass = guess(&plan.tree.pass) + self.begun(plan, &bounds, &cost);
         let outside = guess(&plan.tree.row) + pass * passes;
         let steps = beside.steps(&plan.tree.row) + beside.steps(&plan.tree.pass);
-        let cycles = outside / width + pixel + steps;
-        cycles * (1.0 + self.memory * memory(plan))
+        outside / width + pixel + steps
     }
 
     /// The cheapest of some plans, the first of several.

@@ -2,10 +2,9 @@
 #![allow(clippy::unwrap_used)]
 
 use super::price::Price;
-use super::settled::{Settled, settle};
 use super::thrift::Thrift;
+use super::workshop::Workshop;
 use crate::flow::graph::*;
-use crate::range::Slack;
 use crate::scene::check;
 use crate::sema::Options;
 use crate::target::{bbc, jack, mos6502};
@@ -18,7 +17,7 @@ fn graph(text: &str) -> Graph {
 }
 
 fn price(graph: &Graph, runtime: &'static Runtime) -> f64 {
-    let plan: Settled = settle(graph, &Slack::of(runtime));
+    let plan = Workshop::new(graph.clone(), runtime).settle(graph);
     let price = Price::new(&plan, runtime, Thrift::default()).of(&plan);
     assert!(price.is_finite() && price > 0.0);
     price

@@ -2,31 +2,39 @@
 
 use crate::flow::graph::*;
 use crate::flow::tree::Tree;
-use crate::passes::fold::fold;
-use crate::passes::narrow::narrow;
 use crate::passes::schedule::{schedule, schedule_in_segments};
 use crate::range::{Ranges, Slack, ranges};
+use std::ops::Deref;
+use std::sync::{Arc, OnceLock};
 
-/// A graph, when each value of it is computed, and what each stays within.
+/// A graph, when each value of it is computed, and what each stays within. Copies
+/// share what is known of it.
 #[derive(Clone)]
-pub struct Settled {
+pub struct Settled(Arc<Known>);
+
+/// What is known of a graph.
+pub struct Known {
     pub graph: Graph,
     pub tree: Tree,
     pub ranges: Ranges,
+    /// Cycles and memory, as [`super::price`] has them: at pixels, and where there are none
+    /// to be looked at.
+    pub(super) costs: [OnceLock<(f64, f64)>; 2],
 }
 
-/// What is equal by algebra or decided by the ranges is folded. What the
-/// ranges decide may let more be folded; a few rounds settle it.
-pub fn settle(graph: &Graph, slack: &Slack) -> Settled {
-    let mut now = scheduled(fold(graph), slack);
-    for _ in 0..3 {
-        let next = fold(&narrow(&now.graph, &now.ranges));
-        if next.nodes == now.graph.nodes {
-            break;
-        }
-        now = scheduled(next, slack);
+impl Deref for Settled {
+    type Target = Known;
+
+    fn deref(&self) -> &Known {
+        &self.0
     }
-    now
+}
+
+impl Settled {
+    /// Something that is the same as long as the graph is there, and of no other.
+    pub(super) fn address(&self) -> usize {
+        Arc::as_ptr(&self.0) as usize
+    }
 }
 
 /// A graph as it is, scheduled, with its ranges.
@@ -36,9 +44,10 @@ pub fn scheduled(graph: Graph, slack: &Slack) -> Settled {
         false => schedule(&graph),
     };
     let ranges = ranges(&graph, &tree, slack);
-    Settled {
+    Settled(Arc::new(Known {
         graph,
         tree,
         ranges,
-    }
+        costs: Default::default(),
+    }))
 }

@@ -5,13 +5,14 @@
 //! whole statements, with what is read and assigned, since a step is one.
 
 use super::price::Price;
-use super::settled::{Settled, settle};
+use super::settled::Settled;
 use super::thrift::Thrift;
+use super::workshop::Workshop;
 use crate::flow::graph::*;
 use crate::flow::ramp;
 use crate::passes::ramps::phase::{parities, phases};
 use crate::passes::ramps::{ramps, sites};
-use crate::range::{Ranges, Slack};
+use crate::range::Ranges;
 use crate::target::Target;
 
 /// By how much a ramp must make a plan cheaper.
@@ -34,7 +35,7 @@ pub enum Steps {
 /// The plan with ramps where they make it cheaper.
 pub fn stepped(
     plain: Settled,
-    slack: &Slack,
+    shop: &Workshop,
     target: &'static Target,
     thrift: Thrift,
     steps: Steps,
@@ -43,7 +44,7 @@ pub fn stepped(
         return plain;
     }
     let site = Site {
-        slack,
+        shop,
         target,
         price: Price::new(&plain, target.runtime, thrift),
     };
@@ -59,7 +60,7 @@ pub fn stepped(
 }
 
 struct Site<'s> {
-    slack: &'s Slack,
+    shop: &'s Workshop,
     target: &'static Target,
     price: Price,
 }
@@ -75,7 +76,7 @@ impl Site<'_> {
         }
         let cost = |plan: &Settled| self.price.of(plan);
         let rewritten = |at: &[NodeId]| {
-            let next = settle(&rewrite(&plain.graph, &plain.ranges, at)?, self.slack);
+            let next = (self.shop).settle(&rewrite(&plain.graph, &plain.ranges, at)?);
             (self.target.wraps || bounded(&next)).then(|| (cost(&next), next))
         };
         let mut taken: Vec<NodeId> = Vec::new();

@@ -12,7 +12,6 @@
 //! An empty span begins behind its end. Columns are clamped to those beside the
 //! picture while they are reals, so that nothing overflows.
 
-use super::extent::ratio;
 use super::number::Number;
 use super::poly::Poly;
 use super::put::{Out, Put};
@@ -90,7 +89,7 @@ impl Site<'_> {
         let [_, b, a] = asked.parts.as_slice() else {
             return None;
         };
-        let middle = ratio(self.rows, self.full, b, a) / 2.0;
+        let middle = (self.extents).ratio(self.rows, self.full, b, a) / 2.0;
         if 2.0 * middle * self.unit.sqrt() > OFF {
             return None;
         }

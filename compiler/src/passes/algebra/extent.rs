@@ -10,13 +10,50 @@ use super::number::Number;
 use super::poly::{Atom, Poly};
 use crate::flow::graph::NodeId;
 use slowlight_routine::Range;
+use std::sync::{Mutex, PoisonError};
 
 /// How many boxes are looked at.
 const BOXES: usize = 4096;
 
+/// The bounds of polynomials that were asked for, of one graph's forms: spans ask the
+/// same again wherever others are left out.
+#[derive(Default)]
+pub struct Extents {
+    bounds: Mutex<Vec<(Poly, Range)>>,
+    ratios: Mutex<Vec<([Poly; 2], f64)>>,
+}
+
+impl Extents {
+    /// See [`extent`].
+    pub fn extent(&self, rows: &Forms<'_>, full: &Forms<'_>, poly: &Poly) -> Range {
+        once(&self.bounds, poly, || extent(rows, full, poly))
+    }
+
+    /// See [`ratio`].
+    pub fn ratio(&self, rows: &Forms<'_>, full: &Forms<'_>, b: &Poly, a: &Poly) -> f64 {
+        let pair = [b.clone(), a.clone()];
+        once(&self.ratios, &pair, || ratio(rows, full, b, a))
+    }
+}
+
+/// What was found for a key before, or is found now.
+fn once<K: PartialEq + Clone, V: Copy>(
+    known: &Mutex<Vec<(K, V)>>,
+    key: &K,
+    find: impl FnOnce() -> V,
+) -> V {
+    let held = || known.lock().unwrap_or_else(PoisonError::into_inner);
+    if let Some((_, found)) = held().iter().find(|(k, _)| k == key) {
+        return *found;
+    }
+    let found = find();
+    held().push((key.clone(), found));
+    found
+}
+
 /// The bounds of a polynomial by what is the same for a whole row (`rows`),
 /// which has a form itself (`full`).
-pub fn extent(rows: &Forms<'_>, full: &Forms<'_>, poly: &Poly) -> Range {
+fn extent(rows: &Forms<'_>, full: &Forms<'_>, poly: &Poly) -> Range {
     let of = |atom: Atom| {
         let known = known(rows, atom);
         let parts = full.get(NodeId(atom)).map(|form| form.parts.as_slice());
@@ -33,7 +70,7 @@ pub fn extent(rows: &Forms<'_>, full: &Forms<'_>, poly: &Poly) -> Range {
 /// The greatest size of b / a, both by what is the same for a whole row, where a
 /// is never 0. Both are looked at in the same boxes: params that make one large
 /// may make the other so.
-pub fn ratio(rows: &Forms<'_>, full: &Forms<'_>, b: &Poly, a: &Poly) -> f64 {
+fn ratio(rows: &Forms<'_>, full: &Forms<'_>, b: &Poly, a: &Poly) -> f64 {
     let apart = || {
         let least = extent(rows, full, a);
         extent(rows, full, b).magnitude() / least.lo.abs().min(least.hi.abs())

@@ -43,16 +43,19 @@ use crate::range::Ranges;
 use crate::source::Span;
 use arithmetic::{multiplied, scaled};
 pub use decided::decided;
+use extent::Extents;
 pub(super) use form::Forms;
 use form::{Form, Part};
 pub(super) use judge::Judge;
 use judge::{Sample, cycles, samples};
 pub(super) use number::Number;
 use put::Put;
+use rustc_hash::FxHashMap;
 use slowlight_routine::{Format, Op, Runtime, Type};
 pub use span::spans;
-use std::cell::{OnceCell, RefCell};
-use std::collections::{BTreeSet, HashMap, HashSet};
+use std::cell::RefCell;
+use std::collections::{BTreeSet, HashSet};
+use std::sync::OnceLock;
 pub use whole::Whole;
 
 /// By how much a form's roundings may exceed those of what it replaces, given
@@ -65,15 +68,20 @@ pub(super) fn allowance(format: Format) -> f64 {
     }
 }
 
+/// Which nodes have good forms, of those looked at.
+type Good = FxHashMap<NodeId, bool>;
+
 /// What was found out about a graph's nodes, for whoever asks again with others
 /// left out.
 #[derive(Default)]
 pub struct Verdicts<'g> {
-    /// Whether a form is good in a node's place: that hardly depends on those.
-    good: RefCell<HashMap<NodeId, bool>>,
-    full: OnceCell<Forms<'g>>,
-    rows: OnceCell<Forms<'g>>,
-    formulas: OnceCell<Vec<(NodeId, Found)>>,
+    /// Whether a form is good in a node's place, as seen with forms wherever they are
+    /// good: that hardly depends on those left out.
+    good: OnceLock<Good>,
+    full: OnceLock<Forms<'g>>,
+    rows: OnceLock<Forms<'g>>,
+    extents: Extents,
+    formulas: OnceLock<Vec<(NodeId, Found)>>,
 }
 
 impl<'g> Verdicts<'g> {
@@ -117,24 +125,21 @@ pub fn algebra<'g>(
         return None;
     }
     let forms = verdicts.full(graph, ranges);
-    let mut site = Site {
+    let site = |good: Good| Site {
         exits: exits(forms),
         users: users(graph),
-        good: &verdicts.good,
+        good: RefCell::new(good),
         samples: samples(graph),
         forms,
         runtime,
         allowance,
     };
-    // What stays as it is needs its operands: they are looked at in turn.
-    for _ in 0..ROUNDS {
-        let sites = site.foreseen(may);
-        let sites = sites.unwrap_or_else(|| site.rebuilt(may).sites);
-        if !site.open(&sites) {
-            break;
-        }
-    }
-    let found = site.rebuilt(may);
+    let good = verdicts.good.get_or_init(|| {
+        let mut site = site(Good::default());
+        site.put_forms(&|_| true);
+        site.good.into_inner()
+    });
+    let found = site(good.clone()).put_forms(may);
     (!found.sites.is_empty()).then_some(found)
 }
 
@@ -187,8 +192,8 @@ struct Site<'g> {
     exits: Vec<bool>,
     /// What uses each value, itself where it is a root of the graph or of a loop.
     users: Vec<Vec<NodeId>>,
-    /// See [`Verdicts`].
-    good: &'g RefCell<HashMap<NodeId, bool>>,
+    /// See [`Verdicts`]; what was looked at since, too.
+    good: RefCell<Good>,
     samples: Vec<Sample>,
     runtime: &'g Runtime,
     allowance: f64,
@@ -197,6 +202,19 @@ struct Site<'g> {
 type New<'n> = &'n dyn Fn(NodeId) -> Option<NodeId>;
 
 impl Site<'_> {
+    /// The graph with forms in the place of exits. What stays as it is needs its
+    /// operands: they are looked at in turn.
+    fn put_forms(&mut self, may: &dyn Fn(NodeId) -> bool) -> Cheaper {
+        for _ in 0..ROUNDS {
+            let sites = self.foreseen(may);
+            let sites = sites.unwrap_or_else(|| self.rebuilt(may).sites);
+            if !self.open(&sites) {
+                break;
+            }
+        }
+        self.rebuilt(may)
+    }
+
     /// The graph with forms in the place of exits.
     fn rebuilt(&self, may: &dyn Fn(NodeId) -> bool) -> Cheaper {
         let mut sites = Vec::new();

@@ -6,7 +6,7 @@
 //! ordinary nodes, and a pixel compares its column with them ([`super::ends`]).
 
 use super::ends::Asked;
-use super::extent::{extent, negative};
+use super::extent::{Extents, negative};
 use super::form::{Forms, Two};
 use super::judge::{cycles, samples};
 use super::number::Number;
@@ -47,6 +47,7 @@ pub fn spans<'g>(
     let site = Site {
         full: verdicts.full(graph, ranges),
         rows: verdicts.rows(graph, ranges),
+        extents: &verdicts.extents,
         unit: runtime.real.epsilon(),
         width: f64::from(graph.image.width),
         column,
@@ -116,6 +117,7 @@ pub(super) struct Site<'g> {
     pub(super) full: &'g Forms<'g>,
     /// Forms by the column and what a row computes.
     pub(super) rows: &'g Forms<'g>,
+    pub(super) extents: &'g Extents,
     /// The format's unit roundoff.
     pub(super) unit: f64,
     pub(super) width: f64,
@@ -195,7 +197,7 @@ impl Site<'_> {
 
     fn span(&self, put: &mut Put<'_, '_>, strict: bool, poly: &Poly) -> Option<NodeId> {
         let mut parts = poly.by(self.column.0);
-        let lead = extent(self.rows, self.full, parts.last()?);
+        let lead = (self.extents).extent(self.rows, self.full, parts.last()?);
         // p < 0 is no -p <= 0.
         let turned = lead.hi < 0.0;
         if turned {
@@ -222,7 +224,7 @@ impl Site<'_> {
         let of = Poly {
             terms: [(factor.clone(), Number::ONE)].into(),
         };
-        if factor.is_empty() || extent(self.rows, self.full, &of).lo <= 0.0 {
+        if factor.is_empty() || (self.extents).extent(self.rows, self.full, &of).lo <= 0.0 {
             return none(parts);
         }
         let (first, rest) = parts[0].split(&factor);

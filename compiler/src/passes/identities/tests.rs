@@ -7,8 +7,8 @@ use crate::eval::native::Native;
 use crate::eval::random_graphs;
 use crate::flow::graph::*;
 use crate::passes::algebra::Verdicts;
-use crate::plan::settled::{Settled, settle};
-use crate::range::Slack;
+use crate::plan::settled::Settled;
+use crate::plan::workshop::Workshop;
 use crate::scene;
 use crate::sema::Options;
 use crate::target::find;
@@ -16,7 +16,7 @@ use slowlight_routine::Op;
 
 fn settled(graph: &Graph) -> Settled {
     let runtime = find("bbc:micro").unwrap().runtime;
-    settle(graph, &Slack::of(runtime))
+    Workshop::new(graph.clone(), runtime).settle(graph)
 }
 
 fn found(plain: &Settled) -> Option<Cheaper> {

@@ -1,0 +1,42 @@
+//! What is found in a workshop is what would be made.
+#![allow(clippy::unwrap_used)]
+
+use super::made::{Rewriting, plan, planned};
+use super::stepped::Steps;
+use super::thrift::Thrift;
+use super::workshop::Workshop;
+use super::{Goal, Plan};
+use crate::scene::check;
+use crate::sema::Options;
+use crate::target::{default_mode, find};
+use std::sync::Arc;
+
+/// A plan with less memory that was made after another is the one made by itself.
+#[test]
+fn plans_made_again_are_those_made_anew() {
+    let scene = check("mirrors", include_str!("../../../examples/mirrors.scn"));
+    let target = find("bbc:micro").unwrap();
+    let graph = scene.lower(&Options::default()).unwrap();
+    let goal = Goal {
+        name: "mirrors".to_owned(),
+        mode: default_mode(target, 320, 256).unwrap(),
+        rows: None,
+        plot: true,
+    };
+    let text = |plan: &Plan| (target.emit)(plan)[0].text.clone();
+    let plenty = plan(&graph, target, &goal).unwrap();
+    let step = 6;
+    let again = plenty.thriftier(step).unwrap();
+    let thrift = Thrift::step(step).unwrap();
+    let anew = planned(
+        &Arc::new(Workshop::new(graph, target.runtime)),
+        target,
+        &goal,
+        Rewriting::Fast {
+            thrift,
+            steps: Steps::All,
+        },
+    );
+    assert_eq!(text(&again), text(&anew.unwrap()));
+    assert_ne!(text(&again), text(&plenty), "another plan");
+}
