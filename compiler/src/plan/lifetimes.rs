@@ -8,9 +8,7 @@
 //! what they run: a subroutine's own places are alive from its first call to
 //! its last, and every other place that is alive during a call keeps clear of them.
 //!
-//! Where a target asks for it ([`quick_homes`]), a value that is only moved to
-//! a carried one is computed there at once, if nothing reads the old value in
-//! between.
+//! [`super::alive`] does the same with more care.
 
 use super::Plan;
 use super::merge::merged;
@@ -33,47 +31,19 @@ struct Lives<'p> {
     lives: HashMap<Place, Life>,
     /// For places that are one home for more than their lives: which one.
     merged: HashMap<Place, Place>,
-    /// Where each place is read.
-    reads: HashMap<Place, Vec<usize>>,
     /// Bodies of loops, inner ones first.
     bodies: Vec<Life>,
-    moves: Vec<Move>,
-    /// The loops whose way to another turn is being numbered, and where it begins.
-    inside: Vec<(LoopId, usize)>,
-}
-
-/// A carried value that is set from a node.
-#[derive(Clone, Debug)]
-struct Move {
-    to: Place,
-    from: NodeId,
-    at: usize,
-    /// Where the loop's way to another turn begins; `None` before its first turn.
-    way: Option<usize>,
 }
 
 /// For each place, the number of the home that it shares with others of its
 /// format; numbers begin at 0 for each format.
 pub fn shared_homes(plan: &Plan) -> HashMap<Place, usize> {
-    homes(plan, false)
-}
-
-/// The same, with values computed where they would be moved to: a routine's
-/// result may then replace one of its arguments.
-pub fn quick_homes(plan: &Plan) -> HashMap<Place, usize> {
-    homes(plan, true)
-}
-
-fn homes(plan: &Plan, move_less: bool) -> HashMap<Place, usize> {
     let mut lives = Lives {
         plan,
         now: 0,
         lives: HashMap::new(),
-        merged: merged(plan, move_less),
-        reads: HashMap::new(),
+        merged: merged(plan),
         bodies: Vec::new(),
-        moves: Vec::new(),
-        inside: Vec::new(),
     };
     lives.block(&plan.tree.frame);
     // The numbers of the last statements of the frame, of the row and of a pass.
@@ -94,22 +64,10 @@ fn homes(plan: &Plan, move_less: bool) -> HashMap<Place, usize> {
     plan.graph.shares().for_each(|s| lives.read(s.node));
     plan.graph.reports.iter().for_each(|&id| lives.read(id));
     lives.steps();
-    let moved = if move_less {
-        lives.moved(pixel)
-    } else {
-        Vec::new()
-    };
     lives.extend();
     let end = lives.now + 1;
     let mut all: Vec<(Place, Format)> = plan.places();
     all.retain(|(place, _)| !lives.merged.contains_key(place));
-    for &(from, to) in &moved {
-        let from_life = lives.lives.get(&from).copied();
-        if let (Some(from), Some(to)) = (from_life, lives.lives.get_mut(&to)) {
-            to.from = to.from.min(from.from);
-        }
-    }
-    all.retain(|(place, _)| !moved.iter().any(|(from, _)| from == place));
     let ends = [(0, frame), (frame, row), (row, pass)];
     let life = |place: &Place| match lives.lives.get(place) {
         Some(life) if life.from > pixel => *life,
@@ -140,11 +98,6 @@ fn homes(plan: &Plan, move_less: bool) -> HashMap<Place, usize> {
         }
         homes.insert(place, at);
     }
-    for (from, to) in moved {
-        if let Some(&at) = homes.get(&to) {
-            homes.insert(from, at);
-        }
-    }
     for (&place, &one) in &lives.merged {
         if let Some(&at) = homes.get(&one) {
             homes.insert(place, at);
@@ -167,8 +120,6 @@ impl Lives<'_> {
             return;
         };
         self.touch(place);
-        let one = self.merged.get(&place).copied().unwrap_or(place);
-        self.reads.entry(one).or_default().push(self.now);
         if self.plan.folded(id) {
             let operands = self.plan.graph.node(id).operands();
             operands.for_each(|operand| self.read(operand));
@@ -186,10 +137,7 @@ impl Lives<'_> {
                 }
                 Statement::Set { place, from } => {
                     match *from {
-                        Origin::Node(id) => {
-                            self.read(id);
-                            self.note(*place, id);
-                        }
+                        Origin::Node(id) => self.read(id),
                         Origin::Scratch(l, k) => self.touch(Place::Scratch(l, k)),
                     }
                     self.touch(*place);
@@ -229,67 +177,11 @@ impl Lives<'_> {
         self.block(&turns.body);
         self.now += 1;
         self.read(turns.again);
-        self.inside.push((turns.of, self.now));
         self.block(&turns.next);
-        self.inside.pop();
         self.now += 1;
         self.bodies.push(Life { from, to: self.now });
         self.block(&turns.done);
         self.block(&turns.otherwise);
-    }
-
-    /// Remembers a move to a carried value.
-    fn note(&mut self, place: Place, from: NodeId) {
-        if let Place::Carried(of, _) = place {
-            let inside = self.inside.iter().rev().find(|(l, _)| *l == of);
-            self.moves.push(Move {
-                to: place,
-                from,
-                at: self.now,
-                way: inside.map(|(_, way)| *way),
-            });
-        }
-    }
-
-    /// Nodes that may be computed in the home of the carried value that they
-    /// are moved to. `pixel`: the last statement before a pixel's.
-    fn moved(&self, pixel: usize) -> Vec<(Place, Place)> {
-        let mut merged: Vec<(Place, Place, Life)> = Vec::new();
-        for m in &self.moves {
-            let place = Place::Node(m.from);
-            let Some(&life) = self.lives.get(&place) else {
-                continue;
-            };
-            let plan = self.plan;
-            let own = plan.place(m.from) == Some(place) && !plan.folded(m.from);
-            let same = plan.place_format(place) == plan.place_format(m.to);
-            if !own || !same || life.from <= pixel || life.to > m.at {
-                continue;
-            }
-            let inside = |b: &Life, at: usize| (b.from..=b.to).contains(&at);
-            let apart = self.bodies.iter();
-            if apart
-                .clone()
-                .any(|b| inside(b, life.from) != inside(b, m.at))
-            {
-                continue;
-            }
-            let none = Vec::new();
-            let reads = self.reads.get(&m.to).unwrap_or(&none);
-            // Computed before it is known whether there is another turn, it
-            // would be read instead of the last one's.
-            let early = m.way.is_some_and(|next| life.from <= next);
-            let late = |at: &usize| life.from < *at && (*at <= m.at || early);
-            let meets = |(from, to, other): &(Place, Place, Life)| {
-                let twice = *from == place;
-                twice || *to == m.to && other.from <= m.at && life.from <= other.to
-            };
-            if !reads.iter().any(late) && !merged.iter().any(meets) {
-                let life = Life { to: m.at, ..life };
-                merged.push((place, m.to, life));
-            }
-        }
-        merged.into_iter().map(|(from, to, _)| (from, to)).collect()
     }
 
     /// What enters a loop's body alive, or is set for its next turn, stays so

@@ -12,10 +12,9 @@ use crate::flow::tree::*;
 use std::collections::HashMap;
 
 /// For each place that another's home serves: whose.
-/// `always`: also in programs that have no subroutines.
-pub fn merged(plan: &Plan, always: bool) -> HashMap<Place, Place> {
+pub fn merged(plan: &Plan) -> HashMap<Place, Place> {
     // Programs that fit stay as they are.
-    if !always && !plan.is_outlined() {
+    if !plan.is_outlined() {
         return HashMap::new();
     }
     let mut all = Accesses::default();

@@ -40,10 +40,14 @@
 //! The model ([`crate::eval::model`]) runs the same plan bit for bit.
 
 mod again;
+mod alive;
 mod beside;
 mod cheaper;
 mod choose;
 mod fold_uses;
+mod interference;
+#[cfg(test)]
+mod interference_tests;
 mod lifetimes;
 mod made;
 mod merge;
@@ -63,9 +67,9 @@ pub(crate) mod workshop;
 #[cfg(test)]
 mod workshop_tests;
 
-pub use lifetimes::{quick_homes, shared_homes};
+pub use interference::quick_homes;
+pub use lifetimes::shared_homes;
 pub use made::{plan, plan_as_written};
-pub use merge::merged;
 pub use params::ParamPlan;
 pub use spread::ErrorRows;
 

@@ -2,7 +2,7 @@
 
 use super::Style;
 use crate::flow::tree::{Place, SubroutineId};
-use crate::plan::{Plan, merged, quick_homes};
+use crate::plan::{Plan, quick_homes};
 use slowlight_routine::{Format, Type};
 use std::collections::{HashMap, HashSet};
 
@@ -52,18 +52,16 @@ impl Names {
         let mut sharing: HashMap<(Format, usize), String> = HashMap::new();
         for (place, format) in plan.places() {
             let mut fresh = || names.unique(plan.home(place), suffix(format.scalar()));
-            let name = match shared.as_ref().and_then(|s| s.get(&place)) {
+            let name = match shared.as_ref().and_then(|s| s.number.get(&place)) {
                 Some(&at) => sharing.entry((format, at)).or_insert_with(fresh).clone(),
                 None => fresh(),
             };
             names.homes.insert(place, name);
         }
-        if let (true, Some(Place::Node(ink))) = (shared.is_some(), plan.place(plan.graph.ink)) {
-            let ink = Place::Node(ink);
-            let own = merged(plan, true).into_iter();
-            let own = own.filter_map(|(place, one)| (one == ink).then_some(place));
-            for place in own.chain([ink]) {
-                names.homes.insert(place, "I%".to_owned());
+        if let (Some(shared), Some(ink)) = (shared, plan.place(plan.graph.ink)) {
+            let one = shared.one.get(&ink).copied();
+            for (place, _) in shared.one.iter().filter(|(_, own)| Some(**own) == one) {
+                names.homes.insert(*place, "I%".to_owned());
             }
         }
         for table in &plan.graph.tables {

@@ -60,8 +60,14 @@ impl Road<'_> {
                     if statements.len() + way.len() > LONG {
                         break;
                     }
-                    way.split(':').for_each(|statement| known.learn(statement));
-                    before = format!("{statements}{way}:GOTO ");
+                    before = statements.to_owned();
+                    for statement in way.split(':') {
+                        if !known.has(statement) {
+                            known.learn(statement);
+                            before = format!("{before}{statement}:");
+                        }
+                    }
+                    before.push_str("GOTO ");
                     to = next;
                 }
                 _ => break,
@@ -141,6 +147,16 @@ struct Known(HashMap<String, bool>);
 impl Known {
     fn of(&self, name: &str) -> Option<bool> {
         self.0.get(name).copied()
+    }
+
+    /// Whether a statement assigns what the variable has already.
+    fn has(&self, statement: &str) -> bool {
+        let holds = |name: &str, value| match value {
+            "TRUE" => self.of(name) == Some(true),
+            "FALSE" => self.of(name) == Some(false),
+            _ => false,
+        };
+        (statement.split_once('=')).is_some_and(|(name, value)| holds(name, value))
     }
 
     /// What a statement tells of a variable; what is no assignment may change any.

@@ -1,0 +1,173 @@
+//! Which values may share a variable, for targets where a copy costs much.
+//!
+//! Two places interfere where one is written while the other is alive
+//! ([`super::alive`]), unless it is written as a copy of the other; places between
+//! which a value is copied become one where they do not interfere (Chaitin,
+//! Register Allocation and Spilling via Graph Coloring, SIGPLAN 1982). So a value is
+//! computed where it would be copied to, and the copy is none.
+
+use super::Plan;
+use super::alive::{Flow, Set};
+use crate::flow::graph::*;
+use crate::flow::tree::*;
+use std::collections::HashMap;
+
+/// The variables of places.
+#[derive(Clone, Debug, Default)]
+pub struct Homes {
+    /// For each place, the number of its variable, among those of its format.
+    pub number: HashMap<Place, usize>,
+    /// The places that are one because of a copy: for each, the first of them.
+    pub one: HashMap<Place, Place>,
+}
+
+/// The variables of a plan's places, as few as are easily found.
+pub fn quick_homes(plan: &Plan) -> Homes {
+    let flow = Flow::of(plan);
+    let places = flow.places.len();
+    let mut meets = flow.meets();
+    // What may not share a variable beside: operands are read before a result is
+    // written, but not all of a statement's text is that careful.
+    let mut close = Interference::new(places);
+    for step in &flow.steps {
+        let Some(written) = step.writes else { continue };
+        for &read in &step.reads {
+            if read != written && step.copies != Some(read) {
+                close.add(written, read);
+            }
+        }
+    }
+    let mut classes = Classes::new(places);
+    for (at, step) in flow.steps.iter().enumerate() {
+        if let (Some(to), Some(from), true) = (step.writes, step.copies, at >= flow.pixel) {
+            let formats = [to, from].map(|place| flow.format(place));
+            let inside = |place: usize| flow.span[place].0 >= flow.pixel;
+            if formats[0] == formats[1] && inside(to) && inside(from) {
+                classes.join(to, from, &mut [&mut meets, &mut close]);
+            }
+        }
+    }
+    flow.coloured(&mut classes, &meets, &close)
+}
+
+impl Flow<'_> {
+    /// Which places interfere. What is asked of a pixel more than once comes out the
+    /// same each time: places that meet on neither of the two ways do not.
+    fn meets(&self) -> Interference {
+        let mut all = self.meet_where(&[None]);
+        for cond in self.asked_again() {
+            all.keep(&self.meet_where(&[Some((cond, true)), Some((cond, false))]));
+        }
+        all
+    }
+
+    /// Which places interfere in one of some cases.
+    fn meet_where(&self, cases: &[Option<(NodeId, bool)>]) -> Interference {
+        let mut meets = Interference::new(self.places.len());
+        for case in cases {
+            let (alive, reached) = (self.alive(*case), self.reached(*case));
+            for (at, step) in self.steps.iter().enumerate().filter(|(at, _)| reached[*at]) {
+                let Some(written) = step.writes else { continue };
+                for other in alive[at].iter() {
+                    if other != written && step.copies != Some(other) {
+                        meets.add(written, other);
+                    }
+                }
+            }
+        }
+        meets
+    }
+
+    /// A variable for each class of places: the first that none has with which
+    /// one of its places interferes.
+    fn coloured(&self, classes: &mut Classes, meets: &Interference, close: &Interference) -> Homes {
+        let mut order: Vec<usize> = (0..self.places.len()).collect();
+        // Stable: places that begin together stay in the order of their writing.
+        // What is likely to be written where it is read comes last.
+        let folded = |place: usize| match self.places[place] {
+            Place::Node(id) => self.plan.folded(id),
+            _ => false,
+        };
+        order.sort_by_key(|place| (folded(*place), self.span[*place].0));
+        let mut homes = Homes::default();
+        let mut given: Vec<(usize, usize)> = Vec::new();
+        for place in order {
+            let one = classes.of(place);
+            homes.one.insert(self.places[place], self.places[one]);
+            let found = given.iter().find(|(class, _)| *class == one);
+            let number = found.map(|(_, number)| *number).unwrap_or_else(|| {
+                let taken: Vec<usize> = (given.iter())
+                    .filter(|(class, _)| self.format(*class) == self.format(one))
+                    .filter(|(class, _)| meets.between(*class, one) || close.between(*class, one))
+                    .map(|(_, number)| *number)
+                    .collect();
+                (0..).find(|number| !taken.contains(number)).unwrap_or(0)
+            });
+            if found.is_none() {
+                given.push((one, number));
+            }
+            homes.number.insert(self.places[place], number);
+        }
+        homes
+    }
+}
+
+/// Which classes of places may not be one, by the first of their places.
+struct Interference(Vec<Set>);
+
+impl Interference {
+    fn new(places: usize) -> Interference {
+        Interference(vec![Set::new(places); places])
+    }
+
+    fn add(&mut self, a: usize, b: usize) {
+        self.0[a].add(b);
+        self.0[b].add(a);
+    }
+
+    fn between(&self, a: usize, b: usize) -> bool {
+        self.0[a].has(b)
+    }
+
+    /// Keeps what others have, too.
+    fn keep(&mut self, other: &Interference) {
+        for (set, other) in self.0.iter_mut().zip(&other.0) {
+            set.keep(other);
+        }
+    }
+
+    /// What interferes with one of two interferes with both together.
+    fn join(&mut self, one: usize, other: usize) {
+        for place in self.0[other].clone().iter() {
+            self.add(one, place);
+        }
+    }
+}
+
+/// Places that became one.
+struct Classes(Vec<usize>);
+
+impl Classes {
+    fn new(places: usize) -> Classes {
+        Classes((0..places).collect())
+    }
+
+    fn of(&self, mut place: usize) -> usize {
+        while self.0[place] != place {
+            place = self.0[place];
+        }
+        place
+    }
+
+    /// Makes one class of two, if the first of what they have says that they do
+    /// not interfere.
+    fn join(&mut self, a: usize, b: usize, all: &mut [&mut Interference]) {
+        let (a, b) = (self.of(a), self.of(b));
+        let (one, other) = (a.min(b), a.max(b));
+        if one == other || all[0].between(one, other) {
+            return;
+        }
+        self.0[other] = one;
+        all.iter_mut().for_each(|meets| meets.join(one, other));
+    }
+}
