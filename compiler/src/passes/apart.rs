@@ -41,11 +41,18 @@ pub fn apart(graph: &Graph, tree: &Tree, worth: Worth<'_>) -> Option<Graph> {
     (!copies.is_empty()).then(|| copied(graph, &copies))
 }
 
+/// What uses a value: another, or what a loop starts with, by its index.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+enum User {
+    Node(NodeId),
+    Start(LoopId, u32),
+}
+
 /// Which copy each user of a value has, by the block where the copy stands.
-type Copies = BTreeMap<(NodeId, NodeId), usize>;
+type Copies = BTreeMap<(User, NodeId), usize>;
 
 /// A block of the pixel's statements.
-struct Place {
+struct Part {
     inside: Option<usize>,
     often: f64,
 }
@@ -53,11 +60,11 @@ struct Place {
 /// Where values are computed and used.
 #[derive(Default)]
 struct Places {
-    blocks: Vec<Place>,
+    blocks: Vec<Part>,
     /// The block where each value is computed.
     home: HashMap<NodeId, usize>,
-    /// The values that use each one, and where they do.
-    uses: BTreeMap<NodeId, Vec<(NodeId, usize)>>,
+    /// What uses each value, and where.
+    uses: BTreeMap<NodeId, Vec<(User, usize)>>,
     /// What is used otherwise.
     fixed: HashSet<NodeId>,
 }
@@ -65,19 +72,27 @@ struct Places {
 impl Places {
     fn block(&mut self, graph: &Graph, block: &Block, inside: Option<usize>, often: f64) {
         let at = self.blocks.len();
-        self.blocks.push(Place { inside, often });
+        self.blocks.push(Part { inside, often });
         for statement in block {
             match statement {
                 Statement::Let(id) => {
                     self.home.insert(*id, at);
                     for used in graph.node(*id).operands() {
-                        self.uses.entry(used).or_default().push((*id, at));
+                        let user = User::Node(*id);
+                        self.uses.entry(used).or_default().push((user, at));
                     }
                 }
-                Statement::Set { from, .. } => {
-                    if let Origin::Node(id) = from {
-                        self.fixed.insert(*id);
-                    }
+                Statement::Set { place, from } => {
+                    let Origin::Node(id) = *from else { continue };
+                    let user = match *place {
+                        Place::Node(to) if is_choice(graph, to, id) => User::Node(to),
+                        Place::Carried(of, k) if is_start(graph, of, k, id) => User::Start(of, k),
+                        _ => {
+                            self.fixed.insert(id);
+                            continue;
+                        }
+                    };
+                    self.uses.entry(id).or_default().push((user, at));
                 }
                 Statement::If { cond, yes, no } => {
                     self.fixed.insert(*cond);
@@ -110,13 +125,26 @@ impl Places {
     }
 
     /// The outermost of the blocks that use a value.
-    fn tops(&self, uses: &[(NodeId, usize)]) -> Vec<usize> {
+    fn tops(&self, uses: &[(User, usize)]) -> Vec<usize> {
         let mut all: Vec<usize> = uses.iter().map(|(_, at)| *at).collect();
         all.sort_unstable();
         all.dedup();
         let outer = |at: &usize| !all.iter().any(|top| top != at && self.within(*at, *top));
         all.iter().copied().filter(outer).collect()
     }
+}
+
+/// Whether a value is a choice that has another in one of its arms.
+fn is_choice(graph: &Graph, to: NodeId, arm: NodeId) -> bool {
+    matches!(graph.node(to), Node::Select { cond, yes, no }
+        if cond != arm && (yes == arm) != (no == arm))
+}
+
+/// Whether a value is what a loop starts with, and not what it goes on with.
+fn is_start(graph: &Graph, of: LoopId, index: u32, id: NodeId) -> bool {
+    let turns = graph.loops.get(of.0 as usize);
+    let has = |all: &[NodeId]| all.get(index as usize) == Some(&id);
+    turns.is_some_and(|turns| has(&turns.init) && !has(&turns.next))
 }
 
 /// The graph with a copy of a value before the first of the users that have it.
@@ -129,7 +157,7 @@ fn copied(graph: &Graph, copies: &Copies) -> Graph {
         let at = |id: NodeId| moved[id.0 as usize].unwrap_or(NodeId(0));
         for used in graph.node(id).operands() {
             let mut now = at(used);
-            if let Some(top) = copies.get(&(id, used)) {
+            if let Some(top) = copies.get(&(User::Node(id), used)) {
                 now = *made
                     .entry((used, *top))
                     .or_insert_with(|| out.push(graph.node(used).with(at), used));
@@ -139,8 +167,22 @@ fn copied(graph: &Graph, copies: &Copies) -> Graph {
         let node = graph.node(id);
         let node = node.with(|a| operands.get(&a).copied().unwrap_or(a));
         moved.push(Some(out.push(node, id)));
+        let start = |of: usize, k: usize| (User::Start(LoopId(of as u32), k as u32), id);
+        for (of, turns) in graph.loops.iter().enumerate() {
+            for top in (0..turns.init.len()).filter_map(|k| copies.get(&start(of, k))) {
+                made.entry((id, *top)).or_insert_with(|| {
+                    let at = |id: NodeId| moved[id.0 as usize].unwrap_or(NodeId(0));
+                    out.push(graph.node(id).with(at), id)
+                });
+            }
+        }
     }
     let mut out = out.finish(&moved);
+    for ((user, used), top) in copies {
+        if let (User::Start(of, k), Some(copy)) = (user, made.get(&(*used, *top))) {
+            out.loops[of.0 as usize].init[*k as usize] = *copy;
+        }
+    }
     // A copy is the same as what it is a copy of, so it is claimed of it, too.
     let at = |id: NodeId| moved[id.0 as usize].unwrap_or(NodeId(0));
     for ((id, _), copy) in made {

@@ -8,7 +8,7 @@
 //! carries a bool that says so, and is false from the second turn on.
 
 use super::arena::Arena;
-use super::peel::{alone, before, body};
+use super::peel::{alone, before, body, cone};
 use super::rate::{Dependence, Rates, rates};
 use crate::flow::graph::*;
 use slowlight_routine::{Type, Value};
@@ -124,18 +124,4 @@ fn asked_first(
         fails = out.push(Node::Select { cond, yes, no }, turns.again);
     }
     (fails, never)
-}
-
-/// The body's nodes that values need, operands first.
-fn cone(graph: &Graph, roots: &[NodeId], body: &[NodeId]) -> Vec<NodeId> {
-    let mut needed = Vec::new();
-    let mut todo = roots.to_vec();
-    while let Some(id) = todo.pop() {
-        if body.binary_search(&id).is_ok() && !needed.contains(&id) {
-            needed.push(id);
-            todo.extend(graph.node(id).operands());
-        }
-    }
-    needed.sort_unstable();
-    needed
 }

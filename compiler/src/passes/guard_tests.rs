@@ -1,10 +1,11 @@
-//! A loop behind a guard draws the same, with shortcuts in it or without.
+//! A loop behind a guard draws the same, with shortcuts in it or without, started or skipped.
 #![allow(clippy::unwrap_used)]
 
 use super::early::{in_loops, without};
 use super::fold::fold;
 use super::guard::guard;
 use super::schedule::schedule;
+use super::skip::skip;
 use crate::eval::drawn::{grid, picture};
 use crate::eval::random_graphs;
 use crate::flow::graph::*;
@@ -14,7 +15,7 @@ use crate::sema::Options;
 
 #[test]
 fn guarded_loops_draw_the_same() {
-    let mut guarded = 0;
+    let (mut guarded, mut skipped) = (0, 0);
     for seed in 0..300 {
         let graph = fold(&random_graphs::graph(seed));
         let places = grid(7, 5, 1);
@@ -29,10 +30,18 @@ fn guarded_loops_draw_the_same() {
                 let tree = schedule(&other);
                 let found = picture(&other, &tree, &places);
                 assert_eq!(plain, found, "seed {seed}, loop {k}:\n{tree}");
+                let Some(other) = skip(&other) else {
+                    continue;
+                };
+                skipped += 1;
+                verify(&other).unwrap_or_else(|broken| panic!("seed {seed}, loop {k}: {broken}"));
+                let tree = schedule(&other);
+                let found = picture(&other, &tree, &places);
+                assert_eq!(plain, found, "skipped, seed {seed}, loop {k}:\n{tree}");
             }
         }
     }
-    assert!(guarded > 60, "{guarded}");
+    assert!(guarded > 60 && skipped > 30, "{guarded} {skipped}");
 }
 
 #[test]

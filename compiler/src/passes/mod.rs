@@ -22,6 +22,7 @@ pub mod rebuild;
 pub mod region;
 pub mod schedule;
 pub mod segment;
+pub mod skip;
 pub mod squares;
 pub mod stable;
 pub mod still;

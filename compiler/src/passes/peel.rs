@@ -67,6 +67,20 @@ pub(super) fn alone(graph: &Graph, rates: &Rates, of: LoopId, body: &[NodeId]) -
     !body.iter().chain(starts).any(other)
 }
 
+/// The body's nodes that values need, operands first.
+pub(super) fn cone(graph: &Graph, roots: &[NodeId], body: &[NodeId]) -> Vec<NodeId> {
+    let mut needed = Vec::new();
+    let mut todo = roots.to_vec();
+    while let Some(id) = todo.pop() {
+        if body.binary_search(&id).is_ok() && !needed.contains(&id) {
+            needed.push(id);
+            todo.extend(graph.node(id).operands());
+        }
+    }
+    needed.sort_unstable();
+    needed
+}
+
 /// The new arena: what stands before the loop, the copy, the loop, the rest.
 struct Surgery<'g> {
     graph: &'g Graph,

@@ -20,6 +20,7 @@ use crate::passes::guard::guard;
 use crate::passes::homogeneous::{homogeneous, lengths};
 use crate::passes::identities::{around, identities};
 use crate::passes::peel::peel;
+use crate::passes::skip::skip;
 use crate::passes::squares::squares;
 use crate::passes::threshold::threshold;
 use crate::range::Ranges;
@@ -47,7 +48,7 @@ const SHORTER: f64 = 0.99;
 const SPANS: f64 = 0.99;
 
 /// How often values are taken apart: what one needs may be taken apart after it.
-const APART: usize = 3;
+const APART: usize = 6;
 
 /// How many directions are tried at their own length.
 const LENGTHS: usize = 4;
@@ -126,6 +127,12 @@ pub fn with_recipes_followed(plan: Settled, shop: &Workshop, thrift: Thrift) -> 
 pub fn apart_at_last(plan: Settled, shop: &Workshop, thrift: Thrift) -> Settled {
     let price = Price::new(&plan, shop.runtime, thrift);
     let mut best = plan;
+    // Where copies are joined, what chooses what a loop starts with costs nothing.
+    if shop.runtime.stepping.is_some()
+        && let Some(next) = skip(&best.graph)
+    {
+        best = shop.scheduled(next);
+    }
     for _ in 0..APART {
         let next = apart(&best.graph, &best.tree, &price.worth(&best));
         let Some(next) = next else {
