@@ -132,8 +132,11 @@ fn shared(graph: &Graph, tree: &Tree) -> Vec<Option<bool>> {
 
 impl Walk<'_> {
     fn block(&mut self, block: &[Statement]) {
-        for statement in block {
+        for (k, statement) in block.iter().enumerate() {
             self.statement(statement);
+            if let Statement::Let(id) = *statement {
+                self.trust_back(id, &block[..k]);
+            }
         }
     }
 
@@ -332,6 +335,24 @@ impl Walk<'_> {
             },
             None => range,
         }
+    }
+
+    /// What a trusted direction was subtracted from is not far from what was
+    /// subtracted: a point where a ray meets a sphere from its centre. Where both are
+    /// computed under the same conditions only.
+    fn trust_back(&mut self, id: NodeId, before: &[Statement]) {
+        let Node::Apply(Op::Sub, [point, from]) = self.graph.node(id) else {
+            return;
+        };
+        let beside = before.contains(&Statement::Let(point));
+        if !beside || self.slack.direction.is_none() || !self.graph.directions.contains_key(&id) {
+            return;
+        }
+        let args = [self.read(from), self.read(id)];
+        let sum = interval(Op::Add, args, false);
+        let near = self.slack.rounded(Op::Add, &args, sum);
+        let at = point.0 as usize;
+        self.now[at] = self.now[at].meet(near);
     }
 
     fn compute(&mut self, id: NodeId) {

@@ -19,8 +19,8 @@ use std::collections::{BTreeSet, HashMap};
 
 /// How large values are taken to be, the largest that helps most.
 const LIMITS: [f64; 3] = [1e6, 30_000.0, 5_000.0];
-/// How far from 0 divisors are taken to be.
-const NEAR: f64 = 1e-6;
+/// How far from 0 divisors are taken to be: the further, the smaller are quotients.
+const NEAR: [f64; 3] = [1e-6, 1e-4, 1e-2];
 /// More tests, or fewer calls saved, are not worth the second version.
 const TESTS: usize = 2;
 const SAVED: usize = 2;
@@ -51,8 +51,11 @@ impl Expressions<'_> {
     /// The best version of a run.
     fn version(&mut self, run: &[NodeId]) -> Option<Version> {
         let mut best: Option<(Version, Vec<(NodeId, Range)>)> = None;
-        for limit in LIMITS {
-            let Some(assumed) = self.assumptions(run, limit) else {
+        let all = LIMITS
+            .iter()
+            .flat_map(|limit| NEAR.map(|near| (*limit, near)));
+        for (limit, near) in all {
+            let Some(assumed) = self.assumptions(run, limit, near) else {
                 continue;
             };
             let plan = self.plan;
@@ -81,7 +84,7 @@ impl Expressions<'_> {
 
     /// What is assumed of the values that a run reads, where they may be
     /// beyond it; none where that is nothing or too much.
-    fn assumptions(&self, run: &[NodeId], limit: f64) -> Option<Vec<(NodeId, Range)>> {
+    fn assumptions(&self, run: &[NodeId], limit: f64, away: f64) -> Option<Vec<(NodeId, Range)>> {
         let graph = &self.plan.graph;
         let mut assumed: Vec<(NodeId, Range)> = Vec::new();
         for &id in run {
@@ -97,11 +100,11 @@ impl Expressions<'_> {
                 }
                 let divisor = k == 1 && op == Op::Div;
                 let near = match range {
-                    Range { lo, hi, .. } if (0.0..NEAR).contains(&lo) => {
-                        Some(Range::new(NEAR, hi.max(NEAR)))
+                    Range { lo, hi, .. } if (0.0..away).contains(&lo) => {
+                        Some(Range::new(away, hi.max(away)))
                     }
-                    Range { lo, hi, .. } if (0.0..NEAR).contains(&-hi) => {
-                        Some(Range::new(lo.min(-NEAR), -NEAR))
+                    Range { lo, hi, .. } if (0.0..away).contains(&-hi) => {
+                        Some(Range::new(lo.min(-away), -away))
                     }
                     _ => None,
                 };
@@ -123,8 +126,8 @@ impl Expressions<'_> {
         let text = self.read(id).text;
         let mut number = |x: f64| self.constant(Value::Real(x)).text;
         Some(match range {
-            Range { lo, .. } if lo == NEAR => format!("{text}<{}", number(lo)),
-            Range { hi, .. } if hi == -NEAR => format!("{text}>{}", number(hi)),
+            Range { lo, .. } if lo > 0.0 => format!("{text}<{}", number(lo)),
+            Range { hi, .. } if hi < 0.0 => format!("{text}>{}", number(hi)),
             Range { hi, .. } => format!("ABS({text})>{}", number(hi)),
         })
     }
