@@ -28,6 +28,7 @@ mod ramps;
 mod renderers;
 mod rom_operations;
 mod rom_vectors;
+mod runs;
 mod snapshots;
 mod spread;
 mod stress;

@@ -15,7 +15,7 @@ use slowlight_vm::Stop;
 use slowlight_vm::bbc::Dialect;
 
 #[path = "../../compiler/src/eval/random.rs"]
-mod random;
+pub mod random;
 
 const AT: Span = Span {
     file: 0,

@@ -11,7 +11,7 @@ use super::diffuse::Pending;
 use crate::flow::graph::*;
 use crate::flow::ramp;
 use crate::flow::tree::*;
-use slowlight_routine::Value;
+use slowlight_routine::{Op, Value};
 
 /// Runs a tree over a graph.
 pub struct Run<'t, A: Arithmetic> {
@@ -243,7 +243,9 @@ impl<'t, A: Arithmetic> Run<'t, A> {
         match self.graph.node(id) {
             Node::Const(_) => self.checked(self.constants[id.0 as usize]),
             Node::Param(p) => self.arithmetic.param(p),
-            Node::Axis(Axis::X) => self.arithmetic.constant(Value::Int(self.position.0)),
+            Node::Axis(Axis::X | Axis::Run) => {
+                self.arithmetic.constant(Value::Int(self.position.0))
+            }
             Node::Axis(Axis::Y) => self.arithmetic.constant(Value::Int(self.position.1)),
             Node::Axis(Axis::Pass(n)) => {
                 let pass = self.position.0.rem_euclid(n.max(1) as i32);
@@ -267,9 +269,11 @@ impl<'t, A: Arithmetic> Run<'t, A> {
             Node::Carried { of, index } | Node::Last { of, index } => {
                 self.carried[of.0 as usize][index as usize].is_none()
             }
-            Node::Apply(..) | Node::Select { .. } | Node::Lookup { .. } | Node::Result { .. } => {
-                self.values[id.0 as usize].is_none()
-            }
+            Node::Apply(..)
+            | Node::Select { .. }
+            | Node::Lookup { .. }
+            | Node::Stepped { .. }
+            | Node::Result { .. } => self.values[id.0 as usize].is_none(),
             _ => false,
         }
     }
@@ -303,6 +307,13 @@ impl<'t, A: Arithmetic> Run<'t, A> {
                 self.checked(found)
             }
             Node::Ramp { first, .. } => self.read(first),
+            Node::Stepped { first, step } => {
+                let both = [first, step].map(|id| {
+                    let value = self.read(id);
+                    Value::Int(self.arithmetic.int(value))
+                });
+                self.arithmetic.constant(Op::IntAdd.eval(&both))
+            }
             _ => self.read(id),
         }
     }

@@ -192,7 +192,7 @@ impl<'g> Scalar<'g> {
             Node::Axis(axis) => {
                 let (x, y) = self.position.unwrap_or_default();
                 Some(Value::Int(match axis {
-                    Axis::X => x,
+                    Axis::X | Axis::Run => x,
                     Axis::Y => y,
                     Axis::Pass(n) => x.rem_euclid(n.max(1) as i32),
                 }))
@@ -223,6 +223,11 @@ impl<'g> Scalar<'g> {
                 let (column, row) = (column?.int(), row?.int());
                 self.operations += 1;
                 Some(graph.tables.get(table.0 as usize)?.at(column, row))
+            }
+            Node::Stepped { first, step } => {
+                let (first, step) = (self.get(first, stack), self.get(step, stack));
+                self.operations += 1;
+                Some(Op::IntAdd.eval(&[first?, step?]))
             }
             Node::Ramp { .. } => {
                 let parts = ramp::coefficients(graph, id).into_iter();

@@ -232,6 +232,14 @@ impl Builder {
         }
     }
 
+    /// An int that is stepped along a run of columns.
+    pub fn stepped(&mut self, first: NodeId, step: NodeId, span: Span) -> NodeId {
+        if self.undefined_type(first) || self.undefined_type(step) {
+            return self.undefined(Type::Int);
+        }
+        self.add(Node::Stepped { first, step }, Type::Int, span)
+    }
+
     /// Opens a loop with carried values; close it with [`Builder::close_loop`].
     pub fn open_loop(
         &mut self,

@@ -28,6 +28,9 @@ pub enum Axis {
     /// The column modulo so many, 2 or more: a row is drawn in as many passes,
     /// each over every so manyth column. All of a graph's have the same number.
     Pass(u32),
+    /// The column where the pixel's run of columns begins ([`Node::Stepped`]). To
+    /// evaluations a run begins at every pixel.
+    Run,
 }
 
 /// A scalar constant that can be a key: reals by their bits.
@@ -91,6 +94,11 @@ pub enum Node {
         step: NodeId,
         stride: u32,
     },
+    /// An int that is stepped from pixel to pixel of a run of columns: the sum of
+    /// `first` and `step`, which stays within 32 bits. `first` is what it is a pixel
+    /// before the run's first, made of [`Axis::Run`], and `step` by how much it has
+    /// grown since the pixel before ([`crate::passes::ramps::runs`]).
+    Stepped { first: NodeId, step: NodeId },
     /// A carried value of a loop, in its body.
     Carried { of: LoopId, index: u32 },
     /// What the last `next` gave, in the loop's `else`.
@@ -114,7 +122,9 @@ impl Node {
             Node::Apply(op, [a, b]) => [Some(a), (op.arity() > 1).then_some(b), None],
             Node::Select { cond, yes, no } => [Some(cond), Some(yes), Some(no)],
             Node::Lookup { column, row, .. } => [Some(column), Some(row), None],
-            Node::Ramp { first, step, .. } => [Some(first), Some(step), None],
+            Node::Ramp { first, step, .. } | Node::Stepped { first, step } => {
+                [Some(first), Some(step), None]
+            }
             _ => [None; 3],
         };
         list.into_iter().flatten()
@@ -142,6 +152,10 @@ impl Node {
                 first: at(first),
                 step: at(step),
                 stride,
+            },
+            Node::Stepped { first, step } => Node::Stepped {
+                first: at(first),
+                step: at(step),
             },
             other => other,
         }

@@ -59,6 +59,7 @@ pub fn node_text(graph: &Graph, node: Node) -> String {
         Node::Axis(Axis::X) => "axis x".to_owned(),
         Node::Axis(Axis::Y) => "axis y".to_owned(),
         Node::Axis(Axis::Pass(passes)) => format!("axis x mod {passes}"),
+        Node::Axis(Axis::Run) => "axis run".to_owned(),
         Node::Apply(op, args) => {
             let shown: Vec<NodeId> = args.into_iter().take(op.arity()).collect();
             format!("{} {}", op.name(), list(&shown))
@@ -75,6 +76,7 @@ pub fn node_text(graph: &Graph, node: Node) -> String {
             step,
             stride,
         } => format!("ramp {first}, {step} every {stride}"),
+        Node::Stepped { first, step } => format!("stepped {first}, {step}"),
         Node::Carried { of, index } => format!("carried {}.{index}", of.0),
         Node::Last { of, index } => format!("last {}.{index}", of.0),
         Node::Result { of, index } => format!("result {}.{index}", of.0),

@@ -287,6 +287,7 @@ fn node_body(ty: Type, body: &str) -> Read<Node> {
         "axis" => Node::Axis(match rest.strip_prefix("x mod ") {
             Some(passes) => Axis::Pass(number(passes)?),
             None if rest == "x" => Axis::X,
+            None if rest == "run" => Axis::Run,
             None => Axis::Y,
         }),
         "carried" => part(rest).map(|(of, index)| Node::Carried { of, index })?,
@@ -298,6 +299,10 @@ fn node_body(ty: Type, body: &str) -> Read<Node> {
         "select" => match node_list(rest)?[..] {
             [cond, yes, no] => Node::Select { cond, yes, no },
             _ => return Err("a select has a condition and two arms".to_owned()),
+        },
+        "stepped" => match node_list(rest)?[..] {
+            [first, step] => Node::Stepped { first, step },
+            _ => return Err("what is stepped has a first value and a step".to_owned()),
         },
         "ramp" => {
             let (rest, stride) = match rest.split_once(" every ") {

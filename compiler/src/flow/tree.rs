@@ -69,6 +69,16 @@ pub enum Place {
     Scratch(LoopId, u32),
 }
 
+impl Place {
+    /// Where a computed node is kept: what is stepped, where its first value is.
+    pub fn of(graph: &Graph, id: NodeId) -> Place {
+        match graph.node(id) {
+            Node::Stepped { first, .. } => Place::Node(first),
+            _ => Place::Node(id),
+        }
+    }
+}
+
 /// Where a [`Statement::Set`] reads from.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Origin {

@@ -2,7 +2,9 @@
 //!
 //! **Invariants**: operands stand before their users; an operation's operands
 //! have its argument types; arms of a select have one type; a ramp's first value
-//! and its step are ints and the same for the whole row, or the step is a ramp; a loop's carried
+//! and its step are ints and the same for the whole row, or the step is a ramp; what is
+//! stepped along a run of columns is made of ints, and what is made of the column where
+//! a run begins is seen through what is stepped only; a loop's carried
 //! values are used only by what decides, continues or ends that loop, and what
 //! the last `next` gave only by its `else`; a loop's results stand together, before
 //! what uses any of them (they are placed together); the ink is an int; what a pixel
@@ -11,6 +13,7 @@
 
 use super::graph::*;
 use super::ramp;
+use crate::passes::ramps::runs::of_beginnings;
 use crate::passes::rate::{Rates, rates};
 use slowlight_routine::Type;
 use std::collections::HashMap;
@@ -39,6 +42,11 @@ pub fn verify(graph: &Graph) -> Result<(), Broken> {
         for id in graph.ids().filter(live).filter(ramps) {
             stepped(graph, &rates, id)?;
         }
+    }
+    let begins = of_beginnings(graph);
+    if let Some(node) = graph.outputs().find(|id| begins[id.0 as usize]) {
+        let rule = "depends on where a run of columns begins".to_owned();
+        return Err(Broken { node, rule });
     }
     together(graph, &reached)?;
     for k in 0..graph.loops.len() as u32 {
@@ -96,6 +104,9 @@ fn node(graph: &Graph, id: NodeId) -> Result<(), Broken> {
             if t.entries.len() as u64 != u64::from(t.width) * u64::from(t.height) {
                 return broken(format!("table {} is not full", table.0));
             }
+        }
+        Node::Stepped { first, step } if [first, step].map(|id| graph.ty(id)) != [Type::Int; 2] => {
+            return broken(format!("{first} or {step} is no int"));
         }
         Node::Received if graph.diffusion.is_none() => {
             return broken("receives, but no pixel sends".to_owned());

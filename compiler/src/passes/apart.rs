@@ -25,7 +25,9 @@ pub fn apart(graph: &Graph, tree: &Tree, worth: Worth<'_>) -> Option<Graph> {
         let Some(home) = places.home.get(id) else {
             continue;
         };
-        if places.fixed.contains(id) || uses.iter().any(|(_, at)| at == home) {
+        // What is stepped is stepped once a pixel.
+        let stepped = matches!(graph.node(*id), Node::Stepped { .. });
+        if stepped || places.fixed.contains(id) || uses.iter().any(|(_, at)| at == home) {
             continue;
         }
         let tops = places.tops(uses);

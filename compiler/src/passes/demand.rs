@@ -143,6 +143,12 @@ impl Placer<'_> {
                 self.need(first, region);
                 self.need(step, region);
             }
+            Node::Stepped { first, step } => {
+                let region = self.along_run(used);
+                self.regions.of[id.0 as usize] = Some(region);
+                self.need(first, region);
+                self.need(step, region);
+            }
             Node::Result { of, .. } => self.visit_loop(of),
             // Known without computing.
             Node::Const(_) | Node::Param(_) | Node::Axis(_) | Node::Received => {}
@@ -194,6 +200,25 @@ impl Placer<'_> {
             self.need(found.done[index], done);
             self.need(found.otherwise[index], otherwise);
         }
+    }
+
+    /// The innermost place around another that all pixels of a run come to, or none:
+    /// what is stepped must be stepped at each of them.
+    fn along_run(&self, mut used: RegionId) -> RegionId {
+        let mut path = Vec::new();
+        while used != PIXEL {
+            path.push(used);
+            match self.regions.get(used).parent {
+                Some(parent) => used = parent,
+                None => break,
+            }
+        }
+        let known = |region: &RegionId| match self.regions.get(*region).kind {
+            RegionKind::Arm { cond, .. } => self.is_known_in(cond, SEGMENT),
+            _ => false,
+        };
+        let all = path.into_iter().rev();
+        all.take_while(known).last().unwrap_or(PIXEL)
     }
 
     /// Moves a value outward where its rate allows, and notes its region.

@@ -151,7 +151,7 @@ pub fn rates(graph: &Graph) -> Rates {
             Node::Param(_) => sets.intern(vec![Dependence::Frame]),
             Node::Axis(Axis::Y) => sets.intern(vec![Dependence::Row]),
             Node::Axis(Axis::Pass(_)) => sets.intern(vec![Dependence::Pass]),
-            Node::Axis(Axis::X) => sets.intern(vec![Dependence::Column]),
+            Node::Axis(Axis::X | Axis::Run) => sets.intern(vec![Dependence::Column]),
             // Another value in every pixel: it stands in the pixel's own block.
             Node::Received => sets.intern(vec![Dependence::Row, Dependence::Column]),
             Node::Ramp { first, step, .. } => {

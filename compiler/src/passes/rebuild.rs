@@ -220,6 +220,10 @@ impl Rebuilder<'_> {
                 step: self.at(step),
                 stride,
             },
+            Node::Stepped { first, step } => Node::Stepped {
+                first: self.at(first),
+                step: self.at(step),
+            },
             Node::Carried { of, index } => Node::Carried {
                 of: self.open(of, rewrite),
                 index,
@@ -246,6 +250,7 @@ impl Rebuilder<'_> {
                 step,
                 stride,
             } => b.ramp(first, step, stride, span),
+            Node::Stepped { first, step } => b.stepped(first, step, span),
             Node::Carried { of, index } => b.carried(of, index, span),
             Node::Last { of, index } => b.last(of, index, span),
             Node::Received => b.received(span),

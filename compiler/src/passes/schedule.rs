@@ -92,6 +92,7 @@ pub fn missing(graph: &Graph, tree: &Tree) -> Option<NodeId> {
                 | Node::Select { .. }
                 | Node::Lookup { .. }
                 | Node::Ramp { .. }
+                | Node::Stepped { .. }
                 | Node::Result { .. }
         );
         computed && needed[id.0 as usize] && !written[id.0 as usize]

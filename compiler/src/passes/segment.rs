@@ -33,6 +33,7 @@ pub fn by_segment(graph: &Graph, rates: &Rates, needed: &[bool]) -> Vec<bool> {
         }
         let fits = |a: NodeId| found[a.0 as usize] || !rates.depends(a, Dependence::Column);
         found[id.0 as usize] = match graph.node(id) {
+            Node::Axis(Axis::Run) => true,
             node @ (Node::Apply(..) | Node::Select { .. } | Node::Lookup { .. }) => {
                 rates.depends(id, Dependence::Column) && node.operands().all(fits)
             }

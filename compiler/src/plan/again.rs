@@ -79,7 +79,7 @@ impl Plan {
         let Rewriting::Fast { thrift, steps } = self.origin.1 else {
             return None;
         };
-        let ramp = |node: &Node| matches!(node, Node::Ramp { .. });
+        let ramp = |node: &Node| matches!(node, Node::Ramp { .. } | Node::Stepped { .. });
         let steps = match steps {
             Steps::All => Steps::Whole,
             Steps::Whole | Steps::None => Steps::None,

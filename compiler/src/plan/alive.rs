@@ -124,7 +124,8 @@ impl<'p> Flow<'p> {
                 Statement::Let(id) => {
                     let operands = self.plan.graph.node(*id).operands();
                     operands.for_each(|operand| self.reads(at, operand));
-                    self.steps[at].writes = Some(self.number(Place::Node(*id)));
+                    let place = Place::of(&self.plan.graph, *id);
+                    self.steps[at].writes = Some(self.number(place));
                 }
                 Statement::Set { place, from } => {
                     match *from {

@@ -26,6 +26,9 @@ impl Beside<'_> {
             };
         };
         match statement {
+            Statement::Let(id) if matches!(self.graph.node(*id), Node::Stepped { .. }) => {
+                stepping.ramp
+            }
             Statement::Let(id) => self.computed(*id, stepping),
             Statement::Set { place, from } => {
                 let reading = match from {

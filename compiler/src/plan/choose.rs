@@ -35,7 +35,9 @@ pub(super) fn choose(
                 return;
             };
             let Node::Apply(op, _) = graph.node(id) else {
-                if matches!(graph.node(id), Node::Ramp { .. }) && runtime.stepping.is_none() {
+                if matches!(graph.node(id), Node::Ramp { .. } | Node::Stepped { .. })
+                    && runtime.stepping.is_none()
+                {
                     let message = format!("{} cannot step ints along a row", runtime.name);
                     missing.push(Diagnostic::error(graph.span(id), message));
                 }

@@ -31,7 +31,10 @@ pub fn folded(graph: &Graph, tree: &Tree, still: Option<&Still>) -> Vec<bool> {
     }
     let fits = |id: NodeId| {
         let at = id.0 as usize;
+        // What is stepped must be kept for the next pixel.
+        let stepped = matches!(graph.node(id), Node::Stepped { .. });
         uses.count[at] == 1
+            && !stepped
             && uses.home.contains_key(&id)
             && uses.home.get(&id) == uses.reader.get(&id)
     };

@@ -72,7 +72,7 @@ impl Walk<'_> {
     fn forget(&mut self, block: &Block) {
         walk(block, &mut |statement| match statement {
             Statement::Let(id) => {
-                self.places.remove(&Place::Node(*id));
+                self.places.remove(&Place::of(&self.plan.graph, *id));
             }
             Statement::Set {
                 place: place @ Place::Node(_),
@@ -93,7 +93,7 @@ impl Walk<'_> {
                         self.read(id);
                     });
                     self.next += 1;
-                    self.write(Place::Node(*id), Some(self.next));
+                    self.write(Place::of(&self.plan.graph, *id), Some(self.next));
                 }
                 Statement::Set { place, from } => {
                     let mark = match *from {

@@ -133,7 +133,7 @@ impl Lives<'_> {
                 Statement::Let(id) => {
                     let operands = self.plan.graph.node(*id).operands();
                     operands.for_each(|operand| self.read(operand));
-                    self.touch(Place::Node(*id));
+                    self.touch(Place::of(&self.plan.graph, *id));
                 }
                 Statement::Set { place, from } => {
                     match *from {

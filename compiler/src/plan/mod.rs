@@ -29,6 +29,8 @@
 //!   stepped at the end of every pixel, whatever way the pixel took: `home = home +
 //!   step`, a ramp before what it is stepped by. Where the first column computed is
 //!   not 0, it is stepped there first.
+//! - [`Node::Stepped`], let in the pixel's block, is kept where its first value is,
+//!   which the segment's block sets: there it is stepped, `home = home + step`.
 //! - A loop needs a count of its turns; see [`Statement::Loop`].
 //! - Where the graph spreads its error ([`Plan::error_rows`]), [`Node::Received`]
 //!   is what has come to the pixel, and after `tree.pixel` each share is added,
@@ -204,7 +206,7 @@ impl Plan {
             Node::Carried { of, index } | Node::Last { of, index } => {
                 Some(Place::Carried(of, index))
             }
-            _ => Some(Place::Node(id)),
+            _ => Some(Place::of(&self.graph, id)),
         }
     }
 
@@ -215,7 +217,7 @@ impl Plan {
         for block in self.tree.blocks() {
             walk(block, &mut |statement| {
                 let place = match statement {
-                    Statement::Let(id) => Place::Node(*id),
+                    Statement::Let(id) => Place::of(&self.graph, *id),
                     Statement::Set { place, .. } => *place,
                     _ => return,
                 };

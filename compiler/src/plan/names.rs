@@ -12,7 +12,7 @@ pub fn homes(graph: &Graph, tree: &Tree) -> HashMap<Place, String> {
     for block in tree.blocks() {
         walk(block, &mut |statement| {
             let place = match statement {
-                Statement::Let(id) => Place::Node(*id),
+                Statement::Let(id) => Place::of(graph, *id),
                 Statement::Set { place, .. } => *place,
                 _ => return,
             };

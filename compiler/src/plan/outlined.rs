@@ -3,6 +3,7 @@
 
 use super::made::assemble;
 use super::{Goal, Plan};
+use crate::flow::graph::Node;
 use crate::passes::outline::outline;
 use crate::passes::schedule::schedule_together;
 use crate::range::{Slack, ranges};
@@ -22,6 +23,13 @@ impl Plan {
     /// # Errors
     /// Where an operation has no routine, as for [`super::plan`].
     pub fn outlined(&self, name: &dyn Fn(Span) -> Option<String>) -> Result<Plan, Vec<Diagnostic>> {
+        // What is stepped along a run has its place before every pixel of it.
+        let stepped = |node: &Node| matches!(node, Node::Stepped { .. });
+        if self.graph.nodes.iter().any(stepped)
+            && let Some(plain) = self.unstepped()
+        {
+            return plain.outlined(name);
+        }
         let bytes: Vec<u32> = (self.graph.ids())
             .map(|id| self.routine(id).map_or(0, |routine| routine.bytes))
             .collect();

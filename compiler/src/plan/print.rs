@@ -160,6 +160,9 @@ impl Plan {
             Node::Ramp { first, step, .. } => {
                 format!("{}, then +{}", self.operand(first), self.operand(step))
             }
+            Node::Stepped { first, step } => {
+                format!("{} + {}", self.operand(first), self.operand(step))
+            }
             _ => self.operand(id),
         }
     }
@@ -175,7 +178,7 @@ impl Plan {
                         .get(id.0 as usize)
                         .map_or(String::new(), |r| range_text(*r));
                     let mark = if self.folded(*id) { "~" } else { "=" };
-                    let home = self.home(Place::Node(*id));
+                    let home = self.home(Place::of(&self.graph, *id));
                     writeln!(
                         f,
                         "{pad}{home}: {} {mark} {}  ; {range}",

@@ -11,6 +11,7 @@ use super::workshop::Workshop;
 use crate::flow::graph::*;
 use crate::flow::ramp;
 use crate::passes::ramps::phase::{parities, phases};
+use crate::passes::ramps::runs::{in_runs, is_exact, runs};
 use crate::passes::ramps::{ramps, sites};
 use crate::range::Ranges;
 use crate::target::Target;
@@ -55,8 +56,13 @@ pub fn stepped(
         }
         false => plain,
     };
-    let found = sites(&phased.graph, &phased.ranges);
-    site.taken(phased, found, ramps)
+    let found = match phased.tree.segment.is_empty() {
+        true => Vec::new(),
+        false => runs(&phased.graph, &phased.ranges),
+    };
+    let run = site.taken(phased, found, in_runs);
+    let found = sites(&run.graph, &run.ranges);
+    site.taken(run, found, ramps)
 }
 
 struct Site<'s> {
@@ -77,7 +83,9 @@ impl Site<'_> {
         let cost = |plan: &Settled| self.price.of(plan);
         let rewritten = |at: &[NodeId]| {
             let next = (self.shop).settle(&rewrite(&plain.graph, &plain.ranges, at)?);
-            (self.target.wraps || bounded(&next)).then(|| (cost(&next), next))
+            let right = is_exact(&next.graph, &next.tree, &next.ranges)
+                && (self.target.wraps || bounded(&next));
+            right.then(|| (cost(&next), next))
         };
         let mut taken: Vec<NodeId> = Vec::new();
         let mut least = cost(&plain);

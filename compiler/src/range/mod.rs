@@ -76,7 +76,9 @@ fn known(graph: &Graph, slack: &Slack, id: NodeId) -> Range {
                 .unwrap_or(Range::ALL);
             slack.cut(graph.ty(id), slack.enlarge(Op::Mul, &[], range))
         }
-        Node::Axis(Axis::X) => Range::new(0.0, f64::from(graph.image.width.saturating_sub(1))),
+        Node::Axis(Axis::X | Axis::Run) => {
+            Range::new(0.0, f64::from(graph.image.width.saturating_sub(1)))
+        }
         Node::Axis(Axis::Pass(n)) => Range::new(0.0, f64::from(n.saturating_sub(1))),
         Node::Axis(Axis::Y) => Range::new(0.0, f64::from(graph.image.height.saturating_sub(1))),
         _ => slack.cut(graph.ty(id), Range::ALL),
@@ -380,6 +382,12 @@ impl Walk<'_> {
                     false => self.slack.ints,
                 };
                 whole(self.graph, id, [Range::ALL; 2], range)
+            }
+            Node::Stepped { first, step } => {
+                let args = [self.read(first), self.read(step)];
+                let exact = whole(self.graph, id, args, interval(Op::IntAdd, args, false));
+                self.out.exact[at] = exact;
+                self.slack.cut(Type::Int, exact)
             }
             Node::Lookup { table, .. } => {
                 let entries = self

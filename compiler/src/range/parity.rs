@@ -14,7 +14,7 @@ pub fn whole(graph: &Graph, id: NodeId, args: [Range; 2], range: Range) -> Range
             nonzero: range.nonzero || low(graph, id, DEEP).rest != 0,
             ..range
         },
-        Node::Ramp { .. } => Range {
+        Node::Ramp { .. } | Node::Stepped { .. } => Range {
             nonzero: range.nonzero || low(graph, id, DEEP).rest != 0,
             ..range
         },
@@ -78,6 +78,10 @@ fn low(graph: &Graph, id: NodeId, deep: u32) -> Low {
         Node::Ramp { first, step, .. } => {
             let (first, moved) = (of(first), of(step).times(none));
             Low::new(first.bits.min(moved.bits), first.rest)
+        }
+        Node::Stepped { first, step } => {
+            let (first, step) = (of(first), of(step));
+            Low::new(first.bits.min(step.bits), first.rest + step.rest)
         }
         Node::Apply(_, [a, b]) if !small(graph, a) || !small(graph, b) => none,
         Node::Apply(Op::IntNeg, [a, _]) => Low::new(of(a).bits, -of(a).rest),

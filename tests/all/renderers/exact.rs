@@ -112,7 +112,11 @@ impl Run<'_> {
                 self.carried[&(of, index)].clone()
             }
             Node::Result { of, index } => self.run(of, index as usize),
-            Node::Ramp { .. } | Node::Received | Node::Slot(_) | Node::Undefined(_) => {
+            Node::Ramp { .. }
+            | Node::Stepped { .. }
+            | Node::Received
+            | Node::Slot(_)
+            | Node::Undefined(_) => {
                 panic!("needed: {id:?}")
             }
         };

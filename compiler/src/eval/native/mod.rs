@@ -164,7 +164,7 @@ impl<'g> Native<'g> {
         }
         for &(axis, slot) in &self.plan.axes {
             match axis {
-                Axis::X => self.lanes.count_up(slot, block.x),
+                Axis::X | Axis::Run => self.lanes.count_up(slot, block.x),
                 Axis::Y => self.lanes.fill(Type::Int, slot, Value::Int(block.y)),
                 Axis::Pass(n) => self.lanes.count_modulo(slot, block.x, n),
             }

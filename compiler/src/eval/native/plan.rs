@@ -302,6 +302,10 @@ impl Maker<'_> {
                 column: self.source(column, Type::Int),
                 row: self.source(row, Type::Int),
             },
+            Node::Stepped { first, step } => Task::Apply {
+                op: Op::IntAdd,
+                args: [first, step].map(|id| self.source(id, Type::Int)),
+            },
             Node::Ramp { .. } => {
                 let parts = ramp::coefficients(self.graph, id).into_iter();
                 let parts = parts.map(|part| self.source(part, Type::Int)).collect();

@@ -162,7 +162,7 @@ impl Follow<'_> {
         let made = match self.nodes.node(id) {
             Node::Const(c) => constant(c.value()),
             Node::Param(p) => Rounded::exact(*self.sample.params.get(p.0 as usize)?),
-            Node::Axis(Axis::X) => Rounded::exact(self.sample.x),
+            Node::Axis(Axis::X | Axis::Run) => Rounded::exact(self.sample.x),
             Node::Axis(Axis::Y) => Rounded::exact(self.sample.y),
             Node::Axis(Axis::Pass(n)) => {
                 Rounded::exact(self.sample.x.rem_euclid(f64::from(n.max(1))))

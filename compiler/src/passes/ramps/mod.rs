@@ -15,9 +15,10 @@ mod lines;
 pub mod phase;
 #[cfg(test)]
 mod phase_tests;
+pub mod runs;
 
 use super::interlace::passes;
-use super::rate::{Rates, rates};
+use super::rate::rates;
 use super::rebuild::rebuild_old;
 use crate::flow::build::Builder;
 use crate::flow::graph::*;
@@ -64,6 +65,7 @@ pub fn ramps(graph: &Graph, ranges: &Ranges, at: &[NodeId]) -> Option<Graph> {
             graph,
             ranges,
             known: &known,
+            stride: passes(graph),
             builder,
             made,
             span,
@@ -81,9 +83,27 @@ struct Degrees(Vec<Option<usize>>);
 impl Degrees {
     fn of(graph: &Graph, ranges: &Ranges) -> Degrees {
         let rates = rates(graph);
+        Degrees::by(graph, ranges, &|id| rates.is_still(id), &|_| false)
+    }
+
+    /// The same where some values count as the same for all columns, and some
+    /// conditions choose between polynomials.
+    fn by(
+        graph: &Graph,
+        ranges: &Ranges,
+        still: &dyn Fn(NodeId) -> bool,
+        chooses: &dyn Fn(NodeId) -> bool,
+    ) -> Degrees {
         let mut known = Degrees(Vec::with_capacity(graph.nodes.len()));
         for id in graph.ids() {
-            let degree = known.degree(graph, ranges, &rates, id);
+            let degree = match graph.node(id) {
+                _ if graph.ty(id) != Type::Int => None,
+                _ if still(id) => Some(0),
+                Node::Select { cond, yes, no } if chooses(cond) => {
+                    known.at(yes).zip(known.at(no)).map(|(a, b)| a.max(b))
+                }
+                _ => known.degree(graph, ranges, id),
+            };
             known.0.push(degree.filter(|d| *d <= DEGREE));
         }
         known
@@ -93,13 +113,7 @@ impl Degrees {
         self.0.get(id.0 as usize).copied().flatten()
     }
 
-    fn degree(&self, graph: &Graph, ranges: &Ranges, rates: &Rates, id: NodeId) -> Option<usize> {
-        if graph.ty(id) != Type::Int {
-            return None;
-        }
-        if rates.is_still(id) {
-            return Some(0);
-        }
+    fn degree(&self, graph: &Graph, ranges: &Ranges, id: NodeId) -> Option<usize> {
         match graph.node(id) {
             Node::Axis(Axis::X) => Some(1),
             Node::Apply(op, [a, b]) => {
@@ -126,6 +140,8 @@ struct Put<'p> {
     graph: &'p Graph,
     ranges: &'p Ranges,
     known: &'p Degrees,
+    /// By columns of a pass, or by all of them.
+    stride: u32,
     builder: &'p mut Builder,
     made: &'p [Option<NodeId>],
     span: Span,
@@ -150,7 +166,7 @@ impl Put<'_> {
         }
         match self.graph.node(id) {
             // n columns of the pass before it make n times the stride.
-            Node::Axis(Axis::X) => match passes(self.graph) {
+            Node::Axis(Axis::X) => match self.stride {
                 1 => Some(vec![self.whole(0), self.whole(1)]),
                 n => {
                     let pass = self.builder.axis(Axis::Pass(n), self.span);
@@ -222,7 +238,7 @@ impl Put<'_> {
 
     /// c0 + c1 x + c2 x² is c0 + (c1 + c2) x + 2 c2 x(x-1)/2.
     fn ramp(&mut self, parts: &[Part]) -> Option<NodeId> {
-        let stride = passes(self.graph);
+        let stride = self.stride;
         match *parts {
             [a] => Some(a.0),
             [a, b] => Some(self.builder.ramp(a.0, b.0, stride, self.span)),

@@ -247,6 +247,7 @@ impl Lines for Write<'_, '_> {
             graph: self.find.graph,
             ranges: self.find.ranges,
             known: &self.find.degrees,
+            stride: passes(self.find.graph),
             builder: self.builder,
             made: self.made,
             span: self.span,

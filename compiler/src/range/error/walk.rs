@@ -74,7 +74,7 @@ fn known(plan: &Plan, tile: &Tile, id: NodeId) -> Value {
         },
         Node::Axis(axis) => {
             let (first, last) = match axis {
-                Axis::X => tile.columns,
+                Axis::X | Axis::Run => tile.columns,
                 Axis::Y => tile.rows,
                 Axis::Pass(passes) => (0, passes.saturating_sub(1)),
             };
@@ -278,6 +278,14 @@ impl<'p> Walk<'p> {
             }
             Node::Lookup { table, .. } => self.entries(table),
             Node::Ramp { .. } => self.ramp(id),
+            Node::Stepped { first, step } => {
+                let exact = |id: NodeId| self.errors[id.0 as usize].is_exact();
+                let (a, b) = (self.read(first).range, self.read(step).range);
+                match exact(first) && exact(step) {
+                    true => Value::exact(Range::new(a.lo + b.lo, a.hi + b.hi)),
+                    false => unknown(),
+                }
+            }
             _ => unknown(),
         }
     }

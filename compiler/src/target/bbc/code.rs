@@ -3,6 +3,7 @@
 use super::Style;
 use super::expression::Expressions;
 use super::lines::{Label, Labels, Lines};
+use super::ramp;
 use super::segment::Ends;
 use super::text::Text;
 use crate::flow::graph::{Node, NodeId};
@@ -125,6 +126,9 @@ impl<'p> Code<'p> {
     pub fn assignment(&mut self, id: NodeId, fold: bool) {
         self.span = Some(self.values.plan.graph.span(id));
         self.end_run(id);
+        if let Node::Stepped { step, .. } = self.values.plan.graph.node(id) {
+            return ramp::add(self.values.plan, self, id, step);
+        }
         if self.extreme(id) {
             return;
         }

@@ -66,7 +66,7 @@ impl<'p> Expressions<'p> {
                 Style::Fast | Style::Lean => Text::operand(self.names.copy(p.0 as usize)),
                 _ => Text::operand(self.names.param(p.0 as usize)),
             },
-            (Node::Axis(Axis::X), _) => Text::operand("X%"),
+            (Node::Axis(Axis::X | Axis::Run), _) => Text::operand("X%"),
             (Node::Axis(Axis::Y), _) => Text::operand("Y%"),
             (Node::Axis(Axis::Pass(_)), _) => Text::operand(&self.names.pass),
             (Node::Received, _) => Text::operand(&self.received),

@@ -50,14 +50,20 @@ pub fn start_at(plan: &Plan, code: &mut Code<'_>, passes: u32, surely: bool) {
 /// Brings the ramps to the next column.
 pub fn step(plan: &Plan, code: &mut Code<'_>) {
     for (id, by) in ramps(plan) {
-        let home = code.values.names.home(Place::Node(id)).to_owned();
-        let by = amount(plan, code, by);
-        let text = match by.strip_prefix('-') {
-            Some(less) => format!("{home}={home}-{less}"),
-            None => format!("{home}={home}+{by}"),
-        };
-        code.statement(text);
+        add(plan, code, id, by);
     }
+}
+
+/// Adds a step to what is stepped.
+pub fn add(plan: &Plan, code: &mut Code<'_>, id: NodeId, by: NodeId) {
+    let place = Place::of(&plan.graph, id);
+    let home = code.values.names.home(place).to_owned();
+    let by = amount(plan, code, by);
+    let text = match by.strip_prefix('-') {
+        Some(less) => format!("{home}={home}-{less}"),
+        None => format!("{home}={home}+{by}"),
+    };
+    code.statement(text);
 }
 
 /// A step. Each digit of a number takes BASIC II as long as a resident

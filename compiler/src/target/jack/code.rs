@@ -310,7 +310,7 @@ impl<'p> Code<'p> {
         match self.plan.graph.node(id) {
             Node::Const(c) => self.constant(c.value()),
             Node::Param(p) => self.object.param(self.plan, &mut self.names, p),
-            Node::Axis(Axis::X) => Expression::term(&self.names.axes[0]),
+            Node::Axis(Axis::X | Axis::Run) => Expression::term(&self.names.axes[0]),
             Node::Axis(Axis::Y) => Expression::term(&self.names.axes[1]),
             // Here rows are drawn in one pass.
             Node::Axis(Axis::Pass(_)) => Expression::term("0"),

@@ -217,7 +217,7 @@ fn wanted(plan: &Plan, slot: Slot) -> String {
             let label = plan.params.get(p as usize).map_or("param", |p| &p.label);
             format!("{label}_value")
         }
-        Slot::Axis(Axis::X) => "pixel_x".to_owned(),
+        Slot::Axis(Axis::X | Axis::Run) => "pixel_x".to_owned(),
         Slot::Axis(Axis::Y) => "pixel_y".to_owned(),
         // Here rows are drawn in one pass.
         Slot::Axis(Axis::Pass(_)) => "pixel_pass".to_owned(),
