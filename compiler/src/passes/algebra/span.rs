@@ -16,7 +16,7 @@ use super::{Cheaper, Judge, Verdicts, allowance};
 use crate::flow::graph::*;
 use crate::passes::rebuild::rebuild_old;
 use crate::range::Ranges;
-use slowlight_routine::{Op, Runtime};
+use slowlight_routine::{Op, Range, Runtime, Value};
 use std::cell::Cell;
 
 /// How deep choices between polynomials may stand in each other.
@@ -175,24 +175,9 @@ impl Site<'_> {
             .collect();
         match varying.as_slice() {
             [] => put.test(if strict { Op::Less } else { Op::LessEqual }, poly),
-            [x] if *x == self.column.0 && self.plainly.get() => self.plain(put, strict, poly),
             [x] if *x == self.column.0 => self.span(put, strict, poly),
             _ => None,
         }
-    }
-
-    /// The polynomial itself, as it is asked at a border.
-    fn plain(&self, put: &mut Put<'_, '_>, strict: bool, poly: &Poly) -> Option<NodeId> {
-        let parts = poly.by(self.column.0);
-        // It does not matter which way it is turned.
-        let asked = self.asked(parts, strict);
-        let x = Out {
-            node: (put.new)(self.column)?,
-            whole: true,
-            lo: -1.0,
-            hi: self.width,
-        };
-        self.inside(put, &asked, x)
     }
 
     fn span(&self, put: &mut Put<'_, '_>, strict: bool, poly: &Poly) -> Option<NodeId> {
@@ -203,13 +188,104 @@ impl Site<'_> {
         if turned {
             parts.iter_mut().for_each(|part| *part = negative(part));
         } else if lead.lo <= 0.0 {
-            return None;
+            return self.by_sign(put, strict, poly);
         }
         let asked = self.asked(parts, strict != turned);
+        self.ends(put, &asked, turned)
+    }
+
+    /// The span of a polynomial with its first coefficient above 0, or the polynomial
+    /// itself as it is asked at a border.
+    fn ends(&self, put: &mut Put<'_, '_>, asked: &Asked, turned: bool) -> Option<NodeId> {
         match asked.parts.len() {
-            2 => self.up_to(put, &asked, turned),
-            3 => self.between(put, &asked, turned),
+            // It does not matter which way it is turned.
+            2 | 3 if self.plainly.get() => {
+                let x = Out {
+                    node: (put.new)(self.column)?,
+                    whole: true,
+                    lo: -1.0,
+                    hi: self.width,
+                };
+                self.inside(put, asked, x)
+            }
+            2 => self.up_to(put, asked, turned),
+            3 => self.between(put, asked, turned),
             _ => None,
+        }
+    }
+
+    /// f q(x) + r, where q's first coefficient has a known sign and the row's f has
+    /// not: the sign of q(x) + r/f where f is above 0, the other one where it is
+    /// below, and r's where it is 0. The span is solved under the row's condition.
+    fn by_sign(&self, put: &mut Put<'_, '_>, strict: bool, poly: &Poly) -> Option<NodeId> {
+        let factor = shared(poly.by(self.column.0).get(1..)?);
+        let alone = |monomial: &[(Atom, u32)]| Poly {
+            terms: [(monomial.to_vec(), Number::ONE)].into(),
+        };
+        let above = |of: &Poly| (self.extents).extent(self.rows, self.full, of).lo > 0.0;
+        let mut unknown = factor.iter().filter(|one| !above(&alone(&[**one])));
+        let (Some((atom, power)), None) = (unknown.next(), unknown.next()) else {
+            return None;
+        };
+        if power % 2 == 0 || self.rows.other(*atom).is_some() {
+            return None;
+        }
+        let (q, r) = poly.split(&factor);
+        let lead = (self.extents).extent(self.rows, self.full, q.by(self.column.0).last()?);
+        if lead.lo <= 0.0 && lead.hi >= 0.0 {
+            return None;
+        }
+        let side = |up: bool| {
+            let turned = (lead.hi < 0.0) == up;
+            let sign = |part: &Poly| match lead.hi < 0.0 {
+                true => negative(part),
+                false => part.clone(),
+            };
+            let asked = Asked {
+                parts: q.by(self.column.0).iter().map(sign).collect(),
+                more: (!r.is_zero()).then(|| (sign(&r), alone(&factor))),
+                strict: strict != turned,
+            };
+            (asked, turned)
+        };
+        let is = |put: &mut Put<'_, '_>, up: bool| {
+            let of = Poly::atom(*atom);
+            put.test(Op::Less, &if up { negative(&of) } else { of })
+        };
+        for up in [true, false] {
+            // What the other side and 0 decide alike.
+            if let Some(holds) = self.same(strict, &q, &r, !up) {
+                let (asked, turned) = side(up);
+                let (cond, span) = (is(put, up)?, self.ends(put, &asked, turned)?);
+                let holds = put.builder.constant(Value::Bool(holds), put.span);
+                return Some(put.builder.select(cond, span, holds, put.span));
+            }
+        }
+        let [yes, no] = [true, false].map(|up| {
+            let (asked, turned) = side(up);
+            self.ends(put, &asked, turned)
+        });
+        let (up, down) = (is(put, true)?, is(put, false)?);
+        let zero = put.test(if strict { Op::Less } else { Op::LessEqual }, &r)?;
+        let no = put.builder.select(down, no?, zero, put.span);
+        Some(put.builder.select(up, yes?, no, put.span))
+    }
+
+    /// What f q(x) + r is for all f on one side and 0, if that is the same in all columns.
+    fn same(&self, strict: bool, q: &Poly, r: &Poly, up: bool) -> Option<bool> {
+        let [of, more] = [q, r].map(|poly| (self.extents).extent(self.rows, self.full, poly));
+        let product = match up {
+            true => of,
+            false => Range::new(-of.hi, -of.lo),
+        };
+        let beyond = |x: f64| x > 0.0 || strict && x == 0.0;
+        let within = |x: f64| x < 0.0 || !strict && x == 0.0;
+        if product.lo >= 0.0 && beyond(more.lo) {
+            Some(false)
+        } else if product.hi <= 0.0 && within(more.hi) {
+            Some(true)
+        } else {
+            None
         }
     }
 

@@ -215,3 +215,94 @@ fn what_may_turn_over_or_lies_too_far_is_left_alone() {
     let flat = [[1.0, -7.0, 0.000_01], [-1.0, 9.0, 0.000_02]];
     assert!(spanned(&picture(&flat, Type::Real, Op::Less, false)).is_none());
 }
+
+/// Ink 1 where over / ((20 x - 3190)² + more) is below a limit, by row.
+fn quotients(rows: &[[f64; 3]]) -> Graph {
+    let mut b = Builder::new();
+    let [x, y] = [Axis::X, Axis::Y].map(|axis| b.axis(axis, AT));
+    let zero = b.constant(Value::Int(0), AT);
+    let column = |b: &mut Builder, k: usize, ty: Type| {
+        let value = |row: &[f64; 3]| match ty {
+            Type::Int => Constant::Int(row[k] as i32),
+            _ => Constant::new(Value::Real(row[k])),
+        };
+        let table = b.table(Table {
+            name: format!("c{k}"),
+            width: 1,
+            height: rows.len() as u32,
+            ty,
+            entries: rows.iter().map(value).collect(),
+            seed: Vec::new(),
+        });
+        b.lookup(table, zero, y, AT)
+    };
+    let over = column(&mut b, 0, Type::Real);
+    let more = column(&mut b, 1, Type::Int);
+    let limit = column(&mut b, 2, Type::Real);
+    let [by, from] = [20, 3190].map(|n| b.constant(Value::Int(n), AT));
+    let line = b.apply(Op::IntMul, &[x, by], AT);
+    let line = b.apply(Op::IntSub, &[line, from], AT);
+    let square = b.apply(Op::IntMul, &[line, line], AT);
+    let square = b.apply(Op::IntAdd, &[square, more], AT);
+    let quotient = b.apply(Op::Div, &[over, square], AT);
+    let holds = b.apply(Op::Less, &[quotient, limit], AT);
+    let one = b.constant(Value::Int(1), AT);
+    let ink = b.select(holds, one, zero, AT);
+    let image = Image {
+        width: WIDTH as u32,
+        height: rows.len() as u32,
+        palette: vec![[0; 3]; 2],
+    };
+    b.finish(image, ink, None)
+}
+
+/// A limit that may be of either sign, or 0: the row decides which way the span lies.
+#[test]
+fn factors_of_unknown_sign_are_asked_for_it() {
+    let mut inside = [0; 2];
+    for mixed in [false, true] {
+        let mut random = Random::new(31);
+        let mut row = |k: i64| {
+            let sign = if mixed && k % 2 == 0 { -1.0 } else { 1.0 };
+            let over = sign * within(&mut random, 64, 3_000_000) as f64;
+            let more = within(&mut random, 1, 9_000_000) as f64;
+            let edge = within(&mut random, -4000, 4000) as f64;
+            let limit = match k % 5 {
+                0 => 0.0,
+                1 => -over / (edge * edge + more),
+                _ => over / (edge * edge + more),
+            };
+            [over, more, limit]
+        };
+        let rows: Vec<[f64; 3]> = (0..200).map(&mut row).collect();
+        let graph = quotients(&rows);
+        let next = spanned(&graph).expect("no span");
+        let target = find("bbc:micro").unwrap();
+        let goal = Goal {
+            name: "test".to_owned(),
+            mode: default_mode(target, WIDTH as u32, 200).unwrap(),
+            rows: None,
+            plot: true,
+        };
+        let plan = plan(&next, target, &goal).unwrap();
+        let (mut before, mut after) = (Native::new(&graph), Native::new(&next));
+        let mut model = ModelRun::new(&plan);
+        for (y, [over, more, limit]) in rows.iter().enumerate() {
+            for x in 0..WIDTH {
+                let line = f64::from(20 * x - 3190);
+                let apart = (over / (line * line + more) - limit).abs();
+                let place = (x, y as i32);
+                let ink = before.pixel(x, y as i32).ink;
+                if apart > 1e-12 * limit.abs() {
+                    assert_eq!(after.pixel(x, y as i32).ink, ink, "{place:?} {:?}", rows[y]);
+                }
+                if apart > 1e-6 * limit.abs() {
+                    assert_eq!(model.pixel(x, y as i32).ink, ink, "{place:?} {:?}", rows[y]);
+                    inside[usize::from(ink)] += 1;
+                }
+            }
+        }
+        assert_eq!(model.unset_reads(), 0);
+    }
+    assert!(inside.iter().all(|n| *n > 20_000), "{inside:?}");
+}
