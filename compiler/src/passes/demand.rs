@@ -243,7 +243,11 @@ impl Placer<'_> {
             let kind = RegionKind::Arm { cond, holds };
             region = self.regions.make_child(self.graph, region, kind);
         }
-        self.need(still.ink, region);
+        let reads: Vec<NodeId> = still
+            .reads(self.graph)
+            .skip(still.conditions.len())
+            .collect();
+        reads.into_iter().for_each(|id| self.need(id, region));
     }
 
     /// What is known of a region's conditions further out already: the arms of

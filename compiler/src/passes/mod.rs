@@ -23,6 +23,7 @@ pub mod region;
 pub mod schedule;
 pub mod segment;
 pub mod skip;
+pub mod split;
 pub mod squares;
 pub mod stable;
 pub mod still;

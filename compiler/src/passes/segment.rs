@@ -1,7 +1,8 @@
 //! What is the same for a run of columns: what depends on the column only through
 //! comparisons with what the row knows.
 
-use super::rate::{Dependence, Rates};
+use super::needed::needed;
+use super::rate::{Dependence, Rates, rates};
 use crate::flow::graph::*;
 use slowlight_routine::Op;
 
@@ -44,4 +45,36 @@ pub fn by_segment(graph: &Graph, rates: &Rates, needed: &[bool]) -> Vec<bool> {
         return vec![false; graph.nodes.len()];
     }
     found
+}
+
+/// What runs of columns know of a graph.
+pub struct Known<'g> {
+    pub graph: &'g Graph,
+    rates: Rates,
+    runs: Vec<bool>,
+}
+
+impl<'g> Known<'g> {
+    pub fn of(graph: &'g Graph) -> Known<'g> {
+        let rates = rates(graph);
+        let runs = by_segment(graph, &rates, &needed(graph));
+        Known { graph, rates, runs }
+    }
+
+    /// Whether a value is known before a run's first pixel.
+    pub fn before(&self, id: NodeId) -> bool {
+        self.rates.is_still(id) || self.runs[id.0 as usize]
+    }
+
+    /// Whether a bool is another at each pixel and costs little to ask: a comparison of
+    /// what is stepped from column to column with what is the same for the pass.
+    pub fn stepped(&self, id: NodeId) -> bool {
+        let Node::Apply(op, args) = self.graph.node(id) else {
+            return false;
+        };
+        let ramp = |id: &NodeId| matches!(self.graph.node(*id), Node::Ramp { .. });
+        matches!(op, Op::IntLess | Op::IntLessEqual | Op::IntEqual)
+            && args.iter().any(ramp)
+            && args.iter().all(|id| ramp(id) || self.rates.is_still(*id))
+    }
 }

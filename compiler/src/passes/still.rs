@@ -1,29 +1,46 @@
-//! Still inks: runs of columns of which one ink is known before their first pixel.
+//! Still inks: runs of columns of which one ink is known before their first pixel, or
+//! two that a bool chooses between.
 //!
 //! What a run of columns knows (`Tree::segment`) may decide its ink: where nothing
 //! is met along it, say, and its shade crosses no threshold. Then the pixels
 //! need no computing at all; a target draws them in a loop that does nothing else.
 
-use super::needed::needed;
-use super::rate::rates;
 use super::region::Fact;
-use super::segment::by_segment;
+use super::segment::Known;
 use crate::flow::graph::*;
 use slowlight_routine::{Op, Value};
 
-/// Conditions that are known before a run's first pixel, and the ink of all its
-/// pixels where they hold, which is known there as well.
+/// Conditions that are known before a run's first pixel, and the inks of its pixels
+/// where they hold, which are known there as well.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Still {
     pub conditions: Vec<Fact>,
-    pub ink: NodeId,
+    pub inks: Inks,
+}
+
+/// What a run's pixels show.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Inks {
+    One(NodeId),
+    /// One of two by a bool that is another at each pixel: the only thing that is
+    /// asked there ([`Known::stepped`]).
+    Either {
+        cond: NodeId,
+        yes: NodeId,
+        no: NodeId,
+    },
 }
 
 impl Still {
-    /// What a target reads before a run's first pixel.
-    pub fn reads(&self) -> impl Iterator<Item = NodeId> {
+    /// What a target reads from a run's first pixel on.
+    pub fn reads(&self, graph: &Graph) -> impl Iterator<Item = NodeId> {
         let conditions = self.conditions.iter().map(|(cond, _)| *cond);
-        conditions.chain([self.ink])
+        let (inks, of) = match self.inks {
+            Inks::One(ink) => (vec![ink], None),
+            Inks::Either { cond, yes, no } => (vec![yes, no], Some(graph.node(cond))),
+        };
+        let of: Vec<NodeId> = of.iter().flat_map(Node::operands).collect();
+        conditions.chain(inks).chain(of)
     }
 }
 
@@ -32,25 +49,24 @@ pub fn still(graph: &Graph) -> Option<Still> {
     if graph.diffusion.is_some() || !graph.reports.is_empty() {
         return None;
     }
-    let rates = rates(graph);
-    let runs = by_segment(graph, &rates, &needed(graph));
-    let find = Find {
-        graph,
-        known: &|id| rates.is_still(id) || runs[id.0 as usize],
-    };
-    if (find.known)(graph.ink) {
+    let known = Known::of(graph);
+    if known.before(graph.ink) {
         return None;
+    }
+    let find = Find { graph, known };
+    if let Some(inks) = find.known_inks(graph.ink) {
+        let conditions = Vec::new();
+        return Some(Still { conditions, inks });
     }
     let mut conditions = Vec::new();
     find.conditions(graph.ink, &mut conditions);
-    let facts = conditions.into_iter().flat_map(|c| [(c, true), (c, false)]);
-    facts.into_iter().find_map(|fact| find.ink(fact))
+    let mut facts = conditions.into_iter().flat_map(|c| [(c, true), (c, false)]);
+    facts.find_map(|fact| find.inks(vec![fact]))
 }
 
-struct Find<'f> {
-    graph: &'f Graph,
-    /// Whether something is known before a run's first pixel.
-    known: &'f dyn Fn(NodeId) -> bool,
+struct Find<'g> {
+    graph: &'g Graph,
+    known: Known<'g>,
 }
 
 impl Find<'_> {
@@ -63,7 +79,7 @@ impl Find<'_> {
                 continue;
             }
             match self.graph.node(id) {
-                Node::Select { cond, yes, no } if (self.known)(cond) => {
+                Node::Select { cond, yes, no } if self.known.before(cond) => {
                     if !found.contains(&cond) {
                         found.push(cond);
                     }
@@ -76,26 +92,38 @@ impl Find<'_> {
         }
     }
 
-    /// The ink where something holds, perhaps with more conditions.
-    fn ink(&self, fact: Fact) -> Option<Still> {
-        let mut conditions = vec![fact];
+    /// The inks where something holds, perhaps with more conditions.
+    fn inks(&self, mut conditions: Vec<Fact>) -> Option<Still> {
         loop {
             let ink = self.resolved(self.graph.ink, &conditions);
-            if (self.known)(ink) {
-                return Some(Still { conditions, ink });
+            if let Some(inks) = self.known_inks(ink) {
+                return Some(Still { conditions, inks });
             }
             let Node::Select { cond, yes, no } = self.graph.node(ink) else {
                 return None;
             };
-            if !(self.known)(cond) {
+            if !self.known.before(cond) {
                 return None;
             }
-            let of = |id| (self.known)(self.resolved(id, &conditions));
+            let of = |id| self.known_inks(self.resolved(id, &conditions)).is_some();
             match (of(yes), of(no)) {
                 (true, _) => conditions.push((cond, true)),
                 (_, true) => conditions.push((cond, false)),
                 _ => return None,
             }
+        }
+    }
+
+    /// An ink that is known before its run, or one of two by what is stepped.
+    fn known_inks(&self, ink: NodeId) -> Option<Inks> {
+        match self.graph.node(ink) {
+            _ if self.known.before(ink) => Some(Inks::One(ink)),
+            Node::Select { cond, yes, no }
+                if self.known.stepped(cond) && self.known.before(yes) && self.known.before(no) =>
+            {
+                Some(Inks::Either { cond, yes, no })
+            }
+            _ => None,
         }
     }
 

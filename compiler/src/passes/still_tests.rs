@@ -4,13 +4,15 @@
 use super::interlace::{interlaced, passes};
 use super::region::Fact;
 use super::schedule::schedule_in_segments;
-use super::still::still;
+use super::split::split;
+use super::still::{Inks, still};
 use crate::eval::arithmetic::Exact;
 use crate::eval::native::Native;
 use crate::eval::random::Random;
 use crate::eval::run::Run;
 use crate::flow::build::Builder;
 use crate::flow::graph::*;
+use crate::flow::ramp;
 use crate::flow::verify::verify;
 use crate::source::Span;
 use slowlight_routine::{Op, Value};
@@ -24,8 +26,9 @@ const WIDTH: i32 = 71;
 const HEIGHT: i32 = 9;
 
 /// Inks chosen by conditions of every kind: on the row, on the column against
-/// what the row knows, on the pixel, and on the column's remainders.
-fn picture(seed: u64) -> Graph {
+/// what the row knows, on the pixel, and on the column's remainders; or, in the place
+/// of the last two, on a ramp.
+fn picture(seed: u64, ramps: bool) -> Graph {
     let mut random = Random::new(seed);
     let mut b = Builder::new();
     let [x, y] = [Axis::X, Axis::Y].map(|axis| b.axis(axis, AT));
@@ -35,7 +38,10 @@ fn picture(seed: u64) -> Graph {
     let square = b.apply(Op::IntMul, &[x, x], AT);
     let pixel = b.apply(Op::BitAnd, &[square, three], AT);
     let rest = b.apply(Op::BitAnd, &[x, three], AT);
-    let mut ints = vec![row, pixel, rest];
+    let mut ints = match ramps {
+        true => vec![row],
+        false => vec![row, pixel, rest],
+    };
     ints.extend((0..4).map(|n| int(&mut b, n)));
     let mut bools = Vec::new();
     for k in 0..6 {
@@ -48,6 +54,14 @@ fn picture(seed: u64) -> Graph {
             0 | 1 => b.apply(Op::IntLess, &[x, line], AT),
             2 => b.apply(Op::IntLessEqual, &[line, x], AT),
             3 => b.apply(Op::IntLess, &[row, few], AT),
+            4 if ramps => {
+                let step = int(&mut b, 700_000_000 + random.below(1_000_000_000) as i32);
+                let first = b.apply(Op::IntMul, &[line, step], AT);
+                let ramp = b.ramp(first, step, 1, AT);
+                let zero = int(&mut b, 0);
+                b.apply(Op::IntLess, &[ramp, zero], AT)
+            }
+            5 if ramps => bools[0],
             4 => b.apply(Op::IntLess, &[rest, few], AT),
             _ => b.apply(Op::IntLess, &[few, pixel], AT),
         });
@@ -75,9 +89,16 @@ fn picture(seed: u64) -> Graph {
 #[test]
 fn runs_and_passes_draw_the_same_and_still_inks_are_known() {
     let (mut stills, mut pixels, mut drawn_in_passes) = (0, 0, 0);
-    for seed in 0..400 {
-        let plain = picture(seed);
-        let graph = interlaced(&plain, 1).unwrap_or_else(|| plain.clone());
+    let (mut splits, mut eithers) = (0, 0);
+    for seed in 0..800 {
+        let plain = picture(seed, seed % 2 == 1);
+        let stepped = |graph: &Graph| graph.nodes.iter().any(|n| matches!(n, Node::Ramp { .. }));
+        let graph = match stepped(&plain) {
+            true => split(&plain),
+            false => interlaced(&plain, 1),
+        };
+        splits += usize::from(stepped(&plain) && graph.is_some());
+        let graph = graph.unwrap_or_else(|| plain.clone());
         verify(&graph).unwrap();
         drawn_in_passes += usize::from(passes(&graph) == 4);
         let tree = schedule_in_segments(&graph);
@@ -107,11 +128,30 @@ fn runs_and_passes_draw_the_same_and_still_inks_are_known() {
                 let holds = |(cond, holds): &Fact| before.last(*cond).unwrap().truth() == *holds;
                 if all.all(holds) {
                     pixels += 1;
-                    let known = match graph.node(found.ink) {
-                        Node::Axis(_) => x.rem_euclid(4),
-                        _ => before.last(found.ink).unwrap().int(),
+                    let value = |id: NodeId| match graph.node(id) {
+                        Node::Axis(_) => Value::Int(x.rem_euclid(4)),
+                        Node::Ramp { .. } => {
+                            let parts = ramp::coefficients(&graph, id).into_iter();
+                            let parts: Vec<i32> =
+                                parts.map(|part| before.last(part).unwrap().int()).collect();
+                            Value::Int(ramp::at(x, &parts))
+                        }
+                        _ => before.last(id).unwrap(),
                     };
-                    assert_eq!(known, ink, "{seed} ({x}, {y})");
+                    let shown = match found.inks {
+                        Inks::One(ink) => ink,
+                        Inks::Either { cond, yes, no } => {
+                            let Node::Apply(op, args) = graph.node(cond) else {
+                                panic!("{seed}\n{graph}");
+                            };
+                            eithers += 1;
+                            match op.eval(&args.map(value)).truth() {
+                                true => yes,
+                                false => no,
+                            }
+                        }
+                    };
+                    assert_eq!(value(shown).int(), ink, "{seed} ({x}, {y})");
                 }
             }
         }
@@ -119,6 +159,7 @@ fn runs_and_passes_draw_the_same_and_still_inks_are_known() {
     }
     assert!(stills > 50 && pixels > 5_000, "{stills} {pixels}");
     assert!(drawn_in_passes > 100, "{drawn_in_passes}");
+    assert!(splits > 50 && eithers > 2_000, "{splits} {eithers}");
 }
 
 #[test]

@@ -87,6 +87,16 @@ impl Beside<'_> {
         operands + self.kept(id)
     }
 
+    /// What it takes to ask a bool that is not kept.
+    pub(super) fn asked(&self, id: NodeId) -> u32 {
+        let Some(stepping) = self.runtime.stepping else {
+            return self.runtime.statement + self.own(id);
+        };
+        let operands = self.graph.node(id).operands();
+        let operands: u32 = operands.map(|used| self.read(used, stepping)).sum();
+        stepping.test + operands + self.own(id)
+    }
+
     /// What ramps take behind each pixel.
     pub(super) fn steps(&self, row: &Block) -> f64 {
         let ramp = self.runtime.stepping.map_or(0, |s| s.ramp);

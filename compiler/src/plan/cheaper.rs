@@ -21,6 +21,7 @@ use crate::passes::homogeneous::{homogeneous, lengths};
 use crate::passes::identities::{around, identities};
 use crate::passes::peel::peel;
 use crate::passes::skip::skip;
+use crate::passes::split::split;
 use crate::passes::squares::squares;
 use crate::passes::threshold::threshold;
 use crate::range::Ranges;
@@ -119,6 +120,21 @@ pub fn with_recipes_followed(plan: Settled, shop: &Workshop, thrift: Thrift) -> 
     match next {
         Some(next) if price.of(&next) < price.of(&plan) => next,
         _ => plan,
+    }
+}
+
+/// With inks chosen by the one bool that runs of columns do not know, if that is worth
+/// the memory.
+pub fn with_inks_split(plan: Settled, shop: &Workshop, thrift: Thrift) -> Settled {
+    let runs = !plan.tree.segment.is_empty();
+    let next = runs.then(|| split(&plan.graph)).flatten();
+    let Some(next) = next.map(|graph| shop.settle(&graph)) else {
+        return plan;
+    };
+    let price = Price::new(&plan, shop.runtime, thrift);
+    match price.of(&next) < price.of(&plan) {
+        true => next,
+        false => plan,
     }
 }
 

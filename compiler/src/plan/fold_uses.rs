@@ -25,7 +25,7 @@ pub fn folded(graph: &Graph, tree: &Tree, still: Option<&Still>) -> Vec<bool> {
             graph.reports.iter().for_each(|&id| uses.read(id, 0));
             still
                 .into_iter()
-                .flat_map(Still::reads)
+                .flat_map(|still| still.reads(graph))
                 .for_each(|id| uses.read(id, 0));
         }
     }

@@ -55,7 +55,7 @@ pub fn shared_homes(plan: &Plan) -> HashMap<Place, usize> {
     lives.block(&plan.tree.segment);
     if let Some(still) = &plan.still {
         lives.now += 1;
-        still.reads().for_each(|id| lives.read(id));
+        still.reads(&plan.graph).for_each(|id| lives.read(id));
     }
     // The number of the last statement before the pixel's.
     let pixel = lives.now;

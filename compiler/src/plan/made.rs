@@ -1,6 +1,6 @@
 //! How a plan is made: the passes in their order, then a routine for each value.
 
-use super::cheaper::{apart_at_last, cheaper, with_recipes_followed};
+use super::cheaper::{apart_at_last, cheaper, with_inks_split, with_recipes_followed};
 use super::params::{self, ParamPlan};
 use super::price::Price;
 use super::settled::{Known, Settled};
@@ -92,7 +92,8 @@ pub(super) fn planned(
         let all = all
             .into_iter()
             .map(|plan| with_recipes_followed(plan, shop, thrift))
-            .map(|plan| stepped(plan, shop, target, thrift, steps));
+            .map(|plan| stepped(plan, shop, target, thrift, steps))
+            .map(|plan| with_inks_split(plan, shop, thrift));
         now = price.cheapest(all).unwrap_or(now);
         now = apart_at_last(now, shop, thrift);
     }

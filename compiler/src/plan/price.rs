@@ -20,7 +20,7 @@ use crate::passes::interlace::passes;
 use crate::passes::rate::rates;
 use crate::passes::region::Fact;
 use crate::passes::segment::bounds_segment;
-use crate::passes::still::{Still, still};
+use crate::passes::still::{Inks, Still, still};
 use rustc_hash::FxHashSet;
 use slowlight_routine::{Op, Runtime, Type, Value};
 use std::cell::Cell;
@@ -99,7 +99,11 @@ impl Price {
             [] => guess(&plan.tree.pixel),
             pixels => {
                 let meter = Meter::new(&plan.graph, by_pixel);
-                let sum = self.run(plan, pixels, &meter, still.as_ref());
+                let still = still.as_ref().map(|still| match still.inks {
+                    Inks::One(_) => (still, 0.0),
+                    Inks::Either { cond, .. } => (still, f64::from(beside.asked(cond))),
+                });
+                let sum = self.run(plan, pixels, &meter, still);
                 sum.map_or_else(|| guess(&plan.tree.pixel), |sum| sum / pixels.len() as f64)
             }
         };
@@ -186,7 +190,7 @@ impl Price {
         plan: &Settled,
         pixels: &[(i32, i32)],
         meter: &Meter<'_, impl Fn(&Statement) -> f64>,
-        still: Option<&Still>,
+        still: Option<(&Still, f64)>,
     ) -> Option<f64> {
         let mut run = Run::new(&plan.graph, &plan.tree, meter);
         let mut row = None;
@@ -202,10 +206,11 @@ impl Price {
                 Some(value) => value.truth() == *holds,
                 None => false,
             };
-            // Of a run whose ink is known before nothing is computed.
-            if !still.is_some_and(|still| still.conditions.iter().all(holds)) {
-                sum += meter.sum.get();
-            }
+            // Of a run whose inks are known before nothing is computed, or one bool.
+            sum += match still {
+                Some((still, asked)) if still.conditions.iter().all(holds) => asked,
+                _ => meter.sum.get(),
+            };
             if meter.ran.get() > PATIENCE {
                 return None;
             }

@@ -8,6 +8,7 @@ use super::segment::Ends;
 use super::text::Text;
 use crate::flow::graph::{Node, NodeId};
 use crate::flow::tree::*;
+use crate::passes::region::Fact;
 use crate::plan::Plan;
 use crate::source::Span;
 use slowlight_routine::Op;
@@ -31,6 +32,8 @@ pub struct Code<'p> {
     pub labels: Labels,
     /// What ends a run of columns, where its block is being written.
     pub ends: Option<Ends>,
+    /// What is known of a condition where a pixel is being written.
+    pub known: Option<Fact>,
     span: Option<Span>,
 }
 
@@ -43,6 +46,7 @@ impl<'p> Code<'p> {
             loops: 0,
             labels: Labels::default(),
             ends: None,
+            known: None,
             span: None,
         }
     }
@@ -105,6 +109,12 @@ impl<'p> Code<'p> {
                 };
                 let home = self.values.names.home(*place).to_owned();
                 self.assign(&home, &text);
+            }
+            Statement::If { cond, yes, no } if self.known.is_some_and(|(of, _)| of == *cond) => {
+                self.block(match self.known {
+                    Some((_, false)) => no,
+                    _ => yes,
+                });
             }
             Statement::If { cond, yes, no } => {
                 let holds = self.values.condition(*cond, true);

@@ -157,13 +157,11 @@ fn picture(plan: &Plan, code: &mut Code<'_>, first: &str, last: &str, spread: Op
         (None, Some(segments)) => {
             code.statement(format!("X%={}", columns.0));
             code.lines.place(top_label);
-            let draw = screen::run(plan, 1);
+            let draw = screen::run(plan, code, 1);
             apart.extend(behind(code, "segment", |code| {
                 segments.begin(plan, code, Some(&draw));
             }));
-            if plan.still.is_some() {
-                code.line(format!("IF X%>{} THEN {behind_run}", segments.end()));
-            }
+            segments.drawn(plan, code, behind_run);
             code.line(format!("FOR X%=X% TO {}", segments.end()));
         }
         (None, None) => code.line(format!("FOR X%={} TO {}", columns.0, columns.1)),
@@ -173,6 +171,7 @@ fn picture(plan: &Plan, code: &mut Code<'_>, first: &str, last: &str, spread: Op
         spread.receive(code);
     }
     code.block(&plan.tree.pixel);
+    code.known = None;
     let ink = code.values.read(plan.graph.ink);
     code.assign("I%", &ink);
     if let Some(poke) = &poke {

@@ -105,9 +105,7 @@ impl Passes {
                 apart.extend(behind(code, "segment", |code| {
                     segments.begin(plan, code, Some(&draw));
                 }));
-                if plan.still.is_some() {
-                    code.line(format!("IF X%>{} THEN {behind_run}", segments.end()));
-                }
+                segments.drawn(plan, code, behind_run);
                 code.line(format!("FOR X%=X% TO {} STEP {n}", segments.end()));
             }
             None => code.line(format!("FOR X%=X% TO {last} STEP {n}")),
@@ -115,18 +113,23 @@ impl Passes {
         apart
     }
 
-    /// How a run of one ink is drawn.
+    /// How a run is drawn whose inks are known.
     fn run(&self, plan: &Plan, code: &mut Code<'_>) -> Draw {
         let stride = self.count;
         let Some(spot) = &self.spot else {
-            return screen::run(plan, stride);
+            return screen::run(plan, code, stride);
         };
-        let byte = code.values.names.unique("run", "%");
-        let at = &spot.at;
+        let names = ["run", "other"].map(|name| code.values.names.unique(name, "%"));
+        let (at, next) = (&spot.at, spot.next(stride));
+        let either = [0, 1].map(|k| format!("?{at}=?{at}+{}", names[k]));
         Draw {
             stride,
-            once: vec![format!("{byte}={}?I%", spot.here)],
-            each: vec![format!("?{at}=?{at}+{byte}"), spot.next(stride)],
+            names,
+            of: format!("{}?", spot.here),
+            once: Vec::new(),
+            each: vec![either[0].clone(), next.clone()],
+            either,
+            then: vec![next],
         }
     }
 

@@ -1,6 +1,7 @@
 //! Modes, colours and coordinates.
 
 use super::super::Mode;
+use super::code::Code;
 use super::segment::Draw;
 use crate::plan::Plan;
 
@@ -140,15 +141,26 @@ pub fn rows(plan: &Plan) -> (i64, i64) {
     ((-top).max(0), (screen - top).min(picture) - 1)
 }
 
-/// How a run of pixels of one ink, every `stride`th of a row, is plotted.
-pub fn run(plan: &Plan, stride: u32) -> Draw {
-    let (mut once, mut each) = (Vec::new(), Vec::new());
+/// How a run of pixels whose inks are known, every `stride`th of a row, is plotted.
+pub fn run(plan: &Plan, code: &mut Code<'_>, stride: u32) -> Draw {
+    let names = ["run", "other"].map(|name| code.values.names.unique(name, "%"));
+    let (mut once, mut each, mut then) = (Vec::new(), Vec::new(), Vec::new());
     // After MODE the screen is ink 0 already.
     if plan.plot {
-        once.push("IF I% THEN GCOL 0,I%".to_owned());
-        each.push(format!("IF I% THEN PLOT 69,{},R%", x_expression(plan)));
+        let (ink, point) = (&names[0], format!("PLOT 69,{},R%", x_expression(plan)));
+        once.push(format!("IF {ink} THEN GCOL 0,{ink}"));
+        each.push(format!("IF {ink} THEN {point}"));
+        then.push(format!("IF I% THEN GCOL 0,I%:{point}"));
     }
-    Draw { stride, once, each }
+    Draw {
+        stride,
+        either: [0, 1].map(|k| format!("I%={}", names[k])),
+        names,
+        of: String::new(),
+        once,
+        each,
+        then,
+    }
 }
 
 /// The graphics x of picture column `X%`.

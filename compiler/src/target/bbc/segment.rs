@@ -6,13 +6,15 @@
 //! So a comparison that is not reached there ends no run.
 
 use super::code::Code;
+use super::lines::Label;
 use super::ramp;
 use crate::flow::graph::*;
 use crate::passes::rate::rates;
 use crate::passes::segment::bounds_segment;
-use crate::passes::still::Still;
+use crate::passes::still::{Inks, Still};
 use crate::plan::Plan;
 use slowlight_routine::Op;
+use slowlight_runtime_bbc::level::OPERAND;
 use std::collections::HashSet;
 
 /// How often a segment's statements are carried out, roughly: for the weights
@@ -70,35 +72,72 @@ impl Segments {
         }
         code.lines.weight = weight;
     }
+
+    /// Goes behind a run that was drawn. Where one condition says of every run
+    /// whether it is, that is known at the pixels of the others.
+    pub fn drawn(&self, plan: &Plan, code: &mut Code<'_>, behind_run: Label) {
+        let Some(still) = &plan.still else {
+            return;
+        };
+        code.line(format!("IF X%>{} THEN {behind_run}", self.end));
+        code.known = match still.conditions.as_slice() {
+            [(cond, holds)] => Some((*cond, !holds)),
+            _ => None,
+        };
+    }
 }
 
-/// How a run of one ink, which is in I%, is drawn.
+/// How a run is drawn whose inks are known.
 pub struct Draw {
     /// How far apart its columns are.
     pub stride: u32,
-    /// What is done once, and at every column.
+    /// Variables of what is drawn for one ink and for another.
+    pub names: [String; 2],
+    /// What stands before an ink for that.
+    pub of: String,
+    /// What is done once and at every column where all show the first.
     pub once: Vec<String>,
     pub each: Vec<String>,
+    /// What is done at a column for each, and then.
+    pub either: [String; 2],
+    pub then: Vec<String>,
 }
 
 impl Segments {
-    /// Draws a run whose ink is known.
+    /// Draws a run whose inks are known.
     fn still(&self, still: &Still, plan: &Plan, code: &mut Code<'_>, draw: &Draw) {
         let other = code.labels.next();
         for &(cond, holds) in &still.conditions {
             let fails = code.values.condition(cond, !holds);
             code.line(format!("IF {fails} THEN {other}"));
         }
-        let ink = code.values.read(still.ink);
-        code.assign("I%", &ink);
-        draw.once.iter().for_each(|text| code.line(text));
+        let inks = match still.inks {
+            Inks::One(ink) => vec![ink],
+            Inks::Either { yes, no, .. } => vec![yes, no],
+        };
+        for (ink, name) in inks.iter().zip(&draw.names) {
+            let ink = code.values.read(*ink).at(OPERAND);
+            code.statement(format!("{name}={}{ink}", draw.of));
+        }
+        if let Inks::One(_) = still.inks {
+            draw.once.iter().for_each(|text| code.line(text));
+        }
         let step = match draw.stride {
             1 => String::new(),
             n => format!(" STEP {n}"),
         };
         code.line(format!("FOR X%=X% TO {}{step}", self.end));
         let weight = std::mem::replace(&mut code.lines.weight, STILL);
-        for text in &draw.each {
+        let each = match still.inks {
+            Inks::One(_) => &draw.each,
+            Inks::Either { cond, .. } => {
+                let cond = code.values.compute(cond).text;
+                let [yes, no] = &draw.either;
+                code.line(format!("IF {cond} THEN {yes} ELSE {no}"));
+                &draw.then
+            }
+        };
+        for text in each {
             match text.starts_with("IF ") {
                 true => code.line(text),
                 false => code.statement(text),
