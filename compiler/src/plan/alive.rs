@@ -65,7 +65,7 @@ impl<'p> Flow<'p> {
             flow.block(block);
         }
         let asked = flow.step();
-        let still = plan.still.iter().flat_map(|still| still.reads());
+        let still = plan.still.iter().flat_map(|still| still.reads(&plan.graph));
         still.for_each(|id| flow.reads(asked, id));
         flow.pixel = flow.step();
         flow.block(&tree.pixel);
