@@ -331,9 +331,10 @@ impl Set {
         }
     }
 
-    pub fn keep(&mut self, other: &Set) {
-        for (word, other) in self.0.iter_mut().zip(&other.0) {
-            *word &= other;
+    /// Keeps of some places those that another set has, too.
+    pub fn keep(&mut self, other: &Set, among: &Set) {
+        for ((word, other), among) in self.0.iter_mut().zip(&other.0).zip(&among.0) {
+            *word &= other | !among;
         }
     }
 

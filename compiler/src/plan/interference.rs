@@ -52,11 +52,20 @@ pub fn quick_homes(plan: &Plan) -> Homes {
 
 impl Flow<'_> {
     /// Which places interfere. What is asked of a pixel more than once comes out the
-    /// same each time: places that meet on neither of the two ways do not.
+    /// same each time: places that meet on neither of the two ways do not, if they are
+    /// the pixel's own. At the next pixel it may come out in another way.
     fn meets(&self) -> Interference {
         let mut all = self.meet_where(&[None]);
+        let mut own = Set::new(self.places.len());
+        let inside = |place: &usize| self.span[*place].0 >= self.pixel;
+        (0..self.places.len())
+            .filter(inside)
+            .for_each(|place| own.add(place));
         for cond in self.asked_again() {
-            all.keep(&self.meet_where(&[Some((cond, true)), Some((cond, false))]));
+            all.keep(
+                &self.meet_where(&[Some((cond, true)), Some((cond, false))]),
+                &own,
+            );
         }
         all
     }
@@ -129,10 +138,12 @@ impl Interference {
         self.0[a].has(b)
     }
 
-    /// Keeps what others have, too.
-    fn keep(&mut self, other: &Interference) {
-        for (set, other) in self.0.iter_mut().zip(&other.0) {
-            set.keep(other);
+    /// Keeps between some places what others have, too.
+    fn keep(&mut self, other: &Interference, among: &Set) {
+        for (place, (set, other)) in self.0.iter_mut().zip(&other.0).enumerate() {
+            if among.has(place) {
+                set.keep(other, among);
+            }
         }
     }
 
