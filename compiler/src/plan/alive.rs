@@ -17,6 +17,9 @@ use crate::flow::tree::*;
 use slowlight_routine::Format;
 use std::collections::HashMap;
 
+/// How many conditions are looked at both ways, at most: each only sets more apart.
+const CASES: usize = 24;
+
 /// One statement, or a part of one.
 #[derive(Default)]
 pub struct Step {
@@ -220,7 +223,11 @@ impl<'p> Flow<'p> {
     }
 
     /// Conditions of a pixel, computed in no loop, that are asked more than once.
+    /// None where subroutines are called: what they ask is another thing in each call.
     pub fn asked_again(&self) -> Vec<NodeId> {
+        if self.plan.is_outlined() {
+            return Vec::new();
+        }
         let (mut asked, mut again) = (Vec::new(), Vec::new());
         for step in &self.steps[self.pixel..] {
             match step.asks {
@@ -244,6 +251,7 @@ impl<'p> Flow<'p> {
             let at = |at: usize| place.is_some() && writes(&self.steps[at]) && inside(at);
             !(0..self.steps.len()).any(at)
         });
+        again.truncate(CASES);
         again
     }
 
@@ -339,6 +347,11 @@ impl Set {
     }
 
     pub fn iter(&self) -> impl Iterator<Item = usize> {
-        (0..self.0.len() * 64).filter(|place| self.has(*place))
+        let words = self.0.iter().enumerate().filter(|(_, word)| **word != 0);
+        words.flat_map(|(k, word)| {
+            (0..64)
+                .filter(move |bit| word >> bit & 1 == 1)
+                .map(move |bit| 64 * k + bit)
+        })
     }
 }

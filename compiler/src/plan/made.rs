@@ -14,6 +14,7 @@ use crate::flow::verify::verify;
 use crate::passes::early::without;
 use crate::passes::fold::fold;
 use crate::passes::interlace::interlaced;
+use crate::passes::ramps::runs::is_exact;
 use crate::passes::schedule::missing;
 use crate::passes::stable::stable;
 use crate::passes::still::still;
@@ -103,6 +104,14 @@ pub(super) fn planned(
         ranges,
         ..
     } = &*now;
+    // What the last passes placed anew must still begin with its run.
+    if let Rewriting::Fast { thrift, steps } = rewriting
+        && steps != Steps::None
+        && !is_exact(graph, tree, ranges)
+    {
+        let steps = Steps::None;
+        return planned(shop, target, goal, Rewriting::Fast { thrift, steps });
+    }
     if let Some(id) = missing(graph, tree) {
         let message = format!("the schedule lost {id}: a fault of the compiler, please report it");
         return Err(vec![Diagnostic::error(graph.span(id), message)]);
