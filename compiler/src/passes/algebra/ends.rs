@@ -22,6 +22,10 @@ use slowlight_routine::{Op, Value};
 /// By how much of a column a root may be off.
 const OFF: f64 = 0.25;
 
+/// What part of its greatest value a coefficient's least must be, at least: then no
+/// roundings make it a half of that.
+const SURE: f64 = 1e-4;
+
 /// A row's polynomial with its first coefficient above 0, and what is asked of it.
 pub(super) struct Asked {
     /// From power 0 on.
@@ -97,7 +101,7 @@ impl Site<'_> {
         // one behind it only if their sum is as large.
         let mirrored = mirrored(a, b).filter(|sum| f64::from(*sum) >= self.width - 2.0);
         let c = self.constant(put, asked)?;
-        let (c, b, a) = (put.real(c), self.real(put, b)?, self.real(put, a)?);
+        let (c, b, a) = (put.real(c), self.real(put, b)?, self.divisor(put, a)?);
         let at = put.span;
         let builder = &mut *put.builder;
         let two = builder.constant(Value::Real(-2.0), at);
@@ -213,6 +217,22 @@ impl Site<'_> {
         };
         let zero = put.builder.constant(zero, put.span);
         Some(put.builder.apply(op, &[value.node, zero], put.span))
+    }
+
+    /// The first coefficient, as a real. Boxes see that it is above 0, ranges may
+    /// not. That it is at least half of the least that it can be changes no value,
+    /// and lets them know how large a quotient becomes.
+    fn divisor(&self, put: &mut Put<'_, '_>, poly: &Poly) -> Option<NodeId> {
+        let real = self.real(put, poly)?;
+        let proved = (self.extents).extent(self.rows, self.full, poly);
+        if poly.value().is_some() || proved.lo <= SURE * proved.hi {
+            return Some(real);
+        }
+        // A power of two has few digits.
+        let least = (proved.lo / 2.0).log2().floor().exp2();
+        let (at, builder) = (put.span, &mut *put.builder);
+        let least = builder.constant(Value::Real(least), at);
+        Some(builder.apply(Op::Max, &[real, least], at))
     }
 
     /// What a row computes, as a real.
