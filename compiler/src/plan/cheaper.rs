@@ -118,7 +118,7 @@ pub fn with_recipes_followed(plan: Settled, shop: &Workshop, thrift: Thrift) -> 
     let price = Price::new(&plan, shop.runtime, thrift);
     let next = followed(&plan.graph, shop.runtime).map(|graph| shop.settle(&graph));
     match next {
-        Some(next) if price.of(&next) < price.of(&plan) => next,
+        Some(next) if thrift.follows() || price.of(&next) < price.of(&plan) => next,
         _ => plan,
     }
 }

@@ -4,10 +4,11 @@
 /// What part of the plan's cycles a statement more must save, for its memory
 /// (three entries of a table take as much), whether runs of columns may be
 /// looked for and whether rows may be drawn in passes: both take many statements a row, which hardly count by cycles.
-/// From where there is plenty to where there was never enough.
+/// From where there is plenty to where there was never enough; the second is the first
+/// with what tables hold worked out where it is needed.
 const THRIFT: [(f64, bool, bool); 15] = [
     (0.0001, true, true),
-    (0.0002, true, true),
+    (0.0001, true, true),
     (0.0004, true, true),
     (0.0006, true, true),
     (0.0008, true, true),
@@ -22,6 +23,9 @@ const THRIFT: [(f64, bool, bool); 15] = [
     (0.006, false, true),
     (0.01, false, false),
 ];
+
+/// The step that follows recipes of tables even where that is slower.
+const FOLLOWS: usize = 1;
 
 /// How much memory counts beside cycles: more where a program did not fit.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -44,6 +48,11 @@ impl Thrift {
     /// What part of the plan's cycles a statement more must save.
     pub fn part(self) -> f64 {
         THRIFT[self.0].0
+    }
+
+    /// Whether what tables hold is to be worked out where it is needed, if it can be.
+    pub fn follows(self) -> bool {
+        self.0 == FOLLOWS
     }
 
     /// Whether runs of columns may be looked for.
