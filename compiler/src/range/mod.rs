@@ -13,6 +13,7 @@ mod interval;
 mod parity;
 mod refine;
 mod slack;
+mod trust;
 
 use crate::flow::graph::*;
 use crate::flow::ramp;
@@ -323,38 +324,6 @@ impl Walk<'_> {
             Place::Carried(l, k) => self.carried[l.0 as usize][k as usize] = Some(range),
             Place::Scratch(..) => {}
         }
-    }
-
-    /// A component of a direction whose range is unknown is trusted to be what
-    /// the contract says, twice over for what roundings add.
-    fn trust(&self, id: NodeId, range: Range) -> Range {
-        match self.slack.direction {
-            Some(unit) => match self.graph.directions.get(&id) {
-                Some(length) if range.magnitude() > 16.0 * length => {
-                    range.meet(Range::new(unit.lo * length, unit.hi * length))
-                }
-                _ => range,
-            },
-            None => range,
-        }
-    }
-
-    /// What a trusted direction was subtracted from is not far from what was
-    /// subtracted: a point where a ray meets a sphere from its centre. Where both are
-    /// computed under the same conditions only.
-    fn trust_back(&mut self, id: NodeId, before: &[Statement]) {
-        let Node::Apply(Op::Sub, [point, from]) = self.graph.node(id) else {
-            return;
-        };
-        let beside = before.contains(&Statement::Let(point));
-        if !beside || self.slack.direction.is_none() || !self.graph.directions.contains_key(&id) {
-            return;
-        }
-        let args = [self.read(from), self.read(id)];
-        let sum = interval(Op::Add, args, false);
-        let near = self.slack.rounded(Op::Add, &args, sum);
-        let at = point.0 as usize;
-        self.now[at] = self.now[at].meet(near);
     }
 
     fn compute(&mut self, id: NodeId) {
