@@ -21,23 +21,23 @@ fn guarded_loops_draw_the_same() {
         let places = grid(7, 5, 1);
         let plain = picture(&graph, &schedule(&graph), &places);
         for k in 0..graph.loops.len() {
+            let same = |other: &Graph, how: &str| {
+                let what = format!("{how}, seed {seed}, loop {k}");
+                verify(other).unwrap_or_else(|broken| panic!("{what}: {broken}"));
+                let tree = schedule(other);
+                assert_eq!(plain, picture(other, &tree, &places), "{what}:\n{tree}");
+            };
             for conditions in [1, 2] {
                 let Some(other) = guard(&graph, LoopId(k as u32), conditions, 1000) else {
                     continue;
                 };
                 guarded += 1;
-                verify(&other).unwrap_or_else(|broken| panic!("seed {seed}, loop {k}: {broken}"));
-                let tree = schedule(&other);
-                let found = picture(&other, &tree, &places);
-                assert_eq!(plain, found, "seed {seed}, loop {k}:\n{tree}");
+                same(&other, "guarded");
                 let Some(other) = skip(&other) else {
                     continue;
                 };
                 skipped += 1;
-                verify(&other).unwrap_or_else(|broken| panic!("seed {seed}, loop {k}: {broken}"));
-                let tree = schedule(&other);
-                let found = picture(&other, &tree, &places);
-                assert_eq!(plain, found, "skipped, seed {seed}, loop {k}:\n{tree}");
+                same(&other, "skipped");
             }
         }
     }

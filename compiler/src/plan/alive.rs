@@ -12,7 +12,6 @@
 
 use super::Plan;
 use crate::flow::graph::*;
-use crate::flow::ramp;
 use crate::flow::tree::*;
 use slowlight_routine::Format;
 use std::collections::HashMap;
@@ -184,16 +183,7 @@ impl<'p> Flow<'p> {
 
     /// Ramps are stepped at the end of every pixel, read or not.
     fn ramps(&mut self) {
-        let tree = &self.plan.tree;
-        let mut set = Vec::new();
-        for block in [&tree.row, &tree.pass] {
-            walk(block, &mut |statement| {
-                if let Statement::Let(id) = statement {
-                    set.push(*id);
-                }
-            });
-        }
-        for (id, by) in ramp::in_steps(&self.plan.graph, set) {
+        for (id, by) in self.plan.ramps() {
             let at = self.step();
             self.reads(at, by);
             let place = self.number(Place::Node(id));

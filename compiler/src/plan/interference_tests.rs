@@ -68,11 +68,12 @@ impl Walk<'_> {
         *self.answers.entry(asked).or_insert(random)
     }
 
-    /// Forgets what a block writes: nothing is known of another time.
+    /// Forgets what a block writes: nothing is known of another time. What is stepped
+    /// is kept from pixel to pixel.
     fn forget(&mut self, block: &Block) {
         walk(block, &mut |statement| match statement {
             Statement::Let(id) => {
-                self.places.remove(&Place::of(&self.plan.graph, *id));
+                self.places.remove(&Place::Node(*id));
             }
             Statement::Set {
                 place: place @ Place::Node(_),

@@ -13,7 +13,6 @@
 use super::Plan;
 use super::merge::merged;
 use crate::flow::graph::*;
-use crate::flow::ramp;
 use crate::flow::tree::*;
 use slowlight_routine::Format;
 use std::collections::HashMap;
@@ -155,16 +154,7 @@ impl Lives<'_> {
 
     /// Ramps are stepped at the end of every pixel, read or not.
     fn steps(&mut self) {
-        let tree = &self.plan.tree;
-        let mut set = Vec::new();
-        for block in [&tree.row, &tree.pass] {
-            walk(block, &mut |statement| {
-                if let Statement::Let(id) = statement {
-                    set.push(*id);
-                }
-            });
-        }
-        for (id, step) in ramp::in_steps(&self.plan.graph, set) {
+        for (id, step) in self.plan.ramps() {
             self.touch(Place::Node(id));
             self.read(step);
         }

@@ -76,6 +76,7 @@ pub use params::ParamPlan;
 pub use spread::ErrorRows;
 
 use crate::flow::graph::*;
+use crate::flow::ramp;
 use crate::flow::tree::*;
 use crate::passes::still::Still;
 use crate::range::Ranges;
@@ -242,6 +243,19 @@ impl Plan {
                 self.runtime.format_of(found.copied().unwrap_or(Type::Real))
             }
         }
+    }
+
+    /// The ramps that a row or pass sets and their steps, in the order of stepping.
+    pub fn ramps(&self) -> Vec<(NodeId, NodeId)> {
+        let mut set = Vec::new();
+        for block in [&self.tree.row, &self.tree.pass] {
+            walk(block, &mut |statement| {
+                if let Statement::Let(id) = statement {
+                    set.push(*id);
+                }
+            });
+        }
+        ramp::in_steps(&self.graph, set)
     }
 
     /// The names of the parts of the runtime that the routines need, closed

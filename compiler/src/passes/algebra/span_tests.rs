@@ -26,26 +26,30 @@ fn within(random: &mut Random, lo: i64, hi: i64) -> i64 {
     lo + random.below((hi - lo + 1) as u64) as i64
 }
 
+/// A value that each row has in a table.
+fn by_row(b: &mut Builder, rows: &[[f64; 3]], k: usize, ty: Type) -> NodeId {
+    let (zero, y) = (b.constant(Value::Int(0), AT), b.axis(Axis::Y, AT));
+    let value = |row: &[f64; 3]| match ty {
+        Type::Int => Constant::Int(row[k] as i32),
+        _ => Constant::new(Value::Real(row[k])),
+    };
+    let table = b.table(Table {
+        name: format!("c{k}"),
+        width: 1,
+        height: rows.len() as u32,
+        ty,
+        entries: rows.iter().map(value).collect(),
+        seed: Vec::new(),
+    });
+    b.lookup(table, zero, y, AT)
+}
+
 /// Ink 1 where a x² + b x + c compares with 0, the row's coefficients in a table.
 fn picture(rows: &[[f64; 3]], ty: Type, op: Op, turned: bool) -> Graph {
     let mut b = Builder::new();
-    let [x, y] = [Axis::X, Axis::Y].map(|axis| b.axis(axis, AT));
+    let x = b.axis(Axis::X, AT);
     let zero = b.constant(Value::Int(0), AT);
-    let coefficient = |b: &mut Builder, k: usize| {
-        let value = |row: &[f64; 3]| match ty {
-            Type::Int => Constant::Int(row[k] as i32),
-            _ => Constant::new(Value::Real(row[k])),
-        };
-        let table = b.table(Table {
-            name: format!("c{k}"),
-            width: 1,
-            height: rows.len() as u32,
-            ty,
-            entries: rows.iter().map(value).collect(),
-            seed: Vec::new(),
-        });
-        b.lookup(table, zero, y, AT)
-    };
+    let coefficient = |b: &mut Builder, k: usize| by_row(b, rows, k, ty);
     let [c, l, q] = [0, 1, 2].map(|k| coefficient(&mut b, k));
     let (times, plus) = match ty {
         Type::Int => (Op::IntMul, Op::IntAdd),
@@ -219,23 +223,9 @@ fn what_may_turn_over_or_lies_too_far_is_left_alone() {
 /// Ink 1 where over / ((20 x - 3190)² + more) is below a limit, by row.
 fn quotients(rows: &[[f64; 3]]) -> Graph {
     let mut b = Builder::new();
-    let [x, y] = [Axis::X, Axis::Y].map(|axis| b.axis(axis, AT));
+    let x = b.axis(Axis::X, AT);
     let zero = b.constant(Value::Int(0), AT);
-    let column = |b: &mut Builder, k: usize, ty: Type| {
-        let value = |row: &[f64; 3]| match ty {
-            Type::Int => Constant::Int(row[k] as i32),
-            _ => Constant::new(Value::Real(row[k])),
-        };
-        let table = b.table(Table {
-            name: format!("c{k}"),
-            width: 1,
-            height: rows.len() as u32,
-            ty,
-            entries: rows.iter().map(value).collect(),
-            seed: Vec::new(),
-        });
-        b.lookup(table, zero, y, AT)
-    };
+    let column = |b: &mut Builder, k: usize, ty: Type| by_row(b, rows, k, ty);
     let over = column(&mut b, 0, Type::Real);
     let more = column(&mut b, 1, Type::Int);
     let limit = column(&mut b, 2, Type::Real);

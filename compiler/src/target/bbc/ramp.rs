@@ -7,26 +7,12 @@ use super::Style;
 use super::code::Code;
 use super::text::Text;
 use crate::flow::graph::{Node, NodeId};
-use crate::flow::ramp;
-use crate::flow::tree::{Place, Statement, walk};
+use crate::flow::tree::Place;
 use crate::plan::Plan;
-
-/// The plan's ramps and their steps, in the order of stepping.
-fn ramps(plan: &Plan) -> Vec<(NodeId, NodeId)> {
-    let mut set = Vec::new();
-    for block in [&plan.tree.row, &plan.tree.pass] {
-        walk(block, &mut |statement| {
-            if let Statement::Let(id) = statement {
-                set.push(*id);
-            }
-        });
-    }
-    ramp::in_steps(&plan.graph, set)
-}
 
 /// Brings the ramps to a row's or pass's first column, which takes so many steps.
 pub fn start(plan: &Plan, code: &mut Code<'_>, steps: &str) {
-    if !ramps(plan).is_empty() {
+    if !plan.ramps().is_empty() {
         code.line(format!("FOR I%=1 TO {steps}"));
         step(plan, code);
         code.line("NEXT");
@@ -35,7 +21,7 @@ pub fn start(plan: &Plan, code: &mut Code<'_>, steps: &str) {
 
 /// Brings the ramps to a pass's first column, X%; `surely` if that takes a step at least.
 pub fn start_at(plan: &Plan, code: &mut Code<'_>, passes: u32, surely: bool) {
-    if ramps(plan).is_empty() {
+    if plan.ramps().is_empty() {
         return;
     }
     // FOR runs its body once whatever its bounds are.
@@ -49,7 +35,7 @@ pub fn start_at(plan: &Plan, code: &mut Code<'_>, passes: u32, surely: bool) {
 
 /// Brings the ramps to the next column.
 pub fn step(plan: &Plan, code: &mut Code<'_>) {
-    for (id, by) in ramps(plan) {
+    for (id, by) in plan.ramps() {
         add(plan, code, id, by);
     }
 }
