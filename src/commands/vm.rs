@@ -5,6 +5,7 @@ use crate::format::{count, table};
 use crate::machine::{File, Loaded, Machine, complaint, stop_word};
 use crate::picture::{Picture, PictureFile};
 use crate::progress::Progress;
+use crate::target_args::page;
 use crate::{files, say, say_json};
 use clap::ValueEnum;
 use serde::Serialize;
@@ -34,6 +35,10 @@ pub struct Args {
     /// Print what each line of a BASIC program took
     #[arg(long, conflicts_with = "json")]
     profile: bool,
+    /// Where a BASIC program begins, in hexadecimal: 1900 with a disc, E00 without
+    /// [default: 1900]
+    #[arg(long, value_name = "PAGE", value_parser = page)]
+    page: Option<u16>,
 }
 
 /// A machine by its name here.
@@ -102,6 +107,10 @@ fn profile(loaded: &mut Loaded, limit: u64) -> Outcome<()> {
 /// Runs the program to its end.
 pub fn run(args: &Args) -> Outcome<()> {
     let output = PictureFile::named(args.output.as_deref())?;
+    if args.page.is_some() && args.machine != Kind::Bbc {
+        let message = "--page is the BBC Micro's: `slowlight vm bbc --page E00 FILE`";
+        return Err(Failure::Usage(message.to_owned()));
+    }
     let machine = match args.machine {
         Kind::Jack | Kind::Hack => Machine::Hack,
         Kind::Bbc => Machine::Bbc(Config::default()),
@@ -115,7 +124,7 @@ pub fn run(args: &Args) -> Outcome<()> {
             bytes: files::read(&path)?,
         });
     }
-    let mut loaded = machine.load(&program)?;
+    let mut loaded = machine.at_page(args.page).load(&program)?;
     if args.profile {
         return profile(&mut loaded, args.limit);
     }
