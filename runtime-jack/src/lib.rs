@@ -31,6 +31,9 @@
 //! call of the operating system counts 1. Bytes are words of ROM as the usual
 //! translation makes them, roughly.
 
+#[macro_use]
+mod macros;
+pub mod log;
 pub mod model;
 mod parts;
 mod routines;
@@ -57,7 +60,7 @@ pub static F316: Runtime = Runtime {
     format: "f316",
     real: Format::Float316,
     int: INT,
-    routines: routines::ALL,
+    routines: &routines::ALL,
     parts: parts::ALL,
     encode,
     decode,

@@ -2,7 +2,7 @@
 
 use slowlight_routine::{Error, Form, Format, Op, Range, Routine, everywhere};
 
-use crate::model::{self, Float, int, int_bits, wrap};
+use crate::model::{self, Float, Float as Real, int, int_bits, wrap};
 use crate::{INT as I, SUM, TERM};
 
 const R: Format = Format::Float316;
@@ -88,59 +88,10 @@ const fn call(template: &'static str) -> Form {
     }
 }
 
-/// A Float or an int from bits, and to bits, by the name of the format.
-macro_rules! from {
-    (R $bits:expr) => {
-        Float::from_bits($bits)
-    };
-    (I $bits:expr) => {
-        int($bits)
-    };
-    (B $bits:expr) => {
-        $bits != 0
-    };
-}
-macro_rules! to {
-    (R $value:expr) => {
-        Float::bits($value)
-    };
-    (I $value:expr) => {
-        int_bits(wrap($value))
-    };
-    (B $value:expr) => {
-        u64::from($value)
-    };
-}
-
-/// A routine: name, operation, formats, text, needs, domain, error, model, and
-/// its cost in VM commands and words.
-macro_rules! routine {
-    ($name:literal $op:ident($($arg:ident),+) -> $result:ident, $form:expr, [$($need:literal),*],
-     $domain:expr, $error:expr, |$($x:ident),+| $body:expr, $cycles:literal, $bytes:literal) => {
-        Routine {
-            name: $name,
-            op: Op::$op,
-            args: &[$($arg),+],
-            result: $result,
-            form: $form,
-            needs: &[$($need),*],
-            cycles: $cycles,
-            bytes: $bytes,
-            domain: $domain,
-            error: $error,
-            model: |args| {
-                let mut args = args.iter().copied();
-                $(let $x = from!($arg args.next().unwrap_or(0));)+
-                to!($result $body)
-            },
-        }
-    };
-}
-
 use Form::Statement as Do;
 
 #[rustfmt::skip]
-pub(crate) static ALL: &[Routine] = &[
+const REALS: &[Routine] = &[
     routine!("add" Add(R, R) -> R, Do("{r}.add({0}, {1})"), ["Float.add"], everywhere, ADD, |a, b| a.add(b), 119, 50),
     routine!("sub" Sub(R, R) -> R, Do("{r}.sub({0}, {1})"), ["Float.sub"], everywhere, ADD, |a, b| a.sub(b), 120, 50),
     routine!("half" Mul(R, R) -> R, Do("{r}.scale({0}, -1)"), ["Float.scale"], with!(1 = 0.5), EXACT, |a, _b| a.scale(-1), 47, 50),
@@ -182,7 +133,11 @@ pub(crate) static ALL: &[Routine] = &[
     routine!("not_positive" LessEqual(R, R) -> B, sum("~{0}.positive()"), ["Float.positive"], with!(1 = 0.0), EXACT, |a, _b| !Float::ZERO.less(a), 12, 38),
     routine!("less_equal" LessEqual(R, R) -> B, sum("~{1}.less({0})"), ["Float.less"], everywhere, EXACT, |a, b| !b.less(a), 40, 45),
     routine!("equal" Equal(R, R) -> B, call("{0}.equal({1})"), ["Float.equal"], everywhere, EXACT, |a, b| a.equal(b), 33, 43),
+];
 
+/// What ints need, in either format of reals.
+#[rustfmt::skip]
+pub(crate) const INTS: &[Routine] = &[
     routine!("int_add" IntAdd(I, I) -> I, sum("{0} + {1}"), [], fits, EXACT, |a, b| a + b, 1, 7),
     routine!("int_saturating_add" IntAdd(I, I) -> I, call("Int.add({0}, {1})"), ["Int.add"], everywhere, EXACT, |a, b| model::sum(a, b), 22, 36),
     routine!("int_sub" IntSub(I, I) -> I, sum("{0} - {1}"), [], fits, EXACT, |a, b| a - b, 1, 7),
@@ -209,3 +164,17 @@ pub(crate) static ALL: &[Routine] = &[
     routine!("int_equal" IntEqual(I, I) -> B, sum("{0} = {1}"), [], everywhere, EXACT, |a, b| a == b, 1, 12),
     routine!("not" Not(B) -> B, sum("~{0}"), [], everywhere, EXACT, |a| !a, 1, 3),
 ];
+
+/// The routines of Floats, and those of ints.
+pub(crate) static ALL: [Routine; REALS.len() + INTS.len()] = joined(REALS, INTS);
+
+/// One list after the other.
+pub(crate) const fn joined<const N: usize>(a: &[Routine], b: &[Routine]) -> [Routine; N] {
+    let mut all = [a[0]; N];
+    let mut k = 0;
+    while k < N {
+        all[k] = if k < a.len() { a[k] } else { b[k - a.len()] };
+        k += 1;
+    }
+    all
+}

@@ -34,6 +34,9 @@ pub enum Format {
     Real40,
     /// Sign, exponent (bias 127) and 14-bit mantissa, truncating, of the Jack ray marcher.
     Float316,
+    /// A sign, and the binary logarithm of the magnitude in 16 bits, `frac` of them after
+    /// the point, from -2^(14 - frac) to 2^(14 - frac); there is no 0.
+    Log { frac: u8 },
     /// Two's complement of `bits` bits, `frac` of them after the point. As [`Bits`]: sign-extended.
     Fixed { bits: u8, frac: u8 },
 }
@@ -47,6 +50,7 @@ impl Format {
             Format::Fixed { bits, frac } => 2f64.powi(i32::from(bits) - 1 - i32::from(frac)),
             Format::Real40 => 2f64.powi(127),
             Format::Float316 => f64::MAX,
+            Format::Log { frac } => f64::from(14 - i32::from(frac)).exp2().exp2(),
         }
     }
 
@@ -55,7 +59,9 @@ impl Format {
         match self {
             Format::Bool => Type::Bool,
             Format::Int { .. } => Type::Int,
-            Format::Real40 | Format::Float316 | Format::Fixed { .. } => Type::Real,
+            Format::Real40 | Format::Float316 | Format::Log { .. } | Format::Fixed { .. } => {
+                Type::Real
+            }
         }
     }
 }
@@ -69,6 +75,7 @@ impl Format {
             Format::Bool | Format::Int { .. } => 0.0,
             Format::Real40 => 1.0 / 4_294_967_296.0,
             Format::Float316 => 1.0 / 8192.0,
+            Format::Log { frac } => 0.5f64.powi(i32::from(frac) + 1) * std::f64::consts::LN_2,
             Format::Fixed { frac, .. } => 0.5f64.powi(i32::from(frac)),
         }
     }
@@ -81,6 +88,7 @@ impl std::fmt::Display for Format {
             Format::Int { bits } => write!(f, "int{bits}"),
             Format::Real40 => f.write_str("real40"),
             Format::Float316 => f.write_str("f316"),
+            Format::Log { frac } => write!(f, "log{frac}"),
             Format::Fixed { bits, frac } => write!(f, "fixed{}.{frac}", bits - frac),
         }
     }

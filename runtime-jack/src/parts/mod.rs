@@ -13,6 +13,7 @@
 mod float;
 mod functions;
 mod int;
+mod log;
 mod powers;
 
 use slowlight_routine::{Part, Source};
@@ -72,6 +73,27 @@ pub(crate) static ALL: &[Part] = &[
     part!("Float.makeLog", ["Float.set"], 120, powers::MAKE_LOG),
     part!("Float.log", ["Float.makeLog", "Float.nearLog", "Float.fromInt", "Float.product", "Float.add"], 200, powers::LOG),
     part!("Float.pow", ["Float.makeLog", "Float.nearLog", "Float.exponent", "Float.copy", "Float.product"], 840, powers::POW),
+    part!("Log", [], 0, log::HEAD),
+    part!("Log.makePowers", [], 330, log::MAKE_POWERS),
+    part!("Log.powerLess", ["Log.makePowers"], 130, log::POWER_LESS),
+    part!("Log.makeLogs", ["Log.makePowers"], 200, log::MAKE_LOGS),
+    part!("Log.makeHalves", [], 80, log::MAKE_HALVES),
+    part!("Log.makeSums", ["Log.powerLess"], 150, log::MAKE_SUMS),
+    part!("Log.makeDifferences", ["Log.powerLess", "Log.makeLogs"], 650, log::MAKE_DIFFERENCES),
+    part!("Log.whole", ["Log.makeLogs", "Log.makeHalves"], 220, log::WHOLE),
+    part!("Log.rest", ["Log.whole"], 40, log::REST),
+    part!("Log.clamp", [], 60, log::CLAMP),
+    part!("Log.sum", ["Log.makeSums", "Log.rest"], 140, log::SUM),
+    part!("Log.difference", ["Log.makeDifferences", "Log.rest"], 140, log::DIFFERENCE),
+    part!("Log.add", ["Log.makeSums", "Log.makeDifferences", "Log.rest"], 300, log::ADD),
+    part!("Log.half", ["Log.makeHalves"], 210, log::HALF),
+    part!("Log.root", ["Log.half"], 40, log::ROOT),
+    part!("Log.less", [], 60, log::LESS),
+    part!("Log.fromInt", ["Log.sum"], 130, log::FROM_INT),
+    part!("Log.floor", ["Log.whole"], 100, log::FLOOR),
+    part!("Log.round", ["Log.add", "Log.floor"], 60, log::ROUND),
+    part!("Log.sign", [], 30, log::SIGN),
+    part!("Log.mod", ["Log.add", "Log.floor", "Log.fromInt", "Log.clamp"], 120, log::MOD),
     part!("Int", [], 0, ""),
     part!("Int.magnitude", [], 60, int::MAGNITUDE),
     part!("Int.add", [], 120, int::ADD),

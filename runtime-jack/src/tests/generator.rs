@@ -7,7 +7,7 @@ use slowlight_routine::{Bits, Format};
 pub struct Generator(pub i32);
 
 impl Generator {
-    fn next(&mut self) -> i32 {
+    pub fn next(&mut self) -> i32 {
         self.0 = wrap(self.0.wrapping_mul(25173).wrapping_add(13849));
         self.0 & 32767
     }
@@ -51,7 +51,7 @@ impl Generator {
 pub struct Sums(pub i32, pub i32);
 
 impl Sums {
-    fn note(&mut self, word: i32) {
+    pub fn note(&mut self, word: i32) {
         self.0 = wrap(self.0.wrapping_mul(31).wrapping_add(word));
         self.1 = wrap(
             (self.1.wrapping_add(word))

@@ -184,7 +184,7 @@ fn program(routine: &Routine, step: &str, with_edges: bool, pairs: u32) -> Vec<(
     files
 }
 
-fn run(files: &[(String, String)]) -> Run {
+pub fn run(files: &[(String, String)]) -> Run {
     let compiled =
         jack::compile(files).unwrap_or_else(|faults| panic!("{}\n{}", faults[0], files[0].1));
     let texts: Vec<(String, String)> = compiled.into_iter().map(|f| (f.name, f.text)).collect();
@@ -194,7 +194,7 @@ fn run(files: &[(String, String)]) -> Run {
     run
 }
 
-fn pairs() -> u32 {
+pub fn pairs() -> u32 {
     let told = std::env::var("SLOWLIGHT_PAIRS").ok();
     told.and_then(|n| n.parse().ok()).unwrap_or(20_000)
 }

@@ -4,8 +4,8 @@
 mod errors;
 mod facts;
 mod functions;
-mod generator;
-mod machine;
+pub mod generator;
+pub mod machine;
 
 use crate::F316;
 use crate::model::{BOTTOM, Float, TOP, int_bits};

@@ -1,0 +1,241 @@
+//! Logarithmic reals, bit for bit as the class `Log` computes them.
+//!
+//! Each function mirrors one subroutine of [`crate::parts`]; the tests run both.
+
+use super::tables::tables;
+use crate::model::{int, magnitude};
+use slowlight_routine::Bits;
+
+/// Units of a logarithm in an octave: 2^(log / OCTAVE) is the magnitude.
+pub const OCTAVE: i32 = 1024;
+/// The greatest logarithm, of 2^16 nearly: what is larger saturates there.
+pub const MOST: i32 = 16383;
+/// The least, of 2^-16: what is smaller, 0 among it, is held as that.
+pub const LEAST: i32 = -16384;
+/// How far apart summands may be that the tables know.
+pub const NEAR: i32 = 6144;
+/// Logarithms of whole numbers are kept up to this one.
+pub const WHOLE: i32 = 512;
+
+/// A real: 2^(log/1024), negative unless `plus`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Log {
+    pub plus: bool,
+    /// From [`LEAST`] to [`MOST`].
+    pub log: i32,
+}
+
+// The subroutines' names, which are also those of the operators' traits.
+#[allow(clippy::should_implement_trait)]
+impl Log {
+    /// What stands for 0: the least magnitude.
+    pub const ZERO: Log = Log {
+        plus: true,
+        log: LEAST,
+    };
+
+    /// The bits: the logarithm (two's complement) in 0..16, 1 in 16 where negative.
+    pub fn bits(self) -> Bits {
+        Bits::from(self.log as u16) | Bits::from(!self.plus) << 16
+    }
+
+    /// From bits; logarithms beyond the ends count as these.
+    pub fn from_bits(bits: Bits) -> Log {
+        Log {
+            plus: bits >> 16 & 1 == 0,
+            log: clamp(int(bits & 0xffff)),
+        }
+    }
+
+    /// The nearest value, by the ratio.
+    pub fn nearest(x: f64) -> Log {
+        let size = if x.is_nan() { 0.0 } else { x.abs() };
+        Log {
+            plus: x >= 0.0 || x.is_nan(),
+            log: clamp((size.log2() * f64::from(OCTAVE)).round() as i32),
+        }
+    }
+
+    /// The value.
+    pub fn value(self) -> f64 {
+        let size = (f64::from(self.log) / f64::from(OCTAVE)).exp2();
+        if self.plus { size } else { -size }
+    }
+
+    pub fn neg(self) -> Log {
+        Log {
+            plus: !self.plus,
+            ..self
+        }
+    }
+
+    pub fn abs(self) -> Log {
+        Log { plus: true, ..self }
+    }
+
+    pub fn mul(self, b: Log) -> Log {
+        Log {
+            plus: self.plus == b.plus,
+            log: clamp(self.log + b.log),
+        }
+    }
+
+    pub fn div(self, b: Log) -> Log {
+        Log {
+            plus: self.plus == b.plus,
+            log: clamp(self.log - b.log),
+        }
+    }
+
+    pub fn add(self, b: Log) -> Log {
+        if self.plus == b.plus {
+            let log = sum(self.log, b.log);
+            return Log { log, ..self };
+        }
+        let plus = if self.log == b.log {
+            true
+        } else if b.log < self.log {
+            self.plus
+        } else {
+            b.plus
+        };
+        let log = difference(self.log, b.log);
+        Log { plus, log }
+    }
+
+    pub fn sub(self, b: Log) -> Log {
+        self.add(b.neg())
+    }
+
+    /// Of a negative 0.
+    pub fn sqrt(self) -> Log {
+        match self.plus {
+            true => Log {
+                plus: true,
+                log: half(self.log),
+            },
+            false => Log::ZERO,
+        }
+    }
+
+    pub fn less(self, b: Log) -> bool {
+        match (self.plus, b.plus) {
+            (true, true) => self.log < b.log,
+            (false, false) => b.log < self.log,
+            (_, plus) => plus,
+        }
+    }
+
+    pub fn min(self, b: Log) -> Log {
+        if self.less(b) { self } else { b }
+    }
+
+    pub fn max(self, b: Log) -> Log {
+        if self.less(b) { b } else { self }
+    }
+
+    pub fn from_int(i: i32) -> Log {
+        Log {
+            plus: i >= 0,
+            log: log_of(i),
+        }
+    }
+
+    /// The greatest whole number not above, or the next where that is as near as
+    /// logarithms tell; from 512 on, of nine bits.
+    pub fn floor(self) -> i32 {
+        let n = whole(self.log);
+        match self.plus {
+            true => n,
+            false if self.log > 9 * OCTAVE => -n,
+            false if tables().logs.get(n as usize) == Some(&self.log) && n > 0 => -n,
+            false => -n - 1,
+        }
+    }
+
+    pub fn round(self) -> i32 {
+        self.add(Log {
+            plus: true,
+            log: -OCTAVE,
+        })
+        .floor()
+    }
+
+    /// There is no 0.
+    pub fn sign(self) -> i32 {
+        if self.plus { 1 } else { -1 }
+    }
+
+    /// a - b * floor(a / b).
+    pub fn modulo(self, b: Log) -> Log {
+        let n = Log::from_int(self.div(b).floor());
+        self.sub(n.mul(b))
+    }
+}
+
+/// A logarithm kept between the ends.
+pub fn clamp(log: i32) -> i32 {
+    log.clamp(LEAST, MOST)
+}
+
+/// Of the sum of two values of one sign, from those of both.
+fn sum(a: i32, b: i32) -> i32 {
+    let (more, less) = (a.max(b), a.min(b));
+    match tables().sums.get((more - less) as usize) {
+        Some(entry) => clamp(more + entry),
+        None => clamp(more + rest(more - less)),
+    }
+}
+
+/// Of the difference of two values, from those of both.
+fn difference(a: i32, b: i32) -> i32 {
+    let (more, less) = (a.max(b), a.min(b));
+    match tables().differences.get((more - less) as usize) {
+        _ if more == less => LEAST,
+        Some(entry) => (more - entry).max(LEAST),
+        None => (more - rest(more - less)).max(LEAST),
+    }
+}
+
+/// What a far smaller summand adds.
+fn rest(apart: i32) -> i32 {
+    let n = whole(11807 - apart);
+    tables().halves.get(n as usize + 1).copied().unwrap_or(0)
+}
+
+/// Half of a logarithm, rounded down.
+fn half(log: i32) -> i32 {
+    log.div_euclid(2)
+}
+
+/// floor(2^(log / 1024)); from 512 on of nine bits, at most 32767. 0 below 1.
+fn whole(mut log: i32) -> i32 {
+    if log < 0 {
+        return 0;
+    }
+    if log > 15 * OCTAVE - 1 {
+        return 32767;
+    }
+    let mut doubled = 0;
+    while log > 9 * OCTAVE - 1 {
+        log -= OCTAVE;
+        doubled += 1;
+    }
+    let n = tables().logs.partition_point(|entry| *entry <= log) as i32 - 1;
+    n << doubled
+}
+
+/// The logarithm of an int's magnitude.
+fn log_of(i: i32) -> i32 {
+    let i = magnitude(i);
+    let logs = &tables().logs;
+    let at = |n: i32| logs.get(n as usize).copied().unwrap_or(LEAST);
+    if i < WHOLE {
+        return at(i);
+    }
+    let (high, low) = (i / 64, i & 63);
+    match low {
+        0 => at(high) + 6 * OCTAVE,
+        _ => sum(at(high) + 6 * OCTAVE, at(low)),
+    }
+}

@@ -1,0 +1,378 @@
+//! The class of logarithmic reals.
+
+pub(crate) const HEAD: &str = "    /**
+     * Reals by their logarithms: 1024 units are an octave, so 2048 stands for 4 and
+     * -1024 for 1/2. A product is a sum of logarithms, a sum is looked up. The least
+     * logarithm, -16384 (2^-16), stands for 0 as well. Signs are kept beside them, true
+     * for plus, where it is not known anyway.
+     */
+";
+
+pub(crate) const MAKE_POWERS: &str = "    static Array powers;
+
+    /** 16384 * 2^(j/2048) for j from 0 to 2047, on the screen as long as tables are made.
+     *  e f g is the power, 14 bits a word behind the first; a b c its difference from
+     *  the next, p q that difference's own, r the last of them. */
+    function void makePowers() {
+        var int j, e, f, g, a, b, c, p, q, r, last;
+        let powers = 16384;
+        let e = 16384;
+        let a = 5;
+        let b = 8947;
+        let c = 9232;
+        let p = 30;
+        let q = 12442;
+        let r = 171;
+        let last = 16374;
+        while (j < 2048) {
+            if (f > 8191) { let powers[j] = e + 1; }
+            else { let powers[j] = e; }
+            let g = g + c;
+            let f = f + b;
+            let e = e + a;
+            if (g > 16383) { let g = g - 16384; let f = f + 1; }
+            if (f > 16383) { let f = f - 16384; let e = e + 1; }
+            let c = c + q;
+            let b = b + p;
+            if (c > 16383) { let c = c - 16384; let b = b + 1; }
+            if (b > 16383) { let b = b - 16384; let a = a + 1; }
+            let q = q + r;
+            if (q > 16383) { let q = q - 16384; let p = p + 1; }
+            if ((e - last) > 95) { let r = r + 1; let last = last + 96; }
+            let j = j + 1;
+        }
+        return;
+    }
+";
+
+pub(crate) const MAKE_LOGS: &str = "    static Array logs;
+
+    /** 1024 * log2(n) for n from 1 to 512. */
+    function void makeLogs() {
+        var int n, m, k;
+        let logs = Array.new(513);
+        let n = 256;
+        let m = 16384;
+        while (n < 512) {
+            while ((k < 1024) & (~(powers[k + k + 1] > m))) { let k = k + 1; }
+            let logs[n] = 8192 + k;
+            let n = n + 1;
+            let m = m + 64;
+        }
+        let logs[512] = 9216;
+        let n = 255;
+        while (n > 0) {
+            let logs[n] = logs[n + n] - 1024;
+            let n = n - 1;
+        }
+        let logs[0] = -16384;
+        return;
+    }
+";
+
+pub(crate) const MAKE_HALVES: &str = "    static Array halves;
+
+    /** n / 2 for n from 0 to 511. */
+    function void makeHalves() {
+        var int n;
+        let halves = Array.new(512);
+        while (n < 256) {
+            let halves[n + n] = n;
+            let halves[n + n + 1] = n;
+            let n = n + 1;
+        }
+        return;
+    }
+";
+
+pub(crate) const MAKE_SUMS: &str = "    static Array sums;
+
+    /** What the greater summand's logarithm grows by where the other's is d less:
+     *  1024 * log2(1 + 2^(-d/1024)). */
+    function void makeSums() {
+        var int d, r, octave, k, y;
+        let sums = Array.new(6144);
+        let k = 1024;
+        while (d < 6144) {
+            if (r = 1024) { let r = 0; let octave = octave + 1; }
+            let y = Log.powerLess(r);
+            while (Log.above((powers[k + k - 1]) - 16384, octave, y)) { let k = k - 1; }
+            let sums[d] = k;
+            let d = d + 1;
+            let r = r + 1;
+        }
+        return;
+    }
+";
+
+pub(crate) const POWER_LESS: &str = "    /** 32768 * 2^(-r/1024), or 32767. */
+    function int powerLess(int r) {
+        if (r = 0) { return 32767; }
+        return powers[2048 - r - r];
+    }
+
+    /** Whether a * 2^(octave + 1) > y. */
+    function boolean above(int a, int octave, int y) {
+        while (octave > 0) {
+            let a = a + a;
+            let octave = octave - 1;
+        }
+        return a > (y - a);
+    }
+";
+
+pub(crate) const MAKE_DIFFERENCES: &str = "    static Array differences;
+
+    /** What the greater logarithm shrinks by where one that is d less is taken away:
+     *  -1024 * log2(1 - 2^(-d/1024)). */
+    function void makeDifferences() {
+        var int d, k, squares, cut, twice, octaves, left, doubled;
+        let differences = Array.new(6144);
+        let differences[0] = 0;
+        let squares = 8866;
+        let k = 10783;
+        let d = 1;
+        while (d < 256) {
+            let squares = squares + d + d - 1;
+            if (squares > 17731) { let squares = squares - 17731; let cut = cut + 1; }
+            let twice = 21563 - logs[d] - logs[d] + d - cut;
+            while ((k + k - 1) > twice) { let k = k - 1; }
+            let differences[d] = k;
+            let d = d + 1;
+        }
+        let octaves = 9;
+        while (d < 1024) {
+            let left = 32767 - Log.powerLess(d) + 1;
+            let doubled = 0;
+            while (left < 16384) { let left = left + left; let doubled = doubled + 1; }
+            if (doubled < octaves) {
+                let octaves = doubled;
+                let k = 1024;
+            }
+            while (Log.stillLeft(left, k)) { let k = k - 1; }
+            let differences[d] = k;
+            let doubled = octaves;
+            while (doubled > 0) { let differences[d] = differences[d] + 1024; let doubled = doubled - 1; }
+            let d = d + 1;
+        }
+        do Log.makeFurtherDifferences();
+        do Screen.clearScreen();
+        return;
+    }
+
+    /** The same from an octave on. */
+    function void makeFurtherDifferences() {
+        var int d, r, octave, k, y;
+        let k = 1024;
+        let d = 1024;
+        while (d < 6144) {
+            if (r = 1024) { let r = 0; let octave = octave + 1; }
+            let y = Log.powerLess(r);
+            while (Log.furtherLeft(k, octave, y)) { let k = k - 1; }
+            let differences[d] = k;
+            let d = d + 1;
+            let r = r + 1;
+        }
+        return;
+    }
+
+    /** Whether 2^(-k/1024) is less than what is left, half a unit aside. */
+    function boolean stillLeft(int left, int k) {
+        if (k = 0) { return false; }
+        return left > powers[2049 - k - k];
+    }
+
+    /** The same where that is compared with what is taken away, y / 2^(octave + 1). */
+    function boolean furtherLeft(int k, int octave, int y) {
+        if (k = 0) { return false; }
+        return Log.above((32767 - powers[2049 - k - k]) + 1, octave, y);
+    }
+";
+
+pub(crate) const SUM: &str = "    /** Of the sum of two values of one sign. */
+    function int sum(int a, int b) {
+        var int d;
+        let d = a - b;
+        if (d < 0) {
+            if (d < (-6143)) { return b + Log.rest(-d); }
+            return b + sums[-d];
+        }
+        if (d > 6143) { return a + Log.rest(d); }
+        return a + sums[d];
+    }
+";
+
+pub(crate) const REST: &str =
+    "    /** What a summand adds whose logarithm is that much less: little. */
+    function int rest(int apart) {
+        return halves[Log.whole(11807 - apart) + 1];
+    }
+";
+
+pub(crate) const DIFFERENCE: &str =
+    "    /** Of the difference of two values of one sign, the greater less the other. */
+    function int difference(int a, int b) {
+        var int d;
+        let d = a - b;
+        if (d < 0) {
+            let d = -d;
+            let a = b;
+        }
+        if (d = 0) { return -16384; }
+        if (d > 6143) { let a = a - Log.rest(d); }
+        else { let a = a - differences[d]; }
+        if (a < (-16384)) { return -16384; }
+        return a;
+    }
+";
+
+pub(crate) const ADD: &str = "    static boolean plus;
+
+    /** Of the sum of two values; plus() is its sign. */
+    function int add(int a, boolean aPlus, int b, boolean bPlus) {
+        var int d;
+        if (aPlus = bPlus) {
+            let plus = aPlus;
+            let d = a - b;
+            if (d < 0) {
+                if (d < (-6143)) { return b + Log.rest(-d); }
+                return b + sums[-d];
+            }
+            if (d > 6143) { return a + Log.rest(d); }
+            return a + sums[d];
+        }
+        let d = a - b;
+        if (d > 0) { let plus = aPlus; }
+        else {
+            if (d = 0) { let plus = true; return -16384; }
+            let plus = bPlus;
+            let d = -d;
+            let a = b;
+        }
+        if (d > 6143) { let a = a - Log.rest(d); }
+        else { let a = a - differences[d]; }
+        if (a < (-16384)) { return -16384; }
+        return a;
+    }
+
+    /** Whether the last sum is positive. */
+    function boolean plus() {
+        return plus;
+    }
+";
+
+pub(crate) const CLAMP: &str = "    /** A logarithm kept within the ends. */
+    function int clamp(int a) {
+        if (a > 16383) { return 16383; }
+        if (a < (-16384)) { return -16384; }
+        return a;
+    }
+";
+
+pub(crate) const HALF: &str = "    /** a / 2, rounded down: the logarithm of a root. */
+    function int half(int a) {
+        var int h;
+        let h = -8192;
+        let a = a + 16384;
+        if (a > 16383) { let a = a - 16384; let h = h + 8192; }
+        if (a > 8191) { let a = a - 8192; let h = h + 4096; }
+        if (a > 4095) { let a = a - 4096; let h = h + 2048; }
+        if (a > 2047) { let a = a - 2048; let h = h + 1024; }
+        if (a > 1023) { let a = a - 1024; let h = h + 512; }
+        if (a > 511) { let a = a - 512; let h = h + 256; }
+        return h + halves[a];
+    }
+";
+
+pub(crate) const ROOT: &str = "    /** Of the root; of that of a negative 0. */
+    function int root(int a, boolean aPlus) {
+        if (aPlus) { return Log.half(a); }
+        return -16384;
+    }
+";
+
+pub(crate) const LESS: &str = "    /** Whether the first is less. */
+    function boolean less(int a, boolean aPlus, int b, boolean bPlus) {
+        if (aPlus = bPlus) {
+            if (aPlus) { return a < b; }
+            return b < a;
+        }
+        return bPlus;
+    }
+";
+
+pub(crate) const FROM_INT: &str = "    /** Of a whole number's magnitude. */
+    function int fromInt(int i) {
+        var int high, low;
+        if (i < 0) {
+            let i = -i;
+            if (i < 0) { let i = 32767; }
+        }
+        if (i < 512) { return logs[i]; }
+        let high = i / 64;
+        let low = i & 63;
+        if (low = 0) { return logs[high] + 6144; }
+        return Log.sum(logs[high] + 6144, logs[low]);
+    }
+";
+
+pub(crate) const WHOLE: &str =
+    "    /** The whole part of a magnitude: 0 below 1, of nine bits from 512 on. */
+    function int whole(int a) {
+        var int n, step, doubled;
+        if (a < 0) { return 0; }
+        if (a > 15359) { return 32767; }
+        while (a > 9215) {
+            let a = a - 1024;
+            let doubled = doubled + 1;
+        }
+        let n = 1;
+        while (~(logs[n + n] > a)) { let n = n + n; }
+        let step = halves[n];
+        while (step > 0) {
+            if (~(logs[n + step] > a)) { let n = n + step; }
+            let step = halves[step];
+        }
+        while (doubled > 0) {
+            let n = n + n;
+            let doubled = doubled - 1;
+        }
+        return n;
+    }
+";
+
+pub(crate) const FLOOR: &str = "    /** The greatest whole number not above. */
+    function int floor(int a, boolean aPlus) {
+        var int n;
+        let n = Log.whole(a);
+        if (aPlus) { return n; }
+        if (a > 9216) { return -n; }
+        if (logs[n] = a) {
+            if (n > 0) { return -n; }
+        }
+        return (-n) - 1;
+    }
+";
+
+pub(crate) const ROUND: &str = "    /** The nearest whole number. */
+    function int round(int a, boolean aPlus) {
+        let a = Log.add(a, aPlus, -1024, true);
+        return Log.floor(a, plus);
+    }
+";
+
+pub(crate) const SIGN: &str = "    /** 1 or -1. */
+    function int sign(boolean aPlus) {
+        if (aPlus) { return 1; }
+        return -1;
+    }
+";
+
+pub(crate) const MOD: &str = "    /** Of a - b * floor(a / b); plus() is its sign. */
+    function int mod(int a, boolean aPlus, int b, boolean bPlus) {
+        var int n;
+        let n = Log.floor(Log.clamp(a - b), (aPlus = bPlus));
+        let b = Log.clamp(Log.fromInt(n) + b);
+        return Log.clamp(Log.add(a, aPlus, b, (n < 0) = bPlus));
+    }
+";
