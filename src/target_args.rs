@@ -29,6 +29,9 @@ pub struct ScreenArgs {
     /// How BASIC is written: `fast`, or `listing`, to be read [default: fast]
     #[arg(long, value_name = "STYLE")]
     pub style: Option<Style>,
+    /// How reals are held, where the machine has several ways (see `slowlight targets`)
+    #[arg(long, value_name = "F")]
+    pub format: Option<String>,
     /// Where programs begin on a BBC Micro, in hexadecimal: 1900 with a disc, E00 without
     /// [default: 1900]
     #[arg(long, value_name = "PAGE", value_parser = page)]
@@ -135,6 +138,22 @@ impl ScreenArgs {
         })
     }
 
+    /// The target with the format of reals that was asked for.
+    ///
+    /// # Errors
+    /// Where it has no such format.
+    fn in_format(&self, target: &'static Target) -> Outcome<&'static Target> {
+        let Some(name) = &self.format else {
+            return Ok(target);
+        };
+        let mut all = target::formats(target);
+        all.find(|t| t.runtime.format == name).ok_or_else(|| {
+            let names: Vec<&str> = target::formats(target).map(|t| t.runtime.format).collect();
+            let message = format!("{} has no format {name}; it has {}", target.name, names.join(", "));
+            Failure::Usage(message)
+        })
+    }
+
     /// Plans a scene for a target and the best mode in which its program fits
     /// the machine, `set` being values read from edited source.
     ///
@@ -147,6 +166,7 @@ impl ScreenArgs {
         target: &'static Target,
         set: &[(String, Vec<f64>)],
     ) -> Outcome<Plan> {
+        let target = self.in_format(target)?;
         let modes = self.modes(target, scene.size())?;
         let plans = modes.into_iter();
         let _waiting = Waiting::new("planning");
@@ -161,6 +181,7 @@ impl ScreenArgs {
     /// # Errors
     /// Where the scene does not compile for it, or the options do not fit.
     pub fn draft(&self, scene: &Scene, target: &'static Target) -> Outcome<Plan> {
+        let target = self.in_format(target)?;
         let mode = self.mode(target, scene.size())?;
         self.plan_in(mode, scene, target, &[])
     }

@@ -63,6 +63,7 @@ pub static FIXED16_16: Runtime = Runtime {
     stepping: None,
     segments: false,
     derives: false,
+    kept: slowlight_routine::whole,
     statement: 36,
     index: 0,
     param_most: 32767.0,

@@ -83,6 +83,7 @@ pub static RUNTIME: Runtime = Runtime {
     stepping: Some(STEPPING),
     segments: true,
     derives: true,
+    kept: slowlight_routine::whole,
     statement: 800,
     index: 850,
     param_most: BIG,

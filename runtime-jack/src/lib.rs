@@ -68,6 +68,7 @@ pub static F316: Runtime = Runtime {
     stepping: None,
     segments: false,
     derives: false,
+    kept: slowlight_routine::whole,
     statement: 11,
     index: 0,
     param_most: model::MOST as f64,

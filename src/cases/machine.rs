@@ -78,7 +78,7 @@ pub fn run(plan: &Plan) -> Outcome<Vec<Value>> {
         .collect();
     let found = match plan.runtime.real {
         Format::Real40 => from_file(&run, &formats, plan),
-        Format::Float316 => from_text(&run, &formats, plan),
+        Format::Float316 | Format::Log { .. } => from_text(&run, &formats, plan),
         _ => from_screen(&run, &formats, plan),
     };
     found.ok_or_else(|| {
@@ -122,7 +122,7 @@ fn typed(number: f64, ty: Type) -> Value {
     }
 }
 
-/// Jack's lines: a number, or a Float's three.
+/// Jack's lines: a number, or a Float's three, or a logarithm after 1 for a negative.
 fn from_text(run: &MachineRun, formats: &[Format], plan: &Plan) -> Option<Vec<Value>> {
     let text = String::from_utf8_lossy(&run.output);
     let mut numbers = text.split_whitespace().map(str::parse::<i32>);
@@ -134,6 +134,11 @@ fn from_text(run: &MachineRun, formats: &[Format], plan: &Plan) -> Option<Vec<Va
                 let (s, e, m) = (next()?, next()?, next()?);
                 let word = |x: i32| Bits::from(x as u16);
                 let bits = word(m) | word(e) << 16 | word(s) << 32;
+                (plan.runtime.decode)(bits, *format)
+            }
+            Format::Log { .. } => {
+                let (minus, log) = (next()?, next()?);
+                let bits = Bits::from(log as u16) | Bits::from(minus != 0) << 16;
                 (plan.runtime.decode)(bits, *format)
             }
             _ => typed(f64::from(next()?), format.scalar()),

@@ -6,7 +6,7 @@ use crate::machine::Machine;
 use crate::trial::mode_json;
 use crate::{say, say_json};
 use serde_json::{Value, json};
-use slowlight_compiler::target::{TARGETS, Target};
+use slowlight_compiler::target::{self, TARGETS, Target};
 
 /// Options of `targets`.
 #[derive(clap::Args, Debug)]
@@ -24,7 +24,7 @@ pub fn run(args: &Args) -> Outcome<()> {
         return Ok(());
     }
     for target in TARGETS {
-        let format = target.runtime.format;
+        let format = formats(target).join(" or ");
         say(&format!(
             "{}: {}; reals are {format}\n",
             target.name, target.about
@@ -47,6 +47,10 @@ pub fn run(args: &Args) -> Outcome<()> {
         say(&table(&rows));
     }
     Ok(())
+}
+
+fn formats(target: &Target) -> Vec<&'static str> {
+    target::formats(target).map(|t| t.runtime.format).collect()
 }
 
 fn object(target: &Target) -> Value {
@@ -74,7 +78,7 @@ fn object(target: &Target) -> Value {
     json!({
         "target": target.name,
         "about": target.about,
-        "formats": [target.runtime.format],
+        "formats": formats(target),
         "hertz": target.hertz,
         "offset": target.offset,
         "machine": Machine::of(target.name).is_some(),

@@ -161,6 +161,11 @@ pub fn everywhere(_: &[Range], _: Range) -> bool {
     true
 }
 
+/// All of a result is kept.
+pub fn whole(bits: Bits, _: Range) -> Bits {
+    bits
+}
+
 /// One way to compute an operation on a machine.
 #[derive(Clone, Copy, Debug)]
 pub struct Routine {
@@ -260,6 +265,9 @@ pub struct Runtime {
     pub segments: bool,
     /// Whether programs work out tables at their start from one another.
     pub derives: bool,
+    /// What programs keep of a result that stays within a range: where that tells
+    /// the sign, some keep none.
+    pub kept: fn(Bits, Range) -> Bits,
     /// Cycles that a statement takes beside its routine, about.
     pub statement: u32,
     /// Cycles that reading a table takes beside reading a variable, an index, about.

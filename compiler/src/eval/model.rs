@@ -8,7 +8,7 @@ use super::native::Pixel;
 use super::run::Run;
 use crate::flow::graph::*;
 use crate::plan::Plan;
-use slowlight_routine::{Bits, Format, Op, Value};
+use slowlight_routine::{Bits, Format, Op, Range, Value};
 
 /// A plan's arithmetic: bits and models.
 pub struct Model<'p>(&'p Plan);
@@ -29,9 +29,11 @@ impl Arithmetic for Model<'_> {
     }
 
     fn apply(&self, id: NodeId, _: Op, args: &[Bits]) -> Bits {
-        self.0
-            .routine(id)
-            .map_or(0, |routine| (routine.model)(args))
+        let range = self.0.ranges.result.get(id.0 as usize).copied();
+        self.0.routine(id).map_or(0, |routine| {
+            let bits = (routine.model)(args);
+            (self.0.runtime.kept)(bits, range.unwrap_or(Range::ALL))
+        })
     }
 
     fn gather(&self, received: Bits, sent: Bits) -> Bits {

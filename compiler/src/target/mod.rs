@@ -72,6 +72,16 @@ pub static TARGETS: &[&Target] = &[
     &mos6502::PLAIN,
 ];
 
+/// The same machines with other formats of reals.
+pub static OTHER_FORMATS: &[&Target] = &[&jack::JACK_LOG10];
+
+/// The formats of reals that a target's machine has, its usual one first.
+pub fn formats(target: &Target) -> impl Iterator<Item = &'static Target> {
+    let all = TARGETS.iter().chain(OTHER_FORMATS).copied();
+    let name = target.name;
+    all.filter(move |t| t.name == name)
+}
+
 /// A target by its name; a family's name alone means its first.
 pub fn find(name: &str) -> Option<&'static Target> {
     let family = |t: &&&Target| t.name.split(':').next() == Some(name);

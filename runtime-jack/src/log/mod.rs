@@ -22,7 +22,7 @@ mod tests;
 
 use self::model::Log;
 use crate::{INT, param_digits, parts};
-use slowlight_routine::{Bits, Format, Runtime, Value};
+use slowlight_routine::{Bits, Format, Range, Runtime, Value};
 
 /// The format of the reals.
 pub const LOG: Format = Format::Log { frac: 10 };
@@ -41,6 +41,7 @@ pub static LOG10: Runtime = Runtime {
     stepping: None,
     segments: false,
     derives: false,
+    kept: kept,
     statement: 4,
     index: 0,
     param_most: crate::model::MOST as f64,
@@ -70,4 +71,24 @@ fn param_bits(scaled: i64, digits: u8) -> Bits {
     of(scaled)
         .div(of(10i64.saturating_pow(u32::from(digits))))
         .bits()
+}
+
+/// The sign that a range holds alone, true for plus. 0 is held as a small number above it.
+pub fn known_sign(range: Range) -> Option<bool> {
+    match range {
+        range if range.lo >= 0.0 => Some(true),
+        range if range.hi < 0.0 => Some(false),
+        _ => None,
+    }
+}
+
+/// A sign that is known is not kept: programs write it where they read it.
+fn kept(bits: Bits, range: Range) -> Bits {
+    match known_sign(range) {
+        Some(plus) => {
+            let log = Log::from_bits(bits).log;
+            Log { plus, log }.bits()
+        }
+        None => bits,
+    }
 }

@@ -87,8 +87,9 @@ macro_rules! sign {
     ($x:ident plus) => {
         $x.lo >= 0.0
     };
+    // 0 is held as a small number above it.
     ($x:ident minus) => {
-        $x.hi <= 0.0
+        $x.hi < 0.0
     };
 }
 

@@ -1,6 +1,7 @@
 //! Statements and expressions.
 
 use super::expression::{Expression, int};
+use super::logs::{constant, known};
 use super::names::Names;
 use super::object::Object;
 use super::spread::Spread;
@@ -37,7 +38,7 @@ pub(super) struct Code<'p> {
     /// The fields of homes that are written, by format.
     pub written: Vec<(String, Format)>,
     /// Their names, to find them quickly.
-    known: BTreeSet<String>,
+    pub known: BTreeSet<String>,
     /// What became a method of its own.
     pub methods: Vec<Method>,
     /// Values that are written where they are read.
@@ -203,11 +204,28 @@ impl<'p> Code<'p> {
 
     fn set(&mut self, place: Place, from: Origin) {
         let format = self.plan.place_format(place);
+        let from_id = match from {
+            Origin::Node(id) => Some(id),
+            Origin::Scratch(..) => None,
+        };
         let from = match from {
             Origin::Node(id) => self.read(id),
             Origin::Scratch(l, k) => Expression::term(self.names.home(Place::Scratch(l, k))),
         };
         let home = self.home(place, format);
+        if self.logs() && matches!(format, Format::Log { .. }) {
+            let sign = match from_id {
+                Some(id) => self.sign(id).text,
+                None => self.sign_of(&from.text),
+            };
+            let range = match place {
+                Place::Node(id) => self.plan.ranges.result.get(id.0 as usize),
+                _ => None,
+            };
+            let known = range.is_some_and(|range| known(*range).is_some());
+            self.copy_log(&home, (&from.text, &sign), known);
+            return;
+        }
         if from.text == home {
             return;
         }
@@ -217,6 +235,18 @@ impl<'p> Code<'p> {
         } else {
             self.text.line(format!("let {home} = {};", from.text));
         }
+    }
+
+    pub fn line(&mut self, text: impl Into<String>) {
+        self.text.line(text);
+    }
+
+    pub fn open(&mut self, text: impl Into<String>) {
+        self.text.open(text);
+    }
+
+    pub fn close(&mut self, text: &str) {
+        self.text.close(text);
     }
 
     /// The field of a place that is written.
@@ -240,6 +270,9 @@ impl<'p> Code<'p> {
                 };
                 match routine.form {
                     Form::Expression { .. } => self.apply(routine, args),
+                    Form::Statement(template) if self.logs() => {
+                        return self.log_statements(id, (routine, template), args);
+                    }
                     Form::Statement(template) => {
                         let home = self.home(place, format);
                         let call = self.fill(template, args, &[], Some(&home));
@@ -249,7 +282,15 @@ impl<'p> Code<'p> {
                     }
                 }
             }
-            Node::Lookup { table, column, row } => self.entry(table, column, row),
+            Node::Lookup { table, column, row } => {
+                let entry = self.entry(table, column, row);
+                if self.logs() && self.sign_is_looked_up(id, table) {
+                    let home = self.home(place, format);
+                    let sign = entry.text.replacen('[', "_plus[", 1);
+                    return self.copy_log(&home, (&entry.text, &sign), false);
+                }
+                entry
+            }
             _ => return,
         };
         if format == Format::Float316 {
@@ -290,6 +331,11 @@ impl<'p> Code<'p> {
         result: Option<&str>,
     ) -> String {
         let mut text = template.to_owned();
+        for (id, hole) in args.into_iter().zip(["{0+}", "{1+}"]) {
+            if text.contains(hole) {
+                text = text.replace(hole, &self.sign(id).text);
+            }
+        }
         for (k, (id, hole)) in args.into_iter().zip(["{0}", "{1}"]).enumerate() {
             if text.contains(hole) {
                 let level = levels.get(k).copied().unwrap_or(SUM);
@@ -331,6 +377,7 @@ impl<'p> Code<'p> {
         match value {
             Value::Bool(b) => Expression::term(b.to_string()),
             Value::Int(_) => int((self.plan.runtime.decode)(bits, self.plan.runtime.int).int()),
+            Value::Real(_) if self.logs() => constant(bits),
             Value::Real(r) => Expression::term(self.object.constant(&mut self.names, bits, r)),
         }
     }
@@ -371,7 +418,7 @@ impl<'p> Code<'p> {
     }
 
     /// What an operation means, in the scene's names.
-    fn meaning(&mut self, id: NodeId) -> String {
+    pub fn meaning(&mut self, id: NodeId) -> String {
         let Node::Apply(op, args) = self.plan.graph.node(id) else {
             return String::new();
         };

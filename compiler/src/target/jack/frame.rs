@@ -2,6 +2,7 @@
 
 use super::code::Code;
 use super::making::making;
+use super::logs::{has_signs, without_idle_signs};
 use super::params::{checks, parameters};
 use super::report::reports;
 use super::{Document, Line, Text};
@@ -12,9 +13,16 @@ use slowlight_runtime_jack::{TERM, classes, has_init};
 /// Writes a plan down as the classes of a program, `Main` first.
 pub(super) fn program(plan: &Plan) -> Vec<Document> {
     let mut code = Code::new(plan);
-    let drawing = drawing(&mut code);
-    let making = making(&mut code);
+    let mut drawing = drawing(&mut code);
+    let mut making = making(&mut code);
     let checks = checks(&mut code);
+    let signs = code.names.signs();
+    if !signs.is_empty() {
+        let bodies = drawing.iter_mut().chain(&mut making).map(|s| &mut s.body);
+        let mut all: Vec<&mut Vec<Line>> = bodies.collect();
+        all.extend(code.methods.iter_mut().map(|m| &mut m.lines));
+        without_idle_signs(&signs, &mut all);
+    }
     let class = code.names.class.clone();
     let mut needs: Vec<&str> = plan.parts().iter().map(|p| p.name).collect();
     needs.extend(&code.needs);
@@ -38,7 +46,7 @@ fn main(class: &str, parts: &[&slowlight_routine::Part]) -> Text {
     text.open("class Main {");
     text.open("function void main() {");
     text.line(format!("var {class} scene;"));
-    for library in ["Float", "Int"] {
+    for library in ["Float", "Log", "Int"] {
         if has_init(library, parts) {
             text.line(format!("do {library}.init();"));
         }
@@ -185,8 +193,9 @@ fn fields(code: &Code, text: &mut Text) {
         names.axes.iter().map(String::as_str).collect(),
         " // the pixel",
     );
-    let floats = code.object.values().map(|(_, name)| name);
-    declare("Float", floats.collect(), " // parameters");
+    let real = if code.logs() { "int" } else { "Float" };
+    let values = code.object.values().map(|(_, name)| name);
+    declare(real, values.collect(), " // parameters");
     let constants = code.object.constants().iter().map(|c| c.name.as_str());
     declare("Float", constants.collect(), " // constants");
     if let Some(spread) = &code.spread {
@@ -199,6 +208,12 @@ fn fields(code: &Code, text: &mut Text) {
         names.tables().map(|(_, name)| name).collect(),
         " // tables",
     );
+    let signs: Vec<String> = (names.tables())
+        .filter(|(id, _)| code.logs() && code.plan.graph.tables.get(id.0 as usize).is_some_and(has_signs))
+        .map(|(_, name)| format!("{name}_plus"))
+        .collect();
+    declare("Array", signs.iter().map(String::as_str).collect(), "");
+    declare("int", of(code.plan.runtime.real).filter(|_| code.logs()).collect(), " // logarithms");
     declare("Float", of(Format::Float316).collect(), "");
     declare(
         "int",

@@ -4,7 +4,10 @@ use super::Line;
 use super::code::Code;
 use super::expression::{Expression, int};
 use super::frame::{Subroutine, line, subroutine};
+use super::logs::{constant, has_signs};
+use crate::plan::ParamPlan;
 use slowlight_routine::{Format, Type, Value};
+use slowlight_runtime_jack::log::model::Log;
 use slowlight_runtime_jack::model::Float;
 
 /// The methods that make constants, Floats and tables, and read the params.
@@ -24,6 +27,10 @@ pub(super) fn making(code: &mut Code) -> Vec<Subroutine> {
         else {
             continue;
         };
+        if code.logs() {
+            taking.extend(take_log(code, (value, &label), param));
+            continue;
+        }
         if param.digits.is_none() {
             // Given by its bits, which no scaled int can say.
             code.needs.insert("Float.constant");
@@ -94,6 +101,28 @@ pub(super) fn making(code: &mut Code) -> Vec<Subroutine> {
     all
 }
 
+/// A param's logarithm and sign, from its whole number.
+fn take_log(code: &mut Code, (value, label): (&str, &str), param: &ParamPlan) -> Vec<Line> {
+    let plus = code.sign_of(value);
+    let Some(digits) = param.digits else {
+        // Given by its bits.
+        let log = Log::from_bits(param.bits);
+        return vec![
+            line(&format!("let {value} = {};", int(log.log).text)),
+            line(&format!("let {plus} = {};", log.plus)),
+        ];
+    };
+    code.needs.extend(["Log.fromInt", "Log.clamp"]);
+    let unit = 10i32.saturating_pow(u32::from(digits));
+    let log = Log::from_int(unit).log;
+    vec![
+        line(&format!(
+            "let {value} = Log.clamp(Log.fromInt({label}) - {log}); // {label} / {unit}"
+        )),
+        line(&format!("let {plus} = ~({label} < 0);")),
+    ]
+}
+
 fn tables(code: &mut Code) -> Vec<Line> {
     let plan = code.plan;
     let mut lines = Vec::new();
@@ -106,16 +135,18 @@ fn tables(code: &mut Code) -> Vec<Line> {
         let Some(table) = plan.graph.tables.get(id.0 as usize) else {
             continue;
         };
-        lines.push(line(&format!(
-            "let {name} = Array.new({});",
-            table.entries.len()
-        )));
+        let signs = (code.logs() && has_signs(table)).then(|| format!("{name}_plus"));
+        for name in [Some(&name), signs.as_ref()].into_iter().flatten() {
+            let length = table.entries.len();
+            lines.push(line(&format!("let {name} = Array.new({length});")));
+        }
         for (at, entry) in table.entries.iter().enumerate() {
             let value = entry.value();
             let bits = plan.bits(value);
             let text = match (plan.runtime.decode)(bits, plan.runtime.format_of(table.ty)) {
                 Value::Int(i) => int(i),
                 Value::Bool(b) => Expression::term(b.to_string()),
+                Value::Real(_) if code.logs() => constant(bits),
                 Value::Real(_) => {
                     code.needs.insert("Float.constant");
                     let Float { s, e, m } = Float::from_bits(bits);
@@ -127,6 +158,10 @@ fn tables(code: &mut Code) -> Vec<Line> {
                 _ => String::new(),
             };
             lines.push(line(&format!("let {name}[{at}] = {};{said}", text.text)));
+            if let Some(signs) = &signs {
+                let plus = value.real() >= 0.0;
+                lines.push(line(&format!("let {signs}[{at}] = {plus};")));
+            }
         }
     }
     lines

@@ -26,6 +26,7 @@
 mod code;
 mod expression;
 mod frame;
+mod logs;
 mod making;
 mod names;
 mod object;
@@ -39,9 +40,18 @@ use super::{Document, Mode, Target};
 use crate::passes::outline::Sizes;
 use crate::source::Span;
 use slowlight_runtime_jack::F316;
+use slowlight_runtime_jack::log::LOG10;
 
 /// The Hack computer, programmed in Jack.
-pub static JACK: Target = Target {
+pub static JACK: Target = FLOATS;
+
+/// The same with logarithmic reals.
+pub static JACK_LOG10: Target = Target {
+    runtime: &LOG10,
+    ..FLOATS
+};
+
+const FLOATS: Target = Target {
     name: "jack",
     about: "the Hack computer of nand2tetris, black and white, programmed in Jack",
     runtime: &F316,

@@ -71,6 +71,8 @@ pub(super) struct Names {
     tables: BTreeMap<TableId, String>,
     turns: BTreeMap<LoopId, String>,
     subroutines: Vec<String>,
+    /// The variables of signs, by those of the logarithms.
+    signs: BTreeMap<String, String>,
     taken: BTreeSet<String>,
 }
 
@@ -87,6 +89,7 @@ impl Names {
             tables: BTreeMap::new(),
             turns: BTreeMap::new(),
             subroutines: Vec::new(),
+            signs: BTreeMap::new(),
             taken: taken.collect(),
         };
         names.taken.insert(names.class.clone());
@@ -123,6 +126,21 @@ impl Names {
 
     pub fn home(&self, place: Place) -> &str {
         self.homes.get(&place).map_or("unused", String::as_str)
+    }
+
+    /// The variable for the sign of what another has the logarithm of.
+    pub fn sign(&mut self, of: &str) -> String {
+        if let Some(name) = self.signs.get(of) {
+            return name.clone();
+        }
+        let name = self.fresh(&format!("{of}_plus"));
+        self.signs.insert(of.to_owned(), name.clone());
+        name
+    }
+
+    /// All of them.
+    pub fn signs(&self) -> BTreeSet<String> {
+        self.signs.values().cloned().collect()
     }
 
     /// The array of a table.

@@ -6,7 +6,7 @@ use super::frame::{Subroutine, line, subroutine};
 use slowlight_routine::Format;
 
 /// Prints what the graph reports, a line each: ints, bools as 0 or 1, Floats as
-/// sign, exponent and mantissa. Answers the method that prints a Float, if needed.
+/// sign, exponent and mantissa, logarithms after 1 for a negative. Answers the method that prints a Float, if needed.
 pub(super) fn reports(code: &mut Code, text: &mut Text) -> Option<Subroutine> {
     let plan = code.plan;
     let mut floats = false;
@@ -22,6 +22,17 @@ pub(super) fn reports(code: &mut Code, text: &mut Text) -> Option<Subroutine> {
                 text.close("}");
             }
             Format::Int { .. } => text.line(format!("do Output.printInt({value});")),
+            Format::Log { .. } => {
+                let plus = code.sign(id).text;
+                text.open(format!("if ({plus}) {{"));
+                text.line("do Output.printInt(0);");
+                text.close("}");
+                text.open("else {");
+                text.line("do Output.printInt(1);");
+                text.close("}");
+                text.line("do Output.println();");
+                text.line(format!("do Output.printInt({value});"));
+            }
             _ => {
                 floats = true;
                 text.line(format!("do reportFloat({value});"));
