@@ -149,7 +149,11 @@ impl ScreenArgs {
         let mut all = target::formats(target);
         all.find(|t| t.runtime.format == name).ok_or_else(|| {
             let names: Vec<&str> = target::formats(target).map(|t| t.runtime.format).collect();
-            let message = format!("{} has no format {name}; it has {}", target.name, names.join(", "));
+            let message = format!(
+                "{} has no format {name}; it has {}",
+                target.name,
+                names.join(", ")
+            );
             Failure::Usage(message)
         })
     }

@@ -332,6 +332,7 @@ impl Walk<'_> {
             Node::Apply(op, [a, b]) => {
                 let args = [self.read(a), self.read(b)];
                 let exact = whole(self.graph, id, args, interval(op, args, a == b));
+                let exact = self.part_of_length(id, exact);
                 if self.shared[at] == Some(true) {
                     let [a, b] = self.out.args[at];
                     self.out.args[at] = [a.join(args[0]), b.join(args[1])];

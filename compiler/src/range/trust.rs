@@ -6,6 +6,9 @@ use crate::flow::graph::*;
 use crate::flow::tree::Statement;
 use slowlight_routine::{Op, Range};
 
+/// How many terms of a sum are looked at.
+const TERMS: usize = 8;
+
 impl Walk<'_> {
     /// A component of a direction whose range is unknown is trusted to be what
     /// the contract says, twice over for what roundings add.
@@ -19,6 +22,31 @@ impl Walk<'_> {
             },
             None => range,
         }
+    }
+
+    /// A part of a vector over the vector's length is at most 1, twice over for what
+    /// roundings add: a quotient by the root of a sum that has the dividend's square
+    /// among terms of no negative. Where small values lose all their digits nothing
+    /// is known.
+    pub(super) fn part_of_length(&self, id: NodeId, exact: Range) -> Range {
+        let (Some(unit), Node::Apply(Op::Div, [part, length])) =
+            (self.slack.direction, self.graph.node(id))
+        else {
+            return exact;
+        };
+        let Node::Apply(Op::Sqrt, [sum, _]) = self.graph.node(length) else {
+            return exact;
+        };
+        let (mut squared, mut todo) = (false, vec![sum]);
+        while let Some(term) = todo.pop() {
+            match self.graph.node(term) {
+                Node::Apply(Op::Add, [a, b]) if todo.len() < TERMS => todo.extend([a, b]),
+                Node::Apply(Op::Mul, [a, b]) if a == b && a == part => squared = true,
+                _ if self.read(term).lo >= 0.0 => {}
+                _ => return exact,
+            }
+        }
+        if squared { exact.meet(unit) } else { exact }
     }
 
     /// What a trusted direction was subtracted from is not far from what was

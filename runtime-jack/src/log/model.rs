@@ -197,10 +197,15 @@ fn difference(a: i32, b: i32) -> i32 {
     }
 }
 
-/// What a far smaller summand adds.
+/// Beyond which distances a far smaller summand adds less than 1/2, 3/2, ... units.
+const STEPS: [i32; 23] = [
+    11805, 10182, 9427, 8930, 8559, 8263, 8016, 7804, 7619, 7455, 7307, 7173, 7050, 6936, 6830,
+    6732, 6640, 6553, 6471, 6393, 6319, 6249, 6182,
+];
+
+/// What a far smaller summand adds, or takes away.
 fn rest(apart: i32) -> i32 {
-    let n = whole(11807 - apart);
-    tables().halves.get(n as usize + 1).copied().unwrap_or(0)
+    STEPS.iter().filter(|step| apart <= **step).count() as i32
 }
 
 /// Half of a logarithm, rounded down.

@@ -12,8 +12,6 @@ pub(super) struct Tables {
     pub differences: Vec<i32>,
     /// 1024 log2(n) for n to [`WHOLE`]; [`LEAST`] for 0.
     pub logs: Vec<i32>,
-    /// n / 2, rounded down, for n below [`WHOLE`].
-    pub halves: Vec<i32>,
 }
 
 /// The tables, made once.
@@ -24,7 +22,6 @@ pub(super) fn tables() -> &'static Tables {
         Tables {
             sums: sums(&powers),
             differences: differences(&powers, &logs),
-            halves: (0..WHOLE).map(|n| n / 2).collect(),
             logs,
         }
     });

@@ -1,8 +1,8 @@
 //! The classes around the statements: parameter block, checks, loops.
 
 use super::code::Code;
-use super::making::making;
 use super::logs::{has_signs, without_idle_signs};
+use super::making::making;
 use super::params::{checks, parameters};
 use super::report::reports;
 use super::{Document, Line, Text};
@@ -209,11 +209,23 @@ fn fields(code: &Code, text: &mut Text) {
         " // tables",
     );
     let signs: Vec<String> = (names.tables())
-        .filter(|(id, _)| code.logs() && code.plan.graph.tables.get(id.0 as usize).is_some_and(has_signs))
+        .filter(|(id, _)| {
+            code.logs()
+                && code
+                    .plan
+                    .graph
+                    .tables
+                    .get(id.0 as usize)
+                    .is_some_and(has_signs)
+        })
         .map(|(_, name)| format!("{name}_plus"))
         .collect();
     declare("Array", signs.iter().map(String::as_str).collect(), "");
-    declare("int", of(code.plan.runtime.real).filter(|_| code.logs()).collect(), " // logarithms");
+    declare(
+        "int",
+        of(code.plan.runtime.real).filter(|_| code.logs()).collect(),
+        " // logarithms",
+    );
     declare("Float", of(Format::Float316).collect(), "");
     declare(
         "int",

@@ -139,7 +139,12 @@ struct Operand {
 fn filled(line: &str, operands: &[Operand]) -> String {
     let mut text = line.to_owned();
     for (k, operand) in operands.iter().enumerate() {
-        text = text.replace(&format!("{{{k}+}}"), &operand.sign);
+        let sign = format!("{{{k}+}}");
+        if let "true" | "false" = operand.sign.as_str() {
+            let other = (operand.sign != "true").to_string();
+            text = text.replace(&format!("~{sign}"), &other);
+        }
+        text = text.replace(&sign, &operand.sign);
         let hole = format!("{{{k}}}");
         while let Some(at) = text.find(&hole) {
             let (before, after) = (&text[..at], &text[at + hole.len()..]);
@@ -191,7 +196,10 @@ pub(super) fn without_idle_signs(signs: &BTreeSet<String>, all: &mut [&mut Vec<L
             read.extend(words.filter(|w| signs.contains(*w)).map(str::to_owned));
         }
         let idle = |line: &Line| {
-            let to = line.text.strip_prefix("let ").and_then(|c| c.split_once(" = "));
+            let to = line
+                .text
+                .strip_prefix("let ")
+                .and_then(|c| c.split_once(" = "));
             to.is_some_and(|(to, _)| signs.contains(to) && !read.contains(to))
         };
         let mut some = false;
