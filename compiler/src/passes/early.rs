@@ -29,6 +29,11 @@ pub fn in_loops(graph: &Graph) -> Option<Graph> {
     any.then(|| chosen(graph, &turns))
 }
 
+/// The graph with all shortcuts; nothing where there are none.
+pub fn everywhere(graph: &Graph) -> Option<Graph> {
+    (!graph.early.is_empty()).then(|| chosen(graph, &|_| true))
+}
+
 /// The graph with the shortcuts that `taken` says, as choices like any other.
 fn chosen(graph: &Graph, taken: &dyn Fn(NodeId) -> bool) -> Graph {
     if graph.early.is_empty() {

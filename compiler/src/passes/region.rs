@@ -52,25 +52,41 @@ pub type Fact = (NodeId, bool);
 
 /// All that follows from a condition's holding or not, itself included.
 pub fn implied(graph: &Graph, cond: NodeId, holds: bool) -> Vec<Fact> {
-    let known = |id| graph.constant(id).map(slowlight_routine::Value::truth);
-    let mut facts = vec![(cond, holds)];
-    let mut at = 0;
-    while let Some(&(id, holds)) = facts.get(at) {
-        at += 1;
+    beside(graph, &[], cond, holds)
+}
+
+/// The same where something is known already: what is new.
+fn beside(graph: &Graph, before: &[Fact], cond: NodeId, holds: bool) -> Vec<Fact> {
+    let constant = |id| graph.constant(id).map(slowlight_routine::Value::truth);
+    let mut facts = before.to_vec();
+    let mut todo = vec![(cond, holds)];
+    while let Some((id, holds)) = todo.pop() {
+        if facts.contains(&(id, holds)) {
+            continue;
+        }
+        facts.push((id, holds));
         match graph.node(id) {
-            Node::Apply(slowlight_routine::Op::Not, [a, _]) => facts.push((a, !holds)),
+            Node::Apply(slowlight_routine::Op::Not, [a, _]) => todo.push((a, !holds)),
             Node::Select { cond, yes, no } => {
                 // The arm that would give the other answer was not taken.
-                if known(yes) == Some(!holds) {
-                    facts.extend([(cond, false), (no, holds)]);
-                } else if known(no) == Some(!holds) {
-                    facts.extend([(cond, true), (yes, holds)]);
+                if constant(yes) == Some(!holds) {
+                    todo.extend([(cond, false), (no, holds)]);
+                } else if constant(no) == Some(!holds) {
+                    todo.extend([(cond, true), (yes, holds)]);
                 }
             }
             _ => {}
         }
+        // What chooses is what it chooses.
+        let chosen = facts.iter().filter_map(|&(of, is)| match graph.node(of) {
+            Node::Select { cond, yes, .. } if facts.contains(&(cond, true)) => Some((yes, is)),
+            Node::Select { cond, no, .. } if facts.contains(&(cond, false)) => Some((no, is)),
+            _ => None,
+        });
+        let chosen: Vec<Fact> = chosen.filter(|fact| !facts.contains(fact)).collect();
+        todo.extend(chosen);
     }
-    facts
+    facts.split_off(before.len())
 }
 
 /// Every value's region.
@@ -157,7 +173,13 @@ impl Regions {
                 .map_or(Vec::new(), |l| implied(graph, l.again, holds))
         };
         self.facts.push(match kind {
-            RegionKind::Arm { cond, holds } => implied(graph, cond, holds),
+            RegionKind::Arm { cond, holds } => {
+                let known = self.facts_up_to(FRAME, parent);
+                match known.contains(&(cond, holds)) {
+                    true => vec![(cond, holds)],
+                    false => beside(graph, &known, cond, holds),
+                }
+            }
             RegionKind::Next(of) => again(of, true),
             RegionKind::Done(of) => again(of, false),
             _ => Vec::new(),

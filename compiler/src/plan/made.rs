@@ -11,7 +11,7 @@ use super::{Goal, Plan, choose, fold_uses, names, recipes};
 use crate::flow::graph::*;
 use crate::flow::tree::*;
 use crate::flow::verify::verify;
-use crate::passes::early::without;
+use crate::passes::early::{everywhere, without};
 use crate::passes::fold::fold;
 use crate::passes::interlace::interlaced;
 use crate::passes::ramps::runs::is_exact;
@@ -89,7 +89,12 @@ pub(super) fn planned(
         let early = (!origin.early.is_empty()).then(|| steady(shop, &drawn(fold(origin)), rounds));
         let early = early.as_ref().map(|settled| &settled.graph);
         let price = Price::new(&now, runtime, thrift);
-        let all = cheaper(now.clone(), early, shop, thrift);
+        let mut all = cheaper(now.clone(), early, shop, thrift);
+        // Where spans of columns tell what a row meets, shortcuts outside of loops do not pay.
+        let sooner = early.filter(|_| !runtime.segments).and_then(everywhere);
+        if let Some(sooner) = sooner {
+            all.extend(cheaper(shop.settle(&sooner), None, shop, thrift));
+        }
         let all = all
             .into_iter()
             .map(|plan| with_recipes_followed(plan, shop, thrift))
