@@ -5,9 +5,9 @@ use super::code::Code;
 use super::lines::Lines;
 use super::passes::Passes;
 use super::poke::Poke;
-use super::ramp;
+use super::ramp::{self, Late};
 use super::screen;
-use super::segment::Segments;
+use super::segment::{SEGMENT, Segments};
 use super::short::short;
 use super::spread::Spread;
 use super::tables;
@@ -141,6 +141,10 @@ fn picture(plan: &Plan, code: &mut Code<'_>, first: &str, last: &str, spread: Op
     }
     let columns = plan.computed_columns();
     let segments = Segments::new(plan, code);
+    let still = segments.is_some() && poke.is_none();
+    if still && code.values.style == Style::Fast {
+        code.late = Late::of(plan, code);
+    }
     let top_label = code.labels.next();
     let behind_run = code.labels.next();
     match (&poke, &segments) {
@@ -156,8 +160,9 @@ fn picture(plan: &Plan, code: &mut Code<'_>, first: &str, last: &str, spread: Op
         }
         (None, Some(segments)) => {
             code.statement(format!("X%={}", columns.0));
+            ramp::are_at(code, "X%");
             code.lines.place(top_label);
-            let draw = screen::run(plan, code, 1);
+            let draw = screen::run(plan, code, segments.end(), 1);
             apart.extend(behind(code, "segment", |code| {
                 segments.begin(plan, code, Some(&draw));
             }));
@@ -189,6 +194,10 @@ fn picture(plan: &Plan, code: &mut Code<'_>, first: &str, last: &str, spread: Op
     }
     ramp::step(plan, code);
     code.line("NEXT");
+    if let (Some(row), Some(_)) = (&passes, &segments) {
+        code.lines.weight = SEGMENT;
+        row.after_run(code);
+    }
     match (&poke, &segments) {
         (Some(poke), _) => poke.put(plan, code, first, segments.is_some().then_some(top_label)),
         (None, Some(_)) => {

@@ -21,7 +21,7 @@
 //!   for a run of assignments;
 //! - `code`: statements; `frame`: everything around them; `screen`: modes, colours, coordinates;
 //! - `poke`: pixels put into the Micro's memory; `passes`: rows drawn every nth column at a time;
-//! - `ramp`: ints that are stepped from column to column;
+//! - `ramp`: ints that are stepped from column to column; `reads`: what a pixel reads;
 //! - `spread`: error diffusion; `short`: short names and lines, for speed and for size;
 //! - `pieces`: statements cut into names and words.
 
@@ -35,6 +35,7 @@ mod passes;
 mod pieces;
 mod poke;
 mod ramp;
+mod reads;
 mod screen;
 mod segment;
 mod short;
