@@ -2,6 +2,7 @@
 
 use super::Style;
 use super::code::Code;
+use super::dead;
 use super::lines::Lines;
 use super::passes::Passes;
 use super::poke::Poke;
@@ -11,6 +12,7 @@ use super::segment::{SEGMENT, Segments};
 use super::short::short;
 use super::spread::Spread;
 use super::tables;
+use super::tail;
 use super::thread::threaded;
 use crate::flow::tree::SubroutineId;
 use crate::plan::Plan;
@@ -59,6 +61,11 @@ pub fn program(plan: &Plan) -> Lines {
     let params = (0..plan.params.len()).map(|k| code.values.names.param(k).to_owned());
     let keep: Vec<String> = params.chain([first, last]).collect();
     let lines = threaded(code.lines, &mut code.labels, style != Style::Small);
+    let lines = dead::without(lines);
+    let lines = match plan.copies {
+        true => tail::copied(lines, &mut code.labels),
+        false => lines,
+    };
     let assigned = code.values.names.constants();
     let constants = assigned
         .filter_map(|text| Some(text.split_once('=')?.0.to_owned()))

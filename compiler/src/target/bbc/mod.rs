@@ -22,10 +22,11 @@
 //! - `code`: statements; `frame`: everything around them; `screen`: modes, colours, coordinates;
 //! - `poke`: pixels put into the Micro's memory; `passes`: rows drawn every nth column at a time;
 //! - `ramp`: ints that are stepped from column to column; `reads`: what a pixel reads;
-//! - `spread`: error diffusion; `short`: short names and lines, for speed and for size;
+//! - `spread`: error diffusion; `thread`, `tail`, `dead`: fewer jumps and flags; `short`: short names and lines, for speed and for size;
 //! - `pieces`: statements cut into names and words.
 
 mod code;
+mod dead;
 mod expression;
 mod frame;
 mod guard;
@@ -41,6 +42,7 @@ mod segment;
 mod short;
 mod spread;
 mod tables;
+mod tail;
 #[cfg(test)]
 mod tests;
 mod text;

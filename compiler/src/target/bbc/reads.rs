@@ -18,7 +18,10 @@ pub struct Reads<'p> {
 pub fn pixel(plan: &Plan) -> Reads<'_> {
     let mut reads = Reads::none(plan);
     // Runs of known inks are drawn apart where runs of columns are.
-    let still = plan.still.as_ref().filter(|_| !plan.tree.segment.is_empty());
+    let still = plan
+        .still
+        .as_ref()
+        .filter(|_| !plan.tree.segment.is_empty());
     reads.known = still.and_then(Still::otherwise);
     reads.block(&plan.tree.pixel);
     reads.value(plan.graph.ink);

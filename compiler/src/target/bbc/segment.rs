@@ -193,7 +193,7 @@ impl Segments {
     /// Draws a run of two inks.
     fn either(&self, cond: NodeId, plan: &Plan, code: &mut Code<'_>, draw: &Draw) {
         ramp::catch_up(plan, code, &draw.count, draw.by);
-        code.statement(draw.head());
+        code.line(draw.head());
         let weight = std::mem::replace(&mut code.lines.weight, STILL);
         let cond = code.values.compute(cond).text;
         let [yes, no] = &draw.either;
