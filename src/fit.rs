@@ -34,7 +34,7 @@ pub fn fit(
             tried = Some(large.len());
         }
         if let Some(fits) = quickest(&plan)? {
-            return Ok(fits);
+            return with_copies(fits);
         }
         // None of these fits as it is.
         let least = plan.thriftier(plan.thrifts().saturating_sub(1));
@@ -122,6 +122,13 @@ fn quickest(plan: &Plan) -> Outcome<Option<Plan>> {
         }
     }
     Ok(found)
+}
+
+/// The plan, written with what stands on several ways where that fits as well.
+fn with_copies(mut plan: Plan) -> Outcome<Plan> {
+    plan.copies = true;
+    plan.copies = need(&plan)?.is_none_or(|need| need.fits());
+    Ok(plan)
 }
 
 fn as_is_or_tight(mut plan: Plan) -> Outcome<Fitted> {

@@ -59,9 +59,10 @@ pub mod level {
     pub const AND: u8 = 2;
     /// `< = >` and so on.
     pub const COMPARE: u8 = 3;
-    /// `+`, `-`, and a minus sign before an operand (which binds tighter, but reads better so).
+    /// `+` and `-`.
     pub const SUM: u8 = 4;
-    /// `* / DIV MOD`.
+    /// `* / DIV MOD`, and a minus sign before a product (it binds tighter than those, so it
+    /// is the first factor's: the same value).
     pub const PRODUCT: u8 = 5;
     /// `^`.
     pub const POWER: u8 = 6;

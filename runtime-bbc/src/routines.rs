@@ -127,7 +127,7 @@ macro_rules! and_mask {
 const ADD: Form = form("{0}+{1}", SUM, &[SUM, PRODUCT]);
 const SUB: Form = form("{0}-{1}", SUM, &[SUM, PRODUCT]);
 const MUL: Form = form("{0}*{1}", PRODUCT, &[PRODUCT, POWER]);
-const NEG: Form = form("-{0}", SUM, &[PRODUCT]);
+const NEG: Form = form("-{0}", PRODUCT, &[PRODUCT]);
 const LESS: Form = form("{0}<{1}", COMPARE, &[SUM, SUM]);
 const LESS_EQUAL: Form = form("{0}<={1}", COMPARE, &[SUM, SUM]);
 const EQUAL: Form = form("{0}={1}", COMPARE, &[SUM, SUM]);

@@ -9,6 +9,7 @@ use super::region::Fact;
 use super::segment::Known;
 use crate::flow::graph::*;
 use slowlight_routine::{Op, Value};
+use std::collections::BTreeSet;
 
 /// Conditions that are known before a run's first pixel, and the inks of its pixels
 /// where they hold, which are known there as well.
@@ -42,6 +43,39 @@ impl Still {
         let of: Vec<NodeId> = of.iter().flat_map(Node::operands).collect();
         conditions.chain(inks).chain(of)
     }
+
+    /// What is known at pixels whose ink is not, where one condition says of every
+    /// run whether it is.
+    pub fn otherwise(&self) -> Option<Fact> {
+        match self.conditions.as_slice() {
+            [(cond, holds)] => Some((*cond, !holds)),
+            _ => None,
+        }
+    }
+
+    /// Whether the two inks of a run may be one after all, as far as their choices tell.
+    pub fn may_agree(&self, graph: &Graph) -> bool {
+        let Inks::Either { yes, no, .. } = self.inks else {
+            return true;
+        };
+        let (yes, no) = (leaves(graph, yes), leaves(graph, no));
+        let open = |leaf: &NodeId| graph.constant(*leaf).is_none();
+        let same = |a: NodeId, b: NodeId| a == b || graph.constant(a) == graph.constant(b);
+        let alike = |a: &NodeId| no.iter().any(|b| same(*a, *b));
+        yes.iter().chain(&no).any(open) || yes.iter().any(alike)
+    }
+}
+
+/// What a value may be chosen from.
+fn leaves(graph: &Graph, id: NodeId) -> BTreeSet<NodeId> {
+    let (mut todo, mut seen) = (vec![id], BTreeSet::new());
+    while let Some(id) = todo.pop() {
+        if let (true, Node::Select { yes, no, .. }) = (seen.insert(id), graph.node(id)) {
+            todo.extend([yes, no]);
+        }
+    }
+    seen.retain(|id| !matches!(graph.node(*id), Node::Select { .. }));
+    seen
 }
 
 /// The still inks of a graph whose pixels do not depend on each other, if it has any.
@@ -73,7 +107,7 @@ impl Find<'_> {
     /// Conditions known before the run among those that an ink is chosen by, and
     /// those that these are chosen by.
     fn conditions(&self, id: NodeId, found: &mut Vec<NodeId>) {
-        let (mut todo, mut seen) = (vec![id], std::collections::BTreeSet::new());
+        let (mut todo, mut seen) = (vec![id], BTreeSet::new());
         while let Some(id) = todo.pop() {
             if !seen.insert(id) {
                 continue;

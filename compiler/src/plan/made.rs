@@ -174,6 +174,7 @@ pub(super) fn assemble(
         listing: false,
         items: Vec::new(),
         lean: false,
+        copies: false,
         page: None,
         ranges: ranges_now,
         params,

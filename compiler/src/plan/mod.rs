@@ -132,6 +132,8 @@ pub struct Plan {
     /// Whether to write it short, but not so short that it becomes slow to read
     /// for the machine: between neither and [`Plan::tight`].
     pub lean: bool,
+    /// Whether there is memory to write short ends of a pixel on each way to them.
+    pub copies: bool,
     /// Where programs begin in a BBC Micro's memory, where that was asked for.
     pub page: Option<u16>,
     /// The values.

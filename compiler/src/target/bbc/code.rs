@@ -3,7 +3,7 @@
 use super::Style;
 use super::expression::Expressions;
 use super::lines::{Label, Labels, Lines};
-use super::ramp;
+use super::ramp::{self, Late};
 use super::segment::Ends;
 use super::text::Text;
 use crate::flow::graph::{Node, NodeId};
@@ -34,6 +34,8 @@ pub struct Code<'p> {
     pub ends: Option<Ends>,
     /// What is known of a condition where a pixel is being written.
     pub known: Option<Fact>,
+    /// Ramps that are stepped where they are read only.
+    pub late: Option<Late>,
     span: Option<Span>,
 }
 
@@ -47,6 +49,7 @@ impl<'p> Code<'p> {
             labels: Labels::default(),
             ends: None,
             known: None,
+            late: None,
             span: None,
         }
     }
@@ -59,6 +62,14 @@ impl<'p> Code<'p> {
     /// A statement that comes from no place in the scene.
     pub fn statement(&mut self, text: impl Into<String>) {
         self.lines.statement(text, None);
+    }
+
+    /// The same; a test takes the rest of its line with it.
+    pub fn statement_or_test(&mut self, text: &str) {
+        match text.starts_with("IF ") {
+            true => self.line(text),
+            false => self.statement(text),
+        }
     }
 
     /// A line that comes from no place in the scene.

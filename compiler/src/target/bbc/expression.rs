@@ -8,7 +8,7 @@ use super::text::{Fast, Text};
 use crate::flow::graph::*;
 use crate::plan::Plan;
 use slowlight_routine::{Form, Op, Range, Type, Value};
-use slowlight_runtime_bbc::level::{OPERAND, SUM};
+use slowlight_runtime_bbc::level::{OPERAND, PRODUCT, SUM};
 use slowlight_runtime_bbc::literal;
 use std::collections::HashMap;
 
@@ -95,7 +95,11 @@ impl<'p> Expressions<'p> {
                 text
             }
         };
-        let level = if text.starts_with('-') { SUM } else { OPERAND };
+        let level = match value {
+            Value::Int(i32::MIN) => SUM,
+            _ if text.starts_with('-') => PRODUCT,
+            _ => OPERAND,
+        };
         Text::new(text, level)
     }
 

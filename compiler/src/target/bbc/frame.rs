@@ -2,15 +2,17 @@
 
 use super::Style;
 use super::code::Code;
+use super::dead;
 use super::lines::Lines;
 use super::passes::Passes;
 use super::poke::Poke;
-use super::ramp;
+use super::ramp::{self, Late};
 use super::screen;
-use super::segment::Segments;
+use super::segment::{SEGMENT, Segments};
 use super::short::short;
 use super::spread::Spread;
 use super::tables;
+use super::tail;
 use super::thread::threaded;
 use crate::flow::tree::SubroutineId;
 use crate::plan::Plan;
@@ -59,6 +61,11 @@ pub fn program(plan: &Plan) -> Lines {
     let params = (0..plan.params.len()).map(|k| code.values.names.param(k).to_owned());
     let keep: Vec<String> = params.chain([first, last]).collect();
     let lines = threaded(code.lines, &mut code.labels, style != Style::Small);
+    let lines = dead::without(lines);
+    let lines = match plan.copies {
+        true => tail::copied(lines, &mut code.labels),
+        false => lines,
+    };
     let assigned = code.values.names.constants();
     let constants = assigned
         .filter_map(|text| Some(text.split_once('=')?.0.to_owned()))
@@ -141,6 +148,10 @@ fn picture(plan: &Plan, code: &mut Code<'_>, first: &str, last: &str, spread: Op
     }
     let columns = plan.computed_columns();
     let segments = Segments::new(plan, code);
+    let still = segments.is_some() && poke.is_none();
+    if still && code.values.style == Style::Fast {
+        code.late = Late::of(plan, code);
+    }
     let top_label = code.labels.next();
     let behind_run = code.labels.next();
     match (&poke, &segments) {
@@ -156,8 +167,9 @@ fn picture(plan: &Plan, code: &mut Code<'_>, first: &str, last: &str, spread: Op
         }
         (None, Some(segments)) => {
             code.statement(format!("X%={}", columns.0));
+            ramp::are_at(code, "X%");
             code.lines.place(top_label);
-            let draw = screen::run(plan, code, 1);
+            let draw = screen::run(plan, code, segments.end(), 1);
             apart.extend(behind(code, "segment", |code| {
                 segments.begin(plan, code, Some(&draw));
             }));
@@ -189,6 +201,10 @@ fn picture(plan: &Plan, code: &mut Code<'_>, first: &str, last: &str, spread: Op
     }
     ramp::step(plan, code);
     code.line("NEXT");
+    if let (Some(row), Some(_)) = (&passes, &segments) {
+        code.lines.weight = SEGMENT;
+        row.after_run(code);
+    }
     match (&poke, &segments) {
         (Some(poke), _) => poke.put(plan, code, first, segments.is_some().then_some(top_label)),
         (None, Some(_)) => {

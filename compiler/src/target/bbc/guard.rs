@@ -41,11 +41,16 @@ pub fn filled(form: Form, operands: &[Text], fast: bool) -> Text {
     for (k, operand) in operands.iter().enumerate() {
         let need = levels.get(k).copied().unwrap_or(level::OPERAND);
         let hole = format!("{{{k}}}");
-        let operand = if fast {
+        let mut operand = if fast {
             operand.fast_at(need)
         } else {
             operand.at(need)
         };
+        // Two signs beside each other are hard to read.
+        let sign = |sign: &str| text.contains(&format!("{sign}{hole}"));
+        if operand.starts_with('-') && (sign("+") || sign("-")) {
+            operand = format!("({operand})");
+        }
         text = text.replace(&hole, &operand);
     }
     Text::new(text, level)

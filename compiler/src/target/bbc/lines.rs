@@ -1,7 +1,7 @@
 //! Lines of BASIC with labels for line numbers.
 
 use crate::source::Span;
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 
 /// What a GOTO names before lines have numbers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -12,6 +12,12 @@ impl Label {
     pub fn last_of(text: &str) -> Option<(&str, Label)> {
         let (before, number) = text.strip_suffix(MARK)?.rsplit_once(MARK)?;
         Some((before, Label(number.parse().ok()?)))
+    }
+
+    /// Every label in a text.
+    pub fn all_of(text: &str) -> impl Iterator<Item = Label> {
+        let ends = text.match_indices(MARK).skip(1).step_by(2);
+        ends.filter_map(|(at, _)| Some(Label::last_of(text.get(..=at)?)?.1))
     }
 }
 
@@ -202,22 +208,31 @@ impl Lines {
 
     /// The same lines with other texts, and with labels behind some of them.
     pub fn with_texts(self, texts: Vec<String>, behind: &HashMap<usize, Label>) -> Lines {
-        let mut texts = texts.into_iter();
+        self.with_lines(texts.into_iter().map(|text| vec![text]).collect(), behind)
+    }
+
+    /// The same where several lines may stand for one.
+    pub fn with_lines(self, texts: Vec<Vec<String>>, behind: &HashMap<usize, Label>) -> Lines {
+        let mut texts = texts.into_iter().enumerate();
         let mut all = Lines::of_weight(self.weight);
-        let mut at = 0;
-        for mut item in self.items {
-            let line = match &mut item {
-                Item::Line { text, .. } => {
-                    *text = texts.next().unwrap_or_default();
-                    at += 1;
-                    true
-                }
-                Item::Label(_) => false,
+        for item in self.items {
+            let Item::Line {
+                span, open, weight, ..
+            } = item
+            else {
+                all.items.push(item);
+                continue;
             };
-            all.items.push(item);
-            if let Some(label) = line.then(|| behind.get(&(at - 1))).flatten() {
-                all.items.push(Item::Label(*label));
-            }
+            let Some((at, own)) = texts.next() else {
+                continue;
+            };
+            all.items.extend(own.into_iter().map(|text| Item::Line {
+                text,
+                span,
+                open,
+                weight,
+            }));
+            all.items.extend(behind.get(&at).copied().map(Item::Label));
         }
         all
     }
@@ -261,8 +276,12 @@ impl Lines {
     pub fn joined(self, width: usize) -> Lines {
         let ends = |text: &str| ["IF", "REM", "DATA"].iter().any(|w| text.contains(w));
         let begins = |text: &str| text.starts_with("DEF") || text.starts_with("DATA");
+        let asked: HashSet<Label> = self.texts().flat_map(Label::all_of).collect();
         let mut all = Lines::default();
         for item in self.items {
+            if matches!(item, Item::Label(label) if !asked.contains(&label)) {
+                continue;
+            }
             if let Item::Line { text, .. } = &item
                 && let Some(Item::Line { text: last, .. }) = all.items.last_mut()
                 && !ends(last)

@@ -21,11 +21,12 @@
 //!   for a run of assignments;
 //! - `code`: statements; `frame`: everything around them; `screen`: modes, colours, coordinates;
 //! - `poke`: pixels put into the Micro's memory; `passes`: rows drawn every nth column at a time;
-//! - `ramp`: ints that are stepped from column to column;
-//! - `spread`: error diffusion; `short`: short names and lines, for speed and for size;
+//! - `ramp`: ints that are stepped from column to column; `reads`: what a pixel reads;
+//! - `spread`: error diffusion; `thread`, `tail`, `dead`: fewer jumps and flags; `short`: short names and lines, for speed and for size;
 //! - `pieces`: statements cut into names and words.
 
 mod code;
+mod dead;
 mod expression;
 mod frame;
 mod guard;
@@ -35,11 +36,13 @@ mod passes;
 mod pieces;
 mod poke;
 mod ramp;
+mod reads;
 mod screen;
 mod segment;
 mod short;
 mod spread;
 mod tables;
+mod tail;
 #[cfg(test)]
 mod tests;
 mod text;

@@ -10,6 +10,7 @@ use super::frame::behind;
 use super::lines::{Label, Lines};
 use super::poke;
 use super::ramp;
+use super::reads;
 use super::screen;
 use super::segment::{Draw, Segments};
 use crate::passes::interlace::passes;
@@ -32,6 +33,10 @@ struct Spot {
     /// The row's first byte, and the pixel's.
     start: String,
     at: String,
+    /// How far the column is from the byte's address in columns, the same for a pass.
+    shift: String,
+    /// Whether a pass's loop counts addresses, since nothing in it reads the column.
+    counts: bool,
 }
 
 impl Passes {
@@ -50,6 +55,8 @@ impl Passes {
             here: names.unique("here", "%"),
             start: names.unique("start", "%"),
             at: names.unique("at", "%"),
+            shift: names.unique("shift", "%"),
+            counts: !reads::pixel(plan).column(),
         });
         if let Some(spot) = &spot {
             spot.table(plan, code);
@@ -98,38 +105,53 @@ impl Passes {
         if let Some(spot) = &self.spot {
             spot.begin(plan, code, first);
         }
-        match segments {
-            Some(segments) => {
-                code.lines.place(again);
-                let draw = self.run(plan, code);
-                apart.extend(behind(code, "segment", |code| {
-                    segments.begin(plan, code, Some(&draw));
-                }));
-                segments.drawn(plan, code, behind_run);
-                code.line(format!("FOR X%=X% TO {} STEP {n}", segments.end()));
-            }
-            None => code.line(format!("FOR X%=X% TO {last} STEP {n}")),
+        let columns = |to: &str| format!("FOR X%=X% TO {to}{}", ramp::strided(n));
+        let counts = self.spot.as_ref().filter(|spot| spot.counts);
+        let Some(segments) = segments else {
+            let last = last.to_string();
+            code.line(match counts {
+                Some(spot) => spot.head(&last, n),
+                None => columns(&last),
+            });
+            return apart;
+        };
+        if let Some(spot) = &self.spot {
+            code.statement(format!("{}=X%-{}", spot.shift, spot.in_columns()));
         }
+        let draw = self.run(plan, code, segments.end());
+        ramp::are_at(code, &draw.count);
+        code.lines.place(again);
+        apart.extend(behind(code, "segment", |code| {
+            segments.begin(plan, code, Some(&draw));
+        }));
+        segments.drawn(plan, code, behind_run);
+        code.line(match counts {
+            Some(_) => draw.head(),
+            None => columns(segments.end()),
+        });
         apart
     }
 
     /// How a run is drawn whose inks are known.
-    fn run(&self, plan: &Plan, code: &mut Code<'_>) -> Draw {
+    fn run(&self, plan: &Plan, code: &mut Code<'_>, end: &str) -> Draw {
         let stride = self.count;
         let Some(spot) = &self.spot else {
-            return screen::run(plan, code, stride);
+            return screen::run(plan, code, end, stride);
         };
         let names = ["run", "other"].map(|name| code.values.names.unique(name, "%"));
-        let (at, next) = (&spot.at, spot.next(stride));
+        let at = &spot.at;
         let either = [0, 1].map(|k| format!("?{at}=?{at}+{}", names[k]));
         Draw {
-            stride,
+            count: at.clone(),
+            to: spot.to(end),
+            by: spot.stride(stride),
+            behind: Some(spot.column()),
             names,
             of: format!("{}?", spot.here),
             once: Vec::new(),
-            each: vec![either[0].clone(), next.clone()],
+            each: vec![either[0].clone()],
             either,
-            then: vec![next],
+            then: Vec::new(),
         }
     }
 
@@ -138,16 +160,53 @@ impl Passes {
         if let Some(spot) = &self.spot {
             let Spot { here, at, .. } = spot;
             code.statement(format!("?{at}=?{at}+{here}?I%"));
-            code.statement(spot.next(self.count));
+            if !spot.counts {
+                code.statement(format!("{at}={at}+{}", spot.stride(self.count)));
+            }
+        }
+    }
+
+    /// Behind the loop over the pixels of a run: X% is behind it, too.
+    pub fn after_run(&self, code: &mut Code<'_>) {
+        if let Some(spot) = self.spot.as_ref().filter(|spot| spot.counts) {
+            code.statement(spot.column());
         }
     }
 }
 
 impl Spot {
-    /// Goes to the pass's next byte.
-    fn next(&self, stride: u32) -> String {
+    /// How far a byte of a pass is from the next.
+    fn stride(&self, stride: u32) -> u32 {
+        8 * (stride / self.pixels)
+    }
+
+    /// The beginning of a loop over the bytes of columns up to one.
+    fn head(&self, last: &str, stride: u32) -> String {
+        let (at, by) = (&self.at, ramp::strided(self.stride(stride)));
+        format!("FOR {at}={at} TO {}{by}", self.to(last))
+    }
+
+    /// Up to where a loop over bytes goes for columns up to one. That may be no
+    /// column of the pass, then it is no byte of it either.
+    fn to(&self, last: &str) -> String {
         let at = &self.at;
-        format!("{at}={at}+{}", 8 * (stride / self.pixels))
+        match 8 / self.pixels {
+            1 => format!("{at}+{last}-X%"),
+            n => format!("{at}+({last}-X%)*{n}"),
+        }
+    }
+
+    /// The byte's address, counted in columns.
+    fn in_columns(&self) -> String {
+        match 8 / self.pixels {
+            1 => self.at.clone(),
+            n => format!("{} DIV {n}", self.at),
+        }
+    }
+
+    /// Sets X% by the byte's address.
+    fn column(&self) -> String {
+        format!("X%={}+{}", self.shift, self.in_columns())
     }
 
     /// Makes the table of bits, four bytes a statement.

@@ -5,16 +5,20 @@
 
 use super::Style;
 use super::code::Code;
+use super::reads;
 use super::text::Text;
 use crate::flow::graph::{Node, NodeId};
 use crate::flow::tree::Place;
+use crate::passes::still::Inks;
 use crate::plan::Plan;
 
 /// Brings the ramps to a row's or pass's first column, which takes so many steps.
 pub fn start(plan: &Plan, code: &mut Code<'_>, steps: &str) {
     if !plan.ramps().is_empty() {
         code.line(format!("FOR I%=1 TO {steps}"));
-        step(plan, code);
+        for (id, by) in plan.ramps() {
+            add(plan, code, id, by);
+        }
         code.line("NEXT");
     }
 }
@@ -33,23 +37,30 @@ pub fn start_at(plan: &Plan, code: &mut Code<'_>, passes: u32, surely: bool) {
     code.lines.place(there);
 }
 
-/// Brings the ramps to the next column.
+/// Brings the ramps to the next column, but for those that are stepped late.
 pub fn step(plan: &Plan, code: &mut Code<'_>) {
     for (id, by) in plan.ramps() {
-        add(plan, code, id, by);
+        let late = |late: &Late| late.ramps.contains(&(id, by));
+        if !code.late.as_ref().is_some_and(late) {
+            add(plan, code, id, by);
+        }
     }
 }
 
 /// Adds a step to what is stepped.
 pub fn add(plan: &Plan, code: &mut Code<'_>, id: NodeId, by: NodeId) {
+    let text = added(plan, code, id, by);
+    code.statement(text);
+}
+
+fn added(plan: &Plan, code: &mut Code<'_>, id: NodeId, by: NodeId) -> String {
     let place = Place::of(&plan.graph, id);
     let home = code.values.names.home(place).to_owned();
     let by = amount(plan, code, by);
-    let text = match by.strip_prefix('-') {
+    match by.strip_prefix('-') {
         Some(less) => format!("{home}={home}-{less}"),
         None => format!("{home}={home}+{by}"),
-    };
-    code.statement(text);
+    }
 }
 
 /// A step. Each digit of a number takes BASIC II as long as a resident
@@ -64,5 +75,82 @@ fn amount(plan: &Plan, code: &mut Code<'_>, by: NodeId) -> String {
     match number.filter(|n| quick && n.unsigned_abs() > 9) {
         Some(_) => code.values.names.whole(&text.text),
         None => text.at(slowlight_runtime_bbc::level::PRODUCT),
+    }
+}
+
+/// Ramps that only runs of two inks read ([`Inks::Either`]): they are stepped
+/// there, and before that over all columns that were passed since.
+pub struct Late {
+    ramps: Vec<(NodeId, NodeId)>,
+    /// The variable of where they stand: a column, or its byte.
+    at: String,
+}
+
+impl Late {
+    /// Those of a plan whose runs of known inks are drawn apart.
+    pub fn of(plan: &Plan, code: &mut Code<'_>) -> Option<Late> {
+        let Some(Inks::Either { .. }) = plan.still.as_ref().map(|still| still.inks) else {
+            return None;
+        };
+        let all = plan.ramps();
+        let elsewhere = [reads::pixel(plan), reads::segment(plan)];
+        let ramp = |id: NodeId| matches!(plan.graph.node(id), Node::Ramp { .. });
+        let free = |id: NodeId| {
+            let read = elsewhere.iter().any(|reads| reads.read(id));
+            !read && all.iter().all(|(_, by)| *by != id)
+        };
+        let ramps: Vec<(NodeId, NodeId)> = all
+            .iter()
+            .copied()
+            .filter(|(id, by)| free(*id) && !ramp(*by))
+            .collect();
+        (!ramps.is_empty()).then(|| Late {
+            ramps,
+            at: code.values.names.unique("stepped", "%"),
+        })
+    }
+}
+
+/// Where a row or pass begins, or behind a run for which late ramps were stepped: they
+/// stand at what `at` counts.
+pub fn are_at(code: &mut Code<'_>, at: &str) {
+    if let Some(late) = &code.late {
+        let text = format!("{}={at}", late.at);
+        code.statement(text);
+    }
+}
+
+/// Brings late ramps to where `at` is, which grows by so much from column to column.
+pub fn catch_up(plan: &Plan, code: &mut Code<'_>, at: &str, by: u32) {
+    let Some(late) = code.late.take() else {
+        return;
+    };
+    let own = &late.at;
+    let steps = late
+        .ramps
+        .iter()
+        .map(|(id, step)| added(plan, code, *id, *step));
+    let steps: Vec<String> = steps.collect();
+    code.line(format!(
+        "IF {own}<{at} THEN FOR {own}={own} TO {at}-{by}{}:{}:NEXT",
+        strided(by),
+        steps.join(":")
+    ));
+    code.late = Some(late);
+}
+
+/// Steps late ramps at a pixel of a run that reads them.
+pub fn step_late(plan: &Plan, code: &mut Code<'_>) {
+    let ramps = code.late.as_ref().map(|late| late.ramps.clone());
+    for (id, by) in ramps.unwrap_or_default() {
+        add(plan, code, id, by);
+    }
+}
+
+/// How a FOR loop says by how much it counts.
+pub fn strided(by: u32) -> String {
+    match by {
+        1 => String::new(),
+        n => format!(" STEP {n}"),
     }
 }

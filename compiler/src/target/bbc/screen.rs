@@ -141,8 +141,9 @@ pub fn rows(plan: &Plan) -> (i64, i64) {
     ((-top).max(0), (screen - top).min(picture) - 1)
 }
 
-/// How a run of pixels whose inks are known, every `stride`th of a row, is plotted.
-pub fn run(plan: &Plan, code: &mut Code<'_>, stride: u32) -> Draw {
+/// How a run of pixels whose inks are known, every `stride`th of a row, is plotted
+/// up to column `to`.
+pub fn run(plan: &Plan, code: &mut Code<'_>, to: &str, stride: u32) -> Draw {
     let names = ["run", "other"].map(|name| code.values.names.unique(name, "%"));
     let (mut once, mut each, mut then) = (Vec::new(), Vec::new(), Vec::new());
     // After MODE the screen is ink 0 already.
@@ -153,7 +154,10 @@ pub fn run(plan: &Plan, code: &mut Code<'_>, stride: u32) -> Draw {
         then.push(format!("IF I% THEN GCOL 0,I%:{point}"));
     }
     Draw {
-        stride,
+        count: "X%".to_owned(),
+        to: to.to_owned(),
+        by: stride,
+        behind: None,
         either: [0, 1].map(|k| format!("I%={}", names[k])),
         names,
         of: String::new(),

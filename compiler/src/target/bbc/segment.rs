@@ -5,8 +5,9 @@
 //! each comparison in it, as it is met, also says how far the run goes at most.
 //! So a comparison that is not reached there ends no run.
 
+use super::Style;
 use super::code::Code;
-use super::lines::Label;
+use super::lines::{Label, Lines};
 use super::ramp;
 use crate::flow::graph::*;
 use crate::passes::rate::rates;
@@ -19,7 +20,7 @@ use std::collections::HashSet;
 
 /// How often a segment's statements are carried out, roughly: for the weights
 /// of names only.
-const SEGMENT: u64 = 1_500;
+pub const SEGMENT: u64 = 1_500;
 
 /// The same for the pixels of runs whose ink is known.
 const STILL: u64 = 20_000;
@@ -80,17 +81,18 @@ impl Segments {
             return;
         };
         code.line(format!("IF X%>{} THEN {behind_run}", self.end));
-        code.known = match still.conditions.as_slice() {
-            [(cond, holds)] => Some((*cond, !holds)),
-            _ => None,
-        };
+        code.known = still.otherwise();
     }
 }
 
 /// How a run is drawn whose inks are known.
 pub struct Draw {
-    /// How far apart its columns are.
-    pub stride: u32,
+    /// What counts its pixels: a variable, up to where, and how far it goes each time.
+    pub count: String,
+    pub to: String,
+    pub by: u32,
+    /// What is done behind it.
+    pub behind: Option<String>,
     /// Variables of what is drawn for one ink and for another.
     pub names: [String; 2],
     /// What stands before an ink for that.
@@ -103,6 +105,26 @@ pub struct Draw {
     pub then: Vec<String>,
 }
 
+impl Draw {
+    /// The beginning of a loop over a run.
+    pub fn head(&self) -> String {
+        let Draw { count, to, by, .. } = self;
+        format!("FOR {count}={count} TO {to}{}", ramp::strided(*by))
+    }
+
+    fn set(&self, which: usize, ink: NodeId, code: &mut Code<'_>) {
+        let ink = code.values.read(ink).at(OPERAND);
+        code.statement(format!("{}={}{ink}", self.names[which], self.of));
+    }
+
+    fn behind(&self, code: &mut Code<'_>) {
+        code.statement("NEXT");
+        if let Some(text) = &self.behind {
+            code.statement(text);
+        }
+    }
+}
+
 impl Segments {
     /// Draws a run whose inks are known.
     fn still(&self, still: &Still, plan: &Plan, code: &mut Code<'_>, draw: &Draw) {
@@ -111,42 +133,79 @@ impl Segments {
             let fails = code.values.condition(cond, !holds);
             code.line(format!("IF {fails} THEN {other}"));
         }
-        let inks = match still.inks {
-            Inks::One(ink) => vec![ink],
-            Inks::Either { yes, no, .. } => vec![yes, no],
-        };
-        for (ink, name) in inks.iter().zip(&draw.names) {
-            let ink = code.values.read(*ink).at(OPERAND);
-            code.statement(format!("{name}={}{ink}", draw.of));
+        match still.inks {
+            Inks::One(ink) => {
+                draw.set(0, ink, code);
+                self.one(plan, code, draw);
+            }
+            Inks::Either { cond, yes, no } => {
+                draw.set(0, yes, code);
+                if code.values.style == Style::Fast && still.may_agree(&plan.graph) {
+                    self.agreeing([yes, no], plan, code, draw, other);
+                }
+                draw.set(1, no, code);
+                self.either(cond, plan, code, draw);
+            }
         }
-        if let Inks::One(_) = still.inks {
-            draw.once.iter().for_each(|text| code.line(text));
-        }
-        let step = match draw.stride {
-            1 => String::new(),
-            n => format!(" STEP {n}"),
-        };
-        code.line(format!("FOR X%=X% TO {}{step}", self.end));
+        code.lines.place(other);
+    }
+
+    /// Draws a run of the first ink.
+    fn one(&self, plan: &Plan, code: &mut Code<'_>, draw: &Draw) {
+        draw.once.iter().for_each(|text| code.line(text));
+        code.statement(draw.head());
         let weight = std::mem::replace(&mut code.lines.weight, STILL);
-        let each = match still.inks {
-            Inks::One(_) => &draw.each,
-            Inks::Either { cond, .. } => {
-                let cond = code.values.compute(cond).text;
-                let [yes, no] = &draw.either;
-                code.line(format!("IF {cond} THEN {yes} ELSE {no}"));
-                &draw.then
-            }
-        };
-        for text in each {
-            match text.starts_with("IF ") {
-                true => code.line(text),
-                false => code.statement(text),
-            }
-        }
+        draw.each
+            .iter()
+            .for_each(|text| code.statement_or_test(text));
         ramp::step(plan, code);
         code.lines.weight = weight;
-        code.statement("NEXT");
-        code.lines.place(other);
+        draw.behind(code);
+    }
+
+    /// Where two inks are one after all, nothing is asked at the pixels.
+    fn agreeing(
+        &self,
+        inks: [NodeId; 2],
+        plan: &Plan,
+        code: &mut Code<'_>,
+        draw: &Draw,
+        other: Label,
+    ) {
+        let [yes, no] = inks.map(|ink| code.values.read(ink).at(OPERAND));
+        let weight = code.lines.weight;
+        let outer = std::mem::replace(&mut code.lines, Lines::of_weight(STILL));
+        self.one(plan, code, draw);
+        let lines = std::mem::replace(&mut code.lines, outer);
+        match lines.in_one_line() {
+            Some(text) => code.line(format!("IF {yes}={no} THEN {text}:GOTO {other}")),
+            None => {
+                let differ = code.labels.next();
+                code.line(format!("IF {yes}<>{no} THEN {differ}"));
+                code.lines.append(lines);
+                code.line(format!("GOTO {other}"));
+                code.lines.place(differ);
+            }
+        }
+        code.lines.weight = weight;
+    }
+
+    /// Draws a run of two inks.
+    fn either(&self, cond: NodeId, plan: &Plan, code: &mut Code<'_>, draw: &Draw) {
+        ramp::catch_up(plan, code, &draw.count, draw.by);
+        code.line(draw.head());
+        let weight = std::mem::replace(&mut code.lines.weight, STILL);
+        let cond = code.values.compute(cond).text;
+        let [yes, no] = &draw.either;
+        code.line(format!("IF {cond} THEN {yes} ELSE {no}"));
+        draw.then
+            .iter()
+            .for_each(|text| code.statement_or_test(text));
+        ramp::step(plan, code);
+        ramp::step_late(plan, code);
+        code.lines.weight = weight;
+        draw.behind(code);
+        ramp::are_at(code, &draw.count);
     }
 }
 

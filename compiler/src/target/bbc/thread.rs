@@ -15,6 +15,11 @@ const HOPS: usize = 8;
 ///
 /// `longer`: statements may stand on several ways, which takes memory.
 pub fn threaded(lines: Lines, labels: &mut Labels, longer: bool) -> Lines {
+    let lines = if longer {
+        decided(lines, labels)
+    } else {
+        lines
+    };
     let texts: Vec<String> = lines.texts().map(str::to_owned).collect();
     let mut road = Road {
         placed: lines.labelled().collect(),
@@ -26,6 +31,44 @@ pub fn threaded(lines: Lines, labels: &mut Labels, longer: bool) -> Lines {
     let changed: Vec<String> = texts.iter().map(|text| road.shortened(text)).collect();
     let behind = road.behind;
     lines.with_texts(changed, &behind)
+}
+
+/// A flag that one way of a choice sets and the next line asks for is asked for on
+/// the other way only, where the first jumps then.
+fn decided(lines: Lines, labels: &mut Labels) -> Lines {
+    let texts: Vec<String> = lines.texts().map(str::to_owned).collect();
+    let mut changed = Vec::new();
+    let mut behind = HashMap::new();
+    for (at, text) in texts.iter().enumerate() {
+        let split = texts.get(at + 1).and_then(|next| split(text, next));
+        changed.push(match split {
+            Some((sets, otherwise)) => {
+                let label = labels.next();
+                behind.insert(at, label);
+                vec![format!("{sets}:GOTO {label}"), otherwise]
+            }
+            None => vec![text.clone()],
+        });
+    }
+    lines.with_lines(changed, &behind)
+}
+
+/// The two lines of `IF c THEN v%=TRUE ELSE v%=e` before a line that jumps where v% holds.
+fn split(text: &str, next: &str) -> Option<(String, String)> {
+    let (sets, otherwise) = text.split_once(" ELSE ")?;
+    let (_, set) = sets.strip_prefix("IF ")?.split_once(" THEN ")?;
+    let (name, value) = set.split_once('=')?;
+    let plain = |text: &str| !text.contains([':', ' ']);
+    let asks = match value {
+        "TRUE" => next.strip_prefix("IF ")?,
+        "FALSE" => next.strip_prefix("IF NOT ")?,
+        _ => return None,
+    };
+    let way = asks.strip_prefix(name)?.strip_prefix(" THEN ")?;
+    let jumps = jump(next).is_some() && !way.contains("IF ") && !way.contains(" ELSE ");
+    let same = otherwise.split_once('=').is_some_and(|(of, _)| of == name);
+    let lone = plain(name) && same && !otherwise.contains(':') && !otherwise.contains("ELSE");
+    (jumps && lone).then(|| (sets.to_owned(), otherwise.to_owned()))
 }
 
 struct Road<'t> {
@@ -72,6 +115,12 @@ impl Road<'_> {
                 }
                 _ => break,
             }
+        }
+        // A procedure ends wherever it says so.
+        let at = self.placed.get(&to).and_then(|at| self.texts.get(*at));
+        if at.is_some_and(|text| text == "ENDPROC") {
+            let before = before.strip_suffix("GOTO ").unwrap_or(&before);
+            return format!("{before}ENDPROC");
         }
         if to == first {
             return text.to_owned();
@@ -251,6 +300,24 @@ mod tests {
         let expected = "10IF x<0 THEN v%=TRUE:z=x:w%=FALSE:GOTO 70\n20v%=y<1\n30IF v% THEN z=x ELSE z=y\n\
             40IF NOT v% THEN w%=TRUE\n50IF v% THEN w%=FALSE ELSE w%=z<1\n60IF w% THEN 80\n70z=1\n80END\n\
             90IF x<0 THEN v%=TRUE:PROCa:GOTO 110\n100IF v% THEN PROCa ELSE z=y\n110IF v% THEN z=x\n";
+        assert_eq!(text, expected);
+    }
+
+    #[test]
+    fn the_end_of_a_procedure_is_no_jump() {
+        let mut labels = Labels::default();
+        let all = [labels.next(), labels.next()];
+        let source = [
+            ("DEF PROCa", None),
+            ("IF x<0 THEN @0", None),
+            ("IF x<1 THEN v%=TRUE ELSE v%=y<1", None),
+            ("IF v% THEN z=1:GOTO @0", None),
+            ("z=2", None),
+            ("ENDPROC", Some(0)),
+        ];
+        let (text, _) = threaded(program(&source, &mut labels, &all), &mut labels, true).finish();
+        let expected = "10DEF PROCa\n20IF x<0 THEN ENDPROC\n30IF x<1 THEN v%=TRUE:z=1:ENDPROC\n\
+            40v%=y<1\n50IF v% THEN z=1:ENDPROC\n60z=2\n70ENDPROC\n";
         assert_eq!(text, expected);
     }
 
