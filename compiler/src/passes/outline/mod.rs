@@ -68,24 +68,36 @@ impl Sizes {
     }
 }
 
+/// What of a picture may become subroutines.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Extent {
+    /// All of it.
+    All,
+    /// What is carried out seldom: once a picture, row or pass.
+    Rows,
+    /// That, and what is carried out once a run of columns.
+    Runs,
+}
+
 /// How often all is looked at: each time subroutines may come to call others.
 const ROUNDS: u32 = 6;
 
 /// The graph and its statements with subroutines for what they have several
-/// times. `bytes` are those of each node's routine; `name` says what the source
+/// times, within an extent. `bytes` are those of each node's routine; `name` says what the source
 /// calls what stands at a place. What does not get smaller stays as it is.
 pub fn outline(
     graph: &Graph,
     tree: Tree,
     bytes: &[u32],
     sizes: &Sizes,
+    extent: Extent,
     name: &dyn Fn(Span) -> Option<String>,
 ) -> (Graph, Tree) {
     let (mut graph, mut tree) = (graph.clone(), tree);
     let mut bytes = bytes.to_vec();
     bytes.resize(graph.nodes.len(), 0);
     for _ in 0..ROUNDS {
-        let mut forest = forest::Forest::new(&graph, tree, &bytes, sizes);
+        let mut forest = forest::Forest::new(&graph, tree, &bytes, sizes, extent);
         let mut maker = make::Maker {
             graph: &mut graph,
             bytes: &mut bytes,

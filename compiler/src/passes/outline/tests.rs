@@ -39,7 +39,14 @@ fn graph(text: &str) -> Graph {
 
 fn outlined(graph: &Graph, sizes: &Sizes) -> (Graph, Tree) {
     let called = |_| Some("shape".to_owned());
-    outline(graph, schedule_together(graph), &[], sizes, &called)
+    outline(
+        graph,
+        schedule_together(graph),
+        &[],
+        sizes,
+        Extent::All,
+        &called,
+    )
 }
 
 fn calls(block: &[Statement]) -> usize {
@@ -152,7 +159,7 @@ fn what_does_not_get_smaller_stays() {
         ..EAGER
     };
     let plain = schedule_together(&graph);
-    let (other, tree) = outline(&graph, plain.clone(), &[], &dear, &|_| None);
+    let (other, tree) = outline(&graph, plain.clone(), &[], &dear, Extent::All, &|_| None);
     assert_eq!(tree, plain);
     assert_eq!(other, graph);
 }

@@ -40,7 +40,7 @@ pub fn program(plan: &Plan) -> Lines {
     let spread = Spread::new(plan, &mut code);
     parameters(plan, &mut code, &first, &last);
     picture(plan, &mut code, &first, &last, spread.as_ref());
-    code.lines.weight = PIXEL;
+    code.lines.weight = if plan.calls_at_pixels() { PIXEL } else { ROW };
     procedures(plan, &mut code);
     code.lines.weight = 1;
     let rare = std::mem::take(&mut code.rare);
@@ -318,6 +318,7 @@ fn setup(plan: &Plan, code: &mut Code<'_>, parts: &[&Part], first: &str, last: &
 
 /// What is called from several places.
 fn procedures(plan: &Plan, code: &mut Code<'_>) {
+    code.ends = code.ends_called.take();
     for (k, subroutine) in plan.tree.subroutines.iter().enumerate() {
         let id = SubroutineId(k as u32);
         let name = code.values.names.procedure(id).to_owned();
@@ -331,6 +332,7 @@ fn procedures(plan: &Plan, code: &mut Code<'_>) {
         code.block(&subroutine.body);
         code.lines.line("ENDPROC", span);
     }
+    code.ends = None;
 }
 
 fn functions(code: &mut Code<'_>, parts: &[&Part]) {
