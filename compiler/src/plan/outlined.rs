@@ -26,6 +26,12 @@ impl Plan {
         calls
     }
 
+    /// Whether only what is done more seldom than pixels calls subroutines: the plan
+    /// did not fit as it was.
+    pub fn calls_seldom(&self) -> bool {
+        self.is_outlined() && !self.calls_at_pixels()
+    }
+
     /// The plan with [`crate::passes::outline`]; `name` says what the source
     /// calls what stands at a place. Where bounds differ between the calls of a
     /// subroutine, its routines are right for all of them: a program with

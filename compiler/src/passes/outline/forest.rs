@@ -5,6 +5,7 @@ use super::token::{Token, reads_of};
 use super::{Extent, Sizes};
 use crate::flow::graph::*;
 use crate::flow::tree::*;
+use crate::passes::region::Fact;
 use crate::passes::still::still;
 use crate::source::Span;
 use std::collections::{HashMap, HashSet};
@@ -57,6 +58,8 @@ pub(super) struct Forest {
     before: Vec<Above>,
     /// The statement that holds a block.
     pub around: Vec<Above>,
+    /// What is known of a condition in a block that is an arm.
+    facts: Vec<Option<Fact>>,
     /// Frame, row, pixel, then the subroutines' bodies.
     pub(super) tops: Vec<BlockId>,
     /// The subroutines' names and spans.
@@ -80,6 +83,7 @@ impl Forest {
             assigned: HashMap::new(),
             before: Vec::new(),
             around: Vec::new(),
+            facts: Vec::new(),
             tops: Vec::new(),
             named: Vec::new(),
             extent,
@@ -141,6 +145,7 @@ impl Forest {
         self.open.push(true);
         self.before.push(before);
         self.around.push(around);
+        self.facts.push(None);
         let mut steps = Vec::with_capacity(block.len());
         for (at, statement) in block.into_iter().enumerate() {
             let here = Some((id, at));
@@ -159,6 +164,8 @@ impl Forest {
                 Statement::If { cond, yes, no } => {
                     let arms = [yes, no].map(|arm| self.block(arm, owner, here, here));
                     let [yes, no] = arms;
+                    self.facts[yes] = Some((cond, true));
+                    self.facts[no] = Some((cond, false));
                     self.join(
                         &steps_of(&self.blocks[yes]),
                         &steps_of(&self.blocks[no]),
@@ -257,15 +264,30 @@ impl Forest {
             }
             _ => {}
         }
-        let Some(&(home, after)) = self.assigned.get(&id) else {
-            return false;
-        };
-        let mut here = Some((block, at));
-        while let Some((block, at)) = here {
-            if block == home {
-                return after < at;
+        let mut found = self.assigned.get(&id).copied();
+        while let Some((home, after)) = found {
+            let mut here = Some((block, at));
+            while let Some((block, at)) = here {
+                if block == home {
+                    return after < at;
+                }
+                here = self.before[block];
             }
-            here = self.before[block];
+            // What an arm computes is there where its condition came out the same.
+            let same = self.facts[home].filter(|fact| self.holds(*fact, block));
+            found = same.and_then(|_| self.around[home]);
+        }
+        false
+    }
+
+    /// Whether a condition is known to have come out so where a block is carried out.
+    fn holds(&self, fact: Fact, block: BlockId) -> bool {
+        let mut here = Some(block).filter(|_| self.extent != Extent::All);
+        while let Some(block) = here {
+            if self.facts[block] == Some(fact) {
+                return true;
+            }
+            here = self.around[block].map(|(block, _)| block);
         }
         false
     }
@@ -335,6 +357,7 @@ impl Forest {
         self.open.push(true);
         self.before.push(None);
         self.around.push(None);
+        self.facts.push(None);
         self.blocks.len() - 1
     }
 

@@ -57,6 +57,8 @@ pub struct Sizes {
     pub call: u32,
     /// What a subroutine has around its statements.
     pub around: u32,
+    /// What a comparison has beside that ends a run of columns.
+    pub ends: u32,
 }
 
 impl Sizes {
@@ -96,12 +98,16 @@ pub fn outline(
     let (mut graph, mut tree) = (graph.clone(), tree);
     let mut bytes = bytes.to_vec();
     bytes.resize(graph.nodes.len(), 0);
+    let mut sizes = *sizes;
+    if extent != Extent::Runs {
+        sizes.ends = 0;
+    }
     for _ in 0..ROUNDS {
-        let mut forest = forest::Forest::new(&graph, tree, &bytes, sizes, extent);
+        let mut forest = forest::Forest::new(&graph, tree, &bytes, &sizes, extent);
         let mut maker = make::Maker {
             graph: &mut graph,
             bytes: &mut bytes,
-            sizes,
+            sizes: &sizes,
             name,
         };
         let made = runs::replace(&mut forest, &mut maker);

@@ -29,6 +29,7 @@ const EAGER: Sizes = Sizes {
     turns: 8,
     call: 1,
     around: 1,
+    ends: 0,
 };
 
 fn graph(text: &str) -> Graph {

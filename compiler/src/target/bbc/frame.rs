@@ -63,7 +63,7 @@ pub fn program(plan: &Plan) -> Lines {
     let constants = assigned
         .filter_map(|text| Some(text.split_once('=')?.0.to_owned()))
         .collect();
-    short(lines, &keep, &constants, style)
+    short(lines, &keep, &constants, style, plan.calls_seldom())
 }
 
 /// The scene's item that something comes from: the last that begins before it.

@@ -71,6 +71,7 @@ pub static JACK: Target = Target {
         turns: 12,
         call: 3,
         around: 4,
+        ends: 0,
     },
     emit: frame::program,
 };
