@@ -6,7 +6,7 @@ use super::{Goal, Plan};
 use crate::flow::graph::{Graph, Node};
 use crate::flow::tree::*;
 use crate::passes::near::near;
-use crate::passes::outline::{Extent, outline};
+use crate::passes::outline::{Extent, Sizes, outline};
 use crate::passes::schedule::schedule_together;
 use crate::range::{Slack, ranges};
 use crate::source::{Diagnostic, Span};
@@ -48,7 +48,8 @@ impl Plan {
             return plain.outlined(name);
         }
         let tree = schedule_together(&self.graph);
-        let (graph, tree) = self.with_subroutines(tree, Extent::All, name);
+        let sizes = &self.target.sizes;
+        let (graph, tree) = self.with_subroutines(tree, Extent::All, sizes, name);
         self.of(graph, tree)
     }
 
@@ -72,25 +73,28 @@ impl Plan {
         for block in blocks {
             *block = near(&self.graph, std::mem::take(block));
         }
-        let (graph, tree) = self.with_subroutines(tree, extent, name);
+        let sizes = &self.target.sizes;
+        let (graph, tree) = self.with_subroutines(tree, extent, sizes, name);
         let plan = self.of(graph, tree).ok()?;
         plan.is_outlined().then_some(plan)
     }
 
-    fn with_subroutines(
+    /// Its graph and statements with subroutines, where statements take so much memory.
+    pub(super) fn with_subroutines(
         &self,
         tree: Tree,
         extent: Extent,
+        sizes: &Sizes,
         name: &dyn Fn(Span) -> Option<String>,
     ) -> (Graph, Tree) {
         let bytes: Vec<u32> = (self.graph.ids())
             .map(|id| self.routine(id).map_or(0, |routine| routine.bytes))
             .collect();
-        outline(&self.graph, tree, &bytes, &self.target.sizes, extent, name)
+        outline(&self.graph, tree, &bytes, sizes, extent, name)
     }
 
     /// The same scene and screen by other statements.
-    fn of(&self, graph: Graph, tree: Tree) -> Result<Plan, Vec<Diagnostic>> {
+    pub(super) fn of(&self, graph: Graph, tree: Tree) -> Result<Plan, Vec<Diagnostic>> {
         let found = ranges(&graph, &tree, &Slack::of(self.runtime));
         let goal = Goal {
             name: self.name.clone(),

@@ -7,7 +7,7 @@ use crate::eval::random_graphs;
 use crate::eval::run::Run;
 use crate::flow::build::Builder;
 use crate::passes::fold::fold;
-use crate::passes::schedule::{schedule, schedule_together};
+use crate::passes::schedule::{schedule, schedule_in_segments, schedule_together};
 use crate::range::{Slack, ranges};
 use crate::scene::check;
 use crate::sema::Options;
@@ -73,6 +73,29 @@ fn random_graphs_draw_the_same() {
         );
     }
     assert!(made > 300, "{made}");
+}
+
+#[test]
+fn what_is_done_seldom_alone_calls() {
+    let mut made = 0;
+    for seed in 0..300 {
+        let graph = fold(&random_graphs::graph(seed));
+        let plain = schedule_in_segments(&graph);
+        let places = grid(7, 5, 1);
+        for extent in [Extent::Rows, Extent::Runs] {
+            let (other, tree) = outline(&graph, plain.clone(), &[], &EAGER, extent, &|_| None);
+            made += tree.subroutines.len();
+            assert_eq!(calls(&tree.pixel), 0);
+            assert!(extent == Extent::Runs || calls(&tree.segment) == 0);
+            assert_eq!(tree.pixel, plain.pixel);
+            assert_eq!(
+                drawn(&graph, &plain, &places),
+                drawn(&other, &tree, &places),
+                "seed {seed}:\n{tree}"
+            );
+        }
+    }
+    assert!(made > 100, "{made}");
 }
 
 #[test]

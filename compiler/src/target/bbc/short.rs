@@ -272,6 +272,28 @@ mod tests {
     }
 
     #[test]
+    fn where_memory_is_short_numbers_below_0_stand_in_place_and_nothing_is_unread() {
+        let mut body = Lines::default();
+        for text in [
+            "big=1.7E38:half=big/2:c=-96:d=-5",
+            "x=y+c",
+            "y=x-d:IF x<y THEN x=y",
+        ] {
+            body.line(text, None);
+        }
+        let constants = ["c", "d"].map(str::to_owned).into();
+        let found = in_place(&body, &constants, SELDOM, true);
+        assert_eq!(found, [("c".to_owned(), "-96".to_owned())].into());
+        assert_eq!(in_place(&body, &constants, SELDOM, false), [].into());
+        assert_eq!(
+            unread(&body, &[]),
+            ["big", "half"].map(str::to_owned).into()
+        );
+        let first = "big=1.7E38:half=big/2:c=-96:d=-5";
+        assert_eq!(without_unread(first, &unread(&body, &[])), "c=-96:d=-5");
+    }
+
+    #[test]
     fn short_names_keep_out_of_each_others_way() {
         let counts = [("long_one", 9), ("count%", 5), ("other%", 2), ("rare", 1)];
         let counts = counts.map(|(name, n)| (name.to_owned(), n)).into();
