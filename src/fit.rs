@@ -33,7 +33,7 @@ pub fn fit(
             }
             tried = Some(large.len());
         }
-        if let Some(fits) = quickest(&plan)? {
+        if let Some(fits) = quickest(&plan, name)? {
             return with_copies(fits);
         }
         // None of these fits as it is.
@@ -105,20 +105,21 @@ enum Fitted {
 }
 
 /// The plan, or the quickest of those that spend less memory on speed that fits as
-/// it is: what is written short is slower. Each step takes less memory than those
-/// before it, or nearly so.
-fn quickest(plan: &Plan) -> Outcome<Option<Plan>> {
-    let fits = |plan: &Plan| Ok(need(plan)?.is_none_or(|need| need.fits()));
-    if fits(plan)? {
-        return Ok(Some(plan.clone()));
-    }
+/// it is, or with subroutines for what is done seldom: what is written short is slower.
+/// Each step takes less memory than those before it, or nearly so.
+fn quickest(plan: &Plan, name: &dyn Fn(Span) -> Option<String>) -> Outcome<Option<Plan>> {
+    let mut found = with_calls_where_seldom(plan, name)?;
     let (mut large, mut small) = (0, plan.thrifts());
-    let mut found = None;
+    if found.is_some() {
+        return Ok(found);
+    }
     while small - large > 1 {
         let middle = (large + small) / 2;
-        match plan.thriftier(middle) {
-            Some(tried) if fits(&tried)? => (small, found) = (middle, Some(tried)),
-            _ => large = middle,
+        let tried = plan.thriftier(middle);
+        let tried = tried.map(|plan| with_calls_where_seldom(&plan, name));
+        match tried.transpose()?.flatten() {
+            Some(fits) => (small, found) = (middle, Some(fits)),
+            None => large = middle,
         }
     }
     Ok(found)
@@ -129,6 +130,26 @@ fn with_copies(mut plan: Plan) -> Outcome<Plan> {
     plan.copies = true;
     plan.copies = need(&plan)?.is_none_or(|need| need.fits());
     Ok(plan)
+}
+
+/// A plan that fits as it is, or else with subroutines for what is done seldom.
+fn with_calls_where_seldom(
+    plan: &Plan,
+    name: &dyn Fn(Span) -> Option<String>,
+) -> Outcome<Option<Plan>> {
+    let fits = |plan: &Plan| Ok::<_, Failure>(need(plan)?.is_none_or(|need| need.fits()));
+    if fits(plan)? {
+        return Ok(Some(plan.clone()));
+    }
+    for runs in [false, true] {
+        let Some(called) = plan.outlined_where_seldom(runs, name) else {
+            continue;
+        };
+        if fits(&called)? {
+            return Ok(Some(called));
+        }
+    }
+    Ok(None)
 }
 
 fn as_is_or_tight(mut plan: Plan) -> Outcome<Fitted> {

@@ -29,6 +29,7 @@ mod renderers;
 mod rom_operations;
 mod rom_vectors;
 mod runs;
+mod seldom;
 mod snapshots;
 mod spread;
 mod stress;

@@ -21,7 +21,7 @@ const AT: Span = Span {
     start: 0,
     end: 0,
 };
-const HEIGHT: i32 = 3;
+pub const HEIGHT: i32 = 3;
 
 struct Scene {
     b: Builder,
@@ -107,7 +107,7 @@ impl Scene {
 }
 
 /// Bits of polynomials, each under conditions of its run and some of its pixel.
-fn picture(seed: u64, width: u32, passes: bool) -> Graph {
+pub fn picture(seed: u64, width: u32, passes: bool) -> Graph {
     let (b, random) = (Builder::new(), Random::new(seed));
     let mut scene = Scene { b, random, width };
     let three = scene.int(3);
@@ -142,7 +142,7 @@ fn picture(seed: u64, width: u32, passes: bool) -> Graph {
     scene.b.finish(image, ink, None)
 }
 
-const MACHINES: [(&str, Dialect); 3] = [
+pub const MACHINES: [(&str, Dialect); 3] = [
     ("bbc:micro", Dialect::Micro),
     ("bbc:agon", Dialect::Agon),
     ("bbc:basicv", Dialect::BasicV),

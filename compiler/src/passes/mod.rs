@@ -12,6 +12,7 @@ pub mod identities;
 pub mod interlace;
 mod moves;
 pub mod narrow;
+pub mod near;
 pub mod needed;
 pub mod outline;
 pub mod peel;

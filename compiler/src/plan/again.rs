@@ -25,7 +25,7 @@ impl Plan {
         graph.reports.extend(graph.shade);
         let shop = Arc::new(Workshop::new(graph, self.runtime));
         let mut plan = self.again(&shop, self.origin.1)?;
-        if self.is_outlined() {
+        if self.calls_at_pixels() {
             plan = plan.outlined(&|_| None).ok()?;
         }
         Some(plan)

@@ -213,9 +213,9 @@ impl<'p> Flow<'p> {
     }
 
     /// Conditions of a pixel, computed in no loop, that are asked more than once.
-    /// None where subroutines are called: what they ask is another thing in each call.
+    /// None where pixels call subroutines: what they ask is another thing in each call.
     pub fn asked_again(&self) -> Vec<NodeId> {
-        if self.plan.is_outlined() {
+        if self.plan.calls_at_pixels() {
             return Vec::new();
         }
         let (mut asked, mut again) = (Vec::new(), Vec::new());

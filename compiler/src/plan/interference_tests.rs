@@ -9,6 +9,8 @@ use crate::eval::random_graphs;
 use crate::flow::graph::*;
 use crate::flow::tree::*;
 use crate::passes::fold::fold;
+use crate::passes::outline::{Extent, Sizes};
+use crate::passes::schedule::schedule_together;
 use crate::scene::check;
 use crate::sema::Options;
 use crate::target::bbc;
@@ -124,6 +126,7 @@ impl Walk<'_> {
                 Statement::Loop(turns) => self.turns(turns),
                 Statement::Call(id) => {
                     let body = self.plan.tree.body(*id).to_vec();
+                    self.forget(&body);
                     self.block(&body);
                 }
             }
@@ -195,6 +198,53 @@ fn values_that_share_a_variable_never_meet() {
     let plan = planned(&scene.lower(&Options::default()).unwrap());
     reads += looked_at(&plan, 1, 200);
     assert!(reads > 50_000, "{reads}");
+}
+
+/// The same where subroutines are called: by what is done seldom, or anywhere.
+#[test]
+fn values_that_share_a_variable_with_subroutines_never_meet() {
+    let (mut reads, mut plans) = (0, 0);
+    let mut look = |plan: Option<Plan>, seed: u64, pixels: u32| {
+        if let Some(plan) = plan.filter(Plan::is_outlined) {
+            plans += 1;
+            reads += looked_at(&plan, seed, pixels);
+        }
+    };
+    // Sizes with which everything that stands twice is worth a subroutine.
+    let eager = Sizes {
+        operation: 10,
+        copy: 1,
+        copy_bool: 1,
+        home: 0,
+        call: 1,
+        around: 1,
+        ..bbc::MICRO.sizes
+    };
+    let called = |plan: &Plan, extent: Extent| {
+        let tree = match extent {
+            Extent::All => schedule_together(&plan.graph),
+            Extent::Rows | Extent::Runs => plan.tree.clone(),
+        };
+        let (graph, tree) = plan.with_subroutines(tree, extent, &eager, &|_| None);
+        plan.of(graph, tree).ok()
+    };
+    for seed in 0..60 {
+        let plan = planned(&fold(&random_graphs::graph(seed)));
+        look(called(&plan, Extent::Runs), seed, 20);
+        let stepped = |node: &Node| matches!(node, Node::Stepped { .. });
+        if !plan.graph.nodes.iter().any(stepped) {
+            look(called(&plan, Extent::All), seed, 20);
+        }
+    }
+    let scene = check("mirrors", include_str!("../../../examples/mirrors.scn"));
+    let plan = planned(&scene.lower(&Options::default()).unwrap());
+    for seed in 0..10 {
+        look(called(&plan, Extent::Runs), seed, 20);
+        look(plan.outlined_where_seldom(false, &|_| None), seed, 20);
+        look(plan.outlined_where_seldom(true, &|_| None), seed, 20);
+    }
+    look(plan.outlined(&|_| None).ok(), 1, 200);
+    assert!(plans > 60 && reads > 50_000, "{plans} {reads}");
 }
 
 #[test]

@@ -3,8 +3,10 @@
 
 use super::made::assemble;
 use super::{Goal, Plan};
-use crate::flow::graph::Node;
-use crate::passes::outline::outline;
+use crate::flow::graph::{Graph, Node};
+use crate::flow::tree::*;
+use crate::passes::near::near;
+use crate::passes::outline::{Extent, Sizes, outline};
 use crate::passes::schedule::schedule_together;
 use crate::range::{Slack, ranges};
 use crate::source::{Diagnostic, Span};
@@ -13,6 +15,21 @@ impl Plan {
     /// Whether it has subroutines.
     pub fn is_outlined(&self) -> bool {
         !self.tree.subroutines.is_empty()
+    }
+
+    /// Whether a pixel calls subroutines, not only what is done more seldom.
+    pub fn calls_at_pixels(&self) -> bool {
+        let mut calls = false;
+        walk(&self.tree.pixel, &mut |statement| {
+            calls |= matches!(statement, Statement::Call(_));
+        });
+        calls
+    }
+
+    /// Whether only what is done more seldom than pixels calls subroutines: the plan
+    /// did not fit as it was.
+    pub fn calls_seldom(&self) -> bool {
+        self.is_outlined() && !self.calls_at_pixels()
     }
 
     /// The plan with [`crate::passes::outline`]; `name` says what the source
@@ -30,11 +47,54 @@ impl Plan {
         {
             return plain.outlined(name);
         }
+        let tree = schedule_together(&self.graph);
+        let sizes = &self.target.sizes;
+        let (graph, tree) = self.with_subroutines(tree, Extent::All, sizes, name);
+        self.of(graph, tree)
+    }
+
+    /// The plan with subroutines for what is carried out seldom, once a row or pass,
+    /// where that is shorter: calls take hardly any time there; with `runs` for what is
+    /// carried out once a run of columns, too. None where there is no such thing.
+    pub fn outlined_where_seldom(
+        &self,
+        runs: bool,
+        name: &dyn Fn(Span) -> Option<String>,
+    ) -> Option<Plan> {
+        let mut tree = self.tree.clone();
+        let mut blocks = vec![&mut tree.frame, &mut tree.row, &mut tree.pass];
+        let extent = match runs {
+            true => {
+                blocks.push(&mut tree.segment);
+                Extent::Runs
+            }
+            false => Extent::Rows,
+        };
+        for block in blocks {
+            *block = near(&self.graph, std::mem::take(block));
+        }
+        let sizes = &self.target.sizes;
+        let (graph, tree) = self.with_subroutines(tree, extent, sizes, name);
+        let plan = self.of(graph, tree).ok()?;
+        plan.is_outlined().then_some(plan)
+    }
+
+    /// Its graph and statements with subroutines, where statements take so much memory.
+    pub(super) fn with_subroutines(
+        &self,
+        tree: Tree,
+        extent: Extent,
+        sizes: &Sizes,
+        name: &dyn Fn(Span) -> Option<String>,
+    ) -> (Graph, Tree) {
         let bytes: Vec<u32> = (self.graph.ids())
             .map(|id| self.routine(id).map_or(0, |routine| routine.bytes))
             .collect();
-        let tree = schedule_together(&self.graph);
-        let (graph, tree) = outline(&self.graph, tree, &bytes, &self.target.sizes, name);
+        outline(&self.graph, tree, &bytes, sizes, extent, name)
+    }
+
+    /// The same scene and screen by other statements.
+    pub(super) fn of(&self, graph: Graph, tree: Tree) -> Result<Plan, Vec<Diagnostic>> {
         let found = ranges(&graph, &tree, &Slack::of(self.runtime));
         let goal = Goal {
             name: self.name.clone(),
@@ -43,6 +103,9 @@ impl Plan {
             plot: self.plot,
         };
         let (params, origin) = (self.params.clone(), self.origin.clone());
-        assemble(graph, tree, found, params, self.target, &goal, origin)
+        let mut plan = assemble(graph, tree, found, params, self.target, &goal, origin)?;
+        plan.items = self.items.clone();
+        (plan.listing, plan.page) = (self.listing, self.page);
+        Ok(plan)
     }
 }

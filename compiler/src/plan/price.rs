@@ -37,6 +37,8 @@ const COLUMNS_LOOKED_AT: u32 = 80;
 pub struct Price {
     runtime: &'static Runtime,
     memory: f64,
+    /// How much a statement around pixels counts beside theirs.
+    around: f64,
     /// The pixels that are looked at, row by row.
     pixels: Vec<(i32, i32)>,
 }
@@ -47,6 +49,7 @@ impl Price {
         let mut price = Price {
             runtime,
             memory: thrift.part(),
+            around: thrift.around(),
             pixels: Vec::new(),
         };
         if plain.graph.diffusion.is_none() {
@@ -63,8 +66,8 @@ impl Price {
     /// Cycles a pixel, and something for memory.
     pub fn of(&self, plan: &Settled) -> f64 {
         let known = &plan.costs[usize::from(self.pixels.is_empty())];
-        let (cycles, memory) = *known.get_or_init(|| (self.cycles(plan), memory(plan)));
-        cycles * (1.0 + self.memory * memory)
+        let (cycles, [inside, around]) = *known.get_or_init(|| (self.cycles(plan), memory(plan)));
+        cycles * (1.0 + self.memory * (inside + self.around * around))
     }
 
     /// Cycles a pixel.
@@ -253,18 +256,21 @@ fn bounds(plan: &Settled) -> Vec<NodeId> {
     bounds
 }
 
-/// Memory in statements.
-fn memory(plan: &Settled) -> f64 {
+/// Memory in statements: of pixels with the tables, and around pixels.
+fn memory(plan: &Settled) -> [f64; 2] {
     let mut statements = 0;
     for block in plan.tree.outer() {
         walk(block, &mut |_| statements += 1);
     }
+    let mut inside = 0;
+    walk(&plan.tree.pixel, &mut |_| inside += 1);
     let entries = plan.graph.tables.iter().map(|t| match t.seed.is_empty() {
         true => t.entries.len() as f64 / 3.0,
         // The array, and how it is worked out.
         false => t.entries.len() as f64 / 2.0 + 4.0,
     });
-    f64::from(statements) + entries.sum::<f64>()
+    let around = f64::from(statements - inside);
+    [f64::from(inside) + entries.sum::<f64>(), around]
 }
 
 /// Cycles of a block in a pixel of which nothing is known.

@@ -17,9 +17,9 @@ pub struct Known {
     pub graph: Graph,
     pub tree: Tree,
     pub ranges: Ranges,
-    /// Cycles and memory, as [`super::price`] has them: at pixels, and where there are none
-    /// to be looked at.
-    pub(super) costs: [OnceLock<(f64, f64)>; 2],
+    /// Cycles and memory, pixels' and around them, as [`super::price`] has them: at
+    /// pixels, and where there are none to be looked at.
+    pub(super) costs: [OnceLock<(f64, [f64; 2])>; 2],
 }
 
 impl Deref for Settled {

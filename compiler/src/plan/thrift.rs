@@ -1,31 +1,69 @@
 //! How much memory may be spent on speed: steps from plenty to hardly any. A program
 //! that does not fit is planned again by one further on.
 
-/// What part of the plan's cycles a statement more must save, for its memory
-/// (three entries of a table take as much), whether runs of columns may be
-/// looked for and whether rows may be drawn in passes: both take many statements a row, which hardly count by cycles.
-/// From where there is plenty to where there was never enough; the second is the first
-/// with what tables hold worked out where it is needed.
-const THRIFT: [(f64, bool, bool); 15] = [
-    (0.0001, true, true),
-    (0.0001, true, true),
-    (0.0004, true, true),
-    (0.0006, true, true),
-    (0.0008, true, true),
-    (0.0011, true, true),
-    (0.0015, true, true),
-    (0.0025, true, true),
-    (0.0001, false, true),
-    (0.0002, false, true),
-    (0.0006, false, true),
-    (0.001, false, true),
-    (0.0025, false, true),
-    (0.006, false, true),
-    (0.01, false, false),
-];
+/// How much memory may be spent.
+struct Step {
+    /// What part of the plan's cycles a statement more must save, for its memory
+    /// (three entries of a table take as much).
+    part: f64,
+    /// How many times that for statements around pixels.
+    around: f64,
+    /// Whether what tables hold is worked out where it is needed, even where that is
+    /// slower.
+    follows: bool,
+    /// Whether runs of columns may be looked for, and whether rows may be drawn in
+    /// passes: both take many statements a row, which hardly count by cycles.
+    runs: bool,
+    passes: bool,
+}
 
-/// The step that follows recipes of tables even where that is slower.
-const FOLLOWS: usize = 1;
+const fn step(part: f64) -> Step {
+    Step {
+        part,
+        around: 1.0,
+        follows: false,
+        runs: true,
+        passes: true,
+    }
+}
+
+const fn without_runs(part: f64) -> Step {
+    Step {
+        runs: false,
+        ..step(part)
+    }
+}
+
+/// From where there is plenty to where there was never enough.
+const THRIFT: [Step; 16] = [
+    step(0.0001),
+    Step {
+        follows: true,
+        ..step(0.0001)
+    },
+    step(0.0004),
+    step(0.0006),
+    step(0.0008),
+    step(0.0011),
+    step(0.0015),
+    // What rows and passes know is worth less than what makes their pixels quick.
+    Step {
+        around: 4.0,
+        follows: true,
+        ..step(0.0005)
+    },
+    step(0.0025),
+    without_runs(0.0001),
+    without_runs(0.0002),
+    without_runs(0.0006),
+    without_runs(0.001),
+    without_runs(0.0025),
+    without_runs(0.006),
+    Step {
+        passes: false,
+        ..without_runs(0.01)
+    },
+];
 
 /// How much memory counts beside cycles: more where a program did not fit.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -47,21 +85,26 @@ impl Thrift {
 
     /// What part of the plan's cycles a statement more must save.
     pub fn part(self) -> f64 {
-        THRIFT[self.0].0
+        THRIFT[self.0].part
+    }
+
+    /// How many times that a statement around pixels must save.
+    pub fn around(self) -> f64 {
+        THRIFT[self.0].around
     }
 
     /// Whether what tables hold is to be worked out where it is needed, if it can be.
     pub fn follows(self) -> bool {
-        self.0 == FOLLOWS
+        THRIFT[self.0].follows
     }
 
     /// Whether runs of columns may be looked for.
     pub fn runs(self) -> bool {
-        THRIFT[self.0].1
+        THRIFT[self.0].runs
     }
 
     /// Whether rows may be drawn in passes.
     pub fn passes(self) -> bool {
-        THRIFT[self.0].2
+        THRIFT[self.0].passes
     }
 }

@@ -4,6 +4,7 @@ use super::Sizes;
 use super::forest::{BlockId, Forest, Step};
 use super::token::{Token, plain, reads_of};
 use crate::flow::graph::*;
+use slowlight_routine::Op;
 
 impl Forest {
     /// Gives every statement its tokens, and counts who reads what.
@@ -42,6 +43,9 @@ impl Forest {
         if let Step::Let(id) = step {
             let routine = bytes.get(id.0 as usize).copied().unwrap_or(0);
             token.bytes = routine + sizes.operation;
+            if compares_column(graph, *id) {
+                token.bytes += sizes.ends;
+            }
         }
         tokens.push(token);
         let mark = |kind: u32| Token {
@@ -81,5 +85,14 @@ impl Forest {
                 });
             }
         }
+    }
+}
+
+/// Whether a run of columns may end at a comparison, where it stands in such a run.
+fn compares_column(graph: &Graph, id: NodeId) -> bool {
+    let column = |id: &NodeId| graph.node(*id) == Node::Axis(Axis::X);
+    match graph.node(id) {
+        Node::Apply(Op::IntLess | Op::IntLessEqual, args) => args.iter().any(column),
+        _ => false,
     }
 }

@@ -1,10 +1,12 @@
 //! Statements with every block in one arena, so that runs of them can be
 //! numbered, compared and replaced.
 
-use super::Sizes;
 use super::token::{Token, reads_of};
+use super::{Extent, Sizes};
 use crate::flow::graph::*;
 use crate::flow::tree::*;
+use crate::passes::region::Fact;
+use crate::passes::still::still;
 use crate::source::Span;
 use std::collections::{HashMap, HashSet};
 
@@ -56,14 +58,20 @@ pub(super) struct Forest {
     before: Vec<Above>,
     /// The statement that holds a block.
     pub around: Vec<Above>,
+    /// What is known of a condition in a block that is an arm.
+    facts: Vec<Option<Fact>>,
     /// Frame, row, pixel, then the subroutines' bodies.
     pub(super) tops: Vec<BlockId>,
     /// The subroutines' names and spans.
     pub named: Vec<(String, Span)>,
+    /// What of the picture is looked at.
+    pub extent: Extent,
+    /// Whether each block's statements may become calls.
+    pub open: Vec<bool>,
 }
 
 impl Forest {
-    pub fn new(graph: &Graph, tree: Tree, bytes: &[u32], sizes: &Sizes) -> Forest {
+    pub fn new(graph: &Graph, tree: Tree, bytes: &[u32], sizes: &Sizes, extent: Extent) -> Forest {
         let mut forest = Forest {
             blocks: Vec::new(),
             tokens: Vec::new(),
@@ -75,15 +83,33 @@ impl Forest {
             assigned: HashMap::new(),
             before: Vec::new(),
             around: Vec::new(),
+            facts: Vec::new(),
             tops: Vec::new(),
             named: Vec::new(),
+            extent,
+            open: Vec::new(),
         };
         let mut above = None;
-        // Programs with subroutines are not cut into segments.
-        let pixel = [tree.pass, tree.segment, tree.pixel].concat();
-        for block in [tree.frame, tree.row, pixel] {
+        let outer = match extent {
+            // Such programs are not cut into segments.
+            Extent::All => vec![
+                (tree.frame, true),
+                (tree.row, true),
+                ([tree.pass, tree.segment, tree.pixel].concat(), true),
+            ],
+            Extent::Rows | Extent::Runs => vec![
+                (tree.frame, true),
+                (tree.row, true),
+                (tree.pass, true),
+                (tree.segment, extent == Extent::Runs),
+                (tree.pixel, false),
+            ],
+        };
+        for (block, open) in outer {
             let end = block.len();
+            let first = forest.blocks.len();
             let made = forest.block(block, None, above, None);
+            forest.open[first..].fill(open);
             forest.tops.push(made);
             above = Some((made, end));
         }
@@ -93,7 +119,9 @@ impl Forest {
             forest.tops.push(made);
             forest.named.push((subroutine.name, subroutine.span));
         }
-        for root in graph.roots().chain(graph.shade) {
+        let known = still(graph);
+        let known = known.iter().flat_map(|still| still.reads(graph));
+        for root in graph.roots().chain(graph.shade).chain(known) {
             forest.reads[root.0 as usize] += 1;
         }
         forest.own(graph);
@@ -114,8 +142,10 @@ impl Forest {
         self.tokens.push(Vec::new());
         self.touched.push(vec![false; block.len()]);
         self.owner.push(owner);
+        self.open.push(true);
         self.before.push(before);
         self.around.push(around);
+        self.facts.push(None);
         let mut steps = Vec::with_capacity(block.len());
         for (at, statement) in block.into_iter().enumerate() {
             let here = Some((id, at));
@@ -134,6 +164,8 @@ impl Forest {
                 Statement::If { cond, yes, no } => {
                     let arms = [yes, no].map(|arm| self.block(arm, owner, here, here));
                     let [yes, no] = arms;
+                    self.facts[yes] = Some((cond, true));
+                    self.facts[no] = Some((cond, false));
                     self.join(
                         &steps_of(&self.blocks[yes]),
                         &steps_of(&self.blocks[no]),
@@ -232,17 +264,41 @@ impl Forest {
             }
             _ => {}
         }
-        let Some(&(home, after)) = self.assigned.get(&id) else {
-            return false;
-        };
-        let mut here = Some((block, at));
-        while let Some((block, at)) = here {
-            if block == home {
-                return after < at;
+        let mut found = self.assigned.get(&id).copied();
+        while let Some((home, after)) = found {
+            let mut here = Some((block, at));
+            while let Some((block, at)) = here {
+                if block == home {
+                    return after < at;
+                }
+                here = self.before[block];
             }
-            here = self.before[block];
+            // What an arm computes is there where its condition came out the same.
+            let same = self.facts[home].filter(|fact| self.holds(*fact, block));
+            found = same.and_then(|_| self.around[home]);
         }
         false
+    }
+
+    /// Whether a condition is known to have come out so where a block is carried out.
+    fn holds(&self, fact: Fact, block: BlockId) -> bool {
+        let mut here = Some(block).filter(|_| self.extent != Extent::All);
+        while let Some(block) = here {
+            if self.facts[block] == Some(fact) {
+                return true;
+            }
+            here = self.around[block].map(|(block, _)| block);
+        }
+        false
+    }
+
+    /// Whether a node must be the same in all runs of one shape: what another
+    /// subroutine than the run's own has, and the column, by whose comparisons runs of
+    /// columns end.
+    pub fn is_fixed(&self, graph: &Graph, id: NodeId, owner: Option<SubroutineId>) -> bool {
+        let column = graph.node(id) == Node::Axis(Axis::X);
+        let held = self.node_owner.get(id.0 as usize).copied().flatten();
+        held.is_some() && held != owner || column && self.extent != Extent::All
     }
 
     /// Whether a run computes a node on every way through it.
@@ -298,8 +354,10 @@ impl Forest {
             .push(steps.into_iter().map(|s| vec![s]).collect());
         self.tokens.push(Vec::new());
         self.owner.push(None);
+        self.open.push(true);
         self.before.push(None);
         self.around.push(None);
+        self.facts.push(None);
         self.blocks.len() - 1
     }
 
@@ -309,11 +367,13 @@ impl Forest {
         let mut tree = Tree {
             frame: next(&mut self),
             row: next(&mut self),
-            pass: Block::new(),
-            segment: Block::new(),
-            pixel: next(&mut self),
-            subroutines: Vec::new(),
+            ..Tree::default()
         };
+        if self.extent != Extent::All {
+            tree.pass = next(&mut self);
+            tree.segment = next(&mut self);
+        }
+        tree.pixel = next(&mut self);
         for (name, span) in std::mem::take(&mut self.named) {
             tree.subroutines.push(Subroutine {
                 name,

@@ -177,9 +177,8 @@ impl Copy<'_, '_> {
         (self.forest.add_block(steps), sets)
     }
 
-    fn is_foreign(&self, id: NodeId) -> bool {
-        let owner = self.forest.node_owner.get(id.0 as usize).copied().flatten();
-        owner.is_some() && owner != self.owner
+    fn is_fixed(&self, id: NodeId) -> bool {
+        self.forest.is_fixed(self.maker.graph, id, self.owner)
     }
 
     /// What the subroutine reads where the run reads a node.
@@ -202,7 +201,7 @@ impl Copy<'_, '_> {
             self.carried.insert(id, made);
             return made;
         }
-        if self.is_foreign(id) {
+        if self.is_fixed(id) {
             return id;
         }
         let given = self.given.get(self.next).copied().unwrap_or(id);
@@ -211,7 +210,7 @@ impl Copy<'_, '_> {
     }
 
     fn written(&mut self, id: NodeId) -> NodeId {
-        if self.is_foreign(id) {
+        if self.is_fixed(id) {
             return id;
         }
         self.defined.insert(id);
@@ -295,7 +294,7 @@ impl Copy<'_, '_> {
     fn selects(&mut self, cond: NodeId, first: &Sets, second: &Sets) {
         for &(id, yes) in first {
             let other = second.iter().find(|(other, _)| *other == id);
-            let own = matches!(self.maker.graph.node(id), Node::Slot(_)) && !self.is_foreign(id);
+            let own = matches!(self.maker.graph.node(id), Node::Slot(_)) && !self.is_fixed(id);
             if let Some(&(_, no)) = other.filter(|_| own) {
                 self.become_node(id, Node::Select { cond, yes, no });
             }

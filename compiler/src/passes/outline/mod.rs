@@ -57,6 +57,8 @@ pub struct Sizes {
     pub call: u32,
     /// What a subroutine has around its statements.
     pub around: u32,
+    /// What a comparison has beside that ends a run of columns.
+    pub ends: u32,
 }
 
 impl Sizes {
@@ -68,28 +70,44 @@ impl Sizes {
     }
 }
 
+/// What of a picture may become subroutines.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Extent {
+    /// All of it.
+    All,
+    /// What is carried out seldom: once a picture, row or pass.
+    Rows,
+    /// That, and what is carried out once a run of columns.
+    Runs,
+}
+
 /// How often all is looked at: each time subroutines may come to call others.
 const ROUNDS: u32 = 6;
 
 /// The graph and its statements with subroutines for what they have several
-/// times. `bytes` are those of each node's routine; `name` says what the source
+/// times, within an extent. `bytes` are those of each node's routine; `name` says what the source
 /// calls what stands at a place. What does not get smaller stays as it is.
 pub fn outline(
     graph: &Graph,
     tree: Tree,
     bytes: &[u32],
     sizes: &Sizes,
+    extent: Extent,
     name: &dyn Fn(Span) -> Option<String>,
 ) -> (Graph, Tree) {
     let (mut graph, mut tree) = (graph.clone(), tree);
     let mut bytes = bytes.to_vec();
     bytes.resize(graph.nodes.len(), 0);
+    let mut sizes = *sizes;
+    if extent != Extent::Runs {
+        sizes.ends = 0;
+    }
     for _ in 0..ROUNDS {
-        let mut forest = forest::Forest::new(&graph, tree, &bytes, sizes);
+        let mut forest = forest::Forest::new(&graph, tree, &bytes, &sizes, extent);
         let mut maker = make::Maker {
             graph: &mut graph,
             bytes: &mut bytes,
-            sizes,
+            sizes: &sizes,
             name,
         };
         let made = runs::replace(&mut forest, &mut maker);

@@ -26,7 +26,7 @@ pub(super) enum Reference {
     /// A carried value of a loop in the run: which loop, which value, and
     /// whether the last one.
     Carried(u32, u32, bool),
-    /// What belongs to another subroutine: it has to be the same in all runs.
+    /// What has to be the same in all runs ([`Forest::is_fixed`]).
     Fixed(NodeId),
     /// Anything else of this type.
     Outside(Type),
@@ -56,9 +56,9 @@ impl<'f> Reader<'f> {
         }
     }
 
-    fn is_foreign(&self, id: NodeId) -> bool {
-        let owner = self.forest.node_owner[id.0 as usize];
-        owner.is_some() && owner != self.forest.owner[self.block]
+    fn is_fixed(&self, id: NodeId) -> bool {
+        let owner = self.forest.owner[self.block];
+        self.forest.is_fixed(self.graph, id, owner)
     }
 
     fn used(&self, id: NodeId) -> Reference {
@@ -70,7 +70,7 @@ impl<'f> Reader<'f> {
         {
             return Reference::Carried(number, index, matches!(node, Node::Last { .. }));
         }
-        if self.is_foreign(id) {
+        if self.is_fixed(id) {
             return Reference::Fixed(id);
         }
         Reference::Outside(self.graph.ty(id))
@@ -89,7 +89,7 @@ impl<'f> Reader<'f> {
             None => 0,
         };
         let def = token.def.map(|id| {
-            if self.is_foreign(id) {
+            if self.is_fixed(id) {
                 return Reference::Fixed(id);
             }
             let number = self.own.len() as u32;
@@ -309,7 +309,7 @@ fn mixed(into: u64, reference: Reference) -> u64 {
 /// if calls were free.
 fn candidates(graph: &Graph, forest: &Forest, least: u32) -> Vec<(u32, Vec<Run>)> {
     let mut shapes: HashMap<u64, (u32, Vec<Run>)> = HashMap::new();
-    for block in 0..forest.tokens.len() {
+    for block in (0..forest.tokens.len()).filter(|block| forest.open[*block]) {
         let statements = &forest.tokens[block];
         for from in 0..statements.len() {
             let mut reader = Reader::new(graph, forest, block);

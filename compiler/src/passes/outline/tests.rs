@@ -7,7 +7,7 @@ use crate::eval::random_graphs;
 use crate::eval::run::Run;
 use crate::flow::build::Builder;
 use crate::passes::fold::fold;
-use crate::passes::schedule::{schedule, schedule_together};
+use crate::passes::schedule::{schedule, schedule_in_segments, schedule_together};
 use crate::range::{Slack, ranges};
 use crate::scene::check;
 use crate::sema::Options;
@@ -29,6 +29,7 @@ const EAGER: Sizes = Sizes {
     turns: 8,
     call: 1,
     around: 1,
+    ends: 0,
 };
 
 fn graph(text: &str) -> Graph {
@@ -39,7 +40,14 @@ fn graph(text: &str) -> Graph {
 
 fn outlined(graph: &Graph, sizes: &Sizes) -> (Graph, Tree) {
     let called = |_| Some("shape".to_owned());
-    outline(graph, schedule_together(graph), &[], sizes, &called)
+    outline(
+        graph,
+        schedule_together(graph),
+        &[],
+        sizes,
+        Extent::All,
+        &called,
+    )
 }
 
 fn calls(block: &[Statement]) -> usize {
@@ -65,6 +73,29 @@ fn random_graphs_draw_the_same() {
         );
     }
     assert!(made > 300, "{made}");
+}
+
+#[test]
+fn what_is_done_seldom_alone_calls() {
+    let mut made = 0;
+    for seed in 0..300 {
+        let graph = fold(&random_graphs::graph(seed));
+        let plain = schedule_in_segments(&graph);
+        let places = grid(7, 5, 1);
+        for extent in [Extent::Rows, Extent::Runs] {
+            let (other, tree) = outline(&graph, plain.clone(), &[], &EAGER, extent, &|_| None);
+            made += tree.subroutines.len();
+            assert_eq!(calls(&tree.pixel), 0);
+            assert!(extent == Extent::Runs || calls(&tree.segment) == 0);
+            assert_eq!(tree.pixel, plain.pixel);
+            assert_eq!(
+                drawn(&graph, &plain, &places),
+                drawn(&other, &tree, &places),
+                "seed {seed}:\n{tree}"
+            );
+        }
+    }
+    assert!(made > 100, "{made}");
 }
 
 #[test]
@@ -152,7 +183,7 @@ fn what_does_not_get_smaller_stays() {
         ..EAGER
     };
     let plain = schedule_together(&graph);
-    let (other, tree) = outline(&graph, plain.clone(), &[], &dear, &|_| None);
+    let (other, tree) = outline(&graph, plain.clone(), &[], &dear, Extent::All, &|_| None);
     assert_eq!(tree, plain);
     assert_eq!(other, graph);
 }

@@ -32,6 +32,8 @@ pub struct Code<'p> {
     pub labels: Labels,
     /// What ends a run of columns, where its block is being written.
     pub ends: Option<Ends>,
+    /// The same for the procedures that it calls.
+    pub ends_called: Option<Ends>,
     /// What is known of a condition where a pixel is being written.
     pub known: Option<Fact>,
     /// Ramps that are stepped where they are read only.
@@ -48,6 +50,7 @@ impl<'p> Code<'p> {
             loops: 0,
             labels: Labels::default(),
             ends: None,
+            ends_called: None,
             known: None,
             late: None,
             span: None,

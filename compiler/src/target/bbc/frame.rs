@@ -42,7 +42,7 @@ pub fn program(plan: &Plan) -> Lines {
     let spread = Spread::new(plan, &mut code);
     parameters(plan, &mut code, &first, &last);
     picture(plan, &mut code, &first, &last, spread.as_ref());
-    code.lines.weight = PIXEL;
+    code.lines.weight = if plan.calls_at_pixels() { PIXEL } else { ROW };
     procedures(plan, &mut code);
     code.lines.weight = 1;
     let rare = std::mem::take(&mut code.rare);
@@ -70,7 +70,7 @@ pub fn program(plan: &Plan) -> Lines {
     let constants = assigned
         .filter_map(|text| Some(text.split_once('=')?.0.to_owned()))
         .collect();
-    short(lines, &keep, &constants, style)
+    short(lines, &keep, &constants, style, plan.calls_seldom())
 }
 
 /// The scene's item that something comes from: the last that begins before it.
@@ -334,6 +334,7 @@ fn setup(plan: &Plan, code: &mut Code<'_>, parts: &[&Part], first: &str, last: &
 
 /// What is called from several places.
 fn procedures(plan: &Plan, code: &mut Code<'_>) {
+    code.ends = code.ends_called.take();
     for (k, subroutine) in plan.tree.subroutines.iter().enumerate() {
         let id = SubroutineId(k as u32);
         let name = code.values.names.procedure(id).to_owned();
@@ -347,6 +348,7 @@ fn procedures(plan: &Plan, code: &mut Code<'_>) {
         code.block(&subroutine.body);
         code.lines.line("ENDPROC", span);
     }
+    code.ends = None;
 }
 
 fn functions(code: &mut Code<'_>, parts: &[&Part]) {

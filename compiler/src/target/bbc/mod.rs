@@ -68,6 +68,7 @@ const SIZES: Sizes = Sizes {
     turns: 40,
     call: 4,
     around: 20,
+    ends: 25,
 };
 
 /// A BBC Micro with BASIC II.

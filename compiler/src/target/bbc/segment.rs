@@ -67,7 +67,7 @@ impl Segments {
                 .collect(),
         });
         code.block(&plan.tree.segment);
-        code.ends = None;
+        code.ends_called = code.ends.take();
         if let (Some(still), Some(draw)) = (&plan.still, draw) {
             self.still(still, plan, code, draw);
         }

@@ -11,7 +11,7 @@
 //!
 //! What is computed is the same, in the same order. Constants that are seldom
 //! read are put in place where that takes less than a variable; where memory is
-//! short, the others too.
+//! short, the others too, and those below 0.
 
 use super::Style;
 use super::lines::Lines;
@@ -26,15 +26,25 @@ const WIDTH: usize = 220;
 const SELDOM: u64 = 2_000;
 
 /// Makes a program short; the names in `keep` stay, those in `constants` are of
-/// numbers that never change.
-pub fn short(lines: Lines, keep: &[String], constants: &BTreeSet<String>, style: Style) -> Lines {
+/// numbers that never change. `spare`: it did not fit as it is quickest.
+pub fn short(
+    lines: Lines,
+    keep: &[String],
+    constants: &BTreeSet<String>,
+    style: Style,
+    spare: bool,
+) -> Lines {
     let (head, mut body) = lines.split_behind("REM rows to draw");
     let seldom = match style {
         Style::Small => u64::MAX,
         _ => SELDOM,
     };
-    let constants = in_place(&body, constants, seldom);
+    let unread = unread(&body, keep);
+    let constants = in_place(&body, constants, seldom, spare);
     body.each_text(|text| *text = without(text, &constants));
+    if spare {
+        body.each_text(|text| *text = without_unread(text, &unread));
+    }
     body.remove_empty();
     let names = given(&uses(&body), keep);
     body.each_text(|text| *text = written(text, &names));
@@ -62,11 +72,17 @@ fn uses(body: &Lines) -> BTreeMap<String, u64> {
 
 /// Constants that take less memory where they are read than in a variable, and are
 /// read so seldom: name and number.
-fn in_place(body: &Lines, constants: &BTreeSet<String>, seldom: u64) -> BTreeMap<String, String> {
+fn in_place(
+    body: &Lines,
+    constants: &BTreeSet<String>,
+    seldom: u64,
+    spare: bool,
+) -> BTreeMap<String, String> {
     let often = self::uses(body);
     let mut numbers: BTreeMap<String, String> = BTreeMap::new();
     let mut uses: BTreeMap<String, usize> = BTreeMap::new();
     let mut changed: BTreeSet<String> = BTreeSet::new();
+    let mut signed: BTreeSet<String> = BTreeSet::new();
     for text in body.texts() {
         for statement in text.split(':') {
             let Some((name, number)) = statement.split_once('=') else {
@@ -79,7 +95,7 @@ fn in_place(body: &Lines, constants: &BTreeSet<String>, seldom: u64) -> BTreeMap
                 changed.insert(name.to_owned());
             }
             if name.starts_with(|c: char| c.is_ascii_lowercase())
-                && number.starts_with(|c: char| c.is_ascii_digit())
+                && number.starts_with(|c: char| c.is_ascii_digit() || spare && c == '-')
                 && pieces(name).len() == 1
                 && plain
                 && !name.ends_with('%')
@@ -88,9 +104,14 @@ fn in_place(body: &Lines, constants: &BTreeSet<String>, seldom: u64) -> BTreeMap
                 changed.insert(name.to_owned());
             }
         }
-        for piece in pieces(text) {
+        let all = pieces(text);
+        for (k, piece) in all.iter().enumerate() {
             if let Piece::Name(name) = piece {
-                *uses.entry(name.to_owned()).or_default() += 1;
+                *uses.entry((*name).to_owned()).or_default() += 1;
+                // Two signs in a row read badly.
+                if k > 0 && spare && matches!(all[k - 1], Piece::Sign("-")) {
+                    signed.insert((*name).to_owned());
+                }
             }
         }
         // What is read or counted is no constant.
@@ -104,14 +125,53 @@ fn in_place(body: &Lines, constants: &BTreeSet<String>, seldom: u64) -> BTreeMap
     }
     numbers.retain(|name, number| {
         // One use is the assignment. A variable takes an entry of about 8 bytes,
-        // its assignment the number and 3 more, each use 1 or 2.
+        // its assignment the number and 3 more, each use 1 or 2; of many variables
+        // those that are read seldom have two letters.
         let reads = uses.get(name).map_or(0, |n| n.saturating_sub(1));
+        let letters = if spare { 2 } else { 1 };
         !changed.contains(name)
+            && !(number.starts_with('-') && signed.contains(name))
             && often.get(name).is_none_or(|often| *often <= seldom)
             && constants.contains(name)
-            && reads * (number.len() - 1) < number.len() + 11
+            && reads * number.len().saturating_sub(letters) < number.len() + 9 + 2 * letters
     });
     numbers
+}
+
+/// Variables that are assigned once and never read, as of a runtime's constants.
+fn unread(body: &Lines, keep: &[String]) -> BTreeSet<String> {
+    let mut met: BTreeMap<String, usize> = BTreeMap::new();
+    // Two rounds: what only the unread are made of is not read either.
+    let mut gone: BTreeSet<String> = BTreeSet::new();
+    for _ in 0..2 {
+        met.clear();
+        for text in body.texts() {
+            for piece in pieces(&without_unread(text, &gone)) {
+                if let Piece::Name(name) = piece {
+                    *met.entry(name.to_owned()).or_default() += 1;
+                }
+            }
+        }
+        let once = met.iter().filter(|(_, times)| **times == 1);
+        // Of one capital are the picture's own.
+        let own = |name: &str| name.len() < 3 && name.starts_with(|c: char| c.is_ascii_uppercase());
+        let once = once.map(|(name, _)| name.clone());
+        gone.extend(once.filter(|name| !own(name) && !keep.contains(name)));
+    }
+    gone
+}
+
+/// A line without assignments of those.
+fn without_unread(text: &str, unread: &BTreeSet<String>) -> String {
+    let plain = ["IF ", "REM", "DEF", "FOR ", "FN", "DIM", "\""];
+    if plain.iter().any(|word| text.contains(word)) {
+        return text.to_owned();
+    }
+    let kept = text.split(':').filter(|statement| {
+        let name = statement.split_once('=').map(|(name, _)| name);
+        !name.is_some_and(|name| unread.contains(name))
+    });
+    kept.collect::<Vec<_>>().join(":")
 }
 
 /// A statement with those constants in place, their assignments left out.
@@ -209,6 +269,28 @@ mod tests {
         ] {
             assert_eq!(written(text, &none), small);
         }
+    }
+
+    #[test]
+    fn where_memory_is_short_numbers_below_0_stand_in_place_and_nothing_is_unread() {
+        let mut body = Lines::default();
+        for text in [
+            "big=1.7E38:half=big/2:c=-96:d=-5",
+            "x=y+c",
+            "y=x-d:IF x<y THEN x=y",
+        ] {
+            body.line(text, None);
+        }
+        let constants = ["c", "d"].map(str::to_owned).into();
+        let found = in_place(&body, &constants, SELDOM, true);
+        assert_eq!(found, [("c".to_owned(), "-96".to_owned())].into());
+        assert_eq!(in_place(&body, &constants, SELDOM, false), [].into());
+        assert_eq!(
+            unread(&body, &[]),
+            ["big", "half"].map(str::to_owned).into()
+        );
+        let first = "big=1.7E38:half=big/2:c=-96:d=-5";
+        assert_eq!(without_unread(first, &unread(&body, &[])), "c=-96:d=-5");
     }
 
     #[test]

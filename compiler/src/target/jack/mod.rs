@@ -81,6 +81,7 @@ const FLOATS: Target = Target {
         turns: 12,
         call: 3,
         around: 4,
+        ends: 0,
     },
     emit: frame::program,
 };

@@ -61,6 +61,7 @@ pub static PLAIN: Target = Target {
         turns: 30,
         call: 3,
         around: 1,
+        ends: 0,
     },
     emit,
 };

@@ -1,0 +1,148 @@
+//! Near: values stand where they are first read.
+//!
+//! A schedule computes what is ready before what stands under conditions. So what
+//! one formula needs may stand apart, between what others need, and formulas of one
+//! shape are no runs of statements of one shape ([`super::outline`]). Here every
+//! operation goes down to the first statement of its block that reads it, its
+//! operands before it in their order.
+//!
+//! A value is written once, so what an operation reads is the same further down;
+//! what a loop carries is not, so loops stay as they are.
+
+use crate::flow::graph::*;
+use crate::flow::tree::*;
+use std::collections::{HashMap, HashSet};
+
+/// A block with its values where they are first read, and so with its arms.
+pub fn near(graph: &Graph, block: Block) -> Block {
+    let block: Vec<Statement> = block.into_iter().map(|s| inside(graph, s)).collect();
+    let mut order = Order {
+        movable: movable(graph, &block),
+        done: vec![false; block.len()],
+        reads: block.iter().map(|s| reads(graph, s)).collect(),
+        all: Vec::with_capacity(block.len()),
+    };
+    let read: HashSet<NodeId> = order.reads.iter().flatten().copied().collect();
+    for (at, statement) in block.iter().enumerate() {
+        let waits = match statement {
+            Statement::Let(id) => order.movable.contains_key(id) && read.contains(id),
+            _ => false,
+        };
+        if !waits {
+            order.put(at);
+        }
+    }
+    let mut block: Vec<Option<Statement>> = block.into_iter().map(Some).collect();
+    let ordered = order.all.into_iter();
+    ordered.filter_map(|at| block[at].take()).collect()
+}
+
+fn inside(graph: &Graph, statement: Statement) -> Statement {
+    match statement {
+        Statement::If { cond, yes, no } => Statement::If {
+            cond,
+            yes: near(graph, yes),
+            no: near(graph, no),
+        },
+        other => other,
+    }
+}
+
+/// The operations of a block that may stand further down, and where they stand.
+fn movable(graph: &Graph, block: &[Statement]) -> HashMap<NodeId, usize> {
+    let steady = |id: NodeId| {
+        !matches!(
+            graph.node(id),
+            Node::Carried { .. } | Node::Last { .. } | Node::Slot(_)
+        )
+    };
+    let all = block.iter().enumerate().filter_map(|(at, s)| match s {
+        Statement::Let(id) => Some((*id, at)),
+        _ => None,
+    });
+    all.filter(|(id, _)| {
+        let node = graph.node(*id);
+        matches!(node, Node::Apply(..) | Node::Lookup { .. }) && node.operands().all(steady)
+    })
+    .collect()
+}
+
+/// What a statement reads, those inside it included, in order.
+fn reads(graph: &Graph, statement: &Statement) -> Vec<NodeId> {
+    let mut all = Vec::new();
+    walk(std::slice::from_ref(statement), &mut |s| match s {
+        Statement::Let(id) => all.extend(graph.node(*id).operands()),
+        Statement::Set {
+            from: Origin::Node(id),
+            ..
+        } => all.push(*id),
+        Statement::If { cond, .. } => all.push(*cond),
+        Statement::Loop(turns) => all.push(turns.again),
+        Statement::Set { .. } | Statement::Call(_) => {}
+    });
+    all
+}
+
+struct Order {
+    movable: HashMap<NodeId, usize>,
+    done: Vec<bool>,
+    reads: Vec<Vec<NodeId>>,
+    all: Vec<usize>,
+}
+
+impl Order {
+    /// Puts a statement, before it what it reads that has waited.
+    fn put(&mut self, at: usize) {
+        // Which statement, and how many of its reads have been looked at.
+        let mut todo = vec![(at, 0)];
+        while let Some((at, next)) = todo.pop() {
+            match self.reads[at].get(next) {
+                Some(id) => {
+                    todo.push((at, next + 1));
+                    if let Some(&before) = self.movable.get(id)
+                        && !self.done[before]
+                    {
+                        todo.push((before, 0));
+                    }
+                }
+                None if !std::mem::replace(&mut self.done[at], true) => self.all.push(at),
+                None => {}
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::eval::drawn::{drawn, grid};
+    use crate::eval::random_graphs;
+    use crate::passes::fold::fold;
+    use crate::passes::schedule::schedule;
+
+    #[test]
+    fn random_graphs_draw_the_same_and_compute_all_there_was() {
+        let mut moved = 0;
+        for seed in 0..300 {
+            let graph = fold(&random_graphs::graph(seed));
+            let plain = schedule(&graph);
+            let mut tree = plain.clone();
+            for block in [&mut tree.frame, &mut tree.row, &mut tree.pixel] {
+                let ordered = near(&graph, std::mem::take(block));
+                *block = ordered;
+            }
+            moved += u32::from(tree != plain);
+            let places = grid(7, 5, 1);
+            assert_eq!(
+                drawn(&graph, &plain, &places),
+                drawn(&graph, &tree, &places),
+                "seed {seed}:\n{tree}"
+            );
+            assert_eq!(
+                tree.to_string().lines().count(),
+                plain.to_string().lines().count()
+            );
+        }
+        assert!(moved > 100, "{moved}");
+    }
+}
