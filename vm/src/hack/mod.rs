@@ -4,5 +4,7 @@
 //! the assembler, and the CPU.
 
 pub mod asm;
+pub mod cpu;
 pub mod jack;
+mod screen;
 pub mod vm;
