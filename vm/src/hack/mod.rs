@@ -7,4 +7,5 @@ pub mod asm;
 pub mod cpu;
 pub mod jack;
 mod screen;
+pub mod translate;
 pub mod vm;

@@ -1,6 +1,6 @@
 //! A line of assembly.
 
-use super::instruction::{COMPUTE, LARGEST, comp, dest, jump};
+use super::instruction::{COMPUTE, LARGEST, computation, dest, jump};
 
 /// What a line says.
 #[derive(Debug, PartialEq, Eq)]
@@ -31,7 +31,7 @@ pub(super) fn statement(line: &str) -> Result<Option<Statement<'_>>, String> {
     }
     let value = match code.strip_prefix('@') {
         Some(value) => address(value.trim())?,
-        None => Value::Word(computation(code)?),
+        None => Value::Word(instruction(code)?),
     };
     Ok(Some(Statement::Instruction(value)))
 }
@@ -65,7 +65,7 @@ fn symbol(name: &str) -> Result<&str, String> {
 }
 
 /// `dest=comp;jump`, with the first or the last or both left out.
-fn computation(code: &str) -> Result<u16, String> {
+fn instruction(code: &str) -> Result<u16, String> {
     let packed: String = code.chars().filter(|c| !c.is_whitespace()).collect();
     let (to, rest) = match packed.split_once('=') {
         Some((to, rest)) => (Some(to), rest),
@@ -76,7 +76,7 @@ fn computation(code: &str) -> Result<u16, String> {
         None => (rest, None),
     };
     let mut word = COMPUTE;
-    word |= comp(what).ok_or_else(|| format!("unknown computation {}", shown(what)))?;
+    word |= computation(what).ok_or_else(|| format!("unknown computation {}", shown(what)))?;
     if let Some(to) = to {
         word |= dest(to)
             .ok_or_else(|| format!("unknown destination {}: A, D and M, each once", shown(to)))?;

@@ -1,0 +1,206 @@
+//! Calls and returns: D holds the return address on the way there and the
+//! answer on the way back. SP is on both ways where the arguments begin, or
+//! would.
+//!
+//! A function whose words are in cells keeps the return address there. The
+//! others make the frame of the book: arguments, return address, LCL, ARG, THIS,
+//! THAT, locals; when they call something, LCL, ARG and SP are what the book
+//! says.
+
+use super::code::{Code, Label};
+use super::expr::Expr;
+use super::frames::Frame;
+use super::function::Body;
+use crate::hack::asm::instruction::{DEST_A, DEST_D, DEST_M, JGT, comp};
+use crate::hack::vm::command::{ARG, FRAME, LCL, SP, THAT, THIS};
+
+/// Kept by a return for the answer and for the way back.
+const ANSWER: u16 = 13;
+const BACK: u16 = 15;
+
+/// More locals than this are made zero in a loop.
+const IN_A_ROW: u16 = 6;
+
+/// Goes to a function and comes back with its answer in D.
+pub(super) fn call(code: &mut Code, function: Label) {
+    let back = code.label();
+    code.to(back);
+    code.compute(DEST_D, comp::A);
+    code.go(function);
+    code.mark(back);
+}
+
+/// Pushes D to the word behind the one that SP points to.
+fn push_on(code: &mut Code) {
+    code.at(SP);
+    code.compute(DEST_A | DEST_M, comp::M_PLUS_1);
+    code.compute(DEST_M, comp::D);
+}
+
+/// Makes a frame on the stack, of a function called with so many arguments.
+/// D holds the return address. Leaves SP at the first local.
+pub(super) fn frame(code: &mut Code, arguments: u16) {
+    code.at(SP);
+    match arguments {
+        0 => code.compute(DEST_A, comp::M),
+        1..=6 => {
+            for _ in 1..arguments {
+                code.compute(DEST_M, comp::M_PLUS_1);
+            }
+            code.compute(DEST_A | DEST_M, comp::M_PLUS_1);
+        }
+        _ => {
+            code.at(BACK);
+            code.compute(DEST_M, comp::D);
+            code.at(arguments);
+            code.compute(DEST_D, comp::A);
+            code.at(SP);
+            code.compute(DEST_M, comp::D_PLUS_M);
+            code.at(BACK);
+            code.compute(DEST_D, comp::M);
+            code.at(SP);
+            code.compute(DEST_A, comp::M);
+        }
+    }
+    code.compute(DEST_M, comp::D);
+    for cell in [LCL, ARG, THIS, THAT] {
+        code.at(cell);
+        code.compute(DEST_D, comp::M);
+        push_on(code);
+    }
+    code.compute(DEST_D, comp::A_PLUS_1);
+    code.at(LCL);
+    code.compute(DEST_M, comp::D);
+    code.at(SP);
+    code.compute(DEST_M, comp::D);
+    code.at(FRAME.saturating_add(arguments).min(0x7fff));
+    code.compute(DEST_D, comp::D_MINUS_A);
+    code.at(ARG);
+    code.compute(DEST_M, comp::D);
+}
+
+/// Where functions with a frame on the stack return, the answer in D.
+pub(super) fn leave(code: &mut Code) {
+    code.at(ANSWER);
+    code.compute(DEST_M, comp::D);
+    code.at(ARG);
+    code.compute(DEST_D, comp::M);
+    code.at(SP);
+    code.compute(DEST_M, comp::D);
+    for cell in [THAT, THIS, ARG] {
+        code.at(LCL);
+        code.compute(DEST_A | DEST_M, comp::M_MINUS_1);
+        code.compute(DEST_D, comp::M);
+        code.at(cell);
+        code.compute(DEST_M, comp::D);
+    }
+    code.at(LCL);
+    code.compute(DEST_A, comp::M_MINUS_1);
+    code.compute(DEST_A, comp::A_MINUS_1);
+    code.compute(DEST_D, comp::M);
+    code.at(BACK);
+    code.compute(DEST_M, comp::D);
+    code.at(LCL);
+    code.compute(DEST_A, comp::M_MINUS_1);
+    code.compute(DEST_D, comp::M);
+    code.at(LCL);
+    code.compute(DEST_M, comp::D);
+    code.at(ANSWER);
+    code.compute(DEST_D, comp::M);
+    code.at(BACK);
+    code.compute(DEST_A, comp::M);
+    code.go_to_a();
+}
+
+impl Body<'_, '_, '_> {
+    /// The start of a function.
+    pub(super) fn enter(&mut self) {
+        let entries = &self.shared.entries;
+        let mut labels: Vec<_> = entries
+            .iter()
+            .filter(|((function, _), _)| *function == self.index)
+            .map(|((_, arguments), label)| (*arguments, *label))
+            .collect();
+        labels.sort_unstable();
+        match self.shared.frames.get(self.index) {
+            Some(Frame::Cells(cells)) => {
+                for (_, label) in labels {
+                    self.eval.code.mark(label);
+                }
+                self.eval.code.at(cells.back);
+                self.eval.code.compute(DEST_M, comp::D);
+                for (k, cell) in (0..).zip(&cells.locals) {
+                    if self.shared.live.reads_first(self.index, k) {
+                        self.eval.store(&Expr::Cell(*cell), &Expr::Const(0));
+                    }
+                }
+            }
+            _ => {
+                let body = self.eval.code.label();
+                for (arguments, label) in labels {
+                    self.eval.code.mark(label);
+                    frame(self.eval.code, arguments);
+                    self.eval.code.go(body);
+                }
+                self.eval.code.mark(body);
+                self.make_locals();
+            }
+        }
+    }
+
+    /// Takes room for locals on the stack, and makes those zero that are read first.
+    fn make_locals(&mut self) {
+        let locals = self.function.locals;
+        let first: Vec<u16> = (0..locals.min(64))
+            .filter(|k| self.shared.live.reads_first(self.index, *k))
+            .collect();
+        // From here on heights count from behind the locals.
+        if first.len() <= usize::from(IN_A_ROW) && locals < 64 {
+            for k in first {
+                let local = Expr::Field {
+                    base: LCL,
+                    offset: k,
+                };
+                self.eval.store(&local, &Expr::Const(0));
+            }
+            self.set_sp(i32::from(locals));
+        } else {
+            let code = &mut *self.eval.code;
+            code.at(locals);
+            code.compute(DEST_D, comp::A);
+            let again = code.label();
+            code.mark(again);
+            code.at(SP);
+            code.compute(DEST_A | DEST_M, comp::M_PLUS_1);
+            code.compute(DEST_A, comp::A_MINUS_1);
+            code.compute(DEST_M, comp::ZERO);
+            code.jump_back(comp::D_MINUS_1, JGT, again);
+        }
+        self.eval.sp = 0;
+    }
+
+    /// The end of a function, with its answer.
+    pub(super) fn leave(&mut self, answer: &Expr) {
+        if self.cells().is_some() {
+            self.set_sp(0);
+        }
+        self.eval.to_d(answer);
+        self.leave_d();
+    }
+
+    /// The end of a function, its answer in D.
+    pub(super) fn leave_d(&mut self) {
+        let Some(cells) = self.cells() else {
+            return self.eval.code.go(self.shared.leave);
+        };
+        let back = cells.back;
+        if self.eval.sp != 0 {
+            self.eval.d_to(&Expr::Cell(ANSWER));
+            self.set_sp(0);
+            self.eval.to_d(&Expr::Cell(ANSWER));
+        }
+        self.eval.code.at(back);
+        self.eval.code.compute(DEST_A, comp::M);
+        self.eval.code.go_to_a();
+    }
+}

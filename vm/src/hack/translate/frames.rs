@@ -1,0 +1,161 @@
+//! Where each function keeps its arguments, locals and pointers.
+//!
+//! A function that is never called while it runs needs one place for them: words
+//! of fixed addresses, as cheap as statics. They lie where the program has no
+//! statics, above those of all functions that it calls, so two functions share
+//! words where neither runs within the other. Recursive functions, and those for
+//! which there is no room, have the frames of the book on the stack.
+
+use super::graph::Graph;
+use super::live::Live;
+use crate::hack::vm::command::{CONSTANTS, Command, STACK, STATIC, TEMP, THAT, THIS};
+use crate::hack::vm::link::{Function, Program};
+
+/// Kept for what a call has answered.
+pub(super) const RESULT: u16 = 14;
+/// Always there to put a word aside.
+const ASIDE: u16 = 15;
+
+/// Where a function's words are.
+#[derive(Clone, Debug)]
+pub(super) enum Frame {
+    Cells(Cells),
+    /// On the stack, as in the book.
+    Stack,
+}
+
+/// The cells of a function's words.
+#[derive(Clone, Debug)]
+pub(super) struct Cells {
+    /// The return address.
+    pub back: u16,
+    pub arguments: Vec<u16>,
+    pub locals: Vec<u16>,
+    pub this: u16,
+    pub that: u16,
+}
+
+impl Cells {
+    /// Gives out free cells, as many as a function needs; `None` if there are not.
+    fn new(
+        program: &Program,
+        function: &Function,
+        arguments: u16,
+        free: &mut dyn Iterator<Item = u16>,
+    ) -> Option<Cells> {
+        let mut several = |count: u16| -> Option<Vec<u16>> {
+            let cells: Vec<u16> = free.take(usize::from(count)).collect();
+            (cells.len() == usize::from(count)).then_some(cells)
+        };
+        let arguments = several(arguments)?;
+        let locals = several(function.locals)?;
+        let back = free.next()?;
+        let mut pointer = |which| {
+            if uses(program, function, which) {
+                free.next()
+            } else {
+                Some(which)
+            }
+        };
+        Some(Cells {
+            back,
+            arguments,
+            locals,
+            this: pointer(THIS)?,
+            that: pointer(THAT)?,
+        })
+    }
+
+    /// Whether a cell is one of them.
+    pub fn has(&self, cell: u16) -> bool {
+        let own = |cells: &[u16]| cells.contains(&cell);
+        own(&self.arguments) || own(&self.locals)
+    }
+}
+
+/// The frames of a program's functions.
+pub(super) struct Frames {
+    /// For each function.
+    pub of: Vec<Frame>,
+    /// What is left, for what is put aside within expressions.
+    pub scratch: Vec<u16>,
+}
+
+impl Frames {
+    /// `stack` asks for frames on the stack for all functions.
+    pub fn new(program: &Program, graph: &Graph, live: &Live, stack: bool) -> Frames {
+        let free = free_cells(program, graph);
+        // A function that reads its caller's pointers wants them where all have them.
+        let stack = stack || graph.order.iter().any(|f| live.pointers(*f) != 0);
+        let mut of = vec![Frame::Stack; program.functions.len()];
+        let mut ends = vec![0; program.functions.len()];
+        let mut most = 0;
+        for index in &graph.order {
+            let callees = graph.callees.get(*index).into_iter().flatten();
+            let below = callees.filter_map(|c| ends.get(*c)).copied().max();
+            let below = below.unwrap_or(0);
+            let Some(function) = program.functions.get(*index) else {
+                continue;
+            };
+            let arguments = match graph.arguments.get(*index).map(Vec::as_slice) {
+                Some([]) | None => Some(0),
+                Some([one]) => Some(*one),
+                Some(_) => None,
+            };
+            let mut end = below;
+            if let Some(arguments) = arguments
+                && !stack
+                && !graph.recursive.get(*index).is_none_or(|r| *r)
+            {
+                let mut rest = free.iter().copied().skip(below);
+                let cells = Cells::new(program, function, arguments, &mut rest);
+                if let (Some(cells), Some(frame)) = (cells, of.get_mut(*index)) {
+                    end = free.len() - rest.count();
+                    *frame = Frame::Cells(cells);
+                }
+            }
+            if let Some(slot) = ends.get_mut(*index) {
+                *slot = end;
+            }
+            most = most.max(end);
+        }
+        let mut scratch = vec![ASIDE];
+        scratch.extend(free.get(most..).unwrap_or(&[]));
+        Frames { of, scratch }
+    }
+}
+
+/// Whether a function names a pointer or what it points to.
+fn uses(program: &Program, function: &Function, pointer: u16) -> bool {
+    let range = function.start as usize..function.end as usize;
+    let commands = program.commands.get(range).unwrap_or(&[]);
+    commands.iter().any(|command| match command {
+        Command::Push(place) | Command::Pop(place) => {
+            place.base == pointer || (place.base == CONSTANTS && place.offset == pointer)
+        }
+        _ => false,
+    })
+}
+
+/// Words that the program does not name: temps, and what is left by the statics.
+fn free_cells(program: &Program, graph: &Graph) -> Vec<u16> {
+    let mut used = [false; 8];
+    for index in &graph.order {
+        let Some(function) = program.functions.get(*index) else {
+            continue;
+        };
+        let range = function.start as usize..function.end as usize;
+        for command in program.commands.get(range).unwrap_or(&[]) {
+            if let Command::Push(place) | Command::Pop(place) = command
+                && place.base == CONSTANTS
+                && let Some(temp) = place.offset.checked_sub(TEMP)
+                && let Some(used) = used.get_mut(usize::from(temp))
+            {
+                *used = true;
+            }
+        }
+    }
+    let temps = (TEMP..).zip(used).filter(|(_, used)| !used);
+    let statics = STATIC + program.statics()..STACK;
+    temps.map(|(cell, _)| cell).chain(statics).collect()
+}

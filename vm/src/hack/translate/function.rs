@@ -1,0 +1,470 @@
+//! A function's commands to code, a block at a time.
+//!
+//! Within a block the stack is a list of expressions. They are evaluated where
+//! a word is stored, asked for, or passed on; what is left at the end of a
+//! block, which Jack never does, is written to the stack.
+
+use super::code::{Code, Label};
+use super::eval::Eval;
+use super::expr::{Expr, fixed};
+use super::frames::{Cells, Frame};
+use super::live::Live;
+use super::{Compare, calls};
+use crate::hack::asm::instruction::{DEST_D, DEST_M, comp};
+use crate::hack::vm::command::{ARG, CONSTANTS, Command, LCL, Place, SP, THAT, THIS};
+use crate::hack::vm::heights::{Heights, UNREACHED};
+use crate::hack::vm::link::{Function, Program};
+use crate::hack::vm::os::Native;
+use std::collections::HashMap;
+
+/// How deep an expression may be before it is evaluated.
+const DEEPEST: u32 = 48;
+
+/// A stack entry, and how deep its expression is.
+#[derive(Clone, Debug)]
+struct Entry {
+    e: Expr,
+    depth: u32,
+}
+
+/// What all functions share.
+pub(super) struct Shared<'p> {
+    pub program: &'p Program,
+    pub heights: &'p Heights,
+    pub live: &'p Live,
+    pub frames: &'p [Frame],
+    pub scratch: &'p [u16],
+    pub compare: Compare,
+    /// Where each function is entered, by its number of arguments.
+    pub entries: HashMap<(usize, u16), Label>,
+    pub halt: Label,
+    /// Where functions with frames on the stack return.
+    pub leave: Label,
+}
+
+/// A function as it is translated.
+pub(super) struct Body<'s, 'p, 'c> {
+    pub shared: &'s Shared<'p>,
+    pub index: usize,
+    pub function: &'p Function,
+    pub eval: Eval<'c>,
+    stack: Vec<Entry>,
+    /// Labels of commands that are jumped to.
+    labels: HashMap<u32, Label>,
+}
+
+/// Translates a function.
+///
+/// # Errors
+/// What it calls that is not there.
+pub(super) fn translate(
+    shared: &Shared,
+    index: usize,
+    function: &Function,
+    code: &mut Code,
+) -> Result<(), String> {
+    let peak = shared.heights.peaks.get(index).copied().unwrap_or(0);
+    let mut labels = HashMap::new();
+    for at in function.start..function.end {
+        if let Some(Command::Goto(to) | Command::IfGoto(to)) =
+            shared.program.commands.get(at as usize)
+        {
+            labels.entry(*to).or_insert_with(|| code.label());
+        }
+    }
+    let mut body = Body {
+        shared,
+        index,
+        function,
+        eval: Eval::new(code, shared.scratch, peak, shared.compare),
+        stack: Vec::new(),
+        labels,
+    };
+    body.enter();
+    let mut at = function.start + 1;
+    while at <= function.end {
+        at = body.command(at)?;
+    }
+    Ok(())
+}
+
+impl Body<'_, '_, '_> {
+    pub(super) fn cells(&self) -> Option<&Cells> {
+        match self.shared.frames.get(self.index) {
+            Some(Frame::Cells(cells)) => Some(cells),
+            _ => None,
+        }
+    }
+
+    fn height(&self, at: u32) -> u16 {
+        let known = self.shared.heights.at.get(at as usize);
+        known.copied().unwrap_or(UNREACHED)
+    }
+
+    fn at(&self, at: u32) -> Option<Command> {
+        self.shared.program.commands.get(at as usize).copied()
+    }
+
+    /// Translates a command, or several at once; answers the next.
+    fn command(&mut self, at: u32) -> Result<u32, String> {
+        let height = self.height(at);
+        if height == UNREACHED {
+            return Ok(at + 1);
+        }
+        if let Some(label) = self.labels.get(&at).copied() {
+            // What comes before may be a jump, and then nothing is left to write.
+            self.settle(height);
+            self.eval.code.mark(label);
+            self.start_block(height);
+        } else if self.stack.len() != usize::from(height) {
+            // Behind a jump, where only dead code would have led.
+            self.start_block(height);
+        }
+        let Some(command) = self.at(at) else {
+            return Ok(at + 1);
+        };
+        match command {
+            Command::Push(place) => {
+                let e = self.place(place);
+                self.push(e, 1);
+            }
+            Command::Pop(place) => return Ok(self.pop_to(at, place)),
+            Command::Binary(op) => {
+                let y = self.pop();
+                let x = self.pop();
+                let depth = x.depth.max(y.depth) + 1;
+                self.push(Expr::binary(op, x.e, y.e), depth);
+            }
+            Command::Neg => {
+                let x = self.pop();
+                self.push(Expr::neg(x.e), x.depth + 1);
+            }
+            Command::Not => {
+                let x = self.pop();
+                self.push(Expr::not(x.e), x.depth + 1);
+            }
+            Command::Goto(to) => {
+                self.settle(self.height(to));
+                self.go(to);
+                self.stack.clear();
+            }
+            Command::IfGoto(to) => return Ok(self.if_goto(at, to)),
+            Command::Call {
+                function,
+                arguments,
+                ..
+            } => return self.call(at, function as usize, arguments),
+            Command::Native(native) => return self.native(at, native),
+            Command::Return => {
+                let value = self.pop();
+                self.leave(&value.e);
+                self.stack.clear();
+            }
+            Command::FunctionEnd => {
+                self.eval.code.go(self.shared.halt);
+                self.stack.clear();
+            }
+            Command::Function { .. } => {}
+        }
+        Ok(at + 1)
+    }
+
+    /// The stack at the start of a block: words that lie there.
+    fn start_block(&mut self, height: u16) {
+        let word = |h| Entry {
+            e: Expr::Stacked(h),
+            depth: 1,
+        };
+        self.stack = (0..height).map(word).collect();
+        self.eval.sp = i32::from(height);
+    }
+
+    pub(super) fn push(&mut self, e: Expr, depth: u32) {
+        self.stack.push(Entry { e, depth });
+        if depth > DEEPEST {
+            self.flush(self.stack.len(), &|_| false);
+        }
+    }
+
+    fn pop(&mut self) -> Entry {
+        // Never empty where heights are proved.
+        let zero = Entry {
+            e: Expr::Const(0),
+            depth: 1,
+        };
+        self.stack.pop().unwrap_or(zero)
+    }
+
+    /// Writes entries below `end` to their places on the stack, but those to keep.
+    pub(super) fn flush(&mut self, end: usize, keep: &dyn Fn(&Expr) -> bool) {
+        for (height, k) in (0..).zip(0..end.min(self.stack.len())) {
+            let place = Expr::Stacked(height);
+            if let Some(entry) = self.stack.get_mut(k)
+                && entry.e != place
+                && !keep(&entry.e)
+            {
+                let e = std::mem::replace(&mut entry.e, place.clone());
+                entry.depth = 1;
+                self.eval.store(&place, &e);
+            }
+        }
+    }
+
+    /// Writes all entries to the stack, and sets SP.
+    fn settle(&mut self, height: u16) {
+        self.flush(self.stack.len(), &|_| false);
+        self.set_sp(i32::from(height));
+    }
+
+    /// Moves SP to a height; D may be lost.
+    pub(super) fn set_sp(&mut self, height: i32) {
+        let up = height - self.eval.sp;
+        self.eval.sp = height;
+        let code = &mut *self.eval.code;
+        match up {
+            0 => {}
+            -3..=3 => {
+                let what = if up > 0 {
+                    comp::M_PLUS_1
+                } else {
+                    comp::M_MINUS_1
+                };
+                code.at(SP);
+                for _ in 0..up.unsigned_abs() {
+                    code.compute(DEST_M, what);
+                }
+            }
+            _ => {
+                code.at(up.unsigned_abs() as u16);
+                code.compute(DEST_D, comp::A);
+                code.at(SP);
+                let what = if up > 0 {
+                    comp::D_PLUS_M
+                } else {
+                    comp::M_MINUS_D
+                };
+                code.compute(DEST_M, what);
+            }
+        }
+    }
+
+    /// An operand's expression.
+    fn place(&self, place: Place) -> Expr {
+        let field = |base| Expr::Field {
+            base,
+            offset: place.offset,
+        };
+        let Some(cells) = self.cells() else {
+            return match place.base {
+                CONSTANTS => fixed(place.offset),
+                base => field(base),
+            };
+        };
+        let cell = |cells: &[u16], base| {
+            let cell = cells.get(usize::from(place.offset));
+            cell.map_or(field(base), |cell| Expr::Cell(*cell))
+        };
+        match place.base {
+            CONSTANTS if place.offset == THIS => Expr::Cell(cells.this),
+            CONSTANTS if place.offset == THAT => Expr::Cell(cells.that),
+            CONSTANTS => fixed(place.offset),
+            LCL => cell(&cells.locals, LCL),
+            ARG => cell(&cells.arguments, ARG),
+            THIS => field(cells.this),
+            _ => field(cells.that),
+        }
+    }
+
+    /// A word of the stack to a place, in one of the ways of Jack compilers to
+    /// reach elements of arrays; answers the next command.
+    fn pop_to(&mut self, at: u32, place: Place) -> u32 {
+        let pointer = Place::fixed(THAT);
+        let window = [self.at(at + 1), self.at(at + 2), self.at(at + 3)];
+        let inside = |count| !(1..=count).any(|k| self.labels.contains_key(&(at + k)));
+        let unread = |at, place: Place| !self.shared.live.is_read(at, place.offset);
+        match window {
+            // The address is on top: of a word to load, or to store below it to.
+            [Some(Command::Push(element)), _, _]
+                if place == pointer
+                    && element.base == THAT
+                    && inside(1)
+                    && unread(at + 1, pointer) =>
+            {
+                let address = self.pop();
+                let e = element_of(address.e, element);
+                self.push(e, address.depth + 2);
+                at + 2
+            }
+            [Some(Command::Pop(element)), _, _]
+                if place == pointer
+                    && element.base == THAT
+                    && inside(1)
+                    && unread(at + 1, pointer) =>
+            {
+                let address = self.pop();
+                let value = self.pop();
+                self.store(&element_of(address.e, element), &value.e);
+                at + 2
+            }
+            // The word is on top, the address below it.
+            [
+                Some(Command::Pop(address)),
+                Some(Command::Push(again)),
+                Some(Command::Pop(element)),
+            ] if address == pointer
+                && again == place
+                && place != pointer
+                && place.base == CONSTANTS
+                && element.base == THAT
+                && inside(3)
+                && unread(at + 3, pointer)
+                && unread(at + 3, place)
+                && place.offset < crate::hack::vm::command::STATIC =>
+            {
+                let value = self.pop();
+                let address = self.pop();
+                self.store(&element_of(address.e, element), &value.e);
+                at + 4
+            }
+            _ => {
+                let value = self.pop();
+                let is_temp = place.base == CONSTANTS;
+                if !(is_temp && unread(at, place)) {
+                    let to = self.place(place);
+                    self.store(&to, &value.e);
+                }
+                at + 1
+            }
+        }
+    }
+
+    /// Stores a word that was popped; first whatever else it would change is read.
+    pub(super) fn store(&mut self, to: &Expr, value: &Expr) {
+        let store = to.as_store();
+        let harmed = |entry: &Entry| entry.e.is_changed_by(store);
+        if self.stack.iter().any(harmed) {
+            self.flush(self.stack.len(), &|_| false);
+        }
+        self.eval.store(to, value);
+    }
+
+    pub(super) fn go(&mut self, to: u32) {
+        if let Some(label) = self.labels.get(&to) {
+            self.eval.code.go(*label);
+        }
+    }
+
+    /// A conditional jump; answers the next command. A jump around a jump, as
+    /// the official compiler makes it for `if`, is one.
+    fn if_goto(&mut self, at: u32, to: u32) -> u32 {
+        let test = self.pop();
+        self.settle(self.height(at + 1));
+        let around = match self.at(at + 1) {
+            Some(Command::Goto(other))
+                if to == at + 2 && other != at + 1 && !self.labels.contains_key(&(at + 1)) =>
+            {
+                Some(other)
+            }
+            _ => None,
+        };
+        let (target, sense) = match around {
+            Some(other) => (other, false),
+            None => (to, true),
+        };
+        if let Some(label) = self.labels.get(&target).copied() {
+            self.eval.branch(&test.e, sense, label);
+        }
+        at + 1 + u32::from(around.is_some())
+    }
+
+    fn native(&mut self, at: u32, native: Native) -> Result<u32, String> {
+        match native {
+            Native::Halt => {
+                self.eval.code.go(self.shared.halt);
+                self.push(Expr::Const(0), 1);
+            }
+            Native::Peek => {
+                let address = self.pop();
+                self.push(Expr::at(address.e), address.depth + 1);
+            }
+            Native::Poke => {
+                let value = self.pop();
+                let address = self.pop();
+                self.store(&Expr::at(address.e), &value.e);
+                self.push(Expr::Const(0), 1);
+            }
+            native => {
+                return Err(format!(
+                    "{} calls {}, which the program would have to bring: only the VM has it by itself",
+                    self.function.name,
+                    native.name()
+                ));
+            }
+        }
+        Ok(at + 1)
+    }
+
+    fn call(&mut self, at: u32, callee: usize, arguments: u16) -> Result<u32, String> {
+        let below = self.stack.len().saturating_sub(usize::from(arguments));
+        // Constants stay what they are, and so do the function's own cells.
+        let own = self.cells().cloned();
+        let keep = |e: &Expr| match e {
+            Expr::Const(_) => true,
+            Expr::Cell(cell) => own.as_ref().is_some_and(|own| own.has(*cell)),
+            _ => false,
+        };
+        self.flush(below, &keep);
+        self.set_sp(below as i32);
+        let given: Vec<Entry> = self.stack.drain(below..).collect();
+        for (k, entry) in (0..).zip(given) {
+            let to = match self.shared.frames.get(callee) {
+                Some(Frame::Cells(cells)) => {
+                    Expr::Cell(cells.arguments.get(usize::from(k)).copied().unwrap_or(0))
+                }
+                _ => Expr::Stacked(below as u16 + k),
+            };
+            self.eval.store(&to, &entry.e);
+        }
+        let Some(label) = self.shared.entries.get(&(callee, arguments)) else {
+            return Err(format!("{} calls nothing", self.function.name));
+        };
+        calls::call(self.eval.code, *label);
+        Ok(self.take_result(at + 1))
+    }
+
+    /// What a call has left in D goes where the next command wants it; answers the
+    /// next command but that.
+    fn take_result(&mut self, at: u32) -> u32 {
+        let result = Expr::Cell(super::frames::RESULT);
+        let next = self.at(at).filter(|_| !self.labels.contains_key(&at));
+        if let Some(Command::Pop(place)) = next {
+            if place.base == CONSTANTS && !self.shared.live.is_read(at, place.offset) {
+                return at + 1;
+            }
+            let to = self.place(place);
+            let harmed = self.stack.iter().any(|e| e.e.is_changed_by(to.as_store()));
+            if !harmed {
+                self.eval.d_to(&to);
+                return at + 1;
+            }
+        }
+        if next == Some(Command::Return) {
+            self.leave_d();
+            self.stack.clear();
+            return at + 1;
+        }
+        self.eval.d_to(&result);
+        self.push(result, 1);
+        at
+    }
+}
+
+/// The element at an address and what the command adds.
+fn element_of(address: Expr, element: Place) -> Expr {
+    let offset = Expr::Const(element.offset);
+    Expr::at(Expr::binary(
+        crate::hack::vm::command::Binary::Add,
+        address,
+        offset,
+    ))
+}
