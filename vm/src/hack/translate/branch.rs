@@ -51,7 +51,7 @@ impl Eval<'_> {
                 self.compare(x, y, condition, target);
             }
             e => {
-                self.to_d(e);
+                self.load(e);
                 self.jump_on_d(if sense { inverse(JEQ) } else { JEQ }, target);
             }
         }
@@ -73,7 +73,7 @@ impl Eval<'_> {
             (Expr::Const(u16::MAX), c) if c == inverse(JGT) => (x, JLT),
             _ => return self.compare_words(x, y, condition, target),
         };
-        self.to_d(x);
+        self.load(x);
         self.jump_on_d(condition, target);
     }
 
@@ -82,7 +82,7 @@ impl Eval<'_> {
         let fits = a - d >= i32::from(i16::MIN) && b - c <= i32::from(i16::MAX);
         let equality = condition == JEQ || condition == inverse(JEQ);
         if fits || equality || self.compare == Compare::Differences {
-            self.to_d(&Expr::binary(Binary::Sub, x.clone(), y.clone()));
+            self.load(&Expr::binary(Binary::Sub, x.clone(), y.clone()));
             return self.jump_on_d(condition, target);
         }
         // Signs that differ decide.
@@ -98,7 +98,7 @@ impl Eval<'_> {
     fn compare_far_constant(&mut self, x: &Expr, c: u16, condition: u16, to: Label, skip: Label) {
         let below = condition & JLT != 0;
         let negative = c.cast_signed() < 0;
-        self.to_d(x);
+        self.load(x);
         // x below 0 <= c, or x not below 0 > c.
         let (apart, holds) = if negative {
             (inverse(JLT), !below)
@@ -122,9 +122,9 @@ impl Eval<'_> {
         let (y, y_aside) = self.kept(y);
         let (x, x_aside) = self.kept(x);
         let (negative, same) = (self.code.label(), self.code.label());
-        self.to_d(&x);
+        self.load(&x);
         self.jump_on_d(JLT, negative);
-        self.to_d(&y);
+        self.load(&y);
         self.jump_on_d(JLT, if below { skip } else { to });
         self.code.mark(same);
         let first = self.code.operand(&x, self.sp);
@@ -133,7 +133,7 @@ impl Eval<'_> {
         self.jump_on_d(condition, to);
         self.code.go(skip);
         self.code.mark(negative);
-        self.to_d(&y);
+        self.load(&y);
         self.jump_on_d(inverse(JLT), if below { to } else { skip });
         self.code.go(same);
         self.drop_kept(x_aside);

@@ -9,10 +9,10 @@
 
 use super::code::{Code, Label};
 use super::expr::Expr;
-use super::frames::Frame;
-use super::function::Body;
+use super::frames::{Frame, RESULT};
+use super::function::{Body, Entry};
 use crate::hack::asm::instruction::{DEST_A, DEST_D, DEST_M, JGT, comp};
-use crate::hack::vm::command::{ARG, FRAME, LCL, SP, THAT, THIS};
+use crate::hack::vm::command::{ARG, CONSTANTS, Command, FRAME, LCL, SP, THAT, THIS};
 
 /// Kept by a return for the answer and for the way back.
 const ANSWER: u16 = 13;
@@ -113,6 +113,64 @@ pub(super) fn leave(code: &mut Code) {
 }
 
 impl Body<'_, '_, '_> {
+    /// Calls a function with the words on top; answers the next command.
+    ///
+    /// # Errors
+    /// There is no such function.
+    pub(super) fn call(&mut self, at: u32, callee: usize, arguments: u16) -> Result<u32, String> {
+        let below = self.stack.len().saturating_sub(usize::from(arguments));
+        // Constants stay what they are, and so do the function's own cells.
+        let own = self.cells().cloned();
+        let keep = |e: &Expr| match e {
+            Expr::Const(_) => true,
+            Expr::Cell(cell) => own.as_ref().is_some_and(|own| own.has(*cell)),
+            _ => false,
+        };
+        self.flush(below, &keep);
+        self.set_sp(below as i32);
+        let given: Vec<Entry> = self.stack.drain(below..).collect();
+        for (k, entry) in (0..).zip(given) {
+            let to = match self.shared.frames.get(callee) {
+                Some(Frame::Cells(cells)) => {
+                    Expr::Cell(cells.arguments.get(usize::from(k)).copied().unwrap_or(0))
+                }
+                _ => Expr::Stacked(below as u16 + k),
+            };
+            self.eval.store(&to, &entry.e);
+        }
+        let Some(label) = self.shared.entries.get(&(callee, arguments)) else {
+            return Err(format!("{} calls nothing", self.function.name));
+        };
+        call(self.eval.code, *label);
+        Ok(self.take_result(at + 1))
+    }
+
+    /// What a call has left in D goes where the next command wants it; answers the
+    /// next command but that.
+    fn take_result(&mut self, at: u32) -> u32 {
+        let result = Expr::Cell(RESULT);
+        let next = self.at(at).filter(|_| !self.labels.contains_key(&at));
+        if let Some(Command::Pop(place)) = next {
+            if place.base == CONSTANTS && !self.shared.live.is_read(at, place.offset) {
+                return at + 1;
+            }
+            let to = self.place(place);
+            let harmed = self.stack.iter().any(|e| e.e.is_changed_by(to.as_store()));
+            if !harmed {
+                self.eval.d_to(&to);
+                return at + 1;
+            }
+        }
+        if next == Some(Command::Return) {
+            self.leave_d();
+            self.stack.clear();
+            return at + 1;
+        }
+        self.eval.code.keep_result();
+        self.push(result, 1);
+        at
+    }
+
     /// The start of a function.
     pub(super) fn enter(&mut self) {
         let entries = &self.shared.entries;
@@ -184,7 +242,7 @@ impl Body<'_, '_, '_> {
         if self.cells().is_some() {
             self.set_sp(0);
         }
-        self.eval.to_d(answer);
+        self.eval.load(answer);
         self.leave_d();
     }
 
@@ -197,7 +255,7 @@ impl Body<'_, '_, '_> {
         if self.eval.sp != 0 {
             self.eval.d_to(&Expr::Cell(ANSWER));
             self.set_sp(0);
-            self.eval.to_d(&Expr::Cell(ANSWER));
+            self.eval.load(&Expr::Cell(ANSWER));
         }
         self.eval.code.at(back);
         self.eval.code.compute(DEST_A, comp::M);

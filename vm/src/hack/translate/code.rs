@@ -4,6 +4,7 @@
 //! is x, `D=M` where D already is that word. So the code above it need not know
 //! what the code before has left.
 
+use super::frames::RESULT;
 use crate::hack::asm::instruction::{COMPUTE, DEST_A, DEST_D, DEST_M, JMP, comp};
 use crate::hack::vm::command::KEYBOARD;
 
@@ -35,8 +36,12 @@ pub(super) struct Code {
     a: Option<u16>,
     /// Addresses of words that D equals.
     held: Vec<u16>,
+    /// What is in D, if that is known.
+    d: Option<u16>,
     /// Nothing gets here, until the next label.
     dead: bool,
+    /// Where [`RESULT`] was stored last, if nobody has read it since.
+    unread: Option<usize>,
 }
 
 impl Code {
@@ -73,7 +78,13 @@ impl Code {
     /// Nothing is known of A and D any more.
     pub fn forget(&mut self) {
         self.a = None;
+        self.d = None;
         self.held.clear();
+    }
+
+    /// Whether D is known to be a constant.
+    pub fn is_in_d(&self, constant: u16) -> bool {
+        self.d == Some(constant)
     }
 
     /// Whether D is known to equal the word at an address.
@@ -81,8 +92,28 @@ impl Code {
         self.held.contains(&cell)
     }
 
+    /// Keeps D, a call's answer, in [`RESULT`], for as long as nobody asks for
+    /// anything but D.
+    pub fn keep_result(&mut self) {
+        self.drop_unread();
+        self.at(RESULT);
+        self.unread = (!self.dead).then(|| self.ins.len() - 1);
+        self.compute(DEST_M, comp::D);
+    }
+
+    /// Takes the last [`Code::keep_result`] back if it was for nothing. To be
+    /// called where the answer is no longer wanted.
+    pub fn drop_unread(&mut self) {
+        if let Some(at) = self.unread.take() {
+            self.ins.drain(at..at + 2);
+        }
+    }
+
     /// `@value`
     pub fn at(&mut self, value: u16) {
+        if value == RESULT {
+            self.unread = None;
+        }
         if !self.dead && self.a != Some(value) {
             self.ins.push(Ins::At(value));
             self.a = Some(value);
@@ -114,6 +145,14 @@ impl Code {
         }
         if dest & DEST_D != 0 {
             self.held.clear();
+            self.d = match what {
+                comp::ZERO => Some(0),
+                comp::ONE => Some(1),
+                comp::MINUS_ONE => Some(u16::MAX),
+                comp::A => self.a,
+                comp::NOT_A => self.a.map(|a| !a),
+                _ => None,
+            };
         }
         let copies = dest & DEST_M != 0 && (dest & DEST_D != 0 || what == comp::D);
         let loads = dest == DEST_D && what == comp::M;
@@ -158,6 +197,7 @@ impl Code {
             self.ins
                 .push(Ins::Compute(COMPUTE | what << 6 | DEST_D | condition));
             self.held.clear();
+            self.d = None;
         }
     }
 }

@@ -45,32 +45,33 @@ impl<'c> Eval<'c> {
     }
 
     /// The value of an expression to D.
-    pub fn to_d(&mut self, e: &Expr) {
-        self.to(e, DEST_D);
+    pub fn load(&mut self, e: &Expr) {
+        self.load_to(e, DEST_D);
     }
 
     /// The value of an expression to `dest`: D or A. The other is lost.
-    fn to(&mut self, e: &Expr, dest: u16) {
+    fn load_to(&mut self, e: &Expr, dest: u16) {
         match e {
             Expr::Const(c) => self.constant(*c, dest),
+            Expr::Cell(cell) if dest == DEST_D && self.code.holds(*cell) => {}
             Expr::Cell(_) => {
                 self.code.address(e, self.sp);
                 self.code.compute(dest, comp::M);
             }
             Expr::Field { .. } | Expr::Stacked(_) => {
-                self.to_address(e);
+                self.load_address(e);
                 self.code.compute(dest, comp::M);
             }
             Expr::At(address) => {
                 if self.near(e).is_some() {
                     self.code.address(e, self.sp);
                 } else {
-                    self.to(address, DEST_A);
+                    self.load_to(address, DEST_A);
                 }
                 self.code.compute(dest, comp::M);
             }
             _ if e.is_bool() => {
-                self.bool_to_d(e);
+                self.load_bool(e);
                 if dest == DEST_A {
                     self.code.compute(DEST_A, comp::D);
                 }
@@ -83,6 +84,7 @@ impl<'c> Eval<'c> {
 
     fn constant(&mut self, c: u16, dest: u16) {
         match c {
+            c if dest == DEST_D && self.code.is_in_d(c) => {}
             0 => self.code.compute(dest, comp::ZERO),
             1 => self.code.compute(dest, comp::ONE),
             u16::MAX => self.code.compute(dest, comp::MINUS_ONE),
@@ -100,7 +102,7 @@ impl<'c> Eval<'c> {
     }
 
     /// The address of a field or a stack word to A; D may be lost.
-    fn to_address(&mut self, e: &Expr) {
+    fn load_address(&mut self, e: &Expr) {
         let (base, offset) = match e {
             Expr::Field { base, offset } => (*base, i32::from(*offset)),
             Expr::Stacked(height) => (SP, i32::from(*height) - self.sp),
@@ -126,7 +128,7 @@ impl<'c> Eval<'c> {
             let x = self.operand(x);
             self.code.compute(dest, pick(x, of_a, of_m));
         } else {
-            self.to_d(x);
+            self.load(x);
             self.code.compute(dest, of_d);
         }
     }
@@ -146,7 +148,7 @@ impl<'c> Eval<'c> {
             );
         }
         if let (Binary::Add, Expr::Const(c @ 0x8001..)) = (op, y) {
-            self.to_d(x);
+            self.load(x);
             self.code.at(c.wrapping_neg());
             return self.code.compute(dest, comp::D_MINUS_A);
         }
@@ -157,16 +159,16 @@ impl<'c> Eval<'c> {
             (None, None) => return self.both(op, x, y, dest),
         };
         let (first, second) = if turned { (y, x) } else { (x, y) };
-        self.to_d(first);
+        self.load(first);
         let operand = self.operand(second);
         self.code.compute(dest, arithmetic(op, operand, turned));
     }
 
     /// An operation on two words both of which need D.
     fn both(&mut self, op: Binary, x: &Expr, y: &Expr, dest: u16) {
-        self.to_d(y);
+        self.load(y);
         let aside = self.put_aside();
-        self.to_d(x);
+        self.load(x);
         let operand = self.operand(&aside);
         self.code.compute(dest, arithmetic(op, operand, false));
         self.aside -= 1;
@@ -187,7 +189,7 @@ impl<'c> Eval<'c> {
     }
 
     /// The value of a comparison, or of what is made of several, to D: 0 or -1.
-    fn bool_to_d(&mut self, e: &Expr) {
+    fn load_bool(&mut self, e: &Expr) {
         let (holds, end) = (self.code.label(), self.code.label());
         self.branch(e, true, holds);
         self.code.compute(DEST_D, comp::ZERO);
@@ -203,7 +205,7 @@ impl<'c> Eval<'c> {
         if self.near(e).is_some_and(|length| length <= 3) {
             return (e.clone(), false);
         }
-        self.to_d(e);
+        self.load(e);
         (self.put_aside(), true)
     }
 
@@ -222,16 +224,16 @@ impl<'c> Eval<'c> {
         let value = Expr::Cell(FAR);
         self.code.address(&value, self.sp);
         self.code.compute(DEST_M, comp::D);
-        self.to_far_address(to);
+        self.load_far_address(to);
         self.store_at_d(&value);
     }
 
     /// The address of a place that is not near to D.
-    fn to_far_address(&mut self, to: &Expr) {
+    fn load_far_address(&mut self, to: &Expr) {
         match to {
-            Expr::At(address) => self.to_d(address),
+            Expr::At(address) => self.load(address),
             place => {
-                self.to_address(place);
+                self.load_address(place);
                 self.code.compute(DEST_D, comp::A);
             }
         }
@@ -256,8 +258,8 @@ impl<'c> Eval<'c> {
         if let Expr::Const(c @ (0 | 1 | u16::MAX)) = value {
             match to {
                 _ if is_near => self.code.address(to, self.sp),
-                Expr::At(address) => self.to(address, DEST_A),
-                place => self.to_address(place),
+                Expr::At(address) => self.load_to(address, DEST_A),
+                place => self.load_address(place),
             }
             let what = match c {
                 0 => comp::ZERO,
@@ -268,16 +270,16 @@ impl<'c> Eval<'c> {
         }
         if is_near {
             if !self.in_place(to, value) {
-                self.to_d(value);
+                self.load(value);
                 self.d_to(to);
             }
         } else if self.near(value).is_some() {
-            self.to_far_address(to);
+            self.load_far_address(to);
             self.store_at_d(value);
         } else {
-            self.to_far_address(to);
+            self.load_far_address(to);
             let aside = self.put_aside();
-            self.to_d(value);
+            self.load(value);
             self.code.address(&aside, self.sp);
             self.code.compute(DEST_A, comp::M);
             self.code.compute(DEST_M, comp::D);
@@ -296,14 +298,14 @@ impl<'c> Eval<'c> {
                 (Binary::Add, Some(1)) => comp::M_PLUS_1,
                 (Binary::Add, Some(_)) => comp::M_MINUS_1,
                 _ => {
-                    self.to_d(y);
+                    self.load(y);
                     arithmetic(*op, Operand::M, true)
                 }
             },
             Expr::Binary(op, x, y) if **y == *to => match op {
                 Binary::Eq | Binary::Gt | Binary::Lt => return false,
                 _ => {
-                    self.to_d(x);
+                    self.load(x);
                     arithmetic(*op, Operand::M, false)
                 }
             },

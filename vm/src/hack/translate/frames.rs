@@ -8,7 +8,7 @@
 
 use super::graph::Graph;
 use super::live::Live;
-use crate::hack::vm::command::{CONSTANTS, Command, STACK, STATIC, TEMP, THAT, THIS};
+use crate::hack::vm::command::{ARG, CONSTANTS, Command, Place, STACK, STATIC, TEMP, THAT, THIS};
 use crate::hack::vm::link::{Function, Program};
 
 /// Kept for what a call has answered.
@@ -50,8 +50,12 @@ impl Cells {
         let arguments = several(arguments)?;
         let locals = several(function.locals)?;
         let back = free.next()?;
+        let own_this = is_method(program, function);
+        let first = arguments.first().copied().filter(|_| own_this);
         let mut pointer = |which| {
-            if uses(program, function, which) {
+            if let (THIS, Some(first)) = (which, first) {
+                Some(first)
+            } else if uses(program, function, which) {
                 free.next()
             } else {
                 Some(which)
@@ -123,6 +127,24 @@ impl Frames {
         scratch.extend(free.get(most..).unwrap_or(&[]));
         Frames { of, scratch }
     }
+}
+
+/// Whether a function's THIS is its first argument all the time, as in the methods
+/// of Jack: set at once, and neither of them changed.
+fn is_method(program: &Program, function: &Function) -> bool {
+    let this = Place::fixed(THIS);
+    let first = Place {
+        base: ARG,
+        offset: 0,
+    };
+    let range = function.start as usize..function.end as usize;
+    let commands = program.commands.get(range).unwrap_or(&[]);
+    let pops = |place| {
+        let pops = commands.iter().filter(|c| **c == Command::Pop(place));
+        pops.count()
+    };
+    let starts = [Command::Push(first), Command::Pop(this)];
+    commands.get(1..3) == Some(&starts) && pops(this) == 1 && pops(first) == 0
 }
 
 /// Whether a function names a pointer or what it points to.

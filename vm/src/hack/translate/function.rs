@@ -4,12 +4,12 @@
 //! a word is stored, asked for, or passed on; what is left at the end of a
 //! block, which Jack never does, is written to the stack.
 
+use super::Compare;
 use super::code::{Code, Label};
 use super::eval::Eval;
 use super::expr::{Expr, fixed};
 use super::frames::{Cells, Frame};
 use super::live::Live;
-use super::{Compare, calls};
 use crate::hack::asm::instruction::{DEST_D, DEST_M, comp};
 use crate::hack::vm::command::{ARG, CONSTANTS, Command, LCL, Place, SP, THAT, THIS};
 use crate::hack::vm::heights::{Heights, UNREACHED};
@@ -22,9 +22,9 @@ const DEEPEST: u32 = 48;
 
 /// A stack entry, and how deep its expression is.
 #[derive(Clone, Debug)]
-struct Entry {
-    e: Expr,
-    depth: u32,
+pub(super) struct Entry {
+    pub e: Expr,
+    pub depth: u32,
 }
 
 /// What all functions share.
@@ -48,9 +48,9 @@ pub(super) struct Body<'s, 'p, 'c> {
     pub index: usize,
     pub function: &'p Function,
     pub eval: Eval<'c>,
-    stack: Vec<Entry>,
+    pub stack: Vec<Entry>,
     /// Labels of commands that are jumped to.
-    labels: HashMap<u32, Label>,
+    pub labels: HashMap<u32, Label>,
 }
 
 /// Translates a function.
@@ -85,6 +85,7 @@ pub(super) fn translate(
     while at <= function.end {
         at = body.command(at)?;
     }
+    body.eval.code.drop_unread();
     Ok(())
 }
 
@@ -101,7 +102,7 @@ impl Body<'_, '_, '_> {
         known.copied().unwrap_or(UNREACHED)
     }
 
-    fn at(&self, at: u32) -> Option<Command> {
+    pub(super) fn at(&self, at: u32) -> Option<Command> {
         self.shared.program.commands.get(at as usize).copied()
     }
 
@@ -186,7 +187,7 @@ impl Body<'_, '_, '_> {
         }
     }
 
-    fn pop(&mut self) -> Entry {
+    pub(super) fn pop(&mut self) -> Entry {
         // Never empty where heights are proved.
         let zero = Entry {
             e: Expr::Const(0),
@@ -249,7 +250,7 @@ impl Body<'_, '_, '_> {
     }
 
     /// An operand's expression.
-    fn place(&self, place: Place) -> Expr {
+    pub(super) fn place(&self, place: Place) -> Expr {
         let field = |base| Expr::Field {
             base,
             offset: place.offset,
@@ -273,79 +274,6 @@ impl Body<'_, '_, '_> {
             THIS => field(cells.this),
             _ => field(cells.that),
         }
-    }
-
-    /// A word of the stack to a place, in one of the ways of Jack compilers to
-    /// reach elements of arrays; answers the next command.
-    fn pop_to(&mut self, at: u32, place: Place) -> u32 {
-        let pointer = Place::fixed(THAT);
-        let window = [self.at(at + 1), self.at(at + 2), self.at(at + 3)];
-        let inside = |count| !(1..=count).any(|k| self.labels.contains_key(&(at + k)));
-        let unread = |at, place: Place| !self.shared.live.is_read(at, place.offset);
-        match window {
-            // The address is on top: of a word to load, or to store below it to.
-            [Some(Command::Push(element)), _, _]
-                if place == pointer
-                    && element.base == THAT
-                    && inside(1)
-                    && unread(at + 1, pointer) =>
-            {
-                let address = self.pop();
-                let e = element_of(address.e, element);
-                self.push(e, address.depth + 2);
-                at + 2
-            }
-            [Some(Command::Pop(element)), _, _]
-                if place == pointer
-                    && element.base == THAT
-                    && inside(1)
-                    && unread(at + 1, pointer) =>
-            {
-                let address = self.pop();
-                let value = self.pop();
-                self.store(&element_of(address.e, element), &value.e);
-                at + 2
-            }
-            // The word is on top, the address below it.
-            [
-                Some(Command::Pop(address)),
-                Some(Command::Push(again)),
-                Some(Command::Pop(element)),
-            ] if address == pointer
-                && again == place
-                && place != pointer
-                && place.base == CONSTANTS
-                && element.base == THAT
-                && inside(3)
-                && unread(at + 3, pointer)
-                && unread(at + 3, place)
-                && place.offset < crate::hack::vm::command::STATIC =>
-            {
-                let value = self.pop();
-                let address = self.pop();
-                self.store(&element_of(address.e, element), &value.e);
-                at + 4
-            }
-            _ => {
-                let value = self.pop();
-                let is_temp = place.base == CONSTANTS;
-                if !(is_temp && unread(at, place)) {
-                    let to = self.place(place);
-                    self.store(&to, &value.e);
-                }
-                at + 1
-            }
-        }
-    }
-
-    /// Stores a word that was popped; first whatever else it would change is read.
-    pub(super) fn store(&mut self, to: &Expr, value: &Expr) {
-        let store = to.as_store();
-        let harmed = |entry: &Entry| entry.e.is_changed_by(store);
-        if self.stack.iter().any(harmed) {
-            self.flush(self.stack.len(), &|_| false);
-        }
-        self.eval.store(to, value);
     }
 
     pub(super) fn go(&mut self, to: u32) {
@@ -403,68 +331,4 @@ impl Body<'_, '_, '_> {
         }
         Ok(at + 1)
     }
-
-    fn call(&mut self, at: u32, callee: usize, arguments: u16) -> Result<u32, String> {
-        let below = self.stack.len().saturating_sub(usize::from(arguments));
-        // Constants stay what they are, and so do the function's own cells.
-        let own = self.cells().cloned();
-        let keep = |e: &Expr| match e {
-            Expr::Const(_) => true,
-            Expr::Cell(cell) => own.as_ref().is_some_and(|own| own.has(*cell)),
-            _ => false,
-        };
-        self.flush(below, &keep);
-        self.set_sp(below as i32);
-        let given: Vec<Entry> = self.stack.drain(below..).collect();
-        for (k, entry) in (0..).zip(given) {
-            let to = match self.shared.frames.get(callee) {
-                Some(Frame::Cells(cells)) => {
-                    Expr::Cell(cells.arguments.get(usize::from(k)).copied().unwrap_or(0))
-                }
-                _ => Expr::Stacked(below as u16 + k),
-            };
-            self.eval.store(&to, &entry.e);
-        }
-        let Some(label) = self.shared.entries.get(&(callee, arguments)) else {
-            return Err(format!("{} calls nothing", self.function.name));
-        };
-        calls::call(self.eval.code, *label);
-        Ok(self.take_result(at + 1))
-    }
-
-    /// What a call has left in D goes where the next command wants it; answers the
-    /// next command but that.
-    fn take_result(&mut self, at: u32) -> u32 {
-        let result = Expr::Cell(super::frames::RESULT);
-        let next = self.at(at).filter(|_| !self.labels.contains_key(&at));
-        if let Some(Command::Pop(place)) = next {
-            if place.base == CONSTANTS && !self.shared.live.is_read(at, place.offset) {
-                return at + 1;
-            }
-            let to = self.place(place);
-            let harmed = self.stack.iter().any(|e| e.e.is_changed_by(to.as_store()));
-            if !harmed {
-                self.eval.d_to(&to);
-                return at + 1;
-            }
-        }
-        if next == Some(Command::Return) {
-            self.leave_d();
-            self.stack.clear();
-            return at + 1;
-        }
-        self.eval.d_to(&result);
-        self.push(result, 1);
-        at
-    }
-}
-
-/// The element at an address and what the command adds.
-fn element_of(address: Expr, element: Place) -> Expr {
-    let offset = Expr::Const(element.offset);
-    Expr::at(Expr::binary(
-        crate::hack::vm::command::Binary::Add,
-        address,
-        offset,
-    ))
 }

@@ -48,6 +48,7 @@
 mod branch;
 mod calls;
 mod code;
+mod elements;
 mod eval;
 mod expr;
 mod finish;

@@ -89,7 +89,10 @@ fn what_is_missing_is_said() {
 #[test]
 fn what_does_not_fit_is_said() {
     let one = "push static 0\npush constant 12345\nadd\npop static 0\n";
-    let text = format!("function Sys.init 0\n{}push constant 0\nreturn", one.repeat(10_000));
+    let text = format!(
+        "function Sys.init 0\n{}push constant 0\nreturn",
+        one.repeat(10_000)
+    );
     let faults = translate(&link(&[("Sys.vm", &text)]), Options::default()).unwrap_err();
     assert_eq!(faults.len(), 1);
     let message = &faults[0].message;
