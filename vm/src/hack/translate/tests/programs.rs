@@ -171,3 +171,80 @@ fn many_arguments_and_locals() {
     );
     same(&link(&[("Sys.vm", &text)]), true);
 }
+
+/// What waits on the stack is what was pushed, whatever changes meanwhile.
+#[test]
+fn words_change_after_they_are_pushed() {
+    let text = "function Sys.init 2
+        push constant 5
+        pop static 0
+        push static 0
+        call Sys.f 0
+        add
+        pop static 1
+        push constant 6
+        pop local 0
+        push local 0
+        call Sys.f 0
+        pop local 0
+        push local 0
+        add
+        pop static 2
+        push local 0
+        push constant 8
+        pop local 0
+        pop static 3
+        push static 0
+        push constant 16
+        pop pointer 1
+        push constant 44
+        pop that 0
+        pop static 4
+        push that 0
+        push constant 16
+        push constant 45
+        call Memory.poke 2
+        pop temp 0
+        pop static 5
+        call Sys.halt 0
+        return
+        function Sys.f 0
+        push static 0
+        push constant 100
+        add
+        pop static 0
+        push constant 1000
+        return";
+    same(&link(&[("Sys.vm", text)]), true);
+}
+
+/// What is in D is not what is in memory, once that has changed by an address.
+#[test]
+fn words_change_by_their_addresses() {
+    let text = "function Sys.init 0
+        push constant 3000
+        push static 1
+        add
+        pop static 2
+        push constant 3
+        pop static 0
+        push static 1
+        push constant 16
+        add
+        pop pointer 1
+        push constant 7
+        push static 1
+        sub
+        pop static 0
+        push constant 1
+        pop that 0
+        push static 0
+        pop static 3
+        push static 0
+        push static 3
+        add
+        pop static 4
+        call Sys.halt 0
+        return";
+    same(&link(&[("Sys.vm", text)]), true);
+}

@@ -262,7 +262,7 @@ fn program(blocks: &[Vec<Statement>]) -> [String; 2] {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(400))]
+    #![proptest_config(ProptestConfig::with_cases(1000))]
 
     #[test]
     fn the_cpu_leaves_what_the_vm_leaves(
