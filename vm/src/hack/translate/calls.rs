@@ -138,10 +138,10 @@ impl Body<'_, '_, '_> {
             };
             self.eval.store(&to, &entry.e);
         }
-        let Some(label) = self.shared.entries.get(&(callee, arguments)) else {
+        let Some(label) = self.shared.entry(callee, arguments) else {
             return Err(format!("{} calls nothing", self.function.name));
         };
-        call(self.eval.code, *label);
+        call(self.eval.code, label);
         Ok(self.take_result(at + 1))
     }
 
@@ -173,13 +173,8 @@ impl Body<'_, '_, '_> {
 
     /// The start of a function.
     pub(super) fn enter(&mut self) {
-        let entries = &self.shared.entries;
-        let mut labels: Vec<_> = entries
-            .iter()
-            .filter(|((function, _), _)| *function == self.index)
-            .map(|((_, arguments), label)| (*arguments, *label))
-            .collect();
-        labels.sort_unstable();
+        let labels = self.shared.entries.get(self.index);
+        let labels = labels.cloned().unwrap_or_default();
         match self.shared.frames.get(self.index) {
             Some(Frame::Cells(cells)) => {
                 for (_, label) in labels {

@@ -137,8 +137,7 @@ fn is_method(program: &Program, function: &Function) -> bool {
         base: ARG,
         offset: 0,
     };
-    let range = function.start as usize..function.end as usize;
-    let commands = program.commands.get(range).unwrap_or(&[]);
+    let commands = program.commands.get(function.range()).unwrap_or(&[]);
     let pops = |place| {
         let pops = commands.iter().filter(|c| **c == Command::Pop(place));
         pops.count()
@@ -149,8 +148,7 @@ fn is_method(program: &Program, function: &Function) -> bool {
 
 /// Whether a function names a pointer or what it points to.
 fn uses(program: &Program, function: &Function, pointer: u16) -> bool {
-    let range = function.start as usize..function.end as usize;
-    let commands = program.commands.get(range).unwrap_or(&[]);
+    let commands = program.commands.get(function.range()).unwrap_or(&[]);
     commands.iter().any(|command| match command {
         Command::Push(place) | Command::Pop(place) => {
             place.base == pointer || (place.base == CONSTANTS && place.offset == pointer)
@@ -166,8 +164,7 @@ fn free_cells(program: &Program, graph: &Graph) -> Vec<u16> {
         let Some(function) = program.functions.get(*index) else {
             continue;
         };
-        let range = function.start as usize..function.end as usize;
-        for command in program.commands.get(range).unwrap_or(&[]) {
+        for command in program.commands.get(function.range()).unwrap_or(&[]) {
             if let Command::Push(place) | Command::Pop(place) = command
                 && place.base == CONSTANTS
                 && let Some(temp) = place.offset.checked_sub(TEMP)

@@ -36,10 +36,19 @@ pub(super) struct Shared<'p> {
     pub scratch: &'p [u16],
     pub compare: Compare,
     /// Where each function is entered, by its number of arguments.
-    pub entries: HashMap<(usize, u16), Label>,
+    pub entries: Vec<Vec<(u16, Label)>>,
     pub halt: Label,
     /// Where functions with frames on the stack return.
     pub leave: Label,
+}
+
+impl Shared<'_> {
+    /// Where a function is entered with so many arguments.
+    pub fn entry(&self, function: usize, arguments: u16) -> Option<Label> {
+        let entries = self.entries.get(function)?;
+        let entry = entries.iter().find(|(count, _)| *count == arguments);
+        entry.map(|(_, label)| *label)
+    }
 }
 
 /// A function as it is translated.

@@ -2,7 +2,7 @@
 
 use crate::hack::vm::command::Command;
 use crate::hack::vm::heights::{Heights, UNREACHED};
-use crate::hack::vm::link::Program;
+use crate::hack::vm::link::{Function, Program};
 
 /// The calls of a program.
 pub(super) struct Graph {
@@ -28,10 +28,7 @@ impl Graph {
             arguments: vec![Vec::new(); count],
         };
         for (function, callees) in program.functions.iter().zip(&mut graph.callees) {
-            let range = function.start as usize..function.end as usize;
-            let commands = program.commands.iter().zip(&heights.at);
-            let body = commands.take(range.end).skip(range.start);
-            for (command, _) in body.filter(|(_, height)| **height != UNREACHED) {
+            for command in reached(program, heights, function) {
                 if let Command::Call { function, .. } = command {
                     callees.push(*function as usize);
                 }
@@ -96,15 +93,12 @@ impl Graph {
             let Some(function) = program.functions.get(*function) else {
                 continue;
             };
-            let range = function.start as usize..function.end as usize;
-            let commands = program.commands.iter().zip(&heights.at);
-            for (command, height) in commands.take(range.end).skip(range.start) {
+            for command in reached(program, heights, function) {
                 if let Command::Call {
                     function,
                     arguments,
                     ..
                 } = command
-                    && *height != UNREACHED
                     && let Some(known) = self.arguments.get_mut(*function as usize)
                     && !known.contains(arguments)
                 {
@@ -113,4 +107,17 @@ impl Graph {
             }
         }
     }
+}
+
+/// The commands of a function that a path leads to.
+fn reached<'p>(
+    program: &'p Program,
+    heights: &'p Heights,
+    function: &Function,
+) -> impl Iterator<Item = &'p Command> {
+    let commands = program.commands.get(function.range()).unwrap_or(&[]);
+    let heights = heights.at.get(function.range()).unwrap_or(&[]);
+    let both = commands.iter().zip(heights);
+    both.filter(|(_, height)| **height != UNREACHED)
+        .map(|(command, _)| command)
 }

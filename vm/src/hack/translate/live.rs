@@ -38,9 +38,9 @@ impl Live {
             let Some(function) = program.functions.get(*function) else {
                 continue;
             };
-            let range = function.start as usize..function.end as usize;
-            let commands = program.commands.iter().zip(&alone.after);
-            for (command, after) in commands.take(range.end).skip(range.start) {
+            let commands = program.commands.get(function.range()).unwrap_or(&[]);
+            let after = alone.after.get(function.range()).unwrap_or(&[]);
+            for (command, after) in commands.iter().zip(after) {
                 if matches!(command, Command::Call { .. }) {
                     passed |= after & TEMPS;
                 }

@@ -71,7 +71,6 @@ use frames::{Frame, Frames};
 use function::Shared;
 use graph::Graph;
 use live::Live;
-use std::collections::HashMap;
 
 /// No more than this many faults are reported.
 const FAULTS: usize = 100;
@@ -139,7 +138,7 @@ pub fn translate(program: &Program, options: Options) -> Result<Translation, Vec
     let mut code = Code::default();
     let halt = code.named("halt".to_owned());
     let leave = code.named("leave".to_owned());
-    let mut entries = HashMap::new();
+    let mut entries = vec![Vec::new(); program.functions.len()];
     for index in &graph.order {
         let Some(function) = program.functions.get(*index) else {
             continue;
@@ -156,7 +155,9 @@ pub fn translate(program: &Program, options: Options) -> Result<Translation, Vec
             } else {
                 format!("{}${count}", function.name)
             };
-            entries.insert((*index, *count), code.named(name));
+            if let Some(entries) = entries.get_mut(*index) {
+                entries.push((*count, code.named(name)));
+            }
         }
     }
     let shared = Shared {
@@ -214,8 +215,8 @@ fn begin(code: &mut Code, shared: &Shared) {
     code.compute(DEST_M, comp::D);
     code.to(shared.halt);
     code.compute(DEST_D, comp::A);
-    if let Some(label) = shared.entries.get(&(start, 0)) {
-        code.go(*label);
+    if let Some(label) = shared.entry(start, 0) {
+        code.go(label);
     }
 }
 

@@ -50,6 +50,13 @@ pub(in crate::hack) struct Function {
     pub locals: u16,
 }
 
+impl Function {
+    /// Where its commands are, `function` included, the end not.
+    pub(in crate::hack) fn range(&self) -> std::ops::Range<usize> {
+        self.start as usize..self.end as usize
+    }
+}
+
 impl Program {
     /// Links `.vm` files, each a name and a text.
     ///

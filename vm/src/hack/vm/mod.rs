@@ -55,7 +55,7 @@ pub(in crate::hack) mod os;
 mod parse;
 mod plain;
 #[cfg(test)]
-mod tests;
+pub(in crate::hack) mod tests;
 
 pub use link::Program;
 pub use machine::{Machine, Run};

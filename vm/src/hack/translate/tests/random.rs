@@ -1,6 +1,10 @@
 //! Programs at random, as Jack compilers make them and beyond.
 
-use super::{link, same};
+use super::{link, same, ways};
+use crate::hack::cpu::Cpu;
+use crate::hack::translate::translate;
+use crate::hack::vm::Program;
+use crate::hack::vm::tests::engines::any_command;
 use proptest::prelude::*;
 
 #[derive(Clone, Debug)]
@@ -275,5 +279,18 @@ proptest! {
         let run = vm.run(200_000, &mut |_| true);
         prop_assume!(run.stop == crate::Stop::Ended);
         same(&program, false);
+    }
+
+    #[test]
+    fn any_commands_are_translated_or_refused(commands in prop::collection::vec(any_command(), 1..80)) {
+        let text = format!("function Main.main 2\n{}", commands.join("\n"));
+        if let Ok(program) = Program::link(&[("Main.vm".to_owned(), text)]) {
+            for options in ways() {
+                if let Ok(translation) = translate(&program, options) {
+                    let mut cpu = Cpu::new(&translation.words).unwrap();
+                    cpu.run(10_000, &mut |_| true);
+                }
+            }
+        }
     }
 }
