@@ -22,16 +22,14 @@
 //!
 //! # How it is fast
 //!
-//! Each address of the ROM has a [`cell`] decoded in advance, which holds a
-//! computation together with the `@value` before it, if there is one: most
-//! instructions come in such pairs. A cell is executed without a jump of the
-//! host that depends on the operation: operands are masked and inverted as the
-//! ALU of the book does it. The [`plain`] engine decodes each word as it goes and
-//! defines what it does; the fast one is held to it, and it does the last cycles
-//! before a limit.
+//! Each address of the ROM has an operation ([`ops`]) made in advance of the
+//! instructions from there, up to six of them: the runs that programs are mostly
+//! made of, such as `@x D=M @y D=D+M @z M=D`. The [`plain`] engine decodes each
+//! word as it goes and defines what it does; the fast one is held to it, and
+//! leaves it the last cycles before a limit.
 
-mod cell;
 mod fast;
+mod ops;
 mod plain;
 #[cfg(test)]
 mod tests;
@@ -39,13 +37,14 @@ mod tests;
 use super::asm::{ROM_WORDS, overflow};
 use super::screen::screen;
 use crate::{Fault, Progress, Screen, Stop, Watch};
-use cell::Cell;
 use fast::Exit;
+use ops::Op;
+use plain::Registers;
 
 /// How many cycles lie between two calls of the watcher.
 const WATCH_EVERY: u64 = 50_000_000;
 
-/// Words of the RAM. The fast engine has as many again, for what is not stored.
+/// Words of the RAM.
 const RAM_WORDS: usize = 0x8000;
 
 /// The bits of an address.
@@ -55,19 +54,16 @@ const ADDRESS: u16 = 0x7fff;
 const SCREEN: usize = 16_384;
 const KEYBOARD: usize = 24_576;
 
-type Memory = [u16; 2 * RAM_WORDS];
-type Cells = [Cell; ROM_WORDS];
+type Memory = [u16; RAM_WORDS];
+type Ops = [Op; ROM_WORDS];
 
 /// A CPU with its ROM and RAM.
 #[derive(Clone, Debug)]
 pub struct Cpu {
     rom: Vec<u16>,
-    cells: Box<Cells>,
+    ops: Box<Ops>,
     memory: Box<Memory>,
-    a: u16,
-    d: u16,
-    /// The next instruction; below the ROM's size.
-    at: u16,
+    registers: Registers,
     /// Cycles so far.
     count: u64,
     stopped: Option<Stop>,
@@ -98,11 +94,9 @@ impl Cpu {
         }
         Ok(Cpu {
             rom: rom.to_vec(),
-            cells: cell::decode(rom),
-            memory: Box::new([0; 2 * RAM_WORDS]),
-            a: 0,
-            d: 0,
-            at: 0,
+            ops: ops::join(rom),
+            memory: Box::new([0; RAM_WORDS]),
+            registers: Registers::default(),
             count: 0,
             stopped: None,
             seen: vec![0; KEYBOARD - SCREEN],
@@ -157,7 +151,7 @@ impl Cpu {
                     let last = self.rom.len().saturating_sub(1);
                     let message = format!(
                         "the program has no instruction {}: its last is {last}",
-                        self.at
+                        self.registers.at
                     );
                     return Stop::Fault(fault(message));
                 }

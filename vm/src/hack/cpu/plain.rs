@@ -2,7 +2,7 @@
 //! an instruction does is what it does here.
 
 use super::fast::Exit;
-use super::{ADDRESS, Cpu};
+use super::{ADDRESS, Cpu, Memory};
 use crate::hack::asm::instruction::{COMPUTE, DEST_A, DEST_D, DEST_M, JEQ, JGT, JLT, JMP, LARGEST};
 
 impl Cpu {
@@ -18,37 +18,51 @@ impl Cpu {
 
     /// Executes an instruction, unless the program ends here.
     fn step(&mut self) -> Option<Exit> {
-        let Some(&word) = self.rom.get(usize::from(self.at)) else {
+        let Some(&word) = self.rom.get(usize::from(self.registers.at)) else {
             return Some(Exit::Away);
         };
-        if halts(&self.rom, self.at) {
+        if halts(&self.rom, self.registers.at) {
             return Some(Exit::Ended);
         }
         self.count += 1;
-        let next = (self.at + 1) & ADDRESS;
-        if word <= LARGEST {
-            self.a = word;
-            self.at = next;
-            return None;
-        }
-        let address = self.a & ADDRESS;
-        let y = if word & 1 << 12 == 0 {
-            self.a
-        } else {
-            self.memory[usize::from(address)]
-        };
-        let out = alu(word >> 6, self.d, y);
-        self.at = if jumps(word, out) { address } else { next };
-        if word & DEST_M != 0 {
-            self.memory[usize::from(address)] = out;
-        }
-        if word & DEST_D != 0 {
-            self.d = out;
-        }
-        if word & DEST_A != 0 {
-            self.a = out;
-        }
+        execute(word, &mut self.registers, &mut self.memory);
         None
+    }
+}
+
+/// What the CPU keeps by itself.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(super) struct Registers {
+    pub a: u16,
+    pub d: u16,
+    /// The address of the next instruction, of 15 bits.
+    pub at: u16,
+}
+
+/// Executes a word.
+pub(super) fn execute(word: u16, registers: &mut Registers, memory: &mut Memory) {
+    let next = registers.at.wrapping_add(1) & ADDRESS;
+    if word <= LARGEST {
+        registers.a = word;
+        registers.at = next;
+        return;
+    }
+    let address = registers.a & ADDRESS;
+    let y = if word & 1 << 12 == 0 {
+        registers.a
+    } else {
+        memory[usize::from(address)]
+    };
+    let out = alu(word >> 6, registers.d, y);
+    registers.at = if jumps(word, out) { address } else { next };
+    if word & DEST_M != 0 {
+        memory[usize::from(address)] = out;
+    }
+    if word & DEST_D != 0 {
+        registers.d = out;
+    }
+    if word & DEST_A != 0 {
+        registers.a = out;
     }
 }
 
