@@ -127,14 +127,19 @@ impl Body<'_, '_, '_> {
             _ => false,
         };
         self.flush(below, &keep);
-        self.set_sp(below as i32);
+        let bottom = if self.cells().is_some() {
+            0
+        } else {
+            self.set_sp(below as i32);
+            below as u16
+        };
         let given: Vec<Entry> = self.stack.drain(below..).collect();
         for (k, entry) in (0..).zip(given) {
             let to = match self.shared.frames.get(callee) {
                 Some(Frame::Cells(cells)) => {
                     Expr::Cell(cells.arguments.get(usize::from(k)).copied().unwrap_or(0))
                 }
-                _ => Expr::Stacked(below as u16 + k),
+                _ => Expr::Stacked(bottom + k),
             };
             self.eval.store(&to, &entry.e);
         }
@@ -234,9 +239,6 @@ impl Body<'_, '_, '_> {
 
     /// The end of a function, with its answer.
     pub(super) fn leave(&mut self, answer: &Expr) {
-        if self.cells().is_some() {
-            self.set_sp(0);
-        }
         self.eval.load(answer);
         self.leave_d();
     }
@@ -247,11 +249,6 @@ impl Body<'_, '_, '_> {
             return self.eval.code.go(self.shared.leave);
         };
         let back = cells.back;
-        if self.eval.sp != 0 {
-            self.eval.d_to(&Expr::Cell(ANSWER));
-            self.set_sp(0);
-            self.eval.load(&Expr::Cell(ANSWER));
-        }
         self.eval.code.at(back);
         self.eval.code.compute(DEST_A, comp::M);
         self.eval.code.go_to_a();

@@ -9,10 +9,15 @@
 use super::graph::Graph;
 use super::live::Live;
 use crate::hack::vm::command::{ARG, CONSTANTS, Command, Place, STACK, STATIC, TEMP, THAT, THIS};
+use crate::hack::vm::heights::{Heights, UNREACHED};
 use crate::hack::vm::link::{Function, Program};
 
 /// Kept for what a call has answered.
 pub(super) const RESULT: u16 = 14;
+/// The most words that the stack begins later by.
+const TAKEN: u16 = 512;
+/// Cells at most to put words aside within expressions.
+const SCRATCH: usize = 16;
 /// Always there to put a word aside.
 const ASIDE: u16 = 15;
 
@@ -31,6 +36,8 @@ pub(super) struct Cells {
     pub back: u16,
     pub arguments: Vec<u16>,
     pub locals: Vec<u16>,
+    /// What lies on the stack at jumps and calls.
+    pub stack: Vec<u16>,
     pub this: u16,
     pub that: u16,
 }
@@ -41,6 +48,7 @@ impl Cells {
         program: &Program,
         function: &Function,
         arguments: u16,
+        waiting: u16,
         free: &mut dyn Iterator<Item = u16>,
     ) -> Option<Cells> {
         let mut several = |count: u16| -> Option<Vec<u16>> {
@@ -49,6 +57,7 @@ impl Cells {
         };
         let arguments = several(arguments)?;
         let locals = several(function.locals)?;
+        let stack = several(waiting)?;
         let back = free.next()?;
         let own_this = is_method(program, function);
         let first = arguments.first().copied().filter(|_| own_this);
@@ -65,6 +74,7 @@ impl Cells {
             back,
             arguments,
             locals,
+            stack,
             this: pointer(THIS)?,
             that: pointer(THAT)?,
         })
@@ -83,11 +93,19 @@ pub(super) struct Frames {
     pub of: Vec<Frame>,
     /// What is left, for what is put aside within expressions.
     pub scratch: Vec<u16>,
+    /// Where the stack begins.
+    pub stack: u16,
 }
 
 impl Frames {
     /// `stack` asks for frames on the stack for all functions.
-    pub fn new(program: &Program, graph: &Graph, live: &Live, stack: bool) -> Frames {
+    pub fn new(
+        program: &Program,
+        heights: &Heights,
+        graph: &Graph,
+        live: &Live,
+        stack: bool,
+    ) -> Frames {
         let free = free_cells(program, graph);
         // A function that reads its caller's pointers wants them where all have them.
         let stack = stack || graph.order.iter().any(|f| live.pointers(*f) != 0);
@@ -112,7 +130,8 @@ impl Frames {
                 && !graph.recursive.get(*index).is_none_or(|r| *r)
             {
                 let mut rest = free.iter().copied().skip(below);
-                let cells = Cells::new(program, function, arguments, &mut rest);
+                let waiting = waiting(program, heights, function);
+                let cells = Cells::new(program, function, arguments, waiting, &mut rest);
                 if let (Some(cells), Some(frame)) = (cells, of.get_mut(*index)) {
                     end = free.len() - rest.count();
                     *frame = Frame::Cells(cells);
@@ -124,8 +143,14 @@ impl Frames {
             most = most.max(end);
         }
         let mut scratch = vec![ASIDE];
-        scratch.extend(free.get(most..).unwrap_or(&[]));
-        Frames { of, scratch }
+        let left = free.iter().skip(most).filter(|cell| **cell < STACK);
+        scratch.extend(left.take(SCRATCH));
+        let last = free.get(most.wrapping_sub(1)).copied().unwrap_or(0);
+        Frames {
+            of,
+            scratch,
+            stack: STACK.max(last + 1),
+        }
     }
 }
 
@@ -157,7 +182,23 @@ fn uses(program: &Program, function: &Function, pointer: u16) -> bool {
     })
 }
 
-/// Words that the program does not name: temps, and what is left by the statics.
+/// How many words wait on the stack at a function's jumps, labels and calls.
+fn waiting(program: &Program, heights: &Heights, function: &Function) -> u16 {
+    let commands = program.commands.get(function.range()).unwrap_or(&[]);
+    let known = heights.at.get(function.range()).unwrap_or(&[]);
+    let both = commands.iter().zip(known);
+    let waiting = both.filter(|(_, height)| **height != UNREACHED);
+    let waiting = waiting.map(|(command, height)| match command {
+        Command::Call { arguments, .. } => height.saturating_sub(*arguments),
+        Command::Goto(_) => *height,
+        Command::IfGoto(_) => height.saturating_sub(1),
+        _ => 0,
+    });
+    waiting.max().unwrap_or(0)
+}
+
+/// Words that the program does not name: temps, what is left by the statics, and
+/// the beginning of the stack.
 fn free_cells(program: &Program, graph: &Graph) -> Vec<u16> {
     let mut used = [false; 8];
     for index in &graph.order {
@@ -175,6 +216,6 @@ fn free_cells(program: &Program, graph: &Graph) -> Vec<u16> {
         }
     }
     let temps = (TEMP..).zip(used).filter(|(_, used)| !used);
-    let statics = STATIC + program.statics()..STACK;
+    let statics = STATIC + program.statics()..STACK + TAKEN;
     temps.map(|(cell, _)| cell).chain(statics).collect()
 }

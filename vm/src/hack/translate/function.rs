@@ -182,11 +182,13 @@ impl Body<'_, '_, '_> {
     /// The stack at the start of a block: words that lie there.
     fn start_block(&mut self, height: u16) {
         let word = |h| Entry {
-            e: Expr::Stacked(h),
+            e: self.slot(h),
             depth: 1,
         };
         self.stack = (0..height).map(word).collect();
-        self.eval.sp = i32::from(height);
+        if self.cells().is_none() {
+            self.eval.sp = i32::from(height);
+        }
     }
 
     pub(super) fn push(&mut self, e: Expr, depth: u32) {
@@ -208,7 +210,7 @@ impl Body<'_, '_, '_> {
     /// Writes entries below `end` to their places on the stack, but those to keep.
     pub(super) fn flush(&mut self, end: usize, keep: &dyn Fn(&Expr) -> bool) {
         for (height, k) in (0..).zip(0..end.min(self.stack.len())) {
-            let place = Expr::Stacked(height);
+            let place = self.slot(height);
             if let Some(entry) = self.stack.get_mut(k)
                 && entry.e != place
                 && !keep(&entry.e)
@@ -220,10 +222,20 @@ impl Body<'_, '_, '_> {
         }
     }
 
-    /// Writes all entries to the stack, and sets SP.
+    /// Writes all entries to the stack, and sets SP, which stays where it is where
+    /// the stack is in cells.
     fn settle(&mut self, height: u16) {
         self.flush(self.stack.len(), &|_| false);
-        self.set_sp(i32::from(height));
+        if self.cells().is_none() {
+            self.set_sp(i32::from(height));
+        }
+    }
+
+    /// Where the stack's word at a height is.
+    fn slot(&self, height: u16) -> Expr {
+        let cells = self.cells().map(|cells| cells.stack.as_slice());
+        let cell = cells.and_then(|cells| cells.get(usize::from(height)));
+        cell.map_or(Expr::Stacked(height), |cell| Expr::Cell(*cell))
     }
 
     /// Moves SP to a height; D may be lost.

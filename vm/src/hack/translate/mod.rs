@@ -62,7 +62,7 @@ mod tests;
 
 use super::asm::overflow;
 use super::vm::Program;
-use super::vm::command::{SP, STACK};
+use super::vm::command::SP;
 use super::vm::heights;
 use crate::Fault;
 use crate::hack::asm::instruction::{DEST_D, DEST_M, comp};
@@ -133,7 +133,7 @@ pub fn translate(program: &Program, options: Options) -> Result<Translation, Vec
     let graph = Graph::new(program, &heights);
     let live = Live::new(program, &heights, &graph.order);
     let stack = options.keep == Keep::Frames;
-    let frames = Frames::new(program, &graph, &live, stack);
+    let frames = Frames::new(program, &heights, &graph, &live, stack);
 
     let mut code = Code::default();
     let halt = code.named("halt".to_owned());
@@ -173,7 +173,7 @@ pub fn translate(program: &Program, options: Options) -> Result<Translation, Vec
     };
 
     let mut faults = Vec::new();
-    begin(&mut code, &shared);
+    begin(&mut code, &shared, frames.stack);
     // The first one called last: it follows the beginning.
     for index in graph.order.iter().rev() {
         if let Some(function) = program.functions.get(*index)
@@ -207,9 +207,9 @@ pub fn translate(program: &Program, options: Options) -> Result<Translation, Vec
 }
 
 /// Sets up the stack, as if the end of the program had called the first function.
-fn begin(code: &mut Code, shared: &Shared) {
+fn begin(code: &mut Code, shared: &Shared, stack: u16) {
     let start = shared.program.start as usize;
-    code.at(STACK);
+    code.at(stack);
     code.compute(DEST_D, comp::A);
     code.at(SP);
     code.compute(DEST_M, comp::D);

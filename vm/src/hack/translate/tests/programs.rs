@@ -248,3 +248,57 @@ fn words_change_by_their_addresses() {
         return";
     same(&link(&[("Sys.vm", text)]), true);
 }
+
+/// With all statics taken the cells are where the stack would begin.
+#[test]
+fn no_room_between_the_statics() {
+    let temps: String = (0..8)
+        .map(|k| format!("push constant {k}\npop temp {k}\n"))
+        .collect();
+    let sum: String = (0..8).map(|k| format!("push temp {k}\nadd\n")).collect();
+    let text = format!(
+        "function Sys.init 2
+        {temps}push constant 3
+        pop local 1
+        push constant 6
+        call Sys.again 1
+        push local 1
+        push constant 7
+        call Sys.f 1
+        sub
+        sub
+        {sum}pop static 239
+        call Sys.halt 0
+        return
+        function Sys.again 2
+        push argument 0
+        pop local 1
+        push argument 0
+        if-goto ON
+        push constant 1
+        return
+        label ON
+        push argument 0
+        call Sys.f 1
+        push argument 0
+        push constant 1
+        sub
+        call Sys.again 1
+        push local 1
+        add
+        sub
+        return
+        function Sys.f 20
+        push argument 0
+        pop local 19
+        push local 19
+        push local 3
+        add
+        push static 239
+        add
+        pop static 0
+        push static 0
+        return"
+    );
+    same(&link(&[("Sys.vm", &text)]), true);
+}
