@@ -5,7 +5,8 @@
 //! A function whose words are in cells keeps the return address there. The
 //! others make the frame of the book: arguments, return address, LCL, ARG, THIS,
 //! THAT, locals; when they call something, LCL, ARG and SP are what the book
-//! says.
+//! says. With [`super::Keep::Cells`] the words for THIS and THAT are not written
+//! by a function that does not set these.
 
 use super::code::{Code, Label};
 use super::expr::Expr;
@@ -30,6 +31,11 @@ pub(super) fn call(code: &mut Code, function: Label) {
     code.mark(back);
 }
 
+/// Whether a frame on the stack keeps THIS and THAT.
+fn has_pointers(frame: Option<&Frame>) -> bool {
+    matches!(frame, Some(Frame::Stack { pointers: true }))
+}
+
 /// Pushes D to the word behind the one that SP points to.
 fn push_on(code: &mut Code) {
     code.at(SP);
@@ -39,7 +45,7 @@ fn push_on(code: &mut Code) {
 
 /// Makes a frame on the stack, of a function called with so many arguments.
 /// D holds the return address. Leaves SP at the first local.
-pub(super) fn frame(code: &mut Code, arguments: u16) {
+fn frame(code: &mut Code, arguments: u16, pointers: bool) {
     code.at(SP);
     match arguments {
         0 => code.compute(DEST_A, comp::M),
@@ -63,12 +69,21 @@ pub(super) fn frame(code: &mut Code, arguments: u16) {
         }
     }
     code.compute(DEST_M, comp::D);
-    for cell in [LCL, ARG, THIS, THAT] {
-        code.at(cell);
+    for cell in [LCL, ARG]
+        .iter()
+        .chain([THIS, THAT].iter().filter(|_| pointers))
+    {
+        code.at(*cell);
         code.compute(DEST_D, comp::M);
         push_on(code);
     }
-    code.compute(DEST_D, comp::A_PLUS_1);
+    if pointers {
+        code.compute(DEST_D, comp::A_PLUS_1);
+    } else {
+        code.compute(DEST_D, comp::A);
+        code.at(FRAME - 2);
+        code.compute(DEST_D, comp::D_PLUS_A);
+    }
     code.at(LCL);
     code.compute(DEST_M, comp::D);
     code.at(SP);
@@ -80,19 +95,28 @@ pub(super) fn frame(code: &mut Code, arguments: u16) {
 }
 
 /// Where functions with a frame on the stack return, the answer in D.
-pub(super) fn leave(code: &mut Code) {
+pub(super) fn leave(code: &mut Code, pointers: bool) {
     code.at(ANSWER);
     code.compute(DEST_M, comp::D);
     code.at(ARG);
     code.compute(DEST_D, comp::M);
     code.at(SP);
     code.compute(DEST_M, comp::D);
-    for cell in [THAT, THIS, ARG] {
+    let restore = |code: &mut Code, back, cell| {
         code.at(LCL);
-        code.compute(DEST_A | DEST_M, comp::M_MINUS_1);
+        code.compute(DEST_A | DEST_M, back);
         code.compute(DEST_D, comp::M);
         code.at(cell);
         code.compute(DEST_M, comp::D);
+    };
+    if pointers {
+        for cell in [THAT, THIS, ARG] {
+            restore(code, comp::M_MINUS_1, cell);
+        }
+    } else {
+        code.at(FRAME - 2);
+        code.compute(DEST_D, comp::A);
+        restore(code, comp::M_MINUS_D, ARG);
     }
     code.at(LCL);
     code.compute(DEST_A, comp::M_MINUS_1);
@@ -193,11 +217,12 @@ impl Body<'_, '_, '_> {
                     }
                 }
             }
-            _ => {
+            frame_on_stack => {
+                let pointers = has_pointers(frame_on_stack);
                 let body = self.eval.code.label();
                 for (arguments, label) in labels {
                     self.eval.code.mark(label);
-                    frame(self.eval.code, arguments);
+                    frame(self.eval.code, arguments, pointers);
                     self.eval.code.go(body);
                 }
                 self.eval.code.mark(body);
@@ -246,7 +271,10 @@ impl Body<'_, '_, '_> {
     /// The end of a function, its answer in D.
     pub(super) fn leave_d(&mut self) {
         let Some(cells) = self.cells() else {
-            return self.eval.code.go(self.shared.leave);
+            let frame = self.shared.frames.get(self.index);
+            let [short, full] = self.shared.leave;
+            let leave = if has_pointers(frame) { full } else { short };
+            return self.eval.code.go(leave);
         };
         let back = cells.back;
         self.eval.code.at(back);

@@ -25,8 +25,12 @@ const ASIDE: u16 = 15;
 #[derive(Clone, Debug)]
 pub(super) enum Frame {
     Cells(Cells),
-    /// On the stack, as in the book.
-    Stack,
+    /// On the stack, as in the book; its words for THIS and THAT are left as they
+    /// are where the function does not change those.
+    Stack {
+        /// Whether it does.
+        pointers: bool,
+    },
 }
 
 /// The cells of a function's words.
@@ -109,7 +113,10 @@ impl Frames {
         let free = free_cells(program, graph);
         // A function that reads its caller's pointers wants them where all have them.
         let stack = stack || graph.order.iter().any(|f| live.pointers(*f) != 0);
-        let mut of = vec![Frame::Stack; program.functions.len()];
+        let frame = |function: &Function| Frame::Stack {
+            pointers: stack || sets_pointers(program, function),
+        };
+        let mut of: Vec<Frame> = program.functions.iter().map(frame).collect();
         let mut ends = vec![0; program.functions.len()];
         let mut most = 0;
         for index in &graph.order {
@@ -169,6 +176,13 @@ fn is_method(program: &Program, function: &Function) -> bool {
     };
     let starts = [Command::Push(first), Command::Pop(this)];
     commands.get(1..3) == Some(&starts) && pops(this) == 1 && pops(first) == 0
+}
+
+/// Whether a function sets THIS or THAT.
+fn sets_pointers(program: &Program, function: &Function) -> bool {
+    let commands = program.commands.get(function.range()).unwrap_or(&[]);
+    let pointers = [THIS, THAT].map(|which| Command::Pop(Place::fixed(which)));
+    commands.iter().any(|command| pointers.contains(command))
 }
 
 /// Whether a function names a pointer or what it points to.

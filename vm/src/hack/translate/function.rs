@@ -38,8 +38,9 @@ pub(super) struct Shared<'p> {
     /// Where each function is entered, by its number of arguments.
     pub entries: Vec<Vec<(u16, Label)>>,
     pub halt: Label,
-    /// Where functions with frames on the stack return.
-    pub leave: Label,
+    /// Where functions with frames on the stack return: those that do not set THIS
+    /// and THAT, and those that do.
+    pub leave: [Label; 2],
 }
 
 impl Shared<'_> {

@@ -137,7 +137,7 @@ pub fn translate(program: &Program, options: Options) -> Result<Translation, Vec
 
     let mut code = Code::default();
     let halt = code.named("halt".to_owned());
-    let leave = code.named("leave".to_owned());
+    let leave = ["leave", "leave$pointers"].map(|name| code.named(name.to_owned()));
     let mut entries = vec![Vec::new(); program.functions.len()];
     for index in &graph.order {
         let Some(function) = program.functions.get(*index) else {
@@ -183,8 +183,10 @@ pub fn translate(program: &Program, options: Options) -> Result<Translation, Vec
             faults.push(fault(message));
         }
     }
-    code.mark(leave);
-    calls::leave(&mut code);
+    for (label, pointers) in leave.into_iter().zip([false, true]) {
+        code.mark(label);
+        calls::leave(&mut code, pointers);
+    }
     code.mark(halt);
     code.go(halt);
     if !faults.is_empty() {
@@ -195,7 +197,7 @@ pub fn translate(program: &Program, options: Options) -> Result<Translation, Vec
     if let Some(message) = overflow(words.len()) {
         return Err(vec![fault(message)]);
     }
-    let on_stack = |index: &&usize| matches!(frames.of.get(**index), Some(Frame::Stack));
+    let on_stack = |index: &&usize| matches!(frames.of.get(**index), Some(Frame::Stack { .. }));
     Ok(Translation {
         words,
         assembly: finish::text(&code),
