@@ -10,7 +10,7 @@ use crate::{files, say, say_json};
 use clap::ValueEnum;
 use serde::Serialize;
 use slowlight_vm::bbc::{Config, LineCost};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 /// Cycles after which a program is stopped, unless the user says otherwise.
 const LIMIT: u64 = 100_000_000_000;
@@ -32,6 +32,14 @@ pub struct Args {
     /// Print cycles, why it stopped, and the screen's digest as JSON
     #[arg(long)]
     json: bool,
+    /// Translate Jack or VM code to machine code, and run that on the CPU; the
+    /// program brings the OS
+    #[arg(long)]
+    cpu: bool,
+    /// Where to write the Hack computer's machine code: .asm, or .hack, an image of
+    /// the ROM
+    #[arg(long, value_name = "FILE")]
+    image: Option<PathBuf>,
     /// Print what each line of a BASIC program took
     #[arg(long, conflicts_with = "json")]
     profile: bool,
@@ -46,7 +54,8 @@ pub struct Args {
 enum Kind {
     /// Jack classes (.jack), on the Hack computer's VM with a native OS
     Jack,
-    /// VM code (.vm), on the same
+    /// VM code (.vm), on the same; or assembly (.asm) or an image of the ROM
+    /// (.hack), on the Hack computer's CPU
     Hack,
     /// A BBC BASIC program, as text or tokens, on a BBC Micro
     Bbc,
@@ -60,6 +69,9 @@ enum Kind {
 struct Report {
     /// VM instructions on the Hack VM.
     cycles: u64,
+    /// Instructions in the Hack CPU's ROM.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    rom_words: Option<u64>,
     /// `ended`, `limit` or `fault`.
     stopped: &'static str,
     /// Null where the program showed no picture.
@@ -104,6 +116,20 @@ fn profile(loaded: &mut Loaded, limit: u64) -> Outcome<()> {
     complaint(&run, limit).map_or(Ok(()), |wrong| Err(Failure::Wrong(wrong)))
 }
 
+/// Writes the binary that has the extension of `path`.
+fn write_image(path: &Path, loaded: &Loaded) -> Outcome<()> {
+    let extension = path.extension().map(|e| e.to_string_lossy().into_owned());
+    let wanted = |file: &&File| {
+        let end = file.name.rsplit_once('.').map(|(_, e)| e);
+        end.is_some() && end == extension.as_deref()
+    };
+    let Some(file) = loaded.binaries.iter().find(wanted) else {
+        let message = "--image is for machine code that is made, with --cpu or from .asm: a .hack file, and with --cpu also an .asm";
+        return Err(Failure::Usage(message.to_owned()));
+    };
+    files::write(path, &file.bytes)
+}
+
 /// Runs the program to its end.
 pub fn run(args: &Args) -> Outcome<()> {
     let output = PictureFile::named(args.output.as_deref())?;
@@ -111,11 +137,17 @@ pub fn run(args: &Args) -> Outcome<()> {
         let message = "--page is the BBC Micro's: `slowlight vm bbc --page E00 FILE`";
         return Err(Failure::Usage(message.to_owned()));
     }
+    if args.cpu && !matches!(args.machine, Kind::Jack | Kind::Hack) {
+        let message = "--cpu is the Hack computer's: `slowlight vm jack --cpu DIR`";
+        return Err(Failure::Usage(message.to_owned()));
+    }
     let machine = match args.machine {
+        Kind::Jack | Kind::Hack if args.cpu => Machine::HackCpu,
         Kind::Jack | Kind::Hack => Machine::Hack,
         Kind::Bbc => Machine::Bbc(Config::default()),
         Kind::Mos6502 => Machine::Mos6502,
     };
+    let hack = machine.many_sources();
     let mut program = Vec::new();
     for path in paths(args)? {
         let name = path.file_name().map(|n| n.to_string_lossy().into_owned());
@@ -125,6 +157,9 @@ pub fn run(args: &Args) -> Outcome<()> {
         });
     }
     let mut loaded = machine.at_page(args.page).load(&program)?;
+    if let Some(path) = &args.image {
+        write_image(path, &loaded)?;
+    }
     if args.profile {
         return profile(&mut loaded, args.limit);
     }
@@ -139,6 +174,10 @@ pub fn run(args: &Args) -> Outcome<()> {
     if args.json {
         say_json(&Report {
             cycles: run.cycles,
+            rom_words: hack
+                .then_some(run.sizes.code)
+                .flatten()
+                .map(|code| code / 2),
             stopped: stop_word(&run.stop),
             inks_sha256: picture.as_ref().map(Picture::sha256),
             output: String::from_utf8_lossy(&run.output).into_owned(),

@@ -19,8 +19,10 @@ use std::collections::BTreeMap;
 /// A machine that is bundled.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Machine {
-    /// The Hack computer's VM.
+    /// The Hack computer: Jack and VM code on its VM, machine code on its CPU.
     Hack,
+    /// The Hack computer's CPU, Jack and VM code translated for it.
+    HackCpu,
     /// BBC BASIC and its screen.
     Bbc(Config),
     /// The plain machine around a 6502.
@@ -78,6 +80,7 @@ pub struct Loaded {
 
 enum Program {
     Hack(Box<slowlight_vm::hack::vm::Program>),
+    HackCpu(Box<slowlight_vm::hack::cpu::Cpu>),
     Bbc(slowlight_vm::bbc::Machine),
     Mos6502(Box<slowlight_vm::mos6502::Plain>),
 }
@@ -133,7 +136,7 @@ impl Machine {
     /// The extension of its source files.
     pub fn extension(self) -> &'static str {
         match self {
-            Machine::Hack => "jack",
+            Machine::Hack | Machine::HackCpu => "jack",
             Machine::Bbc(_) => "bas",
             Machine::Mos6502 => "asm",
         }
@@ -141,7 +144,7 @@ impl Machine {
 
     /// Whether a program is several sources together.
     pub fn many_sources(self) -> bool {
-        self == Machine::Hack
+        matches!(self, Machine::Hack | Machine::HackCpu)
     }
 
     /// Compiles, tokenises or assembles files for the machine.
@@ -151,6 +154,7 @@ impl Machine {
     pub fn load(self, files: &[File]) -> Outcome<Loaded> {
         match self {
             Machine::Hack => hack::load(files),
+            Machine::HackCpu => hack::load_for_cpu(files),
             Machine::Bbc(config) => bbc::load(files, config),
             Machine::Mos6502 => mos6502::load(files),
         }
@@ -169,6 +173,7 @@ impl Loaded {
         };
         let run = match &mut self.program {
             Program::Hack(program) => hack::run(program, limit, &mut watch),
+            Program::HackCpu(cpu) => hack::run_cpu(cpu, self.sizes, limit, &mut watch),
             Program::Bbc(machine) => bbc::run(machine, limit, &mut watch),
             Program::Mos6502(machine) => mos6502::run(machine, self.sizes, limit, &mut watch),
         };

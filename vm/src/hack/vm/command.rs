@@ -8,38 +8,38 @@
 //! above the keyboard's, the run ends in a fault.
 
 /// All the words that commands can name.
-pub(super) type Memory = [u16; 0x10000];
+pub(in crate::hack) type Memory = [u16; 0x10000];
 
 /// Addresses of the RAM, as the Hack platform lays it out
 /// (*The Elements of Computing Systems*, chapters 7 and 8).
-pub(super) const SP: u16 = 0;
-pub(super) const LCL: u16 = 1;
-pub(super) const ARG: u16 = 2;
-pub(super) const THIS: u16 = 3;
-pub(super) const THAT: u16 = 4;
-pub(super) const TEMP: u16 = 5;
-pub(super) const STATIC: u16 = 16;
-pub(super) const STACK: u16 = 256;
-pub(super) const HEAP: u16 = 2048;
-pub(super) const SCREEN: u16 = 16384;
-pub(super) const KEYBOARD: u16 = 24576;
+pub(in crate::hack) const SP: u16 = 0;
+pub(in crate::hack) const LCL: u16 = 1;
+pub(in crate::hack) const ARG: u16 = 2;
+pub(in crate::hack) const THIS: u16 = 3;
+pub(in crate::hack) const THAT: u16 = 4;
+pub(in crate::hack) const TEMP: u16 = 5;
+pub(in crate::hack) const STATIC: u16 = 16;
+pub(in crate::hack) const STACK: u16 = 256;
+pub(in crate::hack) const HEAP: u16 = 2048;
+pub(in crate::hack) const SCREEN: u16 = 16384;
+pub(in crate::hack) const KEYBOARD: u16 = 24576;
 
 /// How many statics there is room for, over all files.
-pub(super) const STATICS: u16 = STACK - STATIC;
+pub(in crate::hack) const STATICS: u16 = STACK - STATIC;
 
 /// Where the constants lie. The word there, constant 0, is also the base of
 /// everything that has a fixed address.
-pub(super) const CONSTANTS: u16 = 0x8000;
+pub(in crate::hack) const CONSTANTS: u16 = 0x8000;
 
 /// Keeps an address that a program computed inside the RAM.
-pub(super) const RAM_MASK: u16 = 0x7fff;
+pub(in crate::hack) const RAM_MASK: u16 = 0x7fff;
 
 /// The words that a call saves: the return site, LCL, ARG, THIS and THAT.
-pub(super) const FRAME: u16 = 5;
+pub(in crate::hack) const FRAME: u16 = 5;
 
 /// An operand: the word at `memory[base] + offset`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) struct Place {
+pub(in crate::hack) struct Place {
     /// The cell that holds the base: LCL, ARG, THIS, THAT, or CONSTANTS for
     /// a fixed address.
     pub base: u16,
@@ -73,7 +73,7 @@ impl Place {
 
 /// Commands that take two words and leave one.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Binary {
+pub(in crate::hack) enum Binary {
     Add,
     Sub,
     And,
@@ -102,7 +102,7 @@ impl Binary {
 
 /// A linked command. Labels are gone: jumps and calls hold indices of commands.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Command {
+pub(in crate::hack) enum Command {
     Push(Place),
     Pop(Place),
     Binary(Binary),

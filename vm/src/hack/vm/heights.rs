@@ -10,13 +10,13 @@ use super::command::{ARG, Command, LCL, Place};
 use super::link::Function;
 
 /// The height at a command that no path reaches.
-pub(super) const UNREACHED: u16 = u16::MAX;
+pub(in crate::hack) const UNREACHED: u16 = u16::MAX;
 
 /// More words than the stack has: whoever needs them overflows it.
 const TOO_HIGH: u16 = 4096;
 
 /// What is proved about a program.
-pub(super) struct Heights {
+pub(in crate::hack) struct Heights {
     /// Words above the locals before each command.
     pub at: Vec<u16>,
     /// The greatest height in each function.
@@ -24,7 +24,11 @@ pub(super) struct Heights {
 }
 
 /// The heights, or `None` if they are not the same on every path.
-pub(super) fn prove(commands: &[Command], functions: &[Function], start: u32) -> Option<Heights> {
+pub(in crate::hack) fn prove(
+    commands: &[Command],
+    functions: &[Function],
+    start: u32,
+) -> Option<Heights> {
     let mut arguments = vec![u16::MAX; functions.len()];
     *arguments.get_mut(start as usize)? = 0;
     for command in commands {

@@ -20,21 +20,21 @@ const FAULTS: usize = 100;
 /// A linked program: whole and consistent, ready to run on any number of machines.
 #[derive(Clone, Debug)]
 pub struct Program {
-    pub(super) commands: Vec<Command>,
+    pub(in crate::hack) commands: Vec<Command>,
     /// Where each command comes from: an index of `files`, and a line.
-    pub(super) origins: Vec<(u32, u32)>,
-    pub(super) files: Vec<String>,
+    pub(in crate::hack) origins: Vec<(u32, u32)>,
+    pub(in crate::hack) files: Vec<String>,
     /// In the order of their code.
-    pub(super) functions: Vec<Function>,
+    pub(in crate::hack) functions: Vec<Function>,
     /// Where each call returns to, as an index of `commands`. Entry 0 is the
     /// end of the program, entry 1 the return from the program's own `Sys.error`.
-    pub(super) sites: Vec<u32>,
+    pub(in crate::hack) sites: Vec<u32>,
     /// The function that the machine starts in.
-    pub(super) start: u32,
+    pub(in crate::hack) start: u32,
     /// The program's own `Sys.error`.
-    pub(super) on_error: Option<u32>,
+    pub(in crate::hack) on_error: Option<u32>,
     /// Whether the machine's own allocator is used, so that the heap needs preparing.
-    pub(super) native_heap: bool,
+    pub(in crate::hack) native_heap: bool,
     /// The commands joined into faster ones, if the program is regular enough.
     pub(super) fused: Option<Fused>,
     count: usize,
@@ -43,11 +43,18 @@ pub struct Program {
 
 /// A function: `Command::Function` at `start`, `Command::FunctionEnd` at `end`.
 #[derive(Clone, Debug)]
-pub(super) struct Function {
+pub(in crate::hack) struct Function {
     pub name: String,
     pub start: u32,
     pub end: u32,
     pub locals: u16,
+}
+
+impl Function {
+    /// Where its commands are, `function` included, the end not.
+    pub(in crate::hack) fn range(&self) -> std::ops::Range<usize> {
+        self.start as usize..self.end as usize
+    }
 }
 
 impl Program {
@@ -113,7 +120,7 @@ impl Program {
     }
 
     /// The function whose code holds command `at`.
-    pub(super) fn function_at(&self, at: u32) -> Option<&Function> {
+    pub(in crate::hack) fn function_at(&self, at: u32) -> Option<&Function> {
         let after = self.functions.partition_point(|f| f.start <= at);
         self.functions.get(after.checked_sub(1)?)
     }

@@ -5,6 +5,7 @@ use super::fast::Exit;
 use super::link::Program;
 use super::os::{self, Native, Os, Trap};
 use super::parse::fault;
+use crate::hack::screen::screen;
 use crate::{Fault, Progress, Screen, Stop, Watch};
 
 /// How many commands lie between two calls of the watcher.
@@ -206,15 +207,6 @@ impl<'p> Machine<'p> {
     /// What the screen shows now.
     pub fn screen(&self) -> Screen {
         let words = self.memory.get(usize::from(SCREEN)..usize::from(KEYBOARD));
-        let pixels = words
-            .unwrap_or(&[])
-            .iter()
-            .flat_map(|word| (0..16).map(move |bit| u8::from(word >> bit & 1 == 0)));
-        Screen {
-            width: 512,
-            height: 256,
-            pixels: pixels.collect(),
-            palette: vec![[0, 0, 0], [255, 255, 255]],
-        }
+        screen(words.unwrap_or(&[]))
     }
 }

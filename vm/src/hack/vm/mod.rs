@@ -43,19 +43,19 @@
 //! meets the limit, and it does so at the exact command.
 
 mod access;
-mod command;
+pub(in crate::hack) mod command;
 mod fast;
 mod fuse;
 mod glue;
-mod heights;
+pub(in crate::hack) mod heights;
 mod join;
-mod link;
+pub(in crate::hack) mod link;
 mod machine;
-mod os;
+pub(in crate::hack) mod os;
 mod parse;
 mod plain;
 #[cfg(test)]
-mod tests;
+pub(in crate::hack) mod tests;
 
 pub use link::Program;
 pub use machine::{Machine, Run};

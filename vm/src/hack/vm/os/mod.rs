@@ -103,7 +103,7 @@ macro_rules! natives {
     ($($variant:ident $name:literal $arguments:literal)*) => {
         /// A function of the native operating system.
         #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-        pub(super) enum Native { $($variant),* }
+        pub(in crate::hack) enum Native { $($variant),* }
 
         impl Native {
             /// All of them.

@@ -61,7 +61,7 @@ fn any_text() -> impl Strategy<Value = String> {
 }
 
 /// A whole command, right by itself; often nonsense where it stands.
-fn any_command() -> impl Strategy<Value = String> {
+pub(in crate::hack) fn any_command() -> impl Strategy<Value = String> {
     let number = prop::sample::select(vec![
         0, 1, 2, 3, 5, 7, 16, 255, 256, 261, 2047, 2048, 16384, 24575, 32767,
     ]);

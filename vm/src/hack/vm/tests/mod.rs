@@ -2,7 +2,7 @@
 #![allow(clippy::unwrap_used)]
 
 mod commands;
-mod engines;
+pub(in crate::hack) mod engines;
 mod limits;
 mod memory;
 mod os;

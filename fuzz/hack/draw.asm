@@ -1,0 +1,24 @@
+// a rectangle of R0 rows, from a loop
+    @8
+    D=A
+    @R0
+    M=D
+    @SCREEN
+    D=A
+    @at
+    M=D
+(ROW)
+    @at
+    A=M
+    M=-1
+    @32
+    D=A
+    @at
+    MD=D+M
+    @R0
+    MD=M-1
+    @ROW
+    D;JGT
+(END)
+    @END
+    0;JMP

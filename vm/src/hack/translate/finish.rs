@@ -1,0 +1,121 @@
+//! The last steps: jumps to jumps, code that nobody reaches, addresses.
+
+use super::code::{Code, GO, Ins, Label};
+use crate::hack::asm::instruction::{LARGEST, written};
+use std::collections::HashMap;
+
+/// Jumps go to where the jumps that they go to go.
+fn thread(code: &mut Code) {
+    let mut leads = HashMap::new();
+    let mut waiting: Vec<Label> = Vec::new();
+    let mut rest = code.ins.as_slice();
+    while let Some((first, after)) = rest.split_first() {
+        match (first, after.first()) {
+            (Ins::Mark(label), _) => waiting.push(*label),
+            (Ins::To(to), Some(Ins::Compute(GO))) => {
+                leads.extend(waiting.drain(..).map(|label| (label, *to)));
+            }
+            _ => waiting.clear(),
+        }
+        rest = after;
+    }
+    let end = |label: Label| {
+        let mut at = label;
+        // A circle is an endless loop, wherever one enters it.
+        for _ in 0..16 {
+            match leads.get(&at) {
+                Some(next) => at = *next,
+                None => break,
+            }
+        }
+        at
+    };
+    for ins in &mut code.ins {
+        if let Ins::To(label) = ins {
+            *label = end(*label);
+        }
+    }
+}
+
+/// Leaves out what follows a jump up to the next label that is used.
+fn prune(code: &mut Code) {
+    loop {
+        let mut used = vec![false; code.names.len()];
+        for ins in &code.ins {
+            if let Ins::To(label) = ins
+                && let Some(used) = used.get_mut(*label)
+            {
+                *used = true;
+            }
+        }
+        let before = code.ins.len();
+        let mut dead = false;
+        code.ins.retain(|ins| {
+            if let Ins::Mark(label) = ins {
+                let used = used.get(*label).is_some_and(|used| *used);
+                dead &= !used;
+                return used;
+            }
+            let keep = !dead;
+            dead |= *ins == Ins::Compute(GO);
+            keep
+        });
+        if code.ins.len() == before {
+            break;
+        }
+    }
+}
+
+/// Makes the code final; answers the address of each label.
+pub(super) fn finish(code: &mut Code) -> Vec<usize> {
+    thread(code);
+    prune(code);
+    let mut addresses = vec![0; code.names.len()];
+    let mut at = 0;
+    for ins in &code.ins {
+        match ins {
+            Ins::Mark(label) => {
+                if let Some(address) = addresses.get_mut(*label) {
+                    *address = at;
+                }
+            }
+            _ => at += 1,
+        }
+    }
+    addresses
+}
+
+/// The words of code that is final; addresses beyond the ROM are cut.
+pub(super) fn words(code: &Code, addresses: &[usize]) -> Vec<u16> {
+    let word = |ins: &Ins| match ins {
+        Ins::At(value) => Some(*value),
+        Ins::To(label) => {
+            let address = addresses.get(*label).copied().unwrap_or(0);
+            Some(address.min(usize::from(LARGEST)) as u16)
+        }
+        Ins::Compute(word) => Some(*word),
+        Ins::Mark(_) => None,
+    };
+    code.ins.iter().filter_map(word).collect()
+}
+
+/// The code as assembly. Labels are named for their functions; others by number.
+pub(super) fn text(code: &Code) -> String {
+    let name = |label: Label| match code.names.get(label) {
+        Some(Some(name)) => name.clone(),
+        _ => format!("${label}"),
+    };
+    let mut text = String::new();
+    for ins in &code.ins {
+        match ins {
+            Ins::Mark(label) => text.push_str(&format!("({})\n", name(*label))),
+            Ins::To(label) => text.push_str(&format!("    @{}\n", name(*label))),
+            Ins::At(word) | Ins::Compute(word) => {
+                if let Some(instruction) = written(*word) {
+                    text.push_str(&format!("    {instruction}\n"));
+                }
+            }
+        }
+    }
+    text
+}
