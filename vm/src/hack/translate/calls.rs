@@ -12,6 +12,7 @@ use super::code::{Code, Label};
 use super::expr::Expr;
 use super::frames::{Frame, RESULT};
 use super::function::{Body, Entry};
+use super::stubs::far_offset;
 use crate::hack::asm::instruction::{DEST_A, DEST_D, DEST_M, JGT, comp};
 use crate::hack::vm::command::{ARG, CONSTANTS, Command, FRAME, LCL, SP, THAT, THIS};
 
@@ -158,17 +159,30 @@ impl Body<'_, '_, '_> {
             below as u16
         };
         let given: Vec<Entry> = self.stack.drain(below..).collect();
+        let own_this = own
+            .as_ref()
+            .map(|own| own.this)
+            .filter(|_| self.shared.small);
+        let mut numbers = Vec::new();
         for (k, entry) in (0..).zip(given) {
-            let to = match self.shared.frames.get(callee) {
-                Some(Frame::Cells(cells)) => {
-                    Expr::Cell(cells.arguments.get(usize::from(k)).copied().unwrap_or(0))
-                }
-                _ => Expr::Stacked(bottom + k),
+            let Some(Frame::Cells(cells)) = self.shared.frames.get(callee) else {
+                self.eval.store(&Expr::Stacked(bottom + k), &entry.e);
+                continue;
             };
-            self.eval.store(&to, &entry.e);
+            let cell = cells.arguments.get(usize::from(k)).copied().unwrap_or(0);
+            let number = own_this.and_then(|this| far_offset(&entry.e, this));
+            numbers.extend(number.map(|_| cell));
+            let given = number.map_or(entry.e, Expr::Const);
+            self.eval.store(&Expr::Cell(cell), &given);
         }
         let Some(label) = self.shared.entry(callee, arguments) else {
             return Err(format!("{} calls nothing", self.function.name));
+        };
+        let label = match own_this {
+            Some(this) if !numbers.is_empty() => {
+                self.stubs.of(callee, this, numbers, self.eval.code)
+            }
+            _ => label,
         };
         call(self.eval.code, label);
         Ok(self.take_result(at + 1))
@@ -211,6 +225,10 @@ impl Body<'_, '_, '_> {
                 }
                 self.eval.code.at(cells.back);
                 self.eval.code.compute(DEST_M, comp::D);
+                let body = self.shared.bodies.get(self.index);
+                if let Some(body) = body.filter(|_| self.shared.small) {
+                    self.eval.code.mark(*body);
+                }
                 for (k, cell) in (0..).zip(&cells.locals) {
                     if self.shared.live.reads_first(self.index, k) {
                         self.eval.store(&Expr::Cell(*cell), &Expr::Const(0));

@@ -8,8 +8,10 @@ use super::Compare;
 use super::code::{Code, Label};
 use super::eval::Eval;
 use super::expr::{Expr, fixed};
-use super::frames::{Cells, Frame};
+use super::frames::{Cells, Frame, Frames};
+use super::graph::Graph;
 use super::live::Live;
+use super::stubs::Stubs;
 use crate::hack::asm::instruction::{DEST_D, DEST_M, comp};
 use crate::hack::vm::command::{ARG, CONSTANTS, Command, LCL, Place, SP, THAT, THIS};
 use crate::hack::vm::heights::{Heights, UNREACHED};
@@ -37,13 +39,58 @@ pub(super) struct Shared<'p> {
     pub compare: Compare,
     /// Where each function is entered, by its number of arguments.
     pub entries: Vec<Vec<(u16, Label)>>,
+    /// Where each function goes on when it has kept its return address.
+    pub bodies: Vec<Label>,
+    /// Whether to save words rather than cycles.
+    pub small: bool,
     pub halt: Label,
     /// Where functions with frames on the stack return: those that do not set THIS
     /// and THAT, and those that do.
     pub leave: [Label; 2],
 }
 
-impl Shared<'_> {
+impl<'p> Shared<'p> {
+    /// With labels for all functions that are reached.
+    pub fn new(
+        program: &'p Program,
+        heights: &'p Heights,
+        graph: &Graph,
+        live: &'p Live,
+        frames: &'p Frames,
+        code: &mut Code,
+    ) -> Self {
+        let mut entries = vec![Vec::new(); program.functions.len()];
+        for index in &graph.order {
+            let Some(function) = program.functions.get(*index) else {
+                continue;
+            };
+            let mut arguments = graph.arguments.get(*index).cloned().unwrap_or_default();
+            if *index == program.start as usize {
+                arguments.push(0);
+            }
+            arguments.sort_unstable();
+            arguments.dedup();
+            for count in arguments {
+                if let Some(entries) = entries.get_mut(*index) {
+                    entries.push((count, code.named(function.name.clone())));
+                }
+            }
+        }
+        Shared {
+            program,
+            heights,
+            live,
+            frames: &frames.of,
+            scratch: &frames.scratch,
+            compare: Compare::default(),
+            entries,
+            bodies: program.functions.iter().map(|_| code.label()).collect(),
+            small: false,
+            halt: code.named("halt".to_owned()),
+            leave: ["leave", "leave"].map(|name| code.named(name.to_owned())),
+        }
+    }
+
     /// Where a function is entered with so many arguments.
     pub fn entry(&self, function: usize, arguments: u16) -> Option<Label> {
         let entries = self.entries.get(function)?;
@@ -58,6 +105,7 @@ pub(super) struct Body<'s, 'p, 'c> {
     pub index: usize,
     pub function: &'p Function,
     pub eval: Eval<'c>,
+    pub stubs: &'c mut Stubs,
     pub stack: Vec<Entry>,
     /// Labels of commands that are jumped to.
     pub labels: HashMap<u32, Label>,
@@ -72,6 +120,7 @@ pub(super) fn translate(
     index: usize,
     function: &Function,
     code: &mut Code,
+    stubs: &mut Stubs,
 ) -> Result<(), String> {
     let peak = shared.heights.peaks.get(index).copied().unwrap_or(0);
     let mut labels = HashMap::new();
@@ -87,6 +136,7 @@ pub(super) fn translate(
         index,
         function,
         eval: Eval::new(code, shared.scratch, peak, shared.compare),
+        stubs,
         stack: Vec::new(),
         labels,
     };

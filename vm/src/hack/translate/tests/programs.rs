@@ -302,3 +302,27 @@ fn no_room_between_the_statics() {
     );
     same(&link(&[("Sys.vm", &text)]), true);
 }
+
+#[test]
+fn functions_called_like_symbols_and_like_our_labels() {
+    let names = [
+        "halt",
+        "leave",
+        "SP",
+        "SCREEN",
+        "$3",
+        "$3$7",
+        "R15",
+        "Sys.init$1",
+    ];
+    let calls: String = names
+        .iter()
+        .map(|name| format!("call {name} 0\npush static 0\nadd\npop static 0\n"))
+        .collect();
+    let functions: String = (1..)
+        .zip(names)
+        .map(|(k, name)| format!("function {name} 0\npush constant {k}\nreturn\n"))
+        .collect();
+    let text = format!("function Sys.init 0\n{calls}call Sys.halt 0\nreturn\n{functions}");
+    same(&link(&[("Sys.vm", &text)]), true);
+}
