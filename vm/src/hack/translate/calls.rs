@@ -159,32 +159,36 @@ impl Body<'_, '_, '_> {
             below as u16
         };
         let given: Vec<Entry> = self.stack.drain(below..).collect();
-        let own_this = own
-            .as_ref()
-            .map(|own| own.this)
-            .filter(|_| self.shared.small);
-        let mut numbers = Vec::new();
-        for (k, entry) in (0..).zip(given) {
-            let Some(Frame::Cells(cells)) = self.shared.frames.get(callee) else {
-                self.eval.store(&Expr::Stacked(bottom + k), &entry.e);
-                continue;
-            };
-            let cell = cells.arguments.get(usize::from(k)).copied().unwrap_or(0);
-            let number = own_this.and_then(|this| far_offset(&entry.e, this));
-            numbers.extend(number.map(|_| cell));
-            let given = number.map_or(entry.e, Expr::Const);
-            self.eval.store(&Expr::Cell(cell), &given);
-        }
         let Some(label) = self.shared.entry(callee, arguments) else {
             return Err(format!("{} calls nothing", self.function.name));
         };
-        let label = match own_this {
-            Some(this) if !numbers.is_empty() => {
-                self.stubs.of(callee, this, numbers, self.eval.code)
-            }
-            _ => label,
+        let to = match self.shared.frames.get(callee) {
+            Some(Frame::Cells(cells)) => cells.arguments.as_slice(),
+            _ => &[],
         };
-        call(self.eval.code, label);
+        let own_this = own.as_ref().map(|own| own.this);
+        let number = |entry: &Entry| far_offset(&entry.e, own_this?);
+        let mut stub = None;
+        if let (Some(this), true) = (own_this, self.shared.small) {
+            let far = to.iter().zip(&given);
+            let far = far.filter(|(_, entry)| number(entry).is_some());
+            let far = far.map(|(cell, _)| *cell).collect();
+            stub = self.stubs.of(callee, this, far, self.eval.code);
+        }
+        for (k, entry) in given.into_iter().enumerate() {
+            let number = number(&entry).filter(|_| stub.is_some());
+            match to.get(k) {
+                Some(cell) => {
+                    let given = number.map_or(entry.e, Expr::Const);
+                    self.eval.store(&Expr::Cell(*cell), &given);
+                }
+                None => {
+                    let place = Expr::Stacked(bottom + k as u16);
+                    self.eval.store(&place, &entry.e);
+                }
+            }
+        }
+        call(self.eval.code, stub.unwrap_or(label));
         Ok(self.take_result(at + 1))
     }
 

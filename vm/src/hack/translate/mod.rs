@@ -57,6 +57,7 @@ mod function;
 mod graph;
 mod live;
 mod operand;
+mod shared;
 mod stubs;
 #[cfg(test)]
 mod tests;
@@ -69,9 +70,9 @@ use crate::Fault;
 use crate::hack::asm::instruction::{DEST_D, DEST_M, comp};
 use code::Code;
 use frames::{Frame, Frames};
-use function::Shared;
 use graph::Graph;
 use live::Live;
+use shared::Shared;
 use stubs::Stubs;
 
 /// No more than this many faults are reported.
@@ -152,7 +153,7 @@ pub fn translate(program: &Program, options: Options) -> Result<Translation, Vec
     let live = Live::new(program, &heights, &graph.order);
     let stack = options.keep == Keep::Frames;
     let frames = Frames::new(program, &heights, &graph, &live, stack);
-    let make = |small| {
+    let once = |small, stubs| {
         let mut code = Code::default();
         let shared = Shared::new(program, &heights, &graph, &live, &frames, &mut code);
         let shared = Shared {
@@ -160,7 +161,15 @@ pub fn translate(program: &Program, options: Options) -> Result<Translation, Vec
             small,
             ..shared
         };
-        whole(&shared, &graph, &frames, code)
+        whole(&shared, &graph, &frames, code, stubs)
+    };
+    let make = |small| {
+        let (code, stubs) = once(small, Stubs::default())?;
+        if !small {
+            return Ok(code);
+        }
+        // The first time only counts what the second can use.
+        once(small, stubs.counted()).map(|(code, _)| code)
     };
     let (mut code, mut small) = match options.size {
         Size::Small => (make(true)?, true),
@@ -192,9 +201,9 @@ fn whole(
     graph: &Graph,
     frames: &Frames,
     mut code: Code,
-) -> Result<Code, Vec<Fault>> {
+    mut stubs: Stubs,
+) -> Result<(Code, Stubs), Vec<Fault>> {
     let mut faults = Vec::new();
-    let mut stubs = Stubs::default();
     begin(&mut code, shared, frames.stack);
     // The first one called last: it follows the beginning.
     for index in graph.order.iter().rev() {
@@ -221,7 +230,7 @@ fn whole(
     code.go(shared.halt);
     if faults.is_empty() {
         finish::tidy(&mut code);
-        Ok(code)
+        Ok((code, stubs))
     } else {
         Err(faults)
     }

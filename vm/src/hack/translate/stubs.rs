@@ -16,11 +16,17 @@ use std::collections::BTreeMap;
 /// The offset from which a number is shorter than the word.
 const FAR: u16 = 3;
 
+/// A function, the cell of a pointer, and the cells of the arguments to be read.
+type Key = (usize, u16, Vec<u16>);
+
 /// The stubs of a program.
 #[derive(Default)]
 pub(super) struct Stubs {
-    /// By function, cell of the pointer, and cells of the arguments to be read.
-    known: BTreeMap<(usize, u16, Vec<u16>), Label>,
+    known: BTreeMap<Key, Label>,
+    /// How many calls would be shorter by each.
+    calls: BTreeMap<Key, usize>,
+    /// How many calls were counted before, if they were.
+    counted: Option<BTreeMap<Key, usize>>,
 }
 
 /// The offset of an argument that is a word of the object at `this`.
@@ -32,10 +38,37 @@ pub(super) fn far_offset(e: &Expr, this: u16) -> Option<u16> {
 }
 
 impl Stubs {
-    /// The stub for a call.
-    pub fn of(&mut self, function: usize, this: u16, cells: Vec<u16>, code: &mut Code) -> Label {
-        let known = self.known.entry((function, this, cells));
-        *known.or_insert_with(|| code.label())
+    /// Those that are worth their words, when these have counted the calls.
+    pub fn counted(self) -> Stubs {
+        Stubs {
+            counted: Some(self.calls),
+            ..Stubs::default()
+        }
+    }
+
+    /// The stub for a call, if there is to be one.
+    pub fn of(
+        &mut self,
+        function: usize,
+        this: u16,
+        cells: Vec<u16>,
+        code: &mut Code,
+    ) -> Option<Label> {
+        if cells.is_empty() {
+            return None;
+        }
+        let saved = 3 * cells.len();
+        let own = 4 + 7 * cells.len();
+        let key = (function, this, cells);
+        let Some(counted) = &self.counted else {
+            *self.calls.entry(key).or_default() += 1;
+            return None;
+        };
+        let calls = counted.get(&key).copied().unwrap_or(0);
+        if calls * saved <= own {
+            return None;
+        }
+        Some(*self.known.entry(key).or_insert_with(|| code.label()))
     }
 
     /// Makes the stubs. `frame` is where a function keeps its words, and where it
