@@ -11,15 +11,21 @@ use libfuzzer_sys::fuzz_target;
 use slowlight_vm::hack::asm::{assemble, disassemble, read_image, write_image};
 use slowlight_vm::hack::cpu::Cpu;
 use slowlight_vm::hack::jack::compile;
-use slowlight_vm::hack::translate::{Compare, Keep, Options, translate};
+use slowlight_vm::hack::translate::{Compare, Keep, Options, Size, translate};
 use slowlight_vm::hack::vm::{Machine, Program};
 
 const CYCLES: u64 = 20_000;
 
-const WAYS: [Options; 3] = [
-    Options { compare: Compare::Words, keep: Keep::Cells },
-    Options { compare: Compare::Words, keep: Keep::Frames },
-    Options { compare: Compare::Differences, keep: Keep::Cells },
+const PLAIN: Options = Options {
+    compare: Compare::Words,
+    keep: Keep::Cells,
+    size: Size::Fit,
+};
+const WAYS: [Options; 4] = [
+    PLAIN,
+    Options { keep: Keep::Frames, ..PLAIN },
+    Options { size: Size::Small, ..PLAIN },
+    Options { compare: Compare::Differences, ..PLAIN },
 ];
 
 /// Runs words on both engines.

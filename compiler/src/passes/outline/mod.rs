@@ -21,12 +21,13 @@
 //! it. What a run reads on some ways only must have been computed before it on
 //! all, or there is no call: a home that was not written is never read.
 //!
-//! - `forest`: the statements with every block in one arena, and what is known
+//! - `forest`: the statements with every block in one arena; `known`: what is known
 //!   of their places; `token`: what statements have to agree in; `runs`: which
 //!   runs have one shape; `make`: subroutines and calls.
 
 mod describe;
 mod forest;
+mod known;
 mod make;
 mod runs;
 #[cfg(test)]

@@ -129,8 +129,9 @@ fn in_place(
         // those that are read seldom have two letters.
         let reads = uses.get(name).map_or(0, |n| n.saturating_sub(1));
         let letters = if spare { 2 } else { 1 };
+        let two_signs = number.starts_with('-') && signed.contains(name);
         !changed.contains(name)
-            && !(number.starts_with('-') && signed.contains(name))
+            && !two_signs
             && often.get(name).is_none_or(|often| *often <= seldom)
             && constants.contains(name)
             && reads * number.len().saturating_sub(letters) < number.len() + 9 + 2 * letters

@@ -69,12 +69,14 @@ impl Ends<'_> {
                 return;
             };
             // A choice before it that nothing else comes between.
-            if before.is_empty() && !placed && at > 0 {
-                if let Some(both) = end.chosen(&self.texts[at - 1]) {
-                    changed[at - 1] = both;
-                    changed[at] = String::new();
-                    return;
-                }
+            if before.is_empty()
+                && !placed
+                && at > 0
+                && let Some(both) = end.chosen(&self.texts[at - 1])
+            {
+                changed[at - 1] = both;
+                changed[at] = String::new();
+                return;
             }
             let way = end.behind_statements(before);
             if way.len() <= LINE {

@@ -131,6 +131,11 @@ pub fn disassemble(words: &[u16]) -> String {
     text
 }
 
+/// Whether a name has a value in every program.
+pub fn is_predefined(name: &str) -> bool {
+    Symbols::new().known.contains_key(name)
+}
+
 /// What a symbol stands for.
 #[derive(Clone, Copy)]
 struct Symbol {

@@ -12,6 +12,7 @@ use super::code::{Code, Label};
 use super::expr::Expr;
 use super::frames::{Frame, RESULT};
 use super::function::{Body, Entry};
+use super::stubs::far_offset;
 use crate::hack::asm::instruction::{DEST_A, DEST_D, DEST_M, JGT, comp};
 use crate::hack::vm::command::{ARG, CONSTANTS, Command, FRAME, LCL, SP, THAT, THIS};
 
@@ -158,19 +159,36 @@ impl Body<'_, '_, '_> {
             below as u16
         };
         let given: Vec<Entry> = self.stack.drain(below..).collect();
-        for (k, entry) in (0..).zip(given) {
-            let to = match self.shared.frames.get(callee) {
-                Some(Frame::Cells(cells)) => {
-                    Expr::Cell(cells.arguments.get(usize::from(k)).copied().unwrap_or(0))
-                }
-                _ => Expr::Stacked(bottom + k),
-            };
-            self.eval.store(&to, &entry.e);
-        }
         let Some(label) = self.shared.entry(callee, arguments) else {
             return Err(format!("{} calls nothing", self.function.name));
         };
-        call(self.eval.code, label);
+        let to = match self.shared.frames.get(callee) {
+            Some(Frame::Cells(cells)) => cells.arguments.as_slice(),
+            _ => &[],
+        };
+        let own_this = own.as_ref().map(|own| own.this);
+        let number = |entry: &Entry| far_offset(&entry.e, own_this?);
+        let mut stub = None;
+        if let (Some(this), true) = (own_this, self.shared.small) {
+            let far = to.iter().zip(&given);
+            let far = far.filter(|(_, entry)| number(entry).is_some());
+            let far = far.map(|(cell, _)| *cell).collect();
+            stub = self.stubs.of(callee, this, far, self.eval.code);
+        }
+        for (k, entry) in given.into_iter().enumerate() {
+            let number = number(&entry).filter(|_| stub.is_some());
+            match to.get(k) {
+                Some(cell) => {
+                    let given = number.map_or(entry.e, Expr::Const);
+                    self.eval.store(&Expr::Cell(*cell), &given);
+                }
+                None => {
+                    let place = Expr::Stacked(bottom + k as u16);
+                    self.eval.store(&place, &entry.e);
+                }
+            }
+        }
+        call(self.eval.code, stub.unwrap_or(label));
         Ok(self.take_result(at + 1))
     }
 
@@ -211,6 +229,10 @@ impl Body<'_, '_, '_> {
                 }
                 self.eval.code.at(cells.back);
                 self.eval.code.compute(DEST_M, comp::D);
+                let body = self.shared.bodies.get(self.index);
+                if let Some(body) = body.filter(|_| self.shared.small) {
+                    self.eval.code.mark(*body);
+                }
                 for (k, cell) in (0..).zip(&cells.locals) {
                     if self.shared.live.reads_first(self.index, k) {
                         self.eval.store(&Expr::Cell(*cell), &Expr::Const(0));

@@ -60,6 +60,12 @@ impl Code {
         label
     }
 
+    /// How many instructions there are.
+    pub fn length(&self) -> usize {
+        let is_instruction = |ins: &&Ins| !matches!(ins, Ins::Mark(_));
+        self.ins.iter().filter(is_instruction).count()
+    }
+
     /// Places a label here.
     pub fn mark(&mut self, label: Label) {
         // A jump to what follows is none.

@@ -2,7 +2,8 @@
 
 use super::code::{Code, GO, Ins, Label};
 use crate::hack::asm::instruction::{LARGEST, written};
-use std::collections::HashMap;
+use crate::hack::asm::is_predefined;
+use std::collections::{HashMap, HashSet};
 
 /// Jumps go to where the jumps that they go to go.
 fn thread(code: &mut Code) {
@@ -66,10 +67,14 @@ fn prune(code: &mut Code) {
     }
 }
 
-/// Makes the code final; answers the address of each label.
-pub(super) fn finish(code: &mut Code) -> Vec<usize> {
+/// Makes code final.
+pub(super) fn tidy(code: &mut Code) {
     thread(code);
     prune(code);
+}
+
+/// The address of each label.
+pub(super) fn addresses(code: &Code) -> Vec<usize> {
     let mut addresses = vec![0; code.names.len()];
     let mut at = 0;
     for ins in &code.ins {
@@ -99,17 +104,32 @@ pub(super) fn words(code: &Code, addresses: &[usize]) -> Vec<u16> {
     code.ins.iter().filter_map(word).collect()
 }
 
-/// The code as assembly. Labels are named for their functions; others by number.
+/// A name for each label, no two alike: its function's, or its number.
+fn names(code: &Code) -> Vec<String> {
+    let mut taken = HashSet::new();
+    let labels = code.names.iter().enumerate();
+    labels
+        .map(|(label, name)| {
+            let mut name = name.clone().unwrap_or_else(|| format!("${label}"));
+            // What the assembler knows, and functions that are called like ours.
+            while (!name.starts_with('$') && is_predefined(&name)) || taken.contains(&name) {
+                name.push_str(&format!("${label}"));
+            }
+            taken.insert(name.clone());
+            name
+        })
+        .collect()
+}
+
+/// The code as assembly.
 pub(super) fn text(code: &Code) -> String {
-    let name = |label: Label| match code.names.get(label) {
-        Some(Some(name)) => name.clone(),
-        _ => format!("${label}"),
-    };
+    let names = names(code);
+    let name = |label: &Label| names.get(*label).map_or("", String::as_str);
     let mut text = String::new();
     for ins in &code.ins {
         match ins {
-            Ins::Mark(label) => text.push_str(&format!("({})\n", name(*label))),
-            Ins::To(label) => text.push_str(&format!("    @{}\n", name(*label))),
+            Ins::Mark(label) => text.push_str(&format!("({})\n", name(label))),
+            Ins::To(label) => text.push_str(&format!("    @{}\n", name(label))),
             Ins::At(word) | Ins::Compute(word) => {
                 if let Some(instruction) = written(*word) {
                     text.push_str(&format!("    {instruction}\n"));

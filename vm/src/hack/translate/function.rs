@@ -4,16 +4,16 @@
 //! a word is stored, asked for, or passed on; what is left at the end of a
 //! block, which Jack never does, is written to the stack.
 
-use super::Compare;
 use super::code::{Code, Label};
 use super::eval::Eval;
 use super::expr::{Expr, fixed};
 use super::frames::{Cells, Frame};
-use super::live::Live;
+use super::shared::Shared;
+use super::stubs::Stubs;
 use crate::hack::asm::instruction::{DEST_D, DEST_M, comp};
 use crate::hack::vm::command::{ARG, CONSTANTS, Command, LCL, Place, SP, THAT, THIS};
-use crate::hack::vm::heights::{Heights, UNREACHED};
-use crate::hack::vm::link::{Function, Program};
+use crate::hack::vm::heights::UNREACHED;
+use crate::hack::vm::link::Function;
 use crate::hack::vm::os::Native;
 use std::collections::HashMap;
 
@@ -27,37 +27,13 @@ pub(super) struct Entry {
     pub depth: u32,
 }
 
-/// What all functions share.
-pub(super) struct Shared<'p> {
-    pub program: &'p Program,
-    pub heights: &'p Heights,
-    pub live: &'p Live,
-    pub frames: &'p [Frame],
-    pub scratch: &'p [u16],
-    pub compare: Compare,
-    /// Where each function is entered, by its number of arguments.
-    pub entries: Vec<Vec<(u16, Label)>>,
-    pub halt: Label,
-    /// Where functions with frames on the stack return: those that do not set THIS
-    /// and THAT, and those that do.
-    pub leave: [Label; 2],
-}
-
-impl Shared<'_> {
-    /// Where a function is entered with so many arguments.
-    pub fn entry(&self, function: usize, arguments: u16) -> Option<Label> {
-        let entries = self.entries.get(function)?;
-        let entry = entries.iter().find(|(count, _)| *count == arguments);
-        entry.map(|(_, label)| *label)
-    }
-}
-
 /// A function as it is translated.
 pub(super) struct Body<'s, 'p, 'c> {
     pub shared: &'s Shared<'p>,
     pub index: usize,
     pub function: &'p Function,
     pub eval: Eval<'c>,
+    pub stubs: &'c mut Stubs,
     pub stack: Vec<Entry>,
     /// Labels of commands that are jumped to.
     pub labels: HashMap<u32, Label>,
@@ -72,6 +48,7 @@ pub(super) fn translate(
     index: usize,
     function: &Function,
     code: &mut Code,
+    stubs: &mut Stubs,
 ) -> Result<(), String> {
     let peak = shared.heights.peaks.get(index).copied().unwrap_or(0);
     let mut labels = HashMap::new();
@@ -87,6 +64,7 @@ pub(super) fn translate(
         index,
         function,
         eval: Eval::new(code, shared.scratch, peak, shared.compare),
+        stubs,
         stack: Vec::new(),
         labels,
     };

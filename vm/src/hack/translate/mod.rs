@@ -57,10 +57,12 @@ mod function;
 mod graph;
 mod live;
 mod operand;
+mod shared;
+mod stubs;
 #[cfg(test)]
 mod tests;
 
-use super::asm::overflow;
+use super::asm::{ROM_WORDS, overflow};
 use super::vm::Program;
 use super::vm::command::SP;
 use super::vm::heights;
@@ -68,9 +70,10 @@ use crate::Fault;
 use crate::hack::asm::instruction::{DEST_D, DEST_M, comp};
 use code::Code;
 use frames::{Frame, Frames};
-use function::Shared;
 use graph::Graph;
 use live::Live;
+use shared::Shared;
+use stubs::Stubs;
 
 /// No more than this many faults are reported.
 const FAULTS: usize = 100;
@@ -96,6 +99,18 @@ pub enum Keep {
     Frames,
 }
 
+/// Whether words of ROM or cycles count.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Size {
+    /// Cycles, unless the program does not fit the ROM.
+    #[default]
+    Fit,
+    /// Cycles.
+    Fast,
+    /// Words.
+    Small,
+}
+
 /// How to translate.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Options {
@@ -103,6 +118,8 @@ pub struct Options {
     pub compare: Compare,
     /// Where functions keep their words.
     pub keep: Keep,
+    /// What counts.
+    pub size: Size,
 }
 
 /// A program in machine code.
@@ -114,6 +131,8 @@ pub struct Translation {
     pub assembly: String,
     /// How many functions there are, and how many of them have frames on the stack.
     pub functions: (usize, usize),
+    /// Whether it is made small, and slower than it could be.
+    pub small: bool,
 }
 
 /// Translates a program.
@@ -134,65 +153,32 @@ pub fn translate(program: &Program, options: Options) -> Result<Translation, Vec
     let live = Live::new(program, &heights, &graph.order);
     let stack = options.keep == Keep::Frames;
     let frames = Frames::new(program, &heights, &graph, &live, stack);
-
-    let mut code = Code::default();
-    let halt = code.named("halt".to_owned());
-    let leave = ["leave", "leave$pointers"].map(|name| code.named(name.to_owned()));
-    let mut entries = vec![Vec::new(); program.functions.len()];
-    for index in &graph.order {
-        let Some(function) = program.functions.get(*index) else {
-            continue;
+    let once = |small, stubs| {
+        let mut code = Code::default();
+        let shared = Shared::new(program, &heights, &graph, &live, &frames, &mut code);
+        let shared = Shared {
+            compare: options.compare,
+            small,
+            ..shared
         };
-        let mut arguments = graph.arguments.get(*index).cloned().unwrap_or_default();
-        if *index == start as usize {
-            arguments.push(0);
-        }
-        arguments.sort_unstable();
-        arguments.dedup();
-        for (k, count) in arguments.iter().enumerate() {
-            let name = if k == 0 {
-                function.name.clone()
-            } else {
-                format!("{}${count}", function.name)
-            };
-            if let Some(entries) = entries.get_mut(*index) {
-                entries.push((*count, code.named(name)));
-            }
-        }
-    }
-    let shared = Shared {
-        program,
-        heights: &heights,
-        live: &live,
-        frames: &frames.of,
-        scratch: &frames.scratch,
-        compare: options.compare,
-        entries,
-        halt,
-        leave,
+        whole(&shared, &graph, &frames, code, stubs)
     };
-
-    let mut faults = Vec::new();
-    begin(&mut code, &shared, frames.stack);
-    // The first one called last: it follows the beginning.
-    for index in graph.order.iter().rev() {
-        if let Some(function) = program.functions.get(*index)
-            && let Err(message) = function::translate(&shared, *index, function, &mut code)
-            && faults.len() < FAULTS
-        {
-            faults.push(fault(message));
+    let make = |small| {
+        let (code, stubs) = once(small, Stubs::default())?;
+        if !small {
+            return Ok(code);
         }
+        // The first time only counts what the second can use.
+        once(small, stubs.counted()).map(|(code, _)| code)
+    };
+    let (mut code, mut small) = match options.size {
+        Size::Small => (make(true)?, true),
+        Size::Fast | Size::Fit => (make(false)?, false),
+    };
+    if options.size == Size::Fit && code.length() > ROM_WORDS {
+        (code, small) = (make(true)?, true);
     }
-    for (label, pointers) in leave.into_iter().zip([false, true]) {
-        code.mark(label);
-        calls::leave(&mut code, pointers);
-    }
-    code.mark(halt);
-    code.go(halt);
-    if !faults.is_empty() {
-        return Err(faults);
-    }
-    let addresses = finish::finish(&mut code);
+    let addresses = finish::addresses(&code);
     let words = finish::words(&code, &addresses);
     if let Some(message) = overflow(words.len()) {
         return Err(vec![fault(message)]);
@@ -205,7 +191,49 @@ pub fn translate(program: &Program, options: Options) -> Result<Translation, Vec
             graph.order.len(),
             graph.order.iter().filter(on_stack).count(),
         ),
+        small,
     })
+}
+
+/// The code of a program.
+fn whole(
+    shared: &Shared,
+    graph: &Graph,
+    frames: &Frames,
+    mut code: Code,
+    mut stubs: Stubs,
+) -> Result<(Code, Stubs), Vec<Fault>> {
+    let mut faults = Vec::new();
+    begin(&mut code, shared, frames.stack);
+    // The first one called last: it follows the beginning.
+    for index in graph.order.iter().rev() {
+        if let Some(function) = shared.program.functions.get(*index)
+            && let Err(message) =
+                function::translate(shared, *index, function, &mut code, &mut stubs)
+            && faults.len() < FAULTS
+        {
+            faults.push(fault(message));
+        }
+    }
+    stubs.make(&mut code, |function| {
+        let body = *shared.bodies.get(function)?;
+        match frames.of.get(function)? {
+            Frame::Cells(cells) => Some((cells, body)),
+            Frame::Stack { .. } => None,
+        }
+    });
+    for (label, pointers) in shared.leave.into_iter().zip([false, true]) {
+        code.mark(label);
+        calls::leave(&mut code, pointers);
+    }
+    code.mark(shared.halt);
+    code.go(shared.halt);
+    if faults.is_empty() {
+        finish::tidy(&mut code);
+        Ok((code, stubs))
+    } else {
+        Err(faults)
+    }
 }
 
 /// Sets up the stack, as if the end of the program had called the first function.

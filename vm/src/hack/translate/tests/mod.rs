@@ -7,7 +7,7 @@ mod jack;
 mod programs;
 mod random;
 
-use super::{Compare, Keep, Options, Translation, translate};
+use super::{Compare, Keep, Options, Size, Translation, translate};
 use crate::Stop;
 use crate::hack::asm::assemble;
 use crate::hack::cpu::Cpu;
@@ -20,11 +20,15 @@ fn link(files: &[(&str, &str)]) -> Program {
 }
 
 /// The ways to translate.
-fn ways() -> [Options; 3] {
+fn ways() -> [Options; 4] {
     [
         Options::default(),
         Options {
             keep: Keep::Frames,
+            ..Options::default()
+        },
+        Options {
+            size: Size::Small,
             ..Options::default()
         },
         Options {

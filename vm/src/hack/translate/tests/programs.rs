@@ -1,7 +1,9 @@
 //! Small programs, and what is said of those that cannot be translated.
 
 use super::{link, same};
-use crate::hack::translate::{Options, translate};
+use crate::hack::cpu::Cpu;
+use crate::hack::translate::{Options, Size, translate};
+use crate::hack::vm::Machine;
 
 /// A `Sys.init` with statics 0 to 9, which ends.
 fn runs(body: &str) {
@@ -301,4 +303,98 @@ fn no_room_between_the_statics() {
         return"
     );
     same(&link(&[("Sys.vm", &text)]), true);
+}
+
+#[test]
+fn functions_called_like_symbols_and_like_our_labels() {
+    let names = [
+        "halt",
+        "leave",
+        "SP",
+        "SCREEN",
+        "$3",
+        "$3$7",
+        "R15",
+        "Sys.init$1",
+    ];
+    let calls: String = names
+        .iter()
+        .map(|name| format!("call {name} 0\npush static 0\nadd\npop static 0\n"))
+        .collect();
+    let functions: String = (1..)
+        .zip(names)
+        .map(|(k, name)| format!("function {name} 0\npush constant {k}\nreturn\n"))
+        .collect();
+    let text = format!("function Sys.init 0\n{calls}call Sys.halt 0\nreturn\n{functions}");
+    same(&link(&[("Sys.vm", &text)]), true);
+}
+
+/// A method that passes fields beyond the first few so many times.
+fn passes_fields(times: usize) -> String {
+    let set = |k, value| {
+        format!(
+            "push constant 3000\npush constant {value}\npop temp 0\n\
+             pop pointer 1\npush temp 0\npop that {k}\n"
+        )
+    };
+    let (some, others) = (set(9, 55), set(100, 77));
+    let more = "push this 9\npush this 100\npush this 0\ncall Sys.f 3\nadd\n".repeat(times);
+    format!(
+        "function Sys.init 0
+        {some}{others}push constant 3000
+        call Sys.method 1
+        pop static 0
+        call Sys.halt 0
+        return
+        function Sys.method 0
+        push argument 0
+        pop pointer 0
+        push this 9
+        push constant 4
+        push this 9
+        call Sys.f 3
+        {more}return
+        function Sys.f 0
+        push argument 0
+        push argument 0
+        add
+        push argument 1
+        sub
+        push argument 2
+        add
+        return"
+    )
+}
+
+#[test]
+fn fields_are_passed_by_number_where_words_count() {
+    let program = link(&[("Sys.vm", &passes_fields(6))]);
+    let (_, results) = same(&program, true);
+    let words: Vec<usize> = results.iter().map(|(t, _)| t.words.len()).collect();
+    let small: Vec<bool> = results.iter().map(|(t, _)| t.small).collect();
+    assert_eq!(small, [false, false, true, false]);
+    assert!(words[2] < words[0], "{words:?}");
+}
+
+#[test]
+fn a_program_is_small_where_it_must_be() {
+    let program = link(&[("Sys.vm", &passes_fields(1500))]);
+    let fast = Options {
+        size: Size::Fast,
+        ..Options::default()
+    };
+    let fast = translate(&program, fast).map(|t| t.words.len());
+    let faults = fast.unwrap_err();
+    assert!(
+        faults[0].message.contains("more than the ROM's"),
+        "{faults:?}"
+    );
+    let fitted = translate(&program, Options::default()).unwrap();
+    assert!(fitted.small);
+    let mut cpu = Cpu::new(&fitted.words).unwrap();
+    cpu.run(1_000_000, &mut |_| true);
+    let mut vm = Machine::new(&program);
+    vm.run(1_000_000, &mut |_| true);
+    assert_eq!(cpu.peek(16), vm.peek(16));
+    assert_ne!(cpu.peek(16), 0);
 }

@@ -63,11 +63,13 @@ fn expression() -> impl Strategy<Value = Expression> {
         let binary = prop::sample::select(vec!["add", "sub", "and", "or", "eq", "lt", "gt"]);
         let unary = prop::sample::select(vec!["neg", "not"]);
         let boxed = inner.prop_map(Box::new);
+        // Often a field that is not among the first few.
+        let argument = prop_oneof![boxed.clone(), Just(Box::new(Variable(11)))];
         prop_oneof![
             1 => (any::<bool>(), boxed.clone()).prop_map(|(peek, x)| Element(peek, x)),
             2 => (unary, boxed.clone()).prop_map(|(op, x)| Unary(op, x)),
             6 => (binary, boxed.clone(), boxed.clone()).prop_map(|(op, x, y)| Binary(op, x, y)),
-            1 => (0..FUNCTIONS.len(), boxed.clone(), boxed.clone())
+            1 => (0..FUNCTIONS.len(), argument.clone(), argument)
                 .prop_map(|(f, x, y)| Call(f, x, y)),
             1 => (boxed.clone(), boxed.clone(), boxed)
                 .prop_map(|(test, x, y)| Choice(test, x, y)),
