@@ -128,7 +128,6 @@ pub(crate) const MAKE_DIFFERENCES: &str = "    static Array differences;
     function void makeDifferences() {
         var int d, k, squares, cut, twice, octaves, left, doubled;
         let differences = Array.new(6144);
-        let differences[0] = 0;
         let squares = 8866;
         let k = 10783;
         let d = 1;

@@ -1,7 +1,7 @@
 //! Statements and expressions.
 
 use super::expression::{Expression, int};
-use super::logs::{constant, known};
+use super::logs::constant;
 use super::names::Names;
 use super::object::Object;
 use super::spread::Spread;
@@ -213,18 +213,8 @@ impl<'p> Code<'p> {
             Origin::Scratch(l, k) => Expression::term(self.names.home(Place::Scratch(l, k))),
         };
         let home = self.home(place, format);
-        if self.logs() && matches!(format, Format::Log { .. }) {
-            let sign = match from_id {
-                Some(id) => self.sign(id).text,
-                None => self.sign_of(&from.text),
-            };
-            let range = match place {
-                Place::Node(id) => self.plan.ranges.result.get(id.0 as usize),
-                _ => None,
-            };
-            let known = range.is_some_and(|range| known(*range).is_some());
-            self.copy_log(&home, (&from.text, &sign), known);
-            return;
+        if let Format::Log { .. } = format {
+            return self.set_log((place, &home), (from_id, &from.text));
         }
         if from.text == home {
             return;
@@ -380,41 +370,6 @@ impl<'p> Code<'p> {
             Value::Real(_) if self.logs() => constant(bits),
             Value::Real(r) => Expression::term(self.object.constant(&mut self.names, bits, r)),
         }
-    }
-
-    /// An entry of a table, its indices clamped where the ranges do not prove them inside.
-    fn entry(&mut self, id: TableId, column: NodeId, row: NodeId) -> Expression {
-        let Some(table) = self.plan.graph.tables.get(id.0 as usize) else {
-            return Expression::term("0");
-        };
-        let (width, height) = (table.width, table.height);
-        let name = self.names.table(self.plan, id);
-        let column = self.index(column, width);
-        let at = match (width, height) {
-            (_, 1) => column,
-            (1, _) => self.index(row, height),
-            _ => {
-                let row = self.index(row, height).at(TERM);
-                let text = format!("({row} * {width}) + {}", column.at(TERM));
-                Expression { text, level: SUM }
-            }
-        };
-        Expression::term(format!("{name}[{}]", at.text))
-    }
-
-    fn index(&mut self, id: NodeId, n: u32) -> Expression {
-        let inside = self
-            .plan
-            .ranges
-            .result
-            .get(id.0 as usize)
-            .is_some_and(|r| r.within(0.0, f64::from(n) - 1.0));
-        let index = self.read(id);
-        if inside {
-            return index;
-        }
-        let last = n.saturating_sub(1);
-        Expression::term(format!("Math.max(0, Math.min({last}, {}))", index.text))
     }
 
     /// What an operation means, in the scene's names.

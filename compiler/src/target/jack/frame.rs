@@ -5,6 +5,7 @@ use super::logs::{has_signs, without_idle_signs};
 use super::making::making;
 use super::params::{checks, parameters};
 use super::report::reports;
+use super::spread;
 use super::{Document, Line, Text};
 use crate::plan::Plan;
 use slowlight_routine::Format;
@@ -201,7 +202,11 @@ fn fields(code: &Code, text: &mut Text) {
     if let Some(spread) = &code.spread {
         let rows = spread.ring.iter().map(String::as_str).collect();
         declare("Array", rows, " // what pixels send to later ones");
-        declare("Float", vec![&spread.received, &spread.sum], "");
+        let signs: Vec<String> = spread.ring.iter().map(|row| spread::signs(row)).collect();
+        if code.logs() {
+            declare("Array", signs.iter().map(String::as_str).collect(), "");
+        }
+        declare(real, vec![&spread.received, &spread.sum], "");
     }
     declare(
         "Array",
@@ -293,7 +298,7 @@ fn drawing(code: &mut Code) -> Vec<Subroutine> {
     picture.open(format!("while (~({y} > {last_row})) {{"));
     picture.line("do drawRow();");
     if let Some(spread) = &spread {
-        spread.turn(&mut picture);
+        spread.turn(code, &mut picture);
     }
     picture.line(format!("let {y} = {y} + 1;"));
     picture.close("}");
@@ -310,7 +315,7 @@ fn drawing(code: &mut Code) -> Vec<Subroutine> {
 
     let mut dot = Text::default();
     if let Some(spread) = &spread {
-        spread.receive(&x, &mut dot);
+        spread.receive(code, &x, &mut dot);
     }
     dot.append(pixel);
     dot.span = Some(plan.graph.span(plan.graph.ink));

@@ -52,6 +52,20 @@ impl Code<'_> {
         sign
     }
 
+    /// Sets a place to a real that is a node's, or one in a scratch home.
+    pub fn set_log(&mut self, (place, home): (Place, &str), (id, from): (Option<NodeId>, &str)) {
+        let sign = match id {
+            Some(id) => self.sign(id).text,
+            None => self.sign_of(from),
+        };
+        let range = match place {
+            Place::Node(id) => self.plan.ranges.result.get(id.0 as usize),
+            _ => None,
+        };
+        let known = range.is_some_and(|range| known(*range).is_some());
+        self.copy_log(home, (from, &sign), known);
+    }
+
     /// Copies a real.
     pub fn copy_log(&mut self, home: &str, (from, sign): (&str, &str), known: bool) {
         if from != home {

@@ -19,7 +19,10 @@
 //! declared, constants end at 32767, every path returns, and expressions carry
 //! their parentheses, as Jack has no precedence.
 //!
-//! - `names`: what everything is called; `code`: statements and expressions;
+//! Logarithmic reals are two fields each, an int and a sign; nothing is made for them.
+//!
+//! - `names`: what everything is called; `code`: statements and expressions; `logs`:
+//!   those of logarithmic reals; `lookup`: entries of tables;
 //! - `object`: constants and params; `making`: what fills the fields at the start;
 //! - `frame`: the classes around; `spread`: error diffusion.
 
@@ -27,6 +30,7 @@ mod code;
 mod expression;
 mod frame;
 mod logs;
+mod lookup;
 mod making;
 mod names;
 mod object;

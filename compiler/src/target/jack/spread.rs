@@ -5,8 +5,10 @@ use super::code::Code;
 use super::frame::{Subroutine, subroutine};
 use super::names::Names;
 use super::{Line, Text};
+use crate::flow::graph::NodeId;
 use crate::plan::{ErrorRows, Plan};
 use slowlight_routine::{Form, Value};
+use slowlight_runtime_jack::TERM;
 
 /// The names of what the errors need.
 #[derive(Clone)]
@@ -47,10 +49,23 @@ impl Spread {
         }
     }
 
+    /// The arrays of a ring: of signs, too, beside logarithms.
+    fn arrays(&self, code: &Code) -> Vec<Vec<String>> {
+        let signs = || self.ring.iter().map(|name| signs(name)).collect();
+        match code.logs() {
+            true => vec![self.ring.clone(), signs()],
+            false => vec![self.ring.clone()],
+        }
+    }
+
     /// Takes what a pixel has received.
-    pub fn receive(&self, x: &str, text: &mut Text) {
+    pub fn receive(&self, code: &mut Code, x: &str, text: &mut Text) {
         let here = self.element(x, 0, 0);
         text.line(format!("let {} = {here};", self.received));
+        if code.logs() {
+            let own = code.sign_of(&self.received);
+            text.line(format!("let {own} = {};", signs(&here)));
+        }
     }
 
     /// Sends a pixel's shares, and leaves 0 where it stood.
@@ -64,6 +79,16 @@ impl Spread {
             let there = self.element(x, i64::from(share.dx), down);
             text.span = Some(plan.graph.span(share.node));
             text.line(format!("let {sum} = {there};"));
+            if code.logs() {
+                let template = match gather {
+                    Some(Form::Statement(template)) => template,
+                    _ => "",
+                };
+                for line in gathered(code, template, (&sum, &there), share.node) {
+                    text.line(line);
+                }
+                continue;
+            }
             if let Some(Form::Statement(template)) = gather {
                 let sent = code.read(share.node).text;
                 let call = template.replace("{r}", &sum).replace("{0}", &sum);
@@ -71,23 +96,31 @@ impl Spread {
             }
         }
         let zero = code.constant(Value::Real(0.0)).text;
+        if code.logs() {
+            let here = self.element(x, 0, 0);
+            text.line(format!("let {here} = {zero};"));
+            text.line(format!("let {} = true;", signs(&here)));
+            return text.lines;
+        }
         code.needs.insert("Float.copy");
         text.line(format!("do {}.copy({zero});", self.received));
         text.lines
     }
 
     /// The row that is done becomes the furthest one.
-    pub fn turn(&self, text: &mut Text) {
-        if self.rows.rows < 2 {
-            return;
-        }
-        let [first, .., done] = self.ring.as_slice() else {
-            return;
-        };
-        text.line(format!("let {done} = {first};"));
-        for pair in self.ring.windows(2) {
-            if let [to, from] = pair {
-                text.line(format!("let {to} = {from};"));
+    pub fn turn(&self, code: &Code, text: &mut Text) {
+        for ring in self.arrays(code) {
+            let [first, .., done] = ring.as_slice() else {
+                return;
+            };
+            if self.rows.rows < 2 {
+                return;
+            }
+            text.line(format!("let {done} = {first};"));
+            for pair in ring.windows(2) {
+                if let [to, from] = pair {
+                    text.line(format!("let {to} = {from};"));
+                }
             }
         }
     }
@@ -96,20 +129,63 @@ impl Spread {
     pub fn making(&self, code: &mut Code) -> Subroutine {
         let length = self.rows.length();
         let [x, _] = code.names.axes.clone();
-        code.needs.insert("Float");
+        let empty = match code.logs() {
+            true => [code.constant(Value::Real(0.0)).text, "true".to_owned()],
+            false => ["Float.new()".to_owned(), String::new()],
+        };
+        if !code.logs() {
+            code.needs.insert("Float");
+        }
         let mut text = Text::default();
-        let rows = self.ring.get(..self.rows.rows as usize).unwrap_or_default();
-        for row in rows {
+        let rings = self.arrays(code);
+        let rows = rings.iter().zip(empty).flat_map(|(ring, empty)| {
+            let rows = ring.iter().take(self.rows.rows as usize);
+            rows.map(move |row| (row, empty.clone()))
+        });
+        let rows: Vec<(&String, String)> = rows.collect();
+        for (row, _) in &rows {
             text.line(format!("let {row} = Array.new({length});"));
         }
         text.line(format!("let {x} = 0;"));
         text.open(format!("while ({x} < {length}) {{"));
-        for row in rows {
-            text.line(format!("let {row}[{x}] = Float.new();"));
+        for (row, empty) in &rows {
+            text.line(format!("let {row}[{x}] = {empty};"));
         }
         text.line(format!("let {x} = {x} + 1;"));
         text.close("}");
         let about = "What pixels send to later ones: a row each.";
         subroutine(about, "method void makeErrors()", text.lines)
     }
+}
+
+/// What signs are called beside their logarithms, or an element of them.
+pub(super) fn signs(name: &str) -> String {
+    match name.split_once('[') {
+        Some((array, index)) => format!("{array}_plus[{index}"),
+        None => format!("{name}_plus"),
+    }
+}
+
+/// Adds a share to what another pixel has received, both as logarithms.
+fn gathered(
+    code: &mut Code,
+    template: &str,
+    (sum, there): (&str, &str),
+    share: NodeId,
+) -> Vec<String> {
+    let (sent, plus, own) = (
+        code.read(share).at(TERM),
+        code.sign(share).text,
+        code.sign_of(sum),
+    );
+    let fill = |line: &str| {
+        let line = line.replace("{r+}", &own).replace("{r}", sum);
+        let line = line.replace("{0+}", &own).replace("{0}", sum);
+        line.replace("{1+}", &plus).replace("{1}", &sent)
+    };
+    let mut lines = vec![format!("let {own} = {};", signs(there))];
+    lines.extend(template.lines().map(fill));
+    lines.push(format!("let {there} = {sum};"));
+    lines.push(format!("let {} = {own};", signs(there)));
+    lines
 }

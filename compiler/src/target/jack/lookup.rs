@@ -1,0 +1,43 @@
+//! Entries of tables.
+
+use super::code::Code;
+use super::expression::Expression;
+use crate::flow::graph::*;
+use slowlight_runtime_jack::{SUM, TERM};
+
+impl Code<'_> {
+    /// An entry of a table, its indices clamped where the ranges do not prove them inside.
+    pub fn entry(&mut self, id: TableId, column: NodeId, row: NodeId) -> Expression {
+        let Some(table) = self.plan.graph.tables.get(id.0 as usize) else {
+            return Expression::term("0");
+        };
+        let (width, height) = (table.width, table.height);
+        let name = self.names.table(self.plan, id);
+        let column = self.index(column, width);
+        let at = match (width, height) {
+            (_, 1) => column,
+            (1, _) => self.index(row, height),
+            _ => {
+                let row = self.index(row, height).at(TERM);
+                let text = format!("({row} * {width}) + {}", column.at(TERM));
+                Expression { text, level: SUM }
+            }
+        };
+        Expression::term(format!("{name}[{}]", at.text))
+    }
+
+    fn index(&mut self, id: NodeId, n: u32) -> Expression {
+        let inside = self
+            .plan
+            .ranges
+            .result
+            .get(id.0 as usize)
+            .is_some_and(|r| r.within(0.0, f64::from(n) - 1.0));
+        let index = self.read(id);
+        if inside {
+            return index;
+        }
+        let last = n.saturating_sub(1);
+        Expression::term(format!("Math.max(0, Math.min({last}, {}))", index.text))
+    }
+}
