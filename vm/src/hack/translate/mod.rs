@@ -33,6 +33,9 @@
 //! Functions that do not call themselves, directly or not, keep their words at
 //! fixed addresses ([`frames`]); the others have the frames of the book.
 //!
+//! What is fast is short here, too, so there is little to choose. Where a program
+//! does not fit the ROM, calls in methods are made shorter and slower ([`stubs`]).
+//!
 //! # What is the same as on the VM
 //!
 //! What a program leaves in statics, heap and screen, and what its functions
