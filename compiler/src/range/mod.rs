@@ -24,6 +24,7 @@ use interval::interval;
 use parity::whole;
 pub use slack::{ENTRIES, Slack};
 use slowlight_routine::{Op, Range, Type};
+use std::collections::BTreeSet;
 
 /// What the ranges of a scene are, on one machine. Side tables by node.
 #[derive(Clone, Debug, Default)]
@@ -48,6 +49,7 @@ pub fn ranges(graph: &Graph, tree: &Tree, slack: &Slack) -> Ranges {
             .map(|l| vec![None; l.types.len()])
             .collect(),
         assumed: Vec::new(),
+        measured: trust::measured(graph),
         turns: 0,
         out: Ranges {
             result: graph.ids().map(|id| known(graph, slack, id)).collect(),
@@ -97,6 +99,8 @@ pub(crate) struct Walk<'g> {
     carried: Vec<Vec<Option<Range>>>,
     /// What values that are computed here are known to stay within.
     assumed: Vec<(NodeId, Range)>,
+    /// Values whose lengths are asked for, which are trusted to be no directions.
+    measured: BTreeSet<NodeId>,
     /// How many turns of loops have been walked.
     turns: u32,
     out: Ranges,

@@ -42,7 +42,9 @@ impl Slack {
     pub fn of(runtime: &Runtime) -> Slack {
         let ends = |format: Format| match format {
             Format::Int { .. } => Range::new(-format.most(), format.most() - 1.0),
-            Format::Fixed { .. } => Range::new(-format.most(), format.most()),
+            Format::Fixed { .. } | Format::Log { .. } => {
+                Range::new(-format.most(), format.most())
+            }
             _ => Range::new(f64::MIN, f64::MAX),
         };
         let mut errors = vec![Vec::new(); Op::ALL.len()];

@@ -5,6 +5,31 @@ use super::interval::interval;
 use crate::flow::graph::*;
 use crate::flow::tree::Statement;
 use slowlight_routine::{Op, Range};
+use std::collections::BTreeSet;
+
+/// Values whose squares are summed under a root: who asks for a length does not take it
+/// for 1. The way from a sphere's centre to a point is a normal only where the point
+/// lies on it, and may be the same value as what its distance is made of elsewhere.
+pub(super) fn measured(graph: &Graph) -> BTreeSet<NodeId> {
+    let mut all = BTreeSet::new();
+    for id in graph.ids() {
+        let Node::Apply(Op::Sqrt, [sum, _]) = graph.node(id) else {
+            continue;
+        };
+        let (mut todo, mut seen) = (vec![sum], 0);
+        while let Some(term) = todo.pop() {
+            seen += 1;
+            match graph.node(term) {
+                Node::Apply(Op::Add, [a, b]) if seen < 2 * TERMS => todo.extend([a, b]),
+                Node::Apply(Op::Mul, [a, b]) if a == b => {
+                    all.insert(a);
+                }
+                _ => {}
+            }
+        }
+    }
+    all
+}
 
 /// How many terms of a sum are looked at.
 const TERMS: usize = 8;
@@ -14,13 +39,13 @@ impl Walk<'_> {
     /// the contract says, twice over for what roundings add.
     pub(super) fn trust(&self, id: NodeId, range: Range) -> Range {
         match self.slack.direction {
-            Some(unit) => match self.graph.directions.get(&id) {
+            Some(unit) if !self.measured.contains(&id) => match self.graph.directions.get(&id) {
                 Some(length) if range.magnitude() > 16.0 * length => {
                     range.meet(Range::new(unit.lo * length, unit.hi * length))
                 }
                 _ => range,
             },
-            None => range,
+            _ => range,
         }
     }
 
@@ -57,7 +82,8 @@ impl Walk<'_> {
             return;
         };
         let beside = before.contains(&Statement::Let(point));
-        if !beside || self.slack.direction.is_none() || !self.graph.directions.contains_key(&id) {
+        let trusted = self.graph.directions.contains_key(&id) && !self.measured.contains(&id);
+        if !beside || self.slack.direction.is_none() || !trusted {
             return;
         }
         let args = [self.read(from), self.read(id)];
