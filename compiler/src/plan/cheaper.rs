@@ -235,9 +235,10 @@ impl Site<'_> {
 
     /// The graph with one of its directions at its own length, each in turn.
     fn held(&self, plain: &Settled) -> impl Iterator<Item = Settled> {
-        // A fixed point has the digits for directions of length 1.
-        let fixed = matches!(self.runtime.real, Format::Fixed { .. });
-        let few = plain.graph.nodes.len() <= NODES && !fixed;
+        // A fixed point has the digits for directions of length 1, and logarithms have
+        // no room for the squares of long ones.
+        let narrow = matches!(self.runtime.real, Format::Fixed { .. } | Format::Log { .. });
+        let few = plain.graph.nodes.len() <= NODES && !narrow;
         let all = match few {
             true => lengths(&plain.graph, &plain.ranges),
             false => Vec::new(),
