@@ -56,6 +56,16 @@ fn wrong_usage_is_status_2() {
         "Jack",
     );
     fails(
+        &["run", "steps.scn", "-t", "jack", "--format", "log9"],
+        2,
+        "it has f316, log10",
+    );
+    fails(
+        &["vm", "hack", "steps.scn", "--page", "E00"],
+        2,
+        "--page is the BBC Micro's",
+    );
+    fails(
         &["run", "steps.scn", "-t", "6502", "--mode", "7"],
         2,
         "one mode",

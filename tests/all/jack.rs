@@ -7,7 +7,8 @@ use slowlight_compiler::eval::{model::ModelRun, native::Native};
 use slowlight_compiler::plan::{Goal, Plan, plan};
 use slowlight_compiler::scene;
 use slowlight_compiler::sema::Options;
-use slowlight_compiler::target::{Document, default_mode, find};
+use slowlight_compiler::target::jack::JACK_LOG10;
+use slowlight_compiler::target::{Document, Target, default_mode, find};
 use slowlight_vm::Stop;
 use slowlight_vm::hack::jack::compile;
 use slowlight_vm::hack::vm::{Machine, Program, Run};
@@ -16,7 +17,17 @@ const MIRRORS: &str = include_str!("../../examples/mirrors.scn");
 
 /// A scene's plan for the target.
 fn planned(source: &str, set: &[f64], rows: Option<(u32, u32)>, plot: bool) -> Plan {
-    let target = find("jack").unwrap();
+    let found = planned_in(find("jack").unwrap(), source, (set, rows), plot);
+    found.unwrap_or_else(|said| panic!("{said}\n{source}"))
+}
+
+/// The same in some format of reals, or what it says of what it cannot compute.
+fn planned_in(
+    target: &'static Target,
+    source: &str,
+    (set, rows): (&[f64], Option<(u32, u32)>),
+    plot: bool,
+) -> Result<Plan, String> {
     let scene = scene::check("test", source);
     assert!(scene.is_right(), "{:?}\n{source}", scene.diagnostics);
     let set = if set.is_empty() {
@@ -37,7 +48,7 @@ fn planned(source: &str, set: &[f64], rows: Option<(u32, u32)>, plot: bool) -> P
         rows,
         plot,
     };
-    plan(&graph, target, &goal).unwrap_or_else(|said| panic!("{said:?}\n{source}"))
+    plan(&graph, target, &goal).map_err(|said| format!("{said:?}"))
 }
 
 /// The classes; `Main` first, the scene's second.
@@ -268,4 +279,50 @@ fn random_scenes_are_drawn_as_the_model_says() {
         varied += u32::from(run.screen.pixels.contains(&0));
     }
     assert!(varied >= 40, "only {varied} pictures show anything");
+}
+
+#[test]
+fn random_scenes_are_drawn_with_logarithms_as_the_model_says() {
+    let mut scribe = Scribe(3);
+    let (mut drawn, mut varied) = (0, 0);
+    for _ in 0..250 {
+        let source = scribe.scene();
+        match planned_in(&JACK_LOG10, &source, (&[], None), true) {
+            Ok(plan) => {
+                let run = agrees(&plan, &documents(&plan), &source);
+                drawn += 1;
+                varied += u32::from(run.screen.pixels.contains(&0));
+            }
+            Err(said) => assert!(said.contains("cannot compute"), "{said}\n{source}"),
+        }
+    }
+    assert!(drawn >= 60 && varied >= 25, "{drawn} {varied}");
+}
+
+/// A quarter of the floats' cycles at least, and few pixels that are not the native's.
+#[test]
+fn two_mirrors_with_logarithms() {
+    for set in [&[][..], &[0.35, 0.25, 3.6]] {
+        let plan = planned_in(&JACK_LOG10, MIRRORS, (set, Some((100, 131))), true).unwrap();
+        let run = agrees(&plan, &documents(&plan), "mirrors");
+        let floats = planned(MIRRORS, set, Some((100, 131)), true);
+        let slower = self::run(&documents(&floats));
+        assert!(
+            run.instructions * 4 < slower.instructions,
+            "{}",
+            run.instructions
+        );
+        let mut native = Native::new(&plan.graph);
+        let off = differences(&plan, &run, |x, y| native.pixel(x, y).ink);
+        assert!(off * 100 < 320 * 32, "{off}");
+    }
+}
+
+#[test]
+fn errors_spread_as_logarithms_too() {
+    let source = "image 40 x 12 inks black, white;
+        draw (x, y) = floyd(x / 40 * (0.3 + y / 12), x, y);";
+    let plan = planned_in(&JACK_LOG10, source, (&[], None), true).unwrap();
+    let run = agrees(&plan, &documents(&plan), source);
+    assert!(run.screen.pixels.contains(&0));
 }

@@ -265,7 +265,7 @@ pub struct Runtime {
     pub segments: bool,
     /// Whether programs work out tables at their start from one another.
     pub derives: bool,
-    /// What programs keep of a result that stays within a range: where that tells
+    /// What programs keep of a real result that stays within a range: where that tells
     /// the sign, some keep none.
     pub kept: fn(Bits, Range) -> Bits,
     /// Cycles that a statement takes beside its routine, about.

@@ -8,7 +8,7 @@ use super::native::Pixel;
 use super::run::Run;
 use crate::flow::graph::*;
 use crate::plan::Plan;
-use slowlight_routine::{Bits, Format, Op, Range, Value};
+use slowlight_routine::{Bits, Format, Op, Value};
 
 /// A plan's arithmetic: bits and models.
 pub struct Model<'p>(&'p Plan);
@@ -32,7 +32,12 @@ impl Arithmetic for Model<'_> {
         let range = self.0.ranges.result.get(id.0 as usize).copied();
         self.0.routine(id).map_or(0, |routine| {
             let bits = (routine.model)(args);
-            (self.0.runtime.kept)(bits, range.unwrap_or(Range::ALL))
+            match range {
+                Some(range) if self.0.format(id) == self.0.runtime.real => {
+                    (self.0.runtime.kept)(bits, range)
+                }
+                _ => bits,
+            }
         })
     }
 

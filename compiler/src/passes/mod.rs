@@ -29,6 +29,7 @@ pub mod squares;
 pub mod stable;
 pub mod still;
 pub mod threshold;
+pub mod units;
 
 #[cfg(test)]
 mod apart_tests;

@@ -253,3 +253,43 @@ impl Regions {
         inner == outer || self.toward(outer, inner).is_some()
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::flow::build::Builder;
+    use crate::source::Span;
+    use slowlight_routine::{Op, Value};
+
+    #[test]
+    fn what_chooses_is_what_it_chooses() {
+        let (mut b, span) = (Builder::new(), Span::default());
+        let x = b.axis(Axis::X, span);
+        let less = |b: &mut Builder, than: i32| {
+            let than = b.constant(Value::Int(than), span);
+            b.apply(Op::IntLess, &[x, than], span)
+        };
+        let (floor, ball) = (less(&mut b, 3), less(&mut b, 7));
+        let yes = b.constant(Value::Bool(true), span);
+        // Something is met: the floor, or else the ball.
+        let met = b.select(floor, yes, ball, span);
+        let one = b.constant(Value::Int(1), span);
+        let none = b.constant(Value::Int(0), span);
+        let ink = b.select(met, one, none, span);
+        let image = Image {
+            width: 8,
+            height: 8,
+            palette: Vec::new(),
+        };
+        let graph = b.finish(image, ink, None);
+        let mut regions = Regions::new(&graph);
+        let arm = |cond, holds| RegionKind::Arm { cond, holds };
+        let inner = regions.make_child(&graph, PIXEL, arm(met, true));
+        assert!(!regions.facts_up_to(PIXEL, inner).contains(&(ball, true)));
+        let other = regions.make_child(&graph, inner, arm(floor, false));
+        assert!(regions.facts_up_to(PIXEL, other).contains(&(ball, true)));
+        let floors = regions.make_child(&graph, inner, arm(floor, true));
+        let facts = regions.facts_up_to(PIXEL, floors);
+        assert!(!facts.iter().any(|(of, _)| *of == ball), "{facts:?}");
+    }
+}

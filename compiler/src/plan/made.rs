@@ -18,6 +18,7 @@ use crate::passes::ramps::runs::is_exact;
 use crate::passes::schedule::missing;
 use crate::passes::stable::stable;
 use crate::passes::still::still;
+use crate::passes::units::units;
 use crate::range::Ranges;
 use crate::source::Diagnostic;
 use crate::target::{Mode, Target};
@@ -58,6 +59,9 @@ pub(super) enum Rewriting {
     Fast { thrift: Thrift, steps: Steps },
 }
 
+/// By how much shortcuts must make a plan cheaper: each is a test more to be read.
+const SOONER: f64 = 0.95;
+
 /// How often stable forms are looked for: what one makes may let another in.
 const STABLE_ROUNDS: u32 = 4;
 
@@ -89,18 +93,21 @@ pub(super) fn planned(
         let early = (!origin.early.is_empty()).then(|| steady(shop, &drawn(fold(origin)), rounds));
         let early = early.as_ref().map(|settled| &settled.graph);
         let price = Price::new(&now, runtime, thrift);
-        let mut all = cheaper(now.clone(), early, shop, thrift);
+        let cheapest = |all: Vec<Settled>| {
+            let all = all
+                .into_iter()
+                .map(|plan| with_recipes_followed(plan, shop, thrift))
+                .map(|plan| stepped(plan, shop, target, thrift, steps))
+                .map(|plan| with_inks_split(plan, shop, thrift));
+            price.cheapest(all)
+        };
+        let usual = cheapest(cheaper(now.clone(), early, shop, thrift)).unwrap_or(now);
         // Where spans of columns tell what a row meets, shortcuts outside of loops do not pay.
         let sooner = early.filter(|_| !runtime.segments).and_then(everywhere);
-        if let Some(sooner) = sooner {
-            all.extend(cheaper(shop.settle(&sooner), None, shop, thrift));
-        }
-        let all = all
-            .into_iter()
-            .map(|plan| with_recipes_followed(plan, shop, thrift))
-            .map(|plan| stepped(plan, shop, target, thrift, steps))
-            .map(|plan| with_inks_split(plan, shop, thrift));
-        now = price.cheapest(all).unwrap_or(now);
+        let sooner = sooner
+            .and_then(|graph| cheapest(cheaper(shop.settle(&graph), None, shop, thrift)))
+            .filter(|sooner| price.of(sooner) < SOONER * price.of(&usual));
+        now = sooner.unwrap_or(usual);
         now = apart_at_last(now, shop, thrift);
     }
     let Known {
@@ -133,6 +140,11 @@ fn steady(shop: &Workshop, origin: &Graph, rounds: u32) -> Settled {
         let Some(next) = stable(&now.graph, &now.ranges, shop.slack.most()) else {
             break;
         };
+        now = shop.scheduled(fold(&next));
+    }
+    if rounds > 0
+        && let Some(next) = units(&now.graph, &now.ranges)
+    {
         now = shop.scheduled(fold(&next));
     }
     shop.settle(&now.graph)

@@ -11,6 +11,8 @@ pub struct Slack {
     errors: Vec<Vec<Error>>,
     /// What a component of a direction is trusted to be, if anything.
     pub(super) direction: Option<Range>,
+    /// Whether small values keep their digits, and are never rounded to 0.
+    pub(super) relative: bool,
     /// The greatest magnitude of a quotient.
     quotient: f64,
     /// Whether its programs cut rows into segments.
@@ -30,6 +32,7 @@ impl Slack {
         Slack {
             errors: Vec::new(),
             direction: None,
+            relative: false,
             quotient: f64::INFINITY,
             segments: false,
             entries: 0.0,
@@ -42,9 +45,7 @@ impl Slack {
     pub fn of(runtime: &Runtime) -> Slack {
         let ends = |format: Format| match format {
             Format::Int { .. } => Range::new(-format.most(), format.most() - 1.0),
-            Format::Fixed { .. } | Format::Log { .. } => {
-                Range::new(-format.most(), format.most())
-            }
+            Format::Fixed { .. } | Format::Log { .. } => Range::new(-format.most(), format.most()),
             _ => Range::new(f64::MIN, f64::MAX),
         };
         let mut errors = vec![Vec::new(); Op::ALL.len()];
@@ -56,10 +57,11 @@ impl Slack {
         }
         // In a format whose ends are near, a scene that breaks the contract
         // would wrap: there the routines saturate instead.
-        let floats = !matches!(runtime.real, Format::Fixed { .. });
+        let floats = matches!(runtime.real, Format::Real40 | Format::Float316);
         Slack {
             errors,
             direction: floats.then(|| Range::new(-2.0, 2.0)),
+            relative: !matches!(runtime.real, Format::Fixed { .. }),
             quotient: runtime.quotient,
             segments: runtime.segments,
             entries: if runtime.derives { ENTRIES } else { 0.0 },

@@ -51,12 +51,11 @@ impl Walk<'_> {
 
     /// A part of a vector over the vector's length is at most 1, twice over for what
     /// roundings add: a quotient by the root of a sum that has the dividend's square
-    /// among terms of no negative. Where small values lose all their digits nothing
-    /// is known.
+    /// among terms of no negative. Where squares end at the greatest value that the
+    /// format has, lengths end at its root. Where small values lose all their digits
+    /// nothing is known.
     pub(super) fn part_of_length(&self, id: NodeId, exact: Range) -> Range {
-        let (Some(unit), Node::Apply(Op::Div, [part, length])) =
-            (self.slack.direction, self.graph.node(id))
-        else {
+        let Node::Apply(Op::Div, [part, length]) = self.graph.node(id) else {
             return exact;
         };
         let Node::Apply(Op::Sqrt, [sum, _]) = self.graph.node(length) else {
@@ -71,7 +70,12 @@ impl Walk<'_> {
                 _ => return exact,
             }
         }
-        if squared { exact.meet(unit) } else { exact }
+        if !squared || !self.slack.relative {
+            return exact;
+        }
+        let longest = self.slack.most().sqrt();
+        let most = 2.0 * (self.read(part).magnitude() / longest).max(1.0);
+        exact.meet(Range::new(-most, most))
     }
 
     /// What a trusted direction was subtracted from is not far from what was
@@ -91,5 +95,50 @@ impl Walk<'_> {
         let near = self.slack.rounded(Op::Add, &args, sum);
         let at = point.0 as usize;
         self.now[at] = self.now[at].meet(near);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::plan::{Goal, plan};
+    use crate::scene;
+    use crate::sema::Options;
+    use crate::target::{default_mode, find};
+    use slowlight_routine::{Op, Range};
+
+    /// The widest range of the results of an operation in a scene's plan for Jack.
+    fn widest(source: &str, op: Op) -> Range {
+        let options = Options {
+            inks: Some(2),
+            ..Options::default()
+        };
+        let graph = scene::check("test", source).lower(&options).expect(source);
+        let target = find("jack").expect("a target");
+        let mode = default_mode(target, 8, 8).expect("a mode");
+        let goal = Goal {
+            name: "test".to_owned(),
+            mode,
+            rows: None,
+            plot: true,
+        };
+        let plan = plan(&graph, target, &goal).expect(source);
+        let of = |id: &crate::flow::graph::NodeId| matches!(plan.graph.node(*id), crate::flow::graph::Node::Apply(o, _) if o == op);
+        let all = plan.graph.ids().filter(of);
+        let all = all.map(|id| plan.ranges.result[id.0 as usize]);
+        all.reduce(Range::join).expect("one at least")
+    }
+
+    #[test]
+    fn a_part_over_its_length_is_small_and_over_another_not() {
+        let scene = |by: &str| {
+            format!(
+                "image 8 x 8 inks black, white; param p: vec3 = (1, 2, 3) in (-9, -9, -9) .. (9, 9, 9);
+                 draw (x, y) = ink(if (p.x + x) / sqrt({by}) > 0.5 then 1 else 0);"
+            )
+        };
+        let own = widest(&scene("(p.x + x) * (p.x + x) + p.y * p.y + y * y"), Op::Div);
+        assert!(own.within(-2.1, 2.1), "{own:?}");
+        let other = widest(&scene("(p.x - x) * (p.x - x) + p.y * p.y + y * y"), Op::Div);
+        assert!(!other.within(-100.0, 100.0), "{other:?}");
     }
 }

@@ -5,7 +5,8 @@
 //! 6,144 entries, what a difference takes away in another; the program makes both at
 //! its start. Sums are right to 0.7 of the last place, 4.8e-4 of themselves, and
 //! differences of near values to 1.2; products, quotients and powers of two are exact. Magnitudes end at 2^16
-//! above and 2^-16 below, which stands for 0.
+//! above and 2^-16 below, which stands for 0; so lengths of vectors end at 2^8, where their
+//! squares do, and a 0 has the sign that it came with.
 //!
 //! # How a routine is written
 //! As for Floats, but that a [`Form::Statement`](slowlight_routine::Form::Statement) is

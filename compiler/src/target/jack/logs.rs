@@ -28,8 +28,12 @@ impl Code<'_> {
         if let Some(plus) = range.and_then(|range| known(*range)) {
             return Expression::term(plus.to_string());
         }
-        if let Node::Undefined(_) = self.plan.graph.node(id) {
-            return Expression::term("true");
+        match self.plan.graph.node(id) {
+            Node::Undefined(_) => return Expression::term("true"),
+            Node::Lookup { table, .. } if !self.sign_is_looked_up(id, table) => {
+                return Expression::term("true");
+            }
+            _ => {}
         }
         match self.plan.place(id) {
             Some(place) => {
