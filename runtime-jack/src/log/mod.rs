@@ -42,7 +42,7 @@ pub static LOG10: Runtime = Runtime {
     stepping: None,
     segments: false,
     derives: false,
-    kept: kept,
+    kept,
     statement: 4,
     index: 0,
     param_most: crate::model::MOST as f64,
