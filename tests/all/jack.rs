@@ -320,9 +320,12 @@ fn two_mirrors_with_logarithms() {
 
 #[test]
 fn errors_spread_as_logarithms_too() {
-    let source = "image 40 x 12 inks black, white;
-        draw (x, y) = floyd(x / 40 * (0.3 + y / 12), x, y);";
+    let source = "image 40 x 12 inks black, white; param least: real = 0.3 in 0 .. 1;
+        draw (x, y) = floyd(x / 40 * (least + y / 12), x, y);";
     let plan = planned_in(&JACK_LOG10, source, (&[], None), true).unwrap();
-    let run = agrees(&plan, &documents(&plan), source);
+    let documents = documents(&plan);
+    let run = agrees(&plan, &documents, source);
     assert!(run.screen.pixels.contains(&0));
+    let floats = documents.iter().any(|d| d.text.contains("Float"));
+    assert!(!floats, "logarithms are no objects");
 }

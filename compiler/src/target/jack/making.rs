@@ -67,7 +67,9 @@ pub(super) fn making(code: &mut Code) -> Vec<Subroutine> {
     }
     let floats = code.written.iter().filter(|(_, f)| *f == Format::Float316);
     let floats = floats.map(|(name, _)| name.clone());
-    let floats: Vec<String> = values.iter().map(|v| v.1.clone()).chain(floats).collect();
+    // Logarithms are ints, which need no making.
+    let values = values.iter().filter(|_| !code.logs()).map(|v| v.1.clone());
+    let floats: Vec<String> = values.chain(floats).collect();
     let made = floats
         .iter()
         .map(|name| line(&format!("let {name} = Float.new();")));
@@ -94,7 +96,7 @@ pub(super) fn making(code: &mut Code) -> Vec<Subroutine> {
         }
     }
     if !taking.is_empty() {
-        let about = "The parameters as Floats.";
+        let about = "The parameters as reals.";
         let body = code.divided(taking, "takeParameters");
         all.push(subroutine(about, "method void takeParameters()", body));
     }

@@ -37,8 +37,8 @@ const KEYWORDS: &[&str] = &[
 
 /// Classes of the system and of the generated program.
 const CLASSES: &[&str] = &[
-    "Main", "Float", "Int", "Math", "String", "Array", "Output", "Screen", "Keyboard", "Memory",
-    "Sys",
+    "Main", "Float", "Log", "Int", "Math", "String", "Array", "Output", "Screen", "Keyboard",
+    "Memory", "Sys",
 ];
 
 /// Methods of the scene's class.
