@@ -71,7 +71,7 @@ macro_rules! within {
     };
 }
 
-const fn sum(template: &'static str) -> Form {
+pub(crate) const fn sum(template: &'static str) -> Form {
     Form::Expression {
         template,
         level: SUM,
@@ -80,7 +80,7 @@ const fn sum(template: &'static str) -> Form {
 }
 
 /// Operands stand between commas or not at all: any level will do.
-const fn call(template: &'static str) -> Form {
+pub(crate) const fn call(template: &'static str) -> Form {
     Form::Expression {
         template,
         level: TERM,

@@ -2,9 +2,9 @@
 
 use super::LOG as R;
 use super::model::{self, Log, Log as Real};
+use crate::INT as I;
 use crate::model::{int, int_bits, wrap};
-use crate::routines::{INTS, joined};
-use crate::{INT as I, SUM, TERM};
+use crate::routines::{INTS, call, joined, sum};
 use slowlight_routine::{Error, Form, Format, Op, Range, Routine, everywhere};
 
 const B: Format = Format::Bool;
@@ -110,22 +110,6 @@ fn against_zero(args: &[Range], _: Range) -> bool {
 
 fn from_zero(args: &[Range], _: Range) -> bool {
     zero(args.first())
-}
-
-const fn sum(template: &'static str) -> Form {
-    Form::Expression {
-        template,
-        level: SUM,
-        operands: &[TERM, TERM],
-    }
-}
-
-const fn call(template: &'static str) -> Form {
-    Form::Expression {
-        template,
-        level: TERM,
-        operands: &[SUM, SUM],
-    }
 }
 
 use Form::Statement as Do;
