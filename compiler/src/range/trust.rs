@@ -141,4 +141,23 @@ mod tests {
         let other = widest(&scene("(p.x - x) * (p.x - x) + p.y * p.y + y * y"), Op::Div);
         assert!(!other.within(-100.0, 100.0), "{other:?}");
     }
+
+    #[test]
+    fn what_has_its_length_asked_for_is_measured() {
+        let source = "image 8 x 8 inks black, white;
+            draw (x, y) = {
+              let far = (x - 3, y + 0.5, 2.5);
+              let near = (x + 7.5, y - 9, 1);
+              ink(if length(far) > near.x * near.x + near.y * near.y then 1 else 0)
+            };";
+        let options = Options {
+            inks: Some(2),
+            ..Options::default()
+        };
+        let graph = scene::check("test", source)
+            .lower(&options)
+            .expect("a graph");
+        // Two parts of the one vector, and none of the other's.
+        assert_eq!(super::measured(&graph).len(), 2);
+    }
 }

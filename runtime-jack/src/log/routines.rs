@@ -62,10 +62,6 @@ fn inner_product(args: &[Range], result: Range) -> bool {
     matches!(args, [a, b, ..] if high(result) && least(a) * least(b) >= ZERO)
 }
 
-fn low_product(_: &[Range], result: Range) -> bool {
-    high(result)
-}
-
 fn inner_quotient(args: &[Range], _: Range) -> bool {
     matches!(args, [a, b, ..] if a.magnitude() < HIGH * least(b) && least(a) >= ZERO * b.magnitude())
 }
@@ -92,6 +88,7 @@ macro_rules! sign {
     };
 }
 
+/// Results that need no clamping above.
 fn fits(_: &[Range], result: Range) -> bool {
     high(result)
 }
@@ -117,7 +114,7 @@ use Form::Statement as Do;
 #[rustfmt::skip]
 const REALS: &[Routine] = &[
     routine!("mul" Mul(R, R) -> R, Do("let {r} = {0} + {1};\nlet {r+} = {0+} = {1+};"), [], inner_product, PRODUCT, |a, b| a.mul(b), 5, 16),
-    routine!("low_mul" Mul(R, R) -> R, Do("let {r} = {0} + {1};\nif ({r} < (-16384)) { let {r} = -16384; }\nlet {r+} = {0+} = {1+};"), [], low_product, PRODUCT, |a, b| a.mul(b), 11, 32),
+    routine!("low_mul" Mul(R, R) -> R, Do("let {r} = {0} + {1};\nif ({r} < (-16384)) { let {r} = -16384; }\nlet {r+} = {0+} = {1+};"), [], fits, PRODUCT, |a, b| a.mul(b), 11, 32),
     routine!("any_mul" Mul(R, R) -> R, Do("let {r} = Log.clamp({0} + {1});\nlet {r+} = {0+} = {1+};"), ["Log.clamp"], everywhere, PRODUCT, |a, b| a.mul(b), 20, 22),
     routine!("div" Div(R, R) -> R, Do("let {r} = {0} - {1};\nlet {r+} = {0+} = {1+};"), [], inner_quotient, PRODUCT, |a, b| a.div(b), 5, 16),
     routine!("low_div" Div(R, R) -> R, Do("let {r} = {0} - {1};\nif ({r} < (-16384)) { let {r} = -16384; }\nlet {r+} = {0+} = {1+};"), [], low_quotient, PRODUCT, |a, b| a.div(b), 11, 32),
