@@ -14,7 +14,7 @@ use slowlight_routine::{Op, Value};
 /// The graph with every rule applied to every node, operands first.
 pub fn fold(graph: &Graph) -> Graph {
     rebuild(graph, &mut |builder, _, node, span| match node {
-        Node::Apply(op, [a, b]) => apply(builder, op, a, b, span),
+        Node::Apply(op, [a, b]) => folded(builder, op, a, b, span),
         Node::Select { cond, yes, no } => Some(select(builder, cond, yes, no, span)),
         _ => None,
     })
@@ -25,7 +25,9 @@ fn power_of_two(x: f64) -> bool {
     x.is_normal() && x.to_bits() & ((1 << 52) - 1) == 0 && (1.0 / x).is_normal()
 }
 
-fn apply(b: &mut Builder, op: Op, x: NodeId, y: NodeId, span: Span) -> Option<NodeId> {
+/// What is equal to an operation by a rule, if there is one; `y` is `x` where it takes one
+/// operand.
+pub(super) fn folded(b: &mut Builder, op: Op, x: NodeId, y: NodeId, span: Span) -> Option<NodeId> {
     let (left, right) = (b.value(x), if op.arity() > 1 { b.value(y) } else { None });
     let is = |value: Option<Value>, what: f64| value.is_some_and(|v| v.real() == what);
     Some(match op {
@@ -56,6 +58,8 @@ fn apply(b: &mut Builder, op: Op, x: NodeId, y: NodeId, span: Span) -> Option<No
             }
             _ => return None,
         },
+        // Doubling is exact, and so is taking one half away.
+        Op::Sub if b.node(x) == Node::Apply(Op::Add, [y, y]) => y,
         Op::Sub | Op::Add => match b.node(y) {
             Node::Apply(Op::Neg, [inner, _]) => {
                 let other = if op == Op::Add { Op::Sub } else { Op::Add };
@@ -88,7 +92,7 @@ fn select(b: &mut Builder, cond: NodeId, yes: NodeId, no: NodeId, span: Span) ->
         (Some(Value::Bool(true)), Some(Value::Bool(false))) => cond,
         (Some(Value::Bool(false)), Some(Value::Bool(true))) => {
             let not = b.apply(Op::Not, &[cond], span);
-            apply(b, Op::Not, cond, cond, span).unwrap_or(not)
+            folded(b, Op::Not, cond, cond, span).unwrap_or(not)
         }
         _ => b.select(cond, yes, no, span),
     }

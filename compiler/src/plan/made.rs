@@ -1,6 +1,6 @@
 //! How a plan is made: the passes in their order, then a routine for each value.
 
-use super::cheaper::{apart_at_last, cheaper, with_inks_split, with_recipes_followed};
+use super::cheaper::{apart_at_last, cheaper, in_arms, with_inks_split, with_recipes_followed};
 use super::params::{self, ParamPlan};
 use super::price::Price;
 use super::settled::{Known, Settled};
@@ -91,6 +91,8 @@ pub(super) fn planned(
     let mut now = steady(shop, &drawn(fold(&without(origin))), rounds);
     if let Rewriting::Fast { thrift, steps } = rewriting {
         let early = (!origin.early.is_empty()).then(|| steady(shop, &drawn(fold(origin)), rounds));
+        now = in_arms(now, shop, thrift);
+        let early = early.map(|early| in_arms(early, shop, thrift));
         let early = early.as_ref().map(|settled| &settled.graph);
         let price = Price::new(&now, runtime, thrift);
         let cheapest = |all: Vec<Settled>| {

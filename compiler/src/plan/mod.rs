@@ -56,7 +56,7 @@ mod merge;
 mod names;
 mod outlined;
 mod params;
-mod price;
+pub(crate) mod price;
 #[cfg(test)]
 mod price_tests;
 pub mod print;
@@ -64,7 +64,7 @@ pub mod recipes;
 pub(crate) mod settled;
 mod spread;
 mod stepped;
-mod thrift;
+pub(crate) mod thrift;
 pub(crate) mod workshop;
 #[cfg(test)]
 mod workshop_tests;

@@ -59,7 +59,7 @@ impl Walk<'_> {
             return exact;
         };
         let Node::Apply(Op::Sqrt, [sum, _]) = self.graph.node(length) else {
-            return exact;
+            return self.multiple_over_factor((part, length), exact);
         };
         let (mut squared, mut todo) = (false, vec![sum]);
         while let Some(term) = todo.pop() {
@@ -75,6 +75,26 @@ impl Walk<'_> {
         }
         let longest = self.slack.most().sqrt();
         let most = 2.0 * (self.read(part).magnitude() / longest).max(1.0);
+        exact.meet(Range::new(-most, most))
+    }
+
+    /// A multiple over its factor is at most the other factor, twice over for what
+    /// roundings add; or 1, where the product is less than the format tells from 0.
+    fn multiple_over_factor(&self, (multiple, by): (NodeId, NodeId), exact: Range) -> Range {
+        let bare = |id: NodeId| match self.graph.node(id) {
+            Node::Apply(Op::Neg | Op::Abs, [a, _]) => a,
+            _ => id,
+        };
+        let by = bare(by);
+        let other = match self.graph.node(bare(multiple)) {
+            Node::Apply(Op::Mul, [a, b]) if b == by => a,
+            Node::Apply(Op::Mul, [a, b]) if a == by => b,
+            _ => return exact,
+        };
+        if !self.slack.relative {
+            return exact;
+        }
+        let most = 2.0 * self.read(other).magnitude().max(1.0);
         exact.meet(Range::new(-most, most))
     }
 

@@ -92,13 +92,7 @@ impl Log {
             let log = sum(self.log, b.log);
             return Log { log, ..self };
         }
-        let plus = if self.log == b.log {
-            true
-        } else if b.log < self.log {
-            self.plus
-        } else {
-            b.plus
-        };
+        let plus = if b.log > self.log { b.plus } else { self.plus };
         let log = difference(self.log, b.log);
         Log { plus, log }
     }
@@ -148,7 +142,7 @@ impl Log {
         match self.plus {
             true => n,
             false if self.log > 9 * OCTAVE => -n,
-            false if tables().logs.get(n as usize) == Some(&self.log) && n > 0 => -n,
+            false if tables().logs.get(n as usize) == Some(&self.log) => -n,
             false => -n - 1,
         }
     }

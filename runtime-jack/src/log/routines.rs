@@ -73,7 +73,7 @@ fn low_quotient(args: &[Range], _: Range) -> bool {
 /// Two arguments of known signs, and a sum that fits.
 macro_rules! signs {
     ($a:ident $b:ident) => {
-        |args, result| {
+        |args: &[Range], result: Range| {
             matches!(args, [a, b, ..] if sign!(a $a) && sign!(b $b)) && high(result)
         }
     };
@@ -86,6 +86,17 @@ macro_rules! sign {
     ($x:ident minus) => {
         $x.hi < 0.0
     };
+    ($x:ident any) => {
+        true
+    };
+}
+
+/// What differences are taken from: where one magnitude is at least this, so that the
+/// greater is, nothing that is left of it is less than the format tells from 0.
+const AMPLE: f64 = 0.0227;
+
+fn ample(args: &[Range]) -> bool {
+    args.iter().any(|a| least(a) >= AMPLE)
 }
 
 /// Results that need no clamping above.
@@ -95,6 +106,22 @@ fn fits(_: &[Range], result: Range) -> bool {
 
 fn plus(args: &[Range], _: Range) -> bool {
     args.iter().all(|a| a.lo >= 0.0)
+}
+
+fn first_plus(args: &[Range], _: Range) -> bool {
+    args.first().is_some_and(|a| a.lo >= 0.0)
+}
+
+fn second_plus(args: &[Range], _: Range) -> bool {
+    args.get(1).is_some_and(|b| b.lo >= 0.0)
+}
+
+fn first_minus(args: &[Range], _: Range) -> bool {
+    args.first().is_some_and(|a| a.hi < 0.0)
+}
+
+fn second_minus(args: &[Range], _: Range) -> bool {
+    args.get(1).is_some_and(|b| b.hi < 0.0)
 }
 
 fn zero(range: Option<&Range>) -> bool {
@@ -115,40 +142,40 @@ use Form::Statement as Do;
 const REALS: &[Routine] = &[
     routine!("mul" Mul(R, R) -> R, Do("let {r} = {0} + {1};\nlet {r+} = {0+} = {1+};"), [], inner_product, PRODUCT, |a, b| a.mul(b), 5, 16),
     routine!("low_mul" Mul(R, R) -> R, Do("let {r} = {0} + {1};\nif ({r} < (-16384)) { let {r} = -16384; }\nlet {r+} = {0+} = {1+};"), [], fits, PRODUCT, |a, b| a.mul(b), 11, 32),
-    routine!("any_mul" Mul(R, R) -> R, Do("let {r} = Log.clamp({0} + {1});\nlet {r+} = {0+} = {1+};"), ["Log.clamp"], everywhere, PRODUCT, |a, b| a.mul(b), 20, 22),
+    routine!("any_mul" Mul(R, R) -> R, Do("let {r} = Log.clamp({0} + {1});\nlet {r+} = {0+} = {1+};"), ["Log.clamp"], everywhere, PRODUCT, |a, b| a.mul(b), 19, 22),
     routine!("div" Div(R, R) -> R, Do("let {r} = {0} - {1};\nlet {r+} = {0+} = {1+};"), [], inner_quotient, PRODUCT, |a, b| a.div(b), 5, 16),
     routine!("low_div" Div(R, R) -> R, Do("let {r} = {0} - {1};\nif ({r} < (-16384)) { let {r} = -16384; }\nlet {r+} = {0+} = {1+};"), [], low_quotient, PRODUCT, |a, b| a.div(b), 11, 32),
-    routine!("any_div" Div(R, R) -> R, Do("let {r} = Log.clamp({0} - {1});\nlet {r+} = {0+} = {1+};"), ["Log.clamp"], everywhere, PRODUCT, |a, b| a.div(b), 20, 22),
-    routine!("sum" Add(R, R) -> R, Do("let {r} = Log.sum({0}, {1});\nlet {r+} = true;"), ["Log.sum"], signs!(plus plus), SUMS, |a, b| a.add(b), 29, 14),
-    routine!("minus_sum" Add(R, R) -> R, Do("let {r} = Log.sum({0}, {1});\nlet {r+} = false;"), ["Log.sum"], signs!(minus minus), SUMS, |a, b| a.add(b), 28, 14),
-    routine!("sum_less" Add(R, R) -> R, Do("let {r+} = ~({0} < {1});\nlet {r} = Log.difference({0}, {1});"), ["Log.difference"], signs!(plus minus), DIFFERENCES, |a, b| a.add(b), 45, 24),
-    routine!("less_sum" Add(R, R) -> R, Do("let {r+} = ~({1} < {0});\nlet {r} = Log.difference({0}, {1});"), ["Log.difference"], signs!(minus plus), DIFFERENCES, |a, b| a.add(b), 45, 24),
-    routine!("add" Add(R, R) -> R, Do("let {r} = Log.add({0}, {0+}, {1}, {1+});\nlet {r+} = Log.plus();"), ["Log.add"], fits, DIFFERENCES, |a, b| a.add(b), 46, 30),
-    routine!("any_add" Add(R, R) -> R, Do("let {r} = Log.clamp(Log.add({0}, {0+}, {1}, {1+}));\nlet {r+} = Log.plus();"), ["Log.add", "Log.clamp"], everywhere, DIFFERENCES, |a, b| a.add(b), 63, 36),
-    routine!("difference" Sub(R, R) -> R, Do("let {r+} = ~({0} < {1});\nlet {r} = Log.difference({0}, {1});"), ["Log.difference"], signs!(plus plus), DIFFERENCES, |a, b| a.sub(b), 45, 24),
-    routine!("minus_difference" Sub(R, R) -> R, Do("let {r+} = ~({1} < {0});\nlet {r} = Log.difference({0}, {1});"), ["Log.difference"], signs!(minus minus), DIFFERENCES, |a, b| a.sub(b), 45, 24),
-    routine!("difference_sum" Sub(R, R) -> R, Do("let {r} = Log.sum({0}, {1});\nlet {r+} = true;"), ["Log.sum"], signs!(plus minus), SUMS, |a, b| a.sub(b), 29, 14),
-    routine!("minus_difference_sum" Sub(R, R) -> R, Do("let {r} = Log.sum({0}, {1});\nlet {r+} = false;"), ["Log.sum"], signs!(minus plus), SUMS, |a, b| a.sub(b), 28, 14),
-    routine!("sub" Sub(R, R) -> R, Do("let {r} = Log.add({0}, {0+}, {1}, ~{1+});\nlet {r+} = Log.plus();"), ["Log.add"], fits, DIFFERENCES, |a, b| a.sub(b), 47, 31),
-    routine!("any_sub" Sub(R, R) -> R, Do("let {r} = Log.clamp(Log.add({0}, {0+}, {1}, ~{1+}));\nlet {r+} = Log.plus();"), ["Log.add", "Log.clamp"], everywhere, DIFFERENCES, |a, b| a.sub(b), 64, 37),
-    routine!("root" Sqrt(R) -> R, Do("let {r} = Log.half({0});\nlet {r+} = true;"), ["Log.half"], plus, ROOT, |a| a.sqrt(), 69, 14),
-    routine!("any_root" Sqrt(R) -> R, Do("let {r} = Log.root({0}, {0+});\nlet {r+} = true;"), ["Log.root"], everywhere, ROOT, |a| a.sqrt(), 45, 20),
-    routine!("mod" Mod(R, R) -> R, Do("let {r} = Log.mod({0}, {0+}, {1}, {1+});\nlet {r+} = Log.plus();"), ["Log.mod"], everywhere, UNKNOWN, |a, b| a.modulo(b), 229, 30),
+    routine!("any_div" Div(R, R) -> R, Do("let {r} = Log.clamp({0} - {1});\nlet {r+} = {0+} = {1+};"), ["Log.clamp"], everywhere, PRODUCT, |a, b| a.div(b), 19, 22),
+    routine!("sum" Add(R, R) -> R, Do("let {r} = Log.sum({0}, {1});\nlet {r+} = true;"), ["Log.sum"], signs!(plus plus), SUMS, |a, b| a.add(b), 27, 14),
+    routine!("minus_sum" Add(R, R) -> R, Do("let {r} = Log.sum({0}, {1});\nlet {r+} = false;"), ["Log.sum"], signs!(minus minus), SUMS, |a, b| a.add(b), 26, 14),
+    routine!("difference_sum" Sub(R, R) -> R, Do("let {r} = Log.sum({0}, {1});\nlet {r+} = true;"), ["Log.sum"], signs!(plus minus), SUMS, |a, b| a.sub(b), 27, 14),
+    routine!("minus_difference_sum" Sub(R, R) -> R, Do("let {r} = Log.sum({0}, {1});\nlet {r+} = false;"), ["Log.sum"], signs!(minus plus), SUMS, |a, b| a.sub(b), 26, 14),
+    routine!("root" Sqrt(R) -> R, Do("let {r} = Log.half({0});\nlet {r+} = true;"), ["Log.half"], plus, ROOT, |a| a.sqrt(), 46, 14),
+    routine!("any_root" Sqrt(R) -> R, Do("let {r} = Log.root({0}, {0+});\nlet {r+} = true;"), ["Log.root"], everywhere, ROOT, |a| a.sqrt(), 36, 20),
+    routine!("mod" Mod(R, R) -> R, Do("let {r} = Log.mod({0}, {0+}, {1}, {1+});\nlet {r+} = Log.plus();"), ["Log.mod"], everywhere, UNKNOWN, |a, b| a.modulo(b), 222, 30),
     routine!("neg" Neg(R) -> R, Do("let {r+} = ~{0+};\nlet {r} = {0};"), [], everywhere, EXACT, |a| a.neg(), 3, 12),
     routine!("abs" Abs(R) -> R, Do("let {r} = {0};\nlet {r+} = true;"), [], everywhere, EXACT, |a| a.abs(), 3, 10),
     routine!("plus_min" Min(R, R) -> R, Do("let {r} = Math.min({0}, {1});\nlet {r+} = true;"), [], plus, EXACT, |a, b| a.min(b), 4, 14),
+    routine!("min_plus_first" Min(R, R) -> R, Do("if ({1+} & ({0} < {1})) {\nlet {r} = {0};\nlet {r+} = true;\n}\nelse {\nlet {r} = {1};\nlet {r+} = {1+};\n}"), [], first_plus, EXACT, |a, b| a.min(b), 8, 50),
+    routine!("min_plus_second" Min(R, R) -> R, Do("if ((~{0+}) | ({0} < {1})) {\nlet {r} = {0};\nlet {r+} = {0+};\n}\nelse {\nlet {r} = {1};\nlet {r+} = true;\n}"), [], second_plus, EXACT, |a, b| a.min(b), 9, 50),
     routine!("min" Min(R, R) -> R, Do("if (Log.less({0}, {0+}, {1}, {1+})) {\nlet {r} = {0};\nlet {r+} = {0+};\n}\nelse {\nlet {r} = {1};\nlet {r+} = {1+};\n}"), ["Log.less"], everywhere, EXACT, |a, b| a.min(b), 18, 60),
     routine!("plus_max" Max(R, R) -> R, Do("let {r} = Math.max({0}, {1});\nlet {r+} = true;"), [], plus, EXACT, |a, b| a.max(b), 4, 14),
+    routine!("max_zero" Max(R, R) -> R, Do("if ({0+}) {\nlet {r} = {0};\n}\nelse {\nlet {r} = -16384;\n}\nlet {r+} = true;"), [], against_zero, EXACT, |a, _b| a.max(Log::ZERO), 5, 30),
+    routine!("zero_max" Max(R, R) -> R, Do("if ({1+}) {\nlet {r} = {1};\n}\nelse {\nlet {r} = -16384;\n}\nlet {r+} = true;"), [], from_zero, EXACT, |_a, b| Log::ZERO.max(b), 6, 30),
+    routine!("max_plus_first" Max(R, R) -> R, Do("if ({1+} & ({0} < {1})) {\nlet {r} = {1};\n}\nelse {\nlet {r} = {0};\n}\nlet {r+} = true;"), [], first_plus, EXACT, |a, b| a.max(b), 9, 44),
+    routine!("max_plus_second" Max(R, R) -> R, Do("if ((~{0+}) | ({0} < {1})) {\nlet {r} = {1};\n}\nelse {\nlet {r} = {0};\n}\nlet {r+} = true;"), [], second_plus, EXACT, |a, b| a.max(b), 10, 44),
     routine!("max" Max(R, R) -> R, Do("if (Log.less({0}, {0+}, {1}, {1+})) {\nlet {r} = {1};\nlet {r+} = {1+};\n}\nelse {\nlet {r} = {0};\nlet {r+} = {0+};\n}"), ["Log.less"], everywhere, EXACT, |a, b| a.max(b), 18, 60),
     routine!("floor" Floor(R) -> I, call("Log.floor({0}, {0+})"), ["Log.floor"], everywhere, STEP, |a| a.floor(), 79, 20),
-    routine!("round" Round(R) -> I, call("Log.round({0}, {0+})"), ["Log.round"], everywhere, STEP, |a| a.round(), 132, 20),
+    routine!("round" Round(R) -> I, call("Log.round({0}, {0+})"), ["Log.round"], everywhere, STEP, |a| a.round(), 130, 20),
     routine!("sign" Sign(R) -> I, call("Log.sign({0+})"), ["Log.sign"], everywhere, EXACT, |a| a.sign(), 7, 14),
     routine!("from_int" ToReal(I) -> R, Do("let {r+} = ~({0} < 0);\nlet {r} = Log.fromInt({0});"), ["Log.fromInt"], everywhere, WHOLE, |a| Log::from_int(a), 42, 24),
     routine!("negative" Less(R, R) -> B, sum("~{0+}"), [], against_zero, EXACT, |a, _b| !a.plus, 0, 6),
     routine!("positive" Less(R, R) -> B, sum("{1+} & ({1} > (-16384))"), [], from_zero, EXACT, |_a, b| b.plus && b.log > model::LEAST, 4, 24),
     routine!("plus_less" Less(R, R) -> B, sum("{0} < {1}"), [], plus, EXACT, |a, b| a.less(b), 1, 12),
-    routine!("less_plus" Less(R, R) -> B, sum("(~{0+}) | ({0} < {1})"), [], |args, _| matches!(args, [_, b, ..] if b.lo >= 0.0), EXACT, |a, b| a.less(b), 4, 24),
-    routine!("plus_less_any" Less(R, R) -> B, sum("{1+} & ({0} < {1})"), [], |args, _| matches!(args, [a, ..] if a.lo >= 0.0), EXACT, |a, b| a.less(b), 3, 22),
+    routine!("less_plus" Less(R, R) -> B, sum("(~{0+}) | ({0} < {1})"), [], second_plus, EXACT, |a, b| a.less(b), 4, 24),
+    routine!("plus_less_any" Less(R, R) -> B, sum("{1+} & ({0} < {1})"), [], first_plus, EXACT, |a, b| a.less(b), 3, 22),
+    routine!("minus_less" Less(R, R) -> B, sum("{1+} | ({1} < {0})"), [], first_minus, EXACT, |a, b| a.less(b), 3, 22),
+    routine!("less_minus" Less(R, R) -> B, sum("(~{0+}) & ({1} < {0})"), [], second_minus, EXACT, |a, b| a.less(b), 4, 24),
     routine!("less" Less(R, R) -> B, call("Log.less({0}, {0+}, {1}, {1+})"), ["Log.less"], everywhere, EXACT, |a, b| a.less(b), 13, 30),
     routine!("not_positive" LessEqual(R, R) -> B, sum("~({0+} & ({0} > (-16384)))"), [], against_zero, EXACT, |a, _b| !(a.plus && a.log > model::LEAST), 5, 26),
     routine!("not_negative" LessEqual(R, R) -> B, call("{1+}"), [], from_zero, EXACT, |_a, b| b.plus, 0, 4),
@@ -157,5 +184,67 @@ const REALS: &[Routine] = &[
     routine!("equal" Equal(R, R) -> B, sum("({0} = {1}) & ({0+} = {1+})"), [], everywhere, EXACT, |a, b| a == b, 5, 24),
 ];
 
+/// A sum of two values whose signs may differ, where `$same` says whether they do not:
+/// its sign then is `$plus`, else `$greater`.
+macro_rules! either {
+    ($name:literal $op:ident, $same:literal, $plus:literal, $greater:literal, $difference:literal, $domain:expr, $model:ident, $cycles:literal) => {
+        routine!($name $op(R, R) -> R, Do(concat!(
+            "if (", $same, ") {\nlet {r} = Log.sum({0}, {1});\nlet {r+} = ", $plus, ";\n}\nelse {\nlet {r+} = ", $greater,
+            ";\nlet {r} = ", $difference, "({0}, {1});\n}"
+        )), ["Log.sum", $difference], $domain, DIFFERENCES, |a, b| a.$model(b), $cycles, 60)
+    };
+}
+
+/// A difference of two values that have one sign each, which are known.
+macro_rules! left {
+    ($name:literal $op:ident, $greater:literal, $difference:literal, $domain:expr, $model:ident, $cycles:literal) => {
+        routine!($name $op(R, R) -> R, Do(concat!("let {r+} = ", $greater, ";\nlet {r} = ", $difference, "({0}, {1});")),
+            [$difference], $domain, DIFFERENCES, |a, b| a.$model(b), $cycles, 24)
+    };
+}
+
+/// The domain of the one where nothing that is left needs clamping.
+macro_rules! ample {
+    ($a:ident $b:ident) => {
+        |args: &[Range], result: Range| signs!($a $b)(args, result) && ample(args)
+    };
+}
+
+#[rustfmt::skip]
+const SUMS_OF_SIGNS: &[Routine] = &[
+    left!("ample_sum_less" Add, "~({0} < {1})", "Log.leave", ample!(plus minus), add, 31),
+    left!("sum_less" Add, "~({0} < {1})", "Log.difference", signs!(plus minus), add, 39),
+    left!("ample_less_sum" Add, "{0} < {1}", "Log.leave", ample!(minus plus), add, 30),
+    left!("less_sum" Add, "{0} < {1}", "Log.difference", signs!(minus plus), add, 38),
+    left!("ample_difference" Sub, "~({0} < {1})", "Log.leave", ample!(plus plus), sub, 31),
+    left!("difference" Sub, "~({0} < {1})", "Log.difference", signs!(plus plus), sub, 39),
+    left!("ample_minus_difference" Sub, "{0} < {1}", "Log.leave", ample!(minus minus), sub, 30),
+    left!("minus_difference" Sub, "{0} < {1}", "Log.difference", signs!(minus minus), sub, 38),
+    either!("ample_add_plus_first" Add, "{1+}", "true", "~({0} < {1})", "Log.leave", ample!(plus any), add, 32),
+    either!("add_plus_first" Add, "{1+}", "true", "~({0} < {1})", "Log.difference", signs!(plus any), add, 36),
+    either!("ample_add_minus_first" Add, "~{1+}", "false", "{0} < {1}", "Log.leave", ample!(minus any), add, 32),
+    either!("add_minus_first" Add, "~{1+}", "false", "{0} < {1}", "Log.difference", signs!(minus any), add, 36),
+    either!("ample_add_plus_second" Add, "{0+}", "true", "{0} < {1}", "Log.leave", ample!(any plus), add, 31),
+    either!("add_plus_second" Add, "{0+}", "true", "{0} < {1}", "Log.difference", signs!(any plus), add, 35),
+    either!("ample_add_minus_second" Add, "~{0+}", "false", "~({0} < {1})", "Log.leave", ample!(any minus), add, 32),
+    either!("add_minus_second" Add, "~{0+}", "false", "~({0} < {1})", "Log.difference", signs!(any minus), add, 36),
+    either!("ample_sub_plus_first" Sub, "~{1+}", "true", "~({0} < {1})", "Log.leave", ample!(plus any), sub, 33),
+    either!("sub_plus_first" Sub, "~{1+}", "true", "~({0} < {1})", "Log.difference", signs!(plus any), sub, 37),
+    either!("ample_sub_minus_first" Sub, "{1+}", "false", "{0} < {1}", "Log.leave", ample!(minus any), sub, 31),
+    either!("sub_minus_first" Sub, "{1+}", "false", "{0} < {1}", "Log.difference", signs!(minus any), sub, 35),
+    either!("ample_sub_plus_second" Sub, "~{0+}", "false", "~({0} < {1})", "Log.leave", ample!(any plus), sub, 32),
+    either!("sub_plus_second" Sub, "~{0+}", "false", "~({0} < {1})", "Log.difference", signs!(any plus), sub, 36),
+    either!("ample_sub_minus_second" Sub, "{0+}", "true", "{0} < {1}", "Log.leave", ample!(any minus), sub, 31),
+    either!("sub_minus_second" Sub, "{0+}", "true", "{0} < {1}", "Log.difference", signs!(any minus), sub, 35),
+    either!("ample_add" Add, "{0+} = {1+}", "{0+}", "(~({0} < {1})) = {0+}", "Log.leave", |args, result| high(result) && ample(args), add, 34),
+    either!("add" Add, "{0+} = {1+}", "{0+}", "(~({0} < {1})) = {0+}", "Log.difference", fits, add, 38),
+    either!("ample_sub" Sub, "{0+} = (~{1+})", "{0+}", "(~({0} < {1})) = {0+}", "Log.leave", |args, result| high(result) && ample(args), sub, 35),
+    either!("sub" Sub, "{0+} = (~{1+})", "{0+}", "(~({0} < {1})) = {0+}", "Log.difference", fits, sub, 39),
+    routine!("any_add" Add(R, R) -> R, Do("let {r} = Log.clamp(Log.add({0}, {0+}, {1}, {1+}));\nlet {r+} = Log.plus();"), ["Log.add", "Log.clamp"], everywhere, DIFFERENCES, |a, b| a.add(b), 59, 36),
+    routine!("any_sub" Sub(R, R) -> R, Do("let {r} = Log.clamp(Log.add({0}, {0+}, {1}, ~{1+}));\nlet {r+} = Log.plus();"), ["Log.add", "Log.clamp"], everywhere, DIFFERENCES, |a, b| a.sub(b), 60, 37),
+];
+
 /// The routines of logarithms, and those of ints.
-pub(super) static ALL: [Routine; REALS.len() + INTS.len()] = joined(REALS, INTS);
+pub(super) static ALL: [Routine; OF_REALS.len() + INTS.len()] = joined(OF_REALS, INTS);
+
+const OF_REALS: &[Routine] = &joined::<{ REALS.len() + SUMS_OF_SIGNS.len() }>(REALS, SUMS_OF_SIGNS);

@@ -192,12 +192,12 @@ pub(crate) const SUM: &str = "    /** Of the sum of two values of one sign. */
     function int sum(int a, int b) {
         var int d;
         let d = a - b;
-        if (d < 0) {
-            if (d < (-6143)) { return b + Log.rest(-d); }
-            return b + sums[-d];
+        if (d > 0) {
+            if (d < 6144) { return a + sums[d]; }
+            return a + Log.rest(d);
         }
-        if (d > 6143) { return a + Log.rest(d); }
-        return a + sums[d];
+        if (d > (-6144)) { return b + sums[-d]; }
+        return b + Log.rest(-d);
     }
 ";
 
@@ -236,15 +236,32 @@ pub(crate) const DIFFERENCE: &str =
     function int difference(int a, int b) {
         var int d;
         let d = a - b;
-        if (d < 0) {
-            let d = -d;
-            let a = b;
+        if (d > 0) {
+            if (d < 6144) { let a = a - differences[d]; }
+            else { return a - Log.rest(d); }
+        }
+        else {
+            if (d = 0) { return -16384; }
+            if (d > (-6144)) { let a = b - differences[-d]; }
+            else { return b - Log.rest(-d); }
+        }
+        if (a > (-16384)) { return a; }
+        return -16384;
+    }
+";
+
+pub(crate) const LEAVE: &str =
+    "    /** The same where the greater is so large that what is left is more than 0. */
+    function int leave(int a, int b) {
+        var int d;
+        let d = a - b;
+        if (d > 0) {
+            if (d < 6144) { return a - differences[d]; }
+            return a - Log.rest(d);
         }
         if (d = 0) { return -16384; }
-        if (d > 6143) { let a = a - Log.rest(d); }
-        else { let a = a - differences[d]; }
-        if (a < (-16384)) { return -16384; }
-        return a;
+        if (d > (-6144)) { return b - differences[-d]; }
+        return b - Log.rest(-d);
     }
 ";
 
@@ -253,28 +270,32 @@ pub(crate) const ADD: &str = "    static boolean plus;
     /** Of the sum of two values; plus() is its sign. */
     function int add(int a, boolean aPlus, int b, boolean bPlus) {
         var int d;
-        if (aPlus = bPlus) {
-            let plus = aPlus;
-            let d = a - b;
-            if (d < 0) {
-                if (d < (-6143)) { return b + Log.rest(-d); }
-                return b + sums[-d];
-            }
-            if (d > 6143) { return a + Log.rest(d); }
-            return a + sums[d];
-        }
         let d = a - b;
-        if (d > 0) { let plus = aPlus; }
-        else {
-            if (d = 0) { let plus = true; return -16384; }
-            let plus = bPlus;
-            let d = -d;
-            let a = b;
+        if (d > 0) {
+            let plus = aPlus;
+            if (d < 6144) {
+                if (aPlus = bPlus) { return a + sums[d]; }
+                let a = a - differences[d];
+            }
+            else {
+                if (aPlus = bPlus) { return a + Log.rest(d); }
+                return a - Log.rest(d);
+            }
         }
-        if (d > 6143) { let a = a - Log.rest(d); }
-        else { let a = a - differences[d]; }
-        if (a < (-16384)) { return -16384; }
-        return a;
+        else {
+            let plus = bPlus;
+            if (d > (-6144)) {
+                if (aPlus = bPlus) { return b + sums[-d]; }
+                if (d = 0) { let plus = aPlus; return -16384; }
+                let a = b - differences[-d];
+            }
+            else {
+                if (aPlus = bPlus) { return b + Log.rest(-d); }
+                return b - Log.rest(-d);
+            }
+        }
+        if (a > (-16384)) { return a; }
+        return -16384;
     }
 
     /** Whether the last sum is positive. */
@@ -285,20 +306,25 @@ pub(crate) const ADD: &str = "    static boolean plus;
 
 pub(crate) const CLAMP: &str = "    /** A logarithm kept within the ends. */
     function int clamp(int a) {
+        if (a < 0) {
+            if (a < (-16384)) { return -16384; }
+            return a;
+        }
         if (a > 16383) { return 16383; }
-        if (a < (-16384)) { return -16384; }
         return a;
     }
 ";
 
 pub(crate) const HALF: &str = "    /** a / 2, rounded down: the logarithm of a root. */
     function int half(int a) {
+        if (a < 0) { return -Log.halved(1 - a); }
+        return Log.halved(a);
+    }
+
+    /** The same from 0 on. */
+    function int halved(int a) {
         var int h;
-        let h = -8192;
-        let a = a + 16384;
-        if (a > 16383) { let a = a - 16384; let h = h + 8192; }
-        if (a > 8191) { let a = a - 8192; let h = h + 4096; }
-        if (a > 4095) { let a = a - 4096; let h = h + 2048; }
+        while (a > 4095) { let a = a - 4096; let h = h + 2048; }
         if (a > 2047) { let a = a - 2048; let h = h + 1024; }
         if (a > 1023) { let a = a - 1024; let h = h + 512; }
         if (a > 511) { let a = a - 512; let h = h + 256; }
@@ -369,9 +395,7 @@ pub(crate) const FLOOR: &str = "    /** The greatest whole number not above. */
         let n = Log.whole(a);
         if (aPlus) { return n; }
         if (a > 9216) { return -n; }
-        if (logs[n] = a) {
-            if (n > 0) { return -n; }
-        }
+        if (logs[n] = a) { return -n; }
         return (-n) - 1;
     }
 ";

@@ -85,6 +85,7 @@ pub(crate) static ALL: &[Part] = &[
     part!("Log.clamp", [], 60, log::CLAMP),
     part!("Log.sum", ["Log.makeSums", "Log.rest"], 140, log::SUM),
     part!("Log.difference", ["Log.makeDifferences", "Log.rest"], 140, log::DIFFERENCE),
+    part!("Log.leave", ["Log.makeDifferences", "Log.rest"], 120, log::LEAVE),
     part!("Log.add", ["Log.makeSums", "Log.makeDifferences", "Log.rest"], 300, log::ADD),
     part!("Log.half", ["Log.makeHalves"], 210, log::HALF),
     part!("Log.root", ["Log.half"], 40, log::ROOT),

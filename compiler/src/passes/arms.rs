@@ -1,0 +1,204 @@
+//! What is made of a choice that has a constant in one arm, made in each arm by itself.
+//!
+//! A floor's normal is (0, 1, 0): a product with it is 0 or the other factor, and a
+//! reflection at it turns one sign. Behind the choice between the floor's normal and a
+//! torus's nobody knows that any more. So an operation on such choices becomes a choice
+//! between two operations, where one of them is none: it is a constant, an operand, or an
+//! operand's negative; and so does what lies between. The other arm computes what it did,
+//! so no pixel computes more. Every rule is [`super::fold`]'s, which keeps the value bit
+//! for bit.
+
+use super::fold::folded;
+use super::rebuild::rebuild_old;
+use crate::flow::build::Builder;
+use crate::flow::graph::*;
+use crate::source::Span;
+use slowlight_routine::Op;
+use std::collections::{BTreeMap, HashMap};
+
+/// How many conditions are looked at.
+const CONDITIONS: usize = 6;
+
+/// The conditions whose choices have constants in an arm, those of most of them first.
+pub fn conditions(graph: &Graph) -> Vec<NodeId> {
+    let reached = graph.reached();
+    let mut choices: BTreeMap<NodeId, usize> = BTreeMap::new();
+    for id in graph.ids().filter(|id| reached[id.0 as usize]) {
+        let Node::Select { cond, yes, no } = graph.node(id) else {
+            continue;
+        };
+        let shortcut = graph.early.contains(&id);
+        if !shortcut && (graph.constant(yes).is_some() || graph.constant(no).is_some()) {
+            *choices.entry(cond).or_default() += 1;
+        }
+    }
+    let mut all: Vec<(NodeId, usize)> = choices.into_iter().collect();
+    all.sort_by_key(|(_, count)| std::cmp::Reverse(*count));
+    all.into_iter().take(CONDITIONS).map(|(id, _)| id).collect()
+}
+
+/// The graph with what is made of choices by a condition made in their arms, where that
+/// leaves operations out; nothing where it does not.
+pub fn arms(graph: &Graph, cond: NodeId) -> Option<Graph> {
+    let mut all = vec![true; graph.nodes.len()];
+    let (_, shorter) = apart(graph, cond, &all);
+    if !shorter.contains(&true) {
+        return None;
+    }
+    // What is left out, and what is on the way from a choice to it.
+    all.clone_from(&shorter);
+    for id in graph.ids().rev() {
+        if let (true, Node::Apply(op, args)) = (all[id.0 as usize], graph.node(id)) {
+            for arg in &args[..op.arity()] {
+                all[arg.0 as usize] = true;
+            }
+        }
+    }
+    Some(apart(graph, cond, &all).0)
+}
+
+/// What a value is in the two arms, in the new graph.
+#[derive(Clone, Copy)]
+struct Pair {
+    yes: NodeId,
+    no: NodeId,
+}
+
+/// The graph with the operations among `these` made in both arms, and which of them are
+/// none in one.
+fn apart(graph: &Graph, by: NodeId, these: &[bool]) -> (Graph, Vec<bool>) {
+    let mut pairs: HashMap<NodeId, Pair> = HashMap::new();
+    let mut shorter = vec![false; graph.nodes.len()];
+    let next = rebuild_old(graph, &mut |builder, made, id, span| {
+        let new = |old: NodeId| made.get(old.0 as usize).copied().flatten();
+        let (op, args) = match graph.node(id) {
+            Node::Select { cond, yes, no } if cond == by => {
+                let (yes, no) = (new(yes)?, new(no)?);
+                pairs.insert(id, Pair { yes, no });
+                return None;
+            }
+            Node::Apply(op, args) => (op, args),
+            _ => return None,
+        };
+        let args = &args[..op.arity()];
+        if !these[id.0 as usize] || !args.iter().any(|arg| pairs.contains_key(arg)) {
+            return None;
+        }
+        let arm = |of: fn(&Pair) -> NodeId| -> Option<Vec<NodeId>> {
+            let one = |arg: &NodeId| pairs.get(arg).map(of).or_else(|| new(*arg));
+            args.iter().map(one).collect()
+        };
+        let (yes, no) = (arm(|pair| pair.yes)?, arm(|pair| pair.no)?);
+        let cond = new(by)?;
+        let (yes, without) = put(builder, op, &yes, span);
+        let (no, or_without) = put(builder, op, &no, span);
+        shorter[id.0 as usize] = without || or_without;
+        pairs.insert(id, Pair { yes, no });
+        Some(builder.select(cond, yes, no, span))
+    });
+    (next, shorter)
+}
+
+/// An operation, and whether it is none: what it gives is there without it.
+fn put(builder: &mut Builder, op: Op, args: &[NodeId], span: Span) -> (NodeId, bool) {
+    let twice = |id: NodeId| args.get(1).copied().unwrap_or(id);
+    let made = args
+        .first()
+        .and_then(|first| folded(builder, op, *first, twice(*first), span));
+    let made = made.unwrap_or_else(|| builder.apply(op, args, span));
+    let there = match builder.node(made) {
+        Node::Apply(Op::Neg, [a, _]) => op != Op::Neg && args.contains(&a),
+        _ => false,
+    };
+    let none = there || builder.value(made).is_some() || args.contains(&made);
+    (made, none)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::eval::drawn::{grid, picture};
+    use crate::passes::fold::fold;
+    use crate::passes::schedule::schedule;
+    use crate::plan::price::Price;
+    use crate::plan::thrift::Thrift;
+    use crate::plan::workshop::Workshop;
+    use crate::scene;
+    use crate::sema::Options;
+    use slowlight_runtime_jack::F316;
+
+    fn lowered(ink: &str) -> Graph {
+        let source = format!(
+            "image 24 x 16 inks black, white; param p: real = 0.75 in -2 .. 2;
+             draw (x, y) = {{
+               let l = unit((x - 9, y - 5.5, p + 3));
+               let flat = x > y;
+               let n = if flat then (0, 1, 0) else unit((y - 3, p - x, 2));
+               {ink}
+             }};"
+        );
+        let options = Options {
+            inks: Some(2),
+            ..Options::default()
+        };
+        fold(
+            &scene::check("test", &source)
+                .lower(&options)
+                .expect(&source),
+        )
+    }
+
+    /// The graph with every condition's choices apart, one after the other.
+    fn all_apart(graph: &Graph) -> Option<Graph> {
+        let mut now = None;
+        for k in 0..CONDITIONS {
+            let of = now.as_ref().unwrap_or(graph);
+            let next = conditions(of)
+                .get(k)
+                .and_then(|cond| arms(of, *cond))
+                .map(|next| fold(&next));
+            now = next.or(now);
+        }
+        now
+    }
+
+    /// What a pixel costs on Jack.
+    fn price(graph: &Graph) -> f64 {
+        let shop = Workshop::new(graph.clone(), &F316);
+        let plan = shop.settle(graph);
+        Price::new(&plan, &F316, Thrift::default()).of(&plan)
+    }
+
+    #[test]
+    fn products_with_a_constant_normal_are_left_out() {
+        for ink in [
+            "ink(if dot(l, n) > 0.2 then 1 else 0)",
+            "ink(if dot(reflect(l, n), (0.3, 0.5, p)) > 0.1 then 1 else 0)",
+            "ink(if length(reflect(l, n) - p * n) > 1.2 then 1 else 0)",
+            "ink(if (if flat then 0 else p) * l.x < (if flat then l.y else 1) * l.z then 1 else 0)",
+        ] {
+            let graph = lowered(ink);
+            let next = all_apart(&graph).expect(ink);
+            let places = grid(24, 16, 1);
+            assert_eq!(
+                picture(&next, &schedule(&next), &places),
+                picture(&graph, &schedule(&graph), &places),
+                "{ink}"
+            );
+            assert!(price(&next) < price(&graph), "{ink}");
+        }
+    }
+
+    #[test]
+    fn nothing_is_moved_into_arms_where_nothing_is_left_out() {
+        for ink in [
+            "ink(if (if flat then 0.3 else p) * l.x < 0.1 then 1 else 0)",
+            "ink(if min(if flat then 0 else p, l.x) < 0.1 then 1 else 0)",
+        ] {
+            let graph = lowered(ink);
+            let flat = |id: &NodeId| matches!(graph.node(*id), Node::Apply(Op::IntLess, _));
+            let cond = conditions(&graph).into_iter().find(flat).expect(ink);
+            assert!(arms(&graph, cond).is_none(), "{ink}");
+        }
+    }
+}
