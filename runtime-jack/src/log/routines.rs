@@ -62,12 +62,17 @@ fn inner_product(args: &[Range], result: Range) -> bool {
     matches!(args, [a, b, ..] if high(result) && least(a) * least(b) >= ZERO)
 }
 
-fn inner_quotient(args: &[Range], _: Range) -> bool {
-    matches!(args, [a, b, ..] if a.magnitude() < HIGH * least(b) && least(a) >= ZERO * b.magnitude())
+fn inner_quotient(args: &[Range], result: Range) -> bool {
+    low_quotient(args, result) && high_quotient(args, result)
 }
 
-fn low_quotient(args: &[Range], _: Range) -> bool {
-    matches!(args, [a, b, ..] if a.magnitude() < HIGH * least(b))
+/// Divisors below the least magnitude are held as that, which makes quotients smaller.
+fn low_quotient(args: &[Range], result: Range) -> bool {
+    high(result) || matches!(args, [a, b, ..] if a.magnitude() < HIGH * least(b))
+}
+
+fn high_quotient(args: &[Range], _: Range) -> bool {
+    matches!(args, [a, b, ..] if least(a) >= ZERO * b.magnitude())
 }
 
 /// Two arguments of known signs, and a sum that fits.
@@ -145,14 +150,16 @@ const REALS: &[Routine] = &[
     routine!("any_mul" Mul(R, R) -> R, Do("let {r} = Log.clamp({0} + {1});\nlet {r+} = {0+} = {1+};"), ["Log.clamp"], everywhere, PRODUCT, |a, b| a.mul(b), 19, 22),
     routine!("div" Div(R, R) -> R, Do("let {r} = {0} - {1};\nlet {r+} = {0+} = {1+};"), [], inner_quotient, PRODUCT, |a, b| a.div(b), 5, 16),
     routine!("low_div" Div(R, R) -> R, Do("let {r} = {0} - {1};\nif ({r} < (-16384)) { let {r} = -16384; }\nlet {r+} = {0+} = {1+};"), [], low_quotient, PRODUCT, |a, b| a.div(b), 11, 32),
+    routine!("high_div" Div(R, R) -> R, Do("let {r} = {0} - {1};\nif ({r} > 16383) { let {r} = 16383; }\nlet {r+} = {0+} = {1+};"), [], high_quotient, PRODUCT, |a, b| a.div(b), 10, 30),
     routine!("any_div" Div(R, R) -> R, Do("let {r} = Log.clamp({0} - {1});\nlet {r+} = {0+} = {1+};"), ["Log.clamp"], everywhere, PRODUCT, |a, b| a.div(b), 19, 22),
     routine!("sum" Add(R, R) -> R, Do("let {r} = Log.sum({0}, {1});\nlet {r+} = true;"), ["Log.sum"], signs!(plus plus), SUMS, |a, b| a.add(b), 27, 14),
+    routine!("any_sum" Add(R, R) -> R, Do("let {r} = Log.clamp(Log.sum({0}, {1}));\nlet {r+} = true;"), ["Log.sum", "Log.clamp"], plus, SUMS, |a, b| a.add(b), 41, 22),
     routine!("minus_sum" Add(R, R) -> R, Do("let {r} = Log.sum({0}, {1});\nlet {r+} = false;"), ["Log.sum"], signs!(minus minus), SUMS, |a, b| a.add(b), 26, 14),
     routine!("difference_sum" Sub(R, R) -> R, Do("let {r} = Log.sum({0}, {1});\nlet {r+} = true;"), ["Log.sum"], signs!(plus minus), SUMS, |a, b| a.sub(b), 27, 14),
     routine!("minus_difference_sum" Sub(R, R) -> R, Do("let {r} = Log.sum({0}, {1});\nlet {r+} = false;"), ["Log.sum"], signs!(minus plus), SUMS, |a, b| a.sub(b), 26, 14),
     routine!("root" Sqrt(R) -> R, Do("let {r} = Log.half({0});\nlet {r+} = true;"), ["Log.half"], plus, ROOT, |a| a.sqrt(), 46, 14),
     routine!("any_root" Sqrt(R) -> R, Do("let {r} = Log.root({0}, {0+});\nlet {r+} = true;"), ["Log.root"], everywhere, ROOT, |a| a.sqrt(), 36, 20),
-    routine!("mod" Mod(R, R) -> R, Do("let {r} = Log.mod({0}, {0+}, {1}, {1+});\nlet {r+} = Log.plus();"), ["Log.mod"], everywhere, UNKNOWN, |a, b| a.modulo(b), 222, 30),
+    routine!("mod" Mod(R, R) -> R, Do("let {r} = Log.mod({0}, {0+}, {1}, {1+});\nlet {r+} = Log.plus();"), ["Log.mod"], everywhere, UNKNOWN, |a, b| a.modulo(b), 223, 30),
     routine!("neg" Neg(R) -> R, Do("let {r+} = ~{0+};\nlet {r} = {0};"), [], everywhere, EXACT, |a| a.neg(), 3, 12),
     routine!("abs" Abs(R) -> R, Do("let {r} = {0};\nlet {r+} = true;"), [], everywhere, EXACT, |a| a.abs(), 3, 10),
     routine!("plus_min" Min(R, R) -> R, Do("let {r} = Math.min({0}, {1});\nlet {r+} = true;"), [], plus, EXACT, |a, b| a.min(b), 4, 14),
@@ -168,7 +175,7 @@ const REALS: &[Routine] = &[
     routine!("floor" Floor(R) -> I, call("Log.floor({0}, {0+})"), ["Log.floor"], everywhere, STEP, |a| a.floor(), 79, 20),
     routine!("round" Round(R) -> I, call("Log.round({0}, {0+})"), ["Log.round"], everywhere, STEP, |a| a.round(), 130, 20),
     routine!("sign" Sign(R) -> I, call("Log.sign({0+})"), ["Log.sign"], everywhere, EXACT, |a| a.sign(), 7, 14),
-    routine!("from_int" ToReal(I) -> R, Do("let {r+} = ~({0} < 0);\nlet {r} = Log.fromInt({0});"), ["Log.fromInt"], everywhere, WHOLE, |a| Log::from_int(a), 42, 24),
+    routine!("from_int" ToReal(I) -> R, Do("let {r+} = ~({0} < 0);\nlet {r} = Log.fromInt({0});"), ["Log.fromInt"], everywhere, WHOLE, |a| Log::from_int(a), 41, 24),
     routine!("negative" Less(R, R) -> B, sum("~{0+}"), [], against_zero, EXACT, |a, _b| !a.plus, 0, 6),
     routine!("positive" Less(R, R) -> B, sum("{1+} & ({1} > (-16384))"), [], from_zero, EXACT, |_a, b| b.plus && b.log > model::LEAST, 4, 24),
     routine!("plus_less" Less(R, R) -> B, sum("{0} < {1}"), [], plus, EXACT, |a, b| a.less(b), 1, 12),

@@ -204,29 +204,59 @@ pub(crate) const SUM: &str = "    /** Of the sum of two values of one sign. */
 pub(crate) const REST: &str =
     "    /** What a summand adds whose logarithm is that much less: little. */
     function int rest(int apart) {
-        if (apart > 11805) { return 0; }
-        if (apart > 10182) { return 1; }
-        if (apart > 9427) { return 2; }
-        if (apart > 8930) { return 3; }
-        if (apart > 8559) { return 4; }
-        if (apart > 8263) { return 5; }
-        if (apart > 8016) { return 6; }
-        if (apart > 7804) { return 7; }
-        if (apart > 7619) { return 8; }
-        if (apart > 7455) { return 9; }
-        if (apart > 7307) { return 10; }
-        if (apart > 7173) { return 11; }
-        if (apart > 7050) { return 12; }
-        if (apart > 6936) { return 13; }
-        if (apart > 6830) { return 14; }
-        if (apart > 6732) { return 15; }
-        if (apart > 6640) { return 16; }
-        if (apart > 6553) { return 17; }
-        if (apart > 6471) { return 18; }
-        if (apart > 6393) { return 19; }
-        if (apart > 6319) { return 20; }
-        if (apart > 6249) { return 21; }
-        if (apart > 6182) { return 22; }
+        if (apart > 7173) {
+            if (apart > 8263) {
+                if (apart > 9427) {
+                    if (apart > 10182) {
+                        if (apart > 11805) { return 0; }
+                        return 1;
+                    }
+                    return 2;
+                }
+                if (apart > 8559) {
+                    if (apart > 8930) { return 3; }
+                    return 4;
+                }
+                return 5;
+            }
+            if (apart > 7619) {
+                if (apart > 7804) {
+                    if (apart > 8016) { return 6; }
+                    return 7;
+                }
+                return 8;
+            }
+            if (apart > 7307) {
+                if (apart > 7455) { return 9; }
+                return 10;
+            }
+            return 11;
+        }
+        if (apart > 6553) {
+            if (apart > 6830) {
+                if (apart > 6936) {
+                    if (apart > 7050) { return 12; }
+                    return 13;
+                }
+                return 14;
+            }
+            if (apart > 6640) {
+                if (apart > 6732) { return 15; }
+                return 16;
+            }
+            return 17;
+        }
+        if (apart > 6319) {
+            if (apart > 6393) {
+                if (apart > 6471) { return 18; }
+                return 19;
+            }
+            return 20;
+        }
+        if (apart > 6182) {
+            if (apart > 6249) { return 21; }
+            return 22;
+        }
         return 23;
     }
 ";

@@ -81,7 +81,7 @@ pub(crate) static ALL: &[Part] = &[
     part!("Log.makeSums", ["Log.powerLess"], 150, log::MAKE_SUMS),
     part!("Log.makeDifferences", ["Log.powerLess", "Log.makeLogs"], 650, log::MAKE_DIFFERENCES),
     part!("Log.whole", ["Log.makeLogs", "Log.makeHalves"], 220, log::WHOLE),
-    part!("Log.rest", [], 330, log::REST),
+    part!("Log.rest", [], 360, log::REST),
     part!("Log.clamp", [], 60, log::CLAMP),
     part!("Log.sum", ["Log.makeSums", "Log.rest"], 140, log::SUM),
     part!("Log.difference", ["Log.makeDifferences", "Log.rest"], 140, log::DIFFERENCE),
