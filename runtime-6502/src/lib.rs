@@ -64,6 +64,7 @@ pub static FIXED16_16: Runtime = Runtime {
     segments: false,
     derives: false,
     kept: slowlight_routine::whole,
+    loose: None,
     statement: 36,
     index: 0,
     param_most: 32767.0,

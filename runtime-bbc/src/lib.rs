@@ -85,6 +85,7 @@ pub static RUNTIME: Runtime = Runtime {
     segments: true,
     derives: true,
     kept: slowlight_routine::whole,
+    loose: None,
     statement: 800,
     index: 850,
     param_most: BIG,

@@ -69,6 +69,7 @@ pub static F316: Runtime = Runtime {
     segments: false,
     derives: false,
     kept: slowlight_routine::whole,
+    loose: None,
     statement: 11,
     index: 0,
     param_most: model::MOST as f64,

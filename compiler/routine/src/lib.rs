@@ -268,6 +268,8 @@ pub struct Runtime {
     /// What programs keep of a real result that stays within a range: where that tells
     /// the sign, some keep none.
     pub kept: fn(Bits, Range) -> Bits,
+    /// Which results may be smaller than the format's least magnitude, if any.
+    pub loose: Option<Loose>,
     /// Cycles that a statement takes beside its routine, about.
     pub statement: u32,
     /// Cycles that reading a table takes beside reading a variable, an index, about.
@@ -283,6 +285,19 @@ pub struct Runtime {
     /// The bits that the generated program makes at its start of a real param
     /// written as the integer `scaled` with `digits` decimal digits.
     pub param_bits: fn(scaled: i64, digits: u8) -> Bits,
+}
+
+/// Results that may be smaller than their format's least magnitude, for as long as
+/// everything that reads them takes that.
+#[derive(Clone, Copy, Debug)]
+pub struct Loose {
+    /// How small a value is at most that is not loose, in the format's own measure.
+    pub held: i32,
+    /// The routine that leaves results as small as they come, instead of one that does not.
+    pub instead: fn(&Routine) -> Option<&'static Routine>,
+    /// How small a routine's result may be if its arguments, of these ranges, may be as
+    /// small as that: `None` where it does not take them.
+    pub least: fn(&Routine, &[Range], &[i32]) -> Option<i32>,
 }
 
 impl Runtime {

@@ -1,5 +1,6 @@
 //! Which routine computes each operation.
 
+use super::loose::loosen;
 use crate::flow::graph::*;
 use crate::flow::tree::*;
 use crate::range::Ranges;
@@ -17,7 +18,7 @@ fn elsewhere(op: Op) -> String {
     }
 }
 
-type Chosen = Vec<Option<&'static Routine>>;
+pub(super) type Chosen = Vec<Option<&'static Routine>>;
 
 /// The first routine in the runtime's list, for each operation, whose domain
 /// the ranges prove.
@@ -57,6 +58,9 @@ pub(super) fn choose(
                 ),
             }
         });
+    }
+    if let Some(loose) = &runtime.loose {
+        loosen(graph, ranges, loose, &mut chosen);
     }
     if missing.is_empty() {
         Ok(chosen)

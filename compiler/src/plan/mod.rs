@@ -51,6 +51,7 @@ mod interference;
 #[cfg(test)]
 mod interference_tests;
 mod lifetimes;
+mod loose;
 mod made;
 mod merge;
 mod names;

@@ -5,7 +5,7 @@
 //! 6,144 entries, what a difference takes away in another; the program makes both at
 //! its start. Sums are right to 0.7 of the last place, 4.8e-4 of themselves, and
 //! differences of near values to 1.2; products, quotients and powers of two are exact. Magnitudes end at 2^16
-//! above and 2^-16 below, which stands for 0; so lengths of vectors end at 2^8, where their
+//! above and 2^-13 below, which stands for 0; so lengths of vectors end at 2^8, where their
 //! squares do, and a 0 has the sign that it came with.
 //!
 //! # How a routine is written
@@ -15,6 +15,7 @@
 //! Whoever writes them leaves out a sign that the ranges know. The result may share the
 //! variables of an argument.
 
+mod loose;
 pub mod model;
 mod routines;
 mod tables;
@@ -43,6 +44,7 @@ pub static LOG10: Runtime = Runtime {
     segments: false,
     derives: false,
     kept,
+    loose: Some(loose::LOOSE),
     statement: 4,
     index: 0,
     param_most: crate::model::MOST as f64,

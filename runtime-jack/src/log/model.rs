@@ -10,8 +10,9 @@ use slowlight_routine::Bits;
 pub const OCTAVE: i32 = 1024;
 /// The greatest logarithm, of 2^16 nearly: what is larger saturates there.
 pub const MOST: i32 = 16383;
-/// The least, of 2^-16: what is smaller, 0 among it, is held as that.
-pub const LEAST: i32 = -16384;
+/// The least, of 2^-13: what is smaller, 0 among it, is held as that, but for a while
+/// where nobody minds ([`super::loose`]).
+pub const LEAST: i32 = -13312;
 /// How far apart summands may be that the tables know.
 pub const NEAR: i32 = 6144;
 /// Logarithms of whole numbers are kept up to this one.
@@ -21,7 +22,7 @@ pub const WHOLE: i32 = 512;
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Log {
     pub plus: bool,
-    /// From [`LEAST`] to [`MOST`].
+    /// From [`LEAST`] to [`MOST`], or less where that is loose.
     pub log: i32,
 }
 
@@ -39,11 +40,11 @@ impl Log {
         Bits::from(self.log as u16) | Bits::from(!self.plus) << 16
     }
 
-    /// From bits; logarithms beyond the ends count as these.
+    /// From bits.
     pub fn from_bits(bits: Bits) -> Log {
         Log {
             plus: bits >> 16 & 1 == 0,
-            log: clamp(int(bits & 0xffff)),
+            log: int(bits & 0xffff),
         }
     }
 
@@ -84,6 +85,22 @@ impl Log {
         Log {
             plus: self.plus == b.plus,
             log: clamp(self.log - b.log),
+        }
+    }
+
+    /// A product as small as it comes.
+    pub fn loose_mul(self, b: Log) -> Log {
+        Log {
+            plus: self.plus == b.plus,
+            log: (self.log + b.log).min(MOST),
+        }
+    }
+
+    /// A quotient as small as it comes.
+    pub fn loose_div(self, b: Log) -> Log {
+        Log {
+            plus: self.plus == b.plus,
+            log: (self.log - b.log).min(MOST),
         }
     }
 
@@ -176,8 +193,8 @@ pub fn clamp(log: i32) -> i32 {
 fn sum(a: i32, b: i32) -> i32 {
     let (more, less) = (a.max(b), a.min(b));
     match tables().sums.get((more - less) as usize) {
-        Some(entry) => clamp(more + entry),
-        None => clamp(more + rest(more - less)),
+        Some(entry) => (more + entry).min(MOST),
+        None => (more + rest(more - less)).min(MOST),
     }
 }
 
@@ -187,7 +204,7 @@ fn difference(a: i32, b: i32) -> i32 {
     match tables().differences.get((more - less) as usize) {
         _ if more == less => LEAST,
         Some(entry) => (more - entry).max(LEAST),
-        None => (more - rest(more - less)).max(LEAST),
+        None => more - rest(more - less),
     }
 }
 

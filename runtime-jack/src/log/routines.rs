@@ -43,7 +43,7 @@ const STEP: Error = Error::Mixed {
 /// A quotient that is cut beside a whole number moves the result by the divisor.
 const UNKNOWN: Error = Error::Absolute(131_072.0);
 /// The least magnitude, which stands for 0.
-const ZERO: f64 = 1.0 / 65536.0;
+const ZERO: f64 = 1.0 / 8192.0;
 
 /// Magnitudes that need no clamping above, with room for what roundings add.
 const HIGH: f64 = 60_000.0;
@@ -98,7 +98,7 @@ macro_rules! sign {
 
 /// What differences are taken from: where one magnitude is at least this, so that the
 /// greater is, nothing that is left of it is less than the format tells from 0.
-const AMPLE: f64 = 0.0227;
+const AMPLE: f64 = 0.181;
 
 fn ample(args: &[Range]) -> bool {
     args.iter().any(|a| least(a) >= AMPLE)
@@ -111,6 +111,11 @@ fn fits(_: &[Range], result: Range) -> bool {
 
 fn plus(args: &[Range], _: Range) -> bool {
     args.iter().all(|a| a.lo >= 0.0)
+}
+
+/// Of what is chosen in another's place only ([`super::loose`]).
+fn never(_: &[Range], _: Range) -> bool {
+    false
 }
 
 fn first_plus(args: &[Range], _: Range) -> bool {
@@ -146,10 +151,12 @@ use Form::Statement as Do;
 #[rustfmt::skip]
 const REALS: &[Routine] = &[
     routine!("mul" Mul(R, R) -> R, Do("let {r} = {0} + {1};\nlet {r+} = {0+} = {1+};"), [], inner_product, PRODUCT, |a, b| a.mul(b), 5, 16),
-    routine!("low_mul" Mul(R, R) -> R, Do("let {r} = {0} + {1};\nif ({r} < (-16384)) { let {r} = -16384; }\nlet {r+} = {0+} = {1+};"), [], fits, PRODUCT, |a, b| a.mul(b), 11, 32),
+    routine!("low_mul" Mul(R, R) -> R, Do("let {r} = {0} + {1};\nif ({r} < (-13312)) { let {r} = -13312; }\nlet {r+} = {0+} = {1+};"), [], fits, PRODUCT, |a, b| a.mul(b), 11, 32),
+    routine!("loose_mul" Mul(R, R) -> R, Do("let {r} = {0} + {1};\nlet {r+} = {0+} = {1+};"), [], never, PRODUCT, |a, b| a.loose_mul(b), 5, 16),
     routine!("any_mul" Mul(R, R) -> R, Do("let {r} = Log.clamp({0} + {1});\nlet {r+} = {0+} = {1+};"), ["Log.clamp"], everywhere, PRODUCT, |a, b| a.mul(b), 19, 22),
     routine!("div" Div(R, R) -> R, Do("let {r} = {0} - {1};\nlet {r+} = {0+} = {1+};"), [], inner_quotient, PRODUCT, |a, b| a.div(b), 5, 16),
-    routine!("low_div" Div(R, R) -> R, Do("let {r} = {0} - {1};\nif ({r} < (-16384)) { let {r} = -16384; }\nlet {r+} = {0+} = {1+};"), [], low_quotient, PRODUCT, |a, b| a.div(b), 11, 32),
+    routine!("low_div" Div(R, R) -> R, Do("let {r} = {0} - {1};\nif ({r} < (-13312)) { let {r} = -13312; }\nlet {r+} = {0+} = {1+};"), [], low_quotient, PRODUCT, |a, b| a.div(b), 11, 32),
+    routine!("loose_div" Div(R, R) -> R, Do("let {r} = {0} - {1};\nlet {r+} = {0+} = {1+};"), [], never, PRODUCT, |a, b| a.loose_div(b), 5, 16),
     routine!("high_div" Div(R, R) -> R, Do("let {r} = {0} - {1};\nif ({r} > 16383) { let {r} = 16383; }\nlet {r+} = {0+} = {1+};"), [], high_quotient, PRODUCT, |a, b| a.div(b), 10, 30),
     routine!("any_div" Div(R, R) -> R, Do("let {r} = Log.clamp({0} - {1});\nlet {r+} = {0+} = {1+};"), ["Log.clamp"], everywhere, PRODUCT, |a, b| a.div(b), 19, 22),
     routine!("sum" Add(R, R) -> R, Do("let {r} = Log.sum({0}, {1});\nlet {r+} = true;"), ["Log.sum"], signs!(plus plus), SUMS, |a, b| a.add(b), 27, 14),
@@ -157,7 +164,7 @@ const REALS: &[Routine] = &[
     routine!("minus_sum" Add(R, R) -> R, Do("let {r} = Log.sum({0}, {1});\nlet {r+} = false;"), ["Log.sum"], signs!(minus minus), SUMS, |a, b| a.add(b), 26, 14),
     routine!("difference_sum" Sub(R, R) -> R, Do("let {r} = Log.sum({0}, {1});\nlet {r+} = true;"), ["Log.sum"], signs!(plus minus), SUMS, |a, b| a.sub(b), 27, 14),
     routine!("minus_difference_sum" Sub(R, R) -> R, Do("let {r} = Log.sum({0}, {1});\nlet {r+} = false;"), ["Log.sum"], signs!(minus plus), SUMS, |a, b| a.sub(b), 26, 14),
-    routine!("root" Sqrt(R) -> R, Do("let {r} = Log.half({0});\nlet {r+} = true;"), ["Log.half"], plus, ROOT, |a| a.sqrt(), 46, 14),
+    routine!("root" Sqrt(R) -> R, Do("let {r} = Log.half({0});\nlet {r+} = true;"), ["Log.half"], plus, ROOT, |a| a.sqrt(), 45, 14),
     routine!("any_root" Sqrt(R) -> R, Do("let {r} = Log.root({0}, {0+});\nlet {r+} = true;"), ["Log.root"], everywhere, ROOT, |a| a.sqrt(), 36, 20),
     routine!("mod" Mod(R, R) -> R, Do("let {r} = Log.mod({0}, {0+}, {1}, {1+});\nlet {r+} = Log.plus();"), ["Log.mod"], everywhere, UNKNOWN, |a, b| a.modulo(b), 223, 30),
     routine!("neg" Neg(R) -> R, Do("let {r+} = ~{0+};\nlet {r} = {0};"), [], everywhere, EXACT, |a| a.neg(), 3, 12),
@@ -167,8 +174,8 @@ const REALS: &[Routine] = &[
     routine!("min_plus_second" Min(R, R) -> R, Do("if ((~{0+}) | ({0} < {1})) {\nlet {r} = {0};\nlet {r+} = {0+};\n}\nelse {\nlet {r} = {1};\nlet {r+} = true;\n}"), [], second_plus, EXACT, |a, b| a.min(b), 9, 50),
     routine!("min" Min(R, R) -> R, Do("if (Log.less({0}, {0+}, {1}, {1+})) {\nlet {r} = {0};\nlet {r+} = {0+};\n}\nelse {\nlet {r} = {1};\nlet {r+} = {1+};\n}"), ["Log.less"], everywhere, EXACT, |a, b| a.min(b), 18, 60),
     routine!("plus_max" Max(R, R) -> R, Do("let {r} = Math.max({0}, {1});\nlet {r+} = true;"), [], plus, EXACT, |a, b| a.max(b), 4, 14),
-    routine!("max_zero" Max(R, R) -> R, Do("if ({0+}) {\nlet {r} = {0};\n}\nelse {\nlet {r} = -16384;\n}\nlet {r+} = true;"), [], against_zero, EXACT, |a, _b| a.max(Log::ZERO), 5, 30),
-    routine!("zero_max" Max(R, R) -> R, Do("if ({1+}) {\nlet {r} = {1};\n}\nelse {\nlet {r} = -16384;\n}\nlet {r+} = true;"), [], from_zero, EXACT, |_a, b| Log::ZERO.max(b), 6, 30),
+    routine!("max_zero" Max(R, R) -> R, Do("if ({0+}) {\nlet {r} = {0};\n}\nelse {\nlet {r} = -13312;\n}\nlet {r+} = true;"), [], against_zero, EXACT, |a, _b| a.max(Log::ZERO), 5, 30),
+    routine!("zero_max" Max(R, R) -> R, Do("if ({1+}) {\nlet {r} = {1};\n}\nelse {\nlet {r} = -13312;\n}\nlet {r+} = true;"), [], from_zero, EXACT, |_a, b| Log::ZERO.max(b), 6, 30),
     routine!("max_plus_first" Max(R, R) -> R, Do("if ({1+} & ({0} < {1})) {\nlet {r} = {1};\n}\nelse {\nlet {r} = {0};\n}\nlet {r+} = true;"), [], first_plus, EXACT, |a, b| a.max(b), 9, 44),
     routine!("max_plus_second" Max(R, R) -> R, Do("if ((~{0+}) | ({0} < {1})) {\nlet {r} = {1};\n}\nelse {\nlet {r} = {0};\n}\nlet {r+} = true;"), [], second_plus, EXACT, |a, b| a.max(b), 10, 44),
     routine!("max" Max(R, R) -> R, Do("if (Log.less({0}, {0+}, {1}, {1+})) {\nlet {r} = {1};\nlet {r+} = {1+};\n}\nelse {\nlet {r} = {0};\nlet {r+} = {0+};\n}"), ["Log.less"], everywhere, EXACT, |a, b| a.max(b), 18, 60),
@@ -177,14 +184,14 @@ const REALS: &[Routine] = &[
     routine!("sign" Sign(R) -> I, call("Log.sign({0+})"), ["Log.sign"], everywhere, EXACT, |a| a.sign(), 7, 14),
     routine!("from_int" ToReal(I) -> R, Do("let {r+} = ~({0} < 0);\nlet {r} = Log.fromInt({0});"), ["Log.fromInt"], everywhere, WHOLE, |a| Log::from_int(a), 41, 24),
     routine!("negative" Less(R, R) -> B, sum("~{0+}"), [], against_zero, EXACT, |a, _b| !a.plus, 0, 6),
-    routine!("positive" Less(R, R) -> B, sum("{1+} & ({1} > (-16384))"), [], from_zero, EXACT, |_a, b| b.plus && b.log > model::LEAST, 4, 24),
+    routine!("positive" Less(R, R) -> B, sum("{1+} & ({1} > (-13312))"), [], from_zero, EXACT, |_a, b| b.plus && b.log > model::LEAST, 4, 24),
     routine!("plus_less" Less(R, R) -> B, sum("{0} < {1}"), [], plus, EXACT, |a, b| a.less(b), 1, 12),
     routine!("less_plus" Less(R, R) -> B, sum("(~{0+}) | ({0} < {1})"), [], second_plus, EXACT, |a, b| a.less(b), 4, 24),
     routine!("plus_less_any" Less(R, R) -> B, sum("{1+} & ({0} < {1})"), [], first_plus, EXACT, |a, b| a.less(b), 3, 22),
     routine!("minus_less" Less(R, R) -> B, sum("{1+} | ({1} < {0})"), [], first_minus, EXACT, |a, b| a.less(b), 3, 22),
     routine!("less_minus" Less(R, R) -> B, sum("(~{0+}) & ({1} < {0})"), [], second_minus, EXACT, |a, b| a.less(b), 4, 24),
     routine!("less" Less(R, R) -> B, call("Log.less({0}, {0+}, {1}, {1+})"), ["Log.less"], everywhere, EXACT, |a, b| a.less(b), 13, 30),
-    routine!("not_positive" LessEqual(R, R) -> B, sum("~({0+} & ({0} > (-16384)))"), [], against_zero, EXACT, |a, _b| !(a.plus && a.log > model::LEAST), 5, 26),
+    routine!("not_positive" LessEqual(R, R) -> B, sum("~({0+} & ({0} > (-13312)))"), [], against_zero, EXACT, |a, _b| !(a.plus && a.log > model::LEAST), 5, 26),
     routine!("not_negative" LessEqual(R, R) -> B, call("{1+}"), [], from_zero, EXACT, |_a, b| b.plus, 0, 4),
     routine!("plus_less_equal" LessEqual(R, R) -> B, sum("~({0} > {1})"), [], plus, EXACT, |a, b| !b.less(a), 2, 14),
     routine!("less_equal" LessEqual(R, R) -> B, sum("~Log.less({1}, {1+}, {0}, {0+})"), ["Log.less"], everywhere, EXACT, |a, b| !b.less(a), 14, 32),

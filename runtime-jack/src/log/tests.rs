@@ -98,6 +98,8 @@ fn routines_keep_within_their_errors() {
             "not_positive",
             "not_negative",
             "max_zero",
+            "loose_mul",
+            "loose_div",
             "zero_max",
         ];
         assert!(
@@ -163,11 +165,11 @@ const MAIN: &str = "
 
     function int inner(int other) {
         let other = Main.any(other);
-        if ((other > 5600) | (other < (-5600))) { return 17; }
+        if ((other > 5600) | (other < (-2500))) { return 17; }
         return other;
     }
 
-    function int clamped(int log) { return Math.max(-16384, Math.min(16383, log)); }
+    function int clamped(int log) { return Math.max(-13312, Math.min(16383, log)); }
 
     function int anyInt() {
         var int kind, whole;
@@ -259,7 +261,7 @@ impl Draw {
             let log = any(generator, other);
             match self.wide {
                 true => clamp(log),
-                false if log.abs() > 5600 => 17,
+                false if !(-2500..=5600).contains(&log) => 17,
                 false => log,
             }
         };

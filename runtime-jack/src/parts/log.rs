@@ -3,7 +3,7 @@
 pub(crate) const HEAD: &str = "    /**
      * Reals by their logarithms: 1024 units are an octave, so 2048 stands for 4 and
      * -1024 for 1/2. A product is a sum of logarithms, a sum is looked up. The least
-     * logarithm, -16384 (2^-16), stands for 0 as well. Signs are kept beside them, true
+     * logarithm, -13312 (2^-13), stands for 0 as well. Signs are kept beside them, true
      * for plus, where it is not known anyway.
      */
 ";
@@ -65,7 +65,7 @@ pub(crate) const MAKE_LOGS: &str = "    static Array logs;
             let logs[n] = logs[n + n] - 1024;
             let n = n - 1;
         }
-        let logs[0] = -16384;
+        let logs[0] = -13312;
         return;
     }
 ";
@@ -271,12 +271,12 @@ pub(crate) const DIFFERENCE: &str =
             else { return a - Log.rest(d); }
         }
         else {
-            if (d = 0) { return -16384; }
+            if (d = 0) { return -13312; }
             if (d > (-6144)) { let a = b - differences[-d]; }
             else { return b - Log.rest(-d); }
         }
-        if (a > (-16384)) { return a; }
-        return -16384;
+        if (a > (-13312)) { return a; }
+        return -13312;
     }
 ";
 
@@ -289,7 +289,7 @@ pub(crate) const LEAVE: &str =
             if (d < 6144) { return a - differences[d]; }
             return a - Log.rest(d);
         }
-        if (d = 0) { return -16384; }
+        if (d = 0) { return -13312; }
         if (d > (-6144)) { return b - differences[-d]; }
         return b - Log.rest(-d);
     }
@@ -316,7 +316,7 @@ pub(crate) const ADD: &str = "    static boolean plus;
             let plus = bPlus;
             if (d > (-6144)) {
                 if (aPlus = bPlus) { return b + sums[-d]; }
-                if (d = 0) { let plus = aPlus; return -16384; }
+                if (d = 0) { let plus = aPlus; return -13312; }
                 let a = b - differences[-d];
             }
             else {
@@ -324,8 +324,8 @@ pub(crate) const ADD: &str = "    static boolean plus;
                 return b - Log.rest(-d);
             }
         }
-        if (a > (-16384)) { return a; }
-        return -16384;
+        if (a > (-13312)) { return a; }
+        return -13312;
     }
 
     /** Whether the last sum is positive. */
@@ -337,7 +337,7 @@ pub(crate) const ADD: &str = "    static boolean plus;
 pub(crate) const CLAMP: &str = "    /** A logarithm kept within the ends. */
     function int clamp(int a) {
         if (a < 0) {
-            if (a < (-16384)) { return -16384; }
+            if (a < (-13312)) { return -13312; }
             return a;
         }
         if (a > 16383) { return 16383; }
@@ -365,7 +365,7 @@ pub(crate) const HALF: &str = "    /** a / 2, rounded down: the logarithm of a r
 pub(crate) const ROOT: &str = "    /** Of the root; of that of a negative 0. */
     function int root(int a, boolean aPlus) {
         if (aPlus) { return Log.half(a); }
-        return -16384;
+        return -13312;
     }
 ";
 

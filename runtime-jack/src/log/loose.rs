@@ -1,0 +1,103 @@
+//! Which values may be smaller than the format's least magnitude.
+//!
+//! A product is the sum of two logarithms; where both are small it lies below the least
+//! one, and a test brings it back. That costs more than the product. But the square of a
+//! small value is mostly added to something larger, and a sum does not mind how small its
+//! summand is, as long as the distance between the two is an int. So such products are
+//! left as they come where everything that reads them takes that.
+
+use super::model::{LEAST, MOST, OCTAVE};
+use super::routines::ALL;
+use slowlight_routine::{Loose, Op, Range, Routine};
+
+/// The rules for logarithms.
+pub(super) const LOOSE: Loose = Loose {
+    held: LEAST,
+    instead,
+    least,
+};
+
+fn instead(routine: &Routine) -> Option<&'static Routine> {
+    let name = match routine.name {
+        "low_mul" => "loose_mul",
+        "low_div" => "loose_div",
+        _ => return None,
+    };
+    ALL.iter().find(|r| r.name == name)
+}
+
+/// The greatest logarithm of a value in a range.
+fn most(range: &Range) -> i32 {
+    let log = range.magnitude().log2() * f64::from(OCTAVE);
+    (log.ceil() as i32).clamp(LEAST, MOST)
+}
+
+/// How far rounding takes a far smaller value from the greater one.
+const REST: i32 = 23;
+
+fn least(routine: &Routine, args: &[Range], lows: &[i32]) -> Option<i32> {
+    let low = |k: usize| lows.get(k).copied().unwrap_or(LEAST);
+    let high = |k: usize| args.get(k).map_or(MOST, most);
+    let loose = lows.iter().any(|low| *low < LEAST);
+    let whole = |x: i32| i16::try_from(x).is_ok();
+    let apart = whole(high(0) - low(1)) && whole(high(1) - low(0));
+    let greater = low(0).max(low(1));
+    match (routine.op, routine.name) {
+        (_, "mul" | "div") if !loose => Some(LEAST),
+        (Op::Mul, "mul" | "loose_mul") => Some(low(0) + low(1)).filter(|x| whole(*x)),
+        (Op::Mul, _) => whole(low(0) + low(1)).then_some(LEAST),
+        (Op::Div, "div" | "loose_div") if low(1) >= LEAST => {
+            Some(low(0) - high(1)).filter(|x| whole(*x))
+        }
+        (Op::Div, "low_div" | "any_div") if low(1) >= LEAST => {
+            whole(low(0) - high(1)).then_some(LEAST)
+        }
+        (Op::Add | Op::Sub, _) if !apart => None,
+        (Op::Add | Op::Sub, "any_add" | "any_sub" | "any_sum") => Some(LEAST),
+        (Op::Add | Op::Sub, "sum" | "minus_sum" | "difference_sum" | "minus_difference_sum") => {
+            Some(greater)
+        }
+        (Op::Add | Op::Sub, _) if loose => Some((greater - REST).min(LEAST)),
+        (Op::Add | Op::Sub, _) => Some(LEAST),
+        // 1 - a is an int.
+        (Op::Sqrt, _) => (low(0) > -32767).then(|| low(0).div_euclid(2).min(LEAST)),
+        (Op::Min | Op::Max, _) => apart.then(|| low(0).min(low(1))),
+        (Op::Less | Op::LessEqual, _) => apart.then_some(LEAST),
+        (Op::Neg | Op::Abs, _) => Some(low(0)),
+        _ => (!loose).then_some(LEAST),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn routine(name: &str) -> &'static Routine {
+        ALL.iter().find(|r| r.name == name).expect(name)
+    }
+
+    #[test]
+    fn nothing_minds_what_the_format_holds() {
+        for routine in &ALL {
+            let args = [Range::ALL, Range::ALL];
+            let held = (LOOSE.least)(routine, &args, &[LEAST, LEAST]);
+            assert!(
+                held.is_some() || routine.name.starts_with("loose"),
+                "{}",
+                routine.name
+            );
+        }
+    }
+
+    #[test]
+    fn a_small_square_may_be_added_to_what_is_not_too_large() {
+        let small = [LEAST + LEAST, LEAST];
+        let of = |most: f64| [Range::new(-4.0, 4.0), Range::new(0.0, most)];
+        assert_eq!(least(routine("sum"), &of(60.0), &small), Some(LEAST));
+        assert_eq!(least(routine("sum"), &of(70.0), &small), None);
+        assert_eq!(least(routine("low_mul"), &of(1.0), &small), None);
+        assert_eq!(least(routine("floor"), &of(1.0), &small[..1]), None);
+        let square = least(routine("loose_mul"), &of(1.0), &[LEAST, LEAST]);
+        assert_eq!(square, Some(LEAST + LEAST));
+    }
+}
