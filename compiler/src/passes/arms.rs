@@ -14,7 +14,7 @@ use crate::flow::build::Builder;
 use crate::flow::graph::*;
 use crate::source::Span;
 use slowlight_routine::Op;
-use std::collections::{BTreeMap, HashMap};
+use std::collections::{BTreeMap, BTreeSet, HashMap};
 
 /// How many conditions are looked at.
 const CONDITIONS: usize = 6;
@@ -40,21 +40,42 @@ pub fn conditions(graph: &Graph) -> Vec<NodeId> {
 /// The graph with what is made of choices by a condition made in their arms, where that
 /// leaves operations out; nothing where it does not.
 pub fn arms(graph: &Graph, cond: NodeId) -> Option<Graph> {
-    let mut all = vec![true; graph.nodes.len()];
+    let all = vec![true; graph.nodes.len()];
     let (_, shorter) = apart(graph, cond, &all);
     if !shorter.contains(&true) {
         return None;
     }
-    // What is left out, and what is on the way from a choice to it.
-    all.clone_from(&shorter);
-    for id in graph.ids().rev() {
-        if let (true, Node::Apply(op, args)) = (all[id.0 as usize], graph.node(id)) {
-            for arg in &args[..op.arity()] {
-                all[arg.0 as usize] = true;
+    // What is left out, and of what lies before that no more than it takes.
+    let mut these = shorter.clone();
+    loop {
+        let (next, now) = apart(graph, cond, &these);
+        let missed = |id: &NodeId| shorter[id.0 as usize] && !now[id.0 as usize];
+        let missed: Vec<NodeId> = graph.ids().filter(missed).collect();
+        if !grow(graph, &mut these, missed) {
+            return Some(next);
+        }
+    }
+}
+
+/// Adds the next nodes that these are made of, behind those that were added before;
+/// whether there are any.
+fn grow(graph: &Graph, these: &mut [bool], from: Vec<NodeId>) -> bool {
+    let (mut todo, mut seen, mut any) = (from, BTreeSet::new(), false);
+    while let Some(id) = todo.pop() {
+        let Node::Apply(op, args) = graph.node(id) else {
+            continue;
+        };
+        for &arg in &args[..op.arity()] {
+            if !matches!(graph.node(arg), Node::Apply(..)) || !seen.insert(arg) {
+                continue;
+            }
+            match std::mem::replace(&mut these[arg.0 as usize], true) {
+                true => todo.push(arg),
+                false => any = true,
             }
         }
     }
-    Some(apart(graph, cond, &all).0)
+    any
 }
 
 /// What a value is in the two arms, in the new graph.

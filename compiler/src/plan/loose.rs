@@ -4,7 +4,7 @@
 use super::choose::Chosen;
 use crate::flow::graph::*;
 use crate::range::Ranges;
-use slowlight_routine::{Loose, Routine};
+use slowlight_routine::{Loose, Op, Routine};
 
 /// Puts routines that leave small results as they come in the place of those that do not,
 /// where everything that reads a result takes that.
@@ -43,43 +43,54 @@ struct Search<'g> {
 }
 
 impl Search<'_> {
-    /// Takes back what a reader minds; whether there was any.
+    /// Takes back what the first reader minds that does; whether there is one.
     fn held_back(&mut self, chosen: &Chosen) -> bool {
         let mut lows = vec![self.loose.held; self.graph.nodes.len()];
-        let mut minded: Vec<NodeId> = Vec::new();
         for id in self.graph.ids().filter(|id| self.reached[id.0 as usize]) {
             let at = id.0 as usize;
-            let low = |arg: &NodeId| lows[arg.0 as usize];
-            let is_loose = |arg: &NodeId| low(arg) < self.loose.held;
-            match (self.graph.node(id), self.instead[at].or(chosen[at])) {
+            let least = match (self.graph.node(id), self.instead[at].or(chosen[at])) {
                 (Node::Apply(op, args), Some(routine)) => {
                     let args = &args[..op.arity()];
-                    let of: Vec<i32> = args.iter().map(low).collect();
-                    let ranges = &self.ranges.args[at][..op.arity()];
-                    match (self.loose.least)(routine, ranges, &of) {
-                        Some(least) => lows[at] = least,
-                        None => minded.extend(args.iter().filter(|arg| is_loose(arg))),
-                    }
+                    let of: Vec<i32> = args.iter().map(|arg| lows[arg.0 as usize]).collect();
+                    (self.loose.least)(routine, &self.ranges.args[at][..op.arity()], &of)
                 }
-                (node, _) => minded.extend(node.operands().filter(is_loose)),
+                (node, _) => {
+                    let loose = |arg: NodeId| lows[arg.0 as usize] < self.loose.held;
+                    (!node.operands().any(loose)).then_some(self.loose.held)
+                }
+            };
+            match least {
+                Some(least) => lows[at] = least,
+                None => return self.take_back(self.graph.node(id).operands(), &lows),
             }
         }
         let loops = self.graph.loops.iter();
-        let ends = loops.flat_map(|l| {
-            [&l.init, &l.next, &l.done, &l.otherwise]
-                .into_iter()
-                .flatten()
-        });
-        let ends = self.graph.outputs().chain(ends.copied());
-        minded.extend(ends.filter(|id| lows[id.0 as usize] < self.loose.held));
+        let ends = loops.flat_map(|l| [&l.init, &l.next, &l.done, &l.otherwise].into_iter());
+        let ends: Vec<NodeId> = ends
+            .flatten()
+            .copied()
+            .chain(self.graph.outputs())
+            .collect();
+        self.take_back(ends.into_iter(), &lows)
+    }
+
+    /// Takes back those of these that are loose, or what makes them so; whether any was. A
+    /// sum is as small as the greater of its summands, so that one need be held.
+    fn take_back(&mut self, these: impl Iterator<Item = NodeId>, lows: &[i32]) -> bool {
+        let loose = |id: &NodeId| lows[id.0 as usize] < self.loose.held;
+        let mut minded: Vec<NodeId> = these.filter(loose).collect();
         let any = !minded.is_empty();
         while let Some(id) = minded.pop() {
-            let at = id.0 as usize;
-            if self.instead[at].take().is_none()
-                && let Node::Apply(op, args) = self.graph.node(id)
-            {
-                let args = args[..op.arity()].iter();
-                minded.extend(args.filter(|arg| lows[arg.0 as usize] < self.loose.held));
+            if self.instead[id.0 as usize].take().is_some() {
+                continue;
+            }
+            if let Node::Apply(op, args) = self.graph.node(id) {
+                let one = if matches!(op, Op::Add | Op::Sub) {
+                    1
+                } else {
+                    2
+                };
+                minded.extend(args[..op.arity()].iter().filter(|arg| loose(arg)).take(one));
             }
         }
         any

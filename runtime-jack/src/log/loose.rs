@@ -32,9 +32,6 @@ fn most(range: &Range) -> i32 {
     (log.ceil() as i32).clamp(LEAST, MOST)
 }
 
-/// How far rounding takes a far smaller value from the greater one.
-const REST: i32 = 23;
-
 fn least(routine: &Routine, args: &[Range], lows: &[i32]) -> Option<i32> {
     let low = |k: usize| lows.get(k).copied().unwrap_or(LEAST);
     let high = |k: usize| args.get(k).map_or(MOST, most);
@@ -57,11 +54,12 @@ fn least(routine: &Routine, args: &[Range], lows: &[i32]) -> Option<i32> {
         (Op::Add | Op::Sub, "sum" | "minus_sum" | "difference_sum" | "minus_difference_sum") => {
             Some(greater)
         }
-        (Op::Add | Op::Sub, _) if loose => Some((greater - REST).min(LEAST)),
-        (Op::Add | Op::Sub, _) => Some(LEAST),
+        // What is left of a difference is held; where the signs are the same, it is a sum.
+        (Op::Add | Op::Sub, _) => Some(greater.min(LEAST)),
         // 1 - a is an int.
         (Op::Sqrt, _) => (low(0) > -32767).then(|| low(0).div_euclid(2).min(LEAST)),
         (Op::Min | Op::Max, _) => apart.then(|| low(0).min(low(1))),
+        (Op::Equal, "is_zero") => Some(LEAST),
         (Op::Less | Op::LessEqual, _) => apart.then_some(LEAST),
         (Op::Neg | Op::Abs, _) => Some(low(0)),
         _ => (!loose).then_some(LEAST),

@@ -204,7 +204,7 @@ fn difference(a: i32, b: i32) -> i32 {
     match tables().differences.get((more - less) as usize) {
         _ if more == less => LEAST,
         Some(entry) => (more - entry).max(LEAST),
-        None => more - rest(more - less),
+        None => (more - rest(more - less)).max(LEAST),
     }
 }
 

@@ -166,7 +166,7 @@ const REALS: &[Routine] = &[
     routine!("minus_difference_sum" Sub(R, R) -> R, Do("let {r} = Log.sum({0}, {1});\nlet {r+} = false;"), ["Log.sum"], signs!(minus plus), SUMS, |a, b| a.sub(b), 26, 14),
     routine!("root" Sqrt(R) -> R, Do("let {r} = Log.half({0});\nlet {r+} = true;"), ["Log.half"], plus, ROOT, |a| a.sqrt(), 45, 14),
     routine!("any_root" Sqrt(R) -> R, Do("let {r} = Log.root({0}, {0+});\nlet {r+} = true;"), ["Log.root"], everywhere, ROOT, |a| a.sqrt(), 36, 20),
-    routine!("mod" Mod(R, R) -> R, Do("let {r} = Log.mod({0}, {0+}, {1}, {1+});\nlet {r+} = Log.plus();"), ["Log.mod"], everywhere, UNKNOWN, |a, b| a.modulo(b), 223, 30),
+    routine!("mod" Mod(R, R) -> R, Do("let {r} = Log.mod({0}, {0+}, {1}, {1+});\nlet {r+} = Log.plus();"), ["Log.mod"], everywhere, UNKNOWN, |a, b| a.modulo(b), 227, 30),
     routine!("neg" Neg(R) -> R, Do("let {r+} = ~{0+};\nlet {r} = {0};"), [], everywhere, EXACT, |a| a.neg(), 3, 12),
     routine!("abs" Abs(R) -> R, Do("let {r} = {0};\nlet {r+} = true;"), [], everywhere, EXACT, |a| a.abs(), 3, 10),
     routine!("plus_min" Min(R, R) -> R, Do("let {r} = Math.min({0}, {1});\nlet {r+} = true;"), [], plus, EXACT, |a, b| a.min(b), 4, 14),
@@ -180,7 +180,7 @@ const REALS: &[Routine] = &[
     routine!("max_plus_second" Max(R, R) -> R, Do("if ((~{0+}) | ({0} < {1})) {\nlet {r} = {1};\n}\nelse {\nlet {r} = {0};\n}\nlet {r+} = true;"), [], second_plus, EXACT, |a, b| a.max(b), 10, 44),
     routine!("max" Max(R, R) -> R, Do("if (Log.less({0}, {0+}, {1}, {1+})) {\nlet {r} = {1};\nlet {r+} = {1+};\n}\nelse {\nlet {r} = {0};\nlet {r+} = {0+};\n}"), ["Log.less"], everywhere, EXACT, |a, b| a.max(b), 18, 60),
     routine!("floor" Floor(R) -> I, call("Log.floor({0}, {0+})"), ["Log.floor"], everywhere, STEP, |a| a.floor(), 79, 20),
-    routine!("round" Round(R) -> I, call("Log.round({0}, {0+})"), ["Log.round"], everywhere, STEP, |a| a.round(), 130, 20),
+    routine!("round" Round(R) -> I, call("Log.round({0}, {0+})"), ["Log.round"], everywhere, STEP, |a| a.round(), 131, 20),
     routine!("sign" Sign(R) -> I, call("Log.sign({0+})"), ["Log.sign"], everywhere, EXACT, |a| a.sign(), 7, 14),
     routine!("from_int" ToReal(I) -> R, Do("let {r+} = ~({0} < 0);\nlet {r} = Log.fromInt({0});"), ["Log.fromInt"], everywhere, WHOLE, |a| Log::from_int(a), 41, 24),
     routine!("negative" Less(R, R) -> B, sum("~{0+}"), [], against_zero, EXACT, |a, _b| !a.plus, 0, 6),
@@ -195,6 +195,7 @@ const REALS: &[Routine] = &[
     routine!("not_negative" LessEqual(R, R) -> B, call("{1+}"), [], from_zero, EXACT, |_a, b| b.plus, 0, 4),
     routine!("plus_less_equal" LessEqual(R, R) -> B, sum("~({0} > {1})"), [], plus, EXACT, |a, b| !b.less(a), 2, 14),
     routine!("less_equal" LessEqual(R, R) -> B, sum("~Log.less({1}, {1+}, {0}, {0+})"), ["Log.less"], everywhere, EXACT, |a, b| !b.less(a), 14, 32),
+    routine!("is_zero" Equal(R, R) -> B, sum("{0} < (-13311)"), [], against_zero, EXACT, |a, _b| a.log <= model::LEAST, 2, 12),
     routine!("equal" Equal(R, R) -> B, sum("({0} = {1}) & ({0+} = {1+})"), [], everywhere, EXACT, |a, b| a == b, 5, 24),
 ];
 
@@ -254,8 +255,8 @@ const SUMS_OF_SIGNS: &[Routine] = &[
     either!("add" Add, "{0+} = {1+}", "{0+}", "(~({0} < {1})) = {0+}", "Log.difference", fits, add, 38),
     either!("ample_sub" Sub, "{0+} = (~{1+})", "{0+}", "(~({0} < {1})) = {0+}", "Log.leave", |args, result| high(result) && ample(args), sub, 35),
     either!("sub" Sub, "{0+} = (~{1+})", "{0+}", "(~({0} < {1})) = {0+}", "Log.difference", fits, sub, 39),
-    routine!("any_add" Add(R, R) -> R, Do("let {r} = Log.clamp(Log.add({0}, {0+}, {1}, {1+}));\nlet {r+} = Log.plus();"), ["Log.add", "Log.clamp"], everywhere, DIFFERENCES, |a, b| a.add(b), 59, 36),
-    routine!("any_sub" Sub(R, R) -> R, Do("let {r} = Log.clamp(Log.add({0}, {0+}, {1}, ~{1+}));\nlet {r+} = Log.plus();"), ["Log.add", "Log.clamp"], everywhere, DIFFERENCES, |a, b| a.sub(b), 60, 37),
+    routine!("any_add" Add(R, R) -> R, Do("let {r} = Log.clamp(Log.add({0}, {0+}, {1}, {1+}));\nlet {r+} = Log.plus();"), ["Log.add", "Log.clamp"], everywhere, DIFFERENCES, |a, b| a.add(b), 60, 36),
+    routine!("any_sub" Sub(R, R) -> R, Do("let {r} = Log.clamp(Log.add({0}, {0+}, {1}, ~{1+}));\nlet {r+} = Log.plus();"), ["Log.add", "Log.clamp"], everywhere, DIFFERENCES, |a, b| a.sub(b), 61, 37),
 ];
 
 /// The routines of logarithms, and those of ints.

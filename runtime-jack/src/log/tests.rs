@@ -100,6 +100,7 @@ fn routines_keep_within_their_errors() {
             "max_zero",
             "loose_mul",
             "loose_div",
+            "is_zero",
             "zero_max",
         ];
         assert!(

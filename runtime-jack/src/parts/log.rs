@@ -268,12 +268,12 @@ pub(crate) const DIFFERENCE: &str =
         let d = a - b;
         if (d > 0) {
             if (d < 6144) { let a = a - differences[d]; }
-            else { return a - Log.rest(d); }
+            else { let a = a - Log.rest(d); }
         }
         else {
             if (d = 0) { return -13312; }
             if (d > (-6144)) { let a = b - differences[-d]; }
-            else { return b - Log.rest(-d); }
+            else { let a = b - Log.rest(-d); }
         }
         if (a > (-13312)) { return a; }
         return -13312;
@@ -309,7 +309,7 @@ pub(crate) const ADD: &str = "    static boolean plus;
             }
             else {
                 if (aPlus = bPlus) { return a + Log.rest(d); }
-                return a - Log.rest(d);
+                let a = a - Log.rest(d);
             }
         }
         else {
@@ -321,7 +321,7 @@ pub(crate) const ADD: &str = "    static boolean plus;
             }
             else {
                 if (aPlus = bPlus) { return b + Log.rest(-d); }
-                return b - Log.rest(-d);
+                let a = b - Log.rest(-d);
             }
         }
         if (a > (-13312)) { return a; }
