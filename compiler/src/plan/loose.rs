@@ -54,6 +54,10 @@ impl Search<'_> {
                     let of: Vec<i32> = args.iter().map(|arg| lows[arg.0 as usize]).collect();
                     (self.loose.least)(routine, &self.ranges.args[at][..op.arity()], &of)
                 }
+                // Copies.
+                (Node::Select { yes, no, .. }, _) => {
+                    Some(lows[yes.0 as usize].min(lows[no.0 as usize]))
+                }
                 (node, _) => {
                     let loose = |arg: NodeId| lows[arg.0 as usize] < self.loose.held;
                     (!node.operands().any(loose)).then_some(self.loose.held)
@@ -83,6 +87,9 @@ impl Search<'_> {
         while let Some(id) = minded.pop() {
             if self.instead[id.0 as usize].take().is_some() {
                 continue;
+            }
+            if let Node::Select { yes, no, .. } = self.graph.node(id) {
+                minded.extend([yes, no].iter().filter(|arg| loose(arg)));
             }
             if let Node::Apply(op, args) = self.graph.node(id) {
                 let one = if matches!(op, Op::Add | Op::Sub) {

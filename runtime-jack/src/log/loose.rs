@@ -32,10 +32,18 @@ fn most(range: &Range) -> i32 {
     (log.ceil() as i32).clamp(LEAST, MOST)
 }
 
+/// The least logarithm of one, rounding aside: of what is loose, where 0 is in it.
+fn fewest(range: &Range) -> i32 {
+    let least = range.lo.max(-range.hi).max(0.0);
+    let log = least.log2() * f64::from(OCTAVE);
+    (log.floor() as i32).saturating_sub(1)
+}
+
 fn least(routine: &Routine, args: &[Range], lows: &[i32]) -> Option<i32> {
-    let low = |k: usize| lows.get(k).copied().unwrap_or(LEAST);
+    let bottom = |k: usize| args.get(k).map_or(LEAST, fewest);
+    let low = |k: usize| lows.get(k).map_or(LEAST, |low| bottom(k).max(*low));
     let high = |k: usize| args.get(k).map_or(MOST, most);
-    let loose = lows.iter().any(|low| *low < LEAST);
+    let loose = (0..lows.len()).any(|k| low(k) < LEAST);
     let whole = |x: i32| i16::try_from(x).is_ok();
     let apart = whole(high(0) - low(1)) && whole(high(1) - low(0));
     let greater = low(0).max(low(1));
