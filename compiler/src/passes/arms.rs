@@ -5,15 +5,18 @@
 //! torus's nobody knows that any more. So an operation on such choices becomes a choice
 //! between two operations, where one of them is none: it is a constant, an operand, or an
 //! operand's negative; and so does what lies between. The other arm computes what it did,
-//! so no pixel computes more. Every rule is [`super::fold`]'s, which keeps the value bit
-//! for bit.
+//! so no pixel computes more.
+//!
+//! Rules are [`super::fold`]'s, which keep values bit for bit, and d (c / d) = c and
+//! d t / t = d in an arm that knows that what is divided by is not 0: a point of a floor has
+//! the floor's height, and the way back from it is the ray's direction. Fewer roundings.
 
-use super::fold::folded;
+mod arm;
+
+use self::arm::Arm;
 use super::rebuild::rebuild_old;
-use crate::flow::build::Builder;
 use crate::flow::graph::*;
-use crate::source::Span;
-use slowlight_routine::Op;
+use crate::range::Ranges;
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 
 /// How many conditions are looked at.
@@ -39,16 +42,16 @@ pub fn conditions(graph: &Graph) -> Vec<NodeId> {
 
 /// The graph with what is made of choices by a condition made in their arms, where that
 /// leaves operations out; nothing where it does not.
-pub fn arms(graph: &Graph, cond: NodeId) -> Option<Graph> {
+pub fn arms(graph: &Graph, ranges: &Ranges, cond: NodeId) -> Option<Graph> {
     let all = vec![true; graph.nodes.len()];
-    let (_, shorter) = apart(graph, cond, &all);
+    let (_, shorter) = apart((graph, ranges), cond, &all);
     if !shorter.contains(&true) {
         return None;
     }
     // What is left out, and of what lies before that no more than it takes.
     let mut these = shorter.clone();
     loop {
-        let (next, now) = apart(graph, cond, &these);
+        let (next, now) = apart((graph, ranges), cond, &these);
         let missed = |id: &NodeId| shorter[id.0 as usize] && !now[id.0 as usize];
         let missed: Vec<NodeId> = graph.ids().filter(missed).collect();
         if !grow(graph, &mut these, missed) {
@@ -87,7 +90,8 @@ struct Pair {
 
 /// The graph with the operations among `these` made in both arms, and which of them are
 /// none in one.
-fn apart(graph: &Graph, by: NodeId, these: &[bool]) -> (Graph, Vec<bool>) {
+fn apart((graph, ranges): (&Graph, &Ranges), by: NodeId, these: &[bool]) -> (Graph, Vec<bool>) {
+    let arms = [true, false].map(|holds| Arm::new(graph, ranges, by, holds));
     let mut pairs: HashMap<NodeId, Pair> = HashMap::new();
     let mut shorter = vec![false; graph.nodes.len()];
     let next = rebuild_old(graph, &mut |builder, made, id, span| {
@@ -105,34 +109,20 @@ fn apart(graph: &Graph, by: NodeId, these: &[bool]) -> (Graph, Vec<bool>) {
         if !these[id.0 as usize] || !args.iter().any(|arg| pairs.contains_key(arg)) {
             return None;
         }
-        let arm = |of: fn(&Pair) -> NodeId| -> Option<Vec<NodeId>> {
+        let of = |of: fn(&Pair) -> NodeId| -> Option<Vec<NodeId>> {
             let one = |arg: &NodeId| pairs.get(arg).map(of).or_else(|| new(*arg));
             args.iter().map(one).collect()
         };
-        let (yes, no) = (arm(|pair| pair.yes)?, arm(|pair| pair.no)?);
+        let (yes, no) = (of(|pair| pair.yes)?, of(|pair| pair.no)?);
         let cond = new(by)?;
-        let (yes, without) = put(builder, op, &yes, span);
-        let (no, or_without) = put(builder, op, &no, span);
+        let [holds, fails] = &arms;
+        let (yes, without) = holds.put((builder, made), (op, &yes), span);
+        let (no, or_without) = fails.put((builder, made), (op, &no), span);
         shorter[id.0 as usize] = without || or_without;
         pairs.insert(id, Pair { yes, no });
         Some(builder.select(cond, yes, no, span))
     });
     (next, shorter)
-}
-
-/// An operation, and whether it is none: what it gives is there without it.
-fn put(builder: &mut Builder, op: Op, args: &[NodeId], span: Span) -> (NodeId, bool) {
-    let twice = |id: NodeId| args.get(1).copied().unwrap_or(id);
-    let made = args
-        .first()
-        .and_then(|first| folded(builder, op, *first, twice(*first), span));
-    let made = made.unwrap_or_else(|| builder.apply(op, args, span));
-    let there = match builder.node(made) {
-        Node::Apply(Op::Neg, [a, _]) => op != Op::Neg && args.contains(&a),
-        _ => false,
-    };
-    let none = there || builder.value(made).is_some() || args.contains(&made);
-    (made, none)
 }
 
 #[cfg(test)]
@@ -144,8 +134,10 @@ mod tests {
     use crate::plan::price::Price;
     use crate::plan::thrift::Thrift;
     use crate::plan::workshop::Workshop;
+    use crate::range::{Slack, ranges};
     use crate::scene;
     use crate::sema::Options;
+    use slowlight_routine::Op;
     use slowlight_runtime_jack::F316;
 
     fn lowered(ink: &str) -> Graph {
@@ -176,11 +168,15 @@ mod tests {
             let of = now.as_ref().unwrap_or(graph);
             let next = conditions(of)
                 .get(k)
-                .and_then(|cond| arms(of, *cond))
+                .and_then(|cond| arms(of, &ranged(of), *cond))
                 .map(|next| fold(&next));
             now = next.or(now);
         }
         now
+    }
+
+    fn ranged(graph: &Graph) -> Ranges {
+        ranges(graph, &schedule(graph), &Slack::of(&F316))
     }
 
     /// What a pixel costs on Jack.
@@ -211,6 +207,30 @@ mod tests {
     }
 
     #[test]
+    fn a_point_of_a_floor_is_at_its_height() {
+        let ink = |t: &str| {
+            lowered(&format!(
+                "let d = unit((x - 9, y - 20, -8)); let down = d.y;
+                 let hit = if down == 0 then false else {t} > 0;
+                 let t = if hit then {t} else l.z;
+                 let p = (0, 3, 1) + t * d;
+                 ink(if p.y * p.z < 2 then 1 else 0)"
+            ))
+        };
+        let graph = ink("-3.5 / down");
+        let next = all_apart(&graph).expect("arms");
+        let places = grid(24, 16, 1);
+        assert_eq!(
+            picture(&next, &schedule(&next), &places),
+            picture(&graph, &schedule(&graph), &places)
+        );
+        assert!(price(&next) < price(&graph));
+        // Where it may be 0, the product is not known.
+        let graph = ink("-3.5 / (down + 0.001)");
+        assert!(all_apart(&graph).is_none());
+    }
+
+    #[test]
     fn nothing_is_moved_into_arms_where_nothing_is_left_out() {
         for ink in [
             "ink(if (if flat then 0.3 else p) * l.x < 0.1 then 1 else 0)",
@@ -219,7 +239,7 @@ mod tests {
             let graph = lowered(ink);
             let flat = |id: &NodeId| matches!(graph.node(*id), Node::Apply(Op::IntLess, _));
             let cond = conditions(&graph).into_iter().find(flat).expect(ink);
-            assert!(arms(&graph, cond).is_none(), "{ink}");
+            assert!(arms(&graph, &ranged(&graph), cond).is_none(), "{ink}");
         }
     }
 }

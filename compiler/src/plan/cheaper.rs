@@ -122,7 +122,7 @@ pub fn in_arms(plan: Settled, shop: &Workshop, thrift: Thrift) -> Settled {
     let mut best = plan;
     for k in 0..conditions(&best.graph).len() {
         let cond = conditions(&best.graph).get(k).copied();
-        let next = cond.and_then(|cond| arms(&best.graph, cond));
+        let next = cond.and_then(|cond| arms(&best.graph, &best.ranges, cond));
         if let Some(next) = next.map(|graph| shop.settle(&graph))
             && price.of(&next) < ARMS * price.of(&best)
         {

@@ -55,27 +55,86 @@ impl Walk<'_> {
     /// format has, lengths end at its root. Where small values lose all their digits
     /// nothing is known.
     pub(super) fn part_of_length(&self, id: NodeId, exact: Range) -> Range {
-        let Node::Apply(Op::Div, [part, length]) = self.graph.node(id) else {
-            return exact;
+        match self.graph.node(id) {
+            _ if !self.slack.relative => exact,
+            Node::Apply(Op::Div, [part, length]) if self.has_part(length, part) => {
+                let most = self.most_of_length(part);
+                exact.meet(Range::new(-most, most))
+            }
+            Node::Apply(Op::Div, [part, by]) => self.multiple_over_factor((part, by), exact),
+            Node::Apply(Op::Mul, [a, b]) => {
+                let shorter = self.shortened(a, b).or_else(|| self.shortened(b, a));
+                shorter.map_or(exact, |shorter| exact.meet(shorter))
+            }
+            _ => exact,
+        }
+    }
+
+    /// A part times c - d / length is c times the part less d times a part of a unit
+    /// vector: what leads to the nearest point of a ring.
+    fn shortened(&self, by: NodeId, part: NodeId) -> Option<Range> {
+        let Node::Apply(Op::Sub, [c, quotient]) = self.graph.node(by) else {
+            return None;
         };
+        let Node::Apply(Op::Div, [d, least]) = self.graph.node(quotient) else {
+            return None;
+        };
+        let known = |id: NodeId| self.graph.constant(id).is_some();
+        let length = match self.graph.node(least) {
+            Node::Apply(Op::Max, [a, b]) if known(b) => a,
+            Node::Apply(Op::Max, [b, a]) if known(b) => a,
+            _ => least,
+        };
+        if !self.has_part(length, part) {
+            return None;
+        }
+        let whole = interval(Op::Mul, [self.read(c), self.read(part)], false);
+        let unit = self.read(d).magnitude() * self.most_of_length(part);
+        Some(Range::new(whole.lo - unit, whole.hi + unit))
+    }
+
+    /// The most that a part over its length is.
+    fn most_of_length(&self, part: NodeId) -> f64 {
+        let longest = self.slack.most().sqrt();
+        2.0 * (self.read(part).magnitude() / longest).max(1.0)
+    }
+
+    /// Whether a value is the root of a sum that has the other's square among terms of no
+    /// negative.
+    fn has_part(&self, length: NodeId, part: NodeId) -> bool {
         let Node::Apply(Op::Sqrt, [sum, _]) = self.graph.node(length) else {
-            return self.multiple_over_factor((part, length), exact);
+            return false;
         };
         let (mut squared, mut todo) = (false, vec![sum]);
         while let Some(term) = todo.pop() {
             match self.graph.node(term) {
                 Node::Apply(Op::Add, [a, b]) if todo.len() < TERMS => todo.extend([a, b]),
-                Node::Apply(Op::Mul, [a, b]) if a == b && a == part => squared = true,
+                _ if self.is_square(term, part) => squared = true,
                 _ if self.read(term).lo >= 0.0 => {}
-                _ => return exact,
+                _ => return false,
             }
         }
-        if !squared || !self.slack.relative {
-            return exact;
+        squared
+    }
+
+    /// Whether a value is the square of another, be it by arms of a choice.
+    fn is_square(&self, square: NodeId, of: NodeId) -> bool {
+        match (self.graph.node(square), self.graph.node(of)) {
+            (Node::Apply(Op::Mul, [a, b]), _) => a == b && a == of,
+            (
+                Node::Select { cond, yes, no },
+                Node::Select {
+                    cond: by,
+                    yes: y,
+                    no: n,
+                },
+            ) => cond == by && self.is_square(yes, y) && self.is_square(no, n),
+            (Node::Const(square), Node::Const(of)) => {
+                let root = of.value().real();
+                square.value().real() == root * root
+            }
+            _ => false,
         }
-        let longest = self.slack.most().sqrt();
-        let most = 2.0 * (self.read(part).magnitude() / longest).max(1.0);
-        exact.meet(Range::new(-most, most))
     }
 
     /// A multiple over its factor is at most the other factor, twice over for what
@@ -91,9 +150,6 @@ impl Walk<'_> {
             Node::Apply(Op::Mul, [a, b]) if a == by => b,
             _ => return exact,
         };
-        if !self.slack.relative {
-            return exact;
-        }
         let most = 2.0 * self.read(other).magnitude().max(1.0);
         exact.meet(Range::new(-most, most))
     }

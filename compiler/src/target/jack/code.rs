@@ -11,7 +11,7 @@ use crate::flow::tree::*;
 use crate::plan::Plan;
 use slowlight_routine::{Form, Format, Routine, Value};
 use slowlight_runtime_jack::{SUM, TERM};
-use std::collections::{BTreeSet, HashMap};
+use std::collections::{BTreeMap, BTreeSet, HashMap};
 
 /// Lines that a subroutine holds at most before it is divided.
 const LONG: usize = 60;
@@ -39,6 +39,8 @@ pub(super) struct Code<'p> {
     pub written: Vec<(String, Format)>,
     /// Their names, to find them quickly.
     pub known: BTreeSet<String>,
+    /// Signs that another value's variable has.
+    pub same_signs: BTreeMap<NodeId, String>,
     /// What became a method of its own.
     pub methods: Vec<Method>,
     /// Values that are written where they are read.
@@ -57,6 +59,7 @@ impl<'p> Code<'p> {
             needs: BTreeSet::new(),
             written: Vec::new(),
             known: BTreeSet::new(),
+            same_signs: BTreeMap::new(),
             methods: Vec::new(),
             folded: HashMap::new(),
             text: Text::default(),

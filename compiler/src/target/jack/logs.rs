@@ -28,6 +28,9 @@ impl Code<'_> {
         if let Some(plus) = range.and_then(|range| known(*range)) {
             return Expression::term(plus.to_string());
         }
+        if let Some(other) = self.same_signs.get(&id) {
+            return Expression::term(other.clone());
+        }
         match self.plan.graph.node(id) {
             Node::Undefined(_) => return Expression::term("true"),
             Node::Lookup { table, .. } if !self.sign_is_looked_up(id, table) => {
@@ -116,6 +119,12 @@ impl Code<'_> {
             text = text.replace("{r}", &home);
             if sign {
                 text = simplified(&text);
+                let once = template.matches("let {r+} =").count() == 1;
+                let other = once.then(|| self.same_sign(&text, args, &operands));
+                if let Some(other) = other.flatten() {
+                    self.same_signs.insert(id, other);
+                    continue;
+                }
             }
             let idle = text
                 .strip_prefix("let ")
@@ -133,6 +142,22 @@ impl Code<'_> {
                 _ => self.line(text),
             }
         }
+    }
+
+    /// The operand's variable that is all there is to a sign, if one is: what has its own
+    /// place, so that it stays as it is for as long as the result is read.
+    fn same_sign(&self, text: &str, args: [NodeId; 2], operands: &[Operand]) -> Option<String> {
+        let (_, sign) = text.strip_suffix(';')?.split_once(" = ")?;
+        let own = |id: NodeId| {
+            let node = self.plan.graph.node(id);
+            matches!(
+                node,
+                Node::Apply(..) | Node::Select { .. } | Node::Lookup { .. }
+            )
+        };
+        let is = |(id, operand): &(NodeId, &Operand)| operand.sign == sign && own(*id);
+        let found = args.into_iter().zip(operands).find(is)?;
+        (!matches!(sign, "true" | "false")).then(|| found.1.sign.clone())
     }
 
     /// Whether an entry of a table has a sign that must be read with it.
