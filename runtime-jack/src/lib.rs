@@ -35,6 +35,7 @@
 mod macros;
 pub mod log;
 pub mod model;
+pub mod os;
 mod parts;
 mod routines;
 

@@ -18,12 +18,6 @@ mod powers;
 
 use slowlight_routine::{Part, Source};
 
-macro_rules! part {
-    ($name:literal, [$($need:literal),*], $words:literal, $text:expr) => {
-        Part { name: $name, source: Source::Text($text), needs: &[$($need),*], bytes: $words }
-    };
-}
-
 #[rustfmt::skip]
 pub(crate) static ALL: &[Part] = &[
     part!("Float", [], 60, float::HEAD),
@@ -124,7 +118,8 @@ pub fn classes(parts: &[&Part]) -> Vec<(&'static str, String)> {
             .copied()
             .filter(|p| class_of(p) == name)
             .collect();
-        (name, class(name, &own))
+        let init = has_init(name, &own).then(|| init(makers(name, &own)));
+        (name, class(ALL, name, &own, init))
     };
     names.into_iter().map(text).collect()
 }
@@ -134,18 +129,29 @@ pub fn has_init(class: &str, parts: &[&Part]) -> bool {
     makers(class, parts).next().is_some()
 }
 
-fn class_of(part: &Part) -> &'static str {
+pub(crate) fn class_of(part: &Part) -> &'static str {
     part.name.split('.').next().unwrap_or(part.name)
 }
 
 /// The subroutines that `init` calls.
-fn makers<'p>(class: &'p str, parts: &'p [&Part]) -> impl Iterator<Item = &'static str> + 'p {
+pub(crate) fn makers<'p>(
+    class: &'p str,
+    parts: &'p [&Part],
+) -> impl Iterator<Item = &'static str> + 'p {
     let own = parts.iter().filter(move |p| class_of(p) == class);
     own.map(|p| p.name).filter(|name| name.contains(".make"))
 }
 
-fn class(name: &str, parts: &[&Part]) -> String {
-    let head = ALL.iter().filter(|p| p.name == name);
+/// An `init` that calls these.
+pub(crate) fn init(makers: impl Iterator<Item = &'static str>) -> String {
+    let calls = makers.map(|maker| format!("        do {maker}();\n"));
+    let calls: String = calls.collect();
+    format!("    function void init() {{\n{calls}        return;\n    }}\n")
+}
+
+/// A class from its parts, which are some of `all`, and its `init`.
+pub(crate) fn class(all: &[Part], name: &str, parts: &[&Part], init: Option<String>) -> String {
+    let head = all.iter().filter(|p| p.name == name);
     let rest = parts.iter().copied().filter(|p| p.name != name);
     // Jack wants declarations first: those of a part go up.
     let mut declared = String::new();
@@ -163,10 +169,7 @@ fn class(name: &str, parts: &[&Part]) -> String {
         }
         written.push(code.trim_start_matches('\n').to_owned());
     }
-    if has_init(name, parts) {
-        let calls = makers(name, parts).map(|maker| format!("        do {maker}();\n"));
-        let calls: String = calls.collect();
-        let init = format!("    function void init() {{\n{calls}        return;\n    }}\n");
+    if let Some(init) = init {
         written.insert(1.min(written.len()), init);
     }
     written.insert(0, declared);

@@ -40,6 +40,9 @@ mod spread;
 #[cfg(test)]
 mod tests;
 
+/// The operating system for programs on the processor.
+pub use slowlight_runtime_jack::os;
+
 use super::{Document, Mode, Target};
 use crate::passes::outline::Sizes;
 use crate::source::Span;
