@@ -246,6 +246,7 @@ impl ScreenArgs {
         let mut plan = planned.map_err(|said| scene.wrong(said))?;
         plan.listing = self.style == Some(Style::Listing);
         plan.page = self.page;
+        plan.statics = self.os == Some(Os::Jack);
         if plan.listing {
             plan.items = items(&scene.checked.program);
         }

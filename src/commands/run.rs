@@ -101,7 +101,13 @@ fn report(trial: &Trial) -> String {
     row("machine time", duration(trial.seconds()));
     if let Some(words) = trial.run.rom_words {
         row("ROM words", count(words));
-        row("VM commands", trial.run.vm_instructions.map_or("not counted".to_owned(), count));
+        row(
+            "VM commands",
+            trial
+                .run
+                .vm_instructions
+                .map_or("not counted".to_owned(), count),
+        );
     }
     let sizes = trial.run.sizes;
     let parts = [

@@ -10,7 +10,7 @@ use super::{File, Loaded, MachineRun, Program, Sizes, refused};
 use crate::failure::{Failure, Outcome};
 use slowlight_vm::hack::asm::{assemble, read_image, write_image};
 use slowlight_vm::hack::cpu::Cpu;
-use slowlight_vm::hack::translate::{Compare, Options, translate};
+use slowlight_vm::hack::translate::{Options, translate};
 use slowlight_vm::hack::{jack, vm};
 use slowlight_vm::{Fault, Progress, Stop, Watch};
 use std::collections::BTreeMap;
@@ -26,8 +26,6 @@ pub struct Config {
     pub cpu: bool,
     /// With the operating system in Jack, as far as the program brings none itself.
     pub os: bool,
-    /// Whether the program compares nothing whose difference does not fit 16 bits.
-    pub near: bool,
     /// Whether to count on the VM, too, what runs on the processor.
     pub count: bool,
 }
@@ -73,15 +71,7 @@ pub fn load(files: &[File], config: Config) -> Outcome<Loaded> {
             program: Program::Hack(Box::new(OnVm { program, noted })),
         });
     }
-    let compare = match config.near {
-        true => Compare::Differences,
-        false => Compare::Words,
-    };
-    let options = Options {
-        compare,
-        ..Options::default()
-    };
-    let translation = translate(&program, options)
+    let translation = translate(&program, Options::default())
         .map_err(|faults| refused("translator", "the program", &faults))?;
     let mut loaded = rom("Main.hack", &translation.words)?;
     let assembly = File::text("Main.asm", &translation.assembly);

@@ -145,11 +145,9 @@ impl Machine {
     /// operating system in Jack; other machines stay what they are.
     pub fn on_processor(self) -> Machine {
         match self {
-            // A generated program keeps to differences that fit.
             Machine::Hack(_) => Machine::Hack(HackConfig {
                 cpu: true,
                 os: true,
-                near: true,
                 count: true,
             }),
             machine => machine,

@@ -15,8 +15,7 @@ const MAIN: (&str, &str) = (
 /// The classes of the system that a program, given as VM code, calls and lacks: as
 /// sources, and as VM code in the same order.
 pub fn complete(program: &[(String, String)]) -> Outcome<(Vec<File>, Vec<(String, String)>)> {
-    let names =
-        Names::of(program).map_err(|faults| refused("linker", "the program", &faults))?;
+    let names = Names::of(program).map_err(|faults| refused("linker", "the program", &faults))?;
     let [has, calls] = [&names.has, &names.calls]
         .map(|names| names.iter().map(String::as_str).collect::<Vec<&str>>());
     let classes = os::classes(Wanted {

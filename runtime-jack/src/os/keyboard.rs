@@ -26,7 +26,8 @@ pub(super) const READ_KEY: &str = "    /** Waits for a key to be pressed and let
     }
 ";
 
-pub(super) const READ_LINE: &str = "    /** Shows the message and what is typed, up to 80 characters and a new line. */
+pub(super) const READ_LINE: &str =
+    "    /** Shows the message and what is typed, up to 80 characters and a new line. */
     function String readLine(String message) {
         var String line;
         var char c;

@@ -122,6 +122,20 @@ macro_rules! quotient_bit {
     };
 }
 
+/// A bit of x where it comes to in the quotient.
+macro_rules! shifted_bit {
+    ($bit:literal, $value:literal) => {
+        concat!(
+            "            if (~((x & ",
+            $bit,
+            ") = 0)) { let q = q + ",
+            $value,
+            "; }\n"
+        )
+    };
+}
+
+/// Halves and 128ths, which floats are made of, are bits in other places.
 #[rustfmt::skip]
 pub(super) const DIVIDE: &str = concat!(
     "    /** x / y, cut towards 0: y is doubled while it is not above x, and taken
@@ -131,7 +145,27 @@ pub(super) const DIVIDE: &str = concat!(
         var boolean minus;
         let q = 0;
         let minus = false;
-        if ((x < 0) | (y < 1)) {
+        if (~((x < 0) | (y < 1))) {
+        if (y = 2) {
+",
+    shifted_bit!("2", "1"), shifted_bit!("4", "2"), shifted_bit!("8", "4"),
+    shifted_bit!("16", "8"), shifted_bit!("32", "16"), shifted_bit!("64", "32"),
+    "            if (x > 127) {\n",
+    shifted_bit!("128", "64"), shifted_bit!("256", "128"), shifted_bit!("512", "256"),
+    shifted_bit!("1024", "512"), shifted_bit!("2048", "1024"), shifted_bit!("4096", "2048"),
+    shifted_bit!("8192", "4096"), shifted_bit!("16384", "8192"),
+    "            }
+            return q;
+        }
+        if (y = 128) {
+",
+    shifted_bit!("128", "1"), shifted_bit!("256", "2"), shifted_bit!("512", "4"),
+    shifted_bit!("1024", "8"), shifted_bit!("2048", "16"), shifted_bit!("4096", "32"),
+    shifted_bit!("8192", "64"), shifted_bit!("16384", "128"),
+    "            return q;
+        }
+        }
+        else {
             if (y = 0) { do Sys.error(3); }
             let minus = ~((x < 0) = (y < 0));
             if (y < 0) {

@@ -30,7 +30,8 @@ pub(super) const MAKE_HEAP: &str = "    /** One free segment, from 2048 to the s
     }
 ";
 
-pub(super) const ALLOC: &str = "    /** The first free segment that is large enough; what is left of it stays free. */
+pub(super) const ALLOC: &str =
+    "    /** The first free segment that is large enough; what is left of it stays free. */
     function int alloc(int size) {
         var Array segment, rest;
         if (size < 1) { do Sys.error(5); }
@@ -50,7 +51,8 @@ pub(super) const ALLOC: &str = "    /** The first free segment that is large eno
     }
 ";
 
-pub(super) const DE_ALLOC: &str = "    /** Frees a segment, joined with the next one if that is free. */
+pub(super) const DE_ALLOC: &str =
+    "    /** Frees a segment, joined with the next one if that is free. */
     function void deAlloc(Array object) {
         var Array segment, next;
         var int room, more;

@@ -106,7 +106,11 @@ pub fn classes(wanted: Wanted) -> Vec<(&'static str, String)> {
     let owns = |class: &str| wanted.has.iter().any(|name| class_name(name) == class);
     let parts = closure(wanted.calls, &owns);
     let has_init = |class: &str| {
-        let given = if owns(class) { wanted.has } else { wanted.calls };
+        let given = if owns(class) {
+            wanted.has
+        } else {
+            wanted.calls
+        };
         makers(class, &parts).next().is_some() || given.contains(&format!("{class}.init").as_str())
     };
     let others = CLASSES.iter().copied().filter(|class| *class != "Sys");
@@ -141,7 +145,9 @@ fn closure(calls: &[&str], owns: &dyn Fn(&str) -> bool) -> Vec<&'static Part> {
             wanted.extend(part.map_or(&[][..], |part| part.needs));
         }
     }
-    ALL.iter().filter(|part| seen.contains(&part.name)).collect()
+    ALL.iter()
+        .filter(|part| seen.contains(&part.name))
+        .collect()
 }
 
 fn class_name(subroutine: &str) -> &str {

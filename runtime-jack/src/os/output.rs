@@ -131,7 +131,8 @@ pub(super) const MAKE_FONT: &str = "    static Array font;
     }
 ";
 
-pub(super) const DRAW: &str = "    /** Shows a character at the cursor; a block for what is none. */
+pub(super) const DRAW: &str =
+    "    /** Shows a character at the cursor; a block for what is none. */
     function void draw(char c) {
         var Array word;
         var int k, place, bits;
@@ -264,7 +265,8 @@ pub(super) const PRINTLN: &str = "    /** From the last row to the first. */
     }
 ";
 
-pub(super) const BACK_SPACE: &str = "    /** Clears the character before the cursor, within the row. */
+pub(super) const BACK_SPACE: &str =
+    "    /** Clears the character before the cursor, within the row. */
     function void backSpace() {
         if (column = 0) { return; }
         let column = column - 1;

@@ -139,7 +139,8 @@ pub(super) const DRAW_LINE: &str = "    function void drawLine(int x1, int y1, i
     }
 ";
 
-pub(super) const DRAW_RECTANGLE: &str = "    function void drawRectangle(int x1, int y1, int x2, int y2) {
+pub(super) const DRAW_RECTANGLE: &str =
+    "    function void drawRectangle(int x1, int y1, int x2, int y2) {
         if (Screen.isOutside(x1, y1) | Screen.isOutside(x2, y2)) { do Sys.error(9); }
         if ((x2 < x1) | (y2 < y1)) { do Sys.error(9); }
         while (~(y1 > y2)) {
@@ -150,7 +151,8 @@ pub(super) const DRAW_RECTANGLE: &str = "    function void drawRectangle(int x1,
     }
 ";
 
-pub(super) const DRAW_CIRCLE: &str = "    /** A filled circle by the midpoint algorithm: an octant, from the top. */
+pub(super) const DRAW_CIRCLE: &str =
+    "    /** A filled circle by the midpoint algorithm: an octant, from the top. */
     function void drawCircle(int x, int y, int r) {
         var int across, along, error;
         if (Screen.isOutside(x, y)) { do Sys.error(12); }

@@ -61,7 +61,8 @@ pub(super) const ERASE_LAST_CHAR: &str = "    method void eraseLastChar() {
     }
 ";
 
-pub(super) const INT_VALUE: &str = "    /** The number that it begins with, after an optional minus; 0 without one. */
+pub(super) const INT_VALUE: &str =
+    "    /** The number that it begins with, after an optional minus; 0 without one. */
     method int intValue() {
         var Array word;
         var int k, value, digit;
@@ -88,7 +89,8 @@ pub(super) const INT_VALUE: &str = "    /** The number that it begins with, afte
 ";
 
 /// Below 0, where -32768 has room.
-pub(super) const SET_INT: &str = "    /** Becomes the decimal number: digits are taken from a number below 0. */
+pub(super) const SET_INT: &str =
+    "    /** Becomes the decimal number: digits are taken from a number below 0. */
     method void setInt(int value) {
         var int rest, size;
         let rest = value;
