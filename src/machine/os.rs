@@ -16,10 +16,11 @@ const MAIN: (&str, &str) = (
 /// sources, and as VM code in the same order.
 pub fn complete(program: &[(String, String)]) -> Outcome<(Vec<File>, Vec<(String, String)>)> {
     let names = Names::of(program).map_err(|faults| refused("linker", "the program", &faults))?;
-    let [has, calls] = [&names.has, &names.calls]
+    let [has, calls, reached] = [&names.has, &names.calls, &names.reached]
         .map(|names| names.iter().map(String::as_str).collect::<Vec<&str>>());
     let classes = os::classes(Wanted {
         calls: &calls,
+        reached: &reached,
         has: &has,
     });
     let mut sources: Vec<(String, String)> = classes

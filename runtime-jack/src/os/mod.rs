@@ -95,6 +95,9 @@ pub struct Wanted<'n> {
     /// The subroutines that it calls, as `Class.subroutine`; others than the
     /// system's may be among them.
     pub calls: &'n [&'n str],
+    /// Those that it may come to call: what the others need is there, so that the
+    /// program compiles, but not initialised.
+    pub reached: &'n [&'n str],
     /// The subroutines that it has. A class of which it has any is its own, whole.
     pub has: &'n [&'n str],
 }
@@ -105,13 +108,14 @@ pub struct Wanted<'n> {
 pub fn classes(wanted: Wanted) -> Vec<(&'static str, String)> {
     let owns = |class: &str| wanted.has.iter().any(|name| class_name(name) == class);
     let parts = closure(wanted.calls, &owns);
+    let live = closure(wanted.reached, &owns);
     let has_init = |class: &str| {
         let given = if owns(class) {
             wanted.has
         } else {
             wanted.calls
         };
-        makers(class, &parts).next().is_some() || given.contains(&format!("{class}.init").as_str())
+        makers(class, &live).next().is_some() || given.contains(&format!("{class}.init").as_str())
     };
     let others = CLASSES.iter().copied().filter(|class| *class != "Sys");
     let begin = sys::init(others.filter(|class| has_init(class)));
@@ -122,7 +126,7 @@ pub fn classes(wanted: Wanted) -> Vec<(&'static str, String)> {
             .collect();
         let init = match name {
             "Sys" => Some(begin.clone()),
-            name => has_init(name).then(|| init(makers(name, &own))),
+            name => has_init(name).then(|| init(makers(name, &live))),
         };
         if init.is_some() || !own.is_empty() {
             classes.push((name, class(ALL, name, &own, init)));

@@ -10,9 +10,11 @@ use std::collections::{BTreeMap, BTreeSet};
 pub struct Names {
     /// All that they have.
     pub has: BTreeSet<String>,
-    /// All that is called on the ways from where a program starts: `Sys.init`,
-    /// `Main.main`, and the `init` of any class.
+    /// All that they call.
     pub calls: BTreeSet<String>,
+    /// Of these, what is called on the ways from where a program starts: `Sys.init`,
+    /// `Main.main`, and the `init` of any class.
+    pub reached: BTreeSet<String>,
 }
 
 impl Names {
@@ -41,20 +43,22 @@ impl Names {
         }
         let starts = |name: &&str| *name == "Main.main" || name.ends_with(".init");
         let mut work: Vec<&str> = callees.keys().copied().filter(starts).collect();
-        let mut reached: BTreeSet<&str> = work.iter().copied().collect();
-        let mut calls = BTreeSet::new();
+        let mut seen: BTreeSet<&str> = work.iter().copied().collect();
+        let mut reached = BTreeSet::new();
         while let Some(function) = work.pop() {
             for callee in callees.get(function).into_iter().flatten() {
-                calls.insert((*callee).to_owned());
-                if reached.insert(callee) {
+                reached.insert((*callee).to_owned());
+                if seen.insert(callee) {
                     work.push(callee);
                 }
             }
         }
         let has = callees.keys().map(|name| (*name).to_owned());
+        let calls = callees.values().flatten().map(|name| (*name).to_owned());
         Ok(Names {
             has: has.filter(|name| !name.is_empty()).collect(),
-            calls,
+            calls: calls.collect(),
+            reached,
         })
     }
 }
@@ -71,8 +75,9 @@ mod tests {
             function Own.init 0\ncall Math.sqrt 1\nreturn\n";
         let names = Names::of(&[("Main.vm".to_owned(), text.to_owned())]);
         let names = names.unwrap_or_default();
-        let calls: Vec<&str> = names.calls.iter().map(String::as_str).collect();
-        assert_eq!(calls, ["Main.a", "Math.sqrt", "Screen.clearScreen"]);
+        let reached: Vec<&str> = names.reached.iter().map(String::as_str).collect();
+        assert_eq!(reached, ["Main.a", "Math.sqrt", "Screen.clearScreen"]);
+        assert_eq!(names.calls.len(), 4);
         let has: Vec<&str> = names.has.iter().map(String::as_str).collect();
         assert_eq!(has, ["Main.a", "Main.b", "Main.main", "Own.init"]);
     }
