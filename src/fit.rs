@@ -7,7 +7,9 @@
 //! smaller. Then come the modes that show a part of it, in the same way.
 
 use crate::failure::{Failure, Outcome};
+use crate::machine::Machine;
 use crate::need::{Need, need};
+use crate::trial::build_for;
 use slowlight_compiler::flow::graph::Table;
 use slowlight_compiler::plan::Plan;
 use slowlight_compiler::source::Span;
@@ -184,6 +186,40 @@ fn as_is_or_tight(mut plan: Plan) -> Outcome<Fitted> {
         Some(need) => Fitted::TooLarge(Box::new(plan), need),
         None => Fitted::Fits(Box::new(plan)),
     })
+}
+
+/// A plan whose program fits the ROM of the Hack's processor as well, with
+/// subroutines where it does not without.
+///
+/// # Errors
+/// By how many words it does not, and what would help.
+pub fn fit_rom(
+    plan: Plan,
+    machine: Machine,
+    name: &dyn Fn(Span) -> Option<String>,
+) -> Outcome<Plan> {
+    // The text is ours: its size is all that the machine's tools can refuse.
+    let refused = |plan: &Plan| match build_for(plan, machine) {
+        Ok(_) => Ok(None),
+        Err(Failure::Wrong(said)) => Ok(Some(said)),
+        Err(other) => Err(other),
+    };
+    let Some(mut said) = refused(&plan)? else {
+        return Ok(plan);
+    };
+    // A fault of the plan with subroutines would be one of the plan without.
+    if let Ok(outlined) = plan.outlined(name) {
+        match refused(&outlined)? {
+            None => return Ok(outlined),
+            Some(smaller) => said = smaller,
+        }
+    }
+    Err(Failure::Wrong(format!(
+        "{} does not fit the ROM with its operating system: {said}\n{}; run it on the VM, where \
+         code takes no memory (--os native)",
+        plan.name,
+        help(&plan)
+    )))
 }
 
 /// What makes a program smaller.

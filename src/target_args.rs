@@ -191,10 +191,15 @@ impl ScreenArgs {
         let modes = self.modes(target, scene.size())?;
         let plans = modes.into_iter();
         let _waiting = Waiting::new("planning");
-        fit::fit(
+        let name = |span| scene.called_at(span);
+        let plan = fit::fit(
             plans.map(|mode| self.plan_in(mode, scene, target, set)),
-            &|span| scene.called_at(span),
-        )
+            &name,
+        )?;
+        match self.os {
+            Some(Os::Jack) => fit::fit_rom(plan, self.machine(target)?, &name),
+            _ => Ok(plan),
+        }
     }
 
     /// Plans a scene for the best mode, whether or not its program fits.

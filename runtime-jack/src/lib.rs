@@ -42,7 +42,7 @@ mod routines;
 #[cfg(test)]
 mod tests;
 
-pub use parts::{classes, has_init};
+pub use parts::{classes, classes_for_processor, has_init};
 
 use model::Float;
 use slowlight_routine::{Bits, Format, Runtime, Value};

@@ -15,6 +15,7 @@ mod functions;
 mod int;
 mod log;
 mod powers;
+mod processor;
 
 use slowlight_routine::{Part, Source};
 
@@ -100,6 +101,25 @@ pub(crate) static ALL: &[Part] = &[
     part!("Int.min", ["Int.less"], 60, int::MIN),
     part!("Int.max", ["Int.less"], 60, int::MAX),
 ];
+
+/// What takes the place of parts on the processor; their needs are as large.
+const ON_PROCESSOR: &[(&str, &str)] =
+    &[("Float.mul", processor::MUL), ("Float.div", processor::DIV)];
+
+/// [`classes`] for a program that runs on the Hack's processor: the same values in
+/// fewer cycles, and in more VM commands.
+pub fn classes_for_processor(parts: &[&Part]) -> Vec<(&'static str, String)> {
+    let own = |part: &&Part| {
+        let text = ON_PROCESSOR.iter().find(|(name, _)| *name == part.name);
+        let source = text.map(|(_, text)| Source::Text(text));
+        Part {
+            source: source.unwrap_or(part.source),
+            ..**part
+        }
+    };
+    let parts: Vec<Part> = parts.iter().map(own).collect();
+    classes(&parts.iter().collect::<Vec<&Part>>())
+}
 
 /// The classes that hold the given parts (closed over their needs, in the
 /// runtime's order), each as its name and its text. A class's `init`, where

@@ -11,7 +11,7 @@ use super::{Document, Line, Text};
 use crate::flow::graph::TableId;
 use crate::plan::Plan;
 use slowlight_routine::Format;
-use slowlight_runtime_jack::{TERM, classes, has_init};
+use slowlight_runtime_jack::{TERM, classes, classes_for_processor, has_init};
 use std::collections::BTreeSet;
 
 /// Writes a plan down as the classes of a program, `Main` first.
@@ -31,7 +31,10 @@ pub(super) fn program(plan: &Plan) -> Vec<Document> {
     let mut needs: Vec<&str> = plan.parts().iter().map(|p| p.name).collect();
     needs.extend(&code.needs);
     let parts = plan.runtime.closure(needs);
-    let library = classes(&parts);
+    let library = match plan.statics {
+        true => classes_for_processor(&parts),
+        false => classes(&parts),
+    };
     let fixed = match plan.statics {
         true => {
             let often = code.methods.iter().flat_map(|m| &m.lines);
