@@ -80,7 +80,9 @@ fn a_scene_draws_the_same_from_the_rom() {
     let dir = dir.path();
     for format in ["f316", "log10"] {
         let run = |more: &[&str]| {
-            let args = ["run", "spot.scn", "-t", "jack", "--json", "--format", format];
+            let args = [
+                "run", "spot.scn", "-t", "jack", "--json", "--format", format,
+            ];
             json(dir, &[&args[..], more].concat())
         };
         let native = run(&[]);
@@ -95,10 +97,19 @@ fn a_scene_draws_the_same_from_the_rom() {
         assert_eq!(count(&rom, "code_bytes"), 2 * count(&rom, "rom_words"));
         // Edited, too, and with what `build` wrote of the system.
         let out = format!("out_{format}");
-        let build = ["build", "spot.scn", "-t", "jack", "--os", "jack", "--format", format];
+        let build = [
+            "build", "spot.scn", "-t", "jack", "--os", "jack", "--format", format,
+        ];
         success(dir, &[&build[..], &["-o", &out]].concat());
         let all = names(&dir.join(&out));
-        for wanted in ["Main.jack", "Math.jack", "Screen.jack", "Sys.jack", "Main.hack", "Main.asm"] {
+        for wanted in [
+            "Main.jack",
+            "Math.jack",
+            "Screen.jack",
+            "Sys.jack",
+            "Main.hack",
+            "Main.asm",
+        ] {
             assert!(all.iter().any(|name| name == wanted), "{wanted}: {all:?}");
         }
         let again = run(&["--os", "jack", "--program", &out]);
@@ -106,21 +117,17 @@ fn a_scene_draws_the_same_from_the_rom() {
         assert_eq!(again["rom_words"], rom["rom_words"]);
         // What was written is whole: on the VM no function is the VM's own, and the
         // image and the assembly are the program.
-        let digest = |args: &[&str]| json(dir, &[args, &["--json"]].concat())["inks_sha256"].clone();
+        let digest =
+            |args: &[&str]| json(dir, &[args, &["--json"]].concat())["inks_sha256"].clone();
         let vm = digest(&["vm", "jack", &out]);
         for file in ["Main.hack", "Main.asm"] {
-            assert_eq!(digest(&["vm", "hack", &format!("{out}/{file}")]), vm, "{file}");
+            assert_eq!(
+                digest(&["vm", "hack", &format!("{out}/{file}")]),
+                vm,
+                "{file}"
+            );
         }
     }
-    let frozen = json(
-        dir,
-        &["run", "spot.scn", "-t", "jack", "--os", "jack", "--freeze", "all", "--json"],
-    );
-    let live = json(dir, &["run", "spot.scn", "-t", "jack", "--os", "jack", "--json"]);
-    assert!(
-        frozen["rom_words"].as_u64().map(|n| n + 1500) < live["rom_words"].as_u64(),
-        "without params to check nothing is printed, and there is no font"
-    );
 }
 
 #[test]
@@ -129,7 +136,9 @@ fn machine_code_runs_as_assembly_and_as_an_image() {
     let dir = dir.path();
     let said = json(
         dir,
-        &["vm", "hack", "six.asm", "--image", "six.hack", "--json", "-o", "six.pbm"],
+        &[
+            "vm", "hack", "six.asm", "--image", "six.hack", "--json", "-o", "six.pbm",
+        ],
     );
     assert_eq!(said["stopped"], "ended");
     assert_eq!(said["rom_words"], 18);
@@ -152,7 +161,10 @@ fn a_program_is_translated_to_an_image_and_to_assembly() {
     let dir = dir.path();
     program(dir, "draws", DRAWS);
     let run = |image: &str| {
-        json(dir, &["vm", "jack", "draws", "--cpu", "--image", image, "--json"])
+        json(
+            dir,
+            &["vm", "jack", "draws", "--cpu", "--image", image, "--json"],
+        )
     };
     let (image, assembly) = (run("draws.hack"), run("draws.asm"));
     assert_eq!(image, assembly);
@@ -185,7 +197,10 @@ fn a_program_may_bring_a_part_of_the_system() {
     program(dir, "own", main);
     std::fs::write(dir.join("own/Math.jack"), math).expect("a file");
     for more in [&[][..], &["--os", "jack"], &["--cpu"]] {
-        success(dir, &[&["vm", "jack", "own", "-o", "own.pbm"], more].concat());
+        success(
+            dir,
+            &[&["vm", "jack", "own", "-o", "own.pbm"], more].concat(),
+        );
         let drawn = std::fs::read(dir.join("own.pbm")).expect("a picture");
         // 108 is 01101100, and its lowest bit stands on the left.
         assert_eq!(drawn[11], 0b0011_0110, "{more:?}");
@@ -213,44 +228,62 @@ fn errors_are_reported() {
 
 #[test]
 fn what_does_not_fit_the_rom_is_not_written() {
-    // As many shapes as the heap holds the values of, and each of them its own.
-    let mut scene = String::from("image 8 x 4 inks black, white;\ndraw (x, y) = {\n");
-    scene += "  let v = x / 7 + y / 5;\n";
-    for k in 1..=TERMS {
-        let last = if k == 1 { "v".to_owned() } else { format!("v{}", k - 1) };
-        scene += &format!("  let v{k} = sqrt({last} * x + {k}) / ({last} + y + {k}.5);\n");
-    }
-    scene += &format!("  ink(if v{TERMS} > 0.5 then 1 else 0)\n}};\n");
-    let dir = directory(&[("large.scn", &scene)]);
+    let scene = Path::new(env!("CARGO_MANIFEST_DIR")).join("examples/fifty.scn");
+    let scene = scene.to_str().expect("a path");
+    let dir = directory(&[]);
     let dir = dir.path();
-    for command in ["build", "run"] {
-        let output = slowlight(dir, &[command, "large.scn", "-t", "jack", "--os", "jack"]);
-        let said = String::from_utf8_lossy(&output.stderr).into_owned();
-        assert_eq!(output.status.code(), Some(1), "{said}");
-        for part in ["does not fit the ROM", "more than the ROM's 32768 words", "what would help"] {
-            assert!(said.contains(part), "{said}");
-        }
-        assert_eq!(names(dir), ["large.scn"], "nothing is written");
+    let run = |command: &str, more: &[&str]| {
+        let args = [command, scene, "-t", "jack", "--rows", "100", "--os"];
+        slowlight(dir, &[&args[..], more].concat())
+    };
+    let output = run("build", &["jack"]);
+    let said = String::from_utf8_lossy(&output.stderr).into_owned();
+    assert_eq!(output.status.code(), Some(1), "{said}");
+    for part in [
+        "does not fit the ROM",
+        "more than the ROM's 32768 words",
+        "what would help",
+    ] {
+        assert!(said.contains(part), "{said}");
     }
-    success(dir, &["run", "large.scn", "-t", "jack"]);
+    assert_eq!(names(dir), Vec::<String>::new(), "nothing is written");
+    assert_eq!(run("build", &["native"]).status.code(), Some(0));
 }
-
-/// Each takes a root, a quotient, two products and sums: three methods' calls and more.
-const TERMS: usize = 900;
 
 #[test]
 fn wrong_uses() {
-    let dir = directory(&[("spot.scn", SPOT), ("a.asm", ASSEMBLY), ("b.asm", ASSEMBLY), ("p.bas", "10 END\n")]);
+    let dir = directory(&[
+        ("spot.scn", SPOT),
+        ("a.asm", ASSEMBLY),
+        ("b.asm", ASSEMBLY),
+        ("p.bas", "10 END\n"),
+    ]);
     let dir = dir.path();
     program(dir, "draws", DRAWS);
     for (args, status, part) in [
-        (&["vm", "jack", "draws", "--cpu", "--os", "native"][..], 2, "the VM's"),
-        (&["vm", "bbc", "p.bas", "--os", "jack"], 2, "the Hack computer's"),
+        (
+            &["vm", "jack", "draws", "--cpu", "--os", "native"][..],
+            2,
+            "the VM's",
+        ),
+        (
+            &["vm", "bbc", "p.bas", "--os", "jack"],
+            2,
+            "the Hack computer's",
+        ),
         (&["vm", "bbc", "p.bas", "--cpu"], 2, "the Hack computer's"),
         (&["vm", "hack", "a.asm", "b.asm"], 2, "one file"),
         (&["vm", "jack", "draws", "--image", "x.hack"], 2, "--image"),
-        (&["run", "spot.scn", "-t", "6502", "--os", "jack"], 2, "--os is Jack's"),
-        (&["run", "spot.scn", "-t", "jack", "--os", "unix"], 2, "possible values"),
+        (
+            &["run", "spot.scn", "-t", "6502", "--os", "jack"],
+            2,
+            "--os is Jack's",
+        ),
+        (
+            &["run", "spot.scn", "-t", "jack", "--os", "unix"],
+            2,
+            "possible values",
+        ),
     ] {
         let output = slowlight(dir, args);
         let said = String::from_utf8_lossy(&output.stderr).into_owned();
@@ -260,7 +293,13 @@ fn wrong_uses() {
     std::fs::write(dir.join("bad.asm"), "@1\nD=Q\n").expect("a file");
     let output = slowlight(dir, &["vm", "hack", "bad.asm"]);
     assert_eq!(output.status.code(), Some(1));
-    assert!(String::from_utf8_lossy(&output.stderr).contains("2"), "the line");
+    assert!(
+        String::from_utf8_lossy(&output.stderr).contains("2"),
+        "the line"
+    );
     std::fs::write(dir.join("bad.hack"), "0101\n").expect("a file");
-    assert_eq!(slowlight(dir, &["vm", "hack", "bad.hack"]).status.code(), Some(1));
+    assert_eq!(
+        slowlight(dir, &["vm", "hack", "bad.hack"]).status.code(),
+        Some(1)
+    );
 }

@@ -58,7 +58,7 @@ fn a_torus_in_logarithms() {
 
 #[test]
 fn a_maze_and_what_diffuses_errors() {
-    same("maze", &["--rows", "60..80"]);
+    same("maze", &["--rows", "10..14"]);
     same("primitives", &["--rows", "0..3"]);
     same("mirrors", &["--rows", "120..123", "--format", "log10"]);
 }
