@@ -10,6 +10,7 @@
 //! comparison (a translated program compares by subtracting), parentheses
 //! everywhere (Jack has no precedence), nothing allocated but in `make...`.
 
+#[macro_use]
 mod float;
 mod functions;
 mod int;
@@ -103,8 +104,13 @@ pub(crate) static ALL: &[Part] = &[
 ];
 
 /// What takes the place of parts on the processor; their needs are as large.
-const ON_PROCESSOR: &[(&str, &str)] =
-    &[("Float.mul", processor::MUL), ("Float.div", processor::DIV)];
+const ON_PROCESSOR: &[(&str, &str)] = &[
+    ("Float.makePowers", processor::MAKE_POWERS_AND_SHIFT),
+    ("Float.add", float::ADD_SHIFTED),
+    ("Float.sub", float::SUB_SHIFTED),
+    ("Float.mul", processor::MUL),
+    ("Float.div", processor::DIV),
+];
 
 /// [`classes`] for a program that runs on the Hack's processor: the same values in
 /// fewer cycles, and in more VM commands.

@@ -88,6 +88,58 @@ pub(crate) const MUL: &str = concat!(
 "
 );
 
+/// What stays of a mantissa, or of its upper half, after so many halvings: its bits
+/// from there on, one place after the other.
+macro_rules! shifted_by {
+    ($shift:literal, $($bit:literal $value:literal),*) => {
+        concat!(
+            "        if (d = ",
+            $shift,
+            ") {\n",
+            $(bit_of_128th!("q", $bit, "p", $value),)*
+            "            return p;\n        }\n"
+        )
+    };
+}
+
+/// In place of a quotient by a power of two; goes with the powers.
+#[rustfmt::skip]
+pub(crate) const MAKE_POWERS_AND_SHIFT: &str = concat!(
+    make_powers!(),
+    "
+    /** q / 2^d, for a mantissa and d from 1 to 13 */
+    function int shifted(int q, int d) {
+        var int p;
+        let p = 0;
+        if (d > 6) {
+",
+    bit_of_128th!("q", "128", "p", "1"), bit_of_128th!("q", "256", "p", "2"),
+    bit_of_128th!("q", "512", "p", "4"), bit_of_128th!("q", "1024", "p", "8"),
+    bit_of_128th!("q", "2048", "p", "16"), bit_of_128th!("q", "4096", "p", "32"),
+    bit_of_128th!("q", "8192", "p", "64"),
+    "            if (d = 7) { return p; }
+            let q = p;
+            let p = 0;
+            let d = d - 7;
+        }
+",
+    shifted_by!("1", "2" "1", "4" "2", "8" "4", "16" "8", "32" "16", "64" "32", "128" "64",
+        "256" "128", "512" "256", "1024" "512", "2048" "1024", "4096" "2048", "8192" "4096"),
+    shifted_by!("2", "4" "1", "8" "2", "16" "4", "32" "8", "64" "16", "128" "32",
+        "256" "64", "512" "128", "1024" "256", "2048" "512", "4096" "1024", "8192" "2048"),
+    shifted_by!("3", "8" "1", "16" "2", "32" "4", "64" "8", "128" "16",
+        "256" "32", "512" "64", "1024" "128", "2048" "256", "4096" "512", "8192" "1024"),
+    shifted_by!("4", "16" "1", "32" "2", "64" "4", "128" "8",
+        "256" "16", "512" "32", "1024" "64", "2048" "128", "4096" "256", "8192" "512"),
+    shifted_by!("5", "32" "1", "64" "2", "128" "4",
+        "256" "8", "512" "16", "1024" "32", "2048" "64", "4096" "128", "8192" "256"),
+    shifted_by!("6", "64" "1", "128" "2",
+        "256" "4", "512" "8", "1024" "16", "2048" "32", "4096" "64", "8192" "128"),
+    "        return p;
+    }
+"
+);
+
 /// The divisor cut one bit less short, by its next bit, which is the sign's of `k`.
 macro_rules! less_cut {
     ($shorter:literal, $longer:literal) => {

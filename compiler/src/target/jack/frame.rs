@@ -40,7 +40,7 @@ pub(super) fn program(plan: &Plan) -> Vec<Document> {
             let often = code.methods.iter().flat_map(|m| &m.lines);
             let often = often.chain(drawing.iter().flat_map(|s| &s.body));
             statics(
-                declared(&code).flat_map(|(_, names, _)| names),
+                declared(&code).into_iter().flat_map(|(_, names, _)| names),
                 often,
                 &library,
             )
@@ -208,7 +208,7 @@ fn fields(code: &Code, fixed: &BTreeSet<String>, text: &mut Text) {
 }
 
 /// What the scene's object holds: a type, names, and what they are.
-fn declared<'c>(code: &'c Code) -> impl Iterator<Item = (&'static str, Vec<String>, &'static str)> {
+fn declared(code: &Code) -> Vec<(&'static str, Vec<String>, &'static str)> {
     let names = &code.names;
     let of = |format: Format| -> Vec<String> {
         let all = code.written.iter().filter(|(_, f)| *f == format);
@@ -248,7 +248,7 @@ fn declared<'c>(code: &'c Code) -> impl Iterator<Item = (&'static str, Vec<Strin
     let counters = names.counters().map(str::to_owned);
     all.push(("int", ints.chain(counters).collect(), ""));
     all.push(("boolean", of(Format::Bool), ""));
-    all.into_iter()
+    all
 }
 
 pub(super) fn line(text: &str) -> Line {
