@@ -188,8 +188,8 @@ fn as_is_or_tight(mut plan: Plan) -> Outcome<Fitted> {
     })
 }
 
-/// A plan whose program fits the ROM of the Hack's processor as well, with
-/// subroutines where it does not without.
+/// A plan whose program fits the ROM of the Hack's processor as well: short, or with
+/// subroutines, where it does not without.
 ///
 /// # Errors
 /// By how many words it does not, and what would help.
@@ -204,14 +204,18 @@ pub fn fit_rom(
         Err(Failure::Wrong(said)) => Ok(Some(said)),
         Err(other) => Err(other),
     };
-    let Some(mut said) = refused(&plan)? else {
-        return Ok(plan);
-    };
+    let mut said = String::new();
     // A fault of the plan with subroutines would be one of the plan without.
-    if let Ok(outlined) = plan.outlined(name) {
-        match refused(&outlined)? {
-            None => return Ok(outlined),
-            Some(smaller) => said = smaller,
+    let outlined = || plan.outlined(name).ok();
+    let plans = std::iter::once_with(|| Some(plan.clone())).chain(std::iter::once_with(outlined));
+    for mut tried in plans.flatten() {
+        // Short, it has the routines of the VM: slower ones.
+        for lean in [false, true] {
+            tried.lean = lean;
+            match refused(&tried)? {
+                None => return Ok(tried),
+                Some(why) => said = why,
+            }
         }
     }
     Err(Failure::Wrong(format!(

@@ -120,8 +120,12 @@ pub fn run(args: &Args) -> Outcome<()> {
         }
     }
     say(&table(&rows));
+    let machine = match plan.statics {
+        true => "VM",
+        false => "machine",
+    };
     say(&format!(
-        "about {} on the machine (modelled: what its routines cost; `run` measures)\n",
+        "about {} on the {machine} (modelled: what its routines cost; `run` measures)\n",
         duration(seconds)
     ));
     Ok(())

@@ -31,7 +31,7 @@ pub(super) fn program(plan: &Plan) -> Vec<Document> {
     let mut needs: Vec<&str> = plan.parts().iter().map(|p| p.name).collect();
     needs.extend(&code.needs);
     let parts = plan.runtime.closure(needs);
-    let library = match plan.statics {
+    let library = match plan.statics && !plan.lean {
         true => classes_for_processor(&parts),
         false => classes(&parts),
     };
