@@ -228,12 +228,12 @@ fn errors_are_reported() {
 
 #[test]
 fn what_does_not_fit_the_rom_is_not_written() {
-    let scene = Path::new(env!("CARGO_MANIFEST_DIR")).join("examples/fifty.scn");
+    let scene = Path::new(env!("CARGO_MANIFEST_DIR")).join("examples/csg.scn");
     let scene = scene.to_str().expect("a path");
     let dir = directory(&[]);
     let dir = dir.path();
     let run = |command: &str, more: &[&str]| {
-        let args = [command, scene, "-t", "jack", "--rows", "100", "--os"];
+        let args = [command, scene, "-t", "jack", "--os"];
         slowlight(dir, &[&args[..], more].concat())
     };
     let output = run("build", &["jack"]);

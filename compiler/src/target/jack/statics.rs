@@ -44,3 +44,25 @@ fn declared(text: &str) -> usize {
     let names = lines.map(|line| line.split(';').next().unwrap_or_default());
     names.map(|names| names.split(',').count()).sum()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::frame::line;
+    use super::*;
+
+    #[test]
+    fn those_met_most_are_static_while_there_is_room() {
+        let names = (0..300).map(|k| format!("v{k}"));
+        // v0 is met once, v1 twice, and so on; v200 and the rest never.
+        let text = |k: usize| line(&format!("let v{k} = v{k} + v{k}; // v299 is not met"));
+        let lines: Vec<Line> = (0..200).flat_map(|k| vec![text(k); k + 1]).collect();
+        let library = "class Log {\n    static Array a, b, c;\n    static int d; // two\n}\n";
+        let few = [("Log", library.to_owned())];
+        let found = statics(names.clone(), lines.iter(), &few);
+        assert_eq!(found.len(), 200, "{found:?}");
+        let many = format!("static int {};\n", vec!["s"; 100].join(", "));
+        let most = statics(names, lines.iter(), &[("Log", many)]);
+        assert_eq!(most.len(), ALL - SYSTEM - 100);
+        assert!(most.contains("v199") && !most.contains("v0") && !most.contains("v299"));
+    }
+}
