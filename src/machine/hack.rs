@@ -57,9 +57,9 @@ pub fn load(files: &[File], config: Config) -> Outcome<Loaded> {
     let mut all = own.clone();
     let mut system = Vec::new();
     if config.os || config.cpu {
-        let (sources, classes) = complete(&own)?;
-        system = sources;
-        all.extend(classes);
+        let found = complete(&own)?;
+        system = found.sources;
+        all.extend(found.code);
     }
     let program = link(&all)?;
     let noted = Noted::of(&program, &system);

@@ -12,9 +12,16 @@ const MAIN: (&str, &str) = (
     "class Main { function void main() { return; } }",
 );
 
-/// The classes of the system that a program, given as VM code, calls and lacks: as
-/// sources, and as VM code in the same order.
-pub fn complete(program: &[(String, String)]) -> Outcome<(Vec<File>, Vec<(String, String)>)> {
+/// Classes of the system.
+pub struct System {
+    /// As sources.
+    pub sources: Vec<File>,
+    /// As VM code, in the same order.
+    pub code: Vec<(String, String)>,
+}
+
+/// The classes of the system that a program, given as VM code, calls and lacks.
+pub fn complete(program: &[(String, String)]) -> Outcome<System> {
     let names = Names::of(program).map_err(|faults| refused("linker", "the program", &faults))?;
     let [has, calls, reached] = [&names.has, &names.calls, &names.reached]
         .map(|names| names.iter().map(String::as_str).collect::<Vec<&str>>());
@@ -34,7 +41,10 @@ pub fn complete(program: &[(String, String)]) -> Outcome<(Vec<File>, Vec<(String
         .map_err(|faults| refused("Jack compiler", "the operating system", &faults))?;
     compiled.pop();
     let compiled = compiled.into_iter().map(|class| (class.name, class.text));
-    Ok((files, compiled.collect()))
+    Ok(System {
+        sources: files,
+        code: compiled.collect(),
+    })
 }
 
 /// Where the system notes an error in a program that has its `Sys`.
