@@ -3,8 +3,10 @@
 
 use crate::failure::{Failure, Outcome, unknown};
 use crate::fit;
+use crate::machine::Machine;
 use crate::progress::Waiting;
 use crate::scene::{Precision, Scene};
+use crate::trial;
 use clap::{Args, ValueEnum};
 use slowlight_compiler::plan::{Goal, Plan, plan, plan_as_written};
 use slowlight_compiler::sema::{FunctionKind, Program};
@@ -23,7 +25,8 @@ pub struct ScreenArgs {
     /// Compute without drawing
     #[arg(long)]
     pub no_plot: bool,
-    /// Jack's operating system: `native`, the machine's own [default: native]
+    /// Jack's operating system: `native`, the VM's own, or `jack`, ours in Jack, which
+    /// makes a program for the processor's ROM [default: native]
     #[arg(long, value_name = "OS")]
     pub os: Option<Os>,
     /// How BASIC is written: `fast`, or `listing`, to be read [default: fast]
@@ -47,8 +50,10 @@ pub struct ScreenArgs {
 /// An operating system for Jack programs.
 #[derive(ValueEnum, Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Os {
-    /// The machine's own: a call counts as one VM instruction
+    /// The VM's own: a call counts as one VM instruction
     Native,
+    /// Ours, written in Jack
+    Jack,
 }
 
 /// How a program in BASIC is written.
@@ -106,6 +111,18 @@ pub fn rows(text: &str, height: u32) -> Outcome<(u32, u32)> {
 }
 
 impl ScreenArgs {
+    /// The machine that a target's programs run on, as these options have it.
+    ///
+    /// # Errors
+    /// Where none is bundled.
+    pub fn machine(&self, target: &Target) -> Outcome<Machine> {
+        let machine = trial::machine(target)?.at_page(self.page);
+        Ok(match self.os {
+            Some(Os::Jack) => machine.on_processor(),
+            Some(Os::Native) | None => machine,
+        })
+    }
+
     /// The best mode of a target for a picture.
     ///
     /// # Errors
@@ -174,10 +191,15 @@ impl ScreenArgs {
         let modes = self.modes(target, scene.size())?;
         let plans = modes.into_iter();
         let _waiting = Waiting::new("planning");
-        fit::fit(
+        let name = |span| scene.called_at(span);
+        let plan = fit::fit(
             plans.map(|mode| self.plan_in(mode, scene, target, set)),
-            &|span| scene.called_at(span),
-        )
+            &name,
+        )?;
+        match self.os {
+            Some(Os::Jack) => fit::fit_rom(plan, self.machine(target)?, &name),
+            _ => Ok(plan),
+        }
     }
 
     /// Plans a scene for the best mode, whether or not its program fits.
@@ -229,6 +251,7 @@ impl ScreenArgs {
         let mut plan = planned.map_err(|said| scene.wrong(said))?;
         plan.listing = self.style == Some(Style::Listing);
         plan.page = self.page;
+        plan.statics = self.os == Some(Os::Jack);
         if plan.listing {
             plan.items = items(&scene.checked.program);
         }

@@ -35,13 +35,14 @@
 mod macros;
 pub mod log;
 pub mod model;
+pub mod os;
 mod parts;
 mod routines;
 
 #[cfg(test)]
 mod tests;
 
-pub use parts::{classes, has_init};
+pub use parts::{classes, classes_for_processor, has_init};
 
 use model::Float;
 use slowlight_routine::{Bits, Format, Runtime, Value};

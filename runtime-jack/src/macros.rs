@@ -49,3 +49,10 @@ macro_rules! routine {
         }
     };
 }
+
+/// A part of a class: name, what else it needs, words of ROM, text.
+macro_rules! part {
+    ($name:literal, [$($need:literal),*], $words:literal, $text:expr) => {
+        Part { name: $name, source: Source::Text($text), needs: &[$($need),*], bytes: $words }
+    };
+}

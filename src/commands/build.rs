@@ -67,13 +67,14 @@ pub fn run(args: &Args) -> Outcome<()> {
     }
     scene.warn();
     let plan = args.screen.plan(&scene, target(args)?, &[])?;
-    let built = trial::build(&plan)?;
+    let built = trial::build_for(&plan, args.screen.machine(plan.target)?)?;
     let dir = &args.output;
     std::fs::create_dir_all(dir)
         .map_err(|e| Failure::Wrong(format!("cannot make {}: {e}", dir.display())))?;
     let written: Vec<(PathBuf, &[u8])> = built
         .sources
         .iter()
+        .chain(&built.loaded.system)
         .chain(&built.loaded.binaries)
         .map(|f| (dir.join(&f.name), f.bytes.as_slice()))
         .collect();
@@ -119,8 +120,12 @@ pub fn run(args: &Args) -> Outcome<()> {
         }
     }
     say(&table(&rows));
+    let machine = match plan.statics {
+        true => "VM",
+        false => "machine",
+    };
     say(&format!(
-        "about {} on the machine (modelled: what its routines cost; `run` measures)\n",
+        "about {} on the {machine} (modelled: what its routines cost; `run` measures)\n",
         duration(seconds)
     ));
     Ok(())

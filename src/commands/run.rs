@@ -63,11 +63,11 @@ pub fn run(args: &Args) -> Outcome<()> {
 
 fn prepare(args: &Args, scene: &Scene) -> Outcome<(Plan, program::Values, Loaded)> {
     let plan = args.screen.plan(scene, args.target, &[])?;
+    let machine = args.screen.machine(args.target)?;
     let Some(dir) = &args.program else {
-        let loaded = trial::build(&plan)?.loaded;
+        let loaded = trial::build_for(&plan, machine)?.loaded;
         return Ok((plan, Vec::new(), loaded));
     };
-    let machine = trial::machine(args.target)?.at_page(args.screen.page);
     let sources = program::read(dir, &scene.name, machine)?;
     let unedited = (args.target.emit)(&plan);
     let set = program::values(&plan, &unedited, &sources)?;
@@ -99,6 +99,16 @@ fn report(trial: &Trial) -> String {
         row("cycles of drawing", count(plot));
     }
     row("machine time", duration(trial.seconds()));
+    if let Some(words) = trial.run.rom_words {
+        row("ROM words", count(words));
+        row(
+            "VM commands",
+            trial
+                .run
+                .vm_instructions
+                .map_or("not counted".to_owned(), count),
+        );
+    }
     let sizes = trial.run.sizes;
     let parts = [
         ("code bytes", sizes.code),

@@ -2,10 +2,10 @@
 
 use crate::failure::{Failure, Outcome};
 use crate::format::{count, table};
-use crate::machine::{File, Loaded, Machine, complaint, stop_word};
+use crate::machine::{File, HackConfig, Loaded, Machine, complaint, stop_word};
 use crate::picture::{Picture, PictureFile};
 use crate::progress::Progress;
-use crate::target_args::page;
+use crate::target_args::{Os, page};
 use crate::{files, say, say_json};
 use clap::ValueEnum;
 use serde::Serialize;
@@ -32,10 +32,14 @@ pub struct Args {
     /// Print cycles, why it stopped, and the screen's digest as JSON
     #[arg(long)]
     json: bool,
-    /// Translate Jack or VM code to machine code, and run that on the CPU; the
-    /// program brings the OS
+    /// Translate Jack or VM code to machine code, and run that on the CPU, with the
+    /// operating system in Jack as far as the program brings none itself
     #[arg(long)]
     cpu: bool,
+    /// For Jack and VM code on the VM, where the program brings no operating system:
+    /// `native`, the VM's own, or `jack`, ours in Jack [default: native; jack with --cpu]
+    #[arg(long, value_name = "OS")]
+    os: Option<Os>,
     /// Where to write the Hack computer's machine code: .asm, or .hack, an image of
     /// the ROM
     #[arg(long, value_name = "FILE")]
@@ -141,9 +145,20 @@ pub fn run(args: &Args) -> Outcome<()> {
         let message = "--cpu is the Hack computer's: `slowlight vm jack --cpu DIR`";
         return Err(Failure::Usage(message.to_owned()));
     }
+    if args.os.is_some() && !matches!(args.machine, Kind::Jack | Kind::Hack) {
+        let message = "--os is the Hack computer's: `slowlight vm jack --os jack DIR`";
+        return Err(Failure::Usage(message.to_owned()));
+    }
+    if args.cpu && args.os == Some(Os::Native) {
+        let message = "the native operating system is the VM's; the CPU has --os jack";
+        return Err(Failure::Usage(message.to_owned()));
+    }
     let machine = match args.machine {
-        Kind::Jack | Kind::Hack if args.cpu => Machine::HackCpu,
-        Kind::Jack | Kind::Hack => Machine::Hack,
+        Kind::Jack | Kind::Hack => Machine::Hack(HackConfig {
+            cpu: args.cpu,
+            os: args.os == Some(Os::Jack),
+            ..HackConfig::default()
+        }),
         Kind::Bbc => Machine::Bbc(Config::default()),
         Kind::Mos6502 => Machine::Mos6502,
     };

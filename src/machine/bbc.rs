@@ -40,6 +40,7 @@ pub fn load(files: &[File], config: Config) -> Outcome<Loaded> {
         ..Sizes::default()
     };
     Ok(Loaded {
+        system: Vec::new(),
         binaries,
         sizes,
         program: Program::Bbc(machine),
@@ -63,7 +64,9 @@ fn finished(run: slowlight_vm::bbc::Run) -> MachineRun {
         stop: run.stop,
         cycles: run.cycles,
         plot_cycles: Some(run.plot_cycles),
+        vm_instructions: None,
         os_calls: None,
+        rom_words: None,
         screen: drawn.then_some(run.screen),
         output: run.text.into_bytes(),
         files: run.files,

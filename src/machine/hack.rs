@@ -1,47 +1,86 @@
 //! The Hack computer: Jack classes, VM code, assembly or an image of the ROM in;
 //! a picture and text out.
 //!
-//! Jack and VM code run on the VM with its native OS, or are translated and run
-//! on the CPU, where the OS has to come with the program.
+//! Jack and VM code run on the VM with its native OS or ours in Jack, or are
+//! translated and run on the CPU, where what the program does not bring of an OS is
+//! ours.
 
+use super::os::{Noted, complete};
 use super::{File, Loaded, MachineRun, Program, Sizes, refused};
 use crate::failure::{Failure, Outcome};
 use slowlight_vm::hack::asm::{assemble, read_image, write_image};
 use slowlight_vm::hack::cpu::Cpu;
 use slowlight_vm::hack::translate::{Options, translate};
 use slowlight_vm::hack::{jack, vm};
-use slowlight_vm::{Stop, Watch};
+use slowlight_vm::{Fault, Progress, Stop, Watch};
 use std::collections::BTreeMap;
 
 /// Words of RAM before the screen, from the first static.
 const RAM: std::ops::Range<u16> = 16..16384;
 
-/// Takes Jack classes (`.jack`), VM code (`.vm`), or some of both, for the VM; or
-/// one file of assembly (`.asm`) or of the ROM's words (`.hack`), for the CPU.
-pub fn load(files: &[File]) -> Outcome<Loaded> {
-    if files.iter().any(is_machine_code) {
-        return load_machine_code(files);
-    }
-    let program = link(files)?;
-    Ok(Loaded {
-        binaries: Vec::new(),
-        sizes: Sizes::default(),
-        program: Program::Hack(Box::new(program)),
-    })
+/// How programs run.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Config {
+    /// On the processor, translated, and not on the VM. The operating system is in
+    /// Jack there: there is no other.
+    pub cpu: bool,
+    /// With the operating system in Jack, as far as the program brings none itself.
+    pub os: bool,
+    /// Whether to count on the VM, too, what runs on the processor.
+    pub count: bool,
 }
 
-/// Takes the same, all for the CPU. The binaries are the translation, as
-/// assembly and as an image.
-pub fn load_for_cpu(files: &[File]) -> Outcome<Loaded> {
+/// A program for the VM.
+#[derive(Clone, Debug)]
+pub struct OnVm {
+    program: vm::Program,
+    noted: Option<Noted>,
+}
+
+/// A program for the processor.
+#[derive(Clone, Debug)]
+pub struct OnCpu {
+    cpu: Cpu,
+    noted: Option<Noted>,
+    /// The same on the VM with its own system.
+    counted: Option<vm::Program>,
+}
+
+/// Takes Jack classes (`.jack`), VM code (`.vm`), or some of both; or one file of
+/// assembly (`.asm`) or of the ROM's words (`.hack`), for the processor. Translated,
+/// the binaries are the translation as assembly and as an image.
+pub fn load(files: &[File], config: Config) -> Outcome<Loaded> {
     if files.iter().any(is_machine_code) {
         return load_machine_code(files);
     }
-    let program = link(files)?;
+    let own = compile(files)?;
+    let mut all = own.clone();
+    let mut system = Vec::new();
+    if config.os || config.cpu {
+        let found = complete(&own)?;
+        system = found.sources;
+        all.extend(found.code);
+    }
+    let program = link(&all)?;
+    let noted = Noted::of(&program, &system);
+    if !config.cpu {
+        return Ok(Loaded {
+            system,
+            binaries: Vec::new(),
+            sizes: Sizes::default(),
+            program: Program::Hack(Box::new(OnVm { program, noted })),
+        });
+    }
     let translation = translate(&program, Options::default())
         .map_err(|faults| refused("translator", "the program", &faults))?;
     let mut loaded = rom("Main.hack", &translation.words)?;
     let assembly = File::text("Main.asm", &translation.assembly);
     loaded.binaries.push(assembly);
+    loaded.system = system;
+    if let Program::HackCpu(on) = &mut loaded.program {
+        on.noted = noted;
+        on.counted = config.count.then(|| link(&own)).transpose()?;
+    }
     Ok(loaded)
 }
 
@@ -63,28 +102,35 @@ fn load_machine_code(files: &[File]) -> Outcome<Loaded> {
     }
     let words =
         read_image(&file.as_text()).map_err(|faults| refused("machine", &file.name, &faults))?;
-    let loaded = rom(&file.name, &words)?;
-    Ok(Loaded {
-        binaries: Vec::new(),
-        ..loaded
-    })
+    let mut loaded = rom(&file.name, &words)?;
+    loaded.binaries.clear();
+    Ok(loaded)
 }
 
 /// A CPU with these words in its ROM; `name` is that of the image's file.
 fn rom(name: &str, words: &[u16]) -> Outcome<Loaded> {
     let cpu = Cpu::new(words).map_err(|fault| refused("machine", name, &[fault]))?;
     Ok(Loaded {
+        system: Vec::new(),
         binaries: vec![File::text(name, &write_image(words))],
         sizes: Sizes {
             code: Some(2 * words.len() as u64),
             ..Sizes::default()
         },
-        program: Program::HackCpu(Box::new(cpu)),
+        program: Program::HackCpu(Box::new(OnCpu {
+            cpu,
+            noted: None,
+            counted: None,
+        })),
     })
 }
 
-/// Compiles what is Jack, and links it with what is VM code.
-fn link(files: &[File]) -> Outcome<vm::Program> {
+fn link(files: &[(String, String)]) -> Outcome<vm::Program> {
+    vm::Program::link(files).map_err(|faults| refused("linker", "the program", &faults))
+}
+
+/// Compiles what is Jack, and adds it to what is VM code.
+fn compile(files: &[File]) -> Outcome<Vec<(String, String)>> {
     let mut classes = Vec::new();
     let mut program = Vec::new();
     for file in files {
@@ -104,32 +150,67 @@ fn link(files: &[File]) -> Outcome<vm::Program> {
     let compiled = jack::compile(&classes)
         .map_err(|faults| refused("Jack compiler", "the program", &faults))?;
     program.extend(compiled.into_iter().map(|class| (class.name, class.text)));
-    vm::Program::link(&program).map_err(|faults| refused("linker", "the program", &faults))
+    Ok(program)
 }
 
 /// Runs a program that was loaded. RAM is what it leaves changed of statics,
 /// stack and heap, where the native OS's few words count too.
-pub fn run(program: &vm::Program, limit: u64, watch: Watch<'_>) -> MachineRun {
-    let mut machine = vm::Machine::new(program);
+pub fn run(on: &OnVm, limit: u64, watch: Watch<'_>) -> MachineRun {
+    let mut machine = vm::Machine::new(&on.program);
     let run = machine.run(limit, watch);
     MachineRun {
+        vm_instructions: Some(run.instructions),
         os_calls: Some(run.os_calls),
         output: run.text.into_bytes(),
         sizes: Sizes {
             ram: Some(ram(|at| machine.peek(at))),
             ..Sizes::default()
         },
-        ..finished(run.stop, run.instructions, run.screen)
+        ..finished(
+            stop(run.stop, on.noted, |at| machine.peek(at)),
+            run.instructions,
+            run.screen,
+        )
     }
 }
 
-/// The same for machine code.
-pub fn run_cpu(cpu: &mut Cpu, sizes: Sizes, limit: u64, watch: Watch<'_>) -> MachineRun {
-    let run = cpu.run(limit, watch);
-    let ram = Some(ram(|at| cpu.peek(at)));
+/// The same for machine code; and before that on the VM, where that is to count.
+pub fn run_cpu(on: &mut OnCpu, sizes: Sizes, limit: u64, watch: Watch<'_>) -> MachineRun {
+    let quiet = &mut |now: Progress| watch(Progress { row: None, ..now });
+    let counted = on.counted.as_ref();
+    let counted = counted.map(|program| vm::Machine::new(program).run(limit, quiet));
+    if let Some(Stop::Interrupted) = counted.as_ref().map(|run| &run.stop) {
+        return finished(Stop::Interrupted, 0, on.cpu.run(0, watch).screen);
+    }
+    let run = on.cpu.run(limit, watch);
+    let cpu = &on.cpu;
     MachineRun {
-        sizes: Sizes { ram, ..sizes },
-        ..finished(run.stop, run.cycles, run.screen)
+        vm_instructions: counted.as_ref().map(|run| run.instructions),
+        os_calls: counted.map(|run| run.os_calls),
+        rom_words: sizes.code.map(|bytes| bytes / 2),
+        sizes: Sizes {
+            ram: Some(ram(|at| cpu.peek(at))),
+            ..sizes
+        },
+        ..finished(
+            stop(run.stop, on.noted, |at| cpu.peek(at)),
+            run.cycles,
+            run.screen,
+        )
+    }
+}
+
+/// Why a run ended: that of a program with the system in Jack also because of an
+/// error, after which it halts.
+fn stop(stop: Stop, noted: Option<Noted>, peek: impl Fn(u16) -> i16) -> Stop {
+    match noted.and_then(|noted| noted.error(peek)) {
+        Some(number) if stop == Stop::Ended => Stop::Fault(Fault {
+            message: format!("Sys.error({number})"),
+            file: None,
+            line: None,
+            column: None,
+        }),
+        _ => stop,
     }
 }
 
@@ -143,7 +224,9 @@ fn finished(stop: Stop, cycles: u64, screen: slowlight_vm::Screen) -> MachineRun
         stop,
         cycles,
         plot_cycles: None,
+        vm_instructions: None,
         os_calls: None,
+        rom_words: None,
         screen: Some(screen),
         output: Vec::new(),
         files: BTreeMap::new(),

@@ -8,6 +8,9 @@ mod bbc;
 mod dfs;
 mod hack;
 mod mos6502;
+mod os;
+
+pub use hack::Config as HackConfig;
 
 use crate::failure::{Failure, Outcome};
 use crate::interrupt;
@@ -19,10 +22,9 @@ use std::collections::BTreeMap;
 /// A machine that is bundled.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Machine {
-    /// The Hack computer: Jack and VM code on its VM, machine code on its CPU.
-    Hack,
-    /// The Hack computer's CPU, Jack and VM code translated for it.
-    HackCpu,
+    /// The Hack computer: Jack and VM code on its VM or, translated, on its CPU;
+    /// machine code on its CPU.
+    Hack(HackConfig),
     /// BBC BASIC and its screen.
     Bbc(Config),
     /// The plain machine around a 6502.
@@ -71,6 +73,8 @@ pub struct Sizes {
 
 /// A program that a machine's own tools have accepted.
 pub struct Loaded {
+    /// The sources of what the program was completed with: an operating system.
+    pub system: Vec<File>,
     /// What the real machine loads, beside the sources; may be empty.
     pub binaries: Vec<File>,
     /// Sizes as far as they are known before it runs.
@@ -79,8 +83,8 @@ pub struct Loaded {
 }
 
 enum Program {
-    Hack(Box<slowlight_vm::hack::vm::Program>),
-    HackCpu(Box<slowlight_vm::hack::cpu::Cpu>),
+    Hack(Box<hack::OnVm>),
+    HackCpu(Box<hack::OnCpu>),
     Bbc(slowlight_vm::bbc::Machine),
     Mos6502(Box<slowlight_vm::mos6502::Plain>),
 }
@@ -94,7 +98,11 @@ pub struct MachineRun {
     pub cycles: u64,
     /// Of those, what drawing took, where the machine can tell.
     pub plot_cycles: Option<u64>,
-    /// Calls of the operating system's functions (Jack).
+    /// VM instructions with a native operating system (Jack), where they were counted.
+    pub vm_instructions: Option<u64>,
+    /// Words of the ROM that the program takes, where it is in one.
+    pub rom_words: Option<u64>,
+    /// Calls of the native operating system's functions (Jack).
     pub os_calls: Option<u64>,
     /// The screen; none where the program showed nothing.
     pub screen: Option<Screen>,
@@ -116,7 +124,7 @@ impl Machine {
             }))
         };
         match name {
-            "jack" => Some(Machine::Hack),
+            "jack" => Some(Machine::Hack(HackConfig::default())),
             "bbc:micro" => bbc(Dialect::Micro),
             "bbc:agon" => bbc(Dialect::Agon),
             "bbc:basicv" => bbc(Dialect::BasicV),
@@ -133,10 +141,23 @@ impl Machine {
         }
     }
 
+    /// The same for a scene's program on the Hack computer's processor, with an
+    /// operating system in Jack; other machines stay what they are.
+    pub fn on_processor(self) -> Machine {
+        match self {
+            Machine::Hack(_) => Machine::Hack(HackConfig {
+                cpu: true,
+                os: true,
+                count: true,
+            }),
+            machine => machine,
+        }
+    }
+
     /// The extension of its source files.
     pub fn extension(self) -> &'static str {
         match self {
-            Machine::Hack | Machine::HackCpu => "jack",
+            Machine::Hack(_) => "jack",
             Machine::Bbc(_) => "bas",
             Machine::Mos6502 => "asm",
         }
@@ -144,7 +165,7 @@ impl Machine {
 
     /// Whether a program is several sources together.
     pub fn many_sources(self) -> bool {
-        matches!(self, Machine::Hack | Machine::HackCpu)
+        matches!(self, Machine::Hack(_))
     }
 
     /// Compiles, tokenises or assembles files for the machine.
@@ -153,8 +174,7 @@ impl Machine {
     /// Whatever the machine's tools say of the files.
     pub fn load(self, files: &[File]) -> Outcome<Loaded> {
         match self {
-            Machine::Hack => hack::load(files),
-            Machine::HackCpu => hack::load_for_cpu(files),
+            Machine::Hack(config) => hack::load(files, config),
             Machine::Bbc(config) => bbc::load(files, config),
             Machine::Mos6502 => mos6502::load(files),
         }
@@ -173,7 +193,7 @@ impl Loaded {
         };
         let run = match &mut self.program {
             Program::Hack(program) => hack::run(program, limit, &mut watch),
-            Program::HackCpu(cpu) => hack::run_cpu(cpu, self.sizes, limit, &mut watch),
+            Program::HackCpu(on) => hack::run_cpu(on, self.sizes, limit, &mut watch),
             Program::Bbc(machine) => bbc::run(machine, limit, &mut watch),
             Program::Mos6502(machine) => mos6502::run(machine, self.sizes, limit, &mut watch),
         };

@@ -20,6 +20,7 @@ pub fn load(files: &[File]) -> Outcome<Loaded> {
         machine.load(&file.bytes).map_err(refuse)?;
         let code = file.bytes.len().saturating_sub(2) as u64;
         return Ok(Loaded {
+            system: Vec::new(),
             binaries: Vec::new(),
             sizes: Sizes {
                 code: Some(code),
@@ -34,6 +35,7 @@ pub fn load(files: &[File]) -> Outcome<Loaded> {
     machine.load(&image).map_err(refuse)?;
     let stem = file.name.rsplit_once('.').map_or("", |(stem, _)| stem);
     Ok(Loaded {
+        system: Vec::new(),
         binaries: vec![File {
             name: format!("{stem}.bin"),
             bytes: image,
@@ -69,7 +71,9 @@ pub fn run(machine: &mut Plain, sizes: Sizes, limit: u64, watch: Watch<'_>) -> M
         stop: run.stop,
         cycles: run.cycles,
         plot_cycles: None,
+        vm_instructions: None,
         os_calls: None,
+        rom_words: None,
         screen: run.screen,
         output: Vec::new(),
         files: BTreeMap::new(),

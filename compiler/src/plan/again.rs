@@ -100,6 +100,7 @@ impl Plan {
         plan.params = self.params.clone();
         plan.items = self.items.clone();
         (plan.listing, plan.page) = (self.listing, self.page);
+        plan.statics = self.statics;
         Some(plan)
     }
 }

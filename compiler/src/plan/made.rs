@@ -186,6 +186,7 @@ pub(super) fn assemble(
         plot: goal.plot,
         tight: false,
         listing: false,
+        statics: false,
         items: Vec::new(),
         lean: false,
         copies: false,

@@ -127,6 +127,9 @@ pub struct Plan {
     /// Whether to write it for reading rather than for speed, where the target
     /// knows the difference; the values are the same.
     pub listing: bool,
+    /// Whether the values that are met most are kept at fixed addresses, where the
+    /// machine finds them faster there (the Hack computer's processor, in Jack).
+    pub statics: bool,
     /// Where the scene's items stand and what they are, in the order of the
     /// text: for listings.
     pub items: Vec<(Span, String)>,

@@ -106,6 +106,7 @@ impl Plan {
         let mut plan = assemble(graph, tree, found, params, self.target, &goal, origin)?;
         plan.items = self.items.clone();
         (plan.listing, plan.page) = (self.listing, self.page);
+        plan.statics = self.statics;
         Ok(plan)
     }
 }

@@ -2,7 +2,7 @@
 
 /// Sum or difference: alike but for the sign of `b`.
 macro_rules! sum {
-    ($doc:literal, $name:literal, $copy_b:literal, $sign_b:literal) => {
+    ($doc:literal, $name:literal, $copy_b:literal, $sign_b:literal, $shifted:literal) => {
         concat!(
             "    /** ",
             $doc,
@@ -35,7 +35,9 @@ macro_rules! sum {
         }
         if (d > 0) {
             if (d > 13) { let q = 0; }
-            else { let q = q / powers[d]; }
+            else { let q = ",
+            $shifted,
+            "; }
         }
         if (same) {
             let p = p + q;
@@ -92,7 +94,9 @@ pub(crate) const HEAD: &str = "    field int s, e, m;
     }
 ";
 
-pub(crate) const MAKE_POWERS: &str = "    static Array powers; // powers[k] = 2^k
+macro_rules! make_powers {
+    () => {
+        "    static Array powers; // powers[k] = 2^k
 
     function void makePowers() {
         var int k;
@@ -102,7 +106,11 @@ pub(crate) const MAKE_POWERS: &str = "    static Array powers; // powers[k] = 2^
         while (k < 15) { let powers[k] = powers[k - 1] * 2; let k = k + 1; }
         return;
     }
-";
+"
+    };
+}
+
+pub(crate) const MAKE_POWERS: &str = make_powers!();
 
 pub(crate) const MAKE_ROOT: &str = "    static Float quotient, root; // while a root is found
 
@@ -184,19 +192,39 @@ pub(crate) const SCALE: &str = "    /** this = a * 2^k, for k from -9 to 9 */
     }
 ";
 
-pub(crate) const ADD: &str = sum!(
-    "this = a + b; what is shifted out of the smaller is lost.",
-    "add",
-    "copy",
-    "b[0]"
-);
+macro_rules! add {
+    ($shifted:literal) => {
+        sum!(
+            "this = a + b; what is shifted out of the smaller is lost.",
+            "add",
+            "copy",
+            "b[0]",
+            $shifted
+        )
+    };
+}
 
-pub(crate) const SUB: &str = sum!(
-    "this = a - b; what is shifted out of the smaller is lost.",
-    "sub",
-    "neg",
-    "1 - b[0]"
-);
+macro_rules! sub {
+    ($shifted:literal) => {
+        sum!(
+            "this = a - b; what is shifted out of the smaller is lost.",
+            "sub",
+            "neg",
+            "1 - b[0]",
+            $shifted
+        )
+    };
+}
+
+pub(crate) const ADD: &str = add!("q / powers[d]");
+
+pub(crate) const SUB: &str = sub!("q / powers[d]");
+
+/// The same for the processor.
+pub(crate) const ADD_SHIFTED: &str = add!("Float.shifted(q, d)");
+
+/// The same for the processor.
+pub(crate) const SUB_SHIFTED: &str = sub!("Float.shifted(q, d)");
 
 pub(crate) const DIV: &str =
     "    /** this = a / b; by zero the largest value, zero by zero is zero. */

@@ -10,19 +10,15 @@
 //! comparison (a translated program compares by subtracting), parentheses
 //! everywhere (Jack has no precedence), nothing allocated but in `make...`.
 
+#[macro_use]
 mod float;
 mod functions;
 mod int;
 mod log;
 mod powers;
+mod processor;
 
 use slowlight_routine::{Part, Source};
-
-macro_rules! part {
-    ($name:literal, [$($need:literal),*], $words:literal, $text:expr) => {
-        Part { name: $name, source: Source::Text($text), needs: &[$($need),*], bytes: $words }
-    };
-}
 
 #[rustfmt::skip]
 pub(crate) static ALL: &[Part] = &[
@@ -108,6 +104,30 @@ pub(crate) static ALL: &[Part] = &[
     part!("Int.max", ["Int.less"], 60, int::MAX),
 ];
 
+/// What takes the place of parts on the processor; their needs are as large.
+const ON_PROCESSOR: &[(&str, &str)] = &[
+    ("Float.makePowers", processor::MAKE_POWERS_AND_SHIFT),
+    ("Float.add", float::ADD_SHIFTED),
+    ("Float.sub", float::SUB_SHIFTED),
+    ("Float.mul", processor::MUL),
+    ("Float.div", processor::DIV),
+];
+
+/// [`classes`] for a program that runs on the Hack's processor: the same values in
+/// fewer cycles, and in more VM commands.
+pub fn classes_for_processor(parts: &[&Part]) -> Vec<(&'static str, String)> {
+    let own = |part: &&Part| {
+        let text = ON_PROCESSOR.iter().find(|(name, _)| *name == part.name);
+        let source = text.map(|(_, text)| Source::Text(text));
+        Part {
+            source: source.unwrap_or(part.source),
+            ..**part
+        }
+    };
+    let parts: Vec<Part> = parts.iter().map(own).collect();
+    classes(&parts.iter().collect::<Vec<&Part>>())
+}
+
 /// The classes that hold the given parts (closed over their needs, in the
 /// runtime's order), each as its name and its text. A class's `init`, where
 /// there is one, must be called once before anything else of it.
@@ -125,7 +145,8 @@ pub fn classes(parts: &[&Part]) -> Vec<(&'static str, String)> {
             .copied()
             .filter(|p| class_of(p) == name)
             .collect();
-        (name, class(name, &own))
+        let init = has_init(name, &own).then(|| init(makers(name, &own)));
+        (name, class(ALL, name, &own, init))
     };
     names.into_iter().map(text).collect()
 }
@@ -135,18 +156,29 @@ pub fn has_init(class: &str, parts: &[&Part]) -> bool {
     makers(class, parts).next().is_some()
 }
 
-fn class_of(part: &Part) -> &'static str {
+pub(crate) fn class_of(part: &Part) -> &'static str {
     part.name.split('.').next().unwrap_or(part.name)
 }
 
 /// The subroutines that `init` calls.
-fn makers<'p>(class: &'p str, parts: &'p [&Part]) -> impl Iterator<Item = &'static str> + 'p {
+pub(crate) fn makers<'p>(
+    class: &'p str,
+    parts: &'p [&Part],
+) -> impl Iterator<Item = &'static str> + 'p {
     let own = parts.iter().filter(move |p| class_of(p) == class);
     own.map(|p| p.name).filter(|name| name.contains(".make"))
 }
 
-fn class(name: &str, parts: &[&Part]) -> String {
-    let head = ALL.iter().filter(|p| p.name == name);
+/// An `init` that calls these.
+pub(crate) fn init(makers: impl Iterator<Item = &'static str>) -> String {
+    let calls = makers.map(|maker| format!("        do {maker}();\n"));
+    let calls: String = calls.collect();
+    format!("    function void init() {{\n{calls}        return;\n    }}\n")
+}
+
+/// A class from its parts, which are some of `all`, and its `init`.
+pub(crate) fn class(all: &[Part], name: &str, parts: &[&Part], init: Option<String>) -> String {
+    let head = all.iter().filter(|p| p.name == name);
     let rest = parts.iter().copied().filter(|p| p.name != name);
     // Jack wants declarations first: those of a part go up.
     let mut declared = String::new();
@@ -164,10 +196,7 @@ fn class(name: &str, parts: &[&Part]) -> String {
         }
         written.push(code.trim_start_matches('\n').to_owned());
     }
-    if has_init(name, parts) {
-        let calls = makers(name, parts).map(|maker| format!("        do {maker}();\n"));
-        let calls: String = calls.collect();
-        let init = format!("    function void init() {{\n{calls}        return;\n    }}\n");
+    if let Some(init) = init {
         written.insert(1.min(written.len()), init);
     }
     written.insert(0, declared);

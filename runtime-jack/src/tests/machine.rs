@@ -8,8 +8,8 @@
 use super::generator::{Generator, Sums};
 use super::{edges, int_edges};
 use crate::model::{Float, int};
-use crate::{F316, classes, has_init};
-use slowlight_routine::{Bits, Form, Format, Routine};
+use crate::{F316, classes, classes_for_processor, has_init};
+use slowlight_routine::{Bits, Form, Format, Part, Routine};
 use slowlight_vm::Stop;
 use slowlight_vm::hack::jack;
 use slowlight_vm::hack::vm::{Machine, Program, Run};
@@ -103,7 +103,13 @@ fn excluded(routine: &Routine, args: &[Bits]) -> bool {
 }
 
 /// A program around the statement `step`, which sees the operands.
-fn program(routine: &Routine, step: &str, with_edges: bool, pairs: u32) -> Vec<(String, String)> {
+fn program(
+    routine: &Routine,
+    step: &str,
+    with_edges: bool,
+    pairs: u32,
+    classes: &Classes,
+) -> Vec<(String, String)> {
     let mut main = String::from("class Main {\n");
     main += MAIN;
     main += "    function void step() {\n";
@@ -243,10 +249,26 @@ fn noted(routine: &Routine) -> String {
 #[test]
 fn routines_compute_what_their_models_do() {
     for routine in F316.routines {
-        let mut files = program(routine, &noted(routine), true, pairs());
-        files[0].1 = files[0].1.replacen(
-            "    function void note(",
-            "    function void noteFloat(Array f) {
+        computes_what_its_model_does(routine, &classes);
+    }
+}
+
+/// Only the parts differ of which the processor has others.
+#[test]
+fn routines_for_the_processor_do_so_too() {
+    for name in ["add", "sub", "mul", "div", "sqrt"] {
+        let routine = F316.routines.iter().find(|r| r.name == name).unwrap();
+        computes_what_its_model_does(routine, &classes_for_processor);
+    }
+}
+
+type Classes = dyn Fn(&[&Part]) -> Vec<(&'static str, String)>;
+
+fn computes_what_its_model_does(routine: &Routine, classes: &Classes) {
+    let mut files = program(routine, &noted(routine), true, pairs(), classes);
+    files[0].1 = files[0].1.replacen(
+        "    function void note(",
+        "    function void noteFloat(Array f) {
         do Main.note(f[0]);
         do Main.note(f[1]);
         do Main.note(f[2]);
@@ -254,16 +276,15 @@ fn routines_compute_what_their_models_do() {
     }
 
     function void note(",
-            1,
-        );
-        let Sums(first, second) = expected(routine, true, pairs());
-        assert_eq!(
-            run(&files).text,
-            format!("{first} {second}"),
-            "{}",
-            routine.name
-        );
-    }
+        1,
+    );
+    let Sums(first, second) = expected(routine, true, pairs());
+    assert_eq!(
+        run(&files).text,
+        format!("{first} {second}"),
+        "{}",
+        routine.name
+    );
 }
 
 #[test]
@@ -287,7 +308,7 @@ fn mul_model(args: &[Bits]) -> Bits {
 /// loads; operands from 2^-10 to 2^11, roots from 0.
 fn cost(routine: &Routine) -> u32 {
     let count = |step: &str| {
-        let mut files = program(routine, step, false, 20_000);
+        let mut files = program(routine, step, false, 20_000, &classes);
         let main = files[0]
             .1
             .replace("if (kind = 0) { let f[1]", "if (kind = 9) { let f[1]");

@@ -6,6 +6,7 @@ mod facts;
 mod functions;
 pub mod generator;
 pub mod machine;
+mod os;
 
 use crate::F316;
 use crate::model::{BOTTOM, Float, TOP, int_bits};

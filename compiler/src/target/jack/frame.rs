@@ -6,10 +6,13 @@ use super::making::making;
 use super::params::{checks, parameters};
 use super::report::reports;
 use super::spread;
+use super::statics::statics;
 use super::{Document, Line, Text};
+use crate::flow::graph::TableId;
 use crate::plan::Plan;
 use slowlight_routine::Format;
-use slowlight_runtime_jack::{TERM, classes, has_init};
+use slowlight_runtime_jack::{TERM, classes, classes_for_processor, has_init};
+use std::collections::BTreeSet;
 
 /// Writes a plan down as the classes of a program, `Main` first.
 pub(super) fn program(plan: &Plan) -> Vec<Document> {
@@ -28,12 +31,28 @@ pub(super) fn program(plan: &Plan) -> Vec<Document> {
     let mut needs: Vec<&str> = plan.parts().iter().map(|p| p.name).collect();
     needs.extend(&code.needs);
     let parts = plan.runtime.closure(needs);
-    let scene = scene(&code, making, checks, drawing);
+    let library = match plan.statics && !plan.lean {
+        true => classes_for_processor(&parts),
+        false => classes(&parts),
+    };
+    let fixed = match plan.statics {
+        true => {
+            let often = code.methods.iter().flat_map(|m| &m.lines);
+            let often = often.chain(drawing.iter().flat_map(|s| &s.body));
+            statics(
+                declared(&code).into_iter().flat_map(|(_, names, _)| names),
+                often,
+                &library,
+            )
+        }
+        false => BTreeSet::new(),
+    };
+    let scene = scene(&code, &fixed, making, checks, drawing);
     let mut documents = vec![
         main(&class, &parts).document("Main"),
         scene.document(&class),
     ];
-    for (name, text) in classes(&parts) {
+    for (name, text) in library {
         let mut lines = Text::default();
         text.lines().for_each(|line| lines.line(line));
         documents.push(lines.document(name));
@@ -95,6 +114,7 @@ fn in_comment(name: &str) -> String {
 /// The whole class of the scene.
 fn scene(
     code: &Code,
+    fixed: &BTreeSet<String>,
     making: Vec<Subroutine>,
     checks: Vec<Line>,
     drawing: Vec<Subroutine>,
@@ -111,7 +131,7 @@ fn scene(
         plan.offset.1
     ));
     text.open(format!("class {} {{", code.names.class));
-    fields(code, &mut text);
+    fields(code, fixed, &mut text);
     let block = "What may be changed: whole numbers, each in its range.";
     let mut all = vec![subroutine(
         block,
@@ -165,79 +185,70 @@ fn scene(
     text
 }
 
-/// The declarations, a few names a line.
-fn fields(code: &Code, text: &mut Text) {
-    let names = &code.names;
-    let of = |format: Format| {
-        let all = code.written.iter().filter(move |(_, f)| *f == format);
-        all.map(|(name, _): &(String, Format)| name.as_str())
-    };
-    let mut declare = |ty: &str, all: Vec<&str>, about: &str| {
-        let mut rest = all.as_slice();
-        while !rest.is_empty() {
-            let mut wide = 0;
-            let fits = |name: &&&str| {
-                wide += name.len() + 2;
-                wide <= 80
-            };
-            let count = rest.iter().take_while(fits).count().max(1);
-            let (now, later) = rest.split_at(count);
-            text.line(format!("field {ty} {};{about}", now.join(", ")));
-            rest = later;
+/// The declarations, a few names a line: statics, then fields.
+fn fields(code: &Code, fixed: &BTreeSet<String>, text: &mut Text) {
+    for (kind, is_static) in [("static", true), ("field", false)] {
+        for (ty, names, about) in declared(code) {
+            let names = names.iter().filter(|n| fixed.contains(*n) == is_static);
+            let names: Vec<&str> = names.map(String::as_str).collect();
+            let mut rest = names.as_slice();
+            while !rest.is_empty() {
+                let mut wide = 0;
+                let fits = |name: &&&str| {
+                    wide += name.len() + 2;
+                    wide <= 80
+                };
+                let count = rest.iter().take_while(fits).count().max(1);
+                let (now, later) = rest.split_at(count);
+                text.line(format!("{kind} {ty} {};{about}", now.join(", ")));
+                rest = later;
+            }
         }
-    };
-    let params = names.params.iter().map(String::as_str).collect();
-    declare("int", params, " // parameters");
-    declare("int", names.rows.iter().map(String::as_str).collect(), "");
-    declare(
-        "int",
-        names.axes.iter().map(String::as_str).collect(),
-        " // the pixel",
-    );
-    let real = if code.logs() { "int" } else { "Float" };
-    let values = code.object.values().map(|(_, name)| name);
-    declare(real, values.collect(), " // parameters");
-    let constants = code.object.constants().iter().map(|c| c.name.as_str());
-    declare("Float", constants.collect(), " // constants");
-    if let Some(spread) = &code.spread {
-        let rows = spread.ring.iter().map(String::as_str).collect();
-        declare("Array", rows, " // what pixels send to later ones");
-        let signs: Vec<String> = spread.ring.iter().map(|row| spread::signs(row)).collect();
-        if code.logs() {
-            declare("Array", signs.iter().map(String::as_str).collect(), "");
-        }
-        declare(real, vec![&spread.received, &spread.sum], "");
     }
-    declare(
-        "Array",
-        names.tables().map(|(_, name)| name).collect(),
-        " // tables",
-    );
-    let signs: Vec<String> = (names.tables())
-        .filter(|(id, _)| {
-            code.logs()
-                && code
-                    .plan
-                    .graph
-                    .tables
-                    .get(id.0 as usize)
-                    .is_some_and(has_signs)
-        })
-        .map(|(_, name)| format!("{name}_plus"))
-        .collect();
-    declare("Array", signs.iter().map(String::as_str).collect(), "");
-    declare(
-        "int",
-        of(code.plan.runtime.real).filter(|_| code.logs()).collect(),
-        " // logarithms",
-    );
-    declare("Float", of(Format::Float316).collect(), "");
-    declare(
-        "int",
-        of(code.plan.runtime.int).chain(names.counters()).collect(),
-        "",
-    );
-    declare("boolean", of(Format::Bool).collect(), "");
+}
+
+/// What the scene's object holds: a type, names, and what they are.
+fn declared(code: &Code) -> Vec<(&'static str, Vec<String>, &'static str)> {
+    let names = &code.names;
+    let of = |format: Format| -> Vec<String> {
+        let all = code.written.iter().filter(|(_, f)| *f == format);
+        all.map(|(name, _)| name.clone()).collect()
+    };
+    let real = if code.logs() { "int" } else { "Float" };
+    let values = code.object.values().map(|(_, name)| name.to_owned());
+    let constants = code.object.constants().iter().map(|c| c.name.clone());
+    let mut all = vec![
+        ("int", names.params.clone(), " // parameters"),
+        ("int", names.rows.to_vec(), ""),
+        ("int", names.axes.to_vec(), " // the pixel"),
+        (real, values.collect(), " // parameters"),
+        ("Float", constants.collect(), " // constants"),
+    ];
+    if let Some(spread) = &code.spread {
+        let rows = spread.ring.to_vec();
+        all.push(("Array", rows, " // what pixels send to later ones"));
+        if code.logs() {
+            let signs = spread.ring.iter().map(|row| spread::signs(row));
+            all.push(("Array", signs.collect(), ""));
+        }
+        all.push((real, vec![spread.received.clone(), spread.sum.clone()], ""));
+    }
+    let tables = names.tables().map(|(_, name)| name.to_owned()).collect();
+    all.push(("Array", tables, " // tables"));
+    let tables = &code.plan.graph.tables;
+    let signed = |id: TableId| code.logs() && tables.get(id.0 as usize).is_some_and(has_signs);
+    let signs = names.tables().filter(|(id, _)| signed(*id));
+    let signs = signs.map(|(_, name)| format!("{name}_plus")).collect();
+    all.push(("Array", signs, ""));
+    if code.logs() {
+        all.push(("int", of(code.plan.runtime.real), " // logarithms"));
+    }
+    all.push(("Float", of(Format::Float316), ""));
+    let ints = of(code.plan.runtime.int).into_iter();
+    let counters = names.counters().map(str::to_owned);
+    all.push(("int", ints.chain(counters).collect(), ""));
+    all.push(("boolean", of(Format::Bool), ""));
+    all
 }
 
 pub(super) fn line(text: &str) -> Line {

@@ -24,7 +24,8 @@
 //! - `names`: what everything is called; `code`: statements and expressions; `logs`:
 //!   those of logarithmic reals; `lookup`: entries of tables;
 //! - `object`: constants and params; `making`: what fills the fields at the start;
-//! - `frame`: the classes around; `spread`: error diffusion.
+//! - `frame`: the classes around; `spread`: error diffusion; `statics`: which values
+//!   are statics, for the processor.
 
 mod code;
 mod expression;
@@ -37,8 +38,12 @@ mod object;
 mod params;
 mod report;
 mod spread;
+mod statics;
 #[cfg(test)]
 mod tests;
+
+/// The operating system for programs on the processor.
+pub use slowlight_runtime_jack::os;
 
 use super::{Document, Mode, Target};
 use crate::passes::outline::Sizes;

@@ -57,6 +57,9 @@ const METHODS: &[&str] = &[
     "reportFloat",
 ];
 
+/// Values that can have a static each; more share them.
+const SHARED_BEYOND: usize = 100;
+
 /// Names in use, and the fields' names.
 pub(super) struct Names {
     /// The scene's class.
@@ -96,8 +99,9 @@ impl Names {
         names.params = plan.params.iter().map(|p| names.fresh(&p.label)).collect();
         names.rows = ["first_row", "last_row"].map(|n| names.fresh(n));
         names.axes = ["x", "y"].map(|n| names.fresh(n));
-        // In little memory values share fields.
-        let shared = plan.tight.then(|| shared_homes(plan));
+        // In little memory values share fields, and statics, of which there are few.
+        let many = plan.statics && plan.places().len() > SHARED_BEYOND;
+        let shared = (plan.tight || many).then(|| shared_homes(plan));
         let mut sharing: HashMap<(Format, usize), String> = HashMap::new();
         for (place, format) in plan.places() {
             let mut fresh = || names.fresh(plan.home(place));

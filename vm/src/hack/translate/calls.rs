@@ -143,6 +143,10 @@ impl Body<'_, '_, '_> {
     /// # Errors
     /// There is no such function.
     pub(super) fn call(&mut self, at: u32, callee: usize, arguments: u16) -> Result<u32, String> {
+        if let Some(Entry { e, depth }) = self.looked_at(callee, arguments) {
+            self.push(e, depth);
+            return Ok(at + 1);
+        }
         let below = self.stack.len().saturating_sub(usize::from(arguments));
         // Constants stay what they are, and so do the function's own cells.
         let own = self.cells().cloned();

@@ -31,7 +31,8 @@
 //! jumps ([`branch`]). Words that go through `temp 0` and `pointer 1` on the way
 //! to an element of an array and are not read later are not written ([`live`]).
 //! Functions that do not call themselves, directly or not, keep their words at
-//! fixed addresses ([`frames`]); the others have the frames of the book.
+//! fixed addresses ([`frames`]); the others have the frames of the book. What only
+//! answers a word is not called ([`getters`]).
 //!
 //! What is fast is short here, too, so there is little to choose. Where a program
 //! does not fit the ROM, calls in methods are made shorter and slower ([`stubs`]).
@@ -57,6 +58,7 @@ mod expr;
 mod finish;
 mod frames;
 mod function;
+mod getters;
 mod graph;
 mod live;
 mod operand;

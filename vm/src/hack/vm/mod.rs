@@ -51,6 +51,7 @@ pub(in crate::hack) mod heights;
 mod join;
 pub(in crate::hack) mod link;
 mod machine;
+mod names;
 pub(in crate::hack) mod os;
 mod parse;
 mod plain;
@@ -59,3 +60,4 @@ pub(in crate::hack) mod tests;
 
 pub use link::Program;
 pub use machine::{Machine, Run};
+pub use names::Names;

@@ -41,3 +41,42 @@ fn an_operating_system_in_jack() {
     let program = jack::linked(&[("Main.jack", main)]);
     assert_eq!(figures(&program), (550, 236_439, 414_138));
 }
+
+/// What only answers a word is looked at where it is asked for.
+#[test]
+fn getters_are_not_called() {
+    let main = "class Main { function void main() {
+        var Point p; var int k, sum;
+        let p = Point.new(3, 4);
+        while (k < 10) {
+            let sum = sum + (p.y() * k) + Point.made() + p.x() + Point.seven();
+            let p = Point.other(p);
+            do p.move(Point.made(), p.x());
+            do p.y();
+            let k = k + 1;
+        }
+        do Output.printInt(sum);
+        return;
+    } }";
+    let point = "class Point {
+        field int x, y; static int made;
+        constructor Point new(int a, int b) {
+            let x = a; let y = b; let made = made + 1; return this;
+        }
+        method int x() { return x; }
+        method int y() { return y; }
+        method void move(int a, int b) { let x = x + a; let y = y + b; let made = made + 1; return; }
+        function int made() { return made; }
+        function int seven() { return 7; }
+        function Point other(Point p) { do p.move(1, 2); return p; }
+    }";
+    let program = jack::linked(&[("Main.jack", main), ("Point.jack", point)]);
+    let (_, results) = same(&program, true);
+    for (translation, _) in results {
+        for getter in ["x", "y", "made", "seven"] {
+            let label = format!("(Point.{getter})");
+            assert!(!translation.assembly.contains(&label), "{label}");
+        }
+        assert!(translation.assembly.contains("(Point.other)"));
+    }
+}

@@ -1,0 +1,64 @@
+//! Scenes that ship, from the ROM of the Hack's processor: the same pictures as on
+//! the VM with its own operating system, and on it with ours.
+
+use crate::cli::{directory, json, success};
+use std::path::{Path, PathBuf};
+
+fn example(name: &str) -> PathBuf {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    root.join("examples").join(format!("{name}.scn"))
+}
+
+/// Runs a scene on all three; answers cycles a VM command and words of ROM.
+fn same(name: &str, options: &[&str]) -> (f64, u64) {
+    let dir = directory(&[]);
+    let dir = dir.path();
+    let path = example(name);
+    let scene = path.to_str().expect("a path");
+    let run = |more: &[&str]| {
+        let args = ["run", scene, "-t", "jack", "--json"];
+        json(dir, &[&args[..], options, more].concat())
+    };
+    let native = run(&[]);
+    let rom = run(&["--os", "jack"]);
+    assert_eq!(rom["differs_from_model"], 0, "{name} {options:?}");
+    for key in ["inks_sha256", "differs_from_native", "rmse"] {
+        assert_eq!(rom[key], native[key], "{name} {options:?}: {key}");
+    }
+    // On the VM with our system, the whole screen.
+    let build = ["build", scene, "-t", "jack", "--os", "jack", "-o", "out"];
+    success(dir, &[&build[..], options].concat());
+    let screen = |args: &[&str]| json(dir, &[args, &["--json"]].concat());
+    let vm = screen(&["vm", "jack", "out"]);
+    assert_eq!(vm["stopped"], "ended");
+    let cpu = screen(&["vm", "hack", "out/Main.hack"]);
+    assert_eq!(cpu["inks_sha256"], vm["inks_sha256"], "{name} {options:?}");
+    assert_eq!(cpu["cycles"], rom["cycles"]);
+    let number = |key: &str| rom[key].as_u64().expect("a number");
+    let share = number("cycles") as f64 / number("vm_instructions") as f64;
+    (share, number("rom_words"))
+}
+
+#[test]
+fn a_torus_in_floats() {
+    let (share, words) = same("torus", &["--rows", "150..151", "--freeze", "all"]);
+    assert!(share < 2.5 && words < 20_000, "{share} {words}");
+    let (share, words) = same("torus", &["--rows", "90", "--set", "eye=0.5,1.75,3.5"]);
+    assert!(share < 2.5 && words < 24_000, "{share} {words}");
+}
+
+#[test]
+fn a_torus_in_logarithms() {
+    for rows in ["90..93", "200"] {
+        let options = ["--rows", rows, "--freeze", "all", "--format", "log10"];
+        let (share, words) = same("torus", &options);
+        assert!(share < 2.0 && words < 20_000, "{share} {words}");
+    }
+}
+
+#[test]
+fn a_maze_and_what_diffuses_errors() {
+    same("maze", &["--rows", "10..14"]);
+    same("primitives", &["--rows", "0..3"]);
+    same("mirrors", &["--rows", "120..123", "--format", "log10"]);
+}
