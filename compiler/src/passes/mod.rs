@@ -5,6 +5,7 @@ pub mod apart;
 mod arena;
 pub mod demand;
 pub mod early;
+pub mod factors;
 pub mod fold;
 pub mod guard;
 pub mod homogeneous;
@@ -35,6 +36,8 @@ pub mod units;
 mod apart_tests;
 #[cfg(test)]
 mod claim_tests;
+#[cfg(test)]
+mod factors_tests;
 #[cfg(test)]
 mod guard_tests;
 #[cfg(test)]

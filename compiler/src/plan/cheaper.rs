@@ -16,6 +16,7 @@ use crate::flow::graph::*;
 use crate::passes::algebra::{Cheaper, Verdicts, algebra, decided, spans};
 use crate::passes::apart::apart;
 use crate::passes::early::in_loops;
+use crate::passes::factors::factors;
 use crate::passes::guard::guard;
 use crate::passes::homogeneous::{homogeneous, lengths};
 use crate::passes::identities::{around, identities};
@@ -47,6 +48,10 @@ const SHORTER: f64 = 0.99;
 
 /// By how much spans must.
 const SPANS: f64 = 0.99;
+
+/// By how much a choice between a factor's values must, and how many are tried.
+const CHOICE: f64 = 0.999;
+const FACTORS: usize = 12;
 
 /// How often values are taken apart: what one needs may be taken apart after it.
 const APART: usize = 6;
@@ -222,6 +227,8 @@ impl Site<'_> {
             .filter(|next| self.cost(next) < self.cost(base));
         let found = shared.or(found);
         let base = found.as_ref().unwrap_or(plain);
+        let found = self.chosen(base).or(found);
+        let base = found.as_ref().unwrap_or(plain);
         let found = self.around(base).or(found);
         let base = found.as_ref().unwrap_or(plain);
         let found = self.sited(base, SHORTER, Rewrite::Identities).or(found);
@@ -249,6 +256,24 @@ impl Site<'_> {
             let held = longer.filter(|_| self.products).unwrap_or(held);
             Some(self.decided(self.shop.settle(&held)))
         })
+    }
+
+    /// The plan with what is multiplied by one of few numbers chosen by which that is.
+    fn chosen(&self, plan: &Settled) -> Option<Settled> {
+        let mut best: Option<Settled> = None;
+        let mut which = 0;
+        for _ in 0..FACTORS {
+            let now = best.as_ref().unwrap_or(plan);
+            let next = factors(&now.graph, &now.ranges, self.runtime, which);
+            let Some(next) = next.map(|graph| self.shop.settle(&graph)) else {
+                break;
+            };
+            match self.cost(&next) < CHOICE * self.cost(now) {
+                true => best = Some(next),
+                false => which += 1,
+            }
+        }
+        best
     }
 
     /// The plan without comparisons that the length of a vector decides.
