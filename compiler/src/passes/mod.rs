@@ -37,8 +37,6 @@ mod apart_tests;
 #[cfg(test)]
 mod claim_tests;
 #[cfg(test)]
-mod factors_tests;
-#[cfg(test)]
 mod guard_tests;
 #[cfg(test)]
 mod peel_tests;

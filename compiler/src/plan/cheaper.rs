@@ -7,6 +7,7 @@
 //! it saves where others needed its parts, or where the ranges cannot see its
 //! sign and it needs a guard.
 
+use super::chosen::chosen;
 use super::price::Price;
 use super::recipes::followed;
 use super::settled::Settled;
@@ -16,7 +17,6 @@ use crate::flow::graph::*;
 use crate::passes::algebra::{Cheaper, Verdicts, algebra, decided, spans};
 use crate::passes::apart::apart;
 use crate::passes::early::in_loops;
-use crate::passes::factors::factors;
 use crate::passes::guard::guard;
 use crate::passes::homogeneous::{homogeneous, lengths};
 use crate::passes::identities::{around, identities};
@@ -49,10 +49,6 @@ const SHORTER: f64 = 0.99;
 /// By how much spans must.
 const SPANS: f64 = 0.99;
 
-/// By how much a choice between a factor's values must, and how many are tried.
-const CHOICE: f64 = 0.999;
-const FACTORS: usize = 12;
-
 /// How often values are taken apart: what one needs may be taken apart after it.
 const APART: usize = 6;
 
@@ -61,7 +57,7 @@ const LENGTHS: usize = 4;
 
 /// How many nodes a graph may have to be looked at by algebra, and how many may
 /// be scheduled again to find out which forms pay.
-const NODES: usize = 1000;
+pub(super) const NODES: usize = 1000;
 const PATIENCE: usize = 10_000;
 
 /// Graphs that give the same picture in fewer cycles: the cheapest one, and the
@@ -227,7 +223,7 @@ impl Site<'_> {
             .filter(|next| self.cost(next) < self.cost(base));
         let found = shared.or(found);
         let base = found.as_ref().unwrap_or(plain);
-        let found = self.chosen(base).or(found);
+        let found = chosen(base, self.shop, &self.price).or(found);
         let base = found.as_ref().unwrap_or(plain);
         let found = self.around(base).or(found);
         let base = found.as_ref().unwrap_or(plain);
@@ -256,24 +252,6 @@ impl Site<'_> {
             let held = longer.filter(|_| self.products).unwrap_or(held);
             Some(self.decided(self.shop.settle(&held)))
         })
-    }
-
-    /// The plan with what is multiplied by one of few numbers chosen by which that is.
-    fn chosen(&self, plan: &Settled) -> Option<Settled> {
-        let mut best: Option<Settled> = None;
-        let mut which = 0;
-        for _ in 0..FACTORS {
-            let now = best.as_ref().unwrap_or(plan);
-            let next = factors(&now.graph, &now.ranges, self.runtime, which);
-            let Some(next) = next.map(|graph| self.shop.settle(&graph)) else {
-                break;
-            };
-            match self.cost(&next) < CHOICE * self.cost(now) {
-                true => best = Some(next),
-                false => which += 1,
-            }
-        }
-        best
     }
 
     /// The plan without comparisons that the length of a vector decides.

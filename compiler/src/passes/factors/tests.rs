@@ -1,15 +1,15 @@
 //! What is chosen by a factor's few values is what the factor made.
 #![allow(clippy::unwrap_used)]
 
-use super::factors::factors;
-use super::fold::fold;
-use super::rebuild::rebuild;
-use super::schedule::schedule;
+use super::factors;
 use crate::eval::drawn::{grid, picture};
 use crate::eval::native::Native;
 use crate::eval::random_graphs;
 use crate::flow::graph::*;
 use crate::flow::verify::verify;
+use crate::passes::fold::fold;
+use crate::passes::rebuild::rebuild;
+use crate::passes::schedule::schedule;
 use crate::plan::{Goal, plan};
 use crate::range::{Slack, ranges};
 use crate::scene::check;
@@ -31,8 +31,7 @@ fn graph(draw: &str) -> Graph {
 /// Every way there is, one at a time.
 fn ways(graph: &Graph, runtime: &Runtime) -> Vec<Graph> {
     let found = ranges(graph, &schedule(graph), &Slack::exact());
-    (0..)
-        .map_while(|which| factors(graph, &found, runtime, which))
+    factors(graph, &found, runtime)
         .map(|next| fold(&next))
         .collect()
 }
