@@ -6,6 +6,7 @@ mod arena;
 pub mod arms;
 pub mod demand;
 pub mod early;
+pub mod factors;
 pub mod fold;
 pub mod guard;
 pub mod homogeneous;

@@ -7,6 +7,7 @@
 //! it saves where others needed its parts, or where the ranges cannot see its
 //! sign and it needs a guard.
 
+use super::chosen::chosen;
 use super::price::Price;
 use super::recipes::followed;
 use super::settled::Settled;
@@ -60,7 +61,7 @@ const LENGTHS: usize = 4;
 
 /// How many nodes a graph may have to be looked at by algebra, and how many may
 /// be scheduled again to find out which forms pay.
-const NODES: usize = 1000;
+pub(super) const NODES: usize = 1000;
 const PATIENCE: usize = 10_000;
 
 /// Graphs that give the same picture in fewer cycles: the cheapest one, and the
@@ -241,6 +242,8 @@ impl Site<'_> {
             .map(|next| self.shop.settle(&next))
             .filter(|next| self.cost(next) < self.cost(base));
         let found = shared.or(found);
+        let base = found.as_ref().unwrap_or(plain);
+        let found = chosen(base, self.shop, &self.price).or(found);
         let base = found.as_ref().unwrap_or(plain);
         let found = self.around(base).or(found);
         let base = found.as_ref().unwrap_or(plain);

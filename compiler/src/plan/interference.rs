@@ -38,16 +38,10 @@ pub fn quick_homes(plan: &Plan) -> Homes {
         }
     }
     let mut classes = Classes::new(places);
-    // Copies outside of pixels hardly take time, but memory.
-    let first = match plan.calls_seldom() {
-        true => 0,
-        false => flow.pixel,
-    };
-    for (at, step) in flow.steps.iter().enumerate() {
-        if let (Some(to), Some(from), true) = (step.writes, step.copies, at >= first) {
+    for step in &flow.steps {
+        if let (Some(to), Some(from)) = (step.writes, step.copies) {
             let formats = [to, from].map(|place| flow.format(place));
-            let inside = |place: usize| flow.span[place].0 >= first;
-            if formats[0] == formats[1] && inside(to) && inside(from) {
+            if formats[0] == formats[1] {
                 classes.join(to, from, &mut [&mut meets, &mut close]);
             }
         }

@@ -46,6 +46,7 @@ mod alive;
 mod beside;
 mod cheaper;
 mod choose;
+mod chosen;
 mod fold_uses;
 mod interference;
 #[cfg(test)]

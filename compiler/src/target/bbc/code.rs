@@ -254,11 +254,17 @@ impl<'p> Code<'p> {
             self.lines.append(yes);
         } else {
             let other = self.labels.next();
-            self.lines.line(format!("IF {fails} THEN {other}"), span);
-            self.lines.append(yes);
+            // Either way jumps once; the shorter test is the quicker one.
+            let swaps = short && fails.len() > holds.len() + 1;
+            let (test, first, second) = match swaps {
+                true => (holds, no, yes),
+                false => (fails, yes, no),
+            };
+            self.lines.line(format!("IF {test} THEN {other}"), span);
+            self.lines.append(first);
             self.lines.line(format!("GOTO {end}"), span);
             self.lines.place(other);
-            self.lines.append(no);
+            self.lines.append(second);
         }
         self.lines.place(end);
     }

@@ -267,7 +267,7 @@ impl<'p> Expressions<'p> {
     pub fn condition(&mut self, id: NodeId, holds: bool) -> String {
         let text = self.read(id);
         if holds {
-            return text.text;
+            return self.truth(id).unwrap_or(text.text);
         }
         let opposite = [("<=", ">"), ("<", ">="), ("=", "<>")];
         if self.inline.contains_key(&id)
@@ -293,5 +293,16 @@ impl<'p> Expressions<'p> {
             Some(inner) if self.inline.contains_key(&id) => inner.to_owned(),
             _ => format!("NOT {}", text.at(OPERAND)),
         }
+    }
+
+    /// An int that is 0 or 1, where a condition asks whether it is 1.
+    fn truth(&mut self, id: NodeId) -> Option<String> {
+        let plan = self.plan;
+        let Node::Apply(Op::IntLess, [zero, of]) = plan.graph.node(id) else {
+            return None;
+        };
+        let known = plan.ranges.result.get(of.0 as usize)?.within(0.0, 1.0);
+        let asks = known && plan.graph.constant(zero) == Some(Value::Int(0));
+        (asks && self.inline.contains_key(&id)).then(|| self.read(of).text)
     }
 }

@@ -1,0 +1,34 @@
+//! Which factors are chosen by the values that they take: [`crate::passes::factors`].
+
+use super::cheaper::NODES;
+use super::price::Price;
+use super::settled::Settled;
+use super::workshop::Workshop;
+use crate::passes::factors::factors;
+
+/// By how much a choice must make the plan cheaper: what a jump more costs is not known
+/// so well.
+const CHOICE: f64 = 0.999;
+
+/// How many factors are chosen.
+const FACTORS: usize = 8;
+
+/// The plan with what is multiplied by one of few numbers chosen by which that is, each
+/// in the cheapest way; nothing where that pays nowhere.
+pub fn chosen(plan: &Settled, shop: &Workshop, price: &Price) -> Option<Settled> {
+    let mut best: Option<Settled> = None;
+    if plan.graph.nodes.len() > NODES {
+        return best;
+    }
+    for _ in 0..FACTORS {
+        let now = best.as_ref().unwrap_or(plan);
+        let ways = factors(&now.graph, &now.ranges, shop.runtime);
+        let next = price.cheapest(ways.map(|graph| shop.settle(&graph)));
+        let limit = CHOICE * price.of(now);
+        let Some(next) = next.filter(|next| price.of(next) < limit) else {
+            break;
+        };
+        best = Some(next);
+    }
+    best
+}
