@@ -64,6 +64,7 @@ pub mod recipes;
 pub(crate) mod settled;
 mod spread;
 mod stepped;
+mod sums;
 mod thrift;
 pub(crate) mod workshop;
 #[cfg(test)]
