@@ -25,6 +25,17 @@ fn power_of_two(x: f64) -> bool {
     x.is_normal() && x.to_bits() & ((1 << 52) - 1) == 0 && (1.0 / x).is_normal()
 }
 
+/// What an operation on some values is the same as, if that is something simpler.
+pub(super) fn simpler(b: &mut Builder, op: Op, [x, y]: [NodeId; 2], span: Span) -> Option<NodeId> {
+    let constant = |id| b.value(id).is_some();
+    if constant(x) && (op.arity() < 2 || constant(y)) {
+        let args = [x, y];
+        return Some(b.apply(op, &args[..op.arity()], span));
+    }
+    let by_power = op == Op::Div;
+    apply(b, op, x, y, span).filter(|_| !by_power)
+}
+
 fn apply(b: &mut Builder, op: Op, x: NodeId, y: NodeId, span: Span) -> Option<NodeId> {
     let (left, right) = (b.value(x), if op.arity() > 1 { b.value(y) } else { None });
     let is = |value: Option<Value>, what: f64| value.is_some_and(|v| v.real() == what);

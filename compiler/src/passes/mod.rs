@@ -3,6 +3,7 @@
 pub mod algebra;
 pub mod apart;
 mod arena;
+pub mod arms;
 pub mod demand;
 pub mod early;
 pub mod fold;

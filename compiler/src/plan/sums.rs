@@ -8,6 +8,8 @@ use super::price::Price;
 use super::settled::Settled;
 use super::thrift::Thrift;
 use super::workshop::Workshop;
+use crate::flow::graph::NodeId;
+use crate::passes::arms::{chosen_by, into_arms};
 use crate::passes::sums::{Site, regrouped, sites};
 
 /// By how much a sum's form must make a plan cheaper.
@@ -19,38 +21,76 @@ const PATIENCE: usize = 60_000;
 /// The plan with sums in other forms where that makes it cheaper.
 pub fn with_sums(plan: Settled, shop: &Workshop, thrift: Thrift) -> Settled {
     let found = sites(&plan.graph, &plan.ranges, shop.runtime);
+    let debug = std::env::var("SUMS").unwrap_or_default();
+    let found: Vec<Site> = found.into_iter().filter(|s| !format!("{s:?}").starts_with(&debug) || debug.is_empty()).collect();
     let price = Price::new(&plan, shop.runtime, thrift);
+    let made = |sites: &[Site]| regrouped(&plan.graph, &plan.ranges, shop.runtime, sites);
     let rewritten = |sites: &[Site]| {
-        let next = regrouped(&plan.graph, &plan.ranges, shop.runtime, sites)?;
-        let next = shop.settle(&next);
+        let next = shop.settle(&made(sites)?.0);
         Some((price.of(&next), next))
     };
-    let mut tries = PATIENCE / plan.graph.nodes.len().max(1);
-    let (mut gathered, others): (Vec<Site>, Vec<Site>) =
-        (found.into_iter()).partition(|site| matches!(site, Site::Gathered(_)));
+    let gathers = |site: &&Site| matches!(site, Site::Gathered(_));
+    let mut gathered: Vec<Site> = found.iter().filter(gathers).copied().collect();
+    let changed = made(&gathered).map_or(Vec::new(), |(_, changed)| changed);
+    gathered.retain(|site| matches!(site, Site::Gathered(id) if changed.contains(id)));
+    let others = found.iter().filter(|site| !gathers(site) && made(&[**site]).is_some());
     let now = price.of(&plan);
-    let (mut least, mut best) = (now, None);
+    let mut best = Best {
+        least: now,
+        sites: Vec::new(),
+        plan: None,
+    };
     if let Some((cost, next)) = rewritten(&gathered) {
-        (least, best) = (cost, Some(next));
-    }
-    for site in gathered.clone().into_iter().take(tries) {
-        tries -= 1;
-        let rest: Vec<Site> = gathered.iter().copied().filter(|s| *s != site).collect();
-        let (cost, next) = match rewritten(&rest) {
-            Some((cost, next)) => (cost, Some(next)),
-            None => (now, None),
+        best = Best {
+            least: cost,
+            sites: gathered.clone(),
+            plan: Some(next),
         };
-        if cost <= least {
-            (least, best, gathered) = (cost, next, rest);
+    }
+    let tries = PATIENCE / plan.graph.nodes.len().max(1);
+    // What pays beside others may not without them, and the other way round.
+    for site in gathered.iter().rev().chain(others).chain(&gathered).take(tries) {
+        let (has, mut sites) = (best.sites.contains(site), best.sites.clone());
+        match has {
+            true => sites.retain(|other| other != site),
+            false => sites.push(*site),
+        }
+        let tried = rewritten(&sites);
+        let cost = tried.as_ref().map_or(now, |(cost, _)| *cost);
+        let limit = if has { best.least } else { GAIN * best.least };
+        if !debug.is_empty() { eprintln!("{site:?} {has} {cost} {limit}"); }
+        if cost <= limit {
+            best = Best {
+                least: cost,
+                sites,
+                plan: tried.map(|(_, next)| next),
+            };
         }
     }
-    for site in others.into_iter().take(tries) {
-        let more: Vec<Site> = gathered.iter().copied().chain([site]).collect();
-        if let Some((cost, next)) = rewritten(&more)
-            && cost < GAIN * least
-        {
-            (least, best, gathered) = (cost, Some(next), more);
+    let Best { least, plan: found, .. } = best;
+    found.filter(|_| least < GAIN * now).unwrap_or(plan)
+}
+
+/// The plan with operations in the arms of choices where that makes it cheaper.
+pub fn with_arms(plan: Settled, shop: &Workshop, thrift: Thrift) -> Settled {
+    let price = Price::new(&plan, shop.runtime, thrift);
+    let mut best = plan.clone();
+    let mut taken: Vec<NodeId> = Vec::new();
+    let tries = PATIENCE / plan.graph.nodes.len().max(1);
+    for by in chosen_by(&plan.graph).into_iter().take(tries) {
+        taken.push(by);
+        let next = into_arms(&plan.graph, &taken).map(|graph| shop.settle(&graph));
+        match next {
+            Some(next) if price.of(&next) < GAIN * price.of(&best) => best = next,
+            _ => drop(taken.pop()),
         }
     }
-    best.filter(|_| least < GAIN * now).unwrap_or(plan)
+    best
+}
+
+/// The cheapest so far: at which sites.
+struct Best {
+    least: f64,
+    sites: Vec<Site>,
+    plan: Option<Settled>,
 }

@@ -36,6 +36,8 @@ use terms::{Product, Term};
 pub enum Site {
     /// A sum, its terms gathered; or a quotient, without what goes against itself.
     Gathered(NodeId),
+    /// A sum of which all terms are divided by one value: it is once.
+    Divided(NodeId),
     /// The sums that differ from one by what is the same for a run, made of that.
     From(NodeId),
 }
@@ -48,6 +50,8 @@ pub fn sites(graph: &Graph, ranges: &Ranges, runtime: &Runtime) -> Vec<Site> {
     let sums = Sums::new(graph, ranges, runtime);
     let gathered = graph.ids().filter(|id| sums.is_site(*id));
     let mut all: Vec<Site> = gathered.map(Site::Gathered).collect();
+    let divided = graph.ids().filter(|id| sums.is_divided(*id));
+    all.extend(divided.map(Site::Divided));
     for group in sums.groups.values().filter(|group| group.len() > 1) {
         let bases = group.iter().filter(|member| sums.is_sum(member.id));
         all.extend(bases.map(|member| Site::From(member.id)));
@@ -55,16 +59,17 @@ pub fn sites(graph: &Graph, ranges: &Ranges, runtime: &Runtime) -> Vec<Site> {
     all
 }
 
-/// The graph with sums at some sites put in the other form; nothing where none is.
+/// The graph with sums at some sites put in the other form, and the values in the place
+/// of which something else stands; nothing where there are none.
 pub fn regrouped(
     graph: &Graph,
     ranges: &Ranges,
     runtime: &Runtime,
     sites: &[Site],
-) -> Option<Graph> {
+) -> Option<(Graph, Vec<NodeId>)> {
     let sums = Sums::new(graph, ranges, runtime);
     let pairs = sums.pairs(sites);
-    let mut done = false;
+    let mut done = Vec::new();
     let next = rebuild_old(graph, &mut |builder, made, id, span| {
         let mut put = put::Put {
             sums: &sums,
@@ -76,15 +81,18 @@ pub fn regrouped(
         };
         let found = match sums.base(id, sites) {
             Some(base) => put.from(id, base),
-            None if sites.contains(&Site::Gathered(id)) => put.gathered(id),
+            None if sites.contains(&Site::Divided(id)) => put.gathered(id, true),
+            None if sites.contains(&Site::Gathered(id)) => put.gathered(id, false),
             None => None,
         }?;
         let new = |old: NodeId| made.get(old.0 as usize).copied().flatten();
         let sound = put.proved || sums.judged(put.builder, &new, id, found);
-        done |= sound;
-        sound.then_some(found)
+        sound.then(|| {
+            done.push(id);
+            found
+        })
     });
-    done.then_some(next)
+    (!done.is_empty()).then_some((next, done))
 }
 
 /// A value that is what a group has in common, or its negative, and something known.
@@ -159,6 +167,12 @@ impl<'g> Sums<'g> {
         }
     }
 
+    fn is_divided(&self, id: NodeId) -> bool {
+        let sum = self.is_sum(id) && self.is_site(id);
+        let terms = sum.then(|| self.terms(id)).flatten();
+        terms.is_some_and(|terms| self.divided(&terms, true).0.is_some())
+    }
+
     /// Whether a value is proved not to be 0.
     fn some(&self, id: NodeId) -> bool {
         let range = self.ranges.result.get(id.0 as usize);
@@ -211,14 +225,13 @@ impl<'g> Sums<'g> {
     /// The pairs of terms that several sums have, and how many.
     fn pairs(&self, sites: &[Site]) -> FxHashMap<[Product; 2], usize> {
         let mut pairs = FxHashMap::default();
-        for site in sites {
-            let Site::Gathered(id) = site else {
+        for id in self.graph.ids() {
+            let divides = sites.contains(&Site::Divided(id));
+            let gathers = divides || sites.contains(&Site::Gathered(id));
+            let Some(terms) = gathers.then(|| self.terms(id)).flatten() else {
                 continue;
             };
-            let Some(terms) = self.terms(*id) else {
-                continue;
-            };
-            let all = self.divided(&terms).1;
+            let all = self.divided(&terms, divides).1;
             for (k, a) in all.iter().enumerate() {
                 for b in &all[k + 1..] {
                     *pairs.entry(pair(a, b)).or_insert(0) += 1;

@@ -33,8 +33,9 @@ pub(super) struct Put<'p, 'g> {
 }
 
 impl Sums<'_> {
-    /// What all terms are divided by, if anything, and the terms without.
-    pub(super) fn divided(&self, terms: &Terms) -> (Option<NodeId>, Vec<Product>) {
+    /// What all terms are divided by, if that is asked for and anything, and the terms
+    /// without. Squares stay: whose length is asked for is known by them.
+    pub(super) fn divided(&self, terms: &Terms, asked: bool) -> (Option<NodeId>, Vec<Product>) {
         let all: Vec<Product> = (terms.high.iter().chain(&terms.low))
             .map(|term| {
                 let mut product = self.product(term.id);
@@ -42,10 +43,11 @@ impl Sums<'_> {
                 product
             })
             .collect();
-        let candidates = all.first().map_or(&[][..], |p| &p.divisors);
-        let common = candidates.iter().copied().find(|by| {
-            all.len() > 1 && self.some(*by) && all.iter().all(|p| p.divisors.contains(by))
-        });
+        let square = |term: &Term| matches!(self.graph.node(term.id), Node::Apply(Op::Mul, [a, b]) if a == b);
+        let fits = asked && all.len() > 1 && !terms.high.iter().any(square);
+        let candidates = all.first().filter(|_| fits).map_or(&[][..], |p| &p.divisors);
+        let common = (candidates.iter().copied())
+            .find(|by| self.some(*by) && all.iter().all(|p| p.divisors.contains(by)));
         let Some(by) = common else {
             return (None, all);
         };
@@ -180,7 +182,7 @@ impl Put<'_, '_> {
     }
 
     /// A sum with its terms gathered, or a quotient without a factor of both sides.
-    pub(super) fn gathered(&mut self, id: NodeId) -> Option<NodeId> {
+    pub(super) fn gathered(&mut self, id: NodeId, divided: bool) -> Option<NodeId> {
         let found = match self.sums.graph.node(id) {
             Node::Apply(Op::Div, [a, by]) => {
                 let product = self.sums.product(a).divided(by);
@@ -193,15 +195,15 @@ impl Put<'_, '_> {
                     key: Product::default(),
                 })
             }
-            _ => self.gathered_sum(id)?,
+            _ => self.gathered_sum(id, divided)?,
         };
         (self.plain(id) != Some(found)).then_some(found)
     }
 
-    fn gathered_sum(&mut self, id: NodeId) -> Option<NodeId> {
+    fn gathered_sum(&mut self, id: NodeId, divided: bool) -> Option<NodeId> {
         let sums = self.sums;
         let terms = sums.terms(id)?;
-        let (by, products) = sums.divided(&terms);
+        let (by, products) = sums.divided(&terms, divided);
         let (mut high, mut low) = (Vec::new(), Vec::new());
         let (mut rounded, mut exact) = (true, 0);
         for (term, key) in terms.high.iter().chain(&terms.low).zip(products) {

@@ -1,0 +1,148 @@
+//! Arms: where one arm of a choice is a constant, what is made of it is chosen, too.
+//!
+//! A scene's hits are joined before they are shaded: the normal of the floor is
+//! (0, 1, 0), that of a ball another at each point, and the shade asks for their
+//! products with the light's direction. l_x n_x + l_y n_y + l_z n_z is five operations
+//! of a choice, or a choice between l_y and five operations. An operation goes into
+//! the arms where one of them is simpler for it: 0 times a value, 1 times, 0 and a value.
+//! Every step is exact, as [`super::fold`] is.
+
+use super::fold::simpler;
+use super::rebuild::rebuild_old;
+use crate::flow::build::Builder;
+use crate::flow::graph::*;
+use crate::source::Span;
+use slowlight_routine::{Op, Type};
+use std::collections::BTreeSet;
+
+/// The bools by which a real is chosen that is a constant on one way.
+pub fn chosen_by(graph: &Graph) -> Vec<NodeId> {
+    let reached = graph.reached();
+    let all: BTreeSet<NodeId> = (graph.ids())
+        .filter(|id| reached[id.0 as usize] && graph.ty(*id) == Type::Real)
+        .filter_map(|id| match graph.node(id) {
+            Node::Select { cond, yes, no } => {
+                let either = graph.constant(yes).is_some() || graph.constant(no).is_some();
+                either.then_some(cond)
+            }
+            _ => None,
+        })
+        .collect();
+    all.into_iter().collect()
+}
+
+/// The graph with operations in the arms of choices by some bools; nothing where none
+/// becomes simpler there.
+pub fn into_arms(graph: &Graph, by: &[NodeId]) -> Option<Graph> {
+    let mut done = false;
+    let next = rebuild_old(graph, &mut |builder, made, id, span| {
+        let Node::Apply(op, args) = graph.node(id) else {
+            return None;
+        };
+        if op.result() != Type::Real {
+            return None;
+        }
+        let new = |old: NodeId| made.get(old.0 as usize).copied().flatten();
+        let args = [new(args[0])?, new(args[1])?];
+        let conds: Vec<NodeId> = by.iter().filter_map(|cond| new(*cond)).collect();
+        let cond = args.iter().find_map(|arg| match builder.node(*arg) {
+            Node::Select { cond, .. } if conds.contains(&cond) => Some(cond),
+            _ => None,
+        })?;
+        let yes = args.map(|arg| arm(builder, arg, cond, true));
+        let no = args.map(|arg| arm(builder, arg, cond, false));
+        let simple = [yes, no].map(|args| simpler(builder, op, args, span));
+        if simple.iter().all(Option::is_none) {
+            return None;
+        }
+        let arms = [(simple[0], yes), (simple[1], no)];
+        let [yes, no] = arms.map(|(simple, args)| simple.unwrap_or_else(|| applied(builder, op, args, span)));
+        done = true;
+        Some(builder.select(cond, yes, no, span))
+    });
+    done.then_some(next)
+}
+
+/// What a value is where a bool holds or not.
+fn arm(builder: &Builder, id: NodeId, by: NodeId, holds: bool) -> NodeId {
+    match builder.node(id) {
+        Node::Select { cond, yes, no } if cond == by => match holds {
+            true => yes,
+            false => no,
+        },
+        _ => id,
+    }
+}
+
+fn applied(builder: &mut Builder, op: Op, args: [NodeId; 2], span: Span) -> NodeId {
+    builder.apply(op, &args[..op.arity()], span)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::eval::drawn::{examples, grid, picture};
+    use crate::passes::fold::fold;
+    use crate::passes::schedule::schedule;
+    use crate::scene;
+    use crate::sema::Options;
+
+    fn lowered(normal: &str) -> Graph {
+        let source = format!(
+            "image 8 x 8 inks black, white;
+             draw (x, y) = {{
+               let l = (x - 3.5, y - 2.5, 2);
+               let n = if x > y then {normal} else (x * 0.3, y - 4, 1.5);
+               ink(if dot(l, n) > 1 then 1 else 0)
+             }};"
+        );
+        let graph = scene::check("test", &source).lower(&Options::default());
+        fold(&graph.expect(&source))
+    }
+
+    fn products(graph: &Graph) -> usize {
+        let reached = graph.reached();
+        let all = graph.ids().filter(|id| reached[id.0 as usize]);
+        all.filter(|id| matches!(graph.node(*id), Node::Apply(Op::Mul, _)))
+            .count()
+    }
+
+    #[test]
+    fn a_product_with_a_constant_normal_is_a_component() {
+        let graph = lowered("(0, 1, 0)");
+        let by = chosen_by(&graph);
+        let next = fold(&into_arms(&graph, &by).expect("arms"));
+        let places = grid(8, 8, 1);
+        let drawn = |graph: &Graph| picture(graph, &schedule(graph), &places);
+        assert_eq!(drawn(&next), drawn(&graph));
+        // The other arm's three products are in it now, and no sum is before the choice.
+        assert_eq!(products(&next), products(&graph));
+        let sum = |id: NodeId| matches!(next.node(id), Node::Apply(Op::Add, _));
+        let chosen = next.ids().any(|id| match next.node(id) {
+            Node::Select { yes, no, .. } => sum(no) && !sum(yes),
+            _ => false,
+        });
+        assert!(chosen);
+    }
+
+    #[test]
+    fn what_is_no_simpler_stays() {
+        let graph = lowered("(0.5, 2.5, 3)");
+        let by = chosen_by(&graph);
+        assert!(!by.is_empty());
+        assert!(into_arms(&graph, &by).is_none());
+    }
+
+    #[test]
+    fn the_examples_draw_what_they_drew() {
+        for (name, graph) in examples() {
+            let by = chosen_by(&graph);
+            let Some(next) = into_arms(&graph, &by) else {
+                continue;
+            };
+            let places = grid(graph.image.width, graph.image.height, 37);
+            let drawn = |graph: &Graph| picture(graph, &schedule(graph), &places);
+            assert_eq!(drawn(&fold(&next)), drawn(&graph), "{name}");
+        }
+    }
+}
