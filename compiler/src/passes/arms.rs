@@ -5,14 +5,15 @@
 //! products with the light's direction. l_x n_x + l_y n_y + l_z n_z is five operations
 //! of a choice, or a choice between l_y and five operations. An operation goes into
 //! the arms where one of them is simpler for it: 0 times a value, 1 times, 0 and a value.
-//! Every step is exact, as [`super::fold`] is.
+//! Every step is exact, as [`super::fold`] is, or equal over the reals and a constant:
+//! d (k / d), where the choice says that d is not 0.
 
 use super::fold::simpler;
 use super::rebuild::rebuild_old;
+use super::region::implied;
 use crate::flow::build::Builder;
 use crate::flow::graph::*;
-use crate::source::Span;
-use slowlight_routine::{Op, Type};
+use slowlight_routine::{Op, Type, Value};
 use std::collections::BTreeSet;
 
 /// The bools by which a real is chosen that is a constant on one way.
@@ -32,39 +33,81 @@ pub fn chosen_by(graph: &Graph) -> Vec<NodeId> {
 }
 
 /// The graph with operations in the arms of choices by some bools; nothing where none
-/// becomes simpler there.
+/// becomes simpler there, or is there anyway.
 pub fn into_arms(graph: &Graph, by: &[NodeId]) -> Option<Graph> {
+    let ways: Vec<(NodeId, [Vec<NodeId>; 2])> = (by.iter())
+        .map(|&cond| {
+            (
+                cond,
+                [true, false].map(|holds| not_zero(graph, cond, holds)),
+            )
+        })
+        .collect();
     let mut done = false;
     let next = rebuild_old(graph, &mut |builder, made, id, span| {
         let Node::Apply(op, args) = graph.node(id) else {
             return None;
         };
-        if op.result() != Type::Real {
+        // Squares stay: a length is known by them.
+        if op.result() != Type::Real || op == Op::Mul && args[0] == args[1] {
             return None;
         }
         let new = |old: NodeId| made.get(old.0 as usize).copied().flatten();
         let args = [new(args[0])?, new(args[1])?];
-        let conds: Vec<NodeId> = by.iter().filter_map(|cond| new(*cond)).collect();
-        let cond = args.iter().find_map(|arg| match builder.node(*arg) {
-            Node::Select { cond, .. } if conds.contains(&cond) => Some(cond),
+        let (cond, some) = args.iter().find_map(|arg| match builder.node(*arg) {
+            Node::Select { cond, .. } => {
+                let way = ways.iter().find(|(by, _)| new(*by) == Some(cond))?;
+                Some((cond, &way.1))
+            }
             _ => None,
         })?;
-        let yes = args.map(|arg| arm(builder, arg, cond, true));
-        let no = args.map(|arg| arm(builder, arg, cond, false));
-        let simple = [yes, no].map(|args| simpler(builder, op, args, span));
-        if simple.iter().all(Option::is_none) {
+        let ways = [true, false].map(|holds| {
+            let args = args.map(|arg| arm(builder, arg, (cond, holds)));
+            let some = some[usize::from(!holds)].iter().filter_map(|id| new(*id));
+            let simple = back(builder, op, args, &some.collect::<Vec<_>>())
+                .or_else(|| simpler(builder, op, args, span));
+            simple.map(|id| (id, true)).unwrap_or_else(|| {
+                let id = builder.apply(op, &args[..op.arity()], span);
+                (id, made.contains(&Some(id)))
+            })
+        });
+        let [(yes, simple), (no, other)] = ways;
+        if !simple && !other {
             return None;
         }
-        let arms = [(simple[0], yes), (simple[1], no)];
-        let [yes, no] = arms.map(|(simple, args)| simple.unwrap_or_else(|| applied(builder, op, args, span)));
         done = true;
         Some(builder.select(cond, yes, no, span))
     });
     done.then_some(next)
 }
 
+/// What is known not to be 0 where a bool holds or not.
+fn not_zero(graph: &Graph, cond: NodeId, holds: bool) -> Vec<NodeId> {
+    let zero = |id| graph.constant(id) == Some(Value::Real(0.0));
+    let facts = implied(graph, cond, holds).into_iter();
+    let asked = facts.filter_map(|(fact, holds)| match graph.node(fact) {
+        Node::Apply(Op::Equal, [a, b]) if !holds && zero(b) => Some(a),
+        Node::Apply(Op::Equal, [a, b]) if !holds && zero(a) => Some(b),
+        _ => None,
+    });
+    asked.collect()
+}
+
+/// What was divided by what it is multiplied by, which is not 0: a ray that meets a
+/// level floor is there at the floor's height.
+fn back(builder: &Builder, op: Op, [a, b]: [NodeId; 2], some: &[NodeId]) -> Option<NodeId> {
+    let over = |id: NodeId, by: NodeId| match builder.node(id) {
+        Node::Apply(Op::Div, [k, of]) if of == by && some.contains(&by) => Some(k),
+        _ => None,
+    };
+    match op {
+        Op::Mul => over(a, b).or_else(|| over(b, a)),
+        _ => None,
+    }
+}
+
 /// What a value is where a bool holds or not.
-fn arm(builder: &Builder, id: NodeId, by: NodeId, holds: bool) -> NodeId {
+fn arm(builder: &Builder, id: NodeId, (by, holds): (NodeId, bool)) -> NodeId {
     match builder.node(id) {
         Node::Select { cond, yes, no } if cond == by => match holds {
             true => yes,
@@ -72,10 +115,6 @@ fn arm(builder: &Builder, id: NodeId, by: NodeId, holds: bool) -> NodeId {
         },
         _ => id,
     }
-}
-
-fn applied(builder: &mut Builder, op: Op, args: [NodeId; 2], span: Span) -> NodeId {
-    builder.apply(op, &args[..op.arity()], span)
 }
 
 #[cfg(test)]

@@ -32,8 +32,9 @@ pub(super) fn simpler(b: &mut Builder, op: Op, [x, y]: [NodeId; 2], span: Span) 
         let args = [x, y];
         return Some(b.apply(op, &args[..op.arity()], span));
     }
-    let by_power = op == Op::Div;
-    apply(b, op, x, y, span).filter(|_| !by_power)
+    // A quotient by a power of two is a product: another operation, none less.
+    let quotient = op == Op::Div;
+    apply(b, op, x, y, span).filter(|_| !quotient)
 }
 
 fn apply(b: &mut Builder, op: Op, x: NodeId, y: NodeId, span: Span) -> Option<NodeId> {
@@ -67,6 +68,7 @@ fn apply(b: &mut Builder, op: Op, x: NodeId, y: NodeId, span: Span) -> Option<No
             }
             _ => return None,
         },
+        Op::Sub if b.node(x) == Node::Apply(Op::Add, [y, y]) => y,
         Op::Sub | Op::Add => match b.node(y) {
             Node::Apply(Op::Neg, [inner, _]) => {
                 let other = if op == Op::Add { Op::Sub } else { Op::Add };

@@ -18,12 +18,25 @@ const GAIN: f64 = 0.9999;
 /// How many nodes may be scheduled again to find out which sums pay.
 const PATIENCE: usize = 60_000;
 
+/// How often sums are looked at: what is known of some lets others be made.
+const ROUNDS: u32 = 3;
+
 /// The plan with sums in other forms where that makes it cheaper.
 pub fn with_sums(plan: Settled, shop: &Workshop, thrift: Thrift) -> Settled {
+    let mut best = plan;
+    for _ in 0..ROUNDS {
+        let Some(next) = cheaper(&best, shop, thrift) else {
+            break;
+        };
+        best = next;
+    }
+    best
+}
+
+/// The same once; nothing where it makes nothing cheaper.
+fn cheaper(plan: &Settled, shop: &Workshop, thrift: Thrift) -> Option<Settled> {
     let found = sites(&plan.graph, &plan.ranges, shop.runtime);
-    let debug = std::env::var("SUMS").unwrap_or_default();
-    let found: Vec<Site> = found.into_iter().filter(|s| !format!("{s:?}").starts_with(&debug) || debug.is_empty()).collect();
-    let price = Price::new(&plan, shop.runtime, thrift);
+    let price = Price::new(plan, shop.runtime, thrift);
     let made = |sites: &[Site]| regrouped(&plan.graph, &plan.ranges, shop.runtime, sites);
     let rewritten = |sites: &[Site]| {
         let next = shop.settle(&made(sites)?.0);
@@ -33,8 +46,10 @@ pub fn with_sums(plan: Settled, shop: &Workshop, thrift: Thrift) -> Settled {
     let mut gathered: Vec<Site> = found.iter().filter(gathers).copied().collect();
     let changed = made(&gathered).map_or(Vec::new(), |(_, changed)| changed);
     gathered.retain(|site| matches!(site, Site::Gathered(id) if changed.contains(id)));
-    let others = found.iter().filter(|site| !gathers(site) && made(&[**site]).is_some());
-    let now = price.of(&plan);
+    let others = found
+        .iter()
+        .filter(|site| !gathers(site) && made(&[**site]).is_some());
+    let now = price.of(plan);
     let mut best = Best {
         least: now,
         sites: Vec::new(),
@@ -49,7 +64,13 @@ pub fn with_sums(plan: Settled, shop: &Workshop, thrift: Thrift) -> Settled {
     }
     let tries = PATIENCE / plan.graph.nodes.len().max(1);
     // What pays beside others may not without them, and the other way round.
-    for site in gathered.iter().rev().chain(others).chain(&gathered).take(tries) {
+    for site in gathered
+        .iter()
+        .rev()
+        .chain(others)
+        .chain(&gathered)
+        .take(tries)
+    {
         let (has, mut sites) = (best.sites.contains(site), best.sites.clone());
         match has {
             true => sites.retain(|other| other != site),
@@ -58,7 +79,6 @@ pub fn with_sums(plan: Settled, shop: &Workshop, thrift: Thrift) -> Settled {
         let tried = rewritten(&sites);
         let cost = tried.as_ref().map_or(now, |(cost, _)| *cost);
         let limit = if has { best.least } else { GAIN * best.least };
-        if !debug.is_empty() { eprintln!("{site:?} {has} {cost} {limit}"); }
         if cost <= limit {
             best = Best {
                 least: cost,
@@ -67,8 +87,10 @@ pub fn with_sums(plan: Settled, shop: &Workshop, thrift: Thrift) -> Settled {
             };
         }
     }
-    let Best { least, plan: found, .. } = best;
-    found.filter(|_| least < GAIN * now).unwrap_or(plan)
+    let Best {
+        least, plan: found, ..
+    } = best;
+    found.filter(|_| least < GAIN * now)
 }
 
 /// The plan with operations in the arms of choices where that makes it cheaper.

@@ -157,7 +157,8 @@ impl<'g> Sums<'g> {
     fn is_site(&self, id: NodeId) -> bool {
         match self.graph.node(id) {
             Node::Apply(Op::Add | Op::Sub, _) => {
-                let part = self.alone(id) && self.users[id.0 as usize].iter().all(|u| self.is_sum(*u));
+                let part =
+                    self.alone(id) && self.users[id.0 as usize].iter().all(|u| self.is_sum(*u));
                 self.is_sum(id) && !part
             }
             Node::Apply(Op::Div, [a, by]) => {
@@ -253,9 +254,7 @@ impl<'g> Sums<'g> {
             samples: &self.samples,
             allowance: self.allowance,
         };
-        self.allowance >= 1.0
-            && self.graph.ty(old) == Type::Real
-            && judge.sound(b, new, old, made)
+        self.allowance >= 1.0 && self.graph.ty(old) == Type::Real && judge.sound(b, new, old, made)
     }
 }
 

@@ -45,7 +45,10 @@ impl Sums<'_> {
             .collect();
         let square = |term: &Term| matches!(self.graph.node(term.id), Node::Apply(Op::Mul, [a, b]) if a == b);
         let fits = asked && all.len() > 1 && !terms.high.iter().any(square);
-        let candidates = all.first().filter(|_| fits).map_or(&[][..], |p| &p.divisors);
+        let candidates = all
+            .first()
+            .filter(|_| fits)
+            .map_or(&[][..], |p| &p.divisors);
         let common = (candidates.iter().copied())
             .find(|by| self.some(*by) && all.iter().all(|p| p.divisors.contains(by)));
         let Some(by) = common else {
@@ -152,7 +155,11 @@ impl Put<'_, '_> {
         let mut all = pieces.get(first)?.clone();
         let turned = all.minus;
         for (_, piece) in pieces.iter().enumerate().filter(|(k, _)| *k != first) {
-            let op = if piece.minus == turned { Op::Add } else { Op::Sub };
+            let op = if piece.minus == turned {
+                Op::Add
+            } else {
+                Op::Sub
+            };
             all.node = self.builder.apply(op, &[all.node, piece.node], self.span);
         }
         Some(all)
@@ -252,7 +259,11 @@ impl Put<'_, '_> {
             return;
         };
         let (b, a) = (pieces.remove(l), pieces.remove(k));
-        let (a, b) = if a.key.is_before(&b.key) { (a, b) } else { (b, a) };
+        let (a, b) = if a.key.is_before(&b.key) {
+            (a, b)
+        } else {
+            (b, a)
+        };
         let op = if a.minus == b.minus { Op::Add } else { Op::Sub };
         let node = self.builder.apply(op, &[a.node, b.node], self.span);
         pieces.insert(0, Piece { node, ..a });

@@ -55,7 +55,10 @@ impl Sums<'_> {
         let deep = all.high.len() + all.low.len() >= TERMS;
         match self.graph.node(id) {
             Node::Apply(Op::Neg, [a, _]) if !deep => {
-                let turned = Term { minus: !minus, id: a };
+                let turned = Term {
+                    minus: !minus,
+                    id: a,
+                };
                 self.descend(turned, open, all);
             }
             Node::Apply(op @ (Op::Add | Op::Sub), [a, b]) if open && a != b && !deep => {
@@ -86,12 +89,26 @@ impl Sums<'_> {
     /// A value as a product.
     pub(super) fn product(&self, id: NodeId) -> Product {
         let mut all = Product::default();
-        self.factors(id, &mut all);
+        self.factors(id, true, &mut all);
         all
     }
 
-    fn factors(&self, id: NodeId, all: &mut Product) {
+    /// Whether something divides a value or a factor of it.
+    fn is_over(&self, id: NodeId, deep: usize) -> bool {
+        match self.graph.node(id) {
+            Node::Apply(Op::Div, _) => true,
+            Node::Apply(Op::Neg, [a, _]) if deep > 0 => self.is_over(a, deep - 1),
+            Node::Apply(Op::Mul, [a, b]) if deep > 0 => {
+                [a, b].iter().any(|id| self.is_over(*id, deep - 1))
+            }
+            _ => false,
+        }
+    }
+
+    /// A product by itself is taken apart; one in it that nothing divides stays as it is.
+    fn factors(&self, id: NodeId, whole: bool, all: &mut Product) {
         let more = all.factors.len() + all.divisors.len() < FACTORS;
+        let more = more && (whole || self.is_over(id, FACTORS));
         match self.graph.node(id) {
             Node::Const(c) if c.value().ty() == Type::Real => {
                 let value = c.value().real();
@@ -100,14 +117,14 @@ impl Sums<'_> {
             }
             Node::Apply(Op::Neg, [a, _]) => {
                 all.minus = !all.minus;
-                self.factors(a, all);
+                self.factors(a, whole, all);
             }
             Node::Apply(Op::Mul, [a, b]) if more => {
-                self.factors(a, all);
-                self.factors(b, all);
+                self.factors(a, false, all);
+                self.factors(b, false, all);
             }
             Node::Apply(Op::Div, [a, b]) if more => {
-                self.factors(a, all);
+                self.factors(a, whole, all);
                 all.divisors.push(b);
             }
             _ => all.factors.push(Factor::Value(id)),
