@@ -10,10 +10,11 @@ use super::thrift::Thrift;
 use super::workshop::Workshop;
 use crate::flow::graph::NodeId;
 use crate::passes::arms::{chosen_by, into_arms};
-use crate::passes::sums::{Site, regrouped, sites};
+use crate::passes::skip::skip;
+use crate::passes::sums::{Site, regrouped, sites, sunk};
 
 /// By how much a sum's form must make a plan cheaper.
-const GAIN: f64 = 0.9999;
+const GAIN: f64 = 0.9995;
 
 /// How many nodes may be scheduled again to find out which sums pay.
 const PATIENCE: usize = 60_000;
@@ -108,6 +109,30 @@ pub fn with_arms(plan: Settled, shop: &Workshop, thrift: Thrift) -> Settled {
         }
     }
     best
+}
+
+/// The plan with no loop started that its first turn ends, and sums looked at again:
+/// those behind the loop are of what it starts with now.
+pub fn with_loops_skipped(plan: Settled, shop: &Workshop, thrift: Thrift) -> Settled {
+    let price = Price::new(&plan, shop.runtime, thrift);
+    let skipped = |plan: &Settled| skip(&plan.graph).map(|next| shop.scheduled(next));
+    let Some(usual) = skipped(&plan) else {
+        return plan;
+    };
+    let sunk = sunk(&usual.graph).map(|graph| shop.settle(&graph));
+        eprintln!("sunk {:?}", sunk.as_ref().map(|o| price.of(o)));
+    }
+    let other = sunk.map(|plan| cheaper(&plan, shop, thrift).unwrap_or(plan));
+        eprintln!(
+            "usual {} other {:?}",
+            price.of(&usual),
+            other.as_ref().map(|o| price.of(o))
+        );
+    }
+    match other {
+        Some(other) if price.of(&other) < GAIN * price.of(&usual) => other,
+        _ => usual,
+    }
 }
 
 /// The cheapest so far: at which sites.

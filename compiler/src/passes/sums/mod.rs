@@ -16,8 +16,11 @@
 //! as large as the rest together and the sum. Where that is not so, roundings are
 //! judged as algebra's are.
 
+mod ends;
 mod put;
 mod terms;
+#[cfg(test)]
+mod tests;
 
 use super::algebra::judge::{Sample, samples};
 use super::algebra::{Judge, allowance, users};
@@ -27,6 +30,7 @@ use super::segment::Known;
 use crate::flow::build::Builder;
 use crate::flow::graph::*;
 use crate::range::Ranges;
+pub use ends::sunk;
 use rustc_hash::FxHashMap;
 use slowlight_routine::{Format, Op, Runtime, Type};
 use terms::{Product, Term};
