@@ -120,15 +120,7 @@ pub fn with_loops_skipped(plan: Settled, shop: &Workshop, thrift: Thrift) -> Set
         return plan;
     };
     let sunk = sunk(&usual.graph).map(|graph| shop.settle(&graph));
-        eprintln!("sunk {:?}", sunk.as_ref().map(|o| price.of(o)));
-    }
     let other = sunk.map(|plan| cheaper(&plan, shop, thrift).unwrap_or(plan));
-        eprintln!(
-            "usual {} other {:?}",
-            price.of(&usual),
-            other.as_ref().map(|o| price.of(o))
-        );
-    }
     match other {
         Some(other) if price.of(&other) < GAIN * price.of(&usual) => other,
         _ => usual,

@@ -96,7 +96,10 @@ fn what_divides_all_terms_divides_once_where_it_is_not_0() {
     };
     let plain = lowered(&ink("s"));
     let next = put(&plain, divided).expect("a divisor");
-    assert_eq!(count(&next, &[Op::Div]) + 2, count(&plain.graph, &[Op::Div]));
+    assert_eq!(
+        count(&next, &[Op::Div]) + 2,
+        count(&plain.graph, &[Op::Div])
+    );
     assert_eq!(count(&next, SUMS) + 1, count(&plain.graph, SUMS));
     same("divided", &plain.graph, &next);
     // What may be 0 divides nothing but what it divided.
