@@ -84,7 +84,7 @@ pub fn regrouped(
             proved: false,
         };
         let found = match sums.base(id, sites) {
-            Some(base) => put.from(id, base),
+            Some(base) => put.made_from(id, base),
             None if sites.contains(&Site::Divided(id)) => put.gathered(id, true),
             None if sites.contains(&Site::Gathered(id)) => put.gathered(id, false),
             None => None,

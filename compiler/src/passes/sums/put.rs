@@ -74,13 +74,13 @@ impl Product {
 }
 
 impl Put<'_, '_> {
-    fn new(&self, old: NodeId) -> Option<NodeId> {
+    fn made(&self, old: NodeId) -> Option<NodeId> {
         self.made.get(old.0 as usize).copied().flatten()
     }
 
     /// What stands for a value: where it is known beforehand it may come later in the graph.
     fn at(&mut self, old: NodeId, deep: u32) -> Option<NodeId> {
-        if let Some(made) = self.new(old) {
+        if let Some(made) = self.made(old) {
             return Some(made);
         }
         if deep > DEEP {
@@ -106,10 +106,10 @@ impl Put<'_, '_> {
     /// A value's own operation on what stands for its operands.
     fn plain(&mut self, old: NodeId) -> Option<NodeId> {
         let Node::Apply(op, args) = self.sums.graph.node(old) else {
-            return self.new(old);
+            return self.made(old);
         };
         let args: Option<Vec<NodeId>> = (args.iter().take(op.arity()))
-            .map(|arg| self.new(*arg))
+            .map(|arg| self.made(*arg))
             .collect();
         Some(self.builder.apply(op, &args?, self.span))
     }
@@ -119,7 +119,7 @@ impl Put<'_, '_> {
         let mut all: Option<NodeId> = None;
         for factor in &product.factors {
             let next = match factor {
-                Factor::Value(id) => self.new(*id)?,
+                Factor::Value(id) => self.made(*id)?,
                 Factor::Size(_) => self.builder.constant(factor.size()?, self.span),
             };
             all = Some(match all {
@@ -132,7 +132,7 @@ impl Put<'_, '_> {
             None => self.builder.constant(Value::Real(1.0), self.span),
         };
         for by in &product.divisors {
-            let by = self.new(*by)?;
+            let by = self.made(*by)?;
             all = self.builder.apply(Op::Div, &[all, by], self.span);
         }
         Some(all)
@@ -233,7 +233,7 @@ impl Put<'_, '_> {
         let sum = self.joined(high, &low);
         Some(match by {
             Some(by) => {
-                let by = self.new(by)?;
+                let by = self.made(by)?;
                 self.builder.apply(Op::Div, &[sum, by], self.span)
             }
             None => sum,
@@ -270,7 +270,7 @@ impl Put<'_, '_> {
     }
 
     /// A member of a group made of another.
-    pub(super) fn from(
+    pub(super) fn made_from(
         &mut self,
         id: NodeId,
         (common, member, base): (&Common, &Member, &Member),
@@ -281,7 +281,7 @@ impl Put<'_, '_> {
         for term in common {
             let node = match group.iter().any(|m| m.id == term.id) {
                 true => self.plain(term.id)?,
-                false => self.new(term.id)?,
+                false => self.made(term.id)?,
             };
             high.push(Piece {
                 minus: term.minus,
