@@ -30,6 +30,7 @@ pub mod split;
 pub mod squares;
 pub mod stable;
 pub mod still;
+pub mod sums;
 pub mod threshold;
 pub mod units;
 

@@ -11,6 +11,7 @@ use super::chosen::chosen;
 use super::price::Price;
 use super::recipes::followed;
 use super::settled::Settled;
+use super::sums::with_loops_skipped;
 use super::thrift::Thrift;
 use super::workshop::{Rewritten, Workshop};
 use crate::flow::graph::*;
@@ -22,7 +23,6 @@ use crate::passes::guard::guard;
 use crate::passes::homogeneous::{homogeneous, lengths};
 use crate::passes::identities::{around, identities};
 use crate::passes::peel::peel;
-use crate::passes::skip::skip;
 use crate::passes::split::split;
 use crate::passes::squares::squares;
 use crate::passes::threshold::threshold;
@@ -163,13 +163,11 @@ pub fn with_inks_split(plan: Settled, shop: &Workshop, thrift: Thrift) -> Settle
 /// that is less often: the last of the passes.
 pub fn apart_at_last(plan: Settled, shop: &Workshop, thrift: Thrift) -> Settled {
     let price = Price::new(&plan, shop.runtime, thrift);
-    let mut best = plan;
     // Where copies are joined, what chooses what a loop starts with costs nothing.
-    if shop.runtime.stepping.is_some()
-        && let Some(next) = skip(&best.graph)
-    {
-        best = shop.scheduled(next);
-    }
+    let mut best = match shop.runtime.stepping {
+        Some(_) => with_loops_skipped(plan, shop, thrift),
+        None => plan,
+    };
     for _ in 0..APART {
         let next = apart(&best.graph, &best.tree, &price.worth(&best));
         let Some(next) = next else {

@@ -5,6 +5,7 @@ use super::params::{self, ParamPlan};
 use super::price::Price;
 use super::settled::{Known, Settled};
 use super::stepped::{Steps, stepped};
+use super::sums::with_sums;
 use super::thrift::Thrift;
 use super::workshop::Workshop;
 use super::{Goal, Plan, choose, fold_uses, names, recipes};
@@ -100,6 +101,7 @@ pub(super) fn planned(
                 .into_iter()
                 .map(|plan| with_recipes_followed(plan, shop, thrift))
                 .map(|plan| stepped(plan, shop, target, thrift, steps))
+                .map(|plan| with_sums(plan, shop, thrift))
                 .map(|plan| with_inks_split(plan, shop, thrift));
             price.cheapest(all)
         };

@@ -66,6 +66,7 @@ pub mod recipes;
 pub(crate) mod settled;
 mod spread;
 mod stepped;
+mod sums;
 pub(crate) mod thrift;
 pub(crate) mod workshop;
 #[cfg(test)]

@@ -1,0 +1,274 @@
+//! Sums: fewer additions at a pixel, by what sums are made of.
+//!
+//! - What is the same for a run of columns, or longer, is added together first:
+//!   (x + j r) - q is j r + (x - q).
+//! - What all terms are divided by divides their sum: a/s + b/s is (a + b)/s. The
+//!   way from a hit to the light by the normal is then there for its sign and, over its
+//!   length, for the light that falls.
+//! - What several sums have is added once: of a + b + c and d + b + c, b + c.
+//! - Sums that differ by what is the same for a run are made of one of them
+//!   ([`Site::From`]): a value is held moved by what most of its users would add.
+//! - A factor that divides its own product goes.
+//!
+//! Both sides are equal over the reals: what is divided by is proved not to be 0.
+//! A sum of terms that are themselves rounded is off by no more than their number
+//! times what their roundings do, in any order: what is known beforehand is at most
+//! as large as the rest together and the sum. Where that is not so, roundings are
+//! judged as algebra's are.
+
+mod ends;
+mod put;
+mod terms;
+#[cfg(test)]
+mod tests;
+
+use super::algebra::judge::{Sample, samples};
+use super::algebra::{Judge, allowance, users};
+use super::rate::{Rates, rates};
+use super::rebuild::rebuild_old;
+use super::segment::Known;
+use crate::flow::build::Builder;
+use crate::flow::graph::*;
+use crate::range::Ranges;
+pub use ends::sunk;
+use rustc_hash::FxHashMap;
+use slowlight_routine::{Format, Op, Runtime, Type};
+use terms::{Product, Term};
+
+/// What may be put.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Site {
+    /// A sum, its terms gathered; or a quotient, without what goes against itself.
+    Gathered(NodeId),
+    /// A sum of which all terms are divided by one value: it is once.
+    Divided(NodeId),
+    /// The sums that differ from one by what is the same for a run, made of that.
+    From(NodeId),
+}
+
+/// Where sums might be cheaper; nothing in formats whose sums are exact anyway.
+pub fn sites(graph: &Graph, ranges: &Ranges, runtime: &Runtime) -> Vec<Site> {
+    if matches!(runtime.real, Format::Fixed { .. }) {
+        return Vec::new();
+    }
+    let sums = Sums::new(graph, ranges, runtime);
+    let gathered = graph.ids().filter(|id| sums.is_site(*id));
+    let mut all: Vec<Site> = gathered.map(Site::Gathered).collect();
+    let divided = graph.ids().filter(|id| sums.is_divided(*id));
+    all.extend(divided.map(Site::Divided));
+    for group in sums.groups.values().filter(|group| group.len() > 1) {
+        let bases = group.iter().filter(|member| sums.is_sum(member.id));
+        all.extend(bases.map(|member| Site::From(member.id)));
+    }
+    all
+}
+
+/// The graph with sums at some sites put in the other form, and the values in the place
+/// of which something else stands; nothing where there are none.
+pub fn regrouped(
+    graph: &Graph,
+    ranges: &Ranges,
+    runtime: &Runtime,
+    sites: &[Site],
+) -> Option<(Graph, Vec<NodeId>)> {
+    let sums = Sums::new(graph, ranges, runtime);
+    let pairs = sums.pairs(sites);
+    let mut done = Vec::new();
+    let next = rebuild_old(graph, &mut |builder, made, id, span| {
+        let mut put = put::Put {
+            sums: &sums,
+            pairs: &pairs,
+            builder,
+            made,
+            span,
+            proved: false,
+        };
+        let found = match sums.base(id, sites) {
+            Some(base) => put.made_from(id, base),
+            None if sites.contains(&Site::Divided(id)) => put.gathered(id, true),
+            None if sites.contains(&Site::Gathered(id)) => put.gathered(id, false),
+            None => None,
+        }?;
+        let new = |old: NodeId| made.get(old.0 as usize).copied().flatten();
+        let sound = put.proved || sums.judged(put.builder, &new, id, found);
+        sound.then(|| {
+            done.push(id);
+            found
+        })
+    });
+    (!done.is_empty()).then_some((next, done))
+}
+
+/// A value that is what a group has in common, or its negative, and something known.
+#[derive(Clone, Debug, PartialEq)]
+struct Member {
+    id: NodeId,
+    /// Whether it has the negative of what is common.
+    minus: bool,
+    /// What is added to that.
+    low: Vec<Term>,
+}
+
+/// The terms that the members of a group have in common, the first one positive.
+type Common = Vec<Term>;
+
+struct Sums<'g> {
+    graph: &'g Graph,
+    ranges: &'g Ranges,
+    users: Vec<Vec<NodeId>>,
+    rates: Rates,
+    /// What runs of columns know, on machines that have such.
+    known: Option<Known<'g>>,
+    samples: Vec<Sample>,
+    allowance: f64,
+    groups: FxHashMap<Common, Vec<Member>>,
+}
+
+impl<'g> Sums<'g> {
+    fn new(graph: &'g Graph, ranges: &'g Ranges, runtime: &Runtime) -> Sums<'g> {
+        let mut sums = Sums {
+            graph,
+            ranges,
+            users: users(graph),
+            rates: rates(graph),
+            known: runtime.segments.then(|| Known::of(graph)),
+            samples: samples(graph),
+            allowance: allowance(runtime.real),
+            groups: FxHashMap::default(),
+        };
+        sums.groups = sums.grouped();
+        sums
+    }
+
+    /// Whether a value is known before a run of columns, or a row.
+    fn low(&self, id: NodeId) -> bool {
+        match &self.known {
+            Some(known) => known.before(id),
+            None => self.rates.is_still(id),
+        }
+    }
+
+    fn used(&self, id: NodeId) -> bool {
+        !self.users[id.0 as usize].is_empty()
+    }
+
+    fn is_sum(&self, id: NodeId) -> bool {
+        let sum = matches!(self.graph.node(id), Node::Apply(Op::Add | Op::Sub, _));
+        sum && self.used(id) && !self.low(id)
+    }
+
+    /// Whether a value is a sum that is no part of another, or a quotient of a product.
+    fn is_site(&self, id: NodeId) -> bool {
+        match self.graph.node(id) {
+            Node::Apply(Op::Add | Op::Sub, _) => {
+                let part =
+                    self.alone(id) && self.users[id.0 as usize].iter().all(|u| self.is_sum(*u));
+                self.is_sum(id) && !part
+            }
+            Node::Apply(Op::Div, [a, by]) => {
+                self.used(id) && !self.low(id) && self.product(a).divided(by).is_some()
+            }
+            _ => false,
+        }
+    }
+
+    fn is_divided(&self, id: NodeId) -> bool {
+        let sum = self.is_sum(id) && self.is_site(id);
+        let terms = sum.then(|| self.terms(id)).flatten();
+        terms.is_some_and(|terms| self.divided(&terms, true).0.is_some())
+    }
+
+    /// Whether a value is proved not to be 0.
+    fn some(&self, id: NodeId) -> bool {
+        let range = self.ranges.result.get(id.0 as usize);
+        range.is_some_and(|r| r.lo > 0.0 || r.hi < 0.0)
+    }
+
+    /// Values by what they have in common beside what is known.
+    fn grouped(&self) -> FxHashMap<Common, Vec<Member>> {
+        let mut groups: FxHashMap<Common, Vec<Member>> = FxHashMap::default();
+        for id in self.graph.ids().filter(|id| self.is_sum(*id)) {
+            let Some(mut terms) = self.terms(id).filter(|t| !t.low.is_empty()) else {
+                continue;
+            };
+            terms.high.sort_unstable_by_key(|t| t.id);
+            let minus = terms.high.first().is_some_and(|t| t.minus);
+            terms.high.iter_mut().for_each(|t| t.minus ^= minus);
+            let low = terms.low;
+            let member = Member { id, minus, low };
+            groups.entry(terms.high).or_default().push(member);
+        }
+        // What one term is by itself something else may need.
+        for (common, group) in &mut groups {
+            let [Term { id, .. }] = common[..] else {
+                continue;
+            };
+            let others = self.users[id.0 as usize]
+                .iter()
+                .filter(|user| group.iter().all(|member| member.id != **user));
+            let arithmetic = matches!(self.graph.node(id), Node::Apply(..));
+            if arithmetic && others.count() > 0 {
+                group.push(Member {
+                    id,
+                    minus: false,
+                    low: Vec::new(),
+                });
+            }
+        }
+        groups
+    }
+
+    /// The member of a value's group from which it is made.
+    fn base(&self, id: NodeId, sites: &[Site]) -> Option<(&Common, &Member, &Member)> {
+        self.groups.iter().find_map(|(common, group)| {
+            let member = group.iter().find(|member| member.id == id)?;
+            let is_base = |m: &&Member| sites.contains(&Site::From(m.id));
+            Some((common, member, group.iter().find(is_base)?))
+        })
+    }
+
+    /// The pairs of terms that several sums have, and how many.
+    fn pairs(&self, sites: &[Site]) -> FxHashMap<[Product; 2], usize> {
+        let mut pairs = FxHashMap::default();
+        for id in self.graph.ids() {
+            let divides = sites.contains(&Site::Divided(id));
+            let gathers = divides || sites.contains(&Site::Gathered(id));
+            let Some(terms) = gathers.then(|| self.terms(id)).flatten() else {
+                continue;
+            };
+            let all = self.divided(&terms, divides).1;
+            for (k, a) in all.iter().enumerate() {
+                for b in &all[k + 1..] {
+                    *pairs.entry(pair(a, b)).or_insert(0) += 1;
+                }
+            }
+        }
+        pairs
+    }
+
+    fn judged(
+        &self,
+        b: &Builder,
+        new: &dyn Fn(NodeId) -> Option<NodeId>,
+        old: NodeId,
+        made: NodeId,
+    ) -> bool {
+        let judge = Judge {
+            graph: self.graph,
+            samples: &self.samples,
+            allowance: self.allowance,
+        };
+        self.allowance >= 1.0 && self.graph.ty(old) == Type::Real && judge.sound(b, new, old, made)
+    }
+}
+
+/// Two terms as what they are up to a common sign.
+fn pair(a: &Product, b: &Product) -> [Product; 2] {
+    let (mut a, mut b) = match a <= b {
+        true => (a.clone(), b.clone()),
+        false => (b.clone(), a.clone()),
+    };
+    b.minus ^= a.minus;
+    a.minus = false;
+    [a, b]
+}
