@@ -33,6 +33,7 @@ pub mod still;
 pub mod sums;
 pub mod threshold;
 pub mod units;
+pub mod whole_parts;
 
 #[cfg(test)]
 mod apart_tests;

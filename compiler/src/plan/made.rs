@@ -20,10 +20,11 @@ use crate::passes::schedule::missing;
 use crate::passes::stable::stable;
 use crate::passes::still::still;
 use crate::passes::units::units;
+use crate::passes::whole_parts::whole_parts;
 use crate::range::Ranges;
 use crate::source::Diagnostic;
 use crate::target::{Mode, Target};
-use slowlight_routine::{Op, Range, Routine, Runtime};
+use slowlight_routine::{Format, Op, Range, Routine, Runtime};
 use std::sync::Arc;
 
 /// Plans a graph that `sema` lowered for this target's inks and offset.
@@ -83,15 +84,19 @@ pub(super) fn planned(
         Rewriting::None => 0,
         _ => STABLE_ROUNDS,
     };
+    // Where sums are rounded to as few bits as that, tiles' edges move by whole pixels.
+    let logs = rounds > 0 && matches!(runtime.real, Format::Log { .. });
+    let whole = |graph: Graph| if logs { whole_parts(&graph) } else { graph };
     let drawn = |graph: Graph| match rewriting {
         Rewriting::Fast { thrift, .. } if thrift.passes() && runtime.segments => {
             interlaced(&graph, (target.pixels)(&goal.mode)).unwrap_or(graph)
         }
         _ => graph,
     };
-    let mut now = steady(shop, &drawn(fold(&without(origin))), rounds);
+    let mut now = steady(shop, &whole(drawn(fold(&without(origin)))), rounds);
     if let Rewriting::Fast { thrift, steps } = rewriting {
-        let early = (!origin.early.is_empty()).then(|| steady(shop, &drawn(fold(origin)), rounds));
+        let early =
+            (!origin.early.is_empty()).then(|| steady(shop, &whole(drawn(fold(origin))), rounds));
         now = in_arms(now, shop, thrift);
         let early = early.map(|early| in_arms(early, shop, thrift));
         let early = early.as_ref().map(|settled| &settled.graph);
