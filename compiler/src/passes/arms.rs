@@ -43,7 +43,7 @@ pub fn conditions(graph: &Graph) -> Vec<NodeId> {
 /// The graph with what is made of choices by a condition made in their arms, where that
 /// leaves operations out; nothing where it does not.
 pub fn arms(graph: &Graph, ranges: &Ranges, cond: NodeId) -> Option<Graph> {
-    let all = vec![true; graph.nodes.len()];
+    let all = before_dither(graph);
     let (_, shorter) = apart((graph, ranges), cond, &all);
     if !shorter.contains(&true) {
         return None;
@@ -58,6 +58,16 @@ pub fn arms(graph: &Graph, ranges: &Ranges, cond: NodeId) -> Option<Graph> {
             return Some(next);
         }
     }
+}
+
+/// Which nodes are not made of the shade: a dither is looked at as a whole.
+fn before_dither(graph: &Graph) -> Vec<bool> {
+    let mut before = vec![true; graph.nodes.len()];
+    for id in graph.ids() {
+        let made = |arg: NodeId| Some(arg) == graph.shade || !before[arg.0 as usize];
+        before[id.0 as usize] = !graph.node(id).operands().any(made);
+    }
+    before
 }
 
 /// Adds the next nodes that these are made of, behind those that were added before;
@@ -232,6 +242,21 @@ mod tests {
         // Where it may be 0, the product is not known.
         let graph = ink("-3.5 / (down + 0.001)");
         assert!(all_apart(&graph).is_none());
+    }
+
+    #[test]
+    fn a_dither_is_left_as_it_is() {
+        let source = "image 24 x 16 inks black, white;
+             draw (x, y) = threshold(if x > y then 0 else unit((x, y, 3)).z, bayer(2)[x mod 2, y mod 2]);";
+        let graph = fold(
+            &scene::check("test", source)
+                .lower(&Options::default())
+                .expect("a graph"),
+        );
+        assert!(!conditions(&graph).is_empty());
+        for cond in conditions(&graph) {
+            assert!(arms(&graph, &ranged(&graph), cond).is_none());
+        }
     }
 
     #[test]

@@ -119,7 +119,7 @@ impl Code<'_> {
             text = text.replace("{r}", &home);
             if sign {
                 text = simplified(&text);
-                let once = template.matches("let {r+} =").count() == 1;
+                let once = template.matches("let {r+} =").count() == 1 && !self.names.shared;
                 let other = once.then(|| self.same_sign(&text, args, &operands));
                 if let Some(other) = other.flatten() {
                     self.same_signs.insert(id, other);
@@ -145,7 +145,8 @@ impl Code<'_> {
     }
 
     /// The operand's variable that is all there is to a sign, if one is: what has its own
-    /// place, so that it stays as it is for as long as the result is read.
+    /// place, so that it stays as it is for as long as the result is read. Where values
+    /// share variables, nothing does.
     fn same_sign(&self, text: &str, args: [NodeId; 2], operands: &[Operand]) -> Option<String> {
         let (_, sign) = text.strip_suffix(';')?.split_once(" = ")?;
         let own = |id: NodeId| {

@@ -76,6 +76,8 @@ pub(super) struct Names {
     subroutines: Vec<String>,
     /// The variables of signs, by those of the logarithms.
     signs: BTreeMap<String, String>,
+    /// Whether values share variables.
+    pub shared: bool,
     taken: BTreeSet<String>,
 }
 
@@ -93,6 +95,7 @@ impl Names {
             turns: BTreeMap::new(),
             subroutines: Vec::new(),
             signs: BTreeMap::new(),
+            shared: false,
             taken: taken.collect(),
         };
         names.taken.insert(names.class.clone());
@@ -101,7 +104,8 @@ impl Names {
         names.axes = ["x", "y"].map(|n| names.fresh(n));
         // In little memory values share fields, and statics, of which there are few.
         let many = plan.statics && plan.places().len() > SHARED_BEYOND;
-        let shared = (plan.tight || many).then(|| shared_homes(plan));
+        names.shared = plan.tight || many;
+        let shared = names.shared.then(|| shared_homes(plan));
         let mut sharing: HashMap<(Format, usize), String> = HashMap::new();
         for (place, format) in plan.places() {
             let mut fresh = || names.fresh(plan.home(place));
