@@ -224,7 +224,8 @@ mod tests {
                  let hit = if down == 0 then false else {t} > 0;
                  let t = if hit then {t} else l.z;
                  let p = (0, 3, 1) + t * d;
-                 ink(if p.y * p.z < 2 then 1 else 0)"
+                 let lit = dot(l, if hit then (0, 1, 0) else l);
+                 ink(if p.y * p.z < lit then 1 else 0)"
             ))
         };
         let graph = ink("-3.5 / down");
@@ -240,8 +241,8 @@ mod tests {
         };
         assert!(height(&next) && !height(&graph));
         // Where it may be 0, the product is not known.
-        let graph = ink("-3.5 / (down + 0.001)");
-        assert!(all_apart(&graph).is_none());
+        let next = all_apart(&ink("-3.5 / (down + 0.001)")).expect("arms");
+        assert!(!height(&next));
     }
 
     #[test]
