@@ -71,8 +71,12 @@ impl Walk<'_> {
     }
 
     /// A part times c - d / length is c times the part less d times a part of a unit
-    /// vector: what leads to the nearest point of a ring.
+    /// vector: what leads to the nearest point of a ring. For logarithms: elsewhere squares
+    /// of small parts may be nothing, and what is divided by them anything.
     fn shortened(&self, by: NodeId, part: NodeId) -> Option<Range> {
+        if self.slack.direction.is_some() {
+            return None;
+        }
         let Node::Apply(Op::Sub, [c, quotient]) = self.graph.node(by) else {
             return None;
         };

@@ -66,6 +66,8 @@ fn least(routine: &Routine, args: &[Range], lows: &[i32]) -> Option<i32> {
         (Op::Add | Op::Sub, _) => Some(greater.min(LEAST)),
         // 1 - a is an int.
         (Op::Sqrt, _) => (low(0) > -32767).then(|| low(0).div_euclid(2).min(LEAST)),
+        // 0 is not raised to what is smaller.
+        (Op::Max, "max_zero" | "zero_max") => (!loose).then_some(LEAST),
         (Op::Min | Op::Max, _) => apart.then(|| low(0).min(low(1))),
         (Op::Equal, "is_zero") => Some(LEAST),
         (Op::Less | Op::LessEqual, _) => apart.then_some(LEAST),
@@ -103,6 +105,9 @@ mod tests {
         assert_eq!(least(routine("sum"), &of(70.0), &small), None);
         assert_eq!(least(routine("low_mul"), &of(1.0), &small), None);
         assert_eq!(least(routine("floor"), &of(1.0), &small[..1]), None);
+        for name in ["max_zero", "zero_max"] {
+            assert_eq!(least(routine(name), &of(1.0), &small), None, "{name}");
+        }
         let square = least(routine("loose_mul"), &of(1.0), &[LEAST, LEAST]);
         assert_eq!(square, Some(LEAST + LEAST));
     }

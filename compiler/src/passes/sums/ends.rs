@@ -10,12 +10,13 @@ use crate::passes::algebra::users;
 use crate::passes::rebuild::{End, Rewrite, rebuild_by};
 use crate::source::Span;
 use slowlight_routine::{Op, Type, Value};
+use std::collections::BTreeSet;
 
 /// The graph with sums of a result and a constant in loops' ends, where nothing else
 /// needs the result; nothing where there are none.
 pub fn sunk(graph: &Graph) -> Option<Graph> {
     let users = users(graph);
-    let found: Vec<Sunk> = (graph.ids())
+    let mut found: Vec<Sunk> = (graph.ids())
         .filter_map(|id| {
             let Node::Result { of, index } = graph.node(id) else {
                 return None;
@@ -45,6 +46,9 @@ pub fn sunk(graph: &Graph) -> Option<Graph> {
             })
         })
         .collect();
+    // Where both that are chosen between are results, the other is added to in its arm.
+    let mut sums = BTreeSet::new();
+    found.retain(|sunk| sums.insert(sunk.sum));
     let some = !found.is_empty();
     some.then(|| rebuild_by(graph, &mut Sinking(found)))
 }

@@ -176,13 +176,21 @@ fn sums_in_loops_ends_draw_what_they_drew() {
             same(&format!("seed {seed}"), &graph, &next);
         }
     }
-    let source = "image 32 x 24 inks black, white;
-        fn far(a: real, b: real) -> real =
-          loop (t = a) max 9 { if t < b then next(t * 1.7 + 0.3) else t } else b;
-        draw (x, y) = ink(if far(x + 1, y) + 2 > 3 * y - x then 1 else 0);";
-    let scene = scene::check("test", source);
-    assert!(scene.is_right(), "{:?}", scene.diagnostics);
-    let graph = fold(&scene.lower(&Options::default()).unwrap());
-    let next = sunk(&graph).expect("a result");
-    same("far", &graph, &next);
+    let far = "fn far(a: real, b: real) -> real =
+          loop (t = a) max 9 { if t < b then next(t * 1.7 + 0.3) else t } else b;";
+    for ink in [
+        "far(x + 1, y) + 2 > 3 * y - x",
+        // Both that are chosen between are results.
+        "(if x > y then far(x + 1, y) else far(y + 1, x + 0.3)) + 2 > 3 * y - x",
+        "2 - (if x > y then far(x + 1, y) else y) > 3 * y - x",
+    ] {
+        let source = format!(
+            "image 32 x 24 inks black, white; {far} draw (x, y) = ink(if {ink} then 1 else 0);"
+        );
+        let scene = scene::check("test", &source);
+        assert!(scene.is_right(), "{:?}", scene.diagnostics);
+        let graph = fold(&scene.lower(&Options::default()).unwrap());
+        let next = sunk(&graph).expect("a result");
+        same(ink, &graph, &next);
+    }
 }
