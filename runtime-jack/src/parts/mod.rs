@@ -15,6 +15,7 @@ mod float;
 mod functions;
 mod int;
 mod log;
+mod log_tables;
 mod powers;
 mod processor;
 
