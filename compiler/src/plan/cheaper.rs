@@ -17,7 +17,6 @@ use super::workshop::{Rewritten, Workshop};
 use crate::flow::graph::*;
 use crate::passes::algebra::{Cheaper, Verdicts, algebra, decided, spans};
 use crate::passes::apart::apart;
-use crate::passes::arms::{arms, conditions};
 use crate::passes::early::in_loops;
 use crate::passes::guard::guard;
 use crate::passes::homogeneous::{homogeneous, lengths};
@@ -49,9 +48,6 @@ const SHORTER: f64 = 0.99;
 
 /// By how much spans must.
 const SPANS: f64 = 0.99;
-
-/// By how much operations in arms must: each choice is asked once more.
-const ARMS: f64 = 0.99;
 
 /// How often values are taken apart: what one needs may be taken apart after it.
 const APART: usize = 6;
@@ -115,22 +111,6 @@ impl Rewrite {
             Rewrite::Spans => spans,
         }
     }
-}
-
-/// With operations made in the arms of choices where they are none in one of them.
-pub fn in_arms(plan: Settled, shop: &Workshop, thrift: Thrift) -> Settled {
-    let price = Price::new(&plan, shop.runtime, thrift);
-    let mut best = plan;
-    for k in 0..conditions(&best.graph).len() {
-        let cond = conditions(&best.graph).get(k).copied();
-        let next = cond.and_then(|cond| arms(&best.graph, &best.ranges, cond));
-        if let Some(next) = next.map(|graph| shop.settle(&graph))
-            && price.of(&next) < ARMS * price.of(&best)
-        {
-            best = next;
-        }
-    }
-    best
 }
 
 /// With tables' recipes followed where their entries are needed, if that is worth

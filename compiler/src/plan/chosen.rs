@@ -1,10 +1,17 @@
-//! Which factors are chosen by the values that they take: [`crate::passes::factors`].
+//! What is made of choices: operations in their arms ([`crate::passes::arms`]), and factors
+//! that are chosen by the values that they take ([`crate::passes::factors`]).
 
 use super::cheaper::NODES;
 use super::price::Price;
 use super::settled::Settled;
+use super::thrift::Thrift;
 use super::workshop::Workshop;
+use crate::passes::arms::{arms, conditions};
 use crate::passes::factors::factors;
+
+/// By how much operations in arms must make the plan cheaper: each choice is asked once
+/// more.
+const ARMS: f64 = 0.99;
 
 /// By how much a choice must make the plan cheaper: what a jump more costs is not known
 /// so well.
@@ -12,6 +19,22 @@ const CHOICE: f64 = 0.999;
 
 /// How many factors are chosen.
 const FACTORS: usize = 8;
+
+/// With operations made in the arms of choices where they are none in one of them.
+pub fn in_arms(plan: Settled, shop: &Workshop, thrift: Thrift) -> Settled {
+    let price = Price::new(&plan, shop.runtime, thrift);
+    let mut best = plan;
+    for k in 0..conditions(&best.graph).len() {
+        let cond = conditions(&best.graph).get(k).copied();
+        let next = cond.and_then(|cond| arms(&best.graph, &best.ranges, cond));
+        if let Some(next) = next.map(|graph| shop.settle(&graph))
+            && price.of(&next) < ARMS * price.of(&best)
+        {
+            best = next;
+        }
+    }
+    best
+}
 
 /// The plan with what is multiplied by one of few numbers chosen by which that is, each
 /// in the cheapest way; nothing where that pays nowhere.

@@ -1,6 +1,7 @@
 //! How a plan is made: the passes in their order, then a routine for each value.
 
-use super::cheaper::{apart_at_last, cheaper, in_arms, with_inks_split, with_recipes_followed};
+use super::cheaper::{apart_at_last, cheaper, with_inks_split, with_recipes_followed};
+use super::chosen::in_arms;
 use super::params::{self, ParamPlan};
 use super::price::Price;
 use super::settled::{Known, Settled};
