@@ -159,26 +159,28 @@ fn assembly(document: &Document) -> Need {
 }
 
 /// The heap of a Jack program before it draws: one object of fields, Floats and
-/// arrays. Rows of errors are made in a loop, one Float an element.
+/// arrays, and the tables of its classes. Rows of errors are filled in a loop, of Floats
+/// with one an element.
 fn heap(documents: &[Document]) -> Need {
     let (mut fields, mut floats, mut arrays, mut rows) = (0, 0, 0, 0);
     // Behind `Main` comes the scene's class.
     let scene = documents.get(1).map_or("", |d| d.text.as_str());
+    let of_floats = scene.contains("] = Float.new()");
     for line in scene.lines().map(str::trim_start) {
         if let Some(declared) = line.strip_prefix("field ") {
             let names = declared.split(';').next().unwrap_or_default();
             fields += names.split(',').count() as u64;
-        } else if let Some((_, size)) = line.split_once("= Array.new(") {
-            let size = size.split(')').next().and_then(|n| n.parse::<u64>().ok());
-            let size = size.unwrap_or(0);
+        } else if let Some(size) = array(line) {
             arrays += size + HEADER;
-            if line.starts_with("let errors") {
+            if of_floats && line.starts_with("let errors") {
                 rows += size;
             }
         } else if line.contains("= Float.constant(") || line.contains("= Float.new(") {
             floats += 1;
         }
     }
+    let classes = documents.iter().skip(2).flat_map(|d| d.text.lines());
+    let tables = classes.filter_map(array).map(|size| size + HEADER);
     let float = 3 + HEADER;
     Need {
         unit: "words",
@@ -187,9 +189,16 @@ fn heap(documents: &[Document]) -> Need {
             ("numbers", floats * float),
             ("tables", arrays),
             ("errors", rows * float),
+            ("arithmetic", tables.sum()),
         ],
         room: HEAP,
     }
+}
+
+/// The length of the array that a line makes.
+fn array(line: &str) -> Option<u64> {
+    let (_, size) = line.split_once("= Array.new(")?;
+    size.split(')').next()?.parse().ok()
 }
 
 #[cfg(test)]

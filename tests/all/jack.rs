@@ -284,19 +284,14 @@ fn random_scenes_are_drawn_as_the_model_says() {
 #[test]
 fn random_scenes_are_drawn_with_logarithms_as_the_model_says() {
     let mut scribe = Scribe(3);
-    let (mut drawn, mut varied) = (0, 0);
-    for _ in 0..250 {
+    let mut varied = 0;
+    for _ in 0..120 {
         let source = scribe.scene();
-        match planned_in(&JACK_LOG10, &source, (&[], None), true) {
-            Ok(plan) => {
-                let run = agrees(&plan, &documents(&plan), &source);
-                drawn += 1;
-                varied += u32::from(run.screen.pixels.contains(&0));
-            }
-            Err(said) => assert!(said.contains("cannot compute"), "{said}\n{source}"),
-        }
+        let plan = planned_in(&JACK_LOG10, &source, (&[], None), true).unwrap();
+        let run = agrees(&plan, &documents(&plan), &source);
+        varied += u32::from(run.screen.pixels.contains(&0));
     }
-    assert!(drawn >= 60 && varied >= 25, "{drawn} {varied}");
+    assert!(varied >= 40, "only {varied} pictures show anything");
 }
 
 /// A quarter of the floats' cycles at least, and few pixels that are not the native's.

@@ -15,6 +15,7 @@
 //! Whoever writes them leaves out a sign that the ranges know. The result may share the
 //! variables of an argument.
 
+mod functions;
 mod loose;
 pub mod model;
 mod routines;

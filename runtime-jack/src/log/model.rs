@@ -190,7 +190,7 @@ pub fn clamp(log: i32) -> i32 {
 }
 
 /// Of the sum of two values of one sign, from those of both.
-fn sum(a: i32, b: i32) -> i32 {
+pub(super) fn sum(a: i32, b: i32) -> i32 {
     let (more, less) = (a.max(b), a.min(b));
     match tables().sums.get((more - less) as usize) {
         Some(entry) => (more + entry).min(MOST),
@@ -199,7 +199,7 @@ fn sum(a: i32, b: i32) -> i32 {
 }
 
 /// Of the difference of two values, from those of both.
-fn difference(a: i32, b: i32) -> i32 {
+pub(super) fn difference(a: i32, b: i32) -> i32 {
     let (more, less) = (a.max(b), a.min(b));
     match tables().differences.get((more - less) as usize) {
         _ if more == less => LEAST,
@@ -220,12 +220,12 @@ fn rest(apart: i32) -> i32 {
 }
 
 /// Half of a logarithm, rounded down.
-fn half(log: i32) -> i32 {
+pub(super) fn half(log: i32) -> i32 {
     log.div_euclid(2)
 }
 
 /// floor(2^(log / 1024)); from 512 on of nine bits, at most 32767. 0 below 1.
-fn whole(mut log: i32) -> i32 {
+pub(super) fn whole(mut log: i32) -> i32 {
     if log < 0 {
         return 0;
     }
@@ -242,7 +242,7 @@ fn whole(mut log: i32) -> i32 {
 }
 
 /// The logarithm of an int's magnitude.
-fn log_of(i: i32) -> i32 {
+pub(super) fn log_of(i: i32) -> i32 {
     let i = magnitude(i);
     let logs = &tables().logs;
     let at = |n: i32| logs.get(n as usize).copied().unwrap_or(LEAST);

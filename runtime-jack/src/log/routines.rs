@@ -42,6 +42,34 @@ const STEP: Error = Error::Mixed {
 };
 /// A quotient that is cut beside a whole number moves the result by the divisor.
 const UNKNOWN: Error = Error::Absolute(131_072.0);
+/// Of angles up to 1: one unit of 1.
+const NEAR_SINE: Error = Error::Absolute(6.8e-4);
+/// The whole quarter turns of an angle are taken away as a value of the format: of 64, half a
+/// unit is 0.02.
+const SINE: Error = Error::Absolute(0.022);
+/// From 256 quarter turns on these are all that counts.
+const ANY_SINE: Error = Error::Absolute(2.0);
+/// Up to 1.4, where the cosine is 0.17.
+const TANGENT: Error = Error::Mixed {
+    relative: 2e-3,
+    absolute: ZERO,
+};
+/// Three sums, of which the last counts most.
+const ARC: Error = Error::Mixed {
+    relative: 1e-3,
+    absolute: ZERO,
+};
+const NEAR_EXP: Error = Error::Relative(8.2e-4);
+/// An exponent of 2 is as near as logarithms tell, of 16 octaves 1/100.
+const POWER: Error = Error::Mixed {
+    relative: 0.01,
+    absolute: ZERO,
+};
+/// A whole number's logarithm, and the constant's rounding.
+const LOGARITHM: Error = Error::Mixed {
+    relative: 1.1e-3,
+    absolute: ZERO,
+};
 /// The least magnitude, which stands for 0.
 const ZERO: f64 = 1.0 / 8192.0;
 
@@ -73,6 +101,23 @@ fn low_quotient(args: &[Range], result: Range) -> bool {
 
 fn high_quotient(args: &[Range], _: Range) -> bool {
     matches!(args, [a, b, ..] if least(a) >= ZERO * b.magnitude())
+}
+
+fn near_angle(args: &[Range], _: Range) -> bool {
+    args.iter().all(|a| a.within(-1.0, 1.0))
+}
+
+fn angle(args: &[Range], _: Range) -> bool {
+    args.iter().all(|a| a.within(-64.0, 64.0))
+}
+
+fn near_tangent(args: &[Range], _: Range) -> bool {
+    args.iter().all(|a| a.within(-1.4, 1.4))
+}
+
+/// A first argument that is more than what stands for 0, and a result that fits.
+fn above_zero(args: &[Range], result: Range) -> bool {
+    high(result) && args.first().is_some_and(|a| a.lo > 1.001 * ZERO)
 }
 
 /// Two arguments of known signs, and a sum that fits.
@@ -259,7 +304,31 @@ const SUMS_OF_SIGNS: &[Routine] = &[
     routine!("any_sub" Sub(R, R) -> R, Do("let {r} = Log.clamp(Log.add({0}, {0+}, {1}, ~{1+}));\nlet {r+} = Log.plus();"), ["Log.add", "Log.clamp"], everywhere, DIFFERENCES, |a, b| a.sub(b), 61, 37),
 ];
 
+#[rustfmt::skip]
+const FUNCTIONS: &[Routine] = &[
+    routine!("near_sin" Sin(R) -> R, Do("let {r} = Log.sin({0}, {0+});\nlet {r+} = Log.plus();"), ["Log.sin"], near_angle, NEAR_SINE, |a| a.sin(), 189, 26),
+    routine!("sin" Sin(R) -> R, Do("let {r} = Log.sin({0}, {0+});\nlet {r+} = Log.plus();"), ["Log.sin"], angle, SINE, |a| a.sin(), 189, 26),
+    routine!("any_sin" Sin(R) -> R, Do("let {r} = Log.sin({0}, {0+});\nlet {r+} = Log.plus();"), ["Log.sin"], everywhere, ANY_SINE, |a| a.sin(), 214, 26),
+    routine!("near_cos" Cos(R) -> R, Do("let {r} = Log.quarterSine({0}, 1);\nlet {r+} = Log.plus();"), ["Log.sine"], near_angle, NEAR_SINE, |a| a.cos(), 234, 24),
+    routine!("cos" Cos(R) -> R, Do("let {r} = Log.quarterSine({0}, 1);\nlet {r+} = Log.plus();"), ["Log.sine"], angle, SINE, |a| a.cos(), 234, 24),
+    routine!("any_cos" Cos(R) -> R, Do("let {r} = Log.quarterSine({0}, 1);\nlet {r+} = Log.plus();"), ["Log.sine"], everywhere, ANY_SINE, |a| a.cos(), 262, 24),
+    routine!("tan" Tan(R) -> R, Do("let {r} = Log.tan({0}, {0+});\nlet {r+} = Log.plus();"), ["Log.tan"], near_tangent, TANGENT, |a| a.tan(), 440, 26),
+    routine!("any_tan" Tan(R) -> R, Do("let {r} = Log.tan({0}, {0+});\nlet {r+} = Log.plus();"), ["Log.tan"], everywhere, UNKNOWN, |a| a.tan(), 492, 26),
+    routine!("asin" Asin(R) -> R, Do("let {r} = Log.asin({0});\nlet {r+} = {0+};"), ["Log.asin"], everywhere, ARC, |a| a.asin(), 132, 22),
+    routine!("acos" Acos(R) -> R, Do("let {r} = Log.acos({0}, {0+});\nlet {r+} = true;"), ["Log.acos"], everywhere, ARC, |a| a.acos(), 158, 24),
+    routine!("atan2" Atan2(R, R) -> R, Do("let {r} = Log.atan2({0}, {1}, {1+});\nlet {r+} = {0+};"), ["Log.atan2"], everywhere, ARC, |a, b| a.atan2(b), 174, 30),
+    routine!("near_exp" Exp(R) -> R, Do("let {r} = Log.exp({0}, {0+});\nlet {r+} = true;"), ["Log.exp"], near_angle, NEAR_EXP, |a| a.exp(), 485, 24),
+    routine!("exp" Exp(R) -> R, Do("let {r} = Log.exp({0}, {0+});\nlet {r+} = true;"), ["Log.exp"], everywhere, POWER, |a| a.exp(), 414, 24),
+    routine!("log" Log(R) -> R, Do("let {r} = Log.log({0}, {0+});\nlet {r+} = Log.plus();"), ["Log.log"], above_zero, LOGARITHM, |a| a.log(), 67, 26),
+    routine!("any_log" Log(R) -> R, Do("let {r} = Log.log({0}, {0+});\nlet {r+} = Log.plus();"), ["Log.log"], everywhere, UNKNOWN, |a| a.log(), 49, 26),
+    routine!("pow" Pow(R, R) -> R, Do("let {r} = Log.pow({0}, {0+}, {1}, {1+});\nlet {r+} = Log.plus();"), ["Log.pow"], above_zero, POWER, |a, b| a.pow(b), 464, 36),
+    routine!("any_pow" Pow(R, R) -> R, Do("let {r} = Log.pow({0}, {0+}, {1}, {1+});\nlet {r+} = Log.plus();"), ["Log.pow"], everywhere, UNKNOWN, |a, b| a.pow(b), 299, 36),
+];
+
 /// The routines of logarithms, and those of ints.
 pub(super) static ALL: [Routine; OF_REALS.len() + INTS.len()] = joined(OF_REALS, INTS);
 
-const OF_REALS: &[Routine] = &joined::<{ REALS.len() + SUMS_OF_SIGNS.len() }>(REALS, SUMS_OF_SIGNS);
+const OF_REALS: &[Routine] = &joined::<{ REALS.len() + SUMS_OF_SIGNS.len() + FUNCTIONS.len() }>(
+    &joined::<{ REALS.len() + SUMS_OF_SIGNS.len() }>(REALS, SUMS_OF_SIGNS),
+    FUNCTIONS,
+);

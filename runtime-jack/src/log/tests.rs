@@ -70,6 +70,9 @@ fn routines_keep_within_their_errors() {
         .into_iter()
         .flat_map(|plus| logs.iter().map(move |&log| Log { plus, log }.bits()))
         .collect();
+    let every: Vec<Bits> = (LEAST..=MOST)
+        .flat_map(|log| [true, false].map(|plus| Log { plus, log }.bits()))
+        .collect();
     let ints: Vec<Bits> = (-40..40).map(|k| int_bits(k * k * k / 2)).collect();
     let own = ALL
         .iter()
@@ -77,6 +80,7 @@ fn routines_keep_within_their_errors() {
     for routine in own {
         let list = |k: usize| match routine.args.get(k) {
             None => vec![0],
+            Some(Format::Log { .. }) if routine.args.len() == 1 => every.clone(),
             Some(Format::Log { .. }) => reals.clone(),
             Some(_) => ints.clone(),
         };

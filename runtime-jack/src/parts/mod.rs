@@ -15,6 +15,7 @@ mod float;
 mod functions;
 mod int;
 mod log;
+mod log_functions;
 mod log_tables;
 mod powers;
 mod processor;
@@ -92,6 +93,17 @@ pub(crate) static ALL: &[Part] = &[
     part!("Log.round", ["Log.add", "Log.floor"], 60, log::ROUND),
     part!("Log.sign", [], 30, log::SIGN),
     part!("Log.mod", ["Log.add", "Log.floor", "Log.fromInt", "Log.clamp"], 120, log::MOD),
+    part!("Log.sine", ["Log.whole", "Log.add", "Log.leave"], 300, log_functions::SINE),
+    part!("Log.sin", ["Log.sine"], 40, log_functions::SIN),
+    part!("Log.tan", ["Log.sine", "Log.clamp"], 80, log_functions::TAN),
+    part!("Log.angle", ["Log.sum", "Log.difference", "Log.leave"], 200, log_functions::ANGLE),
+    part!("Log.atan2", ["Log.angle"], 50, log_functions::ATAN2),
+    part!("Log.asin", ["Log.angle", "Log.half"], 50, log_functions::ASIN),
+    part!("Log.acos", ["Log.angle", "Log.half"], 80, log_functions::ACOS),
+    part!("Log.units", ["Log.whole"], 160, log_functions::UNITS),
+    part!("Log.exp", ["Log.units"], 50, log_functions::EXP),
+    part!("Log.log", ["Log.fromInt", "Log.add"], 80, log_functions::LOG),
+    part!("Log.pow", ["Log.units", "Log.fromInt", "Log.add"], 280, log_functions::POW),
     part!("Int", [], 0, ""),
     part!("Int.magnitude", [], 60, int::MAGNITUDE),
     part!("Int.add", [], 120, int::ADD),

@@ -5,7 +5,6 @@ use super::logs::{has_signs, without_idle_signs};
 use super::making::making;
 use super::params::{checks, parameters};
 use super::report::reports;
-use super::spread;
 use super::statics::statics;
 use super::{Document, Line, Text};
 use crate::flow::graph::TableId;
@@ -227,10 +226,6 @@ fn declared(code: &Code) -> Vec<(&'static str, Vec<String>, &'static str)> {
     if let Some(spread) = &code.spread {
         let rows = spread.ring.to_vec();
         all.push(("Array", rows, " // what pixels send to later ones"));
-        if code.logs() {
-            let signs = spread.ring.iter().map(|row| spread::signs(row));
-            all.push(("Array", signs.collect(), ""));
-        }
         all.push((real, vec![spread.received.clone(), spread.sum.clone()], ""));
     }
     let tables = names.tables().map(|(_, name)| name.to_owned()).collect();
@@ -309,7 +304,7 @@ fn drawing(code: &mut Code) -> Vec<Subroutine> {
     picture.open(format!("while (~({y} > {last_row})) {{"));
     picture.line("do drawRow();");
     if let Some(spread) = &spread {
-        spread.turn(code, &mut picture);
+        spread.turn(&mut picture);
     }
     picture.line(format!("let {y} = {y} + 1;"));
     picture.close("}");

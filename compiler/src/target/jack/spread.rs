@@ -49,23 +49,17 @@ impl Spread {
         }
     }
 
-    /// The arrays of a ring: of signs, too, beside logarithms.
-    fn arrays(&self, code: &Code) -> Vec<Vec<String>> {
-        let signs = || self.ring.iter().map(|name| signs(name)).collect();
-        match code.logs() {
-            true => vec![self.ring.clone(), signs()],
-            false => vec![self.ring.clone()],
-        }
-    }
-
     /// Takes what a pixel has received.
     pub fn receive(&self, code: &mut Code, x: &str, text: &mut Text) {
         let here = self.element(x, 0, 0);
-        text.line(format!("let {} = {here};", self.received));
         if code.logs() {
             let own = code.sign_of(&self.received);
-            text.line(format!("let {own} = {};", signs(&here)));
+            for line in unpacked(&here, &self.received, &own) {
+                text.line(line);
+            }
+            return;
         }
+        text.line(format!("let {} = {here};", self.received));
     }
 
     /// Sends a pixel's shares, and leaves 0 where it stood.
@@ -78,7 +72,6 @@ impl Spread {
             let down = usize::try_from(share.dy).unwrap_or(0);
             let there = self.element(x, i64::from(share.dx), down);
             text.span = Some(plan.graph.span(share.node));
-            text.line(format!("let {sum} = {there};"));
             if code.logs() {
                 let template = match gather {
                     Some(Form::Statement(template)) => template,
@@ -89,38 +82,36 @@ impl Spread {
                 }
                 continue;
             }
+            text.line(format!("let {sum} = {there};"));
             if let Some(Form::Statement(template)) = gather {
                 let sent = code.read(share.node).text;
                 let call = template.replace("{r}", &sum).replace("{0}", &sum);
                 text.line(format!("do {};", call.replace("{1}", &sent)));
             }
         }
-        let zero = code.constant(Value::Real(0.0)).text;
         if code.logs() {
             let here = self.element(x, 0, 0);
-            text.line(format!("let {here} = {zero};"));
-            text.line(format!("let {} = true;", signs(&here)));
+            text.line(format!("let {here} = 0;"));
             return text.lines;
         }
+        let zero = code.constant(Value::Real(0.0)).text;
         code.needs.insert("Float.copy");
         text.line(format!("do {}.copy({zero});", self.received));
         text.lines
     }
 
     /// The row that is done becomes the furthest one.
-    pub fn turn(&self, code: &Code, text: &mut Text) {
-        for ring in self.arrays(code) {
-            let [first, .., done] = ring.as_slice() else {
-                return;
-            };
-            if self.rows.rows < 2 {
-                return;
-            }
-            text.line(format!("let {done} = {first};"));
-            for pair in ring.windows(2) {
-                if let [to, from] = pair {
-                    text.line(format!("let {to} = {from};"));
-                }
+    pub fn turn(&self, text: &mut Text) {
+        let [first, .., done] = self.ring.as_slice() else {
+            return;
+        };
+        if self.rows.rows < 2 {
+            return;
+        }
+        text.line(format!("let {done} = {first};"));
+        for pair in self.ring.windows(2) {
+            if let [to, from] = pair {
+                text.line(format!("let {to} = {from};"));
             }
         }
     }
@@ -130,25 +121,20 @@ impl Spread {
         let length = self.rows.length();
         let [x, _] = code.names.axes.clone();
         let empty = match code.logs() {
-            true => [code.constant(Value::Real(0.0)).text, "true".to_owned()],
-            false => ["Float.new()".to_owned(), String::new()],
+            true => "0",
+            false => "Float.new()",
         };
         if !code.logs() {
             code.needs.insert("Float");
         }
         let mut text = Text::default();
-        let rings = self.arrays(code);
-        let rows = rings.iter().zip(empty).flat_map(|(ring, empty)| {
-            let rows = ring.iter().take(self.rows.rows as usize);
-            rows.map(move |row| (row, empty.clone()))
-        });
-        let rows: Vec<(&String, String)> = rows.collect();
-        for (row, _) in &rows {
+        let rows = || self.ring.iter().take(self.rows.rows as usize);
+        for row in rows() {
             text.line(format!("let {row} = Array.new({length});"));
         }
         text.line(format!("let {x} = 0;"));
         text.open(format!("while ({x} < {length}) {{"));
-        for (row, empty) in &rows {
+        for row in rows() {
             text.line(format!("let {row}[{x}] = {empty};"));
         }
         text.line(format!("let {x} = {x} + 1;"));
@@ -158,13 +144,27 @@ impl Spread {
     }
 }
 
-/// What signs are called beside their logarithms, or an element of them.
-pub(super) fn signs(name: &str) -> String {
-    match name.split_once('[') {
-        Some((array, index)) => format!("{array}_plus[{index}"),
-        None => format!("{name}_plus"),
-    }
+/// What a logarithm and its sign are read from: one word, how far it is above the
+/// least, which is 0, or one less than minus that where it is negative.
+fn unpacked(word: &str, log: &str, plus: &str) -> Vec<String> {
+    vec![
+        format!("let {log} = {word};"),
+        format!("let {plus} = ~({log} < 0);"),
+        format!("if ({plus}) {{ let {log} = {log} - {ABOVE}; }}"),
+        format!("else {{ let {log} = (-{}) - {log}; }}", ABOVE + 1),
+    ]
 }
+
+/// The same, written.
+fn packed(word: &str, log: &str, plus: &str) -> Vec<String> {
+    vec![
+        format!("if ({plus}) {{ let {word} = {log} + {ABOVE}; }}"),
+        format!("else {{ let {word} = (-{}) - {log}; }}", ABOVE + 1),
+    ]
+}
+
+/// What the least logarithm is below 0.
+const ABOVE: i32 = -slowlight_runtime_jack::log::model::LEAST;
 
 /// Adds a share to what another pixel has received, both as logarithms.
 fn gathered(
@@ -183,9 +183,8 @@ fn gathered(
         let line = line.replace("{0+}", &own).replace("{0}", sum);
         line.replace("{1+}", &plus).replace("{1}", &sent)
     };
-    let mut lines = vec![format!("let {own} = {};", signs(there))];
+    let mut lines = unpacked(there, sum, &own);
     lines.extend(template.lines().map(fill));
-    lines.push(format!("let {there} = {sum};"));
-    lines.push(format!("let {} = {own};", signs(there)));
+    lines.extend(packed(there, sum, &own));
     lines
 }
