@@ -4,6 +4,7 @@
 //! and the meeting of the compiler with the machines. One file a subcommand
 //! in [`commands`]; the compiler and the machines know nothing of each other.
 
+pub mod against;
 pub mod ascii;
 pub mod cases;
 pub mod commands;

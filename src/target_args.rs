@@ -12,6 +12,7 @@ use slowlight_compiler::plan::{Goal, Plan, plan, plan_as_written};
 use slowlight_compiler::sema::{FunctionKind, Program};
 use slowlight_compiler::source::Span;
 use slowlight_compiler::target::{self, Mode, TARGETS, Target};
+use std::collections::BTreeSet;
 
 /// Screen and rows.
 #[derive(Args, Clone, Debug, Default)]
@@ -72,6 +73,22 @@ pub enum Style {
 pub fn target(name: &str) -> Result<&'static Target, String> {
     let names = TARGETS.iter().map(|t| t.name);
     target::find(name).ok_or_else(|| unknown("target", name, names))
+}
+
+/// What stands for every format that a machine has.
+pub const ALL_FORMATS: &str = "all";
+
+/// Reads a `--format` of any machine, or `all`.
+///
+/// # Errors
+/// Where no machine has it: what there is.
+pub fn format_or_all(name: &str) -> Result<String, String> {
+    let formats = TARGETS.iter().flat_map(|t| target::formats(t));
+    let names: BTreeSet<&str> = formats.map(|t| t.runtime.format).collect();
+    match name == ALL_FORMATS || names.contains(name) {
+        true => Ok(name.to_owned()),
+        false => Err(unknown("format", name, names)),
+    }
 }
 
 /// Reads `--page`: hexadecimal, with or without `&`, a whole page of memory.

@@ -6,11 +6,11 @@ use crate::format::{count, duration, table};
 use crate::measure::psnr;
 use crate::picture::{self, FileFormat, Picture};
 use crate::scene::{Scene, ScenesArgs};
-use crate::target_args::{self, ScreenArgs};
+use crate::target_args::{self, ALL_FORMATS, Os, ScreenArgs};
 use crate::trial::{self, LIMIT, Trial};
 use crate::{files, jobs, say, say_json};
 use serde_json::{Value, json};
-use slowlight_compiler::target::{TARGETS, Target};
+use slowlight_compiler::target::{self, TARGETS, Target};
 use std::path::{Path, PathBuf};
 
 /// Pixels between two pictures.
@@ -24,6 +24,12 @@ pub struct Args {
     /// A machine; all where none is named
     #[arg(short, long, value_name = "T", value_parser = target_args::target)]
     target: Vec<&'static Target>,
+    /// How reals are held, on machines that have several ways: some of these, or all
+    #[arg(long, value_name = "F|all", value_parser = target_args::format_or_all)]
+    format: Vec<String>,
+    /// Jack's operating system, as for `run`
+    #[arg(long, value_name = "OS")]
+    os: Option<Os>,
     /// Only these rows of the picture, both ends included
     #[arg(long, value_name = "A..B")]
     rows: Option<String>,
@@ -87,11 +93,12 @@ pub fn run(args: &Args) -> Outcome<()> {
 
 /// Each scene on each target, several at the same time.
 fn rows(args: &Args) -> Outcome<Vec<Row<'_>>> {
-    let targets = if args.target.is_empty() {
+    let named = if args.target.is_empty() {
         TARGETS
     } else {
         args.target.as_slice()
     };
+    let targets: Vec<&'static Target> = named.iter().flat_map(|t| in_formats(args, t)).collect();
     let open = |path| {
         let scene = Scene::open(path, &args.scenes.changes)?;
         scene.warn();
@@ -122,13 +129,29 @@ fn rows(args: &Args) -> Outcome<Vec<Row<'_>>> {
     Ok(rows)
 }
 
+/// A machine in the formats that were asked for; in its usual one where it has none of them.
+fn in_formats(args: &Args, target: &'static Target) -> Vec<&'static Target> {
+    let wanted = |t: &&Target| {
+        let named = |f: &String| f == t.runtime.format || f == ALL_FORMATS;
+        args.format.iter().any(named)
+    };
+    let found: Vec<&'static Target> = target::formats(target).filter(wanted).collect();
+    if found.is_empty() {
+        vec![target]
+    } else {
+        found
+    }
+}
+
 fn one(args: &Args, scene: &Scene, target: &'static Target) -> Outcome<Trial> {
     let screen = ScreenArgs {
         rows: args.rows.clone(),
+        format: Some(target.runtime.format.to_owned()),
+        os: args.os.filter(|_| target.name == "jack"),
         ..ScreenArgs::default()
     };
     let plan = screen.plan(scene, target, &[])?;
-    let loaded = trial::build(&plan)?.loaded;
+    let loaded = trial::build_for(&plan, screen.machine(target)?)?.loaded;
     trial::run(scene, plan, &[], loaded, args.limit)
 }
 

@@ -1,5 +1,6 @@
 //! `run`: build, run on the bundled machine, compare.
 
+use crate::against::Reference;
 use crate::failure::{Failure, Outcome};
 use crate::format::{count, duration, table};
 use crate::machine::Loaded;
@@ -9,8 +10,10 @@ use crate::scene::{Scene, SceneArgs};
 use crate::target_args::{self, ScreenArgs};
 use crate::trial::{self, LIMIT, Trial};
 use crate::{program, say, say_json};
+use serde::Serialize;
 use slowlight_compiler::plan::Plan;
 use slowlight_compiler::target::Target;
+use std::collections::BTreeMap;
 use std::path::PathBuf;
 
 /// How many differing pixels are listed.
@@ -29,6 +32,9 @@ pub struct Args {
     /// Where to write the machine's picture (the rows asked for): .png, .pgm or .pbm
     #[arg(short, long, value_name = "FILE", conflicts_with = "no_plot")]
     output: Option<PathBuf>,
+    /// Count the pixels unlike those of another picture, too: .png, .pgm or .pbm, as `-o` writes
+    #[arg(long, value_name = "FILE", conflicts_with = "no_plot")]
+    against: Vec<PathBuf>,
     /// Print one JSON object
     #[arg(long)]
     json: bool,
@@ -43,6 +49,9 @@ pub struct Args {
 /// Runs, reports, and fails where machine and model differ.
 pub fn run(args: &Args) -> Outcome<()> {
     let output = PictureFile::named(args.output.as_deref())?;
+    let others: Vec<Reference> = (args.against.iter())
+        .map(|path| Reference::read(path))
+        .collect::<Outcome<_>>()?;
     let scene = Scene::load(&args.scene)?;
     scene.warn();
     let (plan, set, loaded) = prepare(args, &scene)?;
@@ -50,15 +59,34 @@ pub fn run(args: &Args) -> Outcome<()> {
     if let Some(picture) = &trial.picture {
         output.write(picture)?;
     }
+    let counts: Vec<u64> = (others.iter())
+        .map(|other| other.differing(&trial))
+        .collect::<Outcome<_>>()?;
+    let names = args.against.iter().map(|path| path.display().to_string());
+    let found: Vec<(String, u64)> = names.zip(counts).collect();
     if args.json {
-        say_json(&trial.report());
+        let differs_from: BTreeMap<String, u64> = found.into_iter().collect();
+        say_json(&Report {
+            trial: trial.report(),
+            differs_from,
+        });
     } else {
-        say(&report(&trial));
+        say(&report(&trial, &found));
     }
     match &trial.from_model {
         Some(differences) if !differences.is_empty() => Err(Failure::Differs),
         _ => Ok(()),
     }
+}
+
+/// What `--json` prints.
+#[derive(Serialize)]
+struct Report<'t> {
+    #[serde(flatten)]
+    trial: trial::Report<'t>,
+    /// By file.
+    #[serde(skip_serializing_if = "BTreeMap::is_empty")]
+    differs_from: BTreeMap<String, u64>,
 }
 
 fn prepare(args: &Args, scene: &Scene) -> Outcome<(Plan, program::Values, Loaded)> {
@@ -75,7 +103,7 @@ fn prepare(args: &Args, scene: &Scene) -> Outcome<(Plan, program::Values, Loaded
     Ok((plan, set, machine.load(&sources)?))
 }
 
-fn report(trial: &Trial) -> String {
+fn report(trial: &Trial, others: &[(String, u64)]) -> String {
     let plan = &trial.plan;
     let mode = match plan.mode.name {
         "" => String::new(),
@@ -126,6 +154,9 @@ fn report(trial: &Trial) -> String {
     };
     row("differs from model", counted(&trial.from_model));
     row("differs from native", counted(&trial.from_native));
+    for (file, pixels) in others {
+        row(&format!("differs from {file}"), count(*pixels));
+    }
     row("rmse of shades", format!("{:.3e}", trial.rmse));
     if let Some(db) = psnr(trial.rmse) {
         row("PSNR", format!("{db:.1} dB"));

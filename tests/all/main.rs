@@ -3,6 +3,7 @@
 mod bbc;
 mod blue_noise;
 mod cli;
+mod cli_compare;
 mod cli_fmt;
 mod cli_hack;
 mod cli_params;
