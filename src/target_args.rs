@@ -40,8 +40,8 @@ pub struct ScreenArgs {
     /// [default: 1900]
     #[arg(long, value_name = "PAGE", value_parser = page)]
     pub page: Option<u16>,
-    /// Without the stable forms: every formula as the scene has it
-    #[arg(long, hide = true)]
+    /// Rewrite nothing, neither for accuracy nor for speed: every formula as the scene has it
+    #[arg(long)]
     pub as_written: bool,
     /// With subroutines for what the program has several times, also where it fits without
     #[arg(long, hide = true)]

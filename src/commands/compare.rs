@@ -30,6 +30,9 @@ pub struct Args {
     /// Jack's operating system, as for `run`
     #[arg(long, value_name = "OS")]
     os: Option<Os>,
+    /// Rewrite nothing, neither for accuracy nor for speed: every formula as the scene has it
+    #[arg(long)]
+    as_written: bool,
     /// Only these rows of the picture, both ends included
     #[arg(long, value_name = "A..B")]
     rows: Option<String>,
@@ -147,6 +150,7 @@ fn one(args: &Args, scene: &Scene, target: &'static Target) -> Outcome<Trial> {
     let screen = ScreenArgs {
         rows: args.rows.clone(),
         format: Some(target.runtime.format.to_owned()),
+        as_written: args.as_written,
         os: args.os.filter(|_| target.name == "jack"),
         ..ScreenArgs::default()
     };

@@ -60,5 +60,46 @@ fn a_torus_in_logarithms() {
 fn a_maze_and_what_diffuses_errors() {
     same("maze", &["--rows", "10..14"]);
     same("primitives", &["--rows", "0..3"]);
-    same("mirrors", &["--rows", "120..123", "--format", "log10"]);
+    for (name, rows) in [
+        ("mirrors", "120..123"),
+        ("maze", "10..14"),
+        ("primitives", "0..3"),
+    ] {
+        same(name, &["--rows", rows, "--format", "log10"]);
+    }
+}
+
+/// Words of the screen are written whole; pictures begin and end within them, too.
+#[test]
+fn pictures_that_begin_within_a_word() {
+    let places = [
+        (33, 5),
+        (1, 3),
+        (16, 2),
+        (482, 4),
+        (31, 256),
+        (520, 3),
+        (30, 260),
+    ];
+    for (width, height) in places {
+        let source = format!(
+            "image {width} x {height} inks black, white;
+             draw (x, y) = ink((x * 5 + y * 3) mod 7 mod 2);"
+        );
+        let dir = directory(&[("dots.scn", &source)]);
+        let run = |more: &[&str]| {
+            let args = ["run", "dots.scn", "-t", "jack", "--json"];
+            json(dir.path(), &[&args[..], more].concat())
+        };
+        let rom = run(&["--os", "jack"]);
+        assert_eq!(rom["differs_from_native"], 0, "{width} x {height}");
+        assert_eq!(rom["inks_sha256"], run(&[])["inks_sha256"]);
+        let build = [
+            "build", "dots.scn", "-t", "jack", "--os", "jack", "-o", "out",
+        ];
+        success(dir.path(), &build);
+        let code = std::fs::read_dir(dir.path().join("out")).expect("a directory");
+        let code = code.filter_map(|file| std::fs::read_to_string(file.ok()?.path()).ok());
+        assert!(!code.collect::<String>().contains("Screen.drawPixel"));
+    }
 }

@@ -228,6 +228,9 @@ fn declared(code: &Code) -> Vec<(&'static str, Vec<String>, &'static str)> {
         all.push(("Array", rows, " // what pixels send to later ones"));
         all.push((real, vec![spread.received.clone(), spread.sum.clone()], ""));
     }
+    for (ty, names) in names.canvas.iter().flat_map(|canvas| canvas.declared()) {
+        all.push((ty, names, " // the screen's word"));
+    }
     let tables = names.tables().map(|(_, name)| name.to_owned()).collect();
     all.push(("Array", tables, " // tables"));
     let tables = &code.plan.graph.tables;
@@ -295,7 +298,8 @@ fn drawing(code: &mut Code) -> Vec<Subroutine> {
         picture.line("do takeParameters();");
     }
     picture.append(frame);
-    if plan.plot {
+    let canvas = code.names.canvas.clone();
+    if plan.plot && canvas.is_none() {
         picture.line("do Screen.setColor(true);");
     }
     // Errors come from the rows above, drawn or not.
@@ -313,11 +317,17 @@ fn drawing(code: &mut Code) -> Vec<Subroutine> {
     let mut across = Text::default();
     across.append(row);
     let columns = plan.computed_columns();
+    if let Some(canvas) = &canvas {
+        canvas.begin(&y, &mut across);
+    }
     across.line(format!("let {x} = {};", columns.0));
     across.open(format!("while ({x} < {}) {{", columns.1.saturating_add(1)));
     across.line("do drawPixel();");
     across.line(format!("let {x} = {x} + 1;"));
     across.close("}");
+    if let Some(canvas) = &canvas {
+        canvas.end(&mut across);
+    }
 
     let mut dot = Text::default();
     if let Some(spread) = &spread {
@@ -325,7 +335,9 @@ fn drawing(code: &mut Code) -> Vec<Subroutine> {
     }
     dot.append(pixel);
     dot.span = Some(plan.graph.span(plan.graph.ink));
-    if plan.plot {
+    if let Some(canvas) = &canvas {
+        canvas.pixel(&black(&ink.at(TERM), &[]), &mut dot);
+    } else if plan.plot {
         let at = [(&x, plan.offset.0), (&y, plan.offset.1)].map(|(axis, by)| match by {
             0 => axis.clone(),
             1.. => format!("{axis} + {by}"),

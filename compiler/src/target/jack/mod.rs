@@ -24,9 +24,10 @@
 //! - `names`: what everything is called; `code`: statements and expressions; `logs`:
 //!   those of logarithmic reals; `lookup`: entries of tables;
 //! - `object`: constants and params; `making`: what fills the fields at the start;
-//! - `frame`: the classes around; `spread`: error diffusion; `statics`: which values
+//! - `frame`: the classes around; `canvas`: words of the screen; `spread`: error diffusion; `statics`: which values
 //!   are statics, for the processor.
 
+mod canvas;
 mod code;
 mod expression;
 mod frame;

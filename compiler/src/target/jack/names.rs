@@ -4,6 +4,7 @@
 //! underscores; methods have a capital letter in their names, so the two never
 //! meet. A param keeps its label whatever happens, unless Jack reserves it.
 
+use super::canvas::Canvas;
 use crate::flow::graph::*;
 use crate::flow::tree::{Place, SubroutineId};
 use crate::plan::{Plan, shared_homes};
@@ -76,6 +77,8 @@ pub(super) struct Names {
     subroutines: Vec<String>,
     /// The variables of signs, by those of the logarithms.
     signs: BTreeMap<String, String>,
+    /// What gathers the screen's words, where the program does.
+    pub canvas: Option<Canvas>,
     /// Whether values share variables.
     pub shared: bool,
     taken: BTreeSet<String>,
@@ -95,6 +98,7 @@ impl Names {
             turns: BTreeMap::new(),
             subroutines: Vec::new(),
             signs: BTreeMap::new(),
+            canvas: None,
             shared: false,
             taken: taken.collect(),
         };
@@ -102,6 +106,7 @@ impl Names {
         names.params = plan.params.iter().map(|p| names.fresh(&p.label)).collect();
         names.rows = ["first_row", "last_row"].map(|n| names.fresh(n));
         names.axes = ["x", "y"].map(|n| names.fresh(n));
+        names.canvas = Canvas::new(plan, &mut names);
         // In little memory values share fields, and statics, of which there are few.
         let many = plan.statics && plan.places().len() > SHARED_BEYOND;
         names.shared = plan.tight || many;
