@@ -40,7 +40,7 @@ impl Generator {
     pub fn bits(&mut self, format: Format) -> Bits {
         match format {
             Format::Bool => Bits::from(self.next() < 16384),
-            Format::Float316 => self.float().bits(),
+            Format::Float316 { .. } => self.float().bits(),
             _ => int_bits(self.int()),
         }
     }
@@ -63,7 +63,7 @@ impl Sums {
     pub fn result(&mut self, bits: Bits, format: Format) {
         match format {
             Format::Bool => self.note(if bits == 0 { 0 } else { -1 }),
-            Format::Float316 => {
+            Format::Float316 { .. } => {
                 let Float { s, e, m } = Float::from_bits(bits);
                 [s, e, m].into_iter().for_each(|word| self.note(word));
             }

@@ -55,7 +55,7 @@ impl Random {
     pub fn bits(&mut self, format: Format) -> Bits {
         match format {
             Format::Bool => self.next() & 1,
-            Format::Float316 => self.float().bits(),
+            Format::Float316 { .. } => self.float().bits(),
             _ => int_bits(self.int()),
         }
     }
@@ -110,7 +110,7 @@ pub fn int_edges() -> Vec<i32> {
 pub fn edges(format: Format) -> Vec<Bits> {
     match format {
         Format::Bool => vec![0, 1],
-        Format::Float316 => float_edges().into_iter().map(Float::bits).collect(),
+        Format::Float316 { .. } => float_edges().into_iter().map(Float::bits).collect(),
         _ => int_edges().into_iter().map(int_bits).collect(),
     }
 }

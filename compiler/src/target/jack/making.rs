@@ -65,7 +65,7 @@ pub(super) fn making(code: &mut Code) -> Vec<Subroutine> {
     if !constants.is_empty() {
         code.needs.insert("Float.constant");
     }
-    let floats = code.written.iter().filter(|(_, f)| *f == Format::Float316);
+    let floats = code.written.iter().filter(|(_, f)| matches!(f, Format::Float316 { .. }));
     let floats = floats.map(|(name, _)| name.clone());
     // Logarithms are ints, which need no making.
     let values = values.iter().filter(|_| !code.logs()).map(|v| v.1.clone());
