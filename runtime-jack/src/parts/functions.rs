@@ -67,14 +67,13 @@ pub(crate) const PRODUCT: &str = concat!(
         let k = q / 128;
         let p = p & 127;
         let q = q & 127;
-        let r = ((h * q) + (p * k)) + ((p * q) / 128);
-        let h = h * k;
+        let r = (((h * q) + (p * k)) + ((p * q) / 128)) + 64;
         let s = (a[0] + b[0]) & 1;
         let e = (a[1] + b[1]) - 126;
-        let m = h + ((r + 64) / 128);
+        let m = (h * k) + (r / 128);
         if (m < 8193) {
             if (m = 0) { let e = 0; return; }
-            let m = (h + h) + ((r + 32) / 64);
+            let m = ((m + m) + (((r & 127) + 32) / 64)) - 1;
             if (m > 16383) { let m = 8192; }
             else { let e = e - 1; }
         }

@@ -44,13 +44,25 @@ macro_rules! sum {
 
 macro_rules! add {
     ($alike:expr, $unlike:expr) => {
-        sum!("this = a + b, to the nearest", "add", "b[0]", $alike, $unlike)
+        sum!(
+            "this = a + b, to the nearest",
+            "add",
+            "b[0]",
+            $alike,
+            $unlike
+        )
     };
 }
 
 macro_rules! sub {
     ($alike:expr, $unlike:expr) => {
-        sum!("this = a - b, to the nearest", "sub", "1 - b[0]", $alike, $unlike)
+        sum!(
+            "this = a - b, to the nearest",
+            "sub",
+            "1 - b[0]",
+            $alike,
+            $unlike
+        )
     };
 }
 

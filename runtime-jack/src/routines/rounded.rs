@@ -1,8 +1,6 @@
 //! The routines of `f316r`: what rounds, and all that it shares with `f316`.
 
-use super::{
-    ADD, ANY_SINE, ARC, Do, INTS, SHARED, SINE, UNKNOWN, joined,
-};
+use super::{ADD, ANY_SINE, ARC, Do, INTS, SHARED, SINE, UNKNOWN, joined};
 use crate::model::{Float as Real, Rounded, Sums};
 use slowlight_routine::{Error, Format, Op, Routine, everywhere};
 
@@ -15,14 +13,14 @@ const SUM: Error = Error::Relative(6.104e-5);
 
 #[rustfmt::skip]
 const ROUNDING: &[Routine] = &[
-    routine!("add" Add(R, R) -> R, Do("{r}.add({0}, {1})"), ["Float.add"], everywhere, SUM, |a, b| Rounded::add(a, b), 90, 50),
-    routine!("sub" Sub(R, R) -> R, Do("{r}.sub({0}, {1})"), ["Float.sub"], everywhere, SUM, |a, b| Rounded::sub(a, b), 90, 50),
-    routine!("mul" Mul(R, R) -> R, Do("{r}.product({0}, {1})"), ["Float.product"], everywhere, HALF, |a, b| a.product(b), 90, 50),
-    routine!("div" Div(R, R) -> R, Do("{r}.ratio({0}, {1})"), ["Float.ratio"], everywhere, HALF, |a, b| a.ratio(b), 116, 50),
-    routine!("sqrt" Sqrt(R) -> R, Do("{r}.sqrt({0})"), ["Float.sqrt"], everywhere, HALF, |a| Rounded::sqrt(a), 90, 43),
+    routine!("add" Add(R, R) -> R, Do("{r}.add({0}, {1})"), ["Float.add"], everywhere, SUM, |a, b| Rounded::add(a, b), 100, 50),
+    routine!("sub" Sub(R, R) -> R, Do("{r}.sub({0}, {1})"), ["Float.sub"], everywhere, SUM, |a, b| Rounded::sub(a, b), 102, 50),
+    routine!("mul" Mul(R, R) -> R, Do("{r}.product({0}, {1})"), ["Float.product"], everywhere, HALF, |a, b| a.product(b), 109, 50),
+    routine!("div" Div(R, R) -> R, Do("{r}.ratio({0}, {1})"), ["Float.ratio"], everywhere, HALF, |a, b| a.ratio(b), 115, 50),
+    routine!("sqrt" Sqrt(R) -> R, Do("{r}.sqrt({0})"), ["Float.sqrt"], everywhere, HALF, |a| Rounded::sqrt(a), 102, 43),
 ];
 
-const FUNCTIONS: &[Routine] = made_of_sums!(Rounded: rest 264, sin 883, cos 1195, tan 2498, asin 624, acos 673, atan2 1157, log 998);
+const FUNCTIONS: &[Routine] = made_of_sums!(Rounded: rest 255, sin 831, cos 1099, tan 2059, asin 554, acos 590, atan2 827, log 933);
 
 /// The routines of rounded Floats, and those of ints.
 pub(crate) static ALL: [Routine; REALS.len() + INTS.len()] = joined(&REALS, INTS);

@@ -273,10 +273,7 @@ fn routines_for_the_processor_do_so_too() {
 
 type Classes = dyn Fn(&[&Part]) -> Vec<(&'static str, String)>;
 
-fn computes_what_its_model_does(
-    (runtime, routine): (&Runtime, &Routine),
-    classes: &Classes,
-) {
+fn computes_what_its_model_does((runtime, routine): (&Runtime, &Routine), classes: &Classes) {
     let use_of = (runtime, routine);
     let mut files = program(use_of, &noted(routine), true, pairs(), classes);
     files[0].1 = files[0].1.replacen(
