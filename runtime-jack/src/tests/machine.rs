@@ -5,7 +5,7 @@
 //! Operands are made by the Jack program itself, by a generator that is stated
 //! here a second time; the results are summed up in two words of 16 bits each.
 
-use super::generator::{Generator, Sums};
+use super::generator::{Generator, STIR, Sums};
 use super::{edges, int_edges};
 use crate::model::{Float, int};
 use crate::{F316, F316R, classes, classes_for_processor, has_init};
@@ -15,14 +15,14 @@ use slowlight_vm::hack::jack;
 use slowlight_vm::hack::vm::{Machine, Program, Run};
 
 const MAIN: &str = "
-    static int seed, first, second, i, j, out;
+    static int seed, block, first, second, i, j, out;
     static boolean p, q, said;
     static Array es, ms, ints;
     static Float a, b, r;
 
     function int random() {
         let seed = (seed * 25173) + 13849;
-        return seed & 32767;
+        return (seed + block) & 32767;
     }
 
     function void anyFloat(Array f) {
@@ -165,11 +165,14 @@ fn program(
             set(1, "l"),
         );
     }
+    // What is run on the edges is compared, not counted.
+    let stir = if with_edges { STIR } else { "" };
     main += &format!(
         "        let seed = 1;
         let l = {};
         while (l > 0) {{
             let k = 1000;
+            {stir}
             while (k > 0) {{ {} {} do Main.step(); let k = k - 1; }}
             let l = l - 1;
         }}
@@ -223,7 +226,10 @@ fn expected(routine: &Routine, with_edges: bool, pairs: u32) -> Sums {
         }
     }
     let mut generator = Generator(1);
-    for _ in 0..pairs / 1000 * 1000 {
+    for k in 0..pairs / 1000 * 1000 {
+        if with_edges && k % 1000 == 0 {
+            generator.stir();
+        }
         let a = generator.bits(routine.args[0]);
         if binary {
             let b = generator.bits(routine.args[1]);
