@@ -11,7 +11,7 @@ use serde_json::{Value, json};
 use slowlight_compiler::report::bounded::{Bounded, bounded};
 use slowlight_compiler::report::{bounces, fragile::fragile, words::warnings};
 use slowlight_compiler::source::{Diagnostic, Severity};
-use slowlight_compiler::target::{TARGETS, Target};
+use slowlight_compiler::target::Target;
 
 /// What was found of one target.
 pub struct Fared {
@@ -22,15 +22,15 @@ pub struct Fared {
     pub said: Vec<Diagnostic>,
 }
 
-/// The first target of each format.
-pub fn formats() -> Vec<&'static Target> {
+/// The first of the targets with each format.
+pub fn formats(targets: impl Iterator<Item = &'static Target>) -> Vec<&'static Target> {
     let mut seen = Vec::new();
-    let new = |t: &&&Target| {
+    let new = |t: &&Target| {
         let fresh = !seen.contains(&t.runtime.format);
         seen.push(t.runtime.format);
         fresh
     };
-    TARGETS.iter().filter(new).copied().collect()
+    targets.filter(new).collect()
 }
 
 fn as_written() -> ScreenArgs {

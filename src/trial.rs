@@ -138,7 +138,7 @@ fn table_bytes(plan: &Plan) -> u64 {
     let bytes = |format: Format| match format {
         Format::Real40 => 5,
         // An object of three words.
-        Format::Float316 => 6,
+        Format::Float316 { .. } => 6,
         // A logarithm and a sign.
         Format::Log { .. } => 4,
         Format::Int { bits } | Format::Fixed { bits, .. } => u64::from(bits.div_ceil(8)),

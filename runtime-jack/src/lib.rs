@@ -56,10 +56,22 @@ pub const SUM: u8 = 0;
 pub const INT: Format = Format::Int { bits: 16 };
 
 /// The runtime of reals in Float316.
-pub static F316: Runtime = Runtime {
+pub static F316: Runtime = CUT;
+
+/// The runtime of the same reals, rounded.
+pub static F316R: Runtime = Runtime {
+    format: "f316r",
+    real: Format::Float316 { rounded: true },
+    routines: &routines::rounded::ALL,
+    parts: &parts::ROUNDED,
+    param_bits: |scaled, digits| of_param(scaled, digits, Float::ratio),
+    ..CUT
+};
+
+const CUT: Runtime = Runtime {
     name: "jack",
     format: "f316",
-    real: Format::Float316,
+    real: Format::Float316 { rounded: false },
     int: INT,
     routines: &routines::ALL,
     parts: parts::ALL,
@@ -75,14 +87,14 @@ pub static F316: Runtime = Runtime {
     index: 0,
     param_most: model::MOST as f64,
     param_digits,
-    param_bits,
+    param_bits: |scaled, digits| of_param(scaled, digits, Float::div),
 };
 
 /// The nearest bits, saturating.
 fn encode(value: Value, format: Format) -> Bits {
     match format {
         Format::Bool => Bits::from(value.truth()),
-        Format::Float316 => Float::nearest(value.real()).bits(),
+        Format::Float316 { .. } => Float::nearest(value.real()).bits(),
         _ => model::int_bits(model::saturate(value.int())),
     }
 }
@@ -90,7 +102,7 @@ fn encode(value: Value, format: Format) -> Bits {
 fn decode(bits: Bits, format: Format) -> Value {
     match format {
         Format::Bool => Value::Bool(bits != 0),
-        Format::Float316 => Value::Real(Float::from_bits(bits).value()),
+        Format::Float316 { .. } => Value::Real(Float::from_bits(bits).value()),
         _ => Value::Int(model::int(bits)),
     }
 }
@@ -104,10 +116,9 @@ fn param_digits(greatest: f64, ranged: bool) -> Option<u8> {
 }
 
 /// The program divides the two ints as Floats.
-fn param_bits(scaled: i64, digits: u8) -> Bits {
+fn of_param(scaled: i64, digits: u8, div: fn(Float, Float) -> Float) -> Bits {
     let most = i64::from(model::MOST);
     let clamp = |n: i64| n.clamp(-most, most) as i32;
     let unit = clamp(10i64.saturating_pow(u32::from(digits)));
-    let quotient = Float::from_int(clamp(scaled)).div(Float::from_int(unit));
-    quotient.bits()
+    div(Float::from_int(clamp(scaled)), Float::from_int(unit)).bits()
 }

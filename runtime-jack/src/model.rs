@@ -5,7 +5,9 @@
 mod functions;
 mod int;
 mod powers;
+mod rounded;
 pub use int::*;
+pub use rounded::{Cut, Rounded, Sums};
 
 use slowlight_routine::Bits;
 
@@ -291,7 +293,7 @@ impl Float {
 
     /// The remainder with the divisor's sign, by subtracting the divisor at
     /// ever lower places; 0 where the divisor is 0.
-    pub fn modulo(self, b: Float) -> Float {
+    pub fn modulo<S: Sums>(self, b: Float) -> Float {
         if self.m == 0 || b.m == 0 {
             return Float::ZERO;
         }
@@ -317,7 +319,7 @@ impl Float {
         if rest.m == 0 || rest.s == b.s {
             rest
         } else {
-            rest.add(b)
+            S::add(rest, b)
         }
     }
 

@@ -2,10 +2,10 @@
 
 use slowlight_routine::{Error, Form, Format, Op, Range, Routine, everywhere};
 
-use crate::model::{self, Float, Float as Real, int, int_bits, wrap};
+use crate::model::{self, Cut, Float, Float as Real, int, int_bits, wrap};
 use crate::{INT as I, SUM, TERM};
 
-const R: Format = Format::Float316;
+const R: Format = Format::Float316 { rounded: false };
 const B: Format = Format::Bool;
 const EXACT: Error = Error::Exact;
 
@@ -90,38 +90,47 @@ pub(crate) const fn call(template: &'static str) -> Form {
 
 use Form::Statement as Do;
 
+/// What is made of sums, by the way in which these are rounded, and what it costs.
 #[rustfmt::skip]
-const REALS: &[Routine] = &[
-    routine!("add" Add(R, R) -> R, Do("{r}.add({0}, {1})"), ["Float.add"], everywhere, ADD, |a, b| a.add(b), 119, 50),
-    routine!("sub" Sub(R, R) -> R, Do("{r}.sub({0}, {1})"), ["Float.sub"], everywhere, ADD, |a, b| a.sub(b), 120, 50),
+macro_rules! made_of_sums {
+    ($sums:ident: rest $rest:literal, sin $sin:literal, cos $cos:literal, tan $tan:literal, asin $asin:literal within $arc:literal,
+     acos $acos:literal, atan2 $atan2:literal, log $log:literal) => {
+        &[
+            routine!("mod" Mod(R, R) -> R, Do("{r}.mod({0}, {1})"), ["Float.mod"], everywhere, ADD, |a, b| a.modulo::<$sums>(b), $rest, 50),
+            routine!("sin" Sin(R) -> R, Do("{r}.sin({0})"), ["Float.sin"], within!(0: 32000.0), SINE, |a| a.sin::<$sums>(), $sin, 43),
+            routine!("any_sin" Sin(R) -> R, Do("{r}.sin({0})"), ["Float.sin"], everywhere, ANY_SINE, |a| a.sin::<$sums>(), $sin, 43),
+            routine!("cos" Cos(R) -> R, Do("{r}.cos({0})"), ["Float.cos"], within!(0: 32000.0), SINE, |a| a.cos::<$sums>(), $cos, 43),
+            routine!("any_cos" Cos(R) -> R, Do("{r}.cos({0})"), ["Float.cos"], everywhere, ANY_SINE, |a| a.cos::<$sums>(), $cos, 43),
+            routine!("tan" Tan(R) -> R, Do("{r}.tan({0})"), ["Float.tan"], within!(0: 1.5), Error::Relative(2.5e-4), |a| a.tan::<$sums>(), $tan, 43),
+            routine!("any_tan" Tan(R) -> R, Do("{r}.tan({0})"), ["Float.tan"], everywhere, UNKNOWN, |a| a.tan::<$sums>(), $tan, 43),
+            routine!("asin" Asin(R) -> R, Do("{r}.asin({0})"), ["Float.asin"], everywhere, Error::Relative($arc), |a| a.asin::<$sums>(), $asin, 43),
+            routine!("acos" Acos(R) -> R, Do("{r}.acos({0})"), ["Float.acos"], everywhere, Error::Absolute(2.9e-4), |a| a.acos::<$sums>(), $acos, 43),
+            routine!("atan2" Atan2(R, R) -> R, Do("{r}.atan2({0}, {1})"), ["Float.atan2"], everywhere, ARC, |a, b| a.atan2::<$sums>(b), $atan2, 50),
+            routine!("log" Log(R) -> R, Do("{r}.log({0})"), ["Float.log"], everywhere, Error::Relative(2.5e-4), |a| a.log::<$sums>(), $log, 43),
+        ]
+    };
+}
+
+pub(crate) mod rounded;
+
+/// What does not round, or rounds in `f316r` as it does here. Products by powers of two
+/// stand before all others.
+#[rustfmt::skip]
+const SHARED: &[Routine] = &[
     routine!("half" Mul(R, R) -> R, Do("{r}.scale({0}, -1)"), ["Float.scale"], with!(1 = 0.5), EXACT, |a, _b| a.scale(-1), 47, 50),
     routine!("half_of" Mul(R, R) -> R, Do("{r}.scale({1}, -1)"), ["Float.scale"], with!(0 = 0.5), EXACT, |_a, b| b.scale(-1), 47, 50),
     routine!("quarter" Mul(R, R) -> R, Do("{r}.scale({0}, -2)"), ["Float.scale"], with!(1 = 0.25), EXACT, |a, _b| a.scale(-2), 47, 50),
     routine!("quarter_of" Mul(R, R) -> R, Do("{r}.scale({1}, -2)"), ["Float.scale"], with!(0 = 0.25), EXACT, |_a, b| b.scale(-2), 47, 50),
     routine!("four_times" Mul(R, R) -> R, Do("{r}.scale({0}, 2)"), ["Float.scale"], with!(1 = 4.0), EXACT, |a, _b| a.scale(2), 46, 50),
     routine!("four" Mul(R, R) -> R, Do("{r}.scale({1}, 2)"), ["Float.scale"], with!(0 = 4.0), EXACT, |_a, b| b.scale(2), 46, 50),
-    routine!("mul" Mul(R, R) -> R, Do("{r}.mul({0}, {1})"), ["Float.mul"], everywhere, MUL, |a, b| a.mul(b), 104, 50),
-    routine!("div" Div(R, R) -> R, Do("{r}.div({0}, {1})"), ["Float.div"], everywhere, DIV, |a, b| a.div(b), 408, 50),
-    routine!("sqrt" Sqrt(R) -> R, Do("{r}.sqrt({0})"), ["Float.sqrt"], everywhere, SQRT, |a| a.sqrt(), 1215, 43),
-    routine!("mod" Mod(R, R) -> R, Do("{r}.mod({0}, {1})"), ["Float.mod"], everywhere, ADD, |a, b| a.modulo(b), 264, 50),
     routine!("neg" Neg(R) -> R, Do("{r}.neg({0})"), ["Float.neg"], everywhere, EXACT, |a| a.neg(), 28, 43),
     routine!("abs" Abs(R) -> R, Do("{r}.abs({0})"), ["Float.abs"], everywhere, EXACT, |a| a.abs(), 22, 43),
     routine!("min" Min(R, R) -> R, Do("{r}.min({0}, {1})"), ["Float.min"], everywhere, EXACT, |a, b| a.min(b), 78, 50),
     routine!("max" Max(R, R) -> R, Do("{r}.max({0}, {1})"), ["Float.max"], everywhere, EXACT, |a, b| a.max(b), 78, 50),
-    routine!("sin" Sin(R) -> R, Do("{r}.sin({0})"), ["Float.sin"], within!(0: 32000.0), SINE, |a| a.sin(), 883, 43),
-    routine!("any_sin" Sin(R) -> R, Do("{r}.sin({0})"), ["Float.sin"], everywhere, ANY_SINE, |a| a.sin(), 883, 43),
-    routine!("cos" Cos(R) -> R, Do("{r}.cos({0})"), ["Float.cos"], within!(0: 32000.0), SINE, |a| a.cos(), 1195, 43),
-    routine!("any_cos" Cos(R) -> R, Do("{r}.cos({0})"), ["Float.cos"], everywhere, ANY_SINE, |a| a.cos(), 1195, 43),
-    routine!("tan" Tan(R) -> R, Do("{r}.tan({0})"), ["Float.tan"], within!(0: 1.5), Error::Relative(2.5e-4), |a| a.tan(), 2498, 43),
-    routine!("any_tan" Tan(R) -> R, Do("{r}.tan({0})"), ["Float.tan"], everywhere, UNKNOWN, |a| a.tan(), 2498, 43),
-    routine!("asin" Asin(R) -> R, Do("{r}.asin({0})"), ["Float.asin"], everywhere, Error::Relative(2.8e-4), |a| a.asin(), 624, 43),
-    routine!("acos" Acos(R) -> R, Do("{r}.acos({0})"), ["Float.acos"], everywhere, Error::Absolute(2.9e-4), |a| a.acos(), 673, 43),
-    routine!("atan2" Atan2(R, R) -> R, Do("{r}.atan2({0}, {1})"), ["Float.atan2"], everywhere, ARC, |a, b| a.atan2(b), 1157, 50),
     routine!("exp" Exp(R) -> R, Do("{r}.exp({0})"), ["Float.exp"], everywhere, EXP, |a| a.exp(), 476, 43),
-    routine!("log" Log(R) -> R, Do("{r}.log({0})"), ["Float.log"], everywhere, Error::Relative(2.5e-4), |a| a.log(), 998, 43),
-    routine!("pow" Pow(R, R) -> R, Do("{r}.pow({0}, {1})"), ["Float.pow"], within!(1: 8.0), Error::Relative(1e-3), |a, b| a.pow(b), 766, 50),
-    routine!("large_pow" Pow(R, R) -> R, Do("{r}.pow({0}, {1})"), ["Float.pow"], within!(1: 64.0), Error::Relative(8e-3), |a, b| a.pow(b), 766, 50),
-    routine!("any_pow" Pow(R, R) -> R, Do("{r}.pow({0}, {1})"), ["Float.pow"], everywhere, UNKNOWN, |a, b| a.pow(b), 766, 50),
+    routine!("pow" Pow(R, R) -> R, Do("{r}.pow({0}, {1})"), ["Float.pow"], within!(1: 8.0), Error::Relative(1e-3), |a, b| a.pow(b), 740, 50),
+    routine!("large_pow" Pow(R, R) -> R, Do("{r}.pow({0}, {1})"), ["Float.pow"], within!(1: 64.0), Error::Relative(8e-3), |a, b| a.pow(b), 740, 50),
+    routine!("any_pow" Pow(R, R) -> R, Do("{r}.pow({0}, {1})"), ["Float.pow"], everywhere, UNKNOWN, |a, b| a.pow(b), 740, 50),
     routine!("floor" Floor(R) -> I, call("{0}.floor()"), ["Float.floor"], everywhere, EXACT, |a| a.floor(), 29, 36),
     routine!("round" Round(R) -> I, call("{0}.round()"), ["Float.round"], everywhere, EXACT, |a| a.round(), 36, 36),
     routine!("sign" Sign(R) -> I, call("{0}.sign()"), ["Float.sign"], everywhere, EXACT, |a| a.sign(), 15, 36),
@@ -134,6 +143,19 @@ const REALS: &[Routine] = &[
     routine!("less_equal" LessEqual(R, R) -> B, sum("~{1}.less({0})"), ["Float.less"], everywhere, EXACT, |a, b| !b.less(a), 40, 45),
     routine!("equal" Equal(R, R) -> B, call("{0}.equal({1})"), ["Float.equal"], everywhere, EXACT, |a, b| a.equal(b), 33, 43),
 ];
+
+/// What cuts.
+#[rustfmt::skip]
+const CUTTING: &[Routine] = &[
+    routine!("add" Add(R, R) -> R, Do("{r}.add({0}, {1})"), ["Float.add"], everywhere, ADD, |a, b| a.add(b), 119, 50),
+    routine!("sub" Sub(R, R) -> R, Do("{r}.sub({0}, {1})"), ["Float.sub"], everywhere, ADD, |a, b| a.sub(b), 120, 50),
+    routine!("mul" Mul(R, R) -> R, Do("{r}.mul({0}, {1})"), ["Float.mul"], everywhere, MUL, |a, b| a.mul(b), 104, 50),
+    routine!("div" Div(R, R) -> R, Do("{r}.div({0}, {1})"), ["Float.div"], everywhere, DIV, |a, b| a.div(b), 408, 50),
+    routine!("sqrt" Sqrt(R) -> R, Do("{r}.sqrt({0})"), ["Float.sqrt"], everywhere, SQRT, |a| a.sqrt(), 1215, 43),
+];
+
+/// And what is made of that.
+const FUNCTIONS: &[Routine] = made_of_sums!(Cut: rest 264, sin 845, cos 1146, tan 2119, asin 617 within 2.8e-4, acos 667, atan2 847, log 950);
 
 /// What ints need, in either format of reals.
 #[rustfmt::skip]
@@ -166,7 +188,10 @@ pub(crate) const INTS: &[Routine] = &[
 ];
 
 /// The routines of Floats, and those of ints.
-pub(crate) static ALL: [Routine; REALS.len() + INTS.len()] = joined(REALS, INTS);
+pub(crate) static ALL: [Routine; REALS.len() + INTS.len()] = joined(&REALS, INTS);
+
+const REALS: [Routine; SHARED.len() + OWN.len()] = joined(SHARED, &OWN);
+const OWN: [Routine; CUTTING.len() + FUNCTIONS.len()] = joined(CUTTING, FUNCTIONS);
 
 /// One list after the other.
 pub(crate) const fn joined<const N: usize>(a: &[Routine], b: &[Routine]) -> [Routine; N] {

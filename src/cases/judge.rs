@@ -282,7 +282,7 @@ mod tests {
         judge.verdict().passed
     }
 
-    const JACK: Arithmetic = Arithmetic::Of(Format::Float316);
+    const JACK: Arithmetic = Arithmetic::Of(Format::Float316 { rounded: false });
     const FIXED: Arithmetic = Arithmetic::Of(Format::Fixed { bits: 32, frac: 16 });
 
     #[test]

@@ -25,7 +25,7 @@ pub fn give(param: &mut ParamPlan, value: Value, bits: Bits, format: Format) {
             param.digits = None;
             param.text = (bits as i64).to_string();
         }
-        (Format::Float316, Value::Real(_)) => {
+        (Format::Float316 { .. }, Value::Real(_)) => {
             param.digits = None;
             param.text = "0".to_owned();
         }
@@ -78,7 +78,7 @@ pub fn run(plan: &Plan) -> Outcome<Vec<Value>> {
         .collect();
     let found = match plan.runtime.real {
         Format::Real40 => from_file(&run, &formats, plan),
-        Format::Float316 | Format::Log { .. } => from_text(&run, &formats, plan),
+        Format::Float316 { .. } | Format::Log { .. } => from_text(&run, &formats, plan),
         _ => from_screen(&run, &formats, plan),
     };
     found.ok_or_else(|| {
@@ -130,7 +130,7 @@ fn from_text(run: &MachineRun, formats: &[Format], plan: &Plan) -> Option<Vec<Va
     let mut values = Vec::new();
     for format in formats {
         values.push(match format {
-            Format::Float316 => {
+            Format::Float316 { .. } => {
                 let (s, e, m) = (next()?, next()?, next()?);
                 let word = |x: i32| Bits::from(x as u16);
                 let bits = word(m) | word(e) << 16 | word(s) << 32;

@@ -109,6 +109,11 @@ pub fn ways(targets: &[&'static Target], one: bool) -> Vec<Way> {
     all
 }
 
+/// Whether files of cases say what is right in a way's format.
+pub fn knows(way: Way) -> bool {
+    way.arithmetic().key() != Key::None
+}
+
 /// Tries every vector of a file in every way.
 ///
 /// # Errors

@@ -10,7 +10,7 @@ use crate::{diagnostics, files, say, say_json};
 use serde_json::json;
 use slowlight_compiler::report::domain;
 use slowlight_compiler::source::Diagnostic;
-use slowlight_compiler::target::{TARGETS, Target, find};
+use slowlight_compiler::target::{TARGETS, Target, find, formats, in_all_formats};
 use std::path::{Path, PathBuf};
 
 /// Options of `check`.
@@ -58,7 +58,9 @@ pub fn run(args: &Args) -> Outcome<()> {
 fn try_cases(args: &Args, path: &Path) -> Outcome<()> {
     let text = files::read_text(path)?;
     let file = cases::parse(&path.display().to_string(), &text)?;
-    let all = cases::ways(TARGETS, false);
+    let every: Vec<&'static Target> = in_all_formats().collect();
+    let mut all = cases::ways(&every, false);
+    all.retain(|way| cases::knows(*way));
     for name in &args.target {
         let known = all.iter().map(|w| w.place());
         if wanted(&all, name).next().is_none() {
@@ -67,8 +69,9 @@ fn try_cases(args: &Args, path: &Path) -> Outcome<()> {
     }
     for name in &args.format {
         if !all.iter().any(|w| w.format() == name) {
-            let known = all.iter().map(|w| w.format());
-            return Err(Failure::Usage(unknown("format", name, known)));
+            let mut known: Vec<&str> = all.iter().map(|w| w.format()).collect();
+            known.dedup();
+            return Err(Failure::Usage(unknown("format", name, known.into_iter())));
         }
     }
     let asked = |way: &Way| {
@@ -79,7 +82,14 @@ fn try_cases(args: &Args, path: &Path) -> Outcome<()> {
                 .any(|n| wanted(&all, n).any(|w| w.place() == way.place()));
         target && (args.format.is_empty() || args.format.iter().any(|f| f == way.format()))
     };
-    let ways = cases::ways(TARGETS, args.target.is_empty());
+    // The usual formats, unless others are asked for.
+    let targets = if args.format.is_empty() {
+        TARGETS
+    } else {
+        &every
+    };
+    let mut ways = cases::ways(targets, args.target.is_empty());
+    ways.retain(|way| cases::knows(*way));
     let ways: Vec<Way> = ways.into_iter().filter(asked).collect();
     let found = cases::run(&file, &ways, args.naive)?;
     match args.json {
@@ -105,9 +115,12 @@ fn targets(args: &Args) -> Outcome<Vec<&'static Target>> {
     }
     let named = args.target.iter().map(|n| target(n));
     let named: Vec<&'static Target> = named.collect::<Result<_, _>>().map_err(Failure::Usage)?;
-    let all = match named.is_empty() {
-        true => precise::formats(),
-        false => named,
+    let usual = args.format.is_empty();
+    let all = match (named.is_empty(), usual) {
+        (true, true) => precise::formats(TARGETS.iter().copied()),
+        (true, false) => precise::formats(in_all_formats()),
+        (false, true) => named,
+        (false, false) => named.into_iter().flat_map(formats).collect(),
     };
     for name in &args.format {
         if !all.iter().any(|t| t.runtime.format == name) {

@@ -3,7 +3,7 @@
 
 use crate::cli::{directory, json, slowlight, success};
 use slowlight::cases::{self, Row, Way, ways};
-use slowlight_compiler::target::TARGETS;
+use slowlight_compiler::target::{TARGETS, jack::JACK_F316R};
 use std::collections::BTreeSet;
 
 const FILES: [&str; 2] = ["tests/hard_cases.json", "tests/orientation_cases.json"];
@@ -30,7 +30,8 @@ fn rows(ways: &[Way], naive: bool) -> Vec<Row> {
 
 #[test]
 fn every_vector_passes_everywhere() {
-    let rows = rows(&ways(TARGETS, true), false);
+    let targets = [TARGETS, &[&JACK_F316R]].concat();
+    let rows = rows(&ways(&targets, true), false);
     let places: BTreeSet<&str> = rows.iter().map(|r| r.way.place()).collect();
     assert_eq!(
         places.into_iter().collect::<Vec<_>>(),

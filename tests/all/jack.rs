@@ -7,7 +7,7 @@ use slowlight_compiler::eval::{model::ModelRun, native::Native};
 use slowlight_compiler::plan::{Goal, Plan, plan};
 use slowlight_compiler::scene;
 use slowlight_compiler::sema::Options;
-use slowlight_compiler::target::jack::JACK_LOG10;
+use slowlight_compiler::target::jack::{JACK_F316R, JACK_LOG10};
 use slowlight_compiler::target::{Document, Target, default_mode, find};
 use slowlight_vm::Stop;
 use slowlight_vm::hack::jack::compile;
@@ -270,15 +270,33 @@ fn a_program_that_does_not_plot_still_works() {
 
 #[test]
 fn random_scenes_are_drawn_as_the_model_says() {
-    let mut scribe = Scribe(2);
-    let mut varied = 0;
-    for _ in 0..120 {
-        let source = scribe.scene();
-        let plan = planned(&source, &[], None, true);
-        let run = agrees(&plan, &documents(&plan), &source);
-        varied += u32::from(run.screen.pixels.contains(&0));
+    for target in [find("jack").unwrap(), &JACK_F316R] {
+        let mut scribe = Scribe(2);
+        let mut varied = 0;
+        for _ in 0..120 {
+            let source = scribe.scene();
+            let plan = planned_in(target, &source, (&[], None), true).unwrap();
+            let run = agrees(&plan, &documents(&plan), &source);
+            varied += u32::from(run.screen.pixels.contains(&0));
+        }
+        assert!(varied >= 40, "only {varied} pictures show anything");
     }
-    assert!(varied >= 40, "only {varied} pictures show anything");
+}
+
+/// Fewer commands than what is cut, and fewer pixels that are not the native's.
+#[test]
+fn two_mirrors_rounded() {
+    for set in [&[][..], &[0.35, 0.25, 3.6]] {
+        let off = [find("jack").unwrap(), &JACK_F316R].map(|target| {
+            let plan = planned_in(target, MIRRORS, (set, Some((100, 163))), true).unwrap();
+            let run = agrees(&plan, &documents(&plan), "mirrors");
+            let mut native = Native::new(&plan.graph);
+            let off = differences(&plan, &run, |x, y| native.pixel(x, y).ink);
+            (off, run.instructions)
+        });
+        let [(cut, slow), (rounded, quick)] = off;
+        assert!(2 * rounded <= cut && quick * 4 < slow * 3, "{off:?}");
+    }
 }
 
 #[test]

@@ -32,8 +32,9 @@ pub enum Format {
     Int { bits: u8 },
     /// The 40-bit real of BBC BASIC II.
     Real40,
-    /// Sign, exponent (bias 127) and 14-bit mantissa, truncating, of the Jack ray marcher.
-    Float316,
+    /// Sign, exponent (bias 127) and 14-bit mantissa of the Jack ray marcher, whose
+    /// results are cut; or rounded.
+    Float316 { rounded: bool },
     /// A sign, and the binary logarithm of the magnitude in 16 bits, `frac` of them after
     /// the point, from -2^(14 - frac) to 2^(14 - frac); there is no 0.
     Log { frac: u8 },
@@ -49,7 +50,7 @@ impl Format {
             Format::Int { bits } => 2f64.powi(i32::from(bits) - 1),
             Format::Fixed { bits, frac } => 2f64.powi(i32::from(bits) - 1 - i32::from(frac)),
             Format::Real40 => 2f64.powi(127),
-            Format::Float316 => f64::MAX,
+            Format::Float316 { .. } => f64::MAX,
             Format::Log { frac } => f64::from(14 - i32::from(frac)).exp2().exp2(),
         }
     }
@@ -59,22 +60,24 @@ impl Format {
         match self {
             Format::Bool => Type::Bool,
             Format::Int { .. } => Type::Int,
-            Format::Real40 | Format::Float316 | Format::Log { .. } | Format::Fixed { .. } => {
-                Type::Real
-            }
+            Format::Real40
+            | Format::Float316 { .. }
+            | Format::Log { .. }
+            | Format::Fixed { .. } => Type::Real,
         }
     }
 }
 
 impl Format {
     /// The unit roundoff of its reals: the greatest relative error of one
-    /// operation that is rounded (or cut, as in Float316) once, or the last
+    /// operation that is rounded (or cut, as in `f316`) once, or the last
     /// place of a fixed-point format. 0 where it holds no reals.
     pub fn epsilon(self) -> f64 {
         match self {
             Format::Bool | Format::Int { .. } => 0.0,
             Format::Real40 => 1.0 / 4_294_967_296.0,
-            Format::Float316 => 1.0 / 8192.0,
+            Format::Float316 { rounded: false } => 1.0 / 8192.0,
+            Format::Float316 { rounded: true } => 1.0 / 16384.0,
             Format::Log { frac } => 0.5f64.powi(i32::from(frac) + 1) * std::f64::consts::LN_2,
             Format::Fixed { frac, .. } => 0.5f64.powi(i32::from(frac)),
         }
@@ -87,7 +90,8 @@ impl std::fmt::Display for Format {
             Format::Bool => f.write_str("bool"),
             Format::Int { bits } => write!(f, "int{bits}"),
             Format::Real40 => f.write_str("real40"),
-            Format::Float316 => f.write_str("f316"),
+            Format::Float316 { rounded: false } => f.write_str("f316"),
+            Format::Float316 { rounded: true } => f.write_str("f316r"),
             Format::Log { frac } => write!(f, "log{frac}"),
             Format::Fixed { bits, frac } => write!(f, "fixed{}.{frac}", bits - frac),
         }

@@ -57,7 +57,7 @@ impl Slack {
         }
         // In a format whose ends are near, a scene that breaks the contract
         // would wrap: there the routines saturate instead.
-        let floats = matches!(runtime.real, Format::Real40 | Format::Float316);
+        let floats = matches!(runtime.real, Format::Real40 | Format::Float316 { .. });
         Slack {
             errors,
             direction: floats.then(|| Range::new(-2.0, 2.0)),

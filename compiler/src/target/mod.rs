@@ -73,13 +73,17 @@ pub static TARGETS: &[&Target] = &[
 ];
 
 /// The same machines with other formats of reals.
-pub static OTHER_FORMATS: &[&Target] = &[&jack::JACK_LOG10];
+pub static OTHER_FORMATS: &[&Target] = &[&jack::JACK_F316R, &jack::JACK_LOG10];
+
+/// Every target in every format.
+pub fn in_all_formats() -> impl Iterator<Item = &'static Target> {
+    TARGETS.iter().chain(OTHER_FORMATS).copied()
+}
 
 /// The formats of reals that a target's machine has, its usual one first.
 pub fn formats(target: &Target) -> impl Iterator<Item = &'static Target> {
-    let all = TARGETS.iter().chain(OTHER_FORMATS).copied();
     let name = target.name;
-    all.filter(move |t| t.name == name)
+    in_all_formats().filter(move |t| t.name == name)
 }
 
 /// A target by its name; a family's name alone means its first.

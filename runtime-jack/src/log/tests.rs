@@ -6,7 +6,7 @@ use super::tables::tables;
 use super::{LOG10, routines::ALL};
 use crate::classes;
 use crate::model::{int, int_bits};
-use crate::tests::generator::{Generator, Sums};
+use crate::tests::generator::{Generator, STIR, Sums};
 use crate::tests::machine::{pairs, run};
 use slowlight_routine::{Bits, Error, Form, Format, Range, Routine, Value};
 
@@ -150,12 +150,12 @@ fn holds(routine: &Routine, args: &[Bits]) {
 }
 
 const MAIN: &str = "
-    static int seed, first, second, i, j, out, a, b, r;
+    static int seed, block, first, second, i, j, out, a, b, r;
     static boolean aPlus, bPlus, rPlus, said;
 
     function int random() {
         let seed = (seed * 25173) + 13849;
-        return seed & 32767;
+        return (seed + block) & 32767;
     }
 
     function int any(int other) {
@@ -317,8 +317,9 @@ fn program(routine: &Routine, step: &str, count: u32) -> Vec<(String, String)> {
     if crate::has_init("Log", &parts) {
         main += "do Log.init();\n";
     }
+    let stir = if step.contains("note(") { STIR } else { "" };
     main += &format!(
-        "let seed = 1;\nlet l = {};\nwhile (l > 0) {{\nlet k = 1000;\nwhile (k > 0) {{\n{}do Main.step();\n\
+        "let seed = 1;\nlet l = {};\nwhile (l > 0) {{\nlet k = 1000;\n{stir}\nwhile (k > 0) {{\n{}do Main.step();\n\
          let k = k - 1; }}\nlet l = l - 1; }}\ndo Output.printInt(first);\ndo Output.printChar(32);\n\
          do Output.printInt(second);\nreturn;\n}}\n}}\n",
         count / 1000,
@@ -350,7 +351,10 @@ fn routines_compute_what_their_models_do() {
         ));
         let (mut sums, mut generator) = (Sums::default(), Generator(1));
         let draw = Draw::of(routine);
-        for _ in 0..pairs() / 1000 * 1000 {
+        for k in 0..pairs() / 1000 * 1000 {
+            if k % 1000 == 0 {
+                generator.stir();
+            }
             let args = draw.args(routine, &mut generator);
             let bits = (routine.model)(&args);
             match routine.result {

@@ -7,7 +7,7 @@
 //! argument times that, rounded ([`Float::product`]), so that small results
 //! keep all their bits. The errors are a few units in the last place, of 2^-13.
 
-use super::{Float, power};
+use super::{Float, Sums, power};
 
 /// The product of two fractions of 14 bits, 0 to 16384 for 1, to the nearest.
 pub(super) fn fraction(a: i32, b: i32) -> i32 {
@@ -155,14 +155,14 @@ impl Float {
     }
 
     /// The sine of the magnitude and `quarter` quarter turns.
-    fn quarter_sine(self, quarter: i32) -> Float {
+    fn quarter_sine<S: Sums>(self, quarter: i32) -> Float {
         let (turns, left) = self.reduced();
         let quadrant = turns + quarter;
         let excess = |n| EXCESS.product(Float::from_int(n));
         // The excess of each quarter turn taken away is put back.
         let angle = match quadrant & 1 {
-            1 => QUARTER.sub(left).sub(excess(turns + 1)),
-            _ if turns > 0 => left.add(excess(turns)),
+            1 => S::sub(S::sub(QUARTER, left), excess(turns + 1)),
+            _ if turns > 0 => S::add(left, excess(turns)),
             _ => left,
         };
         let half = angle.scale(-1).part();
@@ -172,22 +172,22 @@ impl Float {
         Float { s, ..sine }
     }
 
-    pub fn sin(self) -> Float {
-        let sine = self.quarter_sine(0);
+    pub fn sin<S: Sums>(self) -> Float {
+        let sine = self.quarter_sine::<S>(0);
         let s = (sine.s + self.s) & 1;
         Float { s, ..sine }
     }
 
-    pub fn cos(self) -> Float {
-        self.quarter_sine(1)
+    pub fn cos<S: Sums>(self) -> Float {
+        self.quarter_sine::<S>(1)
     }
 
-    pub fn tan(self) -> Float {
-        self.sin().ratio(self.cos())
+    pub fn tan<S: Sums>(self) -> Float {
+        self.sin::<S>().ratio(self.cos::<S>())
     }
 
     /// The angle of (y, x) = (self, x), 0 of (0, 0).
-    pub fn atan2(self, x: Float) -> Float {
+    pub fn atan2<S: Sums>(self, x: Float) -> Float {
         if self.m == 0 && x.m == 0 {
             return Float::ZERO;
         }
@@ -197,10 +197,10 @@ impl Float {
         let shape = Float::of_part(series(&ARCTANGENT, fraction(part, part), true));
         let mut angle = ratio.product(shape);
         if !flat {
-            angle = QUARTER.sub(angle);
+            angle = S::sub(QUARTER, angle);
         }
         if x.s == 1 && x.m > 0 {
-            angle = QUARTER.scale(1).sub(angle);
+            angle = S::sub(QUARTER.scale(1), angle);
         }
         let s = if self.m > 0 { self.s } else { 0 };
         Float { s, ..angle }
@@ -208,11 +208,11 @@ impl Float {
 
     /// Below 1/2 the arc sine of the magnitude, from there on its arc cosine,
     /// as twice the arc sine of the root of (1 - x)/2; and whether it is this.
-    fn small_arc(self) -> (Float, bool) {
+    fn small_arc<S: Sums>(self) -> (Float, bool) {
         let large = self.m > 0 && self.e > 125;
         let (sine, square) = if large {
             let less = if self.e > 126 { 0 } else { 16384 - self.m };
-            (Float::from_int(less).scale(-15).near_root(), less / 2)
+            (S::near_root(Float::from_int(less).scale(-15)), less / 2)
         } else {
             let part = self.part();
             (self.abs(), fraction(part, part))
@@ -223,27 +223,18 @@ impl Float {
     }
 
     /// Of the argument clamped to -1..1.
-    pub fn asin(self) -> Float {
-        let (arc, large) = self.small_arc();
-        let arc = if large { QUARTER.sub(arc) } else { arc };
+    pub fn asin<S: Sums>(self) -> Float {
+        let (arc, large) = self.small_arc::<S>();
+        let arc = if large { S::sub(QUARTER, arc) } else { arc };
         Float { s: self.s, ..arc }
     }
 
     /// Of the argument clamped to -1..1.
-    pub fn acos(self) -> Float {
-        match self.small_arc() {
+    pub fn acos<S: Sums>(self) -> Float {
+        match self.small_arc::<S>() {
             (arc, true) if self.s == 0 => arc,
-            (arc, true) => QUARTER.scale(1).sub(arc),
-            (arc, false) => QUARTER.sub(Float { s: self.s, ..arc }),
+            (arc, true) => S::sub(QUARTER.scale(1), arc),
+            (arc, false) => S::sub(QUARTER, Float { s: self.s, ..arc }),
         }
-    }
-
-    /// A root with one step more than `sqrt`, by `ratio`.
-    fn near_root(self) -> Float {
-        let root = self.sqrt();
-        if root.m == 0 {
-            return root;
-        }
-        root.add(self.ratio(root)).scale(-1)
     }
 }

@@ -2,7 +2,7 @@
 //! exponent of 2 is summed up as an int and a fraction of 14 bits.
 
 use super::functions::{Terms, fraction, series};
-use super::{Float, power};
+use super::{Float, Sums, power};
 
 /// (2^x - 1) / x.
 const POWER_OF_TWO: Terms = Terms(&[29, 151, 912, 3936, 11357]);
@@ -133,12 +133,12 @@ impl Float {
     }
 
     /// Natural; of 0 or a negative the most negative value.
-    pub fn log(self) -> Float {
+    pub fn log<S: Sums>(self) -> Float {
         if self.m == 0 || self.s == 1 {
             return Float::largest(1);
         }
         let (n, near) = self.near_log();
-        LN_2.product(Float::from_int(n)).add(near)
+        S::add(LN_2.product(Float::from_int(n)), near)
     }
 
     /// x^0 is 1, 0 to a negative the largest value, a negative to a fraction 0.

@@ -40,63 +40,81 @@ pub(crate) const SET: &str = "    method void set(int sign, int exponent, int ma
     }
 ";
 
-pub(crate) const PRODUCT: &str = "    /** this = a * b, to the nearest */
+/// What lies beyond the exponent's ends.
+macro_rules! ends {
+    ($beyond:literal) => {
+        concat!(
+            "        if (",
+            $beyond,
+            ") {
+            if (e > 0) { let e = 8000; let m = 16383; }
+            else { let s = 0; let e = 0; let m = 0; }
+        }
+        return;
+    }
+"
+        )
+    };
+}
+
+pub(crate) const PRODUCT: &str = concat!(
+    "    /** this = a * b, to the nearest */
     method void product(Array a, Array b) {
-        var int p, q, h, k, r, x;
+        var int p, q, h, k, r;
         let p = a[2];
         let q = b[2];
-        let x = (a[1] + b[1]) - 126;
-        let s = (a[0] + b[0]) & 1;
-        if ((p = 0) | (q = 0)) { let e = 0; let m = 0; return; }
         let h = p / 128;
         let k = q / 128;
         let p = p & 127;
         let q = q & 127;
-        let r = ((h * q) + (p * k)) + ((p * q) / 128);
-        let p = (h * k) + (r / 128);
-        let r = r & 127;
-        if (p < 8192) {
-            let r = r + r;
-            let p = (p + p) + (r / 128);
-            let r = r & 127;
-            let x = x - 1;
+        let r = (((h * q) + (p * k)) + ((p * q) / 128)) + 64;
+        let s = (a[0] + b[0]) & 1;
+        let e = (a[1] + b[1]) - 126;
+        let m = (h * k) + (r / 128);
+        if (m < 8193) {
+            if (m = 0) { let e = 0; return; }
+            let m = ((m + m) + (((r & 127) + 32) / 64)) - 1;
+            if (m > 16383) { let m = 8192; }
+            else { let e = e - 1; }
         }
-        let p = p + (r / 64);
-        if (p > 16383) { let p = 8192; let x = x + 1; }
-        if (x > 8000) { let x = 8000; let p = 16383; }
-        if (x < (-8000)) { let s = 0; let x = 0; let p = 0; }
-        let e = x;
-        let m = p;
-        return;
-    }
-";
+",
+    ends!("Math.abs(e) > 8000")
+);
 
-pub(crate) const RATIO: &str = "    /** this = a / b, to the nearest; by zero as div */
+pub(crate) const RATIO: &str = concat!(
+    "    /** this = a / b, to the nearest; by zero the largest value, zero by zero is zero.
+        Digits of 7 and 6 bits, found with a divisor that is too large by at most 64,
+        then what they lack. What wraps is right again in the difference. */
     method void ratio(Array a, Array b) {
-        var int r, d, q, x;
+        var int r, d, k, q, t;
         let r = a[2];
         let d = b[2];
-        if (r = 0) { let s = 0; let e = 0; let m = 0; return; }
-        if (d = 0) { let s = a[0]; let e = 8000; let m = 16383; return; }
-        let x = (a[1] - b[1]) + 127;
-        let s = (a[0] + b[0]) & 1;
-        if (r < d) { let r = r + r; let x = x - 1; }
-        let r = r - d;
-        let q = 1;
-        while (q < 8192) {
-            let r = r + r;
-            let q = q + q;
-            if (~(r < d)) { let r = r - d; let q = q + 1; }
+        if (r < d) {
+            if (r = 0) { let s = 0; let e = 0; let m = 0; return; }
+            let e = (a[1] - b[1]) + 126;
+            let r = (r + r) - d;
         }
-        if (~((r + r) < d)) { let q = q + 1; }
-        if (q > 16383) { let q = 8192; let x = x + 1; }
-        if (x > 8000) { let x = 8000; let q = 16383; }
-        if (x < (-8000)) { let s = 0; let x = 0; let q = 0; }
-        let e = x;
-        let m = q;
-        return;
-    }
-";
+        else {
+            if (d = 0) {
+                let s = a[0];
+                let e = 8000;
+                let m = 16383;
+                if (r = 0) { let s = 0; let e = 0; let m = 0; }
+                return;
+            }
+            let e = (a[1] - b[1]) + 127;
+            let r = r - d;
+        }
+        let s = (a[0] + b[0]) & 1;
+        let k = (d / 64) + 1;
+        let q = (r + r) / k;
+        let r = (r * 128) - (q * d);
+        let t = r / k;
+        let r = (r * 64) - (t * d);
+        let m = (((q * 64) + t) + ((r + (d / 2)) / d)) + 8192;
+",
+    ends!("Math.abs(e) > 8000")
+);
 
 pub(crate) const MAKE_SHAPE: &str =
     "    static Float shape; // what a reduced argument is multiplied by
@@ -289,8 +307,9 @@ pub(crate) const ARC: &str =
         if (large) { do scale(this, 1); }
         return large;
     }
+";
 
-    /** this = the root of a, nearer than sqrt */
+pub(crate) const NEAR_ROOT: &str = "    /** this = the root of a, nearer than sqrt */
     method void nearRoot(Array a) {
         do sqrt(a);
         if (m = 0) { return; }

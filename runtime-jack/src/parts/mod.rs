@@ -12,13 +12,17 @@
 
 #[macro_use]
 mod float;
+#[macro_use]
 mod functions;
 mod int;
 mod log;
 mod log_functions;
 mod log_tables;
 mod powers;
+#[macro_use]
 mod processor;
+mod rounded;
+mod rounded_bits;
 
 use slowlight_routine::{Part, Source};
 
@@ -27,6 +31,7 @@ pub(crate) static ALL: &[Part] = &[
     part!("Float", [], 60, float::HEAD),
     part!("Float.makePowers", [], 120, float::MAKE_POWERS),
     part!("Float.makeRoot", [], 40, float::MAKE_ROOT),
+    part!("Float.makeRoots", [], 150, rounded::MAKE_ROOTS),
     part!("Float.constant", [], 40, float::CONSTANT),
     part!("Float.copy", [], 60, float::COPY),
     part!("Float.neg", [], 60, float::NEG),
@@ -62,7 +67,8 @@ pub(crate) static ALL: &[Part] = &[
     part!("Float.makeTangent", [], 80, functions::MAKE_TANGENT),
     part!("Float.tan", ["Float.makeTangent", "Float.sin", "Float.cos", "Float.ratio"], 80, functions::TAN),
     part!("Float.atan2", ["Float.makeShape", "Float.makeQuarter", "Float.fraction", "Float.part", "Float.product", "Float.ratio", "Float.sub", "Float.scale"], 700, functions::ATAN2),
-    part!("Float.arc", ["Float.makeShape", "Float.fraction", "Float.part", "Float.product", "Float.ratio", "Float.sqrt", "Float.add", "Float.scale", "Float.fromInt"], 720, functions::ARC),
+    part!("Float.nearRoot", ["Float.makeRoot", "Float.sqrt", "Float.ratio", "Float.add", "Float.scale"], 80, functions::NEAR_ROOT),
+    part!("Float.arc", ["Float.makeShape", "Float.fraction", "Float.part", "Float.product", "Float.nearRoot", "Float.scale", "Float.fromInt"], 640, functions::ARC),
     part!("Float.asin", ["Float.makeQuarter", "Float.arc", "Float.sub"], 120, functions::ASIN),
     part!("Float.acos", ["Float.makeQuarter", "Float.arc", "Float.sub"], 220, functions::ACOS),
     part!("Float.exponent", ["Float.makePowers", "Float.fraction"], 1400, powers::EXPONENT),
@@ -117,23 +123,67 @@ pub(crate) static ALL: &[Part] = &[
     part!("Int.max", ["Int.less"], 60, int::MAX),
 ];
 
-/// What takes the place of parts on the processor; their needs are as large.
+/// What `f316r` has in their places.
+#[rustfmt::skip]
+const OF_ROUNDED: &[Part] = &[
+    part!("Float.add", ["Float.makePowers"], 620, rounded::ADD),
+    part!("Float.sub", ["Float.makePowers"], 630, rounded::SUB),
+    part!("Float.sqrt", ["Float.makeRoots"], 300, rounded::SQRT),
+    part!("Float.nearRoot", ["Float.sqrt"], 30, rounded::NEAR_ROOT),
+];
+
+/// The parts of `f316r`.
+pub(crate) static ROUNDED: [Part; ALL.len()] = {
+    let mut parts = [ALL[0]; ALL.len()];
+    let mut k = 0;
+    while k < ALL.len() {
+        parts[k] = ALL[k];
+        let mut other = 0;
+        while other < OF_ROUNDED.len() {
+            if same(ALL[k].name, OF_ROUNDED[other].name) {
+                parts[k] = OF_ROUNDED[other];
+            }
+            other += 1;
+        }
+        k += 1;
+    }
+    parts
+};
+
+const fn same(a: &str, b: &str) -> bool {
+    let (a, b) = (a.as_bytes(), b.as_bytes());
+    let mut k = 0;
+    while k < a.len() && k < b.len() && a[k] == b[k] {
+        k += 1;
+    }
+    k == a.len() && k == b.len()
+}
+
+/// What takes the place of texts on the processor; their needs are as large.
 const ON_PROCESSOR: &[(&str, &str)] = &[
-    ("Float.makePowers", processor::MAKE_POWERS_AND_SHIFT),
-    ("Float.add", float::ADD_SHIFTED),
-    ("Float.sub", float::SUB_SHIFTED),
-    ("Float.mul", processor::MUL),
-    ("Float.div", processor::DIV),
+    (float::MAKE_POWERS, processor::MAKE_POWERS_AND_SHIFT),
+    (float::ADD, float::ADD_SHIFTED),
+    (float::SUB, float::SUB_SHIFTED),
+    (float::MUL, processor::MUL),
+    (float::DIV, processor::DIV),
+    (functions::PRODUCT, rounded_bits::PRODUCT),
+    (functions::RATIO, rounded_bits::RATIO),
+    (rounded::ADD, rounded::ADD_SHIFTED),
+    (rounded::SUB, rounded::SUB_SHIFTED),
+    (rounded::MAKE_ROOTS, rounded_bits::MAKE_NO_ROOTS),
+    (rounded::SQRT, rounded_bits::SQRT),
 ];
 
 /// [`classes`] for a program that runs on the Hack's processor: the same values in
 /// fewer cycles, and in more VM commands.
 pub fn classes_for_processor(parts: &[&Part]) -> Vec<(&'static str, String)> {
     let own = |part: &&Part| {
-        let text = ON_PROCESSOR.iter().find(|(name, _)| *name == part.name);
-        let source = text.map(|(_, text)| Source::Text(text));
+        let Source::Text(usual) = part.source else {
+            return **part;
+        };
+        let other = ON_PROCESSOR.iter().find(|(text, _)| *text == usual);
         Part {
-            source: source.unwrap_or(part.source),
+            source: other.map_or(part.source, |(_, text)| Source::Text(text)),
             ..**part
         }
     };

@@ -1,9 +1,9 @@
 //! How far the models are from the exact results: what the routines state.
 
 use super::{Random, edges};
-use crate::F316;
-use crate::model::{Float, int};
-use slowlight_routine::{Bits, Error, Format, Op, Value};
+use crate::model::{Float, Rounded, Sums, int};
+use crate::{F316, F316R};
+use slowlight_routine::{Bits, Error, Format, Op, Runtime, Value};
 
 fn unit(m: i32) -> Float {
     Float { s: 0, e: 127, m }
@@ -31,12 +31,17 @@ fn a_product_is_short_by_up_to_2_to_the_minus_11_08() {
 
 /// The relative error that the routines of an operation state.
 fn stated(op: Op) -> f64 {
+    stated_by(&F316, op)
+}
+
+fn stated_by(runtime: &Runtime, op: Op) -> f64 {
     let of = |error| match error {
         Error::Relative(r) => r,
         Error::Exact => 0.0,
         Error::Larger(a) | Error::Absolute(a) | Error::Mixed { absolute: a, .. } => panic!("{a}"),
     };
-    F316.routines
+    runtime
+        .routines
         .iter()
         .filter(|r| r.op == op)
         .map(|r| of(r.error))
@@ -64,6 +69,92 @@ fn a_quotient_and_a_root_err_as_stated() {
     assert!(root.0.abs().max(root.1) <= stated(Op::Sqrt));
 }
 
+/// Of all pairs of mantissas: products and quotients are the nearest, of two as near
+/// the larger; so are roots.
+#[test]
+fn rounded_results_are_the_nearest() {
+    for a in 8192i64..16384 {
+        for b in 8192i64..16384 {
+            let [p, q] = [a, b].map(|m| unit(m as i32));
+            let product = a * b;
+            let shift = if product < 1 << 27 { 13 } else { 14 };
+            let nearest = (product + (1 << (shift - 1))) >> shift;
+            let made = p.product(q);
+            let units = i64::from(made.m) << (made.e - 114 - shift);
+            assert_eq!(units, nearest, "{a} * {b}");
+            let shift = if a < b { 14 } else { 13 };
+            let nearest = ((a << (shift + 1)) / b + 1) >> 1;
+            let made = p.ratio(q);
+            assert_eq!(
+                (i64::from(made.m), made.e),
+                (nearest, 140 - shift),
+                "{a} / {b}"
+            );
+        }
+        for e in [126, 127] {
+            let x = Float {
+                s: 0,
+                e,
+                m: a as i32,
+            };
+            let near = Float::nearest(x.value().sqrt());
+            assert_eq!(Rounded::sqrt(x), near, "{x:?}");
+        }
+    }
+    let half = 0.5f64.powi(14);
+    assert!([Op::Mul, Op::Div, Op::Sqrt].map(|op| stated_by(&F316R, op)) == [half; 3]);
+}
+
+/// Of all distances between exponents: sums are the nearest, and differences but for
+/// those close under a power of two, which are as near for their size.
+#[test]
+fn a_rounded_sum_errs_by_half_a_unit() {
+    let mut random = Random(5);
+    let (mut worst, mut others) = (0f64, 0);
+    for apart in 0..18 {
+        for _ in 0..200_000 {
+            let a = Float {
+                s: 0,
+                e: 140,
+                m: 8192 + random.below(8192),
+            };
+            let m = if random.below(8) == 0 {
+                8192
+            } else {
+                8192 + random.below(8192)
+            };
+            let b = Float {
+                s: random.below(2),
+                e: 140 - apart,
+                m,
+            };
+            let (a, b) = if random.below(4) == 0 {
+                (Float { m: 8192, ..a }, b)
+            } else {
+                (a, b)
+            };
+            let exact = a.value() + b.value();
+            let made = Rounded::add(a, b).value();
+            if exact == 0.0 {
+                assert_eq!(made, 0.0, "{a:?} {b:?}");
+                continue;
+            }
+            worst = worst.max(((made - exact) / exact).abs());
+            let near = (made - exact).abs() <= (Float::nearest(exact).value() - exact).abs();
+            let power = made.log2().fract() == 0.0 && made > exact && b.s == 1;
+            assert!(near || power, "{a:?} {b:?}: {made}, not {exact}");
+            others += u32::from(!near);
+        }
+    }
+    assert!(others > 0, "the nearest is described too carefully");
+    assert_eq!(format!("{worst:.4e}"), "6.1031e-5");
+    assert!(
+        [Op::Add, Op::Sub]
+            .iter()
+            .all(|op| stated_by(&F316R, *op) == 0.5f64.powi(14))
+    );
+}
+
 #[test]
 fn a_difference_may_be_twice_the_exact_one() {
     let least = unit(8192).sub(Float {
@@ -72,13 +163,28 @@ fn a_difference_may_be_twice_the_exact_one() {
         m: 16383,
     });
     assert_eq!(least.value(), 2f64.powi(-13), "of 2^-14");
+    let guarded = Rounded::sub(
+        unit(8192),
+        Float {
+            s: 0,
+            e: 126,
+            m: 16383,
+        },
+    );
+    assert_eq!(guarded.value(), 2f64.powi(-14));
 }
 
 /// Every routine against the operation that it claims to be, in its domain.
 #[test]
 fn routines_keep_within_their_errors() {
+    for runtime in [&F316, &F316R] {
+        keep_within_their_errors(runtime);
+    }
+}
+
+fn keep_within_their_errors(runtime: &Runtime) {
     let mut random = Random(99);
-    for routine in F316.routines {
+    for routine in runtime.routines {
         let mut lists: Vec<Vec<Bits>> = routine.args.iter().map(|f| edges(*f)).collect();
         lists
             .iter_mut()
@@ -93,7 +199,7 @@ fn routines_keep_within_their_errors() {
             let bits = [a, b];
             // What f64 cannot follow, and an int that stands for another, are the machine's affair.
             let far = |f: &Format, x| match f {
-                Format::Float316 => !(-300..=600).contains(&Float::from_bits(x).e),
+                Format::Float316 { .. } => !(-300..=600).contains(&Float::from_bits(x).e),
                 _ => int(x) == -32768,
             };
             let beyond = routine.args.iter().zip(bits).any(|(f, x)| far(f, x));
@@ -101,7 +207,7 @@ fn routines_keep_within_their_errors() {
                 .args
                 .iter()
                 .zip(bits)
-                .map(|(f, x)| (F316.decode)(x, *f))
+                .map(|(f, x)| (runtime.decode)(x, *f))
                 .collect();
             let exact = routine.op.eval(&values);
             let ranges: Vec<_> = values
@@ -111,7 +217,7 @@ fn routines_keep_within_their_errors() {
             if beyond || !(routine.domain)(&ranges, slowlight_routine::Range::point(exact.real())) {
                 continue;
             }
-            let made = (F316.decode)((routine.model)(&bits[..values.len()]), routine.result);
+            let made = (runtime.decode)((routine.model)(&bits[..values.len()]), routine.result);
             let (made, exact) = (made.real(), exact.real());
             let exact = match routine.result {
                 Format::Int { .. } => exact.clamp(-32768.0, 32767.0),
@@ -125,7 +231,8 @@ fn routines_keep_within_their_errors() {
             let across = matches!(routine.error, Error::Larger(_)) && made * exact < 0.0;
             assert!(
                 (within && !across) || made.abs() == f64::MAX,
-                "{} {values:?}: {made}, not {exact}",
+                "{} {} {values:?}: {made}, not {exact}",
+                runtime.format,
                 routine.name
             );
         }

@@ -3,13 +3,24 @@
 use crate::model::{Float, int, int_bits, wrap};
 use slowlight_routine::{Bits, Format};
 
-/// The generator: what `Main.random` does.
+/// The generator: what `Main.random` does. The lower half of its state comes back after
+/// 65,536 draws; [`Generator::stir`] changes the upper, which is added to what is drawn.
 pub struct Generator(pub i32);
+
+/// Stirs the generator in Jack. Without that, it would draw four thousand pairs of
+/// Floats, again and again: enough for counting commands, which goes without.
+pub const STIR: &str = "let block = block + 9973;";
 
 impl Generator {
     pub fn next(&mut self) -> i32 {
-        self.0 = wrap(self.0.wrapping_mul(25173).wrapping_add(13849));
-        self.0 & 32767
+        let seed = wrap((self.0 & 0xFFFF).wrapping_mul(25173).wrapping_add(13849));
+        self.0 = self.0 >> 16 << 16 | seed & 0xFFFF;
+        (seed + (self.0 >> 16)) & 32767
+    }
+
+    /// What [`STIR`] does, before every thousand pairs.
+    pub fn stir(&mut self) {
+        self.0 = wrap((self.0 >> 16) + 9973) << 16 | self.0 & 0xFFFF;
     }
 
     fn float(&mut self) -> Float {
@@ -40,7 +51,7 @@ impl Generator {
     pub fn bits(&mut self, format: Format) -> Bits {
         match format {
             Format::Bool => Bits::from(self.next() < 16384),
-            Format::Float316 => self.float().bits(),
+            Format::Float316 { .. } => self.float().bits(),
             _ => int_bits(self.int()),
         }
     }
@@ -63,7 +74,7 @@ impl Sums {
     pub fn result(&mut self, bits: Bits, format: Format) {
         match format {
             Format::Bool => self.note(if bits == 0 { 0 } else { -1 }),
-            Format::Float316 => {
+            Format::Float316 { .. } => {
                 let Float { s, e, m } = Float::from_bits(bits);
                 [s, e, m].into_iter().for_each(|word| self.note(word));
             }
@@ -71,3 +82,20 @@ impl Sums {
         }
     }
 }
+
+#[test]
+fn pairs_are_hardly_ever_drawn_twice() {
+    let mut generator = Generator(1);
+    let mut pairs: Vec<[Bits; 2]> = Vec::new();
+    for k in 0..1_000_000 {
+        if k % 1000 == 0 {
+            generator.stir();
+        }
+        pairs.push([FLOAT, FLOAT].map(|format| generator.bits(format)));
+    }
+    pairs.sort_unstable();
+    pairs.dedup();
+    assert!(pairs.len() > 980_000, "{}", pairs.len());
+}
+
+const FLOAT: Format = Format::Float316 { rounded: false };

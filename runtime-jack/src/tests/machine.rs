@@ -5,24 +5,24 @@
 //! Operands are made by the Jack program itself, by a generator that is stated
 //! here a second time; the results are summed up in two words of 16 bits each.
 
-use super::generator::{Generator, Sums};
+use super::generator::{Generator, STIR, Sums};
 use super::{edges, int_edges};
 use crate::model::{Float, int};
-use crate::{F316, classes, classes_for_processor, has_init};
-use slowlight_routine::{Bits, Form, Format, Part, Routine};
+use crate::{F316, F316R, classes, classes_for_processor, has_init};
+use slowlight_routine::{Bits, Form, Format, Part, Routine, Runtime};
 use slowlight_vm::Stop;
 use slowlight_vm::hack::jack;
 use slowlight_vm::hack::vm::{Machine, Program, Run};
 
 const MAIN: &str = "
-    static int seed, first, second, i, j, out;
+    static int seed, block, first, second, i, j, out;
     static boolean p, q, said;
     static Array es, ms, ints;
     static Float a, b, r;
 
     function int random() {
         let seed = (seed * 25173) + 13849;
-        return seed & 32767;
+        return (seed + block) & 32767;
     }
 
     function void anyFloat(Array f) {
@@ -70,7 +70,7 @@ const MAIN: &str = "
 fn operand(format: Format, k: usize) -> &'static str {
     let names = match format {
         Format::Bool => ["p", "q"],
-        Format::Float316 => ["a", "b"],
+        Format::Float316 { .. } => ["a", "b"],
         _ => ["i", "j"],
     };
     names[k]
@@ -104,7 +104,7 @@ fn excluded(routine: &Routine, args: &[Bits]) -> bool {
 
 /// A program around the statement `step`, which sees the operands.
 fn program(
-    routine: &Routine,
+    (runtime, routine): (&Runtime, &Routine),
     step: &str,
     with_edges: bool,
     pairs: u32,
@@ -130,7 +130,7 @@ fn program(
         text
     };
     main += "    function void main() {\n        var int k, l;\n";
-    let parts = F316.closure(routine.needs.iter().copied().chain(["Float"]));
+    let parts = runtime.closure(routine.needs.iter().copied().chain(["Float"]));
     if has_init("Float", &parts) {
         main += "        do Float.init();\n";
     }
@@ -141,13 +141,13 @@ fn program(
     let set = |k: usize, index: &str| match routine.args.get(k) {
         None => String::new(),
         Some(Format::Bool) => format!("let {} = ({index} = 1);", ["p", "q"][k]),
-        Some(Format::Float316) => format!("do Main.edge({}, {index});", ["a", "b"][k]),
+        Some(Format::Float316 { .. }) => format!("do Main.edge({}, {index});", ["a", "b"][k]),
         Some(_) => format!("let {} = ints[{index}];", ["i", "j"][k]),
     };
     let any = |k: usize| match routine.args.get(k) {
         None => String::new(),
         Some(Format::Bool) => format!("let {} = Main.random() < 16384;", ["p", "q"][k]),
-        Some(Format::Float316) => format!("do Main.anyFloat({});", ["a", "b"][k]),
+        Some(Format::Float316 { .. }) => format!("do Main.anyFloat({});", ["a", "b"][k]),
         Some(_) => format!("let {} = Main.anyInt();", ["i", "j"][k]),
     };
     let count = |k: usize| routine.args.get(k).map_or(1, |f| edges(*f).len());
@@ -165,11 +165,14 @@ fn program(
             set(1, "l"),
         );
     }
+    // What is run on the edges is compared, not counted.
+    let stir = if with_edges { STIR } else { "" };
     main += &format!(
         "        let seed = 1;
         let l = {};
         while (l > 0) {{
             let k = 1000;
+            {stir}
             while (k > 0) {{ {} {} do Main.step(); let k = k - 1; }}
             let l = l - 1;
         }}
@@ -223,7 +226,10 @@ fn expected(routine: &Routine, with_edges: bool, pairs: u32) -> Sums {
         }
     }
     let mut generator = Generator(1);
-    for _ in 0..pairs / 1000 * 1000 {
+    for k in 0..pairs / 1000 * 1000 {
+        if with_edges && k % 1000 == 0 {
+            generator.stir();
+        }
         let a = generator.bits(routine.args[0]);
         if binary {
             let b = generator.bits(routine.args[1]);
@@ -249,23 +255,33 @@ fn noted(routine: &Routine) -> String {
 #[test]
 fn routines_compute_what_their_models_do() {
     for routine in F316.routines {
-        computes_what_its_model_does(routine, &classes);
+        computes_what_its_model_does((&F316, routine), &classes);
     }
 }
 
-/// Only the parts differ of which the processor has others.
+#[test]
+fn rounded_routines_compute_what_their_models_do() {
+    for routine in F316R.routines {
+        computes_what_its_model_does((&F316R, routine), &classes);
+    }
+}
+
+/// Only those of whose parts the processor has others.
 #[test]
 fn routines_for_the_processor_do_so_too() {
-    for name in ["add", "sub", "mul", "div", "sqrt"] {
-        let routine = F316.routines.iter().find(|r| r.name == name).unwrap();
-        computes_what_its_model_does(routine, &classes_for_processor);
+    for runtime in [&F316, &F316R] {
+        for name in ["add", "sub", "mul", "div", "sqrt", "tan", "asin"] {
+            let routine = runtime.routines.iter().find(|r| r.name == name).unwrap();
+            computes_what_its_model_does((runtime, routine), &classes_for_processor);
+        }
     }
 }
 
 type Classes = dyn Fn(&[&Part]) -> Vec<(&'static str, String)>;
 
-fn computes_what_its_model_does(routine: &Routine, classes: &Classes) {
-    let mut files = program(routine, &noted(routine), true, pairs(), classes);
+fn computes_what_its_model_does((runtime, routine): (&Runtime, &Routine), classes: &Classes) {
+    let use_of = (runtime, routine);
+    let mut files = program(use_of, &noted(routine), true, pairs(), classes);
     files[0].1 = files[0].1.replacen(
         "    function void note(",
         "    function void noteFloat(Array f) {
@@ -282,7 +298,8 @@ fn computes_what_its_model_does(routine: &Routine, classes: &Classes) {
     assert_eq!(
         run(&files).text,
         format!("{first} {second}"),
-        "{}",
+        "{} {}",
+        runtime.format,
         routine.name
     );
 }
@@ -306,9 +323,9 @@ fn mul_model(args: &[Bits]) -> Bits {
 
 /// Commands of a use over those of its surroundings, without the operands'
 /// loads; operands from 2^-10 to 2^11, roots from 0.
-fn cost(routine: &Routine) -> u32 {
+fn cost(runtime: &Runtime, routine: &Routine) -> u32 {
     let count = |step: &str| {
-        let mut files = program(routine, step, false, 20_000, &classes);
+        let mut files = program((runtime, routine), step, false, 20_000, &classes);
         let main = files[0]
             .1
             .replace("if (kind = 0) { let f[1]", "if (kind = 9) { let f[1]");
@@ -346,9 +363,13 @@ fn skipped(routine: &Routine) -> u32 {
 
 #[test]
 fn routines_cost_what_they_say() {
-    let differ = F316.routines.iter().filter_map(|r| {
-        let measured = cost(r);
-        (measured != r.cycles).then(|| format!("{}: {measured}, not {}", r.name, r.cycles))
-    });
+    let differ = |runtime: &'static Runtime| {
+        runtime.routines.iter().filter_map(move |r| {
+            let measured = cost(runtime, r);
+            let said = (runtime.format, r.name, r.cycles);
+            (measured != r.cycles).then(|| format!("{said:?}: {measured}"))
+        })
+    };
+    let differ = [&F316, &F316R].into_iter().flat_map(differ);
     assert_eq!(differ.collect::<Vec<_>>(), Vec::<String>::new());
 }

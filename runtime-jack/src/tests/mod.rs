@@ -8,8 +8,8 @@ pub mod generator;
 pub mod machine;
 mod os;
 
-use crate::F316;
 use crate::model::{BOTTOM, Float, TOP, int_bits};
+use crate::{F316, F316R};
 use slowlight_routine::{Bits, Format};
 
 /// A generator of test values (xorshift).
@@ -55,7 +55,7 @@ impl Random {
     pub fn bits(&mut self, format: Format) -> Bits {
         match format {
             Format::Bool => self.next() & 1,
-            Format::Float316 => self.float().bits(),
+            Format::Float316 { .. } => self.float().bits(),
             _ => int_bits(self.int()),
         }
     }
@@ -110,7 +110,7 @@ pub fn int_edges() -> Vec<i32> {
 pub fn edges(format: Format) -> Vec<Bits> {
     match format {
         Format::Bool => vec![0, 1],
-        Format::Float316 => float_edges().into_iter().map(Float::bits).collect(),
+        Format::Float316 { .. } => float_edges().into_iter().map(Float::bits).collect(),
         _ => int_edges().into_iter().map(int_bits).collect(),
     }
 }
@@ -125,17 +125,16 @@ fn bits_go_there_and_back() {
 
 #[test]
 fn names_are_unique_and_needs_exist() {
-    let mut names: Vec<&str> = F316.routines.iter().map(|r| r.name).collect();
-    names.sort_unstable();
-    names.dedup();
-    assert_eq!(names.len(), F316.routines.len());
-    for need in F316
-        .routines
-        .iter()
-        .flat_map(|r| r.needs)
-        .chain(F316.parts.iter().flat_map(|p| p.needs))
-    {
-        assert!(F316.part(need).is_some(), "{need}");
+    for runtime in [&F316, &F316R] {
+        let routines = runtime.routines.iter();
+        let mut names: Vec<&str> = routines.clone().map(|r| r.name).collect();
+        names.sort_unstable();
+        names.dedup();
+        assert_eq!(names.len(), runtime.routines.len());
+        let parts = runtime.parts.iter().flat_map(|p| p.needs);
+        for need in routines.flat_map(|r| r.needs).chain(parts) {
+            assert!(runtime.part(need).is_some(), "{need}");
+        }
     }
 }
 
@@ -179,6 +178,8 @@ fn params_have_as_many_digits_as_an_int_holds() {
     let value = Float::from_bits((F316.param_bits)(-100, 3)).value();
     assert!((value + 0.1).abs() < 0.1 / 4096.0, "{value}");
     assert_eq!((F316.param_bits)(1_000_000, 0), (F316.param_bits)(32767, 0));
+    let value = Float::from_bits((F316R.param_bits)(-100, 3)).value();
+    assert!((value + 0.1).abs() < 0.1 / 16384.0, "{value}");
 }
 
 #[test]
@@ -188,6 +189,8 @@ fn every_operation_has_a_total_routine() {
         let total = |r: &&slowlight_routine::Routine| {
             r.op == *op && (r.domain)(&[Range::ALL, Range::ALL], Range::ALL)
         };
-        assert!(F316.routines.iter().any(|r| total(&r)), "{op:?}");
+        for runtime in [&F316, &F316R] {
+            assert!(runtime.routines.iter().any(|r| total(&r)), "{op:?}");
+        }
     }
 }

@@ -62,7 +62,7 @@ pub use whole::Whole;
 /// the format's unit roundoff: what leaves a picture twenty bits.
 pub(super) fn allowance(format: Format) -> f64 {
     match format {
-        Format::Real40 | Format::Float316 => (0.5f64.powi(20) / format.epsilon()).min(64.0),
+        Format::Real40 | Format::Float316 { .. } => (0.5f64.powi(20) / format.epsilon()).min(64.0),
         // A fixed point has no relative roundings.
         _ => 0.0,
     }

@@ -222,7 +222,7 @@ impl<'p> Code<'p> {
         if from.text == home {
             return;
         }
-        if format == Format::Float316 {
+        if let Format::Float316 { .. } = format {
             self.needs.insert("Float.copy");
             self.text.line(format!("do {home}.copy({});", from.text));
         } else {
@@ -286,7 +286,7 @@ impl<'p> Code<'p> {
             }
             _ => return,
         };
-        if format == Format::Float316 {
+        if let Format::Float316 { .. } = format {
             let home = self.home(place, format);
             self.needs.insert("Float.copy");
             self.text

@@ -238,10 +238,8 @@ fn declared(code: &Code) -> Vec<(&'static str, Vec<String>, &'static str)> {
     let signs = names.tables().filter(|(id, _)| signed(*id));
     let signs = signs.map(|(_, name)| format!("{name}_plus")).collect();
     all.push(("Array", signs, ""));
-    if code.logs() {
-        all.push(("int", of(code.plan.runtime.real), " // logarithms"));
-    }
-    all.push(("Float", of(Format::Float316), ""));
+    let about = if code.logs() { " // logarithms" } else { "" };
+    all.push((real, of(code.plan.runtime.real), about));
     let ints = of(code.plan.runtime.int).into_iter();
     let counters = names.counters().map(str::to_owned);
     all.push(("int", ints.chain(counters).collect(), ""));

@@ -6,7 +6,7 @@ use super::expression::{Expression, int};
 use super::frame::{Subroutine, line, subroutine};
 use super::logs::{constant, has_signs};
 use crate::plan::ParamPlan;
-use slowlight_routine::{Format, Type, Value};
+use slowlight_routine::{Form, Format, Op, Type, Value};
 use slowlight_runtime_jack::log::model::Log;
 use slowlight_runtime_jack::model::Float;
 
@@ -43,14 +43,12 @@ pub(super) fn making(code: &mut Code) -> Vec<Subroutine> {
         taking.push(line(&format!("do {value}.fromInt({label});")));
         code.needs.insert("Float.fromInt");
         if let Some(digits) = param.digits.filter(|d| *d > 0) {
-            code.needs.insert("Float.div");
             let unit = 10f64.powi(i32::from(digits));
             let bits = plan.bits(Value::Real(unit));
             let scale = code.object.constant(&mut code.names, bits, unit);
             let said = format!("{value} = {label} / {unit}");
-            taking.push(line(&format!(
-                "do {value}.div({value}, {scale}); // {said}"
-            )));
+            let quotient = divided(code, value, &scale);
+            taking.push(line(&format!("do {quotient}; // {said}")));
         }
     }
 
@@ -65,7 +63,10 @@ pub(super) fn making(code: &mut Code) -> Vec<Subroutine> {
     if !constants.is_empty() {
         code.needs.insert("Float.constant");
     }
-    let floats = code.written.iter().filter(|(_, f)| *f == Format::Float316);
+    let floats = code
+        .written
+        .iter()
+        .filter(|(_, f)| matches!(f, Format::Float316 { .. }));
     let floats = floats.map(|(name, _)| name.clone());
     // Logarithms are ints, which need no making.
     let values = values.iter().filter(|_| !code.logs()).map(|v| v.1.clone());
@@ -101,6 +102,21 @@ pub(super) fn making(code: &mut Code) -> Vec<Subroutine> {
         all.push(subroutine(about, "method void takeParameters()", body));
     }
     all
+}
+
+/// What divides a real in place, as the runtime's own routine for quotients does.
+fn divided(code: &mut Code, value: &str, by: &str) -> String {
+    let mut routines = code.plan.runtime.routines.iter();
+    let Some(div) = routines.find(|r| r.op == Op::Div) else {
+        return String::new();
+    };
+    code.needs.extend(div.needs);
+    match div.form {
+        Form::Statement(template) | Form::Expression { template, .. } => template
+            .replace("{r}", value)
+            .replace("{0}", value)
+            .replace("{1}", by),
+    }
 }
 
 /// A param's logarithm and sign, from its whole number.

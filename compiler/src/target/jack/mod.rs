@@ -49,11 +49,17 @@ pub use slowlight_runtime_jack::os;
 use super::{Document, Mode, Target};
 use crate::passes::outline::Sizes;
 use crate::source::Span;
-use slowlight_runtime_jack::F316;
 use slowlight_runtime_jack::log::LOG10;
+use slowlight_runtime_jack::{F316, F316R};
 
 /// The Hack computer, programmed in Jack.
 pub static JACK: Target = FLOATS;
+
+/// The same with rounded reals.
+pub static JACK_F316R: Target = Target {
+    runtime: &F316R,
+    ..FLOATS
+};
 
 /// The same with logarithmic reals.
 pub static JACK_LOG10: Target = Target {
