@@ -3,10 +3,11 @@
 use super::loose::loosen;
 use crate::flow::graph::*;
 use crate::flow::tree::*;
+use super::points::Points;
 use crate::range::Ranges;
 use crate::source::Diagnostic;
 use crate::target::{TARGETS, Target};
-use slowlight_routine::{Op, Routine, Runtime};
+use slowlight_routine::{Format, Op, Range, Routine, Runtime, Type, scale};
 
 /// Which targets can compute an operation.
 fn elsewhere(op: Op) -> String {
@@ -27,9 +28,16 @@ pub(super) fn choose(
     tree: &Tree,
     ranges: &Ranges,
     runtime: &'static Runtime,
+    points: Option<&Points>,
 ) -> Result<Chosen, Vec<Diagnostic>> {
     let mut chosen: Chosen = vec![None; graph.nodes.len()];
     let mut missing = Vec::new();
+    // Of plans that are only priced it is enough to know about where points would be.
+    let about = match (points, runtime.real) {
+        (None, Format::Scaled { bits }) => Some(Points::new(graph, ranges, bits)),
+        _ => None,
+    };
+    let points = points.or(about.as_ref());
     for block in tree.blocks() {
         walk(block, &mut |statement| {
             let Statement::Let(id) = *statement else {
@@ -46,7 +54,12 @@ pub(super) fn choose(
             };
             let at = id.0 as usize;
             let args = &ranges.args[at][..op.arity()];
-            let fits = |r: &&Routine| r.op == op && (r.domain)(args, ranges.exact[at]);
+            let seen = points.map(|points| in_units(points, id, op, args, ranges.exact[at]));
+            let (args, exact) = match &seen {
+                Some((args, exact)) => (args.as_slice(), *exact),
+                None => (args, ranges.exact[at]),
+            };
+            let fits = |r: &&Routine| r.op == op && (r.domain)(args, exact);
             match runtime.routines.iter().find(fits) {
                 Some(routine) => chosen[at] = Some(routine),
                 None => missing.push(
@@ -67,4 +80,28 @@ pub(super) fn choose(
     } else {
         Err(missing)
     }
+}
+
+/// An operation's ranges as routines see them whose values have scales
+/// ([`slowlight_routine::scale`]).
+fn in_units(
+    points: &Points,
+    id: NodeId,
+    op: Op,
+    args: &[Range],
+    exact: Range,
+) -> (Vec<Range>, Range) {
+    let scales = points.scales(id);
+    let args = args.iter().zip(op.args()).zip(scales.args);
+    let units = |((range, ty), at): ((&Range, &Type), i8)| match (ty, op) {
+        (Type::Real, _) | (_, Op::ToReal) => scale::in_units(*range, at),
+        _ => *range,
+    };
+    let mut args: Vec<Range> = args.map(units).collect();
+    args.push(Range::point(f64::from(scales.number(op))));
+    let exact = match op.result() {
+        Type::Real => scale::in_units(exact, scales.result),
+        _ => exact,
+    };
+    (args, exact)
 }

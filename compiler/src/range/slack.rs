@@ -1,5 +1,7 @@
 //! How a machine departs from exact arithmetic, as its routines state it.
 
+use crate::flow::graph::NodeId;
+use crate::plan::points::Points;
 use slowlight_routine::{Error, Format, Op, Range, Runtime, Type};
 
 /// How far an entry that a program works out itself may be off, as a part of it.
@@ -23,7 +25,14 @@ pub struct Slack {
     reals: Range,
     /// What ints can be.
     pub(super) ints: Range,
+    /// The greatest magnitude that is expected of each operation's result, if any is.
+    expected: Vec<Option<f64>>,
+    /// Where each real's point is, in formats that leave that to the plan.
+    pub(super) points: Option<Points>,
 }
+
+/// What is expected is trusted where ranges are wider by so much, and twice over.
+const WIDER: f64 = 4.0;
 
 impl Slack {
     /// No departure: the graph's own arithmetic.
@@ -38,6 +47,27 @@ impl Slack {
             entries: 0.0,
             reals,
             ints: Range::new(f64::from(i32::MIN), f64::from(i32::MAX)),
+            expected: Vec::new(),
+            points: None,
+        }
+    }
+
+    /// Exact reals, which are expected to stay within twice some magnitudes: for planning
+    /// where their points shall be.
+    pub fn expecting(runtime: &Runtime, expected: Vec<Option<f64>>) -> Slack {
+        Slack {
+            expected,
+            relative: true,
+            ..Slack::of(runtime)
+        }
+    }
+
+    /// With each real in the bits that it has.
+    pub fn with_points(runtime: &Runtime, points: Points) -> Slack {
+        Slack {
+            points: Some(points),
+            errors: errors(runtime),
+            ..Slack::of(runtime)
         }
     }
 
@@ -48,25 +78,44 @@ impl Slack {
             Format::Fixed { .. } | Format::Log { .. } => Range::new(-format.most(), format.most()),
             _ => Range::new(f64::MIN, f64::MAX),
         };
-        let mut errors = vec![Vec::new(); Op::ALL.len()];
-        for routine in runtime.routines {
-            let own: &mut Vec<Error> = &mut errors[routine.op as usize];
-            if routine.error != Error::Exact && !own.contains(&routine.error) {
-                own.push(routine.error);
-            }
-        }
         // In a format whose ends are near, a scene that breaks the contract
         // would wrap: there the routines saturate instead.
         let floats = matches!(runtime.real, Format::Real40 | Format::Float316);
+        // Units of last places that are nowhere yet say nothing.
+        let errors = match runtime.real {
+            Format::Scaled { .. } => Vec::new(),
+            _ => errors(runtime),
+        };
         Slack {
             errors,
             direction: floats.then(|| Range::new(-2.0, 2.0)),
-            relative: !matches!(runtime.real, Format::Fixed { .. }),
+            relative: !runtime.real.is_fixed(),
             quotient: runtime.quotient,
             segments: runtime.segments,
             entries: if runtime.derives { ENTRIES } else { 0.0 },
             reals: ends(runtime.real),
             ints: ends(runtime.int),
+            expected: Vec::new(),
+            points: None,
+        }
+    }
+
+    /// An operation's result with what its routines may add, as the node's place holds it.
+    pub(super) fn result(&self, id: NodeId, op: Op, args: &[Range], exact: Range) -> Range {
+        if op.result() != Type::Real {
+            return self.rounded(op, args, exact);
+        }
+        if let Some(points) = &self.points {
+            let all = self.errors.get(op as usize).map_or(&[][..], Vec::as_slice);
+            let units = all.iter().map(|error| error.most(args, 0.0));
+            return points.rounded(id, exact, units.fold(0.0, f64::max));
+        }
+        let range = self.rounded(op, args, exact);
+        match self.expected.get(id.0 as usize).copied().flatten() {
+            Some(most) if most > 0.0 && range.magnitude() > WIDER * most => {
+                range.meet(Range::new(-2.0 * most, 2.0 * most))
+            }
+            _ => range,
         }
     }
 
@@ -146,4 +195,16 @@ fn widened(range: Range, part: f64) -> Range {
             range.hi + part * range.hi.abs(),
         )
     }
+}
+
+/// How far a runtime's results may be off, by [`Op`].
+fn errors(runtime: &Runtime) -> Vec<Vec<Error>> {
+    let mut errors = vec![Vec::new(); Op::ALL.len()];
+        for routine in runtime.routines {
+            let own: &mut Vec<Error> = &mut errors[routine.op as usize];
+            if routine.error != Error::Exact && !own.contains(&routine.error) {
+                own.push(routine.error);
+            }
+        }
+    errors
 }

@@ -73,7 +73,7 @@ pub static TARGETS: &[&Target] = &[
 ];
 
 /// The same machines with other formats of reals.
-pub static OTHER_FORMATS: &[&Target] = &[&jack::JACK_LOG10];
+pub static OTHER_FORMATS: &[&Target] = &[&jack::JACK_LOG10, &jack::JACK_FIXED16];
 
 /// The formats of reals that a target's machine has, its usual one first.
 pub fn formats(target: &Target) -> impl Iterator<Item = &'static Target> {

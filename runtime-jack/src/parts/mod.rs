@@ -12,6 +12,7 @@
 
 #[macro_use]
 mod float;
+mod fixed;
 mod functions;
 mod int;
 mod log;
@@ -92,6 +93,16 @@ pub(crate) static ALL: &[Part] = &[
     part!("Log.round", ["Log.add", "Log.floor"], 60, log::ROUND),
     part!("Log.sign", [], 30, log::SIGN),
     part!("Log.mod", ["Log.add", "Log.floor", "Log.fromInt", "Log.clamp"], 120, log::MOD),
+    part!("Fixed", [], 0, fixed::HEAD),
+    part!("Fixed.makeRoots", ["Fixed.mul"], 200, fixed::MAKE_ROOTS),
+    part!("Fixed.left", [], 70, fixed::LEFT),
+    part!("Fixed.right", [], 90, fixed::RIGHT),
+    part!("Fixed.mul", [], 320, fixed::MUL),
+    part!("Fixed.halfMul", [], 310, fixed::HALF_MUL),
+    part!("Fixed.div", [], 380, fixed::DIV),
+    part!("Fixed.root", ["Fixed.makeRoots", "Fixed.right"], 230, fixed::SQRT),
+    part!("Fixed.doubleRoot", ["Fixed.root"], 90, fixed::DOUBLE_SQRT),
+    part!("Fixed.floor", [], 70, fixed::FLOOR),
     part!("Int", [], 0, ""),
     part!("Int.magnitude", [], 60, int::MAGNITUDE),
     part!("Int.add", [], 120, int::ADD),

@@ -19,16 +19,18 @@
 //! declared, constants end at 32767, every path returns, and expressions carry
 //! their parentheses, as Jack has no precedence.
 //!
-//! Logarithmic reals are two fields each, an int and a sign; nothing is made for them.
+//! Logarithmic reals are two fields each, an int and a sign; nothing is made for them, nor
+//! for fixed-point reals, which are ints.
 //!
 //! - `names`: what everything is called; `code`: statements and expressions; `logs`:
-//!   those of logarithmic reals; `lookup`: entries of tables;
+//!   those of logarithmic reals; `fixed`: those in fixed point; `lookup`: entries of tables;
 //! - `object`: constants and params; `making`: what fills the fields at the start;
 //! - `frame`: the classes around; `spread`: error diffusion; `statics`: which values
 //!   are statics, for the processor.
 
 mod code;
 mod expression;
+mod fixed;
 mod frame;
 mod logs;
 mod lookup;
@@ -49,6 +51,7 @@ use super::{Document, Mode, Target};
 use crate::passes::outline::Sizes;
 use crate::source::Span;
 use slowlight_runtime_jack::F316;
+use slowlight_runtime_jack::fixed::FIXED16;
 use slowlight_runtime_jack::log::LOG10;
 
 /// The Hack computer, programmed in Jack.
@@ -57,6 +60,12 @@ pub static JACK: Target = FLOATS;
 /// The same with logarithmic reals.
 pub static JACK_LOG10: Target = Target {
     runtime: &LOG10,
+    ..FLOATS
+};
+
+/// The same with reals in fixed point, each with fraction bits of its own.
+pub static JACK_FIXED16: Target = Target {
+    runtime: &FIXED16,
     ..FLOATS
 };
 

@@ -78,6 +78,11 @@ impl Spread {
             let down = usize::try_from(share.dy).unwrap_or(0);
             let there = self.element(x, i64::from(share.dx), down);
             text.span = Some(plan.graph.span(share.node));
+            if let Some(points) = code.points() {
+                let line = code.gather_fixed(points, &there, share.node);
+                text.line(line);
+                continue;
+            }
             text.line(format!("let {sum} = {there};"));
             if code.logs() {
                 let template = match gather {
@@ -96,9 +101,15 @@ impl Spread {
             }
         }
         let zero = code.constant(Value::Real(0.0)).text;
-        if code.logs() {
+        if code.real_is_int() {
             let here = self.element(x, 0, 0);
             text.line(format!("let {here} = {zero};"));
+        }
+        if code.points().is_some() {
+            return text.lines;
+        }
+        if code.logs() {
+            let here = self.element(x, 0, 0);
             text.line(format!("let {} = true;", signs(&here)));
             return text.lines;
         }
@@ -131,9 +142,10 @@ impl Spread {
         let [x, _] = code.names.axes.clone();
         let empty = match code.logs() {
             true => [code.constant(Value::Real(0.0)).text, "true".to_owned()],
+            false if code.real_is_int() => ["0".to_owned(), String::new()],
             false => ["Float.new()".to_owned(), String::new()],
         };
-        if !code.logs() {
+        if !code.real_is_int() {
             code.needs.insert("Float");
         }
         let mut text = Text::default();

@@ -1,0 +1,166 @@
+//! The class of fixed-point reals.
+
+pub(crate) const HEAD: &str = "    /**
+     * Reals in fixed point: n stands for n / 2, n / 4, n / 8, ..., each value its own. All
+     * are from -32767 to 32767; what would be more saturates.
+     */
+";
+
+pub(crate) const LEFT: &str = "    /** a * unit; most is the greatest int that may be that. */
+    function int left(int a, int most, int unit) {
+        if (a > most) { return 32767; }
+        if (a < (-most)) { return -32767; }
+        return a * unit;
+    }
+";
+
+pub(crate) const RIGHT: &str = "    /** a / (2 * half), rounded. */
+    function int right(int a, int half) {
+        if (a < 0) {
+            let a = (-a) / half;
+            return (a / 2) - a;
+        }
+        let a = a / half;
+        return a - (a / 2);
+    }
+";
+
+pub(crate) const MUL: &str = "    /** a * b / 32768, rounded. */
+    function int mul(int a, int b) {
+        var int high, other;
+        var boolean minus;
+        if (a < 0) {
+            let a = -a;
+            let minus = true;
+        }
+        if (b < 0) {
+            let b = -b;
+            let minus = ~minus;
+        }
+        let high = a / 256;
+        let a = a & 255;
+        let other = b / 256;
+        let b = b & 255;
+        let a = (((((high * b) / 2) + ((other * a) / 2)) + (((a / 2) * b) / 256)) + 32) / 64;
+        let high = high * other;
+        if (minus) { return -((high + high) + a); }
+        return (high + high) + a;
+    }
+";
+
+pub(crate) const HALF_MUL: &str = "    /** a * b / 65536, rounded. */
+    function int halfMul(int a, int b) {
+        var int high, other;
+        var boolean minus;
+        if (a < 0) {
+            let a = -a;
+            let minus = true;
+        }
+        if (b < 0) {
+            let b = -b;
+            let minus = ~minus;
+        }
+        let high = a / 256;
+        let a = a & 255;
+        let other = b / 256;
+        let b = b & 255;
+        let a = (((((high * b) / 2) + ((other * a) / 2)) + (((a / 2) * b) / 256)) + 64) / 128;
+        if (minus) { return -((high * other) + a); }
+        return (high * other) + a;
+    }
+";
+
+pub(crate) const DIV: &str = "    /** a / b with so many bits more, rounded; by 0 the greatest with the sign of a. */
+    function int div(int a, int b, int bits) {
+        var int whole;
+        var boolean minus;
+        if (b = 0) {
+            if (a = 0) { return 0; }
+            if (a < 0) { return -32767; }
+            return 32767;
+        }
+        if (a < 0) {
+            let a = -a;
+            let minus = true;
+        }
+        if (b < 0) {
+            let b = -b;
+            let minus = ~minus;
+        }
+        let whole = a / b;
+        let a = a - (whole * b);
+        while (bits > 0) {
+            if (whole > 16383) {
+                if (minus) { return -32767; }
+                return 32767;
+            }
+            let whole = whole + whole;
+            if (a < (b - a)) { let a = a + a; }
+            else {
+                let a = a - (b - a);
+                let whole = whole + 1;
+            }
+            let bits = bits - 1;
+        }
+        if (~(a < (b - a))) {
+            if (whole < 32767) { let whole = whole + 1; }
+        }
+        if (minus) { return -whole; }
+        return whole;
+    }
+";
+
+pub(crate) const MAKE_ROOTS: &str = "    static Array roots; // of k / 256, times 32768, from k = 64 on
+    /** The greatest numbers whose squares are not above. */
+    function void makeRoots() {
+        var int k, root, step;
+        let roots = Array.new(193);
+        let root = 16384;
+        let k = 0;
+        while (k < 192) {
+            let step = 64;
+            while (step > 0) {
+                if (~(Fixed.mul(root + step, root + step) > ((k + 64) * 128))) {
+                    let root = root + step;
+                }
+                let step = step / 2;
+            }
+            let roots[k] = root;
+            let k = k + 1;
+        }
+        let roots[192] = 32767;
+        return;
+    }
+";
+
+pub(crate) const SQRT: &str = "    /** The root of a, which is made 4, 16, 64, ... times as large first; down is 2 times as
+     *  large for each of these, from 1 for 0 on. */
+    function int root(int a, int down) {
+        var int at, least;
+        if (a < 1) { return 0; }
+        while (a < 8192) {
+            let a = (a + a) + (a + a);
+            let down = down + down;
+        }
+        let at = (a / 128) - 64;
+        let least = roots[at];
+        let a = least + ((((roots[at + 1] - least) * (a & 127)) + 64) / 128);
+        if (down = 1) { return a; }
+        return Fixed.right(a, down / 2);
+    }
+";
+
+pub(crate) const DOUBLE_SQRT: &str = "    /** The root of 2 * a; down as for root, up as if for root of a / 2. */
+    function int doubleRoot(int a, int down, int up) {
+        if (a < 1) { return 0; }
+        if (a > 16383) { return Fixed.root(a / 2, up); }
+        return Fixed.root(a + a, down);
+    }
+";
+
+pub(crate) const FLOOR: &str = "    /** The greatest whole number not above a / unit. */
+    function int floor(int a, int unit) {
+        if (a < 0) { return (-1) - (((-1) - a) / unit); }
+        return a / unit;
+    }
+";
