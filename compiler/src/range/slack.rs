@@ -31,8 +31,6 @@ pub struct Slack {
     pub(super) points: Option<Points>,
 }
 
-/// What is expected is trusted where ranges are wider by so much, and twice over.
-const WIDER: f64 = 4.0;
 
 impl Slack {
     /// No departure: the graph's own arithmetic.
@@ -52,8 +50,8 @@ impl Slack {
         }
     }
 
-    /// Exact reals, which are expected to stay within twice some magnitudes: for planning
-    /// where their points shall be.
+    /// Exact reals, which are expected to stay within some magnitudes: for planning where
+    /// their points shall be.
     pub fn expecting(runtime: &Runtime, expected: Vec<Option<f64>>) -> Slack {
         Slack {
             expected,
@@ -112,9 +110,7 @@ impl Slack {
         }
         let range = self.rounded(op, args, exact);
         match self.expected.get(id.0 as usize).copied().flatten() {
-            Some(most) if most > 0.0 && range.magnitude() > WIDER * most => {
-                range.meet(Range::new(-2.0 * most, 2.0 * most))
-            }
+            Some(most) if range.magnitude() > most => range.meet(Range::new(-most, most)),
             _ => range,
         }
     }

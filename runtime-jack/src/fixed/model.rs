@@ -4,6 +4,7 @@
 //! are from -32767 to 32767.
 
 use crate::model::MOST;
+use slowlight_routine::scale;
 use std::sync::OnceLock;
 
 /// The first entry of the table of roots: a radicand is made at least 128 times that.
@@ -13,6 +14,11 @@ pub const FIRST_ROOT: usize = 64;
 pub fn right(a: i32, by: i32) -> i32 {
     let part = a.abs() >> (by - 1);
     (part - part / 2) * a.signum()
+}
+
+/// a * 2^by, saturating; `by` above 0.
+pub fn left(a: i32, by: i32) -> i32 {
+    scale::shifted(i64::from(a), by, super::BITS) as i32
 }
 
 /// The product's upper part, a * b / 2^15, rounded; off by less than 0.54.

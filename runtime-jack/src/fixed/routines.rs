@@ -1,7 +1,7 @@
 //! The list of routines for fixed-point reals: cheap and restricted before dear and total.
 
 use super::{REAL as R, model};
-use crate::model::{difference, int, int_bits, modulo, sum as saturating_sum};
+use crate::model::{difference, int, int_bits, modulo, multiply, sum as saturating_sum};
 use crate::routines::{INTS, call, fits, joined, near, sum};
 use crate::{INT as I, TERM};
 use slowlight_routine::{Error, Form, Format, Op, Range, Routine, everywhere};
@@ -94,9 +94,12 @@ const REALS: &[Routine] = &[
     fixed!("times_one" Mul(R, R) -> R, same("{0}"), [], number!(0, is_one(1)), EXACT, |a, b, n| a, 0, 0),
     fixed!("once" Mul(R, R) -> R, same("{1}"), [], number!(0, is_one(0)), EXACT, |a, b, n| b, 0, 0),
     fixed!("multiple" Mul(R, R) -> R, sum("{0} * {1}"), [], number!(0, fits), EXACT, |a, b, n| a * b, 1, 36),
+    fixed!("any_multiple" Mul(R, R) -> R, call("Int.mul({0}, {1})"), ["Int.mul"], number!(0 to 0), EXACT, |a, b, n| multiply(a, b), 59, 36),
     fixed!("mul" Mul(R, R) -> R, call("Fixed.mul({0}, {1})"), ["Fixed.mul"], number!(15 to 15), Error::Absolute(0.54), |a, b, n| model::mul(a, b), 65, 36),
     fixed!("half_mul" Mul(R, R) -> R, call("Fixed.halfMul({0}, {1})"), ["Fixed.halfMul"], number!(16 to 16), Error::Absolute(0.52), |a, b, n| model::half_mul(a, b), 63, 36),
     fixed!("small_mul" Mul(R, R) -> R, call("Fixed.right(Fixed.halfMul({0}, {1}), {2^(n-17)})"), ["Fixed.halfMul", "Fixed.right"], number!(17 to 31), Error::Absolute(0.77), |a, b, n| model::right(model::half_mul(a, b), n - 16), 85, 60),
+    // Of what nearly always saturates.
+    fixed!("long_mul" Mul(R, R) -> R, call("Fixed.left(Fixed.mul({0}, {1}), {32767/2^(15-n)}, {2^(15-n)})"), ["Fixed.mul", "Fixed.left"], number!(-99 to 14), Error::Absolute(65536.0), |a, b, n| model::left(model::mul(a, b), 15 - n), 85, 60),
     fixed!("div" Div(R, R) -> R, call("Fixed.div({0}, {1}, {n})"), ["Fixed.div"], number!(0 to 30), Error::Absolute(0.5), |a, b, n| model::div(a, b, n), 350, 40),
     fixed!("root" Sqrt(R) -> R, call("Fixed.root({0}, {2^((15-n)/2)})"), ["Fixed.root"], |args, result| !even_root(args, result) && (1..=15).contains(&number(args)), Error::Absolute(1.4), |a, b, n| model::sqrt(a, n), 65, 40),
     fixed!("double_root" Sqrt(R) -> R, call("Fixed.doubleRoot({0}, {2^((16-n)/2)}, {2^((14-n)/2)})"), ["Fixed.doubleRoot"], even_root, Error::Absolute(1.4), |a, b, n| model::sqrt(a, n), 80, 48),

@@ -6,6 +6,7 @@
 //! the picture, with params all over their ranges ([`sample`]), a value is expected to
 //! stay within twice that. From these ranges the points follow: a value has no more
 //! fraction bits than fit, nor more than its operands give it, nor more than anybody reads.
+//! What nobody tells apart counts for nothing there ([`useful`]).
 //! Then the ranges are walked again with what the machine does: every value is rounded to
 //! its last place and ends where its bits do ([`Slack::with_points`]). What that second walk
 //! does not prove to stay within its bits is computed by a routine that saturates. So an
@@ -19,6 +20,7 @@
 
 mod bounds;
 mod sample;
+mod useful;
 mod wanted;
 
 use crate::flow::graph::*;
@@ -32,6 +34,12 @@ use wanted::{cap, wanted};
 
 /// What a pixel receives from others is held to so much: fraction bits in 16.
 const RECEIVED: f64 = 3.9;
+
+/// How often ranges are cut to what is useful.
+const ROUNDS: u32 = 2;
+
+/// What is compared must be told from what it is compared with.
+const BESIDE: f64 = 1.0 + 1.0 / 64.0;
 
 /// Where the points of a graph's reals are.
 #[derive(Clone, Debug)]
@@ -55,8 +63,17 @@ pub fn pointed(
     let Format::Scaled { bits } = runtime.real else {
         return None;
     };
-    let expected = sample::expected(graph, tree);
-    let planned = ranges(graph, tree, &Slack::expecting(runtime, expected));
+    let mut expected = sample::expected(graph, tree);
+    let mut planned = ranges(graph, tree, &Slack::expecting(runtime, expected.clone()));
+    // What is cut makes what is made of it smaller.
+    for _ in 0..ROUNDS {
+        let useful = useful::useful(graph, tree, &planned);
+        for (expected, useful) in expected.iter_mut().zip(&useful) {
+            let most = useful.magnitude() * BESIDE;
+            *expected = Some(expected.map_or(most, |held| held.min(most)));
+        }
+        planned = ranges(graph, tree, &Slack::expecting(runtime, expected.clone()));
+    }
     let points = Points::new(graph, &planned, bits);
     let slack = Slack::with_points(runtime, points.clone());
     let found = ranges(graph, tree, &slack);

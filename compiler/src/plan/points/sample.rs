@@ -12,6 +12,9 @@ use std::cell::{Cell, RefCell};
 const ROWS: u32 = 24;
 const COLUMNS: u32 = 31;
 
+/// What values are expected to stay within, of the greatest seen.
+const ROOM: f64 = 1.2;
+
 /// How often params are chosen anew.
 const CHOICES: u32 = 12;
 
@@ -42,7 +45,9 @@ pub fn expected(graph: &Graph, tree: &Tree) -> Vec<Option<f64>> {
             }
         }
     }
-    seen.into_inner()
+    let room = |most: f64| (most > 0.0).then_some(most * ROOM);
+    let seen = seen.into_inner().into_iter();
+    seen.map(|most: Option<f64>| most.and_then(room)).collect()
 }
 
 /// Computes in `f64` and keeps the greatest of each operation.
