@@ -7,7 +7,7 @@ use super::points::Points;
 use crate::range::Ranges;
 use crate::source::Diagnostic;
 use crate::target::{TARGETS, Target};
-use slowlight_routine::{Format, Op, Range, Routine, Runtime, Type, scale};
+use slowlight_routine::{Format, Op, Routine, Runtime};
 
 /// Which targets can compute an operation.
 fn elsewhere(op: Op) -> String {
@@ -54,7 +54,7 @@ pub(super) fn choose(
             };
             let at = id.0 as usize;
             let args = &ranges.args[at][..op.arity()];
-            let seen = points.map(|points| in_units(points, id, op, args, ranges.exact[at]));
+            let seen = points.map(|points| points.in_units(id, op, args, ranges.exact[at]));
             let (args, exact) = match &seen {
                 Some((args, exact)) => (args.as_slice(), *exact),
                 None => (args, ranges.exact[at]),
@@ -80,28 +80,4 @@ pub(super) fn choose(
     } else {
         Err(missing)
     }
-}
-
-/// An operation's ranges as routines see them whose values have scales
-/// ([`slowlight_routine::scale`]).
-fn in_units(
-    points: &Points,
-    id: NodeId,
-    op: Op,
-    args: &[Range],
-    exact: Range,
-) -> (Vec<Range>, Range) {
-    let scales = points.scales(id);
-    let args = args.iter().zip(op.args()).zip(scales.args);
-    let units = |((range, ty), at): ((&Range, &Type), i8)| match (ty, op) {
-        (Type::Real, _) | (_, Op::ToReal) => scale::in_units(*range, at),
-        _ => *range,
-    };
-    let mut args: Vec<Range> = args.map(units).collect();
-    args.push(Range::point(f64::from(scales.number(op))));
-    let exact = match op.result() {
-        Type::Real => scale::in_units(exact, scales.result),
-        _ => exact,
-    };
-    (args, exact)
 }

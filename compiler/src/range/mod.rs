@@ -78,6 +78,8 @@ fn known(graph: &Graph, slack: &Slack, id: NodeId) -> Range {
             let range = param.and_then(|p| p.range).unwrap_or(Range::ALL);
             points.rounded(id, range, 1.0)
         }
+        // Nobody looks at it.
+        Node::Undefined(_) if plain.is_some() || slack.expects() => Range::point(0.0),
         _ if let Some(points) = plain => points.rounded(id, Range::ALL, 0.0),
         Node::Const(c) => slack.cut(graph.ty(id), Range::point(c.value().real())),
         Node::Param(p) => {

@@ -2,7 +2,7 @@
 
 use crate::flow::graph::NodeId;
 use crate::plan::points::Points;
-use slowlight_routine::{Error, Format, Op, Range, Runtime, Type};
+use slowlight_routine::{Error, Format, Op, Range, Routine, Runtime, Type};
 
 /// How far an entry that a program works out itself may be off, as a part of it.
 pub const ENTRIES: f64 = 1.0 / 4_194_304.0;
@@ -29,6 +29,8 @@ pub struct Slack {
     expected: Vec<Option<f64>>,
     /// Where each real's point is, in formats that leave that to the plan.
     pub(super) points: Option<Points>,
+    /// What has routines for these.
+    runtime: Option<&'static Runtime>,
 }
 
 
@@ -47,6 +49,7 @@ impl Slack {
             ints: Range::new(f64::from(i32::MIN), f64::from(i32::MAX)),
             expected: Vec::new(),
             points: None,
+            runtime: None,
         }
     }
 
@@ -61,10 +64,10 @@ impl Slack {
     }
 
     /// With each real in the bits that it has.
-    pub fn with_points(runtime: &Runtime, points: Points) -> Slack {
+    pub fn with_points(runtime: &'static Runtime, points: Points) -> Slack {
         Slack {
             points: Some(points),
-            errors: errors(runtime),
+            runtime: Some(runtime),
             ..Slack::of(runtime)
         }
     }
@@ -95,6 +98,7 @@ impl Slack {
             ints: ends(runtime.int),
             expected: Vec::new(),
             points: None,
+            runtime: None,
         }
     }
 
@@ -104,15 +108,23 @@ impl Slack {
             return self.rounded(op, args, exact);
         }
         if let Some(points) = &self.points {
-            let all = self.errors.get(op as usize).map_or(&[][..], Vec::as_slice);
-            let units = all.iter().map(|error| error.most(args, 0.0));
-            return points.rounded(id, exact, units.fold(0.0, f64::max));
+            // As the planner takes it.
+            let (args, units) = points.in_units(id, op, args, exact);
+            let fits = |r: &&Routine| r.op == op && (r.domain)(&args, units);
+            let routine = self.runtime.and_then(|r| r.routines.iter().find(fits));
+            let off = routine.map_or(0.0, |routine| routine.error.most(&args, 0.0));
+            return points.rounded(id, exact, off);
         }
         let range = self.rounded(op, args, exact);
         match self.expected.get(id.0 as usize).copied().flatten() {
             Some(most) if range.magnitude() > most => range.meet(Range::new(-most, most)),
             _ => range,
         }
+    }
+
+    /// Whether ranges are for planning where points shall be.
+    pub(super) fn expects(&self) -> bool {
+        !self.expected.is_empty()
     }
 
     /// Whether what depends on spans of columns is computed once a segment.

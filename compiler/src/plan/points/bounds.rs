@@ -4,7 +4,7 @@ use super::Points;
 use crate::flow::graph::*;
 use crate::flow::tree::Place;
 use crate::passes::region::implied;
-use slowlight_routine::scale::most;
+use slowlight_routine::scale::{self, most};
 use slowlight_routine::{Op, Range, Type};
 
 impl Points {
@@ -87,5 +87,29 @@ impl Points {
             _ => 0.0,
         };
         facts.iter().map(of).fold(0.0, f64::max)
+    }
+
+    /// An operation's ranges as routines see them whose values have scales
+    /// ([`slowlight_routine::scale`]).
+    pub fn in_units(
+        &self,
+        id: NodeId,
+        op: Op,
+        args: &[Range],
+        exact: Range,
+    ) -> (Vec<Range>, Range) {
+        let scales = self.scales(id);
+        let args = args.iter().zip(op.args()).zip(scales.args);
+        let units = |((range, ty), at): ((&Range, &Type), i8)| match (ty, op) {
+            (Type::Real, _) | (_, Op::ToReal) => scale::in_units(*range, at),
+            _ => *range,
+        };
+        let mut args: Vec<Range> = args.map(units).collect();
+        args.push(Range::point(f64::from(scales.number(op))));
+        let exact = match op.result() {
+            Type::Real => scale::in_units(exact, scales.result),
+            _ => exact,
+        };
+        (args, exact)
     }
 }
