@@ -33,6 +33,14 @@ pub fn half_mul(a: i32, b: i32) -> i32 {
     (high + (rest + 64) / 128) * sign(a, b)
 }
 
+/// a * b / 2^by, rounded, saturating; `by` from 12 to 14; off by less than 0.8.
+pub fn wide_mul(a: i32, b: i32, by: i32) -> i32 {
+    let (high, rest) = parts(a, b);
+    let down = 1 << (by - 9);
+    let made = (high << (16 - by)) + (rest + down / 2) / down;
+    made.min(MOST) * sign(a, b)
+}
+
 /// a * b / 2^16 of magnitudes in whole units, and what is above that in units of 1/128.
 fn parts(a: i32, b: i32) -> (i32, i32) {
     let (a, b) = (a.abs(), b.abs());

@@ -87,6 +87,7 @@ const fn same(template: &'static str) -> Form {
 
 #[rustfmt::skip]
 const REALS: &[Routine] = &[
+    fixed!("twice" Add(R, R) -> R, same("{0}"), [], number!(1 to 1), EXACT, |a, b, n| a, 0, 0),
     fixed!("add" Add(R, R) -> R, sum("{0} + {1}"), [], fits, EXACT, |a, b, n| a + b, 1, 7),
     fixed!("any_add" Add(R, R) -> R, call("Int.add({0}, {1})"), ["Int.add"], everywhere, EXACT, |a, b, n| saturating_sum(a, b), 22, 36),
     fixed!("sub" Sub(R, R) -> R, sum("{0} - {1}"), [], fits, EXACT, |a, b, n| a - b, 1, 7),
@@ -98,9 +99,10 @@ const REALS: &[Routine] = &[
     fixed!("mul" Mul(R, R) -> R, call("Fixed.mul({0}, {1})"), ["Fixed.mul"], number!(15 to 15), Error::Absolute(0.54), |a, b, n| model::mul(a, b), 65, 36),
     fixed!("half_mul" Mul(R, R) -> R, call("Fixed.halfMul({0}, {1})"), ["Fixed.halfMul"], number!(16 to 16), Error::Absolute(0.52), |a, b, n| model::half_mul(a, b), 63, 36),
     fixed!("small_mul" Mul(R, R) -> R, call("Fixed.right(Fixed.halfMul({0}, {1}), {2^(n-17)})"), ["Fixed.halfMul", "Fixed.right"], number!(17 to 31), Error::Absolute(0.77), |a, b, n| model::right(model::half_mul(a, b), n - 16), 85, 60),
+    fixed!("wide_mul" Mul(R, R) -> R, call("Fixed.wideMul({0}, {1}, {2^(16-n)}, {2^(n-9)})"), ["Fixed.wideMul"], number!(12 to 14), Error::Absolute(0.8), |a, b, n| model::wide_mul(a, b, n), 85, 50),
     // Of what nearly always saturates.
-    fixed!("long_mul" Mul(R, R) -> R, call("Fixed.left(Fixed.mul({0}, {1}), {32767/2^(15-n)}, {2^(15-n)})"), ["Fixed.mul", "Fixed.left"], number!(-99 to 14), Error::Absolute(65536.0), |a, b, n| model::left(model::mul(a, b), 15 - n), 85, 60),
-    fixed!("div" Div(R, R) -> R, call("Fixed.div({0}, {1}, {n})"), ["Fixed.div"], number!(0 to 30), Error::Absolute(0.5), |a, b, n| model::div(a, b, n), 350, 40),
+    fixed!("long_mul" Mul(R, R) -> R, call("Fixed.left(Fixed.mul({0}, {1}), {32767/2^(15-n)}, {2^(15-n)})"), ["Fixed.mul", "Fixed.left"], number!(-99 to 11), Error::Absolute(65536.0), |a, b, n| model::left(model::mul(a, b), 15 - n), 85, 60),
+    fixed!("div" Div(R, R) -> R, call("Fixed.div({0}, {1}, {n})"), ["Fixed.div"], number!(0 to 30), Error::Absolute(0.5), |a, b, n| model::div(a, b, n), 190, 40),
     fixed!("root" Sqrt(R) -> R, call("Fixed.root({0}, {2^((15-n)/2)})"), ["Fixed.root"], |args, result| !even_root(args, result) && (1..=15).contains(&number(args)), Error::Absolute(1.4), |a, b, n| model::sqrt(a, n), 65, 40),
     fixed!("double_root" Sqrt(R) -> R, call("Fixed.doubleRoot({0}, {2^((16-n)/2)}, {2^((14-n)/2)})"), ["Fixed.doubleRoot"], even_root, Error::Absolute(1.4), |a, b, n| model::sqrt(a, n), 80, 48),
     fixed!("mod" Mod(R, R) -> R, call("Int.mod({0}, {1})"), ["Int.mod"], everywhere, EXACT, |a, b, n| modulo(a, b), 64, 36),

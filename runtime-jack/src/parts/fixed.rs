@@ -70,9 +70,35 @@ pub(crate) const HALF_MUL: &str = "    /** a * b / 65536, rounded. */
     }
 ";
 
+pub(crate) const WIDE_MUL: &str = "    /** a * b * up / 65536, rounded; that is a * b / (512 * down). */
+    function int wideMul(int a, int b, int up, int down) {
+        var int high, other;
+        var boolean minus;
+        if (a < 0) {
+            let a = -a;
+            let minus = true;
+        }
+        if (b < 0) {
+            let b = -b;
+            let minus = ~minus;
+        }
+        let high = a / 256;
+        let a = a & 255;
+        let other = b / 256;
+        let b = b & 255;
+        let a = (((high * b) / 2) + ((other * a) / 2)) + (((a / 2) * b) / 256);
+        let a = (a + (down / 2)) / down;
+        let high = high * other;
+        if (high > ((32767 - a) / up)) { let a = 32767; }
+        else { let a = (high * up) + a; }
+        if (minus) { return -a; }
+        return a;
+    }
+";
+
 pub(crate) const DIV: &str = "    /** a / b with so many bits more, rounded; by 0 the greatest with the sign of a. */
     function int div(int a, int b, int bits) {
-        var int whole;
+        var int whole, high, low, digit;
         var boolean minus;
         if (b = 0) {
             if (a = 0) { return 0; }
@@ -87,8 +113,31 @@ pub(crate) const DIV: &str = "    /** a / b with so many bits more, rounded; by 
             let b = -b;
             let minus = ~minus;
         }
-        let whole = a / b;
-        let a = a - (whole * b);
+        while (b < 16384) {
+            let b = b + b;
+            let bits = bits + 1;
+        }
+        if (~(a < b)) {
+            let whole = 1;
+            let a = a - b;
+        }
+        // Seven bits at once, at most one or two too many by the upper half of b.
+        let high = b / 128;
+        let low = b & 127;
+        while (bits > 6) {
+            if (whole > 255) {
+                if (minus) { return -32767; }
+                return 32767;
+            }
+            let digit = a / high;
+            let a = ((a - (digit * high)) * 128) - (digit * low);
+            while (a < 0) {
+                let digit = digit - 1;
+                let a = a + b;
+            }
+            let whole = (whole * 128) + digit;
+            let bits = bits - 7;
+        }
         while (bits > 0) {
             if (whole > 16383) {
                 if (minus) { return -32767; }

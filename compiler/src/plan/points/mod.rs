@@ -261,7 +261,7 @@ fn read_at_most(graph: &Graph, own: &mut [i8]) {
             _ => (scale::MOST, matches!(graph.node(id), Node::Select { .. })),
         };
         let most = if sum && graph.ty(id) == Type::Real {
-            own[at]
+            own[at] + i8::from(is_twice(graph, id))
         } else {
             most
         };
@@ -270,6 +270,11 @@ fn read_at_most(graph: &Graph, own: &mut [i8]) {
             *read = (*read).max(most);
         }
     }
+}
+
+/// Whether a value is added to itself.
+fn is_twice(graph: &Graph, id: NodeId) -> bool {
+    matches!(graph.node(id), Node::Apply(Op::Add, [a, b]) if a == b)
 }
 
 /// Operations whose operands are read at the scale of the result.

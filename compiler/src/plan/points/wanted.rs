@@ -14,6 +14,7 @@ const LONG: i8 = 15;
 pub fn cap(graph: &Graph, op: Op, [a, b]: [NodeId; 2], room: &[i8]) -> i8 {
     let [of_a, of_b] = [a, b].map(|id| room[id.0 as usize]);
     let most = match op {
+        Op::Add if a == b => of_a - 1,
         Op::Add | Op::Sub | Op::Min | Op::Max | Op::Mod => of_a.min(of_b),
         Op::Neg | Op::Abs | Op::ToReal => of_a,
         Op::Mul => match (power(graph, a), power(graph, b)) {
@@ -26,6 +27,9 @@ pub fn cap(graph: &Graph, op: Op, [a, b]: [NodeId; 2], room: &[i8]) -> i8 {
     };
     most.clamp(FEWEST, MOST)
 }
+
+/// By how many bits a product may be shorter than that all the same.
+const WIDE: i8 = 3;
 
 /// The scale at which a constant is 1 or -1.
 fn power(graph: &Graph, id: NodeId) -> Option<i8> {
@@ -57,6 +61,7 @@ pub fn wanted(
     let [of_a, of_b] = [a, b].map(|id| own[id.0 as usize]);
     let [room_a, room_b] = [a, b].map(|id| room[id.0 as usize]);
     let args = match op {
+        Op::Add if a == b => [result + 1; 2],
         Op::Add | Op::Sub | Op::Min | Op::Max | Op::Mod | Op::Neg | Op::Abs | Op::ToReal => {
             [result; 2]
         }
@@ -122,7 +127,10 @@ fn factor(
 
 /// Operands of all their bits, so that the product is rounded in its upper half.
 fn product([mut a, mut b]: [i8; 2], [room_a, room_b]: [i8; 2], result: i8) -> [i8; 2] {
-    let short = LONG - (a + b - result);
+    let short = match LONG - (a + b - result) {
+        ..=WIDE => 0,
+        short => short,
+    };
     let up = short.clamp(0, (room_a - a).max(0));
     a += up;
     b += (short - up).clamp(0, (room_b - b).max(0));
