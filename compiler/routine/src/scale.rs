@@ -43,6 +43,8 @@ impl Scales {
             // By how many bits the radicand has to be longer.
             Op::Sqrt => 2 * result - a,
             Op::Floor => a,
+            // The result has 14.
+            Op::Sin | Op::Cos => a,
             // 1 where a value is added to itself: it is read as twice what it is.
             Op::Add => a - result,
             _ => 0,

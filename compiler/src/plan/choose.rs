@@ -19,6 +19,14 @@ fn elsewhere(op: Op) -> String {
     }
 }
 
+/// In which format, where it is not the machine's usual one.
+fn among_others(runtime: &'static Runtime) -> String {
+    match TARGETS.iter().any(|t| std::ptr::eq(t.runtime, runtime)) {
+        true => String::new(),
+        false => format!(" in {}", runtime.format),
+    }
+}
+
 pub(super) type Chosen = Vec<Option<&'static Routine>>;
 
 /// The first routine in the runtime's list, for each operation, whose domain
@@ -65,7 +73,12 @@ pub(super) fn choose(
                 None => missing.push(
                     Diagnostic::error(
                         graph.span(id),
-                        format!("{} cannot compute `{}` yet", runtime.name, op.name()),
+                        format!(
+                            "{} cannot compute `{}`{} yet",
+                            runtime.name,
+                            op.name(),
+                            among_others(runtime)
+                        ),
                     )
                     .help(elsewhere(op)),
                 ),

@@ -106,6 +106,7 @@ pub fn filled(template: &str, n: i32) -> String {
         ("{n}", n.to_string()),
         ("{2^n}", power(n)),
         ("{2^(n-17)}", power(n - 17)),
+        ("{2^(13-n)}", power(13 - n)),
         ("{2^(16-n)}", power(16 - n)),
         ("{2^(n-9)}", power(n - 9)),
         ("{2^(15-n)}", if n > 0 { power(15 - n) } else { "0".to_owned() }),

@@ -3,7 +3,7 @@
 //! Each function mirrors one subroutine of [`crate::parts`]; the tests run both. Operands
 //! are from -32767 to 32767.
 
-use crate::model::MOST;
+use crate::model::{MOST, wrap};
 use slowlight_routine::scale;
 use std::sync::OnceLock;
 
@@ -79,7 +79,7 @@ pub fn div(a: i32, b: i32, by: i32) -> i32 {
     sign * whole
 }
 
-/// The root of a * 2^by, to 1.4; `by` from 1 to 15. Of a negative: 0.
+/// The root of a * 2^by, to 1.5; `by` from 1 to 15. Of a negative: 0.
 pub fn sqrt(a: i32, by: i32) -> i32 {
     // Fours can be taken out of odd scales only.
     match (by & 1, a > 16383) {
@@ -123,6 +123,56 @@ pub fn roots() -> &'static [i32] {
             all.push(root);
         }
         all.push(MOST);
+        all
+    })
+}
+
+/// The sine of a / 2^by, in units of 2^-14; `by` from 0 to 13.
+pub fn sin(a: i32, by: i32) -> i32 {
+    sine(turns(a, by))
+}
+
+/// The cosine.
+pub fn cos(a: i32, by: i32) -> i32 {
+    sine(wrap(turns(a, by) + 16384))
+}
+
+/// a / 2^by radians in units of which 65536 are a turn; what is above that is lost.
+fn turns(a: i32, by: i32) -> i32 {
+    wrap(a.wrapping_add(half_mul(a, 17907)) << (13 - by))
+}
+
+/// The sine of so many 65536ths of a turn.
+fn sine(mut turn: i32) -> i32 {
+    let minus = turn < 0;
+    if minus {
+        turn = -turn;
+    }
+    if turn > 16384 {
+        turn = 32768 - turn;
+    }
+    let (at, part) = ((turn / 128) as usize, turn & 127);
+    let entry = |k: usize| sines().get(k).copied().unwrap_or(0);
+    let least = entry(at);
+    let made = least + ((entry(at + 1) - least) * part + 64) / 128;
+    if minus { -made } else { made }
+}
+
+/// Sines of a quarter of a turn in 128 steps, times 2^14, and the last one twice: that in
+/// the middle of two is the mean of these over the cosine of half their distance.
+pub fn sines() -> &'static [i32] {
+    static SINES: OnceLock<Vec<i32>> = OnceLock::new();
+    SINES.get_or_init(|| {
+        let mut all = vec![0; 130];
+        all[128] = 16384;
+        all[129] = 16384;
+        let mut step = 64;
+        for factor in [23170, 17734, 16705, 16463, 16404, 16389, 16385] {
+            for k in (step..128).step_by(2 * step) {
+                all[k] = mul(all[k - step] + all[k + step], factor);
+            }
+            step /= 2;
+        }
         all
     })
 }

@@ -207,6 +207,58 @@ pub(crate) const DOUBLE_SQRT: &str = "    /** The root of 2 * a; down as for roo
     }
 ";
 
+pub(crate) const MAKE_SINES: &str =
+    "    static Array sines; // times 16384, of a quarter of a turn in 128 steps
+    /** That in the middle of two is their mean over the cosine of half their distance. */
+    function void makeSines() {
+        let sines = Array.new(130);
+        let sines[0] = 0;
+        let sines[128] = 16384;
+        let sines[129] = 16384;
+        do Fixed.between(64, 23170);
+        do Fixed.between(32, 17734);
+        do Fixed.between(16, 16705);
+        do Fixed.between(8, 16463);
+        do Fixed.between(4, 16404);
+        do Fixed.between(2, 16389);
+        do Fixed.between(1, 16385);
+        return;
+    }
+
+    function void between(int step, int factor) {
+        var int k;
+        let k = step;
+        while (k < 128) {
+            let sines[k] = Fixed.mul(sines[k - step] + sines[k + step], factor);
+            let k = k + (step + step);
+        }
+        return;
+    }
+";
+
+pub(crate) const TURNS: &str = "    /** Radians, times 8192 / unit, in units of which 65536 are a turn. */
+    function int turns(int a, int unit) { return (a + Fixed.halfMul(a, 17907)) * unit; }
+";
+
+pub(crate) const SIN: &str = "    /** The sine of so many 65536ths of a turn, times 16384. */
+    function int sin(int turn) {
+        var int at, least;
+        var boolean minus;
+        if (turn < 0) {
+            let turn = -turn;
+            // Half a turn has no negative.
+            if (turn < 0) { return 0; }
+            let minus = true;
+        }
+        if (turn > 16384) { let turn = (32767 - turn) + 1; }
+        let at = turn / 128;
+        let least = sines[at];
+        let least = least + ((((sines[at + 1] - least) * (turn & 127)) + 64) / 128);
+        if (minus) { return -least; }
+        return least;
+    }
+";
+
 pub(crate) const FLOOR: &str = "    /** The greatest whole number not above a / unit. */
     function int floor(int a, int unit) {
         if (a < 0) { return (-1) - (((-1) - a) / unit); }

@@ -253,7 +253,11 @@ fn read_at_most(graph: &Graph, own: &mut [i8]) {
     }
     for id in graph.ids().rev() {
         let at = id.0 as usize;
-        if !matches!(graph.node(id), Node::Lookup { .. } | Node::Received) {
+        let set = matches!(
+            graph.node(id),
+            Node::Lookup { .. } | Node::Received | Node::Apply(Op::Sin | Op::Cos, _)
+        );
+        if !set {
             own[at] = own[at].min(read[at].max(scale::FEWEST));
         }
         let (most, sum) = match graph.node(id) {

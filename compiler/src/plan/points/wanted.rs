@@ -23,10 +23,14 @@ pub fn cap(graph: &Graph, op: Op, [a, b]: [NodeId; 2], room: &[i8]) -> i8 {
             _ => of_a + of_b - LONG,
         },
         Op::Sqrt => (LONG + of_a).div_euclid(2),
+        Op::Sin | Op::Cos => WAVES,
         _ => MOST,
     };
     most.clamp(FEWEST, MOST)
 }
+
+/// Fraction bits of sines, always: no more fit beside 1.
+pub const WAVES: i8 = 14;
 
 /// By how many bits a product may be shorter than that all the same.
 const WIDE: i8 = 3;
@@ -91,6 +95,8 @@ pub fn wanted(
         }
         Op::Floor => [of_a.max(0), 0],
         Op::Round => [0, 0],
+        // Half a turn fits where the point is furthest to the left.
+        Op::Sin | Op::Cos => [of_a.clamp(0, 13), 0],
         _ => [of_a, of_b],
     };
     let result = match op.result() {
