@@ -9,6 +9,7 @@ use crate::draw::Window;
 use slowlight_compiler::eval::arithmetic::Arithmetic;
 use slowlight_compiler::eval::run::Run;
 use slowlight_compiler::flow::graph::{NodeId, ParamId};
+use slowlight_compiler::flow::tree::Place;
 use slowlight_compiler::plan::Plan;
 use slowlight_routine::{Bits, Format, Op, Value};
 use std::cell::Cell;
@@ -37,15 +38,23 @@ impl Arithmetic for Costed<'_> {
         self.plan.routine(id).map_or(0, |routine| {
             self.cycles
                 .set(self.cycles.get() + u64::from(routine.cycles));
-            (routine.model)(args)
+            self.plan.computed(id, args)
         })
+    }
+
+    fn sent(&self, from: NodeId, value: Bits) -> Bits {
+        self.plan.sent(from, value)
+    }
+
+    fn copied(&self, place: Place, from: NodeId, value: Bits) -> Bits {
+        self.plan.copied(place, from, value)
     }
 
     fn gather(&self, received: Bits, sent: Bits) -> Bits {
         self.plan.gather().map_or(received, |routine| {
             self.cycles
                 .set(self.cycles.get() + u64::from(routine.cycles));
-            (routine.model)(&[received, sent])
+            self.plan.gathered(received, sent)
         })
     }
 

@@ -9,7 +9,6 @@ use slowlight_compiler::sema::{self, Freeze, FunctionKind, Options, Program};
 use slowlight_compiler::source::{Diagnostic, SourceFile, Sources, Span};
 use slowlight_compiler::syntax;
 use slowlight_compiler::target::Target;
-use slowlight_routine::Format;
 use std::path::{Path, PathBuf};
 
 /// What a scene knows of the number format that it is computed in.
@@ -36,7 +35,7 @@ impl Precision {
         Precision {
             offset: target.offset,
             epsilon: target.runtime.real.epsilon(),
-            floats: !matches!(target.runtime.real, Format::Fixed { .. }),
+            floats: !target.runtime.real.is_fixed(),
         }
     }
 

@@ -33,6 +33,7 @@
 
 #[macro_use]
 mod macros;
+pub mod fixed;
 pub mod log;
 pub mod model;
 pub mod os;

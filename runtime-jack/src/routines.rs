@@ -35,12 +35,12 @@ const EXP: Error = Error::Relative(2.5e-4);
 const UNKNOWN: Error = Error::Absolute(f64::MAX);
 
 /// Ints whose exact result needs no saturation.
-fn fits(_: &[Range], result: Range) -> bool {
+pub(crate) fn fits(_: &[Range], result: Range) -> bool {
     result.within(-32767.0, 32767.0)
 }
 
 /// Ints that a machine may compare by subtracting.
-fn near(args: &[Range], _: Range) -> bool {
+pub(crate) fn near(args: &[Range], _: Range) -> bool {
     match args {
         [a, b, ..] => a.hi - b.lo <= 32767.0 && b.hi - a.lo <= 32767.0,
         _ => false,

@@ -19,6 +19,7 @@
 
 mod op;
 mod range;
+pub mod scale;
 
 pub use op::{Op, Type, Value};
 pub use range::Range;
@@ -39,7 +40,10 @@ pub enum Format {
     /// the point, from -2^(14 - frac) to 2^(14 - frac); there is no 0.
     Log { frac: u8 },
     /// Two's complement of `bits` bits, `frac` of them after the point. As [`Bits`]: sign-extended.
-    Fixed { bits: u8, frac: u8 },
+    Fixed { bits: u8, frac: i8 },
+    /// Of a runtime's reals: [`Format::Fixed`] of so many bits, each value with fraction
+    /// bits of its own ([`scale`]).
+    Scaled { bits: u8 },
 }
 
 impl Format {
@@ -52,6 +56,7 @@ impl Format {
             Format::Real40 => 2f64.powi(127),
             Format::Float316 { .. } => f64::MAX,
             Format::Log { frac } => f64::from(14 - i32::from(frac)).exp2().exp2(),
+            Format::Scaled { .. } => f64::MAX,
         }
     }
 
@@ -63,8 +68,14 @@ impl Format {
             Format::Real40
             | Format::Float316 { .. }
             | Format::Log { .. }
-            | Format::Fixed { .. } => Type::Real,
+            | Format::Fixed { .. }
+            | Format::Scaled { .. } => Type::Real,
         }
+    }
+
+    /// Whether its reals have a fixed point, all the same or each its own.
+    pub fn is_fixed(self) -> bool {
+        matches!(self, Format::Fixed { .. } | Format::Scaled { .. })
     }
 }
 
@@ -80,6 +91,8 @@ impl Format {
             Format::Float316 { rounded: true } => 1.0 / 16384.0,
             Format::Log { frac } => 0.5f64.powi(i32::from(frac) + 1) * std::f64::consts::LN_2,
             Format::Fixed { frac, .. } => 0.5f64.powi(i32::from(frac)),
+            // Of values up to 2, with a sign.
+            Format::Scaled { bits } => 0.5f64.powi(i32::from(bits) - 2),
         }
     }
 }
@@ -93,7 +106,10 @@ impl std::fmt::Display for Format {
             Format::Float316 { rounded: false } => f.write_str("f316"),
             Format::Float316 { rounded: true } => f.write_str("f316r"),
             Format::Log { frac } => write!(f, "log{frac}"),
-            Format::Fixed { bits, frac } => write!(f, "fixed{}.{frac}", bits - frac),
+            Format::Fixed { bits, frac } => {
+                write!(f, "fixed{}.{frac}", i32::from(*bits) - i32::from(*frac))
+            }
+            Format::Scaled { bits } => write!(f, "fixed{bits}"),
         }
     }
 }

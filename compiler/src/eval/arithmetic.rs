@@ -20,6 +20,14 @@ pub trait Arithmetic {
     fn param(&self, id: ParamId) -> Self::Value;
     /// A node's operation on its arguments.
     fn apply(&self, id: NodeId, op: Op, args: &[Self::Value]) -> Self::Value;
+    /// What a place holds that is given a node's value.
+    fn copied(&self, _place: Place, _from: NodeId, value: Self::Value) -> Self::Value {
+        value
+    }
+    /// What a node's value is when it is sent to another pixel.
+    fn sent(&self, _from: NodeId, value: Self::Value) -> Self::Value {
+        value
+    }
     /// Adds what a pixel sends to what another has received so far.
     fn gather(&self, received: Self::Value, sent: Self::Value) -> Self::Value;
     /// A ramp at a column by its number in its pass, its first value and its steps' given.

@@ -7,6 +7,7 @@ use super::arithmetic::Arithmetic;
 use super::native::Pixel;
 use super::run::Run;
 use crate::flow::graph::*;
+use crate::flow::tree::Place;
 use crate::plan::Plan;
 use slowlight_routine::{Bits, Format, Op, Value};
 
@@ -30,21 +31,25 @@ impl Arithmetic for Model<'_> {
 
     fn apply(&self, id: NodeId, _: Op, args: &[Bits]) -> Bits {
         let range = self.0.ranges.result.get(id.0 as usize).copied();
-        self.0.routine(id).map_or(0, |routine| {
-            let bits = (routine.model)(args);
-            match range {
-                Some(range) if self.0.format(id) == self.0.runtime.real => {
-                    (self.0.runtime.kept)(bits, range)
-                }
-                _ => bits,
+        let bits = self.0.computed(id, args);
+        match range {
+            Some(range) if self.0.format(id) == self.0.runtime.real => {
+                (self.0.runtime.kept)(bits, range)
             }
-        })
+            _ => bits,
+        }
+    }
+
+    fn sent(&self, from: NodeId, value: Bits) -> Bits {
+        self.0.sent(from, value)
+    }
+
+    fn copied(&self, place: Place, from: NodeId, value: Bits) -> Bits {
+        self.0.copied(place, from, value)
     }
 
     fn gather(&self, received: Bits, sent: Bits) -> Bits {
-        self.0
-            .gather()
-            .map_or(received, |routine| (routine.model)(&[received, sent]))
+        self.0.gathered(received, sent)
     }
 
     fn truth(&self, value: Bits) -> bool {

@@ -143,6 +143,7 @@ impl<'t, A: Arithmetic> Run<'t, A> {
         let ink = self.plain(x, y);
         for share in self.graph.shares() {
             let sent = self.read(share.node);
+            let sent = self.arithmetic.sent(share.node, sent);
             let arithmetic = &self.arithmetic;
             if let Some(pending) = &mut self.pending {
                 pending.send(x, y, share, sent, |a, b| arithmetic.gather(a, b));
@@ -342,7 +343,10 @@ impl<'t, A: Arithmetic> Run<'t, A> {
                 Statement::Set { place, from } => {
                     *self.slot(*place) = match *from {
                         Origin::Node(id) if self.is_unset(id) => None,
-                        Origin::Node(id) => Some(self.read(id)),
+                        Origin::Node(id) => {
+                            let value = self.read(id);
+                            Some(self.arithmetic.copied(*place, id, value))
+                        }
                         Origin::Scratch(l, k) => self.scratch[l.0 as usize][k as usize],
                     };
                 }

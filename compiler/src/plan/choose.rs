@@ -3,10 +3,11 @@
 use super::loose::loosen;
 use crate::flow::graph::*;
 use crate::flow::tree::*;
+use super::points::Points;
 use crate::range::Ranges;
 use crate::source::Diagnostic;
 use crate::target::{TARGETS, Target};
-use slowlight_routine::{Op, Routine, Runtime};
+use slowlight_routine::{Format, Op, Routine, Runtime};
 
 /// Which targets can compute an operation.
 fn elsewhere(op: Op) -> String {
@@ -15,6 +16,14 @@ fn elsewhere(op: Op) -> String {
     match names.is_empty() {
         true => "no target can yet".to_owned(),
         false => format!("these can: {}", names.join(", ")),
+    }
+}
+
+/// In which format, where it is not the machine's usual one.
+fn among_others(runtime: &'static Runtime) -> String {
+    match TARGETS.iter().any(|t| std::ptr::eq(t.runtime, runtime)) {
+        true => String::new(),
+        false => format!(" in {}", runtime.format),
     }
 }
 
@@ -27,9 +36,16 @@ pub(super) fn choose(
     tree: &Tree,
     ranges: &Ranges,
     runtime: &'static Runtime,
+    points: Option<&Points>,
 ) -> Result<Chosen, Vec<Diagnostic>> {
     let mut chosen: Chosen = vec![None; graph.nodes.len()];
     let mut missing = Vec::new();
+    // Of plans that are only priced it is enough to know about where points would be.
+    let about = match (points, runtime.real) {
+        (None, Format::Scaled { bits }) => Some(Points::new(graph, ranges, bits)),
+        _ => None,
+    };
+    let points = points.or(about.as_ref());
     for block in tree.blocks() {
         walk(block, &mut |statement| {
             let Statement::Let(id) = *statement else {
@@ -46,13 +62,23 @@ pub(super) fn choose(
             };
             let at = id.0 as usize;
             let args = &ranges.args[at][..op.arity()];
-            let fits = |r: &&Routine| r.op == op && (r.domain)(args, ranges.exact[at]);
+            let seen = points.map(|points| points.in_units(id, op, args, ranges.exact[at]));
+            let (args, exact) = match &seen {
+                Some((args, exact)) => (args.as_slice(), *exact),
+                None => (args, ranges.exact[at]),
+            };
+            let fits = |r: &&Routine| r.op == op && (r.domain)(args, exact);
             match runtime.routines.iter().find(fits) {
                 Some(routine) => chosen[at] = Some(routine),
                 None => missing.push(
                     Diagnostic::error(
                         graph.span(id),
-                        format!("{} cannot compute `{}` yet", runtime.name, op.name()),
+                        format!(
+                            "{} cannot compute `{}`{} yet",
+                            runtime.name,
+                            op.name(),
+                            among_others(runtime)
+                        ),
                     )
                     .help(elsewhere(op)),
                 ),

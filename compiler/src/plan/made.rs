@@ -9,7 +9,7 @@ use super::stepped::{Steps, stepped};
 use super::sums::with_sums;
 use super::thrift::Thrift;
 use super::workshop::Workshop;
-use super::{Goal, Plan, choose, fold_uses, names, recipes};
+use super::{Goal, Plan, choose, fold_uses, names, points, recipes};
 use crate::flow::graph::*;
 use crate::flow::tree::*;
 use crate::flow::verify::verify;
@@ -164,15 +164,20 @@ fn steady(shop: &Workshop, origin: &Graph, rounds: u32) -> Settled {
 pub(super) fn assemble(
     graph: Graph,
     tree: Tree,
-    ranges_now: Ranges,
-    params: Vec<ParamPlan>,
+    mut ranges_now: Ranges,
+    mut params: Vec<ParamPlan>,
     target: &'static Target,
     goal: &Goal,
     origin: (Arc<Workshop>, Rewriting),
 ) -> Result<Plan, Vec<Diagnostic>> {
     let runtime = target.runtime;
-    let routines = choose::choose(&graph, &tree, &ranges_now, runtime)?;
-    let tables = recipes::made(&graph, runtime);
+    let mut tables = recipes::made(&graph, runtime);
+    let mut points = None;
+    if let Some((found, ranges)) = points::pointed(&graph, &tree, runtime) {
+        points::hold(&graph, runtime, &found, &mut tables, &mut params);
+        (points, ranges_now) = (Some(found), ranges);
+    }
+    let routines = choose::choose(&graph, &tree, &ranges_now, runtime, points.as_ref())?;
     let gather = graph.diffusion.as_ref().and_then(|_| gathering(runtime));
     let runs = !tree.segment.is_empty();
     let still = runs.then(|| still(&graph)).flatten();
@@ -202,6 +207,7 @@ pub(super) fn assemble(
         ranges: ranges_now,
         params,
         routines,
+        points,
         tables,
         gather,
         folded,

@@ -58,6 +58,7 @@ mod merge;
 mod names;
 mod outlined;
 mod params;
+pub mod points;
 pub(crate) mod price;
 #[cfg(test)]
 mod price_tests;
@@ -151,6 +152,8 @@ pub struct Plan {
     /// The live params, in the graph's order.
     pub params: Vec<ParamPlan>,
     routines: Vec<Option<&'static Routine>>,
+    /// Where reals have their points, where that is the plan's affair.
+    points: Option<points::Points>,
     tables: Vec<recipes::Made>,
     gather: Option<&'static Routine>,
     folded: Vec<bool>,
@@ -189,9 +192,55 @@ impl Plan {
         self.folded.get(id.0 as usize) == Some(&true)
     }
 
+    /// Where each real's point is, where the format leaves that to the plan.
+    pub fn points(&self) -> Option<&points::Points> {
+        self.points.as_ref()
+    }
+
+    /// What an operation's routine makes of its operands' bits.
+    pub fn computed(&self, id: NodeId, args: &[Bits]) -> Bits {
+        let Some(routine) = self.routine(id) else {
+            return 0;
+        };
+        match &self.points {
+            Some(points) => (routine.model)(&points.operands(&self.graph, id, args)),
+            None => (routine.model)(args),
+        }
+    }
+
+    /// What a pixel has received when it is sent more.
+    pub fn gathered(&self, received: Bits, sent: Bits) -> Bits {
+        match (self.gather(), &self.points) {
+            (Some(routine), Some(_)) => (routine.model)(&[received, sent, 0]),
+            (Some(routine), None) => (routine.model)(&[received, sent]),
+            (None, _) => received,
+        }
+    }
+
+    /// What a node's bits are when they are sent to another pixel.
+    pub fn sent(&self, from: NodeId, bits: Bits) -> Bits {
+        match &self.points {
+            Some(points) => points.read(&self.graph, from, bits, points.received()),
+            None => bits,
+        }
+    }
+
+    /// What a place holds that is given a node's bits.
+    pub fn copied(&self, place: Place, from: NodeId, bits: Bits) -> Bits {
+        match &self.points {
+            Some(points) if self.graph.ty(from) == Type::Real => {
+                points.read(&self.graph, from, bits, points.place(place))
+            }
+            _ => bits,
+        }
+    }
+
     /// The format of a node's value.
     pub fn format(&self, id: NodeId) -> Format {
-        self.runtime.format_of(self.graph.ty(id))
+        match (&self.points, self.graph.ty(id)) {
+            (Some(points), Type::Real) => points.format(points.own(id)),
+            (_, ty) => self.runtime.format_of(ty),
+        }
     }
 
     /// A constant's bits in its type's format.
@@ -248,7 +297,10 @@ impl Plan {
                     .loops
                     .get(l.0 as usize)
                     .and_then(|l| l.types.get(k as usize));
-                self.runtime.format_of(found.copied().unwrap_or(Type::Real))
+                match (&self.points, found.copied().unwrap_or(Type::Real)) {
+                    (Some(points), Type::Real) => points.format(points.place(place)),
+                    (_, ty) => self.runtime.format_of(ty),
+                }
             }
         }
     }

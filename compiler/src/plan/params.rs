@@ -34,7 +34,7 @@ pub(super) fn params(graph: &Graph, runtime: &Runtime) -> Result<Vec<ParamPlan>,
 
 /// Fixed point needs to know how large a value may become.
 fn ranged(p: &Param, runtime: &Runtime) -> Result<(), Diagnostic> {
-    let limited = matches!(runtime.real, Format::Fixed { .. });
+    let limited = runtime.real.is_fixed();
     if !limited || p.ty != Type::Real || p.range.is_some() {
         return Ok(());
     }

@@ -72,7 +72,7 @@ impl Price {
 
     /// Cycles a pixel.
     fn cycles(&self, plan: &Settled) -> f64 {
-        let Ok(routines) = choose(&plan.graph, &plan.tree, &plan.ranges, self.runtime) else {
+        let Ok(routines) = choose(&plan.graph, &plan.tree, &plan.ranges, self.runtime, None) else {
             return f64::INFINITY;
         };
         let runs = !plan.tree.segment.is_empty();
@@ -175,7 +175,7 @@ impl Price {
     /// Whether copies of a value are worth their memory: given how many times a
     /// pixel less it is computed, and how many copies there are more.
     pub fn worth<'p>(&self, plan: &'p Settled) -> impl Fn(NodeId, f64, usize) -> bool + use<'p> {
-        let routines = choose(&plan.graph, &plan.tree, &plan.ranges, self.runtime);
+        let routines = choose(&plan.graph, &plan.tree, &plan.ranges, self.runtime, None);
         let beside = Beside {
             graph: &plan.graph,
             runtime: self.runtime,

@@ -69,7 +69,18 @@ pub fn ranges(graph: &Graph, tree: &Tree, slack: &Slack) -> Ranges {
 
 /// What is known of a value that needs no computing.
 fn known(graph: &Graph, slack: &Slack, id: NodeId) -> Range {
+    let plain = slack.points.as_ref().filter(|_| graph.ty(id) == Type::Real);
     match graph.node(id) {
+        // A constant is rounded where it is read.
+        Node::Const(c) if plain.is_some() => Range::point(c.value().real()),
+        Node::Param(p) if let Some(points) = plain => {
+            let param = graph.params.get(p.0 as usize);
+            let range = param.and_then(|p| p.range).unwrap_or(Range::ALL);
+            points.rounded(id, range, 1.0)
+        }
+        // Nobody looks at it.
+        Node::Undefined(_) if plain.is_some() || slack.expects() => Range::point(0.0),
+        _ if let Some(points) = plain => points.rounded(id, Range::ALL, 0.0),
         Node::Const(c) => slack.cut(graph.ty(id), Range::point(c.value().real())),
         Node::Param(p) => {
             let range = graph
@@ -155,6 +166,12 @@ impl Walk<'_> {
                     Origin::Node(id) => self.read(id),
                     Origin::Scratch(l, k) => self.carried_range(l, k),
                 };
+                let range = match (&self.slack.points, *from) {
+                    (Some(points), Origin::Node(id)) => {
+                        points.copied(self.graph, *place, Some(id), range)
+                    }
+                    _ => range,
+                };
                 let range = match *place {
                     // What a subroutine left is still what it was computed for.
                     Place::Node(id) => self.trust(id, range),
@@ -181,6 +198,10 @@ impl Walk<'_> {
     /// Walks an arm under its condition; answers what it sets, and to what.
     fn arm(&mut self, cond: NodeId, holds: bool, block: &Block) -> Vec<(Place, Range)> {
         let saved = refine::refine(self.graph, &mut self.now, cond, holds);
+        if let Some(points) = &self.slack.points {
+            let doubt = points.doubt(self.graph, cond, holds);
+            self.doubted(&saved, doubt);
+        }
         let assumed = self.assumed.len();
         self.assumed
             .extend(refine::claimed(self.graph, cond, holds));
@@ -190,6 +211,26 @@ impl Walk<'_> {
             self.now[id.0 as usize] = range;
         }
         self.sets(block)
+    }
+
+    /// Widens what a condition has narrowed: it compares what was rounded.
+    fn doubted(&mut self, saved: &[(NodeId, Range)], doubt: f64) {
+        if doubt == 0.0 {
+            return;
+        }
+        let mut seen = BTreeSet::new();
+        for (id, before) in saved.iter().filter(|(id, _)| seen.insert(*id)) {
+            let now = &mut self.now[id.0 as usize];
+            let doubt = match self.graph.ty(*id) {
+                Type::Int => doubt.ceil(),
+                _ => doubt,
+            };
+            let wide = Range {
+                nonzero: now.nonzero,
+                ..Range::new(now.lo - doubt, now.hi + doubt)
+            };
+            *now = before.meet(wide);
+        }
     }
 
     fn sets(&self, block: &Block) -> Vec<(Place, Range)> {
@@ -334,8 +375,16 @@ impl Walk<'_> {
         let at = id.0 as usize;
         let range = match self.graph.node(id) {
             Node::Apply(op, [a, b]) => {
-                let args = [self.read(a), self.read(b)];
-                let exact = whole(self.graph, id, args, interval(op, args, a == b));
+                let mut args = [self.read(a), self.read(b)];
+                let mut same = a == b;
+                if let Some(points) = &self.slack.points {
+                    let [to_a, to_b] = points.scales(id).args;
+                    same &= to_a == to_b;
+                    for (k, arg) in args.iter_mut().enumerate().take(op.arity()) {
+                        *arg = points.operand(self.graph, id, k, *arg);
+                    }
+                }
+                let exact = whole(self.graph, id, args, interval(op, args, same));
                 let exact = self.part_of_length(id, exact);
                 if self.shared[at] == Some(true) {
                     let [a, b] = self.out.args[at];
@@ -345,7 +394,7 @@ impl Walk<'_> {
                     self.out.args[at] = args;
                     self.out.exact[at] = exact;
                 }
-                self.slack.rounded(op, &args[..op.arity()], exact)
+                self.slack.result(id, op, &args[..op.arity()], exact)
             }
             Node::Ramp { .. } => {
                 let last = self.graph.image.width.saturating_sub(1) as i32;
@@ -373,6 +422,10 @@ impl Walk<'_> {
                 let values = entries.map(|e| Range::point(e.value().real()));
                 let all = values.reduce(Range::join).unwrap_or(Range::ALL);
                 let seeded = self.graph.tables.get(table.0 as usize);
+                let all = match (&self.slack.points, self.graph.ty(id)) {
+                    (Some(points), Type::Real) => points.rounded(id, all, 0.5),
+                    _ => all,
+                };
                 match seeded.is_some_and(|t| !t.seed.is_empty()) {
                     true => self.slack.entry(all),
                     false => all,

@@ -1,6 +1,8 @@
 //! How a machine departs from exact arithmetic, as its routines state it.
 
-use slowlight_routine::{Error, Format, Op, Range, Runtime, Type};
+use crate::flow::graph::NodeId;
+use crate::plan::points::Points;
+use slowlight_routine::{Error, Format, Op, Range, Routine, Runtime, Type};
 
 /// How far an entry that a program works out itself may be off, as a part of it.
 pub const ENTRIES: f64 = 1.0 / 4_194_304.0;
@@ -23,7 +25,14 @@ pub struct Slack {
     reals: Range,
     /// What ints can be.
     pub(super) ints: Range,
+    /// The greatest magnitude that is expected of each operation's result, if any is.
+    expected: Vec<Option<f64>>,
+    /// Where each real's point is, in formats that leave that to the plan.
+    pub(super) points: Option<Points>,
+    /// What has routines for these.
+    runtime: Option<&'static Runtime>,
 }
+
 
 impl Slack {
     /// No departure: the graph's own arithmetic.
@@ -38,6 +47,28 @@ impl Slack {
             entries: 0.0,
             reals,
             ints: Range::new(f64::from(i32::MIN), f64::from(i32::MAX)),
+            expected: Vec::new(),
+            points: None,
+            runtime: None,
+        }
+    }
+
+    /// Exact reals, which are expected to stay within some magnitudes: for planning where
+    /// their points shall be.
+    pub fn expecting(runtime: &Runtime, expected: Vec<Option<f64>>) -> Slack {
+        Slack {
+            expected,
+            relative: true,
+            ..Slack::of(runtime)
+        }
+    }
+
+    /// With each real in the bits that it has.
+    pub fn with_points(runtime: &'static Runtime, points: Points) -> Slack {
+        Slack {
+            points: Some(points),
+            runtime: Some(runtime),
+            ..Slack::of(runtime)
         }
     }
 
@@ -48,26 +79,52 @@ impl Slack {
             Format::Fixed { .. } | Format::Log { .. } => Range::new(-format.most(), format.most()),
             _ => Range::new(f64::MIN, f64::MAX),
         };
-        let mut errors = vec![Vec::new(); Op::ALL.len()];
-        for routine in runtime.routines {
-            let own: &mut Vec<Error> = &mut errors[routine.op as usize];
-            if routine.error != Error::Exact && !own.contains(&routine.error) {
-                own.push(routine.error);
-            }
-        }
         // In a format whose ends are near, a scene that breaks the contract
         // would wrap: there the routines saturate instead.
         let floats = matches!(runtime.real, Format::Real40 | Format::Float316 { .. });
+        // Units of last places that are nowhere yet say nothing.
+        let errors = match runtime.real {
+            Format::Scaled { .. } => Vec::new(),
+            _ => errors(runtime),
+        };
         Slack {
             errors,
             direction: floats.then(|| Range::new(-2.0, 2.0)),
-            relative: !matches!(runtime.real, Format::Fixed { .. }),
+            relative: !runtime.real.is_fixed(),
             quotient: runtime.quotient,
             segments: runtime.segments,
             entries: if runtime.derives { ENTRIES } else { 0.0 },
             reals: ends(runtime.real),
             ints: ends(runtime.int),
+            expected: Vec::new(),
+            points: None,
+            runtime: None,
         }
+    }
+
+    /// An operation's result with what its routines may add, as the node's place holds it.
+    pub(super) fn result(&self, id: NodeId, op: Op, args: &[Range], exact: Range) -> Range {
+        if op.result() != Type::Real {
+            return self.rounded(op, args, exact);
+        }
+        if let Some(points) = &self.points {
+            // As the planner takes it.
+            let (args, units) = points.in_units(id, op, args, exact);
+            let fits = |r: &&Routine| r.op == op && (r.domain)(&args, units);
+            let routine = self.runtime.and_then(|r| r.routines.iter().find(fits));
+            let off = routine.map_or(0.0, |routine| routine.error.most(&args, 0.0));
+            return points.rounded(id, exact, off);
+        }
+        let range = self.rounded(op, args, exact);
+        match self.expected.get(id.0 as usize).copied().flatten() {
+            Some(most) if range.magnitude() > most => range.meet(Range::new(-most, most)),
+            _ => range,
+        }
+    }
+
+    /// Whether ranges are for planning where points shall be.
+    pub(super) fn expects(&self) -> bool {
+        !self.expected.is_empty()
     }
 
     /// Whether what depends on spans of columns is computed once a segment.
@@ -146,4 +203,16 @@ fn widened(range: Range, part: f64) -> Range {
             range.hi + part * range.hi.abs(),
         )
     }
+}
+
+/// How far a runtime's results may be off, by [`Op`].
+fn errors(runtime: &Runtime) -> Vec<Vec<Error>> {
+    let mut errors = vec![Vec::new(); Op::ALL.len()];
+        for routine in runtime.routines {
+            let own: &mut Vec<Error> = &mut errors[routine.op as usize];
+            if routine.error != Error::Exact && !own.contains(&routine.error) {
+                own.push(routine.error);
+            }
+        }
+    errors
 }

@@ -4,7 +4,7 @@ use crate::eval::arithmetic::Arithmetic;
 use crate::eval::native::param_value;
 use crate::flow::graph::*;
 use crate::plan::Plan;
-use slowlight_routine::{Bits, Format, Op, Type, Value};
+use slowlight_routine::{Bits, Op, Type, Value};
 use std::cell::RefCell;
 
 /// What is off by less than this many units in the last place is in order.
@@ -85,7 +85,7 @@ impl<'p> Shadow<'p> {
         Shadow {
             plan,
             unit: real.epsilon(),
-            fixed: matches!(real, Format::Fixed { .. }),
+            fixed: real.is_fixed(),
             log: RefCell::default(),
         }
     }

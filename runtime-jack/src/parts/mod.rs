@@ -12,6 +12,7 @@
 
 #[macro_use]
 mod float;
+mod fixed;
 #[macro_use]
 mod functions;
 mod int;
@@ -110,6 +111,20 @@ pub(crate) static ALL: &[Part] = &[
     part!("Log.exp", ["Log.units"], 50, log_functions::EXP),
     part!("Log.log", ["Log.fromInt", "Log.add"], 80, log_functions::LOG),
     part!("Log.pow", ["Log.units", "Log.fromInt", "Log.add"], 280, log_functions::POW),
+    part!("Fixed", [], 0, fixed::HEAD),
+    part!("Fixed.makeRoots", ["Fixed.mul"], 200, fixed::MAKE_ROOTS),
+    part!("Fixed.left", [], 70, fixed::LEFT),
+    part!("Fixed.right", [], 90, fixed::RIGHT),
+    part!("Fixed.mul", [], 320, fixed::MUL),
+    part!("Fixed.halfMul", [], 310, fixed::HALF_MUL),
+    part!("Fixed.wideMul", [], 380, fixed::WIDE_MUL),
+    part!("Fixed.div", [], 560, fixed::DIV),
+    part!("Fixed.root", ["Fixed.makeRoots", "Fixed.right"], 230, fixed::SQRT),
+    part!("Fixed.doubleRoot", ["Fixed.root"], 90, fixed::DOUBLE_SQRT),
+    part!("Fixed.makeSines", ["Fixed.mul"], 400, fixed::MAKE_SINES),
+    part!("Fixed.turns", ["Fixed.halfMul"], 60, fixed::TURNS),
+    part!("Fixed.sin", ["Fixed.makeSines"], 210, fixed::SIN),
+    part!("Fixed.floor", [], 70, fixed::FLOOR),
     part!("Int", [], 0, ""),
     part!("Int.magnitude", [], 60, int::MAGNITUDE),
     part!("Int.add", [], 120, int::ADD),

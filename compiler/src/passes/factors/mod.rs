@@ -85,7 +85,7 @@ impl<'g> Site<'g> {
             ranges,
             rates: rates(graph),
             of: Vec::with_capacity(graph.nodes.len()),
-            moves: !matches!(runtime.real, Format::Fixed { .. } | Format::Log { .. }),
+            moves: !(runtime.real.is_fixed() || matches!(runtime.real, Format::Log { .. })),
         };
         for id in graph.ids() {
             let of = site.made_of(id);

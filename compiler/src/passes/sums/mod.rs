@@ -32,7 +32,7 @@ use crate::flow::graph::*;
 use crate::range::Ranges;
 pub use ends::sunk;
 use rustc_hash::FxHashMap;
-use slowlight_routine::{Format, Op, Runtime, Type};
+use slowlight_routine::{Op, Runtime, Type};
 use terms::{Product, Term};
 
 /// What may be put.
@@ -48,7 +48,7 @@ pub enum Site {
 
 /// Where sums might be cheaper; nothing in formats whose sums are exact anyway.
 pub fn sites(graph: &Graph, ranges: &Ranges, runtime: &Runtime) -> Vec<Site> {
-    if matches!(runtime.real, Format::Fixed { .. }) {
+    if runtime.real.is_fixed() {
         return Vec::new();
     }
     let sums = Sums::new(graph, ranges, runtime);

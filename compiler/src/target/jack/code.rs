@@ -219,6 +219,14 @@ impl<'p> Code<'p> {
         if let Format::Log { .. } = format {
             return self.set_log((place, &home), (from_id, &from.text));
         }
+        if let (Some(points), Some(id), Format::Fixed { frac, .. }) = (self.points(), from_id, format)
+        {
+            let from = self.read_at(points, id, frac).text;
+            if from != home {
+                self.text.line(format!("let {home} = {from};"));
+            }
+            return;
+        }
         if from.text == home {
             return;
         }
@@ -261,12 +269,13 @@ impl<'p> Code<'p> {
                 let Some(routine) = self.plan.routine(id) else {
                     return;
                 };
-                match routine.form {
-                    Form::Expression { .. } => self.apply(routine, args),
-                    Form::Statement(template) if self.logs() => {
+                match (routine.form, self.points()) {
+                    (_, Some(points)) => self.fixed(points, id, routine),
+                    (Form::Expression { .. }, _) => self.apply(routine, args),
+                    (Form::Statement(template), _) if self.logs() => {
                         return self.log_statements(id, (routine, template), args);
                     }
-                    Form::Statement(template) => {
+                    (Form::Statement(template), _) => {
                         let home = self.home(place, format);
                         let call = self.fill(template, args, &[], Some(&home));
                         let said = self.meaning(id);
@@ -295,7 +304,12 @@ impl<'p> Code<'p> {
             self.folded.insert(id, expression);
         } else {
             let home = self.home(place, format);
-            self.text.line(format!("let {home} = {};", expression.text));
+            let said = self
+                .points()
+                .map(|points| self.fixed_said(points, id, &expression.text));
+            let said = said.unwrap_or_default();
+            self.text
+                .line(format!("let {home} = {};{said}", expression.text));
         }
     }
 
@@ -371,6 +385,8 @@ impl<'p> Code<'p> {
             Value::Bool(b) => Expression::term(b.to_string()),
             Value::Int(_) => int((self.plan.runtime.decode)(bits, self.plan.runtime.int).int()),
             Value::Real(_) if self.logs() => constant(bits),
+            // Where it is read at a scale: `read_at`.
+            Value::Real(_) if self.points().is_some() => int(slowlight_runtime_jack::model::int(bits)),
             Value::Real(r) => Expression::term(self.object.constant(&mut self.names, bits, r)),
         }
     }

@@ -1,6 +1,7 @@
 //! The classes around the statements: parameter block, checks, loops.
 
 use super::code::Code;
+use super::fixed::is_fixed;
 use super::logs::{has_signs, without_idle_signs};
 use super::making::making;
 use super::params::{checks, parameters};
@@ -65,7 +66,7 @@ fn main(class: &str, parts: &[&slowlight_routine::Part]) -> Text {
     text.open("class Main {");
     text.open("function void main() {");
     text.line(format!("var {class} scene;"));
-    for library in ["Float", "Log", "Int"] {
+    for library in ["Float", "Log", "Fixed", "Int"] {
         if has_init(library, parts) {
             text.line(format!("do {library}.init();"));
         }
@@ -213,7 +214,7 @@ fn declared(code: &Code) -> Vec<(&'static str, Vec<String>, &'static str)> {
         let all = code.written.iter().filter(|(_, f)| *f == format);
         all.map(|(name, _)| name.clone()).collect()
     };
-    let real = if code.logs() { "int" } else { "Float" };
+    let real = if code.real_is_int() { "int" } else { "Float" };
     let values = code.object.values().map(|(_, name)| name.to_owned());
     let constants = code.object.constants().iter().map(|c| c.name.clone());
     let mut all = vec![
@@ -240,6 +241,9 @@ fn declared(code: &Code) -> Vec<(&'static str, Vec<String>, &'static str)> {
     all.push(("Array", signs, ""));
     let about = if code.logs() { " // logarithms" } else { "" };
     all.push((real, of(code.plan.runtime.real), about));
+    let fixed = code.written.iter().filter(|(_, f)| is_fixed(*f));
+    let fixed = fixed.map(|(name, _)| name.clone()).collect();
+    all.push(("int", fixed, " // reals in fixed point"));
     let ints = of(code.plan.runtime.int).into_iter();
     let counters = names.counters().map(str::to_owned);
     all.push(("int", ints.chain(counters).collect(), ""));

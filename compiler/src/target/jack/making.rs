@@ -8,7 +8,7 @@ use super::logs::{constant, has_signs};
 use crate::plan::ParamPlan;
 use slowlight_routine::{Form, Format, Op, Type, Value};
 use slowlight_runtime_jack::log::model::Log;
-use slowlight_runtime_jack::model::Float;
+use slowlight_runtime_jack::model::{self, Float};
 
 /// The methods that make constants, Floats and tables, and read the params.
 pub(super) fn making(code: &mut Code) -> Vec<Subroutine> {
@@ -27,6 +27,10 @@ pub(super) fn making(code: &mut Code) -> Vec<Subroutine> {
         else {
             continue;
         };
+        if let Some(points) = code.points() {
+            taking.push(code.take_fixed(points, (value, &label), (*at, param)));
+            continue;
+        }
         if code.logs() {
             taking.extend(take_log(code, (value, &label), param));
             continue;
@@ -68,8 +72,8 @@ pub(super) fn making(code: &mut Code) -> Vec<Subroutine> {
         .iter()
         .filter(|(_, f)| matches!(f, Format::Float316 { .. }));
     let floats = floats.map(|(name, _)| name.clone());
-    // Logarithms are ints, which need no making.
-    let values = values.iter().filter(|_| !code.logs()).map(|v| v.1.clone());
+    // What is an int needs no making.
+    let values = values.iter().filter(|_| !code.real_is_int()).map(|v| v.1.clone());
     let floats: Vec<String> = values.chain(floats).collect();
     let made = floats
         .iter()
@@ -160,11 +164,15 @@ fn tables(code: &mut Code) -> Vec<Line> {
         }
         for (at, entry) in table.entries.iter().enumerate() {
             let value = entry.value();
-            let bits = plan.bits(value);
+            let bits = match code.points() {
+                Some(_) => plan.entry(id, at),
+                None => plan.bits(value),
+            };
             let text = match (plan.runtime.decode)(bits, plan.runtime.format_of(table.ty)) {
                 Value::Int(i) => int(i),
                 Value::Bool(b) => Expression::term(b.to_string()),
                 Value::Real(_) if code.logs() => constant(bits),
+                Value::Real(_) if code.points().is_some() => int(model::int(bits)),
                 Value::Real(_) => {
                     code.needs.insert("Float.constant");
                     let Float { s, e, m } = Float::from_bits(bits);

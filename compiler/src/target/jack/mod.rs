@@ -19,10 +19,11 @@
 //! declared, constants end at 32767, every path returns, and expressions carry
 //! their parentheses, as Jack has no precedence.
 //!
-//! Logarithmic reals are two fields each, an int and a sign; nothing is made for them.
+//! Logarithmic reals are two fields each, an int and a sign; nothing is made for them, nor
+//! for fixed-point reals, which are ints.
 //!
 //! - `names`: what everything is called; `code`: statements and expressions; `logs`:
-//!   those of logarithmic reals; `lookup`: entries of tables;
+//!   those of logarithmic reals; `fixed`: those in fixed point; `lookup`: entries of tables;
 //! - `object`: constants and params; `making`: what fills the fields at the start;
 //! - `frame`: the classes around; `canvas`: words of the screen; `spread`: error diffusion; `statics`: which values
 //!   are statics, for the processor.
@@ -30,6 +31,7 @@
 mod canvas;
 mod code;
 mod expression;
+mod fixed;
 mod frame;
 mod logs;
 mod lookup;
@@ -49,6 +51,7 @@ pub use slowlight_runtime_jack::os;
 use super::{Document, Mode, Target};
 use crate::passes::outline::Sizes;
 use crate::source::Span;
+use slowlight_runtime_jack::fixed::FIXED16;
 use slowlight_runtime_jack::log::LOG10;
 use slowlight_runtime_jack::{F316, F316R};
 
@@ -64,6 +67,12 @@ pub static JACK_F316R: Target = Target {
 /// The same with logarithmic reals.
 pub static JACK_LOG10: Target = Target {
     runtime: &LOG10,
+    ..FLOATS
+};
+
+/// The same with reals in fixed point, each with fraction bits of its own.
+pub static JACK_FIXED16: Target = Target {
+    runtime: &FIXED16,
     ..FLOATS
 };
 

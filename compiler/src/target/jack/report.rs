@@ -6,7 +6,7 @@ use super::frame::{Subroutine, line, subroutine};
 use slowlight_routine::Format;
 
 /// Prints what the graph reports, a line each: ints, bools as 0 or 1, Floats as
-/// sign, exponent and mantissa, logarithms after 1 for a negative. Answers the method that prints a Float, if needed.
+/// sign, exponent and mantissa, logarithms after 1 for a negative, fixed point as its int. Answers the method that prints a Float, if needed.
 pub(super) fn reports(code: &mut Code, text: &mut Text) -> Option<Subroutine> {
     let plan = code.plan;
     let mut floats = false;
@@ -21,7 +21,7 @@ pub(super) fn reports(code: &mut Code, text: &mut Text) -> Option<Subroutine> {
                 text.line("do Output.printInt(0);");
                 text.close("}");
             }
-            Format::Int { .. } => text.line(format!("do Output.printInt({value});")),
+            Format::Int { .. } | Format::Fixed { .. } => text.line(format!("do Output.printInt({value});")),
             Format::Log { .. } => {
                 let plus = code.sign(id).text;
                 text.open(format!("if ({plus}) {{"));

@@ -72,6 +72,11 @@ impl Spread {
             let down = usize::try_from(share.dy).unwrap_or(0);
             let there = self.element(x, i64::from(share.dx), down);
             text.span = Some(plan.graph.span(share.node));
+            if let Some(points) = code.points() {
+                let line = code.gather_fixed(points, &there, share.node);
+                text.line(line);
+                continue;
+            }
             if code.logs() {
                 let template = match gather {
                     Some(Form::Statement(template)) => template,
@@ -89,7 +94,7 @@ impl Spread {
                 text.line(format!("do {};", call.replace("{1}", &sent)));
             }
         }
-        if code.logs() {
+        if code.real_is_int() {
             let here = self.element(x, 0, 0);
             text.line(format!("let {here} = 0;"));
             return text.lines;
@@ -122,9 +127,10 @@ impl Spread {
         let [x, _] = code.names.axes.clone();
         let empty = match code.logs() {
             true => "0",
+            false if code.real_is_int() => "0",
             false => "Float.new()",
         };
-        if !code.logs() {
+        if !code.real_is_int() {
             code.needs.insert("Float");
         }
         let mut text = Text::default();

@@ -1,0 +1,325 @@
+//! Where each real's point stands, in formats that leave that to the plan
+//! ([`Format::Scaled`]): as many fraction bits as its range leaves room for.
+//!
+//! First the ranges are walked with exact reals ([`Slack::expecting`]). Intervals know
+//! little of vectors, so where they are far wider than what pixels show that are spread over
+//! the picture, with params all over their ranges ([`sample`]), a value is expected to
+//! stay within twice that. From these ranges the points follow: a value has no more
+//! fraction bits than fit, nor more than its operands give it, nor more than anybody reads.
+//! What nobody tells apart counts for nothing there ([`useful`]).
+//! Then the ranges are walked again with what the machine does: every value is rounded to
+//! its last place and ends where its bits do ([`Slack::with_points`]). What that second walk
+//! does not prove to stay within its bits is computed by a routine that saturates. So an
+//! expectation that is wrong costs accuracy, and nothing wraps.
+//!
+//! Copies and operands may be read at another scale than a value has; see
+//! [`slowlight_routine::scale`].
+//!
+//! [`Slack::expecting`]: crate::range::Slack::expecting
+//! [`Slack::with_points`]: crate::range::Slack::with_points
+
+mod bounds;
+mod sample;
+mod useful;
+mod wanted;
+
+use crate::flow::graph::*;
+use crate::flow::tree::*;
+use super::ParamPlan;
+use super::recipes::Made;
+use crate::range::{Ranges, Slack, ranges};
+use slowlight_routine::scale::{self, Scales, fitting, shifted};
+use slowlight_routine::{Bits, Format, Op, Range, Routine, Runtime, Type, Value};
+use wanted::{cap, wanted};
+
+/// What a pixel receives from others is held to so much: fraction bits in 16.
+const RECEIVED: f64 = 3.9;
+
+/// How often ranges are cut to what is useful.
+const ROUNDS: u32 = 2;
+
+/// What is compared must be told from what it is compared with.
+const BESIDE: f64 = 1.0 + 1.0 / 64.0;
+
+/// Where the points of a graph's reals are.
+#[derive(Clone, Debug)]
+pub struct Points {
+    /// Bits of a real.
+    bits: u8,
+    /// Each node's, those of constants as near as they can be held; 0 for ints.
+    own: Vec<i8>,
+    /// Each carried value's, by loop.
+    carried: Vec<Vec<i8>>,
+    /// Each operation's.
+    scales: Vec<Scales>,
+}
+
+/// The points of a plan, and its ranges with them; nothing where the format has its own.
+pub fn pointed(
+    graph: &Graph,
+    tree: &Tree,
+    runtime: &'static Runtime,
+) -> Option<(Points, Ranges)> {
+    let Format::Scaled { bits } = runtime.real else {
+        return None;
+    };
+    let mut expected = sample::expected(graph, tree);
+    let mut planned = ranges(graph, tree, &Slack::expecting(runtime, expected.clone()));
+    // What is cut makes what is made of it smaller.
+    for _ in 0..ROUNDS {
+        let useful = useful::useful(graph, tree, &planned);
+        for (expected, useful) in expected.iter_mut().zip(&useful) {
+            let most = useful.magnitude() * BESIDE;
+            *expected = Some(expected.map_or(most, |held| held.min(most)));
+        }
+        planned = ranges(graph, tree, &Slack::expecting(runtime, expected.clone()));
+    }
+    let points = Points::new(graph, &planned, bits);
+    let slack = Slack::with_points(runtime, points.clone());
+    let found = ranges(graph, tree, &slack);
+    Some((points, found))
+}
+
+impl Points {
+    /// The points that ranges leave room for.
+    pub fn new(graph: &Graph, ranges: &Ranges, bits: u8) -> Points {
+        let range = |id: NodeId| ranges.result[id.0 as usize];
+        let room: Vec<i8> = (graph.ids())
+            .map(|id| match (graph.node(id), graph.constant(id)) {
+                (_, Some(value)) => fitting(value.real().abs(), bits),
+                (Node::Received, _) => fitting(RECEIVED, bits),
+                (Node::Lookup { table, .. }, _) => fitting(greatest(graph, table), bits),
+                _ => fitting(range(id).magnitude(), bits),
+            })
+            .collect();
+        let capped = |id: NodeId| match graph.node(id) {
+            Node::Apply(op, args) if graph.ty(id) == Type::Real => {
+                room[id.0 as usize].min(cap(graph, op, args, &room))
+            }
+            _ => room[id.0 as usize],
+        };
+        let mut own: Vec<i8> = graph.ids().map(capped).collect();
+        read_at_most(graph, &mut own);
+        for id in graph.ids().filter(|id| graph.ty(*id) != Type::Real) {
+            own[id.0 as usize] = 0;
+        }
+        let carried = together(graph, &mut own);
+        let scales = (graph.ids())
+            .map(|id| match graph.node(id) {
+                Node::Apply(op, args) if scale::concerns(op) => {
+                    let fits = |args: [i8; 2]| product_fits(ranges, id, args, bits);
+                    wanted(graph, (op, args), own[id.0 as usize], (&own, &room), &fits)
+                }
+                _ => Scales::default(),
+            })
+            .collect();
+        Points {
+            bits,
+            own,
+            carried,
+            scales,
+        }
+    }
+
+    /// A node's fraction bits.
+    pub fn own(&self, id: NodeId) -> i8 {
+        self.own.get(id.0 as usize).copied().unwrap_or(0)
+    }
+
+    /// Where the points of an operation's operands and result are.
+    pub fn scales(&self, id: NodeId) -> Scales {
+        self.scales.get(id.0 as usize).copied().unwrap_or_default()
+    }
+
+    /// The fraction bits of what a place holds.
+    pub fn place(&self, place: Place) -> i8 {
+        match place {
+            Place::Node(id) => self.own(id),
+            Place::Carried(l, k) | Place::Scratch(l, k) => {
+                let found = self.carried.get(l.0 as usize);
+                found.and_then(|l| l.get(k as usize)).copied().unwrap_or(0)
+            }
+        }
+    }
+
+    /// The format of so many fraction bits.
+    pub fn format(&self, frac: i8) -> Format {
+        let bits = self.bits;
+        Format::Fixed { bits, frac }
+    }
+
+    /// The fraction bits of what a pixel receives.
+    pub fn received(&self) -> i8 {
+        fitting(RECEIVED, self.bits)
+    }
+
+    /// What a routine's model is given: the operands at the scales wanted, and the number.
+    pub fn operands(&self, graph: &Graph, id: NodeId, args: &[Bits]) -> Vec<Bits> {
+        let Node::Apply(op, of) = graph.node(id) else {
+            return args.to_vec();
+        };
+        let scales = self.scales(id);
+        if !scale::concerns(op) {
+            return args.to_vec();
+        }
+        let each = args.iter().zip(of).zip(scales.args);
+        let mut all: Vec<Bits> = each
+            .map(|((bits, arg), to)| self.read(graph, arg, *bits, to))
+            .collect();
+        all.push(i64::from(scales.number(op)) as Bits);
+        all
+    }
+
+    /// A node's bits read at a scale.
+    pub fn read(&self, graph: &Graph, id: NodeId, bits: Bits, to: i8) -> Bits {
+        match graph.constant(id) {
+            Some(value) if graph.ty(id) == Type::Real => {
+                scale::nearest(value.real(), to, self.bits)
+            }
+            _ => self.moved(bits, self.own(id), to),
+        }
+    }
+
+    /// Bits of one scale at another.
+    pub fn moved(&self, bits: Bits, from: i8, to: i8) -> Bits {
+        shifted(bits as i64, i32::from(to) - i32::from(from), self.bits) as Bits
+    }
+}
+
+/// Puts tables' entries and params where their points are.
+pub(super) fn hold(
+    graph: &Graph,
+    runtime: &Runtime,
+    points: &Points,
+    tables: &mut [Made],
+    params: &mut [ParamPlan],
+) {
+    for id in graph.ids().filter(|id| graph.ty(*id) == Type::Real) {
+        let own = points.own(id);
+        match graph.node(id) {
+            Node::Lookup { table, .. } => {
+                let from = graph.tables.get(table.0 as usize);
+                let to = tables.get_mut(table.0 as usize);
+                if let (Some(from), Some(to)) = (from, to) {
+                    let entries = from.entries.iter().map(|e| e.value());
+                    let bits = entries.map(|e| (runtime.encode)(e, points.format(own)));
+                    to.bits = bits.collect();
+                }
+            }
+            Node::Param(p) => {
+                if let Some(param) = params.get_mut(p.0 as usize) {
+                    param.bits = taken(runtime, points, param, own);
+                }
+            }
+            _ => {}
+        }
+    }
+}
+
+/// A param's bits, from the whole number that the source has.
+fn taken(runtime: &Runtime, points: &Points, param: &ParamPlan, own: i8) -> Bits {
+    let Some(digits) = param.digits else {
+        return (runtime.encode)(Value::Real(param.value), points.format(own));
+    };
+    let unit = 10f64.powi(i32::from(digits));
+    let whole = (param.value * unit).round() as i64;
+    match divided(runtime, own).filter(|_| digits > 0) {
+        Some(routine) => (routine.model)(&[whole as Bits, unit as Bits, i64::from(own) as Bits]),
+        None => points.moved(whole as Bits, 0, own),
+    }
+}
+
+/// The routine that divides a param by a power of ten.
+pub fn divided(runtime: &Runtime, own: i8) -> Option<&'static Routine> {
+    let number = Range::point(f64::from(own));
+    let fits =
+        |r: &&Routine| r.op == Op::Div && (r.domain)(&[Range::ALL, Range::ALL, number], Range::ALL);
+    runtime.routines.iter().find(fits)
+}
+
+/// The greatest magnitude in a table.
+fn greatest(graph: &Graph, table: TableId) -> f64 {
+    let table = graph.tables.get(table.0 as usize);
+    let entries = table.iter().flat_map(|t| &t.entries);
+    entries.fold(0.0, |most, e| f64::max(most, e.value().real().abs()))
+}
+
+/// Leaves a value the bits that somebody reads.
+fn read_at_most(graph: &Graph, own: &mut [i8]) {
+    let mut read = vec![scale::FEWEST; graph.nodes.len()];
+    let all = graph.loops.iter().flat_map(Loop::roots);
+    for id in all.chain(graph.outputs()) {
+        read[id.0 as usize] = scale::MOST;
+    }
+    for id in graph.ids().rev() {
+        let at = id.0 as usize;
+        let set = matches!(
+            graph.node(id),
+            Node::Lookup { .. } | Node::Received | Node::Apply(Op::Sin | Op::Cos, _)
+        );
+        if !set {
+            own[at] = own[at].min(read[at].max(scale::FEWEST));
+        }
+        let (most, sum) = match graph.node(id) {
+            Node::Apply(op, _) => (scale::MOST, at_one_scale(op)),
+            _ => (scale::MOST, matches!(graph.node(id), Node::Select { .. })),
+        };
+        let most = if sum && graph.ty(id) == Type::Real {
+            own[at] + i8::from(is_twice(graph, id))
+        } else {
+            most
+        };
+        for arg in graph.node(id).operands() {
+            let read = &mut read[arg.0 as usize];
+            *read = (*read).max(most);
+        }
+    }
+}
+
+/// Whether a value is added to itself.
+fn is_twice(graph: &Graph, id: NodeId) -> bool {
+    matches!(graph.node(id), Node::Apply(Op::Add, [a, b]) if a == b)
+}
+
+/// Operations whose operands are read at the scale of the result.
+fn at_one_scale(op: Op) -> bool {
+    matches!(
+        op,
+        Op::Add | Op::Sub | Op::Min | Op::Max | Op::Mod | Op::Neg | Op::Abs
+    )
+}
+
+/// Gives nodes that share a place one scale, and answers those of carried values.
+fn together(graph: &Graph, own: &mut [i8]) -> Vec<Vec<i8>> {
+    let mut carried: Vec<Vec<i8>> = (graph.loops.iter())
+        .map(|l| vec![scale::MOST; l.types.len()])
+        .collect();
+    let mut params = vec![scale::MOST; graph.params.len()];
+    for setting in [true, false] {
+        for id in graph.ids().filter(|id| graph.ty(*id) == Type::Real) {
+            let shared = match graph.node(id) {
+                Node::Carried { of, index } | Node::Last { of, index } => {
+                    (carried.get_mut(of.0 as usize)).and_then(|l| l.get_mut(index as usize))
+                }
+                Node::Param(p) => params.get_mut(p.0 as usize),
+                _ => None,
+            };
+            let own = &mut own[id.0 as usize];
+            match shared {
+                Some(shared) if setting => *shared = (*shared).min(*own),
+                Some(shared) => *own = *shared,
+                None => {}
+            }
+        }
+    }
+    carried
+}
+
+/// Whether a product of ints stays one.
+fn product_fits(ranges: &Ranges, id: NodeId, args: [i8; 2], bits: u8) -> bool {
+    let units = |k: usize| {
+        let range: Range = ranges.args[id.0 as usize][k];
+        scale::in_units(range, args[k]).magnitude()
+    };
+    units(0) * units(1) <= scale::most(bits) as f64 * 0.99
+}

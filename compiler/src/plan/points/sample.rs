@@ -1,0 +1,122 @@
+//! What values are at pixels spread over the picture, with the params in many places of
+//! their ranges.
+
+use crate::eval::arithmetic::{Arithmetic, Exact};
+use crate::eval::run::Run;
+use crate::flow::graph::*;
+use crate::flow::tree::*;
+use slowlight_routine::{Op, Type, Value};
+use std::cell::{Cell, RefCell};
+
+/// Rows and columns that are looked at.
+const ROWS: u32 = 24;
+const COLUMNS: u32 = 31;
+
+/// What values are expected to stay within, of the greatest seen.
+const ROOM: f64 = 1.2;
+
+/// How often params are chosen anew.
+const CHOICES: u32 = 12;
+
+/// How many statements may run for each choice.
+const PATIENCE: u64 = 1_500_000;
+
+/// The greatest magnitude seen of each operation's result; nothing where none was.
+pub fn expected(graph: &Graph, tree: &Tree) -> Vec<Option<f64>> {
+    let seen = RefCell::new(vec![None; graph.nodes.len()]);
+    let live = graph.params.iter().any(|p| p.range.is_some());
+    for choice in 0..if live { CHOICES } else { 1 } {
+        let watch = Watch {
+            exact: Exact(graph),
+            choice,
+            seen: &seen,
+            ran: Cell::new(0),
+        };
+        let mut run = Run::new(graph, tree, &watch);
+        for row in 0..ROWS {
+            for column in 0..COLUMNS {
+                let at = |k: u32, of: u32, long: u32| {
+                    ((u64::from(k) * 2 + 1) * u64::from(long) / 2 / u64::from(of)) as i32
+                };
+                let y = at(row, ROWS, graph.image.height);
+                if watch.ran.get() < PATIENCE {
+                    run.pixel(at(column, COLUMNS, graph.image.width), y);
+                }
+            }
+        }
+    }
+    let room = |most: f64| (most > 0.0).then_some(most * ROOM);
+    let seen = seen.into_inner().into_iter();
+    seen.map(|most: Option<f64>| most.and_then(room)).collect()
+}
+
+/// Computes in `f64` and keeps the greatest of each operation.
+struct Watch<'g> {
+    exact: Exact<'g>,
+    choice: u32,
+    seen: &'g RefCell<Vec<Option<f64>>>,
+    ran: Cell<u64>,
+}
+
+impl Watch<'_> {
+    /// Where in its range a param is: as it is, at either end, in the middle, then spread.
+    fn part(&self, param: u32) -> f64 {
+        match self.choice {
+            1 => 0.0,
+            2 => 1.0,
+            3 => 0.5,
+            // Multiples of the golden ratio's fraction, another for each param.
+            n => (f64::from(n * (param + 1)) * 0.618_033_988_749_895).fract(),
+        }
+    }
+}
+
+impl Arithmetic for &Watch<'_> {
+    type Value = Value;
+
+    fn constant(&self, value: Value) -> Value {
+        self.exact.constant(value)
+    }
+
+    fn param(&self, id: ParamId) -> Value {
+        let own = self.exact.param(id);
+        let found = self.exact.0.params.get(id.0 as usize);
+        let Some((param, range)) = found.and_then(|p| Some((p, p.range?))) else {
+            return own;
+        };
+        let part = self.part(id.0);
+        let value = range.lo + part * (range.hi - range.lo);
+        match param.ty {
+            _ if self.choice == 0 => own,
+            Type::Bool => Value::Bool(part > 0.5),
+            Type::Int => Value::Int(value.round() as i32),
+            Type::Real => Value::Real(value),
+        }
+    }
+
+    fn apply(&self, id: NodeId, op: Op, args: &[Value]) -> Value {
+        let made = self.exact.apply(id, op, args);
+        if let Value::Real(x) = made
+            && let Some(seen) = self.seen.borrow_mut().get_mut(id.0 as usize)
+        {
+            *seen = Some(seen.map_or(x.abs(), |most: f64| most.max(x.abs())));
+        }
+        made
+    }
+
+    fn gather(&self, received: Value, sent: Value) -> Value {
+        self.exact.gather(received, sent)
+    }
+
+    fn truth(&self, value: Value) -> bool {
+        self.exact.truth(value)
+    }
+
+    fn int(&self, value: Value) -> i32 {
+        self.exact.int(value)
+    }
+
+    fn step(&self, _: &Statement) {
+        self.ran.set(self.ran.get() + 1);
+    }
+}

@@ -1,0 +1,146 @@
+//! At which scales operations read their operands, and how many fraction bits their
+//! results can have.
+
+use crate::flow::graph::*;
+use slowlight_routine::scale::{FEWEST, MOST, Scales};
+use slowlight_routine::{Op, Type};
+
+/// Bits of an operand of a product, without the sign: the product has so many more than
+/// an operand where both have all.
+const LONG: i8 = 15;
+
+/// Fraction bits that a result cannot have more of, given those that the operands have
+/// room for.
+pub fn cap(graph: &Graph, op: Op, [a, b]: [NodeId; 2], room: &[i8]) -> i8 {
+    let [of_a, of_b] = [a, b].map(|id| room[id.0 as usize]);
+    let most = match op {
+        Op::Add if a == b => of_a - 1,
+        Op::Add | Op::Sub | Op::Min | Op::Max | Op::Mod => of_a.min(of_b),
+        Op::Neg | Op::Abs | Op::ToReal => of_a,
+        Op::Mul => match (power(graph, a), power(graph, b)) {
+            (_, Some(by)) => of_a + by,
+            (Some(by), _) => of_b + by,
+            _ => of_a + of_b - LONG,
+        },
+        Op::Sqrt => (LONG + of_a).div_euclid(2),
+        Op::Sin | Op::Cos => WAVES,
+        _ => MOST,
+    };
+    most.clamp(FEWEST, MOST)
+}
+
+/// Fraction bits of sines, always: no more fit beside 1.
+pub const WAVES: i8 = 14;
+
+/// By how many bits a product may be shorter than that all the same.
+const WIDE: i8 = 3;
+
+/// The scale at which a constant is 1 or -1.
+fn power(graph: &Graph, id: NodeId) -> Option<i8> {
+    let (scale, units) = least(graph, id)?;
+    (units == 1.0).then_some(scale)
+}
+
+/// The fewest fraction bits with which a constant is exact, and its magnitude there.
+fn least(graph: &Graph, id: NodeId) -> Option<(i8, f64)> {
+    let value = graph.constant(id)?.real().abs();
+    let units = |scale: i8| value * f64::from(scale).exp2();
+    let whole = |scale: &i8| value > 0.0 && units(*scale).fract() == 0.0;
+    let found = (FEWEST..=MOST).find(whole)?;
+    Some((found, units(found)))
+}
+
+/// Small factors are multiplied by as they are.
+const SMALL: f64 = 64.0;
+
+/// The scales of an operation whose result has one; given each node's own fraction bits
+/// and those it has room for, and whether the product of operands at some scales is an int.
+pub fn wanted(
+    graph: &Graph,
+    (op, [a, b]): (Op, [NodeId; 2]),
+    result: i8,
+    (own, room): (&[i8], &[i8]),
+    fits: &dyn Fn([i8; 2]) -> bool,
+) -> Scales {
+    let [of_a, of_b] = [a, b].map(|id| own[id.0 as usize]);
+    let [room_a, room_b] = [a, b].map(|id| room[id.0 as usize]);
+    let args = match op {
+        Op::Add if a == b => [result + 1; 2],
+        Op::Add | Op::Sub | Op::Min | Op::Max | Op::Mod | Op::Neg | Op::Abs | Op::ToReal => {
+            [result; 2]
+        }
+        Op::Less | Op::LessEqual | Op::Equal => {
+            let fixed = |id: NodeId, of: i8| match graph.constant(id) {
+                Some(_) => FEWEST,
+                None => of,
+            };
+            [fixed(a, of_a).max(fixed(b, of_b)).min(room_a).min(room_b); 2]
+        }
+        Op::Mul => match factor(graph, [a, b], result, (own, room), fits) {
+            Some(args) => args,
+            None => product([of_a, of_b], [room_a, room_b], result),
+        },
+        // From 0 to 30 bits are divided out.
+        Op::Div => {
+            let bits = result + of_b - of_a;
+            let raised = (bits - MOST).clamp(0, (room_a - of_a).max(0));
+            let lowered = (bits - raised - MOST).max(0);
+            [of_a + raised + bits.min(0), of_b - lowered]
+        }
+        // Of 1 to 15 bits more.
+        Op::Sqrt => {
+            let most = 2 * result - 1;
+            let least = (2 * result - LONG).min(room_a.max(of_a));
+            [of_a.clamp(least.min(most), most), 0]
+        }
+        Op::Floor => [of_a.max(0), 0],
+        Op::Round => [0, 0],
+        // Half a turn fits where the point is furthest to the left.
+        Op::Sin | Op::Cos => [of_a.clamp(0, 13), 0],
+        _ => [of_a, of_b],
+    };
+    let result = match op.result() {
+        Type::Real => result,
+        _ => 0,
+    };
+    Scales { args, result }
+}
+
+/// A product with a constant that needs no rounding: by a power of two, or by a small
+/// whole number of these.
+fn factor(
+    graph: &Graph,
+    args: [NodeId; 2],
+    result: i8,
+    (own, room): (&[i8], &[i8]),
+    fits: &dyn Fn([i8; 2]) -> bool,
+) -> Option<[i8; 2]> {
+    for (k, constant) in args.into_iter().enumerate() {
+        let Some((scale, units)) = least(graph, constant) else {
+            continue;
+        };
+        let other = args[1 - k].0 as usize;
+        let of_other = result - scale;
+        let mut scales = [of_other; 2];
+        scales[k] = scale;
+        let exact = (own[other]..=room[other]).contains(&of_other);
+        if units == 1.0 || units <= SMALL && exact && fits(scales) {
+            return Some(scales);
+        }
+    }
+    None
+}
+
+/// Operands of all their bits, so that the product is rounded in its upper half.
+fn product([mut a, mut b]: [i8; 2], [room_a, room_b]: [i8; 2], result: i8) -> [i8; 2] {
+    let short = match LONG - (a + b - result) {
+        ..=WIDE => 0,
+        short => short,
+    };
+    let up = short.clamp(0, (room_a - a).max(0));
+    a += up;
+    b += (short - up).clamp(0, (room_b - b).max(0));
+    // No more than twice as long: what is further down counts for nothing.
+    let long = (a + b - result - 2 * LONG - 1).max(0);
+    [a - long, b]
+}
