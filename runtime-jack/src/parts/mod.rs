@@ -22,6 +22,7 @@ mod log_tables;
 mod powers;
 #[macro_use]
 mod processor;
+mod fixed_bits;
 mod rounded;
 mod rounded_bits;
 
@@ -187,6 +188,14 @@ const ON_PROCESSOR: &[(&str, &str)] = &[
     (rounded::SUB, rounded::SUB_SHIFTED),
     (rounded::MAKE_ROOTS, rounded_bits::MAKE_NO_ROOTS),
     (rounded::SQRT, rounded_bits::SQRT),
+    (fixed::MUL, fixed_bits::MUL),
+    (fixed::HALF_MUL, fixed_bits::HALF_MUL),
+    (fixed::WIDE_MUL, fixed_bits::WIDE_MUL),
+    (fixed::LEFT, fixed_bits::LEFT),
+    (fixed::RIGHT, fixed_bits::RIGHT),
+    (fixed::DIV, fixed_bits::DIV),
+    (fixed::SQRT, fixed_bits::SQRT),
+    (fixed::DOUBLE_SQRT, fixed_bits::DOUBLE_SQRT),
 ];
 
 /// [`classes`] for a program that runs on the Hack's processor: the same values in

@@ -73,7 +73,10 @@ pub(super) fn making(code: &mut Code) -> Vec<Subroutine> {
         .filter(|(_, f)| matches!(f, Format::Float316 { .. }));
     let floats = floats.map(|(name, _)| name.clone());
     // What is an int needs no making.
-    let values = values.iter().filter(|_| !code.real_is_int()).map(|v| v.1.clone());
+    let values = values
+        .iter()
+        .filter(|_| !code.real_is_int())
+        .map(|v| v.1.clone());
     let floats: Vec<String> = values.chain(floats).collect();
     let made = floats
         .iter()
