@@ -71,7 +71,7 @@ fn try_cases(args: &Args, path: &Path) -> Outcome<()> {
         if !all.iter().any(|w| w.format() == name) {
             let mut known: Vec<&str> = all.iter().map(|w| w.format()).collect();
             known.dedup();
-            return Err(Failure::Usage(unknown("format", name, known.into_iter())));
+            return Err(Failure::Usage(unknown("format", name, known)));
         }
     }
     let asked = |way: &Way| {

@@ -1,12 +1,16 @@
-//! VM commands a second on programs as Jack compilers emit them.
+//! VM commands a second on programs as Jack compilers emit them, of the machine and of
+//! a straightforward interpreter, its yardstick.
 //!
 //! `cargo bench -p slowlight-vm --bench hack`; the throughput is in elements,
 //! which are VM commands.
+
+mod yardstick;
 
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 use slowlight_vm::hack::jack;
 use slowlight_vm::hack::vm::{Machine, Program};
 use std::hint::black_box;
+use yardstick::Straight;
 
 /// Arrays and loops: the sieve of Eratosthenes, over and over.
 const SIEVE: &str = "class Main {
@@ -96,12 +100,24 @@ fn bench(c: &mut Criterion) {
         let Ok(program) = Program::link(&files) else {
             panic!("{name} does not link");
         };
-        let count = Machine::new(&program)
-            .run(u64::MAX, &mut |_| true)
-            .instructions;
+        let mut machine = Machine::new(&program);
+        let count = machine.run(u64::MAX, &mut |_| true).instructions;
+        let Some(straight) = Straight::read(&files) else {
+            panic!("{name} is not read");
+        };
+        let left = straight.run();
+        assert_eq!(left.commands, count, "{name}");
+        let screen = (16384..24576).map(|address| machine.peek(address));
+        assert!(
+            screen.eq(left.memory[16384..24576].iter().copied()),
+            "{name}"
+        );
         group.throughput(Throughput::Elements(count));
         group.bench_function(name, |b| {
             b.iter(|| black_box(Machine::new(&program).run(u64::MAX, &mut |_| true)));
+        });
+        group.bench_function(format!("{name}, straightforward"), |b| {
+            b.iter(|| black_box(straight.run().commands));
         });
     }
     group.finish();

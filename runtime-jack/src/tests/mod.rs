@@ -7,6 +7,7 @@ mod functions;
 pub mod generator;
 pub mod machine;
 mod os;
+mod table;
 
 use crate::model::{BOTTOM, Float, TOP, int_bits};
 use crate::{F316, F316R};
