@@ -63,7 +63,7 @@ pub fn pointed(
     let Format::Scaled { bits } = runtime.real else {
         return None;
     };
-    let mut expected = sample::expected(graph, tree);
+    let mut expected = sample::expected(graph, tree, bits);
     let mut planned = ranges(graph, tree, &Slack::expecting(runtime, expected.clone()));
     // What is cut makes what is made of it smaller.
     for _ in 0..ROUNDS {
