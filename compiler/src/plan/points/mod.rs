@@ -19,7 +19,7 @@
 //! [`Slack::with_points`]: crate::range::Slack::with_points
 
 mod bounds;
-mod sample;
+pub(crate) mod sample;
 mod useful;
 mod wanted;
 

@@ -10,6 +10,7 @@ use crate::flow::graph::*;
 use crate::flow::tree::*;
 use slowlight_routine::{Op, Type, Value};
 use std::cell::{Cell, RefCell};
+use std::collections::HashMap;
 
 /// Rows and columns that are looked at.
 const ROWS: u32 = 24;
@@ -80,14 +81,16 @@ impl Seen {
     }
 }
 
-/// What each operation's result is expected to stay within, in so many bits; nothing where
-/// none was seen.
+/// What each operation's result is expected to stay within, in so many bits; what choices and
+/// loops are given, too. Nothing where none was seen.
 pub fn expected(graph: &Graph, tree: &Tree, bits: u8) -> Vec<Option<f64>> {
     let seen = RefCell::new(vec![Seen::default(); graph.nodes.len()]);
+    let carried = readers(graph);
     let live = graph.params.iter().any(|p| p.range.is_some());
     for choice in 0..if live { CHOICES } else { 1 } {
         let watch = Watch {
             exact: Exact(graph),
+            carried: &carried,
             choice,
             seen: &seen,
             ran: Cell::new(0),
@@ -109,15 +112,42 @@ pub fn expected(graph: &Graph, tree: &Tree, bits: u8) -> Vec<Option<f64>> {
     seen.iter().map(|seen| seen.expected(bits)).collect()
 }
 
+/// A node that reads each carried value.
+pub fn readers(graph: &Graph) -> HashMap<(LoopId, u32), NodeId> {
+    let of = |id: NodeId| match graph.node(id) {
+        Node::Carried { of, index } => Some(((of, index), id)),
+        _ => None,
+    };
+    graph.ids().filter_map(of).collect()
+}
+
+/// The node whose value a place holds.
+pub fn held_by(carried: &HashMap<(LoopId, u32), NodeId>, place: Place) -> Option<NodeId> {
+    match place {
+        Place::Node(id) => Some(id),
+        Place::Carried(of, index) | Place::Scratch(of, index) => carried.get(&(of, index)).copied(),
+    }
+}
+
 /// Computes in `f64` and counts each operation's results.
 struct Watch<'g> {
     exact: Exact<'g>,
+    /// By whom carried values are read.
+    carried: &'g HashMap<(LoopId, u32), NodeId>,
     choice: u32,
     seen: &'g RefCell<Vec<Seen>>,
     ran: Cell<u64>,
 }
 
 impl Watch<'_> {
+    fn see(&self, id: NodeId, value: Value) {
+        if let Value::Real(x) = value
+            && let Some(seen) = self.seen.borrow_mut().get_mut(id.0 as usize)
+        {
+            seen.see(x.abs());
+        }
+    }
+
     /// Where in its range a param is: as it is, at either end, in the middle, then spread.
     fn part(&self, param: u32) -> f64 {
         match self.choice {
@@ -155,12 +185,15 @@ impl Arithmetic for &Watch<'_> {
 
     fn apply(&self, id: NodeId, op: Op, args: &[Value]) -> Value {
         let made = self.exact.apply(id, op, args);
-        if let Value::Real(x) = made
-            && let Some(seen) = self.seen.borrow_mut().get_mut(id.0 as usize)
-        {
-            seen.see(x.abs());
-        }
+        self.see(id, made);
         made
+    }
+
+    fn copied(&self, place: Place, _: NodeId, value: Value) -> Value {
+        if let Some(id) = held_by(self.carried, place) {
+            self.see(id, value);
+        }
+        value
     }
 
     fn gather(&self, received: Value, sent: Value) -> Value {
