@@ -29,8 +29,12 @@ const FIRST: i32 = -40;
 /// How often params are chosen anew.
 const CHOICES: u32 = 12;
 
-/// How many statements may run for each choice.
-const PATIENCE: u64 = 1_500_000;
+/// How many statements may run, all choices together.
+const PATIENCE: u64 = 18_000_000;
+
+/// Rows are gone through in steps of so many, so that something of every part of the
+/// picture is seen where patience ends before its rows do.
+const APART: u32 = 7;
 
 /// What was seen of an operation's results.
 #[derive(Clone)]
@@ -87,7 +91,8 @@ pub fn expected(graph: &Graph, tree: &Tree, bits: u8) -> Vec<Option<f64>> {
     let seen = RefCell::new(vec![Seen::default(); graph.nodes.len()]);
     let carried = readers(graph);
     let live = graph.params.iter().any(|p| p.range.is_some());
-    for choice in 0..if live { CHOICES } else { 1 } {
+    let choices = if live { CHOICES } else { 1 };
+    for choice in 0..choices {
         let watch = Watch {
             exact: Exact(graph),
             carried: &carried,
@@ -101,8 +106,8 @@ pub fn expected(graph: &Graph, tree: &Tree, bits: u8) -> Vec<Option<f64>> {
                 let at = |k: u32, of: u32, long: u32| {
                     ((u64::from(k) * 2 + 1) * u64::from(long) / 2 / u64::from(of)) as i32
                 };
-                let y = at(row, ROWS, graph.image.height);
-                if watch.ran.get() < PATIENCE {
+                let y = at(row * APART % ROWS, ROWS, graph.image.height);
+                if watch.ran.get() < PATIENCE / u64::from(choices) {
                     run.pixel(at(column, COLUMNS, graph.image.width), y);
                 }
             }
