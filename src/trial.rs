@@ -141,7 +141,9 @@ fn table_bytes(plan: &Plan) -> u64 {
         Format::Float316 => 6,
         // A logarithm and a sign.
         Format::Log { .. } => 4,
-        Format::Int { bits } | Format::Fixed { bits, .. } | Format::Scaled { bits } => u64::from(bits.div_ceil(8)),
+        Format::Int { bits } | Format::Fixed { bits, .. } | Format::Scaled { bits } => {
+            u64::from(bits.div_ceil(8))
+        }
         Format::Bool => match plan.runtime.int {
             Format::Int { bits } => u64::from(bits.div_ceil(8)),
             _ => 1,

@@ -57,8 +57,16 @@ fn a_torus_in_logarithms() {
 }
 
 #[test]
+fn a_torus_in_fixed_point() {
+    let options = ["--rows", "90..91", "--freeze", "all", "--format", "fixed16"];
+    let (share, words) = same("torus", &options);
+    assert!(share < 2.0 && words < 20_000, "{share} {words}");
+}
+
+#[test]
 fn a_maze_and_what_diffuses_errors() {
     same("maze", &["--rows", "10..14"]);
     same("primitives", &["--rows", "0..3"]);
     same("mirrors", &["--rows", "120..123", "--format", "log10"]);
+    same("mirrors", &["--rows", "120..123", "--format", "fixed16"]);
 }

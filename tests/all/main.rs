@@ -14,6 +14,7 @@ mod hack_rom;
 mod hard_cases;
 mod house;
 mod jack;
+mod jack_fixed;
 mod library;
 mod mos6502;
 mod need;

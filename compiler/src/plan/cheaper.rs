@@ -238,7 +238,8 @@ impl Site<'_> {
     fn held(&self, plain: &Settled) -> impl Iterator<Item = Settled> {
         // A fixed point has the digits for directions of length 1, and logarithms have
         // no room for the squares of long ones.
-        let narrow = self.runtime.real.is_fixed() || matches!(self.runtime.real, Format::Log { .. });
+        let narrow =
+            self.runtime.real.is_fixed() || matches!(self.runtime.real, Format::Log { .. });
         let few = plain.graph.nodes.len() <= NODES && !narrow;
         let all = match few {
             true => lengths(&plain.graph, &plain.ranges),

@@ -1,9 +1,9 @@
 //! Which routine computes each operation.
 
 use super::loose::loosen;
+use super::points::Points;
 use crate::flow::graph::*;
 use crate::flow::tree::*;
-use super::points::Points;
 use crate::range::Ranges;
 use crate::source::Diagnostic;
 use crate::target::{TARGETS, Target};

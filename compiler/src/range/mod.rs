@@ -19,12 +19,12 @@ use crate::flow::graph::*;
 use crate::flow::ramp;
 use crate::flow::tree::*;
 
+use crate::plan::points::sample::{held_by, readers};
 pub use assuming::assuming;
 use interval::interval;
 use parity::whole;
 pub use slack::{ENTRIES, Slack};
 use slowlight_routine::{Op, Range, Type};
-use crate::plan::points::sample::{held_by, readers};
 use std::collections::{BTreeSet, HashMap};
 
 /// What the ranges of a scene are, on one machine. Side tables by node.

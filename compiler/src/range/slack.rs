@@ -33,7 +33,6 @@ pub struct Slack {
     runtime: Option<&'static Runtime>,
 }
 
-
 impl Slack {
     /// No departure: the graph's own arithmetic.
     pub fn exact() -> Slack {
@@ -212,11 +211,11 @@ fn widened(range: Range, part: f64) -> Range {
 /// How far a runtime's results may be off, by [`Op`].
 fn errors(runtime: &Runtime) -> Vec<Vec<Error>> {
     let mut errors = vec![Vec::new(); Op::ALL.len()];
-        for routine in runtime.routines {
-            let own: &mut Vec<Error> = &mut errors[routine.op as usize];
-            if routine.error != Error::Exact && !own.contains(&routine.error) {
-                own.push(routine.error);
-            }
+    for routine in runtime.routines {
+        let own: &mut Vec<Error> = &mut errors[routine.op as usize];
+        if routine.error != Error::Exact && !own.contains(&routine.error) {
+            own.push(routine.error);
         }
+    }
     errors
 }

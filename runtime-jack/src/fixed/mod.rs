@@ -70,11 +70,7 @@ fn decode(bits: Bits, format: Format) -> Value {
 
 /// An operand read with so many more fraction bits, and how tightly that binds; `fits` says
 /// that it is known not to leave 16 bits. What part of the runtime it needs, if any.
-pub fn read(
-    (text, level): (&str, u8),
-    by: i32,
-    fits: bool,
-) -> (String, u8, Option<&'static str>) {
+pub fn read((text, level): (&str, u8), by: i32, fits: bool) -> (String, u8, Option<&'static str>) {
     let term = match level {
         TERM => text.to_owned(),
         _ => format!("({text})"),
@@ -109,12 +105,20 @@ pub fn filled(template: &str, n: i32) -> String {
         ("{2^(13-n)}", power(13 - n)),
         ("{2^(16-n)}", power(16 - n)),
         ("{2^(n-9)}", power(n - 9)),
-        ("{2^(15-n)}", if n > 0 { power(15 - n) } else { "0".to_owned() }),
-        ("{32767/2^(15-n)}", (32767 >> (15 - n).clamp(0, 15)).to_string()),
+        (
+            "{2^(15-n)}",
+            if n > 0 { power(15 - n) } else { "0".to_owned() },
+        ),
+        (
+            "{32767/2^(15-n)}",
+            (32767 >> (15 - n).clamp(0, 15)).to_string(),
+        ),
         ("{2^((14-n)/2)}", power((14 - n) / 2)),
         ("{2^((15-n)/2)}", power((15 - n) / 2)),
         ("{2^((16-n)/2)}", power((16 - n) / 2)),
     ]
     .into_iter()
-    .fold(template.to_owned(), |text, (hole, made)| text.replace(hole, &made))
+    .fold(template.to_owned(), |text, (hole, made)| {
+        text.replace(hole, &made)
+    })
 }

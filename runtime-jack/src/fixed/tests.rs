@@ -21,7 +21,9 @@ fn numbers(routine: &Routine) -> Vec<i32> {
         (routine.domain)(&args, small) || routine.args.len() == 2 && (routine.domain)(&ones, small)
     };
     match routine.op {
-        Op::Mul | Op::Div | Op::Sqrt | Op::Floor | Op::Sin | Op::Cos => (-20..=32).filter(takes).collect(),
+        Op::Mul | Op::Div | Op::Sqrt | Op::Floor | Op::Sin | Op::Cos => {
+            (-20..=32).filter(takes).collect()
+        }
         Op::Add if takes(&1) && !takes(&0) => vec![1],
         _ => vec![0],
     }
@@ -64,7 +66,9 @@ fn computed(routine: &Routine, args: &[i32], n: i32) -> Bits {
 }
 
 fn edges() -> Vec<i32> {
-    let near = [0, 1, 2, 3, 127, 128, 129, 255, 256, 257, 511, 512, 8191, 8192, 8193];
+    let near = [
+        0, 1, 2, 3, 127, 128, 129, 255, 256, 257, 511, 512, 8191, 8192, 8193,
+    ];
     let far = [16383, 16384, 16385, 21845, 32639, 32640, 32766, 32767];
     let all = near.into_iter().chain(far);
     all.flat_map(|x| [x, -x]).collect()
@@ -78,7 +82,11 @@ fn routines_keep_within_their_errors() {
     values.extend((0..60).map(|_| -(generator.next() / 64)));
     let none = [0];
     for routine in own() {
-        let seconds = if routine.args.len() > 1 { &values[..] } else { &none };
+        let seconds = if routine.args.len() > 1 {
+            &values[..]
+        } else {
+            &none
+        };
         for n in numbers(routine) {
             let mut worst = 0f64;
             for &a in &values {
@@ -173,7 +181,11 @@ fn any(generator: &mut Generator, most: i32) -> i32 {
         _ => value,
     };
     let value = value.min(most);
-    if generator.next() < 16384 { -value } else { value }
+    if generator.next() < 16384 {
+        -value
+    } else {
+        value
+    }
 }
 
 /// How large operands may be of routines that do not take all.
@@ -303,7 +315,8 @@ fn every_operation_on_reals_that_is_offered_has_a_total_routine() {
         let offered = |n: i32| {
             let number = Range::point(f64::from(n));
             let args = [vec![all; routine.args.len()], vec![number]].concat();
-            ALL.iter().any(|r| r.op == routine.op && (r.domain)(&args, all))
+            ALL.iter()
+                .any(|r| r.op == routine.op && (r.domain)(&args, all))
         };
         let numbers = match routine.op {
             Op::Mul => -60..=31,

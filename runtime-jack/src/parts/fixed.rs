@@ -70,7 +70,8 @@ pub(crate) const HALF_MUL: &str = "    /** a * b / 65536, rounded. */
     }
 ";
 
-pub(crate) const WIDE_MUL: &str = "    /** a * b * up / 65536, rounded; that is a * b / (512 * down). */
+pub(crate) const WIDE_MUL: &str =
+    "    /** a * b * up / 65536, rounded; that is a * b / (512 * down). */
     function int wideMul(int a, int b, int up, int down) {
         var int high, other;
         var boolean minus;
@@ -96,7 +97,8 @@ pub(crate) const WIDE_MUL: &str = "    /** a * b * up / 65536, rounded; that is 
     }
 ";
 
-pub(crate) const DIV: &str = "    /** a / b with so many bits more, rounded; by 0 the greatest with the sign of a. */
+pub(crate) const DIV: &str =
+    "    /** a / b with so many bits more, rounded; by 0 the greatest with the sign of a. */
     function int div(int a, int b, int bits) {
         var int whole, high, low, digit;
         var boolean minus;
@@ -159,7 +161,8 @@ pub(crate) const DIV: &str = "    /** a / b with so many bits more, rounded; by 
     }
 ";
 
-pub(crate) const MAKE_ROOTS: &str = "    static Array roots; // of k / 256, times 32768, from k = 64 on
+pub(crate) const MAKE_ROOTS: &str =
+    "    static Array roots; // of k / 256, times 32768, from k = 64 on
     /** The greatest numbers whose squares are not above. */
     function void makeRoots() {
         var int k, root, step;
@@ -182,7 +185,8 @@ pub(crate) const MAKE_ROOTS: &str = "    static Array roots; // of k / 256, time
     }
 ";
 
-pub(crate) const SQRT: &str = "    /** The root of a, which is made 4, 16, 64, ... times as large first; down is 2 times as
+pub(crate) const SQRT: &str =
+    "    /** The root of a, which is made 4, 16, 64, ... times as large first; down is 2 times as
      *  large for each of these, from 1 for 0 on. */
     function int root(int a, int down) {
         var int at, least;
@@ -199,7 +203,8 @@ pub(crate) const SQRT: &str = "    /** The root of a, which is made 4, 16, 64, .
     }
 ";
 
-pub(crate) const DOUBLE_SQRT: &str = "    /** The root of 2 * a; down as for root, up as if for root of a / 2. */
+pub(crate) const DOUBLE_SQRT: &str =
+    "    /** The root of 2 * a; down as for root, up as if for root of a / 2. */
     function int doubleRoot(int a, int down, int up) {
         if (a < 1) { return 0; }
         if (a > 16383) { return Fixed.root(a / 2, up); }
@@ -236,7 +241,8 @@ pub(crate) const MAKE_SINES: &str =
     }
 ";
 
-pub(crate) const TURNS: &str = "    /** Radians, times 8192 / unit, in units of which 65536 are a turn. */
+pub(crate) const TURNS: &str =
+    "    /** Radians, times 8192 / unit, in units of which 65536 are a turn. */
     function int turns(int a, int unit) { return (a + Fixed.halfMul(a, 17907)) * unit; }
 ";
 

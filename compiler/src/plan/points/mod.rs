@@ -23,10 +23,10 @@ pub(crate) mod sample;
 mod useful;
 mod wanted;
 
-use crate::flow::graph::*;
-use crate::flow::tree::*;
 use super::ParamPlan;
 use super::recipes::Made;
+use crate::flow::graph::*;
+use crate::flow::tree::*;
 use crate::range::{Ranges, Slack, ranges};
 use slowlight_routine::scale::{self, Scales, fitting, shifted};
 use slowlight_routine::{Bits, Format, Op, Range, Routine, Runtime, Type, Value};
@@ -55,11 +55,7 @@ pub struct Points {
 }
 
 /// The points of a plan, and its ranges with them; nothing where the format has its own.
-pub fn pointed(
-    graph: &Graph,
-    tree: &Tree,
-    runtime: &'static Runtime,
-) -> Option<(Points, Ranges)> {
+pub fn pointed(graph: &Graph, tree: &Tree, runtime: &'static Runtime) -> Option<(Points, Ranges)> {
     let Format::Scaled { bits } = runtime.real else {
         return None;
     };

@@ -77,7 +77,9 @@ impl Seen {
             });
             each.sum::<f64>()
         };
-        let best = (0..=last).rev().min_by(|a, b| lost(*a).total_cmp(&lost(*b)))?;
+        let best = (0..=last)
+            .rev()
+            .min_by(|a, b| lost(*a).total_cmp(&lost(*b)))?;
         Some(match best == last {
             true => self.most * ROOM,
             false => end(best),

@@ -219,7 +219,8 @@ impl<'p> Code<'p> {
         if let Format::Log { .. } = format {
             return self.set_log((place, &home), (from_id, &from.text));
         }
-        if let (Some(points), Some(id), Format::Fixed { frac, .. }) = (self.points(), from_id, format)
+        if let (Some(points), Some(id), Format::Fixed { frac, .. }) =
+            (self.points(), from_id, format)
         {
             let from = self.read_at(points, id, frac).text;
             if from != home {
@@ -386,7 +387,9 @@ impl<'p> Code<'p> {
             Value::Int(_) => int((self.plan.runtime.decode)(bits, self.plan.runtime.int).int()),
             Value::Real(_) if self.logs() => constant(bits),
             // Where it is read at a scale: `read_at`.
-            Value::Real(_) if self.points().is_some() => int(slowlight_runtime_jack::model::int(bits)),
+            Value::Real(_) if self.points().is_some() => {
+                int(slowlight_runtime_jack::model::int(bits))
+            }
             Value::Real(r) => Expression::term(self.object.constant(&mut self.names, bits, r)),
         }
     }

@@ -1,9 +1,9 @@
 //! Fixed-point reals in statements: ints, read at the scale that is wanted.
 
+use super::Line;
 use super::code::Code;
 use super::expression::{Expression, int};
 use super::frame::line;
-use super::Line;
 use crate::flow::graph::*;
 use crate::plan::ParamPlan;
 use crate::plan::points::{Points, divided};
@@ -106,7 +106,10 @@ impl<'p> Code<'p> {
         let own = graph.ids().find(is).map_or(0, |id| points.own(id));
         let Some(digits) = param.digits else {
             // Given by its bits.
-            return line(&format!("let {value} = {};", int(model::int(param.bits)).text));
+            return line(&format!(
+                "let {value} = {};",
+                int(model::int(param.bits)).text
+            ));
         };
         let unit = 10i32.saturating_pow(u32::from(digits));
         let routine = divided(self.plan.runtime, own).filter(|_| digits > 0);
@@ -122,7 +125,9 @@ impl<'p> Code<'p> {
                 text
             }
         };
-        line(&format!("let {value} = {text}; // {label} / {unit}; 2^-{own}"))
+        line(&format!(
+            "let {value} = {text}; // {label} / {unit}; 2^-{own}"
+        ))
     }
 
     /// What a pixel sends, added to what stands there.

@@ -72,7 +72,10 @@ pub(super) fn making(code: &mut Code) -> Vec<Subroutine> {
     let floats = code.written.iter().filter(|(_, f)| *f == Format::Float316);
     let floats = floats.map(|(name, _)| name.clone());
     // What is an int needs no making.
-    let values = values.iter().filter(|_| !code.real_is_int()).map(|v| v.1.clone());
+    let values = values
+        .iter()
+        .filter(|_| !code.real_is_int())
+        .map(|v| v.1.clone());
     let floats: Vec<String> = values.chain(floats).collect();
     let made = floats
         .iter()

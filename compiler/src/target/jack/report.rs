@@ -21,7 +21,9 @@ pub(super) fn reports(code: &mut Code, text: &mut Text) -> Option<Subroutine> {
                 text.line("do Output.printInt(0);");
                 text.close("}");
             }
-            Format::Int { .. } | Format::Fixed { .. } => text.line(format!("do Output.printInt({value});")),
+            Format::Int { .. } | Format::Fixed { .. } => {
+                text.line(format!("do Output.printInt({value});"))
+            }
             Format::Log { .. } => {
                 let plus = code.sign(id).text;
                 text.open(format!("if ({plus}) {{"));
