@@ -58,7 +58,11 @@ fn wrong_usage_is_status_2() {
     fails(
         &["run", "steps.scn", "-t", "jack", "--format", "log9"],
         2,
+<<<<<<< HEAD
         "it has f316, f316r, log10",
+=======
+        "it has f316, log10, fixed16",
+>>>>>>> fixed
     );
     fails(
         &["vm", "hack", "steps.scn", "--page", "E00"],

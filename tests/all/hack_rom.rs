@@ -57,9 +57,17 @@ fn a_torus_in_logarithms() {
 }
 
 #[test]
+fn a_torus_in_fixed_point() {
+    let options = ["--rows", "90..91", "--freeze", "all", "--format", "fixed16"];
+    let (share, words) = same("torus", &options);
+    assert!(share < 2.0 && words < 20_000, "{share} {words}");
+}
+
+#[test]
 fn a_maze_and_what_diffuses_errors() {
     same("maze", &["--rows", "10..14"]);
     same("primitives", &["--rows", "0..3"]);
+<<<<<<< HEAD
     for (name, rows) in [
         ("mirrors", "120..123"),
         ("maze", "10..14"),
@@ -102,4 +110,8 @@ fn pictures_that_begin_within_a_word() {
         let code = code.filter_map(|file| std::fs::read_to_string(file.ok()?.path()).ok());
         assert!(!code.collect::<String>().contains("Screen.drawPixel"));
     }
+=======
+    same("mirrors", &["--rows", "120..123", "--format", "log10"]);
+    same("mirrors", &["--rows", "120..123", "--format", "fixed16"]);
+>>>>>>> fixed
 }

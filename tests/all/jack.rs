@@ -13,7 +13,7 @@ use slowlight_vm::Stop;
 use slowlight_vm::hack::jack::compile;
 use slowlight_vm::hack::vm::{Machine, Program, Run};
 
-const MIRRORS: &str = include_str!("../../examples/mirrors.scn");
+pub const MIRRORS: &str = include_str!("../../examples/mirrors.scn");
 
 /// A scene's plan for the target.
 fn planned(source: &str, set: &[f64], rows: Option<(u32, u32)>, plot: bool) -> Plan {
@@ -22,7 +22,7 @@ fn planned(source: &str, set: &[f64], rows: Option<(u32, u32)>, plot: bool) -> P
 }
 
 /// The same in some format of reals, or what it says of what it cannot compute.
-fn planned_in(
+pub fn planned_in(
     target: &'static Target,
     source: &str,
     (set, rows): (&[f64], Option<(u32, u32)>),
@@ -52,7 +52,7 @@ fn planned_in(
 }
 
 /// The classes; `Main` first, the scene's second.
-fn documents(plan: &Plan) -> Vec<Document> {
+pub fn documents(plan: &Plan) -> Vec<Document> {
     (plan.target.emit)(plan)
 }
 
@@ -69,7 +69,7 @@ fn run(documents: &[Document]) -> Run {
 
 /// Pixels of the plan's rows in which the screen is not what `ink` says, given
 /// the picture's column and row.
-fn differences(plan: &Plan, run: &Run, mut ink: impl FnMut(i32, i32) -> u8) -> u32 {
+pub fn differences(plan: &Plan, run: &Run, mut ink: impl FnMut(i32, i32) -> u8) -> u32 {
     let mut different = 0;
     for y in plan.rows.0..=plan.rows.1 {
         for x in plan.columns.0..=plan.columns.1 {
@@ -83,7 +83,7 @@ fn differences(plan: &Plan, run: &Run, mut ink: impl FnMut(i32, i32) -> u8) -> u
 }
 
 /// Runs a plan; its every pixel must be the model's.
-fn agrees(plan: &Plan, documents: &[Document], source: &str) -> Run {
+pub fn agrees(plan: &Plan, documents: &[Document], source: &str) -> Run {
     let run = run(documents);
     assert_eq!(run.stop, Stop::Ended, "{source}");
     assert_eq!(run.text, "", "{source}");

@@ -19,12 +19,13 @@ use crate::flow::graph::*;
 use crate::flow::ramp;
 use crate::flow::tree::*;
 
+use crate::plan::points::sample::{held_by, readers};
 pub use assuming::assuming;
 use interval::interval;
 use parity::whole;
 pub use slack::{ENTRIES, Slack};
 use slowlight_routine::{Op, Range, Type};
-use std::collections::BTreeSet;
+use std::collections::{BTreeSet, HashMap};
 
 /// What the ranges of a scene are, on one machine. Side tables by node.
 #[derive(Clone, Debug, Default)]
@@ -50,6 +51,10 @@ pub fn ranges(graph: &Graph, tree: &Tree, slack: &Slack) -> Ranges {
             .collect(),
         assumed: Vec::new(),
         measured: trust::measured(graph),
+        readers: match slack.expects() {
+            true => readers(graph),
+            false => HashMap::new(),
+        },
         turns: 0,
         out: Ranges {
             result: graph.ids().map(|id| known(graph, slack, id)).collect(),
@@ -112,6 +117,8 @@ pub(crate) struct Walk<'g> {
     assumed: Vec<(NodeId, Range)>,
     /// Values whose lengths are asked for, which are trusted to be no directions.
     measured: BTreeSet<NodeId>,
+    /// By whom carried values are read, where something is expected of them.
+    readers: HashMap<(LoopId, u32), NodeId>,
     /// How many turns of loops have been walked.
     turns: u32,
     out: Ranges,
@@ -170,6 +177,10 @@ impl Walk<'_> {
                     (Some(points), Origin::Node(id)) => {
                         points.copied(self.graph, *place, Some(id), range)
                     }
+                    (None, _) if self.slack.expects() => match held_by(&self.readers, *place) {
+                        Some(id) => self.slack.expected(id, range),
+                        None => range,
+                    },
                     _ => range,
                 };
                 let range = match *place {

@@ -114,7 +114,11 @@ impl Slack {
             let off = routine.map_or(0.0, |routine| routine.error.most(&args, 0.0));
             return points.rounded(id, exact, off);
         }
-        let range = self.rounded(op, args, exact);
+        self.expected(id, self.rounded(op, args, exact))
+    }
+
+    /// A node's range, as far as it is expected.
+    pub(super) fn expected(&self, id: NodeId, range: Range) -> Range {
         match self.expected.get(id.0 as usize).copied().flatten() {
             Some(most) if range.magnitude() > most => range.meet(Range::new(-most, most)),
             _ => range,

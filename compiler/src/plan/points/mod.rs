@@ -19,7 +19,7 @@
 //! [`Slack::with_points`]: crate::range::Slack::with_points
 
 mod bounds;
-mod sample;
+pub(crate) mod sample;
 mod useful;
 mod wanted;
 
@@ -59,7 +59,7 @@ pub fn pointed(graph: &Graph, tree: &Tree, runtime: &'static Runtime) -> Option<
     let Format::Scaled { bits } = runtime.real else {
         return None;
     };
-    let mut expected = sample::expected(graph, tree);
+    let mut expected = sample::expected(graph, tree, bits);
     let mut planned = ranges(graph, tree, &Slack::expecting(runtime, expected.clone()));
     // What is cut makes what is made of it smaller.
     for _ in 0..ROUNDS {

@@ -1,0 +1,198 @@
+//! Scenes in fixed point, each value with fraction bits of its own, on the Hack VM, held
+//! against the model; and the model against its bounds.
+#![allow(clippy::unwrap_used)]
+
+use crate::jack::{MIRRORS, agrees, differences, documents, planned_in};
+use crate::mos6502::Scribe;
+use slowlight_compiler::eval::arithmetic::Arithmetic;
+use slowlight_compiler::eval::native::Native;
+use slowlight_compiler::eval::run::Run;
+use slowlight_compiler::flow::graph::{NodeId, ParamId};
+use slowlight_compiler::flow::tree::Place;
+use slowlight_compiler::plan::Plan;
+use slowlight_compiler::target::jack::JACK_FIXED16;
+use slowlight_routine::{Bits, Format, Op, Type, Value};
+use std::cell::Cell;
+
+const TORUS: &str = include_str!("../../examples/torus.scn");
+const MAZE: &str = include_str!("../../examples/maze.scn");
+
+fn planned(source: &str, set: &[f64], rows: Option<(u32, u32)>) -> Result<Plan, String> {
+    planned_in(&JACK_FIXED16, source, (set, rows), true)
+}
+
+/// The models, held to what the ranges say of each result.
+struct Held<'p> {
+    plan: &'p Plan,
+    reals: &'p Cell<u64>,
+    /// How many stand at their format's end.
+    ends: &'p Cell<u64>,
+}
+
+impl Arithmetic for Held<'_> {
+    type Value = Bits;
+
+    fn constant(&self, value: Value) -> Bits {
+        self.plan.bits(value)
+    }
+
+    fn param(&self, id: ParamId) -> Bits {
+        self.plan.params[id.0 as usize].bits
+    }
+
+    fn apply(&self, id: NodeId, op: Op, args: &[Bits]) -> Bits {
+        let bits = self.plan.computed(id, args);
+        if op.result() == Type::Real {
+            // As the model has it: what 16 bits would make of it is not asked.
+            let units = bits as i64;
+            let Format::Fixed { frac, .. } = self.plan.format(id) else {
+                panic!("{id} has no format of its own");
+            };
+            let value = units as f64 * (-f64::from(frac)).exp2();
+            let range = self.plan.ranges.result[id.0 as usize];
+            assert!(units.abs() <= 32767, "{op:?} wraps: {units}");
+            assert!(range.contains(value), "{op:?}: {value} is not in {range:?}");
+            self.reals.set(self.reals.get() + 1);
+            self.ends
+                .set(self.ends.get() + u64::from(units.abs() == 32767));
+        }
+        bits
+    }
+
+    fn copied(&self, place: Place, from: NodeId, value: Bits) -> Bits {
+        self.plan.copied(place, from, value)
+    }
+
+    fn sent(&self, from: NodeId, value: Bits) -> Bits {
+        self.plan.sent(from, value)
+    }
+
+    fn gather(&self, received: Bits, sent: Bits) -> Bits {
+        let bits = self.plan.gathered(received, sent);
+        assert!((bits as i64).abs() <= 32767);
+        bits
+    }
+
+    fn truth(&self, value: Bits) -> bool {
+        (self.plan.runtime.decode)(value, Format::Bool).truth()
+    }
+
+    fn int(&self, value: Bits) -> i32 {
+        (self.plan.runtime.decode)(value, self.plan.runtime.int).int()
+    }
+}
+
+/// Runs some pixels of a plan, every value of which must stay in its bounds; answers how
+/// many reals were computed, and how many of them saturated.
+fn stays_within_bounds(plan: &Plan) -> (u64, u64) {
+    let (reals, ends) = (Cell::new(0), Cell::new(0));
+    let held = Held {
+        plan,
+        reals: &reals,
+        ends: &ends,
+    };
+    let mut run = Run::new(&plan.graph, &plan.tree, held);
+    let image = &plan.graph.image;
+    for y in (0..image.height).step_by((image.height as usize).div_ceil(40)) {
+        for x in (0..image.width).step_by((image.width as usize).div_ceil(40)) {
+            run.pixel(x as i32, y as i32);
+        }
+    }
+    (reals.get(), ends.get())
+}
+
+#[test]
+fn random_scenes_are_drawn_as_the_model_says_and_nothing_wraps() {
+    let mut scribe = Scribe(5);
+    let (mut drawn, mut varied) = (0, 0);
+    for _ in 0..200 {
+        let source = scribe.scene();
+        match planned(&source, &[], None) {
+            Ok(plan) => {
+                let run = agrees(&plan, &documents(&plan), &source);
+                stays_within_bounds(&plan);
+                drawn += 1;
+                varied += u32::from(run.screen.pixels.contains(&0));
+            }
+            Err(said) => assert!(
+                said.contains("in fixed16 yet") || said.contains("fixed-point format"),
+                "{said}\n{source}"
+            ),
+        }
+    }
+    assert!(drawn >= 60 && varied >= 25, "{drawn} {varied}");
+}
+
+/// Also where an eye stands at the end of its range, which no plan looks at more closely.
+#[test]
+fn no_value_of_the_examples_leaves_its_bounds() {
+    for (source, eyes) in [
+        (MIRRORS, &[&[][..], &[0.35, 0.25, 3.6]][..]),
+        (
+            TORUS,
+            &[&[], &[-3.0, 0.0, 2.0], &[3.0, 4.0, 8.0], &[0.5, 0.0, 2.0]],
+        ),
+        (MAZE, &[&[]]),
+    ] {
+        for eye in eyes {
+            let plan = planned(source, eye, None).unwrap();
+            let (reals, _) = stays_within_bounds(&plan);
+            assert!(reals > 1000, "{reals}");
+        }
+    }
+}
+
+/// What the ranges cannot bound saturates, and does not wrap: a ray beside the horizon.
+#[test]
+fn quotients_beyond_all_bits_saturate() {
+    let source = "image 64 x 64 inks black, white; param low: real = 0.01 in 0.001 .. 0.1;
+        draw (x, y) = {
+          let far = 1 / (low * abs(y - 32));
+          ink(if far * far > 60 + x then 1 else 0)
+        };";
+    let plan = planned(source, &[], None).unwrap();
+    let (_, ends) = stays_within_bounds(&plan);
+    assert!(ends > 0);
+    let run = agrees(&plan, &documents(&plan), source);
+    let mut native = Native::new(&plan.graph);
+    let off = differences(&plan, &run, |x, y| native.pixel(x, y).ink);
+    assert!(off * 50 < 64 * 64, "{off}");
+}
+
+/// What is simulated for such a format: 22 to 54 pixels of a torus, 110 to 190 of mirrors.
+#[test]
+fn few_pixels_are_not_the_natives() {
+    for (source, rows, most) in [(TORUS, (100, 163), 30), (MIRRORS, (90, 153), 60)] {
+        let plan = planned(source, &[], Some(rows)).unwrap();
+        let run = agrees(&plan, &documents(&plan), "an example");
+        let mut native = Native::new(&plan.graph);
+        let off = differences(&plan, &run, |x, y| native.pixel(x, y).ink);
+        assert!(off <= most, "{off}");
+        let text = &documents(&plan);
+        assert!(text.iter().all(|d| !d.text.contains("Float")));
+    }
+}
+
+#[test]
+fn errors_spread_in_fixed_point_too() {
+    let source = "image 40 x 12 inks black, white; param least: real = 0.3 in 0 .. 1;
+        draw (x, y) = floyd(x / 40 * (least + y / 12), x, y);";
+    let plan = planned(source, &[], None).unwrap();
+    let run = agrees(&plan, &documents(&plan), source);
+    assert!(run.screen.pixels.contains(&0));
+    stays_within_bounds(&plan);
+}
+
+#[test]
+fn what_cannot_be_computed_is_refused_with_its_place() {
+    let source = "image 8 x 8 inks black, white; draw (x, y) = ink(floor(exp(x / 8) - 2));";
+    let said = planned(source, &[], None).unwrap_err();
+    assert!(
+        said.contains("cannot compute `exp` in fixed16 yet"),
+        "{said}"
+    );
+    let source =
+        "image 8 x 8 inks black, white; param p: real = 1; draw (x, y) = ink(floor(p * x));";
+    let said = planned(source, &[], None).unwrap_err();
+    assert!(said.contains("fixed16 is a fixed-point format"), "{said}");
+}
