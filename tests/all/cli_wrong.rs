@@ -58,11 +58,7 @@ fn wrong_usage_is_status_2() {
     fails(
         &["run", "steps.scn", "-t", "jack", "--format", "log9"],
         2,
-<<<<<<< HEAD
-        "it has f316, f316r, log10",
-=======
-        "it has f316, log10, fixed16",
->>>>>>> fixed
+        "it has f316, f316r, log10, fixed16",
     );
     fails(
         &["vm", "hack", "steps.scn", "--page", "E00"],

@@ -67,7 +67,6 @@ fn a_torus_in_fixed_point() {
 fn a_maze_and_what_diffuses_errors() {
     same("maze", &["--rows", "10..14"]);
     same("primitives", &["--rows", "0..3"]);
-<<<<<<< HEAD
     for (name, rows) in [
         ("mirrors", "120..123"),
         ("maze", "10..14"),
@@ -75,6 +74,7 @@ fn a_maze_and_what_diffuses_errors() {
     ] {
         same(name, &["--rows", rows, "--format", "log10"]);
     }
+    same("mirrors", &["--rows", "120..123", "--format", "fixed16"]);
 }
 
 /// Words of the screen are written whole; pictures begin and end within them, too.
@@ -110,8 +110,4 @@ fn pictures_that_begin_within_a_word() {
         let code = code.filter_map(|file| std::fs::read_to_string(file.ok()?.path()).ok());
         assert!(!code.collect::<String>().contains("Screen.drawPixel"));
     }
-=======
-    same("mirrors", &["--rows", "120..123", "--format", "log10"]);
-    same("mirrors", &["--rows", "120..123", "--format", "fixed16"]);
->>>>>>> fixed
 }

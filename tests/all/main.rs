@@ -15,11 +15,8 @@ mod hack_rom;
 mod hard_cases;
 mod house;
 mod jack;
-<<<<<<< HEAD
-mod jack_formats;
-=======
 mod jack_fixed;
->>>>>>> fixed
+mod jack_formats;
 mod library;
 mod mos6502;
 mod need;
