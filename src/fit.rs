@@ -108,23 +108,37 @@ enum Fitted {
 
 /// The plan, or the quickest of those that spend less memory on speed that fits as
 /// it is, or with subroutines for what is done seldom: what is written short is slower.
-/// Each step takes less memory than those before it, or nearly so.
+/// A step that spends less need not be slower: what it leaves out may make room for
+/// more. So where one of them fits, all are looked at that may be quicker.
 fn quickest(plan: &Plan, name: &dyn Fn(Span) -> Option<String>) -> Outcome<Option<Plan>> {
-    let mut found = with_calls_where_seldom(plan, name)?;
-    let (mut large, mut small) = (0, plan.thrifts());
-    if found.is_some() {
-        return Ok(found);
+    if let Some(fits) = with_calls_where_seldom(plan, name)? {
+        return Ok(Some(fits));
     }
-    while small - large > 1 {
-        let middle = (large + small) / 2;
-        let tried = plan.thriftier(middle);
-        let tried = tried.map(|plan| with_calls_where_seldom(&plan, name));
-        match tried.transpose()?.flatten() {
-            Some(fits) => (small, found) = (middle, Some(fits)),
-            None => large = middle,
+    let last = plan.thrifts().saturating_sub(1);
+    let thriftier = |step| plan.thriftier(step);
+    let Some(least) = thriftier(last) else {
+        return Ok(None);
+    };
+    let Some(mut found) = with_calls_where_seldom(&least, name)? else {
+        return Ok(None);
+    };
+    let mut plans: Vec<(f64, Plan)> = (1..last)
+        .filter_map(thriftier)
+        .map(|plan| (plan.cycles_a_pixel(), plan))
+        .collect();
+    plans.sort_by(|(a, _), (b, _)| a.total_cmp(b));
+    plans.dedup_by(|(_, a), (_, b)| a.graph == b.graph);
+    let most = least.cycles_a_pixel();
+    for (cycles, plan) in plans {
+        if cycles >= most {
+            break;
+        }
+        if let Some(fits) = with_calls_where_seldom(&plan, name)? {
+            found = fits;
+            break;
         }
     }
-    Ok(found)
+    Ok(Some(found))
 }
 
 /// The plan, written with what stands on several ways where that fits as well.
@@ -134,21 +148,24 @@ fn with_copies(mut plan: Plan) -> Outcome<Plan> {
     Ok(plan)
 }
 
-/// A plan that fits as it is, or else with subroutines for what is done seldom.
+/// A plan that fits as it is, or else with subroutines for what is done seldom; each
+/// without remarks where they are too much.
 fn with_calls_where_seldom(
     plan: &Plan,
     name: &dyn Fn(Span) -> Option<String>,
 ) -> Outcome<Option<Plan>> {
-    let fits = |plan: &Plan| Ok::<_, Failure>(need(plan)?.is_none_or(|need| need.fits()));
-    if fits(plan)? {
-        return Ok(Some(plan.clone()));
-    }
-    for runs in [false, true] {
-        let Some(called) = plan.outlined_where_seldom(runs, name) else {
+    let calls = |runs| plan.outlined_where_seldom(runs, name);
+    let ways: [&dyn Fn() -> Option<Plan>; 3] =
+        [&|| Some(plan.clone()), &|| calls(false), &|| calls(true)];
+    for way in ways {
+        let Some(mut tried) = way() else {
             continue;
         };
-        if fits(&called)? {
-            return Ok(Some(called));
+        for brief in [false, true] {
+            tried.brief = brief;
+            if need(&tried)?.is_none_or(|need| need.fits()) {
+                return Ok(Some(tried));
+            }
         }
     }
     Ok(None)

@@ -170,6 +170,7 @@ pub fn graph(seed: u64) -> Graph {
                 component: "",
                 ty,
                 value: 2.0,
+                usual: 2.0,
                 range: None,
                 span: AT,
             })

@@ -106,6 +106,7 @@ fn mirrors() -> Graph {
             component,
             ty: Type::Real,
             value,
+            usual: value,
             range: None,
             span: AT,
         })

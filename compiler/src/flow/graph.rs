@@ -102,6 +102,9 @@ pub struct Param {
     pub ty: Type,
     /// Its value.
     pub value: f64,
+    /// The value that the scene gives it, whatever it is set to: what plans are made
+    /// for, so that a program whose params are edited keeps its plan.
+    pub usual: f64,
     /// The range that may be trusted, if the scene gives one.
     pub range: Option<Range>,
     /// Where it is declared.

@@ -189,11 +189,13 @@ fn param(graph: &mut Graph, text: &str) -> Read<()> {
         }
         None => (rest, None),
     };
+    let value = number(value)?;
     graph.params.push(Param {
         name: name.to_owned(),
         component: component.unwrap_or(""),
         ty: scalar(ty)?,
-        value: number(value)?,
+        value,
+        usual: value,
         range,
         span: Span::default(),
     });

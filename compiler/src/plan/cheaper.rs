@@ -265,7 +265,7 @@ impl Site<'_> {
         if plan.graph.nodes.len() > NODES {
             return plan;
         }
-        match decided(&plan.graph, &plan.ranges, self.runtime) {
+        match decided(&plan.graph, &plan.ranges, self.runtime, &self.shop.proofs) {
             Some(next) => self.shop.settle(&next),
             None => plan,
         }

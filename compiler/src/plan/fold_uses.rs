@@ -3,12 +3,22 @@
 use crate::flow::graph::*;
 use crate::flow::tree::*;
 use crate::passes::still::Still;
+use slowlight_routine::{Form, Routine};
 use std::collections::HashMap;
+
+/// How often an int may be read as a real where it is not kept as one: each time takes
+/// a sixth of what keeping it takes.
+const READS: u32 = 4;
 
 /// For each node: whether it is computed by a `Let`, read exactly once, and
 /// that by a later statement of the same block with nothing in between that
-/// could change what it reads.
-pub fn folded(graph: &Graph, tree: &Tree, still: Option<&Still>) -> Vec<bool> {
+/// could change what it reads; more often where it is written as its operand is.
+pub fn folded(
+    graph: &Graph,
+    tree: &Tree,
+    still: Option<&Still>,
+    routines: &[Option<&'static Routine>],
+) -> Vec<bool> {
     let mut uses = Uses {
         graph,
         count: vec![0; graph.nodes.len()],
@@ -29,14 +39,24 @@ pub fn folded(graph: &Graph, tree: &Tree, still: Option<&Still>) -> Vec<bool> {
                 .for_each(|id| uses.read(id, 0));
         }
     }
+    let once = |id: NodeId| uses.is_read_at_home(id) && uses.count[id.0 as usize] == 1;
+    // Its operand is a variable: it would be computed each time.
+    let as_it_is = |id: NodeId| {
+        let routine = routines.get(id.0 as usize).copied().flatten();
+        let same = |r: &Routine| {
+            matches!(
+                r.form,
+                Form::Expression {
+                    template: "{0}",
+                    ..
+                }
+            )
+        };
+        routine.is_some_and(same) && !graph.node(id).operands().any(once)
+    };
     let fits = |id: NodeId| {
-        let at = id.0 as usize;
-        // What is stepped must be kept for the next pixel.
-        let stepped = matches!(graph.node(id), Node::Stepped { .. });
-        uses.count[at] == 1
-            && !stepped
-            && uses.home.contains_key(&id)
-            && uses.home.get(&id) == uses.reader.get(&id)
+        let few = uses.count[id.0 as usize] <= READS;
+        once(id) || few && uses.is_read_at_home(id) && as_it_is(id)
     };
     graph.ids().map(fits).collect()
 }
@@ -44,7 +64,8 @@ pub fn folded(graph: &Graph, tree: &Tree, still: Option<&Still>) -> Vec<bool> {
 struct Uses<'g> {
     graph: &'g Graph,
     count: Vec<u32>,
-    /// The block that a node was last read in; 0 where it must not be folded.
+    /// The block that a node was read in; 0 where those are several, or where it must
+    /// not be folded.
     reader: HashMap<NodeId, u32>,
     blocks: u32,
     /// The block that a node is computed in.
@@ -52,9 +73,20 @@ struct Uses<'g> {
 }
 
 impl Uses<'_> {
+    /// Whether all that reads a value stands in the block that computes it. What is
+    /// stepped must be kept for the next pixel.
+    fn is_read_at_home(&self, id: NodeId) -> bool {
+        let home = self.home.get(&id);
+        let stepped = matches!(self.graph.node(id), Node::Stepped { .. });
+        !stepped && home.is_some() && home == self.reader.get(&id)
+    }
+
     fn read(&mut self, id: NodeId, block: u32) {
         self.count[id.0 as usize] += 1;
-        self.reader.insert(id, block);
+        let reader = self.reader.entry(id).or_insert(block);
+        if *reader != block {
+            *reader = 0;
+        }
     }
 
     fn block(&mut self, block: &Block) -> u32 {

@@ -181,7 +181,7 @@ pub(super) fn assemble(
     let gather = graph.diffusion.as_ref().and_then(|_| gathering(runtime));
     let runs = !tree.segment.is_empty();
     let still = runs.then(|| still(&graph)).flatten();
-    let folded = fold_uses::folded(&graph, &tree, still.as_ref());
+    let folded = fold_uses::folded(&graph, &tree, still.as_ref(), &routines);
     let (offset, columns, rows) = frame(&graph.image, &goal.mode);
     let rows = match goal.rows {
         Some((first, last)) => (first.clamp(rows.0, rows.1), last.clamp(rows.0, rows.1)),
@@ -203,6 +203,7 @@ pub(super) fn assemble(
         items: Vec::new(),
         lean: false,
         copies: false,
+        brief: false,
         page: None,
         ranges: ranges_now,
         params,

@@ -141,6 +141,8 @@ pub struct Plan {
     pub lean: bool,
     /// Whether there is memory to write short ends of a pixel on each way to them.
     pub copies: bool,
+    /// Whether remarks beside the first line are left out, where memory is short.
+    pub brief: bool,
     /// Where programs begin in a BBC Micro's memory, where that was asked for.
     pub page: Option<u16>,
     /// The values.

@@ -1,7 +1,7 @@
 //! What a plan costs a pixel: for choosing between plans of one scene.
 //!
 //! The statements are run in `f64` at pixels spread over the picture, with the
-//! params in the middle of their ranges, and each that runs is added up with the
+//! params as the scene has them, and each that runs is added up with the
 //! cycles of the routine that the ranges allow. So what few pixels need weighs
 //! little. Where that would take too long, or pixels depend on each other, either
 //! way of a choice is thought to be as likely ([`crate::flow::often`]).
@@ -32,6 +32,15 @@ const PATIENCE: u64 = 40_000;
 
 /// How many columns of a pass are looked at for where runs end, at most.
 const COLUMNS_LOOKED_AT: u32 = 80;
+
+impl super::Plan {
+    /// Cycles a pixel, as plans of one scene are compared by where memory is no matter:
+    /// routines where pixels run, what begins rows, passes and runs, and no drawing.
+    pub fn cycles_a_pixel(&self) -> f64 {
+        let known = self.origin.0.scheduled(self.graph.clone());
+        Price::new(&known, self.runtime, Thrift::default()).cycles(&known)
+    }
+}
 
 /// How plans are priced.
 pub struct Price {
@@ -80,7 +89,8 @@ impl Price {
         let beside = Beside {
             graph: &plan.graph,
             runtime: self.runtime,
-            folded: folded(&plan.graph, &plan.tree, still.as_ref()),
+            // That ints are read as reals in place is a matter of writing, and left out.
+            folded: folded(&plan.graph, &plan.tree, still.as_ref(), &[]),
             routines,
         };
         // What begins a pass or run of columns is not carried out at each of them.
@@ -318,17 +328,16 @@ impl<C: Fn(&Statement) -> f64> Arithmetic for &Meter<'_, C> {
         self.exact.constant(value)
     }
 
-    /// The middle of its range, whatever it is now: a program whose params are
+    /// What the scene gives it, whatever it is now: a program whose params are
     /// edited keeps its plan.
     fn param(&self, id: ParamId) -> Value {
         let Some(param) = self.exact.0.params.get(id.0 as usize) else {
             return self.exact.param(id);
         };
-        let middle = param.range.map_or(1.0, |r| (r.lo + r.hi) / 2.0);
         match param.ty {
-            Type::Bool => Value::Bool(middle != 0.0),
-            Type::Int => Value::Int(middle as i32),
-            Type::Real => Value::Real(middle),
+            Type::Bool => Value::Bool(param.usual != 0.0),
+            Type::Int => Value::Int(param.usual as i32),
+            Type::Real => Value::Real(param.usual),
         }
     }
 

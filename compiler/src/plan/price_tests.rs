@@ -1,4 +1,4 @@
-//! Prices depend on what a param may be, not on what it is now.
+//! Prices depend on what the scene gives a param, not on what it is now.
 #![allow(clippy::unwrap_used)]
 
 use super::price::Price;

@@ -8,6 +8,7 @@
 use super::cheaper::Rewrite;
 use super::settled::{Settled, scheduled};
 use crate::flow::graph::*;
+use crate::passes::algebra::Proofs;
 use crate::passes::fold::fold;
 use crate::passes::narrow::narrow;
 use crate::range::Slack;
@@ -26,6 +27,8 @@ pub struct Workshop {
     pub origin: Graph,
     pub runtime: &'static Runtime,
     pub slack: Slack,
+    /// What was proved about its values.
+    pub proofs: Proofs,
     /// Those that were scheduled, by a hash of their nodes.
     scheduled: Mutex<FxHashMap<u64, Vec<Settled>>>,
     /// What was rewritten is known by its address, since it is kept above.
@@ -41,6 +44,7 @@ impl Workshop {
         Workshop {
             origin,
             runtime,
+            proofs: Proofs::default(),
             slack: Slack::of(runtime),
             scheduled: Mutex::default(),
             rewritten: Mutex::default(),

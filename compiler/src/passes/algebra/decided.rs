@@ -6,12 +6,14 @@
 //! towards it, say. The difference of a comparison's sides is a polynomial, or one
 //! with a root in it, whose sign is looked for in all boxes of its atoms' ranges
 //! ([`super::extent`]). It is decided only where it stays further from 0 than
-//! roundings can move it.
+//! roundings can move it. Where rays may miss a sphere, it need be decided for those
+//! alone that do not ([`super::halved`]).
 
 use super::allowance;
 use super::arithmetic::scaled;
 use super::extent::{known, negative, surely};
 use super::form::Forms;
+use super::halved::Proofs;
 use super::number::Number;
 use super::poly::{Atom, Poly};
 use crate::flow::graph::*;
@@ -26,7 +28,12 @@ const UNITS: f64 = 1024.0;
 
 /// The graph with comparisons that are decided as constants; nothing where there
 /// are none, or where the format has no relative roundings.
-pub fn decided(graph: &Graph, ranges: &Ranges, runtime: &Runtime) -> Option<Graph> {
+pub fn decided(
+    graph: &Graph,
+    ranges: &Ranges,
+    runtime: &Runtime,
+    proofs: &Proofs,
+) -> Option<Graph> {
     if allowance(runtime.real) < 1.0 {
         return None;
     }
@@ -35,7 +42,7 @@ pub fn decided(graph: &Graph, ranges: &Ranges, runtime: &Runtime) -> Option<Grap
     let reached = graph.reached();
     let asked = graph.ids().filter(|id| reached[id.0 as usize]);
     let found: HashMap<NodeId, bool> = asked
-        .filter_map(|id| Some((id, holds(&forms, id, margin)?)))
+        .filter_map(|id| Some((id, holds(&forms, id, margin, proofs)?)))
         .collect();
     (!found.is_empty()).then(|| {
         rebuild_old(graph, &mut |builder, _, id, span| {
@@ -46,7 +53,7 @@ pub fn decided(graph: &Graph, ranges: &Ranges, runtime: &Runtime) -> Option<Grap
 }
 
 /// Whether a comparison holds, if it does so, or does not, at every pixel.
-fn holds(forms: &Forms<'_>, id: NodeId, margin: f64) -> Option<bool> {
+fn holds(forms: &Forms<'_>, id: NodeId, margin: f64, proofs: &Proofs) -> Option<bool> {
     let less = [Op::Less, Op::LessEqual, Op::IntLess, Op::IntLessEqual];
     match forms.graph.node(id) {
         Node::Apply(op, [a, b]) if less.contains(&op) && forms.pixel(id) => {
@@ -54,7 +61,7 @@ fn holds(forms: &Forms<'_>, id: NodeId, margin: f64) -> Option<bool> {
             let difference = forms.sum(b, &scaled(a, Number::whole(-1)))?;
             match difference.parts.as_slice() {
                 // Roots are positive factors.
-                [part] => above(forms, &part.poly, margin),
+                [part] => above(forms, &part.poly, margin, proofs),
                 _ => None,
             }
         }
@@ -64,7 +71,7 @@ fn holds(forms: &Forms<'_>, id: NodeId, margin: f64) -> Option<bool> {
 
 /// Whether a polynomial with at most one root in it is always above 0; nothing
 /// where it is not always above 0 or always below.
-fn above(forms: &Forms<'_>, poly: &Poly, margin: f64) -> Option<bool> {
+fn above(forms: &Forms<'_>, poly: &Poly, margin: f64, proofs: &Proofs) -> Option<bool> {
     let of = |atom: Atom| known(forms, atom);
     let sign = |poly: &Poly| match surely(poly, &of, margin) {
         true => Some(true),
@@ -85,14 +92,30 @@ fn above(forms: &Forms<'_>, poly: &Poly, margin: f64) -> Option<bool> {
     let [p, q] = parts.as_slice() else {
         return None;
     };
-    let (p_above, q) = (sign(p)?, q.value()?);
-    if p_above == (q.real() > 0.0) {
-        return Some(p_above);
+    let (p_above, q) = (sign(p), q.value()?);
+    if p_above == Some(q.real() > 0.0) {
+        return p_above;
     }
     let n = match forms.get(argument)?.parts.as_slice() {
         [part] if part.roots.is_empty() => &part.poly,
         _ => return None,
     };
     let rest = p.mul(p)?.add(&negative(&n.scaled(q.mul(q))))?;
-    Some(sign(&rest)? == p_above)
+    if let (Some(p_above), Some(rest_above)) = (p_above, sign(&rest)) {
+        return Some(rest_above == p_above);
+    }
+    // A root is taken there only where it has something to be taken of.
+    let real = |of: NodeId| {
+        forms
+            .ranges
+            .args
+            .get(of.0 as usize)
+            .is_some_and(|a| a[0].lo >= 0.0)
+    };
+    let p_of_less = match q.real() > 0.0 {
+        true => negative(p),
+        false => p.clone(),
+    };
+    let holds = real(NodeId(atom)) && proofs.above_where_real([&p_of_less, &rest, n], &of, margin);
+    holds.then_some(q.real() < 0.0)
 }

@@ -92,6 +92,7 @@ impl<'a> Lower<'a> {
                 found
             }
         };
+        let usual = values.clone();
         if let Some((_, set)) = self
             .options
             .set
@@ -124,7 +125,8 @@ impl<'a> Lower<'a> {
             Freeze::Some(names) => names.contains(&param.name),
         };
         let mut nodes = Vec::new();
-        for (k, (value, range)) in values.into_iter().zip(ranges).enumerate() {
+        let values = values.into_iter().zip(usual);
+        for (k, ((value, usual), range)) in values.zip(ranges).enumerate() {
             nodes.push(match frozen {
                 true => self.b.constant(value, param.span),
                 false => self.b.param(graph::Param {
@@ -132,6 +134,7 @@ impl<'a> Lower<'a> {
                     component: component(param, k),
                     ty: value.ty(),
                     value: value.real(),
+                    usual: usual.real(),
                     range,
                     span: param.span,
                 }),

@@ -19,6 +19,29 @@ const LONGEST_SHORT: usize = 150;
 /// BASIC II's evaluator takes its room from the processor's stack of 256 bytes.
 const DEEPEST: usize = 6;
 
+/// A comparison of reals with the number that is the first of them written last:
+/// BASIC II keeps a real that it has read first for longer than a number.
+fn number_last(form: Form, op: Op, operands: &[Text]) -> Form {
+    let is_number = |text: &Text| text.text.bytes().all(|b| b.is_ascii_digit());
+    let turned = match op {
+        Op::Less => "{1}>{0}",
+        Op::LessEqual => "{1}>={0}",
+        _ => return form,
+    };
+    match form {
+        Form::Expression {
+            template: "{0}<{1}" | "{0}<={1}",
+            operands: needs,
+            level,
+        } if operands.first().is_some_and(is_number) => Form::Expression {
+            template: turned,
+            operands: needs,
+            level,
+        },
+        _ => form,
+    }
+}
+
 /// Writes the values of a plan.
 pub struct Expressions<'p> {
     pub plan: &'p Plan,
@@ -127,10 +150,11 @@ impl<'p> Expressions<'p> {
         let args = &args[..op.arity()];
         let guard = self.few_tests(id, routine.name, args);
         let operands: Vec<Text> = args.iter().map(|arg| self.read(*arg)).collect();
-        let text = filled(routine.form, &operands, false);
+        let form = number_last(routine.form, op, &operands);
+        let text = filled(form, &operands, false);
         let short = match &guard {
             Some(guard) => guard.form,
-            None => routine.form,
+            None => form,
         };
         let tests = guard.iter().flat_map(|g| g.tests.iter());
         let below = guard.as_ref().and_then(|g| g.below);
@@ -287,7 +311,12 @@ impl<'p> Expressions<'p> {
             };
             let left = side(self, 0);
             let right = side(self, 1);
-            return format!("{left}{sign}{right}");
+            return match number_last(routine.form, op, &[Text::operand(left.as_str())]) {
+                Form::Expression { template, .. } if template.starts_with("{1}") => {
+                    format!("{right}{}{left}", sign.replace('>', "<"))
+                }
+                _ => format!("{left}{sign}{right}"),
+            };
         }
         match text.text.strip_prefix("NOT ") {
             Some(inner) if self.inline.contains_key(&id) => inner.to_owned(),
@@ -304,5 +333,27 @@ impl<'p> Expressions<'p> {
         let known = plan.ranges.result.get(of.0 as usize)?.within(0.0, 1.0);
         let asks = known && plan.graph.constant(zero) == Some(Value::Int(0));
         (asks && self.inline.contains_key(&id)).then(|| self.read(of).text)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_are_compared_last() {
+        const LESS: Form = Form::Expression {
+            template: "{0}<{1}",
+            level: SUM,
+            operands: &[SUM, SUM],
+        };
+        let turned = |first: &str, op| {
+            let operands = [Text::operand(first), Text::operand("a")];
+            filled(number_last(LESS, op, &operands), &operands, false).text
+        };
+        assert_eq!(turned("0", Op::Less), "a>0");
+        assert_eq!(turned("b", Op::Less), "b<a");
+        // Ints are as quick either way.
+        assert_eq!(turned("0", Op::IntLess), "0<a");
     }
 }

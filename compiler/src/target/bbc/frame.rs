@@ -94,19 +94,26 @@ fn parameters(plan: &Plan, code: &mut Code<'_>, first: &str, last: &str) {
         "REM {}, {}x{} in {} inks, by slowlight for {}{page}",
         plan.name, mode.width, mode.height, mode.inks, plan.target.name
     ));
-    code.line("REM Change what you like here:");
+    let remark = |text: String| match plan.brief {
+        true => String::new(),
+        false => format!(":REM {text}"),
+    };
+    if !plan.brief {
+        code.line("REM Change what you like here:");
+    }
     for (k, (param, written)) in plan.graph.params.iter().zip(&plan.params).enumerate() {
         let name = code.values.names.param(k);
         let range = match &written.range {
-            Some((lo, hi)) => format!(":REM {lo} to {hi}"),
+            Some((lo, hi)) => remark(format!("{lo} to {hi}")),
             None => String::new(),
         };
         let text = format!("{name}={}{range}", written.text);
         code.lines.line(text, Some(param.span));
     }
     let (top, bottom) = screen::rows(plan);
+    let rows = remark(format!("rows to draw, from {top} to {bottom}"));
     code.line(format!(
-        "{first}={}:{last}={}:REM rows to draw, from {top} to {bottom}",
+        "{first}={}:{last}={}{rows}",
         plan.rows.0, plan.rows.1
     ));
 }

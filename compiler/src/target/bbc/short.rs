@@ -34,7 +34,9 @@ pub fn short(
     style: Style,
     spare: bool,
 ) -> Lines {
-    let (head, mut body) = lines.split_behind("REM rows to draw");
+    // The rows to draw, which are named last, stand at the parameter block's end.
+    let rows = keep.last().map_or(String::new(), |last| format!("{last}="));
+    let (head, mut body) = lines.split_behind(&rows);
     let seldom = match style {
         Style::Small => u64::MAX,
         _ => SELDOM,
