@@ -11,7 +11,6 @@ use crate::scene::{self, Scene};
 use crate::sema::Options;
 use crate::source::Diagnostic;
 use crate::target::{Target, default_mode, find};
-use slowlight_routine::Format;
 
 fn said(target: &str, scene: &Scene) -> Vec<Diagnostic> {
     let target = find(target).unwrap();
