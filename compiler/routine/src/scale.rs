@@ -67,7 +67,7 @@ pub fn shifted(value: i64, by: i32, bits: u8) -> i64 {
         _ if by < -48 => 0,
         _ => {
             let half = 1i64 << (-by - 1);
-            (value.abs() + half >> -by) * value.signum()
+            ((value.abs() + half) >> -by) * value.signum()
         }
     }
 }

@@ -11,6 +11,7 @@ mod assuming;
 pub mod error;
 mod interval;
 mod parity;
+mod pointed;
 mod refine;
 mod slack;
 mod trust;
@@ -19,7 +20,7 @@ use crate::flow::graph::*;
 use crate::flow::ramp;
 use crate::flow::tree::*;
 
-use crate::plan::points::sample::{held_by, readers};
+use crate::plan::points::sample::readers;
 pub use assuming::assuming;
 use interval::interval;
 use parity::whole;
@@ -173,16 +174,7 @@ impl Walk<'_> {
                     Origin::Node(id) => self.read(id),
                     Origin::Scratch(l, k) => self.carried_range(l, k),
                 };
-                let range = match (&self.slack.points, *from) {
-                    (Some(points), Origin::Node(id)) => {
-                        points.copied(self.graph, *place, Some(id), range)
-                    }
-                    (None, _) if self.slack.expects() => match held_by(&self.readers, *place) {
-                        Some(id) => self.slack.expected(id, range),
-                        None => range,
-                    },
-                    _ => range,
-                };
+                let range = self.given(*place, *from, range);
                 let range = match *place {
                     // What a subroutine left is still what it was computed for.
                     Place::Node(id) => self.trust(id, range),
@@ -209,10 +201,7 @@ impl Walk<'_> {
     /// Walks an arm under its condition; answers what it sets, and to what.
     fn arm(&mut self, cond: NodeId, holds: bool, block: &Block) -> Vec<(Place, Range)> {
         let saved = refine::refine(self.graph, &mut self.now, cond, holds);
-        if let Some(points) = &self.slack.points {
-            let doubt = points.doubt(self.graph, cond, holds);
-            self.doubted(&saved, doubt);
-        }
+        self.doubted(&saved, cond, holds);
         let assumed = self.assumed.len();
         self.assumed
             .extend(refine::claimed(self.graph, cond, holds));
@@ -222,26 +211,6 @@ impl Walk<'_> {
             self.now[id.0 as usize] = range;
         }
         self.sets(block)
-    }
-
-    /// Widens what a condition has narrowed: it compares what was rounded.
-    fn doubted(&mut self, saved: &[(NodeId, Range)], doubt: f64) {
-        if doubt == 0.0 {
-            return;
-        }
-        let mut seen = BTreeSet::new();
-        for (id, before) in saved.iter().filter(|(id, _)| seen.insert(*id)) {
-            let now = &mut self.now[id.0 as usize];
-            let doubt = match self.graph.ty(*id) {
-                Type::Int => doubt.ceil(),
-                _ => doubt,
-            };
-            let wide = Range {
-                nonzero: now.nonzero,
-                ..Range::new(now.lo - doubt, now.hi + doubt)
-            };
-            *now = before.meet(wide);
-        }
     }
 
     fn sets(&self, block: &Block) -> Vec<(Place, Range)> {
@@ -386,15 +355,7 @@ impl Walk<'_> {
         let at = id.0 as usize;
         let range = match self.graph.node(id) {
             Node::Apply(op, [a, b]) => {
-                let mut args = [self.read(a), self.read(b)];
-                let mut same = a == b;
-                if let Some(points) = &self.slack.points {
-                    let [to_a, to_b] = points.scales(id).args;
-                    same &= to_a == to_b;
-                    for (k, arg) in args.iter_mut().enumerate().take(op.arity()) {
-                        *arg = points.operand(self.graph, id, k, *arg);
-                    }
-                }
+                let (args, same) = self.operands(id, op, [a, b]);
                 let exact = whole(self.graph, id, args, interval(op, args, same));
                 let exact = self.part_of_length(id, exact);
                 if self.shared[at] == Some(true) {

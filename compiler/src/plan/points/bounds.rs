@@ -56,15 +56,15 @@ impl Points {
     }
 
     /// What a place has that is given a value.
-    pub fn copied(&self, graph: &Graph, place: Place, from: Option<NodeId>, range: Range) -> Range {
-        let (Place::Carried(..) | Place::Scratch(..) | Place::Node(_)) = place;
+    pub fn copied(&self, graph: &Graph, place: Place, from: NodeId, range: Range) -> Range {
         let to = self.place(place);
-        match from {
-            Some(id) if graph.ty(id) != Type::Real => range,
-            // The nearest of a constant.
-            Some(id) if graph.constant(id).is_some() => self.held(range, to, 0.5),
-            Some(id) => self.moved_range(range, self.own(id), to),
-            None => range,
+        if graph.ty(from) != Type::Real {
+            return range;
+        }
+        match graph.constant(from) {
+            // The nearest.
+            Some(_) => self.held(range, to, 0.5),
+            None => self.moved_range(range, self.own(from), to),
         }
     }
 

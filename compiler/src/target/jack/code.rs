@@ -205,40 +205,6 @@ impl<'p> Code<'p> {
         self.text.close("}");
     }
 
-    fn set(&mut self, place: Place, from: Origin) {
-        let format = self.plan.place_format(place);
-        let from_id = match from {
-            Origin::Node(id) => Some(id),
-            Origin::Scratch(..) => None,
-        };
-        let from = match from {
-            Origin::Node(id) => self.read(id),
-            Origin::Scratch(l, k) => Expression::term(self.names.home(Place::Scratch(l, k))),
-        };
-        let home = self.home(place, format);
-        if let Format::Log { .. } = format {
-            return self.set_log((place, &home), (from_id, &from.text));
-        }
-        if let (Some(points), Some(id), Format::Fixed { frac, .. }) =
-            (self.points(), from_id, format)
-        {
-            let from = self.read_at(points, id, frac).text;
-            if from != home {
-                self.text.line(format!("let {home} = {from};"));
-            }
-            return;
-        }
-        if from.text == home {
-            return;
-        }
-        if let Format::Float316 { .. } = format {
-            self.needs.insert("Float.copy");
-            self.text.line(format!("do {home}.copy({});", from.text));
-        } else {
-            self.text.line(format!("let {home} = {};", from.text));
-        }
-    }
-
     pub fn line(&mut self, text: impl Into<String>) {
         self.text.line(text);
     }

@@ -22,7 +22,7 @@
 //! Logarithmic reals are two fields each, an int and a sign; nothing is made for them, nor
 //! for fixed-point reals, which are ints.
 //!
-//! - `names`: what everything is called; `code`: statements and expressions; `logs`:
+//! - `names`: what everything is called; `code`: statements and expressions; `copies`: of values; `logs`:
 //!   those of logarithmic reals; `fixed`: those in fixed point; `lookup`: entries of tables;
 //! - `object`: constants and params; `making`: what fills the fields at the start;
 //! - `frame`: the classes around; `canvas`: words of the screen; `spread`: error diffusion; `statics`: which values
@@ -30,6 +30,7 @@
 
 mod canvas;
 mod code;
+mod copies;
 mod expression;
 mod fixed;
 mod frame;
