@@ -179,9 +179,12 @@ fn heap(documents: &[Document]) -> Need {
             floats += 1;
         }
     }
-    let classes = documents.iter().skip(2).flat_map(|d| d.text.lines());
-    let tables = classes.filter_map(array).map(|size| size + HEADER);
     let float = 3 + HEADER;
+    let classes = documents.iter().skip(2).flat_map(|d| d.text.lines());
+    let arithmetic = classes.filter_map(|line| match line.contains("= Float.new(") {
+        true => Some(float),
+        false => array(line).map(|size| size + HEADER),
+    });
     Need {
         unit: "words",
         parts: vec![
@@ -189,7 +192,7 @@ fn heap(documents: &[Document]) -> Need {
             ("numbers", floats * float),
             ("tables", arrays),
             ("errors", rows * float),
-            ("arithmetic", tables.sum()),
+            ("arithmetic", arithmetic.sum()),
         ],
         room: HEAP,
     }

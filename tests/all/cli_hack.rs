@@ -105,7 +105,6 @@ fn a_scene_draws_the_same_from_the_rom() {
         for wanted in [
             "Main.jack",
             "Math.jack",
-            "Screen.jack",
             "Sys.jack",
             "Main.hack",
             "Main.asm",

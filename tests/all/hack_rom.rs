@@ -89,6 +89,8 @@ fn pictures_that_begin_within_a_word() {
         (31, 256),
         (520, 3),
         (30, 260),
+        // Far below the screen's first row there are none to draw.
+        (16, 4096),
     ];
     for (width, height) in places {
         let source = format!(
@@ -97,7 +99,13 @@ fn pictures_that_begin_within_a_word() {
         );
         let dir = directory(&[("dots.scn", &source)]);
         let run = |more: &[&str]| {
-            let args = ["run", "dots.scn", "-t", "jack", "--json"];
+            let middle = format!("{}..{}", height / 2 - 1, height / 2);
+            let rows = if height > 256 {
+                middle
+            } else {
+                format!("0..{}", height - 1)
+            };
+            let args = ["run", "dots.scn", "-t", "jack", "--json", "--rows", &rows];
             json(dir.path(), &[&args[..], more].concat())
         };
         let rom = run(&["--os", "jack"]);

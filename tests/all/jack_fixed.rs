@@ -196,3 +196,46 @@ fn what_cannot_be_computed_is_refused_with_its_place() {
     let said = planned(source, &[], None).unwrap_err();
     assert!(said.contains("fixed16 is a fixed-point format"), "{said}");
 }
+
+/// Where a constant has no digits left, an int is another than that of exact reals.
+#[test]
+fn ints_of_what_is_rounded_away_are_the_models() {
+    for draw in [
+        "ink(ceil(y * 0.001 + 0.0000001) - 1)",
+        "threshold(sqrt(y * 0.001 + 0.0000001), bayer(2)[x mod 2, y mod 2])",
+        "ink(ceil(sqrt(p * p + 0.0000000001)) - 1)",
+    ] {
+        let source = format!(
+            "image 16 x 8 inks black, white; param p: real = 0 in 0 .. 3; draw (x, y) = {draw};"
+        );
+        let plan = planned(&source, &[], None).unwrap();
+        agrees(&plan, &documents(&plan), &source);
+    }
+}
+
+/// An edited program is the one that would be made for the edited param.
+#[test]
+fn points_are_those_of_the_scene_whatever_its_params_are_set_to() {
+    let source =
+        "image 24 x 12 inks black, white; param eye: vec3 = (1, 2, 3) in (0, 0, 0) .. (100, 9, 9);
+        draw (x, y) = ink(floor(1 / (x * 0.2 + eye.x) * (y + eye.y) * 999 / (1 + eye.z)) mod 2);";
+    let lines = |set: &[f64]| {
+        let plan = planned(source, set, None).unwrap();
+        let text: String = documents(&plan).iter().map(|d| d.text.clone()).collect();
+        let other = text.lines().filter(|line| !line.contains("let eye_"));
+        other.map(str::to_owned).collect::<Vec<_>>()
+    };
+    assert_eq!(lines(&[]), lines(&[0.01, 8.0, 0.5]));
+    assert_eq!(lines(&[]), lines(&[99.0, 0.0, 9.0]));
+}
+
+#[test]
+fn a_threshold_that_nothing_reaches_takes_no_digits_from_others() {
+    let source = "image 24 x 12 inks black, white; param k: real = 1 in 0 .. 2;
+        draw (x, y) = threshold(x / 24 / k, bayer(4)[x mod 4, y mod 4]);";
+    let plan = planned(source, &[], None).unwrap();
+    let run = agrees(&plan, &documents(&plan), source);
+    let mut native = Native::new(&plan.graph);
+    let off = differences(&plan, &run, |x, y| native.pixel(x, y).ink);
+    assert!(off <= 6, "{off}");
+}

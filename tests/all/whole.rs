@@ -27,9 +27,9 @@ const CASES: [Case; 3] = [
         most: 12,
         source: "mirrors.bas",
         edits: [
-            ("eye_x=0:", "eye_x=0.35:"),
-            ("eye_y=-0.1:", "eye_y=0.25:"),
-            ("eye_z=3:", "eye_z=3.6:"),
+            ("eye_x=0", "eye_x=0.35"),
+            ("eye_y=-0.1", "eye_y=0.25"),
+            ("eye_z=3", "eye_z=3.6"),
         ],
     },
     Case {

@@ -29,6 +29,8 @@ pub struct Slack {
     expected: Vec<Option<f64>>,
     /// Where each real's point is, in formats that leave that to the plan.
     pub(super) points: Option<Points>,
+    /// Whether they have points that are nowhere yet.
+    unknown: bool,
     /// What has routines for these.
     runtime: Option<&'static Runtime>,
 }
@@ -48,6 +50,7 @@ impl Slack {
             ints: Range::new(f64::from(i32::MIN), f64::from(i32::MAX)),
             expected: Vec::new(),
             points: None,
+            unknown: false,
             runtime: None,
         }
     }
@@ -58,6 +61,7 @@ impl Slack {
         Slack {
             expected,
             relative: true,
+            unknown: false,
             ..Slack::of(runtime)
         }
     }
@@ -66,6 +70,7 @@ impl Slack {
     pub fn with_points(runtime: &'static Runtime, points: Points) -> Slack {
         Slack {
             points: Some(points),
+            unknown: false,
             runtime: Some(runtime),
             ..Slack::of(runtime)
         }
@@ -97,6 +102,7 @@ impl Slack {
             ints: ends(runtime.int),
             expected: Vec::new(),
             points: None,
+            unknown: matches!(runtime.real, Format::Scaled { .. }),
             runtime: None,
         }
     }
@@ -104,6 +110,12 @@ impl Slack {
     /// An operation's result with what its routines may add, as the node's place holds it.
     pub(super) fn result(&self, id: NodeId, op: Op, args: &[Range], exact: Range) -> Range {
         if op.result() != Type::Real {
+            let real = op.args().first() == Some(&Type::Real);
+            // A real whose last place is nowhere yet may be rounded to any int's.
+            let exact = match op.result() {
+                Type::Int if real && self.unknown && op != Op::Sign => self.ints,
+                _ => exact,
+            };
             return self.rounded(op, args, exact);
         }
         if let Some(points) = &self.points {

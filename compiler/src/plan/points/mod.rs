@@ -233,12 +233,25 @@ pub fn divided(runtime: &Runtime, own: i8) -> Option<&'static Routine> {
     runtime.routines.iter().find(fits)
 }
 
-/// The greatest magnitude in a table.
+/// The greatest magnitude in a table that is to have room. What is beyond all ints, a
+/// threshold that nothing reaches, saturates above the others.
 fn greatest(graph: &Graph, table: TableId) -> f64 {
     let table = graph.tables.get(table.0 as usize);
     let entries = table.iter().flat_map(|t| &t.entries);
-    entries.fold(0.0, |most, e| f64::max(most, e.value().real().abs()))
+    let sizes: Vec<f64> = entries.map(|e| e.value().real().abs()).collect();
+    let most = |sizes: &mut dyn Iterator<Item = &f64>| sizes.fold(0.0, |a, b| f64::max(a, *b));
+    let all = most(&mut sizes.iter());
+    let near = most(&mut sizes.iter().filter(|size| **size < BEYOND));
+    match all < BEYOND || near == 0.0 {
+        true => all,
+        false => ABOVE * near,
+    }
 }
+
+/// From where on entries of a table are beyond all ints, and how far above the others
+/// they are then.
+const BEYOND: f64 = 32768.0;
+const ABOVE: f64 = 3.0;
 
 /// Leaves a value the bits that somebody reads.
 fn read_at_most(graph: &Graph, own: &mut [i8]) {

@@ -183,7 +183,10 @@ impl Arithmetic for &Watch<'_> {
         let part = self.part(id.0);
         let value = range.lo + part * (range.hi - range.lo);
         match param.ty {
-            _ if self.choice == 0 => own,
+            // As the scene has it: a program whose params are edited keeps its points.
+            Type::Bool if self.choice == 0 => Value::Bool(param.usual != 0.0),
+            Type::Int if self.choice == 0 => Value::Int(param.usual as i32),
+            Type::Real if self.choice == 0 => Value::Real(param.usual),
             Type::Bool => Value::Bool(part > 0.5),
             Type::Int => Value::Int(value.round() as i32),
             Type::Real => Value::Real(value),

@@ -62,9 +62,11 @@ impl Canvas {
             text.line(format!("let {word} = {word} + {word};"));
             times += times;
         }
-        text.line(match first {
-            0.. => format!("let {word} = {word} + {first};"),
-            _ => format!("let {word} = {word} - {};", first.unsigned_abs()),
+        // Words wrap, as the row's number times their number has.
+        text.line(match first as i16 {
+            first @ 0.. => format!("let {word} = {word} + {first};"),
+            i16::MIN => format!("let {word} = {word} + 16384 + 16384;"),
+            first => format!("let {word} = {word} - {};", first.unsigned_abs()),
         });
         text.line(format!("let {bits} = 0;"));
         // The highest bit is no constant of Jack's.
