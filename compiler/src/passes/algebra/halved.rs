@@ -19,7 +19,14 @@ const NUMBERS: usize = 1 << 12;
 /// What was asked for, with the atoms' bounds, and whether it holds: plans of one scene
 /// ask the same.
 #[derive(Default)]
-pub struct Proofs(Mutex<Vec<([Poly; 3], Vec<Range>, bool)>>);
+pub struct Proofs(Mutex<Vec<Proof>>);
+
+/// The polynomials, the bounds of their atoms, and what was found.
+struct Proof {
+    polys: [Poly; 3],
+    sides: Vec<Range>,
+    holds: bool,
+}
 
 impl Proofs {
     /// Whether p - sqrt(n) is above 0 wherever n is not below 0: p is, and p² - n
@@ -36,12 +43,16 @@ impl Proofs {
         atoms.dedup();
         let sides: Vec<Range> = atoms.iter().map(|atom| of(*atom)).collect();
         let held = || self.0.lock().unwrap_or_else(PoisonError::into_inner);
-        let same =
-            |known: &&([Poly; 3], Vec<Range>, bool)| known.0.iter().eq(polys) && known.1 == sides;
-        let known = held().iter().find(same).map(|known| known.2);
+        let same = |known: &&Proof| known.polys.iter().eq(polys) && known.sides == sides;
+        let known = held().iter().find(same).map(|known| known.holds);
         known.unwrap_or_else(|| {
             let holds = above(polys, &atoms, &sides, margin);
-            held().push((polys.map(Poly::clone), sides, holds));
+            let polys = polys.map(Poly::clone);
+            held().push(Proof {
+                polys,
+                sides,
+                holds,
+            });
             holds
         })
     }
