@@ -60,8 +60,7 @@ fn a_torus_in_logarithms() {
 fn a_torus_in_fixed_point() {
     let options = ["--rows", "90..91", "--freeze", "all", "--format", "fixed16"];
     let (share, words) = same("torus", &options);
-    // Products and quotients are the system's calls here, one command each on the VM.
-    assert!(share < 15.0 && words < 20_000, "{share} {words}");
+    assert!(share < 2.0 && words < 20_000, "{share} {words}");
 }
 
 #[test]
