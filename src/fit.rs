@@ -8,7 +8,7 @@
 
 use crate::failure::{Failure, Outcome};
 use crate::machine::Machine;
-use crate::need::{Need, need};
+use crate::need::{Need, need, need_beside};
 use crate::trial::build_for;
 use slowlight_compiler::flow::graph::Table;
 use slowlight_compiler::plan::Plan;
@@ -205,8 +205,9 @@ fn as_is_or_tight(mut plan: Plan) -> Outcome<Fitted> {
     })
 }
 
-/// A plan whose program fits the ROM of the Hack's processor as well: short, or with
-/// subroutines, where it does not without.
+/// A plan whose program fits the ROM of the Hack's processor as well, and its heap beside
+/// the operating system's part of it: short, or with subroutines, where it does not
+/// without.
 ///
 /// # Errors
 /// By how many words it does not, and what would help.
@@ -217,7 +218,10 @@ pub fn fit_rom(
 ) -> Outcome<Plan> {
     // The text is ours: its size is all that the machine's tools can refuse.
     let refused = |plan: &Plan| match build_for(plan, machine) {
-        Ok(_) => Ok(None),
+        Ok(built) => {
+            let need = need_beside(plan, &built.loaded.system);
+            Ok((!need.fits()).then(|| need.text()))
+        }
         Err(Failure::Wrong(said)) => Ok(Some(said)),
         Err(other) => Err(other),
     };
@@ -236,8 +240,8 @@ pub fn fit_rom(
         }
     }
     Err(Failure::Wrong(format!(
-        "{} does not fit the ROM with its operating system: {said}\n{}; run it on the VM, where \
-         code takes no memory (--os native)",
+        "{} does not fit the Hack with its operating system: {said}\n{}; run it on the VM, where \
+         code and the system take no memory (--os native)",
         plan.name,
         help(&plan)
     )))

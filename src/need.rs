@@ -6,6 +6,7 @@
 
 use crate::failure::{Failure, Outcome};
 use crate::format::count;
+use crate::machine::File;
 use slowlight_compiler::flow::tree::{Statement, Tree, walk};
 use slowlight_compiler::plan::Plan;
 use slowlight_compiler::target::Document;
@@ -24,6 +25,9 @@ const BASIC_CALL: u64 = 28;
 /// Words of the Hack computer's heap, and those that each object has beside its own.
 const HEAP: u64 = 16384 - 2048;
 const HEADER: u64 = 2;
+
+/// Words of a string beside its characters: how many it has and may have.
+const STRING: u64 = 2;
 
 /// What a program takes of a machine's memory.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -73,13 +77,19 @@ pub fn need(plan: &Plan) -> Outcome<Option<Need>> {
         "bbc:agon" => Dialect::Agon,
         "bbc:basicv" => Dialect::BasicV,
         "6502:plain" => return Ok(documents.first().map(assembly)),
-        "jack" => return Ok(Some(heap(&documents))),
+        "jack" => return Ok(Some(heap(&documents, &[]))),
         _ => return Ok(None),
     };
     match documents.first() {
         Some(document) => basic(plan, document, dialect),
         None => Ok(None),
     }
+}
+
+/// What a plan's program takes of the Hack's heap where this operating system has its
+/// part of it.
+pub fn need_beside(plan: &Plan, system: &[File]) -> Need {
+    heap(&(plan.target.emit)(plan), system)
 }
 
 fn basic(plan: &Plan, document: &Document, dialect: Dialect) -> Outcome<Option<Need>> {
@@ -159,10 +169,10 @@ fn assembly(document: &Document) -> Need {
 }
 
 /// The heap of a Jack program before it draws: one object of fields, Floats and
-/// arrays, and the tables of its classes. Rows of errors are filled in a loop, of Floats
-/// with one an element.
-fn heap(documents: &[Document]) -> Need {
-    let (mut fields, mut floats, mut arrays, mut rows) = (0, 0, 0, 0);
+/// arrays, the tables of its classes and of the system's, and the longest message. Rows
+/// of errors are filled in a loop, of Floats with one an element.
+fn heap(documents: &[Document], system: &[File]) -> Need {
+    let (mut fields, mut floats, mut arrays, mut rows, mut message) = (0, 0, 0, 0, 0);
     // Behind `Main` comes the scene's class.
     let scene = documents.get(1).map_or("", |d| d.text.as_str());
     let of_floats = scene.contains("] = Float.new()");
@@ -177,6 +187,9 @@ fn heap(documents: &[Document]) -> Need {
             }
         } else if line.contains("= Float.constant(") || line.contains("= Float.new(") {
             floats += 1;
+        } else if let Some((_, said)) = line.split_once("Output.printString(\"") {
+            let length = said.split('"').next().unwrap_or_default().len() as u64;
+            message = message.max(length + STRING + HEADER);
         }
     }
     let float = 3 + HEADER;
@@ -185,14 +198,25 @@ fn heap(documents: &[Document]) -> Need {
         true => Some(float),
         false => array(line).map(|size| size + HEADER),
     });
+    let system: u64 = (system.iter())
+        .map(|file| {
+            file.as_text()
+                .lines()
+                .filter_map(array)
+                .map(|size| size + HEADER)
+                .sum::<u64>()
+        })
+        .sum();
     Need {
-        unit: "words",
+        unit: "words of heap",
         parts: vec![
             ("fields", fields + HEADER),
             ("numbers", floats * float),
             ("tables", arrays),
             ("errors", rows * float),
             ("arithmetic", arithmetic.sum()),
+            ("messages", message),
+            ("operating system", system),
         ],
         room: HEAP,
     }

@@ -59,12 +59,7 @@ pub fn values(plan: &Plan, unedited: &[Document], edited: &[File]) -> Outcome<Va
         .iter()
         .find_map(|d| Some((d.name.as_str(), block(plan, &d.text)?)))
         .ok_or_else(|| Failure::Wrong("the program has no parameter block".to_owned()))?;
-    let source = match edited {
-        [only] => only,
-        many => many.iter().find(|f| f.name == file).ok_or_else(|| {
-            Failure::Wrong(format!("{file}, which has the parameters, is missing"))
-        })?,
-    };
+    let source = source(edited, file)?;
     let text = source.as_text();
     for ((param, written), name) in plan.graph.params.iter().zip(&plan.params).zip(names) {
         let value = value(written, name, &source.name, &text)?;
@@ -76,6 +71,70 @@ pub fn values(plan: &Plan, unedited: &[Document], edited: &[File]) -> Outcome<Va
     Ok(found)
 }
 
+/// The edited source that stands for an unedited one.
+fn source<'f>(edited: &'f [File], name: &str) -> Outcome<&'f File> {
+    match edited {
+        [only] => Ok(only),
+        many => many
+            .iter()
+            .find(|f| f.name == name)
+            .ok_or_else(|| Failure::Wrong(format!("{name}, which has the parameters, is missing"))),
+    }
+}
+
+/// The rows that the edited sources draw. `plan` and `unedited` are the scene's own.
+///
+/// # Errors
+/// Where a line is missing or the screen has no such rows.
+pub fn rows(plan: &Plan, unedited: &[Document], edited: &[File]) -> Outcome<(u32, u32)> {
+    let found = unedited
+        .iter()
+        .find_map(|d| Some((d, row_names(plan, &d.text)?)));
+    let Some((document, names)) = found else {
+        return Ok(plan.rows);
+    };
+    let source = source(edited, &document.name)?;
+    let text = source.as_text();
+    let (least, greatest) = plan.shown_rows();
+    let row = |name: &str| {
+        let (number, line) = written(name, &source.name, &text)?;
+        let row = number.parse().ok();
+        let row = row.filter(|row| (least..=greatest).contains(row));
+        row.ok_or_else(|| {
+            let what = format!("{}:{line}: `{number}` is no value for {name}", source.name);
+            Failure::Wrong(format!("{what}: the screen shows rows {least}..{greatest}"))
+        })
+    };
+    let [first, last] = names;
+    match (row(first)?, row(last)?) {
+        rows if rows.0 <= rows.1 => Ok(rows),
+        (from, to) => {
+            let what = format!(
+                "{}: it draws no row: {first} is {from}, {last}",
+                source.name
+            );
+            Err(Failure::Wrong(format!("{what} {to}")))
+        }
+    }
+}
+
+/// What an unedited text calls the first and last row that it draws: they are given
+/// their values one behind the other.
+fn row_names<'d>(plan: &Plan, text: &'d str) -> Option<[&'d str; 2]> {
+    let params = block(plan, text)?;
+    let all: Vec<(&str, &str)> = text.lines().flat_map(assignments).collect();
+    let is = |(name, value): (&str, &str), label: &str, row: u32| {
+        (stands_for(name, label) || stands_for(name, &format!("{label}_row")))
+            && value == row.to_string()
+            && !params.contains(&name)
+    };
+    all.windows(2).find_map(|pair| {
+        let [first, last] = [*pair.first()?, *pair.get(1)?];
+        let rows = is(first, "first", plan.rows.0) && is(last, "last", plan.rows.1);
+        rows.then_some([first.0, last.0])
+    })
+}
+
 /// What an unedited text calls the params, if it has the parameter block: lines
 /// in the params' order, with their values.
 fn block<'d>(plan: &Plan, text: &'d str) -> Option<Vec<&'d str>> {
@@ -84,7 +143,7 @@ fn block<'d>(plan: &Plan, text: &'d str) -> Option<Vec<&'d str>> {
     for param in &plan.params {
         let expected: f64 = param.text.parse().ok()?;
         let name = lines.find_map(|line| {
-            let (name, value) = assigned(line)?;
+            let (name, value) = assignments(line).next()?;
             let same = value.parse::<f64>().is_ok_and(|v| v == expected);
             (same && stands_for(name, &param.label)).then_some(name)
         })?;
@@ -108,16 +167,19 @@ fn is_digits(text: &str) -> bool {
     text.bytes().all(|b| b.is_ascii_digit())
 }
 
-fn value(param: &ParamPlan, name: &str, file: &str, text: &str) -> Outcome<f64> {
-    let mut lines = text.lines().zip(1..);
-    let found = lines.find_map(|(line, number)| {
-        let (found, value) = assigned(line)?;
-        (found == name).then_some((value, number))
-    });
-    let Some((number, line)) = found else {
+/// What a text gives to a name at first, and in which line.
+fn written<'t>(name: &str, file: &str, text: &'t str) -> Outcome<(&'t str, u32)> {
+    let mut all =
+        (text.lines().zip(1..)).flat_map(|(line, n)| assignments(line).map(move |a| (a, n)));
+    let found = all.find_map(|((found, value), line)| (found == name).then_some((value, line)));
+    found.ok_or_else(|| {
         let message = format!("{file}: the parameter block has no line `{name} = number`");
-        return Err(Failure::Wrong(message));
-    };
+        Failure::Wrong(message)
+    })
+}
+
+fn value(param: &ParamPlan, name: &str, file: &str, text: &str) -> Outcome<f64> {
+    let (number, line) = written(name, file, text)?;
     let odd = |why: &str| {
         let message = format!("{file}:{line}: `{number}` is no value for {name}: {why}");
         Failure::Wrong(message)
@@ -131,10 +193,14 @@ fn value(param: &ParamPlan, name: &str, file: &str, text: &str) -> Outcome<f64> 
     }
 }
 
-/// The name and the value of a line that gives one to the other.
-fn assigned(line: &str) -> Option<(&str, &str)> {
+/// The names and the values of a line's statements that give one to the other.
+fn assignments(line: &str) -> impl Iterator<Item = (&str, &str)> {
     let line = line.trim_start();
     let line = line.trim_start_matches(|c: char| c.is_ascii_digit());
+    line.split(':').filter_map(assigned)
+}
+
+fn assigned(line: &str) -> Option<(&str, &str)> {
     let line = line.trim_start();
     let line = line
         .strip_prefix("let ")
@@ -146,7 +212,7 @@ fn assigned(line: &str) -> Option<(&str, &str)> {
     if name.is_empty() || !name.chars().all(identifier) {
         return None;
     }
-    let value = value.split([';', ':']).next().unwrap_or(value);
+    let value = value.split(';').next().unwrap_or(value);
     let value = value.split("//").next().unwrap_or(value);
     let value = value.split("REM").next().unwrap_or(value);
     Some((name, value.trim()))
@@ -158,6 +224,7 @@ mod tests {
 
     #[test]
     fn values_are_read_in_every_dialect() {
+        let first = |line| assignments(line).next();
         for line in [
             "eye_y = -0.1",
             "   40 eye_y=-0.1",
@@ -166,9 +233,10 @@ mod tests {
             "  let eye_y = -0.1; // up",
             "eye_y = -0.1 ; up",
         ] {
-            assert_eq!(assigned(line), Some(("eye_y", "-0.1")), "{line}");
+            assert_eq!(first(line), Some(("eye_y", "-0.1")), "{line}");
         }
-        assert_eq!(assigned("30 n%=2"), Some(("n%", "2")));
+        let both: Vec<_> = assignments("50first%=0:last%=239:REM rows").collect();
+        assert_eq!(both, [("first%", "0"), ("last%", "239")]);
         for line in [
             "; eye_y = 1",
             "eye_y + 1 = 2",
@@ -177,7 +245,7 @@ mod tests {
             "= 1",
             "",
         ] {
-            assert_eq!(assigned(line), None, "{line}");
+            assert_eq!(first(line), None, "{line}");
         }
     }
 

@@ -99,7 +99,9 @@ fn prepare(args: &Args, scene: &Scene) -> Outcome<(Plan, program::Values, Loaded
     let sources = program::read(dir, &scene.name, machine)?;
     let unedited = (args.target.emit)(&plan);
     let set = program::values(&plan, &unedited, &sources)?;
-    let plan = args.screen.plan(scene, args.target, &set)?;
+    let rows = program::rows(&plan, &unedited, &sources)?;
+    let mut plan = args.screen.plan(scene, args.target, &set)?;
+    plan.rows = rows;
     Ok((plan, set, machine.load(&sources)?))
 }
 

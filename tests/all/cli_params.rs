@@ -13,12 +13,14 @@ fn with_value(text: &str, label: &str, value: impl Fn(&str) -> String) -> Option
             let number = rest[equals + 1..].trim_start();
             let end = number.find(|c: char| !c.is_ascii_digit() && c != '.' && c != '-');
             let number = &number[..end.unwrap_or(number.len())];
-            (rest[..equals].trim().is_empty() && !number.is_empty()).then_some(number)
+            let head = &line[..line.len() - rest.len() + equals + 1];
+            (rest[..equals].trim().is_empty() && !number.is_empty()).then_some((head, number))
         });
         match assigned {
-            Some(number) if !found => {
+            Some((head, number)) if !found => {
                 found = true;
-                line.replacen(number, &value(number), 1)
+                let tail = line[head.len()..].replacen(number, &value(number), 1);
+                format!("{head}{tail}")
             }
             _ => line.to_owned(),
         }
@@ -122,4 +124,42 @@ fn parameters_are_found_under_any_name() {
 fn double(number: &str) -> String {
     let old: f64 = number.parse().expect("a number");
     (2.0 * old).to_string()
+}
+
+#[test]
+fn edited_rows_are_the_picture() {
+    let dir = directory(&[("spot.scn", SPOT)]);
+    let dir = dir.path();
+    for target in targets(dir) {
+        built(dir, &target);
+        let out = dir.join("out");
+        let run = ["run", "spot.scn", "--target", &target, "--program", "out"];
+        let set = |row: &str, number: &str| {
+            let names = [format!("{row}_row"), format!("{row}%")];
+            let edited = names
+                .iter()
+                .map(|name| edit(&out, |t| with_value(t, name, |_| number.to_owned())));
+            assert_eq!(edited.sum::<usize>(), 1, "{target}");
+        };
+        set("first", "1");
+        set("last", "3");
+        let edited = json(dir, &[&run[..], &["--json"]].concat());
+        assert_eq!(edited["differs_from_model"], 0, "{target}");
+        assert_eq!(edited["height"], 3, "{target}");
+        let rows = ["run", "spot.scn", "-t", &target, "--rows", "1..3", "--json"];
+        let rows = json(dir, &rows);
+        assert_eq!(edited["inks_sha256"], rows["inks_sha256"], "{target}");
+
+        let fails = |part: &str| {
+            let output = slowlight(dir, &run);
+            let said = String::from_utf8_lossy(&output.stderr);
+            assert_eq!(output.status.code(), Some(1), "{target}: {said}");
+            assert!(said.contains(part), "{target}: {said}");
+        };
+        set("last", "300");
+        fails("the screen shows rows");
+        set("last", "0");
+        fails("it draws no row");
+        std::fs::remove_dir_all(out).expect("removed");
+    }
 }

@@ -230,7 +230,7 @@ fn gathering(runtime: &'static Runtime) -> Option<&'static Routine> {
 
 /// Where the picture stands on the screen, and which of it is seen: centred
 /// where the screen is larger, cropped where it is smaller.
-fn frame(image: &Image, mode: &Mode) -> ((i32, i32), (u32, u32), (u32, u32)) {
+pub(super) fn frame(image: &Image, mode: &Mode) -> ((i32, i32), (u32, u32), (u32, u32)) {
     let axis = |picture: u32, screen: u32| {
         let offset = (i64::from(screen) - i64::from(picture)).div_euclid(2);
         let first = (-offset).max(0);

@@ -172,6 +172,11 @@ impl Plan {
         self.routines.get(id.0 as usize).copied().flatten()
     }
 
+    /// First and last picture row that the screen has.
+    pub fn shown_rows(&self) -> (u32, u32) {
+        made::frame(&self.graph.image, &self.mode).2
+    }
+
     /// The routine that adds what a pixel sends to what another has received
     /// so far, in that order, where the graph spreads its error.
     pub fn gather(&self) -> Option<&'static Routine> {

@@ -110,7 +110,7 @@ fn parameters(plan: &Plan, code: &mut Code<'_>, first: &str, last: &str) {
         let text = format!("{name}={}{range}", written.text);
         code.lines.line(text, Some(param.span));
     }
-    let (top, bottom) = screen::rows(plan);
+    let (top, bottom) = plan.shown_rows();
     let rows = remark(format!("rows to draw, from {top} to {bottom}"));
     code.line(format!(
         "{first}={}:{last}={}{rows}",
@@ -319,7 +319,7 @@ fn setup(plan: &Plan, code: &mut Code<'_>, parts: &[&Part], first: &str, last: &
             code.statement(format!("{name}={name}<>0"));
         }
     }
-    let (top, bottom) = screen::rows(plan);
+    let (top, bottom) = plan.shown_rows();
     code.line(format!(
         "IF {first}<{top} OR {last}>{bottom} OR {first}>{last} THEN PRINT \"rows must be from {top} to {bottom}\":END"
     ));

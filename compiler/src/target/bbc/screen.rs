@@ -133,14 +133,6 @@ fn linear(constant: i64, factor: i64, name: &str) -> String {
     }
 }
 
-/// The first and last picture row that the screen has.
-pub fn rows(plan: &Plan) -> (i64, i64) {
-    let top = i64::from(plan.offset.1);
-    let screen = i64::from(plan.mode.height);
-    let picture = i64::from(plan.graph.image.height);
-    ((-top).max(0), (screen - top).min(picture) - 1)
-}
-
 /// How a run of pixels whose inks are known, every `stride`th of a row, is plotted
 /// up to column `to`.
 pub fn run(plan: &Plan, code: &mut Code<'_>, to: &str, stride: u32) -> Draw {

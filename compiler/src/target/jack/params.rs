@@ -4,17 +4,9 @@ use super::code::Code;
 use super::expression::int;
 use super::frame::line;
 use super::{Line, Text};
-use crate::plan::{ParamPlan, Plan};
+use crate::plan::ParamPlan;
 use slowlight_runtime_jack::TERM;
 use slowlight_runtime_jack::model::MOST;
-
-/// The rows of the picture that the screen has.
-fn visible(plan: &Plan) -> (i64, i64) {
-    let top = i64::from(plan.offset.1);
-    let first = (-top).max(0);
-    let last = (i64::from(plan.mode.height) - 1 - top).min(i64::from(plan.graph.image.height) - 1);
-    (first, last)
-}
 
 /// An int of the parameter block, kept within what Jack can write.
 fn written(text: &str) -> i32 {
@@ -41,7 +33,7 @@ pub(super) fn parameters(code: &Code) -> Vec<Line> {
             scale(param) + &range,
         ));
     }
-    let (first, last) = visible(plan);
+    let (first, last) = plan.shown_rows();
     for (name, row) in code.names.rows.iter().zip([plan.rows.0, plan.rows.1]) {
         rows.push((
             name.clone(),
@@ -59,7 +51,7 @@ pub(super) fn parameters(code: &Code) -> Vec<Line> {
 /// One condition a parameter that has a range.
 pub(super) fn checks(code: &mut Code) -> Vec<Line> {
     let plan = code.plan;
-    let rows = visible(plan);
+    let rows = plan.shown_rows();
     let names = code.names.params.iter().chain(&code.names.rows).cloned();
     let ranges = plan.params.iter().map(|p| {
         let (least, greatest) = p.range.as_ref()?;

@@ -47,7 +47,7 @@ pub(super) fn entries(plan: &Plan, homes: &Homes) -> Vec<Entry> {
             },
         });
     }
-    let last = plan.graph.image.height.saturating_sub(1);
+    let shown = plan.shown_rows();
     for (slot, row) in [
         (Slot::Rows(false), plan.rows.0),
         (Slot::Rows(true), plan.rows.1),
@@ -61,8 +61,8 @@ pub(super) fn entries(plan: &Plan, homes: &Homes) -> Vec<Entry> {
             .to_owned(),
             slot,
             text: row.to_string(),
-            least: "0".to_owned(),
-            greatest: last.to_string(),
+            least: shown.0.to_string(),
+            greatest: shown.1.to_string(),
             unit: "a row".to_owned(),
             divisor: 0,
         });
