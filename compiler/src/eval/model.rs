@@ -30,14 +30,7 @@ impl Arithmetic for Model<'_> {
     }
 
     fn apply(&self, id: NodeId, _: Op, args: &[Bits]) -> Bits {
-        let range = self.0.ranges.result.get(id.0 as usize).copied();
-        let bits = self.0.computed(id, args);
-        match range {
-            Some(range) if self.0.format(id) == self.0.runtime.real => {
-                (self.0.runtime.kept)(bits, range)
-            }
-            _ => bits,
-        }
+        self.0.computed(id, args)
     }
 
     fn sent(&self, from: NodeId, value: Bits) -> Bits {

@@ -204,14 +204,20 @@ impl Plan {
         self.points.as_ref()
     }
 
-    /// What an operation's routine makes of its operands' bits.
+    /// What an operation's routine makes of its operands' bits, as the node's place keeps it.
     pub fn computed(&self, id: NodeId, args: &[Bits]) -> Bits {
         let Some(routine) = self.routine(id) else {
             return 0;
         };
-        match &self.points {
+        let bits = match &self.points {
             Some(points) => (routine.model)(&points.operands(&self.graph, id, args)),
             None => (routine.model)(args),
+        };
+        match self.ranges.result.get(id.0 as usize) {
+            Some(range) if self.format(id) == self.runtime.real => {
+                (self.runtime.kept)(bits, *range)
+            }
+            _ => bits,
         }
     }
 
@@ -248,6 +254,36 @@ impl Plan {
             (Some(points), Type::Real) => points.format(points.own(id)),
             (_, ty) => self.runtime.format_of(ty),
         }
+    }
+
+    /// The format of a live param.
+    pub fn param_format(&self, id: ParamId) -> Format {
+        let ty = self
+            .graph
+            .params
+            .get(id.0 as usize)
+            .map_or(Type::Real, |p| p.ty);
+        self.read_as(ty, |node| matches!(node, Node::Param(p) if p == id))
+    }
+
+    /// The format of a table's entries.
+    pub fn entry_format(&self, id: TableId) -> Format {
+        let ty = self
+            .graph
+            .tables
+            .get(id.0 as usize)
+            .map_or(Type::Real, |t| t.ty);
+        self.read_as(
+            ty,
+            |node| matches!(node, Node::Lookup { table, .. } if table == id),
+        )
+    }
+
+    /// The format of what some nodes read, if they are there; that of the type without.
+    fn read_as(&self, ty: Type, reads: impl Fn(Node) -> bool) -> Format {
+        let points = self.points.as_ref().filter(|_| ty == Type::Real);
+        let reader = points.and_then(|_| self.graph.ids().find(|id| reads(self.graph.node(*id))));
+        reader.map_or(self.runtime.format_of(ty), |id| self.format(id))
     }
 
     /// A constant's bits in its type's format.

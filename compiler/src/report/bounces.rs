@@ -18,6 +18,7 @@ use super::shadow::{Pair, Shadow};
 use crate::eval::arithmetic::Arithmetic;
 use crate::eval::run::Run;
 use crate::flow::graph::*;
+use crate::flow::tree::Place;
 use crate::plan::Plan;
 use crate::source::Diagnostic;
 use slowlight_routine::{Op, Type, Value};
@@ -272,6 +273,14 @@ impl Arithmetic for &Turns<'_> {
         self.shadow.constant(value)
     }
 
+    fn entry(&self, table: TableId, at: usize, value: Value) -> Pair {
+        self.shadow.entry(table, at, value)
+    }
+
+    fn copied(&self, place: Place, from: NodeId, value: Pair) -> Pair {
+        self.shadow.copied(place, from, value)
+    }
+
     fn param(&self, id: ParamId) -> Pair {
         self.shadow.param(id)
     }
@@ -302,9 +311,7 @@ impl Arithmetic for &Turns<'_> {
         let size = |pair: &Pair| pair.exact().real().abs();
         let largest = reals.clone().flat_map(|(pair, _)| pair.as_ref().map(size));
         let scale = largest.fold(1.0, f64::max);
-        let off = |pair: &Pair| {
-            (self.shadow.machine(*pair, Type::Real) - pair.exact().real()).abs() / scale
-        };
+        let off = |pair: &Pair| pair.off() / scale;
         let error = reals
             .filter_map(|(pair, _)| pair.as_ref().map(off))
             .reduce(f64::max);

@@ -3,8 +3,9 @@
 use crate::eval::arithmetic::Arithmetic;
 use crate::eval::native::param_value;
 use crate::flow::graph::*;
+use crate::flow::tree::Place;
 use crate::plan::Plan;
-use slowlight_routine::{Bits, Op, Type, Value};
+use slowlight_routine::{Bits, Format, Op, Type, Value};
 use std::cell::RefCell;
 
 /// What is off by less than this many units in the last place is in order.
@@ -24,6 +25,10 @@ const REMEMBERED: usize = 4_000_000;
 pub struct Pair {
     exact: Value,
     bits: Bits,
+    /// What the bits stand for; a bool is 0 or 1.
+    machine: f64,
+    /// The machine's last place there, where all values have it that the place may hold.
+    place: Option<f64>,
     /// The operation that made it.
     event: Option<u32>,
 }
@@ -32,6 +37,11 @@ impl Pair {
     /// The native value.
     pub fn exact(&self) -> Value {
         self.exact
+    }
+
+    /// How far the machine's value is from it.
+    pub fn off(&self) -> f64 {
+        (self.machine - self.exact.real()).abs()
     }
 }
 
@@ -65,9 +75,11 @@ pub enum What {
 /// The arithmetic that remembers.
 pub struct Shadow<'p> {
     plan: &'p Plan,
-    /// One unit in the last place: a part of the value, or of 1 in fixed point.
+    /// One unit in the last place where points float: a part of the value.
     unit: f64,
-    fixed: bool,
+    /// The formats of the tables' entries and of the params.
+    entries: Vec<Format>,
+    params: Vec<Format>,
     log: RefCell<Log>,
 }
 
@@ -81,11 +93,16 @@ struct Log {
 
 impl<'p> Shadow<'p> {
     pub fn new(plan: &'p Plan) -> Shadow<'p> {
-        let real = plan.runtime.real;
+        let (tables, params) = (plan.graph.tables.len(), plan.graph.params.len());
         Shadow {
             plan,
-            unit: real.epsilon(),
-            fixed: real.is_fixed(),
+            unit: plan.runtime.real.epsilon(),
+            entries: (0..tables as u32)
+                .map(|k| plan.entry_format(TableId(k)))
+                .collect(),
+            params: (0..params as u32)
+                .map(|k| plan.param_format(ParamId(k)))
+                .collect(),
             log: RefCell::default(),
         }
     }
@@ -126,7 +143,7 @@ impl<'p> Shadow<'p> {
 
     /// Looks at a pixel's shade: whether it is off by more than `most`.
     pub fn shade(&self, pair: Pair, most: f64) {
-        let off = (self.machine(pair, Type::Real) - pair.exact.real()).abs();
+        let off = pair.off();
         if let Some(event) = pair.event
             && off > most
         {
@@ -138,26 +155,14 @@ impl<'p> Shadow<'p> {
         self.log.borrow_mut().seen.push(what);
     }
 
-    /// The machine's value.
-    pub fn machine(&self, pair: Pair, ty: Type) -> f64 {
-        let format = self.plan.runtime.format_of(ty);
-        (self.plan.runtime.decode)(pair.bits, format).real()
-    }
-
-    /// An error in units of the last place of a value of that size.
-    fn units(&self, off: f64, size: f64) -> f64 {
-        if off == 0.0 {
-            return 0.0;
-        }
-        let place = if self.fixed {
-            self.unit
-        } else {
-            self.unit * size.abs()
-        };
-        if place == 0.0 {
-            f64::MAX
-        } else {
-            (off.abs() / place).min(f64::MAX)
+    /// A value whose machine's bits are in a format.
+    fn pair(&self, exact: Value, bits: Bits, format: Format) -> Pair {
+        Pair {
+            exact,
+            bits,
+            machine: (self.plan.runtime.decode)(bits, format).real(),
+            place: format.is_fixed().then(|| format.epsilon()),
+            event: None,
         }
     }
 
@@ -176,18 +181,13 @@ impl<'p> Shadow<'p> {
         if margin <= TIE * size {
             return self.saw(What::Tie(id));
         }
-        let arg_ty = op.args().first().copied().unwrap_or(Type::Real);
-        let off = |p: &Pair| (self.machine(*p, arg_ty) - p.exact.real()).abs();
-        let Some(worst) = args.iter().max_by(|a, b| off(a).total_cmp(&off(b))) else {
+        let Some(worst) = args.iter().max_by(|a, b| a.off().total_cmp(&b.off())) else {
             return;
         };
-        let place = if self.fixed {
-            self.unit
-        } else {
-            self.unit * size
-        };
+        let places = args.iter().filter_map(|p| p.place).reduce(f64::max);
+        let place = places.unwrap_or(self.unit * size);
         match worst.event {
-            Some(event) if self.units(off(worst), size) > GROWN => {
+            Some(event) if units(worst.off(), place) > GROWN => {
                 let flips = Some(id);
                 self.saw(What::Off { event, flips });
             }
@@ -195,10 +195,19 @@ impl<'p> Shadow<'p> {
                 self.saw(What::Coarse { node: id, place });
             }
             _ => {
-                let units = self.units(margin, size);
+                let units = units(margin, place);
                 self.saw(What::Close { node: id, units });
             }
         }
+    }
+}
+
+/// An error in units of the last place.
+fn units(off: f64, place: f64) -> f64 {
+    match (off == 0.0, place == 0.0) {
+        (true, _) => 0.0,
+        (_, true) => f64::MAX,
+        _ => (off.abs() / place).min(f64::MAX),
     }
 }
 
@@ -225,27 +234,44 @@ impl Arithmetic for &Shadow<'_> {
     type Value = Pair;
 
     fn entry(&self, table: TableId, at: usize, value: Value) -> Pair {
-        Pair {
-            exact: value,
-            bits: self.plan.entry(table, at),
-            event: None,
-        }
+        let format = self.entries.get(table.0 as usize);
+        let format = format.copied().unwrap_or(self.plan.runtime.real);
+        self.pair(value, self.plan.entry(table, at), format)
     }
 
     fn constant(&self, value: Value) -> Pair {
-        Pair {
-            exact: value,
-            bits: self.plan.bits(value),
-            event: None,
+        let made = self.pair(
+            value,
+            self.plan.bits(value),
+            self.plan.runtime.format_of(value.ty()),
+        );
+        match (value, self.plan.points()) {
+            // It is rounded where it is read.
+            (Value::Real(exact), Some(_)) => Pair {
+                machine: exact,
+                place: None,
+                ..made
+            },
+            _ => made,
+        }
+    }
+
+    fn copied(&self, place: Place, from: NodeId, value: Pair) -> Pair {
+        let bits = self.plan.copied(place, from, value.bits);
+        match self.plan.points() {
+            Some(_) if self.plan.graph.ty(from) == Type::Real => Pair {
+                event: value.event,
+                ..self.pair(value.exact, bits, self.plan.place_format(place))
+            },
+            _ => value,
         }
     }
 
     fn param(&self, id: ParamId) -> Pair {
-        Pair {
-            exact: param_value(&self.plan.graph, id),
-            bits: self.plan.params.get(id.0 as usize).map_or(0, |p| p.bits),
-            event: None,
-        }
+        let format = self.params.get(id.0 as usize);
+        let format = format.copied().unwrap_or(self.plan.runtime.real);
+        let bits = self.plan.params.get(id.0 as usize).map_or(0, |p| p.bits);
+        self.pair(param_value(&self.plan.graph, id), bits, format)
     }
 
     fn apply(&self, id: NodeId, op: Op, args: &[Pair]) -> Pair {
@@ -253,19 +279,14 @@ impl Arithmetic for &Shadow<'_> {
         let exacts = [list(0), list(1)].map(|p| p.map_or(Value::Int(0), |p| p.exact));
         let machines = [list(0), list(1)].map(|p| p.map_or(0, |p| p.bits));
         let exact = op.eval(&exacts[..args.len()]);
-        let model = self.plan.routine(id).map(|r| r.model);
-        let bits = model.map_or(0, |model| model(&machines[..args.len()]));
-        let made = Pair {
-            exact,
-            bits,
-            event: None,
-        };
-        let off = self.machine(made, op.result()) - exact.real();
+        let bits = self.plan.computed(id, &machines[..args.len()]);
+        let made = self.pair(exact, bits, self.plan.format(id));
+        let off = made.off();
         if op == Op::Div && exacts.iter().all(|v| v.real() == 0.0) {
             self.saw(What::NoMeaning(id));
         }
         let steps = op.result() != Type::Real && op.args().contains(&Type::Real);
-        let wraps = op == Op::Mod && off.abs() > exacts[1].real().abs() / 2.0;
+        let wraps = op == Op::Mod && off > exacts[1].real().abs() / 2.0;
         if (steps && off != 0.0) || wraps {
             self.flip(id, op, args);
             // From here on as natively, or one flip would be found again and again.
@@ -273,7 +294,7 @@ impl Arithmetic for &Shadow<'_> {
         }
         let event = self.remember(Event {
             node: id,
-            units: self.units(off, exact.real()),
+            units: units(off, made.place.unwrap_or(self.unit * exact.real().abs())),
             args: [list(0), list(1)].map(|p| p.and_then(|p| p.event)),
         });
         Pair { event, ..made }

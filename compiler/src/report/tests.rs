@@ -10,10 +10,13 @@ use crate::plan::{Goal, Plan, plan, plan_as_written};
 use crate::scene::{self, Scene};
 use crate::sema::Options;
 use crate::source::Diagnostic;
-use crate::target::{Target, default_mode, find};
+use crate::target::{Target, default_mode, find, in_all_formats};
 
 fn said(target: &str, scene: &Scene) -> Vec<Diagnostic> {
-    let target = find(target).unwrap();
+    said_of(find(target).unwrap(), scene)
+}
+
+fn said_of(target: &Target, scene: &Scene) -> Vec<Diagnostic> {
     let options = Options {
         offset: target.offset,
         ..Options::default()
@@ -71,6 +74,29 @@ fn stable_forms_mend_pictures() {
         }
     }
     insta::assert_snapshot!(text);
+}
+
+/// A square beyond all formats whose ends are near, and what is made of it.
+#[test]
+fn formats_with_near_ends_say_where_a_value_leaves_them() {
+    let source = "image 64 x 64 inks black, white;
+draw (x, y) = {
+  let a = (x + 1.0) * 1000.0;
+  let v = a * a / 4000000000.0; // too large, and too small
+  threshold(v, bayer(4)[x mod 4, y mod 4])
+};";
+    let scene = scene::check("ends", source);
+    for target in in_all_formats().filter(|t| t.name == "jack") {
+        let found = said_of(target, &scene);
+        let format = target.runtime.format;
+        let ends = ["log10", "fixed16"].contains(&format);
+        let leaves = |d: &Diagnostic| {
+            let said = d.message.contains("leaves") && d.message.contains(format);
+            said && line(&scene, d).contains("too large")
+        };
+        assert_eq!(found.iter().any(leaves), ends, "{format}: {found:?}");
+        assert!(ends || found.is_empty(), "{format}: {found:?}");
+    }
 }
 
 /// The gradient of a box's distance next to it is that of a length whose squares

@@ -4,7 +4,7 @@ use super::fragile::{Found, Fragile, Weakness};
 use crate::flow::graph::*;
 use crate::plan::Plan;
 use crate::source::Diagnostic;
-use slowlight_routine::{Format, Op};
+use slowlight_routine::{Format, Op, scale};
 use std::collections::BTreeSet;
 
 /// What happens on less than one pixel in so many is no more than rounding does.
@@ -109,12 +109,20 @@ fn units(units: f64) -> String {
 fn lost(plan: &Plan, f: &Fragile) -> String {
     match plan.runtime.real {
         Format::Fixed { .. } if f.units > 1e6 => "the value leaves the range".to_owned(),
-        Format::Fixed { .. } => format!("the result is off by up to {}", units(f.units)),
+        Format::Scaled { bits } if f.units >= scale::most(bits) as f64 => {
+            "the value leaves the range that it has".to_owned()
+        }
+        Format::Fixed { .. } | Format::Scaled { .. } => {
+            format!("the result is off by up to {}", units(f.units))
+        }
         real => {
-            let bits = -real.epsilon().log2();
+            let bits = (-real.epsilon().log2()).round();
             let left = (bits - f.units.log2()).floor();
             match left >= 1.0 {
                 true => format!("as few as {left} of {bits} bits are left"),
+                false if real.most() < 1e9 => {
+                    "the result loses all of its bits, or leaves the format's range".to_owned()
+                }
                 false => "the result may lose all of its bits".to_owned(),
             }
         }

@@ -14,10 +14,11 @@
 //! goes on for more turns than a tile is worth has no bound.
 
 mod form;
+mod pointed;
 mod rules;
 mod walk;
 
-use crate::flow::graph::NodeId;
+use crate::flow::graph::{NodeId, ParamId};
 use crate::plan::Plan;
 use form::Form;
 use slowlight_routine::Range;
@@ -40,8 +41,8 @@ impl Tile {
     pub fn of(plan: &Plan, columns: (u32, u32), rows: (u32, u32)) -> Tile {
         let runtime = plan.runtime;
         let params = plan.graph.params.iter().zip(&plan.params);
-        let params = params.map(|(param, planned)| {
-            let made = (runtime.decode)(planned.bits, runtime.format_of(param.ty)).real();
+        let params = params.zip(0..).map(|((param, planned), k)| {
+            let made = (runtime.decode)(planned.bits, plan.param_format(ParamId(k))).real();
             (Range::point(param.value), (made - param.value).abs())
         });
         Tile {

@@ -10,8 +10,8 @@ use crate::eval::random::Random;
 use crate::plan::{Goal, plan_as_written};
 use crate::scene;
 use crate::sema::Options;
-use crate::target::{Target, default_mode, find};
-use slowlight_routine::Value as Scalar;
+use crate::target::{Target, default_mode, in_all_formats};
+use slowlight_routine::{Format, Value as Scalar};
 
 /// A formula: its inputs with the ranges that boxes are taken from, and the value.
 const KERNELS: &[(&str, &str, &str)] = &[
@@ -173,13 +173,17 @@ fn try_box(plan: &mut Plan, inputs: &[(String, f64, f64)], random: &mut Random) 
         })
         .collect();
     let runtime = plan.runtime;
-    let held = |v: f64| (runtime.encode)(Scalar::Real(v), runtime.real);
-    let value = |bits| (runtime.decode)(bits, runtime.real).real();
+    let formats: Vec<Format> = (0..spans.len() as u32)
+        .map(|k| plan.param_format(ParamId(k)))
+        .collect();
+    let held = |k: usize, v: f64| (runtime.encode)(Scalar::Real(v), formats[k]);
+    let value = |k: usize, bits| (runtime.decode)(bits, formats[k]).real();
     let mut tile = Tile::of(plan, (0, 0), (0, 0));
     tile.params = spans
         .iter()
-        .map(|&(lo, hi)| {
-            let ends = [value(held(lo)), value(held(hi))];
+        .enumerate()
+        .map(|(k, &(lo, hi))| {
+            let ends = [value(k, held(k, lo)), value(k, held(k, hi))];
             (Range::new(ends[0].min(lo), ends[1].max(hi)), 0.0)
         })
         .collect();
@@ -198,9 +202,9 @@ fn try_box(plan: &mut Plan, inputs: &[(String, f64, f64)], random: &mut Random) 
     };
     for _ in 0..POINTS {
         for (k, &(lo, hi)) in spans.iter().enumerate() {
-            let bits = held(lo + (hi - lo) * part(random));
+            let bits = held(k, lo + (hi - lo) * part(random));
             plan.params[k].bits = bits;
-            plan.graph.params[k].value = value(bits);
+            plan.graph.params[k].value = value(k, bits);
         }
         let (native, model) = shades(plan);
         if let Some(found) = found {
@@ -251,8 +255,10 @@ fn median(values: &mut [f64]) -> f64 {
 #[test]
 fn bounds_hold_and_are_near() {
     let (mut boxes, mut proved, mut points, mut all) = (0, 0, 0, Vec::new());
-    for name in ["jack", "bbc:micro", "6502:plain"] {
-        let target = find(name).unwrap();
+    let mut seen = BTreeSet::new();
+    let targets = in_all_formats().filter(|t| seen.insert(t.runtime.format));
+    for target in targets.collect::<Vec<_>>() {
+        let name = target.runtime.format;
         for kernel in KERNELS {
             let (bounded, tried, mut ratios) = try_kernel(target, kernel);
             let middle = median(&mut ratios);

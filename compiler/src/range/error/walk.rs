@@ -57,6 +57,10 @@ fn known(plan: &Plan, tile: &Tile, id: NodeId) -> Value {
     match graph.node(id) {
         Node::Const(c) => {
             let exact = c.value();
+            // It is rounded where it is read.
+            if plan.points().is_some() {
+                return Value::exact(Range::point(exact.real()));
+            }
             let format = plan.runtime.format_of(exact.ty());
             let made = (plan.runtime.decode)(plan.bits(exact), format).real();
             Value {
@@ -86,15 +90,16 @@ fn known(plan: &Plan, tile: &Tile, id: NodeId) -> Value {
     }
 }
 
-struct Walk<'p> {
-    plan: &'p Plan,
-    graph: &'p Graph,
+pub(super) struct Walk<'p> {
+    pub(super) plan: &'p Plan,
+    pub(super) graph: &'p Graph,
     /// What each node's exact value lies within here, refined by the conditions around.
     ranges: Vec<Range>,
     errors: Vec<Form>,
     carried: Vec<Vec<Value>>,
     scratch: Vec<Vec<Value>>,
-    sources: Source,
+    /// How many roundings there were.
+    pub(super) sources: Source,
     turns: u32,
     columns: (u32, u32),
     out: Bounds,
@@ -110,7 +115,7 @@ impl<'p> Walk<'p> {
                 }
                 Statement::Set { place, from } => {
                     let value = match *from {
-                        Origin::Node(id) => self.read(id),
+                        Origin::Node(id) => self.copied(*place, id),
                         Origin::Scratch(l, k) => self.scratch[l.0 as usize][k as usize].clone(),
                     };
                     self.write(*place, value);
@@ -222,7 +227,7 @@ impl<'p> Walk<'p> {
         }
     }
 
-    fn read(&self, id: NodeId) -> Value {
+    pub(super) fn read(&self, id: NodeId) -> Value {
         Value {
             range: self.ranges[id.0 as usize],
             error: self.errors[id.0 as usize].clone(),
@@ -263,9 +268,9 @@ impl<'p> Walk<'p> {
     fn compute(&mut self, id: NodeId) -> Value {
         match self.graph.node(id) {
             Node::Apply(op, [a, b]) => {
-                let same = a == b;
-                let (x, y) = (self.read(a), self.read(b));
-                let range = interval(op, [x.range, y.range], same);
+                let [x, y] = self.operands(id, op, [a, b]);
+                let same = a == b && x == y;
+                let range = interval(op, [x.range, y.range], a == b);
                 if !self.same_way(op, &x, &y) {
                     self.out.undecided.insert(id);
                 }
@@ -306,11 +311,11 @@ impl<'p> Walk<'p> {
 
     /// What lies between the entries of a table.
     fn entries(&self, table: TableId) -> Value {
+        let format = self.plan.entry_format(table);
         let entries = self.graph.tables.get(table.0 as usize);
         let entries = entries.into_iter().flat_map(|t| &t.entries).enumerate();
         let values = entries.map(|(at, e)| {
             let exact = e.value();
-            let format = self.plan.runtime.format_of(exact.ty());
             let made = (self.plan.runtime.decode)(self.plan.entry(table, at), format).real();
             Value {
                 range: Range::point(exact.real()),
@@ -350,11 +355,11 @@ impl<'p> Walk<'p> {
         let made = interval(op, args, same);
         // Beyond the format's end, a routine saturates.
         let native = exact.magnitude() * NATIVE;
-        if made.magnitude() + native > self.plan.runtime.real.most() {
+        if made.magnitude() + native > self.plan.format(id).most() {
             return Form::unbounded();
         }
         self.sources += 1;
-        let off = routine.error.most(&args[..op.arity()], made.magnitude());
+        let off = self.rounding(routine, id, op, (&args[..op.arity()], made));
         Form::rounding(self.sources, off + native)
     }
 }
