@@ -16,7 +16,7 @@ fn said(target: &str, scene: &Scene) -> Vec<Diagnostic> {
     said_of(find(target).unwrap(), scene)
 }
 
-fn said_of(target: &Target, scene: &Scene) -> Vec<Diagnostic> {
+fn said_of(target: &'static Target, scene: &Scene) -> Vec<Diagnostic> {
     let options = Options {
         offset: target.offset,
         ..Options::default()
