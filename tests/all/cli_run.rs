@@ -254,15 +254,30 @@ draw (x, y) = {
 };
 ";
 
+/// A dither whose first step, a product, is a step of comparing it as well, behind a
+/// loop that may end in inks.
+const SUNK: &str = "image 16 x 16 inks black, white;
+param at: vec2 = (5.5, 3.5) in (0, 0) .. (11, 7);
+draw (x, y) = {
+  let p = ((x, y) - at) / 8;
+  let s = loop (a = dot(p, p), k = 0) max 4 {
+    if a < 1 then next(a * 1.9 + 0.02, k + 1) else a * p.x
+  } else a * p.y;
+  threshold(s * 0.3, 0.5)
+};
+";
+
 #[test]
 fn errors_are_of_shades_even_where_the_program_needs_none() {
-    let dir = directory(&[("halves.scn", HALVES)]);
+    let dir = directory(&[("halves.scn", HALVES), ("sunk.scn", SUNK)]);
     for target in targets(dir.path()) {
-        let run = json(dir.path(), &["run", "halves.scn", "-t", &target, "--json"]);
-        assert_eq!(run["differs_from_model"], 0, "{target}");
-        // The inks alone would differ from the shades by a third.
-        let rmse = run["rmse"].as_f64().expect("a number");
-        assert!(rmse < 0.001, "{target}: {rmse}");
+        for scene in ["halves.scn", "sunk.scn"] {
+            let run = json(dir.path(), &["run", scene, "-t", &target, "--json"]);
+            assert_eq!(run["differs_from_model"], 0, "{scene} on {target}");
+            // The inks alone would differ from the shades by a third.
+            let rmse = run["rmse"].as_f64().expect("a number");
+            assert!(rmse < 0.001, "{scene} on {target}: {rmse}");
+        }
     }
 }
 

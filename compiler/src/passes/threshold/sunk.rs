@@ -19,6 +19,11 @@ pub fn results(graph: &Graph, chain: &Chain) -> Vec<(LoopId, u32)> {
     }
     graph.roots().for_each(|id| uses[id.0 as usize] += 1);
     let mut found = Vec::new();
+    // A step that is looked at itself, when the picture's error is measured, say, is
+    // computed, and so is what it is made of.
+    if chain.steps.iter().any(|step| uses[step.0 as usize] > 1) {
+        return found;
+    }
     // The shade itself is looked at by the first of the steps alone.
     let mut todo = vec![(chain.value, 0)];
     while let Some((id, deep)) = todo.pop() {
