@@ -239,7 +239,7 @@ fn what_does_not_fit_the_rom_is_not_written() {
     let said = String::from_utf8_lossy(&output.stderr).into_owned();
     assert_eq!(output.status.code(), Some(1), "{said}");
     for part in [
-        "does not fit the ROM",
+        "does not fit the Hack",
         "more than the ROM's 32768 words",
         "what would help",
     ] {
@@ -301,4 +301,35 @@ fn wrong_uses() {
         slowlight(dir, &["vm", "hack", "bad.hack"]).status.code(),
         Some(1)
     );
+}
+
+/// A picture whose rows of errors fill the heap: the system's font must find room beside
+/// them, or it is said before anything is written.
+#[test]
+fn the_systems_part_of_the_heap_counts() {
+    let scene = |width: u32| {
+        format!(
+            "image {width} x 2 inks black, white;
+            dither floyd(v: real, x: int, y: int) -> ink = {{
+              let q = clamp(round(v * (inks - 1)), 0, inks - 1);
+              spread v - q / (inks - 1) to {{ (1, 0): 7/16, (-1, 1): 3/16, (0, 1): 5/16, (1, 1): 1/16 }};
+              ink(q)
+            }};
+            draw (x, y) = floyd(x / {width}, x, y);"
+        )
+    };
+    let (fits, large) = (scene(1150), scene(1180));
+    let dir = directory(&[("fits.scn", &fits), ("large.scn", &large)]);
+    let dir = dir.path();
+    let run = ["run", "-t", "jack", "--json", "--os"];
+    for (name, system) in [("fits.scn", "jack"), ("large.scn", "native")] {
+        let found = json(dir, &[&run[..], &[system, name]].concat());
+        assert_eq!(found["differs_from_model"], 0, "{name}");
+    }
+    let output = slowlight(dir, &[&run[..], &["jack", "large.scn"]].concat());
+    let said = String::from_utf8_lossy(&output.stderr);
+    assert_eq!(output.status.code(), Some(1), "{said}");
+    for part in ["words of heap", "operating system 287", "--os native"] {
+        assert!(said.contains(part), "{part}: {said}");
+    }
 }
