@@ -44,7 +44,7 @@ pub(super) struct Code<'p> {
     /// What became a method of its own.
     pub methods: Vec<Method>,
     /// Values that are written where they are read.
-    folded: HashMap<NodeId, Expression>,
+    pub folded: HashMap<NodeId, Expression>,
     text: Text,
 }
 
@@ -357,27 +357,6 @@ impl<'p> Code<'p> {
                 int(slowlight_runtime_jack::model::int(bits))
             }
             Value::Real(r) => Expression::term(self.object.constant(&mut self.names, bits, r)),
-        }
-    }
-
-    /// What an operation means, in the scene's names.
-    pub fn meaning(&mut self, id: NodeId) -> String {
-        let Node::Apply(op, args) = self.plan.graph.node(id) else {
-            return String::new();
-        };
-        let level = if op == slowlight_routine::Op::ToReal {
-            SUM
-        } else {
-            TERM
-        };
-        let args = args.map(|arg| self.said(arg, level));
-        super::names::operation(op, &args[0], &args[1])
-    }
-
-    fn said(&mut self, id: NodeId, level: u8) -> String {
-        match self.plan.graph.constant(id) {
-            Some(value) => format!("{}", value.real()),
-            None => self.read(id).at(level),
         }
     }
 }

@@ -122,14 +122,27 @@ fn scene(
     let plan = code.plan;
     let image = &plan.graph.image;
     let mut text = Text::default();
-    text.line(format!(
-        "/** The scene {}, {} x {} pixels, its top left at ({}, {}) of the screen. */",
+    let about = format!(
+        "The scene {}, {} x {} pixels, its top left at ({}, {}) of the screen.",
         in_comment(&plan.name),
         image.width,
         image.height,
         plan.offset.0,
         plan.offset.1
-    ));
+    );
+    match plan.points() {
+        Some(_) => {
+            text.line("/**");
+            text.line(format!(" * {about}"));
+            text.line(" *");
+            text.line(
+                " * Reals are whole numbers: behind a line stands what it works out, and how",
+            );
+            text.line(" * much a 1 in its result is worth, 2^-14 say.");
+            text.line(" */");
+        }
+        None => text.line(format!("/** {about} */")),
+    }
     text.open(format!("class {} {{", code.names.class));
     fields(code, fixed, &mut text);
     let block = "What may be changed: whole numbers, each in its range.";

@@ -40,6 +40,7 @@ mod making;
 mod names;
 mod object;
 mod params;
+mod remark;
 mod report;
 mod spread;
 mod statics;

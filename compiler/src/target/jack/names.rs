@@ -8,7 +8,7 @@ use super::canvas::Canvas;
 use crate::flow::graph::*;
 use crate::flow::tree::{Place, SubroutineId};
 use crate::plan::{Plan, shared_homes};
-use slowlight_routine::{Format, Op};
+use slowlight_routine::Format;
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 
 /// Words that no variable may have for a name.
@@ -233,20 +233,4 @@ fn class_name(scene: &str) -> String {
     } else {
         format!("Scene{name}")
     }
-}
-
-/// An operation as the scene would write it, for comments.
-pub(super) fn operation(op: Op, a: &str, b: &str) -> String {
-    let infix = match op {
-        Op::Add => "+",
-        Op::Sub => "-",
-        Op::Mul => "*",
-        Op::Div => "/",
-        Op::Mod => "mod",
-        Op::Neg => return format!("-{a}"),
-        Op::ToReal => return a.to_owned(),
-        _ if op.arity() > 1 => return format!("{}({a}, {b})", op.name()),
-        _ => return format!("{}({a})", op.name()),
-    };
-    format!("{a} {infix} {b}")
 }
