@@ -266,6 +266,53 @@ macro_rules! step_bits {
     };
 }
 
+/// What a table has at the 128ths that `a` counts, from `first` on, in proportion: `least`.
+macro_rules! entry {
+    ($table:literal, $first:literal) => {
+        concat!(
+            "        let at = ",
+            $first,
+            ";\n",
+            bit_of_128th!("a", "128", "at", "1"),
+            bit_of_128th!("a", "256", "at", "2"),
+            bit_of_128th!("a", "512", "at", "4"),
+            bit_of_128th!("a", "1024", "at", "8"),
+            bit_of_128th!("a", "2048", "at", "16"),
+            bit_of_128th!("a", "4096", "at", "32"),
+            bit_of_128th!("a", "8192", "at", "64"),
+            bit_of_128th!("a", "16384", "at", "128"),
+            "        let least = ",
+            $table,
+            "[at];
+        let step = ",
+            $table,
+            "[at + 1] - least;
+        let more = 64;
+",
+            step_bits!("1", "2", "4", "8", "16", "32", "64"),
+            bit_of_128th!("more", "128", "least", "1"),
+            bit_of_128th!("more", "256", "least", "2"),
+            bit_of_128th!("more", "512", "least", "4"),
+            bit_of_128th!("more", "1024", "least", "8"),
+            bit_of_128th!("more", "2048", "least", "16"),
+            bit_of_128th!("more", "4096", "least", "32"),
+            bit_of_128th!("more", "8192", "least", "64"),
+            bit_of_128th!("more", "16384", "least", "128"),
+        )
+    };
+}
+
+pub(crate) const ENTRY: &str = concat!(
+    "    /** What a table of 257 has at a / 128, in proportion. */
+    function int entry(Array table, int a) {
+        var int at, least, step, more;
+",
+    entry!("table", "0"),
+    "        return least;
+    }
+"
+);
+
 pub(crate) const SQRT: &str = concat!(
     "    /** The root of a, which is made 4, 16, 64, ... times as large first; down is 2 times as
      *  large for each of these, from 1 for 0 on. */
@@ -281,29 +328,8 @@ pub(crate) const SQRT: &str = concat!(
             let half = down;
             let down = down + down;
         }
-        let at = -64;
 ",
-    bit_of_128th!("a", "128", "at", "1"),
-    bit_of_128th!("a", "256", "at", "2"),
-    bit_of_128th!("a", "512", "at", "4"),
-    bit_of_128th!("a", "1024", "at", "8"),
-    bit_of_128th!("a", "2048", "at", "16"),
-    bit_of_128th!("a", "4096", "at", "32"),
-    bit_of_128th!("a", "8192", "at", "64"),
-    bit_of_128th!("a", "16384", "at", "128"),
-    "        let least = roots[at];
-        let step = roots[at + 1] - least;
-        let more = 64;
-",
-    step_bits!("1", "2", "4", "8", "16", "32", "64"),
-    bit_of_128th!("more", "128", "least", "1"),
-    bit_of_128th!("more", "256", "least", "2"),
-    bit_of_128th!("more", "512", "least", "4"),
-    bit_of_128th!("more", "1024", "least", "8"),
-    bit_of_128th!("more", "2048", "least", "16"),
-    bit_of_128th!("more", "4096", "least", "32"),
-    bit_of_128th!("more", "8192", "least", "64"),
-    bit_of_128th!("more", "16384", "least", "128"),
+    entry!("roots", "-64"),
     "        if (down = 1) { return least; }
         return Fixed.right(least, half);
     }
