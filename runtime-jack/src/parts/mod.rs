@@ -12,6 +12,7 @@
 
 #[macro_use]
 mod float;
+#[macro_use]
 mod fixed;
 #[macro_use]
 mod functions;

@@ -5,7 +5,7 @@ use super::{computed, edges, numbers, own};
 use crate::classes;
 use crate::fixed::{FIXED16, filled, read};
 use crate::model::MOST;
-use crate::tests::generator::{Generator, STIR, Sums};
+use crate::tests::generator::{Generator, STIR, Sums, all_pairs};
 use crate::tests::machine::{pairs, run};
 use slowlight_routine::{Form, Format, Op, Range, Routine, scale};
 
@@ -90,17 +90,7 @@ fn program(
     if crate::has_init("Fixed", &parts) {
         main += "do Fixed.init();\n";
     }
-    if !edges.is_empty() {
-        let count = edges.len();
-        main += &format!("let edges = Array.new({count});\n");
-        for (k, edge) in edges.iter().enumerate() {
-            main += &format!("let edges[{k}] = {edge};\n");
-        }
-        main += &format!(
-            "while (k < {count}) {{\nlet l = 0;\nwhile (l < {count}) {{\nlet a = edges[k];\n\
-             let b = edges[l];\ndo Main.step();\nlet l = l + 1; }}\nlet k = k + 1; }}\n"
-        );
-    }
+    main += &all_pairs(edges, ["a", "b"], "do Main.step();\n");
     let stir = if step.contains("note(") { STIR } else { "" };
     main += &format!(
         "let seed = 1;\nlet l = {};\nwhile (l > 0) {{\nlet k = 1000;\n{stir}\nwhile (k > 0) {{\n\
