@@ -43,12 +43,38 @@ impl Scales {
             // By how many bits the radicand has to be longer.
             Op::Sqrt => 2 * result - a,
             Op::Floor => a,
-            // The result has 14.
+            // The result has those that are given.
             Op::Sin | Op::Cos => a,
             // 1 where a value is added to itself: it is read as twice what it is.
             Op::Add => a - result,
+            Op::Tan | Op::Exp | Op::Log => packed([a, 0, result]),
+            Op::Pow => packed([a, b, result]),
             _ => 0,
         }
+    }
+
+    /// The scales of an operation whose routines must know all of them, from its number.
+    pub fn unpacked(number: i32) -> Scales {
+        let [a, b, result] = [4096, 64, 1].map(|unit| (number / unit % 64 - 32) as i8);
+        Scales {
+            args: [a, b],
+            result,
+        }
+    }
+}
+
+/// Three scales in one number.
+fn packed(scales: [i32; 3]) -> i32 {
+    scales.iter().fold(0, |all, scale| all * 64 + scale + 32)
+}
+
+/// The fraction bits that an operation's result always has, where its routines know no
+/// others: as many as fit beside the greatest.
+pub fn given(op: Op) -> Option<i8> {
+    match op {
+        Op::Sin | Op::Cos | Op::Asin => Some(14),
+        Op::Acos | Op::Atan2 => Some(13),
+        _ => None,
     }
 }
 
@@ -124,6 +150,17 @@ mod tests {
             (32767, -60, 0),
         ] {
             assert_eq!(shifted(value, by, 16), wanted, "{value} by {by}");
+        }
+    }
+
+    #[test]
+    fn a_number_of_all_scales_tells_them() {
+        for (a, b, result) in [(0, 0, 0), (FEWEST, MOST, FEWEST), (MOST, 5, 14)] {
+            let scales = Scales {
+                args: [a, b],
+                result,
+            };
+            assert_eq!(Scales::unpacked(scales.number(Op::Pow)), scales);
         }
     }
 

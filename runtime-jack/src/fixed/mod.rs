@@ -13,13 +13,15 @@
 //! As for ints, with the number that scales come to at `{n}`
 //! ([`slowlight_routine::scale`]). [`read`] writes an operand at another scale.
 
+pub mod functions;
 pub mod model;
 mod routines;
 #[cfg(test)]
-mod tests;
+pub(crate) mod tests;
 
 use crate::{INT, SUM, TERM, param_digits, parts};
-use slowlight_routine::{Bits, Format, Runtime, Value, scale};
+use slowlight_routine::scale::{self, Scales};
+use slowlight_routine::{Bits, Format, Runtime, Value};
 
 /// Bits of a real.
 pub const BITS: u8 = 16;
@@ -101,10 +103,29 @@ fn is_name(text: &str) -> bool {
     text.chars().all(|c| c.is_ascii_alphanumeric() || c == '_')
 }
 
-/// A routine's text with what its number comes to.
+/// A routine's text with what its number comes to; a, b and r are the scales of the
+/// operands and of the result, where that is all of them.
 pub fn filled(template: &str, n: i32) -> String {
     let power = |by: i32| (1i32 << by.clamp(0, 14)).to_string();
+    let scales = Scales::unpacked(n);
+    let [a, b] = scales.args.map(i32::from);
+    let r = i32::from(scales.result);
     [
+        ("{r}", r.to_string()),
+        ("{14-a}", (14 - a).to_string()),
+        ("{2^(13-a)}", power(13 - a)),
+        ("{2^(15-a)}", power(15 - a)),
+        ("{2^(a-5)}", power(a - 5)),
+        ("{2^(15-b)}", power(15 - b)),
+        ("{2^(b-5)}", power(b - 5)),
+        ("{2^(r-10)}", power(r - 10)),
+        (
+            "{32767/2^(r-10)}",
+            (32767 >> (r - 10).clamp(0, 15)).to_string(),
+        ),
+        ("{2^(14-r)}", power(14 - r)),
+        ("{2^(9-r)}", power(9 - r)),
+        ("{2^(-r-1)}", power(-r - 1)),
         ("{n}", n.to_string()),
         ("{2^n}", power(n)),
         ("{2^(n-17)}", power(n - 17)),

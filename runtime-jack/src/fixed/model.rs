@@ -91,7 +91,7 @@ pub fn sqrt(a: i32, by: i32) -> i32 {
 }
 
 /// The root of a * 2^15, above 0, then divided by 2^down.
-fn root(mut a: i32, mut down: i32) -> i32 {
+pub(super) fn root(mut a: i32, mut down: i32) -> i32 {
     while a < 8192 {
         a *= 4;
         down += 1;
@@ -138,12 +138,12 @@ pub fn cos(a: i32, by: i32) -> i32 {
 }
 
 /// a / 2^by radians in units of which 65536 are a turn; what is above that is lost.
-fn turns(a: i32, by: i32) -> i32 {
+pub(super) fn turns(a: i32, by: i32) -> i32 {
     wrap(a.wrapping_add(half_mul(a, 17907)) << (13 - by))
 }
 
 /// The sine of so many 65536ths of a turn.
-fn sine(mut turn: i32) -> i32 {
+pub(super) fn sine(mut turn: i32) -> i32 {
     let minus = turn < 0;
     if minus {
         turn = -turn;

@@ -1,9 +1,10 @@
 //! The list of routines for fixed-point reals: cheap and restricted before dear and total.
 
-use super::{REAL as R, model};
+use super::{REAL as R, functions, model};
 use crate::model::{difference, int, int_bits, modulo, multiply, sum as saturating_sum};
 use crate::routines::{INTS, call, fits, joined, near, sum};
 use crate::{INT as I, TERM};
+use slowlight_routine::scale::Scales;
 use slowlight_routine::{Error, Form, Format, Op, Range, Routine, everywhere};
 
 const B: Format = Format::Bool;
@@ -45,7 +46,7 @@ macro_rules! fixed {
             model: |all| {
                 let at = |k: usize| int(all.get(k).copied().unwrap_or(0));
                 #[allow(unused_variables)]
-                let ($a, $b, $n) = (at(0), at(all.len().saturating_sub(2)), at(all.len().saturating_sub(1)));
+                let ($a, $b, $n) = (at(0), at(all.len().saturating_sub(2)), all.last().map_or(0, |n| *n as i64 as i32));
                 Result::bits($body)
             },
         }
@@ -64,6 +65,20 @@ macro_rules! number {
     };
     ($n:literal, $also:expr) => {
         |args: &[Range], result: Range| number(args) == $n && $also(args, result)
+    };
+}
+
+/// A domain: how many fraction bits the operand and the result may have, or the second
+/// operand of two; and how large the first may be, over 2^13.
+macro_rules! scales {
+    (a: $a:pat, r: $r:pat $(, most: $most:literal)?) => {
+        |args: &[Range], _: Range| {
+            let Scales { args: [a, _], result } = Scales::unpacked(number(args));
+            matches!((a, result), ($a, $r)) $(&& args[0].within(-$most, $most))?
+        }
+    };
+    (b: $b:pat) => {
+        |args: &[Range], _: Range| matches!(Scales::unpacked(number(args)).args[1], $b)
     };
 }
 
@@ -111,6 +126,19 @@ const REALS: &[Routine] = &[
     fixed!("cos" Cos(R) -> R, call("Fixed.sin(Fixed.turns({0}, {2^(13-n)}) + 16384)"), ["Fixed.sin", "Fixed.turns"], number!(13 to 13), Error::Absolute(2.5), |a, b, n| model::cos(a, n), 129, 64),
     fixed!("wide_cos" Cos(R) -> R, call("Fixed.sin(Fixed.turns({0}, {2^(13-n)}) + 16384)"), ["Fixed.sin", "Fixed.turns"], number!(10 to 12), Error::Absolute(9.0), |a, b, n| model::cos(a, n), 129, 64),
     fixed!("any_cos" Cos(R) -> R, call("Fixed.sin(Fixed.turns({0}, {2^(13-n)}) + 16384)"), ["Fixed.sin", "Fixed.turns"], number!(0 to 9), Error::Absolute(32768.0), |a, b, n| model::cos(a, n), 127, 64),
+    fixed!("tan" Tan(R) -> R, call("Fixed.tan(Fixed.turns({0}, {2^(13-a)}), {r})"), ["Fixed.tan", "Fixed.turns"], scales!(a: 13, r: 0..=14, most: 6433.0), Error::Absolute(5.0), |a, b, n| functions::tan(a, Scales::unpacked(n)), 452, 60),
+    fixed!("any_tan" Tan(R) -> R, call("Fixed.tan(Fixed.turns({0}, {2^(13-a)}), {r})"), ["Fixed.tan", "Fixed.turns"], scales!(a: 0..=13, r: 0..=14), Error::Absolute(65536.0), |a, b, n| functions::tan(a, Scales::unpacked(n)), 436, 60),
+    fixed!("small_tan" Tan(R) -> R, call("Fixed.right(Fixed.tan(Fixed.turns({0}, {2^(13-a)}), 0), {2^(-r-1)})"), ["Fixed.tan", "Fixed.turns", "Fixed.right"], scales!(a: 0..=13, r: -15..=-1), Error::Absolute(65536.0), |a, b, n| functions::tan(a, Scales::unpacked(n)), 314, 84),
+    fixed!("asin" Asin(R) -> R, call("Fixed.asin({0})"), ["Fixed.asin"], everywhere, Error::Absolute(2.5), |a, b, n| functions::asin(a), 233, 36),
+    fixed!("acos" Acos(R) -> R, call("Fixed.acos({0})"), ["Fixed.acos"], everywhere, Error::Absolute(1.7), |a, b, n| functions::acos(a), 236, 36),
+    fixed!("atan2" Atan2(R, R) -> R, call("Fixed.atan2({0}, {1})"), ["Fixed.atan2"], everywhere, Error::Absolute(1.0), |a, b, n| functions::atan2(a, b), 324, 36),
+    fixed!("exp" Exp(R) -> R, call("Fixed.exp({0}, {2^(15-a)}, {2^(a-5)}, {r})"), ["Fixed.exp"], scales!(a: 13..=15, r: _), Error::Absolute(3.0), |a, b, n| functions::exp(a, Scales::unpacked(n)), 216, 60),
+    fixed!("wide_exp" Exp(R) -> R, call("Fixed.exp({0}, {2^(15-a)}, {2^(a-5)}, {r})"), ["Fixed.exp"], scales!(a: 10..=12, r: _), Error::Absolute(16.0), |a, b, n| functions::exp(a, Scales::unpacked(n)), 189, 60),
+    fixed!("log" Log(R) -> R, call("Fixed.log({0}, {14-a}, {32767/2^(r-10)}, {2^(r-10)}, {2^(14-r)})"), ["Fixed.log"], scales!(a: _, r: 10..=14), Error::Absolute(1.5), |a, b, n| functions::log(a, Scales::unpacked(n)), 140, 60),
+    fixed!("small_log" Log(R) -> R, call("Fixed.smallLog({0}, {14-a}, {2^(9-r)})"), ["Fixed.smallLog"], scales!(a: _, r: -15..=9), Error::Absolute(1.0), |a, b, n| functions::log(a, Scales::unpacked(n)), 153, 84),
+    fixed!("pow" Pow(R, R) -> R, call("Fixed.pow({0}, {1}, {14-a}, {2^(15-b)}, {2^(b-5)}, {r})"), ["Fixed.pow"], scales!(b: 13..=15), Error::Absolute(8.0), |a, b, n| functions::pow(a, b, Scales::unpacked(n)), 191, 72),
+    fixed!("wide_pow" Pow(R, R) -> R, call("Fixed.pow({0}, {1}, {14-a}, {2^(15-b)}, {2^(b-5)}, {r})"), ["Fixed.pow"], scales!(b: 10..=12), Error::Absolute(60.0), |a, b, n| functions::pow(a, b, Scales::unpacked(n)), 170, 72),
+    fixed!("far_pow" Pow(R, R) -> R, call("Fixed.pow({0}, {1}, {14-a}, {2^(15-b)}, {2^(b-5)}, {r})"), ["Fixed.pow"], scales!(b: 5..=9), Error::Absolute(1900.0), |a, b, n| functions::pow(a, b, Scales::unpacked(n)), 180, 72),
     fixed!("mod" Mod(R, R) -> R, call("Int.mod({0}, {1})"), ["Int.mod"], everywhere, EXACT, |a, b, n| modulo(a, b), 64, 36),
     fixed!("neg" Neg(R) -> R, sum("-{0}"), [], everywhere, EXACT, |a, b, n| -a, 1, 4),
     fixed!("abs" Abs(R) -> R, call("Math.abs({0})"), [], everywhere, EXACT, |a, b, n| a.abs(), 1, 36),

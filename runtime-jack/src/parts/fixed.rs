@@ -1,5 +1,44 @@
 //! The class of fixed-point reals.
 
+/// What makes operands magnitudes: `minus` is the sign of their product.
+macro_rules! magnitudes_of {
+    () => {
+        "        if (a < 0) {
+            let a = -a;
+            let minus = true;
+        }
+        if (b < 0) {
+            let b = -b;
+            let minus = ~minus;
+        }
+"
+    };
+}
+
+/// The bytes of magnitudes: `high` and `other`, and `a` and `b` the lower ones.
+macro_rules! bytes {
+    () => {
+        concat!(
+            "        var int high, other;
+        var boolean minus;
+",
+            magnitudes_of!(),
+            "        let high = a / 256;
+        let a = a & 255;
+        let other = b / 256;
+        let b = b & 255;
+"
+        )
+    };
+}
+
+/// What the lower ones add to the product of the upper ones, in 128ths of its unit.
+macro_rules! lower {
+    () => {
+        "(((high * b) / 2) + ((other * a) / 2)) + (((a / 2) * b) / 256)"
+    };
+}
+
 pub(crate) const HEAD: &str = "    /**
      * Reals in fixed point: n stands for n / 2, n / 4, n / 8, ..., each value its own. All
      * are from -32767 to 32767; what would be more saturates.
@@ -25,69 +64,43 @@ pub(crate) const RIGHT: &str = "    /** a / (2 * half), rounded. */
     }
 ";
 
-pub(crate) const MUL: &str = "    /** a * b / 32768, rounded. */
+pub(crate) const MUL: &str = concat!(
+    "    /** a * b / 32768, rounded. */
     function int mul(int a, int b) {
-        var int high, other;
-        var boolean minus;
-        if (a < 0) {
-            let a = -a;
-            let minus = true;
-        }
-        if (b < 0) {
-            let b = -b;
-            let minus = ~minus;
-        }
-        let high = a / 256;
-        let a = a & 255;
-        let other = b / 256;
-        let b = b & 255;
-        let a = (((((high * b) / 2) + ((other * a) / 2)) + (((a / 2) * b) / 256)) + 32) / 64;
+",
+    bytes!(),
+    "        let a = ((",
+    lower!(),
+    ") + 32) / 64;
         let high = high * other;
         if (minus) { return -((high + high) + a); }
         return (high + high) + a;
     }
-";
+"
+);
 
-pub(crate) const HALF_MUL: &str = "    /** a * b / 65536, rounded. */
+pub(crate) const HALF_MUL: &str = concat!(
+    "    /** a * b / 65536, rounded. */
     function int halfMul(int a, int b) {
-        var int high, other;
-        var boolean minus;
-        if (a < 0) {
-            let a = -a;
-            let minus = true;
-        }
-        if (b < 0) {
-            let b = -b;
-            let minus = ~minus;
-        }
-        let high = a / 256;
-        let a = a & 255;
-        let other = b / 256;
-        let b = b & 255;
-        let a = (((((high * b) / 2) + ((other * a) / 2)) + (((a / 2) * b) / 256)) + 64) / 128;
+",
+    bytes!(),
+    "        let a = ((",
+    lower!(),
+    ") + 64) / 128;
         if (minus) { return -((high * other) + a); }
         return (high * other) + a;
     }
-";
+"
+);
 
-pub(crate) const WIDE_MUL: &str =
+pub(crate) const WIDE_MUL: &str = concat!(
     "    /** a * b * up / 65536, rounded; that is a * b / (512 * down). */
     function int wideMul(int a, int b, int up, int down) {
-        var int high, other;
-        var boolean minus;
-        if (a < 0) {
-            let a = -a;
-            let minus = true;
-        }
-        if (b < 0) {
-            let b = -b;
-            let minus = ~minus;
-        }
-        let high = a / 256;
-        let a = a & 255;
-        let other = b / 256;
-        let b = b & 255;
-        let a = (((high * b) / 2) + ((other * a) / 2)) + (((a / 2) * b) / 256);
+",
+    bytes!(),
+    "        let a = ",
+    lower!(),
+    ";
         let a = (a + (down / 2)) / down;
         let high = high * other;
         if (high > ((32767 - a) / up)) { let a = 32767; }
@@ -95,9 +108,10 @@ pub(crate) const WIDE_MUL: &str =
         if (minus) { return -a; }
         return a;
     }
-";
+"
+);
 
-pub(crate) const DIV: &str =
+pub(crate) const DIV: &str = concat!(
     "    /** a / b with so many bits more, rounded; by 0 the greatest with the sign of a. */
     function int div(int a, int b, int bits) {
         var int whole, high, low, digit;
@@ -107,15 +121,9 @@ pub(crate) const DIV: &str =
             if (a < 0) { return -32767; }
             return 32767;
         }
-        if (a < 0) {
-            let a = -a;
-            let minus = true;
-        }
-        if (b < 0) {
-            let b = -b;
-            let minus = ~minus;
-        }
-        while (b < 16384) {
+",
+    magnitudes_of!(),
+    "        while (b < 16384) {
             let b = b + b;
             let bits = bits + 1;
         }
@@ -159,7 +167,8 @@ pub(crate) const DIV: &str =
         if (minus) { return -whole; }
         return whole;
     }
-";
+"
+);
 
 pub(crate) const MAKE_ROOTS: &str =
     "    static Array roots; // of k / 256, times 32768, from k = 64 on

@@ -19,6 +19,30 @@ macro_rules! bytes_bits {
     };
 }
 
+/// All bits of a magnitude from one on, divided by that.
+macro_rules! upper_bits {
+    ($from:literal / "128", $to:literal) => {
+        concat!(
+            bit_of_128th!($from, "128", $to, "1"),
+            upper_bits!($from / "256", $to, "2", "4", "8", "16", "32", "64", "128")
+        )
+    };
+    ($from:literal / "256", $to:literal) => {
+        upper_bits!($from / "256", $to, "1", "2", "4", "8", "16", "32", "64")
+    };
+    ($from:literal / "256", $to:literal, $a:literal, $b:literal, $c:literal, $d:literal, $e:literal, $f:literal, $g:literal) => {
+        concat!(
+            bit_of_128th!($from, "256", $to, $a),
+            bit_of_128th!($from, "512", $to, $b),
+            bit_of_128th!($from, "1024", $to, $c),
+            bit_of_128th!($from, "2048", $to, $d),
+            bit_of_128th!($from, "4096", $to, $e),
+            bit_of_128th!($from, "8192", $to, $f),
+            bit_of_128th!($from, "16384", $to, $g),
+        )
+    };
+}
+
 /// The products of bytes that a product of magnitudes is made of: `most` is that of
 /// both upper ones, and a is what the others are in 2^-8 of it, twice: the halves of
 /// either, cut, and what the lower ones have in 256 of theirs.
@@ -29,22 +53,9 @@ macro_rules! magnitudes {
             $result,
             ";
         var boolean minus;
-        if (a < 0) {
-            let a = -a;
-            let minus = true;
-        }
-        if (b < 0) {
-            let b = -b;
-            let minus = ~minus;
-        }
 ",
-            bit_of_128th!("a", "256", "high", "1"),
-            bit_of_128th!("a", "512", "high", "2"),
-            bit_of_128th!("a", "1024", "high", "4"),
-            bit_of_128th!("a", "2048", "high", "8"),
-            bit_of_128th!("a", "4096", "high", "16"),
-            bit_of_128th!("a", "8192", "high", "32"),
-            bit_of_128th!("a", "16384", "high", "64"),
+            magnitudes_of!(),
+            upper_bits!("a" / "256", "high"),
             "        let a = a & 255;
 ",
             bit_of_128th!("a", "2", "half", "1"),
@@ -83,14 +94,7 @@ pub(crate) const MUL: &str = concat!(
     "        let a = a + 64;
         let p = most + most;
 ",
-    bit_of_128th!("a", "128", "p", "1"),
-    bit_of_128th!("a", "256", "p", "2"),
-    bit_of_128th!("a", "512", "p", "4"),
-    bit_of_128th!("a", "1024", "p", "8"),
-    bit_of_128th!("a", "2048", "p", "16"),
-    bit_of_128th!("a", "4096", "p", "32"),
-    bit_of_128th!("a", "8192", "p", "64"),
-    bit_of_128th!("a", "16384", "p", "128"),
+    upper_bits!("a" / "128", "p"),
     "        if (a < 0) { let p = p + 256; }
         if (minus) { return -p; }
         return p;
@@ -106,13 +110,7 @@ pub(crate) const HALF_MUL: &str = concat!(
     "        let a = a + 128;
         let p = most;
 ",
-    bit_of_128th!("a", "256", "p", "1"),
-    bit_of_128th!("a", "512", "p", "2"),
-    bit_of_128th!("a", "1024", "p", "4"),
-    bit_of_128th!("a", "2048", "p", "8"),
-    bit_of_128th!("a", "4096", "p", "16"),
-    bit_of_128th!("a", "8192", "p", "32"),
-    bit_of_128th!("a", "16384", "p", "64"),
+    upper_bits!("a" / "256", "p"),
     "        if (a < 0) { let p = p + 128; }
         if (minus) { return -p; }
         return p;
@@ -209,7 +207,7 @@ pub(crate) const RIGHT: &str = concat!(
 "
 );
 
-pub(crate) const DIV: &str =
+pub(crate) const DIV: &str = concat!(
     "    /** a / b with so many bits more, rounded; by 0 the greatest with the sign of a. */
     function int div(int a, int b, int bits) {
         var int whole;
@@ -219,15 +217,9 @@ pub(crate) const DIV: &str =
             if (a < 0) { return -32767; }
             return 32767;
         }
-        if (a < 0) {
-            let a = -a;
-            let minus = true;
-        }
-        if (b < 0) {
-            let b = -b;
-            let minus = ~minus;
-        }
-        while (b < 16384) {
+",
+    magnitudes_of!(),
+    "        while (b < 16384) {
             let b = b + b;
             let bits = bits + 1;
         }
@@ -253,7 +245,8 @@ pub(crate) const DIV: &str =
         if (minus) { return -whole; }
         return whole;
     }
-";
+"
+);
 
 /// A bit of the lower seven, times `step`.
 macro_rules! step_bits {
@@ -265,6 +258,39 @@ macro_rules! step_bits {
         ),*)
     };
 }
+
+/// What a table has at the 128ths that `a` counts, from `first` on, in proportion: `least`.
+macro_rules! entry {
+    ($table:literal, $first:literal) => {
+        concat!(
+            "        let at = ",
+            $first,
+            ";\n",
+            upper_bits!("a" / "128", "at"),
+            "        let least = ",
+            $table,
+            "[at];
+        let step = ",
+            $table,
+            "[at + 1] - least;
+        let more = 64;
+",
+            step_bits!("1", "2", "4", "8", "16", "32", "64"),
+            upper_bits!("more" / "128", "least"),
+        )
+    };
+}
+
+pub(crate) const ENTRY: &str = concat!(
+    "    /** What a table of 257 has at a / 128, in proportion. */
+    function int entry(Array table, int a) {
+        var int at, least, step, more;
+",
+    entry!("table", "0"),
+    "        return least;
+    }
+"
+);
 
 pub(crate) const SQRT: &str = concat!(
     "    /** The root of a, which is made 4, 16, 64, ... times as large first; down is 2 times as
@@ -281,29 +307,8 @@ pub(crate) const SQRT: &str = concat!(
             let half = down;
             let down = down + down;
         }
-        let at = -64;
 ",
-    bit_of_128th!("a", "128", "at", "1"),
-    bit_of_128th!("a", "256", "at", "2"),
-    bit_of_128th!("a", "512", "at", "4"),
-    bit_of_128th!("a", "1024", "at", "8"),
-    bit_of_128th!("a", "2048", "at", "16"),
-    bit_of_128th!("a", "4096", "at", "32"),
-    bit_of_128th!("a", "8192", "at", "64"),
-    bit_of_128th!("a", "16384", "at", "128"),
-    "        let least = roots[at];
-        let step = roots[at + 1] - least;
-        let more = 64;
-",
-    step_bits!("1", "2", "4", "8", "16", "32", "64"),
-    bit_of_128th!("more", "128", "least", "1"),
-    bit_of_128th!("more", "256", "least", "2"),
-    bit_of_128th!("more", "512", "least", "4"),
-    bit_of_128th!("more", "1024", "least", "8"),
-    bit_of_128th!("more", "2048", "least", "16"),
-    bit_of_128th!("more", "4096", "least", "32"),
-    bit_of_128th!("more", "8192", "least", "64"),
-    bit_of_128th!("more", "16384", "least", "128"),
+    entry!("roots", "-64"),
     "        if (down = 1) { return least; }
         return Fixed.right(least, half);
     }

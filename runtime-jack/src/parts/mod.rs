@@ -12,6 +12,7 @@
 
 #[macro_use]
 mod float;
+#[macro_use]
 mod fixed;
 #[macro_use]
 mod functions;
@@ -23,6 +24,7 @@ mod powers;
 #[macro_use]
 mod processor;
 mod fixed_bits;
+mod fixed_functions;
 mod rounded;
 mod rounded_bits;
 
@@ -126,6 +128,21 @@ pub(crate) static ALL: &[Part] = &[
     part!("Fixed.turns", ["Fixed.halfMul"], 60, fixed::TURNS),
     part!("Fixed.sin", ["Fixed.makeSines"], 210, fixed::SIN),
     part!("Fixed.floor", [], 70, fixed::FLOOR),
+    part!("Fixed.makeArcs", ["Fixed.div"], 140, fixed_functions::MAKE_ARCS),
+    part!("Fixed.makePowers", ["Fixed.mul"], 200, fixed_functions::MAKE_POWERS),
+    part!("Fixed.makeLogs", ["Fixed.div"], 130, fixed_functions::MAKE_LOGS),
+    part!("Fixed.entry", [], 110, fixed_functions::ENTRY),
+    part!("Fixed.tan", ["Fixed.sin", "Fixed.div"], 50, fixed_functions::TAN),
+    part!("Fixed.arc", ["Fixed.makeArcs", "Fixed.entry", "Fixed.div"], 40, fixed_functions::ARC),
+    part!("Fixed.atan2", ["Fixed.arc"], 190, fixed_functions::ATAN2),
+    part!("Fixed.halfArc", ["Fixed.arc", "Fixed.root"], 100, fixed_functions::HALF_ARC),
+    part!("Fixed.asin", ["Fixed.halfArc"], 50, fixed_functions::ASIN),
+    part!("Fixed.acos", ["Fixed.halfArc"], 70, fixed_functions::ACOS),
+    part!("Fixed.power", ["Fixed.makePowers", "Fixed.entry", "Fixed.mul", "Fixed.right"], 380, fixed_functions::POWER),
+    part!("Fixed.exp", ["Fixed.power"], 40, fixed_functions::EXP),
+    part!("Fixed.log", ["Fixed.makeLogs", "Fixed.entry", "Fixed.mul", "Fixed.left", "Fixed.right", "Int.add"], 210, fixed_functions::LOG),
+    part!("Fixed.smallLog", ["Fixed.log", "Fixed.right"], 60, fixed_functions::SMALL_LOG),
+    part!("Fixed.pow", ["Fixed.makeLogs", "Fixed.entry", "Fixed.power"], 280, fixed_functions::POW),
     part!("Int", [], 0, ""),
     part!("Int.magnitude", [], 60, int::MAGNITUDE),
     part!("Int.add", [], 120, int::ADD),
@@ -196,6 +213,7 @@ const ON_PROCESSOR: &[(&str, &str)] = &[
     (fixed::DIV, fixed_bits::DIV),
     (fixed::SQRT, fixed_bits::SQRT),
     (fixed::DOUBLE_SQRT, fixed_bits::DOUBLE_SQRT),
+    (fixed_functions::ENTRY, fixed_bits::ENTRY),
 ];
 
 /// [`classes`] for a program that runs on the Hack's processor: the same values in

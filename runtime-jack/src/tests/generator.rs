@@ -57,6 +57,29 @@ impl Generator {
     }
 }
 
+/// What does something for all pairs of these ints, in the order of the model's loops; it
+/// uses the variables `k`, `l` and `edges` of the harness's `main`.
+pub fn all_pairs(edges: &[i32], [a, b]: [&str; 2], step: &str) -> String {
+    if edges.is_empty() {
+        return String::new();
+    }
+    let count = edges.len();
+    let mut text = format!("let edges = Array.new({count});\n");
+    for (k, edge) in edges.iter().enumerate() {
+        // Jack has no -32768.
+        let int = match edge {
+            -32768 => "(-32767) - 1".to_owned(),
+            _ => edge.to_string(),
+        };
+        text += &format!("let edges[{k}] = {int};\n");
+    }
+    text += &format!(
+        "let k = 0;\nwhile (k < {count}) {{\nlet l = 0;\nwhile (l < {count}) {{\n\
+         let {a} = edges[k];\nlet {b} = edges[l];\n{step}let l = l + 1; }}\nlet k = k + 1; }}\n"
+    );
+    text
+}
+
 /// The two sums over results.
 #[derive(Debug, Default, PartialEq)]
 pub struct Sums(pub i32, pub i32);

@@ -262,10 +262,11 @@ fn read_at_most(graph: &Graph, own: &mut [i8]) {
     }
     for id in graph.ids().rev() {
         let at = id.0 as usize;
-        let set = matches!(
-            graph.node(id),
-            Node::Lookup { .. } | Node::Received | Node::Apply(Op::Sin | Op::Cos, _)
-        );
+        let set = match graph.node(id) {
+            Node::Lookup { .. } | Node::Received => true,
+            Node::Apply(op, _) => scale::given(op).is_some(),
+            _ => false,
+        };
         if !set {
             own[at] = own[at].min(read[at].max(scale::FEWEST));
         }

@@ -2,7 +2,7 @@
 //! results can have.
 
 use crate::flow::graph::*;
-use slowlight_routine::scale::{FEWEST, MOST, Scales};
+use slowlight_routine::scale::{self, FEWEST, MOST, Scales};
 use slowlight_routine::{Op, Type};
 
 /// Bits of an operand of a product, without the sign: the product has so many more than
@@ -23,14 +23,12 @@ pub fn cap(graph: &Graph, op: Op, [a, b]: [NodeId; 2], room: &[i8]) -> i8 {
             _ => of_a + of_b - LONG,
         },
         Op::Sqrt => (LONG + of_a).div_euclid(2),
-        Op::Sin | Op::Cos => WAVES,
-        _ => MOST,
+        // Their tables have no more.
+        Op::Tan | Op::Log => 14,
+        _ => scale::given(op).unwrap_or(MOST),
     };
     most.clamp(FEWEST, MOST)
 }
-
-/// Fraction bits of sines, always: no more fit beside 1.
-pub const WAVES: i8 = 14;
 
 /// By how many bits a product may be shorter than that all the same.
 const WIDE: i8 = 3;
@@ -69,7 +67,8 @@ pub fn wanted(
         Op::Add | Op::Sub | Op::Min | Op::Max | Op::Mod | Op::Neg | Op::Abs | Op::ToReal => {
             [result; 2]
         }
-        Op::Less | Op::LessEqual | Op::Equal => {
+        // Of an angle's legs only the ratio matters.
+        Op::Less | Op::LessEqual | Op::Equal | Op::Atan2 => {
             let fixed = |id: NodeId, of: i8| match graph.constant(id) {
                 Some(_) => FEWEST,
                 None => of,
@@ -96,7 +95,12 @@ pub fn wanted(
         Op::Floor => [of_a.max(0), 0],
         Op::Round => [0, 0],
         // Half a turn fits where the point is furthest to the left.
-        Op::Sin | Op::Cos => [of_a.clamp(0, 13), 0],
+        Op::Sin | Op::Cos | Op::Tan => [of_a.clamp(0, 13), 0],
+        // From -1 to 1.
+        Op::Asin | Op::Acos => [14, 0],
+        // Beyond 32 every power saturates.
+        Op::Exp => [of_a.clamp(10, 15), 0],
+        Op::Pow => [of_a, of_b.clamp(5, 15)],
         _ => [of_a, of_b],
     };
     let result = match op.result() {

@@ -1,153 +1,14 @@
-#![allow(clippy::unwrap_used)]
-//! The models against the exact results, and the Jack source against the models.
+//! The Jack source of routines for logarithmic reals against their models; and what a use
+//! of each costs.
 
-use super::model::{LEAST, Log, MOST, NEAR, OCTAVE, clamp};
-use super::tables::tables;
-use super::{LOG10, routines::ALL};
+use super::{edges, may, own};
 use crate::classes;
-use crate::model::{int, int_bits};
-use crate::tests::generator::{Generator, STIR, Sums};
+use crate::log::model::{Log, clamp};
+use crate::log::{LOG, LOG10};
+use crate::model::{MOST as MOST_INT, int_bits};
+use crate::tests::generator::{Generator, STIR, Sums, all_pairs};
 use crate::tests::machine::{pairs, run};
-use slowlight_routine::{Bits, Error, Form, Format, Range, Routine, Value};
-
-fn unit(x: f64) -> f64 {
-    x * f64::from(OCTAVE)
-}
-
-#[test]
-fn tables_are_right_to_what_is_stated() {
-    let tables = tables();
-    let worst = |list: &[i32], from: usize, exact: &dyn Fn(f64) -> f64| {
-        let all = list.iter().enumerate().skip(from);
-        all.map(|(d, &k)| (f64::from(k) - unit(exact(d as f64))).abs())
-            .fold(0.0, f64::max)
-    };
-    let less = |d: f64| (-d / f64::from(OCTAVE)).exp2();
-    let found = [
-        worst(&tables.sums, 0, &|d| (1.0 + less(d)).log2()),
-        worst(&tables.differences, 256, &|d| -(1.0 - less(d)).log2()),
-        worst(&tables.differences[..256], 1, &|d| -(1.0 - less(d)).log2()),
-        worst(&tables.logs, 1, &f64::log2),
-    ];
-    assert_eq!(
-        found.map(|worst| format!("{worst:.3}")),
-        ["0.540", "0.591", "1.220", "0.540"]
-    );
-    assert_eq!(tables.sums.len(), NEAR as usize);
-}
-
-/// Logarithms at every edge.
-fn edges() -> Vec<i32> {
-    let near = [
-        0, 1, 2, 3, 255, 256, 257, 1023, 1024, 1025, 6143, 6144, 6145,
-    ];
-    let far = [9215, 9216, 9217, 15359, 15360, MOST - 1, MOST];
-    let mut all: Vec<i32> = near.into_iter().chain(far).collect();
-    all.extend(all.clone().iter().map(|log| -log));
-    all.push(LEAST);
-    all.sort_unstable();
-    all.dedup();
-    all
-}
-
-/// Whether a routine is right for such operands.
-fn may(routine: &Routine, args: &[Bits]) -> bool {
-    let values: Vec<Value> = (args.iter().zip(routine.args))
-        .map(|(bits, format)| (LOG10.decode)(*bits, *format))
-        .collect();
-    let ranges: Vec<Range> = values.iter().map(|v| Range::point(v.real())).collect();
-    let exact = routine.op.eval(&values);
-    (routine.domain)(&ranges, Range::point(exact.real()))
-}
-
-#[test]
-fn routines_keep_within_their_errors() {
-    let mut generator = Generator(7);
-    let mut logs = edges();
-    logs.extend((0..150).map(|_| generator.next() - 16384));
-    logs.extend((0..150).map(|_| generator.next() / 32 - 512));
-    let reals: Vec<Bits> = [true, false]
-        .into_iter()
-        .flat_map(|plus| logs.iter().map(move |&log| Log { plus, log }.bits()))
-        .collect();
-    let every: Vec<Bits> = (LEAST..=MOST)
-        .flat_map(|log| [true, false].map(|plus| Log { plus, log }.bits()))
-        .collect();
-    let ints: Vec<Bits> = (-40..40).map(|k| int_bits(k * k * k / 2)).collect();
-    let own = ALL
-        .iter()
-        .filter(|r| r.args[0] == super::LOG || r.result == super::LOG);
-    for routine in own {
-        let list = |k: usize| match routine.args.get(k) {
-            None => vec![0],
-            Some(Format::Log { .. }) if routine.args.len() == 1 => every.clone(),
-            Some(Format::Log { .. }) => reals.clone(),
-            Some(_) => ints.clone(),
-        };
-        let mut seen = 0;
-        for &a in &list(0) {
-            for &b in &list(1) {
-                let args = &[a, b][..routine.args.len()];
-                if !may(routine, args) {
-                    continue;
-                }
-                seen += 1;
-                holds(routine, args);
-            }
-        }
-        // Those of constants are for ranges that hold a 0, which no value is.
-        let constant = [
-            "negative",
-            "positive",
-            "not_positive",
-            "not_negative",
-            "max_zero",
-            "loose_mul",
-            "loose_div",
-            "is_zero",
-            "zero_max",
-        ];
-        assert!(
-            seen > 0 || constant.contains(&routine.name),
-            "{}",
-            routine.name
-        );
-    }
-}
-
-/// The greatest value.
-fn most_held() -> f64 {
-    let greatest = Log {
-        plus: true,
-        log: MOST,
-    };
-    greatest.value()
-}
-
-fn holds(routine: &Routine, args: &[Bits]) {
-    let values: Vec<Value> = (args.iter().zip(routine.args))
-        .map(|(bits, format)| (LOG10.decode)(*bits, *format))
-        .collect();
-    let ranges: Vec<Range> = values.iter().map(|v| Range::point(v.real())).collect();
-    let exact = routine.op.eval(&values).real();
-    let made = (LOG10.decode)((routine.model)(args), routine.result).real();
-    // Beyond the ends results saturate; so do ints.
-    let exact = match routine.result {
-        Format::Log { .. } => exact.clamp(-most_held(), most_held()),
-        Format::Int { .. } => exact.clamp(-32768.0, 32767.0),
-        _ => exact,
-    };
-    let off = (made - exact).abs();
-    let most = match routine.error {
-        Error::Exact => 0.0,
-        error => error.most(&ranges, exact),
-    };
-    assert!(
-        off <= most,
-        "{} {values:?}: {made}, not {exact}",
-        routine.name
-    );
-}
+use slowlight_routine::{Bits, Form, Format, Range, Routine};
 
 const MAIN: &str = "
     static int seed, block, first, second, i, j, out, a, b, r;
@@ -225,7 +86,7 @@ impl Draw {
         let of = |plus| Log { plus, log: 17 }.bits();
         let fits = |(p, q): &(bool, bool)| {
             let args = [of(*p), of(*q)];
-            routine.args[0] != super::LOG || may(routine, &args[..routine.args.len()])
+            routine.args[0] != LOG || may(routine, &args[..routine.args.len()])
         };
         let mut signs: Vec<_> = all.into_iter().filter(fits).collect();
         if signs.is_empty() {
@@ -235,13 +96,51 @@ impl Draw {
         Draw { wide, signs }
     }
 
+    /// The edges of operands that the routine takes, whatever their signs.
+    fn edges(&self, routine: &Routine) -> Vec<i32> {
+        match (routine.args[0] == LOG, self.wide) {
+            (false, _) => [-32768, -32767, -1025, -257, -1]
+                .into_iter()
+                .flat_map(|n: i32| [n, -n.max(-MOST_INT), n / 2 + 1])
+                .collect(),
+            (true, true) => edges().into_iter().map(clamp).collect(),
+            (true, false) => {
+                let inner = |log: &i32| (-2500..=5600).contains(log);
+                edges().into_iter().filter(inner).collect()
+            }
+        }
+    }
+
+    /// A step for a pair of edges with each choice of signs.
+    fn steps(&self, routine: &Routine) -> String {
+        if routine.args[0] != LOG {
+            return "do Main.step();\n".to_owned();
+        }
+        let step = |(p, q): &(bool, bool)| {
+            format!("let aPlus = {p};\nlet bPlus = {q};\ndo Main.step();\n")
+        };
+        self.signs.iter().map(step).collect()
+    }
+
+    /// The operands of these steps.
+    fn of_edges(&self, routine: &Routine, [a, b]: [i32; 2]) -> Vec<Vec<Bits>> {
+        if routine.args[0] != LOG {
+            return vec![vec![int_bits(a)]];
+        }
+        let bits = |(p, q): &(bool, bool)| {
+            let all = [(*p, a), (*q, b)].map(|(plus, log)| Log { plus, log }.bits());
+            all[..routine.args.len()].to_vec()
+        };
+        self.signs.iter().map(bits).collect()
+    }
+
     /// How many draws of 32768 mean one choice of signs; what is left means the last.
     fn part(&self) -> usize {
         (32768 / self.signs.len()).min(32767)
     }
 
     fn jack(&self, routine: &Routine) -> String {
-        if routine.args[0] != super::LOG {
+        if routine.args[0] != LOG {
             return "let i = Main.anyInt();\n".to_owned();
         }
         let draw = if self.wide {
@@ -259,7 +158,7 @@ impl Draw {
     }
 
     fn args(&self, routine: &Routine, generator: &mut Generator) -> Vec<Bits> {
-        if routine.args[0] != super::LOG {
+        if routine.args[0] != LOG {
             return vec![int_bits(any_int(generator))];
         }
         let mut draw = |other| {
@@ -284,7 +183,7 @@ impl Draw {
 
 /// A use of a routine, as statements.
 fn usage(routine: &Routine) -> String {
-    let real = |k: usize| routine.args.get(k) == Some(&super::LOG);
+    let real = |k: usize| routine.args.get(k) == Some(&LOG);
     let fill = |template: &str| {
         let operand = |k: usize| match real(k) {
             true => ["a", "b"][k],
@@ -309,13 +208,22 @@ fn usage(routine: &Routine) -> String {
     }
 }
 
-fn program(routine: &Routine, step: &str, count: u32) -> Vec<(String, String)> {
+fn program(routine: &Routine, step: &str, with_edges: bool, count: u32) -> Vec<(String, String)> {
     let parts = LOG10.closure(routine.needs.iter().copied().chain(["Log"]));
     let mut main =
         format!("class Main {{\n{MAIN}    function void step() {{\n{step}\nreturn;\n}}\n");
-    main += "    function void main() {\nvar int k, l;\n";
+    main += "    function void main() {\nvar int k, l;\nvar Array edges;\n";
     if crate::has_init("Log", &parts) {
         main += "do Log.init();\n";
+    }
+    let draw = Draw::of(routine);
+    if with_edges {
+        let operands = if routine.args[0] == LOG {
+            ["a", "b"]
+        } else {
+            ["i", "j"]
+        };
+        main += &all_pairs(&draw.edges(routine), operands, &draw.steps(routine));
     }
     let stir = if step.contains("note(") { STIR } else { "" };
     main += &format!(
@@ -323,17 +231,12 @@ fn program(routine: &Routine, step: &str, count: u32) -> Vec<(String, String)> {
          let k = k - 1; }}\nlet l = l - 1; }}\ndo Output.printInt(first);\ndo Output.printChar(32);\n\
          do Output.printInt(second);\nreturn;\n}}\n}}\n",
         count / 1000,
-        Draw::of(routine).jack(routine),
+        draw.jack(routine),
     );
     let mut files = vec![("Main.jack".to_owned(), main)];
     let all = classes(&parts).into_iter();
     files.extend(all.map(|(name, text)| (format!("{name}.jack"), text)));
     files
-}
-
-fn own() -> impl Iterator<Item = &'static Routine> {
-    ALL.iter()
-        .filter(|r| r.args[0] == super::LOG || r.result == super::LOG)
 }
 
 #[test]
@@ -347,35 +250,48 @@ fn routines_compute_what_their_models_do() {
         let found = run(&program(
             routine,
             &format!("{} {notes}", usage(routine)),
+            true,
             pairs(),
         ));
         let (mut sums, mut generator) = (Sums::default(), Generator(1));
         let draw = Draw::of(routine);
+        let edges = draw.edges(routine);
+        for (a, b) in edges
+            .iter()
+            .flat_map(|a| edges.iter().map(move |b| (*a, *b)))
+        {
+            for args in draw.of_edges(routine, [a, b]) {
+                note(&mut sums, routine, &args);
+            }
+        }
         for k in 0..pairs() / 1000 * 1000 {
             if k % 1000 == 0 {
                 generator.stir();
             }
-            let args = draw.args(routine, &mut generator);
-            let bits = (routine.model)(&args);
-            match routine.result {
-                Format::Log { .. } => {
-                    let Log { plus, log } = Log::from_bits(bits);
-                    sums.note(log);
-                    sums.note(if plus { -1 } else { 0 });
-                }
-                Format::Bool => sums.note(if bits == 0 { 0 } else { -1 }),
-                _ => sums.note(int(bits)),
-            }
+            note(&mut sums, routine, &draw.args(routine, &mut generator));
         }
         let Sums(first, second) = sums;
         assert_eq!(found.text, format!("{first} {second}"), "{}", routine.name);
     }
 }
 
+/// What the harness notes of a result.
+fn note(sums: &mut Sums, routine: &Routine, args: &[Bits]) {
+    let bits = (routine.model)(args);
+    match routine.result {
+        Format::Log { .. } => {
+            let Log { plus, log } = Log::from_bits(bits);
+            sums.note(log);
+            sums.note(if plus { -1 } else { 0 });
+        }
+        _ => sums.result(bits, routine.result),
+    }
+}
+
 /// Commands of a use over those of its surroundings, without loads and stores of
 /// logarithms; those of signs count.
 fn cost(routine: &Routine) -> u32 {
-    let count = |step: &str| run(&program(routine, step, 20_000)).instructions;
+    let count = |step: &str| run(&program(routine, step, false, 20_000)).instructions;
     let stored = 1;
     let idle = match (routine.form, routine.result) {
         (Form::Statement(_), _) => "let r = 0;",
