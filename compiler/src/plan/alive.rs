@@ -102,6 +102,11 @@ impl<'p> Flow<'p> {
         })
     }
 
+    /// The number of a place that is read or written.
+    pub fn known(&self, place: Place) -> Option<usize> {
+        self.numbers.get(&place).copied()
+    }
+
     pub fn format(&self, place: usize) -> Format {
         self.plan.place_format(self.places[place])
     }

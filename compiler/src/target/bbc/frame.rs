@@ -9,7 +9,7 @@ use super::poke::Poke;
 use super::ramp::{self, Late};
 use super::screen;
 use super::segment::{SEGMENT, Segments};
-use super::short::short;
+use super::short::{SELDOM, short};
 use super::spread::Spread;
 use super::tables;
 use super::tail;
@@ -50,7 +50,7 @@ pub fn program(plan: &Plan) -> Lines {
     let parts = called(plan, &code);
     setup(plan, &mut code, &parts, &first, &last);
     // Called for many pixels, but not for all.
-    code.lines.weight = 5_000;
+    code.lines.weight = if called_rarely(&code) { 1 } else { 5_000 };
     functions(&mut code, &parts);
     code.lines.weight = 1;
     tables::data(plan, &mut code);
@@ -70,7 +70,9 @@ pub fn program(plan: &Plan) -> Lines {
     let constants = assigned
         .filter_map(|text| Some(text.split_once('=')?.0.to_owned()))
         .collect();
-    short(lines, &keep, &constants, style, plan.calls_seldom())
+    let flags = code.values.names.flags(plan);
+    let spare = plan.calls_seldom();
+    short(lines, &keep, [&constants, &flags], style, spare)
 }
 
 /// The scene's item that something comes from: the last that begins before it.
@@ -305,13 +307,30 @@ fn called(plan: &Plan, code: &Code<'_>) -> Vec<&'static Part> {
     plan.runtime.closure(names)
 }
 
+/// Whether functions are called only where a test fails, and where little is done.
+fn called_rarely(code: &Code<'_>) -> bool {
+    code.lines.weighted().all(|(text, weight)| {
+        let usual = match text.split_once(" ELSE ") {
+            Some((usual, _)) if usual.starts_with("IF ") => usual,
+            _ => text,
+        };
+        weight <= SELDOM || !usual.contains("FN")
+    })
+}
+
 fn setup(plan: &Plan, code: &mut Code<'_>, parts: &[&Part], first: &str, last: &str) {
     code.line("DEF PROCsetup");
+    let must = match plan.brief {
+        true => ":",
+        false => " must be from",
+    };
     for (k, (param, written)) in plan.graph.params.iter().zip(&plan.params).enumerate() {
         let name = code.values.names.param(k).to_owned();
         if let Some((lo, hi)) = &written.range {
             code.lines.line(
-                format!("IF {name}<{lo} OR {name}>{hi} THEN PRINT \"{name} must be from {lo} to {hi}\":END"),
+                format!(
+                    "IF {name}<{lo} OR {name}>{hi} THEN PRINT \"{name}{must} {lo} to {hi}\":END"
+                ),
                 Some(param.span),
             );
         }
@@ -321,7 +340,7 @@ fn setup(plan: &Plan, code: &mut Code<'_>, parts: &[&Part], first: &str, last: &
     }
     let (top, bottom) = screen::rows(plan);
     code.line(format!(
-        "IF {first}<{top} OR {last}>{bottom} OR {first}>{last} THEN PRINT \"rows must be from {top} to {bottom}\":END"
+        "IF {first}<{top} OR {last}>{bottom} OR {first}>{last} THEN PRINT \"rows{must} {top} to {bottom}\":END"
     ));
     for part in parts {
         if let Source::Text(text) = part.source

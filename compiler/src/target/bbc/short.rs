@@ -15,7 +15,8 @@
 
 use super::Style;
 use super::lines::Lines;
-use super::pieces::{Piece, pieces, written};
+use super::pieces::{LIMITS, Piece, pieces, written};
+use super::terse::terse;
 use std::collections::{BTreeMap, BTreeSet};
 
 /// A line of tokens may hold 251 bytes; labels become longer than their marks.
@@ -23,14 +24,15 @@ const WIDTH: usize = 220;
 
 /// How often what is read for a row or pass is read in a picture, at most: each
 /// time a number in the text takes up to five thousand cycles more than a variable.
-const SELDOM: u64 = 2_000;
+pub const SELDOM: u64 = 2_000;
 
 /// Makes a program short; the names in `keep` stay, those in `constants` are of
-/// numbers that never change. `spare`: it did not fit as it is quickest.
+/// numbers that never change, those in `flags` of what is TRUE or FALSE. `spare`: it
+/// did not fit as it is quickest.
 pub fn short(
     lines: Lines,
     keep: &[String],
-    constants: &BTreeSet<String>,
+    [constants, flags]: [&BTreeSet<String>; 2],
     style: Style,
     spare: bool,
 ) -> Lines {
@@ -48,6 +50,7 @@ pub fn short(
         body.each_text(|text| *text = without_unread(text, &unread));
     }
     body.remove_empty();
+    body.each_text(|text| *text = terse(text, flags));
     let names = given(&uses(&body), keep);
     body.each_text(|text| *text = written(text, &names));
     head.followed_by(body.joined(WIDTH))
@@ -96,7 +99,8 @@ fn in_place(
             if !plain {
                 changed.insert(name.to_owned());
             }
-            if name.starts_with(|c: char| c.is_ascii_lowercase())
+            let own = name.starts_with(|c: char| c.is_ascii_lowercase());
+            if (own || LIMITS.contains(&name))
                 && number.starts_with(|c: char| c.is_ascii_digit() || spare && c == '-')
                 && pieces(name).len() == 1
                 && plain
@@ -135,7 +139,7 @@ fn in_place(
         !changed.contains(name)
             && !two_signs
             && often.get(name).is_none_or(|often| *often <= seldom)
-            && constants.contains(name)
+            && (constants.contains(name) || LIMITS.contains(&name.as_str()))
             && reads * number.len().saturating_sub(letters) < number.len() + 9 + 2 * letters
     });
     numbers
@@ -254,9 +258,15 @@ mod tests {
             ("IF a<1E5 THEN =a ELSE =0", "IFa<1E5 THEN=a ELSE=0"),
             (
                 "IF b%>88 THEN c%=b% ELSE c%=2 DIV 3",
-                "IFb%>88THENc%=b%ELSEc%=2DIV3",
+                "IFb%>88c%=b%ELSEc%=2DIV3",
             ),
             ("q%=n% MOD E%:r%=n% MOD 7", "q%=n%MOD E%:r%=n%MOD 7"),
+            // A name or an exponent would go on, and a result would be compared.
+            ("IF a<b THEN c=d:d=e", "IFa<b c=d:d=e"),
+            ("IF a%<0 THEN e=d", "IFa%<0THENe=d"),
+            ("IF a%<1E9 THEN PROCrow", "IFa%<1E9 PROCrow"),
+            ("IF (a%) THEN IF b% THEN GOTO 3", "IF(a%)IFb%GOTO3"),
+            ("IF a% THEN ?b%=3", "IFa%THEN?b%=3"),
             (
                 "IF NOT done AND TRUE THEN \u{1}4\u{1}",
                 "IFNOTdone ANDTRUE THEN\u{1}4\u{1}",
