@@ -9,7 +9,7 @@ use super::poke::Poke;
 use super::ramp::{self, Late};
 use super::screen;
 use super::segment::{SEGMENT, Segments};
-use super::short::{SELDOM, short};
+use super::short::{Known, SELDOM, short};
 use super::spread::Spread;
 use super::tables;
 use super::tail;
@@ -71,8 +71,13 @@ pub fn program(plan: &Plan) -> Lines {
         .filter_map(|text| Some(text.split_once('=')?.0.to_owned()))
         .collect();
     let flags = code.values.names.flags(plan);
-    let spare = plan.calls_seldom();
-    short(lines, &keep, [&constants, &flags], style, spare)
+    let known = Known {
+        constants: &constants,
+        flags: &flags,
+        spare: plan.calls_seldom(),
+        scant: plan.scant,
+    };
+    short(lines, &keep, &known, style)
 }
 
 /// The scene's item that something comes from: the last that begins before it.
@@ -92,9 +97,13 @@ fn parameters(plan: &Plan, code: &mut Code<'_>, first: &str, last: &str) {
         Some(page) => format!(" at PAGE &{page:X}"),
         None => String::new(),
     };
+    let what = match plan.scant {
+        true => String::new(),
+        false => format!(", {}x{} in {} inks,", mode.width, mode.height, mode.inks),
+    };
     code.line(format!(
-        "REM {}, {}x{} in {} inks, by slowlight for {}{page}",
-        plan.name, mode.width, mode.height, mode.inks, plan.target.name
+        "REM {}{what} by slowlight for {}{page}",
+        plan.name, plan.target.name
     ));
     let remark = |text: String| match plan.brief {
         true => String::new(),

@@ -26,16 +26,21 @@ const WIDTH: usize = 220;
 /// time a number in the text takes up to five thousand cycles more than a variable.
 pub const SELDOM: u64 = 2_000;
 
-/// Makes a program short; the names in `keep` stay, those in `constants` are of
-/// numbers that never change, those in `flags` of what is TRUE or FALSE. `spare`: it
-/// did not fit as it is quickest.
-pub fn short(
-    lines: Lines,
-    keep: &[String],
-    [constants, flags]: [&BTreeSet<String>; 2],
-    style: Style,
-    spare: bool,
-) -> Lines {
+/// What is known of a program beside its lines.
+pub struct Known<'k> {
+    /// Names of numbers that never change.
+    pub constants: &'k BTreeSet<String>,
+    /// Names of what is TRUE or FALSE.
+    pub flags: &'k BTreeSet<String>,
+    /// It did not fit as it is quickest.
+    pub spare: bool,
+    /// Nor without remarks.
+    pub scant: bool,
+}
+
+/// Makes a program short; the names in `keep` stay.
+pub fn short(lines: Lines, keep: &[String], known: &Known<'_>, style: Style) -> Lines {
+    let spare = known.spare;
     // The rows to draw, which are named last, stand at the parameter block's end.
     let rows = keep.last().map_or(String::new(), |last| format!("{last}="));
     let (head, mut body) = lines.split_behind(&rows);
@@ -44,16 +49,57 @@ pub fn short(
         _ => SELDOM,
     };
     let unread = unread(&body, keep);
-    let constants = in_place(&body, constants, seldom, spare);
+    let constants = in_place(&body, known.constants, seldom, spare);
     body.each_text(|text| *text = without(text, &constants));
     if spare {
         body.each_text(|text| *text = without_unread(text, &unread));
     }
     body.remove_empty();
-    body.each_text(|text| *text = terse(text, flags));
+    body.each_text(|text| *text = terse(text, known.flags, known.scant));
+    if known.scant {
+        with_short_calls(&mut body);
+    }
     let names = given(&uses(&body), keep);
     body.each_text(|text| *text = written(text, &names));
     head.followed_by(body.joined(WIDTH))
+}
+
+/// Gives procedures and functions names of one letter, as far as there are letters.
+fn with_short_calls(body: &mut Lines) {
+    let mut called: BTreeSet<String> = BTreeSet::new();
+    for text in body.texts() {
+        called.extend(pieces(text).iter().filter_map(|piece| match piece {
+            Piece::Fixed(name) if call(name).is_some() => Some((*name).to_owned()),
+            _ => None,
+        }));
+    }
+    let mut names: BTreeMap<String, String> = BTreeMap::new();
+    for kind in CALLS {
+        let long = |name: &&String| call(name).is_some_and(|(of, own)| of == kind && own.len() > 1);
+        let mut free = ('a'..='z').map(|letter| format!("{kind}{letter}"));
+        for name in called.iter().filter(long) {
+            if let Some(short) = free.find(|short| !called.contains(short)) {
+                names.insert(name.clone(), short);
+            }
+        }
+    }
+    body.each_text(|text| {
+        let named = pieces(text).into_iter().map(|piece| match piece {
+            Piece::Fixed(name) => names.get(name).map_or(name, String::as_str),
+            Piece::Name(t) | Piece::Word(t) | Piece::Sign(t) => t,
+            Piece::Space => " ",
+        });
+        *text = named.collect();
+    });
+}
+
+/// How the names of procedures and functions begin.
+const CALLS: [&str; 2] = ["PROC", "FN"];
+
+/// Which of them a name is of, and what is its own.
+fn call(name: &str) -> Option<(&'static str, &str)> {
+    let of = CALLS.into_iter().find(|kind| name.starts_with(kind))?;
+    Some((of, name.strip_prefix(of)?))
 }
 
 /// How often each name is met while the program runs, roughly. An array's name
@@ -304,6 +350,27 @@ mod tests {
         );
         let first = "big=1.7E38:half=big/2:c=-96:d=-5";
         assert_eq!(without_unread(first, &unread(&body, &[])), "c=-96:d=-5");
+    }
+
+    #[test]
+    fn where_memory_is_scant_calls_have_one_letter() {
+        let mut body = Lines::default();
+        for text in [
+            "PROCrow:PROCa:x=FNdiv(x,FNsub(1,2))",
+            "DEF PROCrow",
+            "DEF FNdiv(a,b)",
+            "PRINT \"PROCrow\"",
+        ] {
+            body.line(text, None);
+        }
+        with_short_calls(&mut body);
+        let expected = [
+            "PROCb:PROCa:x=FNa(x,FNb(1,2))",
+            "DEF PROCb",
+            "DEF FNa(a,b)",
+            "PRINT \"PROCrow\"",
+        ];
+        assert_eq!(body.texts().collect::<Vec<_>>(), expected);
     }
 
     #[test]
