@@ -161,8 +161,8 @@ fn with_calls_where_seldom(
         let Some(mut tried) = way() else {
             continue;
         };
-        for brief in [false, true] {
-            tried.brief = brief;
+        for (brief, scant) in [(false, false), (true, false), (true, true)] {
+            (tried.brief, tried.scant) = (brief, scant);
             if need(&tried)?.is_none_or(|need| need.fits()) {
                 return Ok(Some(tried));
             }

@@ -53,6 +53,8 @@ pub struct Guarded {
     pub when: &'static [(usize, Test)],
     /// What its result's size stays below then, where that is known.
     pub below: Option<f64>,
+    /// What it is where the tests fail, if that is always the same.
+    pub otherwise: Option<&'static str>,
 }
 
 /// Whole numbers of this size may be added without wrapping.
@@ -60,7 +62,16 @@ const HALF_WORD: f64 = 1e9;
 
 macro_rules! guarded {
     ($name:literal $cheap:literal [$(($at:literal $test:expr)),*] $below:expr) => {
-        Guarded { name: $name, cheap: $cheap, when: &[$(($at, $test)),*], below: $below }
+        guarded!($name $cheap [$(($at $test)),*] $below, None)
+    };
+    ($name:literal $cheap:literal [$(($at:literal $test:expr)),*] $below:expr, $otherwise:expr) => {
+        Guarded {
+            name: $name,
+            cheap: $cheap,
+            when: &[$(($at, $test)),*],
+            below: $below,
+            otherwise: $otherwise,
+        }
     };
 }
 
@@ -73,7 +84,7 @@ pub static GUARDED: &[Guarded] = &[
     guarded!("FNsub" "sub" [(0 Below(HALF_WORD)), (1 Below(HALF_WORD))] Some(2.0 * HALF_WORD)),
     guarded!("FNmul" "mul" [(0 Below(1e18)), (1 Below(1e18))] Some(1.1e36)),
     guarded!("FNdiv" "div" [(0 Below(1e18)), (1 Above(1e-15))] None),
-    guarded!("FNsqr" "sqr" [(0 Least(0.0))] Some(2e19)),
+    guarded!("FNsqr" "sqr" [(0 Least(0.0))] Some(2e19), Some("0")),
     guarded!("FNsin" "sin" [(0 Below(1e5))] Some(1.1)),
     guarded!("FNcos" "cos" [(0 Below(1e5))] Some(1.1)),
     guarded!("FNasn" "asn" [(0 Below(1.0))] Some(2.0)),

@@ -11,7 +11,90 @@
 
 use crate::flow::graph::*;
 use crate::flow::tree::*;
+use slowlight_routine::Op;
 use std::collections::{HashMap, HashSet};
+
+/// What only runs of columns read of a pass's ints, if computing one takes no longer
+/// than reading it: it stands in front of the first statement that reads it, so that
+/// the subroutine that reads it may have it.
+pub fn down_to_runs(graph: &Graph, tree: &mut Tree) {
+    let mut elsewhere: HashSet<NodeId> = HashSet::new();
+    for block in [&tree.frame, &tree.row, &tree.pass, &tree.pixel] {
+        for statement in block {
+            elsewhere.extend(reads(graph, statement));
+        }
+    }
+    // A choice, an ink say, is read where it is made, wherever that is.
+    for id in graph.ids() {
+        if !matches!(graph.node(id), Node::Apply(..)) {
+            elsewhere.extend(graph.node(id).operands());
+        }
+    }
+    elsewhere.extend(graph.reports.iter().copied().chain([graph.ink]));
+    let seldom: HashSet<NodeId> = (tree.segment.iter())
+        .flat_map(|s| reads(graph, s))
+        .collect();
+    let mut found = Vec::new();
+    walk(&tree.pass, &mut |statement| {
+        if let Statement::Let(id) = statement
+            && seldom.contains(id)
+            && !elsewhere.contains(id)
+            && is_short(graph, *id)
+        {
+            found.push(*id);
+        }
+    });
+    for id in found {
+        let segment = std::mem::take(&mut tree.segment);
+        tree.segment = in_front(graph, segment, id);
+        tree.pass = left_out(std::mem::take(&mut tree.pass), id);
+    }
+}
+
+/// A sum or difference of an int and a constant.
+fn is_short(graph: &Graph, id: NodeId) -> bool {
+    let Node::Apply(Op::IntAdd | Op::IntSub, args) = graph.node(id) else {
+        return false;
+    };
+    let carried = |id: &NodeId| matches!(graph.node(*id), Node::Carried { .. } | Node::Last { .. });
+    args.iter().any(|id| graph.constant(*id).is_some()) && !args.iter().any(carried)
+}
+
+/// A block with a value before the first statement that reads it, as deep inside as
+/// one arm has all that do.
+fn in_front(graph: &Graph, mut block: Block, id: NodeId) -> Block {
+    let reading = |s: &Statement| reads(graph, s).contains(&id);
+    let all: Vec<usize> = (0..block.len()).filter(|at| reading(&block[*at])).collect();
+    let Some(&first) = all.first() else {
+        return block;
+    };
+    if let (1, Statement::If { cond, yes, no }) = (all.len(), &mut block[first])
+        && *cond != id
+    {
+        let inside = [&*yes, &*no].map(|arm| arm.iter().any(reading));
+        match inside {
+            [true, false] => *yes = in_front(graph, std::mem::take(yes), id),
+            [false, true] => *no = in_front(graph, std::mem::take(no), id),
+            _ => block.insert(first, Statement::Let(id)),
+        }
+        return block;
+    }
+    block.insert(first, Statement::Let(id));
+    block
+}
+
+/// A block without the statement that computes a value.
+fn left_out(block: Block, id: NodeId) -> Block {
+    let kept = block.into_iter().filter(|s| *s != Statement::Let(id));
+    kept.filter_map(|statement| match statement {
+        Statement::If { cond, yes, no } => {
+            let (yes, no) = (left_out(yes, id), left_out(no, id));
+            (!yes.is_empty() || !no.is_empty()).then_some(Statement::If { cond, yes, no })
+        }
+        other => Some(other),
+    })
+    .collect()
+}
 
 /// A block with its values where they are first read, and so with its arms.
 pub fn near(graph: &Graph, block: Block) -> Block {

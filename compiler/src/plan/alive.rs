@@ -13,7 +13,7 @@
 use super::Plan;
 use crate::flow::graph::*;
 use crate::flow::tree::*;
-use slowlight_routine::Format;
+use slowlight_routine::{Format, Op, Value};
 use std::collections::HashMap;
 
 /// How many conditions are looked at both ways, at most: each only sets more apart.
@@ -32,6 +32,18 @@ pub struct Step {
     ends: bool,
     /// The condition by which it goes on to the next step, or jumps.
     asks: Option<NodeId>,
+}
+
+/// Whether a value has a variable even where it is read once: of a value and a number
+/// the smaller is found by a test, which assigns.
+fn is_kept(graph: &Graph, id: NodeId) -> bool {
+    let Node::Apply(Op::Min | Op::Max | Op::IntMin | Op::IntMax, [_, number]) = graph.node(id)
+    else {
+        return false;
+    };
+    // The least int has no literal of its own.
+    let number = graph.constant(number);
+    number.is_some_and(|value| value != Value::Int(i32::MIN))
 }
 
 /// A plan's statements as a graph of control flow.
@@ -102,6 +114,11 @@ impl<'p> Flow<'p> {
         })
     }
 
+    /// The number of a place that is read or written.
+    pub fn known(&self, place: Place) -> Option<usize> {
+        self.numbers.get(&place).copied()
+    }
+
     pub fn format(&self, place: usize) -> Format {
         self.plan.place_format(self.places[place])
     }
@@ -113,7 +130,7 @@ impl<'p> Flow<'p> {
         };
         let place = self.number(place);
         self.steps[at].reads.push(place);
-        if self.plan.folded(id) {
+        if self.plan.folded(id) && !is_kept(&self.plan.graph, id) {
             let operands = self.plan.graph.node(id).operands();
             operands.for_each(|operand| self.reads(at, operand));
         }

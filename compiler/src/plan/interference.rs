@@ -10,6 +10,7 @@ use super::Plan;
 use super::alive::{Flow, Set};
 use crate::flow::graph::*;
 use crate::flow::tree::*;
+use slowlight_routine::Op;
 use std::collections::HashMap;
 
 /// The variables of places.
@@ -46,6 +47,15 @@ pub fn quick_homes(plan: &Plan) -> Homes {
             }
         }
     }
+    // The smaller of two is the first of them, unless the other is.
+    for step in &flow.steps {
+        if let Some(to) = step.writes
+            && let Some(from) = flow.first_of_extreme(to)
+            && flow.format(to) == flow.format(from)
+        {
+            classes.join(to, from, &mut [&mut meets, &mut close]);
+        }
+    }
     flow.coloured(&mut classes, &meets, &close)
 }
 
@@ -67,6 +77,19 @@ impl Flow<'_> {
             );
         }
         all
+    }
+
+    /// The place of the first operand of what is the smaller or larger of two.
+    fn first_of_extreme(&self, place: usize) -> Option<usize> {
+        let Place::Node(id) = self.places[place] else {
+            return None;
+        };
+        let Node::Apply(Op::Min | Op::Max | Op::IntMin | Op::IntMax, [first, _]) =
+            self.plan.graph.node(id)
+        else {
+            return None;
+        };
+        self.known(self.plan.place(first)?)
     }
 
     /// Which places interfere in one of some cases.

@@ -204,6 +204,7 @@ pub(super) fn assemble(
         lean: false,
         copies: false,
         brief: false,
+        scant: false,
         page: None,
         ranges: ranges_now,
         params,

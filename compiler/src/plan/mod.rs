@@ -143,6 +143,9 @@ pub struct Plan {
     pub copies: bool,
     /// Whether remarks beside the first line are left out, where memory is short.
     pub brief: bool,
+    /// Whether it is written short where that hardly costs time, since it does not fit
+    /// otherwise.
+    pub scant: bool,
     /// Where programs begin in a BBC Micro's memory, where that was asked for.
     pub page: Option<u16>,
     /// The values.

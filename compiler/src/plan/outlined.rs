@@ -5,7 +5,7 @@ use super::made::assemble;
 use super::{Goal, Plan};
 use crate::flow::graph::{Graph, Node};
 use crate::flow::tree::*;
-use crate::passes::near::near;
+use crate::passes::near::{down_to_runs, near};
 use crate::passes::outline::{Extent, Sizes, outline};
 use crate::passes::schedule::schedule_together;
 use crate::range::{Slack, ranges};
@@ -62,6 +62,9 @@ impl Plan {
         name: &dyn Fn(Span) -> Option<String>,
     ) -> Option<Plan> {
         let mut tree = self.tree.clone();
+        if runs {
+            down_to_runs(&self.graph, &mut tree);
+        }
         let mut blocks = vec![&mut tree.frame, &mut tree.row, &mut tree.pass];
         let extent = match runs {
             true => {

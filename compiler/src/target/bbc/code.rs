@@ -175,7 +175,11 @@ impl<'p> Code<'p> {
             return;
         };
         let tests = fast.tests.join(" AND ");
-        let both = format!("IF {tests} THEN {home}={} ELSE {slow}", fast.text);
+        let otherwise = match fast.otherwise {
+            Some(value) => format!("{home}={value}"),
+            None => slow.clone(),
+        };
+        let both = format!("IF {tests} THEN {home}={} ELSE {otherwise}", fast.text);
         if self.values.length(&both) <= TWO_WAYS {
             self.lines.line(both, self.span);
         } else {

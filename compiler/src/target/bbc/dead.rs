@@ -23,79 +23,107 @@ pub fn without(lines: Lines) -> Lines {
     lines.with_texts(texts, &HashMap::new())
 }
 
-/// What a line does with names.
-struct Line {
+/// A line, or what of it stands behind a statement to which control comes back.
+#[derive(Default)]
+struct Point {
     /// What may be read before it is written here.
     reads: BTreeSet<String>,
     /// Where it goes on, and what it has written on that way whatever happens.
-    next: Vec<(usize, BTreeSet<String>)>,
+    next: Vec<Way>,
+    /// The procedures that it calls, before it goes on as if they had written nothing.
+    calls: Vec<Way>,
+    /// Where it goes on behind a call, if it ends a procedure.
+    back: Vec<Way>,
 }
 
-struct Flow(Vec<Line>);
+/// Where control goes, and what is written before that.
+type Way = (usize, BTreeSet<String>);
+
+/// The lines' points, in their order, then those inside lines.
+struct Flow(Vec<Point>);
+
+/// What is known of a program while its flow is found.
+struct Finder<'t> {
+    points: Vec<Point>,
+    placed: &'t HashMap<Label, usize>,
+    /// The line of each procedure's DEF.
+    defined: HashMap<&'t str, usize>,
+    /// Where each procedure goes back to.
+    back: HashMap<&'t str, Vec<usize>>,
+    /// Where loops begin anew.
+    loops: Vec<usize>,
+    /// What ends a loop's turn, and what ends a procedure, and what is written there.
+    turns: Vec<(usize, BTreeSet<String>)>,
+    ends: Vec<(usize, &'t str, BTreeSet<String>)>,
+    /// The procedure that the line stands in, and the line behind it.
+    inside: &'t str,
+    behind: usize,
+}
 
 impl Flow {
     fn of(texts: &[String], placed: &HashMap<Label, usize>) -> Flow {
-        let holding = |word: &str| -> Vec<usize> {
-            let all = texts.iter().enumerate();
-            let found = all.filter(|(_, text)| text.contains(word) && !text.starts_with("DEF"));
-            found.map(|(at, _)| at).collect()
+        let defined = texts.iter().enumerate();
+        let defined =
+            defined.filter_map(|(at, text)| Some((called(text.strip_prefix("DEF ")?)?, at)));
+        let mut finder = Finder {
+            points: texts.iter().map(|_| Point::default()).collect(),
+            placed,
+            defined: defined.collect(),
+            back: HashMap::new(),
+            loops: Vec::new(),
+            turns: Vec::new(),
+            ends: Vec::new(),
+            inside: "",
+            behind: 0,
         };
-        let (loops, calls) = (holding("FOR "), holding("PROC"));
-        let lines = texts.iter().enumerate().map(|(at, text)| {
-            let (reads, ways) = uses(text);
-            let mut next = Vec::new();
-            for way in &ways {
-                let to = Label::all_of(way.text).filter_map(|label| placed.get(&label).copied());
-                next.extend(to.map(|to| (to, way.writes.clone())));
-                if !leaves(way.text) {
-                    next.push((at + 1, way.writes.clone()));
-                }
+        for (at, text) in texts.iter().enumerate() {
+            if let Some(name) = text.strip_prefix("DEF ").and_then(called) {
+                finder.inside = name;
             }
-            // Anywhere else, so nothing is written for sure.
-            let mut other: Vec<usize> = Vec::new();
-            if text.contains("NEXT") {
-                other.extend(&loops);
+            finder.behind = at + 1;
+            if !text.starts_with("DEF") {
+                finder.point(at, text, &BTreeSet::new());
+            } else {
+                finder.points[at].next.push((at + 1, BTreeSet::new()));
             }
-            if text.contains("ENDPROC") {
-                other.extend(&calls);
-            }
-            for (from, _) in text.match_indices("PROC") {
-                let name = text.get(from..).and_then(|t| match pieces(t).first() {
-                    Some(Piece::Fixed(name)) => Some(format!("DEF {name}")),
-                    _ => None,
-                });
-                other.extend(texts.iter().position(|t| Some(t) == name.as_ref()));
-            }
-            let all = ways
-                .first()
-                .map(|way| way.writes.clone())
-                .unwrap_or_default();
-            let sure = ways.iter().skip(1).fold(all, |all, way| &all & &way.writes);
-            next.extend(other.into_iter().map(|to| (to, sure.clone())));
-            Line { reads, next }
-        });
-        Flow(lines.collect())
+        }
+        for (at, writes) in &finder.turns {
+            let all = finder.loops.iter().map(|to| (*to, writes.clone()));
+            finder.points[*at].next.extend(all);
+        }
+        for (at, name, writes) in &finder.ends {
+            let all = finder.back.get(name).into_iter().flatten();
+            let all = all.map(|to| (*to, writes.clone()));
+            finder.points[*at].back.extend(all);
+        }
+        Flow(finder.points)
     }
 
-    /// Whether a name may be read from a line on, before it is written.
+    /// Whether a name may be read from a line on, before it is written. A procedure that
+    /// is called on the way goes back to where that was, one that the line is in to
+    /// wherever it is called.
     fn reads(&self, name: &str, from: usize) -> bool {
-        let mut seen = vec![false; self.0.len()];
-        let mut todo = vec![from];
-        while let Some(at) = todo.pop() {
-            let Some(line) = self.0.get(at) else {
+        let mut seen = vec![[false; 2]; self.0.len()];
+        let mut todo = vec![(from, true)];
+        while let Some((at, outermost)) = todo.pop() {
+            let Some(point) = self.0.get(at) else {
                 continue;
             };
-            if std::mem::replace(&mut seen[at], true) {
+            if std::mem::replace(&mut seen[at][usize::from(outermost)], true) {
                 continue;
             }
-            if line.reads.contains(name) {
+            if point.reads.contains(name) {
                 return true;
             }
-            let next = line
-                .next
-                .iter()
-                .filter(|(_, writes)| !writes.contains(name));
-            todo.extend(next.map(|(to, _)| *to));
+            let mut go = |ways: &[Way], outermost: bool| {
+                let open = ways.iter().filter(|(_, writes)| !writes.contains(name));
+                todo.extend(open.map(|(to, _)| (*to, outermost)));
+            };
+            go(&point.next, outermost);
+            go(&point.calls, false);
+            if outermost {
+                go(&point.back, true);
+            }
         }
         false
     }
@@ -128,6 +156,127 @@ impl Flow {
     }
 }
 
+impl<'t> Finder<'t> {
+    fn fresh(&mut self) -> usize {
+        self.points.push(Point::default());
+        self.points.len() - 1
+    }
+
+    /// What statements do that begin at a point, where something was written before.
+    fn point(&mut self, at: usize, text: &'t str, before: &BTreeSet<String>) {
+        let (plain, test) = match text.find("IF ") {
+            Some(from) => text.split_at_checked(from).unwrap_or((text, "")),
+            None => (text, ""),
+        };
+        if let Some((head, turn)) = cut(plain) {
+            let writes = self.written(at, head, before);
+            let rest = text.get(head.len()..).unwrap_or("");
+            let rest = rest.strip_prefix(':').unwrap_or(rest);
+            let on = match rest {
+                "" => self.behind,
+                _ => self.fresh(),
+            };
+            self.turning(at, turn, on, &writes);
+            if !rest.is_empty() {
+                self.point(on, rest, &BTreeSet::new());
+            }
+            return;
+        }
+        let writes = self.written(at, plain, before);
+        let Some((asked, ways)) = test.split_once(" THEN ") else {
+            // No test, or one in another form than ours.
+            let writes = self.written(at, test, &writes);
+            return self.way(at, text, &writes);
+        };
+        let _ = self.written(at, asked, &writes);
+        if ways.contains("IF ") {
+            // One of many ways: nothing inside is written for sure.
+            let _ = self.written(at, ways, &writes);
+            for (from, _) in ways.match_indices("PROC") {
+                self.turning(at, ways.get(from..).unwrap_or(""), self.behind, &writes);
+            }
+            if ways.contains("FOR ") {
+                self.loops.push(at);
+            }
+            if ways.contains("NEXT") {
+                self.turns.push((at, writes.clone()));
+            }
+            if ways.contains("ENDPROC") {
+                self.ends.push((at, self.inside, writes.clone()));
+            }
+            let to = Label::all_of(ways).filter_map(|label| self.placed.get(&label));
+            let to: Vec<usize> = to.copied().chain([self.behind]).collect();
+            let next = to.into_iter().map(|to| (to, writes.clone()));
+            self.points[at].next.extend(next);
+            return;
+        }
+        let (yes, no) = ways.split_once(" ELSE ").unwrap_or((ways, ""));
+        for way in [yes, no] {
+            let on = self.fresh();
+            self.points[at].next.push((on, writes.clone()));
+            self.point(on, way, &BTreeSet::new());
+        }
+    }
+
+    /// Where control goes from a statement to which it comes back, or from behind which
+    /// it may go elsewhere: a call, the head of a loop, its end.
+    fn turning(&mut self, at: usize, turn: &'t str, on: usize, writes: &BTreeSet<String>) {
+        if let Some(name) = called(turn) {
+            self.back.entry(name).or_default().push(on);
+            let to = self.defined.get(name).map(|to| (*to, writes.clone()));
+            self.points[at].calls.extend(to);
+        } else if turn.starts_with("FOR ") {
+            self.loops.push(on);
+        } else {
+            self.turns.push((at, writes.clone()));
+        }
+        self.points[at].next.push((on, writes.clone()));
+    }
+
+    /// The end of a line's way.
+    fn way(&mut self, at: usize, text: &'t str, writes: &BTreeSet<String>) {
+        let to = Label::all_of(text).filter_map(|label| self.placed.get(&label));
+        let mut to: Vec<usize> = to.copied().collect();
+        if text.contains("ENDPROC") {
+            self.ends.push((at, self.inside, writes.clone()));
+        }
+        if !leaves(text) {
+            to.push(self.behind);
+        }
+        let next = to.into_iter().map(|to| (to, writes.clone()));
+        self.points[at].next.extend(next);
+    }
+
+    /// What is written behind some statements; what they read that is not is noted.
+    fn written(&mut self, at: usize, text: &str, before: &BTreeSet<String>) -> BTreeSet<String> {
+        written(text, before, &mut self.points[at].reads)
+    }
+}
+
+/// The statements up to the first call, head or end of a loop, and that one.
+fn cut(plain: &str) -> Option<(&str, &str)> {
+    let mut from = 0;
+    for statement in plain.split(':') {
+        let to = from + statement.len();
+        if ["PROC", "FOR ", "NEXT"]
+            .iter()
+            .any(|word| statement.starts_with(word))
+        {
+            return Some((plain.get(..to)?, statement));
+        }
+        from = to + 1;
+    }
+    None
+}
+
+/// The name of the procedure that a text begins with the call of.
+fn called(text: &str) -> Option<&str> {
+    match pieces(text).first() {
+        Some(Piece::Fixed(name)) if name.starts_with("PROC") => text.get(..name.len()),
+        _ => None,
+    }
+}
+
 /// The last of some statements, and what stands before it.
 fn last(statements: &str) -> Option<(&str, &str)> {
     let from = statements.rfind([':', ' ']).map_or(0, |at| at + 1);
@@ -149,45 +298,6 @@ fn leaves(text: &str) -> bool {
     let ends = ["GOTO ", "ENDPROC", "END", "="];
     Label::last_of(last).is_some_and(|(before, _)| before.is_empty())
         || !text.contains("IF ") && ends.iter().any(|word| last.starts_with(word))
-}
-
-/// A way through a line: its last statements, and what is written on it for sure.
-struct Way<'t> {
-    text: &'t str,
-    writes: BTreeSet<String>,
-}
-
-/// What a line may read before it writes it, and the ways through it.
-fn uses(text: &str) -> (BTreeSet<String>, Vec<Way<'_>>) {
-    let mut reads = BTreeSet::new();
-    // Control may come back into the middle of a line.
-    let entered = text.contains("PROC") || text.match_indices("FOR ").any(|(at, _)| at > 0);
-    let (before, test) = match text.find("IF ") {
-        Some(at) if !entered => text.split_at_checked(at).unwrap_or((text, "")),
-        _ => (text, ""),
-    };
-    let writes = written(before, &BTreeSet::new(), &mut reads);
-    let sure = |writes| match entered {
-        true => BTreeSet::new(),
-        false => writes,
-    };
-    let Some((asked, ways)) = test.split_once(" THEN ") else {
-        let _ = written(test, &writes, &mut reads);
-        let writes = sure(writes);
-        return (reads, vec![Way { text, writes }]);
-    };
-    let _ = written(asked, &writes, &mut reads);
-    if ways.contains("IF ") {
-        let _ = written(ways, &writes, &mut reads);
-        return (reads, vec![Way { text, writes }]);
-    }
-    let (yes, no) = ways.split_once(" ELSE ").unwrap_or((ways, ""));
-    let mut way = |text| {
-        let own = written(text, &writes, &mut reads);
-        Way { text, writes: own }
-    };
-    let both = vec![way(yes), way(no)];
-    (reads, both)
 }
 
 /// What is written behind some statements, where something is written before; what
@@ -278,6 +388,29 @@ mod tests {
         let text = written(&source);
         assert!(
             text.contains("THEN a%=TRUE:GOTO 40\n") && text.contains("70b%=FALSE\n"),
+            "{text}"
+        );
+    }
+
+    #[test]
+    fn what_a_procedure_sets_before_it_asks_is_not_set_for_it() {
+        let source = [
+            "FOR x%=1 TO 9:PROCrun",
+            "a%=x%<4",
+            "IF a% THEN b%=TRUE:a%=FALSE:GOTO @3;",
+            "IF b% THEN c%=TRUE",
+            "NEXT:END",
+            "DEF PROCrun",
+            "IF x%>2 THEN PROCone:a%=b%:c%=a% ELSE a%=FALSE",
+            "IF a% THEN PRINT x%",
+            "ENDPROC",
+            "DEF PROCone",
+            "IF c% THEN b%=FALSE",
+            "ENDPROC",
+        ];
+        let text = written(&source);
+        assert!(
+            text.contains("THEN b%=TRUE:GOTO 40\n") && text.contains("THEN c%=TRUE\n"),
             "{text}"
         );
     }

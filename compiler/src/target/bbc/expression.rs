@@ -165,7 +165,12 @@ impl<'p> Expressions<'p> {
                 Text::new(fast.text, fast.level)
             }
             fast if guard.is_some() || operands.iter().any(|o| o.fast.is_some()) => Text {
-                fast: fast.map(Box::new),
+                fast: fast.map(|fast| {
+                    // That the tests fail is known to be its own affair only where all are its own.
+                    let own = operands.iter().all(|o| o.fast.is_none());
+                    let otherwise = guard.as_ref().filter(|_| own).and_then(|g| g.otherwise);
+                    Box::new(Fast { otherwise, ..fast })
+                }),
                 ..text
             },
             _ => text,
@@ -242,6 +247,7 @@ impl<'p> Expressions<'p> {
                 level: text.level,
                 tests,
                 below: Some(last + 1.0),
+                otherwise: None,
             })),
             ..clamped(&text.text)
         }

@@ -9,7 +9,7 @@ use super::poke::Poke;
 use super::ramp::{self, Late};
 use super::screen;
 use super::segment::{SEGMENT, Segments};
-use super::short::short;
+use super::short::{Known, SELDOM, short};
 use super::spread::Spread;
 use super::tables;
 use super::tail;
@@ -50,7 +50,7 @@ pub fn program(plan: &Plan) -> Lines {
     let parts = called(plan, &code);
     setup(plan, &mut code, &parts, &first, &last);
     // Called for many pixels, but not for all.
-    code.lines.weight = 5_000;
+    code.lines.weight = if called_rarely(&code) { 1 } else { 5_000 };
     functions(&mut code, &parts);
     code.lines.weight = 1;
     tables::data(plan, &mut code);
@@ -70,7 +70,14 @@ pub fn program(plan: &Plan) -> Lines {
     let constants = assigned
         .filter_map(|text| Some(text.split_once('=')?.0.to_owned()))
         .collect();
-    short(lines, &keep, &constants, style, plan.calls_seldom())
+    let flags = code.values.names.flags(plan);
+    let known = Known {
+        constants: &constants,
+        flags: &flags,
+        spare: plan.calls_seldom(),
+        scant: plan.scant,
+    };
+    short(lines, &keep, &known, style)
 }
 
 /// The scene's item that something comes from: the last that begins before it.
@@ -90,9 +97,13 @@ fn parameters(plan: &Plan, code: &mut Code<'_>, first: &str, last: &str) {
         Some(page) => format!(" at PAGE &{page:X}"),
         None => String::new(),
     };
+    let what = match plan.scant {
+        true => String::new(),
+        false => format!(", {}x{} in {} inks,", mode.width, mode.height, mode.inks),
+    };
     code.line(format!(
-        "REM {}, {}x{} in {} inks, by slowlight for {}{page}",
-        plan.name, mode.width, mode.height, mode.inks, plan.target.name
+        "REM {}{what} by slowlight for {}{page}",
+        plan.name, plan.target.name
     ));
     let remark = |text: String| match plan.brief {
         true => String::new(),
@@ -305,13 +316,30 @@ fn called(plan: &Plan, code: &Code<'_>) -> Vec<&'static Part> {
     plan.runtime.closure(names)
 }
 
+/// Whether functions are called only where a test fails, and where little is done.
+fn called_rarely(code: &Code<'_>) -> bool {
+    code.lines.weighted().all(|(text, weight)| {
+        let usual = match text.split_once(" ELSE ") {
+            Some((usual, _)) if usual.starts_with("IF ") => usual,
+            _ => text,
+        };
+        weight <= SELDOM || !usual.contains("FN")
+    })
+}
+
 fn setup(plan: &Plan, code: &mut Code<'_>, parts: &[&Part], first: &str, last: &str) {
     code.line("DEF PROCsetup");
+    let must = match plan.brief {
+        true => ":",
+        false => " must be from",
+    };
     for (k, (param, written)) in plan.graph.params.iter().zip(&plan.params).enumerate() {
         let name = code.values.names.param(k).to_owned();
         if let Some((lo, hi)) = &written.range {
             code.lines.line(
-                format!("IF {name}<{lo} OR {name}>{hi} THEN PRINT \"{name} must be from {lo} to {hi}\":END"),
+                format!(
+                    "IF {name}<{lo} OR {name}>{hi} THEN PRINT \"{name}{must} {lo} to {hi}\":END"
+                ),
                 Some(param.span),
             );
         }
@@ -321,7 +349,7 @@ fn setup(plan: &Plan, code: &mut Code<'_>, parts: &[&Part], first: &str, last: &
     }
     let (top, bottom) = plan.shown_rows();
     code.line(format!(
-        "IF {first}<{top} OR {last}>{bottom} OR {first}>{last} THEN PRINT \"rows must be from {top} to {bottom}\":END"
+        "IF {first}<{top} OR {last}>{bottom} OR {first}>{last} THEN PRINT \"rows{must} {top} to {bottom}\":END"
     ));
     for part in parts {
         if let Source::Text(text) = part.source

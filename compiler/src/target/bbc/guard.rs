@@ -25,6 +25,7 @@ pub struct Guard {
     pub form: Form,
     pub tests: Vec<String>,
     pub below: Option<f64>,
+    pub otherwise: Option<&'static str>,
 }
 
 /// A routine's expression with its operands, as they are under their tests or always.
@@ -89,6 +90,7 @@ impl Expressions<'_> {
             form: cheap.form,
             tests,
             below: guarded.below,
+            otherwise: guarded.otherwise,
         })
     }
 
@@ -168,6 +170,7 @@ impl Expressions<'_> {
             level: text.level,
             tests,
             below,
+            otherwise: None,
         })
     }
 }

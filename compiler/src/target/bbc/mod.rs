@@ -23,7 +23,7 @@
 //! - `poke`: pixels put into the Micro's memory; `passes`: rows drawn every nth column at a time;
 //! - `ramp`: ints that are stepped from column to column; `reads`: what a pixel reads;
 //! - `spread`: error diffusion; `thread`, `tail`, `dead`: fewer jumps and flags; `short`: short names and lines, for speed and for size;
-//! - `pieces`: statements cut into names and words.
+//! - `pieces`: statements cut into names and words; `terse`: the same said shorter.
 
 mod code;
 mod dead;
@@ -43,6 +43,7 @@ mod short;
 mod spread;
 mod tables;
 mod tail;
+mod terse;
 #[cfg(test)]
 mod tests;
 mod text;

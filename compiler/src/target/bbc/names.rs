@@ -4,7 +4,7 @@ use super::Style;
 use crate::flow::tree::{Place, SubroutineId};
 use crate::plan::{Plan, quick_homes};
 use slowlight_routine::{Format, Type};
-use std::collections::{HashMap, HashSet};
+use std::collections::{BTreeSet, HashMap, HashSet};
 
 /// Names of everything in the program.
 pub struct Names {
@@ -134,6 +134,13 @@ impl Names {
     pub fn copies(&self) -> impl Iterator<Item = String> + '_ {
         let pairs = self.copies.iter().zip(&self.params);
         pairs.filter_map(|(copy, param)| Some(format!("{}={param}", copy.as_ref()?)))
+    }
+
+    /// The variables of what is true or false.
+    pub fn flags(&self, plan: &Plan) -> BTreeSet<String> {
+        let flag = |place: Place| plan.place_format(place).scalar() == Type::Bool;
+        let all = self.homes.iter().filter(|(place, _)| flag(**place));
+        all.map(|(_, name)| name.clone()).collect()
     }
 
     pub fn home(&self, place: Place) -> &str {

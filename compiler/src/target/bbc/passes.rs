@@ -103,7 +103,7 @@ impl Passes {
             }
         }));
         if let Some(spot) = &self.spot {
-            spot.begin(plan, code, first);
+            spot.begin(plan, code, first, n);
         }
         let columns = |to: &str| format!("FOR X%=X% TO {to}{}", ramp::strided(n));
         let counts = self.spot.as_ref().filter(|spot| spot.counts);
@@ -219,6 +219,17 @@ impl Spot {
             })
             .collect();
         code.statement(format!("DIM {name} {}", all.len() - 1));
+        if let (true, Some(last)) = (plan.scant && inks == 4, all.last_chunk::<4>()) {
+            // A pixel further left, all bits are twice as high.
+            let word = u32::from_le_bytes(last.map(|byte| byte as u8));
+            let (bits, most) = (&self.here, all.len() - 4);
+            code.statement(format!("{bits}=&{word:X}"));
+            code.statement(format!("FOR I%={most} TO 0 STEP -4"));
+            code.statement(format!("{name}!I%={bits}"));
+            code.statement(format!("{bits}={bits}+{bits}"));
+            code.statement("NEXT");
+            return;
+        }
         for (k, four) in all.chunks(4).enumerate() {
             let word = four.iter().rev().fold(0, |word, byte| word << 8 | byte);
             let place = match k {
@@ -230,11 +241,13 @@ impl Spot {
     }
 
     /// Where a pass begins, at column X%.
-    fn begin(&self, plan: &Plan, code: &mut Code<'_>, first: u32) {
+    fn begin(&self, plan: &Plan, code: &mut Code<'_>, first: u32, passes: u32) {
         let column = match first {
             0 => "X%".to_owned(),
             n => format!("(X%-{n})"),
         };
+        // The first columns of all passes have their pixels in the first byte.
+        let within = first == 0 && passes == self.pixels;
         let (pixels, inks) = (self.pixels, plan.mode.inks);
         let Spot {
             bits,
@@ -243,6 +256,11 @@ impl Spot {
             at,
             ..
         } = self;
+        if within {
+            code.statement(format!("{here}={bits}+{column}*{inks}"));
+            code.statement(format!("{at}={start}"));
+            return;
+        }
         code.statement(format!(
             "{here}={bits}+({column} AND {})*{inks}",
             pixels - 1

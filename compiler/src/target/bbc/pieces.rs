@@ -8,11 +8,11 @@ use std::collections::BTreeMap;
 /// be `MODE`.)
 const FREE: &[&str] = &[
     "IF", "THEN", "ELSE", "AND", "OR", "NOT", "TO", "FOR", "DIV", "GCOL", "PLOT", "MODE", "VDU",
-    "DIM", "READ", "GOTO", "PRINT",
+    "DIM", "READ", "GOTO", "PRINT", "ABS", "INT", "SGN", "SQR",
 ];
 
 /// Variables of the runtime's functions, which are in capitals.
-const LIMITS: &[&str] = &["BIG", "HALF", "ROOT", "TINY", "FAR", "WIDE"];
+pub const LIMITS: &[&str] = &["BIG", "HALF", "ROOT", "TINY", "FAR", "WIDE"];
 
 /// A piece of a statement.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -95,20 +95,51 @@ fn apart(before: Option<&Piece<'_>>, behind: Option<&Piece<'_>>) -> bool {
     }
 }
 
+/// Whether a THEN may be left out: BASIC goes on with whatever stands behind a
+/// condition. A line number and a function's result need it, and so does what might
+/// be taken for more of the condition's last number.
+fn goes_without(condition: &str, behind: Option<&Piece<'_>>, next: Option<char>) -> bool {
+    let starts = match behind {
+        Some(Piece::Name(_) | Piece::Word(_)) => true,
+        Some(Piece::Fixed(text)) => text.starts_with("PROC"),
+        _ => false,
+    };
+    let Some(next) = next.filter(|c| starts && c.is_ascii_alphabetic()) else {
+        return false;
+    };
+    match condition.chars().last() {
+        Some(c) if c.is_ascii_digit() => !next.eq_ignore_ascii_case(&'E'),
+        Some(c) => ")% ".contains(c),
+        None => false,
+    }
+}
+
 /// A statement with short names and few spaces.
 pub fn written(text: &str, names: &BTreeMap<String, String>) -> String {
     let all = pieces(text);
+    let named = |k: usize| {
+        let name = match all.get(k)? {
+            Piece::Name(name) => *name,
+            Piece::Word(t) | Piece::Fixed(t) | Piece::Sign(t) => return Some(*t),
+            Piece::Space => return None,
+        };
+        let array = matches!(all.get(k + 1), Some(Piece::Sign("(")));
+        let found = match array {
+            true => names.get(&format!("{name}(")),
+            false => names.get(name),
+        };
+        Some(found.map_or(name, String::as_str))
+    };
     let mut out = String::new();
-    for (k, piece) in all.iter().enumerate() {
-        match piece {
-            Piece::Name(name) => {
-                let array = matches!(all.get(k + 1), Some(Piece::Sign("(")));
-                let found = match array {
-                    true => names.get(&format!("{name}(")),
-                    false => names.get(*name),
-                };
-                out.push_str(found.map_or(*name, String::as_str));
-            }
+    for k in 0..all.len() {
+        match &all[k] {
+            Piece::Word("THEN")
+                if goes_without(
+                    &out,
+                    all.get(k + 2),
+                    named(k + 2).and_then(|t| t.chars().next()),
+                ) => {}
+            Piece::Name(_) => out.push_str(named(k).unwrap_or_default()),
             Piece::Word(t) | Piece::Fixed(t) | Piece::Sign(t) => out.push_str(t),
             Piece::Space => {
                 let before = k.checked_sub(1).and_then(|k| all.get(k));

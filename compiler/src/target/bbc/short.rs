@@ -15,7 +15,8 @@
 
 use super::Style;
 use super::lines::Lines;
-use super::pieces::{Piece, pieces, written};
+use super::pieces::{LIMITS, Piece, pieces, written};
+use super::terse::terse;
 use std::collections::{BTreeMap, BTreeSet};
 
 /// A line of tokens may hold 251 bytes; labels become longer than their marks.
@@ -23,17 +24,23 @@ const WIDTH: usize = 220;
 
 /// How often what is read for a row or pass is read in a picture, at most: each
 /// time a number in the text takes up to five thousand cycles more than a variable.
-const SELDOM: u64 = 2_000;
+pub const SELDOM: u64 = 2_000;
 
-/// Makes a program short; the names in `keep` stay, those in `constants` are of
-/// numbers that never change. `spare`: it did not fit as it is quickest.
-pub fn short(
-    lines: Lines,
-    keep: &[String],
-    constants: &BTreeSet<String>,
-    style: Style,
-    spare: bool,
-) -> Lines {
+/// What is known of a program beside its lines.
+pub struct Known<'k> {
+    /// Names of numbers that never change.
+    pub constants: &'k BTreeSet<String>,
+    /// Names of what is TRUE or FALSE.
+    pub flags: &'k BTreeSet<String>,
+    /// It did not fit as it is quickest.
+    pub spare: bool,
+    /// Nor without remarks.
+    pub scant: bool,
+}
+
+/// Makes a program short; the names in `keep` stay.
+pub fn short(lines: Lines, keep: &[String], known: &Known<'_>, style: Style) -> Lines {
+    let spare = known.spare;
     // The rows to draw, which are named last, stand at the parameter block's end.
     let rows = keep.last().map_or(String::new(), |last| format!("{last}="));
     let (head, mut body) = lines.split_behind(&rows);
@@ -42,15 +49,57 @@ pub fn short(
         _ => SELDOM,
     };
     let unread = unread(&body, keep);
-    let constants = in_place(&body, constants, seldom, spare);
+    let constants = in_place(&body, known.constants, seldom, spare);
     body.each_text(|text| *text = without(text, &constants));
     if spare {
         body.each_text(|text| *text = without_unread(text, &unread));
     }
     body.remove_empty();
+    body.each_text(|text| *text = terse(text, known.flags, known.scant));
+    if known.scant {
+        with_short_calls(&mut body);
+    }
     let names = given(&uses(&body), keep);
     body.each_text(|text| *text = written(text, &names));
     head.followed_by(body.joined(WIDTH))
+}
+
+/// Gives procedures and functions names of one letter, as far as there are letters.
+fn with_short_calls(body: &mut Lines) {
+    let mut called: BTreeSet<String> = BTreeSet::new();
+    for text in body.texts() {
+        called.extend(pieces(text).iter().filter_map(|piece| match piece {
+            Piece::Fixed(name) if call(name).is_some() => Some((*name).to_owned()),
+            _ => None,
+        }));
+    }
+    let mut names: BTreeMap<String, String> = BTreeMap::new();
+    for kind in CALLS {
+        let long = |name: &&String| call(name).is_some_and(|(of, own)| of == kind && own.len() > 1);
+        let mut free = ('a'..='z').map(|letter| format!("{kind}{letter}"));
+        for name in called.iter().filter(long) {
+            if let Some(short) = free.find(|short| !called.contains(short)) {
+                names.insert(name.clone(), short);
+            }
+        }
+    }
+    body.each_text(|text| {
+        let named = pieces(text).into_iter().map(|piece| match piece {
+            Piece::Fixed(name) => names.get(name).map_or(name, String::as_str),
+            Piece::Name(t) | Piece::Word(t) | Piece::Sign(t) => t,
+            Piece::Space => " ",
+        });
+        *text = named.collect();
+    });
+}
+
+/// How the names of procedures and functions begin.
+const CALLS: [&str; 2] = ["PROC", "FN"];
+
+/// Which of them a name is of, and what is its own.
+fn call(name: &str) -> Option<(&'static str, &str)> {
+    let of = CALLS.into_iter().find(|kind| name.starts_with(kind))?;
+    Some((of, name.strip_prefix(of)?))
 }
 
 /// How often each name is met while the program runs, roughly. An array's name
@@ -96,7 +145,8 @@ fn in_place(
             if !plain {
                 changed.insert(name.to_owned());
             }
-            if name.starts_with(|c: char| c.is_ascii_lowercase())
+            let own = name.starts_with(|c: char| c.is_ascii_lowercase());
+            if (own || LIMITS.contains(&name))
                 && number.starts_with(|c: char| c.is_ascii_digit() || spare && c == '-')
                 && pieces(name).len() == 1
                 && plain
@@ -135,7 +185,7 @@ fn in_place(
         !changed.contains(name)
             && !two_signs
             && often.get(name).is_none_or(|often| *often <= seldom)
-            && constants.contains(name)
+            && (constants.contains(name) || LIMITS.contains(&name.as_str()))
             && reads * number.len().saturating_sub(letters) < number.len() + 9 + 2 * letters
     });
     numbers
@@ -254,9 +304,15 @@ mod tests {
             ("IF a<1E5 THEN =a ELSE =0", "IFa<1E5 THEN=a ELSE=0"),
             (
                 "IF b%>88 THEN c%=b% ELSE c%=2 DIV 3",
-                "IFb%>88THENc%=b%ELSEc%=2DIV3",
+                "IFb%>88c%=b%ELSEc%=2DIV3",
             ),
             ("q%=n% MOD E%:r%=n% MOD 7", "q%=n%MOD E%:r%=n%MOD 7"),
+            // A name or an exponent would go on, and a result would be compared.
+            ("IF a<b THEN c=d:d=e", "IFa<b c=d:d=e"),
+            ("IF a%<0 THEN e=d", "IFa%<0THENe=d"),
+            ("IF a%<1E9 THEN PROCrow", "IFa%<1E9 PROCrow"),
+            ("IF (a%) THEN IF b% THEN GOTO 3", "IF(a%)IFb%GOTO3"),
+            ("IF a% THEN ?b%=3", "IFa%THEN?b%=3"),
             (
                 "IF NOT done AND TRUE THEN \u{1}4\u{1}",
                 "IFNOTdone ANDTRUE THEN\u{1}4\u{1}",
@@ -294,6 +350,27 @@ mod tests {
         );
         let first = "big=1.7E38:half=big/2:c=-96:d=-5";
         assert_eq!(without_unread(first, &unread(&body, &[])), "c=-96:d=-5");
+    }
+
+    #[test]
+    fn where_memory_is_scant_calls_have_one_letter() {
+        let mut body = Lines::default();
+        for text in [
+            "PROCrow:PROCa:x=FNdiv(x,FNsub(1,2))",
+            "DEF PROCrow",
+            "DEF FNdiv(a,b)",
+            "PRINT \"PROCrow\"",
+        ] {
+            body.line(text, None);
+        }
+        with_short_calls(&mut body);
+        let expected = [
+            "PROCb:PROCa:x=FNa(x,FNb(1,2))",
+            "DEF PROCb",
+            "DEF FNa(a,b)",
+            "PRINT \"PROCrow\"",
+        ];
+        assert_eq!(body.texts().collect::<Vec<_>>(), expected);
     }
 
     #[test]

@@ -11,6 +11,8 @@ pub struct Fast {
     pub tests: Vec<String>,
     /// What the value's size stays below then, where that is known.
     pub below: Option<f64>,
+    /// The value where they do not all hold, if that is always the same.
+    pub otherwise: Option<&'static str>,
 }
 
 /// An expression and how tightly it binds.
