@@ -9,21 +9,27 @@ fn example(name: &str) -> PathBuf {
     root.join("examples").join(format!("{name}.scn"))
 }
 
-/// Runs a scene on all three; answers cycles a VM command and words of ROM.
+/// Runs an example on all three; answers cycles a VM command and words of ROM.
 fn same(name: &str, options: &[&str]) -> (f64, u64) {
-    let dir = directory(&[]);
-    let dir = dir.path();
     let path = example(name);
-    let scene = path.to_str().expect("a path");
+    scene_is_the_same(
+        path.to_str().expect("a path"),
+        directory(&[]).path(),
+        options,
+    )
+}
+
+/// The same of any scene.
+fn scene_is_the_same(scene: &str, dir: &Path, options: &[&str]) -> (f64, u64) {
     let run = |more: &[&str]| {
         let args = ["run", scene, "-t", "jack", "--json"];
         json(dir, &[&args[..], options, more].concat())
     };
     let native = run(&[]);
     let rom = run(&["--os", "jack"]);
-    assert_eq!(rom["differs_from_model"], 0, "{name} {options:?}");
+    assert_eq!(rom["differs_from_model"], 0, "{scene} {options:?}");
     for key in ["inks_sha256", "differs_from_native", "rmse"] {
-        assert_eq!(rom[key], native[key], "{name} {options:?}: {key}");
+        assert_eq!(rom[key], native[key], "{scene} {options:?}: {key}");
     }
     // On the VM with our system, the whole screen.
     let build = ["build", scene, "-t", "jack", "--os", "jack", "-o", "out"];
@@ -32,7 +38,7 @@ fn same(name: &str, options: &[&str]) -> (f64, u64) {
     let vm = screen(&["vm", "jack", "out"]);
     assert_eq!(vm["stopped"], "ended");
     let cpu = screen(&["vm", "hack", "out/Main.hack"]);
-    assert_eq!(cpu["inks_sha256"], vm["inks_sha256"], "{name} {options:?}");
+    assert_eq!(cpu["inks_sha256"], vm["inks_sha256"], "{scene} {options:?}");
     assert_eq!(cpu["cycles"], rom["cycles"]);
     let number = |key: &str| rom[key].as_u64().expect("a number");
     let share = number("cycles") as f64 / number("vm_instructions") as f64;
@@ -61,6 +67,19 @@ fn a_torus_in_fixed_point() {
     let options = ["--rows", "90..91", "--freeze", "all", "--format", "fixed16"];
     let (share, words) = same("torus", &options);
     assert!(share < 2.0 && words < 20_000, "{share} {words}");
+}
+
+#[test]
+fn powers_logarithms_and_arcs_in_fixed_point() {
+    let source = "image 64 x 12 inks black, white; param k: real = 0.7 in 0 .. 2;
+        draw (x, y) = {
+          let far = exp(-y / 4) * log(1 + x / 9) * (1 + x) ^ (-k);
+          let angle = tan(x / 50 * 1rad) + (asin(x / 64) - acos(y / 12)) / 1rad;
+          threshold(far * angle + atan2(y - 6, x - 30) / 4rad, bayer(4)[x mod 4, y mod 4])
+        };";
+    let dir = directory(&[("all.scn", source)]);
+    let (share, words) = scene_is_the_same("all.scn", dir.path(), &["--format", "fixed16"]);
+    assert!(share < 2.5 && words < 20_000, "{share} {words}");
 }
 
 #[test]
