@@ -63,10 +63,8 @@ pub fn expected(graph: &Graph, tree: &Tree, bits: u8) -> Vec<Option<f64>> {
         for row in 0..ROWS {
             watch.roots.borrow_mut().row.clear();
             for column in 0..COLUMNS {
-                let at = |k: u32, of: u32, long: u32| match k + 1 {
-                    1 => 0,
-                    end if end == of => long.saturating_sub(1) as i32,
-                    _ => ((u64::from(k) * 2 + 1) * u64::from(long) / 2 / u64::from(of)) as i32,
+                let at = |k: u32, of: u32, long: u32| {
+                    (u64::from(k) * u64::from(long.max(1) - 1) / u64::from(of - 1)) as i32
                 };
                 let y = at(row * APART % ROWS, ROWS, graph.image.height);
                 if watch.ran.get() < PATIENCE / u64::from(choices) {

@@ -13,7 +13,7 @@ const OFF: f64 = 0.5;
 
 /// What it may cost a pixel to cut nothing more. What is estimated is several times too
 /// much, and what is cut has to be compared where a sum would do.
-const HARDLY: f64 = 1.0 / 1024.0;
+const HARDLY: f64 = 1.5 / 1024.0;
 
 /// What asks for more than such a part of a value gets it from no format: what is compared
 /// with its equal, say.
