@@ -285,3 +285,46 @@ fn a_threshold_that_nothing_reaches_takes_no_digits_from_others() {
     let off = differences(&plan, &run, |x, y| native.pixel(x, y).ink);
     assert!(off <= 6, "{off}");
 }
+
+/// How many pixels of a scene in fixed point are not the native's; those of the machine
+/// are the model's.
+fn off(source: &str) -> usize {
+    let plan = planned(source, &[], None).unwrap();
+    let run = agrees(&plan, &documents(&plan), source);
+    stays_within_bounds(&plan);
+    let mut native = Native::new(&plan.graph);
+    differences(&plan, &run, |x, y| native.pixel(x, y).ink) as usize
+}
+
+/// What stands for "larger than all others" ends where the others do.
+#[test]
+fn a_constant_above_all_others_takes_no_digits_from_them() {
+    let choice = "image 48 x 32 inks black, white; param p: real = 3 in 1 .. 8;
+        draw (x, y) = {
+          let a = if x < y then 1000000 else x / p;
+          let b = if x + y < 30 then -1000000 else y / p;
+          threshold(if a > b then min(a, 20) / 20 else max(b, -3) / 20, bayer(8)[x mod 8, y mod 8])
+        };";
+    let found = off(choice);
+    assert!(found <= 3, "{found}");
+    // A ray along an axis lies between a box's other sides for ever.
+    let along = "image 64 x 48 inks black, white;
+        scene s { box((-1, -1, 1), (0.5, 0.6, 2)) is 1; }
+        draw (x, y) = {
+          let r = ray((0, 0, -2), unit(((x - 32) / 24, (24 - y) / 24, 1.5)));
+          let v = if let h = s.trace(r, far: 30)
+            then 0.2 + 0.7 * max(dot(h.normal, (0.48, 0.6, -0.64)), 0) else 0.1;
+          threshold(v, bayer(8)[x mod 8, y mod 8])
+        };";
+    let found = off(along);
+    assert!(found <= 30, "{found}");
+}
+
+/// A few large values that count, beside very many that are nothing.
+#[test]
+fn the_tiny_do_not_outvote_the_large() {
+    let powers = "image 96 x 64 inks black, white; param k: real = 0.2 in 0 .. 0.4;
+        draw (x, y) = threshold((x / 96) ^ 16 * (x / 96) ^ 16 + k + (y / 64) ^ 8, bayer(8)[x mod 8, y mod 8]);";
+    let found = off(powers);
+    assert!(found <= 20, "{found}");
+}

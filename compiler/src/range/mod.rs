@@ -10,6 +10,7 @@
 mod assuming;
 pub mod error;
 mod interval;
+mod known;
 mod parity;
 mod pointed;
 mod refine;
@@ -23,6 +24,7 @@ use crate::flow::tree::*;
 use crate::plan::points::sample::readers;
 pub use assuming::assuming;
 use interval::interval;
+use known::known;
 use parity::whole;
 pub use slack::{ENTRIES, Slack};
 use slowlight_routine::{Op, Range, Type};
@@ -71,38 +73,6 @@ pub fn ranges(graph: &Graph, tree: &Tree, slack: &Slack) -> Ranges {
     walk.block(&tree.segment);
     walk.block(&tree.pixel);
     walk.out
-}
-
-/// What is known of a value that needs no computing.
-fn known(graph: &Graph, slack: &Slack, id: NodeId) -> Range {
-    let plain = slack.points.as_ref().filter(|_| graph.ty(id) == Type::Real);
-    match graph.node(id) {
-        // A constant is rounded where it is read.
-        Node::Const(c) if plain.is_some() => Range::point(c.value().real()),
-        Node::Param(p) if let Some(points) = plain => {
-            let param = graph.params.get(p.0 as usize);
-            let range = param.and_then(|p| p.range).unwrap_or(Range::ALL);
-            points.rounded(id, range, 1.0)
-        }
-        // Nobody looks at it.
-        Node::Undefined(_) if plain.is_some() || slack.expects() => Range::point(0.0),
-        _ if let Some(points) = plain => points.rounded(id, Range::ALL, 0.0),
-        Node::Const(c) => slack.cut(graph.ty(id), Range::point(c.value().real())),
-        Node::Param(p) => {
-            let range = graph
-                .params
-                .get(p.0 as usize)
-                .and_then(|p| p.range)
-                .unwrap_or(Range::ALL);
-            slack.cut(graph.ty(id), slack.enlarge(Op::Mul, &[], range))
-        }
-        Node::Axis(Axis::X | Axis::Run) => {
-            Range::new(0.0, f64::from(graph.image.width.saturating_sub(1)))
-        }
-        Node::Axis(Axis::Pass(n)) => Range::new(0.0, f64::from(n.saturating_sub(1))),
-        Node::Axis(Axis::Y) => Range::new(0.0, f64::from(graph.image.height.saturating_sub(1))),
-        _ => slack.cut(graph.ty(id), Range::ALL),
-    }
 }
 
 /// How many turns of loops are walked before bounds that still grow are widened.

@@ -132,7 +132,11 @@ impl Slack {
     /// A node's range, as far as it is expected.
     pub(super) fn expected(&self, id: NodeId, range: Range) -> Range {
         match self.expected.get(id.0 as usize).copied().flatten() {
-            Some(most) if range.magnitude() > most => range.meet(Range::new(-most, most)),
+            // What is beyond ends there.
+            Some(most) if range.magnitude() > most => Range {
+                nonzero: range.nonzero,
+                ..Range::new(range.lo.clamp(-most, most), range.hi.clamp(-most, most))
+            },
             _ => range,
         }
     }

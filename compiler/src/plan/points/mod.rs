@@ -18,8 +18,11 @@
 //! [`Slack::expecting`]: crate::range::Slack::expecting
 //! [`Slack::with_points`]: crate::range::Slack::with_points
 
+mod asks;
 mod bounds;
 pub(crate) mod sample;
+mod seen;
+mod tape;
 mod useful;
 mod wanted;
 
@@ -82,7 +85,7 @@ impl Points {
         let range = |id: NodeId| ranges.result[id.0 as usize];
         let room: Vec<i8> = (graph.ids())
             .map(|id| match (graph.node(id), graph.constant(id)) {
-                (_, Some(value)) => fitting(value.real().abs(), bits),
+                (_, Some(value)) => fitting(value.real().abs().min(range(id).magnitude()), bits),
                 (Node::Received, _) => fitting(RECEIVED, bits),
                 (Node::Lookup { table, .. }, _) => fitting(greatest(graph, table), bits),
                 _ => fitting(range(id).magnitude(), bits),
@@ -90,11 +93,12 @@ impl Points {
             .collect();
         let capped = |id: NodeId| match graph.node(id) {
             Node::Apply(op, args) if graph.ty(id) == Type::Real => {
-                room[id.0 as usize].min(cap(graph, op, args, &room))
+                room[id.0 as usize].min(cap(graph, op, args, room[id.0 as usize], &room))
             }
             _ => room[id.0 as usize],
         };
         let mut own: Vec<i8> = graph.ids().map(capped).collect();
+        no_finer(graph, &mut own);
         read_at_most(graph, &mut own);
         for id in graph.ids().filter(|id| graph.ty(*id) != Type::Real) {
             own[id.0 as usize] = 0;
@@ -252,6 +256,23 @@ fn greatest(graph: &Graph, table: TableId) -> f64 {
 /// they are then.
 const BEYOND: f64 = 32768.0;
 const ABOVE: f64 = 3.0;
+
+/// Leaves what is one of its operands, or the sum of them, no more bits than the finest of
+/// these has.
+fn no_finer(graph: &Graph, own: &mut [i8]) {
+    for id in graph.ids().filter(|id| graph.ty(*id) == Type::Real) {
+        let Node::Apply(op, args) = graph.node(id) else {
+            continue;
+        };
+        let live = args[..op.arity()]
+            .iter()
+            .filter(|arg| graph.constant(**arg).is_none());
+        let finest = live.map(|arg| own[arg.0 as usize]).max();
+        if let (true, Some(finest)) = (at_one_scale(op), finest) {
+            own[id.0 as usize] = own[id.0 as usize].min(finest);
+        }
+    }
+}
 
 /// Leaves a value the bits that somebody reads.
 fn read_at_most(graph: &Graph, own: &mut [i8]) {

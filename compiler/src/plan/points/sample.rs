@@ -1,30 +1,26 @@
 //! What values are at pixels spread over the picture, with the params in many places of
-//! their ranges.
+//! their ranges, and what the picture asks of them there.
 //!
 //! Where a few are far larger than all others, as quotients beside a horizon are, room for
-//! these would cost all others their digits: they are cut where that loses less.
+//! these would cost all others their digits: they are cut where that loses less. What is
+//! larger than all others by agreement, 1e6 for "nothing was hit", is asked for no more than
+//! what it is compared with.
 
+use super::seen::Seen;
+use super::tape::{NOWHERE, Tape, Traced};
+use super::wanted;
 use crate::eval::arithmetic::{Arithmetic, Exact};
 use crate::eval::run::Run;
 use crate::flow::graph::*;
 use crate::flow::tree::*;
+use slowlight_routine::scale::{MOST, fitting};
 use slowlight_routine::{Op, Type, Value};
 use std::cell::{Cell, RefCell};
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 
-/// Rows and columns that are looked at.
+/// Rows and columns that are looked at, the picture's borders among them.
 const ROWS: u32 = 24;
 const COLUMNS: u32 = 31;
-
-/// What values are expected to stay within, of the greatest seen.
-const ROOM: f64 = 1.2;
-
-/// By how much a last place counts, as a part of a value, beside a value that is cut.
-const DIGITS: f64 = 4.0;
-
-/// Magnitudes are counted by their octaves, the first of which ends at 2^-40.
-const OCTAVES: usize = 96;
-const FIRST: i32 = -40;
 
 /// How often params are chosen anew.
 const CHOICES: u32 = 12;
@@ -36,87 +32,120 @@ const PATIENCE: u64 = 18_000_000;
 /// picture is seen where patience ends before its rows do.
 const APART: u32 = 7;
 
-/// What was seen of an operation's results.
-#[derive(Clone)]
-struct Seen {
-    most: f64,
-    octaves: [u32; OCTAVES],
-}
-
-impl Default for Seen {
-    fn default() -> Seen {
-        let octaves = [0; OCTAVES];
-        Seen { most: 0.0, octaves }
-    }
-}
-
-impl Seen {
-    fn see(&mut self, size: f64) {
-        self.most = self.most.max(size);
-        if size > 0.0 {
-            let octave = size.log2().ceil() as i32 - FIRST;
-            self.octaves[octave.clamp(0, OCTAVES as i32 - 1) as usize] += 1;
-        }
-    }
-
-    /// What the results are expected to stay within, in so many bits.
-    fn expected(&self, bits: u8) -> Option<f64> {
-        let last = self.octaves.iter().rposition(|n| *n > 0)?;
-        let end = |octave: usize| f64::from(octave as i32 + FIRST).exp2();
-        let lost = |at: usize| {
-            let place = end(at) * f64::from(1 - i32::from(bits)).exp2() * DIGITS;
-            let each = self.octaves.iter().enumerate();
-            let each = each.map(|(octave, n)| {
-                let part = if octave > at {
-                    1.0
-                } else {
-                    // In an octave's middle.
-                    (place / (end(octave) * 0.75)).min(1.0)
-                };
-                f64::from(*n) * part
-            });
-            each.sum::<f64>()
-        };
-        let best = (0..=last)
-            .rev()
-            .min_by(|a, b| lost(*a).total_cmp(&lost(*b)))?;
-        Some(match best == last {
-            true => self.most * ROOM,
-            false => end(best),
-        })
-    }
-}
-
-/// What each operation's result is expected to stay within, in so many bits; what choices and
-/// loops are given, too. Nothing where none was seen.
+/// What each node's value is expected to stay within, in so many bits; nothing where none
+/// was asked for.
 pub fn expected(graph: &Graph, tree: &Tree, bits: u8) -> Vec<Option<f64>> {
     let seen = RefCell::new(vec![Seen::default(); graph.nodes.len()]);
     let carried = readers(graph);
+    let early = early(tree);
     let live = graph.params.iter().any(|p| p.range.is_some());
     let choices = if live { CHOICES } else { 1 };
+    let mut pixels = 0.0;
+    // What pixels send is looked at, but not carried through the whole picture.
+    let alone = Graph {
+        diffusion: None,
+        ..graph.clone()
+    };
     for choice in 0..choices {
         let watch = Watch {
             exact: Exact(graph),
             carried: &carried,
             choice,
-            seen: &seen,
+            early: &early,
+            tape: RefCell::new(Tape::new(graph)),
+            roots: RefCell::default(),
+            received: Cell::new(0.0),
             ran: Cell::new(0),
         };
-        let mut run = Run::new(graph, tree, &watch);
+        // The scene's own params count as much as all others.
+        let times = f64::from(if choice == 0 { CHOICES - 1 } else { 1 });
+        let mut run = Run::new(&alone, tree, &watch);
         for row in 0..ROWS {
+            watch.roots.borrow_mut().row.clear();
             for column in 0..COLUMNS {
                 let at = |k: u32, of: u32, long: u32| {
-                    ((u64::from(k) * 2 + 1) * u64::from(long) / 2 / u64::from(of)) as i32
+                    (u64::from(k) * u64::from(long.max(1) - 1) / u64::from(of - 1)) as i32
                 };
                 let y = at(row * APART % ROWS, ROWS, graph.image.height);
                 if watch.ran.get() < PATIENCE / u64::from(choices) {
-                    run.pixel(at(column, COLUMNS, graph.image.width), y);
+                    let ink = run.pixel(at(column, COLUMNS, graph.image.width), y);
+                    let sent = graph.shares().filter_map(|s| run.last(s.node));
+                    watch.send(sent);
+                    pixels += times;
+                    watch.ask(ink, &mut |id, value, asked| {
+                        if let Some(seen) = seen.borrow_mut().get_mut(id.0 as usize)
+                            && let Value::Real(x) = value
+                        {
+                            seen.see(x, asked, times);
+                        }
+                    });
                 }
             }
         }
     }
-    let seen = seen.into_inner();
-    seen.iter().map(|seen| seen.expected(bits)).collect()
+    chosen((graph, tree), (&seen.into_inner(), pixels), bits)
+}
+
+/// What the values are expected to stay within, in as many fraction bits as serve best.
+fn chosen(
+    (graph, tree): (&Graph, &Tree),
+    (seen, pixels): (&[Seen], f64),
+    bits: u8,
+) -> Vec<Option<f64>> {
+    let carried = readers(graph);
+    let mut given: Vec<Vec<NodeId>> = vec![Vec::new(); graph.nodes.len()];
+    for block in tree.blocks() {
+        walk(block, &mut |statement| {
+            if let Statement::Set {
+                place,
+                from: Origin::Node(from),
+            } = statement
+                && let Some(id) = held_by(&carried, *place)
+                && let Some(given) = given.get_mut(id.0 as usize)
+            {
+                given.push(*from);
+            }
+        });
+    }
+    let mut most = vec![None; graph.nodes.len()];
+    let mut room = vec![MOST; graph.nodes.len()];
+    for id in graph.ids().filter(|id| graph.ty(*id) == Type::Real) {
+        let at = id.0 as usize;
+        let full = fitting(seen[at].room(), bits);
+        // More bits than what a value is made of gives it serve nothing.
+        let cap = match graph.node(id) {
+            // How many bits a product has is known only when its factors are cut.
+            Node::Apply(Op::Mul, _) => MOST,
+            Node::Apply(op, args) => wanted::cap(graph, op, args, full, &room),
+            _ => {
+                let all = given[at].iter().map(|from| room[from.0 as usize]);
+                all.max().unwrap_or(MOST)
+            }
+        };
+        if let Some(end) = seen[at].expected(cap, bits, pixels) {
+            (room[at], most[at]) = (fitting(end, bits), Some(end));
+        }
+    }
+    // What is cut is cut no lower than where it goes: what ends there is told from
+    // what does not.
+    for id in graph.ids().rev() {
+        let passed = match graph.node(id) {
+            Node::Apply(Op::Min | Op::Max, args) => args.to_vec(),
+            Node::Apply(Op::Neg | Op::Abs, [a, _]) => vec![a],
+            _ => given[id.0 as usize].clone(),
+        };
+        let Some(end) = most[id.0 as usize] else {
+            continue;
+        };
+        for from in passed {
+            let at = from.0 as usize;
+            let least = end.min(seen[at].room());
+            if most[at].is_some_and(|most| most < least) {
+                most[at] = Some(least);
+            }
+        }
+    }
+    most
 }
 
 /// A node that reads each carried value.
@@ -136,22 +165,84 @@ pub fn held_by(carried: &HashMap<(LoopId, u32), NodeId>, place: Place) -> Option
     }
 }
 
-/// Computes in `f64` and counts each operation's results.
+/// What is computed once, and what once a row.
+struct Early {
+    frame: HashSet<NodeId>,
+    row: HashSet<NodeId>,
+}
+
+fn early(tree: &Tree) -> Early {
+    let of = |block: &Block| {
+        let mut all = HashSet::new();
+        walk(block, &mut |statement| {
+            if let Statement::Let(id) = statement {
+                all.insert(*id);
+            }
+        });
+        all
+    };
+    Early {
+        frame: of(&tree.frame),
+        row: of(&tree.row),
+    }
+}
+
+/// Values by which a way or an entry was chosen: of the picture, the row and the pixel.
+#[derive(Default)]
+struct Roots {
+    frame: Vec<Traced>,
+    row: Vec<Traced>,
+    pixel: Vec<Traced>,
+}
+
+/// Computes in `f64` and keeps what was computed.
 struct Watch<'g> {
     exact: Exact<'g>,
     /// By whom carried values are read.
     carried: &'g HashMap<(LoopId, u32), NodeId>,
     choice: u32,
-    seen: &'g RefCell<Vec<Seen>>,
+    early: &'g Early,
+    tape: RefCell<Tape>,
+    roots: RefCell<Roots>,
+    /// What the pixel has received: all that the one looked at before it has sent.
+    received: Cell<f64>,
     ran: Cell<u64>,
 }
 
 impl Watch<'_> {
-    fn see(&self, id: NodeId, value: Value) {
-        if let Value::Real(x) = value
-            && let Some(seen) = self.seen.borrow_mut().get_mut(id.0 as usize)
-        {
-            seen.see(x.abs());
+    fn send(&self, sent: impl Iterator<Item = Traced>) {
+        let sum = |sum: f64, traced: Traced| {
+            self.decides(traced);
+            sum + traced.value.real()
+        };
+        self.received.set(sent.fold(0.0, sum));
+    }
+
+    /// A node's value where it is read.
+    fn read(&self, id: NodeId, traced: Traced) -> Traced {
+        match self.exact.0.node(id) {
+            Node::Received => untraced(Value::Real(self.received.get())),
+            _ => traced,
+        }
+    }
+
+    /// Tells of every value what is asked of it by a pixel that has just been run.
+    fn ask(&self, ink: Traced, tell: &mut impl FnMut(NodeId, Value, super::asks::Asked)) {
+        let mut roots = self.roots.borrow_mut();
+        let Roots { frame, row, pixel } = &*roots;
+        let all = [frame, row, pixel].into_iter().flatten().copied();
+        self.tape.borrow_mut().follow(all.chain([ink]), tell);
+        roots.pixel.clear();
+    }
+
+    fn decides(&self, traced: Traced) {
+        let node = self.tape.borrow().node(traced);
+        let mut roots = self.roots.borrow_mut();
+        match node {
+            None => {}
+            Some(id) if self.early.frame.contains(&id) => roots.frame.push(traced),
+            Some(id) if self.early.row.contains(&id) => roots.row.push(traced),
+            Some(_) => roots.pixel.push(traced),
         }
     }
 
@@ -165,16 +256,8 @@ impl Watch<'_> {
             n => (f64::from(n * (param + 1)) * 0.618_033_988_749_895).fract(),
         }
     }
-}
 
-impl Arithmetic for &Watch<'_> {
-    type Value = Value;
-
-    fn constant(&self, value: Value) -> Value {
-        self.exact.constant(value)
-    }
-
-    fn param(&self, id: ParamId) -> Value {
+    fn chosen(&self, id: ParamId) -> Value {
         let own = self.exact.param(id);
         let found = self.exact.0.params.get(id.0 as usize);
         let Some((param, range)) = found.and_then(|p| Some((p, p.range?))) else {
@@ -192,30 +275,51 @@ impl Arithmetic for &Watch<'_> {
             Type::Real => Value::Real(value),
         }
     }
+}
 
-    fn apply(&self, id: NodeId, op: Op, args: &[Value]) -> Value {
-        let made = self.exact.apply(id, op, args);
-        self.see(id, made);
-        made
+fn untraced(value: Value) -> Traced {
+    Traced { value, at: NOWHERE }
+}
+
+impl Arithmetic for &Watch<'_> {
+    type Value = Traced;
+
+    fn constant(&self, value: Value) -> Traced {
+        untraced(self.exact.constant(value))
     }
 
-    fn copied(&self, place: Place, _: NodeId, value: Value) -> Value {
-        if let Some(id) = held_by(self.carried, place) {
-            self.see(id, value);
+    fn param(&self, id: ParamId) -> Traced {
+        untraced(self.chosen(id))
+    }
+
+    fn apply(&self, id: NodeId, op: Op, args: &[Traced]) -> Traced {
+        let of = self.exact.0.node(id).operands();
+        let all = args.iter().zip(of).map(|(arg, of)| self.read(of, *arg));
+        let all: Vec<Traced> = all.collect();
+        let mut tape = self.tape.borrow_mut();
+        tape.computed(self.exact.0, id, op, &all)
+    }
+
+    fn copied(&self, place: Place, from: NodeId, traced: Traced) -> Traced {
+        let traced = self.read(from, traced);
+        match held_by(self.carried, place) {
+            Some(id) => self.tape.borrow_mut().copied(id, from, traced),
+            None => traced,
         }
-        value
     }
 
-    fn gather(&self, received: Value, sent: Value) -> Value {
-        self.exact.gather(received, sent)
+    fn gather(&self, received: Traced, sent: Traced) -> Traced {
+        untraced(self.exact.gather(received.value, sent.value))
     }
 
-    fn truth(&self, value: Value) -> bool {
-        self.exact.truth(value)
+    fn truth(&self, traced: Traced) -> bool {
+        self.decides(traced);
+        self.exact.truth(traced.value)
     }
 
-    fn int(&self, value: Value) -> i32 {
-        self.exact.int(value)
+    fn int(&self, traced: Traced) -> i32 {
+        self.decides(traced);
+        self.exact.int(traced.value)
     }
 
     fn step(&self, _: &Statement) {

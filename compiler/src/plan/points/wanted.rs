@@ -10,8 +10,8 @@ use slowlight_routine::{Op, Type};
 const LONG: i8 = 15;
 
 /// Fraction bits that a result cannot have more of, given those that the operands have
-/// room for.
-pub fn cap(graph: &Graph, op: Op, [a, b]: [NodeId; 2], room: &[i8]) -> i8 {
+/// room for, and those it has room for itself.
+pub fn cap(graph: &Graph, op: Op, [a, b]: [NodeId; 2], result: i8, room: &[i8]) -> i8 {
     let [of_a, of_b] = [a, b].map(|id| room[id.0 as usize]);
     let most = match op {
         Op::Add if a == b => of_a - 1,
@@ -20,7 +20,9 @@ pub fn cap(graph: &Graph, op: Op, [a, b]: [NodeId; 2], room: &[i8]) -> i8 {
         Op::Mul => match (power(graph, a), power(graph, b)) {
             (_, Some(by)) => of_a + by,
             (Some(by), _) => of_b + by,
-            _ => of_a + of_b - LONG,
+            // Where the product has room for less than its operands' greatest would make,
+            // one of them is small, and the other one's last place counts for less.
+            _ => (of_a + of_b - LONG).max(of_a.min(of_b) - (LONG - result + 1).div_euclid(2)),
         },
         Op::Sqrt => (LONG + of_a).div_euclid(2),
         // Their tables have no more.
@@ -67,13 +69,16 @@ pub fn wanted(
         Op::Add | Op::Sub | Op::Min | Op::Max | Op::Mod | Op::Neg | Op::Abs | Op::ToReal => {
             [result; 2]
         }
-        // Of an angle's legs only the ratio matters.
         Op::Less | Op::LessEqual | Op::Equal | Op::Atan2 => {
-            let fixed = |id: NodeId, of: i8| match graph.constant(id) {
-                Some(_) => FEWEST,
-                None => of,
+            // Of an angle's legs only the ratio matters. What a constant is compared with
+            // ends where the constant is read: nothing is above both.
+            let fixed = |id: NodeId, of: i8, room: i8| match graph.constant(id) {
+                Some(_) if op == Op::Atan2 => (FEWEST, room),
+                Some(_) => (FEWEST, MOST),
+                None => (of, room),
             };
-            [fixed(a, of_a).max(fixed(b, of_b)).min(room_a).min(room_b); 2]
+            let (a, b) = (fixed(a, of_a, room_a), fixed(b, of_b, room_b));
+            [a.0.max(b.0).min(a.1).min(b.1); 2]
         }
         Op::Mul => match factor(graph, [a, b], result, (own, room), fits) {
             Some(args) => args,

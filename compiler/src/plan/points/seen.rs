@@ -1,0 +1,116 @@
+//! What was asked of a node's values at all pixels that were looked at, and how many
+//! fraction bits serve that best.
+
+use super::asks::Asked;
+use slowlight_routine::scale::{MOST, fitting, most};
+
+/// What values are expected to stay within, of the greatest seen.
+const ROOM: f64 = 1.2;
+
+/// How far a value is off where it is held with so many fraction bits, in its last places:
+/// what routines may be off is more than what roundings are.
+const OFF: f64 = 0.5;
+
+/// What it may cost a pixel to cut nothing more. What is estimated is several times too
+/// much, and what is cut has to be compared where a sum would do.
+const HARDLY: f64 = 1.5 / 1024.0;
+
+/// What asks for more than such a part of a value gets it from no format: what is compared
+/// with its equal, say.
+const FINEST: f64 = 65536.0;
+
+/// Magnitudes are counted by their octaves, the first of which ends at 2^-40.
+const OCTAVES: usize = 96;
+const FIRST: i32 = -40;
+
+/// In an octave's middle.
+const MIDDLE: f64 = 0.75;
+
+/// What was asked of a node's values.
+#[derive(Clone)]
+pub struct Seen {
+    /// The greatest magnitude, and the greatest that was asked for.
+    most: f64,
+    need: f64,
+    /// What it costs to end below these magnitudes.
+    lost: [f64; OCTAVES],
+    /// How many values cost so much for each unit that they are off.
+    gains: [f64; OCTAVES],
+    /// The same of whole numbers, which fraction bits hold as they are.
+    wholes: [f64; OCTAVES],
+}
+
+impl Default for Seen {
+    fn default() -> Seen {
+        Seen {
+            most: 0.0,
+            need: 0.0,
+            lost: [0.0; OCTAVES],
+            gains: [0.0; OCTAVES],
+            wholes: [0.0; OCTAVES],
+        }
+    }
+}
+
+impl Seen {
+    /// Counts a value so many times.
+    pub fn see(&mut self, value: f64, asked: Asked, times: f64) {
+        let octave = |x: f64| {
+            let octave = x.log2().ceil() as i32 - FIRST;
+            octave.clamp(0, OCTAVES as i32 - 1) as usize
+        };
+        self.most = self.most.max(value.abs());
+        self.need = self.need.max(asked.need);
+        if asked.need > 0.0 {
+            self.lost[octave(asked.need)] += times * (asked.need * asked.lost).min(1.0);
+        }
+        if asked.gain > 0.0 && asked.gain * value.abs() < FINEST {
+            let counted = match value.fract() == 0.0 {
+                true => &mut self.wholes,
+                false => &mut self.gains,
+            };
+            counted[octave(asked.gain)] += times;
+        }
+    }
+
+    /// What leaves room for all that was seen.
+    pub fn room(&self) -> f64 {
+        self.most * ROOM
+    }
+
+    /// What it costs to hold the values with so many fraction bits.
+    fn cost(&self, frac: i8, bits: u8) -> f64 {
+        let place = (-f64::from(frac)).exp2();
+        let end = most(bits) as f64 * place;
+        let octave = |k: usize| f64::from(k as i32 + FIRST).exp2();
+        let mut sum = 0.0;
+        for k in 0..OCTAVES {
+            if octave(k).min(self.need) > end {
+                sum += self.lost[k];
+            }
+            let off = (octave(k) * MIDDLE * place * OFF).min(1.0);
+            let rounded = if frac < 0 { self.wholes[k] } else { 0.0 };
+            sum += off * (self.gains[k] + rounded);
+        }
+        sum
+    }
+
+    /// What the values are expected to stay within: all that was seen, or as much of it as
+    /// costs hardly more in so many bits than what costs least, `cap` of them at most
+    /// behind the point; in so many pixels. Nothing where nothing was asked.
+    pub fn expected(&self, cap: i8, bits: u8, pixels: f64) -> Option<f64> {
+        let any = |counted: &[f64]| counted.iter().any(|n| *n > 0.0);
+        if !any(&self.lost) && !any(&self.gains) && !any(&self.wholes) {
+            return None;
+        }
+        let all = fitting(self.room(), bits);
+        let each = all..=cap.clamp(all, MOST);
+        let costs: Vec<(i8, f64)> = each.map(|f| (f, self.cost(f, bits))).collect();
+        let least = costs.iter().map(|c| c.1).fold(f64::INFINITY, f64::min);
+        let (best, _) = costs.iter().find(|c| c.1 <= least + HARDLY * pixels)?;
+        Some(match *best == all {
+            true => self.room(),
+            false => most(bits) as f64 * (-f64::from(*best)).exp2(),
+        })
+    }
+}
