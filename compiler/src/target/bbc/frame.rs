@@ -50,7 +50,8 @@ pub fn program(plan: &Plan) -> Lines {
     let parts = called(plan, &code);
     setup(plan, &mut code, &parts, &first, &last);
     // Called for many pixels, but not for all.
-    code.lines.weight = if called_rarely(&code) { 1 } else { 5_000 };
+    let rarely = !plan.calls_at_pixels() && called_rarely(&code);
+    code.lines.weight = if rarely { 1 } else { 5_000 };
     functions(&mut code, &parts);
     code.lines.weight = 1;
     tables::data(plan, &mut code);
@@ -318,13 +319,15 @@ fn called(plan: &Plan, code: &Code<'_>) -> Vec<&'static Part> {
 
 /// Whether functions are called only where a test fails, and where little is done.
 fn called_rarely(code: &Code<'_>) -> bool {
-    code.lines.weighted().all(|(text, weight)| {
-        let usual = match text.split_once(" ELSE ") {
-            Some((usual, _)) if usual.starts_with("IF ") => usual,
-            _ => text,
-        };
-        weight <= SELDOM || !usual.contains("FN")
-    })
+    let tests = code.values.style == Style::Fast;
+    tests
+        && code.lines.weighted().all(|(text, weight)| {
+            let usual = match text.split_once(" ELSE ") {
+                Some((usual, _)) if usual.starts_with("IF ") => usual,
+                _ => text,
+            };
+            weight <= SELDOM || !usual.contains("FN")
+        })
 }
 
 fn setup(plan: &Plan, code: &mut Code<'_>, parts: &[&Part], first: &str, last: &str) {

@@ -181,11 +181,14 @@ fn in_place(
         // those that are read seldom have two letters.
         let reads = uses.get(name).map_or(0, |n| n.saturating_sub(1));
         let letters = if spare { 2 } else { 1 };
+        // Those of functions are read at each of their calls.
+        let limit = LIMITS.contains(&name.as_str());
+        let most = if limit { SELDOM } else { seldom };
         let two_signs = number.starts_with('-') && signed.contains(name);
         !changed.contains(name)
             && !two_signs
-            && often.get(name).is_none_or(|often| *often <= seldom)
-            && (constants.contains(name) || LIMITS.contains(&name.as_str()))
+            && often.get(name).is_none_or(|often| *often <= most)
+            && (constants.contains(name) || limit)
             && reads * number.len().saturating_sub(letters) < number.len() + 9 + 2 * letters
     });
     numbers

@@ -27,6 +27,19 @@ pub fn terse(text: &str, flags: &BTreeSet<String>, scant: bool) -> String {
                 out.push_str(name);
                 rest = &behind[3..];
             }
+            (
+                Piece::Word(word),
+                [
+                    Piece::Sign("("),
+                    Piece::Sign("-"),
+                    Piece::Name(name),
+                    Piece::Sign(")"),
+                    ..,
+                ],
+            ) if FUNCTIONS.contains(word) => {
+                out.push_str(&format!("{word}-{name}"));
+                rest = &behind[4..];
+            }
             (Piece::Sign("+"), [Piece::Sign("-"), Piece::Word(number), next @ ..])
                 if is_number(number) && !matches!(next.first(), Some(Piece::Sign("^"))) => {}
             (Piece::Word(number), _) if scant && zeros(number) > 3 => {
@@ -140,6 +153,7 @@ mod tests {
                 "IF ABSa<.5 THEN b=INT(a+1)",
             ),
             ("b=SQR(a(3))+-96*a+-2^2", "b=SQR(a(3))-96*a+-2^2"),
+            ("b=SQR(-a)*SQR(-a*b)", "b=SQR-a*SQR(-a*b)"),
             ("b=a+(-c):c=10.5", "b=a+(-c):c=10.5"),
             ("IF odd% THEN a%=1 ELSE a%=0", "a%=-odd%"),
             ("IF NOT odd% THEN a%=3 ELSE a%=2", "a%=3+odd%"),
