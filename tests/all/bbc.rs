@@ -130,12 +130,12 @@ fn two_mirrors_fit_a_disc_micro() {
 fn folded(source: &str, mode: &str, rows: (u32, u32), plot: bool) -> Plan {
     let target = find("bbc:micro").unwrap();
     let mode = *target.modes.iter().find(|m| m.name == mode).unwrap();
-    let options = Options {
-        offset: target.offset,
+    // As the command line has it.
+    let options = Precision::of(target).options(Options {
         inks: Some(mode.inks),
         freeze: Freeze::All,
         ..Options::default()
-    };
+    });
     let graph = scene::check("test", source).lower(&options).unwrap();
     let goal = Goal {
         name: "test".to_owned(),
@@ -251,12 +251,13 @@ fn the_parameter_block_is_live_and_checked() {
         .replace("eye_z=3", "eye_z=3.6");
     let plan = planned("bbc:micro", MIRRORS, &[0.35, 0.25, 3.6], rows);
     assert_eq!(differences(&plan, &run(Dialect::Micro, &edited)), 0);
+    // It is short of memory, and says so in few words.
     for (name, from, to, says) in [
-        ("eye_x", "0", "3.1", "eye_x must be from -3 to 3\n"),
-        ("eye_y", "-0.1", "-2", "eye_y must be from -1.5 to 2\n"),
-        ("eye_z", "3", "1E30", "eye_z must be from 1.5 to 6\n"),
-        ("first%", "70", "-1", "rows must be from 0 to 239\n"),
-        ("last%", "71", "69", "rows must be from 0 to 239\n"),
+        ("eye_x", "0", "3.1", "eye_x: -3 to 3\n"),
+        ("eye_y", "-0.1", "-2", "eye_y: -1.5 to 2\n"),
+        ("eye_z", "3", "1E30", "eye_z: 1.5 to 6\n"),
+        ("first%", "70", "-1", "rows: 0 to 239\n"),
+        ("last%", "71", "69", "rows: 0 to 239\n"),
     ] {
         let text = if name == "last%" {
             original.replace("last%=71", "last%=69")
