@@ -79,17 +79,12 @@ pub fn document(plan: &Plan, syntax: &Syntax) -> Document {
     let homes = homes::Homes::new(plan);
     let mut text = Text::default();
     frame::program(plan, &homes, syntax, &mut text);
-    let mut document = Document {
+    let (written, lines) = syntax.write(&text.lines);
+    Document {
         name: format!("{}.asm", plan.name),
-        text: String::new(),
-        lines: Vec::with_capacity(text.lines.len()),
-    };
-    for (line, span) in text.lines {
-        document.text.push_str(&syntax.line(&line));
-        document.text.push('\n');
-        document.lines.push(span);
+        text: written,
+        lines,
     }
-    document
 }
 
 /// Lines of assembly, each with the place in the scene that it comes from.

@@ -261,6 +261,7 @@ proptest! {
     #[test]
     fn no_text_makes_a_panic(text in "[ -~\\n\t\u{e9}]{0,200}") {
         let _ = assemble(&text).map(|a| a.listing(&text));
+        let _ = assemble_as(&text, Dialect::Beebasm).map(|a| a.listing(&text));
     }
 
     #[test]
@@ -268,10 +269,12 @@ proptest! {
         prop::sample::select(vec![
             "l:", "m:", "l", "m", "lda", "sta", "bne", "jmp", "asl", "#", "(", ")", ",x", ",y", "a", "+", "-",
             "*", "/", "<", ">", "<<", ">>", "&", "|", "^", "=", "* =", ".byte", ".word", ".res", "1", "$FF",
-            "%1", "'c'", "\"s\"", "65535", "\n", "\n", "\n", " ", ";",
+            "%1", "'c'", "\"s\"", "65535", "\n", "\n", "\n", " ", ";", ".l", ".m", "LO(", "HI", "&FF", "EQUB", "EQUS",
+            "EQUW", "SKIP", "ORG", "SAVE", ":", "\\",
         ]), 0..60)) {
         let text = parts.join(" ");
         let _ = assemble(&text).map(|a| a.listing(&text));
+        let _ = assemble_as(&text, Dialect::Beebasm).map(|a| a.listing(&text));
     }
 }
 
