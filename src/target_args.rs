@@ -11,6 +11,7 @@ use clap::{Args, ValueEnum};
 use slowlight_compiler::plan::{Goal, Plan, plan, plan_as_written};
 use slowlight_compiler::sema::{FunctionKind, Program};
 use slowlight_compiler::source::Span;
+use slowlight_compiler::target::mos6502::syntax::{self, SYNTAXES, Syntax};
 use slowlight_compiler::target::{self, Mode, TARGETS, Target};
 use std::collections::BTreeSet;
 
@@ -73,6 +74,15 @@ pub enum Style {
 pub fn target(name: &str) -> Result<&'static Target, String> {
     let names = TARGETS.iter().map(|t| t.name);
     target::find(name).ok_or_else(|| unknown("target", name, names))
+}
+
+/// Reads `--syntax`.
+///
+/// # Errors
+/// Where programs cannot be written for such an assembler: for which they can.
+pub fn syntax(name: &str) -> Result<&'static Syntax, String> {
+    let names = SYNTAXES.iter().map(|s| s.name);
+    syntax::find(name).ok_or_else(|| unknown("syntax", name, names))
 }
 
 /// What stands for every format that a machine has.

@@ -2,6 +2,7 @@
 
 use crate::failure::{Failure, Outcome};
 use crate::format::{count, duration, table};
+use crate::machine::File;
 use crate::scene::{Precision, Scene, SceneArgs};
 use crate::target_args::{self, ScreenArgs};
 use crate::trial::{self, mode_json};
@@ -12,7 +13,9 @@ use slowlight_compiler::passes::rate::rates;
 use slowlight_compiler::plan::Plan;
 use slowlight_compiler::plan::print::{ranges_text, rates_text};
 use slowlight_compiler::syntax::print;
-use slowlight_compiler::target::Target;
+use slowlight_compiler::target::mos6502::document;
+use slowlight_compiler::target::mos6502::syntax::Syntax;
+use slowlight_compiler::target::{Document, Target};
 use std::path::{Path, PathBuf};
 
 /// Options of `build`.
@@ -26,6 +29,10 @@ pub struct Args {
     target: Option<&'static Target>,
     #[command(flatten)]
     screen: ScreenArgs,
+    /// The assembler that the 6502's source is for: ca65, 64tass, acme, dasm, beebasm
+    /// or xa [default: ca65]
+    #[arg(long, value_name = "SYNTAX", value_parser = target_args::syntax)]
+    syntax: Option<&'static Syntax>,
     /// The directory to write to
     #[arg(short, long, value_name = "DIR", default_value = ".")]
     output: PathBuf,
@@ -67,7 +74,12 @@ pub fn run(args: &Args) -> Outcome<()> {
     }
     scene.warn();
     let plan = args.screen.plan(&scene, target(args)?, &[])?;
-    let built = trial::build_for(&plan, args.screen.machine(plan.target)?)?;
+    let mut built = trial::build_for(&plan, args.screen.machine(plan.target)?)?;
+    if args.syntax.is_some() {
+        let documents = documents(args, &plan);
+        let files = documents.iter().map(|d| File::text(&d.name, &d.text));
+        built.sources = files.collect();
+    }
     let dir = &args.output;
     std::fs::create_dir_all(dir)
         .map_err(|e| Failure::Wrong(format!("cannot make {}: {e}", dir.display())))?;
@@ -132,8 +144,22 @@ pub fn run(args: &Args) -> Outcome<()> {
 }
 
 fn target(args: &Args) -> Outcome<&'static Target> {
-    args.target
-        .ok_or_else(|| Failure::Usage("this stage depends on the machine: say --target".to_owned()))
+    let target = args.target.ok_or_else(|| {
+        Failure::Usage("this stage depends on the machine: say --target".to_owned())
+    })?;
+    if args.syntax.is_some() && !target.name.starts_with("6502:") {
+        let message = format!("--syntax is the 6502's; {} has none", target.name);
+        return Err(Failure::Usage(message));
+    }
+    Ok(target)
+}
+
+/// The sources, in the syntax that was asked for.
+fn documents(args: &Args, plan: &Plan) -> Vec<Document> {
+    match args.syntax {
+        Some(syntax) => vec![document(plan, syntax)],
+        None => (plan.target.emit)(plan),
+    }
 }
 
 /// The plan of a stage, which may be looked at also where its program does not fit.
@@ -171,7 +197,7 @@ fn emit(args: &Args, scene: &Scene, stage: Stage) -> Outcome<String> {
         Stage::Plan => plan(args, scene)?.to_string(),
         Stage::Text => {
             let plan = plan(args, scene)?;
-            let documents = (plan.target.emit)(&plan);
+            let documents = documents(args, &plan);
             let many = documents.len() > 1;
             let mut out = String::new();
             for document in documents {

@@ -10,6 +10,7 @@ use crate::{files, say, say_json};
 use clap::ValueEnum;
 use serde::Serialize;
 use slowlight_vm::bbc::{Config, LineCost};
+use slowlight_vm::mos6502::Dialect;
 use std::path::{Path, PathBuf};
 
 /// Cycles after which a program is stopped, unless the user says otherwise.
@@ -51,6 +52,18 @@ pub struct Args {
     /// [default: 1900]
     #[arg(long, value_name = "PAGE", value_parser = page)]
     page: Option<u16>,
+    /// How 6502 assembly is written [default: ca65]
+    #[arg(long, value_name = "SYNTAX")]
+    syntax: Option<Syntax>,
+}
+
+/// A way to write assembly that the bundled assembler reads.
+#[derive(ValueEnum, Clone, Copy, Debug, PartialEq, Eq)]
+enum Syntax {
+    /// As ca65 with `--feature pc_assignment`, and most others, have it
+    Ca65,
+    /// As beebasm has it
+    Beebasm,
 }
 
 /// A machine by its name here.
@@ -141,6 +154,10 @@ pub fn run(args: &Args) -> Outcome<()> {
         let message = "--page is the BBC Micro's: `slowlight vm bbc --page E00 FILE`";
         return Err(Failure::Usage(message.to_owned()));
     }
+    if args.syntax.is_some() && args.machine != Kind::Mos6502 {
+        let message = "--syntax is the 6502's: `slowlight vm 6502 --syntax beebasm FILE`";
+        return Err(Failure::Usage(message.to_owned()));
+    }
     if args.cpu && !matches!(args.machine, Kind::Jack | Kind::Hack) {
         let message = "--cpu is the Hack computer's: `slowlight vm jack --cpu DIR`";
         return Err(Failure::Usage(message.to_owned()));
@@ -160,7 +177,10 @@ pub fn run(args: &Args) -> Outcome<()> {
             ..HackConfig::default()
         }),
         Kind::Bbc => Machine::Bbc(Config::default()),
-        Kind::Mos6502 => Machine::Mos6502,
+        Kind::Mos6502 => Machine::Mos6502(match args.syntax {
+            Some(Syntax::Beebasm) => Dialect::Beebasm,
+            Some(Syntax::Ca65) | None => Dialect::Common,
+        }),
     };
     let hack = machine.many_sources();
     let mut program = Vec::new();

@@ -16,6 +16,7 @@ use crate::failure::{Failure, Outcome};
 use crate::interrupt;
 use crate::picture::Picture;
 use slowlight_vm::bbc::{Config, Dialect, LineCost};
+use slowlight_vm::mos6502::Dialect as AsmDialect;
 use slowlight_vm::{Progress, Screen, Stop};
 use std::collections::BTreeMap;
 
@@ -27,8 +28,8 @@ pub enum Machine {
     Hack(HackConfig),
     /// BBC BASIC and its screen.
     Bbc(Config),
-    /// The plain machine around a 6502.
-    Mos6502,
+    /// The plain machine around a 6502, and how its assembly is written.
+    Mos6502(AsmDialect),
 }
 
 /// A source text or binary by its file name.
@@ -128,7 +129,7 @@ impl Machine {
             "bbc:micro" => bbc(Dialect::Micro),
             "bbc:agon" => bbc(Dialect::Agon),
             "bbc:basicv" => bbc(Dialect::BasicV),
-            "6502:plain" => Some(Machine::Mos6502),
+            "6502:plain" => Some(Machine::Mos6502(AsmDialect::Common)),
             _ => None,
         }
     }
@@ -159,7 +160,7 @@ impl Machine {
         match self {
             Machine::Hack(_) => "jack",
             Machine::Bbc(_) => "bas",
-            Machine::Mos6502 => "asm",
+            Machine::Mos6502(_) => "asm",
         }
     }
 
@@ -176,7 +177,7 @@ impl Machine {
         match self {
             Machine::Hack(config) => hack::load(files, config),
             Machine::Bbc(config) => bbc::load(files, config),
-            Machine::Mos6502 => mos6502::load(files),
+            Machine::Mos6502(dialect) => mos6502::load(files, dialect),
         }
     }
 }

@@ -3,13 +3,13 @@
 use super::{File, Loaded, MachineRun, Program, Sizes, refused};
 use crate::failure::{Failure, Outcome};
 use slowlight_vm::mos6502::plain::port;
-use slowlight_vm::mos6502::{Assembly, Plain, assemble};
+use slowlight_vm::mos6502::{Assembly, Dialect, Plain, assemble_as};
 use slowlight_vm::{Fault, Watch};
 use std::collections::BTreeMap;
 
 /// Takes one assembly source (`.asm`, `.s`, `.a65`), or one binary that begins
 /// with its load address.
-pub fn load(files: &[File]) -> Outcome<Loaded> {
+pub fn load(files: &[File], dialect: Dialect) -> Outcome<Loaded> {
     let [file] = files else {
         let message = "the 6502 takes one file: an assembly source or a binary".to_owned();
         return Err(Failure::Usage(message));
@@ -29,8 +29,8 @@ pub fn load(files: &[File]) -> Outcome<Loaded> {
             program: Program::Mos6502(Box::new(machine)),
         });
     }
-    let assembly =
-        assemble(&file.as_text()).map_err(|faults| refused("assembler", &file.name, &faults))?;
+    let assembly = assemble_as(&file.as_text(), dialect)
+        .map_err(|faults| refused("assembler", &file.name, &faults))?;
     let image = assembly.image();
     machine.load(&image).map_err(refuse)?;
     let stem = file.name.rsplit_once('.').map_or("", |(stem, _)| stem);

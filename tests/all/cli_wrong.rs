@@ -51,6 +51,26 @@ fn wrong_usage_is_status_2() {
     fails(&["build", "steps.scn", "--emit", "plan"], 2, "--target");
     fails(&["build", "steps.scn", "--emit", "planets"], 2, "plan");
     fails(
+        &["build", "steps.scn", "-t", "6502", "--syntax", "beebas"],
+        2,
+        "did you mean `beebasm`?",
+    );
+    fails(
+        &["build", "steps.scn", "-t", "bbc", "--syntax", "beebasm"],
+        2,
+        "--syntax is the 6502's; bbc:micro has none",
+    );
+    fails(
+        &["vm", "bbc", "steps.scn", "--syntax", "beebasm"],
+        2,
+        "--syntax is the 6502's",
+    );
+    fails(
+        &["vm", "6502", "steps.scn", "--syntax", "acme"],
+        2,
+        "beebasm",
+    );
+    fails(
         &["run", "steps.scn", "-t", "6502", "--os", "native"],
         2,
         "Jack",

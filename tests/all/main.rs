@@ -21,9 +21,9 @@ mod library;
 mod mos6502;
 mod need;
 #[cfg(feature = "peers")]
-mod peers_brandy;
+mod peers_assemblers;
 #[cfg(feature = "peers")]
-mod peers_ca65;
+mod peers_brandy;
 #[cfg(feature = "peers")]
 mod peers_dialect;
 #[cfg(feature = "peers")]
@@ -38,6 +38,7 @@ mod seldom;
 mod snapshots;
 mod spread;
 mod stress;
+mod syntaxes;
 mod torus;
 mod whole;
 mod written;

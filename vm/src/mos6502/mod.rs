@@ -4,5 +4,5 @@ pub mod asm;
 pub mod cpu;
 pub mod plain;
 
-pub use asm::{Assembly, LineSpan, assemble, extent};
+pub use asm::{Assembly, Dialect, LineSpan, assemble, assemble_as, extent};
 pub use plain::{Plain, Run};

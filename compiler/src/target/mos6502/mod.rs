@@ -1,7 +1,8 @@
 //! From a plan to 6502 assembly.
 //!
 //! The text assembles with the bundled assembler, and with ca65 as
-//! `ca65 --feature pc_assignment`, to the same bytes. It reads from the top:
+//! `ca65 --feature pc_assignment`, to the same bytes; other assemblers have theirs
+//! (see [`syntax`]). It reads from the top:
 //!
 //! 1. the parameter block: what may be changed, as scaled integers;
 //! 2. the ports of the machine, the runtime's zero page, the homes of values;
@@ -25,6 +26,7 @@ mod homes;
 mod names;
 mod params;
 mod spread;
+pub mod syntax;
 mod table;
 #[cfg(test)]
 mod tests;
@@ -34,6 +36,7 @@ use crate::passes::outline::Sizes;
 use crate::plan::Plan;
 use crate::source::Span;
 use slowlight_runtime_6502::FIXED16_16;
+use syntax::Syntax;
 
 /// The plain machine: 64K of RAM and a port that takes ink by ink.
 pub static PLAIN: Target = Target {
@@ -68,20 +71,20 @@ pub static PLAIN: Target = Target {
 
 /// Writes a plan down as one file of assembly.
 fn emit(plan: &Plan) -> Vec<Document> {
+    vec![document(plan, syntax::USUAL)]
+}
+
+/// A plan as one file of assembly for some assembler.
+pub fn document(plan: &Plan, syntax: &Syntax) -> Document {
     let homes = homes::Homes::new(plan);
     let mut text = Text::default();
-    frame::program(plan, &homes, &mut text);
-    let mut document = Document {
+    frame::program(plan, &homes, syntax, &mut text);
+    let (written, lines) = syntax.write(&text.lines);
+    Document {
         name: format!("{}.asm", plan.name),
-        text: String::new(),
-        lines: Vec::with_capacity(text.lines.len()),
-    };
-    for (line, span) in text.lines {
-        document.text.push_str(line.trim_end());
-        document.text.push('\n');
-        document.lines.push(span);
+        text: written,
+        lines,
     }
-    vec![document]
 }
 
 /// Lines of assembly, each with the place in the scene that it comes from.

@@ -43,6 +43,16 @@ const RESERVED: &[&str] = &[
     "clear_errors",
 ];
 
+/// Words that some assembler keeps for itself beside the 6502's instructions: those of
+/// its successors, aliases of branches, operators, constants. In small letters.
+const FOREIGN: &[&str] = &[
+    "bbr", "bbs", "bge", "blt", "bra", "brl", "cop", "cpa", "cpu", "gcc", "gcs", "geq", "gge",
+    "glt", "gmi", "gne", "gpl", "gvc", "gvs", "jml", "jsl", "mvn", "mvp", "not", "pea", "pei",
+    "per", "phb", "phd", "phk", "phx", "phy", "pi", "plb", "pld", "plx", "ply", "rep", "rmb",
+    "rtl", "sep", "shl", "shr", "smb", "stp", "stz", "tcd", "tcs", "tdc", "trb", "tsb", "tsc",
+    "txy", "tyx", "wai", "wdb", "xba", "xce",
+];
+
 /// Makes names that the assembler and the rest of the program leave free.
 /// Kept in small letters: assemblers know their own words, and many know all
 /// symbols, in either case.
@@ -52,6 +62,7 @@ impl Names {
     pub fn new(plan: &Plan) -> Names {
         let mut taken: BTreeSet<String> = RESERVED.iter().map(|n| (*n).to_owned()).collect();
         taken.extend(["a", "x", "y", "s"].map(str::to_owned));
+        taken.extend(FOREIGN.iter().map(|n| (*n).to_owned()));
         for part in plan.runtime.parts {
             let Source::Text(text) = part.source else {
                 continue;
@@ -65,6 +76,9 @@ impl Names {
     }
 
     pub fn fresh(&mut self, wanted: &str) -> String {
+        // A name that begins with `_` would be seen only up to the next label in 64tass.
+        let own = if wanted.starts_with('_') { "v" } else { "" };
+        let wanted = &format!("{own}{wanted}");
         let mut name = wanted.to_owned();
         // Numbered labels are a word and a number; a table's have its plane's behind that.
         let numbered = wanted.ends_with(|c: char| c.is_ascii_digit()) && !wanted.contains('_');

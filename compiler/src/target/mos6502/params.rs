@@ -3,6 +3,7 @@
 
 use super::Text;
 use super::homes::{Homes, Slot};
+use super::syntax::Syntax;
 use crate::plan::Plan;
 use slowlight_routine::Type;
 
@@ -81,7 +82,7 @@ fn unit(real: bool, digits: u32) -> String {
 }
 
 /// The check of the params, and their making.
-pub(super) fn take_params(homes: &Homes, entries: &[Entry], text: &mut Text) {
+pub(super) fn take_params(homes: &Homes, entries: &[Entry], syntax: &Syntax, text: &mut Text) {
     text.headline("the parameters, checked and made numbers of the runtime's");
     let which = homes.name(Slot::Which);
     text.label("take_params");
@@ -110,14 +111,29 @@ pub(super) fn take_params(homes: &Homes, entries: &[Entry], text: &mut Text) {
             "param{k}:{:20}; {symbol}: value, least, greatest, divisor",
             ""
         ));
-        text.line(format!(
-            "        .byte <({symbol}), >({symbol}), <(({symbol}) >> 16), <(({symbol}) >> 24)"
-        ));
+        text.line(format!("        .byte {}", value_bytes(entry, syntax)));
         let numbers = [&entry.least, &entry.greatest, &entry.divisor.to_string()];
         for number in numbers.map(|n| n.parse::<i64>().unwrap_or(0)) {
             let [a, b, c, d, ..] = number.to_le_bytes();
             text.line(format!("        .byte {a}, {b}, {c}, {d}"));
         }
+    }
+}
+
+/// The four bytes of a param's value, of its symbol where the assembler can tell
+/// them from that.
+fn value_bytes(entry: &Entry, syntax: &Syntax) -> String {
+    let (symbol, bits) = (&entry.symbol, syntax.symbol_bits);
+    let value = entry.text.parse::<i64>().unwrap_or(0);
+    let half = 1i64 << (bits - 1);
+    if bits >= 32 {
+        format!("<({symbol}), >({symbol}), <(({symbol}) >> 16), <(({symbol}) >> 24)")
+    } else if (-half..half).contains(&value) {
+        let sign = format!("<(0-(({symbol}) >> {}))", bits - 1);
+        format!("<({symbol}), >({symbol}), <(({symbol}) >> 16), {sign}")
+    } else {
+        let [a, b, c, d, ..] = value.to_le_bytes();
+        format!("{a}, {b}, {c}, {d}")
     }
 }
 

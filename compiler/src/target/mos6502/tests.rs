@@ -3,6 +3,7 @@
 use crate::plan::{Goal, Plan, plan};
 use crate::scene::check;
 use crate::sema::Options;
+use crate::target::mos6502::syntax::{SYNTAXES, USUAL, find as find_syntax};
 use crate::target::{default_mode, find};
 use std::collections::BTreeSet;
 
@@ -80,6 +81,11 @@ fn names_of_scenes_never_meet_those_of_the_program() {
         "param0",
         "take_int",
         "v1",
+        // What other assemblers keep for themselves.
+        "_low",
+        "bra",
+        "shl",
+        "pi",
     ];
     for name in names {
         let source = format!(
@@ -91,9 +97,11 @@ fn names_of_scenes_never_meet_those_of_the_program() {
         let all = defined(&text);
         let unique: BTreeSet<&str> = all.iter().copied().collect();
         assert_eq!(all.len(), unique.len(), "{name}");
-        for reserved in ["lda", "inc", "and", "a", "x", "y", "s"] {
+        for reserved in ["lda", "inc", "and", "a", "x", "y", "s", "bra", "shl", "pi"] {
             assert!(!unique.contains(reserved), "{name}: {reserved}");
         }
+        // Local in 64tass.
+        assert!(!unique.iter().any(|n| n.starts_with('_')), "{name}");
     }
 }
 
@@ -124,4 +132,110 @@ fn a_dither_that_spreads_reads_well() {
     let all = text(source);
     let own = all.split("; ---- runtime").next().unwrap();
     insta::assert_snapshot!(format!("{source}\n\n{own}"));
+}
+
+/// Everything that a line may be, in every syntax.
+#[test]
+fn lines_in_every_syntax() {
+    let neutral = [
+        "; a comment: it's all",
+        "* = $0a00",
+        "name = $12              ; 1: a symbol",
+        "sum = -250",
+        "label:                  ; and a comment",
+        "        lda #<(label)   ; low",
+        "        ldx #>(label)",
+        "        asl",
+        "        ror name",
+        "        lda (name),y",
+        "        .byte 1, $02, <((sum) >> 16)",
+        "        .word label, $1234",
+        "        ; indented",
+        "",
+    ];
+    let mut all = String::new();
+    for syntax in &SYNTAXES {
+        all.push_str(&format!("---- {}\n", syntax.name));
+        for line in neutral {
+            let written = syntax.line(line);
+            // The first is what everything is written in.
+            assert!(syntax.name != "ca65" || written == line, "{written}");
+            all.push_str(&written);
+            all.push('\n');
+        }
+    }
+    insta::assert_snapshot!(all);
+}
+
+#[test]
+fn a_small_scene_in_every_syntax() {
+    let source = "image 8 x 4 inks black, white;
+param from: int = 3 in 1 .. 9;
+const steps = [0, 1, 1, 0; 1, 0, 0, 1];
+draw (x, y) = ink((steps[x mod 4, y mod 2] + x + from) mod 2);";
+    let plan = planned(source);
+    for syntax in &SYNTAXES {
+        let document = super::document(&plan, syntax);
+        let lines = document.text.lines().count();
+        assert_eq!(lines, document.lines.len(), "{}", syntax.name);
+        insta::assert_snapshot!(format!("syntax_{}", syntax.name), document.text);
+    }
+    let usual = &super::emit(&planned(source))[0].text;
+    assert_eq!(*usual, super::document(&plan, USUAL).text);
+}
+
+/// xa holds 24 bits of a symbol.
+#[test]
+fn large_params_are_bytes_where_symbols_are_narrow() {
+    let written = |value: i64, syntax: &str| {
+        let plan = planned(&format!(
+            "image 8 x 4 inks black, white; param n: int = {value}; draw (x, y) = ink((x + n) mod 2);"
+        ));
+        let text = super::document(&plan, find_syntax(syntax).unwrap()).text;
+        let mut behind = text.lines().skip_while(|l| !l.starts_with("param0:"));
+        behind.nth(1).unwrap().trim().to_owned()
+    };
+    let narrow = ".byt <(n), >(n), <((n) >> 16), <(0-((n) >> 23))";
+    for inside in [0, -250, 0x7f_ffff, -0x80_0000] {
+        assert_eq!(written(inside, "xa"), narrow);
+    }
+    assert_eq!(written(0x80_0000, "xa"), ".byt 0, 0, 128, 0");
+    assert_eq!(written(-0x80_0001, "xa"), ".byt 255, 255, 127, 255");
+    let wide = ".byte <(n), >(n), <((n) >> 16), <((n) >> 24)";
+    assert_eq!(written(0x80_0000, "64tass"), wide);
+}
+
+/// Long programs have several instructions on a line where the assembler has
+/// no memory for so many lines; a comment, a label or data ends one.
+#[test]
+fn long_programs_have_less_lines_for_xa() {
+    let part = ["        nop"; 6].into_iter().chain([
+        "label:",
+        "        rts ; a comment",
+        "        inx",
+        "        .byte 1",
+    ]);
+    let lines = |times: usize| -> Vec<_> {
+        let all = std::iter::repeat_n(part.clone(), times).flatten();
+        all.map(|l| (l.to_owned(), None)).collect()
+    };
+    let xa = find_syntax("xa").unwrap();
+    let (short, places) = xa.write(&lines(1));
+    assert_eq!((short.lines().count(), places.len()), (10, 10));
+    let (long, places) = xa.write(&lines(2001));
+    assert_eq!(long.lines().count(), places.len());
+    let first: Vec<&str> = long.lines().take(6).collect();
+    assert_eq!(
+        first,
+        [
+            "        nop : nop : nop : nop",
+            "        nop : nop",
+            "label:",
+            "        rts ; a comment",
+            "        inx",
+            "        .byt 1",
+        ]
+    );
+    let (usual, _) = USUAL.write(&lines(2001));
+    assert_eq!(usual.lines().count(), 20_010);
 }

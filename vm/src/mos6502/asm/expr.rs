@@ -10,8 +10,10 @@
 //!       | unary { ("+" | "-" | "*" | "/") unary }   with the usual precedence
 //!       | unary { "&" unary }  | the same with | and ^  | unary ("<<" | ">>") unary
 //! unary = { "-" } (number | 'c' | name | "*" | "(" expr ")")
+//!       | ("LO" | "HI") "(" expr ")"            in beebasm's dialect
 //! ```
 
+use super::Dialect;
 use super::lexer::{Lexeme, Token, Wrong, wrong};
 use super::symbols::Symbols;
 
@@ -120,15 +122,17 @@ pub(super) struct Reader<'t, 'a> {
     end: u32,
     /// Whether an expression has mentioned `*`.
     here: bool,
+    pub dialect: Dialect,
 }
 
 impl<'t, 'a> Reader<'t, 'a> {
-    pub fn new(tokens: &'t [Token<'a>], end: u32) -> Self {
+    pub fn new(tokens: &'t [Token<'a>], end: u32, dialect: Dialect) -> Self {
         Reader {
             tokens,
             next: 0,
             end,
             here: false,
+            dialect,
         }
     }
 
@@ -295,6 +299,17 @@ impl<'t, 'a> Reader<'t, 'a> {
         }
     }
 
+    /// `LO` or `HI` with its parenthesis behind it, in the dialect that has them.
+    fn function(&self) -> Option<Op> {
+        match (self.dialect, self.peek()?, self.peek_second()?) {
+            (Dialect::Beebasm, Lexeme::Name(name), Lexeme::Mark('(')) => {
+                let is = |word| name.eq_ignore_ascii_case(word);
+                (is("lo").then_some(Op::Low)).or(is("hi").then_some(Op::High))
+            }
+            _ => None,
+        }
+    }
+
     fn unary(
         &mut self,
         ops: &mut Vec<Op>,
@@ -305,6 +320,10 @@ impl<'t, 'a> Reader<'t, 'a> {
         let mut negative = false;
         while self.eat('-') {
             negative = !negative;
+        }
+        let function = self.function();
+        if function.is_some() {
+            self.skip();
         }
         let column = self.column();
         match self.peek() {
@@ -331,6 +350,7 @@ impl<'t, 'a> Reader<'t, 'a> {
             _ => return wrong(column, "expected a number, a name, `*` or `(`"),
         }
         self.skip();
+        ops.extend(function);
         if negative {
             ops.push(Op::Negate);
         }

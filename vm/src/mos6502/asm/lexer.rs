@@ -1,5 +1,7 @@
 //! One line of text into tokens. A comment ends the line.
 
+use super::Dialect;
+
 /// A piece of a line.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) enum Lexeme<'a> {
@@ -44,6 +46,7 @@ const LARGEST: i64 = 0xFFFF_FFFF;
 struct Lexer<'a> {
     rest: &'a str,
     column: u32,
+    dialect: Dialect,
 }
 
 impl<'a> Lexer<'a> {
@@ -112,7 +115,15 @@ impl<'a> Lexer<'a> {
 
     fn lexeme(&mut self, first: char) -> Result<Lexeme<'a>, Wrong> {
         let start = self.column;
+        let beebasm = self.dialect == Dialect::Beebasm;
         let what = match first {
+            '&' if beebasm => {
+                self.skip();
+                Lexeme::Number(self.number(16, start)?)
+            }
+            '|' | '^' | '/' if beebasm => {
+                return wrong(start, format!("beebasm has no operator {first:?} on bits"));
+            }
             '0'..='9' => Lexeme::Number(self.number(10, start)?),
             '$' => {
                 self.skip();
@@ -152,10 +163,11 @@ impl<'a> Lexer<'a> {
 }
 
 /// The tokens of a line up to its comment.
-pub(super) fn tokens(line: &str) -> Result<Vec<Token<'_>>, Wrong> {
+pub(super) fn tokens(line: &str, dialect: Dialect) -> Result<Vec<Token<'_>>, Wrong> {
     let mut lexer = Lexer {
         rest: line,
         column: 1,
+        dialect,
     };
     let mut found = Vec::new();
     loop {
@@ -163,6 +175,7 @@ pub(super) fn tokens(line: &str) -> Result<Vec<Token<'_>>, Wrong> {
         let column = lexer.column;
         match lexer.rest.chars().next() {
             None | Some(';') => return Ok(found),
+            Some('\\') if dialect == Dialect::Beebasm => return Ok(found),
             Some(first) => {
                 let what = lexer.lexeme(first)?;
                 found.push(Token { what, column });

@@ -16,6 +16,8 @@
 //! accepts (undocumented opcodes there need `--cpu 6502X`). Where assemblers read
 //! an expression differently, it is an error here: see `expr`.
 //!
+//! beebasm's way of writing is read where it is asked for: see [`Dialect`].
+//!
 //! - Whether an operand is in the zero page is decided where it stands: a symbol
 //!   that is defined later counts as absolute, so define zero-page symbols first.
 //!   All sizes are therefore known after the first pass, and two passes are enough.
@@ -37,6 +39,26 @@ use std::collections::BTreeMap;
 
 use crate::Fault;
 use symbols::Symbols;
+
+/// How a program is written.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Dialect {
+    /// As most assemblers have it: see [`self`].
+    #[default]
+    Common,
+    /// As beebasm has it, and what of it has one meaning. Against the other:
+    ///
+    /// ```text
+    /// ORG &0800             \ hexadecimal; two kinds of comments
+    /// .start LDA #LO(width) ; a label has its dot in front, and bytes are LO(x), HI(x)
+    /// ASL A : STA count     \ several statements a line; the accumulator is written
+    /// EQUB 1, "text"        \ also EQUS; EQUW; SKIP 16
+    /// SAVE "NAME", start, * \ is checked, and has no effect
+    /// ```
+    ///
+    /// `&` is no operator then, nor are `|`, `^` and `/`, which are others in beebasm.
+    Beebasm,
+}
 
 /// At most so many faults are reported.
 const FAULTS: usize = 100;
@@ -105,24 +127,28 @@ impl Faults {
 pub fn extent(source: &str) -> (u32, u32) {
     let mut faults = Faults(Vec::new());
     let mut symbols = Symbols::default();
-    let statements = statements(source, &mut symbols, &mut faults);
+    let statements = statements(source, Dialect::Common, &mut symbols, &mut faults);
     let placed = layout::layout(&statements, &mut symbols, &mut faults);
     (placed.origin, placed.end)
 }
 
 /// Reads a program's statements.
-fn statements(source: &str, symbols: &mut Symbols, faults: &mut Faults) -> Vec<parse::Statement> {
-    let mut statements = Vec::new();
+fn statements(
+    source: &str,
+    dialect: Dialect,
+    symbols: &mut Symbols,
+    faults: &mut Faults,
+) -> Vec<parse::Statement> {
+    let mut all = Vec::new();
     for (line, text) in (1u32..).zip(source.lines()) {
         let end = text.chars().count() as u32 + 1;
-        let parsed =
-            lexer::tokens(text).and_then(|tokens| parse::statement(&tokens, line, end, symbols));
-        match parsed {
-            Ok(found) => statements.extend(found),
-            Err(wrong) => faults.add(line, wrong.column, wrong.message),
+        let parsed = lexer::tokens(text, dialect)
+            .and_then(|tokens| parse::line(&tokens, line, end, dialect, symbols, &mut all));
+        if let Err(wrong) = parsed {
+            faults.add(line, wrong.column, wrong.message);
         }
     }
-    statements
+    all
 }
 
 /// Assembles a program, or says all that is wrong with it.
@@ -130,9 +156,17 @@ fn statements(source: &str, symbols: &mut Symbols, faults: &mut Faults) -> Vec<p
 /// # Errors
 /// One fault a line at most, in the order of the lines within a pass, 100 in all.
 pub fn assemble(source: &str) -> Result<Assembly, Vec<Fault>> {
+    assemble_as(source, Dialect::Common)
+}
+
+/// The same for a program in some dialect.
+///
+/// # Errors
+/// As for [`assemble`].
+pub fn assemble_as(source: &str, dialect: Dialect) -> Result<Assembly, Vec<Fault>> {
     let mut faults = Faults(Vec::new());
     let mut symbols = Symbols::default();
-    let statements = statements(source, &mut symbols, &mut faults);
+    let statements = statements(source, dialect, &mut symbols, &mut faults);
     let placed = layout::layout(&statements, &mut symbols, &mut faults);
     if placed.end > layout::END {
         return Err(faults.0);

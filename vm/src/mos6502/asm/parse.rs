@@ -1,7 +1,8 @@
-//! A line of tokens into a statement.
+//! A line of tokens into its statements.
 
-use slowlight_isa::opcodes;
+use slowlight_isa::opcodes::{self, Mode};
 
+use super::Dialect;
 use super::expr::{Expr, Reader};
 use super::lexer::{Lexeme, Token, Wrong, wrong};
 use super::symbols::Symbols;
@@ -77,31 +78,66 @@ pub(super) fn check_name(name: &str, column: u32) -> Result<(), Wrong> {
     }
 }
 
-/// Parses one line's tokens; `None` where there are none.
-pub(super) fn statement(
+/// Parses one line's tokens: one statement, or several where the dialect has them.
+pub(super) fn line(
     tokens: &[Token<'_>],
     line: u32,
     end: u32,
+    dialect: Dialect,
+    symbols: &mut Symbols,
+    found: &mut Vec<Statement>,
+) -> Result<(), Wrong> {
+    if dialect == Dialect::Common {
+        found.extend(statement(Reader::new(tokens, end, dialect), line, symbols)?);
+        return Ok(());
+    }
+    let mut rest = tokens;
+    while !rest.is_empty() {
+        let separator = rest.iter().position(|t| t.what == Lexeme::Mark(':'));
+        let (first, behind) = rest.split_at(separator.unwrap_or(rest.len()));
+        let end = behind.first().map_or(end, |t| t.column);
+        found.extend(statement(Reader::new(first, end, dialect), line, symbols)?);
+        rest = behind.get(1..).unwrap_or_default();
+    }
+    Ok(())
+}
+
+/// The label at the start of a statement, if there is one.
+fn label(
+    reader: &mut Reader<'_, '_>,
+    line: u32,
+    symbols: &mut Symbols,
+) -> Result<Option<usize>, Wrong> {
+    let (name, tokens) = match (reader.dialect, reader.peek(), reader.peek_second()) {
+        (Dialect::Common, Some(Lexeme::Name(name)), Some(Lexeme::Mark(':'))) => (*name, 2),
+        (Dialect::Beebasm, Some(Lexeme::Name(name)), _) => match name.strip_prefix('.') {
+            Some(name) => (name, 1),
+            None => return Ok(None),
+        },
+        _ => return Ok(None),
+    };
+    let symbol = define(name, line, reader.column(), symbols)?;
+    for _ in 0..tokens {
+        reader.skip();
+    }
+    Ok(Some(symbol))
+}
+
+/// Parses one statement; `None` where there is none.
+fn statement(
+    mut reader: Reader<'_, '_>,
+    line: u32,
     symbols: &mut Symbols,
 ) -> Result<Option<Statement>, Wrong> {
-    let mut reader = Reader::new(tokens, end);
     if reader.at_end() {
         return Ok(None);
     }
-    let label = match (reader.peek(), reader.peek_second()) {
-        (Some(Lexeme::Name(name)), Some(Lexeme::Mark(':'))) => {
-            let symbol = define(name, line, reader.column(), symbols)?;
-            reader.skip();
-            reader.skip();
-            Some(symbol)
-        }
-        _ => None,
-    };
+    let label = label(&mut reader, line, symbols)?;
     let column = reader.column();
     let action = if reader.at_end() {
         None
     } else {
-        Some(action(&mut reader, line, symbols)?)
+        action(&mut reader, line, symbols)?
     };
     if !reader.at_end() {
         return wrong(
@@ -118,6 +154,9 @@ pub(super) fn statement(
 }
 
 fn define(name: &str, line: u32, column: u32, symbols: &mut Symbols) -> Result<usize, Wrong> {
+    if name.is_empty() {
+        return wrong(column, "expected a label's name behind the dot");
+    }
     check_name(name, column)?;
     let symbol = symbols.mention(name, line, column);
     match symbols.define(symbol, line, column) {
@@ -129,19 +168,46 @@ fn define(name: &str, line: u32, column: u32, symbols: &mut Symbols) -> Result<u
     }
 }
 
-fn action(reader: &mut Reader<'_, '_>, line: u32, symbols: &mut Symbols) -> Result<Action, Wrong> {
+/// What a word means that is no instruction.
+#[derive(Clone, Copy)]
+enum Directive {
+    Origin,
+    Bytes,
+    Words,
+    Reserve,
+    Save,
+}
+
+fn directive(name: &str, dialect: Dialect) -> Option<Directive> {
+    Some(match (dialect, name) {
+        (Dialect::Common, ".byte") | (Dialect::Beebasm, "equb" | "equs") => Directive::Bytes,
+        (Dialect::Common, ".word") | (Dialect::Beebasm, "equw") => Directive::Words,
+        (Dialect::Common, ".res") | (Dialect::Beebasm, "skip") => Directive::Reserve,
+        (Dialect::Beebasm, "org") => Directive::Origin,
+        (Dialect::Beebasm, "save") => Directive::Save,
+        _ => return None,
+    })
+}
+
+/// What the statement does; `None` where that is nothing.
+fn action(
+    reader: &mut Reader<'_, '_>,
+    line: u32,
+    symbols: &mut Symbols,
+) -> Result<Option<Action>, Wrong> {
     let column = reader.column();
+    let beebasm = reader.dialect == Dialect::Beebasm;
     let name = match (reader.peek(), reader.peek_second()) {
-        (Some(Lexeme::Mark('*')), Some(Lexeme::Mark('='))) => {
+        (Some(Lexeme::Mark('*')), Some(Lexeme::Mark('='))) if !beebasm => {
             reader.skip();
             reader.skip();
-            return Ok(Action::Origin(reader.expr(symbols, line)?));
+            return Ok(Some(Action::Origin(reader.expr(symbols, line)?)));
         }
         (Some(Lexeme::Name(name)), Some(Lexeme::Mark('='))) => {
             let symbol = define(name, line, column, symbols)?;
             reader.skip();
             reader.skip();
-            return Ok(Action::Assign(symbol, reader.expr(symbols, line)?));
+            return Ok(Some(Action::Assign(symbol, reader.expr(symbols, line)?)));
         }
         (Some(Lexeme::Name(name)), _) => name.to_ascii_lowercase(),
         _ => {
@@ -152,22 +218,24 @@ fn action(reader: &mut Reader<'_, '_>, line: u32, symbols: &mut Symbols) -> Resu
         }
     };
     reader.skip();
+    if let Some(directive) = directive(&name, reader.dialect) {
+        return direct(directive, reader, line, symbols);
+    }
     match name.as_str() {
-        ".byte" => list(reader, |r| datum(r, line, symbols)).map(Action::Bytes),
-        ".word" => list(reader, |r| r.expr(symbols, line)).map(Action::Words),
-        ".res" => {
-            let count = reader.expr(symbols, line)?;
-            let fill = if reader.eat(',') {
-                Some(reader.expr(symbols, line)?)
-            } else {
-                None
-            };
-            Ok(Action::Reserve(count, fill))
-        }
         _ if opcodes::is_mnemonic(&name) => {
             let operand = operand(reader, line, symbols)?;
-            Ok(Action::Instruction(name, operand))
+            let shifts = opcodes::find(&name, Mode::Accumulator).is_some();
+            match operand {
+                Operand::None if beebasm && shifts => {
+                    wrong(column, format!("beebasm wants `{name} a` here"))
+                }
+                operand => Ok(Some(Action::Instruction(name, operand))),
+            }
         }
+        _ if beebasm => wrong(
+            column,
+            format!("unknown instruction or directive `{name}` (a label begins with a dot)"),
+        ),
         _ if name.starts_with('.') => wrong(
             column,
             format!("unknown directive `{name}`; there are `.byte`, `.word` and `.res`"),
@@ -177,6 +245,40 @@ fn action(reader: &mut Reader<'_, '_>, line: u32, symbols: &mut Symbols) -> Resu
             format!("unknown instruction `{name}` (a label needs a colon)"),
         ),
     }
+}
+
+/// The rest of a directive.
+fn direct(
+    directive: Directive,
+    reader: &mut Reader<'_, '_>,
+    line: u32,
+    symbols: &mut Symbols,
+) -> Result<Option<Action>, Wrong> {
+    Ok(Some(match directive {
+        Directive::Origin => Action::Origin(reader.expr(symbols, line)?),
+        Directive::Bytes => Action::Bytes(list(reader, |r| datum(r, line, symbols))?),
+        Directive::Words => Action::Words(list(reader, |r| r.expr(symbols, line))?),
+        Directive::Reserve => {
+            let count = reader.expr(symbols, line)?;
+            let filled = reader.dialect == Dialect::Common && reader.eat(',');
+            let fill = filled.then(|| reader.expr(symbols, line)).transpose()?;
+            Action::Reserve(count, fill)
+        }
+        Directive::Save => {
+            // A file's name, then addresses: they must be right, and that is all.
+            if let Some(Lexeme::Text(_)) = reader.peek() {
+                reader.skip();
+                if !reader.eat(',') {
+                    return wrong(reader.column(), "expected `,` and where the file begins");
+                }
+            }
+            reader.expr(symbols, line)?;
+            while reader.eat(',') {
+                reader.expr(symbols, line)?;
+            }
+            return Ok(None);
+        }
+    }))
 }
 
 fn list<'t, 'a, T>(

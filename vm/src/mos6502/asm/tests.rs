@@ -261,6 +261,7 @@ proptest! {
     #[test]
     fn no_text_makes_a_panic(text in "[ -~\\n\t\u{e9}]{0,200}") {
         let _ = assemble(&text).map(|a| a.listing(&text));
+        let _ = assemble_as(&text, Dialect::Beebasm).map(|a| a.listing(&text));
     }
 
     #[test]
@@ -268,9 +269,86 @@ proptest! {
         prop::sample::select(vec![
             "l:", "m:", "l", "m", "lda", "sta", "bne", "jmp", "asl", "#", "(", ")", ",x", ",y", "a", "+", "-",
             "*", "/", "<", ">", "<<", ">>", "&", "|", "^", "=", "* =", ".byte", ".word", ".res", "1", "$FF",
-            "%1", "'c'", "\"s\"", "65535", "\n", "\n", "\n", " ", ";",
+            "%1", "'c'", "\"s\"", "65535", "\n", "\n", "\n", " ", ";", ".l", ".m", "LO(", "HI", "&FF", "EQUB", "EQUS",
+            "EQUW", "SKIP", "ORG", "SAVE", ":", "\\",
         ]), 0..60)) {
         let text = parts.join(" ");
         let _ = assemble(&text).map(|a| a.listing(&text));
+        let _ = assemble_as(&text, Dialect::Beebasm).map(|a| a.listing(&text));
+    }
+}
+
+/// beebasm's way of writing; the bytes are those of the common one.
+#[test]
+fn beebasms_dialect_makes_the_same_bytes() {
+    let common = "\
+        zero = $12
+        * = $0a00
+start:  lda #<(data)
+        ldx #>(data + 1)
+        asl
+        rol a
+        sta zero
+        sta zero,x
+        sta (zero),y
+again:  bne again
+        jmp (data)
+data:   .byte 1, $ff, %101, 'c', \"text\"
+        .word start, data+2
+        .res 3
+        .byte <((big) >> 16)
+        big = $123456
+";
+    let beebasm = "\
+zero = &12 : big = &123456 \\ two statements; a comment
+ORG &0A00
+.start  LDA #LO(data) : LDX #HI(data + 1)
+        ASL A : ROL a ; the accumulator
+        STA zero: STA zero,X : sta (zero),y
+.again  bne again
+.wait
+        jmp (data)
+.data   EQUB 1, $ff, %101, 'c' : EQUS \"text\"
+        EQUW start, data+2
+        SKIP 3
+        EQUB LO((big) >> 16)
+        SAVE \"program\", start, *
+";
+    let read = assemble_as(beebasm, Dialect::Beebasm).unwrap();
+    assert_eq!(read.bytes, bytes(common));
+    assert_eq!(read.origin, 0x0a00);
+    assert_eq!(read.line_at(0x0a02), Some(3));
+}
+
+#[test]
+fn beebasms_dialect_refuses_what_beebasm_would() {
+    let fault = |source: &str| {
+        let faults = assemble_as(source, Dialect::Beebasm).unwrap_err();
+        faults[0].to_string()
+    };
+    for (source, said) in [
+        ("ASL", "1:1: beebasm wants `asl a` here"),
+        ("ORG &200 : BRK : ROR", "1:18: beebasm wants `ror a` here"),
+        (
+            "start: BRK",
+            "1:1: unknown instruction or directive `start`",
+        ),
+        ("* = &0A00", "1:1: expected"),
+        (".byte 1", "1:7: expected a label"),
+        (". BRK", "1:1: expected a label's name"),
+        ("EQUB 1 | 2", "1:8: beebasm has no operator '|'"),
+        ("EQUB 1 & 2", "1:8: `` is not a number in base 16"),
+        ("SKIP 2, 1", "1:7: this does not belong"),
+        ("SAVE \"x\"", "1:9: expected `,`"),
+        ("SAVE \"x\", nowhere", "1:11: `nowhere` is not defined"),
+        (".a BRK", "1:1: `a` is a register"),
+        ("BRK : .b : .b", "1:12: `b` is already defined in line 1"),
+    ] {
+        let found = fault(source);
+        assert!(found.starts_with(said), "{source}: {found}");
+    }
+    // And what only beebasm has is refused elsewhere.
+    for source in ["EQUB 1", "lda #LO(1)", "v = &10", "nop : nop", "nop \\ x"] {
+        assert!(assemble(source).is_err(), "{source}");
     }
 }

@@ -1,0 +1,75 @@
+//! The generated assembly, unchanged, under the real assemblers as its head says.
+
+use crate::syntaxes::{programs, usual};
+use slowlight_compiler::target::mos6502::document;
+use slowlight_compiler::target::mos6502::syntax;
+use std::path::Path;
+use std::process::Command;
+
+/// The commands that a listing's head quotes for a tool, in backticks.
+fn quoted<'a>(listing: &'a str, tool: &str) -> Vec<&'a str> {
+    let quotes = listing.lines().filter(|l| l.starts_with(';'));
+    let pieces = quotes.flat_map(|l| l.split('`').skip(1).step_by(2));
+    pieces.filter(|p| p.starts_with(tool)).collect()
+}
+
+/// Runs a command in a directory.
+fn run(dir: &Path, command: &str) {
+    let mut words = command.split_whitespace();
+    let done = Command::new(words.next().expect("a tool"))
+        .args(words)
+        .current_dir(dir)
+        .output()
+        .expect("the assemblers are installed: see tests/peers/setup");
+    let said = String::from_utf8_lossy(&done.stderr);
+    assert!(done.status.success(), "{command}: {said}");
+}
+
+/// Assembles every program with an assembler, by its commands, which make the
+/// bytes with or without the load address before them.
+fn assembles(name: &str, tools: &[&str], file: &str, load_address: bool) {
+    let syntax = syntax::find(name).expect("a syntax");
+    for plan in programs() {
+        let dir = tempfile::tempdir().expect("a directory");
+        let document = document(plan, syntax);
+        std::fs::write(dir.path().join(&document.name), &document.text).expect("written");
+        for tool in tools {
+            let commands = quoted(&document.text, &format!("{tool} "));
+            assert_eq!(commands.len(), 1, "{tool}: {commands:?}");
+            run(dir.path(), commands[0]);
+        }
+        let path = dir.path().join(file.replace("NAME", &plan.name));
+        let made = std::fs::read(path).expect("the assembler writes");
+        let ours = usual(plan);
+        let ours = match load_address {
+            true => ours.image(),
+            false => ours.bytes,
+        };
+        assert!(made == ours, "{}: {name} makes other bytes", plan.name);
+    }
+}
+
+#[test]
+fn ca65_makes_the_same_bytes() {
+    assembles("ca65", &["ca65", "ld65"], "NAME", false);
+}
+
+#[test]
+fn tass_makes_the_same_bytes() {
+    assembles("64tass", &["64tass"], "NAME.bin", true);
+}
+
+#[test]
+fn acme_makes_the_same_bytes() {
+    assembles("acme", &["acme"], "NAME.bin", true);
+}
+
+#[test]
+fn dasm_makes_the_same_bytes() {
+    assembles("dasm", &["dasm"], "NAME.bin", true);
+}
+
+#[test]
+fn xa_makes_the_same_bytes() {
+    assembles("xa", &["xa"], "NAME", false);
+}
