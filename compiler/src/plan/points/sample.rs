@@ -126,26 +126,50 @@ fn chosen(
             (room[at], most[at]) = (fitting(end, bits), Some(end));
         }
     }
-    // What is cut is cut no lower than where it goes: what ends there is told from
-    // what does not.
+    // The last round only raises: then it holds for all.
+    for round in (0..ROUNDS).rev() {
+        ends_passed_on(graph, (seen, &given), bits, round > 0, &mut most);
+    }
+    most
+}
+
+/// How often it is looked at what is cut where it goes.
+const ROUNDS: u32 = 6;
+
+/// What is cut is cut no lower than where it goes: what ends there is told from what does
+/// not. Either what goes there is cut less, or what it goes to is cut as well, if that may
+/// be and costs less.
+fn ends_passed_on(
+    graph: &Graph,
+    (seen, given): (&[Seen], &[Vec<NodeId>]),
+    bits: u8,
+    may_cut: bool,
+    most: &mut [Option<f64>],
+) {
+    let cost = |at: usize, end: f64| seen[at].cost(fitting(end, bits), bits);
     for id in graph.ids().rev() {
         let passed = match graph.node(id) {
             Node::Apply(Op::Min | Op::Max, args) => args.to_vec(),
             Node::Apply(Op::Neg | Op::Abs, [a, _]) => vec![a],
             _ => given[id.0 as usize].clone(),
         };
-        let Some(end) = most[id.0 as usize] else {
-            continue;
-        };
         for from in passed {
-            let at = from.0 as usize;
+            let (at, to) = (from.0 as usize, id.0 as usize);
+            let (Some(held), Some(end)) = (most[at], most[to]) else {
+                continue;
+            };
             let least = end.min(seen[at].room());
-            if most[at].is_some_and(|most| most < least) {
-                most[at] = Some(least);
+            if held >= least {
+                continue;
+            }
+            let raised = cost(at, least) - cost(at, held);
+            let lowered = cost(to, held) - cost(to, end);
+            match may_cut && lowered < raised {
+                true => most[to] = Some(held),
+                false => most[at] = Some(least),
             }
         }
     }
-    most
 }
 
 /// A node that reads each carried value.

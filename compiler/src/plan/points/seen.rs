@@ -79,7 +79,7 @@ impl Seen {
     }
 
     /// What it costs to hold the values with so many fraction bits.
-    fn cost(&self, frac: i8, bits: u8) -> f64 {
+    pub fn cost(&self, frac: i8, bits: u8) -> f64 {
         let place = (-f64::from(frac)).exp2();
         let end = most(bits) as f64 * place;
         let octave = |k: usize| f64::from(k as i32 + FIRST).exp2();

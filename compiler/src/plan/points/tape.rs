@@ -145,9 +145,9 @@ impl Tape {
                 continue;
             }
             let values = from.map(|arg| arg.value);
-            for k in 0..op.arity() {
+            for (k, arg) in from.into_iter().enumerate().take(op.arity()) {
                 let asked = of_operand(op, k, &values[..op.arity()], value, asked);
-                self.ask(from[k], asked, &mut waiting);
+                self.ask(arg, asked, &mut waiting);
             }
         }
     }
