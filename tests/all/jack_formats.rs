@@ -21,8 +21,8 @@ const OTHERS: [(&str, &str, bool); 6] = [
     ("fog", "120..121", true),
     ("shadows", "120..121", true),
     ("terrain", "120..120", false),
-    ("twist", "120..120", false),
-    ("wave", "120..120", false),
+    ("twist", "120..120", true),
+    ("wave", "120..120", true),
 ];
 
 #[test]
