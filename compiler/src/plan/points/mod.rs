@@ -62,8 +62,15 @@ pub fn pointed(graph: &Graph, tree: &Tree, runtime: &'static Runtime) -> Option<
     let Format::Scaled { bits } = runtime.real else {
         return None;
     };
-    let mut expected = sample::expected(graph, tree, bits);
-    let mut planned = ranges(graph, tree, &Slack::expecting(runtime, expected.clone()));
+    let walk = |expected: &[Option<f64>]| {
+        let mut expected = expected.to_vec();
+        let planned = ranges(graph, tree, &Slack::expecting(runtime, expected.clone()));
+        // Nothing ends where its format does not.
+        Points::new(graph, &planned, bits).ends(&mut expected);
+        let planned = ranges(graph, tree, &Slack::expecting(runtime, expected.clone()));
+        (expected, planned)
+    };
+    let (mut expected, mut planned) = walk(&sample::expected(graph, tree, bits));
     // What is cut makes what is made of it smaller.
     for _ in 0..ROUNDS {
         let useful = useful::useful(graph, tree, &planned);
@@ -71,7 +78,7 @@ pub fn pointed(graph: &Graph, tree: &Tree, runtime: &'static Runtime) -> Option<
             let most = useful.magnitude() * BESIDE;
             *expected = Some(expected.map_or(most, |held| held.min(most)));
         }
-        planned = ranges(graph, tree, &Slack::expecting(runtime, expected.clone()));
+        (expected, planned) = walk(&expected);
     }
     let points = Points::new(graph, &planned, bits);
     let slack = Slack::with_points(runtime, points.clone());
@@ -118,6 +125,18 @@ impl Points {
             own,
             carried,
             scales,
+        }
+    }
+
+    /// Raises what values are expected to stay within where they have fewer fraction bits
+    /// than that leaves room for, so that they end later.
+    fn ends(&self, expected: &mut [Option<f64>]) {
+        for (expected, own) in expected.iter_mut().zip(&self.own) {
+            if let Some(end) = expected
+                && *own < fitting(*end, self.bits)
+            {
+                *end = scale::most(self.bits) as f64 * (-f64::from(*own)).exp2();
+            }
         }
     }
 
