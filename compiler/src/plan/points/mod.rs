@@ -62,15 +62,16 @@ pub fn pointed(graph: &Graph, tree: &Tree, runtime: &'static Runtime) -> Option<
     let Format::Scaled { bits } = runtime.real else {
         return None;
     };
+    let sampled = sample::expected(graph, tree, bits);
     let walk = |expected: &[Option<f64>]| {
         let mut expected = expected.to_vec();
         let planned = ranges(graph, tree, &Slack::expecting(runtime, expected.clone()));
-        // Nothing ends where its format does not.
-        Points::new(graph, &planned, bits).ends(&mut expected);
+        // Nothing is cut where its format does not end.
+        Points::new(graph, &planned, bits).ends(&mut expected, &sampled.all);
         let planned = ranges(graph, tree, &Slack::expecting(runtime, expected.clone()));
         (expected, planned)
     };
-    let (mut expected, mut planned) = walk(&sample::expected(graph, tree, bits));
+    let (mut expected, mut planned) = walk(&sampled.ends);
     // What is cut makes what is made of it smaller.
     for _ in 0..ROUNDS {
         let useful = useful::useful(graph, tree, &planned);
@@ -129,13 +130,15 @@ impl Points {
     }
 
     /// Raises what values are expected to stay within where they have fewer fraction bits
-    /// than that leaves room for, so that they end later.
-    fn ends(&self, expected: &mut [Option<f64>]) {
-        for (expected, own) in expected.iter_mut().zip(&self.own) {
+    /// than that leaves room for, so that they end later: to that end or to all that they
+    /// were seen to be.
+    fn ends(&self, expected: &mut [Option<f64>], all: &[f64]) {
+        for ((expected, own), all) in expected.iter_mut().zip(&self.own).zip(all) {
             if let Some(end) = expected
                 && *own < fitting(*end, self.bits)
             {
-                *end = scale::most(self.bits) as f64 * (-f64::from(*own)).exp2();
+                let later = scale::most(self.bits) as f64 * (-f64::from(*own)).exp2();
+                *end = end.max(later.min(*all));
             }
         }
     }
