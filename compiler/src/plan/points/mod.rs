@@ -63,15 +63,12 @@ pub fn pointed(graph: &Graph, tree: &Tree, runtime: &'static Runtime) -> Option<
         return None;
     };
     let sampled = sample::expected(graph, tree, bits);
-    let walk = |expected: &[Option<f64>]| {
-        let mut expected = expected.to_vec();
-        let planned = ranges(graph, tree, &Slack::expecting(runtime, expected.clone()));
-        // Nothing is cut where its format does not end.
-        Points::new(graph, &planned, bits).ends(&mut expected, &sampled.all);
-        let planned = ranges(graph, tree, &Slack::expecting(runtime, expected.clone()));
-        (expected, planned)
-    };
-    let (mut expected, mut planned) = walk(&sampled.ends);
+    let walk =
+        |expected: &[Option<f64>]| ranges(graph, tree, &Slack::expecting(runtime, expected.into()));
+    let mut expected = sampled.ends;
+    // Nothing is cut where its format does not end.
+    Points::new(graph, &walk(&expected), bits).ends(&mut expected, &sampled.all);
+    let mut planned = walk(&expected);
     // What is cut makes what is made of it smaller.
     for _ in 0..ROUNDS {
         let useful = useful::useful(graph, tree, &planned);
@@ -79,7 +76,7 @@ pub fn pointed(graph: &Graph, tree: &Tree, runtime: &'static Runtime) -> Option<
             let most = useful.magnitude() * BESIDE;
             *expected = Some(expected.map_or(most, |held| held.min(most)));
         }
-        (expected, planned) = walk(&expected);
+        planned = walk(&expected);
     }
     let points = Points::new(graph, &planned, bits);
     let slack = Slack::with_points(runtime, points.clone());
