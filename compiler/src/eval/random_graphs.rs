@@ -12,6 +12,7 @@ const AT: Span = Span {
     file: 0,
     start: 0,
     end: 0,
+    within: None,
 };
 
 struct Maker {

@@ -52,7 +52,7 @@ use std::collections::BTreeMap;
 
 use slowlight_isa::real40::Real40;
 
-use crate::{Fault, Screen, Stop, Watch};
+use crate::{Charge, Fault, Screen, Stop, Watch};
 use error::Error;
 pub use profile::LineCost;
 use profile::Profile;
@@ -114,6 +114,9 @@ pub struct Run {
     /// The fewest bytes that were left free between them.
     pub free_bytes: usize,
 }
+
+/// Bytes of a tokenised line beside its text: 13, its number, its length.
+const LINE_HEAD: u64 = 4;
 
 /// A machine with a program in it.
 pub struct Machine {
@@ -181,24 +184,46 @@ impl Machine {
 
     /// Runs the program as [`Machine::run`] does, and counts what each of its lines takes.
     pub fn profile(&self, cycle_limit: u64, watch: Watch<'_>) -> (Run, Vec<LineCost>) {
+        let (run, charges) = self.charges(cycle_limit, &|_| false, watch);
         let lines = tokenise::lines(&self.program).unwrap_or_default();
-        let mut state = State::new(self.config);
-        state.profile = Some(Box::new(Profile::new(lines.len())));
-        let (run, profile) = self.run_from(state, cycle_limit, watch);
-        let profile = profile.unwrap_or_default();
-        let counts = profile.times.into_iter().zip(profile.cycles);
-        // Each line has its share of the interrupts, so that the lines add up to the run.
-        let mut before = 0;
-        let costs = lines.iter().zip(counts).map(|(line, (times, cycles))| {
-            let start = cost::with_interrupts(before);
-            before += cycles;
+        let cost = |(line, k): (&tokenise::RawLine<'_>, u32)| {
+            let found = charges.iter().find(|charge| charge.place == k);
             LineCost {
                 line: line.number,
-                times,
-                cycles: cost::with_interrupts(before) - start,
+                times: found.map_or(0, |charge| charge.times),
+                cycles: found.map_or(0, |charge| charge.cycles),
             }
-        });
-        (run, costs.collect())
+        };
+        let costs = lines.iter().zip(0..).map(cost).collect();
+        (run, costs)
+    }
+
+    /// The same by the lines' indices, where lines that `routine` knows are charged to
+    /// the lines that call them. The charges add up to the run's cycles.
+    pub fn charges(
+        &self,
+        cycle_limit: u64,
+        routine: &dyn Fn(u32) -> bool,
+        watch: Watch<'_>,
+    ) -> (Run, Vec<Charge>) {
+        let lines = tokenise::lines(&self.program).unwrap_or_default();
+        let mut state = State::new(self.config);
+        state.profile = Some(Box::new(Profile::new(lines.len(), routine)));
+        let (run, mut charges) = self.run_from(state, cycle_limit, watch);
+        // Each has its share of the interrupts, so that all add up to the run.
+        let mut before = 0;
+        for charge in &mut charges {
+            let start = cost::with_interrupts(before);
+            before += charge.cycles;
+            charge.cycles = cost::with_interrupts(before) - start;
+        }
+        (run, charges)
+    }
+
+    /// Bytes that each line takes in the program, by the lines' indices.
+    pub fn line_bytes(&self) -> Vec<u64> {
+        let lines = tokenise::lines(&self.program).unwrap_or_default();
+        lines.iter().map(|line| line.text.len() as u64 + LINE_HEAD).collect()
     }
 
     fn run_from(
@@ -206,13 +231,13 @@ impl Machine {
         mut state: State,
         cycle_limit: u64,
         watch: Watch<'_>,
-    ) -> (Run, Option<Box<Profile>>) {
+    ) -> (Run, Vec<Charge>) {
         state.files.contents = self.files.clone();
         let stop = self.run_in(&mut state, cycle_limit, watch);
-        if let Some(profile) = &mut state.profile {
-            profile.enter(0, state.cycles);
-        }
-        let profile = state.profile.take();
+        let charges = match state.profile.take() {
+            Some(profile) => profile.finish(state.cycles),
+            None => Vec::new(),
+        };
         let room = state.himem.saturating_sub(state.top) as usize;
         let free = state.least_free as usize;
         let run = Run {
@@ -226,7 +251,7 @@ impl Machine {
             ram_bytes: room.saturating_sub(free),
             free_bytes: free,
         };
-        (run, profile)
+        (run, charges)
     }
 
     fn run_in(&self, state: &mut State, limit: u64, watch: Watch<'_>) -> Stop {

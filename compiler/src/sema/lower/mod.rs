@@ -267,7 +267,12 @@ impl<'a> Lower<'a> {
     /// Where a node or message belongs: the scene's own line that called into
     /// the library.
     fn at(&self, span: Span) -> Span {
-        self.place.unwrap_or(span)
+        match self.place {
+            // What is derived for a library's shape has its caller's span already.
+            Some(place) if place == span => place,
+            Some(place) => place.calling(span),
+            None => span,
+        }
     }
 
     fn error(&self, span: Span, message: impl Into<String>) -> Diagnostic {

@@ -37,6 +37,7 @@ impl chumsky::span::Span for Span {
             file,
             start: range.start,
             end: range.end.max(range.start),
+            within: None,
         }
     }
     fn context(&self) -> u16 {
