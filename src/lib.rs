@@ -11,6 +11,7 @@ pub mod commands;
 pub mod diagnostics;
 pub mod draw;
 pub mod estimate;
+pub mod explain;
 pub mod failure;
 pub mod files;
 pub mod fit;

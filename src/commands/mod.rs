@@ -3,6 +3,7 @@
 mod build;
 mod check;
 mod compare;
+mod explain;
 mod fmt;
 mod render;
 mod run;
@@ -26,6 +27,8 @@ pub enum Command {
     Run(run::Args),
     /// Run scenes on several targets: pictures side by side, one table
     Compare(compare::Args),
+    /// What each line of a scene costs on a machine
+    Explain(explain::Args),
     /// Keep generated code, digests and cycles beside a scene; fail where they change
     Snapshot(snapshot::Args),
     /// Format scenes in place
@@ -48,6 +51,7 @@ impl Command {
             Command::Build(args) => build::run(args),
             Command::Run(args) => run::run(args),
             Command::Compare(args) => compare::run(args),
+            Command::Explain(args) => explain::run(args),
             Command::Snapshot(args) => snapshot::run(args),
             Command::Fmt(args) => fmt::run(args),
             Command::Vm(args) => vm::run(args),

@@ -1,10 +1,11 @@
 //! BBC BASIC: text or tokens in, a picture and text out.
 
+use super::charge::LineMap;
 use super::dfs;
 use super::{File, Loaded, MachineRun, Program, Sizes, refused};
 use crate::failure::{Failure, Outcome};
 use slowlight_vm::bbc::{Config, Dialect, LineCost, Machine, tokenise};
-use slowlight_vm::{Fault, Watch};
+use slowlight_vm::{Charge, Fault, Watch};
 
 /// Takes one program: text (`.bas`), or tokens, known by the byte 13 in front.
 pub fn load(files: &[File], config: Config) -> Outcome<Loaded> {
@@ -44,6 +45,7 @@ pub fn load(files: &[File], config: Config) -> Outcome<Loaded> {
         binaries,
         sizes,
         program: Program::Bbc(machine),
+        map: LineMap::Lines,
     })
 }
 
@@ -56,6 +58,17 @@ pub fn run(machine: &Machine, limit: u64, watch: Watch<'_>) -> MachineRun {
 pub fn profile(machine: &Machine, limit: u64, watch: Watch<'_>) -> (MachineRun, Vec<LineCost>) {
     let (run, lines) = machine.profile(limit, watch);
     (finished(run), lines)
+}
+
+/// The same, with what each place took.
+pub fn charges(
+    machine: &Machine,
+    limit: u64,
+    routine: &dyn Fn(u32) -> bool,
+    watch: Watch<'_>,
+) -> (MachineRun, Vec<Charge>) {
+    let (run, charges) = machine.charges(limit, routine, watch);
+    (finished(run), charges)
 }
 
 fn finished(run: slowlight_vm::bbc::Run) -> MachineRun {

@@ -7,6 +7,9 @@ mod bounces_tests;
 pub mod bounded;
 pub mod domain;
 pub mod fragile;
+pub mod profile;
+#[cfg(test)]
+mod profile_tests;
 mod shadow;
 #[cfg(test)]
 mod tests;

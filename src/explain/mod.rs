@@ -1,0 +1,224 @@
+//! A profile of a scene: its program run on its machine, every cycle charged to a
+//! line of the scene, beside what that line adds to the picture's error.
+
+pub mod terminal;
+
+use crate::draw::Window;
+use crate::failure::{Failure, Outcome};
+use crate::machine::{MachineRun, complaint};
+use crate::progress::Progress;
+use crate::scene::Scene;
+use crate::target_args::ScreenArgs;
+use crate::trial;
+use serde::Serialize;
+use serde_json::Value;
+use slowlight_compiler::plan::Plan;
+use slowlight_compiler::report::profile::{self, Measured, Part, Profile, SourceLine};
+use slowlight_compiler::target::{Document, Target};
+
+/// A profile and what is needed to show it.
+pub struct Explained {
+    /// The scene.
+    pub scene: Scene,
+    /// Its plan.
+    pub plan: Plan,
+    /// The machine's counts.
+    pub run: MachineRun,
+    /// The counts by the scene's lines.
+    pub profile: Profile,
+}
+
+/// Runs a scene's program and joins its counts with its line map.
+///
+/// # Errors
+/// Where the scene does not compile or fit, or its program does not end by itself.
+pub fn explain(
+    scene: Scene,
+    target: &'static Target,
+    screen: &ScreenArgs,
+    limit: u64,
+) -> Outcome<Explained> {
+    let plan = screen.plan(&scene, target, &[])?;
+    let documents = (plan.target.emit)(&plan);
+    let mut loaded = trial::build_for(&plan, screen.machine(target)?)?.loaded;
+    let routine = |line: profile::Line| spanless(&documents, line);
+    let window = Window::of(&plan);
+    let progress = Progress::new(
+        format!("{} {}", scene.name, plan.target.name),
+        u64::from(window.height()),
+    );
+    let top = i64::from(window.rows.0) + i64::from(plan.offset.1);
+    let (run, costs) = loaded.charges(limit, &routine, &mut |now| {
+        if let Some(row) = now.row {
+            progress.reach(u64::try_from(i64::from(row) - top).unwrap_or(0));
+        }
+    })?;
+    drop(progress);
+    if let Some(wrong) = complaint(&run, limit) {
+        let name = plan.target.name;
+        return Err(Failure::Wrong(format!("{name}: {wrong}")));
+    }
+    let measured = Measured {
+        documents: &documents,
+        costs: &costs,
+        sizes: &loaded.line_sizes(),
+    };
+    let profile = profile::profile(&scene.checked, &plan, measured);
+    Ok(Explained {
+        scene,
+        plan,
+        run,
+        profile,
+    })
+}
+
+/// Whether a line comes from no place in the scene.
+fn spanless(documents: &[Document], line: profile::Line) -> bool {
+    let document = documents.get(line.document);
+    document
+        .and_then(|document| document.lines.get(line.line))
+        .is_none_or(Option::is_none)
+}
+
+impl Explained {
+    /// A number of cycles as a share of all, 0 to 1.
+    pub fn share(&self, cycles: u64) -> f64 {
+        cycles as f64 / self.profile.cycles.max(1) as f64
+    }
+
+    /// What the machine counts by.
+    pub fn unit(&self) -> &'static str {
+        match self.run.vm_instructions {
+            Some(_) => "VM commands",
+            None => "cycles",
+        }
+    }
+
+    /// What memory is counted by.
+    pub fn size_unit(&self) -> &'static str {
+        match self.run.vm_instructions {
+            Some(_) => "commands",
+            None => "bytes",
+        }
+    }
+
+    /// The scene's own files: number, name, text.
+    pub fn files(&self) -> impl Iterator<Item = (u16, &str, &str)> {
+        let files = (0..).zip(&self.scene.checked.sources.files);
+        let own = files.filter(|(_, file)| !file.library);
+        own.map(|(k, file)| (k, file.name.as_str(), file.text.as_str()))
+    }
+
+    /// What a line of a file took.
+    pub fn line(&self, file: u16, line: usize) -> Option<&SourceLine> {
+        let mut lines = self.profile.lines.iter();
+        lines.find(|found| (found.file, found.line) == (file, line))
+    }
+
+    /// What `explain --json` prints.
+    pub fn report(&self) -> Report<'_> {
+        let plan = &self.plan;
+        let window = Window::of(plan);
+        let charged: u64 = self.profile.lines.iter().map(|line| line.cycles).sum();
+        let files: Vec<(u16, &str, &str)> = self.files().collect();
+        let line = |line: &SourceLine| {
+            let file = files.iter().find(|(k, ..)| *k == line.file);
+            let (name, text) = file.map_or(("", ""), |(_, name, text)| (*name, *text));
+            LineReport {
+                file: name.to_owned(),
+                line: line.line,
+                text: text
+                    .lines()
+                    .nth(line.line.saturating_sub(1))
+                    .unwrap_or("")
+                    .to_owned(),
+                rate: line.rate.clone(),
+                executions: line.executions,
+                cycles: line.cycles,
+                share: self.share(line.cycles),
+                size: line.size,
+                parts: self.part_reports(&line.parts),
+                library: self.part_reports(&line.within),
+            }
+        };
+        Report {
+            scene: &self.scene.name,
+            target: plan.target.name,
+            mode: trial::mode_json(plan.mode.name),
+            format: plan.runtime.format,
+            width: window.width(),
+            height: window.height(),
+            rows: [window.rows.0, window.rows.1],
+            cycles: self.run.cycles,
+            unit: self.unit(),
+            accounted: self.share(charged),
+            rest: self.profile.rest,
+            size_unit: self.size_unit(),
+            rest_size: self.profile.rest_size,
+            lines: self.profile.lines.iter().map(line).collect(),
+        }
+    }
+
+    fn part_reports(&self, parts: &[Part]) -> Vec<PartReport> {
+        let report = |part: &Part| PartReport {
+            name: part.name.clone(),
+            times: part.times,
+            cycles: part.cycles,
+            share: self.share(part.cycles),
+        };
+        parts.iter().map(report).collect()
+    }
+}
+
+/// The object of `explain --json`.
+#[derive(Serialize)]
+pub struct Report<'e> {
+    scene: &'e str,
+    target: &'e str,
+    mode: Value,
+    format: &'e str,
+    /// Columns drawn.
+    width: u32,
+    /// Rows drawn.
+    height: u32,
+    /// The first and the last of them.
+    rows: [u32; 2],
+    /// The machine's cycles: the lines' and the rest's sum.
+    cycles: u64,
+    /// What they are.
+    unit: &'static str,
+    /// The share of them that lines have, 0 to 1.
+    accounted: f64,
+    rest: u64,
+    /// What lines' sizes are.
+    size_unit: &'static str,
+    /// The size of what comes from no line: routines, tables, the set-up.
+    rest_size: u64,
+    lines: Vec<LineReport>,
+}
+
+/// A line in the object of `explain --json`.
+#[derive(Serialize)]
+struct LineReport {
+    file: String,
+    line: usize,
+    text: String,
+    rate: Vec<&'static str>,
+    executions: u64,
+    cycles: u64,
+    share: f64,
+    size: u64,
+    /// Of its cycles: routines, the set-up, loops and drawing.
+    parts: Vec<PartReport>,
+    /// Of its cycles: the library's functions.
+    library: Vec<PartReport>,
+}
+
+#[derive(Serialize)]
+struct PartReport {
+    name: String,
+    times: u64,
+    cycles: u64,
+    /// Of all cycles of the run.
+    share: f64,
+}
