@@ -76,8 +76,8 @@ pub fn explain(
 fn spanless(documents: &[Document], line: profile::Line) -> bool {
     let document = documents.get(line.document);
     document
-        .and_then(|document| document.lines.get(line.line))
-        .is_none_or(Option::is_none)
+        .and_then(|document| document.span(line.line, line.statement))
+        .is_none()
 }
 
 impl Explained {

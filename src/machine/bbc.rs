@@ -4,7 +4,8 @@ use super::charge::LineMap;
 use super::dfs;
 use super::{File, Loaded, MachineRun, Program, Sizes, refused};
 use crate::failure::{Failure, Outcome};
-use slowlight_vm::bbc::{Config, Dialect, LineCost, Machine, tokenise};
+use slowlight_compiler::report::profile::Line;
+use slowlight_vm::bbc::{StatementPlace, Config, Dialect, LineCost, Machine, tokenise};
 use slowlight_vm::{Charge, Fault, Watch};
 
 /// Takes one program: text (`.bas`), or tokens, known by the byte 13 in front.
@@ -44,9 +45,20 @@ pub fn load(files: &[File], config: Config) -> Outcome<Loaded> {
         system: Vec::new(),
         binaries,
         sizes,
+        map: map(&machine),
         program: Program::Bbc(machine),
-        map: LineMap::Lines,
     })
+}
+
+/// The line and statement behind each statement.
+fn map(machine: &Machine) -> LineMap {
+    let statements = machine.statements().into_iter();
+    let line = |place: StatementPlace| Line {
+        document: 0,
+        line: place.line as usize,
+        statement: place.statement as usize,
+    };
+    LineMap::Places(statements.map(|place| Some(line(place))).collect())
 }
 
 /// Runs a program that was loaded.

@@ -16,8 +16,6 @@ pub(super) enum LineMap {
     /// Not known.
     #[default]
     Unknown,
-    /// Places are lines of the one file.
-    Lines,
     /// The line of each place; none for what no file has.
     Places(Vec<Option<Line>>),
 }
@@ -26,10 +24,6 @@ impl LineMap {
     fn line(&self, place: u32) -> Option<Line> {
         match self {
             LineMap::Unknown => None,
-            LineMap::Lines => Some(Line {
-                document: 0,
-                line: place as usize,
-            }),
             LineMap::Places(lines) => lines.get(place as usize).copied().flatten(),
         }
     }
@@ -74,7 +68,10 @@ impl Loaded {
     /// What each line takes in memory: bytes, or commands of the Hack VM.
     pub fn line_sizes(&self) -> Vec<(Line, u64)> {
         let sizes: Vec<u64> = match (&self.program, &self.map) {
-            (Program::Bbc(machine), _) => machine.line_bytes(),
+            (Program::Bbc(machine), _) => {
+                let statements = machine.statements().into_iter();
+                statements.map(|statement| u64::from(statement.bytes)).collect()
+            }
             (_, LineMap::Places(places)) => vec![1; places.len()],
             _ => Vec::new(),
         };

@@ -176,7 +176,11 @@ fn map(files: &[File], lines: &CommandLines, program: &vm::Program) -> LineMap {
             Some((document, lines)) => (*document, lines.get(at)?.saturating_sub(1) as usize),
             None => (own(name)?, at),
         };
-        Some(Line { document, line })
+        Some(Line {
+            document,
+            line,
+            statement: 0,
+        })
     };
     LineMap::Places(program.origins().map(line).collect())
 }

@@ -69,6 +69,7 @@ fn map(assembly: &Assembly) -> LineMap {
         let line = Line {
             document: 0,
             line: span.line.saturating_sub(1) as usize,
+            statement: 0,
         };
         let bytes = places.iter_mut().skip(usize::from(span.address));
         bytes

@@ -19,13 +19,15 @@ use crate::source::Span;
 use crate::target::Document;
 use std::collections::{BTreeMap, BTreeSet};
 
-/// A line of a generated program, both from 0.
+/// A line of a generated program, or a statement of it; all numbers are from 0.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Line {
     /// Which of its documents.
     pub document: usize,
     /// Which line.
     pub line: usize,
+    /// Which of the line's statements, where the machine counts those; else 0.
+    pub statement: usize,
 }
 
 /// What a machine counted.
@@ -114,14 +116,6 @@ struct Found {
     within: BTreeMap<String, (u64, u64)>,
 }
 
-impl Found {
-    fn add(map: &mut BTreeMap<String, (u64, u64)>, name: String, times: u64, cycles: u64) {
-        let part = map.entry(name).or_default();
-        part.0 += times;
-        part.1 += cycles;
-    }
-}
-
 /// Parts, the dearest first.
 fn parts(all: BTreeMap<String, (u64, u64)>) -> Vec<Part> {
     let part = |(name, (times, cycles))| Part {
@@ -144,7 +138,7 @@ pub fn profile(scene: &Scene, plan: &Plan, measured: Measured<'_>) -> Profile {
     let mut made = Profile::default();
     let span_of = |line: Line| {
         let document = measured.documents.get(line.document)?;
-        document.lines.get(line.line).copied().flatten()
+        document.span(line.line, line.statement)
     };
     let image = scene.program.image.as_ref().map(|image| image.span);
     for cost in measured.costs {
@@ -169,11 +163,13 @@ pub fn profile(scene: &Scene, plan: &Plan, measured: Measured<'_>) -> Profile {
             line.executions = line.executions.max(cost.times);
         }
         if let Some(name) = part {
-            Found::add(&mut line.parts, name, cost.times, cost.cycles);
+            let part = line.parts.entry(name).or_default();
+            *part = (part.0 + cost.times, part.1 + cost.cycles);
         }
         if let Some(inner) = own.and_then(Span::called) {
             let times = if cost.called.is_none() { cost.times } else { 0 };
-            Found::add(&mut line.within, lines.library(inner), times, cost.cycles);
+            let part = line.within.entry(lines.library(inner)).or_default();
+            *part = (part.0.max(times), part.1 + cost.cycles);
         }
     }
     for (line, size) in measured.sizes {

@@ -41,7 +41,11 @@ fn measured(name: &str) -> (Profile, u64, u64) {
     let mut sizes = Vec::new();
     for (document, text) in documents.iter().enumerate() {
         for line in 0..text.lines.len() {
-            let line = Line { document, line };
+            let line = Line {
+                document,
+                line,
+                statement: 0,
+            };
             costs.push(Cost {
                 line: Some(line),
                 called: None,
@@ -96,5 +100,22 @@ fn lines_are_the_scenes_own() {
         assert!(within.iter().any(|name| name.contains(".scn:")), "{name}: {within:?}");
         assert!(at(3).parts.iter().any(|part| part.name == FRAME), "{name}");
         assert!(at(1).parts.iter().any(|part| part.name == SET_UP), "{name}");
+    }
+}
+#[test]
+fn zz_debug() {
+    let text = std::fs::read_to_string("../examples/torus.scn").unwrap();
+    let scene = check("s.scn", &text);
+    let target = target::find(&std::env::var("TGT").unwrap()).unwrap();
+    let mode = target::default_mode(target, 512, 256).unwrap();
+    let graph = scene.lower(&Options { inks: Some(mode.inks), offset: target.offset, ..Options::default() }).unwrap();
+    let goal = Goal { name: "s".to_owned(), mode, rows: None, plot: true };
+    let mut plan = plan(&graph, target, &goal).unwrap();
+    plan.drawn = scene.program.draw.as_ref().map(|draw| draw.span);
+    for d in (target.emit)(&plan).iter().take(2) {
+        for (t, s) in d.text.lines().zip(&d.lines) {
+            let l = s.map_or("-".to_owned(), |s| format!("{}", scene.sources.line_column(s).0));
+            println!("{l:>4} {t}");
+        }
     }
 }

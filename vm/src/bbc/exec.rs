@@ -29,9 +29,12 @@ impl State {
             self.op = at;
             if let Some(profile) = &mut self.profile {
                 let now = At {
-                    line: op.line,
+                    statement: op.statement,
                     depth: self.frames.len() as u32,
-                    begins: p.lines.get(op.line as usize).is_some_and(|l| l.op == at),
+                    begins: p
+                        .statements
+                        .get(op.statement as usize)
+                        .is_some_and(|s| s.op == at),
                 };
                 let left = profile.enter(now, self.cycles);
                 caller.get_or_insert(left);

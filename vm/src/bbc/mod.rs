@@ -54,8 +54,8 @@ use slowlight_isa::real40::Real40;
 
 use crate::{Charge, Fault, Screen, Stop, Watch};
 use error::Error;
-pub use profile::LineCost;
 use profile::Profile;
+pub use profile::{LineCost, StatementPlace};
 use state::State;
 pub use tokenise::{detokenise, tokenise};
 
@@ -116,7 +116,7 @@ pub struct Run {
 }
 
 /// Bytes of a tokenised line beside its text: 13, its number, its length.
-const LINE_HEAD: u64 = 4;
+const LINE_HEAD: u32 = 4;
 
 /// A machine with a program in it.
 pub struct Machine {
@@ -186,29 +186,40 @@ impl Machine {
     pub fn profile(&self, cycle_limit: u64, watch: Watch<'_>) -> (Run, Vec<LineCost>) {
         let (run, charges) = self.charges(cycle_limit, &|_| false, watch);
         let lines = tokenise::lines(&self.program).unwrap_or_default();
-        let cost = |(line, k): (&tokenise::RawLine<'_>, u32)| {
-            let found = charges.iter().find(|charge| charge.place == k);
-            LineCost {
+        let mut costs: Vec<LineCost> = lines
+            .iter()
+            .map(|line| LineCost {
                 line: line.number,
-                times: found.map_or(0, |charge| charge.times),
-                cycles: found.map_or(0, |charge| charge.cycles),
+                times: 0,
+                cycles: 0,
+            })
+            .collect();
+        let statements = self.statements();
+        for charge in charges {
+            let Some(place) = statements.get(charge.place as usize) else {
+                continue;
+            };
+            if let Some(cost) = costs.get_mut(place.line as usize) {
+                cost.cycles += charge.cycles;
+                if place.statement == 0 {
+                    cost.times = charge.times;
+                }
             }
-        };
-        let costs = lines.iter().zip(0..).map(cost).collect();
+        }
         (run, costs)
     }
 
-    /// The same by the lines' indices, where lines that `routine` knows are charged to
-    /// the lines that call them. The charges add up to the run's cycles.
+    /// The same by statements ([`Machine::statements`]), where those that `routine` knows
+    /// are charged to the statements that call them. The charges add up to the run's cycles.
     pub fn charges(
         &self,
         cycle_limit: u64,
         routine: &dyn Fn(u32) -> bool,
         watch: Watch<'_>,
     ) -> (Run, Vec<Charge>) {
-        let lines = tokenise::lines(&self.program).unwrap_or_default();
         let mut state = State::new(self.config);
-        state.profile = Some(Box::new(Profile::new(lines.len(), routine)));
+        let count = self.statements().len();
+        state.profile = Some(Box::new(Profile::new(count, routine)));
         let (run, mut charges) = self.run_from(state, cycle_limit, watch);
         // Each has its share of the interrupts, so that all add up to the run.
         let mut before = 0;
@@ -220,10 +231,23 @@ impl Machine {
         (run, charges)
     }
 
-    /// Bytes that each line takes in the program, by the lines' indices.
-    pub fn line_bytes(&self) -> Vec<u64> {
+    /// The program's statements, in its order.
+    pub fn statements(&self) -> Vec<StatementPlace> {
         let lines = tokenise::lines(&self.program).unwrap_or_default();
-        lines.iter().map(|line| line.text.len() as u64 + LINE_HEAD).collect()
+        let program = decode::decode(&lines, &mut names::Names::new());
+        let place = |(k, statement): (usize, &ast::Statement)| {
+            let next = program.statements.get(k + 1);
+            let next = next.filter(|next| next.line == statement.line);
+            let text = lines.get(statement.line as usize).map_or(0, |l| l.text.len());
+            let end = next.map_or(text as u32, |next| next.at);
+            let head = if statement.statement == 0 { LINE_HEAD } else { 0 };
+            StatementPlace {
+                line: statement.line,
+                statement: statement.statement,
+                bytes: end.saturating_sub(statement.at) + head,
+            }
+        };
+        program.statements.iter().enumerate().map(place).collect()
     }
 
     fn run_from(

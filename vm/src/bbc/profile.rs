@@ -17,7 +17,18 @@ pub struct LineCost {
     pub cycles: u64,
 }
 
-/// Counts of a run, by the index of the line.
+/// A statement of a program.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct StatementPlace {
+    /// Its line's index.
+    pub line: u32,
+    /// Its number in the line, from 0; colons part statements, ELSE does not.
+    pub statement: u32,
+    /// Bytes of tokens that it takes, a line's first with the line's head.
+    pub bytes: u32,
+}
+
+/// Counts of a run, by the index of the statement.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Profile {
     ledger: Ledger,
@@ -29,18 +40,18 @@ pub(crate) struct Profile {
 /// What is being carried out.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct At {
-    /// The line.
-    pub line: u32,
+    /// The statement.
+    pub statement: u32,
     /// How many calls deep.
     pub depth: u32,
-    /// Whether the line begins here.
+    /// Whether the statement begins here.
     pub begins: bool,
 }
 
 impl Profile {
-    pub fn new(lines: usize, routine: &dyn Fn(u32) -> bool) -> Self {
+    pub fn new(statements: usize, routine: &dyn Fn(u32) -> bool) -> Self {
         Self {
-            ledger: Ledger::new(lines, routine),
+            ledger: Ledger::new(statements, routine),
             ..Self::default()
         }
     }
@@ -49,7 +60,7 @@ impl Profile {
     pub fn enter(&mut self, at: At, now: u64) -> At {
         let left = self.at;
         let cycles = now.saturating_sub(self.since);
-        self.ledger.step(left.line, left.depth, cycles, left.begins);
+        self.ledger.step(left.statement, left.depth, cycles, left.begins);
         self.since = now;
         std::mem::replace(&mut self.at, at)
     }
