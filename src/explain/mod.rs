@@ -1,6 +1,8 @@
 //! A profile of a scene: its program run on its machine, every cycle charged to a
 //! line of the scene, beside what that line adds to the picture's error.
 
+pub mod error;
+pub mod html;
 pub mod terminal;
 
 use crate::draw::Window;
@@ -10,6 +12,7 @@ use crate::progress::Progress;
 use crate::scene::Scene;
 use crate::target_args::ScreenArgs;
 use crate::trial;
+use error::{Errors, Without};
 use serde::Serialize;
 use serde_json::Value;
 use slowlight_compiler::plan::Plan;
@@ -26,6 +29,8 @@ pub struct Explained {
     pub run: MachineRun,
     /// The counts by the scene's lines.
     pub profile: Profile,
+    /// The picture's error by the scene's lines.
+    pub errors: Errors,
 }
 
 /// Runs a scene's program and joins its counts with its line map.
@@ -64,11 +69,13 @@ pub fn explain(
         sizes: &loaded.line_sizes(),
     };
     let profile = profile::profile(&scene.checked, &plan, measured);
+    let errors = error::errors(&scene, &plan)?;
     Ok(Explained {
         scene,
         plan,
         run,
         profile,
+        errors,
     })
 }
 
@@ -115,6 +122,11 @@ impl Explained {
         lines.find(|found| (found.file, found.line) == (file, line))
     }
 
+    /// What is left of the error without that of a line, where it computes reals.
+    pub fn error(&self, line: &SourceLine) -> Option<Without> {
+        self.errors.lines.get(&(line.file, line.line)).copied()
+    }
+
     /// What `explain --json` prints.
     pub fn report(&self) -> Report<'_> {
         let plan = &self.plan;
@@ -137,6 +149,11 @@ impl Explained {
                 cycles: line.cycles,
                 share: self.share(line.cycles),
                 size: line.size,
+                error: self.error(line).map(|without| ErrorReport {
+                    rmse_without: without.rmse,
+                    differs_without: without.differ,
+                    share: without.share,
+                }),
                 parts: self.part_reports(&line.parts),
                 library: self.part_reports(&line.within),
             }
@@ -155,6 +172,9 @@ impl Explained {
             rest: self.profile.rest,
             size_unit: self.size_unit(),
             rest_size: self.profile.rest_size,
+            sampled: self.errors.pixels,
+            rmse: self.errors.rmse,
+            differs_from_native: self.errors.differ,
             lines: self.profile.lines.iter().map(line).collect(),
         }
     }
@@ -194,6 +214,11 @@ pub struct Report<'e> {
     size_unit: &'static str,
     /// The size of what comes from no line: routines, tables, the set-up.
     rest_size: u64,
+    /// Pixels that errors are of.
+    sampled: usize,
+    /// Over their shades, model against native.
+    rmse: f64,
+    differs_from_native: usize,
     lines: Vec<LineReport>,
 }
 
@@ -208,10 +233,21 @@ struct LineReport {
     cycles: u64,
     share: f64,
     size: u64,
+    /// Null where the line computes no reals.
+    error: Option<ErrorReport>,
     /// Of its cycles: routines, the set-up, loops and drawing.
     parts: Vec<PartReport>,
     /// Of its cycles: the library's functions.
     library: Vec<PartReport>,
+}
+
+/// What is left of the error where a line's values are in `f64`.
+#[derive(Serialize)]
+struct ErrorReport {
+    rmse_without: f64,
+    differs_without: usize,
+    /// What share of the mean square is gone; below 0 it grew.
+    share: f64,
 }
 
 #[derive(Serialize)]

@@ -52,10 +52,10 @@ fn head(found: &Explained) -> String {
     )
 }
 
-const COLUMNS: [&str; 6] = ["share", "", "cycles", "runs", "size", "rate"];
+const COLUMNS: [&str; 7] = ["share", "", "cycles", "runs", "size", "error", "rate"];
 
 /// A line's cells; none where it took nothing.
-fn cells(found: &Explained, line: Option<&SourceLine>, most: u64) -> Option<[String; 6]> {
+fn cells(found: &Explained, line: Option<&SourceLine>, most: u64) -> Option<[String; 7]> {
     let line = line?;
     Some([
         percent(found.share(line.cycles)),
@@ -63,6 +63,9 @@ fn cells(found: &Explained, line: Option<&SourceLine>, most: u64) -> Option<[Str
         count(line.cycles),
         count(line.executions),
         count(line.size),
+        found
+            .error(line)
+            .map_or(String::new(), |e| percent(e.share)),
         rate(line),
     ])
 }
@@ -98,7 +101,7 @@ fn bar(part: u64, most: u64) -> String {
     full + rest.get(eighths % 8).copied().unwrap_or("")
 }
 
-type Row<'s> = (Option<[String; 6]>, usize, &'s str);
+type Row<'s> = (Option<[String; 7]>, usize, &'s str);
 
 /// Rows with their columns aligned, each line's parts below it.
 fn annotated(found: &Explained, file: u16, rows: Vec<Row<'_>>) -> String {
@@ -109,12 +112,12 @@ fn annotated(found: &Explained, file: u16, rows: Vec<Row<'_>>) -> String {
             *width = (*width).max(cell.chars().count());
         }
     }
-    let padded = |cells: [&str; 6]| {
+    let padded = |cells: [&str; 7]| {
         let mut out = String::new();
         for (k, (cell, width)) in cells.iter().zip(widths).enumerate() {
             let pad = " ".repeat(width.saturating_sub(cell.chars().count()));
             match k {
-                1 | 5 => out.push_str(&format!("{cell}{pad}  ")),
+                1 | 6 => out.push_str(&format!("{cell}{pad}  ")),
                 _ => out.push_str(&format!("{pad}{cell}  ")),
             }
         }
@@ -122,10 +125,14 @@ fn annotated(found: &Explained, file: u16, rows: Vec<Row<'_>>) -> String {
     };
     let digits = rows.len().to_string().len();
     let mut out = padded(COLUMNS).trim_end().to_owned() + "\n";
-    let indent = " ".repeat(padded([""; 6]).chars().count() + digits);
+    let indent = " ".repeat(padded([""; 7]).chars().count() + digits);
     for (cells, number, text) in rows {
         let blank = Default::default();
-        let cells = cells.as_ref().unwrap_or(&blank).each_ref().map(String::as_str);
+        let cells = cells
+            .as_ref()
+            .unwrap_or(&blank)
+            .each_ref()
+            .map(String::as_str);
         let line = format!("{}{number:>digits$} | {text}", padded(cells));
         out.push_str(line.trim_end());
         out.push('\n');
@@ -152,7 +159,11 @@ fn told(found: &Explained, line: &SourceLine) -> Vec<String> {
         dear.take(PARTS).map(text).collect()
     };
     let mut all = some(&line.parts);
-    all.extend(some(&line.within).into_iter().map(|text| format!("{text} (library)")));
+    all.extend(
+        some(&line.within)
+            .into_iter()
+            .map(|text| format!("{text} (library)")),
+    );
     all
 }
 
@@ -167,5 +178,17 @@ fn foot(found: &Explained) -> String {
         percent(found.share(charged)),
         count(profile.rest_size),
         found.size_unit(),
+    ) + &errors(found)
+}
+
+/// What errors are of.
+fn errors(found: &Explained) -> String {
+    let errors = &found.errors;
+    format!(
+        "the error of {} pixels is {:.2e} in rmse, {} inks are not native's; a line's error is what \
+         share of the mean square goes where its values are f64\n",
+        count(errors.pixels as u64),
+        errors.rmse,
+        count(errors.differ as u64)
     )
 }

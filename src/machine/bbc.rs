@@ -5,7 +5,7 @@ use super::dfs;
 use super::{File, Loaded, MachineRun, Program, Sizes, refused};
 use crate::failure::{Failure, Outcome};
 use slowlight_compiler::report::profile::Line;
-use slowlight_vm::bbc::{StatementPlace, Config, Dialect, LineCost, Machine, tokenise};
+use slowlight_vm::bbc::{Config, Dialect, LineCost, Machine, StatementPlace, tokenise};
 use slowlight_vm::{Charge, Fault, Watch};
 
 /// Takes one program: text (`.bas`), or tokens, known by the byte 13 in front.

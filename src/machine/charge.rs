@@ -70,7 +70,9 @@ impl Loaded {
         let sizes: Vec<u64> = match (&self.program, &self.map) {
             (Program::Bbc(machine), _) => {
                 let statements = machine.statements().into_iter();
-                statements.map(|statement| u64::from(statement.bytes)).collect()
+                statements
+                    .map(|statement| u64::from(statement.bytes))
+                    .collect()
             }
             (_, LineMap::Places(places)) => vec![1; places.len()],
             _ => Vec::new(),

@@ -92,7 +92,9 @@ pub fn charges(
     routine: &dyn Fn(u32) -> bool,
     watch: Watch<'_>,
 ) -> (MachineRun, Vec<Charge>) {
-    watched(machine, sizes, |machine| machine.charges(limit, routine, watch))
+    watched(machine, sizes, |machine| {
+        machine.charges(limit, routine, watch)
+    })
 }
 
 fn watched<T>(

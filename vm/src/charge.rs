@@ -129,33 +129,65 @@ mod tests {
         let total: u64 = all.iter().map(|c| c.cycles).sum();
         assert_eq!(total, steps.iter().map(|s| s.2).sum::<u64>());
         let each = all.iter();
-        each.map(|c| (c.place, c.routine, c.times, c.cycles)).collect()
+        each.map(|c| (c.place, c.routine, c.times, c.cycles))
+            .collect()
     }
 
     #[test]
     fn routines_are_charged_to_their_callers() {
         // 1 calls 10, which calls 12; then 1 goes on, 2 calls 12.
-        let steps = [(1, 0, 1), (10, 1, 2), (12, 2, 4), (10, 1, 8), (1, 0, 16), (2, 0, 32), (12, 1, 64)];
-        let expected = [(1, None, 2, 17), (1, Some(10), 1, 14), (2, None, 1, 32), (2, Some(12), 1, 64)];
+        let steps = [
+            (1, 0, 1),
+            (10, 1, 2),
+            (12, 2, 4),
+            (10, 1, 8),
+            (1, 0, 16),
+            (2, 0, 32),
+            (12, 1, 64),
+        ];
+        let expected = [
+            (1, None, 2, 17),
+            (1, Some(10), 1, 14),
+            (2, None, 1, 32),
+            (2, Some(12), 1, 64),
+        ];
         assert_eq!(charged(&steps), expected);
     }
 
     #[test]
     fn what_nobody_calls_is_charged_itself() {
-        assert_eq!(charged(&[(11, 0, 3), (12, 1, 5)]), [(11, None, 1, 3), (11, Some(12), 1, 5)]);
+        assert_eq!(
+            charged(&[(11, 0, 3), (12, 1, 5)]),
+            [(11, None, 1, 3), (11, Some(12), 1, 5)]
+        );
     }
 
     #[test]
     fn a_called_place_that_is_no_routine_is_charged_itself() {
         let steps = [(1, 0, 1), (5, 1, 2), (11, 2, 4), (5, 1, 8)];
-        assert_eq!(charged(&steps), [(1, None, 1, 1), (5, None, 2, 10), (5, Some(11), 1, 4)]);
+        assert_eq!(
+            charged(&steps),
+            [(1, None, 1, 1), (5, None, 2, 10), (5, Some(11), 1, 4)]
+        );
     }
 
     #[test]
     fn a_routine_may_call_what_is_charged_itself() {
         // 1 calls 10, which calls 5, which calls 12; then 10 goes on.
-        let steps = [(1, 0, 1), (10, 1, 2), (5, 2, 4), (12, 3, 8), (5, 2, 16), (10, 1, 32)];
-        let expected = [(1, None, 1, 1), (1, Some(10), 1, 34), (5, None, 2, 20), (5, Some(12), 1, 8)];
+        let steps = [
+            (1, 0, 1),
+            (10, 1, 2),
+            (5, 2, 4),
+            (12, 3, 8),
+            (5, 2, 16),
+            (10, 1, 32),
+        ];
+        let expected = [
+            (1, None, 1, 1),
+            (1, Some(10), 1, 34),
+            (5, None, 2, 20),
+            (5, Some(12), 1, 8),
+        ];
         assert_eq!(charged(&steps), expected);
     }
 }

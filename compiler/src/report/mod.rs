@@ -10,6 +10,7 @@ pub mod fragile;
 pub mod profile;
 #[cfg(test)]
 mod profile_tests;
+pub mod raised;
 mod shadow;
 #[cfg(test)]
 mod tests;

@@ -242,7 +242,10 @@ fn declared(line: &str) -> Option<&str> {
         return name.get(..word(name));
     }
     let kinds = ["function ", "method ", "constructor "];
-    if let Some(rest) = kinds.iter().find_map(|kind| line.trim_start().strip_prefix(kind)) {
+    if let Some(rest) = kinds
+        .iter()
+        .find_map(|kind| line.trim_start().strip_prefix(kind))
+    {
         let before = rest.split('(').next()?;
         return before.split_whitespace().last();
     }
@@ -250,8 +253,13 @@ fn declared(line: &str) -> Option<&str> {
     (!label.is_empty() && word(label) == label.len()).then_some(label)
 }
 
+/// The lines of a scene's texts.
+pub(super) fn lines_of(scene: &Scene) -> Lines<'_> {
+    Lines::new(scene)
+}
+
 /// Lines of a scene's texts, and the library's items.
-struct Lines<'s> {
+pub(super) struct Lines<'s> {
     scene: &'s Scene,
     /// For each text, where its lines begin.
     starts: Vec<Vec<u32>>,
@@ -287,7 +295,7 @@ impl<'s> Lines<'s> {
     }
 
     /// The file and the line (from 1) where a span begins.
-    fn place(&self, span: Span) -> Place {
+    pub fn place(&self, span: Span) -> Place {
         let starts = self.starts.get(usize::from(span.file));
         let line = starts.map_or(0, |starts| starts.partition_point(|at| *at <= span.start));
         (span.file, line)

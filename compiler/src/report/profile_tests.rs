@@ -83,7 +83,11 @@ fn every_cycle_and_every_byte_has_a_line() {
         for line in &found.lines {
             let parts: u64 = line.parts.iter().map(|part| part.cycles).sum();
             let within: u64 = line.within.iter().map(|part| part.cycles).sum();
-            assert!(parts <= line.cycles && within <= line.cycles, "{}", target.name);
+            assert!(
+                parts <= line.cycles && within <= line.cycles,
+                "{}",
+                target.name
+            );
         }
     }
 }
@@ -93,29 +97,24 @@ fn lines_are_the_scenes_own() {
     for name in ["jack", "bbc:micro", "6502:plain"] {
         let (found, ..) = measured(name);
         let at = |number: usize| found.lines.iter().find(|line| line.line == number).unwrap();
-        assert!(found.lines.iter().all(|line| line.file == 0 && line.line <= 6), "{name}");
+        assert!(
+            found
+                .lines
+                .iter()
+                .all(|line| line.file == 0 && line.line <= 6),
+            "{name}"
+        );
         // The ray is computed in its line, the sphere by the library on behalf of its own.
-        assert!(at(4).rate.contains(&"column") || at(4).rate.contains(&"row"), "{name}");
+        assert!(
+            at(4).rate.contains(&"column") || at(4).rate.contains(&"row"),
+            "{name}"
+        );
         let within: Vec<&str> = at(5).within.iter().map(|part| part.name.as_str()).collect();
-        assert!(within.iter().any(|name| name.contains(".scn:")), "{name}: {within:?}");
+        assert!(
+            within.iter().any(|name| name.contains(".scn:")),
+            "{name}: {within:?}"
+        );
         assert!(at(3).parts.iter().any(|part| part.name == FRAME), "{name}");
         assert!(at(1).parts.iter().any(|part| part.name == SET_UP), "{name}");
-    }
-}
-#[test]
-fn zz_debug() {
-    let text = std::fs::read_to_string("../examples/torus.scn").unwrap();
-    let scene = check("s.scn", &text);
-    let target = target::find(&std::env::var("TGT").unwrap()).unwrap();
-    let mode = target::default_mode(target, 512, 256).unwrap();
-    let graph = scene.lower(&Options { inks: Some(mode.inks), offset: target.offset, ..Options::default() }).unwrap();
-    let goal = Goal { name: "s".to_owned(), mode, rows: None, plot: true };
-    let mut plan = plan(&graph, target, &goal).unwrap();
-    plan.drawn = scene.program.draw.as_ref().map(|draw| draw.span);
-    for d in (target.emit)(&plan).iter().take(2) {
-        for (t, s) in d.text.lines().zip(&d.lines) {
-            let l = s.map_or("-".to_owned(), |s| format!("{}", scene.sources.line_column(s).0));
-            println!("{l:>4} {t}");
-        }
     }
 }

@@ -70,7 +70,9 @@ impl Document {
     /// The place in the scene that a statement of a line comes from, if any; both are
     /// counted from 0.
     pub fn span(&self, line: usize, statement: usize) -> Option<Span> {
-        let after = self.later.partition_point(|(l, s, _)| (*l, *s) <= (line, statement));
+        let after = self
+            .later
+            .partition_point(|(l, s, _)| (*l, *s) <= (line, statement));
         let before = after.checked_sub(1).and_then(|at| self.later.get(at));
         match before {
             Some((found, _, span)) if *found == line => *span,

@@ -238,9 +238,15 @@ impl Machine {
         let place = |(k, statement): (usize, &ast::Statement)| {
             let next = program.statements.get(k + 1);
             let next = next.filter(|next| next.line == statement.line);
-            let text = lines.get(statement.line as usize).map_or(0, |l| l.text.len());
+            let text = lines
+                .get(statement.line as usize)
+                .map_or(0, |l| l.text.len());
             let end = next.map_or(text as u32, |next| next.at);
-            let head = if statement.statement == 0 { LINE_HEAD } else { 0 };
+            let head = if statement.statement == 0 {
+                LINE_HEAD
+            } else {
+                0
+            };
             StatementPlace {
                 line: statement.line,
                 statement: statement.statement,
@@ -250,12 +256,7 @@ impl Machine {
         program.statements.iter().enumerate().map(place).collect()
     }
 
-    fn run_from(
-        &self,
-        mut state: State,
-        cycle_limit: u64,
-        watch: Watch<'_>,
-    ) -> (Run, Vec<Charge>) {
+    fn run_from(&self, mut state: State, cycle_limit: u64, watch: Watch<'_>) -> (Run, Vec<Charge>) {
         state.files.contents = self.files.clone();
         let stop = self.run_in(&mut state, cycle_limit, watch);
         let charges = match state.profile.take() {

@@ -60,7 +60,8 @@ impl Profile {
     pub fn enter(&mut self, at: At, now: u64) -> At {
         let left = self.at;
         let cycles = now.saturating_sub(self.since);
-        self.ledger.step(left.statement, left.depth, cycles, left.begins);
+        self.ledger
+            .step(left.statement, left.depth, cycles, left.begins);
         self.since = now;
         std::mem::replace(&mut self.at, at)
     }

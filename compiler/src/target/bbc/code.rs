@@ -115,6 +115,11 @@ impl<'p> Code<'p> {
     }
 
     pub fn one(&mut self, statement: &Statement) {
+        // In listings, remarks go by what is computed alone.
+        if self.values.style != Style::Listing {
+            let plan = self.values.plan;
+            self.span = Some(statement.span(&plan.graph, &plan.tree));
+        }
         match statement {
             Statement::Let(id) => self.assignment(*id, true),
             Statement::Set { place, from } => {

@@ -146,6 +146,7 @@ impl<'p> Code<'p> {
     }
 
     fn statement(&mut self, statement: &Statement, name: &str) {
+        self.text.span = Some(statement.span(&self.plan.graph, &self.plan.tree));
         match statement {
             Statement::Let(id) => self.compute(*id),
             Statement::Set { place, from } => self.set(*place, *from),

@@ -123,7 +123,9 @@ impl Program {
     /// names are those that were given.
     pub fn origins(&self) -> impl Iterator<Item = (&str, u32)> {
         let name = |file: u32| self.files.get(file as usize).map_or("", String::as_str);
-        self.origins.iter().map(move |(file, line)| (name(*file), *line))
+        self.origins
+            .iter()
+            .map(move |(file, line)| (name(*file), *line))
     }
 
     /// The function whose code holds command `at`.

@@ -1,6 +1,8 @@
 //! The machine's state, and the run that switches between the engines.
 
-use super::command::{ARG, CONSTANTS, Command, FRAME, KEYBOARD, LCL, Memory, RAM_MASK, SCREEN, SP, STACK};
+use super::command::{
+    ARG, CONSTANTS, Command, FRAME, KEYBOARD, LCL, Memory, RAM_MASK, SCREEN, SP, STACK,
+};
 use super::fast::Exit;
 use super::link::Program;
 use super::os::{self, Native, Os, Trap};

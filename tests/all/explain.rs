@@ -1,0 +1,168 @@
+//! `explain`: every cycle of a machine is told by the scene's lines, on every target.
+
+use crate::cli::{directory, json, slowlight, success};
+use crate::cli_run::{SPOT, targets};
+use serde_json::Value;
+use std::path::Path;
+
+/// The scenes that come with the project, and rows of each that are quick to draw.
+const SCENES: &[(&str, &str)] = &[
+    ("csg", "200..200"),
+    ("focus", "3..3"),
+    ("fog", "60..60"),
+    ("glass", "128..129"),
+    ("masks", "60..62"),
+    ("maze", "10..14"),
+    ("mirrors", "60..70"),
+    ("room", "60..60"),
+    ("shadows", "100..100"),
+    ("terrain", "20..20"),
+    ("torus", "128..128"),
+    ("torus-march", "10..10"),
+    ("twist", "60..60"),
+    ("wave", "20..20"),
+];
+
+fn sum(parts: &Value, key: &str) -> u64 {
+    let parts = parts.as_array().expect("a list").iter();
+    parts
+        .map(|part| part[key].as_u64().expect("a number"))
+        .sum()
+}
+
+/// What must hold of every profile: all cycles are told, each once, and nearly all by lines.
+fn is_whole(profile: &Value, run: &Value, what: &str) {
+    let cycles = profile["cycles"].as_u64().expect("cycles");
+    assert_eq!(cycles, run["cycles"].as_u64().expect("cycles"), "{what}");
+    let lines = &profile["lines"];
+    let rest = profile["rest"].as_u64().expect("a number");
+    assert_eq!(sum(lines, "cycles") + rest, cycles, "{what}");
+    let accounted = profile["accounted"].as_f64().expect("a share");
+    assert!(accounted >= 0.98, "{what}: {accounted}");
+    for line in lines.as_array().expect("a list") {
+        let own = line["cycles"].as_u64().expect("cycles");
+        for parts in ["parts", "library"] {
+            let told = sum(&line[parts], "cycles");
+            assert!(told <= own, "{what}: {told} {parts} of {own} in {line}");
+        }
+        let text = line["text"].as_str().expect("a text").trim();
+        assert!(
+            own == 0 || !text.is_empty() && !text.starts_with("//"),
+            "{what}: {line}"
+        );
+    }
+}
+
+fn held(dir: &Path, scene: &str, target: &str, more: &[&str]) -> Value {
+    let of = |command: &str| {
+        let args = [&[command, scene, "--target", target, "--json"], more].concat();
+        json(dir, &args)
+    };
+    let (profile, run) = (of("explain"), of("run"));
+    is_whole(&profile, &run, &format!("{scene} on {target}"));
+    profile
+}
+
+#[test]
+fn every_cycle_has_a_line_of_the_scene() {
+    let examples = concat!(env!("CARGO_MANIFEST_DIR"), "/examples");
+    for (scene, rows) in SCENES {
+        let scene = format!("{scene}.scn");
+        for target in targets(Path::new(examples)) {
+            let more = ["--rows", rows, "--as-written"];
+            held(Path::new(examples), &scene, &target, &more);
+        }
+    }
+}
+
+#[test]
+fn and_so_it_has_where_the_plan_is_rewritten() {
+    let dir = directory(&[("spot.scn", SPOT)]);
+    let examples = concat!(env!("CARGO_MANIFEST_DIR"), "/examples");
+    for target in targets(dir.path()) {
+        held(dir.path(), "spot.scn", &target, &[]);
+        held(dir.path(), "spot.scn", &target, &["--outlined"]);
+        held(
+            Path::new(examples),
+            "mirrors.scn",
+            &target,
+            &["--rows", "60..63"],
+        );
+        held(
+            Path::new(examples),
+            "maze.scn",
+            &target,
+            &["--rows", "10..11"],
+        );
+    }
+    for format in ["f316r", "log10", "fixed16"] {
+        held(dir.path(), "spot.scn", "jack", &["--format", format]);
+    }
+    held(dir.path(), "spot.scn", "bbc:micro", &["--style", "listing"]);
+}
+
+/// A dear line and a cheap one, and what the library computes.
+const TOLD: &str = "image 16 x 8 inks black, white;
+draw (x, y) = {
+  let near = sin(x * 0.1rad) * cos(y * 0.1rad) + sqrt(x * y + 1);
+  let r = ray((0, 0, 3), unit((x - 7.5, y - 3.5, -20)));
+  let met = if let h = sphere((0, 0, 0), 1).hit(r) then h.t else 0;
+  threshold(near / 10 + met / 10, 0.5)
+};
+";
+
+#[test]
+fn lines_are_told_with_what_they_call() {
+    let dir = directory(&[("told.scn", TOLD)]);
+    for target in targets(dir.path()) {
+        let profile = held(dir.path(), "told.scn", &target, &[]);
+        let lines = profile["lines"].as_array().expect("a list");
+        let line = |number: u64| {
+            let found = lines.iter().find(|line| line["line"] == number);
+            found.unwrap_or_else(|| panic!("{target} has no line {number}"))
+        };
+        let rate = |number| line(number)["rate"].to_string();
+        assert!(
+            rate(3).contains("row") && rate(3).contains("column"),
+            "{target}: {}",
+            rate(3)
+        );
+        assert!(line(3)["executions"].as_u64() >= Some(128), "{target}");
+        assert!(
+            line(3)["cycles"].as_u64() > line(6)["cycles"].as_u64(),
+            "{target}"
+        );
+        // The sphere's root is the library's, on behalf of the line that asks for it.
+        let library = line(5)["library"].to_string();
+        assert!(library.contains(".scn:"), "{target}: {library}");
+        if target != "bbc:micro" && !target.starts_with("bbc") {
+            assert!(sum(&line(3)["parts"], "times") >= 128, "{target}");
+        }
+    }
+}
+
+#[test]
+fn the_terminal_shows_the_source() {
+    let dir = directory(&[("told.scn", TOLD)]);
+    let out = success(
+        dir.path(),
+        &["explain", "told.scn", "--target", "6502:plain"],
+    );
+    for line in TOLD.lines() {
+        assert!(out.contains(line.trim_end()), "{line}\n{out}");
+    }
+    assert!(out.contains("100.0%") && out.contains('█'), "{out}");
+}
+
+#[test]
+fn what_cannot_be_counted_is_said() {
+    let dir = directory(&[("spot.scn", SPOT)]);
+    let args = ["explain", "spot.scn", "--target", "jack", "--os", "jack"];
+    let out = slowlight(dir.path(), &args);
+    assert_eq!(out.status.code(), Some(2));
+    let said = String::from_utf8_lossy(&out.stderr);
+    assert!(said.contains("--os jack"), "{said}");
+    let args = ["explain", "spot.scn", "--target", "jack", "--limit", "10"];
+    let out = slowlight(dir.path(), &args);
+    assert_eq!(out.status.code(), Some(1));
+}
