@@ -10,6 +10,7 @@ pub mod cases;
 pub mod commands;
 pub mod diagnostics;
 pub mod draw;
+pub mod effects;
 pub mod estimate;
 pub mod explain;
 pub mod failure;

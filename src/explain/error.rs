@@ -42,7 +42,7 @@ pub struct Without {
 /// # Errors
 /// Where the scene does not compile, and an interruption.
 pub fn errors(scene: &Scene, plan: &Plan) -> Outcome<Errors> {
-    let places = sample(plan);
+    let places = Window::of(plan).grid(GRID);
     let graph = scene.graph(Some(plan.mode.inks), Precision::NATIVE)?;
     let mut native = Native::new(&graph);
     let native: Vec<Pixel> = places.iter().map(|(x, y)| native.pixel(*x, *y)).collect();
@@ -87,17 +87,4 @@ pub fn errors(scene: &Scene, plan: &Plan) -> Outcome<Errors> {
         differ,
         lines: lines.ok_or(Failure::Interrupted)?,
     })
-}
-
-/// Pixels evenly over what is drawn, in the order of the scan.
-fn sample(plan: &Plan) -> Vec<(i32, i32)> {
-    let Window { columns, rows } = Window::of(plan);
-    let along = |(first, last): (u32, u32)| {
-        let count = last - first + 1;
-        let taken = count.min(GRID);
-        (0..taken).map(move |k| (first + (2 * k + 1) * count / (2 * taken)) as i32)
-    };
-    along(rows)
-        .flat_map(|y| along(columns).map(move |x| (x, y)))
-        .collect()
 }

@@ -16,7 +16,7 @@ use error::{Errors, Without};
 use serde::Serialize;
 use serde_json::Value;
 use slowlight_compiler::plan::Plan;
-use slowlight_compiler::report::profile::{self, Measured, Part, Profile, SourceLine};
+use slowlight_compiler::report::profile::{self, Cost, Measured, Part, Profile, SourceLine};
 use slowlight_compiler::target::{Document, Target};
 
 /// A profile and what is needed to show it.
@@ -33,19 +33,35 @@ pub struct Explained {
     pub errors: Errors,
 }
 
-/// Runs a scene's program and joins its counts with its line map.
+/// A program that was run, with what its lines took.
+pub struct Counted {
+    /// What it is of.
+    pub plan: Plan,
+    /// The machine's counts in all.
+    pub run: MachineRun,
+    documents: Vec<Document>,
+    costs: Vec<Cost>,
+    sizes: Vec<(profile::Line, u64)>,
+}
+
+impl Counted {
+    /// What was counted, for a report.
+    pub fn measured(&self) -> Measured<'_> {
+        Measured {
+            documents: &self.documents,
+            costs: &self.costs,
+            sizes: &self.sizes,
+        }
+    }
+}
+
+/// Runs a plan's program, and counts what each line takes.
 ///
 /// # Errors
-/// Where the scene does not compile or fit, or its program does not end by itself.
-pub fn explain(
-    scene: Scene,
-    target: &'static Target,
-    screen: &ScreenArgs,
-    limit: u64,
-) -> Outcome<Explained> {
-    let plan = screen.plan(&scene, target, &[])?;
+/// Where it does not end by itself.
+pub fn count_lines(scene: &Scene, plan: Plan, screen: &ScreenArgs, limit: u64) -> Outcome<Counted> {
     let documents = (plan.target.emit)(&plan);
-    let mut loaded = trial::build_for(&plan, screen.machine(target)?)?.loaded;
+    let mut loaded = trial::build_for(&plan, screen.machine(plan.target)?)?.loaded;
     let routine = |line: profile::Line| spanless(&documents, line);
     let window = Window::of(&plan);
     let progress = Progress::new(
@@ -63,13 +79,30 @@ pub fn explain(
         let name = plan.target.name;
         return Err(Failure::Wrong(format!("{name}: {wrong}")));
     }
-    let measured = Measured {
-        documents: &documents,
-        costs: &costs,
-        sizes: &loaded.line_sizes(),
-    };
-    let profile = profile::profile(&scene.checked, &plan, measured);
-    let errors = error::errors(&scene, &plan)?;
+    Ok(Counted {
+        sizes: loaded.line_sizes(),
+        plan,
+        run,
+        documents,
+        costs,
+    })
+}
+
+/// Runs a scene's program and joins its counts with its line map.
+///
+/// # Errors
+/// Where the scene does not compile or fit, or its program does not end by itself.
+pub fn explain(
+    scene: Scene,
+    target: &'static Target,
+    screen: &ScreenArgs,
+    limit: u64,
+) -> Outcome<Explained> {
+    let plan = screen.plan(&scene, target, &[])?;
+    let counted = count_lines(&scene, plan, screen, limit)?;
+    let profile = profile::profile(&scene.checked, &counted.plan, counted.measured());
+    let errors = error::errors(&scene, &counted.plan)?;
+    let Counted { plan, run, .. } = counted;
     Ok(Explained {
         scene,
         plan,
@@ -87,6 +120,22 @@ fn spanless(documents: &[Document], line: profile::Line) -> bool {
         .is_none()
 }
 
+/// What a machine counts by.
+pub fn unit(run: &MachineRun) -> &'static str {
+    match run.vm_instructions {
+        Some(_) => "VM commands",
+        None => "cycles",
+    }
+}
+
+/// What memory is counted by.
+pub fn size_unit(run: &MachineRun) -> &'static str {
+    match run.vm_instructions {
+        Some(_) => "commands",
+        None => "bytes",
+    }
+}
+
 impl Explained {
     /// A number of cycles as a share of all, 0 to 1.
     pub fn share(&self, cycles: u64) -> f64 {
@@ -95,18 +144,12 @@ impl Explained {
 
     /// What the machine counts by.
     pub fn unit(&self) -> &'static str {
-        match self.run.vm_instructions {
-            Some(_) => "VM commands",
-            None => "cycles",
-        }
+        unit(&self.run)
     }
 
     /// What memory is counted by.
     pub fn size_unit(&self) -> &'static str {
-        match self.run.vm_instructions {
-            Some(_) => "commands",
-            None => "bytes",
-        }
+        size_unit(&self.run)
     }
 
     /// The scene's own files: number, name, text.

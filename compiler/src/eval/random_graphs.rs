@@ -13,6 +13,7 @@ const AT: Span = Span {
     start: 0,
     end: 0,
     within: None,
+    effect: None,
 };
 
 struct Maker {

@@ -17,6 +17,7 @@ const AT: Span = Span {
     start: 0,
     end: 0,
     within: None,
+    effect: None,
 };
 
 type Vec3 = [NodeId; 3];

@@ -22,6 +22,7 @@ const AT: Span = Span {
     start: 0,
     end: 0,
     within: None,
+    effect: None,
 };
 const WIDTH: i32 = 71;
 const HEIGHT: i32 = 9;

@@ -6,6 +6,7 @@ pub mod bounces;
 mod bounces_tests;
 pub mod bounded;
 pub mod domain;
+pub mod effects;
 pub mod fragile;
 pub mod profile;
 #[cfg(test)]

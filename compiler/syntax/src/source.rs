@@ -6,8 +6,8 @@
 /// A byte range in one source file.
 ///
 /// What the library computes for a scene belongs to the scene's place that calls
-/// it; [`Span::within`] says where in the library that is. It is a remark and no
-/// part of the place: spans are compared without it.
+/// it; [`Span::within`] says where in the library that is. That and the effect are
+/// remarks and no part of the place: spans are compared without them.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Span {
     /// Index into [`Sources::files`].
@@ -18,6 +18,9 @@ pub struct Span {
     pub end: u32,
     /// File and first byte of the library's own place, where it is the library's.
     pub within: Option<(u16, u32)>,
+    /// The effect on whose behalf it is computed, the innermost: by its number among the
+    /// scene's functions. A remark, too.
+    pub effect: Option<u16>,
 }
 
 impl Span {
@@ -61,6 +64,7 @@ impl Span {
             start: clip(start),
             end: clip(end.max(start)),
             within: None,
+            effect: None,
         }
     }
 
@@ -88,6 +92,7 @@ impl Span {
             start: self.start.min(other.start),
             end: self.end.max(other.end),
             within: self.within,
+            effect: self.effect,
         }
     }
 

@@ -18,6 +18,7 @@ const AT: Span = Span {
     start: 0,
     end: 0,
     within: None,
+    effect: None,
 };
 
 /// Sizes with which everything that stands twice is worth a subroutine.

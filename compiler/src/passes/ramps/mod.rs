@@ -268,6 +268,7 @@ mod tests {
         start: 0,
         end: 0,
         within: None,
+        effect: None,
     };
 
     fn line(b: &mut Builder, random: &mut Random, axis: Axis) -> NodeId {

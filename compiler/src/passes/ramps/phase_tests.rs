@@ -21,6 +21,7 @@ const AT: Span = Span {
     start: 0,
     end: 0,
     within: None,
+    effect: None,
 };
 
 const WIDTH: i32 = 320;

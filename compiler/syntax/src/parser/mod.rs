@@ -38,6 +38,7 @@ impl chumsky::span::Span for Span {
             start: range.start,
             end: range.end.max(range.start),
             within: None,
+            effect: None,
         }
     }
     fn context(&self) -> u16 {
