@@ -55,9 +55,18 @@ fn a_row_is_what_leaving_the_effect_out_changes() {
                 assert_eq!(row[told].as_i64(), less(key), "{name} on {target}: {told}");
             }
             assert_ne!(row["cycles"], 0, "{name} on {target}");
-            assert!(row["loss"]["rmse"].as_f64() > Some(0.0), "{name} on {target}");
-            assert!(row["loss"]["pixels"].as_u64() > Some(0), "{name} on {target}");
-            assert_ne!(whole["inks_sha256"], without["inks_sha256"], "{name} on {target}");
+            assert!(
+                row["loss"]["rmse"].as_f64() > Some(0.0),
+                "{name} on {target}"
+            );
+            assert!(
+                row["loss"]["pixels"].as_u64() > Some(0),
+                "{name} on {target}"
+            );
+            assert_ne!(
+                whole["inks_sha256"], without["inks_sha256"],
+                "{name} on {target}"
+            );
             assert_eq!(row["calls"], 1, "{name} on {target}");
         }
     }
@@ -66,7 +75,14 @@ fn a_row_is_what_leaving_the_effect_out_changes() {
 #[test]
 fn what_is_not_needed_at_a_pixel_is_seen() {
     let dir = directory(&[("lit.scn", LIT)]);
-    let args = ["effects", "lit.scn", "--target", "6502:plain", "--as-written", "--json"];
+    let args = [
+        "effects",
+        "lit.scn",
+        "--target",
+        "6502:plain",
+        "--as-written",
+        "--json",
+    ];
     let found = json(dir.path(), &args);
     let (halo, rim) = (row(&found, "halo"), row(&found, "rim"));
     // Each is needed in half of the rows.
@@ -98,7 +114,13 @@ fn absent_effects_cost_nothing() {
         let found = effects(dir, "lit.scn", &target);
         for name in &names {
             let row = row(&found, name);
-            for key in ["calls", "code_bytes", "table_bytes", "variable_bytes", "cycles"] {
+            for key in [
+                "calls",
+                "code_bytes",
+                "table_bytes",
+                "variable_bytes",
+                "cycles",
+            ] {
                 assert_eq!(row[key], 0, "{name} on {target}: {key}");
             }
             let digests = &row["digests"];
@@ -112,13 +134,29 @@ fn absent_effects_cost_nothing() {
 #[test]
 fn the_table_reads() {
     let dir = directory(&[("lit.scn", LIT)]);
-    let said = success(dir.path(), &["effects", "lit.scn", "--target", "6502:plain"]);
-    for word in ["halo", "rim", "never costs nothing: ", "fog (library)", "ran"] {
+    let said = success(
+        dir.path(),
+        &["effects", "lit.scn", "--target", "6502:plain"],
+    );
+    for word in [
+        "halo",
+        "rim",
+        "never costs nothing: ",
+        "fog (library)",
+        "ran",
+    ] {
         assert!(said.contains(word), "{word}\n{said}");
     }
     let out = slowlight(
         dir.path(),
-        &["effects", "lit.scn", "--target", "jack", "--without", "hallo"],
+        &[
+            "effects",
+            "lit.scn",
+            "--target",
+            "jack",
+            "--without",
+            "hallo",
+        ],
     );
     assert_eq!(out.status.code(), Some(2));
     let said = String::from_utf8_lossy(&out.stderr);
