@@ -92,7 +92,10 @@ fn what_is_not_needed_at_a_pixel_is_seen() {
     assert_eq!(halo["turns"]["limit"], 9);
     let mean = halo["turns"]["mean"].as_f64().expect("a mean");
     assert!((2.0..9.0).contains(&mean), "{mean}");
-    assert!(halo["own"]["cycles"].as_u64() > rim["own"]["cycles"].as_u64());
+    for row in [halo, rim] {
+        let own = row["own"]["cycles"].as_u64().expect("cycles");
+        assert!((1..found["run"]["cycles"].as_u64().expect("cycles")).contains(&own));
+    }
     let of = |row: &Value, key: &str| row["pixel_cycles_modelled"][key].as_u64().expect("cycles");
     assert!(of(halo, "p99") >= of(halo, "median"));
     assert!(of(rim, "p99") > 0);

@@ -82,12 +82,15 @@ fn and_so_it_has_where_the_plan_is_rewritten() {
     for target in targets(dir.path()) {
         held(dir.path(), "spot.scn", &target, &[]);
         held(dir.path(), "spot.scn", &target, &["--outlined"]);
-        held(
-            Path::new(examples),
-            "mirrors.scn",
-            &target,
-            &["--rows", "60..63"],
-        );
+        // Planning takes long for BASIC: once will do.
+        if !["bbc:agon", "bbc:basicv"].contains(&target.as_str()) {
+            held(
+                Path::new(examples),
+                "mirrors.scn",
+                &target,
+                &["--rows", "60..63"],
+            );
+        }
         held(
             Path::new(examples),
             "maze.scn",
@@ -127,15 +130,17 @@ fn lines_are_told_with_what_they_call() {
             "{target}: {}",
             rate(3)
         );
-        assert!(line(3)["executions"].as_u64() >= Some(128), "{target}");
+        // BASIC writes a value where it is read once.
+        let written = if target.starts_with("bbc") { 6 } else { 3 };
         assert!(
-            line(3)["cycles"].as_u64() > line(6)["cycles"].as_u64(),
+            line(written)["executions"].as_u64() >= Some(128),
             "{target}"
         );
+        assert!(line(written)["share"].as_f64() > Some(0.25), "{target}");
         // The sphere's root is the library's, on behalf of the line that asks for it.
         let library = line(5)["library"].to_string();
         assert!(library.contains(".scn:"), "{target}: {library}");
-        if target != "bbc:micro" && !target.starts_with("bbc") {
+        if written == 3 {
             assert!(sum(&line(3)["parts"], "times") >= 128, "{target}");
         }
     }
