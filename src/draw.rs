@@ -51,6 +51,17 @@ impl Window {
         self.rows.1 - self.rows.0 + 1
     }
 
+    /// Up to `side` rows of as many columns, spread evenly, row by row.
+    pub fn grid(&self, side: u32) -> Vec<(i32, i32)> {
+        let along = |(first, last): (u32, u32)| {
+            let count = last - first + 1;
+            let taken = count.min(side);
+            (0..taken).map(move |k| (first + (2 * k + 1) * count / (2 * taken)) as i32)
+        };
+        let row = |y| along(self.columns).map(move |x| (x, y));
+        along(self.rows).flat_map(row).collect()
+    }
+
     /// Where its pixels are, row by row.
     pub fn places(&self) -> impl Iterator<Item = (u32, u32)> + use<> {
         let (columns, rows) = (self.columns, self.rows);

@@ -193,6 +193,54 @@ impl Scene {
         })
     }
 
+    /// The same scene with an effect replaced by its `else`.
+    pub fn leaving_out(&self, effect: &str) -> Scene {
+        let mut options = self.options.clone();
+        options.without.push(effect.to_owned());
+        Scene {
+            name: self.name.clone(),
+            checked: self.checked.clone(),
+            options,
+        }
+    }
+
+    /// The same scene from texts in which the item at a place does not stand; none where
+    /// something needs it. Other items keep their places.
+    pub fn without_item(&self, at: Span) -> Option<Scene> {
+        let mut files = self.checked.sources.files.clone();
+        let text = &mut files.get_mut(usize::from(at.file))?.text;
+        let items = syntax::parse(text, at.file).0.items;
+        let item = items
+            .iter()
+            .map(|item| item.span.range())
+            .find(|range| range.contains(&(at.start as usize)))?;
+        let blank = |c: char| {
+            if c == '\n' {
+                "\n".to_owned()
+            } else {
+                " ".repeat(c.len_utf8())
+            }
+        };
+        let gone: String = text.get(item.clone())?.chars().map(blank).collect();
+        text.replace_range(item, &gone);
+        let (library, own): (Vec<SourceFile>, Vec<SourceFile>) =
+            files.into_iter().partition(|file| file.library);
+        let library: Vec<(String, String)> =
+            library.into_iter().map(|f| (f.name, f.text)).collect();
+        let first = own.first()?;
+        let mut read = |from: &str, path: &str| {
+            let (name, text) = used(from, path)?;
+            let known = own.iter().find(|file| file.name == name);
+            Ok((name, known.map_or(text, |file| file.text.clone())))
+        };
+        let checked = scene::load(&first.name, &first.text, Some(&library), &mut read);
+        checked.is_right().then(|| Scene {
+            name: self.name.clone(),
+            options: self.options.clone(),
+            checked,
+        })
+    }
+
     /// The image's columns and rows.
     pub fn size(&self) -> (u32, u32) {
         self.checked

@@ -279,6 +279,9 @@ impl ScreenArgs {
         plan.listing = self.style == Some(Style::Listing);
         plan.page = self.page;
         plan.statics = self.os == Some(Os::Jack);
+        // A listing has remarks before what comes from another line of the scene.
+        let draw = scene.checked.program.draw.as_ref();
+        plan.drawn = draw.map(|draw| draw.span).filter(|_| !plan.listing);
         if plan.listing {
             plan.items = items(&scene.checked.program);
         }

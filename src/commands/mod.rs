@@ -3,6 +3,8 @@
 mod build;
 mod check;
 mod compare;
+mod effects;
+mod explain;
 mod fmt;
 mod render;
 mod run;
@@ -26,6 +28,10 @@ pub enum Command {
     Run(run::Args),
     /// Run scenes on several targets: pictures side by side, one table
     Compare(compare::Args),
+    /// What each line of a scene costs on a machine
+    Explain(explain::Args),
+    /// What each effect of a scene and of the library costs, and what it adds
+    Effects(effects::Args),
     /// Keep generated code, digests and cycles beside a scene; fail where they change
     Snapshot(snapshot::Args),
     /// Format scenes in place
@@ -48,6 +54,8 @@ impl Command {
             Command::Build(args) => build::run(args),
             Command::Run(args) => run::run(args),
             Command::Compare(args) => compare::run(args),
+            Command::Explain(args) => explain::run(args),
+            Command::Effects(args) => effects::run(args),
             Command::Snapshot(args) => snapshot::run(args),
             Command::Fmt(args) => fmt::run(args),
             Command::Vm(args) => vm::run(args),

@@ -10,6 +10,8 @@ mod cli_params;
 mod cli_run;
 mod cli_snapshot;
 mod cli_wrong;
+mod effects;
+mod explain;
 mod fit;
 mod hack_rom;
 mod hard_cases;

@@ -21,6 +21,8 @@ const AT: Span = Span {
     file: 0,
     start: 0,
     end: 0,
+    within: None,
+    effect: None,
 };
 
 /// An int that is the same for a row and stays far within 31 bits.

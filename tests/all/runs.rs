@@ -20,6 +20,8 @@ const AT: Span = Span {
     file: 0,
     start: 0,
     end: 0,
+    within: None,
+    effect: None,
 };
 pub const HEIGHT: i32 = 3;
 

@@ -12,6 +12,8 @@ const AT: Span = Span {
     file: 0,
     start: 0,
     end: 0,
+    within: None,
+    effect: None,
 };
 
 struct Maker {

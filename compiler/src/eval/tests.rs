@@ -16,6 +16,8 @@ const AT: Span = Span {
     file: 0,
     start: 0,
     end: 0,
+    within: None,
+    effect: None,
 };
 
 type Vec3 = [NodeId; 3];

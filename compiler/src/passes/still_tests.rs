@@ -21,6 +21,8 @@ const AT: Span = Span {
     file: 0,
     start: 0,
     end: 0,
+    within: None,
+    effect: None,
 };
 const WIDTH: i32 = 71;
 const HEIGHT: i32 = 9;

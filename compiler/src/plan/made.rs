@@ -201,6 +201,7 @@ pub(super) fn assemble(
         listing: false,
         statics: false,
         items: Vec::new(),
+        drawn: None,
         lean: false,
         copies: false,
         brief: false,

@@ -136,6 +136,9 @@ pub struct Plan {
     /// Where the scene's items stand and what they are, in the order of the
     /// text: for listings.
     pub items: Vec<(Span, String)>,
+    /// The scene's `draw`, where the loops over rows and columns and the drawing are to
+    /// be told as lines of its own: in line maps.
+    pub drawn: Option<Span>,
     /// Whether to write it short, but not so short that it becomes slow to read
     /// for the machine: between neither and [`Plan::tight`].
     pub lean: bool,

@@ -61,6 +61,24 @@ pub struct Document {
     pub text: String,
     /// For each line, the place in the scene that it comes from, if any.
     pub lines: Vec<Option<Span>>,
+    /// Where statements of a line come from other places than its first: the line, from
+    /// which statement on (both counted from 0), and the place; in this order.
+    pub later: Vec<(usize, usize, Option<Span>)>,
+}
+
+impl Document {
+    /// The place in the scene that a statement of a line comes from, if any; both are
+    /// counted from 0.
+    pub fn span(&self, line: usize, statement: usize) -> Option<Span> {
+        let after = self
+            .later
+            .partition_point(|(l, s, _)| (*l, *s) <= (line, statement));
+        let before = after.checked_sub(1).and_then(|at| self.later.get(at));
+        match before {
+            Some((found, _, span)) if *found == line => *span,
+            _ => self.lines.get(line).copied().flatten(),
+        }
+    }
 }
 
 /// Every target.

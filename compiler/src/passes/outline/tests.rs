@@ -17,6 +17,8 @@ const AT: Span = Span {
     file: 0,
     start: 0,
     end: 0,
+    within: None,
+    effect: None,
 };
 
 /// Sizes with which everything that stands twice is worth a subroutine.

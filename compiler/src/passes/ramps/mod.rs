@@ -267,6 +267,8 @@ mod tests {
         file: 0,
         start: 0,
         end: 0,
+        within: None,
+        effect: None,
     };
 
     fn line(b: &mut Builder, random: &mut Random, axis: Axis) -> NodeId {

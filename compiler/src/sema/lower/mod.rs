@@ -107,6 +107,8 @@ struct Lower<'a> {
     locals: &'a [Local],
     /// Where the scene calls into the library, while inside it.
     place: Option<Span>,
+    /// The effect that is being expanded, the innermost, by its number.
+    effect: Option<u16>,
     image: Image,
     params: Vec<Val>,
     consts: HashMap<ConstId, Val>,
@@ -175,6 +177,7 @@ impl<'a> Lower<'a> {
             frame: Vec::new(),
             locals: &[],
             place: None,
+            effect: None,
             image: Image {
                 width: image.width,
                 height: image.height,
@@ -267,7 +270,16 @@ impl<'a> Lower<'a> {
     /// Where a node or message belongs: the scene's own line that called into
     /// the library.
     fn at(&self, span: Span) -> Span {
-        self.place.unwrap_or(span)
+        let here = match self.place {
+            // What is derived for a library's shape has its caller's span already.
+            Some(place) if place == span => place,
+            Some(place) => place.calling(span),
+            None => span,
+        };
+        Span {
+            effect: self.effect,
+            ..here
+        }
     }
 
     fn error(&self, span: Span, message: impl Into<String>) -> Diagnostic {

@@ -178,7 +178,8 @@ fn scene(
         ));
     }
     for part in all {
-        text.span = None;
+        // Its first and last line are a part of it.
+        text.span = part.body.iter().find_map(|line| line.span);
         text.line("");
         if !part.about.is_empty() {
             text.line(format!("/** {} */", part.about));
@@ -313,6 +314,7 @@ fn drawing(code: &mut Code) -> Vec<Subroutine> {
         picture.line("do takeParameters();");
     }
     picture.append(frame);
+    picture.span = plan.drawn;
     let canvas = code.names.canvas.clone();
     if plan.plot && canvas.is_none() {
         picture.line("do Screen.setColor(true);");
@@ -329,7 +331,10 @@ fn drawing(code: &mut Code) -> Vec<Subroutine> {
     picture.close("}");
     let told = reports(code, &mut picture);
 
-    let mut across = Text::default();
+    let mut across = Text {
+        span: plan.drawn,
+        ..Text::default()
+    };
     across.append(row);
     let columns = plan.computed_columns();
     if let Some(canvas) = &canvas {
@@ -344,12 +349,15 @@ fn drawing(code: &mut Code) -> Vec<Subroutine> {
         canvas.end(&mut across);
     }
 
-    let mut dot = Text::default();
+    let mut dot = Text {
+        span: plan.drawn,
+        ..Text::default()
+    };
     if let Some(spread) = &spread {
         spread.receive(code, &x, &mut dot);
     }
     dot.append(pixel);
-    dot.span = Some(plan.graph.span(plan.graph.ink));
+    dot.span = plan.drawn.or(Some(plan.graph.span(plan.graph.ink)));
     if let Some(canvas) = &canvas {
         canvas.pixel(&black(&ink.at(TERM), &[]), &mut dot);
     } else if plan.plot {

@@ -59,6 +59,7 @@ impl<'p> Code<'p> {
     }
 
     fn statement(&mut self, statement: &Statement) {
+        self.text.span = Some(statement.span(&self.plan.graph, &self.plan.tree));
         match statement {
             Statement::Let(id) => self.compute(*id),
             Statement::Set { place, from } => {

@@ -153,7 +153,7 @@ fn main(plan: &Plan, homes: &Homes, parts: &[&'static Part], text: &mut Text) ->
         code.text.headline("once a picture");
         code.block(&plan.tree.frame);
     }
-    code.text.span = None;
+    code.text.span = plan.drawn;
     let [x, y] = [Axis::X, Axis::Y].map(|axis| homes.name(Slot::Axis(axis)).to_owned());
     let [first, last] = [false, true].map(|end| homes.name(Slot::Rows(end)).to_owned());
     // Errors come from the rows above, drawn or not.
@@ -180,7 +180,7 @@ fn main(plan: &Plan, homes: &Homes, parts: &[&'static Part], text: &mut Text) ->
     let columns = plan.computed_columns();
     code.copy_to(&Operand::Constant(u64::from(columns.0)), &x);
     code.block(&plan.tree.row);
-    code.text.span = None;
+    code.text.span = plan.drawn;
 
     code.text.headline("once a pixel");
     code.text.label("next_pixel");
@@ -188,7 +188,7 @@ fn main(plan: &Plan, homes: &Homes, parts: &[&'static Part], text: &mut Text) ->
         code.receive_errors(rows);
     }
     code.block(&plan.tree.pixel);
-    code.text.span = None;
+    code.text.span = plan.drawn;
     if plan.plot {
         let ink = write::byte(&homes.operand(plan, plan.graph.ink), 0);
         if errors.is_some() {
@@ -224,6 +224,7 @@ fn main(plan: &Plan, homes: &Homes, parts: &[&'static Part], text: &mut Text) ->
     text.code(&format!("inc {y} | bne more_rows | inc {y}+1"));
     text.label("more_rows");
     text.code("jmp next_row");
+    text.span = None;
     text.label("picture_done");
     reports(plan, homes, text);
     text.code("lda #0 | sta exit_port");

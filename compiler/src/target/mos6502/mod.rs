@@ -84,6 +84,7 @@ pub fn document(plan: &Plan, syntax: &Syntax) -> Document {
         name: format!("{}.asm", plan.name),
         text: written,
         lines,
+        later: Vec::new(),
     }
 }
 

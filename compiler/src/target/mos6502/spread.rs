@@ -87,7 +87,7 @@ impl Code<'_> {
             self.text.code(&format!("ldy #{at}"));
             self.each_byte(&format!("lda prod | sta ({row}),y"));
         }
-        self.text.span = None;
+        self.text.span = self.plan.drawn;
         for k in 0..rows.rows {
             let name = pointer(self.homes, k);
             self.text.code(&format!(
