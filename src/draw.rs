@@ -33,11 +33,21 @@ impl Window {
         }
     }
 
-    /// What a plan draws.
+    /// What a plan computes: of a picture of blocks, the blocks.
     pub fn of(plan: &Plan) -> Window {
         Window {
             columns: plan.columns,
             rows: plan.rows,
+        }
+    }
+
+    /// What a plan draws, in pixels.
+    pub fn on_screen(plan: &Plan) -> Window {
+        let (wide, high) = plan.graph.image.block;
+        let pixels = |(first, last): (u32, u32), size: u32| (first * size, (last + 1) * size - 1);
+        Window {
+            columns: pixels(plan.columns, wide),
+            rows: pixels(plan.rows, high),
         }
     }
 
@@ -129,7 +139,6 @@ pub fn native(graph: &Graph, window: Window) -> Outcome<Drawn> {
 /// # Errors
 /// Only an interruption.
 pub fn model(plan: &Plan) -> Outcome<Drawn> {
-    let window = Window::of(plan);
     let mut pixels = modelled("model", plan)?;
     if let Some(shaded) = plan.shaded() {
         for (pixel, other) in pixels.iter_mut().zip(modelled("shades", &shaded)?) {
@@ -137,10 +146,26 @@ pub fn model(plan: &Plan) -> Outcome<Drawn> {
         }
     }
     Ok(Drawn {
-        window,
+        window: Window::on_screen(plan),
         palette: plan.graph.image.palette.clone(),
-        pixels,
+        pixels: enlarged(pixels, Window::of(plan).width(), plan.graph.image.block),
     })
+}
+
+/// Each pixel of a picture so wide as a block of pixels.
+fn enlarged(pixels: Vec<Pixel>, width: u32, (wide, high): (u32, u32)) -> Vec<Pixel> {
+    if (wide, high) == (1, 1) {
+        return pixels;
+    }
+    let mut out = Vec::with_capacity(pixels.len() * (wide * high) as usize);
+    for row in pixels.chunks(width.max(1) as usize) {
+        let line: Vec<Pixel> = row
+            .iter()
+            .flat_map(|pixel| std::iter::repeat_n(*pixel, wide as usize))
+            .collect();
+        (0..high).for_each(|_| out.extend_from_slice(&line));
+    }
+    out
 }
 
 fn modelled(what: &'static str, plan: &Plan) -> Outcome<Vec<Pixel>> {

@@ -96,7 +96,7 @@ pub fn run(
     mut loaded: Loaded,
     limit: u64,
 ) -> Outcome<Trial> {
-    let window = Window::of(&plan);
+    let window = Window::on_screen(&plan);
     let progress = Progress::new(
         format!("{} {}", scene.name, plan.target.name),
         u64::from(window.height()),
@@ -173,7 +173,7 @@ fn shown(plan: &Plan, run: &MachineRun) -> Outcome<Picture> {
     let Some(screen) = &run.screen else {
         return Err(Failure::Wrong(format!("{name}: the program drew nothing")));
     };
-    let window = Window::of(plan);
+    let window = Window::on_screen(plan);
     let mut inks = Vec::with_capacity((window.width() * window.height()) as usize);
     for (x, y) in window.places() {
         let column = i64::from(x) + i64::from(plan.offset.0);
