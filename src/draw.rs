@@ -11,6 +11,7 @@ use slowlight_compiler::eval::native::{Native, Pixel};
 use slowlight_compiler::flow::graph::Graph;
 use slowlight_compiler::plan::Plan;
 use std::ops::Range;
+use std::sync::atomic::{AtomicU64, Ordering};
 
 /// Stack of a thread that compiles or evaluates, in bytes: deep scenes recurse.
 pub const STACK: usize = 256 << 20;
@@ -43,11 +44,15 @@ impl Window {
 
     /// What a plan draws, in pixels.
     pub fn on_screen(plan: &Plan) -> Window {
-        let (wide, high) = plan.graph.image.block;
+        Window::of(plan).times(plan.graph.image.block)
+    }
+
+    /// A window of blocks in pixels.
+    pub fn times(self, (wide, high): (u32, u32)) -> Window {
         let pixels = |(first, last): (u32, u32), size: u32| (first * size, (last + 1) * size - 1);
         Window {
-            columns: pixels(plan.columns, wide),
-            rows: pixels(plan.rows, high),
+            columns: pixels(self.columns, wide),
+            rows: pixels(self.rows, high),
         }
     }
 
@@ -122,15 +127,33 @@ pub fn set_up_threads() {
 /// # Errors
 /// Only an interruption.
 pub fn native(graph: &Graph, window: Window) -> Outcome<Drawn> {
+    Ok(native_counted(graph, window)?.0)
+}
+
+/// The same, and how many operations it took. A window of a picture of blocks is of
+/// blocks; its picture has all their pixels.
+///
+/// # Errors
+/// Only an interruption.
+pub fn native_counted(graph: &Graph, window: Window) -> Outcome<(Drawn, u64)> {
+    let operations = AtomicU64::new(0);
+    let counted = &operations;
     let pixels = rows("native picture", graph, window, || {
         let mut native = Native::new(graph);
-        move |columns, y, out| native.pixels(columns, y, out)
+        let mut before = 0;
+        move |columns, y, out| {
+            native.pixels(columns, y, out);
+            counted.fetch_add(native.operations() - before, Ordering::Relaxed);
+            before = native.operations();
+        }
     })?;
-    Ok(Drawn {
-        window,
+    let block = graph.image.block;
+    let drawn = Drawn {
+        window: window.times(block),
         palette: graph.image.palette.clone(),
-        pixels,
-    })
+        pixels: enlarged(pixels, window.width(), block),
+    };
+    Ok((drawn, operations.into_inner()))
 }
 
 /// The picture of a plan in its routines' models; the shades are computed for

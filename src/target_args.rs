@@ -131,7 +131,12 @@ pub fn page(text: &str) -> Result<u16, String> {
 /// Where it is no size of a block.
 pub fn block(text: &str) -> Result<(u32, u32), String> {
     let (wide, high) = text.split_once('x').unwrap_or((text, text));
-    let number = |t: &str| t.trim().parse().ok().filter(|n| (1..=MOST_IN_BLOCK).contains(n));
+    let number = |t: &str| {
+        t.trim()
+            .parse()
+            .ok()
+            .filter(|n| (1..=MOST_IN_BLOCK).contains(n))
+    };
     match (number(wide), number(high)) {
         (Some(wide), Some(high)) => Ok((wide, high)),
         _ => Err(format!(

@@ -8,6 +8,7 @@ mod render;
 mod run;
 mod snapshot;
 mod targets;
+mod tune;
 mod vm;
 
 use crate::failure::Outcome;
@@ -26,6 +27,8 @@ pub enum Command {
     Run(run::Args),
     /// Run scenes on several targets: pictures side by side, one table
     Compare(compare::Args),
+    /// Show what accuracy costs in time: measured cycles against error, to choose from
+    Tune(tune::Args),
     /// Keep generated code, digests and cycles beside a scene; fail where they change
     Snapshot(snapshot::Args),
     /// Format scenes in place
@@ -48,6 +51,7 @@ impl Command {
             Command::Build(args) => build::run(args),
             Command::Run(args) => run::run(args),
             Command::Compare(args) => compare::run(args),
+            Command::Tune(args) => tune::run(args),
             Command::Snapshot(args) => snapshot::run(args),
             Command::Fmt(args) => fmt::run(args),
             Command::Vm(args) => vm::run(args),

@@ -94,7 +94,8 @@ impl Coarse<'_> {
         Some(match (self.graph.node(id), moved) {
             (Node::Axis(axis), _) => b.axis(axis, span),
             (Node::Apply(op, args), _) => {
-                let args: Option<Vec<NodeId>> = args[..op.arity()].iter().map(|a| seen(*a)).collect();
+                let args: Option<Vec<NodeId>> =
+                    args[..op.arity()].iter().map(|a| seen(*a)).collect();
                 b.apply(op, &args?, span)
             }
             (Node::Select { cond, yes, no }, _) => {

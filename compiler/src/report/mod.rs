@@ -7,6 +7,7 @@ mod bounces_tests;
 pub mod bounded;
 pub mod domain;
 pub mod fragile;
+pub mod frontier;
 mod shadow;
 #[cfg(test)]
 mod tests;

@@ -53,7 +53,9 @@ impl Blocks {
         let (wide, high) = (self.size.0 & 0xFF, self.size.1 & 0xFF);
         text.code("ldx #0");
         text.label("block_line");
-        text.code(&format!("lda {left} | sta x_port | lda {left}+1 | sta x_port+1"));
+        text.code(&format!(
+            "lda {left} | sta x_port | lda {left}+1 | sta x_port+1"
+        ));
         text.code(&format!("clc | txa | adc {top} | sta y_port"));
         text.code(&format!("lda {top}+1 | adc #0 | sta y_port+1"));
         text.code(&format!("lda {ink} | ldy #{wide}"));

@@ -1,0 +1,90 @@
+//! What was measured before, in the user's cache directory: a second run is instant.
+//!
+//! A point is a pure function of the program, the scene's texts and the options, so its
+//! file is named by their digest. The program is known by its own file: any other build
+//! measures anew. Files are written whole or not at all; what cannot be read is measured.
+
+use super::choice::{Base, Choice};
+use super::point::Point;
+use crate::files;
+use crate::scene::Scene;
+use sha2::{Digest, Sha256};
+use std::path::{Path, PathBuf};
+
+/// How large a file is read at most: a point has two pictures.
+const MOST: usize = 64 << 20;
+
+/// Where points are kept; nowhere if there is no directory.
+pub struct Cache {
+    dir: Option<PathBuf>,
+    program: Vec<u8>,
+}
+
+impl Cache {
+    /// No cache.
+    pub fn none() -> Cache {
+        Cache {
+            dir: None,
+            program: Vec::new(),
+        }
+    }
+
+    /// The user's; none where there is no such directory, or the program cannot read itself.
+    pub fn of_user() -> Cache {
+        let program = std::env::current_exe().and_then(std::fs::read);
+        let (Some(dir), Ok(program)) = (dirs::cache_dir(), program) else {
+            return Cache::none();
+        };
+        Cache {
+            dir: Some(dir.join("slowlight").join("tune")),
+            program: Sha256::digest(program).to_vec(),
+        }
+    }
+
+    fn file(&self, scene: &Scene, base: &Base, choice: &Choice) -> Option<PathBuf> {
+        let mut digest = Sha256::new();
+        let mut add = |bytes: &[u8]| {
+            digest.update((bytes.len() as u64).to_le_bytes());
+            digest.update(bytes);
+        };
+        add(&self.program);
+        add(base.target.name.as_bytes());
+        add(scene.name.as_bytes());
+        for file in &scene.checked.sources.files {
+            add(file.text.as_bytes());
+        }
+        for word in base.words(choice) {
+            add(word.as_bytes());
+        }
+        let digest: String = digest
+            .finalize()
+            .iter()
+            .map(|b| format!("{b:02x}"))
+            .collect();
+        Some(self.dir.as_ref()?.join(format!("{digest}.json")))
+    }
+
+    /// What is known of a choice.
+    pub fn get(
+        &self,
+        scene: &Scene,
+        base: &Base,
+        choice: &Choice,
+    ) -> Option<Result<Point, String>> {
+        let path = self.file(scene, base, choice)?;
+        let text = files::read_bounded(&path, MOST).ok()?;
+        serde_json::from_slice(&text).ok()
+    }
+
+    /// Keeps what is known of a choice. That it cannot be kept costs time, later, and no more.
+    pub fn put(&self, scene: &Scene, base: &Base, choice: &Choice, tried: &Result<Point, String>) {
+        let Some(path) = self.file(scene, base, choice) else {
+            return;
+        };
+        let parent = path.parent().unwrap_or(Path::new("."));
+        let text = serde_json::to_vec(tried);
+        if let (Ok(()), Ok(text)) = (std::fs::create_dir_all(parent), text) {
+            let _ = files::write(&path, &text);
+        }
+    }
+}

@@ -1,0 +1,139 @@
+//! The search: which choices are tried, in which order, and what is kept.
+
+use super::cache::Cache;
+use super::choice::{Base, Choice, Setting};
+use super::point::{Natives, Point, measure};
+use super::settings::worthwhile;
+use crate::failure::{Failure, Outcome};
+use crate::jobs;
+use crate::measure::Errors;
+use crate::progress::Progress;
+use crate::scene::Scene;
+use slowlight_compiler::target;
+use std::sync::{Arc, Mutex};
+
+/// What is tuned and how.
+pub struct Search {
+    /// What stays as the user has it.
+    pub base: Base,
+    /// The error that decides.
+    pub error: fn(&Errors) -> f64,
+    /// Whether params must stay changeable.
+    pub live: bool,
+    /// How many settings go to the machines.
+    pub settings: usize,
+    /// Cycles after which a machine is given up.
+    pub limit: u64,
+    /// What is known from before.
+    pub cache: Cache,
+}
+
+/// What was found so far.
+#[derive(Clone, Debug, Default)]
+pub struct Found {
+    /// Choices that were run whole.
+    pub points: Vec<Point>,
+    /// Choices that cannot be had, and why.
+    pub failed: Vec<(Choice, String)>,
+    /// How many choices there were.
+    pub tried: usize,
+}
+
+/// The scene with its params changeable, and folded.
+struct Scenes {
+    live: Scene,
+    frozen: Scene,
+}
+
+impl Scenes {
+    fn of(&self, choice: &Choice) -> &Scene {
+        match choice.frozen {
+            true => &self.frozen,
+            false => &self.live,
+        }
+    }
+}
+
+/// Searches; what is found goes to `found` as it is found, so that it can be told
+/// whenever the user has had enough.
+///
+/// # Errors
+/// Where the scene is wrong, or the user interrupts: what was found until then stays.
+pub fn explore(search: &Search, found: &Arc<Mutex<Found>>) -> Outcome<()> {
+    let base = &search.base;
+    let live = Scene::open(&base.path, &base.changes)?;
+    live.warn();
+    let frozen = Scene::open(&base.path, &base.changes(true))?;
+    let scenes = Scenes { live, frozen };
+    let natives = Natives::default();
+    let inks = base.screen.mode(base.target, scenes.live.size())?.inks;
+    let error = &search.error;
+    let settings = worthwhile(&scenes.live, &natives, inks, error, search.settings)?;
+    let choices = choices(search, &scenes, &settings);
+    note(found, |f| f.tried = choices.len());
+    let progress = Progress::new("choices", choices.len() as u64);
+    let each = jobs::each(&choices, |choice| {
+        let scene = scenes.of(choice);
+        let tried = match search.cache.get(scene, base, choice) {
+            Some(known) => known,
+            None => {
+                let tried = tried(search, scene, &natives, choice)?;
+                search.cache.put(scene, base, choice, &tried);
+                tried
+            }
+        };
+        progress.step(1);
+        note(found, |f| match tried {
+            Ok(point) => f.points.push(point),
+            Err(why) => f.failed.push((choice.clone(), why)),
+        });
+        Ok(())
+    })?;
+    // What cannot be had is told; all else ends the search.
+    each.into_iter().collect::<Outcome<Vec<()>>>()?;
+    Ok(())
+}
+
+fn note(found: &Mutex<Found>, write: impl FnOnce(&mut Found)) {
+    if let Ok(mut found) = found.lock() {
+        write(&mut found);
+    }
+}
+
+/// All formats and settings, with params changeable and folded.
+fn choices(search: &Search, scenes: &Scenes, settings: &[Setting]) -> Vec<Choice> {
+    let has_params = !scenes.live.checked.program.params.is_empty();
+    let frozen: &[bool] = match has_params && !search.live {
+        true => &[false, true],
+        false => &[false],
+    };
+    let mut all = Vec::new();
+    for &setting in settings {
+        for target in target::formats(search.base.target) {
+            for &frozen in frozen {
+                all.push(Choice {
+                    setting,
+                    format: target.runtime.format.to_owned(),
+                    frozen,
+                });
+            }
+        }
+    }
+    all
+}
+
+/// A choice's point, or why it cannot be had.
+type Tried = Result<Point, String>;
+
+fn tried(search: &Search, scene: &Scene, natives: &Natives, choice: &Choice) -> Outcome<Tried> {
+    let base = &search.base;
+    let point = base
+        .screen(choice)
+        .plan(scene, base.target, &[])
+        .and_then(|plan| measure(base, scene, natives, choice, plan, search.limit));
+    match point {
+        Ok(point) => Ok(Ok(point)),
+        Err(Failure::Interrupted) => Err(Failure::Interrupted),
+        Err(other) => Ok(Err(other.reason())),
+    }
+}
