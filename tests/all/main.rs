@@ -40,6 +40,7 @@ mod spread;
 mod stress;
 mod syntaxes;
 mod torus;
+mod tune;
 mod whole;
 mod written;
 mod wrong;
