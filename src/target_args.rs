@@ -57,7 +57,7 @@ pub struct ScreenArgs {
     #[arg(long)]
     pub as_written: bool,
     /// With subroutines for what the program has several times, also where it fits without
-    #[arg(long, hide = true)]
+    #[arg(long)]
     pub outlined: bool,
 }
 

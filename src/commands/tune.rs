@@ -85,8 +85,9 @@ pub fn run(args: &Args) -> Outcome<()> {
     let found = Arc::new(Mutex::new(Found::default()));
     let search = Search {
         base: base.clone(),
-        error: args.measure.function(),
+        measure: args.measure,
         live: args.live,
+        outlined: args.memory.is_some(),
         settings: usize::from(args.settings),
         limit: args.limit,
         cache: match args.no_cache {

@@ -4,11 +4,13 @@
 //! file is named by their digest. The program is known by its own file: any other build
 //! measures anew. Files are written whole or not at all; what cannot be read is measured.
 
-use super::choice::{Base, Choice};
-use super::point::Point;
+use crate::failure::Outcome;
 use crate::files;
 use crate::scene::Scene;
+use serde::Serialize;
+use serde::de::DeserializeOwned;
 use sha2::{Digest, Sha256};
+use slowlight_compiler::target::Target;
 use std::path::{Path, PathBuf};
 
 /// How large a file is read at most: a point has two pictures.
@@ -41,50 +43,52 @@ impl Cache {
         }
     }
 
-    fn file(&self, scene: &Scene, base: &Base, choice: &Choice) -> Option<PathBuf> {
+    /// The file of what some words ask of a scene on a machine.
+    fn file(&self, scene: &Scene, target: &Target, words: &[String]) -> Option<PathBuf> {
         let mut digest = Sha256::new();
         let mut add = |bytes: &[u8]| {
             digest.update((bytes.len() as u64).to_le_bytes());
             digest.update(bytes);
         };
         add(&self.program);
-        add(base.target.name.as_bytes());
+        add(target.name.as_bytes());
         add(scene.name.as_bytes());
         for file in &scene.checked.sources.files {
             add(file.text.as_bytes());
         }
-        for word in base.words(choice) {
+        for word in words {
             add(word.as_bytes());
         }
-        let digest: String = digest
-            .finalize()
-            .iter()
-            .map(|b| format!("{b:02x}"))
-            .collect();
+        let digest = digest.finalize();
+        let digest: String = digest.iter().map(|b| format!("{b:02x}")).collect();
         Some(self.dir.as_ref()?.join(format!("{digest}.json")))
     }
 
-    /// What is known of a choice.
-    pub fn get(
+    /// What is known, or else what the work finds, which is then kept. That it cannot be
+    /// kept costs time, later, and no more.
+    ///
+    /// # Errors
+    /// What the work says.
+    pub fn known_or<T: Serialize + DeserializeOwned>(
         &self,
         scene: &Scene,
-        base: &Base,
-        choice: &Choice,
-    ) -> Option<Result<Point, String>> {
-        let path = self.file(scene, base, choice)?;
-        let text = files::read_bounded(&path, MOST).ok()?;
-        serde_json::from_slice(&text).ok()
-    }
-
-    /// Keeps what is known of a choice. That it cannot be kept costs time, later, and no more.
-    pub fn put(&self, scene: &Scene, base: &Base, choice: &Choice, tried: &Result<Point, String>) {
-        let Some(path) = self.file(scene, base, choice) else {
-            return;
+        target: &Target,
+        words: &[String],
+        work: impl FnOnce() -> Outcome<T>,
+    ) -> Outcome<T> {
+        let Some(path) = self.file(scene, target, words) else {
+            return work();
         };
+        let text = files::read_bounded(&path, MOST).ok();
+        if let Some(known) = text.and_then(|text| serde_json::from_slice(&text).ok()) {
+            return Ok(known);
+        }
+        let found = work()?;
         let parent = path.parent().unwrap_or(Path::new("."));
-        let text = serde_json::to_vec(tried);
+        let text = serde_json::to_vec(&found);
         if let (Ok(()), Ok(text)) = (std::fs::create_dir_all(parent), text) {
             let _ = files::write(&path, &text);
         }
+        Ok(found)
     }
 }

@@ -35,6 +35,8 @@ pub struct Choice {
     pub format: String,
     /// Whether all params are folded.
     pub frozen: bool,
+    /// Whether it has subroutines where it would fit without.
+    pub outlined: bool,
 }
 
 /// What is tuned, and what stays as the user has it.
@@ -91,6 +93,9 @@ impl Base {
         if self.screen.os == Some(Os::Jack) {
             add("--os", "jack".to_owned());
         }
+        if choice.outlined {
+            words.push("--outlined".to_owned());
+        }
         words
     }
 
@@ -110,6 +115,7 @@ impl Base {
             block: Some(choice.setting.block),
             max_turns: choice.setting.max_turns,
             max_steps: choice.setting.max_steps,
+            outlined: choice.outlined,
             ..self.screen.clone()
         }
     }
@@ -153,6 +159,7 @@ mod tests {
             setting: Setting::WHOLE,
             format: "f316".to_owned(),
             frozen: false,
+            outlined: false,
         };
         assert!(base().words(&choice).is_empty());
         let command = base().command(&choice, "run");
@@ -169,9 +176,11 @@ mod tests {
             },
             format: "log10".to_owned(),
             frozen: true,
+            outlined: true,
         };
         let words = base().words(&choice).join(" ");
-        let wanted = "--format log10 --freeze all --block 4x2 --max-turns 3 --max-steps 8";
+        let wanted =
+            "--format log10 --freeze all --block 4x2 --max-turns 3 --max-steps 8 --outlined";
         assert_eq!(words, wanted);
     }
 }

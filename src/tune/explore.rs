@@ -2,6 +2,7 @@
 
 use super::cache::Cache;
 use super::choice::{Base, Choice, Setting};
+use super::goal::Measure;
 use super::point::{Natives, Point, measure};
 use super::settings::worthwhile;
 use crate::failure::{Failure, Outcome};
@@ -17,9 +18,12 @@ pub struct Search {
     /// What stays as the user has it.
     pub base: Base,
     /// The error that decides.
-    pub error: fn(&Errors) -> f64,
+    pub measure: Measure,
     /// Whether params must stay changeable.
     pub live: bool,
+    /// Whether to try subroutines for what a program has several times, where it fits
+    /// without, too.
+    pub outlined: bool,
     /// How many settings go to the machines.
     pub settings: usize,
     /// Cycles after which a machine is given up.
@@ -67,21 +71,25 @@ pub fn explore(search: &Search, found: &Arc<Mutex<Found>>) -> Outcome<()> {
     let scenes = Scenes { live, frozen };
     let natives = Natives::default();
     let inks = base.screen.mode(base.target, scenes.live.size())?.inks;
-    let error = &search.error;
-    let settings = worthwhile(&scenes.live, &natives, inks, error, search.settings)?;
+    let measure = search.measure;
+    let error = |errors: &Errors| measure.of(errors);
+    let asked = [
+        "settings",
+        &format!("{measure:?} {inks} {}", search.settings),
+    ];
+    let mut words = asked.map(str::to_owned).to_vec();
+    words.push(base.changes.text());
+    let work = || worthwhile(&scenes.live, &natives, inks, &error, search.settings);
+    let settings: Vec<Setting> =
+        (search.cache).known_or(&scenes.live, base.target, &words, work)?;
     let choices = choices(search, &scenes, &settings);
     note(found, |f| f.tried = choices.len());
     let progress = Progress::new("choices", choices.len() as u64);
     let each = jobs::each(&choices, |choice| {
         let scene = scenes.of(choice);
-        let tried = match search.cache.get(scene, base, choice) {
-            Some(known) => known,
-            None => {
-                let tried = tried(search, scene, &natives, choice)?;
-                search.cache.put(scene, base, choice, &tried);
-                tried
-            }
-        };
+        let words = base.words(choice);
+        let work = || tried(search, scene, &natives, choice);
+        let tried: Tried = search.cache.known_or(scene, base.target, &words, work)?;
         progress.step(1);
         note(found, |f| match tried {
             Ok(point) => f.points.push(point),
@@ -107,15 +115,22 @@ fn choices(search: &Search, scenes: &Scenes, settings: &[Setting]) -> Vec<Choice
         true => &[false, true],
         false => &[false],
     };
+    let outlined: &[bool] = match search.outlined {
+        true => &[false, true],
+        false => &[false],
+    };
     let mut all = Vec::new();
     for &setting in settings {
         for target in target::formats(search.base.target) {
             for &frozen in frozen {
-                all.push(Choice {
-                    setting,
-                    format: target.runtime.format.to_owned(),
-                    frozen,
-                });
+                for &outlined in outlined {
+                    all.push(Choice {
+                        setting,
+                        format: target.runtime.format.to_owned(),
+                        frozen,
+                        outlined,
+                    });
+                }
             }
         }
     }

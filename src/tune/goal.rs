@@ -30,15 +30,6 @@ impl Measure {
         }
     }
 
-    /// The function that gives it.
-    pub fn function(self) -> fn(&Errors) -> f64 {
-        match self {
-            Measure::Pixels => |e| Measure::Pixels.of(e),
-            Measure::Rmse => |e| Measure::Rmse.of(e),
-            Measure::Lowpass => |e| Measure::Lowpass.of(e),
-        }
-    }
-
     /// What it is, for an axis.
     pub fn caption(self) -> &'static str {
         match self {

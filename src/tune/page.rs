@@ -185,6 +185,11 @@ fn in_words(told: &Told<'_>, point: &Point) -> Vec<String> {
         (1, 1) => "Every pixel is traced by itself.".to_owned(),
         (wide, high) => format!("One ray is traced for a block of {wide} x {high} pixels."),
     });
+    if choice.outlined {
+        words.push(
+            "What the program has several times is a subroutine: smaller and slower.".to_owned(),
+        );
+    }
     if let Some(most) = choice.setting.max_turns {
         words.push(format!(
             "The scene's loops (bounces, say) end after {most} turns."

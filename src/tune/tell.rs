@@ -205,6 +205,7 @@ impl<'a> Told<'a> {
             "format": choice.format,
             "frozen": choice.frozen,
             "block": choice.setting.block,
+            "outlined": choice.outlined,
             "max_turns": choice.setting.max_turns,
             "max_steps": choice.setting.max_steps,
             "mode": at.mode,

@@ -301,6 +301,7 @@ fn planted(block: u32, cycles: u64, pixels: u64) -> Point {
             },
             format: "f316".to_owned(),
             frozen: false,
+            outlined: false,
         },
         measured: Measured {
             mode: String::new(),
