@@ -11,24 +11,21 @@ use serde::Serialize;
 use serde::de::DeserializeOwned;
 use sha2::{Digest, Sha256};
 use slowlight_compiler::target::Target;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 /// How large a file is read at most: a point has two pictures.
 const MOST: usize = 64 << 20;
 
 /// Where points are kept; nowhere if there is no directory.
 pub struct Cache {
+    /// The directory of this program's points.
     dir: Option<PathBuf>,
-    program: Vec<u8>,
 }
 
 impl Cache {
     /// No cache.
     pub fn none() -> Cache {
-        Cache {
-            dir: None,
-            program: Vec::new(),
-        }
+        Cache { dir: None }
     }
 
     /// The user's; none where there is no such directory, or the program cannot read itself.
@@ -37,9 +34,9 @@ impl Cache {
         let (Some(dir), Ok(program)) = (dirs::cache_dir(), program) else {
             return Cache::none();
         };
+        let own = hexadecimal(&Sha256::digest(program));
         Cache {
-            dir: Some(dir.join("slowlight").join("tune")),
-            program: Sha256::digest(program).to_vec(),
+            dir: Some(dir.join("slowlight").join("tune").join(own)),
         }
     }
 
@@ -50,7 +47,6 @@ impl Cache {
             digest.update((bytes.len() as u64).to_le_bytes());
             digest.update(bytes);
         };
-        add(&self.program);
         add(target.name.as_bytes());
         add(scene.name.as_bytes());
         for file in &scene.checked.sources.files {
@@ -59,9 +55,8 @@ impl Cache {
         for word in words {
             add(word.as_bytes());
         }
-        let digest = digest.finalize();
-        let digest: String = digest.iter().map(|b| format!("{b:02x}")).collect();
-        Some(self.dir.as_ref()?.join(format!("{digest}.json")))
+        let name = hexadecimal(&digest.finalize());
+        Some(self.dir.as_ref()?.join(format!("{name}.json")))
     }
 
     /// What is known, or else what the work finds, which is then kept. That it cannot be
@@ -84,11 +79,30 @@ impl Cache {
             return Ok(known);
         }
         let found = work()?;
-        let parent = path.parent().unwrap_or(Path::new("."));
-        let text = serde_json::to_vec(&found);
-        if let (Ok(()), Ok(text)) = (std::fs::create_dir_all(parent), text) {
+        self.make_room();
+        if let Ok(text) = serde_json::to_vec(&found) {
             let _ = files::write(&path, &text);
         }
         Ok(found)
     }
+
+    /// Makes the directory, and removes those of other programs: what an older build has
+    /// kept would never be read again.
+    fn make_room(&self) {
+        let Some(dir) = self.dir.as_ref().filter(|dir| !dir.exists()) else {
+            return;
+        };
+        let all = dir.parent().map(std::fs::read_dir);
+        let others = all.and_then(Result::ok).into_iter().flatten().flatten();
+        for other in others {
+            if other.path() != *dir {
+                let _ = std::fs::remove_dir_all(other.path());
+            }
+        }
+        let _ = std::fs::create_dir_all(dir);
+    }
+}
+
+fn hexadecimal(bytes: &[u8]) -> String {
+    bytes.iter().map(|b| format!("{b:02x}")).collect()
 }
