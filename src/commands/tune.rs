@@ -106,7 +106,9 @@ pub fn run(args: &Args) -> Outcome<()> {
     }
     let searched = explore(&search, &found);
     interrupt::quietly();
-    let found = found.lock().map(|f| f.clone()).unwrap_or_default();
+    let mut found = found.lock().map(|f| f.clone()).unwrap_or_default();
+    // Threads find them in any order.
+    found.failed.sort();
     match searched {
         Ok(()) => {}
         Err(Failure::Interrupted) if !found.points.is_empty() => {

@@ -3,13 +3,16 @@
 use super::cache::Cache;
 use super::choice::{Base, Choice, Setting};
 use super::goal::Measure;
-use super::point::{Natives, Point, measure};
+use super::point::{self, Natives, Point};
+use super::rows::{self, Look};
 use super::settings::worthwhile;
 use crate::failure::{Failure, Outcome};
 use crate::jobs;
 use crate::measure::Errors;
 use crate::progress::Progress;
 use crate::scene::Scene;
+use serde::{Deserialize, Serialize};
+use slowlight_compiler::plan::Plan;
 use slowlight_compiler::target;
 use std::sync::{Arc, Mutex};
 
@@ -37,6 +40,8 @@ pub struct Search {
 pub struct Found {
     /// Choices that were run whole.
     pub points: Vec<Point>,
+    /// Choices that others clearly beat on some rows, and what these said.
+    pub left: Vec<(Choice, Look)>,
     /// Choices that cannot be had, and why.
     pub failed: Vec<(Choice, String)>,
     /// How many choices there were.
@@ -84,11 +89,47 @@ pub fn explore(search: &Search, found: &Arc<Mutex<Found>>) -> Outcome<()> {
         (search.cache).known_or(&scenes.live, base.target, &words, work)?;
     let choices = choices(search, &scenes, &settings);
     note(found, |f| f.tried = choices.len());
-    let progress = Progress::new("choices", choices.len() as u64);
-    let each = jobs::each(&choices, |choice| {
+    let progress = Progress::new("choices", 2 * choices.len() as u64);
+    let first = jobs::each(&choices, |choice| {
+        let begun = begun(search, scenes.of(choice), &natives, choice)?;
+        // What takes long is there a second time.
+        progress.step(if matches!(begun.first, First::Rows(_)) {
+            1
+        } else {
+            2
+        });
+        match &begun.first {
+            First::Whole(point) => note(found, |f| f.points.push((**point).clone())),
+            First::Not(why) => note(found, |f| f.failed.push((choice.clone(), why.clone()))),
+            First::Rows(_) => {}
+        }
+        Ok(begun)
+    })?;
+    // What cannot be had is told; all else ends the search.
+    let first: Vec<Begun> = first.into_iter().collect::<Outcome<_>>()?;
+    let looks: Vec<Option<Look>> = first.iter().map(|b| b.first.look(measure)).collect();
+    let beaten = |look: &Look| {
+        looks
+            .iter()
+            .flatten()
+            .any(|other| other.clearly_beats(look))
+    };
+    let mut rest = Vec::new();
+    for (choice, begun) in choices.into_iter().zip(first) {
+        match begun.first {
+            First::Rows(look) if beaten(&look) => {
+                progress.step(1);
+                note(found, |f| f.left.push((choice, look)));
+            }
+            First::Rows(_) => rest.push((choice, Mutex::new(begun.plan))),
+            First::Whole(_) | First::Not(_) => {}
+        }
+    }
+    let each = jobs::each(&rest, |(choice, plan)| {
         let scene = scenes.of(choice);
+        let plan = plan.lock().ok().and_then(|mut plan| plan.take());
         let words = base.words(choice);
-        let work = || tried(search, scene, &natives, choice);
+        let work = || tried(search, scene, &natives, choice, plan);
         let tried: Tried = search.cache.known_or(scene, base.target, &words, work)?;
         progress.step(1);
         note(found, |f| match tried {
@@ -97,9 +138,65 @@ pub fn explore(search: &Search, found: &Arc<Mutex<Found>>) -> Outcome<()> {
         });
         Ok(())
     })?;
-    // What cannot be had is told; all else ends the search.
     each.into_iter().collect::<Outcome<Vec<()>>>()?;
     Ok(())
+}
+
+/// What a first look at a choice came to.
+#[derive(Clone, Serialize, Deserialize)]
+enum First {
+    /// It is quick, so it was run whole.
+    Whole(Box<Point>),
+    /// It takes long, so some rows were run.
+    Rows(Look),
+    /// It cannot be had.
+    Not(String),
+}
+
+impl First {
+    fn look(&self, measure: Measure) -> Option<Look> {
+        match self {
+            First::Whole(point) => Some(Look::of(point, measure)),
+            First::Rows(look) => Some(*look),
+            First::Not(_) => None,
+        }
+    }
+}
+
+/// The same with the plan, where one was made and is needed again: planning takes long.
+struct Begun {
+    first: First,
+    plan: Option<Plan>,
+}
+
+/// Looks at a choice, or remembers what was seen.
+fn begun(search: &Search, scene: &Scene, natives: &Natives, choice: &Choice) -> Outcome<Begun> {
+    let (base, measure) = (&search.base, search.measure);
+    let mut words = base.words(choice);
+    words.push(format!("first {measure:?}"));
+    let mut kept = None;
+    let work = || {
+        let tried = base
+            .screen(choice)
+            .plan(scene, base.target, &[])
+            .and_then(|plan| {
+                if !rows::pays(&plan) {
+                    let point = point::measure(base, scene, natives, choice, plan, search.limit)?;
+                    return Ok(First::Whole(Box::new(point)));
+                }
+                let how = (measure, search.limit);
+                let look = rows::look(base, scene, natives, choice, &plan, how)?;
+                kept = Some(plan);
+                Ok(First::Rows(look))
+            });
+        match tried {
+            Err(Failure::Interrupted) => Err(Failure::Interrupted),
+            Err(other) => Ok(First::Not(other.reason())),
+            Ok(first) => Ok(first),
+        }
+    };
+    let first = search.cache.known_or(scene, base.target, &words, work)?;
+    Ok(Begun { first, plan: kept })
 }
 
 fn note(found: &Mutex<Found>, write: impl FnOnce(&mut Found)) {
@@ -140,13 +237,20 @@ fn choices(search: &Search, scenes: &Scenes, settings: &[Setting]) -> Vec<Choice
 /// A choice's point, or why it cannot be had.
 type Tried = Result<Point, String>;
 
-fn tried(search: &Search, scene: &Scene, natives: &Natives, choice: &Choice) -> Outcome<Tried> {
+fn tried(
+    search: &Search,
+    scene: &Scene,
+    natives: &Natives,
+    choice: &Choice,
+    plan: Option<Plan>,
+) -> Outcome<Tried> {
     let base = &search.base;
-    let point = base
-        .screen(choice)
-        .plan(scene, base.target, &[])
-        .and_then(|plan| measure(base, scene, natives, choice, plan, search.limit));
-    match point {
+    let plan = match plan {
+        Some(plan) => Ok(plan),
+        None => base.screen(choice).plan(scene, base.target, &[]),
+    };
+    let measured = |plan| point::measure(base, scene, natives, choice, plan, search.limit);
+    match plan.and_then(measured) {
         Ok(point) => Ok(Ok(point)),
         Err(Failure::Interrupted) => Err(Failure::Interrupted),
         Err(other) => Ok(Err(other.reason())),

@@ -9,8 +9,10 @@
 //! goes on ([`explore`]):
 //! 1. every setting is drawn in `f64`, which says what is lost by the setting alone, and
 //!    counts operations;
-//! 2. those left are planned, in each format, and run on some rows of the picture;
-//! 3. those left of these are run whole, and held against the native picture.
+//! 2. those left are planned, in each format; what takes long is run on some rows of the
+//!    picture first ([`rows`]);
+//! 3. those that nothing clearly beats there are run whole, and held against the native
+//!    picture.
 //!
 //! Cycles and errors of the frontier are those of whole runs; nothing is estimated.
 
@@ -21,5 +23,6 @@ pub mod goal;
 pub mod page;
 pub mod plot;
 pub mod point;
+pub mod rows;
 pub mod settings;
 pub mod tell;

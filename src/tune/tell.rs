@@ -164,6 +164,16 @@ impl<'a> Told<'a> {
         let failed = self.found.failed.iter().map(
             |(choice, why)| json!({"options": self.base.words(choice).join(" "), "error": why}),
         );
+        let mut left: Vec<Value> = (self.found.left.iter())
+            .map(|(choice, look)| {
+                json!({
+                    "options": self.base.words(choice).join(" "),
+                    "cycles_by_rows": look.cycles.round(),
+                    "error_on_rows": look.error,
+                })
+            })
+            .collect();
+        left.sort_by_key(|v| v["options"].as_str().map(str::to_owned));
         let span = |of: &dyn Fn(&Point) -> f64| {
             let all: Vec<f64> = self.frontier().map(|(_, p)| of(p)).collect();
             let most = all.iter().copied().fold(0.0, f64::max);
@@ -188,6 +198,7 @@ impl<'a> Told<'a> {
                 "rank_correlation": self.correlation(),
             },
             "points": points,
+            "left_after_rows": left,
             "failed": failed.collect::<Vec<Value>>(),
             "chosen": chosen.map(|p| self.base.words(&p.choice).join(" ")),
         })
