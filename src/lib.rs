@@ -30,6 +30,7 @@ pub mod scene;
 pub mod snapshot;
 pub mod target_args;
 pub mod trial;
+pub mod tune;
 
 use clap::Parser;
 use std::process::ExitCode;

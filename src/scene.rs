@@ -50,6 +50,15 @@ impl Precision {
     }
 }
 
+/// How many turns loops take at most, where that is fewer than the scene has them.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Limits {
+    /// Loops of the scene's own text.
+    pub turns: Option<u32>,
+    /// The library's.
+    pub steps: Option<u32>,
+}
+
 /// Which scene, and what is changed about it.
 #[derive(Args, Clone, Debug)]
 pub struct SceneArgs {
@@ -269,8 +278,23 @@ impl Scene {
         precision: Precision,
         set: &[(String, Vec<f64>)],
     ) -> Outcome<Graph> {
+        self.graph_within(inks, precision, set, Limits::default())
+    }
+
+    /// The same with fewer turns of loops than the scene has them.
+    ///
+    /// # Errors
+    /// As [`Scene::graph_with`].
+    pub fn graph_within(
+        &self,
+        inks: Option<u32>,
+        precision: Precision,
+        set: &[(String, Vec<f64>)],
+        limits: Limits,
+    ) -> Outcome<Graph> {
         let mut options = precision.options(self.options.clone());
         options.inks = inks;
+        (options.max_turns, options.max_steps) = (limits.turns, limits.steps);
         options.set.extend_from_slice(set);
         sema::lower(&self.checked.program, &options).map_err(|said| self.wrong(said))
     }

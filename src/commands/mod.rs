@@ -10,6 +10,7 @@ mod render;
 mod run;
 mod snapshot;
 mod targets;
+mod tune;
 mod vm;
 
 use crate::failure::Outcome;
@@ -32,6 +33,8 @@ pub enum Command {
     Explain(explain::Args),
     /// What each effect of a scene and of the library costs, and what it adds
     Effects(effects::Args),
+    /// Show what accuracy costs in time: measured cycles against error, to choose from
+    Tune(tune::Args),
     /// Keep generated code, digests and cycles beside a scene; fail where they change
     Snapshot(snapshot::Args),
     /// Format scenes in place
@@ -56,6 +59,7 @@ impl Command {
             Command::Compare(args) => compare::run(args),
             Command::Explain(args) => explain::run(args),
             Command::Effects(args) => effects::run(args),
+            Command::Tune(args) => tune::run(args),
             Command::Snapshot(args) => snapshot::run(args),
             Command::Fmt(args) => fmt::run(args),
             Command::Vm(args) => vm::run(args),

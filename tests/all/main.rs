@@ -42,6 +42,7 @@ mod spread;
 mod stress;
 mod syntaxes;
 mod torus;
+mod tune;
 mod whole;
 mod written;
 mod wrong;

@@ -137,6 +137,7 @@ pub fn picture(seed: u64, width: u32, passes: bool) -> Graph {
     }
     let ink = scene.apply(Op::BitAnd, &[ink, three]);
     let image = Image {
+        block: (1, 1),
         width,
         height: HEIGHT as u32,
         palette: vec![[0; 3]; 4],

@@ -176,6 +176,7 @@ fn mirrors() -> Graph {
     let none = h.int(0);
     let ink = h.op(Op::IntMax, &[ink, none]);
     let image = Image {
+        block: (1, 1),
         width: 320,
         height: 240,
         palette: vec![[0; 3]; 4],

@@ -4,6 +4,7 @@ pub mod algebra;
 pub mod apart;
 mod arena;
 pub mod arms;
+pub mod coarse;
 pub mod demand;
 pub mod early;
 pub mod factors;

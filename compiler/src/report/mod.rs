@@ -8,6 +8,7 @@ pub mod bounded;
 pub mod domain;
 pub mod effects;
 pub mod fragile;
+pub mod frontier;
 pub mod profile;
 #[cfg(test)]
 mod profile_tests;

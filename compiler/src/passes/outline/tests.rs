@@ -218,6 +218,7 @@ fn a_loop_is_part_of_a_subroutine() {
         sum = b.apply(Op::IntAdd, &[sum, results[0]], AT);
     }
     let image = Image {
+        block: (1, 1),
         width: 40,
         height: 2,
         palette: vec![[0; 3]; 64],

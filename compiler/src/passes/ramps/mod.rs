@@ -295,6 +295,7 @@ mod tests {
         let mask = b.constant(Value::Int(255), AT);
         let ink = b.apply(Op::BitAnd, &[sum, mask], AT);
         let image = Image {
+            block: (1, 1),
             width: 133,
             height: 20,
             palette: vec![[0; 3]; 256],
@@ -334,6 +335,7 @@ mod tests {
         let grown = b.apply(Op::IntMul, &[y, large], AT);
         let sum = b.apply(Op::IntAdd, &[grown, x], AT);
         let image = Image {
+            block: (1, 1),
             width: 9,
             height: 9,
             palette: vec![[0; 3]; 2],

@@ -77,6 +77,11 @@ pub struct Options {
     pub epsilon: f64,
     /// Whether its reals have an exponent.
     pub floats: bool,
+    /// No loop of the scene's own text takes more turns; what it then comes to is its
+    /// `else`.
+    pub max_turns: Option<u32>,
+    /// The same for the library's loops: searches for hits, marches, walks through maps.
+    pub max_steps: Option<u32>,
     /// A function without parameters whose result's scalars the graph reports,
     /// beside the picture.
     pub report: Option<String>,
@@ -92,6 +97,8 @@ impl Default for Options {
             offset: 1e-9,
             epsilon: f64::EPSILON / 2.0,
             floats: true,
+            max_turns: None,
+            max_steps: None,
             report: None,
         }
     }
@@ -179,6 +186,7 @@ impl<'a> Lower<'a> {
             place: None,
             effect: None,
             image: Image {
+                block: (1, 1),
                 width: image.width,
                 height: image.height,
                 palette: thin(&image.palette, options.inks),

@@ -212,9 +212,11 @@ fn picture(plan: &Plan, code: &mut Code<'_>, first: &str, last: &str, spread: Op
         row.put(code);
     } else if plan.plot {
         // After MODE the screen is ink 0 already.
-        let x = screen::x_expression(plan);
         let seen = seen(plan, first);
-        code.line(format!("IF I%{seen} THEN GCOL 0,I%:PLOT 69,{x},R%"));
+        code.line(format!(
+            "IF I%{seen} THEN GCOL 0,I%:{}",
+            screen::point(plan)
+        ));
     }
     if let Some(spread) = spread {
         spread.send(code);

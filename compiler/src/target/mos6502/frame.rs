@@ -1,6 +1,7 @@
 //! The program around the statements: its head, the picture's opening, the
 //! loops over rows and columns, and the runtime's parts.
 
+use super::blocks::Blocks;
 use super::code::Code;
 use super::homes::{Homes, Slot};
 use super::params::{Entry, entries, take_params};
@@ -67,10 +68,11 @@ fn source(part: &Part, text: &mut Text) {
 fn head(plan: &Plan, entries: &[Entry], syntax: &Syntax, text: &mut Text) {
     let image = &plan.graph.image;
     text.line(format!(
-        "; {}: {} x {} pixels, {} inks, for a plain 6502 ({})",
+        "; {}: {} x {} {}, {} inks, for a plain 6502 ({})",
         plan.name,
         image.width,
         image.height,
+        image.unit(),
         image.palette.len(),
         plan.runtime.format
     ));
@@ -165,7 +167,10 @@ fn main(plan: &Plan, homes: &Homes, parts: &[&'static Part], text: &mut Text) ->
 
     code.text.headline("once a row");
     code.text.label("next_row");
-    if plan.plot {
+    let blocks = plan.plot.then(|| Blocks::new(plan, homes)).flatten();
+    if let Some(blocks) = &blocks {
+        blocks.row(&y, code.text);
+    } else if plan.plot {
         let left = (i64::from(plan.computed_columns().0) + i64::from(plan.offset.0)) as u64;
         let [x0, x1] = [0, 1].map(|k| write::byte(&Operand::Constant(left), k));
         code.text
@@ -196,10 +201,16 @@ fn main(plan: &Plan, homes: &Homes, parts: &[&'static Part], text: &mut Text) ->
                 "lda {y} | cmp {first} | lda {y}+1 | sbc {first}+1 | bcc unseen_pixel"
             ));
         }
-        code.text.code(&format!("lda {ink} | sta ink_port"));
+        match &blocks {
+            Some(blocks) => blocks.draw(&ink, code.text),
+            None => code.text.code(&format!("lda {ink} | sta ink_port")),
+        }
         if errors.is_some() {
             code.text.label("unseen_pixel");
         }
+    }
+    if let Some(blocks) = &blocks {
+        blocks.next(code.text);
     }
     if let Some(rows) = &errors {
         code.send_errors(rows);

@@ -19,6 +19,8 @@ pub(super) enum Slot {
     Param(u32),
     /// The pixel's column or row.
     Axis(Axis),
+    /// Where the block that is drawn stands on the screen.
+    Block(Axis),
     /// The turns that a loop has left.
     Turns(LoopId),
     /// First and last row to draw.
@@ -200,7 +202,7 @@ fn size(plan: &Plan, slot: Slot) -> u16 {
         Slot::Value(place) => u16::from(write::size(plan.place_format(place))),
         Slot::Turns(of) => 1 + u16::from(most_turns(plan, of) > 0xFF),
         Slot::Which => 1,
-        Slot::Errors(_) => 2,
+        Slot::Errors(_) | Slot::Block(_) => 2,
         Slot::Param(_) | Slot::Axis(_) | Slot::Rows(_) | Slot::Received => 4,
     }
 }
@@ -221,6 +223,8 @@ fn wanted(plan: &Plan, slot: Slot) -> String {
         Slot::Axis(Axis::Y) => "pixel_y".to_owned(),
         // Here rows are drawn in one pass.
         Slot::Axis(Axis::Pass(_)) => "pixel_pass".to_owned(),
+        Slot::Block(Axis::Y) => "block_y".to_owned(),
+        Slot::Block(_) => "block_x".to_owned(),
         Slot::Turns(of) => format!("turns_{}", of.0),
         Slot::Rows(false) => "first_row_value".to_owned(),
         Slot::Rows(true) => "last_row_value".to_owned(),
@@ -268,6 +272,10 @@ impl Uses<'_> {
         }
         self.add(Slot::Axis(Axis::X));
         self.add(Slot::Axis(Axis::Y));
+        if graph.image.block != (1, 1) {
+            self.add(Slot::Block(Axis::X));
+            self.add(Slot::Block(Axis::Y));
+        }
     }
 
     fn add_place(&mut self, place: Place) {

@@ -19,6 +19,7 @@
 //! - `params`: the parameter block's checks; `frame`: everything around the statements;
 //! - `spread`: error diffusion.
 
+mod blocks;
 mod code;
 mod comment;
 mod frame;
