@@ -31,6 +31,7 @@
 pub mod model;
 mod parts;
 mod routines;
+pub mod scaled;
 mod templates;
 pub mod write;
 
@@ -44,21 +45,32 @@ pub const FREE_ZERO_PAGE: u8 = 0x1E;
 /// The first byte behind the stack that the runtime leaves alone.
 pub const FREE_MEMORY: u16 = 0x0A00;
 
+/// The first byte of the zero page that a runtime leaves alone.
+pub fn free_zero_page(runtime: &Runtime) -> u8 {
+    match runtime.real {
+        Format::Scaled { .. } => scaled::FREE_ZERO_PAGE,
+        _ => FREE_ZERO_PAGE,
+    }
+}
+
 /// Format of the reals.
 pub const FIXED: Format = Format::Fixed { bits: 32, frac: 16 };
 /// Format of the ints.
 pub const INT: Format = Format::Int { bits: 32 };
 
 /// The runtime of reals in 16.16.
-pub static FIXED16_16: Runtime = Runtime {
+pub static FIXED16_16: Runtime = USUAL;
+
+const USUAL: Runtime = Runtime {
     name: "6502",
     format: "fixed16.16",
     real: FIXED,
     int: INT,
-    routines: routines::ALL,
+    routines: &routines::ALL,
     parts: parts::ALL,
     encode,
     decode,
+    shifted: slowlight_routine::scale::shifted,
     quotient: f64::INFINITY,
     stepping: None,
     segments: false,

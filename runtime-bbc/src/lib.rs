@@ -80,6 +80,7 @@ pub static RUNTIME: Runtime = Runtime {
     parts: functions::ALL,
     encode,
     decode,
+    shifted: slowlight_routine::scale::shifted,
     quotient: FAR,
     stepping: Some(STEPPING),
     segments: true,

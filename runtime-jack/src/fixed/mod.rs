@@ -39,6 +39,7 @@ pub static FIXED16: Runtime = Runtime {
     parts: parts::ALL,
     encode,
     decode,
+    shifted: slowlight_routine::scale::shifted,
     quotient: f64::INFINITY,
     stepping: None,
     segments: false,

@@ -40,6 +40,7 @@ pub static LOG10: Runtime = Runtime {
     parts: parts::ALL,
     encode,
     decode,
+    shifted: slowlight_routine::scale::shifted,
     quotient: 65536.0,
     stepping: None,
     segments: false,
