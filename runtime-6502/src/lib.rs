@@ -74,6 +74,7 @@ const USUAL: Runtime = Runtime {
     quotient: f64::INFINITY,
     stepping: None,
     segments: false,
+    reciprocals: false,
     derives: false,
     kept: slowlight_routine::whole,
     loose: None,

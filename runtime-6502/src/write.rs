@@ -327,6 +327,9 @@ fn repeated(text: &str, width: u8) -> String {
 }
 
 fn placeholder(inside: &str, used: Use<'_>) -> String {
+    if inside == "%" {
+        return format!("#{}", shift_of_one(used) & 0xFF);
+    }
     if let Some(formula) = inside.strip_prefix('#') {
         return format!("#{}", number(formula, used.number) & 0xFF);
     }
@@ -342,6 +345,16 @@ fn placeholder(inside: &str, used: Use<'_>) -> String {
         (Err(_), Goal::At(to) | Goal::Held(to, _)) => byte_at(to, k),
         (Err(_), Goal::Carry) => String::new(),
     }
+}
+
+/// By how many bits the reciprocal of a divisor that needs no shift is longer than the
+/// quotient of the first operand, a power of two.
+fn shift_of_one(used: Use<'_>) -> i32 {
+    let one = match used.args.first() {
+        Some(Place::Constant(bits)) => bits.trailing_zeros() as i32,
+        _ => 0,
+    };
+    31 - one - used.number
 }
 
 /// What a formula of the number comes to: a sum of numbers and of n, a, b and r, the

@@ -84,6 +84,7 @@ pub static RUNTIME: Runtime = Runtime {
     quotient: FAR,
     stepping: Some(STEPPING),
     segments: true,
+    reciprocals: false,
     derives: true,
     kept: slowlight_routine::whole,
     loose: None,

@@ -82,6 +82,7 @@ const CUT: Runtime = Runtime {
     quotient: f64::INFINITY,
     stepping: None,
     segments: false,
+    reciprocals: false,
     derives: false,
     kept: slowlight_routine::whole,
     loose: None,

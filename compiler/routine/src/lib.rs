@@ -297,6 +297,9 @@ pub struct Runtime {
     /// comparisons of the column with what the row knows do not change, and
     /// compute what depends on these alone once a run.
     pub segments: bool,
+    /// Whether quotients by one divisor may be products with its reciprocal, which rounds
+    /// twice.
+    pub reciprocals: bool,
     /// Whether programs work out tables at their start from one another.
     pub derives: bool,
     /// What programs keep of a real result that stays within a range: where that tells

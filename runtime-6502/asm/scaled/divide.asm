@@ -1,17 +1,23 @@
-; a and x (high) = acc / arg with y bits more, to the nearest; saturates. By 0 the
-; greatest with the sign of acc. Magnitudes are shifted to bit 14 first, so that at most
-; 16 bits of quotient are left.
-divide16_zero:
-        lda #0
-        tax
-        rts
-divide16_by_zero:
-        jmp divide16_large
+; a and x (high) = acc / arg with y bits more, rounded; saturates. By 0 the greatest with
+; the sign of acc. Magnitudes are shifted first, acc to bit 14 and arg to bit 15, so that
+; the product with the reciprocal has all the bits that there are.
 divide16:
         sty count
         lda acc+1
         eor arg+1
         sta sign
+        lda acc+1
+        bpl divide16_plus
+        sec
+        lda #0
+        sbc acc
+        sta acc
+        lda #0
+        sbc acc+1
+        sta acc+1
+divide16_plus:
+        ora acc
+        beq divide16_zero
         lda arg+1
         bpl divide16_divisor
         sec
@@ -22,108 +28,38 @@ divide16:
         sbc arg+1
         sta arg+1
 divide16_divisor:
+        ora arg
+        beq divide16_large
+        jsr reciprocal
+        txa
+        clc
+        adc count
+        tax
         lda acc+1
-        bpl divide16_dividend
-        sec
-        lda #0
-        sbc acc
-        sta acc
-        lda #0
-        sbc acc+1
+        bne divide16_up
+        lda acc             ; eight bits at once
+        ldy #0
+        sty acc
         sta acc+1
-divide16_dividend:
-        lda acc
-        ora acc+1
-        beq divide16_zero
-        lda arg
-        ora arg+1
-        beq divide16_by_zero
-        lda arg+1
+        txa
+        sec
+        sbc #8
+        tax
+        lda acc+1
+        bpl divide16_up
+        lsr                 ; one too many
+        ror acc
+        inx
 divide16_up:
         cmp #$40
-        bcs divide16_high
-        asl arg
-        rol
-        inc count
-        bne divide16_up
-divide16_high:
-        sta arg+1
-        lda acc+1
-divide16_down:
-        cmp #$40
-        bcs divide16_ready
-        ldy count
-        beq divide16_ready
+        bcs divide16_times
         asl acc
         rol
-        dec count
-        bpl divide16_down
-divide16_ready:
-        sta acc+1
-        ldy #0
-        sty prod
-        sty prod+1
-        ldy count
-        cpy #16
-        bcs divide16_large
-        lda acc             ; the whole part: 0 or 1
-        cmp arg
-        lda acc+1
-        sbc arg+1
-        bcc divide16_start
-        sta acc+1
-        lda acc
-        sbc arg
-        sta acc
-        inc prod
-divide16_start:
-        cpy #0
-        beq divide16_round
-divide16_bit:
-        asl acc
-        rol acc+1
-        lda acc
-        sec
-        sbc arg
-        tax
-        lda acc+1
-        sbc arg+1
-        bcc divide16_less
-        sta acc+1
-        stx acc
-divide16_less:
-        rol prod
-        rol prod+1
-        dey
-        bne divide16_bit
-divide16_round:
-        asl acc
-        rol acc+1
-        lda acc
-        cmp arg
-        lda acc+1
-        sbc arg+1
-        bcc divide16_sign
-        inc prod
-        bne divide16_sign
-        inc prod+1
-divide16_sign:
-        lda prod+1
-        bmi divide16_large
-        bit sign
-        bmi divide16_minus
-        tax
-        lda prod
-        rts
-divide16_minus:
-        sec
+        dex
+        jmp divide16_up
+divide16_zero:
         lda #0
-        sbc prod
-        tay
-        lda #0
-        sbc prod+1
         tax
-        tya
         rts
 divide16_large:
         bit sign
@@ -134,4 +70,78 @@ divide16_large:
 divide16_least:
         lda #1
         ldx #$80
+        rts
+divide16_times:
+        stx count           ; the quotient's bits before the point, of those that follow
+        sta acc+1
+        tax
+        lda prod+4          ; the reciprocal less 65536
+        sta arg
+        lda prod+5
+        sta arg+1
+        lda acc
+        jsr product16
+        tax
+        clc
+        lda prod+2          ; and acc, for that 65536
+        adc acc
+        sta prod+2
+        txa
+        adc acc+1
+        ldx count
+        bmi divide16_right
+        cpx #17
+        bcs divide16_large
+        cpx #15
+        bcc divide16_right
+        beq divide16_round
+        asl prod+1
+        rol prod+2
+        rol
+        bmi divide16_large
+divide16_round:
+        ldx prod+1
+        bpl divide16_rounded
+        inc prod+2
+        bne divide16_rounded
+        clc
+        adc #1
+divide16_rounded:
+        cmp #$80
+        bcs divide16_large
+        jmp divide16_sign
+divide16_right:
+        tay
+        sec
+        lda #15
+        sbc count
+        cmp #17
+        bcs divide16_zero
+        tax
+        tya
+divide16_bit:
+        lsr
+        ror prod+2
+        dex
+        bne divide16_bit
+        bcc divide16_sign
+        inc prod+2
+        bne divide16_sign
+        adc #0
+divide16_sign:
+        tax
+        lda prod+2
+        bit sign
+        bmi divide16_minus
+        rts
+divide16_minus:
+        stx prod+3
+        sec
+        lda #0
+        sbc prod+2
+        tay
+        lda #0
+        sbc prod+3
+        tax
+        tya
         rts

@@ -21,7 +21,7 @@ pub use templates::squared;
 
 use crate::parts;
 use slowlight_routine::scale;
-use slowlight_routine::{Bits, Format, Runtime, Value};
+use slowlight_routine::{Bits, Format, Runtime, Stepping, Value};
 
 /// Bits of a real.
 pub const BITS: u8 = 16;
@@ -41,6 +41,8 @@ pub static FIXED16: Runtime = Runtime {
     encode,
     decode,
     shifted: model::shifted,
+    reciprocals: true,
+    stepping: Some(STEPPING),
     statement: 4,
     index: 6,
     param_digits: |greatest, ranged| {
@@ -52,6 +54,15 @@ pub static FIXED16: Runtime = Runtime {
     },
     param_bits: |scaled, _| scaled as Bits,
     ..crate::USUAL
+};
+
+/// An int of four bytes is added to another.
+const STEPPING: Stepping = Stepping {
+    ramp: 38,
+    read: [0, 0],
+    digit: 0,
+    write: [0, 0],
+    test: 3,
 };
 
 /// The nearest bits, saturating; of a real without a scale, those of its int.

@@ -82,15 +82,63 @@ pub fn any_product(a: i32, b: i32, n: i32) -> i32 {
     held(shifted(i64::from(a) * i64::from(b), -n, 62))
 }
 
-/// a / b * 2^n to the nearest; by 0 the greatest with the sign of a.
+/// 2^31 / b for b from 2^15 to 2^16, where b is 2^15 and 128 times 0 to 256; the first is
+/// the greatest that fits.
+fn reciprocals() -> &'static [i32] {
+    static ALL: OnceLock<Vec<i32>> = OnceLock::new();
+    ALL.get_or_init(|| {
+        // What is taken away for what lies between two is cut, so they are a little too small.
+        let of = |k: i32| 2f64.powi(31) / f64::from(32768 + 128 * k) - 0.4;
+        (0..=256)
+            .map(|k| (of(k).round() as i32).min(65535))
+            .collect()
+    })
+}
+
+/// The table's lower and upper bytes, and what leads from each entry to the next.
+pub fn reciprocal_bytes(which: usize) -> Vec<i32> {
+    let of = |pair: &[i32]| match which {
+        0 => pair[0] & 255,
+        1 => pair[0] >> 8,
+        _ => pair[0] - pair[1],
+    };
+    reciprocals().windows(2).map(of).collect()
+}
+
+/// 2^31 over a number from 2^15 to 2^16.
+pub fn reciprocal(b: i64) -> i64 {
+    let (at, part) = ((b >> 7 & 255) as usize, (b & 127) * 2);
+    let pair = &reciprocals()[at..];
+    i64::from(pair[0]) - upper(i64::from(pair[0] - pair[1]), part)
+}
+
+/// a / b * 2^n, off by less than 1.4; by 0 the greatest with the sign of a.
 pub fn divide(a: i32, b: i32, n: i32) -> i32 {
+    if a == 0 {
+        return 0;
+    }
     if b == 0 {
         return a.signum() * MOST as i32;
     }
-    let (up, down) = (i64::from(a.abs()) << n.clamp(0, 40), i64::from(b.abs()));
-    let made = (2 * up + down) / (2 * down);
-    let made = made.min(MOST) as i32;
-    if (a < 0) == (b < 0) { made } else { -made }
+    let (mut up, mut down, mut before) = (i64::from(a.abs()), i64::from(b.abs()), n);
+    while down < 1 << 15 {
+        (down, before) = (down * 2, before + 1);
+    }
+    while up < 1 << 14 {
+        (up, before) = (up * 2, before - 1);
+    }
+    let less = reciprocal(down) - 65536;
+    let product = product(up as i32, less as i32) + (up << 8);
+    let made = match before - 15 {
+        2.. => MOST,
+        more @ 0.. => right(product << more, 8).min(MOST),
+        fewer => right(product >> 8, fewer.unsigned_abs()),
+    };
+    if (a < 0) == (b < 0) {
+        made as i32
+    } else {
+        -made as i32
+    }
 }
 
 /// The first entry of the table of roots.

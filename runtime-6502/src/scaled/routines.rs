@@ -15,6 +15,8 @@ const EXACT: Error = Error::Exact;
 const NEAREST: Error = Error::Absolute(0.51);
 /// Of a result with so few bits less that these count.
 const CUT: Error = Error::Absolute(0.63);
+/// Half of the last place, and what the reciprocal is off.
+const QUOTIENT: Error = Error::Absolute(1.5);
 /// Of all roots that there are.
 const ROOT: Error = Error::Absolute(1.8);
 /// What saturates, or is a hundredth of a place.
@@ -55,6 +57,12 @@ fn fits(_: &[Range], result: Range) -> bool {
 /// The same of what is rounded.
 fn fits_rounded(_: &[Range], result: Range) -> bool {
     result.within(-32766.0, 32766.0)
+}
+
+/// A dividend of which nothing but a shift is left.
+fn power_of_two(args: &[Range], _: Range) -> bool {
+    let one = args.first().and_then(|r| r.constant());
+    one.is_some_and(|one| one >= 1.0 && (one as u32).is_power_of_two())
 }
 
 /// Operands whose difference is a number.
@@ -109,16 +117,17 @@ const REALS: &[Routine] = &[
     scaled!("sub" Sub(R, R) -> R, templates::SUBTRACT, [], fits, EXACT, |a, b, n| a - b, 20, 13),
     scaled!("any_sub" Sub(R, R) -> R, t::SATURATING_SUBTRACT, [], everywhere, EXACT, |a, b, n| model::held(i64::from(a) - i64::from(b)), 28, 39),
     scaled!("times_one" Mul(R, R) -> R, t::COPY, [], number!(0 to 0, is(1, 1.0)), EXACT, |a, b, n| a, 12, 8),
-    scaled!("mul" Mul(R, R) -> R, t::MULTIPLY_16, ["multiply16"], number!(16 to 16), NEAREST, |a, b, n| model::multiply(a, b, n), 276, 22),
-    scaled!("double_mul" Mul(R, R) -> R, t::MULTIPLY_15, ["multiply15"], number!(15 to 15), NEAREST, |a, b, n| model::multiply(a, b, n), 291, 22),
-    scaled!("mul_14" Mul(R, R) -> R, t::MULTIPLY_14, ["multiply16"], number!(14 to 14, fits_rounded), CUT, |a, b, n| model::multiply(a, b, n), 300, 36),
-    scaled!("mul_13" Mul(R, R) -> R, t::MULTIPLY_13, ["multiply16"], number!(13 to 13, fits_rounded), CUT, |a, b, n| model::multiply(a, b, n), 312, 41),
-    scaled!("mul_12" Mul(R, R) -> R, t::MULTIPLY_12, ["multiply16"], number!(12 to 12, fits_rounded), CUT, |a, b, n| model::multiply(a, b, n), 324, 46),
+    scaled!("mul" Mul(R, R) -> R, t::MULTIPLY_16, ["product"], number!(16 to 16), NEAREST, |a, b, n| model::multiply(a, b, n), 260, 32),
+    scaled!("double_mul" Mul(R, R) -> R, t::MULTIPLY_15, ["product"], number!(15 to 15), NEAREST, |a, b, n| model::multiply(a, b, n), 270, 37),
+    scaled!("mul_14" Mul(R, R) -> R, t::MULTIPLY_14, ["product"], number!(14 to 14, fits_rounded), CUT, |a, b, n| model::multiply(a, b, n), 300, 36),
+    scaled!("mul_13" Mul(R, R) -> R, t::MULTIPLY_13, ["product"], number!(13 to 13, fits_rounded), CUT, |a, b, n| model::multiply(a, b, n), 312, 41),
+    scaled!("mul_12" Mul(R, R) -> R, t::MULTIPLY_12, ["product"], number!(12 to 12, fits_rounded), CUT, |a, b, n| model::multiply(a, b, n), 324, 46),
     scaled!("low_mul" Mul(R, R) -> R, t::MULTIPLY_RIGHT, ["lower24"], number!(17 to 31), Error::Absolute(0.77), |a, b, n| model::multiply(a, b, n), 320, 29),
     scaled!("wide_mul" Mul(R, R) -> R, t::MULTIPLY_ANY, ["narrow24"], number!(8 to 14), Error::Absolute(1.5), |a, b, n| model::multiply(a, b, n), 550, 29),
     scaled!("far_mul" Mul(R, R) -> R, t::MULTIPLY_DOWN, ["exact32", "narrow"], number!(1 to 99), NEAREST, |a, b, n| model::any_product(a, b, n), 900, 29),
     scaled!("long_mul" Mul(R, R) -> R, t::MULTIPLY_UP, ["exact32", "narrow"], number!(-99 to 0), ANY, |a, b, n| model::any_product(a, b, n), 900, 29),
-    scaled!("div" Div(R, R) -> R, t::DIVIDE, ["divide16"], number!(0 to 30), Error::Absolute(0.5), |a, b, n| model::divide(a, b, n), 760, 30),
+    scaled!("one_over" Div(R, R) -> R, t::ONE_OVER, ["one_over"], number!(0 to 30, power_of_two), QUOTIENT, |a, b, n| model::divide(a, b, n), 230, 17),
+    scaled!("div" Div(R, R) -> R, t::DIVIDE, ["divide16"], number!(0 to 30), QUOTIENT, |a, b, n| model::divide(a, b, n), 597, 30),
     scaled!("root" Sqrt(R) -> R, t::ROOT, ["root16"], |args, _| number(args) % 2 == 0 && (1..=15).contains(&number(args)), ROOT, |a, b, n| model::root(a, n), 200, 20),
     scaled!("odd_root" Sqrt(R) -> R, t::ODD_ROOT, ["root16"], |args, _| number(args) % 2 == 1 && (1..=15).contains(&number(args)), ROOT, |a, b, n| model::root(a, n), 210, 20),
     scaled!("sin" Sin(R) -> R, t::SINE, ["widen", "sine", "narrow"], number!(0 to 16), Error::Absolute(0.8), |a, b, n| model::function(wide::sine, a, [n as i8, 14]), 8400, 28),

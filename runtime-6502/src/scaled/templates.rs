@@ -54,9 +54,12 @@ macro_rules! divided {
     };
 }
 
+/// The upper 16 of 24 bits, rounded by the next.
 macro_rules! upper {
     () => {
-        "| sta {r.1} | lda prod+2 | sta {r.0}"
+        "| ldx prod+1 | bpl rounded{n} | inc prod+2 | bne rounded{n} | clc | adc #1
+        rounded{n}:
+        sta {r.1} | lda prod+2 | sta {r.0}"
     };
 }
 
@@ -69,12 +72,12 @@ macro_rules! result {
 /// Signed bits of `prod+1`, `prod+2` and a to the left, rounded by what is left below.
 macro_rules! up {
     ($($bit:literal)*) => {
-        concat!($("| asl prod+1 | rol prod+2 | rol ", $bit,)* "| jsr round16")
+        concat!($("| asl prod+1 | rol prod+2 | rol ", $bit,)*)
     };
 }
 
-pub(crate) const MULTIPLY_16: &str = concat!(both!(), "| jsr multiply16", upper!());
-pub(crate) const MULTIPLY_15: &str = concat!(both!(), "| jsr multiply15", upper!());
+pub(crate) const MULTIPLY_16: &str = concat!(both!(), "| jsr product16", upper!());
+pub(crate) const MULTIPLY_15: &str = concat!(both!(), "| jsr product16", up!(""), upper!());
 pub(crate) const MULTIPLY_14: &str = concat!(both!(), "| jsr product16", up!("" ""), upper!());
 pub(crate) const MULTIPLY_13: &str = concat!(both!(), "| jsr product16", up!("" "" ""), upper!());
 pub(crate) const MULTIPLY_12: &str =
@@ -100,7 +103,7 @@ pub(crate) const MULTIPLY_DOWN: &str = concat!(
     result!()
 );
 
-pub(crate) const SQUARE_16: &str = concat!(first!(), "| jsr square16 | jsr round16", upper!());
+pub(crate) const SQUARE_16: &str = concat!(first!(), "| jsr square16", upper!());
 pub(crate) const SQUARE_15: &str = concat!(first!(), "| jsr square16", up!(""), upper!());
 pub(crate) const SQUARE_14: &str = concat!(first!(), "| jsr square16", up!("" ""), upper!());
 pub(crate) const SQUARE_13: &str = concat!(first!(), "| jsr square16", up!("" "" ""), upper!());
@@ -117,6 +120,10 @@ pub(crate) const SQUARE_ANY: &str = concat!(
 );
 
 pub(crate) const DIVIDE: &str = concat!(divided!(), "| ldy {#n} | jsr divide16", result!());
+pub(crate) const ONE_OVER: &str = concat!(
+    "lda {1.0} | sta arg | lda {1.1} | sta arg+1 | ldy {%} | jsr one_over",
+    result!()
+);
 pub(crate) const ROOT: &str = concat!("ldy {#14-n/2} |", first!(), "| jsr root16", result!());
 pub(crate) const ODD_ROOT: &str =
     concat!("ldy {#15-n/2} |", first!(), "| jsr root16_odd", result!());

@@ -43,6 +43,7 @@ pub static FIXED16: Runtime = Runtime {
     quotient: f64::INFINITY,
     stepping: None,
     segments: false,
+    reciprocals: false,
     derives: false,
     kept: slowlight_routine::whole,
     loose: None,

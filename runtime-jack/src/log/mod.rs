@@ -44,6 +44,7 @@ pub static LOG10: Runtime = Runtime {
     quotient: 65536.0,
     stepping: None,
     segments: false,
+    reciprocals: false,
     derives: false,
     kept,
     loose: Some(loose::LOOSE),

@@ -124,6 +124,13 @@ impl<'p> Code<'p> {
                 self.use_of(routine, args, &goal, number);
             }
             Node::Lookup { table, column, row } => self.lookup(id, table, column, row),
+            // As a row begins it.
+            Node::Ramp { first, .. } => {
+                let place = Place::Node(id);
+                let to = self.homes.place(place).to_owned();
+                let from = self.homes.operand(self.plan, first);
+                self.copy_into(&from, &to, place);
+            }
             _ => {}
         }
     }
@@ -141,6 +148,25 @@ impl<'p> Code<'p> {
         };
         self.needs.extend(write::instructions(used, &mut lines));
         lines.iter().for_each(|line| self.text.line(line));
+    }
+
+    /// Brings the ramps to the next column.
+    pub fn step(&mut self) {
+        for (id, by) in self.plan.ramps() {
+            let place = Place::Node(id);
+            let to = self.homes.place(place).to_owned();
+            let step = self.homes.operand(self.plan, by);
+            let said = comment::operand(self.plan, self.homes, by);
+            self.text.span = Some(self.plan.graph.span(id));
+            self.text.line(format!("        ; {to} = {to} + {said}"));
+            let adds = |r: &&Routine| r.name == "int_add";
+            if let Some(routine) = self.plan.runtime.routines.iter().find(adds) {
+                let ramp = self.homes.held_in(self.plan, place);
+                let bytes = write::size(routine.result);
+                self.use_of(routine, &[ramp, step], &Goal::Held(&to, bytes), 0);
+            }
+        }
+        self.text.span = None;
     }
 
     /// A copy into a place.

@@ -199,6 +199,19 @@ fn main(
     code.copy_axis(&Operand::Constant(u64::from(columns.0)), &x);
     code.block(&plan.tree.row);
     code.text.span = None;
+    if columns.0 > 0 && !plan.ramps().is_empty() {
+        // To the first column, by as many steps as there are before it.
+        let [lo, hi, ..] = columns.0.to_le_bytes();
+        code.text
+            .code(&format!("lda #{lo} | sta count | lda #{hi} | sta bits"));
+        code.text.label("next_step");
+        code.step();
+        code.text.code("lda count | bne low_step | dec bits");
+        code.text.label("low_step");
+        code.text
+            .code("dec count | lda count | ora bits | beq last_step | jmp next_step");
+        code.text.label("last_step");
+    }
 
     code.text.headline("once a pixel");
     code.text.label("next_pixel");
@@ -222,6 +235,7 @@ fn main(
     if let Some(rows) = &errors {
         code.send_errors(rows);
     }
+    code.step();
     let [end0, end1] = [0, 1].map(|k| write::byte(&Operand::Constant(u64::from(columns.1) + 1), k));
     let (clamps, mut needs) = (code.clamps, std::mem::take(&mut code.needs));
     let text = &mut *code.text;

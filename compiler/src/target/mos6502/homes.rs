@@ -292,6 +292,10 @@ impl Uses<'_> {
             self.weight = weight;
             self.block(block);
         }
+        for (id, by) in self.plan.ramps() {
+            self.read(id);
+            self.read(by);
+        }
         let graph = &self.plan.graph;
         self.read(graph.ink);
         graph.reports.iter().for_each(|&id| self.read(id));
