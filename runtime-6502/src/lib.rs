@@ -13,7 +13,9 @@
 //!   page, its result is in `acc`;
 //! - a **template**: instructions, one a line. `{0.2}` is byte 2 of the first
 //!   argument and `{r.2}` of the result; `{n}` is a number that makes labels unique.
-//!   Where an argument is a constant its bytes become immediate operands.
+//!   Where an argument is a constant its bytes become immediate operands. `[ ]` holds what
+//!   is done for each byte `k` (`{0.k}`), and `{#n-16}` what follows from where the points
+//!   of the values are, for reals that have their own ([`scaled`]).
 //!   The result may be the place of an argument only where the template says so
 //!   (none does): bytes of the result are written before all arguments are read.
 //!
@@ -25,7 +27,8 @@
 //! -8 to 8 (reals; roots from 0) and -1000 to 1000 (ints), measured by the tests.
 //!
 //! # Memory
-//! `$00-$1d` is the runtime's (see the part `zero_page`), `$0200-$09ff` its tables
+//! `$00-$1d` is the runtime's (see the part `zero_page`), to `$33` where reals have points
+//! of their own (`scaled_page`), `$0200-$09ff` its tables
 //! of quarter squares, made by `make_squares` at the start. All else is free.
 
 pub mod model;
