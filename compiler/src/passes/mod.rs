@@ -23,6 +23,7 @@ mod queue;
 pub mod ramps;
 pub mod rate;
 pub mod rebuild;
+pub mod reciprocals;
 pub mod region;
 pub mod schedule;
 pub mod segment;

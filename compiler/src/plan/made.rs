@@ -1,7 +1,7 @@
 //! How a plan is made: the passes in their order, then a routine for each value.
 
 use super::cheaper::{apart_at_last, cheaper, with_inks_split, with_recipes_followed};
-use super::chosen::in_arms;
+use super::chosen::{in_arms, with_reciprocals};
 use super::params::{self, ParamPlan};
 use super::price::Price;
 use super::settled::{Known, Settled};
@@ -98,8 +98,9 @@ pub(super) fn planned(
     if let Rewriting::Fast { thrift, steps } = rewriting {
         let early =
             (!origin.early.is_empty()).then(|| steady(shop, &whole(drawn(fold(origin))), rounds));
-        now = in_arms(now, shop, thrift);
-        let early = early.map(|early| in_arms(early, shop, thrift));
+        let prepared = |plan: Settled| with_reciprocals(in_arms(plan, shop, thrift), shop, thrift);
+        now = prepared(now);
+        let early = early.map(prepared);
         let early = early.as_ref().map(|settled| &settled.graph);
         let price = Price::new(&now, runtime, thrift);
         let cheapest = |all: Vec<Settled>| {

@@ -91,7 +91,12 @@ pub static TARGETS: &[&Target] = &[
 ];
 
 /// The same machines with other formats of reals.
-pub static OTHER_FORMATS: &[&Target] = &[&jack::JACK_F316R, &jack::JACK_LOG10, &jack::JACK_FIXED16];
+pub static OTHER_FORMATS: &[&Target] = &[
+    &jack::JACK_F316R,
+    &jack::JACK_LOG10,
+    &jack::JACK_FIXED16,
+    &mos6502::PLAIN_FIXED16,
+];
 
 /// Every target in every format.
 pub fn in_all_formats() -> impl Iterator<Item = &'static Target> {

@@ -31,7 +31,7 @@ use super::recipes::Made;
 use crate::flow::graph::*;
 use crate::flow::tree::*;
 use crate::range::{Ranges, Slack, ranges};
-use slowlight_routine::scale::{self, Scales, fitting, shifted};
+use slowlight_routine::scale::{self, Scales, fitting};
 use slowlight_routine::{Bits, Format, Op, Range, Routine, Runtime, Type, Value};
 use wanted::{cap, wanted};
 
@@ -49,6 +49,8 @@ const BESIDE: f64 = 1.0 + 1.0 / 64.0;
 pub struct Points {
     /// Bits of a real.
     bits: u8,
+    /// How it is read at another scale.
+    shifted: fn(i64, i32, u8) -> i64,
     /// Each node's, those of constants as near as they can be held; 0 for ints.
     own: Vec<i8>,
     /// Each carried value's, by loop.
@@ -67,7 +69,7 @@ pub fn pointed(graph: &Graph, tree: &Tree, runtime: &'static Runtime) -> Option<
         |expected: &[Option<f64>]| ranges(graph, tree, &Slack::expecting(runtime, expected.into()));
     let mut expected = sampled.ends;
     // Nothing is cut where its format does not end.
-    Points::new(graph, &walk(&expected), bits).ends(&mut expected, &sampled.all);
+    Points::new(graph, &walk(&expected), runtime, bits).ends(&mut expected, &sampled.all);
     let mut planned = walk(&expected);
     // What is cut makes what is made of it smaller.
     for _ in 0..ROUNDS {
@@ -78,7 +80,7 @@ pub fn pointed(graph: &Graph, tree: &Tree, runtime: &'static Runtime) -> Option<
         }
         planned = walk(&expected);
     }
-    let points = Points::new(graph, &planned, bits);
+    let points = Points::new(graph, &planned, runtime, bits);
     let slack = Slack::with_points(runtime, points.clone());
     let found = ranges(graph, tree, &slack);
     Some((points, found))
@@ -86,7 +88,7 @@ pub fn pointed(graph: &Graph, tree: &Tree, runtime: &'static Runtime) -> Option<
 
 impl Points {
     /// The points that ranges leave room for.
-    pub fn new(graph: &Graph, ranges: &Ranges, bits: u8) -> Points {
+    pub fn new(graph: &Graph, ranges: &Ranges, runtime: &Runtime, bits: u8) -> Points {
         let range = |id: NodeId| ranges.result[id.0 as usize];
         let room: Vec<i8> = (graph.ids())
             .map(|id| match (graph.node(id), graph.constant(id)) {
@@ -120,6 +122,7 @@ impl Points {
             .collect();
         Points {
             bits,
+            shifted: runtime.shifted,
             own,
             carried,
             scales,
@@ -201,7 +204,7 @@ impl Points {
 
     /// Bits of one scale at another.
     pub fn moved(&self, bits: Bits, from: i8, to: i8) -> Bits {
-        shifted(bits as i64, i32::from(to) - i32::from(from), self.bits) as Bits
+        (self.shifted)(bits as i64, i32::from(to) - i32::from(from), self.bits) as Bits
     }
 }
 

@@ -10,17 +10,19 @@ use super::{Text, table};
 use crate::flow::graph::Axis;
 use crate::flow::tree::SubroutineId;
 use crate::plan::Plan;
-use slowlight_routine::{Format, Part, Source};
+use slowlight_routine::{Format, Part, Source, Type};
 use slowlight_runtime_6502::write::{self, Place as Operand};
 
 /// The whole program.
 pub(super) fn program(plan: &Plan, homes: &Homes, syntax: &Syntax, text: &mut Text) {
     let entries = entries(plan, homes);
     head(plan, &entries, syntax, text);
-    let parts = parts(plan, &entries);
+    // What operands are read with is known when they have been.
+    let (_, read) = main(plan, homes, &[], &mut Text::default());
+    let parts = parts(plan, &entries, &read);
     symbols(homes, &parts, text);
-    let clamps = main(plan, homes, &parts, text);
-    take_params(homes, &entries, syntax, text);
+    let (clamps, _) = main(plan, homes, &parts, text);
+    take_params(plan, homes, &entries, syntax, text);
     if plan.plot {
         colours(plan, text);
     }
@@ -29,7 +31,7 @@ pub(super) fn program(plan: &Plan, homes: &Homes, syntax: &Syntax, text: &mut Te
         text.line(table::CLAMP);
     }
     table::data(plan, text);
-    for part in parts.iter().filter(|p| p.name != "zero_page") {
+    for part in parts.iter().filter(|p| !is_page(p)) {
         text.headline(&format!("runtime: {}", part.name));
         source(part, text);
     }
@@ -40,16 +42,23 @@ pub(super) fn program(plan: &Plan, homes: &Homes, syntax: &Syntax, text: &mut Te
 }
 
 /// The parts that the program needs: those of the plan and of its own frame.
-fn parts(plan: &Plan, entries: &[Entry]) -> Vec<&'static Part> {
+fn parts(plan: &Plan, entries: &[Entry], read: &[&'static str]) -> Vec<&'static Part> {
     let mut names: Vec<&str> = plan.parts().iter().map(|p| p.name).collect();
+    names.extend(read);
     names.push("zero_page");
-    if entries.iter().any(|e| e.divisor > 0) {
-        names.push("fixed_divide");
+    names.extend(plan.points().map(|_| "scaled_page"));
+    for entry in entries {
+        names.extend(entry.needs(plan));
     }
     if table::any_large(plan) {
         names.push("int_multiply");
     }
     plan.runtime.closure(names)
+}
+
+/// Whether a part only names places in the zero page.
+fn is_page(part: &Part) -> bool {
+    matches!(part.name, "zero_page" | "scaled_page")
 }
 
 fn source(part: &Part, text: &mut Text) {
@@ -114,7 +123,7 @@ fn symbols(homes: &Homes, parts: &[&'static Part], text: &mut Text) {
         text.line(format!("{:<24}; {about}", format!("{name} = ${address}")));
     }
     text.headline("the runtime's zero page");
-    for part in parts.iter().filter(|p| p.name == "zero_page") {
+    for part in parts.iter().filter(|p| is_page(p)) {
         source(part, text);
     }
     text.headline("values, the most used in the zero page");
@@ -129,13 +138,21 @@ fn symbols(homes: &Homes, parts: &[&'static Part], text: &mut Text) {
     text.line(format!("* = ${:04x}", homes.origin));
 }
 
-/// The program proper; answers whether it clamps an index.
-fn main(plan: &Plan, homes: &Homes, parts: &[&'static Part], text: &mut Text) -> bool {
+/// The program proper; answers whether it clamps an index, and with what operands are read.
+fn main(
+    plan: &Plan,
+    homes: &Homes,
+    parts: &[&'static Part],
+    text: &mut Text,
+) -> (bool, Vec<&'static str>) {
     text.line("");
     text.label("start");
     text.code("cld | ldx #$ff | txs");
     if parts.iter().any(|p| p.name == "squares") {
         text.code("jsr make_squares");
+    }
+    if parts.iter().any(|p| p.name == "product") {
+        text.code("jsr set_squares");
     }
     text.code("jsr take_params");
     if plan.plot {
@@ -146,6 +163,7 @@ fn main(plan: &Plan, homes: &Homes, parts: &[&'static Part], text: &mut Text) ->
         homes,
         text,
         clamps: false,
+        needs: Vec::new(),
     };
     let errors = plan.error_rows();
     if let Some(rows) = &errors {
@@ -163,7 +181,7 @@ fn main(plan: &Plan, homes: &Homes, parts: &[&'static Part], text: &mut Text) ->
         Some(_) => Operand::Constant(0),
         None => Operand::At(first.clone()),
     };
-    code.copy_to(&top, &y);
+    code.copy_axis(&top, &y);
 
     code.text.headline("once a row");
     code.text.label("next_row");
@@ -183,9 +201,22 @@ fn main(plan: &Plan, homes: &Homes, parts: &[&'static Part], text: &mut Text) ->
             .code(&format!("lda {y}+1 | adc {dy1} | sta y_port+1"));
     }
     let columns = plan.computed_columns();
-    code.copy_to(&Operand::Constant(u64::from(columns.0)), &x);
+    code.copy_axis(&Operand::Constant(u64::from(columns.0)), &x);
     code.block(&plan.tree.row);
     code.text.span = plan.drawn;
+    if columns.0 > 0 && !plan.ramps().is_empty() {
+        // To the first column, by as many steps as there are before it.
+        let [lo, hi, ..] = columns.0.to_le_bytes();
+        code.text
+            .code(&format!("lda #{lo} | sta count | lda #{hi} | sta bits"));
+        code.text.label("next_step");
+        code.step();
+        code.text.code("lda count | bne low_step | dec bits");
+        code.text.label("low_step");
+        code.text
+            .code("dec count | lda count | ora bits | beq last_step | jmp next_step");
+        code.text.label("last_step");
+    }
 
     code.text.headline("once a pixel");
     code.text.label("next_pixel");
@@ -215,8 +246,9 @@ fn main(plan: &Plan, homes: &Homes, parts: &[&'static Part], text: &mut Text) ->
     if let Some(rows) = &errors {
         code.send_errors(rows);
     }
+    code.step();
     let [end0, end1] = [0, 1].map(|k| write::byte(&Operand::Constant(u64::from(columns.1) + 1), k));
-    let clamps = code.clamps;
+    let (clamps, mut needs) = (code.clamps, std::mem::take(&mut code.needs));
     let text = &mut *code.text;
     text.code(&format!("inc {x} | bne next_column | inc {x}+1"));
     text.label("next_column");
@@ -241,12 +273,14 @@ fn main(plan: &Plan, homes: &Homes, parts: &[&'static Part], text: &mut Text) ->
     text.code("lda #0 | sta exit_port");
     text.label("halted");
     text.code("jmp halted");
-    subroutines(plan, homes, text) || clamps
+    let called = subroutines(plan, homes, text);
+    needs.extend(called.1);
+    (called.0 || clamps, needs)
 }
 
-/// What is called from several places; answers whether it clamps an index.
-fn subroutines(plan: &Plan, homes: &Homes, text: &mut Text) -> bool {
-    let mut clamps = false;
+/// What is called from several places; answers what [`main`] does.
+fn subroutines(plan: &Plan, homes: &Homes, text: &mut Text) -> (bool, Vec<&'static str>) {
+    let (mut clamps, mut needs) = (false, Vec::new());
     for (k, subroutine) in plan.tree.subroutines.iter().enumerate() {
         let calls = plan.tree.calls(SubroutineId(k as u32));
         text.headline(&format!(
@@ -259,14 +293,16 @@ fn subroutines(plan: &Plan, homes: &Homes, text: &mut Text) -> bool {
             homes,
             text,
             clamps: false,
+            needs: Vec::new(),
         };
         code.block(&subroutine.body);
         clamps |= code.clamps;
+        needs.append(&mut code.needs);
         text.span = Some(subroutine.span);
         text.code("rts");
         text.span = None;
     }
-    clamps
+    (clamps, needs)
 }
 
 /// Gives out what the graph reports through the one port for bytes that there
@@ -281,7 +317,22 @@ fn reports(plan: &Plan, homes: &Homes, text: &mut Text) {
     ));
     text.code("lda #1 | sta height_port | lda #0 | sta height_port+1 | sta inks_port");
     for &id in &plan.graph.reports {
-        let value = homes.operand(plan, id);
+        let mut value = homes.operand(plan, id);
+        if let (Some(points), Some(constant)) = (plan.points(), plan.graph.constant(id)) {
+            let real = plan.graph.ty(id) == Type::Real;
+            let bits = (plan.runtime.encode)(constant, plan.format(id));
+            value = Operand::Constant(if real {
+                points.read(&plan.graph, id, bits, points.own(id))
+            } else {
+                bits
+            });
+        }
+        if let Operand::Held(..) = value {
+            let mut lines = Vec::new();
+            write::copy_bytes(&value, "acc", 4, &mut lines);
+            lines.iter().for_each(|line| text.line(line));
+            value = Operand::At("acc".to_owned());
+        }
         let bytes = match plan.format(id) {
             Format::Bool => 1,
             _ => 4,
