@@ -97,7 +97,12 @@ fn told_apart(p: &Param, runtime: &Runtime) -> Result<(), Diagnostic> {
     let (Some(digits), Type::Real) = (written.digits, p.ty) else {
         return Ok(());
     };
-    if (written.value - p.value).abs() <= p.value.abs() * COARSE {
+    // A fixed point's own last places are not for the source to tell apart.
+    let places = match runtime.real.is_fixed() {
+        true => 2.0 * runtime.real.epsilon(),
+        false => 0.0,
+    };
+    if (written.value - p.value).abs() <= (p.value.abs() * COARSE).max(places) {
         return Ok(());
     }
     let message = format!(
