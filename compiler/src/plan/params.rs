@@ -22,6 +22,8 @@ pub struct ParamPlan {
 }
 
 /// All params in the graph's order, or what is wrong with them on this machine.
+// A diagnostic is large; it is made once, where the scene is wrong.
+#[allow(clippy::result_large_err)]
 pub(super) fn params(graph: &Graph, runtime: &Runtime) -> Result<Vec<ParamPlan>, Vec<Diagnostic>> {
     let wrong = |p| ranged(p, runtime).and_then(|()| small(p, runtime)).err();
     let said: Vec<Diagnostic> = graph.params.iter().filter_map(wrong).collect();
@@ -33,6 +35,8 @@ pub(super) fn params(graph: &Graph, runtime: &Runtime) -> Result<Vec<ParamPlan>,
 }
 
 /// Fixed point needs to know how large a value may become.
+// A diagnostic is large; it is made once, where the scene is wrong.
+#[allow(clippy::result_large_err)]
 fn ranged(p: &Param, runtime: &Runtime) -> Result<(), Diagnostic> {
     let limited = runtime.real.is_fixed();
     if !limited || p.ty != Type::Real || p.range.is_some() {
@@ -49,6 +53,8 @@ fn ranged(p: &Param, runtime: &Runtime) -> Result<(), Diagnostic> {
 
 /// The value and the range must be numbers that the source can write, or
 /// machine and scene would differ in silence.
+// A diagnostic is large; it is made once, where the scene is wrong.
+#[allow(clippy::result_large_err)]
 fn small(p: &Param, runtime: &Runtime) -> Result<(), Diagnostic> {
     let most = match (p.ty, runtime.int) {
         (Type::Real, _) => runtime.param_most,
