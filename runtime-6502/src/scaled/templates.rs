@@ -26,7 +26,7 @@ pub(crate) const SATURATING_SUBTRACT: &str =
 pub(crate) const ABS: &str = "
     lda {0.h} | bmi negative{n} | sta {r.h} [- lda {0.k} | sta {r.k}] | jmp done{n}
     negative{n}:
-    | sec [lda #0 | sbc {0.k} | sta {r.k}]
+    sec [lda #0 | sbc {0.k} | sta {r.k}]
     done{n}:";
 
 /// Numbers whose difference fits.
