@@ -100,6 +100,14 @@ fn prepare(args: &Args, scene: &Scene) -> Outcome<(Plan, program::Values, Loaded
     let unedited = (args.target.emit)(&plan);
     let set = program::values(&plan, &unedited, &sources)?;
     let rows = program::rows(&plan, &unedited, &sources)?;
+    if let Some(asked) = &args.screen.rows
+        && rows != plan.rows
+    {
+        let what = format!("--rows {asked}: the program in {} draws rows", dir.display());
+        let (first, last) = rows;
+        let out = "leave --rows out, or change its first and last row";
+        return Err(Failure::Usage(format!("{what} {first}..{last}; {out}")));
+    }
     let mut plan = args.screen.plan(scene, args.target, &set)?;
     plan.rows = rows;
     Ok((plan, set, machine.load(&sources)?))

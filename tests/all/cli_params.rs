@@ -149,17 +149,20 @@ fn edited_rows_are_the_picture() {
         let rows = ["run", "spot.scn", "-t", &target, "--rows", "1..3", "--json"];
         let rows = json(dir, &rows);
         assert_eq!(edited["inks_sha256"], rows["inks_sha256"], "{target}");
+        let same = json(dir, &[&run[..], &["--rows", "1..3", "--json"]].concat());
+        assert_eq!(same["inks_sha256"], rows["inks_sha256"], "{target}");
 
-        let fails = |part: &str| {
-            let output = slowlight(dir, &run);
+        let fails = |more: &[&str], status: i32, part: &str| {
+            let output = slowlight(dir, &[&run[..], more].concat());
             let said = String::from_utf8_lossy(&output.stderr);
-            assert_eq!(output.status.code(), Some(1), "{target}: {said}");
+            assert_eq!(output.status.code(), Some(status), "{target}: {said}");
             assert!(said.contains(part), "{target}: {said}");
         };
+        fails(&["--rows", "2..3"], 2, "draws rows 1..3");
         set("last", "300");
-        fails("the screen shows rows");
+        fails(&[], 1, "the screen shows rows");
         set("last", "0");
-        fails("it draws no row");
+        fails(&[], 1, "it draws no row");
         std::fs::remove_dir_all(out).expect("removed");
     }
 }
