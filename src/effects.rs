@@ -11,13 +11,15 @@ use crate::failure::Outcome;
 use crate::jobs;
 use crate::measure;
 use crate::progress::Progress;
-use crate::scene::Scene;
+use crate::scene::{Limits, Precision, Scene};
 use crate::target_args::ScreenArgs;
 use crate::trial::{self, Trial};
 use serde::Serialize;
 use sha2::{Digest, Sha256};
+use slowlight_compiler::flow::graph::Graph;
+use slowlight_compiler::passes::coarse::coarse;
 use slowlight_compiler::plan::Plan;
-use slowlight_compiler::report::effects::{Effect, Own, Seen, effects, own, watch};
+use slowlight_compiler::report::effects::{Effect, Own, Seen, Turns, effects, own, turns, watch};
 use slowlight_compiler::target::Target;
 
 /// Rows and columns of the sample that is watched in the model.
@@ -62,6 +64,8 @@ pub struct Called {
     pub own: Own,
     /// What the model shows.
     pub seen: Seen,
+    /// Its loops, as the scene has them.
+    pub turns: Turns,
     /// What the picture loses without it.
     pub loss: Loss,
 }
@@ -74,6 +78,7 @@ impl Called {
             cycles: 0,
             own: Own::default(),
             seen: Seen::default(),
+            turns: Turns::default(),
             loss: Loss {
                 rmse: 0.0,
                 psnr: None,
@@ -130,6 +135,7 @@ pub fn look(
     let counted = count_lines(scene, plan.clone(), screen, limit)?;
     let pixels = sample(&plan);
     let mut seen = watch(&plan, &pixels);
+    let mut turns = turns(&as_written(scene, &plan, screen)?, &pixels);
     let mut own = own(counted.measured());
     let digest = digest(&plan);
     let all = effects(&scene.checked, &plan.graph);
@@ -159,6 +165,7 @@ pub fn look(
             called.own = own.remove(&effect.number).unwrap_or_default();
             called.seen = seen.remove(&effect.number).unwrap_or_default();
             called.seen.cycles.resize(pixels.len(), 0);
+            called.turns = turns.remove(&effect.number).unwrap_or_default();
         }
         rows.push(Row { effect, found });
     }
@@ -168,6 +175,16 @@ pub fn look(
         watched: pixels.len(),
         rows,
     })
+}
+
+/// The graph that a plan was made from, before anything was done to it.
+fn as_written(scene: &Scene, plan: &Plan, screen: &ScreenArgs) -> Outcome<Graph> {
+    let limits = Limits {
+        turns: screen.max_turns,
+        steps: screen.max_steps,
+    };
+    let graph = scene.graph_within(Some(plan.mode.inks), Precision::NATIVE, &[], limits)?;
+    Ok(coarse(&graph, plan.graph.image.block))
 }
 
 /// A plan's program on its machine.
@@ -193,6 +210,7 @@ impl Job<'_> {
             cycles: change(with.cycles, less.cycles),
             own: Own::default(),
             seen: Seen::default(),
+            turns: Turns::default(),
             loss: self.loss(&without),
         })))
     }

@@ -78,7 +78,7 @@ fn row_json(found: &Effects, row: &Row) -> Value {
     };
     let [median, p99] = quantiles(&called.seen.cycles);
     let [code, tables, variables] = called.sizes;
-    let turns = called.seen.turns;
+    let turns = called.turns;
     json!({
         "name": row.effect.name,
         "library": row.effect.library,
@@ -184,7 +184,7 @@ fn cells(found: &Effects, row: &Row) -> Vec<String> {
         if n < 0 { format!("-{digits}") } else { digits }
     };
     let [median, p99] = quantiles(&called.seen.cycles);
-    let turns = called.seen.turns;
+    let turns = called.turns;
     let mut cells = vec![name, count(u64::from(row.effect.calls))];
     cells.extend(called.sizes.map(|size| size.map_or("-".to_owned(), signed)));
     cells.extend([

@@ -7,6 +7,7 @@ use crate::progress::Progress;
 use crate::scene::{Precision, Scene};
 use rayon::prelude::*;
 use slowlight_compiler::eval::native::{Native, Pixel};
+use slowlight_compiler::passes::coarse::coarse;
 use slowlight_compiler::plan::Plan;
 use slowlight_compiler::report::raised::{RaisedRun, raisable};
 use std::collections::BTreeMap;
@@ -43,7 +44,9 @@ pub struct Without {
 /// Where the scene does not compile, and an interruption.
 pub fn errors(scene: &Scene, plan: &Plan) -> Outcome<Errors> {
     let places = Window::of(plan).grid(GRID);
-    let graph = scene.graph(Some(plan.mode.inks), Precision::NATIVE)?;
+    let written = scene.graph(Some(plan.mode.inks), Precision::NATIVE)?;
+    // What blocks leave out is no line's.
+    let graph = coarse(&written, plan.graph.image.block);
     let mut native = Native::new(&graph);
     let native: Vec<Pixel> = places.iter().map(|(x, y)| native.pixel(*x, *y)).collect();
     // The program may compare without ever computing the shade.

@@ -28,7 +28,7 @@ pub fn page(found: &Explained) -> String {
         "<!doctype html>\n<html lang=\"en\"><meta charset=\"utf-8\">\n<title>{title}</title>\n\
          <style>\n{STYLE}</style>\n<h1>{title}</h1>\n"
     );
-    let window = Window::of(plan);
+    let window = Window::on_screen(plan);
     let errors = &found.errors;
     // Writing to a String cannot fail.
     let _ = writeln!(

@@ -173,7 +173,7 @@ impl Explained {
     /// What `explain --json` prints.
     pub fn report(&self) -> Report<'_> {
         let plan = &self.plan;
-        let window = Window::of(plan);
+        let window = Window::on_screen(plan);
         let charged: u64 = self.profile.lines.iter().map(|line| line.cycles).sum();
         let files: Vec<(u16, &str, &str)> = self.files().collect();
         let line = |line: &SourceLine| {

@@ -34,7 +34,7 @@ pub fn text(found: &Explained) -> String {
 
 fn head(found: &Explained) -> String {
     let plan = &found.plan;
-    let window = Window::of(plan);
+    let window = Window::on_screen(plan);
     let mode = match plan.mode.name {
         "" => String::new(),
         name => format!(" in mode {name}"),

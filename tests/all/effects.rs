@@ -96,6 +96,10 @@ fn what_is_not_needed_at_a_pixel_is_seen() {
         let own = row["own"]["cycles"].as_u64().expect("cycles");
         assert!((1..found["run"]["cycles"].as_u64().expect("cycles")).contains(&own));
     }
+    // Turns are the scene's, whatever the compiler makes of the loop.
+    let args = ["effects", "lit.scn", "-t", "6502:plain", "--json"];
+    let compiled = json(dir.path(), &args);
+    assert_eq!(row(&compiled, "halo")["turns"], halo["turns"]);
     let of = |row: &Value, key: &str| row["pixel_cycles_modelled"][key].as_u64().expect("cycles");
     assert!(of(halo, "p99") >= of(halo, "median"));
     assert!(of(rim, "p99") > 0);

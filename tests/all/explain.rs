@@ -104,6 +104,24 @@ fn and_so_it_has_where_the_plan_is_rewritten() {
     held(dir.path(), "spot.scn", "bbc:micro", &["--style", "listing"]);
 }
 
+/// A picture of blocks has as many pixels as any, and what blocks leave out is no line's error.
+#[test]
+fn blocks_are_told_in_pixels() {
+    let dir = directory(&[("spot.scn", SPOT)]);
+    for format in ["f316", "f316r"] {
+        let args = ["spot.scn", "-t", "jack", "--block", "2", "--json"];
+        let args = [&args[..], &["--format", format]].concat();
+        let told = json(dir.path(), &[&["explain"], &args[..]].concat());
+        let run = json(dir.path(), &[&["run"], &args[..]].concat());
+        assert_eq!(
+            (&told["width"], &told["height"]),
+            (&run["width"], &run["height"])
+        );
+        let rmse = |of: &Value| of["rmse"].as_f64().expect("a number");
+        assert!(rmse(&told) < 0.01 && rmse(&told) < rmse(&run) / 4.0);
+    }
+}
+
 /// A dear line and a cheap one, and what the library computes.
 const TOLD: &str = "image 16 x 8 inks black, white;
 draw (x, y) = {

@@ -7,11 +7,12 @@
 //! anything: call by need leaves it out at the others.
 
 use super::profile::Measured;
-use crate::eval::arithmetic::Arithmetic;
+use crate::eval::arithmetic::{Arithmetic, Exact};
 use crate::eval::model::Model;
 use crate::eval::run::Run;
 use crate::flow::graph::*;
 use crate::flow::tree::{Place, Statement};
+use crate::passes::schedule::schedule;
 use crate::plan::Plan;
 use crate::scene::Scene;
 use crate::sema::FunctionKind;
@@ -112,8 +113,6 @@ pub struct Seen {
     pub cycles: Vec<u64>,
     /// At how many pixels it computed anything.
     pub ran: usize,
-    /// Its loops.
-    pub turns: Turns,
 }
 
 /// Runs the model at some pixels, in the order of the scan, and watches the effects.
@@ -128,15 +127,11 @@ pub fn watch(plan: &Plan, pixels: &[(i32, i32)]) -> BTreeMap<u16, Seen> {
     watched.log.borrow_mut().clear();
     for (done, (x, y)) in pixels.iter().enumerate() {
         run.pixel(*x, *y);
-        for (effect, here) in std::mem::take(&mut *watched.log.borrow_mut()) {
+        for (effect, cycles) in std::mem::take(&mut *watched.log.borrow_mut()) {
             let seen = found.entry(effect).or_default();
             seen.cycles.resize(done, 0);
-            seen.cycles.push(here.cycles);
+            seen.cycles.push(cycles);
             seen.ran += 1;
-            seen.turns.begun += here.turns.begun;
-            seen.turns.turns += here.turns.turns;
-            seen.turns.most = seen.turns.most.max(here.turns.most);
-            seen.turns.limit = seen.turns.limit.max(here.turns.limit);
         }
     }
     for seen in found.values_mut() {
@@ -145,28 +140,16 @@ pub fn watch(plan: &Plan, pixels: &[(i32, i32)]) -> BTreeMap<u16, Seen> {
     found
 }
 
-/// What an effect did at a pixel.
-#[derive(Clone, Copy, Default)]
-struct Here {
-    cycles: u64,
-    turns: Turns,
-}
-
 /// The model, watched.
 struct Watched<'p> {
     model: Model<'p>,
-    log: RefCell<BTreeMap<u16, Here>>,
+    /// Cycles of the pixel, by effect.
+    log: RefCell<BTreeMap<u16, u64>>,
 }
 
 impl Watched<'_> {
     fn graph(&self) -> &Graph {
         &self.model.0.graph
-    }
-
-    fn note(&self, span: Span, note: impl FnOnce(&mut Here)) {
-        if let Some(effect) = span.effect {
-            note(self.log.borrow_mut().entry(effect).or_default());
-        }
     }
 }
 
@@ -188,7 +171,9 @@ impl Arithmetic for &Watched<'_> {
     fn apply(&self, id: NodeId, op: Op, args: &[Bits]) -> Bits {
         let routine = self.model.0.routine(id);
         let cycles = routine.map_or(0, |routine| u64::from(routine.cycles));
-        self.note(self.graph().span(id), |here| here.cycles += cycles);
+        if let Some(effect) = self.graph().span(id).effect {
+            *self.log.borrow_mut().entry(effect).or_default() += cycles;
+        }
         self.model.apply(id, op, args)
     }
 
@@ -211,25 +196,86 @@ impl Arithmetic for &Watched<'_> {
     fn int(&self, value: Bits) -> i32 {
         self.model.int(value)
     }
+}
 
-    fn turn(&self, of: LoopId, turn: u32, _: &[Option<Bits>]) {
-        if let Some(l) = self.graph().loops.get(of.0 as usize) {
-            self.note(l.span, |here| {
-                here.turns.turns += 1;
-                here.turns.most = here.turns.most.max(turn + 1);
-            });
+/// How often the loops of effects go round, by effect, in a scene's graph as it is written:
+/// a compiled one may have a loop's first turns in front of it, or none left.
+pub fn turns(graph: &Graph, pixels: &[(i32, i32)]) -> BTreeMap<u16, Turns> {
+    // What earlier pixels send only moves the ink.
+    let graph = &Graph {
+        diffusion: None,
+        ..graph.clone()
+    };
+    let tree = schedule(graph);
+    let counted = Rounds {
+        exact: Exact(graph),
+        log: RefCell::default(),
+    };
+    let mut run = Run::new(graph, &tree, &counted);
+    for (x, y) in pixels {
+        run.pixel(*x, *y);
+    }
+    counted.log.take()
+}
+
+/// The graph's own arithmetic, whose loops are counted.
+struct Rounds<'g> {
+    exact: Exact<'g>,
+    log: RefCell<BTreeMap<u16, Turns>>,
+}
+
+impl Rounds<'_> {
+    fn note(&self, of: LoopId, note: impl FnOnce(&mut Turns)) {
+        let written = self.exact.0.loops.get(of.0 as usize);
+        if let Some((effect, max)) = written.and_then(|l| Some((l.span.effect?, l.max))) {
+            let mut log = self.log.borrow_mut();
+            let turns = log.entry(effect).or_default();
+            turns.limit = turns.limit.max(max);
+            note(turns);
         }
+    }
+}
+
+impl Arithmetic for &Rounds<'_> {
+    type Value = Value;
+
+    fn constant(&self, value: Value) -> Value {
+        self.exact.constant(value)
+    }
+
+    fn param(&self, id: ParamId) -> Value {
+        self.exact.param(id)
+    }
+
+    fn apply(&self, id: NodeId, op: Op, args: &[Value]) -> Value {
+        self.exact.apply(id, op, args)
+    }
+
+    fn gather(&self, received: Value, sent: Value) -> Value {
+        self.exact.gather(received, sent)
+    }
+
+    fn truth(&self, value: Value) -> bool {
+        self.exact.truth(value)
+    }
+
+    fn int(&self, value: Value) -> i32 {
+        self.exact.int(value)
+    }
+
+    fn turn(&self, of: LoopId, turn: u32, _: &[Option<Value>]) {
+        self.note(of, |turns| {
+            turns.turns += 1;
+            turns.most = turns.most.max(turn + 1);
+        });
     }
 
     fn step(&self, statement: &Statement) {
-        if let Statement::Loop(turns) = statement
-            && let Some(l) = self.graph().loops.get(turns.of.0 as usize)
-        {
-            self.note(l.span, |here| {
-                here.turns.begun += 1;
-                here.turns.turns += 1;
-                here.turns.most = here.turns.most.max(1);
-                here.turns.limit = here.turns.limit.max(l.max);
+        if let Statement::Loop(begun) = statement {
+            self.note(begun.of, |turns| {
+                turns.begun += 1;
+                turns.turns += 1;
+                turns.most = turns.most.max(1);
             });
         }
     }
