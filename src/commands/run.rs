@@ -103,7 +103,10 @@ fn prepare(args: &Args, scene: &Scene) -> Outcome<(Plan, program::Values, Loaded
     if let Some(asked) = &args.screen.rows
         && rows != plan.rows
     {
-        let what = format!("--rows {asked}: the program in {} draws rows", dir.display());
+        let what = format!(
+            "--rows {asked}: the program in {} draws rows",
+            dir.display()
+        );
         let (first, last) = rows;
         let out = "leave --rows out, or change its first and last row";
         return Err(Failure::Usage(format!("{what} {first}..{last}; {out}")));

@@ -12,6 +12,7 @@ use crate::tune::cache::Cache;
 use crate::tune::choice::Base;
 use crate::tune::explore::{Found, Search, explore};
 use crate::tune::goal::{self, Goals, Measure};
+use crate::tune::marks::{self, Mark};
 use crate::tune::page::page;
 use crate::tune::plot::svg;
 use crate::tune::point::{Natives, Point, encoded};
@@ -59,6 +60,9 @@ pub struct Args {
     /// Write the plot alone
     #[arg(long, value_name = "FILE")]
     svg: Option<PathBuf>,
+    /// Another program in the plot: 'the original=9h45m,0.47%'
+    #[arg(long, value_name = "NAME=TIME,ERROR", value_parser = marks::mark)]
+    mark: Vec<Mark>,
     /// Print all points as JSON
     #[arg(long)]
     json: bool,
@@ -98,9 +102,10 @@ pub fn run(args: &Args) -> Outcome<()> {
     {
         // Planning does not look at whether Ctrl-C was pressed.
         let (found, base, measure) = (found.clone(), base.clone(), args.measure);
+        let form = Form::of(args);
         interrupt::last_words(move || {
             if let Ok(found) = found.lock() {
-                say(&text(&Told::new(&base, measure, &found)));
+                form.say(&Told::new(&base, measure, &found), None);
             }
         });
     }
@@ -112,12 +117,14 @@ pub fn run(args: &Args) -> Outcome<()> {
     match searched {
         Ok(()) => {}
         Err(Failure::Interrupted) if !found.points.is_empty() => {
-            say(&text(&Told::new(&base, args.measure, &found)));
+            Form::of(args).say(&Told::new(&base, args.measure, &found), None);
             return Err(Failure::Interrupted);
         }
         Err(other) => return Err(other),
     }
-    tell(args, &Told::new(&base, args.measure, &found))
+    let mut told = Told::new(&base, args.measure, &found);
+    told.marks = args.mark.clone();
+    tell(args, &told)
 }
 
 fn base(args: &Args) -> Base {
@@ -134,8 +141,30 @@ fn base(args: &Args) -> Base {
     }
 }
 
-fn text(told: &Told<'_>) -> String {
-    format!("{}\n\n{}", told.sentence(), told.table())
+/// How what was found is printed.
+#[derive(Clone, Copy)]
+enum Form {
+    Json,
+    Csv,
+    Text,
+}
+
+impl Form {
+    fn of(args: &Args) -> Form {
+        match (args.json, args.csv) {
+            (true, _) => Form::Json,
+            (_, true) => Form::Csv,
+            _ => Form::Text,
+        }
+    }
+
+    fn say(self, told: &Told<'_>, chosen: Option<&Point>) {
+        match self {
+            Form::Json => say_json(&told.json(chosen)),
+            Form::Csv => say(&told.csv()),
+            Form::Text => say(&format!("{}\n\n{}", told.sentence(), told.table())),
+        }
+    }
 }
 
 /// Tells what was found, and builds what was asked for.
@@ -159,13 +188,7 @@ fn tell(args: &Args, told: &Told<'_>) -> Outcome<()> {
         .any()
         .then(|| goals.choose(&told.points, args.measure));
     let best: Option<&Point> = chosen.as_ref().and_then(|c| c.as_ref().ok()).copied();
-    if args.json {
-        say_json(&told.json(best));
-    } else if args.csv {
-        say(&told.csv());
-    } else {
-        say(&text(told));
-    }
+    Form::of(args).say(told, best);
     if let Some(found) = chosen {
         let point = found?;
         let written = build(args, told, point)?;

@@ -53,6 +53,12 @@ pub struct Base {
 }
 
 impl Base {
+    /// The scene's name, for people.
+    pub fn name(&self) -> String {
+        let stem = self.path.file_stem().unwrap_or(self.path.as_os_str());
+        stem.to_string_lossy().into_owned()
+    }
+
     /// The options of a choice, in words of the command line.
     pub fn words(&self, choice: &Choice) -> Vec<String> {
         let mut words = Vec::new();

@@ -35,6 +35,15 @@ pub struct Search {
     pub cache: Cache,
 }
 
+impl Search {
+    /// What the figures of a choice depend on: its options, and when a machine is given up.
+    fn words(&self, choice: &Choice) -> Vec<String> {
+        let mut words = self.base.words(choice);
+        words.push(format!("limit {}", self.limit));
+        words
+    }
+}
+
 /// What was found so far.
 #[derive(Clone, Debug, Default)]
 pub struct Found {
@@ -128,7 +137,7 @@ pub fn explore(search: &Search, found: &Arc<Mutex<Found>>) -> Outcome<()> {
     let each = jobs::each(&rest, |(choice, plan)| {
         let scene = scenes.of(choice);
         let plan = plan.lock().ok().and_then(|mut plan| plan.take());
-        let words = base.words(choice);
+        let words = search.words(choice);
         let work = || tried(search, scene, &natives, choice, plan);
         let tried: Tried = search.cache.known_or(scene, base.target, &words, work)?;
         progress.step(1);
@@ -172,7 +181,7 @@ struct Begun {
 /// Looks at a choice, or remembers what was seen.
 fn begun(search: &Search, scene: &Scene, natives: &Natives, choice: &Choice) -> Outcome<Begun> {
     let (base, measure) = (&search.base, search.measure);
-    let mut words = base.words(choice);
+    let mut words = search.words(choice);
     words.push(format!("first {measure:?}"));
     let mut kept = None;
     let work = || {

@@ -7,6 +7,7 @@
 use super::goal::{Measure, percent};
 use super::plot::{escaped, svg};
 use super::point::Point;
+use super::spent::Spent;
 use super::tell::Told;
 use crate::format::{count, duration};
 use serde_json::{Value, json};
@@ -15,7 +16,7 @@ const TEMPLATE: &str = include_str!("page.html");
 
 /// The page; `native` is the native picture as a PNG in base 64.
 pub fn page(told: &Told<'_>, native: &str) -> String {
-    let scene = told.base.path.display().to_string();
+    let scene = told.base.name();
     let parts = [
         (
             "{{title}}",
@@ -153,6 +154,7 @@ fn shown(told: &Told<'_>, k: usize) -> Value {
     ]);
     json!({
         "words": in_words(told, point),
+        "spent": at.spent.iter().map(sentence).collect::<Vec<String>>(),
         "command": told.base.command(&point.choice, "run"),
         "build": told.base.command(&point.choice, "build"),
         "better": told.by[k].map(|by| told.base.words(&told.points[by].choice).join(" ")),
@@ -192,13 +194,39 @@ fn in_words(told: &Told<'_>, point: &Point) -> Vec<String> {
     }
     if let Some(most) = choice.setting.max_turns {
         words.push(format!(
-            "The scene's loops (bounces, say) end after {most} turns."
+            "The scene's loops (bounces, say) end after {}.",
+            turns(most)
         ));
     }
     if let Some(most) = choice.setting.max_steps {
         words.push(format!(
-            "The library's loops (marches, searches, walks) end after {most} turns."
+            "The library's loops (marches, searches, walks) end after {}.",
+            turns(most)
         ));
     }
     words
+}
+
+/// A line and what it takes, as a person would say it.
+fn sentence(spent: &Spent) -> String {
+    let mut text = format!("{} of the time", percent(spent.share));
+    match spent.error {
+        Some(error) if error >= 0.0005 => {
+            text.push_str(&format!(" and {} of the error", percent(error)));
+        }
+        Some(_) => text.push_str(" and none of the error"),
+        None => {}
+    }
+    text.push_str(&format!(": {}, `{}`", spent.place, spent.text));
+    if let Some((name, share)) = &spent.routine {
+        text.push_str(&format!(" ({name}: {} of the time)", percent(*share)));
+    }
+    text
+}
+
+fn turns(most: u32) -> String {
+    match most {
+        1 => "one turn".to_owned(),
+        more => format!("{more} turns"),
+    }
 }

@@ -3,6 +3,7 @@
 //! The SVG stands by itself: no fonts, scripts or styles from elsewhere.
 
 use super::goal::percent;
+use super::marks::diamond;
 use super::tell::Told;
 use crate::format::duration;
 
@@ -104,10 +105,14 @@ pub fn escaped(text: &str) -> String {
 pub fn svg(told: &Told<'_>) -> String {
     let (width, height) = SIZE;
     let across = (LEFT, width - RIGHT);
-    let exact = told.points.iter().any(|p| told.error(p) == 0.0);
+    let times = told.points.iter().map(|p| p.measured.seconds);
+    let times = times.chain(told.marks.iter().map(|mark| mark.seconds));
+    let errors = told.points.iter().map(|p| told.error(p));
+    let errors = errors.chain(told.marks.iter().map(|mark| mark.error));
+    let exact = errors.clone().any(|error| error == 0.0);
     let floor = height - BOTTOM - if exact { NOTHING } else { 0.0 };
-    let x = Axis::over(told.points.iter().map(|p| p.measured.seconds), across);
-    let y = Axis::over(told.points.iter().map(|p| told.error(p)), (floor, TOP));
+    let x = Axis::over(times, across);
+    let y = Axis::over(errors, (floor, TOP));
     let down = |error: f64| {
         if error > 0.0 {
             y.at(error)
@@ -167,6 +172,11 @@ pub fn svg(told: &Told<'_>) -> String {
             ));
         }
     }
+    for mark in &told.marks {
+        let at = (x.at(mark.seconds), down(mark.error));
+        let middle = (across.0 + across.1) / 2.0;
+        diamond(&mut out, mark, at, middle, told.measure.phrase());
+    }
     out.push_str("</svg>");
     out
 }
@@ -225,8 +235,9 @@ fn captions(out: &mut String, told: &Told<'_>) {
         height - 30.0
     ));
     out.push_str(&format!(
-        "<text x=\"{middle}\" y=\"{:.1}\" text-anchor=\"middle\" fill=\"#666666\">blue: worth choosing; grey: another point is both quicker and nearer the native picture</text>\n",
-        height - 10.0
+        "<text x=\"{middle}\" y=\"{:.1}\" text-anchor=\"middle\" fill=\"#666666\">blue: worth choosing; grey: another point is both quicker and nearer the native picture{}</text>\n",
+        height - 10.0,
+        if told.marks.is_empty() { "" } else { "; red: a program of others" }
     ));
     let halfway = (TOP + height - BOTTOM) / 2.0;
     out.push_str(&format!(

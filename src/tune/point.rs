@@ -1,6 +1,7 @@
 //! A point: what a choice came to on its machine, the whole picture.
 
 use super::choice::{Base, Choice};
+use super::spent::{Spent, spent};
 use crate::draw::{Drawn, Window, native};
 use crate::failure::{Failure, Outcome};
 use crate::machine::Sizes;
@@ -45,6 +46,8 @@ pub struct Measured {
     pub differs_from_model: u64,
     /// How far it is from the native picture.
     pub errors: Errors,
+    /// What its time goes to, the dearest first.
+    pub spent: Vec<Spent>,
     /// Digest of the inks, as `run` gives it.
     pub inks_sha256: String,
     /// The picture, as a PNG in base 64.
@@ -101,6 +104,7 @@ pub fn measure(
     limit: u64,
 ) -> Outcome<Point> {
     let predicted = estimate::cycles(&plan);
+    let spent = spent(scene, &plan, &base.screen(choice), limit)?;
     let loaded = trial::build_for(&plan, base.screen(choice).machine(plan.target)?)?.loaded;
     let run = trial::ran(scene, &plan, loaded, limit)?;
     let native = natives.of(scene, plan.mode.inks, Window::on_screen(&plan))?;
@@ -130,6 +134,7 @@ pub fn measure(
             bytes: [code, tables, ram],
             differs_from_model: tried.from_model.as_ref().map_or(0, Vec::len) as u64,
             errors,
+            spent,
             inks_sha256: picture.sha256(),
             picture: BASE64.encode(picture.encode(FileFormat::Png)?),
             difference: BASE64.encode(difference(picture, &tried.native)?),

@@ -62,8 +62,8 @@ pub fn pays(plan: &Plan) -> bool {
     plan.graph.diffusion.is_none() && rows >= SHARE && estimate::cycles(plan) > LONG
 }
 
-/// The bands: first and last row.
-fn bands((first, last): (u32, u32)) -> [(u32, u32); 3] {
+/// The bands: first and last row of each.
+pub fn bands((first, last): (u32, u32)) -> [(u32, u32); 3] {
     let count = last - first + 1;
     let high = count.div_ceil(SHARE);
     [1, 3, 5].map(|sixth| {

@@ -3,6 +3,7 @@
 use super::choice::Base;
 use super::explore::Found;
 use super::goal::{Measure, percent};
+use super::marks::Mark;
 use super::point::Point;
 use crate::format::{count, duration, table};
 use serde_json::{Value, json};
@@ -20,6 +21,8 @@ pub struct Told<'a> {
     pub by: Vec<Option<usize>>,
     /// What could not be had.
     pub found: &'a Found,
+    /// Programs of others, to compare with.
+    pub marks: Vec<Mark>,
 }
 
 impl<'a> Told<'a> {
@@ -37,6 +40,7 @@ impl<'a> Told<'a> {
             by: dominated(&ways),
             points,
             found,
+            marks: Vec::new(),
         }
     }
 
@@ -79,7 +83,7 @@ impl<'a> Told<'a> {
 
     /// The conclusion.
     pub fn sentence(&self) -> String {
-        let name = &self.base.path.display();
+        let name = self.base.name();
         let target = self.base.target.name;
         let mut ends = self.frontier().map(|(_, p)| p);
         let Some(quick) = ends.next() else {
@@ -238,6 +242,7 @@ impl<'a> Told<'a> {
             "low_pass_rmse": at.errors.low_pass,
             "differs_from_model": at.differs_from_model,
             "inks_sha256": at.inks_sha256,
+            "spent": at.spent,
         })
     }
 

@@ -28,6 +28,8 @@ mod peers_assemblers;
 #[cfg(feature = "peers")]
 mod peers_brandy;
 #[cfg(feature = "peers")]
+mod peers_chromium;
+#[cfg(feature = "peers")]
 mod peers_dialect;
 #[cfg(feature = "peers")]
 mod peers_jsbeeb;
