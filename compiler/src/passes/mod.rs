@@ -7,6 +7,7 @@ pub mod arms;
 pub mod coarse;
 pub mod demand;
 pub mod early;
+pub mod either;
 pub mod factors;
 pub mod fold;
 pub mod guard;

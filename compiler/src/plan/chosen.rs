@@ -1,5 +1,6 @@
-//! What is made of choices: operations in their arms ([`crate::passes::arms`]), and factors
-//! that are chosen by the values that they take ([`crate::passes::factors`]).
+//! What is made of choices: operations in their arms ([`crate::passes::arms`]), factors
+//! that are chosen by the values that they take ([`crate::passes::factors`]), and conditions
+//! that are asked only where they matter ([`crate::passes::either`]).
 
 use super::cheaper::NODES;
 use super::price::Price;
@@ -7,7 +8,9 @@ use super::settled::Settled;
 use super::thrift::Thrift;
 use super::workshop::Workshop;
 use crate::passes::arms::{arms, conditions};
+use crate::passes::either::{self, either};
 use crate::passes::factors::factors;
+use crate::passes::fold::fold;
 use crate::passes::reciprocals::reciprocals;
 
 /// By how much operations in arms must make the plan cheaper: each choice is asked once
@@ -29,6 +32,22 @@ pub fn in_arms(plan: Settled, shop: &Workshop, thrift: Thrift) -> Settled {
         let cond = conditions(&best.graph).get(k).copied();
         let next = cond.and_then(|cond| arms(&best.graph, &best.ranges, cond));
         if let Some(next) = next.map(|graph| shop.settle(&graph))
+            && price.of(&next) < ARMS * price.of(&best)
+        {
+            best = next;
+        }
+    }
+    best
+}
+
+/// With conditions asked only where the ink is not the same either way.
+pub fn asked_where_it_matters(plan: Settled, shop: &Workshop, thrift: Thrift) -> Settled {
+    let price = Price::new(&plan, shop.runtime, thrift);
+    let mut best = plan;
+    for k in 0..either::conditions(&best.graph).len() {
+        let cond = either::conditions(&best.graph).get(k).copied();
+        let next = cond.and_then(|cond| either(&best.graph, cond));
+        if let Some(next) = next.map(|graph| shop.settle(&fold(&graph)))
             && price.of(&next) < ARMS * price.of(&best)
         {
             best = next;
