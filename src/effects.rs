@@ -35,6 +35,18 @@ pub struct Effects {
     pub watched: usize,
     /// The effects, the scene's first.
     pub rows: Vec<Row>,
+    /// What is saved where the ink is known without the whole shade.
+    pub known: Known,
+}
+
+/// What is saved where the ink is known without the whole shade: against the same program
+/// with every shade in full.
+#[derive(Clone, Copy, Debug, Default, Serialize)]
+pub struct Known {
+    /// Cycles less.
+    pub cycles_saved: i64,
+    /// Inks that differ: none but by rounding elsewhere, as each is another program.
+    pub inks_changed: Option<usize>,
 }
 
 /// An effect.
@@ -148,6 +160,7 @@ pub fn look(
         whole: &whole,
         digest: &digest,
     };
+    let known = job.known()?;
     let progress = Progress::new("effects", all.len() as u64);
     let done = jobs::each(&all, |effect| {
         let found = match effect.calls {
@@ -174,6 +187,7 @@ pub fn look(
         counted,
         watched: pixels.len(),
         rows,
+        known,
     })
 }
 
@@ -217,19 +231,40 @@ impl Job<'_> {
 
     fn loss(&self, without: &Trial) -> Loss {
         let rmse = measure::rmse(&self.whole.native.pixels, &without.native.pixels);
-        let inks = |trial: &Trial| trial.plan.graph.image.palette.len();
-        let pictures = self.whole.picture.as_ref().zip(without.picture.as_ref());
-        let same = pictures.filter(|(with, less)| {
-            inks(self.whole) == inks(without) && with.inks.len() == less.inks.len()
-        });
         Loss {
             rmse,
             psnr: measure::psnr(rmse),
-            pixels: same.map(|(with, less)| {
-                let pairs = with.inks.iter().zip(&less.inks);
-                pairs.filter(|(a, b)| a != b).count()
-            }),
+            pixels: self.changed(without),
         }
+    }
+
+    /// Inks of another picture that are not the whole's; none where they cannot be compared.
+    fn changed(&self, other: &Trial) -> Option<usize> {
+        let inks = |trial: &Trial| trial.plan.graph.image.palette.len();
+        let (with, less) = self.whole.picture.as_ref().zip(other.picture.as_ref())?;
+        let same = inks(self.whole) == inks(other) && with.inks.len() == less.inks.len();
+        let pairs = with.inks.iter().zip(&less.inks);
+        same.then(|| pairs.filter(|(a, b)| a != b).count())
+    }
+
+    /// The program that computes every shade in full, beside this one.
+    fn known(&self) -> Outcome<Known> {
+        let screen = ScreenArgs {
+            every_shade: true,
+            ..self.screen.clone()
+        };
+        let plan = screen.plan(self.scene, self.target, &[])?;
+        if digest(&plan) == self.digest {
+            return Ok(Known {
+                cycles_saved: 0,
+                inks_changed: Some(0),
+            });
+        }
+        let full = tried(self.scene, plan, &screen, self.limit)?;
+        Ok(Known {
+            cycles_saved: change(full.run.cycles, self.whole.run.cycles),
+            inks_changed: self.changed(&full),
+        })
     }
 
     /// What an effect that is not called costs: the program of a compiler without it.

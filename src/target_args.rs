@@ -9,7 +9,7 @@ use crate::scene::{Limits, Precision, Scene};
 use crate::trial;
 use clap::{Args, ValueEnum};
 use slowlight_compiler::passes::coarse::coarse;
-use slowlight_compiler::plan::{Goal, Plan, plan, plan_as_written};
+use slowlight_compiler::plan::{Goal, Plan, plan, plan_as_written, plan_with_every_shade};
 use slowlight_compiler::sema::{FunctionKind, Program};
 use slowlight_compiler::source::Span;
 use slowlight_compiler::target::mos6502::syntax::{self, SYNTAXES, Syntax};
@@ -56,6 +56,9 @@ pub struct ScreenArgs {
     /// Rewrite nothing, neither for accuracy nor for speed: every formula as the scene has it
     #[arg(long)]
     pub as_written: bool,
+    /// Compute shades in full even where the ink is known without, to see what that saves
+    #[arg(long)]
+    pub every_shade: bool,
     /// With subroutines for what the program has several times, also where it fits without
     #[arg(long)]
     pub outlined: bool,
@@ -329,9 +332,10 @@ impl ScreenArgs {
             rows: asked,
             plot: !self.no_plot,
         };
-        let planned = match self.as_written {
-            true => plan_as_written(&graph, target, &goal),
-            false => plan(&graph, target, &goal),
+        let planned = match (self.as_written, self.every_shade) {
+            (true, _) => plan_as_written(&graph, target, &goal),
+            (_, true) => plan_with_every_shade(&graph, target, &goal),
+            _ => plan(&graph, target, &goal),
         };
         let planned = match self.outlined {
             true => planned.and_then(|plan| plan.outlined(&|span| scene.called_at(span))),

@@ -1,6 +1,6 @@
 //! `effects`: what each effect of a scene and of the library costs, and what it adds.
 
-use crate::effects::{Called, Effects, Found, Row, look, quantiles};
+use crate::effects::{Called, Effects, Found, Known, Row, look, quantiles};
 use crate::explain::terminal::percent;
 use crate::explain::{size_unit, unit};
 use crate::failure::{Failure, Outcome};
@@ -62,6 +62,7 @@ fn report(found: &Effects) -> Value {
         "unit": unit(run),
         "size_unit": size_unit(run),
         "watched": found.watched,
+        "known_before_shade": found.known,
         "effects": found.rows.iter().map(|row| row_json(found, row)).collect::<Vec<Value>>(),
     })
 }
@@ -159,7 +160,30 @@ fn text(found: &Effects) -> String {
         size_unit_of_sizes(found),
         count(found.watched as u64)
     );
-    head + &table(&rows) + "\n" + &proofs + &notes
+    head + &table(&rows) + "\n" + &known(found) + &proofs + &notes
+}
+
+/// What is saved where the ink is known before the shade is.
+fn known(found: &Effects) -> String {
+    let Known {
+        cycles_saved,
+        inks_changed,
+    } = found.known;
+    if cycles_saved == 0 {
+        return "where the ink is known before the whole shade, nothing is saved\n".to_owned();
+    }
+    let whole = found.whole.run.cycles.saturating_add_signed(cycles_saved);
+    let changed = match inks_changed {
+        Some(0) => String::new(),
+        Some(n) => format!("; {n} inks are rounded to others"),
+        None => String::new(),
+    };
+    format!(
+        "where the ink is known before the whole shade, {} of {} cycles are saved ({}){changed}\n",
+        cycles_saved,
+        count(whole),
+        percent(cycles_saved as f64 / whole.max(1) as f64)
+    )
 }
 
 fn size_unit_of_sizes(found: &Effects) -> &'static str {

@@ -105,6 +105,40 @@ fn what_is_not_needed_at_a_pixel_is_seen() {
     assert!(of(rim, "p99") > 0);
 }
 
+/// A shadow, which is dear, under a dither of few levels.
+const SHADED: &str = "image 32 x 24 inks black, white;
+effect shadow(h: hit) -> bool else false =
+  if let s = sphere((0.6, 1.4, 0.4), 0.5).hit(ray(h.point + 0.02 * h.normal, (0.48, 0.8, 0.36))) then s.t < 9 else false;
+draw (x, y) = {
+  let r = ray((0, 0, 4), unit(((x - 15.5) / 16, (11.5 - y) / 16, -1)));
+  let v = if let h = sphere((0, 0, 0), 1.6).hit(r)
+          then max(dot(h.normal, (0.48, 0.8, 0.36)), 0.1) * (if shadow(h) then 0.4 else 1) else 0.3;
+  threshold(v, bayer(4)[x mod 4, y mod 4])
+};
+";
+
+/// Where the ink is known before the whole shade, the rest is not computed, and no pixel
+/// changes.
+#[test]
+fn what_the_ink_does_not_need_is_not_computed() {
+    let dir = directory(&[("shaded.scn", SHADED)]);
+    for target in ["6502:plain", "jack", "bbc:micro"] {
+        let args = ["effects", "shaded.scn", "-t", target, "--json"];
+        let known = &json(dir.path(), &args)["known_before_shade"];
+        assert_eq!(known["inks_changed"], 0, "{target}");
+        let saved = known["cycles_saved"].as_i64().expect("cycles");
+        assert!(saved > 0, "{target}: {saved}");
+        // What is said is what running both says.
+        let run = |more: &[&str]| {
+            let args = ["run", "shaded.scn", "-t", target, "--json"];
+            let run = json(dir.path(), &[&args[..], more].concat());
+            assert_eq!(run["differs_from_model"], 0);
+            run["cycles"].as_i64().expect("cycles")
+        };
+        assert_eq!(run(&["--every-shade"]) - run(&[]), saved, "{target}");
+    }
+}
+
 /// Each effect of the library that a scene does not call leaves its program as it is,
 /// byte for byte, on every target; and so does one of the scene's own.
 #[test]

@@ -42,6 +42,9 @@ pub fn in_arms(plan: Settled, shop: &Workshop, thrift: Thrift) -> Settled {
 
 /// With conditions asked only where the ink is not the same either way.
 pub fn asked_where_it_matters(plan: Settled, shop: &Workshop, thrift: Thrift) -> Settled {
+    if shop.every_shade {
+        return plan;
+    }
     let price = Price::new(&plan, shop.runtime, thrift);
     let mut best = plan;
     for k in 0..either::conditions(&best.graph).len() {

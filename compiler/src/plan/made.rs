@@ -37,6 +37,22 @@ pub fn plan(graph: &Graph, target: &'static Target, goal: &Goal) -> Result<Plan,
     planned(&begun(graph, target), target, goal, all)
 }
 
+/// The same with every shade in full, even where the ink is known before: what that is less
+/// than [`plan`] is saved by [`crate::passes::either`].
+pub fn plan_with_every_shade(
+    graph: &Graph,
+    target: &'static Target,
+    goal: &Goal,
+) -> Result<Plan, Vec<Diagnostic>> {
+    let mut shop = Workshop::new(graph.clone(), target.runtime);
+    shop.every_shade = true;
+    let all = Rewriting::Fast {
+        thrift: Thrift::default(),
+        steps: Steps::All,
+    };
+    planned(&Arc::new(shop), target, goal, all)
+}
+
 /// The same without the passes that rewrite formulas ([`crate::passes::stable`]
 /// and those for speed): every one as the scene has it. For warnings about what the formulas lose, and to show what the pass does.
 pub fn plan_as_written(

@@ -77,7 +77,7 @@ mod workshop_tests;
 
 pub use interference::quick_homes;
 pub use lifetimes::shared_homes;
-pub use made::{plan, plan_as_written};
+pub use made::{plan, plan_as_written, plan_with_every_shade};
 pub use params::ParamPlan;
 pub use spread::ErrorRows;
 

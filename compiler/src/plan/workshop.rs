@@ -29,6 +29,8 @@ pub struct Workshop {
     pub slack: Slack,
     /// What was proved about its values.
     pub proofs: Proofs,
+    /// Whether shades are computed in full even where the ink is known without.
+    pub every_shade: bool,
     /// Those that were scheduled, by a hash of their nodes.
     scheduled: Mutex<FxHashMap<u64, Vec<Settled>>>,
     /// What was rewritten is known by its address, since it is kept above.
@@ -45,6 +47,7 @@ impl Workshop {
             origin,
             runtime,
             proofs: Proofs::default(),
+            every_shade: false,
             slack: Slack::of(runtime),
             scheduled: Mutex::default(),
             rewritten: Mutex::default(),
