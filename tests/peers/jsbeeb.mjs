@@ -11,6 +11,7 @@
 //   "page"             PAGE, &1900 unless told (a number)
 //   "limit"            cycles of 2 MHz to stop after, 4e9 unless told
 //   "dump": [a, b]     memory to hand back, from a up to b
+//   "begin"            the address from which on cycles are counted, once the processor is there
 //   "quiet": true      no interrupts while the program runs
 //   "tell": n          says on standard error how far it is, each n cycles
 //   "cases"            see below
@@ -109,6 +110,10 @@ class Micro {
 
   /** Before each instruction: notes characters, stops where BASIC wants a line. */
   instruction(pc) {
+    if (pc === this.job.begin && this.running && !this.entered) {
+      this.entered = true;
+      this.start = this.now();
+    }
     if (pc === this.word(0x20e)) this.text.push(this.cpu.a);
     // A disc's !BOOT file answers calls for lines itself, until it is at its end; it may leave a
     // soft key pressed.
