@@ -2,6 +2,7 @@
 
 mod bbc;
 mod blue_noise;
+mod boxes;
 mod cli;
 mod cli_compare;
 mod cli_fmt;

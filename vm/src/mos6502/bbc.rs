@@ -67,7 +67,7 @@ const fn mode(number: u8, width: u32, bits: u8, start: u16) -> Mode {
 const HEIGHT: u32 = 256;
 
 /// Cycles of VDU 22, which clears the screen, for 20K of it and for 10K.
-pub const MODE_CYCLES: [u64; 2] = [163_000, 91_000];
+pub const MODE_CYCLES: [u64; 2] = [111_000, 60_500];
 /// Cycles of any other byte that OSWRCH takes, and of any other call.
 const CALL_CYCLES: u64 = 150;
 

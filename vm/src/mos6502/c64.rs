@@ -338,9 +338,12 @@ impl Board for Circuits {
 }
 
 impl C64 {
-    /// Presses a key, and keeps it pressed.
+    /// Presses a key, and keeps it pressed: a program that waited for one goes on.
     pub fn press(&mut self) {
         self.board.pressed = true;
+        if self.board.stop == Some(Stop::Ended) {
+            self.board.stop = None;
+        }
     }
 
     /// What was stored to a register of the hardware.
