@@ -27,6 +27,8 @@ mod need;
 #[cfg(feature = "peers")]
 mod peers_assemblers;
 #[cfg(feature = "peers")]
+mod peers_boxes;
+#[cfg(feature = "peers")]
 mod peers_brandy;
 #[cfg(feature = "peers")]
 mod peers_dialect;

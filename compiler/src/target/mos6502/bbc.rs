@@ -29,6 +29,15 @@ pub(super) fn symbols(text: &mut Text) {
     }
 }
 
+/// How the program comes to the machine.
+pub(super) fn how(places: &Places, text: &mut Text) {
+    text.line(format!(
+        "; On a disc its load and execution addresses are ${:04x}; *RUN it, in MODE 7.",
+        loaded_at(places)
+    ));
+    text.line("; It stops with the picture standing, and a key brings BASIC back, without its program.");
+}
+
 /// Where the file is loaded, if that is not where the program is at home.
 pub(super) fn moved_from(places: &Places) -> Option<u16> {
     (places.origin < DISC_PAGE).then_some(DISC_PAGE)

@@ -33,6 +33,12 @@ pub(super) const MODES: &[Mode] = &[
 /// the processor's port is, and the stack pointer in place of the first.
 const KEPT: &str = "$cb00";
 
+/// How the program comes to the machine.
+pub(super) fn how(text: &mut Text) {
+    text.line("; In a .prg its load address, $0801, comes first, low byte before high; LOAD and RUN it.");
+    text.line("; It stops with the picture standing, and a key brings BASIC back.");
+}
+
 /// Calls and places of the hardware.
 pub(super) fn symbols(text: &mut Text) {
     text.headline("the machine");

@@ -17,7 +17,7 @@ use slowlight_runtime_6502::write::{self, Place as Operand};
 /// The whole program.
 pub(super) fn program(plan: &Plan, homes: &Homes, syntax: &Syntax, text: &mut Text) {
     let entries = entries(plan, homes);
-    head(plan, &entries, syntax, text);
+    head(plan, homes, &entries, syntax, text);
     // What operands are read with is known when they have been.
     let (_, read) = main(plan, homes, &[], &mut Text::default());
     let parts = parts(plan, &entries, &read);
@@ -67,13 +67,13 @@ fn parts(plan: &Plan, entries: &[Entry], read: &[&'static str]) -> Vec<&'static 
 }
 
 /// Whether a part only names places in the zero page.
-pub(super) fn is_page(part: &Part) -> bool {
+fn is_page(part: &Part) -> bool {
     matches!(part.name, "zero_page" | "scaled_page")
 }
 
 fn source(machine: Machine, part: &Part, text: &mut Text) {
     match part.source {
-        Source::Text(lines) => text.line(machine.placed(part, lines.trim_end())),
+        Source::Text(lines) => text.line(machine.placed(lines.trim_end())),
         Source::Table(make) => {
             text.label(part.name);
             for row in make().chunks(16) {
@@ -84,7 +84,7 @@ fn source(machine: Machine, part: &Part, text: &mut Text) {
     }
 }
 
-fn head(plan: &Plan, entries: &[Entry], syntax: &Syntax, text: &mut Text) {
+fn head(plan: &Plan, homes: &Homes, entries: &[Entry], syntax: &Syntax, text: &mut Text) {
     let (image, machine) = (&plan.graph.image, Machine::of(plan));
     text.line(format!(
         "; {}: {} x {} {}, {} inks, for {} ({})",
@@ -98,6 +98,11 @@ fn head(plan: &Plan, entries: &[Entry], syntax: &Syntax, text: &mut Text) {
     ));
     for line in syntax.how(&plan.name, plan.target.name) {
         text.line(line);
+    }
+    match machine {
+        Machine::Plain => {}
+        Machine::Bbc => bbc::how(&homes.places, text),
+        Machine::C64 => c64::how(text),
     }
     syntax.first().iter().for_each(|line| text.line(line));
     text.headline("parameters: change them here");

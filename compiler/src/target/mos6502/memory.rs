@@ -11,7 +11,6 @@
 use super::bitmap::Layout;
 use super::spread;
 use crate::plan::Plan;
-use slowlight_routine::Part;
 use slowlight_runtime_6502::{FREE_MEMORY, free_zero_page};
 use std::ops::Range;
 
@@ -142,8 +141,8 @@ impl Machine {
         }
     }
 
-    /// A part of the runtime, its addresses where they are on this machine.
-    pub fn placed(self, part: &Part, lines: &str) -> String {
+    /// The text of a part of the runtime, its addresses where they are on this machine.
+    pub fn placed(self, lines: &str) -> String {
         let squares: [(&str, u16); 4] = match self {
             Machine::Plain => return lines.to_owned(),
             // Whole zeros stand where BREAK looks for a key's text (&B00): its high bytes.
@@ -160,7 +159,6 @@ impl Machine {
                 ("sqd_hi", 0xC600),
             ],
         };
-        let in_page = super::frame::is_page(part);
         let placed = lines.lines().map(|line| {
             let Some((name, rest)) = line.split_once(" = $") else {
                 return line.to_owned();
@@ -170,7 +168,8 @@ impl Machine {
             let table = squares.iter().find(|(n, _)| *n == name);
             match (table, u16::from_str_radix(digits, 16)) {
                 (Some((_, at)), _) => format!("{name} = ${at:04x}{behind}"),
-                (None, Ok(at)) if in_page => {
+                // What is in the zero page is written with two digits.
+                (None, Ok(at)) if digits.len() == 2 => {
                     format!("{name} = ${:02x}{behind}", at + self.page_shift())
                 }
                 _ => line.to_owned(),
