@@ -13,6 +13,7 @@ use crate::trial::build_for;
 use slowlight_compiler::flow::graph::Table;
 use slowlight_compiler::plan::Plan;
 use slowlight_compiler::source::Span;
+use slowlight_compiler::target::mos6502::DISC_PAGE;
 
 /// The first of the plans whose program fits, as it reads best or tight; where
 /// none does, the first that does with subroutines. Modes that show a part of the
@@ -203,6 +204,23 @@ fn as_is_or_tight(mut plan: Plan) -> Outcome<Fitted> {
         Some(need) => Fitted::TooLarge(Box::new(plan), need),
         None => Fitted::Fits(Box::new(plan)),
     })
+}
+
+/// A plan whose program leaves the disc system of a BBC Micro its memory, where it may
+/// have that and nothing else was asked for.
+///
+/// # Errors
+/// Where the machine's tools refuse the text, which is a fault of ours.
+pub fn with_disc(plan: Plan) -> Outcome<Plan> {
+    if plan.target.name != "6502:bbc" || plan.page.is_some() {
+        return Ok(plan);
+    }
+    let mut high = plan.clone();
+    high.page = Some(DISC_PAGE);
+    match need(&high)? {
+        Some(need) if !need.fits() => Ok(plan),
+        _ => Ok(high),
+    }
 }
 
 /// A plan whose program fits the ROM of the Hack's processor as well, and its heap beside

@@ -10,8 +10,9 @@ use crate::machine::File;
 use slowlight_compiler::flow::tree::{Statement, Tree, walk};
 use slowlight_compiler::plan::Plan;
 use slowlight_compiler::target::Document;
+use slowlight_compiler::target::mos6502;
 use slowlight_vm::bbc::{Config, Dialect, Machine, tokenise};
-use slowlight_vm::mos6502::{extent, plain::port};
+use slowlight_vm::mos6502::extent;
 
 /// What BASIC's stack takes at most: three calls of the runtime's functions
 /// inside each other, of 28 bytes and 8 an argument, and as much as a call more
@@ -76,7 +77,9 @@ pub fn need(plan: &Plan) -> Outcome<Option<Need>> {
         "bbc:micro" => Dialect::Micro,
         "bbc:agon" => Dialect::Agon,
         "bbc:basicv" => Dialect::BasicV,
-        "6502:plain" => return Ok(documents.first().map(assembly)),
+        "6502:plain" | "6502:bbc" | "6502:c64" => {
+            return Ok(documents.first().map(|document| assembly(plan, document)));
+        }
         "jack" => return Ok(Some(heap(&documents, &[]))),
         _ => return Ok(None),
     };
@@ -156,15 +159,16 @@ fn arrays(text: &str) -> u64 {
     bytes
 }
 
-fn assembly(document: &Document) -> Need {
+fn assembly(plan: &Plan, document: &Document) -> Need {
     let (origin, end) = extent(&document.text);
+    let room = mos6502::room(plan);
     Need {
         unit: "bytes",
         parts: vec![
-            ("values and the runtime's tables", u64::from(origin)),
+            ("values and the runtime's tables", room.values),
             ("program", u64::from(end.saturating_sub(origin))),
         ],
-        room: u64::from(port::WIDTH),
+        room: room.bytes,
     }
 }
 

@@ -39,7 +39,7 @@ pub struct ScreenArgs {
     #[arg(long, value_name = "F")]
     pub format: Option<String>,
     /// Where programs begin on a BBC Micro, in hexadecimal: 1900 with a disc, E00 without
-    /// [default: 1900]
+    /// [default: 1900; machine code that needs more moves itself down to E00]
     #[arg(long, value_name = "PAGE", value_parser = page)]
     pub page: Option<u16>,
     /// Compute once for N x N or W x H pixels, and draw them as a block: the shade is that
@@ -272,7 +272,7 @@ impl ScreenArgs {
         )?;
         match self.os {
             Some(Os::Jack) => fit::fit_rom(plan, self.machine(target)?, &name),
-            _ => Ok(plan),
+            _ => fit::with_disc(plan),
         }
     }
 
@@ -301,7 +301,7 @@ impl ScreenArgs {
             let message = format!("--style is BASIC's; {} has one way to write", target.name);
             return Err(Failure::Usage(message));
         }
-        if self.page.is_some() && target.name != "bbc:micro" {
+        if self.page.is_some() && !matches!(target.name, "bbc:micro" | "6502:bbc") {
             let message = format!("--page is the BBC Micro's; {} has none", target.name);
             return Err(Failure::Usage(message));
         }

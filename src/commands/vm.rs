@@ -2,7 +2,9 @@
 
 use crate::failure::{Failure, Outcome};
 use crate::format::{count, table};
-use crate::machine::{File, HackConfig, Loaded, Machine, complaint, stop_word};
+use crate::machine::{
+    Board, File, HackConfig, Loaded, Machine, Mos6502Config, complaint, stop_word,
+};
 use crate::picture::{Picture, PictureFile};
 use crate::progress::Progress;
 use crate::target_args::{Os, page};
@@ -77,8 +79,14 @@ enum Kind {
     /// A BBC BASIC program, as text or tokens, on a BBC Micro
     Bbc,
     /// Assembly (.asm, .s) or a binary with its load address, on the plain machine
-    #[value(name = "6502")]
+    #[value(name = "6502", alias = "6502:plain")]
     Mos6502,
+    /// The same on a BBC Micro without its ROMs, where programs are loaded at &1900 or above
+    #[value(name = "6502:bbc")]
+    MosBbc,
+    /// The same on a Commodore 64 without its ROMs, with a line of BASIC that starts it
+    #[value(name = "6502:c64")]
+    MosC64,
 }
 
 /// What `--json` prints.
@@ -154,7 +162,8 @@ pub fn run(args: &Args) -> Outcome<()> {
         let message = "--page is the BBC Micro's: `slowlight vm bbc --page E00 FILE`";
         return Err(Failure::Usage(message.to_owned()));
     }
-    if args.syntax.is_some() && args.machine != Kind::Mos6502 {
+    let assembles = matches!(args.machine, Kind::Mos6502 | Kind::MosBbc | Kind::MosC64);
+    if args.syntax.is_some() && !assembles {
         let message = "--syntax is the 6502's: `slowlight vm 6502 --syntax beebasm FILE`";
         return Err(Failure::Usage(message.to_owned()));
     }
@@ -170,6 +179,13 @@ pub fn run(args: &Args) -> Outcome<()> {
         let message = "the native operating system is the VM's; the CPU has --os jack";
         return Err(Failure::Usage(message.to_owned()));
     }
+    let on = |board| {
+        let dialect = match args.syntax {
+            Some(Syntax::Beebasm) => Dialect::Beebasm,
+            Some(Syntax::Ca65) | None => Dialect::Common,
+        };
+        Machine::Mos6502(Mos6502Config { board, dialect })
+    };
     let machine = match args.machine {
         Kind::Jack | Kind::Hack => Machine::Hack(HackConfig {
             cpu: args.cpu,
@@ -177,10 +193,9 @@ pub fn run(args: &Args) -> Outcome<()> {
             ..HackConfig::default()
         }),
         Kind::Bbc => Machine::Bbc(Config::default()),
-        Kind::Mos6502 => Machine::Mos6502(match args.syntax {
-            Some(Syntax::Beebasm) => Dialect::Beebasm,
-            Some(Syntax::Ca65) | None => Dialect::Common,
-        }),
+        Kind::Mos6502 => on(Board::Plain),
+        Kind::MosBbc => on(Board::Bbc),
+        Kind::MosC64 => on(Board::C64),
     };
     let hack = machine.many_sources();
     let mut program = Vec::new();

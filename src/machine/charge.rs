@@ -52,7 +52,7 @@ impl Loaded {
             Program::Hack(program) => hack::charges(program, limit, &called, &mut watch),
             Program::Bbc(machine) => bbc::charges(machine, limit, &called, &mut watch),
             Program::Mos6502(machine) => {
-                mos6502::charges(machine, self.sizes, limit, &called, &mut watch)
+                mos6502::charges(machine.as_mut(), self.sizes, limit, &called, &mut watch)
             }
             Program::HackCpu(_) => {
                 let message = "the lines of a program in the Hack's ROM are not counted: leave --os jack out, which counts the commands of the VM";

@@ -80,15 +80,7 @@ pub fn image(title: &str, files: &[DiscFile]) -> Option<Vec<u8>> {
 /// away, and started from there: by the keyboard's first function key, since
 /// nothing reads `!BOOT` any more by then.
 pub fn bootable(name: &str, tokens: &[u8], page: u16) -> Option<Vec<u8>> {
-    let name: String = name
-        .chars()
-        .filter(char::is_ascii_alphanumeric)
-        .take(7)
-        .collect();
-    let name = match name.to_ascii_uppercase() {
-        name if name.is_empty() => "PROGRAM".to_owned(),
-        name => name,
-    };
+    let name = file_name(name);
     let boot = if page >= DISC_PAGE {
         format!("*BASIC\rCHAIN\"{name}\"\r")
     } else {
@@ -106,6 +98,39 @@ pub fn bootable(name: &str, tokens: &[u8], page: u16) -> Option<Vec<u8>> {
     };
     let files = [file("!BOOT", 0, boot.as_bytes()), file(&name, page, tokens)];
     image(&name, &files)
+}
+
+/// A disc that runs machine code when SHIFT is held at a start: two bytes of load address,
+/// where it is begun as well, and what goes there.
+pub fn bootable_code(name: &str, image: &[u8]) -> Option<Vec<u8>> {
+    let [lo, hi, code @ ..] = image else {
+        return None;
+    };
+    let at = u16::from_le_bytes([*lo, *hi]);
+    let name = file_name(name);
+    let boot = DiscFile {
+        name: "!BOOT".to_owned(),
+        load: 0,
+        exec: 0,
+        bytes: format!("*RUN {name}\r").into_bytes(),
+    };
+    let program = DiscFile {
+        name: name.clone(),
+        load: at,
+        exec: at,
+        bytes: code.to_vec(),
+    };
+    self::image(&name, &[boot, program])
+}
+
+/// A program's name as the disc system has it.
+fn file_name(name: &str) -> String {
+    let letters = name.chars().filter(char::is_ascii_alphanumeric);
+    let name: String = letters.take(7).collect();
+    match name.to_ascii_uppercase() {
+        name if name.is_empty() => "PROGRAM".to_owned(),
+        name => name,
+    }
 }
 
 /// Where programs begin with a disc system.
@@ -189,6 +214,12 @@ mod tests {
         assert_eq!(files[0].bytes, b"\r\xff");
         assert_eq!(files[1].name, "!BOOT");
         assert_eq!(files[1].bytes, b"*BASIC\rCHAIN\"TWOMIRR\"\r");
+        let code = bootable_code("two-mirrors.x", &[0x34, 0x1a, 0xa9, 0x60]).unwrap();
+        let (_, boot, files) = read(&code);
+        assert_eq!(boot, 3);
+        assert_eq!((files[0].load, files[0].exec), (0x1a34, 0x1a34));
+        assert_eq!(files[0].bytes, [0xa9, 0x60]);
+        assert_eq!(files[1].bytes, b"*RUN TWOMIRR\r");
         let low = bootable("m", &[13; 1001], 0xe00).unwrap();
         let boot = String::from_utf8(read(&low).2[1].bytes.clone()).unwrap();
         assert!(boot.contains("FORA%=0TO1000 STEP4:A%!&E00=A%!&3000:NEXT|MPAGE=&E00"));

@@ -12,12 +12,12 @@ mod mos6502;
 mod os;
 
 pub use hack::Config as HackConfig;
+pub use mos6502::{Board, Config as Mos6502Config};
 
 use crate::failure::{Failure, Outcome};
 use crate::interrupt;
 use crate::picture::Picture;
 use slowlight_vm::bbc::{Config, Dialect, LineCost};
-use slowlight_vm::mos6502::Dialect as AsmDialect;
 use slowlight_vm::{Progress, Screen, Stop};
 use std::collections::BTreeMap;
 
@@ -29,8 +29,8 @@ pub enum Machine {
     Hack(HackConfig),
     /// BBC BASIC and its screen.
     Bbc(Config),
-    /// The plain machine around a 6502, and how its assembly is written.
-    Mos6502(AsmDialect),
+    /// A machine around a 6502, and how its assembly is written.
+    Mos6502(Mos6502Config),
 }
 
 /// A source text or binary by its file name.
@@ -89,7 +89,7 @@ enum Program {
     Hack(Box<hack::OnVm>),
     HackCpu(Box<hack::OnCpu>),
     Bbc(slowlight_vm::bbc::Machine),
-    Mos6502(Box<slowlight_vm::mos6502::Plain>),
+    Mos6502(Box<dyn slowlight_vm::mos6502::Machine>),
 }
 
 /// How a run on a machine went.
@@ -126,12 +126,20 @@ impl Machine {
                 ..Config::default()
             }))
         };
+        let mos6502 = |board| {
+            Some(Machine::Mos6502(Mos6502Config {
+                board,
+                ..Mos6502Config::default()
+            }))
+        };
         match name {
             "jack" => Some(Machine::Hack(HackConfig::default())),
             "bbc:micro" => bbc(Dialect::Micro),
             "bbc:agon" => bbc(Dialect::Agon),
             "bbc:basicv" => bbc(Dialect::BasicV),
-            "6502:plain" => Some(Machine::Mos6502(AsmDialect::Common)),
+            "6502:plain" => mos6502(Board::Plain),
+            "6502:bbc" => mos6502(Board::Bbc),
+            "6502:c64" => mos6502(Board::C64),
             _ => None,
         }
     }
@@ -179,7 +187,7 @@ impl Machine {
         match self {
             Machine::Hack(config) => hack::load(files, config),
             Machine::Bbc(config) => bbc::load(files, config),
-            Machine::Mos6502(dialect) => mos6502::load(files, dialect),
+            Machine::Mos6502(config) => mos6502::load(files, config),
         }
     }
 }
@@ -198,7 +206,9 @@ impl Loaded {
             Program::Hack(program) => hack::run(program, limit, &mut watch),
             Program::HackCpu(on) => hack::run_cpu(on, self.sizes, limit, &mut watch),
             Program::Bbc(machine) => bbc::run(machine, limit, &mut watch),
-            Program::Mos6502(machine) => mos6502::run(machine, self.sizes, limit, &mut watch),
+            Program::Mos6502(machine) => {
+                mos6502::run(machine.as_mut(), self.sizes, limit, &mut watch)
+            }
         };
         if run.stop == Stop::Interrupted {
             return Err(Failure::Interrupted);

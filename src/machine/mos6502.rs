@@ -1,25 +1,93 @@
-//! The plain 6502 machine: assembly or binary in, a picture out.
+//! The machines around a 6502: assembly or binary in, a picture out.
 
 use super::charge::LineMap;
+use super::dfs::{self, DISC_PAGE};
 use super::{File, Loaded, MachineRun, Program, Sizes, refused};
 use crate::failure::{Failure, Outcome};
 use slowlight_compiler::report::profile::Line;
-use slowlight_vm::mos6502::plain::{self, port};
-use slowlight_vm::mos6502::{Assembly, Dialect, Plain, assemble_as};
+use slowlight_vm::mos6502::plain::port;
+use slowlight_vm::mos6502::{Assembly, Bbc, C64, Dialect, Machine, Plain, Run, assemble_as};
 use slowlight_vm::{Charge, Fault, Watch};
 use std::collections::BTreeMap;
 
+/// Which machine, and how its assembly is written.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Config {
+    /// The machine.
+    pub board: Board,
+    /// How assembly is written.
+    pub dialect: Dialect,
+}
+
+/// What is around the processor.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Board {
+    /// Memory, and ports that draw.
+    #[default]
+    Plain,
+    /// A BBC Micro.
+    Bbc,
+    /// A Commodore 64.
+    C64,
+}
+
+impl Board {
+    fn machine(self) -> Box<dyn Machine> {
+        match self {
+            Board::Plain => Box::new(Plain::new()),
+            Board::Bbc => Box::new(Bbc::new()),
+            Board::C64 => Box::new(C64::new()),
+        }
+    }
+
+    /// What a program is loaded from: the machine's own file, its load address first.
+    /// A program for a lower place in a BBC Micro is loaded where the disc leaves memory.
+    fn loaded(self, image: &[u8]) -> Vec<u8> {
+        let [lo, hi, bytes @ ..] = image else {
+            return image.to_vec();
+        };
+        let at = u16::from_le_bytes([*lo, *hi]);
+        match self {
+            Board::Bbc if at < DISC_PAGE => {
+                let mut moved = DISC_PAGE.to_le_bytes().to_vec();
+                moved.extend(bytes);
+                moved
+            }
+            _ => image.to_vec(),
+        }
+    }
+
+    /// The files that a machine is given: the binary, a disc.
+    fn files(self, stem: &str, image: Vec<u8>) -> Vec<File> {
+        let named = |extension: &str, bytes| File {
+            name: format!("{stem}.{extension}"),
+            bytes,
+        };
+        match self {
+            Board::Plain => vec![named("bin", image)],
+            Board::C64 => vec![named("prg", image)],
+            Board::Bbc => {
+                let disc = dfs::bootable_code(stem, &self.loaded(&image));
+                let mut files = vec![named("bin", image)];
+                files.extend(disc.map(|bytes| named("ssd", bytes)));
+                files
+            }
+        }
+    }
+}
+
 /// Takes one assembly source (`.asm`, `.s`, `.a65`), or one binary that begins
 /// with its load address.
-pub fn load(files: &[File], dialect: Dialect) -> Outcome<Loaded> {
+pub fn load(files: &[File], config: Config) -> Outcome<Loaded> {
+    let Config { board, dialect } = config;
     let [file] = files else {
         let message = "the 6502 takes one file: an assembly source or a binary".to_owned();
         return Err(Failure::Usage(message));
     };
-    let mut machine = Plain::new();
+    let mut machine = board.machine();
     let refuse = |fault: Fault| refused("machine", &file.name, &[fault]);
     if !matches!(file.extension().as_str(), "asm" | "s" | "a65" | "inc") {
-        machine.load(&file.bytes).map_err(refuse)?;
+        machine.load(&board.loaded(&file.bytes)).map_err(refuse)?;
         let code = file.bytes.len().saturating_sub(2) as u64;
         return Ok(Loaded {
             system: Vec::new(),
@@ -28,23 +96,20 @@ pub fn load(files: &[File], dialect: Dialect) -> Outcome<Loaded> {
                 code: Some(code),
                 ..Sizes::default()
             },
-            program: Program::Mos6502(Box::new(machine)),
+            program: Program::Mos6502(machine),
             map: LineMap::Unknown,
         });
     }
     let assembly = assemble_as(&file.as_text(), dialect)
         .map_err(|faults| refused("assembler", &file.name, &faults))?;
     let image = assembly.image();
-    machine.load(&image).map_err(refuse)?;
+    machine.load(&board.loaded(&image)).map_err(refuse)?;
     let stem = file.name.rsplit_once('.').map_or("", |(stem, _)| stem);
     Ok(Loaded {
         system: Vec::new(),
-        binaries: vec![File {
-            name: format!("{stem}.bin"),
-            bytes: image,
-        }],
+        binaries: board.files(stem, image),
         sizes: sizes(&assembly),
-        program: Program::Mos6502(Box::new(machine)),
+        program: Program::Mos6502(machine),
         map: map(&assembly),
     })
 }
@@ -79,14 +144,15 @@ fn map(assembly: &Assembly) -> LineMap {
     LineMap::Places(places)
 }
 
-/// Runs a program that was loaded. RAM is what it leaves changed: memory is 0 at first.
-pub fn run(machine: &mut Plain, sizes: Sizes, limit: u64, watch: Watch<'_>) -> MachineRun {
+/// Runs a program that was loaded. RAM is what it leaves changed, where that is known:
+/// memory is 0 at first.
+pub fn run(machine: &mut dyn Machine, sizes: Sizes, limit: u64, watch: Watch<'_>) -> MachineRun {
     watched(machine, sizes, |machine| (machine.run(limit, watch), ())).0
 }
 
 /// The same, with what each address took.
 pub fn charges(
-    machine: &mut Plain,
+    machine: &mut dyn Machine,
     sizes: Sizes,
     limit: u64,
     routine: &dyn Fn(u32) -> bool,
@@ -98,17 +164,23 @@ pub fn charges(
 }
 
 fn watched<T>(
-    machine: &mut Plain,
+    machine: &mut dyn Machine,
     sizes: Sizes,
-    run: impl FnOnce(&mut Plain) -> (plain::Run, T),
+    run: impl FnOnce(&mut dyn Machine) -> (Run, T),
 ) -> (MachineRun, T) {
-    let before: Vec<u8> = (0..port::WIDTH).map(|at| machine.peek(at)).collect();
+    // Where the screen is memory like any other, and programs move, that tells nothing.
+    let counted = if machine.draws_apart() {
+        port::WIDTH
+    } else {
+        0
+    };
+    let before: Vec<u8> = (0..counted).map(|at| machine.peek(at)).collect();
     let (run, more) = run(machine);
     let changed = before
         .iter()
         .zip(0..)
         .filter(|(was, at)| machine.peek(*at) != **was);
-    let ram = Some(changed.count() as u64);
+    let ram = (counted > 0).then_some(changed.count() as u64);
     let run = MachineRun {
         stop: run.stop,
         cycles: run.cycles,
@@ -117,7 +189,7 @@ fn watched<T>(
         os_calls: None,
         rom_words: None,
         screen: run.screen,
-        output: Vec::new(),
+        output: run.output,
         files: BTreeMap::new(),
         sizes: Sizes { ram, ..sizes },
     };

@@ -158,6 +158,8 @@ fn build_writes_what_machines_load() {
     for target in targets(dir) {
         let files = built(dir, &target);
         let expected: &[&str] = match target.split(':').next() {
+            Some("6502") if target == "6502:c64" => &["spot.asm", "spot.prg"],
+            Some("6502") if target == "6502:bbc" => &["spot.asm", "spot.bin", "spot.ssd"],
             Some("6502") => &["spot.asm", "spot.bin"],
             Some("bbc") if target == "bbc:micro" => &["spot.bas", "spot.bbc", "spot.ssd"],
             Some("bbc") => &["spot.bas", "spot.bbc"],

@@ -69,6 +69,12 @@ fn every_cycle_has_a_line_of_the_scene() {
     for (scene, rows) in SCENES {
         let scene = format!("{scene}.scn");
         for target in targets(Path::new(examples)) {
+            // As they are written, most are too large for the 6502's machines, which share
+            // their code with the plain one.
+            let is_box = ["6502:bbc", "6502:c64"].contains(&target.as_str());
+            if is_box && !["maze.scn", "masks.scn"].contains(&scene.as_str()) {
+                continue;
+            }
             let more = ["--rows", rows, "--as-written"];
             held(Path::new(examples), &scene, &target, &more);
         }

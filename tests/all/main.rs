@@ -2,6 +2,7 @@
 
 mod bbc;
 mod blue_noise;
+mod boxes;
 mod cli;
 mod cli_compare;
 mod cli_fmt;
@@ -25,6 +26,8 @@ mod mos6502_fixed;
 mod need;
 #[cfg(feature = "peers")]
 mod peers_assemblers;
+#[cfg(feature = "peers")]
+mod peers_boxes;
 #[cfg(feature = "peers")]
 mod peers_brandy;
 #[cfg(feature = "peers")]

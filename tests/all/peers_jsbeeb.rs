@@ -36,11 +36,11 @@ pub fn jsbeeb(jobs: &[Value]) -> Vec<Value> {
     }
 }
 
-fn hex(bytes: &[u8]) -> String {
+pub fn hex(bytes: &[u8]) -> String {
     bytes.iter().map(|b| format!("{b:02x}")).collect()
 }
 
-fn unhex(text: &str) -> Vec<u8> {
+pub fn unhex(text: &str) -> Vec<u8> {
     let digits = text.as_bytes().chunks(2);
     digits
         .map(|d| u8::from_str_radix(&String::from_utf8_lossy(d), 16).expect("hex"))
@@ -187,16 +187,18 @@ fn other_programs_take_and_print_what_they_do_on_the_rom() {
 }
 
 /// A screen's modes here: where its memory starts, bytes a row, pixels a byte.
-fn layout(mode: u32) -> (usize, usize, usize) {
+pub fn layout(mode: u32) -> (usize, usize, usize) {
     match mode {
+        0 => (0x3000, 80, 8),
         1 => (0x3000, 80, 4),
         2 => (0x3000, 80, 2),
+        5 => (0x5800, 40, 4),
         _ => (0x5800, 40, 8),
     }
 }
 
 /// The inks of a screen, from its memory.
-fn inks(mode: u32, memory: &[u8]) -> Vec<u8> {
+pub fn inks(mode: u32, memory: &[u8]) -> Vec<u8> {
     let (_, row, pixels) = layout(mode);
     let mut list = Vec::new();
     for y in 0..256 {

@@ -1,5 +1,6 @@
 //! The 6502's programs as each assembler has them: what the bundled one can read.
 
+use crate::boxes::{MODES, waves};
 use crate::cli::{STEPS, directory, json, slowlight, success};
 use clap::Parser;
 use slowlight::scene::{Changes, Scene};
@@ -7,7 +8,7 @@ use slowlight::target_args::ScreenArgs;
 use slowlight_compiler::plan::Plan;
 use slowlight_compiler::target::mos6502::document;
 use slowlight_compiler::target::mos6502::syntax::{self, USUAL};
-use slowlight_compiler::target::{find, formats};
+use slowlight_compiler::target::{Target, find, formats};
 use slowlight_vm::mos6502::{Assembly, Dialect, assemble_as};
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
@@ -42,7 +43,11 @@ struct Options {
 fn planned(path: &Path, format: &str) -> Plan {
     let mut all = formats(find("6502").expect("a target"));
     let target = all.find(|t| t.runtime.format == format).expect("a format");
-    let options = Options::parse_from(["build"]);
+    planned_for(path, target, &["build"])
+}
+
+fn planned_for(path: &Path, target: &'static Target, options: &[&str]) -> Plan {
+    let options = Options::parse_from(options);
     let scene = Scene::open(path, &Changes::default());
     let plan = scene.and_then(|scene| options.screen.plan(&scene, target, &[]));
     plan.unwrap_or_else(|_| panic!("{} does not build", path.display()))
@@ -76,7 +81,20 @@ pub fn programs() -> &'static [Plan] {
             .iter()
             .filter(small)
             .map(|path| planned(path, "fixed16"));
-        usual.chain(own).collect()
+        // Every kind of screen, each also with what else is written for some pictures.
+        let waves = directory(&[("waves.scn", &waves(37, 23)), ("even.scn", &waves(48, 24))]);
+        let kinds = MODES.iter().flat_map(|(target, mode, _)| {
+            let all = formats(find(target).expect("a target"));
+            let waves = waves.path();
+            all.flat_map(move |target| {
+                let of = |scene: &str, more: &[&str]| {
+                    let options = [&["build", "--mode", mode], more].concat();
+                    planned_for(&waves.join(scene), target, &options)
+                };
+                [of("waves.scn", &[]), of("even.scn", &["--block", "3x2"])]
+            })
+        });
+        usual.chain(own).chain(kinds).collect()
     })
 }
 

@@ -11,6 +11,9 @@
 //   "page"             PAGE, &1900 unless told (a number)
 //   "limit"            cycles of 2 MHz to stop after, 4e9 unless told
 //   "dump": [a, b]     memory to hand back, from a up to b
+//   "begin"            the address from which on cycles are counted, once the processor is there
+//   "press": true      presses SPACE where the program waits for a key, and goes on to BASIC's
+//                      prompt: "back" in the result says whether it came there
 //   "quiet": true      no interrupts while the program runs
 //   "tell": n          says on standard error how far it is, each n cycles
 //   "cases"            see below
@@ -47,6 +50,7 @@ setNodeBasePath(root);
 const MARK = 0x70;
 const SECOND = 2_000_000;
 const SHIFT = 16;
+const SPACE = 32;
 /** OS 1.20: where it waits for a key, and the file that stands for the keyboard, if any. */
 const WAIT_FOR_KEY = 0xe581;
 const EXEC_FILE = 0x256;
@@ -109,10 +113,14 @@ class Micro {
 
   /** Before each instruction: notes characters, stops where BASIC wants a line. */
   instruction(pc) {
+    if (pc === this.job.begin && this.running && !this.entered) {
+      this.entered = true;
+      this.start = this.now();
+    }
     if (pc === this.word(0x20e)) this.text.push(this.cpu.a);
     // A disc's !BOOT file answers calls for lines itself, until it is at its end; it may leave a
     // soft key pressed.
-    if (this.job.disc) return pc === WAIT_FOR_KEY && this.byte(EXEC_FILE) === 0 && this.idle();
+    if (this.job.disc && !this.pressed) return pc === WAIT_FOR_KEY && this.byte(EXEC_FILE) === 0 && this.idle();
     return pc === this.word(0x20c) && this.cpu.a === 0;
   }
 
@@ -215,12 +223,21 @@ class Micro {
     const prompt = await this.run(job.limit ?? 4e9);
     const cycles = this.now() - this.start;
     const [from, to] = job.dump ?? [0, 0];
+    const memory = Buffer.from(this.cpu.ramRomOs.subarray(from, to)).toString("hex");
+    let back = false;
+    if (job.press) {
+      this.pressed = true;
+      this.cpu.sysvia.keyDown(SPACE);
+      back = await this.run(2 * SECOND);
+      this.cpu.sysvia.keyUp(SPACE);
+    }
     return {
       stopped: prompt ? "prompt" : "limit",
       cycles,
       marks: this.marks,
       text: Buffer.from(this.text).toString("latin1"),
-      memory: Buffer.from(this.cpu.ramRomOs.subarray(from, to)).toString("hex"),
+      memory,
+      back,
       cases: this.answers,
     };
   }

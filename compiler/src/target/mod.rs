@@ -4,6 +4,7 @@
 //! measures the text with the machine's own tools.
 
 pub mod bbc;
+mod colours;
 pub mod jack;
 pub mod mos6502;
 
@@ -88,6 +89,8 @@ pub static TARGETS: &[&Target] = &[
     &bbc::AGON,
     &bbc::BASIC_V,
     &mos6502::PLAIN,
+    &mos6502::BBC,
+    &mos6502::C64,
 ];
 
 /// The same machines with other formats of reals.
@@ -96,6 +99,8 @@ pub static OTHER_FORMATS: &[&Target] = &[
     &jack::JACK_LOG10,
     &jack::JACK_FIXED16,
     &mos6502::PLAIN_FIXED16,
+    &mos6502::BBC_FIXED16,
+    &mos6502::C64_FIXED16,
 ];
 
 /// Every target in every format.

@@ -23,7 +23,7 @@ mod arrays;
 mod ast;
 mod calls;
 mod code;
-mod cost;
+pub(crate) mod cost;
 mod cursor;
 mod decode;
 mod display;

@@ -25,9 +25,9 @@
 //! size out of range, a second picture, an opcode that jams, and `brk` while the vector at $FFFE
 //! holds 0 (running into empty memory, mostly).
 
-use super::cpu::{Bus, Cpu, Step};
-use crate::charge::{Charge, Ledger};
-use crate::{Fault, Progress, Screen, Stop, Watch};
+use super::computer::{Board, Computer, fault};
+use super::cpu::Bus;
+use crate::{Screen, Stop};
 
 /// The ports' addresses.
 pub mod port {
@@ -49,36 +49,15 @@ pub mod port {
     pub const PALETTE: u16 = 0xFF0B;
 }
 
-/// Cycles between two calls of the watcher.
-const WATCH: u64 = 10_000_000;
 /// The greatest width and height.
 const SIDE: u16 = 4096;
 
-/// How a run went.
-#[derive(Clone, Debug)]
-pub struct Run {
-    /// Why it ended.
-    pub stop: Stop,
-    /// Processor cycles, each one access to the bus.
-    pub cycles: u64,
-    /// Instructions that were begun.
-    pub instructions: u64,
-    /// Inks stored.
-    pub plots: u64,
-    /// The picture; `None` where the program opened none.
-    pub screen: Option<Screen>,
-}
+/// The machine.
+pub type Plain = Computer<Ports>;
 
-/// The machine. [`Plain::load`] a program, then [`Plain::run`] it.
+/// The memory and its ports.
 #[derive(Clone, Debug)]
-pub struct Plain {
-    cpu: Cpu,
-    memory: Memory,
-    instructions: u64,
-}
-
-#[derive(Clone, Debug)]
-struct Memory {
+pub struct Ports {
     ram: Box<[u8; 0x1_0000]>,
     cycles: u64,
     plots: u64,
@@ -90,7 +69,7 @@ struct Memory {
     stop: Option<Stop>,
 }
 
-impl Bus for Memory {
+impl Bus for Ports {
     #[inline(always)]
     fn read(&mut self, address: u16) -> u8 {
         self.cycles += 1;
@@ -107,17 +86,7 @@ impl Bus for Memory {
     }
 }
 
-/// A fault of a program, which has no source line that the machine knows.
-fn fault(message: String) -> Fault {
-    Fault {
-        message,
-        file: None,
-        line: None,
-        column: None,
-    }
-}
-
-impl Memory {
+impl Ports {
     fn word(&self, at: u16) -> u16 {
         let [lo, hi] = [at, at.wrapping_add(1)].map(|a| self.ram[usize::from(a)]);
         u16::from_le_bytes([lo, hi])
@@ -127,11 +96,6 @@ impl Memory {
         let [lo, hi] = value.to_le_bytes();
         self.ram[usize::from(at)] = lo;
         self.ram[usize::from(at.wrapping_add(1))] = hi;
-    }
-
-    /// Stops with a fault, unless the program has stopped already.
-    fn fail(&mut self, message: String) {
-        self.stop.get_or_insert(Stop::Fault(fault(message)));
     }
 
     #[cold]
@@ -217,170 +181,60 @@ impl Memory {
     }
 }
 
-impl Default for Plain {
+impl Default for Ports {
     fn default() -> Self {
-        Self::new()
+        Ports {
+            ram: Box::new([0; 0x1_0000]),
+            cycles: 0,
+            plots: 0,
+            screen: None,
+            inks: 0,
+            palette_bytes: 0,
+            row: None,
+            stop: None,
+        }
     }
 }
 
-impl Plain {
-    /// A machine with empty memory.
-    pub fn new() -> Self {
-        Plain {
-            cpu: Cpu::new(0),
-            memory: Memory {
-                ram: Box::new([0; 0x1_0000]),
-                cycles: 0,
-                plots: 0,
-                screen: None,
-                inks: 0,
-                palette_bytes: 0,
-                row: None,
-                stop: None,
-            },
-            instructions: 0,
-        }
+impl Board for Ports {
+    const DRAWS_APART: bool = true;
+
+    fn ram(&self) -> &[u8; 0x1_0000] {
+        &self.ram
     }
 
-    /// Loads a program: two bytes of load address, low byte first, then what goes
-    /// there. It will be entered at the load address.
-    ///
-    /// # Errors
-    /// Where there is no program, or it reaches into the page of the ports.
-    pub fn load(&mut self, image: &[u8]) -> Result<(), Fault> {
-        let [lo, hi, bytes @ ..] = image else {
-            return Err(fault(
-                "a program begins with two bytes of load address".to_owned(),
-            ));
-        };
-        let origin = u16::from_le_bytes([*lo, *hi]);
-        let start = usize::from(origin);
-        if bytes.is_empty() {
-            return Err(fault(
-                "the program has no bytes behind its load address".to_owned(),
-            ));
-        }
-        let room = self.memory.ram.get_mut(start..usize::from(port::WIDTH));
-        match room.and_then(|room| room.get_mut(..bytes.len())) {
-            Some(room) => room.copy_from_slice(bytes),
-            None => {
-                let end = start + bytes.len() - 1;
-                return Err(fault(format!(
-                    "the program lies at ${start:04X} to ${end:04X}, but the ports begin at $FF00"
-                )));
-            }
-        }
-        self.cpu = Cpu::new(origin);
-        Ok(())
+    fn ram_mut(&mut self) -> &mut [u8; 0x1_0000] {
+        &mut self.ram
     }
 
-    /// A byte of memory, for whoever looks on: neither a cycle nor an effect.
-    pub fn peek(&self, address: u16) -> u8 {
-        self.memory.ram[usize::from(address)]
+    fn room(&self) -> (u16, &'static str) {
+        (port::WIDTH, "the ports")
     }
 
-    /// Changes a byte of memory from outside: neither a cycle nor an effect.
-    pub fn poke(&mut self, address: u16, value: u8) {
-        self.memory.ram[usize::from(address)] = value;
+    #[inline(always)]
+    fn cycles(&self) -> u64 {
+        self.cycles
     }
 
-    /// The processor, to set up or to look at.
-    pub fn cpu(&mut self) -> &mut Cpu {
-        &mut self.cpu
+    #[inline(always)]
+    fn stop(&self) -> Option<&Stop> {
+        self.stop.as_ref()
     }
 
-    /// Runs until the program ends, the watcher says stop, or `limit` cycles have
-    /// passed since the machine was made (checked between instructions).
-    /// May be called again, with a greater limit, to go on.
-    pub fn run(&mut self, limit: u64, watch: Watch<'_>) -> Run {
-        self.run_looking(limit, watch, &mut |_, _, _| {})
+    fn fail(&mut self, message: String) {
+        self.stop.get_or_insert(Stop::Fault(fault(message)));
     }
 
-    /// Runs as [`Plain::run`] does, and counts what each address takes, where those that
-    /// `routine` knows are charged to the addresses that call them. The charges add up
-    /// to the cycles of this call.
-    pub fn charges(
-        &mut self,
-        limit: u64,
-        routine: &dyn Fn(u32) -> bool,
-        watch: Watch<'_>,
-    ) -> (Run, Vec<Charge>) {
-        let mut ledger = Ledger::new(0x1_0000, routine);
-        let run = self.run_looking(limit, watch, &mut |pc, sp, cycles| {
-            ledger.step(u32::from(pc), u32::from(!sp), cycles, true);
-        });
-        (run, ledger.finish())
+    fn row(&self) -> Option<u32> {
+        self.row
     }
 
-    fn run_looking(
-        &mut self,
-        limit: u64,
-        watch: Watch<'_>,
-        look: &mut impl FnMut(u16, u8, u64),
-    ) -> Run {
-        let stop = loop {
-            let until = limit.min(self.memory.cycles.saturating_add(WATCH));
-            if let Some(stop) = self.slice(until, look) {
-                break stop;
-            }
-            if self.memory.cycles >= limit {
-                break Stop::CycleLimit;
-            }
-            let progress = Progress {
-                cycles: self.memory.cycles,
-                row: self.memory.row,
-            };
-            if !watch(progress) {
-                break Stop::Interrupted;
-            }
-        };
-        Run {
-            stop,
-            cycles: self.memory.cycles,
-            instructions: self.instructions,
-            plots: self.memory.plots,
-            screen: self.memory.screen.clone(),
-        }
+    fn plots(&self) -> u64 {
+        self.plots
     }
 
-    /// Runs until the cycle count reaches `until`; answers a stop if there was one.
-    /// `look` is told of each instruction: its address, the stack pointer before it, its cycles.
-    fn slice(&mut self, until: u64, look: &mut impl FnMut(u16, u8, u64)) -> Option<Stop> {
-        // A copy that the optimiser can keep in registers.
-        let mut cpu = self.cpu;
-        let mut instructions = 0;
-        while self.memory.cycles < until && self.memory.stop.is_none() {
-            instructions += 1;
-            let (pc, sp, begun) = (cpu.pc, cpu.sp, self.memory.cycles);
-            let step = cpu.step(&mut self.memory);
-            look(pc, sp, self.memory.cycles - begun);
-            match step {
-                Step::Ran => {}
-                Step::Jammed => {
-                    let at = cpu.pc.wrapping_sub(1);
-                    let opcode = self.peek(at);
-                    self.memory.fail(format!(
-                        "opcode ${opcode:02X} at ${at:04X} stops the processor"
-                    ));
-                }
-                Step::Brk => {
-                    if self.memory.word(0xFFFE) == 0 {
-                        let at = self.return_address(cpu.sp).wrapping_sub(2);
-                        let message = format!("brk at ${at:04X}, and no handler at $FFFE");
-                        self.memory.fail(message);
-                    }
-                }
-            }
-        }
-        self.cpu = cpu;
-        self.instructions += instructions;
-        self.memory.stop.clone()
-    }
-
-    /// The address that an interrupt has just pushed below the status.
-    fn return_address(&self, sp: u8) -> u16 {
-        let byte = |n: u8| self.peek(0x0100 | u16::from(sp.wrapping_add(n)));
-        u16::from_le_bytes([byte(2), byte(3)])
+    fn screen(&self) -> Option<Screen> {
+        self.screen.clone()
     }
 }
 

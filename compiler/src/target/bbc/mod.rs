@@ -50,6 +50,8 @@ mod text;
 mod thread;
 mod version;
 
+pub(super) use screen::{MICRO as MICRO_MODES, colours, first_colour};
+
 use super::{Document, Target};
 use crate::passes::outline::Sizes;
 use crate::plan::Plan;

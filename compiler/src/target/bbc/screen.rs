@@ -1,6 +1,7 @@
 //! Modes, colours and coordinates.
 
 use super::super::Mode;
+use super::super::colours::nearest;
 use super::code::Code;
 use super::segment::Draw;
 use crate::plan::Plan;
@@ -54,7 +55,7 @@ fn physical(colour: u8) -> [u8; 3] {
 }
 
 /// The physical colours of a mode's inks when it starts.
-fn first_colour(mode: &Mode, ink: usize) -> u8 {
+pub fn first_colour(mode: &Mode, ink: usize) -> u8 {
     match (mode.inks, ink) {
         (2, i) => [0, 7][i & 1],
         (4, i) => [0, 1, 3, 7][i & 3],
@@ -62,39 +63,10 @@ fn first_colour(mode: &Mode, ink: usize) -> u8 {
     }
 }
 
-/// The physical colours that stand for a palette: near ones, and different
-/// ones as long as there are enough, so that no two inks look alike. Among
-/// equally near ones the brightness decides.
-fn colours(palette: &[[u8; 3]]) -> Vec<u8> {
-    let bright = |[r, g, b]: [u8; 3]| 299 * u32::from(r) + 587 * u32::from(g) + 114 * u32::from(b);
-    let off = |a: [u8; 3], b: [u8; 3]| -> u32 {
-        (0..3).map(|i| u32::from(a[i].abs_diff(b[i])).pow(2)).sum()
-    };
-    let mut pairs: Vec<(u32, u32, usize, u8)> = Vec::new();
-    for (ink, &rgb) in palette.iter().enumerate() {
-        for colour in 0..8 {
-            let near = physical(colour);
-            pairs.push((
-                off(near, rgb),
-                bright(near).abs_diff(bright(rgb)),
-                ink,
-                colour,
-            ));
-        }
-    }
-    pairs.sort_unstable();
-    let mut given = vec![None; palette.len()];
-    // With more inks than colours, further rounds give them out again.
-    while given.contains(&None) {
-        let mut left = 0xffu8;
-        for &(_, _, ink, colour) in &pairs {
-            if given[ink].is_none() && left & (1 << colour) != 0 {
-                given[ink] = Some(colour);
-                left &= !(1 << colour);
-            }
-        }
-    }
-    given.into_iter().flatten().collect()
+/// The physical colours that stand for a palette.
+pub fn colours(palette: &[[u8; 3]]) -> Vec<u8> {
+    let own: Vec<[u8; 3]> = (0..8).map(physical).collect();
+    nearest(palette, &own)
 }
 
 /// The VDU statement that gives an ink the scene's colour; none where it has it already.

@@ -1,12 +1,13 @@
 //! The program around the statements: its head, the picture's opening, the
 //! loops over rows and columns, and the runtime's parts.
 
-use super::blocks::Blocks;
 use super::code::Code;
 use super::homes::{Homes, Slot};
+use super::memory::Machine;
 use super::params::{Entry, entries, take_params};
+use super::screen::Screen;
 use super::syntax::Syntax;
-use super::{Text, table};
+use super::{Text, bbc, c64, ports, table};
 use crate::flow::graph::Axis;
 use crate::flow::tree::SubroutineId;
 use crate::plan::Plan;
@@ -16,15 +17,19 @@ use slowlight_runtime_6502::write::{self, Place as Operand};
 /// The whole program.
 pub(super) fn program(plan: &Plan, homes: &Homes, syntax: &Syntax, text: &mut Text) {
     let entries = entries(plan, homes);
-    head(plan, &entries, syntax, text);
+    head(plan, homes, &entries, syntax, text);
     // What operands are read with is known when they have been.
     let (_, read) = main(plan, homes, &[], &mut Text::default());
     let parts = parts(plan, &entries, &read);
-    symbols(homes, &parts, text);
+    symbols(plan, homes, &parts, text);
     let (clamps, _) = main(plan, homes, &parts, text);
     take_params(plan, homes, &entries, syntax, text);
+    let machine = Machine::of(plan);
+    if machine != Machine::Plain {
+        bbc::data(plan, machine, text);
+    }
     if plan.plot {
-        colours(plan, text);
+        Screen::new(plan, homes).data(plan, text);
     }
     if clamps {
         text.headline("an index kept inside its table");
@@ -33,12 +38,17 @@ pub(super) fn program(plan: &Plan, homes: &Homes, syntax: &Syntax, text: &mut Te
     table::data(plan, text);
     for part in parts.iter().filter(|p| !is_page(p)) {
         text.headline(&format!("runtime: {}", part.name));
-        source(part, text);
+        source(machine, part, text);
     }
-    syntax
-        .last(&plan.name)
-        .iter()
-        .for_each(|line| text.line(line));
+    if machine == Machine::Bbc {
+        bbc::move_down(&homes.places, text);
+    }
+    let loaded = match machine {
+        Machine::Bbc => Some(bbc::loaded_at(&homes.places)),
+        _ => None,
+    };
+    let last = syntax.last(&plan.name, loaded);
+    last.iter().for_each(|line| text.line(line));
 }
 
 /// The parts that the program needs: those of the plan and of its own frame.
@@ -61,9 +71,9 @@ fn is_page(part: &Part) -> bool {
     matches!(part.name, "zero_page" | "scaled_page")
 }
 
-fn source(part: &Part, text: &mut Text) {
+fn source(machine: Machine, part: &Part, text: &mut Text) {
     match part.source {
-        Source::Text(lines) => text.line(lines.trim_end()),
+        Source::Text(lines) => text.line(machine.placed(lines.trim_end())),
         Source::Table(make) => {
             text.label(part.name);
             for row in make().chunks(16) {
@@ -74,24 +84,33 @@ fn source(part: &Part, text: &mut Text) {
     }
 }
 
-fn head(plan: &Plan, entries: &[Entry], syntax: &Syntax, text: &mut Text) {
-    let image = &plan.graph.image;
+fn head(plan: &Plan, homes: &Homes, entries: &[Entry], syntax: &Syntax, text: &mut Text) {
+    let (image, machine) = (&plan.graph.image, Machine::of(plan));
     text.line(format!(
-        "; {}: {} x {} {}, {} inks, for a plain 6502 ({})",
+        "; {}: {} x {} {}, {} inks, for {} ({})",
         plan.name,
         image.width,
         image.height,
         image.unit(),
         image.palette.len(),
+        machine.about(),
         plan.runtime.format
     ));
-    for line in syntax.how(&plan.name) {
+    for line in syntax.how(&plan.name, plan.target.name) {
         text.line(line);
+    }
+    match machine {
+        Machine::Plain => {}
+        Machine::Bbc => bbc::how(&homes.places, text),
+        Machine::C64 => c64::how(text),
     }
     syntax.first().iter().for_each(|line| text.line(line));
     text.headline("parameters: change them here");
     text.line("; Checked once at the start: the first one outside its range ends the");
-    text.line("; program with its number as the exit status.");
+    text.line(match machine {
+        Machine::Plain => "; program with its number as the exit status.",
+        Machine::Bbc | Machine::C64 => "; program, which says its number.",
+    });
     for (k, entry) in entries.iter().enumerate() {
         let assignment = format!("{} = {}", entry.symbol, entry.text);
         let Entry {
@@ -107,35 +126,27 @@ fn head(plan: &Plan, entries: &[Entry], syntax: &Syntax, text: &mut Text) {
     }
 }
 
-fn symbols(homes: &Homes, parts: &[&'static Part], text: &mut Text) {
-    text.headline("the machine's ports");
-    let ports = [
-        ("width_port", "ff00", "the picture's size: two bytes"),
-        ("height_port", "ff02", "two bytes"),
-        ("inks_port", "ff04", "opens the picture"),
-        ("x_port", "ff05", "where the next ink goes: two bytes"),
-        ("y_port", "ff07", "two bytes"),
-        ("ink_port", "ff09", "draws a pixel and moves to the right"),
-        ("exit_port", "ff0a", "ends the program"),
-        ("palette_port", "ff0b", "red, green, blue of each ink"),
-    ];
-    for (name, address, about) in ports {
-        text.line(format!("{:<24}; {about}", format!("{name} = ${address}")));
+fn symbols(plan: &Plan, homes: &Homes, parts: &[&'static Part], text: &mut Text) {
+    let machine = Machine::of(plan);
+    match machine {
+        Machine::Plain => ports::symbols(text),
+        Machine::Bbc => bbc::symbols(text),
+        Machine::C64 => c64::symbols(text),
     }
     text.headline("the runtime's zero page");
     for part in parts.iter().filter(|p| is_page(p)) {
-        source(part, text);
+        source(machine, part, text);
     }
     text.headline("values, the most used in the zero page");
     for home in homes.by_address() {
         let width = if home.address < 0x100 { 2 } else { 4 };
         text.line(format!("{} = ${:0width$x}", home.name, home.address));
     }
-    if let Some(at) = homes.errors {
-        text.line(format!("errors = ${at:04x}"));
+    if plan.error_rows().is_some() {
+        text.line(format!("errors = ${:04x}", homes.places.errors));
     }
     text.line("");
-    text.line(format!("* = ${:04x}", homes.origin));
+    text.line(format!("* = ${:04x}", homes.places.origin));
 }
 
 /// The program proper; answers whether it clamps an index, and with what operands are read.
@@ -147,7 +158,12 @@ fn main(
 ) -> (bool, Vec<&'static str>) {
     text.line("");
     text.label("start");
-    text.code("cld | ldx #$ff | txs");
+    let machine = Machine::of(plan);
+    match machine {
+        Machine::Plain => text.code("cld | ldx #$ff | txs"),
+        Machine::Bbc => bbc::begin(&homes.places, text),
+        Machine::C64 => c64::begin(text),
+    }
     if parts.iter().any(|p| p.name == "squares") {
         text.code("jsr make_squares");
     }
@@ -155,8 +171,9 @@ fn main(
         text.code("jsr set_squares");
     }
     text.code("jsr take_params");
-    if plan.plot {
-        open(plan, text);
+    let screen = plan.plot.then(|| Screen::new(plan, homes));
+    if let Some(screen) = &screen {
+        screen.open(plan, text);
     }
     let mut code = Code {
         plan,
@@ -185,20 +202,8 @@ fn main(
 
     code.text.headline("once a row");
     code.text.label("next_row");
-    let blocks = plan.plot.then(|| Blocks::new(plan, homes)).flatten();
-    if let Some(blocks) = &blocks {
-        blocks.row(&y, code.text);
-    } else if plan.plot {
-        let left = (i64::from(plan.computed_columns().0) + i64::from(plan.offset.0)) as u64;
-        let [x0, x1] = [0, 1].map(|k| write::byte(&Operand::Constant(left), k));
-        code.text
-            .code(&format!("lda {x0} | sta x_port | lda {x1} | sta x_port+1"));
-        let [dy0, dy1] =
-            [0, 1].map(|k| write::byte(&Operand::Constant(i64::from(plan.offset.1) as u64), k));
-        code.text
-            .code(&format!("clc | lda {y} | adc {dy0} | sta y_port"));
-        code.text
-            .code(&format!("lda {y}+1 | adc {dy1} | sta y_port+1"));
+    if let Some(screen) = &screen {
+        screen.row(&y, code.text);
     }
     let columns = plan.computed_columns();
     code.copy_axis(&Operand::Constant(u64::from(columns.0)), &x);
@@ -225,23 +230,18 @@ fn main(
     }
     code.block(&plan.tree.pixel);
     code.text.span = plan.drawn;
-    if plan.plot {
+    if let Some(screen) = &screen {
         let ink = write::byte(&homes.operand(plan, plan.graph.ink), 0);
         if errors.is_some() {
             code.text.code(&format!(
                 "lda {y} | cmp {first} | lda {y}+1 | sbc {first}+1 | bcc unseen_pixel"
             ));
         }
-        match &blocks {
-            Some(blocks) => blocks.draw(&ink, code.text),
-            None => code.text.code(&format!("lda {ink} | sta ink_port")),
-        }
+        screen.pixel(&ink, code.text);
         if errors.is_some() {
             code.text.label("unseen_pixel");
         }
-    }
-    if let Some(blocks) = &blocks {
-        blocks.next(code.text);
+        screen.next(code.text);
     }
     if let Some(rows) = &errors {
         code.send_errors(rows);
@@ -261,6 +261,9 @@ fn main(
         code.turn_errors(rows);
     }
     let text = &mut *code.text;
+    if let Some(screen) = &screen {
+        screen.row_done(text);
+    }
     text.code(&format!(
         "lda {y} | cmp {last} | lda {y}+1 | sbc {last}+1 | bcs picture_done"
     ));
@@ -269,10 +272,16 @@ fn main(
     text.code("jmp next_row");
     text.span = None;
     text.label("picture_done");
-    reports(plan, homes, text);
-    text.code("lda #0 | sta exit_port");
-    text.label("halted");
-    text.code("jmp halted");
+    match machine {
+        Machine::Plain => {
+            reports(plan, homes, text);
+            text.code("lda #0 | sta exit_port");
+            text.label("halted");
+            text.code("jmp halted");
+        }
+        Machine::Bbc => bbc::end(text),
+        Machine::C64 => c64::end(text),
+    }
     let called = subroutines(plan, homes, text);
     needs.extend(called.1);
     (called.0 || clamps, needs)
@@ -344,42 +353,5 @@ fn reports(plan: &Plan, homes: &Homes, text: &mut Text) {
             };
             text.code(&format!("lda {byte} | sta ink_port"));
         }
-    }
-}
-
-/// Opens the picture and tells its palette.
-fn open(plan: &Plan, text: &mut Text) {
-    let image = &plan.graph.image;
-    // The screen is the mode's where there is one, else the picture's.
-    let (width, height) = (plan.mode.width.max(1), plan.mode.height.max(1));
-    for (port, value) in [("width_port", width), ("height_port", height)] {
-        let [lo, hi, ..] = value.to_le_bytes();
-        text.code(&format!(
-            "lda #{lo} | sta {port} | lda #{hi} | sta {port}+1"
-        ));
-    }
-    text.code(&format!(
-        "lda #{} | sta inks_port",
-        image.palette.len() & 0xFF
-    ));
-    let bytes = 3 * image.palette.len();
-    // All fit an index of one byte but those of more than 85 inks.
-    for (k, _) in image.palette.chunks(85).enumerate() {
-        let count = (bytes - 255 * k).min(255);
-        text.code("ldx #0");
-        text.label(&format!("palette{k}"));
-        text.code(&format!(
-            "lda colours+{},x | sta palette_port | inx | cpx #{count} | bne palette{k}",
-            255 * k
-        ));
-    }
-}
-
-/// The palette: red, green and blue of each ink.
-fn colours(plan: &Plan, text: &mut Text) {
-    text.headline("the inks' red, green and blue");
-    text.label("colours");
-    for [red, green, blue] in &plan.graph.image.palette {
-        text.line(format!("        .byte {red}, {green}, {blue}"));
     }
 }

@@ -1,14 +1,13 @@
 //! Where values live, and what they are called in the program.
 
+use super::memory::{self, Machine, Places, Room};
 use super::names::Names;
 use super::shapes::{self, Shapes};
-use super::spread;
 use crate::flow::graph::*;
 use crate::flow::tree::*;
 use crate::plan::{Plan, shared_homes};
 use slowlight_routine::Format;
 use slowlight_runtime_6502::write::{self, Place as Operand, Shape};
-use slowlight_runtime_6502::{FREE_MEMORY, free_zero_page};
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 
 /// Something that the program keeps in memory.
@@ -32,6 +31,11 @@ pub(super) enum Slot {
     Received,
     /// A pointer into a row of errors.
     Errors(u32),
+    /// Where a screen is memory: the byte whose pixels are gathered, a pointer to where
+    /// it goes, and where the row began.
+    ScreenByte,
+    ScreenAt,
+    ScreenLine,
 }
 
 /// A slot's place in memory.
@@ -48,10 +52,8 @@ pub(super) struct Homes {
     pub params: Vec<String>,
     /// Conditions that the statement after them branches on: they have no home.
     pub fused: BTreeSet<NodeId>,
-    /// Where rows of errors are, if there are some.
-    pub errors: Option<u16>,
-    /// The first free address behind the homes.
-    pub origin: u16,
+    /// Where the homes, rows of errors and the program are.
+    pub places: Places,
     /// The subroutines' labels.
     subroutines: Vec<String>,
     /// Where memory is short: the place whose home each place shares.
@@ -96,29 +98,32 @@ impl Homes {
         let mut names = Names::new(plan);
         let params = plan.params.iter().map(|p| names.fresh(&p.label)).collect();
         let mut homes = BTreeMap::new();
-        let (mut zero_page, mut memory) = (u16::from(free_zero_page(plan.runtime)), FREE_MEMORY);
+        let machine = Machine::of(plan);
+        let mut zero_page = machine.zero_page(plan);
+        let mut memory = 0u16;
+        // What is not in the zero page: by how far behind the first of them it is.
+        let mut behind = Vec::new();
         for (slot, _) in slots {
             let size = size(plan, shapes.as_ref(), slot);
-            let next = if zero_page + size <= 0x100 {
-                &mut zero_page
+            let name = names.fresh(&wanted(plan, slot));
+            let room = zero_page
+                .iter_mut()
+                .find(|free| free.len() >= usize::from(size));
+            if let Some(free) = room {
+                let address = free.start;
+                free.start += size;
+                homes.insert(slot, Home { name, address });
             } else {
-                &mut memory
-            };
-            let home = Home {
-                name: names.fresh(&wanted(plan, slot)),
-                address: *next,
-            };
-            *next = next.saturating_add(size);
-            homes.insert(slot, home);
+                behind.push((slot, name, memory));
+                memory = memory.saturating_add(size);
+            }
         }
-        // A page of its own keeps the program's addresses easy to read.
-        let mut origin = memory.saturating_add(0xFF) & 0xFF00;
-        let errors = plan.error_rows().map(|rows| {
-            let at = origin;
-            let bytes = u16::try_from(spread::bytes(plan, &rows)).unwrap_or(0xFF00);
-            origin = origin.saturating_add(bytes) & 0xFF00;
-            at
-        });
+        let errors = memory::error_bytes(plan).unwrap_or(0);
+        let places = machine.places(plan, memory, errors);
+        for (slot, name, at) in behind {
+            let address = places.values.saturating_add(at);
+            homes.insert(slot, Home { name, address });
+        }
         let named = plan.tree.subroutines.iter();
         let subroutines = named
             .map(|s| names.fresh(&format!("do_{}", s.label())))
@@ -129,10 +134,14 @@ impl Homes {
             shared,
             params,
             fused,
-            errors,
-            origin,
+            places,
             shapes,
         }
+    }
+
+    /// What the program may take of the machine's memory.
+    pub fn room(&self, plan: &Plan) -> Room {
+        Machine::of(plan).room(plan, &self.places)
     }
 
     /// Every home, by address.
@@ -237,8 +246,8 @@ fn size(plan: &Plan, shapes: Option<&Shapes>, slot: Slot) -> u16 {
     match slot {
         Slot::Value(place) => u16::from(write::size(plan.place_format(place))),
         Slot::Turns(of) => 1 + u16::from(most_turns(plan, of) > 0xFF),
-        Slot::Which => 1,
-        Slot::Errors(_) | Slot::Block(_) => 2,
+        Slot::Which | Slot::ScreenByte => 1,
+        Slot::Errors(_) | Slot::Block(_) | Slot::ScreenAt | Slot::ScreenLine => 2,
         Slot::Param(_) | Slot::Axis(_) | Slot::Rows(_) | Slot::Received => 4,
     }
 }
@@ -267,6 +276,9 @@ fn wanted(plan: &Plan, slot: Slot) -> String {
         Slot::Which => "which_param".to_owned(),
         Slot::Received => "received".to_owned(),
         Slot::Errors(k) => format!("errors_{k}"),
+        Slot::ScreenByte => "screen_byte".to_owned(),
+        Slot::ScreenAt => "screen_at".to_owned(),
+        Slot::ScreenLine => "screen_line".to_owned(),
     }
 }
 
@@ -312,7 +324,11 @@ impl Uses<'_> {
         }
         self.add(Slot::Axis(Axis::X));
         self.add(Slot::Axis(Axis::Y));
-        if graph.image.block != (1, 1) {
+        if self.plan.plot && Machine::of(self.plan) != Machine::Plain {
+            self.count.insert(Slot::ScreenAt, u64::MAX);
+            self.add(Slot::ScreenByte);
+            self.add(Slot::ScreenLine);
+        } else if graph.image.block != (1, 1) {
             self.add(Slot::Block(Axis::X));
             self.add(Slot::Block(Axis::Y));
         }

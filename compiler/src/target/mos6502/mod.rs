@@ -14,20 +14,29 @@
 //! written as [`slowlight_runtime_6502::write`] says; a condition that the next
 //! statement branches on stays in the carry flag.
 //!
+//! - `memory`: the machines, and what of their memory is left to a program;
+//! - `screen`: what is drawn on; `ports`, `blocks`: the plain machine's; `bitmap`: memory;
+//!   `bbc`, `c64`: those machines' beginnings and ends;
 //! - `homes`: where values live and what they are called; `shapes`: in how many bytes;
 //! - `scaled`: reals with points of their own, read where they are wanted;
 //! - `code`: statements; `table`: lookups; `comment`: what a statement means;
 //! - `params`: the parameter block's checks; `frame`: everything around the statements;
 //! - `spread`: error diffusion.
 
+mod bbc;
+mod bitmap;
 mod blocks;
+mod c64;
 mod code;
 mod comment;
 mod frame;
 mod homes;
+mod memory;
 mod names;
 mod params;
+mod ports;
 mod scaled;
+mod screen;
 mod shapes;
 mod spread;
 pub mod syntax;
@@ -39,6 +48,8 @@ use super::{Document, Mode, Target};
 use crate::passes::outline::Sizes;
 use crate::plan::Plan;
 use crate::source::Span;
+use memory::Machine;
+pub use memory::{DISC_PAGE, Room};
 use slowlight_runtime_6502::FIXED16_16;
 use slowlight_runtime_6502::scaled::FIXED16;
 use syntax::Syntax;
@@ -50,6 +61,35 @@ pub static PLAIN: Target = USUAL;
 pub static PLAIN_FIXED16: Target = Target {
     runtime: &FIXED16,
     ..USUAL
+};
+
+/// A BBC Micro, model B.
+pub static BBC: Target = Target {
+    name: "6502:bbc",
+    about: "a BBC Micro in machine code, with a disc drive",
+    modes: bbc::MODES,
+    ..USUAL
+};
+
+/// The same with reals of 16 bits.
+pub static BBC_FIXED16: Target = Target {
+    runtime: &FIXED16,
+    ..BBC
+};
+
+/// A Commodore 64, for PAL.
+pub static C64: Target = Target {
+    name: "6502:c64",
+    about: "a Commodore 64 (PAL) in machine code",
+    modes: c64::MODES,
+    hertz: 985_248.0,
+    ..USUAL
+};
+
+/// The same with reals of 16 bits.
+pub static C64_FIXED16: Target = Target {
+    runtime: &FIXED16,
+    ..C64
 };
 
 const USUAL: Target = Target {
@@ -98,6 +138,19 @@ pub fn document(plan: &Plan, syntax: &Syntax) -> Document {
         text: written,
         lines,
         later: Vec::new(),
+    }
+}
+
+/// What a plan's program may take of its machine's memory, and what its values do.
+pub fn room(plan: &Plan) -> Room {
+    homes::Homes::new(plan).room(plan)
+}
+
+/// Where the file of a plan's program is loaded, if not where it is assembled for.
+pub fn moved_from(plan: &Plan) -> Option<u16> {
+    match Machine::of(plan) {
+        Machine::Bbc => bbc::moved_from(&homes::Homes::new(plan).places),
+        Machine::Plain | Machine::C64 => None,
     }
 }
 

@@ -1,9 +1,10 @@
 //! The params: scaled integers in the parameter block, checked once at the
 //! start and made what the program computes with.
 
-use super::Text;
 use super::homes::{Homes, Slot};
+use super::memory::Machine;
 use super::syntax::Syntax;
+use super::{Text, bbc, c64};
 use crate::flow::graph::*;
 use crate::plan::Plan;
 use slowlight_routine::Type;
@@ -151,13 +152,26 @@ pub(super) fn take_params(
     text.code("rts");
     let divide = entries.iter().any(|e| e.divisor > 0);
     let template = if divide { TAKE_REAL } else { TAKE_INT };
-    text.line(TAKE.replace("WHICH", which));
+    let machine = Machine::of(plan);
+    let take = TAKE.replace("WHICH", which);
+    text.line(match machine {
+        Machine::Plain => take,
+        _ => take.replace("sta exit_port", "jmp wrong_param"),
+    });
     // Where points are the params' own, they are divided by who knows them.
     let template = match plan.points() {
         Some(_) => template.replace("jmp fixed_divide", "rts"),
         None => template.to_owned(),
     };
     text.line(template);
+    if machine != Machine::Plain {
+        text.label("wrong_param");
+    }
+    match machine {
+        Machine::Plain => {}
+        Machine::Bbc => bbc::wrong(text),
+        Machine::C64 => c64::wrong(text),
+    }
     for (k, entry) in entries.iter().enumerate() {
         let symbol = &entry.symbol;
         text.line(format!(

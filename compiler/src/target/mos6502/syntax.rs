@@ -158,10 +158,14 @@ fn is_instruction(line: &str) -> bool {
 
 impl Syntax {
     /// The lines of the head that say how to assemble a program.
-    pub(super) fn how(&self, name: &str) -> Vec<String> {
+    pub(super) fn how(&self, name: &str, target: &str) -> Vec<String> {
+        let machine = target.strip_suffix(":plain").unwrap_or(target);
         let lines = self.how.iter();
         lines
-            .map(|line| format!("; {}", line.replace("NAME", name)))
+            .map(|line| {
+                let line = line.replace("vm 6502", &format!("vm {machine}"));
+                format!("; {}", line.replace("NAME", name))
+            })
             .collect()
     }
 
@@ -170,9 +174,16 @@ impl Syntax {
         (!self.first.is_empty()).then_some(self.first)
     }
 
-    /// What must come behind everything.
-    pub(super) fn last(&self, name: &str) -> Option<String> {
-        (!self.last.is_empty()).then(|| self.last.replace("NAME", name))
+    /// What must come behind everything; `loaded`, where that is not where the program is
+    /// at home, or must be said.
+    pub(super) fn last(&self, name: &str, loaded: Option<u16>) -> Option<String> {
+        let last = self.last.replace("NAME", name);
+        let hex = self.hex;
+        (!last.is_empty()).then(|| match loaded {
+            // To be entered at, and to be loaded at.
+            Some(at) => format!("{last}, {hex}{at:04x}, {hex}{at:04x}"),
+            None => last,
+        })
     }
 
     /// Lines in this syntax as a text, and the places of its lines.

@@ -273,3 +273,33 @@ fn long_programs_have_less_lines_for_xa() {
     let (usual, _) = USUAL.write(&lines(2001));
     assert_eq!(usual.lines().count(), 20_010);
 }
+
+/// Every place in the zero page moves with the others, whatever part names it.
+#[test]
+fn the_runtimes_zero_page_may_stand_elsewhere() {
+    for target in ["6502:plain", "6502:c64"] {
+        let runtimes = formats(find(target).unwrap());
+        for part in runtimes.flat_map(|t| t.runtime.parts) {
+            let slowlight_routine::Source::Text(lines) = part.source else {
+                continue;
+            };
+            let moved = super::memory::Machine::C64.placed(lines);
+            for (line, moved) in lines.lines().zip(moved.lines()) {
+                let address = |line: &str| {
+                    let (_, rest) = line.split_once(" = $")?;
+                    let digits = rest.split(' ').next()?;
+                    u16::from_str_radix(digits, 16).ok()
+                };
+                // A number that is no symbol's would stay where it is.
+                let code = line.split(';').next().unwrap_or_default();
+                let plain = code.contains(" $") && address(line).is_none();
+                assert!(!plain, "{}: {line}", part.name);
+                match address(line) {
+                    Some(at) if at < 0x100 => assert_eq!(address(moved), Some(at + 2)),
+                    Some(_) => assert!(address(moved) >= Some(0xC000)),
+                    None => assert_eq!(line, moved),
+                }
+            }
+        }
+    }
+}

@@ -1,7 +1,7 @@
 #![allow(clippy::unwrap_used)]
 
 use super::*;
-use crate::mos6502::assemble;
+use crate::mos6502::{Run, assemble};
 use proptest::prelude::*;
 
 fn run(source: &str) -> Run {
