@@ -154,6 +154,7 @@ pub(crate) static ALL: &[Part] = &[
         &["product"],
         71,
     ),
+    part("up", include_str!("../asm/scaled/up.asm"), &["product"], 94),
     part(
         "lower24",
         include_str!("../asm/scaled/lower.asm"),

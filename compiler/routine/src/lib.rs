@@ -261,6 +261,9 @@ pub struct Stepping {
     pub write: [u32; 2],
     /// A test, beside what is tested.
     pub test: u32,
+    /// Whether a step is so much cheaper than a product of ints that whole polynomials in
+    /// the column are reckoned to be stepped, before it is known which are.
+    pub foreseen: bool,
 }
 
 /// All that one machine offers in one choice of formats.
@@ -345,6 +348,25 @@ impl Runtime {
             Type::Int => self.int,
             Type::Real => self.real,
         }
+    }
+
+    /// The routine that computes an operation of ordinary operands, if any can: what it
+    /// costs where no ranges are known. (The first of a list may be for one operand alone.)
+    pub fn usual(&self, op: Op) -> Option<&'static Routine> {
+        let [some, result] = [100.5, 10_000.0].map(|most| Range::new(-most, most));
+        let scales = match self.real {
+            Format::Scaled { .. } => Some(scale::Scales {
+                args: [14, 14],
+                result: 14,
+            }),
+            _ => None,
+        };
+        let number = scales.map(|scales| Range::point(f64::from(scales.number(op))));
+        let operands = std::iter::repeat_n(some, op.arity()).chain(number);
+        let args: Vec<Range> = operands.collect();
+        let all = || self.routines.iter().filter(|r| r.op == op);
+        let fits = |r: &&Routine| (r.domain)(&args, result);
+        all().find(fits).or_else(|| all().next())
     }
 
     /// A part by name.

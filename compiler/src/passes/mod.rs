@@ -1,6 +1,7 @@
 //! One pass a file; each takes a graph and gives a graph or a side table.
 
 pub mod algebra;
+pub mod along;
 pub mod apart;
 mod arena;
 pub mod arms;

@@ -11,6 +11,9 @@ pub(super) struct Beside<'p> {
     pub(super) runtime: &'static Runtime,
     pub(super) folded: Vec<bool>,
     pub(super) routines: Vec<Option<&'static Routine>>,
+    /// How many ramps each value takes that is reckoned to be stepped
+    /// ([`crate::passes::ramps::foreseen`]).
+    pub(super) steps: Vec<Option<u32>>,
 }
 
 impl Beside<'_> {
@@ -54,7 +57,11 @@ impl Beside<'_> {
             return self.runtime.index * if flat { 1 } else { 2 };
         }
         let routine = self.routines.get(id.0 as usize).copied().flatten();
-        routine.map_or(0, |r| r.cycles)
+        let ramps = self.steps.get(id.0 as usize).copied().flatten();
+        match (ramps, self.runtime.stepping) {
+            (Some(ramps), Some(stepping)) => ramps * stepping.ramp,
+            _ => routine.map_or(0, |r| r.cycles),
+        }
     }
 
     fn inline(&self, id: NodeId) -> bool {

@@ -15,7 +15,7 @@ use super::sums::with_loops_skipped;
 use super::thrift::Thrift;
 use super::workshop::{Rewritten, Workshop};
 use crate::flow::graph::*;
-use crate::passes::algebra::{Cheaper, Verdicts, algebra, decided, spans};
+use crate::passes::algebra::{Cheaper, Verdicts, algebra, allowance, decided, spans};
 use crate::passes::apart::apart;
 use crate::passes::early::in_loops;
 use crate::passes::guard::guard;
@@ -73,7 +73,7 @@ pub fn cheaper(
     let mut site = Site {
         shop,
         runtime: shop.runtime,
-        price: Price::new(&plain, shop.runtime, thrift),
+        price: Price::new(&plain, shop.runtime, thrift).foreseeing(),
         runs: thrift.runs(),
         products: false,
         other: Cell::new(false),
@@ -236,10 +236,10 @@ impl Site<'_> {
 
     /// The graph with one of its directions at its own length, each in turn.
     fn held(&self, plain: &Settled) -> impl Iterator<Item = Settled> {
-        // A fixed point has the digits for directions of length 1, and logarithms have
-        // no room for the squares of long ones.
-        let narrow =
-            self.runtime.real.is_fixed() || matches!(self.runtime.real, Format::Log { .. });
+        // A fixed point has the digits for directions of length 1, but where each has its
+        // own, and logarithms have no room for the squares of long ones.
+        let narrow = (self.runtime.real.is_fixed() && allowance(self.runtime) < 1.0)
+            || matches!(self.runtime.real, Format::Log { .. });
         let few = plain.graph.nodes.len() <= NODES && !narrow;
         let all = match few {
             true => lengths(&plain.graph, &plain.ranges),

@@ -13,6 +13,7 @@ use super::{Goal, Plan, choose, fold_uses, names, points, recipes};
 use crate::flow::graph::*;
 use crate::flow::tree::*;
 use crate::flow::verify::verify;
+use crate::passes::along::along;
 use crate::passes::early::{everywhere, without};
 use crate::passes::fold::fold;
 use crate::passes::interlace::interlaced;
@@ -114,21 +115,27 @@ pub(super) fn planned(
     if let Rewriting::Fast { thrift, steps } = rewriting {
         let early =
             (!origin.early.is_empty()).then(|| steady(shop, &whole(drawn(fold(origin))), rounds));
-        now = prepared(now, shop, thrift);
-        let early = early.map(|plan| prepared(plan, shop, thrift));
+        now = in_arms(now, shop, thrift);
+        let early = early.map(|plan| in_arms(plan, shop, thrift));
         let early = early.as_ref().map(|settled| &settled.graph);
         let price = Price::new(&now, runtime, thrift);
         let cheapest = |all: Vec<Settled>| {
             let all = all
                 .into_iter()
                 .map(|plan| asked_where_it_matters(plan, shop, thrift))
+                .map(|plan| with_reciprocals(plan, shop, thrift))
                 .map(|plan| with_recipes_followed(plan, shop, thrift))
                 .map(|plan| stepped(plan, shop, target, thrift, steps))
                 .map(|plan| with_sums(plan, shop, thrift))
                 .map(|plan| with_inks_split(plan, shop, thrift));
             price.cheapest(all)
         };
-        let usual = cheapest(cheaper(now.clone(), early, shop, thrift)).unwrap_or(now);
+        let mut all = cheaper(now.clone(), early, shop, thrift);
+        if let Some(other) = points_along(&now.graph, runtime) {
+            let early = early.map(|graph| along(graph).unwrap_or(graph.clone()));
+            all.extend(cheaper(shop.settle(&other), early.as_ref(), shop, thrift));
+        }
+        let usual = cheapest(all).unwrap_or(now);
         // Where spans of columns tell what a row meets, shortcuts outside of loops do not pay.
         let sooner = early.filter(|_| !runtime.segments).and_then(everywhere);
         let sooner = sooner
@@ -239,9 +246,11 @@ pub(super) fn assemble(
     })
 }
 
-/// With what is done before plans are priced against each other.
-fn prepared(plan: Settled, shop: &Workshop, thrift: Thrift) -> Settled {
-    with_reciprocals(in_arms(plan, shop, thrift), shop, thrift)
+/// The graph with points by their distance along a ray, where polynomials that are stepped
+/// may tell what is met.
+fn points_along(graph: &Graph, runtime: &Runtime) -> Option<Graph> {
+    let foreseen = runtime.stepping.is_some_and(|stepping| stepping.foreseen);
+    foreseen.then(|| along(graph)).flatten()
 }
 
 /// How many of the picture's pixels share a byte of the screen, where that matters.

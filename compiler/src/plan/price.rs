@@ -17,6 +17,7 @@ use crate::flow::graph::*;
 use crate::flow::often;
 use crate::flow::tree::*;
 use crate::passes::interlace::passes;
+use crate::passes::ramps::foreseen;
 use crate::passes::rate::rates;
 use crate::passes::region::Fact;
 use crate::passes::segment::bounds_segment;
@@ -50,6 +51,8 @@ pub struct Price {
     around: f64,
     /// The pixels that are looked at, row by row.
     pixels: Vec<(i32, i32)>,
+    /// Whether whole polynomials in the column are reckoned to be stepped.
+    foresees: bool,
 }
 
 impl Price {
@@ -60,6 +63,7 @@ impl Price {
             memory: thrift.part(),
             around: thrift.around(),
             pixels: Vec::new(),
+            foresees: false,
         };
         if plain.graph.diffusion.is_none() {
             let all = spread(&plain.graph.image);
@@ -72,9 +76,17 @@ impl Price {
         price
     }
 
+    /// The same before it is known which values are stepped, where steps are so cheap that
+    /// it may be guessed.
+    pub fn foreseeing(self) -> Price {
+        let foresees = self.runtime.stepping.is_some_and(|s| s.foreseen);
+        Price { foresees, ..self }
+    }
+
     /// Cycles a pixel, and something for memory.
     pub fn of(&self, plan: &Settled) -> f64 {
-        let known = &plan.costs[usize::from(self.pixels.is_empty())];
+        let [guessed, foreseen] = [self.pixels.is_empty(), self.foresees].map(usize::from);
+        let known = &plan.costs[guessed + 2 * foreseen];
         let (cycles, [inside, around]) = *known.get_or_init(|| (self.cycles(plan), memory(plan)));
         cycles * (1.0 + self.memory * (inside + self.around * around))
     }
@@ -92,6 +104,10 @@ impl Price {
             // That ints are read as reals in place is a matter of writing, and left out.
             folded: folded(&plan.graph, &plan.tree, still.as_ref(), &[]),
             routines,
+            steps: match self.foresees {
+                true => foreseen(&plan.graph, &plan.ranges),
+                false => Vec::new(),
+            },
         };
         // What begins a pass or run of columns is not carried out at each of them.
         let mut runs = FxHashSet::default();
@@ -192,6 +208,7 @@ impl Price {
             // A copy has a variable.
             folded: Vec::new(),
             routines: routines.unwrap_or_default(),
+            steps: Vec::new(),
         };
         let limit = self.memory * self.of(plan);
         move |id, less, copies| less * f64::from(beside.kept(id)) > limit * copies as f64

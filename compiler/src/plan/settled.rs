@@ -18,8 +18,8 @@ pub struct Known {
     pub tree: Tree,
     pub ranges: Ranges,
     /// Cycles and memory, pixels' and around them, as [`super::price`] has them: at
-    /// pixels, and where there are none to be looked at.
-    pub(super) costs: [OnceLock<(f64, [f64; 2])>; 2],
+    /// pixels, and where there are none to be looked at; the same where steps are foreseen.
+    pub(super) costs: [OnceLock<(f64, [f64; 2])>; 4],
 }
 
 impl Deref for Settled {

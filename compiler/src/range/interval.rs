@@ -201,7 +201,10 @@ fn signs(a: Range) -> Range {
     } else {
         0.0
     };
-    bounds(lo, hi)
+    Range {
+        nonzero: a.nonzero,
+        ..bounds(lo, hi)
+    }
 }
 
 fn mask(a: Range, b: Range) -> Range {

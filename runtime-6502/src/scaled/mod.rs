@@ -15,6 +15,7 @@ mod routines;
 mod templates;
 #[cfg(test)]
 mod tests;
+mod wide;
 
 pub use read::{Read, floor, read};
 pub use templates::squared;
@@ -63,6 +64,7 @@ const STEPPING: Stepping = Stepping {
     digit: 0,
     write: [0, 0],
     test: 3,
+    foreseen: true,
 };
 
 /// The nearest bits, saturating; of a real without a scale, those of its int.

@@ -27,7 +27,11 @@ pub fn read(read: Read<'_>, lines: &mut Vec<String>) -> Option<&'static str> {
         serial,
     } = read;
     let wide = matches!(from, Place::Held(_, shape) if shape.bytes > 2 || shape.bytes == 2 && !shape.signed && !shape.spare);
-    if wide {
+    // Where it fits, its lower bytes are all of it.
+    if wide && (by < 0 || !fits) {
+        if super::wide::read(read, lines) {
+            return None;
+        }
         // An int of more bytes.
         let way = if by < 0 { "right" } else { "left" };
         copy_bytes(from, "acc", 4, lines);

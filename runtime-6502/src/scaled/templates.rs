@@ -82,6 +82,10 @@ pub(crate) const MULTIPLY_14: &str = concat!(both!(), "| jsr product16", up!("" 
 pub(crate) const MULTIPLY_13: &str = concat!(both!(), "| jsr product16", up!("" "" ""), upper!());
 pub(crate) const MULTIPLY_12: &str =
     concat!(both!(), "| jsr product16", up!("" "" "" ""), upper!());
+/// The same bits where the result may not fit.
+pub(crate) const MULTIPLY_ANY_14: &str = concat!(both!(), "| jsr product16 | jsr up14", result!());
+pub(crate) const MULTIPLY_ANY_13: &str = concat!(both!(), "| jsr product16 | jsr up13", result!());
+pub(crate) const MULTIPLY_ANY_12: &str = concat!(both!(), "| jsr product16 | jsr up12", result!());
 pub(crate) const MULTIPLY_RIGHT: &str = concat!(
     both!(),
     "| jsr product16 | ldy {#n-16} | jsr lower24",
@@ -108,6 +112,9 @@ pub(crate) const SQUARE_15: &str = concat!(first!(), "| jsr square16", up!(""), 
 pub(crate) const SQUARE_14: &str = concat!(first!(), "| jsr square16", up!("" ""), upper!());
 pub(crate) const SQUARE_13: &str = concat!(first!(), "| jsr square16", up!("" "" ""), upper!());
 pub(crate) const SQUARE_12: &str = concat!(first!(), "| jsr square16", up!("" "" "" ""), upper!());
+pub(crate) const SQUARE_ANY_14: &str = concat!(first!(), "| jsr square16 | jsr up14", result!());
+pub(crate) const SQUARE_ANY_13: &str = concat!(first!(), "| jsr square16 | jsr up13", result!());
+pub(crate) const SQUARE_ANY_12: &str = concat!(first!(), "| jsr square16 | jsr up12", result!());
 pub(crate) const SQUARE_RIGHT: &str = concat!(
     first!(),
     "| jsr square16 | ldy {#n-16} | jsr lower24",
@@ -260,6 +267,9 @@ pub fn squared(text: &'static str) -> Option<&'static str> {
         (MULTIPLY_14, SQUARE_14),
         (MULTIPLY_13, SQUARE_13),
         (MULTIPLY_12, SQUARE_12),
+        (MULTIPLY_ANY_14, SQUARE_ANY_14),
+        (MULTIPLY_ANY_13, SQUARE_ANY_13),
+        (MULTIPLY_ANY_12, SQUARE_ANY_12),
         (MULTIPLY_RIGHT, SQUARE_RIGHT),
         (MULTIPLY_ANY, SQUARE_ANY),
     ];

@@ -280,6 +280,54 @@ fn numbers_are_read_at_other_scales() {
     }
 }
 
+/// Ints of three and four bytes, and of two without a sign.
+#[test]
+fn wide_ints_are_read_at_other_scales() {
+    let unsigned = Shape {
+        signed: false,
+        ..Shape::whole(2)
+    };
+    for shape in [Shape::whole(4), Shape::whole(3), unsigned] {
+        let held = Place::Held("first_operand".into(), shape);
+        for by in -20..=9 {
+            let write = |lines: &mut Vec<String>| {
+                let what = Read {
+                    from: &held,
+                    by,
+                    fits: true,
+                    to: "result",
+                    serial: 1,
+                };
+                read(what, lines).into_iter().collect()
+            };
+            let mut bench = Bench::written(&FIXED16, &write);
+            let mut random = Random(7);
+            let mut checked = 0;
+            let drawn = (0..400).map(|k| match k {
+                0..40 => (1 << (k / 2)) - 1 + k % 2,
+                40..80 => -(1 << ((k - 40) / 2)) + k % 2,
+                _ => random.next() as i32 >> (k % 32),
+            });
+            for a in drawn {
+                let bits = 8 * u32::from(shape.bytes);
+                let has = match shape.signed {
+                    true => i64::from(a) == (i64::from(a) << (64 - bits)) >> (64 - bits),
+                    false => (0..1 << bits).contains(&i64::from(a)),
+                };
+                let exact = f64::from(a) * f64::from(by).exp2();
+                if !has || exact.abs() > most(16) as f64 {
+                    continue;
+                }
+                checked += 1;
+                let wanted = model::shifted(i64::from(a), by, 16);
+                let (found, _) = bench.run(&[a]);
+                assert_eq!(i64::from(found as i16), wanted, "{a} by {by}, {shape:?}");
+            }
+            assert!(checked > 20, "{by} {shape:?}");
+        }
+    }
+}
+
 #[test]
 fn whole_parts_are_floored() {
     let edges = edges();
@@ -310,6 +358,7 @@ fn costs_of_what_is_met_most() {
     let bounds = [
         ("mul", 16, 290),
         ("double_mul", 15, 310),
+        ("any_mul_14", 14, 335),
         ("div", 14, 610),
         ("odd_root", 13, 320),
         ("add", 0, 25),

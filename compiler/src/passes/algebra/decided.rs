@@ -26,6 +26,10 @@ use std::collections::HashMap;
 /// of its terms' sizes: what a value is computed by takes fewer operations.
 const UNITS: f64 = 1024.0;
 
+/// What they move it at most, where a unit is large: as far as a hundred and more of them
+/// do, and what is decided comes out as over the reals.
+const MOST: f64 = 1.0 / 128.0;
+
 /// The graph with comparisons that are decided as constants; nothing where there
 /// are none, or where the format has no relative roundings.
 pub fn decided(
@@ -38,7 +42,7 @@ pub fn decided(
         return None;
     }
     let forms = Forms::new(graph, ranges);
-    let margin = UNITS * runtime.real.epsilon();
+    let margin = (UNITS * runtime.real.epsilon()).min(MOST);
     let reached = graph.reached();
     let asked = graph.ids().filter(|id| reached[id.0 as usize]);
     let found: HashMap<NodeId, bool> = asked

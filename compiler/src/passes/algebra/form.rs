@@ -150,7 +150,9 @@ impl<'g> Forms<'g> {
         }
         let (low, high) = (range.lo as i32, range.hi as i32);
         let sign = || match self.graph.node(id) {
-            Node::Apply(Op::Sign, [a, _]) => self.get(a).is_some_and(|f| self.never_zero(f)),
+            Node::Apply(Op::Sign | Op::IntSign, [a, _]) => {
+                self.get(a).is_some_and(|f| self.never_zero(f))
+            }
             _ => false,
         };
         let fits = high - low == 1 || (low == -1 && high == 1 && sign());

@@ -40,6 +40,7 @@ pub fn cycles(
     there: &dyn Fn(NodeId) -> bool,
 ) -> u32 {
     let mut varies = FxHashMap::default();
+    let stepping = runtime.stepping.filter(|s| s.foreseen);
     // How often each value is needed; users have greater numbers.
     let mut todo: BTreeMap<NodeId, f64> = BTreeMap::from([(root, 1.0)]);
     let mut sum = 0.0;
@@ -54,6 +55,12 @@ pub fn cycles(
                 false => held.max(often),
             };
         };
+        if let Some(stepping) = stepping
+            && let Some(degree @ 1..) = degree(nodes, id, &mut varies)
+        {
+            sum += often * f64::from(degree * stepping.ramp);
+            continue;
+        }
         match nodes.node(id) {
             Node::Select { cond, yes, no } => {
                 needs(cond, 1.0);
@@ -63,13 +70,29 @@ pub fn cycles(
             node => {
                 node.operands().for_each(|id| needs(id, 1.0));
                 if let Node::Apply(op, _) = node {
-                    let found = runtime.routines.iter().find(|r| r.op == op);
+                    let found = runtime.usual(op);
                     sum += often * found.map_or(0.0, |r| f64::from(r.cycles));
                 }
             }
         }
     }
     sum as u32
+}
+
+/// The degree of an int that is a polynomial in the column and could be stepped.
+fn degree(nodes: &dyn Nodes, id: NodeId, varies: &mut FxHashMap<NodeId, bool>) -> Option<u32> {
+    if !column(nodes, id, varies, 0) {
+        return Some(0);
+    }
+    let mut of = |id| degree(nodes, id, varies);
+    let found = match nodes.node(id) {
+        Node::Axis(Axis::X) => 1,
+        Node::Apply(Op::IntAdd | Op::IntSub, [a, b]) => of(a)?.max(of(b)?),
+        Node::Apply(Op::IntMul, [a, b]) => of(a)? + of(b)?,
+        Node::Apply(Op::IntNeg, [a, _]) => of(a)?,
+        _ => return None,
+    };
+    (found <= 2).then_some(found)
 }
 
 /// Whether a node depends on the column beyond its pass (or on a loop); deep graphs count as such.

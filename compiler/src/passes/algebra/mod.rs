@@ -24,6 +24,7 @@ mod ends;
 mod extent;
 mod form;
 mod halved;
+mod hand;
 pub(super) mod judge;
 mod number;
 mod poly;
@@ -62,7 +63,7 @@ pub use whole::Whole;
 
 /// By how much a form's roundings may exceed those of what it replaces, given
 /// the format's unit roundoff: what leaves a picture twenty bits.
-pub(super) fn allowance(runtime: &Runtime) -> f64 {
+pub fn allowance(runtime: &Runtime) -> f64 {
     let format = runtime.real;
     match (format, runtime.int) {
         (Format::Real40 | Format::Float316 { .. }, _) => {
@@ -258,25 +259,11 @@ impl Site<'_> {
         let graph = self.forms.graph;
         self.forms.pixel(id)
             && match graph.node(id) {
-                Node::Apply(Op::Less | Op::LessEqual | Op::Equal | Op::Sign, _) => true,
+                Node::Apply(Op::Less | Op::LessEqual | Op::Equal, _) => true,
+                Node::Apply(Op::Sign | Op::IntSign, _) => true,
                 Node::Apply(..) => self.exits[id.0 as usize] && graph.ty(id) == Type::Real,
                 _ => false,
             }
-    }
-
-    /// Whether a comparison costs no more than itself: what it compares is
-    /// computed as it is for something else.
-    fn at_hand(&self, id: NodeId, replaced: &[NodeId]) -> bool {
-        let graph = self.forms.graph;
-        let Node::Apply(op, _) = graph.node(id) else {
-            return false;
-        };
-        let value = |user: &NodeId| graph.ty(*user) != Type::Bool;
-        op.result() == Type::Bool
-            && graph.node(id).operands().all(|x| {
-                !self.forms.pixel(x)
-                    || (self.users[x.0 as usize].iter().any(value) && !replaced.contains(&x))
-            })
     }
 
     /// Makes exits of the operands of exits that stay as they are; whether
@@ -329,7 +316,7 @@ impl Site<'_> {
                 let difference = self.forms.sum(x, &scaled(y, Number::whole(-1)))?;
                 compared(&mut put, op, &difference)
             }
-            Node::Apply(Op::Sign, _) => {
+            Node::Apply(Op::Sign | Op::IntSign, _) => {
                 let two = self.forms.two(id.0).filter(|two| two.low == -1)?;
                 put.sign(id, two)
             }

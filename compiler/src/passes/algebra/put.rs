@@ -117,7 +117,7 @@ impl Put<'_, '_> {
         if let Some(Other::Holds(cond)) = forms.other(atom) {
             return (self.new)(*cond);
         }
-        if let Node::Apply(Op::Sign, [of, _]) = forms.graph.node(NodeId(atom))
+        if let Node::Apply(Op::Sign | Op::IntSign, [of, _]) = forms.graph.node(NodeId(atom))
             && let Some(form) = forms.get(of)
             && let [part] = form.parts.as_slice()
         {

@@ -183,7 +183,7 @@ impl<'g> Field<'g> {
                     conditions.push(self.turned(cond).0);
                     todo.extend([yes, no]);
                 }
-                Node::Apply(Op::Sign, _) => conditions.push(id),
+                Node::Apply(Op::Sign | Op::IntSign, _) => conditions.push(id),
                 node => {
                     conditions.extend(self.roots.contains(&id).then_some(id));
                     todo.extend(node.operands());
@@ -283,7 +283,7 @@ impl Field<'_> {
                 let (cond, turned) = self.turned(cond);
                 of(if coin(cond) != turned { yes } else { no })?
             }
-            Node::Apply(Op::Sign, _) if self.is_unit(id) => {
+            Node::Apply(Op::Sign | Op::IntSign, _) if self.is_unit(id) => {
                 if coin(id) {
                     1
                 } else {

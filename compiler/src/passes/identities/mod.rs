@@ -111,7 +111,7 @@ impl<'g> Search<'g> {
     }
 
     fn cycles(&self, op: Op) -> u32 {
-        let found = self.runtime.routines.iter().find(|r| r.op == op);
+        let found = self.runtime.usual(op);
         found.map_or(0, |r| r.cycles)
     }
 

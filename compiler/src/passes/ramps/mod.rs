@@ -53,6 +53,19 @@ pub fn sites(graph: &Graph, ranges: &Ranges) -> Vec<NodeId> {
     graph.ids().filter(site).collect()
 }
 
+/// How many ramps each value takes if it is stepped: what something else than another such
+/// polynomial reads as many as its degree, the others none; nothing for what is none.
+pub fn foreseen(graph: &Graph, ranges: &Ranges) -> Vec<Option<u32>> {
+    let known = Degrees::of(graph, ranges);
+    let mut all: Vec<Option<u32>> = (graph.ids())
+        .map(|id| known.at(id).filter(|degree| *degree > 0).map(|_| 0))
+        .collect();
+    for site in sites(graph, ranges) {
+        all[site.0 as usize] = known.at(site).map(|degree| degree as u32);
+    }
+    all
+}
+
 /// The graph with ramps at some sites; none where a coefficient might not be exact.
 pub fn ramps(graph: &Graph, ranges: &Ranges, at: &[NodeId]) -> Option<Graph> {
     let known = Degrees::of(graph, ranges);

@@ -146,7 +146,7 @@ impl Rewrite for Comparing<'_> {
 /// Whether comparisons and lookups cost less than the steps.
 fn saves(graph: &Graph, chain: &Chain, inks: i32, runtime: &Runtime) -> bool {
     let cost = |op: Op| {
-        let found = runtime.routines.iter().find(|r| r.op == op);
+        let found = runtime.usual(op);
         found.map_or(0, |r| r.cycles)
     };
     let steps = chain.steps.iter().filter_map(|id| match graph.node(*id) {

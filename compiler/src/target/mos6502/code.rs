@@ -163,7 +163,8 @@ impl<'p> Code<'p> {
             let adds = |r: &&Routine| r.name == "int_add";
             if let Some(routine) = self.plan.runtime.routines.iter().find(adds) {
                 let ramp = self.homes.held_in(self.plan, place);
-                let bytes = write::size(routine.result);
+                let shape = self.homes.shape(self.plan, place);
+                let bytes = shape.map_or(write::size(routine.result), |shape| shape.bytes);
                 self.use_of(routine, &[ramp, step], &Goal::Held(&to, bytes), 0);
             }
         }

@@ -3,6 +3,7 @@
 
 use super::homes::Slot;
 use crate::flow::graph::*;
+use crate::flow::ramp;
 use crate::flow::tree::*;
 use crate::plan::Plan;
 use slowlight_routine::{Format, Range, Type};
@@ -46,16 +47,30 @@ pub(super) fn shapes(plan: &Plan) -> Option<Shapes> {
             _ => {}
         });
     }
-    let ramp = |place: Place| matches!(place, Place::Node(id) if matches!(plan.graph.node(id), Node::Ramp { .. }));
     let shape = |place: Place, range: Range| match plan.place_format(place) {
-        // Where nobody reads it, a ramp may be anything.
-        Format::Int { .. } if ramp(place) => Shape::whole(MOST),
-        Format::Int { .. } => Shape::of(range, MOST),
+        Format::Int { .. } => Shape::of(stepped(plan, place).unwrap_or(range), MOST),
         Format::Bool => Shape::of(Range::new(0.0, 1.0), 1),
         real => Shape::whole(size(real)),
     };
     let places = ranges.into_iter().map(|(p, r)| (p, shape(p, r))).collect();
     Some(Shapes { places })
+}
+
+/// What a ramp stays within at all columns, whoever reads it there: its lower bytes are
+/// stepped by those of its step, which is read at each of them.
+fn stepped(plan: &Plan, place: Place) -> Option<Range> {
+    let Place::Node(id) = place else {
+        return None;
+    };
+    let Node::Ramp { .. } = plan.graph.node(id) else {
+        return None;
+    };
+    let last = plan.graph.image.width.saturating_sub(1) as i32;
+    let result = |id: NodeId| match plan.graph.constant(id) {
+        Some(value) => Range::point(value.real()),
+        None => (plan.ranges.result.get(id.0 as usize).copied()).unwrap_or(Range::ALL),
+    };
+    Some(ramp::range(&plan.graph, id, 0..=last, result))
 }
 
 /// A loop's place, where what is scratch goes in the end.
