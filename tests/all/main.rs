@@ -31,6 +31,8 @@ mod peers_boxes;
 #[cfg(feature = "peers")]
 mod peers_brandy;
 #[cfg(feature = "peers")]
+mod peers_c64;
+#[cfg(feature = "peers")]
 mod peers_chromium;
 #[cfg(feature = "peers")]
 mod peers_dialect;

@@ -27,7 +27,7 @@ struct Picture {
 }
 
 /// The inks of a binary PGM.
-fn pgm(bytes: &[u8]) -> ((usize, usize), Vec<u8>) {
+pub fn pgm(bytes: &[u8]) -> ((usize, usize), Vec<u8>) {
     let mut words = bytes.splitn(4, u8::is_ascii_whitespace);
     let mut word = || String::from_utf8_lossy(words.next().unwrap_or_default()).into_owned();
     assert_eq!(word(), "P5");

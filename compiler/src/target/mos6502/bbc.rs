@@ -35,7 +35,9 @@ pub(super) fn how(places: &Places, text: &mut Text) {
         "; On a disc its load and execution addresses are ${:04x}; *RUN it, in MODE 7.",
         loaded_at(places)
     ));
-    text.line("; It stops with the picture standing, and a key brings BASIC back, without its program.");
+    text.line(
+        "; It stops with the picture standing, and a key brings BASIC back, without its program.",
+    );
 }
 
 /// Where the file is loaded, if that is not where the program is at home.

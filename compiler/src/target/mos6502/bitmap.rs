@@ -118,7 +118,7 @@ impl Bitmap {
             first,
             block,
             inks: plan.mode.inks,
-            seen: (plan.computed_columns() != plan.columns).then(|| from..=to),
+            seen: (plan.computed_columns() != plan.columns).then_some(from..=to),
             rows_unseen: plan.error_rows().is_some(),
             axes: [Slot::Axis(Axis::X), Slot::Axis(Axis::Y), Slot::Rows(false)].map(name),
             byte: name(Slot::ScreenByte),

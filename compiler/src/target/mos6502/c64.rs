@@ -35,7 +35,9 @@ const KEPT: &str = "$cb00";
 
 /// How the program comes to the machine.
 pub(super) fn how(text: &mut Text) {
-    text.line("; In a .prg its load address, $0801, comes first, low byte before high; LOAD and RUN it.");
+    text.line(
+        "; In a .prg its load address, $0801, comes first, low byte before high; LOAD and RUN it.",
+    );
     text.line("; It stops with the picture standing, and a key brings BASIC back.");
 }
 

@@ -90,8 +90,10 @@ fn the_processor_waits_for_the_video_chip() {
 /// What is stored while the video chip asks for the bus is stored at once.
 #[test]
 fn stores_do_not_wait() {
-    let mut circuits = Circuits::default();
-    circuits.cycles = FIRST * LINE + FROM;
+    let mut circuits = Circuits {
+        cycles: FIRST * LINE + FROM,
+        ..Circuits::default()
+    };
     circuits.write(0x4000, 1);
     assert_eq!(circuits.cycles, FIRST * LINE + FROM + 1);
     circuits.read(0x4000);
