@@ -88,6 +88,9 @@ fn select(b: &mut Builder, cond: NodeId, yes: NodeId, no: NodeId, span: Span) ->
     if let Node::Apply(Op::Not, [inner, _]) = b.node(cond) {
         return select(b, inner, no, yes, span);
     }
+    // In an arm it is known whether the condition holds.
+    let yes = known(b, cond, true, yes);
+    let no = known(b, cond, false, no);
     match (b.value(yes), b.value(no)) {
         (Some(Value::Bool(true)), Some(Value::Bool(false))) => cond,
         (Some(Value::Bool(false)), Some(Value::Bool(true))) => {
@@ -95,5 +98,39 @@ fn select(b: &mut Builder, cond: NodeId, yes: NodeId, no: NodeId, span: Span) ->
             folded(b, Op::Not, cond, cond, span).unwrap_or(not)
         }
         _ => b.select(cond, yes, no, span),
+    }
+}
+
+/// What a choice by the same condition, or by its contrary, is where that is known.
+fn known(b: &Builder, cond: NodeId, holds: bool, mut arm: NodeId) -> NodeId {
+    while let Node::Select {
+        cond: asked,
+        yes,
+        no,
+    } = b.node(arm)
+    {
+        let holds = if asked == cond {
+            holds
+        } else if contrary(b.node(asked), b.node(cond), cond) {
+            !holds
+        } else {
+            break;
+        };
+        arm = if holds { yes } else { no };
+    }
+    arm
+}
+
+/// Whether a condition is the contrary of another.
+fn contrary(asked: Node, known: Node, id: NodeId) -> bool {
+    match (asked, known) {
+        (Node::Apply(Op::Not, [of, _]), _) => of == id,
+        (Node::Apply(Op::Less, [a, b]), Node::Apply(Op::LessEqual, [c, d]))
+        | (Node::Apply(Op::LessEqual, [a, b]), Node::Apply(Op::Less, [c, d]))
+        | (Node::Apply(Op::IntLess, [a, b]), Node::Apply(Op::IntLessEqual, [c, d]))
+        | (Node::Apply(Op::IntLessEqual, [a, b]), Node::Apply(Op::IntLess, [c, d])) => {
+            (a, b) == (d, c)
+        }
+        _ => false,
     }
 }

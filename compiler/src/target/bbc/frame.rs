@@ -67,6 +67,7 @@ pub fn program(plan: &Plan) -> Lines {
         true => tail::copied(lines, &mut code.labels),
         false => lines,
     };
+    let lines = lines.away(&code.seldom);
     let assigned = code.values.names.constants();
     let constants = assigned
         .filter_map(|text| Some(text.split_once('=')?.0.to_owned()))
