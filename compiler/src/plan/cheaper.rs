@@ -195,7 +195,10 @@ impl Site<'_> {
             };
             self.keep(&mut best, Some(peeled), COPY);
             self.keep(&mut best, guarded, GUARD);
-            if self.keep(&mut best, sooner(None), GUARD) && self.runtime.segments {
+            if self.keep(&mut best, sooner(None), GUARD)
+                && self.runtime.segments
+                && self.thrift.beside()
+            {
                 best = self.beside(best, sooner);
             }
         }
@@ -206,14 +209,22 @@ impl Site<'_> {
     /// last: what it saves is seen where values are taken apart.
     fn beside(&self, plan: Settled, sooner: impl Fn(Option<usize>) -> Option<Graph>) -> Settled {
         let cost = |plan: &Settled| self.cost(&apart_at_last(plan.clone(), self.shop, self.thrift));
+        let settled = |beside| sooner(beside).map(|graph| self.shop.settle(&graph));
+        // What costs more before forms are looked for is not looked at any further.
+        let limit = settled(None).map_or(f64::INFINITY, |plan| self.cost(&plan));
         let mut best = (cost(&plan), plan);
         for beside in 0..BESIDE {
-            let tried = sooner(Some(beside)).map(|graph| self.shop.settle(&graph));
-            let found = tried.and_then(|plan| self.rewritten(&plan));
-            let Some(found) = found.map(|plan| (cost(&plan), plan)) else {
+            let Some(tried) = settled(Some(beside)) else {
                 break;
             };
+            if self.cost(&tried) >= limit {
+                continue;
+            }
+            let Some(found) = self.rewritten(&tried).map(|plan| (cost(&plan), plan)) else {
+                continue;
+            };
             if found.0 < GUARD * best.0 {
+                self.shop.note_beside();
                 best = found;
             }
         }
