@@ -1,5 +1,7 @@
 //! Lines of BASIC with labels for line numbers.
 
+mod away;
+
 use crate::source::Span;
 use std::collections::{HashMap, HashSet};
 
@@ -46,31 +48,6 @@ enum Item {
 /// Statements are joined to a line up to this length: few lines are quick to search and save
 /// memory, short ones read well.
 const WIDTH: usize = 66;
-
-/// A block of fewer lines and labels stays where it is.
-const FEW: usize = 4;
-
-/// A line that jumps.
-fn jump(to: Label) -> Item {
-    Item::Line {
-        text: format!("GOTO {to}"),
-        span: None,
-        open: false,
-        weight: 1,
-    }
-}
-
-/// Whether what stands behind some lines may be come to from the last of them.
-fn goes_on(items: &[Item]) -> bool {
-    let text = items.iter().rev().find_map(|item| match item {
-        Item::Line { text, .. } => Some(text),
-        Item::Label(_) => None,
-    });
-    text.is_none_or(|text| {
-        let jumps = Label::last_of(text).is_some_and(|(before, _)| before.ends_with("GOTO "));
-        text.contains("IF ") || !jumps
-    })
-}
 
 /// A program or a part of one.
 #[derive(Clone, Debug)]
@@ -135,41 +112,6 @@ impl Lines {
     /// The next line gets this label.
     pub fn place(&mut self, label: Label) {
         self.items.push(Item::Label(label));
-    }
-
-    /// The lines with blocks behind the program's END, each given by a label before and one
-    /// behind it: jumps look through all lines before their own, so others are quicker.
-    pub fn away(mut self, blocks: &[(Label, Label)]) -> Lines {
-        for &(from, to) in blocks {
-            let labels = |items: &[Item], of| {
-                let mut all = items.iter();
-                all.position(|item| matches!(item, Item::Label(label) if *label == of))
-            };
-            let end = |item: &Item| matches!(item, Item::Line { text, .. } if text == "END");
-            let (Some(first), Some(behind), Some(end)) = (
-                labels(&self.items, from),
-                labels(&self.items, to),
-                self.items.iter().position(end),
-            ) else {
-                continue;
-            };
-            if !(first + FEW < behind && behind < end) {
-                continue;
-            }
-            let mut tail = self.items.split_off(end + 1);
-            let rest = self.items.split_off(behind);
-            let block = self.items.split_off(first);
-            if goes_on(&self.items) {
-                self.items.push(jump(from));
-            }
-            self.items.extend(rest);
-            self.items.extend(block);
-            if goes_on(&self.items) {
-                self.items.push(jump(to));
-            }
-            self.items.append(&mut tail);
-        }
-        self
     }
 
     pub fn append(&mut self, mut other: Lines) {
