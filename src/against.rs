@@ -40,11 +40,11 @@ impl Reference {
     /// Where the sizes are not the same.
     pub fn differing(&self, trial: &Trial) -> Outcome<u64> {
         let window = trial.native.window;
-        let image = &trial.plan.graph.image;
+        let whole = trial.plan.graph.image.on_screen();
         let size = (self.width, self.height);
         let first = if size == (window.width(), window.height()) {
             0
-        } else if size == (image.width, image.height) && image.width == window.width() {
+        } else if size == whole && whole.0 == window.width() {
             window.rows.0
         } else {
             return Err(Failure::Wrong(format!(

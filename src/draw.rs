@@ -11,6 +11,7 @@ use slowlight_compiler::eval::native::{Native, Pixel};
 use slowlight_compiler::flow::graph::Graph;
 use slowlight_compiler::plan::Plan;
 use std::ops::Range;
+use std::sync::atomic::{AtomicU64, Ordering};
 
 /// Stack of a thread that compiles or evaluates, in bytes: deep scenes recurse.
 pub const STACK: usize = 256 << 20;
@@ -33,11 +34,25 @@ impl Window {
         }
     }
 
-    /// What a plan draws.
+    /// What a plan computes: of a picture of blocks, the blocks.
     pub fn of(plan: &Plan) -> Window {
         Window {
             columns: plan.columns,
             rows: plan.rows,
+        }
+    }
+
+    /// What a plan draws, in pixels.
+    pub fn on_screen(plan: &Plan) -> Window {
+        Window::of(plan).times(plan.graph.image.block)
+    }
+
+    /// A window of blocks in pixels.
+    pub fn times(self, (wide, high): (u32, u32)) -> Window {
+        let pixels = |(first, last): (u32, u32), size: u32| (first * size, (last + 1) * size - 1);
+        Window {
+            columns: pixels(self.columns, wide),
+            rows: pixels(self.rows, high),
         }
     }
 
@@ -49,6 +64,17 @@ impl Window {
     /// Rows.
     pub fn height(&self) -> u32 {
         self.rows.1 - self.rows.0 + 1
+    }
+
+    /// Up to `side` rows of as many columns, spread evenly, row by row.
+    pub fn grid(&self, side: u32) -> Vec<(i32, i32)> {
+        let along = |(first, last): (u32, u32)| {
+            let count = last - first + 1;
+            let taken = count.min(side);
+            (0..taken).map(move |k| (first + (2 * k + 1) * count / (2 * taken)) as i32)
+        };
+        let row = |y| along(self.columns).map(move |x| (x, y));
+        along(self.rows).flat_map(row).collect()
     }
 
     /// Where its pixels are, row by row.
@@ -112,15 +138,33 @@ pub fn set_up_threads() {
 /// # Errors
 /// Only an interruption.
 pub fn native(graph: &Graph, window: Window) -> Outcome<Drawn> {
+    Ok(native_counted(graph, window)?.0)
+}
+
+/// The same, and how many operations it took. A window of a picture of blocks is of
+/// blocks; its picture has all their pixels.
+///
+/// # Errors
+/// Only an interruption.
+pub fn native_counted(graph: &Graph, window: Window) -> Outcome<(Drawn, u64)> {
+    let operations = AtomicU64::new(0);
+    let counted = &operations;
     let pixels = rows("native picture", graph, window, || {
         let mut native = Native::new(graph);
-        move |columns, y, out| native.pixels(columns, y, out)
+        let mut before = 0;
+        move |columns, y, out| {
+            native.pixels(columns, y, out);
+            counted.fetch_add(native.operations() - before, Ordering::Relaxed);
+            before = native.operations();
+        }
     })?;
-    Ok(Drawn {
-        window,
+    let block = graph.image.block;
+    let drawn = Drawn {
+        window: window.times(block),
         palette: graph.image.palette.clone(),
-        pixels,
-    })
+        pixels: enlarged(pixels, window.width(), block),
+    };
+    Ok((drawn, operations.into_inner()))
 }
 
 /// The picture of a plan in its routines' models; the shades are computed for
@@ -129,7 +173,6 @@ pub fn native(graph: &Graph, window: Window) -> Outcome<Drawn> {
 /// # Errors
 /// Only an interruption.
 pub fn model(plan: &Plan) -> Outcome<Drawn> {
-    let window = Window::of(plan);
     let mut pixels = modelled("model", plan)?;
     if let Some(shaded) = plan.shaded() {
         for (pixel, other) in pixels.iter_mut().zip(modelled("shades", &shaded)?) {
@@ -137,10 +180,26 @@ pub fn model(plan: &Plan) -> Outcome<Drawn> {
         }
     }
     Ok(Drawn {
-        window,
+        window: Window::on_screen(plan),
         palette: plan.graph.image.palette.clone(),
-        pixels,
+        pixels: enlarged(pixels, Window::of(plan).width(), plan.graph.image.block),
     })
+}
+
+/// Each pixel of a picture so wide as a block of pixels.
+fn enlarged(pixels: Vec<Pixel>, width: u32, (wide, high): (u32, u32)) -> Vec<Pixel> {
+    if (wide, high) == (1, 1) {
+        return pixels;
+    }
+    let mut out = Vec::with_capacity(pixels.len() * (wide * high) as usize);
+    for row in pixels.chunks(width.max(1) as usize) {
+        let line: Vec<Pixel> = row
+            .iter()
+            .flat_map(|pixel| std::iter::repeat_n(*pixel, wide as usize))
+            .collect();
+        (0..high).for_each(|_| out.extend_from_slice(&line));
+    }
+    out
 }
 
 fn modelled(what: &'static str, plan: &Plan) -> Outcome<Vec<Pixel>> {

@@ -76,8 +76,8 @@ pub fn fit(
 
 /// Whether the screen shows a part of the picture only.
 fn crops(plan: &Plan) -> bool {
-    let image = &plan.graph.image;
-    plan.mode.width < image.width || plan.mode.height < image.height
+    let (width, height) = plan.graph.image.on_screen();
+    plan.mode.width < width || plan.mode.height < height
 }
 
 /// The first of the plans that fits with subroutines; where none does, what each

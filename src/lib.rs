@@ -10,7 +10,9 @@ pub mod cases;
 pub mod commands;
 pub mod diagnostics;
 pub mod draw;
+pub mod effects;
 pub mod estimate;
+pub mod explain;
 pub mod failure;
 pub mod files;
 pub mod fit;
@@ -28,6 +30,7 @@ pub mod scene;
 pub mod snapshot;
 pub mod target_args;
 pub mod trial;
+pub mod tune;
 
 use clap::Parser;
 use std::process::ExitCode;

@@ -50,6 +50,15 @@ impl Precision {
     }
 }
 
+/// How many turns loops take at most, where that is fewer than the scene has them.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Limits {
+    /// Loops of the scene's own text.
+    pub turns: Option<u32>,
+    /// The library's.
+    pub steps: Option<u32>,
+}
+
 /// Which scene, and what is changed about it.
 #[derive(Args, Clone, Debug)]
 pub struct SceneArgs {
@@ -193,6 +202,54 @@ impl Scene {
         })
     }
 
+    /// The same scene with an effect replaced by its `else`.
+    pub fn leaving_out(&self, effect: &str) -> Scene {
+        let mut options = self.options.clone();
+        options.without.push(effect.to_owned());
+        Scene {
+            name: self.name.clone(),
+            checked: self.checked.clone(),
+            options,
+        }
+    }
+
+    /// The same scene from texts in which the item at a place does not stand; none where
+    /// something needs it. Other items keep their places.
+    pub fn without_item(&self, at: Span) -> Option<Scene> {
+        let mut files = self.checked.sources.files.clone();
+        let text = &mut files.get_mut(usize::from(at.file))?.text;
+        let items = syntax::parse(text, at.file).0.items;
+        let item = items
+            .iter()
+            .map(|item| item.span.range())
+            .find(|range| range.contains(&(at.start as usize)))?;
+        let blank = |c: char| {
+            if c == '\n' {
+                "\n".to_owned()
+            } else {
+                " ".repeat(c.len_utf8())
+            }
+        };
+        let gone: String = text.get(item.clone())?.chars().map(blank).collect();
+        text.replace_range(item, &gone);
+        let (library, own): (Vec<SourceFile>, Vec<SourceFile>) =
+            files.into_iter().partition(|file| file.library);
+        let library: Vec<(String, String)> =
+            library.into_iter().map(|f| (f.name, f.text)).collect();
+        let first = own.first()?;
+        let mut read = |from: &str, path: &str| {
+            let (name, text) = used(from, path)?;
+            let known = own.iter().find(|file| file.name == name);
+            Ok((name, known.map_or(text, |file| file.text.clone())))
+        };
+        let checked = scene::load(&first.name, &first.text, Some(&library), &mut read);
+        checked.is_right().then(|| Scene {
+            name: self.name.clone(),
+            options: self.options.clone(),
+            checked,
+        })
+    }
+
     /// The image's columns and rows.
     pub fn size(&self) -> (u32, u32) {
         self.checked
@@ -221,8 +278,23 @@ impl Scene {
         precision: Precision,
         set: &[(String, Vec<f64>)],
     ) -> Outcome<Graph> {
+        self.graph_within(inks, precision, set, Limits::default())
+    }
+
+    /// The same with fewer turns of loops than the scene has them.
+    ///
+    /// # Errors
+    /// As [`Scene::graph_with`].
+    pub fn graph_within(
+        &self,
+        inks: Option<u32>,
+        precision: Precision,
+        set: &[(String, Vec<f64>)],
+        limits: Limits,
+    ) -> Outcome<Graph> {
         let mut options = precision.options(self.options.clone());
         options.inks = inks;
+        (options.max_turns, options.max_steps) = (limits.turns, limits.steps);
         options.set.extend_from_slice(set);
         sema::lower(&self.checked.program, &options).map_err(|said| self.wrong(said))
     }

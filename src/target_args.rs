@@ -5,9 +5,10 @@ use crate::failure::{Failure, Outcome, unknown};
 use crate::fit;
 use crate::machine::Machine;
 use crate::progress::Waiting;
-use crate::scene::{Precision, Scene};
+use crate::scene::{Limits, Precision, Scene};
 use crate::trial;
 use clap::{Args, ValueEnum};
+use slowlight_compiler::passes::coarse::coarse;
 use slowlight_compiler::plan::{Goal, Plan, plan, plan_as_written};
 use slowlight_compiler::sema::{FunctionKind, Program};
 use slowlight_compiler::source::Span;
@@ -41,11 +42,22 @@ pub struct ScreenArgs {
     /// [default: 1900]
     #[arg(long, value_name = "PAGE", value_parser = page)]
     pub page: Option<u16>,
+    /// Compute once for N x N or W x H pixels, and draw them as a block: the shade is that
+    /// of the block's middle. The picture must be whole blocks
+    #[arg(long, value_name = "N|WxH", value_parser = block)]
+    pub block: Option<(u32, u32)>,
+    /// Let no loop that the scene writes (bounces, say) take more than N turns on the
+    /// machine; its `else` then says what it comes to. The native picture keeps them all
+    #[arg(long, value_name = "N", value_parser = turns)]
+    pub max_turns: Option<u32>,
+    /// The same for the library's loops: marches, walks through maps, searches for hits
+    #[arg(long, value_name = "N", value_parser = turns)]
+    pub max_steps: Option<u32>,
     /// Rewrite nothing, neither for accuracy nor for speed: every formula as the scene has it
     #[arg(long)]
     pub as_written: bool,
     /// With subroutines for what the program has several times, also where it fits without
-    #[arg(long, hide = true)]
+    #[arg(long)]
     pub outlined: bool,
 }
 
@@ -111,6 +123,38 @@ pub fn page(text: &str) -> Result<u16, String> {
         Ok(page) if page % 256 == 0 && (0xe00..=0x2f00).contains(&page) => Ok(page),
         _ => Err("programs begin at a whole page from E00 to 2F00, as in --page E00".to_owned()),
     }
+}
+
+/// Reads `--block`: `4`, or columns and rows, `4x2`.
+///
+/// # Errors
+/// Where it is no size of a block.
+pub fn block(text: &str) -> Result<(u32, u32), String> {
+    let (wide, high) = text.split_once('x').unwrap_or((text, text));
+    let number = |t: &str| {
+        t.trim()
+            .parse()
+            .ok()
+            .filter(|n| (1..=MOST_IN_BLOCK).contains(n))
+    };
+    match (number(wide), number(high)) {
+        (Some(wide), Some(high)) => Ok((wide, high)),
+        _ => Err(format!(
+            "a block is N or W x H pixels, each from 1 to {MOST_IN_BLOCK}, as in --block 4 or --block 4x2"
+        )),
+    }
+}
+
+/// Columns or rows of a block at most.
+pub const MOST_IN_BLOCK: u32 = 128;
+
+/// Reads the most turns that a loop may take.
+///
+/// # Errors
+/// Where it is no number of turns.
+pub fn turns(text: &str) -> Result<u32, String> {
+    let number = text.parse().ok().filter(|n| (1..=65535).contains(n));
+    number.ok_or_else(|| "a loop takes from 1 to 65535 turns".to_owned())
 }
 
 /// Reads `A..B` or `A` as rows of a picture.
@@ -258,9 +302,27 @@ impl ScreenArgs {
             let message = format!("--page is the BBC Micro's; {} has none", target.name);
             return Err(Failure::Usage(message));
         }
-        let (_, height) = scene.size();
+        let size = scene.size();
+        let (_, height) = size;
+        let block = self.block.unwrap_or((1, 1));
         let asked = self.rows.as_deref().map(|r| rows(r, height)).transpose()?;
-        let graph = scene.graph_with(Some(mode.inks), Precision::of(target), set)?;
+        let asked = asked.map(|asked| blocks_of(asked, block.1)).transpose()?;
+        let graph = scene.graph_within(
+            Some(mode.inks),
+            Precision::of(target),
+            set,
+            Limits {
+                turns: self.max_turns,
+                steps: self.max_steps,
+            },
+        )?;
+        if size.0 % block.0 != 0 || size.1 % block.1 != 0 {
+            return Err(Failure::Usage(format!(
+                "--block {}x{}: the picture of {} x {} pixels is no whole number of such blocks",
+                block.0, block.1, size.0, size.1
+            )));
+        }
+        let graph = coarse(&graph, block);
         let goal = Goal {
             name: scene.name.clone(),
             mode,
@@ -279,15 +341,17 @@ impl ScreenArgs {
         plan.listing = self.style == Some(Style::Listing);
         plan.page = self.page;
         plan.statics = self.os == Some(Os::Jack);
+        // A listing has remarks before what comes from another line of the scene.
+        let draw = scene.checked.program.draw.as_ref();
+        plan.drawn = draw.map(|draw| draw.span).filter(|_| !plan.listing);
         if plan.listing {
             plan.items = items(&scene.checked.program);
         }
         match asked {
             // The screen is lower than the picture, and these are cropped away.
             Some(asked) if asked != plan.rows => Err(Failure::Usage(format!(
-                "--rows {}..{}: this screen shows rows {}..{} of the picture",
-                asked.0,
-                asked.1,
+                "--rows {}: this screen shows rows {}..{} of the picture",
+                self.rows.as_deref().unwrap_or_default(),
                 seen(height, mode.height).0,
                 seen(height, mode.height).1
             ))),
@@ -319,6 +383,17 @@ fn items(program: &Program) -> Vec<(Span, String)> {
     let consts = program.consts.iter().map(|c| (c.span, String::new()));
     let all = functions.chain(shapes).chain(scenes).chain(draw);
     all.chain(params).chain(consts).collect()
+}
+
+/// Rows of a picture as rows of blocks.
+fn blocks_of((first, last): (u32, u32), high: u32) -> Outcome<(u32, u32)> {
+    if first % high == 0 && (last + 1) % high == 0 {
+        return Ok((first / high, last / high));
+    }
+    Err(Failure::Usage(format!(
+        "--rows {first}..{last}: blocks are {high} rows high, so rows begin at a multiple of \
+         {high} and end before one"
+    )))
 }
 
 /// The rows of a picture that a screen shows: the middle ones.

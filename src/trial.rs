@@ -74,6 +74,8 @@ pub struct Trial {
     /// The machine's picture: what was asked for of it, without the screen
     /// around; none where the program was not to draw.
     pub picture: Option<Picture>,
+    /// What the model makes of the plan, shades included.
+    pub modelled: Drawn,
     /// The native picture in the target's inks.
     pub native: Drawn,
     /// Where machine and model differ; unknown without the machine's picture.
@@ -93,10 +95,21 @@ pub fn run(
     scene: &Scene,
     plan: Plan,
     set: &[(String, Vec<f64>)],
-    mut loaded: Loaded,
+    loaded: Loaded,
     limit: u64,
 ) -> Outcome<Trial> {
-    let window = Window::of(&plan);
+    let graph = scene.graph_with(Some(plan.mode.inks), Precision::NATIVE, set)?;
+    let run = ran(scene, &plan, loaded, limit)?;
+    let native = native(&graph, Window::on_screen(&plan))?;
+    held(scene, plan, run, native)
+}
+
+/// Runs a program to its end.
+///
+/// # Errors
+/// Where it does not end by itself.
+pub fn ran(scene: &Scene, plan: &Plan, mut loaded: Loaded, limit: u64) -> Outcome<MachineRun> {
+    let window = Window::on_screen(plan);
     let progress = Progress::new(
         format!("{} {}", scene.name, plan.target.name),
         u64::from(window.height()),
@@ -112,10 +125,18 @@ pub fn run(
         let name = plan.target.name;
         return Err(Failure::Wrong(format!("{name}: {wrong}")));
     }
-    run.sizes.tables = run.sizes.tables.or(Some(table_bytes(&plan)));
+    run.sizes.tables = run.sizes.tables.or(Some(table_bytes(plan)));
+    Ok(run)
+}
+
+/// Holds what a program showed against its plan, and against the native picture of the same
+/// pixels.
+///
+/// # Errors
+/// Where it shows no such picture.
+pub fn held(scene: &Scene, plan: Plan, run: MachineRun, native: Drawn) -> Outcome<Trial> {
+    let window = native.window;
     let modelled = model(&plan)?;
-    let graph = scene.graph_with(Some(plan.mode.inks), Precision::NATIVE, set)?;
-    let native = native(&graph, window)?;
     let picture = plan.plot.then(|| shown(&plan, &run)).transpose()?;
     let differences = |other: &Drawn| {
         let inks = picture.as_ref().map(|p| &p.inks)?;
@@ -129,6 +150,7 @@ pub fn run(
         plan,
         run,
         picture,
+        modelled,
         native,
     })
 }
@@ -173,7 +195,7 @@ fn shown(plan: &Plan, run: &MachineRun) -> Outcome<Picture> {
     let Some(screen) = &run.screen else {
         return Err(Failure::Wrong(format!("{name}: the program drew nothing")));
     };
-    let window = Window::of(plan);
+    let window = Window::on_screen(plan);
     let mut inks = Vec::with_capacity((window.width() * window.height()) as usize);
     for (x, y) in window.places() {
         let column = i64::from(x) + i64::from(plan.offset.0);

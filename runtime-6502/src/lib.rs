@@ -13,7 +13,9 @@
 //!   page, its result is in `acc`;
 //! - a **template**: instructions, one a line. `{0.2}` is byte 2 of the first
 //!   argument and `{r.2}` of the result; `{n}` is a number that makes labels unique.
-//!   Where an argument is a constant its bytes become immediate operands.
+//!   Where an argument is a constant its bytes become immediate operands. `[ ]` holds what
+//!   is done for each byte `k` (`{0.k}`), and `{#n-16}` what follows from where the points
+//!   of the values are, for reals that have their own ([`scaled`]).
 //!   The result may be the place of an argument only where the template says so
 //!   (none does): bytes of the result are written before all arguments are read.
 //!
@@ -25,12 +27,14 @@
 //! -8 to 8 (reals; roots from 0) and -1000 to 1000 (ints), measured by the tests.
 //!
 //! # Memory
-//! `$00-$1d` is the runtime's (see the part `zero_page`), `$0200-$09ff` its tables
+//! `$00-$1d` is the runtime's (see the part `zero_page`), to `$33` where reals have points
+//! of their own (`scaled_page`), `$0200-$09ff` its tables
 //! of quarter squares, made by `make_squares` at the start. All else is free.
 
 pub mod model;
 mod parts;
 mod routines;
+pub mod scaled;
 mod templates;
 pub mod write;
 
@@ -44,24 +48,36 @@ pub const FREE_ZERO_PAGE: u8 = 0x1E;
 /// The first byte behind the stack that the runtime leaves alone.
 pub const FREE_MEMORY: u16 = 0x0A00;
 
+/// The first byte of the zero page that a runtime leaves alone.
+pub fn free_zero_page(runtime: &Runtime) -> u8 {
+    match runtime.real {
+        Format::Scaled { .. } => scaled::FREE_ZERO_PAGE,
+        _ => FREE_ZERO_PAGE,
+    }
+}
+
 /// Format of the reals.
 pub const FIXED: Format = Format::Fixed { bits: 32, frac: 16 };
 /// Format of the ints.
 pub const INT: Format = Format::Int { bits: 32 };
 
 /// The runtime of reals in 16.16.
-pub static FIXED16_16: Runtime = Runtime {
+pub static FIXED16_16: Runtime = USUAL;
+
+const USUAL: Runtime = Runtime {
     name: "6502",
     format: "fixed16.16",
     real: FIXED,
     int: INT,
-    routines: routines::ALL,
+    routines: &routines::ALL,
     parts: parts::ALL,
     encode,
     decode,
+    shifted: slowlight_routine::scale::shifted,
     quotient: f64::INFINITY,
     stepping: None,
     segments: false,
+    reciprocals: false,
     derives: false,
     kept: slowlight_routine::whole,
     loose: None,

@@ -3,6 +3,7 @@
 use slowlight_routine::{Part, Source};
 
 use crate::model::{ARCTANGENT, LOGARITHM, POWER_OF_TWO, SINE};
+use crate::scaled;
 
 const fn part(
     name: &'static str,
@@ -36,6 +37,12 @@ pub(crate) static ALL: &[Part] = &[
         include_str!("../asm/squares.asm"),
         &["zero_page"],
         2135,
+    ),
+    part(
+        "scaled_page",
+        include_str!("../asm/scaled/page.asm"),
+        &["zero_page"],
+        0,
     ),
     part("sign", include_str!("../asm/sign.asm"), &["zero_page"], 92),
     part(
@@ -134,5 +141,107 @@ pub(crate) static ALL: &[Part] = &[
         include_str!("../asm/power.asm"),
         &["logarithm", "power_of_two"],
         195,
+    ),
+    part(
+        "product",
+        include_str!("../asm/scaled/product.asm"),
+        &["squares", "scaled_page"],
+        150,
+    ),
+    part(
+        "square16",
+        include_str!("../asm/scaled/square.asm"),
+        &["product"],
+        71,
+    ),
+    part(
+        "lower24",
+        include_str!("../asm/scaled/lower.asm"),
+        &["product"],
+        20,
+    ),
+    part(
+        "right32",
+        include_str!("../asm/scaled/right32.asm"),
+        &["zero_page"],
+        42,
+    ),
+    part(
+        "narrow",
+        include_str!("../asm/scaled/narrow.asm"),
+        &["right32"],
+        85,
+    ),
+    part(
+        "narrow24",
+        include_str!("../asm/scaled/narrow_product.asm"),
+        &["narrow", "product"],
+        22,
+    ),
+    part(
+        "widen",
+        include_str!("../asm/scaled/widen.asm"),
+        &["right32", "sign"],
+        59,
+    ),
+    part(
+        "widen_both",
+        include_str!("../asm/scaled/widen_both.asm"),
+        &["widen", "scaled_page"],
+        42,
+    ),
+    part(
+        "exact32",
+        include_str!("../asm/scaled/exact.asm"),
+        &["widen_both", "int_multiply"],
+        8,
+    ),
+    terms(
+        "reciprocals_low",
+        || scaled::model::reciprocal_bytes(0),
+        256,
+    ),
+    terms(
+        "reciprocals_high",
+        || scaled::model::reciprocal_bytes(1),
+        256,
+    ),
+    terms(
+        "reciprocals_step",
+        || scaled::model::reciprocal_bytes(2),
+        256,
+    ),
+    part(
+        "reciprocal",
+        include_str!("../asm/scaled/reciprocal.asm"),
+        &[
+            "squares",
+            "scaled_page",
+            "reciprocals_low",
+            "reciprocals_high",
+            "reciprocals_step",
+        ],
+        67,
+    ),
+    part(
+        "one_over",
+        include_str!("../asm/scaled/one_over.asm"),
+        &["reciprocal"],
+        107,
+    ),
+    part(
+        "divide16",
+        include_str!("../asm/scaled/divide.asm"),
+        &["reciprocal", "product"],
+        229,
+    ),
+    terms("roots_low", || scaled::model::root_bytes(0), 192),
+    terms("roots_high", || scaled::model::root_bytes(1), 192),
+    terms("roots_step", || scaled::model::root_bytes(2), 192),
+    part(
+        "root16",
+        include_str!("../asm/scaled/root.asm"),
+        &["squares", "roots_low", "roots_high", "roots_step"],
+        122,
     ),
 ];

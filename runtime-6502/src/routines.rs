@@ -1,6 +1,6 @@
 //! The list of routines: for each operation the cheap and restricted ones first.
 
-use slowlight_routine::{Error, Form, Format, Op, Range, Routine, everywhere};
+use slowlight_routine::{Error, Form, Format, Op, Range, Routine, everywhere, joined};
 
 use crate::model::{self, bits, int};
 use crate::templates as t;
@@ -108,7 +108,7 @@ macro_rules! routine {
 }
 
 #[rustfmt::skip]
-pub(crate) static ALL: &[Routine] = &[
+const REALS: &[Routine] = &[
     routine!("add" Add(R, R) -> R, t::ADD, [], fits_real, EXACT, |a, b| a.wrapping_add(b), 38, 25),
     routine!("saturating_add" Add(R, R) -> R, t::SATURATING_ADD, [], everywhere, EXACT, |a, b| a.saturating_add(b), 41, 44),
     routine!("sub" Sub(R, R) -> R, t::SUBTRACT, [], fits_real, EXACT, |a, b| a.wrapping_sub(b), 38, 25),
@@ -150,7 +150,10 @@ pub(crate) static ALL: &[Routine] = &[
     routine!("not_negative" LessEqual(R, R) -> B, t::NOT_NEGATIVE, [], with!(0 = 0.0), EXACT, |_a, b| i32::from(b >= 0), 14, 10),
     routine!("less_equal" LessEqual(R, R) -> B, t::LESS_EQUAL, [], everywhere, EXACT, |a, b| i32::from(a <= b), 37, 26),
     routine!("equal" Equal(R, R) -> B, t::EQUAL, [], everywhere, EXACT, |a, b| i32::from(a == b), 18, 30),
+];
 
+#[rustfmt::skip]
+pub(crate) const INTS: &[Routine] = &[
     routine!("int_add" IntAdd(I, I) -> I, t::ADD, [], fits_int, EXACT, |a, b| a.wrapping_add(b), 38, 25),
     routine!("int_saturating_add" IntAdd(I, I) -> I, t::SATURATING_ADD, [], everywhere, EXACT, |a, b| a.saturating_add(b), 41, 44),
     routine!("int_sub" IntSub(I, I) -> I, t::SUBTRACT, [], fits_int, EXACT, |a, b| a.wrapping_sub(b), 38, 25),
@@ -180,3 +183,6 @@ pub(crate) static ALL: &[Routine] = &[
     routine!("int_equal" IntEqual(I, I) -> B, t::EQUAL, [], everywhere, EXACT, |a, b| i32::from(a == b), 18, 30),
     routine!("not" Not(B) -> B, t::NOT, [], everywhere, EXACT, |a| a & 1 ^ 1, 14, 10),
 ];
+
+/// The routines of reals in 16.16, and those of ints.
+pub(crate) static ALL: [Routine; REALS.len() + INTS.len()] = joined(REALS, INTS);

@@ -1,41 +1,33 @@
 //! Routines that are written in place. Instructions are separated by `|` or a
 //! line's end; see the crate's documentation for the placeholders.
+//!
+//! `[ ]` holds what is done for each byte k of so many as the result has, where the text
+//! begins with `~`, or as its operands need, where it begins with `=`; `[+ ]` leaves out the
+//! lowest byte. All others are for numbers of four bytes.
 
 macro_rules! add {
     () => {
-        "
-    clc | lda {0.0} | adc {1.0} | sta {r.0}
-          lda {0.1} | adc {1.1} | sta {r.1}
-          lda {0.2} | adc {1.2} | sta {r.2}
-          lda {0.3} | adc {1.3} | sta {r.3}"
+        "clc [lda {0.k} | adc {1.k} | sta {r.k}]"
     };
 }
 
-pub(crate) const ADD: &str = add!();
+pub(crate) const ADD: &str = concat!("~", add!());
 
 macro_rules! subtract {
     () => {
-        "
-    sec | lda {0.0} | sbc {1.0} | sta {r.0}
-          lda {0.1} | sbc {1.1} | sta {r.1}
-          lda {0.2} | sbc {1.2} | sta {r.2}
-          lda {0.3} | sbc {1.3} | sta {r.3}"
+        "sec [lda {0.k} | sbc {1.k} | sta {r.k}]"
     };
 }
 
-pub(crate) const SUBTRACT: &str = subtract!();
+pub(crate) const SUBTRACT: &str = concat!("~", subtract!());
 
 macro_rules! negate {
     () => {
-        "
-    sec | lda #0 | sbc {0.0} | sta {r.0}
-          lda #0 | sbc {0.1} | sta {r.1}
-          lda #0 | sbc {0.2} | sta {r.2}
-          lda #0 | sbc {0.3} | sta {r.3}"
+        "sec [lda #0 | sbc {0.k} | sta {r.k}]"
     };
 }
 
-pub(crate) const NEGATE: &str = negate!();
+pub(crate) const NEGATE: &str = concat!("~", negate!());
 
 /// The most negative stays as it is.
 pub(crate) const ABS: &str = "
@@ -77,7 +69,7 @@ macro_rules! less {
     ($then:literal) => {
         concat!(
             "
-    lda {0.0} | cmp {1.0} | lda {0.1} | sbc {1.1} | lda {0.2} | sbc {1.2} | lda {0.3} | sbc {1.3}
+    lda {0.0} | cmp {1.0} [+ lda {0.k} | sbc {1.k}]
     bvc even{n} | eor #$80
     even{n}:
     ",
@@ -92,38 +84,36 @@ macro_rules! pick {
         concat!(
             $branch,
             " second{n}
-    lda {0.0} | sta {r.0} | lda {0.1} | sta {r.1} | lda {0.2} | sta {r.2} | lda {0.3} | jmp high{n}
+    [- lda {0.k} | sta {r.k}] | lda {0.h} | jmp high{n}
     second{n}:
-    lda {1.0} | sta {r.0} | lda {1.1} | sta {r.1} | lda {1.2} | sta {r.2} | lda {1.3}
+    [- lda {1.k} | sta {r.k}] | lda {1.h}
     high{n}:
-    sta {r.3}"
+    sta {r.h}"
         )
     };
 }
 
-pub(crate) const MIN: &str = concat!(less!(""), pick!("bpl"));
-pub(crate) const MAX: &str = concat!(less!(""), pick!("bmi"));
-pub(crate) const LESS: &str = less!("asl");
+pub(crate) const MIN: &str = concat!("=", less!(""), pick!("bpl"));
+pub(crate) const MAX: &str = concat!("=", less!(""), pick!("bmi"));
+pub(crate) const LESS: &str = concat!("=", less!("asl"));
 
 /// Not (b < a): the subtraction the other way round, its sign inverted.
-pub(crate) const LESS_EQUAL: &str = "
-    lda {1.0} | cmp {0.0} | lda {1.1} | sbc {0.1} | lda {1.2} | sbc {0.2} | lda {1.3} | sbc {0.3}
+pub(crate) const LESS_EQUAL: &str = "=
+    lda {1.0} | cmp {0.0} [+ lda {1.k} | sbc {0.k}]
     bvs even{n} | eor #$80
     even{n}:
     asl";
 
 /// Below 0: the sign alone.
-pub(crate) const NEGATIVE: &str = "lda {0.3} | asl";
+pub(crate) const NEGATIVE: &str = "=lda {0.h} | asl";
 
 /// Not below 0.
-pub(crate) const NOT_NEGATIVE: &str = "lda {1.3} | eor #$80 | asl";
+pub(crate) const NOT_NEGATIVE: &str = "=lda {1.h} | eor #$80 | asl";
 
 /// A comparison of equals leaves the carry set.
-pub(crate) const EQUAL: &str = "
-    lda {0.0} | cmp {1.0} | bne unlike{n}
-    lda {0.1} | cmp {1.1} | bne unlike{n}
-    lda {0.2} | cmp {1.2} | bne unlike{n}
-    lda {0.3} | cmp {1.3} | beq alike{n}
+pub(crate) const EQUAL: &str = "=
+    [- lda {0.k} | cmp {1.k} | bne unlike{n}]
+    lda {0.h} | cmp {1.h} | beq alike{n}
     unlike{n}: | clc
     alike{n}:";
 
@@ -148,14 +138,11 @@ pub(crate) const FLOOR: &str = "
 pub(crate) const TO_REAL: &str =
     "lda #0 | sta {r.0} | sta {r.1} | lda {0.0} | sta {r.2} | lda {0.1} | sta {r.3}";
 
-pub(crate) const AND: &str = "
-    lda {0.0} | and {1.0} | sta {r.0} | lda {0.1} | and {1.1} | sta {r.1}
-    lda {0.2} | and {1.2} | sta {r.2} | lda {0.3} | and {1.3} | sta {r.3}";
+pub(crate) const AND: &str = "~[lda {0.k} | and {1.k} | sta {r.k}]";
 
 /// By a power of two up to 128: the bits below it.
-pub(crate) const MOD_POWER: &str = "
-    sec | lda {1.0} | sbc #1 | and {0.0} | sta {r.0}
-    lda #0 | sta {r.1} | sta {r.2} | sta {r.3}";
+pub(crate) const MOD_POWER: &str = "~
+    sec | lda {1.0} | sbc #1 | and {0.0} | sta {r.0} | lda #0 [+ sta {r.k}]";
 
 /// Argument 0 halved, towards minus infinity, into the result; the rest is left in the carry.
 macro_rules! halve {

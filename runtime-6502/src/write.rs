@@ -1,14 +1,75 @@
 //! Writes the use of a routine as lines of assembly.
 
-use slowlight_routine::{Bits, Form, Format, Routine};
+use crate::scaled;
+use slowlight_routine::scale::Scales;
+use slowlight_routine::{Bits, Form, Format, Range, Routine};
 
 /// Where an argument is.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Place {
     /// In memory, low byte first, from this symbol on.
     At(String),
+    /// There in fewer bytes.
+    Held(String, Shape),
     /// Nowhere: its bits are known.
     Constant(Bits),
+}
+
+/// In how many bytes a number is kept, and what these tell of it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Shape {
+    /// How many there are.
+    pub bytes: u8,
+    /// Whether the number may be below 0; if not, all further bytes are 0.
+    pub signed: bool,
+    /// Whether the upper bit tells the sign, where the number is never below 0.
+    pub spare: bool,
+}
+
+impl Shape {
+    /// The fewest bytes for a range of whole numbers.
+    pub fn of(range: Range, most: u8) -> Shape {
+        let signed = range.lo < 0.0;
+        let room = |bytes: u8, bits: i32| f64::from(i32::from(bytes) * 8 - bits).exp2();
+        let fits = |bytes: &u8| match signed {
+            true => range.within(-room(*bytes, 1), room(*bytes, 1) - 1.0),
+            false => range.hi <= room(*bytes, 0) - 1.0,
+        };
+        let bytes = (1..most).find(fits).unwrap_or(most);
+        let spare = !signed && range.hi <= room(bytes, 1) - 1.0;
+        // What fills all bytes has a sign as its format has.
+        let signed = signed || bytes == most && !spare;
+        Shape {
+            bytes,
+            signed,
+            spare,
+        }
+    }
+
+    /// All bytes of a number that may be negative.
+    pub fn whole(bytes: u8) -> Shape {
+        Shape {
+            bytes,
+            signed: true,
+            spare: false,
+        }
+    }
+
+    /// Bytes that are needed to see the sign.
+    fn needed(self) -> u8 {
+        self.bytes + u8::from(!self.signed && !self.spare)
+    }
+}
+
+impl Place {
+    /// How it is kept, where a whole number has so many bytes.
+    fn shape(&self, most: u8) -> Shape {
+        match self {
+            Place::At(_) => Shape::whole(most),
+            Place::Held(_, shape) => *shape,
+            Place::Constant(bits) => Shape::of(Range::point(*bits as i64 as f64), most),
+        }
+    }
 }
 
 /// Where a result goes.
@@ -16,6 +77,8 @@ pub enum Place {
 pub enum Goal<'a> {
     /// Into memory from this symbol on.
     At(&'a str),
+    /// The same, but only so many bytes.
+    Held(&'a str, u8),
     /// Only for bools: it stays in the carry flag.
     Carry,
 }
@@ -24,6 +87,7 @@ pub enum Goal<'a> {
 pub fn size(format: Format) -> u8 {
     match format {
         Format::Bool => 1,
+        Format::Fixed { bits, .. } | Format::Scaled { bits } | Format::Int { bits } => bits / 8,
         _ => 4,
     }
 }
@@ -41,22 +105,42 @@ pub fn byte_at(symbol: &str, k: u8) -> String {
 pub fn byte(place: &Place, k: u8) -> String {
     match place {
         Place::At(symbol) => byte_at(symbol, k),
+        Place::Held(symbol, shape) if k < shape.bytes => byte_at(symbol, k),
+        Place::Held(..) => "#$00".to_owned(),
         Place::Constant(bits) => format!("#${:02x}", (bits >> (8 * u32::from(k))) & 0xFF),
     }
 }
 
-/// Copies a value into memory.
-pub fn copy(from: &Place, to: &str, format: Format, lines: &mut Vec<String>) {
+/// Copies a value into memory: so many bytes of it, extended where it has fewer.
+pub fn copy_bytes(from: &Place, to: &str, bytes: u8, lines: &mut Vec<String>) {
+    let own = match from {
+        Place::Held(_, shape) if shape.signed => shape.bytes.min(bytes),
+        _ => bytes,
+    };
     let mut held = None;
-    for k in 0..size(format) {
+    for k in 0..own {
         let operand = byte(from, k);
         if held.as_ref() != Some(&operand) {
             lines.push(format!("        lda {operand}"));
         }
         lines.push(format!("        sta {}", byte_at(to, k)));
         // An immediate operand stays in the accumulator for the next byte.
-        held = matches!(from, Place::Constant(_)).then_some(operand);
+        held = operand.starts_with('#').then_some(operand);
     }
+    if own < bytes {
+        // 0 or $ff by the sign, which is the carry's now.
+        for line in ["asl", "lda #0", "adc #$ff", "eor #$ff"] {
+            lines.push(format!("        {line}"));
+        }
+        for k in own..bytes {
+            lines.push(format!("        sta {}", byte_at(to, k)));
+        }
+    }
+}
+
+/// Copies a value into memory.
+pub fn copy(from: &Place, to: &str, format: Format, lines: &mut Vec<String>) {
+    copy_bytes(from, to, size(format), lines);
 }
 
 /// Stores the carry flag as a bool.
@@ -66,28 +150,68 @@ pub fn store_carry(to: &str, lines: &mut Vec<String>) {
     lines.push(format!("        sta {to}"));
 }
 
-/// The instructions that compute a routine. `serial` must differ at each use in a program.
-pub fn instructions(
-    routine: &Routine,
-    args: &[Place],
-    goal: &Goal<'_>,
-    serial: u32,
-    lines: &mut Vec<String>,
-) {
-    let Form::Statement(text) = routine.form else {
-        return;
+/// The use of a routine.
+#[derive(Clone, Copy, Debug)]
+pub struct Use<'a> {
+    /// What is computed.
+    pub routine: &'a Routine,
+    /// Its operands.
+    pub args: &'a [Place],
+    /// Where the result goes.
+    pub goal: &'a Goal<'a>,
+    /// Must differ at each use in a program.
+    pub serial: u32,
+    /// What a routine has to know of its values' points ([`slowlight_routine::scale`]).
+    pub number: i32,
+}
+
+/// The instructions that compute a routine; answers what part of the runtime they need
+/// beside those of the routine, if any.
+pub fn instructions(used: Use<'_>, lines: &mut Vec<String>) -> Option<&'static str> {
+    let Form::Statement(text) = used.routine.form else {
+        return None;
     };
-    if text.contains(char::is_whitespace) {
-        template(text, args, goal, serial, lines);
+    let square = match used.args {
+        [a, b] if a == b => scaled::squared(text),
+        _ => None,
+    };
+    let (text, need) = (square.unwrap_or(text), square.map(|_| "square16"));
+    let (routine, full) = (used.routine, size(used.routine.result));
+    let (to, bytes) = match *used.goal {
+        Goal::At(to) => (Some(to), full),
+        Goal::Held(to, bytes) => (Some(to), bytes),
+        Goal::Carry => (None, full),
+    };
+    if let (Some(made), Some(to), [from, ..]) = (text.strip_prefix('!'), to, used.args) {
+        match made {
+            "floor" => scaled::floor(from, used.number, to, bytes, lines),
+            _ => copy_bytes(&held_in(from, full_of(routine)), to, bytes, lines),
+        }
+    } else if text.contains(char::is_whitespace) {
+        template(text, used, bytes, lines);
     } else {
-        operands(routine, args, lines);
+        operands(routine, used.args, lines);
         lines.push(format!("        jsr {text}"));
-        if let (Goal::At(to), false) = (goal, routine.result == Format::Bool) {
-            copy(&Place::At("acc".to_owned()), to, routine.result, lines);
+        if let (Some(to), false) = (to, routine.result == Format::Bool) {
+            copy_bytes(&Place::At("acc".to_owned()), to, bytes, lines);
         }
     }
-    if let (Goal::At(to), Format::Bool) = (goal, routine.result) {
+    if let (Some(to), Format::Bool) = (to, routine.result) {
         store_carry(to, lines);
+    }
+    need
+}
+
+/// Bytes of a routine's first operand.
+fn full_of(routine: &Routine) -> u8 {
+    routine.args.first().map_or(4, |format| size(*format))
+}
+
+/// A number of so many bytes, to be extended.
+fn held_in(from: &Place, bytes: u8) -> Place {
+    match from {
+        Place::At(symbol) => Place::Held(symbol.clone(), Shape::whole(bytes)),
+        other => other.clone(),
     }
 }
 
@@ -109,9 +233,51 @@ fn operands(routine: &Routine, args: &[Place], lines: &mut Vec<String>) {
     }
 }
 
+/// Where operands go that have to be extended, and a result of which a part is kept.
+const EXTENDED: [&str; 2] = ["first", "second"];
+const CUT: &str = "third";
+
 /// Fills in a template's places.
-fn template(text: &str, args: &[Place], goal: &Goal<'_>, serial: u32, lines: &mut Vec<String>) {
-    let instructions = text
+fn template(text: &str, used: Use<'_>, bytes: u8, lines: &mut Vec<String>) {
+    let of_args = full_of(used.routine);
+    let shapes = || used.args.iter().map(|a| a.shape(of_args));
+    let is_bool = used.routine.result == Format::Bool;
+    let whole = if is_bool {
+        of_args
+    } else {
+        size(used.routine.result)
+    };
+    let (text, width) = match (text.get(..1), text.get(1..)) {
+        (Some("~"), Some(rest)) => (rest, bytes),
+        (Some("="), Some(rest)) => {
+            let needed = shapes().map(Shape::needed).max().unwrap_or(1);
+            let needed = if is_bool { needed } else { needed.max(bytes) };
+            (rest, needed.min(whole))
+        }
+        _ => (text, whole),
+    };
+    let extended: Vec<Place> = (used.args.iter().zip(shapes()).zip(EXTENDED))
+        .map(|((place, shape), to)| match place {
+            Place::Held(..) if shape.signed && shape.bytes < width.min(of_args) => {
+                copy_bytes(place, to, width.min(of_args), lines);
+                Place::At(to.to_owned())
+            }
+            _ => place.clone(),
+        })
+        .collect();
+    let part = !is_bool && bytes < width;
+    let cut = Goal::At(CUT);
+    let inner = Use {
+        args: &extended,
+        goal: if part { &cut } else { used.goal },
+        ..used
+    };
+    // A comparison leaves the overflow flag alone.
+    let repeated = match width == 1 && text.contains("bv") {
+        true => repeated(&text.replace("| cmp ", "| sec | sbc "), width),
+        false => repeated(text, width),
+    };
+    let instructions = repeated
         .split(['|', '\n'])
         .map(str::trim)
         .filter(|i| !i.is_empty());
@@ -121,7 +287,7 @@ fn template(text: &str, args: &[Place], goal: &Goal<'_>, serial: u32, lines: &mu
         while let Some((before, behind)) = rest.split_once('{') {
             let (inside, after) = behind.split_once('}').unwrap_or((behind, ""));
             filled.push_str(before);
-            filled.push_str(&placeholder(inside, args, goal, serial));
+            filled.push_str(&placeholder(inside, inner));
             rest = after;
         }
         filled.push_str(rest);
@@ -132,18 +298,88 @@ fn template(text: &str, args: &[Place], goal: &Goal<'_>, serial: u32, lines: &mu
         };
         lines.push(format!("{indent}{filled}"));
     }
+    if let (true, Goal::Held(to, _)) = (part, used.goal) {
+        copy_bytes(&Place::At(CUT.to_owned()), to, bytes, lines);
+    }
 }
 
-fn placeholder(inside: &str, args: &[Place], goal: &Goal<'_>, serial: u32) -> String {
+/// A template whose parts in brackets stand there once a byte.
+fn repeated(text: &str, width: u8) -> String {
+    let mut made = String::new();
+    let mut rest = text;
+    while let Some((before, behind)) = rest.split_once('[') {
+        let (inside, after) = behind.split_once(']').unwrap_or((behind, ""));
+        made.push_str(before);
+        let (inside, bytes) = match (inside.strip_prefix('+'), inside.strip_prefix('-')) {
+            (Some(inside), _) => (inside, 1..width),
+            (_, Some(inside)) => (inside, 0..width.saturating_sub(1)),
+            _ => (inside, 0..width),
+        };
+        for k in bytes {
+            made.push('|');
+            made.push_str(&inside.replace(".k}", &format!(".{k}}}")));
+        }
+        made.push('|');
+        rest = after;
+    }
+    made.push_str(rest);
+    made.replace(".h}", &format!(".{}}}", width.saturating_sub(1)))
+}
+
+fn placeholder(inside: &str, used: Use<'_>) -> String {
+    if inside == "%" {
+        return format!("#{}", shift_of_one(used) & 0xFF);
+    }
+    if let Some(formula) = inside.strip_prefix('#') {
+        return format!("#{}", number(formula, used.number) & 0xFF);
+    }
     let Some((which, k)) = inside.split_once('.') else {
-        return serial.to_string();
+        return used.serial.to_string();
     };
     let k = k.parse().unwrap_or(0);
-    match (which.parse::<usize>(), goal) {
-        (Ok(arg), _) => args
+    match (which.parse::<usize>(), used.goal) {
+        (Ok(arg), _) => used
+            .args
             .get(arg)
             .map_or_else(String::new, |place| byte(place, k)),
-        (Err(_), Goal::At(to)) => byte_at(to, k),
+        (Err(_), Goal::At(to) | Goal::Held(to, _)) => byte_at(to, k),
         (Err(_), Goal::Carry) => String::new(),
     }
+}
+
+/// By how many bits the reciprocal of a divisor that needs no shift is longer than the
+/// quotient of the first operand, a power of two.
+fn shift_of_one(used: Use<'_>) -> i32 {
+    let one = match used.args.first() {
+        Some(Place::Constant(bits)) => bits.trailing_zeros() as i32,
+        _ => 0,
+    };
+    31 - one - used.number
+}
+
+/// What a formula of the number comes to: a sum of numbers and of n, a, b and r, the
+/// scales of operands and result.
+fn number(formula: &str, n: i32) -> i32 {
+    let scales = Scales::unpacked(n);
+    let [a, b] = scales.args.map(i32::from);
+    let (whole, halved) = match formula.strip_suffix("/2") {
+        Some(whole) => (whole, true),
+        None => (formula, false),
+    };
+    let spaced = whole.replace('-', " -").replace('+', " ");
+    let terms = spaced.split_whitespace().map(|term| {
+        let (sign, name) = match term.strip_prefix('-') {
+            Some(name) => (-1, name),
+            None => (1, term),
+        };
+        sign * match name {
+            "n" => n,
+            "a" => a,
+            "b" => b,
+            "r" => i32::from(scales.result),
+            number => number.parse().unwrap_or(0),
+        }
+    });
+    let sum: i32 = terms.sum();
+    if halved { sum / 2 } else { sum }
 }

@@ -78,9 +78,11 @@ const CUT: Runtime = Runtime {
     parts: parts::ALL,
     encode,
     decode,
+    shifted: slowlight_routine::scale::shifted,
     quotient: f64::INFINITY,
     stepping: None,
     segments: false,
+    reciprocals: false,
     derives: false,
     kept: slowlight_routine::whole,
     loose: None,
@@ -108,12 +110,12 @@ fn decode(bits: Bits, format: Format) -> Value {
     }
 }
 
-/// As many digits, up to four, as leave the greatest magnitude within an int;
-/// up to three without a range, so that there is room for other values.
+/// Of a param, which is an int in the source.
 fn param_digits(greatest: f64, ranged: bool) -> Option<u8> {
-    let fits = |d: &u8| greatest * 10f64.powi(i32::from(*d)) <= f64::from(model::MOST);
-    let most = if ranged { 4 } else { 3 };
-    Some((0..=most).rev().find(fits).unwrap_or(0))
+    let most = f64::from(model::MOST);
+    Some(slowlight_routine::scale::param_digits(
+        greatest, ranged, most,
+    ))
 }
 
 /// The program divides the two ints as Floats.

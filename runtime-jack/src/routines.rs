@@ -1,6 +1,6 @@
 //! The list of routines: for each operation the cheap and restricted ones first.
 
-use slowlight_routine::{Error, Form, Format, Op, Range, Routine, everywhere};
+use slowlight_routine::{Error, Form, Format, Op, Range, Routine, everywhere, joined};
 
 use crate::model::{self, Cut, Float, Float as Real, int, int_bits, wrap};
 use crate::{INT as I, SUM, TERM};
@@ -192,14 +192,3 @@ pub(crate) static ALL: [Routine; REALS.len() + INTS.len()] = joined(&REALS, INTS
 
 const REALS: [Routine; SHARED.len() + OWN.len()] = joined(SHARED, &OWN);
 const OWN: [Routine; CUTTING.len() + FUNCTIONS.len()] = joined(CUTTING, FUNCTIONS);
-
-/// One list after the other.
-pub(crate) const fn joined<const N: usize>(a: &[Routine], b: &[Routine]) -> [Routine; N] {
-    let mut all = [a[0]; N];
-    let mut k = 0;
-    while k < N {
-        all[k] = if k < a.len() { a[k] } else { b[k - a.len()] };
-        k += 1;
-    }
-    all
-}

@@ -2,7 +2,7 @@
 
 use crate::failure::{Failure, Outcome};
 use crate::format::{count, duration, table};
-use crate::machine::File;
+use crate::machine::{File, Sizes};
 use crate::scene::{Precision, Scene, SceneArgs};
 use crate::target_args::{self, ScreenArgs};
 use crate::trial::{self, mode_json};
@@ -74,31 +74,15 @@ pub fn run(args: &Args) -> Outcome<()> {
     }
     scene.warn();
     let plan = args.screen.plan(&scene, target(args)?, &[])?;
-    let mut built = trial::build_for(&plan, args.screen.machine(plan.target)?)?;
-    if args.syntax.is_some() {
-        let documents = documents(args, &plan);
-        let files = documents.iter().map(|d| File::text(&d.name, &d.text));
-        built.sources = files.collect();
-    }
-    let dir = &args.output;
-    std::fs::create_dir_all(dir)
-        .map_err(|e| Failure::Wrong(format!("cannot make {}: {e}", dir.display())))?;
-    let written: Vec<(PathBuf, &[u8])> = built
-        .sources
-        .iter()
-        .chain(&built.loaded.system)
-        .chain(&built.loaded.binaries)
-        .map(|f| (dir.join(&f.name), f.bytes.as_slice()))
-        .collect();
-    let list: Vec<(&Path, &[u8])> = written.iter().map(|(p, b)| (p.as_path(), *b)).collect();
-    files::write_all(&list)?;
+    let written = write(&plan, &args.screen, args.syntax, &args.output)?;
     let cycles = estimate::cycles(&plan);
     let seconds = cycles / plan.target.hertz;
-    let sizes = built.loaded.sizes;
+    let sizes = written.sizes;
     if args.json {
         let files: Vec<_> = written
+            .files
             .iter()
-            .map(|(path, bytes)| json!({"path": path.display().to_string(), "bytes": bytes.len()}))
+            .map(|(path, bytes)| json!({"path": path.display().to_string(), "bytes": bytes}))
             .collect();
         say_json(&json!({
             "scene": scene.name,
@@ -114,24 +98,7 @@ pub fn run(args: &Args) -> Outcome<()> {
         }));
         return Ok(());
     }
-    let mut rows: Vec<Vec<String>> = written
-        .iter()
-        .map(|(path, bytes)| {
-            let size = format!("{} bytes", count(bytes.len() as u64));
-            vec![path.display().to_string(), size]
-        })
-        .collect();
-    let parts = [
-        ("code", sizes.code),
-        ("tables", sizes.tables),
-        ("RAM", sizes.ram),
-    ];
-    for (what, size) in parts {
-        if let Some(size) = size {
-            rows.push(vec![what.to_owned(), format!("{} bytes", count(size))]);
-        }
-    }
-    say(&table(&rows));
+    say(&written.text());
     let machine = match plan.statics {
         true => "VM",
         false => "machine",
@@ -141,6 +108,70 @@ pub fn run(args: &Args) -> Outcome<()> {
         duration(seconds)
     ));
     Ok(())
+}
+
+/// The files of a program that were written.
+pub struct Written {
+    /// Where, and how long in bytes.
+    files: Vec<(PathBuf, usize)>,
+    sizes: Sizes,
+}
+
+impl Written {
+    /// As a table.
+    pub fn text(&self) -> String {
+        let size = |bytes: u64| format!("{} bytes", count(bytes));
+        let mut rows: Vec<Vec<String>> = (self.files.iter())
+            .map(|(path, bytes)| vec![path.display().to_string(), size(*bytes as u64)])
+            .collect();
+        let parts = [
+            ("code", self.sizes.code),
+            ("tables", self.sizes.tables),
+            ("RAM", self.sizes.ram),
+        ];
+        for (what, bytes) in parts {
+            if let Some(bytes) = bytes {
+                rows.push(vec![what.to_owned(), size(bytes)]);
+            }
+        }
+        table(&rows)
+    }
+}
+
+/// Writes a plan's program to a directory, ready for the real machine.
+///
+/// # Errors
+/// Where the machine's tools refuse it, or a file cannot be written.
+pub fn write(
+    plan: &Plan,
+    screen: &ScreenArgs,
+    syntax: Option<&'static Syntax>,
+    dir: &Path,
+) -> Outcome<Written> {
+    let mut built = trial::build_for(plan, screen.machine(plan.target)?)?;
+    if syntax.is_some() {
+        let documents = documents(syntax, plan);
+        let files = documents.iter().map(|d| File::text(&d.name, &d.text));
+        built.sources = files.collect();
+    }
+    std::fs::create_dir_all(dir)
+        .map_err(|e| Failure::Wrong(format!("cannot make {}: {e}", dir.display())))?;
+    let written: Vec<(PathBuf, &[u8])> = built
+        .sources
+        .iter()
+        .chain(&built.loaded.system)
+        .chain(&built.loaded.binaries)
+        .map(|f| (dir.join(&f.name), f.bytes.as_slice()))
+        .collect();
+    let list: Vec<(&Path, &[u8])> = written.iter().map(|(p, b)| (p.as_path(), *b)).collect();
+    files::write_all(&list)?;
+    Ok(Written {
+        files: written
+            .iter()
+            .map(|(path, bytes)| (path.clone(), bytes.len()))
+            .collect(),
+        sizes: built.loaded.sizes,
+    })
 }
 
 fn target(args: &Args) -> Outcome<&'static Target> {
@@ -155,8 +186,8 @@ fn target(args: &Args) -> Outcome<&'static Target> {
 }
 
 /// The sources, in the syntax that was asked for.
-fn documents(args: &Args, plan: &Plan) -> Vec<Document> {
-    match args.syntax {
+fn documents(syntax: Option<&'static Syntax>, plan: &Plan) -> Vec<Document> {
+    match syntax {
         Some(syntax) => vec![document(plan, syntax)],
         None => (plan.target.emit)(plan),
     }
@@ -197,7 +228,7 @@ fn emit(args: &Args, scene: &Scene, stage: Stage) -> Outcome<String> {
         Stage::Plan => plan(args, scene)?.to_string(),
         Stage::Text => {
             let plan = plan(args, scene)?;
-            let documents = documents(args, &plan);
+            let documents = documents(args.syntax, &plan);
             let many = documents.len() > 1;
             let mut out = String::new();
             for document in documents {

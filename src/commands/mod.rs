@@ -3,11 +3,14 @@
 mod build;
 mod check;
 mod compare;
+mod effects;
+mod explain;
 mod fmt;
 mod render;
 mod run;
 mod snapshot;
 mod targets;
+mod tune;
 mod vm;
 
 use crate::failure::Outcome;
@@ -26,6 +29,12 @@ pub enum Command {
     Run(run::Args),
     /// Run scenes on several targets: pictures side by side, one table
     Compare(compare::Args),
+    /// What each line of a scene costs on a machine
+    Explain(explain::Args),
+    /// What each effect of a scene and of the library costs, and what it adds
+    Effects(effects::Args),
+    /// Show what accuracy costs in time: measured cycles against error, to choose from
+    Tune(tune::Args),
     /// Keep generated code, digests and cycles beside a scene; fail where they change
     Snapshot(snapshot::Args),
     /// Format scenes in place
@@ -48,6 +57,9 @@ impl Command {
             Command::Build(args) => build::run(args),
             Command::Run(args) => run::run(args),
             Command::Compare(args) => compare::run(args),
+            Command::Explain(args) => explain::run(args),
+            Command::Effects(args) => effects::run(args),
+            Command::Tune(args) => tune::run(args),
             Command::Snapshot(args) => snapshot::run(args),
             Command::Fmt(args) => fmt::run(args),
             Command::Vm(args) => vm::run(args),

@@ -1,10 +1,12 @@
 //! BBC BASIC: text or tokens in, a picture and text out.
 
+use super::charge::LineMap;
 use super::dfs;
 use super::{File, Loaded, MachineRun, Program, Sizes, refused};
 use crate::failure::{Failure, Outcome};
-use slowlight_vm::bbc::{Config, Dialect, LineCost, Machine, tokenise};
-use slowlight_vm::{Fault, Watch};
+use slowlight_compiler::report::profile::Line;
+use slowlight_vm::bbc::{Config, Dialect, LineCost, Machine, StatementPlace, tokenise};
+use slowlight_vm::{Charge, Fault, Watch};
 
 /// Takes one program: text (`.bas`), or tokens, known by the byte 13 in front.
 pub fn load(files: &[File], config: Config) -> Outcome<Loaded> {
@@ -43,8 +45,20 @@ pub fn load(files: &[File], config: Config) -> Outcome<Loaded> {
         system: Vec::new(),
         binaries,
         sizes,
+        map: map(&machine),
         program: Program::Bbc(machine),
     })
+}
+
+/// The line and statement behind each statement.
+fn map(machine: &Machine) -> LineMap {
+    let statements = machine.statements().into_iter();
+    let line = |place: StatementPlace| Line {
+        document: 0,
+        line: place.line as usize,
+        statement: place.statement as usize,
+    };
+    LineMap::Places(statements.map(|place| Some(line(place))).collect())
 }
 
 /// Runs a program that was loaded.
@@ -56,6 +70,17 @@ pub fn run(machine: &Machine, limit: u64, watch: Watch<'_>) -> MachineRun {
 pub fn profile(machine: &Machine, limit: u64, watch: Watch<'_>) -> (MachineRun, Vec<LineCost>) {
     let (run, lines) = machine.profile(limit, watch);
     (finished(run), lines)
+}
+
+/// The same, with what each place took.
+pub fn charges(
+    machine: &Machine,
+    limit: u64,
+    routine: &dyn Fn(u32) -> bool,
+    watch: Watch<'_>,
+) -> (MachineRun, Vec<Charge>) {
+    let (run, charges) = machine.charges(limit, routine, watch);
+    (finished(run), charges)
 }
 
 fn finished(run: slowlight_vm::bbc::Run) -> MachineRun {

@@ -5,14 +5,16 @@
 //! translated and run on the CPU, where what the program does not bring of an OS is
 //! ours.
 
+use super::charge::LineMap;
 use super::os::{Noted, complete};
 use super::{File, Loaded, MachineRun, Program, Sizes, refused};
 use crate::failure::{Failure, Outcome};
+use slowlight_compiler::report::profile::Line;
 use slowlight_vm::hack::asm::{assemble, read_image, write_image};
 use slowlight_vm::hack::cpu::Cpu;
 use slowlight_vm::hack::translate::{Options, translate};
 use slowlight_vm::hack::{jack, vm};
-use slowlight_vm::{Fault, Progress, Stop, Watch};
+use slowlight_vm::{Charge, Fault, Progress, Stop, Watch};
 use std::collections::BTreeMap;
 
 /// Words of RAM before the screen, from the first static.
@@ -53,7 +55,7 @@ pub fn load(files: &[File], config: Config) -> Outcome<Loaded> {
     if files.iter().any(is_machine_code) {
         return load_machine_code(files);
     }
-    let own = compile(files)?;
+    let (own, lines) = compile(files)?;
     let mut all = own.clone();
     let mut system = Vec::new();
     if config.os || config.cpu {
@@ -68,6 +70,7 @@ pub fn load(files: &[File], config: Config) -> Outcome<Loaded> {
             system,
             binaries: Vec::new(),
             sizes: Sizes::default(),
+            map: map(files, &lines, &program),
             program: Program::Hack(Box::new(OnVm { program, noted })),
         });
     }
@@ -122,6 +125,7 @@ fn rom(name: &str, words: &[u16]) -> Outcome<Loaded> {
             noted: None,
             counted: None,
         })),
+        map: LineMap::Unknown,
     })
 }
 
@@ -130,7 +134,7 @@ fn link(files: &[(String, String)]) -> Outcome<vm::Program> {
 }
 
 /// Compiles what is Jack, and adds it to what is VM code.
-fn compile(files: &[File]) -> Outcome<Vec<(String, String)>> {
+fn compile(files: &[File]) -> Outcome<(Vec<(String, String)>, CommandLines)> {
     let mut classes = Vec::new();
     let mut program = Vec::new();
     for file in files {
@@ -149,8 +153,36 @@ fn compile(files: &[File]) -> Outcome<Vec<(String, String)>> {
     }
     let compiled = jack::compile(&classes)
         .map_err(|faults| refused("Jack compiler", "the program", &faults))?;
-    program.extend(compiled.into_iter().map(|class| (class.name, class.text)));
-    Ok(program)
+    let mut lines = CommandLines::new();
+    let sources = files.iter().enumerate();
+    let sources = sources.filter(|(_, file)| file.extension() == "jack");
+    for ((document, _), class) in sources.zip(compiled) {
+        lines.insert(class.name.clone(), (document, class.lines));
+        program.push((class.name, class.text));
+    }
+    Ok((program, lines))
+}
+
+/// For each file of VM code that was a class: which of the sources that is, and the
+/// line (from 1) behind each of its own.
+type CommandLines = BTreeMap<String, (usize, Vec<u32>)>;
+
+/// The line behind each command.
+fn map(files: &[File], lines: &CommandLines, program: &vm::Program) -> LineMap {
+    let own = |name: &str| files.iter().position(|file| file.name == name);
+    let line = |(name, at): (&str, u32)| {
+        let at = at.saturating_sub(1) as usize;
+        let (document, line) = match lines.get(name) {
+            Some((document, lines)) => (*document, lines.get(at)?.saturating_sub(1) as usize),
+            None => (own(name)?, at),
+        };
+        Some(Line {
+            document,
+            line,
+            statement: 0,
+        })
+    };
+    LineMap::Places(program.origins().map(line).collect())
 }
 
 /// Runs a program that was loaded. RAM is what it leaves changed of statics,
@@ -158,6 +190,22 @@ fn compile(files: &[File]) -> Outcome<Vec<(String, String)>> {
 pub fn run(on: &OnVm, limit: u64, watch: Watch<'_>) -> MachineRun {
     let mut machine = vm::Machine::new(&on.program);
     let run = machine.run(limit, watch);
+    told(on, &machine, run)
+}
+
+/// The same, with what each command took.
+pub fn charges(
+    on: &OnVm,
+    limit: u64,
+    routine: &dyn Fn(u32) -> bool,
+    watch: Watch<'_>,
+) -> (MachineRun, Vec<Charge>) {
+    let mut machine = vm::Machine::new(&on.program);
+    let (run, charges) = machine.charges(limit, routine, watch);
+    (told(on, &machine, run), charges)
+}
+
+fn told(on: &OnVm, machine: &vm::Machine<'_>, run: vm::Run) -> MachineRun {
     MachineRun {
         vm_instructions: Some(run.instructions),
         os_calls: Some(run.os_calls),

@@ -5,6 +5,7 @@
 //! This is where a target's name chooses its machine.
 
 mod bbc;
+mod charge;
 mod dfs;
 mod hack;
 mod mos6502;
@@ -81,6 +82,7 @@ pub struct Loaded {
     /// Sizes as far as they are known before it runs.
     pub sizes: Sizes,
     program: Program,
+    map: charge::LineMap,
 }
 
 enum Program {

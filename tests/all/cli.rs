@@ -9,6 +9,8 @@ pub fn slowlight(dir: &Path, args: &[&str]) -> Output {
     Command::new(env!("CARGO_BIN_EXE_slowlight"))
         .args(args)
         .current_dir(dir)
+        // What `tune` keeps is no affair of the user's.
+        .env("XDG_CACHE_HOME", env!("CARGO_TARGET_TMPDIR"))
         .output()
         .expect("the binary runs")
 }

@@ -1,5 +1,5 @@
-//! The language's four scenes in every format of reals that Jack has, and others in fixed point:
-//! the machine draws what the model says.
+//! The language's four scenes in every format of reals that Jack has, and others in fixed point,
+//! there and on the 6502: the machine draws what the model says.
 
 use crate::cli::{directory, json};
 use slowlight_compiler::target::{self, jack::JACK};
@@ -29,7 +29,7 @@ const OTHERS: [(&str, &str, bool); 6] = [
 fn scenes_are_drawn_in_every_format() {
     for format in target::formats(&JACK).map(|t| t.runtime.format) {
         for (name, rows) in SCENES {
-            is_drawn(name, rows, format, true);
+            is_drawn("jack", (name, rows), format, true);
         }
     }
 }
@@ -37,22 +37,32 @@ fn scenes_are_drawn_in_every_format() {
 #[test]
 fn other_scenes_are_drawn_in_fixed_point() {
     for (name, rows, right) in OTHERS {
-        is_drawn(name, rows, "fixed16", right);
+        is_drawn("jack", (name, rows), "fixed16", right);
+    }
+}
+
+#[test]
+fn scenes_are_drawn_on_the_6502_with_points_of_their_own() {
+    for (name, rows) in SCENES {
+        is_drawn("6502", (name, rows), "fixed16", true);
+    }
+    for (name, rows, right) in OTHERS {
+        is_drawn("6502", (name, rows), "fixed16", right);
     }
 }
 
 /// Runs rows of an example, which must be the model's, and perhaps right to the eye.
-fn is_drawn(name: &str, rows: &str, format: &str, right: bool) {
+fn is_drawn(target: &str, (name, rows): (&str, &str), format: &str, right: bool) {
     let dir = directory(&[]);
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
     let path = root.join("examples").join(format!("{name}.scn"));
     let scene = path.to_str().expect("a path");
     let args = [
-        "run", scene, "-t", "jack", "--json", "--rows", rows, "--format", format,
+        "run", scene, "-t", target, "--json", "--rows", rows, "--format", format,
     ];
     let run = json(dir.path(), &args);
-    assert_eq!(run["differs_from_model"], 0, "{name} {format}");
+    assert_eq!(run["differs_from_model"], 0, "{name} {target} {format}");
     let rmse = run["rmse"].as_f64().expect("a number");
     // Shades are right to a twentieth; dithers may differ by many pixels for that.
-    assert!(!right || rmse < 0.05, "{name} {format}: {rmse}");
+    assert!(!right || rmse < 0.05, "{name} {target} {format}: {rmse}");
 }

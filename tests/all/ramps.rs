@@ -21,6 +21,8 @@ const AT: Span = Span {
     file: 0,
     start: 0,
     end: 0,
+    within: None,
+    effect: None,
 };
 
 /// An int that is the same for a row and stays far within 31 bits.
@@ -81,6 +83,7 @@ fn picture(seed: u64, width: u32, spreads: bool, passes: u32) -> Graph {
         b.spread(&[Share { dx: 1, dy: 0, node }], AT);
     }
     let image = Image {
+        block: (1, 1),
         width,
         height: 3,
         palette: vec![[0; 3]; 4],
@@ -138,6 +141,7 @@ fn who_cannot_step_says_so() {
     let ramp = b.ramp(one, one, 1, AT);
     assert_eq!(b.ty(ramp), Type::Int);
     let image = Image {
+        block: (1, 1),
         width: 4,
         height: 1,
         palette: vec![[0; 3]; 4],

@@ -20,6 +20,8 @@ const AT: Span = Span {
     file: 0,
     start: 0,
     end: 0,
+    within: None,
+    effect: None,
 };
 pub const HEIGHT: i32 = 3;
 
@@ -135,6 +137,7 @@ pub fn picture(seed: u64, width: u32, passes: bool) -> Graph {
     }
     let ink = scene.apply(Op::BitAnd, &[ink, three]);
     let image = Image {
+        block: (1, 1),
         width,
         height: HEIGHT as u32,
         palette: vec![[0; 3]; 4],

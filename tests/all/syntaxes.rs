@@ -5,9 +5,9 @@ use clap::Parser;
 use slowlight::scene::{Changes, Scene};
 use slowlight::target_args::ScreenArgs;
 use slowlight_compiler::plan::Plan;
-use slowlight_compiler::target::find;
 use slowlight_compiler::target::mos6502::document;
 use slowlight_compiler::target::mos6502::syntax::{self, USUAL};
+use slowlight_compiler::target::{find, formats};
 use slowlight_vm::mos6502::{Assembly, Dialect, assemble_as};
 use std::path::{Path, PathBuf};
 use std::sync::OnceLock;
@@ -28,15 +28,19 @@ draw (x, y) = {
   ink((floor(byte + word) + shl + below + PI + EQUB + Acc + gaps[x mod 5, 0]) mod 3)
 };";
 
+/// Bytes of a small scene.
+const SMALL: u64 = 2000;
+
 #[derive(Parser)]
 struct Options {
     #[command(flatten)]
     screen: ScreenArgs,
 }
 
-/// The plan that `build` makes of a scene.
-fn planned(path: &Path) -> Plan {
-    let target = find("6502").expect("a target");
+/// The plan that `build` makes of a scene in a format.
+fn planned(path: &Path, format: &str) -> Plan {
+    let mut all = formats(find("6502").expect("a target"));
+    let target = all.find(|t| t.runtime.format == format).expect("a format");
     let options = Options::parse_from(["build"]);
     let scene = Scene::open(path, &Changes::default());
     let plan = scene.and_then(|scene| options.screen.plan(&scene, target, &[]));
@@ -64,7 +68,14 @@ pub fn programs() -> &'static [Plan] {
             .map(scenes)
             .concat();
         all.push(odd.path().join("odd.scn"));
-        all.iter().map(|path| planned(path)).collect()
+        let usual = all.iter().map(|path| planned(path, "fixed16.16"));
+        // Of each scene that is small enough to be planned at once.
+        let small = |path: &&PathBuf| std::fs::metadata(path).is_ok_and(|m| m.len() < SMALL);
+        let own = all
+            .iter()
+            .filter(small)
+            .map(|path| planned(path, "fixed16"));
+        usual.chain(own).collect()
     })
 }
 

@@ -5,8 +5,11 @@
 //! its place. No input (source text, tokens, ROM image) makes one panic.
 
 pub mod bbc;
+mod charge;
 pub mod hack;
 pub mod mos6502;
+
+pub use charge::Charge;
 
 use std::fmt;
 

@@ -213,6 +213,17 @@ pub struct Routine {
     pub model: fn(&[Bits]) -> Bits,
 }
 
+/// Two lists of routines, one behind the other.
+pub const fn joined<const N: usize>(a: &[Routine], b: &[Routine]) -> [Routine; N] {
+    let mut all = [a[0]; N];
+    let mut k = 0;
+    while k < N {
+        all[k] = if k < a.len() { a[k] } else { b[k - a.len()] };
+        k += 1;
+    }
+    all
+}
+
 /// What a part of a runtime is made of.
 #[derive(Clone, Copy, Debug)]
 pub enum Source {
@@ -272,6 +283,9 @@ pub struct Runtime {
     pub encode: fn(Value, Format) -> Bits,
     /// What bits stand for.
     pub decode: fn(Bits, Format) -> Value,
+    /// An int of so many bits read with so many more fraction bits (or fewer), where each real
+    /// has a point of its own: how it is rounded and that it saturates.
+    pub shifted: fn(value: i64, by: i32, bits: u8) -> i64,
     /// The greatest magnitude of a division's result; greater quotients, those
     /// by 0 among them, saturate there. A runtime may choose it below its
     /// format's end, so that what is computed from a quotient needs no guard.
@@ -283,6 +297,9 @@ pub struct Runtime {
     /// comparisons of the column with what the row knows do not change, and
     /// compute what depends on these alone once a run.
     pub segments: bool,
+    /// Whether quotients by one divisor may be products with its reciprocal, which rounds
+    /// twice.
+    pub reciprocals: bool,
     /// Whether programs work out tables at their start from one another.
     pub derives: bool,
     /// What programs keep of a real result that stays within a range: where that tells

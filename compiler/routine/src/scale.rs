@@ -79,8 +79,9 @@ pub fn given(op: Op) -> Option<i8> {
 }
 
 /// The int of largest magnitude in so many bits; the least is its negative.
-pub fn most(bits: u8) -> i64 {
-    (1 << (bits.clamp(2, 62) - 1)) - 1
+pub const fn most(bits: u8) -> i64 {
+    let bits = if bits > 62 { 62 } else { bits };
+    (1 << (bits - 1)) - 1
 }
 
 /// An int of `bits` bits read with so many more fraction bits (or fewer): saturates, and
@@ -96,6 +97,15 @@ pub fn shifted(value: i64, by: i32, bits: u8) -> i64 {
             ((value.abs() + half) >> -by) * value.signum()
         }
     }
+}
+
+/// Decimal digits of a param that is written as a whole number: as many, up to four, as
+/// leave the greatest magnitude within `most`; up to three without a range, so that there
+/// is room for other values.
+pub fn param_digits(greatest: f64, ranged: bool, most: f64) -> u8 {
+    let fits = |d: &u8| greatest * 10f64.powi(i32::from(*d)) <= most;
+    let digits = if ranged { 4 } else { 3 };
+    (0..=digits).rev().find(fits).unwrap_or(0)
 }
 
 /// A range of reals in units of the last place at a scale.

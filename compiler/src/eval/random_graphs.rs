@@ -12,6 +12,8 @@ const AT: Span = Span {
     file: 0,
     start: 0,
     end: 0,
+    within: None,
+    effect: None,
 };
 
 struct Maker {
@@ -214,6 +216,7 @@ pub fn graph(seed: u64) -> Graph {
         maker.b.spread(&shares, AT);
     }
     let image = Image {
+        block: (1, 1),
         width: 71,
         height: 5,
         palette: vec![[0; 3]; 256],

@@ -16,6 +16,8 @@ const AT: Span = Span {
     file: 0,
     start: 0,
     end: 0,
+    within: None,
+    effect: None,
 };
 
 type Vec3 = [NodeId; 3];
@@ -174,6 +176,7 @@ fn mirrors() -> Graph {
     let none = h.int(0);
     let ink = h.op(Op::IntMax, &[ink, none]);
     let image = Image {
+        block: (1, 1),
         width: 320,
         height: 240,
         palette: vec![[0; 3]; 4],

@@ -125,12 +125,30 @@ impl Param {
 /// The picture that a graph draws.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Image {
-    /// Columns.
+    /// Columns, of blocks where a block is more than a pixel.
     pub width: u32,
-    /// Rows.
+    /// Rows, of blocks.
     pub height: u32,
+    /// How many columns and rows of the screen each of its pixels takes: 1 and 1 unless
+    /// the picture is computed in blocks ([`crate::passes::coarse`]).
+    pub block: (u32, u32),
     /// Red, green and blue of each ink, dark to light.
     pub palette: Vec<[u8; 3]>,
+}
+
+impl Image {
+    /// Columns and rows of the screen that the picture takes.
+    pub fn on_screen(&self) -> (u32, u32) {
+        (self.width * self.block.0, self.height * self.block.1)
+    }
+
+    /// What its pixels are called in a program's remarks.
+    pub fn unit(&self) -> String {
+        match self.block {
+            (1, 1) => "pixels".to_owned(),
+            (wide, high) => format!("blocks of {wide} x {high} pixels"),
+        }
+    }
 }
 
 /// An effect that the graph calls.

@@ -88,7 +88,11 @@ pub fn node_text(graph: &Graph, node: Node) -> String {
 
 impl Display for Graph {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "image {}x{} inks", self.image.width, self.image.height)?;
+        write!(f, "image {}x{}", self.image.width, self.image.height)?;
+        if self.image.block != (1, 1) {
+            write!(f, " of {}x{}", self.image.block.0, self.image.block.1)?;
+        }
+        write!(f, " inks")?;
         for [r, g, b] in &self.image.palette {
             write!(f, " #{r:02x}{g:02x}{b:02x}")?;
         }

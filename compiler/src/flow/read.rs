@@ -25,6 +25,7 @@ type Read<T> = Result<T, String>;
 pub fn read(text: &str) -> Result<Graph, Unread> {
     let mut graph = Graph {
         image: Image {
+            block: (1, 1),
             width: 1,
             height: 1,
             palette: Vec::new(),
@@ -163,6 +164,12 @@ fn image(graph: &mut Graph, text: &str) -> Read<()> {
         .and_then(|s| s.split_once('x'))
         .ok_or("no size")?;
     (graph.image.width, graph.image.height) = (number(size.0)?, number(size.1)?);
+    let mut words = words.peekable();
+    if words.next_if_eq(&"of").is_some() {
+        let block = words.next().and_then(|s| s.split_once('x'));
+        let (wide, high) = block.ok_or("no block")?;
+        graph.image.block = (number(wide)?, number(high)?);
+    }
     for colour in words.skip(1) {
         let digits = colour.strip_prefix('#').ok_or("a colour is #rrggbb")?;
         let all = u32::from_str_radix(digits, 16).map_err(|_| "a colour is #rrggbb")?;

@@ -103,6 +103,35 @@ pub enum Statement {
     Call(SubroutineId),
 }
 
+impl Statement {
+    /// Where in the scene it comes from: what it computes, sets or asks.
+    pub fn span(&self, graph: &Graph, tree: &Tree) -> Span {
+        let of_loop = |of: LoopId| {
+            graph
+                .loops
+                .get(of.0 as usize)
+                .map_or(Span::default(), |l| l.span)
+        };
+        match self {
+            Statement::Let(id)
+            | Statement::Set {
+                place: Place::Node(id),
+                ..
+            }
+            | Statement::If { cond: id, .. } => graph.span(*id),
+            Statement::Set {
+                place: Place::Carried(of, _) | Place::Scratch(of, _),
+                ..
+            } => of_loop(*of),
+            Statement::Loop(turns) => of_loop(turns.of),
+            Statement::Call(id) => {
+                let subroutine = tree.subroutines.get(id.0 as usize);
+                subroutine.map_or(Span::default(), |s| s.span)
+            }
+        }
+    }
+}
+
 /// The turns of a bounded loop: `start`, then `body` up to [`Loop::max`]
 /// times. After each `body`, `again` decides between `next` and another turn,
 /// and `done`, which ends the loop. Where a `next` was the last one allowed,

@@ -21,6 +21,8 @@ pub enum End {
     Carried(LoopId, u32),
     /// A loop's result, either way.
     Result(LoopId, u32),
+    /// The pixel's ink.
+    Ink,
     /// The picture's: the shade, what is sent or reported.
     Output,
 }
@@ -127,7 +129,7 @@ pub fn rebuild_by(graph: &Graph, rewrite: &mut dyn Rewrite) -> Graph {
         }
     }
     let (ink, shade) = (
-        rebuilder.at(graph.ink),
+        rebuilder.end(graph.ink, End::Ink, rewrite),
         graph.shade.map(|s| rebuilder.end(s, End::Output, rewrite)),
     );
     if let Some(diffusion) = &graph.diffusion {

@@ -277,6 +277,7 @@ mod tests {
         let none = b.constant(Value::Int(0), span);
         let ink = b.select(met, one, none, span);
         let image = Image {
+            block: (1, 1),
             width: 8,
             height: 8,
             palette: Vec::new(),

@@ -21,6 +21,8 @@ const AT: Span = Span {
     file: 0,
     start: 0,
     end: 0,
+    within: None,
+    effect: None,
 };
 const WIDTH: i32 = 71;
 const HEIGHT: i32 = 9;
@@ -79,6 +81,7 @@ fn picture(seed: u64, ramps: bool) -> Graph {
     }
     let ink = *ints.last().unwrap();
     let image = Image {
+        block: (1, 1),
         width: WIDTH as u32,
         height: HEIGHT as u32,
         palette: vec![[0; 3]; 4],
@@ -174,6 +177,7 @@ fn passes_are_a_multiple_of_all_that_they_must_be() {
             ink = b.apply(Op::IntAdd, &[ink, rest], AT);
         }
         let image = Image {
+            block: (1, 1),
             width: 320,
             height: 1,
             palette: vec![[0; 3]; 256],

@@ -104,6 +104,7 @@ impl Plan {
         let mut plan = planned(shop, self.target, &goal, rewriting).ok()?;
         plan.params = self.params.clone();
         plan.items = self.items.clone();
+        plan.drawn = self.drawn;
         (plan.listing, plan.page) = (self.listing, self.page);
         plan.statics = self.statics;
         Some(plan)

@@ -42,7 +42,7 @@ pub(super) fn choose(
     let mut missing = Vec::new();
     // Of plans that are only priced it is enough to know about where points would be.
     let about = match (points, runtime.real) {
-        (None, Format::Scaled { bits }) => Some(Points::new(graph, ranges, bits)),
+        (None, Format::Scaled { bits }) => Some(Points::new(graph, ranges, runtime, bits)),
         _ => None,
     };
     let points = points.or(about.as_ref());

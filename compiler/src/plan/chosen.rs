@@ -8,6 +8,7 @@ use super::thrift::Thrift;
 use super::workshop::Workshop;
 use crate::passes::arms::{arms, conditions};
 use crate::passes::factors::factors;
+use crate::passes::reciprocals::reciprocals;
 
 /// By how much operations in arms must make the plan cheaper: each choice is asked once
 /// more.
@@ -34,6 +35,21 @@ pub fn in_arms(plan: Settled, shop: &Workshop, thrift: Thrift) -> Settled {
         }
     }
     best
+}
+
+/// With products instead of quotients, where those are dear.
+pub fn with_reciprocals(plan: Settled, shop: &Workshop, thrift: Thrift) -> Settled {
+    let next = (shop.runtime.reciprocals)
+        .then(|| reciprocals(&plan.graph, &plan.ranges))
+        .flatten();
+    let Some(next) = next.map(|graph| shop.settle(&graph)) else {
+        return plan;
+    };
+    let price = Price::new(&plan, shop.runtime, thrift);
+    match price.of(&next) < price.of(&plan) {
+        true => next,
+        false => plan,
+    }
 }
 
 /// The plan with what is multiplied by one of few numbers chosen by which that is, each

@@ -1,7 +1,7 @@
 //! How a plan is made: the passes in their order, then a routine for each value.
 
 use super::cheaper::{apart_at_last, cheaper, with_inks_split, with_recipes_followed};
-use super::chosen::in_arms;
+use super::chosen::{in_arms, with_reciprocals};
 use super::params::{self, ParamPlan};
 use super::price::Price;
 use super::settled::{Known, Settled};
@@ -90,7 +90,7 @@ pub(super) fn planned(
     let whole = |graph: Graph| if logs { whole_parts(&graph) } else { graph };
     let drawn = |graph: Graph| match rewriting {
         Rewriting::Fast { thrift, .. } if thrift.passes() && runtime.segments => {
-            interlaced(&graph, (target.pixels)(&goal.mode)).unwrap_or(graph)
+            interlaced(&graph, in_byte(&graph, target, goal)).unwrap_or(graph)
         }
         _ => graph,
     };
@@ -98,8 +98,9 @@ pub(super) fn planned(
     if let Rewriting::Fast { thrift, steps } = rewriting {
         let early =
             (!origin.early.is_empty()).then(|| steady(shop, &whole(drawn(fold(origin))), rounds));
-        now = in_arms(now, shop, thrift);
-        let early = early.map(|early| in_arms(early, shop, thrift));
+        let prepared = |plan: Settled| with_reciprocals(in_arms(plan, shop, thrift), shop, thrift);
+        now = prepared(now);
+        let early = early.map(prepared);
         let early = early.as_ref().map(|settled| &settled.graph);
         let price = Price::new(&now, runtime, thrift);
         let cheapest = |all: Vec<Settled>| {
@@ -201,6 +202,7 @@ pub(super) fn assemble(
         listing: false,
         statics: false,
         items: Vec::new(),
+        drawn: None,
         lean: false,
         copies: false,
         brief: false,
@@ -221,6 +223,14 @@ pub(super) fn assemble(
     })
 }
 
+/// How many of the picture's pixels share a byte of the screen, where that matters.
+fn in_byte(graph: &Graph, target: &Target, goal: &Goal) -> u32 {
+    match graph.image.block {
+        (1, 1) => (target.pixels)(&goal.mode),
+        _ => 1,
+    }
+}
+
 /// The addition that is right for all arguments: what a pixel receives has no
 /// bounds that could be known beforehand.
 fn gathering(runtime: &'static Runtime) -> Option<&'static Routine> {
@@ -232,13 +242,15 @@ fn gathering(runtime: &'static Runtime) -> Option<&'static Routine> {
 /// Where the picture stands on the screen, and which of it is seen: centred
 /// where the screen is larger, cropped where it is smaller.
 pub(super) fn frame(image: &Image, mode: &Mode) -> ((i32, i32), (u32, u32), (u32, u32)) {
-    let axis = |picture: u32, screen: u32| {
-        let offset = (i64::from(screen) - i64::from(picture)).div_euclid(2);
-        let first = (-offset).max(0);
-        let last = (first + i64::from(screen.min(picture)) - 1).min(i64::from(picture) - 1);
+    let axis = |count: u32, block: u32, screen: u32| {
+        let (count, block, screen) = (i64::from(count), i64::from(block), i64::from(screen));
+        let offset = (screen - count * block).div_euclid(2);
+        // Whole blocks only.
+        let first = (-offset).max(0).div_euclid(block) + i64::from((-offset).max(0) % block > 0);
+        let last = ((screen - offset).div_euclid(block) - 1).min(count - 1);
         (offset as i32, (first as u32, last.max(first) as u32))
     };
-    let (left, columns) = axis(image.width, mode.width);
-    let (top, rows) = axis(image.height, mode.height);
+    let (left, columns) = axis(image.width, image.block.0, mode.width);
+    let (top, rows) = axis(image.height, image.block.1, mode.height);
     ((left, top), columns, rows)
 }

@@ -13,7 +13,9 @@
 //!   graph has such, then for each of its x `tree.segment` (or that only where one of its
 //!   comparisons with x has changed) and `tree.pixel`, after which [`Graph::ink`] is
 //!   the ink to plot at screen position (x + offset.0, y + offset.1), if the
-//!   plan says [`Plan::plot`].
+//!   plan says [`Plan::plot`]. Where the image is of blocks ([`Image::block`]), columns and
+//!   rows are of blocks, and the ink fills the one whose top left is at (x * block.0 +
+//!   offset.0, y * block.1 + offset.1).
 //! - [`Statement::Let`] computes node `id` by `plan.routine(id)` (operations) or
 //!   by reading `graph.tables` (lookups; both indices clamp to the table unless
 //!   `plan.ranges` proves them inside) and keeps it in the node's home.
@@ -136,6 +138,9 @@ pub struct Plan {
     /// Where the scene's items stand and what they are, in the order of the
     /// text: for listings.
     pub items: Vec<(Span, String)>,
+    /// The scene's `draw`, where the loops over rows and columns and the drawing are to
+    /// be told as lines of its own: in line maps.
+    pub drawn: Option<Span>,
     /// Whether to write it short, but not so short that it becomes slow to read
     /// for the machine: between neither and [`Plan::tight`].
     pub lean: bool,

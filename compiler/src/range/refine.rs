@@ -189,6 +189,7 @@ mod tests {
             let zero = b.constant(zero, at);
             let above = b.apply(op, &[zero, sum], at);
             let image = Image {
+                block: (1, 1),
                 width: 1,
                 height: 240,
                 palette: vec![[0; 3]; 2],

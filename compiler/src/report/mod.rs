@@ -6,7 +6,13 @@ pub mod bounces;
 mod bounces_tests;
 pub mod bounded;
 pub mod domain;
+pub mod effects;
 pub mod fragile;
+pub mod frontier;
+pub mod profile;
+#[cfg(test)]
+mod profile_tests;
+pub mod raised;
 mod shadow;
 #[cfg(test)]
 mod tests;

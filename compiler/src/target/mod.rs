@@ -61,6 +61,24 @@ pub struct Document {
     pub text: String,
     /// For each line, the place in the scene that it comes from, if any.
     pub lines: Vec<Option<Span>>,
+    /// Where statements of a line come from other places than its first: the line, from
+    /// which statement on (both counted from 0), and the place; in this order.
+    pub later: Vec<(usize, usize, Option<Span>)>,
+}
+
+impl Document {
+    /// The place in the scene that a statement of a line comes from, if any; both are
+    /// counted from 0.
+    pub fn span(&self, line: usize, statement: usize) -> Option<Span> {
+        let after = self
+            .later
+            .partition_point(|(l, s, _)| (*l, *s) <= (line, statement));
+        let before = after.checked_sub(1).and_then(|at| self.later.get(at));
+        match before {
+            Some((found, _, span)) if *found == line => *span,
+            _ => self.lines.get(line).copied().flatten(),
+        }
+    }
 }
 
 /// Every target.
@@ -73,7 +91,12 @@ pub static TARGETS: &[&Target] = &[
 ];
 
 /// The same machines with other formats of reals.
-pub static OTHER_FORMATS: &[&Target] = &[&jack::JACK_F316R, &jack::JACK_LOG10, &jack::JACK_FIXED16];
+pub static OTHER_FORMATS: &[&Target] = &[
+    &jack::JACK_F316R,
+    &jack::JACK_LOG10,
+    &jack::JACK_FIXED16,
+    &mos6502::PLAIN_FIXED16,
+];
 
 /// Every target in every format.
 pub fn in_all_formats() -> impl Iterator<Item = &'static Target> {

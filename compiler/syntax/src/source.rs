@@ -4,7 +4,11 @@
 //! command line renders. A file is known by its number in a [`Sources`].
 
 /// A byte range in one source file.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, PartialOrd, Ord)]
+///
+/// What the library computes for a scene belongs to the scene's place that calls
+/// it; [`Span::within`] says where in the library that is. That and the effect are
+/// remarks and no part of the place: spans are compared without them.
+#[derive(Clone, Copy, Debug, Default)]
 pub struct Span {
     /// Index into [`Sources::files`].
     pub file: u16,
@@ -12,6 +16,43 @@ pub struct Span {
     pub start: u32,
     /// One past the last byte; at least `start`.
     pub end: u32,
+    /// File and first byte of the library's own place, where it is the library's.
+    pub within: Option<(u16, u32)>,
+    /// The effect on whose behalf it is computed, the innermost: by its number among the
+    /// scene's functions. A remark, too.
+    pub effect: Option<u16>,
+}
+
+impl Span {
+    fn place(self) -> (u16, u32, u32) {
+        (self.file, self.start, self.end)
+    }
+}
+
+impl PartialEq for Span {
+    fn eq(&self, other: &Span) -> bool {
+        self.place() == other.place()
+    }
+}
+
+impl Eq for Span {}
+
+impl std::hash::Hash for Span {
+    fn hash<H: std::hash::Hasher>(&self, state: &mut H) {
+        self.place().hash(state);
+    }
+}
+
+impl PartialOrd for Span {
+    fn partial_cmp(&self, other: &Span) -> Option<std::cmp::Ordering> {
+        Some(self.cmp(other))
+    }
+}
+
+impl Ord for Span {
+    fn cmp(&self, other: &Span) -> std::cmp::Ordering {
+        self.place().cmp(&other.place())
+    }
 }
 
 impl Span {
@@ -22,7 +63,23 @@ impl Span {
             file,
             start: clip(start),
             end: clip(end.max(start)),
+            within: None,
+            effect: None,
         }
+    }
+
+    /// This place, where the library's `own` place is called from.
+    pub fn calling(self, own: Span) -> Span {
+        Span {
+            within: Some((own.file, own.start)),
+            ..self
+        }
+    }
+
+    /// The library's own place, where this is a call of it; empty there.
+    pub fn called(self) -> Option<Span> {
+        let (file, start) = self.within?;
+        Some(Span::new(file, start as usize, start as usize))
     }
 
     /// The smallest range that holds both; `self` where they lie in different files.
@@ -34,6 +91,8 @@ impl Span {
             file: self.file,
             start: self.start.min(other.start),
             end: self.end.max(other.end),
+            within: self.within,
+            effect: self.effect,
         }
     }
 

@@ -5,7 +5,8 @@ use slowlight_vm::mos6502::assemble;
 use slowlight_vm::mos6502::cpu::{Bus, Cpu, Step};
 
 use crate::FIXED16_16 as RUNTIME;
-use crate::write::{Goal, Place, instructions};
+use crate::write::{Goal, Place, Use, instructions};
+use slowlight_routine::Runtime;
 
 /// xorshift32.
 pub struct Random(pub u32);
@@ -38,6 +39,7 @@ impl Bus for Ram {
 /// The parts that are needed, each between two labels.
 fn parts(names: &[&str]) -> (String, bool) {
     let mut text = String::new();
+    let names: Vec<&str> = names.iter().copied().chain(["scaled_page"]).collect();
     let closure = RUNTIME.closure(names.iter().copied());
     for part in &closure {
         let source = match part.source {
@@ -61,9 +63,19 @@ pub fn part_bytes(name: &str) -> u32 {
     u32::try_from(at("end") - at("begin")).unwrap() + tables
 }
 
+/// How operands are kept.
+#[derive(Clone, Copy)]
+pub struct Setting {
+    pub runtime: &'static Runtime,
+    /// Bytes of a real and its result.
+    pub sizes: u8,
+}
+
 pub struct Bench {
     ram: Ram,
-    routine: Routine,
+    name: &'static str,
+    /// Bytes of the result.
+    size: u8,
     start: u16,
     end: u16,
     /// Bytes of the use.
@@ -77,23 +89,66 @@ const RESULT: u16 = 0x88;
 impl Bench {
     /// The routine with its arguments at `places`, or all in the zero page if there are none.
     pub fn new(routine: &Routine, places: &[Place]) -> Bench {
-        let zero_page = [Place::At("first".into()), Place::At("second".into())];
+        let setting = Setting {
+            runtime: &RUNTIME,
+            sizes: 4,
+        };
+        Bench::of(setting, routine, places, 0)
+    }
+
+    /// The same of a runtime's, with what it has to know of scales.
+    pub fn of(setting: Setting, routine: &Routine, places: &[Place], number: i32) -> Bench {
+        let names = ["first_operand", "second_operand_value"];
+        let zero_page = names.map(|name| Place::At(name.into()));
         let places = if places.is_empty() {
             &zero_page[..routine.args.len()]
         } else {
             places
         };
+        let size = match routine.result {
+            Format::Bool => 1,
+            Format::Int { .. } => 4,
+            _ => setting.sizes,
+        };
+        let goal = Goal::At("result");
+        let write = |lines: &mut Vec<String>| {
+            let used = Use {
+                routine,
+                args: places,
+                goal: &goal,
+                serial: 1,
+                number,
+            };
+            let mut needs = routine.needs.to_vec();
+            needs.extend(instructions(used, lines));
+            needs
+        };
+        Bench {
+            name: routine.name,
+            size,
+            ..Bench::written(setting.runtime, &write)
+        }
+    }
+
+    /// Instructions by themselves, and the parts that they need.
+    pub fn written(
+        _: &'static Runtime,
+        write: &dyn Fn(&mut Vec<String>) -> Vec<&'static str>,
+    ) -> Bench {
         let mut lines = Vec::new();
-        instructions(routine, places, &Goal::At("result"), 1, &mut lines);
-        let (parts, squares) = parts(routine.needs);
-        let prepare = if squares { "jsr make_squares" } else { "" };
+        let needs = write(&mut lines);
+        let (parts, squares) = parts(&needs);
+        let mut prepare = if squares { "jsr make_squares" } else { "" }.to_owned();
+        if parts.contains("set_squares:") {
+            prepare += " | jsr set_squares";
+        }
+        let prepare = prepare.replace('|', "\n        ");
         let source = format!(
-            "* = $0a00\nfirst = ${FIRST:02x}\nsecond = ${SECOND:02x}\nresult = ${RESULT:02x}\n{parts}
+            "* = $0a00\nfirst_operand = ${FIRST:02x}\nsecond_operand_value = ${SECOND:02x}\nresult = ${RESULT:02x}\n{parts}
              prepare: {prepare}\nstart:\n{}\nend: nop\n",
             lines.join("\n")
         );
-        let program =
-            assemble(&source).unwrap_or_else(|f| panic!("{}: {}\n{source}", routine.name, f[0]));
+        let program = assemble(&source).unwrap_or_else(|f| panic!("{}\n{source}", f[0]));
         let at = |label: &str| u16::try_from(program.symbols[label]).unwrap();
         let mut ram = Ram {
             bytes: vec![0; 0x1_0000],
@@ -103,7 +158,8 @@ impl Bench {
         ram.bytes[origin..origin + program.bytes.len()].copy_from_slice(&program.bytes);
         let mut bench = Bench {
             ram,
-            routine: *routine,
+            name: "read",
+            size: 4,
             start: at("prepare"),
             end: at("start"),
             bytes: u32::from(at("end") - at("start")),
@@ -119,17 +175,9 @@ impl Bench {
         self.ram.cycles = 0;
         while cpu.pc != self.end {
             assert_eq!(cpu.step(&mut self.ram), Step::Ran);
-            assert!(
-                self.ram.cycles < 100_000,
-                "{} does not end",
-                self.routine.name
-            );
+            assert!(self.ram.cycles < 100_000, "{} does not end", self.name);
         }
-        assert_eq!(
-            cpu.sp, 0xFF,
-            "{} leaves the stack as it was",
-            self.routine.name
-        );
+        assert_eq!(cpu.sp, 0xFF, "{} leaves the stack as it was", self.name);
         self.ram.cycles
     }
 
@@ -142,8 +190,9 @@ impl Bench {
         let cycles = self.go();
         let at = usize::from(RESULT);
         let bytes: [u8; 4] = self.ram.bytes[at..at + 4].try_into().unwrap();
-        let result = match self.routine.result {
-            Format::Bool => i32::from(bytes[0]),
+        let result = match self.size {
+            1 => i32::from(bytes[0]),
+            2 => i32::from(i16::from_le_bytes([bytes[0], bytes[1]])),
             _ => i32::from_le_bytes(bytes),
         };
         (result, cycles)

@@ -2,7 +2,7 @@
 
 #![allow(clippy::unwrap_used)]
 
-mod bench;
+pub(crate) mod bench;
 mod functions;
 
 use bench::{Bench, Random};
@@ -189,7 +189,10 @@ fn constants_as_operands_give_the_same() {
                     [other, constant]
                 };
                 if in_domain(routine, &args) {
-                    let mut places = [Place::At("first".into()), Place::At("second".into())];
+                    let mut places = [
+                        Place::At("first_operand".into()),
+                        Place::At("second_operand_value".into()),
+                    ];
                     places[which] = Place::Constant(model::bits(constant));
                     check(&mut Bench::new(routine, &places), routine, &args);
                 }

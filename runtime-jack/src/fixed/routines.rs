@@ -2,10 +2,10 @@
 
 use super::{REAL as R, functions, model};
 use crate::model::{difference, int, int_bits, modulo, multiply, sum as saturating_sum};
-use crate::routines::{INTS, call, fits, joined, near, sum};
+use crate::routines::{INTS, call, fits, near, sum};
 use crate::{INT as I, TERM};
 use slowlight_routine::scale::Scales;
-use slowlight_routine::{Error, Form, Format, Op, Range, Routine, everywhere};
+use slowlight_routine::{Error, Form, Format, Op, Range, Routine, everywhere, joined};
 
 const B: Format = Format::Bool;
 const EXACT: Error = Error::Exact;

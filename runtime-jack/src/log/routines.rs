@@ -4,8 +4,8 @@ use super::LOG as R;
 use super::model::{self, Log, Log as Real};
 use crate::INT as I;
 use crate::model::{int, int_bits, wrap};
-use crate::routines::{INTS, call, joined, sum};
-use slowlight_routine::{Error, Form, Format, Op, Range, Routine, everywhere};
+use crate::routines::{INTS, call, sum};
+use slowlight_routine::{Error, Form, Format, Op, Range, Routine, everywhere, joined};
 
 const B: Format = Format::Bool;
 const EXACT: Error = Error::Exact;

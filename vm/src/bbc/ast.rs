@@ -344,6 +344,8 @@ pub(crate) struct Op {
     pub cost: u32,
     /// Index into [`Program::lines`].
     pub line: u32,
+    /// Index into [`Program::statements`].
+    pub statement: u32,
 }
 
 #[derive(Clone, Debug, PartialEq)]
@@ -369,11 +371,26 @@ pub(crate) struct Datum {
     pub text: Box<[u8]>,
 }
 
+/// Where a statement begins; empty ones count.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Statement {
+    /// Index into [`Program::lines`].
+    pub line: u32,
+    /// Which of its statements, from 0.
+    pub statement: u32,
+    /// Its first op, if it has any.
+    pub op: u32,
+    /// Its first byte in the line's text.
+    pub at: u32,
+}
+
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct Program {
     /// Ends with an `End` that belongs to the last line.
     pub ops: Vec<Op>,
     pub lines: Vec<Line>,
+    /// Line by line.
+    pub statements: Vec<Statement>,
     /// By the slots of [`Kind::Fn`] and [`Kind::Proc`].
     pub fns: Vec<Option<Def>>,
     pub procs: Vec<Option<Def>>,

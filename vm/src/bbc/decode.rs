@@ -5,7 +5,7 @@
 
 use slowlight_isa::basic_tokens::token as t;
 
-use super::ast::{Datum, Def, Kind, Line, Op, Place, Program, Stmt, Target};
+use super::ast::{Datum, Def, Kind, Line, Op, Place, Program, Statement, Stmt, Target};
 use super::cost;
 use super::cursor::Cursor;
 use super::error::Error;
@@ -28,12 +28,14 @@ pub(crate) fn decode(lines: &[RawLine<'_>], names: &mut Names) -> Program {
             waiting: Vec::new(),
         };
         decoder.cursor.cost = cost::LINE;
+        decoder.begin();
         decoder.line();
     }
     program.ops.push(Op {
         stmt: Stmt::End,
         cost: 0,
         line: lines.len().saturating_sub(1) as u32,
+        statement: program.statements.len().saturating_sub(1) as u32,
     });
     program.fns.resize(names.count(Kind::Fn), None);
     program.procs.resize(names.count(Kind::Proc), None);
@@ -57,6 +59,21 @@ impl Decoder<'_, '_> {
             stmt,
             cost,
             line: self.line,
+            statement: self.program.statements.len().saturating_sub(1) as u32,
+        });
+    }
+
+    /// A statement begins, perhaps an empty one.
+    fn begin(&mut self) {
+        let number = match self.program.statements.last() {
+            Some(last) if last.line == self.line => last.statement + 1,
+            _ => 0,
+        };
+        self.program.statements.push(Statement {
+            line: self.line,
+            statement: number,
+            op: self.program.ops.len() as u32,
+            at: self.cursor.at as u32,
         });
     }
 
@@ -73,7 +90,10 @@ impl Decoder<'_, '_> {
             }
             match self.cursor.peek() {
                 None => break,
-                Some(b':') => self.cursor.at += 1,
+                Some(b':') => {
+                    self.cursor.at += 1;
+                    self.begin();
+                }
                 Some(t::ELSE) => {
                     self.cursor.at += 1;
                     self.push(Stmt::EndLine);

@@ -5,6 +5,7 @@ use super::ast::{Expr, Kind, OnKind, Program, Stmt, Target};
 use super::code::Code;
 use super::cost;
 use super::error::Error;
+use super::profile::At;
 use super::state::State;
 use crate::{Progress, Stop};
 
@@ -27,11 +28,16 @@ impl State {
             let op = p.program.ops.get(at as usize).ok_or(Error::BadProgram)?;
             self.op = at;
             if let Some(profile) = &mut self.profile {
-                let left = profile.enter(op.line, self.cycles);
+                let now = At {
+                    statement: op.statement,
+                    depth: self.frames.len() as u32,
+                    begins: p
+                        .statements
+                        .get(op.statement as usize)
+                        .is_some_and(|s| s.op == at),
+                };
+                let left = profile.enter(now, self.cycles);
                 caller.get_or_insert(left);
-                if p.lines.get(op.line as usize).is_some_and(|l| l.op == at) {
-                    profile.begin(op.line);
-                }
             }
             self.cycles += u64::from(op.cost);
             if self.cycles >= self.next_check {
@@ -39,8 +45,13 @@ impl State {
             }
             at = self.exec(p, &op.stmt, at)?;
         }
-        if let (Some(profile), Some(line)) = (&mut self.profile, caller) {
-            profile.enter(line, self.cycles);
+        if let (Some(profile), Some(caller)) = (&mut self.profile, caller) {
+            // It goes on; it does not begin again.
+            let caller = At {
+                begins: false,
+                ..caller
+            };
+            profile.enter(caller, self.cycles);
         }
         Ok(())
     }

@@ -52,10 +52,10 @@ use std::collections::BTreeMap;
 
 use slowlight_isa::real40::Real40;
 
-use crate::{Fault, Screen, Stop, Watch};
+use crate::{Charge, Fault, Screen, Stop, Watch};
 use error::Error;
-pub use profile::LineCost;
 use profile::Profile;
+pub use profile::{LineCost, StatementPlace};
 use state::State;
 pub use tokenise::{detokenise, tokenise};
 
@@ -114,6 +114,9 @@ pub struct Run {
     /// The fewest bytes that were left free between them.
     pub free_bytes: usize,
 }
+
+/// Bytes of a tokenised line beside its text: 13, its number, its length.
+const LINE_HEAD: u32 = 4;
 
 /// A machine with a program in it.
 pub struct Machine {
@@ -181,38 +184,85 @@ impl Machine {
 
     /// Runs the program as [`Machine::run`] does, and counts what each of its lines takes.
     pub fn profile(&self, cycle_limit: u64, watch: Watch<'_>) -> (Run, Vec<LineCost>) {
+        let (run, charges) = self.charges(cycle_limit, &|_| false, watch);
         let lines = tokenise::lines(&self.program).unwrap_or_default();
-        let mut state = State::new(self.config);
-        state.profile = Some(Box::new(Profile::new(lines.len())));
-        let (run, profile) = self.run_from(state, cycle_limit, watch);
-        let profile = profile.unwrap_or_default();
-        let counts = profile.times.into_iter().zip(profile.cycles);
-        // Each line has its share of the interrupts, so that the lines add up to the run.
-        let mut before = 0;
-        let costs = lines.iter().zip(counts).map(|(line, (times, cycles))| {
-            let start = cost::with_interrupts(before);
-            before += cycles;
-            LineCost {
+        let mut costs: Vec<LineCost> = lines
+            .iter()
+            .map(|line| LineCost {
                 line: line.number,
-                times,
-                cycles: cost::with_interrupts(before) - start,
+                times: 0,
+                cycles: 0,
+            })
+            .collect();
+        let statements = self.statements();
+        for charge in charges {
+            let Some(place) = statements.get(charge.place as usize) else {
+                continue;
+            };
+            if let Some(cost) = costs.get_mut(place.line as usize) {
+                cost.cycles += charge.cycles;
+                if place.statement == 0 {
+                    cost.times = charge.times;
+                }
             }
-        });
-        (run, costs.collect())
+        }
+        (run, costs)
     }
 
-    fn run_from(
+    /// The same by statements ([`Machine::statements`]), where those that `routine` knows
+    /// are charged to the statements that call them. The charges add up to the run's cycles.
+    pub fn charges(
         &self,
-        mut state: State,
         cycle_limit: u64,
+        routine: &dyn Fn(u32) -> bool,
         watch: Watch<'_>,
-    ) -> (Run, Option<Box<Profile>>) {
+    ) -> (Run, Vec<Charge>) {
+        let mut state = State::new(self.config);
+        let count = self.statements().len();
+        state.profile = Some(Box::new(Profile::new(count, routine)));
+        let (run, mut charges) = self.run_from(state, cycle_limit, watch);
+        // Each has its share of the interrupts, so that all add up to the run.
+        let mut before = 0;
+        for charge in &mut charges {
+            let start = cost::with_interrupts(before);
+            before += charge.cycles;
+            charge.cycles = cost::with_interrupts(before) - start;
+        }
+        (run, charges)
+    }
+
+    /// The program's statements, in its order.
+    pub fn statements(&self) -> Vec<StatementPlace> {
+        let lines = tokenise::lines(&self.program).unwrap_or_default();
+        let program = decode::decode(&lines, &mut names::Names::new());
+        let place = |(k, statement): (usize, &ast::Statement)| {
+            let next = program.statements.get(k + 1);
+            let next = next.filter(|next| next.line == statement.line);
+            let text = lines
+                .get(statement.line as usize)
+                .map_or(0, |l| l.text.len());
+            let end = next.map_or(text as u32, |next| next.at);
+            let head = if statement.statement == 0 {
+                LINE_HEAD
+            } else {
+                0
+            };
+            StatementPlace {
+                line: statement.line,
+                statement: statement.statement,
+                bytes: end.saturating_sub(statement.at) + head,
+            }
+        };
+        program.statements.iter().enumerate().map(place).collect()
+    }
+
+    fn run_from(&self, mut state: State, cycle_limit: u64, watch: Watch<'_>) -> (Run, Vec<Charge>) {
         state.files.contents = self.files.clone();
         let stop = self.run_in(&mut state, cycle_limit, watch);
-        if let Some(profile) = &mut state.profile {
-            profile.enter(0, state.cycles);
-        }
-        let profile = state.profile.take();
+        let charges = match state.profile.take() {
+            Some(profile) => profile.finish(state.cycles),
+            None => Vec::new(),
+        };
         let room = state.himem.saturating_sub(state.top) as usize;
         let free = state.least_free as usize;
         let run = Run {
@@ -226,7 +276,7 @@ impl Machine {
             ram_bytes: room.saturating_sub(free),
             free_bytes: free,
         };
-        (run, profile)
+        (run, charges)
     }
 
     fn run_in(&self, state: &mut State, limit: u64, watch: Watch<'_>) -> Stop {

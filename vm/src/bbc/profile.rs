@@ -1,7 +1,10 @@
 //! Where a program's cycles go, line by line.
 //!
-//! A line is charged with what it does itself: what a function called from it
-//! takes is charged to the function's lines.
+//! A line is charged with what it does itself, and what a function called from it
+//! takes to the function's lines; or, for lines that are routines', to the caller's
+//! line ([`crate::Charge`]).
+
+use crate::charge::{Charge, Ledger};
 
 /// What one line of a program took.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -14,38 +17,58 @@ pub struct LineCost {
     pub cycles: u64,
 }
 
-/// Counts of a run, by the index of the line.
+/// A statement of a program.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct StatementPlace {
+    /// Its line's index.
+    pub line: u32,
+    /// Its number in the line, from 0; colons part statements, ELSE does not.
+    pub statement: u32,
+    /// Bytes of tokens that it takes, a line's first with the line's head.
+    pub bytes: u32,
+}
+
+/// Counts of a run, by the index of the statement.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Profile {
-    pub times: Vec<u64>,
-    pub cycles: Vec<u64>,
-    /// The line being carried out, and the cycles when that began.
-    at: u32,
+    ledger: Ledger,
+    at: At,
+    /// The cycles when that began.
     since: u64,
 }
 
+/// What is being carried out.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct At {
+    /// The statement.
+    pub statement: u32,
+    /// How many calls deep.
+    pub depth: u32,
+    /// Whether the statement begins here.
+    pub begins: bool,
+}
+
 impl Profile {
-    pub fn new(lines: usize) -> Self {
+    pub fn new(statements: usize, routine: &dyn Fn(u32) -> bool) -> Self {
         Self {
-            times: vec![0; lines],
-            cycles: vec![0; lines],
+            ledger: Ledger::new(statements, routine),
             ..Self::default()
         }
     }
 
-    /// Goes to a line; answers the one that was left.
-    pub fn enter(&mut self, line: u32, now: u64) -> u32 {
-        if let Some(cycles) = self.cycles.get_mut(self.at as usize) {
-            *cycles += now.saturating_sub(self.since);
-        }
+    /// Goes on to something else; answers what was left.
+    pub fn enter(&mut self, at: At, now: u64) -> At {
+        let left = self.at;
+        let cycles = now.saturating_sub(self.since);
+        self.ledger
+            .step(left.statement, left.depth, cycles, left.begins);
         self.since = now;
-        std::mem::replace(&mut self.at, line)
+        std::mem::replace(&mut self.at, at)
     }
 
-    /// Counts the beginning of a line.
-    pub fn begin(&mut self, line: u32) {
-        if let Some(times) = self.times.get_mut(line as usize) {
-            *times += 1;
-        }
+    /// The charges, in cycles of 2 MHz.
+    pub fn finish(mut self, now: u64) -> Vec<Charge> {
+        self.enter(At::default(), now);
+        self.ledger.finish()
     }
 }

@@ -26,6 +26,7 @@
 //! holds 0 (running into empty memory, mostly).
 
 use super::cpu::{Bus, Cpu, Step};
+use crate::charge::{Charge, Ledger};
 use crate::{Fault, Progress, Screen, Stop, Watch};
 
 /// The ports' addresses.
@@ -292,9 +293,34 @@ impl Plain {
     /// passed since the machine was made (checked between instructions).
     /// May be called again, with a greater limit, to go on.
     pub fn run(&mut self, limit: u64, watch: Watch<'_>) -> Run {
+        self.run_looking(limit, watch, &mut |_, _, _| {})
+    }
+
+    /// Runs as [`Plain::run`] does, and counts what each address takes, where those that
+    /// `routine` knows are charged to the addresses that call them. The charges add up
+    /// to the cycles of this call.
+    pub fn charges(
+        &mut self,
+        limit: u64,
+        routine: &dyn Fn(u32) -> bool,
+        watch: Watch<'_>,
+    ) -> (Run, Vec<Charge>) {
+        let mut ledger = Ledger::new(0x1_0000, routine);
+        let run = self.run_looking(limit, watch, &mut |pc, sp, cycles| {
+            ledger.step(u32::from(pc), u32::from(!sp), cycles, true);
+        });
+        (run, ledger.finish())
+    }
+
+    fn run_looking(
+        &mut self,
+        limit: u64,
+        watch: Watch<'_>,
+        look: &mut impl FnMut(u16, u8, u64),
+    ) -> Run {
         let stop = loop {
             let until = limit.min(self.memory.cycles.saturating_add(WATCH));
-            if let Some(stop) = self.slice(until) {
+            if let Some(stop) = self.slice(until, look) {
                 break stop;
             }
             if self.memory.cycles >= limit {
@@ -318,13 +344,17 @@ impl Plain {
     }
 
     /// Runs until the cycle count reaches `until`; answers a stop if there was one.
-    fn slice(&mut self, until: u64) -> Option<Stop> {
+    /// `look` is told of each instruction: its address, the stack pointer before it, its cycles.
+    fn slice(&mut self, until: u64, look: &mut impl FnMut(u16, u8, u64)) -> Option<Stop> {
         // A copy that the optimiser can keep in registers.
         let mut cpu = self.cpu;
         let mut instructions = 0;
         while self.memory.cycles < until && self.memory.stop.is_none() {
             instructions += 1;
-            match cpu.step(&mut self.memory) {
+            let (pc, sp, begun) = (cpu.pc, cpu.sp, self.memory.cycles);
+            let step = cpu.step(&mut self.memory);
+            look(pc, sp, self.memory.cycles - begun);
+            match step {
                 Step::Ran => {}
                 Step::Jammed => {
                     let at = cpu.pc.wrapping_sub(1);

@@ -34,7 +34,7 @@ pub fn decided(
     runtime: &Runtime,
     proofs: &Proofs,
 ) -> Option<Graph> {
-    if allowance(runtime.real) < 1.0 {
+    if allowance(runtime) < 1.0 {
         return None;
     }
     let forms = Forms::new(graph, ranges);

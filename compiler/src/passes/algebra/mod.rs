@@ -62,13 +62,22 @@ pub use whole::Whole;
 
 /// By how much a form's roundings may exceed those of what it replaces, given
 /// the format's unit roundoff: what leaves a picture twenty bits.
-pub(super) fn allowance(format: Format) -> f64 {
-    match format {
-        Format::Real40 | Format::Float316 { .. } => (0.5f64.powi(20) / format.epsilon()).min(64.0),
+pub(super) fn allowance(runtime: &Runtime) -> f64 {
+    let format = runtime.real;
+    match (format, runtime.int) {
+        (Format::Real40 | Format::Float316 { .. }, _) => {
+            (0.5f64.powi(20) / format.epsilon()).min(64.0)
+        }
+        // Each value has all its bits where its point is its own, and ints have more: what
+        // they make exact is gained.
+        (Format::Scaled { bits }, Format::Int { bits: whole }) if whole > bits => ONCE_MORE,
         // A fixed point has no relative roundings.
         _ => 0.0,
     }
 }
+
+/// One rounding more.
+const ONCE_MORE: f64 = 2.0;
 
 /// Which nodes have good forms, of those looked at.
 type Good = FxHashMap<NodeId, bool>;
@@ -122,7 +131,7 @@ pub fn algebra<'g>(
     may: &dyn Fn(NodeId) -> bool,
     verdicts: &Verdicts<'g>,
 ) -> Option<Cheaper> {
-    let allowance = allowance(runtime.real);
+    let allowance = allowance(runtime);
     if allowance < 1.0 {
         return None;
     }

@@ -31,7 +31,7 @@ pub fn spans<'g>(
     may: &dyn Fn(NodeId) -> bool,
     verdicts: &Verdicts<'g>,
 ) -> Option<Cheaper> {
-    let allowance = allowance(runtime.real);
+    let allowance = allowance(runtime);
     if allowance < 1.0 {
         return None;
     }

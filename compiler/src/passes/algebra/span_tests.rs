@@ -19,6 +19,8 @@ const AT: Span = Span {
     file: 0,
     start: 0,
     end: 0,
+    within: None,
+    effect: None,
 };
 const WIDTH: i32 = 320;
 
@@ -68,6 +70,7 @@ fn picture(rows: &[[f64; 3]], ty: Type, op: Op, turned: bool) -> Graph {
     let one = b.constant(Value::Int(1), AT);
     let ink = b.select(holds, one, zero, AT);
     let image = Image {
+        block: (1, 1),
         width: WIDTH as u32,
         height: rows.len() as u32,
         palette: vec![[0; 3]; 2],
@@ -239,6 +242,7 @@ fn quotients(rows: &[[f64; 3]]) -> Graph {
     let one = b.constant(Value::Int(1), AT);
     let ink = b.select(holds, one, zero, AT);
     let image = Image {
+        block: (1, 1),
         width: WIDTH as u32,
         height: rows.len() as u32,
         palette: vec![[0; 3]; 2],

@@ -340,7 +340,7 @@ impl Rewrite for Pass<'_> {
         let degree = match end {
             End::Carried(of, index) => self.start(of, index),
             End::Result(of, index) => self.result(of, index).unwrap_or(0),
-            End::Output => 0,
+            End::Ink | End::Output => 0,
         };
         self.at(b, made, id, degree)
     }

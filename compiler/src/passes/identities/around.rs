@@ -31,7 +31,7 @@ const SIGNS: usize = 4;
 /// The graph with comparisons that are decided as constants; nothing where there
 /// are none, or where the format has no relative roundings.
 pub fn around(graph: &Graph, ranges: &Ranges, runtime: &Runtime) -> Option<Graph> {
-    if allowance(runtime.real) < 1.0 {
+    if allowance(runtime) < 1.0 {
         return None;
     }
     let forms = Forms::new(graph, ranges);

@@ -43,7 +43,7 @@ pub fn identities<'g>(
     may: &dyn Fn(NodeId) -> bool,
     verdicts: &Verdicts<'g>,
 ) -> Option<Cheaper> {
-    let allowance = allowance(runtime.real);
+    let allowance = allowance(runtime);
     if allowance < 1.0 {
         return None;
     }

@@ -17,6 +17,8 @@ const AT: Span = Span {
     file: 0,
     start: 0,
     end: 0,
+    within: None,
+    effect: None,
 };
 
 /// Sizes with which everything that stands twice is worth a subroutine.
@@ -216,6 +218,7 @@ fn a_loop_is_part_of_a_subroutine() {
         sum = b.apply(Op::IntAdd, &[sum, results[0]], AT);
     }
     let image = Image {
+        block: (1, 1),
         width: 40,
         height: 2,
         palette: vec![[0; 3]; 64],

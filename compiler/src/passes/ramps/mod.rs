@@ -267,6 +267,8 @@ mod tests {
         file: 0,
         start: 0,
         end: 0,
+        within: None,
+        effect: None,
     };
 
     fn line(b: &mut Builder, random: &mut Random, axis: Axis) -> NodeId {
@@ -293,6 +295,7 @@ mod tests {
         let mask = b.constant(Value::Int(255), AT);
         let ink = b.apply(Op::BitAnd, &[sum, mask], AT);
         let image = Image {
+            block: (1, 1),
             width: 133,
             height: 20,
             palette: vec![[0; 3]; 256],
@@ -332,6 +335,7 @@ mod tests {
         let grown = b.apply(Op::IntMul, &[y, large], AT);
         let sum = b.apply(Op::IntAdd, &[grown, x], AT);
         let image = Image {
+            block: (1, 1),
             width: 9,
             height: 9,
             palette: vec![[0; 3]; 2],

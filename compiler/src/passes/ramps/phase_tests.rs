@@ -20,6 +20,8 @@ const AT: Span = Span {
     file: 0,
     start: 0,
     end: 0,
+    within: None,
+    effect: None,
 };
 
 const WIDTH: i32 = 320;
@@ -124,6 +126,7 @@ impl Tiles {
         let three = b.constant(Value::Int(3), AT);
         let ink = b.select(lit, three, zero, AT);
         let image = Image {
+            block: (1, 1),
             width: WIDTH as u32,
             height: HEIGHT as u32,
             palette: vec![[0; 3]; 4],
@@ -223,6 +226,7 @@ fn what_the_reals_know_better_is_left_alone() {
     let one = b.constant(Value::Int(1), AT);
     let odd = b.apply(Op::BitAnd, &[floor, one], AT);
     let image = Image {
+        block: (1, 1),
         width: 320,
         height: 2,
         palette: vec![[0; 3]; 2],

@@ -133,7 +133,7 @@ impl<'g> Sums<'g> {
             rates: rates(graph),
             known: runtime.segments.then(|| Known::of(graph)),
             samples: samples(graph),
-            allowance: allowance(runtime.real),
+            allowance: allowance(runtime),
             groups: FxHashMap::default(),
         };
         sums.groups = sums.grouped();

@@ -136,6 +136,7 @@ impl Rewrite for Comparing<'_> {
                 ink
             }
             // It is looked at, and gone where it became an ink.
+            End::Ink => None,
             End::Output => (!self.sunk.is_empty()).then(|| b.undefined(Type::Real)),
             _ => None,
         }

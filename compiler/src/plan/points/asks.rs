@@ -2,94 +2,156 @@
 //! values that an operation made it of.
 //!
 //! All is counted in pixels that come out otherwise: an ink that changes costs one.
+//!
+//! A value may be anywhere between two bounds for nothing. What an operation is made of gets
+//! bounds of its own such that the result keeps to its bounds whatever all operands do
+//! between theirs. Formats end, and a value beyond the end is cut, towards 0: so of what
+//! the result may move, an operand gets most in the direction in which cuts move it.
 
 use slowlight_routine::{Op, Type, Value};
 
 /// What is asked of a value.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Asked {
     /// What it costs for each unit that the value is off.
     pub gain: f64,
-    /// To what magnitude it may be cut for nothing. Where that is less than the value, it
-    /// may as well be larger than it is.
-    pub need: f64,
-    /// What it costs for each unit that it is cut below that.
+    /// Between which bounds it may be for nothing.
+    pub within: Bounds,
+    /// What it costs for each unit outside of them.
     pub lost: f64,
 }
+
+/// Two bounds, both of which may be reached.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Bounds {
+    pub lo: f64,
+    pub hi: f64,
+}
+
+/// What is told from another by less than such a part of it is told so by no format.
+const FINEST: f64 = 65536.0;
 
 /// No error costs more for a unit.
 const STEEPEST: f64 = 1e9;
 
 /// What is compared must be told from what it is compared with.
-const BESIDE: f64 = 1.0 + 1.0 / 64.0;
+const BESIDE: f64 = 1.0 / 64.0;
 
 /// No root is steeper than that of a number so small, nor does any difference from a whole
 /// number count as smaller.
 const SMALL: f64 = 1.0 / 256.0;
 
+/// What an operand gets of how far a result may move in the direction in which another
+/// operand is cut.
+const REST: f64 = 1.0 / 8.0;
+
+impl Bounds {
+    const ALL: Bounds = Bounds::new(f64::NEG_INFINITY, f64::INFINITY);
+
+    const fn new(lo: f64, hi: f64) -> Bounds {
+        Bounds { lo, hi }
+    }
+
+    fn point(value: f64) -> Bounds {
+        Bounds::new(value, value)
+    }
+
+    fn meet(self, other: Bounds) -> Bounds {
+        Bounds::new(self.lo.max(other.lo), self.hi.min(other.hi))
+    }
+
+    /// Of the negative value.
+    fn turned(self) -> Bounds {
+        Bounds::new(-self.hi, -self.lo)
+    }
+
+    /// With the value between them, whatever roundings did; all for what is no number.
+    fn around(self, value: f64) -> Bounds {
+        let lo = if self.lo <= value { self.lo } else { value };
+        let hi = if self.hi >= value { self.hi } else { value };
+        Bounds::new(lo, hi)
+    }
+}
+
+impl Default for Asked {
+    fn default() -> Asked {
+        Asked {
+            gain: 0.0,
+            within: Bounds::ALL,
+            lost: 0.0,
+        }
+    }
+}
+
 impl Asked {
     /// All of a value: each unit counts one, and more than one counts no more.
     pub fn whole(value: f64) -> Asked {
-        Asked {
-            gain: 1.0,
-            need: value.abs(),
-            lost: 1.0,
-        }
+        whole_of(value, 1.0)
     }
 
     /// Whether anything is asked.
     pub fn is_something(&self) -> bool {
-        self.gain > 0.0 || self.need > 0.0
+        self.gain > 0.0 || self.lost > 0.0 && self.within != Bounds::ALL
     }
 
     /// What both ask.
     pub fn both(self, other: Asked) -> Asked {
         Asked {
             gain: self.gain.max(other.gain),
-            need: self.need.max(other.need),
+            within: self.within.meet(other.within),
             lost: self.lost.max(other.lost),
         }
     }
 
-    /// Of a value, which needs no more than it has; costs cut to what can be counted.
+    /// To what magnitude a value may be cut for nothing.
+    pub fn need(&self, value: f64) -> f64 {
+        let end = if value > 0.0 {
+            self.within.lo
+        } else {
+            -self.within.hi
+        };
+        end.clamp(0.0, value.abs())
+    }
+
+    /// Of a value, which is within its bounds; costs cut to what can be counted.
     fn held(self, value: f64) -> Asked {
         let cost = |x: f64| if x > 0.0 { x.min(STEEPEST) } else { 0.0 };
-        let size = value.abs();
         Asked {
             gain: cost(self.gain),
-            need: if self.need > 0.0 {
-                self.need.min(size)
-            } else {
-                0.0
-            },
+            within: self.within.around(value),
             lost: cost(self.lost),
+        }
+    }
+
+    /// With costs for units of what the result is so many times as much of.
+    fn times(self, by: f64, within: Bounds) -> Asked {
+        Asked {
+            gain: self.gain * by,
+            within,
+            lost: self.lost * by,
         }
     }
 }
 
-/// What is asked of operand `k`, given what is of the result: what operands may be cut to,
-/// they may be cut to at once.
+/// What is asked of operand `k`, given what is of the result.
 pub fn of_operand(op: Op, k: usize, args: &[Value], result: Value, asked: Asked) -> Asked {
     let at = |k: usize| args.get(k).map_or(0.0, |value| value.real());
     let (own, other) = (at(k), at(1 - k.min(1)));
     let made = match op {
         // Nothing is rounded: who is asked whether it is as it is gives that on.
         _ if op.args().first() != Some(&Type::Real) => Asked {
-            need: own.abs(),
+            within: Bounds::point(own),
             ..asked
         },
         Op::Less | Op::LessEqual | Op::Equal => compared(own, other, asked),
-        Op::Sign => Asked {
-            gain: asked.gain.min(1.0) / own.abs().max(1.0 / STEEPEST),
-            ..Asked::default()
-        },
+        Op::Sign => compared(own, 0.0, asked),
         Op::Floor | Op::Round => {
             let border = if op == Op::Floor { own } else { own + 0.5 };
             let far = (border - border.round()).abs().max(SMALL);
             let cost = asked.gain.min(1.0);
             Asked {
                 gain: cost / far,
-                need: own.abs(),
+                within: Bounds::point(own),
                 lost: cost,
             }
         }
@@ -98,41 +160,75 @@ pub fn of_operand(op: Op, k: usize, args: &[Value], result: Value, asked: Asked)
     made.held(own)
 }
 
-/// Of what is compared with another. The larger may be cut to the smaller, which may be cut
-/// to anything.
+/// Of what is compared with another: on which side of it it is. What is compared with its
+/// equal gets what that asks from no format, so it asks nothing: what both are by agreement
+/// is cut alike, and they stay equal.
 fn compared(own: f64, other: f64, asked: Asked) -> Asked {
-    let cost = asked.gain.min(1.0);
-    let beyond = own * other > 0.0 && own.abs() > other.abs();
-    Asked {
-        gain: cost / (own - other).abs().max(1.0 / STEEPEST),
-        need: if beyond { other.abs() * BESIDE } else { 0.0 },
-        lost: if beyond { cost * STEEPEST } else { 0.0 },
+    let apart = (own - other).abs();
+    if apart * FINEST <= own.abs().max(other.abs()) {
+        return Asked::default();
     }
+    let cost = asked.gain.min(1.0);
+    let gain = cost / apart;
+    let within = match own.partial_cmp(&other) {
+        Some(std::cmp::Ordering::Greater) => above(own, other),
+        Some(std::cmp::Ordering::Less) => above(-own, -other).turned(),
+        _ => Bounds::ALL,
+    };
+    Asked {
+        gain,
+        within,
+        lost: cost * STEEPEST,
+    }
+}
+
+/// Of what is compared with less. Of two of one sign the nearer to 0 stays about where it
+/// is, so that the other one may be cut to it; what differs in sign still does.
+fn above(own: f64, other: f64) -> Bounds {
+    let apart = own - other;
+    let least = if own <= 0.0 {
+        own - (apart / 4.0).min(-own * BESIDE / 2.0)
+    } else if other > 0.0 {
+        other + (apart / 2.0).min(other * BESIDE)
+    } else if other == 0.0 {
+        own.min(1.0) * BESIDE
+    } else if own < -other {
+        own / -8.0
+    } else {
+        // At least as large, and the other one's bound is nearer to 0.
+        other / -4.0
+    };
+    Bounds::new(least, f64::INFINITY)
 }
 
 /// Of an operand of which a real was made.
 fn of_real(op: Op, k: usize, [own, other]: [f64; 2], result: f64, asked: Asked) -> Asked {
-    let Asked { gain, need, lost } = asked;
-    // Whether the result is needed as it is.
-    let full = need >= result.abs();
-    let times = |by: f64, need: f64| Asked {
-        gain: gain * by,
-        need: if full { own.abs() } else { need },
-        lost: lost * by,
-    };
+    let (gain, within) = (asked.gain, asked.within);
     match (op, k) {
-        (Op::Add, _) => times(1.0, beside(own, other, result, need)),
-        (Op::Sub, 0) => times(1.0, beside(own, -other, result, need)),
-        (Op::Sub, _) => times(1.0, beside(-own, other, result, need)),
-        (Op::Neg | Op::Abs, _) => asked,
+        (Op::Add, _) => asked.times(1.0, summand(own, other, within)),
+        (Op::Sub, 0) => asked.times(1.0, summand(own, -other, within)),
+        (Op::Sub, _) => asked.times(1.0, summand(-own, other, within).turned()),
+        (Op::Neg, _) => asked.times(1.0, within.turned()),
+        (Op::Abs, _) if own < 0.0 => asked.times(1.0, magnitude(within).turned()),
+        (Op::Abs, _) => asked.times(1.0, magnitude(within)),
         (Op::Max, _) => of_greatest(own, other, asked),
-        (Op::Min, _) => of_greatest(-own, -other, asked),
-        (Op::Mul, _) => times(other.abs(), factor(k, own, other, need)),
+        (Op::Min, _) => {
+            let turned = asked.times(1.0, within.turned());
+            let made = of_greatest(-own, -other, turned);
+            made.times(1.0, made.within.turned())
+        }
+        (Op::Mul, _) => asked.times(other.abs(), factor(k, own, other, within)),
         (Op::Div, _) if own == 0.0 && k == 1 || other == 0.0 && k == 0 => Asked::default(),
-        (Op::Div, 0) => times(1.0 / other.abs(), need * other.abs()),
-        // Cut, it makes the quotient larger.
-        (Op::Div, _) => times(result.abs() / own.abs(), 0.0),
-        (Op::Sqrt, _) => times(0.5 / result.max(SMALL), need * need),
+        (Op::Div, 0) => asked.times(1.0 / other.abs(), dividend(own, other, within)),
+        (Op::Div, _) => asked.times(result.abs() / own.abs(), divisor(own, other, within)),
+        (Op::Sqrt, _) => {
+            let lo = match within.lo {
+                lo if lo > 0.0 => lo * lo,
+                _ => f64::NEG_INFINITY,
+            };
+            let within = Bounds::new(lo, within.hi.max(0.0) * within.hi);
+            asked.times(0.5 / result.max(SMALL), within)
+        }
         (Op::Mod, 1) => whole_of(own, gain * (other / own).floor().abs()),
         (Op::Mod, _) => whole_of(own, gain),
         _ => {
@@ -151,59 +247,115 @@ fn of_real(op: Op, k: usize, [own, other]: [f64; 2], result: f64, asked: Asked) 
 fn whole_of(own: f64, gain: f64) -> Asked {
     Asked {
         gain,
-        need: own.abs(),
+        within: Bounds::point(own),
         lost: gain,
     }
 }
 
-/// To what one summand may be cut where their sum may be cut to `need`.
-fn beside(own: f64, other: f64, sum: f64, need: f64) -> f64 {
-    let way = sum.signum();
-    match (own * way > 0.0, other * way > 0.0) {
-        // One that has as much is enough, and else both are as they are.
-        (true, true) => need,
-        (true, false) => need + other.abs(),
-        // Cut, it makes the sum larger.
-        (false, _) => 0.0,
+/// Of what a sum that keeps to bounds is made of. What is 0 counts as of the other sign.
+fn summand(own: f64, other: f64, within: Bounds) -> Bounds {
+    if own < 0.0 || own == 0.0 && other > 0.0 {
+        return summand(-own, -other, within.turned()).turned();
+    }
+    let sum = own + other;
+    let (down, up) = (sum - within.lo, within.hi - sum);
+    if other <= 0.0 {
+        // Cut, one makes the sum smaller and the other one larger.
+        let rest = if own == other { 0.5 } else { REST };
+        return Bounds::new(own - down * (1.0 - rest), own + up * rest);
+    }
+    // One that has as much is enough, and else both are as they are.
+    let lo = match within.lo {
+        lo if lo <= 0.0 => lo / 2.0,
+        lo => lo.min(own),
+    };
+    Bounds::new(lo, own + up / 2.0)
+}
+
+/// Of a value of which the magnitude keeps to bounds, and which is not below 0.
+fn magnitude(within: Bounds) -> Bounds {
+    match within.lo > 0.0 {
+        true => within,
+        false => Bounds::new(-within.hi, within.hi),
     }
 }
 
-/// To what the larger of two factors may be cut where their product may be cut to `need`.
-fn factor(k: usize, own: f64, other: f64, need: f64) -> f64 {
-    let larger = own.abs() > other.abs() || own.abs() == other.abs() && k == 0;
-    if larger {
-        need / other.abs()
+/// How far magnitudes may go whose product or quotient keeps to bounds: by how many times
+/// that may become less, and more.
+fn times(result: f64, within: Bounds) -> [f64; 2] {
+    let Bounds { lo, hi } = if result < 0.0 {
+        within.turned()
     } else {
-        own.abs()
+        within
+    };
+    let size = result.abs();
+    if size == 0.0 {
+        return [1.0, 1.0];
     }
+    [(lo / size).clamp(0.0, 1.0), (hi / size).max(1.0)]
+}
+
+/// A value by so many times less or more.
+fn between(own: f64, [less, more]: [f64; 2]) -> Bounds {
+    match own {
+        0.0 => Bounds::point(0.0),
+        own if own < 0.0 => Bounds::new(own * more, own * less),
+        own => Bounds::new(own * less, own * more),
+    }
+}
+
+/// Of a factor of a product that keeps to bounds. The larger may be cut to a few times what
+/// both may be; the smaller to half of itself.
+fn factor(k: usize, own: f64, other: f64, within: Bounds) -> Bounds {
+    let [less, more] = times(own * other, within);
+    let larger = own.abs() > other.abs() || own.abs() == other.abs() && k == 0;
+    let of_smaller = match less > 0.0 {
+        true => less.powf(REST).max(0.5),
+        false => 0.0,
+    };
+    let less = match (larger, less > 0.0) {
+        (false, _) => of_smaller,
+        (true, true) => less / of_smaller,
+        (true, false) => 0.0,
+    };
+    between(own, [less, more.sqrt()])
+}
+
+/// Of what is divided, where the quotient keeps to bounds: cut, it makes it smaller.
+fn dividend(own: f64, other: f64, within: Bounds) -> Bounds {
+    let [less, more] = times(own / other, within);
+    between(own, [less.powf(1.0 - REST), more.powf(REST)])
+}
+
+/// Of what divides: cut, it makes the quotient larger.
+fn divisor(own: f64, other: f64, within: Bounds) -> Bounds {
+    let [less, more] = times(other / own, within);
+    between(own, [more.powf(REST - 1.0), less.powf(-REST)])
 }
 
 /// Of one of two, the greater of which is the result.
 fn of_greatest(own: f64, other: f64, asked: Asked) -> Asked {
-    let result = own.max(other);
     match own >= other {
         true => asked,
-        // It has to stay below; cut, it is nearer to 0.
         false => Asked {
             gain: 0.0,
-            need: if result < 0.0 { asked.need } else { 0.0 },
-            lost: asked.lost,
+            within: Bounds::new(f64::NEG_INFINITY, asked.within.hi),
+            ..asked
         },
     }
 }
 
 /// Of both operands of a product or a sum of a value with itself.
-pub fn of_both(op: Op, own: f64, result: f64, asked: Asked) -> Option<Asked> {
-    let full = asked.need >= result.abs();
-    let (by, need) = match op {
-        Op::Add => (2.0, asked.need / 2.0),
-        Op::Mul => (2.0 * own.abs(), asked.need.sqrt()),
+pub fn of_both(op: Op, own: f64, asked: Asked) -> Option<Asked> {
+    let Bounds { lo, hi } = asked.within;
+    let made = match op {
+        Op::Add => asked.times(2.0, Bounds::new(lo / 2.0, hi / 2.0)),
+        Op::Mul => {
+            let sizes = magnitude(Bounds::new(lo.max(0.0).sqrt(), hi.max(0.0).sqrt()));
+            let within = if own < 0.0 { sizes.turned() } else { sizes };
+            asked.times(2.0 * own.abs(), within)
+        }
         _ => return None,
-    };
-    let made = Asked {
-        gain: asked.gain * by,
-        need: if full { own.abs() } else { need },
-        lost: asked.lost * by,
     };
     Some(made.held(own))
 }
@@ -212,25 +364,32 @@ pub fn of_both(op: Op, own: f64, result: f64, asked: Asked) -> Option<Asked> {
 mod tests {
     use super::*;
 
+    const VALUES: [f64; 11] = [-1e6, -7.0, -2.5, -0.3, 0.0, 0.001, 0.2, 0.9, 4.0, 33.0, 1e6];
+
     fn of(op: Op, k: usize, args: [f64; 2], asked: Asked) -> Asked {
         let args = args.map(Value::Real);
         let args = &args[..op.arity()];
         of_operand(op, k, args, op.eval(args), asked)
     }
 
-    fn cut(need: f64) -> Asked {
+    fn within(lo: f64, hi: f64) -> Asked {
         Asked {
             gain: 0.5,
-            need,
+            within: Bounds::new(lo, hi),
             lost: 0.25,
         }
     }
 
-    /// What is asked of operands keeps the result at what is asked of it: each cut to its
-    /// need, or to anything above, they leave the result at its need or above.
+    /// Places between a value's bounds, the ends among them.
+    fn places(value: f64, within: Bounds) -> Vec<f64> {
+        let lo = within.lo.max(value - 10.0 * value.abs() - 10.0);
+        let hi = within.hi.min(value + 10.0 * value.abs() + 10.0);
+        vec![lo, (lo + value) / 2.0, value, (hi + value) / 2.0, hi]
+    }
+
+    /// Wherever operands are between their bounds, the result is between its own.
     #[test]
-    fn operands_cut_to_their_needs_keep_the_result_at_its_own() {
-        let values = [-1e6, -7.0, -2.5, -0.3, 0.0, 0.2, 0.9, 4.0, 33.0, 1e6];
+    fn operands_between_their_bounds_keep_the_result_between_its_own() {
         let ops = [
             Op::Add,
             Op::Sub,
@@ -242,46 +401,85 @@ mod tests {
             Op::Div,
             Op::Sqrt,
         ];
+        let ways = [0.0, 0.01, 0.7, 5.0, f64::INFINITY];
         let mut tried = 0;
-        for op in ops {
-            for a in values {
-                for b in values {
-                    let result = op.eval_real(a, b).real();
-                    if result.abs() > 1e300 {
+        for (op, a, b, down, up) in product(&ops, &ways) {
+            let result = op.eval_real(a, b).real();
+            let asked = within(result - down, result + up);
+            let own = [a, b].map(|x| x.abs());
+            if result.abs() > 1e300 || op == Op::Div && b == 0.0 || op == Op::Sqrt && a < 0.0 {
+                continue;
+            }
+            let bounds = [0, 1].map(|k| match k < op.arity() {
+                true if of(op, k, [a, b], asked).is_something() => of(op, k, [a, b], asked).within,
+                true => Bounds::point([a, b][k]),
+                false => Bounds::point(b),
+            });
+            let small = (own[0] + own[1]) * 1e-9 + result.abs() * 1e-9 + 1e-9;
+            for x in places(a, bounds[0]) {
+                for y in places(b, bounds[1]) {
+                    if op == Op::Div && y.abs() < 1e-9 {
                         continue;
                     }
-                    for part in [0.0, 0.01, 0.7, 1.0] {
-                        let need = result.abs() * part;
-                        let least = [0, 1].map(|k| match k < op.arity() {
-                            true => of(op, k, [a, b], cut(need)).need,
-                            false => 0.0,
-                        });
-                        for part in [[0.0, 0.0], [0.0, 1.0], [1.0, 0.0], [0.3, 0.6]] {
-                            let to = |k: usize, own: f64| {
-                                let to = least[k] + (own.abs() - least[k]) * part[k];
-                                // No format ends at 0.
-                                own.clamp(-to.max(1e-7), to.max(1e-7))
-                            };
-                            let now = op.eval_real(to(0, a), to(1, b)).real();
-                            let enough = now * result.signum() >= need * (1.0 - 1e-9) - 1e-6;
-                            assert!(enough || result == 0.0, "{op:?}({a}, {b}) to {need}: {now}");
-                            tried += 1;
-                        }
+                    let now = op.eval_real(x, y).real();
+                    let kept = now >= result - down - small && now <= result + up + small;
+                    assert!(kept, "{op:?}({a}, {b}) -{down} +{up}: {x}, {y}: {now}");
+                    tried += 1;
+                }
+            }
+        }
+        assert!(tried > 50_000, "{tried}");
+    }
+
+    fn product(ops: &[Op], ways: &[f64]) -> Vec<(Op, f64, f64, f64, f64)> {
+        let mut all = Vec::new();
+        for op in ops {
+            for a in VALUES {
+                for b in VALUES {
+                    for down in ways {
+                        all.extend(ways.iter().map(|up| (*op, a, b, *down, *up)));
                     }
                 }
             }
         }
-        assert!(tried > 1000);
+        all
+    }
+
+    /// What is compared stays on its side, wherever both are between their bounds.
+    #[test]
+    fn what_is_compared_stays_on_its_side() {
+        for a in VALUES {
+            for b in VALUES.into_iter().filter(|b| *b != a) {
+                let bounds = [0, 1].map(|k| of(Op::Less, k, [a, b], Asked::whole(0.0)).within);
+                for x in places(a, bounds[0]) {
+                    for y in places(b, bounds[1]) {
+                        assert_eq!(x < y, a < b, "{a}, {b}: {x}, {y}");
+                    }
+                }
+            }
+        }
     }
 
     #[test]
     fn the_larger_of_two_that_are_compared_need_only_stay_so() {
+        let need = |op, k, args: [f64; 2], asked| of(op, k, args, asked).need(args[k]);
         let asked = of(Op::Less, 0, [1e6, 3.0], Asked::whole(0.0));
-        assert!(asked.need < 3.1 && asked.need > 3.0 && asked.gain < 1e-5);
-        assert_eq!(of(Op::Less, 1, [1e6, 3.0], Asked::whole(0.0)).need, 0.0);
-        assert_eq!(of(Op::Less, 0, [1e6, -3.0], Asked::whole(0.0)).need, 0.0);
-        assert_eq!(of(Op::Max, 0, [-1e6, 3.0], cut(3.0)).need, 0.0);
-        assert_eq!(of(Op::Max, 0, [-1e6, -3.0], cut(3.0)).need, 3.0);
-        assert_eq!(of(Op::Min, 1, [0.5, 1e6], cut(0.5)).need, 0.5);
+        assert!(asked.need(1e6) < 3.1 && asked.need(1e6) > 3.0 && asked.gain < 1e-5);
+        assert_eq!(need(Op::Less, 1, [1e6, 3.0], Asked::whole(0.0)), 0.0);
+        assert!(need(Op::Less, 0, [1e6, -3.0], Asked::whole(0.0)) < 3.0);
+        let all = f64::INFINITY;
+        assert_eq!(need(Op::Max, 0, [-1e6, 3.0], within(3.0, all)), 0.0);
+        assert_eq!(need(Op::Max, 0, [-1e6, -3.0], within(-all, -3.0)), 3.0);
+        assert_eq!(need(Op::Min, 1, [0.5, 1e6], within(0.5, all)), 0.5);
+    }
+
+    /// A difference of which only the sign counts loses it where what is larger is cut.
+    #[test]
+    fn what_a_sign_is_made_of_may_not_be_cut_below_the_rest() {
+        let sign = of(Op::Less, 1, [0.0, 0.2], Asked::whole(1.0));
+        let made = of(Op::Sub, 0, [1.2, 1.0], sign);
+        let need = made.need(1.2);
+        assert!(need > 1.0 && need < 1.1, "{need}");
+        assert!(made.lost * need > 1.0);
     }
 }

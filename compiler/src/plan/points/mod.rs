@@ -31,7 +31,7 @@ use super::recipes::Made;
 use crate::flow::graph::*;
 use crate::flow::tree::*;
 use crate::range::{Ranges, Slack, ranges};
-use slowlight_routine::scale::{self, Scales, fitting, shifted};
+use slowlight_routine::scale::{self, Scales, fitting};
 use slowlight_routine::{Bits, Format, Op, Range, Routine, Runtime, Type, Value};
 use wanted::{cap, wanted};
 
@@ -49,6 +49,8 @@ const BESIDE: f64 = 1.0 + 1.0 / 64.0;
 pub struct Points {
     /// Bits of a real.
     bits: u8,
+    /// How it is read at another scale.
+    shifted: fn(i64, i32, u8) -> i64,
     /// Each node's, those of constants as near as they can be held; 0 for ints.
     own: Vec<i8>,
     /// Each carried value's, by loop.
@@ -62,8 +64,13 @@ pub fn pointed(graph: &Graph, tree: &Tree, runtime: &'static Runtime) -> Option<
     let Format::Scaled { bits } = runtime.real else {
         return None;
     };
-    let mut expected = sample::expected(graph, tree, bits);
-    let mut planned = ranges(graph, tree, &Slack::expecting(runtime, expected.clone()));
+    let sampled = sample::expected(graph, tree, bits);
+    let walk =
+        |expected: &[Option<f64>]| ranges(graph, tree, &Slack::expecting(runtime, expected.into()));
+    let mut expected = sampled.ends;
+    // Nothing is cut where its format does not end.
+    Points::new(graph, &walk(&expected), runtime, bits).ends(&mut expected, &sampled.all);
+    let mut planned = walk(&expected);
     // What is cut makes what is made of it smaller.
     for _ in 0..ROUNDS {
         let useful = useful::useful(graph, tree, &planned);
@@ -71,9 +78,9 @@ pub fn pointed(graph: &Graph, tree: &Tree, runtime: &'static Runtime) -> Option<
             let most = useful.magnitude() * BESIDE;
             *expected = Some(expected.map_or(most, |held| held.min(most)));
         }
-        planned = ranges(graph, tree, &Slack::expecting(runtime, expected.clone()));
+        planned = walk(&expected);
     }
-    let points = Points::new(graph, &planned, bits);
+    let points = Points::new(graph, &planned, runtime, bits);
     let slack = Slack::with_points(runtime, points.clone());
     let found = ranges(graph, tree, &slack);
     Some((points, found))
@@ -81,7 +88,7 @@ pub fn pointed(graph: &Graph, tree: &Tree, runtime: &'static Runtime) -> Option<
 
 impl Points {
     /// The points that ranges leave room for.
-    pub fn new(graph: &Graph, ranges: &Ranges, bits: u8) -> Points {
+    pub fn new(graph: &Graph, ranges: &Ranges, runtime: &Runtime, bits: u8) -> Points {
         let range = |id: NodeId| ranges.result[id.0 as usize];
         let room: Vec<i8> = (graph.ids())
             .map(|id| match (graph.node(id), graph.constant(id)) {
@@ -115,9 +122,24 @@ impl Points {
             .collect();
         Points {
             bits,
+            shifted: runtime.shifted,
             own,
             carried,
             scales,
+        }
+    }
+
+    /// Raises what values are expected to stay within where they have fewer fraction bits
+    /// than that leaves room for, so that they end later: to that end or to all that they
+    /// were seen to be.
+    fn ends(&self, expected: &mut [Option<f64>], all: &[f64]) {
+        for ((expected, own), all) in expected.iter_mut().zip(&self.own).zip(all) {
+            if let Some(end) = expected
+                && *own < fitting(*end, self.bits)
+            {
+                let later = scale::most(self.bits) as f64 * (-f64::from(*own)).exp2();
+                *end = end.max(later.min(*all));
+            }
         }
     }
 
@@ -182,7 +204,7 @@ impl Points {
 
     /// Bits of one scale at another.
     pub fn moved(&self, bits: Bits, from: i8, to: i8) -> Bits {
-        shifted(bits as i64, i32::from(to) - i32::from(from), self.bits) as Bits
+        (self.shifted)(bits as i64, i32::from(to) - i32::from(from), self.bits) as Bits
     }
 }
 

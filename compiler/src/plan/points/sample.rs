@@ -32,9 +32,16 @@ const PATIENCE: u64 = 18_000_000;
 /// picture is seen where patience ends before its rows do.
 const APART: u32 = 7;
 
-/// What each node's value is expected to stay within, in so many bits; nothing where none
-/// was asked for.
-pub fn expected(graph: &Graph, tree: &Tree, bits: u8) -> Vec<Option<f64>> {
+/// What each node's value is expected to stay within.
+pub struct Expected {
+    /// In so many bits; nothing where none was asked for.
+    pub ends: Vec<Option<f64>>,
+    /// With room for all that was asked for.
+    pub all: Vec<f64>,
+}
+
+/// What values are expected to stay within in so many bits.
+pub fn expected(graph: &Graph, tree: &Tree, bits: u8) -> Expected {
     let seen = RefCell::new(vec![Seen::default(); graph.nodes.len()]);
     let carried = readers(graph);
     let early = early(tree);
@@ -83,7 +90,11 @@ pub fn expected(graph: &Graph, tree: &Tree, bits: u8) -> Vec<Option<f64>> {
             }
         }
     }
-    chosen((graph, tree), (&seen.into_inner(), pixels), bits)
+    let seen = seen.into_inner();
+    Expected {
+        ends: chosen((graph, tree), (&seen, pixels), bits),
+        all: seen.iter().map(Seen::room).collect(),
+    }
 }
 
 /// What the values are expected to stay within, in as many fraction bits as serve best.

@@ -60,9 +60,10 @@ impl Seen {
             octave.clamp(0, OCTAVES as i32 - 1) as usize
         };
         self.most = self.most.max(value.abs());
-        self.need = self.need.max(asked.need);
-        if asked.need > 0.0 {
-            self.lost[octave(asked.need)] += times * (asked.need * asked.lost).min(1.0);
+        let need = asked.need(value);
+        self.need = self.need.max(need);
+        if need > 0.0 {
+            self.lost[octave(need)] += times * (need * asked.lost).min(1.0);
         }
         if asked.gain > 0.0 && asked.gain * value.abs() < FINEST {
             let counted = match value.fract() == 0.0 {

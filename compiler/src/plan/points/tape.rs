@@ -139,7 +139,7 @@ impl Tape {
                 continue;
             };
             let one = (op.arity() == 2 && from[0].at == from[1].at && from[0].at != NOWHERE)
-                .then(|| of_both(op, from[0].value.real(), value.real(), asked));
+                .then(|| of_both(op, from[0].value.real(), asked));
             if let Some(Some(asked)) = one {
                 self.ask(from[0], asked, &mut waiting);
                 continue;

@@ -15,7 +15,9 @@ pub fn cap(graph: &Graph, op: Op, [a, b]: [NodeId; 2], result: i8, room: &[i8]) 
     let [of_a, of_b] = [a, b].map(|id| room[id.0 as usize]);
     let most = match op {
         Op::Add if a == b => of_a - 1,
-        Op::Add | Op::Sub | Op::Min | Op::Max | Op::Mod => of_a.min(of_b),
+        Op::Add | Op::Sub | Op::Mod => of_a.min(of_b),
+        // One of both: what is beyond the end of the other one's bits is, where it is read.
+        Op::Min | Op::Max => of_a.max(of_b),
         Op::Neg | Op::Abs | Op::ToReal => of_a,
         Op::Mul => match (power(graph, a), power(graph, b)) {
             (_, Some(by)) => of_a + by,

@@ -285,6 +285,8 @@ impl Checker<'_> {
     }
 
     /// Which argument goes to which parameter.
+    // A diagnostic is large; it is made once, where the scene is wrong.
+    #[allow(clippy::result_large_err)]
     fn fit(
         &self,
         name: &tree::Name,

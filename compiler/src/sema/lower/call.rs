@@ -82,21 +82,29 @@ impl<'a> Lower<'a> {
         span: Span,
     ) -> Found<Val> {
         let mut body = &function.body;
+        let outer = self.effect;
         if let FunctionKind::Effect { otherwise } = &function.kind {
             match self.options.without.contains(&function.name) {
                 true => body = otherwise,
-                false => self.b.effect(&function.name),
+                false => {
+                    self.b.effect(&function.name);
+                    let mut all = self.program.functions.iter();
+                    let number = all.position(|f| std::ptr::eq(f, function));
+                    self.effect = number.and_then(|number| u16::try_from(number).ok());
+                }
             }
         }
         for (arg, param) in args.iter().zip(&function.params) {
             self.name(arg, &param.ty, &param.name);
         }
-        self.inside(function.library, span, |l| {
+        let result = self.inside(function.library, span, |l| {
             l.enter(body, args, |l| {
                 let value = l.expr(&body.value)?;
                 l.force(value)
             })
-        })
+        });
+        self.effect = outer;
+        result
     }
 
     /// Works in the library's or the scene's text: inside the library, nodes

@@ -177,6 +177,13 @@ impl<'a> Lower<'a> {
             let message = format!("a loop's `max` is from 1 to 65535, not {count}");
             return Err(Box::new(self.error(max.span, message)));
         }
+        let limit = match self.place {
+            Some(_) => self.options.max_steps,
+            None => self.options.max_turns,
+        };
+        // Constants are the scene's: nothing that a machine computes.
+        let limit = limit.filter(|_| self.constant == 0);
+        let count = limit.map_or(count, |most| count.min(most.clamp(1, 65535) as i32));
         let mut inits = Vec::new();
         for (_, init) in carried {
             inits.push(self.expr(init)?);

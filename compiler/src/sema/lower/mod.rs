@@ -77,6 +77,11 @@ pub struct Options {
     pub epsilon: f64,
     /// Whether its reals have an exponent.
     pub floats: bool,
+    /// No loop of the scene's own text takes more turns; what it then comes to is its
+    /// `else`.
+    pub max_turns: Option<u32>,
+    /// The same for the library's loops: searches for hits, marches, walks through maps.
+    pub max_steps: Option<u32>,
     /// A function without parameters whose result's scalars the graph reports,
     /// beside the picture.
     pub report: Option<String>,
@@ -92,6 +97,8 @@ impl Default for Options {
             offset: 1e-9,
             epsilon: f64::EPSILON / 2.0,
             floats: true,
+            max_turns: None,
+            max_steps: None,
             report: None,
         }
     }
@@ -107,6 +114,8 @@ struct Lower<'a> {
     locals: &'a [Local],
     /// Where the scene calls into the library, while inside it.
     place: Option<Span>,
+    /// The effect that is being expanded, the innermost, by its number.
+    effect: Option<u16>,
     image: Image,
     params: Vec<Val>,
     consts: HashMap<ConstId, Val>,
@@ -175,7 +184,9 @@ impl<'a> Lower<'a> {
             frame: Vec::new(),
             locals: &[],
             place: None,
+            effect: None,
             image: Image {
+                block: (1, 1),
                 width: image.width,
                 height: image.height,
                 palette: thin(&image.palette, options.inks),
@@ -267,7 +278,16 @@ impl<'a> Lower<'a> {
     /// Where a node or message belongs: the scene's own line that called into
     /// the library.
     fn at(&self, span: Span) -> Span {
-        self.place.unwrap_or(span)
+        let here = match self.place {
+            // What is derived for a library's shape has its caller's span already.
+            Some(place) if place == span => place,
+            Some(place) => place.calling(span),
+            None => span,
+        };
+        Span {
+            effect: self.effect,
+            ..here
+        }
     }
 
     fn error(&self, span: Span, message: impl Into<String>) -> Diagnostic {

@@ -44,6 +44,8 @@ pub struct Code<'p> {
     pub known: Option<Fact>,
     /// Ramps that are stepped where they are read only.
     pub late: Option<Late>,
+    /// Where what surrounds the scene's statements comes from: nowhere, or its `draw`.
+    pub frame: Option<Span>,
     span: Option<Span>,
 }
 
@@ -61,6 +63,7 @@ impl<'p> Code<'p> {
             ends_called: None,
             known: None,
             late: None,
+            frame: None,
             span: None,
         }
     }
@@ -70,9 +73,9 @@ impl<'p> Code<'p> {
         self.span
     }
 
-    /// A statement that comes from no place in the scene.
+    /// A statement that no value of the scene comes from.
     pub fn statement(&mut self, text: impl Into<String>) {
-        self.lines.statement(text, None);
+        self.lines.statement(text, self.frame);
     }
 
     /// The same; a test takes the rest of its line with it.
@@ -83,9 +86,9 @@ impl<'p> Code<'p> {
         }
     }
 
-    /// A line that comes from no place in the scene.
+    /// A line that no value of the scene comes from.
     pub fn line(&mut self, text: impl Into<String>) {
-        self.lines.line(text, None);
+        self.lines.line(text, self.frame);
     }
 
     /// A block's lines by themselves.
@@ -120,6 +123,11 @@ impl<'p> Code<'p> {
     }
 
     pub fn one(&mut self, statement: &Statement) {
+        // In listings, remarks go by what is computed alone.
+        if self.values.style != Style::Listing {
+            let plan = self.values.plan;
+            self.span = Some(statement.span(&plan.graph, &plan.tree));
+        }
         match statement {
             Statement::Let(id) => self.assignment(*id, true),
             Statement::Set { place, from } => {

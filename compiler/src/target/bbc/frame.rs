@@ -151,6 +151,7 @@ fn picture(plan: &Plan, code: &mut Code<'_>, first: &str, last: &str, spread: Op
     let top = if spread.is_some() { "0" } else { first };
     let passes = Passes::new(plan, code);
     let poke = passes.is_none().then(|| Poke::new(plan, code)).flatten();
+    code.frame = plan.drawn;
     code.line(format!("FOR Y%={top} TO {last}"));
     code.lines.weight = ROW;
     let pokes = poke.is_some() || passes.as_ref().is_some_and(Passes::pokes);
@@ -212,9 +213,11 @@ fn picture(plan: &Plan, code: &mut Code<'_>, first: &str, last: &str, spread: Op
         row.put(code);
     } else if plan.plot {
         // After MODE the screen is ink 0 already.
-        let x = screen::x_expression(plan);
         let seen = seen(plan, first);
-        code.line(format!("IF I%{seen} THEN GCOL 0,I%:PLOT 69,{x},R%"));
+        code.line(format!(
+            "IF I%{seen} THEN GCOL 0,I%:{}",
+            screen::point(plan)
+        ));
     }
     if let Some(spread) = spread {
         spread.send(code);
@@ -242,6 +245,7 @@ fn picture(plan: &Plan, code: &mut Code<'_>, first: &str, last: &str, spread: Op
     }
     code.line("NEXT");
     code.lines.weight = 1;
+    code.frame = None;
     reports(plan, code);
     code.line("END");
     apart.into_iter().for_each(|lines| code.lines.append(lines));
@@ -267,8 +271,8 @@ pub(super) fn behind<'p>(
     let name = code.values.names.unique(&format!("PROC{name}"), "");
     code.statement(name.clone());
     let mut procedure = Lines::of_weight(weight);
-    procedure.line(format!("DEF {name}"), None);
-    lines.line("ENDPROC", None);
+    procedure.line(format!("DEF {name}"), code.frame);
+    lines.line("ENDPROC", code.frame);
     procedure.append(lines);
     Some(procedure)
 }

@@ -38,11 +38,29 @@ enum Item {
     Line {
         text: String,
         span: Option<Span>,
+        /// Where its later statements come from: from which on, counted from 0.
+        later: Later,
         open: bool,
         /// About how often it is carried out.
         weight: u64,
     },
     Label(Label),
+}
+
+type Later = Vec<(usize, Option<Span>)>;
+
+/// How many statements a line has: colons part them, those in strings do not.
+fn statements(text: &str) -> usize {
+    let outside = text.split('"').step_by(2);
+    1 + outside.map(|part| part.matches(':').count()).sum::<usize>()
+}
+
+/// Notes that what is about to be joined to a line, with its own later statements,
+/// comes from a place.
+fn note(later: &mut Later, line: &str, first: Option<Span>, joined: &Later) {
+    let before = statements(line);
+    later.push((before, first));
+    later.extend(joined.iter().map(|(at, span)| (before + at, *span)));
 }
 
 /// Statements are joined to a line up to this length: few lines are quick to search and save
@@ -77,16 +95,21 @@ impl Lines {
 
     /// A statement that others may stand beside.
     pub fn statement(&mut self, text: impl Into<String>, span: Option<Span>) {
-        let text = text.into();
+        self.statements(text.into(), span, Later::new());
+    }
+
+    fn statements(&mut self, text: String, span: Option<Span>, own: Later) {
         if let Some(Item::Line {
             text: line,
             open: true,
             weight,
+            later,
             ..
         }) = self.items.last_mut()
             && *weight == self.weight
             && line.len() + 1 + text.len() <= WIDTH
         {
+            note(later, line, span, &own);
             line.push(':');
             line.push_str(&text);
             return;
@@ -94,6 +117,7 @@ impl Lines {
         self.items.push(Item::Line {
             text,
             span,
+            later: own,
             open: true,
             weight: self.weight,
         });
@@ -104,6 +128,7 @@ impl Lines {
         self.items.push(Item::Line {
             text: text.into(),
             span,
+            later: Later::new(),
             open: false,
             weight: self.weight,
         });
@@ -120,16 +145,17 @@ impl Lines {
             Some(Item::Line {
                 text,
                 span,
+                later,
                 open: true,
                 weight,
             }),
         ) = (self.items.last(), other.items.first())
             && *last
         {
-            let (text, span) = (text.clone(), *span);
+            let (text, span, later) = (text.clone(), *span, later.clone());
             let outer = std::mem::replace(&mut self.weight, *weight);
             other.items.remove(0);
-            self.statement(text, span);
+            self.statements(text, span, later);
             self.weight = outer;
         }
         self.items.append(&mut other.items);
@@ -219,7 +245,11 @@ impl Lines {
         let mut all = Lines::of_weight(self.weight);
         for item in self.items {
             let Item::Line {
-                span, open, weight, ..
+                text: before,
+                span,
+                later,
+                open,
+                weight,
             } = item
             else {
                 all.items.push(item);
@@ -228,7 +258,13 @@ impl Lines {
             let Some((at, own)) = texts.next() else {
                 continue;
             };
+            let own_line = own.len() == 1;
+            let kept = |text: &str| match own_line && statements(text) == statements(&before) {
+                true => later.clone(),
+                false => Later::new(),
+            };
             all.items.extend(own.into_iter().map(|text| Item::Line {
+                later: kept(&text),
                 text,
                 span,
                 open,
@@ -242,8 +278,13 @@ impl Lines {
     /// Changes every line's text.
     pub fn each_text(&mut self, mut change: impl FnMut(&mut String)) {
         for item in &mut self.items {
-            if let Item::Line { text, .. } = item {
+            if let Item::Line { text, later, .. } = item {
+                let before = statements(text);
                 change(text);
+                // What was left out or added could be any of them.
+                if statements(text) != before {
+                    later.clear();
+                }
             }
         }
     }
@@ -284,12 +325,19 @@ impl Lines {
             if matches!(item, Item::Label(label) if !asked.contains(&label)) {
                 continue;
             }
-            if let Item::Line { text, .. } = &item
-                && let Some(Item::Line { text: last, .. }) = all.items.last_mut()
+            if let Item::Line {
+                text, span, later, ..
+            } = &item
+                && let Some(Item::Line {
+                    text: last,
+                    later: noted,
+                    ..
+                }) = all.items.last_mut()
                 && !ends(last)
                 && !begins(text)
                 && last.len() + 1 + text.len() <= width
             {
+                note(noted, last, *span, later);
                 last.push(':');
                 last.push_str(text);
             } else {
@@ -297,6 +345,18 @@ impl Lines {
             }
         }
         all
+    }
+
+    /// Where lines' later statements come from: the line and the statement from which
+    /// on, both counted from 0.
+    pub fn later(&self) -> Vec<(usize, usize, Option<Span>)> {
+        let lines = self.items.iter().filter_map(|item| match item {
+            Item::Line { later, .. } => Some(later),
+            Item::Label(_) => None,
+        });
+        let each = lines.enumerate();
+        each.flat_map(|(line, later)| later.iter().map(move |(at, span)| (line, *at, *span)))
+            .collect()
     }
 
     pub fn is_empty(&self) -> bool {

@@ -146,10 +146,13 @@ impl Style {
 }
 
 fn emit(plan: &Plan) -> Vec<Document> {
-    let (text, lines) = frame::program(plan).finish();
+    let program = frame::program(plan);
+    let later = program.later();
+    let (text, lines) = program.finish();
     vec![Document {
         name: format!("{}.bas", plan.name),
         text,
         lines,
+        later,
     }]
 }

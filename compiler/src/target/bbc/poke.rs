@@ -48,6 +48,7 @@ pub fn pixels_in_byte(plan: &Plan, style: Style) -> Option<u32> {
     let whole = |n: i64| n.rem_euclid(i64::from(pixels)) == 0;
     let fits = plan.plot
         && pixels > 1
+        && plan.graph.image.block == (1, 1)
         && style != Style::Listing
         && plan.computed_columns() == plan.columns
         && whole(i64::from(left))

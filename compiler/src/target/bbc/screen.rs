@@ -140,7 +140,7 @@ pub fn run(plan: &Plan, code: &mut Code<'_>, to: &str, stride: u32) -> Draw {
     let (mut once, mut each, mut then) = (Vec::new(), Vec::new(), Vec::new());
     // After MODE the screen is ink 0 already.
     if plan.plot {
-        let (ink, point) = (&names[0], format!("PLOT 69,{},R%", x_expression(plan)));
+        let (ink, point) = (&names[0], point(plan));
         once.push(format!("IF {ink} THEN GCOL 0,{ink}"));
         each.push(format!("IF {ink} THEN {point}"));
         then.push(format!("IF I% THEN GCOL 0,I%:{point}"));
@@ -162,19 +162,34 @@ pub fn run(plan: &Plan, code: &mut Code<'_>, to: &str, stride: u32) -> Draw {
 /// The graphics x of picture column `X%`.
 pub fn x_expression(plan: &Plan) -> String {
     let unit = 1280 / i64::from(plan.mode.width.max(1));
-    linear(unit * i64::from(plan.offset.0), unit, "X%")
+    let block = i64::from(plan.graph.image.block.0);
+    linear(unit * i64::from(plan.offset.0), unit * block, "X%")
+}
+
+/// The statements that draw a pixel of the picture in the ink that is chosen: a point, or
+/// the two triangles of a block.
+pub fn point(plan: &Plan) -> String {
+    let x = x_expression(plan);
+    let (wide, high) = plan.graph.image.block;
+    if (wide, high) == (1, 1) {
+        return format!("PLOT 69,{x},R%");
+    }
+    let across = (i64::from(wide) - 1) * 1280 / i64::from(plan.mode.width.max(1));
+    let down = (i64::from(high) - 1) * 1024 / i64::from(plan.mode.height.max(1));
+    format!("MOVE {x},R%:PLOT 0,0,-{down}:PLOT 81,{across},{down}:PLOT 81,0,-{down}")
 }
 
 /// The graphics y of picture row `Y%`: y runs up, over 1024 units.
 pub fn y_expression(plan: &Plan) -> String {
     let height = i64::from(plan.mode.height.max(1));
     let bottom = height - 1 - i64::from(plan.offset.1);
+    let block = i64::from(plan.graph.image.block.1);
     if 1024 % height == 0 {
         let unit = 1024 / height;
-        return linear(unit * bottom, -unit, "Y%");
+        return linear(unit * bottom, -unit * block, "Y%");
     }
     // The middle of the row, since units are no whole part of it.
-    format!("(512+1024*({})) DIV {height}", linear(bottom, -1, "Y%"))
+    format!("(512+1024*({})) DIV {height}", linear(bottom, -block, "Y%"))
 }
 
 #[cfg(test)]

@@ -111,7 +111,7 @@ impl<'p> Code<'p> {
 
     /// Makes a method of lines; answers the line that calls it.
     fn outlined(&mut self, lines: Vec<Line>, name: &str) -> Line {
-        let span = lines.first().and_then(|line| line.span);
+        let span = lines.iter().find_map(|line| line.span);
         let name = self.names.fresh(&format!("{name}Part"));
         let call = format!("do {name}();");
         let about = String::new();
@@ -146,6 +146,7 @@ impl<'p> Code<'p> {
     }
 
     fn statement(&mut self, statement: &Statement, name: &str) {
+        self.text.span = Some(statement.span(&self.plan.graph, &self.plan.tree));
         match statement {
             Statement::Let(id) => self.compute(*id),
             Statement::Set { place, from } => self.set(*place, *from),

@@ -123,10 +123,11 @@ fn scene(
     let image = &plan.graph.image;
     let mut text = Text::default();
     let about = format!(
-        "The scene {}, {} x {} pixels, its top left at ({}, {}) of the screen.",
+        "The scene {}, {} x {} {}, its top left at ({}, {}) of the screen.",
         in_comment(&plan.name),
         image.width,
         image.height,
+        image.unit(),
         plan.offset.0,
         plan.offset.1
     );
@@ -178,7 +179,8 @@ fn scene(
         ));
     }
     for part in all {
-        text.span = None;
+        // Its first and last line are a part of it.
+        text.span = part.body.iter().find_map(|line| line.span);
         text.line("");
         if !part.about.is_empty() {
             text.line(format!("/** {} */", part.about));
@@ -296,6 +298,30 @@ fn black(ink: &str, tests: &[String]) -> String {
     }
 }
 
+/// What draws a pixel, or a block of them.
+fn drawn(plan: &Plan, [x, y]: [&str; 2]) -> String {
+    let block = plan.graph.image.block;
+    let place = |axis: &str, size: u32, by: i64| {
+        let first = match size {
+            1 => axis.to_owned(),
+            _ => format!("({axis} * {size})"),
+        };
+        match by {
+            0 => first,
+            1.. => format!("{first} + {by}"),
+            _ => format!("{first} - {}", by.unsigned_abs()),
+        }
+    };
+    let (left, top) = (i64::from(plan.offset.0), i64::from(plan.offset.1));
+    let [x0, y0] = [place(x, block.0, left), place(y, block.1, top)];
+    if block == (1, 1) {
+        return format!("do Screen.drawPixel({x0}, {y0});");
+    }
+    let x1 = place(x, block.0, left + i64::from(block.0) - 1);
+    let y1 = place(y, block.1, top + i64::from(block.1) - 1);
+    format!("do Screen.drawRectangle({x0}, {y0}, {x1}, {y1});")
+}
+
 /// What is worked out once a picture, once a row, once a pixel.
 fn drawing(code: &mut Code) -> Vec<Subroutine> {
     let plan = code.plan;
@@ -313,6 +339,7 @@ fn drawing(code: &mut Code) -> Vec<Subroutine> {
         picture.line("do takeParameters();");
     }
     picture.append(frame);
+    picture.span = plan.drawn;
     let canvas = code.names.canvas.clone();
     if plan.plot && canvas.is_none() {
         picture.line("do Screen.setColor(true);");
@@ -329,7 +356,10 @@ fn drawing(code: &mut Code) -> Vec<Subroutine> {
     picture.close("}");
     let told = reports(code, &mut picture);
 
-    let mut across = Text::default();
+    let mut across = Text {
+        span: plan.drawn,
+        ..Text::default()
+    };
     across.append(row);
     let columns = plan.computed_columns();
     if let Some(canvas) = &canvas {
@@ -344,23 +374,21 @@ fn drawing(code: &mut Code) -> Vec<Subroutine> {
         canvas.end(&mut across);
     }
 
-    let mut dot = Text::default();
+    let mut dot = Text {
+        span: plan.drawn,
+        ..Text::default()
+    };
     if let Some(spread) = &spread {
         spread.receive(code, &x, &mut dot);
     }
     dot.append(pixel);
-    dot.span = Some(plan.graph.span(plan.graph.ink));
+    dot.span = plan.drawn.or(Some(plan.graph.span(plan.graph.ink)));
     if let Some(canvas) = &canvas {
         canvas.pixel(&black(&ink.at(TERM), &[]), &mut dot);
     } else if plan.plot {
-        let at = [(&x, plan.offset.0), (&y, plan.offset.1)].map(|(axis, by)| match by {
-            0 => axis.clone(),
-            1.. => format!("{axis} + {by}"),
-            _ => format!("{axis} - {}", by.unsigned_abs()),
-        });
         let seen = seen(plan, &[&x, &y], &first_row);
         dot.open(format!("if ({}) {{", black(&ink.at(TERM), &seen)));
-        dot.line(format!("do Screen.drawPixel({}, {});", at[0], at[1]));
+        dot.line(drawn(plan, [&x, &y]));
         dot.close("}");
     } else if let Some(place) = plan.place(plan.graph.ink) {
         // Worked out, not drawn.

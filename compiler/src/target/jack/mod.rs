@@ -166,6 +166,7 @@ impl Text {
             name: format!("{class}.jack"),
             text: String::new(),
             lines: Vec::with_capacity(self.lines.len()),
+            later: Vec::new(),
         };
         for line in self.lines {
             if !line.text.is_empty() {

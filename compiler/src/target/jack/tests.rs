@@ -88,6 +88,7 @@ fn built_by_hand() -> Graph {
     let (zero, one) = (b.constant(Value::Int(0), at), b.constant(Value::Int(1), at));
     let ink = b.select(above, one, zero, at);
     let image = Image {
+        block: (1, 1),
         width: 3,
         height: 2,
         palette: vec![[0; 3], [255; 3]],

@@ -6,7 +6,7 @@ use super::homes::{Homes, Slot, most_turns};
 use crate::flow::graph::*;
 use crate::flow::tree::*;
 use crate::plan::Plan;
-use slowlight_routine::Format;
+use slowlight_routine::{Format, Routine};
 use slowlight_runtime_6502::write::{self, Goal, Place as Operand};
 
 /// Bytes that a branch reaches at least, whatever lies between.
@@ -19,6 +19,8 @@ pub(super) struct Code<'p> {
     pub text: &'p mut Text,
     /// Whether some index had to be clamped.
     pub clamps: bool,
+    /// Parts of the runtime that are needed beside those of the plan's routines.
+    pub needs: Vec<&'static str>,
 }
 
 /// Bytes of some lines of assembly, at most.
@@ -47,9 +49,12 @@ impl<'p> Code<'p> {
             homes: self.homes,
             text: &mut text,
             clamps: false,
+            needs: Vec::new(),
         };
         write(&mut code);
         self.clamps |= code.clamps;
+        let needs = std::mem::take(&mut code.needs);
+        self.needs.extend(needs);
         self.text.serial = text.serial;
         text
     }
@@ -59,24 +64,32 @@ impl<'p> Code<'p> {
     }
 
     fn statement(&mut self, statement: &Statement) {
+        self.text.span = Some(statement.span(&self.plan.graph, &self.plan.tree));
         match statement {
             Statement::Let(id) => self.compute(*id),
             Statement::Set { place, from } => {
-                let format = self.plan.place_format(*place);
+                let to = self.homes.place(*place).to_owned();
                 let (from, said) = match *from {
+                    Origin::Node(id) if self.moves(*place, id) => {
+                        let said = comment::operand(self.plan, self.homes, id);
+                        self.text.line(format!("        ; {to} = {said}"));
+                        return self.set_real(*place, &to, id);
+                    }
                     Origin::Node(id) => (
                         self.homes.operand(self.plan, id),
                         comment::operand(self.plan, self.homes, id),
                     ),
                     Origin::Scratch(l, k) => {
-                        let name = self.homes.place(Place::Scratch(l, k)).to_owned();
-                        (Operand::At(name.clone()), name)
+                        let place = Place::Scratch(l, k);
+                        let name = self.homes.place(place).to_owned();
+                        (self.homes.held_in(self.plan, place), name)
                     }
                 };
-                let to = self.homes.place(*place).to_owned();
-                if from != Operand::At(to.clone()) {
+                let same =
+                    matches!(&from, Operand::At(name) | Operand::Held(name, _) if *name == to);
+                if !same {
                     self.text.line(format!("        ; {to} = {said}"));
-                    self.copy(&from, &to, format);
+                    self.copy_into(&from, &to, *place);
                 }
             }
             Statement::If { cond, yes, no } => self.choose(*cond, yes, no),
@@ -99,21 +112,73 @@ impl<'p> Code<'p> {
                 let Some(routine) = self.plan.routine(id) else {
                     return;
                 };
-                let args = [a, b].map(|arg| self.homes.operand(self.plan, arg));
-                let home = self.homes.place(Place::Node(id));
-                let goal = if self.homes.fused.contains(&id) {
-                    Goal::Carry
-                } else {
-                    Goal::At(home)
+                let args = self.read_all(id, [a, b]);
+                let place = Place::of(&self.plan.graph, id);
+                let home = self.homes.place(place);
+                let goal = match self.homes.shape(self.plan, place) {
+                    _ if self.homes.fused.contains(&id) => Goal::Carry,
+                    Some(shape) => Goal::Held(home, shape.bytes),
+                    None => Goal::At(home),
                 };
-                let mut lines = Vec::new();
-                let serial = self.text.next_serial();
                 let args = args.get(..routine.args.len()).unwrap_or_default();
-                write::instructions(routine, args, &goal, serial, &mut lines);
-                lines.iter().for_each(|line| self.text.line(line));
+                let number = self.number(id);
+                self.use_of(routine, args, &goal, number);
             }
             Node::Lookup { table, column, row } => self.lookup(id, table, column, row),
+            // As a row begins it.
+            Node::Ramp { first, .. } => {
+                let place = Place::Node(id);
+                let to = self.homes.place(place).to_owned();
+                let from = self.homes.operand(self.plan, first);
+                self.copy_into(&from, &to, place);
+            }
             _ => {}
+        }
+    }
+
+    /// What a routine makes of some operands.
+    pub fn use_of(&mut self, routine: &Routine, args: &[Operand], goal: &Goal<'_>, number: i32) {
+        let mut lines = Vec::new();
+        let serial = self.text.next_serial();
+        let used = write::Use {
+            routine,
+            args,
+            goal,
+            serial,
+            number,
+        };
+        self.needs.extend(write::instructions(used, &mut lines));
+        lines.iter().for_each(|line| self.text.line(line));
+    }
+
+    /// Brings the ramps to the next column.
+    pub fn step(&mut self) {
+        for (id, by) in self.plan.ramps() {
+            let place = Place::Node(id);
+            let to = self.homes.place(place).to_owned();
+            let step = self.homes.operand(self.plan, by);
+            let said = comment::operand(self.plan, self.homes, by);
+            self.text.span = Some(self.plan.graph.span(id));
+            self.text.line(format!("        ; {to} = {to} + {said}"));
+            let adds = |r: &&Routine| r.name == "int_add";
+            if let Some(routine) = self.plan.runtime.routines.iter().find(adds) {
+                let ramp = self.homes.held_in(self.plan, place);
+                let bytes = write::size(routine.result);
+                self.use_of(routine, &[ramp, step], &Goal::Held(&to, bytes), 0);
+            }
+        }
+        self.text.span = None;
+    }
+
+    /// A copy into a place.
+    fn copy_into(&mut self, from: &Operand, to: &str, place: Place) {
+        match self.homes.shape(self.plan, place) {
+            Some(shape) => {
+                let mut lines = Vec::new();
+                write::copy_bytes(from, to, shape.bytes, &mut lines);
+                lines.iter().for_each(|line| self.text.line(line));
+            }
+            None => self.copy(from, to, self.plan.place_format(place)),
         }
     }
 
@@ -126,6 +191,17 @@ impl<'p> Code<'p> {
     /// Copies an int or a real.
     pub fn copy_to(&mut self, from: &Operand, to: &str) {
         self.copy(from, to, self.plan.runtime.int);
+    }
+
+    /// Gives the column or the row a value.
+    pub fn copy_axis(&mut self, from: &Operand, to: &str) {
+        let mut lines = Vec::new();
+        let bytes = match self.plan.points() {
+            Some(_) => 2,
+            None => write::size(self.plan.runtime.int),
+        };
+        write::copy_bytes(from, to, bytes, &mut lines);
+        lines.iter().for_each(|line| self.text.line(line));
     }
 
     /// Leaves a condition where a branch finds it: `bcc` or `beq` goes where it does not hold.

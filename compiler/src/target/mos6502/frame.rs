@@ -1,6 +1,7 @@
 //! The program around the statements: its head, the picture's opening, the
 //! loops over rows and columns, and the runtime's parts.
 
+use super::blocks::Blocks;
 use super::code::Code;
 use super::homes::{Homes, Slot};
 use super::params::{Entry, entries, take_params};
@@ -9,17 +10,19 @@ use super::{Text, table};
 use crate::flow::graph::Axis;
 use crate::flow::tree::SubroutineId;
 use crate::plan::Plan;
-use slowlight_routine::{Format, Part, Source};
+use slowlight_routine::{Format, Part, Source, Type};
 use slowlight_runtime_6502::write::{self, Place as Operand};
 
 /// The whole program.
 pub(super) fn program(plan: &Plan, homes: &Homes, syntax: &Syntax, text: &mut Text) {
     let entries = entries(plan, homes);
     head(plan, &entries, syntax, text);
-    let parts = parts(plan, &entries);
+    // What operands are read with is known when they have been.
+    let (_, read) = main(plan, homes, &[], &mut Text::default());
+    let parts = parts(plan, &entries, &read);
     symbols(homes, &parts, text);
-    let clamps = main(plan, homes, &parts, text);
-    take_params(homes, &entries, syntax, text);
+    let (clamps, _) = main(plan, homes, &parts, text);
+    take_params(plan, homes, &entries, syntax, text);
     if plan.plot {
         colours(plan, text);
     }
@@ -28,7 +31,7 @@ pub(super) fn program(plan: &Plan, homes: &Homes, syntax: &Syntax, text: &mut Te
         text.line(table::CLAMP);
     }
     table::data(plan, text);
-    for part in parts.iter().filter(|p| p.name != "zero_page") {
+    for part in parts.iter().filter(|p| !is_page(p)) {
         text.headline(&format!("runtime: {}", part.name));
         source(part, text);
     }
@@ -39,16 +42,23 @@ pub(super) fn program(plan: &Plan, homes: &Homes, syntax: &Syntax, text: &mut Te
 }
 
 /// The parts that the program needs: those of the plan and of its own frame.
-fn parts(plan: &Plan, entries: &[Entry]) -> Vec<&'static Part> {
+fn parts(plan: &Plan, entries: &[Entry], read: &[&'static str]) -> Vec<&'static Part> {
     let mut names: Vec<&str> = plan.parts().iter().map(|p| p.name).collect();
+    names.extend(read);
     names.push("zero_page");
-    if entries.iter().any(|e| e.divisor > 0) {
-        names.push("fixed_divide");
+    names.extend(plan.points().map(|_| "scaled_page"));
+    for entry in entries {
+        names.extend(entry.needs(plan));
     }
     if table::any_large(plan) {
         names.push("int_multiply");
     }
     plan.runtime.closure(names)
+}
+
+/// Whether a part only names places in the zero page.
+fn is_page(part: &Part) -> bool {
+    matches!(part.name, "zero_page" | "scaled_page")
 }
 
 fn source(part: &Part, text: &mut Text) {
@@ -67,10 +77,11 @@ fn source(part: &Part, text: &mut Text) {
 fn head(plan: &Plan, entries: &[Entry], syntax: &Syntax, text: &mut Text) {
     let image = &plan.graph.image;
     text.line(format!(
-        "; {}: {} x {} pixels, {} inks, for a plain 6502 ({})",
+        "; {}: {} x {} {}, {} inks, for a plain 6502 ({})",
         plan.name,
         image.width,
         image.height,
+        image.unit(),
         image.palette.len(),
         plan.runtime.format
     ));
@@ -112,7 +123,7 @@ fn symbols(homes: &Homes, parts: &[&'static Part], text: &mut Text) {
         text.line(format!("{:<24}; {about}", format!("{name} = ${address}")));
     }
     text.headline("the runtime's zero page");
-    for part in parts.iter().filter(|p| p.name == "zero_page") {
+    for part in parts.iter().filter(|p| is_page(p)) {
         source(part, text);
     }
     text.headline("values, the most used in the zero page");
@@ -127,13 +138,21 @@ fn symbols(homes: &Homes, parts: &[&'static Part], text: &mut Text) {
     text.line(format!("* = ${:04x}", homes.origin));
 }
 
-/// The program proper; answers whether it clamps an index.
-fn main(plan: &Plan, homes: &Homes, parts: &[&'static Part], text: &mut Text) -> bool {
+/// The program proper; answers whether it clamps an index, and with what operands are read.
+fn main(
+    plan: &Plan,
+    homes: &Homes,
+    parts: &[&'static Part],
+    text: &mut Text,
+) -> (bool, Vec<&'static str>) {
     text.line("");
     text.label("start");
     text.code("cld | ldx #$ff | txs");
     if parts.iter().any(|p| p.name == "squares") {
         text.code("jsr make_squares");
+    }
+    if parts.iter().any(|p| p.name == "product") {
+        text.code("jsr set_squares");
     }
     text.code("jsr take_params");
     if plan.plot {
@@ -144,6 +163,7 @@ fn main(plan: &Plan, homes: &Homes, parts: &[&'static Part], text: &mut Text) ->
         homes,
         text,
         clamps: false,
+        needs: Vec::new(),
     };
     let errors = plan.error_rows();
     if let Some(rows) = &errors {
@@ -153,7 +173,7 @@ fn main(plan: &Plan, homes: &Homes, parts: &[&'static Part], text: &mut Text) ->
         code.text.headline("once a picture");
         code.block(&plan.tree.frame);
     }
-    code.text.span = None;
+    code.text.span = plan.drawn;
     let [x, y] = [Axis::X, Axis::Y].map(|axis| homes.name(Slot::Axis(axis)).to_owned());
     let [first, last] = [false, true].map(|end| homes.name(Slot::Rows(end)).to_owned());
     // Errors come from the rows above, drawn or not.
@@ -161,11 +181,14 @@ fn main(plan: &Plan, homes: &Homes, parts: &[&'static Part], text: &mut Text) ->
         Some(_) => Operand::Constant(0),
         None => Operand::At(first.clone()),
     };
-    code.copy_to(&top, &y);
+    code.copy_axis(&top, &y);
 
     code.text.headline("once a row");
     code.text.label("next_row");
-    if plan.plot {
+    let blocks = plan.plot.then(|| Blocks::new(plan, homes)).flatten();
+    if let Some(blocks) = &blocks {
+        blocks.row(&y, code.text);
+    } else if plan.plot {
         let left = (i64::from(plan.computed_columns().0) + i64::from(plan.offset.0)) as u64;
         let [x0, x1] = [0, 1].map(|k| write::byte(&Operand::Constant(left), k));
         code.text
@@ -178,9 +201,22 @@ fn main(plan: &Plan, homes: &Homes, parts: &[&'static Part], text: &mut Text) ->
             .code(&format!("lda {y}+1 | adc {dy1} | sta y_port+1"));
     }
     let columns = plan.computed_columns();
-    code.copy_to(&Operand::Constant(u64::from(columns.0)), &x);
+    code.copy_axis(&Operand::Constant(u64::from(columns.0)), &x);
     code.block(&plan.tree.row);
-    code.text.span = None;
+    code.text.span = plan.drawn;
+    if columns.0 > 0 && !plan.ramps().is_empty() {
+        // To the first column, by as many steps as there are before it.
+        let [lo, hi, ..] = columns.0.to_le_bytes();
+        code.text
+            .code(&format!("lda #{lo} | sta count | lda #{hi} | sta bits"));
+        code.text.label("next_step");
+        code.step();
+        code.text.code("lda count | bne low_step | dec bits");
+        code.text.label("low_step");
+        code.text
+            .code("dec count | lda count | ora bits | beq last_step | jmp next_step");
+        code.text.label("last_step");
+    }
 
     code.text.headline("once a pixel");
     code.text.label("next_pixel");
@@ -188,7 +224,7 @@ fn main(plan: &Plan, homes: &Homes, parts: &[&'static Part], text: &mut Text) ->
         code.receive_errors(rows);
     }
     code.block(&plan.tree.pixel);
-    code.text.span = None;
+    code.text.span = plan.drawn;
     if plan.plot {
         let ink = write::byte(&homes.operand(plan, plan.graph.ink), 0);
         if errors.is_some() {
@@ -196,16 +232,23 @@ fn main(plan: &Plan, homes: &Homes, parts: &[&'static Part], text: &mut Text) ->
                 "lda {y} | cmp {first} | lda {y}+1 | sbc {first}+1 | bcc unseen_pixel"
             ));
         }
-        code.text.code(&format!("lda {ink} | sta ink_port"));
+        match &blocks {
+            Some(blocks) => blocks.draw(&ink, code.text),
+            None => code.text.code(&format!("lda {ink} | sta ink_port")),
+        }
         if errors.is_some() {
             code.text.label("unseen_pixel");
         }
     }
+    if let Some(blocks) = &blocks {
+        blocks.next(code.text);
+    }
     if let Some(rows) = &errors {
         code.send_errors(rows);
     }
+    code.step();
     let [end0, end1] = [0, 1].map(|k| write::byte(&Operand::Constant(u64::from(columns.1) + 1), k));
-    let clamps = code.clamps;
+    let (clamps, mut needs) = (code.clamps, std::mem::take(&mut code.needs));
     let text = &mut *code.text;
     text.code(&format!("inc {x} | bne next_column | inc {x}+1"));
     text.label("next_column");
@@ -224,17 +267,20 @@ fn main(plan: &Plan, homes: &Homes, parts: &[&'static Part], text: &mut Text) ->
     text.code(&format!("inc {y} | bne more_rows | inc {y}+1"));
     text.label("more_rows");
     text.code("jmp next_row");
+    text.span = None;
     text.label("picture_done");
     reports(plan, homes, text);
     text.code("lda #0 | sta exit_port");
     text.label("halted");
     text.code("jmp halted");
-    subroutines(plan, homes, text) || clamps
+    let called = subroutines(plan, homes, text);
+    needs.extend(called.1);
+    (called.0 || clamps, needs)
 }
 
-/// What is called from several places; answers whether it clamps an index.
-fn subroutines(plan: &Plan, homes: &Homes, text: &mut Text) -> bool {
-    let mut clamps = false;
+/// What is called from several places; answers what [`main`] does.
+fn subroutines(plan: &Plan, homes: &Homes, text: &mut Text) -> (bool, Vec<&'static str>) {
+    let (mut clamps, mut needs) = (false, Vec::new());
     for (k, subroutine) in plan.tree.subroutines.iter().enumerate() {
         let calls = plan.tree.calls(SubroutineId(k as u32));
         text.headline(&format!(
@@ -247,14 +293,16 @@ fn subroutines(plan: &Plan, homes: &Homes, text: &mut Text) -> bool {
             homes,
             text,
             clamps: false,
+            needs: Vec::new(),
         };
         code.block(&subroutine.body);
         clamps |= code.clamps;
+        needs.append(&mut code.needs);
         text.span = Some(subroutine.span);
         text.code("rts");
         text.span = None;
     }
-    clamps
+    (clamps, needs)
 }
 
 /// Gives out what the graph reports through the one port for bytes that there
@@ -269,7 +317,22 @@ fn reports(plan: &Plan, homes: &Homes, text: &mut Text) {
     ));
     text.code("lda #1 | sta height_port | lda #0 | sta height_port+1 | sta inks_port");
     for &id in &plan.graph.reports {
-        let value = homes.operand(plan, id);
+        let mut value = homes.operand(plan, id);
+        if let (Some(points), Some(constant)) = (plan.points(), plan.graph.constant(id)) {
+            let real = plan.graph.ty(id) == Type::Real;
+            let bits = (plan.runtime.encode)(constant, plan.format(id));
+            value = Operand::Constant(if real {
+                points.read(&plan.graph, id, bits, points.own(id))
+            } else {
+                bits
+            });
+        }
+        if let Operand::Held(..) = value {
+            let mut lines = Vec::new();
+            write::copy_bytes(&value, "acc", 4, &mut lines);
+            lines.iter().for_each(|line| text.line(line));
+            value = Operand::At("acc".to_owned());
+        }
         let bytes = match plan.format(id) {
             Format::Bool => 1,
             _ => 4,

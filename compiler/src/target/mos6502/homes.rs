@@ -1,13 +1,14 @@
 //! Where values live, and what they are called in the program.
 
 use super::names::Names;
+use super::shapes::{self, Shapes};
 use super::spread;
 use crate::flow::graph::*;
 use crate::flow::tree::*;
 use crate::plan::{Plan, shared_homes};
 use slowlight_routine::Format;
-use slowlight_runtime_6502::write::{self, Place as Operand};
-use slowlight_runtime_6502::{FREE_MEMORY, FREE_ZERO_PAGE};
+use slowlight_runtime_6502::write::{self, Place as Operand, Shape};
+use slowlight_runtime_6502::{FREE_MEMORY, free_zero_page};
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 
 /// Something that the program keeps in memory.
@@ -19,6 +20,8 @@ pub(super) enum Slot {
     Param(u32),
     /// The pixel's column or row.
     Axis(Axis),
+    /// Where the block that is drawn stands on the screen.
+    Block(Axis),
     /// The turns that a loop has left.
     Turns(LoopId),
     /// First and last row to draw.
@@ -53,16 +56,19 @@ pub(super) struct Homes {
     subroutines: Vec<String>,
     /// Where memory is short: the place whose home each place shares.
     shared: HashMap<Place, Place>,
+    /// In how many bytes values are kept, where that is by their ranges.
+    shapes: Option<Shapes>,
 }
 
 /// For each place, the first of those that it shares a home with.
-fn sharing(plan: &Plan) -> HashMap<Place, Place> {
+fn sharing(plan: &Plan, shapes: Option<&Shapes>) -> HashMap<Place, Place> {
     let homes = shared_homes(plan);
-    let mut first: HashMap<(Format, usize), Place> = HashMap::new();
+    let mut first: HashMap<(Format, u8, usize), Place> = HashMap::new();
     let mut shared = HashMap::new();
     for (place, format) in plan.places() {
         if let Some(&at) = homes.get(&place) {
-            shared.insert(place, *first.entry((format, at)).or_insert(place));
+            let bytes = shapes.map_or(0, |shapes| shapes.of(plan, place).bytes);
+            shared.insert(place, *first.entry((format, bytes, at)).or_insert(place));
         }
     }
     shared
@@ -71,8 +77,9 @@ fn sharing(plan: &Plan) -> HashMap<Place, Place> {
 impl Homes {
     pub fn new(plan: &Plan) -> Homes {
         let fused = fused(plan);
+        let shapes = shapes::shapes(plan);
         let shared = match plan.tight {
-            true => sharing(plan),
+            true => sharing(plan, shapes.as_ref()),
             false => HashMap::new(),
         };
         let mut uses = Uses {
@@ -89,9 +96,9 @@ impl Homes {
         let mut names = Names::new(plan);
         let params = plan.params.iter().map(|p| names.fresh(&p.label)).collect();
         let mut homes = BTreeMap::new();
-        let (mut zero_page, mut memory) = (u16::from(FREE_ZERO_PAGE), FREE_MEMORY);
+        let (mut zero_page, mut memory) = (u16::from(free_zero_page(plan.runtime)), FREE_MEMORY);
         for (slot, _) in slots {
-            let size = size(plan, slot);
+            let size = size(plan, shapes.as_ref(), slot);
             let next = if zero_page + size <= 0x100 {
                 &mut zero_page
             } else {
@@ -108,7 +115,7 @@ impl Homes {
         let mut origin = memory.saturating_add(0xFF) & 0xFF00;
         let errors = plan.error_rows().map(|rows| {
             let at = origin;
-            let bytes = u16::try_from(spread::bytes(&rows)).unwrap_or(0xFF00);
+            let bytes = u16::try_from(spread::bytes(plan, &rows)).unwrap_or(0xFF00);
             origin = origin.saturating_add(bytes) & 0xFF00;
             at
         });
@@ -124,6 +131,7 @@ impl Homes {
             fused,
             errors,
             origin,
+            shapes,
         }
     }
 
@@ -151,11 +159,34 @@ impl Homes {
             .map_or("unused", String::as_str)
     }
 
+    /// A place as an operand.
+    pub fn held_in(&self, plan: &Plan, place: Place) -> Operand {
+        let name = self.place(place).to_owned();
+        match &self.shapes {
+            Some(shapes) => Operand::Held(name, shapes.of(plan, place)),
+            None => Operand::At(name),
+        }
+    }
+
+    /// What has a slot that is no place.
+    fn held(&self, plan: &Plan, slot: Slot) -> Operand {
+        let name = self.name(slot).to_owned();
+        match &self.shapes {
+            Some(_) => Operand::Held(name, shapes::of_slot(plan, slot)),
+            None => Operand::At(name),
+        }
+    }
+
+    /// How a place is kept, where that is by its range.
+    pub fn shape(&self, plan: &Plan, place: Place) -> Option<Shape> {
+        self.shapes.as_ref().map(|shapes| shapes.of(plan, place))
+    }
+
     /// Where a node's value is read from.
     pub fn operand(&self, plan: &Plan, id: NodeId) -> Operand {
-        let at = |slot| Operand::At(self.name(slot).to_owned());
+        let at = |slot| self.held(plan, slot);
         match (plan.place(id), plan.graph.node(id)) {
-            (Some(place), _) => Operand::At(self.place(place).to_owned()),
+            (Some(place), _) => self.held_in(plan, place),
             (None, Node::Const(c)) => Operand::Constant(plan.bits(c.value())),
             (None, Node::Param(p)) => at(Slot::Param(p.0)),
             (None, Node::Axis(axis)) => at(Slot::Axis(axis)),
@@ -195,12 +226,19 @@ fn fused(plan: &Plan) -> BTreeSet<NodeId> {
     found
 }
 
-fn size(plan: &Plan, slot: Slot) -> u16 {
+fn size(plan: &Plan, shapes: Option<&Shapes>, slot: Slot) -> u16 {
+    match (slot, shapes) {
+        (Slot::Value(place), Some(shapes)) => return u16::from(shapes.of(plan, place).bytes),
+        (Slot::Param(_) | Slot::Axis(_) | Slot::Received, Some(_)) => {
+            return u16::from(shapes::of_slot(plan, slot).bytes);
+        }
+        _ => {}
+    }
     match slot {
         Slot::Value(place) => u16::from(write::size(plan.place_format(place))),
         Slot::Turns(of) => 1 + u16::from(most_turns(plan, of) > 0xFF),
         Slot::Which => 1,
-        Slot::Errors(_) => 2,
+        Slot::Errors(_) | Slot::Block(_) => 2,
         Slot::Param(_) | Slot::Axis(_) | Slot::Rows(_) | Slot::Received => 4,
     }
 }
@@ -221,6 +259,8 @@ fn wanted(plan: &Plan, slot: Slot) -> String {
         Slot::Axis(Axis::Y) => "pixel_y".to_owned(),
         // Here rows are drawn in one pass.
         Slot::Axis(Axis::Pass(_)) => "pixel_pass".to_owned(),
+        Slot::Block(Axis::Y) => "block_y".to_owned(),
+        Slot::Block(_) => "block_x".to_owned(),
         Slot::Turns(of) => format!("turns_{}", of.0),
         Slot::Rows(false) => "first_row_value".to_owned(),
         Slot::Rows(true) => "last_row_value".to_owned(),
@@ -256,6 +296,10 @@ impl Uses<'_> {
             self.weight = weight;
             self.block(block);
         }
+        for (id, by) in self.plan.ramps() {
+            self.read(id);
+            self.read(by);
+        }
         let graph = &self.plan.graph;
         self.read(graph.ink);
         graph.reports.iter().for_each(|&id| self.read(id));
@@ -268,6 +312,10 @@ impl Uses<'_> {
         }
         self.add(Slot::Axis(Axis::X));
         self.add(Slot::Axis(Axis::Y));
+        if graph.image.block != (1, 1) {
+            self.add(Slot::Block(Axis::X));
+            self.add(Slot::Block(Axis::Y));
+        }
     }
 
     fn add_place(&mut self, place: Place) {

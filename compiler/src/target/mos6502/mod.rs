@@ -14,17 +14,21 @@
 //! written as [`slowlight_runtime_6502::write`] says; a condition that the next
 //! statement branches on stays in the carry flag.
 //!
-//! - `homes`: where values live and what they are called;
+//! - `homes`: where values live and what they are called; `shapes`: in how many bytes;
+//! - `scaled`: reals with points of their own, read where they are wanted;
 //! - `code`: statements; `table`: lookups; `comment`: what a statement means;
 //! - `params`: the parameter block's checks; `frame`: everything around the statements;
 //! - `spread`: error diffusion.
 
+mod blocks;
 mod code;
 mod comment;
 mod frame;
 mod homes;
 mod names;
 mod params;
+mod scaled;
+mod shapes;
 mod spread;
 pub mod syntax;
 mod table;
@@ -36,10 +40,19 @@ use crate::passes::outline::Sizes;
 use crate::plan::Plan;
 use crate::source::Span;
 use slowlight_runtime_6502::FIXED16_16;
+use slowlight_runtime_6502::scaled::FIXED16;
 use syntax::Syntax;
 
 /// The plain machine: 64K of RAM and a port that takes ink by ink.
-pub static PLAIN: Target = Target {
+pub static PLAIN: Target = USUAL;
+
+/// The same with reals of 16 bits, each with fraction bits of its own.
+pub static PLAIN_FIXED16: Target = Target {
+    runtime: &FIXED16,
+    ..USUAL
+};
+
+const USUAL: Target = Target {
     name: "6502:plain",
     about: "a 6502 with 64K of RAM and a page of ports that draw",
     runtime: &FIXED16_16,
@@ -84,6 +97,7 @@ pub fn document(plan: &Plan, syntax: &Syntax) -> Document {
         name: format!("{}.asm", plan.name),
         text: written,
         lines,
+        later: Vec::new(),
     }
 }
 

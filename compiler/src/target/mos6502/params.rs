@@ -4,6 +4,7 @@
 use super::Text;
 use super::homes::{Homes, Slot};
 use super::syntax::Syntax;
+use crate::flow::graph::*;
 use crate::plan::Plan;
 use slowlight_routine::Type;
 
@@ -19,6 +20,24 @@ pub(super) struct Entry {
     pub unit: String,
     /// What to divide it by for a real; 0 for an int.
     pub divisor: u32,
+    /// The fraction bits of a real that has its own.
+    pub scale: Option<i8>,
+}
+
+impl Entry {
+    /// Whether it is divided, where its point is its own.
+    fn is_divided(&self) -> bool {
+        self.divisor > 1 && self.scale.is_some_and(|scale| scale >= 0)
+    }
+
+    /// The parts of the runtime that it is taken with.
+    pub fn needs(&self, plan: &Plan) -> Option<&'static str> {
+        match plan.points() {
+            None => (self.divisor > 0).then_some("fixed_divide"),
+            Some(_) if self.is_divided() => Some("divide16"),
+            Some(_) => self.scale.map(|_| "narrow"),
+        }
+    }
 }
 
 pub(super) fn entries(plan: &Plan, homes: &Homes) -> Vec<Entry> {
@@ -46,6 +65,7 @@ pub(super) fn entries(plan: &Plan, homes: &Homes) -> Vec<Entry> {
                 Some(_) if real => 10u32.saturating_pow(digits),
                 _ => 0,
             },
+            scale: scale(plan, ParamId(k as u32)).filter(|_| real),
         });
     }
     let shown = plan.shown_rows();
@@ -66,9 +86,27 @@ pub(super) fn entries(plan: &Plan, homes: &Homes) -> Vec<Entry> {
             greatest: shown.1.to_string(),
             unit: "a row".to_owned(),
             divisor: 0,
+            scale: None,
         });
     }
     all
+}
+
+/// The fraction bits of a param that has its own.
+fn scale(plan: &Plan, param: ParamId) -> Option<i8> {
+    let points = plan.points()?;
+    let is = |id: &NodeId| plan.graph.node(*id) == Node::Param(param);
+    Some(plan.graph.ids().find(is).map_or(0, |id| points.own(id)))
+}
+
+/// Makes a real with a point of its own of the whole number in `acc`.
+fn made(entry: &Entry, scale: i8, home: &str) -> String {
+    let take = match (entry.is_divided(), scale) {
+        (true, _) => format!("ldy #{scale} | jsr divide16"),
+        (false, 0..) => format!("ldy #{scale} | jsr narrow_left"),
+        (false, _) => format!("ldy #{} | jsr narrow_right", -i32::from(scale)),
+    };
+    format!("jsr take_param | {take} | sta {home} | stx {home}+1")
 }
 
 fn unit(real: bool, digits: u32) -> String {
@@ -82,7 +120,13 @@ fn unit(real: bool, digits: u32) -> String {
 }
 
 /// The check of the params, and their making.
-pub(super) fn take_params(homes: &Homes, entries: &[Entry], syntax: &Syntax, text: &mut Text) {
+pub(super) fn take_params(
+    plan: &Plan,
+    homes: &Homes,
+    entries: &[Entry],
+    syntax: &Syntax,
+    text: &mut Text,
+) {
     text.headline("the parameters, checked and made numbers of the runtime's");
     let which = homes.name(Slot::Which);
     text.label("take_params");
@@ -93,6 +137,10 @@ pub(super) fn take_params(homes: &Homes, entries: &[Entry], syntax: &Syntax, tex
         text.code(&format!(
             "lda #<(param{k}) | sta prod | lda #>(param{k}) | sta prod+1 | lda #{number}"
         ));
+        if let Some(scale) = entry.scale {
+            text.code(&made(entry, scale, home));
+            continue;
+        }
         text.code(&format!(
             "jsr take_param | lda acc | sta {home} | lda acc+1 | sta {home}+1"
         ));
@@ -104,6 +152,11 @@ pub(super) fn take_params(homes: &Homes, entries: &[Entry], syntax: &Syntax, tex
     let divide = entries.iter().any(|e| e.divisor > 0);
     let template = if divide { TAKE_REAL } else { TAKE_INT };
     text.line(TAKE.replace("WHICH", which));
+    // Where points are the params' own, they are divided by who knows them.
+    let template = match plan.points() {
+        Some(_) => template.replace("jmp fixed_divide", "rts"),
+        None => template.to_owned(),
+    };
     text.line(template);
     for (k, entry) in entries.iter().enumerate() {
         let symbol = &entry.symbol;

@@ -7,15 +7,17 @@
 
 use super::code::Code;
 use super::homes::{Homes, Slot};
-use crate::plan::ErrorRows;
+use crate::plan::{ErrorRows, Plan};
 use slowlight_runtime_6502::write::{self, Goal, Place as Operand};
 
 /// Bytes of an error.
-const SIZE: u32 = 4;
+fn size(plan: &Plan) -> u32 {
+    u32::from(write::size(plan.runtime.real))
+}
 
 /// Bytes of all rows, to whole pages.
-pub(super) fn bytes(rows: &ErrorRows) -> u32 {
-    (rows.rows * rows.length() * SIZE + 0xFF) & !0xFF
+pub(super) fn bytes(plan: &Plan, rows: &ErrorRows) -> u32 {
+    (rows.rows * rows.length() * size(plan) + 0xFF) & !0xFF
 }
 
 fn pointer(homes: &Homes, row: u32) -> String {
@@ -26,7 +28,7 @@ impl Code<'_> {
     /// All errors 0, and the pointers at their rows' beginnings.
     pub(super) fn start_errors(&mut self, rows: &ErrorRows) {
         let first = pointer(self.homes, 0);
-        let pages = bytes(rows) >> 8;
+        let (pages, size) = (bytes(self.plan, rows) >> 8, size(self.plan));
         let text = &mut *self.text;
         text.headline("no errors yet");
         text.code(&format!(
@@ -39,7 +41,7 @@ impl Code<'_> {
         ));
         for k in 0..rows.rows {
             let name = pointer(self.homes, k);
-            let at = k * rows.length() * SIZE;
+            let at = k * rows.length() * size;
             self.text.code(&format!(
                 "lda #<(errors+{at}) | sta {name} | lda #>(errors+{at}) | sta {name}+1"
             ));
@@ -48,11 +50,12 @@ impl Code<'_> {
 
     /// Takes what a pixel has received, and leaves 0.
     pub(super) fn receive_errors(&mut self, rows: &ErrorRows) {
+        let size = size(self.plan);
         let (row, home) = (pointer(self.homes, 0), self.homes.name(Slot::Received));
         self.text.line(format!("        ; {home} = what came here"));
-        for k in 0..SIZE {
+        for k in 0..size {
             let load = if k == 0 {
-                format!("ldy #{}", SIZE * rows.left)
+                format!("ldy #{}", size * rows.left)
             } else {
                 "iny".to_owned()
             };
@@ -65,33 +68,32 @@ impl Code<'_> {
 
     /// Sends a pixel's shares, and moves the pointers on.
     pub(super) fn send_errors(&mut self, rows: &ErrorRows) {
+        let size = size(self.plan);
         for share in &rows.shares {
             let row = pointer(self.homes, u32::try_from(share.dy).unwrap_or(0));
             let right = i64::from(rows.left) + i64::from(share.dx);
-            let at = i64::from(SIZE) * right;
+            let at = i64::from(size) * right;
             self.text.span = Some(self.plan.graph.span(share.node));
             self.text
                 .line(format!("        ; to ({}, {})", share.dx, share.dy));
             self.text.code(&format!("ldy #{at}"));
             self.each_byte(&format!("lda ({row}),y | sta acc"));
             if let Some(routine) = self.plan.gather() {
-                let args = [
-                    Operand::At("acc".to_owned()),
-                    self.homes.operand(self.plan, share.node),
-                ];
-                let mut lines = Vec::new();
-                let serial = self.text.next_serial();
-                write::instructions(routine, &args, &Goal::At("prod"), serial, &mut lines);
-                lines.iter().for_each(|line| self.text.line(line));
+                let sent = match self.plan.points() {
+                    Some(points) => self.read_at(points, share.node, points.received(), "second"),
+                    None => self.homes.operand(self.plan, share.node),
+                };
+                let args = [Operand::At("acc".to_owned()), sent];
+                self.use_of(routine, &args, &Goal::At("prod"), 0);
             }
             self.text.code(&format!("ldy #{at}"));
             self.each_byte(&format!("lda prod | sta ({row}),y"));
         }
-        self.text.span = None;
+        self.text.span = self.plan.drawn;
         for k in 0..rows.rows {
             let name = pointer(self.homes, k);
             self.text.code(&format!(
-                "clc | lda {name} | adc #{SIZE} | sta {name} | bcc moved{k} | inc {name}+1"
+                "clc | lda {name} | adc #{size} | sta {name} | bcc moved{k} | inc {name}+1"
             ));
             self.text.label(&format!("moved{k}"));
         }
@@ -100,7 +102,7 @@ impl Code<'_> {
     /// Instructions for each byte of an error; `acc` and `prod` in them stand
     /// for the byte's place, and y moves on.
     fn each_byte(&mut self, instructions: &str) {
-        for k in 0..SIZE as u8 {
+        for k in 0..size(self.plan) as u8 {
             let text = ["acc", "prod"]
                 .iter()
                 .fold(instructions.to_owned(), |t, n| {
@@ -115,7 +117,7 @@ impl Code<'_> {
     /// the furthest one.
     pub(super) fn turn_errors(&mut self, rows: &ErrorRows) {
         let names: Vec<String> = (0..rows.rows).map(|k| pointer(self.homes, k)).collect();
-        let [lo, hi, ..] = (SIZE * rows.width).to_le_bytes();
+        let [lo, hi, ..] = (size(self.plan) * rows.width).to_le_bytes();
         for name in &names {
             self.text.code(&format!(
                 "sec | lda {name} | sbc #{lo} | sta {name} | lda {name}+1 | sbc #{hi} | sta {name}+1"

@@ -13,13 +13,14 @@ use slowlight_routine::Bits;
 use slowlight_runtime_6502::write::{self, Place as Operand};
 
 /// Byte `k` of every entry.
-fn plane(plan: &Plan, table: &Table, k: u8) -> Vec<u8> {
+fn plane(plan: &Plan, (id, table): (TableId, &Table), k: u8) -> Vec<u8> {
     let byte = |bits: Bits| bits.to_le_bytes().get(usize::from(k)).copied().unwrap_or(0);
-    table
-        .entries
-        .iter()
-        .map(|e| byte(plan.bits(e.value())))
-        .collect()
+    let bits = |(at, e): (usize, &Constant)| match plan.points() {
+        Some(_) => plan.entry(id, at),
+        None => plan.bits(e.value()),
+    };
+    let entries = table.entries.iter().enumerate();
+    entries.map(|entry| byte(bits(entry))).collect()
 }
 
 /// The one byte that a plane is made of, if it is.
@@ -28,9 +29,9 @@ fn uniform(plane: &[u8]) -> Option<u8> {
     plane.iter().all(|b| b == first).then_some(*first)
 }
 
-fn planes(plan: &Plan, table: &Table) -> Vec<Vec<u8>> {
+fn planes(plan: &Plan, id: TableId, table: &Table) -> Vec<Vec<u8>> {
     let size = write::size(plan.runtime.format_of(table.ty));
-    (0..size).map(|k| plane(plan, table, k)).collect()
+    (0..size).map(|k| plane(plan, (id, table), k)).collect()
 }
 
 /// A plane's label.
@@ -75,7 +76,7 @@ pub(super) fn data(plan: &Plan, text: &mut Text) {
             "table {}, {} x {}",
             table.name, table.width, table.height
         ));
-        for (k, plane) in planes(plan, table).iter().enumerate() {
+        for (k, plane) in planes(plan, id, table).iter().enumerate() {
             if uniform(plane).is_some() && !is_large(table) {
                 continue;
             }
@@ -108,9 +109,14 @@ impl Code<'_> {
         let Some(table) = plan.graph.tables.get(of.0 as usize) else {
             return;
         };
-        let home = self.homes.place(Place::Node(id)).to_owned();
+        let place = Place::Node(id);
+        let home = self.homes.place(place).to_owned();
+        let bytes = match self.homes.shape(plan, place) {
+            Some(shape) => shape.bytes,
+            None => write::size(plan.runtime.format_of(table.ty)),
+        };
         if is_large(table) {
-            return self.large_lookup(&home, of, table, column, row);
+            return self.large_lookup((&home, bytes), (of, table), column, row);
         }
         let column = self.index(column, table.width, "arg");
         let row = if table.height > 1 {
@@ -136,7 +142,8 @@ impl Code<'_> {
                 )
             }
         });
-        for (k, plane) in planes(plan, table).iter().enumerate() {
+        let planes = planes(plan, of, table);
+        for (k, plane) in planes.iter().enumerate().take(usize::from(bytes)) {
             let to = write::byte_at(&home, k as u8);
             self.text.code(&match uniform(plane) {
                 Some(byte) => format!("lda #${byte:02x} | sta {to}"),
@@ -173,9 +180,8 @@ impl Code<'_> {
     /// Through a pointer to the entry's low byte; the other planes follow.
     fn large_lookup(
         &mut self,
-        home: &str,
-        of: TableId,
-        table: &Table,
+        (home, bytes): (&str, u8),
+        (of, table): (TableId, &Table),
         column: NodeId,
         row: NodeId,
     ) {
@@ -194,8 +200,7 @@ impl Code<'_> {
         self.text
             .code(&format!("lda acc+1 | adc #>({first}) | sta acc+1 | ldy #0"));
         let [lo, hi, ..] = (table.entries.len() as u32).to_le_bytes();
-        let size = write::size(self.plan.runtime.format_of(table.ty));
-        for k in 0..size {
+        for k in 0..bytes {
             if k > 0 {
                 self.text.code(&format!(
                     "clc | lda acc | adc #{lo} | sta acc | lda acc+1 | adc #{hi} | sta acc+1"

@@ -4,11 +4,16 @@ use crate::plan::{Goal, Plan, plan};
 use crate::scene::check;
 use crate::sema::Options;
 use crate::target::mos6502::syntax::{SYNTAXES, USUAL, find as find_syntax};
-use crate::target::{default_mode, find};
+use crate::target::{default_mode, find, formats};
 use std::collections::BTreeSet;
 
 fn planned(source: &str) -> Plan {
-    let target = find("6502:plain").unwrap();
+    planned_in(source, "fixed16.16")
+}
+
+fn planned_in(source: &str, format: &str) -> Plan {
+    let mut all = formats(find("6502:plain").unwrap());
+    let target = all.find(|t| t.runtime.format == format).unwrap();
     let scene = check("test", source);
     assert!(scene.is_right(), "{:?}", scene.diagnostics);
     let graph = scene
@@ -58,6 +63,35 @@ draw (x, y) = if x * tilt < y - 1 then ink(steps[x mod 3, 0]) else ink(2);";
 #[test]
 fn a_small_scene_reads_well() {
     insta::assert_snapshot!(format!("{GRADIENT}\n\n{}", text(GRADIENT)));
+}
+
+#[test]
+fn a_small_scene_with_points_of_its_own_reads_well() {
+    let plan = planned_in(GRADIENT, "fixed16");
+    let text = super::emit(&plan).remove(0).text;
+    let program = text.split("runtime: ").next().unwrap();
+    insta::assert_snapshot!(format!("{GRADIENT}\n\n{program}"));
+}
+
+/// A vector is divided by its length once, and a pixel's place by a constant never.
+#[test]
+fn quotients_by_one_length_are_products() {
+    let source = "image 64 x 32 inks black, white;
+        draw (x, y) = {
+          let v = unit(((x - 31.5) / 32, (15.5 - y) / 32, -1));
+          if v.x * v.y < v.z + 1 then ink(1) else ink(0)
+        };";
+    let plan = planned_in(source, "fixed16");
+    let mut names: Vec<&str> = Vec::new();
+    for block in plan.tree.blocks() {
+        crate::flow::tree::walk(block, &mut |statement| {
+            if let crate::flow::tree::Statement::Let(id) = statement {
+                names.extend(plan.routine(*id).map(|routine| routine.name));
+            }
+        });
+    }
+    let times = |name: &str| names.iter().filter(|n| **n == name).count();
+    assert_eq!((times("div"), times("one_over")), (0, 1), "{names:?}");
 }
 
 #[test]

@@ -37,6 +37,8 @@ impl chumsky::span::Span for Span {
             file,
             start: range.start,
             end: range.end.max(range.start),
+            within: None,
+            effect: None,
         }
     }
     fn context(&self) -> u16 {

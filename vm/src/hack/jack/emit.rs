@@ -31,6 +31,8 @@ pub(super) fn class<'a>(
         ifs: 0,
         whiles: 0,
         out: String::new(),
+        line: class.name.place.line,
+        lines: Vec::new(),
         faults,
     };
     emitter.types(class.variables.iter().map(|variable| variable.of));
@@ -40,6 +42,7 @@ pub(super) fn class<'a>(
     VmFile {
         name: format!("{}.vm", class.name.text),
         text: emitter.out,
+        lines: emitter.lines,
         statics: own_statics,
     }
 }
@@ -73,6 +76,10 @@ pub(super) struct Emitter<'a, 'f, 'n> {
     ifs: u32,
     whiles: u32,
     out: String,
+    /// The source's line that commands are written for now.
+    line: u32,
+    /// The source's line of each command.
+    lines: Vec<u32>,
     pub(super) faults: &'f mut Faults<'n>,
 }
 
@@ -88,6 +95,7 @@ impl<'a> Emitter<'a, '_, '_> {
         self.void = subroutine.returns.is_none();
         (self.ifs, self.whiles) = (0, 0);
         let locals = self.scope.count(Kind::Local);
+        self.line = subroutine.name.place.line;
         self.command(format_args!("function {class}.{name} {locals}"));
         match subroutine.kind {
             Call::Constructor => self.allocation(subroutine),
@@ -133,6 +141,7 @@ impl<'a> Emitter<'a, '_, '_> {
     }
 
     fn statement(&mut self, statement: &Statement<'a>) {
+        let outer = std::mem::replace(&mut self.line, statement.place().line);
         match statement {
             Statement::Let {
                 target,
@@ -151,14 +160,18 @@ impl<'a> Emitter<'a, '_, '_> {
                 condition,
                 then,
                 otherwise,
+                ..
             } => self.branch(condition, then, otherwise.as_deref()),
-            Statement::While { condition, body } => self.repetition(condition, body),
+            Statement::While {
+                condition, body, ..
+            } => self.repetition(condition, body),
             Statement::Do(call) => {
                 self.invocation(call);
                 self.command("pop temp 0");
             }
             Statement::Return { place, value } => self.leave(*place, value.as_ref()),
         }
+        self.line = outer;
     }
 
     /// The value is computed before `pointer 1` is set, as it may set it too.
@@ -248,6 +261,7 @@ impl<'a> Emitter<'a, '_, '_> {
     pub(super) fn command(&mut self, command: impl fmt::Display) {
         // Writing to a String cannot fail.
         let _ = writeln!(self.out, "{command}");
+        self.lines.push(self.line);
     }
 }
 

@@ -49,6 +49,8 @@ pub struct VmFile {
     pub name: String,
     /// The commands, one a line; every line ends in a line feed.
     pub text: String,
+    /// For each of those lines, the line of the class (from 1) that it comes from.
+    pub lines: Vec<u32>,
     /// How many statics the class has: indices 0 up to this of its `static` segment.
     pub statics: u32,
 }

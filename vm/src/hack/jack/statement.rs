@@ -39,6 +39,7 @@ impl<'a> Parser<'_, 'a, '_, '_> {
                     None
                 };
                 Ok(Statement::If {
+                    place,
                     condition,
                     then,
                     otherwise,
@@ -48,7 +49,11 @@ impl<'a> Parser<'_, 'a, '_, '_> {
                 self.advance();
                 let condition = self.condition()?;
                 let body = self.block()?;
-                Ok(Statement::While { condition, body })
+                Ok(Statement::While {
+                    place,
+                    condition,
+                    body,
+                })
             }
             Token::Keyword("do") => {
                 self.advance();

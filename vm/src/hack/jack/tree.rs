@@ -77,11 +77,13 @@ pub(super) enum Statement<'a> {
         value: Expression<'a>,
     },
     If {
+        place: Place,
         condition: Expression<'a>,
         then: Vec<Statement<'a>>,
         otherwise: Option<Vec<Statement<'a>>>,
     },
     While {
+        place: Place,
         condition: Expression<'a>,
         body: Vec<Statement<'a>>,
     },
@@ -90,6 +92,19 @@ pub(super) enum Statement<'a> {
         place: Place,
         value: Option<Expression<'a>>,
     },
+}
+
+impl Statement<'_> {
+    /// Where it begins, or hardly behind.
+    pub fn place(&self) -> Place {
+        match self {
+            Statement::Let { target, .. } => target.place,
+            Statement::If { place, .. }
+            | Statement::While { place, .. }
+            | Statement::Return { place, .. } => *place,
+            Statement::Do(call) => call.receiver.as_ref().unwrap_or(&call.name).place,
+        }
+    }
 }
 
 /// A first term and the operators applied to it, from left to right.

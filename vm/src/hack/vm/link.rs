@@ -119,6 +119,15 @@ impl Program {
         (index < *count).then(|| base + index)
     }
 
+    /// For each command, the file and the line (from 1) that it comes from; the files'
+    /// names are those that were given.
+    pub fn origins(&self) -> impl Iterator<Item = (&str, u32)> {
+        let name = |file: u32| self.files.get(file as usize).map_or("", String::as_str);
+        self.origins
+            .iter()
+            .map(move |(file, line)| (name(*file), *line))
+    }
+
     /// The function whose code holds command `at`.
     pub(in crate::hack) fn function_at(&self, at: u32) -> Option<&Function> {
         let after = self.functions.partition_point(|f| f.start <= at);

@@ -1,10 +1,13 @@
 //! The machine's state, and the run that switches between the engines.
 
-use super::command::{ARG, CONSTANTS, FRAME, KEYBOARD, LCL, Memory, RAM_MASK, SCREEN, SP, STACK};
+use super::command::{
+    ARG, CONSTANTS, Command, FRAME, KEYBOARD, LCL, Memory, RAM_MASK, SCREEN, SP, STACK,
+};
 use super::fast::Exit;
 use super::link::Program;
 use super::os::{self, Native, Os, Trap};
 use super::parse::fault;
+use crate::charge::{Charge, Ledger};
 use crate::hack::screen::screen;
 use crate::{Fault, Progress, Screen, Stop, Watch};
 
@@ -86,6 +89,46 @@ impl<'p> Machine<'p> {
             self.stopped = Some(stop.clone());
         }
         self.report(stop)
+    }
+
+    /// Runs as [`Machine::run`] does, command by command, and counts what each command takes
+    /// by its number in the program, where those that `routine` knows are charged to the
+    /// commands that call them. The charges add up to the commands of this call.
+    pub fn charges(
+        &mut self,
+        limit: u64,
+        routine: &dyn Fn(u32) -> bool,
+        watch: Watch,
+    ) -> (Run, Vec<Charge>) {
+        let mut ledger = Ledger::new(self.program.commands.len(), routine);
+        let mut depth = 0;
+        let mut next_watch = self.count.saturating_add(WATCH_EVERY);
+        let stop = loop {
+            if self.count >= limit {
+                break Stop::CycleLimit;
+            }
+            if self.os.effort >= EFFORT_LIMIT || self.count >= next_watch {
+                self.os.effort = 0;
+                next_watch = self.count.saturating_add(WATCH_EVERY);
+                if !watch(self.progress()) {
+                    break Stop::Interrupted;
+                }
+            }
+            let (at, before) = (self.at, self.count);
+            let stepped = self.step();
+            ledger.step(at, depth, self.count - before, true);
+            match self.program.commands.get(at as usize) {
+                Some(Command::Call { .. }) => depth += 1,
+                Some(Command::Return) => depth = depth.saturating_sub(1),
+                _ => {}
+            }
+            if let Err(trap) = stepped
+                && let Some(stop) = self.trap(trap)
+            {
+                break stop;
+            }
+        };
+        (self.report(stop), ledger.finish())
     }
 
     /// The word at an address of the RAM (the address is taken modulo 32,768), signed.

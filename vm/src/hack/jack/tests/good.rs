@@ -149,10 +149,23 @@ fn a_class_of_the_os_can_be_replaced() {
 fn layout_means_nothing() {
     let wide = "class Main { function int main ( int a ) { return a + ( - 1 ) ; } }";
     let narrow = "\u{feff}class/**/Main{//\r\nfunction\tint\r\nmain(int a){return a+(-1);}}/***/";
-    assert_eq!(
-        compiled(&[("Main.jack", wide)]),
-        compiled(&[("Main.jack", narrow)])
-    );
+    let [wide, narrow] = [wide, narrow].map(|text| compiled(&[("Main.jack", text)]).unwrap());
+    assert_eq!(wide[0].text, narrow[0].text);
+    // But for where it is said to stand.
+    assert_eq!((wide[0].lines[0], narrow[0].lines[0]), (1, 3));
+}
+
+#[test]
+fn each_command_has_its_statements_line() {
+    let text = "class Main {\n function int main(int a) {\n  while (a > 0) {\n   let a = a - 1;\n  }\n  return\n   a;\n }\n}";
+    let compiled = compiled(&[("Main.jack", text)]).unwrap();
+    let lines: Vec<String> = (compiled[0].text.lines().zip(&compiled[0].lines))
+        .map(|(command, line)| format!("{line} {command}"))
+        .collect();
+    let expected = "2 function Main.main 0,3 label WHILE_EXP0,3 push argument 0,3 push constant 0,3 gt,\
+        3 not,3 if-goto WHILE_END0,4 push argument 0,4 push constant 1,4 sub,4 pop argument 0,\
+        3 goto WHILE_EXP0,3 label WHILE_END0,6 push argument 0,6 return";
+    assert_eq!(lines.join(","), expected);
 }
 
 #[test]

@@ -1,0 +1,112 @@
+//! Reals with points of their own: read where they are wanted.
+
+use super::code::Code;
+use crate::flow::graph::*;
+use crate::flow::tree::Place;
+use crate::plan::points::Points;
+use slowlight_routine::{Op, Type, scale};
+use slowlight_runtime_6502::scaled::{self, BITS};
+use slowlight_runtime_6502::write::Place as Operand;
+
+/// Where operands go that are read at another scale.
+const READ: [&str; 2] = ["first", "second"];
+
+impl Code<'_> {
+    /// An operation's operands as its routine wants them.
+    pub(super) fn read_all(&mut self, id: NodeId, args: [NodeId; 2]) -> [Operand; 2] {
+        let Node::Apply(op, _) = self.plan.graph.node(id) else {
+            return args.map(|arg| self.homes.operand(self.plan, arg));
+        };
+        let points = self.plan.points().filter(|_| scale::concerns(op));
+        let mut all = Vec::new();
+        for (k, arg) in args.into_iter().enumerate() {
+            let ty = op.args().get(k);
+            let operand = match (points, ty) {
+                (Some(points), Some(Type::Real)) => {
+                    let again = k == 1 && arg == args[0];
+                    let to = points.scales(id).args;
+                    if again && to[0] == to[1] {
+                        all.first().cloned().unwrap_or(Operand::Constant(0))
+                    } else {
+                        self.read_at(points, arg, to[k], READ[k])
+                    }
+                }
+                (Some(points), Some(Type::Int)) if op == Op::ToReal => {
+                    self.read_at(points, arg, points.scales(id).args[k], READ[k])
+                }
+                (_, None) => Operand::Constant(0),
+                _ => self.homes.operand(self.plan, arg),
+            };
+            all.push(operand);
+        }
+        let mut all = all.into_iter();
+        [(); 2].map(|()| all.next().unwrap_or(Operand::Constant(0)))
+    }
+
+    /// What an operation's routine has to know of scales.
+    pub(super) fn number(&self, id: NodeId) -> i32 {
+        match (self.plan.points(), self.plan.graph.node(id)) {
+            (Some(points), Node::Apply(op, _)) => points.scales(id).number(op),
+            _ => 0,
+        }
+    }
+
+    /// A number with so many fraction bits: where it is, or read into `into`.
+    pub(super) fn read_at(&mut self, points: &Points, id: NodeId, to: i8, into: &str) -> Operand {
+        let real = self.plan.graph.ty(id) == Type::Real;
+        if let Some(value) = self.plan.graph.constant(id) {
+            return Operand::Constant(match real {
+                true => scale::nearest(value.real(), to, BITS),
+                false => points.moved(value.int() as i64 as u64, 0, to),
+            });
+        }
+        let own = if real { points.own(id) } else { 0 };
+        let from = self.homes.operand(self.plan, id);
+        if own == to && real {
+            return from;
+        }
+        self.move_into(id, &from, i32::from(to) - i32::from(own), (to, into));
+        Operand::At(into.to_owned())
+    }
+
+    /// Reads a number with so many more fraction bits.
+    fn move_into(&mut self, id: NodeId, from: &Operand, by: i32, (to, into): (i8, &str)) {
+        let range = self.plan.ranges.result.get(id.0 as usize);
+        let most = scale::most(BITS) as f64;
+        let fits = range.is_some_and(|r| scale::in_units(*r, to).within(-most, most));
+        let mut lines = Vec::new();
+        let serial = self.text.next_serial();
+        let read = scaled::Read {
+            from,
+            by,
+            fits,
+            to: into,
+            serial,
+        };
+        self.needs.extend(scaled::read(read, &mut lines));
+        lines.iter().for_each(|line| self.text.line(line));
+    }
+
+    /// Whether a place has another scale than what it is given.
+    pub(super) fn moves(&self, place: Place, from: NodeId) -> bool {
+        let real = self.plan.graph.ty(from) == Type::Real;
+        let points = self.plan.points().filter(|_| real);
+        let undefined = matches!(self.plan.graph.node(from), Node::Undefined(_));
+        points.is_some_and(|points| {
+            !undefined
+                && (self.plan.graph.constant(from).is_some()
+                    || points.place(place) != points.own(from))
+        })
+    }
+
+    /// Gives a place a real of another scale.
+    pub(super) fn set_real(&mut self, place: Place, to: &str, from: NodeId) {
+        let Some(points) = self.plan.points() else {
+            return;
+        };
+        let read = self.read_at(points, from, points.place(place), to);
+        if read != Operand::At(to.to_owned()) {
+            self.copy(&read, to, self.plan.place_format(place));
+        }
+    }
+}

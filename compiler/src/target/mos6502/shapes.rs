@@ -1,0 +1,91 @@
+//! In how many bytes ints are kept where reals have points of their own: as many as their
+//! ranges need.
+
+use super::homes::Slot;
+use crate::flow::graph::*;
+use crate::flow::tree::*;
+use crate::plan::Plan;
+use slowlight_routine::{Format, Range, Type};
+use slowlight_runtime_6502::write::{Shape, size};
+use std::collections::HashMap;
+
+/// Bytes of an int at most.
+const MOST: u8 = 4;
+
+/// Places' shapes.
+pub(super) struct Shapes {
+    places: HashMap<Place, Shape>,
+}
+
+/// Those of a plan whose reals have points of their own.
+pub(super) fn shapes(plan: &Plan) -> Option<Shapes> {
+    plan.points()?;
+    let mut ranges: HashMap<Place, Range> = HashMap::new();
+    let mut add = |place: Place, range: Range| {
+        let known = ranges.entry(home(place)).or_insert(range);
+        *known = known.join(range);
+    };
+    let result = |id: NodeId| plan.ranges.result.get(id.0 as usize).copied();
+    for block in plan.tree.blocks() {
+        walk(block, &mut |statement| match statement {
+            Statement::Let(id) => add(
+                Place::of(&plan.graph, *id),
+                result(*id).unwrap_or(Range::ALL),
+            ),
+            Statement::Set {
+                place,
+                from: Origin::Node(id),
+            } => {
+                let from = plan.graph.constant(*id).map(|v| Range::point(v.real()));
+                let undefined = matches!(plan.graph.node(*id), Node::Undefined(_));
+                // What is undefined is looked at by nobody.
+                if !undefined {
+                    add(*place, from.or(result(*id)).unwrap_or(Range::ALL));
+                }
+            }
+            _ => {}
+        });
+    }
+    let ramp = |place: Place| matches!(place, Place::Node(id) if matches!(plan.graph.node(id), Node::Ramp { .. }));
+    let shape = |place: Place, range: Range| match plan.place_format(place) {
+        // Where nobody reads it, a ramp may be anything.
+        Format::Int { .. } if ramp(place) => Shape::whole(MOST),
+        Format::Int { .. } => Shape::of(range, MOST),
+        Format::Bool => Shape::of(Range::new(0.0, 1.0), 1),
+        real => Shape::whole(size(real)),
+    };
+    let places = ranges.into_iter().map(|(p, r)| (p, shape(p, r))).collect();
+    Some(Shapes { places })
+}
+
+/// A loop's place, where what is scratch goes in the end.
+fn home(place: Place) -> Place {
+    match place {
+        Place::Scratch(l, k) => Place::Carried(l, k),
+        other => other,
+    }
+}
+
+impl Shapes {
+    /// A place's; of one that is never written, all of its format.
+    pub fn of(&self, plan: &Plan, place: Place) -> Shape {
+        let whole = || match plan.place_format(place) {
+            Format::Bool => Shape::of(Range::new(0.0, 1.0), 1),
+            format => Shape::whole(size(format)),
+        };
+        self.places.get(&home(place)).copied().unwrap_or_else(whole)
+    }
+}
+
+/// The shape of what is no place.
+pub(super) fn of_slot(plan: &Plan, slot: Slot) -> Shape {
+    match slot {
+        Slot::Axis(_) => Shape::of(Range::new(0.0, 32767.0), MOST),
+        Slot::Received => Shape::whole(size(plan.runtime.real)),
+        Slot::Param(p) => match plan.graph.params.get(p as usize).map(|p| p.ty) {
+            Some(Type::Real) => Shape::whole(size(plan.runtime.real)),
+            _ => Shape::whole(MOST),
+        },
+        _ => Shape::whole(MOST),
+    }
+}

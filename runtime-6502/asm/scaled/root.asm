@@ -1,0 +1,78 @@
+; a and x (high) = the root of a and x times 2 to the y; y is 14 less that, and odd where
+; root16_odd is called. What is up to four times less than 65536 is looked up.
+root16_odd:
+        cpx #$80
+        bcs root16_zero
+        sta acc
+        txa
+        asl acc
+        rol
+        jmp root16_begin
+root16:
+        cpx #$80
+        bcs root16_zero
+        sta acc
+        txa
+root16_begin:
+        sty count           ; halvings of the result that are left
+        tax
+        ora acc
+        beq root16_zero
+        txa
+        bne root16_scale
+        lda acc             ; eight bits at once
+        ldx #0
+        stx acc
+        inc count
+        inc count
+        inc count
+        inc count
+root16_scale:
+        cmp #$40
+        bcs root16_look
+        asl acc
+        rol
+        asl acc
+        rol
+        inc count
+        bne root16_scale
+root16_look:
+        tay
+        lda roots_step-64,y ; in proportion: the step times the low byte
+        ldx acc
+        sta sum_hi
+        eor #$ff
+        sta dif_hi
+        lda roots_low-64,y
+        sta prod
+        lda roots_high-64,y
+        sta prod+1
+        txa
+        tay
+        sec
+        lda (sum_hi),y
+        sbc (dif_hi),y
+        clc
+        adc prod
+        sta prod
+        lda prod+1
+        adc #0
+        ldy count
+        beq root16_done
+root16_half:
+        lsr
+        ror prod
+        dey
+        bne root16_half
+        bcc root16_done
+        inc prod
+        bne root16_done
+        adc #0
+root16_done:
+        tax
+        lda prod
+        rts
+root16_zero:
+        lda #0
+        tax
+        rts

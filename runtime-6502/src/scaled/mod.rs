@@ -1,0 +1,86 @@
+//! Fixed point in 16 bits, where each value has its own number of fraction bits.
+//!
+//! A real is an int from -32767 to 32767 at a scale that the plan chooses for it
+//! ([`slowlight_routine::scale`]); an int is one of 32 bits, kept in the bytes that its
+//! range needs. Sums and comparisons are written in place, since their operands are read
+//! at one scale ([`read`]). A product is made of quarter squares: only as much of it as
+//! is needed, the upper 24 of 32 bits. A root is looked up in a table of 192 entries, in
+//! proportion. What leaves 16 bits saturates, if the ranges do not prove that it cannot.
+//!
+//! Functions that are rarer are those of 16.16, their operand and result shifted.
+
+pub mod model;
+mod read;
+mod routines;
+mod templates;
+#[cfg(test)]
+mod tests;
+
+pub use read::{Read, floor, read};
+pub use templates::squared;
+
+use crate::parts;
+use slowlight_routine::scale;
+use slowlight_routine::{Bits, Format, Runtime, Stepping, Value};
+
+/// Bits of a real.
+pub const BITS: u8 = 16;
+
+/// The format of the reals.
+pub const REAL: Format = Format::Scaled { bits: BITS };
+
+/// The first byte of the zero page that this runtime leaves alone.
+pub const FREE_ZERO_PAGE: u8 = 0x34;
+
+/// The runtime of fixed-point reals with points of their own.
+pub static FIXED16: Runtime = Runtime {
+    format: "fixed16",
+    real: REAL,
+    routines: &routines::ALL,
+    parts: parts::ALL,
+    encode,
+    decode,
+    shifted: model::shifted,
+    reciprocals: true,
+    stepping: Some(STEPPING),
+    statement: 4,
+    index: 6,
+    param_digits: |greatest, ranged| {
+        Some(scale::param_digits(
+            greatest,
+            ranged,
+            scale::most(BITS) as f64,
+        ))
+    },
+    param_bits: |scaled, _| scaled as Bits,
+    ..crate::USUAL
+};
+
+/// An int of four bytes is added to another.
+const STEPPING: Stepping = Stepping {
+    ramp: 38,
+    read: [0, 0],
+    digit: 0,
+    write: [0, 0],
+    test: 3,
+};
+
+/// The nearest bits, saturating; of a real without a scale, those of its int.
+fn encode(value: Value, format: Format) -> Bits {
+    match format {
+        Format::Fixed { bits, frac } => scale::nearest(value.real(), frac, bits),
+        Format::Scaled { bits } => scale::nearest(value.real(), 0, bits),
+        Format::Bool => Bits::from(value.truth()),
+        _ => crate::model::bits(value.int()),
+    }
+}
+
+fn decode(bits: Bits, format: Format) -> Value {
+    let int = crate::model::int(bits);
+    match format {
+        Format::Bool => Value::Bool(bits != 0),
+        Format::Fixed { frac, .. } => Value::Real(f64::from(int) * (-f64::from(frac)).exp2()),
+        Format::Scaled { .. } => Value::Real(f64::from(int)),
+        _ => Value::Int(int),
+    }
+}

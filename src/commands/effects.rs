@@ -1,0 +1,218 @@
+//! `effects`: what each effect of a scene and of the library costs, and what it adds.
+
+use crate::effects::{Called, Effects, Found, Row, look, quantiles};
+use crate::explain::terminal::percent;
+use crate::explain::{size_unit, unit};
+use crate::failure::{Failure, Outcome};
+use crate::format::{count, table};
+use crate::scene::{Scene, SceneArgs};
+use crate::target_args::{self, ScreenArgs};
+use crate::trial::LIMIT;
+use crate::{say, say_json};
+use serde_json::{Value, json};
+use slowlight_compiler::target::Target;
+
+/// Options of `effects`.
+#[derive(clap::Args, Debug)]
+pub struct Args {
+    #[command(flatten)]
+    scene: SceneArgs,
+    /// The machine: see `slowlight targets`
+    #[arg(short, long, value_name = "T", value_parser = target_args::target)]
+    target: &'static Target,
+    #[command(flatten)]
+    screen: ScreenArgs,
+    /// Print one JSON object
+    #[arg(long)]
+    json: bool,
+    /// Give up after so many cycles of the machine
+    #[arg(long, value_name = "CYCLES", default_value_t = LIMIT)]
+    limit: u64,
+}
+
+/// Looks and reports; fails where the machine and its model differ.
+pub fn run(args: &Args) -> Outcome<()> {
+    let scene = Scene::load(&args.scene)?;
+    scene.warn();
+    let found = look(&scene, args.target, &args.screen, args.limit)?;
+    match args.json {
+        true => say_json(&report(&found)),
+        false => say(&text(&found)),
+    }
+    match &found.whole.from_model {
+        Some(differences) if !differences.is_empty() => Err(Failure::Differs),
+        _ => Ok(()),
+    }
+}
+
+/// A part of all cycles.
+fn share(found: &Effects, cycles: i64) -> f64 {
+    cycles as f64 / found.whole.run.cycles.max(1) as f64
+}
+
+fn report(found: &Effects) -> Value {
+    let run = &found.counted.run;
+    let mut whole = serde_json::to_value(found.whole.report()).unwrap_or(Value::Null);
+    if let Some(whole) = whole.as_object_mut() {
+        // The rows say it better.
+        whole.remove("effects");
+    }
+    json!({
+        "run": whole,
+        "unit": unit(run),
+        "size_unit": size_unit(run),
+        "watched": found.watched,
+        "effects": found.rows.iter().map(|row| row_json(found, row)).collect::<Vec<Value>>(),
+    })
+}
+
+fn row_json(found: &Effects, row: &Row) -> Value {
+    let nothing = Called::nothing();
+    let (called, digests) = match &row.found {
+        Found::Called(called) => (called.as_ref(), Value::Null),
+        Found::Absent([with, without]) => {
+            let equal = with.is_some() && with == without;
+            let digests = json!({ "with": with, "without": without, "equal": equal });
+            (&nothing, digests)
+        }
+    };
+    let [median, p99] = quantiles(&called.seen.cycles);
+    let [code, tables, variables] = called.sizes;
+    let turns = called.seen.turns;
+    json!({
+        "name": row.effect.name,
+        "library": row.effect.library,
+        "calls": row.effect.calls,
+        "code_bytes": code,
+        "table_bytes": tables,
+        "variable_bytes": variables,
+        "cycles": called.cycles,
+        "share": share(found, called.cycles),
+        "own": {
+            "cycles": called.own.cycles,
+            "share": share(found, i64::try_from(called.own.cycles).unwrap_or(i64::MAX)),
+            "size": called.own.size,
+        },
+        "pixel_cycles_modelled": { "median": median, "p99": p99 },
+        "ran": called.seen.ran as f64 / found.watched.max(1) as f64,
+        "turns": {
+            "begun": turns.begun,
+            "mean": turns.turns as f64 / turns.begun.max(1) as f64,
+            "most": turns.most,
+            "limit": turns.limit,
+        },
+        "loss": called.loss,
+        "digests": digests,
+    })
+}
+
+fn text(found: &Effects) -> String {
+    let plan = &found.whole.plan;
+    let run = &found.counted.run;
+    let head = format!(
+        "{} on {}, {}: {} pixels, {} {}\n\n",
+        found.whole.scene,
+        plan.target.name,
+        plan.runtime.format,
+        count(found.whole.pixels()),
+        count(found.whole.run.cycles),
+        unit(run)
+    );
+    let titles = [
+        "effect",
+        "calls",
+        "code",
+        "tables",
+        "variables",
+        "cycles",
+        "time",
+        "own",
+        "median",
+        "p99",
+        "ran",
+        "turns",
+        "psnr",
+        "pixels",
+    ];
+    let mut rows = vec![titles.map(str::to_owned).to_vec()];
+    let mut proofs = String::new();
+    for row in &found.rows {
+        rows.push(cells(found, row));
+        if let Found::Absent([with, without]) = &row.found {
+            let name = &row.effect.name;
+            proofs.push_str(&match (with, without) {
+                (Some(with), Some(without)) if with == without => {
+                    format!("{name} costs nothing: {with} with and without it\n")
+                }
+                (Some(with), Some(without)) => {
+                    format!("{name} costs something: {with}, {without}\n")
+                }
+                _ => format!("{name} is needed by what is not called\n"),
+            });
+        }
+    }
+    let notes = format!(
+        "\ncode, tables, variables: {} less without it; cycles, time: less without it; own: the share of \
+         its own lines;\nmedian, p99: cycles of its own at a pixel, modelled by routines' means, ran: \
+         the share of pixels that need it,\nturns: its loops' mean and limit, all over {} pixels; psnr, \
+         pixels: the picture without it\n",
+        size_unit_of_sizes(found),
+        count(found.watched as u64)
+    );
+    head + &table(&rows) + "\n" + &proofs + &notes
+}
+
+fn size_unit_of_sizes(found: &Effects) -> &'static str {
+    match found.whole.run.sizes.code {
+        Some(_) => "bytes",
+        None => "bytes (code is not counted here)",
+    }
+}
+
+fn cells(found: &Effects, row: &Row) -> Vec<String> {
+    let nothing = Called::nothing();
+    let name = match row.effect.library {
+        true => format!("{} (library)", row.effect.name),
+        false => row.effect.name.clone(),
+    };
+    let called = match &row.found {
+        Found::Called(called) => called.as_ref(),
+        Found::Absent(_) => &nothing,
+    };
+    let signed = |n: i64| {
+        let digits = count(n.unsigned_abs());
+        if n < 0 { format!("-{digits}") } else { digits }
+    };
+    let [median, p99] = quantiles(&called.seen.cycles);
+    let turns = called.seen.turns;
+    let mut cells = vec![name, count(u64::from(row.effect.calls))];
+    cells.extend(called.sizes.map(|size| size.map_or("-".to_owned(), signed)));
+    cells.extend([
+        signed(called.cycles),
+        percent(share(found, called.cycles)),
+        percent(share(
+            found,
+            i64::try_from(called.own.cycles).unwrap_or(i64::MAX),
+        )),
+        count(median),
+        count(p99),
+        percent(called.seen.ran as f64 / found.watched.max(1) as f64),
+        match turns.begun {
+            0 => "0".to_owned(),
+            begun => format!(
+                "{:.1} of {}",
+                turns.turns as f64 / begun as f64,
+                turns.limit
+            ),
+        },
+        called
+            .loss
+            .psnr()
+            .map_or("0".to_owned(), |db| format!("{db:.1} dB")),
+        called
+            .loss
+            .pixels()
+            .map_or("-".to_owned(), |n| count(n as u64)),
+    ]);
+    cells
+}

@@ -1,0 +1,46 @@
+//! `explain`: what each line of a scene costs on a machine.
+
+use crate::explain::{explain, html, terminal};
+use crate::failure::Outcome;
+use crate::files;
+use crate::scene::{Scene, SceneArgs};
+use crate::target_args::{self, ScreenArgs};
+use crate::trial::LIMIT;
+use crate::{say, say_json};
+use slowlight_compiler::target::Target;
+use std::path::PathBuf;
+
+/// Options of `explain`.
+#[derive(clap::Args, Debug)]
+pub struct Args {
+    #[command(flatten)]
+    scene: SceneArgs,
+    /// The machine: see `slowlight targets`
+    #[arg(short, long, value_name = "T", value_parser = target_args::target)]
+    target: &'static Target,
+    #[command(flatten)]
+    screen: ScreenArgs,
+    /// Write a page that shows the same, for any browser, without the network
+    #[arg(long, value_name = "FILE")]
+    html: Option<PathBuf>,
+    /// Print one JSON object
+    #[arg(long)]
+    json: bool,
+    /// Give up after so many cycles of the machine
+    #[arg(long, value_name = "CYCLES", default_value_t = LIMIT)]
+    limit: u64,
+}
+
+/// Profiles and reports.
+pub fn run(args: &Args) -> Outcome<()> {
+    let scene = Scene::load(&args.scene)?;
+    let found = explain(scene, args.target, &args.screen, args.limit)?;
+    if let Some(path) = &args.html {
+        files::write(path, html::page(&found).as_bytes())?;
+    }
+    match args.json {
+        true => say_json(&found.report()),
+        false => say(&terminal::text(&found)),
+    }
+    Ok(())
+}

@@ -1,0 +1,201 @@
+//! `tune`: what accuracy costs in time, as a frontier to choose from.
+
+use super::build::{self, Written};
+use crate::draw::Window;
+use crate::failure::{Failure, Outcome};
+use crate::files;
+use crate::interrupt;
+use crate::scene::{Scene, SceneArgs};
+use crate::target_args::{self, Os, ScreenArgs};
+use crate::trial::LIMIT;
+use crate::tune::cache::Cache;
+use crate::tune::choice::Base;
+use crate::tune::explore::{Found, Search, explore};
+use crate::tune::goal::{self, Goals, Measure};
+use crate::tune::page::page;
+use crate::tune::plot::svg;
+use crate::tune::point::{Natives, Point, encoded};
+use crate::tune::tell::Told;
+use crate::{say, say_json};
+use slowlight_compiler::target::Target;
+use std::path::PathBuf;
+use std::sync::{Arc, Mutex};
+
+/// Options of `tune`.
+#[derive(clap::Args, Debug)]
+pub struct Args {
+    #[command(flatten)]
+    scene: SceneArgs,
+    /// The machine: see `slowlight targets`
+    #[arg(short, long, value_name = "T", value_parser = target_args::target)]
+    target: &'static Target,
+    /// The screen's mode, where the machine has several (see `slowlight targets`)
+    #[arg(long, value_name = "N")]
+    mode: Option<String>,
+    /// Jack's operating system, as for `run`
+    #[arg(long, value_name = "OS")]
+    os: Option<Os>,
+    /// Where programs begin on a BBC Micro, as for `run`
+    #[arg(long, value_name = "PAGE", value_parser = target_args::page)]
+    page: Option<u16>,
+    /// Build the most accurate program that takes no longer on the machine: 90s, 20m, 1h30m
+    #[arg(long, value_name = "TIME", value_parser = goal::time)]
+    within: Option<f64>,
+    /// Build the quickest program that is off by no more: 0.5% or 0.005
+    #[arg(long, value_name = "E", value_parser = goal::share)]
+    error: Option<f64>,
+    /// Build one whose code, tables and memory take no more bytes: 8K
+    #[arg(long, value_name = "BYTES", value_parser = goal::bytes)]
+    memory: Option<u64>,
+    /// The error that decides
+    #[arg(long, value_enum, value_name = "MEASURE", default_value_t)]
+    measure: Measure,
+    /// The directory to write the program that was chosen to
+    #[arg(short, long, value_name = "DIR", default_value = ".")]
+    output: PathBuf,
+    /// Write a page that shows the frontier, its pictures and how to get them
+    #[arg(long, value_name = "FILE")]
+    html: Option<PathBuf>,
+    /// Write the plot alone
+    #[arg(long, value_name = "FILE")]
+    svg: Option<PathBuf>,
+    /// Print all points as JSON
+    #[arg(long)]
+    json: bool,
+    /// Print all points as comma-separated values
+    #[arg(long, conflicts_with = "json")]
+    csv: bool,
+    /// Keep params changeable: do not try to fold them
+    #[arg(long)]
+    live: bool,
+    /// How many settings, of blocks and loops, are tried in each format
+    #[arg(long, value_name = "N", default_value_t = 12, value_parser = clap::value_parser!(u16).range(1..=200))]
+    settings: u16,
+    /// Measure everything anew, and keep nothing for the next time
+    #[arg(long)]
+    no_cache: bool,
+    /// Give a choice up after so many cycles of the machine
+    #[arg(long, value_name = "CYCLES", default_value_t = LIMIT)]
+    limit: u64,
+}
+
+/// Searches, tells, and builds what was asked for.
+pub fn run(args: &Args) -> Outcome<()> {
+    let base = base(args);
+    let found = Arc::new(Mutex::new(Found::default()));
+    let search = Search {
+        base: base.clone(),
+        measure: args.measure,
+        live: args.live,
+        outlined: args.memory.is_some(),
+        settings: usize::from(args.settings),
+        limit: args.limit,
+        cache: match args.no_cache {
+            true => Cache::none(),
+            false => Cache::of_user(),
+        },
+    };
+    {
+        // Planning does not look at whether Ctrl-C was pressed.
+        let (found, base, measure) = (found.clone(), base.clone(), args.measure);
+        interrupt::last_words(move || {
+            if let Ok(found) = found.lock() {
+                say(&text(&Told::new(&base, measure, &found)));
+            }
+        });
+    }
+    let searched = explore(&search, &found);
+    interrupt::quietly();
+    let mut found = found.lock().map(|f| f.clone()).unwrap_or_default();
+    // Threads find them in any order.
+    found.failed.sort();
+    match searched {
+        Ok(()) => {}
+        Err(Failure::Interrupted) if !found.points.is_empty() => {
+            say(&text(&Told::new(&base, args.measure, &found)));
+            return Err(Failure::Interrupted);
+        }
+        Err(other) => return Err(other),
+    }
+    tell(args, &Told::new(&base, args.measure, &found))
+}
+
+fn base(args: &Args) -> Base {
+    Base {
+        path: args.scene.scene.clone(),
+        changes: args.scene.changes.clone(),
+        target: args.target,
+        screen: ScreenArgs {
+            mode: args.mode.clone(),
+            os: args.os,
+            page: args.page,
+            ..ScreenArgs::default()
+        },
+    }
+}
+
+fn text(told: &Told<'_>) -> String {
+    format!("{}\n\n{}", told.sentence(), told.table())
+}
+
+/// Tells what was found, and builds what was asked for.
+fn tell(args: &Args, told: &Told<'_>) -> Outcome<()> {
+    if let Some(path) = &args.html {
+        let scene = Scene::open(&told.base.path, &told.base.changes)?;
+        let inks = told.base.screen.mode(args.target, scene.size())?.inks;
+        let (width, height) = scene.size();
+        let native = Natives::default().of(&scene, inks, Window::whole(width, height))?;
+        files::write(path, page(told, &encoded(&native)?).as_bytes())?;
+    }
+    if let Some(path) = &args.svg {
+        files::write(path, (svg(told) + "\n").as_bytes())?;
+    }
+    let goals = Goals {
+        within: args.within,
+        error: args.error,
+        memory: args.memory,
+    };
+    let chosen = goals
+        .any()
+        .then(|| goals.choose(&told.points, args.measure));
+    let best: Option<&Point> = chosen.as_ref().and_then(|c| c.as_ref().ok()).copied();
+    if args.json {
+        say_json(&told.json(best));
+    } else if args.csv {
+        say(&told.csv());
+    } else {
+        say(&text(told));
+    }
+    if let Some(found) = chosen {
+        let point = found?;
+        let written = build(args, told, point)?;
+        if !args.json && !args.csv {
+            let command = told.base.command(&point.choice, "build");
+            say(&format!("\nchosen: {command}\n{}", written.text()));
+        }
+    }
+    match told
+        .points
+        .iter()
+        .any(|p| p.measured.differs_from_model > 0)
+    {
+        true => Err(Failure::Differs),
+        false if told.points.is_empty() => Err(Failure::Wrong(first_reason(told))),
+        false => Ok(()),
+    }
+}
+
+/// Why nothing can be had.
+fn first_reason(told: &Told<'_>) -> String {
+    let first = told.found.failed.first();
+    first.map_or("nothing was tried".to_owned(), |(_, why)| why.clone())
+}
+
+/// Writes the program of a point.
+fn build(args: &Args, told: &Told<'_>, point: &Point) -> Outcome<Written> {
+    let choice = &point.choice;
+    let scene = Scene::open(&told.base.path, &told.base.changes(choice.frozen))?;
+    let screen = told.base.screen(choice);
+    let plan = screen.plan(&scene, args.target, &[])?;
+    build::write(&plan, &screen, None, &args.output)
+}

@@ -1,0 +1,90 @@
+//! Each line's share of the picture's error, on a sample of its pixels.
+
+use crate::draw::Window;
+use crate::failure::{Failure, Outcome};
+use crate::interrupt;
+use crate::progress::Progress;
+use crate::scene::{Precision, Scene};
+use rayon::prelude::*;
+use slowlight_compiler::eval::native::{Native, Pixel};
+use slowlight_compiler::plan::Plan;
+use slowlight_compiler::report::raised::{RaisedRun, raisable};
+use std::collections::BTreeMap;
+
+/// Rows and columns of the sample; a small picture is looked at whole.
+const GRID: u32 = 40;
+
+/// The error of a picture and what of it goes with each line.
+pub struct Errors {
+    /// Pixels looked at.
+    pub pixels: usize,
+    /// The root of the mean square of model shade less native shade.
+    pub rmse: f64,
+    /// Inks unlike the native picture's.
+    pub differ: usize,
+    /// By file and line.
+    pub lines: BTreeMap<(u16, usize), Without>,
+}
+
+/// The error with a line's values in `f64`.
+#[derive(Clone, Copy, Debug)]
+pub struct Without {
+    /// What is left.
+    pub rmse: f64,
+    /// Inks unlike the native picture's.
+    pub differ: usize,
+    /// What share of the mean square is gone: 1 is all; below 0 it grew.
+    pub share: f64,
+}
+
+/// Looks at a plan's error line by line.
+///
+/// # Errors
+/// Where the scene does not compile, and an interruption.
+pub fn errors(scene: &Scene, plan: &Plan) -> Outcome<Errors> {
+    let places = Window::of(plan).grid(GRID);
+    let graph = scene.graph(Some(plan.mode.inks), Precision::NATIVE)?;
+    let mut native = Native::new(&graph);
+    let native: Vec<Pixel> = places.iter().map(|(x, y)| native.pixel(*x, *y)).collect();
+    // The program may compare without ever computing the shade.
+    let shaded = plan.shaded();
+    let shaded = shaded.as_ref().unwrap_or(plan);
+    let look = |nodes: Vec<bool>| -> Option<(f64, usize)> {
+        let mut run = RaisedRun::new(shaded, nodes);
+        let (mut squares, mut differ) = (0.0, 0);
+        for ((x, y), native) in places.iter().zip(&native) {
+            if interrupt::pressed() {
+                return None;
+            }
+            let pixel = run.pixel(*x, *y);
+            squares += (pixel.shade - native.shade).powi(2);
+            differ += usize::from(pixel.ink != native.ink);
+        }
+        Some((squares / places.len().max(1) as f64, differ))
+    };
+    let (square, differ) = look(Vec::new()).ok_or(Failure::Interrupted)?;
+    let lines: Vec<_> = raisable(&scene.checked, shaded).into_iter().collect();
+    let progress = Progress::new("errors by line", lines.len() as u64);
+    let without = lines.into_par_iter().map(|(line, nodes)| {
+        let (left, differ) = look(nodes)?;
+        progress.step(1);
+        let gone = if square > 0.0 {
+            1.0 - left / square
+        } else {
+            0.0
+        };
+        let without = Without {
+            rmse: left.sqrt(),
+            differ,
+            share: gone,
+        };
+        Some((line, without))
+    });
+    let lines: Option<BTreeMap<_, _>> = without.collect();
+    Ok(Errors {
+        pixels: places.len(),
+        rmse: square.sqrt(),
+        differ,
+        lines: lines.ok_or(Failure::Interrupted)?,
+    })
+}

@@ -1,0 +1,186 @@
+//! A choice: one way to compute a scene on a machine, as options of `run` and `build`.
+
+use crate::scene::Changes;
+use crate::target_args::{Os, ScreenArgs};
+use serde::{Deserialize, Serialize};
+use slowlight_compiler::target::Target;
+use std::path::PathBuf;
+
+/// What is left out of a picture for speed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
+pub struct Setting {
+    /// Columns and rows of a block; 1 and 1 for pixels.
+    pub block: (u32, u32),
+    /// The most turns of the scene's loops, where they are fewer than the scene's own.
+    pub max_turns: Option<u32>,
+    /// The same of the library's.
+    pub max_steps: Option<u32>,
+}
+
+impl Setting {
+    /// The picture as the scene has it.
+    pub const WHOLE: Setting = Setting {
+        block: (1, 1),
+        max_turns: None,
+        max_steps: None,
+    };
+}
+
+/// One way to compute a scene.
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
+pub struct Choice {
+    /// What is left out.
+    pub setting: Setting,
+    /// How reals are held.
+    pub format: String,
+    /// Whether all params are folded.
+    pub frozen: bool,
+    /// Whether it has subroutines where it would fit without.
+    pub outlined: bool,
+}
+
+/// What is tuned, and what stays as the user has it.
+#[derive(Clone, Debug)]
+pub struct Base {
+    /// The scene's file.
+    pub path: PathBuf,
+    /// What the user changes about it.
+    pub changes: Changes,
+    /// The machine in its usual format.
+    pub target: &'static Target,
+    /// The user's own options of the screen and the machine.
+    pub screen: ScreenArgs,
+}
+
+impl Base {
+    /// The options of a choice, in words of the command line.
+    pub fn words(&self, choice: &Choice) -> Vec<String> {
+        let mut words = Vec::new();
+        let mut add = |option: &str, value: String| words.extend([option.to_owned(), value]);
+        if choice.format != self.target.runtime.format {
+            add("--format", choice.format.clone());
+        }
+        for value in &self.changes.set {
+            add("--set", value.clone());
+        }
+        match choice.frozen {
+            true => add("--freeze", "all".to_owned()),
+            false => (self.changes.freeze.iter()).for_each(|f| add("--freeze", f.clone())),
+        }
+        for value in &self.changes.without {
+            add("--without", value.clone());
+        }
+        match choice.setting.block {
+            (1, 1) => {}
+            (wide, high) if wide == high => add("--block", wide.to_string()),
+            (wide, high) => add("--block", format!("{wide}x{high}")),
+        }
+        let limits = [
+            ("--max-turns", choice.setting.max_turns),
+            ("--max-steps", choice.setting.max_steps),
+        ];
+        for (option, most) in limits {
+            if let Some(most) = most {
+                add(option, most.to_string());
+            }
+        }
+        if let Some(mode) = &self.screen.mode {
+            add("--mode", mode.clone());
+        }
+        if let Some(page) = self.screen.page {
+            add("--page", format!("{page:X}"));
+        }
+        if self.screen.os == Some(Os::Jack) {
+            add("--os", "jack".to_owned());
+        }
+        if choice.outlined {
+            words.push("--outlined".to_owned());
+        }
+        words
+    }
+
+    /// The command that gives a choice's figures.
+    pub fn command(&self, choice: &Choice, verb: &str) -> String {
+        let scene = quoted(&self.path.display().to_string());
+        let mut words = vec!["slowlight".to_owned(), verb.to_owned(), scene];
+        words.extend(["--target".to_owned(), self.target.name.to_owned()]);
+        words.extend(self.words(choice).iter().map(|word| quoted(word)));
+        words.join(" ")
+    }
+
+    /// The screen's options of a choice.
+    pub fn screen(&self, choice: &Choice) -> ScreenArgs {
+        ScreenArgs {
+            format: Some(choice.format.clone()),
+            block: Some(choice.setting.block),
+            max_turns: choice.setting.max_turns,
+            max_steps: choice.setting.max_steps,
+            outlined: choice.outlined,
+            ..self.screen.clone()
+        }
+    }
+
+    /// What a choice changes about the scene.
+    pub fn changes(&self, frozen: bool) -> Changes {
+        let mut changes = self.changes.clone();
+        if frozen {
+            changes.freeze = vec!["all".to_owned()];
+        }
+        changes
+    }
+}
+
+/// A word as a shell takes it.
+fn quoted(word: &str) -> String {
+    let plain = |c: char| c.is_ascii_alphanumeric() || "-_./:=,+".contains(c);
+    match word.chars().all(plain) && !word.is_empty() {
+        true => word.to_owned(),
+        false => format!("'{}'", word.replace('\'', "'\\''")),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use slowlight_compiler::target::find;
+
+    fn base() -> Base {
+        Base {
+            path: PathBuf::from("two mirrors.scn"),
+            changes: Changes::default(),
+            target: find("jack").expect("a target"),
+            screen: ScreenArgs::default(),
+        }
+    }
+
+    #[test]
+    fn what_is_as_usual_needs_no_option() {
+        let choice = Choice {
+            setting: Setting::WHOLE,
+            format: "f316".to_owned(),
+            frozen: false,
+            outlined: false,
+        };
+        assert!(base().words(&choice).is_empty());
+        let command = base().command(&choice, "run");
+        assert_eq!(command, "slowlight run 'two mirrors.scn' --target jack");
+    }
+
+    #[test]
+    fn every_part_of_a_choice_is_an_option() {
+        let choice = Choice {
+            setting: Setting {
+                block: (4, 2),
+                max_turns: Some(3),
+                max_steps: Some(8),
+            },
+            format: "log10".to_owned(),
+            frozen: true,
+            outlined: true,
+        };
+        let words = base().words(&choice).join(" ");
+        let wanted =
+            "--format log10 --freeze all --block 4x2 --max-turns 3 --max-steps 8 --outlined";
+        assert_eq!(words, wanted);
+    }
+}

@@ -1,0 +1,165 @@
+//! A point: what a choice came to on its machine, the whole picture.
+
+use super::choice::{Base, Choice};
+use crate::draw::{Drawn, Window, native};
+use crate::failure::{Failure, Outcome};
+use crate::machine::Sizes;
+use crate::measure::{self, Errors};
+use crate::picture::{FileFormat, Picture, png};
+use crate::scene::{Precision, Scene};
+use crate::{estimate, trial};
+use base64::Engine as _;
+use base64::engine::general_purpose::STANDARD as BASE64;
+use serde::{Deserialize, Serialize};
+use slowlight_compiler::plan::Plan;
+use std::collections::HashMap;
+use std::sync::{Arc, Mutex};
+
+/// A choice and what was measured of it.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Point {
+    /// The choice.
+    pub choice: Choice,
+    /// What was measured.
+    pub measured: Measured,
+}
+
+/// What a machine and its picture say.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Measured {
+    /// The screen's mode.
+    pub mode: String,
+    /// Inks of the picture there.
+    pub inks: usize,
+    /// Columns and rows of the picture seen.
+    pub size: (u32, u32),
+    /// The machine's cycles.
+    pub cycles: u64,
+    /// Its time in seconds.
+    pub seconds: f64,
+    /// The cycles that the planner's figures predict.
+    pub predicted: f64,
+    /// Bytes of code, tables and memory beside, where they are known.
+    pub bytes: [Option<u64>; 3],
+    /// Pixels unlike the model's: 0, or something is broken.
+    pub differs_from_model: u64,
+    /// How far it is from the native picture.
+    pub errors: Errors,
+    /// Digest of the inks, as `run` gives it.
+    pub inks_sha256: String,
+    /// The picture, as a PNG in base 64.
+    pub picture: String,
+    /// Where it is other than the native one, the same way.
+    pub difference: String,
+}
+
+impl Measured {
+    /// All bytes that are known.
+    pub fn memory(&self) -> u64 {
+        self.bytes.iter().flatten().sum()
+    }
+}
+
+/// The native pictures that points are held against, by inks and window; each is drawn once.
+#[derive(Default)]
+pub struct Natives(Mutex<HashMap<(u32, [u32; 4]), Arc<Drawn>>>);
+
+impl Natives {
+    /// The picture of the scene as written, in so many inks.
+    ///
+    /// # Errors
+    /// Only an interruption.
+    pub fn of(&self, scene: &Scene, inks: u32, window: Window) -> Outcome<Arc<Drawn>> {
+        let Window { columns, rows } = window;
+        let key = (inks, [columns.0, columns.1, rows.0, rows.1]);
+        let known = |all: &HashMap<_, Arc<Drawn>>| all.get(&key).cloned();
+        if let Some(drawn) = self.0.lock().ok().and_then(|all| known(&all)) {
+            return Ok(drawn);
+        }
+        let graph = scene.graph(Some(inks), Precision::NATIVE)?;
+        let drawn = Arc::new(native(&graph, window)?);
+        if let Ok(mut all) = self.0.lock() {
+            all.insert(key, drawn.clone());
+        }
+        Ok(drawn)
+    }
+}
+
+/// Runs a plan on its machine, the whole picture.
+///
+/// # Errors
+/// Where the program does not end by itself, or shows no picture, or another than its model.
+pub fn measure(
+    base: &Base,
+    scene: &Scene,
+    natives: &Natives,
+    choice: &Choice,
+    plan: Plan,
+    limit: u64,
+) -> Outcome<Point> {
+    let predicted = estimate::cycles(&plan);
+    let loaded = trial::build_for(&plan, base.screen(choice).machine(plan.target)?)?.loaded;
+    let run = trial::ran(scene, &plan, loaded, limit)?;
+    let native = natives.of(scene, plan.mode.inks, Window::on_screen(&plan))?;
+    let tried = trial::held(scene, plan, run, (*native).clone())?;
+    let Some(picture) = &tried.picture else {
+        return Err(Failure::Wrong("the program drew nothing".to_owned()));
+    };
+    let palette = &tried.plan.graph.image.palette;
+    let shades = &tried.modelled.pixels;
+    let errors = measure::errors(
+        picture.width,
+        &picture.inks,
+        shades,
+        &tried.native.pixels,
+        palette.len(),
+    );
+    let Sizes { code, tables, ram } = tried.run.sizes;
+    Ok(Point {
+        choice: choice.clone(),
+        measured: Measured {
+            mode: tried.plan.mode.name.to_owned(),
+            inks: palette.len(),
+            size: (picture.width, picture.height),
+            cycles: tried.run.cycles,
+            seconds: tried.seconds(),
+            predicted,
+            bytes: [code, tables, ram],
+            differs_from_model: tried.from_model.as_ref().map_or(0, Vec::len) as u64,
+            errors,
+            inks_sha256: picture.sha256(),
+            picture: BASE64.encode(picture.encode(FileFormat::Png)?),
+            difference: BASE64.encode(difference(picture, &tried.native)?),
+        },
+    })
+}
+
+/// The native picture as a PNG in base 64.
+///
+/// # Errors
+/// Where it cannot be written.
+pub fn encoded(drawn: &Drawn) -> Outcome<String> {
+    Ok(BASE64.encode(drawn.picture().encode(FileFormat::Png)?))
+}
+
+/// How far each ink is from the native one: grey where it is the same, red where it is
+/// darker than it should be, blue where it is lighter, stronger the further.
+fn difference(picture: &Picture, native: &Drawn) -> Outcome<Vec<u8>> {
+    let steps = picture.palette.len().saturating_sub(1).max(1) as i32;
+    // Index 0 is equal; then so many steps darker, then lighter.
+    let strength = |k: i32| (120 + 135 * k / steps) as u8;
+    let mut palette = vec![[235u8; 3]];
+    palette.extend((1..=steps).map(|k| [strength(k), 30, 30]));
+    palette.extend((1..=steps).map(|k| [30, 60, strength(k)]));
+    let data: Vec<u8> = (picture.inks.iter().zip(&native.pixels))
+        .map(
+            |(ink, pixel)| match i32::from(*ink) - i32::from(pixel.ink) {
+                0 => 0,
+                darker @ ..0 => (-darker).min(steps) as u8,
+                lighter => (steps + lighter.min(steps)) as u8,
+            },
+        )
+        .collect();
+    let colours = palette.concat();
+    png(picture.width, picture.height, Some(colours), &data)
+}

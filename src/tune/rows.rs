@@ -1,0 +1,155 @@
+//! A first look: what would take long is run on a few rows before it is run whole.
+//!
+//! The rows are three bands, in the middle of each third of the picture. What the planner
+//! predicts of the bands and of the whole is compared with what the bands took, so that
+//! neither a dear band nor what a program does at its start misleads. What others clearly
+//! beat by these figures is not run whole; that is all they are for.
+
+use super::choice::{Base, Choice};
+use super::goal::Measure;
+use super::point::{Natives, Point};
+use crate::draw::Window;
+use crate::failure::Outcome;
+use crate::scene::Scene;
+use crate::{estimate, measure, trial};
+use serde::{Deserialize, Serialize};
+use slowlight_compiler::plan::Plan;
+
+/// Predicted cycles from which on rows are looked at first: less is run whole in no time.
+const LONG: f64 = 1e8;
+
+/// The bands' share of the rows is one in so many, each.
+const SHARE: u32 = 24;
+
+/// By how much another must be cheaper and better, as figures of a few rows are not exact.
+const CLEARLY: f64 = 0.8;
+
+/// What some rows say of a choice.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Look {
+    /// Cycles of the whole picture, as far as rows can say.
+    pub cycles: f64,
+    /// The error on the rows.
+    pub error: f64,
+    /// How many pixels were looked at.
+    pub pixels: f64,
+}
+
+impl Look {
+    /// The same figures of a whole picture.
+    pub fn of(point: &Point, measure: Measure) -> Look {
+        Look {
+            cycles: point.measured.cycles as f64,
+            error: measure.of(&point.measured.errors),
+            pixels: point.measured.errors.count as f64,
+        }
+    }
+
+    /// Whether it is so much cheaper and better than another that the whole pictures will
+    /// be, too: by a fifth in both, and by more than counts of pixels vary by chance.
+    pub fn clearly_beats(&self, other: &Look) -> bool {
+        let chance = |look: &Look| 3.0 * (look.error / look.pixels.max(1.0)).sqrt();
+        self.cycles < CLEARLY * other.cycles
+            && self.error < CLEARLY * other.error
+            && self.error + chance(self) < other.error - chance(other)
+    }
+}
+
+/// Whether rows should be looked at before the whole is run. Where errors spread, all rows
+/// are computed in any case.
+pub fn pays(plan: &Plan) -> bool {
+    let rows = plan.rows.1 - plan.rows.0 + 1;
+    plan.graph.diffusion.is_none() && rows >= SHARE && estimate::cycles(plan) > LONG
+}
+
+/// The bands: first and last row.
+fn bands((first, last): (u32, u32)) -> [(u32, u32); 3] {
+    let count = last - first + 1;
+    let high = count.div_ceil(SHARE);
+    [1, 3, 5].map(|sixth| {
+        let top = first
+            + (count * sixth / 6)
+                .saturating_sub(high / 2)
+                .min(count - high);
+        (top, top + high - 1)
+    })
+}
+
+/// Looks at a plan's bands on its machine.
+///
+/// # Errors
+/// As for a run of the whole.
+pub fn look(
+    base: &Base,
+    scene: &Scene,
+    natives: &Natives,
+    choice: &Choice,
+    plan: &Plan,
+    (measure, limit): (Measure, u64),
+) -> Outcome<Look> {
+    let machine = base.screen(choice).machine(plan.target)?;
+    let (mut took, mut predicted, mut squares, mut pixels) = (0.0, 0.0, 0.0, 0.0);
+    for rows in bands(plan.rows) {
+        let mut band = plan.clone();
+        band.rows = rows;
+        predicted += estimate::cycles(&band);
+        let loaded = trial::build_for(&band, machine)?.loaded;
+        let run = trial::ran(scene, &band, loaded, limit)?;
+        took += run.cycles as f64;
+        let native = natives.of(scene, band.mode.inks, Window::on_screen(&band))?;
+        let tried = trial::held(scene, band, run, (*native).clone())?;
+        let inks = tried.picture.as_ref().map_or(&[][..], |p| &p.inks);
+        let levels = tried.plan.graph.image.palette.len();
+        let (width, shades) = (native.window.width(), &tried.modelled.pixels);
+        let errors = measure::errors(width, inks, shades, &native.pixels, levels);
+        let count = errors.count as f64;
+        squares += measure.of(&errors).powf(power(measure)) * count;
+        pixels += count;
+    }
+    Ok(Look {
+        cycles: took / predicted.max(1.0) * estimate::cycles(plan),
+        error: (squares / pixels.max(1.0)).powf(1.0 / power(measure)),
+        pixels,
+    })
+}
+
+/// Of which power errors are means.
+fn power(measure: Measure) -> f64 {
+    match measure {
+        Measure::Pixels => 1.0,
+        Measure::Rmse | Measure::Lowpass => 2.0,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn bands_are_inside_and_apart() {
+        for (first, last) in [(0, 255), (9, 239), (0, 23), (100, 124)] {
+            let bands = bands((first, last));
+            assert!(bands[0].0 >= first && bands[2].1 <= last, "{bands:?}");
+            assert!(
+                bands[0].1 < bands[1].0 && bands[1].1 < bands[2].0,
+                "{bands:?}"
+            );
+        }
+    }
+
+    #[test]
+    fn few_pixels_prove_little() {
+        let look = |cycles, error, pixels| Look {
+            cycles,
+            error,
+            pixels,
+        };
+        // 4 of 16,000 pixels, or 15.
+        let (few, more) = (look(1e8, 4.0 / 16e3, 16e3), look(2e8, 9.0 / 16e3, 16e3));
+        assert!(!few.clearly_beats(&more) && !more.clearly_beats(&few));
+        let many = look(2e8, 0.2, 16e3);
+        assert!(few.clearly_beats(&many));
+        assert!(!many.clearly_beats(&few));
+        assert!(!look(1.9e8, 0.0, 16e3).clearly_beats(&many));
+    }
+}

@@ -1,0 +1,201 @@
+//! The settings that are worth a machine's time: each is drawn in `f64` first.
+//!
+//! That a picture of blocks, or one with fewer turns of loops, is off by so much is known
+//! before any machine runs, and so is how many operations it takes. What is no better than
+//! another setting in either goes no further.
+
+use super::choice::Setting;
+use super::point::Natives;
+use crate::draw::{Drawn, Window, native_counted};
+use crate::failure::{Failure, Outcome};
+use crate::measure::{Errors, errors};
+use crate::progress::Progress;
+use crate::scene::{Limits, Precision, Scene};
+use slowlight_compiler::flow::graph::Graph;
+use slowlight_compiler::passes::coarse::coarse;
+
+/// The areas that blocks have, in pixels.
+const AREAS: [u32; 11] = [1, 2, 4, 8, 9, 16, 25, 32, 64, 128, 256];
+
+/// Turns that loops may be cut to.
+const TURNS: [u32; 13] = [1, 2, 3, 4, 6, 8, 12, 16, 24, 32, 48, 64, 96];
+
+/// How much better a setting must be in both ways to leave another out: what a machine
+/// makes of them may be otherwise by as much.
+const CLEARLY: f64 = 0.9;
+
+/// A setting, and what it is in `f64`.
+#[derive(Clone, Debug)]
+pub struct Drafted {
+    /// The setting.
+    pub setting: Setting,
+    /// Operations of the native evaluation.
+    pub work: u64,
+    /// What is lost by the setting alone.
+    pub errors: Errors,
+}
+
+/// The settings of a scene on a screen of so many inks that may be worth their time by an
+/// error: at most `most`, spread over the work that they take.
+///
+/// # Errors
+/// Only an interruption.
+pub fn worthwhile(
+    scene: &Scene,
+    natives: &Natives,
+    inks: u32,
+    error: &dyn Fn(&Errors) -> f64,
+    most: usize,
+) -> Outcome<Vec<Setting>> {
+    let (width, height) = scene.size();
+    let truth = natives.of(scene, inks, Window::whole(width, height))?;
+    let limits = limits(scene, inks)?;
+    let blocks = blocks(scene, inks, &truth, error)?;
+    let progress = Progress::new("settings", (limits.len() * blocks.len()) as u64);
+    let mut all = Vec::new();
+    for (graph, limit) in &limits {
+        for &block in &blocks {
+            let setting = Setting {
+                block,
+                max_turns: limit.turns,
+                max_steps: limit.steps,
+            };
+            all.push(drafted(graph, setting, &truth)?);
+            progress.step(1);
+        }
+    }
+    Ok(spread(kept(all, error), error, most))
+}
+
+/// Draws a setting.
+fn drafted(graph: &Graph, setting: Setting, truth: &Drawn) -> Outcome<Drafted> {
+    let graph = coarse(graph, setting.block);
+    let window = Window::whole(graph.image.width, graph.image.height);
+    let (drawn, work) = native_counted(&graph, window)?;
+    let inks: Vec<u8> = drawn.pixels.iter().map(|p| p.ink).collect();
+    let (pixels, levels) = (&truth.pixels, graph.image.palette.len());
+    let errors = errors(truth.window.width(), &inks, &drawn.pixels, pixels, levels);
+    Ok(Drafted {
+        setting,
+        work,
+        errors,
+    })
+}
+
+/// The scene's graph as written, and with fewer turns wherever that makes another.
+fn limits(scene: &Scene, inks: u32) -> Outcome<Vec<(Graph, Limits)>> {
+    let whole = scene.graph(Some(inks), Precision::NATIVE)?;
+    let longest = whole.loops.iter().map(|l| l.max).max().unwrap_or(0);
+    let mut all = vec![(whole, Limits::default())];
+    let fewer = |n: &u32| *n < longest;
+    for turns in TURNS.into_iter().filter(fewer) {
+        let ways = [
+            Limits {
+                turns: Some(turns),
+                steps: None,
+            },
+            Limits {
+                turns: None,
+                steps: Some(turns),
+            },
+        ];
+        for limit in ways {
+            let graph = scene.graph_within(Some(inks), Precision::NATIVE, &[], limit)?;
+            if all.iter().all(|(known, _)| *known != graph) {
+                all.push((graph, limit));
+            }
+        }
+    }
+    Ok(all)
+}
+
+/// Of each area the block that is least off.
+fn blocks(
+    scene: &Scene,
+    inks: u32,
+    truth: &Drawn,
+    error: &dyn Fn(&Errors) -> f64,
+) -> Outcome<Vec<(u32, u32)>> {
+    let (width, height) = scene.size();
+    let graph = scene.graph(Some(inks), Precision::NATIVE)?;
+    let mut found = Vec::new();
+    for area in AREAS {
+        let sides = (1..=area).filter(|wide| area % wide == 0);
+        let shapes = sides
+            .map(|wide| (wide, area / wide))
+            .filter(|(wide, high)| {
+                let whole = width % wide == 0 && height % high == 0;
+                // A block much longer than wide is off by its length.
+                whole && *wide <= 2 * high && *high <= 2 * wide && *wide < width && *high < height
+            });
+        let mut best: Option<(f64, (u32, u32))> = None;
+        for block in shapes {
+            let setting = Setting {
+                block,
+                ..Setting::WHOLE
+            };
+            let off = error(&drafted(&graph, setting, truth)?.errors);
+            if best.is_none_or(|(least, _)| off < least) {
+                best = Some((off, block));
+            }
+        }
+        found.extend(best.map(|(_, block)| block));
+    }
+    if found.is_empty() {
+        return Err(Failure::Wrong("the picture has no pixels".to_owned()));
+    }
+    Ok(found)
+}
+
+/// Without those that another clearly beats, or does not differ from in anything but that
+/// it leaves more out.
+fn kept(all: Vec<Drafted>, error: &dyn Fn(&Errors) -> f64) -> Vec<Drafted> {
+    let beaten = |at: usize, one: &Drafted| {
+        let (work, off) = (one.work as f64, error(&one.errors));
+        all.iter().enumerate().any(|(k, other)| {
+            let (w, e) = (other.work as f64, error(&other.errors));
+            let clearly = w < CLEARLY * work && e <= CLEARLY * off && off > 0.0;
+            let alike = k < at && other.work <= one.work && e <= off;
+            clearly || alike
+        })
+    };
+    let stays: Vec<bool> = (0..).zip(&all).map(|(k, one)| !beaten(k, one)).collect();
+    let mut stays = stays.into_iter();
+    let whole = |one: &Drafted| one.setting == Setting::WHOLE;
+    all.into_iter()
+        .filter(|one| stays.next() == Some(true) || whole(one))
+        .collect()
+}
+
+/// At most so many, evenly over the logarithm of their work; the picture as written always.
+fn spread(mut all: Vec<Drafted>, error: &dyn Fn(&Errors) -> f64, most: usize) -> Vec<Setting> {
+    all.sort_by(|a, b| b.work.cmp(&a.work).then(a.setting.cmp(&b.setting)));
+    let log = |d: &Drafted| (d.work.max(1) as f64).ln();
+    // The closest pair loses the one that is further off.
+    while all.len() > most.max(1) {
+        let pairs = all
+            .windows(2)
+            .enumerate()
+            .filter(|(k, _)| *k > 0 || all.len() <= 2);
+        let closest = pairs.min_by(|(_, a), (_, b)| {
+            (log(&a[0]) - log(&a[1])).total_cmp(&(log(&b[0]) - log(&b[1])))
+        });
+        let Some((k, pair)) = closest else {
+            break;
+        };
+        let first_is_better = error(&pair[0].errors) <= error(&pair[1].errors);
+        // The cheapest of all stays: it is one end of what can be had.
+        let last = k + 2 == all.len();
+        let out = if first_is_better && !last { k + 1 } else { k };
+        if all[out].setting == Setting::WHOLE {
+            all.remove(k + 1);
+        } else {
+            all.remove(out);
+        }
+    }
+    let mut settings: Vec<Setting> = all.into_iter().map(|d| d.setting).collect();
+    if !settings.contains(&Setting::WHOLE) {
+        settings.insert(0, Setting::WHOLE);
+    }
+    settings
+}
