@@ -316,7 +316,7 @@ impl ScreenArgs {
                 steps: self.max_steps,
             },
         )?;
-        if size.0 % block.0 != 0 || size.1 % block.1 != 0 {
+        if !size.0.is_multiple_of(block.0) || !size.1.is_multiple_of(block.1) {
             return Err(Failure::Usage(format!(
                 "--block {}x{}: the picture of {} x {} pixels is no whole number of such blocks",
                 block.0, block.1, size.0, size.1

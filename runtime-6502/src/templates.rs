@@ -59,7 +59,7 @@ pub(crate) const SATURATING_NEGATE: &str = concat!(negate!(), saturate!());
 pub(crate) const SATURATING_ABS: &str = concat!(
     "lda {0.3} | bmi negative{n}
     sta {r.3} | lda {0.2} | sta {r.2} | lda {0.1} | sta {r.1} | lda {0.0} | sta {r.0} | jmp fits{n}
-    negative{n}:",
+    negative{n}: | ",
     negate!(),
     saturate!()
 );

@@ -174,11 +174,15 @@ fn tell(args: &Args, told: &Told<'_>) -> Outcome<()> {
             say(&format!("\nchosen: {command}\n{}", written.text()));
         }
     }
-    match told
-        .points
-        .iter()
-        .any(|p| p.measured.differs_from_model > 0)
-    {
+    let wrong = (told.points.iter()).filter(|p| p.measured.differs_from_model > 0);
+    let wrong = wrong.inspect(|point| {
+        eprintln!(
+            "error: {} pixels of `{}` are not the model's: a fault of slowlight's, not of the scene's",
+            point.measured.differs_from_model,
+            told.base.command(&point.choice, "run"),
+        );
+    });
+    match wrong.count() > 0 {
         true => Err(Failure::Differs),
         false if told.points.is_empty() => Err(Failure::Wrong(first_reason(told))),
         false => Ok(()),

@@ -60,9 +60,12 @@ impl Measured {
     }
 }
 
+/// By how many inks and which part of the screen is drawn.
+type Drawings = HashMap<(u32, [u32; 4]), Arc<Drawn>>;
+
 /// The native pictures that points are held against, by inks and window; each is drawn once.
 #[derive(Default)]
-pub struct Natives(Mutex<HashMap<(u32, [u32; 4]), Arc<Drawn>>>);
+pub struct Natives(Mutex<Drawings>);
 
 impl Natives {
     /// The picture of the scene as written, in so many inks.

@@ -126,7 +126,9 @@ fn blocks(
             .filter(|(wide, high)| {
                 let whole = width % wide == 0 && height % high == 0;
                 // A block much longer than wide is off by its length.
-                whole && *wide <= 2 * high && *high <= 2 * wide && *wide < width && *high < height
+                let smaller = |block: u32, picture: u32| block == 1 || block < picture;
+                let inside = smaller(*wide, width) && smaller(*high, height);
+                whole && *wide <= 2 * high && *high <= 2 * wide && inside
             });
         let mut best: Option<(f64, (u32, u32))> = None;
         for block in shapes {

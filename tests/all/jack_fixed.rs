@@ -328,3 +328,37 @@ fn the_tiny_do_not_outvote_the_large() {
     let found = off(powers);
     assert!(found <= 20, "{found}");
 }
+
+/// Shapes joined with, cut from and cut by another kind of shape: what is asked of the sign
+/// of a difference alone is not lost, nor is what is equal by agreement.
+#[test]
+fn shapes_made_of_others_keep_their_surfaces() {
+    for join in ["union", "intersection", "difference"] {
+        let source = format!(
+            "image 40 x 24 inks black, white;
+            scene world {{ {join}(box((-1, -1, -1), (1, 1, 1)), sphere((0.5, 0.5, 1), 0.8)) is 0.8; }}
+            param eye: vec3 = (0, 0.5, 4) in (-1, 0, 3) .. (1, 1, 6);
+            draw (x, y) = {{
+              let r = pinhole(eye, at: (0, 0, 0), field: 50deg).through(x, y);
+              let v = if let h = world.trace(r, far: 20)
+                then lambert(h, unit((1, 1, 1))) * h.tag else 0.8;
+              threshold(v, bayer(4)[x mod 4, y mod 4])
+            }};"
+        );
+        let found = off(&source);
+        assert!(found <= 4, "{join}: {found}");
+    }
+}
+
+/// A sign is 1 or -1 even where nothing but the sign is asked of what has it.
+#[test]
+fn signs_are_reals_too() {
+    let one = "image 24 x 16 inks black, white;
+        draw (x, y) = floyd(sign(x / 24 + 0.1), x, y);";
+    assert_eq!(off(one), 0);
+    let both = "image 24 x 16 inks black, white;
+        draw (x, y) = threshold(sign(sin(x * 0.5rad)) * 0.4 + 0.5, bayer(2)[x mod 2, y mod 2]);";
+    let found = off(both);
+    // Sin 0 is neither, and rounding may make it either.
+    assert!(found <= 16, "{found}");
+}

@@ -21,6 +21,7 @@ mod jack_fixed;
 mod jack_formats;
 mod library;
 mod mos6502;
+mod mos6502_fixed;
 mod need;
 #[cfg(feature = "peers")]
 mod peers_assemblers;

@@ -98,9 +98,8 @@ pub(super) fn planned(
     if let Rewriting::Fast { thrift, steps } = rewriting {
         let early =
             (!origin.early.is_empty()).then(|| steady(shop, &whole(drawn(fold(origin))), rounds));
-        let prepared = |plan: Settled| with_reciprocals(in_arms(plan, shop, thrift), shop, thrift);
-        now = prepared(now);
-        let early = early.map(prepared);
+        now = prepared(now, shop, thrift);
+        let early = early.map(|plan| prepared(plan, shop, thrift));
         let early = early.as_ref().map(|settled| &settled.graph);
         let price = Price::new(&now, runtime, thrift);
         let cheapest = |all: Vec<Settled>| {
@@ -221,6 +220,11 @@ pub(super) fn assemble(
         tree,
         origin,
     })
+}
+
+/// With what is done before plans are priced against each other.
+fn prepared(plan: Settled, shop: &Workshop, thrift: Thrift) -> Settled {
+    with_reciprocals(in_arms(plan, shop, thrift), shop, thrift)
 }
 
 /// How many of the picture's pixels share a byte of the screen, where that matters.

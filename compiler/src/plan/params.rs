@@ -25,10 +25,7 @@ pub struct ParamPlan {
 // A diagnostic is large; it is made once, where the scene is wrong.
 #[allow(clippy::result_large_err)]
 pub(super) fn params(graph: &Graph, runtime: &Runtime) -> Result<Vec<ParamPlan>, Vec<Diagnostic>> {
-    let wrong = |p| {
-        let said = ranged(p, runtime).and_then(|()| small(p, runtime));
-        said.and_then(|()| told_apart(p, runtime)).err()
-    };
+    let wrong = |p| ranged(p, runtime).and_then(|()| small(p, runtime)).err();
     let said: Vec<Diagnostic> = graph.params.iter().filter_map(wrong).collect();
     if said.is_empty() {
         Ok(graph.params.iter().map(|p| param(p, runtime)).collect())
@@ -86,31 +83,6 @@ fn small(p: &Param, runtime: &Runtime) -> Result<(), Diagnostic> {
     Err(Diagnostic::error(p.span, message)
         .label("too large for this target")
         .help("make it smaller (another unit, a narrower range), or fold it with --freeze"))
-}
-
-/// Which part of a value may be lost where it is written.
-const COARSE: f64 = 1.0 / 16.0;
-
-/// A value must not be lost beside a range that leaves it no digits.
-fn told_apart(p: &Param, runtime: &Runtime) -> Result<(), Diagnostic> {
-    let written = param(p, runtime);
-    let (Some(digits), Type::Real) = (written.digits, p.ty) else {
-        return Ok(());
-    };
-    if (written.value - p.value).abs() <= p.value.abs() * COARSE {
-        return Ok(());
-    }
-    let message = format!(
-        "`{}` is {}, and {} writes it in steps of {}, because it may become {}",
-        written.label,
-        decimal(p.value),
-        runtime.name,
-        decimal(10f64.powi(-i32::from(digits))),
-        decimal(p.range.map_or(p.value, |r| r.magnitude())),
-    );
-    Err(Diagnostic::error(p.span, message)
-        .label(format!("would be {}", decimal(written.value)))
-        .help("give it a narrower range or another unit, or fold it with --freeze"))
 }
 
 fn param(p: &Param, runtime: &Runtime) -> ParamPlan {
@@ -249,12 +221,6 @@ mod tests {
             ),
             ("6502:plain", "real = 1", None, "has no range"),
             ("bbc:micro", "real = 1", Some(1e39), "`p` is 1"),
-            (
-                "jack",
-                "real = 0.001 in 0.0001 .. 100",
-                None,
-                "`p` is 0.001, and jack writes it in steps of 0.01, because it may become 100",
-            ),
         ] {
             let said = planned(target, param, set).unwrap_err();
             assert_eq!(said.len(), 1);
@@ -267,8 +233,6 @@ mod tests {
             ("bbc:micro", "int = 70000"),
             ("6502:plain", "int = 70000"),
             ("6502:plain", "real = 30000 in 0 .. 32767"),
-            ("jack", "real = 0 in 0 .. 100"),
-            ("jack", "real = 0.25 in 0 .. 100"),
         ] {
             assert!(planned(target, param, None).is_ok(), "{target} {param}");
         }

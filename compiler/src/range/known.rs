@@ -19,7 +19,7 @@ pub(super) fn known(graph: &Graph, slack: &Slack, id: NodeId) -> Range {
         Node::Undefined(_) if plain.is_some() || slack.expects() => Range::point(0.0),
         _ if let Some(points) = plain => points.rounded(id, Range::ALL, 0.0),
         Node::Const(c) => {
-            let held = slack.cut(graph.ty(id), Range::point(c.value().real()));
+            let held = slack.constant(c.value());
             slack.expected(id, held)
         }
         Node::Param(p) => {

@@ -2,7 +2,7 @@
 
 use crate::flow::graph::NodeId;
 use crate::plan::points::Points;
-use slowlight_routine::{Error, Format, Op, Range, Routine, Runtime, Type};
+use slowlight_routine::{Error, Format, Op, Range, Routine, Runtime, Type, Value};
 
 /// How far an entry that a program works out itself may be off, as a part of it.
 pub const ENTRIES: f64 = 1.0 / 4_194_304.0;
@@ -23,6 +23,8 @@ pub struct Slack {
     entries: f64,
     /// What reals can be.
     reals: Range,
+    /// The last place of constants, 0 where they keep their digits or points do not stand.
+    last: f64,
     /// What ints can be.
     pub(super) ints: Range,
     /// The greatest magnitude that is expected of each operation's result, if any is.
@@ -47,6 +49,7 @@ impl Slack {
             segments: false,
             entries: 0.0,
             reals,
+            last: 0.0,
             ints: Range::new(f64::from(i32::MIN), f64::from(i32::MAX)),
             expected: Vec::new(),
             points: None,
@@ -99,6 +102,10 @@ impl Slack {
             segments: runtime.segments,
             entries: if runtime.derives { ENTRIES } else { 0.0 },
             reals: ends(runtime.real),
+            last: match runtime.real {
+                Format::Fixed { .. } => runtime.real.epsilon(),
+                _ => 0.0,
+            },
             ints: ends(runtime.int),
             expected: Vec::new(),
             points: None,
@@ -192,6 +199,16 @@ impl Slack {
             _ => exact,
         };
         self.cut(op.result(), self.enlarge(op, args, exact))
+    }
+
+    /// A constant as it is held: one that is below half a last place is 0.
+    pub(super) fn constant(&self, value: Value) -> Range {
+        let exact = value.real();
+        let held = match value {
+            Value::Real(_) if self.last > 0.0 => (exact / self.last).round() * self.last,
+            _ => exact,
+        };
+        self.cut(value.ty(), Range::point(held))
     }
 
     pub(super) fn cut(&self, ty: Type, range: Range) -> Range {

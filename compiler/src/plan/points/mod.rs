@@ -44,6 +44,9 @@ const ROUNDS: u32 = 2;
 /// What is compared must be told from what it is compared with.
 const BESIDE: f64 = 1.0 + 1.0 / 64.0;
 
+/// What only the sign is asked of keeps one: at 0 it would be told from nothing.
+const LEAST: f64 = 1.0 / (1u64 << 40) as f64;
+
 /// Where the points of a graph's reals are.
 #[derive(Clone, Debug)]
 pub struct Points {
@@ -75,7 +78,7 @@ pub fn pointed(graph: &Graph, tree: &Tree, runtime: &'static Runtime) -> Option<
     for _ in 0..ROUNDS {
         let useful = useful::useful(graph, tree, &planned);
         for (expected, useful) in expected.iter_mut().zip(&useful) {
-            let most = useful.magnitude() * BESIDE;
+            let most = (useful.magnitude() * BESIDE).max(LEAST);
             *expected = Some(expected.map_or(most, |held| held.min(most)));
         }
         planned = walk(&expected);

@@ -25,7 +25,9 @@ impl Code<'_> {
                 (Some(points), Some(Type::Real)) => {
                     let again = k == 1 && arg == args[0];
                     let to = points.scales(id).args;
-                    if again && to[0] == to[1] {
+                    if let Some(known) = self.known(id, k, to[k]) {
+                        known
+                    } else if again && to[0] == to[1] {
                         all.first().cloned().unwrap_or(Operand::Constant(0))
                     } else {
                         self.read_at(points, arg, to[k], READ[k])
@@ -41,6 +43,15 @@ impl Code<'_> {
         }
         let mut all = all.into_iter();
         [(); 2].map(|()| all.next().unwrap_or(Operand::Constant(0)))
+    }
+
+    /// An operand of which the ranges leave one value only: routines are chosen for it as
+    /// for a constant, so it is written as one.
+    fn known(&self, id: NodeId, k: usize, to: i8) -> Option<Operand> {
+        let range = self.plan.ranges.args.get(id.0 as usize)?.get(k)?;
+        let units = scale::in_units(*range, to).constant()?;
+        let held = units.fract() == 0.0 && units.abs() <= scale::most(BITS) as f64;
+        held.then_some(Operand::Constant(units as i64 as u64))
     }
 
     /// What an operation's routine has to know of scales.

@@ -76,13 +76,14 @@ impl Code<'_> {
             self.text.span = Some(self.plan.graph.span(share.node));
             self.text
                 .line(format!("        ; to ({}, {})", share.dx, share.dy));
+            // Before what waits there: to read at another scale takes `acc`.
+            let sent = match self.plan.points() {
+                Some(points) => self.read_at(points, share.node, points.received(), "second"),
+                None => self.homes.operand(self.plan, share.node),
+            };
             self.text.code(&format!("ldy #{at}"));
             self.each_byte(&format!("lda ({row}),y | sta acc"));
             if let Some(routine) = self.plan.gather() {
-                let sent = match self.plan.points() {
-                    Some(points) => self.read_at(points, share.node, points.received(), "second"),
-                    None => self.homes.operand(self.plan, share.node),
-                };
                 let args = [Operand::At("acc".to_owned()), sent];
                 self.use_of(routine, &args, &Goal::At("prod"), 0);
             }
