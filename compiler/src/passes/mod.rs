@@ -13,6 +13,7 @@ pub mod guard;
 pub mod homogeneous;
 pub mod identities;
 pub mod interlace;
+pub mod later;
 mod moves;
 pub mod narrow;
 pub mod near;

@@ -21,6 +21,7 @@ use crate::passes::early::in_loops;
 use crate::passes::guard::guard;
 use crate::passes::homogeneous::{homogeneous, lengths};
 use crate::passes::identities::{around, identities};
+use crate::passes::later::later;
 use crate::passes::peel::peel;
 use crate::passes::split::split;
 use crate::passes::squares::squares;
@@ -51,6 +52,9 @@ const SHORTER: f64 = 0.99;
 
 /// By how much spans must.
 const SPANS: f64 = 0.99;
+
+/// How many conditions have what one of their ways needs on that way.
+const LATER: usize = 2;
 
 /// How often values are taken apart: what one needs may be taken apart after it.
 const APART: usize = 6;
@@ -151,6 +155,14 @@ pub fn apart_at_last(plan: Settled, shop: &Workshop, thrift: Thrift) -> Settled 
         Some(_) => with_loops_skipped(plan, shop, thrift),
         None => plan,
     };
+    for _ in 0..LATER {
+        let all = later(&best.graph, shop.runtime.segments).into_iter();
+        let next = price.cheapest(all.map(|graph| shop.scheduled(graph)));
+        match next {
+            Some(next) if price.of(&next) < GUARD * price.of(&best) => best = next,
+            _ => break,
+        }
+    }
     for _ in 0..APART {
         let next = apart(&best.graph, &best.tree, &price.worth(&best));
         let Some(next) = next else {
@@ -223,7 +235,9 @@ impl Site<'_> {
             let Some(found) = self.rewritten(&tried).map(|plan| (cost(&plan), plan)) else {
                 continue;
             };
-            if found.0 < GUARD * best.0 {
+            eprintln!("DBG beside {beside}: {} {} best {}", self.cost(&found.1), found.0, best.0);
+            let force = std::env::var("SLB").ok().and_then(|v| v.parse::<usize>().ok());
+            if force.map_or(found.0 < GUARD * best.0, |f| f == beside) {
                 self.shop.note_beside();
                 best = found;
             }

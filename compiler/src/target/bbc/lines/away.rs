@@ -3,7 +3,7 @@
 //! BASIC II looks for the line that a jump names from the program's first on. What
 //! stands behind END is passed by no jump that stays before it.
 
-use super::{Item, Label, Lines};
+use super::{Item, Label, Later, Lines};
 
 /// A block of fewer lines and labels stays where it is.
 const FEW: usize = 4;
@@ -13,6 +13,7 @@ fn jump(to: Label) -> Item {
     Item::Line {
         text: format!("GOTO {to}"),
         span: None,
+        later: Later::new(),
         open: false,
         weight: 1,
     }
