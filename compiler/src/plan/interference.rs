@@ -97,10 +97,16 @@ impl Flow<'_> {
         let mut meets = Interference::new(self.places.len());
         for case in cases {
             let (alive, reached) = (self.alive(*case), self.reached(*case));
+            // What no step writes that is come to is read by none either, whatever it looks
+            // like: that takes other conditions, which follow from this one.
+            let mut set = Set::new(self.places.len());
+            let steps = self.steps.iter().zip(&reached);
+            let steps = steps.filter_map(|(step, reached)| step.writes.filter(|_| *reached));
+            steps.for_each(|place| set.add(place));
             for (at, step) in self.steps.iter().enumerate().filter(|(at, _)| reached[*at]) {
                 let Some(written) = step.writes else { continue };
                 for other in alive[at].iter() {
-                    if other != written && step.copies != Some(other) {
+                    if other != written && step.copies != Some(other) && set.has(other) {
                         meets.add(written, other);
                     }
                 }
