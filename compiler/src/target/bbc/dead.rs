@@ -40,7 +40,7 @@ struct Point {
 type Way = (usize, BTreeSet<String>);
 
 /// The lines' points, in their order, then those inside lines.
-struct Flow(Vec<Point>);
+pub struct Flow(Vec<Point>);
 
 /// What is known of a program while its flow is found.
 struct Finder<'t> {
@@ -61,7 +61,8 @@ struct Finder<'t> {
 }
 
 impl Flow {
-    fn of(texts: &[String], placed: &HashMap<Label, usize>) -> Flow {
+    /// The flow of a program's lines.
+    pub fn of(texts: &[String], placed: &HashMap<Label, usize>) -> Flow {
         let defined = texts.iter().enumerate();
         let defined =
             defined.filter_map(|(at, text)| Some((called(text.strip_prefix("DEF ")?)?, at)));
@@ -102,7 +103,7 @@ impl Flow {
     /// Whether a name may be read from a line on, before it is written. A procedure that
     /// is called on the way goes back to where that was, one that the line is in to
     /// wherever it is called.
-    fn reads(&self, name: &str, from: usize) -> bool {
+    pub fn reads(&self, name: &str, from: usize) -> bool {
         let mut seen = vec![[false; 2]; self.0.len()];
         let mut todo = vec![(from, true)];
         while let Some((at, outermost)) = todo.pop() {

@@ -14,6 +14,7 @@ use super::spread::Spread;
 use super::tables;
 use super::tail;
 use super::thread::threaded;
+use super::ways;
 use crate::flow::tree::SubroutineId;
 use crate::plan::Plan;
 use crate::source::Span;
@@ -62,7 +63,12 @@ pub fn program(plan: &Plan) -> Lines {
     let params = (0..plan.params.len()).map(|k| code.values.names.param(k).to_owned());
     let keep: Vec<String> = params.chain([first, last]).collect();
     let lines = threaded(code.lines, &mut code.labels, style != Style::Small);
+    let lines = match style {
+        Style::Fast => ways::split(dead::without(lines), &mut code.labels, plan.copies),
+        _ => lines,
+    };
     let lines = dead::without(lines);
+    if std::env::var("SLD").is_ok() { eprintln!("{}", lines.clone().finish().0); }
     let lines = match plan.copies {
         true => tail::copied(lines, &mut code.labels),
         false => lines,

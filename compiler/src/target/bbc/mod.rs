@@ -49,6 +49,7 @@ mod tests;
 mod text;
 mod thread;
 mod version;
+mod ways;
 
 use super::{Document, Target};
 use crate::passes::outline::Sizes;

@@ -194,11 +194,12 @@ enum Step {
 const LONG: usize = 120;
 
 /// Variables of which it is known whether they hold.
-#[derive(Default)]
-struct Known(HashMap<String, bool>);
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Known(HashMap<String, bool>);
 
 impl Known {
-    fn of(&self, name: &str) -> Option<bool> {
+    /// Whether a variable holds, where that is known.
+    pub fn of(&self, name: &str) -> Option<bool> {
         self.0.get(name).copied()
     }
 
@@ -213,7 +214,7 @@ impl Known {
     }
 
     /// What a statement tells of a variable; what is no assignment may change any.
-    fn learn(&mut self, statement: &str) {
+    pub fn learn(&mut self, statement: &str) {
         let plain = |c: char| c.is_ascii_alphanumeric() || c == '_' || c == '%';
         let Some((name, value)) = (statement.split_once('='))
             .filter(|(name, _)| !name.is_empty() && name.chars().all(plain))
@@ -228,6 +229,28 @@ impl Known {
     }
 }
 
+impl Known {
+    /// What follows from a test's outcome: of a flag, or the contrary of one.
+    pub fn assume(&mut self, test: &str, holds: bool) {
+        let (name, holds) = match test.strip_prefix("NOT ") {
+            Some(name) => (name, !holds),
+            None => (test, holds),
+        };
+        let plain = |c: char| c.is_ascii_alphanumeric() || c == '_';
+        if let Some(flag) = name.strip_suffix('%')
+            && flag.chars().all(plain)
+        {
+            self.0.insert(name.to_owned(), holds);
+        }
+    }
+
+    /// What is known on two ways that meet.
+    pub fn met(mut self, other: &Known) -> Known {
+        self.0.retain(|name, holds| other.of(name) == Some(*holds));
+        self
+    }
+}
+
 /// The last of some statements, without the test before it.
 fn last(statements: &str) -> &str {
     let from = statements.rfind([':', ' ']).map_or(0, |at| at + 1);
@@ -235,7 +258,7 @@ fn last(statements: &str) -> &str {
 }
 
 /// What stands before the label that a line jumps to at its end, and that label.
-fn jump(text: &str) -> Option<(&str, Label)> {
+pub fn jump(text: &str) -> Option<(&str, Label)> {
     let (before, label) = Label::last_of(text)?;
     (before.ends_with("GOTO ") || before.ends_with("THEN ")).then_some((before, label))
 }

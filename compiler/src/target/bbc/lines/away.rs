@@ -9,7 +9,7 @@ use super::{Item, Label, Later, Lines};
 const FEW: usize = 4;
 
 /// A line that jumps.
-fn jump(to: Label) -> Item {
+pub(super) fn jump(to: Label) -> Item {
     Item::Line {
         text: format!("GOTO {to}"),
         span: None,
@@ -20,7 +20,7 @@ fn jump(to: Label) -> Item {
 }
 
 /// Whether what stands behind some lines may be come to from the last of them.
-fn goes_on(items: &[Item]) -> bool {
+pub(super) fn goes_on(items: &[Item]) -> bool {
     let text = items.iter().rev().find_map(|item| match item {
         Item::Line { text, .. } => Some(text),
         Item::Label(_) => None,
