@@ -235,9 +235,7 @@ impl Site<'_> {
             let Some(found) = self.rewritten(&tried).map(|plan| (cost(&plan), plan)) else {
                 continue;
             };
-            eprintln!("DBG beside {beside}: {} {} best {}", self.cost(&found.1), found.0, best.0);
-            let force = std::env::var("SLB").ok().and_then(|v| v.parse::<usize>().ok());
-            if force.map_or(found.0 < GUARD * best.0, |f| f == beside) {
+            if found.0 < GUARD * best.0 {
                 self.shop.note_beside();
                 best = found;
             }

@@ -30,8 +30,10 @@ struct Point {
     reads: BTreeSet<String>,
     /// Where it goes on, and what it has written on that way whatever happens.
     next: Vec<Way>,
-    /// The procedures that it calls, before it goes on as if they had written nothing.
-    calls: Vec<Way>,
+    /// The procedures that it calls, and where each comes back to.
+    calls: Vec<(Way, usize)>,
+    /// What it has written on each way on which it ends a procedure.
+    ends: Vec<BTreeSet<String>>,
     /// Where it goes on behind a call, if it ends a procedure.
     back: Vec<Way>,
 }
@@ -96,6 +98,7 @@ impl Flow {
             let all = finder.back.get(name).into_iter().flatten();
             let all = all.map(|to| (*to, writes.clone()));
             finder.points[*at].back.extend(all);
+            finder.points[*at].ends.push(writes.clone());
         }
         Flow(finder.points)
     }
@@ -121,9 +124,52 @@ impl Flow {
                 todo.extend(open.map(|(to, _)| (*to, outermost)));
             };
             go(&point.next, outermost);
-            go(&point.calls, false);
             if outermost {
                 go(&point.back, true);
+            }
+            for ((to, writes), on) in &point.calls {
+                if !writes.contains(name) {
+                    todo.push((*to, false));
+                    if self.passes(name, *to, &mut Vec::new()) {
+                        todo.push((*on, outermost));
+                    }
+                }
+            }
+        }
+        false
+    }
+
+    /// Whether a procedure may be gone through, from a line on, without a name being
+    /// written. `inside`: those that call it, as far as is known.
+    fn passes(&self, name: &str, from: usize, inside: &mut Vec<usize>) -> bool {
+        if inside.contains(&from) {
+            return true;
+        }
+        inside.push(from);
+        let passes = self.goes_through(name, from, inside);
+        inside.pop();
+        passes
+    }
+
+    fn goes_through(&self, name: &str, from: usize, inside: &mut Vec<usize>) -> bool {
+        let mut seen = vec![false; self.0.len()];
+        let mut todo = vec![from];
+        while let Some(at) = todo.pop() {
+            let Some(point) = self.0.get(at) else {
+                continue;
+            };
+            if std::mem::replace(&mut seen[at], true) {
+                continue;
+            }
+            if point.ends.iter().any(|writes| !writes.contains(name)) {
+                return true;
+            }
+            let open = |(_, writes): &&Way| !writes.contains(name);
+            todo.extend(point.next.iter().filter(open).map(|(to, _)| *to));
+            for ((to, writes), on) in &point.calls {
+                if !writes.contains(name) && self.passes(name, *to, inside) {
+                    todo.push(*on);
+                }
             }
         }
         false
@@ -224,8 +270,10 @@ impl<'t> Finder<'t> {
     fn turning(&mut self, at: usize, turn: &'t str, on: usize, writes: &BTreeSet<String>) {
         if let Some(name) = called(turn) {
             self.back.entry(name).or_default().push(on);
-            let to = self.defined.get(name).map(|to| (*to, writes.clone()));
-            self.points[at].calls.extend(to);
+            if let Some(to) = self.defined.get(name) {
+                self.points[at].calls.push(((*to, writes.clone()), on));
+                return;
+            }
         } else if turn.starts_with("FOR ") {
             self.loops.push(on);
         } else {

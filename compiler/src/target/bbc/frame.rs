@@ -68,7 +68,6 @@ pub fn program(plan: &Plan) -> Lines {
         _ => lines,
     };
     let lines = dead::without(lines);
-    if std::env::var("SLD").is_ok() { eprintln!("{}", lines.clone().finish().0); }
     let lines = match plan.copies {
         true => tail::copied(lines, &mut code.labels),
         false => lines,
