@@ -31,7 +31,7 @@ pub fn split(lines: Lines, labels: &mut Labels, copies: bool) -> Lines {
         }
         lines = decided(lines);
     }
-    lines
+    in_place(lines, labels)
 }
 
 /// A line that is one test.
@@ -425,6 +425,73 @@ fn decided(lines: Lines) -> Lines {
     let mut lines = lines.with_texts(changed, &HashMap::new());
     lines.remove_empty();
     lines
+}
+
+/// The lines with an int that is set only for its lowest bits to be asked for in the
+/// question's place. A way that sets it elsewhere, rarely, asks for itself.
+fn in_place(lines: Lines, labels: &mut Labels) -> Lines {
+    let texts: Vec<String> = lines.texts().map(str::to_owned).collect();
+    let placed: HashMap<Label, usize> = lines.labelled().collect();
+    let flow = Flow::of(&texts, &placed);
+    let jumps = |to: usize| {
+        let leads = move |label: &Label, placed: &HashMap<Label, usize>| {
+            placed.get(label) == Some(&to)
+        };
+        let count = |text: &String| Label::all_of(text).filter(|l| leads(l, &placed)).count();
+        let each = texts.iter().map(count).enumerate();
+        each.filter(|(_, count)| *count > 0).collect::<Vec<_>>()
+    };
+    let mut changed: Vec<Vec<String>> = texts.iter().map(|text| vec![text.clone()]).collect();
+    let mut behind = HashMap::new();
+    for at in 1..texts.len() {
+        let Some(name) = bits_asked(&texts[at]) else {
+            continue;
+        };
+        let ways = Label::all_of(&texts[at]).filter_map(|label| placed.get(&label).copied());
+        let read = ways.chain([at + 1]).any(|to| flow.reads(name, to));
+        let Some((front, value)) = set_last(&texts[at - 1], name).filter(|_| !read) else {
+            continue;
+        };
+        let others: Option<Vec<_>> = (jumps(at).into_iter())
+            .map(|(from, count)| {
+                let (way, _) = jump(&texts[from]).filter(|_| count == 1)?;
+                let (front, value) = set_last(way.strip_suffix(":GOTO ")?, name)?;
+                Some((from, front, value))
+            })
+            .collect();
+        let Some(others) = others.filter(|all| all.len() <= 1) else {
+            continue;
+        };
+        let asks = |value: &str| texts[at].replacen(name, value, 1);
+        for (from, front, value) in others {
+            let on = *behind.entry(at).or_insert_with(|| labels.next());
+            changed[from] = vec![front.to_owned(), asks(value), format!("GOTO {on}")];
+        }
+        changed[at - 1] = vec![front.to_owned()];
+        changed[at] = vec![asks(value)];
+    }
+    let mut lines = lines.with_lines(changed, &behind);
+    lines.remove_empty();
+    lines
+}
+
+/// The int of which a test asks for some bits, and which it names once.
+fn bits_asked(text: &str) -> Option<&str> {
+    let test = Test::of(text)?;
+    let (name, bits) = test.test.split_once(" AND ")?;
+    let plain = |c: char| c.is_ascii_alphanumeric() || c == '_' || c == '%';
+    let lone = name.ends_with('%') && name.chars().all(plain);
+    let number = !bits.is_empty() && bits.chars().all(|c| c.is_ascii_digit());
+    (lone && number && text.matches(name).count() == 1).then_some(name)
+}
+
+/// What stands before the last of some statements, and the value that it gives an int;
+/// a sum, since what binds less than AND would need brackets.
+fn set_last<'t>(text: &'t str, name: &str) -> Option<(&'t str, &'t str)> {
+    let (front, last) = text.rsplit_once(':').unwrap_or(("", text));
+    let value = last.strip_prefix(name)?.strip_prefix('=')?;
+    let binds = value.contains(['<', '>', '=']) || value.contains("AND") || value.contains("OR");
+    (!binds && !text.contains("IF ")).then_some((front, value))
 }
 
 /// Two lines of which the first sets a flag last that the second asks for, where nobody
