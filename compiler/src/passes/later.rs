@@ -175,12 +175,7 @@ struct Way<'s, 'g> {
 
 impl<'s, 'g> Way<'s, 'g> {
     /// Nothing where no value would go to that way.
-    fn new(
-        site: &'s Site<'g>,
-        home: RegionId,
-        cond: NodeId,
-        holds: bool,
-    ) -> Option<Way<'s, 'g>> {
+    fn new(site: &'s Site<'g>, home: RegionId, cond: NodeId, holds: bool) -> Option<Way<'s, 'g>> {
         let mut way = Way {
             site,
             home,

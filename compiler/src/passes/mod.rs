@@ -45,6 +45,8 @@ mod claim_tests;
 #[cfg(test)]
 mod guard_tests;
 #[cfg(test)]
+mod later_tests;
+#[cfg(test)]
 mod peel_tests;
 #[cfg(test)]
 mod still_tests;

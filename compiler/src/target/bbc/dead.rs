@@ -463,4 +463,22 @@ mod tests {
             "{text}"
         );
     }
+
+    #[test]
+    fn a_procedure_that_sets_a_flag_on_each_way_needs_none_before() {
+        let source = [
+            "FOR x%=1 TO 9",
+            "IF x%<4 THEN a%=TRUE:GOTO @2;",
+            "PROCset:b%=a%",
+            "NEXT:END",
+            "DEF PROCset",
+            "IF b% THEN a%=TRUE:ENDPROC",
+            "a%=x%<7",
+            "ENDPROC",
+        ];
+        assert!(written(&source).contains("20IF x%<4 THEN 30\n"));
+        let mut one = source;
+        one[6] = "c%=x%<7";
+        assert!(written(&one).contains("20IF x%<4 THEN a%=TRUE:GOTO 30\n"));
+    }
 }

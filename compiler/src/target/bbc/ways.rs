@@ -259,7 +259,12 @@ impl Roads<'_> {
 
     /// A test of which nothing is known: which of its ways leads to one that is, as whether
     /// it holds there, the test for the other way, and the line.
-    fn undecided(&self, at: usize, test: &Test<'_>, known: &Known) -> Option<(bool, String, usize)> {
+    fn undecided(
+        &self,
+        at: usize,
+        test: &Test<'_>,
+        known: &Known,
+    ) -> Option<(bool, String, usize)> {
         let label = test.label()?;
         let to = *self.placed.get(&label)?;
         if self.leads(at + 1, known) {
@@ -422,6 +427,16 @@ fn decided(lines: Lines) -> Lines {
             changed[at] = test;
         }
     }
+    for at in 0..changed.len() {
+        let to = match jump(&changed[at]) {
+            Some(("GOTO ", label)) => roads.placed.get(&label).copied(),
+            _ => None,
+        };
+        let between = to.and_then(|to| changed.get(at + 1..to));
+        if between.is_some_and(|lines| lines.iter().all(String::is_empty)) {
+            changed[at] = String::new();
+        }
+    }
     let mut lines = lines.with_texts(changed, &HashMap::new());
     lines.remove_empty();
     lines
@@ -434,9 +449,8 @@ fn in_place(lines: Lines, labels: &mut Labels) -> Lines {
     let placed: HashMap<Label, usize> = lines.labelled().collect();
     let flow = Flow::of(&texts, &placed);
     let jumps = |to: usize| {
-        let leads = move |label: &Label, placed: &HashMap<Label, usize>| {
-            placed.get(label) == Some(&to)
-        };
+        let leads =
+            move |label: &Label, placed: &HashMap<Label, usize>| placed.get(label) == Some(&to);
         let count = |text: &String| Label::all_of(text).filter(|l| leads(l, &placed)).count();
         let each = texts.iter().map(count).enumerate();
         each.filter(|(_, count)| *count > 0).collect::<Vec<_>>()
@@ -455,17 +469,29 @@ fn in_place(lines: Lines, labels: &mut Labels) -> Lines {
         let others: Option<Vec<_>> = (jumps(at).into_iter())
             .map(|(from, count)| {
                 let (way, _) = jump(&texts[from]).filter(|_| count == 1)?;
-                let (front, value) = set_last(way.strip_suffix(":GOTO ")?, name)?;
-                Some((from, front, value))
+                if let Some(way) = way.strip_suffix(":GOTO ") {
+                    let (front, value) = set_last(way, name)?;
+                    return Some((from, front, value, from));
+                }
+                // A jump by itself, to which only the line before it leads.
+                let before = from.checked_sub(1).filter(|_| way == "GOTO ")?;
+                let (front, value) = set_last(texts.get(before)?, name)?;
+                jumps(from)
+                    .is_empty()
+                    .then_some((before, front, value, from))
             })
             .collect();
         let Some(others) = others.filter(|all| all.len() <= 1) else {
             continue;
         };
         let asks = |value: &str| texts[at].replacen(name, value, 1);
-        for (from, front, value) in others {
+        for (set, front, value, from) in others {
             let on = *behind.entry(at).or_insert_with(|| labels.next());
-            changed[from] = vec![front.to_owned(), asks(value), format!("GOTO {on}")];
+            changed[from] = vec![asks(value), format!("GOTO {on}")];
+            match set == from {
+                true => changed[from].insert(0, front.to_owned()),
+                false => changed[set] = vec![front.to_owned()],
+            }
         }
         changed[at - 1] = vec![front.to_owned()];
         changed[at] = vec![asks(value)];
@@ -538,4 +564,118 @@ fn either(text: &str, name: &str) -> Option<String> {
     let flag = test.test.ends_with('%') && test.test.chars().all(plain);
     let alone = !yes.contains([':', ' ']) && opposite(&yes)? == no;
     (flag && alone).then(|| format!("{}=({yes})", test.test))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The lines `texts`, where `@n;` goes to the line number n, without tests that are known.
+    fn written(texts: &[&str], copies: bool) -> String {
+        let mut labels = Labels::default();
+        let all: Vec<Label> = texts.iter().map(|_| labels.next()).collect();
+        let mut lines = Lines::default();
+        for (text, label) in texts.iter().zip(&all) {
+            lines.place(*label);
+            let mut text = (*text).to_owned();
+            for (k, label) in all.iter().enumerate() {
+                text = text.replace(&format!("@{k};"), &label.to_string());
+            }
+            lines.line(text, None);
+        }
+        let lines = super::super::dead::without(split(lines, &mut labels, copies));
+        let mut lines = split(lines, &mut labels, false);
+        lines.remove_empty();
+        lines.finish().0
+    }
+
+    const FLAG: [&str; 10] = [
+        "FOR x%=1 TO 9",
+        "IF f% THEN a%=x>=0 ELSE a%=x<0",
+        "IF a% THEN @5;",
+        "y=x*2",
+        "a%=FALSE",
+        "z=x*x",
+        "IF z<1 THEN @8;",
+        "IF NOT a% THEN z=y",
+        "PRINT z",
+        "NEXT",
+    ];
+
+    #[test]
+    fn a_way_has_a_copy_of_what_stands_before_a_known_test() {
+        // The way where a% holds goes past the test; the other way needs no flag.
+        let expected = "10FOR x%=1 TO 9\n20IF f%=(x>=0) THEN 50\n30y=x*2\n40GOTO 80\n\
+            50z=x*x\n60IF z<1 THEN 110\n70GOTO 110\n80z=x*x\n90IF z<1 THEN 110\n\
+            100z=y\n110PRINT z\n120NEXT\n";
+        assert_eq!(written(&FLAG, true), expected);
+    }
+
+    #[test]
+    fn without_memory_nothing_is_copied() {
+        let text = written(&FLAG, false);
+        assert!(text.contains("IF NOT a% THEN z=y"), "{text}");
+        assert_eq!(text.matches("z=x*x").count(), 1, "{text}");
+    }
+
+    #[test]
+    fn what_is_known_wherever_control_comes_from_is_not_asked() {
+        let source = [
+            "IF x<0 THEN a%=TRUE:GOTO @3;",
+            "a%=y<1",
+            "IF NOT a% THEN @6;",
+            "IF a% THEN z=1",
+            "PRINT z",
+            "END",
+            "z=2",
+            "END",
+        ];
+        let expected = "10IF x<0 THEN 30\n20IF y>=1 THEN 60\n30z=1\n40PRINT z\n50END\n\
+            60z=2\n70END\n";
+        assert_eq!(written(&source, true), expected);
+    }
+
+    #[test]
+    fn a_flag_that_is_read_later_is_kept() {
+        let source = [
+            "a%=x<1",
+            "IF a% THEN @3;",
+            "z=2",
+            "PRINT z",
+            "IF a% THEN z=1",
+            "END",
+        ];
+        let text = written(&source, false);
+        assert!(text.starts_with("10a%=x<1\n20IF a% THEN 40\n"), "{text}");
+    }
+
+    #[test]
+    fn lowest_bits_are_asked_for_in_place() {
+        let source = [
+            "IF y<1 THEN @7;",
+            "n%=INT(x)+INT(y)",
+            "IF n% AND 1 THEN @5;",
+            "z=2",
+            "END",
+            "z=1",
+            "END",
+            "n%=FNfloor(x)",
+            "GOTO @2;",
+        ];
+        let expected = "10IF y<1 THEN 70\n20IF INT(x)+INT(y) AND 1 THEN 50\n30z=2\n40END\n\
+            50z=1\n60END\n70IF FNfloor(x) AND 1 THEN 50\n80GOTO 30\n";
+        assert_eq!(written(&source, false), expected);
+        let mut read = source;
+        read[3] = "z=n%";
+        assert!(written(&read, false).contains("n%=INT(x)+INT(y)\n"));
+    }
+
+    #[test]
+    fn opposites() {
+        assert_eq!(opposite("a<b+1").as_deref(), Some("a>=b+1"));
+        assert_eq!(opposite("NOT a%").as_deref(), Some("a%"));
+        assert_eq!(opposite("a<>b").as_deref(), Some("a=b"));
+        assert_eq!(opposite("a<b AND c"), None);
+        assert_eq!(opposite("a%=(b<c)"), None);
+    }
 }
