@@ -1,10 +1,9 @@
 //! What is computed later draws what is computed before.
 
-use super::fold::fold;
+use super::apart_tests;
 use super::later::later;
 use super::schedule::{missing, schedule, schedule_in_segments};
 use crate::eval::drawn::{grid, picture};
-use crate::eval::random_graphs;
 use crate::flow::build::Builder;
 use crate::flow::graph::*;
 use crate::flow::tree::*;
@@ -76,7 +75,7 @@ fn what_is_computed_later_draws_the_same() {
     let mut made = 0;
     let places = grid(7, 5, 1);
     for seed in 0..300 {
-        let graph = fold(&random_graphs::graph(seed));
+        let graph = apart_tests::graph(seed);
         for segments in [false, true] {
             let scheduled = |graph: &Graph| match segments {
                 true => schedule_in_segments(graph),
@@ -96,5 +95,5 @@ fn what_is_computed_later_draws_the_same() {
             }
         }
     }
-    assert!(made > 100, "{made}");
+    assert!(made > 50, "{made}");
 }
