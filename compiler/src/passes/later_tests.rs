@@ -74,7 +74,7 @@ fn a_value_goes_to_the_way_that_needs_it() {
 fn what_is_computed_later_draws_the_same() {
     let mut made = 0;
     let places = grid(7, 5, 1);
-    for seed in 0..300 {
+    for seed in 0..600 {
         let graph = apart_tests::graph(seed);
         for segments in [false, true] {
             let scheduled = |graph: &Graph| match segments {
@@ -95,5 +95,5 @@ fn what_is_computed_later_draws_the_same() {
             }
         }
     }
-    assert!(made > 50, "{made}");
+    assert!(made > 40, "{made}");
 }
