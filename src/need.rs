@@ -146,15 +146,19 @@ fn depth(tree: &Tree) -> u64 {
 fn arrays(text: &str) -> u64 {
     let mut bytes = 0;
     for (at, _) in text.match_indices("DIM") {
-        let behind = text.get(at + 3..).unwrap_or_default();
-        let Some((name, rest)) = behind.split_once('(') else {
-            continue;
-        };
-        let bounds = rest.split_once(')').map_or("", |(inside, _)| inside);
-        let bounds: Vec<u64> = bounds.split(',').filter_map(|n| n.parse().ok()).collect();
-        let element = if name.ends_with('%') { 4 } else { 5 };
-        let elements: u64 = bounds.iter().map(|n| n + 1).product();
-        bytes += 1 + 2 * bounds.len() as u64 + element * elements;
+        let mut rest = text.get(at + 3..).unwrap_or_default();
+        while let Some((name, behind)) = rest.split_once('(')
+            && let Some((bounds, behind)) = behind.split_once(')')
+        {
+            let bounds: Vec<u64> = bounds.split(',').filter_map(|n| n.parse().ok()).collect();
+            let element = if name.ends_with('%') { 4 } else { 5 };
+            let elements: u64 = bounds.iter().map(|n| n + 1).product();
+            bytes += 1 + 2 * bounds.len() as u64 + element * elements;
+            rest = match behind.strip_prefix(',') {
+                Some(rest) => rest,
+                None => break,
+            };
+        }
     }
     bytes
 }
@@ -240,6 +244,7 @@ mod tests {
     fn arrays_are_counted_as_the_machine_makes_them() {
         assert_eq!(arrays("10DIM a(7,7):b=1"), 5 + 5 * 64);
         assert_eq!(arrays("10DIMn%(3):DIM error(9,1)"), 3 + 16 + 5 + 100);
+        assert_eq!(arrays("10DIMn%(3),error(9,1):a=f(2)"), 3 + 16 + 5 + 100);
         assert_eq!(arrays("10PRINT"), 0);
     }
 

@@ -24,7 +24,7 @@ pub fn turns(turns: &Turns) -> [(&Block, f64); 5] {
 }
 
 /// Whether a block has a loop in it.
-fn loops(block: &Block) -> bool {
+pub fn loops(block: &Block) -> bool {
     let mut found = false;
     walk(block, &mut |s| found |= matches!(s, Statement::Loop(_)));
     found

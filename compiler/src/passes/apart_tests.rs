@@ -14,7 +14,7 @@ use slowlight_routine::{Op, Type, Value};
 
 /// A graph at random, with a value at each choice that few of its ways need, on
 /// either side: `if c then (if p then f(v) else a) else (if q then f(v) else b)`.
-fn graph(seed: u64) -> Graph {
+pub(super) fn graph(seed: u64) -> Graph {
     let graph = fold(&random_graphs::graph(seed));
     let rates = rates(&graph);
     let turns = |id: NodeId| {

@@ -45,6 +45,13 @@ impl<'g> Arena<'g> {
         id
     }
 
+    /// The same, of a shortcut that is taken in any case.
+    pub fn push_taken(&mut self, node: Node, like: NodeId) -> NodeId {
+        let id = self.push(node, like);
+        self.out.early.remove(&id);
+        id
+    }
+
     fn is_shortcut(&self, node: Node) -> bool {
         let truth = |id, value| self.out.constant(id) == Some(Value::Bool(value));
         matches!(node, Node::Select { yes, no, .. } if truth(yes, true) && truth(no, false))

@@ -55,6 +55,7 @@ fn place_all(graph: &Graph, near: bool, segments: bool) -> Regions {
         rates,
         regions: Regions::new(graph),
         uses: vec![None; graph.nodes.len()],
+        all: vec![Vec::new(); graph.nodes.len()],
     };
     for root in graph.roots() {
         placer.need(root, PIXEL);
@@ -81,6 +82,8 @@ struct Placer<'g> {
     regions: Regions,
     /// The innermost region that holds all uses seen so far.
     uses: Vec<Option<RegionId>>,
+    /// The regions of all uses seen so far.
+    all: Vec<Vec<RegionId>>,
 }
 
 impl Placer<'_> {
@@ -90,6 +93,27 @@ impl Placer<'_> {
             Some(other) => self.common(other, region),
             None => region,
         });
+        self.all[at].push(region);
+    }
+
+    /// The innermost region that holds all uses of a value. Which that is hangs on their
+    /// order where conditions imply others: an arm of the weakest is found from there.
+    fn used(&mut self, id: NodeId) -> Option<RegionId> {
+        let at = id.0 as usize;
+        let found = self.uses[at]?;
+        let mut all = std::mem::take(&mut self.all[at]);
+        if all.len() < 3 || !self.regions.holds(PIXEL, found) {
+            return Some(found);
+        }
+        let depth = |region: &RegionId| self.regions.get(*region).depth;
+        all.sort_by_key(depth);
+        let mut all = all.into_iter();
+        let first = all.next()?;
+        let other = all.fold(first, |a, b| self.regions.common(a, b));
+        Some(match self.regions.holds(found, other) {
+            true => other,
+            false => found,
+        })
     }
 
     /// The innermost region whose values both may use. Further out than the pixel
@@ -107,7 +131,7 @@ impl Placer<'_> {
 
     fn visit(&mut self, id: NodeId) {
         let graph = self.graph;
-        let Some(used) = self.uses[id.0 as usize] else {
+        let Some(used) = self.used(id) else {
             return;
         };
         match self.graph.node(id) {

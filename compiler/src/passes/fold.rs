@@ -93,6 +93,9 @@ fn select(b: &mut Builder, cond: NodeId, yes: NodeId, no: NodeId, span: Span) ->
     if let Node::Apply(Op::Not, [inner, _]) = b.node(cond) {
         return select(b, inner, no, yes, span);
     }
+    // In an arm it is known whether the condition holds.
+    let yes = known(b, cond, true, yes);
+    let no = known(b, cond, false, no);
     match (b.value(yes), b.value(no)) {
         (Some(Value::Bool(true)), Some(Value::Bool(false))) => cond,
         (Some(Value::Bool(false)), Some(Value::Bool(true))) => {
@@ -100,5 +103,84 @@ fn select(b: &mut Builder, cond: NodeId, yes: NodeId, no: NodeId, span: Span) ->
             folded(b, Op::Not, cond, cond, span).unwrap_or(not)
         }
         _ => b.select(cond, yes, no, span),
+    }
+}
+
+/// What a choice by the same condition, or by its contrary, is where that is known.
+fn known(b: &Builder, cond: NodeId, holds: bool, mut arm: NodeId) -> NodeId {
+    while let Node::Select {
+        cond: asked,
+        yes,
+        no,
+    } = b.node(arm)
+    {
+        let holds = if asked == cond {
+            holds
+        } else if contrary(b.node(asked), b.node(cond), cond) {
+            !holds
+        } else {
+            break;
+        };
+        arm = if holds { yes } else { no };
+    }
+    arm
+}
+
+/// Whether a condition is the contrary of another.
+fn contrary(asked: Node, known: Node, id: NodeId) -> bool {
+    match (asked, known) {
+        (Node::Apply(Op::Not, [of, _]), _) => of == id,
+        (Node::Apply(Op::Less, [a, b]), Node::Apply(Op::LessEqual, [c, d]))
+        | (Node::Apply(Op::LessEqual, [a, b]), Node::Apply(Op::Less, [c, d]))
+        | (Node::Apply(Op::IntLess, [a, b]), Node::Apply(Op::IntLessEqual, [c, d]))
+        | (Node::Apply(Op::IntLessEqual, [a, b]), Node::Apply(Op::IntLess, [c, d])) => {
+            (a, b) == (d, c)
+        }
+        _ => false,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// What becomes of a choice by x < y with another choice in an arm, by a comparison:
+    /// of 1 and 2 in the arm, or nothing where both are left to choose.
+    fn chosen(op: Op, turned: bool, in_yes: bool) -> Option<f64> {
+        let (mut b, at) = (Builder::new(), Span::default());
+        let [x, y] = [Axis::X, Axis::Y].map(|axis| b.axis(axis, at));
+        let [x, y] = [x, y].map(|axis| b.apply(Op::ToReal, &[axis], at));
+        let [one, two, other] = [1.0, 2.0, 3.0].map(|n| b.constant(Value::Real(n), at));
+        let cond = b.apply(Op::Less, &[x, y], at);
+        let asked = b.apply(op, &if turned { [y, x] } else { [x, y] }, at);
+        let inner = b.select(asked, one, two, at);
+        let (yes, no) = if in_yes {
+            (inner, other)
+        } else {
+            (other, inner)
+        };
+        let made = select(&mut b, cond, yes, no, at);
+        let Node::Select { yes, no, .. } = b.node(made) else {
+            return None;
+        };
+        b.value(if in_yes { yes } else { no }).map(Value::real)
+    }
+
+    #[test]
+    fn an_arm_knows_its_condition() {
+        assert_eq!(chosen(Op::Less, false, true), Some(1.0));
+        assert_eq!(chosen(Op::Less, false, false), Some(2.0));
+    }
+
+    #[test]
+    fn an_arm_knows_the_contrary_of_its_condition() {
+        assert_eq!(chosen(Op::LessEqual, true, true), Some(2.0));
+        assert_eq!(chosen(Op::LessEqual, true, false), Some(1.0));
+    }
+
+    #[test]
+    fn another_comparison_stays() {
+        assert_eq!(chosen(Op::Less, true, true), None);
+        assert_eq!(chosen(Op::LessEqual, false, false), None);
     }
 }

@@ -108,7 +108,7 @@ fn asked_first(
             }
             node => {
                 let node = node.with(|a| first.get(&a).copied().unwrap_or_else(|| at(a)));
-                out.push(node, id)
+                out.push_taken(node, id)
             }
         };
         first.insert(id, made);

@@ -15,6 +15,7 @@ pub mod guard;
 pub mod homogeneous;
 pub mod identities;
 pub mod interlace;
+pub mod later;
 mod moves;
 pub mod narrow;
 pub mod near;
@@ -45,6 +46,8 @@ mod apart_tests;
 mod claim_tests;
 #[cfg(test)]
 mod guard_tests;
+#[cfg(test)]
+mod later_tests;
 #[cfg(test)]
 mod peel_tests;
 #[cfg(test)]

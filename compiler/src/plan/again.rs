@@ -61,11 +61,16 @@ impl Plan {
         }
     }
 
-    /// A plan of the same scene by one of those steps, counted from 0.
+    /// A plan of the same scene by one of those steps, counted from 0. None where it
+    /// could only be that of a step before.
     pub fn thriftier(&self, step: usize) -> Option<Plan> {
+        let thrift = Thrift::step(step)?;
+        if thrift.repeats() && !self.origin.0.has_beside() {
+            return None;
+        }
         let less = match self.origin.1 {
             Rewriting::Fast { .. } => Rewriting::Fast {
-                thrift: Thrift::step(step)?,
+                thrift,
                 steps: Steps::All,
             },
             _ => return None,

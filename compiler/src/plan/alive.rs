@@ -13,6 +13,7 @@
 use super::Plan;
 use crate::flow::graph::*;
 use crate::flow::tree::*;
+use crate::passes::region::Fact;
 use slowlight_routine::{Format, Op, Value};
 use std::collections::HashMap;
 
@@ -262,19 +263,20 @@ impl<'p> Flow<'p> {
         again
     }
 
-    /// The steps behind a step, where a condition holds or does not.
-    fn next(&self, at: usize, case: Option<(NodeId, bool)>) -> impl Iterator<Item = usize> {
+    /// The steps behind a step, where conditions hold or do not.
+    fn next(&self, at: usize, case: &[Fact]) -> impl Iterator<Item = usize> {
         let step = &self.steps[at];
-        let known = case.filter(|(cond, _)| step.asks == Some(*cond));
+        let known = case.iter().find(|(cond, _)| step.asks == Some(*cond));
+        let known = known.map(|(_, holds)| *holds);
         let falls = !step.ends && at + 1 < self.steps.len();
-        let falls = falls && known.is_none_or(|(_, holds)| holds);
-        let jumps = known.is_none_or(|(_, holds)| !holds);
+        let falls = falls && known.is_none_or(|holds| holds);
+        let jumps = known.is_none_or(|holds| !holds);
         let jumps = step.jumps.iter().copied().filter(move |_| jumps);
         jumps.chain(falls.then_some(at + 1))
     }
 
     /// The steps that are come to.
-    pub fn reached(&self, case: Option<(NodeId, bool)>) -> Vec<bool> {
+    pub fn reached(&self, case: &[Fact]) -> Vec<bool> {
         let mut reached = vec![false; self.steps.len()];
         let mut todo = vec![0];
         while let Some(at) = todo.pop() {
@@ -286,7 +288,7 @@ impl<'p> Flow<'p> {
     }
 
     /// The places that are still to be read behind each step.
-    pub fn alive(&self, case: Option<(NodeId, bool)>) -> Vec<Set> {
+    pub fn alive(&self, case: &[Fact]) -> Vec<Set> {
         let (steps, places) = (self.steps.len(), self.places.len());
         let mut before = vec![Set::new(places); steps];
         let mut behind = vec![Set::new(places); steps];

@@ -21,6 +21,7 @@ use crate::passes::early::in_loops;
 use crate::passes::guard::guard;
 use crate::passes::homogeneous::{homogeneous, lengths};
 use crate::passes::identities::{around, identities};
+use crate::passes::later::later;
 use crate::passes::peel::peel;
 use crate::passes::split::split;
 use crate::passes::squares::squares;
@@ -39,6 +40,9 @@ const COPY: f64 = 0.9;
 /// By how much a guard before its second turn must.
 const GUARD: f64 = 0.999;
 
+/// How many conditions of a shortcut are tried beside its last.
+const BESIDE: usize = 3;
+
 /// By how much algebra must make the plan cheaper: what a statement costs beside
 /// its routines is not known so well.
 const FORMS: f64 = 0.9;
@@ -48,6 +52,9 @@ const SHORTER: f64 = 0.99;
 
 /// By how much spans must.
 const SPANS: f64 = 0.99;
+
+/// How many conditions have what one of their ways needs on that way.
+const LATER: usize = 2;
 
 /// How often values are taken apart: what one needs may be taken apart after it.
 const APART: usize = 6;
@@ -74,7 +81,7 @@ pub fn cheaper(
         shop,
         runtime: shop.runtime,
         price: Price::new(&plain, shop.runtime, thrift).foreseeing(),
-        runs: thrift.runs(),
+        thrift,
         products: false,
         other: Cell::new(false),
     };
@@ -148,6 +155,14 @@ pub fn apart_at_last(plan: Settled, shop: &Workshop, thrift: Thrift) -> Settled 
         Some(_) => with_loops_skipped(plan, shop, thrift),
         None => plan,
     };
+    for _ in 0..LATER {
+        let all = later(&best.graph, shop.runtime.segments).into_iter();
+        let next = price.cheapest(all.map(|graph| shop.scheduled(graph)));
+        match next {
+            Some(next) if price.of(&next) < GUARD * price.of(&best) => best = next,
+            _ => break,
+        }
+    }
     for _ in 0..APART {
         let next = apart(&best.graph, &best.tree, &price.worth(&best));
         let Some(next) = next else {
@@ -162,8 +177,7 @@ struct Site<'s> {
     shop: &'s Workshop,
     runtime: &'static Runtime,
     price: Price,
-    /// Whether runs of columns may be looked for.
-    runs: bool,
+    thrift: Thrift,
     /// Whether directions are so long that their products are whole, too.
     products: bool,
     /// Whether that makes a difference.
@@ -184,19 +198,62 @@ impl Site<'_> {
                 continue;
             };
             let guarded = guard(&peeled, of, 1, BODY);
-            let sooner = early
-                .and_then(|graph| in_loops(&peel(graph, of, BODY)?))
-                .and_then(|graph| guard(&graph, of, 2, BODY));
-            for (graph, limit) in [(Some(peeled), COPY), (guarded, GUARD), (sooner, GUARD)] {
-                let tried = graph.map(|graph| self.shop.settle(&graph));
-                if let Some(found) = tried.and_then(|plan| self.rewritten(&plan))
-                    && self.cost(&found) < limit * self.cost(&best)
-                {
-                    best = found;
-                }
+            let early = early.and_then(|graph| peel(graph, of, BODY));
+            let sooner = |beside| {
+                let graph = in_loops(early.as_ref()?, beside)?;
+                let graph = guard(&graph, of, 2, BODY)?;
+                // A second condition is for what is known before the loop.
+                Some(in_loops(&graph, None).unwrap_or(graph))
+            };
+            self.keep(&mut best, Some(peeled), COPY);
+            self.keep(&mut best, guarded, GUARD);
+            if self.keep(&mut best, sooner(None), GUARD)
+                && self.runtime.segments
+                && self.thrift.beside()
+            {
+                best = self.beside(best, sooner);
             }
         }
         best
+    }
+
+    /// The cheapest of a plan with shortcuts and those with another condition beside the
+    /// last: what it saves is seen where values are taken apart.
+    fn beside(&self, plan: Settled, sooner: impl Fn(Option<usize>) -> Option<Graph>) -> Settled {
+        let cost = |plan: &Settled| self.cost(&apart_at_last(plan.clone(), self.shop, self.thrift));
+        let settled = |beside| sooner(beside).map(|graph| self.shop.settle(&graph));
+        // What costs more before forms are looked for is not looked at any further.
+        let limit = settled(None).map_or(f64::INFINITY, |plan| self.cost(&plan));
+        let mut best = (cost(&plan), plan);
+        for beside in 0..BESIDE {
+            let Some(tried) = settled(Some(beside)) else {
+                break;
+            };
+            if self.cost(&tried) >= limit {
+                continue;
+            }
+            let Some(found) = self.rewritten(&tried).map(|plan| (cost(&plan), plan)) else {
+                continue;
+            };
+            if found.0 < GUARD * best.0 {
+                self.shop.note_beside();
+                best = found;
+            }
+        }
+        best.1
+    }
+
+    /// Whether a graph makes a plan that is cheaper than the best one, which it is then.
+    fn keep(&self, best: &mut Settled, graph: Option<Graph>, limit: f64) -> bool {
+        let tried = graph.map(|graph| self.shop.settle(&graph));
+        let tried = tried.and_then(|plan| self.rewritten(&plan));
+        match tried {
+            Some(found) if self.cost(&found) < limit * self.cost(best) => {
+                *best = found;
+                true
+            }
+            _ => false,
+        }
     }
 
     /// A plan with thresholds, directions at their own length and algebra, as far
@@ -227,8 +284,7 @@ impl Site<'_> {
         let base = found.as_ref().unwrap_or(plain);
         let found = self.sited(base, SHORTER, Rewrite::Identities).or(found);
         let base = found.as_ref().unwrap_or(plain);
-        let cut = self
-            .runs
+        let cut = (self.thrift.runs())
             .then(|| self.sited(base, SPANS, Rewrite::Spans))
             .flatten();
         cut.or(found)

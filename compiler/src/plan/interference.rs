@@ -10,6 +10,7 @@ use super::Plan;
 use super::alive::{Flow, Set};
 use crate::flow::graph::*;
 use crate::flow::tree::*;
+use crate::passes::region::{Fact, implied};
 use slowlight_routine::Op;
 use std::collections::HashMap;
 
@@ -64,17 +65,15 @@ impl Flow<'_> {
     /// same each time: places that meet on neither of the two ways do not, if they are
     /// the pixel's own. At the next pixel it may come out in another way.
     fn meets(&self) -> Interference {
-        let mut all = self.meet_where(&[None]);
+        let mut all = self.meet_where(&[Vec::new()]);
         let mut own = Set::new(self.places.len());
         let inside = |place: &usize| self.span[*place].0 >= self.pixel;
         (0..self.places.len())
             .filter(inside)
             .for_each(|place| own.add(place));
         for cond in self.asked_again() {
-            all.keep(
-                &self.meet_where(&[Some((cond, true)), Some((cond, false))]),
-                &own,
-            );
+            let ways = [true, false].map(|holds| implied(&self.plan.graph, cond, holds));
+            all.keep(&self.meet_where(&ways), &own);
         }
         all
     }
@@ -93,14 +92,20 @@ impl Flow<'_> {
     }
 
     /// Which places interfere in one of some cases.
-    fn meet_where(&self, cases: &[Option<(NodeId, bool)>]) -> Interference {
+    fn meet_where(&self, cases: &[Vec<Fact>]) -> Interference {
         let mut meets = Interference::new(self.places.len());
         for case in cases {
-            let (alive, reached) = (self.alive(*case), self.reached(*case));
+            let (alive, reached) = (self.alive(case), self.reached(case));
+            // What no step writes that is come to is read by none either, whatever it looks
+            // like: that takes other conditions, which follow from this one.
+            let mut set = Set::new(self.places.len());
+            let steps = self.steps.iter().zip(&reached);
+            let steps = steps.filter_map(|(step, reached)| step.writes.filter(|_| *reached));
+            steps.for_each(|place| set.add(place));
             for (at, step) in self.steps.iter().enumerate().filter(|(at, _)| reached[*at]) {
                 let Some(written) = step.writes else { continue };
                 for other in alive[at].iter() {
-                    if other != written && step.copies != Some(other) {
+                    if other != written && step.copies != Some(other) && set.has(other) {
                         meets.add(written, other);
                     }
                 }

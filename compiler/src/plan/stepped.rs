@@ -15,6 +15,7 @@ use crate::passes::ramps::runs::{in_runs, is_exact, runs};
 use crate::passes::ramps::{ramps, sites};
 use crate::range::Ranges;
 use crate::target::Target;
+use slowlight_routine::Op;
 
 /// By how much a ramp must make a plan cheaper.
 const GAIN: f64 = 0.995;
@@ -111,8 +112,38 @@ impl Site<'_> {
                 (least, best, taken) = (cost, Some(next), rest);
             }
         }
+        // What is made of one may take its place.
+        for (site, of) in made_of(&plain.graph, &taken) {
+            let others = taken.iter().copied().filter(|id| *id != of);
+            let other: Vec<NodeId> = others.chain([site]).collect();
+            if other.len() == taken.len()
+                && let Some((cost, next)) = rewritten(&other)
+                && cost < least
+            {
+                (least, best, taken) = (cost, Some(next), other);
+            }
+        }
         best.unwrap_or(plain)
     }
+}
+
+/// Sums of one of some values and a constant, which are none of these themselves.
+fn made_of(graph: &Graph, values: &[NodeId]) -> Vec<(NodeId, NodeId)> {
+    let mut all = Vec::new();
+    for id in graph.ids().filter(|id| !values.contains(id)) {
+        if let Node::Apply(Op::IntAdd | Op::IntSub, [a, b]) = graph.node(id) {
+            let constant = |id| graph.constant(id).is_some();
+            let of = match (constant(a), constant(b)) {
+                (true, false) => b,
+                (false, true) => a,
+                _ => continue,
+            };
+            if values.contains(&of) {
+                all.push((id, of));
+            }
+        }
+    }
+    all
 }
 
 /// Whether no ramp ever wraps, stepped once behind the last column too.

@@ -15,6 +15,10 @@ struct Step {
     /// passes: both take many statements a row, which hardly count by cycles.
     runs: bool,
     passes: bool,
+    /// Whether a shortcut may have a second condition, before a loop.
+    beside: bool,
+    /// Whether a step before is this one but for such a condition.
+    repeats: bool,
 }
 
 const fn step(part: f64) -> Step {
@@ -24,6 +28,23 @@ const fn step(part: f64) -> Step {
         follows: false,
         runs: true,
         passes: true,
+        beside: false,
+        repeats: false,
+    }
+}
+
+const fn with_beside(part: f64) -> Step {
+    Step {
+        beside: true,
+        ..step(part)
+    }
+}
+
+const fn repeated(of: Step) -> Step {
+    Step {
+        beside: false,
+        repeats: true,
+        ..of
     }
 }
 
@@ -35,13 +56,20 @@ const fn without_runs(part: f64) -> Step {
 }
 
 /// From where there is plenty to where there was never enough.
-const THRIFT: [Step; 16] = [
-    step(0.0001),
+const THRIFT: [Step; 19] = [
+    with_beside(0.0001),
     Step {
         follows: true,
-        ..step(0.0001)
+        ..with_beside(0.0001)
     },
-    step(0.0004),
+    with_beside(0.0004),
+    // What a second condition takes may be worth more elsewhere.
+    repeated(step(0.0001)),
+    repeated(Step {
+        follows: true,
+        ..step(0.0001)
+    }),
+    repeated(step(0.0004)),
     step(0.0006),
     step(0.0008),
     step(0.0011),
@@ -101,6 +129,16 @@ impl Thrift {
     /// Whether runs of columns may be looked for.
     pub fn runs(self) -> bool {
         THRIFT[self.0].runs
+    }
+
+    /// Whether a shortcut may have a second condition, before a loop.
+    pub fn beside(self) -> bool {
+        THRIFT[self.0].beside
+    }
+
+    /// Whether a step before is this one but for such conditions.
+    pub fn repeats(self) -> bool {
+        THRIFT[self.0].repeats
     }
 
     /// Whether rows may be drawn in passes.

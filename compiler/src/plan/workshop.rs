@@ -16,6 +16,7 @@ use rustc_hash::{FxHashMap, FxHasher};
 use slowlight_routine::Runtime;
 use std::fmt;
 use std::hash::{Hash, Hasher};
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
 /// A graph with a rewrite, and where that was: nothing where there is none to do.
@@ -35,6 +36,8 @@ pub struct Workshop {
     scheduled: Mutex<FxHashMap<u64, Vec<Settled>>>,
     /// What was rewritten is known by its address, since it is kept above.
     rewritten: Mutex<FxHashMap<Asked, Rewritten>>,
+    /// Whether a plan has a second condition of a shortcut.
+    beside: AtomicBool,
 }
 
 /// What was rewritten, how, and the sites left out.
@@ -51,7 +54,18 @@ impl Workshop {
             slack: Slack::of(runtime),
             scheduled: Mutex::default(),
             rewritten: Mutex::default(),
+            beside: AtomicBool::new(false),
         }
+    }
+
+    /// Whether a second condition of a shortcut was taken: plans without are others then.
+    pub fn has_beside(&self) -> bool {
+        self.beside.load(Ordering::Relaxed)
+    }
+
+    /// Notes that one was.
+    pub fn note_beside(&self) {
+        self.beside.store(true, Ordering::Relaxed);
     }
 
     /// A graph as it is, scheduled, with its ranges; the same graph is scheduled once.

@@ -7,6 +7,9 @@
 //! values are such a vector, and which values are affine in them, is found in
 //! the finite [`field`](super::field): where all agree with a + s b·n at more
 //! points than a and b have numbers, s being 1 or a value whose square is 1.
+//!
+//! A component itself is s a + b·n where the spheres' places hang on s, and then the
+//! comparison may hold for one s and fail for the other: it asks for s.
 
 use super::field::{Field, POINTS, Print, add, fraction, inverse, mul, sub};
 use crate::flow::graph::*;
@@ -58,16 +61,58 @@ pub fn around(graph: &Graph, ranges: &Ranges, runtime: &Runtime) -> Option<Graph
     let vectors = site.vectors(&components);
     let decided = asked.iter().filter_map(|asked| {
         let mut all = vectors.iter();
-        let holds = all.find_map(|vector| site.holds(asked, vector))?;
+        let holds = all.find_map(|vector| site.verdict(asked, vector))?;
         Some((asked.id, holds))
     });
-    let decided: HashMap<NodeId, bool> = decided.collect();
+    let decided: HashMap<NodeId, Verdict> = decided.collect();
     (!decided.is_empty()).then(|| {
-        rebuild_old(graph, &mut |builder, _, id, span| {
-            let holds = Value::Bool(*decided.get(&id)?);
-            Some(builder.constant(holds, span))
+        rebuild_old(graph, &mut |builder, made, id, span| {
+            let (sign, above) = match *decided.get(&id)? {
+                Verdict::Always(holds) => return Some(builder.constant(Value::Bool(holds), span)),
+                Verdict::Where { sign, above } => (sign, above),
+            };
+            let above_0 = match graph.node(sign) {
+                Node::Select { cond, yes, .. } if is(graph, yes, 1.0) => new(made, cond)?,
+                Node::Select { cond, no, .. } if is(graph, no, 1.0) => {
+                    builder.apply(Op::Not, &[new(made, cond)?], span)
+                }
+                node => {
+                    let of = match node {
+                        Node::Apply(Op::ToReal, [of, _]) => match graph.node(of) {
+                            Node::Apply(Op::Sign, [of, _]) => of,
+                            _ => sign,
+                        },
+                        _ => sign,
+                    };
+                    let zero = builder.constant(Value::Real(0.0), span);
+                    builder.apply(Op::Less, &[zero, new(made, of)?], span)
+                }
+            };
+            Some(match above {
+                true => above_0,
+                false => builder.apply(Op::Not, &[above_0], span),
+            })
         })
     })
+}
+
+fn new(made: &[Option<NodeId>], id: NodeId) -> Option<NodeId> {
+    made.get(id.0 as usize).copied().flatten()
+}
+
+fn is(graph: &Graph, id: NodeId, value: f64) -> bool {
+    graph.constant(id).map(Value::real) == Some(value)
+}
+
+/// When a comparison holds.
+#[derive(Clone, Copy, Debug)]
+enum Verdict {
+    Always(bool),
+    /// Where a value whose square is 1 is 1, or where it is -1.
+    Where {
+        sign: NodeId,
+        above: bool,
+    },
 }
 
 /// A comparison of a value with a constant.
@@ -77,11 +122,13 @@ struct Asked {
     constant: f64,
     /// Whether it holds where the value is the greater.
     greater: bool,
+    /// Whether it holds where both are equal.
+    equal: bool,
 }
 
 impl Asked {
     fn of(graph: &Graph, id: NodeId) -> Option<Asked> {
-        let Node::Apply(Op::Less | Op::LessEqual, [a, b]) = graph.node(id) else {
+        let Node::Apply(op @ (Op::Less | Op::LessEqual), [a, b]) = graph.node(id) else {
             return None;
         };
         let constant = |id| graph.constant(id).map(Value::real);
@@ -95,8 +142,46 @@ impl Asked {
             value,
             constant,
             greater,
+            equal: op == Op::LessEqual,
         })
     }
+
+    /// Whether it holds for all values as near to `middle` as `most`, or for none.
+    ///
+    /// One that holds up to where both are equal, at the end of what there is, holds: what
+    /// roundings make of it there is no better.
+    fn decided(&self, middle: f64, most: f64) -> Option<bool> {
+        let clear = CLEAR * (middle.abs() + most + self.constant.abs());
+        let at = if self.equal { 0.0 } else { clear };
+        let (above, below) = if self.greater {
+            (at, clear)
+        } else {
+            (clear, at)
+        };
+        let holds = |least: f64, clear: f64| {
+            if clear > 0.0 {
+                clear < least
+            } else {
+                0.0 <= least
+            }
+        };
+        if holds(middle - most - self.constant, above) {
+            Some(self.greater)
+        } else if holds(self.constant - middle - most, below) {
+            Some(!self.greater)
+        } else {
+            None
+        }
+    }
+}
+
+/// The form t a + s b·n of a value: s and t are such whose square is 1.
+#[derive(Clone, Copy)]
+struct Affine {
+    /// s, 1 if none.
+    sign: Option<NodeId>,
+    /// t, 1 if none.
+    moved: Option<NodeId>,
 }
 
 struct Site<'g> {
@@ -136,20 +221,32 @@ impl Site<'_> {
                 .always(&vector, &|of| length(vector.map(of)) == 1)
     }
 
-    /// Whether a comparison holds, if a vector's length decides it.
-    fn holds(&self, asked: &Asked, vector: &[NodeId; 3]) -> Option<bool> {
-        let signs = self.signs(asked.value).into_iter().map(Some);
-        let mut all = std::iter::once(None).chain(signs);
-        let [middle, b @ ..] = all.find_map(|sign| self.affine(asked.value, sign, vector))?;
-        let most = b.iter().map(|b| b * b).sum::<f64>().sqrt();
-        let clear = CLEAR * (middle.abs() + most + asked.constant.abs());
-        if asked.constant + clear < middle - most {
-            Some(asked.greater)
-        } else if middle + most + clear < asked.constant {
-            Some(!asked.greater)
-        } else {
-            None
+    /// When a comparison holds, if a vector's length decides it.
+    fn verdict(&self, asked: &Asked, vector: &[NodeId; 3]) -> Option<Verdict> {
+        let signs = self.signs(asked.value);
+        let decided = |[middle, b @ ..]: [f64; 4]| {
+            asked.decided(middle, b.iter().map(|b| b * b).sum::<f64>().sqrt())
+        };
+        let turned = std::iter::once(None).chain(signs.iter().copied().map(Some));
+        for sign in turned {
+            let form = Affine { sign, moved: None };
+            if let Some(found) = self.affine(asked.value, form, vector) {
+                return decided(found).map(Verdict::Always);
+            }
         }
+        signs.into_iter().find_map(|sign| {
+            let form = Affine {
+                sign: None,
+                moved: Some(sign),
+            };
+            let [a, b @ ..] = self.affine(asked.value, form, vector)?;
+            let with = |a: f64| decided([a, b[0], b[1], b[2]]);
+            let (plus, minus) = (with(a)?, with(-a)?);
+            Some(match plus == minus {
+                true => Verdict::Always(plus),
+                false => Verdict::Where { sign, above: plus },
+            })
+        })
     }
 
     /// Values whose square is 1 that one is made of.
@@ -172,37 +269,34 @@ impl Site<'_> {
         signs
     }
 
-    /// a and b where a value is a + s b·n, always.
-    fn affine(
-        &self,
-        value: NodeId,
-        sign: Option<NodeId>,
-        vector: &[NodeId; 3],
-    ) -> Option<[f64; 4]> {
+    /// a and b where a value is t a + s b·n, always.
+    fn affine(&self, value: NodeId, form: Affine, vector: &[NodeId; 3]) -> Option<[f64; 4]> {
         let print = self.print(value)?;
         let [Some(u), Some(v), Some(w)] = vector.map(|id| self.print(id)) else {
             return None;
         };
-        let one = match sign {
-            Some(id) => self.print(id)?,
-            None => [1; POINTS],
+        let one = |sign: Option<NodeId>| match sign {
+            Some(id) => self.print(id),
+            None => Some([1; POINTS]),
         };
+        let (one, moved) = (one(form.sign)?, one(form.moved)?);
         let turned = |k: usize| [u, v, w].map(|part| mul(one[k], part[k]));
         let rows = [0, 1, 2, 3].map(|k| {
             let [x, y, z] = turned(k);
-            [1, x, y, z, print[k]]
+            [moved[k], x, y, z, print[k]]
         });
         let found = solved(rows)?;
-        let sum = |[x, y, z]: [u64; 3]| {
-            let terms = found.into_iter().zip([1, x, y, z]);
+        let sum = |moved: u64, [x, y, z]: [u64; 3]| {
+            let terms = found.into_iter().zip([moved, x, y, z]);
             terms.map(|(factor, x)| mul(factor, x)).fold(0, add)
         };
-        let here = |k: usize| sum(turned(k)) == print[k];
-        let made: Vec<NodeId> = vector.iter().copied().chain([value]).chain(sign).collect();
+        let here = |k: usize| sum(moved[k], turned(k)) == print[k];
+        let signs = form.sign.into_iter().chain(form.moved);
+        let made: Vec<NodeId> = vector.iter().copied().chain([value]).chain(signs).collect();
         let always = || {
             self.field.always(&made, &|of| {
-                let one = sign.map_or(1, of);
-                sum(vector.map(|id| mul(one, of(id)))) == of(value)
+                let (one, moved) = (form.sign.map_or(1, of), form.moved.map_or(1, of));
+                sum(moved, vector.map(|id| mul(one, of(id)))) == of(value)
             })
         };
         if !(4..POINTS).all(here) || !always() {

@@ -7,11 +7,13 @@ use super::ramp::{self, Late};
 use super::segment::Ends;
 use super::text::Text;
 use crate::flow::graph::{Node, NodeId};
+use crate::flow::often;
 use crate::flow::tree::*;
 use crate::passes::region::Fact;
 use crate::plan::Plan;
 use crate::source::Span;
 use slowlight_routine::Op;
+use std::collections::BTreeMap;
 
 /// About how many turns a loop takes, and how often an arm is taken: for the
 /// weights of names only.
@@ -27,6 +29,10 @@ pub struct Code<'p> {
     pub lines: Lines,
     /// What is rarely carried out, and stands behind the rest.
     pub rare: Lines,
+    /// Ways of choices that few pixels take, between two labels each.
+    pub seldom: Vec<(Label, Label)>,
+    /// Which way that is ([`Plan::seldom`]).
+    ways: BTreeMap<NodeId, bool>,
     /// Loops of the scene around what is written.
     pub loops: u32,
     pub labels: Labels,
@@ -49,6 +55,8 @@ impl<'p> Code<'p> {
             values: Expressions::new(plan),
             lines: Lines::default(),
             rare: Lines::default(),
+            seldom: Vec::new(),
+            ways: plan.seldom(),
             loops: 0,
             labels: Labels::default(),
             ends: None,
@@ -142,8 +150,14 @@ impl<'p> Code<'p> {
                 let holds = self.values.condition(*cond, true);
                 let fails = self.values.condition(*cond, false);
                 let span = self.span;
+                let loops = often::loops(yes) != often::loops(no);
                 let yes = self.apart(yes);
                 let no = self.apart(no);
+                let (yes, no) = match self.ways.get(cond) {
+                    Some(true) if loops => (self.seldom(yes), no),
+                    Some(false) if loops => (yes, self.seldom(no)),
+                    _ => (yes, no),
+                };
                 self.branch(&holds, &fails, yes, no, span);
             }
             Statement::Loop(turns) => self.repeat(turns),
@@ -229,6 +243,17 @@ impl<'p> Code<'p> {
         let text = format!("IF {home}{sign}{second} THEN {home}={second}");
         self.lines.line(text, self.span);
         true
+    }
+
+    /// A way that is seldom taken, between labels: it is moved out of the others' way.
+    fn seldom(&mut self, way: Lines) -> Lines {
+        let (from, to) = (self.labels.next(), self.labels.next());
+        self.seldom.push((from, to));
+        let mut lines = Lines::of_weight(way.weight);
+        lines.place(from);
+        lines.append(way);
+        lines.place(to);
+        lines
     }
 
     /// Two ways, on one line if they fit.

@@ -30,8 +30,10 @@ struct Point {
     reads: BTreeSet<String>,
     /// Where it goes on, and what it has written on that way whatever happens.
     next: Vec<Way>,
-    /// The procedures that it calls, before it goes on as if they had written nothing.
-    calls: Vec<Way>,
+    /// The procedures that it calls, and where each comes back to.
+    calls: Vec<(Way, usize)>,
+    /// What it has written on each way on which it ends a procedure.
+    ends: Vec<BTreeSet<String>>,
     /// Where it goes on behind a call, if it ends a procedure.
     back: Vec<Way>,
 }
@@ -40,7 +42,7 @@ struct Point {
 type Way = (usize, BTreeSet<String>);
 
 /// The lines' points, in their order, then those inside lines.
-struct Flow(Vec<Point>);
+pub struct Flow(Vec<Point>);
 
 /// What is known of a program while its flow is found.
 struct Finder<'t> {
@@ -61,7 +63,8 @@ struct Finder<'t> {
 }
 
 impl Flow {
-    fn of(texts: &[String], placed: &HashMap<Label, usize>) -> Flow {
+    /// The flow of a program's lines.
+    pub fn of(texts: &[String], placed: &HashMap<Label, usize>) -> Flow {
         let defined = texts.iter().enumerate();
         let defined =
             defined.filter_map(|(at, text)| Some((called(text.strip_prefix("DEF ")?)?, at)));
@@ -95,6 +98,7 @@ impl Flow {
             let all = finder.back.get(name).into_iter().flatten();
             let all = all.map(|to| (*to, writes.clone()));
             finder.points[*at].back.extend(all);
+            finder.points[*at].ends.push(writes.clone());
         }
         Flow(finder.points)
     }
@@ -102,7 +106,7 @@ impl Flow {
     /// Whether a name may be read from a line on, before it is written. A procedure that
     /// is called on the way goes back to where that was, one that the line is in to
     /// wherever it is called.
-    fn reads(&self, name: &str, from: usize) -> bool {
+    pub fn reads(&self, name: &str, from: usize) -> bool {
         let mut seen = vec![[false; 2]; self.0.len()];
         let mut todo = vec![(from, true)];
         while let Some((at, outermost)) = todo.pop() {
@@ -120,9 +124,52 @@ impl Flow {
                 todo.extend(open.map(|(to, _)| (*to, outermost)));
             };
             go(&point.next, outermost);
-            go(&point.calls, false);
             if outermost {
                 go(&point.back, true);
+            }
+            for ((to, writes), on) in &point.calls {
+                if !writes.contains(name) {
+                    todo.push((*to, false));
+                    if self.passes(name, *to, &mut Vec::new()) {
+                        todo.push((*on, outermost));
+                    }
+                }
+            }
+        }
+        false
+    }
+
+    /// Whether a procedure may be gone through, from a line on, without a name being
+    /// written. `inside`: those that call it, as far as is known.
+    fn passes(&self, name: &str, from: usize, inside: &mut Vec<usize>) -> bool {
+        if inside.contains(&from) {
+            return true;
+        }
+        inside.push(from);
+        let passes = self.goes_through(name, from, inside);
+        inside.pop();
+        passes
+    }
+
+    fn goes_through(&self, name: &str, from: usize, inside: &mut Vec<usize>) -> bool {
+        let mut seen = vec![false; self.0.len()];
+        let mut todo = vec![from];
+        while let Some(at) = todo.pop() {
+            let Some(point) = self.0.get(at) else {
+                continue;
+            };
+            if std::mem::replace(&mut seen[at], true) {
+                continue;
+            }
+            if point.ends.iter().any(|writes| !writes.contains(name)) {
+                return true;
+            }
+            let open = |(_, writes): &&Way| !writes.contains(name);
+            todo.extend(point.next.iter().filter(open).map(|(to, _)| *to));
+            for ((to, writes), on) in &point.calls {
+                if !writes.contains(name) && self.passes(name, *to, inside) {
+                    todo.push(*on);
+                }
             }
         }
         false
@@ -223,8 +270,10 @@ impl<'t> Finder<'t> {
     fn turning(&mut self, at: usize, turn: &'t str, on: usize, writes: &BTreeSet<String>) {
         if let Some(name) = called(turn) {
             self.back.entry(name).or_default().push(on);
-            let to = self.defined.get(name).map(|to| (*to, writes.clone()));
-            self.points[at].calls.extend(to);
+            if let Some(to) = self.defined.get(name) {
+                self.points[at].calls.push(((*to, writes.clone()), on));
+                return;
+            }
         } else if turn.starts_with("FOR ") {
             self.loops.push(on);
         } else {
@@ -413,5 +462,23 @@ mod tests {
             text.contains("THEN b%=TRUE:GOTO 40\n") && text.contains("THEN c%=TRUE\n"),
             "{text}"
         );
+    }
+
+    #[test]
+    fn a_procedure_that_sets_a_flag_on_each_way_needs_none_before() {
+        let source = [
+            "FOR x%=1 TO 9",
+            "IF x%<4 THEN a%=TRUE:GOTO @2;",
+            "PROCset:b%=a%",
+            "NEXT:END",
+            "DEF PROCset",
+            "IF b% THEN a%=TRUE:ENDPROC",
+            "a%=x%<7",
+            "ENDPROC",
+        ];
+        assert!(written(&source).contains("20IF x%<4 THEN 30\n"));
+        let mut one = source;
+        one[6] = "c%=x%<7";
+        assert!(written(&one).contains("20IF x%<4 THEN a%=TRUE:GOTO 30\n"));
     }
 }

@@ -14,6 +14,7 @@ use super::spread::Spread;
 use super::tables;
 use super::tail;
 use super::thread::threaded;
+use super::ways;
 use crate::flow::tree::SubroutineId;
 use crate::plan::Plan;
 use crate::source::Span;
@@ -62,11 +63,16 @@ pub fn program(plan: &Plan) -> Lines {
     let params = (0..plan.params.len()).map(|k| code.values.names.param(k).to_owned());
     let keep: Vec<String> = params.chain([first, last]).collect();
     let lines = threaded(code.lines, &mut code.labels, style != Style::Small);
+    let lines = match style {
+        Style::Fast => ways::split(dead::without(lines), &mut code.labels, plan.copies),
+        _ => lines,
+    };
     let lines = dead::without(lines);
     let lines = match plan.copies {
         true => tail::copied(lines, &mut code.labels),
         false => lines,
     };
+    let lines = lines.away(&code.seldom);
     let assigned = code.values.names.constants();
     let constants = assigned
         .filter_map(|text| Some(text.split_once('=')?.0.to_owned()))

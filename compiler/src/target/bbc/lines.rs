@@ -1,10 +1,12 @@
 //! Lines of BASIC with labels for line numbers.
 
+mod away;
+
 use crate::source::Span;
 use std::collections::{HashMap, HashSet};
 
 /// What a GOTO names before lines have numbers.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct Label(u32);
 
 impl Label {
@@ -210,6 +212,35 @@ impl Lines {
             Item::Line { text, .. } => Some(text.as_str()),
             Item::Label(_) => None,
         })
+    }
+
+    /// Where in the scene every line comes from.
+    pub fn spans(&self) -> Vec<Option<Span>> {
+        let lines = self.items.iter().filter_map(|item| match item {
+            Item::Line { span, .. } => Some(*span),
+            Item::Label(_) => None,
+        });
+        lines.collect()
+    }
+
+    /// The lines with others before a label, to which control does not go on from those
+    /// before them.
+    pub fn with_before(mut self, label: Label, block: Lines) -> Lines {
+        let at = self
+            .items
+            .iter()
+            .position(|item| matches!(item, Item::Label(of) if *of == label));
+        // What is named there by other labels is the same line.
+        let before = self.items.iter().take(at.unwrap_or(self.items.len()));
+        let labels = before.rev().take_while(|i| matches!(i, Item::Label(_)));
+        let from = at.unwrap_or(self.items.len()) - labels.count();
+        let mut rest = self.items.split_off(from);
+        if away::goes_on(&self.items) {
+            self.items.push(away::jump(label));
+        }
+        self.items.extend(block.items);
+        self.items.append(&mut rest);
+        self
     }
 
     /// Every line's text, and about how often it is carried out.

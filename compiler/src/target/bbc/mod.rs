@@ -49,6 +49,7 @@ mod tests;
 mod text;
 mod thread;
 mod version;
+mod ways;
 
 pub(super) use screen::{MICRO as MICRO_MODES, colours, first_colour};
 

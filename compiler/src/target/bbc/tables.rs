@@ -11,6 +11,9 @@ use crate::plan::recipes::{From, Recipe};
 use slowlight_routine::{Type, Value};
 use slowlight_runtime_bbc::literal;
 
+/// How many arrays one DIM makes.
+const ARRAYS: usize = 6;
+
 /// Tables that are filled in one loop.
 struct Group<'p> {
     /// Columns and rows.
@@ -68,9 +71,13 @@ pub fn make(plan: &Plan, code: &mut Code<'_>) {
             let name = code.values.names.tables.get(id.0 as usize);
             name.cloned().unwrap_or_default()
         };
-        for (id, _) in &group.tables {
-            let name = name(code, *id);
-            code.statement(format!("DIM {name}({bounds})"));
+        let names = group.tables.iter().map(|(id, _)| name(code, *id));
+        let arrays: Vec<String> = names.map(|name| format!("{name}({bounds})")).collect();
+        for some in arrays.chunks(match plan.listing {
+            true => 1,
+            false => ARRAYS,
+        }) {
+            code.statement(format!("DIM {}", some.join(",")));
         }
         let made = |id: &TableId| recipe(plan, *id);
         let seeded = group.tables.iter().any(|(id, _)| made(id).is_some());
@@ -90,70 +97,136 @@ pub fn make(plan: &Plan, code: &mut Code<'_>) {
                 scale => code.statement(format!("{element}={element}/{scale}")),
             }
         }
-        for (id, table) in &group.tables {
-            if let (Some(recipe), Some(cell), Some(entry)) = (made(id), &cell, &entry) {
+        let cooked: Vec<(TableId, &Table, Recipe)> = (group.tables.iter())
+            .filter_map(|(id, table)| Some((*id, *table, made(id)?)))
+            .collect();
+        let mut kept = None;
+        for (id, table, recipe) in in_order(&cooked) {
+            if let (Some(cell), Some(entry)) = (&cell, &entry) {
                 let from = match recipe.from {
                     From::Seed => cell.clone(),
                     From::Table(of) => element(code, of),
                 };
-                let element = element(code, *id);
-                cook(code, recipe, table, &from, entry, &element);
+                let element = element(code, id);
+                let pot = Pot {
+                    from: &from,
+                    entry,
+                    kept,
+                };
+                kept = pot.cook(code, recipe, table, &element);
             }
         }
         code.statement(ends);
     }
 }
 
-/// Works out an element.
-fn cook(
-    code: &mut Code<'_>,
-    recipe: Recipe,
-    table: &Table,
-    from: &str,
-    entry: &str,
-    element: &str,
-) {
-    let mut text = from.to_owned();
-    if recipe.moved != 0.0 {
-        let moved = literal(recipe.moved);
-        let sign = if moved.starts_with('-') { "" } else { "+" };
-        text = format!("{text}{sign}{moved}");
-    }
-    if recipe.scale != 1.0 {
-        let sum = recipe.moved != 0.0;
-        text = if sum { format!("({text})") } else { text };
-        text = format!("{text}*{}", literal(recipe.scale));
-    }
-    let simple = |text: &str| text == from || text == entry;
-    let signs = table.entries.iter().any(|e| e.value().real() < 0.0);
-    if let Some(more) = recipe.more {
-        if !simple(&text) {
-            code.statement(format!("{entry}={text}"));
-        } else if text != entry {
-            code.statement(format!("{entry}={from}"));
-        }
-        text = format!("{entry}*ABS({entry})");
-        if more != 0.0 {
-            let more = literal(more);
-            let sign = if more.starts_with('-') { "" } else { "+" };
-            text = format!("{text}{sign}{more}");
+/// What is made in the order in which a square that two tables are made of is had once:
+/// the one that is nothing else, then that to which something is added.
+fn in_order<'t>(all: &[(TableId, &'t Table, Recipe)]) -> Vec<(TableId, &'t Table, Recipe)> {
+    let mut rest = all.to_vec();
+    let mut order = Vec::new();
+    while !rest.is_empty() {
+        let next = rest.remove(0);
+        order.push(next);
+        let more = |other: &Recipe| other.more.is_some_and(|more| more != 0.0);
+        let found = (next.2.more == Some(0.0)).then(|| {
+            (rest.iter()).position(|(.., of)| square_of(of) == square_of(&next.2) && more(of))
+        });
+        if let Some(at) = found.flatten() {
+            order.push(rest.remove(at));
         }
     }
-    if !recipe.squared {
-        code.statement(format!("{element}={text}"));
-        return;
-    }
-    let text = match simple(&text) {
-        true => text,
-        false => {
-            code.statement(format!("{entry}={text}"));
-            entry.to_owned()
+    order
+}
+
+/// What a recipe squares first, if anything.
+fn square_of(recipe: &Recipe) -> Option<(From, [u64; 2])> {
+    recipe.more?;
+    Some((
+        recipe.from,
+        [recipe.moved.to_bits(), recipe.scale.to_bits()],
+    ))
+}
+
+/// Where elements are worked out.
+struct Pot<'t> {
+    from: &'t str,
+    /// A variable for what is not done yet.
+    entry: &'t str,
+    /// Of what the square is in that variable.
+    kept: Option<(From, [u64; 2])>,
+}
+
+impl Pot<'_> {
+    /// Works out an element; answers whose square is left.
+    fn cook(
+        &self,
+        code: &mut Code<'_>,
+        recipe: Recipe,
+        table: &Table,
+        element: &str,
+    ) -> Option<(From, [u64; 2])> {
+        let Pot { from, entry, .. } = *self;
+        let mut text = self.line(recipe);
+        let mut left = None;
+        let simple = |text: &str| text == from || text == entry;
+        let signs = table.entries.iter().any(|e| e.value().real() < 0.0);
+        if let Some(more) = recipe.more {
+            if self.kept.is_some() && self.kept == square_of(&recipe) {
+                text = entry.to_owned();
+            } else {
+                if !simple(&text) {
+                    code.statement(format!("{entry}={text}"));
+                } else if text != entry {
+                    code.statement(format!("{entry}={from}"));
+                }
+                text = format!("{entry}*ABS({entry})");
+            }
+            if more == 0.0 {
+                left = square_of(&recipe);
+            }
+            text.push_str(&term(more));
         }
-    };
-    code.statement(match signs {
-        true => format!("{element}={text}*ABS({text})"),
-        false => format!("{element}={text}*{text}"),
-    });
+        if !recipe.squared {
+            code.statement(format!("{element}={text}"));
+            return None;
+        }
+        let text = match simple(&text) {
+            true => text,
+            false => {
+                code.statement(format!("{entry}={text}"));
+                entry.to_owned()
+            }
+        };
+        code.statement(match signs {
+            true => format!("{element}={text}*ABS({text})"),
+            false => format!("{element}={text}*{text}"),
+        });
+        left
+    }
+
+    /// The line in a cell's number that a recipe begins with.
+    fn line(&self, recipe: Recipe) -> String {
+        let text = format!("{}{}", self.from, term(recipe.moved));
+        if recipe.scale == 1.0 {
+            return text;
+        }
+        let scale = literal(recipe.scale);
+        match recipe.moved != 0.0 {
+            true => format!("({text})*{scale}"),
+            false => format!("{text}*{scale}"),
+        }
+    }
+}
+
+/// A number that is added to what stands before it.
+fn term(more: f64) -> String {
+    let text = literal(more);
+    match more != 0.0 {
+        true if text.starts_with('-') => text,
+        true => format!("+{text}"),
+        false => String::new(),
+    }
 }
 
 /// By what a table's entries are multiplied in DATA: where memory is short,

@@ -37,11 +37,12 @@ pub fn threaded(lines: Lines, labels: &mut Labels, longer: bool) -> Lines {
 /// the other way only, where the first jumps then.
 fn decided(lines: Lines, labels: &mut Labels) -> Lines {
     let texts: Vec<String> = lines.texts().map(str::to_owned).collect();
-    let mut changed = Vec::new();
+    let mut changed: Vec<Vec<String>> = Vec::new();
     let mut behind = HashMap::new();
-    for (at, text) in texts.iter().enumerate() {
-        let split = texts.get(at + 1).and_then(|next| split(text, next));
-        changed.push(match split {
+    // From the last on: what becomes of the next line is what is met.
+    for (at, text) in texts.iter().enumerate().rev() {
+        let next = changed.last().and_then(|next| next.first());
+        changed.push(match next.and_then(|next| split(text, next)) {
             Some((sets, otherwise)) => {
                 let label = labels.next();
                 behind.insert(at, label);
@@ -50,25 +51,28 @@ fn decided(lines: Lines, labels: &mut Labels) -> Lines {
             None => vec![text.clone()],
         });
     }
+    changed.reverse();
     lines.with_lines(changed, &behind)
 }
 
-/// The two lines of `IF c THEN v%=TRUE ELSE v%=e` before a line that jumps where v% holds.
+/// The two lines of `IF c THEN v%=TRUE ELSE ...v%=e` before a line that jumps where v% holds,
+/// or where it does not.
 fn split(text: &str, next: &str) -> Option<(String, String)> {
     let (sets, otherwise) = text.split_once(" ELSE ")?;
     let (_, set) = sets.strip_prefix("IF ")?.split_once(" THEN ")?;
     let (name, value) = set.split_once('=')?;
     let plain = |text: &str| !text.contains([':', ' ']);
-    let asks = match value {
-        "TRUE" => next.strip_prefix("IF ")?,
-        "FALSE" => next.strip_prefix("IF NOT ")?,
-        _ => return None,
-    };
+    let asks = next.strip_prefix("IF ")?;
+    let asks = asks.strip_prefix("NOT ").unwrap_or(asks);
+    let known = ["TRUE", "FALSE"].contains(&value);
     let way = asks.strip_prefix(name)?.strip_prefix(" THEN ")?;
     let jumps = jump(next).is_some() && !way.contains("IF ") && !way.contains(" ELSE ");
-    let same = otherwise.split_once('=').is_some_and(|(of, _)| of == name);
-    let lone = plain(name) && same && !otherwise.contains(':') && !otherwise.contains("ELSE");
-    (jumps && lone).then(|| (sets.to_owned(), otherwise.to_owned()))
+    // What the other way does before it sets the flag is no matter here.
+    let set = otherwise.rsplit(':').next().unwrap_or_default();
+    let same = set.split_once('=').is_some_and(|(of, _)| of == name);
+    let leaves = ["IF ", "ELSE", "GOTO", "NEXT"];
+    let lone = plain(name) && same && !leaves.iter().any(|word| otherwise.contains(word));
+    (known && jumps && lone).then(|| (sets.to_owned(), otherwise.to_owned()))
 }
 
 struct Road<'t> {
@@ -190,11 +194,12 @@ enum Step {
 const LONG: usize = 120;
 
 /// Variables of which it is known whether they hold.
-#[derive(Default)]
-struct Known(HashMap<String, bool>);
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Known(HashMap<String, bool>);
 
 impl Known {
-    fn of(&self, name: &str) -> Option<bool> {
+    /// Whether a variable holds, where that is known.
+    pub fn of(&self, name: &str) -> Option<bool> {
         self.0.get(name).copied()
     }
 
@@ -209,7 +214,7 @@ impl Known {
     }
 
     /// What a statement tells of a variable; what is no assignment may change any.
-    fn learn(&mut self, statement: &str) {
+    pub fn learn(&mut self, statement: &str) {
         let plain = |c: char| c.is_ascii_alphanumeric() || c == '_' || c == '%';
         let Some((name, value)) = (statement.split_once('='))
             .filter(|(name, _)| !name.is_empty() && name.chars().all(plain))
@@ -224,6 +229,28 @@ impl Known {
     }
 }
 
+impl Known {
+    /// What follows from a test's outcome: of a flag, or the contrary of one.
+    pub fn assume(&mut self, test: &str, holds: bool) {
+        let (name, holds) = match test.strip_prefix("NOT ") {
+            Some(name) => (name, !holds),
+            None => (test, holds),
+        };
+        let plain = |c: char| c.is_ascii_alphanumeric() || c == '_';
+        if let Some(flag) = name.strip_suffix('%')
+            && flag.chars().all(plain)
+        {
+            self.0.insert(name.to_owned(), holds);
+        }
+    }
+
+    /// What is known on two ways that meet.
+    pub fn met(mut self, other: &Known) -> Known {
+        self.0.retain(|name, holds| other.of(name) == Some(*holds));
+        self
+    }
+}
+
 /// The last of some statements, without the test before it.
 fn last(statements: &str) -> &str {
     let from = statements.rfind([':', ' ']).map_or(0, |at| at + 1);
@@ -231,7 +258,7 @@ fn last(statements: &str) -> &str {
 }
 
 /// What stands before the label that a line jumps to at its end, and that label.
-fn jump(text: &str) -> Option<(&str, Label)> {
+pub fn jump(text: &str) -> Option<(&str, Label)> {
     let (before, label) = Label::last_of(text)?;
     (before.ends_with("GOTO ") || before.ends_with("THEN ")).then_some((before, label))
 }
@@ -297,9 +324,9 @@ mod tests {
             ("IF v% THEN z=x", None),
         ];
         let (text, _) = threaded(program(&source, &mut labels, &all), &mut labels, true).finish();
-        let expected = "10IF x<0 THEN v%=TRUE:z=x:w%=FALSE:GOTO 70\n20v%=y<1\n30IF v% THEN z=x ELSE z=y\n\
-            40IF NOT v% THEN w%=TRUE\n50IF v% THEN w%=FALSE ELSE w%=z<1\n60IF w% THEN 80\n70z=1\n80END\n\
-            90IF x<0 THEN v%=TRUE:PROCa:GOTO 110\n100IF v% THEN PROCa ELSE z=y\n110IF v% THEN z=x\n";
+        let expected = "10IF x<0 THEN v%=TRUE:z=x:w%=FALSE:GOTO 80\n20v%=y<1\n30IF v% THEN z=x ELSE z=y\n\
+            40IF NOT v% THEN w%=TRUE\n50IF v% THEN w%=FALSE:GOTO 80\n60w%=z<1\n70IF w% THEN 90\n80z=1\n\
+            90END\n100IF x<0 THEN v%=TRUE:PROCa:GOTO 120\n110IF v% THEN PROCa ELSE z=y\n120IF v% THEN z=x\n";
         assert_eq!(text, expected);
     }
 
