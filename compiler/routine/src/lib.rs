@@ -351,22 +351,24 @@ impl Runtime {
     }
 
     /// The routine that computes an operation of ordinary operands, if any can: what it
-    /// costs where no ranges are known. (The first of a list may be for one operand alone.)
+    /// costs where no ranges are known. Of numbers with points of their own the first of a
+    /// list may be for one operand alone; of others it is for all.
     pub fn usual(&self, op: Op) -> Option<&'static Routine> {
-        let [some, result] = [100.5, 10_000.0].map(|most| Range::new(-most, most));
-        let scales = match self.real {
-            Format::Scaled { .. } => Some(scale::Scales {
-                args: [14, 14],
-                result: 14,
-            }),
-            _ => None,
+        let mut all = self.routines.iter().filter(|r| r.op == op);
+        if !matches!(self.real, Format::Scaled { .. }) {
+            return all.next();
+        }
+        let scales = scale::Scales {
+            args: [14, 14],
+            result: 14,
         };
-        let number = scales.map(|scales| Range::point(f64::from(scales.number(op))));
-        let operands = std::iter::repeat_n(some, op.arity()).chain(number);
-        let args: Vec<Range> = operands.collect();
-        let all = || self.routines.iter().filter(|r| r.op == op);
+        let [some, result] = [100.5, 10_000.0].map(|most| Range::new(-most, most));
+        let number = Range::point(f64::from(scales.number(op)));
+        let args: Vec<Range> = std::iter::repeat_n(some, op.arity())
+            .chain([number])
+            .collect();
         let fits = |r: &&Routine| (r.domain)(&args, result);
-        all().find(fits).or_else(|| all().next())
+        all.clone().find(fits).or_else(|| all.next())
     }
 
     /// A part by name.

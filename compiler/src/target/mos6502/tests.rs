@@ -79,7 +79,7 @@ fn quotients_by_one_length_are_products() {
     let source = "image 64 x 32 inks black, white;
         draw (x, y) = {
           let v = unit(((x - 31.5) / 32, (15.5 - y) / 32, -1));
-          if v.x * v.y < v.z + 1 then ink(1) else ink(0)
+          ink((floor(8 * v.x) + floor(8 * v.y) + floor(8 * v.z)) mod 2)
         };";
     let plan = planned_in(source, "fixed16");
     let mut names: Vec<&str> = Vec::new();
