@@ -25,6 +25,7 @@
 //! - `spread`: error diffusion; `thread`, `tail`, `dead`: fewer jumps and flags; `short`: short names and lines, for speed and for size;
 //! - `pieces`: statements cut into names and words; `terse`: the same said shorter.
 
+mod asked;
 mod code;
 mod dead;
 mod expression;

@@ -8,6 +8,7 @@
 //! set ([`super::dead`]), and one that is asked for at once and never again is the test
 //! itself.
 
+use super::asked::{in_place, joined, opposite};
 use super::dead::Flow;
 use super::lines::{Label, Labels, Lines};
 use super::pieces::short_length;
@@ -35,14 +36,15 @@ pub fn split(lines: Lines, labels: &mut Labels, copies: bool) -> Lines {
 }
 
 /// A line that is one test.
-struct Test<'t> {
-    test: &'t str,
-    yes: &'t str,
-    no: &'t str,
+pub struct Test<'t> {
+    pub test: &'t str,
+    pub yes: &'t str,
+    pub no: &'t str,
 }
 
 impl<'t> Test<'t> {
-    fn of(text: &'t str) -> Option<Test<'t>> {
+    /// The test of a line, if it is one and no more.
+    pub fn of(text: &'t str) -> Option<Test<'t>> {
         let (test, ways) = text.strip_prefix("IF ")?.split_once(" THEN ")?;
         let (yes, no) = ways.split_once(" ELSE ").unwrap_or((ways, ""));
         let one = !ways.contains("IF ") && !no.contains(" ELSE ");
@@ -294,29 +296,6 @@ impl Roads<'_> {
     }
 }
 
-/// The test that holds where another does not.
-fn opposite(test: &str) -> Option<String> {
-    if let Some(name) = test.strip_prefix("NOT ") {
-        return (!name.contains([' ', '(', '<', '>', '='])).then(|| name.to_owned());
-    }
-    let sign = |c: char| "<>=".contains(c);
-    let from = test.find(sign)?;
-    let length = test.get(from..)?.find(|c| !sign(c))?;
-    let (left, rest) = test.split_at_checked(from)?;
-    let (sign_is, right) = rest.split_at_checked(length)?;
-    let alone = |text: &str| !text.contains(sign) && !text.contains("AND") && !text.contains("OR");
-    let turned = match sign_is {
-        "<" => ">=",
-        "<=" => ">",
-        ">" => "<=",
-        ">=" => "<",
-        "=" => "<>",
-        "<>" => "=",
-        _ => return None,
-    };
-    (alone(left) && alone(right)).then(|| format!("{left}{turned}{right}"))
-}
-
 /// The lines with copies for ways of which more is known.
 fn copied(lines: Lines, labels: &mut Labels) -> Lines {
     // Lines behind tests get names: a copy may go on there.
@@ -442,240 +421,5 @@ fn decided(lines: Lines) -> Lines {
     lines
 }
 
-/// The lines with an int that is set only for its lowest bits to be asked for in the
-/// question's place. A way that sets it elsewhere, rarely, asks for itself.
-fn in_place(lines: Lines, labels: &mut Labels) -> Lines {
-    let texts: Vec<String> = lines.texts().map(str::to_owned).collect();
-    let placed: HashMap<Label, usize> = lines.labelled().collect();
-    let flow = Flow::of(&texts, &placed);
-    let jumps = |to: usize| {
-        let leads =
-            move |label: &Label, placed: &HashMap<Label, usize>| placed.get(label) == Some(&to);
-        let count = |text: &String| Label::all_of(text).filter(|l| leads(l, &placed)).count();
-        let each = texts.iter().map(count).enumerate();
-        each.filter(|(_, count)| *count > 0).collect::<Vec<_>>()
-    };
-    let mut changed: Vec<Vec<String>> = texts.iter().map(|text| vec![text.clone()]).collect();
-    let mut behind = HashMap::new();
-    for at in 1..texts.len() {
-        let Some(name) = bits_asked(&texts[at]) else {
-            continue;
-        };
-        let ways = Label::all_of(&texts[at]).filter_map(|label| placed.get(&label).copied());
-        let read = ways.chain([at + 1]).any(|to| flow.reads(name, to));
-        let Some((front, value)) = set_last(&texts[at - 1], name).filter(|_| !read) else {
-            continue;
-        };
-        let others: Option<Vec<_>> = (jumps(at).into_iter())
-            .map(|(from, count)| {
-                let (way, _) = jump(&texts[from]).filter(|_| count == 1)?;
-                if let Some(way) = way.strip_suffix(":GOTO ") {
-                    let (front, value) = set_last(way, name)?;
-                    return Some((from, front, value, from));
-                }
-                // A jump by itself, to which only the line before it leads.
-                let before = from.checked_sub(1).filter(|_| way == "GOTO ")?;
-                let (front, value) = set_last(texts.get(before)?, name)?;
-                jumps(from)
-                    .is_empty()
-                    .then_some((before, front, value, from))
-            })
-            .collect();
-        let Some(others) = others.filter(|all| all.len() <= 1) else {
-            continue;
-        };
-        let asks = |value: &str| texts[at].replacen(name, value, 1);
-        for (set, front, value, from) in others {
-            let on = *behind.entry(at).or_insert_with(|| labels.next());
-            changed[from] = vec![asks(value), format!("GOTO {on}")];
-            match set == from {
-                true => changed[from].insert(0, front.to_owned()),
-                false => changed[set] = vec![front.to_owned()],
-            }
-        }
-        changed[at - 1] = vec![front.to_owned()];
-        changed[at] = vec![asks(value)];
-    }
-    let mut lines = lines.with_lines(changed, &behind);
-    lines.remove_empty();
-    lines
-}
-
-/// The int of which a test asks for some bits, and which it names once.
-fn bits_asked(text: &str) -> Option<&str> {
-    let test = Test::of(text)?;
-    let (name, bits) = test.test.split_once(" AND ")?;
-    let plain = |c: char| c.is_ascii_alphanumeric() || c == '_' || c == '%';
-    let lone = name.ends_with('%') && name.chars().all(plain);
-    let number = !bits.is_empty() && bits.chars().all(|c| c.is_ascii_digit());
-    (lone && number && text.matches(name).count() == 1).then_some(name)
-}
-
-/// What stands before the last of some statements, and the value that it gives an int;
-/// a sum, since what binds less than AND would need brackets.
-fn set_last<'t>(text: &'t str, name: &str) -> Option<(&'t str, &'t str)> {
-    let (front, last) = text.rsplit_once(':').unwrap_or(("", text));
-    let value = last.strip_prefix(name)?.strip_prefix('=')?;
-    let binds = value.contains(['<', '>', '=']) || value.contains("AND") || value.contains("OR");
-    (!binds && !text.contains("IF ")).then_some((front, value))
-}
-
-/// Two lines of which the first sets a flag last that the second asks for, where nobody
-/// reads it behind that.
-fn joined(before: &str, text: &str, reads: impl Fn(&str) -> bool) -> Option<(String, String)> {
-    let test = Test::of(text)?;
-    let (name, turned) = match test.test.strip_prefix("NOT ") {
-        Some(name) => (name, true),
-        None => (test.test, false),
-    };
-    let plain = |c: char| c.is_ascii_alphanumeric() || c == '_' || c == '%';
-    let flag = name.ends_with('%') && name.chars().all(plain);
-    if !flag || [test.yes, test.no].iter().any(|way| way.contains(name)) {
-        return None;
-    }
-    let (front, value) = match either(before, name) {
-        Some(value) => (String::new(), value),
-        None if before.contains("IF ") => return None,
-        None => {
-            let (front, last) = before.rsplit_once(':').unwrap_or(("", before));
-            let value = last.strip_prefix(name)?.strip_prefix('=')?;
-            (front.to_owned(), value.to_owned())
-        }
-    };
-    // A number would be cut in bits by NOT.
-    let compares = value.contains(['<', '>', '=']);
-    if !compares || reads(name) {
-        return None;
-    }
-    let value = match turned {
-        false => value,
-        true => opposite(&value).unwrap_or_else(|| format!("NOT ({value})")),
-    };
-    Some((front, text.replacen(test.test, &value, 1)))
-}
-
-/// The value of a flag that is a test where a condition holds, and its opposite where it
-/// does not: whether both come out the same.
-fn either(text: &str, name: &str) -> Option<String> {
-    let test = Test::of(text)?;
-    let value = |way: &str| Some(way.strip_prefix(name)?.strip_prefix('=')?.to_owned());
-    let (yes, no) = (value(test.yes)?, value(test.no)?);
-    let plain = |c: char| c.is_ascii_alphanumeric() || c == '_' || c == '%';
-    let flag = test.test.ends_with('%') && test.test.chars().all(plain);
-    let alone = !yes.contains([':', ' ']) && opposite(&yes)? == no;
-    (flag && alone).then(|| format!("{}=({yes})", test.test))
-}
-
 #[cfg(test)]
-mod tests {
-    use super::*;
-
-    /// The lines `texts`, where `@n;` goes to the line number n, without tests that are known.
-    fn written(texts: &[&str], copies: bool) -> String {
-        let mut labels = Labels::default();
-        let all: Vec<Label> = texts.iter().map(|_| labels.next()).collect();
-        let mut lines = Lines::default();
-        for (text, label) in texts.iter().zip(&all) {
-            lines.place(*label);
-            let mut text = (*text).to_owned();
-            for (k, label) in all.iter().enumerate() {
-                text = text.replace(&format!("@{k};"), &label.to_string());
-            }
-            lines.line(text, None);
-        }
-        let lines = super::super::dead::without(split(lines, &mut labels, copies));
-        let mut lines = split(lines, &mut labels, false);
-        lines.remove_empty();
-        lines.finish().0
-    }
-
-    const FLAG: [&str; 10] = [
-        "FOR x%=1 TO 9",
-        "IF f% THEN a%=x>=0 ELSE a%=x<0",
-        "IF a% THEN @5;",
-        "y=x*2",
-        "a%=FALSE",
-        "z=x*x",
-        "IF z<1 THEN @8;",
-        "IF NOT a% THEN z=y",
-        "PRINT z",
-        "NEXT",
-    ];
-
-    #[test]
-    fn a_way_has_a_copy_of_what_stands_before_a_known_test() {
-        // The way where a% holds goes past the test; the other way needs no flag.
-        let expected = "10FOR x%=1 TO 9\n20IF f%=(x>=0) THEN 50\n30y=x*2\n40GOTO 80\n\
-            50z=x*x\n60IF z<1 THEN 110\n70GOTO 110\n80z=x*x\n90IF z<1 THEN 110\n\
-            100z=y\n110PRINT z\n120NEXT\n";
-        assert_eq!(written(&FLAG, true), expected);
-    }
-
-    #[test]
-    fn without_memory_nothing_is_copied() {
-        let text = written(&FLAG, false);
-        assert!(text.contains("IF NOT a% THEN z=y"), "{text}");
-        assert_eq!(text.matches("z=x*x").count(), 1, "{text}");
-    }
-
-    #[test]
-    fn what_is_known_wherever_control_comes_from_is_not_asked() {
-        let source = [
-            "IF x<0 THEN a%=TRUE:GOTO @3;",
-            "a%=y<1",
-            "IF NOT a% THEN @6;",
-            "IF a% THEN z=1",
-            "PRINT z",
-            "END",
-            "z=2",
-            "END",
-        ];
-        let expected = "10IF x<0 THEN 30\n20IF y>=1 THEN 60\n30z=1\n40PRINT z\n50END\n\
-            60z=2\n70END\n";
-        assert_eq!(written(&source, true), expected);
-    }
-
-    #[test]
-    fn a_flag_that_is_read_later_is_kept() {
-        let source = [
-            "a%=x<1",
-            "IF a% THEN @3;",
-            "z=2",
-            "PRINT z",
-            "IF a% THEN z=1",
-            "END",
-        ];
-        let text = written(&source, false);
-        assert!(text.starts_with("10a%=x<1\n20IF a% THEN 40\n"), "{text}");
-    }
-
-    #[test]
-    fn lowest_bits_are_asked_for_in_place() {
-        let source = [
-            "IF y<1 THEN @7;",
-            "n%=INT(x)+INT(y)",
-            "IF n% AND 1 THEN @5;",
-            "z=2",
-            "END",
-            "z=1",
-            "END",
-            "n%=FNfloor(x)",
-            "GOTO @2;",
-        ];
-        let expected = "10IF y<1 THEN 70\n20IF INT(x)+INT(y) AND 1 THEN 50\n30z=2\n40END\n\
-            50z=1\n60END\n70IF FNfloor(x) AND 1 THEN 50\n80GOTO 30\n";
-        assert_eq!(written(&source, false), expected);
-        let mut read = source;
-        read[3] = "z=n%";
-        assert!(written(&read, false).contains("n%=INT(x)+INT(y)\n"));
-    }
-
-    #[test]
-    fn opposites() {
-        assert_eq!(opposite("a<b+1").as_deref(), Some("a>=b+1"));
-        assert_eq!(opposite("NOT a%").as_deref(), Some("a%"));
-        assert_eq!(opposite("a<>b").as_deref(), Some("a=b"));
-        assert_eq!(opposite("a<b AND c"), None);
-        assert_eq!(opposite("a%=(b<c)"), None);
-    }
-}
+mod tests;
