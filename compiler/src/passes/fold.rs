@@ -80,11 +80,6 @@ pub(super) fn folded(b: &mut Builder, op: Op, x: NodeId, y: NodeId, span: Span) 
             Node::Apply(Op::IntLessEqual, [p, q]) => b.apply(Op::IntLess, &[q, p], span),
             _ => return None,
         },
-        // The sign of a whole number needs no real.
-        Op::Sign => match b.node(x) {
-            Node::Apply(Op::ToReal, [whole, _]) => b.apply(Op::IntSign, &[whole], span),
-            _ => return None,
-        },
         _ => return None,
     })
 }

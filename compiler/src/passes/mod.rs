@@ -14,6 +14,7 @@ pub mod fold;
 pub mod guard;
 pub mod homogeneous;
 pub mod identities;
+pub mod int_signs;
 pub mod interlace;
 pub mod later;
 mod moves;

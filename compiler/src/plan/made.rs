@@ -16,6 +16,7 @@ use crate::flow::verify::verify;
 use crate::passes::along::along;
 use crate::passes::early::{everywhere, without};
 use crate::passes::fold::fold;
+use crate::passes::int_signs::int_signs;
 use crate::passes::interlace::interlaced;
 use crate::passes::ramps::runs::is_exact;
 use crate::passes::schedule::missing;
@@ -104,7 +105,12 @@ pub(super) fn planned(
     };
     // Where sums are rounded to as few bits as that, tiles' edges move by whole pixels.
     let logs = rounds > 0 && matches!(runtime.real, Format::Log { .. });
-    let whole = |graph: Graph| if logs { whole_parts(&graph) } else { graph };
+    let steps_ahead = rounds > 0 && runtime.stepping.is_some_and(|s| s.foreseen);
+    let whole = |graph: Graph| match (logs, steps_ahead) {
+        (true, _) => whole_parts(&graph),
+        (_, true) => int_signs(&graph),
+        _ => graph,
+    };
     let drawn = |graph: Graph| match rewriting {
         Rewriting::Fast { thrift, .. } if thrift.passes() && runtime.segments => {
             interlaced(&graph, in_byte(&graph, target, goal)).unwrap_or(graph)

@@ -231,9 +231,7 @@ impl Lines {
             .iter()
             .position(|item| matches!(item, Item::Label(of) if *of == label));
         // What is named there by other labels is the same line.
-        let before = self.items.iter().take(at.unwrap_or(self.items.len()));
-        let labels = before.rev().take_while(|i| matches!(i, Item::Label(_)));
-        let from = at.unwrap_or(self.items.len()) - labels.count();
+        let from = away::first_label(&self.items, at.unwrap_or(self.items.len()));
         let mut rest = self.items.split_off(from);
         if away::goes_on(&self.items) {
             self.items.push(away::jump(label));

@@ -31,6 +31,12 @@ pub(super) fn goes_on(items: &[Item]) -> bool {
     })
 }
 
+/// The first of the labels that name the same line as the one at a place.
+pub(super) fn first_label(items: &[Item], at: usize) -> usize {
+    let before = items.iter().take(at).rev();
+    at - before.take_while(|i| matches!(i, Item::Label(_))).count()
+}
+
 impl Lines {
     /// The lines with blocks behind the program's END, each given by a label before and one
     /// behind it: jumps look through all lines before their own, so others are quicker.
@@ -38,7 +44,8 @@ impl Lines {
         for &(from, to) in blocks {
             let labels = |items: &[Item], of| {
                 let mut all = items.iter();
-                all.position(|item| matches!(item, Item::Label(label) if *label == of))
+                let at = all.position(|item| matches!(item, Item::Label(label) if *label == of));
+                at.map(|at| first_label(items, at))
             };
             let end = |item: &Item| matches!(item, Item::Line { text, .. } if text == "END");
             let (Some(first), Some(behind), Some(end)) = (
@@ -96,6 +103,29 @@ mod tests {
         let expected = "10IF x THEN 30\n20GOTO 50\n30b=0\n40END\n\
             50a=1\n60a=2\n70a=3\n80a=4\n90GOTO 30\n100DEF PROCa\n";
         assert_eq!(moved(4), expected);
+    }
+
+    /// The line behind a way may have other names, and be come to by those alone.
+    #[test]
+    fn a_way_may_end_in_jumps_to_another_label() {
+        let mut labels = Labels::default();
+        let [from, to, other, top] = [(); 4].map(|()| labels.next());
+        let mut lines = Lines::default();
+        lines.place(top);
+        lines.line("a=0", None);
+        lines.place(from);
+        lines.line(format!("IF x THEN {other}"), None);
+        for n in 2..=4 {
+            lines.line(format!("a={n}"), None);
+        }
+        lines.line(format!("GOTO {top}"), None);
+        lines.place(other);
+        lines.place(to);
+        lines.line("b=0", None);
+        lines.line("END", None);
+        let expected = "10a=0\n20GOTO 50\n30b=0\n40END\n\
+            50IF x THEN 30\n60a=2\n70a=3\n80a=4\n90GOTO 10\n";
+        assert_eq!(lines.away(&[(from, to)]).finish().0, expected);
     }
 
     #[test]
