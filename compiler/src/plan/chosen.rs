@@ -12,6 +12,7 @@ use crate::passes::either::{self, either};
 use crate::passes::factors::factors;
 use crate::passes::fold::fold;
 use crate::passes::reciprocals::reciprocals;
+use slowlight_routine::Format;
 
 /// By how much operations in arms must make the plan cheaper: each choice is asked once
 /// more.
@@ -42,7 +43,9 @@ pub fn in_arms(plan: Settled, shop: &Workshop, thrift: Thrift) -> Settled {
 
 /// With conditions asked only where the ink is not the same either way.
 pub fn asked_where_it_matters(plan: Settled, shop: &Workshop, thrift: Thrift) -> Settled {
-    if shop.every_shade {
+    // Where each value has its own point, shades that nobody asks for in full would have
+    // none that suits them, and errors of shades could not be told.
+    if shop.every_shade || matches!(shop.runtime.real, Format::Scaled { .. }) {
         return plan;
     }
     let price = Price::new(&plan, shop.runtime, thrift);

@@ -11,7 +11,7 @@ param eye: vec3 = (0, 0, 3) in (-1, -1, 2) .. (1, 1, 4);
 draw (x, y) = {
   let r = ray(eye, unit(((x - 3.5) / 4, (1.5 - y) / 4, -1)));
   if let h = sphere((0, 0, 0), 1).hit(r) then ink(1)
-  else ink(0)
+  else ink(if sin(3 * r.dir.x) * cos(3 * r.dir.y) > 0.2 then 1 else 0)
 };
 ";
 
