@@ -180,10 +180,16 @@ fn known(found: &Effects) -> String {
     };
     format!(
         "where the ink is known before the whole shade, {} of {} cycles are saved ({}){changed}\n",
-        cycles_saved,
+        signed(cycles_saved),
         count(whole),
         percent(cycles_saved as f64 / whole.max(1) as f64)
     )
+}
+
+/// A difference, with its digits in threes.
+fn signed(n: i64) -> String {
+    let digits = count(n.unsigned_abs());
+    if n < 0 { format!("-{digits}") } else { digits }
 }
 
 fn size_unit_of_sizes(found: &Effects) -> &'static str {
@@ -202,10 +208,6 @@ fn cells(found: &Effects, row: &Row) -> Vec<String> {
     let called = match &row.found {
         Found::Called(called) => called.as_ref(),
         Found::Absent(_) => &nothing,
-    };
-    let signed = |n: i64| {
-        let digits = count(n.unsigned_abs());
-        if n < 0 { format!("-{digits}") } else { digits }
     };
     let [median, p99] = quantiles(&called.seen.cycles);
     let turns = called.turns;
