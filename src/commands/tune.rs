@@ -104,7 +104,10 @@ pub fn run(args: &Args) -> Outcome<()> {
         let (found, base, measure) = (found.clone(), base.clone(), args.measure);
         let form = Form::of(args);
         interrupt::last_words(move || {
-            if let Ok(found) = found.lock() {
+            // Before anything was measured there is nothing to tell.
+            if let Ok(found) = found.lock()
+                && !found.points.is_empty()
+            {
                 form.say(&Told::new(&base, measure, &found), None);
             }
         });
