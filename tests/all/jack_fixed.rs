@@ -2,103 +2,18 @@
 //! against the model; and the model against its bounds.
 #![allow(clippy::unwrap_used)]
 
+use crate::held::stays_within_bounds;
 use crate::jack::{MIRRORS, agrees, differences, documents, planned_in};
 use crate::mos6502::Scribe;
-use slowlight_compiler::eval::arithmetic::Arithmetic;
 use slowlight_compiler::eval::native::Native;
-use slowlight_compiler::eval::run::Run;
-use slowlight_compiler::flow::graph::{NodeId, ParamId};
-use slowlight_compiler::flow::tree::Place;
 use slowlight_compiler::plan::Plan;
 use slowlight_compiler::target::jack::JACK_FIXED16;
-use slowlight_routine::{Bits, Format, Op, Type, Value};
-use std::cell::Cell;
 
 const TORUS: &str = include_str!("../../examples/torus.scn");
 const MAZE: &str = include_str!("../../examples/maze.scn");
 
 fn planned(source: &str, set: &[f64], rows: Option<(u32, u32)>) -> Result<Plan, String> {
     planned_in(&JACK_FIXED16, source, (set, rows), true)
-}
-
-/// The models, held to what the ranges say of each result.
-struct Held<'p> {
-    plan: &'p Plan,
-    reals: &'p Cell<u64>,
-    /// How many stand at their format's end.
-    ends: &'p Cell<u64>,
-}
-
-impl Arithmetic for Held<'_> {
-    type Value = Bits;
-
-    fn constant(&self, value: Value) -> Bits {
-        self.plan.bits(value)
-    }
-
-    fn param(&self, id: ParamId) -> Bits {
-        self.plan.params[id.0 as usize].bits
-    }
-
-    fn apply(&self, id: NodeId, op: Op, args: &[Bits]) -> Bits {
-        let bits = self.plan.computed(id, args);
-        if op.result() == Type::Real {
-            // As the model has it: what 16 bits would make of it is not asked.
-            let units = bits as i64;
-            let Format::Fixed { frac, .. } = self.plan.format(id) else {
-                panic!("{id} has no format of its own");
-            };
-            let value = units as f64 * (-f64::from(frac)).exp2();
-            let range = self.plan.ranges.result[id.0 as usize];
-            assert!(units.abs() <= 32767, "{op:?} wraps: {units}");
-            assert!(range.contains(value), "{op:?}: {value} is not in {range:?}");
-            self.reals.set(self.reals.get() + 1);
-            self.ends
-                .set(self.ends.get() + u64::from(units.abs() == 32767));
-        }
-        bits
-    }
-
-    fn copied(&self, place: Place, from: NodeId, value: Bits) -> Bits {
-        self.plan.copied(place, from, value)
-    }
-
-    fn sent(&self, from: NodeId, value: Bits) -> Bits {
-        self.plan.sent(from, value)
-    }
-
-    fn gather(&self, received: Bits, sent: Bits) -> Bits {
-        let bits = self.plan.gathered(received, sent);
-        assert!((bits as i64).abs() <= 32767);
-        bits
-    }
-
-    fn truth(&self, value: Bits) -> bool {
-        (self.plan.runtime.decode)(value, Format::Bool).truth()
-    }
-
-    fn int(&self, value: Bits) -> i32 {
-        (self.plan.runtime.decode)(value, self.plan.runtime.int).int()
-    }
-}
-
-/// Runs some pixels of a plan, every value of which must stay in its bounds; answers how
-/// many reals were computed, and how many of them saturated.
-fn stays_within_bounds(plan: &Plan) -> (u64, u64) {
-    let (reals, ends) = (Cell::new(0), Cell::new(0));
-    let held = Held {
-        plan,
-        reals: &reals,
-        ends: &ends,
-    };
-    let mut run = Run::new(&plan.graph, &plan.tree, held);
-    let image = &plan.graph.image;
-    for y in (0..image.height).step_by((image.height as usize).div_ceil(40)) {
-        for x in (0..image.width).step_by((image.width as usize).div_ceil(40)) {
-            run.pixel(x as i32, y as i32);
-        }
-    }
-    (reals.get(), ends.get())
 }
 
 #[test]

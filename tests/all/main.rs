@@ -16,6 +16,7 @@ mod explain;
 mod fit;
 mod hack_rom;
 mod hard_cases;
+mod held;
 mod house;
 mod jack;
 mod jack_fixed;
@@ -39,6 +40,7 @@ mod peers_dialect;
 #[cfg(feature = "peers")]
 mod peers_jsbeeb;
 mod precise;
+mod predicted;
 mod ramps;
 mod renderers;
 mod rom_operations;
