@@ -42,7 +42,10 @@ impl Builder {
                 let far = self.vector(1.6, 2.5);
                 format!("box({at}, {far})")
             }
-            3 => format!("cylinder({at}, unit((0.3, 1, {size:.2})), {:.2})", size / 2.0),
+            3 => format!(
+                "cylinder({at}, unit((0.3, 1, {size:.2})), {:.2})",
+                size / 2.0
+            ),
             4 => format!("plane((0, 1, 0), {:.2})", -1.0 - size),
             5 => {
                 let join = self.any(&["union", "intersection", "difference"]);
@@ -52,7 +55,10 @@ impl Builder {
             6 => format!("translation({}, {at})", self.shape(depth - 1)),
             _ => {
                 let turn = self.number(-90.0, 90.0);
-                format!("rotation({}, (0, 1, 0), {turn:.0}deg)", self.shape(depth - 1))
+                format!(
+                    "rotation({}, (0, 1, 0), {turn:.0}deg)",
+                    self.shape(depth - 1)
+                )
             }
         }
     }
@@ -136,7 +142,10 @@ fn never_leave(format: &str) {
         }
     }
     println!("{format}: {planned} scenes, {results} results, {ends} scenes saturate");
-    assert!(planned >= 180 && results > 20_000_000, "{planned} {results}");
+    assert!(
+        planned >= 180 && results > 20_000_000,
+        "{planned} {results}"
+    );
     assert!(ends > 0, "saturation was never met");
 }
 
