@@ -19,6 +19,7 @@ pub mod fit;
 pub mod format;
 pub mod interrupt;
 pub mod jobs;
+pub mod listing;
 pub mod machine;
 pub mod measure;
 pub mod need;

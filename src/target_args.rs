@@ -32,7 +32,9 @@ pub struct ScreenArgs {
     /// makes a program for the processor's ROM [default: native]
     #[arg(long, value_name = "OS")]
     pub os: Option<Os>,
-    /// How BASIC is written: `fast`, or `listing`, to be read [default: fast]
+    /// How BASIC is written: `fast`, or `listing`, to be read; for the 6502 `listing` writes a
+    /// file more: its memory, its routines, and the code below the scene's lines, with its
+    /// cycles [default: fast]
     #[arg(long, value_name = "STYLE")]
     pub style: Option<Style>,
     /// How reals are held, where the machine has several ways (see `slowlight targets`)
@@ -73,12 +75,17 @@ pub enum Os {
     Jack,
 }
 
-/// How a program in BASIC is written.
+/// Whether a target is one of those in machine code of the 6502.
+pub fn is_6502(target: &Target) -> bool {
+    target.name.starts_with("6502:")
+}
+
+/// How a program is written.
 #[derive(ValueEnum, Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Style {
-    /// To be quick: one-letter names, long lines
+    /// To be quick: in BASIC one-letter names, long lines
     Fast,
-    /// To be read: the scene's names, a remark for each of its items
+    /// To be read: in BASIC the scene's names, a remark for each of its items
     Listing,
 }
 
@@ -297,8 +304,12 @@ impl ScreenArgs {
             let message = format!("--os is Jack's, and {} has its own", target.name);
             return Err(Failure::Usage(message));
         }
-        if self.style.is_some() && !target.name.starts_with("bbc:") {
-            let message = format!("--style is BASIC's; {} has one way to write", target.name);
+        let basic = target.name.starts_with("bbc:");
+        if self.style.is_some() && !basic && !is_6502(target) {
+            let message = format!(
+                "--style is BASIC's and the 6502's; {} has one way to write",
+                target.name
+            );
             return Err(Failure::Usage(message));
         }
         if self.page.is_some() && !matches!(target.name, "bbc:micro" | "6502:bbc") {
@@ -342,7 +353,7 @@ impl ScreenArgs {
             false => planned,
         };
         let mut plan = planned.map_err(|said| scene.wrong(said))?;
-        plan.listing = self.style == Some(Style::Listing);
+        plan.listing = basic && self.style == Some(Style::Listing);
         plan.page = self.page;
         plan.statics = self.os == Some(Os::Jack);
         // A listing has remarks before what comes from another line of the scene.

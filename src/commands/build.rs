@@ -2,9 +2,10 @@
 
 use crate::failure::{Failure, Outcome};
 use crate::format::{count, duration, table};
+use crate::listing::listing;
 use crate::machine::{File, Sizes};
 use crate::scene::{Precision, Scene, SceneArgs};
-use crate::target_args::{self, ScreenArgs};
+use crate::target_args::{self, ScreenArgs, Style};
 use crate::trial::{self, mode_json};
 use crate::{estimate, files, say, say_json};
 use clap::ValueEnum;
@@ -74,7 +75,11 @@ pub fn run(args: &Args) -> Outcome<()> {
     }
     scene.warn();
     let plan = args.screen.plan(&scene, target(args)?, &[])?;
-    let written = write(&plan, &args.screen, args.syntax, &args.output)?;
+    let more = match args.screen.style {
+        Some(Style::Listing) if target_args::is_6502(plan.target) => vec![listing(&scene, &plan)?],
+        _ => Vec::new(),
+    };
+    let written = write(&plan, &args.screen, (args.syntax, &more), &args.output)?;
     let cycles = estimate::cycles(&plan);
     let seconds = cycles / plan.target.hertz;
     let sizes = written.sizes;
@@ -138,14 +143,15 @@ impl Written {
     }
 }
 
-/// Writes a plan's program to a directory, ready for the real machine.
+/// Writes a plan's program to a directory, ready for the real machine, in some syntax, and
+/// more files beside it.
 ///
 /// # Errors
 /// Where the machine's tools refuse it, or a file cannot be written.
 pub fn write(
     plan: &Plan,
     screen: &ScreenArgs,
-    syntax: Option<&'static Syntax>,
+    (syntax, more): (Option<&'static Syntax>, &[File]),
     dir: &Path,
 ) -> Outcome<Written> {
     let mut built = trial::build_for(plan, screen.machine(plan.target)?)?;
@@ -161,6 +167,7 @@ pub fn write(
         .iter()
         .chain(&built.loaded.system)
         .chain(&built.loaded.binaries)
+        .chain(more)
         .map(|f| (dir.join(&f.name), f.bytes.as_slice()))
         .collect();
     let list: Vec<(&Path, &[u8])> = written.iter().map(|(p, b)| (p.as_path(), *b)).collect();
@@ -178,7 +185,7 @@ fn target(args: &Args) -> Outcome<&'static Target> {
     let target = args.target.ok_or_else(|| {
         Failure::Usage("this stage depends on the machine: say --target".to_owned())
     })?;
-    if args.syntax.is_some() && !target.name.starts_with("6502:") {
+    if args.syntax.is_some() && !target_args::is_6502(target) {
         let message = format!("--syntax is the 6502's; {} has none", target.name);
         return Err(Failure::Usage(message));
     }

@@ -227,5 +227,5 @@ fn build(args: &Args, told: &Told<'_>, point: &Point) -> Outcome<Written> {
     let scene = Scene::open(&told.base.path, &told.base.changes(choice.frozen))?;
     let screen = told.base.screen(choice);
     let plan = screen.plan(&scene, args.target, &[])?;
-    build::write(&plan, &screen, None, &args.output)
+    build::write(&plan, &screen, (None, &[]), &args.output)
 }

@@ -162,8 +162,8 @@ fn wrong_options_say_what_there_is() {
             "--page is the BBC Micro's",
         ),
         (
-            &["-t", "6502:bbc", "--style", "listing"],
-            "--style is BASIC's",
+            &["-t", "jack", "--style", "listing"],
+            "--style is BASIC's and the 6502's",
         ),
         (&["-t", "6502:vic"], "no target `6502:vic`"),
     ] {

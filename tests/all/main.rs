@@ -22,6 +22,7 @@ mod jack;
 mod jack_fixed;
 mod jack_formats;
 mod library;
+mod listing;
 mod mos6502;
 mod mos6502_fixed;
 mod need;

@@ -38,6 +38,7 @@ mod tests;
 use std::collections::BTreeMap;
 
 use crate::Fault;
+pub use listing::Taken;
 use symbols::Symbols;
 
 /// How a program is written.

@@ -127,12 +127,13 @@ fn data_and_labels() {
 
 #[test]
 fn a_listing_stands_beside_its_source() {
-    let source = "* = $1000\nstart: lda #1 ; one\n.byte 1,2,3,4,5,6,7,8,9\n rts";
+    let source = "* = $1000\nstart: lda #1 ; one\n.byte 1,2,3,4,5,6,7,8,9\n bne start\n rts";
     let expected = concat!(
-        "                                * = $1000\n",
-        "1000  A9 01                     start: lda #1 ; one\n",
-        "1002  01 02 03 04 05 06 07 08 + .byte 1,2,3,4,5,6,7,8,9\n",
-        "100B  60                         rts\n",
+        "                                    * = $1000\n",
+        "1000  A9 01                     2   start: lda #1 ; one\n",
+        "1002  01 02 03 04 05 06 07 08 +     .byte 1,2,3,4,5,6,7,8,9\n",
+        "100B  D0 F3                     2+   bne start\n",
+        "100D  60                        6    rts\n",
     );
     assert_eq!(assemble(source).unwrap().listing(source), expected);
 }
