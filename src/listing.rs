@@ -75,7 +75,7 @@ fn symbols(document: &Document, lines: std::ops::Range<usize>) -> Vec<u32> {
     let text = document.text.lines().enumerate();
     let within = text.filter(|(k, _)| lines.contains(&(k + 1)));
     let address = |(_, line): (usize, &str)| {
-        let (_, value) = line.split_once(" = $")?;
+        let (_, value) = (line.split_once(" = $")).filter(|(name, _)| *name != "*")?;
         let digits = value.split(' ').next()?;
         u32::from_str_radix(digits, 16).ok()
     };
