@@ -4,7 +4,8 @@
 //! ways do as well. Where that is little, the way has its own copy of it without the
 //! test, as far as the last one that is known (path splitting and jump threading: Aho,
 //! Lam, Sethi and Ullman, Compilers, 2nd edition, 8.7.3 and 9.5). What is known of a flag
-//! wherever control comes from needs no copy. Flags that nobody asks for then need not be
+//! wherever control comes from needs no copy. Where a flag was compared with a test, the
+//! flag tells on both ways how that test would come out again. Flags that nobody asks for then need not be
 //! set ([`super::dead`]), and one that is asked for at once and never again is the test
 //! itself.
 
@@ -381,6 +382,8 @@ fn decided(lines: Lines) -> Lines {
                 && name == test.test
             {
                 changed[at] = text.replacen(test.yes, way, 1);
+            } else if let Some(told) = known.told_by(test.test) {
+                changed[at] = text.replacen(test.test, &told, 1);
             }
         }
     }
