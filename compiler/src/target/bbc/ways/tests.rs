@@ -1,5 +1,6 @@
 //! Lines before and behind.
 
+use super::super::asked::opposite;
 use super::*;
 
 /// The lines `texts`, where `@n;` goes to the line number n, without tests that are known.
