@@ -40,6 +40,7 @@ pub mod sums;
 pub mod threshold;
 pub mod units;
 pub mod whole_parts;
+pub mod zones;
 
 #[cfg(test)]
 mod apart_tests;
@@ -53,3 +54,5 @@ mod later_tests;
 mod peel_tests;
 #[cfg(test)]
 mod still_tests;
+#[cfg(test)]
+mod zones_tests;

@@ -1,6 +1,6 @@
 //! What is made of choices: operations in their arms ([`crate::passes::arms`]), factors
 //! that are chosen by the values that they take ([`crate::passes::factors`]), and conditions
-//! that are asked only where they matter ([`crate::passes::either`]).
+//! that are asked only where they matter ([`crate::passes::either`], [`crate::passes::zones`]).
 
 use super::cheaper::NODES;
 use super::price::Price;
@@ -12,6 +12,7 @@ use crate::passes::either::{self, either};
 use crate::passes::factors::factors;
 use crate::passes::fold::fold;
 use crate::passes::reciprocals::reciprocals;
+use crate::passes::zones::{Choice, Way, choices};
 use slowlight_routine::Format;
 
 /// By how much operations in arms must make the plan cheaper: each choice is asked once
@@ -21,6 +22,9 @@ const ARMS: f64 = 0.99;
 /// By how much a choice must make the plan cheaper: what a jump more costs is not known
 /// so well.
 const CHOICE: f64 = 0.999;
+
+/// How many choices are looked at for zones in which they are the same either way.
+const CHOICES: usize = 4;
 
 /// How many factors are chosen.
 const FACTORS: usize = 8;
@@ -57,6 +61,35 @@ pub fn asked_where_it_matters(plan: Settled, shop: &Workshop, thrift: Thrift) ->
             && price.of(&next) < ARMS * price.of(&best)
         {
             best = next;
+        }
+    }
+    in_zones(best, shop, &price)
+}
+
+/// With conditions asked only in zones of a value in which the ink is not the same either
+/// way: in those of them that make the plan cheapest.
+fn in_zones(plan: Settled, shop: &Workshop, price: &Price) -> Settled {
+    let cost = |choice: &Choice<'_>, way: Way| {
+        let next = shop.settle(&choice.put(&way));
+        (price.of(&next), way, next)
+    };
+    let mut best = plan;
+    for k in 0..CHOICES {
+        let known = best.clone();
+        let Some(choice) = choices(&known.graph, &known.ranges).into_iter().nth(k) else {
+            break;
+        };
+        let mut found = cost(&choice, choice.all());
+        loop {
+            let tries = choice.others(&found.1).into_iter();
+            let tries = tries.map(|way| cost(&choice, way));
+            match tries.min_by(|a, b| a.0.total_cmp(&b.0)) {
+                Some(next) if next.0 < found.0 => found = next,
+                _ => break,
+            }
+        }
+        if found.0 < CHOICE * price.of(&best) {
+            best = found.2;
         }
     }
     best

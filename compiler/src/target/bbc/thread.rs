@@ -5,8 +5,9 @@
 //! statements, those of the known way are carried out on the way. (Jump threading
 //! and tail duplication: Aho, Lam, Sethi and Ullman, Compilers, 2nd edition, 8.7.3.)
 
+use super::asked::opposite;
 use super::lines::{Label, Labels, Lines};
-use std::collections::HashMap;
+use std::collections::{BTreeMap, HashMap};
 
 /// How many jumps are followed from one.
 const HOPS: usize = 8;
@@ -193,14 +194,44 @@ enum Step {
 /// How long a line may become by statements on the way.
 const LONG: usize = 120;
 
-/// Variables of which it is known whether they hold.
+/// Variables and tests of which it is known whether they hold, and tests of which it is
+/// known that they come out as a flag says, or as it does not.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Known(HashMap<String, bool>);
+pub struct Known {
+    holds: BTreeMap<String, bool>,
+    told: BTreeMap<String, (String, bool)>,
+}
 
 impl Known {
-    /// Whether a variable holds, where that is known.
-    pub fn of(&self, name: &str) -> Option<bool> {
-        self.0.get(name).copied()
+    /// Whether a variable or test holds, where that is known.
+    pub fn of(&self, test: &str) -> Option<bool> {
+        let found = self.holds.get(test).copied();
+        found.or_else(|| Some(!*self.holds.get(&opposite(test)?)?))
+    }
+
+    /// The test of a flag that comes out as another does.
+    pub fn told_by(&self, test: &str) -> Option<String> {
+        let (flag, holds) = match self.told.get(test) {
+            Some((flag, holds)) => (flag, *holds),
+            None => {
+                let (flag, holds) = self.told.get(&opposite(test)?)?;
+                (flag, !holds)
+            }
+        };
+        Some(match holds {
+            true => flag.clone(),
+            false => format!("NOT {flag}"),
+        })
+    }
+
+    /// Nothing is known any more of what a name is in.
+    fn forget(&mut self, name: &str) {
+        let within = |text: &str| {
+            let mut words = text.split(|c: char| !(c.is_ascii_alphanumeric() || "_%".contains(c)));
+            words.any(|word| word == name)
+        };
+        self.holds.retain(|test, _| !within(test));
+        (self.told).retain(|test, (flag, _)| flag != name && !within(test));
     }
 
     /// Whether a statement assigns what the variable has already.
@@ -219,36 +250,49 @@ impl Known {
         let Some((name, value)) = (statement.split_once('='))
             .filter(|(name, _)| !name.is_empty() && name.chars().all(plain))
         else {
-            return self.0.clear();
+            *self = Known::default();
+            return;
         };
-        match value {
-            "TRUE" => self.0.insert(name.to_owned(), true),
-            "FALSE" => self.0.insert(name.to_owned(), false),
-            _ => self.0.remove(name),
-        };
+        self.forget(name);
+        if let "TRUE" | "FALSE" = value {
+            self.holds.insert(name.to_owned(), value == "TRUE");
+        }
     }
 }
 
 impl Known {
-    /// What follows from a test's outcome: of a flag, or the contrary of one.
+    /// What follows from a test's outcome: of a flag or a comparison, or the contrary of
+    /// one, or that a flag is what another test is.
     pub fn assume(&mut self, test: &str, holds: bool) {
         let (name, holds) = match test.strip_prefix("NOT ") {
             Some(name) => (name, !holds),
             None => (test, holds),
         };
         let plain = |c: char| c.is_ascii_alphanumeric() || c == '_';
-        if let Some(flag) = name.strip_suffix('%')
+        let flag = name.strip_suffix('%').is_some_and(|f| f.chars().all(plain));
+        if flag || compares(name) {
+            self.holds.insert(name.to_owned(), holds);
+        }
+        if let Some((flag, other)) = name.split_once("%=(")
             && flag.chars().all(plain)
+            && let Some(other) = other.strip_suffix(')').filter(|other| compares(other))
         {
-            self.0.insert(name.to_owned(), holds);
+            (self.told).insert(other.to_owned(), (format!("{flag}%"), holds));
         }
     }
 
     /// What is known on two ways that meet.
     pub fn met(mut self, other: &Known) -> Known {
-        self.0.retain(|name, holds| other.of(name) == Some(*holds));
+        self.holds
+            .retain(|test, holds| other.of(test) == Some(*holds));
+        (self.told).retain(|test, told| other.told.get(test) == Some(told));
         self
     }
+}
+
+/// Whether a test compares two values that change by assignments alone.
+fn compares(test: &str) -> bool {
+    !test.contains(['(', ' ', '?', '!', '$']) && opposite(test).is_some()
 }
 
 /// The last of some statements, without the test before it.

@@ -1,5 +1,6 @@
 //! Lines before and behind.
 
+use super::super::asked::opposite;
 use super::*;
 
 /// The lines `texts`, where `@n;` goes to the line number n, without tests that are known.
@@ -79,6 +80,29 @@ fn a_flag_that_is_read_later_is_kept() {
     ];
     let text = written(&source, false);
     assert!(text.starts_with("10a%=x<1\n20IF a% THEN 40\n"), "{text}");
+}
+
+#[test]
+fn a_flag_tells_what_it_was_compared_with() {
+    let mut source = [
+        "FOR x%=1 TO 9",
+        "IF f%=(x>=0) THEN @5;",
+        "y=x*2",
+        "IF x>=0 THEN @6;",
+        "GOTO @7;",
+        "IF x<0 THEN @7;",
+        "z=1",
+        "NEXT",
+    ];
+    let expected = "10FOR x%=1 TO 9\n20IF f%=(x>=0) THEN 60\n30y=x*2\n40IF NOT f% THEN 70\n\
+        50GOTO 80\n60IF NOT f% THEN 80\n70z=1\n80NEXT\n";
+    assert_eq!(written(&source, false), expected);
+    // Of what is another value by then it tells nothing.
+    for set in ["x=y", "f%=TRUE", "PROCa"] {
+        source[2] = set;
+        let text = written(&source, false);
+        assert!(text.contains("40IF x>=0 THEN 70\n"), "{text}");
+    }
 }
 
 #[test]
