@@ -65,7 +65,7 @@ pub fn asked_where_it_matters(plan: Settled, shop: &Workshop, thrift: Thrift) ->
 /// With products instead of quotients, where those are dear.
 pub fn with_reciprocals(plan: Settled, shop: &Workshop, thrift: Thrift) -> Settled {
     let next = (shop.runtime.reciprocals)
-        .then(|| reciprocals(&plan.graph, &plan.ranges))
+        .then(|| reciprocals(&plan.graph, &plan.ranges, shop.runtime))
         .flatten();
     let Some(next) = next.map(|graph| shop.settle(&graph)) else {
         return plan;

@@ -36,7 +36,7 @@ fn numbers(routine: &Routine) -> Vec<i32> {
         let ranges = [value, value, f64::from(n)].map(Range::point);
         (routine.domain)(&ranges, Range::point(0.0))
     };
-    let everywhere = |n: &i32| at(1.0, *n) || at(0.0, *n);
+    let everywhere = |n: &i32| [1.0, 0.0, -1.0].iter().any(|one| at(*one, *n));
     let mut found: Vec<i32> = all.into_iter().filter(everywhere).collect();
     found.dedup();
     found

@@ -136,8 +136,10 @@ impl<'g> Site<'g> {
                     return Vec::new();
                 };
                 let count = range.hi - range.lo + 1.0;
+                let taken = |n: &i32| *n != 0 || !range.nonzero;
                 match count >= 2.0 && count <= FEW as f64 {
                     true => (range.lo as i32..=range.hi as i32)
+                        .filter(taken)
                         .map(Value::Int)
                         .collect(),
                     false => Vec::new(),
