@@ -95,7 +95,7 @@ impl Shapes {
 /// The shape of what is no place.
 pub(super) fn of_slot(plan: &Plan, slot: Slot) -> Shape {
     match slot {
-        Slot::Axis(_) => Shape::of(Range::new(0.0, 32767.0), MOST),
+        Slot::Axis(_) | Slot::RunEnd => Shape::of(Range::new(0.0, 32767.0), MOST),
         Slot::Received => Shape::whole(size(plan.runtime.real)),
         Slot::Param(p) => match plan.graph.params.get(p as usize).map(|p| p.ty) {
             Some(Type::Real) => Shape::whole(size(plan.runtime.real)),
