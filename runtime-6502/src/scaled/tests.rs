@@ -212,6 +212,31 @@ fn reciprocals_are_quotients() {
 }
 
 #[test]
+fn short_ints_have_products_of_32_bits() {
+    let setting = Setting {
+        runtime: &FIXED16,
+        sizes: 4,
+    };
+    let name = |r: &&Routine| r.name == "int_mul_16";
+    let routine = FIXED16.routines.iter().find(name).unwrap();
+    let mut bench = Bench::of(setting, routine, &[], 0);
+    let mut all = edges();
+    all.push(-32768);
+    let (mut cycles, mut checked) = (0, 0u32);
+    for a in &all {
+        for b in &all {
+            let (found, taken) = bench.run(&[*a, *b]);
+            assert_eq!(found, a * b, "{a} * {b}");
+            let held = [*a, *b].map(|n| bits(n));
+            assert_eq!(int((routine.model)(&held)), a * b);
+            (cycles, checked) = (cycles + taken, checked + 1);
+        }
+    }
+    let mean = cycles as f64 / f64::from(checked);
+    assert!((mean - f64::from(routine.cycles)).abs() < 20.0, "{mean} cycles");
+}
+
+#[test]
 fn every_operation_has_a_total_routine() {
     for op in Op::ALL {
         let of_reals = op.result() == Type::Real || op.args().contains(&Type::Real);

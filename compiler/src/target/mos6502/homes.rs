@@ -64,7 +64,7 @@ pub(super) struct Homes {
     pub places: Places,
     /// The subroutines' labels.
     subroutines: Vec<String>,
-    /// Where memory is short: the place whose home each place shares.
+    /// The place whose home each place shares, where memory is short or homes are small.
     shared: HashMap<Place, Place>,
     /// In how many bytes values are kept, where that is by their ranges.
     shapes: Option<Shapes>,
@@ -88,7 +88,9 @@ impl Homes {
     pub fn new(plan: &Plan) -> Homes {
         let fused = fused(plan);
         let shapes = shapes::shapes(plan);
-        let shared = match plan.tight {
+        // The zero page holds more of values that share homes, and a copy is none where both
+        // are in one.
+        let shared = match plan.tight || shapes.is_some() {
             true => sharing(plan, shapes.as_ref()),
             false => HashMap::new(),
         };
