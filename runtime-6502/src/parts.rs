@@ -192,10 +192,16 @@ pub(crate) static ALL: &[Part] = &[
         42,
     ),
     part(
-        "exact32",
-        include_str!("../asm/scaled/exact.asm"),
-        &["widen_both", "int_multiply"],
-        8,
+        "product32",
+        include_str!("../asm/scaled/product32.asm"),
+        &["product"],
+        31,
+    ),
+    part(
+        "int_product",
+        include_str!("../asm/scaled/int_product.asm"),
+        &["product32"],
+        24,
     ),
     terms(
         "reciprocals_low",

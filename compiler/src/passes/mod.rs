@@ -17,6 +17,7 @@ pub mod identities;
 pub mod int_signs;
 pub mod interlace;
 pub mod later;
+pub mod limits;
 mod moves;
 pub mod narrow;
 pub mod near;

@@ -282,7 +282,11 @@ impl Site<'_> {
         let base = found.as_ref().unwrap_or(plain);
         let found = self.around(base).or(found);
         let base = found.as_ref().unwrap_or(plain);
-        let found = self.sited(base, SHORTER, Rewrite::Identities).or(found);
+        let found = match self.sited(base, SHORTER, Rewrite::Identities) {
+            // A formula may have a factor of few values.
+            Some(shorter) => Some(chosen(&shorter, self.shop, &self.price).unwrap_or(shorter)),
+            None => found,
+        };
         let base = found.as_ref().unwrap_or(plain);
         let cut = (self.thrift.runs())
             .then(|| self.sited(base, SPANS, Rewrite::Spans))

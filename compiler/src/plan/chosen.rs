@@ -7,10 +7,12 @@ use super::price::Price;
 use super::settled::Settled;
 use super::thrift::Thrift;
 use super::workshop::Workshop;
+use crate::flow::graph::Graph;
 use crate::passes::arms::{arms, conditions};
 use crate::passes::either::{self, either};
 use crate::passes::factors::factors;
 use crate::passes::fold::fold;
+use crate::passes::limits::limits;
 use crate::passes::reciprocals::reciprocals;
 use crate::passes::zones::{Choice, Way, choices};
 use slowlight_routine::Format;
@@ -95,11 +97,24 @@ fn in_zones(plan: Settled, shop: &Workshop, price: &Price) -> Settled {
     best
 }
 
+/// With divisors compared instead of quotients, where those are dear.
+pub fn with_limits(plan: Settled, shop: &Workshop, thrift: Thrift) -> Settled {
+    let next = (shop.runtime.reciprocals)
+        .then(|| limits(&plan.graph, &plan.ranges))
+        .flatten();
+    cheaper_of(plan, next, shop, thrift)
+}
+
 /// With products instead of quotients, where those are dear.
 pub fn with_reciprocals(plan: Settled, shop: &Workshop, thrift: Thrift) -> Settled {
     let next = (shop.runtime.reciprocals)
-        .then(|| reciprocals(&plan.graph, &plan.ranges))
+        .then(|| reciprocals(&plan.graph, &plan.ranges, shop.runtime))
         .flatten();
+    cheaper_of(plan, next, shop, thrift)
+}
+
+/// A plan, or one of another graph of the same picture where that is cheaper.
+fn cheaper_of(plan: Settled, next: Option<Graph>, shop: &Workshop, thrift: Thrift) -> Settled {
     let Some(next) = next.map(|graph| shop.settle(&graph)) else {
         return plan;
     };

@@ -1,7 +1,7 @@
 //! How a plan is made: the passes in their order, then a routine for each value.
 
 use super::cheaper::{apart_at_last, cheaper, with_inks_split, with_recipes_followed};
-use super::chosen::{asked_where_it_matters, in_arms, with_reciprocals};
+use super::chosen::{asked_where_it_matters, in_arms, with_limits, with_reciprocals};
 use super::params::{self, ParamPlan};
 use super::price::Price;
 use super::settled::{Known, Settled};
@@ -129,6 +129,7 @@ pub(super) fn planned(
             let all = all
                 .into_iter()
                 .map(|plan| asked_where_it_matters(plan, shop, thrift))
+                .map(|plan| with_limits(plan, shop, thrift))
                 .map(|plan| with_reciprocals(plan, shop, thrift))
                 .map(|plan| with_recipes_followed(plan, shop, thrift))
                 .map(|plan| stepped(plan, shop, target, thrift, steps))

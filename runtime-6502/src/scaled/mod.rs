@@ -34,7 +34,15 @@ pub const REAL: Format = Format::Scaled { bits: BITS };
 pub const FREE_ZERO_PAGE: u8 = 0x34;
 
 /// The runtime of fixed-point reals with points of their own.
-pub static FIXED16: Runtime = Runtime {
+pub static FIXED16: Runtime = USUAL;
+
+/// The same for programs that draw rows in passes and runs of columns.
+pub static FIXED16_IN_RUNS: Runtime = Runtime {
+    segments: true,
+    ..USUAL
+};
+
+const USUAL: Runtime = Runtime {
     format: "fixed16",
     real: REAL,
     routines: &routines::ALL,

@@ -73,6 +73,12 @@ pub fn read(read: Read<'_>, lines: &mut Vec<String>) -> Option<&'static str> {
             "lda {low} | sta {to} | lda {high} | {}sta {to}+1",
             times(&format!("asl {to} | rol"), by)
         )),
+        // What leaves 16 bits has another sign then.
+        1 if !narrow => code(format!(
+            "lda {low} | asl | sta {to} | lda {high} | rol | sta {to}+1 | eor {high} | bpl fits{n}
+            | lda {high} | asl | lda #$7f | adc #0 | sta {to}+1 | eor #$80 | ora #1 | sta {to} | bne read{n}
+            | fits{n}: | lda {to}+1 | cmp #$80 | bne read{n} | lda {to} | bne read{n} | inc {to} | read{n}:"
+        )),
         0.. => {
             code(format!(
                 "lda {low} | ldx {high} | ldy #{} | jsr left16 | sta {to} | stx {to}+1",

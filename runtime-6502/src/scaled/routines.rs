@@ -65,6 +65,11 @@ fn power_of_two(args: &[Range], _: Range) -> bool {
     one.is_some_and(|one| one >= 1.0 && (one as u32).is_power_of_two())
 }
 
+/// Ints of 16 bits.
+fn short(args: &[Range], _: Range) -> bool {
+    args.iter().all(|a| a.within(-32768.0, 32767.0))
+}
+
 /// Operands whose difference is a number.
 fn near(args: &[Range], _: Range) -> bool {
     match args {
@@ -117,6 +122,9 @@ const REALS: &[Routine] = &[
     scaled!("sub" Sub(R, R) -> R, templates::SUBTRACT, [], fits, EXACT, |a, b, n| a - b, 20, 13),
     scaled!("any_sub" Sub(R, R) -> R, t::SATURATING_SUBTRACT, [], everywhere, EXACT, |a, b, n| model::held(i64::from(a) - i64::from(b)), 28, 39),
     scaled!("times_one" Mul(R, R) -> R, t::COPY, [], number!(0 to 0, is(1, 1.0)), EXACT, |a, b, n| a, 12, 8),
+    scaled!("times_minus_one" Mul(R, R) -> R, templates::NEGATE, [], number!(0 to 0, is(1, -1.0)), EXACT, |a, b, n| -a, 18, 13),
+    scaled!("one_times" Mul(R, R) -> R, t::COPY_SECOND, [], number!(0 to 0, is(0, 1.0)), EXACT, |a, b, n| b, 12, 8),
+    scaled!("minus_one_times" Mul(R, R) -> R, t::NEGATE_SECOND, [], number!(0 to 0, is(0, -1.0)), EXACT, |a, b, n| -b, 18, 13),
     scaled!("mul" Mul(R, R) -> R, t::MULTIPLY_16, ["product"], number!(16 to 16), NEAREST, |a, b, n| model::multiply(a, b, n), 260, 32),
     scaled!("double_mul" Mul(R, R) -> R, t::MULTIPLY_15, ["product"], number!(15 to 15), NEAREST, |a, b, n| model::multiply(a, b, n), 270, 37),
     scaled!("mul_14" Mul(R, R) -> R, t::MULTIPLY_14, ["product"], number!(14 to 14, fits_rounded), CUT, |a, b, n| model::multiply(a, b, n), 300, 36),
@@ -127,8 +135,8 @@ const REALS: &[Routine] = &[
     scaled!("any_mul_12" Mul(R, R) -> R, t::MULTIPLY_ANY_12, ["product", "up"], number!(12 to 12), CUT, |a, b, n| model::multiply(a, b, n), 358, 25),
     scaled!("low_mul" Mul(R, R) -> R, t::MULTIPLY_RIGHT, ["lower24"], number!(17 to 31), Error::Absolute(0.77), |a, b, n| model::multiply(a, b, n), 320, 29),
     scaled!("wide_mul" Mul(R, R) -> R, t::MULTIPLY_ANY, ["narrow24"], number!(8 to 11), Error::Absolute(1.5), |a, b, n| model::multiply(a, b, n), 550, 29),
-    scaled!("far_mul" Mul(R, R) -> R, t::MULTIPLY_DOWN, ["exact32", "narrow"], number!(1 to 99), NEAREST, |a, b, n| model::any_product(a, b, n), 900, 29),
-    scaled!("long_mul" Mul(R, R) -> R, t::MULTIPLY_UP, ["exact32", "narrow"], number!(-99 to 0), ANY, |a, b, n| model::any_product(a, b, n), 900, 29),
+    scaled!("far_mul" Mul(R, R) -> R, t::MULTIPLY_DOWN, ["int_product", "narrow"], number!(1 to 99), NEAREST, |a, b, n| model::any_product(a, b, n), 500, 29),
+    scaled!("long_mul" Mul(R, R) -> R, t::MULTIPLY_UP, ["int_product", "narrow"], number!(-99 to 0), ANY, |a, b, n| model::any_product(a, b, n), 500, 29),
     scaled!("one_over" Div(R, R) -> R, t::ONE_OVER, ["one_over"], number!(0 to 30, power_of_two), QUOTIENT, |a, b, n| model::divide(a, b, n), 230, 17),
     scaled!("div" Div(R, R) -> R, t::DIVIDE, ["divide16"], number!(0 to 30), QUOTIENT, |a, b, n| model::divide(a, b, n), 597, 30),
     scaled!("root" Sqrt(R) -> R, t::ROOT, ["root16"], |args, _| number(args) % 2 == 0 && (1..=15).contains(&number(args)), ROOT, |a, b, n| model::root(a, n), 200, 20),
@@ -166,6 +174,19 @@ const REALS: &[Routine] = &[
     scaled!("round" Round(R) -> I, "!whole", [], everywhere, EXACT, |a, b, n| a, 12, 8),
     scaled!("to_real" ToReal(I) -> R, "~[lda {0.k} | sta {r.k}]", [], everywhere, EXACT, |a, b, n| a, 12, 8),
     scaled!("sign" Sign(R) -> I, t::SIGN, [], everywhere, EXACT, |a, b, n| a.signum(), 20, 15),
+    Routine {
+        name: "int_mul_16",
+        op: Op::IntMul,
+        args: &[I, I],
+        result: I,
+        form: Form::Statement("int_product"),
+        needs: &["int_product"],
+        cycles: 340,
+        bytes: 51,
+        domain: short,
+        error: EXACT,
+        model: |all| bits(all.iter().fold(1, |product: i32, a| product.wrapping_mul(int(*a)))),
+    },
     scaled!("negative" Less(R, R) -> B, templates::NEGATIVE, [], |args, result| is(1, 0.0)(args, result), EXACT, |a, b, n| i32::from(a < 0), 5, 4),
     scaled!("less" Less(R, R) -> B, t::LESS_NEAR, [], near, EXACT, |a, b, n| i32::from(a < b), 14, 10),
     scaled!("far_less" Less(R, R) -> B, templates::LESS, [], everywhere, EXACT, |a, b, n| i32::from(a < b), 17, 14),

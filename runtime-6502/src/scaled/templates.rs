@@ -5,6 +5,8 @@
 //! Products come back in `prod+1`, `prod+2` and a (high), all else in a and x (high).
 
 pub(crate) const COPY: &str = "~[lda {0.k} | sta {r.k}]";
+pub(crate) const COPY_SECOND: &str = "~[lda {1.k} | sta {r.k}]";
+pub(crate) const NEGATE_SECOND: &str = "~sec [lda #0 | sbc {1.k} | sta {r.k}]";
 
 /// What is left at the format's end has a negative.
 macro_rules! saturate {

@@ -36,7 +36,7 @@ fn numbers(routine: &Routine) -> Vec<i32> {
         let ranges = [value, value, f64::from(n)].map(Range::point);
         (routine.domain)(&ranges, Range::point(0.0))
     };
-    let everywhere = |n: &i32| at(1.0, *n) || at(0.0, *n);
+    let everywhere = |n: &i32| [1.0, 0.0, -1.0].iter().any(|one| at(*one, *n));
     let mut found: Vec<i32> = all.into_iter().filter(everywhere).collect();
     found.dedup();
     found
@@ -209,6 +209,31 @@ fn reciprocals_are_quotients() {
         }
     }
     assert!(worst <= 1.5, "{worst}");
+}
+
+#[test]
+fn short_ints_have_products_of_32_bits() {
+    let setting = Setting {
+        runtime: &FIXED16,
+        sizes: 4,
+    };
+    let name = |r: &&Routine| r.name == "int_mul_16";
+    let routine = FIXED16.routines.iter().find(name).unwrap();
+    let mut bench = Bench::of(setting, routine, &[], 0);
+    let mut all = edges();
+    all.push(-32768);
+    let (mut cycles, mut checked) = (0, 0u32);
+    for a in &all {
+        for b in &all {
+            let (found, taken) = bench.run(&[*a, *b]);
+            assert_eq!(found, a * b, "{a} * {b}");
+            let held = [*a, *b].map(|n| bits(n));
+            assert_eq!(int((routine.model)(&held)), a * b);
+            (cycles, checked) = (cycles + taken, checked + 1);
+        }
+    }
+    let mean = cycles as f64 / f64::from(checked);
+    assert!((mean - f64::from(routine.cycles)).abs() < 20.0, "{mean} cycles");
 }
 
 #[test]

@@ -7,6 +7,9 @@ use crate::write::{Place, byte};
 /// The most bits to the right that are read so.
 const MOST: u32 = 16;
 
+/// From so many bits of a byte on it is quicker to go to the left.
+const LEFT: u32 = 5;
+
 /// Writes the reading; whether there is such.
 pub(super) fn read(read: Read<'_>, lines: &mut Vec<String>) -> bool {
     let Read {
@@ -40,6 +43,18 @@ pub(super) fn read(read: Read<'_>, lines: &mut Vec<String>) -> bool {
         code(&format!("sta {to}+1"));
         code(&format!(
             "lda {below} | bpl read{n} | inc {to} | bne read{n} | inc {to}+1 | read{n}:"
+        ));
+        return true;
+    }
+    if bits >= LEFT {
+        // By the rest of a byte to the left, and a byte to the right.
+        code(&format!("lda {} | sta acc", at(0)));
+        upper(from, first + 1, &mut code);
+        code(&format!("sta {to}"));
+        upper(from, first + 2, &mut code);
+        code(&format!("asl acc | rol {to} | rol | ").repeat((8 - bits) as usize));
+        code(&format!(
+            "sta {to}+1 | asl acc | bcc read{n} | inc {to} | bne read{n} | inc {to}+1 | read{n}:"
         ));
         return true;
     }

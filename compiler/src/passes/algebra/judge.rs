@@ -55,7 +55,9 @@ pub fn cycles(
                 false => held.max(often),
             };
         };
+        // The column itself is there anyway.
         if let Some(stepping) = stepping
+            && !matches!(nodes.node(id), Node::Axis(_))
             && let Some(degree @ 1..) = degree(nodes, id, &mut varies)
         {
             sum += often * f64::from(degree * stepping.ramp);

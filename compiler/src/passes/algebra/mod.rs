@@ -35,6 +35,7 @@ mod span;
 mod span_tests;
 #[cfg(test)]
 mod tests;
+mod turns;
 mod whole;
 
 use super::identities::Found;
@@ -59,6 +60,7 @@ pub use span::spans;
 use std::cell::RefCell;
 use std::collections::{BTreeSet, HashSet};
 use std::sync::OnceLock;
+pub(super) use turns::Turns;
 pub use whole::Whole;
 
 /// By how much a form's roundings may exceed those of what it replaces, given

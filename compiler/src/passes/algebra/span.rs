@@ -3,7 +3,8 @@
 //! A comparison that is decided by the sign of a polynomial of degree 1 or 2 in
 //! the column, its coefficients the same for the whole row, holds between two
 //! columns or outside of them. These are worked out where the row begins, with
-//! ordinary nodes, and a pixel compares its column with them ([`super::ends`]).
+//! ordinary nodes, and a pixel compares its column with them ([`super::ends`]). The sign of
+//! such a polynomial that is never 0 is chosen by that.
 
 use super::ends::Asked;
 use super::extent::{Extents, negative};
@@ -66,6 +67,7 @@ pub fn spans<'g>(
         let strict = match op {
             Op::Less | Op::IntLess => true,
             Op::LessEqual | Op::IntLessEqual => false,
+            Op::Sign | Op::IntSign if site.full.two(id.0)?.low == -1 => true,
             _ => return None,
         };
         let mut put = Put {
@@ -74,13 +76,17 @@ pub fn spans<'g>(
             new: &new,
             span,
         };
+        let asked = |put: &mut Put<'_, '_>| match op {
+            Op::Sign | Op::IntSign => site.sign(put, a),
+            _ => site.compared(put, strict, [a, b], CHOICES),
+        };
         site.exact.set(true);
-        let made = site.compared(&mut put, strict, [a, b], CHOICES)?;
+        let made = asked(&mut put)?;
         // What is asked at the borders must be as good as what the pixel asked.
         site.plainly.set(true);
-        let asked = site.compared(&mut put, strict, [a, b], CHOICES);
+        let plain = asked(&mut put);
         site.plainly.set(false);
-        if !judge.sound(put.builder, &new, id, asked?) {
+        if !judge.sound(put.builder, &new, id, plain?) {
             return None;
         }
         let now = cycles(&*put.builder, made, runtime, &|_| false);
@@ -130,6 +136,16 @@ pub(super) struct Site<'g> {
 }
 
 impl Site<'_> {
+    /// The sign of what is never 0.
+    fn sign(&self, put: &mut Put<'_, '_>, of: NodeId) -> Option<NodeId> {
+        let [part] = self.rows.get(of)?.parts.as_slice() else {
+            return None;
+        };
+        let above = self.decided(put, true, &negative(&part.poly))?;
+        let [yes, no] = [1, -1].map(|n| put.builder.constant(Value::Int(n), put.span));
+        Some(put.builder.select(above, yes, no, put.span))
+    }
+
     /// Whether the first value is less than the second (or at most that).
     fn compared(
         &self,

@@ -10,8 +10,8 @@
 //!
 //! Over the reals nothing changes. At least one product at a pixel is gone for one
 //! product with a constant on the other side, so no more roundings meet in the
-//! comparison than before. Fixed point and logarithms keep their comparisons: a
-//! threshold may leave their range.
+//! comparison than before. Fixed point and logarithms keep their comparisons, since a
+//! threshold may leave their range, but where each value has its own point.
 //!
 //! The choice copies what stands between the factor and the value that is chosen, so it
 //! is for the plan to find out which of the ways pays, if any.
@@ -85,7 +85,12 @@ impl<'g> Site<'g> {
             ranges,
             rates: rates(graph),
             of: Vec::with_capacity(graph.nodes.len()),
-            moves: !(runtime.real.is_fixed() || matches!(runtime.real, Format::Log { .. })),
+            moves: match runtime.real {
+                // Each threshold has a point of its own.
+                Format::Scaled { .. } => true,
+                Format::Log { .. } => false,
+                real => !real.is_fixed(),
+            },
         };
         for id in graph.ids() {
             let of = site.made_of(id);
@@ -136,8 +141,10 @@ impl<'g> Site<'g> {
                     return Vec::new();
                 };
                 let count = range.hi - range.lo + 1.0;
+                let taken = |n: &i32| *n != 0 || !range.nonzero;
                 match count >= 2.0 && count <= FEW as f64 {
                     true => (range.lo as i32..=range.hi as i32)
+                        .filter(taken)
                         .map(Value::Int)
                         .collect(),
                     false => Vec::new(),

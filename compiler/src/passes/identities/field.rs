@@ -9,7 +9,7 @@
 //! what would need its sign is not found.
 
 use crate::flow::graph::*;
-use crate::passes::algebra::{Forms, Number};
+use crate::passes::algebra::{Forms, Number, Turns};
 use crate::range::Ranges;
 use slowlight_routine::{Op, Range, Type};
 use std::collections::{HashMap, HashSet};
@@ -127,6 +127,9 @@ pub struct Field<'g> {
     ranges: &'g Ranges,
     forms: &'g Forms<'g>,
     roots: Vec<NodeId>,
+    /// Conditions and signs that go with another sign: what is chosen by one, and what
+    /// has the other for a factor, are of one side.
+    turns: Turns,
 }
 
 impl<'g> Field<'g> {
@@ -136,6 +139,7 @@ impl<'g> Field<'g> {
             ranges,
             forms,
             roots: Vec::new(),
+            turns: forms.turns(),
         };
         // The root of one value and that of three times it are never both there.
         for root in roots(graph, ranges) {
@@ -183,7 +187,7 @@ impl<'g> Field<'g> {
                     conditions.push(self.turned(cond).0);
                     todo.extend([yes, no]);
                 }
-                Node::Apply(Op::Sign | Op::IntSign, _) => conditions.push(id),
+                Node::Apply(Op::Sign | Op::IntSign, _) => conditions.push(self.turned(id).0),
                 node => {
                     conditions.extend(self.roots.contains(&id).then_some(id));
                     todo.extend(node.operands());
@@ -284,7 +288,8 @@ impl Field<'_> {
                 of(if coin(cond) != turned { yes } else { no })?
             }
             Node::Apply(Op::Sign | Op::IntSign, _) if self.is_unit(id) => {
-                if coin(id) {
+                let (sign, turned) = self.turned(id);
+                if coin(sign) != turned {
                     1
                 } else {
                     whole(-1)
@@ -305,13 +310,17 @@ impl Field<'_> {
         two.is_some_and(|two| (two.low, two.high) == (-1, 1))
     }
 
-    /// A condition without its negations, and whether those turn it.
+    /// What tells how a condition without its negations goes, or a sign, and whether it
+    /// goes the other way.
     fn turned(&self, mut cond: NodeId) -> (NodeId, bool) {
         let mut turned = false;
         while let Node::Apply(Op::Not, [inner, _]) = self.graph.node(cond) {
             (cond, turned) = (inner, !turned);
         }
-        (cond, turned)
+        match self.turns.get(&cond) {
+            Some((sign, other)) => (*sign, turned != *other),
+            None => (cond, turned),
+        }
     }
 
     fn applied(&self, id: NodeId, op: Op, a: u64, b: u64) -> Option<u64> {

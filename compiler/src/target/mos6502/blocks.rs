@@ -4,6 +4,7 @@
 use super::Text;
 use super::homes::{Homes, Slot};
 use crate::flow::graph::Axis;
+use crate::passes::interlace::passes;
 use crate::plan::Plan;
 use slowlight_runtime_6502::write::{self, Place as Operand};
 
@@ -15,6 +16,8 @@ pub(super) struct Blocks {
     size: (u32, u32),
     /// The left column of a row's first block, and the screen's row of the picture's first.
     first: [u64; 2],
+    /// How far a pixel's block is from the next one drawn, in blocks.
+    passes: u32,
 }
 
 impl Blocks {
@@ -28,7 +31,13 @@ impl Blocks {
         let (column, _) = plan.computed_columns();
         let left = i64::from(column) * i64::from(size.0) + i64::from(plan.offset.0);
         let first = [left, i64::from(plan.offset.1)].map(|n| n as u64);
-        Some(Blocks { place, size, first })
+        let passes = passes(&plan.graph);
+        Some(Blocks {
+            place,
+            size,
+            first,
+            passes,
+        })
     }
 
     /// Before a row's first block: both places. The row's is a sum, which is short.
@@ -45,6 +54,27 @@ impl Blocks {
         text.code(&format!("clc | lda {name} | adc {y} | sta {name}"));
         text.code(&format!("lda {name}+1 | adc {y}+1 | sta {name}+1"));
         text.code("dex | bne down_to_row | dey | bne down_to_row");
+    }
+
+    /// Before the first block of a pass at a column.
+    pub fn pass(&self, start: &str, first: u32, text: &mut Text) {
+        let [left, _] = &self.place;
+        let [lo, hi] = [0, 1].map(|k| write::byte(&Operand::Constant(self.first[0]), k));
+        text.code(&format!("lda {lo} | sta {left} | lda {hi} | sta {left}+1"));
+        let [behind, ..] = first.to_le_bytes();
+        text.code(&format!("sec | lda {start} | sbc #{behind} | tax | beq at_pass"));
+        text.label("right_to_pass");
+        self.right(1, text);
+        text.code("dex | bne right_to_pass");
+        text.label("at_pass");
+    }
+
+    /// So many blocks to the right.
+    fn right(&self, blocks: u32, text: &mut Text) {
+        let [left, _] = &self.place;
+        let [lo, hi, ..] = (blocks * self.size.0).to_le_bytes();
+        text.code(&format!("clc | lda {left} | adc #{lo} | sta {left}"));
+        text.code(&format!("lda {left}+1 | adc #{hi} | sta {left}+1"));
     }
 
     /// Draws the block.
@@ -64,11 +94,8 @@ impl Blocks {
         text.code(&format!("inx | cpx #{high} | bne block_line"));
     }
 
-    /// Goes on to the next block of the row.
+    /// Goes on to the next block of the row or pass.
     pub fn next(&self, text: &mut Text) {
-        let [left, _] = &self.place;
-        let [lo, hi, ..] = self.size.0.to_le_bytes();
-        text.code(&format!("clc | lda {left} | adc #{lo} | sta {left}"));
-        text.code(&format!("lda {left}+1 | adc #{hi} | sta {left}+1"));
+        self.right(self.passes, text);
     }
 }

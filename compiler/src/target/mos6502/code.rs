@@ -21,6 +21,8 @@ pub(super) struct Code<'p> {
     pub clamps: bool,
     /// Parts of the runtime that are needed beside those of the plan's routines.
     pub needs: Vec<&'static str>,
+    /// Whether comparisons with the column end the run that begins here.
+    pub in_run: bool,
 }
 
 /// Bytes of some lines of assembly, at most.
@@ -31,6 +33,17 @@ fn most_bytes(text: &Text) -> usize {
 }
 
 impl<'p> Code<'p> {
+    pub fn new(plan: &'p Plan, homes: &'p Homes, text: &'p mut Text) -> Code<'p> {
+        Code {
+            plan,
+            homes,
+            text,
+            clamps: false,
+            needs: Vec::new(),
+            in_run: false,
+        }
+    }
+
     pub fn block(&mut self, block: &Block) {
         for statement in block {
             self.statement(statement);
@@ -44,13 +57,8 @@ impl<'p> Code<'p> {
             span: self.text.span,
             ..Text::default()
         };
-        let mut code = Code {
-            plan: self.plan,
-            homes: self.homes,
-            text: &mut text,
-            clamps: false,
-            needs: Vec::new(),
-        };
+        let mut code = Code::new(self.plan, self.homes, &mut text);
+        code.in_run = self.in_run;
         write(&mut code);
         self.clamps |= code.clamps;
         let needs = std::mem::take(&mut code.needs);
@@ -103,6 +111,7 @@ impl<'p> Code<'p> {
 
     fn compute(&mut self, id: NodeId) {
         self.text.span = Some(self.plan.graph.span(id));
+        self.end_run(id);
         self.text.line(format!(
             "        {}",
             comment::of_value(self.plan, self.homes, id)
@@ -132,6 +141,7 @@ impl<'p> Code<'p> {
                 let from = self.homes.operand(self.plan, first);
                 self.copy_into(&from, &to, place);
             }
+            Node::Stepped { step, .. } => self.add_step(id, step),
             _ => {}
         }
     }
@@ -154,21 +164,26 @@ impl<'p> Code<'p> {
     /// Brings the ramps to the next column.
     pub fn step(&mut self) {
         for (id, by) in self.plan.ramps() {
-            let place = Place::Node(id);
-            let to = self.homes.place(place).to_owned();
-            let step = self.homes.operand(self.plan, by);
-            let said = comment::operand(self.plan, self.homes, by);
             self.text.span = Some(self.plan.graph.span(id));
-            self.text.line(format!("        ; {to} = {to} + {said}"));
-            let adds = |r: &&Routine| r.name == "int_add";
-            if let Some(routine) = self.plan.runtime.routines.iter().find(adds) {
-                let ramp = self.homes.held_in(self.plan, place);
-                let shape = self.homes.shape(self.plan, place);
-                let bytes = shape.map_or(write::size(routine.result), |shape| shape.bytes);
-                self.use_of(routine, &[ramp, step], &Goal::Held(&to, bytes), 0);
-            }
+            self.add_step(id, by);
         }
         self.text.span = None;
+    }
+
+    /// Adds a step to what is stepped.
+    fn add_step(&mut self, id: NodeId, by: NodeId) {
+        let place = Place::of(&self.plan.graph, id);
+        let to = self.homes.place(place).to_owned();
+        let step = self.homes.operand(self.plan, by);
+        let said = comment::operand(self.plan, self.homes, by);
+        self.text.line(format!("        ; {to} = {to} + {said}"));
+        let adds = |r: &&Routine| r.name == "int_add";
+        if let Some(routine) = self.plan.runtime.routines.iter().find(adds) {
+            let ramp = self.homes.held_in(self.plan, place);
+            let shape = self.homes.shape(self.plan, place);
+            let bytes = shape.map_or(write::size(routine.result), |shape| shape.bytes);
+            self.use_of(routine, &[ramp, step], &Goal::Held(&to, bytes), 0);
+        }
     }
 
     /// A copy into a place.

@@ -1,14 +1,14 @@
-//! The program around the statements: its head, the picture's opening, the
-//! loops over rows and columns, and the runtime's parts.
+//! The program around the statements: its head, the picture's opening and end, and the
+//! runtime's parts.
 
 use super::code::Code;
-use super::homes::{Homes, Slot};
+use super::homes::Homes;
 use super::memory::Machine;
 use super::params::{Entry, entries, take_params};
+use super::rows::Rows;
 use super::screen::Screen;
 use super::syntax::Syntax;
 use super::{Text, bbc, c64, ports, table};
-use crate::flow::graph::Axis;
 use crate::flow::tree::SubroutineId;
 use crate::plan::Plan;
 use slowlight_routine::{Format, Part, Source, Type};
@@ -175,13 +175,7 @@ fn main(
     if let Some(screen) = &screen {
         screen.open(plan, text);
     }
-    let mut code = Code {
-        plan,
-        homes,
-        text,
-        clamps: false,
-        needs: Vec::new(),
-    };
+    let mut code = Code::new(plan, homes, text);
     let errors = plan.error_rows();
     if let Some(rows) = &errors {
         code.start_errors(rows);
@@ -191,86 +185,9 @@ fn main(
         code.block(&plan.tree.frame);
     }
     code.text.span = plan.drawn;
-    let [x, y] = [Axis::X, Axis::Y].map(|axis| homes.name(Slot::Axis(axis)).to_owned());
-    let [first, last] = [false, true].map(|end| homes.name(Slot::Rows(end)).to_owned());
-    // Errors come from the rows above, drawn or not.
-    let top = match errors {
-        Some(_) => Operand::Constant(0),
-        None => Operand::At(first.clone()),
-    };
-    code.copy_axis(&top, &y);
-
-    code.text.headline("once a row");
-    code.text.label("next_row");
-    if let Some(screen) = &screen {
-        screen.row(&y, code.text);
-    }
-    let columns = plan.computed_columns();
-    code.copy_axis(&Operand::Constant(u64::from(columns.0)), &x);
-    code.block(&plan.tree.row);
-    code.text.span = plan.drawn;
-    if columns.0 > 0 && !plan.ramps().is_empty() {
-        // To the first column, by as many steps as there are before it.
-        let [lo, hi, ..] = columns.0.to_le_bytes();
-        code.text
-            .code(&format!("lda #{lo} | sta count | lda #{hi} | sta bits"));
-        code.text.label("next_step");
-        code.step();
-        code.text.code("lda count | bne low_step | dec bits");
-        code.text.label("low_step");
-        code.text
-            .code("dec count | lda count | ora bits | beq last_step | jmp next_step");
-        code.text.label("last_step");
-    }
-
-    code.text.headline("once a pixel");
-    code.text.label("next_pixel");
-    if let Some(rows) = &errors {
-        code.receive_errors(rows);
-    }
-    code.block(&plan.tree.pixel);
-    code.text.span = plan.drawn;
-    if let Some(screen) = &screen {
-        let ink = write::byte(&homes.operand(plan, plan.graph.ink), 0);
-        if errors.is_some() {
-            code.text.code(&format!(
-                "lda {y} | cmp {first} | lda {y}+1 | sbc {first}+1 | bcc unseen_pixel"
-            ));
-        }
-        screen.pixel(&ink, code.text);
-        if errors.is_some() {
-            code.text.label("unseen_pixel");
-        }
-        screen.next(code.text);
-    }
-    if let Some(rows) = &errors {
-        code.send_errors(rows);
-    }
-    code.step();
-    let [end0, end1] = [0, 1].map(|k| write::byte(&Operand::Constant(u64::from(columns.1) + 1), k));
+    Rows::new(&code, screen.as_ref(), errors.as_ref()).write(&mut code);
     let (clamps, mut needs) = (code.clamps, std::mem::take(&mut code.needs));
     let text = &mut *code.text;
-    text.code(&format!("inc {x} | bne next_column | inc {x}+1"));
-    text.label("next_column");
-    text.code(&format!("lda {x} | cmp {end0} | bne more_pixels"));
-    text.code(&format!("lda {x}+1 | cmp {end1} | beq last_pixel"));
-    text.label("more_pixels");
-    text.code("jmp next_pixel");
-    text.label("last_pixel");
-    if let Some(rows) = &errors {
-        code.turn_errors(rows);
-    }
-    let text = &mut *code.text;
-    if let Some(screen) = &screen {
-        screen.row_done(text);
-    }
-    text.code(&format!(
-        "lda {y} | cmp {last} | lda {y}+1 | sbc {last}+1 | bcs picture_done"
-    ));
-    text.code(&format!("inc {y} | bne more_rows | inc {y}+1"));
-    text.label("more_rows");
-    text.code("jmp next_row");
-    text.span = None;
     text.label("picture_done");
     match machine {
         Machine::Plain => {
@@ -297,13 +214,9 @@ fn subroutines(plan: &Plan, homes: &Homes, text: &mut Text) -> (bool, Vec<&'stat
             subroutine.label()
         ));
         text.label(homes.subroutine(SubroutineId(k as u32)));
-        let mut code = Code {
-            plan,
-            homes,
-            text,
-            clamps: false,
-            needs: Vec::new(),
-        };
+        let mut code = Code::new(plan, homes, text);
+        // What a run calls may end it; elsewhere a run that ends sooner is right as well.
+        code.in_run = !plan.tree.segment.is_empty();
         code.block(&subroutine.body);
         clamps |= code.clamps;
         needs.append(&mut code.needs);

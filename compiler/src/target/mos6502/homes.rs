@@ -5,6 +5,9 @@ use super::names::Names;
 use super::shapes::{self, Shapes};
 use crate::flow::graph::*;
 use crate::flow::tree::*;
+use crate::passes::interlace::passes;
+use crate::passes::rate::rates;
+use crate::passes::segment::bounds_segment;
 use crate::plan::{Plan, shared_homes};
 use slowlight_routine::Format;
 use slowlight_runtime_6502::write::{self, Place as Operand, Shape};
@@ -27,6 +30,9 @@ pub(super) enum Slot {
     Rows(bool),
     /// Which param is being made.
     Which,
+    /// A pass's first column, and the last of a run.
+    PassFirst,
+    RunEnd,
     /// What earlier pixels sent to this one.
     Received,
     /// A pointer into a row of errors.
@@ -52,11 +58,13 @@ pub(super) struct Homes {
     pub params: Vec<String>,
     /// Conditions that the statement after them branches on: they have no home.
     pub fused: BTreeSet<NodeId>,
+    /// Comparisons with the column that end runs.
+    pub bounds: BTreeSet<NodeId>,
     /// Where the homes, rows of errors and the program are.
     pub places: Places,
     /// The subroutines' labels.
     subroutines: Vec<String>,
-    /// Where memory is short: the place whose home each place shares.
+    /// The place whose home each place shares, where memory is short or homes are small.
     shared: HashMap<Place, Place>,
     /// In how many bytes values are kept, where that is by their ranges.
     shapes: Option<Shapes>,
@@ -80,7 +88,9 @@ impl Homes {
     pub fn new(plan: &Plan) -> Homes {
         let fused = fused(plan);
         let shapes = shapes::shapes(plan);
-        let shared = match plan.tight {
+        // The zero page holds more of values that share homes, and a copy is none where both
+        // are in one.
+        let shared = match plan.tight || shapes.is_some() {
             true => sharing(plan, shapes.as_ref()),
             false => HashMap::new(),
         };
@@ -134,6 +144,7 @@ impl Homes {
             shared,
             params,
             fused,
+            bounds: bounds(plan),
             places,
             shapes,
         }
@@ -186,6 +197,11 @@ impl Homes {
         }
     }
 
+    /// The last column of a run as an operand.
+    pub fn run_end(&self, plan: &Plan) -> Operand {
+        self.held(plan, Slot::RunEnd)
+    }
+
     /// How a place is kept, where that is by its range.
     pub fn shape(&self, plan: &Plan, place: Place) -> Option<Shape> {
         self.shapes.as_ref().map(|shapes| shapes.of(plan, place))
@@ -198,11 +214,30 @@ impl Homes {
             (Some(place), _) => self.held_in(plan, place),
             (None, Node::Const(c)) => Operand::Constant(plan.bits(c.value())),
             (None, Node::Param(p)) => at(Slot::Param(p.0)),
-            (None, Node::Axis(axis)) => at(Slot::Axis(axis)),
+            (None, Node::Axis(axis)) => at(of_axis(axis)),
             (None, Node::Received) => at(Slot::Received),
             (None, _) => Operand::Constant(0),
         }
     }
+}
+
+/// A run begins at its first column.
+fn of_axis(axis: Axis) -> Slot {
+    match axis {
+        Axis::Run => Slot::Axis(Axis::X),
+        axis => Slot::Axis(axis),
+    }
+}
+
+/// Comparisons of the column with what the row knows, where columns come in runs.
+fn bounds(plan: &Plan) -> BTreeSet<NodeId> {
+    if plan.tree.segment.is_empty() {
+        return BTreeSet::new();
+    }
+    let rates = rates(&plan.graph);
+    let ids = plan.graph.ids();
+    ids.filter(|id| bounds_segment(&plan.graph, &rates, *id))
+        .collect()
 }
 
 /// Bools that are computed directly before the one statement that branches on them.
@@ -238,7 +273,7 @@ fn fused(plan: &Plan) -> BTreeSet<NodeId> {
 fn size(plan: &Plan, shapes: Option<&Shapes>, slot: Slot) -> u16 {
     match (slot, shapes) {
         (Slot::Value(place), Some(shapes)) => return u16::from(shapes.of(plan, place).bytes),
-        (Slot::Param(_) | Slot::Axis(_) | Slot::Received, Some(_)) => {
+        (Slot::Param(_) | Slot::Axis(_) | Slot::Received | Slot::RunEnd, Some(_)) => {
             return u16::from(shapes::of_slot(plan, slot).bytes);
         }
         _ => {}
@@ -247,8 +282,8 @@ fn size(plan: &Plan, shapes: Option<&Shapes>, slot: Slot) -> u16 {
         Slot::Value(place) => u16::from(write::size(plan.place_format(place))),
         Slot::Turns(of) => 1 + u16::from(most_turns(plan, of) > 0xFF),
         Slot::Which | Slot::ScreenByte => 1,
-        Slot::Errors(_) | Slot::Block(_) | Slot::ScreenAt | Slot::ScreenLine => 2,
-        Slot::Param(_) | Slot::Axis(_) | Slot::Rows(_) | Slot::Received => 4,
+        Slot::PassFirst | Slot::Errors(_) | Slot::Block(_) | Slot::ScreenAt | Slot::ScreenLine => 2,
+        Slot::Param(_) | Slot::Axis(_) | Slot::RunEnd | Slot::Rows(_) | Slot::Received => 4,
     }
 }
 
@@ -266,8 +301,9 @@ fn wanted(plan: &Plan, slot: Slot) -> String {
         }
         Slot::Axis(Axis::X | Axis::Run) => "pixel_x".to_owned(),
         Slot::Axis(Axis::Y) => "pixel_y".to_owned(),
-        // Here rows are drawn in one pass.
         Slot::Axis(Axis::Pass(_)) => "pixel_pass".to_owned(),
+        Slot::PassFirst => "pass_first".to_owned(),
+        Slot::RunEnd => "run_end".to_owned(),
         Slot::Block(Axis::Y) => "block_y".to_owned(),
         Slot::Block(_) => "block_x".to_owned(),
         Slot::Turns(of) => format!("turns_{}", of.0),
@@ -303,6 +339,8 @@ impl Uses<'_> {
         for (block, weight) in [
             (&tree.frame, 1),
             (&tree.row, 1 << 8),
+            (&tree.pass, 1 << 10),
+            (&tree.segment, 1 << 11),
             (&tree.pixel, 1 << 16),
         ] {
             self.weight = weight;
@@ -324,6 +362,17 @@ impl Uses<'_> {
         }
         self.add(Slot::Axis(Axis::X));
         self.add(Slot::Axis(Axis::Y));
+        let passes = passes(graph);
+        if passes > 1 {
+            self.add(Slot::Axis(Axis::Pass(passes)));
+            self.add(Slot::PassFirst);
+        }
+        if !tree.segment.is_empty() {
+            self.add(Slot::RunEnd);
+        }
+        if let Some(still) = &self.plan.still {
+            still.reads(graph).for_each(|id| self.read(id));
+        }
         if self.plan.plot && Machine::of(self.plan) != Machine::Plain {
             self.count.insert(Slot::ScreenAt, u64::MAX);
             self.add(Slot::ScreenByte);
@@ -351,7 +400,7 @@ impl Uses<'_> {
         match (self.plan.place(id), self.plan.graph.node(id)) {
             (Some(place), _) => self.add_place(place),
             (None, Node::Param(p)) => self.add(Slot::Param(p.0)),
-            (None, Node::Axis(axis)) => self.add(Slot::Axis(axis)),
+            (None, Node::Axis(axis)) => self.add(of_axis(axis)),
             (None, Node::Received) => self.add(Slot::Received),
             _ => {}
         }

@@ -21,6 +21,7 @@
 //! - `scaled`: reals with points of their own, read where they are wanted;
 //! - `code`: statements; `table`: lookups; `comment`: what a statement means;
 //! - `params`: the parameter block's checks; `frame`: everything around the statements;
+//!   `rows`: the loops over rows, passes, runs of columns and pixels;
 //! - `spread`: error diffusion.
 
 mod bbc;
@@ -35,6 +36,7 @@ mod memory;
 mod names;
 mod params;
 mod ports;
+mod rows;
 mod scaled;
 mod screen;
 mod shapes;
@@ -51,7 +53,7 @@ use crate::source::Span;
 use memory::Machine;
 pub use memory::{DISC_PAGE, Room};
 use slowlight_runtime_6502::FIXED16_16;
-use slowlight_runtime_6502::scaled::FIXED16;
+use slowlight_runtime_6502::scaled::{FIXED16, FIXED16_IN_RUNS};
 use syntax::Syntax;
 
 /// The plain machine: 64K of RAM and a port that takes ink by ink.
@@ -59,7 +61,7 @@ pub static PLAIN: Target = USUAL;
 
 /// The same with reals of 16 bits, each with fraction bits of its own.
 pub static PLAIN_FIXED16: Target = Target {
-    runtime: &FIXED16,
+    runtime: &FIXED16_IN_RUNS,
     ..USUAL
 };
 

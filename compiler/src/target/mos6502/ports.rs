@@ -2,7 +2,9 @@
 
 use super::Text;
 use super::blocks::Blocks;
-use super::homes::Homes;
+use super::homes::{Homes, Slot};
+use crate::flow::graph::Axis;
+use crate::passes::interlace::passes;
 use crate::plan::Plan;
 use slowlight_runtime_6502::write::{self, Place as Operand};
 
@@ -29,12 +31,19 @@ pub(super) struct Ports {
     blocks: Option<Blocks>,
     /// The left column and the picture's top row on the screen.
     first: [u64; 2],
+    /// The column, where each pixel says its own: passes leave columns out.
+    column: Option<String>,
 }
 
 impl Ports {
     pub fn new(plan: &Plan, homes: &Homes) -> Ports {
-        let left = i64::from(plan.computed_columns().0) + i64::from(plan.offset.0);
+        let apart = passes(&plan.graph) > 1;
+        let left = match apart {
+            true => i64::from(plan.offset.0),
+            false => i64::from(plan.computed_columns().0) + i64::from(plan.offset.0),
+        };
         Ports {
+            column: apart.then(|| homes.name(Slot::Axis(Axis::X)).to_owned()),
             blocks: Blocks::new(plan, homes),
             first: [left as u64, i64::from(plan.offset.1) as u64],
         }
@@ -82,9 +91,27 @@ impl Ports {
 
     /// Draws a pixel.
     pub fn pixel(&self, ink: &str, text: &mut Text) {
-        match &self.blocks {
-            Some(blocks) => blocks.draw(ink, text),
-            None => text.code(&format!("lda {ink} | sta ink_port")),
+        if let Some(blocks) = &self.blocks {
+            return blocks.draw(ink, text);
+        }
+        if let Some(x) = &self.column {
+            text.code(&match self.first[0] {
+                0 => format!("lda {x} | sta x_port | lda {x}+1 | sta x_port+1"),
+                left => {
+                    let [lo, hi] = [0, 1].map(|k| write::byte(&Operand::Constant(left), k));
+                    format!(
+                        "clc | lda {x} | adc {lo} | sta x_port | lda {x}+1 | adc {hi} | sta x_port+1"
+                    )
+                }
+            });
+        }
+        text.code(&format!("lda {ink} | sta ink_port"));
+    }
+
+    /// Before the first pixel of a pass.
+    pub fn pass(&self, start: &str, first: u32, text: &mut Text) {
+        if let Some(blocks) = &self.blocks {
+            blocks.pass(start, first, text);
         }
     }
 

@@ -43,6 +43,13 @@ impl Screen {
         }
     }
 
+    /// Before the first pixel of a pass at a column; the first of all passes is given as well.
+    pub fn pass(&self, start: &str, first: u32, text: &mut Text) {
+        if let Screen::Ports(ports) = self {
+            ports.pass(start, first, text);
+        }
+    }
+
     /// Draws a pixel; goes to `unseen_pixel` where its column is not seen.
     pub fn pixel(&self, ink: &str, text: &mut Text) {
         match self {

@@ -53,7 +53,9 @@ pub(super) fn shapes(plan: &Plan) -> Option<Shapes> {
         real => Shape::whole(size(real)),
     };
     let places = ranges.into_iter().map(|(p, r)| (p, shape(p, r))).collect();
-    Some(Shapes { places })
+    let mut shapes = Shapes { places };
+    shapes.widen_steps(plan);
+    Some(shapes)
 }
 
 /// What a ramp stays within at all columns, whoever reads it there: its lower bytes are
@@ -82,6 +84,24 @@ fn home(place: Place) -> Place {
 }
 
 impl Shapes {
+    /// Gives what steps another as many bytes: to add a byte costs less than to extend what
+    /// has fewer.
+    fn widen_steps(&mut self, plan: &Plan) {
+        // What is stepped is behind what steps it in the graph.
+        for id in plan.graph.ids().rev() {
+            let (Node::Ramp { step, .. } | Node::Stepped { step, .. }) = plan.graph.node(id) else {
+                continue;
+            };
+            let Some(&own) = self.places.get(&Place::of(&plan.graph, id)) else {
+                continue;
+            };
+            let of_step = self.places.get_mut(&Place::of(&plan.graph, step));
+            if let Some(shape) = of_step.filter(|shape| shape.bytes < own.bytes) {
+                shape.bytes = own.bytes;
+            }
+        }
+    }
+
     /// A place's; of one that is never written, all of its format.
     pub fn of(&self, plan: &Plan, place: Place) -> Shape {
         let whole = || match plan.place_format(place) {
@@ -95,7 +115,7 @@ impl Shapes {
 /// The shape of what is no place.
 pub(super) fn of_slot(plan: &Plan, slot: Slot) -> Shape {
     match slot {
-        Slot::Axis(_) => Shape::of(Range::new(0.0, 32767.0), MOST),
+        Slot::Axis(_) | Slot::RunEnd => Shape::of(Range::new(0.0, 32767.0), MOST),
         Slot::Received => Shape::whole(size(plan.runtime.real)),
         Slot::Param(p) => match plan.graph.params.get(p as usize).map(|p| p.ty) {
             Some(Type::Real) => Shape::whole(size(plan.runtime.real)),
