@@ -188,7 +188,10 @@ mod tests {
             ("x / n < t", "x + 1"),
         ] {
             let plain = settled(&picture(comparison, n));
-            assert!(limits(&plain.graph, &plain.ranges).is_none(), "{comparison}");
+            assert!(
+                limits(&plain.graph, &plain.ranges).is_none(),
+                "{comparison}"
+            );
         }
     }
 }

@@ -173,6 +173,11 @@ pub fn apart_at_last(plan: Settled, shop: &Workshop, thrift: Thrift) -> Settled 
     best
 }
 
+/// Whether values are stepped so cheaply that plans may count on it.
+pub fn steps_ahead(runtime: &Runtime) -> bool {
+    runtime.stepping.is_some_and(|stepping| stepping.foreseen)
+}
+
 struct Site<'s> {
     shop: &'s Workshop,
     runtime: &'static Runtime,
@@ -283,8 +288,12 @@ impl Site<'_> {
         let found = self.around(base).or(found);
         let base = found.as_ref().unwrap_or(plain);
         let found = match self.sited(base, SHORTER, Rewrite::Identities) {
-            // A formula may have a factor of few values.
-            Some(shorter) => Some(chosen(&shorter, self.shop, &self.price).unwrap_or(shorter)),
+            // A formula may have a factor of few values: where products are dear beside what
+            // is stepped, that is worth a choice.
+            Some(shorter) if steps_ahead(self.runtime) => {
+                Some(chosen(&shorter, self.shop, &self.price).unwrap_or(shorter))
+            }
+            Some(shorter) => Some(shorter),
             None => found,
         };
         let base = found.as_ref().unwrap_or(plain);

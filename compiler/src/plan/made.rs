@@ -1,6 +1,6 @@
 //! How a plan is made: the passes in their order, then a routine for each value.
 
-use super::cheaper::{apart_at_last, cheaper, with_inks_split, with_recipes_followed};
+use super::cheaper::{apart_at_last, cheaper, steps_ahead, with_inks_split, with_recipes_followed};
 use super::chosen::{asked_where_it_matters, in_arms, with_limits, with_reciprocals};
 use super::params::{self, ParamPlan};
 use super::price::Price;
@@ -17,7 +17,7 @@ use crate::passes::along::along;
 use crate::passes::early::{everywhere, without};
 use crate::passes::fold::fold;
 use crate::passes::int_signs::int_signs;
-use crate::passes::interlace::interlaced;
+use crate::passes::interlace::{interlaced, passes};
 use crate::passes::ramps::runs::is_exact;
 use crate::passes::schedule::missing;
 use crate::passes::stable::stable;
@@ -86,11 +86,34 @@ const SOONER: f64 = 0.95;
 /// How often stable forms are looked for: what one makes may let another in.
 const STABLE_ROUNDS: u32 = 4;
 
+/// What a pixel of a pass takes more, in cycles: it says its column. In BASIC that is
+/// nothing beside what passes save.
+const APART: f64 = 30.0;
+
+/// A plan, in passes where these make it cheaper.
 pub(super) fn planned(
     shop: &Arc<Workshop>,
     target: &'static Target,
     goal: &Goal,
     rewriting: Rewriting,
+) -> Result<Plan, Vec<Diagnostic>> {
+    let plan = planned_in(shop, target, goal, rewriting, true)?;
+    if !steps_ahead(target.runtime) || passes(&plan.graph) == 1 {
+        return Ok(plan);
+    }
+    let other = planned_in(shop, target, goal, rewriting, false)?;
+    match other.cycles_a_pixel() < plan.cycles_a_pixel() + APART {
+        true => Ok(other),
+        false => Ok(plan),
+    }
+}
+
+fn planned_in(
+    shop: &Arc<Workshop>,
+    target: &'static Target,
+    goal: &Goal,
+    rewriting: Rewriting,
+    apart: bool,
 ) -> Result<Plan, Vec<Diagnostic>> {
     let (origin, runtime) = (&shop.origin, target.runtime);
     if let Err(broken) = verify(origin) {
@@ -105,14 +128,13 @@ pub(super) fn planned(
     };
     // Where sums are rounded to as few bits as that, tiles' edges move by whole pixels.
     let logs = rounds > 0 && matches!(runtime.real, Format::Log { .. });
-    let steps_ahead = rounds > 0 && runtime.stepping.is_some_and(|s| s.foreseen);
-    let whole = |graph: Graph| match (logs, steps_ahead) {
+    let whole = |graph: Graph| match (logs, rounds > 0 && steps_ahead(runtime)) {
         (true, _) => whole_parts(&graph),
         (_, true) => int_signs(&graph),
         _ => graph,
     };
     let drawn = |graph: Graph| match rewriting {
-        Rewriting::Fast { thrift, .. } if thrift.passes() && runtime.segments => {
+        Rewriting::Fast { thrift, .. } if apart && thrift.passes() && runtime.segments => {
             interlaced(&graph, in_byte(&graph, target, goal)).unwrap_or(graph)
         }
         _ => graph,
@@ -144,7 +166,8 @@ pub(super) fn planned(
         }
         let usual = cheapest(all).unwrap_or(now);
         // Where spans of columns tell what a row meets, shortcuts outside of loops do not pay.
-        let sooner = early.filter(|_| !runtime.segments).and_then(everywhere);
+        let spans = runtime.segments && !steps_ahead(runtime);
+        let sooner = early.filter(|_| !spans).and_then(everywhere);
         let sooner = sooner
             .and_then(|graph| cheapest(cheaper(shop.settle(&graph), None, shop, thrift)))
             .filter(|sooner| price.of(sooner) < SOONER * price.of(&usual));
@@ -163,7 +186,8 @@ pub(super) fn planned(
         && !is_exact(graph, tree, ranges)
     {
         let steps = Steps::None;
-        return planned(shop, target, goal, Rewriting::Fast { thrift, steps });
+        let without = Rewriting::Fast { thrift, steps };
+        return planned_in(shop, target, goal, without, apart);
     }
     if let Some(id) = missing(graph, tree) {
         let message = format!("the schedule lost {id}: a fault of the compiler, please report it");
@@ -256,8 +280,7 @@ pub(super) fn assemble(
 /// The graph with points by their distance along a ray, where polynomials that are stepped
 /// may tell what is met.
 fn points_along(graph: &Graph, runtime: &Runtime) -> Option<Graph> {
-    let foreseen = runtime.stepping.is_some_and(|stepping| stepping.foreseen);
-    foreseen.then(|| along(graph)).flatten()
+    steps_ahead(runtime).then(|| along(graph)).flatten()
 }
 
 /// How many of the picture's pixels share a byte of the screen, where that matters.

@@ -233,7 +233,10 @@ fn short_ints_have_products_of_32_bits() {
         }
     }
     let mean = cycles as f64 / f64::from(checked);
-    assert!((mean - f64::from(routine.cycles)).abs() < 20.0, "{mean} cycles");
+    assert!(
+        (mean - f64::from(routine.cycles)).abs() < 20.0,
+        "{mean} cycles"
+    );
 }
 
 #[test]

@@ -289,11 +289,7 @@ impl Field<'_> {
             }
             Node::Apply(Op::Sign | Op::IntSign, _) if self.is_unit(id) => {
                 let (sign, turned) = self.turned(id);
-                if coin(sign) != turned {
-                    1
-                } else {
-                    whole(-1)
-                }
+                if coin(sign) != turned { 1 } else { whole(-1) }
             }
             Node::Apply(Op::Sqrt, [x, _]) if self.roots.contains(&id) => {
                 return of(x).map(Known::Root);

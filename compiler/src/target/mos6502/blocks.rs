@@ -62,7 +62,9 @@ impl Blocks {
         let [lo, hi] = [0, 1].map(|k| write::byte(&Operand::Constant(self.first[0]), k));
         text.code(&format!("lda {lo} | sta {left} | lda {hi} | sta {left}+1"));
         let [behind, ..] = first.to_le_bytes();
-        text.code(&format!("sec | lda {start} | sbc #{behind} | tax | beq at_pass"));
+        text.code(&format!(
+            "sec | lda {start} | sbc #{behind} | tax | beq at_pass"
+        ));
         text.label("right_to_pass");
         self.right(1, text);
         text.code("dex | bne right_to_pass");

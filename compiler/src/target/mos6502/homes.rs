@@ -368,6 +368,8 @@ impl Uses<'_> {
             self.add(Slot::PassFirst);
         }
         if !tree.segment.is_empty() {
+            // Each pixel reads both of its bytes.
+            self.add(Slot::RunEnd);
             self.add(Slot::RunEnd);
         }
         if let Some(still) = &self.plan.still {

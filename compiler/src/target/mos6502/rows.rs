@@ -120,8 +120,7 @@ impl<'r> Rows<'r> {
             code.text.label("whole_steps");
         }
         if steps == 0 {
-            code.text
-                .code("lda count | bne next_step | jmp last_step");
+            code.text.code("lda count | bne next_step | jmp last_step");
         }
         code.text.label("next_step");
         code.step();
@@ -144,15 +143,17 @@ impl<'r> Rows<'r> {
         let first = self.columns.0;
         let early = first % self.passes;
         code.copy_axis(&Operand::Constant(u64::from(early)), &pass);
-        code.text
-            .code(&format!("lda {x} | sta {start} | lda {x}+1 | sta {start}+1"));
+        code.text.code(&format!(
+            "lda {x} | sta {start} | lda {x}+1 | sta {start}+1"
+        ));
         code.text.headline("once a pass");
         code.text.label("next_pass");
         if let Some(screen) = self.screen {
             screen.pass(&start, self.columns.0, code.text);
         }
-        code.text
-            .code(&format!("lda {start} | sta {x} | lda {start}+1 | sta {x}+1"));
+        code.text.code(&format!(
+            "lda {start} | sta {x} | lda {start}+1 | sta {x}+1"
+        ));
         code.block(&code.plan.tree.pass);
         code.text.span = code.plan.drawn;
         self.to_first_column(code, early);
@@ -211,14 +212,14 @@ impl<'r> Rows<'r> {
             code.text.label(&format!("still{n}"));
         }
         code.text.label("still_pixel");
-        let read =
-            |code: &Code<'_>, id: NodeId| write::byte(&code.homes.operand(code.plan, id), 0);
+        let read = |code: &Code<'_>, id: NodeId| write::byte(&code.homes.operand(code.plan, id), 0);
         match still.inks {
             Inks::One(ink) => screen.pixel(&read(code, ink), code.text),
             Inks::Either { cond, yes, no } => {
                 code.compare(cond);
                 let (yes, no) = (read(code, yes), read(code, no));
-                code.text.code(&format!("lda {yes} | bcs still_ink | lda {no}"));
+                code.text
+                    .code(&format!("lda {yes} | bcs still_ink | lda {no}"));
                 code.text.label("still_ink");
                 code.text.code("sta third");
                 screen.pixel("third", code.text);
@@ -233,7 +234,11 @@ impl<'r> Rows<'r> {
 
     fn pixel(&self, code: &mut Code<'_>) {
         let Rows {
-            x, y, first, last: _, ..
+            x,
+            y,
+            first,
+            last: _,
+            ..
         } = self;
         let plan = code.plan;
         code.text.headline("once a pixel");
@@ -304,8 +309,9 @@ impl<'r> Rows<'r> {
             }
         };
         let done = format!("{more}_done");
-        code.text
-            .code(&format!("lda {lo} | cmp {x} | lda {hi} | sbc {x}+1 | bcc {done}"));
+        code.text.code(&format!(
+            "lda {lo} | cmp {x} | lda {hi} | sbc {x}+1 | bcc {done}"
+        ));
         code.text.code(&format!("jmp {label}"));
         code.text.label(&done);
     }
@@ -314,8 +320,9 @@ impl<'r> Rows<'r> {
     fn behind_run(&self, code: &mut Code<'_>, last: &str) {
         let x = &self.x;
         let [lo, hi, ..] = self.columns.1.to_le_bytes();
-        code.text
-            .code(&format!("lda #{lo} | cmp {x} | lda #{hi} | sbc {x}+1 | bcc {last}"));
+        code.text.code(&format!(
+            "lda #{lo} | cmp {x} | lda #{hi} | sbc {x}+1 | bcc {last}"
+        ));
         code.text.code("jmp next_run");
         if last != "last_pixel" {
             code.text.label(last);
@@ -358,7 +365,9 @@ impl Code<'_> {
         }
         let [lo, hi] = [0, 1].map(|k| write::byte(&column, k));
         self.text.code(&match before {
-            true => format!("lda {lo} | sec | sbc #1 | sta {end} | lda {hi} | sbc #0 | sta {end}+1"),
+            true => {
+                format!("lda {lo} | sec | sbc #1 | sta {end} | lda {hi} | sbc #0 | sta {end}+1")
+            }
             false => format!("lda {lo} | sta {end} | lda {hi} | sta {end}+1"),
         });
         self.text.label(&format!("run{n}"));
