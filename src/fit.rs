@@ -11,7 +11,7 @@ use crate::machine::Machine;
 use crate::need::{Need, need, need_beside};
 use crate::trial::build_for;
 use slowlight_compiler::flow::graph::Table;
-use slowlight_compiler::plan::Plan;
+use slowlight_compiler::plan::{Copies, Plan};
 use slowlight_compiler::source::Span;
 use slowlight_compiler::target::mos6502::DISC_PAGE;
 
@@ -142,10 +142,21 @@ fn quickest(plan: &Plan, name: &dyn Fn(Span) -> Option<String>) -> Outcome<Optio
     Ok(Some(found))
 }
 
-/// The plan, written with what stands on several ways where that fits as well.
-fn with_copies(mut plan: Plan) -> Outcome<Plan> {
-    plan.copies = true;
-    plan.copies = need(&plan)?.is_none_or(|need| need.fits());
+/// The plan, with as much of what stands behind several ways written on each of them as
+/// fits; rather tests than remarks.
+fn with_copies(plan: Plan) -> Outcome<Plan> {
+    let ways = [
+        (Copies::Ends, plan.brief),
+        (Copies::Tests, plan.brief),
+        (Copies::Tests, true),
+    ];
+    for (copies, brief) in ways {
+        let mut tried = plan.clone();
+        (tried.copies, tried.brief) = (copies, brief);
+        if need(&tried)?.is_none_or(|need| need.fits()) {
+            return Ok(tried);
+        }
+    }
     Ok(plan)
 }
 

@@ -9,7 +9,7 @@ use slowlight::need::need;
 use slowlight_compiler::eval::{model::ModelRun, native::Native};
 use slowlight_compiler::flow::graph::Graph;
 use slowlight_compiler::flow::tree::{Block, Statement, walk};
-use slowlight_compiler::plan::{Goal, Plan, plan};
+use slowlight_compiler::plan::{Copies, Goal, Plan, plan};
 use slowlight_compiler::target::{default_mode, find};
 use slowlight_vm::Stop;
 use slowlight_vm::bbc::Dialect;
@@ -83,7 +83,7 @@ fn what_fits_as_it_is_stays_so() {
         let mut plan = planned(&graph, MACHINES[0]);
         could += usize::from(plan.outlined_where_seldom(true, &|_| None).is_some());
         // Where memory is left, ends are copied.
-        plan.copies = true;
+        plan.copies = Copies::Ends;
         let as_it_is = text(&plan);
         let fits = fit([Ok(plan)], &|_| None).unwrap();
         assert_eq!(text(&fits), as_it_is, "{seed}");

@@ -301,7 +301,8 @@ impl Placer<'_> {
             // One that was placed already, further inside, cannot be asked here.
             let placed = self.regions.of[cond.0 as usize];
             let there = placed.is_none_or(|home| self.regions.holds(home, region));
-            if !there || !self.is_known_in(cond, outer) || taken.contains(&cond) {
+            let fixed = self.graph.constant(cond).is_some();
+            if fixed || !there || !self.is_known_in(cond, outer) || taken.contains(&cond) {
                 continue;
             }
             taken.push(cond);

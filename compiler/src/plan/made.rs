@@ -9,7 +9,7 @@ use super::stepped::{Steps, stepped};
 use super::sums::with_sums;
 use super::thrift::Thrift;
 use super::workshop::Workshop;
-use super::{Goal, Plan, choose, fold_uses, names, points, recipes};
+use super::{Copies, Goal, Plan, choose, fold_uses, names, points, recipes};
 use crate::flow::graph::*;
 use crate::flow::tree::*;
 use crate::flow::verify::verify;
@@ -258,7 +258,7 @@ pub(super) fn assemble(
         items: Vec::new(),
         drawn: None,
         lean: false,
-        copies: false,
+        copies: Copies::None,
         brief: false,
         scant: false,
         page: None,

@@ -107,6 +107,18 @@ pub struct Goal {
     pub plot: bool,
 }
 
+/// What stands behind several ways and may be written on each of them.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Copies {
+    /// Nothing.
+    #[default]
+    None,
+    /// What leads to a test whose outcome a way knows.
+    Tests,
+    /// That, and the end of a pixel, with the way's ink.
+    Ends,
+}
+
 /// How one machine computes a scene.
 #[derive(Clone, Debug)]
 pub struct Plan {
@@ -144,8 +156,8 @@ pub struct Plan {
     /// Whether to write it short, but not so short that it becomes slow to read
     /// for the machine: between neither and [`Plan::tight`].
     pub lean: bool,
-    /// Whether there is memory to write short ends of a pixel on each way to them.
-    pub copies: bool,
+    /// What there is memory to write on each way to it.
+    pub copies: Copies,
     /// Whether remarks beside the first line are left out, where memory is short.
     pub brief: bool,
     /// Whether it is written short where that hardly costs time, since it does not fit

@@ -16,7 +16,7 @@ use super::tail;
 use super::thread::threaded;
 use super::ways;
 use crate::flow::tree::SubroutineId;
-use crate::plan::Plan;
+use crate::plan::{Copies, Plan};
 use crate::source::Span;
 use slowlight_routine::{Part, Source, Type};
 
@@ -64,13 +64,16 @@ pub fn program(plan: &Plan) -> Lines {
     let keep: Vec<String> = params.chain([first, last]).collect();
     let lines = threaded(code.lines, &mut code.labels, style != Style::Small);
     let lines = match style {
-        Style::Fast => ways::split(dead::without(lines), &mut code.labels, plan.copies),
+        Style::Fast => {
+            let copies = plan.copies >= Copies::Tests;
+            ways::split(dead::without(lines), &mut code.labels, copies)
+        }
         _ => lines,
     };
     let lines = dead::without(lines);
     let lines = match plan.copies {
-        true => tail::copied(lines, &mut code.labels),
-        false => lines,
+        Copies::Ends => tail::copied(lines, &mut code.labels),
+        _ => lines,
     };
     let lines = lines.away(&code.seldom);
     let assigned = code.values.names.constants();

@@ -16,7 +16,7 @@ use super::asked::{in_place, joined};
 use super::dead::Flow;
 use super::lines::{Label, Labels, Lines};
 use super::pieces::short_length;
-use super::thread::jump;
+use super::thread::{jump, threaded};
 use region::{Copied, To};
 use roads::Roads;
 pub use roads::Test;
@@ -26,6 +26,9 @@ use std::collections::{BTreeMap, HashMap};
 /// it, bytes of the program.
 const LINES: [usize; 4] = [20, 14, 10, 6];
 const LENGTH: usize = 180;
+/// The same for a way that is taken so many times less often than others.
+const SELDOM: usize = 60;
+const OFTEN: u64 = 64;
 const JUMP: usize = 4;
 
 /// How often lines are looked at: what one copy does not need another may do without.
@@ -37,7 +40,7 @@ pub fn split(lines: Lines, labels: &mut Labels, copies: bool) -> Lines {
     let mut lines = lines;
     for _ in 0..ROUNDS {
         if copies {
-            lines = copied(lines, labels);
+            lines = threaded(copied(lines, labels), labels, false);
         }
         lines = decided(lines);
     }
@@ -49,6 +52,8 @@ fn copied(lines: Lines, labels: &mut Labels) -> Lines {
     let texts: Vec<String> = lines.texts().map(str::to_owned).collect();
     let roads = Roads::of(&texts, lines.labelled().collect());
     let weights: Vec<u64> = lines.weighted().map(|(_, weight)| weight).collect();
+    let most = weights.iter().copied().max().unwrap_or(0);
+    let seldom = |at: usize| weights.get(at).is_some_and(|weight| weight * OFTEN < most);
     let spans = lines.spans();
     let mut changed = texts.clone();
     let mut made: BTreeMap<Vec<Copied>, Label> = BTreeMap::new();
@@ -62,12 +67,11 @@ fn copied(lines: Lines, labels: &mut Labels) -> Lines {
         let Some(&from) = roads.placed.get(&label) else {
             continue;
         };
-        let regions = LINES.map(|most| roads.region(from, &known, most));
-        let Some(region) = regions
-            .into_iter()
-            .flatten()
-            .find(|region| length(region) <= LENGTH)
-        else {
+        let limit = if seldom(at) { SELDOM } else { LENGTH };
+        let region = |most: &usize| roads.region(from, &known, *most);
+        let short = |region: &Vec<Copied>| length(region) <= limit;
+        let mut regions = LINES.iter().filter_map(region).filter(short);
+        let Some(region) = regions.next() else {
             continue;
         };
         let own = *made.entry(region).or_insert_with_key(|region| {
