@@ -117,9 +117,11 @@ mod tests {
         let above = b.apply(Op::IntLess, &[nought, more], AT);
         let below = b.apply(Op::IntLessEqual, &[more, nought], AT);
         let there = b.apply(Op::IntLess, &[nought, other], AT);
-        let first = b.select(above, sign, also, AT);
-        let second = b.select(below, maybe, first, AT);
-        let ink = b.select(there, first, second, AT);
+        // None under a condition that decides another.
+        let one = b.constant(Value::Int(1), AT);
+        let asked = [above, below, there].map(|cond| b.select(cond, one, nought, AT));
+        let all = [also, maybe].into_iter().chain(asked);
+        let ink = all.fold(sign, |sum, value| b.apply(Op::IntAdd, &[sum, value], AT));
         let image = Image {
             block: (1, 1),
             width: 32,
