@@ -1,6 +1,6 @@
 //! Small scenes on the 6502 in both of its formats: the machine draws what the model says.
 
-use crate::cli::{directory, json};
+use crate::cli::{directory, json, success};
 
 /// Runs a scene of 24 x 16 pixels in a format; how many pixels are not the native's.
 fn off(draw: &str, format: &str) -> u64 {
@@ -46,4 +46,45 @@ fn quotients_of_what_can_be_one_value_only_are_right() {
 fn tiny_constants_do_not_make_inks_that_are_none() {
     let draw = "draw (x, y) = threshold(0.000001, bayer(2)[x mod 2, y mod 2]);";
     assert_eq!(off(draw, "fixed16.16") + off(draw, "fixed16"), 0);
+}
+
+/// Rows in passes, in blocks as well, and in runs of columns, also where nothing of a run
+/// is computed: the program has the loops that are meant, and draws what the model says.
+#[test]
+fn rows_in_passes_and_runs_are_what_the_model_draws() {
+    const SHADE: &str =
+        "threshold((y + 1) * 8 / ((x - 30) * (x - 30) / 8 + 20), bayer(4)[x mod 4, y mod 4])";
+    const BALL: &str = "(x - 30.5) * (x - 30.5) + (y - 12) * (y - 12) < 50";
+    let passes = ["once a pass"];
+    let runs = ["once a run of columns"];
+    let still = ["once a run of columns", "pixels whose inks are known"];
+    let halves = format!("if x < 20 then ink(0) else if 3 * x > 100 + y then {SHADE} else ink(1)");
+    let cut = format!(
+        "if x < 20 + y then ink(0) else if x > 50 then ink(2) else if {BALL} then ink(2) else ink(1)"
+    );
+    let factor = format!("if (if x < 20 + y then 1.5 else 0.25) * {BALL} then ink(2) else ink(1)");
+    for (draw, more, parts) in [
+        (SHADE, &[][..], &passes[..]),
+        (SHADE, &["--block", "2"], &passes),
+        (&halves, &[], &still),
+        (&cut, &[], &still),
+        (&factor, &[], &runs),
+    ] {
+        let text = format!("image 64 x 24 inks black, grey, white;\ndraw (x, y) = {draw};");
+        let dir = directory(&[("small.scn", &text)]);
+        let of = |command: &[&'static str]| -> Vec<&'static str> {
+            let scene = ["small.scn", "-t", "6502", "--format", "fixed16"];
+            [&command[..1], &scene[..], more, &command[1..]].concat()
+        };
+        let written = success(dir.path(), &of(&["build", "--emit", "text"]));
+        for part in parts {
+            assert!(written.contains(part), "{draw}: {part}");
+        }
+        let run = json(dir.path(), &of(&["run", "--json"]));
+        assert_eq!(run["differs_from_model"], 0, "{draw} {more:?}");
+        // The native picture has no blocks.
+        if more.is_empty() {
+            assert_eq!(run["differs_from_native"], 0, "{draw}");
+        }
+    }
 }

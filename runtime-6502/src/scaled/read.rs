@@ -61,6 +61,7 @@ pub fn read(read: Read<'_>, lines: &mut Vec<String>) -> Option<&'static str> {
             lines.push(format!("{indent}{instruction}"));
         }
     };
+    let same = matches!(from, Place::At(name) | Place::Held(name, _) if name == to);
     let (low, high) = (byte(from, 0), byte(from, 1));
     let n = serial;
     let times = |text: &str, k: i32| format!("{text} | ").repeat(k.max(0) as usize);
@@ -74,7 +75,7 @@ pub fn read(read: Read<'_>, lines: &mut Vec<String>) -> Option<&'static str> {
             times(&format!("asl {to} | rol"), by)
         )),
         // What leaves 16 bits has another sign then.
-        1 if !narrow => code(format!(
+        1 if !narrow && !same => code(format!(
             "lda {low} | asl | sta {to} | lda {high} | rol | sta {to}+1 | eor {high} | bpl fits{n}
             | lda {high} | asl | lda #$7f | adc #0 | sta {to}+1 | eor #$80 | ora #1 | sta {to} | bne read{n}
             | fits{n}: | lda {to}+1 | cmp #$80 | bne read{n} | lda {to} | bne read{n} | inc {to} | read{n}:"

@@ -181,7 +181,7 @@ const REALS: &[Routine] = &[
         result: I,
         form: Form::Statement("int_product"),
         needs: &["int_product"],
-        cycles: 340,
+        cycles: 377,
         bytes: 51,
         domain: short,
         error: EXACT,

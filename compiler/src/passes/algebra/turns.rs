@@ -4,6 +4,7 @@
 use super::arithmetic::scaled;
 use super::form::{Form, Forms, Part};
 use super::number::Number;
+use super::poly::Poly;
 use crate::flow::graph::*;
 use slowlight_routine::Op;
 use std::collections::HashMap;
@@ -66,15 +67,16 @@ fn primitive(form: &Form) -> Option<(Part, bool)> {
     let [part] = form.parts.as_slice() else {
         return None;
     };
-    let less = matches!(part.poly.lead(), Number::Exact(n, _) if n < 0);
-    let content = part.poly.content()?.inverse()?;
-    let factor = match less {
-        true => content.mul(Number::whole(-1)),
-        false => content,
-    };
-    let part = Part {
+    let below_0 = |poly: &Poly| matches!(poly.lead(), Number::Exact(n, _) if n < 0);
+    let whole = part.poly.scaled(part.poly.content()?.inverse()?);
+    let part_of = |poly| Part {
         roots: part.roots.clone(),
-        poly: part.poly.scaled(factor),
+        poly,
+    };
+    let less = below_0(&part.poly);
+    let part = match below_0(&whole) {
+        true => part_of(whole.scaled(Number::whole(-1))),
+        false => part_of(whole),
     };
     Some((part, less))
 }
@@ -115,9 +117,11 @@ mod tests {
         let above = b.apply(Op::IntLess, &[nought, more], AT);
         let below = b.apply(Op::IntLessEqual, &[more, nought], AT);
         let there = b.apply(Op::IntLess, &[nought, other], AT);
-        let first = b.select(above, sign, also, AT);
-        let second = b.select(below, maybe, first, AT);
-        let ink = b.select(there, first, second, AT);
+        // None under a condition that decides another.
+        let one = b.constant(Value::Int(1), AT);
+        let asked = [above, below, there].map(|cond| b.select(cond, one, nought, AT));
+        let all = [also, maybe].into_iter().chain(asked);
+        let ink = all.fold(sign, |sum, value| b.apply(Op::IntAdd, &[sum, value], AT));
         let image = Image {
             block: (1, 1),
             width: 32,
