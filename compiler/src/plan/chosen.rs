@@ -65,7 +65,10 @@ pub fn asked_where_it_matters(plan: Settled, shop: &Workshop, thrift: Thrift) ->
             best = next;
         }
     }
-    in_zones(best, shop, &price)
+    match thrift.zones() {
+        true => in_zones(best, shop, &price),
+        false => best,
+    }
 }
 
 /// With conditions asked only in zones of a value in which the ink is not the same either

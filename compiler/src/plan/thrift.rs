@@ -121,6 +121,12 @@ impl Thrift {
         THRIFT[self.0].around
     }
 
+    /// Whether zones may be looked for ([`crate::passes::zones`]): more stands behind more
+    /// ways then, which takes flags where there is no memory for copies on each way.
+    pub fn zones(self) -> bool {
+        !self.follows()
+    }
+
     /// Whether what tables hold is to be worked out where it is needed, if it can be.
     pub fn follows(self) -> bool {
         THRIFT[self.0].follows

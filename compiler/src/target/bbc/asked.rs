@@ -144,6 +144,13 @@ pub fn joined(before: &str, text: &str, reads: impl Fn(&str) -> bool) -> Option<
     Some((front, text.replacen(test.test, &value, 1)))
 }
 
+/// A flag that is a test where another holds, and its opposite where it does not, as one
+/// statement: whether both come out the same.
+pub fn same_either_way(text: &str) -> Option<String> {
+    let name = Test::of(text)?.yes.split_once('=')?.0;
+    Some(format!("{name}={}", either(text, name)?))
+}
+
 /// The value of a flag that is a test where a condition holds, and its opposite where it
 /// does not: whether both come out the same.
 fn either(text: &str, name: &str) -> Option<String> {

@@ -64,10 +64,7 @@ pub fn program(plan: &Plan) -> Lines {
     let keep: Vec<String> = params.chain([first, last]).collect();
     let lines = threaded(code.lines, &mut code.labels, style != Style::Small);
     let lines = match style {
-        Style::Fast => {
-            let copies = plan.copies >= Copies::Tests;
-            ways::split(dead::without(lines), &mut code.labels, copies)
-        }
+        Style::Fast => ways::split(dead::without(lines), &mut code.labels, plan.copies),
         _ => lines,
     };
     let lines = dead::without(lines);

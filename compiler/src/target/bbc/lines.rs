@@ -223,8 +223,8 @@ impl Lines {
         lines.collect()
     }
 
-    /// The lines with others before a label, to which control does not go on from those
-    /// before them.
+    /// The lines with others before a label, or as near behind it as control does not go
+    /// on to them from those before.
     pub fn with_before(mut self, label: Label, block: Lines) -> Lines {
         let at = self
             .items
@@ -232,7 +232,9 @@ impl Lines {
             .position(|item| matches!(item, Item::Label(of) if *of == label));
         // What is named there by other labels is the same line.
         let from = away::first_label(&self.items, at.unwrap_or(self.items.len()));
-        let mut rest = self.items.split_off(from);
+        let parts = |at: &usize| !away::goes_on(self.items.get(..*at).unwrap_or(&[]));
+        let near = (from..self.items.len()).find(parts);
+        let mut rest = self.items.split_off(near.unwrap_or(from));
         if away::goes_on(&self.items) {
             self.items.push(away::jump(label));
         }

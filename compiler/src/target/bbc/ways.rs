@@ -12,22 +12,23 @@
 mod region;
 mod roads;
 
-use super::asked::{in_place, joined};
+use super::asked::{in_place, joined, same_either_way};
 use super::dead::Flow;
 use super::lines::{Label, Labels, Lines};
 use super::pieces::short_length;
 use super::thread::{jump, threaded};
+use crate::plan::Copies;
 use region::{Copied, To};
 use roads::Roads;
 pub use roads::Test;
 use std::collections::{BTreeMap, HashMap};
 
 /// How far tests are looked for that a way knows, lines, and how much may be copied for
-/// it, bytes of the program.
+/// each of them, bytes of the program.
 const LINES: [usize; 4] = [20, 14, 10, 6];
-const LENGTH: usize = 180;
-/// The same for a way that is taken so many times less often than others.
-const SELDOM: usize = 60;
+const LENGTH: usize = 65;
+/// Ways that are taken so many times less often than others have copies only where there
+/// is memory for all.
 const OFTEN: u64 = 64;
 const JUMP: usize = 4;
 
@@ -36,11 +37,11 @@ const ROUNDS: usize = 2;
 
 /// The lines with tests left out whose outcome is known. `copies`: there is memory for
 /// copies of what stands before them.
-pub fn split(lines: Lines, labels: &mut Labels, copies: bool) -> Lines {
+pub fn split(lines: Lines, labels: &mut Labels, copies: Copies) -> Lines {
     let mut lines = lines;
     for _ in 0..ROUNDS {
-        if copies {
-            lines = threaded(copied(lines, labels), labels, false);
+        if copies >= Copies::Tests {
+            lines = threaded(copied(lines, labels, copies), labels, false);
         }
         lines = decided(lines);
     }
@@ -48,7 +49,7 @@ pub fn split(lines: Lines, labels: &mut Labels, copies: bool) -> Lines {
 }
 
 /// The lines with copies for ways of which more is known.
-fn copied(lines: Lines, labels: &mut Labels) -> Lines {
+fn copied(lines: Lines, labels: &mut Labels, copies: Copies) -> Lines {
     let texts: Vec<String> = lines.texts().map(str::to_owned).collect();
     let roads = Roads::of(&texts, lines.labelled().collect());
     let weights: Vec<u64> = lines.weighted().map(|(_, weight)| weight).collect();
@@ -61,15 +62,17 @@ fn copied(lines: Lines, labels: &mut Labels) -> Lines {
     // The lines that copies go on at get names.
     let mut ends: HashMap<usize, Label> = HashMap::new();
     for (at, text) in texts.iter().enumerate() {
+        if copies < Copies::Ends && seldom(at) {
+            continue;
+        }
         let Some((label, known)) = roads.known_at_jump(at) else {
             continue;
         };
         let Some(&from) = roads.placed.get(&label) else {
             continue;
         };
-        let limit = if seldom(at) { SELDOM } else { LENGTH };
         let region = |most: &usize| roads.region(from, &known, *most);
-        let short = |region: &Vec<Copied>| length(region) <= limit;
+        let short = |region: &Vec<Copied>| length(region) <= LENGTH * saved(region);
         let mut regions = LINES.iter().filter_map(region).filter(short);
         let Some(region) = regions.next() else {
             continue;
@@ -114,6 +117,11 @@ fn copied(lines: Lines, labels: &mut Labels) -> Lines {
         lines = lines.with_before(label, block);
     }
     lines
+}
+
+/// How many tests copies are without.
+fn saved(region: &[Copied]) -> usize {
+    region.iter().filter(|line| line.decided).count()
 }
 
 /// About how many bytes of the program copies take.
@@ -178,6 +186,11 @@ fn decided(lines: Lines) -> Lines {
         if let Some((before, test)) = found {
             changed[at - 1] = before;
             changed[at] = test;
+        }
+    }
+    for text in &mut changed {
+        if let Some(whole) = same_either_way(text) {
+            *text = whole;
         }
     }
     for at in 0..changed.len() {

@@ -26,6 +26,8 @@ pub struct Copied {
     pub jumps: Option<To>,
     /// Where control goes on behind it.
     pub next: To,
+    /// Whether it was a test whose outcome is known.
+    pub decided: bool,
 }
 
 impl Copied {
@@ -139,6 +141,7 @@ impl Roads<'_> {
             text: text.to_owned(),
             jumps: None,
             next,
+            decided: false,
         };
         let Some(test) = Test::of(text) else {
             return Some(match jump(text) {
@@ -148,9 +151,13 @@ impl Roads<'_> {
         };
         if let Some(holds) = test.outcome(known) {
             let way = if holds { test.yes } else { test.no };
-            return Some(match Label::last_of(way) {
+            let line = match Label::last_of(way) {
                 Some((before, label)) => whole(statements(before), to(*self.placed.get(&label)?)),
                 None => whole(way, behind),
+            };
+            return Some(Copied {
+                decided: true,
+                ..line
             });
         }
         Some(match Label::last_of(text) {

@@ -5,6 +5,7 @@ use super::*;
 
 /// The lines `texts`, where `@n;` goes to the line number n, without tests that are known.
 fn written(texts: &[&str], copies: bool) -> String {
+    let copies = if copies { Copies::Ends } else { Copies::None };
     let mut labels = Labels::default();
     let all: Vec<Label> = texts.iter().map(|_| labels.next()).collect();
     let mut lines = Lines::default();
@@ -17,7 +18,7 @@ fn written(texts: &[&str], copies: bool) -> String {
         lines.line(text, None);
     }
     let lines = super::super::dead::without(split(lines, &mut labels, copies));
-    let mut lines = split(lines, &mut labels, false);
+    let mut lines = split(lines, &mut labels, Copies::None);
     lines.remove_empty();
     lines.finish().0
 }
