@@ -209,7 +209,7 @@ struct Put<'p, 'g> {
 }
 
 impl Put<'_, '_> {
-    fn new(&self, id: NodeId) -> Option<NodeId> {
+    fn made(&self, id: NodeId) -> Option<NodeId> {
         self.made.get(id.0 as usize).copied().flatten()
     }
 
@@ -222,16 +222,16 @@ impl Put<'_, '_> {
         let truths = [false, true].map(|truth| b.constant(Value::Bool(truth), self.span));
         let truth = |zone| Some(truths[usize::from(settled(zone))]);
         let known = self.told(b, &truth, &asked)?;
-        let same = |zone| self.new(self.of.same(zone)?).filter(|_| settled(zone));
+        let same = |zone| self.made(self.of.same(zone)?).filter(|_| settled(zone));
         let same = self.told(b, &same, &asked)?;
         let [yes, no] = [yes, no].map(|way| {
             let ink = |zone| {
-                self.new(self.of.within(way, zone))
+                self.made(self.of.within(way, zone))
                     .filter(|_| !settled(zone))
             };
             self.told(b, &ink, &asked)
         });
-        let other = b.select(self.new(cond)?, yes?, no?, self.span);
+        let other = b.select(self.made(cond)?, yes?, no?, self.span);
         Some(b.select(known, same, other, self.span))
     }
 
@@ -267,7 +267,7 @@ impl Put<'_, '_> {
             true => (below, above),
             false => (above, below),
         };
-        Some(b.select(self.new(node)?, yes, no, self.span))
+        Some(b.select(self.made(node)?, yes, no, self.span))
     }
 }
 
