@@ -66,6 +66,11 @@ impl Window {
         self.rows.1 - self.rows.0 + 1
     }
 
+    /// Pixels.
+    pub fn count(&self) -> usize {
+        self.width() as usize * self.height() as usize
+    }
+
     /// Up to `side` rows of as many columns, spread evenly, row by row.
     pub fn grid(&self, side: u32) -> Vec<(i32, i32)> {
         let along = |(first, last): (u32, u32)| {
@@ -173,9 +178,18 @@ pub fn native_counted(graph: &Graph, window: Window) -> Outcome<(Drawn, u64)> {
 /// # Errors
 /// Only an interruption.
 pub fn model(plan: &Plan) -> Outcome<Drawn> {
+    model_with(plan, plan.shaded().as_ref())
+}
+
+/// The same with the shades of a plan that is known already, since to make one may take
+/// long; without one, the plan's own, whatever they are.
+///
+/// # Errors
+/// Only an interruption.
+pub fn model_with(plan: &Plan, shaded: Option<&Plan>) -> Outcome<Drawn> {
     let mut pixels = modelled("model", plan)?;
-    if let Some(shaded) = plan.shaded() {
-        for (pixel, other) in pixels.iter_mut().zip(modelled("shades", &shaded)?) {
+    if let Some(shaded) = shaded {
+        for (pixel, other) in pixels.iter_mut().zip(modelled("shades", shaded)?) {
             pixel.shade = other.shade;
         }
     }

@@ -5,17 +5,17 @@
 //! included. An effect that is not called is shown to cost nothing: its item is
 //! taken out of its file, and the program is compiled once more.
 
+use crate::digest;
 use crate::draw::Window;
 use crate::explain::{Counted, count_lines};
 use crate::failure::Outcome;
 use crate::jobs;
 use crate::measure;
 use crate::progress::Progress;
-use crate::scene::{Limits, Precision, Scene};
+use crate::scene::{Precision, Scene};
 use crate::target_args::ScreenArgs;
 use crate::trial::{self, Trial};
 use serde::Serialize;
-use sha2::{Digest, Sha256};
 use slowlight_compiler::flow::graph::Graph;
 use slowlight_compiler::passes::coarse::coarse;
 use slowlight_compiler::plan::Plan;
@@ -74,6 +74,9 @@ pub struct Called {
     pub cycles: i64,
     /// What of the program is its own.
     pub own: Own,
+    /// The machine's cycles of its own at each pixel, and where rows begin, in any order;
+    /// none where they cannot be told apart.
+    pub pixels: Option<Vec<u64>>,
     /// What the model shows.
     pub seen: Seen,
     /// Its loops, as the scene has them.
@@ -89,6 +92,7 @@ impl Called {
             sizes: [Some(0); 3],
             cycles: 0,
             own: Own::default(),
+            pixels: None,
             seen: Seen::default(),
             turns: Turns::default(),
             loss: Loss {
@@ -144,12 +148,13 @@ pub fn look(
     limit: u64,
 ) -> Outcome<Effects> {
     let plan = screen.plan(scene, target, &[])?;
-    let counted = count_lines(scene, plan.clone(), screen, limit)?;
+    let mut counted = count_lines(scene, plan.clone(), screen, limit)?;
+    let computed = Window::of(&plan).count();
     let pixels = sample(&plan);
     let mut seen = watch(&plan, &pixels);
     let mut turns = turns(&as_written(scene, &plan, screen)?, &pixels);
     let mut own = own(counted.measured());
-    let digest = digest(&plan);
+    let digest = digest::program(&plan);
     let all = effects(&scene.checked, &plan.graph);
     let whole = tried(scene, plan, screen, limit)?;
     let job = Job {
@@ -175,6 +180,12 @@ pub fn look(
     for (effect, found) in all.into_iter().zip(done) {
         let mut found = found?;
         if let Found::Called(called) = &mut found {
+            called.pixels = counted.stretches.as_mut().map(|all| {
+                let mut own = all.remove(&effect.number).unwrap_or_default();
+                // At all other pixels it did nothing.
+                own.resize(own.len().max(computed), 0);
+                own
+            });
             called.own = own.remove(&effect.number).unwrap_or_default();
             called.seen = seen.remove(&effect.number).unwrap_or_default();
             called.seen.cycles.resize(pixels.len(), 0);
@@ -193,11 +204,8 @@ pub fn look(
 
 /// The graph that a plan was made from, before anything was done to it.
 fn as_written(scene: &Scene, plan: &Plan, screen: &ScreenArgs) -> Outcome<Graph> {
-    let limits = Limits {
-        turns: screen.max_turns,
-        steps: screen.max_steps,
-    };
-    let graph = scene.graph_within(Some(plan.mode.inks), Precision::NATIVE, &[], limits)?;
+    let inks = Some(plan.mode.inks);
+    let graph = scene.graph_within(inks, Precision::NATIVE, &[], screen.limits())?;
     Ok(coarse(&graph, plan.graph.image.block))
 }
 
@@ -223,6 +231,7 @@ impl Job<'_> {
             sizes: sizes.map(|(with, less)| Some(change(with?, less?))),
             cycles: change(with.cycles, less.cycles),
             own: Own::default(),
+            pixels: None,
             seen: Seen::default(),
             turns: Turns::default(),
             loss: self.loss(&without),
@@ -254,7 +263,7 @@ impl Job<'_> {
             ..self.screen.clone()
         };
         let plan = screen.plan(self.scene, self.target, &[])?;
-        if digest(&plan) == self.digest {
+        if digest::program(&plan) == self.digest {
             return Ok(Known {
                 cycles_saved: 0,
                 inks_changed: Some(0),
@@ -270,7 +279,11 @@ impl Job<'_> {
     /// What an effect that is not called costs: the program of a compiler without it.
     fn absent(&self, effect: &Effect) -> Outcome<Found> {
         let digest = match self.scene.without_item(effect.span) {
-            Some(scene) => Some(digest(&self.screen.plan(&scene, self.target, &[])?)),
+            Some(scene) => Some(digest::program(&self.screen.plan(
+                &scene,
+                self.target,
+                &[],
+            )?)),
             None => None,
         };
         Ok(Found::Absent([Some(self.digest.to_owned()), digest]))
@@ -280,18 +293,6 @@ impl Job<'_> {
 fn change(with: u64, without: u64) -> i64 {
     let whole = |n: u64| i64::try_from(n).unwrap_or(i64::MAX);
     whole(with).saturating_sub(whole(without))
-}
-
-/// SHA-256 of a program's files, names and texts, in hexadecimal.
-fn digest(plan: &Plan) -> String {
-    let mut hash = Sha256::new();
-    for document in (plan.target.emit)(plan) {
-        hash.update(document.name.as_bytes());
-        hash.update([0]);
-        hash.update(document.text.as_bytes());
-        hash.update([0]);
-    }
-    hash.finalize().iter().map(|b| format!("{b:02x}")).collect()
 }
 
 /// Pixels evenly over what is drawn, in the order of the scan.

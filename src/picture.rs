@@ -1,7 +1,7 @@
 //! Pictures of inks, and the files that they become.
 
+use crate::digest;
 use crate::failure::{Failure, Outcome};
-use sha2::{Digest, Sha256};
 use std::path::Path;
 
 /// A picture: an ink a pixel.
@@ -120,8 +120,7 @@ impl Picture {
 
     /// SHA-256 of one byte an ink, row by row from the top left, in hexadecimal.
     pub fn sha256(&self) -> String {
-        let digest = Sha256::digest(&self.inks);
-        digest.iter().map(|b| format!("{b:02x}")).collect()
+        digest::bytes(&self.inks)
     }
 
     /// The colour of each pixel.

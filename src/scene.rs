@@ -5,7 +5,7 @@ use crate::files;
 use clap::Args;
 use slowlight_compiler::flow::graph::Graph;
 use slowlight_compiler::scene;
-use slowlight_compiler::sema::{self, Freeze, FunctionKind, Options, Program};
+use slowlight_compiler::sema::{self, Freeze, FunctionKind, Options, Program, Ways};
 use slowlight_compiler::source::{Diagnostic, SourceFile, Sources, Span};
 use slowlight_compiler::syntax;
 use slowlight_compiler::target::Target;
@@ -50,13 +50,15 @@ impl Precision {
     }
 }
 
-/// How many turns loops take at most, where that is fewer than the scene has them.
+/// What of a scene is done with less, or otherwise, than it says.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Limits {
-    /// Loops of the scene's own text.
+    /// How many turns loops of the scene's own text take at most.
     pub turns: Option<u32>,
-    /// The library's.
+    /// The same of the library's.
     pub steps: Option<u32>,
+    /// What is found in another way.
+    pub ways: Ways,
 }
 
 /// Which scene, and what is changed about it.
@@ -281,7 +283,7 @@ impl Scene {
         self.graph_within(inks, precision, set, Limits::default())
     }
 
-    /// The same with fewer turns of loops than the scene has them.
+    /// The same with less than the scene has, or otherwise.
     ///
     /// # Errors
     /// As [`Scene::graph_with`].
@@ -295,6 +297,7 @@ impl Scene {
         let mut options = precision.options(self.options.clone());
         options.inks = inks;
         (options.max_turns, options.max_steps) = (limits.turns, limits.steps);
+        options.ways = limits.ways;
         options.set.extend_from_slice(set);
         sema::lower(&self.checked.program, &options).map_err(|said| self.wrong(said))
     }

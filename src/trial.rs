@@ -22,7 +22,7 @@ pub const LIMIT: u64 = 1_000_000_000_000;
 
 /// Cycles a second of the Hack computer's processor in the web IDE's emulator, the
 /// machine that most have: the computer was never built for a clock.
-const HACK_HERTZ: f64 = 7.2e6;
+pub const HACK_HERTZ: f64 = 7.2e6;
 
 /// A plan written down, and accepted by the machine's own tools.
 pub struct Built {
@@ -135,8 +135,22 @@ pub fn ran(scene: &Scene, plan: &Plan, mut loaded: Loaded, limit: u64) -> Outcom
 /// # Errors
 /// Where it shows no such picture.
 pub fn held(scene: &Scene, plan: Plan, run: MachineRun, native: Drawn) -> Outcome<Trial> {
-    let window = native.window;
     let modelled = model(&plan)?;
+    held_with(scene, plan, run, native, modelled)
+}
+
+/// The same, where the model's picture is known.
+///
+/// # Errors
+/// As for [`held`].
+pub fn held_with(
+    scene: &Scene,
+    plan: Plan,
+    run: MachineRun,
+    native: Drawn,
+    modelled: Drawn,
+) -> Outcome<Trial> {
+    let window = native.window;
     let picture = plan.plot.then(|| shown(&plan, &run)).transpose()?;
     let differences = |other: &Drawn| {
         let inks = picture.as_ref().map(|p| &p.inks)?;

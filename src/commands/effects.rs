@@ -77,7 +77,10 @@ fn row_json(found: &Effects, row: &Row) -> Value {
             (&nothing, digests)
         }
     };
-    let [median, p99] = quantiles(&called.seen.cycles);
+    let told = |values: &[u64]| {
+        let [median, p99] = quantiles(values);
+        json!({ "median": median, "p99": p99 })
+    };
     let [code, tables, variables] = called.sizes;
     let turns = called.turns;
     json!({
@@ -94,7 +97,8 @@ fn row_json(found: &Effects, row: &Row) -> Value {
             "share": share(found, i64::try_from(called.own.cycles).unwrap_or(i64::MAX)),
             "size": called.own.size,
         },
-        "pixel_cycles_modelled": { "median": median, "p99": p99 },
+        "pixel_cycles": called.pixels.as_ref().map(|pixels| counted(pixels, told(pixels))),
+        "pixel_cycles_modelled": told(&called.seen.cycles),
         "ran": called.seen.ran as f64 / found.watched.max(1) as f64,
         "turns": {
             "begun": turns.begun,
@@ -105,6 +109,13 @@ fn row_json(found: &Effects, row: &Row) -> Value {
         "loss": called.loss,
         "digests": digests,
     })
+}
+
+/// What the machine counted at pixels: also at how many, and in all.
+fn counted(pixels: &[u64], mut told: Value) -> Value {
+    told["at"] = json!(pixels.iter().filter(|n| **n > 0).count());
+    told["total"] = json!(pixels.iter().sum::<u64>());
+    told
 }
 
 fn text(found: &Effects) -> String {
@@ -152,10 +163,14 @@ fn text(found: &Effects) -> String {
             });
         }
     }
+    let by = match found.counted.stretches {
+        Some(_) => "as the machine counts them",
+        None => "by the routines' means, since this program does not part its pixels",
+    };
     let notes = format!(
         "\ncode, tables, variables: {} less without it; cycles, time: less without it; own: the share of \
-         its own lines;\nmedian, p99: cycles of its own at a pixel, modelled by routines' means, ran: \
-         the share of pixels that need it,\nturns: its loops' mean and limit, all over {} pixels; psnr, \
+         its own lines;\nmedian, p99: cycles of its own at a pixel, {by}; ran: the \
+         share of pixels that need it,\nturns: its loops' mean and limit, both over {} pixels; psnr, \
          pixels: the picture without it\n",
         size_unit_of_sizes(found),
         count(found.watched as u64)
@@ -209,7 +224,7 @@ fn cells(found: &Effects, row: &Row) -> Vec<String> {
         Found::Called(called) => called.as_ref(),
         Found::Absent(_) => &nothing,
     };
-    let [median, p99] = quantiles(&called.seen.cycles);
+    let [median, p99] = quantiles(called.pixels.as_ref().unwrap_or(&called.seen.cycles));
     let turns = called.turns;
     let mut cells = vec![name, count(u64::from(row.effect.calls))];
     cells.extend(called.sizes.map(|size| size.map_or("-".to_owned(), signed)));

@@ -9,6 +9,7 @@ mod fmt;
 mod render;
 mod run;
 mod snapshot;
+mod survey;
 mod targets;
 mod tune;
 mod vm;
@@ -35,6 +36,8 @@ pub enum Command {
     Effects(effects::Args),
     /// Show what accuracy costs in time: measured cycles against error, to choose from
     Tune(tune::Args),
+    /// Tune several scenes on several machines, and write what was found as a document
+    Survey(survey::Args),
     /// Keep generated code, digests and cycles beside a scene; fail where they change
     Snapshot(snapshot::Args),
     /// Format scenes in place
@@ -60,6 +63,7 @@ impl Command {
             Command::Explain(args) => explain::run(args),
             Command::Effects(args) => effects::run(args),
             Command::Tune(args) => tune::run(args),
+            Command::Survey(args) => survey::run(args),
             Command::Snapshot(args) => snapshot::run(args),
             Command::Fmt(args) => fmt::run(args),
             Command::Vm(args) => vm::run(args),

@@ -60,7 +60,8 @@ pub struct Args {
     /// Write the plot alone
     #[arg(long, value_name = "FILE")]
     svg: Option<PathBuf>,
-    /// Another program in the plot: 'the original=9h45m,0.47%'
+    /// Another program in the plot: 'the original=9h45m,0.47%'; beside those that the scene
+    /// names in remarks, as `// mark jack: the original = 1234567 cycles, 0.47%`
     #[arg(long, value_name = "NAME=TIME,ERROR", value_parser = marks::mark)]
     mark: Vec<Mark>,
     /// Print all points as JSON
@@ -86,14 +87,17 @@ pub struct Args {
 /// Searches, tells, and builds what was asked for.
 pub fn run(args: &Args) -> Outcome<()> {
     let base = base(args);
+    let mut marks = marks::of_scene(&Scene::open(&base.path, &base.changes)?, &base)?;
+    marks.extend_from_slice(&args.mark);
     let found = Arc::new(Mutex::new(Found::default()));
     let search = Search {
         base: base.clone(),
         measure: args.measure,
         live: args.live,
-        outlined: args.memory.is_some(),
+        smaller: args.memory.is_some(),
         settings: usize::from(args.settings),
         limit: args.limit,
+        by_line: true,
         cache: match args.no_cache {
             true => Cache::none(),
             false => Cache::of_user(),
@@ -126,7 +130,7 @@ pub fn run(args: &Args) -> Outcome<()> {
         Err(other) => return Err(other),
     }
     let mut told = Told::new(&base, args.measure, &found);
-    told.marks = args.mark.clone();
+    told.marks = marks;
     tell(args, &told)
 }
 

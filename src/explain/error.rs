@@ -43,15 +43,22 @@ pub struct Without {
 /// # Errors
 /// Where the scene does not compile, and an interruption.
 pub fn errors(scene: &Scene, plan: &Plan) -> Outcome<Errors> {
+    // The program may compare without ever computing the shade.
+    errors_with(scene, plan, plan.shaded().as_ref())
+}
+
+/// The same with the plan of the shades, where the program's own does not compute them.
+///
+/// # Errors
+/// As for [`errors`].
+pub fn errors_with(scene: &Scene, plan: &Plan, shaded: Option<&Plan>) -> Outcome<Errors> {
     let places = Window::of(plan).grid(GRID);
     let written = scene.graph(Some(plan.mode.inks), Precision::NATIVE)?;
     // What blocks leave out is no line's.
     let graph = coarse(&written, plan.graph.image.block);
     let mut native = Native::new(&graph);
     let native: Vec<Pixel> = places.iter().map(|(x, y)| native.pixel(*x, *y)).collect();
-    // The program may compare without ever computing the shade.
-    let shaded = plan.shaded();
-    let shaded = shaded.as_ref().unwrap_or(plan);
+    let shaded = shaded.unwrap_or(plan);
     let look = |nodes: Vec<bool>| -> Option<(f64, usize)> {
         let mut run = RaisedRun::new(shaded, nodes);
         let (mut squares, mut differ) = (0.0, 0);

@@ -7,7 +7,7 @@ pub mod terminal;
 
 use crate::draw::Window;
 use crate::failure::{Failure, Outcome};
-use crate::machine::{MachineRun, complaint};
+use crate::machine::{LineRoles, MachineRun, complaint};
 use crate::progress::Progress;
 use crate::scene::Scene;
 use crate::target_args::ScreenArgs;
@@ -18,6 +18,7 @@ use serde_json::Value;
 use slowlight_compiler::plan::Plan;
 use slowlight_compiler::report::profile::{self, Cost, Measured, Part, Profile, SourceLine};
 use slowlight_compiler::target::{Document, Target};
+use std::collections::BTreeMap;
 
 /// A profile and what is needed to show it.
 pub struct Explained {
@@ -41,6 +42,10 @@ pub struct Counted {
     pub run: MachineRun,
     documents: Vec<Document>,
     costs: Vec<Cost>,
+    /// By effects' numbers: the cycles of their own at each pixel at which they had any,
+    /// and where a row or a run of columns begins. None where the program does not part
+    /// all of its pixels by statements that draw, as quick BASIC does not.
+    pub stretches: Option<BTreeMap<u16, Vec<u64>>>,
     sizes: Vec<(profile::Line, u64)>,
 }
 
@@ -62,14 +67,23 @@ impl Counted {
 pub fn count_lines(scene: &Scene, plan: Plan, screen: &ScreenArgs, limit: u64) -> Outcome<Counted> {
     let documents = (plan.target.emit)(&plan);
     let mut loaded = trial::build_for(&plan, screen.machine(plan.target)?)?.loaded;
-    let routine = |line: profile::Line| spanless(&documents, line);
+    let span = |line: profile::Line| {
+        let document: &Document = documents.get(line.document)?;
+        document.span(line.line, line.statement)
+    };
+    let roles = LineRoles {
+        routine: &|line| span(line).is_none(),
+        group: &|line| span(line)?.effect,
+        // What is around a pixel's statements parts one pixel's from another's.
+        cuts: &|line| span(line).is_some_and(|span| plan.drawn == Some(span)),
+    };
     let window = Window::of(&plan);
     let progress = Progress::new(
         format!("{} {}", scene.name, plan.target.name),
         u64::from(window.height()),
     );
     let top = i64::from(window.rows.0) + i64::from(plan.offset.1);
-    let (run, costs) = loaded.charges(limit, &routine, &mut |now| {
+    let (run, lines) = loaded.charges(limit, roles, &mut |now| {
         if let Some(row) = now.row {
             progress.reach(u64::try_from(i64::from(row) - top).unwrap_or(0));
         }
@@ -84,7 +98,8 @@ pub fn count_lines(scene: &Scene, plan: Plan, screen: &ScreenArgs, limit: u64) -
         plan,
         run,
         documents,
-        costs,
+        costs: lines.costs,
+        stretches: (lines.cuts >= window.count() as u64).then_some(lines.stretches),
     })
 }
 
@@ -110,14 +125,6 @@ pub fn explain(
         profile,
         errors,
     })
-}
-
-/// Whether a line comes from no place in the scene.
-fn spanless(documents: &[Document], line: profile::Line) -> bool {
-    let document = documents.get(line.document);
-    document
-        .and_then(|document| document.span(line.line, line.statement))
-        .is_none()
 }
 
 /// What a machine counts by.

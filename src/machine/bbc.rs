@@ -6,7 +6,7 @@ use super::{File, Loaded, MachineRun, Program, Sizes, refused};
 use crate::failure::{Failure, Outcome};
 use slowlight_compiler::report::profile::Line;
 use slowlight_vm::bbc::{Config, Dialect, LineCost, Machine, StatementPlace, tokenise};
-use slowlight_vm::{Charge, Fault, Watch};
+use slowlight_vm::{Charges, Fault, Roles, Watch};
 
 /// Takes one program: text (`.bas`), or tokens, known by the byte 13 in front.
 pub fn load(files: &[File], config: Config) -> Outcome<Loaded> {
@@ -76,10 +76,10 @@ pub fn profile(machine: &Machine, limit: u64, watch: Watch<'_>) -> (MachineRun, 
 pub fn charges(
     machine: &Machine,
     limit: u64,
-    routine: &dyn Fn(u32) -> bool,
+    roles: Roles<'_>,
     watch: Watch<'_>,
-) -> (MachineRun, Vec<Charge>) {
-    let (run, charges) = machine.charges(limit, routine, watch);
+) -> (MachineRun, Charges) {
+    let (run, charges) = machine.charges(limit, roles, watch);
     (finished(run), charges)
 }
 

@@ -7,7 +7,7 @@ use super::{Loaded, MachineRun, Program, bbc, hack, mos6502};
 use crate::failure::{Failure, Outcome};
 use crate::interrupt;
 use slowlight_compiler::report::profile::{Cost, Line};
-use slowlight_vm::{Charge, Progress, Stop};
+use slowlight_vm::{Charge, Progress, Roles, Stop};
 use std::collections::BTreeMap;
 
 /// From a machine's places to lines.
@@ -29,30 +29,56 @@ impl LineMap {
     }
 }
 
+/// What lines are to who counts, as [`Roles`] says it of places.
+#[derive(Clone, Copy)]
+pub struct LineRoles<'r> {
+    /// Whether a line is a routine's.
+    pub routine: &'r dyn Fn(Line) -> bool,
+    /// The group whose stretches a line's cycles are part of, if any.
+    pub group: &'r dyn Fn(Line) -> Option<u16>,
+    /// Whether stretches end where a line begins.
+    pub cuts: &'r dyn Fn(Line) -> bool,
+}
+
+/// What was counted.
+pub struct Lines {
+    /// By line.
+    pub costs: Vec<Cost>,
+    /// By group: the cycles of each stretch between two cuts in which there were any.
+    pub stretches: BTreeMap<u16, Vec<u64>>,
+    /// How many stretches there were at most.
+    pub cuts: u64,
+}
+
 impl Loaded {
-    /// Runs the program as [`Loaded::run`] does, and counts what each line takes: lines
-    /// that `routine` knows, and what is no line of any file, are charged to the lines
-    /// that call them. All costs together are the run's cycles.
+    /// Runs the program as [`Loaded::run`] does, and counts what each line takes: routines'
+    /// lines, and what is no line of any file, are charged to the lines that call them. All
+    /// costs together are the run's cycles.
     ///
     /// # Errors
     /// An interruption, and a machine that cannot tell.
     pub fn charges(
         &mut self,
         limit: u64,
-        routine: &dyn Fn(Line) -> bool,
+        roles: LineRoles<'_>,
         progress: &mut dyn FnMut(Progress),
-    ) -> Outcome<(MachineRun, Vec<Cost>)> {
+    ) -> Outcome<(MachineRun, Lines)> {
         let mut watch = |now: Progress| {
             progress(now);
             !interrupt::pressed()
         };
         let map = &self.map;
-        let called = |place| map.line(place).is_none_or(routine);
+        let called = |place| map.line(place).is_none_or(roles.routine);
+        let roles = Roles {
+            routine: &called,
+            group: &|place| map.line(place).and_then(roles.group),
+            cuts: &|place| map.line(place).is_some_and(roles.cuts),
+        };
         let (run, charges) = match &mut self.program {
-            Program::Hack(program) => hack::charges(program, limit, &called, &mut watch),
-            Program::Bbc(machine) => bbc::charges(machine, limit, &called, &mut watch),
+            Program::Hack(program) => hack::charges(program, limit, roles, &mut watch),
+            Program::Bbc(machine) => bbc::charges(machine, limit, roles, &mut watch),
             Program::Mos6502(machine) => {
-                mos6502::charges(machine.as_mut(), self.sizes, limit, &called, &mut watch)
+                mos6502::charges(machine.as_mut(), self.sizes, limit, roles, &mut watch)
             }
             Program::HackCpu(_) => {
                 let message = "the lines of a program in the Hack's ROM are not counted: leave --os jack out, which counts the commands of the VM";
@@ -62,7 +88,12 @@ impl Loaded {
         if run.stop == Stop::Interrupted {
             return Err(Failure::Interrupted);
         }
-        Ok((run, by_line(&charges, &self.map)))
+        let lines = Lines {
+            costs: by_line(&charges.places, &self.map),
+            stretches: charges.stretches,
+            cuts: charges.cuts,
+        };
+        Ok((run, lines))
     }
 
     /// What each line takes in memory: bytes, or commands of the Hack VM.

@@ -14,7 +14,7 @@ use slowlight_vm::hack::asm::{assemble, read_image, write_image};
 use slowlight_vm::hack::cpu::Cpu;
 use slowlight_vm::hack::translate::{Options, translate};
 use slowlight_vm::hack::{jack, vm};
-use slowlight_vm::{Charge, Fault, Progress, Stop, Watch};
+use slowlight_vm::{Charges, Fault, Progress, Roles, Stop, Watch};
 use std::collections::BTreeMap;
 
 /// Words of RAM before the screen, from the first static.
@@ -194,14 +194,9 @@ pub fn run(on: &OnVm, limit: u64, watch: Watch<'_>) -> MachineRun {
 }
 
 /// The same, with what each command took.
-pub fn charges(
-    on: &OnVm,
-    limit: u64,
-    routine: &dyn Fn(u32) -> bool,
-    watch: Watch<'_>,
-) -> (MachineRun, Vec<Charge>) {
+pub fn charges(on: &OnVm, limit: u64, roles: Roles<'_>, watch: Watch<'_>) -> (MachineRun, Charges) {
     let mut machine = vm::Machine::new(&on.program);
-    let (run, charges) = machine.charges(limit, routine, watch);
+    let (run, charges) = machine.charges(limit, roles, watch);
     (told(on, &machine, run), charges)
 }
 

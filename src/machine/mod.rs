@@ -11,6 +11,7 @@ mod hack;
 mod mos6502;
 mod os;
 
+pub use charge::{LineRoles, Lines};
 pub use hack::Config as HackConfig;
 pub use mos6502::{Board, Config as Mos6502Config};
 

@@ -7,7 +7,7 @@ use crate::failure::{Failure, Outcome};
 use slowlight_compiler::report::profile::Line;
 use slowlight_vm::mos6502::plain::port;
 use slowlight_vm::mos6502::{Assembly, Bbc, C64, Dialect, Machine, Plain, Run, assemble_as};
-use slowlight_vm::{Charge, Fault, Watch};
+use slowlight_vm::{Charges, Fault, Roles, Watch};
 use std::collections::BTreeMap;
 
 /// Which machine, and how its assembly is written.
@@ -155,11 +155,11 @@ pub fn charges(
     machine: &mut dyn Machine,
     sizes: Sizes,
     limit: u64,
-    routine: &dyn Fn(u32) -> bool,
+    roles: Roles<'_>,
     watch: Watch<'_>,
-) -> (MachineRun, Vec<Charge>) {
+) -> (MachineRun, Charges) {
     watched(machine, sizes, |machine| {
-        machine.charges(limit, routine, watch)
+        machine.charges(limit, roles, watch)
     })
 }
 

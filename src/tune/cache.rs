@@ -4,6 +4,7 @@
 //! file is named by their digest. The program is known by its own file: any other build
 //! measures anew. Files are written whole or not at all; what cannot be read is measured.
 
+use crate::digest::{self, hexadecimal};
 use crate::failure::Outcome;
 use crate::files;
 use crate::scene::Scene;
@@ -34,7 +35,7 @@ impl Cache {
         let (Some(dir), Ok(program)) = (dirs::cache_dir(), program) else {
             return Cache::none();
         };
-        let own = hexadecimal(&Sha256::digest(program));
+        let own = digest::bytes(&program);
         Cache {
             dir: Some(dir.join("slowlight").join("tune").join(own)),
         }
@@ -101,8 +102,4 @@ impl Cache {
         }
         let _ = std::fs::create_dir_all(dir);
     }
-}
-
-fn hexadecimal(bytes: &[u8]) -> String {
-    bytes.iter().map(|b| format!("{b:02x}")).collect()
 }

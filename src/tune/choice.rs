@@ -1,7 +1,9 @@
 //! A choice: one way to compute a scene on a machine, as options of `run` and `build`.
 
-use crate::scene::Changes;
+use crate::scene::{Changes, Limits};
 use crate::target_args::{Os, ScreenArgs};
+use crate::trial::HACK_HERTZ;
+use crate::ways::WayArgs;
 use serde::{Deserialize, Serialize};
 use slowlight_compiler::target::Target;
 use std::path::PathBuf;
@@ -15,6 +17,8 @@ pub struct Setting {
     pub max_turns: Option<u32>,
     /// The same of the library's.
     pub max_steps: Option<u32>,
+    /// What is found in another way than the scene says.
+    pub ways: WayArgs,
 }
 
 impl Setting {
@@ -23,7 +27,21 @@ impl Setting {
         block: (1, 1),
         max_turns: None,
         max_steps: None,
+        ways: WayArgs {
+            hits: None,
+            differences: None,
+            samples: None,
+        },
     };
+
+    /// What of the scene is done with less, or otherwise, blocks aside.
+    pub fn limits(&self) -> Limits {
+        Limits {
+            turns: self.max_turns,
+            steps: self.max_steps,
+            ways: self.ways.ways(),
+        }
+    }
 }
 
 /// One way to compute a scene.
@@ -37,6 +55,8 @@ pub struct Choice {
     pub frozen: bool,
     /// Whether it has subroutines where it would fit without.
     pub outlined: bool,
+    /// How much less memory is spent on speed than may be: a step of `--thrift`.
+    pub thrift: u8,
 }
 
 /// What is tuned, and what stays as the user has it.
@@ -59,6 +79,14 @@ impl Base {
         stem.to_string_lossy().into_owned()
     }
 
+    /// Cycles of the machine a second.
+    pub fn hertz(&self) -> f64 {
+        match self.screen.os {
+            Some(Os::Jack) => HACK_HERTZ,
+            Some(Os::Native) | None => self.target.hertz,
+        }
+    }
+
     /// The options of a choice, in words of the command line.
     pub fn words(&self, choice: &Choice) -> Vec<String> {
         let mut words = Vec::new();
@@ -76,19 +104,10 @@ impl Base {
         for value in &self.changes.without {
             add("--without", value.clone());
         }
-        match choice.setting.block {
-            (1, 1) => {}
-            (wide, high) if wide == high => add("--block", wide.to_string()),
-            (wide, high) => add("--block", format!("{wide}x{high}")),
-        }
-        let limits = [
-            ("--max-turns", choice.setting.max_turns),
-            ("--max-steps", choice.setting.max_steps),
-        ];
-        for (option, most) in limits {
-            if let Some(most) = most {
-                add(option, most.to_string());
-            }
+        words.extend(self.setting(&choice.setting));
+        let mut add = |option: &str, value: String| words.extend([option.to_owned(), value]);
+        if choice.thrift > 0 {
+            add("--thrift", choice.thrift.to_string());
         }
         if let Some(mode) = &self.screen.mode {
             add("--mode", mode.clone());
@@ -101,6 +120,30 @@ impl Base {
         }
         if choice.outlined {
             words.push("--outlined".to_owned());
+        }
+        words
+    }
+
+    /// The options of a setting.
+    pub fn setting(&self, setting: &Setting) -> Vec<String> {
+        let mut words = Vec::new();
+        let mut add = |option: &str, value: String| words.extend([option.to_owned(), value]);
+        match setting.block {
+            (1, 1) => {}
+            (wide, high) if wide == high => add("--block", wide.to_string()),
+            (wide, high) => add("--block", format!("{wide}x{high}")),
+        }
+        let limits = [
+            ("--max-turns", setting.max_turns),
+            ("--max-steps", setting.max_steps),
+        ];
+        for (option, most) in limits {
+            if let Some(most) = most {
+                add(option, most.to_string());
+            }
+        }
+        for (option, value) in setting.ways.words() {
+            add(option, value);
         }
         words
     }
@@ -121,7 +164,9 @@ impl Base {
             block: Some(choice.setting.block),
             max_turns: choice.setting.max_turns,
             max_steps: choice.setting.max_steps,
+            ways: choice.setting.ways,
             outlined: choice.outlined,
+            thrift: (choice.thrift > 0).then_some(choice.thrift),
             ..self.screen.clone()
         }
     }
@@ -148,6 +193,7 @@ fn quoted(word: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::ways;
     use slowlight_compiler::target::find;
 
     fn base() -> Base {
@@ -166,6 +212,7 @@ mod tests {
             format: "f316".to_owned(),
             frozen: false,
             outlined: false,
+            thrift: 0,
         };
         assert!(base().words(&choice).is_empty());
         let command = base().command(&choice, "run");
@@ -179,14 +226,20 @@ mod tests {
                 block: (4, 2),
                 max_turns: Some(3),
                 max_steps: Some(8),
+                ways: WayArgs {
+                    hits: ways::search("march:64:0.01").ok(),
+                    differences: ways::apart("0.005").ok(),
+                    samples: Some(4),
+                },
             },
             format: "log10".to_owned(),
             frozen: true,
             outlined: true,
+            thrift: 7,
         };
         let words = base().words(&choice).join(" ");
-        let wanted =
-            "--format log10 --freeze all --block 4x2 --max-turns 3 --max-steps 8 --outlined";
+        let wanted = "--format log10 --freeze all --block 4x2 --max-turns 3 --max-steps 8 \
+             --hits march:64:0.01 --differences 0.005 --samples 4 --thrift 7 --outlined";
         assert_eq!(words, wanted);
     }
 }

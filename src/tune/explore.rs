@@ -3,16 +3,17 @@
 use super::cache::Cache;
 use super::choice::{Base, Choice, Setting};
 use super::goal::Measure;
+use super::planned::Planned;
 use super::point::{self, Natives, Point};
 use super::rows::{self, Look};
-use super::settings::worthwhile;
+use super::settings::{Drafted, Drafts, worthwhile};
 use crate::failure::{Failure, Outcome};
+use crate::format::count;
 use crate::jobs;
 use crate::measure::Errors;
 use crate::progress::Progress;
 use crate::scene::Scene;
 use serde::{Deserialize, Serialize};
-use slowlight_compiler::plan::Plan;
 use slowlight_compiler::target;
 use std::sync::{Arc, Mutex};
 
@@ -24,22 +25,31 @@ pub struct Search {
     pub measure: Measure,
     /// Whether params must stay changeable.
     pub live: bool,
-    /// Whether to try subroutines for what a program has several times, where it fits
-    /// without, too.
-    pub outlined: bool,
+    /// Whether to try smaller programs where what is quickest fits, too.
+    pub smaller: bool,
     /// How many settings go to the machines.
     pub settings: usize,
     /// Cycles after which a machine is given up.
     pub limit: u64,
+    /// Whether to tell what each point's time goes to.
+    pub by_line: bool,
     /// What is known from before.
     pub cache: Cache,
 }
 
 impl Search {
+    /// When a machine is given up, and whether its lines are counted.
+    fn how(&self) -> (u64, bool) {
+        (self.limit, self.by_line)
+    }
+
     /// What the figures of a choice depend on: its options, and when a machine is given up.
     fn words(&self, choice: &Choice) -> Vec<String> {
         let mut words = self.base.words(choice);
         words.push(format!("limit {}", self.limit));
+        if !self.by_line {
+            words.push("not by line".to_owned());
+        }
         words
     }
 }
@@ -49,6 +59,10 @@ impl Search {
 pub struct Found {
     /// Choices that were run whole.
     pub points: Vec<Point>,
+    /// Settings that were drawn in `f64` only.
+    pub drafted: Vec<Drafted>,
+    /// Operations of the scene as written, in `f64`.
+    pub whole_work: u64,
     /// Choices that others clearly beat on some rows, and what these said.
     pub left: Vec<(Choice, Look)>,
     /// Choices that cannot be had, and why.
@@ -94,10 +108,12 @@ pub fn explore(search: &Search, found: &Arc<Mutex<Found>>) -> Outcome<()> {
     let mut words = asked.map(str::to_owned).to_vec();
     words.push(base.changes.text());
     let work = || worthwhile(&scenes.live, &natives, inks, &error, search.settings);
-    let settings: Vec<Setting> =
-        (search.cache).known_or(&scenes.live, base.target, &words, work)?;
-    let choices = choices(search, &scenes, &settings);
-    note(found, |f| f.tried = choices.len());
+    let drafts: Drafts = (search.cache).known_or(&scenes.live, base.target, &words, work)?;
+    let choices = choices(search, &scenes, &drafts.chosen);
+    note(found, |f| {
+        f.tried = choices.len();
+        (f.drafted, f.whole_work) = (drafts.left, drafts.whole_work);
+    });
     let progress = Progress::new("choices", 2 * choices.len() as u64);
     let first = jobs::each(&choices, |choice| {
         let begun = begun(search, scenes.of(choice), &natives, choice)?;
@@ -130,6 +146,15 @@ pub fn explore(search: &Search, found: &Arc<Mutex<Found>>) -> Outcome<()> {
                 progress.step(1);
                 note(found, |f| f.left.push((choice, look)));
             }
+            First::Rows(look) if look.cycles > OVER * search.limit as f64 => {
+                progress.step(1);
+                let (cycles, limit) = (count(look.cycles as u64), count(search.limit));
+                let why = format!(
+                    "by three bands of its rows it takes {cycles} cycles, and {limit} are the \
+                     limit (--limit)"
+                );
+                note(found, |f| f.failed.push((choice, why)));
+            }
             First::Rows(_) => rest.push((choice, Mutex::new(begun.plan))),
             First::Whole(_) | First::Not(_) => {}
         }
@@ -150,6 +175,10 @@ pub fn explore(search: &Search, found: &Arc<Mutex<Found>>) -> Outcome<()> {
     each.into_iter().collect::<Outcome<Vec<()>>>()?;
     Ok(())
 }
+
+/// By how much a few rows must exceed the limit for the whole not to be run: they may be
+/// dearer than others.
+const OVER: f64 = 1.25;
 
 /// What a first look at a choice came to.
 #[derive(Clone, Serialize, Deserialize)]
@@ -175,7 +204,7 @@ impl First {
 /// The same with the plan, where one was made and is needed again: planning takes long.
 struct Begun {
     first: First,
-    plan: Option<Plan>,
+    plan: Option<Planned>,
 }
 
 /// Looks at a choice, or remembers what was seen.
@@ -188,14 +217,17 @@ fn begun(search: &Search, scene: &Scene, natives: &Natives, choice: &Choice) -> 
         let tried = base
             .screen(choice)
             .plan(scene, base.target, &[])
-            .and_then(|plan| {
-                if !rows::pays(&plan) {
-                    let point = point::measure(base, scene, natives, choice, plan, search.limit)?;
+            .map(Planned::new)
+            .and_then(|planned| {
+                rows::hopeless(&planned.plan, search.limit)?;
+                if !rows::pays(&planned.plan) {
+                    let point =
+                        point::measure(base, scene, natives, choice, planned, search.how())?;
                     return Ok(First::Whole(Box::new(point)));
                 }
                 let how = (measure, search.limit);
-                let look = rows::look(base, scene, natives, choice, &plan, how)?;
-                kept = Some(plan);
+                let look = rows::look(base, scene, natives, choice, &planned, how)?;
+                kept = Some(planned);
                 Ok(First::Rows(look))
             });
         match tried {
@@ -214,6 +246,9 @@ fn note(found: &Mutex<Found>, write: impl FnOnce(&mut Found)) {
     }
 }
 
+/// Ways to a smaller program: subroutines, or how much less memory is spent on speed.
+const SMALLER: [(bool, u8); 5] = [(false, 0), (false, 6), (false, 12), (false, 18), (true, 0)];
+
 /// All formats and settings, with params changeable and folded.
 fn choices(search: &Search, scenes: &Scenes, settings: &[Setting]) -> Vec<Choice> {
     let has_params = !scenes.live.checked.program.params.is_empty();
@@ -221,20 +256,21 @@ fn choices(search: &Search, scenes: &Scenes, settings: &[Setting]) -> Vec<Choice
         true => &[false, true],
         false => &[false],
     };
-    let outlined: &[bool] = match search.outlined {
-        true => &[false, true],
-        false => &[false],
+    let smaller: &[(bool, u8)] = match search.smaller {
+        true => &SMALLER,
+        false => &SMALLER[..1],
     };
     let mut all = Vec::new();
     for &setting in settings {
         for target in target::formats(search.base.target) {
             for &frozen in frozen {
-                for &outlined in outlined {
+                for &(outlined, thrift) in smaller {
                     all.push(Choice {
                         setting,
                         format: target.runtime.format.to_owned(),
                         frozen,
                         outlined,
+                        thrift,
                     });
                 }
             }
@@ -251,14 +287,14 @@ fn tried(
     scene: &Scene,
     natives: &Natives,
     choice: &Choice,
-    plan: Option<Plan>,
+    plan: Option<Planned>,
 ) -> Outcome<Tried> {
     let base = &search.base;
     let plan = match plan {
         Some(plan) => Ok(plan),
-        None => base.screen(choice).plan(scene, base.target, &[]),
+        None => (base.screen(choice).plan(scene, base.target, &[])).map(Planned::new),
     };
-    let measured = |plan| point::measure(base, scene, natives, choice, plan, search.limit);
+    let measured = |plan| point::measure(base, scene, natives, choice, plan, search.how());
     match plan.and_then(measured) {
         Ok(point) => Ok(Ok(point)),
         Err(Failure::Interrupted) => Err(Failure::Interrupted),

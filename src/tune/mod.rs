@@ -22,6 +22,7 @@ pub mod explore;
 pub mod goal;
 pub mod marks;
 pub mod page;
+pub mod planned;
 pub mod plot;
 pub mod point;
 pub mod rows;

@@ -106,7 +106,8 @@ pub fn svg(told: &Told<'_>) -> String {
     let (width, height) = SIZE;
     let across = (LEFT, width - RIGHT);
     let times = told.points.iter().map(|p| p.measured.seconds);
-    let times = times.chain(told.marks.iter().map(|mark| mark.seconds));
+    let hertz = told.base.hertz();
+    let times = times.chain(told.marks.iter().map(|mark| mark.time.seconds(hertz)));
     let errors = told.points.iter().map(|p| told.error(p));
     let errors = errors.chain(told.marks.iter().map(|mark| mark.error));
     let exact = errors.clone().any(|error| error == 0.0);
@@ -173,9 +174,9 @@ pub fn svg(told: &Told<'_>) -> String {
         }
     }
     for mark in &told.marks {
-        let at = (x.at(mark.seconds), down(mark.error));
+        let at = (x.at(mark.time.seconds(hertz)), down(mark.error));
         let middle = (across.0 + across.1) / 2.0;
-        diamond(&mut out, mark, at, middle, told.measure.phrase());
+        diamond(&mut out, mark, at, middle, (told.measure.phrase(), hertz));
     }
     out.push_str("</svg>");
     out

@@ -1,7 +1,9 @@
 //! A point: what a choice came to on its machine, the whole picture.
 
 use super::choice::{Base, Choice};
+use super::planned::Planned;
 use super::spent::{Spent, spent};
+use crate::digest;
 use crate::draw::{Drawn, Window, native};
 use crate::failure::{Failure, Outcome};
 use crate::machine::Sizes;
@@ -12,7 +14,6 @@ use crate::{estimate, trial};
 use base64::Engine as _;
 use base64::engine::general_purpose::STANDARD as BASE64;
 use serde::{Deserialize, Serialize};
-use slowlight_compiler::plan::Plan;
 use std::collections::HashMap;
 use std::sync::{Arc, Mutex};
 
@@ -46,8 +47,10 @@ pub struct Measured {
     pub differs_from_model: u64,
     /// How far it is from the native picture.
     pub errors: Errors,
-    /// What its time goes to, the dearest first.
+    /// What its time goes to, the dearest first; nothing where nobody asked.
     pub spent: Vec<Spent>,
+    /// Digest of the program's files.
+    pub program_sha256: String,
     /// Digest of the inks, as `run` gives it.
     pub inks_sha256: String,
     /// The picture, as a PNG in base 64.
@@ -91,7 +94,8 @@ impl Natives {
     }
 }
 
-/// Runs a plan on its machine, the whole picture.
+/// Runs a plan on its machine, the whole picture; where it is asked for, some rows line by
+/// line as well, which takes as long again.
 ///
 /// # Errors
 /// Where the program does not end by itself, or shows no picture, or another than its model.
@@ -100,15 +104,21 @@ pub fn measure(
     scene: &Scene,
     natives: &Natives,
     choice: &Choice,
-    plan: Plan,
-    limit: u64,
+    planned: Planned,
+    (limit, by_line): (u64, bool),
 ) -> Outcome<Point> {
-    let predicted = estimate::cycles(&plan);
-    let spent = spent(scene, &plan, &base.screen(choice), limit)?;
-    let loaded = trial::build_for(&plan, base.screen(choice).machine(plan.target)?)?.loaded;
-    let run = trial::ran(scene, &plan, loaded, limit)?;
-    let native = natives.of(scene, plan.mode.inks, Window::on_screen(&plan))?;
-    let tried = trial::held(scene, plan, run, (*native).clone())?;
+    let plan = &planned.plan;
+    let predicted = estimate::cycles(plan);
+    let spent = match by_line {
+        true => spent(scene, &planned, &base.screen(choice), limit)?,
+        false => Vec::new(),
+    };
+    let loaded = trial::build_for(plan, base.screen(choice).machine(plan.target)?)?.loaded;
+    let run = trial::ran(scene, plan, loaded, limit)?;
+    let native = natives.of(scene, plan.mode.inks, Window::on_screen(plan))?;
+    let modelled = planned.modelled(plan.rows, true)?;
+    let program_sha256 = digest::program(plan);
+    let tried = trial::held_with(scene, planned.plan, run, (*native).clone(), modelled)?;
     let Some(picture) = &tried.picture else {
         return Err(Failure::Wrong("the program drew nothing".to_owned()));
     };
@@ -135,6 +145,7 @@ pub fn measure(
             differs_from_model: tried.from_model.as_ref().map_or(0, Vec::len) as u64,
             errors,
             spent,
+            program_sha256,
             inks_sha256: picture.sha256(),
             picture: BASE64.encode(picture.encode(FileFormat::Png)?),
             difference: BASE64.encode(difference(picture, &tried.native)?),

@@ -7,9 +7,11 @@
 
 use super::choice::{Base, Choice};
 use super::goal::Measure;
+use super::planned::Planned;
 use super::point::{Natives, Point};
 use crate::draw::Window;
-use crate::failure::Outcome;
+use crate::failure::{Failure, Outcome};
+use crate::format::count;
 use crate::scene::Scene;
 use crate::{estimate, measure, trial};
 use serde::{Deserialize, Serialize};
@@ -23,6 +25,9 @@ const SHARE: u32 = 24;
 
 /// By how much another must be cheaper and better, as figures of a few rows are not exact.
 const CLEARLY: f64 = 0.8;
+
+/// How many times the limit the planner must expect for it to be believed unseen.
+const FAR: f64 = 3.0;
 
 /// What some rows say of a choice.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -62,6 +67,21 @@ pub fn pays(plan: &Plan) -> bool {
     plan.graph.diffusion.is_none() && rows >= SHARE && estimate::cycles(plan) > LONG
 }
 
+/// Where rows cannot be looked at, the planner's figures say what is not begun at all.
+///
+/// # Errors
+/// Where they are far beyond the limit: what they are.
+pub fn hopeless(plan: &Plan, limit: u64) -> Outcome<()> {
+    let predicted = estimate::cycles(plan);
+    if plan.graph.diffusion.is_none() || predicted <= FAR * limit as f64 {
+        return Ok(());
+    }
+    let (cycles, limit) = (count(predicted as u64), count(limit));
+    Err(Failure::Wrong(format!(
+        "the planner expects {cycles} cycles, and {limit} are the limit (--limit)"
+    )))
+}
+
 /// The bands: first and last row of each.
 pub fn bands((first, last): (u32, u32)) -> [(u32, u32); 3] {
     let count = last - first + 1;
@@ -84,20 +104,21 @@ pub fn look(
     scene: &Scene,
     natives: &Natives,
     choice: &Choice,
-    plan: &Plan,
+    planned: &Planned,
     (measure, limit): (Measure, u64),
 ) -> Outcome<Look> {
+    let plan = &planned.plan;
     let machine = base.screen(choice).machine(plan.target)?;
     let (mut took, mut predicted, mut squares, mut pixels) = (0.0, 0.0, 0.0, 0.0);
     for rows in bands(plan.rows) {
-        let mut band = plan.clone();
-        band.rows = rows;
+        let band = planned.band(rows);
         predicted += estimate::cycles(&band);
         let loaded = trial::build_for(&band, machine)?.loaded;
         let run = trial::ran(scene, &band, loaded, limit)?;
         took += run.cycles as f64;
         let native = natives.of(scene, band.mode.inks, Window::on_screen(&band))?;
-        let tried = trial::held(scene, band, run, (*native).clone())?;
+        let modelled = planned.modelled(rows, measure == Measure::Rmse)?;
+        let tried = trial::held_with(scene, band, run, (*native).clone(), modelled)?;
         let inks = tried.picture.as_ref().map_or(&[][..], |p| &p.inks);
         let levels = tried.plan.graph.image.palette.len();
         let (width, shades) = (native.window.width(), &tried.modelled.pixels);
@@ -124,6 +145,7 @@ fn power(measure: Measure) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use slowlight_compiler::plan::{Goal, plan};
 
     #[test]
     fn bands_are_inside_and_apart() {
@@ -135,6 +157,26 @@ mod tests {
                 "{bands:?}"
             );
         }
+    }
+
+    #[test]
+    fn what_is_far_beyond_the_limit_is_not_begun() {
+        let text = "image 9 x 9 inks black, white;\ndither d(v: real, x: int, y: int) -> ink = \
+            { let q = round(v); spread v - q to { (1, 0): 1 }; ink(q) };\n\
+            draw (x, y) = d(x / 9, x, y);\n";
+        let scene = slowlight_compiler::scene::check("spread", text);
+        let graph = scene.lower(&Default::default()).expect("a graph");
+        let target = slowlight_compiler::target::find("jack").expect("a target");
+        let goal = Goal {
+            name: "spread".to_owned(),
+            mode: target.modes[0],
+            rows: None,
+            plot: true,
+        };
+        let plan = plan(&graph, target, &goal).expect("a plan");
+        let predicted = estimate::cycles(&plan) as u64;
+        assert!(hopeless(&plan, predicted).is_ok());
+        assert!(hopeless(&plan, predicted / 4).is_err());
     }
 
     #[test]

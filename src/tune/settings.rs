@@ -11,8 +11,10 @@ use crate::failure::{Failure, Outcome};
 use crate::measure::{Errors, errors};
 use crate::progress::Progress;
 use crate::scene::{Limits, Precision, Scene};
+use serde::{Deserialize, Serialize};
 use slowlight_compiler::flow::graph::Graph;
 use slowlight_compiler::passes::coarse::coarse;
+use slowlight_compiler::sema::{Millionths, Search, Ways};
 
 /// The areas that blocks have, in pixels.
 const AREAS: [u32; 11] = [1, 2, 4, 8, 9, 16, 25, 32, 64, 128, 256];
@@ -20,12 +22,33 @@ const AREAS: [u32; 11] = [1, 2, 4, 8, 9, 16, 25, 32, 64, 128, 256];
 /// Turns that loops may be cut to.
 const TURNS: [u32; 13] = [1, 2, 3, 4, 6, 8, 12, 16, 24, 32, 48, 64, 96];
 
+/// Steps of a march in place of the shapes' own solutions, and what is near enough.
+const MARCHES: [u32; 2] = [16, 64];
+const NEARS: [Millionths; 2] = [Millionths(100_000), Millionths(10_000)];
+
+/// How far apart differences are in the place of gradients.
+const APARTS: [Millionths; 3] = [Millionths(100_000), Millionths(20_000), Millionths(5_000)];
+
+/// Rays a pixel, where the library draws it by several.
+const SAMPLES: [u32; 4] = [1, 4, 9, 16];
+
 /// How much better a setting must be in both ways to leave another out: what a machine
 /// makes of them may be otherwise by as much.
 const CLEARLY: f64 = 0.9;
 
+/// The settings that go to the machines, and those that do not.
+#[derive(Clone, Debug, Default, Serialize, Deserialize)]
+pub struct Drafts {
+    /// What is worth a machine's time.
+    pub chosen: Vec<Setting>,
+    /// What is not: others clearly beat it, or are like it and take less work.
+    pub left: Vec<Drafted>,
+    /// Operations of the scene as written.
+    pub whole_work: u64,
+}
+
 /// A setting, and what it is in `f64`.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Drafted {
     /// The setting.
     pub setting: Setting,
@@ -46,7 +69,7 @@ pub fn worthwhile(
     inks: u32,
     error: &dyn Fn(&Errors) -> f64,
     most: usize,
-) -> Outcome<Vec<Setting>> {
+) -> Outcome<Drafts> {
     let (width, height) = scene.size();
     let truth = natives.of(scene, inks, Window::whole(width, height))?;
     let limits = limits(scene, inks)?;
@@ -59,12 +82,21 @@ pub fn worthwhile(
                 block,
                 max_turns: limit.turns,
                 max_steps: limit.steps,
+                ways: limit.ways.into(),
             };
             all.push(drafted(graph, setting, &truth)?);
             progress.step(1);
         }
     }
-    Ok(spread(kept(all, error), error, most))
+    let chosen = spread(kept(all.clone(), error), error, most);
+    let whole = all.iter().find(|one| one.setting == Setting::WHOLE);
+    let whole_work = whole.map_or(0, |one| one.work);
+    all.retain(|one| !chosen.contains(&one.setting));
+    Ok(Drafts {
+        chosen,
+        left: all,
+        whole_work,
+    })
 }
 
 /// Draws a setting.
@@ -82,31 +114,66 @@ fn drafted(graph: &Graph, setting: Setting, truth: &Drawn) -> Outcome<Drafted> {
     })
 }
 
-/// The scene's graph as written, and with fewer turns wherever that makes another.
+/// The scene's graph as written, and done with less or otherwise wherever that makes another.
 fn limits(scene: &Scene, inks: u32) -> Outcome<Vec<(Graph, Limits)>> {
     let whole = scene.graph(Some(inks), Precision::NATIVE)?;
     let longest = whole.loops.iter().map(|l| l.max).max().unwrap_or(0);
     let mut all = vec![(whole, Limits::default())];
-    let fewer = |n: &u32| *n < longest;
-    for turns in TURNS.into_iter().filter(fewer) {
-        let ways = [
-            Limits {
-                turns: Some(turns),
-                steps: None,
-            },
-            Limits {
-                turns: None,
-                steps: Some(turns),
-            },
-        ];
-        for limit in ways {
-            let graph = scene.graph_within(Some(inks), Precision::NATIVE, &[], limit)?;
-            if all.iter().all(|(known, _)| *known != graph) {
-                all.push((graph, limit));
-            }
+    for limit in fewer(longest).into_iter().chain(otherwise()) {
+        let made = scene.graph_within(Some(inks), Precision::NATIVE, &[], limit);
+        // What lowers as written may not otherwise: a shape without `dist` is not marched to.
+        let Ok(graph) = made else {
+            continue;
+        };
+        if all.iter().all(|(known, _)| *known != graph) {
+            all.push((graph, limit));
         }
     }
     Ok(all)
+}
+
+/// Fewer turns of loops than the longest has.
+fn fewer(longest: u32) -> Vec<Limits> {
+    let turns = TURNS.into_iter().filter(|n| *n < longest);
+    let each = turns.flat_map(|n| {
+        let own = Limits {
+            turns: Some(n),
+            ..Limits::default()
+        };
+        let library = Limits {
+            steps: Some(n),
+            ..Limits::default()
+        };
+        [own, library]
+    });
+    each.collect()
+}
+
+/// What can be found in another way, one at a time.
+fn otherwise() -> Vec<Limits> {
+    let mut all = vec![Ways {
+        search: Some(Search::Trace),
+        ..Ways::default()
+    }];
+    for steps in MARCHES {
+        all.extend(NEARS.map(|near| Ways {
+            search: Some(Search::March { steps, near }),
+            ..Ways::default()
+        }));
+    }
+    all.extend(APARTS.map(|apart| Ways {
+        differences: Some(apart),
+        ..Ways::default()
+    }));
+    all.extend(SAMPLES.map(|n| Ways {
+        samples: Some(n),
+        ..Ways::default()
+    }));
+    let limits = |ways| Limits {
+        ways,
+        ..Limits::default()
+    };
+    all.into_iter().map(limits).collect()
 }
 
 /// Of each area the block that is least off.

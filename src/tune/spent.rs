@@ -3,6 +3,7 @@
 //!
 //! Lines are charged as `explain` does it, on the bands of rows that a first look takes.
 
+use super::planned::Planned;
 use super::rows::{bands, pays};
 use crate::explain::{Counted, count_lines, error};
 use crate::failure::Outcome;
@@ -46,16 +47,19 @@ struct Line {
 ///
 /// # Errors
 /// Where the program does not end by itself.
-pub fn spent(scene: &Scene, plan: &Plan, screen: &ScreenArgs, limit: u64) -> Outcome<Vec<Spent>> {
+pub fn spent(
+    scene: &Scene,
+    planned: &Planned,
+    screen: &ScreenArgs,
+    limit: u64,
+) -> Outcome<Vec<Spent>> {
     let mut lines: BTreeMap<(u16, usize), Line> = BTreeMap::new();
     let mut all = 0;
-    for rows in looked_at(plan) {
-        let mut band = plan.clone();
-        band.rows = rows;
-        let counted = count_lines(scene, band, screen, limit)?;
+    for rows in looked_at(&planned.plan) {
+        let counted = count_lines(scene, planned.band(rows), screen, limit)?;
         all += add(&mut lines, &profile_of(scene, &counted));
     }
-    let errors = error::errors(scene, plan)?;
+    let errors = error::errors_with(scene, &planned.plan, planned.shaded())?;
     let files = &scene.checked.sources.files;
     let scene_file = files.iter().find(|f| !f.library).map_or("", |f| &f.name);
     let share = |cycles: u64| cycles as f64 / all.max(1) as f64;

@@ -1,6 +1,6 @@
 //! What was found, as a table, as JSON, as CSV, and in one sentence.
 
-use super::choice::Base;
+use super::choice::{Base, Choice};
 use super::explore::Found;
 use super::goal::{Measure, percent};
 use super::marks::Mark;
@@ -177,6 +177,14 @@ impl<'a> Told<'a> {
                 })
             })
             .collect();
+        let drafts = (self.found.drafted.iter()).map(|draft| {
+            json!({
+                "options": self.base.setting(&draft.setting).join(" "),
+                "operations": draft.work,
+                "error": self.measure.of(&draft.errors),
+            })
+        });
+        let drafts: Vec<Value> = drafts.collect();
         left.sort_by_key(|v| v["options"].as_str().map(str::to_owned));
         let span = |of: &dyn Fn(&Point) -> f64| {
             let all: Vec<f64> = self.frontier().map(|(_, p)| of(p)).collect();
@@ -202,6 +210,7 @@ impl<'a> Told<'a> {
                 "rank_correlation": self.correlation(),
             },
             "points": points,
+            "left_after_drafts": drafts,
             "left_after_rows": left,
             "failed": failed.collect::<Vec<Value>>(),
             "chosen": chosen.map(|p| self.base.words(&p.choice).join(" ")),
@@ -223,6 +232,8 @@ impl<'a> Told<'a> {
             "outlined": choice.outlined,
             "max_turns": choice.setting.max_turns,
             "max_steps": choice.setting.max_steps,
+            "ways": ways(choice),
+            "thrift": choice.thrift,
             "mode": at.mode,
             "inks": at.inks,
             "cycles": at.cycles,
@@ -241,6 +252,7 @@ impl<'a> Told<'a> {
             "expected_differing": at.errors.expected,
             "low_pass_rmse": at.errors.low_pass,
             "differs_from_model": at.differs_from_model,
+            "program_sha256": at.program_sha256,
             "inks_sha256": at.inks_sha256,
             "spent": at.spent,
         })
@@ -277,6 +289,13 @@ impl<'a> Told<'a> {
         }
         out
     }
+}
+
+/// What is found in another way than the scene says: options and their values.
+fn ways(choice: &Choice) -> Value {
+    let words = choice.setting.ways.words().into_iter();
+    let pairs = words.map(|(o, v)| (o.trim_start_matches('-').to_owned(), Value::from(v)));
+    Value::Object(pairs.collect())
 }
 
 fn way(measure: Measure, point: &Point) -> Way {

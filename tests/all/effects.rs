@@ -100,9 +100,46 @@ fn what_is_not_needed_at_a_pixel_is_seen() {
     let args = ["effects", "lit.scn", "-t", "6502:plain", "--json"];
     let compiled = json(dir.path(), &args);
     assert_eq!(row(&compiled, "halo")["turns"], halo["turns"]);
-    let of = |row: &Value, key: &str| row["pixel_cycles_modelled"][key].as_u64().expect("cycles");
-    assert!(of(halo, "p99") >= of(halo, "median"));
-    assert!(of(rim, "p99") > 0);
+    for counted in ["pixel_cycles", "pixel_cycles_modelled"] {
+        let of = |row: &Value, key: &str| row[counted][key].as_u64().expect("cycles");
+        assert!(of(halo, "p99") >= of(halo, "median"));
+        assert!(of(rim, "p99") > 0);
+    }
+}
+
+/// What the machine counts pixel by pixel is what it counts line by line, and at as many
+/// pixels as need the effect.
+#[test]
+fn a_pixels_cycles_are_the_machines() {
+    let dir = directory(&[("lit.scn", LIT)]);
+    let both = &["halo", "rim"][..];
+    // In BASIC the rim is written where it is read.
+    let cases = [
+        ("6502:plain", both),
+        ("6502:bbc", both),
+        ("jack", both),
+        ("bbc:micro", &both[..1]),
+        ("bbc:agon", &both[..1]),
+    ];
+    for (target, names) in cases {
+        let args = ["effects", "lit.scn", "-t", target, "--as-written", "--json"];
+        let found = json(dir.path(), &args);
+        for name in names {
+            let row = row(&found, name);
+            let counted = &row["pixel_cycles"];
+            let number = |value: &Value| value.as_u64().expect("a number");
+            let (at, total) = (number(&counted["at"]), number(&counted["total"]));
+            let own = number(&row["own"]["cycles"]);
+            // A share of interrupts is added to each, which is rounded.
+            assert!(
+                total.abs_diff(own) <= at,
+                "{name} on {target}: {counted}, {own}"
+            );
+            // Four rows of sixteen pixels.
+            assert_eq!(at, 64, "{name} on {target}: {counted}");
+            assert!(number(&counted["p99"]) >= total / 128, "{name} on {target}");
+        }
+    }
 }
 
 /// A shadow, which is dear, under a dither of few levels.

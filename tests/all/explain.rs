@@ -1,6 +1,6 @@
 //! `explain`: every cycle of a machine is told by the scene's lines, on every target.
 
-use crate::cli::{directory, json, slowlight, success};
+use crate::cli::{directory, json, names, slowlight, success};
 use crate::cli_run::{SPOT, targets};
 use serde_json::Value;
 use slowlight_compiler::eval::model::ModelRun;
@@ -22,6 +22,20 @@ const SCENES: &[(&str, &str)] = &[
     ("torus", "20..20"),
     ("wave", "20..20"),
 ];
+
+/// The other scenes, and a row of each: on one machine of each kind.
+const OTHERS: &[(&str, &str)] = &[
+    ("csg", "20"),
+    ("glass", "20"),
+    ("room", "20"),
+    ("terrain", "20"),
+    ("torus-march", "20"),
+    ("torus-original", "20"),
+    ("primitives", "0"),
+];
+
+/// Scenes that take long even so: on one machine.
+const LONG: &[(&str, &str)] = &[("fifty", "20"), ("focus", "20"), ("twist", "20")];
 
 fn sum(parts: &Value, key: &str) -> u64 {
     let parts = parts.as_array().expect("a list").iter();
@@ -78,6 +92,31 @@ fn every_cycle_has_a_line_of_the_scene() {
             let more = ["--rows", rows, "--as-written"];
             held(Path::new(examples), &scene, &target, &more);
         }
+    }
+}
+
+#[test]
+fn and_so_it_has_in_every_scene() {
+    let examples = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/examples"));
+    let looked = |(scene, rows): &(&str, &str), targets: &[&str]| {
+        let scene = format!("{scene}.scn");
+        for target in targets {
+            let args = ["explain", &scene, "-t", target, "--json", "--as-written"];
+            let profile = json(examples, &[&args[..], &["--rows", rows]].concat());
+            is_whole(&profile, &profile, &format!("{scene} on {target}"));
+        }
+    };
+    OTHERS
+        .iter()
+        .for_each(|scene| looked(scene, &["jack", "bbc:micro", "6502:plain"]));
+    LONG.iter().for_each(|scene| looked(scene, &["jack"]));
+    // None is left out.
+    let all = [SCENES, OTHERS, LONG].concat();
+    for name in names(examples)
+        .iter()
+        .filter_map(|name| name.strip_suffix(".scn"))
+    {
+        assert!(all.iter().any(|(scene, _)| *scene == name), "{name}");
     }
 }
 

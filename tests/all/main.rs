@@ -1,5 +1,6 @@
 //! One integration-test binary: a file a subject.
 
+mod accuracy;
 mod bbc;
 mod blue_noise;
 mod boxes;
@@ -54,6 +55,7 @@ mod stress;
 mod syntaxes;
 mod torus;
 mod tune;
+mod ways;
 mod whole;
 mod written;
 mod wrong;

@@ -6,7 +6,56 @@
 //! deep the routines call each other, so that a multiplication costs the line that
 //! multiplies. Nothing is counted twice or lost: all charges together are the run.
 
-use std::collections::HashMap;
+use std::collections::{BTreeMap, HashMap};
+
+/// What a machine's places are to who counts.
+#[derive(Clone, Copy)]
+pub struct Roles<'r> {
+    /// Whether a place is a routine's.
+    pub routine: &'r dyn Fn(u32) -> bool,
+    /// The group whose stretches a place's cycles are part of, if any.
+    pub group: &'r dyn Fn(u32) -> Option<u16>,
+    /// Whether stretches end where a place begins: between two pixels, say.
+    pub cuts: &'r dyn Fn(u32) -> bool,
+}
+
+impl<'r> Roles<'r> {
+    /// Some places are routines', and no stretches are told.
+    pub fn routines(routine: &'r dyn Fn(u32) -> bool) -> Roles<'r> {
+        Roles {
+            routine,
+            group: &|_| None,
+            cuts: &|_| false,
+        }
+    }
+}
+
+/// What was counted.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Charges {
+    /// By place and routine.
+    pub places: Vec<Charge>,
+    /// By group: the cycles of each stretch from one cut to the next in which there were any.
+    pub stretches: BTreeMap<u16, Vec<u64>>,
+    /// How often a cut came after something else: how many stretches there were at most.
+    pub cuts: u64,
+}
+
+impl Charges {
+    /// With a machine's own share added to all counts, as `shown` adds it to a sum.
+    pub(crate) fn shared(mut self, start: u64, shown: impl Fn(u64) -> u64) -> Charges {
+        let mut before = start;
+        for charge in &mut self.places {
+            let from = shown(before);
+            before += charge.cycles;
+            charge.cycles = shown(before) - from;
+        }
+        for cycles in self.stretches.values_mut().flatten() {
+            *cycles = shown(start + *cycles) - shown(start);
+        }
+        self
+    }
+}
 
 /// What one place of a program took.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -19,6 +68,46 @@ pub struct Charge {
     pub times: u64,
     /// The machine's cycles.
     pub cycles: u64,
+}
+
+/// Stretches under way.
+#[derive(Clone, Debug, Default)]
+struct Stretches {
+    group: Vec<Option<u16>>,
+    cuts: Vec<bool>,
+    /// The groups that had any cycles since the last cut.
+    now: BTreeMap<u16, u64>,
+    done: BTreeMap<u16, Vec<u64>>,
+    /// Whether what began last cuts, and how often that came after what does not.
+    cutting: bool,
+    count: u64,
+}
+
+impl Stretches {
+    /// Cycles that a place is charged with.
+    #[inline]
+    fn add(&mut self, place: u32, cycles: u64) {
+        if let Some(Some(group)) = self.group.get(place as usize) {
+            *self.now.entry(*group).or_default() += cycles;
+        }
+    }
+
+    /// A place begins.
+    #[inline]
+    fn begin(&mut self, place: u32) {
+        let cuts = self.cuts.get(place as usize) == Some(&true);
+        if cuts && !self.cutting {
+            self.count += 1;
+            self.cut();
+        }
+        self.cutting = cuts;
+    }
+
+    fn cut(&mut self) {
+        for (group, cycles) in std::mem::take(&mut self.now) {
+            self.done.entry(group).or_default().push(cycles);
+        }
+    }
 }
 
 #[derive(Clone, Copy, Debug, Default)]
@@ -45,14 +134,21 @@ pub(crate) struct Ledger {
     called: HashMap<(u32, u32), Taken>,
     /// Who is charged, each deeper than the one before.
     callers: Vec<Caller>,
+    stretches: Stretches,
 }
 
 impl Ledger {
-    /// For `places` places, numbered from 0; `routine` says which of them are routines'.
-    pub fn new(places: usize, routine: &dyn Fn(u32) -> bool) -> Ledger {
+    /// For `places` places, numbered from 0.
+    pub fn new(places: usize, roles: Roles<'_>) -> Ledger {
+        let all = 0..places as u32;
         Ledger {
-            routine: (0..places as u32).map(routine).collect(),
+            routine: all.clone().map(roles.routine).collect(),
             own: vec![Taken::default(); places],
+            stretches: Stretches {
+                group: all.clone().map(roles.group).collect(),
+                cuts: all.map(roles.cuts).collect(),
+                ..Stretches::default()
+            },
             ..Ledger::default()
         }
     }
@@ -64,6 +160,7 @@ impl Ledger {
         while let Some(last) = self.callers.last_mut() {
             if routine && last.depth < depth {
                 last.called.get_or_insert((place, 0)).1 += cycles;
+                self.stretches.add(last.place, cycles);
                 return;
             }
             if last.depth < depth {
@@ -80,6 +177,10 @@ impl Ledger {
             own.times += u64::from(begins);
             own.cycles += cycles;
         }
+        if begins {
+            self.stretches.begin(place);
+        }
+        self.stretches.add(place, cycles);
     }
 
     /// The last caller's routine is done.
@@ -93,8 +194,8 @@ impl Ledger {
         }
     }
 
-    /// All charges, by place and routine.
-    pub fn finish(mut self) -> Vec<Charge> {
+    /// All charges.
+    pub fn finish(mut self) -> Charges {
         while !self.callers.is_empty() {
             self.leave();
         }
@@ -111,7 +212,12 @@ impl Ledger {
         let mut all: Vec<Charge> = own.chain(called).collect();
         all.retain(|charge| (charge.times, charge.cycles) != (0, 0));
         all.sort_unstable();
-        all
+        self.stretches.cut();
+        Charges {
+            places: all,
+            stretches: self.stretches.done,
+            cuts: self.stretches.count,
+        }
     }
 }
 
@@ -121,11 +227,11 @@ mod tests {
 
     /// Places from 10 on are routines'.
     fn charged(steps: &[(u32, u32, u64)]) -> Vec<(u32, Option<u32>, u64, u64)> {
-        let mut ledger = Ledger::new(20, &|place| place >= 10);
+        let mut ledger = Ledger::new(20, Roles::routines(&|place| place >= 10));
         for (place, depth, cycles) in steps {
             ledger.step(*place, *depth, *cycles, true);
         }
-        let all = ledger.finish();
+        let all = ledger.finish().places;
         let total: u64 = all.iter().map(|c| c.cycles).sum();
         assert_eq!(total, steps.iter().map(|s| s.2).sum::<u64>());
         let each = all.iter();
@@ -189,5 +295,39 @@ mod tests {
             (5, Some(12), 1, 8),
         ];
         assert_eq!(charged(&steps), expected);
+    }
+
+    #[test]
+    fn stretches_go_from_cut_to_cut_with_their_routines() {
+        // 1 and 2 are a group, 3 another, 4 cuts; from 10 on are routines.
+        let roles = Roles {
+            routine: &|place| place >= 10,
+            group: &|place| {
+                [None, Some(7), Some(7), Some(8)]
+                    .get(place as usize)
+                    .copied()?
+            },
+            cuts: &|place| place == 4,
+        };
+        let mut ledger = Ledger::new(20, roles);
+        let steps = [
+            (1, 0, 1),
+            (10, 1, 2),
+            (0, 0, 4),
+            (2, 0, 8),
+            (4, 0, 16),
+            (4, 0, 32),
+            (3, 0, 64),
+            (1, 0, 128),
+        ];
+        for (place, depth, cycles) in steps {
+            ledger.step(place, depth, cycles, true);
+        }
+        let found = ledger.finish();
+        let expected = BTreeMap::from([(7, vec![11, 128]), (8, vec![64])]);
+        assert_eq!((&found.stretches, found.cuts), (&expected, 1));
+        let twice = found.shared(0, |sum| 2 * sum);
+        assert_eq!(twice.stretches[&7], [22, 256]);
+        assert_eq!(twice.places.iter().map(|c| c.cycles).sum::<u64>(), 510);
     }
 }

@@ -9,7 +9,7 @@ mod charge;
 pub mod hack;
 pub mod mos6502;
 
-pub use charge::Charge;
+pub use charge::{Charge, Charges, Roles};
 
 use std::fmt;
 

@@ -94,6 +94,9 @@ use std::collections::HashMap;
 use std::sync::Arc;
 use workshop::Workshop;
 
+/// In how many steps plans may spend less and less memory on speed.
+pub const THRIFTS: usize = thrift::Thrift::COUNT;
+
 /// What to build, beside the scene and the target.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Goal {

@@ -32,6 +32,8 @@ pub enum Known {
     Floats,
     /// The format's self-intersection offset.
     Offset,
+    /// How many rays a pixel may have; the largest int where nobody says less.
+    Samples,
 }
 
 /// What a call calls.

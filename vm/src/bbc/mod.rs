@@ -52,7 +52,7 @@ use std::collections::BTreeMap;
 
 use slowlight_isa::real40::Real40;
 
-use crate::{Charge, Fault, Screen, Stop, Watch};
+use crate::{Charges, Fault, Roles, Screen, Stop, Watch};
 use error::Error;
 use profile::Profile;
 pub use profile::{LineCost, StatementPlace};
@@ -184,7 +184,7 @@ impl Machine {
 
     /// Runs the program as [`Machine::run`] does, and counts what each of its lines takes.
     pub fn profile(&self, cycle_limit: u64, watch: Watch<'_>) -> (Run, Vec<LineCost>) {
-        let (run, charges) = self.charges(cycle_limit, &|_| false, watch);
+        let (run, charges) = self.charges(cycle_limit, Roles::routines(&|_| false), watch);
         let lines = tokenise::lines(&self.program).unwrap_or_default();
         let mut costs: Vec<LineCost> = lines
             .iter()
@@ -195,7 +195,7 @@ impl Machine {
             })
             .collect();
         let statements = self.statements();
-        for charge in charges {
+        for charge in charges.places {
             let Some(place) = statements.get(charge.place as usize) else {
                 continue;
             };
@@ -209,26 +209,15 @@ impl Machine {
         (run, costs)
     }
 
-    /// The same by statements ([`Machine::statements`]), where those that `routine` knows
-    /// are charged to the statements that call them. The charges add up to the run's cycles.
-    pub fn charges(
-        &self,
-        cycle_limit: u64,
-        routine: &dyn Fn(u32) -> bool,
-        watch: Watch<'_>,
-    ) -> (Run, Vec<Charge>) {
+    /// The same by statements ([`Machine::statements`]), where routines' are charged to the
+    /// statements that call them. The charges add up to the run's cycles.
+    pub fn charges(&self, cycle_limit: u64, roles: Roles<'_>, watch: Watch<'_>) -> (Run, Charges) {
         let mut state = State::new(self.config);
         let count = self.statements().len();
-        state.profile = Some(Box::new(Profile::new(count, routine)));
-        let (run, mut charges) = self.run_from(state, cycle_limit, watch);
+        state.profile = Some(Box::new(Profile::new(count, roles)));
+        let (run, charges) = self.run_from(state, cycle_limit, watch);
         // Each has its share of the interrupts, so that all add up to the run.
-        let mut before = 0;
-        for charge in &mut charges {
-            let start = cost::with_interrupts(before);
-            before += charge.cycles;
-            charge.cycles = cost::with_interrupts(before) - start;
-        }
-        (run, charges)
+        (run, charges.shared(0, cost::with_interrupts))
     }
 
     /// The program's statements, in its order.
@@ -256,12 +245,12 @@ impl Machine {
         program.statements.iter().enumerate().map(place).collect()
     }
 
-    fn run_from(&self, mut state: State, cycle_limit: u64, watch: Watch<'_>) -> (Run, Vec<Charge>) {
+    fn run_from(&self, mut state: State, cycle_limit: u64, watch: Watch<'_>) -> (Run, Charges) {
         state.files.contents = self.files.clone();
         let stop = self.run_in(&mut state, cycle_limit, watch);
         let charges = match state.profile.take() {
             Some(profile) => profile.finish(state.cycles),
-            None => Vec::new(),
+            None => Charges::default(),
         };
         let room = state.himem.saturating_sub(state.top) as usize;
         let free = state.least_free as usize;

@@ -4,7 +4,7 @@
 //! takes to the function's lines; or, for lines that are routines', to the caller's
 //! line ([`crate::Charge`]).
 
-use crate::charge::{Charge, Ledger};
+use crate::charge::{Charges, Ledger, Roles};
 
 /// What one line of a program took.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -49,9 +49,9 @@ pub(crate) struct At {
 }
 
 impl Profile {
-    pub fn new(statements: usize, routine: &dyn Fn(u32) -> bool) -> Self {
+    pub fn new(statements: usize, roles: Roles<'_>) -> Self {
         Self {
-            ledger: Ledger::new(statements, routine),
+            ledger: Ledger::new(statements, roles),
             ..Self::default()
         }
     }
@@ -67,7 +67,7 @@ impl Profile {
     }
 
     /// The charges, in cycles of 2 MHz.
-    pub fn finish(mut self, now: u64) -> Vec<Charge> {
+    pub fn finish(mut self, now: u64) -> Charges {
         self.enter(At::default(), now);
         self.ledger.finish()
     }

@@ -4,7 +4,7 @@
 //! [`Computer`] loads a program into it and runs it, bounded and watched.
 
 use super::cpu::{Bus, Cpu, Step};
-use crate::charge::{Charge, Ledger};
+use crate::charge::{Charges, Ledger, Roles};
 use crate::{Fault, Progress, Screen, Stop, Watch};
 
 /// Cycles between two calls of the watcher.
@@ -92,15 +92,10 @@ pub trait Machine {
     /// passed since the machine was made (checked between instructions).
     /// May be called again, with a greater limit, to go on.
     fn run(&mut self, limit: u64, watch: Watch<'_>) -> Run;
-    /// Runs as [`Machine::run`] does, and counts what each address takes, where those that
-    /// `routine` knows are charged to the addresses that call them. The charges add up
+    /// Runs as [`Machine::run`] does, and counts what each address takes, where routines'
+    /// are charged to the addresses that call them. The charges add up
     /// to the cycles of this call.
-    fn charges(
-        &mut self,
-        limit: u64,
-        routine: &dyn Fn(u32) -> bool,
-        watch: Watch<'_>,
-    ) -> (Run, Vec<Charge>);
+    fn charges(&mut self, limit: u64, roles: Roles<'_>, watch: Watch<'_>) -> (Run, Charges);
 }
 
 /// A machine. [`Computer::load`] a program, then [`Computer::run`] it.
@@ -190,25 +185,14 @@ impl<B: Board> Computer<B> {
     }
 
     /// Runs and counts; see [`Machine::charges`].
-    pub fn charges(
-        &mut self,
-        limit: u64,
-        routine: &dyn Fn(u32) -> bool,
-        watch: Watch<'_>,
-    ) -> (Run, Vec<Charge>) {
-        let mut ledger = Ledger::new(0x1_0000, routine);
-        let mut before = self.board.cycles();
+    pub fn charges(&mut self, limit: u64, roles: Roles<'_>, watch: Watch<'_>) -> (Run, Charges) {
+        let mut ledger = Ledger::new(0x1_0000, roles);
+        let before = self.board.cycles();
         let run = self.run_looking(limit, watch, &mut |pc, sp, cycles| {
             ledger.step(u32::from(pc), u32::from(!sp), cycles, true);
         });
-        let mut charges = ledger.finish();
         // Each has its share of what is added to all, so that they add up to the run.
-        for charge in &mut charges {
-            let start = B::shown(before);
-            before += charge.cycles;
-            charge.cycles = B::shown(before) - start;
-        }
-        (run, charges)
+        (run, ledger.finish().shared(before, B::shown))
     }
 
     fn run_looking(
@@ -308,13 +292,8 @@ impl<B: Board> Machine for Computer<B> {
         Computer::run(self, limit, watch)
     }
 
-    fn charges(
-        &mut self,
-        limit: u64,
-        routine: &dyn Fn(u32) -> bool,
-        watch: Watch<'_>,
-    ) -> (Run, Vec<Charge>) {
-        Computer::charges(self, limit, routine, watch)
+    fn charges(&mut self, limit: u64, roles: Roles<'_>, watch: Watch<'_>) -> (Run, Charges) {
+        Computer::charges(self, limit, roles, watch)
     }
 }
 

@@ -48,13 +48,14 @@ impl Entity {
 }
 
 /// Values that the language knows by name.
-pub(super) const KNOWN: [(&str, Known); 6] = [
+pub(super) const KNOWN: [(&str, Known); 7] = [
     ("inks", Known::Inks),
     ("width", Known::Width),
     ("height", Known::Height),
     ("offset", Known::Offset),
     ("epsilon", Known::Epsilon),
     ("floats", Known::Floats),
+    ("samples", Known::Samples),
 ];
 
 /// The library's names and the user's, sorted so that suggestions never vary.

@@ -86,7 +86,7 @@ impl<'a> Lower<'a> {
         Some(seen)
     }
 
-    /// The unit gradient of `f` or `dist` at a point.
+    /// The unit gradient of `f` or `dist` at a point, or what differences make of it.
     pub(super) fn derived_normal(
         &mut self,
         shape: &Rc<Shape>,
@@ -100,6 +100,11 @@ impl<'a> Lower<'a> {
         let Some(formula) = formula else {
             return Ok(None);
         };
+        if let Some(apart) = self.options.ways.differences {
+            let apart = Val::Node(self.real(apart.value(), span));
+            let args = vec![Val::Shape(shape.clone()), p, apart];
+            return self.library("sloped", Ty::Shape, args, span).map(Some);
+        }
         let point = self.vector(p, 3, span)?;
         let Ok(point) = Markers::try_from(point) else {
             return Err(self.confused(span));

@@ -50,6 +50,10 @@ impl<'a> Lower<'a> {
                 Known::Offset => self.real(self.options.offset, span),
                 Known::Floats => self.bool(self.options.floats, span),
                 Known::Epsilon => self.real(self.options.epsilon, span),
+                Known::Samples => {
+                    let most = self.options.ways.samples.unwrap_or(u32::MAX);
+                    self.int(i32::try_from(most).unwrap_or(i32::MAX), span)
+                }
             })),
             ExprKind::Function(callee) => Ok(Val::Function(callee.clone())),
             ExprKind::Tuple(parts) => {

@@ -26,6 +26,9 @@ mod slope;
 mod spread;
 mod tables;
 mod value;
+mod ways;
+
+pub use ways::{Millionths, Search, Ways};
 
 use crate::flow::build::Builder;
 use crate::flow::graph::{Axis, Graph, Image, NodeId};
@@ -82,6 +85,8 @@ pub struct Options {
     pub max_turns: Option<u32>,
     /// The same for the library's loops: searches for hits, marches, walks through maps.
     pub max_steps: Option<u32>,
+    /// What is found in another way than the scene says.
+    pub ways: Ways,
     /// A function without parameters whose result's scalars the graph reports,
     /// beside the picture.
     pub report: Option<String>,
@@ -99,6 +104,7 @@ impl Default for Options {
             floats: true,
             max_turns: None,
             max_steps: None,
+            ways: Ways::default(),
             report: None,
         }
     }

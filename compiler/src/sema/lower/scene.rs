@@ -1,8 +1,8 @@
 //! Scenes: the nearest of their shapes.
 
-use super::shape::Solution;
+use super::shape::{REACH, Solution};
 use super::value::{Shape, Val};
-use super::{Found, Lower};
+use super::{Found, Lower, Search};
 use crate::flow::graph::NodeId;
 use crate::sema::builtins::Builtin;
 use crate::sema::program::*;
@@ -10,6 +10,9 @@ use crate::sema::ty::Ty;
 use crate::source::Span;
 use crate::syntax::tree::BinaryOp;
 use std::rc::Rc;
+
+/// Turns that a loop may have at most.
+const MOST_STEPS: u32 = 65535;
 
 impl<'a> Lower<'a> {
     /// A scene's shapes, made once.
@@ -54,15 +57,22 @@ impl<'a> Lower<'a> {
             Builtin::March => (take(), take(), take()),
             _ => (None, None, take()),
         };
-        match what {
-            Builtin::Trace => self.trace(scene, arg, far, ty, span),
-            Builtin::Blocked => self.blocked(scene, arg, far, span),
-            Builtin::March => {
-                let mut args = vec![Val::Scene(scene), arg.clone()];
-                args.extend([steps, near, far].into_iter().flatten());
+        match (what, self.options.ways.search) {
+            (Builtin::Trace, None | Some(Search::Trace))
+            | (Builtin::March, Some(Search::Trace)) => self.trace(scene, arg, far, ty, span),
+            (Builtin::Blocked, _) => self.blocked(scene, arg, far, span),
+            (Builtin::Trace | Builtin::March, Some(Search::March { steps, near })) => {
+                let steps = self.int(steps.min(MOST_STEPS) as i32, span);
+                let (near, reach) = (self.real(near.value(), span), self.real(REACH, span));
+                let far = far.unwrap_or(Val::Node(reach));
+                let args = vec![Val::Node(steps), Val::Node(near), far];
                 self.march(scene, arg, args, ty, span)
             }
-            Builtin::SceneDist => {
+            (Builtin::March, None) => {
+                let args = [steps, near, far].into_iter().flatten().collect();
+                self.march(scene, arg, args, ty, span)
+            }
+            (Builtin::SceneDist, _) => {
                 let (distance, _) = self.nearest(scene, &arg, span)?;
                 Ok(Val::Node(distance))
             }
@@ -178,9 +188,11 @@ impl<'a> Lower<'a> {
         })
     }
 
-    /// Sphere tracing: the hit's normal and tag are those of the shape nearest
+    /// Sphere tracing in so many steps, until so near, and so far: the hit's normal and tag are those of the shape nearest
     /// to the point where it stops.
-    fn march(&mut self, id: SceneId, ray: Val, args: Vec<Val>, ty: &Ty, span: Span) -> Found<Val> {
+    fn march(&mut self, id: SceneId, ray: Val, how: Vec<Val>, ty: &Ty, span: Span) -> Found<Val> {
+        let mut args = vec![Val::Scene(id), ray.clone()];
+        args.extend(how);
         let (present, t) = match self.library("marched", Ty::Scene(None), args, span)? {
             Val::Optional { present, value } => (present, (*value).clone()),
             _ => return Err(self.confused(span)),

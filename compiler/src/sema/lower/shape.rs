@@ -16,7 +16,7 @@ use crate::syntax::tree::BinaryOp;
 use std::rc::Rc;
 
 /// How far shapes that have nothing but `dist` are looked for.
-const REACH: f64 = 1000.0;
+pub(super) const REACH: f64 = 1000.0;
 
 /// In how many steps roots of `f` are looked for within `bound`, unless the
 /// shape says otherwise.

@@ -7,7 +7,7 @@ use super::fast::Exit;
 use super::link::Program;
 use super::os::{self, Native, Os, Trap};
 use super::parse::fault;
-use crate::charge::{Charge, Ledger};
+use crate::charge::{Charges, Ledger, Roles};
 use crate::hack::screen::screen;
 use crate::{Fault, Progress, Screen, Stop, Watch};
 
@@ -92,15 +92,10 @@ impl<'p> Machine<'p> {
     }
 
     /// Runs as [`Machine::run`] does, command by command, and counts what each command takes
-    /// by its number in the program, where those that `routine` knows are charged to the
-    /// commands that call them. The charges add up to the commands of this call.
-    pub fn charges(
-        &mut self,
-        limit: u64,
-        routine: &dyn Fn(u32) -> bool,
-        watch: Watch,
-    ) -> (Run, Vec<Charge>) {
-        let mut ledger = Ledger::new(self.program.commands.len(), routine);
+    /// by its number in the program, where routines' are charged to the commands that call
+    /// them. The charges add up to the commands of this call.
+    pub fn charges(&mut self, limit: u64, roles: Roles<'_>, watch: Watch) -> (Run, Charges) {
+        let mut ledger = Ledger::new(self.program.commands.len(), roles);
         let mut depth = 0;
         let mut next_watch = self.count.saturating_add(WATCH_EVERY);
         let stop = loop {

@@ -1,20 +1,23 @@
 //! Which machine and screen: the options that choose a target, and the plan
 //! that they lead to.
 
-use crate::failure::{Failure, Outcome, unknown};
+mod read;
+
+pub use read::*;
+
+use crate::failure::{Failure, Outcome};
 use crate::fit;
 use crate::machine::Machine;
 use crate::progress::Waiting;
 use crate::scene::{Limits, Precision, Scene};
 use crate::trial;
+use crate::ways::WayArgs;
 use clap::{Args, ValueEnum};
 use slowlight_compiler::passes::coarse::coarse;
 use slowlight_compiler::plan::{Goal, Plan, plan, plan_as_written, plan_with_every_shade};
 use slowlight_compiler::sema::{FunctionKind, Program};
 use slowlight_compiler::source::Span;
-use slowlight_compiler::target::mos6502::syntax::{self, SYNTAXES, Syntax};
-use slowlight_compiler::target::{self, Mode, TARGETS, Target};
-use std::collections::BTreeSet;
+use slowlight_compiler::target::{self, Mode, Target};
 
 /// Screen and rows.
 #[derive(Args, Clone, Debug, Default)]
@@ -55,6 +58,9 @@ pub struct ScreenArgs {
     /// The same for the library's loops: marches, walks through maps, searches for hits
     #[arg(long, value_name = "N", value_parser = turns)]
     pub max_steps: Option<u32>,
+    /// Other ways to what the scene asks for.
+    #[command(flatten)]
+    pub ways: WayArgs,
     /// Rewrite nothing, neither for accuracy nor for speed: every formula as the scene has it
     #[arg(long)]
     pub as_written: bool,
@@ -64,6 +70,9 @@ pub struct ScreenArgs {
     /// With subroutines for what the program has several times, also where it fits without
     #[arg(long)]
     pub outlined: bool,
+    /// Spend less memory on speed, from 0, the default, to 18, also where the program fits
+    #[arg(long, value_name = "STEP", value_parser = thrift)]
+    pub thrift: Option<u8>,
 }
 
 /// An operating system for Jack programs.
@@ -89,108 +98,6 @@ pub enum Style {
     Listing,
 }
 
-/// Reads `--target`.
-///
-/// # Errors
-/// Where there is no such target: what there is.
-pub fn target(name: &str) -> Result<&'static Target, String> {
-    let names = TARGETS.iter().map(|t| t.name);
-    target::find(name).ok_or_else(|| unknown("target", name, names))
-}
-
-/// Reads `--syntax`.
-///
-/// # Errors
-/// Where programs cannot be written for such an assembler: for which they can.
-pub fn syntax(name: &str) -> Result<&'static Syntax, String> {
-    let names = SYNTAXES.iter().map(|s| s.name);
-    syntax::find(name).ok_or_else(|| unknown("syntax", name, names))
-}
-
-/// What stands for every format that a machine has.
-pub const ALL_FORMATS: &str = "all";
-
-/// Reads a `--format` of any machine, or `all`.
-///
-/// # Errors
-/// Where no machine has it: what there is.
-pub fn format_or_all(name: &str) -> Result<String, String> {
-    let formats = TARGETS.iter().flat_map(|t| target::formats(t));
-    let names: BTreeSet<&str> = formats.map(|t| t.runtime.format).collect();
-    match name == ALL_FORMATS || names.contains(name) {
-        true => Ok(name.to_owned()),
-        false => Err(unknown("format", name, names)),
-    }
-}
-
-/// Reads `--page`: hexadecimal, with or without `&`, a whole page of memory.
-///
-/// # Errors
-/// Where it is none that programs may begin at.
-pub fn page(text: &str) -> Result<u16, String> {
-    let digits = text.strip_prefix('&').unwrap_or(text);
-    match u16::from_str_radix(digits, 16) {
-        Ok(page) if page % 256 == 0 && (0xe00..=0x2f00).contains(&page) => Ok(page),
-        _ => Err("programs begin at a whole page from E00 to 2F00, as in --page E00".to_owned()),
-    }
-}
-
-/// Reads `--block`: `4`, or columns and rows, `4x2`.
-///
-/// # Errors
-/// Where it is no size of a block.
-pub fn block(text: &str) -> Result<(u32, u32), String> {
-    let (wide, high) = text.split_once('x').unwrap_or((text, text));
-    let number = |t: &str| {
-        t.trim()
-            .parse()
-            .ok()
-            .filter(|n| (1..=MOST_IN_BLOCK).contains(n))
-    };
-    match (number(wide), number(high)) {
-        (Some(wide), Some(high)) => Ok((wide, high)),
-        _ => Err(format!(
-            "a block is N or W x H pixels, each from 1 to {MOST_IN_BLOCK}, as in --block 4 or --block 4x2"
-        )),
-    }
-}
-
-/// Columns or rows of a block at most.
-pub const MOST_IN_BLOCK: u32 = 128;
-
-/// Reads the most turns that a loop may take.
-///
-/// # Errors
-/// Where it is no number of turns.
-pub fn turns(text: &str) -> Result<u32, String> {
-    let number = text.parse().ok().filter(|n| (1..=65535).contains(n));
-    number.ok_or_else(|| "a loop takes from 1 to 65535 turns".to_owned())
-}
-
-/// Reads `A..B` or `A` as rows of a picture.
-///
-/// # Errors
-/// Where it is not that, or not in the picture.
-pub fn rows(text: &str, height: u32) -> Outcome<(u32, u32)> {
-    let (first, last) = text.split_once("..").unwrap_or((text, text));
-    let last = last.strip_prefix('=').unwrap_or(last);
-    let number = |t: &str| t.trim().parse::<u32>().ok();
-    match (number(first), number(last)) {
-        (Some(first), Some(last)) if first <= last && last < height => Ok((first, last)),
-        (Some(first), Some(last)) if first > last => Err(Failure::Usage(format!(
-            "--rows {text}: the first row is below the last"
-        ))),
-        (Some(_), Some(_)) => Err(Failure::Usage(format!(
-            "--rows {text}: the picture has rows 0..{}",
-            height - 1
-        ))),
-        _ => Err(Failure::Usage(format!(
-            "--rows {text}: write first..last, as in 0..{}",
-            height - 1
-        ))),
-    }
-}
-
 impl ScreenArgs {
     /// The machine that a target's programs run on, as these options have it.
     ///
@@ -202,6 +109,29 @@ impl ScreenArgs {
             Some(Os::Jack) => machine.on_processor(),
             Some(Os::Native) | None => machine,
         })
+    }
+
+    /// What of the scene is done with less, or otherwise.
+    pub fn limits(&self) -> Limits {
+        Limits {
+            turns: self.max_turns,
+            steps: self.max_steps,
+            ways: self.ways.ways(),
+        }
+    }
+
+    /// The plan that spends as little memory on speed as was asked for, or as it can.
+    fn thrifty(&self, plan: Plan) -> Plan {
+        let last = plan.thrifts().saturating_sub(1);
+        let step = usize::from(self.thrift.unwrap_or(0)).min(last);
+        match step {
+            0 => plan,
+            // Some steps are those before them, for this scene.
+            step => (1..=step)
+                .rev()
+                .find_map(|step| plan.thriftier(step))
+                .unwrap_or(plan),
+        }
     }
 
     /// The best mode of a target for a picture.
@@ -321,15 +251,8 @@ impl ScreenArgs {
         let block = self.block.unwrap_or((1, 1));
         let asked = self.rows.as_deref().map(|r| rows(r, height)).transpose()?;
         let asked = asked.map(|asked| blocks_of(asked, block.1)).transpose()?;
-        let graph = scene.graph_within(
-            Some(mode.inks),
-            Precision::of(target),
-            set,
-            Limits {
-                turns: self.max_turns,
-                steps: self.max_steps,
-            },
-        )?;
+        let graph =
+            scene.graph_within(Some(mode.inks), Precision::of(target), set, self.limits())?;
         if !size.0.is_multiple_of(block.0) || !size.1.is_multiple_of(block.1) {
             return Err(Failure::Usage(format!(
                 "--block {}x{}: the picture of {} x {} pixels is no whole number of such blocks",
@@ -348,6 +271,7 @@ impl ScreenArgs {
             (_, true) => plan_with_every_shade(&graph, target, &goal),
             _ => plan(&graph, target, &goal),
         };
+        let planned = planned.map(|plan| self.thrifty(plan));
         let planned = match self.outlined {
             true => planned.and_then(|plan| plan.outlined(&|span| scene.called_at(span))),
             false => planned,

@@ -1,0 +1,130 @@
+//! `survey`: several scenes tuned on several machines, as one document with plots.
+
+use crate::failure::{Failure, Outcome};
+use crate::files;
+use crate::survey::document::document;
+use crate::survey::{Survey, survey};
+use crate::target_args;
+use crate::tune::goal::Measure;
+use slowlight_compiler::target::{TARGETS, Target};
+use std::path::{Path, PathBuf};
+
+/// Options of `survey`.
+#[derive(clap::Args, Debug)]
+pub struct Args {
+    /// The scenes' files
+    #[arg(required = true, value_name = "SCENE")]
+    scenes: Vec<PathBuf>,
+    /// A machine; all where none is named
+    #[arg(short, long, value_name = "T", value_parser = target_args::target)]
+    target: Vec<&'static Target>,
+    /// The document to write, in Markdown
+    #[arg(short, long, value_name = "FILE.md")]
+    output: PathBuf,
+    /// The directory for its plots, beside or below the document [default: the document's]
+    #[arg(long, value_name = "DIR")]
+    pictures: Option<PathBuf>,
+    /// The error that decides
+    #[arg(long, value_enum, value_name = "MEASURE", default_value_t)]
+    measure: Measure,
+    /// How many settings, of blocks and loops, are tried in each format
+    #[arg(long, value_name = "N", default_value_t = 5, value_parser = clap::value_parser!(u16).range(1..=200))]
+    settings: u16,
+    /// Measure everything anew, and keep nothing for the next time
+    #[arg(long)]
+    no_cache: bool,
+    /// Give a choice up after so many cycles of the machine
+    #[arg(long, value_name = "CYCLES", default_value_t = LIMIT)]
+    limit: u64,
+}
+
+/// A machine runs so many cycles in a minute or so of the host's time.
+const LIMIT: u64 = 20_000_000_000;
+
+/// Tunes all, then writes the document and its plots, whole or not at all.
+pub fn run(args: &Args) -> Outcome<()> {
+    let beside = args.output.parent().unwrap_or(Path::new(""));
+    let directory = args.pictures.as_deref().unwrap_or(beside);
+    // Any way begins with the nothing that stands before a file in the working directory.
+    let way = directory.strip_prefix(beside).ok();
+    let way = way.filter(|way| way.is_relative()).ok_or_else(|| {
+        let (own, plots) = (args.output.display(), directory.display());
+        Failure::Usage(format!(
+            "--pictures {plots}: plots stand beside or below {own}"
+        ))
+    })?;
+    if !directory.as_os_str().is_empty() && !directory.is_dir() {
+        let plots = directory.display();
+        return Err(Failure::Wrong(format!(
+            "{plots} is no directory to write plots to"
+        )));
+    }
+    alike(&args.scenes)?;
+    let asked = Survey {
+        scenes: args.scenes.clone(),
+        targets: match args.target.is_empty() {
+            true => TARGETS.to_vec(),
+            false => args.target.clone(),
+        },
+        measure: args.measure,
+        settings: args.settings,
+        limit: args.limit,
+        cached: !args.no_cache,
+    };
+    let sections = survey(&asked)?;
+    let pictures = match way.as_os_str().is_empty() {
+        true => String::new(),
+        false => format!("{}/", way.display()),
+    };
+    let text = document(&asked, &sections, &own(args), &pictures);
+    let plots: Vec<(PathBuf, String)> = (sections.iter())
+        .map(|s| (directory.join(s.picture()), format!("{}\n", s.svg)))
+        .collect();
+    let mut files: Vec<(&Path, &[u8])> = (plots.iter())
+        .map(|(path, svg)| (path.as_path(), svg.as_bytes()))
+        .collect();
+    files.push((&args.output, text.as_bytes()));
+    files::write_all(&files)?;
+    match sections.iter().any(|s| s.wrong > 0) {
+        true => Err(Failure::Differs),
+        false => Ok(()),
+    }
+}
+
+/// Plots are named after scenes, so two of one name would have one.
+///
+/// # Errors
+/// Which they are.
+fn alike(scenes: &[PathBuf]) -> Outcome<()> {
+    for (k, scene) in scenes.iter().enumerate() {
+        let same = |other: &&PathBuf| other.file_stem() == scene.file_stem();
+        if let Some(other) = scenes[..k].iter().find(same) {
+            let (a, b) = (other.display(), scene.display());
+            let message = format!("{a} and {b} have one name, and plots are named after scenes");
+            return Err(Failure::Usage(message));
+        }
+    }
+    Ok(())
+}
+
+/// The command that writes the same document.
+fn own(args: &Args) -> String {
+    let mut words = vec!["slowlight survey".to_owned()];
+    words.extend(args.scenes.iter().map(|s| s.display().to_string()));
+    words.extend(args.target.iter().map(|t| format!("--target {}", t.name)));
+    if args.measure != Measure::default() {
+        let name = format!("{:?}", args.measure).to_lowercase();
+        words.push(format!("--measure {name}"));
+    }
+    words.push(format!(
+        "--settings {} --limit {}",
+        args.settings, args.limit
+    ));
+    words.push(format!("-o {}", args.output.display()));
+    words.extend(
+        args.pictures
+            .iter()
+            .map(|p| format!("--pictures {}", p.display())),
+    );
+    words.join(" ")
+}

@@ -1,0 +1,102 @@
+//! A survey: several scenes tuned on several machines, as one document that says what
+//! accuracy costs in time.
+//!
+//! The document is a pure function of the program, the scenes and the options: what a host
+//! is comes into one line, and no figure depends on it. Every row has the options by which
+//! it is had again, and the digest of the program that they make, so that a reader, or a
+//! test, sees whether the document is still true.
+
+pub mod document;
+pub mod section;
+
+use crate::failure::Outcome;
+use crate::progress::Progress;
+use crate::scene::{Changes, Scene};
+use crate::target_args::ScreenArgs;
+use crate::tune::cache::Cache;
+use crate::tune::choice::Base;
+use crate::tune::explore::{Found, Search, explore};
+use crate::tune::goal::Measure;
+use crate::tune::marks;
+use crate::tune::tell::Told;
+use section::Section;
+use slowlight_compiler::target::Target;
+use std::path::{Path, PathBuf};
+use std::sync::{Arc, Mutex};
+
+/// What is surveyed.
+pub struct Survey {
+    /// The scenes' files.
+    pub scenes: Vec<PathBuf>,
+    /// The machines.
+    pub targets: Vec<&'static Target>,
+    /// The error that decides.
+    pub measure: Measure,
+    /// Settings tried in each format.
+    pub settings: u16,
+    /// Cycles after which a machine is given up.
+    pub limit: u64,
+    /// Whether what was measured before is looked up.
+    pub cached: bool,
+}
+
+/// Tunes each scene on each machine.
+///
+/// # Errors
+/// Where a scene is wrong, or the user interrupts.
+pub fn survey(asked: &Survey) -> Outcome<Vec<Section>> {
+    // A scene that is wrong should be told of before an hour's work.
+    for path in &asked.scenes {
+        let scene = Scene::open(path, &Changes::default())?;
+        scene.warn();
+        for target in &asked.targets {
+            marks::of_scene(&scene, &base(path, target))?;
+        }
+    }
+    let count = asked.scenes.len() * asked.targets.len();
+    let progress = Progress::new("scenes, machines", count as u64);
+    let mut sections = Vec::new();
+    for path in &asked.scenes {
+        for target in &asked.targets {
+            sections.push(tuned(asked, &base(path, target))?);
+            progress.step(1);
+        }
+    }
+    Ok(sections)
+}
+
+/// A scene as it is, on a machine as it usually is.
+fn base(path: &Path, target: &'static Target) -> Base {
+    Base {
+        path: path.to_owned(),
+        changes: Changes::default(),
+        target,
+        screen: ScreenArgs::default(),
+    }
+}
+
+/// One scene on one machine.
+fn tuned(asked: &Survey, base: &Base) -> Outcome<Section> {
+    let marks = marks::of_scene(&Scene::open(&base.path, &base.changes)?, base)?;
+    let search = Search {
+        base: base.clone(),
+        measure: asked.measure,
+        live: false,
+        smaller: false,
+        settings: usize::from(asked.settings),
+        limit: asked.limit,
+        by_line: false,
+        cache: match asked.cached {
+            true => Cache::of_user(),
+            false => Cache::none(),
+        },
+    };
+    let found = Arc::new(Mutex::new(Found::default()));
+    explore(&search, &found)?;
+    let mut found = found.lock().map(|f| f.clone()).unwrap_or_default();
+    // Threads find them in any order.
+    found.failed.sort();
+    let mut told = Told::new(base, asked.measure, &found);
+    told.marks = marks;
+    Ok(Section::new(&told, &search))
+}

@@ -1,0 +1,179 @@
+//! One scene on one machine, as a part of the document.
+
+use crate::format::{count, duration};
+use crate::tune::explore::Search;
+use crate::tune::goal::{Measure, percent};
+use crate::tune::plot::svg;
+use crate::tune::point::Point;
+use crate::tune::settings::Drafted;
+use crate::tune::tell::Told;
+use std::path::PathBuf;
+
+/// How many digits of a program's digest are told: enough to see that it is another.
+const DIGITS: usize = 12;
+
+/// What is written of one scene on one machine.
+pub struct Section {
+    /// The scene's file.
+    pub path: PathBuf,
+    /// The scene's name.
+    pub scene: String,
+    /// The machine's name.
+    pub target: &'static str,
+    /// The command that finds the same.
+    pub command: String,
+    /// The conclusion.
+    pub sentence: String,
+    /// The frontier, a cell a figure; the first row has the titles.
+    pub rows: Vec<Vec<String>>,
+    /// What is to be said below.
+    pub notes: Vec<String>,
+    /// The plot.
+    pub svg: String,
+    /// A row for the table of all: cells.
+    pub summary: Vec<String>,
+    /// Pixels of programs unlike their models: 0, or something is broken.
+    pub wrong: u64,
+}
+
+impl Section {
+    /// Of what a search found.
+    pub fn new(told: &Told<'_>, search: &Search) -> Section {
+        let base = told.base;
+        let mut command = format!(
+            "slowlight tune {} --target {} --settings {} --limit {}",
+            base.path.display(),
+            base.target.name,
+            search.settings,
+            search.limit
+        );
+        command.push_str(match told.measure {
+            Measure::Pixels => "",
+            Measure::Rmse => " --measure rmse",
+            Measure::Lowpass => " --measure lowpass",
+        });
+        let wrong = |p: &Point| p.measured.differs_from_model;
+        Section {
+            path: base.path.clone(),
+            scene: base.name(),
+            target: base.target.name,
+            command,
+            sentence: told.sentence(),
+            rows: rows(told),
+            notes: notes(told),
+            svg: svg(told),
+            summary: summary(told),
+            wrong: told.points.iter().map(wrong).sum(),
+        }
+    }
+
+    /// The name of its plot's file.
+    pub fn picture(&self) -> String {
+        format!(
+            "accuracy-{}-{}.svg",
+            self.scene,
+            self.target.replace(':', "-")
+        )
+    }
+}
+
+fn rows(told: &Told<'_>) -> Vec<Vec<String>> {
+    let titles = [
+        "options", "time", "cycles", "pixels", "%", "rmse", "low-pass", "bytes", "program",
+    ];
+    let mut rows = vec![titles.map(str::to_owned).to_vec()];
+    for (_, point) in told.frontier() {
+        let at = &point.measured;
+        let words = told.base.words(&point.choice).join(" ");
+        let share = percent(Measure::Pixels.of(&at.errors));
+        let digest = at.program_sha256.get(..DIGITS).unwrap_or_default();
+        rows.push(vec![
+            if words.is_empty() {
+                "(none)".to_owned()
+            } else {
+                words
+            },
+            duration(at.seconds),
+            count(at.cycles),
+            count(at.errors.pixels),
+            share.trim_end_matches(" %").to_owned(),
+            format!("{:.2e}", at.errors.rmse),
+            format!("{:.2e}", at.errors.low_pass),
+            count(at.memory()),
+            digest.to_owned(),
+        ]);
+    }
+    rows
+}
+
+/// The ends and the knee, and how well the planner knew.
+fn summary(told: &Told<'_>) -> Vec<String> {
+    let says = |p: Option<&Point>| match p {
+        Some(p) => format!(
+            "{}, {}",
+            duration(p.measured.seconds),
+            percent(told.error(p))
+        ),
+        None => "-".to_owned(),
+    };
+    let mut ends = told.frontier().map(|(_, p)| p);
+    let first = ends.next();
+    let last = ends.next_back().or(first);
+    let spans = first.zip(last).map_or("-".to_owned(), |(a, b)| {
+        format!("{:.0}", b.measured.seconds / a.measured.seconds)
+    });
+    let tried = told.found.tried.max(told.points.len());
+    vec![
+        says(first),
+        says(told.knee()),
+        says(last),
+        spans,
+        format!("{} of {tried}", told.frontier().count()),
+        told.correlation()
+            .map_or("-".to_owned(), |r| format!("{r:.3}")),
+    ]
+}
+
+fn notes(told: &Told<'_>) -> Vec<String> {
+    let mut notes = Vec::new();
+    let hertz = told.base.hertz();
+    for mark in &told.marks {
+        let time = duration(mark.time.seconds(hertz));
+        let error = percent(mark.error);
+        notes.push(format!("Red in the plot: {}, {time}, {error}.", mark.name));
+    }
+    let mut others: Vec<String> = (told.found.drafted.iter())
+        .filter_map(|draft| other_way(told, draft))
+        .collect();
+    others.sort();
+    if !others.is_empty() {
+        notes.push(format!(
+            "Drawn in `f64` and left out there: {}.",
+            others.join("; ")
+        ));
+    }
+    let looked = told.found.left.len();
+    if looked > 0 {
+        notes.push(format!("Left out after three bands of rows: {looked}."));
+    }
+    for (choice, why) in &told.found.failed {
+        let words = told.base.words(choice).join(" ");
+        let why = why.lines().next().unwrap_or_default();
+        notes.push(format!("Not to be had: `{words}`: {why}"));
+    }
+    notes
+}
+
+/// A setting that finds in another way what the scene asks for, pixel by pixel.
+fn other_way(told: &Told<'_>, draft: &Drafted) -> Option<String> {
+    let setting = draft.setting;
+    if setting.ways.words().is_empty() || setting.block != (1, 1) {
+        return None;
+    }
+    let words = told.base.setting(&setting).join(" ");
+    let work = draft.work as f64 / told.found.whole_work.max(1) as f64;
+    let error = percent(told.measure.of(&draft.errors));
+    Some(format!(
+        "`{words}`, {work:.2} times the operations of the scene as written, {error}"
+    ))
+}
