@@ -63,14 +63,15 @@ fn rows_in_passes_and_runs_are_what_the_model_draws() {
         "if x < 20 + y then ink(0) else if x > 50 then ink(2) else if {BALL} then ink(2) else ink(1)"
     );
     let factor = format!("if (if x < 20 + y then 1.5 else 0.25) * {BALL} then ink(2) else ink(1)");
-    for (draw, more, parts) in [
-        (SHADE, &[][..], &passes[..]),
-        (SHADE, &["--block", "2"], &passes),
-        (&halves, &[], &still),
-        (&cut, &[], &still),
-        (&factor, &[], &runs),
+    let (two, three) = ("black, white", "black, grey, white");
+    for (inks, draw, more, parts) in [
+        (two, SHADE, &[][..], &passes[..]),
+        (two, SHADE, &["--block", "2"][..], &passes[..]),
+        (three, halves.as_str(), &[][..], &still[..]),
+        (three, cut.as_str(), &[][..], &still[..]),
+        (three, factor.as_str(), &[][..], &runs[..]),
     ] {
-        let text = format!("image 64 x 24 inks black, grey, white;\ndraw (x, y) = {draw};");
+        let text = format!("image 64 x 24 inks {inks};\ndraw (x, y) = {draw};");
         let dir = directory(&[("small.scn", &text)]);
         let of = |command: &[&'static str]| -> Vec<&'static str> {
             let scene = ["small.scn", "-t", "6502", "--format", "fixed16"];

@@ -227,7 +227,7 @@ fn short_ints_have_products_of_32_bits() {
         for b in &all {
             let (found, taken) = bench.run(&[*a, *b]);
             assert_eq!(found, a * b, "{a} * {b}");
-            let held = [*a, *b].map(|n| bits(n));
+            let held = [*a, *b].map(bits);
             assert_eq!(int((routine.model)(&held)), a * b);
             (cycles, checked) = (cycles + taken, checked + 1);
         }
