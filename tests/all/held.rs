@@ -3,7 +3,7 @@
 
 use slowlight_compiler::eval::arithmetic::Arithmetic;
 use slowlight_compiler::eval::run::Run;
-use slowlight_compiler::flow::graph::{NodeId, ParamId};
+use slowlight_compiler::flow::graph::{NodeId, ParamId, TableId};
 use slowlight_compiler::flow::tree::Place;
 use slowlight_compiler::plan::Plan;
 use slowlight_routine::{Bits, Format, Op, Type, Value};
@@ -60,6 +60,10 @@ impl Arithmetic for Held<'_> {
 
     fn constant(&self, value: Value) -> Bits {
         self.plan.bits(value)
+    }
+
+    fn entry(&self, table: TableId, at: usize, _: Value) -> Bits {
+        self.plan.entry(table, at)
     }
 
     fn param(&self, id: ParamId) -> Bits {

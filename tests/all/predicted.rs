@@ -106,8 +106,20 @@ fn anywhere(plan: &Plan, random: &mut Random) -> Vec<Bits> {
     plan.graph.params.iter().enumerate().map(place).collect()
 }
 
+/// Says which scene it was where a value leaves its range.
+struct Told<'s>(&'s str, u64);
+
+impl Drop for Told<'_> {
+    fn drop(&mut self) {
+        if std::thread::panicking() {
+            eprintln!("scene {}:\n{}", self.1, self.0);
+        }
+    }
+}
+
 /// What was seen of a scene in a format, or nothing where the format refuses it.
 fn held(source: &str, format: &str, seed: u64) -> Option<(u64, u64)> {
+    let _told = Told(source, seed);
     let of = formats(find("6502:plain").unwrap());
     let target = of.into_iter().find(|t| t.runtime.format == format).unwrap();
     let plan = match planned_in(target, source, (&[], None), true) {
