@@ -5,7 +5,7 @@ use super::{Bus, Cpu, Step};
 
 impl Cpu {
     /// Runs one instruction; every bus access of it is made through `bus`.
-    #[inline]
+    #[inline(always)]
     pub fn step<B: Bus>(&mut self, bus: &mut B) -> Step {
         match self.fetch(bus) {
             // $00
@@ -341,16 +341,19 @@ impl Cpu {
         work(self, value);
     }
 
+    #[inline(always)]
     fn masked_abs<B: Bus>(&mut self, bus: &mut B, index: u8, value: u8) {
         let base = abs(self, bus);
         masked_store(bus, base, index, value);
     }
 
+    #[inline(always)]
     fn sha_ind_y<B: Bus>(&mut self, bus: &mut B) {
         let base = ind_y_base(self, bus);
         masked_store(bus, base, self.y, self.a & self.x);
     }
 
+    #[inline(always)]
     fn tas<B: Bus>(&mut self, bus: &mut B) {
         let base = abs(self, bus);
         self.sp = self.a & self.x;

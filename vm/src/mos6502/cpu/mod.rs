@@ -117,6 +117,7 @@ impl Cpu {
     }
 
     /// The status register as `php` would push it (bits 4 and 5 set).
+    #[inline(always)]
     pub fn status(&self) -> u8 {
         let bit = |set: bool, mask: u8| if set { mask } else { 0 };
         (self.n & flag::N)
@@ -130,6 +131,7 @@ impl Cpu {
     }
 
     /// Sets the flags; bits 4 and 5 do not exist in the register and are ignored.
+    #[inline(always)]
     pub fn set_status(&mut self, p: u8) {
         self.n = p;
         self.v = p & flag::V != 0;
@@ -157,6 +159,7 @@ impl Cpu {
     }
 
     /// Pushes the program counter and `p`, masks interrupts and goes through a vector.
+    #[inline(always)]
     fn enter<B: Bus>(&mut self, bus: &mut B, p: u8, vector: u16) {
         let [hi, lo] = self.pc.to_be_bytes();
         self.push(bus, hi);

@@ -101,41 +101,14 @@ impl Cpu {
         }
     }
 
-    /// Z is that of the binary sum; N and V are those after the low digit's
-    /// correction and before the high digit's. Digits above 9 go through as on the chip.
-    #[inline(never)]
+    #[inline(always)]
     fn adc_decimal(&mut self, value: u8) {
-        let (a, b, carry) = (u16::from(self.a), u16::from(value), u16::from(self.c));
-        let mut low = (a & 0x0F) + (b & 0x0F) + carry;
-        if low > 0x09 {
-            low = ((low + 0x06) & 0x0F) + 0x10;
-        }
-        let mut sum = (a & 0xF0) + (b & 0xF0) + low;
-        let early = sum.to_be_bytes()[1];
-        self.z = self.a.wrapping_add(value).wrapping_add(u8::from(self.c));
-        self.n = early;
-        self.v = (self.a ^ early) & !(self.a ^ value) & 0x80 != 0;
-        if sum > 0x9F {
-            sum += 0x60;
-        }
-        self.c = sum > 0xFF;
-        self.a = sum.to_be_bytes()[1];
+        *self = decimal_sum(*self, value);
     }
 
-    /// All flags are those of the binary difference.
-    #[inline(never)]
+    #[inline(always)]
     fn sbc_decimal(&mut self, value: u8) {
-        let (a, b, borrow) = (i16::from(self.a), i16::from(value), i16::from(!self.c));
-        let mut low = (a & 0x0F) - (b & 0x0F) - borrow;
-        if low < 0 {
-            low = ((low - 0x06) & 0x0F) - 0x10;
-        }
-        let mut difference = (a & 0xF0) - (b & 0xF0) + low;
-        if difference < 0 {
-            difference -= 0x60;
-        }
-        self.adc_binary(!value);
-        self.a = difference.to_be_bytes()[1];
+        *self = decimal_difference(*self, value);
     }
 
     #[inline(always)]
@@ -245,27 +218,9 @@ impl Cpu {
         self.a = self.lsr(self.a & value);
     }
 
-    /// `and` and `ror` with the adder's carries mixed in; in decimal mode the
-    /// adder corrects the digits. Behaves so on every chip measured, though
-    /// listed as unstable.
-    #[inline(never)]
+    #[inline(always)]
     pub(super) fn arr(&mut self, value: u8) {
-        let both = self.a & value;
-        let rotated = both >> 1 | u8::from(self.c) << 7;
-        self.load_a(rotated);
-        self.v = (both ^ rotated) & 0x40 != 0;
-        if !self.d {
-            self.v = (rotated ^ rotated << 1) & 0x40 != 0;
-            self.c = rotated & 0x40 != 0;
-            return;
-        }
-        if (both & 0x0F) + (both & 0x01) > 0x05 {
-            self.a = (rotated & 0xF0) | (rotated.wrapping_add(0x06) & 0x0F);
-        }
-        self.c = u16::from(both & 0xF0) + u16::from(both & 0x10) > 0x50;
-        if self.c {
-            self.a = self.a.wrapping_add(0x60);
-        }
+        *self = and_ror(*self, value);
     }
 
     #[inline(always)]
@@ -308,6 +263,7 @@ impl Cpu {
         self.pc = target;
     }
 
+    #[inline(always)]
     pub(super) fn brk<B: Bus>(&mut self, bus: &mut B) -> Step {
         self.fetch(bus);
         let p = self.status();
@@ -337,6 +293,7 @@ impl Cpu {
         self.fetch(bus);
     }
 
+    #[inline(always)]
     pub(super) fn rti<B: Bus>(&mut self, bus: &mut B) {
         bus.read(self.pc);
         self.peek_stack(bus);
@@ -348,10 +305,80 @@ impl Cpu {
     }
 
     /// The pointer's high byte comes from the same page: the famous fault.
+    #[inline(always)]
     pub(super) fn jmp_indirect<B: Bus>(&mut self, bus: &mut B) {
         let at = super::address::abs(self, bus);
         let lo = bus.read(at);
         let hi = bus.read((at & 0xFF00) | (at.wrapping_add(1) & 0x00FF));
         self.pc = u16::from_le_bytes([lo, hi]);
     }
+}
+
+// What is rare takes registers and answers them: nothing then needs an address of those
+// that the loop around the processor has, which so can be the host's own registers.
+
+/// Z is that of the binary sum; N and V are those after the low digit's
+/// correction and before the high digit's. Digits above 9 go through as on the chip.
+#[cold]
+#[inline(never)]
+fn decimal_sum(mut cpu: Cpu, value: u8) -> Cpu {
+    let (a, b, carry) = (u16::from(cpu.a), u16::from(value), u16::from(cpu.c));
+    let mut low = (a & 0x0F) + (b & 0x0F) + carry;
+    if low > 0x09 {
+        low = ((low + 0x06) & 0x0F) + 0x10;
+    }
+    let mut sum = (a & 0xF0) + (b & 0xF0) + low;
+    let early = sum.to_be_bytes()[1];
+    cpu.z = cpu.a.wrapping_add(value).wrapping_add(u8::from(cpu.c));
+    cpu.n = early;
+    cpu.v = (cpu.a ^ early) & !(cpu.a ^ value) & 0x80 != 0;
+    if sum > 0x9F {
+        sum += 0x60;
+    }
+    cpu.c = sum > 0xFF;
+    cpu.a = sum.to_be_bytes()[1];
+    cpu
+}
+
+/// All flags are those of the binary difference.
+#[cold]
+#[inline(never)]
+fn decimal_difference(mut cpu: Cpu, value: u8) -> Cpu {
+    let (a, b, borrow) = (i16::from(cpu.a), i16::from(value), i16::from(!cpu.c));
+    let mut low = (a & 0x0F) - (b & 0x0F) - borrow;
+    if low < 0 {
+        low = ((low - 0x06) & 0x0F) - 0x10;
+    }
+    let mut difference = (a & 0xF0) - (b & 0xF0) + low;
+    if difference < 0 {
+        difference -= 0x60;
+    }
+    cpu.adc_binary(!value);
+    cpu.a = difference.to_be_bytes()[1];
+    cpu
+}
+
+/// `and` and `ror` with the adder's carries mixed in; in decimal mode the
+/// adder corrects the digits. Behaves so on every chip measured, though
+/// listed as unstable.
+#[cold]
+#[inline(never)]
+fn and_ror(mut cpu: Cpu, value: u8) -> Cpu {
+    let both = cpu.a & value;
+    let rotated = both >> 1 | u8::from(cpu.c) << 7;
+    cpu.load_a(rotated);
+    cpu.v = (both ^ rotated) & 0x40 != 0;
+    if !cpu.d {
+        cpu.v = (rotated ^ rotated << 1) & 0x40 != 0;
+        cpu.c = rotated & 0x40 != 0;
+        return cpu;
+    }
+    if (both & 0x0F) + (both & 0x01) > 0x05 {
+        cpu.a = (rotated & 0xF0) | (rotated.wrapping_add(0x06) & 0x0F);
+    }
+    cpu.c = u16::from(both & 0xF0) + u16::from(both & 0x10) > 0x50;
+    if cpu.c {
+        cpu.a = cpu.a.wrapping_add(0x60);
+    }
+    cpu
 }
