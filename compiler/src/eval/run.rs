@@ -100,7 +100,7 @@ impl<'t, A: Arithmetic> Run<'t, A> {
             carried: graph.loops.iter().map(slots).collect(),
             scratch: graph.loops.iter().map(slots).collect(),
             row_places: places(tree, &tree.row),
-            pixel_places: [&tree.pass, &tree.segment, &tree.pixel]
+            pixel_places: [&tree.column, &tree.pass, &tree.segment, &tree.pixel]
                 .into_iter()
                 .flat_map(|block| places(tree, block))
                 .collect(),
@@ -169,6 +169,8 @@ impl<'t, A: Arithmetic> Run<'t, A> {
             self.block(&tree.row);
         }
         self.forget(false);
+        // What hangs on the column alone is at every pixel what it was before the rows.
+        self.block(&tree.column);
         self.block(&tree.pass);
     }
 
@@ -274,6 +276,7 @@ impl<'t, A: Arithmetic> Run<'t, A> {
             | Node::Select { .. }
             | Node::Lookup { .. }
             | Node::Stepped { .. }
+            | Node::Tabulated(_)
             | Node::Result { .. } => self.values[id.0 as usize].is_none(),
             _ => false,
         }

@@ -224,6 +224,7 @@ impl<'g> Scalar<'g> {
                 self.operations += 1;
                 Some(graph.tables.get(table.0 as usize)?.at(column, row))
             }
+            Node::Tabulated(value) => self.get(value, stack),
             Node::Stepped { first, step } => {
                 let (first, step) = (self.get(first, stack), self.get(step, stack));
                 self.operations += 1;

@@ -240,6 +240,14 @@ impl Builder {
         self.add(Node::Stepped { first, step }, Type::Int, span)
     }
 
+    /// A value out of its array by columns; a constant needs none.
+    pub fn tabulated(&mut self, value: NodeId, span: Span) -> NodeId {
+        match self.undefined_type(value) || self.value(value).is_some() {
+            true => value,
+            false => self.add(Node::Tabulated(value), self.ty(value), span),
+        }
+    }
+
     /// Opens a loop with carried values; close it with [`Builder::close_loop`].
     pub fn open_loop(
         &mut self,

@@ -99,6 +99,10 @@ pub enum Node {
     /// before the run's first, made of [`Axis::Run`], and `step` by how much it has
     /// grown since the pixel before ([`crate::passes::ramps::runs`]).
     Stepped { first: NodeId, step: NodeId },
+    /// A value that hangs on no axis but the column, out of an array of as many entries
+    /// as the picture has columns; the program fills it before the first row
+    /// ([`crate::passes::columns`]).
+    Tabulated(NodeId),
     /// A carried value of a loop, in its body.
     Carried { of: LoopId, index: u32 },
     /// What the last `next` gave, in the loop's `else`.
@@ -125,9 +129,16 @@ impl Node {
             Node::Ramp { first, step, .. } | Node::Stepped { first, step } => {
                 [Some(first), Some(step), None]
             }
+            Node::Tabulated(value) => [Some(value), None, None],
             _ => [None; 3],
         };
         list.into_iter().flatten()
+    }
+
+    /// What computing it reads: its operands, but of what is tabulated its entry alone.
+    pub fn inputs(&self) -> impl Iterator<Item = NodeId> + use<> {
+        let tabulated = matches!(self, Node::Tabulated(_));
+        self.operands().filter(move |_| !tabulated)
     }
 
     /// The same with other operands.
@@ -157,6 +168,7 @@ impl Node {
                 first: at(first),
                 step: at(step),
             },
+            Node::Tabulated(value) => Node::Tabulated(at(value)),
             other => other,
         }
     }

@@ -77,6 +77,7 @@ pub fn node_text(graph: &Graph, node: Node) -> String {
             stride,
         } => format!("ramp {first}, {step} every {stride}"),
         Node::Stepped { first, step } => format!("stepped {first}, {step}"),
+        Node::Tabulated(value) => format!("tabulated {value}"),
         Node::Carried { of, index } => format!("carried {}.{index}", of.0),
         Node::Last { of, index } => format!("last {}.{index}", of.0),
         Node::Result { of, index } => format!("result {}.{index}", of.0),

@@ -313,6 +313,10 @@ fn node_body(ty: Type, body: &str) -> Read<Node> {
             [first, step] => Node::Stepped { first, step },
             _ => return Err("what is stepped has a first value and a step".to_owned()),
         },
+        "tabulated" => match node_list(rest)?[..] {
+            [value] => Node::Tabulated(value),
+            _ => return Err("what is tabulated is one value".to_owned()),
+        },
         "ramp" => {
             let (rest, stride) = match rest.split_once(" every ") {
                 Some((rest, stride)) => (rest, number(stride)?),

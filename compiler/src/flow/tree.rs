@@ -172,6 +172,10 @@ impl Turns {
 pub struct Tree {
     /// Once a picture.
     pub frame: Block,
+    /// Once a column, after that and before the first row, where something is tabulated by
+    /// columns ([`Node::Tabulated`]). It ends by setting each such value; the pixel's `Let`
+    /// of one reads it again.
+    pub column: Block,
     /// Once a row.
     pub row: Block,
     /// Once a pass over a row's columns, where the graph has such ([`Axis::Pass`]).
@@ -186,16 +190,17 @@ pub struct Tree {
 
 impl Tree {
     /// The blocks around all others, outermost first.
-    pub fn outer(&self) -> [&Block; 5] {
+    pub fn outer(&self) -> [&Block; 6] {
         let Tree {
             frame,
+            column,
             row,
             pass,
             segment,
             pixel,
             ..
         } = self;
-        [frame, row, pass, segment, pixel]
+        [frame, column, row, pass, segment, pixel]
     }
 
     /// Every block that is written down: those, then the subroutines'.
@@ -303,12 +308,13 @@ impl Display for Tree {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         for (name, statements) in [
             ("frame", &self.frame),
+            ("column", &self.column),
             ("row", &self.row),
             ("pass", &self.pass),
             ("segment", &self.segment),
             ("pixel", &self.pixel),
         ] {
-            if matches!(name, "pass" | "segment") && statements.is_empty() {
+            if matches!(name, "column" | "pass" | "segment") && statements.is_empty() {
                 continue;
             }
             writeln!(f, "{name}:")?;

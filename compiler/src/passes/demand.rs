@@ -173,6 +173,10 @@ impl Placer<'_> {
                 self.need(first, region);
                 self.need(step, region);
             }
+            Node::Tabulated(value) => {
+                self.settle(id, used);
+                self.need(value, COLUMN);
+            }
             Node::Result { of, .. } => self.visit_loop(of),
             // Known without computing.
             Node::Const(_) | Node::Param(_) | Node::Axis(_) | Node::Received => {}
@@ -364,8 +368,12 @@ impl Placer<'_> {
         if self.segment[id.0 as usize] && !loops && (region == PIXEL || inside(PIXEL)) {
             return Some(SEGMENT);
         }
-        if !x && !pass && !y && !loops && region != FRAME && self.regions.holds(ROW, region) {
+        let outer = self.regions.holds(ROW, region) || self.regions.holds(COLUMN, region);
+        if !x && !pass && !y && !loops && region != FRAME && outer {
             return Some(FRAME);
+        }
+        if !loops && region != COLUMN && self.regions.holds(COLUMN, region) {
+            return Some(COLUMN);
         }
         match self.regions.get(region).kind {
             // Every turn of the loop would compute it.

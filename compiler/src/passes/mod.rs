@@ -6,6 +6,7 @@ pub mod apart;
 mod arena;
 pub mod arms;
 pub mod coarse;
+pub mod columns;
 pub mod demand;
 pub mod early;
 pub mod either;

@@ -226,6 +226,7 @@ impl Rebuilder<'_> {
                 first: self.at(first),
                 step: self.at(step),
             },
+            Node::Tabulated(value) => Node::Tabulated(self.at(value)),
             Node::Carried { of, index } => Node::Carried {
                 of: self.open(of, rewrite),
                 index,
@@ -253,6 +254,7 @@ impl Rebuilder<'_> {
                 stride,
             } => b.ramp(first, step, stride, span),
             Node::Stepped { first, step } => b.stepped(first, step, span),
+            Node::Tabulated(value) => b.tabulated(value, span),
             Node::Carried { of, index } => b.carried(of, index, span),
             Node::Last { of, index } => b.last(of, index, span),
             Node::Received => b.received(span),

@@ -16,6 +16,8 @@ pub struct RegionId(pub u32);
 pub enum RegionKind {
     /// Once a picture; the outermost.
     Frame,
+    /// Once a column, before the first row.
+    Column,
     /// Once a row.
     Row,
     /// Once a pass over a row's columns.
@@ -92,7 +94,7 @@ fn beside(graph: &Graph, before: &[Fact], cond: NodeId, holds: bool) -> Vec<Fact
 /// Every value's region.
 #[derive(Clone, Debug, Default)]
 pub struct Regions {
-    /// All regions; the first five are frame, row, pass, segment and pixel.
+    /// All regions; the first six are frame, row, pass, segment, pixel and column.
     pub regions: Vec<Region>,
     /// Each node's region; `None` where the ink does not need it, or where it
     /// needs no computing.
@@ -114,9 +116,11 @@ pub const PASS: RegionId = RegionId(2);
 pub const SEGMENT: RegionId = RegionId(3);
 /// The pixel's region.
 pub const PIXEL: RegionId = RegionId(4);
+/// The region of what is tabulated by columns: in the frame, beside the row.
+pub const COLUMN: RegionId = RegionId(5);
 
 impl Regions {
-    /// The outermost five regions.
+    /// The outermost regions.
     pub(super) fn new(graph: &Graph) -> Regions {
         let region = |kind, parent, depth| Region {
             kind,
@@ -130,10 +134,11 @@ impl Regions {
                 region(RegionKind::Pass, Some(ROW), 2),
                 region(RegionKind::Segment, Some(PASS), 3),
                 region(RegionKind::Pixel, Some(SEGMENT), 4),
+                region(RegionKind::Column, Some(FRAME), 1),
             ],
             of: vec![None; graph.nodes.len()],
             loops: vec![None; graph.loops.len()],
-            facts: vec![Vec::new(); 5],
+            facts: vec![Vec::new(); 6],
             children: FxHashMap::default(),
         }
     }

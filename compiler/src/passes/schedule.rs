@@ -59,8 +59,24 @@ fn schedule_by(graph: &Graph, order: Order, segments: bool) -> Tree {
         regions,
     };
     let roots: Vec<NodeId> = graph.roots().collect();
+    let tabulated: Vec<(NodeId, NodeId)> = graph
+        .ids()
+        .filter(|id| needed[id.0 as usize])
+        .filter_map(|id| match graph.node(id) {
+            Node::Tabulated(value) => Some((id, value)),
+            _ => None,
+        })
+        .collect();
+    let values: Vec<NodeId> = tabulated.iter().map(|(_, value)| *value).collect();
+    let frame = emitter.block(FRAME, &roots, &[ROW, COLUMN]);
+    let mut column = emitter.block(COLUMN, &values, &[]);
+    column.extend(tabulated.iter().map(|&(id, value)| Statement::Set {
+        place: Place::Node(id),
+        from: Origin::Node(value),
+    }));
     Tree {
-        frame: emitter.block(FRAME, &roots, &[ROW]),
+        frame,
+        column,
         row: emitter.block(ROW, &roots, &[PASS]),
         pass: emitter.block(PASS, &roots, &[SEGMENT]),
         segment: emitter.block(SEGMENT, &roots, &[PIXEL]),
@@ -93,6 +109,7 @@ pub fn missing(graph: &Graph, tree: &Tree) -> Option<NodeId> {
                 | Node::Lookup { .. }
                 | Node::Ramp { .. }
                 | Node::Stepped { .. }
+                | Node::Tabulated(_)
                 | Node::Result { .. }
         );
         computed && needed[id.0 as usize] && !written[id.0 as usize]

@@ -74,6 +74,11 @@ impl<'p> Flow<'p> {
         };
         let tree = &plan.tree;
         flow.block(&tree.frame);
+        let column = flow.step();
+        flow.block(&tree.column);
+        let next = flow.step();
+        flow.steps[next].jumps.push(column);
+        flow.loops.push((column, next));
         let mut tops = Vec::new();
         for block in [&tree.row, &tree.pass, &tree.segment] {
             tops.push(flow.step());
@@ -142,7 +147,7 @@ impl<'p> Flow<'p> {
             let at = self.step();
             match statement {
                 Statement::Let(id) => {
-                    let operands = self.plan.graph.node(*id).operands();
+                    let operands = self.plan.graph.node(*id).inputs();
                     operands.for_each(|operand| self.reads(at, operand));
                     let place = Place::of(&self.plan.graph, *id);
                     self.steps[at].writes = Some(self.number(place));

@@ -51,6 +51,9 @@ impl Beside<'_> {
 
     /// What computing a node costs, its operands not.
     fn own(&self, id: NodeId) -> u32 {
+        if let Node::Tabulated(_) = self.graph.node(id) {
+            return self.runtime.index;
+        }
         if let Node::Lookup { table, .. } = self.graph.node(id) {
             let table = self.graph.tables.get(table.0 as usize);
             let flat = table.is_some_and(|t| t.width == 1 || t.height == 1);
@@ -90,7 +93,7 @@ impl Beside<'_> {
 
     fn computed(&self, id: NodeId, stepping: Stepping) -> u32 {
         let node = self.graph.node(id);
-        let operands: u32 = node.operands().map(|used| self.read(used, stepping)).sum();
+        let operands: u32 = node.inputs().map(|used| self.read(used, stepping)).sum();
         operands + self.kept(id)
     }
 

@@ -74,11 +74,14 @@ struct Uses<'g> {
 
 impl Uses<'_> {
     /// Whether all that reads a value stands in the block that computes it. What is
-    /// stepped must be kept for the next pixel.
+    /// stepped must be kept for the next pixel, and what comes out of an array is.
     fn is_read_at_home(&self, id: NodeId) -> bool {
         let home = self.home.get(&id);
-        let stepped = matches!(self.graph.node(id), Node::Stepped { .. });
-        !stepped && home.is_some() && home == self.reader.get(&id)
+        let kept = matches!(
+            self.graph.node(id),
+            Node::Stepped { .. } | Node::Tabulated(_)
+        );
+        !kept && home.is_some() && home == self.reader.get(&id)
     }
 
     fn read(&mut self, id: NodeId, block: u32) {
@@ -112,7 +115,7 @@ impl Uses<'_> {
                         Node::Ramp { step, .. } => Some(step),
                         _ => None,
                     };
-                    for operand in self.graph.node(*id).operands() {
+                    for operand in self.graph.node(*id).inputs() {
                         // A step is read again at the end of every pixel.
                         let here = if stepped == Some(operand) { 0 } else { number };
                         self.read(operand, here);

@@ -45,8 +45,10 @@ pub fn shared_homes(plan: &Plan) -> HashMap<Place, usize> {
         bodies: Vec::new(),
     };
     lives.block(&plan.tree.frame);
-    // The numbers of the last statements of the frame, of the row and of a pass.
+    // The numbers of the last statements of the frame, the column, the row and a pass.
     let frame = lives.now;
+    lives.block(&plan.tree.column);
+    let column = lives.now;
     lives.block(&plan.tree.row);
     let row = lives.now;
     lives.block(&plan.tree.pass);
@@ -67,7 +69,7 @@ pub fn shared_homes(plan: &Plan) -> HashMap<Place, usize> {
     let end = lives.now + 1;
     let mut all: Vec<(Place, Format)> = plan.places();
     all.retain(|(place, _)| !lives.merged.contains_key(place));
-    let ends = [(0, frame), (frame, row), (row, pass)];
+    let ends = [(0, frame), (frame, column), (column, row), (row, pass)];
     let life = |place: &Place| match lives.lives.get(place) {
         Some(life) if life.from > pixel => *life,
         // What the frame, the row or a pass computes for itself alone.
@@ -130,7 +132,7 @@ impl Lives<'_> {
             self.now += 1;
             match statement {
                 Statement::Let(id) => {
-                    let operands = self.plan.graph.node(*id).operands();
+                    let operands = self.plan.graph.node(*id).inputs();
                     operands.for_each(|operand| self.read(operand));
                     self.touch(Place::of(&self.plan.graph, *id));
                 }

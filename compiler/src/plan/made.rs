@@ -7,6 +7,7 @@ use super::price::Price;
 use super::settled::{Known, Settled};
 use super::stepped::{Steps, stepped};
 use super::sums::with_sums;
+use super::tabulated::in_columns;
 use super::thrift::Thrift;
 use super::workshop::Workshop;
 use super::{Copies, Goal, Plan, choose, fold_uses, names, points, recipes};
@@ -173,6 +174,7 @@ fn planned_in(
             .filter(|sooner| price.of(sooner) < SOONER * price.of(&usual));
         now = sooner.unwrap_or(usual);
         now = apart_at_last(now, shop, thrift);
+        now = in_columns(now, shop, target, thrift);
     }
     let Known {
         graph,

@@ -101,7 +101,7 @@ impl Accesses {
         walk(block, &mut |statement| match statement {
             Statement::Let(id) => {
                 *self.writes.entry(*id).or_default() += 1;
-                plan.graph.node(*id).operands().for_each(|id| self.read(id));
+                plan.graph.node(*id).inputs().for_each(|id| self.read(id));
             }
             Statement::Set { place, from } => {
                 if let Place::Node(id) = place {

@@ -8,7 +8,8 @@
 //! What a target has to know:
 //!
 //! - The program draws picture rows `rows.0..=rows.1` and picture columns
-//!   `columns.0..=columns.1` (both inclusive): `tree.frame` once, then for each
+//!   `columns.0..=columns.1` (both inclusive): `tree.frame` once, then `tree.column` for each of its x
+//!   ([`Node::Tabulated`]), then for each
 //!   y `tree.row`, then `tree.pass` for each pass over the row's columns, where the
 //!   graph has such, then for each of its x `tree.segment` (or that only where one of its
 //!   comparisons with x has changed) and `tree.pixel`, after which [`Graph::ink`] is
@@ -70,6 +71,7 @@ pub(crate) mod settled;
 mod spread;
 mod stepped;
 mod sums;
+mod tabulated;
 pub(crate) mod thrift;
 pub(crate) mod workshop;
 #[cfg(test)]

@@ -155,16 +155,23 @@ impl Price {
                 runs.insert(std::ptr::from_ref(s));
             });
         }
+        let mut columns = FxHashSet::default();
+        walk(&plan.tree.column, &mut |s| {
+            columns.insert(std::ptr::from_ref(s));
+        });
         let cost = |statement: &Statement| f64::from(beside.statement(statement));
-        let by_pixel = |statement: &Statement| match runs.contains(&std::ptr::from_ref(statement)) {
-            true => 0.0,
-            false => cost(statement),
+        let height = f64::from(plan.graph.image.height.max(1));
+        let by_pixel = |statement: &Statement| match std::ptr::from_ref(statement) {
+            at if runs.contains(&at) => 0.0,
+            // Carried out once a column, not in each of its pixels.
+            at if columns.contains(&at) => cost(statement) / height,
+            _ => cost(statement),
         };
         let width = f64::from(plan.graph.image.width.max(1));
         let guess = |block: &Block| guessed(block, &cost);
         let bounds = bounds(plan);
         let pixel = match self.pixels.as_slice() {
-            [] => guess(&plan.tree.pixel),
+            [] => guess(&plan.tree.pixel) + guess(&plan.tree.column) / height,
             pixels => {
                 let meter = Meter::new(&plan.graph, by_pixel);
                 let still = still.as_ref().map(|still| match still.inks {
@@ -336,7 +343,10 @@ fn memory(plan: &Settled) -> [f64; 2] {
         false => t.entries.len() as f64 / 2.0 + 4.0,
     });
     let around = f64::from(statements - inside);
-    [f64::from(inside) + entries.sum::<f64>(), around]
+    // An array's entries are as long as values are.
+    let tabulated = (plan.graph.nodes.iter()).filter(|n| matches!(n, Node::Tabulated(_)));
+    let arrays = tabulated.count() as f64 * f64::from(plan.graph.image.width) / 3.0;
+    [f64::from(inside) + entries.sum::<f64>() + arrays, around]
 }
 
 /// Cycles of a block in a pixel of which nothing is known.

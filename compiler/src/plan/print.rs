@@ -102,12 +102,13 @@ impl Display for Plan {
         }
         for (name, block) in [
             ("frame", &self.tree.frame),
+            ("column", &self.tree.column),
             ("row", &self.tree.row),
             ("pass", &self.tree.pass),
             ("segment", &self.tree.segment),
             ("pixel", &self.tree.pixel),
         ] {
-            if matches!(name, "pass" | "segment") && block.is_empty() {
+            if matches!(name, "column" | "pass" | "segment") && block.is_empty() {
                 continue;
             }
             writeln!(f, "{name}:")?;
@@ -160,6 +161,7 @@ impl Plan {
             Node::Ramp { first, step, .. } => {
                 format!("{}, then +{}", self.operand(first), self.operand(step))
             }
+            Node::Tabulated(_) => "its column's entry".to_owned(),
             Node::Stepped { first, step } => {
                 format!("{} + {}", self.operand(first), self.operand(step))
             }

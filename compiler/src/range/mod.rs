@@ -68,6 +68,7 @@ pub fn ranges(graph: &Graph, tree: &Tree, slack: &Slack) -> Ranges {
         shared: shared(graph, tree),
     };
     walk.block(&tree.frame);
+    walk.block(&tree.column);
     walk.block(&tree.row);
     walk.block(&tree.pass);
     walk.block(&tree.segment);
@@ -348,6 +349,8 @@ impl Walk<'_> {
                 };
                 whole(self.graph, id, [Range::ALL; 2], range)
             }
+            // As the column's block has left it.
+            Node::Tabulated(_) => self.read(id),
             Node::Stepped { first, step } => {
                 let args = [self.read(first), self.read(step)];
                 let exact = whole(self.graph, id, args, interval(Op::IntAdd, args, false));

@@ -46,6 +46,9 @@ pub struct Target {
     pub sizes: Sizes,
     /// Whether a sum of ints that leaves 32 bits silently loses what is above them.
     pub wraps: bool,
+    /// The widest picture whose columns' values its programs keep in arrays; 0 where they
+    /// do not.
+    pub columns: u32,
     /// How many pixels of a mode stand in a byte that the program writes; 1 where
     /// it plots them one by one.
     pub pixels: fn(&Mode) -> u32,

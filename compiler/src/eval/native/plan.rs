@@ -302,6 +302,12 @@ impl Maker<'_> {
                 column: self.source(column, Type::Int),
                 row: self.source(row, Type::Int),
             },
+            // Both arms of a choice, whatever is asked.
+            Node::Tabulated(value) => Task::Select {
+                cond: self.nothing(),
+                yes: self.source(value, ty),
+                no: self.source(value, ty),
+            },
             Node::Stepped { first, step } => Task::Apply {
                 op: Op::IntAdd,
                 args: [first, step].map(|id| self.source(id, Type::Int)),

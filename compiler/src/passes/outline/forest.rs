@@ -94,11 +94,13 @@ impl Forest {
             // Such programs are not cut into segments.
             Extent::All => vec![
                 (tree.frame, true),
+                (tree.column, true),
                 (tree.row, true),
                 ([tree.pass, tree.segment, tree.pixel].concat(), true),
             ],
             Extent::Rows | Extent::Runs => vec![
                 (tree.frame, true),
+                (tree.column, true),
                 (tree.row, true),
                 (tree.pass, true),
                 (tree.segment, extent == Extent::Runs),
@@ -311,6 +313,7 @@ impl Forest {
         let mut next = |forest: &mut Forest| tops.next().map_or(Block::new(), |b| forest.take(b));
         let mut tree = Tree {
             frame: next(&mut self),
+            column: next(&mut self),
             row: next(&mut self),
             ..Tree::default()
         };

@@ -318,7 +318,8 @@ fn read_at_most(graph: &Graph, own: &mut [i8]) {
         }
         let (most, sum) = match graph.node(id) {
             Node::Apply(op, _) => (scale::MOST, at_one_scale(op)),
-            _ => (scale::MOST, matches!(graph.node(id), Node::Select { .. })),
+            Node::Select { .. } | Node::Tabulated(_) => (scale::MOST, true),
+            _ => (scale::MOST, false),
         };
         let most = if sum && graph.ty(id) == Type::Real {
             own[at] + i8::from(is_twice(graph, id))

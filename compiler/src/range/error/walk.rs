@@ -283,6 +283,8 @@ impl<'p> Walk<'p> {
             }
             Node::Lookup { table, .. } => self.entries(table),
             Node::Ramp { .. } => self.ramp(id),
+            // As the column's block has left it.
+            Node::Tabulated(_) => self.held(Place::Node(id)),
             Node::Stepped { first, step } => {
                 let exact = |id: NodeId| self.errors[id.0 as usize].is_exact();
                 let (a, b) = (self.read(first).range, self.read(step).range);

@@ -86,6 +86,7 @@ pub static MICRO: Target = Target {
     hertz: 2_000_000.0,
     sizes: SIZES,
     wraps: true,
+    columns: 0,
     pixels: |mode| match mode.inks {
         2 => 8,
         4 => 4,
@@ -105,6 +106,7 @@ pub static AGON: Target = Target {
     hertz: 25_500_000.0,
     sizes: SIZES,
     wraps: false,
+    columns: 0,
     pixels: |_| 1,
     emit,
 };
@@ -120,6 +122,7 @@ pub static BASIC_V: Target = Target {
     hertz: 1.2e11,
     sizes: SIZES,
     wraps: false,
+    columns: 0,
     pixels: |_| 1,
     emit,
 };

@@ -98,6 +98,7 @@ const FLOATS: Target = Target {
     hertz: 12.6e6,
     // Words of the heap: code does not count there, values do.
     wraps: false,
+    columns: 0,
     pixels: |_| 1,
     sizes: Sizes {
         operation: 4,

@@ -142,6 +142,7 @@ impl<'p> Code<'p> {
                 self.copy_into(&from, &to, place);
             }
             Node::Stepped { step, .. } => self.add_step(id, step),
+            Node::Tabulated(_) => self.read_column(id),
             _ => {}
         }
     }

@@ -19,6 +19,7 @@ pub(super) fn of_value(plan: &Plan, homes: &Homes, id: NodeId) -> String {
                 .map_or("?", |t| &t.name);
             format!("{table}[{}, {}]", name(column), name(row))
         }
+        Node::Tabulated(_) => format!("{}, by column", name(id)),
         _ => String::new(),
     };
     if homes.fused.contains(&id) {

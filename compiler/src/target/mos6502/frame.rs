@@ -184,6 +184,7 @@ fn main(
         code.text.headline("once a picture");
         code.block(&plan.tree.frame);
     }
+    code.fill_columns(plan.computed_columns());
     code.text.span = plan.drawn;
     Rows::new(&code, screen.as_ref(), errors.as_ref()).write(&mut code);
     let (clamps, mut needs) = (code.clamps, std::mem::take(&mut code.needs));

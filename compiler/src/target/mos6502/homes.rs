@@ -1,5 +1,6 @@
 //! Where values live, and what they are called in the program.
 
+use super::columns;
 use super::memory::{self, Machine, Places, Room};
 use super::names::Names;
 use super::shapes::{self, Shapes};
@@ -35,6 +36,8 @@ pub(super) enum Slot {
     RunEnd,
     /// What earlier pixels sent to this one.
     Received,
+    /// A value's array by columns.
+    Column(NodeId),
     /// A pointer into a row of errors.
     Errors(u32),
     /// Where a screen is memory: the byte whose pixels are gathered, a pointer to where
@@ -272,6 +275,14 @@ fn fused(plan: &Plan) -> BTreeSet<NodeId> {
 
 fn size(plan: &Plan, shapes: Option<&Shapes>, slot: Slot) -> u16 {
     match (slot, shapes) {
+        (Slot::Column(id), _) => {
+            let entry = match shapes {
+                Some(shapes) => shapes.of(plan, Place::Node(id)).bytes,
+                None => columns::entry(plan, id),
+            };
+            let bytes = u32::from(entry) * plan.graph.image.width;
+            return u16::try_from(bytes).unwrap_or(u16::MAX);
+        }
         (Slot::Value(place), Some(shapes)) => return u16::from(shapes.of(plan, place).bytes),
         (Slot::Param(_) | Slot::Axis(_) | Slot::Received | Slot::RunEnd, Some(_)) => {
             return u16::from(shapes::of_slot(plan, slot).bytes);
@@ -282,7 +293,7 @@ fn size(plan: &Plan, shapes: Option<&Shapes>, slot: Slot) -> u16 {
         Slot::Value(place) => u16::from(write::size(plan.place_format(place))),
         Slot::Turns(of) => 1 + u16::from(most_turns(plan, of) > 0xFF),
         Slot::Which | Slot::ScreenByte => 1,
-        Slot::PassFirst | Slot::Errors(_) | Slot::Block(_) | Slot::ScreenAt | Slot::ScreenLine => 2,
+        Slot::Column(_) | Slot::PassFirst | Slot::Errors(_) | Slot::Block(_) | Slot::ScreenAt | Slot::ScreenLine => 2,
         Slot::Param(_) | Slot::Axis(_) | Slot::RunEnd | Slot::Rows(_) | Slot::Received => 4,
     }
 }
@@ -302,6 +313,7 @@ fn wanted(plan: &Plan, slot: Slot) -> String {
         Slot::Axis(Axis::X | Axis::Run) => "pixel_x".to_owned(),
         Slot::Axis(Axis::Y) => "pixel_y".to_owned(),
         Slot::Axis(Axis::Pass(_)) => "pixel_pass".to_owned(),
+        Slot::Column(id) => format!("{}_by_column", plan.home(Place::Node(id))),
         Slot::PassFirst => "pass_first".to_owned(),
         Slot::RunEnd => "run_end".to_owned(),
         Slot::Block(Axis::Y) => "block_y".to_owned(),
@@ -336,8 +348,12 @@ impl Uses<'_> {
             self.add(Slot::Param(k));
         }
         let tree = &self.plan.tree;
+        for id in columns::tabulated(&self.plan.graph, tree) {
+            self.add(Slot::Column(id));
+        }
         for (block, weight) in [
             (&tree.frame, 1),
+            (&tree.column, 1 << 8),
             (&tree.row, 1 << 8),
             (&tree.pass, 1 << 10),
             (&tree.segment, 1 << 11),
@@ -415,7 +431,7 @@ impl Uses<'_> {
                     self.plan
                         .graph
                         .node(*id)
-                        .operands()
+                        .inputs()
                         .for_each(|operand| self.read(operand));
                     self.read(*id);
                 }

@@ -29,6 +29,7 @@ mod bitmap;
 mod blocks;
 mod c64;
 mod code;
+mod columns;
 mod comment;
 mod frame;
 mod homes;
@@ -109,6 +110,7 @@ const USUAL: Target = Target {
     offset: 0.003_906_25,
     hertz: 2_000_000.0,
     wraps: false,
+    columns: 512,
     pixels: |_| 1,
     sizes: Sizes {
         operation: 0,

@@ -1,0 +1,53 @@
+//! Which values are computed once a column: what [`crate::passes::columns`] offers, where
+//! that makes the plan cheaper.
+
+use super::price::Price;
+use super::settled::Settled;
+use super::thrift::Thrift;
+use super::workshop::Workshop;
+use crate::flow::graph::NodeId;
+use crate::passes::columns::{columns, tabulated};
+use crate::target::Target;
+use std::collections::BTreeSet;
+
+/// By how much arrays must make the plan cheaper.
+const CHEAPER: f64 = 0.98;
+
+/// The plan with what hangs on the column alone in arrays, where that pays; after all
+/// passes that rebuild the graph.
+pub fn in_columns(
+    plan: Settled,
+    shop: &Workshop,
+    target: &'static Target,
+    thrift: Thrift,
+) -> Settled {
+    if plan.graph.image.width > target.columns {
+        return plan;
+    }
+    let Some(found) = columns(&plan.graph) else {
+        return plan;
+    };
+    let price = Price::new(&plan, shop.runtime, thrift);
+    let with = |chosen: &BTreeSet<NodeId>| {
+        let next = shop.scheduled(tabulated(&plan.graph, &found, chosen));
+        (price.of(&next), next)
+    };
+    let mut chosen: BTreeSet<NodeId> = found.all.iter().copied().collect();
+    let mut best = with(&chosen);
+    // What takes less than to be kept and read again is computed where it is needed.
+    for id in &found.all {
+        if found.made_in_loops.contains(id) {
+            continue;
+        }
+        chosen.remove(id);
+        let next = with(&chosen);
+        match next.0 < best.0 {
+            true => best = next,
+            false => drop(chosen.insert(*id)),
+        }
+    }
+    match best.0 < CHEAPER * price.of(&plan) {
+        true => best.1,
+        false => plan,
+    }
+}
