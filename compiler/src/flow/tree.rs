@@ -240,6 +240,22 @@ pub fn walk<'t>(block: &'t [Statement], visit: &mut dyn FnMut(&'t Statement)) {
     }
 }
 
+/// The values that the column's block leaves for pixels ([`Node::Tabulated`]).
+pub fn tabulated(graph: &Graph, tree: &Tree) -> Vec<NodeId> {
+    let mut found = Vec::new();
+    walk(&tree.column, &mut |statement| {
+        if let Statement::Set {
+            place: Place::Node(id),
+            ..
+        } = statement
+            && matches!(graph.node(*id), Node::Tabulated(_))
+        {
+            found.push(*id);
+        }
+    });
+    found
+}
+
 /// The blocks inside a statement.
 pub fn inner(statement: &Statement) -> Vec<&Block> {
     match statement {

@@ -74,14 +74,11 @@ struct Uses<'g> {
 
 impl Uses<'_> {
     /// Whether all that reads a value stands in the block that computes it. What is
-    /// stepped must be kept for the next pixel, and what comes out of an array is.
+    /// stepped must be kept for the next pixel.
     fn is_read_at_home(&self, id: NodeId) -> bool {
         let home = self.home.get(&id);
-        let kept = matches!(
-            self.graph.node(id),
-            Node::Stepped { .. } | Node::Tabulated(_)
-        );
-        !kept && home.is_some() && home == self.reader.get(&id)
+        let stepped = matches!(self.graph.node(id), Node::Stepped { .. });
+        !stepped && home.is_some() && home == self.reader.get(&id)
     }
 
     fn read(&mut self, id: NodeId, block: u32) {

@@ -122,7 +122,7 @@ impl Lives<'_> {
         };
         self.touch(place);
         if self.plan.folded(id) {
-            let operands = self.plan.graph.node(id).operands();
+            let operands = self.plan.graph.node(id).inputs();
             operands.for_each(|operand| self.read(operand));
         }
     }

@@ -94,13 +94,13 @@ impl Forest {
             // Such programs are not cut into segments.
             Extent::All => vec![
                 (tree.frame, true),
-                (tree.column, true),
+                (tree.column, false),
                 (tree.row, true),
                 ([tree.pass, tree.segment, tree.pixel].concat(), true),
             ],
             Extent::Rows | Extent::Runs => vec![
                 (tree.frame, true),
-                (tree.column, true),
+                (tree.column, false),
                 (tree.row, true),
                 (tree.pass, true),
                 (tree.segment, extent == Extent::Runs),

@@ -131,6 +131,7 @@ impl<'p> Expressions<'p> {
         match self.plan.graph.node(id) {
             Node::Apply(op, args) => self.apply(id, op, args),
             Node::Lookup { table, column, row } => self.lookup(table, column, row),
+            Node::Tabulated(_) => Text::operand(format!("{}(X%)", self.names.column(id))),
             // As a row begins it; see [`super::ramp`].
             Node::Ramp { first, .. } => self.read(first),
             _ => self.read(id),

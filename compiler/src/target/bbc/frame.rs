@@ -2,6 +2,7 @@
 
 use super::Style;
 use super::code::Code;
+use super::columns;
 use super::dead;
 use super::lines::Lines;
 use super::passes::Passes;
@@ -152,6 +153,7 @@ fn picture(plan: &Plan, code: &mut Code<'_>, first: &str, last: &str, spread: Op
         spread.start(code);
     }
     code.block(&plan.tree.frame);
+    columns::fill(plan, code);
     // Errors come from the rows above, drawn or not.
     let top = if spread.is_some() { "0" } else { first };
     let passes = Passes::new(plan, code);

@@ -27,6 +27,7 @@
 
 mod asked;
 mod code;
+mod columns;
 mod dead;
 mod expression;
 mod frame;
@@ -86,7 +87,7 @@ pub static MICRO: Target = Target {
     hertz: 2_000_000.0,
     sizes: SIZES,
     wraps: true,
-    columns: 0,
+    columns: 512,
     pixels: |mode| match mode.inks {
         2 => 8,
         4 => 4,
@@ -106,7 +107,7 @@ pub static AGON: Target = Target {
     hertz: 25_500_000.0,
     sizes: SIZES,
     wraps: false,
-    columns: 0,
+    columns: 512,
     pixels: |_| 1,
     emit,
 };
@@ -122,7 +123,7 @@ pub static BASIC_V: Target = Target {
     hertz: 1.2e11,
     sizes: SIZES,
     wraps: false,
-    columns: 0,
+    columns: 512,
     pixels: |_| 1,
     emit,
 };

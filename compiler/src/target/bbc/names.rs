@@ -1,7 +1,8 @@
 //! What variables, constants and tables are called.
 
 use super::Style;
-use crate::flow::tree::{Place, SubroutineId};
+use crate::flow::graph::NodeId;
+use crate::flow::tree::{Place, SubroutineId, tabulated};
 use crate::plan::{Plan, quick_homes};
 use slowlight_routine::{Format, Type};
 use std::collections::{BTreeSet, HashMap, HashSet};
@@ -14,6 +15,8 @@ pub struct Names {
     /// Copies of params in variables that may be renamed.
     copies: Vec<Option<String>>,
     pub tables: Vec<String>,
+    /// Arrays by columns.
+    columns: HashMap<NodeId, String>,
     /// Of the pass over a row.
     pub pass: String,
     /// Of the procedures for subroutines.
@@ -35,6 +38,7 @@ impl Names {
             params: Vec::new(),
             copies: vec![None; plan.graph.params.len()],
             tables: Vec::new(),
+            columns: HashMap::new(),
             pass: String::new(),
             procedures: Vec::new(),
             taken: HashSet::new(),
@@ -81,6 +85,11 @@ impl Names {
             let name = names.unique(&clean, &format!("{}(", suffix(table.ty)));
             names.tables.push(name.trim_end_matches('(').to_owned());
         }
+        for id in tabulated(&plan.graph, &plan.tree) {
+            let suffix = format!("{}(", suffix(plan.graph.ty(id)));
+            let name = names.unique(plan.home(Place::Node(id)), &suffix);
+            names.columns.insert(id, name.trim_end_matches('(').to_owned());
+        }
         for (k, subroutine) in plan.tree.subroutines.iter().enumerate() {
             // Procedures have names of their own, short where memory is.
             let letter = u8::try_from(k).ok().filter(|k| *k < 26).map(|k| b'a' + k);
@@ -107,6 +116,11 @@ impl Names {
 
     pub fn param(&self, at: usize) -> &str {
         self.params.get(at).map_or("0", String::as_str)
+    }
+
+    /// A value's array by columns.
+    pub fn column(&self, id: NodeId) -> &str {
+        self.columns.get(&id).map_or("unused", String::as_str)
     }
 
     /// The procedure of a subroutine.

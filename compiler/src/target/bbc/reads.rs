@@ -54,7 +54,12 @@ impl<'p> Reads<'p> {
     /// Whether the column is.
     pub fn column(&self) -> bool {
         let graph = &self.plan.graph;
-        let column = |id: &NodeId| matches!(graph.node(*id), Node::Axis(Axis::X | Axis::Run));
+        let column = |id: &NodeId| {
+            matches!(
+                graph.node(*id),
+                Node::Axis(Axis::X | Axis::Run) | Node::Tabulated(_)
+            )
+        };
         graph
             .ids()
             .filter(|id| self.read(*id))
@@ -72,7 +77,7 @@ impl<'p> Reads<'p> {
 
     fn operands(&mut self, id: NodeId) {
         let plan = self.plan;
-        let operands = plan.graph.node(id).operands();
+        let operands = plan.graph.node(id).inputs();
         operands.for_each(|operand| self.value(operand));
     }
 

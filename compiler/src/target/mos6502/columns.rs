@@ -6,28 +6,12 @@
 use super::code::Code;
 use super::homes::Slot;
 use crate::flow::graph::*;
-use crate::flow::tree::{Place, Statement, Tree, walk};
+use crate::flow::tree::{Place, tabulated};
 use crate::plan::Plan;
 use slowlight_runtime_6502::write::{Place as Operand, byte_at, size};
 
 /// Columns that an index of one byte reaches.
 const NEAR: u32 = 256;
-
-/// The values that are kept so.
-pub(super) fn tabulated(graph: &Graph, tree: &Tree) -> Vec<NodeId> {
-    let mut found = Vec::new();
-    walk(&tree.column, &mut |statement| {
-        if let Statement::Set {
-            place: Place::Node(id),
-            ..
-        } = statement
-            && matches!(graph.node(*id), Node::Tabulated(_))
-        {
-            found.push(*id);
-        }
-    });
-    found
-}
 
 /// Bytes of an entry, if nothing says better.
 pub(super) fn entry(plan: &Plan, id: NodeId) -> u8 {

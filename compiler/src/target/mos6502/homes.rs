@@ -348,7 +348,7 @@ impl Uses<'_> {
             self.add(Slot::Param(k));
         }
         let tree = &self.plan.tree;
-        for id in columns::tabulated(&self.plan.graph, tree) {
+        for id in tabulated(&self.plan.graph, tree) {
             self.add(Slot::Column(id));
         }
         for (block, weight) in [
