@@ -190,7 +190,7 @@ fn heap(documents: &[Document], system: &[File]) -> Need {
             fields += names.split(',').count() as u64;
         } else if let Some(size) = array(line) {
             arrays += size + HEADER;
-            if of_floats && line.starts_with("let errors") {
+            if of_floats && line.starts_with("let errors") || line.ends_with("// of Floats") {
                 rows += size;
             }
         } else if line.contains("= Float.constant(") || line.contains("= Float.new(") {

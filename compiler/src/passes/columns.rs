@@ -58,46 +58,79 @@ pub fn tabulated(graph: &Graph, columns: &Columns, chosen: &BTreeSet<NodeId>) ->
     let none = || vec![None; graph.nodes.len()];
     let (mut by_column, mut by_pixel): (Vec<Option<NodeId>>, Vec<Option<NodeId>>) =
         (none(), none());
+    // Results of a loop stand together, so what is read of them stands behind the last.
+    let mut behind = Vec::new();
     for id in graph.ids() {
         let at = id.0 as usize;
         let node = graph.node(id);
-        let among = |all: &[Option<NodeId>]| {
-            let at: Vec<(NodeId, Option<NodeId>)> = node
-                .operands()
-                .map(|used| (used, all[used.0 as usize]))
-                .collect();
-            node.with(|used| {
-                let found = at.iter().find(|(old, _)| *old == used);
-                found.and_then(|(_, new)| *new).unwrap_or(NodeId(0))
-            })
-        };
+        let together = |first: &NodeId| made_by(graph, *first) == made_by(graph, id);
+        if !behind.first().is_some_and(together) {
+            entries(&mut behind, &by_column, &mut by_pixel, &mut out);
+        }
         if !world.is_column(id) {
-            let made = out.push(among(&by_pixel), id);
+            let made = out.push(among(node, &by_pixel), id);
             (by_column[at], by_pixel[at]) = (Some(made), Some(made));
             continue;
         }
         if wanted.column[at] {
-            by_column[at] = Some(out.push(among(&by_column), id));
+            by_column[at] = Some(out.push(among(node, &by_column), id));
         }
-        if wanted.pixel[at] {
-            by_pixel[at] = Some(match (by_column[at], kept(id)) {
-                (Some(value), true) => out.push(Node::Tabulated(value), id),
-                _ => out.push(among(&by_pixel), id),
-            });
+        if wanted.pixel[at] && kept(id) {
+            behind.push(id);
+            if made_by(graph, id).is_none() {
+                entries(&mut behind, &by_column, &mut by_pixel, &mut out);
+            }
+        } else if wanted.pixel[at] {
+            by_pixel[at] = Some(out.push(among(node, &by_pixel), id));
         }
     }
+    entries(&mut behind, &by_column, &mut by_pixel, &mut out);
     let moved: Vec<Option<NodeId>> = (by_pixel.iter().zip(&by_column))
         .map(|(pixel, column)| pixel.or(*column))
         .collect();
     let mut out = out.finish(&moved);
     let at = |id: NodeId| by_column[id.0 as usize].unwrap_or(NodeId(0));
-    for (of, turns) in graph.loops.iter().enumerate().filter(|(of, _)| world.loops[*of]) {
-        let lists = |turns: &Loop| [&turns.init, &turns.next, &turns.done, &turns.otherwise].map(|list| list.iter().map(|id| at(*id)).collect());
+    for (of, turns) in graph
+        .loops
+        .iter()
+        .enumerate()
+        .filter(|(of, _)| world.loops[*of])
+    {
+        let lists = |turns: &Loop| {
+            [&turns.init, &turns.next, &turns.done, &turns.otherwise]
+                .map(|list| list.iter().map(|id| at(*id)).collect())
+        };
         let made = &mut out.loops[of];
         [made.init, made.next, made.done, made.otherwise] = lists(turns);
         made.again = at(turns.again);
     }
     out
+}
+
+/// The loop that a node is a result of.
+fn made_by(graph: &Graph, id: NodeId) -> Option<LoopId> {
+    match graph.node(id) {
+        Node::Result { of, .. } => Some(of),
+        _ => None,
+    }
+}
+
+/// Reads some values' entries from here on.
+fn entries(
+    some: &mut Vec<NodeId>,
+    by_column: &[Option<NodeId>],
+    by_pixel: &mut [Option<NodeId>],
+    out: &mut Arena<'_>,
+) {
+    for id in some.drain(..) {
+        let value = by_column[id.0 as usize].unwrap_or(NodeId(0));
+        by_pixel[id.0 as usize] = Some(out.push(Node::Tabulated(value), id));
+    }
+}
+
+/// A node with those of some that stand for its operands.
+fn among(node: Node, all: &[Option<NodeId>]) -> Node {
+    node.with(|used| all[used.0 as usize].unwrap_or(NodeId(0)))
 }
 
 /// What is computed by column alone.

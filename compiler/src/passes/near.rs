@@ -19,7 +19,13 @@ use std::collections::{HashMap, HashSet};
 /// the subroutine that reads it may have it.
 pub fn down_to_runs(graph: &Graph, tree: &mut Tree) {
     let mut elsewhere: HashSet<NodeId> = HashSet::new();
-    for block in [&tree.frame, &tree.column, &tree.row, &tree.pass, &tree.pixel] {
+    for block in [
+        &tree.frame,
+        &tree.column,
+        &tree.row,
+        &tree.pass,
+        &tree.pixel,
+    ] {
         for statement in block {
             elsewhere.extend(reads(graph, statement));
         }

@@ -88,7 +88,9 @@ impl Names {
         for id in tabulated(&plan.graph, &plan.tree) {
             let suffix = format!("{}(", suffix(plan.graph.ty(id)));
             let name = names.unique(plan.home(Place::Node(id)), &suffix);
-            names.columns.insert(id, name.trim_end_matches('(').to_owned());
+            names
+                .columns
+                .insert(id, name.trim_end_matches('(').to_owned());
         }
         for (k, subroutine) in plan.tree.subroutines.iter().enumerate() {
             // Procedures have names of their own, short where memory is.

@@ -261,6 +261,16 @@ impl<'p> Code<'p> {
                 }
                 entry
             }
+            Node::Tabulated(_) => {
+                let (entry, sign) = self.column(id);
+                if self.logs() && format == self.plan.runtime.real {
+                    let home = self.home(place, format);
+                    let known = sign.is_none();
+                    let sign = sign.unwrap_or_default();
+                    return self.copy_log(&home, (&entry.text, &sign), known);
+                }
+                entry
+            }
             _ => return,
         };
         if let Format::Float316 { .. } = format {

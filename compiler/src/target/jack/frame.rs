@@ -254,6 +254,7 @@ fn declared(code: &Code) -> Vec<(&'static str, Vec<String>, &'static str)> {
     let signs = names.tables().filter(|(id, _)| signed(*id));
     let signs = signs.map(|(_, name)| format!("{name}_plus")).collect();
     all.push(("Array", signs, ""));
+    all.push(("Array", code.columns(), " // values by columns"));
     let about = if code.logs() { " // logarithms" } else { "" };
     all.push((real, of(code.plan.runtime.real), about));
     let fixed = code.written.iter().filter(|(_, f)| is_fixed(*f));
@@ -339,6 +340,7 @@ fn drawing(code: &mut Code) -> Vec<Subroutine> {
         picture.line("do takeParameters();");
     }
     picture.append(frame);
+    code.fill_columns(&mut picture);
     picture.span = plan.drawn;
     let canvas = code.names.canvas.clone();
     if plan.plot && canvas.is_none() {

@@ -30,6 +30,7 @@
 
 mod canvas;
 mod code;
+mod columns;
 mod copies;
 mod expression;
 mod fixed;
@@ -98,7 +99,7 @@ const FLOATS: Target = Target {
     hertz: 12.6e6,
     // Words of the heap: code does not count there, values do.
     wraps: false,
-    columns: 0,
+    columns: 512,
     pixels: |_| 1,
     sizes: Sizes {
         operation: 4,

@@ -6,7 +6,7 @@
 
 use super::canvas::Canvas;
 use crate::flow::graph::*;
-use crate::flow::tree::{Place, SubroutineId};
+use crate::flow::tree::{Place, SubroutineId, tabulated};
 use crate::plan::{Plan, shared_homes};
 use slowlight_routine::Format;
 use std::collections::{BTreeMap, BTreeSet, HashMap};
@@ -73,6 +73,7 @@ pub(super) struct Names {
     pub axes: [String; 2],
     homes: HashMap<Place, String>,
     tables: BTreeMap<TableId, String>,
+    columns: BTreeMap<NodeId, String>,
     turns: BTreeMap<LoopId, String>,
     subroutines: Vec<String>,
     /// The variables of signs, by those of the logarithms.
@@ -95,6 +96,7 @@ impl Names {
             axes: Default::default(),
             homes: HashMap::new(),
             tables: BTreeMap::new(),
+            columns: BTreeMap::new(),
             turns: BTreeMap::new(),
             subroutines: Vec::new(),
             signs: BTreeMap::new(),
@@ -120,6 +122,11 @@ impl Names {
             };
             names.homes.insert(place, name);
         }
+        for id in tabulated(&plan.graph, &plan.tree) {
+            let name = format!("{}_by_column", plan.home(Place::Node(id)));
+            let name = names.fresh(&name);
+            names.columns.insert(id, name);
+        }
         for subroutine in &plan.tree.subroutines {
             let name = names.fresh(&format!("do{}", capital(&subroutine.label())));
             names.subroutines.push(name);
@@ -135,6 +142,11 @@ impl Names {
         let name = found.unwrap_or_default();
         self.taken.insert(name.clone());
         name
+    }
+
+    /// A value's array by columns.
+    pub fn column(&self, id: NodeId) -> &str {
+        self.columns.get(&id).map_or("unused", String::as_str)
     }
 
     pub fn home(&self, place: Place) -> &str {

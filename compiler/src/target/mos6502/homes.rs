@@ -293,7 +293,12 @@ fn size(plan: &Plan, shapes: Option<&Shapes>, slot: Slot) -> u16 {
         Slot::Value(place) => u16::from(write::size(plan.place_format(place))),
         Slot::Turns(of) => 1 + u16::from(most_turns(plan, of) > 0xFF),
         Slot::Which | Slot::ScreenByte => 1,
-        Slot::Column(_) | Slot::PassFirst | Slot::Errors(_) | Slot::Block(_) | Slot::ScreenAt | Slot::ScreenLine => 2,
+        Slot::Column(_)
+        | Slot::PassFirst
+        | Slot::Errors(_)
+        | Slot::Block(_)
+        | Slot::ScreenAt
+        | Slot::ScreenLine => 2,
         Slot::Param(_) | Slot::Axis(_) | Slot::RunEnd | Slot::Rows(_) | Slot::Received => 4,
     }
 }
