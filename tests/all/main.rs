@@ -12,6 +12,7 @@ mod cli_params;
 mod cli_run;
 mod cli_snapshot;
 mod cli_wrong;
+mod columns;
 mod effects;
 mod explain;
 mod fit;

@@ -87,7 +87,7 @@ pub static MICRO: Target = Target {
     hertz: 2_000_000.0,
     sizes: SIZES,
     wraps: true,
-    columns: 512,
+    columns: 1024,
     pixels: |mode| match mode.inks {
         2 => 8,
         4 => 4,
@@ -107,7 +107,7 @@ pub static AGON: Target = Target {
     hertz: 25_500_000.0,
     sizes: SIZES,
     wraps: false,
-    columns: 512,
+    columns: 1024,
     pixels: |_| 1,
     emit,
 };
@@ -123,7 +123,7 @@ pub static BASIC_V: Target = Target {
     hertz: 1.2e11,
     sizes: SIZES,
     wraps: false,
-    columns: 512,
+    columns: 1024,
     pixels: |_| 1,
     emit,
 };

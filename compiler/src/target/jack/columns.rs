@@ -1,9 +1,9 @@
 //! Arrays by columns: filled before the first row, read in pixels.
 
-use super::Text;
 use super::code::Code;
 use super::expression::Expression;
 use super::logs::known;
+use super::{Line, Text};
 use crate::flow::graph::*;
 use crate::flow::tree::{Place, tabulated};
 use slowlight_routine::Format;
@@ -32,8 +32,8 @@ impl Code<'_> {
         names.collect()
     }
 
-    /// Makes and fills the arrays.
-    pub fn fill_columns(&mut self, picture: &mut Text) {
+    /// Makes and fills the arrays, by what a column computes.
+    pub fn fill_columns(&mut self, column: Vec<Line>, picture: &mut Text) {
         let plan = self.plan;
         let found = tabulated(&plan.graph, &plan.tree);
         if found.is_empty() {
@@ -52,7 +52,7 @@ impl Code<'_> {
         let (first, last) = plan.computed_columns();
         picture.line(format!("let {x} = {first};"));
         picture.open(format!("while ({x} < {}) {{", last.saturating_add(1)));
-        picture.append(self.body(&plan.tree.column, "drawColumn"));
+        picture.append(column);
         for id in found {
             let home = self.names.home(Place::Node(id)).to_owned();
             let name = self.names.column(id).to_owned();

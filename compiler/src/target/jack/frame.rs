@@ -327,6 +327,7 @@ fn drawn(plan: &Plan, [x, y]: [&str; 2]) -> String {
 fn drawing(code: &mut Code) -> Vec<Subroutine> {
     let plan = code.plan;
     let frame = code.body(&plan.tree.frame, "drawPicture");
+    let column = code.body(&plan.tree.column, "drawColumn");
     let row = code.body(&plan.tree.row, "drawRow");
     let pixel = code.body(&plan.tree.pixel, "drawPixel");
     code.subroutines();
@@ -340,7 +341,7 @@ fn drawing(code: &mut Code) -> Vec<Subroutine> {
         picture.line("do takeParameters();");
     }
     picture.append(frame);
-    code.fill_columns(&mut picture);
+    code.fill_columns(column, &mut picture);
     picture.span = plan.drawn;
     let canvas = code.names.canvas.clone();
     if plan.plot && canvas.is_none() {
