@@ -51,7 +51,8 @@ pub const FREE_MEMORY: u16 = 0x0A00;
 /// The first byte of the zero page that a runtime leaves alone.
 pub fn free_zero_page(runtime: &Runtime) -> u8 {
     match runtime.real {
-        Format::Scaled { .. } => scaled::FREE_ZERO_PAGE,
+        Format::Scaled { bits: 16 } => scaled::FREE_ZERO_PAGE,
+        Format::Scaled { .. } => scaled::LONG_FREE_ZERO_PAGE,
         _ => FREE_ZERO_PAGE,
     }
 }

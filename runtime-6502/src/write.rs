@@ -175,7 +175,7 @@ pub fn instructions(used: Use<'_>, lines: &mut Vec<String>) -> Option<&'static s
         [a, b] if a == b => scaled::squared(text),
         _ => None,
     };
-    let (text, need) = (square.unwrap_or(text), square.map(|_| "square16"));
+    let (text, need) = (square.map_or(text, |s| s.0), square.map(|s| s.1));
     let (routine, full) = (used.routine, size(used.routine.result));
     let (to, bytes) = match *used.goal {
         Goal::At(to) => (Some(to), full),
@@ -184,7 +184,7 @@ pub fn instructions(used: Use<'_>, lines: &mut Vec<String>) -> Option<&'static s
     };
     if let (Some(made), Some(to), [from, ..]) = (text.strip_prefix('!'), to, used.args) {
         match made {
-            "floor" => scaled::floor(from, used.number, to, bytes, lines),
+            "floor" => scaled::floor((from, full_of(routine)), used.number, (to, bytes), lines),
             _ => copy_bytes(&held_in(from, full_of(routine)), to, bytes, lines),
         }
     } else if text.contains(char::is_whitespace) {
@@ -256,10 +256,14 @@ fn template(text: &str, used: Use<'_>, bytes: u8, lines: &mut Vec<String>) {
         }
         _ => (text, whole),
     };
+    // Bytes that are named have to be there.
+    let named = |k: u8| text.contains(&format!("{{0.{k}}}"));
+    let read = (0..of_args).rev().find(|k| named(*k)).map_or(0, |k| k + 1);
+    let read = width.max(read).min(of_args);
     let extended: Vec<Place> = (used.args.iter().zip(shapes()).zip(EXTENDED))
         .map(|((place, shape), to)| match place {
-            Place::Held(..) if shape.signed && shape.bytes < width.min(of_args) => {
-                copy_bytes(place, to, width.min(of_args), lines);
+            Place::Held(..) if shape.signed && shape.bytes < read => {
+                copy_bytes(place, to, read, lines);
                 Place::At(to.to_owned())
             }
             _ => place.clone(),
@@ -354,7 +358,8 @@ fn shift_of_one(used: Use<'_>) -> i32 {
         Some(Place::Constant(bits)) => bits.trailing_zeros() as i32,
         _ => 0,
     };
-    31 - one - used.number
+    let bits = i32::from(size(used.routine.result)) * 8;
+    2 * bits - 1 - one - used.number
 }
 
 /// What a formula of the number comes to: a sum of numbers and of n, a, b and r, the

@@ -73,6 +73,14 @@ impl Format {
         }
     }
 
+    /// Bits of its ints, or of its reals where they have a fixed point; else 0.
+    pub fn bits(self) -> u8 {
+        match self {
+            Format::Int { bits } | Format::Fixed { bits, .. } | Format::Scaled { bits } => bits,
+            _ => 0,
+        }
+    }
+
     /// Whether its reals have a fixed point, all the same or each its own.
     pub fn is_fixed(self) -> bool {
         matches!(self, Format::Fixed { .. } | Format::Scaled { .. })
@@ -355,14 +363,17 @@ impl Runtime {
     /// list may be for one operand alone; of others it is for all.
     pub fn usual(&self, op: Op) -> Option<&'static Routine> {
         let mut all = self.routines.iter().filter(|r| r.op == op);
-        if !matches!(self.real, Format::Scaled { .. }) {
+        let Format::Scaled { bits } = self.real else {
             return all.next();
-        }
-        let scales = scale::Scales {
-            args: [14, 14],
-            result: 14,
         };
-        let [some, result] = [100.5, 10_000.0].map(|most| Range::new(-most, most));
+        let scales = scale::Scales {
+            args: [bits as i8 - 2; 2],
+            result: bits as i8 - 2,
+        };
+        // Of so many bits that it is for all.
+        let more = f64::from(bits.saturating_sub(16));
+        let [some, result] = [100.5 * (1.5 * more).exp2(), 10_000.0 * more.exp2()]
+            .map(|most| Range::new(-most, most));
         let number = Range::point(f64::from(scales.number(op)));
         let args: Vec<Range> = std::iter::repeat_n(some, op.arity())
             .chain([number])

@@ -15,10 +15,16 @@
 
 use crate::{Bits, Op, Range, Type};
 
-/// The fewest and most fraction bits that a value may have.
+/// The fewest fraction bits that a value may have.
 pub const FEWEST: i8 = -15;
-/// See [`FEWEST`].
+/// The most that one of 16 bits may have, and that all of them know who pack them
+/// ([`Scales::unpacked`]).
 pub const MOST: i8 = 30;
+
+/// The most fraction bits that a value of so many bits may have.
+pub const fn finest(bits: u8) -> i8 {
+    MOST + bits as i8 - 16
+}
 
 /// Where the points of an operation's operands are when it is carried out, and that of its
 /// result; 0 for ints.
@@ -68,15 +74,23 @@ fn packed(scales: [i32; 3]) -> i32 {
     scales.iter().fold(0, |all, scale| all * 64 + scale + 32)
 }
 
-/// The fraction bits that an operation's result always has, where its routines know no
-/// others: as many as fit beside the greatest.
-pub fn given(op: Op) -> Option<i8> {
+/// The fraction bits that an operation's result of so many bits always has, where its
+/// routines know no others: as many as fit beside the greatest, and as many as they have.
+pub fn given(op: Op, bits: u8) -> Option<i8> {
     match op {
-        Op::Sin | Op::Cos | Op::Asin => Some(14),
-        Op::Acos | Op::Atan2 => Some(13),
+        Op::Sin | Op::Cos | Op::Asin => Some(sine(bits)),
+        Op::Acos | Op::Atan2 => Some((bits as i8 - 3).min(FUNCTION)),
         _ => None,
     }
 }
+
+/// Fraction bits of a number of so many bits from -1 to 1 that a function has or takes.
+pub fn sine(bits: u8) -> i8 {
+    (bits as i8 - 2).min(FUNCTION)
+}
+
+/// The most fraction bits that functions have.
+pub const FUNCTION: i8 = 16;
 
 /// The int of largest magnitude in so many bits; the least is its negative.
 pub const fn most(bits: u8) -> i64 {
@@ -121,7 +135,7 @@ pub fn in_units(range: Range, scale: i8) -> Range {
 pub fn fitting(magnitude: f64, bits: u8) -> i8 {
     let most = most(bits) as f64;
     let fits = |scale: &i8| magnitude * f64::from(*scale).exp2() <= most;
-    (FEWEST..=MOST).rev().find(fits).unwrap_or(FEWEST)
+    (FEWEST..=finest(bits)).rev().find(fits).unwrap_or(FEWEST)
 }
 
 /// Whether an operation has anything to do with reals, so that scales matter.

@@ -104,6 +104,9 @@ pub static OTHER_FORMATS: &[&Target] = &[
     &mos6502::PLAIN_FIXED16,
     &mos6502::BBC_FIXED16,
     &mos6502::C64_FIXED16,
+    &mos6502::PLAIN_FIXED24,
+    &mos6502::BBC_FIXED24,
+    &mos6502::C64_FIXED24,
 ];
 
 /// Every target in every format.

@@ -9,6 +9,7 @@ widen:
 widen_sign:
         stx acc+2
         stx acc+3
+widen_bits:
         cpy #0
         beq widen_done
 widen_bit:

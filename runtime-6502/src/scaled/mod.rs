@@ -9,10 +9,12 @@
 //!
 //! Functions that are rarer are those of 16.16, their operand and result shifted.
 
+pub mod long;
 pub mod model;
 mod read;
 mod routines;
 mod templates;
+mod templates_long;
 #[cfg(test)]
 mod tests;
 mod wide;
@@ -30,8 +32,13 @@ pub const BITS: u8 = 16;
 /// The format of the reals.
 pub const REAL: Format = Format::Scaled { bits: BITS };
 
+/// The format of reals of 24 bits.
+pub const LONG: Format = Format::Scaled { bits: long::BITS };
+
 /// The first byte of the zero page that this runtime leaves alone.
 pub const FREE_ZERO_PAGE: u8 = 0x34;
+/// The same where reals have 24 bits.
+pub const LONG_FREE_ZERO_PAGE: u8 = 0x40;
 
 /// The runtime of fixed-point reals with points of their own.
 pub static FIXED16: Runtime = USUAL;
@@ -39,6 +46,27 @@ pub static FIXED16: Runtime = USUAL;
 /// The same for programs that draw rows in passes and runs of columns.
 pub static FIXED16_IN_RUNS: Runtime = Runtime {
     segments: true,
+    ..USUAL
+};
+
+/// The runtime of the same in 24 bits.
+pub static FIXED24: Runtime = USUAL_LONG;
+
+/// The same for programs that draw rows in passes and runs of columns.
+pub static FIXED24_IN_RUNS: Runtime = Runtime {
+    segments: true,
+    ..USUAL_LONG
+};
+
+const USUAL_LONG: Runtime = Runtime {
+    format: "fixed24",
+    real: LONG,
+    routines: &routines::ALL_LONG,
+    statement: 6,
+    param_digits: |greatest, ranged| {
+        let most = scale::most(long::BITS) as f64;
+        Some(scale::param_digits(greatest, ranged, most))
+    },
     ..USUAL
 };
 

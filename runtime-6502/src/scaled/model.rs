@@ -11,9 +11,9 @@ const BITS: u8 = super::BITS;
 /// The greatest.
 const MOST: i64 = most(BITS);
 
-/// Held to the format's ends.
-pub fn held(value: i64) -> i32 {
-    value.clamp(-MOST, MOST) as i32
+/// Held to the ends of so many bits.
+pub fn held(value: i64, bits: u8) -> i32 {
+    value.clamp(-most(bits), most(bits)) as i32
 }
 
 /// So many bits to the right, to the nearest, halves upwards.
@@ -40,7 +40,7 @@ fn quarter_square(n: i64) -> i64 {
 }
 
 /// The product of two bytes over 256, of which only upper bytes were subtracted.
-fn upper(a: i64, b: i64) -> i64 {
+pub(super) fn upper(a: i64, b: i64) -> i64 {
     quarter_square(a + b) - quarter_square(a - b)
 }
 
@@ -61,9 +61,9 @@ pub fn square(a: i32) -> i64 {
 /// 24 bits cut to what is wanted of a product that is `n` bits longer than its result.
 fn cut(product: i64, n: i32) -> i32 {
     match n {
-        17.. => held(right(product >> 8, (n - 16).unsigned_abs())),
-        8.. => held(right(product, (n - 8).unsigned_abs())),
-        _ => held(product << (8 - n).min(30)),
+        17.. => held(right(product >> 8, (n - 16).unsigned_abs()), BITS),
+        8.. => held(right(product, (n - 8).unsigned_abs()), BITS),
+        _ => held(product << (8 - n).min(30), BITS),
     }
 }
 
@@ -79,7 +79,7 @@ pub fn squared(a: i32, n: i32) -> i32 {
 
 /// The whole product with points wherever they are.
 pub fn any_product(a: i32, b: i32, n: i32) -> i32 {
-    held(shifted(i64::from(a) * i64::from(b), -n, 62))
+    held(shifted(i64::from(a) * i64::from(b), -n, 62), BITS)
 }
 
 /// 2^31 / b for b from 2^15 to 2^16, where b is 2^15 and 128 times 0 to 256; the first is
@@ -191,23 +191,29 @@ fn in_16_16(a: i32, scale: i8) -> i32 {
     made.clamp(i64::from(i32::MIN), i64::from(i32::MAX)) as i32
 }
 
-/// 16.16 at some scale.
-fn from_16_16(a: i32, scale: i8) -> i32 {
-    shifted(i64::from(a), i32::from(scale) - 16, BITS) as i32
+/// 16.16 at some scale in so many bits.
+fn from_16_16(a: i32, scale: i8, bits: u8) -> i32 {
+    shifted(i64::from(a), i32::from(scale) - 16, bits) as i32
 }
 
 /// A function of 16.16 whose operand and result have points of their own.
-pub fn function(of: fn(i32) -> i32, a: i32, scales: [i8; 2]) -> i32 {
-    from_16_16(of(in_16_16(a, scales[0])), scales[1])
+pub fn function(of: fn(i32) -> i32, a: i32, scales: [i8; 2], bits: u8) -> i32 {
+    from_16_16(of(in_16_16(a, scales[0])), scales[1], bits)
 }
 
-/// The angle of a point, times 2^13; its coordinates' scale does not matter.
-pub fn arctangent2(y: i32, x: i32) -> i32 {
-    from_16_16(wide::arctangent2(in_16_16(y, 4), in_16_16(x, 4)), 13)
+/// The angle of a point at a scale; its coordinates' does not matter, so it is one at which
+/// both fit.
+pub fn arctangent2(y: i32, x: i32, result: i8, bits: u8) -> i32 {
+    let legs = if bits > 16 { 9 } else { 4 };
+    from_16_16(
+        wide::arctangent2(in_16_16(y, legs), in_16_16(x, legs)),
+        result,
+        bits,
+    )
 }
 
 /// A power.
-pub fn power(a: i32, b: i32, scales: Scales) -> i32 {
+pub fn power(a: i32, b: i32, scales: Scales, bits: u8) -> i32 {
     let [x, y] = [(a, scales.args[0]), (b, scales.args[1])].map(|(v, s)| in_16_16(v, s));
-    from_16_16(wide::power(x, y), scales.result)
+    from_16_16(wide::power(x, y), scales.result, bits)
 }

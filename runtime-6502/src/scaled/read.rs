@@ -1,6 +1,6 @@
 //! Reading a number at another scale, and its whole part.
 
-use crate::write::{Place, Shape, byte, copy_bytes};
+use crate::write::{Place, Shape, byte, byte_at, copy_bytes};
 
 /// A number to be read.
 #[derive(Clone, Copy, Debug)]
@@ -9,12 +9,38 @@ pub struct Read<'a> {
     pub from: &'a Place,
     /// So many fraction bits more.
     pub by: i32,
-    /// Whether it is known not to leave 16 bits then.
+    /// Whether it is known not to leave the bytes that it is read into.
     pub fits: bool,
     /// Where it goes.
     pub to: &'a str,
+    /// In so many bytes, 2 or 3.
+    pub bytes: u8,
     /// Must differ at each use in a program.
     pub serial: u32,
+}
+
+/// Adds instructions that are separated by `|` to lines.
+pub(super) fn add(text: &str, lines: &mut Vec<String>) {
+    for instruction in text.split('|').map(str::trim).filter(|i| !i.is_empty()) {
+        let indent = if instruction.ends_with(':') {
+            ""
+        } else {
+            "        "
+        };
+        lines.push(format!("{indent}{instruction}"));
+    }
+}
+
+fn times(text: &str, k: i32) -> String {
+    format!("{text} | ").repeat(k.max(0) as usize)
+}
+
+/// One more, if an instruction before it has not gone to the label.
+pub(super) fn one_more(to: &str, bytes: u8, label: &str) -> String {
+    let each: Vec<String> = (0..bytes)
+        .map(|k| format!("inc {}", byte_at(to, k)))
+        .collect();
+    each.join(&format!(" | bne {label} | ")) + &format!(" | {label}:")
 }
 
 /// Writes the reading; answers the part of the runtime that it needs, if any.
@@ -24,114 +50,208 @@ pub fn read(read: Read<'_>, lines: &mut Vec<String>) -> Option<&'static str> {
         by,
         fits,
         to,
-        serial,
+        bytes,
+        ..
     } = read;
-    let wide = matches!(from, Place::Held(_, shape) if shape.bytes > 2 || shape.bytes == 2 && !shape.signed && !shape.spare);
+    let wide = matches!(from, Place::Held(_, shape) if shape.bytes > bytes || shape.bytes == bytes && !shape.signed && !shape.spare);
     // Where it fits, its lower bytes are all of it.
     if wide && (by < 0 || !fits) {
         if super::wide::read(read, lines) {
             return None;
         }
         // An int of more bytes.
-        let way = if by < 0 { "right" } else { "left" };
         copy_bytes(from, "acc", 4, lines);
-        let mut code = |text: String| lines.push(format!("        {text}"));
-        code(format!("ldy #{}", by.unsigned_abs().min(40)));
-        code(format!("jsr narrow_{way}"));
-        code(format!("sta {to}"));
-        code(format!("stx {to}+1"));
-        return Some("narrow");
+        let way = if by < 0 { "right" } else { "left" };
+        return Some(called(read, &format!("narrow_{way}"), lines));
     }
-    let narrow = matches!(from, Place::Held(_, shape) if shape.bytes < 2 && shape.signed);
-    let extended = Place::Held(to.to_owned(), Shape::whole(2));
-    let from = match narrow {
+    let narrow = matches!(from, Place::Held(_, shape) if shape.bytes < bytes && shape.signed);
+    let same = matches!(from, Place::At(name) | Place::Held(name, _) if name == to);
+    // Whole bytes do not go up where they stand.
+    let apart = bytes > 2 && by >= 8 && (narrow || same);
+    let extended = if apart { "acc" } else { to };
+    let held = Place::Held(extended.to_owned(), Shape::whole(bytes));
+    let from = match narrow || apart {
         true => {
-            copy_bytes(from, to, 2, lines);
-            &extended
+            copy_bytes(from, extended, bytes, lines);
+            &held
         }
         false => from,
     };
-    let mut code = |text: String| {
-        for instruction in text.split('|').map(str::trim) {
-            let indent = if instruction.ends_with(':') {
-                ""
-            } else {
-                "        "
-            };
-            lines.push(format!("{indent}{instruction}"));
-        }
-    };
-    let same = matches!(from, Place::At(name) | Place::Held(name, _) if name == to);
-    let (low, high) = (byte(from, 0), byte(from, 1));
-    let n = serial;
-    let times = |text: &str, k: i32| format!("{text} | ").repeat(k.max(0) as usize);
+    let read = Read { from, ..read };
     match by {
-        8.. if fits => code(format!(
-            "lda {low} | {}sta {to}+1 | lda #0 | sta {to}",
-            times("asl", (by - 8).min(8))
-        )),
-        0.. if fits => code(format!(
-            "lda {low} | sta {to} | lda {high} | {}sta {to}+1",
-            times(&format!("asl {to} | rol"), by)
-        )),
+        0.. if fits => add(&up(read), lines),
         // What leaves 16 bits has another sign then.
-        1 if !narrow && !same => code(format!(
-            "lda {low} | asl | sta {to} | lda {high} | rol | sta {to}+1 | eor {high} | bpl fits{n}
-            | lda {high} | asl | lda #$7f | adc #0 | sta {to}+1 | eor #$80 | ora #1 | sta {to} | bne read{n}
-            | fits{n}: | lda {to}+1 | cmp #$80 | bne read{n} | lda {to} | bne read{n} | inc {to} | read{n}:"
-        )),
-        0.. => {
-            code(format!(
-                "lda {low} | ldx {high} | ldy #{} | jsr left16 | sta {to} | stx {to}+1",
-                by.min(40)
-            ));
-            return Some("narrow");
+        1 if bytes == 2 && !narrow && !same => {
+            let (low, high, n) = (byte(from, 0), byte(from, 1), read.serial);
+            let text = format!(
+                "lda {low} | asl | sta {to} | lda {high} | rol | sta {to}+1 | eor {high} | bpl fits{n}
+                | lda {high} | asl | lda #$7f | adc #0 | sta {to}+1 | eor #$80 | ora #1 | sta {to} | bne read{n}
+                | fits{n}: | lda {to}+1 | cmp #$80 | bne read{n} | lda {to} | bne read{n} | inc {to} | read{n}:"
+            );
+            add(&text, lines);
         }
-        -7..0 => code(format!(
-            "lda {low} | sta {to} | lda {high} | {}bcc read{n} | inc {to} | bne read{n} | adc #0 | read{n}: | sta {to}+1",
-            times(&format!("cmp #$80 | ror | ror {to}"), -by)
-        )),
-        -8 => code(format!(
-            "ldx #0 | lda {low} | asl | lda {high} | bpl read{n} | dex | read{n}: | adc #0 | sta {to} | bne above{n} | ldx #0 | above{n}: | stx {to}+1"
-        )),
-        -15..-8 => code(format!(
-            "ldx #0 | lda {high} | {}adc #0 | sta {to} | bpl read{n} | dex | read{n}: | stx {to}+1",
-            times("cmp #$80 | ror", -by - 8)
-        )),
-        // Less than half of the last place.
-        _ => code(format!("lda #0 | sta {to} | sta {to}+1")),
+        0.. if bytes == 2 => {
+            let (low, high) = (byte(from, 0), byte(from, 1));
+            let load = format!("lda {low} | ldx {high}");
+            add(&load, lines);
+            return Some(called(read, "left16", lines));
+        }
+        0.. => {
+            copy_bytes(from, "acc", 3, lines);
+            return Some(called(read, "left24", lines));
+        }
+        _ => add(&down(read), lines),
     }
     None
 }
 
-/// The greatest whole number not above one with so many fraction bits, up to 14, in so many
-/// bytes.
-pub fn floor(from: &Place, bits: i32, to: &str, bytes: u8, lines: &mut Vec<String>) {
-    let (low, high) = (byte(from, 0), byte(from, 1));
-    let mut code = |text: String| {
-        for instruction in text.split('|').map(str::trim).filter(|i| !i.is_empty()) {
-            lines.push(format!("        {instruction}"));
-        }
-    };
-    let times = |text: &str, k: i32| format!("{text} | ").repeat(k.max(0) as usize);
-    let shape = |bytes| Shape {
+/// Reads by a subroutine, of whose name that for three bytes follows; answers its part.
+fn called(read: Read<'_>, name: &str, lines: &mut Vec<String>) -> &'static str {
+    let Read { by, to, bytes, .. } = read;
+    let count = by.unsigned_abs().min(40);
+    if bytes == 2 {
+        let text = format!("ldy #{count} | jsr {name} | sta {to} | stx {to}+1");
+        add(&text, lines);
+        return "narrow";
+    }
+    let name = name.replace("narrow_", "narrow24_");
+    add(&format!("ldy #{count} | jsr {name}"), lines);
+    if to != "acc" {
+        copy_bytes(&Place::At("acc".to_owned()), to, bytes, lines);
+    }
+    "hold24"
+}
+
+/// To the left, where it fits.
+fn up(read: Read<'_>) -> String {
+    let Read {
+        from,
+        by,
+        to,
         bytes,
-        ..Shape::whole(bytes)
-    };
-    match bits {
-        8.. => {
-            code(format!(
-                "lda {high} | {}sta third",
-                times("cmp #$80 | ror", bits - 8)
-            ));
-            copy_bytes(&Place::Held("third".to_owned(), shape(1)), to, bytes, lines);
-        }
-        _ => {
-            code(format!(
-                "lda {low} | sta third | lda {high} | {}sta third+1",
-                times("cmp #$80 | ror | ror third", bits)
-            ));
-            copy_bytes(&Place::Held("third".to_owned(), shape(2)), to, bytes, lines);
+        ..
+    } = read;
+    let whole = ((by / 8) as u8).min(bytes - 1);
+    let bits = (by - 8 * i32::from(whole)).min(8);
+    let at = |k: u8| byte_at(to, k);
+    let mut text = String::new();
+    for k in whole..bytes {
+        text += &format!("lda {} | ", byte(from, k - whole));
+        if k < bytes - 1 {
+            text += &format!("sta {} | ", at(k));
         }
     }
+    let shifted: Vec<String> = (whole..bytes - 1)
+        .map(|k| format!("{} {}", if k == whole { "asl" } else { "rol" }, at(k)))
+        .collect();
+    text += &match shifted.is_empty() {
+        true => times("asl", bits),
+        false => times(&format!("{} | rol", shifted.join(" | ")), bits),
+    };
+    text += &format!("sta {} | ", at(bytes - 1));
+    if whole > 0 {
+        text += "lda #0 | ";
+        (0..whole).for_each(|k| text += &format!("sta {} | ", at(k)));
+    }
+    text
+}
+
+/// To the right, rounded.
+fn down(read: Read<'_>) -> String {
+    let Read {
+        from,
+        by,
+        to,
+        bytes,
+        serial: n,
+        ..
+    } = read;
+    let (whole, bits) = ((-by / 8) as u8, -by % 8);
+    let at = |k: u8| byte_at(to, k);
+    // Less than half of the last place.
+    if whole >= bytes {
+        return "lda #0 | ".to_owned()
+            + &(0..bytes)
+                .map(|k| format!("sta {} | ", at(k)))
+                .collect::<String>();
+    }
+    let left = bytes - whole;
+    let source = |k: u8| byte(from, whole + k);
+    let signs: String = (left..bytes).map(|k| format!("stx {} | ", at(k))).collect();
+    if bits == 0 {
+        // The sign before it is rounded: what was below 0 may become 0.
+        let (below, top) = (byte(from, whole - 1), source(left - 1));
+        let first = match left {
+            1 => format!(
+                "ldx #0 | lda {below} | asl | lda {top} | bpl read{n} | dex | read{n}: | adc #0 | sta {to} | bne above{n} | ldx #0 | above{n}: | "
+            ),
+            _ => format!(
+                "ldx #0 | lda {below} | asl | lda {top} | bpl read{n} | dex | read{n}: | lda {} | adc #0 | sta {to} | lda {top} | adc #0 | sta {to}+1 | bcc above{n} | ldx #0 | above{n}: | ",
+                source(0)
+            ),
+        };
+        return first + &signs;
+    }
+    let loads: String = (0..left - 1)
+        .map(|k| format!("lda {} | sta {} | ", source(k), at(k)))
+        .collect();
+    let rest: String = (0..left - 1)
+        .rev()
+        .map(|k| format!(" | ror {}", at(k)))
+        .collect();
+    let shift = times(&format!("cmp #$80 | ror{rest}"), bits);
+    let top = source(left - 1);
+    if left == 1 {
+        return format!(
+            "ldx #0 | lda {top} | {shift}adc #0 | sta {to} | bpl read{n} | dex | read{n}: | {signs}"
+        );
+    }
+    let rounded: String = (0..left - 1)
+        .map(|k| format!("inc {} | bne read{n} | ", at(k)))
+        .collect();
+    let extended = match signs.is_empty() {
+        true => String::new(),
+        false => format!(" | ldx #0 | cmp #$80 | bcc plus{n} | dex | plus{n}: | {signs}"),
+    };
+    format!(
+        "{loads}lda {top} | {shift}bcc read{n} | {rounded}adc #0 | read{n}: | sta {}{extended}",
+        at(left - 1)
+    )
+}
+
+/// The greatest whole number not above one of `of` bytes with so many fraction bits, two
+/// less than it has at most, in so many bytes.
+pub fn floor(
+    (from, of): (&Place, u8),
+    bits: i32,
+    (to, bytes): (&str, u8),
+    lines: &mut Vec<String>,
+) {
+    let extended = Place::At("first".to_owned());
+    let from = match from {
+        Place::Held(_, shape) if shape.signed && shape.bytes < of => {
+            copy_bytes(from, "first", of, lines);
+            &extended
+        }
+        _ => from,
+    };
+    let (whole, bits) = ((bits / 8) as u8, bits % 8);
+    let left = of - whole;
+    let at = |k: u8| byte_at("third", k);
+    let loads: String = (0..left - 1)
+        .map(|k| format!("lda {} | sta {} | ", byte(from, whole + k), at(k)))
+        .collect();
+    let rest: String = (0..left - 1)
+        .rev()
+        .map(|k| format!(" | ror {}", at(k)))
+        .collect();
+    let shift = times(&format!("cmp #$80 | ror{rest}"), bits);
+    let text = format!(
+        "{loads}lda {} | {shift}sta {}",
+        byte(from, of - 1),
+        at(left - 1)
+    );
+    add(&text, lines);
+    let made = Place::Held("third".to_owned(), Shape::whole(left));
+    copy_bytes(&made, to, bytes, lines);
 }

@@ -1,12 +1,12 @@
 //! The list of routines for reals with points of their own: cheap and restricted before
 //! dear and total.
 
-use super::{REAL as R, model, templates as t};
+use super::{LONG as L, REAL as R, long, model, templates as t, templates_long as tl};
 use crate::model as wide;
 use crate::model::{bits, int};
 use crate::routines::INTS;
 use crate::{INT as I, templates};
-use slowlight_routine::scale::Scales;
+use slowlight_routine::scale::{Scales, most};
 use slowlight_routine::{Error, Form, Format, Op, Range, Routine, everywhere, joined};
 
 const B: Format = Format::Bool;
@@ -20,6 +20,11 @@ const QUOTIENT: Error = Error::Absolute(1.5);
 /// Of all roots that there are.
 const ROOT: Error = Error::Absolute(1.8);
 /// What saturates, or is a hundredth of a place.
+const LONG_NEAREST: Error = Error::Absolute(0.53);
+/// The same of 24 bits, where more is left of cut products.
+const LONG_CUT: Error = Error::Absolute(0.75);
+const LONG_QUOTIENT: Error = Error::Absolute(1.5);
+const LONG_ROOT: Error = Error::Absolute(0.9);
 const ANY: Error = Error::Absolute(65536.0);
 
 /// The number of the scales, which stands behind the arguments.
@@ -29,7 +34,7 @@ fn number(args: &[Range]) -> i32 {
 
 /// A domain: numbers from `$least` to `$most`, and perhaps something else.
 macro_rules! number {
-    ($least:literal to $most:literal) => {
+    ($least:literal to $most:expr) => {
         |args: &[Range], _: Range| ($least..=$most).contains(&number(args))
     };
     ($least:literal to $most:literal, $also:expr) => {
@@ -49,14 +54,29 @@ macro_rules! sides {
     };
 }
 
-/// Results that need no saturation.
-fn fits(_: &[Range], result: Range) -> bool {
-    result.within(-32767.0, 32767.0)
+/// The greatest of so many bytes.
+const fn greatest(bytes: u8) -> f64 {
+    most(8 * bytes) as f64
 }
 
-/// The same of what is rounded.
-fn fits_rounded(_: &[Range], result: Range) -> bool {
-    result.within(-32766.0, 32766.0)
+/// A domain: results that need no saturation, so many units from a format's end.
+macro_rules! fits {
+    ($w:literal, $from:literal) => {
+        |_: &[Range], result: Range| {
+            let most = const { greatest($w) - $from as f64 };
+            result.within(-most, most)
+        }
+    };
+}
+
+/// A domain: operands whose difference is a number.
+macro_rules! near {
+    ($w:literal) => {
+        |args: &[Range], _: Range| match args {
+            [a, b, ..] => a.hi - b.lo <= greatest($w) && b.hi - a.lo <= greatest($w),
+            _ => false,
+        }
+    };
 }
 
 /// A dividend of which nothing but a shift is left.
@@ -70,14 +90,6 @@ fn short(args: &[Range], _: Range) -> bool {
     args.iter().all(|a| a.within(-32768.0, 32767.0))
 }
 
-/// Operands whose difference is a number.
-fn near(args: &[Range], _: Range) -> bool {
-    match args {
-        [a, b, ..] => a.hi - b.lo <= 32767.0 && b.hi - a.lo <= 32767.0,
-        _ => false,
-    }
-}
-
 fn is(k: usize, value: f64) -> impl Fn(&[Range], Range) -> bool {
     move |args, _| args.get(k).and_then(|r| r.constant()) == Some(value)
 }
@@ -86,7 +98,7 @@ fn is(k: usize, value: f64) -> impl Fn(&[Range], Range) -> bool {
 /// scales.
 macro_rules! scaled {
     ($name:literal $op:ident($($arg:ident),+) -> $result:ident, $text:expr, [$($need:literal),*],
-     $domain:expr, $error:expr, |$a:ident, $b:ident, $n:ident| $body:expr, $cycles:literal, $bytes:literal) => {
+     $domain:expr, $error:expr, |$a:ident, $b:ident, $n:ident| $body:expr, $cycles:expr, $bytes:expr) => {
         Routine {
             name: $name,
             op: Op::$op,
@@ -109,27 +121,100 @@ macro_rules! scaled {
 }
 
 /// A function of 16.16, for both sides of either point.
-fn function(of: fn(i32) -> i32, a: i32, n: i32) -> i32 {
+fn function(of: fn(i32) -> i32, a: i32, n: i32, bits: u8) -> i32 {
     let scales = Scales::unpacked(n);
-    model::function(of, a, [scales.args[0], scales.result])
+    model::function(of, a, [scales.args[0], scales.result], bits)
 }
 
+/// What is the same but for the number of bytes: sums, comparisons, and functions of 16.16
+/// around which points are shifted. Given the format, its bytes, the templates, the parts
+/// that shift, and the fraction bits of sines and of angles.
+macro_rules! of_bytes {
+    ($r:ident, $w:literal, $t:ident, [$widen:literal, $both:literal, $narrow:literal], $sine:literal, $angle:literal) => {
+        &[
+            scaled!("twice" Add($r, $r) -> $r, t::COPY, [], number!(1 to 1), EXACT, |a, b, n| a, 6 * $w, 4 * $w),
+            scaled!("add" Add($r, $r) -> $r, templates::ADD, [], fits!($w, 0), EXACT, |a, b, n| a + b, 2 + 9 * $w, 1 + 6 * $w),
+            scaled!("any_add" Add($r, $r) -> $r, $t::SATURATING_ADD, [], everywhere, EXACT, |a, b, n| model::held(i64::from(a) + i64::from(b), 8 * $w), 10 + 9 * $w, 27 + 6 * $w),
+            scaled!("sub" Sub($r, $r) -> $r, templates::SUBTRACT, [], fits!($w, 0), EXACT, |a, b, n| a - b, 2 + 9 * $w, 1 + 6 * $w),
+            scaled!("any_sub" Sub($r, $r) -> $r, $t::SATURATING_SUBTRACT, [], everywhere, EXACT, |a, b, n| model::held(i64::from(a) - i64::from(b), 8 * $w), 10 + 9 * $w, 27 + 6 * $w),
+            scaled!("times_one" Mul($r, $r) -> $r, t::COPY, [], number!(0 to 0, is(1, 1.0)), EXACT, |a, b, n| a, 6 * $w, 4 * $w),
+            scaled!("times_minus_one" Mul($r, $r) -> $r, templates::NEGATE, [], number!(0 to 0, is(1, -1.0)), EXACT, |a, b, n| -a, 2 + 8 * $w, 1 + 6 * $w),
+            scaled!("one_times" Mul($r, $r) -> $r, t::COPY_SECOND, [], number!(0 to 0, is(0, 1.0)), EXACT, |a, b, n| b, 6 * $w, 4 * $w),
+            scaled!("minus_one_times" Mul($r, $r) -> $r, t::NEGATE_SECOND, [], number!(0 to 0, is(0, -1.0)), EXACT, |a, b, n| -b, 2 + 8 * $w, 1 + 6 * $w),
+            scaled!("sin" Sin($r) -> $r, $t::SINE, [$widen, "sine", $narrow], |args, _| (8 * $w - 16..=16).contains(&number(args)), Error::Absolute(0.8), |a, b, n| model::function(wide::sine, a, [n as i8, $sine], 8 * $w), 8400, 18 + 5 * $w),
+            scaled!("cos" Cos($r) -> $r, $t::COSINE, [$widen, "sine", $narrow], |args, _| (8 * $w - 16..=16).contains(&number(args)), Error::Absolute(0.8), |a, b, n| model::function(wide::cosine, a, [n as i8, $sine], 8 * $w), 8400, 18 + 5 * $w),
+            scaled!("tan" Tan($r) -> $r, $t::TANGENT[0], [$widen, "tangent", $narrow], sides!(true, true), ANY, |a, b, n| function(wide::tangent, a, n, 8 * $w), 15400, 18 + 5 * $w),
+            scaled!("tan_10" Tan($r) -> $r, $t::TANGENT[1], [$widen, "tangent", $narrow], sides!(false, true), ANY, |a, b, n| function(wide::tangent, a, n, 8 * $w), 15400, 18 + 5 * $w),
+            scaled!("tan_01" Tan($r) -> $r, $t::TANGENT[2], [$widen, "tangent", $narrow], sides!(true, false), ANY, |a, b, n| function(wide::tangent, a, n, 8 * $w), 15400, 18 + 5 * $w),
+            scaled!("tan_11" Tan($r) -> $r, $t::TANGENT[3], [$widen, "tangent", $narrow], sides!(false, false), ANY, |a, b, n| function(wide::tangent, a, n, 8 * $w), 15400, 18 + 5 * $w),
+            scaled!("asin" Asin($r) -> $r, $t::ARCSINE, [$widen, "arccosine", $narrow], everywhere, Error::Absolute(0.8), |a, b, n| model::function(wide::arcsine, a, [$sine, $sine], 8 * $w), 11500, 18 + 5 * $w),
+            scaled!("acos" Acos($r) -> $r, $t::ARCCOSINE, [$widen, "arccosine", $narrow], everywhere, Error::Absolute(0.8), |a, b, n| model::function(wide::arccosine, a, [$sine, $angle], 8 * $w), 11500, 18 + 5 * $w),
+            scaled!("atan2" Atan2($r, $r) -> $r, $t::ARCTANGENT, [$both, "arctangent", $narrow], everywhere, Error::Absolute(0.8), |a, b, n| model::arctangent2(a, b, $angle, 8 * $w), 13000, 22 + 10 * $w),
+            scaled!("exp" Exp($r) -> $r, $t::EXPONENTIAL[0], [$widen, "exponential", $narrow], sides!(true, true), Error::Absolute(16.0), |a, b, n| function(wide::exponential, a, n, 8 * $w), 9400, 18 + 5 * $w),
+            scaled!("exp_10" Exp($r) -> $r, $t::EXPONENTIAL[1], [$widen, "exponential", $narrow], sides!(false, true), Error::Absolute(16.0), |a, b, n| function(wide::exponential, a, n, 8 * $w), 9400, 18 + 5 * $w),
+            scaled!("exp_01" Exp($r) -> $r, $t::EXPONENTIAL[2], [$widen, "exponential", $narrow], sides!(true, false), ANY, |a, b, n| function(wide::exponential, a, n, 8 * $w), 9400, 18 + 5 * $w),
+            scaled!("exp_11" Exp($r) -> $r, $t::EXPONENTIAL[3], [$widen, "exponential", $narrow], sides!(false, false), ANY, |a, b, n| function(wide::exponential, a, n, 8 * $w), 9400, 18 + 5 * $w),
+            scaled!("log" Log($r) -> $r, $t::LOGARITHM[0], [$widen, "logarithm", $narrow], sides!(true, true), Error::Absolute(1.5), |a, b, n| function(wide::logarithm, a, n, 8 * $w), 13000, 18 + 5 * $w),
+            scaled!("log_10" Log($r) -> $r, $t::LOGARITHM[1], [$widen, "logarithm", $narrow], sides!(false, true), ANY, |a, b, n| function(wide::logarithm, a, n, 8 * $w), 13000, 18 + 5 * $w),
+            scaled!("log_01" Log($r) -> $r, $t::LOGARITHM[2], [$widen, "logarithm", $narrow], sides!(true, false), ANY, |a, b, n| function(wide::logarithm, a, n, 8 * $w), 13000, 18 + 5 * $w),
+            scaled!("log_11" Log($r) -> $r, $t::LOGARITHM[3], [$widen, "logarithm", $narrow], sides!(false, false), ANY, |a, b, n| function(wide::logarithm, a, n, 8 * $w), 13000, 18 + 5 * $w),
+            scaled!("pow" Pow($r, $r) -> $r, $t::POWER[0], [$both, "power", $narrow], sides!(true, true), ANY, |a, b, n| model::power(a, b, Scales::unpacked(n), 8 * $w), 20000, 20 + 10 * $w),
+            scaled!("pow_10" Pow($r, $r) -> $r, $t::POWER[1], [$both, "power", $narrow], sides!(false, true), ANY, |a, b, n| model::power(a, b, Scales::unpacked(n), 8 * $w), 20000, 20 + 10 * $w),
+            scaled!("pow_01" Pow($r, $r) -> $r, $t::POWER[2], [$both, "power", $narrow], sides!(true, false), ANY, |a, b, n| model::power(a, b, Scales::unpacked(n), 8 * $w), 20000, 20 + 10 * $w),
+            scaled!("pow_11" Pow($r, $r) -> $r, $t::POWER[3], [$both, "power", $narrow], sides!(false, false), ANY, |a, b, n| model::power(a, b, Scales::unpacked(n), 8 * $w), 20000, 20 + 10 * $w),
+            scaled!("mod" Mod($r, $r) -> $r, $t::MODULO, [$both, "modulo"], everywhere, EXACT, |a, b, n| wide::modulo(a, b), 1000, 16 + 10 * $w),
+            scaled!("neg" Neg($r) -> $r, templates::NEGATE, [], everywhere, EXACT, |a, b, n| -a, 2 + 8 * $w, 1 + 6 * $w),
+            scaled!("abs" Abs($r) -> $r, t::ABS, [], everywhere, EXACT, |a, b, n| a.abs(), 6 + 7 * $w, 8 + 10 * $w),
+            scaled!("min" Min($r, $r) -> $r, templates::MIN, [], everywhere, EXACT, |a, b, n| a.min(b), 9 + 13 * $w, 11 + 12 * $w),
+            scaled!("max" Max($r, $r) -> $r, templates::MAX, [], everywhere, EXACT, |a, b, n| a.max(b), 9 + 13 * $w, 11 + 12 * $w),
+            scaled!("floor" Floor($r) -> I, "!floor", [], |args, _| (0..=8 * $w - 2).contains(&number(args)), EXACT, |a, b, n| a >> n, 20 + 10 * $w, 20 + 5 * $w),
+            // Below 1.
+            scaled!("fraction_floor" Floor($r) -> I, $t::FRACTION_FLOOR, [], |args, _| (8 * $w - 1..=40).contains(&number(args)), EXACT, |a, b, n| a.signum().min(0), 13, 12),
+            // Read at the scale of ints.
+            scaled!("round" Round($r) -> I, "!whole", [], everywhere, EXACT, |a, b, n| a, 6 * $w, 4 * $w),
+            scaled!("to_real" ToReal(I) -> $r, "~[lda {0.k} | sta {r.k}]", [], everywhere, EXACT, |a, b, n| a, 6 * $w, 4 * $w),
+            scaled!("sign" Sign($r) -> I, $t::SIGN, [], everywhere, EXACT, |a, b, n| a.signum(), 14 + 3 * $w, 11 + 2 * $w),
+            scaled!("negative" Less($r, $r) -> B, templates::NEGATIVE, [], |args, result| is(1, 0.0)(args, result), EXACT, |a, b, n| i32::from(a < 0), 5, 4),
+            scaled!("less" Less($r, $r) -> B, t::LESS_NEAR, [], near!($w), EXACT, |a, b, n| i32::from(a < b), 2 + 6 * $w, 2 + 4 * $w),
+            scaled!("far_less" Less($r, $r) -> B, templates::LESS, [], everywhere, EXACT, |a, b, n| i32::from(a < b), 5 + 6 * $w, 6 + 4 * $w),
+            scaled!("not_negative" LessEqual($r, $r) -> B, templates::NOT_NEGATIVE, [], |args, result| is(0, 0.0)(args, result), EXACT, |a, b, n| i32::from(b >= 0), 7, 5),
+            scaled!("less_equal" LessEqual($r, $r) -> B, t::LESS_EQUAL_NEAR, [], near!($w), EXACT, |a, b, n| i32::from(a <= b), 4 + 6 * $w, 4 + 4 * $w),
+            scaled!("far_less_equal" LessEqual($r, $r) -> B, templates::LESS_EQUAL, [], everywhere, EXACT, |a, b, n| i32::from(a <= b), 6 + 6 * $w, 6 + 4 * $w),
+            scaled!("equal" Equal($r, $r) -> B, templates::EQUAL, [], everywhere, EXACT, |a, b, n| i32::from(a == b), 2 + 6 * $w, 1 + 8 * $w),
+        ]
+    };
+}
+
+/// A product of short ints.
+const INT_MUL: Routine = Routine {
+    name: "int_mul_16",
+    op: Op::IntMul,
+    args: &[I, I],
+    result: I,
+    form: Form::Statement("int_product"),
+    needs: &["int_product"],
+    cycles: 377,
+    bytes: 51,
+    domain: short,
+    error: EXACT,
+    model: |all| {
+        bits(
+            all.iter()
+                .fold(1, |product: i32, a| product.wrapping_mul(int(*a))),
+        )
+    },
+};
+
 #[rustfmt::skip]
-const REALS: &[Routine] = &[
-    scaled!("twice" Add(R, R) -> R, t::COPY, [], number!(1 to 1), EXACT, |a, b, n| a, 12, 8),
-    scaled!("add" Add(R, R) -> R, templates::ADD, [], fits, EXACT, |a, b, n| a + b, 20, 13),
-    scaled!("any_add" Add(R, R) -> R, t::SATURATING_ADD, [], everywhere, EXACT, |a, b, n| model::held(i64::from(a) + i64::from(b)), 28, 39),
-    scaled!("sub" Sub(R, R) -> R, templates::SUBTRACT, [], fits, EXACT, |a, b, n| a - b, 20, 13),
-    scaled!("any_sub" Sub(R, R) -> R, t::SATURATING_SUBTRACT, [], everywhere, EXACT, |a, b, n| model::held(i64::from(a) - i64::from(b)), 28, 39),
-    scaled!("times_one" Mul(R, R) -> R, t::COPY, [], number!(0 to 0, is(1, 1.0)), EXACT, |a, b, n| a, 12, 8),
-    scaled!("times_minus_one" Mul(R, R) -> R, templates::NEGATE, [], number!(0 to 0, is(1, -1.0)), EXACT, |a, b, n| -a, 18, 13),
-    scaled!("one_times" Mul(R, R) -> R, t::COPY_SECOND, [], number!(0 to 0, is(0, 1.0)), EXACT, |a, b, n| b, 12, 8),
-    scaled!("minus_one_times" Mul(R, R) -> R, t::NEGATE_SECOND, [], number!(0 to 0, is(0, -1.0)), EXACT, |a, b, n| -b, 18, 13),
+const REALS: &[Routine] = of_bytes!(R, 2, t, ["widen", "widen_both", "narrow"], 14, 13);
+
+#[rustfmt::skip]
+const PRODUCTS: &[Routine] = &[
     scaled!("mul" Mul(R, R) -> R, t::MULTIPLY_16, ["product"], number!(16 to 16), NEAREST, |a, b, n| model::multiply(a, b, n), 260, 32),
     scaled!("double_mul" Mul(R, R) -> R, t::MULTIPLY_15, ["product"], number!(15 to 15), NEAREST, |a, b, n| model::multiply(a, b, n), 270, 37),
-    scaled!("mul_14" Mul(R, R) -> R, t::MULTIPLY_14, ["product"], number!(14 to 14, fits_rounded), CUT, |a, b, n| model::multiply(a, b, n), 300, 36),
-    scaled!("mul_13" Mul(R, R) -> R, t::MULTIPLY_13, ["product"], number!(13 to 13, fits_rounded), CUT, |a, b, n| model::multiply(a, b, n), 312, 41),
-    scaled!("mul_12" Mul(R, R) -> R, t::MULTIPLY_12, ["product"], number!(12 to 12, fits_rounded), CUT, |a, b, n| model::multiply(a, b, n), 324, 46),
+    scaled!("mul_14" Mul(R, R) -> R, t::MULTIPLY_14, ["product"], number!(14 to 14, fits!(2, 1)), CUT, |a, b, n| model::multiply(a, b, n), 300, 36),
+    scaled!("mul_13" Mul(R, R) -> R, t::MULTIPLY_13, ["product"], number!(13 to 13, fits!(2, 1)), CUT, |a, b, n| model::multiply(a, b, n), 312, 41),
+    scaled!("mul_12" Mul(R, R) -> R, t::MULTIPLY_12, ["product"], number!(12 to 12, fits!(2, 1)), CUT, |a, b, n| model::multiply(a, b, n), 324, 46),
     scaled!("any_mul_14" Mul(R, R) -> R, t::MULTIPLY_ANY_14, ["product", "up"], number!(14 to 14), CUT, |a, b, n| model::multiply(a, b, n), 328, 25),
     scaled!("any_mul_13" Mul(R, R) -> R, t::MULTIPLY_ANY_13, ["product", "up"], number!(13 to 13), CUT, |a, b, n| model::multiply(a, b, n), 343, 25),
     scaled!("any_mul_12" Mul(R, R) -> R, t::MULTIPLY_ANY_12, ["product", "up"], number!(12 to 12), CUT, |a, b, n| model::multiply(a, b, n), 358, 25),
@@ -141,60 +226,38 @@ const REALS: &[Routine] = &[
     scaled!("div" Div(R, R) -> R, t::DIVIDE, ["divide16"], number!(0 to 30), QUOTIENT, |a, b, n| model::divide(a, b, n), 597, 30),
     scaled!("root" Sqrt(R) -> R, t::ROOT, ["root16"], |args, _| number(args) % 2 == 0 && (1..=15).contains(&number(args)), ROOT, |a, b, n| model::root(a, n), 200, 20),
     scaled!("odd_root" Sqrt(R) -> R, t::ODD_ROOT, ["root16"], |args, _| number(args) % 2 == 1 && (1..=15).contains(&number(args)), ROOT, |a, b, n| model::root(a, n), 210, 20),
-    scaled!("sin" Sin(R) -> R, t::SINE, ["widen", "sine", "narrow"], number!(0 to 16), Error::Absolute(0.8), |a, b, n| model::function(wide::sine, a, [n as i8, 14]), 8400, 28),
-    scaled!("cos" Cos(R) -> R, t::COSINE, ["widen", "sine", "narrow"], number!(0 to 16), Error::Absolute(0.8), |a, b, n| model::function(wide::cosine, a, [n as i8, 14]), 8400, 28),
-    scaled!("tan" Tan(R) -> R, t::TANGENT[0], ["widen", "tangent", "narrow"], sides!(true, true), ANY, |a, b, n| function(wide::tangent, a, n), 15400, 28),
-    scaled!("tan_10" Tan(R) -> R, t::TANGENT[1], ["widen", "tangent", "narrow"], sides!(false, true), ANY, |a, b, n| function(wide::tangent, a, n), 15400, 28),
-    scaled!("tan_01" Tan(R) -> R, t::TANGENT[2], ["widen", "tangent", "narrow"], sides!(true, false), ANY, |a, b, n| function(wide::tangent, a, n), 15400, 28),
-    scaled!("tan_11" Tan(R) -> R, t::TANGENT[3], ["widen", "tangent", "narrow"], sides!(false, false), ANY, |a, b, n| function(wide::tangent, a, n), 15400, 28),
-    scaled!("asin" Asin(R) -> R, t::ARCSINE, ["widen", "arccosine", "narrow"], everywhere, Error::Absolute(0.8), |a, b, n| model::function(wide::arcsine, a, [14, 14]), 11500, 28),
-    scaled!("acos" Acos(R) -> R, t::ARCCOSINE, ["widen", "arccosine", "narrow"], everywhere, Error::Absolute(0.8), |a, b, n| model::function(wide::arccosine, a, [14, 13]), 11500, 28),
-    scaled!("atan2" Atan2(R, R) -> R, t::ARCTANGENT, ["widen_both", "arctangent", "narrow"], everywhere, Error::Absolute(0.8), |a, b, n| model::arctangent2(a, b), 13000, 42),
-    scaled!("exp" Exp(R) -> R, t::EXPONENTIAL[0], ["widen", "exponential", "narrow"], sides!(true, true), Error::Absolute(16.0), |a, b, n| function(wide::exponential, a, n), 9400, 28),
-    scaled!("exp_10" Exp(R) -> R, t::EXPONENTIAL[1], ["widen", "exponential", "narrow"], sides!(false, true), Error::Absolute(16.0), |a, b, n| function(wide::exponential, a, n), 9400, 28),
-    scaled!("exp_01" Exp(R) -> R, t::EXPONENTIAL[2], ["widen", "exponential", "narrow"], sides!(true, false), ANY, |a, b, n| function(wide::exponential, a, n), 9400, 28),
-    scaled!("exp_11" Exp(R) -> R, t::EXPONENTIAL[3], ["widen", "exponential", "narrow"], sides!(false, false), ANY, |a, b, n| function(wide::exponential, a, n), 9400, 28),
-    scaled!("log" Log(R) -> R, t::LOGARITHM[0], ["widen", "logarithm", "narrow"], sides!(true, true), Error::Absolute(1.5), |a, b, n| function(wide::logarithm, a, n), 13000, 28),
-    scaled!("log_10" Log(R) -> R, t::LOGARITHM[1], ["widen", "logarithm", "narrow"], sides!(false, true), ANY, |a, b, n| function(wide::logarithm, a, n), 13000, 28),
-    scaled!("log_01" Log(R) -> R, t::LOGARITHM[2], ["widen", "logarithm", "narrow"], sides!(true, false), ANY, |a, b, n| function(wide::logarithm, a, n), 13000, 28),
-    scaled!("log_11" Log(R) -> R, t::LOGARITHM[3], ["widen", "logarithm", "narrow"], sides!(false, false), ANY, |a, b, n| function(wide::logarithm, a, n), 13000, 28),
-    scaled!("pow" Pow(R, R) -> R, t::POWER[0], ["widen_both", "power", "narrow"], sides!(true, true), ANY, |a, b, n| model::power(a, b, Scales::unpacked(n)), 20000, 40),
-    scaled!("pow_10" Pow(R, R) -> R, t::POWER[1], ["widen_both", "power", "narrow"], sides!(false, true), ANY, |a, b, n| model::power(a, b, Scales::unpacked(n)), 20000, 40),
-    scaled!("pow_01" Pow(R, R) -> R, t::POWER[2], ["widen_both", "power", "narrow"], sides!(true, false), ANY, |a, b, n| model::power(a, b, Scales::unpacked(n)), 20000, 40),
-    scaled!("pow_11" Pow(R, R) -> R, t::POWER[3], ["widen_both", "power", "narrow"], sides!(false, false), ANY, |a, b, n| model::power(a, b, Scales::unpacked(n)), 20000, 40),
-    scaled!("mod" Mod(R, R) -> R, t::MODULO, ["widen_both", "modulo"], everywhere, EXACT, |a, b, n| wide::modulo(a, b), 1000, 36),
-    scaled!("neg" Neg(R) -> R, templates::NEGATE, [], everywhere, EXACT, |a, b, n| -a, 18, 13),
-    scaled!("abs" Abs(R) -> R, t::ABS, [], everywhere, EXACT, |a, b, n| a.abs(), 20, 28),
-    scaled!("min" Min(R, R) -> R, templates::MIN, [], everywhere, EXACT, |a, b, n| a.min(b), 35, 35),
-    scaled!("max" Max(R, R) -> R, templates::MAX, [], everywhere, EXACT, |a, b, n| a.max(b), 35, 35),
-    scaled!("floor" Floor(R) -> I, "!floor", [], number!(0 to 14), EXACT, |a, b, n| a >> n, 40, 30),
-    // Below 1.
-    scaled!("fraction_floor" Floor(R) -> I, "~ldx #0 | lda {0.1} | bpl even{n} | dex | even{n}: [stx {r.k}]", [], number!(15 to 30), EXACT, |a, b, n| a.signum().min(0), 13, 12),
-    // Read at the scale of ints.
-    scaled!("round" Round(R) -> I, "!whole", [], everywhere, EXACT, |a, b, n| a, 12, 8),
-    scaled!("to_real" ToReal(I) -> R, "~[lda {0.k} | sta {r.k}]", [], everywhere, EXACT, |a, b, n| a, 12, 8),
-    scaled!("sign" Sign(R) -> I, t::SIGN, [], everywhere, EXACT, |a, b, n| a.signum(), 20, 15),
-    Routine {
-        name: "int_mul_16",
-        op: Op::IntMul,
-        args: &[I, I],
-        result: I,
-        form: Form::Statement("int_product"),
-        needs: &["int_product"],
-        cycles: 377,
-        bytes: 51,
-        domain: short,
-        error: EXACT,
-        model: |all| bits(all.iter().fold(1, |product: i32, a| product.wrapping_mul(int(*a)))),
-    },
-    scaled!("negative" Less(R, R) -> B, templates::NEGATIVE, [], |args, result| is(1, 0.0)(args, result), EXACT, |a, b, n| i32::from(a < 0), 5, 4),
-    scaled!("less" Less(R, R) -> B, t::LESS_NEAR, [], near, EXACT, |a, b, n| i32::from(a < b), 14, 10),
-    scaled!("far_less" Less(R, R) -> B, templates::LESS, [], everywhere, EXACT, |a, b, n| i32::from(a < b), 17, 14),
-    scaled!("not_negative" LessEqual(R, R) -> B, templates::NOT_NEGATIVE, [], |args, result| is(0, 0.0)(args, result), EXACT, |a, b, n| i32::from(b >= 0), 7, 5),
-    scaled!("less_equal" LessEqual(R, R) -> B, t::LESS_EQUAL_NEAR, [], near, EXACT, |a, b, n| i32::from(a <= b), 16, 12),
-    scaled!("far_less_equal" LessEqual(R, R) -> B, templates::LESS_EQUAL, [], everywhere, EXACT, |a, b, n| i32::from(a <= b), 18, 14),
-    scaled!("equal" Equal(R, R) -> B, templates::EQUAL, [], everywhere, EXACT, |a, b, n| i32::from(a == b), 14, 17),
+    INT_MUL,
 ];
 
-/// The routines of reals, and those of ints.
-pub(super) static ALL: [Routine; REALS.len() + INTS.len()] = joined(REALS, INTS);
+#[rustfmt::skip]
+const LONG_REALS: &[Routine] = of_bytes!(L, 3, tl, ["widen24", "widen24", "hold24"], 16, 16);
+
+#[rustfmt::skip]
+const LONG_PRODUCTS: &[Routine] = &[
+    scaled!("long_mul_24" Mul(L, L) -> L, tl::MULTIPLY_24, ["product24"], number!(24 to 24), LONG_NEAREST, |a, b, n| long::multiply(a, b, n), 464, 46),
+    scaled!("long_mul_23" Mul(L, L) -> L, tl::MULTIPLY_23, ["product24"], number!(23 to 23, fits!(3, 1)), LONG_NEAREST, |a, b, n| long::multiply(a, b, n), 481, 53),
+    scaled!("long_mul_22" Mul(L, L) -> L, tl::MULTIPLY_22, ["product24"], number!(22 to 22, fits!(3, 1)), LONG_CUT, |a, b, n| long::multiply(a, b, n), 498, 60),
+    scaled!("long_mul_21" Mul(L, L) -> L, tl::MULTIPLY_21, ["product24"], number!(21 to 21, fits!(3, 1)), LONG_CUT, |a, b, n| long::multiply(a, b, n), 515, 67),
+    scaled!("long_mul_20" Mul(L, L) -> L, tl::MULTIPLY_20, ["product24"], number!(20 to 20, fits!(3, 1)), LONG_CUT, |a, b, n| long::multiply(a, b, n), 532, 74),
+    scaled!("long_mul_up" Mul(L, L) -> L, tl::MULTIPLY_ANY, ["product24", "up24"], number!(20 to 23), LONG_CUT, |a, b, n| long::multiply(a, b, n), 556, 36),
+    scaled!("long_mul_down" Mul(L, L) -> L, tl::MULTIPLY_RIGHT, ["product24", "lower32"], number!(25 to 47), Error::Absolute(0.77), |a, b, n| long::multiply(a, b, n), 540, 36),
+    scaled!("long_mul_far" Mul(L, L) -> L, tl::MULTIPLY_DOWN, ["exact24"], number!(1 to 99), NEAREST, |a, b, n| long::any_product(a, b, n), 1300, 43),
+    scaled!("long_mul_left" Mul(L, L) -> L, tl::MULTIPLY_UP, ["exact24"], number!(-99 to 0), ANY, |a, b, n| long::any_product(a, b, n), 1100, 43),
+    scaled!("long_one_over" Div(L, L) -> L, tl::ONE_OVER, ["one_over24"], number!(0 to 46, power_of_two), LONG_QUOTIENT, |a, b, n| long::one_over(a, b, n), 800, 29),
+    scaled!("long_div" Div(L, L) -> L, tl::DIVIDE, ["divide24"], number!(0 to 46), LONG_QUOTIENT, |a, b, n| long::divide(a, b, n), 1300, 37),
+    scaled!("long_root" Sqrt(L) -> L, tl::ROOT, ["root24"], |args, _| number(args) % 2 == 0 && (1..=23).contains(&number(args)), LONG_ROOT, |a, b, n| long::root(a, n), 700, 30),
+    scaled!("long_odd_root" Sqrt(L) -> L, tl::ODD_ROOT, ["root24"], |args, _| number(args) % 2 == 1 && (1..=23).contains(&number(args)), LONG_ROOT, |a, b, n| long::root(a, n), 720, 30),
+    INT_MUL,
+];
+
+/// The routines of reals of 16 bits, and those of ints.
+pub(super) static ALL: [Routine; REALS.len() + PRODUCTS.len() + INTS.len()] = joined(
+    &joined::<{ REALS.len() + PRODUCTS.len() }>(REALS, PRODUCTS),
+    INTS,
+);
+
+/// The same of 24 bits.
+pub(super) static ALL_LONG: [Routine; LONG_REALS.len() + LONG_PRODUCTS.len() + INTS.len()] = joined(
+    &joined::<{ LONG_REALS.len() + LONG_PRODUCTS.len() }>(LONG_REALS, LONG_PRODUCTS),
+    INTS,
+);

@@ -43,6 +43,12 @@ macro_rules! first {
     };
 }
 
+macro_rules! second {
+    () => {
+        "lda {1.0} | ldx {1.1}"
+    };
+}
+
 macro_rules! both {
     () => {
         concat!("lda {1.0} | sta arg | lda {1.1} | sta arg+1 |", first!())
@@ -142,6 +148,9 @@ pub(crate) const MODULO: &str = concat!(
     "| ldy #0 | jsr widen_both | jsr modulo | ldx acc+1 | lda acc",
     result!()
 );
+/// The whole part of what is below 1.
+pub(crate) const FRACTION_FLOOR: &str =
+    "~ldx #0 | lda {0.1} | bpl even{n} | dex | even{n}: [stx {r.k}]";
 pub(crate) const SIGN: &str = "~
     ldx #0 | lda {0.1} | bmi negative{n} | ora {0.0} | beq zero{n}
     inx | lda #0 | beq zero{n}
@@ -150,119 +159,69 @@ pub(crate) const SIGN: &str = "~
     zero{n}:
     stx {r.0} [+ sta {r.k}]";
 
-/// A function of 16.16: the operand's point to the right or to the left, and the result's.
-macro_rules! function {
-    (left, $name:literal, right) => {
-        concat!(
-            "ldy {#16-a} |",
-            first!(),
-            "| jsr widen | jsr ",
-            $name,
-            "| ldy {#16-r} | jsr narrow_right",
-            result!()
-        )
+/// Functions of 16.16 with the operand's point moved to where they have it, and the result's
+/// to where it is wanted: how a first and a second operand are loaded and a result is stored,
+/// the subroutines, by how many bits a sine and an angle have less than 16 behind the point,
+/// and the shift of an angle's legs.
+macro_rules! functions {
+    ($first:ident, $second:ident, $both:ident, $result:ident, $widen:literal,
+     $widen_right:literal, $widen_both:literal, $narrow_right:literal, $narrow_left:literal,
+     $sine:literal, $angle:literal, $legs:literal) => {
+        functions!(@by $first $result $narrow_right, SINE, "{#16-n}", $widen, "sine", $sine);
+        functions!(@by $first $result $narrow_right, COSINE, "{#16-n}", $widen, "cosine", $sine);
+        functions!(@by $first $result $narrow_right, ARCSINE, $sine, $widen, "arcsine", $sine);
+        functions!(@by $first $result $narrow_right, ARCCOSINE, $sine, $widen, "arccosine", $angle);
+        functions!(@sides $first $result $widen $widen_right $narrow_right $narrow_left, TANGENT, "", "tangent");
+        functions!(@sides $first $result $widen $widen_right $narrow_right $narrow_left, EXPONENTIAL, "", "exponential");
+        functions!(@sides $first $result $widen $widen_right $narrow_right $narrow_left, LOGARITHM, "", "logarithm");
+        // An exponent has at most 16 bits behind its point.
+        functions!(@sides $first $result $widen $widen_right $narrow_right $narrow_left, POWER,
+            concat!("ldy {#16-b} |", $second!(), "| jsr ", $widen, " | jsr second_operand |"), "power");
+        pub(crate) const ARCTANGENT: &str = concat!(
+            $both!(), "| ldy ", $legs, " | jsr ", $widen_both, " | jsr arctangent2 | ldy ", $angle,
+            " | jsr ", $narrow_right, $result!()
+        );
     };
-    (right, $name:literal, right) => {
-        concat!(
-            "ldy {#a-16} |",
-            first!(),
-            "| jsr widen_right | jsr ",
-            $name,
-            "| ldy {#16-r} | jsr narrow_right",
-            result!()
-        )
+    (@by $first:ident $result:ident $narrow:literal, $name:ident, $by:literal, $widen:literal, $function:literal, $less:literal) => {
+        pub(crate) const $name: &str = concat!(
+            "ldy ", $by, " |", $first!(), "| jsr ", $widen, " | jsr ", $function,
+            " | ldy ", $less, " | jsr ", $narrow, $result!()
+        );
     };
-    (left, $name:literal, left) => {
-        concat!(
-            "ldy {#16-a} |",
-            first!(),
-            "| jsr widen | jsr ",
-            $name,
-            "| ldy {#r-16} | jsr narrow_left",
-            result!()
-        )
+    (@sides $first:ident $result:ident $left:literal $right:literal $down:literal $up:literal, $name:ident, $before:expr, $function:literal) => {
+        pub(crate) const $name: [&str; 4] = [
+            functions!(@one $first $result $before, "{#16-a}", $left, $function, "{#16-r}", $down),
+            functions!(@one $first $result $before, "{#a-16}", $right, $function, "{#16-r}", $down),
+            functions!(@one $first $result $before, "{#16-a}", $left, $function, "{#r-16}", $up),
+            functions!(@one $first $result $before, "{#a-16}", $right, $function, "{#r-16}", $up),
+        ];
     };
-    (right, $name:literal, left) => {
+    (@one $first:ident $result:ident $before:expr, $by:literal, $widen:literal, $function:literal, $less:literal, $narrow:literal) => {
         concat!(
-            "ldy {#a-16} |",
-            first!(),
-            "| jsr widen_right | jsr ",
-            $name,
-            "| ldy {#r-16} | jsr narrow_left",
-            result!()
-        )
-    };
-    // The scale of the operand, and so many bits that the result has less than 16.
-    ($by:literal, $name:literal, $less:literal) => {
-        concat!(
-            "ldy ",
-            $by,
-            "|",
-            first!(),
-            "| jsr widen | jsr ",
-            $name,
-            "| ldy ",
-            $less,
-            "| jsr narrow_right",
-            result!()
+            $before, "ldy ", $by, " |", $first!(), "| jsr ", $widen, " | jsr ", $function,
+            " | ldy ", $less, " | jsr ", $narrow, $result!()
         )
     };
 }
+pub(crate) use functions;
 
-pub(crate) const SINE: &str = function!("{#16-n}", "sine", "#2");
-pub(crate) const COSINE: &str = function!("{#16-n}", "cosine", "#2");
-pub(crate) const ARCSINE: &str = function!("#2", "arcsine", "#2");
-pub(crate) const ARCCOSINE: &str = function!("#2", "arccosine", "#3");
-pub(crate) const TANGENT: [&str; 4] = [
-    function!(left, "tangent", right),
-    function!(right, "tangent", right),
-    function!(left, "tangent", left),
-    function!(right, "tangent", left),
-];
-pub(crate) const EXPONENTIAL: [&str; 4] = [
-    function!(left, "exponential", right),
-    function!(right, "exponential", right),
-    function!(left, "exponential", left),
-    function!(right, "exponential", left),
-];
-pub(crate) const LOGARITHM: [&str; 4] = [
-    function!(left, "logarithm", right),
-    function!(right, "logarithm", right),
-    function!(left, "logarithm", left),
-    function!(right, "logarithm", left),
-];
-pub(crate) const ARCTANGENT: &str = concat!(
-    both!(),
-    "| ldy #12 | jsr widen_both | jsr arctangent2 | ldy #3 | jsr narrow_right",
-    result!()
+functions!(
+    first,
+    second,
+    both,
+    result,
+    "widen",
+    "widen_right",
+    "widen_both",
+    "narrow_right",
+    "narrow_left",
+    "#2",
+    "#3",
+    "#12"
 );
-/// An exponent has at most 15 bits behind its point.
-macro_rules! power {
-    ($widen_a:literal, $by_a:literal, $narrow:literal, $by:literal) => {
-        concat!(
-            "ldy {#16-b} | lda {1.0} | ldx {1.1} | jsr widen | jsr second_operand | ldy ",
-            $by_a,
-            "|",
-            first!(),
-            "| jsr ",
-            $widen_a,
-            " | jsr power | ldy ",
-            $by,
-            " | jsr ",
-            $narrow,
-            result!()
-        )
-    };
-}
-pub(crate) const POWER: [&str; 4] = [
-    power!("widen", "{#16-a}", "narrow_right", "{#16-r}"),
-    power!("widen_right", "{#a-16}", "narrow_right", "{#16-r}"),
-    power!("widen", "{#16-a}", "narrow_left", "{#r-16}"),
-    power!("widen_right", "{#a-16}", "narrow_left", "{#r-16}"),
-];
 
-/// What a product of a number with itself is instead: the same bits.
-pub fn squared(text: &'static str) -> Option<&'static str> {
+/// What a product of a number with itself is instead, the same bits, and the part with it.
+pub fn squared(text: &'static str) -> Option<(&'static str, &'static str)> {
     let all = [
         (MULTIPLY_16, SQUARE_16),
         (MULTIPLY_15, SQUARE_15),
@@ -275,6 +234,10 @@ pub fn squared(text: &'static str) -> Option<&'static str> {
         (MULTIPLY_RIGHT, SQUARE_RIGHT),
         (MULTIPLY_ANY, SQUARE_ANY),
     ];
-    let found = all.into_iter().find(|(product, _)| *product == text);
-    found.map(|(_, square)| square)
+    let is = |(product, _): &&(&str, &str)| *product == text;
+    if let Some((_, square)) = all.iter().find(is) {
+        return Some((square, "square16"));
+    }
+    let found = super::templates_long::SQUARES.iter().find(is);
+    found.map(|(_, square)| (*square, "square24"))
 }

@@ -2,12 +2,85 @@
 
 #![allow(clippy::unwrap_used)]
 
-use super::{FIXED16, Read, floor, model, read};
+use super::{FIXED16, FIXED24, Read, floor, long, model, read};
 use crate::model::{bits, int};
 use crate::tests::bench::{Bench, Random, Setting};
 use crate::write::{Place, Shape};
 use slowlight_routine::scale::{Scales, most};
 use slowlight_routine::{Format, Op, Range, Routine, Type};
+
+/// A format, and what it has for some operations.
+struct Kind {
+    setting: Setting,
+    bits: u8,
+    /// Fraction bits of sines and of angles.
+    sine: i32,
+    angle: i32,
+    divide: fn(i32, i32, i32) -> i32,
+}
+
+const SHORT: Kind = Kind {
+    setting: Setting {
+        runtime: &FIXED16,
+        sizes: 2,
+    },
+    bits: 16,
+    sine: 14,
+    angle: 13,
+    divide: model::divide,
+};
+
+const LONG: Kind = Kind {
+    setting: Setting {
+        runtime: &FIXED24,
+        sizes: 3,
+    },
+    bits: 24,
+    sine: 16,
+    angle: 16,
+    divide: long::one_over,
+};
+
+impl Kind {
+    fn most(&self) -> i32 {
+        most(self.bits) as i32
+    }
+
+    fn routine(&self, name: &str) -> &'static Routine {
+        let mut all = self.setting.runtime.routines.iter();
+        all.find(|r| r.name == name).unwrap()
+    }
+
+    fn edges(&self) -> Vec<i32> {
+        let mut all = vec![0, 3, 10, 100, 255, 257, 1000, 12345, 0x5555, self.most()];
+        if self.bits > 16 {
+            all.extend([0x5555_55, 0x7FFF_7F, 0x4000_01, 0x1234_56]);
+        }
+        for k in 0..self.bits - 1 {
+            all.extend([1 << k, (1 << k) - 1]);
+        }
+        all.extend(all.clone().iter().map(|n| -n));
+        all.sort_unstable();
+        all.dedup();
+        all
+    }
+
+    /// An operand: half of them edges, the others of all magnitudes.
+    fn draw(&self, random: &mut Random, edges: &[i32]) -> i32 {
+        let bits = u32::from(self.bits);
+        match random.next() & 1 {
+            0 => edges[random.next() as usize % edges.len()],
+            _ => {
+                ((random.next() as i32 >> (32 - bits)) >> (random.next() % bits)).max(-self.most())
+            }
+        }
+    }
+
+    /// A result as the bytes of one have it.
+    fn read(&self, found: i32) -> i64 {
+        i64::from(found << (32 - self.bits) >> (32 - self.bits))
+    }
+}
 
 /// Random operands for each routine and number.
 const PAIRS: u32 = 300;
@@ -29,8 +102,8 @@ fn numbers(routine: &Routine) -> Vec<i32> {
             .map(|(a, r)| packed(a, 12 - a / 5, r))
             .collect(),
         Op::Add => vec![i32::from(routine.name == "twice")],
-        Op::Mul => (-8..40).collect(),
-        _ => (0..31).collect(),
+        Op::Mul => (-8..56).collect(),
+        _ => (0..48).collect(),
     };
     let at = |value: f64, n: i32| {
         let ranges = [value, value, f64::from(n)].map(Range::point);
@@ -42,25 +115,6 @@ fn numbers(routine: &Routine) -> Vec<i32> {
     found
 }
 
-fn edges() -> Vec<i32> {
-    let mut all = vec![0, 3, 10, 100, 255, 257, 1000, 12345, 0x5555, 32767];
-    for k in 0..15 {
-        all.extend([1 << k, (1 << k) - 1]);
-    }
-    all.extend(all.clone().iter().map(|n| -n));
-    all.sort_unstable();
-    all.dedup();
-    all
-}
-
-/// An operand: half of them edges, the others of all magnitudes.
-fn draw(random: &mut Random, edges: &[i32]) -> i32 {
-    match random.next() & 1 {
-        0 => edges[random.next() as usize % edges.len()],
-        _ => ((random.next() as i32 >> 16) >> (random.next() % 16)).max(-32767),
-    }
-}
-
 fn in_domain(routine: &Routine, args: &[i32], n: i32, exact: f64) -> bool {
     let mut ranges: Vec<Range> = args.iter().map(|a| Range::point(f64::from(*a))).collect();
     ranges.push(Range::point(f64::from(n)));
@@ -69,7 +123,7 @@ fn in_domain(routine: &Routine, args: &[i32], n: i32, exact: f64) -> bool {
 
 /// What a routine's result would be exactly, in units of its last place, where the number
 /// tells.
-fn exact(routine: &Routine, args: &[i32], n: i32) -> Option<f64> {
+fn exact(kind: &Kind, routine: &Routine, args: &[i32], n: i32) -> Option<f64> {
     let [a, b] = [args[0], *args.last().unwrap()].map(f64::from);
     let power = |n: i32| f64::from(n).exp2();
     Some(match routine.op {
@@ -80,26 +134,33 @@ fn exact(routine: &Routine, args: &[i32], n: i32) -> Option<f64> {
         Op::Add if n == 1 => a,
         Op::Add => a + b,
         Op::Sub => a - b,
-        Op::Sin => (a * power(-n)).sin() * power(14),
-        Op::Cos => (a * power(-n)).cos() * power(14),
-        Op::Asin => (a * power(-14)).clamp(-1.0, 1.0).asin() * power(14),
-        Op::Acos => (a * power(-14)).clamp(-1.0, 1.0).acos() * power(13),
-        Op::Atan2 => a.atan2(b) * power(13),
+        Op::Sin => (a * power(-n)).sin() * power(kind.sine),
+        Op::Cos => (a * power(-n)).cos() * power(kind.sine),
+        Op::Asin => (a * power(-kind.sine)).clamp(-1.0, 1.0).asin() * power(kind.sine),
+        Op::Acos => (a * power(-kind.sine)).clamp(-1.0, 1.0).acos() * power(kind.angle),
+        Op::Atan2 => a.atan2(b) * power(kind.angle),
         _ => return None,
     })
 }
 
 #[test]
 fn machine_and_model_agree_bit_for_bit() {
-    let edges = edges();
+    agree(&SHORT);
+}
+
+#[test]
+fn machine_and_model_agree_bit_for_bit_in_24_bits() {
+    agree(&LONG);
+}
+
+fn agree(kind: &Kind) {
+    let edges = kind.edges();
     let real = |r: &&Routine| {
-        r.name != "one_over" && r.args.iter().chain([&r.result]).any(|f| *f == super::REAL)
+        let all = r.args.iter().chain([&r.result]);
+        !r.name.ends_with("one_over") && all.into_iter().any(|f| *f == kind.setting.runtime.real)
     };
-    let setting = Setting {
-        runtime: &FIXED16,
-        sizes: 2,
-    };
-    for routine in FIXED16.routines.iter().filter(real) {
+    let setting = kind.setting;
+    for routine in setting.runtime.routines.iter().filter(real) {
         let numbers = numbers(routine);
         assert!(!numbers.is_empty(), "{}", routine.name);
         let slow = routine.cycles > 5000;
@@ -112,7 +173,7 @@ fn machine_and_model_agree_bit_for_bit() {
                     routine
                         .args
                         .iter()
-                        .map(|_| draw(&mut random, &edges))
+                        .map(|_| kind.draw(&mut random, &edges))
                         .collect()
                 })
                 .collect();
@@ -123,7 +184,7 @@ fn machine_and_model_agree_bit_for_bit() {
                         .flat_map(|a| edges.iter().map(|b| vec![*a, *b])),
                 );
             }
-            for k in [0, 1, 16384, 32767] {
+            for k in [0, 1, kind.most() / 2 + 1, kind.most()] {
                 pairs.push(vec![k; routine.args.len()]);
                 let mut one = vec![123; routine.args.len()];
                 one[routine.args.len() - 1] = k;
@@ -132,7 +193,7 @@ fn machine_and_model_agree_bit_for_bit() {
                 pairs.push(one);
             }
             for args in pairs {
-                let exact = exact(routine, &args, n);
+                let exact = exact(kind, routine, &args, n);
                 if !in_domain(routine, &args, n, exact.unwrap_or(0.0)) {
                     continue;
                 }
@@ -146,11 +207,15 @@ fn machine_and_model_agree_bit_for_bit() {
                     "{}({args:?}), {n}: machine, model",
                     routine.name
                 );
-                if routine.result == super::REAL {
-                    assert!(i64::from(wanted).abs() <= most(16), "{}", routine.name);
+                if routine.result == setting.runtime.real {
+                    assert!(
+                        i64::from(wanted).abs() <= most(kind.bits),
+                        "{}",
+                        routine.name
+                    );
                 }
                 if let Some(exact) = exact {
-                    let end = most(16) as f64;
+                    let end = most(kind.bits) as f64;
                     let off = (f64::from(wanted) - exact.clamp(-end, end)).abs();
                     worst = worst.max(off);
                 }
@@ -180,47 +245,87 @@ fn roots_are_within_their_bound() {
     assert!(worst <= 1.8 && worst > 0.5, "{worst}");
 }
 
-/// What is one over a divisor is that division, for all divisors.
+/// Of 24 bits: all that the table's entries are beside, and others.
 #[test]
-fn reciprocals_are_quotients() {
-    let setting = Setting {
-        runtime: &FIXED16,
-        sizes: 2,
-    };
-    let routine = FIXED16
-        .routines
-        .iter()
-        .find(|r| r.name == "one_over")
-        .unwrap();
+fn roots_of_24_bits_are_within_their_bound() {
     let mut worst = 0.0f64;
-    for (one, n) in [(16384, 14), (16384, 0), (1, 20), (4096, 7), (1, 30)] {
-        let places = [
-            Place::Constant(one),
-            Place::At("second_operand_value".into()),
-        ];
-        let mut bench = Bench::of(setting, routine, &places, n);
-        for b in (-32767..=32767).step_by(if n == 14 { 1 } else { 7 }) {
-            let wanted = model::divide(one as i32, b, n);
-            assert_eq!(bench.run(&[one as i32, b]).0, wanted, "{one} / {b}, {n}");
-            let exact = one as f64 / f64::from(b) * f64::from(n).exp2();
-            if b != 0 {
-                worst = worst.max((f64::from(wanted) - exact.clamp(-32767.0, 32767.0)).abs());
-            }
+    for n in 1..=23 {
+        let beside = (1..1 << 8).flat_map(|k| (-2..3).map(move |more| (k << 15) + more));
+        let spread = (0..1 << 16).map(|k| k * 127 + n);
+        for a in beside.chain(spread).filter(|a| (0..1 << 23).contains(a)) {
+            let exact = (f64::from(a) * f64::from(n).exp2()).sqrt();
+            worst = worst.max((f64::from(long::root(a, n)) - exact).abs());
         }
     }
-    assert!(worst <= 1.5, "{worst}");
+    assert!(worst <= 0.9 && worst > 0.4, "{worst}");
+}
+
+/// The reciprocal is never shorter than 24 bits: a division takes it for 2^24 less.
+#[test]
+fn reciprocals_have_24_bits() {
+    let mut worst = 0.0f64;
+    let ends = ((1 << 23)..(1 << 23) + 70_000).chain((1 << 24) - 70_000..1 << 24);
+    for b in ends.chain(((1 << 23)..1 << 24).step_by(17)) {
+        let found = long::reciprocal(b);
+        assert!((1 << 23..1 << 24).contains(&found), "{b}: {found}");
+        worst = worst.max((found as f64 - 2f64.powi(47) / b as f64).abs());
+    }
+    assert!(worst <= 1.0 && worst > 0.4, "{worst}");
+}
+
+/// What is one over a divisor is that division, for all divisors of 16 bits and many of 24.
+#[test]
+fn reciprocals_are_quotients() {
+    for kind in [SHORT, LONG] {
+        let end = kind.most();
+        let routine = (kind.setting.runtime.routines.iter())
+            .find(|r| r.name.ends_with("one_over"))
+            .unwrap();
+        let mut worst = 0.0f64;
+        let wide = i32::from(kind.bits) - 2;
+        for (one, n) in [
+            (1 << wide, wide),
+            (1 << wide, 0),
+            (1, wide + 6),
+            (4096, 7),
+            (1, 2 * wide),
+        ] {
+            let places = [
+                Place::Constant(one as u64),
+                Place::At("second_operand_value".into()),
+            ];
+            let mut bench = Bench::of(kind.setting, routine, &places, n);
+            let step = if n == 14 {
+                1
+            } else {
+                7 << (2 * (kind.bits - 16)) >> (kind.bits / 24 * 3)
+            };
+            let others = (-end..=end).step_by(step as usize);
+            for b in others.chain(kind.edges()) {
+                let wanted = (kind.divide)(one, b, n);
+                assert_eq!(bench.run(&[one, b]).0, wanted, "{one} / {b}, {n}");
+                let exact = f64::from(one) / f64::from(b) * f64::from(n).exp2();
+                if b != 0 {
+                    let end = f64::from(end);
+                    worst = worst.max((f64::from(wanted) - exact.clamp(-end, end)).abs());
+                }
+            }
+        }
+        let bound = routine.error.most(&[], 1.0);
+        println!("{}: {worst} of {bound}", routine.name);
+        assert!(worst <= bound, "{worst}");
+    }
 }
 
 #[test]
 fn short_ints_have_products_of_32_bits() {
     let setting = Setting {
-        runtime: &FIXED16,
         sizes: 4,
+        ..SHORT.setting
     };
-    let name = |r: &&Routine| r.name == "int_mul_16";
-    let routine = FIXED16.routines.iter().find(name).unwrap();
+    let routine = SHORT.routine("int_mul_16");
     let mut bench = Bench::of(setting, routine, &[], 0);
-    let mut all = edges();
+    let mut all = SHORT.edges();
     all.push(-32768);
     let (mut cycles, mut checked) = (0, 0u32);
     for a in &all {
@@ -241,6 +346,13 @@ fn short_ints_have_products_of_32_bits() {
 
 #[test]
 fn every_operation_has_a_total_routine() {
+    for kind in [SHORT, LONG] {
+        has_all(&kind);
+    }
+}
+
+fn has_all(kind: &Kind) {
+    let long = i32::from(kind.bits) - 1;
     for op in Op::ALL {
         let of_reals = op.result() == Type::Real || op.args().contains(&Type::Real);
         if !of_reals {
@@ -249,9 +361,10 @@ fn every_operation_has_a_total_routine() {
         // At the scales that plans may have.
         let numbers: Vec<i32> = match op {
             Op::Mul => (-75..75).collect(),
-            Op::Div | Op::Floor => (0..=30).collect(),
-            Op::Sqrt => (1..=15).collect(),
-            Op::Sin | Op::Cos => (0..=13).collect(),
+            Op::Floor => (0..=long + 15).collect(),
+            Op::Div => (0..=2 * long).collect(),
+            Op::Sqrt => (1..=long).collect(),
+            Op::Sin | Op::Cos => (long - 15..=13.max(long - 7)).collect(),
             Op::Tan | Op::Exp | Op::Log | Op::Pow => (-15..=30)
                 .map(|a| {
                     Scales {
@@ -265,7 +378,7 @@ fn every_operation_has_a_total_routine() {
         };
         for n in numbers {
             let ranges = [Range::ALL, Range::ALL, Range::point(f64::from(n))];
-            let of = FIXED16.routines.iter().filter(|r| r.op == *op);
+            let of = kind.setting.runtime.routines.iter().filter(|r| r.op == *op);
             let ranges = match op.arity() {
                 1 => &ranges[1..],
                 _ => &ranges,
@@ -280,29 +393,41 @@ fn every_operation_has_a_total_routine() {
 
 #[test]
 fn numbers_are_read_at_other_scales() {
-    let edges = edges();
-    for by in -20..=20 {
+    for kind in [SHORT, LONG] {
+        for bytes in 1..=kind.setting.sizes {
+            reads(&kind, bytes);
+        }
+    }
+}
+
+/// All numbers of so many bytes.
+fn reads(kind: &Kind, held: u8) {
+    let (bits, bytes) = (kind.bits, kind.setting.sizes);
+    let fits_in = |a: &i32| i64::from(*a).abs() <= most(8 * held);
+    let edges: Vec<i32> = kind.edges().into_iter().filter(fits_in).collect();
+    for by in -30..=25 {
         for fits in [false, true] {
-            let held = Place::Held("first_operand".into(), Shape::whole(2));
+            let held = Place::Held("first_operand".into(), Shape::whole(held));
             let write = |lines: &mut Vec<String>| {
                 let what = Read {
                     from: &held,
                     by,
                     fits,
                     to: "result",
+                    bytes,
                     serial: 1,
                 };
                 read(what, lines).into_iter().collect()
             };
             let mut bench = Bench::written(&FIXED16, &write);
             for a in &edges {
-                let wanted = model::shifted(i64::from(*a), by, 16);
+                let wanted = model::shifted(i64::from(*a), by, bits);
                 let free = i64::from(*a) << by.max(0);
-                if fits && free.abs() > most(16) {
+                if fits && free.abs() > most(bits) {
                     continue;
                 }
                 let (found, _) = bench.run(&[*a]);
-                assert_eq!(i64::from(found as i16), wanted, "{a} by {by}, {fits}");
+                assert_eq!(kind.read(found), wanted, "{a} by {by}, {fits}");
             }
         }
     }
@@ -311,9 +436,16 @@ fn numbers_are_read_at_other_scales() {
 /// Ints of three and four bytes, and of two without a sign.
 #[test]
 fn wide_ints_are_read_at_other_scales() {
+    for kind in [SHORT, LONG] {
+        reads_wide(&kind);
+    }
+}
+
+fn reads_wide(kind: &Kind) {
+    let (bits, own) = (kind.bits, kind.setting.sizes);
     let unsigned = Shape {
         signed: false,
-        ..Shape::whole(2)
+        ..Shape::whole(own)
     };
     for shape in [Shape::whole(4), Shape::whole(3), unsigned] {
         let held = Place::Held("first_operand".into(), shape);
@@ -324,6 +456,7 @@ fn wide_ints_are_read_at_other_scales() {
                     by,
                     fits: true,
                     to: "result",
+                    bytes: own,
                     serial: 1,
                 };
                 read(what, lines).into_iter().collect()
@@ -337,19 +470,19 @@ fn wide_ints_are_read_at_other_scales() {
                 _ => random.next() as i32 >> (k % 32),
             });
             for a in drawn {
-                let bits = 8 * u32::from(shape.bytes);
+                let held = 8 * u32::from(shape.bytes);
                 let has = match shape.signed {
-                    true => i64::from(a) == (i64::from(a) << (64 - bits)) >> (64 - bits),
-                    false => (0..1 << bits).contains(&i64::from(a)),
+                    true => i64::from(a) == (i64::from(a) << (64 - held)) >> (64 - held),
+                    false => (0..1i64 << held).contains(&i64::from(a)),
                 };
                 let exact = f64::from(a) * f64::from(by).exp2();
-                if !has || exact.abs() > most(16) as f64 {
+                if !has || exact.abs() > most(bits) as f64 {
                     continue;
                 }
                 checked += 1;
-                let wanted = model::shifted(i64::from(a), by, 16);
+                let wanted = model::shifted(i64::from(a), by, bits);
                 let (found, _) = bench.run(&[a]);
-                assert_eq!(i64::from(found as i16), wanted, "{a} by {by}, {shape:?}");
+                assert_eq!(kind.read(found), wanted, "{a} by {by}, {shape:?}");
             }
             assert!(checked > 20, "{by} {shape:?}");
         }
@@ -358,12 +491,18 @@ fn wide_ints_are_read_at_other_scales() {
 
 #[test]
 fn whole_parts_are_floored() {
-    let edges = edges();
-    for n in 0..=14 {
+    for kind in [SHORT, LONG] {
+        floors(&kind);
+    }
+}
+
+fn floors(kind: &Kind) {
+    let (edges, of) = (kind.edges(), kind.setting.sizes);
+    for n in 0..=i32::from(kind.bits) - 2 {
         for bytes in [1, 2, 4] {
-            let held = Place::Held("first_operand".into(), Shape::whole(2));
+            let held = Place::Held("first_operand".into(), Shape::whole(of));
             let write = |lines: &mut Vec<String>| {
-                floor(&held, n, "result", bytes, lines);
+                floor((&held, of), n, ("result", bytes), lines);
                 Vec::new()
             };
             let mut bench = Bench::written(&FIXED16, &write);
@@ -379,11 +518,7 @@ fn whole_parts_are_floored() {
 /// Prints what routines take, for the table in the documentation.
 #[test]
 fn costs_of_what_is_met_most() {
-    let setting = Setting {
-        runtime: &FIXED16,
-        sizes: 2,
-    };
-    let bounds = [
+    let short: [(&str, i32, u64); 6] = [
         ("mul", 16, 290),
         ("double_mul", 15, 310),
         ("any_mul_14", 14, 335),
@@ -391,22 +526,61 @@ fn costs_of_what_is_met_most() {
         ("odd_root", 13, 320),
         ("add", 0, 25),
     ];
-    for (name, n, most) in bounds {
-        let routine = FIXED16.routines.iter().find(|r| r.name == name).unwrap();
-        let mut bench = Bench::of(setting, routine, &[], n);
-        let mut random = Random(5);
-        let (mut cycles, times) = (0, 1000);
-        for _ in 0..times {
-            let args: Vec<i32> = routine
-                .args
-                .iter()
-                .map(|_| (random.next() as i32 >> 17).max(-16000))
-                .collect();
-            cycles += bench.run(&args).1;
+    let long: [(&str, i32, u64); 6] = [
+        ("long_mul_24", 24, 470),
+        ("long_mul_23", 23, 490),
+        ("long_mul_up", 22, 570),
+        ("long_div", 22, 1500),
+        ("long_odd_root", 21, 740),
+        ("add", 0, 30),
+    ];
+    for (kind, bounds) in [(SHORT, short), (LONG, long)] {
+        for (name, n, most) in bounds {
+            let routine = kind.routine(name);
+            let mut bench = Bench::of(kind.setting, routine, &[], n);
+            let mut random = Random(5);
+            let (mut cycles, times) = (0, 1000);
+            let end = -(1 << (kind.bits - 2));
+            for _ in 0..times {
+                let args: Vec<i32> = routine
+                    .args
+                    .iter()
+                    .map(|_| (random.next() as i32 >> (33 - kind.bits)).max(end))
+                    .collect();
+                cycles += bench.run(&args).1;
+            }
+            let mean = cycles / times;
+            println!("{name}: {mean} cycles, {} bytes", bench.bytes);
+            assert!(mean <= most, "{name}: {mean}");
         }
-        let mean = cycles / times;
-        println!("{name}: {mean} cycles");
-        assert!(mean <= most, "{name}: {mean}");
     }
     assert_eq!(Format::Scaled { bits: 16 }, super::REAL);
+    assert_eq!(Format::Scaled { bits: 24 }, super::LONG);
+}
+
+/// What either format keeps in the zero page lies apart.
+#[test]
+fn names_in_the_zero_page_lie_apart() {
+    let pages = [
+        include_str!("../../asm/zero_page.asm"),
+        include_str!("../../asm/scaled/page.asm"),
+        include_str!("../../asm/scaled24/page.asm"),
+    ];
+    let places = pages
+        .iter()
+        .flat_map(|page| page.lines())
+        .filter_map(|line| {
+            let (name, rest) = line.split_once(" = $")?;
+            Some((u8::from_str_radix(rest.get(..2)?, 16).ok()?, name))
+        });
+    let mut all: Vec<(u8, &str)> = places.collect();
+    assert!(all.len() > 25);
+    all.sort_unstable();
+    for pair in all.windows(2) {
+        let pointer = pair[0].1.starts_with("sum") || pair[0].1.starts_with("dif");
+        let bytes = if pointer { 2 } else { 1 };
+        assert!(pair[0].0 + bytes <= pair[1].0, "{pair:?}");
+    }
+    let last = all.last().unwrap().0;
+    assert!(last < super::LONG_FREE_ZERO_PAGE);
 }

@@ -1,8 +1,9 @@
-//! Ints of more than two bytes read as reals that are known to fit into two: whole bytes
+//! Numbers of more bytes read as reals that are known to fit into fewer: whole bytes
 //! are taken from where they stand, and only what is left of the shift is done bit by bit.
 
 use super::Read;
-use crate::write::{Place, byte};
+use super::read::{add, one_more};
+use crate::write::{Place, byte, byte_at};
 
 /// The most bits to the right that are read so.
 const MOST: u32 = 16;
@@ -17,6 +18,7 @@ pub(super) fn read(read: Read<'_>, lines: &mut Vec<String>) -> bool {
         by,
         fits,
         to,
+        bytes,
         serial: n,
     } = read;
     let down = by.unsigned_abs();
@@ -25,49 +27,51 @@ pub(super) fn read(read: Read<'_>, lines: &mut Vec<String>) -> bool {
     }
     let (first, bits) = (down / 8, down % 8);
     let at = |k: u32| byte(from, (first + k) as u8);
-    let mut code = |text: &str| {
-        for instruction in text.split('|').map(str::trim).filter(|i| !i.is_empty()) {
-            let indent = if instruction.ends_with(':') {
-                ""
-            } else {
-                "        "
-            };
-            lines.push(format!("{indent}{instruction}"));
-        }
-    };
+    let mut code = |text: &str| add(text, lines);
+    let to_at = |k: u8| byte_at(to, k);
+    let rounded = one_more(to, bytes, &format!("read{n}"));
     if bits == 0 {
         let below = byte(from, (first - 1) as u8);
         // The sum's upper byte: where it has none of its own, the sign's.
         code(&format!("lda {} | sta {to}", at(0)));
-        upper(from, first + 1, &mut code);
-        code(&format!("sta {to}+1"));
-        code(&format!(
-            "lda {below} | bpl read{n} | inc {to} | bne read{n} | inc {to}+1 | read{n}:"
-        ));
+        for k in 1..bytes {
+            upper(from, first + u32::from(k), &mut code);
+            code(&format!("sta {}", to_at(k)));
+        }
+        code(&format!("lda {below} | bpl read{n} | {rounded}"));
         return true;
     }
     if bits >= LEFT {
         // By the rest of a byte to the left, and a byte to the right.
         code(&format!("lda {} | sta acc", at(0)));
-        upper(from, first + 1, &mut code);
-        code(&format!("sta {to}"));
-        upper(from, first + 2, &mut code);
-        code(&format!("asl acc | rol {to} | rol | ").repeat((8 - bits) as usize));
+        for k in 0..bytes - 1 {
+            upper(from, first + 1 + u32::from(k), &mut code);
+            code(&format!("sta {}", to_at(k)));
+        }
+        upper(from, first + u32::from(bytes), &mut code);
+        let each: String = (0..bytes - 1)
+            .map(|k| format!("rol {} | ", to_at(k)))
+            .collect();
+        code(&format!("asl acc | {each}rol | ").repeat((8 - bits) as usize));
         code(&format!(
-            "sta {to}+1 | asl acc | bcc read{n} | inc {to} | bne read{n} | inc {to}+1 | read{n}:"
+            "sta {} | asl acc | bcc read{n} | {rounded}",
+            to_at(bytes - 1)
         ));
         return true;
     }
     code(&format!("lda {} | sta {to}", at(0)));
-    upper(from, first + 1, &mut code);
-    code(&format!("sta {to}+1"));
-    upper(from, first + 2, &mut code);
+    for k in 1..bytes {
+        upper(from, first + u32::from(k), &mut code);
+        code(&format!("sta {}", to_at(k)));
+    }
+    upper(from, first + u32::from(bytes), &mut code);
     // What is above these bits does not come down.
-    let shift = format!("lsr | ror {to}+1 | ror {to} | ").repeat(bits as usize);
-    code(&shift);
-    code(&format!(
-        "bcc read{n} | inc {to} | bne read{n} | inc {to}+1 | read{n}:"
-    ));
+    let each: String = (0..bytes)
+        .rev()
+        .map(|k| format!("ror {} | ", to_at(k)))
+        .collect();
+    code(&format!("lsr | {each}").repeat(bits as usize));
+    code(&format!("bcc read{n} | {rounded}"));
     true
 }
 

@@ -39,7 +39,7 @@ impl Bus for Ram {
 /// The parts that are needed, each between two labels.
 fn parts(names: &[&str]) -> (String, bool) {
     let mut text = String::new();
-    let names: Vec<&str> = names.iter().copied().chain(["scaled_page"]).collect();
+    let names: Vec<&str> = names.iter().copied().chain(["scaled24_page"]).collect();
     let closure = RUNTIME.closure(names.iter().copied());
     for part in &closure {
         let source = match part.source {
@@ -139,6 +139,9 @@ impl Bench {
         let needs = write(&mut lines);
         let (parts, squares) = parts(&needs);
         let mut prepare = if squares { "jsr make_squares" } else { "" }.to_owned();
+        if parts.contains("set_squares24:") {
+            prepare += " | jsr set_squares24";
+        }
         if parts.contains("set_squares:") {
             prepare += " | jsr set_squares";
         }
@@ -193,6 +196,7 @@ impl Bench {
         let result = match self.size {
             1 => i32::from(bytes[0]),
             2 => i32::from(i16::from_le_bytes([bytes[0], bytes[1]])),
+            3 => i32::from_le_bytes([0, bytes[0], bytes[1], bytes[2]]) >> 8,
             _ => i32::from_le_bytes(bytes),
         };
         (result, cycles)

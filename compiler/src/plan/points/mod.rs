@@ -31,7 +31,7 @@ use super::recipes::Made;
 use crate::flow::graph::*;
 use crate::flow::tree::*;
 use crate::range::{Ranges, Slack, ranges};
-use slowlight_routine::scale::{self, Scales, fitting};
+use slowlight_routine::scale::{self, Scales, finest, fitting};
 use slowlight_routine::{Bits, Format, Op, Range, Routine, Runtime, Type, Value};
 use wanted::{cap, wanted};
 
@@ -103,13 +103,13 @@ impl Points {
             .collect();
         let capped = |id: NodeId| match graph.node(id) {
             Node::Apply(op, args) if graph.ty(id) == Type::Real => {
-                room[id.0 as usize].min(cap(graph, op, args, room[id.0 as usize], &room))
+                room[id.0 as usize].min(cap(graph, op, args, (room[id.0 as usize], bits), &room))
             }
             _ => room[id.0 as usize],
         };
         let mut own: Vec<i8> = graph.ids().map(capped).collect();
         no_finer(graph, &mut own);
-        read_at_most(graph, &mut own);
+        read_at_most(graph, bits, &mut own);
         for id in graph.ids().filter(|id| graph.ty(*id) != Type::Real) {
             own[id.0 as usize] = 0;
         }
@@ -118,7 +118,13 @@ impl Points {
             .map(|id| match graph.node(id) {
                 Node::Apply(op, args) if scale::concerns(op) => {
                     let fits = |args: [i8; 2]| product_fits(ranges, id, args, bits);
-                    wanted(graph, (op, args), own[id.0 as usize], (&own, &room), &fits)
+                    wanted(
+                        graph,
+                        (op, args),
+                        (own[id.0 as usize], bits),
+                        (&own, &room),
+                        &fits,
+                    )
                 }
                 _ => Scales::default(),
             })
@@ -300,26 +306,26 @@ fn no_finer(graph: &Graph, own: &mut [i8]) {
 }
 
 /// Leaves a value the bits that somebody reads.
-fn read_at_most(graph: &Graph, own: &mut [i8]) {
+fn read_at_most(graph: &Graph, bits: u8, own: &mut [i8]) {
     let mut read = vec![scale::FEWEST; graph.nodes.len()];
     let all = graph.loops.iter().flat_map(Loop::roots);
     for id in all.chain(graph.outputs()) {
-        read[id.0 as usize] = scale::MOST;
+        read[id.0 as usize] = finest(bits);
     }
     for id in graph.ids().rev() {
         let at = id.0 as usize;
         let set = match graph.node(id) {
             Node::Lookup { .. } | Node::Received => true,
-            Node::Apply(op, _) => scale::given(op).is_some(),
+            Node::Apply(op, _) => scale::given(op, bits).is_some(),
             _ => false,
         };
         if !set {
             own[at] = own[at].min(read[at].max(scale::FEWEST));
         }
         let (most, sum) = match graph.node(id) {
-            Node::Apply(op, _) => (scale::MOST, at_one_scale(op)),
-            Node::Select { .. } | Node::Tabulated(_) => (scale::MOST, true),
-            _ => (scale::MOST, false),
+            Node::Apply(op, _) => (finest(bits), at_one_scale(op)),
+            Node::Select { .. } | Node::Tabulated(_) => (finest(bits), true),
+            _ => (finest(bits), false),
         };
         let most = if sum && graph.ty(id) == Type::Real {
             own[at] + i8::from(is_twice(graph, id))
@@ -349,9 +355,9 @@ fn at_one_scale(op: Op) -> bool {
 /// Gives nodes that share a place one scale, and answers those of carried values.
 fn together(graph: &Graph, own: &mut [i8]) -> Vec<Vec<i8>> {
     let mut carried: Vec<Vec<i8>> = (graph.loops.iter())
-        .map(|l| vec![scale::MOST; l.types.len()])
+        .map(|l| vec![i8::MAX; l.types.len()])
         .collect();
-    let mut params = vec![scale::MOST; graph.params.len()];
+    let mut params = vec![i8::MAX; graph.params.len()];
     for setting in [true, false] {
         for id in graph.ids().filter(|id| graph.ty(*id) == Type::Real) {
             let shared = match graph.node(id) {

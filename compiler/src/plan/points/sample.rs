@@ -13,7 +13,7 @@ use crate::eval::arithmetic::{Arithmetic, Exact};
 use crate::eval::run::Run;
 use crate::flow::graph::*;
 use crate::flow::tree::*;
-use slowlight_routine::scale::{MOST, fitting};
+use slowlight_routine::scale::{finest, fitting};
 use slowlight_routine::{Op, Type, Value};
 use std::cell::{Cell, RefCell};
 use std::collections::{HashMap, HashSet};
@@ -119,18 +119,18 @@ fn chosen(
         });
     }
     let mut most = vec![None; graph.nodes.len()];
-    let mut room = vec![MOST; graph.nodes.len()];
+    let mut room = vec![finest(bits); graph.nodes.len()];
     for id in graph.ids().filter(|id| graph.ty(*id) == Type::Real) {
         let at = id.0 as usize;
         let full = fitting(seen[at].room(), bits);
         // More bits than what a value is made of gives it serve nothing.
         let cap = match graph.node(id) {
             // How many bits a product has is known only when its factors are cut.
-            Node::Apply(Op::Mul, _) => MOST,
-            Node::Apply(op, args) => wanted::cap(graph, op, args, full, &room),
+            Node::Apply(Op::Mul, _) => finest(bits),
+            Node::Apply(op, args) => wanted::cap(graph, op, args, (full, bits), &room),
             _ => {
                 let all = given[at].iter().map(|from| room[from.0 as usize]);
-                all.max().unwrap_or(MOST)
+                all.max().unwrap_or(finest(bits))
             }
         };
         if let Some(end) = seen[at].expected(cap, bits, pixels) {

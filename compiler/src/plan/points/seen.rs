@@ -2,7 +2,7 @@
 //! fraction bits serve that best.
 
 use super::asks::Asked;
-use slowlight_routine::scale::{MOST, fitting, most};
+use slowlight_routine::scale::{finest, fitting, most};
 
 /// What values are expected to stay within, of the greatest seen.
 const ROOM: f64 = 1.2;
@@ -105,7 +105,7 @@ impl Seen {
             return None;
         }
         let all = fitting(self.room(), bits);
-        let each = all..=cap.clamp(all, MOST);
+        let each = all..=cap.clamp(all, finest(bits));
         let costs: Vec<(i8, f64)> = each.map(|f| (f, self.cost(f, bits))).collect();
         let least = costs.iter().map(|c| c.1).fold(f64::INFINITY, f64::min);
         let (best, _) = costs.iter().find(|c| c.1 <= least + HARDLY * pixels)?;

@@ -2,17 +2,20 @@
 //! results can have.
 
 use crate::flow::graph::*;
-use slowlight_routine::scale::{self, FEWEST, MOST, Scales};
+use slowlight_routine::scale::{self, FEWEST, FUNCTION, MOST, Scales, finest};
 use slowlight_routine::{Op, Type};
-
-/// Bits of an operand of a product, without the sign: the product has so many more than
-/// an operand where both have all.
-const LONG: i8 = 15;
 
 /// Fraction bits that a result cannot have more of, given those that the operands have
 /// room for, and those it has room for itself.
-pub fn cap(graph: &Graph, op: Op, [a, b]: [NodeId; 2], result: i8, room: &[i8]) -> i8 {
+pub fn cap(
+    graph: &Graph,
+    op: Op,
+    [a, b]: [NodeId; 2],
+    (result, bits): (i8, u8),
+    room: &[i8],
+) -> i8 {
     let [of_a, of_b] = [a, b].map(|id| room[id.0 as usize]);
+    let long = long(bits);
     let most = match op {
         Op::Add if a == b => of_a - 1,
         Op::Add | Op::Sub | Op::Mod => of_a.min(of_b),
@@ -24,14 +27,22 @@ pub fn cap(graph: &Graph, op: Op, [a, b]: [NodeId; 2], result: i8, room: &[i8]) 
             (Some(by), _) => of_b + by,
             // Where the product has room for less than its operands' greatest would make,
             // one of them is small, and the other one's last place counts for less.
-            _ => (of_a + of_b - LONG).max(of_a.min(of_b) - (LONG - result + 1).div_euclid(2)),
+            _ => (of_a + of_b - long).max(of_a.min(of_b) - (long - result + 1).div_euclid(2)),
         },
-        Op::Sqrt => (LONG + of_a).div_euclid(2),
+        Op::Sqrt => (long + of_a).div_euclid(2),
         // Their tables have no more.
-        Op::Tan | Op::Log => 14,
-        _ => scale::given(op).unwrap_or(MOST),
+        Op::Tan | Op::Log => scale::sine(bits),
+        // Their routines know no finer ones.
+        Op::Exp | Op::Pow => MOST,
+        _ => scale::given(op, bits).unwrap_or(finest(bits)),
     };
-    most.clamp(FEWEST, MOST)
+    most.clamp(FEWEST, finest(bits))
+}
+
+/// Bits of an operand of a product, without the sign: the product has so many more than
+/// an operand where both have all.
+fn long(bits: u8) -> i8 {
+    bits as i8 - 1
 }
 
 /// By how many bits a product may be shorter than that all the same.
@@ -60,10 +71,11 @@ const SMALL: f64 = 64.0;
 pub fn wanted(
     graph: &Graph,
     (op, [a, b]): (Op, [NodeId; 2]),
-    result: i8,
+    (result, bits): (i8, u8),
     (own, room): (&[i8], &[i8]),
     fits: &dyn Fn([i8; 2]) -> bool,
 ) -> Scales {
+    let long = long(bits);
     let [of_a, of_b] = [a, b].map(|id| own[id.0 as usize]);
     let [room_a, room_b] = [a, b].map(|id| room[id.0 as usize]);
     let args = match op {
@@ -76,7 +88,7 @@ pub fn wanted(
             // ends where the constant is read: nothing is above both.
             let fixed = |id: NodeId, of: i8, room: i8| match graph.constant(id) {
                 Some(_) if op == Op::Atan2 => (FEWEST, room),
-                Some(_) => (FEWEST, MOST),
+                Some(_) => (FEWEST, finest(bits)),
                 None => (of, room),
             };
             let (a, b) = (fixed(a, of_a, room_a), fixed(b, of_b, room_b));
@@ -84,30 +96,34 @@ pub fn wanted(
         }
         Op::Mul => match factor(graph, [a, b], result, (own, room), fits) {
             Some(args) => args,
-            None => product([of_a, of_b], [room_a, room_b], result),
+            None => product([of_a, of_b], [room_a, room_b], result, long),
         },
-        // From 0 to 30 bits are divided out.
+        // From 0 to twice as many bits are divided out.
         Op::Div => {
             let bits = result + of_b - of_a;
-            let raised = (bits - MOST).clamp(0, (room_a - of_a).max(0));
-            let lowered = (bits - raised - MOST).max(0);
+            let raised = (bits - 2 * long).clamp(0, (room_a - of_a).max(0));
+            let lowered = (bits - raised - 2 * long).max(0);
             [of_a + raised + bits.min(0), of_b - lowered]
         }
-        // Of 1 to 15 bits more.
+        // Of at least one bit more.
         Op::Sqrt => {
             let most = 2 * result - 1;
-            let least = (2 * result - LONG).min(room_a.max(of_a));
+            let least = (2 * result - long).min(room_a.max(of_a));
             [of_a.clamp(least.min(most), most), 0]
         }
         Op::Floor => [of_a.max(0), 0],
         Op::Round => [0, 0],
         // Half a turn fits where the point is furthest to the left.
-        Op::Sin | Op::Cos | Op::Tan => [of_a.clamp(0, 13), 0],
+        Op::Sin | Op::Cos | Op::Tan => {
+            let least = long - 15;
+            [of_a.clamp(least, (long - 2).min(FUNCTION)), 0]
+        }
         // From -1 to 1.
-        Op::Asin | Op::Acos => [14, 0],
+        Op::Asin | Op::Acos => [scale::sine(bits), 0],
         // Beyond 32 every power saturates.
-        Op::Exp => [of_a.clamp(10, 15), 0],
-        Op::Pow => [of_a, of_b.clamp(5, 15)],
+        Op::Exp => [of_a.clamp(10, long.min(FUNCTION)), 0],
+        Op::Log => [of_a.min(MOST), 0],
+        Op::Pow => [of_a.min(MOST), of_b.clamp(5, long.min(FUNCTION))],
         _ => [of_a, of_b],
     };
     let result = match op.result() {
@@ -143,8 +159,8 @@ fn factor(
 }
 
 /// Operands of all their bits, so that the product is rounded in its upper half.
-fn product([mut a, mut b]: [i8; 2], [room_a, room_b]: [i8; 2], result: i8) -> [i8; 2] {
-    let short = match LONG - (a + b - result) {
+fn product([mut a, mut b]: [i8; 2], [room_a, room_b]: [i8; 2], result: i8, most: i8) -> [i8; 2] {
+    let short = match most - (a + b - result) {
         ..=WIDE => 0,
         short => short,
     };
@@ -152,6 +168,6 @@ fn product([mut a, mut b]: [i8; 2], [room_a, room_b]: [i8; 2], result: i8) -> [i
     a += up;
     b += (short - up).clamp(0, (room_b - b).max(0));
     // No more than twice as long: what is further down counts for nothing.
-    let long = (a + b - result - 2 * LONG - 1).max(0);
+    let long = (a + b - result - 2 * most - 1).max(0);
     [a - long, b]
 }

@@ -188,7 +188,7 @@ impl<'p> Code<'p> {
     }
 
     /// A copy into a place.
-    fn copy_into(&mut self, from: &Operand, to: &str, place: Place) {
+    pub(super) fn copy_into(&mut self, from: &Operand, to: &str, place: Place) {
         match self.homes.shape(self.plan, place) {
             Some(shape) => {
                 let mut lines = Vec::new();

@@ -56,7 +56,10 @@ fn parts(plan: &Plan, entries: &[Entry], read: &[&'static str]) -> Vec<&'static 
     let mut names: Vec<&str> = plan.parts().iter().map(|p| p.name).collect();
     names.extend(read);
     names.push("zero_page");
-    names.extend(plan.points().map(|_| "scaled_page"));
+    names.extend(plan.points().map(|_| match write::size(plan.runtime.real) {
+        2 => "scaled_page",
+        _ => "scaled24_page",
+    }));
     for entry in entries {
         names.extend(entry.needs(plan));
     }
@@ -68,7 +71,7 @@ fn parts(plan: &Plan, entries: &[Entry], read: &[&'static str]) -> Vec<&'static 
 
 /// Whether a part only names places in the zero page.
 fn is_page(part: &Part) -> bool {
-    matches!(part.name, "zero_page" | "scaled_page")
+    matches!(part.name, "zero_page" | "scaled_page" | "scaled24_page")
 }
 
 fn source(machine: Machine, part: &Part, text: &mut Text) {
@@ -167,8 +170,10 @@ fn main(
     if parts.iter().any(|p| p.name == "squares") {
         text.code("jsr make_squares");
     }
-    if parts.iter().any(|p| p.name == "product") {
-        text.code("jsr set_squares");
+    for (part, make) in [("product", "set_squares"), ("squares24", "set_squares24")] {
+        if parts.iter().any(|p| p.name == part) {
+            text.code(&format!("jsr {make}"));
+        }
     }
     text.code("jsr take_params");
     let screen = plan.plot.then(|| Screen::new(plan, homes));

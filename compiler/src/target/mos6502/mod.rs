@@ -54,7 +54,7 @@ use crate::source::Span;
 use memory::Machine;
 pub use memory::{DISC_PAGE, Room};
 use slowlight_runtime_6502::FIXED16_16;
-use slowlight_runtime_6502::scaled::{FIXED16, FIXED16_IN_RUNS};
+use slowlight_runtime_6502::scaled::{FIXED16, FIXED16_IN_RUNS, FIXED24, FIXED24_IN_RUNS};
 use syntax::Syntax;
 
 /// The plain machine: 64K of RAM and a port that takes ink by ink.
@@ -63,6 +63,12 @@ pub static PLAIN: Target = USUAL;
 /// The same with reals of 16 bits, each with fraction bits of its own.
 pub static PLAIN_FIXED16: Target = Target {
     runtime: &FIXED16_IN_RUNS,
+    ..USUAL
+};
+
+/// The same with reals of 24 bits.
+pub static PLAIN_FIXED24: Target = Target {
+    runtime: &FIXED24_IN_RUNS,
     ..USUAL
 };
 
@@ -80,6 +86,12 @@ pub static BBC_FIXED16: Target = Target {
     ..BBC
 };
 
+/// The same with reals of 24 bits.
+pub static BBC_FIXED24: Target = Target {
+    runtime: &FIXED24,
+    ..BBC
+};
+
 /// A Commodore 64, for PAL.
 pub static C64: Target = Target {
     name: "6502:c64",
@@ -92,6 +104,12 @@ pub static C64: Target = Target {
 /// The same with reals of 16 bits.
 pub static C64_FIXED16: Target = Target {
     runtime: &FIXED16,
+    ..C64
+};
+
+/// The same with reals of 24 bits.
+pub static C64_FIXED24: Target = Target {
+    runtime: &FIXED24,
     ..C64
 };
 

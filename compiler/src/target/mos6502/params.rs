@@ -8,6 +8,7 @@ use super::{Text, bbc, c64};
 use crate::flow::graph::*;
 use crate::plan::Plan;
 use slowlight_routine::Type;
+use slowlight_runtime_6502::write::{self, Place as Operand};
 
 /// What is written into the table of params.
 pub(super) struct Entry {
@@ -35,8 +36,16 @@ impl Entry {
     pub fn needs(&self, plan: &Plan) -> Option<&'static str> {
         match plan.points() {
             None => (self.divisor > 0).then_some("fixed_divide"),
-            Some(_) if self.is_divided() => Some("divide16"),
-            Some(_) => self.scale.map(|_| "narrow"),
+            Some(_) => {
+                let [divide, hold] = match is_long(plan) {
+                    true => ["divide24", "hold24"],
+                    false => ["divide16", "narrow"],
+                };
+                match self.is_divided() {
+                    true => Some(divide),
+                    false => self.scale.map(|_| hold),
+                }
+            }
         }
     }
 }
@@ -100,8 +109,29 @@ fn scale(plan: &Plan, param: ParamId) -> Option<i8> {
     Some(plan.graph.ids().find(is).map_or(0, |id| points.own(id)))
 }
 
+/// Whether reals with points of their own have three bytes.
+fn is_long(plan: &Plan) -> bool {
+    write::size(plan.runtime.real) > 2
+}
+
 /// Makes a real with a point of its own of the whole number in `acc`.
-fn made(entry: &Entry, scale: i8, home: &str) -> String {
+fn made(plan: &Plan, entry: &Entry, scale: i8, home: &str) -> String {
+    if is_long(plan) {
+        let (take, from) = match (entry.is_divided(), scale) {
+            (true, _) => (
+                format!("ldy #{scale} | jsr divide24 | sta prod+5"),
+                "prod+3",
+            ),
+            (false, 0..) => (format!("ldy #{scale} | jsr narrow24_left"), "acc"),
+            (false, _) => (
+                format!("ldy #{} | jsr narrow24_right", -i32::from(scale)),
+                "acc",
+            ),
+        };
+        let mut lines = Vec::new();
+        write::copy_bytes(&Operand::At(from.to_owned()), home, 3, &mut lines);
+        return format!("jsr take_param | {take} | {}", lines.join(" | "));
+    }
     let take = match (entry.is_divided(), scale) {
         (true, _) => format!("ldy #{scale} | jsr divide16"),
         (false, 0..) => format!("ldy #{scale} | jsr narrow_left"),
@@ -139,7 +169,7 @@ pub(super) fn take_params(
             "lda #<(param{k}) | sta prod | lda #>(param{k}) | sta prod+1 | lda #{number}"
         ));
         if let Some(scale) = entry.scale {
-            text.code(&made(entry, scale, home));
+            text.code(&made(plan, entry, scale, home));
             continue;
         }
         text.code(&format!(

@@ -5,11 +5,14 @@ use crate::flow::graph::*;
 use crate::flow::tree::Place;
 use crate::plan::points::Points;
 use slowlight_routine::{Op, Type, scale};
-use slowlight_runtime_6502::scaled::{self, BITS};
-use slowlight_runtime_6502::write::Place as Operand;
+use slowlight_runtime_6502::scaled;
+use slowlight_runtime_6502::write::{self, Place as Operand, Shape};
 
 /// Where operands go that are read at another scale.
 const READ: [&str; 2] = ["first", "second"];
+
+/// Reals have so many bytes at least.
+pub(super) const LEAST: u8 = 2;
 
 impl Code<'_> {
     /// An operation's operands as its routine wants them.
@@ -50,7 +53,8 @@ impl Code<'_> {
     fn known(&self, id: NodeId, k: usize, to: i8) -> Option<Operand> {
         let range = self.plan.ranges.args.get(id.0 as usize)?.get(k)?;
         let units = scale::in_units(*range, to).constant()?;
-        let held = units.fract() == 0.0 && units.abs() <= scale::most(BITS) as f64;
+        let held = units.fract() == 0.0
+            && units.abs() <= scale::most(self.plan.runtime.real.bits()) as f64;
         held.then_some(Operand::Constant(units as i64 as u64))
     }
 
@@ -64,10 +68,15 @@ impl Code<'_> {
 
     /// A number with so many fraction bits: where it is, or read into `into`.
     pub(super) fn read_at(&mut self, points: &Points, id: NodeId, to: i8, into: &str) -> Operand {
+        self.read_into(points, id, to, (into, LEAST))
+    }
+
+    /// The same in so many bytes at least.
+    fn read_into(&mut self, points: &Points, id: NodeId, to: i8, into: (&str, u8)) -> Operand {
         let real = self.plan.graph.ty(id) == Type::Real;
         if let Some(value) = self.plan.graph.constant(id) {
             return Operand::Constant(match real {
-                true => scale::nearest(value.real(), to, BITS),
+                true => scale::nearest(value.real(), to, self.plan.runtime.real.bits()),
                 false => points.moved(value.int() as i64 as u64, 0, to),
             });
         }
@@ -76,15 +85,25 @@ impl Code<'_> {
         if own == to && real {
             return from;
         }
-        self.move_into(id, &from, i32::from(to) - i32::from(own), (to, into));
-        Operand::At(into.to_owned())
+        self.move_into(id, &from, i32::from(to) - i32::from(own), (to, into))
     }
 
     /// Reads a number with so many more fraction bits.
-    fn move_into(&mut self, id: NodeId, from: &Operand, by: i32, (to, into): (i8, &str)) {
+    fn move_into(
+        &mut self,
+        id: NodeId,
+        from: &Operand,
+        by: i32,
+        (to, (into, least)): (i8, (&str, u8)),
+    ) -> Operand {
         let range = self.plan.ranges.result.get(id.0 as usize);
-        let most = scale::most(BITS) as f64;
-        let fits = range.is_some_and(|r| scale::in_units(*r, to).within(-most, most));
+        let within = |bytes: u8| {
+            let most = scale::most(8 * bytes) as f64;
+            range.is_some_and(|r| scale::in_units(*r, to).within(-most, most))
+        };
+        let whole = write::size(self.plan.runtime.real);
+        let bytes = (least..whole).find(|bytes| within(*bytes)).unwrap_or(whole);
+        let fits = within(bytes);
         let mut lines = Vec::new();
         let serial = self.text.next_serial();
         let read = scaled::Read {
@@ -92,10 +111,15 @@ impl Code<'_> {
             by,
             fits,
             to: into,
+            bytes,
             serial,
         };
         self.needs.extend(scaled::read(read, &mut lines));
         lines.iter().for_each(|line| self.text.line(line));
+        match bytes < whole {
+            true => Operand::Held(into.to_owned(), Shape::whole(bytes)),
+            false => Operand::At(into.to_owned()),
+        }
     }
 
     /// Whether a place has another scale than what it is given.
@@ -115,9 +139,14 @@ impl Code<'_> {
         let Some(points) = self.plan.points() else {
             return;
         };
-        let read = self.read_at(points, from, points.place(place), to);
-        if read != Operand::At(to.to_owned()) {
-            self.copy(&read, to, self.plan.place_format(place));
+        let bytes = self
+            .homes
+            .shape(self.plan, place)
+            .map_or(LEAST, |s| s.bytes);
+        let read = self.read_into(points, from, points.place(place), (to, bytes));
+        let there = matches!(&read, Operand::At(name) | Operand::Held(name, _) if name == to);
+        if !there {
+            self.copy_into(&read, to, place);
         }
     }
 }

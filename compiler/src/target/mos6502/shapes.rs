@@ -1,12 +1,13 @@
-//! In how many bytes ints are kept where reals have points of their own: as many as their
-//! ranges need.
+//! In how many bytes numbers are kept where reals have points of their own: as many as their
+//! ranges need, of reals two at least.
 
 use super::homes::Slot;
+use super::scaled::LEAST;
 use crate::flow::graph::*;
 use crate::flow::ramp;
 use crate::flow::tree::*;
 use crate::plan::Plan;
-use slowlight_routine::{Format, Range, Type};
+use slowlight_routine::{Format, Range, Type, scale};
 use slowlight_runtime_6502::write::{Shape, size};
 use std::collections::HashMap;
 
@@ -20,7 +21,7 @@ pub(super) struct Shapes {
 
 /// Those of a plan whose reals have points of their own.
 pub(super) fn shapes(plan: &Plan) -> Option<Shapes> {
-    plan.points()?;
+    let points = plan.points()?;
     let mut ranges: HashMap<Place, Range> = HashMap::new();
     let mut add = |place: Place, range: Range| {
         let known = ranges.entry(home(place)).or_insert(range);
@@ -50,12 +51,28 @@ pub(super) fn shapes(plan: &Plan) -> Option<Shapes> {
     let shape = |place: Place, range: Range| match plan.place_format(place) {
         Format::Int { .. } => Shape::of(stepped(plan, place).unwrap_or(range), MOST),
         Format::Bool => Shape::of(Range::new(0.0, 1.0), 1),
-        real => Shape::whole(size(real)),
+        real => of_real(scale::in_units(range, points.place(place)), size(real)),
     };
     let places = ranges.into_iter().map(|(p, r)| (p, shape(p, r))).collect();
     let mut shapes = Shapes { places };
     shapes.widen_steps(plan);
     Some(shapes)
+}
+
+/// That of reals that are whole numbers in such a range: their upper bit tells the sign.
+fn of_real(units: Range, most: u8) -> Shape {
+    let fits = |bytes: &u8| {
+        let end = scale::most(8 * bytes) as f64;
+        units.within(-end, end)
+    };
+    match (LEAST..most).find(fits) {
+        Some(bytes) => Shape {
+            bytes,
+            signed: units.lo < 0.0,
+            spare: units.lo >= 0.0,
+        },
+        None => Shape::whole(most),
+    }
 }
 
 /// What a ramp stays within at all columns, whoever reads it there: its lower bytes are
