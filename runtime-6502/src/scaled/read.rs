@@ -15,6 +15,8 @@ pub struct Read<'a> {
     pub to: &'a str,
     /// Must differ at each use in a program.
     pub serial: u32,
+    /// Whether memory may be spent for speed.
+    pub quick: bool,
 }
 
 /// Writes the reading; answers the part of the runtime that it needs, if any.
@@ -25,6 +27,7 @@ pub fn read(read: Read<'_>, lines: &mut Vec<String>) -> Option<&'static str> {
         fits,
         to,
         serial,
+        quick,
     } = read;
     let wide = matches!(from, Place::Held(_, shape) if shape.bytes > 2 || shape.bytes == 2 && !shape.signed && !shape.spare);
     // Where it fits, its lower bytes are all of it.
@@ -79,6 +82,16 @@ pub fn read(read: Read<'_>, lines: &mut Vec<String>) -> Option<&'static str> {
             "lda {low} | asl | sta {to} | lda {high} | rol | sta {to}+1 | eor {high} | bpl fits{n}
             | lda {high} | asl | lda #$7f | adc #0 | sta {to}+1 | eor #$80 | ora #1 | sta {to} | bne read{n}
             | fits{n}: | lda {to}+1 | cmp #$80 | bne read{n} | lda {to} | bne read{n} | inc {to} | read{n}:"
+        )),
+        // What the bits that are lost say must be the sign.
+        2..8 if quick => code(format!(
+            "lda {high} | clc | adc #{} | cmp #{} | bcs large{n}
+            | lda {low} | sta {to} | lda {high} | {}sta {to}+1
+            | cmp #$80 | bne read{n} | lda {to} | bne read{n} | inc {to} | bne read{n}
+            | large{n}: | lda {high} | asl | lda #$7f | adc #0 | sta {to}+1 | eor #$80 | ora #1 | sta {to} | read{n}:",
+            0x80 >> by,
+            0x100 >> by,
+            times(&format!("asl {to} | rol"), by)
         )),
         0.. => {
             code(format!(

@@ -261,6 +261,15 @@ pub(crate) const POWER: [&str; 4] = [
     power!("widen_right", "{#a-16}", "narrow_left", "{#r-16}"),
 ];
 
+/// Which operand a routine's text only copies, if it does nothing else.
+pub fn copied(text: &str) -> Option<usize> {
+    match text {
+        COPY => Some(0),
+        COPY_SECOND => Some(1),
+        _ => None,
+    }
+}
+
 /// What a product of a number with itself is instead: the same bits.
 pub fn squared(text: &'static str) -> Option<&'static str> {
     let all = [

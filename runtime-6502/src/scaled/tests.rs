@@ -42,7 +42,7 @@ fn numbers(routine: &Routine) -> Vec<i32> {
     found
 }
 
-fn edges() -> Vec<i32> {
+pub(super) fn edges() -> Vec<i32> {
     let mut all = vec![0, 3, 10, 100, 255, 257, 1000, 12345, 0x5555, 32767];
     for k in 0..15 {
         all.extend([1 << k, (1 << k) - 1]);
@@ -282,7 +282,7 @@ fn every_operation_has_a_total_routine() {
 fn numbers_are_read_at_other_scales() {
     let edges = edges();
     for by in -20..=20 {
-        for fits in [false, true] {
+        for (fits, quick) in [(false, false), (false, true), (true, false)] {
             let held = Place::Held("first_operand".into(), Shape::whole(2));
             let write = |lines: &mut Vec<String>| {
                 let what = Read {
@@ -291,6 +291,7 @@ fn numbers_are_read_at_other_scales() {
                     fits,
                     to: "result",
                     serial: 1,
+                    quick,
                 };
                 read(what, lines).into_iter().collect()
             };
@@ -325,6 +326,7 @@ fn wide_ints_are_read_at_other_scales() {
                     fits: true,
                     to: "result",
                     serial: 1,
+                    quick: false,
                 };
                 read(what, lines).into_iter().collect()
             };

@@ -18,6 +18,7 @@ pub(super) fn read(read: Read<'_>, lines: &mut Vec<String>) -> bool {
         fits,
         to,
         serial: n,
+        quick: _,
     } = read;
     let down = by.unsigned_abs();
     if !fits || by >= 0 || down > MOST {
