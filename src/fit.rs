@@ -143,8 +143,10 @@ fn quickest(plan: &Plan, name: &dyn Fn(Span) -> Option<String>) -> Outcome<Optio
 }
 
 /// The plan, with as much of what stands behind several ways written on each of them as
-/// fits; rather tests than remarks.
+/// fits; rather tests than remarks. For the 6502 that is what pixels call, written in place:
+/// where the program leaves a disc system its memory, no more than that leaves.
 fn with_copies(plan: Plan) -> Outcome<Plan> {
+    let page = with_disc(plan.clone())?.page;
     let ways = [
         (Copies::Ends, plan.brief),
         (Copies::Tests, plan.brief),
@@ -152,8 +154,9 @@ fn with_copies(plan: Plan) -> Outcome<Plan> {
     ];
     for (copies, brief) in ways {
         let mut tried = plan.clone();
-        (tried.copies, tried.brief) = (copies, brief);
+        (tried.copies, tried.brief, tried.page) = (copies, brief, page);
         if need(&tried)?.is_none_or(|need| need.fits()) {
+            tried.page = plan.page;
             return Ok(tried);
         }
     }

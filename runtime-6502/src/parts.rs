@@ -152,7 +152,7 @@ pub(crate) static ALL: &[Part] = &[
         "product",
         include_str!("../asm/scaled/product.asm"),
         &["squares", "scaled_page"],
-        150,
+        145,
     ),
     part(
         "square16",
@@ -234,7 +234,7 @@ pub(crate) static ALL: &[Part] = &[
             "reciprocals_high",
             "reciprocals_step",
         ],
-        67,
+        64,
     ),
     part(
         "one_over",
@@ -246,7 +246,7 @@ pub(crate) static ALL: &[Part] = &[
         "divide16",
         include_str!("../asm/scaled/divide.asm"),
         &["reciprocal", "product"],
-        229,
+        330,
     ),
     terms("roots_low", || scaled::model::root_bytes(0), 192),
     terms("roots_high", || scaled::model::root_bytes(1), 192),
@@ -255,7 +255,7 @@ pub(crate) static ALL: &[Part] = &[
         "root16",
         include_str!("../asm/scaled/root.asm"),
         &["squares", "roots_low", "roots_high", "roots_step"],
-        122,
+        110,
     ),
     part(
         "squares24",

@@ -110,6 +110,20 @@ pub(crate) const NEGATIVE: &str = "=lda {0.h} | asl";
 /// Not below 0.
 pub(crate) const NOT_NEGATIVE: &str = "=lda {1.h} | eor #$80 | asl";
 
+/// At most 0: the sign, and where that does not tell, whether any bit is set.
+pub(crate) const NOT_POSITIVE: &str = "=
+    lda {0.h} | bmi yes{n} [- ora {0.k} | bne no{n}] | beq yes{n}
+    no{n}: | clc | bcc told{n}
+    yes{n}: | sec
+    told{n}:";
+
+/// Above 0.
+pub(crate) const POSITIVE: &str = "=
+    lda {1.h} | bmi no{n} [- ora {1.k} | bne yes{n}] | bne yes{n}
+    no{n}: | clc | bcc told{n}
+    yes{n}: | sec
+    told{n}:";
+
 /// A comparison of equals leaves the carry set.
 pub(crate) const EQUAL: &str = "=
     [- lda {0.k} | cmp {1.k} | bne unlike{n}]

@@ -143,6 +143,63 @@ pub fn copy(from: &Place, to: &str, format: Format, lines: &mut Vec<String>) {
     copy_bytes(from, to, size(format), lines);
 }
 
+/// Adds a number that is known to one in memory: bytes that stay as they are are not
+/// touched, and what the carry alone may change only where there is one.
+pub fn add_constant(to: &str, bytes: u8, constant: Bits, serial: u32, lines: &mut Vec<String>) {
+    let part = |k: u8| (constant >> (8 * u32::from(k))) & 0xFF;
+    let at = |k: u8| byte_at(to, k);
+    let mut code = |text: String| {
+        let indent = if text.ends_with(':') { "" } else { "        " };
+        lines.push(format!("{indent}{text}"));
+    };
+    let Some(first) = (0..bytes).find(|k| part(*k) != 0) else {
+        return;
+    };
+    let above = |fill: Bits| {
+        (first + 1..bytes)
+            .rev()
+            .take_while(|k| part(*k) == fill)
+            .count()
+    };
+    let (zeros, ones) = (above(0), above(0xFF));
+    let lent = |k: u8| format!("borrow{}{serial}", ["a", "b", "c", "d"][usize::from(k & 3)]);
+    let end = bytes - zeros.max(ones) as u8;
+    for k in first..end {
+        if k == first {
+            code("clc".to_owned());
+        }
+        code(format!("lda {}", at(k)));
+        code(format!("adc #${:02x}", part(k)));
+        code(format!("sta {}", at(k)));
+    }
+    if end == bytes {
+        return;
+    }
+    if ones > zeros {
+        // Less 1, but for the carry.
+        code(format!("bcs stepped{serial}"));
+        for k in end..bytes - 1 {
+            code(format!("lda {}", at(k)));
+            code(format!("bne {}", lent(k)));
+        }
+        for k in (end..bytes).rev() {
+            if k < bytes - 1 {
+                code(format!("{}:", lent(k)));
+            }
+            code(format!("dec {}", at(k)));
+        }
+    } else {
+        code(format!("bcc stepped{serial}"));
+        for k in end..bytes {
+            code(format!("inc {}", at(k)));
+            if k < bytes - 1 {
+                code(format!("bne stepped{serial}"));
+            }
+        }
+    }
+    code(format!("stepped{serial}:"));
+}
+
 /// Stores the carry flag as a bool.
 pub fn store_carry(to: &str, lines: &mut Vec<String>) {
     lines.push("        lda #0".to_owned());
@@ -332,7 +389,11 @@ fn repeated(text: &str, width: u8) -> String {
 
 fn placeholder(inside: &str, used: Use<'_>) -> String {
     if inside == "%" {
-        return format!("#{}", shift_of_one(used) & 0xFF);
+        let bits = i32::from(size(used.routine.result)) * 8;
+        return format!(
+            "#{}",
+            shift_of_one(used.args.first(), used.number, bits) & 0xFF
+        );
     }
     if let Some(formula) = inside.strip_prefix('#') {
         return format!("#{}", number(formula, used.number) & 0xFF);
@@ -352,14 +413,13 @@ fn placeholder(inside: &str, used: Use<'_>) -> String {
 }
 
 /// By how many bits the reciprocal of a divisor that needs no shift is longer than the
-/// quotient of the first operand, a power of two.
-fn shift_of_one(used: Use<'_>) -> i32 {
-    let one = match used.args.first() {
+/// quotient of the first operand, a power of two, in so many bits.
+pub fn shift_of_one(one: Option<&Place>, number: i32, bits: i32) -> i32 {
+    let one = match one {
         Some(Place::Constant(bits)) => bits.trailing_zeros() as i32,
         _ => 0,
     };
-    let bits = i32::from(size(used.routine.result)) * 8;
-    2 * bits - 1 - one - used.number
+    2 * bits - 1 - one - number
 }
 
 /// What a formula of the number comes to: a sum of numbers and of n, a, b and r, the

@@ -53,10 +53,13 @@ divide16_divisor:
 divide16_up:
         cmp #$40
         bcs divide16_times
+divide16_more:
+        dex
         asl acc
         rol
-        dex
-        jmp divide16_up
+        cmp #$40
+        bcc divide16_more
+        bcs divide16_times
 divide16_zero:
         lda #0
         tax
@@ -73,32 +76,74 @@ divide16_least:
         rts
 divide16_times:
         stx count           ; the quotient's bits before the point, of those that follow
-        sta acc+1
-        tax
-        lda prod+4          ; the reciprocal less 65536
-        sta arg
-        lda prod+5
-        sta arg+1
+        sta sum1_lo         ; both are above 0: a product without signs
+        sta sum1_hi
+        eor #$ff
+        sta dif1_lo
+        sta dif1_hi
         lda acc
-        jsr product16
+        sta sum_lo
+        sta sum_hi
+        eor #$ff
+        sta dif_lo
+        sta dif_hi
+        ldy prod+4
+        sec
+        lda (sum1_lo),y     ; a1 b0
+        sbc (dif1_lo),y
+        sta prod+1
+        lda (sum1_hi),y
+        sbc (dif1_hi),y
         tax
+        lda (sum_hi),y      ; a0 b0 / 256
+        sbc (dif_hi),y
         clc
-        lda prod+2          ; and acc, for that 65536
-        adc acc
+        adc prod+1
+        bcc divide16_lower
+        inx
+divide16_lower:
+        sta prod+1
+        ldy prod+5
+        sec
+        lda (sum_lo),y      ; a0 b1
+        sbc (dif_lo),y
         sta prod+2
+        lda (sum_hi),y
+        sbc (dif_hi),y
+        sta across
+        lda (sum1_lo),y     ; a1 b1
+        sbc (dif1_lo),y
+        sta above
+        lda (sum1_hi),y
+        sbc (dif1_hi),y
+        tay
+        clc
+        lda prod+2
+        adc prod+1
+        sta prod+1
         txa
-        adc acc+1
+        adc across
+        bcc divide16_across
+        iny
+        clc
+divide16_across:
+        adc above
+        bcc divide16_above
+        iny
+divide16_above:
+        sta prod+2
+        tya
         ldx count
         bmi divide16_right
         cpx #17
-        bcs divide16_large
+        bcs divide16_over
         cpx #15
         bcc divide16_right
         beq divide16_round
         asl prod+1
         rol prod+2
         rol
-        bmi divide16_large
+        bmi divide16_over
 divide16_round:
         ldx prod+1
         bpl divide16_rounded
@@ -108,23 +153,42 @@ divide16_round:
         adc #1
 divide16_rounded:
         cmp #$80
-        bcs divide16_large
+        bcs divide16_over
         jmp divide16_sign
+divide16_over:
+        jmp divide16_large
+divide16_under:
+        jmp divide16_zero
 divide16_right:
         tay
         sec
         lda #15
         sbc count
         cmp #17
-        bcs divide16_zero
+        bcs divide16_under
         tax
         tya
+        cpx #9
+        bcc divide16_bit
+        sta prod+2          ; eight bits at once
+        txa
+        sbc #8
+        tax
+        lda #0
+        beq divide16_low
 divide16_bit:
         lsr
         ror prod+2
         dex
         bne divide16_bit
         bcc divide16_sign
+        bcs divide16_nearest
+divide16_low:
+        lsr prod+2
+        dex
+        bne divide16_low
+        bcc divide16_sign
+divide16_nearest:
         inc prod+2
         bne divide16_sign
         adc #0

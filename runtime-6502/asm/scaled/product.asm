@@ -13,30 +13,27 @@ product16:
         eor #$ff
         sta dif1_lo
         sta dif1_hi
-product16_again:            ; with the a of the last product
         ldy arg
         sec
-        lda (sum_hi),y      ; a0 b0 / 256
-        sbc (dif_hi),y
-        sta prod+1
         lda (sum1_lo),y     ; a1 b0
         sbc (dif1_lo),y
-        tax
+        sta prod+1
         lda (sum1_hi),y
         sbc (dif1_hi),y
-        sta prod+2
-        txa
+        tax
+        lda (sum_hi),y      ; a0 b0 / 256
+        sbc (dif_hi),y
         clc
         adc prod+1
+        bcc product16_lower
+        inx
+product16_lower:
         sta prod+1
-        bcc product16_upper
-        inc prod+2
-product16_upper:
         ldy arg+1
         sec
         lda (sum_lo),y      ; a0 b1
         sbc (dif_lo),y
-        tax
+        sta prod+2
         lda (sum_hi),y
         sbc (dif_hi),y
         sta across
@@ -45,21 +42,23 @@ product16_upper:
         sta above
         lda (sum1_hi),y
         sbc (dif1_hi),y
-        sta prod+3
-        txa
+        tay
         clc
+        lda prod+2
         adc prod+1
         sta prod+1
-        lda across
-        adc prod+2
-        bcc product16_add
-        inc prod+3
+        txa
+        adc across
+        bcc product16_across
+        iny
         clc
-product16_add:
+product16_across:
         adc above
+        bcc product16_above
+        iny
+product16_above:
         sta prod+2
-        lda prod+3
-        adc #0
+        tya
         tax
         lda sum1_lo         ; a below 0 was taken for 65536 more
         bpl product16_other

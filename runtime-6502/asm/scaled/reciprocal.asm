@@ -29,12 +29,11 @@ reciprocal_look:
         lda reciprocals_high,y
         sta prod+5
         ldy arg
+        clc
+        lda (dif_hi),y      ; what is taken away, negative and less 1: a carry is no borrow
+        sbc (sum_hi),y
         sec
-        lda (sum_hi),y
-        sbc (dif_hi),y
-        sta across
-        lda prod+4          ; no borrow so far
-        sbc across
+        adc prod+4
         sta prod+4
         bcs reciprocal_done
         dec prod+5

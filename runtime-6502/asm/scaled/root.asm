@@ -13,49 +13,44 @@ root16:
         bcs root16_zero
         sta acc
         txa
-root16_begin:
-        sty count           ; halvings of the result that are left
-        tax
-        ora acc
-        beq root16_zero
-        txa
-        bne root16_scale
-        lda acc             ; eight bits at once
-        ldx #0
-        stx acc
-        inc count
-        inc count
-        inc count
-        inc count
-root16_scale:
+root16_begin:               ; y: halvings of the result that are left
         cmp #$40
         bcs root16_look
-        asl acc
-        rol
-        asl acc
-        rol
-        inc count
+        tax
         bne root16_scale
+        lda acc             ; eight bits at once
+        beq root16_zero
+        ldx #0
+        stx acc
+        iny
+        iny
+        iny
+        iny
+        cmp #$40
+        bcs root16_look
+root16_scale:
+        asl acc
+        rol
+        asl acc
+        rol
+        iny
+        cmp #$40
+        bcc root16_scale
 root16_look:
-        tay
-        lda roots_step-64,y ; in proportion: the step times the low byte
-        ldx acc
+        sty count
+        tax
+        lda roots_step-64,x ; in proportion: the step times the low byte
         sta sum_hi
         eor #$ff
         sta dif_hi
-        lda roots_low-64,y
-        sta prod
-        lda roots_high-64,y
-        sta prod+1
-        txa
-        tay
+        ldy acc
         sec
         lda (sum_hi),y
         sbc (dif_hi),y
         clc
-        adc prod
+        adc roots_low-64,x
         sta prod
-        lda prod+1
+        lda roots_high-64,x
         adc #0
         ldy count
         beq root16_done

@@ -9,6 +9,11 @@
 //!
 //! Functions that are rarer are those of 16.16, their operand and result shifted.
 
+#[cfg(test)]
+mod figures_tests;
+pub mod inline;
+#[cfg(test)]
+mod inline_tests;
 pub mod long;
 pub mod model;
 mod read;
@@ -20,7 +25,7 @@ mod tests;
 mod wide;
 
 pub use read::{Read, floor, read};
-pub use templates::squared;
+pub use templates::{copied, squared};
 
 use crate::parts;
 use slowlight_routine::scale;

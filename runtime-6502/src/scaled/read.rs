@@ -17,6 +17,8 @@ pub struct Read<'a> {
     pub bytes: u8,
     /// Must differ at each use in a program.
     pub serial: u32,
+    /// Whether memory may be spent for speed.
+    pub quick: bool,
 }
 
 /// Adds instructions that are separated by `|` to lines.
@@ -51,6 +53,7 @@ pub fn read(read: Read<'_>, lines: &mut Vec<String>) -> Option<&'static str> {
         fits,
         to,
         bytes,
+        quick,
         ..
     } = read;
     let wide = matches!(from, Place::Held(_, shape) if shape.bytes > bytes || shape.bytes == bytes && !shape.signed && !shape.spare);
@@ -87,6 +90,20 @@ pub fn read(read: Read<'_>, lines: &mut Vec<String>) -> Option<&'static str> {
                 "lda {low} | asl | sta {to} | lda {high} | rol | sta {to}+1 | eor {high} | bpl fits{n}
                 | lda {high} | asl | lda #$7f | adc #0 | sta {to}+1 | eor #$80 | ora #1 | sta {to} | bne read{n}
                 | fits{n}: | lda {to}+1 | cmp #$80 | bne read{n} | lda {to} | bne read{n} | inc {to} | read{n}:"
+            );
+            add(&text, lines);
+        }
+        // What the bits that are lost say must be the sign.
+        2..8 if quick && bytes == 2 => {
+            let (low, high, n) = (byte(from, 0), byte(from, 1), read.serial);
+            let text = format!(
+                "lda {high} | clc | adc #{} | cmp #{} | bcs large{n}
+                | lda {low} | sta {to} | lda {high} | {}sta {to}+1
+                | cmp #$80 | bne read{n} | lda {to} | bne read{n} | inc {to} | bne read{n}
+                | large{n}: | lda {high} | asl | lda #$7f | adc #0 | sta {to}+1 | eor #$80 | ora #1 | sta {to} | read{n}:",
+                0x80 >> by,
+                0x100 >> by,
+                times(&format!("asl {to} | rol"), by)
             );
             add(&text, lines);
         }

@@ -220,6 +220,15 @@ functions!(
     "#12"
 );
 
+/// Which operand a routine's text only copies, if it does nothing else.
+pub fn copied(text: &str) -> Option<usize> {
+    match text {
+        COPY => Some(0),
+        COPY_SECOND => Some(1),
+        _ => None,
+    }
+}
+
 /// What a product of a number with itself is instead, the same bits, and the part with it.
 pub fn squared(text: &'static str) -> Option<(&'static str, &'static str)> {
     let all = [

@@ -41,6 +41,11 @@ const LONG: Kind = Kind {
     divide: long::one_over,
 };
 
+/// Those of 16 bits.
+pub(super) fn edges() -> Vec<i32> {
+    SHORT.edges()
+}
+
 impl Kind {
     fn most(&self) -> i32 {
         most(self.bits) as i32
@@ -406,7 +411,7 @@ fn reads(kind: &Kind, held: u8) {
     let fits_in = |a: &i32| i64::from(*a).abs() <= most(8 * held);
     let edges: Vec<i32> = kind.edges().into_iter().filter(fits_in).collect();
     for by in -30..=25 {
-        for fits in [false, true] {
+        for (fits, quick) in [(false, false), (false, true), (true, false)] {
             let held = Place::Held("first_operand".into(), Shape::whole(held));
             let write = |lines: &mut Vec<String>| {
                 let what = Read {
@@ -416,6 +421,7 @@ fn reads(kind: &Kind, held: u8) {
                     to: "result",
                     bytes,
                     serial: 1,
+                    quick,
                 };
                 read(what, lines).into_iter().collect()
             };
@@ -458,6 +464,7 @@ fn reads_wide(kind: &Kind) {
                     to: "result",
                     bytes: own,
                     serial: 1,
+                    quick: false,
                 };
                 read(what, lines).into_iter().collect()
             };

@@ -20,6 +20,7 @@ pub(super) fn read(read: Read<'_>, lines: &mut Vec<String>) -> bool {
         to,
         bytes,
         serial: n,
+        quick: _,
     } = read;
     let down = by.unsigned_abs();
     if !fits || by >= 0 || down > MOST {

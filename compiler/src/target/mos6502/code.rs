@@ -3,6 +3,7 @@
 use super::Text;
 use super::comment;
 use super::homes::{Homes, Slot, most_turns};
+use super::inline;
 use crate::flow::graph::*;
 use crate::flow::tree::*;
 use crate::plan::Plan;
@@ -23,6 +24,10 @@ pub(super) struct Code<'p> {
     pub needs: Vec<&'static str>,
     /// Whether comparisons with the column end the run that begins here.
     pub in_run: bool,
+    /// Whether memory is spent for speed here: at pixels, if the program has it.
+    pub quick: bool,
+    /// The factors of the products that follow in this block.
+    pub ahead: Vec<NodeId>,
 }
 
 /// Bytes of some lines of assembly, at most.
@@ -41,11 +46,16 @@ impl<'p> Code<'p> {
             clamps: false,
             needs: Vec::new(),
             in_run: false,
+            quick: false,
+            ahead: Vec::new(),
         }
     }
 
     pub fn block(&mut self, block: &Block) {
-        for statement in block {
+        for (k, statement) in block.iter().enumerate() {
+            if self.quick {
+                self.ahead = inline::ahead(self.plan, block.get(k + 1..).unwrap_or_default());
+            }
             self.statement(statement);
         }
     }
@@ -59,6 +69,7 @@ impl<'p> Code<'p> {
         };
         let mut code = Code::new(self.plan, self.homes, &mut text);
         code.in_run = self.in_run;
+        code.quick = self.quick;
         write(&mut code);
         self.clamps |= code.clamps;
         let needs = std::mem::take(&mut code.needs);
@@ -69,12 +80,16 @@ impl<'p> Code<'p> {
 
     fn append(&mut self, text: Text) {
         self.text.lines.extend(text.lines);
+        self.text.kept = None;
     }
 
     fn statement(&mut self, statement: &Statement) {
         self.text.span = Some(statement.span(&self.plan.graph, &self.plan.tree));
         match statement {
-            Statement::Let(id) => self.compute(*id),
+            Statement::Let(id) => {
+                self.compute(*id);
+                self.keep_moved(*id);
+            }
             Statement::Set { place, from } => {
                 let to = self.homes.place(*place).to_owned();
                 let (from, said) = match *from {
@@ -121,9 +136,15 @@ impl<'p> Code<'p> {
                 let Some(routine) = self.plan.routine(id) else {
                     return;
                 };
+                if self.copied(id, [a, b]) {
+                    return;
+                }
                 let args = self.read_all(id, [a, b]);
                 let place = Place::of(&self.plan.graph, id);
                 let home = self.homes.place(place);
+                if self.inline(id, &args) {
+                    return;
+                }
                 let goal = match self.homes.shape(self.plan, place) {
                     _ if self.homes.fused.contains(&id) => Goal::Carry,
                     Some(shape) => Goal::Held(home, shape.bytes),
@@ -183,6 +204,11 @@ impl<'p> Code<'p> {
             let ramp = self.homes.held_in(self.plan, place);
             let shape = self.homes.shape(self.plan, place);
             let bytes = shape.map_or(write::size(routine.result), |shape| shape.bytes);
+            if let Operand::Constant(by) = step {
+                let (mut lines, serial) = (Vec::new(), self.text.next_serial());
+                write::add_constant(&to, bytes, by, serial, &mut lines);
+                return lines.iter().for_each(|line| self.text.line(line));
+            }
             self.use_of(routine, &[ramp, step], &Goal::Held(&to, bytes), 0);
         }
     }

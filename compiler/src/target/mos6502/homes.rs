@@ -2,6 +2,7 @@
 
 use super::columns;
 use super::memory::{self, Machine, Places, Room};
+use super::moved::{self, Moved};
 use super::names::Names;
 use super::shapes::{self, Shapes};
 use crate::flow::graph::*;
@@ -19,6 +20,8 @@ use std::collections::{BTreeMap, BTreeSet, HashMap};
 pub(super) enum Slot {
     /// A value, carried value or scratch place of the tree.
     Value(Place),
+    /// A value with so many fraction bits instead of its own.
+    Moved(Moved),
     /// A param, made a real (or what it is) at the start.
     Param(u32),
     /// The pixel's column or row.
@@ -71,6 +74,8 @@ pub(super) struct Homes {
     shared: HashMap<Place, Place>,
     /// In how many bytes values are kept, where that is by their ranges.
     shapes: Option<Shapes>,
+    /// Reals that are kept at a second scale.
+    moved: BTreeSet<Moved>,
 }
 
 /// For each place, the first of those that it shares a home with.
@@ -97,8 +102,10 @@ impl Homes {
             true => sharing(plan, shapes.as_ref()),
             false => HashMap::new(),
         };
+        let moved = moved::moved(plan);
         let mut uses = Uses {
             plan,
+            moved: &moved,
             shared: &shared,
             fused: &fused,
             weight: 1,
@@ -150,7 +157,20 @@ impl Homes {
             bounds: bounds(plan),
             places,
             shapes,
+            moved,
         }
+    }
+
+    /// The scales that a real is kept at beside its own.
+    pub fn scales_kept(&self, id: NodeId) -> Vec<i8> {
+        let all = self.moved.range((id, i8::MIN)..=(id, i8::MAX));
+        all.map(|(_, to)| *to).collect()
+    }
+
+    /// Where a real is kept with so many fraction bits, if it is.
+    pub fn kept_at(&self, id: NodeId, to: i8) -> Option<&str> {
+        let kept = self.moved.contains(&(id, to));
+        kept.then(|| self.name(Slot::Moved((id, to))))
     }
 
     /// What the program may take of the machine's memory.
@@ -291,6 +311,7 @@ fn size(plan: &Plan, shapes: Option<&Shapes>, slot: Slot) -> u16 {
     }
     match slot {
         Slot::Value(place) => u16::from(write::size(plan.place_format(place))),
+        Slot::Moved(_) => u16::from(write::size(plan.runtime.real)),
         Slot::Turns(of) => 1 + u16::from(most_turns(plan, of) > 0xFF),
         Slot::Which | Slot::ScreenByte => 1,
         Slot::Column(_)
@@ -311,6 +332,10 @@ pub(super) fn most_turns(plan: &Plan, of: LoopId) -> u32 {
 fn wanted(plan: &Plan, slot: Slot) -> String {
     match slot {
         Slot::Value(place) => plan.home(place).to_owned(),
+        Slot::Moved((id, to)) => {
+            let scale = i32::from(to).to_string().replace('-', "minus_");
+            format!("{}_at_{scale}", plan.home(Place::of(&plan.graph, id)))
+        }
         Slot::Param(p) => {
             let label = plan.params.get(p as usize).map_or("param", |p| &p.label);
             format!("{label}_value")
@@ -338,6 +363,7 @@ fn wanted(plan: &Plan, slot: Slot) -> String {
 /// Counts reads and writes of slots, loops eightfold, pixels and rows more.
 struct Uses<'p> {
     plan: &'p Plan,
+    moved: &'p BTreeSet<Moved>,
     shared: &'p HashMap<Place, Place>,
     fused: &'p BTreeSet<NodeId>,
     weight: u64,
@@ -438,6 +464,15 @@ impl Uses<'_> {
                         .node(*id)
                         .inputs()
                         .for_each(|operand| self.read(operand));
+                    let (plan, moved) = (self.plan, self.moved);
+                    moved::each_read(plan, *id, &mut |arg, to| {
+                        if moved.contains(&(arg, to)) {
+                            self.add(Slot::Moved((arg, to)));
+                        }
+                    });
+                    for at in moved.range((*id, i8::MIN)..=(*id, i8::MAX)) {
+                        self.add(Slot::Moved(*at));
+                    }
                     self.read(*id);
                 }
                 Statement::Set { place, from } => {

@@ -18,8 +18,10 @@
 //! - `screen`: what is drawn on; `ports`, `blocks`: the plain machine's; `bitmap`: memory;
 //!   `bbc`, `c64`: those machines' beginnings and ends;
 //! - `homes`: where values live and what they are called; `shapes`: in how many bytes;
+//! - `moved`: reals that are kept at a second scale;
 //! - `scaled`: reals with points of their own, read where they are wanted;
 //! - `code`: statements; `table`: lookups; `comment`: what a statement means;
+//! - `inline`: products in place;
 //! - `params`: the parameter block's checks; `frame`: everything around the statements;
 //!   `rows`: the loops over rows, passes, runs of columns and pixels;
 //! - `spread`: error diffusion.
@@ -33,7 +35,9 @@ mod columns;
 mod comment;
 mod frame;
 mod homes;
+mod inline;
 mod memory;
+mod moved;
 mod names;
 mod params;
 mod ports;
@@ -184,12 +188,18 @@ struct Text {
     span: Option<Span>,
     /// Makes labels unique.
     serial: u32,
+    /// The symbol of the factor that the pointers into the quarter squares are for, where
+    /// that is known: no way comes here from elsewhere, and nothing else set them.
+    kept: Option<String>,
 }
 
 impl Text {
     /// A line as it stands; several if it has line ends.
     fn line(&mut self, text: impl AsRef<str>) {
         for line in text.as_ref().split('\n') {
+            if self.kept.as_deref().is_some_and(|kept| forgets(line, kept)) {
+                self.kept = None;
+            }
             self.lines.push((line.to_owned(), self.span));
         }
     }
@@ -202,6 +212,7 @@ impl Text {
     }
 
     fn label(&mut self, name: &str) {
+        self.kept = None;
         self.line(format!("{name}:"));
     }
 
@@ -214,5 +225,18 @@ impl Text {
     fn headline(&mut self, title: &str) {
         self.line("");
         self.line(format!("; ---- {title}"));
+    }
+}
+
+/// Whether an instruction changes a symbol's value, or may set the pointers into the quarter
+/// squares.
+fn forgets(line: &str, kept: &str) -> bool {
+    let mut words = line.split_whitespace();
+    match (words.next(), words.next()) {
+        (Some("jsr" | "jmp" | "rts"), _) => true,
+        (Some("sta" | "stx" | "sty" | "inc" | "dec" | "asl" | "lsr" | "rol" | "ror"), Some(to)) => {
+            to.split('+').next() == Some(kept)
+        }
+        _ => false,
     }
 }

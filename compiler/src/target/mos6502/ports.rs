@@ -33,6 +33,8 @@ pub(super) struct Ports {
     first: [u64; 2],
     /// The column, where each pixel says its own: passes leave columns out.
     column: Option<String>,
+    /// Whether the port is told the column as soon as that is stepped.
+    follows: bool,
 }
 
 impl Ports {
@@ -43,6 +45,7 @@ impl Ports {
             false => i64::from(plan.computed_columns().0) + i64::from(plan.offset.0),
         };
         Ports {
+            follows: apart && left == 0 && plan.graph.image.block == (1, 1),
             column: apart.then(|| homes.name(Slot::Axis(Axis::X)).to_owned()),
             blocks: Blocks::new(plan, homes),
             first: [left as u64, i64::from(plan.offset.1) as u64],
@@ -94,7 +97,7 @@ impl Ports {
         if let Some(blocks) = &self.blocks {
             return blocks.draw(ink, text);
         }
-        if let Some(x) = &self.column {
+        if let (Some(x), false) = (&self.column, self.follows) {
             text.code(&match self.first[0] {
                 0 => format!("lda {x} | sta x_port | lda {x}+1 | sta x_port+1"),
                 left => {
@@ -112,7 +115,16 @@ impl Ports {
     pub fn pass(&self, start: &str, first: u32, text: &mut Text) {
         if let Some(blocks) = &self.blocks {
             blocks.pass(start, first, text);
+        } else if self.follows {
+            text.code(&format!(
+                "lda {start} | sta x_port | lda {start}+1 | sta x_port+1"
+            ));
         }
+    }
+
+    /// The port's name, if it has to follow the column.
+    pub fn follows(&self) -> Option<&'static str> {
+        self.follows.then_some("x_port")
     }
 
     /// Behind a pixel, drawn or not.

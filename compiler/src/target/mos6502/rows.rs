@@ -13,7 +13,7 @@ use super::screen::Screen;
 use crate::flow::graph::*;
 use crate::passes::interlace::passes;
 use crate::passes::still::{Inks, Still};
-use crate::plan::ErrorRows;
+use crate::plan::{Copies, ErrorRows};
 use slowlight_routine::{Op, Routine};
 use slowlight_runtime_6502::write::{self, Goal, Place as Operand};
 
@@ -192,9 +192,36 @@ impl<'r> Rows<'r> {
         code.block(&code.plan.tree.segment);
         code.in_run = false;
         code.text.span = code.plan.drawn;
+        self.stop_behind(&end, code);
         if let (Some(still), None) = (&code.plan.still, self.errors) {
             self.still(still, code);
         }
+    }
+
+    /// Whether a run ends where a column is met, and not where it is passed.
+    fn meets_end(&self) -> bool {
+        self.runs && self.passes.is_power_of_two() && self.passes <= 0x80
+    }
+
+    /// The column of the pass that comes behind a run, in place of the run's last: so each
+    /// pixel asks whether two columns are equal, and mostly looks at one byte of them.
+    fn stop_behind(&self, end: &str, code: &mut Code<'_>) {
+        if !self.meets_end() {
+            return;
+        }
+        let (x, n) = (&self.x, self.passes);
+        code.text.code(&format!(
+            "sec | lda {end} | sbc {x} | and #{} | tax | lda {end}+1 | sbc {x}+1 | tay",
+            0x100 - n
+        ));
+        code.text.code(&format!(
+            "clc | txa | adc {x} | sta {end} | tya | adc {x}+1 | sta {end}+1"
+        ));
+        let label = format!("stop{}", code.text.next_serial());
+        code.text.code(&format!(
+            "clc | lda {end} | adc #{n} | sta {end} | bcc {label} | inc {end}+1"
+        ));
+        code.text.label(&label);
     }
 
     /// Draws a run whose inks are known.
@@ -246,7 +273,9 @@ impl<'r> Rows<'r> {
         if let Some(rows) = self.errors {
             code.receive_errors(rows);
         }
+        code.quick = plan.copies != Copies::None;
         code.block(&plan.tree.pixel);
+        code.quick = false;
         code.text.span = plan.drawn;
         if let Some(screen) = self.screen {
             let ink = write::byte(&code.homes.operand(plan, plan.graph.ink), 0);
@@ -288,9 +317,15 @@ impl<'r> Rows<'r> {
     /// To the next column of the pass.
     fn next_column(&self, label: &str, code: &mut Code<'_>) {
         let x = &self.x;
-        code.text.code(&match self.passes {
-            1 => format!("inc {x} | bne {label} | inc {x}+1"),
-            n => format!("clc | lda {x} | adc #{n} | sta {x} | bcc {label} | inc {x}+1"),
+        let follows = self.screen.and_then(Screen::follows);
+        code.text.code(&match (self.passes, follows) {
+            (1, _) => format!("inc {x} | bne {label} | inc {x}+1"),
+            (n, None) => format!("clc | lda {x} | adc #{n} | sta {x} | bcc {label} | inc {x}+1"),
+            // Its upper byte has been told unless it changes.
+            (n, Some(port)) => format!(
+                "clc | lda {x} | adc #{n} | sta {x} | sta {port} | bcc {label}
+                | inc {x}+1 | lda {x}+1 | sta {port}+1"
+            ),
         });
         code.text.label(label);
     }
@@ -309,6 +344,15 @@ impl<'r> Rows<'r> {
             }
         };
         let done = format!("{more}_done");
+        if self.meets_end() {
+            code.text.code(&format!("lda {x} | cmp {lo} | bne {more}"));
+            code.text
+                .code(&format!("lda {x}+1 | cmp {hi} | beq {done}"));
+            code.text.label(more);
+            code.text.code(&format!("jmp {label}"));
+            code.text.label(&done);
+            return;
+        }
         code.text.code(&format!(
             "lda {lo} | cmp {x} | lda {hi} | sbc {x}+1 | bcc {done}"
         ));

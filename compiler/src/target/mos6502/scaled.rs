@@ -58,6 +58,11 @@ impl Code<'_> {
         held.then_some(Operand::Constant(units as i64 as u64))
     }
 
+    /// Whether it is such an operand.
+    pub(super) fn is_known(&self, id: NodeId, k: usize, to: i8) -> bool {
+        self.known(id, k, to).is_some()
+    }
+
     /// What an operation's routine has to know of scales.
     pub(super) fn number(&self, id: NodeId) -> i32 {
         match (self.plan.points(), self.plan.graph.node(id)) {
@@ -66,8 +71,32 @@ impl Code<'_> {
         }
     }
 
+    /// Keeps a real at the other scales that pixels read it at.
+    pub(super) fn keep_moved(&mut self, id: NodeId) {
+        let Some(points) = self.plan.points() else {
+            return;
+        };
+        for to in self.homes.scales_kept(id) {
+            let Some(name) = self.homes.kept_at(id, to).map(str::to_owned) else {
+                continue;
+            };
+            let from = self.homes.operand(self.plan, id);
+            let own = points.own(id);
+            self.text.line(format!("        ; {name}"));
+            self.move_into(
+                id,
+                &from,
+                i32::from(to) - i32::from(own),
+                (to, (&name, LEAST)),
+            );
+        }
+    }
+
     /// A number with so many fraction bits: where it is, or read into `into`.
     pub(super) fn read_at(&mut self, points: &Points, id: NodeId, to: i8, into: &str) -> Operand {
+        if let Some(kept) = self.homes.kept_at(id, to) {
+            return Operand::At(kept.to_owned());
+        }
         self.read_into(points, id, to, (into, LEAST))
     }
 
@@ -113,6 +142,7 @@ impl Code<'_> {
             to: into,
             bytes,
             serial,
+            quick: self.quick,
         };
         self.needs.extend(scaled::read(read, &mut lines));
         lines.iter().for_each(|line| self.text.line(line));

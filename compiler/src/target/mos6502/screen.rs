@@ -58,6 +58,14 @@ impl Screen {
         }
     }
 
+    /// What has to follow the column, if anything does.
+    pub fn follows(&self) -> Option<&'static str> {
+        match self {
+            Screen::Ports(ports) => ports.follows(),
+            Screen::Bitmap(_) => None,
+        }
+    }
+
     /// Behind a pixel, drawn or not.
     pub fn next(&self, text: &mut Text) {
         if let Screen::Ports(ports) = self {

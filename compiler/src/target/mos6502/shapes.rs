@@ -7,9 +7,9 @@ use crate::flow::graph::*;
 use crate::flow::ramp;
 use crate::flow::tree::*;
 use crate::plan::Plan;
-use slowlight_routine::{Format, Range, Type, scale};
+use slowlight_routine::{Format, Op, Range, Type, scale};
 use slowlight_runtime_6502::write::{Shape, size};
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 
 /// Bytes of an int at most.
 const MOST: u8 = 4;
@@ -48,8 +48,20 @@ pub(super) fn shapes(plan: &Plan) -> Option<Shapes> {
             _ => {}
         });
     }
+    let asked = asked(plan);
     let shape = |place: Place, range: Range| match plan.place_format(place) {
-        Format::Int { .. } => Shape::of(stepped(plan, place).unwrap_or(range), MOST),
+        Format::Int { .. } => {
+            let shape = Shape::of(stepped(plan, place).unwrap_or(range), MOST);
+            let asked = match place {
+                Place::Node(id) => asked.get(&id).copied().unwrap_or(MOST),
+                _ => MOST,
+            };
+            if asked < shape.bytes {
+                Shape::whole(asked)
+            } else {
+                shape
+            }
+        }
         Format::Bool => Shape::of(Range::new(0.0, 1.0), 1),
         real => of_real(scale::in_units(range, points.place(place)), size(real)),
     };
@@ -73,6 +85,59 @@ fn of_real(units: Range, most: u8) -> Shape {
         },
         None => Shape::whole(most),
     }
+}
+
+/// Of how many of their lower bytes ints are asked that are computed for others only: where
+/// only the lowest bits of a sum count, no more of its terms do.
+fn asked(plan: &Plan) -> HashMap<NodeId, u8> {
+    let graph = &plan.graph;
+    let mut computed: HashMap<NodeId, u8> = HashMap::new();
+    let mut whole: HashSet<NodeId> = graph.reports.iter().copied().collect();
+    whole.insert(graph.ink);
+    for block in plan.tree.blocks() {
+        walk(block, &mut |statement| match statement {
+            Statement::Let(id) => _ = computed.insert(*id, 0),
+            Statement::Set {
+                from: Origin::Node(id),
+                ..
+            } => _ = whole.insert(*id),
+            _ => {}
+        });
+    }
+    // What asks mostly stands behind what it asks for in the graph.
+    while ask(plan, &whole, &mut computed) {}
+    computed.retain(|id, asked| *asked > 0 && !whole.contains(id));
+    computed
+}
+
+/// Tells all operands how much of them is asked; whether any did not know.
+fn ask(plan: &Plan, whole: &HashSet<NodeId>, computed: &mut HashMap<NodeId, u8>) -> bool {
+    let graph = &plan.graph;
+    let mut more = false;
+    for id in graph.ids().rev() {
+        let own = match whole.contains(&id) {
+            true => MOST,
+            false => computed.get(&id).copied().unwrap_or(MOST),
+        };
+        let node = graph.node(id);
+        for operand in node.operands() {
+            let asks = match (node, plan.routine(id).map(|r| r.name)) {
+                (Node::Apply(..), Some("int_add" | "int_sub" | "int_neg")) => own,
+                (Node::Apply(Op::BitAnd, args), _) if args.iter().any(|a| is_byte(graph, *a)) => 1,
+                _ => MOST,
+            };
+            if let Some(known) = computed.get_mut(&operand) {
+                more |= asks > *known;
+                *known = asks.max(*known);
+            }
+        }
+    }
+    more
+}
+
+fn is_byte(graph: &Graph, id: NodeId) -> bool {
+    let value = graph.constant(id).map(|value| value.int());
+    value.is_some_and(|value| (0..256).contains(&value))
 }
 
 /// What a ramp stays within at all columns, whoever reads it there: its lower bytes are

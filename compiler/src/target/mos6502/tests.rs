@@ -94,6 +94,51 @@ fn quotients_by_one_length_are_products() {
     assert_eq!((times("div"), times("one_over")), (0, 1), "{names:?}");
 }
 
+/// Products at pixels, and nowhere else, are called only where memory is short.
+#[test]
+fn products_stand_in_place_where_there_is_room() {
+    let source = "image 64 x 32 inks black, white;
+        param tilt: real = 0.25 in 0.1 .. 1;
+        draw (x, y) = {
+          let v = sqrt(x * tilt + y);
+          ink(floor(v * (v * tilt + y) * (tilt + v)) mod 2)
+        };";
+    let mut plan = planned_in(source, "fixed16");
+    let at_pixels = |plan: &Plan, what: &str| {
+        let text = super::emit(plan).remove(0).text;
+        let pixel = text.split("once a pixel").nth(1).unwrap();
+        let pixel = pixel.split("picture_done:").next().unwrap();
+        pixel.lines().filter(|line| line.contains(what)).count()
+    };
+    let calls = at_pixels(&plan, "jsr product16");
+    assert!(calls >= 2, "{calls}");
+    assert_eq!(at_pixels(&plan, "(sum1_lo),y"), 0);
+    plan.copies = crate::plan::Copies::Ends;
+    assert_eq!(at_pixels(&plan, "jsr product16"), 0);
+    assert_eq!(at_pixels(&plan, "lda (sum1_lo),y"), 2 * calls);
+}
+
+/// Of a sum of which the lowest bit counts, no more than a byte is computed.
+#[test]
+fn sums_have_the_bytes_that_are_asked_for() {
+    let source = "image 64 x 32 inks black, white;
+        draw (x, y) = ink((floor(x * 30.3) + floor(y * 70.7)) mod 2);";
+    let plan = planned_in(source, "fixed16");
+    let shapes = super::shapes::shapes(&plan).unwrap();
+    let bytes = |name: &str| -> Vec<u8> {
+        let named = |id: &crate::flow::graph::NodeId| {
+            plan.routine(*id)
+                .is_some_and(|routine| routine.name == name)
+        };
+        let place = |id| crate::flow::tree::Place::of(&plan.graph, id);
+        let ids = plan.graph.ids().filter(named);
+        ids.map(|id| shapes.of(&plan, place(id)).bytes).collect()
+    };
+    let sums = [bytes("int_add"), bytes("floor")].concat();
+    assert!(sums.contains(&1), "{sums:?}");
+    assert!(sums.iter().all(|bytes| *bytes == 1), "{sums:?}");
+}
+
 #[test]
 fn names_of_scenes_never_meet_those_of_the_program() {
     let names = [
