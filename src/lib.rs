@@ -17,6 +17,7 @@ pub mod explain;
 pub mod failure;
 pub mod files;
 pub mod fit;
+pub mod forecast;
 pub mod format;
 pub mod interrupt;
 pub mod jobs;

@@ -15,6 +15,7 @@ mod cli_wrong;
 mod effects;
 mod explain;
 mod fit;
+mod forecast;
 mod hack_rom;
 mod hard_cases;
 mod held;
