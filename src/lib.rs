@@ -30,6 +30,7 @@ pub mod precise;
 pub mod program;
 pub mod progress;
 pub mod scene;
+pub mod sheet;
 pub mod snapshot;
 pub mod survey;
 pub mod target_args;
