@@ -1,73 +1,96 @@
-//! An estimate of a machine's time: what the routines say they cost, times how
-//! often the model runs each, on a sample of the pixels.
+//! What the planner's figures say of a picture's time: what each statement is said to take,
+//! times how often the model runs it, on a sample of the pixels.
 //!
-//! A routine's cost is a mean over its arguments; loads, stores, jumps and
-//! drawing are left out. `run` measures. The sample is a grid of pixels; a small
-//! picture is run whole.
+//! A routine's cost is a mean over its arguments, and nothing is said of drawing: this
+//! orders programs, and says how much dearer some rows are than others. What a picture takes
+//! is measured ([`crate::forecast`]).
+//!
+//! The sample is a grid of pixels. What begins a run of columns is carried out where a run
+//! begins, in the model at every pixel: so some rows are gone through for how many runs they
+//! have.
 
 use crate::draw::Window;
-use slowlight_compiler::eval::arithmetic::Arithmetic;
+use slowlight_compiler::eval::heard::{Heard, Listener};
+use slowlight_compiler::eval::model::Model;
 use slowlight_compiler::eval::run::Run;
-use slowlight_compiler::flow::graph::{NodeId, ParamId};
-use slowlight_compiler::flow::tree::Place;
-use slowlight_compiler::plan::Plan;
-use slowlight_routine::{Bits, Format, Op, Value};
+use slowlight_compiler::flow::graph::{Graph, NodeId};
+use slowlight_compiler::flow::tree::{Statement, walk};
+use slowlight_compiler::passes::interlace::passes;
+use slowlight_compiler::passes::rate::rates;
+use slowlight_compiler::passes::segment::bounds_segment;
+use slowlight_compiler::passes::still::{Inks, Still};
+use slowlight_compiler::plan::{Costs, Plan};
+use slowlight_routine::{Bits, Format};
 use std::cell::Cell;
+use std::collections::HashMap;
 
 /// Rows and columns of the sample.
 const GRID: u32 = 24;
 
-/// The models, with their cycles added up.
-struct Costed<'p> {
-    plan: &'p Plan,
-    cycles: &'p Cell<u64>,
+/// How many columns of a pass are looked at for where runs begin, at most.
+const COLUMNS: u32 = 80;
+
+/// When statements are carried out.
+#[derive(Clone, Copy)]
+enum When {
+    Frame,
+    Row,
+    Pass,
+    Run,
+    Pixel,
 }
 
-impl Arithmetic for Costed<'_> {
-    type Value = Bits;
+/// Adds up what statements cost, by when they are carried out.
+struct Adding<'p> {
+    costs: Costs<'p>,
+    when: HashMap<*const Statement, When>,
+    now: Cell<When>,
+    sums: [Cell<u64>; 5],
+}
 
-    fn constant(&self, value: Value) -> Bits {
-        self.plan.bits(value)
+impl Adding<'_> {
+    fn new(plan: &Plan) -> Adding<'_> {
+        let tree = &plan.tree;
+        let blocks = [
+            (&tree.frame, When::Frame),
+            (&tree.row, When::Row),
+            (&tree.pass, When::Pass),
+            (&tree.segment, When::Run),
+            (&tree.pixel, When::Pixel),
+        ];
+        let mut when = HashMap::new();
+        for (block, then) in blocks {
+            walk(block, &mut |s| {
+                when.insert(std::ptr::from_ref(s), then);
+            });
+        }
+        Adding {
+            costs: plan.costs(),
+            when,
+            now: Cell::new(When::Frame),
+            sums: Default::default(),
+        }
     }
 
-    fn param(&self, id: ParamId) -> Bits {
-        self.plan.params.get(id.0 as usize).map_or(0, |p| p.bits)
-    }
-
-    fn apply(&self, id: NodeId, _: Op, args: &[Bits]) -> Bits {
-        self.plan.routine(id).map_or(0, |routine| {
-            self.cycles
-                .set(self.cycles.get() + u64::from(routine.cycles));
-            self.plan.computed(id, args)
-        })
-    }
-
-    fn sent(&self, from: NodeId, value: Bits) -> Bits {
-        self.plan.sent(from, value)
-    }
-
-    fn copied(&self, place: Place, from: NodeId, value: Bits) -> Bits {
-        self.plan.copied(place, from, value)
-    }
-
-    fn gather(&self, received: Bits, sent: Bits) -> Bits {
-        self.plan.gather().map_or(received, |routine| {
-            self.cycles
-                .set(self.cycles.get() + u64::from(routine.cycles));
-            self.plan.gathered(received, sent)
-        })
-    }
-
-    fn truth(&self, value: Bits) -> bool {
-        (self.plan.runtime.decode)(value, Format::Bool).truth()
-    }
-
-    fn int(&self, value: Bits) -> i32 {
-        (self.plan.runtime.decode)(value, self.plan.runtime.int).int()
+    fn sum(&self, when: When) -> f64 {
+        self.sums[when as usize].get() as f64
     }
 }
 
-/// The cycles that a plan's operations take, all rows and columns together.
+impl Listener<Bits> for Adding<'_> {
+    fn step(&self, statement: &Statement) {
+        // Those of a subroutine are its caller's.
+        if let Some(when) = self.when.get(&std::ptr::from_ref(statement)) {
+            self.now.set(*when);
+        }
+        let sum = &self.sums[self.now.get() as usize];
+        sum.set(sum.get() + u64::from(self.costs.statement(statement)));
+    }
+}
+
+type Adds<'t, 'p> = Run<'t, &'t Heard<Model<'p>, Adding<'p>>>;
+
+/// The cycles that a plan's statements take, all rows and columns together.
 pub fn cycles(plan: &Plan) -> f64 {
     let mut window = Window::of(plan);
     let mut graph = plan.graph.clone();
@@ -79,46 +102,94 @@ pub fn cycles(plan: &Plan) -> f64 {
         window.columns = plan.computed_columns();
         window.rows.0 = 0;
         let each = plan.gather().map_or(0, |routine| routine.cycles);
-        let pixels = f64::from(window.width()) * f64::from(window.height());
-        sends = f64::from(each) * errors.shares.len() as f64 * pixels;
+        sends = f64::from(each) * errors.shares.len() as f64;
     }
-    let spent = Cell::new(0);
-    let costed = Costed {
-        plan,
-        cycles: &spent,
+    let heard = Heard {
+        arithmetic: Model(plan),
+        listener: Adding::new(plan),
     };
-    let mut run = Run::new(&graph, &plan.tree, costed);
-    let mut lap = {
-        let mut before = 0;
-        let spent = &spent;
-        move || {
-            let now = spent.get();
-            let gone = now - before;
-            before = now;
-            gone as f64
-        }
-    };
-    let frame = lap();
-    let (mut row_cycles, mut pixel_cycles) = (0.0, 0.0);
+    let added = &heard.listener;
+    let mut run = Run::new(&graph, &plan.tree, &heard);
+    let still = plan.still.as_ref();
+    let frame = added.sum(When::Frame);
     let (rows, columns) = (sample(window.rows), sample(window.columns));
+    let mut pixels = 0.0;
     for &y in &rows {
-        for (k, &x) in columns.iter().enumerate() {
+        for &x in &columns {
+            let before = added.sum(When::Pixel);
             run.pixel(x as i32, y as i32);
-            let mut here = lap();
-            if k == 0 {
-                // The same pixel again does without the row's statements.
-                run.pixel(x as i32, y as i32);
-                let again = lap();
-                row_cycles += here - again;
-                here = again;
-            }
-            pixel_cycles += here;
+            pixels += match still.filter(|still| holds(plan, still, &run)) {
+                Some(still) => asked(still, &added.costs),
+                None => added.sum(When::Pixel) - before,
+            };
         }
     }
     let sampled = (rows.len() * columns.len()).max(1) as f64;
-    let pixels = f64::from(window.width()) * f64::from(window.height());
-    let row = row_cycles / rows.len().max(1) as f64;
-    frame + sends + row * f64::from(window.height()) + pixel_cycles / sampled * pixels
+    let row = added.sum(When::Row) / rows.len().max(1) as f64;
+    let pass = added.sum(When::Pass) / sampled;
+    let runs = runs(plan, &graph, &mut run, added, window);
+    let steps = added.costs.steps(&plan.tree.row) + added.costs.steps(&plan.tree.pass);
+    let pixel = pixels / sampled + steps + sends;
+    let passes = f64::from(passes(&graph));
+    let (width, height) = (f64::from(window.width()), f64::from(window.height()));
+    frame + (row + (pass + runs) * passes + pixel * width) * height
+}
+
+/// What begins runs of columns, in a pass.
+fn runs(
+    plan: &Plan,
+    graph: &Graph,
+    run: &mut Adds<'_, '_>,
+    added: &Adding<'_>,
+    window: Window,
+) -> f64 {
+    if plan.tree.segment.is_empty() {
+        return 0.0;
+    }
+    let bounds = bounds(plan, graph);
+    let passes = passes(graph);
+    let step = passes * window.width().div_ceil(passes * COLUMNS).max(1);
+    let rows = sample(window.rows);
+    let mut sum = 0.0;
+    for &y in &rows {
+        let mut before = None;
+        let first = window.columns.0 + y % passes;
+        for x in (first..=window.columns.1).step_by(step as usize) {
+            let spent = added.sum(When::Run);
+            let here = run.segment((x as i32, y as i32), before.is_none(), &bounds);
+            if before.as_ref() != Some(&here) {
+                sum += added.sum(When::Run) - spent;
+                before = Some(here);
+            }
+        }
+    }
+    sum / rows.len().max(1) as f64
+}
+
+/// The comparisons that may end a run of columns.
+fn bounds(plan: &Plan, graph: &Graph) -> Vec<NodeId> {
+    let rates = rates(graph);
+    let mut bounds = Vec::new();
+    walk(&plan.tree.segment, &mut |s| match s {
+        Statement::Let(id) if bounds_segment(graph, &rates, *id) => bounds.push(*id),
+        _ => {}
+    });
+    bounds
+}
+
+/// Whether the last pixel was one of which nothing is computed.
+fn holds(plan: &Plan, still: &Still, run: &Adds<'_, '_>) -> bool {
+    let truth = |bits| (plan.runtime.decode)(bits, Format::Bool).truth();
+    let mut all = still.conditions.iter();
+    all.all(|(cond, holds)| run.last(*cond).map(truth) == Some(*holds))
+}
+
+/// What is asked at such a pixel.
+fn asked(still: &Still, costs: &Costs<'_>) -> f64 {
+    match still.inks {
+        Inks::One(_) => 0.0,
+        Inks::Either { cond, .. } => f64::from(costs.asked(cond)),
+    }
 }
 
 /// Up to [`GRID`] numbers spread evenly between two, both included.

@@ -3,9 +3,11 @@
 //!
 //! A machine goes on with what is left; whoever judges its result has to know.
 
-use slowlight_compiler::eval::arithmetic::Arithmetic;
+use slowlight_compiler::eval::arithmetic::Exact;
+use slowlight_compiler::eval::heard::{Heard, Listener};
+use slowlight_compiler::eval::model::Model;
 use slowlight_compiler::eval::run::Run;
-use slowlight_compiler::flow::graph::{Graph, NodeId, ParamId};
+use slowlight_compiler::flow::graph::{Graph, NodeId};
 use slowlight_compiler::passes::schedule::schedule;
 use slowlight_compiler::plan::Plan;
 use slowlight_routine::{Bits, Format, Op, Value};
@@ -34,48 +36,24 @@ fn leaves(op: Op, args: &[Value], got: Value, most: f64) -> bool {
     }
 }
 
-/// The models, watched.
+/// Looks at what the models make of their arguments.
 struct Models<'p> {
     plan: &'p Plan,
-    left: &'p RefCell<Option<String>>,
+    left: RefCell<Option<String>>,
 }
 
-impl Arithmetic for Models<'_> {
-    type Value = Bits;
-
-    fn constant(&self, value: Value) -> Bits {
-        self.plan.bits(value)
-    }
-
-    fn param(&self, id: ParamId) -> Bits {
-        self.plan.params.get(id.0 as usize).map_or(0, |p| p.bits)
-    }
-
-    fn apply(&self, id: NodeId, op: Op, args: &[Bits]) -> Bits {
+impl Listener<Bits> for Models<'_> {
+    fn applied(&self, id: NodeId, op: Op, args: &[Bits], result: Bits) {
         let Some(routine) = self.plan.routine(id) else {
-            return 0;
+            return;
         };
         let runtime = self.plan.runtime;
-        let result = (routine.model)(args);
         let formats = routine.args.iter().zip(args);
         let values: Vec<Value> = formats.map(|(f, a)| (runtime.decode)(*a, *f)).collect();
         let got = (runtime.decode)(result, routine.result);
         if leaves(op, &values, got, most(runtime.real)) {
-            note(self.left, op, &values, runtime.format);
+            note(&self.left, op, &values, runtime.format);
         }
-        result
-    }
-
-    fn gather(&self, received: Bits, _: Bits) -> Bits {
-        received
-    }
-
-    fn truth(&self, value: Bits) -> bool {
-        (self.plan.runtime.decode)(value, Format::Bool).truth()
-    }
-
-    fn int(&self, value: Bits) -> i32 {
-        (self.plan.runtime.decode)(value, self.plan.runtime.int).int()
     }
 }
 
@@ -90,59 +68,42 @@ fn note(left: &RefCell<Option<String>>, op: Op, args: &[Value], format: &str) {
 
 /// The first operation of a plan's run that leaves its format, in words.
 pub fn plan(plan: &Plan) -> Option<String> {
-    let left = RefCell::new(None);
-    let models = Models { plan, left: &left };
-    Run::new(&plan.graph, &plan.tree, models).pixel(0, 0);
-    left.into_inner()
+    let heard = Heard {
+        arithmetic: Model(plan),
+        listener: Models {
+            plan,
+            left: RefCell::new(None),
+        },
+    };
+    Run::new(&plan.graph, &plan.tree, &heard).pixel(0, 0);
+    heard.listener.left.into_inner()
 }
 
-/// The graph in `f64`, watched.
-struct Natively<'g> {
-    graph: &'g Graph,
-    left: &'g RefCell<Option<String>>,
+/// Looks at what is computed in `f64`.
+#[derive(Default)]
+struct Natively {
+    left: RefCell<Option<String>>,
 }
 
-impl Arithmetic for Natively<'_> {
-    type Value = Value;
-
-    fn constant(&self, value: Value) -> Value {
-        value
-    }
-
-    fn param(&self, id: ParamId) -> Value {
-        slowlight_compiler::eval::native::param_value(self.graph, id)
-    }
-
-    fn apply(&self, _: NodeId, op: Op, args: &[Value]) -> Value {
-        let result = op.eval(args);
+impl Listener<Value> for Natively {
+    fn applied(&self, _: NodeId, op: Op, args: &[Value], result: Value) {
         let vanished = matches!(op, Op::Mul | Op::Div)
             && result.real() == 0.0
             && args.first().is_some_and(|a| a.real() != 0.0)
             && (op == Op::Div || args.iter().all(|a| a.real() != 0.0));
         if leaves(op, args, result, f64::MAX) || vanished {
-            note(self.left, op, args, "f64");
+            note(&self.left, op, args, "f64");
         }
-        result
-    }
-
-    fn gather(&self, received: Value, _: Value) -> Value {
-        received
-    }
-
-    fn truth(&self, value: Value) -> bool {
-        value.truth()
-    }
-
-    fn int(&self, value: Value) -> i32 {
-        value.int()
     }
 }
 
 /// The first operation of the native evaluation that leaves `f64`, in words.
 pub fn native(graph: &Graph) -> Option<String> {
-    let left = RefCell::new(None);
     let tree = schedule(graph);
-    let watched = Natively { graph, left: &left };
-    Run::new(graph, &tree, watched).pixel(0, 0);
-    left.into_inner()
+    let heard = Heard {
+        arithmetic: Exact(graph),
+        listener: Natively::default(),
+    };
+    Run::new(graph, &tree, &heard).pixel(0, 0);
+    heard.listener.left.into_inner()
 }

@@ -1,13 +1,14 @@
 //! `build`: sources ready for the real machine, or a stage on the way there.
 
 use crate::failure::{Failure, Outcome};
+use crate::forecast::{self, Forecast, forecast};
 use crate::format::{count, duration, table};
 use crate::listing::listing;
 use crate::machine::{File, Sizes};
 use crate::scene::{Precision, Scene, SceneArgs};
 use crate::target_args::{self, ScreenArgs, Style};
 use crate::trial::{self, mode_json};
-use crate::{estimate, files, say, say_json};
+use crate::{files, say, say_json};
 use clap::ValueEnum;
 use serde_json::json;
 use slowlight_compiler::passes::rate::rates;
@@ -80,8 +81,9 @@ pub fn run(args: &Args) -> Outcome<()> {
         _ => Vec::new(),
     };
     let written = write(&plan, &args.screen, (args.syntax, &more), &args.output)?;
-    let cycles = estimate::cycles(&plan);
-    let seconds = cycles / plan.target.hertz;
+    let machine = args.screen.machine(plan.target)?;
+    let forecast = forecast(&plan, machine)?;
+    let seconds = |cycles: f64| cycles / forecast::hertz(&plan, machine);
     let sizes = written.sizes;
     if args.json {
         let files: Vec<_> = written
@@ -98,20 +100,25 @@ pub fn run(args: &Args) -> Outcome<()> {
             "code_bytes": sizes.code,
             "table_bytes": sizes.tables,
             "ram_bytes": sizes.ram,
-            "modelled_cycles": cycles.round(),
-            "modelled_seconds": seconds,
+            "cycles": forecast.cycles().map(f64::round),
+            "machine_seconds": forecast.cycles().map(seconds),
+            "rows_run": match forecast {
+                Forecast::Rows(_, rows) => Some(rows),
+                Forecast::Whole(_) | Forecast::Not(_) => None,
+            },
         }));
         return Ok(());
     }
     say(&written.text());
-    let machine = match plan.statics {
-        true => "VM",
-        false => "machine",
-    };
-    say(&format!(
-        "about {} on the {machine} (modelled: what its routines cost; `run` measures)\n",
-        duration(seconds)
-    ));
+    say(&match &forecast {
+        Forecast::Whole(cycles) => format!("{} on the machine\n", duration(seconds(*cycles))),
+        Forecast::Rows(cycles, rows) => format!(
+            "about {} on the machine, by {rows} of its {} rows (`run` runs all)\n",
+            duration(seconds(*cycles)),
+            plan.rows.1 - plan.rows.0 + 1
+        ),
+        Forecast::Not(why) => format!("its time is not known: {why}\n"),
+    });
     Ok(())
 }
 

@@ -6,11 +6,13 @@ use crate::explain::{size_unit, unit};
 use crate::failure::{Failure, Outcome};
 use crate::format::{count, table};
 use crate::scene::{Scene, SceneArgs};
+use crate::sheet::{self, Line};
 use crate::target_args::{self, ScreenArgs};
 use crate::trial::LIMIT;
-use crate::{say, say_json};
+use crate::{files, say, say_json};
 use serde_json::{Value, json};
 use slowlight_compiler::target::Target;
+use std::path::PathBuf;
 
 /// Options of `effects`.
 #[derive(clap::Args, Debug)]
@@ -22,6 +24,9 @@ pub struct Args {
     target: &'static Target,
     #[command(flatten)]
     screen: ScreenArgs,
+    /// Write the table as a picture, with bars for the time
+    #[arg(long, value_name = "FILE")]
+    svg: Option<PathBuf>,
     /// Print one JSON object
     #[arg(long)]
     json: bool,
@@ -35,6 +40,9 @@ pub fn run(args: &Args) -> Outcome<()> {
     let scene = Scene::load(&args.scene)?;
     scene.warn();
     let found = look(&scene, args.target, &args.screen, args.limit)?;
+    if let Some(path) = &args.svg {
+        files::write(path, svg(&found).as_bytes())?;
+    }
     match args.json {
         true => say_json(&report(&found)),
         false => say(&text(&found)),
@@ -119,17 +127,51 @@ fn counted(pixels: &[u64], mut told: Value) -> Value {
 }
 
 fn text(found: &Effects) -> String {
+    let proofs = proofs(found);
+    format!(
+        "{}\n\n{}\n{}{proofs}\n{}\n",
+        head(found),
+        rows(found),
+        known(found),
+        notes(found)
+    )
+}
+
+/// The table as a picture: bars are what less time it would take without an effect.
+fn svg(found: &Effects) -> String {
+    let mut lines = vec![Line::plain(&head(found)), Line::plain("")];
+    let bars = found.rows.iter().map(|row| match &row.found {
+        Found::Called(called) => share(found, called.cycles),
+        Found::Absent(_) => 0.0,
+    });
+    let bars = std::iter::once(None).chain(bars.map(Some));
+    let table = rows(found);
+    lines.extend(table.lines().zip(bars).map(|(text, bar)| Line {
+        text: text.to_owned(),
+        bar,
+    }));
+    lines.push(Line::plain(""));
+    let below = known(found) + &notes(found);
+    lines.extend(below.lines().map(Line::plain));
+    sheet::svg(&head(found), &lines, 0)
+}
+
+fn head(found: &Effects) -> String {
     let plan = &found.whole.plan;
     let run = &found.counted.run;
-    let head = format!(
-        "{} on {}, {}: {} pixels, {} {}\n\n",
+    format!(
+        "{} on {}, {}: {} pixels, {} {}",
         found.whole.scene,
         plan.target.name,
         plan.runtime.format,
         count(found.whole.pixels()),
         count(found.whole.run.cycles),
         unit(run)
-    );
+    )
+}
+
+/// The table.
+fn rows(found: &Effects) -> String {
     let titles = [
         "effect",
         "calls",
@@ -147,9 +189,14 @@ fn text(found: &Effects) -> String {
         "pixels",
     ];
     let mut rows = vec![titles.map(str::to_owned).to_vec()];
+    rows.extend(found.rows.iter().map(|row| cells(found, row)));
+    table(&rows)
+}
+
+/// That what is not called costs nothing.
+fn proofs(found: &Effects) -> String {
     let mut proofs = String::new();
     for row in &found.rows {
-        rows.push(cells(found, row));
         if let Found::Absent([with, without]) = &row.found {
             let name = &row.effect.name;
             proofs.push_str(&match (with, without) {
@@ -163,19 +210,23 @@ fn text(found: &Effects) -> String {
             });
         }
     }
+    proofs
+}
+
+/// What the columns are.
+fn notes(found: &Effects) -> String {
     let by = match found.counted.stretches {
         Some(_) => "as the machine counts them",
         None => "by the routines' means, since this program does not part its pixels",
     };
-    let notes = format!(
-        "\ncode, tables, variables: {} less without it; cycles, time: less without it; own: the share of \
+    format!(
+        "code, tables, variables: {} less without it; cycles, time: less without it; own: the share of \
          its own lines;\nmedian, p99: cycles of its own at a pixel, {by}; ran: the \
          share of pixels that need it,\nturns: its loops' mean and limit, both over {} pixels; psnr, \
-         pixels: the picture without it\n",
+         pixels: the picture without it",
         size_unit_of_sizes(found),
         count(found.watched as u64)
-    );
-    head + &table(&rows) + "\n" + &known(found) + &proofs + &notes
+    )
 }
 
 /// What is saved where the ink is known before the shade is.

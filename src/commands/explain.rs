@@ -23,6 +23,9 @@ pub struct Args {
     /// Write a page that shows the same, for any browser, without the network
     #[arg(long, value_name = "FILE")]
     html: Option<PathBuf>,
+    /// Write it as a picture
+    #[arg(long, value_name = "FILE")]
+    svg: Option<PathBuf>,
     /// Print one JSON object
     #[arg(long)]
     json: bool,
@@ -37,6 +40,9 @@ pub fn run(args: &Args) -> Outcome<()> {
     let found = explain(scene, args.target, &args.screen, args.limit)?;
     if let Some(path) = &args.html {
         files::write(path, html::page(&found).as_bytes())?;
+    }
+    if let Some(path) = &args.svg {
+        files::write(path, terminal::svg(&found).as_bytes())?;
     }
     match args.json {
         true => say_json(&found.report()),

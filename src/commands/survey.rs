@@ -33,13 +33,31 @@ pub struct Args {
     /// Measure everything anew, and keep nothing for the next time
     #[arg(long)]
     no_cache: bool,
-    /// Give a choice up after so many cycles of the machine
-    #[arg(long, value_name = "CYCLES", default_value_t = LIMIT)]
-    limit: u64,
+    /// Give a choice up after so many cycles of the machine: SCENE=CYCLES where that scene
+    /// alone is meant, SCENE/TARGET=CYCLES on that machine alone; of several the last counts.
+    /// What is given up is told [default: 20000000000]
+    #[arg(long, value_name = "CYCLES", value_parser = limit)]
+    limit: Vec<Limit>,
 }
 
 /// A machine runs so many cycles in a minute or so of the host's time.
 const LIMIT: u64 = 20_000_000_000;
+
+/// A limit, and the scene's name where it is of one alone.
+type Limit = (Option<String>, u64);
+
+/// Reads `--limit`.
+fn limit(text: &str) -> Result<Limit, String> {
+    let (name, cycles) = match text.rsplit_once('=') {
+        Some((name, cycles)) => (Some(name.to_owned()), cycles),
+        None => (None, text),
+    };
+    let cycles = cycles.parse().ok().filter(|cycles| *cycles > 0);
+    let wrong = || {
+        "write cycles, as in 5000000000, mirrors=5000000000, or mirrors/jack=5000000000".to_owned()
+    };
+    Ok((name, cycles.ok_or_else(wrong)?))
+}
 
 /// Tunes all, then writes the document and its plots, whole or not at all.
 pub fn run(args: &Args) -> Outcome<()> {
@@ -53,12 +71,8 @@ pub fn run(args: &Args) -> Outcome<()> {
             "--pictures {plots}: plots stand beside or below {own}"
         ))
     })?;
-    if !directory.as_os_str().is_empty() && !directory.is_dir() {
-        let plots = directory.display();
-        return Err(Failure::Wrong(format!(
-            "{plots} is no directory to write plots to"
-        )));
-    }
+    may_be_made(beside)?;
+    may_be_made(directory)?;
     alike(&args.scenes)?;
     let asked = Survey {
         scenes: args.scenes.clone(),
@@ -68,7 +82,8 @@ pub fn run(args: &Args) -> Outcome<()> {
         },
         measure: args.measure,
         settings: args.settings,
-        limit: args.limit,
+        limit: args.limits().0,
+        limits: args.limits().1,
         cached: !args.no_cache,
     };
     let sections = survey(&asked)?;
@@ -84,10 +99,40 @@ pub fn run(args: &Args) -> Outcome<()> {
         .map(|(path, svg)| (path.as_path(), svg.as_bytes()))
         .collect();
     files.push((&args.output, text.as_bytes()));
+    for made in [beside, directory] {
+        std::fs::create_dir_all(made)
+            .map_err(|e| Failure::Wrong(format!("cannot make {}: {e}", made.display())))?;
+    }
     files::write_all(&files)?;
     match sections.iter().any(|s| s.wrong > 0) {
         true => Err(Failure::Differs),
         false => Ok(()),
+    }
+}
+
+impl Args {
+    /// What holds for all scenes, and for some.
+    fn limits(&self) -> (u64, Vec<(String, u64)>) {
+        let all = (self.limit.iter()).filter(|(name, _)| name.is_none());
+        let own = (self.limit.iter()).filter_map(|(name, limit)| Some((name.clone()?, *limit)));
+        let all = all.last().map_or(LIMIT, |(_, limit)| *limit);
+        (all, own.collect())
+    }
+}
+
+/// A directory that is not there is made in the end; an hour's work should not be lost by
+/// one that cannot be.
+///
+/// # Errors
+/// Where a part of its way is a file.
+fn may_be_made(directory: &Path) -> Outcome<()> {
+    let there = directory.ancestors().find(|part| part.exists());
+    match there.filter(|part| !part.is_dir()) {
+        Some(part) => Err(Failure::Wrong(format!(
+            "{} is no directory; name another to write to",
+            part.display()
+        ))),
+        None => Ok(()),
     }
 }
 
@@ -116,10 +161,12 @@ fn own(args: &Args) -> String {
         let name = format!("{:?}", args.measure).to_lowercase();
         words.push(format!("--measure {name}"));
     }
-    words.push(format!(
-        "--settings {} --limit {}",
-        args.settings, args.limit
-    ));
+    let (all, own) = args.limits();
+    words.push(format!("--settings {} --limit {all}", args.settings));
+    let own = own
+        .iter()
+        .map(|(name, limit)| format!("--limit {name}={limit}"));
+    words.extend(own);
     words.push(format!("-o {}", args.output.display()));
     words.extend(
         args.pictures

@@ -4,6 +4,7 @@ use super::Explained;
 use super::terminal::{percent, rate};
 use crate::draw::Window;
 use crate::format::count;
+use crate::sheet::escaped;
 use slowlight_compiler::report::profile::{Part, SourceLine};
 use std::fmt::Write as _;
 
@@ -114,12 +115,4 @@ fn item(found: &Explained, part: &Part, kind: &str) -> String {
         escaped(&part.name),
         count(part.times)
     )
-}
-
-/// Text that HTML shows as it is.
-fn escaped(text: &str) -> String {
-    text.replace('&', "&amp;")
-        .replace('<', "&lt;")
-        .replace('>', "&gt;")
-        .replace('"', "&quot;")
 }

@@ -3,6 +3,7 @@
 use super::Explained;
 use crate::draw::Window;
 use crate::format::count;
+use crate::sheet::{self, Line};
 use slowlight_compiler::report::profile::{Part, SourceLine};
 
 /// Characters of a full bar, which is the dearest line's.
@@ -15,21 +16,50 @@ const PARTS: usize = 4;
 /// The whole text.
 pub fn text(found: &Explained) -> String {
     let mut out = head(found);
+    for (name, lines, _) in annotated_files(found, BAR) {
+        out.push_str(&format!("\n{name}\n"));
+        for line in lines {
+            out.push_str(&line.text);
+            out.push('\n');
+        }
+    }
+    out.push_str(&foot(found));
+    out
+}
+
+/// The same as a picture, whose bars stand behind the source's lines.
+pub fn svg(found: &Explained) -> String {
+    let files = annotated_files(found, 0);
+    let head = head(found);
+    let mut lines = vec![Line::plain(&head)];
+    let mut from = 0;
+    for (name, of_file, source) in files {
+        lines.extend([Line::plain(""), Line::plain(name)]);
+        lines.extend(of_file);
+        from = source.max(from);
+    }
+    lines.extend(foot(found).lines().map(Line::plain));
+    sheet::svg(head.trim_end(), &lines, from)
+}
+
+/// Each file that takes anything: its name, its lines, and the column at which its source
+/// begins. Bars of characters are so long at most.
+fn annotated_files(found: &Explained, bar: usize) -> Vec<(&str, Vec<Line>, usize)> {
     let most = found.profile.lines.iter().map(|line| line.cycles).max();
+    let most = most.unwrap_or(0);
+    let mut files = Vec::new();
     for (file, name, source) in found.files() {
         let mut rows = Vec::new();
         for (number, text) in (1..).zip(source.lines()) {
             let line = found.line(file, number);
-            rows.push((cells(found, line, most.unwrap_or(0)), number, text));
+            rows.push((cells(found, line, most, bar), number, text));
         }
-        if rows.iter().all(|(cells, ..)| cells.is_none()) {
-            continue;
+        if rows.iter().any(|(cells, ..)| cells.is_some()) {
+            let (lines, from) = annotated(found, file, rows, (bar, most));
+            files.push((name, lines, from));
         }
-        out.push_str(&format!("\n{name}\n"));
-        out.push_str(&annotated(found, file, rows));
     }
-    out.push_str(&foot(found));
-    out
+    files
 }
 
 fn head(found: &Explained) -> String {
@@ -55,11 +85,16 @@ fn head(found: &Explained) -> String {
 const COLUMNS: [&str; 7] = ["share", "", "cycles", "runs", "size", "error", "rate"];
 
 /// A line's cells; none where it took nothing.
-fn cells(found: &Explained, line: Option<&SourceLine>, most: u64) -> Option<[String; 7]> {
+fn cells(
+    found: &Explained,
+    line: Option<&SourceLine>,
+    most: u64,
+    wide: usize,
+) -> Option<[String; 7]> {
     let line = line?;
     Some([
         percent(found.share(line.cycles)),
-        bar(line.cycles, most),
+        bar(line.cycles, most, wide),
         count(line.cycles),
         count(line.executions),
         count(line.size),
@@ -93,9 +128,9 @@ pub fn rate(line: &SourceLine) -> String {
     }
 }
 
-/// A bar of eighths of characters.
-fn bar(part: u64, most: u64) -> String {
-    let eighths = (8 * BAR as u64 * part).div_ceil(most.max(1)) as usize;
+/// A bar of eighths of characters, so many characters at most.
+fn bar(part: u64, most: u64, wide: usize) -> String {
+    let eighths = (8 * wide as u64 * part).div_ceil(most.max(1)) as usize;
     let full = "█".repeat(eighths / 8);
     let rest = ["", "▏", "▎", "▍", "▌", "▋", "▊", "▉"];
     full + rest.get(eighths % 8).copied().unwrap_or("")
@@ -103,10 +138,16 @@ fn bar(part: u64, most: u64) -> String {
 
 type Row<'s> = (Option<[String; 7]>, usize, &'s str);
 
-/// Rows with their columns aligned, each line's parts below it.
-fn annotated(found: &Explained, file: u16, rows: Vec<Row<'_>>) -> String {
+/// Rows with their columns aligned, each line's parts below it, and the column at which the
+/// source begins.
+fn annotated(
+    found: &Explained,
+    file: u16,
+    rows: Vec<Row<'_>>,
+    (bar, most): (usize, u64),
+) -> (Vec<Line>, usize) {
     let mut widths = COLUMNS.map(|name| name.chars().count());
-    widths[1] = BAR;
+    widths[1] = bar;
     for (cells, ..) in &rows {
         for (width, cell) in widths.iter_mut().zip(cells.iter().flatten()) {
             *width = (*width).max(cell.chars().count());
@@ -124,7 +165,7 @@ fn annotated(found: &Explained, file: u16, rows: Vec<Row<'_>>) -> String {
         out
     };
     let digits = rows.len().to_string().len();
-    let mut out = padded(COLUMNS).trim_end().to_owned() + "\n";
+    let mut out = vec![Line::plain(padded(COLUMNS).trim_end())];
     let indent = " ".repeat(padded([""; 7]).chars().count() + digits);
     for (cells, number, text) in rows {
         let blank = Default::default();
@@ -134,15 +175,16 @@ fn annotated(found: &Explained, file: u16, rows: Vec<Row<'_>>) -> String {
             .each_ref()
             .map(String::as_str);
         let line = format!("{}{number:>digits$} | {text}", padded(cells));
-        out.push_str(line.trim_end());
-        out.push('\n');
-        if let Some(line) = found.line(file, number) {
-            for part in told(found, line) {
-                out.push_str(&format!("{indent} :   {part}\n"));
-            }
+        let known = found.line(file, number);
+        out.push(Line {
+            text: line.trim_end().to_owned(),
+            bar: known.map(|line| line.cycles as f64 / most.max(1) as f64),
+        });
+        for part in known.iter().flat_map(|line| told(found, line)) {
+            out.push(Line::plain(&format!("{indent} :   {part}")));
         }
     }
-    out
+    (out, indent.len() + 3)
 }
 
 /// The parts of a line that are worth telling.

@@ -9,7 +9,7 @@
 pub mod document;
 pub mod section;
 
-use crate::failure::Outcome;
+use crate::failure::{Failure, Outcome};
 use crate::progress::Progress;
 use crate::scene::{Changes, Scene};
 use crate::target_args::ScreenArgs;
@@ -36,8 +36,31 @@ pub struct Survey {
     pub settings: u16,
     /// Cycles after which a machine is given up.
     pub limit: u64,
+    /// The same for a scene, or a scene on a machine, `mirrors` or `mirrors/jack`; the last
+    /// that fits counts.
+    pub limits: Vec<(String, u64)>,
     /// Whether what was measured before is looked up.
     pub cached: bool,
+}
+
+impl Survey {
+    /// Each scene on each machine, in the document's order.
+    fn all(&self) -> impl Iterator<Item = Base> {
+        (self.scenes.iter())
+            .flat_map(|path| (self.targets.iter()).map(move |target| base(path, target)))
+    }
+
+    /// Cycles after which a scene's programs are given up on a machine.
+    fn limit_of(&self, base: &Base) -> u64 {
+        let own = self.limits.iter().rev().find(|(name, _)| of(name, base));
+        own.map_or(self.limit, |(_, limit)| *limit)
+    }
+}
+
+/// Whether a limit's name is a scene's, or that of a scene on a machine.
+fn of(name: &str, base: &Base) -> bool {
+    let scene = base.name();
+    name == scene || name == format!("{scene}/{}", base.target.name)
 }
 
 /// Tunes each scene on each machine.
@@ -45,6 +68,13 @@ pub struct Survey {
 /// # Errors
 /// Where a scene is wrong, or the user interrupts.
 pub fn survey(asked: &Survey) -> Outcome<Vec<Section>> {
+    for (name, _) in &asked.limits {
+        if !asked.all().any(|base| of(name, &base)) {
+            return Err(Failure::Usage(format!(
+                "--limit {name}=...: no scene here is called {name}, on any machine here"
+            )));
+        }
+    }
     // A scene that is wrong should be told of before an hour's work.
     for path in &asked.scenes {
         let scene = Scene::open(path, &Changes::default())?;
@@ -56,11 +86,9 @@ pub fn survey(asked: &Survey) -> Outcome<Vec<Section>> {
     let count = asked.scenes.len() * asked.targets.len();
     let progress = Progress::new("scenes, machines", count as u64);
     let mut sections = Vec::new();
-    for path in &asked.scenes {
-        for target in &asked.targets {
-            sections.push(tuned(asked, &base(path, target))?);
-            progress.step(1);
-        }
+    for base in asked.all() {
+        sections.push(tuned(asked, &base)?);
+        progress.step(1);
     }
     Ok(sections)
 }
@@ -84,7 +112,7 @@ fn tuned(asked: &Survey, base: &Base) -> Outcome<Section> {
         live: false,
         smaller: false,
         settings: usize::from(asked.settings),
-        limit: asked.limit,
+        limit: asked.limit_of(base),
         by_line: false,
         cache: match asked.cached {
             true => Cache::of_user(),

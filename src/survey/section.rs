@@ -1,6 +1,6 @@
 //! One scene on one machine, as a part of the document.
 
-use crate::format::{count, duration};
+use crate::format::duration;
 use crate::tune::explore::Search;
 use crate::tune::goal::{Measure, percent};
 use crate::tune::plot::svg;
@@ -77,31 +77,16 @@ impl Section {
     }
 }
 
+/// The frontier, and the beginning of each program's digest.
 fn rows(told: &Told<'_>) -> Vec<Vec<String>> {
-    let titles = [
-        "options", "time", "cycles", "pixels", "%", "rmse", "low-pass", "bytes", "program",
-    ];
-    let mut rows = vec![titles.map(str::to_owned).to_vec()];
-    for (_, point) in told.frontier() {
-        let at = &point.measured;
-        let words = told.base.words(&point.choice).join(" ");
-        let share = percent(Measure::Pixels.of(&at.errors));
-        let digest = at.program_sha256.get(..DIGITS).unwrap_or_default();
-        rows.push(vec![
-            if words.is_empty() {
-                "(none)".to_owned()
-            } else {
-                words
-            },
-            duration(at.seconds),
-            count(at.cycles),
-            count(at.errors.pixels),
-            share.trim_end_matches(" %").to_owned(),
-            format!("{:.2e}", at.errors.rmse),
-            format!("{:.2e}", at.errors.low_pass),
-            count(at.memory()),
-            digest.to_owned(),
-        ]);
+    let mut rows = told.rows();
+    let digests = told.frontier().map(|(_, point)| {
+        let digest = point.measured.program_sha256.get(..DIGITS);
+        digest.unwrap_or_default().to_owned()
+    });
+    let last = std::iter::once("program".to_owned()).chain(digests);
+    for (row, cell) in rows.iter_mut().zip(last) {
+        row.push(cell);
     }
     rows
 }
@@ -156,10 +141,17 @@ fn notes(told: &Told<'_>) -> Vec<String> {
     if looked > 0 {
         notes.push(format!("Left out after three bands of rows: {looked}."));
     }
-    for (choice, why) in &told.found.failed {
+    let failed = told.found.failed.iter().map(|(choice, why)| {
         let words = told.base.words(choice).join(" ");
-        let why = why.lines().next().unwrap_or_default();
-        notes.push(format!("Not to be had: `{words}`: {why}"));
+        let options = match words.is_empty() {
+            true => "(none)".to_owned(),
+            false => format!("`{words}`"),
+        };
+        format!("\n- {options}: {}", why.lines().next().unwrap_or_default())
+    });
+    let failed: String = failed.collect();
+    if !failed.is_empty() {
+        notes.push(format!("Not to be had:{failed}"));
     }
     notes
 }

@@ -6,10 +6,10 @@
 
 use super::choice::Base;
 use super::goal::{percent, share, time};
-use super::plot::escaped;
 use crate::failure::Outcome;
 use crate::format::duration;
 use crate::scene::{self, Scene};
+use crate::sheet::escaped;
 use crate::target_args::Os;
 use slowlight_compiler::source::{Diagnostic, Span};
 use slowlight_compiler::target;

@@ -5,11 +5,12 @@
 //! script shows the point that is clicked, from the data that stands in the page.
 
 use super::goal::{Measure, percent};
-use super::plot::{escaped, svg};
+use super::plot::svg;
 use super::point::Point;
 use super::spent::Spent;
 use super::tell::Told;
 use crate::format::{count, duration};
+use crate::sheet::escaped;
 use serde_json::{Value, json};
 
 const TEMPLATE: &str = include_str!("page.html");

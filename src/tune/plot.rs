@@ -6,6 +6,7 @@ use super::goal::percent;
 use super::marks::diamond;
 use super::tell::Told;
 use crate::format::duration;
+use crate::sheet::escaped;
 
 /// The picture's size, and where the axes are in it.
 const SIZE: (f64, f64) = (920.0, 560.0);
@@ -82,24 +83,6 @@ const TIMES: [f64; 18] = [
     864_000.0,
     2_592_000.0,
 ];
-
-/// A text that may stand in XML.
-pub fn escaped(text: &str) -> String {
-    let mut out = String::with_capacity(text.len());
-    for c in text.chars() {
-        match c {
-            '&' => out.push_str("&amp;"),
-            '<' => out.push_str("&lt;"),
-            '>' => out.push_str("&gt;"),
-            '"' => out.push_str("&quot;"),
-            '\'' => out.push_str("&#39;"),
-            // Not allowed in XML at all.
-            c if c.is_control() && !matches!(c, '\n' | '\t') => out.push('?'),
-            c => out.push(c),
-        }
-    }
-    out
-}
 
 /// The plot; points are circles with the class `point` and their number in `data-point`.
 pub fn svg(told: &Told<'_>) -> String {

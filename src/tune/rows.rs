@@ -27,7 +27,7 @@ const SHARE: u32 = 24;
 const CLEARLY: f64 = 0.8;
 
 /// How many times the limit the planner must expect for it to be believed unseen.
-const FAR: f64 = 3.0;
+const FAR: f64 = 1.5;
 
 /// What some rows say of a choice.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]

@@ -122,33 +122,38 @@ impl<'a> Told<'a> {
         text + "."
     }
 
-    /// The frontier as a table.
-    pub fn table(&self) -> String {
+    /// The frontier, a row a point and a cell a figure; the first row has the titles.
+    pub fn rows(&self) -> Vec<Vec<String>> {
         let head = [
             "options", "time", "cycles", "pixels", "%", "rmse", "low-pass", "bytes",
         ];
         let mut rows = vec![head.map(str::to_owned).to_vec()];
-        for (_, point) in self.frontier() {
-            let at = &point.measured;
-            let words = self.base.words(&point.choice).join(" ");
-            rows.push(vec![
-                if words.is_empty() {
-                    "(none)".to_owned()
-                } else {
-                    words
-                },
-                duration(at.seconds),
-                count(at.cycles),
-                count(at.errors.pixels),
-                percent(Measure::Pixels.of(&at.errors))
-                    .trim_end_matches(" %")
-                    .to_owned(),
-                format!("{:.2e}", at.errors.rmse),
-                format!("{:.2e}", at.errors.low_pass),
-                count(at.memory()),
-            ]);
-        }
-        let mut out = table(&rows);
+        rows.extend(self.frontier().map(|(_, point)| self.row(point)));
+        rows
+    }
+
+    fn row(&self, point: &Point) -> Vec<String> {
+        let at = &point.measured;
+        let words = self.base.words(&point.choice).join(" ");
+        let share = percent(Measure::Pixels.of(&at.errors));
+        vec![
+            match words.is_empty() {
+                true => "(none)".to_owned(),
+                false => words,
+            },
+            duration(at.seconds),
+            count(at.cycles),
+            count(at.errors.pixels),
+            share.trim_end_matches(" %").to_owned(),
+            format!("{:.2e}", at.errors.rmse),
+            format!("{:.2e}", at.errors.low_pass),
+            count(at.memory()),
+        ]
+    }
+
+    /// The frontier as a table.
+    pub fn table(&self) -> String {
+        let mut out = table(&self.rows());
         out.push_str(
             "pixels, %: whose ink is not the native one; rmse: of shades before the dither; low-pass: of \
              inks under a Gaussian of 3 pixels; bytes: code, tables, memory; time and cycles: measured\n",

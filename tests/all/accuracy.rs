@@ -2,7 +2,9 @@
 //! cheap to run again comes to the same cycles and errors. `slowlight survey` writes it anew
 //! by the command that stands on its top.
 
-use crate::cli::{directory, json, names, slowlight, success};
+#[cfg(unix)]
+use crate::cli::interrupted;
+use crate::cli::{LONG, directory, json, names, slowlight, success};
 use serde_json::Value;
 use slowlight::scene::{Changes, Scene};
 use slowlight::target_args::ScreenArgs;
@@ -216,6 +218,48 @@ fn a_survey_is_written_whole_and_says_the_same_again() {
     assert!(!read("accuracy-disc-jack.svg").contains("by hand"));
 }
 
+/// Of a survey that is interrupted neither the document nor a directory for its plots.
+#[cfg(unix)]
+#[test]
+fn an_interrupted_survey_leaves_nothing() {
+    let dir = directory(&[("long.scn", LONG)]);
+    let args = ["survey", "long.scn", "-t", "6502", "-o", "found/a.md"];
+    let more = ["--pictures", "found/plots", "--no-cache"];
+    interrupted(dir.path(), &[&args[..], &more].concat());
+    assert_eq!(names(dir.path()), ["long.scn"]);
+}
+
+/// What takes too long is left out and said, scene by scene; directories are made.
+#[test]
+fn a_scene_may_have_a_limit_of_its_own() {
+    let dir = directory(&[("disc.scn", DISC), ("other.scn", DISC)]);
+    let args = ["survey", "disc.scn", "other.scn", "-t", "jack"];
+    let limits = [
+        "--limit=9000000",
+        "--limit=other=30",
+        "--limit=other/jack=20000",
+    ];
+    let out = ["-o", "docs/found.md", "--pictures", "docs/plots"];
+    let more = ["--settings", "3", "--no-cache"];
+    success(dir.path(), &[&args[..], &limits, &out, &more].concat());
+    let text = std::fs::read_to_string(dir.path().join("docs/found.md")).expect("a file");
+    let wanted = ["accuracy-disc-jack.svg", "accuracy-other-jack.svg"];
+    assert_eq!(names(&dir.path().join("docs/plots")), wanted);
+    assert!(text.contains("--limit 9000000 --limit other=30 --limit other/jack=20000"));
+    let (of_disc, of_other) = text.split_once("## other").expect("two scenes");
+    assert!(of_disc.contains("tune disc.scn --target jack --settings 3 --limit 9000000`"));
+    assert!(of_other.contains("tune other.scn --target jack --settings 3 --limit 20000`"));
+    assert!(!of_disc.contains("Not to be had"), "{of_disc}");
+    assert!(of_other.contains("Not to be had"), "{of_other}");
+    // What was left out is what takes longer, and nothing else.
+    let of = |scene: &str| {
+        let rows = rows(&text).into_iter();
+        rows.filter(|row| row.scene == scene).collect::<Vec<Row>>()
+    };
+    assert!(of("other.scn").iter().all(|row| row.cycles <= 20_000));
+    assert!(of("disc.scn").iter().any(|row| row.cycles > 20_000));
+}
+
 #[test]
 fn what_cannot_be_surveyed_is_said() {
     let wrong = DISC.replace("200000 cycles", "soon");
@@ -237,9 +281,32 @@ fn what_cannot_be_surveyed_is_said() {
             "beside or below",
         ),
         (
-            &["square.scn", "-o", "a.md", "--pictures", "plots"],
+            &["square.scn", "-o", "a.md", "--pictures", "square.scn/plots"],
             1,
-            "no directory",
+            "square.scn is no directory",
+        ),
+        (
+            &["square.scn", "-o", "a.md", "--limit", "disc=900000"],
+            2,
+            "no scene here is called disc",
+        ),
+        (
+            &[
+                "square.scn",
+                "-t",
+                "jack",
+                "-o",
+                "a.md",
+                "--limit",
+                "square/6502:bbc=9",
+            ],
+            2,
+            "on any machine here",
+        ),
+        (
+            &["square.scn", "-o", "a.md", "--limit", "square=lots"],
+            2,
+            "write cycles",
         ),
         (&["none.scn", "-o", "a.md"], 1, "none.scn"),
     ] {

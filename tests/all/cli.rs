@@ -48,6 +48,36 @@ pub fn names(dir: &Path) -> Vec<String> {
     names
 }
 
+/// A picture that takes hours.
+pub const LONG: &str = "image 4096 x 4096 inks black, white;
+  fn turns(n: int) -> int = loop (m = n) max 65535 { if m < 0 then m else next(m + 1) } else m;
+  draw (x, y) = ink(loop (n = x + y) max 65535 {
+    if n < 0 then n else next(turns(n))
+  } else 1);";
+
+/// Runs what takes long, and interrupts it as Ctrl-C does.
+#[cfg(unix)]
+pub fn interrupted(dir: &Path, args: &[&str]) {
+    let mut child = Command::new(env!("CARGO_BIN_EXE_slowlight"))
+        .args(args)
+        .current_dir(dir)
+        .stderr(std::process::Stdio::null())
+        .spawn()
+        .expect("the binary runs");
+    std::thread::sleep(std::time::Duration::from_millis(300));
+    assert!(
+        child.try_wait().expect("it runs").is_none(),
+        "it ended early"
+    );
+    let kill = Command::new("kill")
+        .args(["-INT", &child.id().to_string()])
+        .status();
+    assert!(kill.expect("kill runs").success());
+    let status = child.wait().expect("it ends");
+    // By the signal itself, where it came before anybody listened for it.
+    assert!(status.code().is_none_or(|code| code == 130), "{status}");
+}
+
 fn repository(path: &str) -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join(path)
 }

@@ -1,6 +1,8 @@
 //! The command line, run as its user runs it: wrong uses and wrong files.
 //! Each ends with the exit status that says whose mistake it is, and leaves nothing behind.
 
+#[cfg(unix)]
+use crate::cli::{LONG, interrupted};
 use crate::cli::{STEPS, directory, names, slowlight};
 
 fn fails(args: &[&str], status: i32, part: &str) {
@@ -157,30 +159,7 @@ fn files_that_are_no_scenes_have_a_diagnostic() {
 #[cfg(unix)]
 #[test]
 fn an_interruption_leaves_nothing() {
-    use std::process::{Command, Stdio};
-    let long = "image 4096 x 4096 inks black, white;
-        fn turns(n: int) -> int = loop (m = n) max 65535 { if m < 0 then m else next(m + 1) } else m;
-        draw (x, y) = ink(loop (n = x + y) max 65535 {
-          if n < 0 then n else next(turns(n))
-        } else 1);";
-    let dir = directory(&[("long.scn", long)]);
-    let mut child = Command::new(env!("CARGO_BIN_EXE_slowlight"))
-        .args(["render", "long.scn", "-o", "x.png"])
-        .current_dir(dir.path())
-        .stderr(Stdio::null())
-        .spawn()
-        .expect("the binary runs");
-    std::thread::sleep(std::time::Duration::from_millis(300));
-    assert!(
-        child.try_wait().expect("it runs").is_none(),
-        "it ended early"
-    );
-    let kill = Command::new("kill")
-        .args(["-INT", &child.id().to_string()])
-        .status();
-    assert!(kill.expect("kill runs").success());
-    let status = child.wait().expect("it ends");
-    // By the signal itself, where it came before anybody listened for it.
-    assert!(status.code().is_none_or(|code| code == 130), "{status}");
+    let dir = directory(&[("long.scn", LONG)]);
+    interrupted(dir.path(), &["render", "long.scn", "-o", "x.png"]);
     assert_eq!(names(dir.path()), ["long.scn"]);
 }

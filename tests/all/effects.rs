@@ -240,3 +240,22 @@ fn the_table_reads() {
     let said = String::from_utf8_lossy(&out.stderr);
     assert!(said.contains("halo"), "{said}");
 }
+
+#[test]
+fn a_picture_has_the_table_and_a_bar_for_what_costs_time() {
+    let dir = directory(&[("lit.scn", LIT)]);
+    let args = ["effects", "lit.scn", "-t", "6502"];
+    let text = success(dir.path(), &[&args[..], &["--svg", "lit.svg"]].concat());
+    let found = effects(dir.path(), "lit.scn", "6502");
+    let rows = found["effects"].as_array().expect("a list").iter();
+    let dear = rows.filter(|row| row["cycles"].as_i64() > Some(0)).count();
+    let picture = std::fs::read_to_string(dir.path().join("lit.svg")).expect("a picture");
+    let tree = roxmltree::Document::parse(&picture).expect("it parses");
+    let bar = |n: &roxmltree::Node<'_, '_>| n.attribute("class") == Some("bar");
+    assert_eq!(tree.descendants().filter(bar).count(), dear);
+    let lines = text.lines().filter(|line| !line.is_empty());
+    for line in lines.filter(|line| !line.contains("costs nothing")) {
+        let said = |n: roxmltree::Node<'_, '_>| n.text() == Some(line);
+        assert!(tree.descendants().any(said), "{line}");
+    }
+}

@@ -289,3 +289,39 @@ fn raised_values_are_exact() {
         );
     }
 }
+
+/// The terminal's lines as a picture, and behind each that took anything a bar.
+#[test]
+fn a_picture_has_the_lines_and_their_bars() {
+    let dir = directory(&[("spot.scn", SPOT)]);
+    let args = ["explain", "spot.scn", "-t", "6502", "--svg", "spot.svg"];
+    let text = success(dir.path(), &args);
+    let picture = std::fs::read_to_string(dir.path().join("spot.svg")).expect("a picture");
+    let tree = roxmltree::Document::parse(&picture).expect("it parses");
+    let bars: Vec<f64> = (tree.descendants())
+        .filter(|n| n.attribute("class") == Some("bar"))
+        .map(|n| n.attribute("width").and_then(|w| w.parse().ok()))
+        .map(|width| width.expect("a width"))
+        .collect();
+    let told: Vec<f64> = (text.lines())
+        .filter_map(|line| {
+            line.split_whitespace()
+                .next()?
+                .strip_suffix('%')?
+                .parse()
+                .ok()
+        })
+        .collect();
+    assert_eq!(bars.len(), told.len(), "{text}");
+    // Bars are to each other as shares are.
+    let most = |all: &[f64]| all.iter().copied().fold(0.0, f64::max);
+    let (longest, dearest) = (most(&bars), most(&told));
+    for (bar, share) in bars.iter().zip(&told) {
+        let off = bar / longest - share / dearest;
+        assert!(off.abs() < 0.01, "{bar} of {longest}, {share} of {dearest}");
+    }
+    for line in SPOT.lines().filter(|line| !line.trim().is_empty()) {
+        let said = |n: roxmltree::Node<'_, '_>| n.text().is_some_and(|t| t.contains(line.trim()));
+        assert!(tree.descendants().any(said), "{line}");
+    }
+}

@@ -16,6 +16,7 @@ mod columns;
 mod effects;
 mod explain;
 mod fit;
+mod forecast;
 mod hack_rom;
 mod hard_cases;
 mod held;

@@ -3,6 +3,7 @@
 
 pub mod arithmetic;
 pub mod diffuse;
+pub mod heard;
 pub mod model;
 pub mod native;
 pub mod run;

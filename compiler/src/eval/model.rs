@@ -12,7 +12,7 @@ use crate::plan::Plan;
 use slowlight_routine::{Bits, Format, Op, Value};
 
 /// A plan's arithmetic: bits and models.
-pub struct Model<'p>(pub(crate) &'p Plan);
+pub struct Model<'p>(pub &'p Plan);
 
 impl Arithmetic for Model<'_> {
     type Value = Bits;

@@ -121,6 +121,41 @@ impl Beside<'_> {
     }
 }
 
+/// What a plan's parts take by themselves, as plans of one scene are chosen by.
+pub struct Costs<'p>(Beside<'p>);
+
+impl super::Plan {
+    /// What statements take. A routine's cost is a mean over its arguments; what draws, and
+    /// the loops over rows and columns, are left out.
+    pub fn costs(&self) -> Costs<'_> {
+        Costs(Beside {
+            graph: &self.graph,
+            runtime: self.runtime,
+            folded: self.folded.clone(),
+            routines: self.routines.clone(),
+            // What is stepped is known.
+            steps: Vec::new(),
+        })
+    }
+}
+
+impl Costs<'_> {
+    /// Cycles of a statement, those inside of it not.
+    pub fn statement(&self, statement: &Statement) -> u32 {
+        self.0.statement(statement)
+    }
+
+    /// Cycles to ask a bool that is not kept.
+    pub fn asked(&self, id: NodeId) -> u32 {
+        self.0.asked(id)
+    }
+
+    /// Cycles behind each pixel of what a block begins that is stepped.
+    pub fn steps(&self, block: &Block) -> f64 {
+        self.0.steps(block)
+    }
+}
+
 /// Where a type's costs stand in [`Stepping`].
 fn kind(ty: Type) -> usize {
     usize::from(ty == Type::Real)

@@ -77,6 +77,7 @@ pub(crate) mod workshop;
 #[cfg(test)]
 mod workshop_tests;
 
+pub use beside::Costs;
 pub use interference::quick_homes;
 pub use lifetimes::shared_homes;
 pub use made::{plan, plan_as_written, plan_with_every_shade};

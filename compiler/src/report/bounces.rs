@@ -15,13 +15,12 @@
 //! grow; they are left out of the fit.
 
 use super::shadow::{Pair, Shadow};
-use crate::eval::arithmetic::Arithmetic;
+use crate::eval::heard::{Heard, Listener};
 use crate::eval::run::Run;
 use crate::flow::graph::*;
-use crate::flow::tree::Place;
 use crate::plan::Plan;
 use crate::source::Diagnostic;
-use slowlight_routine::{Op, Type, Value};
+use slowlight_routine::Type;
 use std::cell::RefCell;
 
 /// About how many pixels are looked at.
@@ -97,12 +96,14 @@ pub fn measure(plan: &Plan) -> Measured {
     plan.graph.diffusion = None;
     let plan = &plan;
     let shadow = Shadow::new(plan);
-    let turns = Turns {
-        shadow: &shadow,
-        types: plan.graph.loops.iter().map(|l| l.types.clone()).collect(),
-        errors: RefCell::new(vec![Vec::new(); plan.graph.loops.len()]),
+    let heard = Heard {
+        arithmetic: &shadow,
+        listener: Turns {
+            types: plan.graph.loops.iter().map(|l| l.types.clone()).collect(),
+            errors: RefCell::new(vec![Vec::new(); plan.graph.loops.len()]),
+        },
     };
-    let mut run = Run::new(&plan.graph, &plan.tree, &turns);
+    let mut run = Run::new(&plan.graph, &plan.tree, &heard);
     shadow.keep();
     let mut looked = 0;
     for (x, y) in sample(plan) {
@@ -117,7 +118,7 @@ pub fn measure(plan: &Plan) -> Measured {
     }
     drop(run);
     let most = half_a_level(plan);
-    let errors = turns.errors.into_inner();
+    let errors = heard.listener.errors.into_inner();
     let loops = (0..).map(LoopId).zip(errors);
     Measured {
         looked,
@@ -259,48 +260,13 @@ impl Errors {
     }
 }
 
-/// Shadow arithmetic that notes the errors of each turn, by loop.
-struct Turns<'s> {
-    shadow: &'s Shadow<'s>,
+/// Notes the errors of each turn, by loop.
+struct Turns {
     types: Vec<Vec<Type>>,
     errors: RefCell<Vec<Vec<Errors>>>,
 }
 
-impl Arithmetic for &Turns<'_> {
-    type Value = Pair;
-
-    fn constant(&self, value: Value) -> Pair {
-        self.shadow.constant(value)
-    }
-
-    fn entry(&self, table: TableId, at: usize, value: Value) -> Pair {
-        self.shadow.entry(table, at, value)
-    }
-
-    fn copied(&self, place: Place, from: NodeId, value: Pair) -> Pair {
-        self.shadow.copied(place, from, value)
-    }
-
-    fn param(&self, id: ParamId) -> Pair {
-        self.shadow.param(id)
-    }
-
-    fn apply(&self, id: NodeId, op: Op, args: &[Pair]) -> Pair {
-        self.shadow.apply(id, op, args)
-    }
-
-    fn gather(&self, received: Pair, sent: Pair) -> Pair {
-        self.shadow.gather(received, sent)
-    }
-
-    fn truth(&self, value: Pair) -> bool {
-        self.shadow.truth(value)
-    }
-
-    fn int(&self, value: Pair) -> i32 {
-        self.shadow.int(value)
-    }
-
+impl Listener<Pair> for Turns {
     fn turn(&self, of: LoopId, turn: u32, carried: &[Option<Pair>]) {
         let at = turn as usize;
         let types = self.types.get(of.0 as usize).map_or(&[][..], Vec::as_slice);

@@ -7,11 +7,12 @@
 //! anything: call by need leaves it out at the others.
 
 use super::profile::Measured;
-use crate::eval::arithmetic::{Arithmetic, Exact};
+use crate::eval::arithmetic::Exact;
+use crate::eval::heard::{Heard, Listener};
 use crate::eval::model::Model;
 use crate::eval::run::Run;
 use crate::flow::graph::*;
-use crate::flow::tree::{Place, Statement};
+use crate::flow::tree::Statement;
 use crate::passes::schedule::schedule;
 use crate::plan::Plan;
 use crate::scene::Scene;
@@ -118,16 +119,20 @@ pub struct Seen {
 /// Runs the model at some pixels, in the order of the scan, and watches the effects.
 /// What begins a row or a run of columns is counted at each pixel.
 pub fn watch(plan: &Plan, pixels: &[(i32, i32)]) -> BTreeMap<u16, Seen> {
-    let watched = Watched {
-        model: Model(plan),
-        log: RefCell::default(),
+    let watched = Heard {
+        arithmetic: Model(plan),
+        listener: Watched {
+            plan,
+            log: RefCell::default(),
+        },
     };
+    let log = &watched.listener.log;
     let mut run = Run::new(&plan.graph, &plan.tree, &watched);
     let mut found: BTreeMap<u16, Seen> = BTreeMap::new();
-    watched.log.borrow_mut().clear();
+    log.borrow_mut().clear();
     for (done, (x, y)) in pixels.iter().enumerate() {
         run.pixel(*x, *y);
-        for (effect, cycles) in std::mem::take(&mut *watched.log.borrow_mut()) {
+        for (effect, cycles) in std::mem::take(&mut *log.borrow_mut()) {
             let seen = found.entry(effect).or_default();
             seen.cycles.resize(done, 0);
             seen.cycles.push(cycles);
@@ -140,61 +145,20 @@ pub fn watch(plan: &Plan, pixels: &[(i32, i32)]) -> BTreeMap<u16, Seen> {
     found
 }
 
-/// The model, watched.
+/// Notes what the operations of effects cost.
 struct Watched<'p> {
-    model: Model<'p>,
+    plan: &'p Plan,
     /// Cycles of the pixel, by effect.
     log: RefCell<BTreeMap<u16, u64>>,
 }
 
-impl Watched<'_> {
-    fn graph(&self) -> &Graph {
-        &self.model.0.graph
-    }
-}
-
-impl Arithmetic for &Watched<'_> {
-    type Value = Bits;
-
-    fn constant(&self, value: Value) -> Bits {
-        self.model.constant(value)
-    }
-
-    fn entry(&self, table: TableId, at: usize, value: Value) -> Bits {
-        self.model.entry(table, at, value)
-    }
-
-    fn param(&self, id: ParamId) -> Bits {
-        self.model.param(id)
-    }
-
-    fn apply(&self, id: NodeId, op: Op, args: &[Bits]) -> Bits {
-        let routine = self.model.0.routine(id);
+impl Listener<Bits> for Watched<'_> {
+    fn applied(&self, id: NodeId, _: Op, _: &[Bits], _: Bits) {
+        let routine = self.plan.routine(id);
         let cycles = routine.map_or(0, |routine| u64::from(routine.cycles));
-        if let Some(effect) = self.graph().span(id).effect {
+        if let Some(effect) = self.plan.graph.span(id).effect {
             *self.log.borrow_mut().entry(effect).or_default() += cycles;
         }
-        self.model.apply(id, op, args)
-    }
-
-    fn copied(&self, place: Place, from: NodeId, value: Bits) -> Bits {
-        self.model.copied(place, from, value)
-    }
-
-    fn sent(&self, from: NodeId, value: Bits) -> Bits {
-        self.model.sent(from, value)
-    }
-
-    fn gather(&self, received: Bits, sent: Bits) -> Bits {
-        self.model.gather(received, sent)
-    }
-
-    fn truth(&self, value: Bits) -> bool {
-        self.model.truth(value)
-    }
-
-    fn int(&self, value: Bits) -> i32 {
-        self.model.int(value)
     }
 }
 
@@ -207,26 +171,29 @@ pub fn turns(graph: &Graph, pixels: &[(i32, i32)]) -> BTreeMap<u16, Turns> {
         ..graph.clone()
     };
     let tree = schedule(graph);
-    let counted = Rounds {
-        exact: Exact(graph),
-        log: RefCell::default(),
+    let counted = Heard {
+        arithmetic: Exact(graph),
+        listener: Rounds {
+            graph,
+            log: RefCell::default(),
+        },
     };
     let mut run = Run::new(graph, &tree, &counted);
     for (x, y) in pixels {
         run.pixel(*x, *y);
     }
-    counted.log.take()
+    counted.listener.log.take()
 }
 
-/// The graph's own arithmetic, whose loops are counted.
+/// Counts the turns of loops.
 struct Rounds<'g> {
-    exact: Exact<'g>,
+    graph: &'g Graph,
     log: RefCell<BTreeMap<u16, Turns>>,
 }
 
 impl Rounds<'_> {
     fn note(&self, of: LoopId, note: impl FnOnce(&mut Turns)) {
-        let written = self.exact.0.loops.get(of.0 as usize);
+        let written = self.graph.loops.get(of.0 as usize);
         if let Some((effect, max)) = written.and_then(|l| Some((l.span.effect?, l.max))) {
             let mut log = self.log.borrow_mut();
             let turns = log.entry(effect).or_default();
@@ -236,33 +203,7 @@ impl Rounds<'_> {
     }
 }
 
-impl Arithmetic for &Rounds<'_> {
-    type Value = Value;
-
-    fn constant(&self, value: Value) -> Value {
-        self.exact.constant(value)
-    }
-
-    fn param(&self, id: ParamId) -> Value {
-        self.exact.param(id)
-    }
-
-    fn apply(&self, id: NodeId, op: Op, args: &[Value]) -> Value {
-        self.exact.apply(id, op, args)
-    }
-
-    fn gather(&self, received: Value, sent: Value) -> Value {
-        self.exact.gather(received, sent)
-    }
-
-    fn truth(&self, value: Value) -> bool {
-        self.exact.truth(value)
-    }
-
-    fn int(&self, value: Value) -> i32 {
-        self.exact.int(value)
-    }
-
+impl Listener<Value> for Rounds<'_> {
     fn turn(&self, of: LoopId, turn: u32, _: &[Option<Value>]) {
         self.note(of, |turns| {
             turns.turns += 1;

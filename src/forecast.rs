@@ -1,0 +1,195 @@
+//! What a whole picture takes on its machine, by running some of its rows there.
+//!
+//! A program for fewer rows is the same program with other bounds. Two rows, each by itself
+//! and both together, tell what a program does before its first row: by itself each does it
+//! once more. What is left is the rows' own, and rows spread evenly over the picture stand
+//! for the others. Where all rows together are no work, all are run.
+//!
+//! Where errors go from row to row, a row wants all those above it. There as many rows from
+//! the top are run as are no work, and the routines' mean costs ([`crate::estimate`]) say
+//! how much dearer the others are.
+
+use crate::estimate;
+use crate::failure::{Failure, Outcome};
+use crate::format::count;
+use crate::machine::{Machine, complaint};
+use crate::progress::Progress;
+use crate::trial::{self, HACK_HERTZ};
+use slowlight_compiler::plan::Plan;
+use slowlight_vm::Stop;
+
+/// Cycles after which no more rows are looked at, and after which a run is given up: half a
+/// second and some seconds of the host's time.
+const ENOUGH: f64 = 4e8;
+const MOST: u64 = 2_000_000_000;
+
+/// So many rows are looked at, however long they take.
+const FEW: u32 = 4;
+
+/// Where rows are looked at, in sixteenths of the picture's height: each beginning of this
+/// order is spread over all of it.
+const PLACES: [u32; 16] = [8, 4, 12, 2, 10, 6, 14, 1, 9, 5, 13, 3, 11, 7, 15, 0];
+
+/// What is known of a picture's time.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Forecast {
+    /// The cycles of the whole, which was run.
+    Whole(f64),
+    /// The same by so many of its rows.
+    Rows(f64, u32),
+    /// Nothing, and why.
+    Not(String),
+}
+
+impl Forecast {
+    /// Cycles of the whole picture, where they are known.
+    pub fn cycles(&self) -> Option<f64> {
+        match self {
+            Forecast::Whole(cycles) | Forecast::Rows(cycles, _) => Some(*cycles),
+            Forecast::Not(_) => None,
+        }
+    }
+}
+
+/// Cycles a second: those of the processor, where the program runs on the Hack's.
+pub fn hertz(plan: &Plan, machine: Machine) -> f64 {
+    match machine {
+        Machine::Hack(config) if config.cpu => HACK_HERTZ,
+        _ => plan.target.hertz,
+    }
+}
+
+/// Runs a plan's program, or as many of its rows as are no work.
+///
+/// # Errors
+/// Only an interruption: why nothing can be told is an answer.
+pub fn forecast(plan: &Plan, machine: Machine) -> Outcome<Forecast> {
+    let progress = Progress::new("rows, for the time", PLACES.len() as u64);
+    let mut look = Look {
+        plan,
+        machine,
+        progress,
+        spent: 0.0,
+        rows: 0,
+    };
+    match look.told() {
+        Err(Failure::Interrupted) => Err(Failure::Interrupted),
+        Err(other) => Ok(Forecast::Not(other.reason())),
+        Ok(told) => Ok(told),
+    }
+}
+
+/// Looking at rows.
+struct Look<'p> {
+    plan: &'p Plan,
+    machine: Machine,
+    progress: Progress,
+    /// Cycles that were run.
+    spent: f64,
+    /// Rows that were looked at.
+    rows: u32,
+}
+
+impl Look<'_> {
+    fn told(&mut self) -> Outcome<Forecast> {
+        let (first, last) = self.plan.rows;
+        // So few are all run sooner than looked at.
+        if last - first < 4 {
+            return Ok(Forecast::Whole(self.took((first, last))?));
+        }
+        let cycles = match self.plan.graph.diffusion {
+            Some(_) => self.from_the_top()?,
+            None => self.spread()?,
+        };
+        match cycles <= ENOUGH {
+            true => Ok(Forecast::Whole(self.took((first, last))?)),
+            false => Ok(Forecast::Rows(cycles, self.rows)),
+        }
+    }
+
+    /// Cycles of the program for some rows.
+    fn took(&mut self, rows: (u32, u32)) -> Outcome<f64> {
+        let mut plan = self.plan.clone();
+        plan.rows = rows;
+        let mut loaded = trial::build_for(&plan, self.machine)?.loaded;
+        let run = loaded.run(MOST, &mut |_| {})?;
+        let wrong = match run.stop {
+            Stop::CycleLimit => Some(format!(
+                "a few rows take more than {} cycles",
+                count(run.cycles)
+            )),
+            _ => complaint(&run, MOST),
+        };
+        self.progress.step(1);
+        self.spent += run.cycles as f64;
+        match wrong {
+            Some(wrong) => Err(Failure::Wrong(wrong)),
+            None => Ok(run.cycles as f64),
+        }
+    }
+
+    /// Cycles of the whole, by rows spread over it.
+    fn spread(&mut self) -> Outcome<f64> {
+        let (first, last) = self.plan.rows;
+        let height = last - first + 1;
+        let at = |place: u32| first + ((2 * place + 1) * height / 32).min(height - 1);
+        let middle = at(PLACES[0]);
+        let one = self.took((middle, middle))?;
+        let both = self.took((middle, middle + 1))?;
+        let other = self.took((middle + 1, middle + 1))?;
+        let before = (one + other - both).clamp(0.0, one.min(other));
+        let whole = |sum: f64, rows: u32| before + sum / f64::from(rows) * f64::from(height);
+        let mut sum = one - before;
+        self.rows = 1;
+        for place in &PLACES[1..] {
+            let long = whole(sum, self.rows) > ENOUGH;
+            if !long || self.spent > ENOUGH && self.rows >= FEW {
+                break;
+            }
+            let row = at(*place);
+            sum += self.took((row, row))? - before;
+            self.rows += 1;
+        }
+        Ok(whole(sum, self.rows))
+    }
+
+    /// Cycles of the whole, by its first rows.
+    fn from_the_top(&mut self) -> Outcome<f64> {
+        let (first, last) = self.plan.rows;
+        let one = self.took((first, first))?;
+        let both = self.took((first, first + 1))?;
+        let before = (2.0 * one - both).clamp(0.0, one);
+        let (mut took, mut rows) = (both, 2);
+        while first + 2 * rows - 1 < last && self.spent + 2.0 * took < ENOUGH {
+            rows *= 2;
+            took = self.took((first, first + rows - 1))?;
+        }
+        self.rows = rows;
+        let expected = |rows: (u32, u32)| {
+            let mut plan = self.plan.clone();
+            plan.rows = rows;
+            estimate::cycles(&plan)
+        };
+        let part = expected((first, first + rows - 1)).max(1.0);
+        Ok(before + (took - before) * expected((first, last)) / part)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn places_are_sixteenths_in_an_order_that_is_spread() {
+        let mut all = PLACES;
+        all.sort_unstable();
+        assert_eq!(all.to_vec(), (0..16).collect::<Vec<u32>>());
+        // Of the first four, one in each quarter but the first, which has the last of eight.
+        for many in [2, 4, 8] {
+            let mut first = PLACES[..many].to_vec();
+            first.sort_unstable();
+            let gaps = first.windows(2).map(|two| two[1] - two[0]);
+            assert!(gaps.max() <= Some(16 / many as u32 * 2), "{first:?}");
+        }
+    }
+}
