@@ -98,7 +98,7 @@ impl Look<'_> {
             return Ok(Forecast::Whole(self.took((first, last))?));
         }
         let cycles = match self.plan.graph.diffusion {
-            Some(_) => self.from_the_top()?,
+            Some(_) => self.top_rows()?,
             None => self.spread()?,
         };
         match cycles <= ENOUGH {
@@ -154,7 +154,7 @@ impl Look<'_> {
     }
 
     /// Cycles of the whole, by its first rows.
-    fn from_the_top(&mut self) -> Outcome<f64> {
+    fn top_rows(&mut self) -> Outcome<f64> {
         let (first, last) = self.plan.rows;
         let one = self.took((first, first))?;
         let both = self.took((first, first + 1))?;

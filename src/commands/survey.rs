@@ -113,9 +113,9 @@ pub fn run(args: &Args) -> Outcome<()> {
 impl Args {
     /// What holds for all scenes, and for some.
     fn limits(&self) -> (u64, Vec<(String, u64)>) {
-        let all = (self.limit.iter()).filter(|(name, _)| name.is_none());
         let own = (self.limit.iter()).filter_map(|(name, limit)| Some((name.clone()?, *limit)));
-        let all = all.last().map_or(LIMIT, |(_, limit)| *limit);
+        let all = self.limit.iter().rfind(|(name, _)| name.is_none());
+        let all = all.map_or(LIMIT, |(_, limit)| *limit);
         (all, own.collect())
     }
 }
