@@ -45,9 +45,11 @@ fn other_scenes_are_drawn_in_fixed_point() {
 fn scenes_are_drawn_on_the_6502_with_points_of_their_own() {
     for (name, rows) in SCENES {
         is_drawn("6502", (name, rows), "fixed16", true);
+        is_drawn("6502", (name, rows), "fixed24", true);
     }
     for (name, rows, right) in OTHERS {
         is_drawn("6502", (name, rows), "fixed16", right);
+        is_drawn("6502", (name, rows), "fixed24", right);
     }
 }
 

@@ -170,3 +170,8 @@ fn random_scenes_never_leave_their_ranges_in_16_16() {
 fn random_scenes_never_leave_their_ranges_in_fixed16() {
     never_leave("fixed16");
 }
+
+#[test]
+fn random_scenes_never_leave_their_ranges_in_fixed24() {
+    never_leave("fixed24");
+}
