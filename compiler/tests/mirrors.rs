@@ -37,6 +37,7 @@ static PLAIN: Target = Target {
     hertz: 1e6,
     sizes: slowlight_compiler::target::mos6502::PLAIN.sizes,
     wraps: false,
+    columns: 0,
     pixels: |_| 1,
     emit: |_| Vec::new(),
 };

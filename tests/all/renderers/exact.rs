@@ -111,6 +111,7 @@ impl Run<'_> {
             Node::Carried { of, index } | Node::Last { of, index } => {
                 self.carried[&(of, index)].clone()
             }
+            Node::Tabulated(value) => self.value(value),
             Node::Result { of, index } => self.run(of, index as usize),
             Node::Ramp { .. }
             | Node::Stepped { .. }
