@@ -17,6 +17,8 @@ mod inline_tests;
 pub mod long;
 pub mod model;
 mod read;
+#[cfg(test)]
+mod read_tests;
 mod routines;
 mod templates;
 mod templates_long;

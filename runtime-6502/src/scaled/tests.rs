@@ -2,24 +2,24 @@
 
 #![allow(clippy::unwrap_used)]
 
-use super::{FIXED16, FIXED24, Read, floor, long, model, read};
+use super::{FIXED16, FIXED24, long, model};
 use crate::model::{bits, int};
 use crate::tests::bench::{Bench, Random, Setting};
-use crate::write::{Place, Shape};
+use crate::write::Place;
 use slowlight_routine::scale::{Scales, most};
 use slowlight_routine::{Format, Op, Range, Routine, Type};
 
 /// A format, and what it has for some operations.
-struct Kind {
-    setting: Setting,
-    bits: u8,
+pub(super) struct Kind {
+    pub setting: Setting,
+    pub bits: u8,
     /// Fraction bits of sines and of angles.
     sine: i32,
     angle: i32,
     divide: fn(i32, i32, i32) -> i32,
 }
 
-const SHORT: Kind = Kind {
+pub(super) const SHORT: Kind = Kind {
     setting: Setting {
         runtime: &FIXED16,
         sizes: 2,
@@ -30,7 +30,7 @@ const SHORT: Kind = Kind {
     divide: model::divide,
 };
 
-const LONG: Kind = Kind {
+pub(super) const LONG: Kind = Kind {
     setting: Setting {
         runtime: &FIXED24,
         sizes: 3,
@@ -56,7 +56,7 @@ impl Kind {
         all.find(|r| r.name == name).unwrap()
     }
 
-    fn edges(&self) -> Vec<i32> {
+    pub fn edges(&self) -> Vec<i32> {
         let mut all = vec![0, 3, 10, 100, 255, 257, 1000, 12345, 0x5555, self.most()];
         if self.bits > 16 {
             all.extend([0x5555_55, 0x7FFF_7F, 0x4000_01, 0x1234_56]);
@@ -82,7 +82,7 @@ impl Kind {
     }
 
     /// A result as the bytes of one have it.
-    fn read(&self, found: i32) -> i64 {
+    pub fn read(&self, found: i32) -> i64 {
         i64::from(found << (32 - self.bits) >> (32 - self.bits))
     }
 }
@@ -392,132 +392,6 @@ fn has_all(kind: &Kind) {
                 of.clone().any(|r| (r.domain)(ranges, Range::ALL)),
                 "{op:?} {n}"
             );
-        }
-    }
-}
-
-#[test]
-fn numbers_are_read_at_other_scales() {
-    for kind in [SHORT, LONG] {
-        for bytes in 1..=kind.setting.sizes {
-            reads(&kind, bytes);
-        }
-    }
-}
-
-/// All numbers of so many bytes.
-fn reads(kind: &Kind, held: u8) {
-    let (bits, bytes) = (kind.bits, kind.setting.sizes);
-    let fits_in = |a: &i32| i64::from(*a).abs() <= most(8 * held);
-    let edges: Vec<i32> = kind.edges().into_iter().filter(fits_in).collect();
-    for by in -30..=25 {
-        for (fits, quick) in [(false, false), (false, true), (true, false)] {
-            let held = Place::Held("first_operand".into(), Shape::whole(held));
-            let write = |lines: &mut Vec<String>| {
-                let what = Read {
-                    from: &held,
-                    by,
-                    fits,
-                    to: "result",
-                    bytes,
-                    serial: 1,
-                    quick,
-                };
-                read(what, lines).into_iter().collect()
-            };
-            let mut bench = Bench::written(&FIXED16, &write);
-            for a in &edges {
-                let wanted = model::shifted(i64::from(*a), by, bits);
-                let free = i64::from(*a) << by.max(0);
-                if fits && free.abs() > most(bits) {
-                    continue;
-                }
-                let (found, _) = bench.run(&[*a]);
-                assert_eq!(kind.read(found), wanted, "{a} by {by}, {fits}");
-            }
-        }
-    }
-}
-
-/// Ints of three and four bytes, and of two without a sign.
-#[test]
-fn wide_ints_are_read_at_other_scales() {
-    for kind in [SHORT, LONG] {
-        reads_wide(&kind);
-    }
-}
-
-fn reads_wide(kind: &Kind) {
-    let (bits, own) = (kind.bits, kind.setting.sizes);
-    let unsigned = Shape {
-        signed: false,
-        ..Shape::whole(own)
-    };
-    for shape in [Shape::whole(4), Shape::whole(3), unsigned] {
-        let held = Place::Held("first_operand".into(), shape);
-        for by in -20..=9 {
-            let write = |lines: &mut Vec<String>| {
-                let what = Read {
-                    from: &held,
-                    by,
-                    fits: true,
-                    to: "result",
-                    bytes: own,
-                    serial: 1,
-                    quick: false,
-                };
-                read(what, lines).into_iter().collect()
-            };
-            let mut bench = Bench::written(&FIXED16, &write);
-            let mut random = Random(7);
-            let mut checked = 0;
-            let drawn = (0..400).map(|k| match k {
-                0..40 => (1 << (k / 2)) - 1 + k % 2,
-                40..80 => -(1 << ((k - 40) / 2)) + k % 2,
-                _ => random.next() as i32 >> (k % 32),
-            });
-            for a in drawn {
-                let held = 8 * u32::from(shape.bytes);
-                let has = match shape.signed {
-                    true => i64::from(a) == (i64::from(a) << (64 - held)) >> (64 - held),
-                    false => (0..1i64 << held).contains(&i64::from(a)),
-                };
-                let exact = f64::from(a) * f64::from(by).exp2();
-                if !has || exact.abs() > most(bits) as f64 {
-                    continue;
-                }
-                checked += 1;
-                let wanted = model::shifted(i64::from(a), by, bits);
-                let (found, _) = bench.run(&[a]);
-                assert_eq!(kind.read(found), wanted, "{a} by {by}, {shape:?}");
-            }
-            assert!(checked > 20, "{by} {shape:?}");
-        }
-    }
-}
-
-#[test]
-fn whole_parts_are_floored() {
-    for kind in [SHORT, LONG] {
-        floors(&kind);
-    }
-}
-
-fn floors(kind: &Kind) {
-    let (edges, of) = (kind.edges(), kind.setting.sizes);
-    for n in 0..=i32::from(kind.bits) - 2 {
-        for bytes in [1, 2, 4] {
-            let held = Place::Held("first_operand".into(), Shape::whole(of));
-            let write = |lines: &mut Vec<String>| {
-                floor((&held, of), n, ("result", bytes), lines);
-                Vec::new()
-            };
-            let mut bench = Bench::written(&FIXED16, &write);
-            for a in &edges {
-                let (found, _) = bench.run(&[*a]);
-                let part = |n: i32| n & ((1i64 << (8 * bytes)) - 1) as i32;
-                assert_eq!(part(found), part(a >> n), "{a} {n} {bytes}");
-            }
         }
     }
 }

@@ -18,6 +18,7 @@
 //! - `screen`: what is drawn on; `ports`, `blocks`: the plain machine's; `bitmap`: memory;
 //!   `bbc`, `c64`: those machines' beginnings and ends;
 //! - `homes`: where values live and what they are called; `shapes`: in how many bytes;
+//! - `uses`: how often they are met; `columns`: arrays by columns;
 //! - `moved`: reals that are kept at a second scale;
 //! - `scaled`: reals with points of their own, read where they are wanted;
 //! - `code`: statements; `table`: lookups; `comment`: what a statement means;
@@ -50,6 +51,7 @@ pub mod syntax;
 mod table;
 #[cfg(test)]
 mod tests;
+mod uses;
 
 use super::{Document, Mode, Target};
 use crate::passes::outline::Sizes;
