@@ -84,6 +84,10 @@ fn what_fits_as_it_is_stays_so() {
         could += usize::from(plan.outlined_where_seldom(true, &|_| None).is_some());
         // Where memory is left, ends are copied.
         plan.copies = Copies::Ends;
+        // What does not fit is written shorter.
+        if !need(&plan).unwrap().is_none_or(|need| need.fits()) {
+            continue;
+        }
         let as_it_is = text(&plan);
         let fits = fit([Ok(plan)], &|_| None).unwrap();
         assert_eq!(text(&fits), as_it_is, "{seed}");

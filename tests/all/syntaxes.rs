@@ -80,7 +80,7 @@ pub fn programs() -> &'static [Plan] {
         let own = all
             .iter()
             .filter(small)
-            .map(|path| planned(path, "fixed16"));
+            .flat_map(|path| ["fixed16", "fixed24"].map(|format| planned(path, format)));
         // Every kind of screen, each also with what else is written for some pictures.
         let waves = directory(&[("waves.scn", &waves(37, 23)), ("even.scn", &waves(48, 24))]);
         let kinds = MODES.iter().flat_map(|(target, mode, _)| {

@@ -337,6 +337,12 @@ impl Plan {
         }
     }
 
+    /// Whether a value is an entry of an array by columns ([`Node::Tabulated`]): what is set
+    /// of it goes there at once, since its home may be another's by the column's end.
+    pub fn is_tabulated(&self, id: NodeId) -> bool {
+        matches!(self.graph.node(id), Node::Tabulated(_))
+    }
+
     /// Every place that the tree writes, in order of first writing, with its format.
     pub fn places(&self) -> Vec<(Place, Format)> {
         let mut all: Vec<(Place, Format)> = Vec::new();

@@ -137,7 +137,7 @@ impl<'p> Code<'p> {
                         Text::operand(self.values.names.home(Place::Scratch(l, k)))
                     }
                 };
-                let home = self.values.names.home(*place).to_owned();
+                let home = self.goal(*place);
                 self.assign(&home, &text);
             }
             Statement::If { cond, yes, no } if self.known.is_some_and(|(of, _)| of == *cond) => {
@@ -165,6 +165,17 @@ impl<'p> Code<'p> {
                 let name = self.values.names.procedure(*id);
                 self.lines.statement(format!("PROC{name}"), self.span);
             }
+        }
+    }
+
+    /// What an assignment to a place is to: its variable, or an entry of its array.
+    fn goal(&self, place: Place) -> String {
+        let names = &self.values.names;
+        match place {
+            Place::Node(id) if self.values.plan.is_tabulated(id) => {
+                format!("{}(X%)", names.column(id))
+            }
+            _ => names.home(place).to_owned(),
         }
     }
 

@@ -2,7 +2,7 @@
 
 use super::code::Code;
 use crate::flow::graph::*;
-use crate::flow::tree::{Place, tabulated};
+use crate::flow::tree::tabulated;
 use crate::plan::Plan;
 
 /// How often a column's statements are carried out, beside those of the picture: about.
@@ -24,11 +24,6 @@ pub fn fill(plan: &Plan, code: &mut Code<'_>) {
     let (from, to) = plan.computed_columns();
     code.line(format!("FOR X%={from} TO {to}"));
     code.block(&plan.tree.column);
-    for id in found {
-        let home = code.values.names.home(Place::Node(id)).to_owned();
-        let text = format!("{}(X%)={home}", array(code, id));
-        code.lines.statement(text, Some(plan.graph.span(id)));
-    }
     code.line("NEXT");
     code.lines.weight = weight;
 }

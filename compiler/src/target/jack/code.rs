@@ -149,7 +149,10 @@ impl<'p> Code<'p> {
         self.text.span = Some(statement.span(&self.plan.graph, &self.plan.tree));
         match statement {
             Statement::Let(id) => self.compute(*id),
-            Statement::Set { place, from } => self.set(*place, *from),
+            Statement::Set { place, from } => {
+                self.set(*place, *from);
+                self.keep_column(*place);
+            }
             Statement::If { cond, yes, no } => {
                 let cond = self.read(*cond);
                 if yes.is_empty() {

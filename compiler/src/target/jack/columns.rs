@@ -53,22 +53,30 @@ impl Code<'_> {
         picture.line(format!("let {x} = {first};"));
         picture.open(format!("while ({x} < {}) {{", last.saturating_add(1)));
         picture.append(column);
-        for id in found {
-            let home = self.names.home(Place::Node(id)).to_owned();
-            let name = self.names.column(id).to_owned();
-            picture.span = Some(plan.graph.span(id));
-            picture.line(format!("let {name}[{x}] = {home};"));
-            if self.is_float(id) {
-                picture.line(format!("let {home} = Float.new();"));
-            }
-            if self.has_sign(id) {
-                let sign = self.sign_of(&home);
-                picture.line(format!("let {name}_plus[{x}] = {sign};"));
-            }
-        }
         picture.span = plan.drawn;
         picture.line(format!("let {x} = {x} + 1;"));
         picture.close("}");
+    }
+
+    /// Keeps a value that has just been set at its column.
+    pub fn keep_column(&mut self, place: Place) {
+        let Place::Node(id) = place else {
+            return;
+        };
+        if !self.plan.is_tabulated(id) {
+            return;
+        }
+        let home = self.names.home(place).to_owned();
+        let (entry, sign) = self.column(id);
+        self.line(format!("let {} = {home};", entry.text));
+        if self.is_float(id) {
+            // The entry is the home's object.
+            self.line(format!("let {home} = Float.new();"));
+        }
+        if let Some(entry) = sign {
+            let sign = self.sign_of(&home);
+            self.line(format!("let {entry} = {sign};"));
+        }
     }
 
     /// A value at the pixel's column; of a logarithm the sign, too.

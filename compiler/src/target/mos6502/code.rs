@@ -91,29 +91,8 @@ impl<'p> Code<'p> {
                 self.keep_moved(*id);
             }
             Statement::Set { place, from } => {
-                let to = self.homes.place(*place).to_owned();
-                let (from, said) = match *from {
-                    Origin::Node(id) if self.moves(*place, id) => {
-                        let said = comment::operand(self.plan, self.homes, id);
-                        self.text.line(format!("        ; {to} = {said}"));
-                        return self.set_real(*place, &to, id);
-                    }
-                    Origin::Node(id) => (
-                        self.homes.operand(self.plan, id),
-                        comment::operand(self.plan, self.homes, id),
-                    ),
-                    Origin::Scratch(l, k) => {
-                        let place = Place::Scratch(l, k);
-                        let name = self.homes.place(place).to_owned();
-                        (self.homes.held_in(self.plan, place), name)
-                    }
-                };
-                let same =
-                    matches!(&from, Operand::At(name) | Operand::Held(name, _) if *name == to);
-                if !same {
-                    self.text.line(format!("        ; {to} = {said}"));
-                    self.copy_into(&from, &to, *place);
-                }
+                self.set(*place, *from);
+                self.keep_column(*place);
             }
             Statement::If { cond, yes, no } => self.choose(*cond, yes, no),
             Statement::Loop(turns) => self.repeat(turns),
@@ -121,6 +100,31 @@ impl<'p> Code<'p> {
                 let name = self.homes.subroutine(*id);
                 self.text.code(&format!("jsr {name}"));
             }
+        }
+    }
+
+    fn set(&mut self, place: Place, from: Origin) {
+        let to = self.homes.place(place).to_owned();
+        let (from, said) = match from {
+            Origin::Node(id) if self.moves(place, id) => {
+                let said = comment::operand(self.plan, self.homes, id);
+                self.text.line(format!("        ; {to} = {said}"));
+                return self.set_real(place, &to, id);
+            }
+            Origin::Node(id) => (
+                self.homes.operand(self.plan, id),
+                comment::operand(self.plan, self.homes, id),
+            ),
+            Origin::Scratch(l, k) => {
+                let place = Place::Scratch(l, k);
+                let name = self.homes.place(place).to_owned();
+                (self.homes.held_in(self.plan, place), name)
+            }
+        };
+        let same = matches!(&from, Operand::At(name) | Operand::Held(name, _) if *name == to);
+        if !same {
+            self.text.line(format!("        ; {to} = {said}"));
+            self.copy_into(&from, &to, place);
         }
     }
 

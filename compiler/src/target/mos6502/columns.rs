@@ -6,7 +6,7 @@
 use super::code::Code;
 use super::homes::Slot;
 use crate::flow::graph::*;
-use crate::flow::tree::{Place, tabulated};
+use crate::flow::tree::Place;
 use crate::plan::Plan;
 use slowlight_runtime_6502::write::{Place as Operand, byte_at, size};
 
@@ -22,8 +22,7 @@ impl Code<'_> {
     /// The loop over the columns, `first` to `last`, that fills the arrays.
     pub(super) fn fill_columns(&mut self, (first, last): (u32, u32)) {
         let plan = self.plan;
-        let found = tabulated(&plan.graph, &plan.tree);
-        if found.is_empty() {
+        if plan.tree.column.is_empty() {
             return;
         }
         let x = self.homes.name(Slot::Axis(Axis::X)).to_owned();
@@ -31,10 +30,6 @@ impl Code<'_> {
         self.copy_axis(&Operand::Constant(u64::from(first)), &x);
         self.text.label("next_entry");
         self.block(&plan.tree.column);
-        for id in found {
-            self.text.span = Some(plan.graph.span(id));
-            self.through_column(id, |home, entry| format!("lda {home} | sta {entry}"));
-        }
         self.text.span = None;
         let [lo, hi, ..] = last.to_le_bytes();
         self.text.code(&format!(
@@ -45,6 +40,16 @@ impl Code<'_> {
         self.text.label("more_entries");
         self.text.code("jmp next_entry");
         self.text.label("entries_done");
+    }
+
+    /// Keeps a value that has just been set at its column.
+    pub(super) fn keep_column(&mut self, place: Place) {
+        match place {
+            Place::Node(id) if self.plan.is_tabulated(id) => {
+                self.through_column(id, |home, entry| format!("lda {home} | sta {entry}"));
+            }
+            _ => {}
+        }
     }
 
     /// Reads a value at the pixel's column.
