@@ -11,7 +11,7 @@ use std::collections::BTreeSet;
 /// for 1. The way from a sphere's centre to a point is a normal only where the point
 /// lies on it, and may be the same value as what its distance is made of elsewhere.
 pub(super) fn measured(graph: &Graph) -> BTreeSet<NodeId> {
-    let mut all = BTreeSet::new();
+    let (mut all, mut arrays) = (BTreeSet::new(), false);
     for id in graph.ids() {
         let Node::Apply(Op::Sqrt, [sum, _]) = graph.node(id) else {
             continue;
@@ -24,12 +24,42 @@ pub(super) fn measured(graph: &Graph) -> BTreeSet<NodeId> {
                 Node::Apply(Op::Mul, [a, b]) if a == b => {
                     all.insert(a);
                 }
+                Node::Tabulated(value) => {
+                    todo.push(value);
+                    arrays = true;
+                }
                 _ => {}
             }
         }
     }
+    if arrays {
+        let copy = |id: &&NodeId| all.iter().any(|of| is_copy(graph, *of, **id, COPY));
+        let copies: Vec<NodeId> = graph.directions.keys().filter(copy).copied().collect();
+        all.extend(copies);
+    }
     all
 }
+
+/// Whether a value of a column is what pixels have of it, out of its array or computed
+/// again ([`crate::passes::columns`]).
+fn is_copy(graph: &Graph, of: NodeId, id: NodeId, deep: u32) -> bool {
+    let bare = |id: NodeId| match graph.node(id) {
+        Node::Tabulated(value) => value,
+        _ => id,
+    };
+    let [of, id] = [of, id].map(bare);
+    of == id
+        || match (graph.node(of), graph.node(id)) {
+            (Node::Apply(op, a), Node::Apply(other, b)) if op == other && deep > 0 => {
+                let mut pairs = a.into_iter().zip(b).take(op.arity());
+                pairs.all(|(a, b)| is_copy(graph, a, b, deep - 1))
+            }
+            _ => false,
+        }
+}
+
+/// How deep copies are compared.
+const COPY: u32 = 6;
 
 /// How many terms of a sum are looked at.
 const TERMS: usize = 8;
@@ -109,10 +139,18 @@ impl Walk<'_> {
         let Node::Apply(Op::Sqrt, [sum, _]) = self.graph.node(length) else {
             return false;
         };
-        let (mut squared, mut todo) = (false, vec![sum]);
-        while let Some(term) = todo.pop() {
+        let (mut squared, mut todo) = (false, vec![(sum, false)]);
+        while let Some((term, in_array)) = todo.pop() {
             match self.graph.node(term) {
-                Node::Apply(Op::Add, [a, b]) if todo.len() < TERMS => todo.extend([a, b]),
+                Node::Apply(Op::Add, args) if todo.len() < TERMS => {
+                    todo.extend(args.map(|term| (term, in_array)));
+                }
+                Node::Tabulated(value) => todo.push((value, true)),
+                Node::Apply(Op::Mul, [a, b])
+                    if in_array && a == b && is_copy(self.graph, a, part, COPY) =>
+                {
+                    squared = true;
+                }
                 _ if self.is_square(term, part) => squared = true,
                 _ if self.read(term).lo >= 0.0 => {}
                 _ => return false,

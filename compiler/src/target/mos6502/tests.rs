@@ -122,7 +122,7 @@ fn products_stand_in_place_where_there_is_room() {
 #[test]
 fn sums_have_the_bytes_that_are_asked_for() {
     let source = "image 64 x 32 inks black, white;
-        draw (x, y) = ink((floor(x * 30.3) + floor(y * 70.7)) mod 2);";
+        draw (x, y) = ink((floor((x + 2 * y) * 30.3) + floor(y * 70.7)) mod 2);";
     let plan = planned_in(source, "fixed16");
     let shapes = super::shapes::shapes(&plan).unwrap();
     let bytes = |name: &str| -> Vec<u8> {
