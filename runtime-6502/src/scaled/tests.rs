@@ -59,7 +59,7 @@ impl Kind {
     pub fn edges(&self) -> Vec<i32> {
         let mut all = vec![0, 3, 10, 100, 255, 257, 1000, 12345, 0x5555, self.most()];
         if self.bits > 16 {
-            all.extend([0x5555_55, 0x7FFF_7F, 0x4000_01, 0x1234_56]);
+            all.extend([0x0055_5555, 0x007F_FF7F, 0x0040_0001, 0x0012_3456]);
         }
         for k in 0..self.bits - 1 {
             all.extend([1 << k, (1 << k) - 1]);
