@@ -152,7 +152,8 @@ fn with_copies(plan: Plan) -> Outcome<Plan> {
         (Copies::Tests, plan.brief),
         (Copies::Tests, true),
     ];
-    for (copies, brief) in ways {
+    let count = if is_basic(&plan) { 3 } else { 2 };
+    for (copies, brief) in ways.into_iter().take(count) {
         let mut tried = plan.clone();
         (tried.copies, tried.brief, tried.page) = (copies, brief, page);
         if need(&tried)?.is_none_or(|need| need.fits()) {
@@ -176,14 +177,27 @@ fn with_calls_where_seldom(
         let Some(mut tried) = way() else {
             continue;
         };
-        for (brief, scant) in [(false, false), (true, false), (true, true)] {
-            (tried.brief, tried.scant) = (brief, scant);
+        for (brief, scant) in remarks(plan) {
+            (tried.brief, tried.scant) = (*brief, *scant);
             if need(&tried)?.is_none_or(|need| need.fits()) {
                 return Ok(Some(tried));
             }
         }
     }
     Ok(None)
+}
+
+/// Ways to write a program: with fewer remarks, and short where that takes longer. Only
+/// where the text itself is what the machine holds do they make it smaller.
+fn remarks(plan: &Plan) -> &'static [(bool, bool)] {
+    match is_basic(plan) {
+        true => &[(false, false), (true, false), (true, true)],
+        false => &[(false, false)],
+    }
+}
+
+fn is_basic(plan: &Plan) -> bool {
+    plan.target.name.starts_with("bbc")
 }
 
 fn as_is_or_tight(mut plan: Plan) -> Outcome<Fitted> {
@@ -196,6 +210,10 @@ fn as_is_or_tight(mut plan: Plan) -> Outcome<Fitted> {
         3
     };
     for (lean, tight) in styles.into_iter().take(count) {
+        // Only Jack and BASIC have a leaner style: machine code is the same in it.
+        if lean && !tight && plan.target.name.starts_with("6502") {
+            continue;
+        }
         (plan.lean, plan.tight) = (lean, tight);
         match need(&plan)? {
             Some(need) if !need.fits() => {

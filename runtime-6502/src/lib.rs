@@ -31,11 +31,13 @@
 //! of their own (`scaled_page`), `$0200-$09ff` its tables
 //! of quarter squares, made by `make_squares` at the start. All else is free.
 
+pub mod log;
 pub mod model;
 mod parts;
 mod routines;
 pub mod scaled;
 mod templates;
+pub mod tidy;
 pub mod write;
 
 #[cfg(test)]
@@ -53,6 +55,7 @@ pub fn free_zero_page(runtime: &Runtime) -> u8 {
     match runtime.real {
         Format::Scaled { bits: 16 } => scaled::FREE_ZERO_PAGE,
         Format::Scaled { .. } => scaled::LONG_FREE_ZERO_PAGE,
+        Format::Log { .. } => log::FREE_ZERO_PAGE,
         _ => FREE_ZERO_PAGE,
     }
 }
@@ -79,6 +82,7 @@ const USUAL: Runtime = Runtime {
     stepping: None,
     segments: false,
     reciprocals: false,
+    narrow: None,
     derives: false,
     kept: slowlight_routine::whole,
     loose: None,

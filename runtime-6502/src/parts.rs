@@ -3,9 +3,9 @@
 use slowlight_routine::{Part, Source};
 
 use crate::model::{ARCTANGENT, LOGARITHM, POWER_OF_TWO, SINE};
-use crate::scaled;
+use crate::{log, scaled};
 
-const fn part(
+pub(crate) const fn part(
     name: &'static str,
     text: &'static str,
     needs: &'static [&'static str],
@@ -20,7 +20,7 @@ const fn part(
 }
 
 /// The terms of a polynomial, as bytes.
-const fn terms(name: &'static str, make: fn() -> Vec<i32>, bytes: u32) -> Part {
+pub(crate) const fn terms(name: &'static str, make: fn() -> Vec<i32>, bytes: u32) -> Part {
     Part {
         name,
         source: Source::Table(make),
@@ -30,7 +30,7 @@ const fn terms(name: &'static str, make: fn() -> Vec<i32>, bytes: u32) -> Part {
 }
 
 /// In the order in which they stand in a program: what defines symbols for others first.
-pub(crate) static ALL: &[Part] = &[
+const USUAL: &[Part] = &[
     part("zero_page", include_str!("../asm/zero_page.asm"), &[], 0),
     part(
         "squares",
@@ -150,9 +150,25 @@ pub(crate) static ALL: &[Part] = &[
     ),
     part(
         "product",
-        include_str!("../asm/scaled/product.asm"),
+        concat!(
+            "; The product of two numbers of 16 bits, a in a and x (high), b in arg.\nproduct16:\n",
+            include_str!("../asm/scaled/point.asm"),
+            include_str!("../asm/scaled/upper_products.asm"),
+            include_str!("../asm/scaled/product.asm")
+        ),
         &["squares", "scaled_page"],
-        145,
+        140,
+    ),
+    part(
+        "plus_product",
+        concat!(
+            "; The same of numbers that are not below 0.\nplus_product:\n",
+            include_str!("../asm/scaled/point.asm"),
+            include_str!("../asm/scaled/upper_products.asm"),
+            include_str!("../asm/scaled/plus_product.asm")
+        ),
+        &["product"],
+        99,
     ),
     part(
         "square16",
@@ -256,6 +272,28 @@ pub(crate) static ALL: &[Part] = &[
         include_str!("../asm/scaled/root.asm"),
         &["squares", "roots_low", "roots_high", "roots_step"],
         110,
+    ),
+    part(
+        "int_root",
+        include_str!("../asm/scaled/int_root.asm"),
+        &["root16"],
+        95,
+    ),
+    terms("sines_low", || scaled::sines::bytes(0), 257),
+    terms("sines_high", || scaled::sines::bytes(1), 256),
+    part(
+        "sine16",
+        include_str!("../asm/scaled/sine.asm"),
+        &["squares", "sines_low", "sines_high"],
+        270,
+    ),
+    terms("powers_low", || scaled::powers::bytes(0), 257),
+    terms("powers_high", || scaled::powers::bytes(1), 256),
+    part(
+        "exponential16",
+        include_str!("../asm/scaled/exponential.asm"),
+        &["squares", "powers_low", "powers_high"],
+        251,
     ),
     part(
         "squares24",
@@ -370,3 +408,16 @@ pub(crate) static ALL: &[Part] = &[
         216,
     ),
 ];
+
+/// All of them, those of logarithms behind the others.
+pub(crate) static ALL: &[Part] = &joined::<{ USUAL.len() + log::PARTS.len() }>(USUAL, log::PARTS);
+
+const fn joined<const N: usize>(a: &[Part], b: &[Part]) -> [Part; N] {
+    let mut all = [a[0]; N];
+    let mut k = 0;
+    while k < N {
+        all[k] = if k < a.len() { a[k] } else { b[k - a.len()] };
+        k += 1;
+    }
+    all
+}

@@ -1,6 +1,6 @@
 //! Writes the use of a routine as lines of assembly.
 
-use crate::scaled;
+use crate::{log, scaled};
 use slowlight_routine::scale::Scales;
 use slowlight_routine::{Bits, Form, Format, Range, Routine};
 
@@ -11,6 +11,8 @@ pub enum Place {
     At(String),
     /// There in fewer bytes.
     Held(String, Shape),
+    /// A logarithm there, in two bytes, of a real whose sign is known: true for plus.
+    Signed(String, bool),
     /// Nowhere: its bits are known.
     Constant(Bits),
 }
@@ -67,6 +69,7 @@ impl Place {
         match self {
             Place::At(_) => Shape::whole(most),
             Place::Held(_, shape) => *shape,
+            Place::Signed(..) => Shape::whole(most),
             Place::Constant(bits) => Shape::of(Range::point(*bits as i64 as f64), most),
         }
     }
@@ -88,6 +91,8 @@ pub fn size(format: Format) -> u8 {
     match format {
         Format::Bool => 1,
         Format::Fixed { bits, .. } | Format::Scaled { bits } | Format::Int { bits } => bits / 8,
+        // The sign last.
+        Format::Log { .. } => 3,
         _ => 4,
     }
 }
@@ -107,6 +112,8 @@ pub fn byte(place: &Place, k: u8) -> String {
         Place::At(symbol) => byte_at(symbol, k),
         Place::Held(symbol, shape) if k < shape.bytes => byte_at(symbol, k),
         Place::Held(..) => "#$00".to_owned(),
+        Place::Signed(symbol, _) if k < 2 => byte_at(symbol, k),
+        Place::Signed(_, plus) => format!("#${:02x}", u8::from(!plus)),
         Place::Constant(bits) => format!("#${:02x}", (bits >> (8 * u32::from(k))) & 0xFF),
     }
 }
@@ -228,11 +235,12 @@ pub fn instructions(used: Use<'_>, lines: &mut Vec<String>) -> Option<&'static s
     let Form::Statement(text) = used.routine.form else {
         return None;
     };
-    let square = match used.args {
-        [a, b] if a == b => scaled::squared(text),
-        _ => None,
+    let (square, same) = match used.args {
+        [a, b] if a == b => (scaled::squared(text), log::same(text)),
+        _ => (None, None),
     };
-    let (text, need) = (square.map_or(text, |s| s.0), square.map(|s| s.1));
+    let text = same.or(square.map(|s| s.0)).unwrap_or(text);
+    let need = square.map(|s| s.1);
     let (routine, full) = (used.routine, size(used.routine.result));
     let (to, bytes) = match *used.goal {
         Goal::At(to) => (Some(to), full),
@@ -326,12 +334,18 @@ fn template(text: &str, used: Use<'_>, bytes: u8, lines: &mut Vec<String>) {
             _ => place.clone(),
         })
         .collect();
-    let part = !is_bool && bytes < width;
+    // A logarithm is written without its sign where that is known.
+    let of_logs = matches!(used.routine.result, Format::Log { .. });
+    let part = !is_bool && !of_logs && bytes < width;
     let cut = Goal::At(CUT);
     let inner = Use {
         args: &extended,
         goal: if part { &cut } else { used.goal },
         ..used
+    };
+    let text = &match of_logs {
+        true => with_sign(text, bytes == width),
+        false => text.to_owned(),
     };
     // A comparison leaves the overflow flag alone.
     let repeated = match width == 1 && text.contains("bv") {
@@ -352,6 +366,9 @@ fn template(text: &str, used: Use<'_>, bytes: u8, lines: &mut Vec<String>) {
             rest = after;
         }
         filled.push_str(rest);
+        if of_logs && folded(&filled, lines) {
+            continue;
+        }
         let indent = if filled.ends_with(':') {
             ""
         } else {
@@ -362,6 +379,34 @@ fn template(text: &str, used: Use<'_>, bytes: u8, lines: &mut Vec<String>) {
     if let (true, Goal::Held(to, _)) = (part, used.goal) {
         copy_bytes(&Place::At(CUT.to_owned()), to, bytes, lines);
     }
+}
+
+/// A template with what gives its result a sign, or without.
+fn with_sign(text: &str, signed: bool) -> String {
+    let mut made = String::new();
+    let mut rest = text;
+    while let Some((before, behind)) = rest.split_once("[s") {
+        let (inside, after) = behind.split_once(']').unwrap_or((behind, ""));
+        made.push_str(before);
+        made.push('|');
+        made.push_str(if signed { inside } else { "" });
+        made.push('|');
+        rest = after;
+    }
+    made + rest
+}
+
+/// Whether an instruction does nothing, or does what the last one becomes instead: signs that
+/// are known are constants.
+fn folded(instruction: &str, lines: &mut [String]) -> bool {
+    let Some(operand) = instruction.strip_prefix("eor ") else {
+        return false;
+    };
+    match lines.last_mut() {
+        Some(last) if last == "        lda #$00" => *last = format!("        lda {operand}"),
+        _ => return operand == "#$00",
+    }
+    true
 }
 
 /// A template whose parts in brackets stand there once a byte.
@@ -407,6 +452,7 @@ fn placeholder(inside: &str, used: Use<'_>) -> String {
             .args
             .get(arg)
             .map_or_else(String::new, |place| byte(place, k)),
+        (Err(_), _) if which != "r" => byte_at(which, k),
         (Err(_), Goal::At(to) | Goal::Held(to, _)) => byte_at(to, k),
         (Err(_), Goal::Carry) => String::new(),
     }

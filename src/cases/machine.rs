@@ -78,7 +78,8 @@ pub fn run(plan: &Plan) -> Outcome<Vec<Value>> {
         .collect();
     let found = match plan.runtime.real {
         Format::Real40 => from_file(&run, &formats, plan),
-        Format::Float316 { .. } | Format::Log { .. } => from_text(&run, &formats, plan),
+        Format::Float316 { .. } => from_text(&run, &formats, plan),
+        Format::Log { .. } if plan.runtime.name == "jack" => from_text(&run, &formats, plan),
         _ => from_screen(&run, &formats, plan),
     };
     found.ok_or_else(|| {

@@ -47,6 +47,11 @@ pub struct ScreenArgs {
     /// [default: 1900; machine code that needs more moves itself down to E00]
     #[arg(long, value_name = "PAGE", value_parser = page)]
     pub page: Option<u16>,
+    /// On the 6502 targets: opcodes that the data sheet leaves out, where two instructions
+    /// become one. Every NMOS 6502 has them (a BBC Micro, a Commodore 64); a CMOS 6502 (65C02,
+    /// as in a Master) has others in their places
+    #[arg(long)]
+    pub undocumented: bool,
     /// Compute once for N x N or W x H pixels, and draw them as a block: the shade is that
     /// of the block's middle. The picture must be whole blocks
     #[arg(long, value_name = "N|WxH", value_parser = block)]
@@ -242,6 +247,10 @@ impl ScreenArgs {
             );
             return Err(Failure::Usage(message));
         }
+        if self.undocumented && !is_6502(target) {
+            let message = format!("--undocumented is the 6502's; {} is none", target.name);
+            return Err(Failure::Usage(message));
+        }
         if self.page.is_some() && !matches!(target.name, "bbc:micro" | "6502:bbc") {
             let message = format!("--page is the BBC Micro's; {} has none", target.name);
             return Err(Failure::Usage(message));
@@ -279,6 +288,7 @@ impl ScreenArgs {
         let mut plan = planned.map_err(|said| scene.wrong(said))?;
         plan.listing = basic && self.style == Some(Style::Listing);
         plan.page = self.page;
+        plan.undocumented = self.undocumented;
         plan.statics = self.os == Some(Os::Jack);
         // A listing has remarks before what comes from another line of the scene.
         let draw = scene.checked.program.draw.as_ref();

@@ -121,6 +121,9 @@ impl Base {
         if choice.outlined {
             words.push("--outlined".to_owned());
         }
+        if self.screen.undocumented {
+            words.push("--undocumented".to_owned());
+        }
         words
     }
 

@@ -50,19 +50,12 @@ fn many() -> String {
 /// the program still draws what its model does.
 #[test]
 fn shapes_share_subroutines_where_memory_is_short() {
-    let fifty = include_str!("../../examples/fifty.scn");
     let csg = include_str!("../../examples/csg.scn");
-    let scenes = [
-        ("fifty.scn", fifty),
-        ("csg.scn", csg),
-        ("many.scn", &many()),
-    ];
+    let scenes = [("csg.scn", csg), ("many.scn", &many())];
     let dir = directory(&scenes);
     for (scene, rows, target, room) in [
-        ("fifty.scn", "150..150", "6502:plain", 65_280),
         ("csg.scn", "110..110", "6502:plain", 65_280),
         ("csg.scn", "110..110", "bbc:micro", 16_128),
-        ("many.scn", "24..24", "6502:plain", 65_280),
     ] {
         let args = ["run", scene, "-t", target, "--rows", rows, "--json"];
         let said = json(dir.path(), &args);

@@ -28,6 +28,7 @@ mod library;
 mod listing;
 mod mos6502;
 mod mos6502_fixed;
+mod mos6502_logs;
 mod need;
 #[cfg(feature = "peers")]
 mod peers_assemblers;

@@ -1,6 +1,6 @@
 //! The generated assembly, unchanged, under the real assemblers as its head says.
 
-use crate::syntaxes::{programs, usual};
+use crate::syntaxes::{Program, programs};
 use slowlight_compiler::target::mos6502::document;
 use slowlight_compiler::target::mos6502::syntax;
 use std::path::Path;
@@ -29,7 +29,7 @@ fn run(dir: &Path, command: &str) {
 /// bytes with or without the load address before them.
 fn assembles(name: &str, tools: &[&str], file: &str, load_address: bool) {
     let syntax = syntax::find(name).expect("a syntax");
-    for plan in programs() {
+    for Program { plan, usual } in programs() {
         let dir = tempfile::tempdir().expect("a directory");
         let document = document(plan, syntax);
         std::fs::write(dir.path().join(&document.name), &document.text).expect("written");
@@ -40,10 +40,9 @@ fn assembles(name: &str, tools: &[&str], file: &str, load_address: bool) {
         }
         let path = dir.path().join(file.replace("NAME", &plan.name));
         let made = std::fs::read(path).expect("the assembler writes");
-        let ours = usual(plan);
         let ours = match load_address {
-            true => ours.image(),
-            false => ours.bytes,
+            true => usual.image(),
+            false => usual.bytes.clone(),
         };
         assert!(made == ours, "{}: {name} makes other bytes", plan.name);
     }

@@ -139,10 +139,11 @@ fn held(source: &str, format: &str, seed: u64) -> Option<(u64, u64)> {
     Some((seen.results.get(), seen.ends.get()))
 }
 
-fn never_leave(format: &str) {
+/// So many scenes never leave their ranges in a format, or are refused, as one in ten may be.
+fn never_leave(format: &str, scenes: u64) {
     let mut scribe = Scribe(11);
     let (mut planned, mut results, mut ends) = (0, 0, 0);
-    for seed in 0..200 {
+    for seed in 0..scenes {
         let source = match seed % 2 {
             0 => scribe.scene(),
             _ => Builder(Random::new(seed)).scene(),
@@ -155,7 +156,7 @@ fn never_leave(format: &str) {
     }
     println!("{format}: {planned} scenes, {results} results, {ends} scenes saturate");
     assert!(
-        planned >= 180 && results > 20_000_000,
+        planned * 10 >= scenes * 9 && results > scenes * 100_000,
         "{planned} {results}"
     );
     assert!(ends > 0, "saturation was never met");
@@ -163,15 +164,16 @@ fn never_leave(format: &str) {
 
 #[test]
 fn random_scenes_never_leave_their_ranges_in_16_16() {
-    never_leave("fixed16.16");
+    never_leave("fixed16.16", 200);
 }
 
 #[test]
 fn random_scenes_never_leave_their_ranges_in_fixed16() {
-    never_leave("fixed16");
+    // Fewer scenes: where points stand is looked for in each, which takes long.
+    never_leave("fixed16", 60);
 }
 
 #[test]
 fn random_scenes_never_leave_their_ranges_in_fixed24() {
-    never_leave("fixed24");
+    never_leave("fixed24", 20);
 }

@@ -147,7 +147,7 @@ fn a_goal_that_nothing_reaches_says_how_close_one_comes() {
         "tune",
         "ball.scn",
         "-t",
-        "6502",
+        "jack",
         "--settings",
         "2",
         "-o",
@@ -239,7 +239,7 @@ fn the_page_is_whole_and_asks_for_nothing() {
 #[test]
 fn a_second_run_says_the_same_and_csv_has_every_point() {
     let dir = directory(&[("ball.scn", BALL)]);
-    let args = ["tune", "ball.scn", "-t", "6502", "--settings", "3"];
+    let args = ["tune", "ball.scn", "-t", "jack", "--settings", "3"];
     let json = |more: &str| success(dir.path(), &[&args[..], &["--json", more]].concat());
     // Whatever an earlier run may have kept.
     let anew = json("--no-cache");

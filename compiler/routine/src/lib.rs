@@ -17,6 +17,7 @@
 //! whose domain the value ranges prove; so runtimes list the cheap, restricted
 //! routines first and end with one that is total.
 
+pub mod log;
 mod op;
 mod range;
 pub mod scale;
@@ -283,6 +284,9 @@ pub struct Runtime {
     pub format: &'static str,
     /// The format of every real.
     pub real: Format,
+    /// In how many bits, fewer than those of `real`, reals may be held as well where that is
+    /// enough, each with routines of its own; `None` where all are held alike.
+    pub narrow: Option<u8>,
     /// The format of every int.
     pub int: Format,
     /// What it can compute, cheap and restricted before dear and total.

@@ -66,7 +66,11 @@ macro_rules! ops {
 
         impl Op {
             /// Every operation.
-            pub const ALL: &'static [Op] = &[$(Op::$name,)*];
+            pub const EVERY: &'static [Op] = &[$(Op::$name,)*];
+
+            /// Those that scenes are made of, which every runtime has: all but the last,
+            /// which a plan's own rewriting makes for runtimes that have it.
+            pub const ALL: &'static [Op] = Op::EVERY.split_at(Op::EVERY.len() - 1).0;
 
             /// Its name in printed graphs.
             pub fn name(self) -> &'static str {
@@ -143,6 +147,8 @@ ops! {
     IntLessEqual "ile" (Int, Int) -> Bool;
     IntEqual "ieq" (Int, Int) -> Bool;
     Not "not" (Bool) -> Bool;
+    /// The root of an int as it is; of a negative: 0. Where ints have more bits than reals.
+    IntRoot "int_root" (Int) -> Real;
 }
 
 /// Keeps a real finite: overflow saturates, what is no number is 0.
@@ -217,7 +223,7 @@ impl Op {
 
     /// An operation by its printed name.
     pub fn named(name: &str) -> Option<Op> {
-        Op::ALL.iter().copied().find(|op| op.name() == name)
+        Op::EVERY.iter().copied().find(|op| op.name() == name)
     }
 
     /// The operation in `f64` (transcendentals from `libm`, so that every host
@@ -271,6 +277,7 @@ impl Op {
     pub fn eval_int(self, a: i32, b: i32) -> Value {
         Value::Int(match self {
             Op::ToReal => return Value::Real(f64::from(a)),
+            Op::IntRoot => return Value::Real(f64::from(a.max(0)).sqrt()),
             Op::IntLess => return Value::Bool(a < b),
             Op::IntLessEqual => return Value::Bool(a <= b),
             Op::IntEqual => return Value::Bool(a == b),
@@ -313,7 +320,7 @@ mod tests {
     #[test]
     fn reals_have_a_value_for_every_argument() {
         let values = [0.0, -0.0, 1.5, -3.0, f64::MAX, f64::MIN, 1e-300];
-        for op in Op::ALL {
+        for op in Op::EVERY {
             for a in values {
                 for b in values {
                     let result = op.eval(&[Value::Real(a), Value::Real(b)]);

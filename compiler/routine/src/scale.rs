@@ -48,6 +48,7 @@ impl Scales {
             Op::Div => result + b - a,
             // By how many bits the radicand has to be longer.
             Op::Sqrt => 2 * result - a,
+            Op::IntRoot => result,
             Op::Floor => a,
             // The result has those that are given.
             Op::Sin | Op::Cos => a,

@@ -112,6 +112,15 @@ pub struct Param {
 }
 
 impl Param {
+    /// The value that the scene gives it.
+    pub fn usual(&self) -> Value {
+        match self.ty {
+            Type::Bool => Value::Bool(self.usual != 0.0),
+            Type::Int => Value::Int(self.usual as i32),
+            Type::Real => Value::Real(self.usual),
+        }
+    }
+
     /// What to call it in generated source: `eye_y`.
     pub fn label(&self) -> String {
         if self.component.is_empty() {

@@ -15,6 +15,7 @@ pub mod fold;
 pub mod guard;
 pub mod homogeneous;
 pub mod identities;
+pub mod int_roots;
 pub mod int_signs;
 pub mod interlace;
 pub mod later;
@@ -50,6 +51,8 @@ mod apart_tests;
 mod claim_tests;
 #[cfg(test)]
 mod guard_tests;
+#[cfg(test)]
+mod int_roots_tests;
 #[cfg(test)]
 mod later_tests;
 #[cfg(test)]

@@ -103,9 +103,11 @@ impl Plan {
         };
         let mut plan = planned(shop, self.target, &goal, rewriting).ok()?;
         plan.params = self.params.clone();
+        plan.hold();
         plan.items = self.items.clone();
         plan.drawn = self.drawn;
         (plan.listing, plan.page) = (self.listing, self.page);
+        plan.undocumented = self.undocumented;
         plan.statics = self.statics;
         Some(plan)
     }

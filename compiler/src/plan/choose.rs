@@ -2,6 +2,7 @@
 
 use super::loose::loosen;
 use super::points::Points;
+use super::points::widths::Widths;
 use crate::flow::graph::*;
 use crate::flow::tree::*;
 use crate::range::Ranges;
@@ -42,7 +43,10 @@ pub(super) fn choose(
     let mut missing = Vec::new();
     // Of plans that are only priced it is enough to know about where points would be.
     let about = match (points, runtime.real) {
-        (None, Format::Scaled { bits }) => Some(Points::new(graph, ranges, runtime, bits)),
+        (None, Format::Scaled { bits }) => {
+            let widths = Widths::uniform(bits);
+            Some(Points::new(graph, ranges, runtime, &widths))
+        }
         _ => None,
     };
     let points = points.or(about.as_ref());
@@ -67,7 +71,8 @@ pub(super) fn choose(
                 Some((args, exact)) => (args.as_slice(), *exact),
                 None => (args, ranges.exact[at]),
             };
-            let fits = |r: &&Routine| r.op == op && (r.domain)(args, exact);
+            let as_wide = |r: &Routine| points.is_none_or(|points| points.is_as_wide(id, r));
+            let fits = |r: &&Routine| r.op == op && as_wide(r) && (r.domain)(args, exact);
             match runtime.routines.iter().find(fits) {
                 Some(routine) => chosen[at] = Some(routine),
                 None => missing.push(

@@ -2,6 +2,7 @@
 
 use super::cheaper::{apart_at_last, cheaper, steps_ahead, with_inks_split, with_recipes_followed};
 use super::chosen::{asked_where_it_matters, in_arms, with_limits, with_reciprocals};
+use super::narrowed::narrowed;
 use super::params::{self, ParamPlan};
 use super::price::Price;
 use super::settled::{Known, Settled};
@@ -17,6 +18,7 @@ use crate::flow::verify::verify;
 use crate::passes::along::along;
 use crate::passes::early::{everywhere, without};
 use crate::passes::fold::fold;
+use crate::passes::int_roots::int_roots;
 use crate::passes::int_signs::int_signs;
 use crate::passes::interlace::{interlaced, passes};
 use crate::passes::ramps::runs::is_exact;
@@ -28,7 +30,7 @@ use crate::passes::whole_parts::whole_parts;
 use crate::range::Ranges;
 use crate::source::Diagnostic;
 use crate::target::{Mode, Target};
-use slowlight_routine::{Format, Op, Range, Routine, Runtime};
+use slowlight_routine::{Format, Op, Range, Routine, Runtime, scale};
 use std::sync::Arc;
 
 /// Plans a graph that `sema` lowered for this target's inks and offset.
@@ -100,12 +102,12 @@ pub(super) fn planned(
 ) -> Result<Plan, Vec<Diagnostic>> {
     let plan = planned_in(shop, target, goal, rewriting, true)?;
     if !steps_ahead(target.runtime) || passes(&plan.graph) == 1 {
-        return Ok(plan);
+        return Ok(narrowed(plan));
     }
     let other = planned_in(shop, target, goal, rewriting, false)?;
     match other.cycles_a_pixel() < plan.cycles_a_pixel() + APART {
-        true => Ok(other),
-        false => Ok(plan),
+        true => Ok(narrowed(other)),
+        false => Ok(narrowed(plan)),
     }
 }
 
@@ -219,8 +221,8 @@ fn steady(shop: &Workshop, origin: &Graph, rounds: u32) -> Settled {
 
 /// A plan of statements whose ranges are known.
 pub(super) fn assemble(
-    graph: Graph,
-    tree: Tree,
+    mut graph: Graph,
+    mut tree: Tree,
     mut ranges_now: Ranges,
     mut params: Vec<ParamPlan>,
     target: &'static Target,
@@ -228,10 +230,14 @@ pub(super) fn assemble(
     origin: (Arc<Workshop>, Rewriting),
 ) -> Result<Plan, Vec<Diagnostic>> {
     let runtime = target.runtime;
+    if runtime.routines.iter().any(|r| r.op == Op::IntRoot) {
+        let most = scale::most(runtime.real.bits()) as f64;
+        int_roots(&mut graph, &mut tree, &ranges_now, most);
+    }
     let mut tables = recipes::made(&graph, runtime);
     let mut points = None;
     if let Some((found, ranges)) = points::pointed(&graph, &tree, runtime) {
-        points::hold(&graph, runtime, &found, &mut tables, &mut params);
+        points::held::hold(&graph, runtime, &found, &mut tables, &mut params);
         (points, ranges_now) = (Some(found), ranges);
     }
     let routines = choose::choose(&graph, &tree, &ranges_now, runtime, points.as_ref())?;
@@ -263,6 +269,7 @@ pub(super) fn assemble(
         copies: Copies::None,
         brief: false,
         scant: false,
+        undocumented: false,
         page: None,
         ranges: ranges_now,
         params,

@@ -58,7 +58,11 @@ mod lifetimes;
 mod loose;
 mod made;
 mod merge;
+mod meter;
 mod names;
+mod narrowed;
+#[cfg(test)]
+mod narrowed_tests;
 mod outlined;
 mod params;
 pub mod points;
@@ -169,6 +173,8 @@ pub struct Plan {
     /// Whether it is written short where that hardly costs time, since it does not fit
     /// otherwise.
     pub scant: bool,
+    /// Whether a 6502's program may have the opcodes that its data sheet leaves out.
+    pub undocumented: bool,
     /// Where programs begin in a BBC Micro's memory, where that was asked for.
     pub page: Option<u16>,
     /// The values.
@@ -259,7 +265,12 @@ impl Plan {
     /// What a node's bits are when they are sent to another pixel.
     pub fn sent(&self, from: NodeId, bits: Bits) -> Bits {
         match &self.points {
-            Some(points) => points.read(&self.graph, from, bits, points.received()),
+            Some(points) => points.read(
+                &self.graph,
+                from,
+                bits,
+                (points.received(), points.widths().most()),
+            ),
             None => bits,
         }
     }
@@ -267,9 +278,12 @@ impl Plan {
     /// What a place holds that is given a node's bits.
     pub fn copied(&self, place: Place, from: NodeId, bits: Bits) -> Bits {
         match &self.points {
-            Some(points) if self.graph.ty(from) == Type::Real => {
-                points.read(&self.graph, from, bits, points.place(place))
-            }
+            Some(points) if self.graph.ty(from) == Type::Real => points.read(
+                &self.graph,
+                from,
+                bits,
+                (points.place(place), points.widths().place(place)),
+            ),
             _ => bits,
         }
     }
@@ -277,7 +291,7 @@ impl Plan {
     /// The format of a node's value.
     pub fn format(&self, id: NodeId) -> Format {
         match (&self.points, self.graph.ty(id)) {
-            (Some(points), Type::Real) => points.format(points.own(id)),
+            (Some(points), Type::Real) => points.format(id),
             (_, ty) => self.runtime.format_of(ty),
         }
     }
@@ -373,7 +387,7 @@ impl Plan {
                     .get(l.0 as usize)
                     .and_then(|l| l.types.get(k as usize));
                 match (&self.points, found.copied().unwrap_or(Type::Real)) {
-                    (Some(points), Type::Real) => points.format(points.place(place)),
+                    (Some(points), Type::Real) => points.place_format(place),
                     (_, ty) => self.runtime.format_of(ty),
                 }
             }

@@ -109,6 +109,7 @@ impl Plan {
         let mut plan = assemble(graph, tree, found, params, self.target, &goal, origin)?;
         plan.items = self.items.clone();
         (plan.listing, plan.page) = (self.listing, self.page);
+        plan.undocumented = self.undocumented;
         plan.statics = self.statics;
         Ok(plan)
     }

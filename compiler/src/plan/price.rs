@@ -9,9 +9,9 @@
 use super::beside::Beside;
 use super::choose::choose;
 use super::fold_uses::folded;
+use super::meter::Meter;
 use super::settled::Settled;
 use super::thrift::Thrift;
-use crate::eval::arithmetic::{Arithmetic, Exact};
 use crate::eval::run::Run;
 use crate::flow::graph::*;
 use crate::flow::often;
@@ -23,8 +23,7 @@ use crate::passes::region::Fact;
 use crate::passes::segment::bounds_segment;
 use crate::passes::still::{Inks, Still, still};
 use rustc_hash::FxHashSet;
-use slowlight_routine::{Op, Runtime, Type, Value};
-use std::cell::Cell;
+use slowlight_routine::Runtime;
 use std::collections::BTreeMap;
 
 /// Rows and columns that are looked at, and how many statements may run for that.
@@ -366,65 +365,4 @@ fn guessed(block: &Block, cost: &dyn Fn(&Statement) -> f64) -> f64 {
         cost(statement) + inner
     };
     block.iter().map(one).sum()
-}
-
-/// Computes in `f64` and adds up what the statements cost that run.
-struct Meter<'g, C> {
-    exact: Exact<'g>,
-    cost: C,
-    sum: Cell<f64>,
-    ran: Cell<u64>,
-}
-
-impl<'g, C: Fn(&Statement) -> f64> Meter<'g, C> {
-    fn new(graph: &'g Graph, cost: C) -> Meter<'g, C> {
-        Meter {
-            exact: Exact(graph),
-            cost,
-            sum: Cell::new(0.0),
-            ran: Cell::new(0),
-        }
-    }
-}
-
-impl<C: Fn(&Statement) -> f64> Arithmetic for &Meter<'_, C> {
-    type Value = Value;
-
-    fn constant(&self, value: Value) -> Value {
-        self.exact.constant(value)
-    }
-
-    /// What the scene gives it, whatever it is now: a program whose params are
-    /// edited keeps its plan.
-    fn param(&self, id: ParamId) -> Value {
-        let Some(param) = self.exact.0.params.get(id.0 as usize) else {
-            return self.exact.param(id);
-        };
-        match param.ty {
-            Type::Bool => Value::Bool(param.usual != 0.0),
-            Type::Int => Value::Int(param.usual as i32),
-            Type::Real => Value::Real(param.usual),
-        }
-    }
-
-    fn apply(&self, id: NodeId, op: Op, args: &[Value]) -> Value {
-        self.exact.apply(id, op, args)
-    }
-
-    fn gather(&self, received: Value, sent: Value) -> Value {
-        self.exact.gather(received, sent)
-    }
-
-    fn truth(&self, value: Value) -> bool {
-        self.exact.truth(value)
-    }
-
-    fn int(&self, value: Value) -> i32 {
-        self.exact.int(value)
-    }
-
-    fn step(&self, statement: &Statement) {
-        self.ran.set(self.ran.get() + 1);
-        self.sum.set(self.sum.get() + (self.cost)(statement));
-    }
 }

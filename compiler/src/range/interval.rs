@@ -27,7 +27,7 @@ pub fn interval(op: Op, [a, b]: [Range; 2], same: bool) -> Range {
         Op::Abs => magnitude(a),
         Op::Min | Op::IntMin => bounds(a.lo.min(b.lo), a.hi.min(b.hi)),
         Op::Max | Op::IntMax => bounds(a.lo.max(b.lo), a.hi.max(b.hi)),
-        Op::Sqrt => {
+        Op::Sqrt | Op::IntRoot => {
             let root = |x: f64| x.max(0.0).sqrt();
             let made = Range::new(root(a.lo), root(a.hi));
             Range {
@@ -250,7 +250,7 @@ mod tests {
             (-2.0, 0.0),
             (3.0, 17.0),
         ];
-        for &op in Op::ALL {
+        for &op in Op::EVERY {
             for &(alo, ahi) in &ranges {
                 for &(blo, bhi) in &ranges {
                     let made = interval(op, [Range::new(alo, ahi), Range::new(blo, bhi)], false);

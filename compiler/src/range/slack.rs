@@ -128,7 +128,8 @@ impl Slack {
         if let Some(points) = &self.points {
             // As the planner takes it.
             let (args, units) = points.in_units(id, op, args, exact);
-            let fits = |r: &&Routine| r.op == op && (r.domain)(&args, units);
+            let fits =
+                |r: &&Routine| r.op == op && points.is_as_wide(id, r) && (r.domain)(&args, units);
             let routine = self.runtime.and_then(|r| r.routines.iter().find(fits));
             let off = routine.map_or(0.0, |routine| routine.error.most(&args, 0.0));
             return points.rounded(id, exact, off);
@@ -243,7 +244,7 @@ fn widened(range: Range, part: f64) -> Range {
 
 /// How far a runtime's results may be off, by [`Op`].
 fn errors(runtime: &Runtime) -> Vec<Vec<Error>> {
-    let mut errors = vec![Vec::new(); Op::ALL.len()];
+    let mut errors = vec![Vec::new(); Op::EVERY.len()];
     for routine in runtime.routines {
         let own: &mut Vec<Error> = &mut errors[routine.op as usize];
         if routine.error != Error::Exact && !own.contains(&routine.error) {

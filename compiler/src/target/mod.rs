@@ -104,9 +104,14 @@ pub static OTHER_FORMATS: &[&Target] = &[
     &mos6502::PLAIN_FIXED16,
     &mos6502::BBC_FIXED16,
     &mos6502::C64_FIXED16,
+    &mos6502::PLAIN_FIXED20,
+    &mos6502::BBC_FIXED20,
+    &mos6502::C64_FIXED20,
     &mos6502::PLAIN_FIXED24,
     &mos6502::BBC_FIXED24,
     &mos6502::C64_FIXED24,
+    &mos6502::PLAIN_LOG10,
+    &mos6502::C64_LOG10,
 ];
 
 /// Every target in every format.

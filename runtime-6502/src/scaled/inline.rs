@@ -128,7 +128,7 @@ pub fn product(text: &str, used: Inline<'_>, lines: &mut Vec<String>) -> Option<
     let tail = tail(text)?;
     let symbol = |place: &Place| match place {
         Place::At(symbol) | Place::Held(symbol, _) => Some(symbol.clone()),
-        Place::Constant(_) => None,
+        Place::Constant(_) | Place::Signed(..) => None,
     };
     let [a, b] = used.args.map(symbol);
     let first = match (&a, &b) {

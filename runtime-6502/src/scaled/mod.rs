@@ -7,19 +7,27 @@
 //! is needed, the upper 24 of 32 bits. A root is looked up in a table of 192 entries, in
 //! proportion. What leaves 16 bits saturates, if the ranges do not prove that it cannot.
 //!
-//! Functions that are rarer are those of 16.16, their operand and result shifted.
+//! Sines, cosines and powers of e are looked up as well ([`sines`], [`powers`]), where their
+//! points leave bits enough. Functions that are rarer are those of 16.16, their operand and result
+//! shifted.
 
 #[cfg(test)]
 mod figures_tests;
 pub mod inline;
 #[cfg(test)]
 mod inline_tests;
+#[cfg(test)]
+mod int_root_tests;
 pub mod long;
 pub mod model;
+pub mod powers;
 mod read;
 #[cfg(test)]
 mod read_tests;
 mod routines;
+pub mod sines;
+#[cfg(test)]
+mod sines_tests;
 mod templates;
 mod templates_long;
 #[cfg(test)]
@@ -65,6 +73,22 @@ pub static FIXED24_IN_RUNS: Runtime = Runtime {
     ..USUAL_LONG
 };
 
+/// The runtime of reals of 24 bits or 16, each in as many as the picture asks for.
+pub static FIXED20: Runtime = MIXED;
+
+/// The same for programs that draw rows in passes and runs of columns.
+pub static FIXED20_IN_RUNS: Runtime = Runtime {
+    segments: true,
+    ..MIXED
+};
+
+const MIXED: Runtime = Runtime {
+    format: "fixed20",
+    narrow: Some(BITS),
+    routines: &routines::ALL_MIXED,
+    ..USUAL_LONG
+};
+
 const USUAL_LONG: Runtime = Runtime {
     format: "fixed24",
     real: LONG,
@@ -101,7 +125,7 @@ const USUAL: Runtime = Runtime {
 };
 
 /// An int of four bytes is added to another.
-const STEPPING: Stepping = Stepping {
+pub(crate) const STEPPING: Stepping = Stepping {
     ramp: 38,
     read: [0, 0],
     digit: 0,

@@ -175,10 +175,28 @@ pub fn root(a: i32, n: i32) -> i32 {
     while a < 1 << 14 {
         (a, halvings) = (a << 2, halvings + 1);
     }
+    right(root_of_16(a), halvings.unsigned_abs()) as i32
+}
+
+/// 2^15 times the root of a number from 2^14 to 2^16, over 2^16.
+fn root_of_16(a: i64) -> i64 {
     let (at, part) = ((a >> 8) as i32 - FIRST_ROOT, a & 255);
     let pair = &roots()[at as usize..];
-    let made = i64::from(pair[0]) + upper(i64::from(pair[1] - pair[0]), part);
-    right(made, halvings.unsigned_abs()) as i32
+    i64::from(pair[0]) + upper(i64::from(pair[1] - pair[0]), part)
+}
+
+/// The root of an int with so many fraction bits; 0 of a negative. Of the int its upper 16
+/// bits from the first pair on are looked at that is not 0.
+pub fn int_root(a: i32, frac: i32) -> i32 {
+    if a < 1 {
+        return 0;
+    }
+    let pairs = a.leading_zeros() / 2;
+    let upper = i64::from(a) << (2 * pairs) >> 16;
+    match pairs as i32 - 1 - frac {
+        ..0 => MOST as i32,
+        halvings => right(root_of_16(upper), halvings.unsigned_abs()) as i32,
+    }
 }
 
 /// A real of some scale in 16.16.

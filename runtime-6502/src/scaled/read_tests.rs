@@ -64,18 +64,20 @@ fn reads_wide(kind: &Kind) {
         signed: false,
         ..Shape::whole(own)
     };
-    for shape in [Shape::whole(4), Shape::whole(3), unsigned] {
+    let ways = [(true, false), (false, true), (false, false)];
+    let shapes = [Shape::whole(4), Shape::whole(3), unsigned];
+    for (shape, (fits, quick)) in shapes.into_iter().flat_map(|s| ways.map(|way| (s, way))) {
         let held = Place::Held("first_operand".into(), shape);
         for by in -20..=9 {
             let write = |lines: &mut Vec<String>| {
                 let what = Read {
                     from: &held,
                     by,
-                    fits: true,
+                    fits,
                     to: "result",
                     bytes: own,
                     serial: 1,
-                    quick: false,
+                    quick,
                 };
                 read(what, lines).into_iter().collect()
             };
@@ -94,7 +96,7 @@ fn reads_wide(kind: &Kind) {
                     false => (0..1i64 << held).contains(&i64::from(a)),
                 };
                 let exact = f64::from(a) * f64::from(by).exp2();
-                if !has || exact.abs() > most(bits) as f64 {
+                if !has || fits && exact.abs() > most(bits) as f64 {
                     continue;
                 }
                 checked += 1;

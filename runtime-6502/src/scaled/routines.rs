@@ -1,7 +1,9 @@
 //! The list of routines for reals with points of their own: cheap and restricted before
 //! dear and total.
 
-use super::{LONG as L, REAL as R, long, model, templates as t, templates_long as tl};
+use super::{
+    LONG as L, REAL as R, long, model, powers, sines, templates as t, templates_long as tl,
+};
 use crate::model as wide;
 use crate::model::{bits, int};
 use crate::routines::INTS;
@@ -19,12 +21,20 @@ const CUT: Error = Error::Absolute(0.63);
 const QUOTIENT: Error = Error::Absolute(1.5);
 /// Of all roots that there are.
 const ROOT: Error = Error::Absolute(1.8);
+/// The same where the radicand is cut to 16 bits.
+const INT_ROOT: Error = Error::Absolute(2.3);
 /// What saturates, or is a hundredth of a place.
 const LONG_NEAREST: Error = Error::Absolute(0.53);
 /// The same of 24 bits, where more is left of cut products.
 const LONG_CUT: Error = Error::Absolute(0.75);
 const LONG_QUOTIENT: Error = Error::Absolute(1.5);
 const LONG_ROOT: Error = Error::Absolute(0.9);
+/// Half of the last place, and what the table and the angle in turns are off: all operands,
+/// with ten bits behind the point or more, and with eight.
+const SINE: Error = Error::Absolute(1.3);
+const WIDE_SINE: Error = Error::Absolute(2.05);
+/// The same of a power of e.
+const POWER: Error = Error::Absolute(1.25);
 const ANY: Error = Error::Absolute(65536.0);
 
 /// The number of the scales, which stands behind the arguments.
@@ -88,6 +98,11 @@ fn power_of_two(args: &[Range], _: Range) -> bool {
 /// Ints of 16 bits.
 fn short(args: &[Range], _: Range) -> bool {
     args.iter().all(|a| a.within(-32768.0, 32767.0))
+}
+
+/// Ints of 16 bits that are not below 0, whose product is one of 32 bits.
+fn not_negative(args: &[Range], result: Range) -> bool {
+    args.iter().all(|a| a.within(0.0, 65535.0)) && result.within(0.0, f64::from(i32::MAX))
 }
 
 fn is(k: usize, value: f64) -> impl Fn(&[Range], Range) -> bool {
@@ -193,7 +208,7 @@ const INT_MUL: Routine = Routine {
     result: I,
     form: Form::Statement("int_product"),
     needs: &["int_product"],
-    cycles: 377,
+    cycles: 366,
     bytes: 51,
     domain: short,
     error: EXACT,
@@ -205,27 +220,54 @@ const INT_MUL: Routine = Routine {
     },
 };
 
+/// The same of what is not below 0.
+const PLUS_INT_MUL: Routine = Routine {
+    name: "int_mul_plus",
+    form: Form::Statement(t::PLUS_MULTIPLY),
+    needs: &["plus_product"],
+    cycles: 234,
+    bytes: 31,
+    domain: not_negative,
+    ..INT_MUL
+};
+
+/// Out of tables. What has other points is left to the functions of 16.16.
+#[rustfmt::skip]
+const TABULATED: &[Routine] = &[
+    scaled!("sin_16" Sin(R) -> R, t::SINE_16, ["sine16"], number!(10 to 16), SINE, |a, b, n| sines::sine(a, n), 397, 13),
+    scaled!("wide_sin_16" Sin(R) -> R, t::SINE_16, ["sine16"], number!(8 to 9), WIDE_SINE, |a, b, n| sines::sine(a, n), 397, 13),
+    scaled!("cos_16" Cos(R) -> R, t::COSINE_16, ["sine16"], number!(10 to 16), SINE, |a, b, n| sines::cosine(a, n), 404, 13),
+    scaled!("wide_cos_16" Cos(R) -> R, t::COSINE_16, ["sine16"], number!(8 to 9), WIDE_SINE, |a, b, n| sines::cosine(a, n), 404, 13),
+    scaled!("exp_16" Exp(R) -> R, t::EXPONENTIAL_16, ["exponential16"], |args, _| powers::has(Scales::unpacked(number(args))), POWER, |a, b, n| powers::exponential(a, Scales::unpacked(n)), 464, 17),
+];
+
 #[rustfmt::skip]
 const REALS: &[Routine] = of_bytes!(R, 2, t, ["widen", "widen_both", "narrow"], 14, 13);
 
 #[rustfmt::skip]
 const PRODUCTS: &[Routine] = &[
-    scaled!("mul" Mul(R, R) -> R, t::MULTIPLY_16, ["product"], number!(16 to 16), NEAREST, |a, b, n| model::multiply(a, b, n), 253, 32),
-    scaled!("double_mul" Mul(R, R) -> R, t::MULTIPLY_15, ["product"], number!(15 to 15), NEAREST, |a, b, n| model::multiply(a, b, n), 266, 37),
-    scaled!("mul_14" Mul(R, R) -> R, t::MULTIPLY_14, ["product"], number!(14 to 14, fits!(2, 1)), CUT, |a, b, n| model::multiply(a, b, n), 278, 36),
-    scaled!("mul_13" Mul(R, R) -> R, t::MULTIPLY_13, ["product"], number!(13 to 13, fits!(2, 1)), CUT, |a, b, n| model::multiply(a, b, n), 290, 41),
-    scaled!("mul_12" Mul(R, R) -> R, t::MULTIPLY_12, ["product"], number!(12 to 12, fits!(2, 1)), CUT, |a, b, n| model::multiply(a, b, n), 302, 46),
-    scaled!("any_mul_14" Mul(R, R) -> R, t::MULTIPLY_ANY_14, ["product", "up"], number!(14 to 14), CUT, |a, b, n| model::multiply(a, b, n), 307, 25),
-    scaled!("any_mul_13" Mul(R, R) -> R, t::MULTIPLY_ANY_13, ["product", "up"], number!(13 to 13), CUT, |a, b, n| model::multiply(a, b, n), 319, 25),
-    scaled!("any_mul_12" Mul(R, R) -> R, t::MULTIPLY_ANY_12, ["product", "up"], number!(12 to 12), CUT, |a, b, n| model::multiply(a, b, n), 331, 25),
-    scaled!("low_mul" Mul(R, R) -> R, t::MULTIPLY_RIGHT, ["lower24"], number!(17 to 31), Error::Absolute(0.77), |a, b, n| model::multiply(a, b, n), 320, 29),
-    scaled!("wide_mul" Mul(R, R) -> R, t::MULTIPLY_ANY, ["narrow24"], number!(8 to 11), Error::Absolute(1.5), |a, b, n| model::multiply(a, b, n), 550, 29),
-    scaled!("far_mul" Mul(R, R) -> R, t::MULTIPLY_DOWN, ["int_product", "narrow"], number!(1 to 99), NEAREST, |a, b, n| model::any_product(a, b, n), 500, 29),
-    scaled!("long_mul" Mul(R, R) -> R, t::MULTIPLY_UP, ["int_product", "narrow"], number!(-99 to 0), ANY, |a, b, n| model::any_product(a, b, n), 500, 29),
+    scaled!("mul" Mul(R, R) -> R, t::MULTIPLY_16, ["product"], number!(16 to 16), NEAREST, |a, b, n| model::multiply(a, b, n), 243, 32),
+    scaled!("double_mul" Mul(R, R) -> R, t::MULTIPLY_15, ["product"], number!(15 to 15), NEAREST, |a, b, n| model::multiply(a, b, n), 255, 37),
+    scaled!("mul_14" Mul(R, R) -> R, t::MULTIPLY_14, ["product"], number!(14 to 14, fits!(2, 1)), CUT, |a, b, n| model::multiply(a, b, n), 267, 36),
+    scaled!("mul_13" Mul(R, R) -> R, t::MULTIPLY_13, ["product"], number!(13 to 13, fits!(2, 1)), CUT, |a, b, n| model::multiply(a, b, n), 279, 41),
+    scaled!("mul_12" Mul(R, R) -> R, t::MULTIPLY_12, ["product"], number!(12 to 12, fits!(2, 1)), CUT, |a, b, n| model::multiply(a, b, n), 291, 46),
+    scaled!("any_mul_14" Mul(R, R) -> R, t::MULTIPLY_ANY_14, ["product", "up"], number!(14 to 14), CUT, |a, b, n| model::multiply(a, b, n), 297, 25),
+    scaled!("any_mul_13" Mul(R, R) -> R, t::MULTIPLY_ANY_13, ["product", "up"], number!(13 to 13), CUT, |a, b, n| model::multiply(a, b, n), 309, 25),
+    scaled!("any_mul_12" Mul(R, R) -> R, t::MULTIPLY_ANY_12, ["product", "up"], number!(12 to 12), CUT, |a, b, n| model::multiply(a, b, n), 321, 25),
+    scaled!("low_mul" Mul(R, R) -> R, t::MULTIPLY_RIGHT, ["lower24"], number!(17 to 31), Error::Absolute(0.77), |a, b, n| model::multiply(a, b, n), 310, 29),
+    scaled!("wide_mul" Mul(R, R) -> R, t::MULTIPLY_ANY, ["narrow24"], number!(8 to 11), Error::Absolute(1.5), |a, b, n| model::multiply(a, b, n), 540, 29),
+    scaled!("far_mul" Mul(R, R) -> R, t::MULTIPLY_DOWN, ["int_product", "narrow"], number!(1 to 99), NEAREST, |a, b, n| model::any_product(a, b, n), 490, 29),
+    scaled!("long_mul" Mul(R, R) -> R, t::MULTIPLY_UP, ["int_product", "narrow"], number!(-99 to 0), ANY, |a, b, n| model::any_product(a, b, n), 490, 29),
     scaled!("one_over" Div(R, R) -> R, t::ONE_OVER, ["one_over"], number!(0 to 30, power_of_two), QUOTIENT, |a, b, n| model::divide(a, b, n), 230, 17),
-    scaled!("div" Div(R, R) -> R, t::DIVIDE, ["divide16"], number!(0 to 30), QUOTIENT, |a, b, n| model::divide(a, b, n), 506, 30),
+    scaled!("div" Div(R, R) -> R, t::DIVIDE, ["divide16"], number!(0 to 30), QUOTIENT, |a, b, n| model::divide(a, b, n), 504, 30),
     scaled!("root" Sqrt(R) -> R, t::ROOT, ["root16"], |args, _| number(args) % 2 == 0 && (1..=15).contains(&number(args)), ROOT, |a, b, n| model::root(a, n), 135, 20),
     scaled!("odd_root" Sqrt(R) -> R, t::ODD_ROOT, ["root16"], |args, _| number(args) % 2 == 1 && (1..=15).contains(&number(args)), ROOT, |a, b, n| model::root(a, n), 140, 20),
+];
+
+#[rustfmt::skip]
+const INT_PRODUCTS: &[Routine] = &[
+    scaled!("int_root" IntRoot(I) -> R, t::INT_ROOT, ["int_root"], everywhere, INT_ROOT, |a, b, n| model::int_root(a, n), 185, 36),
+    PLUS_INT_MUL,
     INT_MUL,
 ];
 
@@ -247,17 +289,28 @@ const LONG_PRODUCTS: &[Routine] = &[
     scaled!("long_div" Div(L, L) -> L, tl::DIVIDE, ["divide24"], number!(0 to 46), LONG_QUOTIENT, |a, b, n| long::divide(a, b, n), 1300, 37),
     scaled!("long_root" Sqrt(L) -> L, tl::ROOT, ["root24"], |args, _| number(args) % 2 == 0 && (1..=23).contains(&number(args)), LONG_ROOT, |a, b, n| long::root(a, n), 700, 30),
     scaled!("long_odd_root" Sqrt(L) -> L, tl::ODD_ROOT, ["root24"], |args, _| number(args) % 2 == 1 && (1..=23).contains(&number(args)), LONG_ROOT, |a, b, n| long::root(a, n), 720, 30),
+    PLUS_INT_MUL,
     INT_MUL,
 ];
 
 /// The routines of reals of 16 bits, and those of ints.
-pub(super) static ALL: [Routine; REALS.len() + PRODUCTS.len() + INTS.len()] = joined(
-    &joined::<{ REALS.len() + PRODUCTS.len() }>(REALS, PRODUCTS),
-    INTS,
+pub(super) static ALL: [Routine; TABULATED.len() + SHORT_AND_INTS] = joined(
+    TABULATED,
+    &joined::<SHORT_AND_INTS>(
+        &joined::<{ SHORT.len() + INT_PRODUCTS.len() }>(&SHORT, INT_PRODUCTS),
+        INTS,
+    ),
 );
+
+const SHORT_AND_INTS: usize = SHORT.len() + INT_PRODUCTS.len() + INTS.len();
+
+const SHORT: [Routine; REALS.len() + PRODUCTS.len()] = joined(REALS, PRODUCTS);
 
 /// The same of 24 bits.
 pub(super) static ALL_LONG: [Routine; LONG_REALS.len() + LONG_PRODUCTS.len() + INTS.len()] = joined(
     &joined::<{ LONG_REALS.len() + LONG_PRODUCTS.len() }>(LONG_REALS, LONG_PRODUCTS),
     INTS,
 );
+
+/// Those of 24 bits, and then those of 16 for what is held in as many.
+pub(super) static ALL_MIXED: [Routine; ALL_LONG.len() + SHORT.len()] = joined(&ALL_LONG, &SHORT);

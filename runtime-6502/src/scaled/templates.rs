@@ -115,6 +115,12 @@ pub(crate) const MULTIPLY_DOWN: &str = concat!(
     result!()
 );
 
+/// Of ints that are not below 0.
+pub(crate) const PLUS_MULTIPLY: &str = concat!(
+    "~",
+    both!(),
+    "| jsr plus_product [lda {prod.k} | sta {r.k}]"
+);
 pub(crate) const SQUARE_16: &str = concat!(first!(), "| jsr square16", upper!());
 pub(crate) const SQUARE_15: &str = concat!(first!(), "| jsr square16", up!(""), upper!());
 pub(crate) const SQUARE_14: &str = concat!(first!(), "| jsr square16", up!("" ""), upper!());
@@ -142,6 +148,23 @@ pub(crate) const ONE_OVER: &str = concat!(
 pub(crate) const ROOT: &str = concat!("ldy {#14-n/2} |", first!(), "| jsr root16", result!());
 pub(crate) const ODD_ROOT: &str =
     concat!("ldy {#15-n/2} |", first!(), "| jsr root16_odd", result!());
+pub(crate) const INT_ROOT: &str = concat!(
+    "lda {0.0} | sta acc | lda {0.1} | sta acc+1 | lda {0.2} | sta acc+2 | lda {0.3} | sta acc+3",
+    " | ldy {#255-n} | jsr int_root",
+    result!()
+);
+
+/// Angles of 8 to 16 bits behind the point.
+pub(crate) const SINE_16: &str = concat!("ldy {#16-n} |", first!(), "| jsr sine16", result!());
+pub(crate) const COSINE_16: &str = concat!("ldy {#16-n} |", first!(), "| jsr cosine16", result!());
+
+/// The point of the result as `exponential16` has it.
+pub(crate) const EXPONENTIAL_16: &str = concat!(
+    "lda {#79-r} | sta bits | ldy {#16-a} |",
+    first!(),
+    "| jsr exponential16",
+    result!()
+);
 
 pub(crate) const MODULO: &str = concat!(
     both!(),

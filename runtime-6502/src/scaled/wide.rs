@@ -1,4 +1,4 @@
-//! Numbers of more bytes read as reals that are known to fit into fewer: whole bytes
+//! Numbers of more bytes read as reals of fewer: whole bytes
 //! are taken from where they stand, and only what is left of the shift is done bit by bit.
 
 use super::Read;
@@ -20,11 +20,14 @@ pub(super) fn read(read: Read<'_>, lines: &mut Vec<String>) -> bool {
         to,
         bytes,
         serial: n,
-        quick: _,
+        ..
     } = read;
     let down = by.unsigned_abs();
-    if !fits || by >= 0 || down > MOST {
+    if by >= 0 || down > MOST {
         return false;
+    }
+    if !fits {
+        return saturating(read, lines);
     }
     let (first, bits) = (down / 8, down % 8);
     let at = |k: u32| byte(from, (first + k) as u8);
@@ -73,6 +76,55 @@ pub(super) fn read(read: Read<'_>, lines: &mut Vec<String>) -> bool {
         .collect();
     code(&format!("lsr | {each}").repeat(bits as usize));
     code(&format!("bcc read{n} | {rounded}"));
+    true
+}
+
+/// The same where it may not fit: what the upper byte has more than a sign is asked first.
+fn saturating(used: Read<'_>, lines: &mut Vec<String>) -> bool {
+    let Read {
+        from,
+        by,
+        to,
+        bytes,
+        serial: n,
+        quick,
+        ..
+    } = used;
+    let Place::Held(name, shape) = from else {
+        return false;
+    };
+    // Of the upper byte's bits, those that come down.
+    let left =
+        i64::from(by.unsigned_abs()) + 8 * i64::from(bytes) - 1 - 8 * i64::from(shape.bytes - 1);
+    if !quick || !shape.signed || name == to || !(0..7).contains(&left) {
+        return false;
+    }
+    let top = byte(from, shape.bytes - 1);
+    let end = 1u32 << left;
+    add(
+        &format!(
+            "lda {top} | clc | adc #{end} | cmp #{} | bcs large{n}",
+            2 * end
+        ),
+        lines,
+    );
+    read(Read { fits: true, ..used }, lines);
+    let at = |k: u8| byte_at(to, k);
+    let rest: String = (1..bytes - 1)
+        .map(|k| format!("ora {} | ", at(k)))
+        .collect();
+    let middle: String = (1..bytes - 1)
+        .map(|k| format!("sta {} | ", at(k)))
+        .collect();
+    // What rounds to one more than the end, and the one number that has no negative.
+    add(
+        &format!(
+            "lda {high} | cmp #$80 | bne held{n} | lda {to} | {rest}bne held{n}
+            | large{n}: | lda {top} | asl | lda #$7f | adc #0 | sta {high} | eor #$80 | {middle}ora #1 | sta {to} | held{n}:",
+            high = at(bytes - 1)
+        ),
+        lines,
+    );
     true
 }
 

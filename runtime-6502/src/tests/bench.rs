@@ -39,8 +39,11 @@ impl Bus for Ram {
 /// The parts that are needed, each between two labels.
 fn parts(names: &[&str]) -> (String, bool) {
     let mut text = String::new();
-    let names: Vec<&str> = names.iter().copied().chain(["scaled24_page"]).collect();
-    let closure = RUNTIME.closure(names.iter().copied());
+    let mut closure = RUNTIME.closure(names.iter().copied());
+    // Logarithms have a page of their own, which names the same.
+    if !closure.iter().any(|p| p.name == "log_page") {
+        closure = RUNTIME.closure(names.iter().copied().chain(["scaled24_page"]));
+    }
     for part in &closure {
         let source = match part.source {
             Source::Text(source) => source.to_owned(),
@@ -142,8 +145,10 @@ impl Bench {
         if parts.contains("set_squares24:") {
             prepare += " | jsr set_squares24";
         }
-        if parts.contains("set_squares:") {
-            prepare += " | jsr set_squares";
+        for set in ["set_squares", "set_sums", "set_lost", "set_parts"] {
+            if parts.contains(&format!("{set}:")) {
+                prepare += &format!(" | jsr {set}");
+            }
         }
         let prepare = prepare.replace('|', "\n        ");
         let source = format!(
@@ -170,6 +175,11 @@ impl Bench {
         bench.go();
         (bench.start, bench.end) = (at("start"), at("end"));
         bench
+    }
+
+    /// The same with a result of so many bytes.
+    pub fn sized(self, size: u8) -> Bench {
+        Bench { size, ..self }
     }
 
     /// Runs from `start` until `end` is reached; answers the cycles.

@@ -3,9 +3,9 @@
 
 use super::Random;
 use crate::log::LOG10;
-use crate::log::model::Log;
 use crate::model::Float;
 use crate::{F316, F316R};
+use slowlight_routine::log::model::Log;
 use slowlight_routine::{Bits, Format, Op, Range, Routine, Runtime};
 
 /// What an error is held against.

@@ -105,6 +105,24 @@ pub fn find(mnemonic: &str, mode: Mode) -> Option<u8> {
         .map(|(byte, _)| byte)
 }
 
+/// Names that some assemblers have for undocumented opcodes, and the ones here.
+const OTHER_NAMES: [(&str, &str); 8] = [
+    ("axs", "sbx"),
+    ("aax", "sax"),
+    ("dcm", "dcp"),
+    ("isb", "isc"),
+    ("ins", "isc"),
+    ("aso", "slo"),
+    ("lse", "sre"),
+    ("asr", "alr"),
+];
+
+/// The name here of an opcode that an assembler may call otherwise (lower case).
+pub fn usual_name(name: &str) -> &str {
+    let other = OTHER_NAMES.iter().find(|(other, _)| *other == name);
+    other.map_or(name, |(_, usual)| usual)
+}
+
 /// Whether some opcode has this mnemonic (lower case). A jam has none that can be written.
 pub fn is_mnemonic(name: &str) -> bool {
     name != JAM.mnemonic && OPCODES.iter().any(|o| o.mnemonic == name)
@@ -257,6 +275,9 @@ mod tests {
         assert_eq!(find("nop", Mode::Absolute), Some(0x0C));
         assert_eq!(find("jam", Mode::Implied), None);
         assert_eq!(find("sta", Mode::Immediate), None);
+        for (other, usual) in OTHER_NAMES {
+            assert!(is_mnemonic(usual) && !is_mnemonic(other) && usual_name(other) == usual);
+        }
         assert!(is_mnemonic("lda") && !is_mnemonic("jam") && !is_mnemonic("LDA"));
     }
 }

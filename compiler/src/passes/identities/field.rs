@@ -11,8 +11,8 @@
 use crate::flow::graph::*;
 use crate::passes::algebra::{Forms, Number, Turns};
 use crate::range::Ranges;
+use rustc_hash::{FxHashMap, FxHashSet};
 use slowlight_routine::{Op, Range, Type};
-use std::collections::{HashMap, HashSet};
 
 /// The field has so many elements: a Mersenne prime, 3 of 4.
 const PRIME: u64 = (1 << 61) - 1;
@@ -127,6 +127,8 @@ pub struct Field<'g> {
     ranges: &'g Ranges,
     forms: &'g Forms<'g>,
     roots: Vec<NodeId>,
+    /// What constants are there; 0 for other nodes.
+    constants: Vec<u64>,
     /// Conditions and signs that go with another sign: what is chosen by one, and what
     /// has the other for a factor, are of one side.
     turns: Turns,
@@ -134,17 +136,20 @@ pub struct Field<'g> {
 
 impl<'g> Field<'g> {
     pub fn new(graph: &'g Graph, ranges: &'g Ranges, forms: &'g Forms<'g>) -> Field<'g> {
+        let constant = |id| graph.constant(id).map_or(0, |c| element(c.real()));
+        let all: Vec<NodeId> = graph.ids().collect();
         let mut field = Field {
             graph,
             ranges,
             forms,
             roots: Vec::new(),
+            constants: graph.ids().map(constant).collect(),
             turns: forms.turns(),
         };
         // The root of one value and that of three times it are never both there.
         for root in roots(graph, ranges) {
             field.roots.push(root);
-            let found = (0..TRIES).any(|key| field.at(key, &|_| true, &HashMap::new()).is_some());
+            let found = (0..TRIES).any(|key| field.at(key, &all, &Forced::default()).is_some());
             if !found {
                 field.roots.pop();
             }
@@ -156,11 +161,12 @@ impl<'g> Field<'g> {
     /// where no points were found at which the roots are there.
     pub fn prints(&self) -> Option<Vec<Option<Print>>> {
         let mut all = vec![Some([0; POINTS]); self.graph.nodes.len()];
+        let ids: Vec<NodeId> = self.graph.ids().collect();
         let mut key = 1;
         for point in 0..POINTS {
             let found = (0..TRIES).find_map(|_| {
                 key += 1;
-                self.at(key, &|_| true, &HashMap::new())
+                self.at(key, &ids, &Forced::default())
             })?;
             for (print, value) in all.iter_mut().zip(found) {
                 match (print.as_mut(), value) {
@@ -175,7 +181,7 @@ impl<'g> Field<'g> {
     /// Whether what `holds` says of values holds whichever way the conditions go
     /// that some values hang on, and whichever signs their roots have.
     pub fn always(&self, of: &[NodeId], holds: &dyn Fn(Values<'_>) -> bool) -> bool {
-        let mut cone: HashSet<NodeId> = HashSet::new();
+        let mut cone: FxHashSet<NodeId> = FxHashSet::default();
         let mut todo = of.to_vec();
         let mut conditions = Vec::new();
         while let Some(id) = todo.pop() {
@@ -199,6 +205,8 @@ impl<'g> Field<'g> {
         if conditions.len() > CONDITIONS {
             return false;
         }
+        let mut cone: Vec<NodeId> = cone.into_iter().collect();
+        cone.sort_unstable();
         let one = |ways: u64| {
             let way = |k: usize| ways >> k & 1 == 1;
             let forced = (0..)
@@ -207,7 +215,7 @@ impl<'g> Field<'g> {
                 .collect();
             let key = TRIES * POINTS as u64 + (ways + 2) * TRIES;
             let mut keys = key..key + TRIES;
-            let found = keys.find_map(|key| self.at(key, &|id| cone.contains(&id), &forced));
+            let found = keys.find_map(|key| self.at(key, &cone, &forced));
             let of = |values: &[Option<u64>], id: NodeId| values[id.0 as usize].unwrap_or(0);
             found.is_some_and(|values| holds(&|id| of(&values, id)))
         };
@@ -215,8 +223,20 @@ impl<'g> Field<'g> {
     }
 }
 
+/// A constant's element.
+fn element(x: f64) -> u64 {
+    match Number::of(x) {
+        Number::Exact(n, 1) => whole(n),
+        Number::Exact(n, d) => mul(whole(n), inverse(whole(d))),
+        Number::Near(x) => drawn(x.to_bits()),
+    }
+}
+
+/// Which ways conditions go that are not left to a coin.
+type Forced = FxHashMap<NodeId, bool>;
+
 /// Which way a condition, a sign or a root's sign goes at a point.
-fn coin(key: u64, forced: &HashMap<NodeId, bool>, id: NodeId) -> bool {
+fn coin(key: u64, forced: &Forced, id: NodeId) -> bool {
     match forced.get(&id) {
         Some(way) => *way,
         None => drawn(drawn(key) ^ 0x5bd1_e995 ^ u64::from(id.0)) & 1 == 1,
@@ -236,20 +256,14 @@ fn roots(graph: &Graph, ranges: &Ranges) -> Vec<NodeId> {
 }
 
 impl Field<'_> {
-    /// The values that are asked for at a point drawn by a key, conditions going as
-    /// they are `forced` to; nothing where a root is not there.
-    fn at(
-        &self,
-        key: u64,
-        asked: &dyn Fn(NodeId) -> bool,
-        forced: &HashMap<NodeId, bool>,
-    ) -> Option<Vec<Option<u64>>> {
-        let mut values: Vec<Option<u64>> = Vec::with_capacity(self.graph.nodes.len());
-        for id in self.graph.ids() {
+    /// The values of some nodes, in their order, at a point drawn by a key, conditions going
+    /// as they are `forced` to; nothing where a root is not there.
+    fn at(&self, key: u64, ids: &[NodeId], forced: &Forced) -> Option<Vec<Option<u64>>> {
+        let mut values: Vec<Option<u64>> = vec![None; self.graph.nodes.len()];
+        for &id in ids {
             let any = || drawn(drawn(key) ^ u64::from(id.0));
             let value = match self.graph.ty(id) {
                 Type::Bool => None,
-                _ if !asked(id) => None,
                 _ => Some(match self.known(&values, forced, key, id) {
                     Some(Known::Value(value)) => value,
                     Some(Known::Root(square)) => {
@@ -263,7 +277,7 @@ impl Field<'_> {
                     None => any(),
                 }),
             };
-            values.push(value);
+            values[id.0 as usize] = value;
         }
         Some(values)
     }
@@ -272,17 +286,14 @@ impl Field<'_> {
     fn known(
         &self,
         values: &[Option<u64>],
-        forced: &HashMap<NodeId, bool>,
+        forced: &Forced,
         key: u64,
         id: NodeId,
     ) -> Option<Known> {
         let of = |id: NodeId| values.get(id.0 as usize).copied().flatten();
         let coin = |id: NodeId| coin(key, forced, id);
         let value = match self.graph.node(id) {
-            Node::Const(c) => match Number::of(c.value().real()) {
-                Number::Exact(n, d) => mul(whole(n), inverse(whole(d))),
-                Number::Near(x) => drawn(x.to_bits()),
-            },
+            Node::Const(_) => self.constants.get(id.0 as usize).copied()?,
             Node::Select { cond, yes, no } => {
                 let (cond, turned) = self.turned(cond);
                 of(if coin(cond) != turned { yes } else { no })?

@@ -14,9 +14,9 @@ impl Points {
     }
 
     /// A range in the bits of a scale, widened by so many units of it.
-    fn held(&self, range: Range, scale: i8, units: f64) -> Range {
+    fn held(&self, range: Range, (scale, width): (i8, u8), units: f64) -> Range {
         let unit = Points::unit(scale);
-        let end = most(self.bits) as f64 * unit;
+        let end = most(width) as f64 * unit;
         let cut = |x: f64| x.clamp(-end, end);
         let off = units * unit;
         let made = Range::new(cut(range.lo - off), cut(range.hi + off));
@@ -27,9 +27,9 @@ impl Points {
     }
 
     /// What is held at one scale, read at another.
-    fn moved_range(&self, range: Range, from: i8, to: i8) -> Range {
+    fn moved_range(&self, range: Range, from: i8, to: (i8, u8)) -> Range {
         // Ends are ints of either scale, so rounding moves them by half a unit.
-        let units = if to < from { 0.5 } else { 0.0 };
+        let units = if to.0 < from { 0.5 } else { 0.0 };
         self.held(range, to, units)
     }
 
@@ -39,25 +39,26 @@ impl Points {
             return range;
         };
         let to = self.scales(id).args[k.min(1)];
+        let wide = (to, self.widths.operation(id));
         match (graph.constant(args[k.min(1)]), op.args().get(k)) {
             (Some(value), Some(Type::Real)) => {
                 let units = (value.real() / Points::unit(to)).round();
-                self.held(Range::point(units * Points::unit(to)), to, 0.0)
+                self.held(Range::point(units * Points::unit(to)), wide, 0.0)
             }
-            (_, Some(Type::Real)) => self.moved_range(range, self.own(args[k.min(1)]), to),
-            (_, Some(Type::Int)) if op == Op::ToReal => self.moved_range(range, 0, to),
+            (_, Some(Type::Real)) => self.moved_range(range, self.own(args[k.min(1)]), wide),
+            (_, Some(Type::Int)) if op == Op::ToReal => self.moved_range(range, 0, wide),
             _ => range,
         }
     }
 
     /// What a real has that may be so many last places off.
     pub fn rounded(&self, id: NodeId, exact: Range, units: f64) -> Range {
-        self.held(exact, self.own(id), units)
+        self.held(exact, (self.own(id), self.widths.value(id)), units)
     }
 
     /// What a place has that is given a value.
     pub fn copied(&self, graph: &Graph, place: Place, from: NodeId, range: Range) -> Range {
-        let to = self.place(place);
+        let to = (self.place(place), self.widths.place(place));
         if graph.ty(from) != Type::Real {
             return range;
         }

@@ -18,22 +18,25 @@
 //! [`Slack::expecting`]: crate::range::Slack::expecting
 //! [`Slack::with_points`]: crate::range::Slack::with_points
 
+mod agreed;
 mod asks;
 mod bounds;
+pub(super) mod held;
 pub(crate) mod sample;
 mod seen;
 mod tape;
 mod useful;
 mod wanted;
+pub mod widths;
 
-use super::ParamPlan;
-use super::recipes::Made;
 use crate::flow::graph::*;
 use crate::flow::tree::*;
 use crate::range::{Ranges, Slack, ranges};
+use agreed::{Other, agreed};
 use slowlight_routine::scale::{self, Scales, finest, fitting};
-use slowlight_routine::{Bits, Format, Op, Range, Routine, Runtime, Type, Value};
+use slowlight_routine::{Bits, Format, Op, Range, Routine, Runtime, Type};
 use wanted::{cap, wanted};
+use widths::Widths;
 
 /// What a pixel receives from others is held to so much: fraction bits in 16.
 const RECEIVED: f64 = 3.9;
@@ -50,8 +53,8 @@ const LEAST: f64 = 1.0 / (1u64 << 40) as f64;
 /// Where the points of a graph's reals are.
 #[derive(Clone, Debug)]
 pub struct Points {
-    /// Bits of a real.
-    bits: u8,
+    /// Bits of each real.
+    widths: Widths,
     /// How it is read at another scale.
     shifted: fn(i64, i32, u8) -> i64,
     /// Each node's, those of constants as near as they can be held; 0 for ints.
@@ -67,12 +70,28 @@ pub fn pointed(graph: &Graph, tree: &Tree, runtime: &'static Runtime) -> Option<
     let Format::Scaled { bits } = runtime.real else {
         return None;
     };
-    let sampled = sample::expected(graph, tree, bits);
+    let seen = sample::seen(graph, tree, bits);
+    Some(placed(
+        (graph, tree),
+        runtime,
+        &seen,
+        &Widths::uniform(bits),
+    ))
+}
+
+/// The points of values of such widths, and the ranges with them.
+pub(super) fn placed(
+    (graph, tree): (&Graph, &Tree),
+    runtime: &'static Runtime,
+    seen: &sample::Sample,
+    widths: &Widths,
+) -> (Points, Ranges) {
+    let sampled = sample::expected((graph, tree), seen, widths);
     let walk =
         |expected: &[Option<f64>]| ranges(graph, tree, &Slack::expecting(runtime, expected.into()));
     let mut expected = sampled.ends;
     // Nothing is cut where its format does not end.
-    Points::new(graph, &walk(&expected), runtime, bits).ends(&mut expected, &sampled.all);
+    Points::new(graph, &walk(&expected), runtime, widths).ends(&mut expected, &sampled.all);
     let mut planned = walk(&expected);
     // What is cut makes what is made of it smaller.
     for _ in 0..ROUNDS {
@@ -83,46 +102,58 @@ pub fn pointed(graph: &Graph, tree: &Tree, runtime: &'static Runtime) -> Option<
         }
         planned = walk(&expected);
     }
-    let points = Points::new(graph, &planned, runtime, bits);
+    let points = Points::new(graph, &planned, runtime, widths);
     let slack = Slack::with_points(runtime, points.clone());
     let found = ranges(graph, tree, &slack);
-    Some((points, found))
+    (points, found)
 }
 
 impl Points {
     /// The points that ranges leave room for.
-    pub fn new(graph: &Graph, ranges: &Ranges, runtime: &Runtime, bits: u8) -> Points {
-        let range = |id: NodeId| ranges.result[id.0 as usize];
-        let room: Vec<i8> = (graph.ids())
-            .map(|id| match (graph.node(id), graph.constant(id)) {
-                (_, Some(value)) => fitting(value.real().abs().min(range(id).magnitude()), bits),
-                (Node::Received, _) => fitting(RECEIVED, bits),
-                (Node::Lookup { table, .. }, _) => fitting(greatest(graph, table), bits),
-                _ => fitting(range(id).magnitude(), bits),
-            })
-            .collect();
-        let capped = |id: NodeId| match graph.node(id) {
-            Node::Apply(op, args) if graph.ty(id) == Type::Real => {
-                room[id.0 as usize].min(cap(graph, op, args, (room[id.0 as usize], bits), &room))
+    pub fn new(graph: &Graph, ranges: &Ranges, runtime: &Runtime, widths: &Widths) -> Points {
+        let rooms = Rooms::new(graph, ranges, widths);
+        let capped = |id: NodeId| {
+            let (bits, own) = (widths.value(id), rooms.of(widths.value(id), id));
+            match graph.node(id) {
+                Node::Apply(op, args) if graph.ty(id) == Type::Real => {
+                    own.min(cap(graph, op, args, (own, bits), rooms.all(bits)))
+                }
+                _ => own,
             }
-            _ => room[id.0 as usize],
         };
         let mut own: Vec<i8> = graph.ids().map(capped).collect();
         no_finer(graph, &mut own);
-        read_at_most(graph, bits, &mut own);
+        read_at_most(graph, widths, &mut own);
         for id in graph.ids().filter(|id| graph.ty(*id) != Type::Real) {
             own[id.0 as usize] = 0;
         }
-        let carried = together(graph, &mut own);
+        let param = |node: &Node| match node {
+            Node::Param(p) => Some(p.0 as usize),
+            _ => None,
+        };
+        let params = (graph.params.len(), param as Other);
+        let carried = agreed(graph, &mut own, (i8::MAX, i8::min), params);
+        // As far as each width has room for them.
+        let held: Vec<(u8, Vec<i8>)> = (rooms.0.iter())
+            .map(|(bits, room)| {
+                (
+                    *bits,
+                    own.iter().zip(room).map(|(o, r)| *o.min(r)).collect(),
+                )
+            })
+            .collect();
         let scales = (graph.ids())
             .map(|id| match graph.node(id) {
                 Node::Apply(op, args) if scale::concerns(op) => {
+                    let bits = widths.operation(id);
                     let fits = |args: [i8; 2]| product_fits(ranges, id, args, bits);
+                    let held = held.iter().find(|(of, _)| *of == bits);
+                    let held = held.map_or(own.as_slice(), |(_, held)| held);
                     wanted(
                         graph,
                         (op, args),
                         (own[id.0 as usize], bits),
-                        (&own, &room),
+                        (held, rooms.all(bits)),
                         &fits,
                     )
                 }
@@ -130,7 +161,7 @@ impl Points {
             })
             .collect();
         Points {
-            bits,
+            widths: widths.clone(),
             shifted: runtime.shifted,
             own,
             carried,
@@ -142,11 +173,12 @@ impl Points {
     /// than that leaves room for, so that they end later: to that end or to all that they
     /// were seen to be.
     fn ends(&self, expected: &mut [Option<f64>], all: &[f64]) {
-        for ((expected, own), all) in expected.iter_mut().zip(&self.own).zip(all) {
+        for (at, ((expected, own), all)) in (0..).zip(expected.iter_mut().zip(&self.own).zip(all)) {
+            let bits = self.widths.value(NodeId(at));
             if let Some(end) = expected
-                && *own < fitting(*end, self.bits)
+                && *own < fitting(*end, bits)
             {
-                let later = scale::most(self.bits) as f64 * (-f64::from(*own)).exp2();
+                let later = scale::most(bits) as f64 * (-f64::from(*own)).exp2();
                 *end = end.max(later.min(*all));
             }
         }
@@ -173,15 +205,24 @@ impl Points {
         }
     }
 
-    /// The format of so many fraction bits.
-    pub fn format(&self, frac: i8) -> Format {
-        let bits = self.bits;
+    /// The format of a node's value.
+    pub fn format(&self, id: NodeId) -> Format {
+        self.format_in(Place::Node(id), self.own(id))
+    }
+
+    /// The format of what a place holds.
+    pub fn place_format(&self, place: Place) -> Format {
+        self.format_in(place, self.place(place))
+    }
+
+    fn format_in(&self, place: Place, frac: i8) -> Format {
+        let bits = self.widths.place(place);
         Format::Fixed { bits, frac }
     }
 
     /// The fraction bits of what a pixel receives.
     pub fn received(&self) -> i8 {
-        fitting(RECEIVED, self.bits)
+        fitting(RECEIVED, self.widths.most())
     }
 
     /// What a routine's model is given: the operands at the scales wanted, and the number.
@@ -195,68 +236,57 @@ impl Points {
         }
         let each = args.iter().zip(of).zip(scales.args);
         let mut all: Vec<Bits> = each
-            .map(|((bits, arg), to)| self.read(graph, arg, *bits, to))
+            .map(|((bits, arg), to)| match op {
+                // All bits of an int, which may be more than a real has.
+                Op::IntRoot => *bits,
+                _ => self.read(graph, arg, *bits, (to, self.widths.operation(id))),
+            })
             .collect();
         all.push(i64::from(scales.number(op)) as Bits);
         all
     }
 
-    /// A node's bits read at a scale.
-    pub fn read(&self, graph: &Graph, id: NodeId, bits: Bits, to: i8) -> Bits {
+    /// A node's bits read at a scale in some width.
+    pub fn read(&self, graph: &Graph, id: NodeId, bits: Bits, (to, width): (i8, u8)) -> Bits {
         match graph.constant(id) {
-            Some(value) if graph.ty(id) == Type::Real => {
-                scale::nearest(value.real(), to, self.bits)
-            }
-            _ => self.moved(bits, self.own(id), to),
+            Some(value) if graph.ty(id) == Type::Real => scale::nearest(value.real(), to, width),
+            _ => self.moved(bits, self.own(id), (to, width)),
         }
     }
 
-    /// Bits of one scale at another.
-    pub fn moved(&self, bits: Bits, from: i8, to: i8) -> Bits {
-        (self.shifted)(bits as i64, i32::from(to) - i32::from(from), self.bits) as Bits
+    /// Bits of one scale at another, in some width.
+    pub fn moved(&self, bits: Bits, from: i8, (to, width): (i8, u8)) -> Bits {
+        (self.shifted)(bits as i64, i32::from(to) - i32::from(from), width) as Bits
     }
 }
 
-/// Puts tables' entries and params where their points are.
-pub(super) fn hold(
-    graph: &Graph,
-    runtime: &Runtime,
-    points: &Points,
-    tables: &mut [Made],
-    params: &mut [ParamPlan],
-) {
-    for id in graph.ids().filter(|id| graph.ty(*id) == Type::Real) {
-        let own = points.own(id);
-        match graph.node(id) {
-            Node::Lookup { table, .. } => {
-                let from = graph.tables.get(table.0 as usize);
-                let to = tables.get_mut(table.0 as usize);
-                if let (Some(from), Some(to)) = (from, to) {
-                    let entries = from.entries.iter().map(|e| e.value());
-                    let bits = entries.map(|e| (runtime.encode)(e, points.format(own)));
-                    to.bits = bits.collect();
-                }
-            }
-            Node::Param(p) => {
-                if let Some(param) = params.get_mut(p.0 as usize) {
-                    param.bits = taken(runtime, points, param, own);
-                }
-            }
-            _ => {}
-        }
-    }
-}
+/// How many fraction bits each value has room for, in each width.
+struct Rooms(Vec<(u8, Vec<i8>)>);
 
-/// A param's bits, from the whole number that the source has.
-fn taken(runtime: &Runtime, points: &Points, param: &ParamPlan, own: i8) -> Bits {
-    let Some(digits) = param.digits else {
-        return (runtime.encode)(Value::Real(param.value), points.format(own));
-    };
-    let unit = 10f64.powi(i32::from(digits));
-    let whole = (param.value * unit).round() as i64;
-    match divided(runtime, own).filter(|_| digits > 0) {
-        Some(routine) => (routine.model)(&[whole as Bits, unit as Bits, i64::from(own) as Bits]),
-        None => points.moved(whole as Bits, 0, own),
+impl Rooms {
+    fn new(graph: &Graph, ranges: &Ranges, widths: &Widths) -> Rooms {
+        let greatest = |id: NodeId| {
+            let range = ranges.result[id.0 as usize];
+            match (graph.node(id), graph.constant(id)) {
+                (_, Some(value)) => value.real().abs().min(range.magnitude()),
+                (Node::Received, _) => RECEIVED,
+                (Node::Lookup { table, .. }, _) => greatest(graph, table),
+                _ => range.magnitude(),
+            }
+        };
+        let greatest: Vec<f64> = graph.ids().map(greatest).collect();
+        let of = |bits: u8| greatest.iter().map(|g| fitting(*g, bits)).collect();
+        Rooms(widths.all().map(|bits| (bits, of(bits))).collect())
+    }
+
+    /// Those in one width.
+    fn all(&self, bits: u8) -> &[i8] {
+        let found = self.0.iter().find(|(of, _)| *of == bits);
+        found.map_or(&[], |(_, all)| all)
+    }
+
+    fn of(&self, bits: u8, id: NodeId) -> i8 {
+        self.all(bits)[id.0 as usize]
     }
 }
 
@@ -306,7 +336,8 @@ fn no_finer(graph: &Graph, own: &mut [i8]) {
 }
 
 /// Leaves a value the bits that somebody reads.
-fn read_at_most(graph: &Graph, bits: u8, own: &mut [i8]) {
+fn read_at_most(graph: &Graph, widths: &Widths, own: &mut [i8]) {
+    let bits = widths.most();
     let mut read = vec![scale::FEWEST; graph.nodes.len()];
     let all = graph.loops.iter().flat_map(Loop::roots);
     for id in all.chain(graph.outputs()) {
@@ -316,7 +347,7 @@ fn read_at_most(graph: &Graph, bits: u8, own: &mut [i8]) {
         let at = id.0 as usize;
         let set = match graph.node(id) {
             Node::Lookup { .. } | Node::Received => true,
-            Node::Apply(op, _) => scale::given(op, bits).is_some(),
+            Node::Apply(op, _) => scale::given(op, widths.value(id)).is_some(),
             _ => false,
         };
         if !set {
@@ -350,32 +381,6 @@ fn at_one_scale(op: Op) -> bool {
         op,
         Op::Add | Op::Sub | Op::Min | Op::Max | Op::Mod | Op::Neg | Op::Abs
     )
-}
-
-/// Gives nodes that share a place one scale, and answers those of carried values.
-fn together(graph: &Graph, own: &mut [i8]) -> Vec<Vec<i8>> {
-    let mut carried: Vec<Vec<i8>> = (graph.loops.iter())
-        .map(|l| vec![i8::MAX; l.types.len()])
-        .collect();
-    let mut params = vec![i8::MAX; graph.params.len()];
-    for setting in [true, false] {
-        for id in graph.ids().filter(|id| graph.ty(*id) == Type::Real) {
-            let shared = match graph.node(id) {
-                Node::Carried { of, index } | Node::Last { of, index } => {
-                    (carried.get_mut(of.0 as usize)).and_then(|l| l.get_mut(index as usize))
-                }
-                Node::Param(p) => params.get_mut(p.0 as usize),
-                _ => None,
-            };
-            let own = &mut own[id.0 as usize];
-            match shared {
-                Some(shared) if setting => *shared = (*shared).min(*own),
-                Some(shared) => *own = *shared,
-                None => {}
-            }
-        }
-    }
-    carried
 }
 
 /// Whether a product of ints stays one.

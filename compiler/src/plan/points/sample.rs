@@ -6,9 +6,10 @@
 //! larger than all others by agreement, 1e6 for "nothing was hit", is asked for no more than
 //! what it is compared with.
 
-use super::seen::Seen;
+use super::seen::{BRIEF, Seen};
 use super::tape::{NOWHERE, Tape, Traced};
 use super::wanted;
+use super::widths::Widths;
 use crate::eval::arithmetic::{Arithmetic, Exact};
 use crate::eval::run::Run;
 use crate::flow::graph::*;
@@ -19,8 +20,11 @@ use std::cell::{Cell, RefCell};
 use std::collections::{HashMap, HashSet};
 
 /// Rows and columns that are looked at, the picture's borders among them.
-const ROWS: u32 = 24;
-const COLUMNS: u32 = 31;
+const LOOKED_AT: [u32; 2] = [24, 31];
+
+/// The same where nothing is chosen anew and a value has more than 16 bits: a digit more
+/// counts for so little there that what few pixels have is worth its room.
+const CLOSELY: [u32; 2] = [80, 101];
 
 /// How often params are chosen anew.
 const CHOICES: u32 = 12;
@@ -28,8 +32,8 @@ const CHOICES: u32 = 12;
 /// How many statements may run, all choices together.
 const PATIENCE: u64 = 18_000_000;
 
-/// Rows are gone through in steps of so many, so that something of every part of the
-/// picture is seen where patience ends before its rows do.
+/// Rows are gone through in steps of so many, which divide neither number of rows, so that
+/// something of every part of the picture is seen where patience ends before its rows do.
 const APART: u32 = 7;
 
 /// What each node's value is expected to stay within.
@@ -40,13 +44,23 @@ pub struct Expected {
     pub all: Vec<f64>,
 }
 
-/// What values are expected to stay within in so many bits.
-pub fn expected(graph: &Graph, tree: &Tree, bits: u8) -> Expected {
+/// What values are at the pixels looked at.
+pub struct Sample {
+    seen: Vec<Seen>,
+    pixels: f64,
+}
+
+/// Looks at pixels, for values of so many bits at most.
+pub fn seen(graph: &Graph, tree: &Tree, bits: u8) -> Sample {
     let seen = RefCell::new(vec![Seen::default(); graph.nodes.len()]);
     let carried = readers(graph);
     let early = early(tree);
     let live = graph.params.iter().any(|p| p.range.is_some());
     let choices = if live { CHOICES } else { 1 };
+    let [rows, columns] = match !live && bits > BRIEF {
+        true => CLOSELY,
+        false => LOOKED_AT,
+    };
     let mut pixels = 0.0;
     // What pixels send is looked at, but not carried through the whole picture.
     let alone = Graph {
@@ -67,15 +81,15 @@ pub fn expected(graph: &Graph, tree: &Tree, bits: u8) -> Expected {
         // The scene's own params count as much as all others.
         let times = f64::from(if choice == 0 { CHOICES - 1 } else { 1 });
         let mut run = Run::new(&alone, tree, &watch);
-        for row in 0..ROWS {
+        for row in 0..rows {
             watch.roots.borrow_mut().row.clear();
-            for column in 0..COLUMNS {
+            for column in 0..columns {
                 let at = |k: u32, of: u32, long: u32| {
                     (u64::from(k) * u64::from(long.max(1) - 1) / u64::from(of - 1)) as i32
                 };
-                let y = at(row * APART % ROWS, ROWS, graph.image.height);
+                let y = at(row * APART % rows, rows, graph.image.height);
                 if watch.ran.get() < PATIENCE / u64::from(choices) {
-                    let ink = run.pixel(at(column, COLUMNS, graph.image.width), y);
+                    let ink = run.pixel(at(column, columns, graph.image.width), y);
                     let sent = graph.shares().filter_map(|s| run.last(s.node));
                     watch.send(sent);
                     pixels += times;
@@ -91,17 +105,22 @@ pub fn expected(graph: &Graph, tree: &Tree, bits: u8) -> Expected {
         }
     }
     let seen = seen.into_inner();
+    Sample { seen, pixels }
+}
+
+/// What values are expected to stay within in so many bits.
+pub fn expected(scene: (&Graph, &Tree), sample: &Sample, widths: &Widths) -> Expected {
     Expected {
-        ends: chosen((graph, tree), (&seen, pixels), bits),
-        all: seen.iter().map(Seen::room).collect(),
+        ends: chosen(scene, sample, widths),
+        all: sample.seen.iter().map(Seen::room).collect(),
     }
 }
 
 /// What the values are expected to stay within, in as many fraction bits as serve best.
 fn chosen(
     (graph, tree): (&Graph, &Tree),
-    (seen, pixels): (&[Seen], f64),
-    bits: u8,
+    Sample { seen, pixels }: &Sample,
+    widths: &Widths,
 ) -> Vec<Option<f64>> {
     let carried = readers(graph);
     let mut given: Vec<Vec<NodeId>> = vec![Vec::new(); graph.nodes.len()];
@@ -119,9 +138,9 @@ fn chosen(
         });
     }
     let mut most = vec![None; graph.nodes.len()];
-    let mut room = vec![finest(bits); graph.nodes.len()];
+    let mut room = vec![finest(widths.most()); graph.nodes.len()];
     for id in graph.ids().filter(|id| graph.ty(*id) == Type::Real) {
-        let at = id.0 as usize;
+        let (at, bits) = (id.0 as usize, widths.value(id));
         let full = fitting(seen[at].room(), bits);
         // More bits than what a value is made of gives it serve nothing.
         let cap = match graph.node(id) {
@@ -133,13 +152,13 @@ fn chosen(
                 all.max().unwrap_or(finest(bits))
             }
         };
-        if let Some(end) = seen[at].expected(cap, bits, pixels) {
+        if let Some(end) = seen[at].expected(cap, bits, *pixels) {
             (room[at], most[at]) = (fitting(end, bits), Some(end));
         }
     }
     // The last round only raises: then it holds for all.
     for round in (0..ROUNDS).rev() {
-        ends_passed_on(graph, (seen, &given), bits, round > 0, &mut most);
+        ends_passed_on(graph, (seen, &given), widths, round > 0, &mut most);
     }
     most
 }
@@ -153,11 +172,14 @@ const ROUNDS: u32 = 6;
 fn ends_passed_on(
     graph: &Graph,
     (seen, given): (&[Seen], &[Vec<NodeId>]),
-    bits: u8,
+    widths: &Widths,
     may_cut: bool,
     most: &mut [Option<f64>],
 ) {
-    let cost = |at: usize, end: f64| seen[at].cost(fitting(end, bits), bits);
+    let cost = |at: usize, end: f64| {
+        let bits = widths.value(NodeId(at as u32));
+        seen[at].cost(fitting(end, bits), bits)
+    };
     for id in graph.ids().rev() {
         let passed = match graph.node(id) {
             Node::Apply(Op::Min | Op::Max, args) => args.to_vec(),
@@ -302,9 +324,7 @@ impl Watch<'_> {
         let value = range.lo + part * (range.hi - range.lo);
         match param.ty {
             // As the scene has it: a program whose params are edited keeps its points.
-            Type::Bool if self.choice == 0 => Value::Bool(param.usual != 0.0),
-            Type::Int if self.choice == 0 => Value::Int(param.usual as i32),
-            Type::Real if self.choice == 0 => Value::Real(param.usual),
+            _ if self.choice == 0 => param.usual(),
             Type::Bool => Value::Bool(part > 0.5),
             Type::Int => Value::Int(value.round() as i32),
             Type::Real => Value::Real(value),

@@ -11,9 +11,17 @@ const ROOM: f64 = 1.2;
 /// what routines may be off is more than what roundings are.
 const OFF: f64 = 0.5;
 
-/// What it may cost a pixel to cut nothing more. What is estimated is several times too
-/// much, and what is cut has to be compared where a sum would do.
+/// What it may cost a pixel of so many bits to cut nothing more. What is estimated is several
+/// times too much, and what is cut has to be compared where a sum would do.
 const HARDLY: f64 = 1.5 / 1024.0;
+
+/// The bits of a value for which that is.
+pub const BRIEF: u8 = 16;
+
+/// The same where values have more bits, each of which halves what roundings cost.
+fn hardly(bits: u8) -> f64 {
+    HARDLY * (f64::from(BRIEF) - f64::from(bits)).exp2()
+}
 
 /// What asks for more than such a part of a value gets it from no format: what is compared
 /// with its equal, say.
@@ -108,10 +116,45 @@ impl Seen {
         let each = all..=cap.clamp(all, finest(bits));
         let costs: Vec<(i8, f64)> = each.map(|f| (f, self.cost(f, bits))).collect();
         let least = costs.iter().map(|c| c.1).fold(f64::INFINITY, f64::min);
-        let (best, _) = costs.iter().find(|c| c.1 <= least + HARDLY * pixels)?;
+        let (best, _) = costs
+            .iter()
+            .find(|c| c.1 <= least + hardly(bits) * pixels)?;
         Some(match *best == all {
             true => self.room(),
             false => most(bits) as f64 * (-f64::from(*best)).exp2(),
         })
+    }
+}
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used)]
+mod tests {
+    use super::super::asks::Bounds;
+    use super::*;
+
+    /// How many fraction bits serve a thousand values beside 1, where one is 1024 of which
+    /// so much is asked for.
+    fn frac(need: f64, bits: u8) -> i8 {
+        let asked = |gain: f64, lost: f64, lo: f64| Asked {
+            gain,
+            within: Bounds {
+                lo,
+                hi: f64::INFINITY,
+            },
+            lost,
+        };
+        let mut seen = Seen::default();
+        seen.see(1.1, asked(4.0, 4.0, 1.1), 1000.0);
+        seen.see(1024.0, asked(0.0, 1.0, need), 1.0);
+        fitting(seen.expected(finest(bits), bits, 1001.0).unwrap(), bits)
+    }
+
+    /// What one pixel has is cut where it costs the others digits that they need, and has
+    /// room where it does not. What is asked for by nobody has room nowhere.
+    #[test]
+    fn what_few_pixels_have_is_worth_its_room_where_digits_are_many() {
+        assert_eq!(frac(1024.0, 24), 12);
+        assert!(frac(1024.0, 16) > 4);
+        assert!(frac(0.0, 24) > 12);
     }
 }

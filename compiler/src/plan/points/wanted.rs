@@ -21,7 +21,9 @@ pub fn cap(
         Op::Add | Op::Sub | Op::Mod => of_a.min(of_b),
         // One of both: what is beyond the end of the other one's bits is, where it is read.
         Op::Min | Op::Max => of_a.max(of_b),
-        Op::Neg | Op::Abs | Op::ToReal => of_a,
+        Op::Neg | Op::Abs => of_a,
+        // An int is whole at any scale, and saturates where it is read.
+        Op::ToReal => finest(bits),
         Op::Mul => match (power(graph, a), power(graph, b)) {
             (_, Some(by)) => of_a + by,
             (Some(by), _) => of_b + by,

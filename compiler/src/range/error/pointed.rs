@@ -6,7 +6,7 @@ use super::form::Form;
 use super::walk::Walk;
 use crate::flow::graph::*;
 use crate::flow::tree::Place;
-use slowlight_routine::{Op, Range, Routine, Type, scale};
+use slowlight_routine::{Format, Op, Range, Routine, Type, scale};
 
 impl Walk<'_> {
     /// The operands of an operation as it reads them.
@@ -17,18 +17,24 @@ impl Walk<'_> {
             return values;
         };
         let scales = points.scales(id).args;
+        let width = points.widths().operation(id);
         let [x, y] = values;
         let x = self.read_at(
             a,
             x,
-            scales[0],
+            (scales[0], width),
             op.args().first() == Some(&Type::Int) && op != Op::ToReal,
         );
         match op.arity() {
             2 if a == b && scales[0] == scales[1] => [x.clone(), x],
             2 => [
                 x,
-                self.read_at(b, y, scales[1], op.args().get(1) == Some(&Type::Int)),
+                self.read_at(
+                    b,
+                    y,
+                    (scales[1], width),
+                    op.args().get(1) == Some(&Type::Int),
+                ),
             ],
             _ => [x, y],
         }
@@ -42,20 +48,23 @@ impl Walk<'_> {
             .points()
             .filter(|_| self.graph.ty(from) == Type::Real)
         {
-            Some(points) => self.read_at(from, value, points.place(place), false),
+            Some(points) => {
+                let width = points.widths().place(place);
+                self.read_at(from, value, (points.place(place), width), false)
+            }
             None => value,
         }
     }
 
     /// A node's value read with so many fraction bits, unless it stays an int.
-    fn read_at(&mut self, id: NodeId, value: Value, to: i8, int: bool) -> Value {
+    fn read_at(&mut self, id: NodeId, value: Value, (to, bits): (i8, u8), int: bool) -> Value {
         let Some(points) = self.plan.points().filter(|_| !int) else {
             return value;
         };
-        let format = points.format(to);
+        let format = Format::Fixed { bits, frac: to };
         let real = self.graph.ty(id) == Type::Real;
         if let Some(exact) = self.graph.constant(id).filter(|_| real) {
-            let bits = points.read(self.graph, id, 0, to);
+            let bits = points.read(self.graph, id, 0, (to, bits));
             let made = (self.plan.runtime.decode)(bits, format).real();
             return Value {
                 range: value.range,

@@ -46,7 +46,7 @@ pub fn inherited(op: Op, x: &Value, y: &Value, same: bool, result: Range) -> For
             &x.error,
             &y.error,
         ),
-        Op::Sqrt => root(x),
+        Op::Sqrt | Op::IntRoot => root(x),
         // Within one step of the floor of x/y: x - n y.
         Op::Mod => match y.error.is_exact() {
             true => x.error.clone(),

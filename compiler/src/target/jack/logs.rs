@@ -6,9 +6,9 @@ use super::code::Code;
 use super::expression::Expression;
 use crate::flow::graph::*;
 use crate::flow::tree::Place;
+pub(super) use slowlight_routine::log::known_sign as known;
+use slowlight_routine::log::model::Log;
 use slowlight_routine::{Format, Routine, Value};
-pub(super) use slowlight_runtime_jack::log::known_sign as known;
-use slowlight_runtime_jack::log::model::Log;
 use slowlight_runtime_jack::{SUM, TERM};
 use std::collections::BTreeSet;
 

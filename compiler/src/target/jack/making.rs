@@ -6,8 +6,8 @@ use super::expression::{Expression, int};
 use super::frame::{Subroutine, line, subroutine};
 use super::logs::{constant, has_signs};
 use crate::plan::ParamPlan;
+use slowlight_routine::log::model::Log;
 use slowlight_routine::{Form, Format, Op, Type, Value};
-use slowlight_runtime_jack::log::model::Log;
 use slowlight_runtime_jack::model::{self, Float};
 
 /// The methods that make constants, Floats and tables, and read the params.

@@ -170,7 +170,7 @@ fn packed(word: &str, log: &str, plus: &str) -> Vec<String> {
 }
 
 /// What the least logarithm is below 0.
-const ABOVE: i32 = -slowlight_runtime_jack::log::model::LEAST;
+const ABOVE: i32 = -slowlight_routine::log::model::LEAST;
 
 /// Adds a share to what another pixel has received, both as logarithms.
 fn gathered(

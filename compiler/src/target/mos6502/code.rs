@@ -4,6 +4,7 @@ use super::Text;
 use super::comment;
 use super::homes::{Homes, Slot, most_turns};
 use super::inline;
+use super::shapes::by_range;
 use crate::flow::graph::*;
 use crate::flow::tree::*;
 use crate::plan::Plan;
@@ -121,7 +122,7 @@ impl<'p> Code<'p> {
                 (self.homes.held_in(self.plan, place), name)
             }
         };
-        let same = matches!(&from, Operand::At(name) | Operand::Held(name, _) if *name == to);
+        let same = matches!(&from, Operand::At(name) | Operand::Held(name, _) | Operand::Signed(name, _) if *name == to);
         if !same {
             self.text.line(format!("        ; {to} = {said}"));
             self.copy_into(&from, &to, place);
@@ -243,9 +244,9 @@ impl<'p> Code<'p> {
     /// Gives the column or the row a value.
     pub fn copy_axis(&mut self, from: &Operand, to: &str) {
         let mut lines = Vec::new();
-        let bytes = match self.plan.points() {
-            Some(_) => 2,
-            None => write::size(self.plan.runtime.int),
+        let bytes = match by_range(self.plan) {
+            true => 2,
+            false => write::size(self.plan.runtime.int),
         };
         write::copy_bytes(from, to, bytes, &mut lines);
         lines.iter().for_each(|line| self.text.line(line));

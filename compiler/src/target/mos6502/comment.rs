@@ -35,7 +35,7 @@ pub(super) fn operand(plan: &Plan, homes: &Homes, id: NodeId) -> String {
         (Some(Value::Real(r)), _) => format!("{r}"),
         (Some(Value::Int(i)), _) => format!("{i}"),
         (Some(Value::Bool(b)), _) => format!("{b}"),
-        (None, Operand::At(name) | Operand::Held(name, _)) => name,
+        (None, Operand::At(name) | Operand::Held(name, _) | Operand::Signed(name, _)) => name,
         (None, Operand::Constant(_)) => "anything".to_owned(),
     }
 }

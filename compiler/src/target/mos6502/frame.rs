@@ -3,6 +3,7 @@
 
 use super::code::Code;
 use super::homes::Homes;
+use super::logs;
 use super::memory::Machine;
 use super::params::{Entry, entries, take_params};
 use super::rows::Rows;
@@ -13,16 +14,27 @@ use crate::flow::tree::SubroutineId;
 use crate::plan::Plan;
 use slowlight_routine::{Format, Part, Source, Type};
 use slowlight_runtime_6502::write::{self, Place as Operand};
+use std::ops::Range;
+
+/// Where parts of a program's text are, by lines.
+pub(super) struct Lines {
+    /// What names the bytes that nobody else uses.
+    pub symbols: Range<usize>,
+    /// What the scene became.
+    pub code: Range<usize>,
+}
 
 /// The whole program.
-pub(super) fn program(plan: &Plan, homes: &Homes, syntax: &Syntax, text: &mut Text) {
+pub(super) fn program(plan: &Plan, homes: &Homes, syntax: &Syntax, text: &mut Text) -> Lines {
     let entries = entries(plan, homes);
     head(plan, homes, &entries, syntax, text);
     // What operands are read with is known when they have been.
     let (_, read) = main(plan, homes, &[], &mut Text::default());
     let parts = parts(plan, &entries, &read);
-    symbols(plan, homes, &parts, text);
+    let named_from = symbols(plan, homes, &parts, text);
+    let named_to = text.lines.len();
     let (clamps, _) = main(plan, homes, &parts, text);
+    let code = named_to..text.lines.len();
     take_params(plan, homes, &entries, syntax, text);
     let machine = Machine::of(plan);
     if machine != Machine::Plain {
@@ -49,6 +61,10 @@ pub(super) fn program(plan: &Plan, homes: &Homes, syntax: &Syntax, text: &mut Te
     };
     let last = syntax.last(&plan.name, loaded);
     last.iter().for_each(|line| text.line(line));
+    Lines {
+        symbols: named_from..named_to,
+        code,
+    }
 }
 
 /// The parts that the program needs: those of the plan and of its own frame.
@@ -60,6 +76,9 @@ fn parts(plan: &Plan, entries: &[Entry], read: &[&'static str]) -> Vec<&'static 
         2 => "scaled_page",
         _ => "scaled24_page",
     }));
+    if logs::are(plan) {
+        names.push("log_page");
+    }
     for entry in entries {
         names.extend(entry.needs(plan));
     }
@@ -71,7 +90,8 @@ fn parts(plan: &Plan, entries: &[Entry], read: &[&'static str]) -> Vec<&'static 
 
 /// Whether a part only names places in the zero page.
 fn is_page(part: &Part) -> bool {
-    matches!(part.name, "zero_page" | "scaled_page" | "scaled24_page")
+    let pages = ["zero_page", "scaled_page", "scaled24_page", "log_page"];
+    pages.contains(&part.name)
 }
 
 fn source(machine: Machine, part: &Part, text: &mut Text) {
@@ -99,7 +119,7 @@ fn head(plan: &Plan, homes: &Homes, entries: &[Entry], syntax: &Syntax, text: &m
         machine.about(),
         plan.runtime.format
     ));
-    for line in syntax.how(&plan.name, plan.target.name) {
+    for line in syntax.how(&plan.name, plan.target.name, plan.undocumented) {
         text.line(line);
     }
     match machine {
@@ -129,13 +149,15 @@ fn head(plan: &Plan, homes: &Homes, entries: &[Entry], syntax: &Syntax, text: &m
     }
 }
 
-fn symbols(plan: &Plan, homes: &Homes, parts: &[&'static Part], text: &mut Text) {
+/// Answers the line from which on bytes have names that nobody else uses.
+fn symbols(plan: &Plan, homes: &Homes, parts: &[&'static Part], text: &mut Text) -> usize {
     let machine = Machine::of(plan);
     match machine {
         Machine::Plain => ports::symbols(text),
         Machine::Bbc => bbc::symbols(text),
         Machine::C64 => c64::symbols(text),
     }
+    let first = text.lines.len();
     text.headline("the runtime's zero page");
     for part in parts.iter().filter(|p| is_page(p)) {
         source(machine, part, text);
@@ -150,7 +172,17 @@ fn symbols(plan: &Plan, homes: &Homes, parts: &[&'static Part], text: &mut Text)
     }
     text.line("");
     text.line(format!("* = ${:04x}", homes.places.origin));
+    first
 }
+
+/// What sets the pointers into a part's tables, or makes these.
+const MADE: [(&str, &str); 5] = [
+    ("product", "set_squares"),
+    ("squares24", "set_squares24"),
+    ("log_sum", "set_sums"),
+    ("log_difference", "set_lost"),
+    ("log_whole", "set_parts"),
+];
 
 /// The program proper; answers whether it clamps an index, and with what operands are read.
 fn main(
@@ -170,7 +202,7 @@ fn main(
     if parts.iter().any(|p| p.name == "squares") {
         text.code("jsr make_squares");
     }
-    for (part, make) in [("product", "set_squares"), ("squares24", "set_squares24")] {
+    for (part, make) in MADE {
         if parts.iter().any(|p| p.name == part) {
             text.code(&format!("jsr {make}"));
         }
@@ -250,7 +282,12 @@ fn reports(plan: &Plan, homes: &Homes, text: &mut Text) {
             let real = plan.graph.ty(id) == Type::Real;
             let bits = (plan.runtime.encode)(constant, plan.format(id));
             value = Operand::Constant(if real {
-                points.read(&plan.graph, id, bits, points.own(id))
+                points.read(
+                    &plan.graph,
+                    id,
+                    bits,
+                    (points.own(id), points.widths().value(id)),
+                )
             } else {
                 bits
             });
@@ -263,6 +300,7 @@ fn reports(plan: &Plan, homes: &Homes, text: &mut Text) {
         }
         let bytes = match plan.format(id) {
             Format::Bool => 1,
+            Format::Log { .. } => 3,
             _ => 4,
         };
         for k in 0..4 {

@@ -1,6 +1,7 @@
 //! Where values live, and what they are called in the program.
 
 use super::columns;
+use super::logs;
 use super::memory::{self, Machine, Places, Room};
 use super::moved::{self, Moved};
 use super::names::Names;
@@ -198,6 +199,7 @@ impl Homes {
     pub fn held_in(&self, plan: &Plan, place: Place) -> Operand {
         let name = self.place(place).to_owned();
         match &self.shapes {
+            Some(_) if matches!(plan.place_format(place), Format::Log { .. }) => Operand::At(name),
             Some(shapes) => Operand::Held(name, shapes.of(plan, place)),
             None => Operand::At(name),
         }
@@ -224,8 +226,14 @@ impl Homes {
 
     /// Where a node's value is read from.
     pub fn operand(&self, plan: &Plan, id: NodeId) -> Operand {
-        let at = |slot| self.held(plan, slot);
+        let at = |slot| match logs::is_one(plan, id) {
+            true => logs::operand(plan, id, self.name(slot).to_owned()),
+            false => self.held(plan, slot),
+        };
         match (plan.place(id), plan.graph.node(id)) {
+            (Some(place), _) if logs::is_one(plan, id) => {
+                logs::operand(plan, id, self.place(place).to_owned())
+            }
             (Some(place), _) => self.held_in(plan, place),
             (None, Node::Const(c)) => Operand::Constant(plan.bits(c.value())),
             (None, Node::Param(p)) => at(Slot::Param(p.0)),

@@ -4,7 +4,7 @@ use super::code::Code;
 use crate::flow::graph::*;
 use crate::flow::tree::{Place, Statement};
 use crate::plan::Plan;
-use slowlight_routine::{Form, Op, Type};
+use slowlight_routine::{Form, Format, Op, Type};
 use slowlight_runtime_6502::scaled::{copied, inline};
 use slowlight_runtime_6502::write::{Place as Operand, shift_of_one};
 
@@ -33,13 +33,15 @@ impl Code<'_> {
             return false;
         };
         // Of more bytes a home may have fewer than the format.
-        if self.plan.runtime.real.bits() > 16 {
+        let width = points.widths().operation(id);
+        if width > 16 {
             return false;
         }
         let Form::Statement(text) = routine.form else {
             return false;
         };
-        let (Some(k), true) = (copied(text), routine.result == self.plan.runtime.real) else {
+        let real = Format::Scaled { bits: width };
+        let (Some(k), true) = (copied(text), routine.result == real) else {
             return false;
         };
         let scale = points.scales(id).args[k];
@@ -48,7 +50,7 @@ impl Code<'_> {
             return false;
         }
         let home = self.homes.place(place).to_owned();
-        let read = self.read_at(points, arg, scale, &home);
+        let read = self.read_at(points, arg, (scale, width), &home);
         if read != Operand::At(home.clone()) {
             self.copy(&read, &home, routine.result);
         }

@@ -22,7 +22,7 @@
 //! - `moved`: reals that are kept at a second scale;
 //! - `scaled`: reals with points of their own, read where they are wanted;
 //! - `code`: statements; `table`: lookups; `comment`: what a statement means;
-//! - `inline`: products in place;
+//! - `logs`: logarithmic reals; `inline`: products in place;
 //! - `params`: the parameter block's checks; `frame`: everything around the statements;
 //!   `rows`: the loops over rows, passes, runs of columns and pixels;
 //! - `spread`: error diffusion.
@@ -37,6 +37,7 @@ mod comment;
 mod frame;
 mod homes;
 mod inline;
+mod logs;
 mod memory;
 mod moved;
 mod names;
@@ -60,7 +61,11 @@ use crate::source::Span;
 use memory::Machine;
 pub use memory::{DISC_PAGE, Room};
 use slowlight_runtime_6502::FIXED16_16;
-use slowlight_runtime_6502::scaled::{FIXED16, FIXED16_IN_RUNS, FIXED24, FIXED24_IN_RUNS};
+use slowlight_runtime_6502::log::{LOG10, LOG10_IN_RUNS};
+use slowlight_runtime_6502::scaled::{FIXED16, FIXED16_IN_RUNS};
+use slowlight_runtime_6502::scaled::{FIXED20, FIXED20_IN_RUNS, FIXED24, FIXED24_IN_RUNS};
+use slowlight_runtime_6502::tidy::tidy;
+use slowlight_runtime_6502::tidy::undocumented::undocumented;
 use syntax::Syntax;
 
 /// The plain machine: 64K of RAM and a port that takes ink by ink.
@@ -72,11 +77,28 @@ pub static PLAIN_FIXED16: Target = Target {
     ..USUAL
 };
 
+/// The same with reals of 16 bits or 24.
+pub static PLAIN_FIXED20: Target = Target {
+    runtime: &FIXED20_IN_RUNS,
+    ..USUAL
+};
+
 /// The same with reals of 24 bits.
 pub static PLAIN_FIXED24: Target = Target {
     runtime: &FIXED24_IN_RUNS,
     ..USUAL
 };
+
+/// The same with logarithmic reals.
+pub static PLAIN_LOG10: Target = Target {
+    runtime: &LOG10_IN_RUNS,
+    offset: LOG_OFFSET,
+    ..USUAL
+};
+
+/// Numbers are known to 1/2000 of themselves, so a point's distance from its own surface, a
+/// few units away, comes out as a few thousandths.
+const LOG_OFFSET: f64 = 0.015_625;
 
 /// A BBC Micro, model B.
 pub static BBC: Target = Target {
@@ -89,6 +111,12 @@ pub static BBC: Target = Target {
 /// The same with reals of 16 bits.
 pub static BBC_FIXED16: Target = Target {
     runtime: &FIXED16,
+    ..BBC
+};
+
+/// The same with reals of 16 bits or 24.
+pub static BBC_FIXED20: Target = Target {
+    runtime: &FIXED20,
     ..BBC
 };
 
@@ -110,6 +138,19 @@ pub static C64: Target = Target {
 /// The same with reals of 16 bits.
 pub static C64_FIXED16: Target = Target {
     runtime: &FIXED16,
+    ..C64
+};
+
+/// The same with logarithmic reals.
+pub static C64_LOG10: Target = Target {
+    runtime: &LOG10,
+    offset: LOG_OFFSET,
+    ..C64
+};
+
+/// The same with reals of 16 bits or 24.
+pub static C64_FIXED20: Target = Target {
+    runtime: &FIXED20,
     ..C64
 };
 
@@ -159,7 +200,11 @@ fn emit(plan: &Plan) -> Vec<Document> {
 pub fn document(plan: &Plan, syntax: &Syntax) -> Document {
     let homes = homes::Homes::new(plan);
     let mut text = Text::default();
-    frame::program(plan, &homes, syntax, &mut text);
+    let parts = frame::program(plan, &homes, syntax, &mut text);
+    tidy(&mut text.lines, &parts.symbols, &parts.code);
+    if plan.undocumented {
+        undocumented(&mut text.lines, &parts.symbols, parts.code.start);
+    }
     let (written, lines) = syntax.write(&text.lines);
     Document {
         name: format!("{}.asm", plan.name),

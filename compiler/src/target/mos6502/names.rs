@@ -103,13 +103,15 @@ const RESERVED: &[&str] = &[
 ];
 
 /// Words that some assembler keeps for itself beside the 6502's instructions: those of
-/// its successors, aliases of branches, operators, constants. In small letters.
+/// its successors, aliases of branches, other names of undocumented opcodes, operators,
+/// constants. In small letters.
 const FOREIGN: &[&str] = &[
     "bbr", "bbs", "bge", "blt", "bra", "brl", "cop", "cpa", "cpu", "gcc", "gcs", "geq", "gge",
     "glt", "gmi", "gne", "gpl", "gvc", "gvs", "jml", "jsl", "mvn", "mvp", "not", "pea", "pei",
     "per", "phb", "phd", "phk", "phx", "phy", "pi", "plb", "pld", "plx", "ply", "rep", "rmb",
     "rtl", "sep", "shl", "shr", "smb", "stp", "stz", "tcd", "tcs", "tdc", "trb", "tsb", "tsc",
-    "txy", "tyx", "wai", "wdb", "xba", "xce",
+    "txy", "tyx", "wai", "wdb", "xba", "xce", "ahx", "aso", "asr", "axs", "dcm", "dop", "ins",
+    "isb", "jam", "lae", "lds", "lse", "shs", "top", "xaa",
 ];
 
 /// Makes names that the assembler and the rest of the program leave free.

@@ -2,6 +2,7 @@
 //! start and made what the program computes with.
 
 use super::homes::{Homes, Slot};
+use super::logs;
 use super::memory::Machine;
 use super::syntax::Syntax;
 use super::{Text, bbc, c64};
@@ -35,7 +36,10 @@ impl Entry {
     /// The parts of the runtime that it is taken with.
     pub fn needs(&self, plan: &Plan) -> Option<&'static str> {
         match plan.points() {
-            None => (self.divisor > 0).then_some("fixed_divide"),
+            None => (self.divisor > 0).then_some(match logs::are(plan) {
+                true => "log_param",
+                false => "fixed_divide",
+            }),
             Some(_) => {
                 let [divide, hold] = match is_long(plan) {
                     true => ["divide24", "hold24"],
@@ -175,9 +179,10 @@ pub(super) fn take_params(
         text.code(&format!(
             "jsr take_param | lda acc | sta {home} | lda acc+1 | sta {home}+1"
         ));
-        text.code(&format!(
-            "lda acc+2 | sta {home}+2 | lda acc+3 | sta {home}+3"
-        ));
+        text.code(&format!("lda acc+2 | sta {home}+2"));
+        if entry.divisor == 0 || !logs::are(plan) {
+            text.code(&format!("lda acc+3 | sta {home}+3"));
+        }
     }
     text.code("rts");
     let divide = entries.iter().any(|e| e.divisor > 0);
@@ -191,6 +196,7 @@ pub(super) fn take_params(
     // Where points are the params' own, they are divided by who knows them.
     let template = match plan.points() {
         Some(_) => template.replace("jmp fixed_divide", "rts"),
+        None if logs::are(plan) => template.replace("fixed_divide", "log_ratio"),
         None => template.to_owned(),
     };
     text.line(template);

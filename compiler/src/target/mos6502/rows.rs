@@ -10,6 +10,7 @@
 use super::code::Code;
 use super::homes::Slot;
 use super::screen::Screen;
+use super::shapes::by_range;
 use crate::flow::graph::*;
 use crate::passes::interlace::passes;
 use crate::passes::still::{Inks, Still};
@@ -393,9 +394,9 @@ impl Code<'_> {
         // x < c and c <= x change at c, the others behind it.
         let before = (op == Op::IntLess) == first;
         let end = self.homes.name(Slot::RunEnd).to_owned();
-        let held = match self.plan.points() {
-            Some(_) => self.homes.run_end(self.plan),
-            None => Operand::At(end.clone()),
+        let held = match by_range(self.plan) {
+            true => self.homes.run_end(self.plan),
+            false => Operand::At(end.clone()),
         };
         let n = self.text.next_serial();
         let orders = match before {

@@ -6,7 +6,7 @@ use crate::flow::tree::Place;
 use crate::plan::points::Points;
 use slowlight_routine::{Op, Type, scale};
 use slowlight_runtime_6502::scaled;
-use slowlight_runtime_6502::write::{self, Place as Operand, Shape};
+use slowlight_runtime_6502::write::{Place as Operand, Shape};
 
 /// Where operands go that are read at another scale.
 const READ: [&str; 2] = ["first", "second"];
@@ -27,17 +27,18 @@ impl Code<'_> {
             let operand = match (points, ty) {
                 (Some(points), Some(Type::Real)) => {
                     let again = k == 1 && arg == args[0];
-                    let to = points.scales(id).args;
+                    let (to, width) = (points.scales(id).args, points.widths().operation(id));
                     if let Some(known) = self.known(id, k, to[k]) {
                         known
                     } else if again && to[0] == to[1] {
                         all.first().cloned().unwrap_or(Operand::Constant(0))
                     } else {
-                        self.read_at(points, arg, to[k], READ[k])
+                        self.read_at(points, arg, (to[k], width), READ[k])
                     }
                 }
                 (Some(points), Some(Type::Int)) if op == Op::ToReal => {
-                    self.read_at(points, arg, points.scales(id).args[k], READ[k])
+                    let to = (points.scales(id).args[k], points.widths().operation(id));
+                    self.read_at(points, arg, to, READ[k])
                 }
                 (_, None) => Operand::Constant(0),
                 _ => self.homes.operand(self.plan, arg),
@@ -53,8 +54,8 @@ impl Code<'_> {
     fn known(&self, id: NodeId, k: usize, to: i8) -> Option<Operand> {
         let range = self.plan.ranges.args.get(id.0 as usize)?.get(k)?;
         let units = scale::in_units(*range, to).constant()?;
-        let held = units.fract() == 0.0
-            && units.abs() <= scale::most(self.plan.runtime.real.bits()) as f64;
+        let width = self.plan.points()?.widths().operation(id);
+        let held = units.fract() == 0.0 && units.abs() <= scale::most(width) as f64;
         held.then_some(Operand::Constant(units as i64 as u64))
     }
 
@@ -87,34 +88,55 @@ impl Code<'_> {
                 id,
                 &from,
                 i32::from(to) - i32::from(own),
-                (to, (&name, LEAST)),
+                ((to, points.widths().most()), (&name, LEAST)),
             );
         }
     }
 
-    /// A number with so many fraction bits: where it is, or read into `into`.
-    pub(super) fn read_at(&mut self, points: &Points, id: NodeId, to: i8, into: &str) -> Operand {
-        if let Some(kept) = self.homes.kept_at(id, to) {
+    /// A number with so many fraction bits in some width: where it is, or read into `into`.
+    pub(super) fn read_at(
+        &mut self,
+        points: &Points,
+        id: NodeId,
+        to: (i8, u8),
+        into: &str,
+    ) -> Operand {
+        if let Some(kept) = self.homes.kept_at(id, to.0) {
             return Operand::At(kept.to_owned());
         }
         self.read_into(points, id, to, (into, LEAST))
     }
 
     /// The same in so many bytes at least.
-    fn read_into(&mut self, points: &Points, id: NodeId, to: i8, into: (&str, u8)) -> Operand {
+    fn read_into(
+        &mut self,
+        points: &Points,
+        id: NodeId,
+        (to, width): (i8, u8),
+        into: (&str, u8),
+    ) -> Operand {
         let real = self.plan.graph.ty(id) == Type::Real;
         if let Some(value) = self.plan.graph.constant(id) {
             return Operand::Constant(match real {
-                true => scale::nearest(value.real(), to, self.plan.runtime.real.bits()),
-                false => points.moved(value.int() as i64 as u64, 0, to),
+                true => scale::nearest(value.real(), to, width),
+                false => points.moved(value.int() as i64 as u64, 0, (to, width)),
             });
         }
         let own = if real { points.own(id) } else { 0 };
         let from = self.homes.operand(self.plan, id);
-        if own == to && real {
+        let range = self.plan.ranges.result.get(id.0 as usize);
+        let most = scale::most(width) as f64;
+        let fits = range.is_some_and(|r| scale::in_units(*r, to).within(-most, most));
+        // What is in more bytes than are wanted may not fit.
+        if own == to && real && (fits || points.widths().value(id) <= width) {
             return from;
         }
-        self.move_into(id, &from, i32::from(to) - i32::from(own), (to, into))
+        self.move_into(
+            id,
+            &from,
+            i32::from(to) - i32::from(own),
+            ((to, width), into),
+        )
     }
 
     /// Reads a number with so many more fraction bits.
@@ -123,14 +145,14 @@ impl Code<'_> {
         id: NodeId,
         from: &Operand,
         by: i32,
-        (to, (into, least)): (i8, (&str, u8)),
+        ((to, width), (into, least)): ((i8, u8), (&str, u8)),
     ) -> Operand {
         let range = self.plan.ranges.result.get(id.0 as usize);
         let within = |bytes: u8| {
             let most = scale::most(8 * bytes) as f64;
             range.is_some_and(|r| scale::in_units(*r, to).within(-most, most))
         };
-        let whole = write::size(self.plan.runtime.real);
+        let whole = width / 8;
         let bytes = (least..whole).find(|bytes| within(*bytes)).unwrap_or(whole);
         let fits = within(bytes);
         let mut lines = Vec::new();
@@ -160,7 +182,8 @@ impl Code<'_> {
         points.is_some_and(|points| {
             !undefined
                 && (self.plan.graph.constant(from).is_some()
-                    || points.place(place) != points.own(from))
+                    || points.place(place) != points.own(from)
+                    || points.widths().place(place) < points.widths().value(from))
         })
     }
 
@@ -173,7 +196,12 @@ impl Code<'_> {
             .homes
             .shape(self.plan, place)
             .map_or(LEAST, |s| s.bytes);
-        let read = self.read_into(points, from, points.place(place), (to, bytes));
+        let read = self.read_into(
+            points,
+            from,
+            (points.place(place), points.widths().place(place)),
+            (to, bytes),
+        );
         let there = matches!(&read, Operand::At(name) | Operand::Held(name, _) if name == to);
         if !there {
             self.copy_into(&read, to, place);

@@ -1,7 +1,8 @@
-//! In how many bytes numbers are kept where reals have points of their own: as many as their
-//! ranges need, of reals two at least.
+//! In how many bytes numbers are kept where reals have points of their own, or are
+//! logarithms: as many as their ranges need, of reals two at least.
 
 use super::homes::Slot;
+use super::logs;
 use super::scaled::LEAST;
 use crate::flow::graph::*;
 use crate::flow::ramp;
@@ -19,9 +20,17 @@ pub(super) struct Shapes {
     places: HashMap<Place, Shape>,
 }
 
-/// Those of a plan whose reals have points of their own.
+/// Whether numbers are kept in as many bytes as their ranges need: ints, where reals are
+/// short.
+pub(super) fn by_range(plan: &Plan) -> bool {
+    plan.points().is_some() || logs::are(plan)
+}
+
+/// Those of such a plan.
 pub(super) fn shapes(plan: &Plan) -> Option<Shapes> {
-    let points = plan.points()?;
+    if !by_range(plan) {
+        return None;
+    }
     let mut ranges: HashMap<Place, Range> = HashMap::new();
     let mut add = |place: Place, range: Range| {
         let known = ranges.entry(home(place)).or_insert(range);
@@ -63,7 +72,10 @@ pub(super) fn shapes(plan: &Plan) -> Option<Shapes> {
             }
         }
         Format::Bool => Shape::of(Range::new(0.0, 1.0), 1),
-        real => of_real(scale::in_units(range, points.place(place)), size(real)),
+        real => match plan.points() {
+            Some(points) => of_real(scale::in_units(range, points.place(place)), size(real)),
+            None => logs::shape(plan, place),
+        },
     };
     let places = ranges.into_iter().map(|(p, r)| (p, shape(p, r))).collect();
     let mut shapes = Shapes { places };
@@ -188,6 +200,7 @@ impl Shapes {
     pub fn of(&self, plan: &Plan, place: Place) -> Shape {
         let whole = || match plan.place_format(place) {
             Format::Bool => Shape::of(Range::new(0.0, 1.0), 1),
+            Format::Log { .. } => logs::shape(plan, place),
             format => Shape::whole(size(format)),
         };
         self.places.get(&home(place)).copied().unwrap_or_else(whole)

@@ -7,6 +7,7 @@
 
 use super::code::Code;
 use super::homes::{Homes, Slot};
+use super::logs;
 use crate::plan::{ErrorRows, Plan};
 use slowlight_runtime_6502::write::{self, Goal, Place as Operand};
 
@@ -60,8 +61,9 @@ impl Code<'_> {
                 "iny".to_owned()
             };
             let to = write::byte_at(home, k as u8);
+            let other = self.none(k as u8);
             self.text.code(&format!(
-                "{load} | lda ({row}),y | sta {to} | lda #0 | sta ({row}),y"
+                "{load} | lda ({row}),y{other} | sta {to} | lda #0 | sta ({row}),y"
             ));
         }
     }
@@ -78,7 +80,10 @@ impl Code<'_> {
                 .line(format!("        ; to ({}, {})", share.dx, share.dy));
             // Before what waits there: to read at another scale takes `acc`.
             let sent = match self.plan.points() {
-                Some(points) => self.read_at(points, share.node, points.received(), "second"),
+                Some(points) => {
+                    let to = (points.received(), points.widths().most());
+                    self.read_at(points, share.node, to, "second")
+                }
                 None => self.homes.operand(self.plan, share.node),
             };
             self.text.code(&format!("ldy #{at}"));
@@ -110,7 +115,18 @@ impl Code<'_> {
                     t.replace(n, &write::byte_at(n, k))
                 });
             let step = if k == 0 { "" } else { "iny | " };
-            self.text.code(&format!("{step}{text}"));
+            let other = format!("{} | sta", self.none(k));
+            self.text
+                .code(&format!("{step}{}", text.replace(" | sta", &other)));
+        }
+    }
+
+    /// What makes a byte of an error of one that waits, or the other way round: of a
+    /// logarithm, that what is cleared is 0.
+    fn none(&self, k: u8) -> String {
+        match logs::are(self.plan) && k == 1 {
+            true => format!(" | eor #${:02x}", logs::LEAST),
+            false => String::new(),
         }
     }
 

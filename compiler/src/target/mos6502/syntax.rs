@@ -17,7 +17,10 @@
 //! their uses, so that all make the same choices between its short instructions
 //! and the long ones, and the same bytes.
 
+mod bytes;
+
 use crate::source::Span;
+use bytes::Bytes;
 use slowlight_isa::opcodes::{self, Mode};
 
 /// What differs from assembler to assembler.
@@ -47,9 +50,23 @@ pub struct Syntax {
     pub(super) symbol_bits: u32,
     /// What stands for a colon in comments.
     colon: &'static str,
+    /// How it has opcodes that the data sheet leaves out.
+    undocumented: Undocumented,
     /// Lines beyond which there is no memory for more; a longer program has
     /// several instructions on a line.
     lines: usize,
+}
+
+/// How an assembler has opcodes that the data sheet leaves out.
+#[derive(Debug)]
+enum Undocumented {
+    /// Not at all: they are written as bytes.
+    Bytes,
+    /// By names, some of which are its own; its command has an option more.
+    Named {
+        own: &'static [(&'static str, &'static str)],
+        option: &'static str,
+    },
 }
 
 /// How many instructions stand on a line then.
@@ -73,6 +90,10 @@ const CA65: Syntax = Syntax {
     accumulator: "",
     symbol_bits: 32,
     colon: ":",
+    undocumented: Undocumented::Named {
+        own: &[("sbx", "axs")],
+        option: "--cpu 6502X",
+    },
     lines: usize::MAX,
 };
 
@@ -87,6 +108,10 @@ pub static SYNTAXES: [Syntax; 6] = [
             "load address first), and run that with `slowlight vm 6502 NAME.bin`.",
         ],
         data: [".byte", ".word"],
+        undocumented: Undocumented::Named {
+            own: &[],
+            option: "-i",
+        },
         ..CA65
     },
     Syntax {
@@ -96,6 +121,10 @@ pub static SYNTAXES: [Syntax; 6] = [
             "the load address first), and run that with `slowlight vm 6502 NAME.bin`.",
         ],
         data: ["!byte", "!word"],
+        undocumented: Undocumented::Named {
+            own: &[],
+            option: "--cpu nmos6502",
+        },
         ..CA65
     },
     Syntax {
@@ -107,6 +136,10 @@ pub static SYNTAXES: [Syntax; 6] = [
         first: "        processor 6502",
         origin: "        org ",
         data: [".byte", ".word"],
+        undocumented: Undocumented::Named {
+            own: &[("isc", "isb"), ("alr", "asr")],
+            option: "",
+        },
         ..CA65
     },
     Syntax {
@@ -122,6 +155,7 @@ pub static SYNTAXES: [Syntax; 6] = [
         hex: "&",
         low_high: ["LO(", "HI("],
         accumulator: " A",
+        undocumented: Undocumented::Bytes,
         ..CA65
     },
     Syntax {
@@ -135,6 +169,7 @@ pub static SYNTAXES: [Syntax; 6] = [
         symbol_bits: 24,
         // It would begin a statement, also there.
         colon: " -",
+        undocumented: Undocumented::Bytes,
         // xa 2.3.14 takes 27,000 instructions on lines of their own.
         lines: 20_000,
         ..CA65
@@ -157,13 +192,22 @@ fn is_instruction(line: &str) -> bool {
 }
 
 impl Syntax {
-    /// The lines of the head that say how to assemble a program.
-    pub(super) fn how(&self, name: &str, target: &str) -> Vec<String> {
+    /// The lines of the head that say how to assemble a program, one with undocumented
+    /// opcodes perhaps.
+    pub(super) fn how(&self, name: &str, target: &str, undocumented: bool) -> Vec<String> {
         let machine = target.strip_suffix(":plain").unwrap_or(target);
+        let command = format!("`{} ", self.name);
+        let with = match self.undocumented {
+            Undocumented::Named { option, .. } if undocumented && !option.is_empty() => {
+                format!("{command}{option} ")
+            }
+            _ => command.clone(),
+        };
         let lines = self.how.iter();
         lines
             .map(|line| {
                 let line = line.replace("vm 6502", &format!("vm {machine}"));
+                let line = line.replace(&command, &with);
                 format!("; {}", line.replace("NAME", name))
             })
             .collect()
@@ -196,7 +240,13 @@ impl Syntax {
         };
         // Instructions on the line that the text ends in; 0 if it is something else.
         let mut together = 0;
+        let bytes = match self.undocumented {
+            Undocumented::Bytes => Some(Bytes::new(lines)),
+            Undocumented::Named { .. } => None,
+        };
         for (line, place) in lines {
+            let instead = bytes.as_ref().and_then(|bytes| bytes.of(line));
+            let line = instead.as_ref().unwrap_or(line);
             let written = self.line(line);
             let plain = is_instruction(line);
             if plain && (1..room).contains(&together) {
@@ -244,7 +294,7 @@ impl Syntax {
         let (word, operand) = body.split_once(' ').unwrap_or((body, ""));
         let directives = [".byte", ".word"].iter().zip(self.data);
         let mut found = directives.filter(|(neutral, _)| **neutral == word);
-        let word = found.next().map_or(word, |(_, own)| own);
+        let word = found.next().map_or(self.named(word), |(_, own)| own);
         if !operand.is_empty() {
             format!("{indent}{word} {}", self.expression(operand.trim_start()))
         } else if opcodes::find(word, Mode::Accumulator).is_some() {
@@ -252,6 +302,16 @@ impl Syntax {
         } else {
             format!("{indent}{word}")
         }
+    }
+
+    /// The assembler's name of an opcode.
+    fn named<'w>(&self, word: &'w str) -> &'w str {
+        let own = match self.undocumented {
+            Undocumented::Named { own, .. } => own,
+            Undocumented::Bytes => &[],
+        };
+        let renamed = own.iter().find(|(usual, _)| *usual == word);
+        renamed.map_or(word, |(_, own)| own)
     }
 
     /// Numbers and operators of a line.

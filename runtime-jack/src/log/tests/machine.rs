@@ -3,11 +3,12 @@
 
 use super::{edges, may, own};
 use crate::classes;
-use crate::log::model::{Log, clamp};
-use crate::log::{LOG, LOG10};
+use crate::log::LOG10;
 use crate::model::{MOST as MOST_INT, int_bits};
 use crate::tests::generator::{Generator, STIR, Sums, all_pairs};
 use crate::tests::machine::{pairs, run};
+use slowlight_routine::log::LOG;
+use slowlight_routine::log::model::{Log, clamp};
 use slowlight_routine::{Bits, Form, Format, Range, Routine};
 
 const MAIN: &str = "

@@ -221,6 +221,7 @@ fn action(
     if let Some(directive) = directive(&name, reader.dialect) {
         return direct(directive, reader, line, symbols);
     }
+    let name = opcodes::usual_name(&name).to_owned();
     match name.as_str() {
         _ if opcodes::is_mnemonic(&name) => {
             let operand = operand(reader, line, symbols)?;

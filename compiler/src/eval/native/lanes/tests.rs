@@ -69,7 +69,7 @@ fn holds(op: Op, mask: Mask) {
 
 #[test]
 fn operations_mean_in_lanes_what_they_mean() {
-    for &op in Op::ALL {
+    for &op in Op::EVERY {
         for mask in [!0, 1, 0x5555_0000_ff0f_00ff, 1 << 63, 0] {
             holds(op, mask);
         }

@@ -1,4 +1,4 @@
-//! Sines, arcs, powers and logarithms, bit for bit as the class `Log` computes them.
+//! Sines, arcs, powers and logarithms, bit for bit as runtimes compute them.
 //!
 //! Series are summed up with the tables, `1 - z k1 (1 - z k2 (1 - ...))` for the square z:
 //! each further term is smaller, so its rounding counts less. What is linear in a

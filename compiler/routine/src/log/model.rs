@@ -1,10 +1,10 @@
-//! Logarithmic reals, bit for bit as the class `Log` computes them.
+//! Logarithmic reals, bit for bit as runtimes compute them.
 //!
-//! Each function mirrors one subroutine of [`crate::parts`]; the tests run both.
+//! Each function mirrors a subroutine of each runtime that has the format; their tests run
+//! both.
 
 use super::tables::tables;
-use crate::model::{int, magnitude};
-use slowlight_routine::Bits;
+use crate::Bits;
 
 /// Units of a logarithm in an octave: 2^(log / OCTAVE) is the magnitude.
 pub const OCTAVE: i32 = 1024;
@@ -35,6 +35,11 @@ impl Log {
         log: LEAST,
     };
 
+    const HALF: Log = Log {
+        plus: true,
+        log: -OCTAVE,
+    };
+
     /// The bits: the logarithm (two's complement) in 0..16, 1 in 16 where negative.
     pub fn bits(self) -> Bits {
         Bits::from(self.log as u16) | Bits::from(!self.plus) << 16
@@ -44,7 +49,7 @@ impl Log {
     pub fn from_bits(bits: Bits) -> Log {
         Log {
             plus: bits >> 16 & 1 == 0,
-            log: int(bits & 0xffff),
+            log: i32::from(bits as u16 as i16),
         }
     }
 
@@ -145,6 +150,7 @@ impl Log {
         if self.less(b) { b } else { self }
     }
 
+    /// Of an int of 16 bits; what is larger counts as the largest.
     pub fn from_int(i: i32) -> Log {
         Log {
             plus: i >= 0,
@@ -152,10 +158,25 @@ impl Log {
         }
     }
 
+    /// Of any int: beyond 16 bits that of its half, an octave above.
+    pub fn from_wide_int(i: i32) -> Log {
+        let log = match i.saturating_abs() {
+            size @ ..=32767 => log_of(size),
+            size @ ..=65535 => clamp(log_of(size / 2) + OCTAVE),
+            _ => MOST,
+        };
+        Log { plus: i >= 0, log }
+    }
+
     /// The greatest whole number not above, or the next where that is as near as
     /// logarithms tell; from 512 on, of nine bits.
     pub fn floor(self) -> i32 {
-        let n = whole(self.log);
+        self.wide_floor().clamp(-32767, 32767)
+    }
+
+    /// The same where ints have more than 16 bits.
+    pub fn wide_floor(self) -> i32 {
+        let n = wide_whole(self.log);
         match self.plus {
             true => n,
             false if self.log > 9 * OCTAVE => -n,
@@ -165,11 +186,12 @@ impl Log {
     }
 
     pub fn round(self) -> i32 {
-        self.add(Log {
-            plus: true,
-            log: -OCTAVE,
-        })
-        .floor()
+        self.add(Log::HALF).floor()
+    }
+
+    /// The same where ints have more than 16 bits.
+    pub fn wide_round(self) -> i32 {
+        self.add(Log::HALF).wide_floor()
     }
 
     /// There is no 0.
@@ -209,7 +231,7 @@ pub(super) fn difference(a: i32, b: i32) -> i32 {
 }
 
 /// Beyond which distances a far smaller summand adds less than 1/2, 3/2, ... units.
-const STEPS: [i32; 23] = [
+pub const STEPS: [i32; 23] = [
     11805, 10182, 9427, 8930, 8559, 8263, 8016, 7804, 7619, 7455, 7307, 7173, 7050, 6936, 6830,
     6732, 6640, 6553, 6471, 6393, 6319, 6249, 6182,
 ];
@@ -225,12 +247,14 @@ pub(super) fn half(log: i32) -> i32 {
 }
 
 /// floor(2^(log / 1024)); from 512 on of nine bits, at most 32767. 0 below 1.
-pub(super) fn whole(mut log: i32) -> i32 {
+pub(super) fn whole(log: i32) -> i32 {
+    wide_whole(log).min(32767)
+}
+
+/// The same without that end: up to 65408.
+fn wide_whole(mut log: i32) -> i32 {
     if log < 0 {
         return 0;
-    }
-    if log > 15 * OCTAVE - 1 {
-        return 32767;
     }
     let mut doubled = 0;
     while log > 9 * OCTAVE - 1 {
@@ -243,7 +267,7 @@ pub(super) fn whole(mut log: i32) -> i32 {
 
 /// The logarithm of an int's magnitude.
 pub(super) fn log_of(i: i32) -> i32 {
-    let i = magnitude(i);
+    let i = i.saturating_abs().min(32767);
     let logs = &tables().logs;
     let at = |n: i32| logs.get(n as usize).copied().unwrap_or(LEAST);
     if i < WHOLE {

@@ -1,11 +1,11 @@
-//! The tables of the class `Log`, made as its subroutines `make...` make them: with
-//! 16-bit sums alone, from a geometric sequence by its differences.
+//! The tables that sums are looked up in, made as a program in Jack makes them: with 16-bit
+//! sums alone, from a geometric sequence by its differences.
 
 use super::model::{LEAST, NEAR, OCTAVE, WHOLE};
 use std::sync::LazyLock;
 
-/// What the class knows.
-pub(super) struct Tables {
+/// What a runtime knows.
+pub struct Tables {
     /// 1024 log2(1 + 2^(-d/1024)) for d below [`NEAR`].
     pub sums: Vec<i32>,
     /// -1024 log2(1 - 2^(-d/1024)) for d below [`NEAR`]; 0 for d = 0, which is never asked.
@@ -15,7 +15,7 @@ pub(super) struct Tables {
 }
 
 /// The tables, made once.
-pub(super) fn tables() -> &'static Tables {
+pub fn tables() -> &'static Tables {
     static TABLES: LazyLock<Tables> = LazyLock::new(|| {
         let powers = powers();
         let logs = logs(&powers);

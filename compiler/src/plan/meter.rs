@@ -1,0 +1,64 @@
+//! A picture run in `f64`, with the params as the scene has them, and what ran.
+
+use crate::eval::arithmetic::{Arithmetic, Exact};
+use crate::flow::graph::*;
+use crate::flow::tree::Statement;
+use slowlight_routine::{Op, Value};
+use std::cell::Cell;
+
+/// Computes in `f64` and adds up what the statements cost that run.
+pub(super) struct Meter<'g, C> {
+    exact: Exact<'g>,
+    cost: C,
+    /// What it came to.
+    pub sum: Cell<f64>,
+    /// How many ran.
+    pub ran: Cell<u64>,
+}
+
+impl<'g, C: Fn(&Statement) -> f64> Meter<'g, C> {
+    pub fn new(graph: &'g Graph, cost: C) -> Meter<'g, C> {
+        Meter {
+            exact: Exact(graph),
+            cost,
+            sum: Cell::new(0.0),
+            ran: Cell::new(0),
+        }
+    }
+}
+
+impl<C: Fn(&Statement) -> f64> Arithmetic for &Meter<'_, C> {
+    type Value = Value;
+
+    fn constant(&self, value: Value) -> Value {
+        self.exact.constant(value)
+    }
+
+    /// What the scene gives it, whatever it is now: a program whose params are
+    /// edited keeps its plan.
+    fn param(&self, id: ParamId) -> Value {
+        let param = self.exact.0.params.get(id.0 as usize);
+        param.map_or_else(|| self.exact.param(id), Param::usual)
+    }
+
+    fn apply(&self, id: NodeId, op: Op, args: &[Value]) -> Value {
+        self.exact.apply(id, op, args)
+    }
+
+    fn gather(&self, received: Value, sent: Value) -> Value {
+        self.exact.gather(received, sent)
+    }
+
+    fn truth(&self, value: Value) -> bool {
+        self.exact.truth(value)
+    }
+
+    fn int(&self, value: Value) -> i32 {
+        self.exact.int(value)
+    }
+
+    fn step(&self, statement: &Statement) {
+        self.ran.set(self.ran.get() + 1);
+        self.sum.set(self.sum.get() + (self.cost)(statement));
+    }
+}

@@ -1,0 +1,71 @@
+; acc = acc - arg floor(acc / arg), of reals.
+log_modulo:
+        ldx #2
+log_modulo_keep:
+        lda acc,x
+        sta prod,x
+        lda arg,x
+        sta prod+3,x
+        dex
+        bpl log_modulo_keep
+        lda acc+2
+        eor arg+2
+        sta acc+2
+        sec
+        lda acc
+        sbc arg
+        sta acc
+        lda acc+1
+        sbc arg+1
+        sta acc+1
+        jsr log_keep
+        jsr log_floor
+        jsr log_hold
+        jsr log_from_int
+        lda acc+2
+        eor prod+5
+        sta acc+2
+        clc
+        lda acc
+        adc prod+3
+        sta acc
+        lda acc+1
+        adc prod+4
+        sta acc+1
+        jsr log_keep
+        ldx #2
+log_modulo_swap:
+        ldy prod,x
+        lda acc,x
+        sta arg,x
+        sty acc,x
+        dex
+        bpl log_modulo_swap
+        jmp log_subtract
+
+; acc = the int in acc, kept from -32767 to 32767.
+log_hold:
+        lda acc+3
+        bmi log_hold_low
+        lda acc+1
+        bpl log_hold_done
+        lda #$7f
+        sta acc+1
+        lda #$ff
+        sta acc
+log_hold_done:
+        rts
+log_hold_low:
+        lda acc+1
+        bpl log_hold_least
+        lda acc             ; -32768?
+        bne log_hold_done
+        lda acc+1
+        cmp #$80
+        bne log_hold_done
+log_hold_least:
+        lda #$80
+        sta acc+1
+        lda #1
+        sta acc
+        rts

@@ -1,0 +1,317 @@
+//! Operations on logarithms that are written in place, in the notation of
+//! [`crate::templates`]. `[s ]` holds what gives the result its sign, and is left out where
+//! that is known; a sign that is known of an argument is a constant.
+
+/// The sign of products and quotients.
+macro_rules! unlike {
+    () => {
+        "[s lda {0.2} | eor {1.2} | sta {r.2}]"
+    };
+}
+
+/// A result that is above 0, or below.
+macro_rules! plus {
+    () => {
+        "[s lda #0 | sta {r.2}]"
+    };
+}
+macro_rules! minus {
+    () => {
+        "[s lda #1 | sta {r.2}]"
+    };
+}
+/// A logarithm below the least becomes that; N is its sign, and the accumulator its upper byte.
+macro_rules! low {
+    () => {
+        "| bpl fits{n} | cmp #$cc | bcs fits{n} | lda #$cc | sta {r.1} | lda #0 | sta {r.0} | fits{n}: |"
+    };
+}
+
+/// One above the greatest becomes that.
+macro_rules! high {
+    () => {
+        "| bmi even{n} | cmp #$40 | bcc even{n} | lda #$3f | sta {r.1} | lda #$ff | sta {r.0} | even{n}: |"
+    };
+}
+
+/// Both.
+macro_rules! ends {
+    () => {
+        "| bmi low{n} | cmp #$40 | bcc fits{n} | lda #$3f | sta {r.1} | lda #$ff | bne least{n}
+        low{n}: | cmp #$cc | bcs fits{n} | lda #$cc | sta {r.1} | lda #0
+        least{n}: | sta {r.0} | fits{n}: |"
+    };
+}
+
+macro_rules! multiply {
+    () => {
+        "clc | lda {0.0} | adc {1.0} | sta {r.0} | lda {0.1} | adc {1.1} | sta {r.1} |"
+    };
+}
+
+pub const MULTIPLY: &str = concat!(multiply!(), unlike!());
+pub const LOW_MULTIPLY: &str = concat!(multiply!(), low!(), unlike!());
+pub const ANY_MULTIPLY: &str = concat!(multiply!(), ends!(), unlike!());
+
+macro_rules! square {
+    () => {
+        "lda {0.0} | asl | sta {r.0} | lda {0.1} | rol | sta {r.1} |"
+    };
+}
+
+const SQUARE: &str = concat!(square!(), plus!());
+const LOW_SQUARE: &str = concat!(square!(), low!(), plus!());
+const ANY_SQUARE: &str = concat!(square!(), ends!(), plus!());
+
+macro_rules! divide {
+    () => {
+        "sec | lda {0.0} | sbc {1.0} | sta {r.0} | lda {0.1} | sbc {1.1} | sta {r.1} |"
+    };
+}
+
+pub const DIVIDE: &str = concat!(divide!(), unlike!());
+pub const LOW_DIVIDE: &str = concat!(divide!(), low!(), unlike!());
+pub const HIGH_DIVIDE: &str = concat!(divide!(), high!(), unlike!());
+pub const ANY_DIVIDE: &str = concat!(divide!(), ends!(), unlike!());
+
+/// By how much the first logarithm is greater, or where it is less, the second.
+macro_rules! apart {
+    ($first:expr, $second:expr, $look:literal) => {
+        concat!(
+            "sec | lda {0.0} | sbc {1.0} | tay | lda {0.1} | sbc {1.1} | bmi less{n} |",
+            $first,
+            "| jsr ",
+            $look,
+            " | adc {0.0} | sta {r.0} | txa | adc {0.1} | jmp grown{n}
+            less{n}: |",
+            $second,
+            "| sec | lda {1.0} | sbc {0.0} | tay | lda {1.1} | sbc {0.1} | jsr ",
+            $look,
+            " | adc {1.0} | sta {r.0} | txa | adc {1.1}
+            grown{n}: | sta {r.1} |"
+        )
+    };
+}
+
+/// Of two values of one sign.
+macro_rules! sum {
+    () => {
+        apart!("", "", "log_sum")
+    };
+}
+
+/// Of two of different signs: the result has that of the greater, of which `$second` is the
+/// second operand's.
+macro_rules! difference {
+    ($second:literal) => {
+        concat!(
+            apart!(
+                "[s ldx {0.2} | stx {r.2}]",
+                concat!("[s lda {1.2} |", $second, "| sta {r.2}]"),
+                "log_difference"
+            ),
+            "| bvs none{n} | bpl fits{n} | cmp #$cc | bcs fits{n}
+            none{n}: | lda #$cc | sta {r.1} | lda #0 | sta {r.0} | fits{n}: |"
+        )
+    };
+}
+
+pub const SUM: &str = concat!(sum!(), plus!());
+pub const ANY_SUM: &str = concat!(sum!(), high!(), plus!());
+pub const MINUS_SUM: &str = concat!(sum!(), minus!());
+pub const SUM_LESS: &str = difference!("");
+pub const DIFFERENCE: &str = difference!("eor #1");
+
+/// Labels of the sum differ from those of the difference.
+macro_rules! either {
+    ($unlike:literal, $second:literal, $high:expr) => {
+        concat!(
+            "lda {0.2} | eor {1.2} | ",
+            $unlike,
+            " differ{n} |
+            sec | lda {0.0} | sbc {1.0} | tay | lda {0.1} | sbc {1.1} | bmi second{n} |
+            jsr log_sum | adc {0.0} | sta {r.0} | txa | adc {0.1} | jmp summed{n}
+            second{n}: | sec | lda {1.0} | sbc {0.0} | tay | lda {1.1} | sbc {0.1} | jsr log_sum
+            adc {1.0} | sta {r.0} | txa | adc {1.1}
+            summed{n}: | sta {r.1} |",
+            $high,
+            "[s lda {0.2} | sta {r.2}] | jmp fits{n}
+            differ{n}: |",
+            difference!($second)
+        )
+    };
+}
+
+pub const ADD: &str = either!("bne", "", "");
+pub const SUBTRACT: &str = either!("beq", "eor #1", "");
+pub const ANY_ADD: &str = either!("bne", "", high!());
+pub const ANY_SUBTRACT: &str = either!("beq", "eor #1", high!());
+
+macro_rules! twice {
+    () => {
+        "lda {0.0} | sta {r.0} | clc | lda {0.1} | adc #4 | sta {r.1} |"
+    };
+}
+macro_rules! same_sign {
+    () => {
+        "[s lda {0.2} | sta {r.2}]"
+    };
+}
+
+const TWICE: &str = concat!(twice!(), same_sign!());
+const ANY_TWICE: &str = concat!(twice!(), high!(), same_sign!());
+
+/// What is written instead where both operands are one value, if anything else is.
+pub fn same(text: &str) -> Option<&'static str> {
+    let made = [
+        (MULTIPLY, SQUARE),
+        (LOW_MULTIPLY, LOW_SQUARE),
+        (ANY_MULTIPLY, ANY_SQUARE),
+        (SUM, TWICE),
+        (MINUS_SUM, TWICE),
+        (ADD, TWICE),
+        (ANY_SUM, ANY_TWICE),
+        (ANY_ADD, ANY_TWICE),
+    ];
+    let found = made.iter().find(|(of, _)| *of == text);
+    found.map(|(_, instead)| *instead)
+}
+
+macro_rules! root {
+    () => {
+        "lda {0.1} | cmp #$80 | ror | sta {r.1} | lda {0.0} | ror | sta {r.0} |"
+    };
+}
+
+pub const ROOT: &str = concat!(root!(), plus!());
+/// That of a negative is 0.
+pub const ANY_ROOT: &str = concat!(
+    "lda {0.2} | bne none{n} |",
+    root!(),
+    "jmp fits{n}
+    none{n}: | lda #$cc | sta {r.1} | lda #0 | sta {r.0}
+    fits{n}: |",
+    plus!()
+);
+
+pub const NEGATE: &str =
+    "lda {0.0} | sta {r.0} | lda {0.1} | sta {r.1} | [s lda {0.2} | eor #1 | sta {r.2}]";
+pub const ABS: &str = concat!("lda {0.0} | sta {r.0} | lda {0.1} | sta {r.1} |", plus!());
+
+/// Leaves in N whether the first logarithm is less.
+macro_rules! lower {
+    () => {
+        "lda {0.0} | cmp {1.0} | lda {0.1} | sbc {1.1} |"
+    };
+}
+/// The same of the second.
+macro_rules! upper {
+    () => {
+        "lda {1.0} | cmp {0.0} | lda {1.1} | sbc {0.1} |"
+    };
+}
+
+/// Leaves in the carry whether the first is less: the greater sign byte, else by logarithms.
+macro_rules! less {
+    () => {
+        concat!(
+            "lda {0.2} | cmp {1.2} | bne told{n} | lsr | bcs minus{n} |",
+            lower!(),
+            "asl | jmp told{n}
+            minus{n}: |",
+            upper!(),
+            "asl
+            told{n}: |"
+        )
+    };
+}
+
+/// Copies argument 0 or 1: that where a branch to `second` is taken.
+macro_rules! pick {
+    ($branch:literal) => {
+        concat!(
+            $branch,
+            " second{n} | lda {0.0} | sta {r.0} | [s lda {0.2} | sta {r.2}] | lda {0.1} | jmp picked{n}
+            second{n}: | lda {1.0} | sta {r.0} | [s lda {1.2} | sta {r.2}] | lda {1.1}
+            picked{n}: | sta {r.1}"
+        )
+    };
+}
+
+pub const PLUS_MIN: &str = concat!(lower!(), pick!("bpl"));
+pub const PLUS_MAX: &str = concat!(lower!(), pick!("bmi"));
+pub const MIN: &str = concat!(less!(), pick!("bcc"));
+pub const MAX: &str = concat!(less!(), pick!("bcs"));
+
+/// A negative becomes 0.
+pub const MAX_ZERO: &str = concat!(
+    "lda {0.2} | bne none{n} | lda {0.0} | sta {r.0} | lda {0.1} | jmp fits{n}
+    none{n}: | lda #0 | sta {r.0} | lda #$cc
+    fits{n}: | sta {r.1} |",
+    plus!()
+);
+pub const ZERO_MAX: &str = concat!(
+    "lda {1.2} | bne none{n} | lda {1.0} | sta {r.0} | lda {1.1} | jmp fits{n}
+    none{n}: | lda #0 | sta {r.0} | lda #$cc
+    fits{n}: | sta {r.1} |",
+    plus!()
+);
+
+pub const SIGN: &str = "ldx #0 | lda {0.2} | beq above{n} | dex
+    above{n}: | txa | ora #1 | sta {r.0} | stx {r.1} | stx {r.2} | stx {r.3}";
+
+pub const LESS: &str = less!();
+pub const PLUS_LESS: &str = concat!(lower!(), "asl");
+
+/// Where one sign is known the other may tell at once.
+macro_rules! told_by {
+    ($sign:literal, $told:literal, $else:expr) => {
+        concat!(
+            "lda ",
+            $sign,
+            " | bne yes{n} |",
+            $else,
+            "asl | jmp told{n}
+            yes{n}: |",
+            $told,
+            "
+            told{n}:"
+        )
+    };
+}
+
+/// Of a second that is above 0, and a first.
+pub const LESS_PLUS: &str = told_by!("{0.2}", "sec", lower!());
+pub const PLUS_LESS_ANY: &str = told_by!("{1.2}", "clc", lower!());
+
+pub const NEGATIVE: &str = "lda {0.2} | lsr";
+pub const NOT_NEGATIVE: &str = "lda {1.2} | eor #1 | lsr";
+
+/// Leaves in N whether an argument is more than what stands for 0.
+macro_rules! above_least {
+    ($k:literal) => {
+        concat!("lda #0 | cmp {", $k, ".0} | lda #$cc | sbc {", $k, ".1} |")
+    };
+}
+
+pub const POSITIVE: &str = told_by!("{1.2}", "clc", above_least!("1"));
+pub const NOT_POSITIVE: &str = told_by!("{0.2}", "sec", concat!(above_least!("0"), "eor #$80 |"));
+pub const IS_ZERO: &str = concat!(above_least!("0"), "eor #$80 | asl");
+
+pub const PLUS_LESS_EQUAL: &str = concat!(upper!(), "eor #$80 | asl");
+pub const LESS_EQUAL: &str = concat!(
+    "lda {0.2} | cmp {1.2} | bne told{n} | lsr | bcs minus{n} |",
+    upper!(),
+    "eor #$80 | asl | jmp told{n}
+    minus{n}: |",
+    lower!(),
+    "eor #$80 | asl
+    told{n}:"
+);
+
+/// A comparison of equals leaves the carry set.
+pub const EQUAL: &str =
+    "lda {0.0} | cmp {1.0} | bne unlike{n} | lda {0.1} | cmp {1.1} | bne unlike{n}
+    lda {0.2} | cmp {1.2} | beq alike{n}
+    unlike{n}: | clc
+    alike{n}:";

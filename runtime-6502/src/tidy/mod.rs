@@ -1,0 +1,176 @@
+//! The program, read again as a whole: what is known of registers, flags and bytes at each
+//! line, and what is still read of them, leaves out what nobody needs.
+//!
+//! Statements are written one by one, each as if it stood alone, and so are the parts of the
+//! runtime that stand in place. Here that is seen together:
+//!
+//! - a byte that a register has is not loaded again, and one that a place has not stored;
+//! - what a place got from another, or as a number, is read from there (a copy is then often
+//!   read by nobody);
+//! - what is read by nobody is not computed;
+//! - a carry that is known is not cleared or set;
+//! - jumps go where they end up, and a branch around a jump is a branch.
+//!
+//! The runtime's parts and the machine's are read with the program, and left as they stand.
+//! `code` reads lines, `effects` says what an instruction does, `flow` where it goes on, `live`
+//! what is read later, `values` what is held (`state`: in a block); `rules`, `thread` and
+//! `jumps` change lines.
+
+mod code;
+mod effects;
+mod flow;
+mod jumps;
+mod live;
+mod rules;
+mod state;
+#[cfg(test)]
+mod tests;
+mod thread;
+pub mod undocumented;
+mod values;
+
+use code::{Line, Names};
+use flow::{Block, Flow};
+use live::Alive;
+use rules::Edit;
+use state::{Kept, State};
+use std::cell::OnceCell;
+use std::ops::Range;
+use thread::Known;
+
+/// Rounds of all rules, at most; what a round leaves is a program like any other.
+const ROUNDS: usize = 8;
+
+/// What stands for a line that is left out, until all are taken away.
+const GONE: &str = ";";
+
+/// Leaves out of a program what it does without. `symbols` are the lines that name the bytes
+/// that it alone uses, `own` those that may change. Each line comes with something that it
+/// keeps.
+pub fn tidy<T>(lines: &mut Vec<(String, T)>, symbols: &Range<usize>, own: &Range<usize>) {
+    let mut program = Program::new(lines, symbols);
+    let rules = [forward, backward, threads, jumps];
+    let mut idle = 0;
+    for rule in rules.iter().cycle().take(ROUNDS * rules.len()) {
+        let edits = rule(&program, own);
+        let changed = program.change(lines, edits);
+        idle = if changed { 0 } else { idle + 1 };
+        if idle == rules.len() {
+            break;
+        }
+    }
+    lines.retain(|(text, _)| text != GONE);
+}
+
+/// Lines as instructions.
+struct Program {
+    code: Vec<Line>,
+    names: Names,
+    /// What places hold where blocks begin, once that was asked for.
+    starts: OnceCell<Option<Vec<Option<Kept>>>>,
+}
+
+impl Program {
+    fn new<T>(lines: &[(String, T)], symbols: &Range<usize>) -> Program {
+        let texts: Vec<&str> = lines.iter().map(|(text, _)| text.as_str()).collect();
+        let names = Names::new(&texts, symbols.clone());
+        let code = texts.iter().map(|text| names.read(text)).collect();
+        Program {
+            code,
+            names,
+            starts: OnceCell::new(),
+        }
+    }
+
+    /// Edits touch instructions alone, so names stay what they are. Whether any was one.
+    fn change<T>(&mut self, lines: &mut [(String, T)], edits: Vec<(usize, Edit)>) -> bool {
+        let mut changed = false;
+        for (k, edit) in edits {
+            if let (Some((text, _)), Some(code)) = (lines.get_mut(k), self.code.get_mut(k)) {
+                let other = match edit {
+                    Edit::Gone => GONE.to_owned(),
+                    Edit::Instead(code) => format!("        {code}"),
+                };
+                changed |= *text != other;
+                *text = other;
+                *code = self.names.read(text);
+            }
+        }
+        if changed {
+            self.starts.take();
+        }
+        changed
+    }
+}
+
+/// Whether all lines of a block may change.
+fn may_change(block: &Block, own: &Range<usize>) -> bool {
+    own.start <= block.lines.start && block.lines.end <= own.end
+}
+
+fn forward(program: &Program, own: &Range<usize>) -> Vec<(usize, Edit)> {
+    let (code, flow) = (&program.code, Flow::new(&program.code, &program.names));
+    let (alive, met) = (live::alive(&flow), rules::met(&flow));
+    let edits = |b: usize, start: &mut State| {
+        let Some((block, behind)) = flow.blocks.get(b).zip(alive.behind.get(b)) else {
+            return Vec::new();
+        };
+        rules::forward(code, &flow, block, start, behind, &met)
+    };
+    known(program, &flow, &alive, own, edits)
+}
+
+fn backward(program: &Program, own: &Range<usize>) -> Vec<(usize, Edit)> {
+    let flow = Flow::new(&program.code, &program.names);
+    let alive = live::alive(&flow);
+    (flow.blocks.iter().zip(&alive.behind))
+        .filter(|(block, _)| may_change(block, own))
+        .flat_map(|(block, behind)| rules::backward(&program.code, &flow, block, behind))
+        .collect()
+}
+
+fn threads(program: &Program, own: &Range<usize>) -> Vec<(usize, Edit)> {
+    let flow = Flow::new(&program.code, &program.names);
+    let alive = live::alive(&flow);
+    let ways = Known {
+        lines: &program.code,
+        names: &program.names,
+        flow: &flow,
+        behind: &alive.behind,
+    };
+    let edits = |b: usize, start: &mut State| {
+        let block = flow.blocks.get(b);
+        block.map_or_else(Vec::new, |block| ways.edits(block, start))
+    };
+    known(program, &flow, &alive, own, edits)
+}
+
+/// Edits of all blocks that may change and of which it is known what places hold where they
+/// begin.
+fn known(
+    program: &Program,
+    flow: &Flow,
+    alive: &Alive,
+    own: &Range<usize>,
+    edits: impl Fn(usize, &mut State) -> Vec<(usize, Edit)>,
+) -> Vec<(usize, Edit)> {
+    let starts = (program.starts).get_or_init(|| values::at_starts(&program.code, flow, alive));
+    let Some(starts) = starts else {
+        return Vec::new();
+    };
+    let mut state = State::new(flow.space.cells());
+    let mut edit = |(b, start)| {
+        state.enter(b, start);
+        edits(b, &mut state)
+    };
+    let starts = (starts.iter().zip(&flow.blocks).enumerate())
+        .filter(|(_, (_, block))| may_change(block, own));
+    starts
+        .filter_map(|(b, (start, _))| Some((b, start.as_ref()?)))
+        .flat_map(&mut edit)
+        .collect()
+}
+
+fn jumps(program: &Program, own: &Range<usize>) -> Vec<(usize, Edit)> {
+    jumps::edits(&program.code, &program.names, own)
+}
