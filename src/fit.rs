@@ -10,10 +10,12 @@ use crate::failure::{Failure, Outcome};
 use crate::machine::Machine;
 use crate::need::{Need, need, need_beside};
 use crate::trial::build_for;
+use rayon::prelude::*;
 use slowlight_compiler::flow::graph::Table;
 use slowlight_compiler::plan::{Copies, Plan};
 use slowlight_compiler::source::Span;
 use slowlight_compiler::target::mos6502::DISC_PAGE;
+use std::ops::Range;
 
 /// The first of the plans whose program fits, as it reads best or tight; where
 /// none does, the first that does with subroutines. Modes that show a part of the
@@ -123,8 +125,8 @@ fn quickest(plan: &Plan, name: &dyn Fn(Span) -> Option<String>) -> Outcome<Optio
     let Some(mut found) = with_calls_where_seldom(&least, name)? else {
         return Ok(None);
     };
-    let mut plans: Vec<(f64, Plan)> = (1..last)
-        .filter_map(thriftier)
+    let mut plans: Vec<(f64, Plan)> = thriftier_plans(plan, 1..last)
+        .into_iter()
         .map(|plan| (plan.cycles_a_pixel(), plan))
         .collect();
     plans.sort_by(|(a, _), (b, _)| a.total_cmp(b));
@@ -140,6 +142,22 @@ fn quickest(plan: &Plan, name: &dyn Fn(Span) -> Option<String>) -> Outcome<Optio
         }
     }
     Ok(Some(found))
+}
+
+/// What the plan is by some steps that spend less memory, in their order. Which steps say
+/// nothing new is known once the others are planned.
+fn thriftier_plans(plan: &Plan, steps: Range<usize>) -> Vec<Plan> {
+    let (later, sooner): (Vec<usize>, Vec<usize>) = steps.partition(|&step| plan.repeats(step));
+    let planned = |steps: Vec<usize>| -> Vec<(usize, Plan)> {
+        let plans = steps.into_par_iter();
+        plans
+            .filter_map(|step| Some((step, plan.thriftier(step)?)))
+            .collect()
+    };
+    let mut all = planned(sooner);
+    all.extend(planned(later));
+    all.sort_by_key(|(step, _)| *step);
+    all.into_iter().map(|(_, plan)| plan).collect()
 }
 
 /// The plan, with as much of what stands behind several ways written on each of them as

@@ -61,11 +61,16 @@ impl Plan {
         }
     }
 
+    /// Whether such a step is one before it but for what that may have come to.
+    pub fn repeats(&self, step: usize) -> bool {
+        Thrift::step(step).is_some_and(Thrift::repeats)
+    }
+
     /// A plan of the same scene by one of those steps, counted from 0. None where it
     /// could only be that of a step before.
     pub fn thriftier(&self, step: usize) -> Option<Plan> {
         let thrift = Thrift::step(step)?;
-        if thrift.repeats() && !self.origin.0.has_beside() {
+        if self.repeats(step) && !self.origin.0.has_beside() {
             return None;
         }
         let less = match self.origin.1 {

@@ -28,8 +28,8 @@ use crate::passes::squares::squares;
 use crate::passes::threshold::threshold;
 use crate::range::Ranges;
 use slowlight_routine::{Format, Runtime, Type};
-use std::cell::Cell;
 use std::collections::BTreeMap;
+use std::sync::atomic::{AtomicBool, Ordering};
 
 /// How many nodes of a loop's body are copied at most.
 const BODY: usize = 160;
@@ -83,10 +83,10 @@ pub fn cheaper(
         price: Price::new(&plain, shop.runtime, thrift).foreseeing(),
         thrift,
         products: false,
-        other: Cell::new(false),
+        other: AtomicBool::new(false),
     };
     let mut all = vec![site.cheapest(&plain, early)];
-    if site.other.get() {
+    if site.other.load(Ordering::Relaxed) {
         site.products = true;
         all.push(site.cheapest(&plain, early));
     }
@@ -186,7 +186,7 @@ struct Site<'s> {
     /// Whether directions are so long that their products are whole, too.
     products: bool,
     /// Whether that makes a difference.
-    other: Cell<bool>,
+    other: AtomicBool,
 }
 
 impl Site<'_> {
@@ -316,7 +316,7 @@ impl Site<'_> {
         };
         all.into_iter().take(LENGTHS).filter_map(|length| {
             let (held, longer) = homogeneous(&plain.graph, &plain.ranges, length)?;
-            self.other.set(self.other.get() || longer.is_some());
+            self.other.fetch_or(longer.is_some(), Ordering::Relaxed);
             let held = longer.filter(|_| self.products).unwrap_or(held);
             Some(self.decided(self.shop.settle(&held)))
         })
@@ -350,11 +350,15 @@ impl Site<'_> {
         let all = self.with(plain, pass, &[])?;
         let sites = all.1;
         let now = self.cost(plain);
-        let mut tries = vec![self.fewer(plain, pass, &sites, (Vec::new(), all.0))];
-        if sites.len() * plain.graph.nodes.len() < PATIENCE {
-            tries.push(self.more((now, plain), pass, &sites));
-        }
-        let (cost, best) = tries.into_iter().min_by(|a, b| a.0.total_cmp(&b.0))?;
+        let few = sites.len() * plain.graph.nodes.len() < PATIENCE;
+        let (fewer, more) = rayon::join(
+            || self.fewer(plain, pass, &sites, (Vec::new(), all.0)),
+            || few.then(|| self.more((now, plain), pass, &sites)),
+        );
+        let (cost, best) = match more {
+            Some(more) if more.0 < fewer.0 => more,
+            _ => fewer,
+        };
         (cost < part * now).then_some(best)
     }
 

@@ -168,18 +168,72 @@ impl Rounded {
     }
 }
 
+/// Values by node, all forgotten at once: there is a sample after the other.
+#[derive(Debug, Default)]
+pub struct Known {
+    /// By node, what is known, and the turn that it is known of.
+    values: Vec<(u32, Rounded)>,
+    nodes: Vec<NodeId>,
+    turn: u32,
+}
+
+impl Known {
+    fn get(&self, id: NodeId) -> Option<Rounded> {
+        let found = self.values.get(id.0 as usize);
+        found.filter(|v| v.0 == self.turn + 1).map(|v| v.1)
+    }
+
+    fn insert(&mut self, id: NodeId, value: Rounded) {
+        let place = id.0 as usize;
+        if place >= self.values.len() {
+            self.values.resize(place + 1, (0, Rounded::exact(0.0)));
+        }
+        self.values[place] = (self.turn + 1, value);
+        self.nodes.push(id);
+    }
+
+    fn forget(&mut self) {
+        self.nodes.clear();
+        self.turn += 1;
+    }
+
+    fn iter(&self) -> impl Iterator<Item = (NodeId, Rounded)> {
+        let known = |id: &NodeId| Some((*id, self.get(*id)?));
+        self.nodes.iter().filter_map(known)
+    }
+}
+
 /// A value at a sample; nothing where it depends on a loop.
 pub struct Follow<'n> {
     pub nodes: &'n dyn Nodes,
     pub tables: &'n dyn Fn(TableId) -> Option<&'n Table>,
     pub sample: &'n Sample,
-    pub known: FxHashMap<NodeId, Rounded>,
+    known: Known,
 }
 
-impl Follow<'_> {
+impl<'n> Follow<'n> {
+    pub fn new(
+        nodes: &'n dyn Nodes,
+        tables: &'n dyn Fn(TableId) -> Option<&'n Table>,
+        sample: &'n Sample,
+    ) -> Follow<'n> {
+        Follow {
+            nodes,
+            tables,
+            sample,
+            known: Known::default(),
+        }
+    }
+
+    /// Goes on to another sample, of which nothing is known.
+    fn to(&mut self, sample: &'n Sample) {
+        self.known.forget();
+        self.sample = sample;
+    }
+
     pub fn value(&mut self, id: NodeId, deep: u32) -> Option<Rounded> {
-        if let Some(found) = self.known.get(&id) {
-            return Some(*found);
+        if let Some(found) = self.known.get(id) {
+            return Some(found);
         }
         if deep > 500 {
             return None;
@@ -222,8 +276,8 @@ impl Follow<'_> {
 impl Follow<'_> {
     /// Whether a root was taken of what is below 0.
     fn misses_root(&self) -> bool {
-        let below = |id: NodeId| self.known.get(&id).is_some_and(|a| a.value < 0.0);
-        let mut ids = self.known.keys();
+        let below = |id: NodeId| self.known.get(id).is_some_and(|a| a.value < 0.0);
+        let mut ids = self.known.nodes.iter();
         ids.any(|id| matches!(self.nodes.node(*id), Node::Apply(Op::Sqrt, [a, _]) if below(a)))
     }
 }
@@ -254,7 +308,7 @@ pub fn applied(op: Op, a: Rounded, b: Rounded) -> Rounded {
         _ => a.off,
     };
     // Whole numbers that are not large are exact.
-    let whole = value.fract() == 0.0 && value.abs() < 4e9 && carried == 0.0;
+    let whole = carried == 0.0 && value.abs() < 4e9 && value == value as i64 as f64;
     let own = match op.result() {
         Type::Real if !whole && !matches!(op, Op::Neg | Op::Abs) => value.abs(),
         _ => 0.0,
@@ -295,40 +349,38 @@ impl Judge<'_> {
         where_equal: bool,
     ) -> bool {
         let graph = self.graph;
+        let Some(first) = self.samples.first() else {
+            return false;
+        };
+        let now = |t: TableId| graph.tables.get(t.0 as usize);
+        let mut was = Follow::new(graph, &now, first);
+        let next = |t: TableId| b.table_of(t);
+        let mut is = Follow::new(b, &next, first);
         let mut told = 0;
         for sample in self.samples {
-            let tables = |t: TableId| graph.tables.get(t.0 as usize);
-            let mut follow = Follow {
-                nodes: graph,
-                tables: &tables,
-                sample,
-                known: Default::default(),
-            };
-            let Some(before) = relative(&mut follow, graph, old) else {
+            was.to(sample);
+            let Some(before) = relative(&mut was, graph, old) else {
                 continue;
             };
-            let value = follow.value(old, 0);
+            let value = was.value(old, 0);
             // There the value is not needed: its roots are of what is not below 0.
-            if where_equal && follow.misses_root() {
+            if where_equal && was.misses_root() {
                 continue;
             }
+            is.to(sample);
             // What both need is the same in both.
-            let shared = follow.known.iter().filter(|(id, _)| {
-                matches!(graph.node(**id), Node::Lookup { .. }) || graph.ty(**id) == Type::Int
-            });
-            let known = shared.filter_map(|(id, value)| Some((new(*id)?, *value)));
-            let tables = |t: TableId| b.table_of(t);
-            let mut follow = Follow {
-                nodes: b,
-                tables: &tables,
-                sample,
-                known: known.collect(),
-            };
-            let Some(after) = relative(&mut follow, b, made) else {
+            for (id, value) in was.known.iter() {
+                let shared =
+                    matches!(graph.node(id), Node::Lookup { .. }) || graph.ty(id) == Type::Int;
+                if let Some(id) = shared.then(|| new(id)).flatten() {
+                    is.known.insert(id, value);
+                }
+            }
+            let Some(after) = relative(&mut is, b, made) else {
                 return false;
             };
             told += 1;
-            let differs = where_equal && !agree(value, follow.value(made, 0));
+            let differs = where_equal && !agree(value, is.value(made, 0));
             if differs || after > self.allowance * before.max(2.0) {
                 return false;
             }

@@ -200,12 +200,7 @@ impl<'g> Find<'g> {
         // By row, params and floor: the worst of the reals and of the phase.
         let mut worst: HashMap<(Vec<u64>, NodeId), (f64, f64)> = HashMap::new();
         for sample in samples {
-            let follow = Follow {
-                nodes: self.graph,
-                tables: &tables,
-                sample,
-                known: Default::default(),
-            };
+            let follow = Follow::new(self.graph, &tables, sample);
             let mut numbers = Numbers { find: self, follow };
             for &floor in &terms.floors {
                 let Some(reals) = numbers.follow.value(floor, 0) else {
