@@ -137,3 +137,96 @@ fn check_tries_a_file_of_cases() {
         );
     }
 }
+
+/// A decimal as a scene writes it, with digits on both sides of the point.
+fn written(number: f64) -> String {
+    let text = format!("{number:.20}");
+    let short = text.trim_end_matches('0');
+    match short.ends_with('.') {
+        true => format!("{short}0"),
+        false => short.to_owned(),
+    }
+}
+
+/// A scene of one operation on two params, which is seen wherever it does not wrap.
+fn operation(a: f64, op: &str, b: f64, wanted: f64) -> String {
+    let param = |name: &str, value: f64| {
+        let (lo, hi) = (value.min(value / 2.0), value.max(value / 2.0));
+        let [value, lo, hi] = [value, lo, hi].map(written);
+        format!("param {name}: real = {value} in {lo} .. {hi};\n")
+    };
+    format!(
+        "image 8 x 8 inks black, white;
+         {}{}draw (x, y) = {{
+           let v = a {op} b;
+           threshold(v / {}, 0.9)
+         }};",
+        param("a", a),
+        param("b", b),
+        written(wanted * 1.5),
+    )
+}
+
+/// The family `fixed_range`, and more that 16.16 is too small for: both operands, and
+/// what is wanted.
+fn planted() -> Vec<(f64, &'static str, f64, f64)> {
+    let text = include_str!("../hard_cases.json");
+    let file: serde_json::Value = serde_json::from_str(text).expect("JSON");
+    let decimal = |value: &serde_json::Value| -> f64 {
+        let text = value.as_str().expect("a decimal");
+        text.parse().expect("a number")
+    };
+    let vectors = file["vectors"].as_array().expect("vectors");
+    let family = vectors.iter().filter(|v| {
+        v["id"]
+            .as_str()
+            .is_some_and(|id| id.starts_with("fixed_range/"))
+    });
+    let mut all: Vec<_> = family
+        .map(|vector| {
+            let input = |name: &str| decimal(&vector["inputs"][name]["dec"]);
+            let entry = vector["entry"].as_str().expect("an entry");
+            let op = if entry == "mul" { "*" } else { "/" };
+            let wanted = decimal(&vector["expected"][entry]);
+            (input("a"), op, input("b"), wanted)
+        })
+        .collect();
+    assert_eq!(all.len(), 7);
+    all.extend([(300.0, "*", -200.0, -6e4), (-9.0, "/", 0.0001, -9e4)]);
+    all
+}
+
+/// What fixed point is too small for ends where its numbers do and does not wrap, and
+/// `check` says which value that is.
+#[test]
+fn planted_overflows_saturate_and_are_named() {
+    let mut named = 0;
+    for (a, op, b, wanted) in planted() {
+        let scene = operation(a, op, b, wanted);
+        let dir = directory(&[("planted.scn", &scene)]);
+        for format in ["fixed16.16", "fixed16", "fixed20", "fixed24"] {
+            let run = [
+                "run",
+                "planted.scn",
+                "-t",
+                "6502",
+                "--format",
+                format,
+                "--json",
+            ];
+            let said = json(dir.path(), &run);
+            assert_eq!(said["differs_from_model"], 0, "{scene} {format}");
+            assert_eq!(said["differs_from_native"], 0, "{scene} {format}");
+        }
+        let check = slowlight(dir.path(), &["check", "planted.scn", "--target", "6502"]);
+        let said = String::from_utf8_lossy(&check.stderr);
+        let leaves = said.contains("in fixed16.16 the value leaves the range");
+        // 32,768 is a last place from the end, as a rounded result may be anyway.
+        assert_eq!(leaves, wanted.abs() > 32768.0, "{scene}\n{said}");
+        if leaves {
+            named += 1;
+            assert!(said.contains(&format!("let v = a {op} b;")), "{said}");
+        }
+    }
+    assert_eq!(named, 3);
+}
