@@ -31,6 +31,7 @@
 //! of their own (`scaled_page`), `$0200-$09ff` its tables
 //! of quarter squares, made by `make_squares` at the start. All else is free.
 
+mod fill;
 pub mod log;
 pub mod model;
 mod parts;

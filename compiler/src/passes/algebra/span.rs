@@ -8,8 +8,9 @@
 
 use super::ends::Asked;
 use super::extent::{Extents, negative};
+use super::follow::samples;
 use super::form::{Forms, Two};
-use super::judge::{cycles, samples};
+use super::judge::cycles;
 use super::number::Number;
 use super::poly::{Atom, Monomial, Poly};
 use super::put::{Out, Put};

@@ -15,7 +15,7 @@ mod search;
 #[cfg(test)]
 mod tests;
 
-use super::algebra::judge::samples;
+use super::algebra::follow::samples;
 use super::algebra::{Cheaper, Forms, Judge, Verdicts, allowance, own, users};
 use super::rebuild::rebuild_old;
 use crate::flow::build::Builder;

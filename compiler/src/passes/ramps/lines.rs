@@ -2,7 +2,7 @@
 
 use super::phase::Find;
 use crate::flow::graph::*;
-use crate::passes::algebra::judge::{Follow, Rounded, applied};
+use crate::passes::algebra::follow::{Follow, Rounded, applied};
 use slowlight_routine::Op;
 
 /// A line a x + b: a (none where it is 0) and b.

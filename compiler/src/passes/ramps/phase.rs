@@ -22,7 +22,7 @@ use super::lines::{Line, Lines, Numbers};
 use super::{Degrees, Put};
 use crate::flow::build::Builder;
 use crate::flow::graph::*;
-use crate::passes::algebra::judge::{Follow, Sample, samples};
+use crate::passes::algebra::follow::{Follow, Sample, samples};
 use crate::passes::interlace::passes;
 use crate::passes::rate::{Rates, rates};
 use crate::passes::rebuild::rebuild_old;

@@ -22,7 +22,7 @@ mod terms;
 #[cfg(test)]
 mod tests;
 
-use super::algebra::judge::{Sample, samples};
+use super::algebra::follow::{Sample, samples};
 use super::algebra::{Judge, allowance, users};
 use super::rate::{Rates, rates};
 use super::rebuild::rebuild_old;
