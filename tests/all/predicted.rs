@@ -139,8 +139,11 @@ fn held(source: &str, format: &str, seed: u64) -> Option<(u64, u64)> {
     Some((seen.results.get(), seen.ends.get()))
 }
 
-/// So many scenes never leave their ranges in a format, or are refused, as one in ten may be.
-fn never_leave(format: &str, scenes: u64) {
+/// So many scenes, or as many as `SLOWLIGHT_SCENES` says, never leave their ranges in a
+/// format, or are refused, as one in ten may be.
+fn never_leave(format: &str, usual: u64) {
+    let told = std::env::var("SLOWLIGHT_SCENES").ok();
+    let scenes = told.map_or(usual, |n| n.parse().expect("a number of scenes"));
     let mut scribe = Scribe(11);
     let (mut planned, mut results, mut ends) = (0, 0, 0);
     for seed in 0..scenes {
@@ -171,6 +174,11 @@ fn random_scenes_never_leave_their_ranges_in_16_16() {
 fn random_scenes_never_leave_their_ranges_in_fixed16() {
     // Fewer scenes: where points stand is looked for in each, which takes long.
     never_leave("fixed16", 60);
+}
+
+#[test]
+fn random_scenes_never_leave_their_ranges_in_fixed20() {
+    never_leave("fixed20", 10);
 }
 
 #[test]
