@@ -171,6 +171,16 @@ const USUAL: &[Part] = &[
         99,
     ),
     part(
+        "middle16",
+        concat!(
+            "; The same of numbers with eight bits more than their product is to have.\nmiddle16:\n",
+            include_str!("../asm/scaled/point.asm"),
+            include_str!("../asm/scaled/middle.asm")
+        ),
+        &["product"],
+        103,
+    ),
+    part(
         "square16",
         include_str!("../asm/scaled/square.asm"),
         &["product"],
@@ -278,6 +288,33 @@ const USUAL: &[Part] = &[
         include_str!("../asm/scaled/int_root.asm"),
         &["root16"],
         95,
+    ),
+    part(
+        "product8",
+        include_str!("../asm/scaled8/product.asm"),
+        &["squares"],
+        37,
+    ),
+    part(
+        "narrow8",
+        include_str!("../asm/scaled8/hold.asm"),
+        &["narrow", "widen"],
+        44,
+    ),
+    terms("isqrt_root", || scaled::byte::root_bytes(0), 192),
+    terms("isqrt_next", || scaled::byte::root_bytes(1), 192),
+    part(
+        "root8",
+        include_str!("../asm/scaled8/root.asm"),
+        &["zero_page", "isqrt_root", "isqrt_next"],
+        79,
+    ),
+    terms("inverses", || scaled::byte::inverses().to_vec(), 256),
+    part(
+        "divide8",
+        include_str!("../asm/scaled8/divide.asm"),
+        &["squares", "inverses"],
+        202,
     ),
     terms("sines_low", || scaled::sines::bytes(0), 257),
     terms("sines_high", || scaled::sines::bytes(1), 256),

@@ -204,7 +204,7 @@ fn planted_overflows_saturate_and_are_named() {
     for (a, op, b, wanted) in planted() {
         let scene = operation(a, op, b, wanted);
         let dir = directory(&[("planted.scn", &scene)]);
-        for format in ["fixed16.16", "fixed16", "fixed20", "fixed24"] {
+        for format in ["fixed16.16", "fixed12", "fixed16", "fixed20", "fixed24"] {
             let run = [
                 "run",
                 "planted.scn",

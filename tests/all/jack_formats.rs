@@ -59,8 +59,10 @@ fn scenes_are_drawn_on_the_6502_with_points_of_their_own() {
 /// that no ink asks for may be far off.
 #[test]
 fn scenes_are_drawn_on_the_6502_with_reals_of_two_widths() {
-    for (name, rows, right) in [("mirrors", "100..106", false), ("maze", "0..31", true)] {
-        is_drawn("6502", (name, rows), "fixed20", right);
+    for format in ["fixed12", "fixed20"] {
+        for (name, rows, right) in [("mirrors", "100..106", false), ("maze", "0..31", true)] {
+            is_drawn("6502", (name, rows), format, right);
+        }
     }
 }
 

@@ -3,7 +3,7 @@
 use crate::cli::{directory, json, success};
 
 /// Those with a point a value.
-const OWN: [&str; 3] = ["fixed16", "fixed20", "fixed24"];
+const OWN: [&str; 4] = ["fixed12", "fixed16", "fixed20", "fixed24"];
 
 /// Runs a scene of 24 x 16 pixels in a format; how many pixels are not the native's.
 fn off(draw: &str, format: &str) -> u64 {

@@ -177,6 +177,11 @@ fn random_scenes_never_leave_their_ranges_in_fixed16() {
 }
 
 #[test]
+fn random_scenes_never_leave_their_ranges_in_fixed12() {
+    never_leave("fixed12", 30);
+}
+
+#[test]
 fn random_scenes_never_leave_their_ranges_in_fixed20() {
     never_leave("fixed20", 10);
 }

@@ -116,6 +116,7 @@ fn builds(scenes: &[PathBuf]) -> Vec<Build> {
         };
         add("fixed16.16", &[]);
         if is_small(path) {
+            add("fixed12", &[]);
             add("fixed16", &[]);
             add("fixed24", &[]);
         }

@@ -275,6 +275,16 @@ pub struct Stepping {
     pub foreseen: bool,
 }
 
+/// Reals of fewer bits beside the usual ones.
+#[derive(Clone, Copy, Debug)]
+pub struct Narrow {
+    /// Bits of one.
+    pub bits: u8,
+    /// Of the pixels that are wrong where all reals have so few bits and right where none has,
+    /// one in so many may stay wrong.
+    pub wrong: usize,
+}
+
 /// All that one machine offers in one choice of formats.
 #[derive(Clone, Copy, Debug)]
 pub struct Runtime {
@@ -286,7 +296,7 @@ pub struct Runtime {
     pub real: Format,
     /// In how many bits, fewer than those of `real`, reals may be held as well where that is
     /// enough, each with routines of its own; `None` where all are held alike.
-    pub narrow: Option<u8>,
+    pub narrow: Option<Narrow>,
     /// The format of every int.
     pub int: Format,
     /// What it can compute, cheap and restricted before dear and total.

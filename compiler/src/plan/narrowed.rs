@@ -6,7 +6,7 @@
 //! it is made of and what is made of it round as well. So plans are made in which groups of
 //! values are narrow, and run in the routines' models at the pixels whose inks are at stake:
 //! those that come out otherwise than in `f64` where all values are narrow. Of these only a
-//! part may stay wrong ([`PART`]).
+//! part may stay wrong ([`Narrow::wrong`]).
 //!
 //! Groups are found by halving. Values stand in the graph in the order in which they are made
 //! of each other, so halves of it are mostly chains of values. A group is taken if the plan
@@ -26,12 +26,8 @@ use crate::eval::model::ModelRun;
 use crate::eval::run::Run;
 use crate::flow::graph::*;
 use crate::flow::tree::Statement;
-use slowlight_routine::{Format, Type};
+use slowlight_routine::{Format, Narrow, Type};
 use std::cell::RefCell;
-
-/// Of the pixels that are wrong with all values narrow and right with all wide, one in so
-/// many may stay wrong.
-const PART: usize = 5;
 
 /// How often groups are looked for.
 const ROUNDS: u32 = 4;
@@ -50,7 +46,7 @@ const APART: i32 = 8;
 /// A plan with as many values narrow as its picture allows, where its format knows two
 /// widths.
 pub(super) fn narrowed(mut plan: Plan) -> Plan {
-    let (Some(fewer), Format::Scaled { bits }) = (plan.runtime.narrow, plan.runtime.real) else {
+    let (Some(narrow), Format::Scaled { bits }) = (plan.runtime.narrow, plan.runtime.real) else {
         return plan;
     };
     if plan.graph.diffusion.is_some() {
@@ -67,7 +63,8 @@ pub(super) fn narrowed(mut plan: Plan) -> Plan {
     let search = Search {
         plan,
         sample,
-        bits: (bits, fewer),
+        bits,
+        narrow,
         pixels,
         often,
     };
@@ -121,8 +118,9 @@ fn looked_at(plan: &Plan) -> (Vec<Pixel>, Vec<f64>) {
 struct Search {
     plan: Plan,
     sample: sample::Sample,
-    /// Of wide and of narrow values.
-    bits: (u8, u8),
+    /// Of wide values.
+    bits: u8,
+    narrow: Narrow,
     pixels: Vec<Pixel>,
     /// How often a pixel computes each node.
     often: Vec<f64>,
@@ -142,7 +140,7 @@ impl Search {
             return self.plan;
         }
         let most = self.wrong(&self.pixels);
-        let limit = least + most.len().saturating_sub(least) / PART;
+        let limit = least + most.len().saturating_sub(least) / self.narrow.wrong.max(1);
         at_stake.extend(most);
         let mut best = (usize::MAX, wide);
         for _ in 0..ROUNDS {
@@ -192,7 +190,7 @@ impl Search {
     fn hold(&mut self, narrow: &[bool]) -> bool {
         let plan = &mut self.plan;
         let (graph, tree, runtime) = (&plan.graph, &plan.tree, plan.runtime);
-        let widths = Widths::mixed(graph, self.bits, narrow);
+        let widths = Widths::mixed(graph, (self.bits, self.narrow.bits), narrow);
         let (points, ranges) = placed((graph, tree), runtime, &self.sample, &widths);
         let Ok(routines) = choose::choose(graph, tree, &ranges, runtime, Some(&points)) else {
             return false;
@@ -228,14 +226,20 @@ impl Search {
             return 0.0;
         };
         let (widths, to) = (points.widths(), points.scales(id).args);
-        let bytes = f64::from(widths.operation(id) / 8);
+        let bytes = f64::from(widths.operands(id) / 8);
         let read = |k: usize| {
             let arg = args[k];
             let by = to[k] - points.own(arg);
-            let same = by == 0 && widths.value(arg) <= widths.operation(id);
+            let same = by == 0 && widths.value(arg) <= widths.operands(id);
             match graph.constant(arg).is_some() || op.args()[k] != Type::Real || same {
                 true => 0.0,
-                false => MOVED * bytes + f64::from(left_to_shift(by)) * (SHIFTED * bytes + 2.0),
+                false => {
+                    let cut = match widths.value(arg) > widths.operands(id) || by < 0 {
+                        true => CUT,
+                        false => 0.0,
+                    };
+                    MOVED * bytes + f64::from(left_to_shift(by)) * (SHIFTED * bytes + 2.0) + cut
+                }
             }
         };
         f64::from(routine.cycles) + (0..op.arity()).map(read).sum::<f64>()
@@ -245,6 +249,9 @@ impl Search {
 /// Cycles to copy a byte, and to shift one by a bit.
 const MOVED: f64 = 8.0;
 const SHIFTED: f64 = 5.0;
+
+/// Cycles to round what is cut, and to ask whether it fits.
+const CUT: f64 = 12.0;
 
 /// Bits that are left when whole bytes are moved, in the nearer direction.
 fn left_to_shift(by: i8) -> i8 {

@@ -112,7 +112,7 @@ pub fn one_over(of: &Place, bits: i32, to: &str, serial: u32, lines: &mut Vec<St
 }
 
 /// Instructions, separated by `|`.
-fn put(text: &str, lines: &mut Vec<String>) {
+pub(super) fn put(text: &str, lines: &mut Vec<String>) {
     for instruction in text.split('|').map(str::trim).filter(|i| !i.is_empty()) {
         let indent = if instruction.ends_with(':') {
             ""

@@ -11,9 +11,13 @@
 //! points leave bits enough. Functions that are rarer are those of 16.16, their operand and result
 //! shifted.
 
+pub mod byte;
+#[cfg(test)]
+mod byte_tests;
 #[cfg(test)]
 mod figures_tests;
 pub mod inline;
+pub mod inline_byte;
 #[cfg(test)]
 mod inline_tests;
 #[cfg(test)]
@@ -29,6 +33,7 @@ pub mod sines;
 #[cfg(test)]
 mod sines_tests;
 mod templates;
+mod templates_byte;
 mod templates_long;
 #[cfg(test)]
 mod tests;
@@ -39,7 +44,7 @@ pub use templates::{copied, squared};
 
 use crate::parts;
 use slowlight_routine::scale;
-use slowlight_routine::{Bits, Format, Runtime, Stepping, Value};
+use slowlight_routine::{Bits, Format, Narrow, Runtime, Stepping, Value};
 
 /// Bits of a real.
 pub const BITS: u8 = 16;
@@ -49,6 +54,9 @@ pub const REAL: Format = Format::Scaled { bits: BITS };
 
 /// The format of reals of 24 bits.
 pub const LONG: Format = Format::Scaled { bits: long::BITS };
+
+/// The format of reals of 8 bits.
+pub const BYTE: Format = Format::Scaled { bits: byte::BITS };
 
 /// The first byte of the zero page that this runtime leaves alone.
 pub const FREE_ZERO_PAGE: u8 = 0x34;
@@ -73,6 +81,15 @@ pub static FIXED24_IN_RUNS: Runtime = Runtime {
     ..USUAL_LONG
 };
 
+/// The runtime of reals of 16 bits or 8, each in as many as the picture asks for.
+pub static FIXED12: Runtime = MIXED_SHORT;
+
+/// The same for programs that draw rows in passes and runs of columns.
+pub static FIXED12_IN_RUNS: Runtime = Runtime {
+    segments: true,
+    ..MIXED_SHORT
+};
+
 /// The runtime of reals of 24 bits or 16, each in as many as the picture asks for.
 pub static FIXED20: Runtime = MIXED;
 
@@ -82,9 +99,23 @@ pub static FIXED20_IN_RUNS: Runtime = Runtime {
     ..MIXED
 };
 
+/// In 8 bits most pixels come out wrong, so a part of these is more.
+const MIXED_SHORT: Runtime = Runtime {
+    format: "fixed12",
+    narrow: Some(Narrow {
+        bits: byte::BITS,
+        wrong: 100,
+    }),
+    routines: &routines::ALL_SHORT,
+    ..USUAL
+};
+
 const MIXED: Runtime = Runtime {
     format: "fixed20",
-    narrow: Some(BITS),
+    narrow: Some(Narrow {
+        bits: BITS,
+        wrong: 5,
+    }),
     routines: &routines::ALL_MIXED,
     ..USUAL_LONG
 };

@@ -13,7 +13,7 @@ pub struct Read<'a> {
     pub fits: bool,
     /// Where it goes.
     pub to: &'a str,
-    /// In so many bytes, 2 or 3.
+    /// In so many bytes, 1 to 3.
     pub bytes: u8,
     /// Must differ at each use in a program.
     pub serial: u32,
@@ -83,6 +83,11 @@ pub fn read(read: Read<'_>, lines: &mut Vec<String>) -> Option<&'static str> {
     let read = Read { from, ..read };
     match by {
         0.. if fits => add(&up(read), lines),
+        1..8 if bytes == 1 => add(&byte_up(read), lines),
+        0.. if bytes == 1 => {
+            copy_bytes(from, "acc", 4, lines);
+            return Some(called(read, "narrow_left", lines));
+        }
         // What leaves 16 bits has another sign then.
         1 if bytes == 2 && !narrow && !same => {
             let (low, high, n) = (byte(from, 0), byte(from, 1), read.serial);
@@ -126,6 +131,11 @@ pub fn read(read: Read<'_>, lines: &mut Vec<String>) -> Option<&'static str> {
 fn called(read: Read<'_>, name: &str, lines: &mut Vec<String>) -> &'static str {
     let Read { by, to, bytes, .. } = read;
     let count = by.unsigned_abs().min(40);
+    if bytes == 1 {
+        let name = name.replace("narrow_", "narrow8_");
+        add(&format!("ldy #{count} | jsr {name} | sta {to}"), lines);
+        return "narrow8";
+    }
     if bytes == 2 {
         let text = format!("ldy #{count} | jsr {name} | sta {to} | stx {to}+1");
         add(&text, lines);
@@ -171,6 +181,25 @@ fn up(read: Read<'_>) -> String {
         (0..whole).for_each(|k| text += &format!("sta {} | ", at(k)));
     }
     text
+}
+
+/// A byte to the left, to the ends where it does not fit. What would be the one number that has
+/// no negative does not.
+fn byte_up(read: Read<'_>) -> String {
+    let Read {
+        from,
+        by,
+        to,
+        serial: n,
+        ..
+    } = read;
+    let (at, end) = (byte(from, 0), (0x80 >> by) - 1);
+    format!(
+        "lda {at} | clc | adc #{end} | cmp #{} | bcs large{n} | lda {at} | {}jmp held{n}
+        | large{n}: | lda {at} | asl | lda #$7f | adc #0 | cmp #$80 | adc #0 | held{n}: | sta {to}",
+        2 * end + 1,
+        times("asl", by)
+    )
 }
 
 /// To the right, rounded.

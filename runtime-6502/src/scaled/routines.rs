@@ -2,7 +2,8 @@
 //! dear and total.
 
 use super::{
-    LONG as L, REAL as R, long, model, powers, sines, templates as t, templates_long as tl,
+    BYTE as S, LONG as L, REAL as R, byte, long, model, powers, sines, templates as t,
+    templates_byte as tb, templates_long as tl,
 };
 use crate::model as wide;
 use crate::model::{bits, int};
@@ -17,6 +18,8 @@ const EXACT: Error = Error::Exact;
 const NEAREST: Error = Error::Absolute(0.51);
 /// Of a result with so few bits less that these count.
 const CUT: Error = Error::Absolute(0.63);
+/// A product that is not rounded.
+const CUT_OFF: Error = Error::Absolute(1.0);
 /// Half of the last place, and what the reciprocal is off.
 const QUOTIENT: Error = Error::Absolute(1.5);
 /// Of all roots that there are.
@@ -29,6 +32,10 @@ const LONG_NEAREST: Error = Error::Absolute(0.53);
 const LONG_CUT: Error = Error::Absolute(0.75);
 const LONG_QUOTIENT: Error = Error::Absolute(1.5);
 const LONG_ROOT: Error = Error::Absolute(0.9);
+/// What the upper byte of a product lacks when it is shifted.
+const BYTE_LOWER: Error = Error::Absolute(1.0);
+/// Of a root that is rounded.
+const BYTE_ROOT: Error = Error::Absolute(0.51);
 /// Half of the last place, and what the table and the angle in turns are off: all operands,
 /// with ten bits behind the point or more, and with eight.
 const SINE: Error = Error::Absolute(1.3);
@@ -190,10 +197,10 @@ macro_rules! of_bytes {
             scaled!("to_real" ToReal(I) -> $r, "~[lda {0.k} | sta {r.k}]", [], everywhere, EXACT, |a, b, n| a, 6 * $w, 4 * $w),
             scaled!("sign" Sign($r) -> I, $t::SIGN, [], everywhere, EXACT, |a, b, n| a.signum(), 14 + 3 * $w, 11 + 2 * $w),
             scaled!("negative" Less($r, $r) -> B, templates::NEGATIVE, [], |args, result| is(1, 0.0)(args, result), EXACT, |a, b, n| i32::from(a < 0), 5, 4),
-            scaled!("less" Less($r, $r) -> B, t::LESS_NEAR, [], near!($w), EXACT, |a, b, n| i32::from(a < b), 2 + 6 * $w, 2 + 4 * $w),
+            scaled!("less" Less($r, $r) -> B, $t::LESS_NEAR, [], near!($w), EXACT, |a, b, n| i32::from(a < b), 2 + 6 * $w, 2 + 4 * $w),
             scaled!("far_less" Less($r, $r) -> B, templates::LESS, [], everywhere, EXACT, |a, b, n| i32::from(a < b), 5 + 6 * $w, 6 + 4 * $w),
             scaled!("not_negative" LessEqual($r, $r) -> B, templates::NOT_NEGATIVE, [], |args, result| is(0, 0.0)(args, result), EXACT, |a, b, n| i32::from(b >= 0), 7, 5),
-            scaled!("less_equal" LessEqual($r, $r) -> B, t::LESS_EQUAL_NEAR, [], near!($w), EXACT, |a, b, n| i32::from(a <= b), 4 + 6 * $w, 4 + 4 * $w),
+            scaled!("less_equal" LessEqual($r, $r) -> B, $t::LESS_EQUAL_NEAR, [], near!($w), EXACT, |a, b, n| i32::from(a <= b), 4 + 6 * $w, 4 + 4 * $w),
             scaled!("far_less_equal" LessEqual($r, $r) -> B, templates::LESS_EQUAL, [], everywhere, EXACT, |a, b, n| i32::from(a <= b), 6 + 6 * $w, 6 + 4 * $w),
             scaled!("equal" Equal($r, $r) -> B, templates::EQUAL, [], everywhere, EXACT, |a, b, n| i32::from(a == b), 2 + 6 * $w, 1 + 8 * $w),
         ]
@@ -254,6 +261,7 @@ const PRODUCTS: &[Routine] = &[
     scaled!("any_mul_14" Mul(R, R) -> R, t::MULTIPLY_ANY_14, ["product", "up"], number!(14 to 14), CUT, |a, b, n| model::multiply(a, b, n), 297, 25),
     scaled!("any_mul_13" Mul(R, R) -> R, t::MULTIPLY_ANY_13, ["product", "up"], number!(13 to 13), CUT, |a, b, n| model::multiply(a, b, n), 309, 25),
     scaled!("any_mul_12" Mul(R, R) -> R, t::MULTIPLY_ANY_12, ["product", "up"], number!(12 to 12), CUT, |a, b, n| model::multiply(a, b, n), 321, 25),
+    scaled!("middle_mul" Mul(R, R) -> R, t::MULTIPLY_8, ["middle16"], number!(8 to 8, fits!(2, 1)), CUT_OFF, |a, b, n| model::middle(a, b), 219, 19),
     scaled!("low_mul" Mul(R, R) -> R, t::MULTIPLY_RIGHT, ["lower24"], number!(17 to 31), Error::Absolute(0.77), |a, b, n| model::multiply(a, b, n), 310, 29),
     scaled!("wide_mul" Mul(R, R) -> R, t::MULTIPLY_ANY, ["narrow24"], number!(8 to 11), Error::Absolute(1.5), |a, b, n| model::multiply(a, b, n), 540, 29),
     scaled!("far_mul" Mul(R, R) -> R, t::MULTIPLY_DOWN, ["int_product", "narrow"], number!(1 to 99), NEAREST, |a, b, n| model::any_product(a, b, n), 490, 29),
@@ -293,6 +301,24 @@ const LONG_PRODUCTS: &[Routine] = &[
     INT_MUL,
 ];
 
+#[rustfmt::skip]
+const BYTE_REALS: &[Routine] = of_bytes!(S, 1, tb, ["widen", "widen_both", "narrow8"], 6, 5);
+
+#[rustfmt::skip]
+const BYTE_PRODUCTS: &[Routine] = &[
+    scaled!("byte_mul_8" Mul(S, S) -> S, tb::MULTIPLY_8, ["product8"], number!(8 to 8), NEAREST, |a, b, n| byte::multiply(a, b, n), 82, 16),
+    scaled!("byte_mul_7" Mul(S, S) -> S, tb::MULTIPLY_7, ["product8"], number!(7 to 7), NEAREST, |a, b, n| byte::multiply(a, b, n), 89, 19),
+    scaled!("byte_mul_6" Mul(S, S) -> S, tb::MULTIPLY_6, ["product8"], number!(6 to 6, fits!(1, 1)), NEAREST, |a, b, n| byte::multiply(a, b, n), 96, 22),
+    scaled!("byte_mul_5" Mul(S, S) -> S, tb::MULTIPLY_5, ["product8"], number!(5 to 5, fits!(1, 1)), NEAREST, |a, b, n| byte::multiply(a, b, n), 103, 25),
+    scaled!("byte_mul_4" Mul(S, S) -> S, tb::MULTIPLY_4, ["product8"], number!(4 to 4, fits!(1, 1)), NEAREST, |a, b, n| byte::multiply(a, b, n), 110, 28),
+    scaled!("byte_low_mul" Mul(S, S) -> S, tb::MULTIPLY_RIGHT, ["product8"], number!(9 to 15), BYTE_LOWER, |a, b, n| byte::multiply(a, b, n), 115, 20),
+    scaled!("byte_far_mul" Mul(S, S) -> S, tb::MULTIPLY_DOWN, ["product8", "narrow8"], number!(1 to 99), NEAREST, |a, b, n| byte::multiply(a, b, n), 400, 17),
+    scaled!("byte_long_mul" Mul(S, S) -> S, tb::MULTIPLY_UP, ["product8", "narrow8"], number!(-99 to 0), NEAREST, |a, b, n| byte::multiply(a, b, n), 300, 17),
+    scaled!("byte_div" Div(R, R) -> S, tb::DIVIDE, ["divide8"], number!(0 to 30), QUOTIENT, |a, b, n| byte::divide(a, b, n), 270, 23),
+    scaled!("byte_root" Sqrt(R) -> S, tb::ROOT, ["root8"], number!(-1 to -1), BYTE_ROOT, |a, b, n| byte::root(a), 70, 11),
+    scaled!("byte_int_root" IntRoot(I) -> S, tb::INT_ROOT, ["int_root"], everywhere, BYTE_LOWER, |a, b, n| byte::int_root(a, n), 190, 40),
+];
+
 /// The routines of reals of 16 bits, and those of ints.
 pub(super) static ALL: [Routine; TABULATED.len() + SHORT_AND_INTS] = joined(
     TABULATED,
@@ -314,3 +340,8 @@ pub(super) static ALL_LONG: [Routine; LONG_REALS.len() + LONG_PRODUCTS.len() + I
 
 /// Those of 24 bits, and then those of 16 for what is held in as many.
 pub(super) static ALL_MIXED: [Routine; ALL_LONG.len() + SHORT.len()] = joined(&ALL_LONG, &SHORT);
+
+const BYTES: [Routine; BYTE_REALS.len() + BYTE_PRODUCTS.len()] = joined(BYTE_REALS, BYTE_PRODUCTS);
+
+/// Those of 16 bits, and then those of 8.
+pub(super) static ALL_SHORT: [Routine; ALL.len() + BYTES.len()] = joined(&ALL, &BYTES);

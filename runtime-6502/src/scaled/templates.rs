@@ -90,6 +90,8 @@ pub(crate) const MULTIPLY_14: &str = concat!(both!(), "| jsr product16", up!("" 
 pub(crate) const MULTIPLY_13: &str = concat!(both!(), "| jsr product16", up!("" "" ""), upper!());
 pub(crate) const MULTIPLY_12: &str =
     concat!(both!(), "| jsr product16", up!("" "" "" ""), upper!());
+/// What is eight bits shorter is there at once.
+pub(crate) const MULTIPLY_8: &str = concat!(both!(), "| jsr middle16", result!());
 /// The same bits where the result may not fit.
 pub(crate) const MULTIPLY_ANY_14: &str = concat!(both!(), "| jsr product16 | jsr up14", result!());
 pub(crate) const MULTIPLY_ANY_13: &str = concat!(both!(), "| jsr product16 | jsr up13", result!());

@@ -6,6 +6,7 @@
 //! functions in `acc`.
 
 use super::templates::functions;
+pub(crate) use super::templates::{LESS_EQUAL_NEAR, LESS_NEAR};
 
 /// As for 16 bits.
 macro_rules! saturate {

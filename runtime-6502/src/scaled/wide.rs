@@ -96,18 +96,18 @@ fn saturating(used: Read<'_>, lines: &mut Vec<String>) -> bool {
     // Of the upper byte's bits, those that come down.
     let left =
         i64::from(by.unsigned_abs()) + 8 * i64::from(bytes) - 1 - 8 * i64::from(shape.bytes - 1);
-    if !quick || !shape.signed || name == to || !(0..7).contains(&left) {
+    if !quick || !shape.signed || name == to || left < 0 {
         return false;
     }
     let top = byte(from, shape.bytes - 1);
-    let end = 1u32 << left;
-    add(
-        &format!(
+    if left < 7 {
+        let end = 1u32 << left;
+        let test = format!(
             "lda {top} | clc | adc #{end} | cmp #{} | bcs large{n}",
             2 * end
-        ),
-        lines,
-    );
+        );
+        add(&test, lines);
+    }
     read(Read { fits: true, ..used }, lines);
     let at = |k: u8| byte_at(to, k);
     let rest: String = (1..bytes - 1)
@@ -116,6 +116,16 @@ fn saturating(used: Read<'_>, lines: &mut Vec<String>) -> bool {
     let middle: String = (1..bytes - 1)
         .map(|k| format!("sta {} | ", at(k)))
         .collect();
+    if bytes == 1 {
+        // The same in the one byte that there is.
+        add(
+            &format!(
+                "lda {to} | cmp #$80 | bne held{n} | large{n}: | lda {top} | asl | lda #$7f | adc #0 | cmp #$80 | adc #0 | sta {to} | held{n}:"
+            ),
+            lines,
+        );
+        return true;
+    }
     // What rounds to one more than the end, and the one number that has no negative.
     add(
         &format!(

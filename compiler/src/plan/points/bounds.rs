@@ -39,7 +39,7 @@ impl Points {
             return range;
         };
         let to = self.scales(id).args[k.min(1)];
-        let wide = (to, self.widths.operation(id));
+        let wide = (to, self.widths.operands(id));
         match (graph.constant(args[k.min(1)]), op.args().get(k)) {
             (Some(value), Some(Type::Real)) => {
                 let units = (value.real() / Points::unit(to)).round();

@@ -145,15 +145,15 @@ impl Points {
         let scales = (graph.ids())
             .map(|id| match graph.node(id) {
                 Node::Apply(op, args) if scale::concerns(op) => {
-                    let bits = widths.operation(id);
+                    let bits = widths.operands(id);
                     let fits = |args: [i8; 2]| product_fits(ranges, id, args, bits);
                     let held = held.iter().find(|(of, _)| *of == bits);
                     let held = held.map_or(own.as_slice(), |(_, held)| held);
                     wanted(
                         graph,
                         (op, args),
-                        (own[id.0 as usize], bits),
-                        (held, rooms.all(bits)),
+                        (own[id.0 as usize], widths.operation(id)),
+                        (held, rooms.all(bits), bits),
                         &fits,
                     )
                 }
@@ -239,7 +239,7 @@ impl Points {
             .map(|((bits, arg), to)| match op {
                 // All bits of an int, which may be more than a real has.
                 Op::IntRoot => *bits,
-                _ => self.read(graph, arg, *bits, (to, self.widths.operation(id))),
+                _ => self.read(graph, arg, *bits, (to, self.widths.operands(id))),
             })
             .collect();
         all.push(i64::from(scales.number(op)) as Bits);

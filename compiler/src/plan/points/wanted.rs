@@ -1,6 +1,7 @@
 //! At which scales operations read their operands, and how many fraction bits their
 //! results can have.
 
+use super::widths::BYTE;
 use crate::flow::graph::*;
 use slowlight_routine::scale::{self, FEWEST, FUNCTION, MOST, Scales, finest};
 use slowlight_routine::{Op, Type};
@@ -69,15 +70,16 @@ fn least(graph: &Graph, id: NodeId) -> Option<(i8, f64)> {
 const SMALL: f64 = 64.0;
 
 /// The scales of an operation whose result has one; given each node's own fraction bits
-/// and those it has room for, and whether the product of operands at some scales is an int.
+/// and those it has room for in the bits that operands are read in, and whether the product of
+/// operands at some scales is an int.
 pub fn wanted(
     graph: &Graph,
     (op, [a, b]): (Op, [NodeId; 2]),
     (result, bits): (i8, u8),
-    (own, room): (&[i8], &[i8]),
+    (own, room, read): (&[i8], &[i8], u8),
     fits: &dyn Fn([i8; 2]) -> bool,
 ) -> Scales {
-    let long = long(bits);
+    let long = long(read);
     let [of_a, of_b] = [a, b].map(|id| own[id.0 as usize]);
     let [room_a, room_b] = [a, b].map(|id| room[id.0 as usize]);
     let args = match op {
@@ -107,6 +109,8 @@ pub fn wanted(
             let lowered = (bits - raised - 2 * long).max(0);
             [of_a + raised + bits.min(0), of_b - lowered]
         }
+        // A byte's is that of half of two: no more bits count.
+        Op::Sqrt if bits == BYTE => [2 * result + 1, 0],
         // Of at least one bit more.
         Op::Sqrt => {
             let most = 2 * result - 1;
@@ -123,7 +127,7 @@ pub fn wanted(
         // From -1 to 1.
         Op::Asin | Op::Acos => [scale::sine(bits), 0],
         // Beyond 32 every power saturates.
-        Op::Exp => [of_a.clamp(10, long.min(FUNCTION)), 0],
+        Op::Exp => [of_a.clamp((long - 5).min(10), long.min(FUNCTION)), 0],
         Op::Log => [of_a.min(MOST), 0],
         Op::Pow => [of_a.min(MOST), of_b.clamp(5, long.min(FUNCTION))],
         _ => [of_a, of_b],

@@ -3,13 +3,17 @@
 //!
 //! An operation is carried out in one width: that of its result or, where that is no real, in
 //! the widest of its operands'. Operands of another width are read in it: one of fewer bits as
-//! it is, one of more rounded to the scale wanted, and held to the ends.
+//! it is, one of more rounded to the scale wanted, and held to the ends. Roots and quotients of
+//! 8 bits are made of 16: what is left of an operand in 8 may have far fewer that count.
 
 use super::Points;
 use super::agreed::{Other, agreed};
 use crate::flow::graph::*;
 use crate::flow::tree::Place;
-use slowlight_routine::{Format, Routine, Type};
+use slowlight_routine::{Format, Op, Routine, Type};
+
+/// What a byte has.
+pub(super) const BYTE: u8 = 8;
 
 /// The bits of a graph's reals.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -20,6 +24,8 @@ pub struct Widths {
     values: Vec<u8>,
     /// Those in which each operation is carried out.
     operations: Vec<u8>,
+    /// Those in which each operation's operands are read.
+    operands: Vec<u8>,
     /// Each carried value's, by loop.
     carried: Vec<Vec<u8>>,
 }
@@ -59,9 +65,15 @@ impl Widths {
             }
             _ => values[id.0 as usize],
         };
+        let operations: Vec<u8> = graph.ids().map(operation).collect();
+        let operands = |(id, of): (NodeId, &u8)| match (graph.node(id), *of) {
+            (Node::Apply(Op::Sqrt | Op::Div, _), BYTE) => bits,
+            (_, of) => of,
+        };
         Widths {
             most: bits,
-            operations: graph.ids().map(operation).collect(),
+            operands: graph.ids().zip(&operations).map(operands).collect(),
+            operations,
             values,
             carried,
         }
@@ -92,6 +104,12 @@ impl Widths {
         found.unwrap_or(self.most)
     }
 
+    /// Those in which an operation's operands are read.
+    pub fn operands(&self, id: NodeId) -> u8 {
+        let found = self.operands.get(id.0 as usize).copied();
+        found.unwrap_or(self.most)
+    }
+
     /// Those of what a place holds.
     pub fn place(&self, place: Place) -> u8 {
         match place {
@@ -111,12 +129,14 @@ impl Points {
         &self.widths
     }
 
-    /// Whether a routine is for the width of an operation.
+    /// Whether a routine is for the widths of an operation.
     pub fn is_as_wide(&self, id: NodeId, routine: &Routine) -> bool {
-        let of = |format: &Format| match format {
-            Format::Scaled { bits } => *bits == self.widths.operation(id),
+        let is = |format: &Format, wanted: u8| match format {
+            Format::Scaled { bits } => *bits == wanted,
             _ => true,
         };
-        of(&routine.result) && routine.args.iter().all(of)
+        let operands = self.widths.operands(id);
+        is(&routine.result, self.widths.operation(id))
+            && routine.args.iter().all(|format| is(format, operands))
     }
 }

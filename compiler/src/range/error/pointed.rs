@@ -17,7 +17,7 @@ impl Walk<'_> {
             return values;
         };
         let scales = points.scales(id).args;
-        let width = points.widths().operation(id);
+        let width = points.widths().operands(id);
         let [x, y] = values;
         let x = self.read_at(
             a,

@@ -254,11 +254,13 @@ fn median(values: &mut [f64]) -> f64 {
 
 #[test]
 fn bounds_hold_and_are_near() {
-    let (mut boxes, mut proved, mut points, mut all) = (0, 0, 0, Vec::new());
+    let (mut boxes, mut proved, mut points, mut all) = ([0; 2], [0; 2], 0, Vec::new());
     let mut seen = BTreeSet::new();
     let targets = in_all_formats().filter(|t| seen.insert(t.runtime.format));
     for target in targets.collect::<Vec<_>>() {
         let name = target.runtime.format;
+        // In bytes many a value is no greater than what it may be off: no divisor has a bound then.
+        let of = usize::from(target.runtime.narrow.is_some_and(|n| n.bits == 8));
         for kernel in KERNELS {
             let (bounded, tried, mut ratios) = try_kernel(target, kernel);
             let middle = median(&mut ratios);
@@ -266,16 +268,21 @@ fn bounds_hold_and_are_near() {
                 "{name:12} {:20} {bounded:3} of {BOXES}, ratio {middle:.2}",
                 kernel.0
             );
-            boxes += BOXES;
-            proved += bounded;
+            boxes[of] += BOXES;
+            proved[of] += bounded;
             points += tried;
-            all.extend(ratios);
+            if of == 0 {
+                all.extend(ratios);
+            }
         }
     }
     let middle = median(&mut all);
     println!(
-        "{proved} of {boxes} boxes have a bound; none of {points} evaluations exceeds it; ratio {middle:.2}"
+        "{proved:?} of {boxes:?} boxes have a bound; none of {points} evaluations exceeds it; ratio {middle:.2}"
     );
-    assert!(proved * 100 >= boxes * 95, "{proved} of {boxes}");
+    for (of, least) in [(0, 95), (1, 60)] {
+        let enough = proved[of] * 100 >= boxes[of] * least;
+        assert!(enough, "{proved:?} of {boxes:?}");
+    }
     assert!(middle <= 5.0, "{middle}");
 }

@@ -1,12 +1,13 @@
 //! Products written in place at pixels, where the program has memory for that.
 
 use super::code::Code;
+use super::scaled::READ;
 use crate::flow::graph::*;
 use crate::flow::tree::{Place, Statement};
 use crate::plan::Plan;
 use slowlight_routine::{Form, Format, Op, Type};
-use slowlight_runtime_6502::scaled::{copied, inline};
-use slowlight_runtime_6502::write::{Place as Operand, shift_of_one};
+use slowlight_runtime_6502::scaled::{copied, inline, inline_byte};
+use slowlight_runtime_6502::write::{Place as Operand, copy_bytes, shift_of_one};
 
 /// How many statements are looked at for a product with the same factor.
 const FAR: usize = 6;
@@ -67,9 +68,9 @@ impl Code<'_> {
         let Form::Statement(text) = routine.form else {
             return false;
         };
-        let [a, b] = args;
         let one_over = inline::is_one_over(text);
-        if !self.quick || !(one_over || inline::can(text)) {
+        let byte = inline_byte::bits(text, self.number(id));
+        if !self.quick || !(one_over || byte.is_some() || inline::can(text)) {
             return false;
         }
         let ranges = self.plan.ranges.args.get(id.0 as usize);
@@ -79,6 +80,10 @@ impl Code<'_> {
         });
         let home = self.homes.place(Place::of(&self.plan.graph, id)).to_owned();
         let serial = self.text.next_serial();
+        let [a, b] = &match byte {
+            Some(_) => args.clone(),
+            None => self.extended(args),
+        };
         let mut lines = Vec::new();
         if one_over {
             if positive[1] {
@@ -97,15 +102,37 @@ impl Code<'_> {
             to: &home,
             serial,
         };
-        let pointed = match a == b {
-            true => {
+        let pointed = match (byte, a == b) {
+            (Some(bits), _) => match inline_byte::product(bits, used, &mut lines) {
+                true => None,
+                false => kept.clone(),
+            },
+            (None, true) => {
                 inline::square(text, used, &mut lines);
                 None
             }
-            false => inline::product(text, used, &mut lines),
+            (None, false) => inline::product(text, used, &mut lines),
         };
         lines.iter().for_each(|line| self.text.line(line));
         self.text.kept = pointed.filter(|symbol| *symbol != home);
         true
+    }
+
+    /// Operands in all bytes that a product in place reads, as templates have them too.
+    fn extended(&mut self, args: &[Operand; 2]) -> [Operand; 2] {
+        let mut made = args.clone();
+        for k in 0..2 {
+            let short =
+                matches!(&args[k], Operand::Held(_, shape) if shape.signed && shape.bytes < 2);
+            if k == 1 && args[1] == args[0] {
+                made[1] = made[0].clone();
+            } else if short {
+                let mut lines = Vec::new();
+                copy_bytes(&args[k], READ[k], 2, &mut lines);
+                lines.iter().for_each(|line| self.text.line(line));
+                made[k] = Operand::At(READ[k].to_owned());
+            }
+        }
+        made
     }
 }

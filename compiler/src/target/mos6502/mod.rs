@@ -62,7 +62,7 @@ use memory::Machine;
 pub use memory::{DISC_PAGE, Room};
 use slowlight_runtime_6502::FIXED16_16;
 use slowlight_runtime_6502::log::{LOG10, LOG10_IN_RUNS};
-use slowlight_runtime_6502::scaled::{FIXED16, FIXED16_IN_RUNS};
+use slowlight_runtime_6502::scaled::{FIXED12, FIXED12_IN_RUNS, FIXED16, FIXED16_IN_RUNS};
 use slowlight_runtime_6502::scaled::{FIXED20, FIXED20_IN_RUNS, FIXED24, FIXED24_IN_RUNS};
 use slowlight_runtime_6502::tidy::tidy;
 use slowlight_runtime_6502::tidy::undocumented::undocumented;
@@ -70,6 +70,12 @@ use syntax::Syntax;
 
 /// The plain machine: 64K of RAM and a port that takes ink by ink.
 pub static PLAIN: Target = USUAL;
+
+/// The same with reals of 8 bits or 16, each with fraction bits of its own.
+pub static PLAIN_FIXED12: Target = Target {
+    runtime: &FIXED12_IN_RUNS,
+    ..USUAL
+};
 
 /// The same with reals of 16 bits, each with fraction bits of its own.
 pub static PLAIN_FIXED16: Target = Target {
@@ -108,6 +114,12 @@ pub static BBC: Target = Target {
     ..USUAL
 };
 
+/// The same with reals of 8 bits or 16.
+pub static BBC_FIXED12: Target = Target {
+    runtime: &FIXED12,
+    ..BBC
+};
+
 /// The same with reals of 16 bits.
 pub static BBC_FIXED16: Target = Target {
     runtime: &FIXED16,
@@ -133,6 +145,12 @@ pub static C64: Target = Target {
     modes: c64::MODES,
     hertz: 985_248.0,
     ..USUAL
+};
+
+/// The same with reals of 8 bits or 16.
+pub static C64_FIXED12: Target = Target {
+    runtime: &FIXED12,
+    ..C64
 };
 
 /// The same with reals of 16 bits.

@@ -35,16 +35,19 @@ pub(super) fn moved(plan: &Plan) -> BTreeSet<Moved> {
         Statement::Set {
             place,
             from: Origin::Node(from),
-        } => add(*from, points.place(*place)),
+        } if points.widths().place(*place) == points.widths().most() => {
+            add(*from, points.place(*place));
+        }
         _ => {}
     });
     found
 }
 
-/// The operands of an operation of reals and the scales that they are read at.
+/// The operands of an operation of reals and the scales that they are read at, in all bits.
 pub(super) fn each_read(plan: &Plan, id: NodeId, found: &mut dyn FnMut(NodeId, i8)) {
     if let (Some(points), Node::Apply(op, args)) = (plan.points(), plan.graph.node(id))
         && scale::concerns(op)
+        && points.widths().operands(id) == points.widths().most()
     {
         let scales = points.scales(id).args;
         for ((arg, to), ty) in args.into_iter().zip(scales).zip(op.args()) {

@@ -9,7 +9,7 @@ use slowlight_runtime_6502::scaled;
 use slowlight_runtime_6502::write::{Place as Operand, Shape};
 
 /// Where operands go that are read at another scale.
-const READ: [&str; 2] = ["first", "second"];
+pub(super) const READ: [&str; 2] = ["first", "second"];
 
 /// Reals have so many bytes at least.
 pub(super) const LEAST: u8 = 2;
@@ -27,7 +27,7 @@ impl Code<'_> {
             let operand = match (points, ty) {
                 (Some(points), Some(Type::Real)) => {
                     let again = k == 1 && arg == args[0];
-                    let (to, width) = (points.scales(id).args, points.widths().operation(id));
+                    let (to, width) = (points.scales(id).args, points.widths().operands(id));
                     if let Some(known) = self.known(id, k, to[k]) {
                         known
                     } else if again && to[0] == to[1] {
@@ -37,7 +37,7 @@ impl Code<'_> {
                     }
                 }
                 (Some(points), Some(Type::Int)) if op == Op::ToReal => {
-                    let to = (points.scales(id).args[k], points.widths().operation(id));
+                    let to = (points.scales(id).args[k], points.widths().operands(id));
                     self.read_at(points, arg, to, READ[k])
                 }
                 (_, None) => Operand::Constant(0),
@@ -54,7 +54,7 @@ impl Code<'_> {
     fn known(&self, id: NodeId, k: usize, to: i8) -> Option<Operand> {
         let range = self.plan.ranges.args.get(id.0 as usize)?.get(k)?;
         let units = scale::in_units(*range, to).constant()?;
-        let width = self.plan.points()?.widths().operation(id);
+        let width = self.plan.points()?.widths().operands(id);
         let held = units.fract() == 0.0 && units.abs() <= scale::most(width) as f64;
         held.then_some(Operand::Constant(units as i64 as u64))
     }
@@ -101,7 +101,8 @@ impl Code<'_> {
         to: (i8, u8),
         into: &str,
     ) -> Operand {
-        if let Some(kept) = self.homes.kept_at(id, to.0) {
+        let whole = to.1 == points.widths().most();
+        if let Some(kept) = self.homes.kept_at(id, to.0).filter(|_| whole) {
             return Operand::At(kept.to_owned());
         }
         self.read_into(points, id, to, (into, LEAST))

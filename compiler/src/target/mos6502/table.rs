@@ -30,7 +30,7 @@ fn uniform(plane: &[u8]) -> Option<u8> {
 }
 
 fn planes(plan: &Plan, id: TableId, table: &Table) -> Vec<Vec<u8>> {
-    let size = write::size(plan.runtime.format_of(table.ty));
+    let size = write::size(plan.entry_format(id));
     (0..size).map(|k| plane(plan, (id, table), k)).collect()
 }
 
