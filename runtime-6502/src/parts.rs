@@ -178,7 +178,7 @@ const USUAL: &[Part] = &[
             include_str!("../asm/scaled/middle.asm")
         ),
         &["product"],
-        103,
+        107,
     ),
     part(
         "square16",

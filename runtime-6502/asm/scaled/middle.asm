@@ -1,5 +1,5 @@
-; Bits 8 to 23 of it in a and x (high), cut: all there is where that fits, so nothing is made of
-; what is above.
+; Bits 8 to 23 of it in a and x (high), rounded: all there is where that fits, so nothing is
+; made of what is above.
         ldy arg+1
         sec
         lda (sum_lo),y      ; a0 b1
@@ -32,11 +32,13 @@ middle16_other:
         sbc arg
 middle16_sign:
         sta prod+2
-        lda (sum_lo),y      ; a0 b0, of which the lower byte only borrows
-        cmp (dif_lo),y
+        sec
+        lda (sum_lo),y      ; a0 b0, of which the lower byte only rounds
+        sbc (dif_lo),y
+        sta prod
         lda (sum_hi),y
         sbc (dif_hi),y
-        clc
+        asl prod
         adc prod+1
         bcc middle16_low
         inc prod+2

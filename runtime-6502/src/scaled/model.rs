@@ -72,11 +72,6 @@ pub fn multiply(a: i32, b: i32, n: i32) -> i32 {
     cut(product(a, b), n)
 }
 
-/// a b / 2^8, cut, where that fits.
-pub fn middle(a: i32, b: i32) -> i32 {
-    held((i64::from(a) * i64::from(b)) >> 8, BITS)
-}
-
 /// a a / 2^n.
 pub fn squared(a: i32, n: i32) -> i32 {
     cut(square(a), n)

@@ -18,8 +18,6 @@ const EXACT: Error = Error::Exact;
 const NEAREST: Error = Error::Absolute(0.51);
 /// Of a result with so few bits less that these count.
 const CUT: Error = Error::Absolute(0.63);
-/// A product that is not rounded.
-const CUT_OFF: Error = Error::Absolute(1.0);
 /// Half of the last place, and what the reciprocal is off.
 const QUOTIENT: Error = Error::Absolute(1.5);
 /// Of all roots that there are.
@@ -261,7 +259,7 @@ const PRODUCTS: &[Routine] = &[
     scaled!("any_mul_14" Mul(R, R) -> R, t::MULTIPLY_ANY_14, ["product", "up"], number!(14 to 14), CUT, |a, b, n| model::multiply(a, b, n), 297, 25),
     scaled!("any_mul_13" Mul(R, R) -> R, t::MULTIPLY_ANY_13, ["product", "up"], number!(13 to 13), CUT, |a, b, n| model::multiply(a, b, n), 309, 25),
     scaled!("any_mul_12" Mul(R, R) -> R, t::MULTIPLY_ANY_12, ["product", "up"], number!(12 to 12), CUT, |a, b, n| model::multiply(a, b, n), 321, 25),
-    scaled!("middle_mul" Mul(R, R) -> R, t::MULTIPLY_8, ["middle16"], number!(8 to 8, fits!(2, 1)), CUT_OFF, |a, b, n| model::middle(a, b), 219, 19),
+    scaled!("middle_mul" Mul(R, R) -> R, t::MULTIPLY_8, ["middle16"], number!(8 to 8, fits!(2, 1)), NEAREST, |a, b, n| model::any_product(a, b, n), 222, 19),
     scaled!("low_mul" Mul(R, R) -> R, t::MULTIPLY_RIGHT, ["lower24"], number!(17 to 31), Error::Absolute(0.77), |a, b, n| model::multiply(a, b, n), 310, 29),
     scaled!("wide_mul" Mul(R, R) -> R, t::MULTIPLY_ANY, ["narrow24"], number!(8 to 11), Error::Absolute(1.5), |a, b, n| model::multiply(a, b, n), 540, 29),
     scaled!("far_mul" Mul(R, R) -> R, t::MULTIPLY_DOWN, ["int_product", "narrow"], number!(1 to 99), NEAREST, |a, b, n| model::any_product(a, b, n), 490, 29),

@@ -146,7 +146,7 @@ impl Points {
             .map(|id| match graph.node(id) {
                 Node::Apply(op, args) if scale::concerns(op) => {
                     let bits = widths.operands(id);
-                    let fits = |args: [i8; 2]| product_fits(ranges, id, args, bits);
+                    let fits = |args, longer| product_fits(ranges, id, args, (longer, bits));
                     let held = held.iter().find(|(of, _)| *of == bits);
                     let held = held.map_or(own.as_slice(), |(_, held)| held);
                     wanted(
@@ -383,11 +383,11 @@ fn at_one_scale(op: Op) -> bool {
     )
 }
 
-/// Whether a product of ints stays one.
-fn product_fits(ranges: &Ranges, id: NodeId, args: [i8; 2], bits: u8) -> bool {
+/// Whether a product that is so many bits longer than its result fits into it.
+fn product_fits(ranges: &Ranges, id: NodeId, args: [i8; 2], (longer, bits): (i8, u8)) -> bool {
     let units = |k: usize| {
         let range: Range = ranges.args[id.0 as usize][k];
         scale::in_units(range, args[k]).magnitude()
     };
-    units(0) * units(1) <= scale::most(bits) as f64 * 0.99
+    units(0) * units(1) <= (scale::most(bits) as f64 * 0.99) * f64::from(longer).exp2()
 }

@@ -77,7 +77,7 @@ pub fn wanted(
     (op, [a, b]): (Op, [NodeId; 2]),
     (result, bits): (i8, u8),
     (own, room, read): (&[i8], &[i8], u8),
-    fits: &dyn Fn([i8; 2]) -> bool,
+    fits: &dyn Fn([i8; 2], i8) -> bool,
 ) -> Scales {
     let long = long(read);
     let [of_a, of_b] = [a, b].map(|id| own[id.0 as usize]);
@@ -100,7 +100,14 @@ pub fn wanted(
         }
         Op::Mul => match factor(graph, [a, b], result, (own, room), fits) {
             Some(args) => args,
-            None => product([of_a, of_b], [room_a, room_b], result, long),
+            None => {
+                let (own, room) = ([of_a, of_b], [room_a, room_b]);
+                let middle = (read == 16).then(|| middle(own, room, result));
+                match middle.flatten().filter(|args| fits(*args, MIDDLE)) {
+                    Some(args) => args,
+                    None => product(own, room, result, long),
+                }
+            }
         },
         // From 0 to twice as many bits are divided out.
         Op::Div => {
@@ -146,7 +153,7 @@ fn factor(
     args: [NodeId; 2],
     result: i8,
     (own, room): (&[i8], &[i8]),
-    fits: &dyn Fn([i8; 2]) -> bool,
+    fits: &dyn Fn([i8; 2], i8) -> bool,
 ) -> Option<[i8; 2]> {
     for (k, constant) in args.into_iter().enumerate() {
         let Some((scale, units)) = least(graph, constant) else {
@@ -157,11 +164,23 @@ fn factor(
         let mut scales = [of_other; 2];
         scales[k] = scale;
         let exact = (own[other]..=room[other]).contains(&of_other);
-        if units == 1.0 || units <= SMALL && exact && fits(scales) {
+        if units == 1.0 || units <= SMALL && exact && fits(scales, 0) {
             return Some(scales);
         }
     }
     None
+}
+
+/// Where a product of few bits, a whole number's say, is rounded: the bits above a byte are
+/// made at once, and operands need not be shifted further up.
+const MIDDLE: i8 = 8;
+
+/// Operands whose product is so much longer than the result, if there is room for that.
+fn middle([a, b]: [i8; 2], [room_a, room_b]: [i8; 2], result: i8) -> Option<[i8; 2]> {
+    let short = MIDDLE - (a + b - result);
+    let up = short.clamp(0, (room_a - a).max(0));
+    let rest = (short - up).clamp(0, (room_b - b).max(0));
+    (short >= 0 && up + rest == short).then_some([a + up, b + rest])
 }
 
 /// Operands of all their bits, so that the product is rounded in its upper half.
