@@ -192,6 +192,7 @@ fn only_what_is_used_is_written() {
         "root",
         "divide",
         "make_squares",
+        "sqr_lo",
         "clamp_index",
         "saturate",
     ] {
