@@ -102,7 +102,7 @@ impl Blocks {
     /// counting one takes longer than drawing it.
     fn dots(&self, text: &mut Text) {
         let wide = self.size.0;
-        let mut divisors = (1..=TOGETHER).rev().filter(|n| wide % n == 0);
+        let mut divisors = (1..=TOGETHER).rev().filter(|n| wide.is_multiple_of(*n));
         let together = divisors.next().unwrap_or(1);
         let turns = wide / together;
         if turns > 1 {
