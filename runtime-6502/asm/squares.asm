@@ -1,19 +1,3 @@
-; Quarter squares, f(n) = floor(n n / 4), made once at the start.
-; a b = f(a + b) - f(a - b), exactly: a + b and a - b are both even or both odd.
-sqr_lo = $0200    ; f(n), low bytes, n = 0 to 511
-sqr_hi = $0400    ; high bytes
-sqd_lo = $0600    ; f(n - 255), n = 0 to 510
-sqd_hi = $0800
-
-make_squares:
-        lda #>(sqr_lo)
-        sta sum_lo+1
-        lda #>(sqr_hi)
-        sta sum_hi+1
-        lda #>(sqd_lo)
-        sta dif_lo+1
-        lda #>(sqd_hi)
-        sta dif_hi+1
         ldx #255
         ldy #0              ; n
         sty acc             ; f(n)

@@ -28,8 +28,8 @@
 //!
 //! # Memory
 //! `$00-$1d` is the runtime's (see the part `zero_page`), to `$33` where reals have points
-//! of their own (`scaled_page`), `$0200-$09ff` its tables
-//! of quarter squares, made by `make_squares` at the start. All else is free.
+//! of their own (`scaled_page`). Its tables of quarter squares are in the program, or in
+//! 2,048 bytes that `make_squares` fills at the start ([`squares`]). All else is free.
 
 mod fill;
 pub mod log;
@@ -37,6 +37,7 @@ pub mod model;
 mod parts;
 mod routines;
 pub mod scaled;
+pub mod squares;
 mod templates;
 pub mod tidy;
 pub mod write;
@@ -49,7 +50,7 @@ use slowlight_routine::{Bits, Format, Runtime, Value};
 /// The first byte of the zero page that the runtime leaves alone.
 pub const FREE_ZERO_PAGE: u8 = 0x1E;
 /// The first byte behind the stack that the runtime leaves alone.
-pub const FREE_MEMORY: u16 = 0x0A00;
+pub const FREE_MEMORY: u16 = 0x0200;
 
 /// The first byte of the zero page that a runtime leaves alone.
 pub fn free_zero_page(runtime: &Runtime) -> u8 {

@@ -34,7 +34,11 @@ const USUAL: &[Part] = &[
     part("zero_page", include_str!("../asm/zero_page.asm"), &[], 0),
     part(
         "squares",
-        include_str!("../asm/squares.asm"),
+        concat!(
+            include_str!("../asm/squares_at.asm"),
+            include_str!("../asm/squares_pages.asm"),
+            include_str!("../asm/squares.asm")
+        ),
         &["zero_page"],
         2135,
     ),

@@ -17,7 +17,7 @@ use slowlight_compiler::passes::coarse::coarse;
 use slowlight_compiler::sema::{Millionths, Search, Ways};
 
 /// The areas that blocks have, in pixels.
-const AREAS: [u32; 11] = [1, 2, 4, 8, 9, 16, 25, 32, 64, 128, 256];
+const AREAS: [u32; 13] = [1, 2, 4, 8, 9, 16, 25, 32, 64, 128, 256, 512, 1024];
 
 /// Turns that loops may be cut to.
 const TURNS: [u32; 13] = [1, 2, 3, 4, 6, 8, 12, 16, 24, 32, 48, 64, 96];
@@ -193,9 +193,7 @@ fn blocks(
             .filter(|(wide, high)| {
                 let whole = width % wide == 0 && height % high == 0;
                 // A block much longer than wide is off by its length.
-                let smaller = |block: u32, picture: u32| block == 1 || block < picture;
-                let inside = smaller(*wide, width) && smaller(*high, height);
-                whole && *wide <= 2 * high && *high <= 2 * wide && inside
+                whole && *wide <= 2 * high && *high <= 2 * wide
             });
         let mut best: Option<(f64, (u32, u32))> = None;
         for block in shapes {

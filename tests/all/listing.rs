@@ -19,7 +19,7 @@ fn number(text: &str) -> u64 {
 #[test]
 fn a_listing_has_all_bytes_and_all_lines_of_the_scene() {
     let dir = directory(&[("ball.scn", BALL)]);
-    for (target, origin) in [("6502:plain", 0x0a00), ("6502:bbc", 0x1900)] {
+    for (target, origin) in [("6502:plain", 0x02fd), ("6502:bbc", 0x1900)] {
         let options = ["build", "ball.scn", "-t", target, "--style", "listing"];
         success(dir.path(), &options);
         assert!(names(dir.path()).contains(&"ball.lst".to_owned()));

@@ -182,6 +182,11 @@ impl Bench {
         Bench { size, ..self }
     }
 
+    /// What is in memory from an address on.
+    pub fn memory(&self, from: usize) -> &[u8] {
+        &self.ram.bytes[from..]
+    }
+
     /// Runs from `start` until `end` is reached; answers the cycles.
     fn go(&mut self) -> u64 {
         let mut cpu = Cpu::new(self.start);

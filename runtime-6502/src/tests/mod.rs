@@ -9,6 +9,7 @@ use bench::{Bench, Random};
 use slowlight_routine::{Format, Op, Range, Routine, Value};
 use std::collections::BTreeSet;
 
+use crate::squares::{PAGES, TABLES};
 use crate::{FIXED16_16 as RUNTIME, model, write::Place};
 
 /// Random pairs of operands for each routine.
@@ -289,6 +290,23 @@ fn quarter_squares_are_exact_for_all_pairs_of_bytes() {
         for b in 0..256 {
             assert_eq!(bench.run(&[a, b]).0, a * b);
         }
+    }
+}
+
+/// What a program makes at its start is what another has in its file.
+#[test]
+fn quarter_squares_are_made_as_they_are_stored() {
+    let squares = |lines: &mut Vec<String>| {
+        lines.push(PAGES.to_owned());
+        vec!["squares"]
+    };
+    let bench = Bench::written(&RUNTIME, &squares);
+    assert_eq!(bench.bytes, 16);
+    for (k, table) in TABLES.iter().enumerate() {
+        let made = &bench.memory(0x200 + 0x200 * k)[..511];
+        let stored: Vec<u8> = table.bytes().collect();
+        assert_eq!(stored.len(), 512);
+        assert!(made == &stored[..511], "{}", table.label);
     }
 }
 

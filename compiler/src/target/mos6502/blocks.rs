@@ -8,6 +8,9 @@ use crate::passes::interlace::passes;
 use crate::plan::Plan;
 use slowlight_runtime_6502::write::{self, Place as Operand};
 
+/// Pixels of a line that are drawn without counting, at most.
+const TOGETHER: u32 = 8;
+
 /// The names and sizes of what draws blocks.
 pub(super) struct Blocks {
     /// Where the block's left column and top row on the screen are kept.
@@ -82,7 +85,7 @@ impl Blocks {
     /// Draws the block.
     pub fn draw(&self, ink: &str, text: &mut Text) {
         let [left, top] = &self.place;
-        let (wide, high) = (self.size.0 & 0xFF, self.size.1 & 0xFF);
+        let high = self.size.1 & 0xFF;
         text.code("ldx #0");
         text.label("block_line");
         text.code(&format!(
@@ -90,10 +93,28 @@ impl Blocks {
         ));
         text.code(&format!("clc | txa | adc {top} | sta y_port"));
         text.code(&format!("lda {top}+1 | adc #0 | sta y_port+1"));
-        text.code(&format!("lda {ink} | ldy #{wide}"));
-        text.label("block_dot");
-        text.code("sta ink_port | dey | bne block_dot");
+        text.code(&format!("lda {ink}"));
+        self.dots(text);
         text.code(&format!("inx | cpx #{high} | bne block_line"));
+    }
+
+    /// A line of a block in the ink in a: as many pixels at a time as divide it, since
+    /// counting one takes longer than drawing it.
+    fn dots(&self, text: &mut Text) {
+        let wide = self.size.0;
+        let mut divisors = (1..=TOGETHER).rev().filter(|n| wide.is_multiple_of(*n));
+        let together = divisors.next().unwrap_or(1);
+        let turns = wide / together;
+        if turns > 1 {
+            text.code(&format!("ldy #{}", turns & 0xFF));
+            text.label("block_dot");
+        }
+        for _ in 0..together {
+            text.code("sta ink_port");
+        }
+        if turns > 1 {
+            text.code("dey | bne block_dot");
+        }
     }
 
     /// Goes on to the next block of the row or pass.

@@ -8,6 +8,7 @@ use super::memory::Machine;
 use super::params::{Entry, entries, take_params};
 use super::rows::Rows;
 use super::screen::Screen;
+use super::squares::Squares;
 use super::syntax::Syntax;
 use super::{Text, bbc, c64, ports, table};
 use crate::flow::tree::SubroutineId;
@@ -48,7 +49,9 @@ pub(super) fn program(plan: &Plan, homes: &Homes, syntax: &Syntax, text: &mut Te
         text.line(table::CLAMP);
     }
     table::data(plan, text);
-    for part in parts.iter().filter(|p| !is_page(p)) {
+    let squares = Squares::of(machine, &parts);
+    let behind = |part: &&&Part| !is_page(part) && !squares.replace(part);
+    for part in parts.iter().filter(behind) {
         text.headline(&format!("runtime: {}", part.name));
         source(machine, part, text);
     }
@@ -99,10 +102,7 @@ fn source(machine: Machine, part: &Part, text: &mut Text) {
         Source::Text(lines) => text.line(machine.placed(lines.trim_end())),
         Source::Table(make) => {
             text.label(part.name);
-            for row in make().chunks(16) {
-                let bytes: Vec<String> = row.iter().map(|b| (b & 0xFF).to_string()).collect();
-                text.line(format!("        .byte {}", bytes.join(", ")));
-            }
+            text.bytes(make().into_iter().map(|b| (b & 0xFF) as u8));
         }
     }
 }
@@ -171,7 +171,8 @@ fn symbols(plan: &Plan, homes: &Homes, parts: &[&'static Part], text: &mut Text)
         text.line(format!("errors = ${:04x}", homes.places.errors));
     }
     text.line("");
-    text.line(format!("* = ${:04x}", homes.places.origin));
+    let origin = Squares::of(machine, parts).origin(homes.places.origin);
+    text.line(format!("* = ${origin:04x}"));
     first
 }
 
@@ -194,14 +195,14 @@ fn main(
     text.line("");
     text.label("start");
     let machine = Machine::of(plan);
+    let squares = Squares::of(machine, parts);
+    squares.tables(text);
     match machine {
         Machine::Plain => text.code("cld | ldx #$ff | txs"),
         Machine::Bbc => bbc::begin(&homes.places, text),
         Machine::C64 => c64::begin(text),
     }
-    if parts.iter().any(|p| p.name == "squares") {
-        text.code("jsr make_squares");
-    }
+    squares.set(text);
     for (part, make) in MADE {
         if parts.iter().any(|p| p.name == part) {
             text.code(&format!("jsr {make}"));

@@ -3,13 +3,14 @@
 //! | | plain | BBC Micro | Commodore 64 |
 //! |---|---|---|---|
 //! | zero page | all | &00-&8F, &A8-&CF: the language's and what the disc uses | all but $00 and $01: kept, and put back at the end |
-//! | quarter squares | $0200 | &400 (the language's), &900-&CFF (cassette, keys, letters) | $C000 |
-//! | values, errors | from $0A00 | from PAGE | below $C000 |
+//! | quarter squares | the program's first 2K | &400 (the language's), &900-&CFF (cassette, keys, letters) | $C000 |
+//! | values, errors | from $0200 | from PAGE | below $C000 |
 //! | program | behind those | behind those, up to the screen | from $0801 up to those |
 //! | screen | ports | &3000 or &5800 | $E000, its colours at $CC00 |
 
 use super::bitmap::Layout;
 use super::spread;
+use super::squares::JUMP;
 use crate::plan::Plan;
 use slowlight_runtime_6502::{FREE_MEMORY, free_zero_page};
 use std::ops::Range;
@@ -38,7 +39,8 @@ pub(super) struct Places {
     pub values: u16,
     /// Rows of errors.
     pub errors: u16,
-    /// The program's first byte.
+    /// The program's first byte; on the plain machine the first behind the jump that begins
+    /// it, where there is one.
     pub origin: u16,
 }
 
@@ -93,12 +95,19 @@ impl Machine {
     pub fn places(self, plan: &Plan, values: u16, errors: u16) -> Places {
         match self {
             Machine::Plain => {
-                // A page of its own keeps the program's addresses easy to read.
-                let behind = FREE_MEMORY.saturating_add(values).saturating_add(0xFF) & 0xFF00;
+                let page_from = |at: u16| at.saturating_add(0xFF) & 0xFF00;
+                let values_end = FREE_MEMORY.saturating_add(values);
+                let errors_at = page_from(values_end);
+                let end = match errors {
+                    0 => values_end,
+                    _ => errors_at.saturating_add(errors),
+                };
+                // A page of its own keeps the program's addresses easy to read, and tables
+                // of squares quick; the jump over these is before it.
                 Places {
                     values: FREE_MEMORY,
-                    errors: behind,
-                    origin: behind.saturating_add(errors) & 0xFF00,
+                    errors: errors_at,
+                    origin: page_from(end.saturating_add(JUMP)),
                 }
             }
             Machine::Bbc => {

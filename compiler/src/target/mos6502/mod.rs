@@ -6,11 +6,12 @@
 //!
 //! 1. the parameter block: what may be changed, as scaled integers;
 //! 2. the ports of the machine, the runtime's zero page, the homes of values;
-//! 3. the program: once a picture, once a row, once a pixel;
-//! 4. constant tables, and the parts of the runtime that are used.
+//! 3. on the plain machine, the quarter squares;
+//! 4. the program: once a picture, once a row, once a pixel;
+//! 5. constant tables, and the parts of the runtime that are used.
 //!
 //! A value lives in memory: in the zero page those that are used most (loops
-//! count eightfold), the others behind the runtime's tables. Routines are
+//! count eightfold), the others before the program or behind it. Routines are
 //! written as [`slowlight_runtime_6502::write`] says; a condition that the next
 //! statement branches on stays in the carry flag.
 //!
@@ -25,7 +26,7 @@
 //! - `logs`: logarithmic reals; `inline`: products in place;
 //! - `params`: the parameter block's checks; `frame`: everything around the statements;
 //!   `rows`: the loops over rows, passes, runs of columns and pixels;
-//! - `spread`: error diffusion.
+//! - `spread`: error diffusion; `squares`: tables of quarter squares.
 
 mod bbc;
 mod bitmap;
@@ -48,6 +49,7 @@ mod scaled;
 mod screen;
 mod shapes;
 mod spread;
+mod squares;
 pub mod syntax;
 mod table;
 #[cfg(test)]
@@ -273,6 +275,14 @@ impl Text {
     fn code(&mut self, instructions: &str) {
         for instruction in instructions.split('|') {
             self.line(format!("        {}", instruction.trim()));
+        }
+    }
+
+    /// Bytes of a table, sixteen a line.
+    fn bytes(&mut self, bytes: impl Iterator<Item = u8>) {
+        let bytes: Vec<String> = bytes.map(|byte| byte.to_string()).collect();
+        for row in bytes.chunks(16) {
+            self.line(format!("        .byte {}", row.join(", ")));
         }
     }
 

@@ -192,6 +192,7 @@ fn only_what_is_used_is_written() {
         "root",
         "divide",
         "make_squares",
+        "sqr_lo",
         "clamp_index",
         "saturate",
     ] {
@@ -369,6 +370,29 @@ fn long_programs_have_less_lines_for_xa() {
     );
     let (usual, _) = USUAL.write(&lines(2001));
     assert_eq!(usual.lines().count(), 20_010);
+}
+
+/// A plain machine's program begins at a page, and nothing else is in the three bytes before.
+#[test]
+fn the_jump_over_the_squares_has_room() {
+    let plan = planned(GRADIENT);
+    for (values, errors, origin) in [
+        (0, 0, 0x300),
+        (0xFD, 0, 0x300),
+        (0xFE, 0, 0x400),
+        (0x101, 0, 0x400),
+        (0, 0x100, 0x400),
+        (1, 0x100, 0x500),
+    ] {
+        let places = super::memory::Machine::Plain.places(&plan, values, errors);
+        assert_eq!(places.origin, origin, "{values:x}, {errors:x}");
+        assert_eq!(places.errors & 0xFF, 0);
+        let end = match errors {
+            0 => places.values + values,
+            _ => places.errors + errors,
+        };
+        assert!(end + super::squares::JUMP <= origin);
+    }
 }
 
 /// Every place in the zero page moves with the others, whatever part names it.
