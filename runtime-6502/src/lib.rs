@@ -84,6 +84,7 @@ const USUAL: Runtime = Runtime {
     stepping: None,
     segments: false,
     reciprocals: false,
+    middle: false,
     narrow: None,
     derives: false,
     kept: slowlight_routine::whole,

@@ -86,6 +86,7 @@ pub static RUNTIME: Runtime = Runtime {
     stepping: Some(STEPPING),
     segments: true,
     reciprocals: false,
+    middle: false,
     narrow: None,
     derives: true,
     kept: slowlight_routine::whole,

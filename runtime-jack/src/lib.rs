@@ -83,6 +83,7 @@ const CUT: Runtime = Runtime {
     stepping: None,
     segments: false,
     reciprocals: false,
+    middle: false,
     narrow: None,
     derives: false,
     kept: slowlight_routine::whole,

@@ -2,6 +2,7 @@
 
 use crate::failure::{Failure, Outcome};
 use crate::files;
+use crate::survey::by_scene::{self, ByScene, Written};
 use crate::survey::document::document;
 use crate::survey::{Survey, survey};
 use crate::target_args;
@@ -27,9 +28,10 @@ pub struct Args {
     /// The error that decides
     #[arg(long, value_enum, value_name = "MEASURE", default_value_t)]
     measure: Measure,
-    /// How many settings, of blocks and loops, are tried in each format
-    #[arg(long, value_name = "N", default_value_t = 5, value_parser = clap::value_parser!(u16).range(1..=200))]
-    settings: u16,
+    /// How many settings, of blocks and loops, are tried in each format: SCENE=N for that
+    /// scene alone, SCENE/TARGET=N on that machine alone [default: 5]
+    #[arg(long, value_name = "N", value_parser = settings)]
+    settings: Vec<Written>,
     /// Measure everything anew, and keep nothing for the next time
     #[arg(long)]
     no_cache: bool,
@@ -37,26 +39,23 @@ pub struct Args {
     /// alone is meant, SCENE/TARGET=CYCLES on that machine alone; of several the last counts.
     /// What is given up is told [default: 20000000000]
     #[arg(long, value_name = "CYCLES", value_parser = limit)]
-    limit: Vec<Limit>,
+    limit: Vec<Written>,
 }
 
 /// A machine runs so many cycles in a minute or so of the host's time.
 const LIMIT: u64 = 20_000_000_000;
 
-/// A limit, and the scene's name where it is of one alone.
-type Limit = (Option<String>, u64);
+/// Settings are so many at most.
+const SETTINGS: u64 = 200;
 
 /// Reads `--limit`.
-fn limit(text: &str) -> Result<Limit, String> {
-    let (name, cycles) = match text.rsplit_once('=') {
-        Some((name, cycles)) => (Some(name.to_owned()), cycles),
-        None => (None, text),
-    };
-    let cycles = cycles.parse().ok().filter(|cycles| *cycles > 0);
-    let wrong = || {
-        "write cycles, as in 5000000000, mirrors=5000000000, or mirrors/jack=5000000000".to_owned()
-    };
-    Ok((name, cycles.ok_or_else(wrong)?))
+fn limit(text: &str) -> Result<Written, String> {
+    by_scene::read(text, u64::MAX, 5_000_000_000)
+}
+
+/// Reads `--settings`.
+fn settings(text: &str) -> Result<Written, String> {
+    by_scene::read(text, SETTINGS, 8)
 }
 
 /// Tunes all, then writes the document and its plots, whole or not at all.
@@ -81,9 +80,8 @@ pub fn run(args: &Args) -> Outcome<()> {
             false => args.target.clone(),
         },
         measure: args.measure,
-        settings: args.settings,
-        limit: args.limits().0,
-        limits: args.limits().1,
+        settings: args.settings(),
+        limit: args.limit(),
         cached: !args.no_cache,
     };
     let sections = survey(&asked)?;
@@ -111,12 +109,12 @@ pub fn run(args: &Args) -> Outcome<()> {
 }
 
 impl Args {
-    /// What holds for all scenes, and for some.
-    fn limits(&self) -> (u64, Vec<(String, u64)>) {
-        let own = (self.limit.iter()).filter_map(|(name, limit)| Some((name.clone()?, *limit)));
-        let all = self.limit.iter().rfind(|(name, _)| name.is_none());
-        let all = all.map_or(LIMIT, |(_, limit)| *limit);
-        (all, own.collect())
+    fn settings(&self) -> ByScene {
+        ByScene::new("settings", 5, &self.settings)
+    }
+
+    fn limit(&self) -> ByScene {
+        ByScene::new("limit", LIMIT, &self.limit)
     }
 }
 
@@ -161,12 +159,8 @@ fn own(args: &Args) -> String {
         let name = format!("{:?}", args.measure).to_lowercase();
         words.push(format!("--measure {name}"));
     }
-    let (all, own) = args.limits();
-    words.push(format!("--settings {} --limit {all}", args.settings));
-    let own = own
-        .iter()
-        .map(|(name, limit)| format!("--limit {name}={limit}"));
-    words.extend(own);
+    words.extend(args.settings().words());
+    words.extend(args.limit().words());
     words.push(format!("-o {}", args.output.display()));
     words.extend(
         args.pictures

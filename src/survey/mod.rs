@@ -6,6 +6,7 @@
 //! it is had again, and the digest of the program that they make, so that a reader, or a
 //! test, sees whether the document is still true.
 
+pub mod by_scene;
 pub mod document;
 pub mod section;
 
@@ -19,6 +20,7 @@ use crate::tune::explore::{Found, Search, explore};
 use crate::tune::goal::Measure;
 use crate::tune::marks;
 use crate::tune::tell::Told;
+use by_scene::ByScene;
 use section::Section;
 use slowlight_compiler::target::Target;
 use std::path::{Path, PathBuf};
@@ -33,12 +35,9 @@ pub struct Survey {
     /// The error that decides.
     pub measure: Measure,
     /// Settings tried in each format.
-    pub settings: u16,
+    pub settings: ByScene,
     /// Cycles after which a machine is given up.
-    pub limit: u64,
-    /// The same for a scene, or a scene on a machine, `mirrors` or `mirrors/jack`; the last
-    /// that fits counts.
-    pub limits: Vec<(String, u64)>,
+    pub limit: ByScene,
     /// Whether what was measured before is looked up.
     pub cached: bool,
 }
@@ -49,18 +48,6 @@ impl Survey {
         (self.scenes.iter())
             .flat_map(|path| (self.targets.iter()).map(move |target| base(path, target)))
     }
-
-    /// Cycles after which a scene's programs are given up on a machine.
-    fn limit_of(&self, base: &Base) -> u64 {
-        let own = self.limits.iter().rev().find(|(name, _)| of(name, base));
-        own.map_or(self.limit, |(_, limit)| *limit)
-    }
-}
-
-/// Whether a limit's name is a scene's, or that of a scene on a machine.
-fn of(name: &str, base: &Base) -> bool {
-    let scene = base.name();
-    name == scene || name == format!("{scene}/{}", base.target.name)
 }
 
 /// Tunes each scene on each machine.
@@ -68,10 +55,12 @@ fn of(name: &str, base: &Base) -> bool {
 /// # Errors
 /// Where a scene is wrong, or the user interrupts.
 pub fn survey(asked: &Survey) -> Outcome<Vec<Section>> {
-    for (name, _) in &asked.limits {
-        if !asked.all().any(|base| of(name, &base)) {
+    let all: Vec<Base> = asked.all().collect();
+    for numbers in [&asked.settings, &asked.limit] {
+        if let Some(name) = numbers.stranger(&all) {
             return Err(Failure::Usage(format!(
-                "--limit {name}=...: no scene here is called {name}, on any machine here"
+                "--{} {name}=...: no scene here is called {name}, on any machine here",
+                numbers.option
             )));
         }
     }
@@ -111,8 +100,8 @@ fn tuned(asked: &Survey, base: &Base) -> Outcome<Section> {
         measure: asked.measure,
         live: false,
         smaller: false,
-        settings: usize::from(asked.settings),
-        limit: asked.limit_of(base),
+        settings: usize::try_from(asked.settings.of(base)).unwrap_or(usize::MAX),
+        limit: asked.limit.of(base),
         by_line: false,
         cache: match asked.cached {
             true => Cache::of_user(),

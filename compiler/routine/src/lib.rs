@@ -325,6 +325,9 @@ pub struct Runtime {
     /// Whether quotients by one divisor may be products with its reciprocal, which rounds
     /// twice.
     pub reciprocals: bool,
+    /// Whether products of 16 bits by 16 are soonest made where they are eight bits longer than
+    /// their result.
+    pub middle: bool,
     /// Whether programs work out tables at their start from one another.
     pub derives: bool,
     /// What programs keep of a real result that stays within a range: where that tells

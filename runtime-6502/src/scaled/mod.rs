@@ -141,6 +141,7 @@ const USUAL: Runtime = Runtime {
     decode,
     shifted: model::shifted,
     reciprocals: true,
+    middle: true,
     stepping: Some(STEPPING),
     statement: 4,
     index: 6,

@@ -44,6 +44,7 @@ pub static FIXED16: Runtime = Runtime {
     stepping: None,
     segments: false,
     reciprocals: false,
+    middle: false,
     narrow: None,
     derives: false,
     kept: slowlight_routine::whole,

@@ -34,6 +34,7 @@ pub static LOG10: Runtime = Runtime {
     stepping: None,
     segments: false,
     reciprocals: false,
+    middle: false,
     narrow: None,
     derives: false,
     kept,

@@ -146,7 +146,11 @@ impl Points {
             .map(|id| match graph.node(id) {
                 Node::Apply(op, args) if scale::concerns(op) => {
                     let bits = widths.operands(id);
-                    let fits = |args, longer| product_fits(ranges, id, args, (longer, bits));
+                    // Only whole ints are exact, and only routines that know it make what is longer.
+                    let made = |longer| longer == 0 || runtime.middle && bits == 16;
+                    let fits = |args, longer| {
+                        made(longer) && product_fits(ranges, id, args, (longer, bits))
+                    };
                     let held = held.iter().find(|(of, _)| *of == bits);
                     let held = held.map_or(own.as_slice(), |(_, held)| held);
                     wanted(

@@ -102,8 +102,7 @@ pub fn wanted(
             Some(args) => args,
             None => {
                 let (own, room) = ([of_a, of_b], [room_a, room_b]);
-                let middle = (read == 16).then(|| middle(own, room, result));
-                match middle.flatten().filter(|args| fits(*args, MIDDLE)) {
+                match middle(own, room, result).filter(|args| fits(*args, MIDDLE)) {
                     Some(args) => args,
                     None => product(own, room, result, long),
                 }
