@@ -8,7 +8,7 @@ use crate::model::{bits, int};
 use crate::tests::bench::{Bench, Random, Setting};
 use crate::write::{Place, Shape};
 use slowlight_routine::scale::most;
-use slowlight_routine::{Form, Op, Range, Routine};
+use slowlight_routine::{Form, Format, Op, Range, Routine, Type};
 
 const SETTING: Setting = Setting {
     runtime: &FIXED12,
@@ -305,5 +305,53 @@ fn int_roots_come_out_as_in_the_model() {
             let off = check(&mut bench, routine, &[a], n, Some(exact));
             assert!(off <= routine.error.most(&[], 1.0), "{a} {n}: {off}");
         }
+    }
+}
+
+/// What plans are priced by, about: most products stand in place, which costs a third less than
+/// a call.
+#[test]
+fn costs_are_about_what_is_measured() {
+    let asked = |r: &&Routine| is_quick(r) || r.name == "byte_div" || r.name == "byte_root";
+    // An int may be kept in any number of bytes.
+    for routine in all()
+        .filter(asked)
+        .filter(|r| r.result.scalar() != Type::Int)
+    {
+        let n = match routine.op {
+            Op::Div => 6,
+            Op::Sqrt => -1,
+            _ => numbers(routine)[numbers(routine).len() / 2],
+        };
+        let wide = routine.args[0] == REAL;
+        let mut bench = Bench::of(SETTING, routine, &[], n);
+        let mut random = Random(9);
+        let (mut cycles, mut times) = (0, 0u32);
+        for _ in 0..2000 {
+            let args = [0; 2].map(|_: i32| (random.next() as i32) >> if wide { 16 } else { 24 });
+            let args = args.map(|a| a.max(if wide { -32767 } else { -127 }));
+            let args = &args[..routine.args.len()];
+            let exact = exact(routine, [args[0], *args.last().unwrap()], n);
+            if in_domain(routine, args, n, exact.unwrap_or(0.0)) {
+                (cycles, times) = (cycles + bench.run(args).1, times + 1);
+            }
+        }
+        if times == 0 {
+            continue;
+        }
+        // A bool is stored here, and asked in programs.
+        let stored = if routine.result == Format::Bool {
+            7.0
+        } else {
+            0.0
+        };
+        let mean = cycles as f64 / f64::from(times) - stored;
+        let said = f64::from(routine.cycles);
+        println!("{}: {mean:.0} cycles, {said} in plans", routine.name);
+        assert!(
+            (mean - said).abs() <= 8.0 + 0.15 * said,
+            "{}: {mean}",
+            routine.name
+        );
     }
 }

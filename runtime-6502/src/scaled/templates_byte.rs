@@ -62,6 +62,29 @@ macro_rules! product {
     };
 }
 
+/// The same where the result may not fit: whether what is lost above is the sign is asked first.
+macro_rules! any_product {
+    ($end:literal $ends:literal $($bit:literal)*) => {
+        concat!(
+            "ldy {1.0} | lda {0.0} | jsr product8 | tax | clc | adc ", $end, " | cmp ", $ends,
+            " | bcs large{n} | txa |",
+            $("asl prod | rol |", $bit,)*
+            "asl prod | adc #0 | bvs most{n} | eor #$80 | beq least{n} | eor #$80 | jmp done{n}
+            large{n}:
+            txa | bmi least{n}
+            most{n}:
+            lda #$7f | bne done{n}
+            least{n}:
+            lda #$81
+            done{n}:
+            sta {r.0}"
+        )
+    };
+}
+
+pub(crate) const MULTIPLY_ANY_6: &str = any_product!("#$20" "#$40" "" "");
+pub(crate) const MULTIPLY_ANY_5: &str = any_product!("#$10" "#$20" "" "" "");
+pub(crate) const MULTIPLY_ANY_4: &str = any_product!("#$08" "#$10" "" "" "" "");
 pub(crate) const MULTIPLY_8: &str = product!();
 pub(crate) const MULTIPLY_7: &str = product!("");
 pub(crate) const MULTIPLY_6: &str = product!("" "");
