@@ -50,12 +50,12 @@ const SETTINGS: u64 = 200;
 
 /// Reads `--limit`.
 fn limit(text: &str) -> Result<Written, String> {
-    by_scene::read(text, u64::MAX, 5_000_000_000)
+    by_scene::read(text, u64::MAX, ("cycles", 5_000_000_000))
 }
 
 /// Reads `--settings`.
 fn settings(text: &str) -> Result<Written, String> {
-    by_scene::read(text, SETTINGS, 8)
+    by_scene::read(text, SETTINGS, ("a number", 8))
 }
 
 /// Tunes all, then writes the document and its plots, whole or not at all.

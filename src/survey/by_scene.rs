@@ -8,16 +8,19 @@ pub type Written = (Option<String>, u64);
 /// Reads one from 1 to `most`.
 ///
 /// # Errors
-/// How it is written, with `like` for the number.
-pub fn read(text: &str, most: u64, like: u64) -> Result<Written, String> {
+/// How it is written: what it is of, with `like` for the number.
+pub fn read(text: &str, most: u64, (of, like): (&str, u64)) -> Result<Written, String> {
     let (name, number) = match text.rsplit_once('=') {
         Some((name, number)) => (Some(name.to_owned()), number),
         None => (None, text),
     };
     let number = number.parse().ok().filter(|n| (1..=most).contains(n));
-    let wrong = || match most {
-        u64::MAX => format!("write {like}, mirrors={like}, or mirrors/jack={like}"),
-        _ => format!("write {like}, mirrors={like}, or mirrors/jack={like}; at most {most}"),
+    let wrong = || {
+        let most = match most {
+            u64::MAX => String::new(),
+            most => format!(", at most {most}"),
+        };
+        format!("write {of}{most}, as in {like}, mirrors={like}, or mirrors/jack={like}")
     };
     Ok((name, number.ok_or_else(wrong)?))
 }

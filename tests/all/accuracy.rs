@@ -305,6 +305,16 @@ fn what_cannot_be_surveyed_is_said() {
             2,
             "write cycles",
         ),
+        (
+            &["square.scn", "-o", "a.md", "--settings", "disc=3"],
+            2,
+            "--settings disc=...: no scene here is called disc",
+        ),
+        (
+            &["square.scn", "-o", "a.md", "--settings", "201"],
+            2,
+            "write a number, at most 200",
+        ),
         (&["none.scn", "-o", "a.md"], 1, "none.scn"),
     ] {
         let output = slowlight(dir.path(), &[&["survey"][..], args].concat());
