@@ -24,6 +24,7 @@ mod inline_tests;
 mod int_root_tests;
 pub mod long;
 pub mod model;
+mod parts;
 pub mod powers;
 mod read;
 #[cfg(test)]
@@ -42,7 +43,8 @@ mod wide;
 pub use read::{Read, floor, read};
 pub use templates::{copied, squared};
 
-use crate::parts;
+pub(crate) use parts::ALL as PARTS;
+
 use slowlight_routine::scale;
 use slowlight_routine::{Bits, Format, Narrow, Runtime, Stepping, Value};
 
@@ -136,7 +138,7 @@ const USUAL: Runtime = Runtime {
     format: "fixed16",
     real: REAL,
     routines: &routines::ALL,
-    parts: parts::ALL,
+    parts: crate::parts::ALL,
     encode,
     decode,
     shifted: model::shifted,
