@@ -348,6 +348,9 @@ fn costs_are_about_what_is_measured() {
         let mean = cycles as f64 / f64::from(times) - stored;
         let said = f64::from(routine.cycles);
         println!("{}: {mean:.0} cycles, {said} in plans", routine.name);
+        if routine.name.starts_with("byte_") {
+            assert_eq!(bench.bytes, routine.bytes, "{}", routine.name);
+        }
         assert!(
             (mean - said).abs() <= 8.0 + 0.15 * said,
             "{}: {mean}",

@@ -3,7 +3,7 @@
 #![allow(clippy::unwrap_used)]
 
 use super::inline::{self, Inline};
-use super::tests::edges;
+use super::kinds::edges;
 use super::{FIXED16, model};
 use crate::tests::bench::{Bench, Random};
 use crate::write::Place;

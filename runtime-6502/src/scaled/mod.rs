@@ -21,7 +21,11 @@ pub mod inline_byte;
 #[cfg(test)]
 mod inline_tests;
 #[cfg(test)]
+mod int_product_tests;
+#[cfg(test)]
 mod int_root_tests;
+#[cfg(test)]
+mod kinds;
 pub mod long;
 pub mod model;
 mod parts;

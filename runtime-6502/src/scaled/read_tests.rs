@@ -1,7 +1,7 @@
 //! Reading at other scales, and whole parts, held against the models on the machine.
 #![allow(clippy::unwrap_used)]
 
-use super::tests::{BYTE, Kind, LONG, SHORT};
+use super::kinds::{BYTE, Kind, LONG, SHORT};
 use super::{FIXED16, Read, floor, model, read};
 use crate::tests::bench::{Bench, Random};
 use crate::write::{Place, Shape};

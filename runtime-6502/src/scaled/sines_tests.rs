@@ -2,7 +2,7 @@
 
 #![allow(clippy::unwrap_used)]
 
-use super::{powers, sines, tests::SHORT};
+use super::{kinds::SHORT, powers, sines};
 use crate::tests::bench::Bench;
 use slowlight_routine::scale::Scales;
 use slowlight_routine::{Op, Range, Routine};

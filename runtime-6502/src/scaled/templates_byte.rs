@@ -7,7 +7,9 @@
 
 use super::templates::functions;
 
-/// What does not fit has another sign; what is left at the format's end has a negative.
+/// What does not fit has another sign; what is left at the format's end has a negative. Asked
+/// without a comparison, which [`crate::fill`] makes a subtraction in texts of one byte that ask
+/// for overflow.
 macro_rules! saturate {
     () => {
         "bvs over{n} | eor #$80 | beq least{n} | eor #$80 | jmp done{n}

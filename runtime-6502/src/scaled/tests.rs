@@ -2,104 +2,13 @@
 
 #![allow(clippy::unwrap_used)]
 
-use super::{FIXED12, FIXED16, FIXED24, byte, long, model};
+use super::kinds::{Kind, LONG, SHORT};
+use super::{long, model};
 use crate::model::{bits, int};
-use crate::tests::bench::{Bench, Random, Setting};
+use crate::tests::bench::{Bench, Random};
 use crate::write::Place;
 use slowlight_routine::scale::{Scales, most};
 use slowlight_routine::{Format, Op, Range, Routine, Type};
-
-/// A format, and what it has for some operations.
-pub(super) struct Kind {
-    pub setting: Setting,
-    pub bits: u8,
-    /// Fraction bits of sines and of angles.
-    sine: i32,
-    angle: i32,
-    divide: fn(i32, i32, i32) -> i32,
-}
-
-pub(super) const SHORT: Kind = Kind {
-    setting: Setting {
-        runtime: &FIXED16,
-        sizes: 2,
-    },
-    bits: 16,
-    sine: 14,
-    angle: 13,
-    divide: model::divide,
-};
-
-pub(super) const LONG: Kind = Kind {
-    setting: Setting {
-        runtime: &FIXED24,
-        sizes: 3,
-    },
-    bits: 24,
-    sine: 16,
-    angle: 16,
-    divide: long::one_over,
-};
-
-/// Of reading alone: its routines have tests of their own ([`super::byte_tests`]).
-pub(super) const BYTE: Kind = Kind {
-    setting: Setting {
-        runtime: &FIXED12,
-        sizes: 1,
-    },
-    bits: 8,
-    sine: 6,
-    angle: 5,
-    divide: byte::divide,
-};
-
-/// Those of 16 bits.
-pub(super) fn edges() -> Vec<i32> {
-    SHORT.edges()
-}
-
-impl Kind {
-    fn most(&self) -> i32 {
-        most(self.bits) as i32
-    }
-
-    fn routine(&self, name: &str) -> &'static Routine {
-        let mut all = self.setting.runtime.routines.iter();
-        all.find(|r| r.name == name).unwrap()
-    }
-
-    pub fn edges(&self) -> Vec<i32> {
-        let mut all = vec![0, 3, 10, 100, 255, 257, 1000, 12345, 0x5555];
-        all.retain(|n| *n < self.most());
-        all.push(self.most());
-        if self.bits > 16 {
-            all.extend([0x0055_5555, 0x007F_FF7F, 0x0040_0001, 0x0012_3456]);
-        }
-        for k in 0..self.bits - 1 {
-            all.extend([1 << k, (1 << k) - 1]);
-        }
-        all.extend(all.clone().iter().map(|n| -n));
-        all.sort_unstable();
-        all.dedup();
-        all
-    }
-
-    /// An operand: half of them edges, the others of all magnitudes.
-    fn draw(&self, random: &mut Random, edges: &[i32]) -> i32 {
-        let bits = u32::from(self.bits);
-        match random.next() & 1 {
-            0 => edges[random.next() as usize % edges.len()],
-            _ => {
-                ((random.next() as i32 >> (32 - bits)) >> (random.next() % bits)).max(-self.most())
-            }
-        }
-    }
-
-    /// A result as the bytes of one have it.
-    pub fn read(&self, found: i32) -> i64 {
-        i64::from(found << (32 - self.bits) >> (32 - self.bits))
-    }
-}
 
 /// Random operands for each routine and number.
 const PAIRS: u32 = 300;
@@ -334,69 +243,6 @@ fn reciprocals_are_quotients() {
         let bound = routine.error.most(&[], 1.0);
         println!("{}: {worst} of {bound}", routine.name);
         assert!(worst <= bound, "{worst}");
-    }
-}
-
-#[test]
-fn short_ints_have_products_of_32_bits() {
-    let setting = Setting {
-        sizes: 4,
-        ..SHORT.setting
-    };
-    let routine = SHORT.routine("int_mul_16");
-    let mut bench = Bench::of(setting, routine, &[], 0);
-    let mut all = SHORT.edges();
-    all.push(-32768);
-    let (mut cycles, mut checked) = (0, 0u32);
-    for a in &all {
-        for b in &all {
-            let (found, taken) = bench.run(&[*a, *b]);
-            assert_eq!(found, a * b, "{a} * {b}");
-            let held = [*a, *b].map(bits);
-            assert_eq!(int((routine.model)(&held)), a * b);
-            (cycles, checked) = (cycles + taken, checked + 1);
-        }
-    }
-    let mean = cycles as f64 / f64::from(checked);
-    assert!(
-        (mean - f64::from(routine.cycles)).abs() < 20.0,
-        "{mean} cycles"
-    );
-}
-
-/// Of all that is held in two bytes and not below 0, where the product is an int.
-#[test]
-fn short_ints_that_are_not_below_0_have_products() {
-    let setting = Setting {
-        sizes: 4,
-        ..SHORT.setting
-    };
-    let routine = SHORT.routine("int_mul_plus");
-    let mut bench = Bench::of(setting, routine, &[], 0);
-    let mut random = Random(5);
-    let mut all: Vec<i32> = SHORT.edges().into_iter().filter(|a| *a >= 0).collect();
-    all.extend([32768, 40000, 65280, 65534, 65535]);
-    all.extend((0..60).map(|_| (random.next() & 0xFFFF) as i32));
-    let mut checked = 0u32;
-    for a in &all {
-        for b in &all {
-            let wanted = i64::from(*a) * i64::from(*b);
-            let ranges = [*a, *b].map(|x| Range::point(f64::from(x)));
-            let fits = i32::try_from(wanted).is_ok();
-            assert_eq!((routine.domain)(&ranges, Range::point(wanted as f64)), fits);
-            if fits {
-                assert_eq!(i64::from(bench.run(&[*a, *b]).0), wanted, "{a} * {b}");
-                assert_eq!(i64::from(int((routine.model)(&[*a, *b].map(bits)))), wanted);
-                checked += 1;
-            }
-        }
-    }
-    assert!(checked > 5000, "{checked}");
-    for below in [[-1.0, 5.0], [5.0, -1.0]] {
-        assert!(!(routine.domain)(
-            &below.map(Range::point),
-            Range::point(-5.0)
-        ));
     }
 }
 
