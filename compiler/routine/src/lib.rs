@@ -375,6 +375,11 @@ impl Runtime {
         }
     }
 
+    /// Whether it has an operation: one of [`Op::ALL`] it has.
+    pub fn has(&self, op: Op) -> bool {
+        self.routines.iter().any(|r| r.op == op)
+    }
+
     /// The routine that computes an operation of ordinary operands, if any can: what it
     /// costs where no ranges are known. Of numbers with points of their own the first of a
     /// list may be for one operand alone; of others it is for all.

@@ -68,9 +68,9 @@ macro_rules! ops {
             /// Every operation.
             pub const EVERY: &'static [Op] = &[$(Op::$name,)*];
 
-            /// Those that scenes are made of, which every runtime has: all but the last,
-            /// which a plan's own rewriting makes for runtimes that have it.
-            pub const ALL: &'static [Op] = Op::EVERY.split_at(Op::EVERY.len() - 1).0;
+            /// Those that scenes are made of, which every runtime has: all but the last two,
+            /// which a plan's own rewriting makes for runtimes that have them.
+            pub const ALL: &'static [Op] = Op::EVERY.split_at(Op::EVERY.len() - 2).0;
 
             /// Its name in printed graphs.
             pub fn name(self) -> &'static str {
@@ -149,6 +149,8 @@ ops! {
     Not "not" (Bool) -> Bool;
     /// The root of an int as it is; of a negative: 0. Where ints have more bits than reals.
     IntRoot "int_root" (Int) -> Real;
+    /// One over the root; of what is not above 0: the largest value.
+    ReciprocalRoot "reciprocal_root" (Real) -> Real;
 }
 
 /// Keeps a real finite: overflow saturates, what is no number is 0.
@@ -252,6 +254,7 @@ impl Op {
             Op::Min => real(if b < a { b } else { a }),
             Op::Max => real(if b > a { b } else { a }),
             Op::Sqrt => real(if a > 0.0 { a.sqrt() } else { 0.0 }),
+            Op::ReciprocalRoot => real(if a > 0.0 { a.sqrt().recip() } else { f64::MAX }),
             Op::Mod => real(modulus(a, b)),
             Op::Sin => real(libm::sin(a)),
             Op::Cos => real(libm::cos(a)),

@@ -49,6 +49,8 @@ impl Scales {
             // By how many bits the radicand has to be longer.
             Op::Sqrt => 2 * result - a,
             Op::IntRoot => result,
+            // By how many bits 2 is raised of which the root is divided.
+            Op::ReciprocalRoot => 2 * result + a,
             Op::Floor => a,
             // The result has those that are given.
             Op::Sin | Op::Cos => a,

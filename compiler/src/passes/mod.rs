@@ -15,6 +15,7 @@ pub mod fold;
 pub mod guard;
 pub mod homogeneous;
 pub mod identities;
+pub mod in_place;
 pub mod int_roots;
 pub mod int_signs;
 pub mod interlace;
@@ -30,6 +31,7 @@ mod queue;
 pub mod ramps;
 pub mod rate;
 pub mod rebuild;
+pub mod reciprocal_roots;
 pub mod reciprocals;
 pub mod region;
 pub mod schedule;
@@ -57,6 +59,8 @@ mod int_roots_tests;
 mod later_tests;
 #[cfg(test)]
 mod peel_tests;
+#[cfg(test)]
+mod reciprocal_roots_tests;
 #[cfg(test)]
 mod still_tests;
 #[cfg(test)]

@@ -32,6 +32,10 @@ pub fn reciprocals(graph: &Graph, ranges: &Ranges, runtime: &Runtime) -> Option<
             *dividends.entry(divisor).or_default() += 1;
         }
     }
+    // One over a root is no dearer than the root, and has a place behind the point of its own.
+    let inverted = |id: NodeId| {
+        runtime.has(Op::ReciprocalRoot) && matches!(graph.node(id), Node::Apply(Op::Sqrt, _))
+    };
     let mut done = false;
     let next = rebuild_old(graph, &mut |builder, made, id, span| {
         let Node::Apply(Op::Div, [dividend, divisor]) = graph.node(id) else {
@@ -45,10 +49,14 @@ pub fn reciprocals(graph: &Graph, ranges: &Ranges, runtime: &Runtime) -> Option<
             Some(constant) if is_far_from_0(Range::point(constant)) => {
                 (real(builder, 1.0 / constant), 1.0)
             }
-            None if dividends.get(&divisor).is_some_and(|times| *times > 1)
+            None if (inverted(divisor)
+                || dividends.get(&divisor).is_some_and(|times| *times > 1))
                 && is_far_from_0(range) =>
             {
-                let unit = if scaled { unit(range) } else { 1.0 };
+                let unit = match scaled && !inverted(divisor) {
+                    true => unit(range),
+                    false => 1.0,
+                };
                 let one = real(builder, unit);
                 (builder.apply(Op::Div, &[one, divisor_now], span), unit)
             }

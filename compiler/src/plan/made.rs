@@ -22,6 +22,7 @@ use crate::passes::int_roots::int_roots;
 use crate::passes::int_signs::int_signs;
 use crate::passes::interlace::{interlaced, passes};
 use crate::passes::ramps::runs::is_exact;
+use crate::passes::reciprocal_roots::reciprocal_roots;
 use crate::passes::schedule::missing;
 use crate::passes::stable::stable;
 use crate::passes::still::still;
@@ -230,9 +231,12 @@ pub(super) fn assemble(
     origin: (Arc<Workshop>, Rewriting),
 ) -> Result<Plan, Vec<Diagnostic>> {
     let runtime = target.runtime;
-    if runtime.routines.iter().any(|r| r.op == Op::IntRoot) {
+    if runtime.has(Op::IntRoot) {
         let most = scale::most(runtime.real.bits()) as f64;
         int_roots(&mut graph, &mut tree, &ranges_now, most);
+    }
+    if runtime.has(Op::ReciprocalRoot) {
+        reciprocal_roots(&mut graph, &mut tree);
     }
     let mut tables = recipes::made(&graph, runtime);
     let mut points = None;

@@ -35,6 +35,13 @@ pub fn interval(op: Op, [a, b]: [Range; 2], same: bool) -> Range {
                 ..made
             }
         }
+        Op::ReciprocalRoot => {
+            let made = |x: f64| match x > 0.0 {
+                true => x.sqrt().recip(),
+                false => f64::INFINITY,
+            };
+            Range::new(made(a.hi).min(f64::MAX), made(a.lo))
+        }
         Op::Mod => modulus(b, 0.0),
         Op::Sin => wave(a, 0.25),
         Op::Cos => wave(a, 0.0),

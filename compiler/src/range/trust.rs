@@ -13,7 +13,7 @@ use std::collections::BTreeSet;
 pub(super) fn measured(graph: &Graph) -> BTreeSet<NodeId> {
     let (mut all, mut arrays) = (BTreeSet::new(), false);
     for id in graph.ids() {
-        let Node::Apply(Op::Sqrt, [sum, _]) = graph.node(id) else {
+        let Node::Apply(Op::Sqrt | Op::ReciprocalRoot, [sum, _]) = graph.node(id) else {
             continue;
         };
         let (mut todo, mut seen) = (vec![sum], 0);

@@ -33,6 +33,12 @@ pub fn int_root(a: i32, frac: i32) -> i32 {
     )
 }
 
+/// The root of 2^n over that of a number of 16 bits; the greatest of what is not above 0.
+pub fn reciprocal_root(a: i32, n: i32) -> i32 {
+    let long = super::model::reciprocal_root(a, n + 16);
+    held(right(i64::from(long), 8), BITS)
+}
+
 /// The upper byte of the first number whose root is looked up by it.
 const FIRST_ROOT: i32 = 64;
 

@@ -45,6 +45,7 @@ const FIGURES: &[Figure] = &[
     Figure { name: "quotient", text: "lda first_operand | sta acc | lda first_operand+1 | sta acc+1 | lda second_operand_value | sta arg | lda second_operand_value+1 | sta arg+1 | ldy #14 | jsr divide16", around: 2 + 4 * (LOAD + STORE) + CALL, parts: &["squares", "divide16", "reciprocal", "reciprocals_low", "reciprocals_high", "reciprocals_step"], below: 32768, signed: true, wanted: (442, 3297) },
     Figure { name: "sine, 13 bits behind the point", text: "ldy #3 | lda first_operand | ldx first_operand+1 | jsr sine16", around: 2 + 2 * LOAD + CALL, parts: &["squares", "sine16", "sines_low", "sines_high"], below: 32768, signed: true, wanted: (377, 2918) },
     Figure { name: "one over", text: "lda second_operand_value | sta arg | lda second_operand_value+1 | sta arg+1 | ldy #3 | jsr one_over", around: 2 + 2 * (LOAD + STORE) + CALL, parts: &["squares", "one_over", "reciprocal", "reciprocals_low", "reciprocals_high", "reciprocals_step"], below: 32768, signed: true, wanted: (202, 3074) },
+    Figure { name: "one over a root", text: "ldy #2 | lda first_operand | ldx first_operand+1 | jsr reciprocal_root", around: 2 + 2 * LOAD + CALL, parts: &["squares", "reciprocal_root", "reciprocal_roots_low", "reciprocal_roots_high", "reciprocal_roots_step"], below: 32768, signed: false, wanted: (122, 2838) },
 ];
 
 #[test]

@@ -33,6 +33,8 @@ pub mod powers;
 mod read;
 #[cfg(test)]
 mod read_tests;
+#[cfg(test)]
+mod reciprocal_root_tests;
 mod routines;
 pub mod sines;
 #[cfg(test)]

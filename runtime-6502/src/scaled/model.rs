@@ -199,6 +199,46 @@ pub fn int_root(a: i32, frac: i32) -> i32 {
     }
 }
 
+/// 2^14 / sqrt(k / 256) for k from [`FIRST_ROOT`] to 256.
+fn reciprocal_roots() -> &'static [i32] {
+    static ALL: OnceLock<Vec<i32>> = OnceLock::new();
+    ALL.get_or_init(|| {
+        // What is taken away for what lies between two is cut, so they are a little too small.
+        let of = |k: i32| 16384.0 / (f64::from(k) / 256.0).sqrt() - 0.2;
+        (FIRST_ROOT..=256).map(|k| of(k).round() as i32).collect()
+    })
+}
+
+/// The table's lower and upper bytes, and what leads from each entry to the next.
+pub fn reciprocal_root_bytes(which: usize) -> Vec<i32> {
+    let of = |pair: &[i32]| match which {
+        0 => pair[0] & 255,
+        1 => pair[0] >> 8,
+        _ => pair[0] - pair[1],
+    };
+    reciprocal_roots().windows(2).map(of).collect()
+}
+
+/// The root of 2^n over that of a, off by less than 1.65; the greatest of what is not above 0.
+pub fn reciprocal_root(a: i32, n: i32) -> i32 {
+    if a < 1 {
+        return MOST as i32;
+    }
+    let odd = n & 1;
+    let (mut a, mut halvings) = (i64::from(a) << odd, 22 - (n + odd) / 2);
+    while a < 1 << 14 {
+        (a, halvings) = (a << 2, halvings - 1);
+    }
+    let (at, part) = ((a >> 8) as i32 - FIRST_ROOT, a & 255);
+    let pair = &reciprocal_roots()[at as usize..];
+    let found = i64::from(pair[0]) - upper(i64::from(pair[0] - pair[1]), part);
+    match halvings {
+        ..0 => MOST as i32,
+        16.. => 0,
+        _ => right(found, halvings.unsigned_abs()).min(MOST) as i32,
+    }
+}
+
 /// A real of some scale in 16.16.
 fn in_16_16(a: i32, scale: i8) -> i32 {
     let by = 16 - i32::from(scale);

@@ -148,6 +148,33 @@ pub(crate) const ALL: &[Part] = &[
         &["root16"],
         95,
     ),
+    terms(
+        "reciprocal_roots_low",
+        || super::model::reciprocal_root_bytes(0),
+        192,
+    ),
+    terms(
+        "reciprocal_roots_high",
+        || super::model::reciprocal_root_bytes(1),
+        192,
+    ),
+    terms(
+        "reciprocal_roots_step",
+        || super::model::reciprocal_root_bytes(2),
+        192,
+    ),
+    part(
+        "reciprocal_root",
+        include_str!("../../asm/scaled/reciprocal_root.asm"),
+        &[
+            "squares",
+            "scaled_page",
+            "reciprocal_roots_low",
+            "reciprocal_roots_high",
+            "reciprocal_roots_step",
+        ],
+        127,
+    ),
     part(
         "product8",
         include_str!("../../asm/scaled8/product.asm"),

@@ -24,6 +24,8 @@ const QUOTIENT: Error = Error::Absolute(1.5);
 const ROOT: Error = Error::Absolute(1.8);
 /// The same where the radicand is cut to 16 bits.
 const INT_ROOT: Error = Error::Absolute(2.3);
+/// Of one over any root.
+const RECIPROCAL_ROOT: Error = Error::Absolute(1.65);
 /// What saturates, or is a hundredth of a place.
 const LONG_NEAREST: Error = Error::Absolute(0.53);
 /// The same of 24 bits, where more is left of cut products.
@@ -32,6 +34,8 @@ const LONG_QUOTIENT: Error = Error::Absolute(1.5);
 const LONG_ROOT: Error = Error::Absolute(0.9);
 /// What the upper byte of a product lacks when it is shifted.
 const BYTE_LOWER: Error = Error::Absolute(1.0);
+/// Half a place, and what a number of 16 bits is off of which it is the upper byte.
+const BYTE_UPPER: Error = Error::Absolute(0.51);
 /// Of a root that is rounded.
 const BYTE_ROOT: Error = Error::Absolute(0.51);
 /// Half of the last place, and what the table and the angle in turns are off: all operands,
@@ -67,6 +71,15 @@ macro_rules! sides {
             matches!((scales.args[0] <= 16, scales.result <= 16), ($a, $r))
         }
     };
+}
+
+/// A domain: numbers that are even, and the others.
+fn even(args: &[Range], _: Range) -> bool {
+    number(args) % 2 == 0
+}
+
+fn odd(args: &[Range], _: Range) -> bool {
+    number(args) % 2 != 0
 }
 
 /// The greatest of so many bytes.
@@ -271,7 +284,9 @@ const PRODUCTS: &[Routine] = &[
 ];
 
 #[rustfmt::skip]
-const INT_PRODUCTS: &[Routine] = &[
+const WHOLE: &[Routine] = &[
+    scaled!("reciprocal_root" ReciprocalRoot(R) -> R, t::RECIPROCAL_ROOT, ["reciprocal_root"], even, RECIPROCAL_ROOT, |a, b, n| model::reciprocal_root(a, n), 145, 20),
+    scaled!("odd_reciprocal_root" ReciprocalRoot(R) -> R, t::ODD_RECIPROCAL_ROOT, ["reciprocal_root"], odd, RECIPROCAL_ROOT, |a, b, n| model::reciprocal_root(a, n), 150, 20),
     scaled!("int_root" IntRoot(I) -> R, t::INT_ROOT, ["int_root"], everywhere, INT_ROOT, |a, b, n| model::int_root(a, n), 185, 36),
     PLUS_INT_MUL,
     INT_MUL,
@@ -317,6 +332,8 @@ const BYTE_PRODUCTS: &[Routine] = &[
     scaled!("byte_long_mul" Mul(S, S) -> S, tb::MULTIPLY_UP, ["product8", "narrow8"], number!(-99 to 0), NEAREST, |a, b, n| byte::multiply(a, b, n), 205, 17),
     scaled!("byte_div" Div(R, R) -> S, tb::DIVIDE, ["divide8"], number!(0 to 30), QUOTIENT, |a, b, n| byte::divide(a, b, n), 270, 23),
     scaled!("byte_root" Sqrt(R) -> S, tb::ROOT, ["root8"], number!(-1 to -1), BYTE_ROOT, |a, b, n| byte::root(a), 70, 11),
+    scaled!("byte_reciprocal_root" ReciprocalRoot(R) -> S, tb::RECIPROCAL_ROOT, ["reciprocal_root"], even, BYTE_UPPER, |a, b, n| byte::reciprocal_root(a, n), 155, 20),
+    scaled!("byte_odd_reciprocal_root" ReciprocalRoot(R) -> S, tb::ODD_RECIPROCAL_ROOT, ["reciprocal_root"], odd, BYTE_UPPER, |a, b, n| byte::reciprocal_root(a, n), 160, 20),
     scaled!("byte_int_root" IntRoot(I) -> S, tb::INT_ROOT, ["int_root"], everywhere, BYTE_LOWER, |a, b, n| byte::int_root(a, n), 190, 40),
 ];
 
@@ -324,12 +341,12 @@ const BYTE_PRODUCTS: &[Routine] = &[
 pub(super) static ALL: [Routine; TABULATED.len() + SHORT_AND_INTS] = joined(
     TABULATED,
     &joined::<SHORT_AND_INTS>(
-        &joined::<{ SHORT.len() + INT_PRODUCTS.len() }>(&SHORT, INT_PRODUCTS),
+        &joined::<{ SHORT.len() + WHOLE.len() }>(&SHORT, WHOLE),
         INTS,
     ),
 );
 
-const SHORT_AND_INTS: usize = SHORT.len() + INT_PRODUCTS.len() + INTS.len();
+const SHORT_AND_INTS: usize = SHORT.len() + WHOLE.len() + INTS.len();
 
 const SHORT: [Routine; REALS.len() + PRODUCTS.len()] = joined(REALS, PRODUCTS);
 

@@ -150,6 +150,18 @@ pub(crate) const ONE_OVER: &str = concat!(
 pub(crate) const ROOT: &str = concat!("ldy {#14-n/2} |", first!(), "| jsr root16", result!());
 pub(crate) const ODD_ROOT: &str =
     concat!("ldy {#15-n/2} |", first!(), "| jsr root16_odd", result!());
+pub(crate) const RECIPROCAL_ROOT: &str = concat!(
+    "ldy {#44-n/2} |",
+    first!(),
+    "| jsr reciprocal_root",
+    result!()
+);
+pub(crate) const ODD_RECIPROCAL_ROOT: &str = concat!(
+    "ldy {#43-n/2} |",
+    first!(),
+    "| jsr reciprocal_root_odd",
+    result!()
+);
 pub(crate) const INT_ROOT: &str = concat!(
     "lda {0.0} | sta acc | lda {0.1} | sta acc+1 | lda {0.2} | sta acc+2 | lda {0.3} | sta acc+3",
     " | ldy {#255-n} | jsr int_root",

@@ -108,11 +108,29 @@ pub(crate) const DIVIDE: &str = "
     lda {0.0} | sta acc | lda {0.1} | sta acc+1 | lda {1.0} | sta arg | lda {1.1} | sta arg+1
     ldy {#n} | jsr divide8 | sta {r.0}";
 pub(crate) const ROOT: &str = "lda {0.0} | sta acc | lda {0.1} | jsr root8 | sta {r.0}";
-pub(crate) const INT_ROOT: &str = "
-    lda {0.0} | sta acc | lda {0.1} | sta acc+1 | lda {0.2} | sta acc+2 | lda {0.3} | sta acc+3
-    ldy {#247-n} | jsr int_root | asl | txa | adc #0 | bpl fits{n} | lda #$7f
-    fits{n}:
-    sta {r.0}";
+
+/// The upper byte of a and x, which are not below 0, rounded by the lower.
+macro_rules! upper {
+    () => {
+        "| asl | txa | adc #0 | bpl fits{n} | lda #$7f
+        fits{n}:
+        sta {r.0}"
+    };
+}
+
+pub(crate) const INT_ROOT: &str = concat!(
+    "lda {0.0} | sta acc | lda {0.1} | sta acc+1 | lda {0.2} | sta acc+2 | lda {0.3} | sta acc+3",
+    "| ldy {#247-n} | jsr int_root",
+    upper!()
+);
+pub(crate) const RECIPROCAL_ROOT: &str = concat!(
+    "ldy {#28-n/2} | lda {0.0} | ldx {0.1} | jsr reciprocal_root",
+    upper!()
+);
+pub(crate) const ODD_RECIPROCAL_ROOT: &str = concat!(
+    "ldy {#27-n/2} | lda {0.0} | ldx {0.1} | jsr reciprocal_root_odd",
+    upper!()
+);
 
 pub(crate) const MODULO: &str = concat!(
     both!(),

@@ -30,6 +30,7 @@ fn numbers(routine: &Routine) -> Vec<i32> {
             .map(|(a, r)| packed(a, 12 - a / 5, r))
             .collect(),
         Op::Add => vec![i32::from(routine.name == "twice")],
+        Op::ReciprocalRoot => (-45..=90).collect(),
         Op::Mul => (-8..56).collect(),
         _ => (0..48).collect(),
     };
@@ -60,6 +61,8 @@ fn exact(kind: &Kind, routine: &Routine, args: &[i32], n: i32) -> Option<f64> {
         Op::Div => a / b * power(n),
         Op::Sqrt => (a.max(0.0) * power(n)).sqrt(),
         Op::IntRoot => a.max(0.0).sqrt() * power(n),
+        Op::ReciprocalRoot if a <= 0.0 => 1e9,
+        Op::ReciprocalRoot => power(n).sqrt() / a.sqrt(),
         Op::Add if n == 1 => a,
         Op::Add => a + b,
         Op::Sub => a - b,

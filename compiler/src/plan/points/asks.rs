@@ -233,6 +233,11 @@ fn of_real(op: Op, k: usize, [own, other]: [f64; 2], result: f64, asked: Asked) 
             let within = Bounds::new(lo, within.hi.max(0.0) * within.hi);
             asked.times(0.5 / result.max(SMALL), within)
         }
+        (Op::ReciprocalRoot, _) if own <= 0.0 => Asked::default(),
+        (Op::ReciprocalRoot, _) => {
+            let [lo, hi] = [within.hi, within.lo].map(|y| y.max(0.0).powi(-2));
+            asked.times(0.5 * result / own, Bounds::new(lo, hi))
+        }
         (Op::Mod, 1) => whole_of(own, gain * (other / own).floor().abs()),
         (Op::Mod, _) => whole_of(own, gain),
         _ => {

@@ -100,6 +100,10 @@ fn of_operand(op: Op, k: usize, own: Range, held: [Range; 2], same: bool) -> Opt
             _ => return None,
         },
         (Op::Sqrt, _) => [0.0, hi.max(0.0) * hi.max(0.0)],
+        (Op::ReciprocalRoot, _) => {
+            let [least, most] = [hi, lo].map(|y| y.max(0.0).powi(-2));
+            [least, most]
+        }
         (Op::Max, _) => [lo.max(other.lo), hi.max(other.lo)],
         (Op::Min, _) => [lo.min(other.hi), hi.min(other.hi)],
         _ => return None,

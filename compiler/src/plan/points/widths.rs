@@ -67,7 +67,7 @@ impl Widths {
         };
         let operations: Vec<u8> = graph.ids().map(operation).collect();
         let operands = |(id, of): (NodeId, &u8)| match (graph.node(id), *of) {
-            (Node::Apply(Op::Sqrt | Op::Div, _), BYTE) => bits,
+            (Node::Apply(Op::Sqrt | Op::ReciprocalRoot | Op::Div, _), BYTE) => bits,
             (_, of) => of,
         };
         Widths {

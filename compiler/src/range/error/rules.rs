@@ -47,6 +47,11 @@ pub fn inherited(op: Op, x: &Value, y: &Value, same: bool, result: Range) -> For
             &y.error,
         ),
         Op::Sqrt | Op::IntRoot => root(x),
+        // The derivative is -1/2 x^(-3/2).
+        Op::ReciprocalRoot if x.hull().lo > 0.0 => {
+            x.error.scaled(over(x, |v| -0.5 / (v * v.sqrt())))
+        }
+        Op::ReciprocalRoot => Form::unbounded(),
         // Within one step of the floor of x/y: x - n y.
         Op::Mod => match y.error.is_exact() {
             true => x.error.clone(),

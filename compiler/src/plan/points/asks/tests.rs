@@ -38,6 +38,7 @@ fn operands_between_their_bounds_keep_the_result_between_its_own() {
         Op::Mul,
         Op::Div,
         Op::Sqrt,
+        Op::ReciprocalRoot,
     ];
     let ways = [0.0, 0.01, 0.7, 5.0, f64::INFINITY];
     let mut tried = 0;
