@@ -18,6 +18,7 @@ pub(crate) fn template(text: &str, used: Use<'_>, bytes: u8, lines: &mut Vec<Str
     } else {
         size(used.routine.result)
     };
+    let as_short_as_operands = text.starts_with('=');
     let (text, width) = match (text.get(..1), text.get(1..)) {
         (Some("~"), Some(rest)) => (rest, bytes),
         (Some("="), Some(rest)) => {
@@ -53,8 +54,8 @@ pub(crate) fn template(text: &str, used: Use<'_>, bytes: u8, lines: &mut Vec<Str
         true => with_sign(text, bytes == width),
         false => text.to_owned(),
     };
-    // A comparison leaves the overflow flag alone.
-    let repeated = match width == 1 && text.contains("bv") {
+    // A comparison of one byte leaves the overflow flag alone, that of more ends in a subtraction.
+    let repeated = match as_short_as_operands && width == 1 && text.contains("bv") {
         true => repeated(&text.replace("| cmp ", "| sec | sbc "), width),
         false => repeated(text, width),
     };

@@ -7,12 +7,10 @@
 
 use super::templates::functions;
 
-/// What does not fit has another sign; what is left at the format's end has a negative. Asked
-/// without a comparison, which [`crate::fill`] makes a subtraction in texts of one byte that ask
-/// for overflow.
+/// What does not fit has another sign; what is left at the format's end has a negative.
 macro_rules! saturate {
     () => {
-        "bvs over{n} | eor #$80 | beq least{n} | eor #$80 | jmp done{n}
+        "bvs over{n} | cmp #$80 | bne done{n} | beq least{n}
         over{n}:
         bpl least{n} | lda #$7f | bne done{n}
         least{n}:
@@ -71,7 +69,7 @@ macro_rules! any_product {
             "ldy {1.0} | lda {0.0} | jsr product8 | tax | clc | adc ", $end, " | cmp ", $ends,
             " | bcs large{n} | txa |",
             $("asl prod | rol |", $bit,)*
-            "asl prod | adc #0 | bvs most{n} | eor #$80 | beq least{n} | eor #$80 | jmp done{n}
+            "asl prod | adc #0 | bvs most{n} | cmp #$80 | bne done{n} | beq least{n}
             large{n}:
             txa | bmi least{n}
             most{n}:
