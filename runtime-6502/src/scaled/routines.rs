@@ -333,7 +333,7 @@ const BYTE_PRODUCTS: &[Routine] = &[
     scaled!("byte_div" Div(R, R) -> S, tb::DIVIDE, ["divide8"], number!(0 to 30), QUOTIENT, |a, b, n| byte::divide(a, b, n), 280, 23),
     scaled!("byte_root" Sqrt(R) -> S, tb::ROOT, ["root8"], number!(-1 to -1), BYTE_ROOT, |a, b, n| byte::root(a), 60, 11),
     scaled!("byte_reciprocal_root" ReciprocalRoot(R) -> S, tb::RECIPROCAL_ROOT, ["reciprocal_root"], even, BYTE_UPPER, |a, b, n| byte::reciprocal_root(a, n), 155, 20),
-    scaled!("byte_odd_reciprocal_root" ReciprocalRoot(R) -> S, tb::ODD_RECIPROCAL_ROOT, ["reciprocal_root"], odd, BYTE_UPPER, |a, b, n| byte::reciprocal_root(a, n), 160, 20),
+    scaled!("byte_odd_reciprocal_root" ReciprocalRoot(R) -> S, tb::ODD_RECIPROCAL_ROOT, ["reciprocal_root"], odd, BYTE_UPPER, |a, b, n| byte::reciprocal_root(a, n), 155, 20),
     scaled!("byte_int_root" IntRoot(I) -> S, tb::INT_ROOT, ["int_root"], everywhere, BYTE_LOWER, |a, b, n| byte::int_root(a, n), 190, 40),
 ];
 
