@@ -29,6 +29,8 @@ mod asked;
 mod code;
 mod columns;
 mod dead;
+#[cfg(test)]
+mod dead_tests;
 mod expression;
 mod frame;
 mod guard;

@@ -22,7 +22,8 @@
 //! - `uses`: how often they are met; `columns`: arrays by columns;
 //! - `moved`: reals that are kept at a second scale;
 //! - `scaled`: reals with points of their own, read where they are wanted;
-//! - `code`: statements; `table`: lookups; `comment`: what a statement means;
+//! - `code`: statements; `comparisons`: in the carry; `table`: lookups; `comment`: what a
+//!   statement means;
 //! - `logs`: logarithmic reals; `inline`: products in place;
 //! - `params`: the parameter block's checks; `frame`: everything around the statements;
 //!   `rows`: the loops over rows, passes, runs of columns and pixels;
@@ -35,6 +36,7 @@ mod c64;
 mod code;
 mod columns;
 mod comment;
+mod comparisons;
 mod frame;
 mod homes;
 mod inline;
@@ -44,6 +46,8 @@ mod moved;
 mod names;
 mod params;
 mod ports;
+#[cfg(test)]
+mod quotient_tests;
 mod rows;
 mod scaled;
 mod screen;
