@@ -1,6 +1,5 @@
-; a and x (high) = 2^22 over the root of a and x, that times 2^14, y bits to the right; y is
-; signed, and for twice the number where reciprocal_root_odd is called. What is not above 0 has
-; the greatest.
+; a and x (high) = 2^22 over the root of a and x, y bits to the right (y is signed), rounded; of
+; twice the number where reciprocal_root_odd is called. Saturates, by what is not above 0 too.
 reciprocal_root_odd:
         cpx #$80
         bcs reciprocal_root_most

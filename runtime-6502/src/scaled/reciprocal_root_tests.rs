@@ -42,7 +42,7 @@ fn machine_and_model_agree_bit_for_bit() {
             if n == odd + if k < 2 { 40 } else { 24 } {
                 let mean = cycles / counted;
                 println!("{}: {mean} cycles", routine.name);
-                assert!(mean.abs_diff(u64::from(routine.cycles)) < 20, "{mean}");
+                assert!(mean.abs_diff(u64::from(routine.cycles)) < 8, "{mean}");
             }
         }
     }

@@ -285,8 +285,8 @@ const PRODUCTS: &[Routine] = &[
 
 #[rustfmt::skip]
 const WHOLE: &[Routine] = &[
-    scaled!("reciprocal_root" ReciprocalRoot(R) -> R, t::RECIPROCAL_ROOT, ["reciprocal_root"], even, RECIPROCAL_ROOT, |a, b, n| model::reciprocal_root(a, n), 145, 20),
-    scaled!("odd_reciprocal_root" ReciprocalRoot(R) -> R, t::ODD_RECIPROCAL_ROOT, ["reciprocal_root"], odd, RECIPROCAL_ROOT, |a, b, n| model::reciprocal_root(a, n), 150, 20),
+    scaled!("reciprocal_root" ReciprocalRoot(R) -> R, t::RECIPROCAL_ROOT, ["reciprocal_root"], even, RECIPROCAL_ROOT, |a, b, n| model::reciprocal_root(a, n), 140, 20),
+    scaled!("odd_reciprocal_root" ReciprocalRoot(R) -> R, t::ODD_RECIPROCAL_ROOT, ["reciprocal_root"], odd, RECIPROCAL_ROOT, |a, b, n| model::reciprocal_root(a, n), 135, 20),
     scaled!("int_root" IntRoot(I) -> R, t::INT_ROOT, ["int_root"], everywhere, INT_ROOT, |a, b, n| model::int_root(a, n), 185, 36),
     PLUS_INT_MUL,
     INT_MUL,
@@ -332,8 +332,8 @@ const BYTE_PRODUCTS: &[Routine] = &[
     scaled!("byte_long_mul" Mul(S, S) -> S, tb::MULTIPLY_UP, ["product8", "narrow8"], number!(-99 to 0), NEAREST, |a, b, n| byte::multiply(a, b, n), 205, 17),
     scaled!("byte_div" Div(R, R) -> S, tb::DIVIDE, ["divide8"], number!(0 to 30), QUOTIENT, |a, b, n| byte::divide(a, b, n), 280, 23),
     scaled!("byte_root" Sqrt(R) -> S, tb::ROOT, ["root8"], number!(-1 to -1), BYTE_ROOT, |a, b, n| byte::root(a), 60, 11),
-    scaled!("byte_reciprocal_root" ReciprocalRoot(R) -> S, tb::RECIPROCAL_ROOT, ["reciprocal_root"], even, BYTE_UPPER, |a, b, n| byte::reciprocal_root(a, n), 155, 20),
-    scaled!("byte_odd_reciprocal_root" ReciprocalRoot(R) -> S, tb::ODD_RECIPROCAL_ROOT, ["reciprocal_root"], odd, BYTE_UPPER, |a, b, n| byte::reciprocal_root(a, n), 155, 20),
+    scaled!("byte_reciprocal_root" ReciprocalRoot(R) -> S, tb::RECIPROCAL_ROOT, ["reciprocal_root"], even, BYTE_UPPER, |a, b, n| byte::reciprocal_root(a, n), 145, 20),
+    scaled!("byte_odd_reciprocal_root" ReciprocalRoot(R) -> S, tb::ODD_RECIPROCAL_ROOT, ["reciprocal_root"], odd, BYTE_UPPER, |a, b, n| byte::reciprocal_root(a, n), 140, 20),
     scaled!("byte_int_root" IntRoot(I) -> S, tb::INT_ROOT, ["int_root"], everywhere, BYTE_LOWER, |a, b, n| byte::int_root(a, n), 190, 40),
 ];
 
