@@ -55,6 +55,7 @@ fn operation(op: Op, a: &str, b: &str) -> String {
         Op::Neg | Op::IntNeg => return format!("-{a}"),
         Op::Not => return format!("not {a}"),
         Op::ToReal => return format!("real {a}"),
+        Op::ReciprocalRoot => return format!("1 / sqrt({a})"),
         _ => {
             let name = op.name();
             let name = name
