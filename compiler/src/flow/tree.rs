@@ -210,6 +210,22 @@ impl Tree {
             .chain(self.subroutines.iter().map(|s| &s.body))
     }
 
+    /// The same, to be changed.
+    pub fn blocks_mut(&mut self) -> impl Iterator<Item = &mut Block> {
+        let Tree {
+            frame,
+            column,
+            row,
+            pass,
+            segment,
+            pixel,
+            subroutines,
+        } = self;
+        [frame, column, row, pass, segment, pixel]
+            .into_iter()
+            .chain(subroutines.iter_mut().map(|s| &mut s.body))
+    }
+
     /// How many calls of a subroutine are written down.
     pub fn calls(&self, id: SubroutineId) -> usize {
         let mut calls = 0;

@@ -65,24 +65,9 @@ pub fn each_let(tree: &Tree, found: &mut dyn FnMut(NodeId)) {
     }
 }
 
-fn blocks(tree: &mut Tree) -> impl Iterator<Item = &mut Block> {
-    let Tree {
-        frame,
-        column,
-        row,
-        pass,
-        segment,
-        pixel,
-        subroutines,
-    } = tree;
-    [frame, column, row, pass, segment, pixel]
-        .into_iter()
-        .chain(subroutines.iter_mut().map(|s| &mut s.body))
-}
-
 /// Leaves out the statements that compute what nobody reads.
 pub fn leave_out(tree: &mut Tree, unread: &[NodeId]) {
-    for block in blocks(tree) {
+    for block in tree.blocks_mut() {
         leave_out_of(block, unread);
     }
 }
