@@ -5,7 +5,9 @@ use super::arithmetic::Exact;
 use super::run::Run;
 use crate::flow::graph::*;
 use crate::flow::tree::Tree;
+use crate::flow::verify::verify;
 use crate::passes::fold::fold;
+use crate::passes::schedule::missing;
 use crate::scene::check;
 use crate::sema::Options;
 
@@ -27,6 +29,18 @@ pub fn drawn(graph: &Graph, tree: &Tree, places: &[(i32, i32)]) -> (Vec<String>,
     });
     let all = all.collect();
     (all, run.unset_reads())
+}
+
+/// That a graph in which a pass changed something is whole and draws what it did before.
+pub fn assert_same(before: (&Graph, &Tree), (graph, tree): (&Graph, &Tree), seed: u64) {
+    verify(graph).unwrap_or_else(|broken| panic!("seed {seed}: {broken}"));
+    assert_eq!(missing(graph, tree), None, "seed {seed}");
+    let places = grid(7, 5, 1);
+    assert_eq!(
+        picture(before.0, before.1, &places),
+        picture(graph, tree, &places),
+        "seed {seed}:\n{tree}"
+    );
 }
 
 /// Every `step`th column of every `step`th row.

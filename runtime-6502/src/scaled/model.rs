@@ -82,6 +82,22 @@ pub fn any_product(a: i32, b: i32, n: i32) -> i32 {
     held(shifted(i64::from(a) * i64::from(b), -n, 62), BITS)
 }
 
+/// A table's lower and upper bytes, and what leads from each entry to the next.
+fn bytes(entries: &[i32], which: usize) -> Vec<i32> {
+    let of = |pair: &[i32]| match which {
+        0 => pair[0] & 255,
+        1 => pair[0] >> 8,
+        _ => (pair[1] - pair[0]).abs(),
+    };
+    entries.windows(2).map(of).collect()
+}
+
+/// What lies so many 256ths behind an entry.
+fn between(entries: &[i32], at: usize, part: i64) -> i64 {
+    let (from, step) = (entries[at], i64::from(entries[at + 1] - entries[at]));
+    i64::from(from) + upper(step.abs(), part) * step.signum()
+}
+
 /// 2^31 / b for b from 2^15 to 2^16, where b is 2^15 and 128 times 0 to 256; the first is
 /// the greatest that fits.
 fn reciprocals() -> &'static [i32] {
@@ -97,19 +113,12 @@ fn reciprocals() -> &'static [i32] {
 
 /// The table's lower and upper bytes, and what leads from each entry to the next.
 pub fn reciprocal_bytes(which: usize) -> Vec<i32> {
-    let of = |pair: &[i32]| match which {
-        0 => pair[0] & 255,
-        1 => pair[0] >> 8,
-        _ => pair[0] - pair[1],
-    };
-    reciprocals().windows(2).map(of).collect()
+    bytes(reciprocals(), which)
 }
 
 /// 2^31 over a number from 2^15 to 2^16.
 pub fn reciprocal(b: i64) -> i64 {
-    let (at, part) = ((b >> 7 & 255) as usize, (b & 127) * 2);
-    let pair = &reciprocals()[at..];
-    i64::from(pair[0]) - upper(i64::from(pair[0] - pair[1]), part)
+    between(reciprocals(), (b >> 7 & 255) as usize, (b & 127) * 2)
 }
 
 /// a / b * 2^n, off by less than 1.4; by 0 the greatest with the sign of a.
@@ -157,12 +166,7 @@ fn roots() -> &'static [i32] {
 
 /// The table's lower and upper bytes, and what leads from each entry to the next.
 pub fn root_bytes(which: usize) -> Vec<i32> {
-    let of = |pair: &[i32]| match which {
-        0 => pair[0] & 255,
-        1 => pair[0] >> 8,
-        _ => pair[1] - pair[0],
-    };
-    roots().windows(2).map(of).collect()
+    bytes(roots(), which)
 }
 
 /// The root of a * 2^n, n from 1 to 15; 0 of a negative.
@@ -180,9 +184,7 @@ pub fn root(a: i32, n: i32) -> i32 {
 
 /// 2^15 times the root of a number from 2^14 to 2^16, over 2^16.
 fn root_of_16(a: i64) -> i64 {
-    let (at, part) = ((a >> 8) as i32 - FIRST_ROOT, a & 255);
-    let pair = &roots()[at as usize..];
-    i64::from(pair[0]) + upper(i64::from(pair[1] - pair[0]), part)
+    between(roots(), ((a >> 8) as i32 - FIRST_ROOT) as usize, a & 255)
 }
 
 /// The root of an int with so many fraction bits; 0 of a negative. Of the int its upper 16
@@ -211,12 +213,7 @@ fn reciprocal_roots() -> &'static [i32] {
 
 /// The table's lower and upper bytes, and what leads from each entry to the next.
 pub fn reciprocal_root_bytes(which: usize) -> Vec<i32> {
-    let of = |pair: &[i32]| match which {
-        0 => pair[0] & 255,
-        1 => pair[0] >> 8,
-        _ => pair[0] - pair[1],
-    };
-    reciprocal_roots().windows(2).map(of).collect()
+    bytes(reciprocal_roots(), which)
 }
 
 /// The root of 2^n over that of a, off by less than 1.65; the greatest of what is not above 0.
@@ -229,9 +226,8 @@ pub fn reciprocal_root(a: i32, n: i32) -> i32 {
     while a < 1 << 14 {
         (a, halvings) = (a << 2, halvings - 1);
     }
-    let (at, part) = ((a >> 8) as i32 - FIRST_ROOT, a & 255);
-    let pair = &reciprocal_roots()[at as usize..];
-    let found = i64::from(pair[0]) - upper(i64::from(pair[0] - pair[1]), part);
+    let at = ((a >> 8) as i32 - FIRST_ROOT) as usize;
+    let found = between(reciprocal_roots(), at, a & 255);
     match halvings {
         ..0 => MOST as i32,
         16.. => 0,

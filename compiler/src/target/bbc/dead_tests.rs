@@ -1,22 +1,11 @@
 //! Flags of written programs, set in vain or not.
 
 use super::dead::without;
-use super::lines::{Label, Labels, Lines};
+use super::lines::texts::of_texts;
 
 /// The lines `texts`, where `@n` goes to the line number n, without dead flags.
 fn written(texts: &[&str]) -> String {
-    let mut labels = Labels::default();
-    let all: Vec<Label> = texts.iter().map(|_| labels.next()).collect();
-    let mut lines = Lines::default();
-    for (text, label) in texts.iter().zip(&all) {
-        lines.place(*label);
-        let mut text = (*text).to_owned();
-        for (k, label) in all.iter().enumerate() {
-            text = text.replace(&format!("@{k};"), &label.to_string());
-        }
-        lines.line(text, None);
-    }
-    let mut lines = without(lines);
+    let mut lines = without(of_texts(texts).0);
     lines.remove_empty();
     lines.finish().0
 }

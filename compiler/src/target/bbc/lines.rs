@@ -2,6 +2,8 @@
 
 mod away;
 mod label;
+#[cfg(test)]
+pub mod texts;
 
 pub use label::{Label, Labels, MARK};
 

@@ -1,22 +1,13 @@
 //! Lines before and behind.
 
 use super::super::asked::opposite;
+use super::super::lines::texts::of_texts;
 use super::*;
 
 /// The lines `texts`, where `@n;` goes to the line number n, without tests that are known.
 fn written(texts: &[&str], copies: bool) -> String {
     let copies = if copies { Copies::Ends } else { Copies::None };
-    let mut labels = Labels::default();
-    let all: Vec<Label> = texts.iter().map(|_| labels.next()).collect();
-    let mut lines = Lines::default();
-    for (text, label) in texts.iter().zip(&all) {
-        lines.place(*label);
-        let mut text = (*text).to_owned();
-        for (k, label) in all.iter().enumerate() {
-            text = text.replace(&format!("@{k};"), &label.to_string());
-        }
-        lines.line(text, None);
-    }
+    let (lines, mut labels) = of_texts(texts);
     let lines = super::super::dead::without(split(lines, &mut labels, copies));
     let mut lines = split(lines, &mut labels, Copies::None);
     lines.remove_empty();
