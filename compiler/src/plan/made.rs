@@ -207,7 +207,7 @@ fn planned_in(
 fn steady(shop: &Workshop, origin: &Graph, rounds: u32) -> Settled {
     let mut now = shop.scheduled(fold(origin));
     for _ in 0..rounds {
-        let Some(next) = stable(&now.graph, &now.ranges, shop.slack.most()) else {
+        let Some(next) = stable(&now.graph, &now.ranges, &shop.slack) else {
             break;
         };
         now = shop.scheduled(fold(&next));

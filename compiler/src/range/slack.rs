@@ -23,6 +23,8 @@ pub struct Slack {
     entries: f64,
     /// What reals can be.
     reals: Range,
+    /// The least real above 0 that is told from 0; 0 where no scene meets it.
+    least: f64,
     /// The last place of constants, 0 where they keep their digits or points do not stand.
     last: f64,
     /// What ints can be.
@@ -49,6 +51,7 @@ impl Slack {
             segments: false,
             entries: 0.0,
             reals,
+            least: 0.0,
             last: 0.0,
             ints: Range::new(f64::from(i32::MIN), f64::from(i32::MAX)),
             expected: Vec::new(),
@@ -102,6 +105,11 @@ impl Slack {
             segments: runtime.segments,
             entries: if runtime.derives { ENTRIES } else { 0.0 },
             reals: ends(runtime.real),
+            least: match runtime.real {
+                Format::Fixed { .. } => runtime.real.epsilon(),
+                Format::Log { .. } => 1.0 / runtime.real.most(),
+                _ => 0.0,
+            },
             last: match runtime.real {
                 Format::Fixed { .. } => runtime.real.epsilon(),
                 _ => 0.0,
@@ -162,6 +170,11 @@ impl Slack {
     /// The greatest real that can be held: what reaches it has no known bound.
     pub fn most(&self) -> f64 {
         self.reals.magnitude()
+    }
+
+    /// The least real above 0, or a little less; 0 where it is beyond what any scene meets.
+    pub fn least(&self) -> f64 {
+        self.least
     }
 
     /// A range with what the routines of an operation may add to it.

@@ -9,7 +9,7 @@
 //! a scene that is written well keeps its plan, its cost and its picture.
 //!
 //! The rules on one formula are a table of forms ([`rules::RULES`]); those on
-//! sums ([`sums::SUMS`]) look at all terms that meet. The native evaluation is
+//! sums ([`sums::SUMS`]) and on lengths look at all terms that meet. The native evaluation is
 //! of the graph as written and knows nothing of this pass, so each checks the
 //! other; [`crate::plan::plan_as_written`] leaves the pass out, to show what it
 //! is for and to warn of what a scene's own formulas lose.
@@ -20,6 +20,7 @@
 //! negative where it is computed, a divisor to be no 0 unless the dividend is.
 
 pub mod form;
+mod lengths;
 pub mod rules;
 pub mod site;
 pub mod sums;
@@ -28,22 +29,22 @@ mod tests;
 
 use super::rebuild::rebuild_old;
 use crate::flow::graph::*;
-use crate::range::Ranges;
+use crate::range::{Ranges, Slack};
 use form::Out;
 use site::{Known, Site};
 
 /// The graph with the rules applied, each node once; nothing where none holds.
 /// What a rule made is looked at when the pass runs again.
 ///
-/// `most` is the greatest real of the format.
-pub fn stable(graph: &Graph, ranges: &Ranges, most: f64) -> Option<Graph> {
-    let (next, applied) = rewritten(graph, ranges, most);
+/// `slack` knows the ends of the format.
+pub fn stable(graph: &Graph, ranges: &Ranges, slack: &Slack) -> Option<Graph> {
+    let (next, applied) = rewritten(graph, ranges, slack);
     (!applied.is_empty()).then_some(next)
 }
 
 /// The same, with the name of each rule that was applied.
-fn rewritten(graph: &Graph, ranges: &Ranges, most: f64) -> (Graph, Vec<&'static str>) {
-    let known = Known::new(graph, ranges, most);
+fn rewritten(graph: &Graph, ranges: &Ranges, slack: &Slack) -> (Graph, Vec<&'static str>) {
+    let known = Known::new(graph, ranges, slack);
     let parts = parts_of_sums(graph);
     let mut applied = Vec::new();
     let next = rebuild_old(graph, &mut |builder, made, id, span| {
@@ -53,9 +54,10 @@ fn rewritten(graph: &Graph, ranges: &Ranges, most: f64) -> (Graph, Vec<&'static 
             new: &new,
             span,
         };
-        let put = match formula(&known, id, &mut out) {
+        let put = formula(&known, id, &mut out).or_else(|| lengths::rewrite(&known, id, &mut out));
+        let put = match put {
             None if !sums::inner(&known, &parts, id) => sums::rewrite(&known, id, &mut out),
-            formula => formula,
+            put => put,
         };
         let (name, put) = put?;
         applied.push(name);

@@ -2,7 +2,7 @@
 
 use super::form::Bound;
 use crate::flow::graph::*;
-use crate::range::Ranges;
+use crate::range::{Ranges, Slack};
 use slowlight_routine::{Op, Range, Value};
 
 /// A result less than this part of what it is the difference of has lost bits
@@ -15,12 +15,14 @@ pub struct Known<'g> {
     pub ranges: &'g Ranges,
     /// The greatest real of the format: what reaches it has no known bound.
     pub most: f64,
+    /// The least real above 0 that it tells from 0; 0 where there is hardly an end.
+    pub least: f64,
     /// How often each node is referred to.
     pub uses: Vec<u32>,
 }
 
 impl<'g> Known<'g> {
-    pub fn new(graph: &'g Graph, ranges: &'g Ranges, most: f64) -> Known<'g> {
+    pub fn new(graph: &'g Graph, ranges: &'g Ranges, slack: &Slack) -> Known<'g> {
         let mut uses = vec![0; graph.nodes.len()];
         let reached = graph.reached();
         let ids = graph.ids().filter(|id| reached[id.0 as usize]);
@@ -37,7 +39,8 @@ impl<'g> Known<'g> {
         Known {
             graph,
             ranges,
-            most,
+            most: slack.most(),
+            least: slack.least(),
             uses,
         }
     }
@@ -54,7 +57,7 @@ impl<'g> Known<'g> {
     }
 
     /// What an operation's first argument stays within where it is computed.
-    fn argument(&self, id: NodeId) -> Range {
+    pub fn argument(&self, id: NodeId) -> Range {
         let found = self.ranges.args.get(id.0 as usize);
         found.map_or(Range::ALL, |args| args[0])
     }

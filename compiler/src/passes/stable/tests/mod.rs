@@ -25,7 +25,7 @@ fn both(target: &str, graph: &Graph) -> (Graph, Graph, Vec<&'static str>) {
     let (mut after, mut names) = (before.clone(), Vec::new());
     for _ in 0..4 {
         let tree = schedule(&after);
-        let (next, applied) = rewritten(&after, &ranges(&after, &tree, &slack), slack.most());
+        let (next, applied) = rewritten(&after, &ranges(&after, &tree, &slack), &slack);
         if applied.is_empty() {
             break;
         }
