@@ -30,6 +30,7 @@ mod mos6502;
 mod mos6502_fixed;
 mod mos6502_logs;
 mod need;
+mod numbers;
 #[cfg(feature = "peers")]
 mod peers_assemblers;
 #[cfg(feature = "peers")]
