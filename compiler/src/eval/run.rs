@@ -202,6 +202,8 @@ impl<'t, A: Arithmetic> Run<'t, A> {
     pub fn last(&self, id: NodeId) -> Option<A::Value> {
         match self.graph.node(id) {
             Node::Const(c) => Some(self.arithmetic.constant(c.value())),
+            // No statement writes it.
+            Node::Param(p) => Some(self.arithmetic.param(p)),
             _ => self.values.get(id.0 as usize).copied().flatten(),
         }
     }

@@ -10,7 +10,8 @@
 //! by more than half a level are followed back likewise.
 //!
 //! A border that the native values themselves sit on is a tie: any format may
-//! go either way, and nothing can be done but to know it. Where they lie beside
+//! go either way, and nothing can be done but to know it. So it counts where only the ink
+//! comes out otherwise, too: a dither's own border. Where they lie beside
 //! it by less than the format can tell, a finer format would do: on a few pixels
 //! that is an outline, on many a margin that the scene chose too small.
 
@@ -135,10 +136,22 @@ impl<'p> Pictures<'p> {
         }
     }
 
-    fn differ(&mut self, x: i32, y: i32) -> bool {
+    fn differ(&mut self, x: i32, y: i32) -> Differs {
         let (native, model) = (self.native.pixel(x, y), self.model.pixel(x, y));
-        (native.shade - model.shade).abs() > self.most
+        let shade = (native.shade - model.shade).abs() > self.most;
+        Differs {
+            shade,
+            ink: shade || native.ink != model.ink,
+        }
     }
+}
+
+/// What of a pixel the machine has otherwise: the shade, by more than half a level, or
+/// at least the ink.
+#[derive(Clone, Copy)]
+struct Differs {
+    shade: bool,
+    ink: bool,
 }
 
 /// The columns and rows that are looked at: all rows of a picture that is not
@@ -183,13 +196,17 @@ impl Tally {
         }
     }
 
-    fn add(&mut self, shadow: &Shadow<'_>, what: What, (x, y): (u32, u32), differs: bool) {
+    fn add(&mut self, shadow: &Shadow<'_>, what: What, (x, y): (u32, u32), differs: Differs) {
         let (node, weakness, units, flips) = match what {
-            What::Tie(node) if differs => (node, Weakness::Tie, 0.0, Some(node)),
+            What::Tie(node) if differs.ink => (node, Weakness::Tie, 0.0, Some(node)),
             What::NoMeaning(node) => (node, Weakness::NoMeaning, 0.0, None),
-            What::Coarse { node, place } if differs => (node, Weakness::Coarse, place, Some(node)),
-            What::Close { node, units } if differs => (node, Weakness::Close, units, Some(node)),
-            What::Off { event, flips } if differs => {
+            What::Coarse { node, place } if differs.shade => {
+                (node, Weakness::Coarse, place, Some(node))
+            }
+            What::Close { node, units } if differs.shade => {
+                (node, Weakness::Close, units, Some(node))
+            }
+            What::Off { event, flips } if differs.shade => {
                 let (culprit, weakness) = blame(shadow, event);
                 (culprit.node, weakness, culprit.units, flips)
             }

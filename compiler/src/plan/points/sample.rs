@@ -92,6 +92,9 @@ pub fn seen(graph: &Graph, tree: &Tree, bits: u8) -> Sample {
                     let ink = run.pixel(at(column, columns, graph.image.width), y);
                     let sent = graph.shares().filter_map(|s| run.last(s.node));
                     watch.send(sent);
+                    // What is told at the end is told as it is: a shade that is measured.
+                    let told = graph.reports.iter().filter_map(|id| run.last(*id));
+                    watch.roots.borrow_mut().pixel.extend(told);
                     pixels += times;
                     watch.ask(ink, &mut |id, value, asked| {
                         if let Some(seen) = seen.borrow_mut().get_mut(id.0 as usize)
