@@ -7,7 +7,7 @@
 //! has grown on the way there; it is followed back to the operation that made
 //! it grow (as Herbgrind does: Sanchez-Stern, Panchekha, Lerner and Tatlock,
 //! Finding Root Causes of Floating Point Error, PLDI 2018). Shades that are off
-//! by more than half a level are followed back likewise.
+//! by more than an eighth of a level are followed back likewise.
 //!
 //! A border that the native values themselves sit on is a tie: any format may
 //! go either way, and nothing can be done but to know it. So it counts where only the ink
@@ -82,7 +82,7 @@ pub struct Found {
 
 /// Looks at a sample of a plan's pixels. What earlier pixels send is left out.
 ///
-/// What is weak without changing a pixel's shade by half a level is no fault.
+/// What is weak without changing a pixel's shade by an eighth of a level is no fault.
 pub fn fragile(plan: &Plan) -> Found {
     let mut plan = plan.clone();
     plan.graph.diffusion = None;
@@ -123,7 +123,8 @@ pub fn fragile(plan: &Plan) -> Found {
 struct Pictures<'p> {
     native: Native<'p>,
     model: ModelRun<'p>,
-    /// Half a level: the least difference of shades that is a fault.
+    /// An eighth of a level: the least difference of shades that is a fault. On one pixel in
+    /// eight or so an ink is then another.
     most: f64,
 }
 
@@ -132,7 +133,7 @@ impl<'p> Pictures<'p> {
         Pictures {
             native: Native::new(&plan.graph),
             model: ModelRun::new(plan),
-            most: 0.5 / plan.graph.image.palette.len().max(2) as f64,
+            most: 0.125 / plan.graph.image.palette.len().max(2) as f64,
         }
     }
 
@@ -146,7 +147,7 @@ impl<'p> Pictures<'p> {
     }
 }
 
-/// What of a pixel the machine has otherwise: the shade, by more than half a level, or
+/// What of a pixel the machine has otherwise: the shade, by more than an eighth of a level, or
 /// at least the ink.
 #[derive(Clone, Copy)]
 struct Differs {
