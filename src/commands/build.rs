@@ -5,6 +5,7 @@ use crate::forecast::{self, Forecast, forecast};
 use crate::format::{count, duration, table};
 use crate::listing::listing;
 use crate::machine::{File, Sizes};
+use crate::need::{Need, need_beside};
 use crate::scene::{Precision, Scene, SceneArgs};
 use crate::target_args::{self, ScreenArgs, Style};
 use crate::trial::{self, mode_json};
@@ -18,6 +19,7 @@ use slowlight_compiler::syntax::print;
 use slowlight_compiler::target::mos6502::document;
 use slowlight_compiler::target::mos6502::syntax::Syntax;
 use slowlight_compiler::target::{Document, Target};
+use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 /// Options of `build`.
@@ -100,6 +102,7 @@ pub fn run(args: &Args) -> Outcome<()> {
             "code_bytes": sizes.code,
             "table_bytes": sizes.tables,
             "ram_bytes": sizes.ram,
+            "heap": heap_json(&written),
             "cycles": forecast.cycles().map(f64::round),
             "machine_seconds": forecast.cycles().map(seconds),
             "rows_run": match forecast {
@@ -127,6 +130,8 @@ pub struct Written {
     /// Where, and how long in bytes.
     files: Vec<(PathBuf, usize)>,
     sizes: Sizes,
+    /// What a Jack program takes of the heap.
+    heap: Option<Need>,
 }
 
 impl Written {
@@ -146,7 +151,18 @@ impl Written {
                 rows.push(vec![what.to_owned(), size(bytes)]);
             }
         }
-        table(&rows)
+        let mut text = table(&rows);
+        if let Some(heap) = self.heap.as_ref().and_then(Need::heap) {
+            let part = |(name, words): &(&str, u64)| format!("{name} {}", count(*words));
+            let parts: Vec<String> = heap.parts.iter().map(part).collect();
+            text.push_str(&format!(
+                "heap: {} words with headers ({}); {}\n",
+                count(heap.words),
+                parts.join(", "),
+                heap.systems
+            ));
+        }
+        text
     }
 }
 
@@ -184,7 +200,25 @@ pub fn write(
             .iter()
             .map(|(path, bytes)| (path.clone(), bytes.len()))
             .collect(),
+        heap: match plan.target.name {
+            "jack" => Some(need_beside(plan, &built.loaded.system)),
+            _ => None,
+        },
         sizes: built.loaded.sizes,
+    })
+}
+
+/// A Jack program's heap as JSON; null for others.
+fn heap_json(written: &Written) -> serde_json::Value {
+    let Some(heap) = written.heap.as_ref().and_then(Need::heap) else {
+        return serde_json::Value::Null;
+    };
+    let parts: BTreeMap<&str, u64> = heap.parts.iter().copied().collect();
+    json!({
+        "words": heap.words,
+        "parts": parts,
+        "largest": heap.largest,
+        "systems": heap.systems,
     })
 }
 

@@ -7,7 +7,7 @@ use crate::machine::Loaded;
 use crate::measure::{Difference, psnr};
 use crate::picture::PictureFile;
 use crate::scene::{Scene, SceneArgs};
-use crate::target_args::{self, ScreenArgs};
+use crate::target_args::{self, HeapOf, ScreenArgs};
 use crate::trial::{self, LIMIT, Trial};
 use crate::{program, say, say_json};
 use serde::Serialize;
@@ -44,6 +44,10 @@ pub struct Args {
     /// Give up after so many cycles of the machine
     #[arg(long, value_name = "CYCLES", default_value_t = LIMIT)]
     limit: u64,
+    /// Jack's heap: that of the system in VM emulators, or what the official system leaves as
+    /// `.vm` files [default: built-in]
+    #[arg(long, value_name = "SYSTEM")]
+    heap: Option<HeapOf>,
 }
 
 /// Runs, reports, and fails where machine and model differ.
@@ -90,8 +94,9 @@ struct Report<'t> {
 }
 
 fn prepare(args: &Args, scene: &Scene) -> Outcome<(Plan, program::Values, Loaded)> {
-    let plan = args.screen.plan(scene, args.target, &[])?;
     let machine = args.screen.machine(args.target)?;
+    let machine = HeapOf::of(args.heap, args.screen.os, machine)?;
+    let plan = args.screen.plan(scene, args.target, &[])?;
     let Some(dir) = &args.program else {
         let loaded = trial::build_for(&plan, machine)?.loaded;
         return Ok((plan, Vec::new(), loaded));

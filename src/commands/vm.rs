@@ -7,7 +7,7 @@ use crate::machine::{
 };
 use crate::picture::{Picture, PictureFile};
 use crate::progress::Progress;
-use crate::target_args::{Os, page};
+use crate::target_args::{HeapOf, Os, page};
 use crate::{files, say, say_json};
 use clap::ValueEnum;
 use serde::Serialize;
@@ -43,6 +43,10 @@ pub struct Args {
     /// `native`, the VM's own, or `jack`, ours in Jack [default: native; jack with --cpu]
     #[arg(long, value_name = "OS")]
     os: Option<Os>,
+    /// The heap of the native operating system: that of VM emulators, or what the official
+    /// system leaves as `.vm` files [default: built-in]
+    #[arg(long, value_name = "SYSTEM")]
+    heap: Option<HeapOf>,
     /// Where to write the Hack computer's machine code: .asm, or .hack, an image of
     /// the ROM
     #[arg(long, value_name = "FILE")]
@@ -197,6 +201,7 @@ pub fn run(args: &Args) -> Outcome<()> {
         Kind::MosBbc => on(Board::Bbc),
         Kind::MosC64 => on(Board::C64),
     };
+    let machine = HeapOf::of(args.heap, args.os, machine)?;
     let hack = machine.many_sources();
     let mut program = Vec::new();
     for path in paths(args)? {

@@ -28,6 +28,8 @@ pub struct Config {
     pub cpu: bool,
     /// With the operating system in Jack, as far as the program brings none itself.
     pub os: bool,
+    /// The heap that the VM's native system has. Ours in Jack has its own.
+    pub heap: vm::Heap,
     /// Whether to count on the VM, too, what runs on the processor.
     pub count: bool,
 }
@@ -36,6 +38,7 @@ pub struct Config {
 #[derive(Clone, Debug)]
 pub struct OnVm {
     program: vm::Program,
+    heap: vm::Heap,
     noted: Option<Noted>,
 }
 
@@ -71,7 +74,11 @@ pub fn load(files: &[File], config: Config) -> Outcome<Loaded> {
             binaries: Vec::new(),
             sizes: Sizes::default(),
             map: map(files, &lines, &program),
-            program: Program::Hack(Box::new(OnVm { program, noted })),
+            program: Program::Hack(Box::new(OnVm {
+                program,
+                heap: config.heap,
+                noted,
+            })),
         });
     }
     let translation = translate(&program, Options::default())
@@ -188,14 +195,14 @@ fn map(files: &[File], lines: &CommandLines, program: &vm::Program) -> LineMap {
 /// Runs a program that was loaded. RAM is what it leaves changed of statics,
 /// stack and heap, where the native OS's few words count too.
 pub fn run(on: &OnVm, limit: u64, watch: Watch<'_>) -> MachineRun {
-    let mut machine = vm::Machine::new(&on.program);
+    let mut machine = vm::Machine::with_heap(&on.program, on.heap);
     let run = machine.run(limit, watch);
     told(on, &machine, run)
 }
 
 /// The same, with what each command took.
 pub fn charges(on: &OnVm, limit: u64, roles: Roles<'_>, watch: Watch<'_>) -> (MachineRun, Charges) {
-    let mut machine = vm::Machine::new(&on.program);
+    let mut machine = vm::Machine::with_heap(&on.program, on.heap);
     let (run, charges) = machine.charges(limit, roles, watch);
     (told(on, &machine, run), charges)
 }

@@ -19,6 +19,7 @@ use crate::failure::{Failure, Outcome};
 use crate::interrupt;
 use crate::picture::Picture;
 use slowlight_vm::bbc::{Config, Dialect, LineCost};
+use slowlight_vm::hack::vm::Heap;
 use slowlight_vm::{Progress, Screen, Stop};
 use std::collections::BTreeMap;
 
@@ -157,11 +158,21 @@ impl Machine {
     /// operating system in Jack; other machines stay what they are.
     pub fn on_processor(self) -> Machine {
         match self {
-            Machine::Hack(_) => Machine::Hack(HackConfig {
+            Machine::Hack(config) => Machine::Hack(HackConfig {
                 cpu: true,
                 os: true,
                 count: true,
+                ..config
             }),
+            machine => machine,
+        }
+    }
+
+    /// The same with another heap of the Hack VM's native system; other machines stay what
+    /// they are.
+    pub fn with_heap(self, heap: Heap) -> Machine {
+        match self {
+            Machine::Hack(config) => Machine::Hack(HackConfig { heap, ..config }),
             machine => machine,
         }
     }

@@ -1,8 +1,10 @@
 //! Which machine and screen: the options that choose a target, and the plan
 //! that they lead to.
 
+mod heap;
 mod read;
 
+pub use heap::HeapOf;
 pub use read::*;
 
 use crate::failure::{Failure, Outcome};

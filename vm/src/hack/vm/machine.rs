@@ -5,7 +5,7 @@ use super::command::{
 };
 use super::fast::Exit;
 use super::link::Program;
-use super::os::{self, Native, Os, Trap};
+use super::os::{self, Heap, Native, Os, Trap};
 use super::parse::fault;
 use crate::charge::{Charges, Ledger, Roles};
 use crate::hack::screen::screen;
@@ -50,20 +50,25 @@ pub struct Run {
 impl<'p> Machine<'p> {
     /// A machine about to start the program, everything else in the RAM zero.
     pub fn new(program: &'p Program) -> Self {
+        Machine::with_heap(program, Heap::default())
+    }
+
+    /// The same with another operating system's heap.
+    pub fn with_heap(program: &'p Program, heap: Heap) -> Self {
         let mut memory: Box<Memory> = Box::new([0; 0x10000]);
         let (_, constants) = memory.split_at_mut(usize::from(CONSTANTS));
         for (word, value) in constants.iter_mut().zip(0..) {
             *word = value;
         }
         if program.native_heap {
-            os::init(&mut memory);
+            os::init(&mut memory, heap);
         }
         // As if something at return site 0 had called the function.
         memory[usize::from(ARG)] = STACK;
         memory[usize::from(LCL)] = STACK + FRAME;
         memory[usize::from(SP)] = STACK + FRAME;
         let start = program.functions.get(program.start as usize);
-        let mut os = Os::new();
+        let mut os = Os::new(heap);
         if let Some(fused) = &program.fused {
             os.odd = STACK + FRAME > fused.room(program.start);
         }

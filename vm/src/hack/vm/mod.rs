@@ -61,3 +61,4 @@ pub(in crate::hack) mod tests;
 pub use link::Program;
 pub use machine::{Machine, Run};
 pub use names::Names;
+pub use os::Heap;

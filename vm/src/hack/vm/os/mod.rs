@@ -9,6 +9,8 @@ mod memory;
 mod screen;
 mod string;
 
+pub use memory::Heap;
+
 use super::command::{HEAP, KEYBOARD, Memory, RAM_MASK, SCREEN, SP, STACK, TEMP};
 
 /// Text that a program prints beyond this many bytes is dropped, so that an
@@ -31,6 +33,8 @@ pub(super) enum Trap {
 /// The state of the operating system that is not in the RAM.
 #[derive(Clone, Debug)]
 pub(super) struct Os {
+    /// Whose heap it is.
+    heap: Heap,
     /// Whether the screen's colour is black.
     black: bool,
     /// What the program printed.
@@ -47,8 +51,9 @@ pub(super) struct Os {
 }
 
 impl Os {
-    pub fn new() -> Self {
+    pub fn new(heap: Heap) -> Self {
         Os {
+            heap,
             black: true,
             text: String::new(),
             drawn: None,
@@ -224,7 +229,7 @@ pub(super) fn call(native: Native, memory: &mut Memory, os: &mut Os) -> Result<u
         Native::Sqrt => Ok(a.isqrt()),
 
         Native::MemoryInit => {
-            memory::init(memory);
+            memory::init(memory, os.heap);
             Ok(0)
         }
         Native::Peek => Ok(load(memory, a)),
@@ -328,6 +333,6 @@ pub(super) fn divide(a: u16, b: u16) -> Option<u16> {
 }
 
 /// Prepares the RAM as the native `Sys.init` does.
-pub(super) fn init(memory: &mut Memory) {
-    memory::init(memory);
+pub(super) fn init(memory: &mut Memory, heap: Heap) {
+    memory::init(memory, heap);
 }
