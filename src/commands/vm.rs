@@ -212,6 +212,9 @@ pub fn run(args: &Args) -> Outcome<()> {
         });
     }
     let mut loaded = machine.at_page(args.page).load(&program)?;
+    for warning in loaded.warnings() {
+        eprintln!("warning: {warning}");
+    }
     if let Some(path) = &args.image {
         write_image(path, &loaded)?;
     }

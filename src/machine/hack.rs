@@ -40,6 +40,7 @@ pub struct OnVm {
     program: vm::Program,
     heap: vm::Heap,
     noted: Option<Noted>,
+    pub(super) warnings: Vec<Fault>,
 }
 
 /// A program for the processor.
@@ -47,6 +48,7 @@ pub struct OnVm {
 pub struct OnCpu {
     cpu: Cpu,
     noted: Option<Noted>,
+    pub(super) warnings: Vec<Fault>,
     /// The same on the VM with its own system.
     counted: Option<vm::Program>,
 }
@@ -58,7 +60,11 @@ pub fn load(files: &[File], config: Config) -> Outcome<Loaded> {
     if files.iter().any(is_machine_code) {
         return load_machine_code(files);
     }
-    let (own, lines) = compile(files)?;
+    let Compiled {
+        code: own,
+        lines,
+        warnings,
+    } = compile(files)?;
     let mut all = own.clone();
     let mut system = Vec::new();
     if config.os || config.cpu {
@@ -68,6 +74,10 @@ pub fn load(files: &[File], config: Config) -> Outcome<Loaded> {
     }
     let program = link(&all)?;
     let noted = Noted::of(&program, &system);
+    if program.is_bare() && config.cpu {
+        let message = "VM code without functions runs on the VM: leave out --cpu";
+        return Err(Failure::Usage(message.to_owned()));
+    }
     if !config.cpu {
         return Ok(Loaded {
             system,
@@ -78,6 +88,7 @@ pub fn load(files: &[File], config: Config) -> Outcome<Loaded> {
                 program,
                 heap: config.heap,
                 noted,
+                warnings,
             })),
         });
     }
@@ -89,6 +100,7 @@ pub fn load(files: &[File], config: Config) -> Outcome<Loaded> {
     loaded.system = system;
     if let Program::HackCpu(on) = &mut loaded.program {
         on.noted = noted;
+        on.warnings = warnings;
         on.counted = config.count.then(|| link(&own)).transpose()?;
     }
     Ok(loaded)
@@ -130,6 +142,7 @@ fn rom(name: &str, words: &[u16]) -> Outcome<Loaded> {
         program: Program::HackCpu(Box::new(OnCpu {
             cpu,
             noted: None,
+            warnings: Vec::new(),
             counted: None,
         })),
         map: LineMap::Unknown,
@@ -140,8 +153,17 @@ fn link(files: &[(String, String)]) -> Outcome<vm::Program> {
     vm::Program::link(files).map_err(|faults| refused("linker", "the program", &faults))
 }
 
-/// Compiles what is Jack, and adds it to what is VM code.
-fn compile(files: &[File]) -> Outcome<(Vec<(String, String)>, CommandLines)> {
+/// A program as VM code, before an operating system.
+struct Compiled {
+    code: Vec<(String, String)>,
+    lines: CommandLines,
+    /// What is accepted and may be a mistake.
+    warnings: Vec<Fault>,
+}
+
+/// Compiles what is Jack, and adds it to what is VM code, with what stands in for functions
+/// that are called and missing.
+fn compile(files: &[File]) -> Outcome<Compiled> {
     let mut classes = Vec::new();
     let mut program = Vec::new();
     for file in files {
@@ -158,7 +180,8 @@ fn compile(files: &[File]) -> Outcome<(Vec<(String, String)>, CommandLines)> {
             }
         }
     }
-    let compiled = jack::compile(&classes)
+    let mut warnings = Vec::new();
+    let compiled = jack::compile_warning(&classes, &mut warnings)
         .map_err(|faults| refused("Jack compiler", "the program", &faults))?;
     let mut lines = CommandLines::new();
     let sources = files.iter().enumerate();
@@ -167,7 +190,17 @@ fn compile(files: &[File]) -> Outcome<(Vec<(String, String)>, CommandLines)> {
         lines.insert(class.name.clone(), (document, class.lines));
         program.push((class.name, class.text));
     }
-    Ok((program, lines))
+    let missing =
+        vm::Missing::of(&program).map_err(|faults| refused("linker", "the program", &faults))?;
+    program.extend(missing.file());
+    // The compiler has said what is called in Jack.
+    let in_code = |call: &Fault| !call.file.as_ref().is_some_and(|f| lines.contains_key(f));
+    warnings.extend(missing.calls.into_iter().filter(in_code));
+    Ok(Compiled {
+        code: program,
+        lines,
+        warnings,
+    })
 }
 
 /// For each file of VM code that was a class: which of the sources that is, and the
@@ -207,7 +240,12 @@ pub fn charges(on: &OnVm, limit: u64, roles: Roles<'_>, watch: Watch<'_>) -> (Ma
     (told(on, &machine, run), charges)
 }
 
-fn told(on: &OnVm, machine: &vm::Machine<'_>, run: vm::Run) -> MachineRun {
+fn told(on: &OnVm, machine: &vm::Machine<'_>, mut run: vm::Run) -> MachineRun {
+    if on.program.is_bare() {
+        let words = machine.stack();
+        let words = words.iter().map(i16::to_string).collect::<Vec<String>>();
+        run.text.push_str(&format!("stack: {}\n", words.join(" ")));
+    }
     MachineRun {
         vm_instructions: Some(run.instructions),
         os_calls: Some(run.os_calls),
@@ -255,7 +293,10 @@ pub fn run_cpu(on: &mut OnCpu, sizes: Sizes, limit: u64, watch: Watch<'_>) -> Ma
 fn stop(stop: Stop, noted: Option<Noted>, peek: impl Fn(u16) -> i16) -> Stop {
     match noted.and_then(|noted| noted.error(peek)) {
         Some(number) if stop == Stop::Ended => Stop::Fault(Fault {
-            message: format!("Sys.error({number})"),
+            message: match number {
+                vm::MISSING => "the program calls a function that it lacks".to_owned(),
+                _ => format!("Sys.error({number})"),
+            },
             file: None,
             line: None,
             column: None,

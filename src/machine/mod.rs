@@ -228,6 +228,15 @@ impl Loaded {
         Ok(run)
     }
 
+    /// What is accepted of the program and may be a mistake.
+    pub fn warnings(&self) -> &[slowlight_vm::Fault] {
+        match &self.program {
+            Program::Hack(on) => &on.warnings,
+            Program::HackCpu(on) => &on.warnings,
+            _ => &[],
+        }
+    }
+
     /// Runs a BASIC program, and counts what each of its lines takes.
     ///
     /// # Errors

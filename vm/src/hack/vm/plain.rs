@@ -83,9 +83,13 @@ impl Machine<'_> {
                     self.push(0)?;
                 }
             }
+            Command::Return if self.program.bare => return Err(Trap::Halt),
             Command::Return => next = self.leave()?,
             Command::FunctionEnd => {
                 self.count -= 1;
+                if self.program.bare {
+                    return Err(Trap::Halt);
+                }
                 return Err(Trap::Fault(format!(
                     "{} has come to its end without a return",
                     self.function()
