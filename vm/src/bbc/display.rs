@@ -215,11 +215,12 @@ impl Display {
 
     /// COLOUR, as GCOL.
     fn colour(&mut self, ink: u8) {
+        let top = self.top_ink();
         let which = match ink < 128 {
             true => &mut self.text.ink,
             false => &mut self.text.paper,
         };
-        *which = ink & (self.mode.inks - 1) as u8;
+        *which = ink & top;
     }
 
     /// GCOL: inks of 128 and more are the background's.
@@ -229,6 +230,7 @@ impl Display {
             ink: ink & self.top_ink(),
         };
         match ink < 128 {
+            _ if self.text.off => {}
             true => self.ink = pen,
             false => self.paper = pen,
         }

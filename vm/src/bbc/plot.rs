@@ -22,6 +22,9 @@ impl Display {
     /// paper. The rest say how: 0-31 lines, 64 points, 72 fill along the row, 80 triangles, 88
     /// fill to the right; with later machines 32-63 lines and 96 rectangles.
     pub fn plot(&mut self, mem: &mut [u8], k: u8, x: i32, y: i32) -> u64 {
+        if self.text.off {
+            return 300;
+        }
         let here = self.locate(k & 4 != 0, (x, y));
         let micro = self.dialect() == Dialect::Micro;
         if k == 4 || self.mode.layout == Layout::Text {
@@ -116,7 +119,7 @@ impl Display {
         let (r, t) = self.pixel_of((right, top));
         let (w, h) = (self.mode.width as i32, self.mode.height as i32);
         let in_order = wrap(right - left) >= 0 && wrap(top - bottom) >= 0;
-        if in_order && l >= 0 && b >= 0 && r < w && t < h {
+        if in_order && l >= 0 && b >= 0 && (0..w).contains(&r) && (0..h).contains(&t) {
             self.window = (l, b, r, t);
         }
     }

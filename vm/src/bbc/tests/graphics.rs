@@ -13,7 +13,7 @@ fn answer(program: &str) -> String {
 /// Each prints what OS 1.20 printed.
 fn answers(list: &[(&str, &str)]) {
     for (program, expected) in list {
-        let program = format!("{program}:VDU 22,7:PRINT;A;\" \";B;\" \";C;\" \";D");
+        let program = format!("{program}:VDU 22,7:PRINT:PRINT;A;\" \";B;\" \";C;\" \";D");
         let program = format!("A=-9:B=-9:C=-9:D=-9:{program}");
         assert_eq!(answer(&program), *expected, "{program}");
     }
@@ -155,7 +155,7 @@ fn characters_are_drawn_at_either_cursor() {
         (
             "MODE 4:VDU 28,5,20,30,10:A=POS+VPOS:VDU 31,26,0:B=POS+VPOS:VDU 31,25,10,9:\
              C=POS*10+VPOS:VDU 26:D=POS+VPOS",
-            "0 0 0 0",
+            "0 0 10 0",
         ),
     ]);
     let shared = "MODE 4:VDU 23,240,255,129,129,129,129,129,129,255\n20PRINT CHR$240:VDU 5:\
