@@ -14,6 +14,7 @@ mod cli_run;
 mod cli_snapshot;
 mod cli_wrong;
 mod columns;
+mod drawings;
 mod effects;
 mod explain;
 mod fit;
@@ -43,6 +44,8 @@ mod peers_c64;
 mod peers_chromium;
 #[cfg(feature = "peers")]
 mod peers_dialect;
+#[cfg(feature = "peers")]
+mod peers_drawings;
 #[cfg(feature = "peers")]
 mod peers_jsbeeb;
 mod precise;

@@ -167,14 +167,9 @@ fn files_are_written_and_read() {
     assert_eq!(run.files["pic"], [0, 1, 4, 9, 16, 25, 36, 49, 64, 81]);
 }
 
-/// Ink at a pixel counted from the top left.
-fn ink(run: &Run, x: u32, y: u32) -> u8 {
-    run.screen.pixels[(y * run.screen.width + x) as usize]
-}
-
 #[test]
 fn points_and_pokes_draw_the_same() {
-    let drawn = run("10MODE 1:GCOL 0,2:PLOT 69,4*5,4*(255-9):PRINT;POINT(20,984);POINT(0,0)");
+    let drawn = run("10MODE 1:GCOL 0,2:PLOT 69,4*5,4*(255-9)");
     let poked = run("10MODE 1:?(HIMEM+9DIV8*640+5DIV4*8+9MOD8)=&40");
     assert_eq!(drawn.stop, Stop::Ended);
     assert_eq!((drawn.screen.width, drawn.screen.height), (320, 256));
@@ -185,7 +180,10 @@ fn points_and_pokes_draw_the_same() {
         drawn.screen.palette,
         [[0, 0, 0], [255, 0, 0], [255, 255, 0], [255; 3]]
     );
-    assert_eq!(drawn.text, "20\n");
+    assert_eq!(
+        prints("10MODE 1:GCOL 0,2:PLOT 69,20,984:PRINT;POINT(20,984);POINT(0,0)"),
+        "20\n"
+    );
 }
 
 #[test]
