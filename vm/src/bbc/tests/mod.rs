@@ -1,6 +1,8 @@
 #![allow(clippy::unwrap_used)]
 
+mod cases;
 mod programs;
+mod rom;
 mod tokens;
 mod wrong;
 
