@@ -11,7 +11,7 @@ use crate::target_args::{HeapOf, Os, page};
 use crate::{files, say, say_json};
 use clap::ValueEnum;
 use serde::Serialize;
-use slowlight_vm::bbc::{Config, LineCost};
+use slowlight_vm::bbc::{self, Config, LineCost};
 use slowlight_vm::mos6502::Dialect;
 use std::path::{Path, PathBuf};
 
@@ -58,6 +58,9 @@ pub struct Args {
     /// [default: 1900]
     #[arg(long, value_name = "PAGE", value_parser = page)]
     page: Option<u16>,
+    /// Whose BASIC and screen [default: micro]
+    #[arg(long, value_name = "DIALECT")]
+    dialect: Option<Basic>,
     /// How 6502 assembly is written [default: ca65]
     #[arg(long, value_name = "SYNTAX")]
     syntax: Option<Syntax>,
@@ -72,6 +75,31 @@ enum Syntax {
     Beebasm,
 }
 
+/// Whose BASIC a program is for.
+#[derive(ValueEnum, Clone, Copy, Debug, PartialEq, Eq)]
+enum Basic {
+    /// BBC Micro, BASIC II
+    Micro,
+    /// Agon Light, BBC BASIC (Z80)
+    Agon,
+    /// Matrix Brandy and others with BASIC V
+    Basicv,
+}
+
+impl Basic {
+    fn config(self) -> Config {
+        let dialect = match self {
+            Basic::Micro => bbc::Dialect::Micro,
+            Basic::Agon => bbc::Dialect::Agon,
+            Basic::Basicv => bbc::Dialect::BasicV,
+        };
+        Config {
+            dialect,
+            ..Config::default()
+        }
+    }
+}
+
 /// A machine by its name here.
 #[derive(ValueEnum, Clone, Copy, Debug, PartialEq, Eq)]
 enum Kind {
@@ -80,7 +108,8 @@ enum Kind {
     /// VM code (.vm), on the same; or assembly (.asm) or an image of the ROM
     /// (.hack), on the Hack computer's CPU
     Hack,
-    /// A BBC BASIC program, as text or tokens, on a BBC Micro
+    /// A BBC BASIC program, as text, as tokens or on a disc (.ssd), on a BBC Micro
+    /// unless --dialect says another
     Bbc,
     /// Assembly (.asm, .s) or a binary with its load address, on the plain machine
     #[value(name = "6502", alias = "6502:plain")]
@@ -166,6 +195,10 @@ pub fn run(args: &Args) -> Outcome<()> {
         let message = "--page is the BBC Micro's: `slowlight vm bbc --page E00 FILE`";
         return Err(Failure::Usage(message.to_owned()));
     }
+    if args.dialect.is_some() && args.machine != Kind::Bbc {
+        let message = "--dialect is BBC BASIC's: `slowlight vm bbc --dialect agon FILE`";
+        return Err(Failure::Usage(message.to_owned()));
+    }
     let assembles = matches!(args.machine, Kind::Mos6502 | Kind::MosBbc | Kind::MosC64);
     if args.syntax.is_some() && !assembles {
         let message = "--syntax is the 6502's: `slowlight vm 6502 --syntax beebasm FILE`";
@@ -196,7 +229,7 @@ pub fn run(args: &Args) -> Outcome<()> {
             os: args.os == Some(Os::Jack),
             ..HackConfig::default()
         }),
-        Kind::Bbc => Machine::Bbc(Config::default()),
+        Kind::Bbc => Machine::Bbc(args.dialect.unwrap_or(Basic::Micro).config()),
         Kind::Mos6502 => on(Board::Plain),
         Kind::MosBbc => on(Board::Bbc),
         Kind::MosC64 => on(Board::C64),

@@ -5,6 +5,7 @@
 //! This is where a target's name chooses its machine.
 
 mod bbc;
+mod boot;
 mod charge;
 mod dfs;
 mod hack;

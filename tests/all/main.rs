@@ -1,6 +1,7 @@
 //! One integration-test binary: a file a subject.
 
 mod accuracy;
+mod basic_discs;
 mod bbc;
 mod blue_noise;
 mod boxes;
@@ -34,6 +35,8 @@ mod mos6502_logs;
 mod need;
 #[cfg(feature = "peers")]
 mod peers_assemblers;
+#[cfg(feature = "peers")]
+mod peers_basic;
 #[cfg(feature = "peers")]
 mod peers_boxes;
 #[cfg(feature = "peers")]

@@ -7,6 +7,7 @@
 //   "tokenised": hex   bytes to stand at PAGE, then RUN
 //   "typed": text      lines for BASIC's own line editor and tokeniser, then RUN
 //   "disc": hex        an .ssd image, booted with SHIFT held
+//   "programs": list   small programs, each [text, lines for its INPUTs], run one after the other
 // and may have
 //   "page"             PAGE, &1900 unless told (a number)
 //   "limit"            cycles of 2 MHz to stop after, 4e9 unless told
@@ -28,6 +29,9 @@
 //   "memory"           the dump, hex
 //   "cases"            see below
 //   "drawings"         see below
+// of "programs" only
+//   "texts"            what each wrote, with the lines that it was given where it read them
+//   "tokens"           what each was stored as, hex
 //
 // Lines go in where BASIC asks the operating system for one (OSWORD 0), as if they had been
 // typed very quickly. A mark is the program's own `?&70=n`.
@@ -81,6 +85,22 @@ const HAND_ON = 0x1a00;
 const HANDING_ON = "a000b18020eeffe680d002e681a580c582d0efa581c583d0e98570";
 /** Cycles that a drawing may take. */
 const DRAWN_BY = 4e8;
+/** BASIC II: where it keeps the high byte of PAGE, and TOP. */
+const PAGE = 0x18;
+const TOP = 0x12;
+/** BASIC II: the page into which INPUT has a line read; its own lines go to another. */
+const INPUT_PAGE = 6;
+/** Brings BASIC to what it is after a reset, as far as programs change it for those after them. */
+const FRESH = [
+  "NEW",
+  "MODE7",
+  "TRACE OFF:WIDTH0:CLOSE#0",
+  "FORA=&404TO&46BSTEP4:!A=0:NEXT",
+  "@%=&90A:A=RND(-1)",
+  "CLEAR",
+];
+/** Cycles that a small program has. */
+const SMALL = 10 * SECOND;
 /** Cycles between two fields, and the length of the pulse between them (the CRTC's). */
 const FIELD = 40_000;
 const PULSE = 256;
@@ -216,6 +236,40 @@ class Micro {
     }
   }
 
+  /** Runs small programs one after the other; answers what each wrote and was stored as. */
+  async programs(list) {
+    if (!(await this.run(SMALL))) throw new Error("no prompt");
+    const texts = [];
+    const tokens = [];
+    for (const [text, input] of list) {
+      await this.type([...FRESH, ...text.split("\n").filter((line) => line !== "")]);
+      const stored = this.cpu.ramRomOs.subarray(this.byte(PAGE) << 8, this.word(TOP));
+      tokens.push(Buffer.from(stored).toString("hex"));
+      this.line("RUN");
+      this.text.length = 0;
+      const lines = [...input];
+      while ((await this.run(SMALL)) && this.asks()) {
+        const line = lines.shift() ?? "";
+        // The operating system would have echoed it.
+        this.text.push(...Buffer.from(line, "latin1"), 10, 13);
+        this.line(line);
+      }
+      if (!this.here()) throw new Error(`no end of ${text}, which wrote ${Buffer.from(this.text).toString("latin1")}`);
+      texts.push(Buffer.from(this.text).toString("latin1"));
+    }
+    return { texts, tokens };
+  }
+
+  /** Is the processor where a line is wanted? */
+  here() {
+    return this.cpu.pc === this.word(0x20c) && this.cpu.a === 0;
+  }
+
+  /** Is it INPUT that wants the line, rather than BASIC itself? */
+  asks() {
+    return this.here() && this.word(this.cpu.x | (this.cpu.y << 8)) >> 8 === INPUT_PAGE;
+  }
+
   async load(job) {
     if (!(await this.run(10 * SECOND))) throw new Error("no prompt");
     await this.type([`PAGE=${job.page ?? 0x1900}`, "NEW"]);
@@ -294,6 +348,7 @@ class Micro {
     this.text = [];
     this.answers = [];
     await this.boot(job);
+    if (job.programs) return this.programs(job.programs);
     if (!job.disc) {
       await this.load(job);
       this.line("RUN");

@@ -1,5 +1,7 @@
 //! Evaluates expressions that give numbers. Strings are in [`super::strings`].
 
+use std::cmp::Ordering;
+
 use slowlight_isa::real40::Real40;
 
 use super::arithmetic::{holds, order, truth};
@@ -152,8 +154,11 @@ impl State {
     ) -> Result<usize> {
         let array = self.array(kind, slot)?;
         let lookup = array.lookup;
-        if array.dims.len() != index.len() {
-            return Err(Error::Array);
+        match index.len().cmp(&array.dims.len()) {
+            Ordering::Less => return Err(Error::Array),
+            // The ROM wants the bracket after as many as there are.
+            Ordering::Greater => return Err(Error::MissingBracket),
+            Ordering::Equal => {}
         }
         self.cycles += u64::from(lookup);
         let mut at = 0usize;

@@ -45,8 +45,8 @@ impl State {
             Func1::Asn => Num::Real(elementary::asn(self.real_of(x))?),
             Func1::Acs => Num::Real(elementary::acs(self.real_of(x))?),
             Func1::Log => Num::Real(elementary::log10(self.real_of(x))?),
-            Func1::Deg => Num::Real(Real40::from_f64(x.real().to_f64().to_degrees())?),
-            Func1::Rad => Num::Real(Real40::from_f64(x.real().to_f64().to_radians())?),
+            Func1::Deg => Num::Real(arith::mul(self.real_of(x), super::DEGREES)?),
+            Func1::Rad => Num::Real(arith::mul(self.real_of(x), super::RADIANS)?),
             Func1::Rnd => self.rnd_of(x)?,
             // No key is ever pressed: INKEY waits its hundredths and gives -1.
             Func1::Inkey => {
@@ -55,7 +55,8 @@ impl State {
                     self.cycles += wait as u64 * 20_000;
                     Num::Int(-1)
                 } else {
-                    Num::Int(0)
+                    // OS 1.20 is -1; no key is held.
+                    truth(x.int()? as u8 == 0)
                 }
             }
             Func1::Adval => Num::Int(0),

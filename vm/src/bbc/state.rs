@@ -6,9 +6,12 @@
 //! integers can also be reached at &400 by `?` and `!`, as some programs do; other variables
 //! and the program's own lines cannot be changed through memory.
 
+use std::collections::VecDeque;
+
 use slowlight_isa::real40::Real40;
 
 use super::ast::{Kind, Slot};
+use super::data::DataPointer;
 use super::display::Display;
 use super::error::Error;
 use super::files::Files;
@@ -47,9 +50,12 @@ pub(crate) struct State {
     pub loops: Vec<Loop>,
     pub repeats: Vec<u32>,
     pub gosubs: Vec<u32>,
-    /// The next DATA item, and the line from which it is looked for.
-    pub data: usize,
-    pub data_line: u32,
+    /// Where READ goes on.
+    pub data: DataPointer,
+    /// TRACE tells the lines below this number.
+    pub trace: u16,
+    /// Lines for INPUT.
+    pub typed: VecDeque<Vec<u8>>,
     pub on_error: Option<u32>,
     pub err: u8,
     pub error: Error,
@@ -106,8 +112,9 @@ impl State {
             loops: Vec::new(),
             repeats: Vec::new(),
             gosubs: Vec::new(),
-            data: 0,
-            data_line: 0,
+            data: DataPointer::default(),
+            trace: 0,
+            typed: VecDeque::new(),
             on_error: None,
             err: 0,
             error: Error::Halt,
@@ -205,8 +212,7 @@ impl State {
         self.lists.fill(Vec::new());
         self.heap = self.lomem;
         self.unwind();
-        self.data = 0;
-        self.data_line = 0;
+        self.data = DataPointer::default();
     }
 
     /// Empties all stacks, as an error does.

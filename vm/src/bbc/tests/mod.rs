@@ -1,7 +1,9 @@
 #![allow(clippy::unwrap_used)]
 
+mod cases;
 mod graphics;
 mod programs;
+mod rom;
 mod tokens;
 mod wrong;
 

@@ -21,7 +21,7 @@ fn numbers_as_on_the_rom() {
                 "-3 -1 2.5 -1",
             ),
             (
-                "PRINT;2^3^2;\" \";-2^2;\" \";1=1=-1;\" \";INT(5.5)+2 AND 1",
+                "PRINT;2^3^2;\" \";-2^2;\" \";(1=1)=-1;\" \";INT(5.5)+2 AND 1",
                 "64 4 -1 1",
             ),
             (
@@ -143,6 +143,24 @@ fn procedures_and_functions() {
 fn data_is_read_in_order_and_restored() {
     let text = "10READ A%,A$,B,C$\n20PRINT;A%;A$;B;C$\n30RESTORE 60:READ A$:PRINT A$\n40RESTORE:READ A%:PRINT;A%\n50DATA 5, word ,-2.5,\"a, b\"\n60DATA last";
     assert_eq!(prints(text), "5word -2.5a, b\nlast\n5\n");
+}
+
+#[test]
+fn some_lines_of_a_text_are_numbered() {
+    let text = "PRINT \"first\"\nRESTORE 1010\nREAD A$:PRINT A$\nEND\n1000DATA no\n1010DATA yes\n";
+    assert_eq!(prints(text), "first\nyes\n");
+    let text = "GOTO 210\n200PRINT \"no\"\nPRINT \"on\":GOTO 220\nPRINT \"end\"";
+    assert_eq!(prints(text), "on\nend\n");
+}
+
+#[test]
+fn lines_are_typed_for_input_and_then_empty_ones() {
+    let mut machine = Machine::new(Config::default());
+    let text = "10INPUT \"name \"A$,B%\n20INPUT C$:PRINT A$\"|\"B%\"|\"C$\"|\"";
+    machine.load_text(text).unwrap();
+    machine.type_lines(["Ada, 36"]);
+    let run = machine.run(20_000_000, &mut |_| true);
+    assert_eq!(run.text, "name Ada, 36\n?\nAda|        36||\n");
 }
 
 #[test]
