@@ -1,6 +1,7 @@
 //! One integration-test binary: a file a subject.
 
 mod accuracy;
+mod any_assembler;
 mod bbc;
 mod blue_noise;
 mod boxes;
