@@ -13,6 +13,7 @@ mod cli_params;
 mod cli_run;
 mod cli_snapshot;
 mod cli_wrong;
+mod colours;
 mod columns;
 mod effects;
 mod explain;
