@@ -7,6 +7,7 @@
 pub mod against;
 pub mod ascii;
 pub mod cases;
+pub mod colours;
 pub mod commands;
 pub mod diagnostics;
 pub mod digest;

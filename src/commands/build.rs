@@ -1,5 +1,6 @@
 //! `build`: sources ready for the real machine, or a stage on the way there.
 
+use crate::colours;
 use crate::failure::{Failure, Outcome};
 use crate::forecast::{self, Forecast, forecast};
 use crate::format::{count, duration, table};
@@ -78,6 +79,7 @@ pub fn run(args: &Args) -> Outcome<()> {
     }
     scene.warn();
     let plan = args.screen.plan(&scene, target(args)?, &[])?;
+    colours::warn(&scene, plan.target);
     let more = match args.screen.style {
         Some(Style::Listing) if target_args::is_6502(plan.target) => vec![listing(&scene, &plan)?],
         _ => Vec::new(),

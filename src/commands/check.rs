@@ -2,6 +2,7 @@
 //! targets' formats; and how hard cases are passed.
 
 use crate::cases::{self, Way};
+use crate::colours;
 use crate::failure::{Failure, Outcome, unknown};
 use crate::precise::{self, Fared};
 use crate::scene::{Changes, Precision, Scene};
@@ -139,11 +140,16 @@ fn check(args: &Args, of: &Path) -> Outcome<()> {
         let graph = scene.graph(None, Precision::NATIVE)?;
         let zero = domain::warnings(&graph, &scene.checked.sources);
         let fared = precise::look(&scene, &targets)?;
-        Ok((scene, zero, fared))
+        let mut said = zero;
+        // Of machines that are asked for: most scenes are not for all.
+        if !args.target.is_empty() {
+            said.extend(colours::warnings(&scene, &targets));
+        }
+        Ok((scene, said, fared))
     });
     match checked {
-        Ok((scene, zero, fared)) => {
-            report(args, of, &scene, &zero, &fared);
+        Ok((scene, more, fared)) => {
+            report(args, of, &scene, &more, &fared);
             Ok(())
         }
         Err(Failure::Scene(said)) => {
@@ -157,14 +163,14 @@ fn check(args: &Args, of: &Path) -> Outcome<()> {
     }
 }
 
-fn report(args: &Args, of: &Path, scene: &Scene, zero: &[Diagnostic], fared: &[Fared]) {
+fn report(args: &Args, of: &Path, scene: &Scene, more: &[Diagnostic], fared: &[Fared]) {
     let sources = &scene.checked.sources;
     let weak = fared.iter().flat_map(|f| &f.said);
     let said: Vec<Diagnostic> = scene
         .checked
         .diagnostics
         .iter()
-        .chain(zero)
+        .chain(more)
         .chain(weak)
         .cloned()
         .collect();

@@ -1,6 +1,7 @@
 //! `run`: build, run on the bundled machine, compare.
 
 use crate::against::Reference;
+use crate::colours;
 use crate::failure::{Failure, Outcome};
 use crate::format::{count, duration, table};
 use crate::machine::Loaded;
@@ -59,6 +60,7 @@ pub fn run(args: &Args) -> Outcome<()> {
     let scene = Scene::load(&args.scene)?;
     scene.warn();
     let (plan, set, loaded) = prepare(args, &scene)?;
+    colours::warn(&scene, plan.target);
     let trial = trial::run(&scene, plan, &set, loaded, args.limit)?;
     if let Some(picture) = &trial.picture {
         output.write(picture)?;

@@ -3,7 +3,7 @@
 use crate::failure::{Failure, Outcome};
 use crate::format::{count, table};
 use crate::machine::{
-    Board, File, HackConfig, Loaded, Machine, Mos6502Config, complaint, stop_word,
+    Board, File, HackConfig, Loaded, Machine, Mos6502Config, address, complaint, stop_word,
 };
 use crate::picture::{Picture, PictureFile};
 use crate::progress::Progress;
@@ -64,6 +64,13 @@ pub struct Args {
     /// How 6502 assembly is written [default: ca65]
     #[arg(long, value_name = "SYNTAX")]
     syntax: Option<Syntax>,
+    /// Where a binary for the 6502 is loaded, which does not say so itself: 0x2000 (also
+    /// `$2000`, `&2000`), or 8192
+    #[arg(long, value_name = "ADDR", value_parser = address)]
+    at: Option<u16>,
+    /// Where a program for the 6502 begins, if not with its first byte
+    #[arg(long, value_name = "ADDR", value_parser = address)]
+    start: Option<u16>,
 }
 
 /// A way to write assembly that the bundled assembler reads.
@@ -111,10 +118,11 @@ enum Kind {
     /// A BBC BASIC program, as text, as tokens or on a disc (.ssd), on a BBC Micro
     /// unless --dialect says another
     Bbc,
-    /// Assembly (.asm, .s) or a binary with its load address, on the plain machine
+    /// Assembly (any text), a .prg, or a binary with --at, on the plain machine
     #[value(name = "6502", alias = "6502:plain")]
     Mos6502,
-    /// The same on a BBC Micro without its ROMs, where programs are loaded at &1900 or above
+    /// The same, or a disc (.ssd), on a BBC Micro without its ROMs, where assembly is loaded
+    /// at &1900 or above
     #[value(name = "6502:bbc")]
     MosBbc,
     /// The same on a Commodore 64 without its ROMs, with a line of BASIC that starts it
@@ -204,6 +212,10 @@ pub fn run(args: &Args) -> Outcome<()> {
         let message = "--syntax is the 6502's: `slowlight vm 6502 --syntax beebasm FILE`";
         return Err(Failure::Usage(message.to_owned()));
     }
+    if (args.at.is_some() || args.start.is_some()) && !assembles {
+        let message = "--at and --start are the 6502's: `slowlight vm 6502 --at 0x2000 FILE`";
+        return Err(Failure::Usage(message.to_owned()));
+    }
     if args.cpu && !matches!(args.machine, Kind::Jack | Kind::Hack) {
         let message = "--cpu is the Hack computer's: `slowlight vm jack --cpu DIR`";
         return Err(Failure::Usage(message.to_owned()));
@@ -221,7 +233,12 @@ pub fn run(args: &Args) -> Outcome<()> {
             Some(Syntax::Beebasm) => Dialect::Beebasm,
             Some(Syntax::Ca65) | None => Dialect::Common,
         };
-        Machine::Mos6502(Mos6502Config { board, dialect })
+        Machine::Mos6502(Mos6502Config {
+            board,
+            dialect,
+            at: args.at,
+            start: args.start,
+        })
     };
     let machine = match args.machine {
         Kind::Jack | Kind::Hack => Machine::Hack(HackConfig {

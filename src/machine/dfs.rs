@@ -290,6 +290,10 @@ mod tests {
         assert!(wrong(&|d| d[9] = 7).contains("cannot be printed"));
         assert!(wrong(&|d| d[numbers(0) + 7] = 1).contains("outside the disc"));
         assert!(wrong(&|d| d[numbers(0) + 6] |= 3).contains("outside the disc"));
+        assert!(
+            wrong(&|d| (d[numbers(0) + 6], d[numbers(0) + 7]) = (0xCF, 0x1E))
+                .contains("outside the disc")
+        );
         // Another directory, and a file that is locked.
         let mut other = disc.clone();
         other[15] = b'A' | 0x80;

@@ -5,6 +5,7 @@
 //! This is where a target's name chooses its machine.
 
 mod bbc;
+mod binary;
 mod boot;
 mod charge;
 mod dfs;
@@ -12,6 +13,7 @@ mod hack;
 mod mos6502;
 mod os;
 
+pub use binary::address;
 pub use charge::{LineRoles, Lines};
 pub use hack::Config as HackConfig;
 pub use mos6502::{Board, Config as Mos6502Config};

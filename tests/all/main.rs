@@ -1,6 +1,7 @@
 //! One integration-test binary: a file a subject.
 
 mod accuracy;
+mod any_assembler;
 mod basic_discs;
 mod bbc;
 mod blue_noise;
@@ -14,6 +15,7 @@ mod cli_params;
 mod cli_run;
 mod cli_snapshot;
 mod cli_wrong;
+mod colours;
 mod columns;
 mod drawings;
 mod effects;

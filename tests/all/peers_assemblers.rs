@@ -55,17 +55,17 @@ fn ca65_makes_the_same_bytes() {
 
 #[test]
 fn tass_makes_the_same_bytes() {
-    assembles("64tass", &["64tass"], "NAME.bin", true);
+    assembles("64tass", &["64tass"], "NAME.prg", true);
 }
 
 #[test]
 fn acme_makes_the_same_bytes() {
-    assembles("acme", &["acme"], "NAME.bin", true);
+    assembles("acme", &["acme"], "NAME.prg", true);
 }
 
 #[test]
 fn dasm_makes_the_same_bytes() {
-    assembles("dasm", &["dasm"], "NAME.bin", true);
+    assembles("dasm", &["dasm"], "NAME.prg", true);
 }
 
 #[test]

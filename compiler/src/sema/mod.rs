@@ -9,7 +9,7 @@
 
 mod builtins;
 mod check;
-mod colours;
+pub mod colours;
 mod expr;
 mod lower;
 mod print;

@@ -1,7 +1,8 @@
 //! A BBC Micro, model B, as programs in machine code see it: 32K of RAM, part of which
 //! is the screen, and the operating system's calls.
 //!
-//! A program is loaded where its first two bytes say and entered there, as `*RUN` does.
+//! A program is loaded where its first two bytes say and entered there, or as it is told
+//! ([`super::Machine::load_at`]): a disc's catalogue says both for `*RUN`.
 //! The operating system is not bundled. Of its calls these are done here:
 //!
 //! | address | name | here |
@@ -25,7 +26,7 @@
 use super::computer::{Board, Computer, fault, return_from};
 use super::cpu::{Bus, Cpu};
 use crate::bbc::cost;
-use crate::{Fault, Screen, Stop};
+use crate::{Screen, Stop};
 
 /// The machine.
 pub type Bbc = Computer<Micro>;
@@ -253,11 +254,10 @@ impl Board for Micro {
         (RAM, "the ROMs")
     }
 
-    fn entry(&mut self, loaded: u16) -> Result<u16, Fault> {
+    fn ready(&mut self) {
         // Where an empty stack returns to.
         let [lo, hi] = (RETURN - 1).to_le_bytes();
         self.ram[0x100..0x102].copy_from_slice(&[lo, hi]);
-        Ok(loaded)
     }
 
     #[inline(always)]

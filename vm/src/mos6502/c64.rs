@@ -2,7 +2,8 @@
 //! processor's port that lays ROMs and hardware over it, and the video chip's bitmaps.
 //!
 //! A program that is loaded to $0801 begins with a line of BASIC, `SYS` and an
-//! address, and is entered there as `RUN` does; any other is entered where it is loaded.
+//! address, and is entered there as `RUN` does; any other is entered where it is loaded, or
+//! where it is told ([`super::Machine::load_at`]).
 //! The ROMs are not bundled. Where they lie over the RAM, what is read there ends the
 //! run with a fault, and so does what is called, but for CHROUT ($FFD2), which prints,
 //! CINT ($FF81), and the return to BASIC, which **ends** the program. So does a look at
@@ -251,10 +252,13 @@ impl Board for Circuits {
         (0xD000, "the circuits")
     }
 
-    fn entry(&mut self, loaded: u16) -> Result<u16, Fault> {
+    fn ready(&mut self) {
         // Where an empty stack returns to.
         let [lo, hi] = (RETURN - 1).to_le_bytes();
         self.ram[0x100..0x102].copy_from_slice(&[lo, hi]);
+    }
+
+    fn entry(&self, loaded: u16) -> Result<u16, Fault> {
         if loaded != BASIC {
             return Ok(loaded);
         }
