@@ -10,6 +10,7 @@ mod cli_fmt;
 mod cli_hack;
 mod cli_params;
 mod cli_run;
+mod cli_said;
 mod cli_snapshot;
 mod cli_wrong;
 mod columns;
