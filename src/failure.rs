@@ -76,9 +76,14 @@ impl Failure {
 
 /// The name nearest to a misspelt one, where one is near enough to be meant.
 pub fn nearest<'a>(name: &str, known: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
+    // `c64` is a part of `6502:c64`.
+    let like = |k: &str| match k.split(':').any(|part| part == name) {
+        true => 1.0,
+        false => strsim::normalized_damerau_levenshtein(name, k),
+    };
     known
         .into_iter()
-        .map(|k| (strsim::normalized_damerau_levenshtein(name, k), k))
+        .map(|k| (like(k), k))
         .filter(|(like, _)| *like >= 0.5)
         .max_by(|a, b| a.0.total_cmp(&b.0))
         .map(|(_, k)| k)

@@ -40,6 +40,8 @@ fn wrong_usage_is_status_2() {
     fails(&["render", "steps.scn", "--rows", "0..3"], 2, "rows 0..2");
     fails(&["render", "steps.scn", "--rows", "2..1"], 2, "below");
     fails(&["run", "steps.scn"], 2, "--target");
+    let part = "did you mean `6502:c64`?";
+    fails(&["run", "steps.scn", "-t", "c64"], 2, part);
     fails(
         &["run", "steps.scn", "--target", "zx81"],
         2,
