@@ -10,7 +10,7 @@ use crate::need::{Need, need_beside};
 use crate::scene::{Precision, Scene, SceneArgs};
 use crate::target_args::{self, ScreenArgs, Style};
 use crate::trial::{self, mode_json};
-use crate::{files, say, say_json};
+use crate::{files, inks, say, say_json};
 use clap::ValueEnum;
 use serde_json::json;
 use slowlight_compiler::passes::rate::rates;
@@ -74,11 +74,13 @@ enum Stage {
 pub fn run(args: &Args) -> Outcome<()> {
     let scene = Scene::load(&args.scene)?;
     if let Some(stage) = args.emit {
-        say(&emit(args, &scene, stage)?);
-        return Ok(());
+        return say(&emit(args, &scene, stage)?);
     }
+    let target = target(args)?;
+    files::may_hold(&args.output)?;
     scene.warn();
-    let plan = args.screen.plan(&scene, target(args)?, &[])?;
+    let plan = args.screen.plan(&scene, target, &[])?;
+    inks::warn(&scene, &plan)?;
     colours::warn(&scene, plan.target);
     let more = match args.screen.style {
         Some(Style::Listing) if target_args::is_6502(plan.target) => vec![listing(&scene, &plan)?],
@@ -95,7 +97,7 @@ pub fn run(args: &Args) -> Outcome<()> {
             .iter()
             .map(|(path, bytes)| json!({"path": path.display().to_string(), "bytes": bytes}))
             .collect();
-        say_json(&json!({
+        return say_json(&json!({
             "scene": scene.name,
             "target": plan.target.name,
             "mode": mode_json(plan.mode.name),
@@ -112,9 +114,8 @@ pub fn run(args: &Args) -> Outcome<()> {
                 Forecast::Whole(_) | Forecast::Not(_) => None,
             },
         }));
-        return Ok(());
     }
-    say(&written.text());
+    say(&written.text())?;
     say(&match &forecast {
         Forecast::Whole(cycles) => format!("{} on the machine\n", duration(seconds(*cycles))),
         Forecast::Rows(cycles, rows) => format!(
@@ -123,8 +124,7 @@ pub fn run(args: &Args) -> Outcome<()> {
             plan.rows.1 - plan.rows.0 + 1
         ),
         Forecast::Not(why) => format!("its time is not known: {why}\n"),
-    });
-    Ok(())
+    })
 }
 
 /// The files of a program that were written.
@@ -185,8 +185,7 @@ pub fn write(
         let files = documents.iter().map(|d| File::text(&d.name, &d.text));
         built.sources = files.collect();
     }
-    std::fs::create_dir_all(dir)
-        .map_err(|e| Failure::Wrong(format!("cannot make {}: {e}", dir.display())))?;
+    files::make(dir)?;
     let written: Vec<(PathBuf, &[u8])> = built
         .sources
         .iter()

@@ -10,7 +10,7 @@ use crate::picture::PictureFile;
 use crate::scene::{Scene, SceneArgs};
 use crate::target_args::{self, HeapOf, ScreenArgs};
 use crate::trial::{self, LIMIT, Trial};
-use crate::{program, say, say_json};
+use crate::{inks, program, say, say_json};
 use serde::Serialize;
 use slowlight_compiler::plan::Plan;
 use slowlight_compiler::target::Target;
@@ -60,6 +60,7 @@ pub fn run(args: &Args) -> Outcome<()> {
     let scene = Scene::load(&args.scene)?;
     scene.warn();
     let (plan, set, loaded) = prepare(args, &scene)?;
+    inks::warn(&scene, &plan)?;
     colours::warn(&scene, plan.target);
     let trial = trial::run(&scene, plan, &set, loaded, args.limit)?;
     if let Some(picture) = &trial.picture {
@@ -75,9 +76,9 @@ pub fn run(args: &Args) -> Outcome<()> {
         say_json(&Report {
             trial: trial.report(),
             differs_from,
-        });
+        })?;
     } else {
-        say(&report(&trial, &found));
+        say(&report(&trial, &found))?;
     }
     match &trial.from_model {
         Some(differences) if !differences.is_empty() => Err(Failure::Differs),

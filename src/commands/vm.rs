@@ -5,6 +5,7 @@ use crate::format::{count, table};
 use crate::machine::{
     Board, File, HackConfig, Loaded, Machine, Mos6502Config, address, complaint, stop_word,
 };
+use crate::output::remark;
 use crate::picture::{Picture, PictureFile};
 use crate::progress::Progress;
 use crate::target_args::{HeapOf, Os, page};
@@ -177,8 +178,8 @@ fn profile(loaded: &mut Loaded, limit: u64) -> Outcome<()> {
         ]
     };
     let rows: Vec<Vec<String>> = lines.iter().filter(|l| l.times > 0).map(row).collect();
-    say(&table(&rows));
-    say(&format!("{} cycles\n", count(run.cycles)));
+    say(&table(&rows))?;
+    say(&format!("{} cycles\n", count(run.cycles)))?;
     complaint(&run, limit).map_or(Ok(()), |wrong| Err(Failure::Wrong(wrong)))
 }
 
@@ -289,10 +290,10 @@ pub fn run(args: &Args) -> Outcome<()> {
             stopped: stop_word(&run.stop),
             inks_sha256: picture.as_ref().map(Picture::sha256),
             output: String::from_utf8_lossy(&run.output).into_owned(),
-        });
+        })?;
     } else {
-        say(&String::from_utf8_lossy(&run.output));
-        eprintln!("{} cycles", count(run.cycles));
+        say(&String::from_utf8_lossy(&run.output))?;
+        remark(&format!("{} cycles", count(run.cycles)));
     }
     match complaint(&run, args.limit) {
         Some(wrong) => Err(Failure::Wrong(wrong)),

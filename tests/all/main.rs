@@ -13,6 +13,7 @@ mod cli_hack;
 mod cli_heap;
 mod cli_params;
 mod cli_run;
+mod cli_said;
 mod cli_snapshot;
 mod cli_wrong;
 mod colours;

@@ -106,6 +106,16 @@ impl State {
         })
     }
 
+    /// Whether a place is in the screen's memory.
+    pub fn is_shown(&self, home: &Home) -> bool {
+        match home {
+            Home::Byte(address) | Home::Word(address) | Home::Text(address) => {
+                self.display.is_shown(u32::from(*address))
+            }
+            _ => false,
+        }
+    }
+
     /// Sets a place, converting between integers and reals.
     pub fn store(&mut self, home: Home, value: Value) -> Result<()> {
         match (home, value) {

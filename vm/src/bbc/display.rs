@@ -137,6 +137,11 @@ impl Display {
         self.row
     }
 
+    /// Whether an address is in the memory that the screen shows.
+    pub fn is_shown(&self, address: u32) -> bool {
+        self.mode.layout == Layout::Memory && (self.mode.himem..0x8000).contains(&address)
+    }
+
     /// A byte of screen memory was written.
     pub fn note_poke(&mut self, address: u32) {
         if self.mode.layout == Layout::Memory {

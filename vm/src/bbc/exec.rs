@@ -103,9 +103,15 @@ impl State {
                 }
             }
             Stmt::Let(place, e) => {
+                let before = self.cycles;
                 let home = self.home(p, place)?;
+                let shown = self.is_shown(&home);
                 let value = self.value(p, e)?;
                 self.store(home, value)?;
+                if shown {
+                    let written = p.program.ops.get(at as usize).map_or(0, |op| op.cost);
+                    self.plot_cycles += self.cycles - before + u64::from(written);
+                }
             }
             Stmt::If(e, otherwise, skipped) => {
                 if !self.condition(p, e)? {

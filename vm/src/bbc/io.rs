@@ -318,7 +318,7 @@ impl State {
             return Err(Error::BadMode);
         }
         self.display.set_mode(&mut self.mem, mode);
-        self.charge(plot::CLEAR_BYTE * u64::from(0x8000u32.saturating_sub(self.himem)));
+        self.cycles += plot::CLEAR_BYTE * u64::from(0x8000u32.saturating_sub(self.himem));
         self.himem = himem;
         self.stack = himem;
         self.least_free = self.least_free.min(himem - self.heap);

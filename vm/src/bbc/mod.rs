@@ -111,7 +111,8 @@ pub struct Run {
     pub stop: Stop,
     /// Cycles of 2 MHz, drawing included.
     pub cycles: u64,
-    /// Those of them spent in the operating system's drawing.
+    /// Those of them spent in drawing: the operating system's plotting, and statements that
+    /// write to the screen's memory. To choose and clear a mode is not drawing.
     pub plot_cycles: u64,
     /// The picture; no pixels in a text mode.
     pub screen: Screen,

@@ -167,7 +167,14 @@ impl Checker<'_> {
             shown.join(" or "),
             self.a(&first.value.ty)
         );
-        Some(Diagnostic::error(first.value.span, message))
+        let error = Diagnostic::error(first.value.span, message);
+        let last = types.last();
+        Some(
+            match last.and_then(|to| self.conversion(&first.value.ty, to)) {
+                Some(help) => error.help(help),
+                None => error,
+            },
+        )
     }
 
     /// Whether `base.name(..)` might be meant.
