@@ -32,6 +32,8 @@ pub struct Run<'t, A: Arithmetic> {
     position: (i32, i32),
     row: Option<i32>,
     unset: u64,
+    /// How many statements may run yet.
+    left: u64,
     /// What later pixels will receive, and what this one has received.
     pending: Option<Pending<A::Value>>,
     received: A::Value,
@@ -82,6 +84,13 @@ fn places(tree: &Tree, block: &[Statement]) -> Vec<Place> {
 impl<'t, A: Arithmetic> Run<'t, A> {
     /// Runs the frame's block.
     pub fn new(graph: &'t Graph, tree: &'t Tree, arithmetic: A) -> Run<'t, A> {
+        Run::within(graph, tree, arithmetic, u64::MAX)
+    }
+
+    /// The same where no more than so many statements are worth running: once they have,
+    /// loops end as if they had no turns left, so that a pixel ends however many turns the
+    /// scene allows it. See [`Run::spent`].
+    pub fn within(graph: &'t Graph, tree: &'t Tree, arithmetic: A, most: u64) -> Run<'t, A> {
         let constants = graph
             .ids()
             .map(|id| graph.constant(id).map(|v| arithmetic.constant(v)))
@@ -110,12 +119,19 @@ impl<'t, A: Arithmetic> Run<'t, A> {
             position: (0, 0),
             row: None,
             unset: 0,
+            left: most,
             graph,
             tree,
             arithmetic,
         };
         run.block(&tree.frame);
         run
+    }
+
+    /// Whether all statements that were allowed have run: what the last pixel came to is of
+    /// no use then.
+    pub fn spent(&self) -> bool {
+        self.left == 0
     }
 
     /// How often a home was read that nothing had written on this path.
@@ -340,6 +356,7 @@ impl<'t, A: Arithmetic> Run<'t, A> {
     fn block(&mut self, block: &'t [Statement]) {
         for statement in block {
             self.arithmetic.step(statement);
+            self.left = self.left.saturating_sub(1);
             match statement {
                 Statement::Let(id) => {
                     let value = self.compute(*id);
@@ -381,7 +398,7 @@ impl<'t, A: Arithmetic> Run<'t, A> {
             if let Some(carried) = self.carried.get(turns.of.0 as usize) {
                 self.arithmetic.turn(turns.of, taken, carried);
             }
-            if taken == max {
+            if taken == max || self.spent() {
                 return self.block(&turns.otherwise);
             }
         }
