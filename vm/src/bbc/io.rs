@@ -23,16 +23,14 @@ impl State {
             Stmt::Print(items) => self.print(p, items)?,
             Stmt::Input(prompts, places) => {
                 self.print(p, prompts)?;
-                self.new_line();
-                // Nobody types: every INPUT reads an empty line.
+                if self.keyboard.is_none() {
+                    self.new_line();
+                }
+                let mut rest = None;
                 for place in places {
                     let home = self.home(p, place)?;
-                    let empty = if is_numeric(place) {
-                        Value::Num(Num::Int(0))
-                    } else {
-                        Value::Str(Vec::new())
-                    };
-                    self.store(home, empty)?;
+                    let value = self.input_value(&mut rest, is_numeric(place))?;
+                    self.store(home, value)?;
                 }
             }
             Stmt::Mode(e) => {

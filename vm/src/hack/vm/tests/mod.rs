@@ -3,6 +3,7 @@
 
 mod commands;
 pub(in crate::hack) mod engines;
+mod keys;
 mod limits;
 mod memory;
 mod os;
