@@ -21,6 +21,7 @@ pub mod forecast;
 pub mod format;
 pub mod interrupt;
 pub mod jobs;
+pub mod keys;
 pub mod listing;
 pub mod machine;
 pub mod measure;

@@ -8,6 +8,7 @@ mod cli;
 mod cli_compare;
 mod cli_fmt;
 mod cli_hack;
+mod cli_keys;
 mod cli_params;
 mod cli_run;
 mod cli_snapshot;
