@@ -24,6 +24,7 @@ pub mod given;
 pub mod inks;
 pub mod interrupt;
 pub mod jobs;
+pub mod keys;
 pub mod listing;
 pub mod machine;
 pub mod measure;

@@ -2,6 +2,7 @@
 
 use crate::digest;
 use crate::failure::{Failure, Outcome};
+use slowlight_vm::Screen;
 use std::path::Path;
 
 /// A picture: an ink a pixel.
@@ -78,6 +79,17 @@ impl<'p> PictureFile<'p> {
         match self.0 {
             Some((path, format)) => crate::files::write(path, &picture.encode(format)?),
             None => Ok(()),
+        }
+    }
+}
+
+impl From<&Screen> for Picture {
+    fn from(screen: &Screen) -> Picture {
+        Picture {
+            width: screen.width,
+            height: screen.height,
+            palette: screen.palette.clone(),
+            inks: screen.pixels.clone(),
         }
     }
 }

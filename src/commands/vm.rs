@@ -7,11 +7,12 @@ use crate::machine::{
 };
 use crate::output::remark;
 use crate::picture::{Picture, PictureFile};
-use crate::progress::Progress;
+use crate::progress::Progress as Bar;
 use crate::target_args::{HeapOf, Os, page};
-use crate::{files, say, say_json};
+use crate::{files, keys, say, say_json};
 use clap::ValueEnum;
 use serde::Serialize;
+use slowlight_vm::Progress;
 use slowlight_vm::bbc::{self, Config, LineCost};
 use slowlight_vm::mos6502::Dialect;
 use std::path::{Path, PathBuf};
@@ -72,6 +73,8 @@ pub struct Args {
     /// Where a program for the 6502 begins, if not with its first byte
     #[arg(long, value_name = "ADDR", value_parser = address)]
     start: Option<u16>,
+    #[command(flatten)]
+    keys: keys::Args,
 }
 
 /// A way to write assembly that the bundled assembler reads.
@@ -253,6 +256,7 @@ pub fn run(args: &Args) -> Outcome<()> {
         Kind::MosC64 => on(Board::C64),
     };
     let machine = HeapOf::of(args.heap, args.os, machine)?;
+    let keyboard = args.keys.keyboard(machine)?;
     let hack = machine.many_sources();
     let mut program = Vec::new();
     for path in paths(args)? {
@@ -272,8 +276,9 @@ pub fn run(args: &Args) -> Outcome<()> {
     if args.profile {
         return profile(&mut loaded, args.limit);
     }
-    let progress = Progress::new("cycles", args.limit);
-    let run = loaded.run(args.limit, &mut |now| progress.reach(now.cycles))?;
+    let progress = Bar::new("cycles", args.limit);
+    let reach = &mut |now: Progress| progress.reach(now.cycles);
+    let (run, keyboard) = loaded.play(keyboard, args.limit, reach)?;
     drop(progress);
     let picture = run.picture();
     // Also where the program was stopped: many draw, and then wait for ever.
@@ -295,8 +300,13 @@ pub fn run(args: &Args) -> Outcome<()> {
         say(&String::from_utf8_lossy(&run.output))?;
         remark(&format!("{} cycles", count(run.cycles)));
     }
-    match complaint(&run, args.limit) {
-        Some(wrong) => Err(Failure::Wrong(wrong)),
+    let shots = keys::write_shots(&keyboard);
+    match keys::waits(&run, args.limit, &keyboard) {
+        Some(wrong) => Err(Failure::Wrong(match shots {
+            Err(Failure::Wrong(missed)) => format!("{wrong}\n{missed}"),
+            _ => wrong,
+        })),
+        None if shots.is_err() => shots,
         None if output.wanted() && picture.is_none() => {
             Err(Failure::Wrong("the program showed no picture".to_owned()))
         }

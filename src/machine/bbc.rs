@@ -6,6 +6,7 @@ use super::{boot, dfs};
 use crate::failure::{Failure, Outcome};
 use slowlight_compiler::report::profile::Line;
 use slowlight_vm::bbc::{Config, Dialect, LineCost, Machine, StatementPlace, tokenise};
+use slowlight_vm::keys::Keyboard;
 use slowlight_vm::{Charges, Fault, Roles, Watch};
 
 /// Takes one program: text (`.bas`), or tokens, known by the byte 13 in front, or a disc (`.ssd`)
@@ -91,6 +92,17 @@ fn map(machine: &Machine) -> LineMap {
 /// Runs a program that was loaded.
 pub fn run(machine: &Machine, limit: u64, watch: Watch<'_>) -> MachineRun {
     finished(machine.run(limit, watch))
+}
+
+/// The same with a keyboard, which it gives back.
+pub fn play(
+    machine: &Machine,
+    keyboard: Keyboard,
+    limit: u64,
+    watch: Watch<'_>,
+) -> (MachineRun, Keyboard) {
+    let (run, keyboard) = machine.play(keyboard, limit, watch);
+    (finished(run), keyboard)
 }
 
 /// The same, with what each line took.

@@ -6,7 +6,7 @@
 //! ours.
 
 use super::charge::LineMap;
-use super::os::{Noted, complete};
+use super::os::{Noted, System, complete};
 use super::{File, Loaded, MachineRun, Program, Sizes, refused};
 use crate::failure::{Failure, Outcome};
 use slowlight_compiler::report::profile::Line;
@@ -14,6 +14,7 @@ use slowlight_vm::hack::asm::{assemble, read_image, write_image};
 use slowlight_vm::hack::cpu::Cpu;
 use slowlight_vm::hack::translate::{Options, translate};
 use slowlight_vm::hack::{jack, vm};
+use slowlight_vm::keys::Keyboard;
 use slowlight_vm::{Charges, Fault, Progress, Roles, Stop, Watch};
 use std::collections::BTreeMap;
 
@@ -61,23 +62,26 @@ pub fn load(files: &[File], config: Config) -> Outcome<Loaded> {
         return load_machine_code(files);
     }
     let Compiled {
-        code: own,
+        mut code,
         lines,
+        missing,
         warnings,
     } = compile(files)?;
-    let mut all = own.clone();
-    let mut system = Vec::new();
+    let mut found = System::default();
     if config.os || config.cpu {
-        let found = complete(&own)?;
-        system = found.sources;
-        all.extend(found.code);
+        let calling = missing.calling();
+        found = complete(&[code.as_slice(), calling.as_slice()].concat())?;
     }
+    let System {
+        sources: system,
+        code: system_code,
+    } = found;
+    code.extend(missing.file());
+    let own = code.clone();
+    code.extend(system_code);
+    let all = code;
     let program = link(&all)?;
     let noted = Noted::of(&program, &system);
-    if program.is_bare() && config.cpu {
-        let message = "VM code without functions runs on the VM: leave out --cpu";
-        return Err(Failure::Usage(message.to_owned()));
-    }
     if !config.cpu {
         return Ok(Loaded {
             system,
@@ -157,12 +161,12 @@ fn link(files: &[(String, String)]) -> Outcome<vm::Program> {
 struct Compiled {
     code: Vec<(String, String)>,
     lines: CommandLines,
+    missing: vm::Missing,
     /// What is accepted and may be a mistake.
     warnings: Vec<Fault>,
 }
 
-/// Compiles what is Jack, and adds it to what is VM code, with what stands in for functions
-/// that are called and missing.
+/// Compiles what is Jack, and adds it to what is VM code.
 fn compile(files: &[File]) -> Outcome<Compiled> {
     let mut classes = Vec::new();
     let mut program = Vec::new();
@@ -192,13 +196,13 @@ fn compile(files: &[File]) -> Outcome<Compiled> {
     }
     let missing =
         vm::Missing::of(&program).map_err(|faults| refused("linker", "the program", &faults))?;
-    program.extend(missing.file());
     // The compiler has said what is called in Jack.
     let in_code = |call: &Fault| !call.file.as_ref().is_some_and(|f| lines.contains_key(f));
-    warnings.extend(missing.calls.into_iter().filter(in_code));
+    warnings.extend(missing.calls.iter().filter(|call| in_code(call)).cloned());
     Ok(Compiled {
         code: program,
         lines,
+        missing,
         warnings,
     })
 }
@@ -231,6 +235,29 @@ pub fn run(on: &OnVm, limit: u64, watch: Watch<'_>) -> MachineRun {
     let mut machine = vm::Machine::with_heap(&on.program, on.heap);
     let run = machine.run(limit, watch);
     told(on, &machine, run)
+}
+
+/// The same with a keyboard.
+pub fn play(on: &OnVm, keyboard: &mut Keyboard, limit: u64, watch: Watch<'_>) -> MachineRun {
+    let mut machine = vm::Machine::new(&on.program);
+    machine.plug(keyboard.clone());
+    let run = machine.run(limit, watch);
+    if let Some(played) = machine.unplug() {
+        *keyboard = played;
+    }
+    told(on, &machine, run)
+}
+
+impl OnCpu {
+    /// Gives the processor a keyboard.
+    pub fn plug(&mut self, keyboard: Keyboard) {
+        self.cpu.plug(keyboard);
+    }
+
+    /// Takes it away again.
+    pub fn unplug(&mut self) -> Option<Keyboard> {
+        self.cpu.unplug()
+    }
 }
 
 /// The same, with what each command took.

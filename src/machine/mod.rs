@@ -10,6 +10,7 @@ mod boot;
 mod charge;
 mod dfs;
 mod hack;
+mod keys;
 mod mos6502;
 mod os;
 
@@ -260,12 +261,7 @@ impl Loaded {
 impl MachineRun {
     /// The screen as a picture.
     pub fn picture(&self) -> Option<Picture> {
-        self.screen.as_ref().map(|s| Picture {
-            width: s.width,
-            height: s.height,
-            palette: s.palette.clone(),
-            inks: s.pixels.clone(),
-        })
+        self.screen.as_ref().map(Picture::from)
     }
 }
 

@@ -11,6 +11,7 @@ mod cli_compare;
 mod cli_fmt;
 mod cli_hack;
 mod cli_heap;
+mod cli_keys;
 mod cli_params;
 mod cli_run;
 mod cli_said;

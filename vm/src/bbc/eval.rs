@@ -45,7 +45,7 @@ impl State {
                 let address = self.offset(p, &ab.0, &ab.1)?;
                 Ok(Num::Int(self.word(address)))
             }
-            Expr::F0(f) => Ok(self.func0(*f)),
+            Expr::F0(f) => self.func0(*f),
             Expr::Fn(..) | Expr::FS(..) | Expr::Concat(_) | Expr::CompareAny(..) => {
                 match self.value(p, e)? {
                     Value::Num(n) => Ok(n),

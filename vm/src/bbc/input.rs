@@ -36,7 +36,7 @@ impl State {
                             if mark {
                                 self.write(b"?");
                             }
-                            self.line_typed()
+                            self.line_typed()?
                         }
                     };
                     mark = true;
@@ -57,14 +57,17 @@ impl State {
     }
 
     /// The next line that is typed, as it also comes to be seen.
-    fn line_typed(&mut self) -> Vec<u8> {
+    fn line_typed(&mut self) -> Result<Vec<u8>> {
+        if self.keyboard.is_some() {
+            return self.read_line();
+        }
         let line = self.typed.pop_front().unwrap_or_default();
         for c in &line {
             // Letters alone change nothing that could be wrong.
             let _ = self.vdu((*c).max(b' '));
         }
         self.new_line();
-        line
+        Ok(line)
     }
 }
 

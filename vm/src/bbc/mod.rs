@@ -12,8 +12,10 @@
 //!   order, the stack below HIMEM; what does not fit is "No room". On the Micro the screen is
 //!   in the same 64K, so that pokes draw.
 //! - **Left out**: the assembler, USR and CALL (reaching one is an error that says where machine
-//!   code runs), sound, text on the graphics screen (there is no font; text is captured instead),
-//!   programs that change their own lines, keys (GET sees RETURN).
+//!   code runs), sound, programs that change their own lines.
+//! - **Keys** are a script's, and lines of INPUT standard input's as well, where a program is
+//!   [played](Machine::play); else GET sees RETURN, and INPUT the lines of
+//!   [`Machine::type_lines`], then empty ones.
 //! - **Dialects**: `Agon` and `BasicV` have their screens and their integers (which become
 //!   reals instead of wrapping), but Micro's 40-bit arithmetic; Brandy's reals are doubles, and
 //!   the Agon's 40 bits round otherwise.
@@ -37,6 +39,7 @@ mod font;
 mod functions;
 mod input;
 mod io;
+pub(crate) mod keyboard;
 mod loops;
 mod modes;
 mod names;
@@ -60,6 +63,7 @@ use std::collections::{BTreeMap, VecDeque};
 
 use slowlight_isa::real40::Real40;
 
+use crate::keys::Keyboard;
 use crate::{Charges, Fault, Roles, Screen, Stop, Watch};
 use data::DataPointer;
 use error::Error;
@@ -200,7 +204,18 @@ impl Machine {
     ///
     /// Stops after `cycle_limit` cycles; `watch` is asked about every ten million.
     pub fn run(&self, cycle_limit: u64, watch: Watch<'_>) -> Run {
-        self.run_from(State::new(self.config), cycle_limit, watch).0
+        self.run_from(&mut State::new(self.config), cycle_limit, watch)
+            .0
+    }
+
+    /// Runs the program as [`Machine::run`] does, with a keyboard, whose frames are of 40,000
+    /// cycles and whose calls are GET and INKEY.
+    pub fn play(&self, keyboard: Keyboard, limit: u64, watch: Watch<'_>) -> (Run, Keyboard) {
+        let mut state = State::new(self.config);
+        let spare = keyboard.clone();
+        state.keyboard = Some(keyboard);
+        let (run, _) = self.run_from(&mut state, limit, watch);
+        (run, state.keyboard.unwrap_or(spare))
     }
 
     /// Runs the program as [`Machine::run`] does, and counts what each of its lines takes.
@@ -236,7 +251,7 @@ impl Machine {
         let mut state = State::new(self.config);
         let count = self.statements().len();
         state.profile = Some(Box::new(Profile::new(count, roles)));
-        let (run, charges) = self.run_from(state, cycle_limit, watch);
+        let (run, charges) = self.run_from(&mut state, cycle_limit, watch);
         // Each has its share of the interrupts, so that all add up to the run.
         (run, charges.shared(0, cost::with_interrupts))
     }
@@ -266,10 +281,10 @@ impl Machine {
         program.statements.iter().enumerate().map(place).collect()
     }
 
-    fn run_from(&self, mut state: State, cycle_limit: u64, watch: Watch<'_>) -> (Run, Charges) {
+    fn run_from(&self, state: &mut State, cycle_limit: u64, watch: Watch<'_>) -> (Run, Charges) {
         state.files.contents = self.files.clone();
         state.typed = self.typed.clone();
-        let stop = self.run_in(&mut state, cycle_limit, watch);
+        let stop = self.run_in(state, cycle_limit, watch);
         let charges = match state.profile.take() {
             Some(profile) => profile.finish(state.cycles),
             None => Charges::default(),
@@ -282,7 +297,7 @@ impl Machine {
             plot_cycles: cost::with_interrupts(state.plot_cycles),
             screen: state.display.screen(&state.mem),
             text: state.text.iter().map(|c| char::from(*c)).collect(),
-            files: state.files.contents,
+            files: std::mem::take(&mut state.files.contents),
             program_bytes: self.program.len(),
             ram_bytes: room.saturating_sub(free),
             free_bytes: free,
@@ -319,7 +334,10 @@ impl Machine {
                 return Stop::Ended;
             };
             if error == Error::Halt {
-                if let Some(stop) = state.stop.take() {
+                if let Some(mut stop) = state.stop.take() {
+                    if let Stop::Fault(fault) = &mut stop {
+                        fault.line = state.note_error(&program, error).map(u32::from);
+                    }
                     return stop;
                 }
                 // RUN.

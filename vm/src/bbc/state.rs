@@ -20,6 +20,7 @@ use super::profile::Profile;
 use super::values::{Array, Frame, Loop, Num, Saved, Scalar, Text, Value, array_index};
 use super::{Config, cost};
 use crate::Stop;
+use crate::keys::Keyboard;
 
 pub(crate) struct State {
     pub config: Config,
@@ -78,6 +79,8 @@ pub(crate) struct State {
     pub width: u32,
     pub display: Display,
     pub files: Files,
+    /// The keyboard, where there is one.
+    pub keyboard: Option<Keyboard>,
     /// Counts by line, where they are wanted.
     pub profile: Option<Box<Profile>>,
 }
@@ -134,6 +137,7 @@ impl State {
             display,
             files: Files::default(),
             profile: None,
+            keyboard: None,
         };
         state.fit_names();
         for v in &mut state.ints {

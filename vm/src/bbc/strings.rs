@@ -137,11 +137,10 @@ impl State {
             FuncS::StrHex => Value::Str(format!("{:X}", self.int(p, first)?).into_bytes()),
             FuncS::Left | FuncS::Right | FuncS::Mid => self.part(p, f, list)?,
             FuncS::Strings => self.repeated(p, list)?,
-            FuncS::Get => Value::Str(vec![13]),
+            FuncS::Get => Value::Str(vec![self.get("GET$")?]),
             FuncS::Inkey => {
                 let wait = self.int(p, first)?.clamp(0, 32767);
-                self.cycles += wait as u64 * 20_000;
-                Value::Str(Vec::new())
+                Value::Str(self.inkey(wait as u32)?.into_iter().collect())
             }
             FuncS::At => {
                 let address = self.address(p, first)?;

@@ -92,6 +92,11 @@ impl Keyboard {
         }
     }
 
+    /// What the script counts.
+    pub fn unit(&self) -> Unit {
+        self.by
+    }
+
     /// Whether there is a script.
     pub fn is_scripted(&self) -> bool {
         !self.script.is_empty()
@@ -116,7 +121,7 @@ impl Keyboard {
 
     /// The program looks which key is held, `frame` frames after its start.
     pub fn look(&mut self, frame: u64, screen: impl FnOnce() -> Option<Screen>) -> Seen {
-        let unit = self.unit(frame);
+        let unit = self.at(frame);
         self.calls += 1;
         self.shoot(unit, screen);
         if let Some(key) = self.script.held(unit) {
@@ -144,7 +149,7 @@ impl Keyboard {
     /// The program takes the key that was typed, if one was: a key that is held is typed once
     /// a unit.
     pub fn take(&mut self, frame: u64, screen: impl FnOnce() -> Option<Screen>) -> Seen {
-        let unit = self.unit(frame);
+        let unit = self.at(frame);
         let again = self.by == Unit::Frames && self.typed == Some(unit);
         let seen = self.look(frame, screen);
         if !matches!(seen, Seen::Key(_)) {
@@ -162,7 +167,7 @@ impl Keyboard {
         shown: &str,
         screen: impl FnOnce() -> Option<Screen>,
     ) -> Next {
-        let now = self.unit(frame);
+        let now = self.at(frame);
         let from = match self.typed {
             Some(typed) if self.by == Unit::Frames && typed >= now => typed + 1,
             _ => now,
@@ -195,7 +200,7 @@ impl Keyboard {
         shown: &str,
         screen: impl FnOnce() -> Option<Screen>,
     ) -> Next {
-        let now = self.unit(frame);
+        let now = self.at(frame);
         let before = self.typed;
         let next = self.wait(frame, shown, screen);
         let pressed = self.typed.filter(|_| self.typed != before);
@@ -216,7 +221,7 @@ impl Keyboard {
         }
     }
 
-    fn unit(&self, frame: u64) -> u64 {
+    fn at(&self, frame: u64) -> u64 {
         match self.by {
             Unit::Frames => frame,
             Unit::Calls => self.calls,

@@ -75,6 +75,11 @@ impl Script {
         self.length
     }
 
+    /// The files of its shots.
+    pub fn pictures(&self) -> impl Iterator<Item = &str> {
+        self.shots.iter().map(|(_, name)| name.as_str())
+    }
+
     pub(super) fn quits(&self) -> bool {
         self.end == End::Quit
     }

@@ -10,7 +10,8 @@
 //! | &FFEE | OSWRCH | VDU 22 chooses a mode, VDU 19 gives an ink its colour, VDU 23,1 hides the cursor; in MODE 7, text |
 //! | &FFE3, &FFE7 | OSASCI, OSNEWL | text, and the end of a line |
 //! | &FFF4 | OSBYTE | 119, 124 and 21, of which nothing is seen here |
-//! | &FFE0 | OSRDCH | nobody presses a key: the program has **ended** |
+//! | &FFF4 | OSBYTE | 129 (INKEY), where there is a keyboard |
+//! | &FFE0 | OSRDCH | the next key, where there is a keyboard; else nobody presses one: the program has **ended** |
 //!
 //! A program that ends in MODE 7 and has printed something ends with that as a fault.
 //! Everything else there and all other hardware is not there: what calls, reads or sets
@@ -23,10 +24,13 @@
 //! (`bbc::cost` says what it is); a call of the system takes what it takes on the
 //! genuine one, to a few per cent ([`MODE_CYCLES`]).
 
+mod keyboard;
+
 use super::computer::{Board, Computer, fault, return_from};
 use super::cpu::{Bus, Cpu};
 use crate::bbc::cost;
-use crate::{Screen, Stop};
+use crate::keys::Keyboard;
+use crate::{Fault, Screen, Stop};
 
 /// The machine.
 pub type Bbc = Computer<Micro>;
@@ -85,6 +89,7 @@ pub struct Micro {
     text: Vec<u8>,
     /// Where a byte was stored last, if that may be the screen.
     last: u16,
+    keyboard: Option<Box<Keyboard>>,
     stop: Option<Stop>,
 }
 
@@ -98,6 +103,7 @@ impl Default for Micro {
             vdu: Vec::new(),
             text: Vec::new(),
             last: 0,
+            keyboard: None,
             stop: None,
         }
     }
@@ -149,6 +155,8 @@ impl Micro {
             0xFFE3 => self.write_vdu(cpu.a),
             0xFFE7 => [10, 13].into_iter().for_each(|c| self.write_vdu(c)),
             0xFFF4 if matches!(cpu.a, 21 | 119 | 124) => {}
+            0xFFF4 if cpu.a == 129 && self.keyboard.is_some() => self.inkey(cpu),
+            0xFFE0 if self.keyboard.is_some() => self.read_key(cpu),
             0xFFF4 => self.fail(format!(
                 "the program calls OSBYTE {}, which is not bundled",
                 cpu.a
@@ -314,6 +322,15 @@ impl Board for Micro {
 
     fn output(&self) -> Vec<u8> {
         self.text.clone()
+    }
+
+    fn plug(&mut self, keyboard: Keyboard) -> bool {
+        self.keyboard = Some(Box::new(keyboard));
+        true
+    }
+
+    fn unplug(&mut self) -> Option<Keyboard> {
+        self.keyboard.take().map(|keyboard| *keyboard)
     }
 }
 

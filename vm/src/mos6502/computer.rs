@@ -5,6 +5,7 @@
 
 use super::cpu::{Bus, Cpu, Step};
 use crate::charge::{Charges, Ledger, Roles};
+use crate::keys::Keyboard;
 use crate::{Fault, Progress, Screen, Stop, Watch};
 
 /// Cycles between two calls of the watcher.
@@ -77,6 +78,14 @@ pub trait Board: Bus + Default {
     fn output(&self) -> Vec<u8> {
         Vec::new()
     }
+    /// Gives it a keyboard; answers whether it has a place for one.
+    fn plug(&mut self, _: Keyboard) -> bool {
+        false
+    }
+    /// Takes the keyboard away again.
+    fn unplug(&mut self) -> Option<Keyboard> {
+        None
+    }
 }
 
 /// A machine that runs programs, whatever board it has.
@@ -97,6 +106,11 @@ pub trait Machine {
     fn draws_apart(&self) -> bool;
     /// A byte of memory, for whoever looks on: neither a cycle nor an effect.
     fn peek(&self, address: u16) -> u8;
+    /// Gives the machine a keyboard, whose keys come by its frames, or by looks at the
+    /// keyboard; answers whether it has a place for one.
+    fn plug(&mut self, keyboard: Keyboard) -> bool;
+    /// Takes the keyboard away again.
+    fn unplug(&mut self) -> Option<Keyboard>;
     /// Runs until the program ends, the watcher says stop, or `limit` cycles have
     /// passed since the machine was made (checked between instructions).
     /// May be called again, with a greater limit, to go on.
@@ -319,6 +333,14 @@ impl<B: Board> Machine for Computer<B> {
 
     fn peek(&self, address: u16) -> u8 {
         Computer::peek(self, address)
+    }
+
+    fn plug(&mut self, keyboard: Keyboard) -> bool {
+        self.board.plug(keyboard)
+    }
+
+    fn unplug(&mut self) -> Option<Keyboard> {
+        self.board.unplug()
     }
 
     fn run(&mut self, limit: u64, watch: Watch<'_>) -> Run {

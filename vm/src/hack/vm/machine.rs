@@ -6,10 +6,12 @@ use super::command::{
 use super::fast::Exit;
 use super::link::Program;
 use super::missing;
+use super::os::keyboard::Keys;
 use super::os::{self, Heap, Native, Os, Trap};
 use super::parse::fault;
 use crate::charge::{Charges, Ledger, Roles};
 use crate::hack::screen::screen;
+use crate::keys::Keyboard;
 use crate::{Fault, Progress, Screen, Stop, Watch};
 
 /// How many commands lie between two calls of the watcher.
@@ -78,6 +80,7 @@ impl<'p> Machine<'p> {
         }
         let start = program.functions.get(program.start as usize);
         let mut os = Os::new(heap);
+        os.native_heap = program.native_heap;
         if let Some(fused) = &program.fused {
             os.odd = STACK + FRAME > fused.room(program.start);
         }
@@ -89,6 +92,18 @@ impl<'p> Machine<'p> {
             count: 0,
             stopped: None,
         }
+    }
+
+    /// Gives the machine a keyboard, whose keys come by calls or by frames of 250,000
+    /// commands, where `Sys.wait` counts a frame for 20 milliseconds. A call is a look at
+    /// the keyboard: `Keyboard.keyPressed`, or a read of its word.
+    pub fn plug(&mut self, keyboard: Keyboard) {
+        self.os.keys = Some(Box::new(Keys::new(keyboard)));
+    }
+
+    /// Takes the keyboard away again.
+    pub fn unplug(&mut self) -> Option<Keyboard> {
+        self.os.keys.take().map(|keys| keys.keyboard)
     }
 
     /// Runs until the program ends or `limit` commands have been executed in

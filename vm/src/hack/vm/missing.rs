@@ -49,10 +49,18 @@ impl Missing {
 
     /// A file of functions in their place, which give up; none where nothing is missing.
     pub fn file(&self) -> Option<(String, String)> {
-        let function = |name: &String| {
-            format!("function {name} 0\npush constant {ERROR}\ncall Sys.error 1\nreturn\n")
-        };
-        let text: String = self.names.iter().map(function).collect();
+        let text: String = self.names.iter().map(|name| gives_up(name)).collect();
         (!text.is_empty()).then(|| (FILE.to_owned(), text))
     }
+
+    /// A file that calls what that file calls, and is of no class that a program may lack:
+    /// for who looks what an operating system must have.
+    pub fn calling(&self) -> Option<(String, String)> {
+        let text = gives_up("Missing.error");
+        (!self.names.is_empty()).then(|| (FILE.to_owned(), text))
+    }
+}
+
+fn gives_up(name: &str) -> String {
+    format!("function {name} 0\npush constant {ERROR}\ncall Sys.error 1\nreturn\n")
 }

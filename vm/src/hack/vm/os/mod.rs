@@ -3,8 +3,10 @@
 //! Names, argument counts, results and error numbers are those of the
 //! official built-in implementation (the API of *The Elements of Computing
 //! Systems*, appendix 6). What differs: text goes to a string instead of the
-//! screen, nobody presses a key, and `Sys.wait` takes no time.
+//! screen, keys are a script's and standard input's ([`keyboard`]), and `Sys.wait`
+//! takes no commands, only time of the frames that scripts count.
 
+pub(in crate::hack::vm) mod keyboard;
 mod memory;
 mod screen;
 mod string;
@@ -48,6 +50,14 @@ pub(super) struct Os {
     /// A store hit the pointers or the stack from outside: what the fused
     /// commands take for granted no longer holds.
     pub odd: bool,
+    /// The keyboard, where there is one.
+    pub keys: Option<Box<keyboard::Keys>>,
+    /// The command that is executed, for who looks at the clock: how many there have been,
+    /// and its place in what the engine runs.
+    pub now: u64,
+    pub place: u64,
+    /// Whether `Memory` is the native one.
+    pub native_heap: bool,
 }
 
 impl Os {
@@ -60,6 +70,10 @@ impl Os {
             calls: [0; Native::COUNT],
             effort: 0,
             odd: false,
+            keys: None,
+            now: 0,
+            place: 0,
+            native_heap: true,
         }
     }
 
@@ -203,6 +217,8 @@ impl Native {
                 | Native::IntValue
                 | Native::SetInt
                 | Native::PrintString
+                | Native::ReadLine
+                | Native::ReadInt
         )
     }
 }
@@ -232,7 +248,12 @@ pub(super) fn call(native: Native, memory: &mut Memory, os: &mut Os) -> Result<u
             memory::init(memory, os.heap);
             Ok(0)
         }
-        Native::Peek => Ok(load(memory, a)),
+        Native::Peek => {
+            if a == KEYBOARD {
+                keyboard::look(memory, os)?;
+            }
+            Ok(load(memory, a))
+        }
         Native::Poke => {
             os.store(memory, a, b);
             Ok(0)
@@ -303,18 +324,25 @@ pub(super) fn call(native: Native, memory: &mut Memory, os: &mut Os) -> Result<u
         Native::DrawRectangle => screen::rectangle(memory, os, (a, b), (c, d)),
         Native::DrawCircle => screen::circle(memory, os, (a, b), c),
 
-        Native::KeyPressed => Ok(load(memory, KEYBOARD)),
-        Native::ReadChar | Native::ReadLine | Native::ReadInt => Err(Trap::Fault(format!(
-            "{} waits for a key, and nobody presses one on this machine",
-            native.name()
-        ))),
+        Native::KeyPressed => {
+            keyboard::look(memory, os)?;
+            Ok(load(memory, KEYBOARD))
+        }
+        Native::ReadChar => keyboard::read_char(memory, os),
+        Native::ReadLine => keyboard::read_line(memory, os, a),
+        Native::ReadInt => keyboard::read_int(memory, os, a),
 
         Native::Halt => Err(Trap::Halt),
         Native::Error => Err(Trap::Error(a, "")),
         Native::Wait if a.cast_signed() < 0 => {
             Err(Trap::Error(1, "a time to wait must not be negative"))
         }
-        Native::Wait => Ok(0),
+        Native::Wait => {
+            if let Some(keys) = &mut os.keys {
+                keys.pass(a);
+            }
+            Ok(0)
+        }
     }
 }
 

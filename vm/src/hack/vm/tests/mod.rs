@@ -4,6 +4,7 @@
 mod commands;
 pub(in crate::hack) mod engines;
 mod heap;
+mod keys;
 mod limits;
 mod memory;
 mod os;
