@@ -9,10 +9,12 @@ pub const SUBJECTS: &[(&str, &str)] = &[
     ("flow", include_str!("rom/flow.txt")),
     ("format", include_str!("rom/format.txt")),
     ("input", include_str!("rom/input.txt")),
+    ("limits", include_str!("rom/limits.txt")),
     ("memory", include_str!("rom/memory.txt")),
     ("print", include_str!("rom/print.txt")),
     ("procedures", include_str!("rom/procedures.txt")),
     ("strings", include_str!("rom/strings.txt")),
+    ("tokens", include_str!("rom/tokens.txt")),
     ("trace", include_str!("rom/trace.txt")),
 ];
 

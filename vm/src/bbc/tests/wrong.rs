@@ -85,6 +85,11 @@ fn endless_programs_stop_at_the_limit() {
         "10ON ERROR GOTO 10\n20PRINT 1/0",
         "10PRINT FNa\n20DEFFNa\n30GOTO 30",
         "10REPEAT:A=INKEY(100):UNTIL0",
+        "10RUN",
+        "10A=FNr\n20DEFFNr\n30RUN",
+        "10TRACE ON\n20GOTO 20",
+        "10WIDTH1\n20PRINT 1,2:GOTO 20",
+        "10REPEAT:INPUT A$:UNTIL A$=\"x\"",
     ] {
         let run = run(text);
         assert_eq!(run.stop, Stop::CycleLimit, "{text}");
