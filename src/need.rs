@@ -257,7 +257,7 @@ fn heap(documents: &[Document], system: &[File]) -> Need {
         true => Some(float),
         false => array(line).map(|size| size + HEADER),
     });
-    let system: u64 = (system.iter())
+    let beside: u64 = (system.iter())
         .map(|file| {
             file.as_text()
                 .lines()
@@ -287,7 +287,7 @@ fn heap(documents: &[Document], system: &[File]) -> Need {
             ("errors", rows * float),
             ("arithmetic", arithmetic.sum()),
             ("messages", message),
-            ("operating system", system),
+            ("operating system", beside),
         ],
         room: HEAP,
     }
