@@ -181,3 +181,34 @@ fn cycles_of_drawing_are_of_drawing() {
         assert_eq!(drawing(target, &["--no-plot"]), 0, "{target}");
     }
 }
+
+/// The head of each column of `explain`'s page is a term of its list; what browsers make of
+/// the pages, the tests with peers see.
+#[test]
+fn a_page_explains_its_columns() {
+    let dir = directory(&[("d.scn", DITHERED)]);
+    for target in ["jack", "6502", "bbc"] {
+        let args = ["explain", "d.scn", "-t", target, "--rows", "0..1"];
+        success(dir.path(), &[&args[..], &["--html", "page.html"]].concat());
+        let page = std::fs::read_to_string(dir.path().join("page.html")).expect("a page");
+        let heads = page.split("<th").skip(1).filter_map(|rest| {
+            let text = rest.split_once('>')?.1;
+            text.split(['<', '\n']).next()
+        });
+        let heads: Vec<&str> = heads.collect();
+        assert_eq!(heads.len(), 8, "{heads:?}");
+        for head in heads {
+            assert!(
+                page.contains(&format!("<dt>{head}</dt><dd>")),
+                "{target}: {head}"
+            );
+        }
+        for wanted in [
+            "width=device-width",
+            "prefers-color-scheme:dark",
+            "<dd>of all ",
+        ] {
+            assert!(page.contains(wanted), "{target}: {wanted}");
+        }
+    }
+}

@@ -67,6 +67,9 @@ try {
   });
 
   await open(390, "light");
+  // What is chosen or opened must fit, too.
+  await page.keyboard.press("Tab");
+  await page.keyboard.press("Enter");
   await page.screenshot({ path: `${stem}-390.png`, fullPage: true });
   const width = await page.evaluate(() => document.documentElement.scrollWidth);
   const small = await page.evaluate(() => {
