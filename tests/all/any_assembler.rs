@@ -70,6 +70,22 @@ fn binaries_run_where_they_are_put() {
 }
 
 #[test]
+fn what_ca65_made_runs() {
+    // Of a macro, a scope, a local label and a condition: LDX #0, four times INX, INX,
+    // CPX #8, BNE, then LDA #0, STA $FF0A.
+    let made = [
+        0xA2, 0, 0xE8, 0xE8, 0xE0, 8, 0xD0, 0xFA, 0xA9, 0, 0x8D, 0x0A, 0xFF,
+    ];
+    let dir = directory(&[]);
+    write(dir.path(), "game", &made);
+    let said = json(
+        dir.path(),
+        &["vm", "6502", "game", "--at", "$2000", "--json"],
+    );
+    assert_eq!(said["cycles"], 43);
+}
+
+#[test]
 fn a_commodores_programs_begin_where_their_line_says() {
     let dir = directory(&[]);
     let dir = dir.path();
