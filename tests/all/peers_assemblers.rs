@@ -100,7 +100,7 @@ inx2 .macro
   inx
   inx
   .endm
-main .proc
+main .block
   ldx #0
 loop
   #inx2
@@ -112,7 +112,7 @@ loop
   lda #1
 .endif
   sta $FF0A
-  .pend
+  .bend
 ";
 const ACME: &str = "\
 * = $2000
