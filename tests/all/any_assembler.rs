@@ -29,9 +29,9 @@ fn binaries_run_where_they_are_put() {
     let dir = directory(&[]);
     let dir = dir.path();
     write(dir, "plain.bin", &DRAWS);
-    write(dir, "whole.prg", &[&[0x34, 0x12], &DRAWS[..]].concat());
+    write(dir, "whole.prg", &[&[0x34, 0x12][..], &DRAWS[..]].concat());
     // Three bytes of data in front.
-    write(dir, "data.o65", &[&[0, 0, 0], &DRAWS[..]].concat());
+    write(dir, "data.o65", &[&[0, 0, 0][..], &DRAWS[..]].concat());
     for args in [
         &["plain.bin", "--at", "0x2000"][..],
         &["plain.bin", "--at", "$C000", "--start", "&C000"],
@@ -40,7 +40,7 @@ fn binaries_run_where_they_are_put() {
         &["data.o65", "--at", "$4FFD", "--start", "20480"],
     ] {
         let drawn = ["--json", "-o", "drawn.pgm"];
-        let said = json(dir, &[&["vm", "6502"], args, &drawn].concat());
+        let said = json(dir, &[&["vm", "6502"][..], args, &drawn].concat());
         assert_eq!(said["cycles"], CYCLES, "{args:?}");
         let picture = std::fs::read(dir.join("drawn.pgm")).expect("a picture");
         assert!(picture.ends_with(&[1, 0]), "{args:?}");
@@ -60,13 +60,29 @@ fn binaries_run_where_they_are_put() {
         (&["plain.bin", "--at", "2000h"], 2, "hexadecimal"),
         (&["whole.prg", "--at", "512"], 2, "leave --at out"),
     ] {
-        let (code, message) = fails(dir, &[&["vm", "6502"], args].concat());
+        let (code, message) = fails(dir, &[&["vm", "6502"][..], args].concat());
         assert_eq!(code, status, "{args:?}: {message}");
         assert!(message.contains(said), "{args:?}: {message}");
     }
     let (code, message) = fails(dir, &["vm", "bbc", "plain.bin", "--at", "512"]);
     assert_eq!(code, 2, "{message}");
     assert!(message.contains("the 6502's"));
+}
+
+#[test]
+fn what_ca65_made_runs() {
+    // Of a macro, a scope, a local label and a condition: LDX #0, four times INX, INX,
+    // CPX #8, BNE, then LDA #0, STA $FF0A.
+    let made = [
+        0xA2, 0, 0xE8, 0xE8, 0xE0, 8, 0xD0, 0xFA, 0xA9, 0, 0x8D, 0x0A, 0xFF,
+    ];
+    let dir = directory(&[]);
+    write(dir.path(), "game", &made);
+    let said = json(
+        dir.path(),
+        &["vm", "6502", "game", "--at", "$2000", "--json"],
+    );
+    assert_eq!(said["cycles"], 43);
 }
 
 #[test]
@@ -81,7 +97,7 @@ fn a_commodores_programs_begin_where_their_line_says() {
         (&["hi.prg"][..], "hi"),
         (&["hi.prg", "--start", "2066"], "i"),
     ] {
-        let output = slowlight(dir, &[&["vm", "6502:c64"], args].concat());
+        let output = slowlight(dir, &[&["vm", "6502:c64"][..], args].concat());
         assert_eq!(String::from_utf8_lossy(&output.stdout), text, "{args:?}");
     }
 }
@@ -125,7 +141,7 @@ fn text_never_runs_as_machine_code() {
             "slowlight vm 6502 FILE --at ADDR --start ADDR",
         ),
     ] {
-        let (code, message) = fails(dir, &[&["vm", "6502"], args].concat());
+        let (code, message) = fails(dir, &[&["vm", "6502"][..], args].concat());
         assert_eq!(code, status, "{args:?}: {message}");
         assert!(message.contains(said), "{args:?}: {message}");
     }
@@ -171,7 +187,7 @@ fn discs_that_are_built_run() {
         (&["6502:bbc", "basic/steps.ssd"], 1, "!BOOT types"),
         (&["6502:c64", "out/steps.ssd"], 2, "vm 6502:bbc"),
     ] {
-        let (code, message) = fails(dir, &[&["vm"], args].concat());
+        let (code, message) = fails(dir, &[&["vm"][..], args].concat());
         assert_eq!(code, status, "{args:?}: {message}");
         assert!(message.contains(said), "{args:?}: {message}");
     }

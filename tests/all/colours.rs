@@ -38,11 +38,34 @@ fn what_becomes_of_inks_is_said_once() {
 }
 
 #[test]
+fn short_colours_are_those_of_six_digits() {
+    let scene = |inks| format!("image 8 x 8 inks {inks};\ndraw (x, y) = ink(x mod 3);\n");
+    let dir = directory(&[
+        ("short.scn", &scene("#000, #3a6, #Fc0")),
+        ("long.scn", &scene("#000000, #33aa66, #ffcc00")),
+        ("wrong.scn", &scene("#000, #3a6f, #fff")),
+    ]);
+    let dir = dir.path();
+    for (scene, picture) in [("short.scn", "short.png"), ("long.scn", "long.png")] {
+        assert!(
+            slowlight(dir, &["render", scene, "-o", picture])
+                .status
+                .success()
+        );
+    }
+    let read = |name: &str| std::fs::read(dir.join(name)).expect(name);
+    assert_eq!(read("short.png"), read("long.png"));
+    let wrong = slowlight(dir, &["check", "wrong.scn"]);
+    assert_eq!(wrong.status.code(), Some(1));
+    assert!(String::from_utf8_lossy(&wrong.stderr).contains("`#3a6f` is not a colour"));
+}
+
+#[test]
 fn machines_show_inks_in_their_order() {
     let dir = directory(&[("greys.scn", GREYS)]);
     let dir = dir.path();
     for (target, colours) in [
-        ("bbc", [[0; 3], [0, 0, 255], [0, 255, 255], [255; 3]]),
+        ("bbc", [[0u8; 3], [0, 0, 255], [0, 255, 255], [255; 3]]),
         ("6502:bbc", [[0; 3], [0, 0, 255], [0, 255, 255], [255; 3]]),
         ("bbc:agon", [[0; 3], [85; 3], [170; 3], [255; 3]]),
         ("6502:c64", [[0; 3], [0x44; 3], [0x95; 3], [255; 3]]),

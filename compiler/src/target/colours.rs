@@ -85,11 +85,11 @@ impl Seen {
     ///
     /// Source: Color.js, `deltaE(..., "OK2")`.
     fn off(self, other: Seen) -> f64 {
-        let [l, a, b] = self.from(other);
+        let [l, a, b] = self.minus(other);
         l * l + 4.0 * (a * a + b * b)
     }
 
-    fn from(self, other: Seen) -> [f64; 3] {
+    fn minus(self, other: Seen) -> [f64; 3] {
         let lightness = self.lightness - other.lightness;
         [lightness, self.a - other.a, self.b - other.b]
     }
@@ -98,7 +98,7 @@ impl Seen {
     /// another colour: of another hue where the two have one, coloured where it was grey, or
     /// far darker or lighter.
     fn is_another(self, wanted: Seen) -> bool {
-        let [lightness, ..] = self.from(wanted);
+        let [lightness, ..] = self.minus(wanted);
         let squared = wanted.a * wanted.a + wanted.b * wanted.b;
         let along = self.a * wanted.a + self.b * wanted.b;
         // The colour wanted, paled as far as is nearest.
@@ -119,7 +119,7 @@ const ANOTHER_LIGHTNESS: f64 = 0.3;
 
 /// What an assignment costs; the first that differs decides.
 #[derive(Clone, Copy, Debug, PartialEq, PartialOrd)]
-pub(super) struct Cost {
+struct Cost {
     /// Inks that look like the one before.
     alike: u32,
     /// Inks that are a colour of the machine's and become another.
