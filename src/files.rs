@@ -57,6 +57,7 @@ pub fn read_text(path: &Path) -> Outcome<String> {
 /// Where one cannot be written; then none has appeared, unless renaming fails midway.
 pub fn write_all(files: &[(&Path, &[u8])]) -> Outcome<()> {
     let mut ready = Vec::new();
+    let _writing = crate::interrupt::writing();
     for (path, bytes) in files {
         // Through a link to what it names.
         let path = &std::fs::canonicalize(path).unwrap_or(path.to_path_buf());
