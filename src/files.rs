@@ -178,6 +178,7 @@ fn unwritten(path: &Path, e: &std::io::Error) -> Failure {
 /// Where one cannot be written; then none has appeared, unless renaming fails midway.
 pub fn write_all(files: &[(&Path, &[u8])]) -> Outcome<()> {
     let mut ready = Vec::new();
+    let _writing = crate::interrupt::writing();
     for (path, bytes) in files {
         let (path, temporary) = beginning(path)?;
         let wrong = |e: std::io::Error| unwritten(&path, &e);

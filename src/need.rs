@@ -8,6 +8,7 @@ use crate::failure::{Failure, Outcome};
 use crate::format::count;
 use crate::machine::File;
 use slowlight_compiler::flow::tree::{Statement, Tree, walk};
+use slowlight_compiler::fuel::Fuel;
 use slowlight_compiler::plan::Plan;
 use slowlight_compiler::target::Document;
 use slowlight_compiler::target::mos6502;
@@ -114,7 +115,10 @@ impl Need {
 /// # Errors
 /// Where the machine's tools refuse the text, which is a fault of ours.
 pub fn need(plan: &Plan) -> Outcome<Option<Need>> {
-    let documents = (plan.target.emit)(plan);
+    need_of(plan, &(plan.target.emit)(plan))
+}
+
+fn need_of(plan: &Plan, documents: &[Document]) -> Outcome<Option<Need>> {
     let dialect = match plan.target.name {
         "bbc:micro" => Dialect::Micro,
         "bbc:agon" => Dialect::Agon,
@@ -122,7 +126,7 @@ pub fn need(plan: &Plan) -> Outcome<Option<Need>> {
         "6502:plain" | "6502:bbc" | "6502:c64" => {
             return Ok(documents.first().map(|document| assembly(plan, document)));
         }
-        "jack" => return Ok(Some(heap(&documents, &[]))),
+        "jack" => return Ok(Some(heap(documents, &[]))),
         _ => return Ok(None),
     };
     match documents.first() {
@@ -130,6 +134,44 @@ pub fn need(plan: &Plan) -> Outcome<Option<Need>> {
         None => Ok(None),
     }
 }
+
+/// The same where it is enough to know whether the machine holds it: of machine code as it is
+/// before it is read again as a whole, where that says so already. That makes a program
+/// shorter, but by a small part, and takes most of the time.
+///
+/// # Errors
+/// As for [`need`].
+pub fn about(plan: &Plan, fuel: &Fuel) -> Outcome<Option<Need>> {
+    if !plan.target.name.starts_with("6502") {
+        let documents = (plan.target.emit)(plan);
+        let bytes: usize = documents.iter().map(|d| d.text.len()).sum();
+        let mut statements = 0;
+        for block in plan.tree.blocks() {
+            walk(block, &mut |_| statements += 1);
+        }
+        fuel.burn(WRITTEN * bytes as u64 + statements * statements / PAIRS);
+        return need_of(plan, &documents);
+    }
+    let document = mos6502::draft(plan);
+    let bytes = document.text.len() as u64;
+    fuel.burn(WRITTEN * bytes);
+    let draft = assembly(plan, &document);
+    // What is half as large again as the machine is not read again in vain.
+    if draft.fits() || draft.total() > draft.room + draft.room / 2 {
+        return Ok(Some(draft));
+    }
+    fuel.burn(READ_AGAIN * bytes);
+    need(plan)
+}
+
+/// Units of work for each byte of a program's text: to write it and look how large it is, and
+/// to read it again as a whole.
+const WRITTEN: u64 = 20;
+const READ_AGAIN: u64 = 40;
+
+/// Of so many pairs of statements one takes a unit, where variables are shared: which are
+/// alive at the same time is looked at for each of them.
+const PAIRS: u64 = 4;
 
 /// What a plan's program takes of the Hack's heap where this operating system has its
 /// part of it.

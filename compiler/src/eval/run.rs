@@ -8,6 +8,7 @@
 
 use super::arithmetic::Arithmetic;
 use super::diffuse::Pending;
+use super::places::{own_places, places};
 use crate::flow::graph::*;
 use crate::flow::ramp;
 use crate::flow::tree::*;
@@ -37,48 +38,6 @@ pub struct Run<'t, A: Arithmetic> {
     /// What later pixels will receive, and what this one has received.
     pending: Option<Pending<A::Value>>,
     received: A::Value,
-}
-
-/// What each subroutine computes itself. What it sets for those that it calls
-/// may have been set before: that is not forgotten.
-fn own_places(graph: &Graph, tree: &Tree) -> Vec<Vec<Place>> {
-    let of = |subroutine: &Subroutine| {
-        let mut own = Vec::new();
-        walk(&subroutine.body, &mut |s| match s {
-            Statement::Let(id) => own.push(Place::Node(*id)),
-            Statement::Set { place, .. } => own.push(*place),
-            _ => {}
-        });
-        let slot = |place: &Place| match place {
-            Place::Node(id) => matches!(graph.node(*id), Node::Slot(_)),
-            _ => false,
-        };
-        own.retain(|place| !slot(place));
-        own
-    };
-    tree.subroutines.iter().map(of).collect()
-}
-
-/// What a block writes, subroutines included.
-fn places(tree: &Tree, block: &[Statement]) -> Vec<Place> {
-    let mut all = Vec::new();
-    let mut called = vec![false; tree.subroutines.len()];
-    let mut todo = vec![block];
-    while let Some(block) = todo.pop() {
-        walk(block, &mut |s| match s {
-            Statement::Let(id) => all.push(Place::Node(*id)),
-            Statement::Set { place, .. } => all.push(*place),
-            Statement::Call(id) => {
-                if let Some(called) = called.get_mut(id.0 as usize)
-                    && !std::mem::replace(called, true)
-                {
-                    todo.push(tree.body(*id));
-                }
-            }
-            _ => {}
-        });
-    }
-    all
 }
 
 impl<'t, A: Arithmetic> Run<'t, A> {

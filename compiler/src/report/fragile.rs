@@ -30,6 +30,10 @@ const SAMPLE: u32 = 4096;
 /// How many operations are run before the sample is called large enough.
 const PATIENCE: u64 = 10_000_000;
 
+/// How many statements an evaluation may run, since one pixel's loops may go on for long:
+/// what patience allows, and as much again for the row at which it ends.
+const MOST: u64 = 2 * PATIENCE;
+
 /// An operation is to blame where its result is off by so many times more
 /// units in the last place than its arguments.
 const TIMES: f64 = 16.0;
@@ -88,22 +92,24 @@ pub fn fragile(plan: &Plan) -> Found {
     plan.graph.diffusion = None;
     let plan = &plan;
     let shadow = Shadow::new(plan);
-    let mut run = Run::new(&plan.graph, &plan.tree, &shadow);
+    let mut run = Run::within(&plan.graph, &plan.tree, &shadow, MOST);
     let mut pictures = Pictures::new(plan);
     shadow.keep();
     let frame = shadow.seen();
     let (columns, rows) = sample(plan);
     let mut tally = Tally::new(plan);
     let mut looked = 0;
-    for &y in &rows {
+    'rows: for &y in &rows {
         if shadow.run() > PATIENCE {
             break;
         }
-        looked += 1;
         shadow.forget();
         for &x in &columns {
             run.pixel(x as i32, y as i32);
             let differs = pictures.differ(x as i32, y as i32);
+            if run.spent() || pictures.spent() {
+                break 'rows;
+            }
             if let Some(pair) = plan.graph.shade.and_then(|id| run.last(id)) {
                 shadow.shade(pair, pictures.most);
             }
@@ -115,6 +121,7 @@ pub fn fragile(plan: &Plan) -> Found {
             }
         }
         tally.end_of_row(&columns, y);
+        looked += 1;
     }
     tally.found(columns.len(), looked)
 }
@@ -131,10 +138,14 @@ struct Pictures<'p> {
 impl<'p> Pictures<'p> {
     fn new(plan: &'p Plan) -> Pictures<'p> {
         Pictures {
-            native: Native::new(&plan.graph),
-            model: ModelRun::new(plan),
+            native: Native::within(&plan.graph, MOST),
+            model: ModelRun::within(plan, MOST),
             most: 0.125 / plan.graph.image.palette.len().max(2) as f64,
         }
+    }
+
+    fn spent(&self) -> bool {
+        self.native.spent() || self.model.spent()
     }
 
     fn differ(&mut self, x: i32, y: i32) -> Differs {
