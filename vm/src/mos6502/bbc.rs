@@ -30,7 +30,7 @@ use super::computer::{Board, Computer, fault, return_from};
 use super::cpu::{Bus, Cpu};
 use crate::bbc::cost;
 use crate::keys::Keyboard;
-use crate::{Fault, Screen, Stop};
+use crate::{Screen, Stop};
 
 /// The machine.
 pub type Bbc = Computer<Micro>;
