@@ -318,7 +318,7 @@ fn the_systems_part_of_the_heap_counts() {
             draw (x, y) = floyd(x / {width}, x, y);"
         )
     };
-    let (fits, large) = (scene(1150), scene(1180));
+    let (fits, large) = (scene(1150), scene(1178));
     let dir = directory(&[("fits.scn", &fits), ("large.scn", &large)]);
     let dir = dir.path();
     let run = ["run", "-t", "jack", "--json", "--os"];
