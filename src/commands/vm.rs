@@ -59,7 +59,7 @@ pub struct Args {
     #[arg(long, value_name = "SYNTAX")]
     syntax: Option<Syntax>,
     #[command(flatten)]
-    keys: keys::Args,
+    keys: keys::KeyArgs,
 }
 
 /// A way to write assembly that the bundled assembler reads.
