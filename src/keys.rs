@@ -14,14 +14,14 @@ const LINE: u64 = 1 << 16;
 
 /// Options of the keyboard.
 #[derive(clap::Args, Debug)]
-pub struct Args {
+pub struct KeyArgs {
     /// The keys that are pressed, as a script: `right*20 wait 50 space "text" shot one.png`,
     /// or @FILE, a file of it (docs/machines.md)
     #[arg(long, value_name = "SCRIPT", conflicts_with = "profile")]
     keys: Option<String>,
 }
 
-impl Args {
+impl KeyArgs {
     /// The keyboard for a machine: of the script, or one that nobody touches. Files of
     /// pictures have names of pictures.
     ///

@@ -74,7 +74,7 @@ pub struct Args {
     #[arg(long, value_name = "ADDR", value_parser = address)]
     start: Option<u16>,
     #[command(flatten)]
-    keys: keys::Args,
+    keys: keys::KeyArgs,
 }
 
 /// A way to write assembly that the bundled assembler reads.

@@ -87,7 +87,11 @@ fn a_program_of_jack_reads_keys_and_lines() {
     let dir = directory(&[("Main.jack", ASKS)]);
     let dir = dir.path();
     let run = |more: &[&str], input: &str| {
-        typed(dir, &[&["vm", "jack", "Main.jack"], more].concat(), input)
+        typed(
+            dir,
+            &[&["vm", "jack", "Main.jack"][..], more].concat(),
+            input,
+        )
     };
     let expected = "name? Ada\nn? -21\n-42Adaxy.";
     let (status, text, said) = run(&[], "Ada\n-21\nxy.");
