@@ -149,9 +149,10 @@ impl Display {
         }
     }
 
-    /// Does a byte go unseen: in the middle of a VDU command, or with the screen off?
+    /// Is a byte no text: in the middle of a VDU command, drawn at the graphics cursor, or
+    /// unseen with the screen off?
     pub fn is_waiting(&self) -> bool {
-        !self.queue.is_empty() || self.text.off
+        !self.queue.is_empty() || self.text.graphics || self.text.off
     }
 
     /// One byte to the queue. Answers a command when it is complete.
