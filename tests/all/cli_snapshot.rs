@@ -127,7 +127,7 @@ fn options_are_taken_from_the_snapshot() {
     let dir = directory(&[("stripes.scn", STRIPES)]);
     let dir = dir.path();
     let made = [
-        "-t", "6502", "--rows", "1..2", "--format", "fixed8.8", "--set", "wide= 3", "--freeze",
+        "-t", "6502", "--rows", "1..2", "--format", "fixed16", "--set", "wide= 3", "--freeze",
         "all",
     ];
     success(dir, &snapshot(&[&made[..], &["--accept"]].concat()));
@@ -135,10 +135,10 @@ fn options_are_taken_from_the_snapshot() {
     let kept = dir.join("snapshots/stripes.6502-plain.snap");
     let read = || std::fs::read_to_string(&kept).expect("a snapshot");
     let first = read();
-    let options = "--set 'wide= 3' --freeze all --rows 1..2 --format fixed8.8";
+    let options = "--set 'wide= 3' --freeze all --rows 1..2 --format fixed16";
     for line in [
         &format!("options: {options}"),
-        "format: fixed8.8",
+        "format: fixed16",
         "rows: 1..2",
     ] {
         assert!(first.lines().any(|l| l == line), "{line}: {first}");
