@@ -44,7 +44,6 @@ mod peers_chromium;
 mod peers_dialect;
 #[cfg(feature = "peers")]
 mod peers_jsbeeb;
-mod planning;
 mod precise;
 mod predicted;
 mod ramps;
