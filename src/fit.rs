@@ -27,7 +27,7 @@ pub const FIT: u64 = 900_000_000;
 
 /// The same for the plans that spend less memory, all together: they are made at the same
 /// time, and have much in common that is made once and charged to each.
-const LADDER: u64 = 2_400_000_000;
+const LADDER: u64 = 4_800_000_000;
 
 /// The first of the plans whose program fits, as it reads best or tight; where
 /// none does, the first that does with subroutines. Modes that show a part of the

@@ -59,7 +59,8 @@ fn planned(target: &str, source: &str, set: &[f64], rows: Option<(u32, u32)>) ->
 
 /// The plan, or the next one that spends less memory on speed, that fits.
 fn fitting(plan: Plan) -> Plan {
-    slowlight::fit::fit([Ok(plan)], &|_| None).unwrap_or_else(|e| panic!("{e:?}"))
+    slowlight::fit::fit(vec![plan.mode], &|_, _| Ok(plan.clone()), &|_| None)
+        .unwrap_or_else(|e| panic!("{e:?}"))
 }
 
 pub fn text(plan: &Plan) -> String {

@@ -55,7 +55,6 @@ mod peers_dialect;
 mod peers_drawings;
 #[cfg(feature = "peers")]
 mod peers_jsbeeb;
-mod planning;
 mod precise;
 mod predicted;
 mod ramps;
