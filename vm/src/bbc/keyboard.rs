@@ -80,7 +80,7 @@ pub(crate) fn number(key: Key) -> Option<u8> {
     let place = |row: &&[u8; 10]| row.iter().position(|own| *own == c);
     let (row, column) = (0u8..)
         .zip(&ROWS)
-        .find_map(|(at, row)| Some((at, place(&row)?)))?;
+        .find_map(|(at, row)| Some((at, place(row)?)))?;
     Some(16 * (row + 1) + column as u8)
 }
 
@@ -178,11 +178,9 @@ impl State {
         loop {
             match self.get("INPUT")? {
                 RETURN => break,
-                ERASE => {
-                    if line.pop().is_some() {
-                        self.text.pop();
-                        self.count = self.count.saturating_sub(1);
-                    }
+                ERASE if line.pop().is_some() => {
+                    self.text.pop();
+                    self.count = self.count.saturating_sub(1);
                 }
                 c @ 32..=126 if line.len() < LINE => {
                     line.push(c);

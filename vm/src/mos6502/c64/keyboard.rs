@@ -59,7 +59,7 @@ fn place(key: Key) -> Option<((u8, u8), bool)> {
             let in_row = |row: &&[u8; 8]| row.iter().position(|k| *k == own);
             let found = (0..)
                 .zip(&MATRIX)
-                .find_map(|(k, row)| Some((k, in_row(&row)? as u8)));
+                .find_map(|(k, row)| Some((k, in_row(row)? as u8)));
             found.map(|place| (place, shift))
         }
         _ => None,
