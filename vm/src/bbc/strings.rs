@@ -209,11 +209,7 @@ impl State {
             None => 0,
         };
         if needle.is_empty() {
-            return Ok(number(if from <= hay.len() {
-                from + 1
-            } else {
-                0
-            }));
+            return Ok(number(if from <= hay.len() { from + 1 } else { 0 }));
         }
         let found = hay
             .get(from..)
