@@ -15,8 +15,10 @@ impl State {
                 let home = self.home(p, place)?;
                 // DIM P% -1 takes nothing and gives the heap's end.
                 let bytes = self.int(p, e)?.checked_add(1).ok_or(Error::DimSpace)?;
-                let bytes = u32::try_from(bytes).map_err(|_| Error::BadDim)?;
-                let start = self.allocate(bytes).map_err(|_| Error::DimSpace)?;
+                let bytes = u16::try_from(bytes).map_err(|_| Error::BadDim)?;
+                let start = self
+                    .allocate(u32::from(bytes))
+                    .map_err(|_| Error::DimSpace)?;
                 self.store(home, Value::Num(Num::Int(start as i32)))
             }
             DimItem::Array(kind, slot, bounds) => {
