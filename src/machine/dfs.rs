@@ -273,7 +273,7 @@ mod tests {
             exec: 0x2003,
             bytes: (0..=255).cycle().take(700).collect(),
         };
-        let disc = image("T", &[file.clone()]).unwrap();
+        let disc = image("T", std::slice::from_ref(&file)).unwrap();
         assert_eq!(read(&disc).unwrap().files, [file]);
         assert!(read(&disc[..2 * SECTOR + 700]).is_ok());
         let wrong = |change: &dyn Fn(&mut Vec<u8>)| {
