@@ -45,7 +45,7 @@ impl<'a> Lower<'a> {
     }
 
     /// A facet's result with markers for the point, if the shape has it.
-    fn formula(
+    pub(super) fn formula(
         &mut self,
         shape: &Rc<Shape>,
         kind: FacetKind,

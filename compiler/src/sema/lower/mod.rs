@@ -16,6 +16,7 @@ mod derive;
 mod dual;
 mod expr;
 mod flow;
+mod leaving;
 mod merge;
 mod ops;
 mod params;
@@ -136,6 +137,8 @@ struct Lower<'a> {
     loops: u32,
     /// What stands for the point where a facet is read as a formula.
     markers: Option<derive::Markers>,
+    /// What the points of hits lie on, by their coordinates.
+    surfaces: HashMap<Vec<NodeId>, leaving::Surface>,
     /// Above 0 where only constants may come out.
     constant: usize,
     /// How many conditions that only the pixel decides choose among inks here.
@@ -208,6 +211,7 @@ impl<'a> Lower<'a> {
             tables: tables::Made::default(),
             loops: 0,
             markers: None,
+            surfaces: HashMap::new(),
             constant: 0,
             choices: 0,
             depth: 0,

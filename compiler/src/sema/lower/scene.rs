@@ -2,7 +2,7 @@
 
 use super::shape::{REACH, Solution};
 use super::value::{Shape, Val};
-use super::{Found, Lower, Search};
+use super::{Found, Lower, Search, leaving};
 use crate::flow::graph::NodeId;
 use crate::sema::builtins::Builtin;
 use crate::sema::program::*;
@@ -154,8 +154,8 @@ impl<'a> Lower<'a> {
         let mut wins = Vec::new();
         let mut found = Vec::new();
         let shapes = self.shapes_of(id, span)?;
-        for shape in &shapes {
-            let solution = self.solved(shape, ray.clone(), span)?;
+        for (at, shape) in shapes.iter().enumerate() {
+            let solution = self.solved_in(id, at, shape, &ray, span)?;
             let near = self.scalar(BinaryOp::Le, &Ty::Real, solution.t, best, span)?;
             let no = self.bool(false, span);
             let win = self.select(solution.present, near, no, span);
@@ -170,7 +170,12 @@ impl<'a> Lower<'a> {
         // would cost a choice for each.
         let t = Val::Node(best);
         let along = t.clone();
-        let point = self.later("point", move |l| l.along(&ray, along, span));
+        let on = leaving::Surface::Of(id, wins.clone());
+        let point = self.later("point", move |l| {
+            let point = l.along(&ray, along, span)?;
+            l.lies_on(&point, on, span)?;
+            Ok(point)
+        });
         let (at, won) = (point.clone(), wins.clone());
         let normal = self.later("normal", move |l| {
             l.of_winner(&won, span, |l, k| match shapes.get(k).zip(found.get(k)) {
@@ -221,6 +226,23 @@ impl<'a> Lower<'a> {
         })
     }
 
+    /// The nearest hit of a scene's shape; none where the ray leaves it for good.
+    fn solved_in(
+        &mut self,
+        id: SceneId,
+        at: usize,
+        shape: &Rc<Shape>,
+        ray: &Val,
+        span: Span,
+    ) -> Found<Solution> {
+        let mut found = self.solved(shape, ray.clone(), span)?;
+        if let Some(leaves) = self.leaves_one_of(id, at, shape, ray, span)? {
+            let no = self.bool(false, span);
+            found.present = self.select(leaves, no, found.present, span);
+        }
+        Ok(found)
+    }
+
     /// Whether anything is hit nearer than `far`: stops at the first.
     fn blocked(&mut self, id: SceneId, ray: Val, far: Option<Val>, span: Span) -> Found<Val> {
         let far = match far {
@@ -228,10 +250,10 @@ impl<'a> Lower<'a> {
             None => None,
         };
         let mut hits = Vec::new();
-        for shape in self.shapes_of(id, span)? {
+        for (at, shape) in self.shapes_of(id, span)?.iter().enumerate() {
             let Solution {
                 present: there, t, ..
-            } = self.solved(&shape, ray.clone(), span)?;
+            } = self.solved_in(id, at, shape, &ray, span)?;
             hits.push(match far {
                 Some(far) => {
                     let near = self.scalar(BinaryOp::Lt, &Ty::Real, t, far, span)?;

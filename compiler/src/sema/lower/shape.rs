@@ -6,7 +6,7 @@
 //! has nothing but `dist`, so has the whole: one search instead of one in another.
 
 use super::value::{Shape, Val};
-use super::{Found, Lower};
+use super::{Found, Lower, leaving};
 use crate::flow::graph::NodeId;
 use crate::sema::builtins::Builtin;
 use crate::sema::program::*;
@@ -265,11 +265,19 @@ impl<'a> Lower<'a> {
 
     /// A hit of a bare shape; its point and normal are worked out if used.
     fn shape_hit(&mut self, shape: &Rc<Shape>, ray: Val, span: Span) -> Found<Val> {
-        let found = self.solved(shape, ray.clone(), span)?;
+        let mut found = self.solved(shape, ray.clone(), span)?;
+        if self.leaves(shape, &ray, span)? {
+            found.present = self.bool(false, span);
+        }
         self.b.name(found.t, "t");
         let (present, t) = (found.present, Val::Node(found.t));
         let solution = found.clone();
-        let point = self.later("point", move |l| l.point_of(&solution, &ray, span));
+        let on = leaving::Surface::Bare(shape.clone());
+        let point = self.later("point", move |l| {
+            let point = l.point_of(&solution, &ray, span)?;
+            l.lies_on(&point, on, span)?;
+            Ok(point)
+        });
         let (of, at) = (shape.clone(), point.clone());
         let normal = self.later("normal", move |l| l.normal_of(&of, &found, at, span));
         Ok(Val::Optional {
