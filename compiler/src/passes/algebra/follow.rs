@@ -184,6 +184,18 @@ impl<'n> Follow<'n> {
 }
 
 impl Follow<'_> {
+    /// Whether a real is beyond the end of a format.
+    pub fn leaves(&self, end: f64) -> bool {
+        let mut values = self.known.iter();
+        values.any(|(id, r)| {
+            let real = match self.nodes.node(id) {
+                Node::Apply(op, _) => op.result() == Type::Real,
+                _ => false,
+            };
+            real && r.value.abs() > end
+        })
+    }
+
     /// Whether a root was taken of what is below 0.
     pub fn misses_root(&self) -> bool {
         let below = |id: NodeId| self.known.get(id).is_some_and(|a| a.value < 0.0);

@@ -4,14 +4,15 @@
 //! Roundings are followed through both formulas at pixels spread over the picture
 //! (and params over their ranges), to first order: each operation adds a unit in
 //! the last place of its result, exact ones nothing. That is an estimate, not a
-//! bound; it is compared with the same estimate for what stands there now.
+//! bound; it is compared with the same estimate for what stands there now. A form
+//! with values beyond the format's end, where there are none now, is not taken.
 
 use super::New;
 use super::follow::{Follow, Nodes, Rounded, Sample};
 use crate::flow::build::Builder;
 use crate::flow::graph::*;
 use rustc_hash::FxHashMap;
-use slowlight_routine::{Op, Runtime, Type};
+use slowlight_routine::{Format, Op, Runtime, Type, scale};
 use std::collections::BTreeMap;
 
 /// Cycles a pixel for all that a value needs and that is another in every
@@ -101,6 +102,16 @@ pub struct Judge<'g> {
     pub graph: &'g Graph,
     pub samples: &'g [Sample],
     pub allowance: f64,
+    /// The greatest real of the format: what a form has beyond it would saturate.
+    pub end: f64,
+}
+
+/// The greatest real that a format of reals holds, wherever its point may be.
+pub fn end(real: Format) -> f64 {
+    match real {
+        Format::Scaled { bits } => (scale::most(bits) as f64) * f64::from(-scale::FEWEST).exp2(),
+        real => real.most(),
+    }
 }
 
 /// By which part two formulas for one value may differ in `f64`.
@@ -157,6 +168,9 @@ impl Judge<'_> {
                 return false;
             };
             told += 1;
+            if is.leaves(self.end) && !was.leaves(self.end) {
+                return false;
+            }
             let differs = where_equal && !agree(value, is.value(made, 0));
             if differs || after > self.allowance * before.max(2.0) {
                 return false;

@@ -52,8 +52,8 @@ use follow::{Sample, samples};
 pub(super) use form::Forms;
 use form::{Form, Part};
 pub use halved::Proofs;
-pub(super) use judge::Judge;
 use judge::cycles;
+pub(super) use judge::{Judge, end};
 pub(super) use number::Number;
 use put::Put;
 use rustc_hash::FxHashMap;
@@ -299,6 +299,7 @@ impl Site<'_> {
             graph: self.forms.graph,
             samples: &self.samples,
             allowance: self.allowance,
+            end: end(self.runtime.real),
         };
         let good = |made| self.cheaper(b, new, id, made) && judge.sound(b, new, id, made);
         let good = held.unwrap_or_else(|| made.is_some_and(good));

@@ -14,7 +14,7 @@ use super::judge::cycles;
 use super::number::Number;
 use super::poly::{Atom, Monomial, Poly};
 use super::put::{Out, Put};
-use super::{Cheaper, Judge, Verdicts, allowance};
+use super::{Cheaper, Judge, Verdicts, allowance, end};
 use crate::flow::graph::*;
 use crate::passes::rebuild::rebuild_old;
 use crate::range::Ranges;
@@ -43,6 +43,7 @@ pub fn spans<'g>(
         graph,
         samples: &samples,
         allowance,
+        end: end(runtime.real),
     };
     let column = graph
         .ids()

@@ -16,7 +16,7 @@ mod search;
 mod tests;
 
 use super::algebra::follow::samples;
-use super::algebra::{Cheaper, Forms, Judge, Verdicts, allowance, own, users};
+use super::algebra::{Cheaper, Forms, Judge, Verdicts, allowance, end, own, users};
 use super::rebuild::rebuild_old;
 use crate::flow::build::Builder;
 use crate::flow::graph::*;
@@ -57,6 +57,7 @@ pub fn identities<'g>(
         graph,
         samples: &samples,
         allowance,
+        end: end(runtime.real),
     };
     let mut sites = Vec::new();
     let next = rebuild_old(graph, &mut |b, made, id, span| {

@@ -23,7 +23,7 @@ mod terms;
 mod tests;
 
 use super::algebra::follow::{Sample, samples};
-use super::algebra::{Judge, allowance, users};
+use super::algebra::{Judge, allowance, end, users};
 use super::rate::{Rates, rates};
 use super::rebuild::rebuild_old;
 use super::segment::Known;
@@ -121,6 +121,7 @@ struct Sums<'g> {
     known: Option<Known<'g>>,
     samples: Vec<Sample>,
     allowance: f64,
+    end: f64,
     groups: FxHashMap<Common, Vec<Member>>,
 }
 
@@ -134,6 +135,7 @@ impl<'g> Sums<'g> {
             known: runtime.segments.then(|| Known::of(graph)),
             samples: samples(graph),
             allowance: allowance(runtime),
+            end: end(runtime.real),
             groups: FxHashMap::default(),
         };
         sums.groups = sums.grouped();
@@ -257,6 +259,7 @@ impl<'g> Sums<'g> {
             graph: self.graph,
             samples: &self.samples,
             allowance: self.allowance,
+            end: self.end,
         };
         self.allowance >= 1.0 && self.graph.ty(old) == Type::Real && judge.sound(b, new, old, made)
     }
