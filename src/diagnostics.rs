@@ -4,6 +4,7 @@
 //! megabyte, so only the lines around a place are handed to the renderer, and
 //! of a very long line only a piece.
 
+use crate::output::remark;
 use annotate_snippets::{Annotation, AnnotationKind, Level, Origin, Renderer, Snippet};
 use serde_json::{Value, json};
 use slowlight_compiler::source::{Diagnostic, SourceFile, Sources, Span};
@@ -23,7 +24,10 @@ const NEAR: usize = 200;
 pub fn print(sources: &Sources, diagnostics: &[Diagnostic]) {
     let stderr = std::io::stderr();
     let colour = stderr.is_terminal() && std::env::var_os("NO_COLOR").is_none_or(|v| v.is_empty());
-    eprint!("{}", render(sources, diagnostics, colour));
+    let text = render(sources, diagnostics, colour);
+    if let Some(lines) = text.strip_suffix('\n') {
+        remark(lines);
+    }
 }
 
 /// The diagnostics sorted: errors first, the user's files before the library's, by place.

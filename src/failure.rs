@@ -1,5 +1,6 @@
 //! Why a command did not do what was asked, and the exit status for it.
 
+use crate::output::remark;
 use crate::scene::Said;
 use std::process::ExitCode;
 
@@ -12,6 +13,8 @@ pub enum Failure {
     Wrong(String),
     /// What was asked for does not exist or does not fit together.
     Usage(String),
+    /// Options that do not fit the scene; the diagnostics say which.
+    Options(Box<Said>),
     /// The machine's picture is not the model's, or a snapshot changed. Already reported.
     Differs,
     /// A hard case does not pass. Already reported.
@@ -31,7 +34,7 @@ impl Failure {
     pub fn status(&self) -> u8 {
         match self {
             Failure::Scene(_) | Failure::Wrong(_) | Failure::Cases => 1,
-            Failure::Usage(_) => 2,
+            Failure::Usage(_) | Failure::Options(_) => 2,
             Failure::Differs => 3,
             Failure::Several(status) => *status,
             Failure::Interrupted => 130,
@@ -41,7 +44,7 @@ impl Failure {
     /// It in one line, for a table.
     pub fn reason(&self) -> String {
         match self {
-            Failure::Scene(said) => {
+            Failure::Scene(said) | Failure::Options(said) => {
                 let first = said.diagnostics.iter().find(|d| d.is_error());
                 first.map_or("the scene is wrong".to_owned(), |d| d.message.clone())
             }
@@ -58,10 +61,14 @@ impl Failure {
     /// Says it on standard error.
     pub fn report(&self) -> ExitCode {
         match self {
-            Failure::Scene(said) => crate::diagnostics::print(&said.sources, &said.diagnostics),
-            Failure::Wrong(message) | Failure::Usage(message) => eprintln!("error: {message}"),
+            Failure::Scene(said) | Failure::Options(said) => {
+                crate::diagnostics::print(&said.sources, &said.diagnostics)
+            }
+            Failure::Wrong(message) | Failure::Usage(message) => {
+                remark(&format!("error: {message}"))
+            }
             Failure::Differs | Failure::Cases | Failure::Several(_) => {}
-            Failure::Interrupted => eprintln!("interrupted"),
+            Failure::Interrupted => remark("interrupted"),
         }
         ExitCode::from(self.status())
     }
@@ -69,9 +76,14 @@ impl Failure {
 
 /// The name nearest to a misspelt one, where one is near enough to be meant.
 pub fn nearest<'a>(name: &str, known: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
+    // `c64` is a part of `6502:c64`.
+    let like = |k: &str| match k.split(':').any(|part| part == name) {
+        true => 1.0,
+        false => strsim::normalized_damerau_levenshtein(name, k),
+    };
     known
         .into_iter()
-        .map(|k| (strsim::normalized_damerau_levenshtein(name, k), k))
+        .map(|k| (like(k), k))
         .filter(|(like, _)| *like >= 0.5)
         .max_by(|a, b| a.0.total_cmp(&b.0))
         .map(|(_, k)| k)

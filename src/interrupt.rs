@@ -2,25 +2,70 @@
 
 use crate::failure::{Failure, Outcome};
 use std::sync::Mutex;
-use std::sync::atomic::{AtomicBool, Ordering};
-use std::time::Duration;
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
+use std::time::{Duration, Instant};
 
 static INTERRUPTED: AtomicBool = AtomicBool::new(false);
 
 /// What is said before the process ends.
 static LAST_WORDS: Mutex<Option<Box<dyn FnOnce() + Send>>> = Mutex::new(None);
 
+/// How many works go on that never look at the flag, and how many that write files.
+static BLIND: AtomicUsize = AtomicUsize::new(0);
+static WRITING: AtomicUsize = AtomicUsize::new(0);
+
 /// How long work has to notice the flag before the process ends regardless.
 const PATIENCE: Duration = Duration::from_secs(1);
 
+/// How often it is looked at whether there is anything to wait for.
+const LOOK: Duration = Duration::from_millis(5);
+
+/// Something goes on until this is dropped.
+pub struct GoesOn(&'static AtomicUsize);
+
+impl GoesOn {
+    fn new(count: &'static AtomicUsize) -> GoesOn {
+        count.fetch_add(1, Ordering::SeqCst);
+        GoesOn(count)
+    }
+}
+
+impl Drop for GoesOn {
+    fn drop(&mut self) {
+        self.0.fetch_sub(1, Ordering::SeqCst);
+    }
+}
+
+/// Work begins that never looks at the flag, planning above all: until this is dropped Ctrl-C
+/// ends the process at once, since to wait for it would be in vain.
+pub fn blind() -> GoesOn {
+    GoesOn::new(&BLIND)
+}
+
+/// Files are being written until this is dropped, temporary ones among them that are to be
+/// removed: that is waited for.
+pub fn writing() -> GoesOn {
+    GoesOn::new(&WRITING)
+}
+
+/// Waits until there is nothing to wait for, or no longer.
+fn wait() {
+    let begun = Instant::now();
+    let going = |count: &AtomicUsize| count.load(Ordering::SeqCst) > 0;
+    while begun.elapsed() < PATIENCE && (going(&WRITING) || !going(&BLIND)) {
+        std::thread::sleep(LOOK);
+    }
+}
+
 /// From now on Ctrl-C sets the flag instead of ending the process, so that
 /// temporary files are removed on the way out. A single pixel may take long,
-/// and nothing is being written meanwhile: then the process ends at once.
+/// and nothing is being written meanwhile: then the process ends after a second, and at once
+/// where it is known that nobody looks ([`blind`]).
 pub fn install() {
     // Where it cannot be installed, Ctrl-C ends the process as it always did.
     let _ = ctrlc::set_handler(|| {
         INTERRUPTED.store(true, Ordering::Relaxed);
-        std::thread::sleep(PATIENCE);
+        wait();
         let words = LAST_WORDS.lock().ok().and_then(|mut words| words.take());
         if let Some(words) = words {
             words();

@@ -7,6 +7,7 @@
 pub mod against;
 pub mod ascii;
 pub mod cases;
+pub mod colours;
 pub mod commands;
 pub mod diagnostics;
 pub mod digest;
@@ -19,12 +20,16 @@ pub mod files;
 pub mod fit;
 pub mod forecast;
 pub mod format;
+pub mod given;
+pub mod inks;
 pub mod interrupt;
 pub mod jobs;
+pub mod keys;
 pub mod listing;
 pub mod machine;
 pub mod measure;
 pub mod need;
+pub mod output;
 pub mod picture;
 pub mod precise;
 pub mod program;
@@ -34,11 +39,15 @@ pub mod sheet;
 pub mod snapshot;
 pub mod survey;
 pub mod target_args;
+pub mod together;
 pub mod trial;
 pub mod tune;
 pub mod ways;
 
 use clap::Parser;
+use clap::error::{ContextKind, ErrorKind};
+use failure::{Failure, Outcome};
+pub use output::{say, say_json};
 use std::process::ExitCode;
 
 /// Compiles ray-traced scenes for machines where light is slow, runs the
@@ -52,28 +61,37 @@ struct Cli {
 
 /// Runs the command line; answers the exit status.
 pub fn main() -> ExitCode {
-    let cli = Cli::parse();
-    interrupt::install();
-    draw::set_up_threads();
-    match draw::deep(|| cli.command.run()) {
+    let done = match Cli::try_parse() {
+        Ok(cli) => {
+            interrupt::install();
+            draw::set_up_threads();
+            draw::deep(|| cli.command.run())
+        }
+        Err(other) => usage(&other),
+    };
+    match done {
         Ok(()) => ExitCode::SUCCESS,
         Err(failure) => failure.report(),
     }
 }
 
-/// Prints to standard output, where a reader that has gone away is no error.
-pub fn say(text: &str) {
-    use std::io::Write;
-    let mut out = std::io::stdout().lock();
-    let _ = out.write_all(text.as_bytes()).and_then(|()| out.flush());
-}
-
-/// Prints a value as JSON, and a line's end.
-pub fn say_json(value: &impl serde::Serialize) {
-    // Fails only for maps with keys that are no strings, of which there are none.
-    if let Ok(text) = serde_json::to_string_pretty(value) {
-        say(&(text + "\n"));
+/// What a command line that says nothing to do comes to: help, a version, or what is wrong
+/// with it; where a machine is missing, those that there are.
+fn usage(found: &clap::Error) -> Outcome<()> {
+    if !found.use_stderr() {
+        return output::written(found.print());
     }
+    // Nothing is left to say it on where standard error cannot be written.
+    let _ = found.print();
+    let missing = found.get(ContextKind::InvalidArg).map(ToString::to_string);
+    if found.kind() == ErrorKind::MissingRequiredArgument
+        && missing.is_some_and(|args| args.contains("--target"))
+    {
+        output::remark(&format!("\n{}", target_args::known_targets()));
+    }
+    Err(Failure::Several(
+        u8::try_from(found.exit_code()).unwrap_or(2),
+    ))
 }
 
 #[cfg(test)]

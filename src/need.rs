@@ -8,10 +8,12 @@ use crate::failure::{Failure, Outcome};
 use crate::format::count;
 use crate::machine::File;
 use slowlight_compiler::flow::tree::{Statement, Tree, walk};
+use slowlight_compiler::fuel::Fuel;
 use slowlight_compiler::plan::Plan;
 use slowlight_compiler::target::Document;
 use slowlight_compiler::target::mos6502;
 use slowlight_vm::bbc::{Config, Dialect, Machine, tokenise};
+use slowlight_vm::hack::vm::Heap;
 use slowlight_vm::mos6502::extent;
 
 /// What BASIC's stack takes at most: three calls of the runtime's functions
@@ -23,12 +25,17 @@ const BASIC_STACK: u64 = 160;
 /// processor's stack, and where to return to.
 const BASIC_CALL: u64 = 28;
 
-/// Words of the Hack computer's heap, and those that each object has beside its own.
-const HEAP: u64 = 16384 - 2048;
+/// Words of the Hack computer's heap that every system has which is built into an emulator,
+/// and those that each object has beside its own.
+const HEAP: u64 = Heap::BuiltIn.words() as u64;
 const HEADER: u64 = 2;
 
-/// Words of a string beside its characters: how many it has and may have.
-const STRING: u64 = 2;
+/// Words that every system has: nearly all that the official one leaves as `.vm` files.
+const EVERYWHERE: u64 = 11_500;
+
+/// Words of a string beside its characters, in the web IDE, which has most: the two lengths,
+/// where the characters are, and the header of these.
+const STRING: u64 = 3 + HEADER;
 
 /// What a program takes of a machine's memory.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -39,6 +46,22 @@ pub struct Need {
     parts: Vec<(&'static str, u64)>,
     /// What the machine has.
     room: u64,
+    /// What takes most of a heap, and how much.
+    largest: Option<(String, u64)>,
+    /// Whether the program brings the operating system that it runs on.
+    system: bool,
+}
+
+/// What the heap of a Jack program takes of its machine.
+pub struct HeapNeed<'n> {
+    /// Everything with its headers, in words.
+    pub words: u64,
+    /// Each part that is not nothing.
+    pub parts: Vec<(&'n str, u64)>,
+    /// What takes most.
+    pub largest: &'n str,
+    /// Which operating systems have that much.
+    pub systems: &'static str,
 }
 
 impl Need {
@@ -52,12 +75,32 @@ impl Need {
         self.total() <= self.room
     }
 
+    /// Of a program that has a heap: what it takes.
+    pub fn heap(&self) -> Option<HeapNeed<'_>> {
+        let (largest, _) = self.largest.as_ref()?;
+        let words = self.total();
+        Some(HeapNeed {
+            words,
+            parts: self.parts.iter().filter(|(_, n)| *n > 0).copied().collect(),
+            largest,
+            systems: match words {
+                _ if self.system => "runs on its own operating system",
+                0..=EVERYWHERE => "runs on every operating system",
+                _ => "needs the built-in OS of the VM emulator or the web IDE",
+            },
+        })
+    }
+
     /// `6,120 of 5,888 bytes, 232 too many (program 5,300, ..)`.
     pub fn text(&self) -> String {
         let parts = self.parts.iter().filter(|(_, size)| *size > 0);
         let parts: Vec<String> = parts.map(|(n, s)| format!("{n} {}", count(*s))).collect();
+        let largest = match &self.largest {
+            Some((name, size)) => format!("; largest: {name}, {}", count(*size)),
+            None => String::new(),
+        };
         format!(
-            "{} of {} {}, {} too many ({})",
+            "{} of {} {}, {} too many ({}{largest})",
             count(self.total()),
             count(self.room),
             self.unit,
@@ -72,7 +115,10 @@ impl Need {
 /// # Errors
 /// Where the machine's tools refuse the text, which is a fault of ours.
 pub fn need(plan: &Plan) -> Outcome<Option<Need>> {
-    let documents = (plan.target.emit)(plan);
+    need_of(plan, &(plan.target.emit)(plan))
+}
+
+fn need_of(plan: &Plan, documents: &[Document]) -> Outcome<Option<Need>> {
     let dialect = match plan.target.name {
         "bbc:micro" => Dialect::Micro,
         "bbc:agon" => Dialect::Agon,
@@ -80,7 +126,7 @@ pub fn need(plan: &Plan) -> Outcome<Option<Need>> {
         "6502:plain" | "6502:bbc" | "6502:c64" => {
             return Ok(documents.first().map(|document| assembly(plan, document)));
         }
-        "jack" => return Ok(Some(heap(&documents, &[]))),
+        "jack" => return Ok(Some(heap(documents, &[]))),
         _ => return Ok(None),
     };
     match documents.first() {
@@ -88,6 +134,44 @@ pub fn need(plan: &Plan) -> Outcome<Option<Need>> {
         None => Ok(None),
     }
 }
+
+/// The same where it is enough to know whether the machine holds it: of machine code as it is
+/// before it is read again as a whole, where that says so already. That makes a program
+/// shorter, but by a small part, and takes most of the time.
+///
+/// # Errors
+/// As for [`need`].
+pub fn about(plan: &Plan, fuel: &Fuel) -> Outcome<Option<Need>> {
+    if !plan.target.name.starts_with("6502") {
+        let documents = (plan.target.emit)(plan);
+        let bytes: usize = documents.iter().map(|d| d.text.len()).sum();
+        let mut statements = 0;
+        for block in plan.tree.blocks() {
+            walk(block, &mut |_| statements += 1);
+        }
+        fuel.burn(WRITTEN * bytes as u64 + statements * statements / PAIRS);
+        return need_of(plan, &documents);
+    }
+    let document = mos6502::draft(plan);
+    let bytes = document.text.len() as u64;
+    fuel.burn(WRITTEN * bytes);
+    let draft = assembly(plan, &document);
+    // What is half as large again as the machine is not read again in vain.
+    if draft.fits() || draft.total() > draft.room + draft.room / 2 {
+        return Ok(Some(draft));
+    }
+    fuel.burn(READ_AGAIN * bytes);
+    need(plan)
+}
+
+/// Units of work for each byte of a program's text: to write it and look how large it is, and
+/// to read it again as a whole.
+const WRITTEN: u64 = 20;
+const READ_AGAIN: u64 = 40;
+
+/// Of so many pairs of statements one takes a unit, where variables are shared: which are
+/// alive at the same time is looked at for each of them.
+const PAIRS: u64 = 4;
 
 /// What a plan's program takes of the Hack's heap where this operating system has its
 /// part of it.
@@ -118,6 +202,8 @@ fn basic(plan: &Plan, document: &Document, dialect: Dialect) -> Outcome<Option<N
             ("stack", BASIC_STACK + BASIC_CALL * depth(&plan.tree)),
         ],
         room: room as u64,
+        largest: None,
+        system: false,
     }))
 }
 
@@ -173,6 +259,8 @@ fn assembly(plan: &Plan, document: &Document) -> Need {
             ("program", u64::from(end.saturating_sub(origin))),
         ],
         room: room.bytes,
+        largest: None,
+        system: false,
     }
 }
 
@@ -181,6 +269,11 @@ fn assembly(plan: &Plan, document: &Document) -> Need {
 /// of errors are filled in a loop, of Floats with one an element.
 fn heap(documents: &[Document], system: &[File]) -> Need {
     let (mut fields, mut floats, mut arrays, mut rows, mut message) = (0, 0, 0, 0, 0);
+    let texts = documents.iter().map(|d| d.text.clone());
+    let texts = texts.chain(system.iter().map(|file| file.as_text().into_owned()));
+    let mut largest = texts
+        .flat_map(|text| largest_array(&text))
+        .max_by_key(|(_, size)| *size);
     // Behind `Main` comes the scene's class.
     let scene = documents.get(1).map_or("", |d| d.text.as_str());
     let of_floats = scene.contains("] = Float.new()");
@@ -206,7 +299,7 @@ fn heap(documents: &[Document], system: &[File]) -> Need {
         true => Some(float),
         false => array(line).map(|size| size + HEADER),
     });
-    let system: u64 = (system.iter())
+    let beside: u64 = (system.iter())
         .map(|file| {
             file.as_text()
                 .lines()
@@ -215,8 +308,20 @@ fn heap(documents: &[Document], system: &[File]) -> Need {
                 .sum::<u64>()
         })
         .sum();
+    let groups = [
+        ("the fields", fields + HEADER),
+        ("the numbers", floats * float),
+        ("the rows of errors", rows * float),
+    ];
+    for (name, size) in groups {
+        if largest.as_ref().is_none_or(|(_, most)| size > *most) {
+            largest = Some((name.to_owned(), size));
+        }
+    }
     Need {
         unit: "words of heap",
+        largest,
+        system: !system.is_empty(),
         parts: vec![
             ("fields", fields + HEADER),
             ("numbers", floats * float),
@@ -224,10 +329,19 @@ fn heap(documents: &[Document], system: &[File]) -> Need {
             ("errors", rows * float),
             ("arithmetic", arithmetic.sum()),
             ("messages", message),
-            ("operating system", system),
+            ("operating system", beside),
         ],
         room: HEAP,
     }
+}
+
+/// The longest array that a class makes, and its words.
+fn largest_array(class: &str) -> Option<(String, u64)> {
+    let name = |line: &str| {
+        let (name, _) = line.trim_start().strip_prefix("let ")?.split_once(" = ")?;
+        Some((format!("the array {name}"), array(line)? + HEADER))
+    };
+    class.lines().filter_map(name).max_by_key(|(_, size)| *size)
 }
 
 /// The length of the array that a line makes.
@@ -254,6 +368,8 @@ mod tests {
             unit: "bytes",
             parts: vec![("program", 5000), ("arrays", 0), ("variables", 1000)],
             room: 5888,
+            largest: None,
+            system: false,
         };
         assert!(!need.fits());
         assert_eq!(

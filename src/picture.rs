@@ -2,6 +2,7 @@
 
 use crate::digest;
 use crate::failure::{Failure, Outcome};
+use slowlight_vm::Screen;
 use std::path::Path;
 
 /// A picture: an ink a pixel.
@@ -47,17 +48,22 @@ impl FileFormat {
     }
 }
 
-/// Where a picture goes, if anywhere; its format is known before any work is done.
+/// Where a picture goes, if anywhere; its format is known before any work is done, and that
+/// it may be written.
 pub struct PictureFile<'p>(Option<(&'p Path, FileFormat)>);
 
 impl<'p> PictureFile<'p> {
     /// The file that `-o` names.
     ///
     /// # Errors
-    /// Where its extension names no format.
+    /// Where its extension names no format, or it cannot be written.
     pub fn named(path: Option<&'p Path>) -> Outcome<PictureFile<'p>> {
-        let found = path.map(|p| Ok((p, FileFormat::of(p)?))).transpose()?;
-        Ok(PictureFile(found))
+        let Some(path) = path else {
+            return Ok(PictureFile(None));
+        };
+        let format = FileFormat::of(path)?;
+        crate::files::may_write(path)?;
+        Ok(PictureFile(Some((path, format))))
     }
 
     /// Whether there is one.
@@ -73,6 +79,17 @@ impl<'p> PictureFile<'p> {
         match self.0 {
             Some((path, format)) => crate::files::write(path, &picture.encode(format)?),
             None => Ok(()),
+        }
+    }
+}
+
+impl From<&Screen> for Picture {
+    fn from(screen: &Screen) -> Picture {
+        Picture {
+            width: screen.width,
+            height: screen.height,
+            palette: screen.palette.clone(),
+            inks: screen.pixels.clone(),
         }
     }
 }

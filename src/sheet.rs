@@ -93,9 +93,31 @@ pub fn escaped(text: &str) -> String {
     out
 }
 
+/// The same, with what stands between backticks as code.
+pub fn marked(text: &str) -> String {
+    let mut out = String::new();
+    for (k, part) in text.split('`').enumerate() {
+        out += &match k % 2 {
+            0 => escaped(part),
+            _ => format!("<code>{}</code>", escaped(part)),
+        };
+    }
+    out
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn backticks_are_code() {
+        assert_eq!(
+            marked("a < `b < c`, `d`"),
+            "a &lt; <code>b &lt; c</code>, <code>d</code>"
+        );
+        assert_eq!(marked("`a"), "<code>a</code>");
+        assert_eq!(marked("none"), "none");
+    }
 
     #[test]
     fn bars_are_shares_of_the_room_behind_their_column() {

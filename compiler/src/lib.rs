@@ -4,6 +4,7 @@
 
 pub mod eval;
 pub mod flow;
+pub mod fuel;
 pub mod passes;
 pub mod plan;
 pub mod prelude;

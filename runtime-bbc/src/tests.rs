@@ -58,7 +58,7 @@ fn results(mut file: &[u8], format: Format) -> Vec<Bits> {
 fn text(part: &Part) -> &'static str {
     match part.source {
         Source::Text(text) => text,
-        Source::Table(_) => panic!("BASIC's parts are text"),
+        Source::Made(_) | Source::Table(_) => panic!("BASIC's parts are text"),
     }
 }
 

@@ -190,7 +190,7 @@ fn overlay(vector: &Vector, arithmetic: Arithmetic) -> Option<&Overlay> {
 
 fn words(why: &Failure) -> String {
     match why {
-        Failure::Scene(said) => {
+        Failure::Scene(said) | Failure::Options(said) => {
             let all = said.diagnostics.iter().map(|d| d.message.as_str());
             all.collect::<Vec<_>>().join("; ")
         }

@@ -1,14 +1,16 @@
 //! `build`: sources ready for the real machine, or a stage on the way there.
 
+use crate::colours;
 use crate::failure::{Failure, Outcome};
 use crate::forecast::{self, Forecast, forecast};
 use crate::format::{count, duration, table};
 use crate::listing::listing;
 use crate::machine::{File, Sizes};
+use crate::need::{Need, need_beside};
 use crate::scene::{Precision, Scene, SceneArgs};
 use crate::target_args::{self, ScreenArgs, Style};
 use crate::trial::{self, mode_json};
-use crate::{files, say, say_json};
+use crate::{files, inks, say, say_json};
 use clap::ValueEnum;
 use serde_json::json;
 use slowlight_compiler::passes::rate::rates;
@@ -18,6 +20,7 @@ use slowlight_compiler::syntax::print;
 use slowlight_compiler::target::mos6502::document;
 use slowlight_compiler::target::mos6502::syntax::Syntax;
 use slowlight_compiler::target::{Document, Target};
+use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 /// Options of `build`.
@@ -71,11 +74,14 @@ enum Stage {
 pub fn run(args: &Args) -> Outcome<()> {
     let scene = Scene::load(&args.scene)?;
     if let Some(stage) = args.emit {
-        say(&emit(args, &scene, stage)?);
-        return Ok(());
+        return say(&emit(args, &scene, stage)?);
     }
+    let target = target(args)?;
+    files::may_hold(&args.output)?;
     scene.warn();
-    let plan = args.screen.plan(&scene, target(args)?, &[])?;
+    let plan = args.screen.plan(&scene, target, &[])?;
+    inks::warn(&scene, &plan)?;
+    colours::warn(&scene, plan.target);
     let more = match args.screen.style {
         Some(Style::Listing) if target_args::is_6502(plan.target) => vec![listing(&scene, &plan)?],
         _ => Vec::new(),
@@ -91,7 +97,7 @@ pub fn run(args: &Args) -> Outcome<()> {
             .iter()
             .map(|(path, bytes)| json!({"path": path.display().to_string(), "bytes": bytes}))
             .collect();
-        say_json(&json!({
+        return say_json(&json!({
             "scene": scene.name,
             "target": plan.target.name,
             "mode": mode_json(plan.mode.name),
@@ -100,6 +106,7 @@ pub fn run(args: &Args) -> Outcome<()> {
             "code_bytes": sizes.code,
             "table_bytes": sizes.tables,
             "ram_bytes": sizes.ram,
+            "heap": heap_json(&written),
             "cycles": forecast.cycles().map(f64::round),
             "machine_seconds": forecast.cycles().map(seconds),
             "rows_run": match forecast {
@@ -107,9 +114,8 @@ pub fn run(args: &Args) -> Outcome<()> {
                 Forecast::Whole(_) | Forecast::Not(_) => None,
             },
         }));
-        return Ok(());
     }
-    say(&written.text());
+    say(&written.text())?;
     say(&match &forecast {
         Forecast::Whole(cycles) => format!("{} on the machine\n", duration(seconds(*cycles))),
         Forecast::Rows(cycles, rows) => format!(
@@ -118,8 +124,7 @@ pub fn run(args: &Args) -> Outcome<()> {
             plan.rows.1 - plan.rows.0 + 1
         ),
         Forecast::Not(why) => format!("its time is not known: {why}\n"),
-    });
-    Ok(())
+    })
 }
 
 /// The files of a program that were written.
@@ -127,6 +132,8 @@ pub struct Written {
     /// Where, and how long in bytes.
     files: Vec<(PathBuf, usize)>,
     sizes: Sizes,
+    /// What a Jack program takes of the heap.
+    heap: Option<Need>,
 }
 
 impl Written {
@@ -146,7 +153,18 @@ impl Written {
                 rows.push(vec![what.to_owned(), size(bytes)]);
             }
         }
-        table(&rows)
+        let mut text = table(&rows);
+        if let Some(heap) = self.heap.as_ref().and_then(Need::heap) {
+            let part = |(name, words): &(&str, u64)| format!("{name} {}", count(*words));
+            let parts: Vec<String> = heap.parts.iter().map(part).collect();
+            text.push_str(&format!(
+                "heap: {} words with headers ({}); {}\n",
+                count(heap.words),
+                parts.join(", "),
+                heap.systems
+            ));
+        }
+        text
     }
 }
 
@@ -167,8 +185,7 @@ pub fn write(
         let files = documents.iter().map(|d| File::text(&d.name, &d.text));
         built.sources = files.collect();
     }
-    std::fs::create_dir_all(dir)
-        .map_err(|e| Failure::Wrong(format!("cannot make {}: {e}", dir.display())))?;
+    files::make(dir)?;
     let written: Vec<(PathBuf, &[u8])> = built
         .sources
         .iter()
@@ -184,7 +201,25 @@ pub fn write(
             .iter()
             .map(|(path, bytes)| (path.clone(), bytes.len()))
             .collect(),
+        heap: match plan.target.name {
+            "jack" => Some(need_beside(plan, &built.loaded.system)),
+            _ => None,
+        },
         sizes: built.loaded.sizes,
+    })
+}
+
+/// A Jack program's heap as JSON; null for others.
+fn heap_json(written: &Written) -> serde_json::Value {
+    let Some(heap) = written.heap.as_ref().and_then(Need::heap) else {
+        return serde_json::Value::Null;
+    };
+    let parts: BTreeMap<&str, u64> = heap.parts.iter().copied().collect();
+    json!({
+        "words": heap.words,
+        "parts": parts,
+        "largest": heap.largest,
+        "systems": heap.systems,
     })
 }
 

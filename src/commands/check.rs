@@ -2,11 +2,14 @@
 //! targets' formats; and how hard cases are passed.
 
 use crate::cases::{self, Way};
+use crate::colours;
+use crate::draw::Window;
 use crate::failure::{Failure, Outcome, unknown};
 use crate::precise::{self, Fared};
 use crate::scene::{Changes, Precision, Scene};
-use crate::target_args::target;
-use crate::{diagnostics, files, say, say_json};
+use crate::target_args::{ScreenArgs, target};
+use crate::together::together;
+use crate::{diagnostics, files, inks, say, say_json};
 use serde_json::json;
 use slowlight_compiler::report::domain;
 use slowlight_compiler::source::Diagnostic;
@@ -16,7 +19,7 @@ use std::path::{Path, PathBuf};
 /// Options of `check`.
 #[derive(clap::Args, Debug)]
 pub struct Args {
-    /// The scene's file
+    /// The scene's file; - is standard input
     scene: Option<PathBuf>,
     #[command(flatten)]
     changes: Changes,
@@ -95,7 +98,7 @@ fn try_cases(args: &Args, path: &Path) -> Outcome<()> {
     match args.json {
         true => say_json(&cases::table::to_json(&found)),
         false => say(&cases::table::text(&found)),
-    }
+    }?;
     match found.rows.iter().all(|row| row.verdict.passed) {
         true => Ok(()),
         false => Err(Failure::Cases),
@@ -138,36 +141,62 @@ fn check(args: &Args, of: &Path) -> Outcome<()> {
     let checked = Scene::open(of, &args.changes).and_then(|scene| {
         let graph = scene.graph(None, Precision::NATIVE)?;
         let zero = domain::warnings(&graph, &scene.checked.sources);
+        let beyond = inks::warnings(&scene, &screens(&scene, &targets)?, whole(&scene))?;
         let fared = precise::look(&scene, &targets)?;
-        Ok((scene, zero, fared))
+        let mut said = zero;
+        said.extend(beyond);
+        // Of machines that are asked for: most scenes are not for all.
+        if !args.target.is_empty() {
+            said.extend(colours::warnings(&scene, &targets));
+        }
+        Ok((scene, said, fared))
     });
     match checked {
-        Ok((scene, zero, fared)) => {
-            report(args, of, &scene, &zero, &fared);
-            Ok(())
-        }
-        Err(Failure::Scene(said)) => {
-            if args.json {
+        Ok((scene, said, fared)) => report(args, of, &scene, &said, &fared),
+        Err(failure) => {
+            if let (true, Failure::Scene(said) | Failure::Options(said)) = (args.json, &failure) {
                 let found = diagnostics::to_json(&said.sources, &said.diagnostics);
-                say_json(&json!({ "diagnostics": found }));
+                say_json(&json!({ "diagnostics": found }))?;
             }
-            Err(Failure::Scene(said))
+            Err(failure)
         }
-        Err(other) => Err(other),
     }
 }
 
-fn report(args: &Args, of: &Path, scene: &Scene, zero: &[Diagnostic], fared: &[Fared]) {
+fn whole(scene: &Scene) -> Window {
+    let (width, height) = scene.size();
+    Window::whole(width, height)
+}
+
+/// The screens of some targets in their best modes, and the picture's own inks.
+fn screens(scene: &Scene, targets: &[&'static Target]) -> Outcome<Vec<inks::Screen>> {
+    let own = ("the picture".to_owned(), None);
+    let mut all = vec![own];
+    for target in targets {
+        let mode = ScreenArgs::default().mode(target, scene.size())?;
+        all.push((target.name.to_owned(), Some(mode.inks)));
+    }
+    Ok(all)
+}
+
+fn report(
+    args: &Args,
+    of: &Path,
+    scene: &Scene,
+    more: &[Diagnostic],
+    fared: &[Fared],
+) -> Outcome<()> {
     let sources = &scene.checked.sources;
     let weak = fared.iter().flat_map(|f| &f.said);
     let said: Vec<Diagnostic> = scene
         .checked
         .diagnostics
         .iter()
-        .chain(zero)
+        .chain(more)
         .chain(weak)
         .cloned()
         .collect();
+    let said = together(said);
     if args.json {
         let found = diagnostics::to_json(sources, &said);
         return say_json(&json!({ "diagnostics": found, "formats": precise::to_json(fared) }));
@@ -180,8 +209,9 @@ fn report(args: &Args, of: &Path, scene: &Scene, zero: &[Diagnostic], fared: &[F
         1 => "1 warning".to_owned(),
         n => format!("{n} warnings"),
     };
-    say(&format!("{}: {remarks}\n", of.display()));
-    if !fared.is_empty() {
-        say(&precise::text(fared));
+    say(&format!("{}: {remarks}\n", of.display()))?;
+    match fared.is_empty() {
+        true => Ok(()),
+        false => say(&precise::text(fared)),
     }
 }

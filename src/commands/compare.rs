@@ -60,11 +60,12 @@ struct Row<'a> {
 
 /// Runs them all; what cannot be run does not stop the others.
 pub fn run(args: &Args) -> Outcome<()> {
-    if let Some(output) = &args.output
-        && FileFormat::of(output)? != FileFormat::Png
-    {
-        let message = "pictures side by side are written as .png".to_owned();
-        return Err(Failure::Usage(message));
+    if let Some(output) = &args.output {
+        if FileFormat::of(output)? != FileFormat::Png {
+            let message = "pictures side by side are written as .png".to_owned();
+            return Err(Failure::Usage(message));
+        }
+        files::may_write(output)?;
     }
     let rows = rows(args)?;
     let trials: Vec<&Trial> = rows.iter().filter_map(|r| r.tried.as_ref().ok()).collect();
@@ -76,11 +77,11 @@ pub fn run(args: &Args) -> Outcome<()> {
     let differs = |t: &&Trial| t.from_model.as_ref().is_some_and(|d| !d.is_empty());
     let differs = trials.iter().any(differs);
     if args.json {
-        say_json(&rows.iter().map(Row::json).collect::<Vec<Value>>());
+        say_json(&rows.iter().map(Row::json).collect::<Vec<Value>>())?;
     } else if args.markdown {
-        say(&markdown(&rows));
+        say(&markdown(&rows))?;
     } else if !trials.is_empty() || rows.len() > 1 {
-        say(&aligned(&rows));
+        say(&aligned(&rows))?;
     }
     let mut status = None;
     for failure in rows.into_iter().filter_map(|r| r.tried.err()) {

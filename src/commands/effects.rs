@@ -37,6 +37,7 @@ pub struct Args {
 
 /// Looks and reports; fails where the machine and its model differ.
 pub fn run(args: &Args) -> Outcome<()> {
+    files::may_write_each([args.svg.as_ref()])?;
     let scene = Scene::load(&args.scene)?;
     scene.warn();
     let found = look(&scene, args.target, &args.screen, args.limit)?;
@@ -46,7 +47,7 @@ pub fn run(args: &Args) -> Outcome<()> {
     match args.json {
         true => say_json(&report(&found)),
         false => say(&text(&found)),
-    }
+    }?;
     match &found.whole.from_model {
         Some(differences) if !differences.is_empty() => Err(Failure::Differs),
         _ => Ok(()),

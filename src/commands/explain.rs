@@ -36,6 +36,7 @@ pub struct Args {
 
 /// Profiles and reports.
 pub fn run(args: &Args) -> Outcome<()> {
+    files::may_write_each([args.html.as_ref(), args.svg.as_ref()])?;
     let scene = Scene::load(&args.scene)?;
     let found = explain(scene, args.target, &args.screen, args.limit)?;
     if let Some(path) = &args.html {
@@ -48,5 +49,4 @@ pub fn run(args: &Args) -> Outcome<()> {
         true => say_json(&found.report()),
         false => say(&terminal::text(&found)),
     }
-    Ok(())
 }

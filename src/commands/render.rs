@@ -5,7 +5,7 @@ use crate::failure::Outcome;
 use crate::picture::PictureFile;
 use crate::scene::{Precision, Scene, SceneArgs};
 use crate::target_args::{self, ScreenArgs};
-use crate::{ascii, say, say_json};
+use crate::{ascii, diagnostics, inks, say, say_json};
 use serde_json::json;
 use slowlight_compiler::target::Target;
 use std::path::PathBuf;
@@ -27,7 +27,8 @@ pub struct Args {
     /// Where to write the picture: .png, .pgm (ink indices) or .pbm (two inks)
     #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
-    /// Show the picture as text
+    /// Show the picture as text, and print nothing else; text also stands for a file that
+    /// is not named
     #[arg(long)]
     ascii: bool,
     /// Print size and digest as JSON
@@ -44,7 +45,7 @@ pub fn run(args: &Args) -> Outcome<()> {
         mode: args.mode.clone(),
         ..ScreenArgs::default()
     };
-    let inks = match args.target {
+    let shown = match args.target {
         Some(target) => Some(screen.mode(target, (width, height))?.inks),
         None => None,
     };
@@ -53,14 +54,16 @@ pub fn run(args: &Args) -> Outcome<()> {
         window.rows = target_args::rows(rows, height)?;
     }
     scene.warn();
-    let graph = scene.graph(inks, Precision::NATIVE)?;
+    if let (Some(target), Some(_)) = (args.target, shown) {
+        let said = inks::warnings(&scene, &[(target.name.to_owned(), shown)], window)?;
+        diagnostics::print(&scene.checked.sources, &said);
+    }
+    let graph = scene.graph(shown, Precision::NATIVE)?;
     let drawn = native(&graph, window)?;
     let picture = drawn.picture();
     output.write(&picture)?;
-    if args.ascii {
-        say(&ascii::text(&picture, ascii::COLUMNS));
-    } else if args.json {
-        say_json(&json!({
+    if args.json {
+        return say_json(&json!({
             "scene": scene.name,
             "inks": picture.palette.len(),
             "width": picture.width,
@@ -68,14 +71,14 @@ pub fn run(args: &Args) -> Outcome<()> {
             "pixels": picture.inks.len(),
             "inks_sha256": picture.sha256(),
         }));
-    } else {
-        say(&format!(
-            "{}: {} x {} pixels, {} inks\n",
-            scene.name,
-            picture.width,
-            picture.height,
-            picture.palette.len()
-        ));
     }
-    Ok(())
+    let mut text = String::new();
+    if args.ascii || !output.wanted() {
+        text += &ascii::text(&picture, ascii::COLUMNS);
+    }
+    if !args.ascii {
+        let (width, height, inks) = (picture.width, picture.height, picture.palette.len());
+        text += &format!("{}: {width} x {height} pixels, {inks} inks\n", scene.name);
+    }
+    say(&text)
 }

@@ -1,15 +1,16 @@
 //! `run`: build, run on the bundled machine, compare.
 
 use crate::against::Reference;
+use crate::colours;
 use crate::failure::{Failure, Outcome};
 use crate::format::{count, duration, table};
 use crate::machine::Loaded;
 use crate::measure::{Difference, psnr};
 use crate::picture::PictureFile;
 use crate::scene::{Scene, SceneArgs};
-use crate::target_args::{self, ScreenArgs};
+use crate::target_args::{self, HeapOf, ScreenArgs};
 use crate::trial::{self, LIMIT, Trial};
-use crate::{program, say, say_json};
+use crate::{inks, program, say, say_json};
 use serde::Serialize;
 use slowlight_compiler::plan::Plan;
 use slowlight_compiler::target::Target;
@@ -44,6 +45,10 @@ pub struct Args {
     /// Give up after so many cycles of the machine
     #[arg(long, value_name = "CYCLES", default_value_t = LIMIT)]
     limit: u64,
+    /// Jack's heap: that of the system in VM emulators, or what the official system leaves as
+    /// `.vm` files [default: built-in]
+    #[arg(long, value_name = "SYSTEM")]
+    heap: Option<HeapOf>,
 }
 
 /// Runs, reports, and fails where machine and model differ.
@@ -55,6 +60,8 @@ pub fn run(args: &Args) -> Outcome<()> {
     let scene = Scene::load(&args.scene)?;
     scene.warn();
     let (plan, set, loaded) = prepare(args, &scene)?;
+    inks::warn(&scene, &plan)?;
+    colours::warn(&scene, plan.target);
     let trial = trial::run(&scene, plan, &set, loaded, args.limit)?;
     if let Some(picture) = &trial.picture {
         output.write(picture)?;
@@ -69,9 +76,9 @@ pub fn run(args: &Args) -> Outcome<()> {
         say_json(&Report {
             trial: trial.report(),
             differs_from,
-        });
+        })?;
     } else {
-        say(&report(&trial, &found));
+        say(&report(&trial, &found))?;
     }
     match &trial.from_model {
         Some(differences) if !differences.is_empty() => Err(Failure::Differs),
@@ -90,8 +97,9 @@ struct Report<'t> {
 }
 
 fn prepare(args: &Args, scene: &Scene) -> Outcome<(Plan, program::Values, Loaded)> {
-    let plan = args.screen.plan(scene, args.target, &[])?;
     let machine = args.screen.machine(args.target)?;
+    let machine = HeapOf::of(args.heap, args.screen.os, machine)?;
+    let plan = args.screen.plan(scene, args.target, &[])?;
     let Some(dir) = &args.program else {
         let loaded = trial::build_for(&plan, machine)?.loaded;
         return Ok((plan, Vec::new(), loaded));

@@ -1,33 +1,34 @@
 //! `snapshot`: what scenes compile to, draw and cost, kept beside them.
 
 use crate::failure::{Failure, Outcome};
-use crate::scene::{Changes, Scene, ScenesArgs};
+use crate::given::{Given, quoted};
+use crate::output::{self, remark};
+use crate::scene::{Changes, Scene, is_standard_input};
 use crate::snapshot::{self, State};
 use crate::target_args::{self, ScreenArgs};
 use crate::trial::{self, LIMIT, Trial};
 use crate::{files, jobs, say, say_json};
 use serde_json::{Value, json};
 use slowlight_compiler::target::{TARGETS, Target};
-use std::io::IsTerminal;
 use std::path::{Path, PathBuf};
 
 /// Options of `snapshot`.
 #[derive(clap::Args, Debug)]
 pub struct Args {
-    #[command(flatten)]
-    scenes: ScenesArgs,
+    /// The scenes' files
+    #[arg(required = true, value_name = "SCENE")]
+    scenes: Vec<PathBuf>,
     /// A machine; where none is named, those of which there are snapshots
     #[arg(short, long, value_name = "T", value_parser = target_args::target)]
     target: Vec<&'static Target>,
     /// Write the snapshots that are new or changed
     #[arg(long)]
     accept: bool,
-    /// The screen's mode, where the machine has several (see `slowlight targets`)
-    #[arg(long, value_name = "N")]
-    mode: Option<String>,
-    /// Only these rows of the picture, both ends included
-    #[arg(long, value_name = "A..B")]
-    rows: Option<String>,
+    #[command(flatten)]
+    making: Given<Making>,
+    /// Take no options from the kept snapshots: make them with those given here alone
+    #[arg(long)]
+    anew: bool,
     /// Print what was found as JSON
     #[arg(long)]
     json: bool,
@@ -36,11 +37,27 @@ pub struct Args {
     limit: u64,
 }
 
+/// What a snapshot is made with: kept in it, and taken from it where none of these is given.
+#[derive(clap::Args, Clone, Debug, Default)]
+struct Making {
+    #[command(flatten)]
+    changes: Changes,
+    #[command(flatten)]
+    screen: ScreenArgs,
+    /// Keep all that was generated, not only its digest and an excerpt
+    #[arg(long)]
+    full: bool,
+}
+
 /// One scene on one target.
 struct Case<'a> {
     path: &'a Path,
     target: &'static Target,
     kept: PathBuf,
+    /// The options that it is made with.
+    making: Given<Making>,
+    /// Those of the kept snapshot, where they are others.
+    other: Option<String>,
 }
 
 /// What became of it.
@@ -77,13 +94,12 @@ pub fn run(args: &Args) -> Outcome<()> {
     let found = jobs::each(&cases, |case| case.look(args))?;
     if args.json {
         let all: Vec<Value> = cases.iter().zip(&found).map(|(c, f)| c.json(f)).collect();
-        say_json(&json!({ "snapshots": all }));
+        say_json(&json!({ "snapshots": all }))?;
     } else {
-        let out = std::io::stdout();
-        let colour = out.is_terminal() && std::env::var_os("NO_COLOR").is_none_or(|v| v.is_empty());
+        let colour = output::coloured();
         for (case, found) in cases.iter().zip(&found) {
             if let Ok(found) = found {
-                say(&case.text(found, colour));
+                say(&case.text(found, colour))?;
             }
         }
     }
@@ -93,24 +109,20 @@ pub fn run(args: &Args) -> Outcome<()> {
 /// Each scene on each target.
 fn cases(args: &Args) -> Outcome<Vec<Case<'_>>> {
     let mut cases = Vec::new();
-    for path in &args.scenes.scenes {
-        let case = |target: &'static Target| Case {
-            path,
-            target,
-            kept: snapshot::path(path, target.name),
-        };
-        if !args.target.is_empty() {
-            cases.extend(args.target.iter().copied().map(case));
-            continue;
+    for path in &args.scenes {
+        if is_standard_input(path) {
+            let message = "snapshots are kept beside the scene: give its file, not standard input";
+            return Err(Failure::Usage(message.to_owned()));
         }
-        let kept = TARGETS
-            .iter()
-            .copied()
-            .map(case)
-            .filter(|c| c.kept.exists());
-        let before = cases.len();
-        cases.extend(kept);
-        if cases.len() == before {
+        let kept = |target: &&'static Target| snapshot::path(path, target.name).exists();
+        let targets: Vec<&'static Target> = match args.target.is_empty() {
+            true => TARGETS.iter().copied().filter(kept).collect(),
+            false => args.target.clone(),
+        };
+        for target in &targets {
+            cases.push(case(args, path, target)?);
+        }
+        if targets.is_empty() {
             let shown = path.display();
             return Err(Failure::Usage(format!(
                 "{shown} has no snapshots yet; `slowlight snapshot {shown} --target T --accept` \
@@ -121,25 +133,58 @@ fn cases(args: &Args) -> Outcome<Vec<Case<'_>>> {
     Ok(cases)
 }
 
+/// A scene on a target, with the options given or those that are kept.
+fn case<'a>(args: &Args, path: &'a Path, target: &'static Target) -> Outcome<Case<'a>> {
+    let kept = snapshot::path(path, target.name);
+    let options = snapshot::kept_options(&kept)?;
+    let given = &args.making;
+    let (making, other) = match options {
+        Some(options) if given.is_empty() && !args.anew => {
+            let read = Given::read(&options).map_err(|why| {
+                let shown = kept.display();
+                Failure::Wrong(format!(
+                    "{shown} was made with `{options}`: {why}; `--anew` makes it without"
+                ))
+            })?;
+            (read, None)
+        }
+        Some(options) if options != given.text() => (given.clone(), Some(options)),
+        _ => (given.clone(), None),
+    };
+    Ok(Case {
+        path,
+        target,
+        kept,
+        making,
+        other,
+    })
+}
+
+/// Options in words.
+fn with(options: &str) -> String {
+    match options {
+        "" => "no options".to_owned(),
+        options => format!("`{options}`"),
+    }
+}
+
 impl Case<'_> {
     fn look(&self, args: &Args) -> Outcome<Found> {
-        let scene = Scene::open(self.path, &args.scenes.changes)?;
-        let screen = ScreenArgs {
-            mode: args.mode.clone(),
-            rows: args.rows.clone(),
-            ..ScreenArgs::default()
-        };
-        let plan = screen.plan(&scene, self.target, &[])?;
-        let built = trial::build(&plan)?;
+        let making = &self.making.args;
+        let scene = Scene::open(self.path, &making.changes)?;
+        let plan = making.screen.plan(&scene, self.target, &[])?;
+        let built = trial::build_for(&plan, making.screen.machine(plan.target)?)?;
         let trial = trial::run(&scene, plan, &[], built.loaded, args.limit)?;
-        let options = options(&args.scenes.changes, &screen);
-        let text = snapshot::text(self.path, &scene, &options, &built.sources, &trial);
+        let made = snapshot::Made {
+            text: &self.making.text(),
+            full: making.full,
+        };
+        let text = snapshot::text(self.path, &scene, &made, &built.sources, &trial);
         let state = snapshot::compare(&self.kept, &text)?;
         let written = args.accept && state != (State::Unchanged { edited: false });
         if written {
             let dir = self.kept.parent().unwrap_or(Path::new("."));
-            std::fs::create_dir_all(dir)
-                .map_err(|e| Failure::Wrong(format!("cannot make {}: {e}", dir.display())))?;
+            files::make(dir)?;
             files::write(&self.kept, text.as_bytes())?;
         }
         Ok(Found {
@@ -151,6 +196,10 @@ impl Case<'_> {
 
     fn text(&self, found: &Found, colour: bool) -> String {
         let mut out = format!("{:<10} {}", found.word(), self.kept.display());
+        if let Some(other) = &self.other {
+            let (was, now) = (with(other), with(&self.making.text()));
+            out.push_str(&format!(" (kept with {was}, now with {now})"));
+        }
         match &found.state {
             State::Unchanged { edited: true } => out.push_str(" (the scene's text is another)\n"),
             State::Changed { difference, edited } => {
@@ -173,6 +222,8 @@ impl Case<'_> {
             "scene": self.path.display().to_string(),
             "target": self.target.name,
             "snapshot": self.kept.display().to_string(),
+            "options": self.making.text(),
+            "kept_options": self.other,
             "status": "failed",
             "difference": null,
             "error": null,
@@ -192,17 +243,6 @@ impl Case<'_> {
     }
 }
 
-/// The options that change what comes out, as on the command line.
-fn options(changes: &Changes, screen: &ScreenArgs) -> String {
-    let mut all = vec![changes.text()];
-    let screen = [("--mode", &screen.mode), ("--rows", &screen.rows)];
-    for (option, value) in screen {
-        all.extend(value.as_ref().map(|v| format!("{option} {v}")));
-    }
-    all.retain(|text| !text.is_empty());
-    all.join(" ")
-}
-
 /// Says what is wrong, and answers with the gravest of it: a change before a
 /// scene that could not be compiled.
 fn conclude(args: &Args, cases: &[Case<'_>], found: Vec<Outcome<Found>>) -> Outcome<()> {
@@ -215,11 +255,11 @@ fn conclude(args: &Args, cases: &[Case<'_>], found: Vec<Outcome<Found>>) -> Outc
     let mut failed = None;
     for (case, found) in cases.iter().zip(found) {
         match found {
-            Ok(found) if found.differs_from_model() > 0 => eprintln!(
+            Ok(found) if found.differs_from_model() > 0 => remark(&format!(
                 "error: {}: machine and model differ in {} pixels",
                 case.kept.display(),
                 found.differs_from_model()
-            ),
+            )),
             Ok(_) => {}
             Err(failure) => {
                 let status = failure.status();
@@ -232,8 +272,17 @@ fn conclude(args: &Args, cases: &[Case<'_>], found: Vec<Outcome<Found>>) -> Outc
         let counts = [("changed", changed), ("missing", missing)];
         let counts = counts.into_iter().filter(|(_, n)| *n > 0);
         let counts: Vec<String> = counts.map(|(word, n)| format!("{n} {word}")).collect();
-        eprintln!("error: of {total} snapshots, {}", counts.join(", "));
-        eprintln!("help: `{}` writes them", accepting(args));
+        remark(&format!(
+            "error: of {total} snapshots, {}",
+            counts.join(", ")
+        ));
+        remark(&format!("help: `{}` writes them", accepting(args)));
+        if cases.iter().any(|case| case.other.is_some()) {
+            remark(
+                "help: without options on the command line snapshots are made with those that \
+                 they are kept with",
+            );
+        }
     }
     match failed {
         _ if wrong => Err(Failure::Differs),
@@ -245,15 +294,13 @@ fn conclude(args: &Args, cases: &[Case<'_>], found: Vec<Outcome<Found>>) -> Outc
 /// The command that accepts what was found.
 fn accepting(args: &Args) -> String {
     let mut words = vec!["slowlight snapshot".to_owned()];
-    let scenes = args.scenes.scenes.iter();
-    words.extend(scenes.map(|path| path.display().to_string()));
+    let scenes = args.scenes.iter();
+    words.extend(scenes.map(|path| quoted(&path.display().to_string())));
     words.extend(args.target.iter().map(|t| format!("--target {}", t.name)));
-    let screen = ScreenArgs {
-        mode: args.mode.clone(),
-        rows: args.rows.clone(),
-        ..ScreenArgs::default()
-    };
-    words.push(options(&args.scenes.changes, &screen));
+    words.push(args.making.text());
+    if args.anew {
+        words.push("--anew".to_owned());
+    }
     words.retain(|w| !w.is_empty());
     words.join(" ") + " --accept"
 }

@@ -2,6 +2,7 @@
 
 use crate::failure::{Failure, Outcome};
 use crate::files;
+use crate::scene::is_standard_input;
 use crate::survey::by_scene::{self, ByScene, Written};
 use crate::survey::document::document;
 use crate::survey::{Survey, survey};
@@ -60,6 +61,10 @@ fn settings(text: &str) -> Result<Written, String> {
 
 /// Tunes all, then writes the document and its plots, whole or not at all.
 pub fn run(args: &Args) -> Outcome<()> {
+    if args.scenes.iter().any(|path| is_standard_input(path)) {
+        let message = "plots are named after scenes: give their files, not standard input";
+        return Err(Failure::Usage(message.to_owned()));
+    }
     let beside = args.output.parent().unwrap_or(Path::new(""));
     let directory = args.pictures.as_deref().unwrap_or(beside);
     // Any way begins with the nothing that stands before a file in the working directory.
@@ -70,8 +75,12 @@ pub fn run(args: &Args) -> Outcome<()> {
             "--pictures {plots}: plots stand beside or below {own}"
         ))
     })?;
-    may_be_made(beside)?;
-    may_be_made(directory)?;
+    // What is not there is made in the end; an hour's work is not to be lost by what cannot be.
+    files::may_hold(beside)?;
+    files::may_hold(directory)?;
+    if beside.exists() || beside.as_os_str().is_empty() {
+        files::may_write(&args.output)?;
+    }
     alike(&args.scenes)?;
     let asked = Survey {
         scenes: args.scenes.clone(),
@@ -98,8 +107,7 @@ pub fn run(args: &Args) -> Outcome<()> {
         .collect();
     files.push((&args.output, text.as_bytes()));
     for made in [beside, directory] {
-        std::fs::create_dir_all(made)
-            .map_err(|e| Failure::Wrong(format!("cannot make {}: {e}", made.display())))?;
+        files::make(made)?;
     }
     files::write_all(&files)?;
     match sections.iter().any(|s| s.wrong > 0) {
@@ -115,22 +123,6 @@ impl Args {
 
     fn limit(&self) -> ByScene {
         ByScene::new("limit", LIMIT, &self.limit)
-    }
-}
-
-/// A directory that is not there is made in the end; an hour's work should not be lost by
-/// one that cannot be.
-///
-/// # Errors
-/// Where a part of its way is a file.
-fn may_be_made(directory: &Path) -> Outcome<()> {
-    let there = directory.ancestors().find(|part| part.exists());
-    match there.filter(|part| !part.is_dir()) {
-        Some(part) => Err(Failure::Wrong(format!(
-            "{} is no directory; name another to write to",
-            part.display()
-        ))),
-        None => Ok(()),
     }
 }
 

@@ -20,15 +20,14 @@ pub struct Args {
 pub fn run(args: &Args) -> Outcome<()> {
     if args.json {
         let all: Vec<Value> = TARGETS.iter().map(|t| object(t)).collect();
-        say_json(&Value::Array(all));
-        return Ok(());
+        return say_json(&Value::Array(all));
     }
     for target in TARGETS {
         let format = formats(target).join(" or ");
         say(&format!(
             "{}: {}; reals are {format}\n",
             target.name, target.about
-        ));
+        ))?;
         let rows: Vec<Vec<String>> = target
             .modes
             .iter()
@@ -44,7 +43,7 @@ pub fn run(args: &Args) -> Outcome<()> {
                 vec![name, size, format!("{} inks", m.inks)]
             })
             .collect();
-        say(&table(&rows));
+        say(&table(&rows))?;
     }
     Ok(())
 }

@@ -5,6 +5,7 @@ use crate::draw::Window;
 use crate::failure::{Failure, Outcome};
 use crate::files;
 use crate::interrupt;
+use crate::output::remark;
 use crate::scene::{Scene, SceneArgs};
 use crate::target_args::{self, Os, ScreenArgs};
 use crate::trial::LIMIT;
@@ -84,8 +85,22 @@ pub struct Args {
     limit: u64,
 }
 
+impl Args {
+    fn goals(&self) -> Goals {
+        Goals {
+            within: self.within,
+            error: self.error,
+            memory: self.memory,
+        }
+    }
+}
+
 /// Searches, tells, and builds what was asked for.
 pub fn run(args: &Args) -> Outcome<()> {
+    files::may_write_each([args.html.as_ref(), args.svg.as_ref()])?;
+    if args.goals().any() {
+        files::may_hold(&args.output)?;
+    }
     let base = base(args);
     let mut marks = marks::of_scene(&Scene::open(&base.path, &base.changes)?, &base)?;
     marks.extend_from_slice(&args.mark);
@@ -112,7 +127,8 @@ pub fn run(args: &Args) -> Outcome<()> {
             if let Ok(found) = found.lock()
                 && !found.points.is_empty()
             {
-                form.say(&Told::new(&base, measure, &found), None);
+                // The process ends with the status of an interruption, whatever comes of it.
+                let _ = form.say(&Told::new(&base, measure, &found), None);
             }
         });
     }
@@ -124,7 +140,7 @@ pub fn run(args: &Args) -> Outcome<()> {
     match searched {
         Ok(()) => {}
         Err(Failure::Interrupted) if !found.points.is_empty() => {
-            Form::of(args).say(&Told::new(&base, args.measure, &found), None);
+            Form::of(args).say(&Told::new(&base, args.measure, &found), None)?;
             return Err(Failure::Interrupted);
         }
         Err(other) => return Err(other),
@@ -165,7 +181,7 @@ impl Form {
         }
     }
 
-    fn say(self, told: &Told<'_>, chosen: Option<&Point>) {
+    fn say(self, told: &Told<'_>, chosen: Option<&Point>) -> Outcome<()> {
         match self {
             Form::Json => say_json(&told.json(chosen)),
             Form::Csv => say(&told.csv()),
@@ -186,31 +202,27 @@ fn tell(args: &Args, told: &Told<'_>) -> Outcome<()> {
     if let Some(path) = &args.svg {
         files::write(path, (svg(told) + "\n").as_bytes())?;
     }
-    let goals = Goals {
-        within: args.within,
-        error: args.error,
-        memory: args.memory,
-    };
+    let goals = args.goals();
     let chosen = goals
         .any()
         .then(|| goals.choose(&told.points, args.measure));
     let best: Option<&Point> = chosen.as_ref().and_then(|c| c.as_ref().ok()).copied();
-    Form::of(args).say(told, best);
+    Form::of(args).say(told, best)?;
     if let Some(found) = chosen {
         let point = found?;
         let written = build(args, told, point)?;
         if !args.json && !args.csv {
             let command = told.base.command(&point.choice, "build");
-            say(&format!("\nchosen: {command}\n{}", written.text()));
+            say(&format!("\nchosen: {command}\n{}", written.text()))?;
         }
     }
     let wrong = (told.points.iter()).filter(|p| p.measured.differs_from_model > 0);
     let wrong = wrong.inspect(|point| {
-        eprintln!(
+        remark(&format!(
             "error: {} pixels of `{}` are not the model's: a fault of slowlight's, not of the scene's",
             point.measured.differs_from_model,
             told.base.command(&point.choice, "run"),
-        );
+        ));
     });
     match wrong.count() > 0 {
         true => Err(Failure::Differs),

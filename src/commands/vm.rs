@@ -3,15 +3,17 @@
 use crate::failure::{Failure, Outcome};
 use crate::format::{count, table};
 use crate::machine::{
-    Board, File, HackConfig, Loaded, Machine, Mos6502Config, complaint, stop_word,
+    Board, File, HackConfig, Loaded, Machine, Mos6502Config, address, complaint, stop_word,
 };
+use crate::output::remark;
 use crate::picture::{Picture, PictureFile};
-use crate::progress::Progress;
-use crate::target_args::{Os, page};
-use crate::{files, say, say_json};
+use crate::progress::Progress as Bar;
+use crate::target_args::{HeapOf, Os, page};
+use crate::{files, keys, say, say_json};
 use clap::ValueEnum;
 use serde::Serialize;
-use slowlight_vm::bbc::{Config, LineCost};
+use slowlight_vm::Progress;
+use slowlight_vm::bbc::{self, Config, LineCost};
 use slowlight_vm::mos6502::Dialect;
 use std::path::{Path, PathBuf};
 
@@ -43,6 +45,10 @@ pub struct Args {
     /// `native`, the VM's own, or `jack`, ours in Jack [default: native; jack with --cpu]
     #[arg(long, value_name = "OS")]
     os: Option<Os>,
+    /// The heap of the native operating system: that of VM emulators, or what the official
+    /// system leaves as `.vm` files [default: built-in]
+    #[arg(long, value_name = "SYSTEM")]
+    heap: Option<HeapOf>,
     /// Where to write the Hack computer's machine code: .asm, or .hack, an image of
     /// the ROM
     #[arg(long, value_name = "FILE")]
@@ -54,9 +60,21 @@ pub struct Args {
     /// [default: 1900]
     #[arg(long, value_name = "PAGE", value_parser = page)]
     page: Option<u16>,
+    /// Whose BASIC and screen [default: micro]
+    #[arg(long, value_name = "DIALECT")]
+    dialect: Option<Basic>,
     /// How 6502 assembly is written [default: ca65]
     #[arg(long, value_name = "SYNTAX")]
     syntax: Option<Syntax>,
+    /// Where a binary for the 6502 is loaded, which does not say so itself: 0x2000 (also
+    /// `$2000`, `&2000`), or 8192
+    #[arg(long, value_name = "ADDR", value_parser = address)]
+    at: Option<u16>,
+    /// Where a program for the 6502 begins, if not with its first byte
+    #[arg(long, value_name = "ADDR", value_parser = address)]
+    start: Option<u16>,
+    #[command(flatten)]
+    keys: keys::KeyArgs,
 }
 
 /// A way to write assembly that the bundled assembler reads.
@@ -68,6 +86,31 @@ enum Syntax {
     Beebasm,
 }
 
+/// Whose BASIC a program is for.
+#[derive(ValueEnum, Clone, Copy, Debug, PartialEq, Eq)]
+enum Basic {
+    /// BBC Micro, BASIC II
+    Micro,
+    /// Agon Light, BBC BASIC (Z80)
+    Agon,
+    /// Matrix Brandy and others with BASIC V
+    Basicv,
+}
+
+impl Basic {
+    fn config(self) -> Config {
+        let dialect = match self {
+            Basic::Micro => bbc::Dialect::Micro,
+            Basic::Agon => bbc::Dialect::Agon,
+            Basic::Basicv => bbc::Dialect::BasicV,
+        };
+        Config {
+            dialect,
+            ..Config::default()
+        }
+    }
+}
+
 /// A machine by its name here.
 #[derive(ValueEnum, Clone, Copy, Debug, PartialEq, Eq)]
 enum Kind {
@@ -76,12 +119,14 @@ enum Kind {
     /// VM code (.vm), on the same; or assembly (.asm) or an image of the ROM
     /// (.hack), on the Hack computer's CPU
     Hack,
-    /// A BBC BASIC program, as text or tokens, on a BBC Micro
+    /// A BBC BASIC program, as text, as tokens or on a disc (.ssd), on a BBC Micro
+    /// unless --dialect says another
     Bbc,
-    /// Assembly (.asm, .s) or a binary with its load address, on the plain machine
+    /// Assembly (any text), a .prg, or a binary with --at, on the plain machine
     #[value(name = "6502", alias = "6502:plain")]
     Mos6502,
-    /// The same on a BBC Micro without its ROMs, where programs are loaded at &1900 or above
+    /// The same, or a disc (.ssd), on a BBC Micro without its ROMs, where assembly is loaded
+    /// at &1900 or above
     #[value(name = "6502:bbc")]
     MosBbc,
     /// The same on a Commodore 64 without its ROMs, with a line of BASIC that starts it
@@ -136,8 +181,8 @@ fn profile(loaded: &mut Loaded, limit: u64) -> Outcome<()> {
         ]
     };
     let rows: Vec<Vec<String>> = lines.iter().filter(|l| l.times > 0).map(row).collect();
-    say(&table(&rows));
-    say(&format!("{} cycles\n", count(run.cycles)));
+    say(&table(&rows))?;
+    say(&format!("{} cycles\n", count(run.cycles)))?;
     complaint(&run, limit).map_or(Ok(()), |wrong| Err(Failure::Wrong(wrong)))
 }
 
@@ -162,9 +207,17 @@ pub fn run(args: &Args) -> Outcome<()> {
         let message = "--page is the BBC Micro's: `slowlight vm bbc --page E00 FILE`";
         return Err(Failure::Usage(message.to_owned()));
     }
+    if args.dialect.is_some() && args.machine != Kind::Bbc {
+        let message = "--dialect is BBC BASIC's: `slowlight vm bbc --dialect agon FILE`";
+        return Err(Failure::Usage(message.to_owned()));
+    }
     let assembles = matches!(args.machine, Kind::Mos6502 | Kind::MosBbc | Kind::MosC64);
     if args.syntax.is_some() && !assembles {
         let message = "--syntax is the 6502's: `slowlight vm 6502 --syntax beebasm FILE`";
+        return Err(Failure::Usage(message.to_owned()));
+    }
+    if (args.at.is_some() || args.start.is_some()) && !assembles {
+        let message = "--at and --start are the 6502's: `slowlight vm 6502 --at 0x2000 FILE`";
         return Err(Failure::Usage(message.to_owned()));
     }
     if args.cpu && !matches!(args.machine, Kind::Jack | Kind::Hack) {
@@ -184,7 +237,12 @@ pub fn run(args: &Args) -> Outcome<()> {
             Some(Syntax::Beebasm) => Dialect::Beebasm,
             Some(Syntax::Ca65) | None => Dialect::Common,
         };
-        Machine::Mos6502(Mos6502Config { board, dialect })
+        Machine::Mos6502(Mos6502Config {
+            board,
+            dialect,
+            at: args.at,
+            start: args.start,
+        })
     };
     let machine = match args.machine {
         Kind::Jack | Kind::Hack => Machine::Hack(HackConfig {
@@ -192,11 +250,13 @@ pub fn run(args: &Args) -> Outcome<()> {
             os: args.os == Some(Os::Jack),
             ..HackConfig::default()
         }),
-        Kind::Bbc => Machine::Bbc(Config::default()),
+        Kind::Bbc => Machine::Bbc(args.dialect.unwrap_or(Basic::Micro).config()),
         Kind::Mos6502 => on(Board::Plain),
         Kind::MosBbc => on(Board::Bbc),
         Kind::MosC64 => on(Board::C64),
     };
+    let machine = HeapOf::of(args.heap, args.os, machine)?;
+    let keyboard = args.keys.keyboard(machine)?;
     let hack = machine.many_sources();
     let mut program = Vec::new();
     for path in paths(args)? {
@@ -207,14 +267,18 @@ pub fn run(args: &Args) -> Outcome<()> {
         });
     }
     let mut loaded = machine.at_page(args.page).load(&program)?;
+    for warning in loaded.warnings() {
+        eprintln!("warning: {warning}");
+    }
     if let Some(path) = &args.image {
         write_image(path, &loaded)?;
     }
     if args.profile {
         return profile(&mut loaded, args.limit);
     }
-    let progress = Progress::new("cycles", args.limit);
-    let run = loaded.run(args.limit, &mut |now| progress.reach(now.cycles))?;
+    let progress = Bar::new("cycles", args.limit);
+    let reach = &mut |now: Progress| progress.reach(now.cycles);
+    let (run, keyboard) = loaded.play(keyboard, args.limit, reach)?;
     drop(progress);
     let picture = run.picture();
     // Also where the program was stopped: many draw, and then wait for ever.
@@ -231,13 +295,18 @@ pub fn run(args: &Args) -> Outcome<()> {
             stopped: stop_word(&run.stop),
             inks_sha256: picture.as_ref().map(Picture::sha256),
             output: String::from_utf8_lossy(&run.output).into_owned(),
-        });
+        })?;
     } else {
-        say(&String::from_utf8_lossy(&run.output));
-        eprintln!("{} cycles", count(run.cycles));
+        say(&String::from_utf8_lossy(&run.output))?;
+        remark(&format!("{} cycles", count(run.cycles)));
     }
-    match complaint(&run, args.limit) {
-        Some(wrong) => Err(Failure::Wrong(wrong)),
+    let shots = keys::write_shots(&keyboard);
+    match keys::waits(&run, args.limit, &keyboard) {
+        Some(wrong) => Err(Failure::Wrong(match shots {
+            Err(Failure::Wrong(missed)) => format!("{wrong}\n{missed}"),
+            _ => wrong,
+        })),
+        None if shots.is_err() => shots,
         None if output.wanted() && picture.is_none() => {
             Err(Failure::Wrong("the program showed no picture".to_owned()))
         }

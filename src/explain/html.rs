@@ -4,29 +4,81 @@ use super::Explained;
 use super::terminal::{percent, rate};
 use crate::draw::Window;
 use crate::format::count;
-use crate::sheet::escaped;
+use crate::sheet::{escaped, marked};
 use slowlight_compiler::report::profile::{Part, SourceLine};
 use std::fmt::Write as _;
 
 const STYLE: &str = "\
-body{font:14px/1.4 system-ui,sans-serif;margin:2em;color:#222;background:#fff}
+:root{color-scheme:light dark;--ink:#222;--paper:#fff;--faint:#767676;--soft:#555;--line:#999;--bar:#f6a04066}
+@media(prefers-color-scheme:dark){:root{--ink:#ddd;--paper:#181818;--faint:#8a8a8a;--soft:#aaa;--line:#666;--bar:#f6a04055}}
+body{font:14px/1.4 system-ui,sans-serif;margin:2em;color:var(--ink);background:var(--paper)}
 table{border-collapse:collapse;width:100%}
 th,td{padding:1px 8px;text-align:right;white-space:nowrap;vertical-align:top}
-th{border-bottom:1px solid #999;font-weight:600;position:sticky;top:0;background:#fff}
-td.code,th.code{text-align:left;white-space:pre-wrap;font-family:ui-monospace,monospace;width:60%}
+th{border-bottom:1px solid var(--line);font-weight:600;position:sticky;top:0;background:var(--paper)}
+td.code,th.code{text-align:left;white-space:pre-wrap;overflow-wrap:anywhere;font-family:ui-monospace,monospace;width:60%}
 td.rate,th.rate{text-align:left}
-td.none{color:#bbb}
+td.none{color:var(--faint)}
 summary{cursor:pointer;list-style:none}
-ul{margin:2px 0 6px;padding-left:2em;font:12px/1.5 system-ui,sans-serif;color:#555}
-@media(prefers-color-scheme:dark){body,th{background:#181818;color:#ddd}ul{color:#aaa}}
+summary::-webkit-details-marker{display:none}
+summary::after{content:' \\25B8';color:var(--soft)}
+details[open]>summary::after{content:' \\25BE'}
+summary:focus-visible{outline:2px solid #3584e4;outline-offset:1px}
+ul{margin:2px 0 6px;padding-left:2em;font:12px/1.5 system-ui,sans-serif;color:var(--soft)}
+dl{display:grid;grid-template-columns:max-content 1fr;gap:2px 1em;max-width:60em}
+dt{font-weight:600}dd{margin:0}
+@media(max-width:700px){body{margin:1em}h1{overflow-wrap:anywhere}tr:first-child{display:none}
+table,tbody{display:block}tr{display:flex;flex-wrap:wrap;gap:0 1em;padding:2px 0;border-bottom:1px solid var(--line)}
+td{padding:0;font-size:12px;color:var(--soft)}td:empty{display:none}td[data-name]::before{content:attr(data-name) ' '}
+td.code{order:-1;flex:1 0 calc(100% - 5em);width:auto;font-size:14px;color:var(--ink)}
+td.number{order:-2;width:2.5em;text-align:right}}
 ";
+
+/// What the columns say; the names of cycles and sizes are the machine's.
+fn columns(found: &Explained) -> [(&'static str, String); 8] {
+    let plain = |text: &str| text.to_owned();
+    let unit = found.unit();
+    let per_turn = "how often the line is computed: once, for each row, each column or each \
+                    pixel, or in the turns of a loop";
+    [
+        (
+            "share",
+            format!(
+                "of all {unit} of the program, and the bar behind the source beside that of the dearest line"
+            ),
+        ),
+        (
+            unit,
+            plain("what the line took on the machine, the routines that it calls included"),
+        ),
+        ("runs", plain("how often what is written there was begun")),
+        (
+            found.size_unit(),
+            plain("the program's length for this line, its routines not included"),
+        ),
+        (
+            "error",
+            plain(
+                "the share of the mean square error that goes where this line's values are in 64-bit floating point",
+            ),
+        ),
+        ("rate", plain(per_turn)),
+        ("line", plain("its number in the scene or in the library")),
+        (
+            "source",
+            plain(
+                "the line; one with \u{25b8} opens to its parts: routines of the machine, and lines of the library that it calls",
+            ),
+        ),
+    ]
+}
 
 /// The page.
 pub fn page(found: &Explained) -> String {
     let plan = &found.plan;
     let title = escaped(&format!("{} on {}", found.scene.name, plan.target.name));
     let mut out = format!(
-        "<!doctype html>\n<html lang=\"en\"><meta charset=\"utf-8\">\n<title>{title}</title>\n\
+        "<!doctype html>\n<html lang=\"en\"><meta charset=\"utf-8\">\n\
+         <meta name=\"viewport\" content=\"width=device-width\">\n<title>{title}</title>\n\
          <style>\n{STYLE}</style>\n<h1>{title}</h1>\n"
     );
     let window = Window::on_screen(plan);
@@ -34,8 +86,9 @@ pub fn page(found: &Explained) -> String {
     // Writing to a String cannot fail.
     let _ = writeln!(
         out,
-        "<p>Rows {} to {} in {}: {} {}; rmse {:.2e} over {} pixels, {} of their inks not native's. \
-         A line's error is the share of the mean square that goes where its values are f64.",
+        "<p>Rows {} to {}, numbers held as {}: {} {}. Beside the native picture, the scene in \
+         64-bit floating point: a root mean square error of {:.2e} over the shades of {} pixels, \
+         and {} of them in another ink.</p>",
         window.rows.0,
         window.rows.1,
         plan.runtime.format,
@@ -45,6 +98,11 @@ pub fn page(found: &Explained) -> String {
         count(errors.pixels as u64),
         count(errors.differ as u64),
     );
+    out.push_str("<dl>");
+    for (name, text) in columns(found) {
+        let _ = write!(out, "<dt>{}</dt><dd>{}</dd>", escaped(name), escaped(&text));
+    }
+    out.push_str("</dl>\n");
     let most = found.profile.lines.iter().map(|line| line.cycles).max();
     for (file, name, text) in found.files() {
         let _ = write!(
@@ -77,7 +135,8 @@ fn row(
     let Some(line) = line else {
         let _ = writeln!(
             out,
-            "<tr><td colspan=\"6\"><td class=\"none\">{number}<td class=\"code\">{text}"
+            "<tr><td><td><td><td><td><td class=\"rate\"><td class=\"number none\">{number}\
+             <td class=\"code\">{text}"
         );
         return;
     };
@@ -87,12 +146,20 @@ fn row(
         .map_or(String::new(), |e| percent(e.share));
     let _ = write!(
         out,
-        "<tr><td>{}<td>{}<td>{}<td>{}<td>{error}<td class=\"rate\">{}<td>{number}\
-         <td class=\"code\" style=\"background:linear-gradient(90deg,#f6a04066 {heat:.1}%,transparent {heat:.1}%)\">",
+        "<tr><td>{}<td data-name=\"{}\">{}<td data-name=\"runs\">{}<td data-name=\"{}\">{}\
+         <td{}>{error}<td class=\"rate\">{}<td class=\"number\">{number}\
+         <td class=\"code\" style=\"background:linear-gradient(90deg,var(--bar) {heat:.1}%,transparent {heat:.1}%)\">",
         percent(found.share(line.cycles)),
+        found.unit(),
         count(line.cycles),
         count(line.executions),
+        found.size_unit(),
         count(line.size),
+        if error.is_empty() {
+            ""
+        } else {
+            " data-name=\"error\""
+        },
         rate(line),
     );
     let parts = line.parts.iter().map(|part| item(found, part, ""));
@@ -112,7 +179,7 @@ fn item(found: &Explained, part: &Part, kind: &str) -> String {
     format!(
         "<li>{} {kind}{}, {} times",
         percent(found.share(part.cycles)),
-        escaped(&part.name),
+        marked(&part.name),
         count(part.times)
     )
 }

@@ -1,19 +1,24 @@
 //! BBC BASIC: text or tokens in, a picture and text out.
 
 use super::charge::LineMap;
-use super::dfs;
 use super::{File, Loaded, MachineRun, Program, Sizes, refused};
+use super::{boot, dfs};
 use crate::failure::{Failure, Outcome};
 use slowlight_compiler::report::profile::Line;
 use slowlight_vm::bbc::{Config, Dialect, LineCost, Machine, StatementPlace, tokenise};
+use slowlight_vm::keys::Keyboard;
 use slowlight_vm::{Charges, Fault, Roles, Watch};
 
-/// Takes one program: text (`.bas`), or tokens, known by the byte 13 in front.
+/// Takes one program: text (`.bas`), or tokens, known by the byte 13 in front, or a disc (`.ssd`)
+/// that starts one.
 pub fn load(files: &[File], config: Config) -> Outcome<Loaded> {
     let [file] = files else {
         let message = "BBC BASIC takes one file: a program as text or tokens".to_owned();
         return Err(Failure::Usage(message));
     };
+    if file.extension() == "ssd" {
+        return load_disc(file, config);
+    }
     let refuse = |fault: Fault| refused("tokeniser", &file.name, &[fault]);
     let Config { dialect, page } = config;
     let mut machine = Machine::new(config);
@@ -37,17 +42,40 @@ pub fn load(files: &[File], config: Config) -> Outcome<Loaded> {
         binaries.push(named("bbc", tokens));
         binaries.extend(disc.map(|bytes| named("ssd", bytes)));
     }
+    Ok(loaded(machine, binaries))
+}
+
+fn loaded(machine: Machine, binaries: Vec<File>) -> Loaded {
     let sizes = Sizes {
         code: Some(machine.program_bytes() as u64),
         ..Sizes::default()
     };
-    Ok(Loaded {
+    Loaded {
         system: Vec::new(),
         binaries,
         sizes,
         map: map(&machine),
         program: Program::Bbc(machine),
-    })
+    }
+}
+
+/// The program that a disc starts, with all its files at hand; where `!BOOT` sets PAGE, that holds.
+fn load_disc(file: &File, config: Config) -> Outcome<Loaded> {
+    let wrong = |what: String| Failure::Wrong(format!("{}: {what}", file.name));
+    if config.dialect != Dialect::Micro {
+        return Err(wrong("discs are the Micro's".to_owned()));
+    }
+    let booted = boot::program(&file.bytes).map_err(wrong)?;
+    let page = booted.page.unwrap_or(config.page);
+    let mut machine = Machine::new(Config { page, ..config });
+    for file in booted.files {
+        machine.add_file(&file.name, file.bytes);
+    }
+    let program = booted.program;
+    machine
+        .load_tokenised(&program.bytes)
+        .map_err(|fault| wrong(format!("{} is no program: {fault}", program.name)))?;
+    Ok(loaded(machine, Vec::new()))
 }
 
 /// The line and statement behind each statement.
@@ -64,6 +92,17 @@ fn map(machine: &Machine) -> LineMap {
 /// Runs a program that was loaded.
 pub fn run(machine: &Machine, limit: u64, watch: Watch<'_>) -> MachineRun {
     finished(machine.run(limit, watch))
+}
+
+/// The same with a keyboard, which it gives back.
+pub fn play(
+    machine: &Machine,
+    keyboard: Keyboard,
+    limit: u64,
+    watch: Watch<'_>,
+) -> (MachineRun, Keyboard) {
+    let (run, keyboard) = machine.play(keyboard, limit, watch);
+    (finished(run), keyboard)
 }
 
 /// The same, with what each line took.

@@ -13,14 +13,17 @@ const SECTORS: usize = 800;
 /// Files that a catalogue holds.
 const FILES: usize = 31;
 /// What SHIFT and BREAK do with `!BOOT`: `*EXEC`, as if it was typed.
-const EXEC: u8 = 3;
+pub const EXEC: u8 = 3;
+/// The same with `*RUN`, as machine code.
+pub const RUN: u8 = 2;
 /// Addresses in the Micro itself, rather than in a second processor: both bits above 16.
 const HOST: u32 = 0x3_0000;
 
 /// A file on a disc.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct DiscFile {
-    /// Up to seven characters; more are cut off.
+    /// Up to seven characters; more are cut off. What is read and lies in another
+    /// directory than `$` has that in front, as `A.NAME`.
     pub name: String,
     /// Where `*LOAD` puts it.
     pub load: u16,
@@ -71,6 +74,92 @@ pub fn image(title: &str, files: &[DiscFile]) -> Option<Vec<u8>> {
         disc.resize(disc.len().next_multiple_of(SECTOR), 0);
     }
     (disc.len() <= SECTORS * SECTOR).then_some(disc)
+}
+
+/// What is on a disc.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Disc {
+    /// Its title.
+    pub title: String,
+    /// What SHIFT and BREAK do with `!BOOT`: nothing, `*LOAD`, [`RUN`] or [`EXEC`].
+    pub option: u8,
+    /// Its files, in the catalogue's order.
+    pub files: Vec<DiscFile>,
+}
+
+impl Disc {
+    /// The file of a name, which may have its drive and directory before it; capital and
+    /// small letters are alike.
+    pub fn find(&self, name: &str) -> Option<&DiscFile> {
+        let name = name.strip_prefix(":0.").unwrap_or(name);
+        let name = name.strip_prefix("$.").unwrap_or(name);
+        let same = |file: &&DiscFile| file.name.eq_ignore_ascii_case(name);
+        self.files.iter().find(same)
+    }
+}
+
+/// Reads a disc's catalogue and its files. An image may end behind its last file.
+///
+/// # Errors
+/// What is wrong with the image.
+pub fn read(disc: &[u8]) -> Result<Disc, String> {
+    let (Some(names), Some(numbers)) = (disc.get(..SECTOR), disc.get(SECTOR..2 * SECTOR)) else {
+        return Err("this is no disc image: it ends within its catalogue".to_owned());
+    };
+    let no = |what: &str| Err(format!("this is no disc image of Acorn's DFS: {what}"));
+    let byte = |from: &[u8], at: usize| from.get(at).copied().unwrap_or(0);
+    let text = |bytes: &[u8]| -> Option<String> {
+        // Unused places are blanks, or nothing.
+        let bytes = bytes.iter().map(|b| if *b == 0 { b' ' } else { b & 0x7F });
+        let text: String = bytes.map(char::from).collect();
+        let printable = text.bytes().all(|b| (b' '..=b'~').contains(&b));
+        printable.then(|| text.trim_end().to_owned())
+    };
+    let (bits, ends) = (byte(numbers, 6), byte(numbers, 5));
+    let sectors = usize::from(bits & 3) << 8 | usize::from(byte(numbers, 7));
+    if ends % 8 != 0 || usize::from(ends) / 8 > FILES {
+        return no("its catalogue has no whole number of files");
+    }
+    if !(2..=SECTORS).contains(&sectors) {
+        return no(&format!("it would have {sectors} sectors"));
+    }
+    let mut files = Vec::new();
+    for at in (8..=usize::from(ends)).step_by(8) {
+        let entry = names.get(at..at + 8).unwrap_or_default();
+        let of = numbers.get(at..at + 8).unwrap_or_default();
+        let (Some(name), Some(directory)) = (
+            text(entry.get(..7).unwrap_or_default()),
+            text(entry.get(7..).unwrap_or_default()),
+        ) else {
+            return no("a file's name has characters that cannot be printed");
+        };
+        let name = match directory.as_str() {
+            "$" => name,
+            directory => format!("{directory}.{name}"),
+        };
+        let word = |at: usize| u16::from_le_bytes([byte(of, at), byte(of, at + 1)]);
+        let bits = byte(of, 6);
+        let length = usize::from(bits >> 4 & 3) << 16 | usize::from(word(4));
+        let start = usize::from(bits & 3) << 8 | usize::from(byte(of, 7));
+        if length > 0 && (start < 2 || start + length.div_ceil(SECTOR) > sectors) {
+            return no(&format!("{name} lies outside the disc"));
+        }
+        let Some(bytes) = disc.get(start * SECTOR..start * SECTOR + length) else {
+            return Err(format!("the image ends within the disc's file {name}"));
+        };
+        files.push(DiscFile {
+            name,
+            load: word(0),
+            exec: word(2),
+            bytes: bytes.to_vec(),
+        });
+    }
+    let title = [names.get(..8), numbers.get(..4)].map(Option::unwrap_or_default);
+    Ok(Disc {
+        title: text(&title.concat()).unwrap_or_default(),
+        option: bits >> 4 & 3,
+        files,
+    })
 }
 
 /// A disc that runs a tokenised program when SHIFT is held at a start.
@@ -146,30 +235,9 @@ mod tests {
 
     use super::*;
 
-    /// Reads a disc back as its files, the first in the catalogue first, and what SHIFT does.
-    fn read(disc: &[u8]) -> (String, u8, Vec<DiscFile>) {
-        let mut title = disc[..8].to_vec();
-        title.extend(&disc[256..260]);
-        let sectors = usize::from(disc[262] & 3) << 8 | usize::from(disc[263]);
-        assert_eq!(sectors, 800);
-        let files = (1..=usize::from(disc[261]) / 8).map(|k| {
-            let name = String::from_utf8(disc[8 * k..8 * k + 7].to_vec()).unwrap();
-            assert_eq!(disc[8 * k + 7], b'$');
-            let at = |n: usize| usize::from(disc[256 + 8 * k + n]);
-            let word = |n: usize| at(n) | at(n + 1) << 8;
-            let (bits, start) = (at(6), at(7) | (at(6) & 3) << 8);
-            let length = word(4) | (bits >> 4 & 3) << 16;
-            assert_eq!((bits >> 2 & 3, bits >> 6), (3, 3));
-            DiscFile {
-                name: name.trim_end().to_owned(),
-                load: word(0) as u16,
-                exec: word(2) as u16,
-                bytes: disc[start * 256..start * 256 + length].to_vec(),
-            }
-        });
-        let files = files.collect();
-        let title = String::from_utf8(title).unwrap().trim_end().to_owned();
-        (title, disc[262] >> 4 & 3, files)
+    /// Where in an image the catalogue has a file's numbers, the first file's first.
+    fn numbers(file: usize) -> usize {
+        SECTOR + 8 * (file + 1)
     }
 
     #[test]
@@ -186,10 +254,50 @@ mod tests {
         files[3].bytes = vec![7; 70_000];
         let disc = image("a long title indeed", &files).unwrap();
         assert_eq!(disc.len() % 256, 0);
-        let (title, boot, mut found) = read(&disc);
-        assert_eq!((title.as_str(), boot), ("ALONGTITLEIN", 3));
-        found.reverse();
-        assert_eq!(found, files);
+        let mut found = read(&disc).unwrap();
+        assert_eq!((found.title.as_str(), found.option), ("ALONGTITLEIN", EXEC));
+        found.files.reverse();
+        assert_eq!(found.files, files);
+        // As the catalogue is written: a file in the host's memory, in directory $.
+        assert_eq!(&disc[SECTOR + 4..SECTOR + 8], [0, 31 * 8, 0x33, 0x20]);
+        assert_eq!(&disc[8..16], b"F30    $");
+        assert_eq!(disc[numbers(0) + 6] & 0xCC, 0xCC);
+        assert_eq!(found.files[3], *read(&disc).unwrap().find("$.f3").unwrap());
+    }
+
+    #[test]
+    fn wrong_images_are_told() {
+        let file = DiscFile {
+            name: "CODE".to_owned(),
+            load: 0x2000,
+            exec: 0x2003,
+            bytes: (0..=255).cycle().take(700).collect(),
+        };
+        let disc = image("T", std::slice::from_ref(&file)).unwrap();
+        assert_eq!(read(&disc).unwrap().files, [file]);
+        assert!(read(&disc[..2 * SECTOR + 700]).is_ok());
+        let wrong = |change: &dyn Fn(&mut Vec<u8>)| {
+            let mut disc = disc.clone();
+            change(&mut disc);
+            read(&disc).unwrap_err()
+        };
+        assert!(wrong(&|d| d.truncate(511)).contains("ends within its catalogue"));
+        assert!(
+            wrong(&|d| d.truncate(2 * SECTOR + 699)).contains("ends within the disc's file CODE")
+        );
+        assert!(wrong(&|d| d[SECTOR + 5] = 9).contains("no whole number"));
+        assert!(wrong(&|d| d[SECTOR + 7] = 0xFF).contains("1023 sectors"));
+        assert!(wrong(&|d| d[9] = 7).contains("cannot be printed"));
+        assert!(wrong(&|d| d[numbers(0) + 7] = 1).contains("outside the disc"));
+        assert!(wrong(&|d| d[numbers(0) + 6] |= 3).contains("outside the disc"));
+        assert!(
+            wrong(&|d| (d[numbers(0) + 6], d[numbers(0) + 7]) = (0xCF, 0x1E))
+                .contains("outside the disc")
+        );
+        // Another directory, and a file that is locked.
+        let mut other = disc.clone();
+        other[15] = b'A' | 0x80;
+        assert_eq!(read(&other).unwrap().files[0].name, "A.CODE");
     }
 
     #[test]
@@ -208,20 +316,24 @@ mod tests {
     #[test]
     fn a_disc_starts_its_program() {
         let disc = bootable("two-mirrors.x", b"\r\xff", 0x1900).unwrap();
-        let (title, boot, files) = read(&disc);
-        assert_eq!((title.as_str(), boot), ("TWOMIRR", 3));
+        let Disc {
+            title,
+            option,
+            files,
+        } = read(&disc).unwrap();
+        assert_eq!((title.as_str(), option), ("TWOMIRR", EXEC));
         assert_eq!((files[0].name.as_str(), files[0].load), ("TWOMIRR", 0x1900));
         assert_eq!(files[0].bytes, b"\r\xff");
         assert_eq!(files[1].name, "!BOOT");
         assert_eq!(files[1].bytes, b"*BASIC\rCHAIN\"TWOMIRR\"\r");
         let code = bootable_code("two-mirrors.x", &[0x34, 0x1a, 0xa9, 0x60]).unwrap();
-        let (_, boot, files) = read(&code);
-        assert_eq!(boot, 3);
+        let Disc { option, files, .. } = read(&code).unwrap();
+        assert_eq!(option, EXEC);
         assert_eq!((files[0].load, files[0].exec), (0x1a34, 0x1a34));
         assert_eq!(files[0].bytes, [0xa9, 0x60]);
         assert_eq!(files[1].bytes, b"*RUN TWOMIRR\r");
         let low = bootable("m", &[13; 1001], 0xe00).unwrap();
-        let boot = String::from_utf8(read(&low).2[1].bytes.clone()).unwrap();
+        let boot = String::from_utf8(read(&low).unwrap().files[1].bytes.clone()).unwrap();
         assert!(boot.contains("FORA%=0TO1000 STEP4:A%!&E00=A%!&3000:NEXT|MPAGE=&E00"));
         // What a function key and BASIC's line hold.
         assert!(boot.split('\r').all(|line| line.len() < 230));

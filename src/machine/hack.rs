@@ -6,7 +6,7 @@
 //! ours.
 
 use super::charge::LineMap;
-use super::os::{Noted, complete};
+use super::os::{Noted, System, complete};
 use super::{File, Loaded, MachineRun, Program, Sizes, refused};
 use crate::failure::{Failure, Outcome};
 use slowlight_compiler::report::profile::Line;
@@ -14,6 +14,7 @@ use slowlight_vm::hack::asm::{assemble, read_image, write_image};
 use slowlight_vm::hack::cpu::Cpu;
 use slowlight_vm::hack::translate::{Options, translate};
 use slowlight_vm::hack::{jack, vm};
+use slowlight_vm::keys::Keyboard;
 use slowlight_vm::{Charges, Fault, Progress, Roles, Stop, Watch};
 use std::collections::BTreeMap;
 
@@ -28,6 +29,8 @@ pub struct Config {
     pub cpu: bool,
     /// With the operating system in Jack, as far as the program brings none itself.
     pub os: bool,
+    /// The heap that the VM's native system has. Ours in Jack has its own.
+    pub heap: vm::Heap,
     /// Whether to count on the VM, too, what runs on the processor.
     pub count: bool,
 }
@@ -36,7 +39,9 @@ pub struct Config {
 #[derive(Clone, Debug)]
 pub struct OnVm {
     program: vm::Program,
+    heap: vm::Heap,
     noted: Option<Noted>,
+    pub(super) warnings: Vec<Fault>,
 }
 
 /// A program for the processor.
@@ -44,6 +49,7 @@ pub struct OnVm {
 pub struct OnCpu {
     cpu: Cpu,
     noted: Option<Noted>,
+    pub(super) warnings: Vec<Fault>,
     /// The same on the VM with its own system.
     counted: Option<vm::Program>,
 }
@@ -55,14 +61,25 @@ pub fn load(files: &[File], config: Config) -> Outcome<Loaded> {
     if files.iter().any(is_machine_code) {
         return load_machine_code(files);
     }
-    let (own, lines) = compile(files)?;
-    let mut all = own.clone();
-    let mut system = Vec::new();
+    let Compiled {
+        mut code,
+        lines,
+        missing,
+        warnings,
+    } = compile(files)?;
+    let mut found = System::default();
     if config.os || config.cpu {
-        let found = complete(&own)?;
-        system = found.sources;
-        all.extend(found.code);
+        let calling = missing.calling();
+        found = complete(&[code.as_slice(), calling.as_slice()].concat())?;
     }
+    let System {
+        sources: system,
+        code: system_code,
+    } = found;
+    code.extend(missing.file());
+    let own = code.clone();
+    code.extend(system_code);
+    let all = code;
     let program = link(&all)?;
     let noted = Noted::of(&program, &system);
     if !config.cpu {
@@ -71,7 +88,12 @@ pub fn load(files: &[File], config: Config) -> Outcome<Loaded> {
             binaries: Vec::new(),
             sizes: Sizes::default(),
             map: map(files, &lines, &program),
-            program: Program::Hack(Box::new(OnVm { program, noted })),
+            program: Program::Hack(Box::new(OnVm {
+                program,
+                heap: config.heap,
+                noted,
+                warnings,
+            })),
         });
     }
     let translation = translate(&program, Options::default())
@@ -82,6 +104,7 @@ pub fn load(files: &[File], config: Config) -> Outcome<Loaded> {
     loaded.system = system;
     if let Program::HackCpu(on) = &mut loaded.program {
         on.noted = noted;
+        on.warnings = warnings;
         on.counted = config.count.then(|| link(&own)).transpose()?;
     }
     Ok(loaded)
@@ -123,6 +146,7 @@ fn rom(name: &str, words: &[u16]) -> Outcome<Loaded> {
         program: Program::HackCpu(Box::new(OnCpu {
             cpu,
             noted: None,
+            warnings: Vec::new(),
             counted: None,
         })),
         map: LineMap::Unknown,
@@ -133,8 +157,17 @@ fn link(files: &[(String, String)]) -> Outcome<vm::Program> {
     vm::Program::link(files).map_err(|faults| refused("linker", "the program", &faults))
 }
 
+/// A program as VM code, before an operating system.
+struct Compiled {
+    code: Vec<(String, String)>,
+    lines: CommandLines,
+    missing: vm::Missing,
+    /// What is accepted and may be a mistake.
+    warnings: Vec<Fault>,
+}
+
 /// Compiles what is Jack, and adds it to what is VM code.
-fn compile(files: &[File]) -> Outcome<(Vec<(String, String)>, CommandLines)> {
+fn compile(files: &[File]) -> Outcome<Compiled> {
     let mut classes = Vec::new();
     let mut program = Vec::new();
     for file in files {
@@ -151,7 +184,8 @@ fn compile(files: &[File]) -> Outcome<(Vec<(String, String)>, CommandLines)> {
             }
         }
     }
-    let compiled = jack::compile(&classes)
+    let mut warnings = Vec::new();
+    let compiled = jack::compile_warning(&classes, &mut warnings)
         .map_err(|faults| refused("Jack compiler", "the program", &faults))?;
     let mut lines = CommandLines::new();
     let sources = files.iter().enumerate();
@@ -160,7 +194,17 @@ fn compile(files: &[File]) -> Outcome<(Vec<(String, String)>, CommandLines)> {
         lines.insert(class.name.clone(), (document, class.lines));
         program.push((class.name, class.text));
     }
-    Ok((program, lines))
+    let missing =
+        vm::Missing::of(&program).map_err(|faults| refused("linker", "the program", &faults))?;
+    // The compiler has said what is called in Jack.
+    let in_code = |call: &Fault| !call.file.as_ref().is_some_and(|f| lines.contains_key(f));
+    warnings.extend(missing.calls.iter().filter(|call| in_code(call)).cloned());
+    Ok(Compiled {
+        code: program,
+        lines,
+        missing,
+        warnings,
+    })
 }
 
 /// For each file of VM code that was a class: which of the sources that is, and the
@@ -188,19 +232,47 @@ fn map(files: &[File], lines: &CommandLines, program: &vm::Program) -> LineMap {
 /// Runs a program that was loaded. RAM is what it leaves changed of statics,
 /// stack and heap, where the native OS's few words count too.
 pub fn run(on: &OnVm, limit: u64, watch: Watch<'_>) -> MachineRun {
-    let mut machine = vm::Machine::new(&on.program);
+    let mut machine = vm::Machine::with_heap(&on.program, on.heap);
     let run = machine.run(limit, watch);
     told(on, &machine, run)
 }
 
+/// The same with a keyboard.
+pub fn play(on: &OnVm, keyboard: &mut Keyboard, limit: u64, watch: Watch<'_>) -> MachineRun {
+    let mut machine = vm::Machine::new(&on.program);
+    machine.plug(keyboard.clone());
+    let run = machine.run(limit, watch);
+    if let Some(played) = machine.unplug() {
+        *keyboard = played;
+    }
+    told(on, &machine, run)
+}
+
+impl OnCpu {
+    /// Gives the processor a keyboard.
+    pub fn plug(&mut self, keyboard: Keyboard) {
+        self.cpu.plug(keyboard);
+    }
+
+    /// Takes it away again.
+    pub fn unplug(&mut self) -> Option<Keyboard> {
+        self.cpu.unplug()
+    }
+}
+
 /// The same, with what each command took.
 pub fn charges(on: &OnVm, limit: u64, roles: Roles<'_>, watch: Watch<'_>) -> (MachineRun, Charges) {
-    let mut machine = vm::Machine::new(&on.program);
+    let mut machine = vm::Machine::with_heap(&on.program, on.heap);
     let (run, charges) = machine.charges(limit, roles, watch);
     (told(on, &machine, run), charges)
 }
 
-fn told(on: &OnVm, machine: &vm::Machine<'_>, run: vm::Run) -> MachineRun {
+fn told(on: &OnVm, machine: &vm::Machine<'_>, mut run: vm::Run) -> MachineRun {
+    if on.program.is_bare() {
+        let words = machine.stack();
+        let words = words.iter().map(i16::to_string).collect::<Vec<String>>();
+        run.text.push_str(&format!("stack: {}\n", words.join(" ")));
+    }
     MachineRun {
         vm_instructions: Some(run.instructions),
         os_calls: Some(run.os_calls),
@@ -248,7 +320,10 @@ pub fn run_cpu(on: &mut OnCpu, sizes: Sizes, limit: u64, watch: Watch<'_>) -> Ma
 fn stop(stop: Stop, noted: Option<Noted>, peek: impl Fn(u16) -> i16) -> Stop {
     match noted.and_then(|noted| noted.error(peek)) {
         Some(number) if stop == Stop::Ended => Stop::Fault(Fault {
-            message: format!("Sys.error({number})"),
+            message: match number {
+                vm::MISSING => "the program calls a function that it lacks".to_owned(),
+                _ => format!("Sys.error({number})"),
+            },
             file: None,
             line: None,
             column: None,

@@ -5,12 +5,16 @@
 //! This is where a target's name chooses its machine.
 
 mod bbc;
+mod binary;
+mod boot;
 mod charge;
 mod dfs;
 mod hack;
+mod keys;
 mod mos6502;
 mod os;
 
+pub use binary::address;
 pub use charge::{LineRoles, Lines};
 pub use hack::Config as HackConfig;
 pub use mos6502::{Board, Config as Mos6502Config};
@@ -19,6 +23,7 @@ use crate::failure::{Failure, Outcome};
 use crate::interrupt;
 use crate::picture::Picture;
 use slowlight_vm::bbc::{Config, Dialect, LineCost};
+use slowlight_vm::hack::vm::Heap;
 use slowlight_vm::{Progress, Screen, Stop};
 use std::collections::BTreeMap;
 
@@ -157,11 +162,21 @@ impl Machine {
     /// operating system in Jack; other machines stay what they are.
     pub fn on_processor(self) -> Machine {
         match self {
-            Machine::Hack(_) => Machine::Hack(HackConfig {
+            Machine::Hack(config) => Machine::Hack(HackConfig {
                 cpu: true,
                 os: true,
                 count: true,
+                ..config
             }),
+            machine => machine,
+        }
+    }
+
+    /// The same with another heap of the Hack VM's native system; other machines stay what
+    /// they are.
+    pub fn with_heap(self, heap: Heap) -> Machine {
+        match self {
+            Machine::Hack(config) => Machine::Hack(HackConfig { heap, ..config }),
             machine => machine,
         }
     }
@@ -217,6 +232,15 @@ impl Loaded {
         Ok(run)
     }
 
+    /// What is accepted of the program and may be a mistake.
+    pub fn warnings(&self) -> &[slowlight_vm::Fault] {
+        match &self.program {
+            Program::Hack(on) => &on.warnings,
+            Program::HackCpu(on) => &on.warnings,
+            _ => &[],
+        }
+    }
+
     /// Runs a BASIC program, and counts what each of its lines takes.
     ///
     /// # Errors
@@ -237,12 +261,7 @@ impl Loaded {
 impl MachineRun {
     /// The screen as a picture.
     pub fn picture(&self) -> Option<Picture> {
-        self.screen.as_ref().map(|s| Picture {
-            width: s.width,
-            height: s.height,
-            palette: s.palette.clone(),
-            inks: s.pixels.clone(),
-        })
+        self.screen.as_ref().map(Picture::from)
     }
 }
 

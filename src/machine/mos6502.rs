@@ -1,5 +1,6 @@
 //! The machines around a 6502: assembly or binary in, a picture out.
 
+use super::binary::{self, Binary};
 use super::charge::LineMap;
 use super::dfs::{self, DISC_PAGE};
 use super::{File, Loaded, MachineRun, Program, Sizes, refused};
@@ -7,16 +8,20 @@ use crate::failure::{Failure, Outcome};
 use slowlight_compiler::report::profile::Line;
 use slowlight_vm::mos6502::plain::port;
 use slowlight_vm::mos6502::{Assembly, Bbc, C64, Dialect, Machine, Plain, Run, assemble_as};
-use slowlight_vm::{Charges, Fault, Roles, Watch};
+use slowlight_vm::{Charges, Roles, Watch};
 use std::collections::BTreeMap;
 
-/// Which machine, and how its assembly is written.
+/// Which machine, how its assembly is written, and where binaries lie.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Config {
     /// The machine.
     pub board: Board,
     /// How assembly is written.
     pub dialect: Dialect,
+    /// Where a binary is loaded, where it does not say so itself.
+    pub at: Option<u16>,
+    /// Where the program begins, if not where the machine would begin it.
+    pub start: Option<u16>,
 }
 
 /// What is around the processor.
@@ -40,7 +45,7 @@ impl Board {
         }
     }
 
-    /// What a program is loaded from: the machine's own file, its load address first.
+    /// Assembled code as it is loaded, its load address first.
     /// A program for a lower place in a BBC Micro is loaded where the disc leaves memory.
     fn loaded(self, image: &[u8]) -> Vec<u8> {
         let [lo, hi, bytes @ ..] = image else {
@@ -63,48 +68,78 @@ impl Board {
             name: format!("{stem}.{extension}"),
             bytes,
         };
-        match self {
-            Board::Plain => vec![named("bin", image)],
-            Board::C64 => vec![named("prg", image)],
-            Board::Bbc => {
-                let disc = dfs::bootable_code(stem, &self.loaded(&image));
-                let mut files = vec![named("bin", image)];
-                files.extend(disc.map(|bytes| named("ssd", bytes)));
-                files
-            }
-        }
+        let loaded = self.loaded(&image);
+        let disc = match self {
+            Board::Bbc => dfs::bootable_code(stem, &loaded),
+            Board::Plain | Board::C64 => None,
+        };
+        let mut files = vec![named("prg", loaded)];
+        files.extend(disc.map(|bytes| named("ssd", bytes)));
+        files
     }
 }
 
-/// Takes one assembly source (`.asm`, `.s`, `.a65`), or one binary that begins
-/// with its load address.
+/// Takes one file: assembly source, which is any text, or a binary (see [`binary`]).
 pub fn load(files: &[File], config: Config) -> Outcome<Loaded> {
-    let Config { board, dialect } = config;
     let [file] = files else {
         let message = "the 6502 takes one file: an assembly source or a binary".to_owned();
         return Err(Failure::Usage(message));
     };
-    let mut machine = board.machine();
-    let refuse = |fault: Fault| refused("machine", &file.name, &[fault]);
-    if !matches!(file.extension().as_str(), "asm" | "s" | "a65" | "inc") {
-        machine.load(&board.loaded(&file.bytes)).map_err(refuse)?;
-        let code = file.bytes.len().saturating_sub(2) as u64;
-        return Ok(Loaded {
-            system: Vec::new(),
-            binaries: Vec::new(),
-            sizes: Sizes {
-                code: Some(code),
-                ..Sizes::default()
-            },
-            program: Program::Mos6502(machine),
-            map: LineMap::Unknown,
-        });
+    match binary::is_text(file) {
+        true => load_source(file, config),
+        false => load_binary(file, config),
     }
-    let assembly = assemble_as(&file.as_text(), dialect)
-        .map_err(|faults| refused("assembler", &file.name, &faults))?;
+}
+
+fn load_binary(file: &File, config: Config) -> Outcome<Loaded> {
+    let Binary { at, start, bytes } = binary::read(file, config)?;
+    let mut machine = config.board.machine();
+    let loaded = machine.load_at(at, &bytes, start);
+    loaded.map_err(|fault| refused("machine", &file.name, &[fault]))?;
+    Ok(Loaded {
+        system: Vec::new(),
+        binaries: Vec::new(),
+        sizes: Sizes {
+            code: Some(bytes.len() as u64),
+            ..Sizes::default()
+        },
+        program: Program::Mos6502(machine),
+        map: LineMap::Unknown,
+    })
+}
+
+fn load_source(file: &File, config: Config) -> Outcome<Loaded> {
+    let Config {
+        board,
+        dialect,
+        at,
+        start,
+    } = config;
+    if at.is_some() {
+        let message = format!(
+            "{} is a text, which is assembled and says itself where it lies; --at is for binaries",
+            file.name
+        );
+        return Err(Failure::Usage(message));
+    }
+    let assembly = assemble_as(&file.as_text(), dialect).map_err(|faults| {
+        let failure = refused("assembler", &file.name, &faults);
+        match failure {
+            Failure::Wrong(said) => Failure::Wrong(format!("{said}\n{}", ANY_ASSEMBLER)),
+            other => other,
+        }
+    })?;
     let image = assembly.image();
-    machine.load(&board.loaded(&image)).map_err(refuse)?;
-    let stem = file.name.rsplit_once('.').map_or("", |(stem, _)| stem);
+    let mut machine = board.machine();
+    let loaded = match board.loaded(&image).as_slice() {
+        [lo, hi, bytes @ ..] => machine.load_at(u16::from_le_bytes([*lo, *hi]), bytes, start),
+        _ => Ok(()),
+    };
+    loaded.map_err(|fault| refused("machine", &file.name, &[fault]))?;
+    let stem = file
+        .name
+        .rsplit_once('.')
+        .map_or(file.name.as_str(), |(stem, _)| stem);
     Ok(Loaded {
         system: Vec::new(),
         binaries: board.files(stem, image),
@@ -113,6 +148,12 @@ pub fn load(files: &[File], config: Config) -> Outcome<Loaded> {
         map: map(&assembly),
     })
 }
+
+/// What to do with a program for another assembler.
+const ANY_ASSEMBLER: &str = "\
+The bundled assembler is there for what `build` writes: docs/6502.md, \"What our assembler reads\". \
+A program for another one runs from its binary: assemble it there, then \
+`slowlight vm 6502 FILE --at ADDR --start ADDR`, or FILE.prg as it is.";
 
 /// Instructions are code, and what `.byte` and `.word` make is tables.
 fn sizes(assembly: &Assembly) -> Sizes {

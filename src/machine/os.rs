@@ -1,7 +1,7 @@
 //! The operating system in Jack, for programs that bring none or a part of one.
 
 use super::{File, refused};
-use crate::failure::Outcome;
+use crate::failure::{Failure, Outcome};
 use slowlight_compiler::target::jack::os::{self, Wanted};
 use slowlight_vm::hack::jack;
 use slowlight_vm::hack::vm::{self, Names};
@@ -13,6 +13,7 @@ const MAIN: (&str, &str) = (
 );
 
 /// Classes of the system.
+#[derive(Default)]
 pub struct System {
     /// As sources.
     pub sources: Vec<File>,
@@ -23,6 +24,10 @@ pub struct System {
 /// The classes of the system that a program, given as VM code, calls and lacks.
 pub fn complete(program: &[(String, String)]) -> Outcome<System> {
     let names = Names::of(program).map_err(|faults| refused("linker", "the program", &faults))?;
+    if names.has.is_empty() {
+        let message = "VM code without functions runs on the VM with its own operating system: leave out --cpu and --os";
+        return Err(Failure::Usage(message.to_owned()));
+    }
     let [has, calls, reached] = [&names.has, &names.calls, &names.reached]
         .map(|names| names.iter().map(String::as_str).collect::<Vec<&str>>());
     let classes = os::classes(Wanted {

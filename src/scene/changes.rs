@@ -4,7 +4,8 @@
 use super::Precision;
 use crate::failure::{Failure, Outcome, unknown};
 use clap::Args;
-use slowlight_compiler::sema::{Freeze, FunctionKind, Options, Program};
+use slowlight_compiler::sema::{self, Freeze, FunctionKind, Options, Program};
+use slowlight_compiler::source::Diagnostic;
 use std::path::PathBuf;
 
 /// What is changed about a scene.
@@ -94,6 +95,22 @@ pub(super) fn options(args: &Changes, program: &Program) -> Outcome<Options> {
         offset: Precision::NATIVE.offset,
         ..Options::default()
     })
+}
+
+/// Whether params can have the values that they are set to.
+///
+/// # Errors
+/// What is wrong with the values; not with the params themselves, which is the scene's
+/// affair.
+pub(super) fn settable(program: &Program, options: &Options) -> Result<(), Vec<Diagnostic>> {
+    let as_they_are = Options {
+        set: Vec::new(),
+        ..options.clone()
+    };
+    match sema::params(program, &as_they_are) {
+        Ok(()) => sema::params(program, options),
+        Err(_) => Ok(()),
+    }
 }
 
 /// A number, `true`, `false`, or an angle with its unit, in radians.

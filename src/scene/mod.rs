@@ -6,7 +6,7 @@ pub use changes::Changes;
 
 use crate::failure::{Failure, Outcome};
 use crate::files;
-use changes::options;
+use changes::{options, settable};
 use clap::Args;
 use slowlight_compiler::flow::graph::Graph;
 use slowlight_compiler::scene;
@@ -69,7 +69,7 @@ pub struct Limits {
 /// Which scene, and what is changed about it.
 #[derive(Args, Clone, Debug)]
 pub struct SceneArgs {
-    /// The scene's file
+    /// The scene's file; - is standard input
     pub scene: PathBuf,
     #[command(flatten)]
     pub changes: Changes,
@@ -78,7 +78,7 @@ pub struct SceneArgs {
 /// Several scenes, and what is changed about each.
 #[derive(Args, Clone, Debug)]
 pub struct ScenesArgs {
-    /// The scenes' files
+    /// The scenes' files; - is standard input
     #[arg(required = true, value_name = "SCENE")]
     pub scenes: Vec<PathBuf>,
     #[command(flatten)]
@@ -104,14 +104,36 @@ pub struct Scene {
     options: Options,
 }
 
+/// What stands for standard input where a scene's file is named.
+pub const STANDARD_INPUT: &str = "-";
+
+/// Whether a scene is read from standard input.
+pub fn is_standard_input(path: &Path) -> bool {
+    path.as_os_str() == STANDARD_INPUT
+}
+
+/// The name and text of a scene as the command line names it: a file's, or what standard
+/// input has.
+///
+/// # Errors
+/// As for [`text`].
+pub fn given(path: &Path) -> Outcome<(String, String)> {
+    match is_standard_input(path) {
+        true => decoded("standard input".to_owned(), files::standard_input()?),
+        false => text(path),
+    }
+}
+
 /// Reads a scene's name and text; bytes that are no text are a diagnostic.
 ///
 /// # Errors
 /// Where it cannot be read, or is no text.
 pub fn text(path: &Path) -> Outcome<(String, String)> {
-    let bytes = files::read(path)?;
-    let name = path.display().to_string();
-    let (text, said) = syntax::decode(&bytes, 0);
+    decoded(path.display().to_string(), &files::read(path)?)
+}
+
+fn decoded(name: String, bytes: &[u8]) -> Outcome<(String, String)> {
+    let (text, said) = syntax::decode(bytes, 0);
     if said.is_empty() {
         return Ok((name, text));
     }
@@ -162,13 +184,20 @@ impl Scene {
     /// # Errors
     /// As [`Scene::load`].
     pub fn open(path: &Path, changes: &Changes) -> Outcome<Scene> {
-        let (name, text) = text(path)?;
+        let (name, text) = given(path)?;
         let library = changes.prelude.as_deref().map(prelude).transpose()?;
         let checked = scene::load(&name, &text, library.as_deref(), &mut used);
         if !checked.is_right() {
             return Err(wrong(checked.sources, checked.diagnostics));
         }
         let options = options(changes, &checked.program)?;
+        if let Err(said) = settable(&checked.program, &options) {
+            let sources = checked.sources;
+            return Err(Failure::Options(Box::new(Said {
+                sources,
+                diagnostics: said,
+            })));
+        }
         Ok(Scene {
             name: name_of(path),
             options,
@@ -255,6 +284,19 @@ impl Scene {
         self.graph_within(inks, precision, set, Limits::default())
     }
 
+    /// As [`Scene::graph`], with ink numbers beyond the screen's inks as they are.
+    ///
+    /// # Errors
+    /// Where it does not compile.
+    pub fn graph_of_all_inks(&self, inks: Option<u32>, precision: Precision) -> Outcome<Graph> {
+        let options = Options {
+            inks,
+            all_inks: true,
+            ..precision.options(self.options.clone())
+        };
+        sema::lower(&self.checked.program, &options).map_err(|said| self.wrong(said))
+    }
+
     /// The same with less than the scene has, or otherwise.
     ///
     /// # Errors
@@ -305,6 +347,9 @@ pub fn wrong(sources: Sources, diagnostics: Vec<Diagnostic>) -> Failure {
 
 /// A name that every target's files can bear.
 fn name_of(path: &Path) -> String {
+    if is_standard_input(path) {
+        return "stdin".to_owned();
+    }
     let stem = path.file_stem().map(|s| s.to_string_lossy().into_owned());
     let clean = |c: char| if c.is_ascii_alphanumeric() { c } else { '_' };
     let name: String = stem.unwrap_or_default().chars().map(clean).collect();
@@ -323,5 +368,6 @@ mod tests {
     fn names_are_identifiers() {
         assert_eq!(name_of(Path::new("a/two mirrors.scn")), "two_mirrors");
         assert_eq!(name_of(Path::new("..")), "scene");
+        assert_eq!(name_of(Path::new("-")), "stdin");
     }
 }

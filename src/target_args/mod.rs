@@ -1,12 +1,15 @@
 //! Which machine and screen: the options that choose a target, and the plan
 //! that they lead to.
 
+mod heap;
 mod read;
 
+pub use heap::HeapOf;
 pub use read::*;
 
 use crate::failure::{Failure, Outcome};
 use crate::fit;
+use crate::interrupt;
 use crate::machine::Machine;
 use crate::progress::Waiting;
 use crate::scene::{Limits, Precision, Scene};
@@ -14,10 +17,12 @@ use crate::trial;
 use crate::ways::WayArgs;
 use clap::{Args, ValueEnum};
 use slowlight_compiler::passes::coarse::coarse;
-use slowlight_compiler::plan::{Goal, Plan, plan, plan_as_written, plan_with_every_shade};
+use slowlight_compiler::plan::{Goal, Plan, SEARCH};
+use slowlight_compiler::plan::{plan_as_written, plan_with_every_shade, plan_within};
 use slowlight_compiler::sema::{FunctionKind, Program};
 use slowlight_compiler::source::Span;
 use slowlight_compiler::target::{self, Mode, Target};
+use std::sync::Once;
 
 /// Screen and rows.
 #[derive(Args, Clone, Debug, Default)]
@@ -205,13 +210,13 @@ impl ScreenArgs {
     ) -> Outcome<Plan> {
         let target = self.in_format(target)?;
         let modes = self.modes(target, scene.size())?;
-        let plans = modes.into_iter();
-        let _waiting = Waiting::new("planning");
+        let (_waiting, _blind) = (Waiting::new("planning"), interrupt::blind());
         let name = |span| scene.called_at(span);
-        let plan = fit::fit(
-            plans.map(|mode| self.plan_in(mode, scene, target, set)),
-            &name,
-        )?;
+        let made = |mode, fuel| self.plan_in((mode, fuel), scene, target, set);
+        let plan = fit::fit(modes, &made, &name)?;
+        if plan.was_cut() {
+            say_cut();
+        }
         match self.os {
             Some(Os::Jack) => fit::fit_rom(plan, self.machine(target)?, &name),
             _ => fit::with_disc(plan),
@@ -225,12 +230,13 @@ impl ScreenArgs {
     pub fn draft(&self, scene: &Scene, target: &'static Target) -> Outcome<Plan> {
         let target = self.in_format(target)?;
         let mode = self.mode(target, scene.size())?;
-        self.plan_in(mode, scene, target, &[])
+        let _blind = interrupt::blind();
+        self.plan_in((mode, SEARCH), scene, target, &[])
     }
 
     fn plan_in(
         &self,
-        mode: Mode,
+        (mode, fuel): (Mode, u64),
         scene: &Scene,
         target: &'static Target,
         set: &[(String, Vec<f64>)],
@@ -278,7 +284,7 @@ impl ScreenArgs {
         let planned = match (self.as_written, self.every_shade) {
             (true, _) => plan_as_written(&graph, target, &goal),
             (_, true) => plan_with_every_shade(&graph, target, &goal),
-            _ => plan(&graph, target, &goal),
+            _ => plan_within(&graph, target, &goal, fuel),
         };
         let planned = planned.map(|plan| self.thrifty(plan));
         let planned = match self.outlined {
@@ -307,6 +313,17 @@ impl ScreenArgs {
             _ => Ok(plan),
         }
     }
+}
+
+/// Says once that a search was ended: a table of many plans says it of all of them.
+fn say_cut() {
+    static SAID: Once = Once::new();
+    SAID.call_once(|| {
+        eprintln!(
+            "note: the search for a quick program ended at the work that it may do (a large \
+             scene, or a nest of loops): there may be a quicker one"
+        );
+    });
 }
 
 /// A scene's items, the library's included: where each stands, and what to call

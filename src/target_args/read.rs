@@ -15,6 +15,15 @@ pub fn target(name: &str) -> Result<&'static Target, String> {
     target::find(name).ok_or_else(|| unknown("target", name, names))
 }
 
+/// What there is for `--target`, in one line.
+pub fn known_targets() -> String {
+    let names: Vec<&str> = TARGETS.iter().map(|t| t.name).collect();
+    format!(
+        "targets: {} (`slowlight targets` says more)",
+        names.join(", ")
+    )
+}
+
 /// Reads `--syntax`.
 ///
 /// # Errors

@@ -1,5 +1,6 @@
 //! A choice: one way to compute a scene on a machine, as options of `run` and `build`.
 
+use crate::given::quoted;
 use crate::scene::{Changes, Limits};
 use crate::target_args::{Os, ScreenArgs};
 use crate::trial::HACK_HERTZ;
@@ -181,15 +182,6 @@ impl Base {
             changes.freeze = vec!["all".to_owned()];
         }
         changes
-    }
-}
-
-/// A word as a shell takes it.
-fn quoted(word: &str) -> String {
-    let plain = |c: char| c.is_ascii_alphanumeric() || "-_./:=,+".contains(c);
-    match word.chars().all(plain) && !word.is_empty() {
-        true => word.to_owned(),
-        false => format!("'{}'", word.replace('\'', "'\\''")),
     }
 }
 

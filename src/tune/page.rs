@@ -10,7 +10,7 @@ use super::point::Point;
 use super::spent::Spent;
 use super::tell::Told;
 use crate::format::{count, duration};
-use crate::sheet::escaped;
+use crate::sheet::{escaped, marked};
 use serde_json::{Value, json};
 
 const TEMPLATE: &str = include_str!("page.html");
@@ -71,7 +71,9 @@ fn rows(told: &Told<'_>) -> String {
         let at = &point.measured;
         let words = told.base.words(&point.choice).join(" ");
         format!(
-            "<tr data-point=\"{k}\"><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td></tr>\n",
+            "<tr data-point=\"{k}\"><td>{}</td><td data-name=\"time\">{}</td>\
+             <td data-name=\"cycles\">{}</td><td data-name=\"error\">{}</td>\
+             <td data-name=\"bytes\">{}</td></tr>\n",
             if words.is_empty() {
                 "none".to_owned()
             } else {
@@ -93,7 +95,7 @@ fn failed(told: &Told<'_>) -> String {
         format!(
             "<li><code>{}</code>: {}</li>\n",
             escaped(&words),
-            escaped(why)
+            marked(why)
         )
     };
     let items: String = all.map(item).collect();
@@ -155,7 +157,7 @@ fn shown(told: &Told<'_>, k: usize) -> Value {
     ]);
     json!({
         "words": in_words(told, point),
-        "spent": at.spent.iter().map(sentence).collect::<Vec<String>>(),
+        "spent": at.spent.iter().map(sentence).collect::<Vec<[String; 3]>>(),
         "command": told.base.command(&point.choice, "run"),
         "build": told.base.command(&point.choice, "build"),
         "better": told.by[k].map(|by| told.base.words(&told.points[by].choice).join(" ")),
@@ -208,8 +210,9 @@ fn in_words(told: &Told<'_>, point: &Point) -> Vec<String> {
     words
 }
 
-/// A line and what it takes, as a person would say it.
-fn sentence(spent: &Spent) -> String {
+/// A line and what it takes, as a person would say it: what stands before its text, the
+/// text, and what stands behind.
+fn sentence(spent: &Spent) -> [String; 3] {
     let mut text = format!("{} of the time", percent(spent.share));
     match spent.error {
         Some(error) if error >= 0.0005 => {
@@ -218,11 +221,12 @@ fn sentence(spent: &Spent) -> String {
         Some(_) => text.push_str(" and none of the error"),
         None => {}
     }
-    text.push_str(&format!(": {}, `{}`", spent.place, spent.text));
-    if let Some((name, share)) = &spent.routine {
-        text.push_str(&format!(" ({name}: {} of the time)", percent(*share)));
-    }
-    text
+    text.push_str(&format!(": {}, ", spent.place));
+    let routine = spent.routine.as_ref().map(|(name, share)| {
+        let name = name.replace('`', "");
+        format!(" ({name}: {} of the time)", percent(*share))
+    });
+    [text, spent.text.clone(), routine.unwrap_or_default()]
 }
 
 fn turns(most: u32) -> String {

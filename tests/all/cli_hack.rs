@@ -318,7 +318,7 @@ fn the_systems_part_of_the_heap_counts() {
             draw (x, y) = floyd(x / {width}, x, y);"
         )
     };
-    let (fits, large) = (scene(1150), scene(1180));
+    let (fits, large) = (scene(1150), scene(1178));
     let dir = directory(&[("fits.scn", &fits), ("large.scn", &large)]);
     let dir = dir.path();
     let run = ["run", "-t", "jack", "--json", "--os"];
@@ -332,4 +332,45 @@ fn the_systems_part_of_the_heap_counts() {
     for part in ["words of heap", "operating system 287", "--os native"] {
         assert!(said.contains(part), "{part}: {said}");
     }
+}
+
+/// What the official tools take is taken, with a warning, on the VM and on the processor;
+/// a call that goes nowhere ends the program that comes to it.
+#[test]
+fn what_is_taken_with_a_warning() {
+    let class = |condition: &str| {
+        format!(
+            "class Main {{ function void main() {{ var Nobody n; if ({condition}) {{ do Ghost.haunt(); \
+             do Memory.free(5); }} do Output.printInt(7); return; }} }}"
+        )
+    };
+    let dir = directory(&[("Add.vm", "push constant 20\npush constant 3\nsub\n")]);
+    let dir = dir.path();
+    for (name, condition) in [("never", "1 = 2"), ("comes", "2 = 2")] {
+        program(dir, name, &class(condition));
+        for more in [&[][..], &["--cpu"]] {
+            let output = slowlight(dir, &[&["vm", "jack", name][..], more].concat());
+            let said = String::from_utf8_lossy(&output.stderr);
+            for warned in [
+                "no class `Nobody`",
+                "no class `Ghost`",
+                "no subroutine `free`",
+            ] {
+                assert!(said.contains(warned), "{said}");
+            }
+            let status = i32::from(name == "comes");
+            assert_eq!(output.status.code(), Some(status), "{said}");
+            if more.is_empty() && status == 0 {
+                assert_eq!(output.stdout, b"7");
+            }
+            let error = match more.is_empty() {
+                true => "there is no function Ghost.haunt",
+                false => "the program calls a function that it lacks",
+            };
+            assert_eq!(said.contains(error), status == 1, "{said}");
+        }
+    }
+    assert_eq!(success(dir, &["vm", "hack", "Add.vm"]), "stack: 17\n");
+    let output = slowlight(dir, &["vm", "hack", "--cpu", "Add.vm"]);
+    assert_eq!(output.status.code(), Some(2));
 }

@@ -159,8 +159,8 @@ fn build_writes_what_machines_load() {
         let files = built(dir, &target);
         let expected: &[&str] = match target.split(':').next() {
             Some("6502") if target == "6502:c64" => &["spot.asm", "spot.prg"],
-            Some("6502") if target == "6502:bbc" => &["spot.asm", "spot.bin", "spot.ssd"],
-            Some("6502") => &["spot.asm", "spot.bin"],
+            Some("6502") if target == "6502:bbc" => &["spot.asm", "spot.prg", "spot.ssd"],
+            Some("6502") => &["spot.asm", "spot.prg"],
             Some("bbc") if target == "bbc:micro" => &["spot.bas", "spot.bbc", "spot.ssd"],
             Some("bbc") => &["spot.bas", "spot.bbc"],
             _ => &["Main.jack"],
@@ -198,7 +198,7 @@ fn a_listing_names_the_items_that_its_lines_come_from() {
 fn what_was_built_runs_by_itself() {
     let dir = directory(&[("spot.scn", SPOT)]);
     let dir = dir.path();
-    for (machine, file) in [("6502", "out/spot.asm"), ("6502", "out/spot.bin")] {
+    for (machine, file) in [("6502", "out/spot.asm"), ("6502", "out/spot.prg")] {
         built(dir, machine);
         let alone = json(dir, &["vm", machine, file, "--json"]);
         let run = json(dir, &["run", "spot.scn", "-t", machine, "--json"]);

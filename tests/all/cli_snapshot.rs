@@ -67,7 +67,17 @@ fn accepted_snapshots_hold_until_something_changes() {
         dir,
         &["build", "stripes.scn", "-t", "6502", "--emit", "text"],
     );
-    assert!(first.contains(&format!("==> stripes.asm <==\n{text}")));
+    let bytes = text.len();
+    let size = format!("lines: {}, bytes: {bytes}\n", text.lines().count());
+    let top: String = text.lines().take(40).map(|l| format!("{l}\n")).collect();
+    assert!(first.contains("==> stripes.asm <==\nsha256: "), "{first}");
+    assert!(first.contains(&format!("{size}{top}[")), "{first}");
+    assert!(!first.contains(&text));
+    // What a runtime brings is not the scene's, and the parameter block is shown.
+    let jack = read(files[1]);
+    assert!(jack.contains("==> Float.jack <==\nsha256: "), "{jack}");
+    assert!(jack.contains("let wide = 2"), "{jack}");
+    assert!(jack.len() < 8000, "{} bytes", jack.len());
     assert!(
         first.ends_with("==> picture <==\n  @@  @@\n  @@  @@\n"),
         "{first}"
@@ -105,6 +115,75 @@ fn accepted_snapshots_hold_until_something_changes() {
     assert!(shown.contains("(the scene is as it was)"), "{shown}");
     let (shown, _) = fails(dir, &snapshot(&["-t", "jack", "--rows", "0..1"]), 3);
     assert!(shown.contains("\n+options: --rows 0..1\n"), "{shown}");
+    assert!(
+        shown.contains("(kept with no options, now with `--rows 0..1`)"),
+        "{shown}"
+    );
+}
+
+/// The options that a snapshot was made with make it again.
+#[test]
+fn options_are_taken_from_the_snapshot() {
+    let dir = directory(&[("stripes.scn", STRIPES)]);
+    let dir = dir.path();
+    let made = [
+        "-t", "6502", "--rows", "1..2", "--format", "fixed16", "--set", "wide= 3", "--freeze",
+        "all",
+    ];
+    success(dir, &snapshot(&[&made[..], &["--accept"]].concat()));
+    success(dir, &snapshot(&["-t", "jack", "--full", "--accept"]));
+    let kept = dir.join("snapshots/stripes.6502-plain.snap");
+    let read = || std::fs::read_to_string(&kept).expect("a snapshot");
+    let first = read();
+    let options = "--set 'wide= 3' --freeze all --rows 1..2 --format fixed16";
+    for line in [
+        &format!("options: {options}"),
+        "format: fixed16",
+        "rows: 1..2",
+    ] {
+        assert!(first.lines().any(|l| l == line), "{line}: {first}");
+    }
+    let text = success(
+        dir,
+        &["build", "stripes.scn", "-t", "jack", "--emit", "text"],
+    );
+    let jack = std::fs::read_to_string(dir.join("snapshots/stripes.jack.snap"));
+    assert!(jack.expect("a snapshot").contains(&text));
+
+    let shown = success(dir, &snapshot(&[]));
+    assert_eq!(shown.matches("unchanged").count(), 2, "{shown}");
+    success(dir, &snapshot(&made));
+    // Others are told, and change nothing unless they are accepted.
+    let (shown, said) = fails(dir, &snapshot(&["-t", "6502", "--rows", "0..1"]), 3);
+    let differ = format!("(kept with `{options}`, now with `--rows 0..1`)");
+    assert!(shown.contains(&differ), "{shown}");
+    assert!(
+        said.contains("made with those that they are kept with"),
+        "{said}"
+    );
+    assert_eq!(read(), first);
+    let (shown, _) = fails(dir, &snapshot(&["-t", "6502", "--anew"]), 3);
+    assert!(
+        shown.contains(&format!("(kept with `{options}`, now with no options)")),
+        "{shown}"
+    );
+    success(
+        dir,
+        &snapshot(&["-t", "6502", "--rows", "0..1", "--accept"]),
+    );
+    assert!(read().contains("\noptions: --rows 0..1\n"));
+    success(dir, &snapshot(&["-t", "6502", "--anew", "--accept"]));
+    assert!(!read().contains("\noptions: "));
+
+    // Options that nobody knows any more.
+    let odd = read().replace("target: ", "options: --rose 1..2\ntarget: ");
+    std::fs::write(&kept, odd).expect("a file");
+    let (_, said) = fails(dir, &snapshot(&["-t", "6502"]), 1);
+    assert!(
+        said.contains("was made with `--rose 1..2`: unexpected argument"),
+        "{said}"
+    );
+    assert!(said.contains("`--anew`"), "{said}");
 }
 
 #[test]

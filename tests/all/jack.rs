@@ -51,9 +51,18 @@ pub fn planned_in(
     plan(&graph, target, &goal).map_err(|said| format!("{said:?}"))
 }
 
-/// The classes; `Main` first, the scene's second.
+/// The classes; `Main` first, the scene's second. None clears the screen: in the web IDE that
+/// takes the upper half of the heap with it.
 pub fn documents(plan: &Plan) -> Vec<Document> {
-    (plan.target.emit)(plan)
+    let documents = (plan.target.emit)(plan);
+    for document in &documents {
+        assert!(
+            !document.text.contains("do Screen.clearScreen"),
+            "{}",
+            document.name
+        );
+    }
+    documents
 }
 
 fn run(documents: &[Document]) -> Run {

@@ -44,7 +44,7 @@ fn a_listing_has_all_bytes_and_all_lines_of_the_scene() {
             behind = Some(last + 1);
             bytes += number(size);
         }
-        assert_eq!(bytes, read("ball.bin").len() as u64 - 2);
+        assert_eq!(bytes, read("ball.prg").len() as u64 - 2);
 
         // Each operation takes something.
         let operations = rows(&listing, "Operations:");

@@ -1,6 +1,8 @@
 //! One integration-test binary: a file a subject.
 
 mod accuracy;
+mod any_assembler;
+mod basic_discs;
 mod bbc;
 mod blue_noise;
 mod boxes;
@@ -8,11 +10,16 @@ mod cli;
 mod cli_compare;
 mod cli_fmt;
 mod cli_hack;
+mod cli_heap;
+mod cli_keys;
 mod cli_params;
 mod cli_run;
+mod cli_said;
 mod cli_snapshot;
 mod cli_wrong;
+mod colours;
 mod columns;
+mod drawings;
 mod effects;
 mod explain;
 mod fit;
@@ -34,6 +41,8 @@ mod numbers;
 #[cfg(feature = "peers")]
 mod peers_assemblers;
 #[cfg(feature = "peers")]
+mod peers_basic;
+#[cfg(feature = "peers")]
 mod peers_boxes;
 #[cfg(feature = "peers")]
 mod peers_brandy;
@@ -43,6 +52,8 @@ mod peers_c64;
 mod peers_chromium;
 #[cfg(feature = "peers")]
 mod peers_dialect;
+#[cfg(feature = "peers")]
+mod peers_drawings;
 #[cfg(feature = "peers")]
 mod peers_jsbeeb;
 mod precise;

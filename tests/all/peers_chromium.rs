@@ -41,14 +41,72 @@ fn a_click_on_a_point_shows_its_picture() {
     }
 }
 
+/// As on a telephone, in the dark, and by the keyboard alone.
+#[test]
+fn pages_are_for_every_screen_and_for_the_keyboard() {
+    let dir = directory(&[("ball.scn", BALL)]);
+    let tune = ["tune", "ball.scn", "-t", "6502", "--settings", "2"];
+    success(dir.path(), &[&tune[..], &["--html", "tune.html"]].concat());
+    let explain = [
+        "explain",
+        "ball.scn",
+        "-t",
+        "6502",
+        "--html",
+        "explain.html",
+    ];
+    success(dir.path(), &explain);
+    for name in ["tune", "explain"] {
+        let stem = format!("target/peers/{name}");
+        let found = seen("pages.mjs", &dir.path().join(format!("{name}.html")), &stem);
+        for none in ["errors", "backticks", "unexplained"] {
+            assert_eq!(found[none], Value::Array(Vec::new()), "{name}: {none}");
+        }
+        let width = found["width"].as_f64().expect("a width");
+        assert!(width <= 390.0, "{name}: {width}");
+        let luma = |scheme: &str, part: &str| found[scheme][part].as_f64().expect("a luma");
+        assert!(luma("light", "paper") > 200.0 && luma("light", "ink") < 80.0);
+        assert!(luma("dark", "paper") < 50.0 && luma("dark", "ink") > 180.0);
+        for scheme in ["light", "dark"] {
+            let faint = &found[scheme]["faint"];
+            assert_eq!(*faint, Value::Array(Vec::new()), "{name}: {scheme}");
+        }
+        let keys = found["keys"].as_array().expect("keys");
+        if name == "explain" {
+            // The first line that has parts opens.
+            assert_eq!(
+                (&keys[0][1]["on"], &keys[1][1]["open"]),
+                (&"summary".into(), &1.into())
+            );
+            continue;
+        }
+        assert!(found["small"].as_f64() >= Some(9.0), "{}", found["small"]);
+        let points = |k: usize| (&keys[k][1]["point"], &keys[k][1]["chosen"]);
+        assert_eq!(keys[0][1]["on"], "circle");
+        let chosen = ["0", "1", "2", "1"];
+        for (k, point) in (1..).zip(chosen) {
+            assert_eq!(points(k), (&point.into(), &point.into()), "{}", keys[k][0]);
+        }
+        assert_eq!(keys[5][1]["point"], keys[5][1]["chosen"]);
+        // Then the table's rows, each a stop.
+        assert_eq!(keys[6][1]["on"], "tr");
+        assert_eq!(keys[7][1]["point"], keys[7][1]["chosen"]);
+    }
+}
+
 /// Opens a page of points; its screenshot stands under `target/peers`, to be looked at.
 fn opened(page: &Path) -> Value {
+    seen("chromium.mjs", page, "target/peers/report.png")
+}
+
+/// What one of the scripts beside sees of a page.
+fn seen(script: &str, page: &Path, screenshot: &str) -> Value {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
     let output = Command::new("node")
-        .arg(root.join("tests/peers/chromium.mjs"))
+        .arg(root.join("tests/peers").join(script))
         .arg(root.join("target/peers/node_modules/puppeteer-core"))
         .arg(page)
-        .arg(root.join("target/peers/report.png"))
+        .arg(root.join(screenshot))
         .output()
         .expect("node is installed: see tests/peers/setup");
     let said = String::from_utf8_lossy(&output.stderr);

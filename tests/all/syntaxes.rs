@@ -197,7 +197,7 @@ fn a_program_is_built_for_an_assembler() {
     let build = ["build", "steps.scn", "-t", "6502", "-o"];
     success(dir, &[&build[..], &["usual"]].concat());
     success(dir, &[&build[..], &["bee", "--syntax", "beebasm"]].concat());
-    assert_eq!(read("usual/steps.bin"), read("bee/steps.bin"));
+    assert_eq!(read("usual/steps.prg"), read("bee/steps.prg"));
     let text = success(
         dir,
         &[

@@ -7,6 +7,7 @@
 //   "tokenised": hex   bytes to stand at PAGE, then RUN
 //   "typed": text      lines for BASIC's own line editor and tokeniser, then RUN
 //   "disc": hex        an .ssd image, booted with SHIFT held
+//   "programs": list   small programs, each [text, lines for its INPUTs], run one after the other
 // and may have
 //   "page"             PAGE, &1900 unless told (a number)
 //   "limit"            cycles of 2 MHz to stop after, 4e9 unless told
@@ -17,6 +18,8 @@
 //   "quiet": true      no interrupts while the program runs
 //   "tell": n          says on standard error how far it is, each n cycles
 //   "cases"            see below
+// or, in place of all that,
+//   "drawings"         see below
 //
 // A result has
 //   "stopped"          "prompt" (BASIC wants a line) or "limit"
@@ -25,6 +28,10 @@
 //   "text"             what was written to the screen, control codes included
 //   "memory"           the dump, hex
 //   "cases"            see below
+//   "drawings"         see below
+// of "programs" only
+//   "texts"            what each wrote, with the lines that it was given where it read them
+//   "tokens"           what each was stored as, hex
 //
 // Lines go in where BASIC asks the operating system for one (OSWORD 0), as if they had been
 // typed very quickly. A mark is the program's own `?&70=n`.
@@ -34,8 +41,14 @@
 // "read": [address, count] are taken, and the cycles since the 1; when it says ?&70=3 (from
 // ON ERROR) the byte at &71 is taken as an error's number. The answer has a [hex, cycles] a
 // case, or [error number, 0].
+//
+// "drawings": many small pictures. Each is a list of bytes (hex) that go one by one to the
+// operating system's OSWRCH, without interrupts; the answer has for each the SHA-256 of the
+// screen's inks, a byte each by rows from the top left, as the screen lies in memory then, and
+// the cycles. With "inks": true the inks themselves, hex, stand in the digest's place.
 
 import path from "node:path";
+import { createHash } from "node:crypto";
 import { readFileSync } from "node:fs";
 import { pathToFileURL } from "node:url";
 
@@ -58,6 +71,36 @@ const EXEC_FILE = 0x256;
 const KEYS_OUT = 0x2d8;
 const KEYS_IN = 0x2e1;
 const SOFT_KEY_PLACE = 0x2c9;
+/** OS 1.20's screen: its mode, where it starts, and the colours and pixels a byte less one. */
+const MODE = 0x355;
+const SCREEN_START = 0x350;
+const TOP_INK = 0x360;
+const LAST_PIXEL = 0x361;
+const SCREEN_END = 0x8000;
+/** Where the bytes of a drawing stand, and what hands them on: with the first address in &80 and
+    the end in &82, LDY #0, LDA (&80),Y, JSR &FFEE, then INC of the address until it is the end,
+    and a mark. */
+const DRAWING = 0x1b00;
+const HAND_ON = 0x1a00;
+const HANDING_ON = "a000b18020eeffe680d002e681a580c582d0efa581c583d0e98570";
+/** Cycles that a drawing may take. */
+const DRAWN_BY = 4e8;
+/** BASIC II: where it keeps the high byte of PAGE, and TOP. */
+const PAGE = 0x18;
+const TOP = 0x12;
+/** BASIC II: the page into which INPUT has a line read; its own lines go to another. */
+const INPUT_PAGE = 6;
+/** Brings BASIC to what it is after a reset, as far as programs change it for those after them. */
+const FRESH = [
+  "NEW",
+  "MODE7",
+  "TRACE OFF:WIDTH0:CLOSE#0",
+  "FORA=&404TO&46BSTEP4:!A=0:NEXT",
+  "@%=&90A:A=RND(-1)",
+  "CLEAR",
+];
+/** Cycles that a small program has. */
+const SMALL = 10 * SECOND;
 /** Cycles between two fields, and the length of the pulse between them (the CRTC's). */
 const FIELD = 40_000;
 const PULSE = 256;
@@ -193,6 +236,40 @@ class Micro {
     }
   }
 
+  /** Runs small programs one after the other; answers what each wrote and was stored as. */
+  async programs(list) {
+    if (!(await this.run(SMALL))) throw new Error("no prompt");
+    const texts = [];
+    const tokens = [];
+    for (const [text, input] of list) {
+      await this.type([...FRESH, ...text.split("\n").filter((line) => line !== "")]);
+      const stored = this.cpu.ramRomOs.subarray(this.byte(PAGE) << 8, this.word(TOP));
+      tokens.push(Buffer.from(stored).toString("hex"));
+      this.line("RUN");
+      this.text.length = 0;
+      const lines = [...input];
+      while ((await this.run(SMALL)) && this.asks()) {
+        const line = lines.shift() ?? "";
+        // The operating system would have echoed it.
+        this.text.push(...Buffer.from(line, "latin1"), 10, 13);
+        this.line(line);
+      }
+      if (!this.here()) throw new Error(`no end of ${text}, which wrote ${Buffer.from(this.text).toString("latin1")}`);
+      texts.push(Buffer.from(this.text).toString("latin1"));
+    }
+    return { texts, tokens };
+  }
+
+  /** Is the processor where a line is wanted? */
+  here() {
+    return this.cpu.pc === this.word(0x20c) && this.cpu.a === 0;
+  }
+
+  /** Is it INPUT that wants the line, rather than BASIC itself? */
+  asks() {
+    return this.here() && this.word(this.cpu.x | (this.cpu.y << 8)) >> 8 === INPUT_PAGE;
+  }
+
   async load(job) {
     if (!(await this.run(10 * SECOND))) throw new Error("no prompt");
     await this.type([`PAGE=${job.page ?? 0x1900}`, "NEW"]);
@@ -206,11 +283,72 @@ class Micro {
     }
   }
 
+  /** A picture's inks, a byte each. */
+  inks() {
+    const last = this.byte(LAST_PIXEL);
+    const bits = 8 / (last + 1);
+    const wide = this.byte(MODE) < 3;
+    const row = wide ? 640 : 320;
+    const size = 32 * row;
+    const start = this.word(SCREEN_START) - (SCREEN_END - size);
+    const width = (row / 8) * (last + 1);
+    const list = new Uint8Array(width * 256);
+    for (let y = 0; y < 256; y++) {
+      for (let x = 0; x < width; x++) {
+        const at = (y >> 3) * row + Math.floor(x / (last + 1)) * 8 + (y & 7);
+        const byte = this.byte(SCREEN_END - size + ((start + at) % size)) << (x % (last + 1));
+        let ink = 0;
+        for (let b = 0; b < bits; b++) ink = (ink << 1) | ((byte >> (7 - b * (last + 1))) & 1);
+        list[y * width + x] = ink & this.byte(TOP_INK);
+      }
+    }
+    return list;
+  }
+
+  /** One drawing: its inks or their digest, and cycles. */
+  async draw(hex) {
+    const list = bytes(hex);
+    this.poke(DRAWING, list);
+    const end = DRAWING + list.length;
+    this.poke(0x80, [DRAWING & 255, DRAWING >> 8, end & 255, end >> 8]);
+    this.cpu.pc = HAND_ON;
+    this.drawn = false;
+    const start = this.now();
+    await this.run(DRAWN_BY);
+    if (!this.drawn) throw new Error(`a drawing without end: ${hex}`);
+    const cycles = this.now() - start;
+    const inks = this.inks();
+    if (this.job.inks) return [Buffer.from(inks).toString("hex"), cycles];
+    return [createHash("sha256").update(inks).digest("hex"), cycles];
+  }
+
+  async draws(job) {
+    this.job = job;
+    this.text = [];
+    await this.boot(job);
+    await this.load({ typed: "" });
+    // A look at each instruction takes most of the time; the mark is all that is wanted now.
+    this.cpu.debugInstruction.clear();
+    this.cpu.debugWrite.clear();
+    this.cpu.debugWrite.add((address) => {
+      if (address !== MARK) return false;
+      this.drawn = true;
+      return true;
+    });
+    this.cpu.p.i = true;
+    this.poke(HAND_ON, bytes(HANDING_ON));
+    const drawings = [];
+    for (const hex of job.drawings) drawings.push(await this.draw(hex));
+    return { drawings };
+  }
+
   async go(job) {
+    if (job.drawings) return this.draws(job);
     this.job = job;
     this.text = [];
     this.answers = [];
     await this.boot(job);
+    if (job.programs) return this.programs(job.programs);
     if (!job.disc) {
       await this.load(job);
       this.line("RUN");

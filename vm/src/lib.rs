@@ -7,6 +7,7 @@
 pub mod bbc;
 mod charge;
 pub mod hack;
+pub mod keys;
 pub mod mos6502;
 
 pub use charge::{Charge, Charges, Roles};

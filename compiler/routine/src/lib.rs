@@ -240,6 +240,8 @@ pub const fn joined<const N: usize>(a: &[Routine], b: &[Routine]) -> [Routine; N
 pub enum Source {
     /// Text in the target's language.
     Text(&'static str),
+    /// The same, made from what a table says.
+    Made(fn() -> String),
     /// Generated data: a table, as bytes or words.
     Table(fn() -> Vec<i32>),
 }

@@ -6,6 +6,7 @@ pub mod diffuse;
 pub mod heard;
 pub mod model;
 pub mod native;
+mod places;
 pub mod run;
 
 #[cfg(test)]

@@ -63,10 +63,22 @@ pub struct ModelRun<'p> {
 impl<'p> ModelRun<'p> {
     /// Runs the frame's statements.
     pub fn new(plan: &'p Plan) -> ModelRun<'p> {
+        ModelRun::within(plan, u64::MAX)
+    }
+
+    /// The same where no more than so many statements are worth running
+    /// ([`Run::within`]).
+    pub fn within(plan: &'p Plan, most: u64) -> ModelRun<'p> {
         ModelRun {
             plan,
-            run: Run::new(&plan.graph, &plan.tree, Model(plan)),
+            run: Run::within(&plan.graph, &plan.tree, Model(plan), most),
         }
+    }
+
+    /// Whether all statements that were allowed have run: what the last pixel came to is of
+    /// no use then.
+    pub fn spent(&self) -> bool {
+        self.run.spent()
     }
 
     /// The ink and shade of the picture's column `x`, row `y`. Where the plan

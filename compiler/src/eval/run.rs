@@ -8,6 +8,7 @@
 
 use super::arithmetic::Arithmetic;
 use super::diffuse::Pending;
+use super::places::{own_places, places};
 use crate::flow::graph::*;
 use crate::flow::ramp;
 use crate::flow::tree::*;
@@ -32,56 +33,23 @@ pub struct Run<'t, A: Arithmetic> {
     position: (i32, i32),
     row: Option<i32>,
     unset: u64,
+    /// How many statements may run yet.
+    left: u64,
     /// What later pixels will receive, and what this one has received.
     pending: Option<Pending<A::Value>>,
     received: A::Value,
 }
 
-/// What each subroutine computes itself. What it sets for those that it calls
-/// may have been set before: that is not forgotten.
-fn own_places(graph: &Graph, tree: &Tree) -> Vec<Vec<Place>> {
-    let of = |subroutine: &Subroutine| {
-        let mut own = Vec::new();
-        walk(&subroutine.body, &mut |s| match s {
-            Statement::Let(id) => own.push(Place::Node(*id)),
-            Statement::Set { place, .. } => own.push(*place),
-            _ => {}
-        });
-        let slot = |place: &Place| match place {
-            Place::Node(id) => matches!(graph.node(*id), Node::Slot(_)),
-            _ => false,
-        };
-        own.retain(|place| !slot(place));
-        own
-    };
-    tree.subroutines.iter().map(of).collect()
-}
-
-/// What a block writes, subroutines included.
-fn places(tree: &Tree, block: &[Statement]) -> Vec<Place> {
-    let mut all = Vec::new();
-    let mut called = vec![false; tree.subroutines.len()];
-    let mut todo = vec![block];
-    while let Some(block) = todo.pop() {
-        walk(block, &mut |s| match s {
-            Statement::Let(id) => all.push(Place::Node(*id)),
-            Statement::Set { place, .. } => all.push(*place),
-            Statement::Call(id) => {
-                if let Some(called) = called.get_mut(id.0 as usize)
-                    && !std::mem::replace(called, true)
-                {
-                    todo.push(tree.body(*id));
-                }
-            }
-            _ => {}
-        });
-    }
-    all
-}
-
 impl<'t, A: Arithmetic> Run<'t, A> {
     /// Runs the frame's block.
     pub fn new(graph: &'t Graph, tree: &'t Tree, arithmetic: A) -> Run<'t, A> {
+        Run::within(graph, tree, arithmetic, u64::MAX)
+    }
+
+    /// The same where no more than so many statements are worth running: once they have,
+    /// loops end as if they had no turns left, so that a pixel ends however many turns the
+    /// scene allows it. See [`Run::spent`].
+    pub fn within(graph: &'t Graph, tree: &'t Tree, arithmetic: A, most: u64) -> Run<'t, A> {
         let constants = graph
             .ids()
             .map(|id| graph.constant(id).map(|v| arithmetic.constant(v)))
@@ -110,12 +78,19 @@ impl<'t, A: Arithmetic> Run<'t, A> {
             position: (0, 0),
             row: None,
             unset: 0,
+            left: most,
             graph,
             tree,
             arithmetic,
         };
         run.block(&tree.frame);
         run
+    }
+
+    /// Whether all statements that were allowed have run: what the last pixel came to is of
+    /// no use then.
+    pub fn spent(&self) -> bool {
+        self.left == 0
     }
 
     /// How often a home was read that nothing had written on this path.
@@ -202,6 +177,8 @@ impl<'t, A: Arithmetic> Run<'t, A> {
     pub fn last(&self, id: NodeId) -> Option<A::Value> {
         match self.graph.node(id) {
             Node::Const(c) => Some(self.arithmetic.constant(c.value())),
+            // No statement writes it.
+            Node::Param(p) => Some(self.arithmetic.param(p)),
             _ => self.values.get(id.0 as usize).copied().flatten(),
         }
     }
@@ -338,6 +315,7 @@ impl<'t, A: Arithmetic> Run<'t, A> {
     fn block(&mut self, block: &'t [Statement]) {
         for statement in block {
             self.arithmetic.step(statement);
+            self.left = self.left.saturating_sub(1);
             match statement {
                 Statement::Let(id) => {
                     let value = self.compute(*id);
@@ -379,7 +357,7 @@ impl<'t, A: Arithmetic> Run<'t, A> {
             if let Some(carried) = self.carried.get(turns.of.0 as usize) {
                 self.arithmetic.turn(turns.of, taken, carried);
             }
-            if taken == max {
+            if taken == max || self.spent() {
                 return self.block(&turns.otherwise);
             }
         }

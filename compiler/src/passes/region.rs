@@ -5,7 +5,7 @@
 //! known on entering a region (that a condition holds) may imply more.
 
 use crate::flow::graph::*;
-use rustc_hash::FxHashMap;
+use rustc_hash::{FxHashMap, FxHashSet};
 
 /// Which region; an index into [`Regions::regions`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -61,9 +61,11 @@ pub fn implied(graph: &Graph, cond: NodeId, holds: bool) -> Vec<Fact> {
 fn beside(graph: &Graph, before: &[Fact], cond: NodeId, holds: bool) -> Vec<Fact> {
     let constant = |id| graph.constant(id).map(slowlight_routine::Value::truth);
     let mut facts = before.to_vec();
+    // Conditions may stand inside each other by the hundred: looked up, not searched for.
+    let mut known: FxHashSet<Fact> = before.iter().copied().collect();
     let mut todo = vec![(cond, holds)];
     while let Some((id, holds)) = todo.pop() {
-        if facts.contains(&(id, holds)) {
+        if !known.insert((id, holds)) {
             continue;
         }
         facts.push((id, holds));
@@ -81,11 +83,11 @@ fn beside(graph: &Graph, before: &[Fact], cond: NodeId, holds: bool) -> Vec<Fact
         }
         // What chooses is what it chooses.
         let chosen = facts.iter().filter_map(|&(of, is)| match graph.node(of) {
-            Node::Select { cond, yes, .. } if facts.contains(&(cond, true)) => Some((yes, is)),
-            Node::Select { cond, no, .. } if facts.contains(&(cond, false)) => Some((no, is)),
+            Node::Select { cond, yes, .. } if known.contains(&(cond, true)) => Some((yes, is)),
+            Node::Select { cond, no, .. } if known.contains(&(cond, false)) => Some((no, is)),
             _ => None,
         });
-        let chosen: Vec<Fact> = chosen.filter(|fact| !facts.contains(fact)).collect();
+        let chosen: Vec<Fact> = chosen.filter(|fact| !known.contains(fact)).collect();
         todo.extend(chosen);
     }
     facts.split_off(before.len())
@@ -211,17 +213,17 @@ impl Regions {
     /// The innermost region whose values both may use: around both, or an arm
     /// around one whose condition follows from where the other stands.
     pub fn common(&self, a: RegionId, b: RegionId) -> RegionId {
-        let mut region = self.around(a, b);
-        let (facts_a, facts_b) = (self.facts_up_to(region, a), self.facts_up_to(region, b));
+        let around = self.around(a, b);
+        let mut region = around;
         loop {
-            let step = |to: RegionId, facts: &[Fact]| {
+            let step = |to: RegionId, other: RegionId| {
                 let child = self.toward(region, to)?;
                 let RegionKind::Arm { cond, holds } = self.get(child).kind else {
                     return None;
                 };
-                facts.contains(&(cond, holds)).then_some(child)
+                (self.knows(around, other, (cond, holds))).then_some(child)
             };
-            match step(a, &facts_b).or_else(|| step(b, &facts_a)) {
+            match step(a, b).or_else(|| step(b, a)) {
                 Some(child) => region = child,
                 None => return region,
             }
@@ -239,6 +241,20 @@ impl Regions {
             }
         }
         facts
+    }
+
+    /// Whether something is among [`Regions::facts_up_to`].
+    fn knows(&self, outer: RegionId, mut inner: RegionId, fact: Fact) -> bool {
+        while inner != outer {
+            if self.facts[inner.0 as usize].contains(&fact) {
+                return true;
+            }
+            match self.get(inner).parent {
+                Some(parent) => inner = parent,
+                None => break,
+            }
+        }
+        false
     }
 
     /// The child of `outer` that holds `inner`, or `None` where `inner` is

@@ -6,6 +6,8 @@
 //! under an implied condition. Units wait for the units that they read from;
 //! selects on one condition that are ready together share one `If`.
 
+mod search;
+
 use super::demand::{place, place_in_segments, place_near};
 use super::moves::moves;
 use super::needed::{live_carried, needed};
@@ -13,27 +15,32 @@ use super::queue::{Order, Queue, Unit};
 use super::region::*;
 use crate::flow::graph::*;
 use crate::flow::tree::*;
-use std::collections::BTreeSet;
 
 /// The statements that draw a graph's picture.
 pub fn schedule(graph: &Graph) -> Tree {
-    schedule_by(graph, Order::Ready, false)
+    schedule_by(graph, Order::Ready, false).0
+}
+
+/// What [`schedule`] or [`schedule_in_segments`] gives, and how many values were met on the
+/// way: what it took.
+pub fn schedule_counted(graph: &Graph, segments: bool) -> (Tree, u64) {
+    schedule_by(graph, Order::Ready, segments)
 }
 
 /// The same for machines that go through a row in runs of columns: what depends
 /// on the column through comparisons with what the row knows is computed once a run.
 pub fn schedule_in_segments(graph: &Graph) -> Tree {
-    schedule_by(graph, Order::Ready, true)
+    schedule_by(graph, Order::Ready, true).0
 }
 
 /// The same for machines short of memory: cheap values stay where they are used,
 /// and the statements of a block are as near to their order in the graph as may be. There what makes a shape stands together, so that the same shape
 /// elsewhere has the same run of statements.
 pub fn schedule_together(graph: &Graph) -> Tree {
-    schedule_by(graph, Order::Graph, false)
+    schedule_by(graph, Order::Graph, false).0
 }
 
-fn schedule_by(graph: &Graph, order: Order, segments: bool) -> Tree {
+fn schedule_by(graph: &Graph, order: Order, segments: bool) -> (Tree, u64) {
     let regions = match order {
         Order::Ready if segments => place_in_segments(graph),
         Order::Ready => place(graph),
@@ -55,7 +62,9 @@ fn schedule_by(graph: &Graph, order: Order, segments: bool) -> Tree {
         emitted: vec![false; graph.nodes.len()],
         loops_done: vec![false; graph.loops.len()],
         seen: vec![0; graph.nodes.len()],
+        met: vec![(0, None); regions.regions.len()],
         stamp: 0,
+        visits: 0,
         regions,
     };
     let roots: Vec<NodeId> = graph.roots().collect();
@@ -74,7 +83,7 @@ fn schedule_by(graph: &Graph, order: Order, segments: bool) -> Tree {
         place: Place::Node(id),
         from: Origin::Node(value),
     }));
-    Tree {
+    let tree = Tree {
         frame,
         column,
         row: emitter.block(ROW, &roots, &[PASS]),
@@ -82,7 +91,8 @@ fn schedule_by(graph: &Graph, order: Order, segments: bool) -> Tree {
         segment: emitter.block(SEGMENT, &roots, &[PIXEL]),
         pixel: emitter.block(PIXEL, &roots, &[]),
         subroutines: Vec::new(),
-    }
+    };
+    (tree, emitter.visits)
 }
 
 /// A needed value that a tree does not compute; none in a tree from [`schedule`].
@@ -128,7 +138,11 @@ struct Emitter<'g> {
     loops_done: Vec<bool>,
     /// When each node was last met by a search.
     seen: Vec<u32>,
+    /// The same for regions, with the child of the search's region that holds each.
+    met: Vec<(u32, Option<RegionId>)>,
     stamp: u32,
+    /// How many values searches have met.
+    visits: u64,
 }
 
 impl Emitter<'_> {
@@ -177,133 +191,6 @@ impl Emitter<'_> {
                 _ => None,
             },
             Unit::Compute(_) | Unit::Loop(_) => None,
-        }
-    }
-
-    /// The conditions of the arms from a region down to one inside it.
-    fn conditions(&self, outer: RegionId, mut inner: RegionId) -> Vec<NodeId> {
-        let mut all = Vec::new();
-        while inner != outer {
-            let region = self.regions.get(inner);
-            if let RegionKind::Arm { cond, .. } = region.kind {
-                all.push(cond);
-            }
-            match region.parent {
-                Some(parent) => inner = parent,
-                None => break,
-            }
-        }
-        all
-    }
-
-    /// The units of a region that a unit of it reads from.
-    fn reads(&mut self, region: RegionId, unit: Unit) -> BTreeSet<Unit> {
-        let graph = self.graph;
-        let mut reads = match unit {
-            Unit::Compute(id) => {
-                let operands: Vec<NodeId> = graph.node(id).operands().collect();
-                self.search(region, &operands, &[])
-            }
-            Unit::Choose(id) => {
-                let Node::Select { cond, yes, no } = graph.node(id) else {
-                    return BTreeSet::new();
-                };
-                let mut reads = self.search(region, &[cond], &[]);
-                for (arm, holds) in [(yes, true), (no, false)] {
-                    let open: Vec<RegionId> = self
-                        .regions
-                        .child(region, RegionKind::Arm { cond, holds })
-                        .into_iter()
-                        .collect();
-                    reads.extend(self.search(region, &[arm], &open));
-                }
-                reads
-            }
-            Unit::Inside(id, arm) => {
-                let home = self.regions.of[id.0 as usize].unwrap_or(arm);
-                let mut asked = self.conditions(region, home);
-                // What this arm computes itself is computed with it.
-                asked.retain(|cond| {
-                    let home = self.regions.of[cond.0 as usize];
-                    home.is_none_or(|home| !self.regions.holds(arm, home))
-                });
-                let mut reads = self.search(region, &asked, &[]);
-                reads.extend(self.search(region, &[id], &[arm]));
-                reads
-            }
-            Unit::Loop(of) => {
-                let parts = [RegionKind::Body(of), RegionKind::Otherwise(of)];
-                let open: Vec<RegionId> = parts
-                    .into_iter()
-                    .filter_map(|k| self.regions.child(region, k))
-                    .collect();
-                let roots = self.loop_roots(of);
-                self.search(region, &roots, &open)
-            }
-        };
-        reads.remove(&unit);
-        reads
-    }
-
-    /// Everything that a loop refers to and that is needed.
-    fn loop_roots(&self, of: LoopId) -> Vec<NodeId> {
-        let graph = self.graph;
-        let found = &graph.loops[of.0 as usize];
-        let mut roots = vec![found.again];
-        for &index in &self.live[of.0 as usize] {
-            roots.extend([found.init[index as usize], found.next[index as usize]]);
-        }
-        for &(_, index) in &self.results[of.0 as usize] {
-            roots.extend([found.done[index], found.otherwise[index]]);
-        }
-        roots
-    }
-
-    /// The units of `region` not yet emitted that `roots` lead to, looking
-    /// through what stands in the child regions `open`.
-    fn search(&mut self, region: RegionId, roots: &[NodeId], open: &[RegionId]) -> BTreeSet<Unit> {
-        self.stamp += 1;
-        let mut found = BTreeSet::new();
-        let mut todo = roots.to_vec();
-        while let Some(id) = todo.pop() {
-            let at = id.0 as usize;
-            if self.seen[at] == self.stamp {
-                continue;
-            }
-            self.seen[at] = self.stamp;
-            let Some(home) = self.regions.of[at] else {
-                continue;
-            };
-            if home == region {
-                let unit = match self.graph.node(id) {
-                    Node::Select { .. } => Unit::Choose(id),
-                    Node::Result { of, .. } => Unit::Loop(of),
-                    _ => Unit::Compute(id),
-                };
-                if !self.is_emitted(unit) {
-                    found.insert(unit);
-                }
-            } else if let Some(child) = self.regions.toward(region, home) {
-                if open.contains(&child) {
-                    todo.extend(self.conditions(child, home));
-                    match self.graph.node(id) {
-                        Node::Result { of, .. } => todo.extend(self.loop_roots(of)),
-                        node => todo.extend(node.operands()),
-                    }
-                } else if !self.emitted[at] {
-                    found.insert(Unit::Inside(id, child));
-                }
-            }
-        }
-        found
-    }
-
-    fn is_emitted(&self, unit: Unit) -> bool {
-        match unit {
-            Unit::Compute(id) | Unit::Choose(id) | Unit::Inside(id, _) => {
-                self.emitted[id.0 as usize]
-            }
-            Unit::Loop(of) => self.loops_done[of.0 as usize],
         }
     }
 

@@ -13,9 +13,12 @@ use slowlight_routine::Op;
 pub fn squares(graph: &Graph, ranges: &Ranges) -> Option<Graph> {
     let mut done = false;
     let next = rebuild_old(graph, &mut |builder, made, id, span| {
-        let Node::Apply(Op::Less, [value, entry]) = graph.node(id) else {
+        let Node::Apply(Op::Less, sides) = graph.node(id) else {
             return None;
         };
+        let lookup = |k: &usize| matches!(graph.node(sides[*k]), Node::Lookup { .. });
+        let at = [1, 0].into_iter().find(lookup)?;
+        let (value, entry) = (sides[1 - at], sides[at]);
         let Node::Lookup { table, column, row } = graph.node(entry) else {
             return None;
         };
@@ -30,7 +33,9 @@ pub fn squares(graph: &Graph, ranges: &Ranges) -> Option<Graph> {
         let square = builder.apply(Op::Mul, &[value, value], span);
         let entry = builder.lookup(squared, column, row, span);
         done = true;
-        Some(builder.apply(Op::Less, &[square, entry], span))
+        let mut sides = [square; 2];
+        sides[at] = entry;
+        Some(builder.apply(Op::Less, &sides, span))
     });
     done.then_some(next)
 }

@@ -7,9 +7,31 @@ use super::workshop::Workshop;
 use super::{Goal, Plan};
 use crate::flow::graph::*;
 use crate::flow::tree::*;
+use crate::fuel::Fuel;
 use std::sync::Arc;
 
 impl Plan {
+    /// What searching for it took, in units of [`crate::fuel::Fuel`].
+    pub fn work(&self) -> u64 {
+        self.work
+    }
+
+    /// Whether the search was ended because it had done all the work that it may: there may
+    /// be a quicker plan.
+    pub fn was_cut(&self) -> bool {
+        self.cut
+    }
+
+    /// Notes that a search that led to it was ended before its time.
+    pub fn note_cut(&mut self) {
+        self.cut = true;
+    }
+
+    /// From now on plans that are made from this one have so many units of fuel each.
+    pub fn allow(&mut self, units: u64) {
+        self.allowance = units;
+    }
+
     /// A plan of the same scene that computes the shade at every pixel, where
     /// this one does not: the dither may need less than the shade, and a
     /// picture's error is measured on shades. None where this plan will do.
@@ -21,7 +43,7 @@ impl Plan {
         if !gone && (self.place(shade).is_none() || tree.outer().into_iter().any(always)) {
             return None;
         }
-        let mut graph = self.origin.0.origin.clone();
+        let mut graph = Graph::clone(&self.origin.0.origin);
         graph.reports.extend(graph.shade);
         let shop = Arc::new(Workshop::new(graph, self.runtime));
         let mut plan = self.again(&shop, self.origin.1)?;
@@ -106,7 +128,8 @@ impl Plan {
             rows: Some(self.rows),
             plot: self.plot,
         };
-        let mut plan = planned(shop, self.target, &goal, rewriting).ok()?;
+        let fuel = Fuel::new(self.allowance);
+        let mut plan = planned(shop, self.target, &goal, (rewriting, fuel)).ok()?;
         plan.params = self.params.clone();
         plan.hold();
         plan.items = self.items.clone();

@@ -78,6 +78,9 @@ pub fn cheaper(
     shop: &Workshop,
     thrift: Thrift,
 ) -> Vec<Settled> {
+    if shop.fuel.spent() {
+        return vec![plain];
+    }
     let mut site = Site {
         shop,
         runtime: shop.runtime,
@@ -125,6 +128,9 @@ impl Rewrite {
 /// the memory.
 pub fn with_recipes_followed(plan: Settled, shop: &Workshop, thrift: Thrift) -> Settled {
     let price = Price::new(&plan, shop.runtime, thrift);
+    if shop.fuel.spent() && !thrift.follows() {
+        return plan;
+    }
     let next = followed(&plan.graph, shop.runtime).map(|graph| shop.settle(&graph));
     match next {
         Some(next) if thrift.follows() || price.of(&next) < price.of(&plan) => next,
@@ -135,7 +141,7 @@ pub fn with_recipes_followed(plan: Settled, shop: &Workshop, thrift: Thrift) -> 
 /// With inks chosen by the one bool that runs of columns do not know, if that is worth
 /// the memory.
 pub fn with_inks_split(plan: Settled, shop: &Workshop, thrift: Thrift) -> Settled {
-    let runs = !plan.tree.segment.is_empty();
+    let runs = !plan.tree.segment.is_empty() && !shop.fuel.spent();
     let next = runs.then(|| split(&plan.graph)).flatten();
     let Some(next) = next.map(|graph| shop.settle(&graph)) else {
         return plan;
@@ -157,6 +163,9 @@ pub fn apart_at_last(plan: Settled, shop: &Workshop, thrift: Thrift) -> Settled 
         None => plan,
     };
     for _ in 0..LATER {
+        if shop.fuel.spent() {
+            break;
+        }
         let all = later(&best.graph, shop.runtime.segments).into_iter();
         let next = price.cheapest(all.map(|graph| shop.scheduled(graph)));
         match next {
@@ -165,6 +174,9 @@ pub fn apart_at_last(plan: Settled, shop: &Workshop, thrift: Thrift) -> Settled 
         }
     }
     for _ in 0..APART {
+        if shop.fuel.spent() {
+            break;
+        }
         let next = apart(&best.graph, &best.tree, &price.worth(&best));
         let Some(next) = next else {
             break;
@@ -199,6 +211,9 @@ impl Site<'_> {
     fn cheapest(&self, plain: &Settled, early: Option<&Graph>) -> Settled {
         let mut best = self.rewritten(plain).unwrap_or(plain.clone());
         for k in 0..plain.graph.loops.len() {
+            if self.shop.fuel.spent() {
+                break;
+            }
             let of = LoopId(k as u32);
             let Some(peeled) = peel(&plain.graph, of, BODY) else {
                 continue;
@@ -232,7 +247,8 @@ impl Site<'_> {
         let limit = settled(None).map_or(f64::INFINITY, |plan| self.cost(&plan));
         let mut best = (cost(&plan), plan);
         for beside in 0..BESIDE {
-            let Some(tried) = settled(Some(beside)) else {
+            let tried = settled(Some(beside)).filter(|_| !self.shop.fuel.spent());
+            let Some(tried) = tried else {
                 break;
             };
             if self.cost(&tried) >= limit {
@@ -265,6 +281,9 @@ impl Site<'_> {
     /// A plan with thresholds, directions at their own length and algebra, as far
     /// as they make it cheaper; nothing where they do not.
     fn rewritten(&self, plain: &Settled) -> Option<Settled> {
+        if self.shop.fuel.spent() {
+            return None;
+        }
         let compared = threshold(&plain.graph, &plain.ranges, self.runtime)
             .map(|next| self.shop.settle(&next))
             .filter(|next| self.cost(next) < self.cost(plain));
@@ -316,6 +335,9 @@ impl Site<'_> {
             false => Vec::new(),
         };
         all.into_iter().take(LENGTHS).filter_map(|length| {
+            if self.shop.fuel.spent() {
+                return None;
+            }
             let (held, longer) = homogeneous(&plain.graph, &plain.ranges, length)?;
             self.other.fetch_or(longer.is_some(), Ordering::Relaxed);
             let held = longer.filter(|_| self.products).unwrap_or(held);
@@ -325,7 +347,7 @@ impl Site<'_> {
 
     /// The plan without comparisons that the length of a vector decides.
     fn around(&self, plan: &Settled) -> Option<Settled> {
-        let few = plan.graph.nodes.len() <= NODES;
+        let few = plan.graph.nodes.len() <= NODES && !self.shop.fuel.spent();
         let next = few.then(|| around(&plan.graph, &plan.ranges, self.runtime))??;
         Some(self.shop.settle(&next))
     }

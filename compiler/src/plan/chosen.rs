@@ -36,6 +36,9 @@ pub fn in_arms(plan: Settled, shop: &Workshop, thrift: Thrift) -> Settled {
     let price = Price::new(&plan, shop.runtime, thrift);
     let mut best = plan;
     for k in 0..conditions(&best.graph).len() {
+        if !shop.may_look(&best.graph) {
+            break;
+        }
         let cond = conditions(&best.graph).get(k).copied();
         let next = cond.and_then(|cond| arms(&best.graph, &best.ranges, cond));
         if let Some(next) = next.map(|graph| shop.settle(&graph))
@@ -57,6 +60,9 @@ pub fn asked_where_it_matters(plan: Settled, shop: &Workshop, thrift: Thrift) ->
     let price = Price::new(&plan, shop.runtime, thrift);
     let mut best = plan;
     for k in 0..either::conditions(&best.graph).len() {
+        if !shop.may_look(&best.graph) {
+            break;
+        }
         let cond = either::conditions(&best.graph).get(k).copied();
         let next = cond.and_then(|cond| either(&best.graph, cond));
         if let Some(next) = next.map(|graph| shop.settle(&fold(&graph)))
@@ -80,6 +86,9 @@ fn in_zones(plan: Settled, shop: &Workshop, price: &Price) -> Settled {
     };
     let mut best = plan;
     for k in 0..CHOICES {
+        if !shop.may_look(&best.graph) {
+            break;
+        }
         let known = best.clone();
         let Some(choice) = choices(&known.graph, &known.ranges).into_iter().nth(k) else {
             break;
@@ -87,7 +96,9 @@ fn in_zones(plan: Settled, shop: &Workshop, price: &Price) -> Settled {
         let mut found = cost(&choice, choice.all());
         loop {
             let tries = choice.others(&found.1).into_iter();
-            let tries = tries.map(|way| cost(&choice, way));
+            let tries = tries
+                .take_while(|_| !shop.fuel.spent())
+                .map(|way| cost(&choice, way));
             match tries.min_by(|a, b| a.0.total_cmp(&b.0)) {
                 Some(next) if next.0 < found.0 => found = next,
                 _ => break,
@@ -102,7 +113,7 @@ fn in_zones(plan: Settled, shop: &Workshop, price: &Price) -> Settled {
 
 /// With divisors compared instead of quotients, where those are dear.
 pub fn with_limits(plan: Settled, shop: &Workshop, thrift: Thrift) -> Settled {
-    let next = (shop.runtime.reciprocals)
+    let next = (shop.runtime.reciprocals && !shop.fuel.spent())
         .then(|| limits(&plan.graph, &plan.ranges))
         .flatten();
     cheaper_of(plan, next, shop, thrift)
@@ -110,7 +121,7 @@ pub fn with_limits(plan: Settled, shop: &Workshop, thrift: Thrift) -> Settled {
 
 /// With products instead of quotients, where those are dear.
 pub fn with_reciprocals(plan: Settled, shop: &Workshop, thrift: Thrift) -> Settled {
-    let next = (shop.runtime.reciprocals)
+    let next = (shop.runtime.reciprocals && !shop.fuel.spent())
         .then(|| reciprocals(&plan.graph, &plan.ranges, shop.runtime))
         .flatten();
     cheaper_of(plan, next, shop, thrift)
@@ -136,6 +147,9 @@ pub fn chosen(plan: &Settled, shop: &Workshop, price: &Price) -> Option<Settled>
         return best;
     }
     for _ in 0..FACTORS {
+        if shop.fuel.spent() {
+            break;
+        }
         let now = best.as_ref().unwrap_or(plan);
         let ways = factors(&now.graph, &now.ranges, shop.runtime);
         let next = price.cheapest(ways.map(|graph| shop.settle(&graph)));

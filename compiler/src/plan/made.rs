@@ -11,10 +11,11 @@ use super::sums::with_sums;
 use super::tabulated::in_columns;
 use super::thrift::Thrift;
 use super::workshop::Workshop;
-use super::{Copies, Goal, Plan, choose, fold_uses, names, points, recipes};
+use super::{Copies, Goal, Plan, SEARCH, choose, fold_uses, names, points, recipes};
 use crate::flow::graph::*;
 use crate::flow::tree::*;
 use crate::flow::verify::verify;
+use crate::fuel::Fuel;
 use crate::passes::along::along;
 use crate::passes::early::{everywhere, without};
 use crate::passes::fold::fold;
@@ -36,11 +37,21 @@ use std::sync::Arc;
 
 /// Plans a graph that `sema` lowered for this target's inks and offset.
 pub fn plan(graph: &Graph, target: &'static Target, goal: &Goal) -> Result<Plan, Vec<Diagnostic>> {
+    plan_within(graph, target, goal, SEARCH)
+}
+
+/// The same where the search may do so much work, in units of [`Fuel`].
+pub fn plan_within(
+    graph: &Graph,
+    target: &'static Target,
+    goal: &Goal,
+    fuel: u64,
+) -> Result<Plan, Vec<Diagnostic>> {
     let all = Rewriting::Fast {
         thrift: Thrift::default(),
         steps: Steps::All,
     };
-    planned(&begun(graph, target), target, goal, all)
+    planned(&begun(graph, target), target, goal, (all, Fuel::new(fuel)))
 }
 
 /// The same with every shade in full, even where the ink is known before: what that is less
@@ -56,7 +67,7 @@ pub fn plan_with_every_shade(
         thrift: Thrift::default(),
         steps: Steps::All,
     };
-    planned(&Arc::new(shop), target, goal, all)
+    planned(&Arc::new(shop), target, goal, (all, Fuel::new(SEARCH)))
 }
 
 /// The same without the passes that rewrite formulas ([`crate::passes::stable`]
@@ -66,7 +77,8 @@ pub fn plan_as_written(
     target: &'static Target,
     goal: &Goal,
 ) -> Result<Plan, Vec<Diagnostic>> {
-    planned(&begun(graph, target), target, goal, Rewriting::None)
+    let none = (Rewriting::None, Fuel::new(SEARCH));
+    planned(&begun(graph, target), target, goal, none)
 }
 
 fn begun(graph: &Graph, target: &'static Target) -> Arc<Workshop> {
@@ -99,27 +111,39 @@ pub(super) fn planned(
     shop: &Arc<Workshop>,
     target: &'static Target,
     goal: &Goal,
-    rewriting: Rewriting,
+    (rewriting, fuel): (Rewriting, Fuel),
 ) -> Result<Plan, Vec<Diagnostic>> {
-    let plan = planned_in(shop, target, goal, rewriting, true)?;
-    if !steps_ahead(target.runtime) || passes(&plan.graph) == 1 {
-        return Ok(narrowed(plan));
-    }
-    let other = planned_in(shop, target, goal, rewriting, false)?;
-    match other.cycles_a_pixel() < plan.cycles_a_pixel() + APART {
-        true => Ok(narrowed(other)),
-        false => Ok(narrowed(plan)),
-    }
+    let steps = steps_ahead(target.runtime);
+    let first = shop.with(fuel.share());
+    let plan = planned_in((shop, &first), target, goal, rewriting, true)?;
+    fuel.settle(&first.fuel);
+    let mut plan = match steps && passes(&plan.graph) > 1 {
+        true => {
+            // What is left, and some in any case: the other way may be the better one.
+            let second = shop.with(Fuel::new(fuel.left().max(fuel.given() / 4)));
+            let other = planned_in((shop, &second), target, goal, rewriting, false)?;
+            fuel.settle(&second.fuel);
+            match other.cycles_a_pixel() < plan.cycles_a_pixel() + APART {
+                true => other,
+                false => plan,
+            }
+        }
+        false => plan,
+    };
+    (plan.work, plan.cut) = (fuel.burnt(), fuel.was_cut());
+    plan.allowance = fuel.given();
+    Ok(narrowed(plan))
 }
 
+/// A plan by a workshop that is kept for other plans, with the fuel for this one.
 fn planned_in(
-    shop: &Arc<Workshop>,
+    (kept, shop): (&Arc<Workshop>, &Workshop),
     target: &'static Target,
     goal: &Goal,
     rewriting: Rewriting,
     apart: bool,
 ) -> Result<Plan, Vec<Diagnostic>> {
-    let (origin, runtime) = (&shop.origin, target.runtime);
+    let (origin, runtime) = (&*shop.origin, target.runtime);
     if let Err(broken) = verify(origin) {
         let message =
             format!("the graph is broken: {broken}; a fault of the compiler, please report it");
@@ -192,13 +216,13 @@ fn planned_in(
     {
         let steps = Steps::None;
         let without = Rewriting::Fast { thrift, steps };
-        return planned_in(shop, target, goal, without, apart);
+        return planned_in((kept, shop), target, goal, without, apart);
     }
     if let Some(id) = missing(graph, tree) {
         let message = format!("the schedule lost {id}: a fault of the compiler, please report it");
         return Err(vec![Diagnostic::error(graph.span(id), message)]);
     }
-    let origin = (shop.clone(), rewriting);
+    let origin = (kept.clone(), rewriting);
     let (graph, tree, ranges) = (graph.clone(), tree.clone(), ranges.clone());
     assemble(graph, tree, ranges, params, target, goal, origin)
 }
@@ -207,7 +231,7 @@ fn planned_in(
 fn steady(shop: &Workshop, origin: &Graph, rounds: u32) -> Settled {
     let mut now = shop.scheduled(fold(origin));
     for _ in 0..rounds {
-        let Some(next) = stable(&now.graph, &now.ranges, &shop.slack) else {
+        let Some(next) = stable(&now.graph, &now.ranges, shop.slack()) else {
             break;
         };
         now = shop.scheduled(fold(&next));
@@ -286,6 +310,9 @@ pub(super) fn assemble(
         homes,
         graph,
         tree,
+        work: 0,
+        cut: false,
+        allowance: SEARCH,
         origin,
     })
 }

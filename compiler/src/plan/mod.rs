@@ -84,7 +84,7 @@ mod workshop_tests;
 pub use beside::Costs;
 pub use interference::quick_homes;
 pub use lifetimes::shared_homes;
-pub use made::{plan, plan_as_written, plan_with_every_shade};
+pub use made::{plan, plan_as_written, plan_with_every_shade, plan_within};
 pub use params::ParamPlan;
 pub use spread::ErrorRows;
 
@@ -100,6 +100,10 @@ use slowlight_routine::{Bits, Format, Routine, Runtime, Type, Value};
 use std::collections::HashMap;
 use std::sync::Arc;
 use workshop::Workshop;
+
+/// How much work a search for a plan may do, in units of [`crate::fuel::Fuel`]: some seconds'
+/// worth, a few times what the dearest of the examples takes.
+pub const SEARCH: u64 = 400_000_000;
 
 /// In how many steps plans may spend less and less memory on speed.
 pub const THRIFTS: usize = thrift::Thrift::COUNT;
@@ -194,6 +198,12 @@ pub struct Plan {
     /// The runs of columns whose pixels need no computing, if there may be such.
     pub still: Option<Still>,
     homes: HashMap<Place, String>,
+    /// What making it took, in units of [`Fuel`].
+    work: u64,
+    /// Whether a search for something cheaper was ended for want of fuel.
+    cut: bool,
+    /// How much fuel there is for each plan that is made from this one.
+    allowance: u64,
     /// What was planned and made on the way, and how its formulas could be rewritten.
     origin: (Arc<Workshop>, Rewriting),
 }

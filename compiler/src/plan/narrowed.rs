@@ -98,7 +98,7 @@ fn looked_at(plan: &Plan) -> (Vec<Pixel>, Vec<f64>) {
         }
         0.0
     });
-    let mut run = Run::new(graph, &plan.tree, &count);
+    let mut run = Run::within(graph, &plan.tree, &count, 2 * PATIENCE);
     let top = graph.image.palette.len().saturating_sub(1) as i32;
     let (width, height) = (graph.image.width as i32, graph.image.height as i32);
     let mut pixels = Vec::new();
@@ -106,6 +106,9 @@ fn looked_at(plan: &Plan) -> (Vec<Pixel>, Vec<f64>) {
     for y in rows.take_while(|_| count.ran.get() < PATIENCE) {
         for x in 0..width {
             let ink = run.pixel(x, y).int().clamp(0, top);
+            if run.spent() {
+                break;
+            }
             pixels.push((x, y, ink as u8));
         }
     }
@@ -205,9 +208,10 @@ impl Search {
 
     /// Those of some pixels whose inks are wrong.
     fn wrong(&self, pixels: &[Pixel]) -> Vec<Pixel> {
-        let mut run = ModelRun::new(&self.plan);
+        // In fewer bits a loop may go on for longer: what does not end in time is wrong.
+        let mut run = ModelRun::within(&self.plan, 4 * PATIENCE);
         let mut all = pixels.to_vec();
-        all.retain(|(x, y, ink)| run.pixel(*x, *y).ink != *ink);
+        all.retain(|(x, y, ink)| run.pixel(*x, *y).ink != *ink || run.spent());
         all
     }
 

@@ -107,6 +107,7 @@ impl Plan {
         };
         let (params, origin) = (self.params.clone(), self.origin.clone());
         let mut plan = assemble(graph, tree, found, params, self.target, &goal, origin)?;
+        (plan.work, plan.cut, plan.allowance) = (self.work, self.cut, self.allowance);
         plan.items = self.items.clone();
         (plan.listing, plan.page) = (self.listing, self.page);
         plan.undocumented = self.undocumented;

@@ -61,7 +61,7 @@ impl super::Plan {
             return BTreeMap::new();
         }
         let meter = Meter::new(&self.graph, |_: &Statement| 0.0);
-        let mut run = Run::new(&self.graph, &self.tree, &meter);
+        let mut run = Run::within(&self.graph, &self.tree, &meter, PATIENCE + 1);
         for (x, y) in spread(&self.graph.image) {
             run.pixel(x, y);
             for (cond, (_, taken)) in &mut asked {
@@ -223,7 +223,7 @@ impl Price {
         let image = &plan.graph.image;
         let (width, passes) = (image.width, passes(&plan.graph));
         let step = passes * width.div_ceil(passes * COLUMNS_LOOKED_AT).max(1);
-        let mut run = Run::new(&plan.graph, &plan.tree, &meter);
+        let mut run = Run::within(&plan.graph, &plan.tree, &meter, PATIENCE + 1);
         let mut sum = 0.0;
         for row in 0..ROWS {
             let y = ((2 * row + 1) * image.height / (2 * ROWS)) as i32;
@@ -267,7 +267,7 @@ impl Price {
         meter: &Meter<'_, impl Fn(&Statement) -> f64>,
         still: Option<(&Still, f64)>,
     ) -> Option<f64> {
-        let mut run = Run::new(&plan.graph, &plan.tree, meter);
+        let mut run = Run::within(&plan.graph, &plan.tree, meter, PATIENCE + 1);
         let mut row = None;
         let mut sum = 0.0;
         for &(x, y) in pixels {

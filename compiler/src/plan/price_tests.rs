@@ -4,6 +4,7 @@
 use super::price::Price;
 use super::thrift::Thrift;
 use super::workshop::Workshop;
+use crate::eval::native::Native;
 use crate::flow::graph::*;
 use crate::scene::check;
 use crate::sema::Options;
@@ -63,4 +64,27 @@ fn nor_those_of_mirrors() {
         }
         assert_eq!(price(&graph, bbc::MICRO.runtime), first);
     }
+}
+
+/// Two loops of 65,535 turns, one in the other: a pixel takes four thousand million.
+#[test]
+fn a_pixel_that_hardly_ends_has_a_price() {
+    let endless = graph(
+        "image 32 x 32 inks black, white;
+        fn inner(k: int) -> int =
+          loop (j = 0) max 65535 { if j < k - 100000 then j else next(j + 1) } else 0;
+        draw (x, y) = ink(loop (i = 0) max 65535 {
+          if i < x - 1000 then i else next(i + 1 + inner(x * y))
+        } else y);",
+    );
+    for runtime in [
+        bbc::MICRO.runtime,
+        jack::JACK.runtime,
+        mos6502::PLAIN.runtime,
+    ] {
+        price(&endless, runtime);
+    }
+    let mut native = Native::within(&endless, 10_000);
+    native.pixel(3, 4);
+    assert!(native.spent() && native.operations() < 20_000);
 }

@@ -90,6 +90,9 @@ impl Display for Plan {
             self.rows.1,
             self.runtime.format
         )?;
+        if self.was_cut() {
+            writeln!(f, "cut short: the search did all the work that it may")?;
+        }
         for p in &self.params {
             write!(f, "param {} = {}", p.label, p.text)?;
             if let Some(d) = p.digits.filter(|d| *d > 0) {

@@ -2,10 +2,21 @@
 
 use crate::flow::graph::*;
 use crate::flow::tree::Tree;
-use crate::passes::schedule::{schedule, schedule_in_segments};
-use crate::range::{Ranges, Slack, ranges};
+use crate::passes::schedule::schedule_counted;
+use crate::range::{Ranges, Slack, ranges_counted};
 use std::ops::Deref;
+use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Arc, OnceLock};
+
+/// Units of work for each node of a graph, for each that the schedule meets and each statement
+/// that the ranges walk; and to run the pixels that are priced, a node and at most.
+const NODE: u64 = 40;
+/// Of so many nodes more each takes a unit more: conditions stand deeper in each other.
+const MANY: u64 = 4;
+const VISIT: u64 = 1;
+const WALKED: u64 = 3;
+const LOOKED_AT: u64 = 40;
+const PRICED: u64 = 20_000;
 
 /// A graph, when each value of it is computed, and what each stays within. Copies
 /// share what is known of it.
@@ -17,6 +28,10 @@ pub struct Known {
     pub graph: Graph,
     pub tree: Tree,
     pub ranges: Ranges,
+    /// What it took to know this, and to price it, in units of [`crate::fuel::Fuel`].
+    pub(super) work: u64,
+    /// Its number: of no other.
+    serial: u64,
     /// Cycles and memory, pixels' and around them, as [`super::price`] has them: at
     /// pixels, and where there are none to be looked at; the same where steps are foreseen.
     pub(super) costs: [OnceLock<(f64, [f64; 2])>; 4],
@@ -31,20 +46,24 @@ impl Deref for Settled {
 }
 
 impl Settled {
-    /// Something that is the same as long as the graph is there, and of no other.
-    pub(super) fn address(&self) -> usize {
-        Arc::as_ptr(&self.0) as usize
+    /// Something that copies of it have, and no other.
+    pub(super) fn serial(&self) -> u64 {
+        self.0.serial
     }
 }
 
 /// A graph as it is, scheduled, with its ranges.
 pub fn scheduled(graph: Graph, slack: &Slack) -> Settled {
-    let tree = match slack.segments() {
-        true => schedule_in_segments(&graph),
-        false => schedule(&graph),
-    };
-    let ranges = ranges(&graph, &tree, slack);
+    static SERIAL: AtomicU64 = AtomicU64::new(0);
+    let (tree, visits) = schedule_counted(&graph, slack.segments());
+    let (ranges, walked) = ranges_counted(&graph, &tree, slack);
+    let nodes = graph.nodes.len() as u64;
     Settled(Arc::new(Known {
+        work: (NODE + nodes / MANY) * nodes
+            + VISIT * visits
+            + WALKED * walked
+            + PRICED.min(LOOKED_AT * nodes),
+        serial: SERIAL.fetch_add(1, Ordering::Relaxed),
         graph,
         tree,
         ranges,

@@ -92,6 +92,9 @@ impl Site<'_> {
         let mut least = cost(&plain);
         let mut best: Option<Settled> = None;
         for &site in &found {
+            if self.shop.fuel.spent() {
+                break;
+            }
             taken.push(site);
             match rewritten(&taken) {
                 Some((cost, next)) if cost < GAIN * least => (least, best) = (cost, Some(next)),
@@ -103,7 +106,7 @@ impl Site<'_> {
         // One that paid by itself may not beside those that came after it.
         for site in found {
             let rest: Vec<NodeId> = taken.iter().copied().filter(|id| *id != site).collect();
-            if rest.is_empty() || rest.len() == taken.len() {
+            if rest.is_empty() || rest.len() == taken.len() || self.shop.fuel.spent() {
                 continue;
             }
             if let Some((cost, next)) = rewritten(&rest)
@@ -117,6 +120,7 @@ impl Site<'_> {
             let others = taken.iter().copied().filter(|id| *id != of);
             let other: Vec<NodeId> = others.chain([site]).collect();
             if other.len() == taken.len()
+                && !self.shop.fuel.spent()
                 && let Some((cost, next)) = rewritten(&other)
                 && cost < least
             {

@@ -24,6 +24,9 @@ const ROUNDS: u32 = 3;
 pub fn with_sums(plan: Settled, shop: &Workshop, thrift: Thrift) -> Settled {
     let mut best = plan;
     for _ in 0..ROUNDS {
+        if shop.fuel.spent() {
+            break;
+        }
         let Some(next) = cheaper(&best, shop, thrift) else {
             break;
         };
@@ -36,7 +39,10 @@ pub fn with_sums(plan: Settled, shop: &Workshop, thrift: Thrift) -> Settled {
 fn cheaper(plan: &Settled, shop: &Workshop, thrift: Thrift) -> Option<Settled> {
     let found = sites(&plan.graph, &plan.ranges, shop.runtime);
     let price = Price::new(plan, shop.runtime, thrift);
-    let made = |sites: &[Site]| regrouped(&plan.graph, &plan.ranges, shop.runtime, sites);
+    let made = |sites: &[Site]| {
+        shop.may_look(&plan.graph);
+        regrouped(&plan.graph, &plan.ranges, shop.runtime, sites)
+    };
     let rewritten = |sites: &[Site]| {
         let next = shop.settle(&made(sites)?.0);
         Some((price.of(&next), next))
@@ -70,6 +76,9 @@ fn cheaper(plan: &Settled, shop: &Workshop, thrift: Thrift) -> Option<Settled> {
         .chain(&gathered)
         .take(tries)
     {
+        if shop.fuel.spent() {
+            break;
+        }
         let (has, mut sites) = (best.sites.contains(site), best.sites.clone());
         match has {
             true => sites.retain(|other| other != site),

@@ -39,6 +39,9 @@ pub fn in_columns(
         if found.made_in_loops.contains(id) {
             continue;
         }
+        if shop.fuel.spent() {
+            break;
+        }
         chosen.remove(id);
         let next = with(&chosen);
         match next.0 < best.0 {

@@ -3,11 +3,12 @@
 //! A program that does not fit is planned again with less memory spent. What a
 //! rewrite makes of a graph does not depend on that, nor do its schedule, its
 //! ranges and its cycles: only what is kept of it does. So a plan that is made
-//! again finds most of what it tries here.
+//! again finds most of what it tries here, as far as there is room to keep it.
 
 use super::cheaper::Rewrite;
 use super::settled::{Settled, scheduled};
 use crate::flow::graph::*;
+use crate::fuel::Fuel;
 use crate::passes::algebra::Proofs;
 use crate::passes::fold::fold;
 use crate::passes::narrow::narrow;
@@ -17,77 +18,141 @@ use slowlight_routine::Runtime;
 use std::fmt;
 use std::hash::{Hash, Hasher};
 use std::sync::atomic::{AtomicBool, Ordering};
-use std::sync::{Mutex, MutexGuard, PoisonError};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 /// A graph with a rewrite, and where that was: nothing where there is none to do.
 pub type Rewritten = Option<(Settled, Vec<NodeId>)>;
 
-/// Graphs made of one scene's for one machine.
+/// How many nodes all graphs together may have that are kept: some 400 bytes each. Beyond
+/// that they are dropped, and made anew where they are asked for again.
+const KEPT: usize = 2_000_000;
+
+/// Units of work for each node of a graph that is rewritten.
+const REWRITTEN: u64 = 100;
+
+/// The same for each node of one in which something is looked for.
+const LOOKED_AT: u64 = 10;
+
+/// Graphs made of one scene's for one machine, and how much more work may be done for a plan.
 pub struct Workshop {
     /// What is planned.
-    pub origin: Graph,
+    pub origin: Arc<Graph>,
     pub runtime: &'static Runtime,
-    pub slack: Slack,
     /// What was proved about its values.
-    pub proofs: Proofs,
+    pub proofs: Arc<Proofs>,
     /// Whether shades are computed in full even where the ink is known without.
     pub every_shade: bool,
-    /// Those that were scheduled, by a hash of their nodes.
-    scheduled: Mutex<FxHashMap<u64, Vec<Settled>>>,
-    /// What was rewritten is known by its address, since it is kept above.
-    rewritten: Mutex<FxHashMap<Asked, Rewritten>>,
+    /// What searches for a plan may do yet.
+    pub fuel: Fuel,
+    slack: Arc<Slack>,
+    memo: Arc<Memo>,
+}
+
+/// What was made so far, for all plans of the scene.
+#[derive(Default)]
+struct Memo {
+    kept: Mutex<Kept>,
     /// Whether a plan has a second condition of a shortcut.
     beside: AtomicBool,
 }
 
-/// What was rewritten, how, and the sites left out.
-type Asked = (usize, Rewrite, Vec<NodeId>);
+#[derive(Default)]
+struct Kept {
+    /// Those that were scheduled, by a hash of their nodes.
+    scheduled: FxHashMap<u64, Vec<Settled>>,
+    /// With the units of work that it took.
+    rewritten: FxHashMap<Asked, (Rewritten, u64)>,
+    /// How many nodes they have, all together.
+    nodes: usize,
+}
+
+impl Kept {
+    /// Makes room for so many nodes.
+    fn room(&mut self, nodes: usize) {
+        if self.nodes + nodes > KEPT {
+            *self = Kept::default();
+        }
+        self.nodes += nodes;
+    }
+}
+
+/// What was rewritten, by its number, how, and the sites left out.
+type Asked = (u64, Rewrite, Vec<NodeId>);
 
 impl Workshop {
-    /// Nothing made yet.
+    /// Nothing made yet, and no end of fuel.
     pub fn new(origin: Graph, runtime: &'static Runtime) -> Workshop {
         Workshop {
-            origin,
+            origin: Arc::new(origin),
             runtime,
-            proofs: Proofs::default(),
+            proofs: Arc::default(),
             every_shade: false,
-            slack: Slack::of(runtime),
-            scheduled: Mutex::default(),
-            rewritten: Mutex::default(),
-            beside: AtomicBool::new(false),
+            fuel: Fuel::new(u64::MAX),
+            slack: Arc::new(Slack::of(runtime)),
+            memo: Arc::default(),
         }
+    }
+
+    /// The same workshop with other fuel.
+    pub fn with(&self, fuel: Fuel) -> Workshop {
+        Workshop {
+            origin: self.origin.clone(),
+            runtime: self.runtime,
+            proofs: self.proofs.clone(),
+            every_shade: self.every_shade,
+            fuel,
+            slack: self.slack.clone(),
+            memo: self.memo.clone(),
+        }
+    }
+
+    /// How far the routines' results may be off.
+    pub fn slack(&self) -> &Slack {
+        &self.slack
     }
 
     /// Whether a second condition of a shortcut was taken: plans without are others then.
     pub fn has_beside(&self) -> bool {
-        self.beside.load(Ordering::Relaxed)
+        self.memo.beside.load(Ordering::Relaxed)
     }
 
     /// Notes that one was.
     pub fn note_beside(&self) {
-        self.beside.store(true, Ordering::Relaxed);
+        self.memo.beside.store(true, Ordering::Relaxed);
+    }
+
+    /// Charges a look at all of a graph; whether there is fuel for one.
+    pub fn may_look(&self, graph: &Graph) -> bool {
+        self.fuel.burn(LOOKED_AT * graph.nodes.len() as u64);
+        !self.fuel.spent()
     }
 
     /// A graph as it is, scheduled, with its ranges; the same graph is scheduled once.
     pub fn scheduled(&self, graph: Graph) -> Settled {
+        let found = self.found_or_scheduled(graph);
+        // As if it were made anew: what others have made hangs on the order of threads.
+        self.fuel.burn(found.work);
+        found
+    }
+
+    fn found_or_scheduled(&self, graph: Graph) -> Settled {
         let mut hasher = FxHasher::default();
         graph.nodes.hash(&mut hasher);
         let hash = hasher.finish();
         let same = |all: &Vec<Settled>| all.iter().find(|known| known.graph == graph).cloned();
-        if let Some(known) = held(&self.scheduled).get(&hash).and_then(same) {
+        if let Some(known) = held(&self.memo.kept).scheduled.get(&hash).and_then(same) {
             return known;
         }
         let made = scheduled(graph, &self.slack);
-        let mut all = held(&self.scheduled);
-        let alike = all.entry(hash).or_default();
+        let mut kept = held(&self.memo.kept);
         // Made by somebody else meanwhile: one of the two is that graph from now on.
-        match alike.iter().find(|known| known.graph == made.graph) {
-            Some(known) => known.clone(),
-            None => {
-                alike.push(made.clone());
-                made
-            }
+        let alike = kept.scheduled.get(&hash).into_iter().flatten();
+        if let Some(known) = alike.into_iter().find(|known| known.graph == made.graph) {
+            return known.clone();
         }
+        kept.room(made.graph.nodes.len());
+        kept.scheduled.entry(hash).or_default().push(made.clone());
+        made
     }
 
     /// What is equal by algebra or decided by the ranges is folded. What the
@@ -114,12 +179,22 @@ impl Workshop {
     ) -> Rewritten {
         let mut without = without.to_vec();
         without.sort_unstable();
-        let key = (plain.address(), rewrite, without);
-        if let Some(known) = held(&self.rewritten).get(&key) {
-            return known.clone();
+        let asked = without.len();
+        let key = (plain.serial(), rewrite, without);
+        let known = held(&self.memo.kept).rewritten.get(&key).cloned();
+        if let Some((known, work)) = known {
+            self.fuel.burn(work);
+            return known;
         }
+        let before = self.fuel.burnt();
+        self.fuel.burn(REWRITTEN * plain.graph.nodes.len() as u64);
         let made = make();
-        held(&self.rewritten).entry(key).or_insert(made).clone()
+        let work = self.fuel.burnt() - before;
+        let mut kept = held(&self.memo.kept);
+        // Numbers of sites are nothing beside a graph.
+        kept.room(asked / 64);
+        let (made, _) = kept.rewritten.entry(key).or_insert((made, work));
+        made.clone()
     }
 }
 

@@ -5,7 +5,8 @@ use super::made::{Rewriting, plan, planned};
 use super::stepped::Steps;
 use super::thrift::Thrift;
 use super::workshop::Workshop;
-use super::{Goal, Plan};
+use super::{Goal, Plan, SEARCH};
+use crate::fuel::Fuel;
 use crate::scene::check;
 use crate::sema::Options;
 use crate::target::{default_mode, find};
@@ -32,10 +33,13 @@ fn plans_made_again_are_those_made_anew() {
         &Arc::new(Workshop::new(graph, target.runtime)),
         target,
         &goal,
-        Rewriting::Fast {
-            thrift,
-            steps: Steps::All,
-        },
+        (
+            Rewriting::Fast {
+                thrift,
+                steps: Steps::All,
+            },
+            Fuel::new(SEARCH),
+        ),
     );
     assert_eq!(text(&again), text(&anew.unwrap()));
     assert_ne!(text(&again), text(&plenty), "another plan");

@@ -3,7 +3,7 @@
 //! The statement tree is run once with intervals for values: arms refine what
 //! their condition compares, loops are walked turn by turn until nothing grows
 //! or `max` is reached (in long loops, bounds that keep growing are widened to
-//! the format's ends). What a machine computes is
+//! the format's ends; see [`loops`]). What a machine computes is
 //! not exact, so every operation's interval is enlarged by the error that the
 //! machine's routines may make, and cut to what its formats can hold.
 
@@ -11,6 +11,9 @@ mod assuming;
 pub mod error;
 mod interval;
 mod known;
+mod loops;
+#[cfg(test)]
+mod nest_tests;
 mod parity;
 mod pointed;
 mod refine;
@@ -25,6 +28,8 @@ use crate::plan::points::sample::readers;
 pub use assuming::assuming;
 use interval::interval;
 use known::known;
+#[cfg(test)]
+use loops::STATEMENTS;
 use parity::whole;
 pub use slack::{ENTRIES, Slack};
 use slowlight_routine::{Op, Range, Type};
@@ -43,6 +48,11 @@ pub struct Ranges {
 
 /// The ranges of a scheduled graph.
 pub fn ranges(graph: &Graph, tree: &Tree, slack: &Slack) -> Ranges {
+    ranges_counted(graph, tree, slack).0
+}
+
+/// The same, and how many statements were walked: what it took.
+pub fn ranges_counted(graph: &Graph, tree: &Tree, slack: &Slack) -> (Ranges, u64) {
     let mut walk = Walk {
         graph,
         slack,
@@ -59,6 +69,7 @@ pub fn ranges(graph: &Graph, tree: &Tree, slack: &Slack) -> Ranges {
             false => HashMap::new(),
         },
         turns: 0,
+        walked: 0,
         out: Ranges {
             result: graph.ids().map(|id| known(graph, slack, id)).collect(),
             exact: vec![Range::ALL; graph.nodes.len()],
@@ -73,11 +84,8 @@ pub fn ranges(graph: &Graph, tree: &Tree, slack: &Slack) -> Ranges {
     walk.block(&tree.pass);
     walk.block(&tree.segment);
     walk.block(&tree.pixel);
-    walk.out
+    (walk.out, walk.walked)
 }
-
-/// How many turns of loops are walked before bounds that still grow are widened.
-const PATIENCE: u32 = 2000;
 
 pub(crate) struct Walk<'g> {
     graph: &'g Graph,
@@ -93,6 +101,8 @@ pub(crate) struct Walk<'g> {
     readers: HashMap<(LoopId, u32), NodeId>,
     /// How many turns of loops have been walked.
     turns: u32,
+    /// How many statements.
+    walked: u64,
     out: Ranges,
     tree: &'g Tree,
     /// Each node that several calls of a subroutine compute or give it:
@@ -138,6 +148,7 @@ impl Walk<'_> {
     }
 
     fn statement(&mut self, statement: &Statement) {
+        self.walked += 1;
         match statement {
             Statement::Let(id) => self.compute(*id),
             Statement::Set { place, from } => {
@@ -192,87 +203,6 @@ impl Walk<'_> {
         places
             .map(|place| (place, self.place_range(place)))
             .collect()
-    }
-
-    fn run_loop(&mut self, turns: &Turns) {
-        let of = turns.of;
-        let at = of.0 as usize;
-        let held = self.carried[at].clone();
-        let graph = self.graph;
-        let reads = |id: NodeId| match graph.node(id) {
-            Node::Carried { of: l, index } | Node::Last { of: l, index } if l == of => {
-                Some((id, index))
-            }
-            _ => None,
-        };
-        let read: Vec<(NodeId, u32)> = graph.ids().filter_map(reads).collect();
-        self.block(&turns.start);
-        self.join_carried(at, &held);
-        let max = self.graph.loops[at].max;
-        for turn in 1.. {
-            let before = self.carried[at].clone();
-            for &(id, index) in &read {
-                self.write(Place::Node(id), self.carried_range(of, index));
-            }
-            self.block(&turns.body);
-            self.arm(turns.again, true, &turns.next);
-            self.join_carried(at, &before);
-            // After `max` turns the bounds hold all that the loop can carry,
-            // whether or not they would grow in one more.
-            if self.carried[at] == before || turn > max {
-                break;
-            }
-            self.turns += 1;
-            if self.turns > PATIENCE {
-                self.widen(of, &before);
-            }
-        }
-        let ended = self.arm(turns.again, false, &turns.done);
-        self.block(&turns.otherwise);
-        for (place, range) in ended {
-            let both = self.place_range(place).join(range);
-            self.write(place, both);
-        }
-    }
-
-    fn join_carried(&mut self, at: usize, held: &[Option<Range>]) {
-        for (now, held) in self.carried[at].iter_mut().zip(held) {
-            *now = match (*now, *held) {
-                (Some(a), Some(b)) => Some(a.join(b)),
-                (a, b) => a.or(b),
-            };
-        }
-    }
-
-    /// Moves every bound that still grows to the format's end.
-    fn widen(&mut self, of: LoopId, before: &[Option<Range>]) {
-        let types = &self.graph.loops[of.0 as usize].types;
-        for ((now, before), &ty) in self.carried[of.0 as usize]
-            .iter_mut()
-            .zip(before)
-            .zip(types)
-        {
-            if let (Some(range), Some(old)) = (now.as_mut(), before) {
-                let lo = if range.lo < old.lo {
-                    f64::NEG_INFINITY
-                } else {
-                    range.lo
-                };
-                let hi = if range.hi > old.hi {
-                    f64::INFINITY
-                } else {
-                    range.hi
-                };
-                let nonzero = range.nonzero;
-                *range = self.slack.cut(
-                    ty,
-                    Range {
-                        nonzero,
-                        ..Range::new(lo, hi)
-                    },
-                );
-            }
-        }
     }
 
     fn carried_range(&self, of: LoopId, index: u32) -> Range {

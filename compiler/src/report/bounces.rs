@@ -103,7 +103,7 @@ pub fn measure(plan: &Plan) -> Measured {
             errors: RefCell::new(vec![Vec::new(); plan.graph.loops.len()]),
         },
     };
-    let mut run = Run::new(&plan.graph, &plan.tree, &heard);
+    let mut run = Run::within(&plan.graph, &plan.tree, &heard, 2 * PATIENCE);
     shadow.keep();
     let mut looked = 0;
     for (x, y) in sample(plan) {
@@ -114,6 +114,9 @@ pub fn measure(plan: &Plan) -> Measured {
         shadow.forget();
         run.pixel(x as i32, y as i32);
         shadow.seen();
+        if run.spent() {
+            break;
+        }
         looked += 1;
     }
     drop(run);

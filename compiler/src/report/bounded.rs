@@ -11,6 +11,12 @@ const SAMPLE: u32 = 400;
 /// How many roundings are followed before the sample is called large enough.
 const PATIENCE: u64 = 200_000;
 
+/// How many statements are walked for that, where hardly any rounds.
+const WALKED: u64 = 10_000_000;
+
+/// How many statements the two evaluations may run.
+const MOST: u64 = 20_000_000;
+
 /// The shades of a sample of pixels, each its own tile.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Bounded {
@@ -37,16 +43,20 @@ pub fn bounded(plan: &Plan) -> Bounded {
     let Some(shade) = plan.graph.shade else {
         return Bounded::default();
     };
-    let (mut native, mut model) = (Native::new(&plan.graph), ModelRun::new(plan));
+    let (mut native, mut model) = (
+        Native::within(&plan.graph, MOST),
+        ModelRun::within(plan, MOST),
+    );
     let mut made = Bounded::default();
     let mut ratios = Vec::new();
-    let mut followed = 0;
+    let (mut followed, mut walked) = (0, 0);
     for (x, y) in sample(plan) {
-        if followed > PATIENCE {
+        if followed > PATIENCE || walked > WALKED {
             break;
         }
         let found = bounds(plan, &Tile::of(plan, (x, x), (y, y)));
         followed += u64::from(found.operations);
+        walked += found.walked;
         made.looked += 1;
         let decided = !found.undecided.iter().any(|&id| id < shade);
         let bound = found.of(shade).map_or(f64::INFINITY, |b| b.error);
@@ -55,6 +65,9 @@ pub fn bounded(plan: &Plan) -> Bounded {
         }
         let exact = native.pixel(x as i32, y as i32).shade;
         let off = (model.pixel(x as i32, y as i32).shade - exact).abs();
+        if native.spent() || model.spent() {
+            break;
+        }
         made.proved += 1;
         made.bound = made.bound.max(bound);
         made.measured = made.measured.max(off);

@@ -3,7 +3,7 @@
 use crate::flow::graph::*;
 use crate::passes::schedule::schedule;
 use crate::range::{Slack, ranges};
-use crate::source::{Diagnostic, Sources};
+use crate::source::{Diagnostic, Label, Sources};
 use slowlight_routine::Op;
 use std::collections::BTreeSet;
 
@@ -13,7 +13,7 @@ use std::collections::BTreeSet;
 pub fn warnings(graph: &Graph, sources: &Sources) -> Vec<Diagnostic> {
     let found = ranges(graph, &schedule(graph), &Slack::exact());
     let mut places = BTreeSet::new();
-    let mut said = Vec::new();
+    let mut said: Vec<(NodeId, Diagnostic)> = Vec::new();
     for id in graph.ids() {
         let Node::Apply(Op::Div | Op::IntDiv, [_, by]) = graph.node(id) else {
             continue;
@@ -34,15 +34,46 @@ pub fn warnings(graph: &Graph, sources: &Sources) -> Vec<Diagnostic> {
             && let Some(divisor) = divisor(text)
             && places.insert(span)
         {
+            // The same divisor again is the same trouble.
+            if let Some((_, known)) = said.iter_mut().find(|(d, _)| *d == by) {
+                known.others.push(Label {
+                    span,
+                    text: "and here".to_owned(),
+                });
+                continue;
+            }
             let message = format!(
-                "`{text}` may divide by zero: `{divisor}` lies in [{}, {}]",
-                range.lo, range.hi
+                "`{text}` may divide by zero: `{divisor}` {}",
+                lies(range.lo, range.hi)
             );
-            let help = "guard it, or give the param a range without 0";
-            said.push(Diagnostic::warning(span, message).help(help));
+            let help = format!(
+                "guard it, `if {divisor} == 0 then .. else ..`, or give what it is made of a \
+                 range without 0"
+            );
+            said.push((by, Diagnostic::warning(span, message).help(help)));
         }
     }
-    said
+    said.into_iter().map(|(_, warning)| warning).collect()
+}
+
+/// Where a value lies, as far as that says anything.
+fn lies(lo: f64, hi: f64) -> String {
+    match lo.abs().max(hi.abs()) {
+        far if far > 1e300 => "may be any number".to_owned(),
+        _ => format!("lies in [{}, {}]", short(lo), short(hi)),
+    }
+}
+
+/// A number to four digits, but whole ones that are not long in full.
+fn short(value: f64) -> String {
+    if value.fract() == 0.0 && value.abs() < 1e6 {
+        return format!("{value}");
+    }
+    let rounded: f64 = format!("{value:.3e}").parse().unwrap_or(value);
+    match rounded.abs() {
+        size if (1e-3..1e6).contains(&size) => format!("{rounded}"),
+        _ => format!("{rounded:e}"),
+    }
 }
 
 /// What stands after the last `/` or `div` outside of brackets, if there is one.

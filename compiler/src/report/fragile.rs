@@ -7,10 +7,11 @@
 //! has grown on the way there; it is followed back to the operation that made
 //! it grow (as Herbgrind does: Sanchez-Stern, Panchekha, Lerner and Tatlock,
 //! Finding Root Causes of Floating Point Error, PLDI 2018). Shades that are off
-//! by more than half a level are followed back likewise.
+//! by more than an eighth of a level are followed back likewise.
 //!
 //! A border that the native values themselves sit on is a tie: any format may
-//! go either way, and nothing can be done but to know it. Where they lie beside
+//! go either way, and nothing can be done but to know it. So it counts where only the ink
+//! comes out otherwise, too: a dither's own border. Where they lie beside
 //! it by less than the format can tell, a finer format would do: on a few pixels
 //! that is an outline, on many a margin that the scene chose too small.
 
@@ -28,6 +29,10 @@ const SAMPLE: u32 = 4096;
 
 /// How many operations are run before the sample is called large enough.
 const PATIENCE: u64 = 10_000_000;
+
+/// How many statements an evaluation may run, since one pixel's loops may go on for long:
+/// what patience allows, and as much again for the row at which it ends.
+const MOST: u64 = 2 * PATIENCE;
 
 /// An operation is to blame where its result is off by so many times more
 /// units in the last place than its arguments.
@@ -81,28 +86,30 @@ pub struct Found {
 
 /// Looks at a sample of a plan's pixels. What earlier pixels send is left out.
 ///
-/// What is weak without changing a pixel's shade by half a level is no fault.
+/// What is weak without changing a pixel's shade by an eighth of a level is no fault.
 pub fn fragile(plan: &Plan) -> Found {
     let mut plan = plan.clone();
     plan.graph.diffusion = None;
     let plan = &plan;
     let shadow = Shadow::new(plan);
-    let mut run = Run::new(&plan.graph, &plan.tree, &shadow);
+    let mut run = Run::within(&plan.graph, &plan.tree, &shadow, MOST);
     let mut pictures = Pictures::new(plan);
     shadow.keep();
     let frame = shadow.seen();
     let (columns, rows) = sample(plan);
     let mut tally = Tally::new(plan);
     let mut looked = 0;
-    for &y in &rows {
+    'rows: for &y in &rows {
         if shadow.run() > PATIENCE {
             break;
         }
-        looked += 1;
         shadow.forget();
         for &x in &columns {
             run.pixel(x as i32, y as i32);
             let differs = pictures.differ(x as i32, y as i32);
+            if run.spent() || pictures.spent() {
+                break 'rows;
+            }
             if let Some(pair) = plan.graph.shade.and_then(|id| run.last(id)) {
                 shadow.shade(pair, pictures.most);
             }
@@ -114,6 +121,7 @@ pub fn fragile(plan: &Plan) -> Found {
             }
         }
         tally.end_of_row(&columns, y);
+        looked += 1;
     }
     tally.found(columns.len(), looked)
 }
@@ -122,23 +130,40 @@ pub fn fragile(plan: &Plan) -> Found {
 struct Pictures<'p> {
     native: Native<'p>,
     model: ModelRun<'p>,
-    /// Half a level: the least difference of shades that is a fault.
+    /// An eighth of a level: the least difference of shades that is a fault. On one pixel in
+    /// eight or so an ink is then another.
     most: f64,
 }
 
 impl<'p> Pictures<'p> {
     fn new(plan: &'p Plan) -> Pictures<'p> {
         Pictures {
-            native: Native::new(&plan.graph),
-            model: ModelRun::new(plan),
-            most: 0.5 / plan.graph.image.palette.len().max(2) as f64,
+            native: Native::within(&plan.graph, MOST),
+            model: ModelRun::within(plan, MOST),
+            most: 0.125 / plan.graph.image.palette.len().max(2) as f64,
         }
     }
 
-    fn differ(&mut self, x: i32, y: i32) -> bool {
-        let (native, model) = (self.native.pixel(x, y), self.model.pixel(x, y));
-        (native.shade - model.shade).abs() > self.most
+    fn spent(&self) -> bool {
+        self.native.spent() || self.model.spent()
     }
+
+    fn differ(&mut self, x: i32, y: i32) -> Differs {
+        let (native, model) = (self.native.pixel(x, y), self.model.pixel(x, y));
+        let shade = (native.shade - model.shade).abs() > self.most;
+        Differs {
+            shade,
+            ink: shade || native.ink != model.ink,
+        }
+    }
+}
+
+/// What of a pixel the machine has otherwise: the shade, by more than an eighth of a level, or
+/// at least the ink.
+#[derive(Clone, Copy)]
+struct Differs {
+    shade: bool,
+    ink: bool,
 }
 
 /// The columns and rows that are looked at: all rows of a picture that is not
@@ -183,13 +208,17 @@ impl Tally {
         }
     }
 
-    fn add(&mut self, shadow: &Shadow<'_>, what: What, (x, y): (u32, u32), differs: bool) {
+    fn add(&mut self, shadow: &Shadow<'_>, what: What, (x, y): (u32, u32), differs: Differs) {
         let (node, weakness, units, flips) = match what {
-            What::Tie(node) if differs => (node, Weakness::Tie, 0.0, Some(node)),
+            What::Tie(node) if differs.ink => (node, Weakness::Tie, 0.0, Some(node)),
             What::NoMeaning(node) => (node, Weakness::NoMeaning, 0.0, None),
-            What::Coarse { node, place } if differs => (node, Weakness::Coarse, place, Some(node)),
-            What::Close { node, units } if differs => (node, Weakness::Close, units, Some(node)),
-            What::Off { event, flips } if differs => {
+            What::Coarse { node, place } if differs.shade => {
+                (node, Weakness::Coarse, place, Some(node))
+            }
+            What::Close { node, units } if differs.shade => {
+                (node, Weakness::Close, units, Some(node))
+            }
+            What::Off { event, flips } if differs.shade => {
                 let (culprit, weakness) = blame(shadow, event);
                 (culprit.node, weakness, culprit.units, flips)
             }

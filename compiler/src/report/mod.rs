@@ -9,6 +9,7 @@ pub mod domain;
 pub mod effects;
 pub mod fragile;
 pub mod frontier;
+pub mod inks;
 pub mod profile;
 #[cfg(test)]
 mod profile_tests;

@@ -9,7 +9,7 @@
 
 mod builtins;
 mod check;
-mod colours;
+pub mod colours;
 mod expr;
 mod lower;
 mod print;
@@ -21,6 +21,6 @@ mod tests;
 
 pub use builtins::Builtin;
 pub use check::{check, tidy};
-pub use lower::{Freeze, Millionths, Options, Search, Ways, lower};
+pub use lower::{Freeze, Millionths, Options, Search, Ways, lower, params};
 pub use program::*;
 pub use ty::Ty;

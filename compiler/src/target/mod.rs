@@ -4,7 +4,7 @@
 //! measures the text with the machine's own tools.
 
 pub mod bbc;
-mod colours;
+pub mod colours;
 pub mod jack;
 pub mod mos6502;
 

@@ -106,8 +106,9 @@ impl<'a> Lexed<'a> {
             }
             Token::Colour(text) => {
                 let digits = text.get(1..).unwrap_or("");
-                if digits.len() != 6 || !digits.bytes().all(|b| b.is_ascii_hexdigit()) {
-                    let help = "write `#` and six hexadecimal digits: `#ff8000`";
+                let hexadecimal = digits.bytes().all(|b| b.is_ascii_hexdigit());
+                if !matches!(digits.len(), 3 | 6) || !hexadecimal {
+                    let help = "write `#` and six hexadecimal digits, or three: `#ff8000`, `#f80`";
                     self.report(span, format!("`{text}` is not a colour"), Some(help.into()));
                 }
                 self.tokens.push((token, span));

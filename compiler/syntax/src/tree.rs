@@ -82,7 +82,7 @@ pub struct Image {
 /// A colour of the palette as written: `red` or `#ff0000`.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct InkColour {
-    /// The name, or `#rrggbb`.
+    /// The name, `#rrggbb` or `#rgb`.
     pub text: String,
     /// Where.
     pub span: Span,

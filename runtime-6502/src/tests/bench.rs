@@ -47,6 +47,7 @@ fn parts(names: &[&str]) -> (String, bool) {
     for part in &closure {
         let source = match part.source {
             Source::Text(source) => source.to_owned(),
+            Source::Made(write) => write(),
             Source::Table(make) => {
                 let bytes: Vec<String> = make().iter().map(|b| b.to_string()).collect();
                 format!("{}:\n        .byte {}", part.name, bytes.join(", "))

@@ -2,6 +2,8 @@
 //!
 //! What the format means is in [`slowlight_routine::log`]. Here a real is an int and a
 //! boolean, and the program makes the tables at its start.
+//! The tables of sums and of differences go to 4,608; what is further apart, where an entry
+//! is seldom another than the last, is told by comparisons, which take no room on the heap.
 //!
 //! # How a routine is written
 //! As for Floats, but that a [`Form::Statement`](slowlight_routine::Form::Statement) is

@@ -2,7 +2,8 @@
 //!
 //! A segment is a word of free capacity (0 when taken), a word with the address of
 //! the next segment, and the words themselves. The bundled VM's own system lays it
-//! out in the same way, so addresses agree.
+//! out in the same way, so addresses agree. Segments that are given back are not joined,
+//! and the last two words are left alone: so it is in the web IDE.
 
 pub(super) const PEEK: &str = "    function int peek(int address) {
         var Array word;
@@ -20,12 +21,13 @@ pub(super) const POKE: &str = "    function void poke(int address, int value) {
 ";
 
 /// Named like what fills a class's statics, as it is called once at the start.
-pub(super) const MAKE_HEAP: &str = "    /** One free segment, from 2048 to the screen. */
+pub(super) const MAKE_HEAP: &str =
+    "    /** One free segment of 14,334 words, its header included. */
     function void makeHeap() {
         var Array heap;
         let heap = 2048;
-        let heap[0] = 14334;
-        let heap[1] = 16384;
+        let heap[0] = 14332;
+        let heap[1] = 16382;
         return;
     }
 ";
@@ -38,7 +40,7 @@ pub(super) const ALLOC: &str =
         let segment = 2048;
         while (segment[0] < size) {
             let segment = segment[1];
-            if (segment > 16383) { do Sys.error(6); }
+            if (segment > 16381) { do Sys.error(6); }
         }
         if (segment[0] > (size + 2)) {
             let rest = segment + 2 + size;
@@ -51,23 +53,11 @@ pub(super) const ALLOC: &str =
     }
 ";
 
-pub(super) const DE_ALLOC: &str =
-    "    /** Frees a segment, joined with the next one if that is free. */
+pub(super) const DE_ALLOC: &str = "    /** Frees a segment: its words are those up to the next. */
     function void deAlloc(Array object) {
-        var Array segment, next;
-        var int room, more;
+        var Array segment;
         let segment = object - 2;
-        let next = segment[1];
-        let room = next - segment;
-        let more = 0;
-        if (next < 16384) { let more = next[0]; }
-        if (more = 0) {
-            let segment[0] = room - 2;
-        }
-        else {
-            let segment[0] = room + more;
-            let segment[1] = next[1];
-        }
+        let segment[0] = segment[1] - object;
         return;
     }
 ";

@@ -15,71 +15,11 @@ pub(crate) const SUM: &str = "    /** Of the sum of two values of one sign. */
         var int d;
         let d = a - b;
         if (d > 0) {
-            if (d < 6144) { return a + sums[d]; }
-            return a + Log.rest(d);
+            if (d < 4608) { return a + sums[d]; }
+            return a + Log.farSum(d);
         }
-        if (d > (-6144)) { return b + sums[-d]; }
-        return b + Log.rest(-d);
-    }
-";
-
-pub(crate) const REST: &str =
-    "    /** What a summand adds whose logarithm is that much less: little. */
-    function int rest(int apart) {
-        if (apart > 7173) {
-            if (apart > 8263) {
-                if (apart > 9427) {
-                    if (apart > 10182) {
-                        if (apart > 11805) { return 0; }
-                        return 1;
-                    }
-                    return 2;
-                }
-                if (apart > 8559) {
-                    if (apart > 8930) { return 3; }
-                    return 4;
-                }
-                return 5;
-            }
-            if (apart > 7619) {
-                if (apart > 7804) {
-                    if (apart > 8016) { return 6; }
-                    return 7;
-                }
-                return 8;
-            }
-            if (apart > 7307) {
-                if (apart > 7455) { return 9; }
-                return 10;
-            }
-            return 11;
-        }
-        if (apart > 6553) {
-            if (apart > 6830) {
-                if (apart > 6936) {
-                    if (apart > 7050) { return 12; }
-                    return 13;
-                }
-                return 14;
-            }
-            if (apart > 6640) {
-                if (apart > 6732) { return 15; }
-                return 16;
-            }
-            return 17;
-        }
-        if (apart > 6319) {
-            if (apart > 6393) {
-                if (apart > 6471) { return 18; }
-                return 19;
-            }
-            return 20;
-        }
-        if (apart > 6182) {
-            if (apart > 6249) { return 21; }
-            return 22;
-        }
-        return 23;
+        if (d > (-4608)) { return b + sums[-d]; }
+        return b + Log.farSum(-d);
     }
 ";
 
@@ -89,13 +29,13 @@ pub(crate) const DIFFERENCE: &str =
         var int d;
         let d = a - b;
         if (d > 0) {
-            if (d < 6144) { let a = a - differences[d]; }
-            else { let a = a - Log.rest(d); }
+            if (d < 4608) { let a = a - differences[d]; }
+            else { let a = a - Log.farDifference(d); }
         }
         else {
             if (d = 0) { return -13312; }
-            if (d > (-6144)) { let a = b - differences[-d]; }
-            else { let a = b - Log.rest(-d); }
+            if (d > (-4608)) { let a = b - differences[-d]; }
+            else { let a = b - Log.farDifference(-d); }
         }
         if (a > (-13312)) { return a; }
         return -13312;
@@ -108,12 +48,12 @@ pub(crate) const LEAVE: &str =
         var int d;
         let d = a - b;
         if (d > 0) {
-            if (d < 6144) { return a - differences[d]; }
-            return a - Log.rest(d);
+            if (d < 4608) { return a - differences[d]; }
+            return a - Log.farDifference(d);
         }
         if (d = 0) { return -13312; }
-        if (d > (-6144)) { return b - differences[-d]; }
-        return b - Log.rest(-d);
+        if (d > (-4608)) { return b - differences[-d]; }
+        return b - Log.farDifference(-d);
     }
 ";
 
@@ -125,25 +65,25 @@ pub(crate) const ADD: &str = "    static boolean plus;
         let d = a - b;
         if (d > 0) {
             let plus = aPlus;
-            if (d < 6144) {
+            if (d < 4608) {
                 if (aPlus = bPlus) { return a + sums[d]; }
                 let a = a - differences[d];
             }
             else {
-                if (aPlus = bPlus) { return a + Log.rest(d); }
-                let a = a - Log.rest(d);
+                if (aPlus = bPlus) { return a + Log.farSum(d); }
+                let a = a - Log.farDifference(d);
             }
         }
         else {
             let plus = bPlus;
-            if (d > (-6144)) {
+            if (d > (-4608)) {
                 if (aPlus = bPlus) { return b + sums[-d]; }
                 if (d = 0) { let plus = aPlus; return -13312; }
                 let a = b - differences[-d];
             }
             else {
-                if (aPlus = bPlus) { return b + Log.rest(-d); }
-                let a = b - Log.rest(-d);
+                if (aPlus = bPlus) { return b + Log.farSum(-d); }
+                let a = b - Log.farDifference(-d);
             }
         }
         if (a > (-13312)) { return a; }

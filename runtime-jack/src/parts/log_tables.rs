@@ -37,6 +37,20 @@ pub(crate) const MAKE_POWERS: &str = "    static Array powers;
     }
 ";
 
+pub(crate) const MAKE_WHITE: &str =
+    "    /** Leaves the screen as it was found, and clears nothing else: Screen.clearScreen
+     *  of the web IDE takes the upper half of the heap with it. */
+    function void makeWhite() {
+        var int j;
+        let j = 2048;
+        while (j > 0) {
+            let j = j - 1;
+            let powers[j] = 0;
+        }
+        return;
+    }
+";
+
 pub(crate) const MAKE_LOGS: &str = "    static Array logs;
 
     /** 1024 * log2(n) for n from 1 to 512. */
@@ -83,9 +97,9 @@ pub(crate) const MAKE_SUMS: &str = "    static Array sums;
      *  1024 * log2(1 + 2^(-d/1024)). */
     function void makeSums() {
         var int d, r, octave, k, y;
-        let sums = Array.new(6144);
+        let sums = Array.new(4608);
         let k = 1024;
-        while (d < 6144) {
+        while (d < 4608) {
             if (r = 1024) { let r = 0; let octave = octave + 1; }
             let y = Log.powerLess(r);
             while (Log.above((powers[k + k - 1]) - 16384, octave, y)) { let k = k - 1; }
@@ -119,7 +133,7 @@ pub(crate) const MAKE_DIFFERENCES: &str = "    static Array differences;
      *  -1024 * log2(1 - 2^(-d/1024)). */
     function void makeDifferences() {
         var int d, k, squares, cut, twice, octaves, left, doubled;
-        let differences = Array.new(6144);
+        let differences = Array.new(4608);
         let squares = 8866;
         let k = 10783;
         let d = 1;
@@ -147,7 +161,6 @@ pub(crate) const MAKE_DIFFERENCES: &str = "    static Array differences;
             let d = d + 1;
         }
         do Log.makeFurtherDifferences();
-        do Screen.clearScreen();
         return;
     }
 
@@ -156,7 +169,7 @@ pub(crate) const MAKE_DIFFERENCES: &str = "    static Array differences;
         var int d, r, octave, k, y;
         let k = 1024;
         let d = 1024;
-        while (d < 6144) {
+        while (d < 4608) {
             if (r = 1024) { let r = 0; let octave = octave + 1; }
             let y = Log.powerLess(r);
             while (Log.furtherLeft(k, octave, y)) { let k = k - 1; }

@@ -18,6 +18,7 @@ mod fixed;
 mod functions;
 mod int;
 mod log;
+mod log_far;
 mod log_functions;
 mod log_tables;
 mod powers;
@@ -82,19 +83,21 @@ pub(crate) static ALL: &[Part] = &[
     part!("Float.log", ["Float.makeLog", "Float.nearLog", "Float.fromInt", "Float.product", "Float.add"], 200, powers::LOG),
     part!("Float.pow", ["Float.makeLog", "Float.nearLog", "Float.exponent", "Float.copy", "Float.product"], 840, powers::POW),
     part!("Log", [], 0, log::HEAD),
-    part!("Log.makePowers", [], 330, log::MAKE_POWERS),
+    part!("Log.makePowers", ["Log.makeWhite"], 330, log::MAKE_POWERS),
     part!("Log.powerLess", ["Log.makePowers"], 130, log::POWER_LESS),
     part!("Log.makeLogs", ["Log.makePowers"], 200, log::MAKE_LOGS),
     part!("Log.makeHalves", [], 80, log::MAKE_HALVES),
     part!("Log.makeSums", ["Log.powerLess"], 150, log::MAKE_SUMS),
     part!("Log.makeDifferences", ["Log.powerLess", "Log.makeLogs"], 650, log::MAKE_DIFFERENCES),
+    part!("Log.makeWhite", [], 40, log::MAKE_WHITE),
     part!("Log.whole", ["Log.makeLogs", "Log.makeHalves"], 220, log::WHOLE),
-    part!("Log.rest", [], 360, log::REST),
+    made("Log.farSum", 720, log_far::sum),
+    made("Log.farDifference", 750, log_far::difference),
     part!("Log.clamp", [], 60, log::CLAMP),
-    part!("Log.sum", ["Log.makeSums", "Log.rest"], 140, log::SUM),
-    part!("Log.difference", ["Log.makeDifferences", "Log.rest"], 140, log::DIFFERENCE),
-    part!("Log.leave", ["Log.makeDifferences", "Log.rest"], 120, log::LEAVE),
-    part!("Log.add", ["Log.makeSums", "Log.makeDifferences", "Log.rest"], 300, log::ADD),
+    part!("Log.sum", ["Log.makeSums", "Log.farSum"], 140, log::SUM),
+    part!("Log.difference", ["Log.makeDifferences", "Log.farDifference"], 140, log::DIFFERENCE),
+    part!("Log.leave", ["Log.makeDifferences", "Log.farDifference"], 120, log::LEAVE),
+    part!("Log.add", ["Log.makeSums", "Log.makeDifferences", "Log.farSum", "Log.farDifference"], 300, log::ADD),
     part!("Log.half", ["Log.makeHalves"], 210, log::HALF),
     part!("Log.root", ["Log.half"], 40, log::ROOT),
     part!("Log.less", [], 60, log::LESS),
@@ -155,6 +158,16 @@ pub(crate) static ALL: &[Part] = &[
     part!("Int.min", ["Int.less"], 60, int::MIN),
     part!("Int.max", ["Int.less"], 60, int::MAX),
 ];
+
+/// A subroutine that is written from a table, and needs nothing else.
+const fn made(name: &'static str, bytes: u32, write: fn() -> String) -> Part {
+    Part {
+        name,
+        source: Source::Made(write),
+        needs: &[],
+        bytes,
+    }
+}
 
 /// What `f316r` has in their places.
 #[rustfmt::skip]
@@ -289,8 +302,10 @@ pub(crate) fn class(all: &[Part], name: &str, parts: &[&Part], init: Option<Stri
     let mut declared = String::new();
     let mut written: Vec<String> = Vec::new();
     for part in head.chain(rest) {
-        let Source::Text(text) = part.source else {
-            continue;
+        let text = match part.source {
+            Source::Text(text) => text.to_owned(),
+            Source::Made(write) => write(),
+            Source::Table(_) => continue,
         };
         let mut code = String::new();
         for line in text.lines().map(|line| format!("{line}\n")) {

@@ -22,3 +22,25 @@ pub const COLOURS: [[u8; 3]; 16] = [
     [0x6C, 0x5E, 0xB5],
     [0x95, 0x95, 0x95],
 ];
+
+/// What they are called, by their numbers.
+///
+/// Source: "Commodore 64 Programmer's Reference Guide" (1982).
+pub const NAMES: [&str; 16] = [
+    "black",
+    "white",
+    "red",
+    "cyan",
+    "purple",
+    "green",
+    "blue",
+    "yellow",
+    "orange",
+    "brown",
+    "light red",
+    "dark grey",
+    "grey",
+    "light green",
+    "light blue",
+    "light grey",
+];

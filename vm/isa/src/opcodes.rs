@@ -10,6 +10,9 @@
 //! Names of the undocumented opcodes are those of "NMOS 6510 Unintended
 //! Opcodes: no more secrets" (groepaz), which most assemblers follow.
 
+use std::collections::HashMap;
+use std::sync::LazyLock;
+
 /// How an instruction finds its operand.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum Mode {
@@ -92,18 +95,29 @@ impl Opcode {
 /// The documented opcode for a mnemonic and mode, else a stable one, else an
 /// unstable one; where several are alike, the lowest. The mnemonic is in lower case.
 pub fn find(mnemonic: &str, mode: Mode) -> Option<u8> {
+    let letters: [u8; 3] = mnemonic.as_bytes().try_into().ok()?;
+    BY_NAME.get(&(letters, mode)).copied()
+}
+
+/// What [`find`] finds, by a mnemonic's letters and the mode: programs are assembled by the
+/// dozen to find out which of them fits.
+static BY_NAME: LazyLock<HashMap<([u8; 3], Mode), u8>> = LazyLock::new(|| {
     let rank = |o: &Opcode| match o.trust {
         Trust::Documented => 0,
         Trust::Stable => 1,
         Trust::Unstable => 2,
         Trust::Jam => 3,
     };
-    (0..=255u8)
-        .zip(OPCODES.iter())
-        .filter(|(_, o)| o.mode == mode && o.mnemonic == mnemonic && o.trust != Trust::Jam)
-        .min_by_key(|(byte, o)| (rank(o), *byte))
-        .map(|(byte, _)| byte)
-}
+    let mut all: Vec<(u8, &Opcode)> = (0..=255).zip(OPCODES.iter()).collect();
+    all.retain(|(_, o)| o.trust != Trust::Jam);
+    // What is put last stays.
+    all.sort_by_key(|(byte, o)| std::cmp::Reverse((rank(o), *byte)));
+    let named = |(byte, o): (u8, &Opcode)| {
+        let letters = o.mnemonic.as_bytes().try_into().ok()?;
+        Some(((letters, o.mode), byte))
+    };
+    all.into_iter().filter_map(named).collect()
+});
 
 /// Names that some assemblers have for undocumented opcodes, and the ones here.
 const OTHER_NAMES: [(&str, &str); 8] = [

@@ -1,11 +1,10 @@
-//! DIM, which makes arrays and blocks of bytes, and READ, which fills them from DATA.
+//! DIM, which makes arrays and blocks of bytes.
 
-use super::ast::{DimItem, Kind, Place};
+use super::ast::{DimItem, Kind};
 use super::code::Code;
-use super::cost;
 use super::error::Error;
 use super::state::State;
-use super::values::{Array, Elements, Num, Value, array_index, is_numeric};
+use super::values::{Array, Elements, Num, Value, array_index};
 
 type Result<T> = std::result::Result<T, Error>;
 
@@ -16,26 +15,27 @@ impl State {
                 let home = self.home(p, place)?;
                 // DIM P% -1 takes nothing and gives the heap's end.
                 let bytes = self.int(p, e)?.checked_add(1).ok_or(Error::DimSpace)?;
-                let bytes = u32::try_from(bytes).map_err(|_| Error::BadDim)?;
-                let start = self.allocate(bytes).map_err(|_| Error::DimSpace)?;
+                let bytes = u16::try_from(bytes).map_err(|_| Error::BadDim)?;
+                let start = self
+                    .allocate(u32::from(bytes))
+                    .map_err(|_| Error::DimSpace)?;
                 self.store(home, Value::Num(Num::Int(start as i32)))
             }
             DimItem::Array(kind, slot, bounds) => {
                 if self.array(*kind, *slot).is_ok() {
                     return Err(Error::BadDim);
                 }
+                let size = if *kind == Kind::Reals { 5 } else { 4 };
                 let mut dims = Vec::with_capacity(bounds.len());
                 let mut count = 1usize;
                 for e in bounds {
                     let bound = self.int(p, e)?;
                     let n = usize::try_from(bound).map_err(|_| Error::BadDim)? + 1;
                     dims.push(n);
-                    count = count
-                        .checked_mul(n)
-                        .filter(|n| *n < 0x10000)
-                        .ok_or(Error::DimSpace)?;
+                    // In a word, as all that follows.
+                    let fits = |n: &usize| *n * size < 0x10000;
+                    count = count.checked_mul(n).filter(fits).ok_or(Error::BadDim)?;
                 }
-                let size = if *kind == Kind::Reals { 5 } else { 4 };
                 let bytes = 1 + 2 * dims.len() + size * count;
                 let lookup = self.enter(*kind, *slot)?;
                 self.allocate(bytes as u32).map_err(|_| Error::DimSpace)?;
@@ -56,28 +56,5 @@ impl State {
                 Ok(())
             }
         }
-    }
-
-    pub(super) fn read(&mut self, p: &Code<'_>, place: &Place) -> Result<()> {
-        let home = self.home(p, place)?;
-        let datum = p.data.get(self.data).ok_or(Error::OutOfData)?;
-        self.data += 1;
-        let lines = datum.line.saturating_sub(self.data_line);
-        self.cycles += u64::from(cost::PER_LINE_SCANNED * lines);
-        self.data_line = datum.line;
-        let text = &datum.text;
-        let value = if is_numeric(place) {
-            // Numbers in DATA may be expressions; most are plain.
-            Value::Num(super::strings::val(text)?)
-        } else {
-            let text = text.strip_prefix(b"\"").unwrap_or(text);
-            Value::Str(text.to_vec())
-        };
-        self.cycles += if is_numeric(place) {
-            super::strings::val_cost(text)
-        } else {
-            50 * text.len() as u64
-        };
-        self.store(home, value)
     }
 }

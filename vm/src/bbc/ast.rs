@@ -1,4 +1,4 @@
-//! The program after decoding: a flat list of statements over small trees of expressions.
+//! Statements over small trees of expressions, as a program is decoded.
 //!
 //! Names are resolved to slots, line numbers to lines, and the cost of a statement that does
 //! not depend on values is added up, all once. What BASIC II decides only when it gets there
@@ -244,8 +244,8 @@ pub(crate) enum Place {
 pub(crate) enum Item {
     /// Decimal: right-justified in the field unless `;` came before.
     Value(Expr),
-    /// Hexadecimal (`~`).
-    Hex(Expr),
+    /// `~`: hexadecimal from here on.
+    Hex,
     /// `,`: on to the next field.
     Comma,
     /// `;`: no justification from here on.
@@ -255,6 +255,17 @@ pub(crate) enum Item {
     Tab(Expr),
     TabXy(Expr, Expr),
     Spc(Expr),
+}
+
+/// A part of INPUT.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) enum Ask {
+    /// Written; a variable right after it is asked for without a question mark.
+    Print(Item),
+    /// `,` or `;`
+    Separator,
+    /// Read from the line, or from a new one.
+    Read(Place),
 }
 
 /// Where GOTO goes.
@@ -307,7 +318,8 @@ pub(crate) enum Stmt {
     Dim(Box<[DimItem]>),
     Read(Box<[Place]>),
     Restore(Option<Target>),
-    Input(Box<[Item]>, Box<[Place]>),
+    /// Is it INPUT LINE, which takes whole lines?
+    Input(Box<[Ask]>, bool),
     Mode(Expr),
     Vdu(Box<[(Expr, bool)]>),
     Gcol(Box<(Expr, Expr)>),
@@ -326,7 +338,11 @@ pub(crate) enum Stmt {
     SetHimem(Expr),
     SetLomem(Expr),
     SetPage(Expr),
+    /// TRACE of the lines below a number; `None` is off.
+    Trace(Option<Expr>),
     Clear,
+    /// From the first line, without variables.
+    Run,
     Report,
     Width(Expr),
     OsCli(Expr),
@@ -335,64 +351,4 @@ pub(crate) enum Stmt {
     End,
     Stop,
     Bad(Error),
-}
-
-/// A statement, what it costs apart from its values, and its line.
-#[derive(Clone, Debug, PartialEq)]
-pub(crate) struct Op {
-    pub stmt: Stmt,
-    pub cost: u32,
-    /// Index into [`Program::lines`].
-    pub line: u32,
-    /// Index into [`Program::statements`].
-    pub statement: u32,
-}
-
-#[derive(Clone, Debug, PartialEq)]
-pub(crate) struct Line {
-    pub number: u16,
-    /// Its first op.
-    pub op: u32,
-}
-
-/// A DEF: where its body starts.
-#[derive(Clone, Debug, PartialEq)]
-pub(crate) struct Def {
-    pub op: u32,
-    /// What getting from its head to its first statement costs.
-    pub cost: u32,
-    pub params: Result<Box<[Place]>, Error>,
-}
-
-/// One DATA item and the index of its line.
-#[derive(Clone, Debug, PartialEq)]
-pub(crate) struct Datum {
-    pub line: u32,
-    pub text: Box<[u8]>,
-}
-
-/// Where a statement begins; empty ones count.
-#[derive(Clone, Debug, PartialEq)]
-pub(crate) struct Statement {
-    /// Index into [`Program::lines`].
-    pub line: u32,
-    /// Which of its statements, from 0.
-    pub statement: u32,
-    /// Its first op, if it has any.
-    pub op: u32,
-    /// Its first byte in the line's text.
-    pub at: u32,
-}
-
-#[derive(Clone, Debug, Default, PartialEq)]
-pub(crate) struct Program {
-    /// Ends with an `End` that belongs to the last line.
-    pub ops: Vec<Op>,
-    pub lines: Vec<Line>,
-    /// Line by line.
-    pub statements: Vec<Statement>,
-    /// By the slots of [`Kind::Fn`] and [`Kind::Proc`].
-    pub fns: Vec<Option<Def>>,
-    pub procs: Vec<Option<Def>>,
-    pub data: Vec<Datum>,
 }

@@ -40,8 +40,8 @@ impl State {
             Place::Element(kind, slot, index) => {
                 Home::Element(*kind, *slot, self.subscript(p, *kind, *slot, index)?)
             }
-            Place::Byte(e) => Home::Byte(self.address(p, e)?),
-            Place::Word(e) => Home::Word(self.address(p, e)?),
+            Place::Byte(e) => Home::Byte(self.place_address(p, e)?),
+            Place::Word(e) => Home::Word(self.place_address(p, e)?),
             Place::Text(e) => {
                 let address = self.address(p, e)?;
                 if address < 0x100 {
@@ -50,6 +50,36 @@ impl State {
                 Home::Text(address)
             }
         })
+    }
+
+    /// The address of `?x` and `!x`. In `A?x` the ROM makes a variable A that does not exist, and
+    /// then misses its `=`.
+    fn place_address(&mut self, p: &Code<'_>, e: &Expr) -> Result<u16> {
+        let address = self.address(p, e);
+        if let (Err(Error::NoSuchVariable), Expr::Op2(_, ab)) = (&address, e) {
+            match ab.0 {
+                Expr::IntVar(slot) if !self.is_defined(&Place::Int(slot)) => {
+                    self.define_int(slot)?;
+                    return Err(Error::Mistake);
+                }
+                Expr::RealVar(slot) if !self.is_defined(&Place::Real(slot)) => {
+                    self.define_real(slot)?;
+                    return Err(Error::Mistake);
+                }
+                _ => {}
+            }
+        }
+        address
+    }
+
+    /// Does a variable exist? (Memory always does, and what an array lacks is another error.)
+    pub(super) fn is_defined(&self, place: &Place) -> bool {
+        match place {
+            Place::Int(slot) => self.ints.get(*slot as usize).is_some_and(|v| v.defined),
+            Place::Real(slot) => self.reals.get(*slot as usize).is_some_and(|v| v.defined),
+            Place::Str(slot) => self.texts.get(*slot as usize).is_some_and(|v| v.defined),
+            _ => true,
+        }
     }
 
     /// What a place holds now.
@@ -72,8 +102,18 @@ impl State {
             },
             Home::Byte(address) => int(i32::from(self.byte(address))),
             Home::Word(address) => int(self.word(address)),
-            Home::Text(_) => return Err(Error::TypeMismatch),
+            Home::Text(address) => Value::Str(self.text_at(address)?),
         })
+    }
+
+    /// Whether a place is in the screen's memory.
+    pub fn is_shown(&self, home: &Home) -> bool {
+        match home {
+            Home::Byte(address) | Home::Word(address) | Home::Text(address) => {
+                self.display.is_shown(u32::from(*address))
+            }
+            _ => false,
+        }
     }
 
     /// Sets a place, converting between integers and reals.
@@ -172,6 +212,10 @@ impl State {
 
     /// Saves a place's value on the stack, to be put back at the end of the call.
     fn save(&mut self, home: Home) -> Result<()> {
+        // Not even the ROM puts a byte back.
+        if let Home::Byte(_) = home {
+            return Ok(());
+        }
         let value = self.load(home)?;
         let bytes = match &value {
             Value::Str(s) => s.len() as u32 + 4,
@@ -191,10 +235,11 @@ impl State {
         for place in places {
             let home = self.home(p, place)?;
             self.save(home)?;
-            let zero = if is_numeric(place) {
-                Value::Num(Num::Int(0))
-            } else {
-                Value::Str(Vec::new())
+            let zero = match place {
+                // The ROM leaves these alone.
+                Place::Text(_) | Place::Byte(_) => continue,
+                place if is_numeric(place) => Value::Num(Num::Int(0)),
+                _ => Value::Str(Vec::new()),
             };
             self.store(home, zero)?;
         }
@@ -231,25 +276,35 @@ impl State {
         };
         self.cycles += u64::from(found + def.cost);
         let params = def.params.as_ref().map_err(|e| *e)?;
-        if params.len() != list.len() {
+        // A procedure that takes none runs before the ROM comes to see that it was given some.
+        let excess = params.is_empty() && !list.is_empty();
+        if excess && function || list.is_empty() && !params.is_empty() {
             return Err(Error::Arguments);
         }
         let stack = self.stack;
         let saved = self.saved.len();
         self.push_stack(CALL)?;
-        if list.is_empty() {
-            self.frames.push(Frame {
-                function,
-                back,
-                saved,
-                stack,
-            });
+        let frame = Frame {
+            function,
+            back,
+            saved,
+            stack,
+            excess,
+        };
+        if params.is_empty() {
+            self.frames.push(frame);
             return Ok(def.op);
         }
         self.cycles += u64::from(params.iter().map(cost::parameter).sum::<u32>());
         let mut values = Vec::with_capacity(list.len());
-        for e in list {
+        // ERL of what goes wrong in an argument is the DEF's line: the op before its body's.
+        let caller = std::mem::replace(&mut self.op, def.op.saturating_sub(1));
+        for (e, _) in list.iter().zip(params) {
             values.push(self.value(p, e)?);
+        }
+        self.op = caller;
+        if params.len() != list.len() {
+            return Err(Error::Arguments);
         }
         for (param, value) in params.iter().zip(values) {
             let home = self.home(p, param)?;
@@ -259,12 +314,7 @@ impl State {
                 e => e,
             })?;
         }
-        self.frames.push(Frame {
-            function,
-            back,
-            saved,
-            stack,
-        });
+        self.frames.push(frame);
         Ok(def.op)
     }
 
@@ -282,6 +332,10 @@ impl State {
             }
         }
         self.stack = frame.stack;
+        if frame.excess {
+            self.op = frame.back.saturating_sub(1);
+            return Err(Error::Syntax);
+        }
         Ok(frame.back)
     }
 

@@ -3,7 +3,7 @@
 use std::cell::RefCell;
 use std::ops::Deref;
 
-use super::ast::Program;
+use super::program::Program;
 use crate::Watch;
 
 pub(crate) struct Code<'a> {

@@ -286,7 +286,8 @@ pub(crate) fn stmt(s: &Stmt) -> u32 {
 
 fn print_item(item: &Item) -> u32 {
     match item {
-        Item::Value(e) | Item::Hex(e) => 180 + expr(e),
+        Item::Value(e) => 180 + expr(e),
+        Item::Hex => 0,
         Item::Tab(e) => 400 + expr(e),
         Item::TabXy(x, y) => 900 + expr(x) + expr(y),
         _ => 30,

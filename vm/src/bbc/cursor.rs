@@ -3,6 +3,7 @@
 
 use slowlight_isa::basic_tokens::{LINE_NUMBER, decode_line, token as t};
 
+use super::Dialect;
 use super::ast::{Expr, Kind, Op2, Place, Slot};
 use super::cost;
 use super::error::Error;
@@ -12,6 +13,8 @@ pub(crate) struct Cursor<'a> {
     pub text: &'a [u8],
     pub at: usize,
     pub names: &'a mut Names,
+    /// Whose grammar.
+    pub dialect: Dialect,
     /// Cycles that depend on how the text is written: digits, long names, spaces.
     pub cost: u32,
     /// How many expressions and factors are being read, each inside the one before.
@@ -19,11 +22,12 @@ pub(crate) struct Cursor<'a> {
 }
 
 impl<'a> Cursor<'a> {
-    pub fn new(text: &'a [u8], at: usize, names: &'a mut Names) -> Self {
+    pub fn new(text: &'a [u8], dialect: Dialect, names: &'a mut Names) -> Self {
         Self {
             text,
-            at,
+            at: 0,
             names,
+            dialect,
             cost: 0,
             depth: 0,
         }
@@ -68,6 +72,13 @@ impl<'a> Cursor<'a> {
     /// At the end of a statement: the line's end, a colon or ELSE?
     pub fn at_end(&mut self) -> bool {
         matches!(self.peek(), None | Some(b':' | t::ELSE))
+    }
+
+    /// To the next ELSE, or to the line's end.
+    pub fn skip_to_else(&mut self) {
+        let rest = self.text.get(self.at..).unwrap_or(&[]);
+        let passed = rest.iter().position(|c| *c == t::ELSE);
+        self.at += passed.unwrap_or(rest.len());
     }
 
     /// An encoded line number.
@@ -124,11 +135,8 @@ impl<'a> Cursor<'a> {
 
     /// Subscripts after an array's `(`, with the closing bracket.
     pub fn subscripts(&mut self) -> Result<Box<[Expr]>, Error> {
-        let mut list = vec![self.expr()?];
-        while self.eat(b',') {
-            list.push(self.expr()?);
-        }
-        self.bracket()?;
+        let mut list = Vec::new();
+        self.arguments(&mut list)?;
         Ok(list.into())
     }
 

@@ -5,15 +5,17 @@
 
 use slowlight_isa::basic_tokens::token as t;
 
-use super::ast::{Datum, Def, Kind, Line, Op, Place, Program, Statement, Stmt, Target};
+use super::Dialect;
+use super::ast::{Expr, Kind, Place, Stmt, Target};
 use super::cost;
 use super::cursor::Cursor;
 use super::error::Error;
 use super::names::Names;
+use super::program::{DataLine, Def, Line, Op, Program, Statement};
 use super::tokenise::RawLine;
 
 /// Decodes all lines. Never fails: what is wrong is raised when it is reached.
-pub(crate) fn decode(lines: &[RawLine<'_>], names: &mut Names) -> Program {
+pub(crate) fn decode(lines: &[RawLine<'_>], dialect: Dialect, names: &mut Names) -> Program {
     let mut program = Program::default();
     for (index, line) in lines.iter().enumerate() {
         program.lines.push(Line {
@@ -21,7 +23,7 @@ pub(crate) fn decode(lines: &[RawLine<'_>], names: &mut Names) -> Program {
             op: program.ops.len() as u32,
         });
         let mut decoder = Decoder {
-            cursor: Cursor::new(line.text, 0, names),
+            cursor: Cursor::new(line.text, dialect, names),
             lines,
             line: index as u32,
             program: &mut program,
@@ -40,6 +42,18 @@ pub(crate) fn decode(lines: &[RawLine<'_>], names: &mut Names) -> Program {
     program.fns.resize(names.count(Kind::Fn), None);
     program.procs.resize(names.count(Kind::Proc), None);
     program
+}
+
+/// Makes a statement that goes on where it should end what is carried out of it: nothing, but for
+/// what the ROM does before it looks.
+fn cut_short(stmt: &mut Stmt) {
+    let bad = Expr::Bad(Error::Syntax);
+    match stmt {
+        Stmt::Read(_) | Stmt::Input(..) | Stmt::Proc(..) => {}
+        Stmt::Goto(Target::Missing) | Stmt::Gosub(Target::Missing) => {}
+        Stmt::LetInt(_, e) | Stmt::LetReal(_, e) | Stmt::Let(_, e) | Stmt::Result(e) => *e = bad,
+        other => *other = Stmt::Bad(Error::Syntax),
+    }
 }
 
 pub(crate) struct Decoder<'a, 'b> {
@@ -101,8 +115,9 @@ impl Decoder<'_, '_> {
                     self.branch();
                 }
                 Some(_) => {
-                    // A statement that goes on where it should end is not carried out.
-                    self.program.ops.pop();
+                    if let Some(last) = self.program.ops.last_mut() {
+                        cut_short(&mut last.stmt);
+                    }
                     self.push(Stmt::Bad(Error::Syntax));
                     if !self.skip_to_else() {
                         break;
@@ -136,14 +151,8 @@ impl Decoder<'_, '_> {
         if self.waiting.is_empty() {
             return false;
         }
-        let rest = self.cursor.text.get(self.cursor.at..).unwrap_or(&[]);
-        match rest.iter().position(|c| *c == t::ELSE) {
-            Some(offset) => {
-                self.cursor.at += offset;
-                true
-            }
-            None => false,
-        }
+        self.cursor.skip_to_else();
+        self.cursor.peek_raw().is_some()
     }
 
     /// After THEN or ELSE: a line number is a GOTO.
@@ -248,7 +257,12 @@ impl Decoder<'_, '_> {
         self.cursor.at += 1;
         let mut targets = vec![self.target()?];
         while self.cursor.eat(b',') {
-            targets.push(self.target()?);
+            let target = self.target();
+            targets.push(target.unwrap_or_else(|e| Target::Computed(Expr::Bad(e))));
+        }
+        // What else there is goes unread.
+        while !self.cursor.at_end() {
+            self.cursor.at += 1;
         }
         let otherwise = (self.cursor.peek() == Some(t::ELSE)).then_some(0);
         self.waiting.push((self.program.ops.len(), self.cursor.at));
@@ -305,7 +319,7 @@ impl Decoder<'_, '_> {
         Ok(params.into())
     }
 
-    /// DATA: items separated by commas, leading spaces dropped, quoted ones as they are.
+    /// DATA: all of the line's rest is for READ.
     fn data(&mut self) {
         let text = self.cursor.text.get(self.cursor.at + 1..).unwrap_or(&[]);
         self.cursor.cost += cost::REMARK * text.len() as u32;
@@ -314,55 +328,11 @@ impl Decoder<'_, '_> {
         let first =
             self.program.lines.last().map(|l| l.op as usize) == Some(self.program.ops.len());
         self.push(Stmt::EndLine);
-        let mut at = 0;
-        if !first {
-            return;
-        }
-        loop {
-            at += spaces(text, at);
-            let rest = text.get(at..).unwrap_or(&[]);
-            let item = if rest.first() == Some(&b'"') {
-                let mut string = vec![b'"'];
-                let mut length = 1;
-                while let Some(c) = rest.get(length) {
-                    length += 1;
-                    if *c == b'"' {
-                        if rest.get(length) != Some(&b'"') {
-                            break;
-                        }
-                        length += 1;
-                    }
-                    string.push(*c);
-                }
-                at += length;
-                at += text
-                    .get(at..)
-                    .unwrap_or(&[])
-                    .iter()
-                    .take_while(|c| **c != b',')
-                    .count();
-                string
-            } else {
-                let length = rest.iter().take_while(|c| **c != b',').count();
-                at += length;
-                rest.get(..length).unwrap_or(&[]).to_vec()
-            };
-            self.program.data.push(Datum {
+        if first {
+            self.program.data.push(DataLine {
                 line: self.line,
-                text: item.into(),
+                text: [b",", text].concat().into(),
             });
-            if text.get(at) != Some(&b',') {
-                break;
-            }
-            at += 1;
         }
     }
-}
-
-fn spaces(text: &[u8], at: usize) -> usize {
-    text.get(at..)
-        .unwrap_or(&[])
-        .iter()
-        .take_while(|c| **c == b' ')
-        .count()
 }

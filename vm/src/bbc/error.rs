@@ -105,7 +105,7 @@ pub enum Error {
     TooDeep,
     /// A star command that this machine does not know.
     BadCommand,
-    /// A statement or function that this machine leaves out (assembler, USR, sound...).
+    /// What this machine leaves out: machine code (the assembler, CALL and USR) and CHAIN.
     NotHere,
     /// Not an error of the program: the run is being stopped (limit or watcher).
     Halt,
@@ -166,7 +166,7 @@ impl Error {
             Self::BadCommand => (254, "Bad command"),
             Self::NotHere => (
                 253,
-                "Not in this machine (assembler, USR, CALL, SOUND and the like are left out)",
+                "Not in this machine: CHAIN, and the assembler, CALL and USR (machine code runs on `slowlight vm 6502:bbc`)",
             ),
             Self::Halt => (17, "Escape"),
         }

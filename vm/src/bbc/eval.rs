@@ -1,5 +1,7 @@
 //! Evaluates expressions that give numbers. Strings are in [`super::strings`].
 
+use std::cmp::Ordering;
+
 use slowlight_isa::real40::Real40;
 
 use super::arithmetic::{holds, order, truth};
@@ -43,7 +45,7 @@ impl State {
                 let address = self.offset(p, &ab.0, &ab.1)?;
                 Ok(Num::Int(self.word(address)))
             }
-            Expr::F0(f) => Ok(self.func0(*f)),
+            Expr::F0(f) => self.func0(*f),
             Expr::Fn(..) | Expr::FS(..) | Expr::Concat(_) | Expr::CompareAny(..) => {
                 match self.value(p, e)? {
                     Value::Num(n) => Ok(n),
@@ -152,8 +154,11 @@ impl State {
     ) -> Result<usize> {
         let array = self.array(kind, slot)?;
         let lookup = array.lookup;
-        if array.dims.len() != index.len() {
-            return Err(Error::Array);
+        match index.len().cmp(&array.dims.len()) {
+            Ordering::Less => return Err(Error::Array),
+            // The ROM wants the bracket after as many as there are.
+            Ordering::Greater => return Err(Error::MissingBracket),
+            Ordering::Equal => {}
         }
         self.cycles += u64::from(lookup);
         let mut at = 0usize;

@@ -1,11 +1,12 @@
 //! Carries out statements: the run from one to the next, conditions and jumps.
-//! `loops` has FOR and NEXT, `arrays` DIM and READ, `io` what deals with the world.
+//! `loops` has FOR and NEXT, `arrays` DIM, `data` READ, `io` what deals with the world.
 
-use super::ast::{Expr, Kind, OnKind, Program, Stmt, Target};
+use super::ast::{Expr, Kind, OnKind, Stmt, Target};
 use super::code::Code;
 use super::cost;
 use super::error::Error;
 use super::profile::At;
+use super::program::Program;
 use super::state::State;
 use crate::{Progress, Stop};
 
@@ -26,6 +27,9 @@ impl State {
         let mut caller = None;
         while at != DONE {
             let op = p.program.ops.get(at as usize).ok_or(Error::BadProgram)?;
+            if self.trace > 0 {
+                self.tell_line(p, at);
+            }
             self.op = at;
             if let Some(profile) = &mut self.profile {
                 let now = At {
@@ -99,9 +103,15 @@ impl State {
                 }
             }
             Stmt::Let(place, e) => {
+                let before = self.cycles;
                 let home = self.home(p, place)?;
+                let shown = self.is_shown(&home);
                 let value = self.value(p, e)?;
                 self.store(home, value)?;
+                if shown {
+                    let written = p.program.ops.get(at as usize).map_or(0, |op| op.cost);
+                    self.plot_cycles += self.cycles - before + u64::from(written);
+                }
             }
             Stmt::If(e, otherwise, skipped) => {
                 if !self.condition(p, e)? {
@@ -181,8 +191,7 @@ impl State {
                     None => 0,
                     Some(target) => self.line_of(p, target)?,
                 };
-                self.data = p.data.partition_point(|d| d.line < line);
-                self.data_line = line;
+                self.restore(p, line);
             }
             Stmt::SetTime(e) => {
                 let t = self.int(p, e)?;
@@ -209,7 +218,14 @@ impl State {
             Stmt::SetPage(e) => {
                 self.address(p, e)?;
             }
+            Stmt::Trace(None) => self.trace = 0,
+            Stmt::Trace(Some(e)) => self.trace = self.int(p, e)? as u16,
             Stmt::Clear => self.clear(),
+            Stmt::Run => {
+                // Also out of every function that is being called.
+                self.clear();
+                return Err(Error::Halt);
+            }
             Stmt::Ignore(list) => {
                 for e in list {
                     self.num(p, e)?;

@@ -2,11 +2,13 @@
 //!
 //! The grammar is the ROM's, level by level: OR EOR; AND; comparisons; + -; * / DIV MOD; ^ (to
 //! the left); then a factor. A unary minus belongs to its factor (-2^2 is 4), and a function
-//! without brackets takes one factor (`SQR A*2` is `(SQR A)*2`).
+//! without brackets takes one factor (`SQR A*2` is `(SQR A)*2`). BASIC II takes one comparison
+//! (1=1=1 ends before the second `=`) and one sign (--3 is no expression).
 
 use slowlight_isa::basic_tokens::token as t;
 use slowlight_isa::real40::text::{Parsed, parse};
 
+use super::Dialect;
 use super::ast::{Compare, Expr, Func1, FuncS, Kind, Op2};
 use super::cost;
 use super::cursor::Cursor;
@@ -77,6 +79,9 @@ impl Cursor<'_> {
             } else {
                 Expr::CompareAny(op, sides)
             };
+            if self.dialect == Dialect::Micro {
+                return Ok(left);
+            }
         }
     }
 
@@ -148,8 +153,8 @@ impl Cursor<'_> {
         let c = self.peek().ok_or(Error::NoSuchVariable)?;
         match c {
             b'0'..=b'9' | b'.' => self.number(),
-            b'-' => self.func1(Func1::Neg),
-            b'+' => self.func1(Func1::Plus),
+            b'-' => self.signed(Func1::Neg),
+            b'+' => self.signed(Func1::Plus),
             b'(' => {
                 self.at += 1;
                 let inner = self.expr()?;
@@ -169,6 +174,18 @@ impl Cursor<'_> {
             c if c >= 0x80 => self.function(c),
             _ => self.variable_value(),
         }
+    }
+
+    /// A sign and its operand, which BASIC II has without a sign of its own and not quoted.
+    fn signed(&mut self, f: Func1) -> Result<Expr, Error> {
+        let sign = self.at;
+        self.at += 1;
+        let micro = self.dialect == Dialect::Micro;
+        if micro && matches!(self.peek(), Some(b'-' | b'+' | b'"')) {
+            return Err(Error::NoSuchVariable);
+        }
+        self.at = sign;
+        self.func1(f)
     }
 
     fn variable_value(&mut self) -> Result<Expr, Error> {

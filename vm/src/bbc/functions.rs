@@ -98,7 +98,10 @@ impl Cursor<'_> {
                 }
             }
             t::FN => return self.fn_call(),
-            t::USR => return Err(Error::NotHere),
+            t::USR => {
+                self.factor()?;
+                return Err(Error::NotHere);
+            }
             _ => return self.string_function(token),
         };
         Ok(Expr::F0(f0))
@@ -117,13 +120,25 @@ impl Cursor<'_> {
         }
         self.cost += cost::name(name.len(), false);
         let slot = self.names.slot(kind, name);
-        let arguments = if self.peek_raw() == Some(b'(') {
+        let mut arguments = Vec::new();
+        if self.peek_raw() == Some(b'(') {
             self.at += 1;
-            self.subscripts()?
-        } else {
-            Box::default()
-        };
-        Ok((slot, arguments))
+            // What is wrong with one comes to be known when it is evaluated.
+            if let Err(e) = self.arguments(&mut arguments) {
+                arguments.push(Expr::Bad(e));
+                self.skip_to_else();
+            }
+        }
+        Ok((slot, arguments.into()))
+    }
+
+    /// Expressions up to a closing bracket, as far as they go.
+    pub fn arguments(&mut self, list: &mut Vec<Expr>) -> Result<(), Error> {
+        list.push(self.expr()?);
+        while self.eat(b',') {
+            list.push(self.expr()?);
+        }
+        self.bracket()
     }
 
     fn string_function(&mut self, token: u8) -> Result<Expr, Error> {
@@ -151,7 +166,11 @@ impl Cursor<'_> {
             t::RIGHT_STR => return self.listed(FuncS::Right, 2, 2),
             t::MID_STR => return self.listed(FuncS::Mid, 2, 3),
             t::STRING_STR => return self.listed(FuncS::Strings, 2, 2),
-            _ => return Err(Error::NoSuchVariable),
+            _ => {
+                // It may be an ELSE, which an IF before it wants to find.
+                self.at -= 1;
+                return Err(Error::NoSuchVariable);
+            }
         };
         let argument = self.factor()?;
         Ok(Expr::FS(one, Box::new([argument])))

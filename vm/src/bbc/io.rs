@@ -1,15 +1,16 @@
-//! PRINT, INPUT, files, VDU and drawing statements, star commands.
+//! PRINT, files, VDU and drawing statements, star commands; `input` has INPUT.
 
 use slowlight_isa::real40::Real40;
 use slowlight_isa::real40::text::NumberFormat;
 
+use super::Dialect;
 use super::ast::{Expr, Item, Stmt};
 use super::code::Code;
 use super::cost::plot;
 use super::error::Error;
 use super::state::State;
 use super::strings::number_text;
-use super::values::{Num, Value, is_numeric};
+use super::values::{Num, Value};
 use super::work;
 
 type Result<T> = std::result::Result<T, Error>;
@@ -17,24 +18,20 @@ type Result<T> = std::result::Result<T, Error>;
 /// Captured text beyond this is dropped.
 const MOST_TEXT: usize = 1 << 20;
 
+/// How PRINT writes numbers, up to the next `,` or `;`.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Layout {
+    /// After `;`: not at the end of a field.
+    close: bool,
+    /// After `~`.
+    hex: bool,
+}
+
 impl State {
     pub fn exec_io(&mut self, p: &Code<'_>, stmt: &Stmt) -> Result<()> {
         match stmt {
             Stmt::Print(items) => self.print(p, items)?,
-            Stmt::Input(prompts, places) => {
-                self.print(p, prompts)?;
-                self.new_line();
-                // Nobody types: every INPUT reads an empty line.
-                for place in places {
-                    let home = self.home(p, place)?;
-                    let empty = if is_numeric(place) {
-                        Value::Num(Num::Int(0))
-                    } else {
-                        Value::Str(Vec::new())
-                    };
-                    self.store(home, empty)?;
-                }
-            }
+            Stmt::Input(asks, whole) => self.input(p, asks, *whole)?,
             Stmt::Mode(e) => {
                 let mode = self.int(p, e)? as u8;
                 self.set_mode(mode)?;
@@ -77,7 +74,7 @@ impl State {
                 self.new_line();
                 self.write(message.as_bytes());
             }
-            Stmt::Width(e) => self.width = self.int(p, e)?.clamp(0, 255) as u32,
+            Stmt::Width(e) => self.width = u32::from(self.int(p, e)? as u8),
             Stmt::OsCli(e) => {
                 let command = self.string(p, e)?;
                 self.star(&command)?;
@@ -165,73 +162,85 @@ impl State {
     }
 
     fn print(&mut self, p: &Code<'_>, items: &[Item]) -> Result<()> {
-        let mut justify = true;
-        let mut hex = false;
-        let mut ended = false;
+        let mut layout = Layout::default();
         for item in items {
-            ended = false;
-            match item {
-                Item::Value(e) | Item::Hex(e) => {
-                    hex |= matches!(item, Item::Hex(_));
-                    self.print_value(p, e, justify, hex)?;
-                    hex = false;
-                }
-                Item::Comma => {
-                    justify = true;
-                    let field = self.at_percent() as u32 & 255;
-                    while field > 0 && !self.count.is_multiple_of(field) {
-                        self.write(b" ");
-                    }
-                }
-                Item::Semicolon => {
-                    justify = false;
-                    ended = true;
-                }
-                Item::NewLine => self.new_line(),
-                Item::Tab(e) => {
-                    let x = self.int(p, e)?.clamp(0, 255) as u32;
-                    if self.count > x {
-                        self.new_line();
-                    }
-                    while self.count < x {
-                        self.write(b" ");
-                    }
-                }
-                Item::TabXy(x, y) => {
-                    let x = self.int(p, x)? as u8;
-                    let y = self.int(p, y)? as u8;
-                    for b in [31, x, y] {
-                        self.vdu(b)?;
-                    }
-                }
-                Item::Spc(e) => {
-                    for _ in 0..self.int(p, e)? as u8 {
-                        self.write(b" ");
-                    }
-                }
-            }
+            self.print_item(p, item, &mut layout)?;
         }
-        if !ended {
+        if !matches!(items.last(), Some(Item::Semicolon)) {
             self.new_line();
         }
         Ok(())
     }
 
-    fn print_value(&mut self, p: &Code<'_>, e: &Expr, justify: bool, hex: bool) -> Result<()> {
+    /// One item of PRINT or INPUT.
+    pub(super) fn print_item(
+        &mut self,
+        p: &Code<'_>,
+        item: &Item,
+        layout: &mut Layout,
+    ) -> Result<()> {
+        match item {
+            Item::Value(e) => self.print_value(p, e, *layout)?,
+            Item::Hex => layout.hex = true,
+            Item::Comma => {
+                *layout = Layout::default();
+                let field = self.at_percent() as u32 & 255;
+                let over = self.count.checked_rem(field).unwrap_or(0);
+                if over > 0 {
+                    self.spaces(field - over);
+                }
+            }
+            Item::Semicolon => {
+                *layout = Layout {
+                    close: true,
+                    hex: false,
+                }
+            }
+            Item::NewLine => self.new_line(),
+            Item::Tab(e) => {
+                // A column is a byte.
+                let x = u32::from(self.int(p, e)? as u8);
+                if self.count > x {
+                    self.new_line();
+                }
+                self.spaces(x - self.count);
+            }
+            Item::TabXy(x, y) => {
+                let x = self.int(p, x)? as u8;
+                let y = self.int(p, y)? as u8;
+                for b in [31, x, y] {
+                    self.vdu(b)?;
+                }
+            }
+            Item::Spc(e) => {
+                let n = self.int(p, e)? as u8;
+                self.spaces(u32::from(n));
+            }
+        }
+        Ok(())
+    }
+
+    fn spaces(&mut self, n: u32) {
+        for _ in 0..n {
+            self.write(b" ");
+        }
+    }
+
+    fn print_value(&mut self, p: &Code<'_>, e: &Expr, layout: Layout) -> Result<()> {
         let format = NumberFormat::from_at_percent(self.at_percent());
         let text = match self.value(p, e)? {
             Value::Str(s) => {
                 self.write(&s);
                 return Ok(());
             }
-            Value::Num(n) if hex => format!("{:X}", n.int()?),
+            Value::Num(n) if layout.hex => format!("{:X}", n.int()?),
             Value::Num(n) => {
                 let x = self.real_of(n);
                 self.cycles += u64::from(work::number_text(x));
                 number_text(n, format)
             }
         };
-        if justify {
+        if !layout.close {
             for _ in text.len()..usize::from(format.width) {
                 self.write(b" ");
             }
@@ -243,13 +252,13 @@ impl State {
     /// Characters to the screen and the captured text. Control characters go through VDU.
     pub fn write(&mut self, text: &[u8]) {
         for c in text {
+            if *c != 13 && self.width > 0 && self.count >= self.width {
+                self.new_line();
+            }
             // The queue of a VDU command cannot fail on what PRINT sends, but for a bad mode.
             let _ = self.vdu(*c);
             self.cycles += work::CHARACTER;
-            self.count += 1;
-            if self.width > 0 && self.count >= self.width {
-                self.new_line();
-            }
+            self.count = if *c == 13 { 0 } else { self.count + 1 };
         }
     }
 
@@ -299,12 +308,17 @@ impl State {
 
     /// MODE: moves HIMEM, if the program and its variables leave room and nothing is on the stack.
     fn set_mode(&mut self, mode: u8) -> Result<()> {
+        // OS 1.20 looks at three bits.
+        let mode = match self.config.dialect {
+            Dialect::Micro => mode & 7,
+            _ => mode,
+        };
         let himem = self.display.himem_of(mode).ok_or(Error::BadMode)?;
         if himem < self.heap || !self.frames.is_empty() {
             return Err(Error::BadMode);
         }
         self.display.set_mode(&mut self.mem, mode);
-        self.charge(plot::CLEAR_BYTE * u64::from(0x8000u32.saturating_sub(self.himem)));
+        self.cycles += plot::CLEAR_BYTE * u64::from(0x8000u32.saturating_sub(self.himem));
         self.himem = himem;
         self.stack = himem;
         self.least_free = self.least_free.min(himem - self.heap);
@@ -320,6 +334,10 @@ impl State {
             "FX", "TV", "|", "HELP", "DISC", "DISK", "DIR", "DRIVE", "SPOOL", "ENABLE", "MOTOR",
             "KEY", "OPT",
         ];
+        let number = |rest: &str| rest.trim_start().starts_with(|c: char| c.is_ascii_digit());
+        if word.strip_prefix("FX").is_some_and(|rest| !number(rest)) {
+            return Err(Error::BadCommand);
+        }
         if word.is_empty() || known.iter().any(|k| word.starts_with(k)) {
             Ok(())
         } else {

@@ -1,9 +1,12 @@
 //! FOR and NEXT: the machine's stack of ten loops, each of which knows its
 //! variable, its end, its step and where its body starts.
 
+use std::cmp::Ordering;
+
 use slowlight_isa::real40::Real40;
 
-use super::ast::{Expr, Place};
+use super::arithmetic::order;
+use super::ast::{Expr, Op2, Place};
 use super::code::Code;
 use super::cost;
 use super::error::Error;
@@ -36,7 +39,9 @@ impl State {
             Some(e) => Some(self.num(p, e)?),
             None => None,
         };
-        let int = matches!(home, Home::Int(_));
+        // A loop over a byte in memory goes on with a word.
+        let home = word_of(home);
+        let int = !home.is_real();
         let mut fit = |n: Num| -> Result<Num> {
             Ok(if int {
                 Num::Int(self.whole(n)?)
@@ -67,7 +72,9 @@ impl State {
     ) -> Result<u32> {
         for place in list {
             let wanted = match place {
-                Some(place) => Some(self.home(p, place)?),
+                Some(_) if self.loops.is_empty() => return Err(Error::NoFor),
+                Some(place) if !self.is_defined(place) => return Err(Error::Syntax),
+                Some(place) => Some(word_of(self.home(p, place)?)),
                 None => None,
             };
             if let Some(back) = self.turn(wanted)? {
@@ -91,7 +98,7 @@ impl State {
         let Some(l) = self.loops.last().cloned() else {
             return Err(Error::CantMatchFor);
         };
-        let int = matches!(l.home, Home::Int(_));
+        let int = !l.home.is_real();
         self.cycles += cost::next(int);
         let over = match (l.home, l.to, l.step) {
             (Home::Int(slot), Num::Int(to), Num::Int(step)) => {
@@ -116,12 +123,36 @@ impl State {
                     v.value > to
                 }
             }
-            _ => return Err(Error::ForVariable),
+            (home, to, step) => self.step(home, to, step)?,
         };
         if over {
             self.loops.pop();
             return Ok(None);
         }
         Ok(Some(l.body))
+    }
+
+    /// A step of an element or of a word in memory; answers whether the loop is over.
+    fn step(&mut self, home: Home, to: Num, step: Num) -> Result<bool> {
+        let Value::Num(old) = self.load(home)? else {
+            return Err(Error::ForVariable);
+        };
+        let new = self.op2(Op2::Add, old, step)?;
+        self.store(home, Value::Num(new))?;
+        let past = order(new, to);
+        let down = order(step, Num::Int(0)) == Ordering::Less;
+        Ok(past
+            == if down {
+                Ordering::Less
+            } else {
+                Ordering::Greater
+            })
+    }
+}
+
+fn word_of(home: Home) -> Home {
+    match home {
+        Home::Byte(address) => Home::Word(address),
+        home => home,
     }
 }

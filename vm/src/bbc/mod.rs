@@ -11,9 +11,11 @@
 //! - **Memory** is the machine's: the program at PAGE, variables above it in their sizes and
 //!   order, the stack below HIMEM; what does not fit is "No room". On the Micro the screen is
 //!   in the same 64K, so that pokes draw.
-//! - **Left out**: the assembler, USR and CALL, sound, text on the graphics screen (there is no
-//!   font; text is captured instead), programs that change their own lines, keyboard input
-//!   (GET sees RETURN, INPUT empty lines). Reaching one of the first is an error that says so.
+//! - **Left out**: the assembler, USR and CALL (reaching one is an error that says where machine
+//!   code runs), sound, programs that change their own lines.
+//! - **Keys** are a script's, and lines of INPUT standard input's as well, where a program is
+//!   [played](Machine::play); else GET sees RETURN, and INPUT the lines of
+//!   [`Machine::type_lines`], then empty ones.
 //! - **Dialects**: `Agon` and `BasicV` have their screens and their integers (which become
 //!   reals instead of wrapping), but Micro's 40-bit arithmetic; Brandy's reals are doubles, and
 //!   the Agon's 40 bits round otherwise.
@@ -25,6 +27,7 @@ mod calls;
 mod code;
 pub(crate) mod cost;
 mod cursor;
+mod data;
 mod decode;
 mod display;
 mod error;
@@ -32,27 +35,37 @@ mod eval;
 mod exec;
 mod expressions;
 mod files;
+mod font;
 mod functions;
+mod input;
 mod io;
+pub(crate) mod keyboard;
 mod loops;
 mod modes;
 mod names;
 mod numeric;
+mod pixels;
 mod plot;
 mod profile;
+mod program;
+mod raster;
 mod state;
 mod statements;
 mod strings;
+mod text;
 mod tokenise;
+mod trace;
 mod values;
 mod work;
 
 use std::cell::RefCell;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, VecDeque};
 
 use slowlight_isa::real40::Real40;
 
+use crate::keys::Keyboard;
 use crate::{Charges, Fault, Roles, Screen, Stop, Watch};
+use data::DataPointer;
 use error::Error;
 use profile::Profile;
 pub use profile::{LineCost, StatementPlace};
@@ -61,6 +74,9 @@ pub use tokenise::{detokenise, tokenise};
 
 /// PI, as the ROM has it.
 const PI: Real40 = Real40::from_bits(0x82_490f_daa2);
+/// 180/PI to the nearest, and PI/180 truncated, as the ROM's results show them to be.
+const DEGREES: Real40 = Real40::from_bits(0x86_652e_e0d3);
+const RADIANS: Real40 = Real40::from_bits(0x7b_0efa_3512);
 
 /// Whose BASIC.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
@@ -99,7 +115,8 @@ pub struct Run {
     pub stop: Stop,
     /// Cycles of 2 MHz, drawing included.
     pub cycles: u64,
-    /// Those of them spent in the operating system's drawing.
+    /// Those of them spent in drawing: the operating system's plotting, and statements that
+    /// write to the screen's memory. To choose and clear a mode is not drawing.
     pub plot_cycles: u64,
     /// The picture; no pixels in a text mode.
     pub screen: Screen,
@@ -123,6 +140,7 @@ pub struct Machine {
     config: Config,
     program: Vec<u8>,
     files: BTreeMap<String, Vec<u8>>,
+    typed: VecDeque<Vec<u8>>,
 }
 
 impl Machine {
@@ -132,6 +150,7 @@ impl Machine {
             config,
             program: vec![0x0d, 0xff],
             files: BTreeMap::new(),
+            typed: VecDeque::new(),
         }
     }
 
@@ -153,6 +172,12 @@ impl Machine {
         self.files.insert(name.to_owned(), bytes);
     }
 
+    /// Lines for the program's INPUTs, one after the other; after them come empty ones.
+    pub fn type_lines<T: AsRef<[u8]>>(&mut self, lines: impl IntoIterator<Item = T>) {
+        self.typed
+            .extend(lines.into_iter().map(|l| l.as_ref().to_vec()));
+    }
+
     /// Bytes of the tokenised program.
     pub fn program_bytes(&self) -> usize {
         self.program.len()
@@ -163,7 +188,7 @@ impl Machine {
     pub fn entry_bytes(&self) -> usize {
         let mut names = names::Names::new();
         if let Ok(lines) = tokenise::lines(&self.program) {
-            decode::decode(&lines, &mut names);
+            decode::decode(&lines, self.config.dialect, &mut names);
         }
         names.all_bytes() as usize
     }
@@ -179,7 +204,18 @@ impl Machine {
     ///
     /// Stops after `cycle_limit` cycles; `watch` is asked about every ten million.
     pub fn run(&self, cycle_limit: u64, watch: Watch<'_>) -> Run {
-        self.run_from(State::new(self.config), cycle_limit, watch).0
+        self.run_from(&mut State::new(self.config), cycle_limit, watch)
+            .0
+    }
+
+    /// Runs the program as [`Machine::run`] does, with a keyboard, whose frames are of 40,000
+    /// cycles and whose calls are GET and INKEY.
+    pub fn play(&self, keyboard: Keyboard, limit: u64, watch: Watch<'_>) -> (Run, Keyboard) {
+        let mut state = State::new(self.config);
+        let spare = keyboard.clone();
+        state.keyboard = Some(keyboard);
+        let (run, _) = self.run_from(&mut state, limit, watch);
+        (run, state.keyboard.unwrap_or(spare))
     }
 
     /// Runs the program as [`Machine::run`] does, and counts what each of its lines takes.
@@ -215,7 +251,7 @@ impl Machine {
         let mut state = State::new(self.config);
         let count = self.statements().len();
         state.profile = Some(Box::new(Profile::new(count, roles)));
-        let (run, charges) = self.run_from(state, cycle_limit, watch);
+        let (run, charges) = self.run_from(&mut state, cycle_limit, watch);
         // Each has its share of the interrupts, so that all add up to the run.
         (run, charges.shared(0, cost::with_interrupts))
     }
@@ -223,8 +259,8 @@ impl Machine {
     /// The program's statements, in its order.
     pub fn statements(&self) -> Vec<StatementPlace> {
         let lines = tokenise::lines(&self.program).unwrap_or_default();
-        let program = decode::decode(&lines, &mut names::Names::new());
-        let place = |(k, statement): (usize, &ast::Statement)| {
+        let program = decode::decode(&lines, self.config.dialect, &mut names::Names::new());
+        let place = |(k, statement): (usize, &program::Statement)| {
             let next = program.statements.get(k + 1);
             let next = next.filter(|next| next.line == statement.line);
             let text = lines
@@ -245,9 +281,10 @@ impl Machine {
         program.statements.iter().enumerate().map(place).collect()
     }
 
-    fn run_from(&self, mut state: State, cycle_limit: u64, watch: Watch<'_>) -> (Run, Charges) {
+    fn run_from(&self, state: &mut State, cycle_limit: u64, watch: Watch<'_>) -> (Run, Charges) {
         state.files.contents = self.files.clone();
-        let stop = self.run_in(&mut state, cycle_limit, watch);
+        state.typed = self.typed.clone();
+        let stop = self.run_in(state, cycle_limit, watch);
         let charges = match state.profile.take() {
             Some(profile) => profile.finish(state.cycles),
             None => Charges::default(),
@@ -260,7 +297,7 @@ impl Machine {
             plot_cycles: cost::with_interrupts(state.plot_cycles),
             screen: state.display.screen(&state.mem),
             text: state.text.iter().map(|c| char::from(*c)).collect(),
-            files: state.files.contents,
+            files: std::mem::take(&mut state.files.contents),
             program_bytes: self.program.len(),
             ram_bytes: room.saturating_sub(free),
             free_bytes: free,
@@ -284,7 +321,7 @@ impl Machine {
         if state.place_program(&self.program).is_err() {
             return fault("No room: the program is longer than the memory from PAGE to HIMEM");
         }
-        let program = decode::decode(&lines, &mut state.names);
+        let program = decode::decode(&lines, self.config.dialect, &mut state.names);
         state.fit_names();
         let code = code::Code {
             program: &program,
@@ -296,15 +333,23 @@ impl Machine {
             let Err(error) = state.run_ops(&code, start) else {
                 return Stop::Ended;
             };
-            if let (Error::Halt, Some(stop)) = (error, state.stop.take()) {
-                return stop;
+            if error == Error::Halt {
+                if let Some(mut stop) = state.stop.take() {
+                    if let Stop::Fault(fault) = &mut stop {
+                        fault.line = state.note_error(&program, error).map(u32::from);
+                    }
+                    return stop;
+                }
+                // RUN.
+                start = 0;
+                continue;
             }
             let number = state.note_error(&program, error);
             match state.on_error {
                 Some(handler) if error != Error::Stop => {
                     state.unwind();
-                    state.data = 0;
-                    state.data_line = 0;
+                    state.data = DataPointer::default();
+                    state.trace = 0;
                     start = handler;
                 }
                 _ => {
@@ -323,7 +368,7 @@ impl Machine {
 
 impl State {
     /// Sets ERR and ERL; answers the line's number.
-    fn note_error(&mut self, program: &ast::Program, error: Error) -> Option<u16> {
+    fn note_error(&mut self, program: &program::Program, error: Error) -> Option<u16> {
         let line = program
             .ops
             .get(self.op as usize)

@@ -45,19 +45,15 @@ impl State {
             Func1::Asn => Num::Real(elementary::asn(self.real_of(x))?),
             Func1::Acs => Num::Real(elementary::acs(self.real_of(x))?),
             Func1::Log => Num::Real(elementary::log10(self.real_of(x))?),
-            Func1::Deg => Num::Real(Real40::from_f64(x.real().to_f64().to_degrees())?),
-            Func1::Rad => Num::Real(Real40::from_f64(x.real().to_f64().to_radians())?),
+            Func1::Deg => Num::Real(arith::mul(self.real_of(x), super::DEGREES)?),
+            Func1::Rad => Num::Real(arith::mul(self.real_of(x), super::RADIANS)?),
             Func1::Rnd => self.rnd_of(x)?,
-            // No key is ever pressed: INKEY waits its hundredths and gives -1.
-            Func1::Inkey => {
-                let wait = x.int()?;
-                if (0..32768).contains(&wait) {
-                    self.cycles += wait as u64 * 20_000;
-                    Num::Int(-1)
-                } else {
-                    Num::Int(0)
-                }
-            }
+            Func1::Inkey => match x.int()? {
+                wait @ 0..32768 => Num::Int(self.inkey(wait as u32)?.map_or(-1, i32::from)),
+                key @ -128..0 => truth(self.held((-1 - key) as u8)?),
+                // OS 1.20 is -1.
+                other => truth(other as u8 == 0),
+            },
             Func1::Adval => Num::Int(0),
             Func1::Bget => {
                 let channel = x.int()?;
@@ -83,8 +79,8 @@ impl State {
         Ok(Num::Real(value))
     }
 
-    pub fn func0(&mut self, f: Func0) -> Num {
-        Num::Int(match f {
+    pub fn func0(&mut self, f: Func0) -> Result<Num> {
+        Ok(Num::Int(match f {
             Func0::Rnd => self.rnd_word(),
             Func0::Time => self.time(),
             Func0::Himem => self.himem as i32,
@@ -96,9 +92,8 @@ impl State {
             Func0::Count => self.count as i32,
             Func0::Pos => self.display.cursor().0 as i32,
             Func0::Vpos => self.display.cursor().1 as i32,
-            // Nobody is at the keyboard: as if RETURN were pressed.
-            Func0::Get => 13,
-        })
+            Func0::Get => i32::from(self.get("GET")?),
+        }))
     }
 
     /// One step of the machine's 33-bit shift register, 32 times.

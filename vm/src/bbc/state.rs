@@ -6,9 +6,12 @@
 //! integers can also be reached at &400 by `?` and `!`, as some programs do; other variables
 //! and the program's own lines cannot be changed through memory.
 
+use std::collections::VecDeque;
+
 use slowlight_isa::real40::Real40;
 
 use super::ast::{Kind, Slot};
+use super::data::DataPointer;
 use super::display::Display;
 use super::error::Error;
 use super::files::Files;
@@ -17,6 +20,7 @@ use super::profile::Profile;
 use super::values::{Array, Frame, Loop, Num, Saved, Scalar, Text, Value, array_index};
 use super::{Config, cost};
 use crate::Stop;
+use crate::keys::Keyboard;
 
 pub(crate) struct State {
     pub config: Config,
@@ -47,9 +51,12 @@ pub(crate) struct State {
     pub loops: Vec<Loop>,
     pub repeats: Vec<u32>,
     pub gosubs: Vec<u32>,
-    /// The next DATA item, and the line from which it is looked for.
-    pub data: usize,
-    pub data_line: u32,
+    /// Where READ goes on.
+    pub data: DataPointer,
+    /// TRACE tells the lines below this number.
+    pub trace: u16,
+    /// Lines for INPUT.
+    pub typed: VecDeque<Vec<u8>>,
     pub on_error: Option<u32>,
     pub err: u8,
     pub error: Error,
@@ -72,6 +79,8 @@ pub(crate) struct State {
     pub width: u32,
     pub display: Display,
     pub files: Files,
+    /// The keyboard, where there is one.
+    pub keyboard: Option<Keyboard>,
     /// Counts by line, where they are wanted.
     pub profile: Option<Box<Profile>>,
 }
@@ -106,8 +115,9 @@ impl State {
             loops: Vec::new(),
             repeats: Vec::new(),
             gosubs: Vec::new(),
-            data: 0,
-            data_line: 0,
+            data: DataPointer::default(),
+            trace: 0,
+            typed: VecDeque::new(),
             on_error: None,
             err: 0,
             error: Error::Halt,
@@ -127,6 +137,7 @@ impl State {
             display,
             files: Files::default(),
             profile: None,
+            keyboard: None,
         };
         state.fit_names();
         for v in &mut state.ints {
@@ -205,8 +216,7 @@ impl State {
         self.lists.fill(Vec::new());
         self.heap = self.lomem;
         self.unwind();
-        self.data = 0;
-        self.data_line = 0;
+        self.data = DataPointer::default();
     }
 
     /// Empties all stacks, as an error does.

@@ -2,10 +2,11 @@
 
 use slowlight_isa::basic_tokens::token as t;
 
-use super::ast::{DimItem, Expr, Item, Kind, Place, Stmt};
+use super::ast::{Ask, DimItem, Expr, Item, Kind, Place, Stmt};
 use super::cost;
 use super::decode::Decoder;
 use super::error::Error;
+use super::values::is_numeric;
 
 impl Decoder<'_, '_> {
     /// One statement from its first token or letter.
@@ -43,7 +44,7 @@ impl Decoder<'_, '_> {
             t::ENDPROC => Stmt::EndProc,
             t::LOCAL => Stmt::Local(self.places()?),
             t::DIM => return self.dim_statement(),
-            t::READ => Stmt::Read(self.places()?),
+            t::READ => Stmt::Read(self.read_places()?),
             t::RESTORE => {
                 if c.at_end() {
                     Stmt::Restore(None)
@@ -93,30 +94,17 @@ impl Decoder<'_, '_> {
             t::OSCLI => Stmt::OsCli(c.expr()?),
             t::END => Stmt::End,
             t::STOP => Stmt::Stop,
-            t::SOUND | t::ENVELOPE => {
-                let mut list = vec![c.expr()?];
-                while c.eat(b',') {
-                    list.push(c.expr()?);
-                }
-                Stmt::Ignore(list.into())
-            }
-            t::TRACE => {
-                if !c.eat(t::OFF) {
-                    c.expr()?;
-                }
-                Stmt::Ignore(Box::default())
-            }
-            t::CALL
-            | t::CHAIN
-            | t::LOAD
-            | t::SAVE
-            | t::LIST
-            | t::NEW
-            | t::OLD
-            | t::AUTO
-            | t::DELETE
-            | t::RENUMBER
-            | t::RUN => return Err(Error::NotHere),
+            t::SOUND => Stmt::Ignore(self.several(4)?),
+            t::ENVELOPE => Stmt::Ignore(self.several(14)?),
+            t::TRACE if c.eat(t::OFF) => Stmt::Trace(None),
+            t::TRACE if c.eat(t::ON) => Stmt::Trace(Some(Expr::Int(0xffff))),
+            t::TRACE => Stmt::Trace(Some(match c.line_number() {
+                Some(number) => Expr::Int(i32::from(number)),
+                None => c.expr()?,
+            })),
+            t::RUN => Stmt::Run,
+            t::CALL | t::CHAIN => return Err(Error::NotHere),
+            // LIST, NEW and such are for BASIC's prompt alone.
             _ => return Err(Error::Syntax),
         })
     }
@@ -141,7 +129,7 @@ impl Decoder<'_, '_> {
 
     fn assignment(&mut self) -> Result<Stmt, Error> {
         let c = &mut self.cursor;
-        let place = c.place()?.ok_or(Error::Mistake)?;
+        let place = c.place()?.ok_or(Error::Syntax)?;
         if !c.eat(b'=') {
             return Err(Error::Mistake);
         }
@@ -157,6 +145,16 @@ impl Decoder<'_, '_> {
         let a = self.cursor.expr()?;
         self.cursor.comma()?;
         Ok((a, self.cursor.expr()?))
+    }
+
+    /// So many numbers, with commas between them.
+    fn several(&mut self, count: usize) -> Result<Box<[Expr]>, Error> {
+        let mut list = vec![self.cursor.expr()?];
+        while list.len() < count {
+            self.cursor.comma()?;
+            list.push(self.cursor.expr()?);
+        }
+        Ok(list.into())
     }
 
     fn after_equals(&mut self) -> Result<Expr, Error> {
@@ -184,10 +182,22 @@ impl Decoder<'_, '_> {
         }
     }
 
+    /// READ's variables: as many as there are.
+    fn read_places(&mut self) -> Result<Box<[Place]>, Error> {
+        let mut list = Vec::new();
+        while let Some(place) = self.cursor.place()? {
+            list.push(place);
+            if !self.cursor.eat(b',') {
+                break;
+            }
+        }
+        Ok(list.into())
+    }
+
     fn for_statement(&mut self) -> Result<Stmt, Error> {
         let c = &mut self.cursor;
         let place = c.place()?.ok_or(Error::ForVariable)?;
-        if !matches!(place, Place::Int(_) | Place::Real(_)) {
+        if !is_numeric(&place) {
             return Err(Error::ForVariable);
         }
         if !c.eat(b'=') {
@@ -221,7 +231,11 @@ impl Decoder<'_, '_> {
             let (kind, slot) = c.variable().ok_or(Error::BadDim)?;
             list.push(match kind {
                 Kind::Ints | Kind::Reals | Kind::Strs => {
-                    DimItem::Array(kind, slot, c.subscripts()?)
+                    let bounds = c.subscripts().map_err(|e| match e {
+                        Error::MissingBracket => Error::BadDim,
+                        e => e,
+                    })?;
+                    DimItem::Array(kind, slot, bounds)
                 }
                 Kind::Int | Kind::Real => {
                     let place = if kind == Kind::Int {
@@ -249,29 +263,40 @@ impl Decoder<'_, '_> {
             }
             return Ok(Stmt::InputFile(channel, list.into()));
         }
-        c.eat(t::LINE);
-        let mut prompts = Vec::new();
+        let whole = c.eat(t::LINE);
         let mut list = Vec::new();
         while !self.cursor.at_end() {
             let c = &mut self.cursor;
-            match c.peek() {
-                Some(b'"') => prompts.push(Item::Value(c.factor()?)),
-                Some(b',' | b';') => c.at += 1,
+            let first = c.peek();
+            let start = c.at;
+            let ask = match first {
+                Some(b'"') => match c.factor() {
+                    Ok(prompt) => Ask::Print(Item::Value(prompt)),
+                    // What there is of it is printed first.
+                    Err(e) => {
+                        let text = c.text.get(start + 1..).unwrap_or(&[]);
+                        list.push(Ask::Print(Item::Value(Expr::Str(text.into()))));
+                        c.at = c.text.len();
+                        Ask::Print(Item::Value(Expr::Bad(e)))
+                    }
+                },
+                Some(b',' | b';') => {
+                    c.at += 1;
+                    Ask::Separator
+                }
                 Some(b'\'') => {
                     c.at += 1;
-                    prompts.push(Item::NewLine);
+                    Ask::Print(Item::NewLine)
                 }
-                Some(t::TAB | t::SPC) => {
-                    let item = self.tab()?;
-                    prompts.push(item);
-                }
-                _ => list.push(c.place()?.ok_or(Error::NoSuchVariable)?),
-            }
-            if self.cursor.at_end() {
-                break;
-            }
+                Some(t::TAB | t::SPC) => Ask::Print(self.tab()?),
+                _ => match c.place()? {
+                    Some(place) => Ask::Read(place),
+                    None => break,
+                },
+            };
+            list.push(ask);
         }
-        Ok(Stmt::Input(prompts.into(), list.into()))
+        Ok(Stmt::Input(list.into(), whole))
     }
 
     fn tab(&mut self) -> Result<Item, Error> {
@@ -282,13 +307,13 @@ impl Decoder<'_, '_> {
             return Ok(Item::Spc(c.factor()?));
         }
         let x = c.expr()?;
-        let item = if c.eat(b',') {
-            Item::TabXy(x, c.expr()?)
-        } else {
-            Item::Tab(x)
-        };
+        if c.eat(b')') {
+            return Ok(Item::Tab(x));
+        }
+        c.comma()?;
+        let y = c.expr()?;
         c.bracket()?;
-        Ok(item)
+        Ok(Item::TabXy(x, y))
     }
 
     fn items(&mut self) -> Result<Box<[Item]>, Error> {
@@ -310,7 +335,7 @@ impl Decoder<'_, '_> {
                 }
                 Some(b'~') => {
                     c.at += 1;
-                    Item::Hex(c.expr()?)
+                    Item::Hex
                 }
                 Some(t::TAB | t::SPC) => self.tab()?,
                 _ => match c.expr() {
@@ -318,7 +343,7 @@ impl Decoder<'_, '_> {
                     // What stands before the error is printed first.
                     Err(e) => {
                         list.push(Item::Value(Expr::Bad(e)));
-                        c.at = c.text.len();
+                        c.skip_to_else();
                         return Ok(list.into());
                     }
                 },
@@ -331,7 +356,11 @@ impl Decoder<'_, '_> {
         let mut list = Vec::new();
         let c = &mut self.cursor;
         while !c.at_end() {
-            let e = c.expr()?;
+            let e = c.expr().unwrap_or_else(|e| {
+                // What stands before the error is sent first.
+                c.skip_to_else();
+                Expr::Bad(e)
+            });
             let word = c.eat(b';');
             list.push((e, word));
             if !word {

@@ -31,7 +31,8 @@ pub(crate) fn val(text: &[u8]) -> Result<Num> {
         Some(b'+') => (false, text.get(1..).unwrap_or(&[])),
         _ => (false, text),
     };
-    Ok(match parse(digits)? {
+    let spaces = digits.iter().take_while(|c| **c == b' ').count();
+    Ok(match parse(digits.get(spaces..).unwrap_or(&[]))? {
         None => Num::Int(0),
         Some((Parsed::Int(n), _)) => Num::Int(if negative { -n } else { n }),
         Some((Parsed::Real(x), _)) => Num::Real(if negative { x.negate() } else { x }),
@@ -136,24 +137,29 @@ impl State {
             FuncS::StrHex => Value::Str(format!("{:X}", self.int(p, first)?).into_bytes()),
             FuncS::Left | FuncS::Right | FuncS::Mid => self.part(p, f, list)?,
             FuncS::Strings => self.repeated(p, list)?,
-            FuncS::Get => Value::Str(vec![13]),
+            FuncS::Get => Value::Str(vec![self.get("GET$")?]),
             FuncS::Inkey => {
                 let wait = self.int(p, first)?.clamp(0, 32767);
-                self.cycles += wait as u64 * 20_000;
-                Value::Str(Vec::new())
+                Value::Str(self.inkey(wait as u32)?.into_iter().collect())
             }
             FuncS::At => {
                 let address = self.address(p, first)?;
-                let mut s = Vec::new();
-                for i in 0..256u16 {
-                    let c = self.byte(address.wrapping_add(i));
-                    if c == 13 {
-                        return Ok(Value::Str(s));
-                    }
-                    s.push(c);
-                }
-                Value::Str(Vec::new())
+                Value::Str(self.text_at(address)?)
             }
+        })
+    }
+
+    /// The string in memory at an address, up to a carriage return; none within 255 bytes is "".
+    pub fn text_at(&self, address: u16) -> Result<Vec<u8>> {
+        if address < 0x100 {
+            return Err(Error::StringRange);
+        }
+        let bytes = (0..256u16).map(|i| self.byte(address.wrapping_add(i)));
+        let string: Vec<u8> = bytes.take_while(|c| *c != 13).collect();
+        Ok(if string.len() < 256 {
+            string
+        } else {
+            Vec::new()
         })
     }
 
@@ -169,13 +175,18 @@ impl State {
     /// EVAL: tokenises and reads the string as an expression.
     fn eval(&mut self, p: &Code<'_>, e: &Expr) -> Result<Value> {
         let text = self.string(p, e)?;
-        let tokens = tokenise_line(&text, false);
-        let mut cursor = Cursor::new(&tokens, 0, &mut self.names);
+        self.cycles += 100 * text.len() as u64;
+        Ok(self.evaluate(p, &tokenise_line(&text, false))?.0)
+    }
+
+    /// The value of the expression at the start of a text in tokens, and how many bytes it takes.
+    pub fn evaluate(&mut self, p: &Code<'_>, tokens: &[u8]) -> Result<(Value, usize)> {
+        let mut cursor = Cursor::new(tokens, self.config.dialect, &mut self.names);
         let parsed = cursor.expr();
-        let cost = cursor.cost;
+        let (cost, used) = (cursor.cost, cursor.at);
         self.fit_names();
         let parsed = parsed?;
-        self.cycles += u64::from(cost + super::cost::expr(&parsed)) + 100 * text.len() as u64;
+        self.cycles += u64::from(cost + super::cost::expr(&parsed));
         // An EVAL in an EVAL nests the host's stack, as a function does.
         self.host += 2_000;
         if self.host > super::state::HOST_STACK {
@@ -183,7 +194,7 @@ impl State {
         }
         let value = self.value(p, &parsed)?;
         self.host -= 2_000;
-        Ok(value)
+        Ok((value, used))
     }
 
     fn instr(&mut self, p: &Code<'_>, list: &[Expr]) -> Result<Value> {
@@ -193,15 +204,11 @@ impl State {
         let hay = self.string(p, a)?;
         let needle = self.string(p, b)?;
         let from = match rest.first() {
-            Some(e) => (self.int(p, e)?.max(1) - 1) as usize,
+            Some(e) => usize::from((self.int(p, e)? as u8).max(1) - 1),
             None => 0,
         };
         if needle.is_empty() {
-            return Ok(number(if from < hay.len() || from == 0 {
-                from + 1
-            } else {
-                0
-            }));
+            return Ok(number(if from <= hay.len() { from + 1 } else { 0 }));
         }
         let found = hay
             .get(from..)

@@ -27,38 +27,36 @@ fn fault(line: Option<u32>, message: impl Into<String>) -> Fault {
     }
 }
 
-/// Tokenises program text: a line number at the start of every line, or of none (then they
-/// are numbered in tens). A later line with the same number replaces the earlier one.
+/// Tokenises program text. A line without a number is numbered ten on from the one before it (the
+/// first is 10). A later line with the same number replaces the earlier one, as if typed.
 ///
-/// Faults name the line of the *text* (1-based).
+/// # Errors
+/// Name the line of the *text* (1-based): characters that BASIC has not, numbers and lines that
+/// are too long, and a line that would replace another though one of both has no number.
 pub fn tokenise(text: &str, _dialect: Dialect) -> Result<Vec<u8>, Fault> {
     let lines = text
         .split('\n')
         .map(|l| l.trim_end_matches('\r'))
         .enumerate()
         .filter(|(_, l)| !l.trim().is_empty());
-    let mut program: BTreeMap<u16, Vec<u8>> = BTreeMap::new();
-    let mut numbered = None;
+    let mut program: BTreeMap<u16, TextLine> = BTreeMap::new();
+    let mut last = 0;
     for (row, line) in lines {
         let row = row as u32 + 1;
         let start = line.trim_start();
         let digits = start.bytes().take_while(u8::is_ascii_digit).count();
         let (number, body) = start.split_at(digits);
-        if *numbered.get_or_insert(digits > 0) != (digits > 0) {
-            return Err(fault(
-                Some(row),
-                "some lines have line numbers and this one differs: number all lines or none",
-            ));
-        }
-        let number = if digits > 0 {
+        let numbered = digits > 0;
+        let number = if numbered {
             number.parse().ok()
         } else {
-            Some(program.len() * 10 + 10)
+            Some(last + 10)
         };
         let number = number
-            .and_then(|n: usize| u16::try_from(n).ok())
             .filter(|n| *n <= 32767)
+            .and_then(|n: usize| u16::try_from(n).ok())
             .ok_or_else(|| fault(Some(row), "line numbers go from 0 to 32767"))?;
+        last = usize::from(number);
         if let Some(odd) = body.chars().find(|c| (*c as u32) > 255 || (*c as u32) < 32) {
             return Err(fault(
                 Some(row),
@@ -76,16 +74,40 @@ pub fn tokenise(text: &str, _dialect: Dialect) -> Result<Vec<u8>, Fault> {
                 ),
             ));
         }
-        program.insert(number, tokens);
+        let line = TextLine {
+            row,
+            numbered,
+            tokens,
+        };
+        if let Some(other) = program.insert(number, line)
+            && !(other.numbered && numbered)
+        {
+            let other = other.row;
+            return Err(fault(
+                Some(row),
+                format!(
+                    "lines {other} and {row} of the text both come to be line {number}: a line without a number has that of the one before it, and 10"
+                ),
+            ));
+        }
     }
     let mut out = Vec::new();
-    for (number, tokens) in program {
+    for (number, TextLine { tokens, .. }) in program {
         let [hi, lo] = number.to_be_bytes();
         out.extend([0x0d, hi, lo, tokens.len() as u8 + 4]);
         out.extend(tokens);
     }
     out.extend([0x0d, 0xff]);
     Ok(out)
+}
+
+/// A line of program text.
+struct TextLine {
+    /// Which line of the text, from 1.
+    row: u32,
+    /// Whether the text gives its number.
+    numbered: bool,
+    tokens: Vec<u8>,
 }
 
 fn is_name(c: u8) -> bool {

@@ -88,6 +88,13 @@ pub(crate) enum Home {
     Text(u16),
 }
 
+impl Home {
+    /// Does it hold reals?
+    pub fn is_real(self) -> bool {
+        matches!(self, Self::Real(_) | Self::Element(Kind::Reals, ..))
+    }
+}
+
 #[derive(Clone, Debug)]
 pub(crate) struct Frame {
     pub function: bool,
@@ -97,6 +104,8 @@ pub(crate) struct Frame {
     pub saved: usize,
     /// BASIC's stack pointer before the call.
     pub stack: u32,
+    /// Were there arguments for a procedure that takes none?
+    pub excess: bool,
 }
 
 #[derive(Clone, Debug)]

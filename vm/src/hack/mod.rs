@@ -6,6 +6,7 @@
 pub mod asm;
 pub mod cpu;
 pub mod jack;
+mod keyboard;
 mod screen;
 pub mod translate;
 pub mod vm;

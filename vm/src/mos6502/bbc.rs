@@ -1,7 +1,8 @@
 //! A BBC Micro, model B, as programs in machine code see it: 32K of RAM, part of which
 //! is the screen, and the operating system's calls.
 //!
-//! A program is loaded where its first two bytes say and entered there, as `*RUN` does.
+//! A program is loaded where its first two bytes say and entered there, or as it is told
+//! ([`super::Machine::load_at`]): a disc's catalogue says both for `*RUN`.
 //! The operating system is not bundled. Of its calls these are done here:
 //!
 //! | address | name | here |
@@ -9,7 +10,8 @@
 //! | &FFEE | OSWRCH | VDU 22 chooses a mode, VDU 19 gives an ink its colour, VDU 23,1 hides the cursor; in MODE 7, text |
 //! | &FFE3, &FFE7 | OSASCI, OSNEWL | text, and the end of a line |
 //! | &FFF4 | OSBYTE | 119, 124 and 21, of which nothing is seen here |
-//! | &FFE0 | OSRDCH | nobody presses a key: the program has **ended** |
+//! | &FFF4 | OSBYTE | 129 (INKEY), where there is a keyboard |
+//! | &FFE0 | OSRDCH | the next key, where there is a keyboard; else nobody presses one: the program has **ended** |
 //!
 //! A program that ends in MODE 7 and has printed something ends with that as a fault.
 //! Everything else there and all other hardware is not there: what calls, reads or sets
@@ -22,10 +24,13 @@
 //! (`bbc::cost` says what it is); a call of the system takes what it takes on the
 //! genuine one, to a few per cent ([`MODE_CYCLES`]).
 
+mod keyboard;
+
 use super::computer::{Board, Computer, fault, return_from};
 use super::cpu::{Bus, Cpu};
 use crate::bbc::cost;
-use crate::{Fault, Screen, Stop};
+use crate::keys::Keyboard;
+use crate::{Screen, Stop};
 
 /// The machine.
 pub type Bbc = Computer<Micro>;
@@ -84,6 +89,7 @@ pub struct Micro {
     text: Vec<u8>,
     /// Where a byte was stored last, if that may be the screen.
     last: u16,
+    keyboard: Option<Box<Keyboard>>,
     stop: Option<Stop>,
 }
 
@@ -97,6 +103,7 @@ impl Default for Micro {
             vdu: Vec::new(),
             text: Vec::new(),
             last: 0,
+            keyboard: None,
             stop: None,
         }
     }
@@ -148,6 +155,8 @@ impl Micro {
             0xFFE3 => self.write_vdu(cpu.a),
             0xFFE7 => [10, 13].into_iter().for_each(|c| self.write_vdu(c)),
             0xFFF4 if matches!(cpu.a, 21 | 119 | 124) => {}
+            0xFFF4 if cpu.a == 129 && self.keyboard.is_some() => self.inkey(cpu),
+            0xFFE0 if self.keyboard.is_some() => self.read_key(cpu),
             0xFFF4 => self.fail(format!(
                 "the program calls OSBYTE {}, which is not bundled",
                 cpu.a
@@ -253,11 +262,10 @@ impl Board for Micro {
         (RAM, "the ROMs")
     }
 
-    fn entry(&mut self, loaded: u16) -> Result<u16, Fault> {
+    fn ready(&mut self) {
         // Where an empty stack returns to.
         let [lo, hi] = (RETURN - 1).to_le_bytes();
         self.ram[0x100..0x102].copy_from_slice(&[lo, hi]);
-        Ok(loaded)
     }
 
     #[inline(always)]
@@ -314,6 +322,15 @@ impl Board for Micro {
 
     fn output(&self) -> Vec<u8> {
         self.text.clone()
+    }
+
+    fn plug(&mut self, keyboard: Keyboard) -> bool {
+        self.keyboard = Some(Box::new(keyboard));
+        true
+    }
+
+    fn unplug(&mut self) -> Option<Keyboard> {
+        self.keyboard.take().map(|keyboard| *keyboard)
     }
 }
 

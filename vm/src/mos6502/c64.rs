@@ -2,11 +2,14 @@
 //! processor's port that lays ROMs and hardware over it, and the video chip's bitmaps.
 //!
 //! A program that is loaded to $0801 begins with a line of BASIC, `SYS` and an
-//! address, and is entered there as `RUN` does; any other is entered where it is loaded.
+//! address, and is entered there as `RUN` does; any other is entered where it is loaded, or
+//! where it is told ([`super::Machine::load_at`]).
 //! The ROMs are not bundled. Where they lie over the RAM, what is read there ends the
 //! run with a fault, and so does what is called, but for CHROUT ($FFD2), which prints,
 //! CINT ($FF81), and the return to BASIC, which **ends** the program. So does a look at
-//! the keyboard ($DC01): nobody presses a key, unless [`C64::press`] says so.
+//! the keyboard ($DC01) where there is none: nobody presses a key, unless [`C64::press`]
+//! says so. With a keyboard ([`keyboard`]), $DC01 reads the matrix as $DC00 selects it,
+//! and GETIN ($FFE4), CHRIN ($FFCF) and SCNKEY ($FF9F, which has nothing to do) are there.
 //!
 //! # Cycles
 //! Of the PAL machine's 985,248 Hz, 63 to a line, 312 lines to a picture. The video
@@ -19,9 +22,13 @@
 //! Source: Christian Bauer, "The MOS 6567/6569 video controller (VIC-II) and its
 //! application in the Commodore 64" (1996).
 
+mod keyboard;
+
 use super::computer::{Board, Computer, fault, return_from};
 use super::cpu::{Bus, Cpu};
+use crate::keys::Keyboard;
 use crate::{Fault, Screen, Stop};
+use keyboard::Keys;
 use slowlight_isa::c64::COLOURS;
 
 /// The machine.
@@ -69,6 +76,7 @@ pub struct Circuits {
     /// Where a byte was stored last, if that may be the bitmap.
     last: u16,
     pressed: bool,
+    keys: Option<Box<Keys>>,
     stop: Option<Stop>,
 }
 
@@ -83,6 +91,7 @@ impl Default for Circuits {
             text: Vec::new(),
             last: 0,
             pressed: false,
+            keys: None,
             stop: None,
         };
         // As the machine starts: all ROMs, and a screen of text.
@@ -149,6 +158,7 @@ impl Circuits {
             return 0;
         }
         match address {
+            0xDC01 if self.keys.is_some() => self.rows(),
             0xDC01 if self.pressed => 0xFE,
             0xDC01 => {
                 self.stop.get_or_insert(Stop::Ended);
@@ -199,6 +209,9 @@ impl Circuits {
                 self.hardware[0x16] = 0xC8;
                 self.hardware[0x18] = 0x15;
             }
+            0xFFE4 if self.keys.is_some() => self.get(cpu),
+            0xFFCF if self.keys.is_some() => self.next_of_line(cpu),
+            0xFF9F if self.keys.is_some() => {}
             RETURN => return self.end(),
             at => self.absent("calls", at),
         }
@@ -251,10 +264,13 @@ impl Board for Circuits {
         (0xD000, "the circuits")
     }
 
-    fn entry(&mut self, loaded: u16) -> Result<u16, Fault> {
+    fn ready(&mut self) {
         // Where an empty stack returns to.
         let [lo, hi] = (RETURN - 1).to_le_bytes();
         self.ram[0x100..0x102].copy_from_slice(&[lo, hi]);
+    }
+
+    fn entry(&self, loaded: u16) -> Result<u16, Fault> {
         if loaded != BASIC {
             return Ok(loaded);
         }
@@ -334,6 +350,15 @@ impl Board for Circuits {
 
     fn output(&self) -> Vec<u8> {
         self.text.clone()
+    }
+
+    fn plug(&mut self, keyboard: Keyboard) -> bool {
+        self.keys = Some(Box::new(Keys::new(keyboard)));
+        true
+    }
+
+    fn unplug(&mut self) -> Option<Keyboard> {
+        self.keys.take().map(|keys| keys.keyboard)
     }
 }
 

@@ -5,6 +5,7 @@
 
 use super::cpu::{Bus, Cpu, Step};
 use crate::charge::{Charges, Ledger, Roles};
+use crate::keys::Keyboard;
 use crate::{Fault, Progress, Screen, Stop, Watch};
 
 /// Cycles between two calls of the watcher.
@@ -38,13 +39,15 @@ pub trait Board: Bus + Default {
     fn ram_mut(&mut self) -> &mut [u8; 0x1_0000];
     /// The first address that no program may be loaded to, and what is there.
     fn room(&self) -> (u16, &'static str);
-    /// Where a program that was loaded at an address is entered.
+    /// Where a program that was loaded at an address is entered, where nobody says.
     ///
     /// # Errors
     /// Where the program does not say what the machine must know.
-    fn entry(&mut self, loaded: u16) -> Result<u16, Fault> {
+    fn entry(&self, loaded: u16) -> Result<u16, Fault> {
         Ok(loaded)
     }
+    /// Gets ready what a program finds when it is entered: what it returns to.
+    fn ready(&mut self) {}
     /// Cycles since the machine was made.
     fn cycles(&self) -> u64;
     /// Cycles as the machine's clock shows them after so many; never less than those.
@@ -75,6 +78,14 @@ pub trait Board: Bus + Default {
     fn output(&self) -> Vec<u8> {
         Vec::new()
     }
+    /// Gives it a keyboard; answers whether it has a place for one.
+    fn plug(&mut self, _: Keyboard) -> bool {
+        false
+    }
+    /// Takes the keyboard away again.
+    fn unplug(&mut self) -> Option<Keyboard> {
+        None
+    }
 }
 
 /// A machine that runs programs, whatever board it has.
@@ -84,10 +95,22 @@ pub trait Machine {
     /// # Errors
     /// Where there is no program, or no room for it.
     fn load(&mut self, image: &[u8]) -> Result<(), Fault>;
+    /// Loads bytes to an address, and enters them at `start`: where it is not said, where the
+    /// machine would.
+    ///
+    /// # Errors
+    /// Where there are no bytes, or no room for them, or `start` is outside memory that
+    /// programs may have.
+    fn load_at(&mut self, at: u16, bytes: &[u8], start: Option<u16>) -> Result<(), Fault>;
     /// Whether pixels are no part of the memory.
     fn draws_apart(&self) -> bool;
     /// A byte of memory, for whoever looks on: neither a cycle nor an effect.
     fn peek(&self, address: u16) -> u8;
+    /// Gives the machine a keyboard, whose keys come by its frames, or by looks at the
+    /// keyboard; answers whether it has a place for one.
+    fn plug(&mut self, keyboard: Keyboard) -> bool;
+    /// Takes the keyboard away again.
+    fn unplug(&mut self) -> Option<Keyboard>;
     /// Runs until the program ends, the watcher says stop, or `limit` cycles have
     /// passed since the machine was made (checked between instructions).
     /// May be called again, with a greater limit, to go on.
@@ -142,25 +165,45 @@ impl<B: Board> Computer<B> {
                 "a program begins with two bytes of load address".to_owned(),
             ));
         };
-        let origin = u16::from_le_bytes([*lo, *hi]);
-        let start = usize::from(origin);
         if bytes.is_empty() {
             return Err(fault(
                 "the program has no bytes behind its load address".to_owned(),
             ));
         }
+        self.load_at(u16::from_le_bytes([*lo, *hi]), bytes, None)
+    }
+
+    /// Loads bytes to an address; see [`Machine::load_at`].
+    ///
+    /// # Errors
+    /// Where there are no bytes, or no room for them, or no program could be at `start`.
+    pub fn load_at(&mut self, at: u16, bytes: &[u8], start: Option<u16>) -> Result<(), Fault> {
+        if bytes.is_empty() {
+            return Err(fault("the program has no bytes".to_owned()));
+        }
         let (limit, what) = self.board.room();
-        let room = self.board.ram_mut().get_mut(start..usize::from(limit));
+        let begin = usize::from(at);
+        let room = self.board.ram_mut().get_mut(begin..usize::from(limit));
         match room.and_then(|room| room.get_mut(..bytes.len())) {
             Some(room) => room.copy_from_slice(bytes),
             None => {
-                let end = start + bytes.len() - 1;
+                let end = begin + bytes.len() - 1;
                 return Err(fault(format!(
-                    "the program lies at ${start:04X} to ${end:04X}, but {what} begin at ${limit:04X}"
+                    "the program lies at ${begin:04X} to ${end:04X}, but {what} begin at ${limit:04X}"
                 )));
             }
         }
-        self.cpu = Cpu::new(self.board.entry(origin)?);
+        let start = match start {
+            Some(start) if start >= limit => {
+                return Err(fault(format!(
+                    "no program begins at ${start:04X}: {what} begin at ${limit:04X}"
+                )));
+            }
+            Some(start) => start,
+            None => self.board.entry(at)?,
+        };
+        self.board.ready();
+        self.cpu = Cpu::new(start);
         Ok(())
     }
 
@@ -280,12 +323,24 @@ impl<B: Board> Machine for Computer<B> {
         Computer::load(self, image)
     }
 
+    fn load_at(&mut self, at: u16, bytes: &[u8], start: Option<u16>) -> Result<(), Fault> {
+        Computer::load_at(self, at, bytes, start)
+    }
+
     fn draws_apart(&self) -> bool {
         B::DRAWS_APART
     }
 
     fn peek(&self, address: u16) -> u8 {
         Computer::peek(self, address)
+    }
+
+    fn plug(&mut self, keyboard: Keyboard) -> bool {
+        self.board.plug(keyboard)
+    }
+
+    fn unplug(&mut self) -> Option<Keyboard> {
+        self.board.unplug()
     }
 
     fn run(&mut self, limit: u64, watch: Watch<'_>) -> Run {

@@ -214,20 +214,28 @@ pub fn clamp(log: i32) -> i32 {
 /// Of the sum of two values of one sign, from those of both.
 pub(super) fn sum(a: i32, b: i32) -> i32 {
     let (more, less) = (a.max(b), a.min(b));
-    match tables().sums.get((more - less) as usize) {
-        Some(entry) => (more + entry).min(MOST),
-        None => (more + rest(more - less)).min(MOST),
-    }
+    (more + added(more - less)).min(MOST)
 }
 
 /// Of the difference of two values, from those of both.
 pub(super) fn difference(a: i32, b: i32) -> i32 {
     let (more, less) = (a.max(b), a.min(b));
-    match tables().differences.get((more - less) as usize) {
-        _ if more == less => LEAST,
-        Some(entry) => (more - entry).max(LEAST),
-        None => (more - rest(more - less)).max(LEAST),
+    match more == less {
+        true => LEAST,
+        false => (more - taken(more - less)).max(LEAST),
     }
+}
+
+/// What a summand adds to a logarithm that is greater by this, 0 or more.
+pub fn added(apart: i32) -> i32 {
+    let entry = tables().sums.get(apart as usize);
+    entry.copied().unwrap_or_else(|| rest(apart))
+}
+
+/// What it takes away where it is subtracted, the two being unlike.
+pub fn taken(apart: i32) -> i32 {
+    let entry = tables().differences.get(apart as usize);
+    entry.copied().unwrap_or_else(|| rest(apart))
 }
 
 /// Beyond which distances a far smaller summand adds less than 1/2, 3/2, ... units.

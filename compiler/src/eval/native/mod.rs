@@ -73,6 +73,8 @@ pub struct Native<'g> {
     stack: Vec<(u32, Mask)>,
     block: Option<Block>,
     operations: u64,
+    /// How many may be computed before loops end.
+    most: u64,
     spreading: Option<spread::Spreading>,
 }
 
@@ -106,12 +108,28 @@ impl<'g> Native<'g> {
             stack: Vec::new(),
             block: None,
             operations: 0,
+            most: u64::MAX,
             spreading: spread::Spreading::new(graph),
             graph,
             plan,
             lanes,
             known,
         }
+    }
+
+    /// The same where no more than so many operations are worth computing: once they have
+    /// been, loops end as if they had no turns left ([`Native::spent`]).
+    pub fn within(graph: &'g Graph, most: u64) -> Native<'g> {
+        Native {
+            most,
+            ..Native::new(graph)
+        }
+    }
+
+    /// Whether all operations that were allowed have been computed: what the last pixel came
+    /// to is of no use then.
+    pub fn spent(&self) -> bool {
+        self.operations >= self.most
     }
 
     /// How many operations, selects, lookups and loop turns were computed so

@@ -209,6 +209,9 @@ impl Native<'_> {
                 self.need(node, active);
             }
             carry(&mut self.lanes, &self.plan.loops[at].shift, active);
+            if self.spent() {
+                break;
+            }
         }
         if active != 0 {
             self.forget(Dependence::Last(LoopId(of)), active);

@@ -125,10 +125,7 @@ impl Poly {
     pub fn by(&self, atom: Atom) -> Vec<Poly> {
         let mut all = vec![Poly::default()];
         for (monomial, number) in &self.terms {
-            let power = monomial
-                .iter()
-                .find(|(a, _)| *a == atom)
-                .map_or(0, |(_, k)| *k);
+            let power = power_in(monomial, atom);
             let rest = monomial
                 .iter()
                 .copied()
@@ -158,11 +155,8 @@ impl Poly {
 
     /// The greatest monomial that divides every term.
     pub fn common(&self) -> Monomial {
-        let power = |monomial: &Monomial, atom: Atom| {
-            let found = monomial.iter().find(|(a, _)| *a == atom);
-            found.map_or(0, |(_, power)| *power)
-        };
-        let least = |atom: Atom| self.terms.keys().map(|m| power(m, atom)).min().unwrap_or(0);
+        let powers = |atom: Atom| self.terms.keys().map(move |m| power_in(m, atom));
+        let least = |atom: Atom| powers(atom).min().unwrap_or(0);
         let all = self.atoms().into_iter().map(|atom| (atom, least(atom)));
         all.filter(|(_, power)| *power > 0).collect()
     }
@@ -197,6 +191,10 @@ impl Poly {
 
     /// The quotient by a polynomial whose highest power of `atom` has a
     /// constant coefficient; nothing where a rest is left.
+    /// Long division, with a step for each power of `atom` at most. A step's highest terms
+    /// go against each other over the reals: they are left out of the rest, since
+    /// coefficients that are no fractions ([`Number::Near`]) would leave roundings of them,
+    /// to be divided again without end.
     pub fn divided(&self, by: &Poly, atom: Atom) -> Option<Poly> {
         let divisor = by.by(atom);
         let degree = divisor.len() - 1;
@@ -207,13 +205,16 @@ impl Poly {
         let (mut rest, mut out) = (self.clone(), Poly::default());
         while !rest.is_zero() {
             let parts = rest.by(atom);
-            let over = (parts.len() - 1).checked_sub(degree)?;
+            let highest = parts.len() - 1;
+            let over = highest.checked_sub(degree)?;
             let power = Poly {
                 terms: BTreeMap::from([(power_of(atom, over as u32), Number::ONE)]),
             };
-            let term = parts[parts.len() - 1].scaled(inverse).mul(&power)?;
+            let term = parts[highest].scaled(inverse).mul(&power)?;
             out = out.add(&term)?;
             rest = rest.add(&term.mul(by)?.scaled(Number::whole(-1)))?;
+            let lower = |monomial: &Monomial| power_in(monomial, atom) < highest as u32;
+            rest.terms.retain(|monomial, _| lower(monomial));
         }
         Some(out)
     }
@@ -238,6 +239,12 @@ impl Poly {
         let last = self.terms.iter().next_back();
         last.map_or(Number::ZERO, |(_, number)| *number)
     }
+}
+
+/// The power of an atom in a monomial.
+fn power_in(monomial: &Monomial, atom: Atom) -> u32 {
+    let found = monomial.iter().find(|(a, _)| *a == atom);
+    found.map_or(0, |(_, power)| *power)
 }
 
 fn power_of(atom: Atom, power: u32) -> Monomial {

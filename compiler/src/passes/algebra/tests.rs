@@ -79,6 +79,34 @@ fn a_product_is_divided_by_either_factor() {
     assert_eq!(a.content(), Some(Number::of(0.1)));
 }
 
+/// Leading terms that cancel over the reals leave roundings of the coefficients' own.
+#[test]
+fn a_division_ends_whatever_its_coefficients_round_to() {
+    let [x, y] = [0, 1].map(Poly::atom);
+    for seed in 1..200 {
+        let near = |k: i32| Number::of((f64::from(seed * 7 + k) / 63.0).sin() / 3.0);
+        let of = |[a, b, c]: [i32; 3]| {
+            let linear = x.scaled(near(b)).add(&y.scaled(near(c))).unwrap();
+            let square = x.mul(&x).unwrap().scaled(near(a));
+            square.add(&linear).unwrap()
+        };
+        let (p, by) = (of([1, 2, 3]), of([4, 5, 6]));
+        let product = p.mul(&by).unwrap();
+        for dividend in [
+            product.clone(),
+            product.add(&y).unwrap(),
+            p.mul(&p).unwrap(),
+        ] {
+            let Some(quotient) = dividend.divided(&by, 0) else {
+                continue;
+            };
+            let back = quotient.mul(&by).unwrap();
+            let off = dividend.add(&back.scaled(Number::whole(-1))).unwrap();
+            assert!(off.terms.values().all(|n| n.real().abs() < 1e-9));
+        }
+    }
+}
+
 #[test]
 fn decimals_are_fractions() {
     assert_eq!(Number::of(0.1).mul(Number::of(30.0)), Number::whole(3));

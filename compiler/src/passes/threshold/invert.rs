@@ -194,15 +194,14 @@ impl Chain {
     }
 
     /// For each result above the lowest, what the value is compared with, by
-    /// the selector's values: below it the result is on the one side, from it
-    /// on at the other.
+    /// the selector's values.
     pub fn thresholds(
         &self,
         graph: &Graph,
         ranges: &Ranges,
         low: i32,
         high: i32,
-    ) -> Option<Vec<Vec<f64>>> {
+    ) -> Option<Thresholds> {
         let end = *self.steps.first()?;
         let range = ranges.result.get(self.value.0 as usize)?;
         // Where no value reaches a result, any number beyond them all will do.
@@ -210,14 +209,46 @@ impl Chain {
         let cells = self.cells(graph);
         let find = |ink: i32, cell: Value| {
             let above = |x: f64| self.eval(graph, end, Some(x), cell).int() >= ink;
-            least(|x| above(x) == self.rising).clamp(-beyond, beyond)
+            least(|x| above(x) == self.rising)
         };
         let inks = low + 1..=high;
-        Some(
-            inks.map(|ink| cells.iter().map(|cell| find(ink, *cell)).collect())
-                .collect(),
-        )
+        let from: Vec<Vec<f64>> = inks
+            .map(|ink| cells.iter().map(|cell| find(ink, *cell)).collect())
+            .collect();
+        let passed = |t: f64| t.next_down() + 0.0;
+        let steps = from.iter().flatten().filter(|t| t.abs() < beyond);
+        let sides = steps.filter_map(|t| side_of_short(*t, range.magnitude()));
+        let strict = sides.map(|behind| if behind { 1 } else { -1 }).sum::<i32>() > 0;
+        let kept = |t: f64| if strict { passed(t) } else { t }.clamp(-beyond, beyond);
+        let by_ink = from
+            .into_iter()
+            .map(|entries| entries.into_iter().map(kept).collect())
+            .collect();
+        Some(Thresholds { by_ink, strict })
     }
+}
+
+/// What a value is compared with. Between two neighbours among `f64`s a result
+/// changes. Beside them there may be a number that formats hold exactly: `v + d > 1`
+/// changes behind 1 - d, `floor(v + d)` at it. Both neighbours are rounded to that number
+/// there, so an exact tie goes as it should only if the comparison says on which side it is.
+pub struct Thresholds {
+    /// For each result above the lowest, by the selector's values.
+    pub by_ink: Vec<Vec<f64>>,
+    /// Whether the result changes behind the threshold; else from it on.
+    pub strict: bool,
+}
+
+/// Whether a number of few digits, of which no format of 32 bits tells `step` apart, is
+/// below it; none where there is no such number. Values are so large at most.
+fn side_of_short(step: f64, most: f64) -> Option<bool> {
+    const DIGITS: i32 = 32;
+    /// What the steps' own roundings may move it by, in `f64`.
+    const NEAR: f64 = 64.0 * f64::EPSILON;
+    let size = step.abs().max(most.min(1.0)).max(f64::MIN_POSITIVE);
+    let grid = (size.log2().ceil() - f64::from(DIGITS)).exp2();
+    let short = (step / grid).round() * grid;
+    ((step - short).abs() <= NEAR * size).then_some(short < step)
 }
 
 /// An int that can have few values only.

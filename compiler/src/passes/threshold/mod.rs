@@ -11,7 +11,8 @@
 //! of the scene: each step is monotone in `f64` too, since rounding is, and the
 //! comparison gives the ink that the steps would have given, for every `f64` below
 //! 1E30 in size.
-//! In the machine's format v and the threshold are rounded, and nothing else.
+//! In the machine's format v and the threshold are rounded, and nothing else; of the two
+//! neighbours between which an ink changes, the one that formats hold is compared with.
 //!
 //! A shade that is a choice is compared in either arm, and one that is a loop's
 //! result where the loop ends: the machine then needs no more than the arm's own
@@ -27,7 +28,7 @@ use crate::flow::build::Builder;
 use crate::flow::graph::*;
 use crate::range::Ranges;
 use crate::source::Span;
-use invert::{Chain, Selector};
+use invert::{Chain, Selector, Thresholds};
 use slowlight_routine::{Op, Runtime, Type, Value};
 use sunk::Copy;
 
@@ -72,7 +73,7 @@ pub fn threshold(graph: &Graph, ranges: &Ranges, runtime: &Runtime) -> Option<Gr
 struct Comparing<'g> {
     graph: &'g Graph,
     chain: &'g Chain,
-    bounds: &'g [Vec<f64>],
+    bounds: &'g Thresholds,
     low: i32,
     /// The results of loops that become inks.
     sunk: Vec<(LoopId, u32)>,
@@ -91,7 +92,7 @@ impl Comparing<'_> {
             made: made.to_vec(),
         };
         let mut compared = Vec::new();
-        for entries in self.bounds {
+        for entries in &self.bounds.by_ink {
             let same = entries.iter().all(|e| e == &entries[0]);
             compared.push(match self.chain.selector {
                 Some(selector) if !same => entry(&mut copy, b, selector, entries, span)?,
@@ -102,6 +103,7 @@ impl Comparing<'_> {
             graph: self.graph,
             compared: &compared,
             rising: self.chain.rising,
+            strict: self.bounds.strict,
             low: self.low,
             sunk: &self.sunk,
             span,
@@ -211,6 +213,8 @@ struct Tree<'t> {
     graph: &'t Graph,
     compared: &'t [NodeId],
     rising: bool,
+    /// Whether a threshold itself is below ([`Thresholds::strict`]).
+    strict: bool,
     low: i32,
     /// Results of loops that are inks already.
     sunk: &'t [(LoopId, u32)],
@@ -244,14 +248,25 @@ impl Tree<'_> {
             return b.constant(Value::Int(self.low + from as i32), self.span);
         }
         let middle = (from + to) / 2;
-        let below = b.apply(Op::Less, &[shade, self.compared[middle]], self.span);
         let (less, more) = (
             self.between(b, shade, from, middle),
             self.between(b, shade, middle + 1, to),
         );
-        match self.rising {
-            true => b.select(below, less, more, self.span),
-            false => b.select(below, more, less, self.span),
+        let compared = self.compared[middle];
+        let (below, above) = match self.rising {
+            true => (less, more),
+            false => (more, less),
+        };
+        // Every machine has a comparison for less, not all have one for no more.
+        match self.strict {
+            true => {
+                let passed = b.apply(Op::Less, &[compared, shade], self.span);
+                b.select(passed, above, below, self.span)
+            }
+            false => {
+                let short = b.apply(Op::Less, &[shade, compared], self.span);
+                b.select(short, below, above, self.span)
+            }
         }
     }
 }

@@ -1,7 +1,7 @@
 //! At which of the sites of a pass its form pays.
 
 use super::super::settled::Settled;
-use super::super::workshop::Rewritten;
+use super::super::workshop::{Rewritten, Workshop};
 use super::{NODES, PATIENCE, Rewrite, Site};
 use crate::flow::graph::*;
 use crate::passes::algebra::Verdicts;
@@ -11,19 +11,23 @@ use std::collections::BTreeMap;
 impl Site<'_> {
     /// A plan with what a pass puts at the sites where that pays.
     pub(super) fn sited(&self, plain: &Settled, part: f64, pass: Rewrite) -> Option<Settled> {
-        if plain.graph.nodes.len() > NODES {
+        if plain.graph.nodes.len() > NODES || self.shop.fuel.spent() {
             return None;
         }
         let verdicts = Verdicts::default();
         let pass = (pass, &verdicts);
-        let all = self.with(plain, pass, &[])?;
+        let all = self.with(self.shop, plain, pass, &[])?;
         let sites = all.1;
         let now = self.cost(plain);
         let few = sites.len() * plain.graph.nodes.len() < PATIENCE;
+        // Each has fuel of its own, or what one finds would hang on how far the other is.
+        let [one, other] = [(); 2].map(|()| self.shop.with(self.shop.fuel.share()));
         let (fewer, more) = rayon::join(
-            || self.fewer(plain, pass, &sites, (Vec::new(), all.0)),
-            || few.then(|| self.more((now, plain), pass, &sites)),
+            || self.fewer(&one, plain, pass, (&sites, all.0)),
+            || few.then(|| self.more(&other, (now, plain), pass, &sites)),
         );
+        self.shop.fuel.settle(&one.fuel);
+        self.shop.fuel.settle(&other.fuel);
         let (cost, best) = match more {
             Some(more) if more.0 < fewer.0 => more,
             _ => fewer,
@@ -35,10 +39,10 @@ impl Site<'_> {
     /// values first together, since what one needs another may have.
     fn fewer<'p>(
         &self,
+        shop: &Workshop,
         plain: &'p Settled,
         pass: (Rewrite, &Verdicts<'p>),
-        sites: &[NodeId],
-        (without, all): (Vec<NodeId>, Settled),
+        (sites, all): (&[NodeId], Settled),
     ) -> (f64, Settled) {
         let value = |id: &&NodeId| plain.graph.ty(**id) != Type::Bool;
         let mut tries: Vec<Vec<NodeId>> = vec![sites.iter().filter(value).copied().collect()];
@@ -46,8 +50,8 @@ impl Site<'_> {
         if sites.len() * plain.graph.nodes.len() < PATIENCE {
             tries.extend(sites.iter().map(|id| vec![*id]));
         }
-        let from = (self.cost(&all), without, all);
-        self.stepwise(plain, pass, from, tries, |without, leave| {
+        let from = (self.cost(&all), Vec::new(), all);
+        self.stepwise((shop, plain), pass, from, tries, |without, leave| {
             without.iter().chain(leave).copied().collect()
         })
     }
@@ -55,6 +59,7 @@ impl Site<'_> {
     /// The same from no form: each is put where that is cheaper.
     fn more<'p>(
         &self,
+        shop: &Workshop,
         (now, plain): (f64, &'p Settled),
         pass: (Rewrite, &Verdicts<'p>),
         sites: &[NodeId],
@@ -62,7 +67,7 @@ impl Site<'_> {
         let mut tries: Vec<Vec<NodeId>> = sites.iter().map(|id| vec![*id]).collect();
         tries.extend(together(&plain.graph, sites));
         let from = (now, sites.to_vec(), plain.clone());
-        self.stepwise(plain, pass, from, tries, |without, put| {
+        self.stepwise((shop, plain), pass, from, tries, |without, put| {
             let rest = without.iter().copied().filter(|o| !put.contains(o));
             rest.collect()
         })
@@ -72,15 +77,18 @@ impl Site<'_> {
     /// that is cheaper: `out` says what is left out after each of the tries.
     fn stepwise<'p>(
         &self,
-        plain: &'p Settled,
+        (shop, plain): (&Workshop, &'p Settled),
         pass: (Rewrite, &Verdicts<'p>),
         (mut limit, mut without, mut best): (f64, Vec<NodeId>, Settled),
         tries: Vec<Vec<NodeId>>,
         out: impl Fn(&[NodeId], &[NodeId]) -> Vec<NodeId>,
     ) -> (f64, Settled) {
         for sites in tries {
+            if shop.fuel.spent() {
+                break;
+            }
             let out = out(&without, &sites);
-            let Some((next, _)) = self.with(plain, pass, &out) else {
+            let Some((next, _)) = self.with(shop, plain, pass, &out) else {
                 continue;
             };
             let cost = self.cost(&next);
@@ -94,15 +102,16 @@ impl Site<'_> {
     /// The plan with a pass everywhere but at some nodes, and where it was.
     fn with<'p>(
         &self,
+        shop: &Workshop,
         plain: &'p Settled,
         pass: (Rewrite, &Verdicts<'p>),
         without: &[NodeId],
     ) -> Rewritten {
         let (pass, verdicts) = pass;
-        self.shop.rewritten(plain, pass, without, || {
+        shop.rewritten(plain, pass, without, || {
             let may = |id: NodeId| !without.contains(&id);
             let found = pass.pass()(&plain.graph, &plain.ranges, self.runtime, &may, verdicts)?;
-            Some((self.shop.settle(&found.graph), found.sites))
+            Some((shop.settle(&found.graph), found.sites))
         })
     }
 }

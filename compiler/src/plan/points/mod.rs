@@ -21,6 +21,7 @@
 mod agreed;
 mod asks;
 mod bounds;
+mod early;
 pub(super) mod held;
 pub(crate) mod sample;
 mod seen;

@@ -6,6 +6,7 @@
 //! larger than all others by agreement, 1e6 for "nothing was hit", is asked for no more than
 //! what it is compared with.
 
+use super::early::{Early, early, first_of_pixels};
 use super::seen::{BRIEF, Seen};
 use super::tape::{NOWHERE, Tape, Traced};
 use super::wanted;
@@ -17,7 +18,7 @@ use crate::flow::tree::*;
 use slowlight_routine::scale::{finest, fitting};
 use slowlight_routine::{Op, Type, Value};
 use std::cell::{Cell, RefCell};
-use std::collections::{HashMap, HashSet};
+use std::collections::HashMap;
 
 /// Rows and columns that are looked at, the picture's borders among them.
 const LOOKED_AT: [u32; 2] = [24, 31];
@@ -31,6 +32,9 @@ const CHOICES: u32 = 12;
 
 /// How many statements may run, all choices together.
 const PATIENCE: u64 = 18_000_000;
+
+/// How many more the pixel may run at which these end.
+const LAST: u64 = 2_000_000;
 
 /// Rows are gone through in steps of so many, which divide neither number of rows, so that
 /// something of every part of the picture is seen where patience ends before its rows do.
@@ -77,10 +81,13 @@ pub fn seen(graph: &Graph, tree: &Tree, bits: u8) -> Sample {
             roots: RefCell::default(),
             received: Cell::new(0.0),
             ran: Cell::new(0),
+            first: first_of_pixels(tree),
+            kept: Cell::new(usize::MAX),
         };
+        let most = PATIENCE / u64::from(choices);
         // The scene's own params count as much as all others.
         let times = f64::from(if choice == 0 { CHOICES - 1 } else { 1 });
-        let mut run = Run::new(&alone, tree, &watch);
+        let mut run = Run::within(&alone, tree, &watch, most + LAST);
         for row in 0..rows {
             watch.roots.borrow_mut().row.clear();
             for column in 0..columns {
@@ -88,10 +95,17 @@ pub fn seen(graph: &Graph, tree: &Tree, bits: u8) -> Sample {
                     (u64::from(k) * u64::from(long.max(1) - 1) / u64::from(of - 1)) as i32
                 };
                 let y = at(row * APART % rows, rows, graph.image.height);
-                if watch.ran.get() < PATIENCE / u64::from(choices) {
+                if watch.ran.get() < most {
                     let ink = run.pixel(at(column, columns, graph.image.width), y);
+                    // One that goes on for longer than all of them may is not followed back.
+                    if run.spent() && pixels > 0.0 {
+                        continue;
+                    }
                     let sent = graph.shares().filter_map(|s| run.last(s.node));
                     watch.send(sent);
+                    // What is told at the end is told as it is: a shade that is measured.
+                    let told = graph.reports.iter().filter_map(|id| run.last(*id));
+                    watch.roots.borrow_mut().pixel.extend(told);
                     pixels += times;
                     watch.ask(ink, &mut |id, value, asked| {
                         if let Some(seen) = seen.borrow_mut().get_mut(id.0 as usize)
@@ -222,28 +236,6 @@ pub fn held_by(carried: &HashMap<(LoopId, u32), NodeId>, place: Place) -> Option
     }
 }
 
-/// What is computed once, and what once a row.
-struct Early {
-    frame: HashSet<NodeId>,
-    row: HashSet<NodeId>,
-}
-
-fn early(tree: &Tree) -> Early {
-    let of = |block: &Block| {
-        let mut all = HashSet::new();
-        walk(block, &mut |statement| {
-            if let Statement::Let(id) = statement {
-                all.insert(*id);
-            }
-        });
-        all
-    };
-    Early {
-        frame: of(&tree.frame),
-        row: of(&tree.row),
-    }
-}
-
 /// Values by which a way or an entry was chosen: of the picture, the row and the pixel.
 #[derive(Default)]
 struct Roots {
@@ -264,6 +256,10 @@ struct Watch<'g> {
     /// What the pixel has received: all that the one looked at before it has sent.
     received: Cell<f64>,
     ran: Cell<u64>,
+    /// Where pixels begin, and how long the tape was there: what follows is of no use once
+    /// the pixel has been followed back.
+    first: Option<*const Statement>,
+    kept: Cell<usize>,
 }
 
 impl Watch<'_> {
@@ -290,6 +286,7 @@ impl Watch<'_> {
         let all = [frame, row, pixel].into_iter().flatten().copied();
         self.tape.borrow_mut().follow(all.chain([ink]), tell);
         roots.pixel.clear();
+        self.tape.borrow_mut().back_to(self.kept.get());
     }
 
     fn decides(&self, traced: Traced) {
@@ -377,7 +374,10 @@ impl Arithmetic for &Watch<'_> {
         self.exact.int(traced.value)
     }
 
-    fn step(&self, _: &Statement) {
+    fn step(&self, statement: &Statement) {
         self.ran.set(self.ran.get() + 1);
+        if self.first == Some(std::ptr::from_ref(statement)) {
+            self.kept.set(self.tape.borrow().len());
+        }
     }
 }

@@ -17,6 +17,10 @@ pub struct Traced {
 /// Where constants, columns and rows stand.
 pub const NOWHERE: u32 = u32::MAX;
 
+/// How much one pixel's values may take of the tape: what is computed after that is not
+/// followed back.
+const MOST: usize = 4_000_000;
+
 /// One value that was computed or copied, or a node that needs no computing.
 struct Entry {
     of: NodeId,
@@ -54,6 +58,17 @@ impl Tape {
             entries: graph.ids().map(leaf).collect(),
             leaves: graph.nodes.len() as u32,
         }
+    }
+
+    /// How much stands on it.
+    pub fn len(&self) -> usize {
+        self.entries.len()
+    }
+
+    /// Takes away what was computed since it had that length, once all that was asked of it
+    /// has been followed.
+    pub fn back_to(&mut self, length: usize) {
+        self.entries.truncate(length.max(self.leaves as usize));
     }
 
     /// A value as a node's that needs no computing; as it is where it was computed.
@@ -94,6 +109,9 @@ impl Tape {
     }
 
     fn push(&mut self, of: NodeId, op: Option<Op>, from: [Traced; 2], value: Value) -> Traced {
+        if self.entries.len() >= MOST {
+            return Traced { value, at: NOWHERE };
+        }
         let at = self.entries.len() as u32;
         self.entries.push(Entry {
             of,

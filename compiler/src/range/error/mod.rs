@@ -71,6 +71,8 @@ pub struct Bounds {
     pub undecided: BTreeSet<NodeId>,
     /// How many roundings were followed.
     pub operations: u32,
+    /// How many statements were walked.
+    pub walked: u64,
 }
 
 impl Bounds {

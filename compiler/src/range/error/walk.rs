@@ -14,6 +14,9 @@ use slowlight_routine::{Op, Range, Type};
 /// How many turns of loops a tile is worth.
 const PATIENCE: u32 = 5000;
 
+/// How many statements, however few the turns.
+const STATEMENTS: u64 = 5_000_000;
+
 /// What the native evaluation itself may round, relative to the result.
 const NATIVE: f64 = f64::EPSILON;
 
@@ -108,6 +111,7 @@ pub(super) struct Walk<'p> {
 impl<'p> Walk<'p> {
     fn block(&mut self, block: &'p [Statement]) {
         for statement in block {
+            self.out.walked += 1;
             match statement {
                 Statement::Let(id) => {
                     let value = self.compute(*id);
@@ -172,7 +176,7 @@ impl<'p> Walk<'p> {
         let mut open = true;
         for _ in 0..max {
             self.turns += 1;
-            if self.turns > PATIENCE {
+            if self.is_over() {
                 break;
             }
             self.show_carried(turns.of);
@@ -189,7 +193,7 @@ impl<'p> Walk<'p> {
             self.arm(turns.again, true, &turns.next);
         }
         if open {
-            if self.turns > PATIENCE {
+            if self.is_over() {
                 self.carried[turns.of.0 as usize].fill(unknown());
             }
             self.show_carried(turns.of);
@@ -204,6 +208,11 @@ impl<'p> Walk<'p> {
         for (place, value) in ends {
             self.write(place, value);
         }
+    }
+
+    /// Whether the tile has had all that it is worth.
+    fn is_over(&self) -> bool {
+        self.turns > PATIENCE || self.out.walked > STATEMENTS
     }
 
     /// The carried values as the nodes that read them have them.

@@ -167,7 +167,9 @@ impl Checker<'_> {
             shown.join(" or "),
             self.a(&first.value.ty)
         );
-        Some(Diagnostic::error(first.value.span, message))
+        let mut error = Diagnostic::error(first.value.span, message);
+        error.help = (types.last()).and_then(|to| self.conversion(&first.value.ty, to));
+        Some(error)
     }
 
     /// Whether `base.name(..)` might be meant.

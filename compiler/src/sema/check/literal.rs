@@ -49,7 +49,7 @@ impl Checker<'_> {
                     let mut error = Diagnostic::error(ink.span, error);
                     error.help = self
                         .among(&ink.text, COLOURS.iter().map(|c| c.0))
-                        .or_else(|| Some("use a name such as `red`, or `#rrggbb`".into()));
+                        .or_else(|| Some("use a name such as `red`, `#rrggbb` or `#rgb`".into()));
                     self.report(error);
                     palette.push([0, 0, 0]);
                 }

@@ -205,7 +205,7 @@ impl Checker<'_> {
     }
 
     /// How an author may get from one type to another.
-    fn conversion(&self, from: &Ty, to: &Ty) -> Option<String> {
+    pub(super) fn conversion(&self, from: &Ty, to: &Ty) -> Option<String> {
         Some(match (from, to) {
             (Ty::Real, Ty::Int) => "`floor` or `round` makes a real an int".into(),
             (Ty::Int | Ty::Real, Ty::Angle) => {
@@ -217,6 +217,19 @@ impl Checker<'_> {
                 "take it apart: `if let v = .. then .. else ..`; `v` is {}",
                 self.a(inner)
             ),
+            (from, Ty::Vector(n)) if from.is_real() => {
+                format!(
+                    "write {n} components: `({})`",
+                    vec!["v"; usize::from(*n)].join(", ")
+                )
+            }
+            (Ty::Vector(2), Ty::Vector(3)) => "give it a third component: `(v.x, v.y, 0)`".into(),
+            (Ty::Vector(3), Ty::Vector(2)) => {
+                "take two of its components: `v.xy`, `v.xz` or `v.yz`".into()
+            }
+            (Ty::Vector(_), to) if to.is_real() => {
+                "take a component, `v.x`, or its length: `length(v)`".into()
+            }
             (Ty::Hit(None), Ty::Hit(Some(_))) => "hits of a bare shape have no tag".into(),
             _ => return None,
         })

@@ -1,6 +1,7 @@
 //! What names stand for, and what an author may have meant.
 
 use super::Checker;
+use crate::sema::colours::colour;
 use crate::sema::program::*;
 use crate::source::{Diagnostic, Span};
 use std::collections::BTreeMap;
@@ -138,6 +139,8 @@ impl Checker<'_> {
         if self.entities(name).iter().any(|e| e.callable()) {
             error.message = format!("`{name}` is a function here, not a value");
             error = error.help(format!("call it: `{name}(..)`"));
+        } else if colour(name).is_some() {
+            error = error.help("inks are numbers in the order of `image`: the first is `ink(0)`");
         } else if let Some((close, _)) = self.nearest(name, |e| !e.callable(), true) {
             error = error.help(format!("did you mean `{close}`?"));
         }

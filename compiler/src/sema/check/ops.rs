@@ -110,6 +110,13 @@ impl Checker<'_> {
             BinaryOp::Mul if matches!((&a.ty, &b.ty), (Ty::Vector(_), Ty::Vector(_))) => {
                 Some("`dot(a, b)` and `cross(a, b)` multiply vectors".into())
             }
+            BinaryOp::Add | BinaryOp::Sub
+                if either(|t| matches!(t, Ty::Vector(_))) && either(Ty::is_real) =>
+            {
+                Some(format!(
+                    "add a vector of as many components: `v {symbol} (1, 1, 1)`, or multiply: `v * 2`"
+                ))
+            }
             _ if either(|t| *t == Ty::Angle) && either(Ty::is_real) => {
                 Some("angles carry a unit: `90deg`, `x * 1rad`".into())
             }

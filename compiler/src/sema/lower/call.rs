@@ -157,7 +157,11 @@ impl<'a> Lower<'a> {
             }
             Builtin::Ink => {
                 let i = self.node(value, &first.ty, span)?;
-                let last = self.int(self.image.palette.len() as i32 - 1, span);
+                let last = match self.options.all_inks {
+                    true => i32::MAX,
+                    false => self.image.palette.len() as i32 - 1,
+                };
+                let last = self.int(last, span);
                 let least = self.int(0, span);
                 let below = self.apply(Op::IntMin, &[i, last], span)?;
                 Ok(Val::Node(self.apply(Op::IntMax, &[below, least], span)?))

@@ -29,6 +29,7 @@ mod tables;
 mod value;
 mod ways;
 
+pub use params::params;
 pub use ways::{Millionths, Search, Ways};
 
 use crate::flow::build::Builder;
@@ -67,6 +68,8 @@ pub enum Freeze {
 pub struct Options {
     /// How many inks the screen has; the image's where absent.
     pub inks: Option<u32>,
+    /// Whether `ink(i)` is i also beyond the inks, to see what a screen cannot show.
+    pub all_inks: bool,
     /// Params' values: name and scalars, angles in radians.
     pub set: Vec<(String, Vec<f64>)>,
     /// Params that become constants.
@@ -97,6 +100,7 @@ impl Default for Options {
     fn default() -> Self {
         Options {
             inks: None,
+            all_inks: false,
             set: Vec::new(),
             freeze: Freeze::Nothing,
             without: Vec::new(),
@@ -357,7 +361,7 @@ impl<'a> Lower<'a> {
             _ => None,
         };
         if let Some(wrong) = wrong {
-            return Err(Box::new(self.error(span, wrong)));
+            return Err(Box::new(self.error(span, wrong).help(op_domain(op))));
         }
         let span = self.at(span);
         Ok(self.b.apply(op, args, span))
@@ -376,5 +380,16 @@ impl<'a> Lower<'a> {
     fn bool(&mut self, value: bool, span: Span) -> NodeId {
         let span = self.at(span);
         self.b.constant(Value::Bool(value), span)
+    }
+}
+
+/// The way out where an operation's arguments are outside its domain.
+fn op_domain(op: Op) -> &'static str {
+    match op {
+        Op::Sqrt => "bound it: `sqrt(max(v, 0))`",
+        Op::Log => "bound it: `log(max(v, least))` with a `least` above 0",
+        Op::Asin | Op::Acos => "bound it: `clamp(v, -1, 1)`",
+        Op::Pow => "bound the base: `max(v, least) ^ p`",
+        _ => "divide by something else, or say what stands there: `if d == 0 then .. else n / d`",
     }
 }

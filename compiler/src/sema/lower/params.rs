@@ -2,7 +2,7 @@
 
 use super::flow::Leaf;
 use super::value::{Val, scalar};
-use super::{Found, Freeze, Lower};
+use super::{Found, Freeze, Lower, Options};
 use crate::flow::graph::{self, NodeId};
 use crate::sema::program::*;
 use crate::sema::ty::Ty;
@@ -251,6 +251,25 @@ impl<'a> Lower<'a> {
         let ink = self.apply(Op::ToReal, &[ink], e.span)?;
         let last = self.real(self.image.palette.len() as f64 - 1.0, e.span);
         self.apply(Op::Div, &[ink, last], e.span)
+    }
+}
+
+/// Whether the params of a program that was checked without errors are right, with the
+/// values that options set.
+///
+/// # Errors
+/// What is wrong.
+pub fn params(program: &Program, options: &Options) -> Result<(), Vec<Diagnostic>> {
+    let Some(image) = &program.image else {
+        return Ok(());
+    };
+    let mut lower = Lower::new(program, options, image);
+    lower.check_options(image.span)?;
+    let mut said = Vec::new();
+    lower.declare_params(&mut said);
+    match said.is_empty() {
+        true => Ok(()),
+        false => Err(said),
     }
 }
 

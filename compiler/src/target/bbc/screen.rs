@@ -1,7 +1,7 @@
 //! Modes, colours and coordinates.
 
 use super::super::Mode;
-use super::super::colours::nearest;
+use super::super::colours::{agon, assign, micro, physical};
 use super::code::Code;
 use super::segment::Draw;
 use crate::plan::Plan;
@@ -49,11 +49,6 @@ pub static BASIC_V: &[Mode] = &[
     mode("20", 640, 512, 16),
 ];
 
-/// Red, green and blue of a physical colour (0 to 7).
-fn physical(colour: u8) -> [u8; 3] {
-    [1, 2, 4].map(|bit| if colour & bit != 0 { 255 } else { 0 })
-}
-
 /// The physical colours of a mode's inks when it starts.
 pub fn first_colour(mode: &Mode, ink: usize) -> u8 {
     match (mode.inks, ink) {
@@ -65,29 +60,35 @@ pub fn first_colour(mode: &Mode, ink: usize) -> u8 {
 
 /// The physical colours that stand for a palette.
 pub fn colours(palette: &[[u8; 3]]) -> Vec<u8> {
-    let own: Vec<[u8; 3]> = (0..8).map(physical).collect();
-    nearest(palette, &own)
+    assign(palette, &micro())
 }
 
-/// The VDU statement that gives an ink the scene's colour; none where it has it already.
+/// The VDU statement that gives an ink the scene's colour, or the machine's that stands for
+/// it; none where it has it already.
 pub fn colour(plan: &Plan, ink: usize, rgb: [u8; 3]) -> Option<String> {
-    if physical(first_colour(&plan.mode, ink)) == rgb {
-        return None;
-    }
-    let exact = (0..8).find(|c| physical(*c) == rgb);
-    let [r, g, b] = rgb;
-    Some(match plan.target.name {
-        "bbc:agon" => format!("VDU 19,{ink},255,{r},{g},{b}"),
-        "bbc:basicv" if exact.is_none() => format!("VDU 19,{ink},16,{r},{g},{b}"),
-        _ => {
-            let given = colours(&plan.graph.image.palette);
-            let own = given.get(ink).copied().unwrap_or(7);
-            if own == first_colour(&plan.mode, ink) {
-                return None;
-            }
-            format!("VDU 19,{ink},{own};0;")
+    let palette = &plan.graph.image.palette;
+    let first = first_colour(&plan.mode, ink);
+    let number = |given: Vec<u8>| given.get(ink).copied().unwrap_or(7);
+    match plan.target.name {
+        "bbc:agon" => {
+            let own = agon();
+            let shown = own.get(usize::from(number(assign(palette, &own))));
+            let [r, g, b] = shown.map_or(rgb, |own| own.rgb);
+            (physical(first) != [r, g, b]).then(|| format!("VDU 19,{ink},255,{r},{g},{b}"))
         }
-    })
+        "bbc:basicv" => {
+            let [r, g, b] = rgb;
+            match (0..8).find(|c| physical(*c) == rgb) {
+                Some(own) if own == first => None,
+                Some(own) => Some(format!("VDU 19,{ink},{own};0;")),
+                None => Some(format!("VDU 19,{ink},16,{r},{g},{b}")),
+            }
+        }
+        _ => {
+            let own = number(colours(palette));
+            (own != first).then(|| format!("VDU 19,{ink},{own};0;"))
+        }
+    }
 }
 
 /// `a-4*Y%` and so on: a sum of a constant and a multiple.
@@ -162,24 +163,4 @@ pub fn y_expression(plan: &Plan) -> String {
     }
     // The middle of the row, since units are no whole part of it.
     format!("(512+1024*({})) DIV {height}", linear(bottom, -block, "Y%"))
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn no_two_inks_look_alike_while_there_are_colours() {
-        let grey = [128; 3];
-        assert_eq!(colours(&[[0; 3], grey, [255; 3]]), [0, 5, 7]);
-        assert_eq!(
-            colours(&[[0; 3], [255, 0, 0], [255, 255, 0], [255; 3]]),
-            [0, 1, 3, 7]
-        );
-        let ramp: Vec<[u8; 3]> = (0..8).map(|k| [k * 36; 3]).collect();
-        let mut given = colours(&ramp);
-        given.sort_unstable();
-        assert_eq!(given, [0, 1, 2, 3, 4, 5, 6, 7]);
-        assert_eq!(colours(&[grey; 16]).len(), 16);
-    }
 }

@@ -5,13 +5,12 @@
 //! picture stands until a key is pressed; then everything is put back, and BASIC goes on.
 
 use super::super::Mode;
-use super::super::colours::nearest;
+use super::super::colours::{assign, commodore};
 use super::Text;
 use super::bbc::complain;
 use super::bitmap::Lie;
 use crate::plan::Plan;
 use crate::target::mos6502::bitmap::Layout;
-use slowlight_isa::c64::COLOURS;
 
 /// Its bitmaps.
 pub(super) const MODES: &[Mode] = &[
@@ -68,7 +67,7 @@ pub(super) fn begin(text: &mut Text) {
 
 /// The bitmap, empty, and its colours.
 pub(super) fn open(plan: &Plan, text: &mut Text) {
-    let mut colours = nearest(&plan.graph.image.palette, &COLOURS);
+    let mut colours = assign(&plan.graph.image.palette, &commodore());
     colours.resize(4, 0);
     let many = Layout::of(plan).is_some_and(|layout| layout.lie == Lie::Pairs);
     let pair = match many {

@@ -100,6 +100,7 @@ fn is_page(part: &Part) -> bool {
 fn source(machine: Machine, part: &Part, text: &mut Text) {
     match part.source {
         Source::Text(lines) => text.line(machine.placed(lines.trim_end())),
+        Source::Made(write) => text.line(machine.placed(write().trim_end())),
         Source::Table(make) => {
             text.label(part.name);
             text.bytes(make().into_iter().map(|b| (b & 0xFF) as u8));

@@ -222,11 +222,23 @@ fn emit(plan: &Plan) -> Vec<Document> {
 
 /// A plan as one file of assembly for some assembler.
 pub fn document(plan: &Plan, syntax: &Syntax) -> Document {
+    written(plan, syntax, true)
+}
+
+/// A plan's program before it is read again as a whole ([`tidy`]), which only ever makes it
+/// shorter, and takes much longer than to write it.
+pub fn draft(plan: &Plan) -> Document {
+    written(plan, syntax::USUAL, false)
+}
+
+fn written(plan: &Plan, syntax: &Syntax, tidied: bool) -> Document {
     let homes = homes::Homes::new(plan);
     let mut text = Text::default();
     let parts = frame::program(plan, &homes, syntax, &mut text);
-    tidy(&mut text.lines, &parts.symbols, &parts.code);
-    if plan.undocumented {
+    if tidied {
+        tidy(&mut text.lines, &parts.symbols, &parts.code);
+    }
+    if tidied && plan.undocumented {
         undocumented(&mut text.lines, &parts.symbols, parts.code.start);
     }
     let (written, lines) = syntax.write(&text.lines);

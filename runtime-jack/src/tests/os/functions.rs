@@ -127,11 +127,28 @@ fn memory_at_random() {
 fn memory_that_fails() {
     assert_eq!(error("do Main.note(Memory.alloc(0));"), Some(5));
     assert_eq!(error("do Main.note(Memory.alloc(-5));"), Some(5));
-    assert_eq!(error("do Main.note(Memory.alloc(14334));"), None);
-    assert_eq!(error("do Main.note(Memory.alloc(14335));"), Some(6));
+    assert_eq!(error("do Main.note(Memory.alloc(14332));"), None);
+    assert_eq!(error("do Main.note(Memory.alloc(14333));"), Some(6));
     assert_eq!(error("do Main.note(Memory.alloc(32767));"), Some(6));
     let twice = "do Main.note(Memory.alloc(11900)); do Main.note(Memory.alloc(4000));";
     assert_eq!(error(twice), Some(6));
+    // To the last word, one more, and a hole of two segments that are not joined.
+    let full = "var int a, b, c; let a = Memory.alloc(60); let b = Memory.alloc(9000);
+        let c = Memory.alloc(5268); do Main.note(a); do Main.note(b); do Main.note(c);";
+    let then = |more: &str| error(&format!("{full} {more}"));
+    assert_eq!(then(""), None);
+    assert_eq!(then("do Main.note(Memory.alloc(1));"), Some(6));
+    let freed = "do Memory.deAlloc(b); do Memory.deAlloc(a);";
+    assert_eq!(
+        then(&format!("{freed} do Main.note(Memory.alloc(9001));")),
+        Some(6)
+    );
+    assert_eq!(
+        then(&format!(
+            "{freed} do Main.note(Memory.alloc(9000)); do Main.note(Memory.alloc(60));"
+        )),
+        None
+    );
     assert_eq!(error("do Main.note(Array.new(0));"), Some(2));
     let array = "var Array a; let a = Array.new(3); let a[2] = 5; do a.dispose();
         do Main.note(a); let a = Array.new(2); do Main.note(a);";

@@ -105,10 +105,11 @@ fn floating(x: Real40, format: NumberFormat, out: &mut String) {
         return;
     }
     for (i, d) in digits.iter().enumerate() {
-        if i == 1 {
+        out.push(char::from(*d));
+        // Measured: in the exponent style also after a digit that stands alone.
+        if i == 0 && (digits.len() > 1 || !general) {
             out.push('.');
         }
-        out.push(char::from(*d));
     }
     out.push('E');
     out.push_str(&power.to_string());

@@ -1,6 +1,9 @@
 #![allow(clippy::unwrap_used)]
 
+mod cases;
+mod graphics;
 mod programs;
+mod rom;
 mod tokens;
 mod wrong;
 
@@ -33,4 +36,9 @@ fn fails(text: &str) -> (String, u32) {
         Stop::Fault(f) => (f.message, f.line.unwrap_or(0)),
         other => panic!("{text}: {other:?}"),
     }
+}
+
+/// Ink at a pixel counted from the top left.
+fn ink(run: &Run, x: u32, y: u32) -> u8 {
+    run.screen.pixels[(y * run.screen.width + x) as usize]
 }

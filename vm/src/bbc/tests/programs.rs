@@ -21,7 +21,7 @@ fn numbers_as_on_the_rom() {
                 "-3 -1 2.5 -1",
             ),
             (
-                "PRINT;2^3^2;\" \";-2^2;\" \";1=1=-1;\" \";INT(5.5)+2 AND 1",
+                "PRINT;2^3^2;\" \";-2^2;\" \";(1=1)=-1;\" \";INT(5.5)+2 AND 1",
                 "64 4 -1 1",
             ),
             (
@@ -146,6 +146,24 @@ fn data_is_read_in_order_and_restored() {
 }
 
 #[test]
+fn some_lines_of_a_text_are_numbered() {
+    let text = "PRINT \"first\"\nRESTORE 1010\nREAD A$:PRINT A$\nEND\n1000DATA no\n1010DATA yes\n";
+    assert_eq!(prints(text), "first\nyes\n");
+    let text = "GOTO 210\n200PRINT \"no\"\nPRINT \"on\":GOTO 220\nPRINT \"end\"";
+    assert_eq!(prints(text), "on\nend\n");
+}
+
+#[test]
+fn lines_are_typed_for_input_and_then_empty_ones() {
+    let mut machine = Machine::new(Config::default());
+    let text = "10INPUT \"name \"A$,B%\n20INPUT C$:PRINT A$\"|\"B%\"|\"C$\"|\"";
+    machine.load_text(text).unwrap();
+    machine.type_lines(["Ada, 36"]);
+    let run = machine.run(20_000_000, &mut |_| true);
+    assert_eq!(run.text, "name Ada, 36\n?\nAda|        36||\n");
+}
+
+#[test]
 fn errors_can_be_caught() {
     let text = "10ON ERROR PRINT;ERR;\" \";ERL:REPORT:END\n20FOR I=1TO2\n30PRINT 1/0";
     assert_eq!(
@@ -167,14 +185,9 @@ fn files_are_written_and_read() {
     assert_eq!(run.files["pic"], [0, 1, 4, 9, 16, 25, 36, 49, 64, 81]);
 }
 
-/// Ink at a pixel counted from the top left.
-fn ink(run: &Run, x: u32, y: u32) -> u8 {
-    run.screen.pixels[(y * run.screen.width + x) as usize]
-}
-
 #[test]
 fn points_and_pokes_draw_the_same() {
-    let drawn = run("10MODE 1:GCOL 0,2:PLOT 69,4*5,4*(255-9):PRINT;POINT(20,984);POINT(0,0)");
+    let drawn = run("10MODE 1:GCOL 0,2:PLOT 69,4*5,4*(255-9)");
     let poked = run("10MODE 1:?(HIMEM+9DIV8*640+5DIV4*8+9MOD8)=&40");
     assert_eq!(drawn.stop, Stop::Ended);
     assert_eq!((drawn.screen.width, drawn.screen.height), (320, 256));
@@ -185,7 +198,10 @@ fn points_and_pokes_draw_the_same() {
         drawn.screen.palette,
         [[0, 0, 0], [255, 0, 0], [255, 255, 0], [255; 3]]
     );
-    assert_eq!(drawn.text, "20\n");
+    assert_eq!(
+        prints("10MODE 1:GCOL 0,2:PLOT 69,20,984:PRINT;POINT(20,984);POINT(0,0)"),
+        "20\n"
+    );
 }
 
 #[test]

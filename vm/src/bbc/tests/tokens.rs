@@ -57,10 +57,20 @@ fn lines_without_numbers_are_numbered_in_tens() {
 }
 
 #[test]
+fn lines_without_numbers_go_on_from_the_one_before() {
+    assert_eq!(
+        detokenise(&bytes("CLS\n5END\nCLG\n1000STOP\n\n  RUN\n7 REM\n")).unwrap(),
+        "5END\n7 REM\n10CLS\n15CLG\n1000STOP\n1010RUN\n"
+    );
+}
+
+#[test]
 fn wrong_text_is_refused_with_its_line() {
     let long = format!("10CLS\n20PRINT \"{}\"", "x".repeat(250));
     for (text, line, says) in [
-        ("10CLS\nEND", 2, "number all lines or none"),
+        ("10CLS\n\n20END\n10PRINT\nCLG", 5, "lines 3 and 5"),
+        ("CLS\n10END", 2, "lines 1 and 2"),
+        ("32760CLS\nEND", 2, "32767"),
         ("32768END", 1, "32767"),
         ("10PRINT \"\u{2603}\"", 1, "Latin-1"),
         (long.as_str(), 2, "split it"),

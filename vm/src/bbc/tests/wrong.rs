@@ -16,9 +16,11 @@ fn errors_have_the_rom_s_messages_and_lines() {
         ("PRINT A(1)", "Array"),
         ("DIM A(3):A(4)=1", "Subscript"),
         ("DIM A(3):A(-1)=1", "Subscript"),
-        ("DIM A(3):A(1,1)=1", "Array"),
+        ("DIM A(3,3):A(1)=1", "Array"),
+        ("DIM A(3):A(1,1)=1", "Missing )"),
         ("DIM A(3):DIM A(3)", "Bad DIM"),
-        ("DIM A(30000)", "DIM space"),
+        ("DIM A(30000)", "Bad DIM"),
+        ("DIM A(6000)", "DIM space"),
         ("DIM A% 30000", "DIM space"),
         ("PRINT \"a", "Missing \""),
         ("PRINT (1", "Missing )"),
@@ -31,7 +33,8 @@ fn errors_have_the_rom_s_messages_and_lines() {
         ("FOR A$=1TO2", "FOR variable"),
         ("FOR A=1", "No TO"),
         ("NEXT", "No FOR"),
-        ("FOR A=1TO2:NEXT B", "Can't match FOR"),
+        ("B=0:FOR A=1TO2:NEXT B", "Can't match FOR"),
+        ("FOR A=1TO2:NEXT B", "Syntax error"),
         ("UNTIL TRUE", "No REPEAT"),
         ("RETURN", "No GOSUB"),
         ("GOTO 1234", "No such line"),
@@ -70,6 +73,7 @@ fn what_is_left_out_says_so() {
     for body in ["CALL &FFF4", "A=USR0", "[OPT 2", "CHAIN \"X\""] {
         let (message, _) = fails(&format!("10{body}"));
         assert!(message.contains("Not in this machine"), "{message}");
+        assert!(message.contains("vm 6502:bbc"), "{message}");
     }
 }
 
@@ -82,6 +86,11 @@ fn endless_programs_stop_at_the_limit() {
         "10ON ERROR GOTO 10\n20PRINT 1/0",
         "10PRINT FNa\n20DEFFNa\n30GOTO 30",
         "10REPEAT:A=INKEY(100):UNTIL0",
+        "10RUN",
+        "10A=FNr\n20DEFFNr\n30RUN",
+        "10TRACE ON\n20GOTO 20",
+        "10WIDTH1\n20PRINT 1,2:GOTO 20",
+        "10REPEAT:INPUT A$:UNTIL A$=\"x\"",
     ] {
         let run = run(text);
         assert_eq!(run.stop, Stop::CycleLimit, "{text}");
@@ -147,7 +156,7 @@ fn program() -> impl Strategy<Value = Vec<u8>> {
     let body = prop_oneof![
         prop::collection::vec(any::<u8>().prop_map(|b| if b == 13 { 32 } else { b }), 0..40),
         prop::collection::vec(
-            prop::sample::select(b"AB%$()+-*/=<>,;:?!&1\"' \xf1\xe7\x8c\x8b\xe3\xb8\xed\xa4\xf2\xdd\xe5\xe4\xee\x85\xf5\xfd\xde\xea\xf0\xeb\xef\xe6\xc2\xa0\xba\x8d\x54\x44\x40\xdc\xf3\xf7".to_vec()),
+            prop::sample::select(b"AB%$()+-*/=<>,;:?!&1\"' \xf1\xe7\x8c\x8b\xe3\xb8\xed\xa4\xf2\xdd\xe5\xe4\xee\x85\xf5\xfd\xde\xea\xf0\xeb\xef\xe6\xc2\xa0\xba\x8d\x54\x44\x40\xdc\xf3\xf7\xfc\xe8\xf9\x86\x8a\x89~[#".to_vec()),
             0..40,
         ),
     ];

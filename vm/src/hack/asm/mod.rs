@@ -10,8 +10,7 @@
 //!     0;JMP
 //! ```
 //!
-//! Symbols are letters, digits, `_`, `.`, `$` and `:`, and do not begin with a
-//! digit. `SP LCL ARG THIS THAT`, `R0` to `R15`, `SCREEN` and `KBD` are known;
+//! Symbols are letters, digits, `_`, `.`, `$` and `:`; only digits are a number. `SP LCL ARG THIS THAT`, `R0` to `R15`, `SCREEN` and `KBD` are known;
 //! what is neither known nor a label is a variable, from 16 upwards in the order
 //! of first use. Blanks mean nothing. Destinations stand in any order (`MD`,
 //! `DM`), and so do the operands of `+`, `&` and `|`.

@@ -38,10 +38,7 @@ pub(super) fn statement(line: &str) -> Result<Option<Statement<'_>>, String> {
 
 /// What follows an `@`.
 fn address(text: &str) -> Result<Value<'_>, String> {
-    if text.starts_with(|c: char| c.is_ascii_digit()) {
-        if !text.chars().all(|c| c.is_ascii_digit()) {
-            return Err(format!("{} is neither a number nor a name", shown(text)));
-        }
+    if is_number(text) {
         let value = text.parse().ok().filter(|value| *value <= LARGEST);
         let too_large = || format!("@{} is above {LARGEST}, the largest constant", cut(text));
         return value.map(Value::Word).ok_or_else(too_large);
@@ -49,16 +46,18 @@ fn address(text: &str) -> Result<Value<'_>, String> {
     symbol(text).map(Value::Symbol)
 }
 
+/// Only digits: what has anything else in it is a name, as the official assembler has it.
+fn is_number(text: &str) -> bool {
+    !text.is_empty() && text.chars().all(|c| c.is_ascii_digit())
+}
+
 fn symbol(name: &str) -> Result<&str, String> {
     let is_part = |c: char| c.is_ascii_alphanumeric() || "_.$:".contains(c);
-    let is_name = !name.is_empty()
-        && !name.starts_with(|c: char| c.is_ascii_digit())
-        && name.chars().all(is_part);
-    if is_name {
+    if !name.is_empty() && !is_number(name) && name.chars().all(is_part) {
         Ok(name)
     } else {
         Err(format!(
-            "{} is no name: letters, digits, `_`, `.`, `$` and `:`, no digit first",
+            "{} is no name: letters, digits, `_`, `.`, `$` and `:`, and not only digits",
             shown(name)
         ))
     }
@@ -71,8 +70,9 @@ fn instruction(code: &str) -> Result<u16, String> {
         Some((to, rest)) => (Some(to), rest),
         None => (None, packed.as_str()),
     };
+    // Nothing behind a `;` is no jump.
     let (what, condition) = match rest.split_once(';') {
-        Some((what, condition)) => (what, Some(condition)),
+        Some((what, condition)) => (what, Some(condition).filter(|c| !c.is_empty())),
         None => (rest, None),
     };
     let mut word = COMPUTE;
@@ -85,7 +85,7 @@ fn instruction(code: &str) -> Result<u16, String> {
         word |= jump(condition).ok_or_else(|| format!("unknown jump {}", shown(condition)))?;
     }
     if to.is_none() && condition.is_none() {
-        return Err(format!("{} goes nowhere: no `=` and no `;`", shown(code)));
+        return Err(format!("{} goes nowhere: no `=` and no jump", shown(code)));
     }
     Ok(word)
 }

@@ -30,7 +30,10 @@ fn every_instruction_there_and_back() {
         // Neither a destination nor a jump: nothing that one would write.
         let (line, message) = said(&written(COMPUTE | bits << 6).unwrap());
         assert_eq!(line, 1);
-        assert_eq!(message, format!("`{name}` goes nowhere: no `=` and no `;`"));
+        assert_eq!(
+            message,
+            format!("`{name}` goes nowhere: no `=` and no jump")
+        );
     }
     assert_eq!(count, 28 * 63);
     for value in 0..=0x7fff {
@@ -103,24 +106,23 @@ fn every_wrong_line_is_named() {
         ("=A", "unknown destination ``: A, D and M, each once"),
         ("X=A", "unknown destination `X`: A, D and M, each once"),
         ("D;JXX", "unknown jump `JXX`"),
-        ("D;", "unknown jump ``"),
+        ("D;", "`D;` goes nowhere: no `=` and no jump"),
         ("@32768", "@32768 is above 32767, the largest constant"),
         (
             "@99999999999999999999",
             "@99999999999999999999 is above 32767, the largest constant",
         ),
-        ("@12x", "`12x` is neither a number nor a name"),
         (
             "@",
-            "`` is no name: letters, digits, `_`, `.`, `$` and `:`, no digit first",
+            "`` is no name: letters, digits, `_`, `.`, `$` and `:`, and not only digits",
         ),
         (
             "@-1",
-            "`-1` is no name: letters, digits, `_`, `.`, `$` and `:`, no digit first",
+            "`-1` is no name: letters, digits, `_`, `.`, `$` and `:`, and not only digits",
         ),
         (
-            "(1st)",
-            "`1st` is no name: letters, digits, `_`, `.`, `$` and `:`, no digit first",
+            "(123)",
+            "`123` is no name: letters, digits, `_`, `.`, `$` and `:`, and not only digits",
         ),
         ("(L", "a label ends in `)`: `(L`"),
         ("(A)", "a second label A: the first is in line 1"),
@@ -129,6 +131,17 @@ fn every_wrong_line_is_named() {
         let expected = (3, message.to_owned());
         assert_eq!(said(&format!("(A)\n@A\n{line}\n0;JMP")), expected);
     }
+}
+
+#[test]
+fn names_may_begin_with_a_digit() {
+    let words = |text: &str| assemble(text).unwrap().words;
+    assert_eq!(
+        words("@6fe\nD=A;\n(6fe)\n@6fe\n0;JMP"),
+        words("@2\nD=A\n@2\n0;JMP")
+    );
+    assert_eq!(words("@0x10\n@10.\n@0x10"), [16, 17, 16]);
+    assert_eq!(words("(1st)\n@1st\nMD=M+1;"), words("@0\nDM=M+1"));
 }
 
 #[test]

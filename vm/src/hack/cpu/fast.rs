@@ -13,6 +13,8 @@ pub(super) enum Exit {
     Ended,
     /// There is no instruction.
     Away,
+    /// The program waits for a key, and none is left.
+    Waits,
 }
 
 impl Cpu {

@@ -35,7 +35,9 @@ mod plain;
 mod tests;
 
 use super::asm::{ROM_WORDS, overflow};
+use super::keyboard::{CPU_FRAME, code};
 use super::screen::screen;
+use crate::keys::{Keyboard, Seen, Still, never};
 use crate::{Fault, Progress, Screen, Stop, Watch};
 use fast::Exit;
 use ops::Op;
@@ -43,6 +45,9 @@ use plain::Registers;
 
 /// How many cycles lie between two calls of the watcher.
 const WATCH_EVERY: u64 = 50_000_000;
+
+/// Cycles by which the plain engine takes its turn to see whether a program waits for a key.
+const PROBE: u64 = 1 << 16;
 
 /// Words of the RAM.
 const RAM_WORDS: usize = 0x8000;
@@ -67,6 +72,8 @@ pub struct Cpu {
     /// Cycles so far.
     count: u64,
     stopped: Option<Stop>,
+    keyboard: Option<Box<Keyboard>>,
+    still: Still<u16>,
     /// The screen when the watcher was last called, and the row that changed last.
     seen: Vec<u16>,
     row: Option<u32>,
@@ -99,6 +106,8 @@ impl Cpu {
             registers: Registers::default(),
             count: 0,
             stopped: None,
+            keyboard: None,
+            still: Still::default(),
             seen: vec![0; KEYBOARD - SCREEN],
             row: None,
         })
@@ -127,6 +136,38 @@ impl Cpu {
         self.memory[KEYBOARD] = key;
     }
 
+    /// Gives the computer a keyboard, whose keys come by calls or by frames of 144,000
+    /// cycles. A call is a read of the keyboard's word.
+    pub fn plug(&mut self, keyboard: Keyboard) {
+        self.keyboard = Some(Box::new(keyboard));
+        self.still = Still::default();
+    }
+
+    /// Takes the keyboard away again.
+    pub fn unplug(&mut self) -> Option<Keyboard> {
+        self.keyboard.take().map(|keyboard| *keyboard)
+    }
+
+    /// The program is about to read the keyboard's word.
+    #[cold]
+    fn look(&mut self) -> Option<Exit> {
+        let keyboard = self.keyboard.as_mut()?;
+        let memory = &self.memory;
+        let shown = || Some(screen(memory.get(SCREEN..KEYBOARD).unwrap_or(&[])));
+        let word = match keyboard.look(self.count / CPU_FRAME, shown) {
+            Seen::Nothing => 0,
+            Seen::Key(key) => code(key),
+            Seen::Quit => return Some(Exit::Ended),
+        };
+        self.memory[KEYBOARD] = word;
+        let Registers { a, d, at } = self.registers;
+        let place = [a, d, at]
+            .iter()
+            .fold(0, |all, n| all << 16 | u64::from(*n));
+        let waits = keyboard.is_over() && self.still.again(place, self.memory.as_slice());
+        waits.then_some(Exit::Waits)
+    }
+
     fn run_on(&mut self, limit: u64, watch: Watch, go: fn(&mut Cpu, u64) -> Exit) -> Run {
         let stop = match &self.stopped {
             Some(stop) => stop.clone(),
@@ -143,10 +184,22 @@ impl Cpu {
     }
 
     fn watched(&mut self, limit: u64, watch: Watch, go: fn(&mut Cpu, u64) -> Exit) -> Stop {
-        loop {
-            let pause = limit.min(self.count.saturating_add(WATCH_EVERY));
+        // Only the plain engine looks at keys. Where none is ever pressed, it need not do
+        // so but now and then, to find out whether the program waits for one.
+        let (plain, scripted) = (
+            Cpu::go_plain as fn(&mut Cpu, u64) -> Exit,
+            self.is_scripted(),
+        );
+        let mut turns = [(go, WATCH_EVERY), (plain, PROBE)];
+        if scripted {
+            turns = [(plain, WATCH_EVERY); 2];
+        }
+        let count = 1 + usize::from(self.keyboard.is_some());
+        for (go, cycles) in turns.into_iter().take(count).cycle() {
+            let pause = limit.min(self.count.saturating_add(cycles));
             match go(self, pause) {
                 Exit::Ended => return Stop::Ended,
+                Exit::Waits => return Stop::Fault(fault(never("the program"))),
                 Exit::Away => {
                     let last = self.rom.len().saturating_sub(1);
                     let message = format!(
@@ -160,9 +213,15 @@ impl Cpu {
             }
             let progress = self.progress();
             if !watch(progress) {
-                return Stop::Interrupted;
+                break;
             }
         }
+        Stop::Interrupted
+    }
+
+    fn is_scripted(&self) -> bool {
+        let keyboard = self.keyboard.as_ref();
+        keyboard.is_some_and(|keyboard| keyboard.is_scripted())
     }
 
     fn screen_words(&self) -> &[u16] {

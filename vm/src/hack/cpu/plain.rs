@@ -2,7 +2,7 @@
 //! an instruction does is what it does here.
 
 use super::fast::Exit;
-use super::{ADDRESS, Cpu, Memory};
+use super::{ADDRESS, Cpu, KEYBOARD, Memory};
 use crate::hack::asm::instruction::{COMPUTE, DEST_A, DEST_D, DEST_M, JEQ, JGT, JLT, JMP, LARGEST};
 
 impl Cpu {
@@ -25,10 +25,20 @@ impl Cpu {
             return Some(Exit::Ended);
         }
         self.count += 1;
+        if word > LARGEST
+            && word & READS != 0
+            && usize::from(self.registers.a & ADDRESS) == KEYBOARD
+            && let Some(exit) = self.look()
+        {
+            return Some(exit);
+        }
         execute(word, &mut self.registers, &mut self.memory);
         None
     }
 }
+
+/// The bit of a computation that reads the word at address A.
+const READS: u16 = 1 << 12;
 
 /// What the CPU keeps by itself.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -48,7 +58,7 @@ pub(super) fn execute(word: u16, registers: &mut Registers, memory: &mut Memory)
         return;
     }
     let address = registers.a & ADDRESS;
-    let y = if word & 1 << 12 == 0 {
+    let y = if word & READS == 0 {
         registers.a
     } else {
         memory[usize::from(address)]

@@ -3,7 +3,7 @@
 use super::tree::Call::{self, Constructor, Function, Method};
 use super::tree::Class;
 use super::{Faults, LARGEST};
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 
 /// What a call must match.
 #[derive(Clone, Copy, Debug)]
@@ -16,6 +16,8 @@ pub(super) struct Signature {
 /// Every class that the program may name, with its subroutines.
 pub(super) struct Classes<'a> {
     of: HashMap<&'a str, HashMap<&'a str, Signature>>,
+    /// Those that the program brings.
+    own: HashSet<&'a str>,
 }
 
 impl<'a> Classes<'a> {
@@ -53,7 +55,13 @@ impl<'a> Classes<'a> {
             }
             of.insert(name.text, signatures(class, faults));
         }
-        Classes { of }
+        let own = parsed.iter().map(|(_, class)| class.name.text).collect();
+        Classes { of, own }
+    }
+
+    /// Whether the program brings the class.
+    pub(super) fn own(&self, class: &str) -> bool {
+        self.own.contains(class)
     }
 
     pub(super) fn known(&self, class: &str) -> bool {

@@ -243,7 +243,8 @@ impl<'a> Emitter<'a, '_, '_> {
         self.command("return");
     }
 
-    /// Reports the classes that are not there, each declaration's once.
+    /// Warns of the classes that are not there, each declaration's once: what is of
+    /// such a type is a word like any other.
     fn types(&mut self, types: impl Iterator<Item = Type<'a>>) {
         let mut last = None;
         for of in types {
@@ -253,7 +254,7 @@ impl<'a> Emitter<'a, '_, '_> {
             {
                 last = Some(name.place);
                 let message = format!("there is no class `{}`", name.text);
-                self.faults.add(name.place, message);
+                self.faults.warn(name.place, message);
             }
         }
     }

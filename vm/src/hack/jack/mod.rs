@@ -13,8 +13,11 @@
 //! folded. One command differs: a constructor of a class without fields
 //! allocates one word, as `Memory.alloc(0)` is an error of the OS.
 //!
-//! What the official compiler or the web IDE reject is rejected here, except
-//! that types are not compared: Jack lets an `int` stand for an address.
+//! What the official compiler rejects is rejected here, except that types are
+//! not compared: Jack lets an `int` stand for an address. What it takes and the
+//! web IDE rejects is taken with a warning: types of unknown classes, and calls
+//! of unknown classes or of functions that the OS does not have, which matter
+//! only to a program that comes to them.
 
 mod classes;
 mod emit;
@@ -65,6 +68,18 @@ pub struct VmFile {
 /// Everything that is wrong, in the order of the files, at most 100 faults,
 /// each with its place.
 pub fn compile(files: &[(String, String)]) -> Result<Vec<VmFile>, Vec<Fault>> {
+    compile_warning(files, &mut Vec::new())
+}
+
+/// The same; adds to `warnings` what is accepted and may be a mistake, at most 100,
+/// each with its place.
+///
+/// # Errors
+/// Those of [`compile`].
+pub fn compile_warning(
+    files: &[(String, String)],
+    warnings: &mut Vec<Fault>,
+) -> Result<Vec<VmFile>, Vec<Fault>> {
     let mut faults = Faults::default();
     let mut parsed = Vec::with_capacity(files.len());
     for (file, text) in files {
@@ -82,6 +97,7 @@ pub fn compile(files: &[(String, String)]) -> Result<Vec<VmFile>, Vec<Fault>> {
         compiled.push(emit::class(class, &classes, &mut statics, &mut faults));
     }
     faults.check()?;
+    warnings.append(&mut faults.warnings);
     Ok(compiled)
 }
 
@@ -97,17 +113,31 @@ struct Place {
 struct Faults<'a> {
     file: &'a str,
     list: Vec<Fault>,
+    /// What is accepted and may be a mistake.
+    warnings: Vec<Fault>,
 }
 
 impl Faults<'_> {
     fn add(&mut self, place: Place, message: impl Into<String>) {
         if !self.full() {
-            self.list.push(Fault {
-                message: message.into(),
-                file: Some(self.file.to_string()),
-                line: Some(place.line),
-                column: Some(place.column),
-            });
+            let fault = self.at(place, message.into());
+            self.list.push(fault);
+        }
+    }
+
+    fn warn(&mut self, place: Place, message: impl Into<String>) {
+        if self.warnings.len() < FAULTS {
+            let fault = self.at(place, message.into());
+            self.warnings.push(fault);
+        }
+    }
+
+    fn at(&self, place: Place, message: String) -> Fault {
+        Fault {
+            message,
+            file: Some(self.file.to_string()),
+            line: Some(place.line),
+            column: Some(place.column),
         }
     }
 

@@ -7,6 +7,9 @@ use super::emit::Emitter;
 use super::symbols::Symbol;
 use super::tree::{Call, Expression, Invocation, Kind, Name, Operator, Term, Type};
 
+/// What becomes of a call that goes nowhere.
+const REACHED: &str = "the program ends with an error if it comes to this call";
+
 impl Expression<'_> {
     /// Whether this is the word `this` alone.
     pub(super) fn is_this(&self) -> bool {
@@ -166,8 +169,13 @@ impl<'a> Emitter<'a, '_, '_> {
                 }
                 Type::Plain(of) => format!("`{name}` is of type `{of}`, which has no methods"),
             },
-            None if self.classes.known(name) => return Some((name, false)),
-            None => format!("there is no variable and no class `{name}`"),
+            None => {
+                if !self.classes.known(name) {
+                    let message = format!("there is no variable and no class `{name}`: {REACHED}");
+                    self.faults.warn(receiver.place, message);
+                }
+                return Some((name, false));
+            }
         };
         self.faults.add(receiver.place, message);
         None
@@ -176,11 +184,16 @@ impl<'a> Emitter<'a, '_, '_> {
     /// Holds a call against its target's signature.
     fn check(&mut self, call: &Invocation<'a>, class: &str, on_object: bool) {
         if !self.classes.known(class) {
-            return; // Reported where the variable is declared.
+            return; // Said where the variable is declared, or of the receiver.
         }
         let name = call.name.text;
         let given = call.arguments.len();
         let message = match self.classes.signature(class, name) {
+            None if !self.classes.own(class) => {
+                let message = format!("class `{class}` has no subroutine `{name}`: {REACHED}");
+                self.faults.warn(call.name.place, message);
+                return;
+            }
             None => format!("class `{class}` has no subroutine `{name}`"),
             Some(target) => match (target.kind, on_object) {
                 (Call::Method, false) => {

@@ -18,10 +18,10 @@ pub(super) fn address(memory: &Memory, place: Place) -> u16 {
     memory[usize::from(place.base)].wrapping_add(place.offset)
 }
 
-/// Whether an address that a program computed is in the heap, on the screen
-/// or the keyboard's: not among the pointers, the statics or the stack, and
-/// not where there is no memory.
+/// Whether an address that a program computed is in the heap or on the screen: not
+/// among the pointers, the statics or the stack, not the keyboard's, where a read
+/// is a look at the keys, and not where there is no memory.
 #[inline(always)]
 pub(super) fn is_far(address: u16) -> bool {
-    address.wrapping_sub(HEAP) <= KEYBOARD - HEAP
+    address.wrapping_sub(HEAP) < KEYBOARD - HEAP
 }

@@ -370,6 +370,7 @@ impl Machine<'_> {
                 }
                 Op::Native(native) => {
                     memory[usize::from(SP)] = sp;
+                    (os.now, os.place) = (count, next as u64);
                     match os::call(native, memory, os) {
                         Ok(result) => {
                             sp = sp.wrapping_sub(native.arguments());

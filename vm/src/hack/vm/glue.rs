@@ -7,18 +7,22 @@
 //! it is linked in as VM code instead; its commands then count like any
 //! others.
 
+use super::link::Source;
+use super::parse::Written;
+use std::collections::HashSet;
+
 /// A function in VM code, used if the program defines one of `calls` and not
 /// the function itself.
-pub(super) struct Glue {
-    pub name: &'static str,
-    pub calls: &'static [&'static str],
-    pub text: &'static str,
+struct Glue {
+    name: &'static str,
+    calls: &'static [&'static str],
+    text: &'static str,
 }
 
 /// What goes in messages for the file of linked-in functions.
 pub(super) const FILE: &str = "(operating system)";
 
-pub(super) const GLUE: &[Glue] = &[
+const GLUE: &[Glue] = &[
     Glue {
         name: "Array.new",
         calls: &["Memory.alloc"],
@@ -104,6 +108,39 @@ pub(super) const GLUE: &[Glue] = &[
     },
 ];
 
+/// The text of the functions that this program needs beside its own and the native ones.
+pub(super) fn linked_in(sources: &[Source]) -> String {
+    let mut defined = HashSet::new();
+    let mut calls_init = false;
+    for line in sources.iter().flat_map(|source| &source.lines) {
+        match line.what {
+            Written::Function(name, _) => {
+                defined.insert(name);
+            }
+            Written::Call("Sys.init", _) => calls_init = true,
+            _ => {}
+        }
+    }
+    let has = |name: &str| defined.contains(name);
+    let mut text = String::new();
+    for glue in GLUE {
+        if !has(glue.name) && glue.calls.iter().any(|name| has(name)) {
+            text.push_str(glue.text);
+            text.push('\n');
+        }
+    }
+    if !has("Sys.init") && has("Main.main") {
+        match initialiser(has) {
+            Some(init) => text.push_str(&init),
+            None if calls_init => text.push_str(
+                "function Sys.init 0\ncall Main.main 0\npop temp 0\ncall Sys.halt 0\nreturn\n",
+            ),
+            None => {}
+        }
+    }
+    text
+}
+
 /// The classes that the native `Sys.init` initialises, in its order.
 const INITIALISED: &[&str] = &[
     "Memory.init",
@@ -115,7 +152,7 @@ const INITIALISED: &[&str] = &[
 
 /// A `Sys.init` that initialises the classes which the program brings and
 /// runs `Main.main`; `None` if it brings no initialiser.
-pub(super) fn initialiser(defined: impl Fn(&str) -> bool) -> Option<String> {
+fn initialiser(defined: impl Fn(&str) -> bool) -> Option<String> {
     let mut text = String::from("function Sys.init 0\n");
     let plain = text.len();
     for name in INITIALISED {

@@ -3,16 +3,20 @@
 //! Labels are scoped by function, statics by file; functions are global. A
 //! call goes to the program's own function of that name, else to the native
 //! one. `Sys.halt` always is the native one: whatever a program's own would
-//! do, it never returns, so the run ends there.
+//! do, it never returns, so the run ends there. A single file without functions is
+//! run from its first command to its last.
 
 use super::command::{ARG, LCL, TEMP, THAT, THIS};
 use super::command::{CONSTANTS, Command, Place, STATIC, STATICS};
 use super::fuse::Fused;
-use super::glue::{self, GLUE};
+use super::glue::{self, linked_in};
 use super::os::Native;
 use super::parse::{Line, Segment, Written, fault, parse};
 use crate::Fault;
 use std::collections::HashMap;
+
+/// The name of commands without a function, which nobody can call.
+const BARE: &str = "the program";
 
 /// No more than this many faults are reported.
 const FAULTS: usize = 100;
@@ -35,6 +39,8 @@ pub struct Program {
     pub(in crate::hack) on_error: Option<u32>,
     /// Whether the machine's own allocator is used, so that the heap needs preparing.
     pub(in crate::hack) native_heap: bool,
+    /// Whether it is commands without a function.
+    pub(in crate::hack) bare: bool,
     /// The commands joined into faster ones, if the program is regular enough.
     pub(super) fused: Option<Fused>,
     count: usize,
@@ -77,7 +83,10 @@ impl Program {
             lines: linked_in,
         });
 
-        let mut linker = Linker::default();
+        let mut linker = Linker {
+            bare: bare(&sources),
+            ..Linker::default()
+        };
         linker.declare(&sources, &mut faults);
         for (file, source) in sources.iter().enumerate() {
             if file == own {
@@ -101,6 +110,11 @@ impl Program {
                 Err(faults)
             }
         }
+    }
+
+    /// Whether it is commands without a function.
+    pub fn is_bare(&self) -> bool {
+        self.bare
     }
 
     /// How many commands the files hold. Labels are not counted: nothing executes them.
@@ -135,42 +149,17 @@ impl Program {
     }
 }
 
-struct Source<'t> {
+/// A file's commands.
+pub(super) struct Source<'t> {
     name: &'t str,
-    lines: Vec<Line<'t>>,
+    pub lines: Vec<Line<'t>>,
 }
 
-/// The text of the functions that this program needs beside its own and the native ones.
-fn linked_in(sources: &[Source]) -> String {
-    let mut defined = HashMap::new();
-    let mut calls_init = false;
-    for line in sources.iter().flat_map(|source| &source.lines) {
-        match line.what {
-            Written::Function(name, _) => {
-                defined.insert(name, ());
-            }
-            Written::Call("Sys.init", _) => calls_init = true,
-            _ => {}
-        }
-    }
-    let has = |name: &str| defined.contains_key(name);
-    let mut text = String::new();
-    for glue in GLUE {
-        if !has(glue.name) && glue.calls.iter().any(|name| has(name)) {
-            text.push_str(glue.text);
-            text.push('\n');
-        }
-    }
-    if !has("Sys.init") && has("Main.main") {
-        match glue::initialiser(has) {
-            Some(init) => text.push_str(&init),
-            None if calls_init => text.push_str(
-                "function Sys.init 0\ncall Main.main 0\npop temp 0\ncall Sys.halt 0\nreturn\n",
-            ),
-            None => {}
-        }
-    }
-    text
+/// Whether a program, given with what is linked in, is one file of commands in no function.
+fn bare(sources: &[Source]) -> bool {
+    let own = sources.split_last().map(|(_, own)| own);
+    let commands = |only: &Source| !only.lines.is_empty() && !only.lines.iter().any(is_function);
+    matches!(own, Some([only]) if commands(only))
 }
 
 #[derive(Default)]
@@ -183,6 +172,7 @@ struct Linker<'t> {
     /// First address and count of each file's statics.
     statics: Vec<(u16, u16)>,
     count: usize,
+    bare: bool,
 }
 
 impl<'t> Linker<'t> {
@@ -193,6 +183,9 @@ impl<'t> Linker<'t> {
         self.sites = vec![u32::MAX, u32::MAX];
         let mut next = STATIC;
         let mut number = 0;
+        if self.bare {
+            self.names.insert(BARE, 0);
+        }
         for source in sources {
             let mut count = 0;
             for line in &source.lines {
@@ -228,29 +221,45 @@ impl<'t> Linker<'t> {
     fn emit(&mut self, file: usize, source: &Source<'t>, faults: &mut Vec<Fault>) {
         let mut rest = source.lines.as_slice();
         while let Some((first, after)) = rest.split_first() {
-            let Written::Function(name, locals) = first.what else {
-                let message = "a command outside every function".to_owned();
-                faults.push(fault(source.name, first.line, message));
-                let next = rest.iter().position(is_function).unwrap_or(rest.len());
-                rest = rest.get(next..).unwrap_or(&[]);
-                continue;
+            let (head, after) = match first.what {
+                Written::Function(name, locals) => ((name, locals), after),
+                _ if self.bare => ((BARE, 0), rest),
+                _ => {
+                    let message = "a command outside every function".to_owned();
+                    faults.push(fault(source.name, first.line, message));
+                    let next = rest.iter().position(is_function).unwrap_or(rest.len());
+                    rest = rest.get(next..).unwrap_or(&[]);
+                    continue;
+                }
             };
             let size = after.iter().position(is_function).unwrap_or(after.len());
             let (body, next) = after.split_at(size);
-            let start = self.commands.len() as u32;
-            self.add(file, first.line, Command::Function { locals });
-            self.body(file, source.name, name, body, faults);
-            let end = self.commands.len() as u32;
-            let last = body.last().map_or(first.line, |line| line.line);
-            self.add(file, last, Command::FunctionEnd);
-            self.functions.push(Function {
-                name: name.to_owned(),
-                start,
-                end,
-                locals,
-            });
+            self.function(file, source.name, (head, first.line), body, faults);
             rest = next;
         }
+    }
+
+    /// Links one function: its name, its count of locals, where it begins.
+    fn function(
+        &mut self,
+        file: usize,
+        file_name: &str,
+        ((name, locals), line): ((&'t str, u16), u32),
+        body: &[Line<'t>],
+        faults: &mut Vec<Fault>,
+    ) {
+        let start = self.commands.len() as u32;
+        self.add(file, line, Command::Function { locals });
+        self.body(file, file_name, name, body, faults);
+        let end = self.commands.len() as u32;
+        let last = body.last().map_or(line, |line| line.line);
+        self.add(file, last, Command::FunctionEnd);
+        self.functions.push(Function {
+            name: name.to_owned(),
+            start,
+            end,
+            locals,
+        });
     }
 
     fn add(&mut self, file: usize, line: u32, command: Command) {
@@ -330,13 +339,15 @@ impl<'t> Linker<'t> {
     }
 
     fn start(&self) -> Option<u32> {
-        let start = self.names.get("Sys.init").or(self.names.get("Main.main"));
-        start.copied()
+        let names = ["Sys.init", "Main.main", BARE];
+        names.iter().find_map(|name| self.names.get(name)).copied()
     }
 
     fn finish(self, start: u32, sources: &[Source]) -> Program {
         let named = |name: &str| self.names.get(name).copied();
-        let fused = Fused::new(&self.commands, &self.functions, &self.sites, start);
+        let regular = !self.bare;
+        let fused =
+            regular.then(|| Fused::new(&self.commands, &self.functions, &self.sites, start));
         let files = sources.iter().map(|source| source.name.to_owned());
         let statics = sources
             .iter()
@@ -346,7 +357,8 @@ impl<'t> Linker<'t> {
             start,
             on_error: named("Sys.error"),
             native_heap: named("Memory.alloc").is_none(),
-            fused,
+            fused: fused.flatten(),
+            bare: self.bare,
             count: self.count,
             files: files.collect(),
             statics: statics.collect(),

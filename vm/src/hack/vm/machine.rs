@@ -1,14 +1,17 @@
 //! The machine's state, and the run that switches between the engines.
 
 use super::command::{
-    ARG, CONSTANTS, Command, FRAME, KEYBOARD, LCL, Memory, RAM_MASK, SCREEN, SP, STACK,
+    CONSTANTS, Command, FRAME, HEAP, KEYBOARD, LCL, Memory, RAM_MASK, SCREEN, SP, STACK,
 };
 use super::fast::Exit;
 use super::link::Program;
-use super::os::{self, Native, Os, Trap};
+use super::missing;
+use super::os::keyboard::Keys;
+use super::os::{self, Heap, Native, Os, Trap};
 use super::parse::fault;
 use crate::charge::{Charges, Ledger, Roles};
 use crate::hack::screen::screen;
+use crate::keys::Keyboard;
 use crate::{Fault, Progress, Screen, Stop, Watch};
 
 /// How many commands lie between two calls of the watcher.
@@ -16,6 +19,10 @@ const WATCH_EVERY: u64 = 10_000_000;
 
 /// Words touched by long native calls that bring the watcher's next call forward.
 pub(super) const EFFORT_LIMIT: u64 = 50_000_000;
+
+/// SP, LCL, ARG, THIS and THAT for commands without a function: as the book's tests of
+/// chapter 7 set them.
+const BARE: [u16; 5] = [STACK, 300, 400, 3000, 3010];
 
 /// A machine with a program in it.
 #[derive(Clone, Debug)]
@@ -50,20 +57,30 @@ pub struct Run {
 impl<'p> Machine<'p> {
     /// A machine about to start the program, everything else in the RAM zero.
     pub fn new(program: &'p Program) -> Self {
+        Machine::with_heap(program, Heap::default())
+    }
+
+    /// The same with another operating system's heap.
+    pub fn with_heap(program: &'p Program, heap: Heap) -> Self {
         let mut memory: Box<Memory> = Box::new([0; 0x10000]);
         let (_, constants) = memory.split_at_mut(usize::from(CONSTANTS));
         for (word, value) in constants.iter_mut().zip(0..) {
             *word = value;
         }
         if program.native_heap {
-            os::init(&mut memory);
+            os::init(&mut memory, heap);
         }
-        // As if something at return site 0 had called the function.
-        memory[usize::from(ARG)] = STACK;
-        memory[usize::from(LCL)] = STACK + FRAME;
-        memory[usize::from(SP)] = STACK + FRAME;
+        let bases = match program.bare {
+            true => BARE,
+            // As if something at return site 0 had called the function.
+            false => [STACK + FRAME, STACK + FRAME, STACK, 0, 0],
+        };
+        for (cell, base) in (SP..).zip(bases) {
+            memory[usize::from(cell)] = base;
+        }
         let start = program.functions.get(program.start as usize);
-        let mut os = Os::new();
+        let mut os = Os::new(heap);
+        os.native_heap = program.native_heap;
         if let Some(fused) = &program.fused {
             os.odd = STACK + FRAME > fused.room(program.start);
         }
@@ -71,10 +88,22 @@ impl<'p> Machine<'p> {
             program,
             memory,
             os,
-            at: start.map_or(0, |function| function.start),
+            at: start.map_or(0, |f| f.start + u32::from(program.bare)),
             count: 0,
             stopped: None,
         }
+    }
+
+    /// Gives the machine a keyboard, whose keys come by calls or by frames of 250,000
+    /// commands, where `Sys.wait` counts a frame for 20 milliseconds. A call is a look at
+    /// the keyboard: `Keyboard.keyPressed`, or a read of its word.
+    pub fn plug(&mut self, keyboard: Keyboard) {
+        self.os.keys = Some(Box::new(Keys::new(keyboard)));
+    }
+
+    /// Takes the keyboard away again.
+    pub fn unplug(&mut self) -> Option<Keyboard> {
+        self.os.keys.take().map(|keys| keys.keyboard)
     }
 
     /// Runs until the program ends or `limit` commands have been executed in
@@ -129,6 +158,12 @@ impl<'p> Machine<'p> {
     /// The word at an address of the RAM (the address is taken modulo 32,768), signed.
     pub fn peek(&self, address: u16) -> i16 {
         self.memory[usize::from(address & RAM_MASK)].cast_signed()
+    }
+
+    /// The words on the stack, the lowest first.
+    pub fn stack(&self) -> Vec<i16> {
+        let top = self.memory[usize::from(SP)].min(HEAP);
+        (STACK..top).map(|at| self.peek(at)).collect()
     }
 
     fn go(&mut self, limit: u64, watch: Watch) -> Stop {
@@ -194,6 +229,9 @@ impl<'p> Machine<'p> {
                         Err(_) => Some(Stop::Ended),
                     };
                 }
+                if self.file() == Some(missing::FILE) {
+                    return Some(Stop::Fault(self.absent()));
+                }
                 let function = self.function();
                 let colon = if why.is_empty() { "" } else { ": " };
                 let number = number.cast_signed();
@@ -209,12 +247,35 @@ impl<'p> Machine<'p> {
         function.map_or("(no function)", |function| &function.name)
     }
 
+    /// The file that a command comes from, and its line there.
+    fn origin(&self, at: u32) -> Option<(&str, u32)> {
+        let (file, line) = self.program.origins.get(at as usize)?;
+        Some((self.program.files.get(*file as usize)?, *line))
+    }
+
+    /// The file of the next command.
+    fn file(&self) -> Option<&str> {
+        self.origin(self.at).map(|(file, _)| file)
+    }
+
+    /// A fault of whoever called the function that the next command belongs to: there is
+    /// none of that name.
+    fn absent(&self) -> Fault {
+        let frame = self.memory[usize::from(LCL)];
+        let site = self.peek(frame.wrapping_sub(FRAME)).cast_unsigned();
+        let back = self.program.sites.get(usize::from(site));
+        let origin = back.and_then(|back| self.origin(back.checked_sub(1)?));
+        let message = format!("there is no function {}", self.function());
+        match origin {
+            Some((file, line)) => fault(file, line, message),
+            None => self.fault(message),
+        }
+    }
+
     /// A fault at the next command.
     fn fault(&self, message: String) -> Fault {
-        let origin = self.program.origins.get(self.at as usize);
-        let file = origin.and_then(|(file, _)| self.program.files.get(*file as usize));
-        match (origin, file) {
-            (Some((_, line)), Some(file)) => fault(file, *line, message),
+        match self.origin(self.at) {
+            Some((file, line)) => fault(file, line, message),
             _ => Fault {
                 message,
                 file: None,

@@ -51,6 +51,7 @@ pub(in crate::hack) mod heights;
 mod join;
 pub(in crate::hack) mod link;
 mod machine;
+mod missing;
 mod names;
 pub(in crate::hack) mod os;
 mod parse;
@@ -60,4 +61,6 @@ pub(in crate::hack) mod tests;
 
 pub use link::Program;
 pub use machine::{Machine, Run};
+pub use missing::{ERROR as MISSING, Missing};
 pub use names::Names;
+pub use os::Heap;

@@ -2,7 +2,8 @@
 //! means is what it does here; the fused engine is held to it.
 
 use super::command::Place;
-use super::command::{ARG, CONSTANTS, Command, FRAME, HEAP, LCL, RAM_MASK, SP, STACK, THAT, THIS};
+use super::command::{ARG, CONSTANTS, Command, FRAME, HEAP, KEYBOARD, LCL, RAM_MASK};
+use super::command::{SP, STACK, THAT, THIS};
 use super::fuse::Fused;
 use super::machine::{EFFORT_LIMIT, Machine};
 use super::os::{self, Native, Trap};
@@ -37,8 +38,12 @@ impl Machine<'_> {
         let mut next = at + 1;
         match *command {
             Command::Push(place) => {
-                let value = self.memory[usize::from(self.address(place)?)];
-                self.push(value)?;
+                let address = self.address(place)?;
+                if address == KEYBOARD {
+                    self.told(at);
+                    os::keyboard::look(&mut self.memory, &mut self.os)?;
+                }
+                self.push(self.memory[usize::from(address)])?;
             }
             Command::Pop(place) => {
                 let value = self.pop()?;
@@ -83,9 +88,13 @@ impl Machine<'_> {
                     self.push(0)?;
                 }
             }
+            Command::Return if self.program.bare => return Err(Trap::Halt),
             Command::Return => next = self.leave()?,
             Command::FunctionEnd => {
                 self.count -= 1;
+                if self.program.bare {
+                    return Err(Trap::Halt);
+                }
                 return Err(Trap::Fault(format!(
                     "{} has come to its end without a return",
                     self.function()
@@ -189,6 +198,13 @@ impl Machine<'_> {
         }
     }
 
+    /// Tells the operating system where the program is.
+    fn told(&mut self, at: u32) {
+        self.os.now = self.count;
+        // The fused engine has numbers of its own.
+        self.os.place = u64::from(at) | 1 << 32;
+    }
+
     /// Calls a native function, with its arguments on the stack.
     fn native(&mut self, native: Native) -> Result<(), Trap> {
         let sp = self.memory[usize::from(SP)];
@@ -196,6 +212,7 @@ impl Machine<'_> {
         if !(STACK..=HEAP).contains(&first) || sp > HEAP {
             return Err(self.underflow());
         }
+        self.told(self.at);
         let result = os::call(native, &mut self.memory, &mut self.os)?;
         // A native function may have moved SP by a poke; its result goes
         // where the call's arguments were all the same.

@@ -12,7 +12,9 @@
 //!        .res 16       ; so many bytes, zero unless `.res 16, 255`
 //! ```
 //!
-//! ca65 with `--feature pc_assignment` makes the same bytes of what this one
+//! It is there for the programs that `slowlight build` writes: no macros, scopes, local
+//! labels, conditions, segments or files. A line that has such a thing is refused by its
+//! name. ca65 with `--feature pc_assignment` makes the same bytes of what this one
 //! accepts (undocumented opcodes there need `--cpu 6502X`). Where assemblers read
 //! an expression differently, it is an error here: see `expr`.
 //!
@@ -34,6 +36,7 @@ mod parse;
 mod symbols;
 #[cfg(test)]
 mod tests;
+mod unread;
 
 use std::collections::BTreeMap;
 
@@ -146,7 +149,8 @@ fn statements(
         let parsed = lexer::tokens(text, dialect)
             .and_then(|tokens| parse::line(&tokens, line, end, dialect, symbols, &mut all));
         if let Err(wrong) = parsed {
-            faults.add(line, wrong.column, wrong.message);
+            let message = unread::construct(text, dialect).unwrap_or(wrong.message);
+            faults.add(line, wrong.column, message);
         }
     }
     all

@@ -170,7 +170,7 @@ fn define(name: &str, line: u32, column: u32, symbols: &mut Symbols) -> Result<u
 
 /// What a word means that is no instruction.
 #[derive(Clone, Copy)]
-enum Directive {
+pub(super) enum Directive {
     Origin,
     Bytes,
     Words,
@@ -178,7 +178,8 @@ enum Directive {
     Save,
 }
 
-fn directive(name: &str, dialect: Dialect) -> Option<Directive> {
+/// The directive of a name in lower case.
+pub(super) fn directive(name: &str, dialect: Dialect) -> Option<Directive> {
     Some(match (dialect, name) {
         (Dialect::Common, ".byte") | (Dialect::Beebasm, "equb" | "equs") => Directive::Bytes,
         (Dialect::Common, ".word") | (Dialect::Beebasm, "equw") => Directive::Words,

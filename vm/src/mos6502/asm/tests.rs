@@ -214,8 +214,8 @@ fn faults_have_their_place() {
         "1:8: `12ab` is not a number in base 10"
     );
     assert_eq!(
-        fault(" .fill 3"),
-        "1:2: unknown directive `.fill`; there are `.byte`, `.word` and `.res`"
+        fault(" .frob 3"),
+        "1:2: unknown directive `.frob`; there are `.byte`, `.word` and `.res`"
     );
     assert_eq!(
         fault(" .res 65537"),

@@ -155,3 +155,28 @@ proptest! {
         machine.run(100_000, &mut |_| true);
     }
 }
+
+#[test]
+fn bytes_are_put_and_begun_where_it_is_said() {
+    // STA $FF0A twice: the first is skipped.
+    let code = [0x8D, 0x0A, 0xFF, 0xA9, 5, 0x8D, 0x0A, 0xFF];
+    let mut machine = Plain::new();
+    machine.load_at(0x3000, &code, Some(0x3003)).unwrap();
+    let run = machine.run(100, &mut |_| true);
+    let status = "the program ended with status 5".to_owned();
+    assert_eq!((run.stop, run.cycles), (Stop::Fault(fault(status)), 6));
+    let mut machine = Plain::new();
+    machine.load_at(0x3000, &code, None).unwrap();
+    let run = machine.run(100, &mut |_| true);
+    assert_eq!((run.stop, run.cycles), (Stop::Ended, 4));
+    let refused = |at, bytes: &[u8], start| {
+        let wrong = Plain::new().load_at(at, bytes, start).unwrap_err();
+        wrong.message
+    };
+    assert_eq!(refused(0x3000, &[], None), "the program has no bytes");
+    assert_eq!(
+        refused(0x3000, &code, Some(0xFF00)),
+        "no program begins at $FF00: the ports begin at $FF00"
+    );
+    assert!(refused(0xFEF9, &code, None).starts_with("the program lies at $FEF9 to $FF00"));
+}

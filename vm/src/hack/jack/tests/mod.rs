@@ -6,16 +6,22 @@ mod hard;
 mod run;
 mod wrong;
 
-use super::{VmFile, compile};
+use super::{VmFile, compile_warning};
 use crate::Fault;
 
 /// Compiles files given as name and text.
 fn compiled(files: &[(&str, &str)]) -> Result<Vec<VmFile>, Vec<Fault>> {
+    warned(files).0
+}
+
+/// The same, and what is warned of.
+fn warned(files: &[(&str, &str)]) -> (Result<Vec<VmFile>, Vec<Fault>>, Vec<Fault>) {
+    let mut warnings = Vec::new();
     let files: Vec<_> = files
         .iter()
         .map(|(name, text)| (name.to_string(), text.to_string()))
         .collect();
-    compile(&files)
+    (compile_warning(&files, &mut warnings), warnings)
 }
 
 /// A program and what became of it, VM code or faults.

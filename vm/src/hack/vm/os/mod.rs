@@ -3,11 +3,15 @@
 //! Names, argument counts, results and error numbers are those of the
 //! official built-in implementation (the API of *The Elements of Computing
 //! Systems*, appendix 6). What differs: text goes to a string instead of the
-//! screen, nobody presses a key, and `Sys.wait` takes no time.
+//! screen, keys are a script's and standard input's ([`keyboard`]), and `Sys.wait`
+//! takes no commands, only time of the frames that scripts count.
 
+pub(in crate::hack::vm) mod keyboard;
 mod memory;
 mod screen;
 mod string;
+
+pub use memory::Heap;
 
 use super::command::{HEAP, KEYBOARD, Memory, RAM_MASK, SCREEN, SP, STACK, TEMP};
 
@@ -31,6 +35,8 @@ pub(super) enum Trap {
 /// The state of the operating system that is not in the RAM.
 #[derive(Clone, Debug)]
 pub(super) struct Os {
+    /// Whose heap it is.
+    heap: Heap,
     /// Whether the screen's colour is black.
     black: bool,
     /// What the program printed.
@@ -44,17 +50,30 @@ pub(super) struct Os {
     /// A store hit the pointers or the stack from outside: what the fused
     /// commands take for granted no longer holds.
     pub odd: bool,
+    /// The keyboard, where there is one.
+    pub keys: Option<Box<keyboard::Keys>>,
+    /// The command that is executed, for who looks at the clock: how many there have been,
+    /// and its place in what the engine runs.
+    pub now: u64,
+    pub place: u64,
+    /// Whether `Memory` is the native one.
+    pub native_heap: bool,
 }
 
 impl Os {
-    pub fn new() -> Self {
+    pub fn new(heap: Heap) -> Self {
         Os {
+            heap,
             black: true,
             text: String::new(),
             drawn: None,
             calls: [0; Native::COUNT],
             effort: 0,
             odd: false,
+            keys: None,
+            now: 0,
+            place: 0,
+            native_heap: true,
         }
     }
 
@@ -198,6 +217,8 @@ impl Native {
                 | Native::IntValue
                 | Native::SetInt
                 | Native::PrintString
+                | Native::ReadLine
+                | Native::ReadInt
         )
     }
 }
@@ -224,10 +245,15 @@ pub(super) fn call(native: Native, memory: &mut Memory, os: &mut Os) -> Result<u
         Native::Sqrt => Ok(a.isqrt()),
 
         Native::MemoryInit => {
-            memory::init(memory);
+            memory::init(memory, os.heap);
             Ok(0)
         }
-        Native::Peek => Ok(load(memory, a)),
+        Native::Peek => {
+            if a == KEYBOARD {
+                keyboard::look(memory, os)?;
+            }
+            Ok(load(memory, a))
+        }
         Native::Poke => {
             os.store(memory, a, b);
             Ok(0)
@@ -298,18 +324,25 @@ pub(super) fn call(native: Native, memory: &mut Memory, os: &mut Os) -> Result<u
         Native::DrawRectangle => screen::rectangle(memory, os, (a, b), (c, d)),
         Native::DrawCircle => screen::circle(memory, os, (a, b), c),
 
-        Native::KeyPressed => Ok(load(memory, KEYBOARD)),
-        Native::ReadChar | Native::ReadLine | Native::ReadInt => Err(Trap::Fault(format!(
-            "{} waits for a key, and nobody presses one on this machine",
-            native.name()
-        ))),
+        Native::KeyPressed => {
+            keyboard::look(memory, os)?;
+            Ok(load(memory, KEYBOARD))
+        }
+        Native::ReadChar => keyboard::read_char(memory, os),
+        Native::ReadLine => keyboard::read_line(memory, os, a),
+        Native::ReadInt => keyboard::read_int(memory, os, a),
 
         Native::Halt => Err(Trap::Halt),
         Native::Error => Err(Trap::Error(a, "")),
         Native::Wait if a.cast_signed() < 0 => {
             Err(Trap::Error(1, "a time to wait must not be negative"))
         }
-        Native::Wait => Ok(0),
+        Native::Wait => {
+            if let Some(keys) = &mut os.keys {
+                keys.pass(a);
+            }
+            Ok(0)
+        }
     }
 }
 
@@ -328,6 +361,6 @@ pub(super) fn divide(a: u16, b: u16) -> Option<u16> {
 }
 
 /// Prepares the RAM as the native `Sys.init` does.
-pub(super) fn init(memory: &mut Memory) {
-    memory::init(memory);
+pub(super) fn init(memory: &mut Memory, heap: Heap) {
+    memory::init(memory, heap);
 }

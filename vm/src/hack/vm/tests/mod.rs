@@ -3,6 +3,8 @@
 
 mod commands;
 pub(in crate::hack) mod engines;
+mod heap;
+mod keys;
 mod limits;
 mod memory;
 mod os;

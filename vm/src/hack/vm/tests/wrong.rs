@@ -1,7 +1,7 @@
 //! Wrong programs, by what is said about them.
 
-use super::{both, faults, link, main, message};
-use crate::hack::vm::Machine;
+use super::{both, faults, files, link, main, message};
+use crate::hack::vm::{Machine, Missing, Program};
 use crate::{Fault, Stop};
 
 /// What is said about one line in an otherwise right program.
@@ -243,4 +243,72 @@ fn sys_error_names_the_caller() {
         message(0, "push constant 9\npush constant 0\ncall Math.divide 2"),
         "Sys.error(3) in Main.main: division by zero"
     );
+}
+
+/// A call that goes nowhere is an error where it is reached, at the call.
+#[test]
+fn missing_functions_matter_where_they_are_called() {
+    let text = |zero: u16| {
+        format!(
+            "function Main.main 0\npush constant {zero}\nif-goto CALL\npush constant 7\n\
+             call Output.printInt 1\nreturn\nlabel CALL\npush constant 5\npush constant 6\n\
+             call Ghost.haunt 2\nreturn\n"
+        )
+    };
+    let run = |zero: u16| {
+        let mut all = files(&[("Main.vm", &text(zero)), ("Ghost.vm", "")]);
+        let missing = Missing::of(&all).unwrap();
+        let said: Vec<String> = missing.calls.iter().map(Fault::to_string).collect();
+        assert_eq!(
+            said,
+            [
+                "Main.vm:10: there is no function Ghost.haunt: the program ends with an error if it comes to this call"
+            ]
+        );
+        all.extend(missing.file());
+        let program = Program::link(&all).unwrap();
+        let mut plain = program.clone();
+        both(&program, &mut plain, 100).1
+    };
+    let good = run(0);
+    assert_eq!((good.stop, good.text.as_str()), (Stop::Ended, "7"));
+    let Stop::Fault(fault) = run(1).stop else {
+        panic!("no fault");
+    };
+    assert_eq!(
+        fault.to_string(),
+        "Main.vm:10: there is no function Ghost.haunt"
+    );
+}
+
+#[test]
+fn commands_without_functions_run_from_the_first() {
+    let run = |text: &str| {
+        let program = link(&[("Add.vm", text)]);
+        assert!(program.is_bare());
+        let mut machine = Machine::new(&program);
+        let run = machine.run(1000, &mut |_| true);
+        (run.stop, run.instructions, machine.stack())
+    };
+    assert_eq!(
+        run("push constant 7\npush constant 8\nadd"),
+        (Stop::Ended, 3, vec![15])
+    );
+    let counts = "push constant 3\nlabel AGAIN\npop local 0\npush local 0\npush constant 1\nsub\n\
+        pop local 0\npush local 0\npush local 0\nif-goto AGAIN\npush constant 9";
+    assert_eq!(run(counts), (Stop::Ended, 26, vec![0, 9]));
+    // The bases are those of the book's own tests.
+    let bases = "push constant 21\npop this 6\npush pointer 0\npush this 6\npush pointer 1\n\
+        push constant 2\ncall Math.multiply 2\nreturn";
+    assert_eq!(run(bases).2, [3000, 21, 6020]);
+    let (stop, ..) = run("push constant 1\nadd");
+    let Stop::Fault(fault) = stop else {
+        panic!("no fault");
+    };
+    assert_eq!(
+        fault.to_string(),
+        "Add.vm:2: stack underflow in the program: SP is 256, and the stack starts at 256"
+    );
+    let two = faults(&[("A.vm", "push constant 1"), ("B.vm", "push constant 2")]);
+    assert_eq!(two[0].message, "a command outside every function");
 }

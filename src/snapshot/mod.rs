@@ -2,10 +2,14 @@
 //! that cost, in one text beside the scene that a person can review.
 //!
 //! The text begins with one `name: value` a line between two lines of `---`;
-//! the generated sources and a small picture of characters follow. All of it is
+//! the generated sources, as digests and excerpts or whole, and a small picture of
+//! characters follow. The options among those lines are what the snapshot is made with
+//! again. All of it is
 //! a pure function of scene, options and compiler, except for the digest of the
 //! scene's text: that only tells whether a change comes from the scene, and a
 //! changed comment changes no snapshot.
+
+mod excerpt;
 
 use crate::ascii;
 use crate::failure::Outcome;
@@ -39,8 +43,22 @@ pub fn path(scene: &Path, target: &str) -> PathBuf {
     scene.with_file_name("snapshots").join(name)
 }
 
-/// The snapshot of a trial. `options` are those that it was made with.
-pub fn text(file: &Path, scene: &Scene, options: &str, sources: &[File], trial: &Trial) -> String {
+/// The options that a snapshot is made with.
+pub struct Made<'o> {
+    /// As on the command line.
+    pub text: &'o str,
+    /// Whether all that was generated is kept.
+    pub full: bool,
+}
+
+/// The snapshot of a trial.
+pub fn text(
+    file: &Path,
+    scene: &Scene,
+    options: &Made<'_>,
+    sources: &[File],
+    trial: &Trial,
+) -> String {
     let plan = &trial.plan;
     let window = trial.native.window;
     let size = |bytes: Option<u64>| bytes.map(|b| b.to_string());
@@ -51,7 +69,7 @@ pub fn text(file: &Path, scene: &Scene, options: &str, sources: &[File], trial: 
         ("scene_sha256", Some(digest(scene))),
         ("target", Some(plan.target.name.to_owned())),
         ("mode", Some(plan.mode.name.to_owned())),
-        ("options", Some(options.to_owned())),
+        ("options", Some(options.text.to_owned())),
         ("format", Some(plan.runtime.format.to_owned())),
         ("inks", Some(plan.graph.image.palette.len().to_string())),
         (
@@ -76,8 +94,10 @@ pub fn text(file: &Path, scene: &Scene, options: &str, sources: &[File], trial: 
     out.push_str("---\n");
     for source in sources {
         let text = source.as_text();
-        let end = if text.ends_with('\n') { "" } else { "\n" };
-        out.push_str(&format!("==> {} <==\n{text}{end}", source.name));
+        out.push_str(&match options.full {
+            true => excerpt::whole(&source.name, &text),
+            false => excerpt::excerpt(&source.name, &text, plan),
+        });
     }
     if let Some(picture) = &trial.picture {
         out.push_str("==> picture <==\n");
@@ -95,6 +115,32 @@ fn digest(scene: &Scene) -> String {
     }
     let hex = |byte: &u8| format!("{byte:02x}");
     hash.finalize().iter().map(hex).collect()
+}
+
+/// The options that a kept snapshot was made with, as on the command line; nothing where
+/// none is kept.
+///
+/// # Errors
+/// Where there is a file that cannot be read.
+pub fn kept_options(path: &Path) -> Outcome<Option<String>> {
+    let Some(text) = kept(path)? else {
+        return Ok(None);
+    };
+    let head = text.lines().skip(1).take_while(|line| *line != "---");
+    let found = head
+        .filter_map(|line| line.strip_prefix("options: "))
+        .next();
+    Ok(Some(found.unwrap_or_default().to_owned()))
+}
+
+/// The text of a kept snapshot, if there is one.
+fn kept(path: &Path) -> Outcome<Option<String>> {
+    if matches!(path.try_exists(), Ok(false)) {
+        return Ok(None);
+    }
+    let text = files::read_bounded(path, MAX_BYTES)?;
+    // A checkout may have changed the lines' ends.
+    Ok(Some(String::from_utf8_lossy(&text).replace("\r\n", "\n")))
 }
 
 /// How a snapshot compares with the one that is kept.
@@ -121,12 +167,9 @@ pub enum State {
 /// # Errors
 /// Where there is a file that cannot be read.
 pub fn compare(path: &Path, new: &str) -> Outcome<State> {
-    if matches!(path.try_exists(), Ok(false)) {
+    let Some(old) = kept(path)? else {
         return Ok(State::Missing);
-    }
-    let old = files::read_bounded(path, MAX_BYTES)?;
-    // A checkout may have changed the lines' ends.
-    let old = String::from_utf8_lossy(&old).replace("\r\n", "\n");
+    };
     let (old, old_digest) = without_digest(&old);
     let (new, new_digest) = without_digest(new);
     let edited = old_digest != new_digest;

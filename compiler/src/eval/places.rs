@@ -1,0 +1,46 @@
+//! What the blocks of a statement tree write.
+
+use crate::flow::graph::*;
+use crate::flow::tree::*;
+
+/// What each subroutine computes itself. What it sets for those that it calls
+/// may have been set before: that is not forgotten.
+pub(super) fn own_places(graph: &Graph, tree: &Tree) -> Vec<Vec<Place>> {
+    let of = |subroutine: &Subroutine| {
+        let mut own = Vec::new();
+        walk(&subroutine.body, &mut |s| match s {
+            Statement::Let(id) => own.push(Place::Node(*id)),
+            Statement::Set { place, .. } => own.push(*place),
+            _ => {}
+        });
+        let slot = |place: &Place| match place {
+            Place::Node(id) => matches!(graph.node(*id), Node::Slot(_)),
+            _ => false,
+        };
+        own.retain(|place| !slot(place));
+        own
+    };
+    tree.subroutines.iter().map(of).collect()
+}
+
+/// What a block writes, subroutines included.
+pub(super) fn places(tree: &Tree, block: &[Statement]) -> Vec<Place> {
+    let mut all = Vec::new();
+    let mut called = vec![false; tree.subroutines.len()];
+    let mut todo = vec![block];
+    while let Some(block) = todo.pop() {
+        walk(block, &mut |s| match s {
+            Statement::Let(id) => all.push(Place::Node(*id)),
+            Statement::Set { place, .. } => all.push(*place),
+            Statement::Call(id) => {
+                if let Some(called) = called.get_mut(id.0 as usize)
+                    && !std::mem::replace(called, true)
+                {
+                    todo.push(tree.body(*id));
+                }
+            }
+            _ => {}
+        });
+    }
+    all
+}

@@ -1,0 +1,114 @@
+//! Loops in the walk that finds ranges: turn by turn until nothing grows, then by widening
+//! (Cousot and Cousot, Abstract interpretation, POPL 1977), then by knowing nothing.
+
+use super::Walk;
+use crate::flow::graph::*;
+use crate::flow::tree::*;
+use slowlight_routine::Range;
+
+/// How many turns of loops are walked before bounds that still grow are widened.
+const PATIENCE: u32 = 2000;
+
+/// How many statements are walked before loops are walked once, with nothing known of what
+/// they carry. Loops inside each other multiply, each walked until its bounds hold: in a nest
+/// of six the innermost is walked hundreds of times, however soon bounds are widened.
+pub(super) const STATEMENTS: u64 = 4_000_000;
+
+impl Walk<'_> {
+    pub(super) fn run_loop(&mut self, turns: &Turns) {
+        let of = turns.of;
+        let at = of.0 as usize;
+        let held = self.carried[at].clone();
+        let graph = self.graph;
+        let reads = |id: NodeId| match graph.node(id) {
+            Node::Carried { of: l, index } | Node::Last { of: l, index } if l == of => {
+                Some((id, index))
+            }
+            _ => None,
+        };
+        let read: Vec<(NodeId, u32)> = graph.ids().filter_map(reads).collect();
+        self.block(&turns.start);
+        self.join_carried(at, &held);
+        let max = self.graph.loops[at].max;
+        for turn in 1.. {
+            let last = self.walked > STATEMENTS;
+            if last {
+                self.forget_carried(of);
+            }
+            let before = self.carried[at].clone();
+            for &(id, index) in &read {
+                self.write(Place::Node(id), self.carried_range(of, index));
+            }
+            self.block(&turns.body);
+            self.arm(turns.again, true, &turns.next);
+            self.join_carried(at, &before);
+            if last {
+                break;
+            }
+            // After `max` turns the bounds hold all that the loop can carry,
+            // whether or not they would grow in one more.
+            if self.carried[at] == before || turn > max {
+                break;
+            }
+            self.turns += 1;
+            if self.turns > PATIENCE {
+                self.widen(of, &before);
+            }
+        }
+        let ended = self.arm(turns.again, false, &turns.done);
+        self.block(&turns.otherwise);
+        for (place, range) in ended {
+            let both = self.place_range(place).join(range);
+            self.write(place, both);
+        }
+    }
+
+    fn join_carried(&mut self, at: usize, held: &[Option<Range>]) {
+        for (now, held) in self.carried[at].iter_mut().zip(held) {
+            *now = match (*now, *held) {
+                (Some(a), Some(b)) => Some(a.join(b)),
+                (a, b) => a.or(b),
+            };
+        }
+    }
+
+    /// Gives what a loop carries the bounds of its format.
+    fn forget_carried(&mut self, of: LoopId) {
+        let at = of.0 as usize;
+        let slack = self.slack;
+        let types = self.graph.loops[at].types.iter();
+        let all = types.map(|ty| Some(slack.cut(*ty, Range::ALL)));
+        self.carried[at] = all.collect();
+    }
+
+    /// Moves every bound that still grows to the format's end.
+    fn widen(&mut self, of: LoopId, before: &[Option<Range>]) {
+        let types = &self.graph.loops[of.0 as usize].types;
+        for ((now, before), &ty) in self.carried[of.0 as usize]
+            .iter_mut()
+            .zip(before)
+            .zip(types)
+        {
+            if let (Some(range), Some(old)) = (now.as_mut(), before) {
+                let lo = if range.lo < old.lo {
+                    f64::NEG_INFINITY
+                } else {
+                    range.lo
+                };
+                let hi = if range.hi > old.hi {
+                    f64::INFINITY
+                } else {
+                    range.hi
+                };
+                let nonzero = range.nonzero;
+                *range = self.slack.cut(
+                    ty,
+                    Range {
+                        nonzero,
+                        ..Range::new(lo, hi)
+                    },
+                );
+            }
+        }
+    }
+}
