@@ -273,7 +273,7 @@ mod tests {
             exec: 0x2003,
             bytes: (0..=255).cycle().take(700).collect(),
         };
-        let disc = image("T", &[file.clone()]).unwrap();
+        let disc = image("T", std::slice::from_ref(&file)).unwrap();
         assert_eq!(read(&disc).unwrap().files, [file]);
         assert!(read(&disc[..2 * SECTOR + 700]).is_ok());
         let wrong = |change: &dyn Fn(&mut Vec<u8>)| {
@@ -289,7 +289,10 @@ mod tests {
         assert!(wrong(&|d| d[SECTOR + 7] = 0xFF).contains("1023 sectors"));
         assert!(wrong(&|d| d[9] = 7).contains("cannot be printed"));
         assert!(wrong(&|d| d[numbers(0) + 7] = 1).contains("outside the disc"));
-        assert!(wrong(&|d| d[numbers(0) + 6] |= 3).contains("outside the disc"));
+        assert!(
+            wrong(&|d| (d[numbers(0) + 6], d[numbers(0) + 7]) = (0xCF, 0x1E))
+                .contains("outside the disc")
+        );
         // Another directory, and a file that is locked.
         let mut other = disc.clone();
         other[15] = b'A' | 0x80;
