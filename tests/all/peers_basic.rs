@@ -31,6 +31,13 @@ fn plain(text: &str) -> String {
     kept.strip_suffix('>').map(str::to_owned).unwrap_or(kept)
 }
 
+/// A program without the lines that are a number alone: to type one takes that line away.
+fn typed(program: &str) -> String {
+    let text = |l: &&str| !l.trim().bytes().all(|c| c.is_ascii_digit());
+    let lines: Vec<&str> = program.lines().filter(text).collect();
+    lines.join("\n")
+}
+
 /// A program as its file has it.
 fn written(case: &Case<'_>, prints: &str) -> String {
     let mut text = format!("== {}\n{}", case.name, case.program);
@@ -57,7 +64,7 @@ fn the_recorded_texts_are_the_roms() {
         assert_eq!(texts.len(), list.len());
         let stored = result["tokens"].as_array().expect("tokens");
         for (case, stored) in list.iter().zip(stored) {
-            let tokens = tokenise(case.program, Dialect::Micro).expect("a program");
+            let tokens = tokenise(&typed(case.program), Dialect::Micro).expect("a program");
             if stored != &hex(&tokens) {
                 wrong.push(format!("{subject}, {}: other tokens", case.name));
             }

@@ -138,7 +138,8 @@ fn match_keyword(rest: &[u8]) -> Option<(&'static Keyword, usize)> {
 /// `start`: does a statement start here? (In EVAL none does.)
 pub(crate) fn tokenise_line(text: &[u8], mut start: bool) -> Vec<u8> {
     let mut out = Vec::with_capacity(text.len());
-    let mut lines = false;
+    // The number in front of a line makes the ROM look for more, until something ends that.
+    let mut lines = start;
     let mut at = 0;
     while let Some(&c) = text.get(at) {
         let rest = text.get(at..).unwrap_or(&[]);

@@ -39,6 +39,14 @@ fn pseudo_variables_keywords_in_names_and_abbreviations() {
 }
 
 #[test]
+fn a_number_at_the_start_of_a_line_is_a_line_number() {
+    assert_eq!(&bytes("10CLS 3")[4..], b"\xdb \x8d\x54\x43\x40\x0d\xff");
+    assert_eq!(&bytes("10 7=A")[4..], b" \x8d\x54\x47\x40=A\x0d\xff");
+    assert_eq!(&bytes("10CLS:7")[4..], b"\xdb:7\x0d\xff");
+    assert_eq!(&bytes("10A 7")[4..], b"A 7\x0d\xff");
+}
+
+#[test]
 fn text_survives_there_and_back() {
     let text = "10IF A%>B% THEN 100 ELSE GOSUB 200,300\n20DATA GOTO 10,\"PRINT\"\n30*FX 200\n100x=SIN-.5:REM PRINT\n200HIMEM=&3000\n";
     assert_eq!(detokenise(&bytes(text)).unwrap(), text);
