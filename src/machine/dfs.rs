@@ -289,7 +289,6 @@ mod tests {
         assert!(wrong(&|d| d[SECTOR + 7] = 0xFF).contains("1023 sectors"));
         assert!(wrong(&|d| d[9] = 7).contains("cannot be printed"));
         assert!(wrong(&|d| d[numbers(0) + 7] = 1).contains("outside the disc"));
-        assert!(wrong(&|d| d[numbers(0) + 6] |= 3).contains("outside the disc"));
         assert!(
             wrong(&|d| (d[numbers(0) + 6], d[numbers(0) + 7]) = (0xCF, 0x1E))
                 .contains("outside the disc")

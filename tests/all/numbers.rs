@@ -1,5 +1,4 @@
-//! Numbers at a format's ends: vectors whose squares leave it, hits by distance to its
-//! precision, secondary rays from flat surfaces, bounds that touch what they bound.
+//! Numbers at a format's ends: vectors whose squares leave it, secondary rays from flat surfaces, bounds that touch what they bound.
 
 use crate::cli::{directory, json};
 
@@ -68,25 +67,6 @@ fn lengths_of_long_and_short_vectors() {
             &format!(
                 "image 32 x 8 inks black, white; param s: real = 1 in 0.5 .. 1.5;
                 draw (x, y) = threshold(length({of} * s) / {scale}, 0.513);"
-            ),
-        );
-    }
-}
-
-/// What is found by its distance is found as near as a pixel here tells: within 1/500.
-#[test]
-fn marches_come_near() {
-    for (beside, radius) in [("0.3", "0.4"), ("0.1", "0.35"), ("0.5", "0.6")] {
-        at_most(
-            0,
-            &format!(
-                "image 8 x 1 inks black, white; param k: real = {beside} in 0 .. 0.6;
-                shape ball(n: real) {{ dist(p) = length(p) - {radius}; }}
-                draw (x, y) = {{
-                  let t = 2 - sqrt({radius} * {radius} - k * k);
-                  ink(if let h = ball(1).hit(ray((k, 0, 2), (0, 0, -1))) then
-                    (if abs(h.t - t) < (x + 1) / 500 then 1 else 0) else 0)
-                }};"
             ),
         );
     }
