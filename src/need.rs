@@ -277,7 +277,9 @@ fn heap(documents: &[Document], system: &[File]) -> Need {
     // Behind `Main` comes the scene's class.
     let scene = documents.get(1).map_or("", |d| d.text.as_str());
     let of_floats = scene.contains("] = Float.new()");
-    for line in scene.lines().map(str::trim_start) {
+    let lines = scene.lines().map(str::trim_start);
+    let befores = std::iter::once("").chain(lines.clone());
+    for (line, before) in lines.zip(befores) {
         if let Some(declared) = line.strip_prefix("field ") {
             let names = declared.split(';').next().unwrap_or_default();
             fields += names.split(',').count() as u64;
@@ -287,7 +289,8 @@ fn heap(documents: &[Document], system: &[File]) -> Need {
                 rows += size;
             }
         } else if line.contains("= Float.constant(") || line.contains("= Float.new(") {
-            floats += 1;
+            // What takes the place of an array's element is one of the rows' own.
+            floats += u64::from(!replaces(line, before));
         } else if let Some((_, said)) = line.split_once("Output.printString(\"") {
             let length = said.split('"').next().unwrap_or_default().len() as u64;
             message = message.max(length + STRING + HEADER);
@@ -333,6 +336,15 @@ fn heap(documents: &[Document], system: &[File]) -> Need {
         ],
         room: HEAP,
     }
+}
+
+/// Whether a line makes the variable anew that the line before put into an array.
+fn replaces(line: &str, before: &str) -> bool {
+    let made = line.strip_prefix("let ").and_then(|l| l.split_once(" = "));
+    let put = before
+        .split_once("] = ")
+        .and_then(|(_, p)| p.strip_suffix(';'));
+    made.is_some_and(|(name, _)| put == Some(name))
 }
 
 /// The longest array that a class makes, and its words.

@@ -32,7 +32,7 @@ pub struct Args {
     cases: Option<PathBuf>,
     /// Only for a target [default: one of each format]; with --cases also
     /// native and model
-    #[arg(long, value_name = "TARGET")]
+    #[arg(short, long, value_name = "TARGET")]
     target: Vec<String>,
     /// Only in a format; with --cases also f64
     #[arg(long, value_name = "FORMAT")]

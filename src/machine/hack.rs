@@ -239,7 +239,7 @@ pub fn run(on: &OnVm, limit: u64, watch: Watch<'_>) -> MachineRun {
 
 /// The same with a keyboard.
 pub fn play(on: &OnVm, keyboard: &mut Keyboard, limit: u64, watch: Watch<'_>) -> MachineRun {
-    let mut machine = vm::Machine::new(&on.program);
+    let mut machine = vm::Machine::with_heap(&on.program, on.heap);
     machine.plug(keyboard.clone());
     let run = machine.run(limit, watch);
     if let Some(played) = machine.unplug() {

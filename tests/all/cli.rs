@@ -233,7 +233,7 @@ const ASSEMBLY: &str = "* = $0800
 
 #[test]
 fn any_program_runs_on_a_machine() {
-    let basic = "10 MODE 1\n20 GCOL 0,3\n30 PLOT 69,0,1020\n40 PRINT 6*7\n50 END\n";
+    let basic = "10 PRINT 6*7\n20 MODE 1\n30 GCOL 0,3\n40 PLOT 69,0,1020\n50 END\n";
     let jack = "class Main { function void main() {
         do Screen.drawPixel(0, 0); do Output.printInt(42); return; } }";
     let vm = "function Main.main 0\npush constant 0\npush constant 0\n\
