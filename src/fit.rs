@@ -23,11 +23,11 @@ use slowlight_compiler::target::mos6502::DISC_PAGE;
 /// How much work may be done to find a plan whose program fits, in units of
 /// [`slowlight_compiler::fuel::Fuel`]: some twenty seconds' worth of one processor, with two or
 /// three times what the dearest of the examples takes.
-pub const FIT: u64 = 900_000_000;
+pub const FIT: u64 = 4_000_000_000;
 
 /// The same for the plans that spend less memory, all together: they are made at the same
 /// time, and have much in common that is made once and charged to each.
-const LADDER: u64 = 4_800_000_000;
+const LADDER: u64 = 20_000_000_000;
 
 /// The first of the plans whose program fits, as it reads best or tight; where
 /// none does, the first that does with subroutines. Modes that show a part of the
