@@ -21,8 +21,8 @@ use slowlight_compiler::target::Mode;
 use slowlight_compiler::target::mos6502::DISC_PAGE;
 
 /// How much work may be done to find a plan whose program fits, in units of
-/// [`slowlight_compiler::fuel::Fuel`]: some twenty seconds' worth of one processor, with two or
-/// three times what the dearest of the examples takes.
+/// [`slowlight_compiler::fuel::Fuel`]: no example is cut short, of which fifty.scn on the 6502
+/// takes most.
 pub const FIT: u64 = 4_000_000_000;
 
 /// The same for the plans that spend less memory, all together: they are made at the same

@@ -72,7 +72,10 @@ fn counted(target: &'static Target, source: &str, rows: (u32, u32)) {
     let message = message.map_or(0, |(_, words)| *words);
     let format = target.runtime.format;
     assert_eq!(heap.words - message, taken(&machine), "{format}");
-    assert!(heap.words <= 11_500, "{format}: {}", heap.words);
+    // Of the examples only rows of errors in logarithms take more than every system has.
+    assert!(heap.words <= 14_334, "{format}: {}", heap.words);
+    let everywhere = heap.systems == "runs on every operating system";
+    assert_eq!(everywhere, heap.words <= 11_500, "{format}: {}", heap.words);
 }
 
 /// The torus in logarithms under the official system: the same picture.
