@@ -44,13 +44,19 @@ try {
   }));
   const before = await look();
   const points = await page.$$eval("circle.point", (all) => all.length);
-  // The last in the document is drawn above all others.
-  const circle = (await page.$$("circle.point")).at(-1);
-  await circle.click();
-  await page.waitForFunction((old) => {
+  // The last in the document is drawn above all others. Points may have one picture: the
+  // first that has another than what is shown will do.
+  const changed = (old) => page.waitForFunction((old) => {
     const image = document.getElementById("picture");
     return image.src !== old && image.complete && image.naturalWidth > 0;
-  }, {}, before[0].data);
+  }, { timeout: 2000 }, old).then(() => true, () => false);
+  let other = false;
+  for (const circle of (await page.$$("circle.point")).reverse()) {
+    await circle.click();
+    other = await changed(before[0].data);
+    if (other) break;
+  }
+  if (!other) throw new Error("no point has another picture");
   const clicked = await look();
   const words = await page.$$eval("#words li, #spent li, #facts tr", (all) => all.map((e) => e.textContent));
   await page.screenshot({ path: screenshot });
