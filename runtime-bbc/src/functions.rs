@@ -140,18 +140,18 @@ IF b%<a% THEN =b% ELSE =a%
 DEF FNimax(a%,b%)
 IF b%>a% THEN =b% ELSE =a%
 "),
-    part!("FNidiv" ["FNineg"] 225 "\
+    // The least integer has neither quotient nor rest on the ROM.
+    part!("FNidiv" ["FNineg"] 201 "\
 DEF FNidiv(a%,b%)
 IF b%=-1 THEN =FNineg(a%)
-IF a%=b% AND b%<>0 THEN =1
 IF a%<-2147483647 AND b%<>0 THEN =FNidiv(a%+ABS(b%),b%)-SGN(b%)
 IF b%<>0 THEN =a% DIV b%+((a% MOD b%<>0) AND ((a%<0)<>(b%<0)))
 IF a%<0 THEN =-2147483647-1 ELSE =2147483647*SGN(a%)
 "),
-    part!("FNimod" [] 142 "\
+    part!("FNimod" [] 133 "\
 DEF FNimod(a%,b%)
 IF b%=0 THEN =0
-IF a%<-2147483647 AND a%<>b% THEN =FNimod(a%+ABS(b%),b%)
+IF a%<-2147483647 THEN =FNimod(a%+ABS(b%),b%)
 IF a% MOD b%<>0 AND (a%<0)<>(b%<0) THEN =a% MOD b%+b% ELSE =a% MOD b%
 "),
 ];

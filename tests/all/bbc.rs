@@ -68,10 +68,12 @@ pub fn text(plan: &Plan) -> String {
 }
 
 pub fn run(dialect: Dialect, text: &str) -> Run {
-    let mut machine = Machine::new(Config {
-        dialect,
-        page: 0x1900,
-    });
+    run_at(0x1900, dialect, text)
+}
+
+/// The same where programs begin at another page.
+pub fn run_at(page: u16, dialect: Dialect, text: &str) -> Run {
+    let mut machine = Machine::new(Config { dialect, page });
     machine
         .load_text(text)
         .unwrap_or_else(|fault| panic!("{fault}\n{text}"));
