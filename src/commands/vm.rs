@@ -200,38 +200,59 @@ fn write_image(path: &Path, loaded: &Loaded) -> Outcome<()> {
     files::write(path, &file.bytes)
 }
 
+/// Options that the machine, or what it runs, does not have.
+///
+/// # Errors
+/// Where one is given: whose it is, and how it is used there.
+fn check_options(args: &Args) -> Outcome<()> {
+    let basic = args.machine == Kind::Bbc;
+    let assembles = matches!(args.machine, Kind::Mos6502 | Kind::MosBbc | Kind::MosC64);
+    let hack = matches!(args.machine, Kind::Jack | Kind::Hack);
+    let is_code = |path: &PathBuf| path.extension().is_some_and(|e| e == "asm" || e == "hack");
+    let wrong = [
+        (
+            args.page.is_some() && !basic,
+            "--page is the BBC Micro's: `slowlight vm bbc --page E00 FILE`",
+        ),
+        (
+            args.dialect.is_some() && !basic,
+            "--dialect is BBC BASIC's: `slowlight vm bbc --dialect agon FILE`",
+        ),
+        (
+            args.syntax.is_some() && !assembles,
+            "--syntax is the 6502's: `slowlight vm 6502 --syntax beebasm FILE`",
+        ),
+        (
+            (args.at.is_some() || args.start.is_some()) && !assembles,
+            "--at and --start are the 6502's: `slowlight vm 6502 --at 0x2000 FILE`",
+        ),
+        (
+            args.cpu && !hack,
+            "--cpu is the Hack computer's: `slowlight vm jack --cpu DIR`",
+        ),
+        (
+            args.os.is_some() && !hack,
+            "--os is the Hack computer's: `slowlight vm jack --os jack DIR`",
+        ),
+        (
+            args.cpu && args.os == Some(Os::Native),
+            "the native operating system is the VM's; the CPU has --os jack",
+        ),
+        (
+            hack && args.heap.is_some() && args.files.iter().any(is_code),
+            "--heap is the native operating system's, which the VM has; .asm and .hack are the CPU's",
+        ),
+    ];
+    match wrong.iter().find(|(is_wrong, _)| *is_wrong) {
+        Some((_, message)) => Err(Failure::Usage((*message).to_owned())),
+        None => Ok(()),
+    }
+}
+
 /// Runs the program to its end.
 pub fn run(args: &Args) -> Outcome<()> {
     let output = PictureFile::named(args.output.as_deref())?;
-    if args.page.is_some() && args.machine != Kind::Bbc {
-        let message = "--page is the BBC Micro's: `slowlight vm bbc --page E00 FILE`";
-        return Err(Failure::Usage(message.to_owned()));
-    }
-    if args.dialect.is_some() && args.machine != Kind::Bbc {
-        let message = "--dialect is BBC BASIC's: `slowlight vm bbc --dialect agon FILE`";
-        return Err(Failure::Usage(message.to_owned()));
-    }
-    let assembles = matches!(args.machine, Kind::Mos6502 | Kind::MosBbc | Kind::MosC64);
-    if args.syntax.is_some() && !assembles {
-        let message = "--syntax is the 6502's: `slowlight vm 6502 --syntax beebasm FILE`";
-        return Err(Failure::Usage(message.to_owned()));
-    }
-    if (args.at.is_some() || args.start.is_some()) && !assembles {
-        let message = "--at and --start are the 6502's: `slowlight vm 6502 --at 0x2000 FILE`";
-        return Err(Failure::Usage(message.to_owned()));
-    }
-    if args.cpu && !matches!(args.machine, Kind::Jack | Kind::Hack) {
-        let message = "--cpu is the Hack computer's: `slowlight vm jack --cpu DIR`";
-        return Err(Failure::Usage(message.to_owned()));
-    }
-    if args.os.is_some() && !matches!(args.machine, Kind::Jack | Kind::Hack) {
-        let message = "--os is the Hack computer's: `slowlight vm jack --os jack DIR`";
-        return Err(Failure::Usage(message.to_owned()));
-    }
-    if args.cpu && args.os == Some(Os::Native) {
-        let message = "the native operating system is the VM's; the CPU has --os jack";
-        return Err(Failure::Usage(message.to_owned()));
-    }
+    check_options(args)?;
     let on = |board| {
         let dialect = match args.syntax {
             Some(Syntax::Beebasm) => Dialect::Beebasm,

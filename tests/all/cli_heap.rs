@@ -160,7 +160,11 @@ fn runs_by_heap(dir: &Path) {
 
 #[test]
 fn other_machines_have_no_such_heap() {
-    let dir = directory(&[("s.scn", &with_table(10)), ("p.bas", "10 END\n")]);
+    let dir = directory(&[
+        ("s.scn", &with_table(10)),
+        ("p.bas", "10 END\n"),
+        ("p.asm", "@0\n0;JMP\n"),
+    ]);
     let dir = dir.path();
     success(dir, &["build", "s.scn", "-t", "jack", "-o", "out"]);
     for (args, part) in [
@@ -172,6 +176,7 @@ fn other_machines_have_no_such_heap() {
         (&["vm", "jack", "out", "--cpu"], "ours in Jack"),
         (&["vm", "jack", "out", "--os", "jack"], "ours in Jack"),
         (&["vm", "bbc", "p.bas"], "the Hack VM's"),
+        (&["vm", "hack", "p.asm"], "the CPU's"),
         (&["vm", "jack", "out", "--os", "unix"], "possible values"),
     ] {
         let output = slowlight(dir, &[args, &["--heap", "official"]].concat());
