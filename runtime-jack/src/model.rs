@@ -139,42 +139,36 @@ impl Float {
         }
     }
 
+    /// Where the signs differ, one bit behind the mantissa's last is kept until the
+    /// difference is known; what is shifted out of the smaller behind that is lost.
     pub fn add(self, b: Float) -> Float {
-        if b.m == 0 {
-            return self;
+        let (large, small) = if self.e < b.e { (b, self) } else { (self, b) };
+        if large.m == 0 {
+            return small;
         }
-        if self.m == 0 {
-            return b;
+        let apart = large.e - small.e;
+        if apart > 14 {
+            return large;
         }
-        let (big, small) = if (self.e, self.m) < (b.e, b.m) {
-            (b, self)
-        } else {
-            (self, b)
-        };
-        let apart = big.e - small.e;
-        let part = if apart > 13 {
-            0
-        } else {
-            small.m / power(apart)
-        };
-        let Float { s, e, m } = big;
+        let Float { s, e, m } = large;
         if s == small.s {
-            let sum = m + part;
-            if sum > 16383 {
-                Float {
-                    s,
-                    e: e + 1,
-                    m: sum / 2,
-                }
-                .ended()
-            } else {
-                Float { s, e, m: sum }
+            let sum = m + small.m / power(apart);
+            if sum < 16384 {
+                return Float { s, e, m: sum };
             }
-        } else if m == part {
-            Float::ZERO
-        } else {
-            Float { s, e, m: m - part }.normal().ended()
+            let m = sum / 2;
+            return Float { s, e: e + 1, m }.ended();
         }
+        let twice = 2 * m - 2 * small.m / power(apart);
+        if twice > 16383 {
+            return Float { s, e, m: twice / 2 };
+        }
+        if twice == 0 {
+            return Float::ZERO;
+        }
+        let s = if twice < 0 { 1 - s } else { s };
+        let m = twice.abs();
+        Float { s, e: e - 1, m }.normal().ended()
     }
 
     pub fn neg(self) -> Float {

@@ -1,47 +1,6 @@
 //! What `f316r` has in place of parts of `f316`: sums with a guard bit, and roots
 //! from a table, all rounded. Its products and quotients are `product` and `ratio`.
 
-/// Sum or difference: alike but for the sign of `b`.
-macro_rules! sum {
-    ($doc:literal, $name:literal, $sign_b:literal, $alike:expr, $unlike:expr) => {
-        concat!(
-            "    /** ",
-            $doc,
-            " */
-    method void ",
-            $name,
-            "(Array a, Array b) {
-        var int p, q, d, t, u;
-        let p = a[2];
-        let q = b[2];
-        let t = ",
-            $sign_b,
-            ";
-        let s = a[0];
-        let d = b[1];
-        let e = a[1];
-        let d = e - d;
-        if (s = t) {
-            if (d < 0) { let e = e - d; let d = -d; let t = p; let p = q; let q = t; }
-            if (p = 0) { let e = e - d; let m = q; return; }
-            if (d > 14) { let m = p; return; }
-",
-            $alike,
-            "            return;
-        }
-        if (d < 0) { let e = e - d; let d = -d; let s = t; let t = p; let p = q; let q = t; }
-        if (p = 0) { let s = 1 - s; let e = e - d; let m = q; return; }
-        if (d > 14) { let m = p; return; }
-",
-            $unlike,
-            "        if (e < (-8000)) { let s = 0; let e = 0; let m = 0; }
-        return;
-    }
-"
-        )
-    };
-}
-
 macro_rules! add {
     ($alike:expr, $unlike:expr) => {
         sum!(

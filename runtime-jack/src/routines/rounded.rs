@@ -1,6 +1,6 @@
 //! The routines of `f316r`: what rounds, and all that it shares with `f316`.
 
-use super::{ADD, ANY_SINE, ARC, Do, INTS, SHARED, SINE, UNKNOWN};
+use super::{ANY_SINE, ARC, Do, INTS, REST, SHARED, SINE, UNKNOWN};
 use crate::model::{Float as Real, Rounded, Sums};
 use slowlight_routine::{Error, Format, Op, Routine, everywhere, joined};
 

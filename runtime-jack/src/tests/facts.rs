@@ -25,16 +25,24 @@ fn mul(a: Float, b: Float) -> (i32, i32, i32) {
     )
 }
 
-/// The smaller's mantissa is halved once for each step between the exponents.
+/// The smaller's mantissa is halved once for each step between the exponents; of a
+/// difference both have been doubled before, which the original does not do: so
+/// neighbours on both sides of a power of two are told apart.
 fn add(a: Float, b: Float) -> (i32, i32, i32) {
     if a.m == 0 || b.m == 0 {
         return parts(if a.m == 0 { b } else { a });
     }
-    let (big, mut small) = if a.value().abs() >= b.value().abs() {
+    let (mut big, mut small) = if a.value().abs() >= b.value().abs() {
         (a, b)
     } else {
         (b, a)
     };
+    if big.s != small.s {
+        for part in [&mut big, &mut small] {
+            part.m *= 2;
+            part.e -= 1;
+        }
+    }
     while small.e < big.e && small.m > 0 {
         small.m /= 2;
         small.e += 1;
@@ -43,7 +51,11 @@ fn add(a: Float, b: Float) -> (i32, i32, i32) {
         if big.m == small.m {
             return (0, 0, 0);
         }
-        return normalise(big.s, big.e, big.m - small.m);
+        let rest = big.m - small.m;
+        return match rest > 16383 {
+            true => (big.s, big.e + 1, rest / 2),
+            false => normalise(big.s, big.e, rest),
+        };
     }
     let sum = big.m + small.m;
     if sum > 16383 {
