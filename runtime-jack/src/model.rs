@@ -207,15 +207,18 @@ impl Float {
         Float { s, e, m }.normal().ended()
     }
 
-    /// The exponent halved, then two steps of Newton's; 0 for negatives.
+    /// Two steps of Newton's from the mean of the operand, scaled to 1 to 4, and of what
+    /// it is nearer to, 1 or 4; 0 for negatives.
     pub fn sqrt(self) -> Float {
         if self.m == 0 || self.s == 1 {
             return Float::ZERO;
         }
         let e = (self.e + 8000) / 2 - 4000 + 63 + (self.e & 1);
-        let mut root = Float { s: 0, e, m: self.m };
+        let even = if self.e & 1 == 0 { 4096 } else { 0 };
+        let m = self.m / 2 + 4096 + even;
+        let mut root = Float { s: 0, e, m };
         for _ in 0..2 {
-            root = root.add(self.div(root)).scale(-1);
+            root = root.add(self.ratio(root)).scale(-1);
         }
         root
     }

@@ -289,15 +289,18 @@ pub(crate) const DIV: &str =
 ";
 
 pub(crate) const SQRT: &str =
-    "    /** this = the root of a, by two steps of Newton's; of a negative zero. */
+    "    /** this = the root of a, by two steps of Newton's from the mean of a, scaled to
+        1 to 4, and of 1 or 4; of a negative zero. */
     method void sqrt(Array a) {
-        var int x, turn;
+        var int x, p, turn;
         let x = a[1];
         if ((a[2] = 0) | (a[0] = 1)) { let s = 0; let e = 0; let m = 0; return; }
-        do root.guess((((x + 8000) / 2) - 3937) + (x & 1), a[2]);
+        let p = (a[2] / 2) + 4096;
+        if ((x & 1) = 0) { let p = p + 4096; }
+        do root.guess((((x + 8000) / 2) - 3937) + (x & 1), p);
         let turn = 0;
         while (turn < 2) {
-            do quotient.div(a, root);
+            do quotient.ratio(a, root);
             do root.add(root, quotient);
             do root.scale(root, -1);
             let turn = turn + 1;

@@ -151,11 +151,3 @@ pub(crate) const SQRT: &str =
         return;
     }
 ";
-
-/// In its place, where roots are as near as can be.
-pub(crate) const NEAR_ROOT: &str = "    /** this = the root of a, which is as near as can be */
-    method void nearRoot(Array a) {
-        do sqrt(a);
-        return;
-    }
-";
