@@ -252,6 +252,12 @@ mod tests {
     use super::*;
 
     #[test]
+    fn an_int_that_is_cut_below_1_is_not_0() {
+        let cut = Range::point(0.499);
+        assert_eq!(interval(Op::ToReal, [cut, cut], false), cut);
+    }
+
+    #[test]
     fn intervals_hold_what_operations_give() {
         let ranges = [
             (-3.0, 2.0),
