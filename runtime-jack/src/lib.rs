@@ -2,7 +2,8 @@
 //!
 //! A real is a `Float`: an object of three words, sign, exponent and mantissa,
 //! with the arithmetic of a published ray marcher in Jack, "Float316": 14 bits
-//! that truncate, no guard bit, no infinities. An int is Jack's own, 16 bits.
+//! that truncate, no infinities; unlike there a difference keeps a guard bit, which
+//! costs nothing: sums take 99 commands instead of 119. An int is Jack's own, 16 bits.
 //! Every routine has a model in [`model`] that computes the same bits.
 //!
 //! # Ends

@@ -139,42 +139,36 @@ impl Float {
         }
     }
 
+    /// Where the signs differ, one bit behind the mantissa's last is kept until the
+    /// difference is known; what is shifted out of the smaller behind that is lost.
     pub fn add(self, b: Float) -> Float {
-        if b.m == 0 {
-            return self;
+        let (large, small) = if self.e < b.e { (b, self) } else { (self, b) };
+        if large.m == 0 {
+            return small;
         }
-        if self.m == 0 {
-            return b;
+        let apart = large.e - small.e;
+        if apart > 14 {
+            return large;
         }
-        let (big, small) = if (self.e, self.m) < (b.e, b.m) {
-            (b, self)
-        } else {
-            (self, b)
-        };
-        let apart = big.e - small.e;
-        let part = if apart > 13 {
-            0
-        } else {
-            small.m / power(apart)
-        };
-        let Float { s, e, m } = big;
+        let Float { s, e, m } = large;
         if s == small.s {
-            let sum = m + part;
-            if sum > 16383 {
-                Float {
-                    s,
-                    e: e + 1,
-                    m: sum / 2,
-                }
-                .ended()
-            } else {
-                Float { s, e, m: sum }
+            let sum = m + small.m / power(apart);
+            if sum < 16384 {
+                return Float { s, e, m: sum };
             }
-        } else if m == part {
-            Float::ZERO
-        } else {
-            Float { s, e, m: m - part }.normal().ended()
+            let m = sum / 2;
+            return Float { s, e: e + 1, m }.ended();
         }
+        let twice = 2 * m - 2 * small.m / power(apart);
+        if twice > 16383 {
+            return Float { s, e, m: twice / 2 };
+        }
+        if twice == 0 {
+            return Float::ZERO;
+        }
+        let s = if twice < 0 { 1 - s } else { s };
+        let m = twice.abs();
+        Float { s, e: e - 1, m }.normal().ended()
     }
 
     pub fn neg(self) -> Float {
@@ -213,15 +207,18 @@ impl Float {
         Float { s, e, m }.normal().ended()
     }
 
-    /// The exponent halved, then two steps of Newton's; 0 for negatives.
+    /// Two steps of Newton's from the mean of the operand, scaled to 1 to 4, and of what
+    /// it is nearer to, 1 or 4; 0 for negatives.
     pub fn sqrt(self) -> Float {
         if self.m == 0 || self.s == 1 {
             return Float::ZERO;
         }
         let e = (self.e + 8000) / 2 - 4000 + 63 + (self.e & 1);
-        let mut root = Float { s: 0, e, m: self.m };
+        let even = if self.e & 1 == 0 { 4096 } else { 0 };
+        let m = self.m / 2 + 4096 + even;
+        let mut root = Float { s: 0, e, m };
         for _ in 0..2 {
-            root = root.add(self.div(root)).scale(-1);
+            root = root.add(self.ratio(root)).scale(-1);
         }
         root
     }

@@ -70,6 +70,7 @@ mod stress;
 mod syntaxes;
 mod torus;
 mod tune;
+mod varied;
 mod ways;
 mod whole;
 mod written;

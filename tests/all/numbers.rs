@@ -1,14 +1,19 @@
-//! Numbers at a format's ends: vectors whose squares leave it, secondary rays from flat surfaces, bounds that touch what they bound.
+//! Numbers at a format's ends: vectors whose squares leave it, hits by distance to its
+//! precision, secondary rays from flat surfaces, bounds that touch what they bound.
 
 use crate::cli::{directory, json};
 
 /// Machines and formats whose ends are near, and those whose are not.
-const FORMATS: [(&str, &str); 7] = [
+const FORMATS: [(&str, &str); 11] = [
     ("jack", "f316"),
+    ("jack", "f316r"),
+    ("jack", "log10"),
     ("jack", "fixed16"),
     ("bbc:micro", "real40"),
     ("6502:plain", "fixed16.16"),
     ("6502:plain", "fixed12"),
+    ("6502:plain", "fixed16"),
+    ("6502:plain", "fixed20"),
     ("6502:plain", "fixed24"),
     ("6502:plain", "log10"),
 ];
@@ -67,6 +72,58 @@ fn lengths_of_long_and_short_vectors() {
             &format!(
                 "image 32 x 8 inks black, white; param s: real = 1 in 0.5 .. 1.5;
                 draw (x, y) = threshold(length({of} * s) / {scale}, 0.513);"
+            ),
+        );
+    }
+}
+
+/// What is found by its distance is found as near as a pixel here tells, within 1/500: in
+/// front and where a ray meets it aslant, round and flat, and far from where it starts.
+#[test]
+fn marches_come_near() {
+    for (beside, from, dist, t) in [
+        ("0.3", "2", "length(p) - 0.4", "2 - sqrt(0.16 - k * k)"),
+        ("0.1", "2", "length(p) - 0.35", "2 - sqrt(0.1225 - k * k)"),
+        ("0.5", "3", "length(p) - 0.6", "3 - sqrt(0.36 - k * k)"),
+        ("0.2", "9", "length(p) - 0.7", "9 - sqrt(0.49 - k * k)"),
+        (
+            "0.2",
+            "2",
+            "0.6 * p.z + 0.8 * p.x - 0.1",
+            "2 + (0.8 * k - 0.1) / 0.6",
+        ),
+        ("0.1", "2", "max(abs(p.x), abs(p.z)) - 0.5", "1.5"),
+    ] {
+        at_most(
+            0,
+            &format!(
+                "image 8 x 1 inks black, white; param k: real = {beside} in 0 .. 0.6;
+                shape solid(n: real) {{ dist(p) = {dist}; }}
+                draw (x, y) = {{
+                  let t = {t};
+                  ink(if let h = solid(1).hit(ray((k, 0, {from}), (0, 0, -1))) then
+                    (if abs(h.t - t) < (x + 1) / 500 then 1 else 0) else 0)
+                }};"
+            ),
+        );
+    }
+}
+
+/// What is hardly ever off is compared with what is far greater: this may end where the
+/// other does, below 1, and is then no whole number.
+#[test]
+fn thresholds_far_above_what_is_compared_with_them() {
+    for over in ["500", "300", "40"] {
+        at_most(
+            0,
+            &format!(
+                "image 8 x 1 inks black, white; param k: real = 0.3 in 0.28 .. 0.32;
+                draw (x, y) = {{
+                  let near = loop (t = 1.0, n = 0) max 9 {{
+                    if n >= 5 then t else next((t + k / t) / 2, n + 1)
+                  }} else t;
+                  ink(if abs(near - sqrt(k)) < (x + 1) / {over} then 1 else 0)
+                }};"
             ),
         );
     }

@@ -83,6 +83,10 @@ pub fn interval(op: Op, [a, b]: [Range; 2], same: bool) -> Range {
 
 /// The operation itself, where both arguments are known.
 fn point(op: Op, a: Range, b: Range) -> Option<Range> {
+    // Where points are of a plan's choice, what an int is read as may end below 1.
+    if op == Op::ToReal {
+        return None;
+    }
     let value = |ty: Type, x: f64| match ty {
         Type::Bool => Value::Bool(x != 0.0),
         Type::Int => Value::Int(x as i32),
@@ -246,6 +250,12 @@ fn truth(op: Op, a: Range, b: Range) -> Range {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn an_int_that_is_cut_below_1_is_not_0() {
+        let cut = Range::point(0.499);
+        assert_eq!(interval(Op::ToReal, [cut, cut], false), cut);
+    }
 
     #[test]
     fn intervals_hold_what_operations_give() {

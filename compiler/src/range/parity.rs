@@ -18,8 +18,11 @@ pub fn whole(graph: &Graph, id: NodeId, args: [Range; 2], range: Range) -> Range
             nonzero: range.nonzero || low(graph, id, DEEP).rest != 0,
             ..range
         },
-        // By a whole number that is not 0: no greater than the dividend.
-        Node::Apply(Op::Div, [_, by]) if args[1].nonzero && is_whole(graph, by) => {
+        // By a whole number that is not 0: no greater than the dividend. One that is cut to
+        // what its format holds is still 1 at least where that is.
+        Node::Apply(Op::Div, [_, by])
+            if args[1].nonzero && args[1].magnitude() >= 1.0 && is_whole(graph, by) =>
+        {
             let most = args[0].magnitude();
             range.meet(Range::new(-most, most))
         }

@@ -212,7 +212,7 @@ impl Float {
         let large = self.m > 0 && self.e > 125;
         let (sine, square) = if large {
             let less = if self.e > 126 { 0 } else { 16384 - self.m };
-            (S::near_root(Float::from_int(less).scale(-15)), less / 2)
+            (S::root(Float::from_int(less).scale(-15)), less / 2)
         } else {
             let part = self.part();
             (self.abs(), fraction(part, part))

@@ -11,8 +11,7 @@ pub trait Sums {
         Self::add(a, b.neg())
     }
 
-    /// The root of what is not negative, as near as it is to be had.
-    fn near_root(a: Float) -> Float;
+    fn root(a: Float) -> Float;
 }
 
 /// The arithmetic of `f316`: what does not fit is cut.
@@ -24,13 +23,8 @@ impl Sums for Cut {
         a.add(b)
     }
 
-    /// One step of Newton's more than [`Float::sqrt`], by [`Float::ratio`].
-    fn near_root(a: Float) -> Float {
-        let root = a.sqrt();
-        if root.m == 0 {
-            return root;
-        }
-        root.add(a.ratio(root)).scale(-1)
+    fn root(a: Float) -> Float {
+        a.sqrt()
     }
 }
 
@@ -82,7 +76,7 @@ impl Sums for Rounded {
         rest.ended()
     }
 
-    fn near_root(a: Float) -> Float {
+    fn root(a: Float) -> Float {
         Rounded::sqrt(a)
     }
 }

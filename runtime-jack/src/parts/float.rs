@@ -1,8 +1,10 @@
 //! The class of Floats.
 
-/// Sum or difference: alike but for the sign of `b`.
+/// Sum or difference: alike but for the sign of `b`. What is made of mantissas whose
+/// signs are the same, and of others, says how it is rounded: `p` is the mantissa of what
+/// has the greater exponent, by `d`; `q` the other's.
 macro_rules! sum {
-    ($doc:literal, $name:literal, $copy_b:literal, $sign_b:literal, $shifted:literal) => {
+    ($doc:literal, $name:literal, $sign_b:literal, $alike:expr, $unlike:expr) => {
         concat!(
             "    /** ",
             $doc,
@@ -10,51 +12,30 @@ macro_rules! sum {
     method void ",
             $name,
             "(Array a, Array b) {
-        var int p, q, d, x, t;
-        var boolean same;
+        var int p, q, d, t, u;
         let p = a[2];
         let q = b[2];
-        if (q = 0) { do copy(a); return; }
-        if (p = 0) { do ",
-            $copy_b,
-            "(b); return; }
-        let x = a[1];
-        let d = x - b[1];
         let t = ",
             $sign_b,
             ";
         let s = a[0];
-        let same = (s = t);
-        if ((d < 0) | ((d = 0) & (p < q))) {
-            let x = x - d;
-            let d = -d;
-            let s = t;
-            let t = p;
-            let p = q;
-            let q = t;
+        let d = b[1];
+        let e = a[1];
+        let d = e - d;
+        if (s = t) {
+            if (d < 0) { let e = e - d; let d = -d; let t = p; let p = q; let q = t; }
+            if (p = 0) { let e = e - d; let m = q; return; }
+            if (d > 14) { let m = p; return; }
+",
+            $alike,
+            "            return;
         }
-        if (d > 0) {
-            if (d > 13) { let q = 0; }
-            else { let q = ",
-            $shifted,
-            "; }
-        }
-        if (same) {
-            let p = p + q;
-            if (p > 16383) {
-                let p = p / 2;
-                let x = x + 1;
-                if (x > 8000) { let x = 8000; let p = 16383; }
-            }
-        }
-        else {
-            let p = p - q;
-            if (p = 0) { let s = 0; let e = 0; let m = 0; return; }
-            while (p < 8192) { let p = p + p; let x = x - 1; }
-            if (x < (-8000)) { let s = 0; let x = 0; let p = 0; }
-        }
-        let e = x;
-        let m = p;
+        if (d < 0) { let e = e - d; let d = -d; let s = t; let t = p; let p = q; let q = t; }
+        if (p = 0) { let s = 1 - s; let e = e - d; let m = q; return; }
+        if (d > 14) { let m = p; return; }
+",
+            $unlike,
+            "        if (e < (-8000)) { let s = 0; let e = 0; let m = 0; }
         return;
     }
 "
@@ -192,39 +173,95 @@ pub(crate) const SCALE: &str = "    /** this = a * 2^k, for k from -9 to 9 */
     }
 ";
 
-macro_rules! add {
-    ($shifted:literal) => {
+/// A sum or difference whose last bits are cut, by what is shifted out of the smaller
+/// in a sum and of twice the smaller in a difference: that has a guard bit.
+macro_rules! cut {
+    ($doc:literal, $name:literal, $sign_b:literal, $shifted:literal, $twice:literal, $half:literal) => {
         sum!(
-            "this = a + b; what is shifted out of the smaller is lost.",
+            $doc,
+            $name,
+            $sign_b,
+            concat!(
+                "            if (d = 0) { let m = p + q; }
+            else { let m = p + (",
+                $shifted,
+                "); }
+            if (m > 16383) {
+                let m = ",
+                $half,
+                ";
+                let e = e + 1;
+                if (e > 8000) { let e = 8000; let m = 16383; }
+            }
+"
+            ),
+            concat!(
+                "        let p = p + p;
+        if (d > 1) { let m = p - (",
+                $twice,
+                "); }
+        else {
+            let m = p - q;
+            if (d = 0) { let m = m - q; }
+        }
+        if (m > 16383) { let m = ",
+                $half,
+                "; return; }
+        let e = e - 1;
+        if (m < 8192) {
+            if (m = 0) { let s = 0; let e = 0; return; }
+            if (m < 0) { let m = -m; let s = 1 - s; }
+            while (m < 8192) { let m = m + m; let e = e - 1; }
+        }
+"
+            )
+        )
+    };
+}
+
+macro_rules! add {
+    ($shifted:literal, $twice:literal, $half:literal) => {
+        cut!(
+            "this = a + b, cut; where the signs differ behind a guard bit.",
             "add",
-            "copy",
             "b[0]",
-            $shifted
+            $shifted,
+            $twice,
+            $half
         )
     };
 }
 
 macro_rules! sub {
-    ($shifted:literal) => {
-        sum!(
-            "this = a - b; what is shifted out of the smaller is lost.",
+    ($shifted:literal, $twice:literal, $half:literal) => {
+        cut!(
+            "this = a - b, cut; where the signs agree behind a guard bit.",
             "sub",
-            "neg",
             "1 - b[0]",
-            $shifted
+            $shifted,
+            $twice,
+            $half
         )
     };
 }
 
-pub(crate) const ADD: &str = add!("q / powers[d]");
+pub(crate) const ADD: &str = add!("q / powers[d]", "q / powers[d - 1]", "m / 2");
 
-pub(crate) const SUB: &str = sub!("q / powers[d]");
-
-/// The same for the processor.
-pub(crate) const ADD_SHIFTED: &str = add!("Float.shifted(q, d)");
+pub(crate) const SUB: &str = sub!("q / powers[d]", "q / powers[d - 1]", "m / 2");
 
 /// The same for the processor.
-pub(crate) const SUB_SHIFTED: &str = sub!("Float.shifted(q, d)");
+pub(crate) const ADD_SHIFTED: &str = add!(
+    "Float.shifted(q, d)",
+    "Float.shifted(q, d - 1)",
+    "Float.shifted(m - 16384, 1) + 8192"
+);
+
+/// The same for the processor.
+pub(crate) const SUB_SHIFTED: &str = sub!(
+    "Float.shifted(q, d)",
+    "Float.shifted(q, d - 1)",
+    "Float.shifted(m - 16384, 1) + 8192"
+);
 
 pub(crate) const DIV: &str =
     "    /** this = a / b; by zero the largest value, zero by zero is zero. */
@@ -252,15 +289,18 @@ pub(crate) const DIV: &str =
 ";
 
 pub(crate) const SQRT: &str =
-    "    /** this = the root of a, by two steps of Newton's; of a negative zero. */
+    "    /** this = the root of a, by two steps of Newton's from the mean of a, scaled to
+        1 to 4, and of 1 or 4; of a negative zero. */
     method void sqrt(Array a) {
-        var int x, turn;
+        var int x, p, turn;
         let x = a[1];
         if ((a[2] = 0) | (a[0] = 1)) { let s = 0; let e = 0; let m = 0; return; }
-        do root.guess((((x + 8000) / 2) - 3937) + (x & 1), a[2]);
+        let p = (a[2] / 2) + 4096;
+        if ((x & 1) = 0) { let p = p + 4096; }
+        do root.guess((((x + 8000) / 2) - 3937) + (x & 1), p);
         let turn = 0;
         while (turn < 2) {
-            do quotient.div(a, root);
+            do quotient.ratio(a, root);
             do root.add(root, quotient);
             do root.scale(root, -1);
             let turn = turn + 1;

@@ -290,7 +290,7 @@ pub(crate) const ARC: &str =
             do shape.fromInt(z);
             do shape.scale(shape, -9);
             do shape.scale(shape, -6);
-            do nearRoot(shape);
+            do sqrt(shape);
             let z = z / 2;
         }
         else {
@@ -306,17 +306,6 @@ pub(crate) const ARC: &str =
         do product(this, shape);
         if (large) { do scale(this, 1); }
         return large;
-    }
-";
-
-pub(crate) const NEAR_ROOT: &str = "    /** this = the root of a, nearer than sqrt */
-    method void nearRoot(Array a) {
-        do sqrt(a);
-        if (m = 0) { return; }
-        do quotient.ratio(a, this);
-        do add(this, quotient);
-        do scale(this, -1);
-        return;
     }
 ";
 

@@ -43,10 +43,10 @@ pub(crate) static ALL: &[Part] = &[
     part!("Float.abs", [], 60, float::ABS),
     part!("Float.mul", [], 360, float::MUL),
     part!("Float.scale", [], 140, float::SCALE),
-    part!("Float.add", ["Float.makePowers", "Float.copy"], 520, float::ADD),
-    part!("Float.sub", ["Float.makePowers", "Float.copy", "Float.neg"], 530, float::SUB),
+    part!("Float.add", ["Float.makePowers"], 520, float::ADD),
+    part!("Float.sub", ["Float.makePowers"], 530, float::SUB),
     part!("Float.div", [], 420, float::DIV),
-    part!("Float.sqrt", ["Float.makeRoot", "Float.add", "Float.div", "Float.scale", "Float.copy"], 260, float::SQRT),
+    part!("Float.sqrt", ["Float.makeRoot", "Float.add", "Float.ratio", "Float.scale", "Float.copy"], 280, float::SQRT),
     part!("Float.less", [], 260, float::LESS),
     part!("Float.equal", [], 120, float::EQUAL),
     part!("Float.negative", [], 40, float::NEGATIVE),
@@ -72,8 +72,7 @@ pub(crate) static ALL: &[Part] = &[
     part!("Float.makeTangent", [], 80, functions::MAKE_TANGENT),
     part!("Float.tan", ["Float.makeTangent", "Float.sin", "Float.cos", "Float.ratio"], 80, functions::TAN),
     part!("Float.atan2", ["Float.makeShape", "Float.makeQuarter", "Float.fraction", "Float.part", "Float.product", "Float.ratio", "Float.sub", "Float.scale"], 700, functions::ATAN2),
-    part!("Float.nearRoot", ["Float.makeRoot", "Float.sqrt", "Float.ratio", "Float.add", "Float.scale"], 80, functions::NEAR_ROOT),
-    part!("Float.arc", ["Float.makeShape", "Float.fraction", "Float.part", "Float.product", "Float.nearRoot", "Float.scale", "Float.fromInt"], 640, functions::ARC),
+    part!("Float.arc", ["Float.makeShape", "Float.fraction", "Float.part", "Float.product", "Float.sqrt", "Float.scale", "Float.fromInt"], 640, functions::ARC),
     part!("Float.asin", ["Float.makeQuarter", "Float.arc", "Float.sub"], 120, functions::ASIN),
     part!("Float.acos", ["Float.makeQuarter", "Float.arc", "Float.sub"], 220, functions::ACOS),
     part!("Float.exponent", ["Float.makePowers", "Float.fraction"], 1400, powers::EXPONENT),
@@ -175,7 +174,6 @@ const OF_ROUNDED: &[Part] = &[
     part!("Float.add", ["Float.makePowers"], 620, rounded::ADD),
     part!("Float.sub", ["Float.makePowers"], 630, rounded::SUB),
     part!("Float.sqrt", ["Float.makeRoots"], 300, rounded::SQRT),
-    part!("Float.nearRoot", ["Float.sqrt"], 30, rounded::NEAR_ROOT),
 ];
 
 /// The parts of `f316r`.

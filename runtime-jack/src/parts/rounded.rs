@@ -1,47 +1,6 @@
 //! What `f316r` has in place of parts of `f316`: sums with a guard bit, and roots
 //! from a table, all rounded. Its products and quotients are `product` and `ratio`.
 
-/// Sum or difference: alike but for the sign of `b`.
-macro_rules! sum {
-    ($doc:literal, $name:literal, $sign_b:literal, $alike:expr, $unlike:expr) => {
-        concat!(
-            "    /** ",
-            $doc,
-            " */
-    method void ",
-            $name,
-            "(Array a, Array b) {
-        var int p, q, d, t, u;
-        let p = a[2];
-        let q = b[2];
-        let t = ",
-            $sign_b,
-            ";
-        let s = a[0];
-        let d = b[1];
-        let e = a[1];
-        let d = e - d;
-        if (s = t) {
-            if (d < 0) { let e = e - d; let d = -d; let t = p; let p = q; let q = t; }
-            if (p = 0) { let e = e - d; let m = q; return; }
-            if (d > 14) { let m = p; return; }
-",
-            $alike,
-            "            return;
-        }
-        if (d < 0) { let e = e - d; let d = -d; let s = t; let t = p; let p = q; let q = t; }
-        if (p = 0) { let s = 1 - s; let e = e - d; let m = q; return; }
-        if (d > 14) { let m = p; return; }
-",
-            $unlike,
-            "        if (e < (-8000)) { let s = 0; let e = 0; let m = 0; }
-        return;
-    }
-"
-        )
-    };
-}
-
 macro_rules! add {
     ($alike:expr, $unlike:expr) => {
         sum!(
@@ -189,14 +148,6 @@ pub(crate) const SQRT: &str =
         let c = t / g;
         let m = (g * 128) + ((t - ((c * c) / 256)) / g);
         if (((p * 256) - (m * m)) > m) { let m = m + 1; }
-        return;
-    }
-";
-
-/// In its place, where roots are as near as can be.
-pub(crate) const NEAR_ROOT: &str = "    /** this = the root of a, which is as near as can be */
-    method void nearRoot(Array a) {
-        do sqrt(a);
         return;
     }
 ";

@@ -158,7 +158,7 @@ fn a_class_holds_what_is_needed_and_no_more() {
     let sqrt = text("Float.sqrt");
     for wanted in [
         "void add(",
-        "void div(",
+        "void ratio(",
         "do Float.makePowers();",
         "static Array powers;",
     ] {

@@ -9,7 +9,7 @@ use slowlight_routine::{Op, Range, Type};
 
 impl Points {
     /// The last place at a scale.
-    fn unit(scale: i8) -> f64 {
+    pub(super) fn unit(scale: i8) -> f64 {
         (-f64::from(scale)).exp2()
     }
 

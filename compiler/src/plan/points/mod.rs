@@ -21,6 +21,7 @@
 mod agreed;
 mod asks;
 mod bounds;
+mod doubts;
 mod early;
 pub(super) mod held;
 pub(crate) mod sample;
@@ -92,7 +93,7 @@ pub(super) fn placed(
         |expected: &[Option<f64>]| ranges(graph, tree, &Slack::expecting(runtime, expected.into()));
     let mut expected = sampled.ends;
     // Nothing is cut where its format does not end.
-    Points::new(graph, &walk(&expected), runtime, widths).ends(&mut expected, &sampled.all);
+    Points::new(graph, &walk(&expected), runtime, widths).ends(graph, &mut expected, &sampled.all);
     let mut planned = walk(&expected);
     // What is cut makes what is made of it smaller.
     for _ in 0..ROUNDS {
@@ -171,21 +172,6 @@ impl Points {
             own,
             carried,
             scales,
-        }
-    }
-
-    /// Raises what values are expected to stay within where they have fewer fraction bits
-    /// than that leaves room for, so that they end later: to that end or to all that they
-    /// were seen to be.
-    fn ends(&self, expected: &mut [Option<f64>], all: &[f64]) {
-        for (at, ((expected, own), all)) in (0..).zip(expected.iter_mut().zip(&self.own).zip(all)) {
-            let bits = self.widths.value(NodeId(at));
-            if let Some(end) = expected
-                && *own < fitting(*end, bits)
-            {
-                let later = scale::most(bits) as f64 * (-f64::from(*own)).exp2();
-                *end = end.max(later.min(*all));
-            }
         }
     }
 
