@@ -82,11 +82,26 @@ impl Window {
         along(self.rows).flat_map(row).collect()
     }
 
+    /// The same in an order of rows of which any beginning is spread over the picture: for who
+    /// may have to stop before the last.
+    pub fn grid_coarse_first(&self, side: u32) -> Vec<(i32, i32)> {
+        let grid = self.grid(side);
+        let rows: Vec<&[(i32, i32)]> = grid.chunk_by(|(_, a), (_, b)| a == b).collect();
+        coarse_first(rows).concat()
+    }
+
     /// Where its pixels are, row by row.
     pub fn places(&self) -> impl Iterator<Item = (u32, u32)> + use<> {
         let (columns, rows) = (self.columns, self.rows);
         (rows.0..=rows.1).flat_map(move |y| (columns.0..=columns.1).map(move |x| (x, y)))
     }
+}
+
+/// In an order of which any beginning is spread evenly.
+pub fn coarse_first<T>(all: Vec<T>) -> Vec<T> {
+    let mut all: Vec<(u32, T)> = (0..).zip(all).collect();
+    all.sort_by_key(|(k, _)| k.reverse_bits());
+    all.into_iter().map(|(_, each)| each).collect()
 }
 
 /// Inks and shades, row by row.

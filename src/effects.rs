@@ -151,8 +151,9 @@ pub fn look(
     let mut counted = count_lines(scene, plan.clone(), screen, limit)?;
     let computed = Window::of(&plan).count();
     let pixels = sample(&plan);
-    let mut seen = watch(&plan, &pixels);
-    let mut turns = turns(&as_written(scene, &plan, screen)?, &pixels);
+    let (mut seen, watched) = watch(&plan, &pixels);
+    let pixels = &pixels[..watched];
+    let mut turns = turns(&as_written(scene, &plan, screen)?, pixels);
     let mut own = own(counted.measured());
     let digest = digest::program(&plan);
     let all = effects(&scene.checked, &plan.graph);
@@ -188,7 +189,7 @@ pub fn look(
             });
             called.own = own.remove(&effect.number).unwrap_or_default();
             called.seen = seen.remove(&effect.number).unwrap_or_default();
-            called.seen.cycles.resize(pixels.len(), 0);
+            called.seen.cycles.resize(watched, 0);
             called.turns = turns.remove(&effect.number).unwrap_or_default();
         }
         rows.push(Row { effect, found });
@@ -196,7 +197,7 @@ pub fn look(
     Ok(Effects {
         whole,
         counted,
-        watched: pixels.len(),
+        watched,
         rows,
         known,
     })
@@ -295,9 +296,14 @@ fn change(with: u64, without: u64) -> i64 {
     whole(with).saturating_sub(whole(without))
 }
 
-/// Pixels evenly over what is drawn, in the order of the scan.
+/// Pixels evenly over what is drawn, row by row.
 fn sample(plan: &Plan) -> Vec<(i32, i32)> {
-    Window::of(plan).grid(GRID)
+    let window = Window::of(plan);
+    match plan.graph.diffusion {
+        // Pixels want those before them.
+        Some(_) => window.grid(GRID),
+        None => window.grid_coarse_first(GRID),
+    }
 }
 
 /// The middle value and that which one in a hundred exceeds.

@@ -9,7 +9,7 @@
 //! begins, in the model at every pixel: so some rows are gone through for how many runs they
 //! have.
 
-use crate::draw::Window;
+use crate::draw::{Window, coarse_first};
 use slowlight_compiler::eval::heard::{Heard, Listener};
 use slowlight_compiler::eval::model::Model;
 use slowlight_compiler::eval::run::Run;
@@ -26,6 +26,9 @@ use std::collections::HashMap;
 
 /// Rows and columns of the sample.
 const GRID: u32 = 24;
+
+/// How many statements may run for that: what is known by then stands for the rest.
+const MOST: u64 = 50_000_000;
 
 /// How many columns of a pass are looked at for where runs begin, at most.
 const COLUMNS: u32 = 80;
@@ -109,12 +112,13 @@ pub fn cycles(plan: &Plan) -> f64 {
         listener: Adding::new(plan),
     };
     let added = &heard.listener;
-    let mut run = Run::new(&graph, &plan.tree, &heard);
+    let mut run = Run::within(&graph, &plan.tree, &heard, MOST);
     let still = plan.still.as_ref();
     let frame = added.sum(When::Frame);
-    let (rows, columns) = (sample(window.rows), sample(window.columns));
-    let mut pixels = 0.0;
-    for &y in &rows {
+    let (rows, columns) = (coarse_first(sample(window.rows)), sample(window.columns));
+    let (mut pixels, mut sampled, mut begun) = (0.0, 0, 0);
+    'rows: for &y in &rows {
+        begun += 1;
         for &x in &columns {
             let before = added.sum(When::Pixel);
             run.pixel(x as i32, y as i32);
@@ -122,10 +126,14 @@ pub fn cycles(plan: &Plan) -> f64 {
                 Some(still) => asked(still, &added.costs),
                 None => added.sum(When::Pixel) - before,
             };
+            sampled += 1;
+            if run.spent() {
+                break 'rows;
+            }
         }
     }
-    let sampled = (rows.len() * columns.len()).max(1) as f64;
-    let row = added.sum(When::Row) / rows.len().max(1) as f64;
+    let sampled = f64::from(sampled.max(1));
+    let row = added.sum(When::Row) / f64::from(begun.max(1));
     let pass = added.sum(When::Pass) / sampled;
     let runs = runs(plan, &graph, &mut run, added, window);
     let steps = added.costs.steps(&plan.tree.row) + added.costs.steps(&plan.tree.pass);

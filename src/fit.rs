@@ -23,11 +23,11 @@ use slowlight_compiler::target::mos6502::DISC_PAGE;
 /// How much work may be done to find a plan whose program fits, in units of
 /// [`slowlight_compiler::fuel::Fuel`]: no example is cut short, of which fifty.scn on the 6502
 /// takes most.
-pub const FIT: u64 = 4_000_000_000;
+pub const FIT: u64 = 3_500_000_000;
 
 /// The same for the plans that spend less memory, all together: they are made at the same
 /// time, and have much in common that is made once and charged to each.
-const LADDER: u64 = 20_000_000_000;
+const LADDER: u64 = 6_000_000_000;
 
 /// The first of the plans whose program fits, as it reads best or tight; where
 /// none does, the first that does with subroutines. Modes that show a part of the
@@ -258,8 +258,10 @@ impl Search<'_> {
             };
             for (brief, scant) in remarks(plan) {
                 (tried.brief, tried.scant) = (*brief, *scant);
-                if self.holds(&tried)? {
-                    return Ok(Some(tried));
+                match about(&tried, self.fuel)? {
+                    Some(need) if !need.is_near() => break,
+                    Some(need) if !need.fits() => {}
+                    _ => return Ok(Some(tried)),
                 }
             }
         }
@@ -290,17 +292,19 @@ impl Search<'_> {
                 continue;
             }
             (plan.lean, plan.tight) = (lean, tight);
-            match about(&plan, self.fuel)? {
+            let near = match about(&plan, self.fuel)? {
                 Some(need) if !need.fits() => {
+                    let near = need.is_near();
                     if least.as_ref().is_none_or(|l| need.total() < l.total()) {
                         least = Some(need);
                     }
+                    near
                 }
                 _ => return Ok(Fitted::Fits(Box::new(plan))),
-            }
+            };
             // Steps take a few bytes; to write it short costs more than they save.
             let unstepped = |plan: &Plan| self.again(plan, Plan::unstepped);
-            let mut less = if lean { None } else { unstepped(&plan) };
+            let mut less = (near && !lean).then(|| unstepped(&plan)).flatten();
             while let Some(plain) = less {
                 if self.holds(&plain)? {
                     return Ok(Fitted::Fits(Box::new(plain)));

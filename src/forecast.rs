@@ -14,8 +14,11 @@ use crate::failure::{Failure, Outcome};
 use crate::format::count;
 use crate::machine::{Machine, complaint};
 use crate::progress::Progress;
+use crate::target_args;
 use crate::trial::{self, HACK_HERTZ};
 use slowlight_compiler::plan::Plan;
+use slowlight_compiler::target::Document;
+use slowlight_compiler::target::mos6502::for_rows;
 use slowlight_vm::Stop;
 
 /// Cycles after which no more rows are looked at, and after which a run is given up: half a
@@ -67,6 +70,7 @@ pub fn forecast(plan: &Plan, machine: Machine) -> Outcome<Forecast> {
     let progress = Progress::new("rows, for the time", PLACES.len() as u64);
     let mut look = Look {
         plan,
+        whole: target_args::is_6502(plan.target).then(|| (plan.target.emit)(plan)),
         machine,
         progress,
         spent: 0.0,
@@ -82,6 +86,9 @@ pub fn forecast(plan: &Plan, machine: Machine) -> Outcome<Forecast> {
 /// Looking at rows.
 struct Look<'p> {
     plan: &'p Plan,
+    /// The program of the whole, where that of fewer rows is soon made of it: machine code takes
+    /// long to write.
+    whole: Option<Vec<Document>>,
     machine: Machine,
     progress: Progress,
     /// Cycles that were run.
@@ -109,9 +116,15 @@ impl Look<'_> {
 
     /// Cycles of the program for some rows.
     fn took(&mut self, rows: (u32, u32)) -> Outcome<f64> {
-        let mut plan = self.plan.clone();
-        plan.rows = rows;
-        let mut loaded = trial::build_for(&plan, self.machine)?.loaded;
+        let documents = match &self.whole {
+            Some(whole) => whole.iter().map(|d| for_rows(d, rows)).collect(),
+            None => {
+                let mut plan = self.plan.clone();
+                plan.rows = rows;
+                (plan.target.emit)(&plan)
+            }
+        };
+        let mut loaded = trial::build_written(&documents, self.plan, self.machine)?.loaded;
         let run = loaded.run(MOST, &mut |_| {})?;
         let wrong = match run.stop {
             Stop::CycleLimit => Some(format!(

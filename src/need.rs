@@ -75,6 +75,12 @@ impl Need {
         self.total() <= self.room
     }
 
+    /// Whether it is so near to what the machine holds that another way to write the same
+    /// statements may make it fit.
+    pub fn is_near(&self) -> bool {
+        self.total() <= self.room + self.room / 2
+    }
+
     /// Of a program that has a heap: what it takes.
     pub fn heap(&self) -> Option<HeapNeed<'_>> {
         let (largest, _) = self.largest.as_ref()?;
@@ -139,39 +145,43 @@ fn need_of(plan: &Plan, documents: &[Document]) -> Outcome<Option<Need>> {
 /// before it is read again as a whole, where that says so already. That makes a program
 /// shorter, but by a small part, and takes most of the time.
 ///
+/// It is charged by what the program is made of, not by its text: an edited param has other
+/// digits, and must not move the end of a search.
+///
 /// # Errors
 /// As for [`need`].
 pub fn about(plan: &Plan, fuel: &Fuel) -> Outcome<Option<Need>> {
-    if !plan.target.name.starts_with("6502") {
-        let documents = (plan.target.emit)(plan);
-        let bytes: usize = documents.iter().map(|d| d.text.len()).sum();
-        let mut statements = 0;
-        for block in plan.tree.blocks() {
-            walk(block, &mut |_| statements += 1);
-        }
-        fuel.burn(WRITTEN * bytes as u64 + statements * statements / PAIRS);
-        return need_of(plan, &documents);
+    let mut statements = 0;
+    for block in plan.tree.blocks() {
+        walk(block, &mut |_| statements += 1);
     }
-    let document = mos6502::draft(plan);
-    let bytes = document.text.len() as u64;
-    fuel.burn(WRITTEN * bytes);
-    let draft = assembly(plan, &document);
-    // What is half as large again as the machine is not read again in vain.
-    if draft.fits() || draft.total() > draft.room + draft.room / 2 {
+    if !plan.target.name.starts_with("6502") {
+        let written = match plan.target.name {
+            "jack" => WRITTEN_IN_JACK,
+            _ => WRITTEN_IN_BASIC + statements / PAIRS,
+        };
+        fuel.burn(written * statements);
+        return need_of(plan, &(plan.target.emit)(plan));
+    }
+    fuel.burn(WRITTEN_AS_CODE * statements);
+    let draft = assembly(plan, &mos6502::draft(plan));
+    if draft.fits() || !draft.is_near() {
         return Ok(Some(draft));
     }
-    fuel.burn(READ_AGAIN * bytes);
+    fuel.burn(READ_AGAIN * statements);
     need(plan)
 }
 
-/// Units of work for each byte of a program's text: to write it and look how large it is, and
-/// to read it again as a whole.
-const WRITTEN: u64 = 20;
-const READ_AGAIN: u64 = 40;
+/// Units of work for each statement of a program: to write it and look how large it is, and
+/// to read machine code again as a whole.
+const WRITTEN_IN_JACK: u64 = 1_000;
+const WRITTEN_IN_BASIC: u64 = 4_000;
+const WRITTEN_AS_CODE: u64 = 6_000;
+const READ_AGAIN: u64 = 80_000;
 
-/// Of so many pairs of statements one takes a unit, where variables are shared: which are
-/// alive at the same time is looked at for each of them.
-const PAIRS: u64 = 4;
+/// Of so many pairs of statements one takes a unit more in BASIC, where variables are shared:
+/// which are alive at the same time is looked at for each of them.
+const PAIRS: u64 = 2;
 
 /// What a plan's program takes of the Hack's heap where this operating system has its
 /// part of it.

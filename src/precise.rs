@@ -20,6 +20,8 @@ pub struct Fared {
     shades: Result<Bounded, String>,
     /// Where it is fragile.
     pub said: Vec<Diagnostic>,
+    /// Whether a single pixel took all the work that may be done to find that.
+    pub unseen: bool,
 }
 
 /// The first of the targets with each format.
@@ -62,24 +64,41 @@ pub fn look(scene: &Scene, targets: &[&'static Target]) -> Outcome<Vec<Fared>> {
                     target,
                     shades: Err(why),
                     said: Vec::new(),
+                    unseen: false,
                 });
                 progress.step(2);
                 continue;
             }
             Err(other) => return Err(other),
         };
-        let mut said = warnings(&plan, &fragile(&plan));
-        said.extend(bounces::warnings(&plan, &bounces::measure(&plan)));
+        let (fragile, bounces) = (fragile(&plan), bounces::measure(&plan));
+        let mut said = warnings(&plan, &fragile);
+        said.extend(bounces::warnings(&plan, &bounces));
         progress.step(1);
         interrupt::check()?;
         all.push(Fared {
             target,
             shades: Ok(bounded(&plan)),
             said,
+            unseen: fragile.looked == 0 || bounces.looked == 0,
         });
         progress.step(1);
     }
     Ok(all)
+}
+
+/// That of some formats no pixel could be looked at, where it is so: no warning means nothing
+/// there.
+pub fn unseen(all: &[Fared]) -> Option<String> {
+    let unseen = all.iter().filter(|fared| fared.unseen);
+    let formats: Vec<&str> = unseen.map(|f| f.target.runtime.format).collect();
+    (!formats.is_empty()).then(|| {
+        format!(
+            "no pixel could be looked at in {}: a single one takes more steps than are run for \
+             that",
+            formats.join(", ")
+        )
+    })
 }
 
 /// The table: formats against what is proved and what is measured.
@@ -139,7 +158,7 @@ pub fn to_json(all: &[Fared]) -> Value {
         }),
         Ok(s) => json!({
             "format": fared.target.runtime.format, "target": fared.target.name,
-            "warnings": fared.said.len(), "pixels": s.looked, "proved": s.proved,
+            "warnings": fared.said.len(), "unseen": fared.unseen, "pixels": s.looked, "proved": s.proved,
             "bound_proved": s.bound, "error_measured": s.measured, "ratio": s.ratio,
         }),
     };

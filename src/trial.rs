@@ -13,7 +13,7 @@ use serde_json::{Value, json};
 use slowlight_compiler::flow::graph::{Node, TableId};
 use slowlight_compiler::flow::tree::Place;
 use slowlight_compiler::plan::Plan;
-use slowlight_compiler::target::Target;
+use slowlight_compiler::target::{Document, Target};
 use slowlight_routine::Format;
 use std::collections::BTreeSet;
 
@@ -54,7 +54,14 @@ pub fn build(plan: &Plan) -> Outcome<Built> {
 /// # Errors
 /// As for [`build`], and where the program is too large for what it is to run on.
 pub fn build_for(plan: &Plan, machine: Machine) -> Outcome<Built> {
-    let documents = (plan.target.emit)(plan);
+    build_written(&(plan.target.emit)(plan), plan, machine)
+}
+
+/// The same for a plan that is written down.
+///
+/// # Errors
+/// As for [`build_for`].
+pub fn build_written(documents: &[Document], plan: &Plan, machine: Machine) -> Outcome<Built> {
     let sources: Vec<File> = documents
         .iter()
         .map(|d| File::text(&d.name, &d.text))

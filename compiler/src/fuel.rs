@@ -1,7 +1,7 @@
 //! Fuel: a budget of counted work, for searches that could go on for too long.
 //!
-//! Work is counted in units of about a tenth of a microsecond of one processor: a value that
-//! is scheduled, a statement walked with intervals, a byte of a program written. Units are
+//! Work is counted in units of some nanoseconds of one processor: a statement walked with
+//! intervals is a few of them, one that is written as machine code some thousand. Units are
 //! counted, never timed, so that what is found is the same on every machine and whatever
 //! threads do: searches that run at the same time have a share each, and what is kept from
 //! before is charged as if it were made anew.

@@ -7,27 +7,14 @@
 //! second thoughts. The library is parsed once; it is checked with every scene.
 #![no_main]
 
+mod library;
+
 use libfuzzer_sys::fuzz_target;
+use library::with_library;
 use slowlight_compiler::flow::verify::verify;
-use slowlight_compiler::prelude::PRELUDE;
 use slowlight_compiler::sema::{self, Freeze, Options, Program};
 use slowlight_compiler::source::Diagnostic;
-use slowlight_compiler::syntax::tree::File;
 use slowlight_compiler::syntax::{self, format::format};
-use std::cell::RefCell;
-
-thread_local! {
-    /// The scene's tree, then the library's.
-    static FILES: RefCell<Vec<(File, bool)>> = RefCell::new(library());
-}
-
-fn library() -> Vec<(File, bool)> {
-    let mut files = vec![(File::default(), false)];
-    for (k, (_, text)) in PRELUDE.iter().enumerate() {
-        files.push((syntax::parse(text, k as u16 + 1).0, true));
-    }
-    files
-}
 
 fuzz_target!(|bytes: &[u8]| {
     let (text, said) = syntax::decode(bytes, 0);
@@ -41,8 +28,7 @@ fuzz_target!(|bytes: &[u8]| {
     if readable {
         formats_once(&text);
     }
-    FILES.with_borrow_mut(|files| {
-        files[0].0 = tree;
+    with_library(tree, |files| {
         let (program, said) = sema::check(files);
         lies_in(&text, &said);
         if readable && !said.iter().any(Diagnostic::is_error) {

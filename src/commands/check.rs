@@ -204,12 +204,15 @@ fn report(
     if !said.is_empty() {
         diagnostics::print(sources, &said);
     }
-    let remarks = match said.len() {
-        0 => "nothing to remark".to_owned(),
-        1 => "1 warning".to_owned(),
-        n => format!("{n} warnings"),
+    let unseen = precise::unseen(fared);
+    let remarks = match (said.len(), &unseen) {
+        (0, None) => Some("nothing to remark".to_owned()),
+        (0, Some(_)) => None,
+        (1, _) => Some("1 warning".to_owned()),
+        (n, _) => Some(format!("{n} warnings")),
     };
-    say(&format!("{}: {remarks}\n", of.display()))?;
+    let remarks: Vec<String> = remarks.into_iter().chain(unseen).collect();
+    say(&format!("{}: {}\n", of.display(), remarks.join("; ")))?;
     match fared.is_empty() {
         true => Ok(()),
         false => say(&precise::text(fared)),

@@ -15,6 +15,10 @@ use std::collections::BTreeMap;
 /// Rows and columns of the sample; a small picture is looked at whole.
 const GRID: u32 = 40;
 
+/// How many statements may run for that, the runs of all lines together: a scene of many lines
+/// or long loops is looked at at fewer pixels.
+const MOST: u64 = 1_000_000_000;
+
 /// The error of a picture and what of it goes with each line.
 pub struct Errors {
     /// Pixels looked at.
@@ -52,15 +56,17 @@ pub fn errors(scene: &Scene, plan: &Plan) -> Outcome<Errors> {
 /// # Errors
 /// As for [`errors`].
 pub fn errors_with(scene: &Scene, plan: &Plan, shaded: Option<&Plan>) -> Outcome<Errors> {
-    let places = Window::of(plan).grid(GRID);
+    let shaded = shaded.unwrap_or(plan);
+    let lines: Vec<_> = raisable(&scene.checked, shaded).into_iter().collect();
+    let each = MOST / (lines.len() as u64 + 2);
+    let places = looked_at(shaded, each);
     let written = scene.graph(Some(plan.mode.inks), Precision::NATIVE)?;
     // What blocks leave out is no line's.
     let graph = coarse(&written, plan.graph.image.block);
-    let mut native = Native::new(&graph);
+    let mut native = Native::within(&graph, MOST);
     let native: Vec<Pixel> = places.iter().map(|(x, y)| native.pixel(*x, *y)).collect();
-    let shaded = shaded.unwrap_or(plan);
     let look = |nodes: Vec<bool>| -> Option<(f64, usize)> {
-        let mut run = RaisedRun::new(shaded, nodes);
+        let mut run = RaisedRun::within(shaded, nodes, 2 * each);
         let (mut squares, mut differ) = (0.0, 0);
         for ((x, y), native) in places.iter().zip(&native) {
             if interrupt::pressed() {
@@ -73,7 +79,6 @@ pub fn errors_with(scene: &Scene, plan: &Plan, shaded: Option<&Plan>) -> Outcome
         Some((squares / places.len().max(1) as f64, differ))
     };
     let (square, differ) = look(Vec::new()).ok_or(Failure::Interrupted)?;
-    let lines: Vec<_> = raisable(&scene.checked, shaded).into_iter().collect();
     let progress = Progress::new("errors by line", lines.len() as u64);
     let without = lines.into_par_iter().map(|(line, nodes)| {
         let (left, differ) = look(nodes)?;
@@ -97,4 +102,23 @@ pub fn errors_with(scene: &Scene, plan: &Plan, shaded: Option<&Plan>) -> Outcome
         differ,
         lines: lines.ok_or(Failure::Interrupted)?,
     })
+}
+
+/// The pixels of a plan that are looked at: of a sample as many as so many statements reach,
+/// spread over it, in the order of the scan.
+fn looked_at(plan: &Plan, most: u64) -> Vec<(i32, i32)> {
+    let window = Window::of(plan);
+    let mut some = match plan.graph.diffusion {
+        // Pixels want those before them.
+        Some(_) => window.grid(GRID),
+        None => window.grid_coarse_first(GRID),
+    };
+    let mut run = RaisedRun::within(plan, Vec::new(), most);
+    let reached = some.iter().take_while(|(x, y)| {
+        run.pixel(*x, *y);
+        !run.spent()
+    });
+    some.truncate(reached.count());
+    some.sort_unstable_by_key(|(x, y)| (*y, *x));
+    some
 }

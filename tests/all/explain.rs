@@ -274,8 +274,8 @@ fn raised_values_are_exact() {
         let native = lowered(1e-9, f64::EPSILON / 2.0, true);
         let mut native = Native::new(&native);
         let mut model = ModelRun::new(&planned);
-        let mut same = RaisedRun::new(&planned, Vec::new());
-        let mut exact = RaisedRun::new(&planned, all);
+        let mut same = RaisedRun::within(&planned, Vec::new(), u64::MAX);
+        let mut exact = RaisedRun::within(&planned, all, u64::MAX);
         let (mut off, mut left) = (0.0, 0.0);
         for (x, y) in (0..8).flat_map(|y| (0..16).map(move |x| (x, y))) {
             let (model, same) = (model.pixel(x, y), same.pixel(x, y));

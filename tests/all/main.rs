@@ -56,6 +56,7 @@ mod peers_dialect;
 mod peers_drawings;
 #[cfg(feature = "peers")]
 mod peers_jsbeeb;
+mod planning;
 mod precise;
 mod predicted;
 mod ramps;

@@ -70,3 +70,23 @@ fn a_divisor_that_may_be_zero_is_named_with_its_range() {
     // What a condition or a range excludes is no fault.
     assert_eq!(said.matches("may divide").count(), 1, "{said}");
 }
+
+/// A pixel that takes more steps than are run to look at one is not one without a fault.
+#[test]
+fn nothing_is_said_of_pixels_that_nobody_looked_at() {
+    let turns = |k: u32, inner: &str| {
+        format!(
+            "loop (i{k} = 0) max 65535 {{ if i{k} > 60000 then i{k} else next(i{k} + 1 + {inner}) }} \
+             else 0"
+        )
+    };
+    let nest = turns(0, &format!("({}) mod 2", turns(1, "(x + y) mod 2")));
+    let text = format!("image 8 x 8 inks black, white;\ndraw (x, y) = ink({nest} mod 2);\n");
+    let dir = directory(&[("nest.scn", &text)]);
+    let said = success(dir.path(), &["check", "nest.scn", "-t", "jack"]);
+    assert!(!said.contains("nothing to remark"), "{said}");
+    let unseen = "no pixel could be looked at in f316: a single one takes more steps";
+    assert!(said.contains(unseen), "{said}");
+    let found = json(dir.path(), &["check", "nest.scn", "-t", "jack", "--json"]);
+    assert_eq!(found["formats"][0]["unseen"], true);
+}

@@ -81,6 +81,11 @@ impl<'p> ModelRun<'p> {
         self.run.spent()
     }
 
+    /// How many statements are worth running yet.
+    pub fn left(&self) -> u64 {
+        self.run.left()
+    }
+
     /// The ink and shade of the picture's column `x`, row `y`. Where the plan
     /// does not compute the shade, it is ink/(inks - 1).
     pub fn pixel(&mut self, x: i32, y: i32) -> Pixel {

@@ -93,6 +93,11 @@ impl<'t, A: Arithmetic> Run<'t, A> {
         self.left == 0
     }
 
+    /// How many statements are worth running yet.
+    pub fn left(&self) -> u64 {
+        self.left
+    }
+
     /// How often a home was read that nothing had written on this path.
     pub fn unset_reads(&self) -> u64 {
         self.unset

@@ -17,8 +17,10 @@ use crate::passes::region::Fact;
 use slowlight_routine::{Format, Op, Value};
 use std::collections::HashMap;
 
-/// How many conditions are looked at both ways, at most: each only sets more apart.
+/// How many conditions are looked at both ways, at most: each only sets more apart. Of a large
+/// program as many as so many pairs of a step and a place allow.
 const CASES: usize = 24;
+const PAIRS: usize = 2_000_000_000;
 
 /// One statement, or a part of one.
 #[derive(Default)]
@@ -264,7 +266,8 @@ impl<'p> Flow<'p> {
             let at = |at: usize| place.is_some() && writes(&self.steps[at]) && inside(at);
             !(0..self.steps.len()).any(at)
         });
-        again.truncate(CASES);
+        let pairs = self.steps.len() * self.places.len();
+        again.truncate(CASES.min(PAIRS / pairs.max(1)));
         again
     }
 
@@ -297,32 +300,45 @@ impl<'p> Flow<'p> {
         let (steps, places) = (self.steps.len(), self.places.len());
         let mut before = vec![Set::new(places); steps];
         let mut behind = vec![Set::new(places); steps];
+        let mut all = Set::new(places);
         let mut changed = true;
         while changed {
             changed = false;
             for at in (0..steps).rev() {
-                let step = &self.steps[at];
-                let mut all = behind[at].clone();
-                self.next(at, case).for_each(|to| all.add_all(&before[to]));
-                behind[at].clone_from(&all);
+                let (step, behind) = (&self.steps[at], &mut behind[at]);
+                self.next(at, case)
+                    .for_each(|to| behind.add_all(&before[to]));
+                all.0.copy_from_slice(&behind.0);
                 if let Some(place) = step.writes {
                     all.remove(place);
                 }
                 step.reads.iter().for_each(|place| all.add(*place));
                 if all != before[at] {
-                    before[at] = all;
+                    std::mem::swap(&mut all, &mut before[at]);
                     changed = true;
                 }
             }
         }
-        for (at, set) in behind.iter_mut().enumerate() {
-            for (place, (from, to)) in self.span.iter().enumerate() {
-                if at < *from || at >= *to {
-                    set.remove(place);
-                }
+        self.keep_spans(&mut behind);
+        behind
+    }
+
+    /// Leaves of the places behind each step those that may hold something there.
+    fn keep_spans(&self, behind: &mut [Set]) {
+        let mut begins: Vec<Vec<usize>> = vec![Vec::new(); behind.len()];
+        let mut ends = begins.clone();
+        for (place, (from, to)) in self.span.iter().enumerate() {
+            if from < to {
+                begins[*from].push(place);
+                ends[*to].push(place);
             }
         }
-        behind
+        let mut open = Set::new(self.places.len());
+        for (at, set) in behind.iter_mut().enumerate() {
+            begins[at].iter().for_each(|place| open.add(*place));
+            ends[at].iter().for_each(|place| open.remove(*place));
+            set.keep_all(&open);
+        }
     }
 }
 
@@ -347,9 +363,16 @@ impl Set {
         self.0[place / 64] >> (place % 64) & 1 == 1
     }
 
-    fn add_all(&mut self, other: &Set) {
+    pub fn add_all(&mut self, other: &Set) {
         for (word, more) in self.0.iter_mut().zip(&other.0) {
             *word |= more;
+        }
+    }
+
+    /// Keeps what another set has, too.
+    pub fn keep_all(&mut self, other: &Set) {
+        for (word, other) in self.0.iter_mut().zip(&other.0) {
+            *word &= other;
         }
     }
 
@@ -361,11 +384,11 @@ impl Set {
     }
 
     pub fn iter(&self) -> impl Iterator<Item = usize> {
-        let words = self.0.iter().enumerate().filter(|(_, word)| **word != 0);
-        words.flat_map(|(k, word)| {
-            (0..64)
-                .filter(move |bit| word >> bit & 1 == 1)
-                .map(move |bit| 64 * k + bit)
+        let words = self.0.iter().enumerate();
+        words.flat_map(|(k, &word)| {
+            let rest = std::iter::successors(Some(word), |word| Some(word & word.wrapping_sub(1)));
+            let rest = rest.take_while(|word| *word != 0);
+            rest.map(move |word| 64 * k + word.trailing_zeros() as usize)
         })
     }
 }

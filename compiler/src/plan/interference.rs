@@ -11,8 +11,8 @@ use super::alive::{Flow, Set};
 use crate::flow::graph::*;
 use crate::flow::tree::*;
 use crate::passes::region::{Fact, implied};
-use slowlight_routine::Op;
-use std::collections::HashMap;
+use slowlight_routine::{Format, Op};
+use std::collections::{HashMap, HashSet};
 
 /// The variables of places.
 #[derive(Clone, Debug, Default)]
@@ -102,15 +102,16 @@ impl Flow<'_> {
             let steps = self.steps.iter().zip(&reached);
             let steps = steps.filter_map(|(step, reached)| step.writes.filter(|_| *reached));
             steps.for_each(|place| set.add(place));
-            for (at, step) in self.steps.iter().enumerate().filter(|(at, _)| reached[*at]) {
+            let steps = self.steps.iter().zip(alive).zip(reached);
+            for ((step, mut others), _) in steps.filter(|(_, reached)| *reached) {
                 let Some(written) = step.writes else { continue };
-                for other in alive[at].iter() {
-                    if other != written && step.copies != Some(other) && set.has(other) {
-                        meets.add(written, other);
-                    }
-                }
+                others.keep_all(&set);
+                others.remove(written);
+                step.copies.iter().for_each(|from| others.remove(*from));
+                meets.0[written].add_all(&others);
             }
         }
+        meets.both_ways();
         meets
     }
 
@@ -126,22 +127,19 @@ impl Flow<'_> {
         };
         order.sort_by_key(|place| (folded(*place), self.span[*place].0));
         let mut homes = Homes::default();
-        let mut given: Vec<(usize, usize)> = Vec::new();
+        let mut given: Vec<Option<usize>> = vec![None; self.places.len()];
+        let formats: Vec<Format> = (0..given.len()).map(|place| self.format(place)).collect();
         for place in order {
             let one = classes.of(place);
             homes.one.insert(self.places[place], self.places[one]);
-            let found = given.iter().find(|(class, _)| *class == one);
-            let number = found.map(|(_, number)| *number).unwrap_or_else(|| {
-                let taken: Vec<usize> = (given.iter())
-                    .filter(|(class, _)| self.format(*class) == self.format(one))
-                    .filter(|(class, _)| meets.between(*class, one) || close.between(*class, one))
-                    .map(|(_, number)| *number)
+            let number = given[one].unwrap_or_else(|| {
+                let taken: HashSet<usize> = (meets.0[one].iter().chain(close.0[one].iter()))
+                    .filter(|class| formats[*class] == formats[one])
+                    .filter_map(|class| given[class])
                     .collect();
                 (0..).find(|number| !taken.contains(number)).unwrap_or(0)
             });
-            if found.is_none() {
-                given.push((one, number));
-            }
+            given[one] = Some(number);
             homes.number.insert(self.places[place], number);
         }
         homes
@@ -159,6 +157,15 @@ impl Interference {
     fn add(&mut self, a: usize, b: usize) {
         self.0[a].add(b);
         self.0[b].add(a);
+    }
+
+    /// What was noted of one of two for both.
+    fn both_ways(&mut self) {
+        for place in 0..self.0.len() {
+            let others = std::mem::replace(&mut self.0[place], Set::new(0));
+            others.iter().for_each(|other| self.0[other].add(place));
+            self.0[place] = others;
+        }
     }
 
     fn between(&self, a: usize, b: usize) -> bool {

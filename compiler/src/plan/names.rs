@@ -6,8 +6,9 @@ use std::collections::{HashMap, HashSet};
 
 /// A name for every place that the tree writes.
 pub fn homes(graph: &Graph, tree: &Tree) -> HashMap<Place, String> {
-    let mut taken: HashSet<String> = graph.params.iter().map(Param::label).collect();
-    taken.extend(["x".to_owned(), "y".to_owned()]);
+    let mut taken = Taken::default();
+    taken.names.extend(graph.params.iter().map(Param::label));
+    taken.names.extend(["x".to_owned(), "y".to_owned()]);
     let mut homes = HashMap::new();
     for block in tree.blocks() {
         walk(block, &mut |statement| {
@@ -18,7 +19,7 @@ pub fn homes(graph: &Graph, tree: &Tree) -> HashMap<Place, String> {
             };
             homes
                 .entry(place)
-                .or_insert_with(|| unique(&wanted(graph, place), &mut taken));
+                .or_insert_with(|| taken.unique(&wanted(graph, place)));
         });
     }
     homes
@@ -53,31 +54,41 @@ fn wanted(graph: &Graph, place: Place) -> String {
     }
 }
 
-/// The name cleaned to an identifier, numbered where it is taken.
-fn unique(name: &str, taken: &mut HashSet<String>) -> String {
-    let mut clean: String = name
-        .chars()
-        .map(|c| {
-            if c.is_ascii_alphanumeric() {
-                c.to_ascii_lowercase()
-            } else {
-                '_'
-            }
-        })
-        .take(24)
-        .collect();
-    if !clean.starts_with(|c: char| c.is_ascii_lowercase()) {
-        clean.insert(0, 'v');
-    }
-    if taken.insert(clean.clone()) {
-        return clean;
-    }
-    let mut number = 2;
-    loop {
-        let candidate = format!("{clean}_{number}");
-        if taken.insert(candidate.clone()) {
-            return candidate;
+/// Names that are given away.
+#[derive(Default)]
+struct Taken {
+    names: HashSet<String>,
+    /// The first number behind a name that may be free: a large program has thousands of a name.
+    next: HashMap<String, usize>,
+}
+
+impl Taken {
+    /// The name cleaned to an identifier, numbered where it is taken.
+    fn unique(&mut self, name: &str) -> String {
+        let mut clean: String = name
+            .chars()
+            .map(|c| {
+                if c.is_ascii_alphanumeric() {
+                    c.to_ascii_lowercase()
+                } else {
+                    '_'
+                }
+            })
+            .take(24)
+            .collect();
+        if !clean.starts_with(|c: char| c.is_ascii_lowercase()) {
+            clean.insert(0, 'v');
         }
-        number += 1;
+        if self.names.insert(clean.clone()) {
+            return clean;
+        }
+        let number = self.next.entry(clean.clone()).or_insert(2);
+        loop {
+            let candidate = format!("{clean}_{number}");
+            *number += 1;
+            if self.names.insert(candidate.clone()) {
+                return candidate;
+            }
+        }
     }
 }

@@ -27,7 +27,7 @@ use crate::eval::run::Run;
 use crate::flow::graph::*;
 use crate::flow::tree::Statement;
 use slowlight_routine::{Format, Narrow, Type};
-use std::cell::RefCell;
+use std::cell::{Cell, RefCell};
 
 /// How often groups are looked for.
 const ROUNDS: u32 = 4;
@@ -42,6 +42,10 @@ const AT_STAKE: usize = 500;
 /// that something of every part of the picture is seen where patience ends before its rows do.
 const PATIENCE: u64 = 24_000_000;
 const APART: i32 = 8;
+
+/// How many statements may run in the routines' models, all plans together, before no more
+/// groups are looked at.
+const MODELLED: u64 = 400_000_000;
 
 /// A plan with as many values narrow as its picture allows, where its format knows two
 /// widths.
@@ -67,6 +71,7 @@ pub(super) fn narrowed(mut plan: Plan) -> Plan {
         narrow,
         pixels,
         often,
+        left: Cell::new(MODELLED),
     };
     let mut plan = search.found();
     plan.params = own;
@@ -127,6 +132,8 @@ struct Search {
     pixels: Vec<Pixel>,
     /// How often a pixel computes each node.
     often: Vec<f64>,
+    /// How many statements may run yet.
+    left: Cell<u64>,
 }
 
 impl Search {
@@ -155,7 +162,7 @@ impl Search {
             if wrong.len() < best.0 {
                 best = (wrong.len(), narrow);
             }
-            if wrong.len() <= limit {
+            if wrong.len() <= limit || self.left.get() == 0 {
                 break;
             }
             at_stake.extend(wrong);
@@ -174,7 +181,7 @@ impl Search {
         let mut cost = self.cost();
         let mut groups = vec![reals];
         let mut left = WORK / narrow.len().max(1);
-        while let Some(group) = groups.pop().filter(|_| left > 0) {
+        while let Some(group) = groups.pop().filter(|_| left > 0 && self.left.get() > 0) {
             left -= 1;
             let mut tried = narrow.clone();
             group.iter().for_each(|id| tried[id.0 as usize] = true);
@@ -209,9 +216,12 @@ impl Search {
     /// Those of some pixels whose inks are wrong.
     fn wrong(&self, pixels: &[Pixel]) -> Vec<Pixel> {
         // In fewer bits a loop may go on for longer: what does not end in time is wrong.
-        let mut run = ModelRun::within(&self.plan, 4 * PATIENCE);
+        let most = 4 * PATIENCE;
+        let mut run = ModelRun::within(&self.plan, most);
         let mut all = pixels.to_vec();
         all.retain(|(x, y, ink)| run.pixel(*x, *y).ink != *ink || run.spent());
+        let ran = most - run.left();
+        self.left.set(self.left.get().saturating_sub(ran));
         all
     }
 

@@ -116,9 +116,13 @@ pub struct Seen {
     pub ran: usize,
 }
 
-/// Runs the model at some pixels, in the order of the scan, and watches the effects.
-/// What begins a row or a run of columns is counted at each pixel.
-pub fn watch(plan: &Plan, pixels: &[(i32, i32)]) -> BTreeMap<u16, Seen> {
+/// How many statements may run to watch effects, and how many to count turns.
+const MOST: u64 = 100_000_000;
+
+/// Runs the model at some pixels, row by row, and watches the effects. What begins a run of
+/// columns is counted at each pixel. Where pixels take more work than is worth it, only the
+/// first of them are watched: also how many were.
+pub fn watch(plan: &Plan, pixels: &[(i32, i32)]) -> (BTreeMap<u16, Seen>, usize) {
     let watched = Heard {
         arithmetic: Model(plan),
         listener: Watched {
@@ -127,22 +131,27 @@ pub fn watch(plan: &Plan, pixels: &[(i32, i32)]) -> BTreeMap<u16, Seen> {
         },
     };
     let log = &watched.listener.log;
-    let mut run = Run::new(&plan.graph, &plan.tree, &watched);
+    let mut run = Run::within(&plan.graph, &plan.tree, &watched, MOST);
     let mut found: BTreeMap<u16, Seen> = BTreeMap::new();
     log.borrow_mut().clear();
-    for (done, (x, y)) in pixels.iter().enumerate() {
+    let mut done = 0;
+    for (x, y) in pixels {
         run.pixel(*x, *y);
+        if run.spent() {
+            break;
+        }
         for (effect, cycles) in std::mem::take(&mut *log.borrow_mut()) {
             let seen = found.entry(effect).or_default();
             seen.cycles.resize(done, 0);
             seen.cycles.push(cycles);
             seen.ran += 1;
         }
+        done += 1;
     }
     for seen in found.values_mut() {
-        seen.cycles.resize(pixels.len(), 0);
+        seen.cycles.resize(done, 0);
     }
-    found
+    (found, done)
 }
 
 /// Notes what the operations of effects cost.
@@ -163,7 +172,8 @@ impl Listener<Bits> for Watched<'_> {
 }
 
 /// How often the loops of effects go round, by effect, in a scene's graph as it is written:
-/// a compiled one may have a loop's first turns in front of it, or none left.
+/// a compiled one may have a loop's first turns in front of it, or none left. Loops end early
+/// once that has taken more work than is worth it.
 pub fn turns(graph: &Graph, pixels: &[(i32, i32)]) -> BTreeMap<u16, Turns> {
     // What earlier pixels send only moves the ink.
     let graph = &Graph {
@@ -178,9 +188,12 @@ pub fn turns(graph: &Graph, pixels: &[(i32, i32)]) -> BTreeMap<u16, Turns> {
             log: RefCell::default(),
         },
     };
-    let mut run = Run::new(graph, &tree, &counted);
+    let mut run = Run::within(graph, &tree, &counted, MOST);
     for (x, y) in pixels {
         run.pixel(*x, *y);
+        if run.spent() {
+            break;
+        }
     }
     counted.listener.log.take()
 }

@@ -119,9 +119,9 @@ pub fn fragile(plan: &Plan) -> Found {
             for &what in &frame {
                 tally.add(&shadow, what, (x, y), differs);
             }
+            looked += 1;
         }
         tally.end_of_row(&columns, y);
-        looked += 1;
     }
     tally.found(columns.len(), looked)
 }
@@ -240,7 +240,7 @@ impl Tally {
         }
     }
 
-    fn found(self, columns: usize, rows: usize) -> Found {
+    fn found(self, columns: usize, looked: usize) -> Found {
         let each = self.places.into_iter().map(|((node, weakness), place)| {
             let mut counts: BTreeMap<u32, usize> = BTreeMap::new();
             for (y, _) in &place.pixels {
@@ -257,7 +257,7 @@ impl Tally {
             }
         });
         Found {
-            looked: columns * rows,
+            looked,
             fragile: each.collect(),
         }
     }

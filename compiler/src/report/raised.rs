@@ -120,13 +120,19 @@ pub struct RaisedRun<'p> {
 }
 
 impl<'p> RaisedRun<'p> {
-    /// `nodes`: which are raised, by their numbers.
-    pub fn new(plan: &'p Plan, nodes: Vec<bool>) -> RaisedRun<'p> {
+    /// `nodes`: which are raised, by their numbers; no more than so many statements are worth
+    /// running ([`Run::within`]).
+    pub fn within(plan: &'p Plan, nodes: Vec<bool>, most: u64) -> RaisedRun<'p> {
         let arithmetic = Raised { plan, nodes };
         RaisedRun {
             plan,
-            run: Run::new(&plan.graph, &plan.tree, arithmetic),
+            run: Run::within(&plan.graph, &plan.tree, arithmetic, most),
         }
+    }
+
+    /// Whether all of them have run.
+    pub fn spent(&self) -> bool {
+        self.run.spent()
     }
 
     /// The ink and shade of the picture's column `x`, row `y`; where the plan does not

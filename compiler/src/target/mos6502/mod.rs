@@ -225,6 +225,26 @@ pub fn document(plan: &Plan, syntax: &Syntax) -> Document {
     written(plan, syntax, true)
 }
 
+/// The program that a plan's is for other rows of the picture: the same, but for what the
+/// parameters say.
+pub fn for_rows(document: &Document, (first, last): (u32, u32)) -> Document {
+    let mut other = document.clone();
+    other.text.clear();
+    for line in document.text.lines() {
+        let row = params::ROWS
+            .iter()
+            .zip([first, last])
+            .find_map(|(name, row)| {
+                let said = line.strip_prefix(name)?.strip_prefix(" = ")?;
+                let (_, remark) = said.split_once(';')?;
+                Some(format!("{:<24};{remark}", format!("{name} = {row}")))
+            });
+        other.text.push_str(row.as_deref().unwrap_or(line));
+        other.text.push('\n');
+    }
+    other
+}
+
 /// A plan's program before it is read again as a whole ([`tidy`]), which only ever makes it
 /// shorter, and takes much longer than to write it.
 pub fn draft(plan: &Plan) -> Document {

@@ -54,6 +54,9 @@ impl Entry {
     }
 }
 
+/// What the first and the last row to draw are called.
+pub(super) const ROWS: [&str; 2] = ["first_row", "last_row"];
+
 pub(super) fn entries(plan: &Plan, homes: &Homes) -> Vec<Entry> {
     let bound = |text: Option<&String>, end: i32| {
         let parsed = text
@@ -83,18 +86,11 @@ pub(super) fn entries(plan: &Plan, homes: &Homes) -> Vec<Entry> {
         });
     }
     let shown = plan.shown_rows();
-    for (slot, row) in [
-        (Slot::Rows(false), plan.rows.0),
-        (Slot::Rows(true), plan.rows.1),
-    ] {
+    let rows = [(false, plan.rows.0), (true, plan.rows.1)];
+    for ((is_last, row), name) in rows.into_iter().zip(ROWS) {
         all.push(Entry {
-            symbol: if slot == Slot::Rows(true) {
-                "last_row"
-            } else {
-                "first_row"
-            }
-            .to_owned(),
-            slot,
+            symbol: name.to_owned(),
+            slot: Slot::Rows(is_last),
             text: row.to_string(),
             least: shown.0.to_string(),
             greatest: shown.1.to_string(),

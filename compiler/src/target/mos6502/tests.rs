@@ -404,3 +404,14 @@ fn the_runtimes_zero_page_may_stand_elsewhere() {
         }
     }
 }
+
+/// A program for fewer rows is made of the whole one's text.
+#[test]
+fn rows_are_parameters() {
+    let mut plan = planned(GRADIENT);
+    let whole = super::emit(&plan);
+    plan.rows = (1, 2);
+    let some: Vec<_> = whole.iter().map(|d| super::for_rows(d, (1, 2))).collect();
+    assert_eq!(some, super::emit(&plan));
+    assert_ne!(some, whole);
+}
