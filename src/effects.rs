@@ -5,6 +5,7 @@
 //! included. An effect that is not called is shown to cost nothing: its item is
 //! taken out of its file, and the program is compiled once more.
 
+use crate::auto_format;
 use crate::digest;
 use crate::draw::Window;
 use crate::explain::{Counted, count_lines};
@@ -147,7 +148,9 @@ pub fn look(
     screen: &ScreenArgs,
     limit: u64,
 ) -> Outcome<Effects> {
-    let plan = screen.plan(scene, target, &[])?;
+    let plan = auto_format::plan(screen, scene, target)?.said();
+    // Everything else is held against that, in its format.
+    let screen = &screen.in_format_of(plan.target);
     let mut counted = count_lines(scene, plan.clone(), screen, limit)?;
     let computed = Window::of(&plan).count();
     let pixels = sample(&plan);

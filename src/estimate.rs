@@ -11,7 +11,7 @@
 
 use crate::draw::{Window, coarse_first};
 use slowlight_compiler::eval::heard::{Heard, Listener};
-use slowlight_compiler::eval::model::Model;
+use slowlight_compiler::eval::model::{self, Model};
 use slowlight_compiler::eval::run::Run;
 use slowlight_compiler::flow::graph::{Graph, NodeId};
 use slowlight_compiler::flow::tree::{Statement, walk};
@@ -24,7 +24,7 @@ use slowlight_routine::{Bits, Format};
 use std::cell::Cell;
 use std::collections::HashMap;
 
-/// Rows and columns of the sample.
+/// Rows and columns of the usual sample.
 const GRID: u32 = 24;
 
 /// How many statements may run for that: what is known by then stands for the rest.
@@ -93,8 +93,22 @@ impl Listener<Bits> for Adding<'_> {
 
 type Adds<'t, 'p> = Run<'t, &'t Heard<Model<'p>, Adding<'p>>>;
 
+/// What the model shows at a sample of a plan's pixels.
+pub struct Sampled {
+    /// The cycles that the plan's statements take, all rows and columns together.
+    pub cycles: f64,
+    /// Pixels: column, row, and ink.
+    pub inks: Vec<(u32, u32, u8)>,
+}
+
 /// The cycles that a plan's statements take, all rows and columns together.
 pub fn cycles(plan: &Plan) -> f64 {
+    sampled(plan, GRID, MOST).cycles
+}
+
+/// The same, with the inks of a sample of so many rows and columns; of which only a part is
+/// looked at once so many statements have run.
+pub fn sampled(plan: &Plan, side: u32, most: u64) -> Sampled {
     let mut window = Window::of(plan);
     let mut graph = plan.graph.clone();
     let mut sends = 0.0;
@@ -112,35 +126,40 @@ pub fn cycles(plan: &Plan) -> f64 {
         listener: Adding::new(plan),
     };
     let added = &heard.listener;
-    let mut run = Run::within(&graph, &plan.tree, &heard, MOST);
+    let mut run = Run::within(&graph, &plan.tree, &heard, most);
     let still = plan.still.as_ref();
     let frame = added.sum(When::Frame);
-    let (rows, columns) = (coarse_first(sample(window.rows)), sample(window.columns));
-    let (mut pixels, mut sampled, mut begun) = (0.0, 0, 0);
+    let rows = coarse_first(sample(window.rows, side));
+    let columns = sample(window.columns, side);
+    let mut inks = Vec::new();
+    let (mut pixels, mut begun) = (0.0, 0);
     'rows: for &y in &rows {
         begun += 1;
         for &x in &columns {
             let before = added.sum(When::Pixel);
-            run.pixel(x as i32, y as i32);
+            let ink = model::ink(plan, run.pixel(x as i32, y as i32));
+            if run.spent() {
+                break 'rows;
+            }
+            inks.push((x, y, ink));
             pixels += match still.filter(|still| holds(plan, still, &run)) {
                 Some(still) => asked(still, &added.costs),
                 None => added.sum(When::Pixel) - before,
             };
-            sampled += 1;
-            if run.spent() {
-                break 'rows;
-            }
         }
     }
-    let sampled = f64::from(sampled.max(1));
+    let looked = inks.len().max(1) as f64;
     let row = added.sum(When::Row) / f64::from(begun.max(1));
-    let pass = added.sum(When::Pass) / sampled;
+    let pass = added.sum(When::Pass) / looked;
     let runs = runs(plan, &graph, &mut run, added, window);
     let steps = added.costs.steps(&plan.tree.row) + added.costs.steps(&plan.tree.pass);
-    let pixel = pixels / sampled + steps + sends;
+    let pixel = pixels / looked + steps + sends;
     let passes = f64::from(passes(&graph));
     let (width, height) = (f64::from(window.width()), f64::from(window.height()));
-    frame + (row + (pass + runs) * passes + pixel * width) * height
+    Sampled {
+        cycles: frame + (row + (pass + runs) * passes + pixel * width) * height,
+        inks,
+    }
 }
 
 /// What begins runs of columns, in a pass.
@@ -157,7 +176,7 @@ fn runs(
     let bounds = bounds(plan, graph);
     let passes = passes(graph);
     let step = passes * window.width().div_ceil(passes * COLUMNS).max(1);
-    let rows = sample(window.rows);
+    let rows = sample(window.rows, GRID);
     let mut sum = 0.0;
     for &y in &rows {
         let mut before = None;
@@ -200,10 +219,10 @@ fn asked(still: &Still, costs: &Costs<'_>) -> f64 {
     }
 }
 
-/// Up to [`GRID`] numbers spread evenly between two, both included.
-fn sample((first, last): (u32, u32)) -> Vec<u32> {
+/// Up to so many numbers spread evenly between two, both included.
+fn sample((first, last): (u32, u32), most: u32) -> Vec<u32> {
     let span = last - first;
-    let steps = span.min(GRID - 1);
+    let steps = span.min(most - 1);
     let at = |k: u32| first + (u64::from(span) * u64::from(k) / u64::from(steps.max(1))) as u32;
     (0..=steps).map(at).collect()
 }
@@ -214,9 +233,9 @@ mod tests {
 
     #[test]
     fn samples_reach_both_ends() {
-        assert_eq!(sample((5, 5)), [5]);
-        assert_eq!(sample((0, 3)), [0, 1, 2, 3]);
-        let wide = sample((9, 239));
+        assert_eq!(sample((5, 5), GRID), [5]);
+        assert_eq!(sample((0, 3), GRID), [0, 1, 2, 3]);
+        let wide = sample((9, 239), GRID);
         assert_eq!(wide.len(), GRID as usize);
         assert_eq!((wide.first(), wide.last()), (Some(&9), Some(&239)));
     }

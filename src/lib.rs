@@ -6,6 +6,7 @@
 
 pub mod against;
 pub mod ascii;
+pub mod auto_format;
 pub mod cases;
 pub mod colours;
 pub mod commands;

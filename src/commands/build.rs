@@ -1,5 +1,6 @@
 //! `build`: sources ready for the real machine, or a stage on the way there.
 
+use crate::auto_format;
 use crate::colours;
 use crate::failure::{Failure, Outcome};
 use crate::forecast::{self, Forecast, forecast};
@@ -79,7 +80,7 @@ pub fn run(args: &Args) -> Outcome<()> {
     let target = target(args)?;
     files::may_hold(&args.output)?;
     scene.warn();
-    let plan = args.screen.plan(&scene, target, &[])?;
+    let plan = auto_format::plan(&args.screen, &scene, target)?.said();
     inks::warn(&scene, &plan)?;
     colours::warn(&scene, plan.target);
     let more = match args.screen.style {
@@ -245,9 +246,9 @@ fn documents(syntax: Option<&'static Syntax>, plan: &Plan) -> Vec<Document> {
 /// The plan of a stage, which may be looked at also where its program does not fit.
 fn plan(args: &Args, scene: &Scene) -> Outcome<Plan> {
     let target = target(args)?;
-    match args.screen.plan(scene, target, &[]) {
+    match auto_format::plan(&args.screen, scene, target) {
         Err(Failure::Wrong(_)) => args.screen.draft(scene, target),
-        plan => plan,
+        plan => Ok(plan?.said()),
     }
 }
 

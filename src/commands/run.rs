@@ -1,6 +1,7 @@
 //! `run`: build, run on the bundled machine, compare.
 
 use crate::against::Reference;
+use crate::auto_format;
 use crate::colours;
 use crate::failure::{Failure, Outcome};
 use crate::format::{count, duration, table};
@@ -99,7 +100,7 @@ struct Report<'t> {
 fn prepare(args: &Args, scene: &Scene) -> Outcome<(Plan, program::Values, Loaded)> {
     let machine = args.screen.machine(args.target)?;
     let machine = HeapOf::of(args.heap, args.screen.os, machine)?;
-    let plan = args.screen.plan(scene, args.target, &[])?;
+    let plan = auto_format::plan(&args.screen, scene, args.target)?.said();
     let Some(dir) = &args.program else {
         let loaded = trial::build_for(&plan, machine)?.loaded;
         return Ok((plan, Vec::new(), loaded));
@@ -119,7 +120,8 @@ fn prepare(args: &Args, scene: &Scene) -> Outcome<(Plan, program::Values, Loaded
         let out = "leave --rows out, or change its first and last row";
         return Err(Failure::Usage(format!("{what} {first}..{last}; {out}")));
     }
-    let mut plan = args.screen.plan(scene, args.target, &set)?;
+    let screen = args.screen.in_format_of(plan.target);
+    let mut plan = screen.plan(scene, args.target, &set)?;
     plan.rows = rows;
     Ok((plan, set, machine.load(&sources)?))
 }

@@ -1,5 +1,6 @@
 //! `snapshot`: what scenes compile to, draw and cost, kept beside them.
 
+use crate::auto_format;
 use crate::failure::{Failure, Outcome};
 use crate::given::{Given, quoted};
 use crate::output::{self, remark};
@@ -172,7 +173,7 @@ impl Case<'_> {
     fn look(&self, args: &Args) -> Outcome<Found> {
         let making = &self.making.args;
         let scene = Scene::open(self.path, &making.changes)?;
-        let plan = making.screen.plan(&scene, self.target, &[])?;
+        let plan = auto_format::plan(&making.screen, &scene, self.target)?.plan;
         let built = trial::build_for(&plan, making.screen.machine(plan.target)?)?;
         let trial = trial::run(&scene, plan, &[], built.loaded, args.limit)?;
         let made = snapshot::Made {

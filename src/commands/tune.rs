@@ -44,7 +44,7 @@ pub struct Args {
     #[arg(long, value_name = "TIME", value_parser = goal::time)]
     within: Option<f64>,
     /// Build the quickest program that is off by no more: 0.5% or 0.005
-    #[arg(long, value_name = "E", value_parser = goal::share)]
+    #[arg(long, value_name = "E", value_parser = target_args::share)]
     error: Option<f64>,
     /// Build one whose code, tables and memory take no more bytes: 8K
     #[arg(long, value_name = "BYTES", value_parser = goal::bytes)]

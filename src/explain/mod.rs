@@ -5,6 +5,7 @@ pub mod error;
 pub mod html;
 pub mod terminal;
 
+use crate::auto_format;
 use crate::draw::Window;
 use crate::failure::{Failure, Outcome};
 use crate::machine::{LineRoles, MachineRun, complaint};
@@ -113,7 +114,7 @@ pub fn explain(
     screen: &ScreenArgs,
     limit: u64,
 ) -> Outcome<Explained> {
-    let plan = screen.plan(&scene, target, &[])?;
+    let plan = auto_format::plan(screen, &scene, target)?.said();
     let counted = count_lines(&scene, plan, screen, limit)?;
     let profile = profile::profile(&scene.checked, &counted.plan, counted.measured());
     let errors = error::errors(&scene, &counted.plan)?;

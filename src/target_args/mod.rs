@@ -2,10 +2,15 @@
 //! that they lead to.
 
 mod heap;
+mod items;
 mod read;
+mod values;
 
 pub use heap::HeapOf;
 pub use read::*;
+pub use values::*;
+
+use items::items;
 
 use crate::failure::{Failure, Outcome};
 use crate::fit;
@@ -15,12 +20,10 @@ use crate::progress::Waiting;
 use crate::scene::{Limits, Precision, Scene};
 use crate::trial;
 use crate::ways::WayArgs;
-use clap::{Args, ValueEnum};
+use clap::Args;
 use slowlight_compiler::passes::coarse::coarse;
 use slowlight_compiler::plan::{Goal, Plan, SEARCH};
 use slowlight_compiler::plan::{plan_as_written, plan_with_every_shade, plan_within};
-use slowlight_compiler::sema::{FunctionKind, Program};
-use slowlight_compiler::source::Span;
 use slowlight_compiler::target::{self, Mode, Target};
 use std::sync::Once;
 
@@ -48,6 +51,13 @@ pub struct ScreenArgs {
     /// How reals are held, where the machine has several ways (see `slowlight targets`)
     #[arg(long, value_name = "F")]
     pub format: Option<String>,
+    /// What share of the pixels may have another ink than natively, where no --format is
+    /// given: the quickest format within it is taken [default: 1%]
+    #[arg(long, value_name = "E", value_parser = share, conflicts_with = "format")]
+    pub error: Option<f64>,
+    /// The same in a word: `fast` 3%, `balanced` 1%, `exact` 0.1%
+    #[arg(long, value_name = "GOAL", conflicts_with_all = ["format", "error"])]
+    pub goal: Option<ErrorGoal>,
     /// Where programs begin on a BBC Micro, in hexadecimal: 1900 with a disc, E00 without
     /// [default: 1900; machine code that needs more moves itself down to E00]
     #[arg(long, value_name = "PAGE", value_parser = page)]
@@ -85,27 +95,9 @@ pub struct ScreenArgs {
     pub thrift: Option<u8>,
 }
 
-/// An operating system for Jack programs.
-#[derive(ValueEnum, Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Os {
-    /// The VM's own: a call counts as one VM instruction
-    Native,
-    /// Ours, written in Jack
-    Jack,
-}
-
 /// Whether a target is one of those in machine code of the 6502.
 pub fn is_6502(target: &Target) -> bool {
     target.name.starts_with("6502:")
-}
-
-/// How a program is written.
-#[derive(ValueEnum, Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Style {
-    /// To be quick: in BASIC one-letter names, long lines
-    Fast,
-    /// To be read: in BASIC the scene's names, a remark for each of its items
-    Listing,
 }
 
 impl ScreenArgs {
@@ -180,7 +172,7 @@ impl ScreenArgs {
     ///
     /// # Errors
     /// Where it has no such format.
-    fn in_format(&self, target: &'static Target) -> Outcome<&'static Target> {
+    fn formatted(&self, target: &'static Target) -> Outcome<&'static Target> {
         let Some(name) = &self.format else {
             return Ok(target);
         };
@@ -208,7 +200,7 @@ impl ScreenArgs {
         target: &'static Target,
         set: &[(String, Vec<f64>)],
     ) -> Outcome<Plan> {
-        let target = self.in_format(target)?;
+        let target = self.formatted(target)?;
         let modes = self.modes(target, scene.size())?;
         let (_waiting, _blind) = (Waiting::new("planning"), interrupt::blind());
         let name = |span| scene.called_at(span);
@@ -223,12 +215,39 @@ impl ScreenArgs {
         }
     }
 
+    /// The same options, with a plan's format asked for.
+    pub fn in_format_of(&self, target: &Target) -> ScreenArgs {
+        ScreenArgs {
+            format: Some(target.runtime.format.to_owned()),
+            ..self.clone()
+        }
+    }
+
+    /// The share of pixels that may be wrong in a format that nobody asked for.
+    pub fn error_goal(&self) -> f64 {
+        let goal = self.goal.unwrap_or(ErrorGoal::Balanced);
+        self.error.unwrap_or(goal.share())
+    }
+
+    /// A plan of the whole picture without a search, whether or not its program fits.
+    ///
+    /// # Errors
+    /// As for [`ScreenArgs::draft`].
+    pub fn sketch(&self, scene: &Scene, target: &'static Target) -> Outcome<Plan> {
+        let mode = self.mode(target, scene.size())?;
+        let whole = ScreenArgs {
+            rows: None,
+            ..self.clone()
+        };
+        whole.plan_in((mode, 0), scene, target, &[])
+    }
+
     /// Plans a scene for the best mode, whether or not its program fits.
     ///
     /// # Errors
     /// Where the scene does not compile for it, or the options do not fit.
     pub fn draft(&self, scene: &Scene, target: &'static Target) -> Outcome<Plan> {
-        let target = self.in_format(target)?;
+        let target = self.formatted(target)?;
         let mode = self.mode(target, scene.size())?;
         let _blind = interrupt::blind();
         self.plan_in((mode, SEARCH), scene, target, &[])
@@ -324,31 +343,6 @@ fn say_cut() {
              scene, or a nest of loops): there may be a quicker one"
         );
     });
-}
-
-/// A scene's items, the library's included: where each stands, and what to call
-/// it; nothing for those that compute nothing.
-fn items(program: &Program) -> Vec<(Span, String)> {
-    let from = |library: bool| if library { " (library)" } else { "" };
-    let functions = program.functions.iter().map(|f| {
-        let kind = match f.kind {
-            FunctionKind::Effect { .. } => "effect",
-            FunctionKind::Dither => "dither",
-            _ => "fn",
-        };
-        (f.span, format!("{kind} {}{}", f.name, from(f.library)))
-    });
-    let shapes = program.shapes.iter();
-    let shapes = shapes.map(|s| (s.span, format!("shape {}{}", s.name, from(s.library))));
-    let scenes = program
-        .scenes
-        .iter()
-        .map(|s| (s.span, format!("scene {}", s.name)));
-    let draw = program.draw.iter().map(|d| (d.span, "draw".to_owned()));
-    let params = program.params.iter().map(|p| (p.span, String::new()));
-    let consts = program.consts.iter().map(|c| (c.span, String::new()));
-    let all = functions.chain(shapes).chain(scenes).chain(draw);
-    all.chain(params).chain(consts).collect()
 }
 
 /// Rows of a picture as rows of blocks.

@@ -126,3 +126,18 @@ pub fn rows(text: &str, height: u32) -> Outcome<(u32, u32)> {
         ))),
     }
 }
+
+/// Reads `--error`: `0.5%` or `0.005`.
+///
+/// # Errors
+/// Where it is no share.
+pub fn share(text: &str) -> Result<f64, String> {
+    let (number, size) = match text.trim().strip_suffix('%') {
+        Some(number) => (number.trim_end(), 0.01),
+        None => (text.trim(), 1.0),
+    };
+    match number.parse::<f64>() {
+        Ok(n) if (0.0..=1.0).contains(&(n * size)) => Ok(n * size),
+        _ => Err("write an error as a share, as in 0.5% or 0.005".to_owned()),
+    }
+}

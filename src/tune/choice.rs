@@ -6,7 +6,7 @@ use crate::target_args::{Os, ScreenArgs};
 use crate::trial::HACK_HERTZ;
 use crate::ways::WayArgs;
 use serde::{Deserialize, Serialize};
-use slowlight_compiler::target::Target;
+use slowlight_compiler::target::{Target, formats};
 use std::path::PathBuf;
 
 /// What is left out of a picture for speed.
@@ -92,7 +92,8 @@ impl Base {
     pub fn words(&self, choice: &Choice) -> Vec<String> {
         let mut words = Vec::new();
         let mut add = |option: &str, value: String| words.extend([option.to_owned(), value]);
-        if choice.format != self.target.runtime.format {
+        // Unless it is the only one, another may be taken unasked.
+        if formats(self.target).count() > 1 {
             add("--format", choice.format.clone());
         }
         for value in &self.changes.set {
@@ -202,16 +203,29 @@ mod tests {
 
     #[test]
     fn what_is_as_usual_needs_no_option() {
-        let choice = Choice {
+        let mut choice = Choice {
             setting: Setting::WHOLE,
-            format: "f316".to_owned(),
+            format: "real40".to_owned(),
             frozen: false,
             outlined: false,
             thrift: 0,
         };
-        assert!(base().words(&choice).is_empty());
-        let command = base().command(&choice, "run");
-        assert_eq!(command, "slowlight run 'two mirrors.scn' --target jack");
+        let usual = |target: &str, choice: &Choice| {
+            let target = find(target).expect("a target");
+            Base { target, ..base() }.command(choice, "run")
+        };
+        let command = usual("bbc:micro", &choice);
+        assert_eq!(
+            command,
+            "slowlight run 'two mirrors.scn' --target bbc:micro"
+        );
+        // Where there are others, one of those might be taken.
+        choice.format = "f316".to_owned();
+        let command = usual("jack", &choice);
+        assert!(
+            command.ends_with("--target jack --format f316"),
+            "{command}"
+        );
     }
 
     #[test]

@@ -114,21 +114,6 @@ pub fn time(text: &str) -> Result<f64, String> {
     }
 }
 
-/// Reads `--error`: `0.5%` or `0.005`.
-///
-/// # Errors
-/// Where it is no share.
-pub fn share(text: &str) -> Result<f64, String> {
-    let (number, size) = match text.trim().strip_suffix('%') {
-        Some(number) => (number.trim_end(), 0.01),
-        None => (text.trim(), 1.0),
-    };
-    match number.parse::<f64>() {
-        Ok(n) if (0.0..=1.0).contains(&(n * size)) => Ok(n * size),
-        _ => Err("write an error as a share, as in 0.5% or 0.005".to_owned()),
-    }
-}
-
 /// Reads `--memory`: `8K`, `32768`.
 ///
 /// # Errors
@@ -244,6 +229,7 @@ impl Goals {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::target_args::share;
 
     #[test]
     fn goals_are_read() {

@@ -5,12 +5,13 @@
 //! `// mark bbc:micro: the original = 17779441084 cycles, 0.0081%`.
 
 use super::choice::Base;
-use super::goal::{percent, share, time};
+use super::goal::{percent, time};
 use crate::failure::Outcome;
 use crate::format::duration;
 use crate::scene::{self, Scene};
 use crate::sheet::escaped;
 use crate::target_args::Os;
+use crate::target_args::share;
 use slowlight_compiler::source::{Diagnostic, Span};
 use slowlight_compiler::target;
 use std::fmt::Write as _;

@@ -37,6 +37,12 @@ pub fn directory(files: &[(&str, &str)]) -> tempfile::TempDir {
     dir
 }
 
+/// The format of reals that a target has first: another may be taken where none is asked for.
+pub fn usual_format(target: &str) -> &'static str {
+    let found = slowlight_compiler::target::find(target).expect("a target");
+    found.runtime.format
+}
+
 /// The names in a directory, sorted.
 pub fn names(dir: &Path) -> Vec<String> {
     let entries = std::fs::read_dir(dir).expect("a directory");

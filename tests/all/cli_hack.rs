@@ -232,7 +232,7 @@ fn what_does_not_fit_the_rom_is_not_written() {
     let dir = directory(&[]);
     let dir = dir.path();
     let run = |command: &str, more: &[&str]| {
-        let args = [command, scene, "-t", "jack", "--os"];
+        let args = [command, scene, "-t", "jack", "--format", "f316", "--os"];
         slowlight(dir, &[&args[..], more].concat())
     };
     let output = run("build", &["jack"]);
@@ -321,7 +321,7 @@ fn the_systems_part_of_the_heap_counts() {
     let (fits, large) = (scene(1150), scene(1178));
     let dir = directory(&[("fits.scn", &fits), ("large.scn", &large)]);
     let dir = dir.path();
-    let run = ["run", "-t", "jack", "--json", "--os"];
+    let run = ["run", "-t", "jack", "--format", "f316", "--json", "--os"];
     for (name, system) in [("fits.scn", "jack"), ("large.scn", "native")] {
         let found = json(dir, &[&run[..], &[system, name]].concat());
         assert_eq!(found["differs_from_model"], 0, "{name}");

@@ -75,7 +75,7 @@ fn accepted_snapshots_hold_until_something_changes() {
     assert!(!first.contains(&text));
     // What a runtime brings is not the scene's, and the parameter block is shown.
     let jack = read(files[1]);
-    assert!(jack.contains("==> Float.jack <==\nsha256: "), "{jack}");
+    assert!(jack.contains("==> Fixed.jack <==\nsha256: "), "{jack}");
     assert!(jack.contains("let wide = 2"), "{jack}");
     assert!(jack.len() < 8000, "{} bytes", jack.len());
     assert!(

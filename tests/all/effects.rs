@@ -1,7 +1,7 @@
 //! `effects`: what it says of a called effect is what leaving it out changes; what
 //! is not called costs nothing.
 
-use crate::cli::{directory, json, slowlight, success};
+use crate::cli::{directory, json, slowlight, success, usual_format};
 use crate::cli_run::{SPOT, targets};
 use serde_json::Value;
 use std::path::Path;
@@ -122,8 +122,12 @@ fn a_pixels_cycles_are_the_machines() {
         ("bbc:agon", &both[..1]),
     ];
     for (target, names) in cases {
-        let args = ["effects", "lit.scn", "-t", target, "--as-written", "--json"];
-        let found = json(dir.path(), &args);
+        let format = usual_format(target);
+        let args = ["effects", "lit.scn", "-t", target, "--format", format];
+        let found = json(
+            dir.path(),
+            &[&args[..], &["--as-written", "--json"]].concat(),
+        );
         for name in names {
             let row = row(&found, name);
             let counted = &row["pixel_cycles"];
@@ -160,14 +164,31 @@ draw (x, y) = {
 fn what_the_ink_does_not_need_is_not_computed() {
     let dir = directory(&[("shaded.scn", SHADED)]);
     for target in ["6502:plain", "jack", "bbc:micro"] {
-        let args = ["effects", "shaded.scn", "-t", target, "--json"];
+        let format = usual_format(target);
+        let args = [
+            "effects",
+            "shaded.scn",
+            "-t",
+            target,
+            "--format",
+            format,
+            "--json",
+        ];
         let known = &json(dir.path(), &args)["known_before_shade"];
         assert_eq!(known["inks_changed"], 0, "{target}");
         let saved = known["cycles_saved"].as_i64().expect("cycles");
         assert!(saved > 0, "{target}: {saved}");
         // What is said is what running both says.
         let run = |more: &[&str]| {
-            let args = ["run", "shaded.scn", "-t", target, "--json"];
+            let args = [
+                "run",
+                "shaded.scn",
+                "-t",
+                target,
+                "--format",
+                format,
+                "--json",
+            ];
             let run = json(dir.path(), &[&args[..], more].concat());
             assert_eq!(run["differs_from_model"], 0);
             run["cycles"].as_i64().expect("cycles")

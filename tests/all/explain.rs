@@ -1,6 +1,6 @@
 //! `explain`: every cycle of a machine is told by the scene's lines, on every target.
 
-use crate::cli::{directory, json, names, slowlight, success};
+use crate::cli::{directory, json, names, slowlight, success, usual_format};
 use crate::cli_run::{SPOT, targets};
 use serde_json::Value;
 use slowlight_compiler::eval::model::ModelRun;
@@ -185,7 +185,8 @@ fn lines_are_told_with_what_they_call() {
     assert_ne!(told, TOLD);
     let dir = directory(&[("told.scn", &told)]);
     for target in targets(dir.path()) {
-        let profile = held(dir.path(), "told.scn", &target, &[]);
+        let format = ["--format", usual_format(&target)];
+        let profile = held(dir.path(), "told.scn", &target, &format);
         let lines = profile["lines"].as_array().expect("a list");
         let line = |number: u64| {
             let found = lines.iter().find(|line| line["line"] == number);

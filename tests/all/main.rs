@@ -2,6 +2,7 @@
 
 mod accuracy;
 mod any_assembler;
+mod auto_format;
 mod basic_discs;
 mod bbc;
 mod blue_noise;

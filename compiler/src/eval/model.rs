@@ -90,19 +90,15 @@ impl<'p> ModelRun<'p> {
     /// does not compute the shade, it is ink/(inks - 1).
     pub fn pixel(&mut self, x: i32, y: i32) -> Pixel {
         let plan = self.plan;
-        let top = plan.graph.image.palette.len().saturating_sub(1) as i32;
+        let top = plan.graph.image.palette.len().saturating_sub(1);
         let bits = self.run.pixel(x, y);
-        let ink = (plan.runtime.decode)(bits, plan.runtime.int).int();
-        let ink = ink.clamp(0, top.max(0));
+        let ink = ink(plan, bits);
         let shade = plan.graph.shade.and_then(|id| {
             let bits = self.run.last(id)?;
             Some((plan.runtime.decode)(bits, plan.format(id)).real())
         });
-        let shade = shade.unwrap_or(f64::from(ink) / f64::from(top.max(1)));
-        Pixel {
-            ink: ink as u8,
-            shade,
-        }
+        let shade = shade.unwrap_or(f64::from(ink) / top.max(1) as f64);
+        Pixel { ink, shade }
     }
 
     /// The bits of what the graph reports, after the last pixel.
@@ -115,4 +111,11 @@ impl<'p> ModelRun<'p> {
     pub fn unset_reads(&self) -> u64 {
         self.run.unset_reads()
     }
+}
+
+/// The number of the ink that a plan's pixel comes to, within the picture's inks.
+pub fn ink(plan: &Plan, bits: Bits) -> u8 {
+    let top = plan.graph.image.palette.len().saturating_sub(1) as i32;
+    let ink = (plan.runtime.decode)(bits, plan.runtime.int).int();
+    ink.clamp(0, top.max(0)) as u8
 }

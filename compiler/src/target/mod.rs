@@ -42,6 +42,8 @@ pub struct Target {
     pub offset: f64,
     /// Cycles a second, for estimates of the machine's time.
     pub hertz: f64,
+    /// Cycles that its programs take for tables of the runtime's before they begin a scene.
+    pub starts: u32,
     /// What statements take in its programs where memory is short.
     pub sizes: Sizes,
     /// Whether a sum of ints that leaves 32 bits silently loses what is above them.

@@ -87,6 +87,7 @@ pub static MICRO: Target = Target {
     modes: screen::MICRO,
     offset: OFFSET,
     hertz: 2_000_000.0,
+    starts: 0,
     sizes: SIZES,
     wraps: true,
     columns: 1024,
@@ -107,6 +108,7 @@ pub static AGON: Target = Target {
     offset: OFFSET,
     // Measured: the two mirrors in 11.6 minutes for BASIC II's 17.8e9 cycles.
     hertz: 25_500_000.0,
+    starts: 0,
     sizes: SIZES,
     wraps: false,
     columns: 1024,
@@ -123,6 +125,7 @@ pub static BASIC_V: Target = Target {
     offset: OFFSET,
     // Measured: 0.15 seconds for the same program.
     hertz: 1.2e11,
+    starts: 0,
     sizes: SIZES,
     wraps: false,
     columns: 1024,

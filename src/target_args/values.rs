@@ -1,0 +1,43 @@
+//! What options may be set to, by name.
+
+use clap::ValueEnum;
+
+/// An operating system for Jack programs.
+#[derive(ValueEnum, Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Os {
+    /// The VM's own: a call counts as one VM instruction
+    Native,
+    /// Ours, written in Jack
+    Jack,
+}
+
+/// How many pixels may be wrong, for people.
+#[derive(ValueEnum, Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ErrorGoal {
+    /// 3% of the pixels
+    Fast,
+    /// 1%
+    Balanced,
+    /// 0.1%
+    Exact,
+}
+
+impl ErrorGoal {
+    /// As a share.
+    pub fn share(self) -> f64 {
+        match self {
+            ErrorGoal::Fast => 0.03,
+            ErrorGoal::Balanced => 0.01,
+            ErrorGoal::Exact => 0.001,
+        }
+    }
+}
+
+/// How a program is written.
+#[derive(ValueEnum, Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Style {
+    /// To be quick: in BASIC one-letter names, long lines
+    Fast,
+    /// To be read: in BASIC the scene's names, a remark for each of its items
+    Listing,
+}

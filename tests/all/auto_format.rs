@@ -1,0 +1,164 @@
+//! The format that is taken where none is asked for: the quickest within the error goal, as
+//! whole pictures on the machines have it.
+
+use crate::cli::{directory, json, slowlight};
+use serde_json::Value;
+use slowlight_compiler::target::{TARGETS, formats};
+use std::path::Path;
+
+/// A ball over a floor: few pixels are wrong in most formats.
+const BALL: &str = "image 64 x 48 inks black, #808080, white;
+    param size: real = 1.0 in 0.5 .. 1.5;
+    const sun = (-0.48, 0.8, 0.36);
+    scene s { sphere((0, 0, 0), size) is 0.9; plane((0, 1, 0), -1) is 0.6; }
+    draw (x, y) = {
+      let r = pinhole((0, 1.2, 4.6), at: (0, -0.15, 0), field: 46deg).through(x, y);
+      let v = if let h = s.trace(r, far: 20) then h.tag * (0.2 + 0.8 * lambert(h, sun)) else 0.1;
+      threshold(v, bayer(4)[x mod 4, y mod 4])
+    };";
+
+/// Steps of an orbit that doubles errors: formats of few bits lose it.
+const ORBIT: &str = "image 64 x 48 inks black, white;
+    draw (x, y) = {
+      let c = x / 64;
+      let v = loop (z = 0.1 + y / 60, k = 0) max 8 {
+        if k >= 7 then z else next((3.4 + 0.5 * c) * z * (1 - z), k + 1)
+      } else 0.0;
+      threshold(v, 0.5)
+    };";
+
+/// Sines of the place alone.
+const WAVES: &str = "image 64 x 48 inks black, white;
+    draw (x, y) = threshold(0.5 + 0.25 * sin(x * 1rad / 7) + 0.25 * sin((y / 5 + x / 11) * 1rad), 0.5);";
+
+const SCENES: [(&str, &str); 3] = [
+    ("ball.scn", BALL),
+    ("orbit.scn", ORBIT),
+    ("waves.scn", WAVES),
+];
+
+fn ran(dir: &Path, scene: &str, target: &str, more: &[&str]) -> Value {
+    let args = ["run", scene, "--target", target, "--json"];
+    json(dir, &[&args[..], more].concat())
+}
+
+fn cycles(run: &Value) -> u64 {
+    run["cycles"].as_u64().expect("cycles")
+}
+
+/// The share of pixels that are not as natively.
+fn wrong(run: &Value) -> f64 {
+    let number = |key: &str| run[key].as_f64().expect("a number");
+    number("differs_from_native") / number("pixels")
+}
+
+#[test]
+fn no_format_within_the_goal_is_much_quicker_than_the_one_taken() {
+    let dir = directory(&SCENES);
+    let mut taken = Vec::new();
+    for target in TARGETS.iter().filter(|t| formats(t).count() > 1) {
+        // Boards of the same processor are alike.
+        let some = if target.name == "6502:bbc" || target.name == "6502:c64" {
+            1
+        } else {
+            3
+        };
+        for (scene, _) in &SCENES[..some] {
+            let own = ran(dir.path(), scene, target.name, &[]);
+            let name = own["format"].as_str().expect("a format").to_owned();
+            let said = format!("{scene} {}: {name}", target.name);
+            let all: Vec<(String, Value)> = formats(target)
+                // A width for each value is not looked for unasked.
+                .filter(|t| t.runtime.narrow.is_none())
+                .map(|t| t.runtime.format.to_owned())
+                .map(|f| {
+                    (
+                        f.clone(),
+                        ran(dir.path(), scene, target.name, &["--format", &f]),
+                    )
+                })
+                .collect();
+            let within = |goal: f64| all.iter().filter(move |(_, run)| wrong(run) <= goal);
+            // By a sample: a little more may be wrong, and what is near the goal may be left.
+            match within(0.01).next() {
+                Some(_) => assert!(wrong(&own) <= 0.015, "{said} {}", wrong(&own)),
+                None => assert!(all.iter().all(|(_, run)| wrong(run) >= 0.8 * wrong(&own))),
+            }
+            for (other, run) in within(0.005) {
+                let (own, run) = (cycles(&own), cycles(run));
+                assert!(own <= run + run / 5, "{said} {own}, {other} {run}");
+            }
+            taken.push(name);
+        }
+    }
+    taken.sort();
+    taken.dedup();
+    assert!(taken.len() > 1, "{taken:?}");
+}
+
+#[test]
+fn the_error_that_is_allowed_decides() {
+    let dir = directory(&SCENES);
+    let run = |more: &[&str]| ran(dir.path(), "orbit.scn", "6502:plain", more);
+    let (exact, usual, any) = (run(&["--error", "0"]), run(&[]), run(&["--error", "100%"]));
+    assert!(wrong(&exact) <= wrong(&usual) && wrong(&usual) <= wrong(&any));
+    assert!(cycles(&any) < cycles(&exact), "{any} {exact}");
+    assert_ne!(any["format"], exact["format"]);
+    assert_eq!(run(&["--goal", "balanced"]), usual);
+}
+
+#[test]
+fn some_rows_are_in_the_format_of_the_whole() {
+    let dir = directory(&SCENES);
+    let format = |rows: &[&str]| ran(dir.path(), "ball.scn", "jack", rows)["format"].clone();
+    let whole = format(&[]);
+    for rows in ["0", "20..23", "47"] {
+        assert_eq!(format(&["--rows", rows]), whole, "{rows}");
+    }
+}
+
+#[test]
+fn a_format_that_is_asked_for_is_taken_in_silence() {
+    let dir = directory(&SCENES);
+    let said = |more: &[&str]| {
+        let args = ["run", "waves.scn", "--target", "jack"];
+        let output = slowlight(dir.path(), &[&args[..], more].concat());
+        assert_eq!(output.status.code(), Some(0));
+        String::from_utf8_lossy(&output.stderr).into_owned()
+    };
+    assert!(said(&[]).contains("note: format "), "{}", said(&[]));
+    assert!(!said(&["--format", "f316"]).contains("note: format"));
+    let both = [
+        "run",
+        "waves.scn",
+        "-t",
+        "jack",
+        "--format",
+        "f316",
+        "--error",
+        "1%",
+    ];
+    assert_eq!(slowlight(dir.path(), &both).status.code(), Some(2));
+}
+
+/// What a target states that its programs take before they begin a scene.
+#[test]
+fn tables_that_programs_make_first_take_what_is_stated() {
+    // A table of logarithms is asked for, and squares.
+    let dir = directory(&[(
+        "one.scn",
+        "image 1 x 1 inks black, white;
+        param a: real = 1.3 in 1 .. 2;
+        draw (x, y) = threshold(a * a + sqrt(a + x) / (a + y) - a, 0.5);",
+    )]);
+    for target in TARGETS {
+        for target in formats(target).filter(|t| t.starts > 0) {
+            let format = ["--format", target.runtime.format];
+            let run = ran(dir.path(), "one.scn", target.name, &format);
+            let (took, stated) = (cycles(&run), u64::from(target.starts));
+            // The screen is cleared, too, and a pixel computed.
+            let about = stated..stated + 200_000;
+            assert!(about.contains(&took), "{} {format:?}: {took}", target.name);
+        }
+    }
+}
