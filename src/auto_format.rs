@@ -7,12 +7,14 @@
 //! which inks are not the native ones ([`estimate::sampled`]). Then the quickest within the goal
 //! is planned in earnest, and looked at again by a larger sample: a draft has neither the final
 //! word lengths nor the final formulas. Where that goes beyond the goal, or the program does not
-//! fit its machine, the next one has its turn.
+//! fit its machine, the next one has its turn; a draft that is half as large again as the machine
+//! is left out.
 //!
 //! The whole picture is looked at, whatever rows are asked for: a format is chosen for a scene.
 
 use crate::estimate::{self, Sampled};
 use crate::failure::{Failure, Outcome};
+use crate::need;
 use crate::scene::{Precision, Scene};
 use crate::target_args::ScreenArgs;
 use rayon::prelude::*;
@@ -72,7 +74,7 @@ pub struct Why {
     pub goal: f64,
     /// The share that is expected to be, by a sample of the plan's own.
     pub expected: f64,
-    /// How many times as long the usual format's draft takes; 1 where that is taken.
+    /// How many times as long the usual format's draft takes; 1 where nothing is known of it.
     pub gain: f64,
 }
 
@@ -91,31 +93,33 @@ struct Draft {
 /// # Errors
 /// As for [`ScreenArgs::plan`].
 pub fn plan(screen: &ScreenArgs, scene: &Scene, target: &'static Target) -> Outcome<Chosen> {
-    if screen.format.is_some() || formats(target).count() < 2 {
+    let usual = || {
         let plan = screen.plan(scene, target, &[])?;
-        return Ok(Chosen { plan, why: None });
+        Ok(Chosen { plan, why: None })
+    };
+    if screen.format.is_some() || formats(target).count() < 2 {
+        return usual();
     }
     let goal = screen.error_goal();
-    let usual = |why| {
-        let plan = screen.plan(scene, target, &[])?;
-        Ok(Chosen { plan, why })
-    };
     let drafts = drafts(screen, scene, target, goal);
-    let Some(own) = drafts
-        .iter()
-        .find(|d| d.target.runtime.format == target.runtime.format)
-    else {
-        return usual(None);
-    };
+    let own = |draft: &&Draft| draft.target.runtime.format == target.runtime.format;
+    let own = drafts.iter().find(own).map(|draft| draft.cycles);
     let mut best: Option<Chosen> = None;
+    let mut too_large = 0;
     let surest = drafts.iter().min_by(|a, b| a.wrong.total_cmp(&b.wrong));
     for draft in drafts.iter().take(TRIES - 1).chain(surest) {
         let plan = match screen.in_format_of(draft.target).plan(scene, target, &[]) {
-            Err(Failure::Wrong(_) | Failure::Scene(_)) => continue,
+            // To find that out takes longest.
+            Err(Failure::Wrong(_)) if too_large > 0 => break,
+            Err(Failure::Wrong(_)) => {
+                too_large += 1;
+                continue;
+            }
+            Err(Failure::Scene(_)) => continue,
             plan => plan?,
         };
         let expected = expected(scene, &plan, draft.rows)?;
-        let gain = own.cycles / draft.cycles.max(1.0);
+        let gain = own.map_or(1.0, |own| own / draft.cycles.max(1.0));
         let why = Some(Why {
             goal,
             expected,
@@ -131,12 +135,13 @@ pub fn plan(screen: &ScreenArgs, scene: &Scene, target: &'static Target) -> Outc
     }
     match best {
         Some(best) => Ok(best),
-        None => usual(None),
+        None => usual(),
     }
 }
 
-/// The formats that a scene compiles for: those that may be within the goal, the quickest first,
-/// then the others, those with fewest pixels wrong first.
+/// The formats that a scene compiles for, and in which its program is not by far too large:
+/// those that may be within the goal, the quickest first, then the others, those with fewest
+/// pixels wrong first.
 fn drafts(screen: &ScreenArgs, scene: &Scene, target: &'static Target, goal: f64) -> Vec<Draft> {
     // Where values have two widths, which of them are narrow is found by a search of its own,
     // that takes longer than it gains.
@@ -144,6 +149,9 @@ fn drafts(screen: &ScreenArgs, scene: &Scene, target: &'static Target, goal: f64
     let all: Vec<&'static Target> = formats(target).filter(one_width).collect();
     let sampled = |&target: &&'static Target| {
         let plan = screen.sketch(scene, target).ok()?;
+        if !need::is_near(&plan).ok()? {
+            return None;
+        }
         let seen = estimate::sampled(&plan, DRAFT_SIDE, DRAFT);
         Some((plan, seen))
     };

@@ -183,6 +183,18 @@ const READ_AGAIN: u64 = 80_000;
 /// which are alive at the same time is looked at for each of them.
 const PAIRS: u64 = 2;
 
+/// Whether a plan's program is near to what the machine holds, by its text as it is first
+/// written.
+///
+/// # Errors
+/// As for [`need`].
+pub fn is_near(plan: &Plan) -> Outcome<bool> {
+    if plan.target.name.starts_with("6502") {
+        return Ok(assembly(plan, &mos6502::draft(plan)).is_near());
+    }
+    Ok(need(plan)?.is_none_or(|need| need.is_near()))
+}
+
 /// What a plan's program takes of the Hack's heap where this operating system has its
 /// part of it.
 pub fn need_beside(plan: &Plan, system: &[File]) -> Need {

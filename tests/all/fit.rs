@@ -1,6 +1,6 @@
 //! What fits a machine, and what is said of what does not.
 
-use crate::cli::{directory, json, names, slowlight};
+use crate::cli::{directory, json, names, slowlight, usual_format};
 
 const ROOM: &str = include_str!("../../examples/room.scn");
 
@@ -135,7 +135,17 @@ fn what_does_not_fit_is_said_in_bytes() {
     );
     let dir = directory(&[("large.scn", &scene)]);
     for target in ["bbc:micro", "6502:plain"] {
-        let args = ["build", "large.scn", "-t", target, "-o", "out"];
+        let format = usual_format(target);
+        let args = [
+            "build",
+            "large.scn",
+            "-t",
+            target,
+            "--format",
+            format,
+            "-o",
+            "out",
+        ];
         let output = slowlight(dir.path(), &args);
         let said = String::from_utf8_lossy(&output.stderr);
         assert_eq!(output.status.code(), Some(1), "{said}");
@@ -151,7 +161,16 @@ fn what_does_not_fit_is_said_in_bytes() {
         }
         assert_eq!(names(dir.path()), ["large.scn"]);
         // A stage may be looked at all the same.
-        let args = ["build", "large.scn", "-t", target, "--emit", "text"];
+        let args = [
+            "build",
+            "large.scn",
+            "-t",
+            target,
+            "--format",
+            format,
+            "--emit",
+            "text",
+        ];
         let output = slowlight(dir.path(), &args);
         assert_eq!(output.status.code(), Some(0));
     }

@@ -47,9 +47,10 @@ fn scene_is_the_same(scene: &str, dir: &Path, options: &[&str]) -> (f64, u64) {
 
 #[test]
 fn a_torus_in_floats() {
-    let (share, words) = same("torus", &["--rows", "150..151", "--freeze", "all"]);
+    let floats = |options: &[&str]| same("torus", &[options, &["--format", "f316"]].concat());
+    let (share, words) = floats(&["--rows", "150..151", "--freeze", "all"]);
     assert!(share < 2.5 && words < 20_000, "{share} {words}");
-    let (share, words) = same("torus", &["--rows", "90", "--set", "eye=0.5,1.75,3.5"]);
+    let (share, words) = floats(&["--rows", "90", "--set", "eye=0.5,1.75,3.5"]);
     assert!(share < 2.5 && words < 24_000, "{share} {words}");
 }
 

@@ -354,8 +354,8 @@ fn a_planted_dominated_point_is_shown_as_such_and_never_chosen() {
         .filter(|p| p["on_frontier"] == false)
         .collect();
     assert_eq!(bad.len(), 1);
-    assert_eq!(bad[0]["options"], "--block 3");
-    assert_eq!(bad[0]["dominated_by"], "--block 2");
+    assert_eq!(bad[0]["options"], "--format f316 --block 3");
+    assert_eq!(bad[0]["dominated_by"], "--format f316 --block 2");
     assert!(!told.table().contains("--block 3"));
     let choose = |goals: Goals| {
         let point = goals.choose(&told.points, Measure::Pixels);
@@ -374,15 +374,15 @@ fn a_planted_dominated_point_is_shown_as_such_and_never_chosen() {
             ..goals
         })
     };
-    assert_eq!(within(60.0).as_deref(), Some("--block 2"));
-    assert_eq!(error(0.35).as_deref(), Some("--block 2"));
-    assert_eq!(error(0.0).as_deref(), Some(""));
+    assert_eq!(within(60.0).as_deref(), Some("--format f316 --block 2"));
+    assert_eq!(error(0.35).as_deref(), Some("--format f316 --block 2"));
+    assert_eq!(error(0.0).as_deref(), Some("--format f316"));
     assert_eq!(within(9.0), None);
     let small = Goals {
         memory: Some(4500),
         ..goals
     };
-    assert_eq!(choose(small).as_deref(), Some("--block 2"));
+    assert_eq!(choose(small).as_deref(), Some("--format f316 --block 2"));
     let none = Goals {
         error: Some(0.1),
         within: Some(50.0),

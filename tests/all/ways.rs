@@ -1,6 +1,6 @@
 //! Other ways to what a scene asks for: each is what the scene would be if it were written so.
 
-use crate::cli::{directory, json, slowlight};
+use crate::cli::{directory, json, slowlight, usual_format};
 use serde_json::Value;
 
 /// A ring and a floor, found by `{hits}`, a pixel by `{rays}` rays each way.
@@ -26,7 +26,8 @@ const MARCH: &str = "march(r, steps: 24, near: 0.02, far: 9)";
 fn drawn(scene: &str, target: &str, more: &[&str]) -> Value {
     let dir = directory(&[("ring.scn", scene)]);
     let args = ["run", "ring.scn", "-t", target, "--json", "--rows", "4..9"];
-    let run = json(dir.path(), &[&args[..], more].concat());
+    let format = ["--format", usual_format(target)];
+    let run = json(dir.path(), &[&args[..], &format, more].concat());
     assert_eq!(run["differs_from_model"], 0, "{target} {more:?}");
     run
 }

@@ -2,7 +2,7 @@
 //! the model, few from the native picture, for the eye of the scene and for
 //! another, set on the command line or edited into the generated source.
 
-use crate::cli::{directory, json, success};
+use crate::cli::{directory, json, success, usual_format};
 use serde_json::Value;
 use std::path::Path;
 
@@ -51,7 +51,16 @@ const CASES: [Case; 3] = [
 /// A picture's ink digest. Nothing may differ from the model, and no more than so many
 /// pixels from the native picture.
 fn drawn(dir: &Path, target: &str, most: u64, more: &[&str]) -> Value {
-    let run = ["run", "mirrors.scn", "--target", target, "--json"];
+    let format = usual_format(target);
+    let run = [
+        "run",
+        "mirrors.scn",
+        "-t",
+        target,
+        "--format",
+        format,
+        "--json",
+    ];
     let said = json(dir, &[&run[..], more].concat());
     assert_eq!(said["differs_from_model"], 0, "{target} {more:?}");
     let differ = said["differs_from_native"].as_u64().expect("a count");
@@ -71,7 +80,16 @@ fn whole_pictures(case: &Case) {
 
     success(
         dir,
-        &["build", "mirrors.scn", "--target", target, "-o", "out"],
+        &[
+            "build",
+            "mirrors.scn",
+            "-t",
+            target,
+            "--format",
+            usual_format(target),
+            "-o",
+            "out",
+        ],
     );
     let path = dir.join("out").join(case.source);
     let mut text = std::fs::read_to_string(&path).expect("a source");
