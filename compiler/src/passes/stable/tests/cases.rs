@@ -236,7 +236,7 @@ pub const CASES: &[Case] = &[
         on: "jack",
         params: &[("x", -3.0, 0.5)],
         value: "1 - sqrt(1 - x)",
-        vectors: &[("near 0", &[0.01])],
+        vectors: &[("near 0", &[0.001])],
     },
     Case {
         rules: &["one less a cosine"],
