@@ -38,7 +38,12 @@ pub fn pgm(bytes: &[u8]) -> ((usize, usize), Vec<u8>) {
 
 fn case(dir: &Path, mode: u32, options: &[&str]) -> Case {
     let name = mode.to_string();
-    let of = [&["-t", "6502:bbc", "--mode", &name], options].concat();
+    // The quickest format would be over before interrupts have their usual share.
+    let format = match options.contains(&"--format") {
+        true => &[][..],
+        false => &["--format", "fixed16.16"],
+    };
+    let of = [&["-t", "6502:bbc", "--mode", &name], format, options].concat();
     let said = json(
         dir,
         &[&["run", "scene.scn", "--json", "-o", "scene.pgm"], &of[..]].concat(),
