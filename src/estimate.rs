@@ -99,6 +99,8 @@ pub struct Sampled {
     pub cycles: f64,
     /// Pixels: column, row, and ink.
     pub inks: Vec<(u32, u32, u8)>,
+    /// How many pixels the whole sample has.
+    pub of: usize,
 }
 
 /// The cycles that a plan's statements take, all rows and columns together.
@@ -159,6 +161,7 @@ pub fn sampled(plan: &Plan, side: u32, most: u64) -> Sampled {
     Sampled {
         cycles: frame + (row + (pass + runs) * passes + pixel * width) * height,
         inks,
+        of: rows.len() * columns.len(),
     }
 }
 

@@ -7,6 +7,7 @@
 use crate::failure::{Failure, Outcome};
 use crate::format::count;
 use crate::machine::File;
+use crate::target_args::is_6502;
 use slowlight_compiler::flow::tree::{Statement, Tree, walk};
 use slowlight_compiler::fuel::Fuel;
 use slowlight_compiler::plan::Plan;
@@ -155,21 +156,33 @@ pub fn about(plan: &Plan, fuel: &Fuel) -> Outcome<Option<Need>> {
     for block in plan.tree.blocks() {
         walk(block, &mut |_| statements += 1);
     }
-    if !plan.target.name.starts_with("6502") {
+    if !is_6502(plan.target) {
         let written = match plan.target.name {
             "jack" => WRITTEN_IN_JACK,
             _ => WRITTEN_IN_BASIC + statements / PAIRS,
         };
         fuel.burn(written * statements);
-        return need_of(plan, &(plan.target.emit)(plan));
+        return need(plan);
     }
     fuel.burn(WRITTEN_AS_CODE * statements);
-    let draft = assembly(plan, &mos6502::draft(plan));
-    if draft.fits() || !draft.is_near() {
-        return Ok(Some(draft));
+    match first(plan)? {
+        Some(near) if !near.fits() && near.is_near() => {
+            fuel.burn(READ_AGAIN * statements);
+            need(plan)
+        }
+        clear => Ok(clear),
     }
-    fuel.burn(READ_AGAIN * statements);
-    need(plan)
+}
+
+/// The same of a program as it is first written, whatever that says.
+///
+/// # Errors
+/// As for [`need`].
+pub fn first(plan: &Plan) -> Outcome<Option<Need>> {
+    match is_6502(plan.target) {
+        true => Ok(Some(assembly(plan, &mos6502::draft(plan)))),
+        false => need(plan),
+    }
 }
 
 /// Units of work for each statement of a program: to write it and look how large it is, and
@@ -182,18 +195,6 @@ const READ_AGAIN: u64 = 80_000;
 /// Of so many pairs of statements one takes a unit more in BASIC, where variables are shared:
 /// which are alive at the same time is looked at for each of them.
 const PAIRS: u64 = 2;
-
-/// Whether a plan's program is near to what the machine holds, by its text as it is first
-/// written.
-///
-/// # Errors
-/// As for [`need`].
-pub fn is_near(plan: &Plan) -> Outcome<bool> {
-    if plan.target.name.starts_with("6502") {
-        return Ok(assembly(plan, &mos6502::draft(plan)).is_near());
-    }
-    Ok(need(plan)?.is_none_or(|need| need.is_near()))
-}
 
 /// What a plan's program takes of the Hack's heap where this operating system has its
 /// part of it.

@@ -45,6 +45,25 @@ pub fn read(dir: &Path, scene: &str, machine: Machine) -> Outcome<Vec<File>> {
     Ok(found)
 }
 
+/// Whether sources are a plan's program, but for as many lines as its parameter block has.
+pub fn is_of(plan: &Plan, edited: &[File]) -> bool {
+    let changed = |document: &Document| {
+        let Ok(file) = source(edited, &document.name) else {
+            return usize::MAX;
+        };
+        let text = file.as_text();
+        let (own, other) = (document.text.lines(), text.lines());
+        let unlike = own
+            .clone()
+            .zip(other.clone())
+            .filter(|(own, other)| own != other);
+        unlike.count() + own.count().abs_diff(other.count())
+    };
+    let documents = (plan.target.emit)(plan);
+    let changed = documents.iter().map(changed).fold(0, usize::saturating_add);
+    changed <= plan.params.len() + 2
+}
+
 /// The params' values in edited sources, as `--set` would give them. `plan` and
 /// `unedited` are the scene's own.
 ///

@@ -1,11 +1,11 @@
 //! `run`: build, run on the bundled machine, compare.
 
 use crate::against::Reference;
-use crate::auto_format;
+use crate::auto_format::{self, Chosen};
 use crate::colours;
 use crate::failure::{Failure, Outcome};
 use crate::format::{count, duration, table};
-use crate::machine::Loaded;
+use crate::machine::{File, Loaded};
 use crate::measure::{Difference, psnr};
 use crate::picture::PictureFile;
 use crate::scene::{Scene, SceneArgs};
@@ -14,7 +14,7 @@ use crate::trial::{self, LIMIT, Trial};
 use crate::{inks, program, say, say_json};
 use serde::Serialize;
 use slowlight_compiler::plan::Plan;
-use slowlight_compiler::target::Target;
+use slowlight_compiler::target::{Target, formats};
 use std::collections::BTreeMap;
 use std::path::PathBuf;
 
@@ -100,12 +100,14 @@ struct Report<'t> {
 fn prepare(args: &Args, scene: &Scene) -> Outcome<(Plan, program::Values, Loaded)> {
     let machine = args.screen.machine(args.target)?;
     let machine = HeapOf::of(args.heap, args.screen.os, machine)?;
-    let plan = auto_format::plan(&args.screen, scene, args.target)?.said();
+    let chosen = auto_format::plan(&args.screen, scene, args.target)?;
     let Some(dir) = &args.program else {
+        let plan = chosen.said();
         let loaded = trial::build_for(&plan, machine)?.loaded;
         return Ok((plan, Vec::new(), loaded));
     };
     let sources = program::read(dir, &scene.name, machine)?;
+    let plan = of_program(args, scene, chosen, &sources)?;
     let unedited = (args.target.emit)(&plan);
     let set = program::values(&plan, &unedited, &sources)?;
     let rows = program::rows(&plan, &unedited, &sources)?;
@@ -124,6 +126,25 @@ fn prepare(args: &Args, scene: &Scene) -> Outcome<(Plan, program::Values, Loaded
     let mut plan = screen.plan(scene, args.target, &set)?;
     plan.rows = rows;
     Ok((plan, set, machine.load(&sources)?))
+}
+
+/// The plan that a program was made by: it may have been built in another format than is chosen
+/// unasked.
+fn of_program(args: &Args, scene: &Scene, chosen: Chosen, sources: &[File]) -> Outcome<Plan> {
+    if args.screen.format.is_some() || program::is_of(&chosen.plan, sources) {
+        return Ok(chosen.said());
+    }
+    let format = chosen.plan.runtime.format;
+    for target in formats(args.target).filter(|t| t.runtime.format != format) {
+        let screen = args.screen.in_format_of(target);
+        match screen.plan(scene, args.target, &[]) {
+            Ok(plan) if program::is_of(&plan, sources) => return Ok(plan),
+            Ok(_) | Err(Failure::Wrong(_) | Failure::Scene(_)) => {}
+            Err(other) => return Err(other),
+        }
+    }
+    // More of it was edited than its parameters.
+    Ok(chosen.said())
 }
 
 fn report(trial: &Trial, others: &[(String, u64)]) -> String {

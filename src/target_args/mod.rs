@@ -233,7 +233,7 @@ impl ScreenArgs {
     ///
     /// # Errors
     /// As for [`ScreenArgs::draft`].
-    pub fn sketch(&self, scene: &Scene, target: &'static Target) -> Outcome<Plan> {
+    pub fn unsearched(&self, scene: &Scene, target: &'static Target) -> Outcome<Plan> {
         let mode = self.mode(target, scene.size())?;
         let whole = ScreenArgs {
             rows: None,

@@ -1,7 +1,7 @@
 //! The format that is taken where none is asked for: the quickest within the error goal, as
 //! whole pictures on the machines have it.
 
-use crate::cli::{directory, json, slowlight};
+use crate::cli::{LONG, directory, json, slowlight, success, usual_format};
 use serde_json::Value;
 use slowlight_compiler::target::{TARGETS, formats};
 use std::path::Path;
@@ -139,6 +139,50 @@ fn a_format_that_is_asked_for_is_taken_in_silence() {
         "1%",
     ];
     assert_eq!(slowlight(dir.path(), &both).status.code(), Some(2));
+}
+
+/// A program that was built in another format than is taken unasked is run as what it is.
+#[test]
+fn an_edited_program_keeps_its_format() {
+    let dir = directory(&SCENES);
+    for (target, format) in [("jack", "f316"), ("6502:plain", "fixed16.16")] {
+        let args = [
+            "build", "ball.scn", "-t", target, "--format", format, "-o", target,
+        ];
+        success(dir.path(), &args);
+        let name = if target == "jack" {
+            "Ball.jack"
+        } else {
+            "ball.asm"
+        };
+        let path = dir.path().join(target).join(name);
+        let text = std::fs::read_to_string(&path).expect("a source");
+        let line = text.lines().find(|l| l.contains("size = ")).expect("size");
+        let edited = line.replacen("= 1", "= 12", 1).replacen("000", "00", 1);
+        assert_ne!(line, edited);
+        std::fs::write(&path, text.replacen(line, &edited, 1)).expect("a source");
+        assert_ne!(ran(dir.path(), "ball.scn", target, &[])["format"], format);
+        let edited = ran(dir.path(), "ball.scn", target, &["--program", target]);
+        assert_eq!(edited["format"], format);
+        let set = ["--format", format, "--set", "size=1.2"];
+        let set = ran(dir.path(), "ball.scn", target, &set);
+        assert_eq!(edited["inks_sha256"], set["inks_sha256"], "{target}");
+    }
+}
+
+/// Of pixels that take longer than anybody looks nothing is claimed; and the looking ends.
+#[test]
+fn what_nobody_looked_at_is_not_said_to_be_right() {
+    let dir = directory(&[("long.scn", LONG)]);
+    for target in ["jack", "6502:plain"] {
+        let args = ["build", "long.scn", "-t", target, "-o", "out", "--json"];
+        let output = slowlight(dir.path(), &args);
+        let said = String::from_utf8_lossy(&output.stderr);
+        assert_eq!(output.status.code(), Some(0), "{said}");
+        assert!(!said.contains("pixels are wrong"), "{said}");
+        let built: Value = serde_json::from_slice(&output.stdout).expect("JSON");
+        assert_eq!(built["format"], usual_format(target));
+    }
 }
 
 /// What a target states that its programs take before they begin a scene.

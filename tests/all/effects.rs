@@ -165,31 +165,15 @@ fn what_the_ink_does_not_need_is_not_computed() {
     let dir = directory(&[("shaded.scn", SHADED)]);
     for target in ["6502:plain", "jack", "bbc:micro"] {
         let format = usual_format(target);
-        let args = [
-            "effects",
-            "shaded.scn",
-            "-t",
-            target,
-            "--format",
-            format,
-            "--json",
-        ];
+        let of = ["shaded.scn", "-t", target, "--format", format, "--json"];
+        let args = [&["effects"], &of[..]].concat();
         let known = &json(dir.path(), &args)["known_before_shade"];
         assert_eq!(known["inks_changed"], 0, "{target}");
         let saved = known["cycles_saved"].as_i64().expect("cycles");
         assert!(saved > 0, "{target}: {saved}");
         // What is said is what running both says.
         let run = |more: &[&str]| {
-            let args = [
-                "run",
-                "shaded.scn",
-                "-t",
-                target,
-                "--format",
-                format,
-                "--json",
-            ];
-            let run = json(dir.path(), &[&args[..], more].concat());
+            let run = json(dir.path(), &[&["run"], &of[..], more].concat());
             assert_eq!(run["differs_from_model"], 0);
             run["cycles"].as_i64().expect("cycles")
         };

@@ -136,16 +136,8 @@ fn what_does_not_fit_is_said_in_bytes() {
     let dir = directory(&[("large.scn", &scene)]);
     for target in ["bbc:micro", "6502:plain"] {
         let format = usual_format(target);
-        let args = [
-            "build",
-            "large.scn",
-            "-t",
-            target,
-            "--format",
-            format,
-            "-o",
-            "out",
-        ];
+        let build = ["build", "large.scn", "-t", target, "--format", format];
+        let args = [&build[..], &["-o", "out"]].concat();
         let output = slowlight(dir.path(), &args);
         let said = String::from_utf8_lossy(&output.stderr);
         assert_eq!(output.status.code(), Some(1), "{said}");
@@ -161,16 +153,7 @@ fn what_does_not_fit_is_said_in_bytes() {
         }
         assert_eq!(names(dir.path()), ["large.scn"]);
         // A stage may be looked at all the same.
-        let args = [
-            "build",
-            "large.scn",
-            "-t",
-            target,
-            "--format",
-            format,
-            "--emit",
-            "text",
-        ];
+        let args = [&build[..], &["--emit", "text"]].concat();
         let output = slowlight(dir.path(), &args);
         assert_eq!(output.status.code(), Some(0));
     }

@@ -1,6 +1,8 @@
-//! The house: which crate may know which (ARCHITECTURE.md, "Arrows point down only").
+//! The house: which crate may know which (ARCHITECTURE.md, "Arrows point down only"), and what its
+//! documents point at.
 
 use std::collections::BTreeSet;
+use std::path::Path;
 use std::process::Command;
 
 /// The workspace's own crates that a crate's normal dependencies name.
@@ -80,4 +82,28 @@ fn arrows_point_down_only() {
             assert!(may.contains(&used.as_str()), "{name} must not use {used}");
         }
     }
+}
+
+/// What the documents point at is there.
+#[test]
+fn links_of_documents_lead_somewhere() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let mut pages = vec![root.join("README.md"), root.join("ARCHITECTURE.md")];
+    let docs = std::fs::read_dir(root.join("docs")).expect("docs");
+    pages.extend(docs.map(|entry| entry.expect("an entry").path()));
+    pages.retain(|page| page.extension().is_some_and(|e| e == "md"));
+    let mut links = 0;
+    for page in pages {
+        let text = std::fs::read_to_string(&page).expect("a page");
+        for link in text.split("](").skip(1) {
+            let link = link.split([')', '#']).next().unwrap_or_default();
+            if link.is_empty() || link.contains("://") {
+                continue;
+            }
+            let to = page.with_file_name(link);
+            assert!(to.exists(), "{}: {link}", page.display());
+            links += 1;
+        }
+    }
+    assert!(links > 50, "{links}");
 }

@@ -9,7 +9,7 @@ use crate::flow::graph::*;
 use crate::source::Span;
 use slowlight_routine::Value;
 
-/// How many operations are run before the sample is called large enough.
+/// How many operations are run: what pixels come to by then is the sample.
 const PATIENCE: u64 = 10_000_000;
 
 /// What was found among the pixels looked at.
@@ -33,14 +33,14 @@ pub fn beyond(graph: &Graph, places: &[(i32, i32)]) -> Option<Beyond> {
     let mut graph = graph.clone();
     graph.diffusion = None;
     graph.reports = vec![graph.ink];
-    let mut native = Native::new(&graph);
+    let mut native = Native::within(&graph, PATIENCE);
     let mut looked = 0;
     let mut found: Vec<(i32, (i32, i32))> = Vec::new();
     for &(x, y) in places {
-        if native.operations() > PATIENCE {
+        native.pixel(x, y);
+        if native.spent() {
             break;
         }
-        native.pixel(x, y);
         looked += 1;
         if let Some(&Value::Int(ink)) = native.reports().first()
             && ink > last
@@ -63,7 +63,7 @@ fn source(graph: &Graph, (x, y): (i32, i32)) -> NodeId {
     while let Node::Select { cond, yes, no } = graph.node(at) {
         let mut asked = graph.clone();
         asked.reports = vec![cond];
-        let mut native = Native::new(&asked);
+        let mut native = Native::within(&asked, PATIENCE);
         native.pixel(x, y);
         let held = native.reports().first().is_some_and(|v| v.truth());
         at = if held { yes } else { no };
