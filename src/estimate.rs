@@ -10,6 +10,7 @@
 //! have.
 
 use crate::draw::{Window, coarse_first};
+use rustc_hash::FxHashMap;
 use slowlight_compiler::eval::heard::{Heard, Listener};
 use slowlight_compiler::eval::model::{self, Model};
 use slowlight_compiler::eval::run::Run;
@@ -22,7 +23,6 @@ use slowlight_compiler::passes::still::{Inks, Still};
 use slowlight_compiler::plan::{Costs, Plan};
 use slowlight_routine::{Bits, Format};
 use std::cell::Cell;
-use std::collections::HashMap;
 
 /// Rows and columns of the usual sample.
 const GRID: u32 = 24;
@@ -37,6 +37,7 @@ const COLUMNS: u32 = 80;
 #[derive(Clone, Copy)]
 enum When {
     Frame,
+    Column,
     Row,
     Pass,
     Run,
@@ -46,9 +47,10 @@ enum When {
 /// Adds up what statements cost, by when they are carried out.
 struct Adding<'p> {
     costs: Costs<'p>,
-    when: HashMap<*const Statement, When>,
+    /// When each is carried out, those of subroutines apart; and its cycles.
+    known: FxHashMap<*const Statement, (Option<When>, u64)>,
     now: Cell<When>,
-    sums: [Cell<u64>; 5],
+    sums: [Cell<u64>; 6],
 }
 
 impl Adding<'_> {
@@ -56,20 +58,25 @@ impl Adding<'_> {
         let tree = &plan.tree;
         let blocks = [
             (&tree.frame, When::Frame),
+            (&tree.column, When::Column),
             (&tree.row, When::Row),
             (&tree.pass, When::Pass),
             (&tree.segment, When::Run),
             (&tree.pixel, When::Pixel),
         ];
-        let mut when = HashMap::new();
-        for (block, then) in blocks {
+        let costs = plan.costs();
+        let mut known = FxHashMap::default();
+        let subroutines = tree.subroutines.iter().map(|s| (&s.body, None));
+        let blocks = blocks.into_iter().map(|(block, then)| (block, Some(then)));
+        for (block, when) in blocks.chain(subroutines) {
             walk(block, &mut |s| {
-                when.insert(std::ptr::from_ref(s), then);
+                let cost = u64::from(costs.statement(s));
+                known.insert(std::ptr::from_ref(s), (when, cost));
             });
         }
         Adding {
-            costs: plan.costs(),
-            when,
+            costs,
+            known,
             now: Cell::new(When::Frame),
             sums: Default::default(),
         }
@@ -82,12 +89,12 @@ impl Adding<'_> {
 
 impl Listener<Bits> for Adding<'_> {
     fn step(&self, statement: &Statement) {
+        let known = self.known.get(&std::ptr::from_ref(statement)).copied();
+        let (when, cost) = known.unwrap_or_default();
         // Those of a subroutine are its caller's.
-        if let Some(when) = self.when.get(&std::ptr::from_ref(statement)) {
-            self.now.set(*when);
-        }
+        self.now.set(when.unwrap_or(self.now.get()));
         let sum = &self.sums[self.now.get() as usize];
-        sum.set(sum.get() + u64::from(self.costs.statement(statement)));
+        sum.set(sum.get() + cost);
     }
 }
 
@@ -153,13 +160,15 @@ pub fn sampled(plan: &Plan, side: u32, most: u64) -> Sampled {
     let looked = inks.len().max(1) as f64;
     let row = added.sum(When::Row) / f64::from(begun.max(1));
     let pass = added.sum(When::Pass) / looked;
+    // The model makes it anew at every pixel.
+    let column = added.sum(When::Column) / looked;
     let runs = runs(plan, &graph, &mut run, added, window);
     let steps = added.costs.steps(&plan.tree.row) + added.costs.steps(&plan.tree.pass);
     let pixel = pixels / looked + steps + sends;
     let passes = f64::from(passes(&graph));
     let (width, height) = (f64::from(window.width()), f64::from(window.height()));
     Sampled {
-        cycles: frame + (row + (pass + runs) * passes + pixel * width) * height,
+        cycles: frame + column * width + (row + (pass + runs) * passes + pixel * width) * height,
         inks,
         of: rows.len() * columns.len(),
     }

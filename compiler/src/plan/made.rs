@@ -40,7 +40,8 @@ pub fn plan(graph: &Graph, target: &'static Target, goal: &Goal) -> Result<Plan,
     plan_within(graph, target, goal, SEARCH)
 }
 
-/// The same where the search may do so much work, in units of [`Fuel`].
+/// The same where the search may do so much work, in units of [`Fuel`]; by none the plan is a
+/// draft.
 pub fn plan_within(
     graph: &Graph,
     target: &'static Target,
@@ -51,7 +52,9 @@ pub fn plan_within(
         thrift: Thrift::default(),
         steps: Steps::All,
     };
-    planned(&begun(graph, target), target, goal, (all, Fuel::new(fuel)))
+    let mut shop = Workshop::new(graph.clone(), target.runtime);
+    shop.draft = fuel == 0;
+    planned(&Arc::new(shop), target, goal, (all, Fuel::new(fuel)))
 }
 
 /// The same with every shade in full, even where the ink is known before: what that is less
@@ -78,11 +81,8 @@ pub fn plan_as_written(
     goal: &Goal,
 ) -> Result<Plan, Vec<Diagnostic>> {
     let none = (Rewriting::None, Fuel::new(SEARCH));
-    planned(&begun(graph, target), target, goal, none)
-}
-
-fn begun(graph: &Graph, target: &'static Target) -> Arc<Workshop> {
-    Arc::new(Workshop::new(graph.clone(), target.runtime))
+    let shop = Workshop::new(graph.clone(), target.runtime);
+    planned(&Arc::new(shop), target, goal, none)
 }
 
 /// Which passes may rewrite formulas.
@@ -264,7 +264,11 @@ pub(super) fn assemble(
     }
     let mut tables = recipes::made(&graph, runtime);
     let mut points = None;
-    if let Some((found, ranges)) = points::pointed(&graph, &tree, runtime) {
+    let looks = match origin.0.draft {
+        true => points::sample::DRAFT,
+        false => points::sample::PATIENCE,
+    };
+    if let Some((found, ranges)) = points::pointed(&graph, &tree, runtime, looks) {
         points::held::hold(&graph, runtime, &found, &mut tables, &mut params);
         (points, ranges_now) = (Some(found), ranges);
     }

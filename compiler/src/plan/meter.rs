@@ -3,13 +3,16 @@
 use crate::eval::arithmetic::{Arithmetic, Exact};
 use crate::flow::graph::*;
 use crate::flow::tree::Statement;
+use rustc_hash::FxHashMap;
 use slowlight_routine::{Op, Value};
-use std::cell::Cell;
+use std::cell::{Cell, RefCell};
 
 /// Computes in `f64` and adds up what the statements cost that run.
 pub(super) struct Meter<'g, C> {
     exact: Exact<'g>,
     cost: C,
+    /// What statements cost that ran: each is asked for once.
+    costs: RefCell<FxHashMap<*const Statement, f64>>,
     /// What it came to.
     pub sum: Cell<f64>,
     /// How many ran.
@@ -21,6 +24,7 @@ impl<'g, C: Fn(&Statement) -> f64> Meter<'g, C> {
         Meter {
             exact: Exact(graph),
             cost,
+            costs: RefCell::default(),
             sum: Cell::new(0.0),
             ran: Cell::new(0),
         }
@@ -59,6 +63,9 @@ impl<C: Fn(&Statement) -> f64> Arithmetic for &Meter<'_, C> {
 
     fn step(&self, statement: &Statement) {
         self.ran.set(self.ran.get() + 1);
-        self.sum.set(self.sum.get() + (self.cost)(statement));
+        let mut costs = self.costs.borrow_mut();
+        let cost = costs.entry(std::ptr::from_ref(statement));
+        let cost = *cost.or_insert_with(|| (self.cost)(statement));
+        self.sum.set(self.sum.get() + cost);
     }
 }

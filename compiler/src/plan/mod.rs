@@ -252,7 +252,10 @@ impl Plan {
             return 0;
         };
         let bits = match &self.points {
-            Some(points) => (routine.model)(&points.operands(&self.graph, id, args)),
+            Some(points) => {
+                let (all, count) = points.operands(&self.graph, id, args);
+                (routine.model)(&all[..count])
+            }
             None => (routine.model)(args),
         };
         match self.ranges.result.get(id.0 as usize) {

@@ -62,7 +62,7 @@ pub(super) fn narrowed(mut plan: Plan) -> Plan {
     };
     let own = std::mem::replace(&mut plan.params, usual);
     plan.hold();
-    let sample = sample::seen(&plan.graph, &plan.tree, bits);
+    let sample = sample::seen(&plan.graph, &plan.tree, bits, sample::PATIENCE);
     let (pixels, often) = looked_at(&plan);
     let search = Search {
         plan,

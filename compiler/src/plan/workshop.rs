@@ -42,6 +42,8 @@ pub struct Workshop {
     pub proofs: Arc<Proofs>,
     /// Whether shades are computed in full even where the ink is known without.
     pub every_shade: bool,
+    /// Whether plans are only judged, not run: less is looked at to place their points.
+    pub draft: bool,
     /// What searches for a plan may do yet.
     pub fuel: Fuel,
     slack: Arc<Slack>,
@@ -87,6 +89,7 @@ impl Workshop {
             runtime,
             proofs: Arc::default(),
             every_shade: false,
+            draft: false,
             fuel: Fuel::new(u64::MAX),
             slack: Arc::new(Slack::of(runtime)),
             memo: Arc::default(),
@@ -100,6 +103,7 @@ impl Workshop {
             runtime: self.runtime,
             proofs: self.proofs.clone(),
             every_shade: self.every_shade,
+            draft: self.draft,
             fuel,
             slack: self.slack.clone(),
             memo: self.memo.clone(),

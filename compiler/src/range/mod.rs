@@ -24,7 +24,7 @@ use crate::flow::graph::*;
 use crate::flow::ramp;
 use crate::flow::tree::*;
 
-use crate::plan::points::sample::readers;
+use crate::plan::points::sample::{Readers, readers};
 pub use assuming::assuming;
 use interval::interval;
 use known::known;
@@ -33,7 +33,7 @@ use loops::STATEMENTS;
 use parity::whole;
 pub use slack::{ENTRIES, Slack};
 use slowlight_routine::{Op, Range, Type};
-use std::collections::{BTreeSet, HashMap};
+use std::collections::BTreeSet;
 
 /// What the ranges of a scene are, on one machine. Side tables by node.
 #[derive(Clone, Debug, Default)]
@@ -66,7 +66,7 @@ pub fn ranges_counted(graph: &Graph, tree: &Tree, slack: &Slack) -> (Ranges, u64
         measured: trust::measured(graph),
         readers: match slack.expects() {
             true => readers(graph),
-            false => HashMap::new(),
+            false => Readers::default(),
         },
         turns: 0,
         walked: 0,
@@ -98,7 +98,7 @@ pub(crate) struct Walk<'g> {
     /// Values whose lengths are asked for, which are trusted to be no directions.
     measured: BTreeSet<NodeId>,
     /// By whom carried values are read, where something is expected of them.
-    readers: HashMap<(LoopId, u32), NodeId>,
+    readers: Readers,
     /// How many turns of loops have been walked.
     turns: u32,
     /// How many statements.

@@ -11,7 +11,7 @@
 #[cfg(test)]
 mod tests;
 
-use slowlight_routine::{Op, Type, Value};
+use slowlight_routine::{Op, Type};
 
 /// What is asked of a value.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -137,10 +137,13 @@ impl Asked {
     }
 }
 
-/// What is asked of operand `k`, given what is of the result.
-pub fn of_operand(op: Op, k: usize, args: &[Value], result: Value, asked: Asked) -> Asked {
-    let at = |k: usize| args.get(k).map_or(0.0, |value| value.real());
-    let (own, other) = (at(k), at(1 - k.min(1)));
+/// What is asked of operand `k`, given what is of the result. An operation of one operand has
+/// the other at 0.
+pub fn of_operand(op: Op, k: usize, args: [f64; 2], result: f64, asked: Asked) -> Asked {
+    let (own, other) = match k {
+        0 => (args[0], args[1]),
+        _ => (args[1], args[0]),
+    };
     let made = match op {
         // Nothing is rounded: who is asked whether it is as it is gives that on.
         _ if op.args().first() != Some(&Type::Real) => Asked {
@@ -159,7 +162,7 @@ pub fn of_operand(op: Op, k: usize, args: &[Value], result: Value, asked: Asked)
                 lost: cost,
             }
         }
-        _ => of_real(op, k, [own, other], result.real(), asked),
+        _ => of_real(op, k, [own, other], result, asked),
     };
     made.held(own)
 }

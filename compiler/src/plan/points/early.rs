@@ -2,7 +2,6 @@
 
 use crate::flow::graph::*;
 use crate::flow::tree::*;
-use std::collections::HashSet;
 
 /// The first statement that is carried out at each pixel.
 pub(super) fn first_of_pixels(tree: &Tree) -> Option<*const Statement> {
@@ -10,24 +9,23 @@ pub(super) fn first_of_pixels(tree: &Tree) -> Option<*const Statement> {
     blocks.into_iter().flatten().next().map(std::ptr::from_ref)
 }
 
-/// What is computed once, and what once a row.
-pub(super) struct Early {
-    pub frame: HashSet<NodeId>,
-    pub row: HashSet<NodeId>,
+/// How often a node's value is computed.
+#[derive(Clone, Copy, PartialEq)]
+pub(super) enum Often {
+    Frame,
+    Row,
+    Pixel,
 }
 
-pub(super) fn early(tree: &Tree) -> Early {
-    let of = |block: &Block| {
-        let mut all = HashSet::new();
+/// The same of each node.
+pub(super) fn often(graph: &Graph, tree: &Tree) -> Vec<Often> {
+    let mut all = vec![Often::Pixel; graph.nodes.len()];
+    for (block, often) in [(&tree.row, Often::Row), (&tree.frame, Often::Frame)] {
         walk(block, &mut |statement| {
             if let Statement::Let(id) = statement {
-                all.insert(*id);
+                all[id.0 as usize] = often;
             }
         });
-        all
-    };
-    Early {
-        frame: of(&tree.frame),
-        row: of(&tree.row),
     }
+    all
 }

@@ -25,6 +25,7 @@ mod doubts;
 mod early;
 pub(super) mod held;
 pub(crate) mod sample;
+mod scattered;
 mod seen;
 mod tape;
 mod useful;
@@ -67,12 +68,18 @@ pub struct Points {
     scales: Vec<Scales>,
 }
 
-/// The points of a plan, and its ranges with them; nothing where the format has its own.
-pub fn pointed(graph: &Graph, tree: &Tree, runtime: &'static Runtime) -> Option<(Points, Ranges)> {
+/// The points of a plan, and its ranges with them, by pixels that may run so many statements;
+/// nothing where the format has its own.
+pub fn pointed(
+    graph: &Graph,
+    tree: &Tree,
+    runtime: &'static Runtime,
+    most: u64,
+) -> Option<(Points, Ranges)> {
     let Format::Scaled { bits } = runtime.real else {
         return None;
     };
-    let seen = sample::seen(graph, tree, bits);
+    let seen = sample::seen(graph, tree, bits, most);
     Some(placed(
         (graph, tree),
         runtime,
@@ -216,25 +223,26 @@ impl Points {
         fitting(RECEIVED, self.widths.most())
     }
 
-    /// What a routine's model is given: the operands at the scales wanted, and the number.
-    pub fn operands(&self, graph: &Graph, id: NodeId, args: &[Bits]) -> Vec<Bits> {
-        let Node::Apply(op, of) = graph.node(id) else {
-            return args.to_vec();
-        };
+    /// What a routine's model is given: the operands at the scales wanted and the number; and
+    /// how many these are.
+    pub fn operands(&self, graph: &Graph, id: NodeId, args: &[Bits]) -> ([Bits; 3], usize) {
+        let mut all = [0; 3];
+        let count = args.len().min(2);
+        all[..count].copy_from_slice(&args[..count]);
         let scales = self.scales(id);
-        if !scale::concerns(op) {
-            return args.to_vec();
+        let (op, of) = match graph.node(id) {
+            Node::Apply(op, of) if scale::concerns(op) => (op, of),
+            _ => return (all, count),
+        };
+        // All bits of an int, which may be more than a real has.
+        if op != Op::IntRoot {
+            let width = self.widths.operands(id);
+            for (k, bits) in all[..count].iter_mut().enumerate() {
+                *bits = self.read(graph, of[k], *bits, (scales.args[k], width));
+            }
         }
-        let each = args.iter().zip(of).zip(scales.args);
-        let mut all: Vec<Bits> = each
-            .map(|((bits, arg), to)| match op {
-                // All bits of an int, which may be more than a real has.
-                Op::IntRoot => *bits,
-                _ => self.read(graph, arg, *bits, (to, self.widths.operands(id))),
-            })
-            .collect();
-        all.push(i64::from(scales.number(op)) as Bits);
-        all
+        all[count] = i64::from(scales.number(op)) as Bits;
+        (all, count + 1)
     }
 
     /// A node's bits read at a scale in some width.

@@ -6,7 +6,8 @@
 //! larger than all others by agreement, 1e6 for "nothing was hit", is asked for no more than
 //! what it is compared with.
 
-use super::early::{Early, early, first_of_pixels};
+use super::early::{Often, first_of_pixels, often};
+use super::scattered::{GOLDEN, scattered};
 use super::seen::{BRIEF, Seen};
 use super::tape::{NOWHERE, Tape, Traced};
 use super::wanted;
@@ -15,10 +16,10 @@ use crate::eval::arithmetic::{Arithmetic, Exact};
 use crate::eval::run::Run;
 use crate::flow::graph::*;
 use crate::flow::tree::*;
+use rustc_hash::FxHashMap;
 use slowlight_routine::scale::{finest, fitting};
 use slowlight_routine::{Op, Type, Value};
 use std::cell::{Cell, RefCell};
-use std::collections::HashMap;
 
 /// Rows and columns that are looked at, the picture's borders among them.
 const LOOKED_AT: [u32; 2] = [24, 31];
@@ -30,15 +31,13 @@ const CLOSELY: [u32; 2] = [80, 101];
 /// How often params are chosen anew.
 const CHOICES: u32 = 12;
 
-/// How many statements may run, all choices together.
-const PATIENCE: u64 = 18_000_000;
+/// How many statements may run, all choices together: for a plan that is to be run, and for
+/// one that is only judged.
+pub const PATIENCE: u64 = 3_000_000;
+pub const DRAFT: u64 = 1_000_000;
 
 /// How many more the pixel may run at which these end.
 const LAST: u64 = 2_000_000;
-
-/// Rows are gone through in steps of so many, which divide neither number of rows, so that
-/// something of every part of the picture is seen where patience ends before its rows do.
-const APART: u32 = 7;
 
 /// What each node's value is expected to stay within.
 pub struct Expected {
@@ -54,11 +53,11 @@ pub struct Sample {
     pixels: f64,
 }
 
-/// Looks at pixels, for values of so many bits at most.
-pub fn seen(graph: &Graph, tree: &Tree, bits: u8) -> Sample {
+/// Looks at pixels, for values of so many bits at most, until so many statements have run.
+pub fn seen(graph: &Graph, tree: &Tree, bits: u8, most: u64) -> Sample {
     let seen = RefCell::new(vec![Seen::default(); graph.nodes.len()]);
     let carried = readers(graph);
-    let early = early(tree);
+    let often = often(graph, tree);
     let live = graph.params.iter().any(|p| p.range.is_some());
     let choices = if live { CHOICES } else { 1 };
     let [rows, columns] = match !live && bits > BRIEF {
@@ -76,7 +75,7 @@ pub fn seen(graph: &Graph, tree: &Tree, bits: u8) -> Sample {
             exact: Exact(graph),
             carried: &carried,
             choice,
-            early: &early,
+            often: &often,
             tape: RefCell::new(Tape::new(graph)),
             roots: RefCell::default(),
             received: Cell::new(0.0),
@@ -84,38 +83,44 @@ pub fn seen(graph: &Graph, tree: &Tree, bits: u8) -> Sample {
             first: first_of_pixels(tree),
             kept: Cell::new(usize::MAX),
         };
-        let most = PATIENCE / u64::from(choices);
+        let most = most / u64::from(choices);
         // The scene's own params count as much as all others.
         let times = f64::from(if choice == 0 { CHOICES - 1 } else { 1 });
         let mut run = Run::within(&alone, tree, &watch, most + LAST);
-        for row in 0..rows {
-            watch.roots.borrow_mut().row.clear();
-            for column in 0..columns {
-                let at = |k: u32, of: u32, long: u32| {
-                    (u64::from(k) * u64::from(long.max(1) - 1) / u64::from(of - 1)) as i32
-                };
-                let y = at(row * APART % rows, rows, graph.image.height);
-                if watch.ran.get() < most {
-                    let ink = run.pixel(at(column, columns, graph.image.width), y);
-                    // One that goes on for longer than all of them may is not followed back.
-                    if run.spent() && pixels > 0.0 {
-                        continue;
-                    }
-                    let sent = graph.shares().filter_map(|s| run.last(s.node));
-                    watch.send(sent);
-                    // What is told at the end is told as it is: a shade that is measured.
-                    let told = graph.reports.iter().filter_map(|id| run.last(*id));
-                    watch.roots.borrow_mut().pixel.extend(told);
-                    pixels += times;
-                    watch.ask(ink, &mut |id, value, asked| {
-                        if let Some(seen) = seen.borrow_mut().get_mut(id.0 as usize)
-                            && let Value::Real(x) = value
-                        {
-                            seen.see(x, asked, times);
-                        }
-                    });
-                }
+        let begun = watch.tape.borrow().len();
+        let mut now = None;
+        for (column, row) in scattered([columns, rows], choice, CHOICES) {
+            if watch.ran.get() >= most {
+                break;
             }
+            let [x, y] = [
+                (column, columns, graph.image.width),
+                (row, rows, graph.image.height),
+            ]
+            .map(|(k, of, long)| {
+                (u64::from(k) * u64::from(long.max(1) - 1) / u64::from(of - 1)) as i32
+            });
+            if now.replace(y) != Some(y) {
+                watch.end_row(begun);
+            }
+            let ink = run.pixel(x, y);
+            // One that goes on for longer than all of them may is not followed back.
+            if run.spent() && pixels > 0.0 {
+                break;
+            }
+            let sent = graph.shares().filter_map(|s| run.last(s.node));
+            watch.send(sent);
+            // What is told at the end is told as it is: a shade that is measured.
+            let told = graph.reports.iter().filter_map(|id| run.last(*id));
+            watch.roots.borrow_mut().pixel.extend(told);
+            pixels += times;
+            watch.ask(ink, &mut |id, value, asked| {
+                if let Some(seen) = seen.borrow_mut().get_mut(id.0 as usize)
+                    && let Value::Real(x) = value
+                {
+                    seen.see(x, asked, times);
+                }
+            });
         }
     }
     let seen = seen.into_inner();
@@ -219,8 +224,11 @@ fn ends_passed_on(
     }
 }
 
+/// By whom carried values are read.
+pub type Readers = FxHashMap<(LoopId, u32), NodeId>;
+
 /// A node that reads each carried value.
-pub fn readers(graph: &Graph) -> HashMap<(LoopId, u32), NodeId> {
+pub fn readers(graph: &Graph) -> Readers {
     let of = |id: NodeId| match graph.node(id) {
         Node::Carried { of, index } => Some(((of, index), id)),
         _ => None,
@@ -229,7 +237,7 @@ pub fn readers(graph: &Graph) -> HashMap<(LoopId, u32), NodeId> {
 }
 
 /// The node whose value a place holds.
-pub fn held_by(carried: &HashMap<(LoopId, u32), NodeId>, place: Place) -> Option<NodeId> {
+pub fn held_by(carried: &Readers, place: Place) -> Option<NodeId> {
     match place {
         Place::Node(id) => Some(id),
         Place::Carried(of, index) | Place::Scratch(of, index) => carried.get(&(of, index)).copied(),
@@ -248,9 +256,9 @@ struct Roots {
 struct Watch<'g> {
     exact: Exact<'g>,
     /// By whom carried values are read.
-    carried: &'g HashMap<(LoopId, u32), NodeId>,
+    carried: &'g Readers,
     choice: u32,
-    early: &'g Early,
+    often: &'g [Often],
     tape: RefCell<Tape>,
     roots: RefCell<Roots>,
     /// What the pixel has received: all that the one looked at before it has sent.
@@ -289,14 +297,21 @@ impl Watch<'_> {
         self.tape.borrow_mut().back_to(self.kept.get());
     }
 
+    /// What was computed for a row is of no use any more: the tape is as it was before.
+    fn end_row(&self, begun: usize) {
+        self.roots.borrow_mut().row.clear();
+        self.tape.borrow_mut().back_to(begun);
+    }
+
     fn decides(&self, traced: Traced) {
-        let node = self.tape.borrow().node(traced);
+        let Some(id) = self.tape.borrow().node(traced) else {
+            return;
+        };
         let mut roots = self.roots.borrow_mut();
-        match node {
-            None => {}
-            Some(id) if self.early.frame.contains(&id) => roots.frame.push(traced),
-            Some(id) if self.early.row.contains(&id) => roots.row.push(traced),
-            Some(_) => roots.pixel.push(traced),
+        match self.often.get(id.0 as usize) {
+            Some(Often::Frame) => roots.frame.push(traced),
+            Some(Often::Row) => roots.row.push(traced),
+            _ => roots.pixel.push(traced),
         }
     }
 
@@ -307,7 +322,7 @@ impl Watch<'_> {
             2 => 1.0,
             3 => 0.5,
             // Multiples of the golden ratio's fraction, another for each param.
-            n => (f64::from(n * (param + 1)) * 0.618_033_988_749_895).fract(),
+            n => (f64::from(n * (param + 1)) * GOLDEN).fract(),
         }
     }
 
@@ -345,11 +360,13 @@ impl Arithmetic for &Watch<'_> {
     }
 
     fn apply(&self, id: NodeId, op: Op, args: &[Traced]) -> Traced {
+        let mut all = [untraced(Value::Int(0)); 2];
         let of = self.exact.0.node(id).operands();
-        let all = args.iter().zip(of).map(|(arg, of)| self.read(of, *arg));
-        let all: Vec<Traced> = all.collect();
+        for ((held, arg), of) in all.iter_mut().zip(args).zip(of) {
+            *held = self.read(of, *arg);
+        }
         let mut tape = self.tape.borrow_mut();
-        tape.computed(self.exact.0, id, op, &all)
+        tape.computed(self.exact.0, id, op, &all[..args.len().min(2)])
     }
 
     fn copied(&self, place: Place, from: NodeId, traced: Traced) -> Traced {

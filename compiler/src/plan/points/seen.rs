@@ -60,13 +60,18 @@ impl Default for Seen {
     }
 }
 
+/// The octave that a magnitude is in: the least power of two that is not less, counted from
+/// the first.
+fn octave(x: f64) -> usize {
+    let bits = x.to_bits();
+    let whole = bits & ((1 << (f64::MANTISSA_DIGITS - 1)) - 1) == 0;
+    let exponent = (bits >> (f64::MANTISSA_DIGITS - 1)) as i32 - (f64::MAX_EXP - 1);
+    (exponent + i32::from(!whole) - FIRST).clamp(0, OCTAVES as i32 - 1) as usize
+}
+
 impl Seen {
     /// Counts a value so many times.
     pub fn see(&mut self, value: f64, asked: Asked, times: f64) {
-        let octave = |x: f64| {
-            let octave = x.log2().ceil() as i32 - FIRST;
-            octave.clamp(0, OCTAVES as i32 - 1) as usize
-        };
         self.most = self.most.max(value.abs());
         let need = asked.need(value);
         self.need = self.need.max(need);
@@ -147,6 +152,19 @@ mod tests {
         seen.see(1.1, asked(4.0, 4.0, 1.1), 1000.0);
         seen.see(1024.0, asked(0.0, 1.0, need), 1.0);
         fitting(seen.expected(finest(bits), bits, 1001.0).unwrap(), bits)
+    }
+
+    #[test]
+    fn octaves_end_at_powers_of_two() {
+        for k in [-39, -1, 0, 1, 17, 55] {
+            let end = f64::from(k).exp2();
+            let at = (k - FIRST) as usize;
+            assert_eq!([end, end * 0.75, end * 1.25].map(octave), [at, at, at + 1]);
+        }
+        assert_eq!(
+            [1e-300, f64::MIN_POSITIVE / 4.0, 1e300].map(octave),
+            [0, 0, OCTAVES - 1]
+        );
     }
 
     /// What one pixel has is cut where it costs the others digits that they need, and has

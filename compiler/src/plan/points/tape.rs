@@ -4,7 +4,6 @@
 use super::asks::{Asked, of_both, of_operand};
 use crate::flow::graph::*;
 use slowlight_routine::{Op, Value};
-use std::collections::BinaryHeap;
 
 /// A value, and where on the tape it stands.
 #[derive(Clone, Copy)]
@@ -26,16 +25,17 @@ struct Entry {
     of: NodeId,
     /// None for copies.
     op: Option<Op>,
-    from: [Traced; 2],
+    /// Where its operands stand, and what they were.
+    from: [u32; 2],
+    args: [f64; 2],
     value: Value,
-    asked: Asked,
-    /// Whether it waits to be followed further.
-    waits: bool,
 }
 
 /// All that was computed since the tape began.
 pub struct Tape {
     entries: Vec<Entry>,
+    /// What is asked of each, while it is followed back: nothing yet, or not any more.
+    asked: Vec<Asked>,
     /// Which stand at the beginning: one for each node.
     leaves: u32,
 }
@@ -46,15 +46,12 @@ impl Tape {
         let leaf = |of: NodeId| Entry {
             of,
             op: None,
-            from: [Traced {
-                value: Value::Int(0),
-                at: NOWHERE,
-            }; 2],
+            from: [NOWHERE; 2],
+            args: [0.0; 2],
             value: Value::Int(0),
-            asked: Asked::default(),
-            waits: false,
         };
         Tape {
+            asked: vec![Asked::default(); graph.nodes.len()],
             entries: graph.ids().map(leaf).collect(),
             leaves: graph.nodes.len() as u32,
         }
@@ -68,7 +65,9 @@ impl Tape {
     /// Takes away what was computed since it had that length, once all that was asked of it
     /// has been followed.
     pub fn back_to(&mut self, length: usize) {
-        self.entries.truncate(length.max(self.leaves as usize));
+        let length = length.max(self.leaves as usize);
+        self.entries.truncate(length);
+        self.asked.truncate(length);
     }
 
     /// A value as a node's that needs no computing; as it is where it was computed.
@@ -113,13 +112,16 @@ impl Tape {
             return Traced { value, at: NOWHERE };
         }
         let at = self.entries.len() as u32;
+        self.asked.push(Asked::default());
         self.entries.push(Entry {
             of,
             op,
-            from,
+            from: from.map(|arg| arg.at),
+            args: match op {
+                Some(op) if op.arity() == 1 => [from[0].value.real(), 0.0],
+                _ => from.map(|arg| arg.value.real()),
+            },
             value,
-            asked: Asked::default(),
-            waits: false,
         });
         Traced { value, at }
     }
@@ -136,48 +138,43 @@ impl Tape {
         roots: impl Iterator<Item = Traced>,
         tell: &mut impl FnMut(NodeId, Value, Asked),
     ) {
-        let mut waiting = BinaryHeap::new();
         for root in roots {
-            self.ask(root, Asked::whole(root.value.real()), &mut waiting);
+            self.ask(root.at, Asked::whole(root.value.real()));
         }
-        // What was computed last first, so that all is known that is asked of a value.
-        while let Some(at) = waiting.pop() {
-            let Some(entry) = self.entries.get_mut(at as usize) else {
+        // What was computed last first, so that all is known that is asked of a value: whoever
+        // asks stands behind it.
+        for at in (0..self.entries.len()).rev() {
+            if !self.asked[at].is_something() {
                 continue;
-            };
-            let asked = std::mem::take(&mut entry.asked);
-            entry.waits = false;
+            }
+            let asked = std::mem::take(&mut self.asked[at]);
+            let entry = &self.entries[at];
             tell(entry.of, entry.value, asked);
-            let (op, from, value) = (entry.op, entry.from, entry.value);
-            if at < self.leaves {
+            if at < self.leaves as usize {
                 continue;
             }
-            let Some(op) = op else {
-                self.ask(from[0], asked, &mut waiting);
+            let (from, args, value) = (entry.from, entry.args, entry.value.real());
+            let Some(op) = entry.op else {
+                self.ask(from[0], asked);
                 continue;
             };
-            let one = (op.arity() == 2 && from[0].at == from[1].at && from[0].at != NOWHERE)
-                .then(|| of_both(op, from[0].value.real(), asked));
+            let one = (op.arity() == 2 && from[0] == from[1] && from[0] != NOWHERE)
+                .then(|| of_both(op, args[0], asked));
             if let Some(Some(asked)) = one {
-                self.ask(from[0], asked, &mut waiting);
+                self.ask(from[0], asked);
                 continue;
             }
-            let values = from.map(|arg| arg.value);
-            for (k, arg) in from.into_iter().enumerate().take(op.arity()) {
-                let asked = of_operand(op, k, &values[..op.arity()], value, asked);
-                self.ask(arg, asked, &mut waiting);
+            for (k, from) in from.into_iter().enumerate().take(op.arity()) {
+                self.ask(from, of_operand(op, k, args, value, asked));
             }
         }
     }
 
-    fn ask(&mut self, of: Traced, asked: Asked, waiting: &mut BinaryHeap<u32>) {
-        if let Some(entry) = self.entries.get_mut(of.at as usize)
-            && asked.is_something()
+    fn ask(&mut self, at: u32, asked: Asked) {
+        if asked.is_something()
+            && let Some(held) = self.asked.get_mut(at as usize)
         {
-            entry.asked = entry.asked.both(asked);
-            if !std::mem::replace(&mut entry.waits, true) {
-                waiting.push(of.at);
-            }
+            *held = held.both(asked);
         }
     }
 }

@@ -5,9 +5,11 @@ use super::*;
 const VALUES: [f64; 11] = [-1e6, -7.0, -2.5, -0.3, 0.0, 0.001, 0.2, 0.9, 4.0, 33.0, 1e6];
 
 fn of(op: Op, k: usize, args: [f64; 2], asked: Asked) -> Asked {
-    let args = args.map(Value::Real);
-    let args = &args[..op.arity()];
-    of_operand(op, k, args, op.eval(args), asked)
+    let args = match op.arity() {
+        1 => [args[0], 0.0],
+        _ => args,
+    };
+    of_operand(op, k, args, op.eval_real(args[0], args[1]).real(), asked)
 }
 
 fn within(lo: f64, hi: f64) -> Asked {
