@@ -18,6 +18,7 @@ use slowlight_runtime_6502::write::{self, Place as Operand};
 use std::ops::Range;
 
 /// Where parts of a program's text are, by lines.
+#[derive(Clone, PartialEq, Eq)]
 pub(super) struct Lines {
     /// What names the bytes that nobody else uses.
     pub symbols: Range<usize>,
