@@ -2,7 +2,7 @@
 
 use super::effects::{NZ, Place, REGISTERS};
 use super::live::Places;
-use rustc_hash::{FxHashMap, FxHashSet};
+use rustc_hash::FxHashMap;
 use std::ops::Range;
 
 /// A value: a byte that is known, or a number for what is not, the same for the same value.
@@ -48,9 +48,12 @@ pub(super) fn unknown(from: From, at: usize, place: Place) -> Value {
     fresh(if place == NZ { From::Two } else { from }, at, place)
 }
 
-/// The values that come from lines or blocks in this way.
-pub(super) fn all_from(from: From, at: &Range<usize>) -> Range<Value> {
-    fresh(from, at.start, 0)..fresh(from, at.end, 0)
+/// Whether values come from these lines: given or lost there.
+pub(super) fn of_lines(lines: &Range<usize>) -> impl Fn(Value) -> bool {
+    let [from, to] = [lines.start, lines.end].map(|line| fresh(From::Line, line, 0));
+    // What is lost at a line has one bit more than what is given there.
+    let bit = fresh(From::Lost, 0, 0) - fresh(From::Line, 0, 0);
+    move |value| (from..to).contains(&(BYTES + (value.wrapping_sub(BYTES) & !bit)))
 }
 
 /// Where a value comes from that is no byte: and the line or block.
@@ -118,7 +121,7 @@ impl State {
         if rest.is_empty() && !again {
             return;
         }
-        let from_here = all_from(From::Block, &(b..b + 1));
+        let from_here = fresh(From::Block, b, 0)..fresh(From::Block, b + 1, 0);
         let mut classes = Classes::default();
         for (place, at) in self.values.iter_mut().enumerate() {
             if *at != MIXED && !from_here.contains(at) {
@@ -218,7 +221,7 @@ impl State {
                 break;
             };
             if *at >= BYTES && *at != UNTOLD {
-                others.push((place, *at));
+                others.push((place, *at, false));
                 *at = UNTOLD;
             }
         }
@@ -227,13 +230,12 @@ impl State {
         }
         // There are few others: what they hold is looked for, not all that is kept.
         let mut sought = Sieve::new(others.len());
-        others.iter().for_each(|(_, value)| sought.insert(*value));
-        let found = self.values.iter().filter(|value| sought.may_have(**value));
-        let met: FxHashSet<Value> = found.copied().collect();
-        for (place, value) in others {
-            if met.contains(&value) {
-                self.put(place, value);
-            }
+        (others.iter()).for_each(|(_, value, _)| sought.insert(*value));
+        for value in self.values.iter().filter(|v| sought.may_have(**v)) {
+            (others.iter_mut()).for_each(|(_, other, met)| *met |= other == value);
+        }
+        for (place, value, _) in others.into_iter().filter(|(_, _, met)| *met) {
+            self.put(place, value);
         }
     }
 }
@@ -247,7 +249,7 @@ pub(super) struct Sieve {
 impl Sieve {
     /// For so many values.
     pub fn new(count: usize) -> Sieve {
-        let size = (16 * count).next_power_of_two().max(64);
+        let size = (32 * count).next_power_of_two().max(64);
         Sieve {
             bits: Places::none(size),
             shift: 64 - size.trailing_zeros(),

@@ -5,7 +5,7 @@ use super::effects::{A, C, NZ, Place, X, Y};
 use super::flow::{Block, End, Flow};
 use super::jumps::name;
 use super::live::{Alive, Places};
-use super::state::{From, Kept, State, Value, all_from, fresh, is_two, origin, unknown};
+use super::state::{From, Kept, State, Value, fresh, is_two, of_lines, origin, unknown};
 use rustc_hash::FxHashMap;
 use std::ops::Range;
 
@@ -19,10 +19,9 @@ fn is_of(value: Value, line: usize) -> bool {
 
 /// The lines of a block whose values are still held from the last time.
 pub(super) fn stale(state: &State, lines: &Range<usize>) -> Vec<usize> {
-    let [given, lost] = [From::Line, From::Lost].map(|from| all_from(from, lines));
-    let of_lines = |value: &Value| given.contains(value) || lost.contains(value);
-    let values = state.told().map(|(_, value)| value).filter(of_lines);
-    let mut stale: Vec<usize> = values.filter_map(|v| Some(origin(v)?.1)).collect();
+    let of_lines = of_lines(lines);
+    let values = state.values().iter().filter(|value| of_lines(**value));
+    let mut stale: Vec<usize> = values.filter_map(|v| Some(origin(*v)?.1)).collect();
     stale.sort_unstable();
     stale.dedup();
     stale
