@@ -160,6 +160,12 @@ impl State {
         self.gaps = false;
     }
 
+    fn has_no_gap(&self, alive: &Places) -> bool {
+        let told = self.values.iter().enumerate();
+        told.filter(|(place, _)| alive.has(*place))
+            .all(|(_, value)| *value != UNTOLD)
+    }
+
     /// Becomes what another is.
     pub fn copy(&mut self, other: &State) {
         self.values.clone_from(&other.values);
@@ -212,9 +218,11 @@ impl State {
 
     /// Leaves what is handed to a block of which these places are read.
     pub fn keep(&mut self, alive: &Places) {
+        // What is read behind a block is read before it, or given in it: once told, all is told.
         if self.gaps {
             self.fill_gaps(alive);
         }
+        debug_assert!(self.has_no_gap(alive));
         let mut others = Vec::new();
         for place in alive.others().skip_while(|place| *place < REGISTERS) {
             let Some(at) = self.values.get_mut(place) else {
@@ -228,7 +236,7 @@ impl State {
         if others.is_empty() {
             return;
         }
-        // There are few others: what they hold is looked for, not all that is kept.
+        // There are few others: what they hold is looked for in what is kept.
         let mut sought = Sieve::new(others.len());
         (others.iter()).for_each(|(_, value, _)| sought.insert(*value));
         for value in self.values.iter().filter(|v| sought.may_have(**v)) {
@@ -240,7 +248,7 @@ impl State {
     }
 }
 
-/// A set of values that may have some more.
+/// A set of values that may have some more, and is quick to ask.
 pub(super) struct Sieve {
     bits: Places,
     shift: u32,

@@ -225,13 +225,7 @@ impl Held {
 }
 
 /// Carries out the lines of a block.
-pub(super) fn carry_out_all(
-    state: &mut State,
-    lines: &[Line],
-    flow: &Flow,
-    block: &Block,
-    stale: &[usize],
-) {
+fn carry_out_all(state: &mut State, lines: &[Line], flow: &Flow, block: &Block, stale: &[usize]) {
     for k in block.lines.clone() {
         if let Some(Line::Code(instruction)) = lines.get(k) {
             carry_out(state, flow, k, instruction, stale);
@@ -251,9 +245,10 @@ fn end(
     if block.end == End::Unknown {
         return ways.iter_mut().for_each(State::clear);
     }
-    let branch = match block.end {
+    let branch = match (&block.end, block.next.as_slice()) {
         // A branch to what stands behind it tells nothing.
-        End::Branch(k) if block.next.first() != block.next.last() => Some(name(lines, k)),
+        (End::Branch(_), [one, other]) if one == other => None,
+        (End::Branch(k), _) => Some(name(lines, *k)),
         _ => None,
     };
     let last = ways.len().saturating_sub(1);

@@ -313,6 +313,12 @@ impl Text {
         self.serial
     }
 
+    /// What was written elsewhere, as if it had been written here: labels were made there only.
+    fn append(&mut self, other: Text) {
+        self.lines.extend(other.lines);
+        (self.span, self.serial, self.kept) = (other.span, other.serial, other.kept);
+    }
+
     /// A headline over a part of the program.
     fn headline(&mut self, title: &str) {
         self.line("");
