@@ -2,7 +2,7 @@
 
 use super::effects::{NZ, Place, REGISTERS};
 use super::live::Places;
-use rustc_hash::FxHashMap;
+use rustc_hash::{FxHashMap, FxHashSet};
 use std::ops::Range;
 
 /// A value: a byte that is known, or a number for what is not, the same for the same value.
@@ -229,7 +229,7 @@ impl State {
                 break;
             };
             if *at >= BYTES && *at != UNTOLD {
-                others.push((place, *at, false));
+                others.push((place, *at));
                 *at = UNTOLD;
             }
         }
@@ -238,11 +238,10 @@ impl State {
         }
         // There are few others: what they hold is looked for in what is kept.
         let mut sought = Sieve::new(others.len());
-        (others.iter()).for_each(|(_, value, _)| sought.insert(*value));
-        for value in self.values.iter().filter(|v| sought.may_have(**v)) {
-            (others.iter_mut()).for_each(|(_, other, met)| *met |= other == value);
-        }
-        for (place, value, _) in others.into_iter().filter(|(_, _, met)| *met) {
+        others.iter().for_each(|(_, value)| sought.insert(*value));
+        let found = self.values.iter().filter(|value| sought.may_have(**value));
+        let met: FxHashSet<Value> = found.copied().collect();
+        for (place, value) in others.into_iter().filter(|(_, value)| met.contains(value)) {
             self.put(place, value);
         }
     }
