@@ -122,18 +122,17 @@ impl Need {
 /// # Errors
 /// Where the machine's tools refuse the text, which is a fault of ours.
 pub fn need(plan: &Plan) -> Outcome<Option<Need>> {
-    need_of(plan, &(plan.target.emit)(plan))
-}
-
-fn need_of(plan: &Plan, documents: &[Document]) -> Outcome<Option<Need>> {
+    if is_6502(plan.target) {
+        let mut draft = mos6502::Draft::new(plan);
+        draft.tidy();
+        return Ok(Some(assembly(&draft)));
+    }
+    let documents = (plan.target.emit)(plan);
     let dialect = match plan.target.name {
         "bbc:micro" => Dialect::Micro,
         "bbc:agon" => Dialect::Agon,
         "bbc:basicv" => Dialect::BasicV,
-        "6502:plain" | "6502:bbc" | "6502:c64" => {
-            return Ok(documents.first().map(|document| assembly(plan, document)));
-        }
-        "jack" => return Ok(Some(heap(documents, &[]))),
+        "jack" => return Ok(Some(heap(&documents, &[]))),
         _ => return Ok(None),
     };
     match documents.first() {
@@ -165,13 +164,14 @@ pub fn about(plan: &Plan, fuel: &Fuel) -> Outcome<Option<Need>> {
         return need(plan);
     }
     fuel.burn(WRITTEN_AS_CODE * statements);
-    match first(plan)? {
-        Some(near) if !near.fits() && near.is_near() => {
-            fuel.burn(READ_AGAIN * statements);
-            need(plan)
-        }
-        clear => Ok(clear),
+    let mut draft = mos6502::Draft::new(plan);
+    let mut need = assembly(&draft);
+    if !need.fits() && need.is_near() {
+        fuel.burn(READ_AGAIN * statements);
+        draft.tidy();
+        need = assembly(&draft);
     }
+    Ok(Some(need))
 }
 
 /// The same of a program as it is first written, whatever that says.
@@ -180,7 +180,7 @@ pub fn about(plan: &Plan, fuel: &Fuel) -> Outcome<Option<Need>> {
 /// As for [`need`].
 pub fn first(plan: &Plan) -> Outcome<Option<Need>> {
     match is_6502(plan.target) {
-        true => Ok(Some(assembly(plan, &mos6502::draft(plan)))),
+        true => Ok(Some(assembly(&mos6502::Draft::new(plan)))),
         false => need(plan),
     }
 }
@@ -272,16 +272,18 @@ fn arrays(text: &str) -> u64 {
     bytes
 }
 
-fn assembly(plan: &Plan, document: &Document) -> Need {
-    let (origin, end) = extent(&document.text);
-    let room = mos6502::room(plan);
+fn assembly(draft: &mos6502::Draft) -> Need {
+    let assembled = || extent(&draft.document().text);
+    let counted = draft.extent();
+    debug_assert!(counted.is_none_or(|counted| counted == assembled()));
+    let (origin, end) = counted.unwrap_or_else(assembled);
     Need {
         unit: "bytes",
         parts: vec![
-            ("values and the runtime's tables", room.values),
+            ("values and the runtime's tables", draft.room.values),
             ("program", u64::from(end.saturating_sub(origin))),
         ],
-        room: room.bytes,
+        room: draft.room.bytes,
         largest: None,
         system: false,
     }

@@ -1,10 +1,19 @@
 //! Lines of assembly as instructions.
 
-use std::collections::{BTreeMap, HashMap};
+use rustc_hash::{FxHashMap, FxHashSet};
+use slowlight_isa::opcodes;
+use std::collections::BTreeMap;
 use std::ops::Range;
+use std::sync::LazyLock;
 
 /// Bytes of a value, at most: what has more is an array, whose bytes are not told apart.
 const MOST: u16 = 16;
+
+/// All mnemonics: each line is looked up in them.
+static MNEMONICS: LazyLock<FxHashSet<&str>> = LazyLock::new(|| {
+    let all = opcodes::OPCODES.iter().map(|opcode| opcode.mnemonic);
+    all.filter(|name| opcodes::is_mnemonic(name)).collect()
+});
 
 /// What an instruction works on.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -48,10 +57,10 @@ pub(super) enum Line {
 /// The names of a program, and what they stand for.
 pub(super) struct Names {
     /// Addresses of the bytes that are told apart.
-    cells: HashMap<String, u16>,
+    cells: FxHashMap<String, u16>,
     /// Where each of them ends: at the next.
     ends: BTreeMap<u16, u16>,
-    labels: HashMap<String, usize>,
+    labels: FxHashMap<String, usize>,
 }
 
 fn number(text: &str) -> Option<u32> {
@@ -97,11 +106,11 @@ impl Names {
     /// written anywhere are not told apart.
     pub fn new(lines: &[&str], symbols: Range<usize>) -> Names {
         let named = lines.get(symbols).unwrap_or_default();
-        let mut cells: HashMap<String, u16> = (named.iter())
+        let mut cells: FxHashMap<String, u16> = (named.iter())
             .filter_map(|line| defined(line))
             .map(|(name, at)| (name.to_owned(), at))
             .collect();
-        let labels: HashMap<String, usize> = (lines.iter().enumerate())
+        let labels: FxHashMap<String, usize> = (lines.iter().enumerate())
             .filter_map(|(k, line)| Some((label(line)?.to_owned(), k)))
             .collect();
         for line in lines {
@@ -191,7 +200,7 @@ impl Names {
             return Line::Label(name.to_owned());
         }
         let (name, rest) = text.split_once(' ').unwrap_or((text, ""));
-        if text.len() == code.len() || !slowlight_isa::opcodes::is_mnemonic(name) {
+        if text.len() == code.len() || !MNEMONICS.contains(name) {
             return Line::Data;
         }
         Line::Code(Instruction {

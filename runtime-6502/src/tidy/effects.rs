@@ -1,7 +1,7 @@
 //! What an instruction reads and what it changes, after the MOS data sheet.
 
 use super::code::{Instruction, Operand, is_branch};
-use std::collections::HashMap;
+use rustc_hash::FxHashMap;
 
 /// A register, a flag, or a byte of memory that is told apart.
 pub(super) type Place = usize;
@@ -22,10 +22,10 @@ pub(super) const REGISTERS: usize = 6;
 /// instruction to themselves, behind them those that are only met by an index or a pointer.
 #[derive(Default)]
 pub(super) struct Space {
-    places: HashMap<u16, Place>,
+    places: FxHashMap<u16, Place>,
     addresses: Vec<u16>,
     /// How each byte is written.
-    names: HashMap<u16, String>,
+    names: FxHashMap<u16, String>,
     /// The registers and the first bytes.
     cells: usize,
 }

@@ -2,7 +2,7 @@
 
 use super::code::{Line, Names, Operand, is_branch};
 use super::rules::Edit;
-use std::collections::HashSet;
+use rustc_hash::FxHashSet;
 use std::ops::Range;
 
 /// Bytes that a branch reaches, counted as if each instruction had as many as it may have.
@@ -32,7 +32,7 @@ pub(super) fn edits(lines: &[Line], names: &Names, own: &Range<usize>) -> Vec<(u
 type Found = Option<(Vec<(usize, Edit)>, usize)>;
 
 /// The labels that something goes to, or names.
-fn met(lines: &[Line]) -> HashSet<&str> {
+fn met(lines: &[Line]) -> FxHashSet<&str> {
     let operands = lines.iter().filter_map(|line| match line {
         Line::Code(code) => match &code.operand {
             Operand::Label(label) => Some(label.as_str()),
@@ -70,7 +70,7 @@ pub(super) fn next_code(lines: &[Line], from: usize) -> Option<usize> {
 }
 
 /// Instructions behind a jump that nothing else comes to.
-fn unreached(lines: &[Line], met: &HashSet<&str>, k: usize) -> Found {
+fn unreached(lines: &[Line], met: &FxHashSet<&str>, k: usize) -> Found {
     if !matches!(name(lines, k), "jmp" | "rts") {
         return None;
     }

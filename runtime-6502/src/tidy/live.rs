@@ -27,18 +27,14 @@ impl Places {
         (self.words.get(place / 64)).is_some_and(|word| word >> (place % 64) & 1 == 1)
     }
 
-    pub fn len(&self) -> usize {
-        self.words.iter().map(|w| w.count_ones() as usize).sum()
-    }
-
     /// In their order.
     pub fn iter(&self) -> impl Iterator<Item = Place> + '_ {
-        let words = self.words.iter().enumerate();
-        words.flat_map(|(k, &word)| {
-            let rest = std::iter::successors(Some(word), |word| Some(word & word.wrapping_sub(1)));
-            let rest = rest.take_while(|word| *word != 0);
-            rest.map(move |word| k * 64 + word.trailing_zeros() as usize)
-        })
+        bits(self.words.iter().copied())
+    }
+
+    /// All that are not among them, in their order; and some behind all places there are.
+    pub fn others(&self) -> impl Iterator<Item = Place> + '_ {
+        bits(self.words.iter().map(|word| !word))
     }
 
     pub fn insert(&mut self, place: Place) {
@@ -72,6 +68,15 @@ impl Places {
             .iter()
             .for_each(|place| self.set(*place, true));
     }
+}
+
+/// The bits of words, by their numbers.
+fn bits(words: impl Iterator<Item = u64>) -> impl Iterator<Item = usize> {
+    words.enumerate().flat_map(|(k, word)| {
+        let rest = std::iter::successors(Some(word), |word| Some(word & word.wrapping_sub(1)));
+        let rest = rest.take_while(|word| *word != 0);
+        rest.map(move |word| k * 64 + word.trailing_zeros() as usize)
+    })
 }
 
 /// What is alive before and behind each block.

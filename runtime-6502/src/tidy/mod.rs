@@ -33,10 +33,11 @@ use code::{Line, Names};
 use flow::{Block, Flow};
 use live::Alive;
 use rules::Edit;
-use state::{Kept, State};
-use std::cell::OnceCell;
+use state::State;
+use std::cell::{Cell, OnceCell};
 use std::ops::Range;
 use thread::Known;
+use values::Held;
 
 /// Rounds of all rules, at most; what a round leaves is a program like any other.
 const ROUNDS: usize = 8;
@@ -66,8 +67,17 @@ pub fn tidy<T>(lines: &mut Vec<(String, T)>, symbols: &Range<usize>, own: &Range
 struct Program {
     code: Vec<Line>,
     names: Names,
-    /// What places hold where blocks begin, once that was asked for.
-    starts: OnceCell<Option<Vec<Option<Kept>>>>,
+    /// What is known of them as they are now, once that was asked for.
+    facts: OnceCell<Facts>,
+    /// What was known before, to be written over.
+    spare: Cell<Held>,
+}
+
+/// What is known of a program.
+struct Facts {
+    flow: Flow,
+    alive: Alive,
+    held: OnceCell<Held>,
 }
 
 impl Program {
@@ -78,8 +88,21 @@ impl Program {
         Program {
             code,
             names,
-            starts: OnceCell::new(),
+            facts: OnceCell::new(),
+            spare: Cell::default(),
         }
+    }
+
+    fn facts(&self) -> &Facts {
+        self.facts.get_or_init(|| {
+            let flow = Flow::new(&self.code, &self.names);
+            let alive = live::alive(&flow);
+            Facts {
+                flow,
+                alive,
+                held: OnceCell::new(),
+            }
+        })
     }
 
     /// Edits touch instructions alone, so names stay what they are. Whether any was one.
@@ -97,7 +120,8 @@ impl Program {
             }
         }
         if changed {
-            self.starts.take();
+            let held = self.facts.take().and_then(|facts| facts.held.into_inner());
+            self.spare.set(held.unwrap_or_default());
         }
         changed
     }
@@ -109,65 +133,56 @@ fn may_change(block: &Block, own: &Range<usize>) -> bool {
 }
 
 fn forward(program: &Program, own: &Range<usize>) -> Vec<(usize, Edit)> {
-    let (code, flow) = (&program.code, Flow::new(&program.code, &program.names));
-    let (alive, met) = (live::alive(&flow), rules::met(&flow));
-    let edits = |b: usize, start: &mut State| {
+    let Facts { flow, alive, .. } = program.facts();
+    let met = rules::met(flow);
+    known(program, own, |b, start| {
         let Some((block, behind)) = flow.blocks.get(b).zip(alive.behind.get(b)) else {
             return Vec::new();
         };
-        rules::forward(code, &flow, block, start, behind, &met)
-    };
-    known(program, &flow, &alive, own, edits)
+        rules::forward(&program.code, flow, block, start, behind, &met)
+    })
 }
 
 fn backward(program: &Program, own: &Range<usize>) -> Vec<(usize, Edit)> {
-    let flow = Flow::new(&program.code, &program.names);
-    let alive = live::alive(&flow);
+    let Facts { flow, alive, .. } = program.facts();
     (flow.blocks.iter().zip(&alive.behind))
         .filter(|(block, _)| may_change(block, own))
-        .flat_map(|(block, behind)| rules::backward(&program.code, &flow, block, behind))
+        .flat_map(|(block, behind)| rules::backward(&program.code, flow, block, behind))
         .collect()
 }
 
 fn threads(program: &Program, own: &Range<usize>) -> Vec<(usize, Edit)> {
-    let flow = Flow::new(&program.code, &program.names);
-    let alive = live::alive(&flow);
+    let Facts { flow, alive, .. } = program.facts();
     let ways = Known {
         lines: &program.code,
         names: &program.names,
-        flow: &flow,
+        flow,
         behind: &alive.behind,
     };
-    let edits = |b: usize, start: &mut State| {
+    known(program, own, |b, start| {
         let block = flow.blocks.get(b);
         block.map_or_else(Vec::new, |block| ways.edits(block, start))
-    };
-    known(program, &flow, &alive, own, edits)
+    })
 }
 
 /// Edits of all blocks that may change and of which it is known what places hold where they
 /// begin.
 fn known(
     program: &Program,
-    flow: &Flow,
-    alive: &Alive,
     own: &Range<usize>,
     edits: impl Fn(usize, &mut State) -> Vec<(usize, Edit)>,
 ) -> Vec<(usize, Edit)> {
-    let starts = (program.starts).get_or_init(|| values::at_starts(&program.code, flow, alive));
-    let Some(starts) = starts else {
-        return Vec::new();
-    };
-    let mut state = State::new(flow.space.cells());
-    let mut edit = |(b, start)| {
-        state.enter(b, start);
-        edits(b, &mut state)
-    };
-    let starts = (starts.iter().zip(&flow.blocks).enumerate())
-        .filter(|(_, (_, block))| may_change(block, own));
-    starts
-        .filter_map(|(b, (start, _))| Some((b, start.as_ref()?)))
-        .flat_map(&mut edit)
+    let Facts { flow, alive, held } = program.facts();
+    let held = held.get_or_init(|| Held::of(&program.code, flow, alive, program.spare.take()));
+    let mut state = State::default();
+    let blocks = flow.blocks.iter().enumerate();
+    blocks
+        .filter(|(_, block)| may_change(block, own))
+        .filter_map(|(b, _)| Some((b, held.at_start(b)?)))
+        .flat_map(|(b, start)| {
+            state.enter(b, start);
+            edits(b, &mut state)
+        })
         .collect()
 }
 

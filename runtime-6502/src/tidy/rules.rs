@@ -4,9 +4,8 @@ use super::code::{Instruction, Line, Operand};
 use super::effects::{A, C, Effects, NZ, Place, REGISTERS, X, Y};
 use super::flow::{Block, Flow};
 use super::live::Places;
-use super::state::{BYTES, State, Value, made_in};
+use super::state::{BYTES, Sieve, State, Value, made_in};
 use super::values;
-use rustc_hash::FxHashSet;
 
 /// What no place holds.
 const NONE: Value = Value::MAX - 1;
@@ -42,7 +41,7 @@ pub(super) fn forward(
     // What is left out before may have set the flags; so they are not relied on.
     state.put(NZ, NONE);
     let flags_read = flags_read(flow, block, behind);
-    let mut shared = shared(state);
+    let mut shared = shared(state, flow.space.cells());
     let stale = values::stale(state, &block.lines);
     let mut edits = Vec::new();
     for k in block.lines.clone() {
@@ -72,11 +71,15 @@ pub(super) fn forward(
 }
 
 /// The values that several bytes of memory hold.
-fn shared(state: &State) -> FxHashSet<Value> {
-    let mut seen = FxHashSet::default();
-    let bytes = state.told().filter(|(place, _)| *place >= REGISTERS);
-    let values = bytes.map(|(_, value)| value);
-    values.filter(|value| !seen.insert(*value)).collect()
+fn shared(state: &State, cells: usize) -> Sieve {
+    let (mut held, mut shared) = (Sieve::new(cells), Sieve::new(cells));
+    for (_, value) in state.told().filter(|(place, _)| *place >= REGISTERS) {
+        if held.may_have(value) {
+            shared.insert(value);
+        }
+        held.insert(value);
+    }
+    shared
 }
 
 /// Whether the zero and negative flags are read behind each line of a block.
@@ -101,7 +104,7 @@ struct Now<'a> {
     flow: &'a Flow,
     state: &'a State,
     /// Those of its values that other bytes may hold as well.
-    shared: &'a FxHashSet<Value>,
+    shared: &'a Sieve,
     met: &'a [u32],
 }
 
@@ -168,13 +171,13 @@ impl Now<'_> {
     /// Of the cells that hold a value, the one to read it from: one in the zero page, where it
     /// was computed, that is read most.
     fn best(&self, value: Value) -> Option<(Place, &str)> {
-        if !self.shared.contains(&value) {
+        if !self.shared.may_have(value) {
             return None;
         }
         let rank = |place: Place| {
             let at = self.flow.space.address(place).unwrap_or(u16::MAX);
             let met = self.met.get(place).copied().unwrap_or_default();
-            (at > 0xFF, !made_in(value, place), u32::MAX - met, at)
+            (at > 0xFF, place != made_in(value), u32::MAX - met, at)
         };
         let best = self.state.holders(value).min_by_key(|p| rank(*p))?;
         let at = self.flow.space.address(best)?;

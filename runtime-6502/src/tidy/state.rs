@@ -3,6 +3,7 @@
 use super::effects::{NZ, Place, REGISTERS};
 use super::live::Places;
 use rustc_hash::{FxHashMap, FxHashSet};
+use std::ops::Range;
 
 /// A value: a byte that is known, or a number for what is not, the same for the same value.
 ///
@@ -15,12 +16,16 @@ pub(super) type Value = u64;
 pub(super) const BYTES: Value = 256;
 
 /// No value: what a place holds was not told.
-const UNTOLD: Value = Value::MAX;
+pub(super) const UNTOLD: Value = Value::MAX;
+
+/// No value: ways that meet differ in it.
+const MIXED: Value = Value::MAX - 1;
 
 /// Where a value comes from.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(super) enum From {
     /// A line gave it to a place.
+    #[default]
     Line,
     /// A place lost what it had at a line.
     Lost,
@@ -43,6 +48,14 @@ pub(super) fn unknown(from: From, at: usize, place: Place) -> Value {
     fresh(if place == NZ { From::Two } else { from }, at, place)
 }
 
+/// Whether values come from these lines: given or lost there.
+pub(super) fn of_lines(lines: &Range<usize>) -> impl Fn(Value) -> bool {
+    let [from, to] = [lines.start, lines.end].map(|line| fresh(From::Line, line, 0));
+    // What is lost at a line has one bit more than what is given there.
+    let bit = fresh(From::Lost, 0, 0) - fresh(From::Line, 0, 0);
+    move |value| (from..to).contains(&(BYTES + (value.wrapping_sub(BYTES) & !bit)))
+}
+
 /// Where a value comes from that is no byte: and the line or block.
 pub(super) fn origin(value: Value) -> Option<(From, usize)> {
     let number = value.checked_sub(BYTES)?;
@@ -55,48 +68,108 @@ pub(super) fn is_two(value: Value) -> bool {
     origin(value).is_some_and(|(from, _)| from == From::Two)
 }
 
-/// Whether a value was computed in a place.
-pub(super) fn made_in(value: Value, place: Place) -> bool {
-    value >= BYTES && ((value - BYTES) & 0xFF_FFFF) as Place == place
+/// The place that a value which is no byte was made in.
+pub(super) fn made_in(value: Value) -> Place {
+    (value.saturating_sub(BYTES) & 0xFF_FFFF) as Place
 }
 
-/// What places hold where a block begins, by place: of registers, of what is read later, and
-/// what else could stand for that. Of others nothing is known but that they were there.
-pub(super) type Kept = Vec<(Place, Value)>;
+/// What places hold where a block begins, of each place: of registers, of what is read later,
+/// and what else could stand for that. Of others nothing is told but that they were there.
+///
+/// All places are in it, for nearly all are read later: what goes from block to block is then
+/// copied and compared as a whole.
+pub(super) type Kept = Vec<Value>;
 
 /// What places hold somewhere in a block.
-#[derive(Clone)]
+#[derive(Default)]
 pub(super) struct State {
-    values: Vec<Value>,
-    /// The places whose values are told; the others have what they had there.
-    told: Vec<Place>,
+    /// Those whose values are not told have what they had there.
+    values: Kept,
     since: (From, usize),
+    /// Whether a place that is read later may not be told.
+    gaps: bool,
 }
 
 impl State {
-    /// Of so many places nothing is told.
-    pub fn new(cells: usize) -> State {
-        State {
-            values: vec![UNTOLD; cells],
-            told: Vec::new(),
-            since: (From::Block, 0),
-        }
+    /// Has so many places.
+    pub fn resize(&mut self, cells: usize) {
+        self.values.resize(cells, UNTOLD);
     }
 
     /// Goes to where a block begins.
     pub fn enter(&mut self, b: usize, kept: &Kept) {
-        self.untell();
         self.since = (From::Block, b);
-        kept.iter()
-            .for_each(|(place, value)| self.put(*place, *value));
+        self.values.clone_from(kept);
+        self.gaps = true;
     }
 
-    fn untell(&mut self) {
-        for place in self.told.drain(..) {
-            if let Some(at) = self.values.get_mut(place) {
-                *at = UNTOLD;
-            }
+    /// Goes to where a block begins that several ways come to. What all agree on is held there,
+    /// and where they do not, one value by all places that hold the same on each way. `again`
+    /// says that the block was begun before, so that its own values may have come round.
+    pub fn join(&mut self, b: usize, ways: &[&State], again: bool) {
+        self.since = (From::Block, b);
+        self.gaps = ways.is_empty() || ways.iter().any(|way| way.gaps);
+        let Some((first, rest)) = ways.split_first() else {
+            return self.values.fill(UNTOLD);
+        };
+        self.values.clone_from(&first.values);
+        for way in rest {
+            let both = self.values.iter_mut().zip(way.values.iter());
+            both.filter(|(at, other)| at != other)
+                .for_each(|(at, _)| *at = MIXED);
         }
+        if rest.is_empty() && !again {
+            return;
+        }
+        let from_here = fresh(From::Block, b, 0)..fresh(From::Block, b + 1, 0);
+        let mut classes = Classes::default();
+        for (place, at) in self.values.iter_mut().enumerate() {
+            if *at != MIXED && !from_here.contains(at) {
+                continue;
+            }
+            let on_each = || ways.iter().filter_map(|way| way.values.get(place).copied());
+            *at = if on_each().any(|value| value == UNTOLD) {
+                UNTOLD
+            } else if place == NZ && on_each().any(is_two) {
+                unknown(From::Block, b, place)
+            } else {
+                classes.of(on_each(), fresh(From::Block, b, place))
+            };
+        }
+    }
+
+    /// What is handed on.
+    pub fn values(&self) -> &Kept {
+        &self.values
+    }
+
+    /// Nothing is told.
+    pub fn clear(&mut self) {
+        self.values.fill(UNTOLD);
+        self.gaps = true;
+    }
+
+    /// All that is read from here on is told.
+    fn fill_gaps(&mut self, alive: &Places) {
+        let cells = self.values.len();
+        let asked = alive.iter().take_while(|place| *place < cells);
+        for place in (0..REGISTERS).chain(asked) {
+            let value = self.held(place);
+            self.put(place, value);
+        }
+        self.gaps = false;
+    }
+
+    fn has_no_gap(&self, alive: &Places) -> bool {
+        let told = self.values.iter().enumerate();
+        told.filter(|(place, _)| alive.has(*place))
+            .all(|(_, value)| *value != UNTOLD)
+    }
+
+    /// Becomes what another is.
+    pub fn copy(&mut self, other: &State) {
+        self.values.clone_from(&other.values);
+        (self.since, self.gaps) = (other.since, other.gaps);
     }
 
     pub fn held(&self, place: Place) -> Value {
@@ -108,28 +181,26 @@ impl State {
 
     pub fn put(&mut self, place: Place, value: Value) {
         if let Some(at) = self.values.get_mut(place) {
-            if *at == UNTOLD {
-                self.told.push(place);
-            }
             *at = value;
         }
     }
 
     /// From a line on nothing is known.
     pub fn forget(&mut self, line: usize) {
-        self.untell();
+        self.clear();
         self.since = (From::Line, line);
     }
 
     /// What places hold of which more is known than where.
     pub fn told(&self) -> impl Iterator<Item = (Place, Value)> + '_ {
-        self.told.iter().map(|place| (*place, self.held(*place)))
+        let all = self.values.iter().copied().enumerate();
+        all.filter(|(_, value)| *value != UNTOLD)
     }
 
     /// Gives places other values.
     pub fn change(&mut self, other: impl Fn(Place, Value) -> Option<Value>) {
-        for &place in &self.told {
-            if let Some(at) = self.values.get_mut(place)
+        for (place, at) in self.values.iter_mut().enumerate() {
+            if *at != UNTOLD
                 && let Some(value) = other(place, *at)
             {
                 *at = value;
@@ -139,67 +210,89 @@ impl State {
 
     /// The bytes of memory that hold a value.
     pub fn holders(&self, value: Value) -> impl Iterator<Item = Place> + '_ {
-        let told = self
-            .told()
-            .filter(move |(place, v)| *place >= REGISTERS && *v == value);
-        told.map(|(place, _)| place)
+        let bytes = self.values.iter().enumerate().skip(REGISTERS);
+        bytes
+            .filter(move |(_, held)| **held == value)
+            .map(|(place, _)| place)
     }
 
-    /// What is handed to a block of which these places are read.
-    pub fn kept(&self, alive: &Places) -> Kept {
-        let cells = self.values.len();
-        let mut kept = Kept::with_capacity(REGISTERS + alive.len());
-        let asked = alive.iter().take_while(|place| *place < cells);
-        (0..REGISTERS)
-            .chain(asked.filter(|place| *place >= REGISTERS))
-            .for_each(|place| kept.push((place, self.held(place))));
-        let other = |(place, _): &(Place, Value)| *place >= REGISTERS && !alive.has(*place);
-        let others: Vec<(Place, Value)> = self.told().filter(other).collect();
-        if others.is_empty() {
-            return kept;
+    /// Leaves what is handed to a block of which these places are read.
+    pub fn keep(&mut self, alive: &Places) {
+        // What is read behind a block is read before it, or given in it: once told, all is told.
+        if self.gaps {
+            self.fill_gaps(alive);
         }
-        // There are few others: what they hold is looked for, not all that is kept.
-        let sought: FxHashSet<Value> = others.iter().map(|(_, value)| *value).collect();
-        let met: FxHashSet<Value> = (kept.iter().map(|(_, value)| *value))
-            .filter(|value| sought.contains(value))
-            .collect();
-        let also = |(_, value): &(Place, Value)| *value < BYTES || met.contains(value);
-        kept.extend(others.into_iter().filter(also));
-        // Two runs in order, or nearly.
-        kept.sort();
-        kept
+        debug_assert!(self.has_no_gap(alive));
+        let mut others = Vec::new();
+        for place in alive.others().skip_while(|place| *place < REGISTERS) {
+            let Some(at) = self.values.get_mut(place) else {
+                break;
+            };
+            if *at >= BYTES && *at != UNTOLD {
+                others.push((place, *at));
+                *at = UNTOLD;
+            }
+        }
+        if others.is_empty() {
+            return;
+        }
+        // There are few others: what they hold is looked for in what is kept.
+        let mut sought = Sieve::new(others.len());
+        others.iter().for_each(|(_, value)| sought.insert(*value));
+        let found = self.values.iter().filter(|value| sought.may_have(**value));
+        let met: FxHashSet<Value> = found.copied().collect();
+        for (place, value) in others.into_iter().filter(|(_, value)| met.contains(value)) {
+            self.put(place, value);
+        }
     }
 }
 
-/// What is held where a block begins that several ways come to: what all agree on, and where
-/// they do not, one value for all places that hold the same on each way.
-pub(super) fn joined(b: usize, ways: &[&Kept]) -> Kept {
-    let Some((first, rest)) = ways.split_first() else {
-        return Kept::new();
-    };
-    let mut seen: FxHashMap<Vec<Value>, Value> = FxHashMap::default();
-    let mut rest: Vec<_> = rest.iter().map(|way| way.iter().peekable()).collect();
-    let mut on_each = Vec::with_capacity(ways.len());
-    let mut join = |&(place, value): &(Place, Value)| {
-        on_each.clear();
-        on_each.push(value);
-        for way in &mut rest {
-            while way.next_if(|(other, _)| *other < place).is_some() {}
-            on_each.push(way.next_if(|(other, _)| *other == place)?.1);
+/// A set of values that may have some more, and is quick to ask.
+pub(super) struct Sieve {
+    bits: Places,
+    shift: u32,
+}
+
+impl Sieve {
+    /// For so many values.
+    pub fn new(count: usize) -> Sieve {
+        let size = (32 * count).next_power_of_two().max(64);
+        Sieve {
+            bits: Places::none(size),
+            shift: 64 - size.trailing_zeros(),
         }
-        let from_here = origin(value) == Some((From::Block, b));
-        if !from_here && on_each.iter().all(|other| *other == value) {
-            return Some((place, value));
-        }
-        if place == NZ && on_each.iter().any(|value| is_two(*value)) {
-            return Some((place, unknown(From::Block, b, place)));
-        }
-        if let Some(same) = seen.get(on_each.as_slice()) {
-            return Some((place, *same));
-        }
-        let own = fresh(From::Block, b, place);
-        seen.insert(on_each.clone(), own);
-        Some((place, own))
-    };
-    first.iter().filter_map(&mut join).collect()
+    }
+
+    fn bit(&self, value: Value) -> usize {
+        (value.wrapping_mul(0x9E37_79B9_7F4A_7C15) >> self.shift) as usize
+    }
+
+    pub fn insert(&mut self, value: Value) {
+        self.bits.insert(self.bit(value));
+    }
+
+    pub fn may_have(&self, value: Value) -> bool {
+        self.bits.has(self.bit(value))
+    }
+}
+
+/// Values that stand for what several ways have in a place.
+#[derive(Default)]
+struct Classes {
+    /// A number for what the first ways have, with what the next has.
+    numbers: FxHashMap<(Value, Value), Value>,
+    values: FxHashMap<Value, Value>,
+}
+
+impl Classes {
+    /// The value for a place that has these on each way; its own for the first of them.
+    fn of(&mut self, mut on_each: impl Iterator<Item = Value>, own: Value) -> Value {
+        let first = on_each.next().unwrap_or(UNTOLD);
+        let class = on_each.fold(first, |class, value| {
+            // Numbers that no value has.
+            let next = MIXED - 1 - self.numbers.len() as Value;
+            *self.numbers.entry((class, value)).or_insert(next)
+        });
+        *self.values.entry(class).or_insert(own)
+    }
 }

@@ -2,9 +2,10 @@
 
 use super::code::{Instruction, Line, Operand};
 use super::effects::{A, C, NZ, Place, X, Y};
-use super::flow::{End, Flow};
+use super::flow::{Block, End, Flow};
+use super::jumps::name;
 use super::live::{Alive, Places};
-use super::state::{From, Kept, State, Value, fresh, is_two, joined, origin, unknown};
+use super::state::{From, Kept, State, Value, fresh, is_two, of_lines, origin, unknown};
 use rustc_hash::FxHashMap;
 use std::ops::Range;
 
@@ -18,11 +19,9 @@ fn is_of(value: Value, line: usize) -> bool {
 
 /// The lines of a block whose values are still held from the last time.
 pub(super) fn stale(state: &State, lines: &Range<usize>) -> Vec<usize> {
-    let line = |(_, value): (Place, Value)| match origin(value)? {
-        (From::Line | From::Lost, at) if lines.contains(&at) => Some(at),
-        _ => None,
-    };
-    let mut stale: Vec<usize> = state.told().filter_map(line).collect();
+    let of_lines = of_lines(lines);
+    let values = state.values().iter().filter(|value| of_lines(**value));
+    let mut stale: Vec<usize> = values.filter_map(|v| Some(origin(*v)?.1)).collect();
     stale.sort_unstable();
     stale.dedup();
     stale
@@ -125,120 +124,153 @@ pub(super) fn decided(state: &mut State, branch: &str, taken: bool) {
     }
 }
 
-/// What places hold where each block begins; nothing where that was not found out, and of
-/// blocks that nothing comes to.
-pub(super) fn at_starts(lines: &[Line], flow: &Flow, alive: &Alive) -> Option<Vec<Option<Kept>>> {
-    let count = flow.blocks.len();
-    let changed = changed_by_calls(lines.len(), flow);
-    let mut starts: Vec<Option<Kept>> = vec![None; count];
-    // By where it came from and where it goes.
-    let mut edges: FxHashMap<(usize, usize), Kept> = FxHashMap::default();
-    let mut waiting = vec![true; count];
-    let mut state = State::new(flow.space.cells());
-    for _ in 0..ROUNDS {
-        let mut any = false;
-        for b in 0..count {
-            if !waiting.get(b).copied().unwrap_or_default() {
-                continue;
-            }
-            let Some(start) = start(flow, b, &edges) else {
-                continue;
-            };
-            if let Some(flag) = waiting.get_mut(b) {
-                *flag = false;
-            }
-            if starts.get(b).and_then(Option::as_ref) == Some(&start) {
-                continue;
-            }
-            any = true;
-            state.enter(b, &start);
-            for (to, kept) in ends(lines, flow, b, &mut state, alive, &changed) {
-                edges.insert((b, to), kept);
-                if let Some(flag) = waiting.get_mut(to) {
-                    *flag = true;
+/// What places hold where blocks begin, and on the ways between them. It is much, so it is
+/// written over when that is asked again of a program that was changed.
+#[derive(Default)]
+pub(super) struct Held {
+    starts: Vec<Kept>,
+    /// The blocks that are known to be come to.
+    begun: Vec<bool>,
+    /// By where a way comes from, and which of the ways on from there it is.
+    edges: Vec<Vec<State>>,
+    /// Whether it was found out.
+    settled: bool,
+}
+
+impl Held {
+    pub fn of(lines: &[Line], flow: &Flow, alive: &Alive, spare: Held) -> Held {
+        let (count, cells) = (flow.blocks.len(), flow.space.cells());
+        let mut held = spare;
+        held.starts.resize_with(count, Kept::new);
+        held.begun = vec![false; count];
+        held.edges.resize_with(count, Vec::new);
+        for (edges, block) in held.edges.iter_mut().zip(&flow.blocks) {
+            edges.resize_with(block.next.len(), State::default);
+            edges.iter_mut().for_each(|edge| edge.resize(cells));
+        }
+        held.settled = held.settle(lines, flow, alive).is_some();
+        held
+    }
+
+    /// What places hold where a block begins; nothing where that was not found out, and of
+    /// blocks that nothing comes to.
+    pub fn at_start(&self, b: usize) -> Option<&Kept> {
+        let known = self.settled && self.begun.get(b).copied().unwrap_or_default();
+        self.starts.get(b).filter(|_| known)
+    }
+
+    /// Goes through all blocks until nothing changes.
+    fn settle(&mut self, lines: &[Line], flow: &Flow, alive: &Alive) -> Option<()> {
+        let changed = changed_by_calls(lines.len(), flow);
+        let mut waiting = vec![true; flow.blocks.len()];
+        let mut state = State::default();
+        state.resize(flow.space.cells());
+        for _ in 0..ROUNDS {
+            let mut any = false;
+            for (b, block) in flow.blocks.iter().enumerate() {
+                if !waiting.get(b).copied().unwrap_or_default() {
+                    continue;
+                }
+                let Some(ways) = self.ways_to(flow, b) else {
+                    continue;
+                };
+                let begun = self.begun.get(b).copied().unwrap_or_default();
+                state.join(b, &ways, begun);
+                waiting.get_mut(b).into_iter().for_each(|w| *w = false);
+                let Some(start) = self.starts.get_mut(b) else {
+                    continue;
+                };
+                if begun && start == state.values() {
+                    continue;
+                }
+                any = true;
+                start.clone_from(state.values());
+                // For the first time, none of its lines has given a value yet.
+                let stale = match begun {
+                    true => stale(&state, &block.lines),
+                    false => Vec::new(),
+                };
+                self.begun.get_mut(b).into_iter().for_each(|b| *b = true);
+                carry_out_all(&mut state, lines, flow, block, &stale);
+                if let Some(ways) = self.edges.get_mut(b) {
+                    end(lines, block, &mut state, alive, &changed, ways);
+                }
+                for to in &block.next {
+                    waiting.get_mut(*to).into_iter().for_each(|w| *w = true);
                 }
             }
-            if let Some(at) = starts.get_mut(b) {
-                *at = Some(start);
+            if !any {
+                return Some(());
             }
         }
-        if !any {
-            return Some(starts);
+        None
+    }
+
+    /// What is held on the ways to where a block begins that are known so far; none where it
+    /// may begin with anything. Nothing where it is not known yet that anything comes to it.
+    fn ways_to(&self, flow: &Flow, b: usize) -> Option<Vec<&State>> {
+        let block = flow.blocks.get(b)?;
+        if block.entered || block.before.is_empty() {
+            return Some(Vec::new());
+        }
+        let way = |from: &usize| {
+            let begun = self.begun.get(*from).copied().unwrap_or_default();
+            let next = &flow.blocks.get(*from).filter(|_| begun)?.next;
+            let which = next.iter().position(|to| *to == b)?;
+            self.edges.get(*from)?.get(which)
+        };
+        let ways: Vec<&State> = block.before.iter().filter_map(way).collect();
+        (!ways.is_empty()).then_some(ways)
+    }
+}
+
+/// Carries out the lines of a block.
+fn carry_out_all(state: &mut State, lines: &[Line], flow: &Flow, block: &Block, stale: &[usize]) {
+    for k in block.lines.clone() {
+        if let Some(Line::Code(instruction)) = lines.get(k) {
+            carry_out(state, flow, k, instruction, stale);
         }
     }
-    None
 }
 
-/// What is held where a block begins, by the ways there that are known so far.
-fn start(flow: &Flow, b: usize, edges: &FxHashMap<(usize, usize), Kept>) -> Option<Kept> {
-    let block = flow.blocks.get(b)?;
-    if block.entered || block.before.is_empty() {
-        return Some(Kept::new());
-    }
-    let ways: Vec<&Kept> = (block.before.iter())
-        .filter_map(|from| edges.get(&(*from, b)))
-        .collect();
-    (!ways.is_empty()).then(|| joined(b, &ways))
-}
-
-/// What is held at the ends of a block, on each way on; `state` is where it begins.
-fn ends(
+/// What is held behind a block, on each way on; `state` is where it ends.
+fn end(
     lines: &[Line],
-    flow: &Flow,
-    b: usize,
+    block: &Block,
     state: &mut State,
     alive: &Alive,
     changed: &FxHashMap<usize, Called>,
-) -> Vec<(usize, Kept)> {
-    let Some(block) = flow.blocks.get(b) else {
-        return Vec::new();
-    };
-    let stale = stale(state, &block.lines);
-    for k in block.lines.clone() {
-        if let Some(Line::Code(instruction)) = lines.get(k) {
-            carry_out(state, flow, k, instruction, &stale);
-        }
+    ways: &mut [State],
+) {
+    if block.end == End::Unknown {
+        return ways.iter_mut().for_each(State::clear);
     }
-    let kept = |state: &State, to: usize| {
-        let alive = alive.ahead.get(to);
-        (to, alive.map_or_else(Kept::new, |alive| state.kept(alive)))
-    };
-    let on = |state: &State| block.next.iter().map(|to| kept(state, *to)).collect();
-    match block.end {
+    let branch = match (&block.end, block.next.as_slice()) {
         // A branch to what stands behind it tells nothing.
-        End::Branch(_) if matches!(block.next.as_slice(), [one, other] if one == other) => block
-            .next
-            .first()
-            .map(|to| kept(state, *to))
-            .into_iter()
-            .collect(),
-        End::Branch(k) => {
-            let Some(Line::Code(branch)) = lines.get(k) else {
-                return Vec::new();
-            };
-            let mut other = state.clone();
-            let ways = block.next.iter().zip([(true, &mut other), (false, state)]);
-            ways.map(|(to, (taken, state))| {
-                decided(state, &branch.name, taken);
-                kept(state, *to)
-            })
-            .collect()
+        (End::Branch(_), [one, other]) if one == other => None,
+        (End::Branch(k), _) => Some(name(lines, *k)),
+        _ => None,
+    };
+    let last = ways.len().saturating_sub(1);
+    for (k, (to, way)) in block.next.iter().zip(ways).enumerate() {
+        match k == last {
+            true => std::mem::swap(way, state),
+            false => way.copy(state),
         }
-        End::Call(to) => {
+        if let Some(branch) = branch {
+            decided(way, branch, k == 0);
+        }
+        if let Some(alive) = alive.ahead.get(*to) {
+            way.keep(alive);
+        }
+        if let End::Call(to) = block.end {
             let k = block.lines.end.saturating_sub(1);
             let called = changed.get(&to);
-            let lost = |place: Place, value: Value| {
+            way.change(|place, value| {
                 let lost = called.is_none_or(|called| called.changes(place, value));
                 (lost || is_of(value, k)).then(|| unknown(From::Line, k, place))
-            };
-            let mut ways: Vec<(usize, Kept)> = on(state);
-            for (place, value) in ways.iter_mut().flat_map(|(_, kept)| kept) {
-                *value = lost(*place, *value).unwrap_or(*value);
-            }
-            ways
+            });
         }
-        End::Unknown => block.next.iter().map(|to| (*to, Kept::new())).collect(),
-        End::On | End::Jump | End::Return => on(state),
     }
 }
 

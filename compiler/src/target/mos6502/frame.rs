@@ -18,6 +18,7 @@ use slowlight_runtime_6502::write::{self, Place as Operand};
 use std::ops::Range;
 
 /// Where parts of a program's text are, by lines.
+#[derive(Clone, PartialEq, Eq)]
 pub(super) struct Lines {
     /// What names the bytes that nobody else uses.
     pub symbols: Range<usize>,
@@ -30,11 +31,13 @@ pub(super) fn program(plan: &Plan, homes: &Homes, syntax: &Syntax, text: &mut Te
     let entries = entries(plan, homes);
     head(plan, homes, &entries, syntax, text);
     // What operands are read with is known when they have been.
-    let (_, read) = main(plan, homes, &[], &mut Text::default());
+    let mut body = Text::default();
+    let (clamps, read) = main(plan, homes, &mut body);
     let parts = parts(plan, &entries, &read);
     let named_from = symbols(plan, homes, &parts, text);
     let named_to = text.lines.len();
-    let (clamps, _) = main(plan, homes, &parts, text);
+    begin(plan, homes, &parts, text);
+    text.append(body);
     let code = named_to..text.lines.len();
     take_params(plan, homes, &entries, syntax, text);
     let machine = Machine::of(plan);
@@ -186,13 +189,8 @@ const MADE: [(&str, &str); 5] = [
     ("log_whole", "set_parts"),
 ];
 
-/// The program proper; answers whether it clamps an index, and with what operands are read.
-fn main(
-    plan: &Plan,
-    homes: &Homes,
-    parts: &[&'static Part],
-    text: &mut Text,
-) -> (bool, Vec<&'static str>) {
+/// How the program begins, by the parts that it has.
+fn begin(plan: &Plan, homes: &Homes, parts: &[&'static Part], text: &mut Text) {
     text.line("");
     text.label("start");
     let machine = Machine::of(plan);
@@ -210,6 +208,11 @@ fn main(
         }
     }
     text.code("jsr take_params");
+}
+
+/// The program proper; answers whether it clamps an index, and with what operands are read.
+fn main(plan: &Plan, homes: &Homes, text: &mut Text) -> (bool, Vec<&'static str>) {
+    let machine = Machine::of(plan);
     let screen = plan.plot.then(|| Screen::new(plan, homes));
     if let Some(screen) = &screen {
         screen.open(plan, text);

@@ -25,6 +25,8 @@
 //! - `code`: statements; `comparisons`: in the carry; `table`: lookups; `comment`: what a
 //!   statement means;
 //! - `logs`: logarithmic reals; `inline`: products in place;
+//! - `draft`: a program before it is read again as a whole, and behind that; `extent`: how
+//!   long it is;
 //! - `params`: the parameter block's checks; `frame`: everything around the statements;
 //!   `rows`: the loops over rows, passes, runs of columns and pixels;
 //! - `spread`: error diffusion; `squares`: tables of quarter squares.
@@ -37,6 +39,8 @@ mod code;
 mod columns;
 mod comment;
 mod comparisons;
+mod draft;
+mod extent;
 mod frame;
 mod homes;
 mod inline;
@@ -64,14 +68,13 @@ use super::{Document, Mode, Target};
 use crate::passes::outline::Sizes;
 use crate::plan::Plan;
 use crate::source::Span;
+pub use draft::Draft;
 use memory::Machine;
 pub use memory::{DISC_PAGE, Room};
 use slowlight_runtime_6502::FIXED16_16;
 use slowlight_runtime_6502::log::{LOG10, LOG10_IN_RUNS};
 use slowlight_runtime_6502::scaled::{FIXED12, FIXED12_IN_RUNS, FIXED16, FIXED16_IN_RUNS};
 use slowlight_runtime_6502::scaled::{FIXED20, FIXED20_IN_RUNS, FIXED24, FIXED24_IN_RUNS};
-use slowlight_runtime_6502::tidy::tidy;
-use slowlight_runtime_6502::tidy::undocumented::undocumented;
 use syntax::Syntax;
 
 /// The plain machine: 64K of RAM and a port that takes ink by ink.
@@ -228,7 +231,9 @@ fn emit(plan: &Plan) -> Vec<Document> {
 
 /// A plan as one file of assembly for some assembler.
 pub fn document(plan: &Plan, syntax: &Syntax) -> Document {
-    written(plan, syntax, true)
+    let mut draft = Draft::with(plan, syntax);
+    draft.tidy();
+    draft.document()
 }
 
 /// The program that a plan's is for other rows of the picture: the same, but for what the
@@ -249,36 +254,6 @@ pub fn for_rows(document: &Document, (first, last): (u32, u32)) -> Document {
         other.text.push('\n');
     }
     other
-}
-
-/// A plan's program before it is read again as a whole ([`tidy`]), which only ever makes it
-/// shorter, and takes much longer than to write it.
-pub fn draft(plan: &Plan) -> Document {
-    written(plan, syntax::USUAL, false)
-}
-
-fn written(plan: &Plan, syntax: &Syntax, tidied: bool) -> Document {
-    let homes = homes::Homes::new(plan);
-    let mut text = Text::default();
-    let parts = frame::program(plan, &homes, syntax, &mut text);
-    if tidied {
-        tidy(&mut text.lines, &parts.symbols, &parts.code);
-    }
-    if tidied && plan.undocumented {
-        undocumented(&mut text.lines, &parts.symbols, parts.code.start);
-    }
-    let (written, lines) = syntax.write(&text.lines);
-    Document {
-        name: format!("{}.asm", plan.name),
-        text: written,
-        lines,
-        later: Vec::new(),
-    }
-}
-
-/// What a plan's program may take of its machine's memory, and what its values do.
-pub fn room(plan: &Plan) -> Room {
-    homes::Homes::new(plan).room(plan)
 }
 
 /// Where the file of a plan's program is loaded, if not where it is assembled for.
@@ -336,6 +311,12 @@ impl Text {
     fn next_serial(&mut self) -> u32 {
         self.serial += 1;
         self.serial
+    }
+
+    /// What was written elsewhere, as if it had been written here: labels were made there only.
+    fn append(&mut self, other: Text) {
+        self.lines.extend(other.lines);
+        (self.span, self.serial, self.kept) = (other.span, other.serial, other.kept);
     }
 
     /// A headline over a part of the program.

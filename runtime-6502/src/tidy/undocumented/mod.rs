@@ -14,9 +14,9 @@ mod twice;
 
 use super::code::{Instruction, Line};
 use super::flow::{Block, Flow};
-use super::live::{self, Places};
+use super::live::Places;
 use super::rules::Edit;
-use super::{GONE, Program};
+use super::{Facts, GONE, Program};
 use std::ops::Range;
 
 /// Puts undocumented opcodes where they save bytes or cycles. `symbols` are the lines that
@@ -29,12 +29,12 @@ pub fn undocumented<T>(lines: &mut Vec<(String, T)>, symbols: &Range<usize>, fro
 }
 
 fn edits(program: &Program, from: usize) -> Vec<(usize, Edit)> {
-    let flow = Flow::new(&program.code, &program.names);
+    let Facts { flow, alive, .. } = program.facts();
     let rules = rules::all();
-    (flow.blocks.iter().zip(live::alive(&flow).behind))
+    (flow.blocks.iter().zip(&alive.behind))
         .filter(|(block, _)| from <= block.lines.start)
         .flat_map(|(block, behind)| {
-            let block = Straight::new(&program.code, &flow, block, &behind);
+            let block = Straight::new(&program.code, flow, block, behind);
             let mut edits = twice::edits(&block);
             rules::add(&block, &rules, &mut edits);
             let line = |(k, edit)| Some((*block.lines.get(k)?, edit));

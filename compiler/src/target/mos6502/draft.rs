@@ -1,0 +1,106 @@
+//! A program as it is first written, and what becomes of it when it is read again as a whole.
+//!
+//! That takes most of the time, and makes the program shorter by a small part: so a draft says
+//! how long it is before it is tidied, and the program that was tidied last is kept. The one
+//! that is found to fit is the one that is wanted next, more than once.
+
+use super::extent::extent;
+use super::frame::{self, Lines};
+use super::homes::Homes;
+use super::memory::Room;
+use super::syntax::{self, Syntax};
+use super::{Document, Text};
+use crate::plan::Plan;
+use crate::source::Span;
+use slowlight_runtime_6502::tidy::tidy;
+use slowlight_runtime_6502::tidy::undocumented::undocumented as put_undocumented;
+use std::sync::{Mutex, PoisonError};
+
+/// A plan's program.
+pub struct Draft<'p> {
+    plan: &'p Plan,
+    syntax: &'p Syntax,
+    /// What it may take of its machine's memory, and what its values do.
+    pub room: Room,
+    lines: Vec<Line>,
+    parts: Lines,
+}
+
+/// A line and the place in the scene that it comes from.
+type Line = (String, Option<Span>);
+
+/// The program that was tidied last.
+struct Tidied {
+    parts: Lines,
+    undocumented: bool,
+    before: Vec<Line>,
+    behind: Vec<Line>,
+}
+
+static LAST: Mutex<Option<Tidied>> = Mutex::new(None);
+
+impl<'p> Draft<'p> {
+    /// As it is first written.
+    pub fn new(plan: &'p Plan) -> Draft<'p> {
+        Draft::with(plan, syntax::USUAL)
+    }
+
+    /// The same for some assembler.
+    pub(super) fn with(plan: &'p Plan, syntax: &'p Syntax) -> Draft<'p> {
+        let homes = Homes::new(plan);
+        let mut text = Text::default();
+        let parts = frame::program(plan, &homes, syntax, &mut text);
+        Draft {
+            plan,
+            syntax,
+            room: homes.room(plan),
+            lines: text.lines,
+            parts,
+        }
+    }
+
+    /// Leaves out what it does without, which only ever makes it shorter.
+    pub fn tidy(&mut self) {
+        let undocumented = self.plan.undocumented;
+        let same = |last: &&Tidied| {
+            last.parts == self.parts
+                && last.undocumented == undocumented
+                && last.before == self.lines
+        };
+        let last = LAST.lock().unwrap_or_else(PoisonError::into_inner);
+        if let Some(last) = last.as_ref().filter(same) {
+            self.lines = last.behind.clone();
+            return;
+        }
+        drop(last);
+        let before = self.lines.clone();
+        let Lines { symbols, code } = &self.parts;
+        tidy(&mut self.lines, symbols, code);
+        if undocumented {
+            put_undocumented(&mut self.lines, symbols, code.start);
+        }
+        *LAST.lock().unwrap_or_else(PoisonError::into_inner) = Some(Tidied {
+            parts: self.parts.clone(),
+            undocumented,
+            before,
+            behind: self.lines.clone(),
+        });
+    }
+
+    /// The addresses of its first byte and behind its last one, which may be beyond 64K;
+    /// nothing where that is not known without assembling it.
+    pub fn extent(&self) -> Option<(u32, u32)> {
+        extent(self.lines.iter().map(|(line, _)| line.as_str()))
+    }
+
+    /// As a text.
+    pub fn document(&self) -> Document {
+        let (text, lines) = self.syntax.write(&self.lines);
+        Document {
+            name: format!("{}.asm", self.plan.name),
+            text,
+            lines,
+            later: Vec::new(),
+        }
+    }
+}
