@@ -168,7 +168,7 @@ pub(super) fn users(graph: &Graph) -> Vec<Vec<NodeId>> {
     let mut users = vec![Vec::new(); graph.nodes.len()];
     let reached = graph.reached();
     for id in graph.ids().filter(|id| reached[id.0 as usize]) {
-        for used in graph.references(id) {
+        for used in graph.refers(id) {
             users[used.0 as usize].push(id);
         }
     }
@@ -183,7 +183,7 @@ fn exits(forms: &Forms<'_>) -> Vec<bool> {
     let reached = graph.reached();
     for id in graph.ids().filter(|id| reached[id.0 as usize]) {
         if forms.get(id).is_none_or(|f| atom_of(f) == Some(id.0)) {
-            for used in graph.references(id) {
+            for used in graph.refers(id) {
                 exits[used.0 as usize] = true;
             }
         }
