@@ -58,6 +58,7 @@ pub fn identities<'g>(
         samples: &samples,
         allowance,
         end: end(runtime.real),
+        followed: &verdicts.followed,
     };
     let mut sites = Vec::new();
     let next = rebuild_old(graph, &mut |b, made, id, span| {

@@ -23,7 +23,7 @@ mod terms;
 mod tests;
 
 use super::algebra::follow::{Sample, samples};
-use super::algebra::{Judge, allowance, end, users};
+use super::algebra::{Followed, Judge, allowance, end, users};
 use super::rate::{Rates, rates};
 use super::rebuild::rebuild_old;
 use super::segment::Known;
@@ -92,6 +92,7 @@ pub struct Sums<'g> {
     samples: Vec<Sample>,
     allowance: f64,
     end: f64,
+    followed: Followed,
     groups: FxHashMap<Common, Vec<Member>>,
 }
 
@@ -107,6 +108,7 @@ impl<'g> Sums<'g> {
             samples: samples(graph),
             allowance: allowance(runtime),
             end: end(runtime.real),
+            followed: Followed::default(),
             groups: FxHashMap::default(),
         };
         sums.groups = sums.grouped();
@@ -283,6 +285,7 @@ impl<'g> Sums<'g> {
             samples: &self.samples,
             allowance: self.allowance,
             end: self.end,
+            followed: &self.followed,
         };
         self.allowance >= 1.0 && self.graph.ty(old) == Type::Real && judge.sound(b, new, old, made)
     }
