@@ -8,9 +8,10 @@
 
 use super::graph::*;
 use crate::source::Span;
-use rustc_hash::FxHashMap;
+use rustc_hash::{FxBuildHasher, FxHashMap};
 use slowlight_routine::{Op, Type, Value};
-use std::collections::{BTreeMap, BTreeSet, HashMap};
+use std::collections::{BTreeMap, BTreeSet};
+use std::sync::Arc;
 
 /// A graph under construction.
 #[derive(Clone, Debug, Default)]
@@ -18,7 +19,7 @@ pub struct Builder {
     nodes: Vec<Node>,
     types: Vec<Type>,
     spans: Vec<Span>,
-    pub(super) names: HashMap<NodeId, String>,
+    pub(super) names: FxHashMap<NodeId, Arc<str>>,
     known: FxHashMap<Node, NodeId>,
     params: Vec<Param>,
     tables: Vec<Table>,
@@ -35,6 +36,17 @@ impl Builder {
     /// An empty graph.
     pub fn new() -> Builder {
         Builder::default()
+    }
+
+    /// The same with room for so many nodes.
+    pub fn with_room(nodes: usize) -> Builder {
+        Builder {
+            nodes: Vec::with_capacity(nodes),
+            types: Vec::with_capacity(nodes),
+            spans: Vec::with_capacity(nodes),
+            known: FxHashMap::with_capacity_and_hasher(nodes, FxBuildHasher),
+            ..Builder::default()
+        }
     }
 
     /// How many nodes there are, for limits.
@@ -157,24 +169,34 @@ impl Builder {
 
     /// An operation. An int where the operation wants a real is widened.
     pub fn apply(&mut self, op: Op, args: &[NodeId], span: Span) -> NodeId {
-        let mut wide: Vec<NodeId> = Vec::with_capacity(2);
+        let mut wide = [NodeId(0); 2];
+        let mut count = 0;
         for (&arg, &want) in args.iter().zip(op.args()) {
-            wide.push(if want == Type::Real && self.ty(arg) == Type::Int {
-                self.apply(Op::ToReal, &[arg], span)
-            } else {
-                arg
-            });
+            wide[count] = match want == Type::Real && self.ty(arg) == Type::Int {
+                true => self.apply(Op::ToReal, &[arg], span),
+                false => arg,
+            };
+            count += 1;
         }
+        let wide = &wide[..count];
         if wide.iter().any(|&a| self.undefined_type(a)) || wide.is_empty() {
             return self.undefined(op.result());
         }
-        let known: Option<Vec<Value>> = wide.iter().map(|&a| self.value(a)).collect();
-        if let Some(values) = known {
-            return self.constant(op.eval(&values), span);
+        if let Some(value) = self.applied(op, wide) {
+            return self.constant(value, span);
         }
         let first = wide[0];
         let second = wide.get(1).copied().unwrap_or(first);
         self.add(Node::Apply(op, [first, second]), op.result(), span)
+    }
+
+    /// The value of an operation on constants.
+    fn applied(&self, op: Op, args: &[NodeId]) -> Option<Value> {
+        let mut values = [Value::Bool(false); 2];
+        for (value, &arg) in values.iter_mut().zip(args) {
+            *value = self.value(arg)?;
+        }
+        Some(op.eval(&values[..args.len()]))
     }
 
     /// A choice. Both arms have one type (an int arm beside a real one is widened).

@@ -24,8 +24,10 @@
 pub use super::diffusion::{Diffusion, Share};
 pub use super::node::*;
 use crate::source::Span;
+use rustc_hash::FxHashMap;
 use slowlight_routine::{Op, Range, Type, Value};
-use std::collections::{BTreeMap, BTreeSet, HashMap};
+use std::collections::{BTreeMap, BTreeSet};
+use std::sync::Arc;
 
 /// A bounded loop.
 #[derive(Clone, Debug, PartialEq)]
@@ -188,7 +190,7 @@ pub struct Graph {
     pub spans: Vec<Span>,
     /// Names that the scene gives to nodes (`let`, params of functions), for
     /// readable output; a node may have none.
-    pub names: HashMap<NodeId, String>,
+    pub names: FxHashMap<NodeId, Arc<str>>,
     /// Components of vectors whose length is known by contract, and that length:
     /// 1 for rays' directions and normals, more where a pass holds them longer.
     /// It may be trusted where no range could be found.
@@ -248,13 +250,17 @@ impl Graph {
 
     /// What each node refers to, loops' roots included for their results.
     pub fn references(&self, id: NodeId) -> Vec<NodeId> {
-        match self.node(id) {
-            Node::Result { of, .. } => self
-                .loops
-                .get(of.0 as usize)
-                .map_or(Vec::new(), |l| l.roots().collect()),
-            node => node.operands().collect(),
-        }
+        self.refers(id).collect()
+    }
+
+    /// The same, one after the other.
+    pub fn refers(&self, id: NodeId) -> impl Iterator<Item = NodeId> + '_ {
+        let node = self.node(id);
+        let of = match node {
+            Node::Result { of, .. } => self.loops.get(of.0 as usize),
+            _ => None,
+        };
+        node.operands().chain(of.into_iter().flat_map(Loop::roots))
     }
 
     /// Which nodes the outputs can reach; as long as `nodes`.
@@ -266,7 +272,7 @@ impl Graph {
                 && !*flag
             {
                 *flag = true;
-                todo.extend(self.references(id));
+                todo.extend(self.refers(id));
             }
         }
         seen

@@ -3,15 +3,21 @@
 use super::build::Builder;
 use super::graph::*;
 use slowlight_routine::{Op, Type};
+use std::sync::Arc;
 
 impl Builder {
     /// Remembers what the scene calls a value; the first name stays.
     pub fn name(&mut self, id: NodeId, name: &str) {
+        self.name_as(id, || name.into());
+    }
+
+    /// The same where the name is there already.
+    pub fn name_as(&mut self, id: NodeId, name: impl FnOnce() -> Arc<str>) {
         if !matches!(
             self.node(id),
             Node::Const(_) | Node::Undefined(_) | Node::Param(_)
         ) {
-            self.names.entry(id).or_insert_with(|| name.to_owned());
+            self.names.entry(id).or_insert_with(name);
         }
     }
 

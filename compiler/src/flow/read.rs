@@ -7,7 +7,7 @@
 use super::graph::*;
 use crate::source::Span;
 use slowlight_routine::{Op, Range, Type, Value};
-use std::collections::{BTreeMap, HashMap};
+use std::collections::BTreeMap;
 
 /// A line that is not understood.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
@@ -36,7 +36,7 @@ pub fn read(text: &str) -> Result<Graph, Unread> {
         nodes: Vec::new(),
         types: Vec::new(),
         spans: Vec::new(),
-        names: HashMap::new(),
+        names: Default::default(),
         directions: BTreeMap::new(),
         ink: NodeId(0),
         shade: None,
@@ -279,7 +279,7 @@ fn node(graph: &mut Graph, line: &str) -> Read<()> {
     graph.types.push(ty);
     graph.spans.resize(at + 1, Span::default());
     if let Some(name) = name.filter(|_| !matches!(node, Node::Param(_))) {
-        graph.names.insert(id, name.to_owned());
+        graph.names.insert(id, name.into());
     }
     Ok(())
 }

@@ -97,8 +97,8 @@ pub enum Statement {
     Set { place: Place, from: Origin },
     /// Takes one of two ways; at least one of them does something.
     If { cond: NodeId, yes: Block, no: Block },
-    /// A bounded loop.
-    Loop(Turns),
+    /// A bounded loop; there are few, so statements are not as large as these.
+    Loop(Box<Turns>),
     /// Runs a subroutine.
     Call(SubroutineId),
 }
@@ -163,6 +163,17 @@ impl Turns {
             &self.next,
             &self.done,
             &self.otherwise,
+        ]
+    }
+
+    /// The same, to be changed.
+    pub fn blocks_mut(&mut self) -> [&mut Block; 5] {
+        [
+            &mut self.start,
+            &mut self.body,
+            &mut self.next,
+            &mut self.done,
+            &mut self.otherwise,
         ]
     }
 }

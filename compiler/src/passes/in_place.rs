@@ -79,16 +79,9 @@ fn leave_out_of(block: &mut Block, unread: &[NodeId]) {
             Statement::If { yes, no, .. } => [yes, no]
                 .into_iter()
                 .for_each(|block| leave_out_of(block, unread)),
-            Statement::Loop(Turns {
-                start,
-                body,
-                next,
-                done,
-                otherwise,
-                ..
-            }) => [start, body, next, done, otherwise]
-                .into_iter()
-                .for_each(|block| leave_out_of(block, unread)),
+            Statement::Loop(turns) => {
+                (turns.blocks_mut().into_iter()).for_each(|block| leave_out_of(block, unread))
+            }
             Statement::Let(_) | Statement::Set { .. } | Statement::Call(_) => {}
         }
     }

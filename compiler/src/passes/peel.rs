@@ -38,7 +38,7 @@ pub(super) fn body(graph: &Graph, rates: &Rates, of: LoopId) -> Vec<NodeId> {
             && !*flag
         {
             *flag = true;
-            todo.extend(graph.references(id));
+            todo.extend(graph.refers(id));
         }
     }
     let inside = |id: &NodeId| seen[id.0 as usize] && rates.depends(*id, Dependence::Loop(of));

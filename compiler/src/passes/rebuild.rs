@@ -91,7 +91,7 @@ where
 pub fn rebuild_by(graph: &Graph, rewrite: &mut dyn Rewrite) -> Graph {
     let mut rebuilder = Rebuilder {
         graph,
-        builder: Builder::new(),
+        builder: Builder::with_room(graph.nodes.len()),
         made: vec![None; graph.nodes.len()],
         loops: HashMap::new(),
         results: HashMap::new(),
@@ -122,7 +122,7 @@ pub fn rebuild_by(graph: &Graph, rewrite: &mut dyn Rewrite) -> Graph {
         };
         rebuilder.made[id.0 as usize] = Some(made);
         if let Some(name) = graph.names.get(&id) {
-            rebuilder.builder.name(made, name);
+            rebuilder.builder.name_as(made, || name.clone());
         }
         if let Some(length) = graph.directions.get(&id) {
             rebuilder.builder.direction(made, *length);

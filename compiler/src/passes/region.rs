@@ -54,24 +54,28 @@ pub type Fact = (NodeId, bool);
 
 /// All that follows from a condition's holding or not, itself included.
 pub fn implied(graph: &Graph, cond: NodeId, holds: bool) -> Vec<Fact> {
-    beside(graph, &[], cond, holds)
+    beside(graph, Vec::new(), cond, holds)
 }
 
 /// The same where something is known already: what is new.
-fn beside(graph: &Graph, before: &[Fact], cond: NodeId, holds: bool) -> Vec<Fact> {
+fn beside(graph: &Graph, before: Vec<Fact>, cond: NodeId, holds: bool) -> Vec<Fact> {
     let constant = |id| graph.constant(id).map(slowlight_routine::Value::truth);
-    let mut facts = before.to_vec();
-    // Conditions may stand inside each other by the hundred: looked up, not searched for.
-    let mut known: FxHashSet<Fact> = before.iter().copied().collect();
+    let choice = |&(id, is): &Fact| match graph.node(id) {
+        Node::Select { cond, yes, no } => Some((cond, yes, no, is)),
+        _ => None,
+    };
+    let held = before.len();
+    let mut choices: Vec<_> = before.iter().filter_map(choice).collect();
+    let mut known = Facts::new(before);
     let mut todo = vec![(cond, holds)];
     while let Some((id, holds)) = todo.pop() {
         if !known.insert((id, holds)) {
             continue;
         }
-        facts.push((id, holds));
         match graph.node(id) {
             Node::Apply(slowlight_routine::Op::Not, [a, _]) => todo.push((a, !holds)),
             Node::Select { cond, yes, no } => {
+                choices.push((cond, yes, no, holds));
                 // The arm that would give the other answer was not taken.
                 if constant(yes) == Some(!holds) {
                     todo.extend([(cond, false), (no, holds)]);
@@ -82,15 +86,58 @@ fn beside(graph: &Graph, before: &[Fact], cond: NodeId, holds: bool) -> Vec<Fact
             _ => {}
         }
         // What chooses is what it chooses.
-        let chosen = facts.iter().filter_map(|&(of, is)| match graph.node(of) {
-            Node::Select { cond, yes, .. } if known.contains(&(cond, true)) => Some((yes, is)),
-            Node::Select { cond, no, .. } if known.contains(&(cond, false)) => Some((no, is)),
-            _ => None,
+        let chosen = choices.iter().filter_map(|&(cond, yes, no, is)| {
+            if known.holds((cond, true)) {
+                Some((yes, is))
+            } else {
+                known.holds((cond, false)).then_some((no, is))
+            }
         });
-        let chosen: Vec<Fact> = chosen.filter(|fact| !known.contains(fact)).collect();
-        todo.extend(chosen);
+        todo.extend(chosen.filter(|fact| !known.holds(*fact)));
     }
-    facts.split_off(before.len())
+    known.list.split_off(held)
+}
+
+/// Facts in the order in which they were found, none twice. Conditions may stand inside each
+/// other by the hundred: where they do, facts are looked up, not searched for.
+struct Facts {
+    list: Vec<Fact>,
+    /// All of them, where they are many.
+    set: FxHashSet<Fact>,
+}
+
+/// How many facts are searched sooner than looked up.
+const FEW: usize = 16;
+
+impl Facts {
+    fn new(list: Vec<Fact>) -> Facts {
+        let set = match list.len() > FEW {
+            true => list.iter().copied().collect(),
+            false => FxHashSet::default(),
+        };
+        Facts { list, set }
+    }
+
+    fn holds(&self, fact: Fact) -> bool {
+        match self.list.len() > FEW {
+            true => self.set.contains(&fact),
+            false => self.list.contains(&fact),
+        }
+    }
+
+    /// Adds one; whether it is new.
+    fn insert(&mut self, fact: Fact) -> bool {
+        let new = !self.holds(fact);
+        if new {
+            self.list.push(fact);
+            match self.list.len() {
+                n if n == FEW + 1 => self.set.extend(&self.list),
+                n if n > FEW => _ = self.set.insert(fact),
+                _ => {}
+            }
+        }
+        new
+    }
 }
 
 /// Every value's region.
@@ -184,7 +231,7 @@ impl Regions {
                 let known = self.facts_up_to(FRAME, parent);
                 match known.contains(&(cond, holds)) {
                     true => vec![(cond, holds)],
-                    false => beside(graph, &known, cond, holds),
+                    false => beside(graph, known, cond, holds),
                 }
             }
             RegionKind::Next(of) => again(of, true),

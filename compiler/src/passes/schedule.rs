@@ -280,7 +280,7 @@ impl Emitter<'_> {
             done.push(set(Place::Node(id), found.done[k]));
             otherwise.push(set(Place::Node(id), found.otherwise[k]));
         }
-        Statement::Loop(Turns {
+        Statement::Loop(Box::new(Turns {
             of,
             start,
             body,
@@ -288,6 +288,6 @@ impl Emitter<'_> {
             next,
             done,
             otherwise,
-        })
+        }))
     }
 }

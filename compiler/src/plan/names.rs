@@ -37,7 +37,7 @@ fn wanted(graph: &Graph, place: Place) -> String {
         Place::Node(id) => graph
             .names
             .get(&id)
-            .cloned()
+            .map(|name| name.to_string())
             .unwrap_or_else(|| match graph.node(id) {
                 Node::Apply(op, _) => op.name().to_owned(),
                 Node::Lookup { table, .. } => graph

@@ -9,7 +9,7 @@ use super::settled::Settled;
 use super::thrift::Thrift;
 use super::workshop::Workshop;
 use crate::passes::skip::skip;
-use crate::passes::sums::{Site, regrouped, sites, sunk};
+use crate::passes::sums::{Site, Sums, sunk};
 
 /// By how much a sum's form must make a plan cheaper.
 const GAIN: f64 = 0.9995;
@@ -37,11 +37,12 @@ pub fn with_sums(plan: Settled, shop: &Workshop, thrift: Thrift) -> Settled {
 
 /// The same once; nothing where it makes nothing cheaper.
 fn cheaper(plan: &Settled, shop: &Workshop, thrift: Thrift) -> Option<Settled> {
-    let found = sites(&plan.graph, &plan.ranges, shop.runtime);
+    let sums = Sums::new(&plan.graph, &plan.ranges, shop.runtime);
+    let found = sums.sites();
     let price = Price::new(plan, shop.runtime, thrift);
     let made = |sites: &[Site]| {
         shop.may_look(&plan.graph);
-        regrouped(&plan.graph, &plan.ranges, shop.runtime, sites)
+        sums.regrouped(sites)
     };
     let rewritten = |sites: &[Site]| {
         let next = shop.settle(&made(sites)?.0);

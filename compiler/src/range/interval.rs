@@ -83,6 +83,7 @@ pub fn interval(op: Op, [a, b]: [Range; 2], same: bool) -> Range {
 
 /// The operation itself, where both arguments are known.
 fn point(op: Op, a: Range, b: Range) -> Option<Range> {
+    let known = a.constant()?;
     // Where points are of a plan's choice, what an int is read as may end below 1.
     if op == Op::ToReal {
         return None;
@@ -93,7 +94,7 @@ fn point(op: Op, a: Range, b: Range) -> Option<Range> {
         Type::Real => Value::Real(x),
     };
     let args = op.args();
-    let first = value(*args.first()?, a.constant()?);
+    let first = value(*args.first()?, known);
     let made = match args.get(1) {
         Some(&ty) => op.eval(&[first, value(ty, b.constant()?)]),
         None => op.eval(&[first]),

@@ -19,14 +19,6 @@ impl Walk<'_> {
         let of = turns.of;
         let at = of.0 as usize;
         let held = self.carried[at].clone();
-        let graph = self.graph;
-        let reads = |id: NodeId| match graph.node(id) {
-            Node::Carried { of: l, index } | Node::Last { of: l, index } if l == of => {
-                Some((id, index))
-            }
-            _ => None,
-        };
-        let read: Vec<(NodeId, u32)> = graph.ids().filter_map(reads).collect();
         self.block(&turns.start);
         self.join_carried(at, &held);
         let max = self.graph.loops[at].max;
@@ -36,8 +28,9 @@ impl Walk<'_> {
                 self.forget_carried(of);
             }
             let before = self.carried[at].clone();
-            for &(id, index) in &read {
-                self.write(Place::Node(id), self.carried_range(of, index));
+            for k in 0..self.once.carried(of).len() {
+                let (id, index) = self.once.carried(of)[k];
+                self.put(id, self.carried_range(of, index));
             }
             self.block(&turns.body);
             self.arm(turns.again, true, &turns.next);
@@ -55,7 +48,8 @@ impl Walk<'_> {
                 self.widen(of, &before);
             }
         }
-        let ended = self.arm(turns.again, false, &turns.done);
+        self.arm(turns.again, false, &turns.done);
+        let ended = self.sets(&turns.done);
         self.block(&turns.otherwise);
         for (place, range) in ended {
             let both = self.place_range(place).join(range);

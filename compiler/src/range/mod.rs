@@ -14,6 +14,7 @@ mod known;
 mod loops;
 #[cfg(test)]
 mod nest_tests;
+mod once;
 mod parity;
 mod pointed;
 mod refine;
@@ -30,10 +31,11 @@ use interval::interval;
 use known::known;
 #[cfg(test)]
 use loops::STATEMENTS;
+use once::Once;
 use parity::whole;
+use refine::{Conditions, restore};
 pub use slack::{ENTRIES, Slack};
 use slowlight_routine::{Op, Range, Type};
-use std::collections::BTreeSet;
 
 /// What the ranges of a scene are, on one machine. Side tables by node.
 #[derive(Clone, Debug, Default)]
@@ -53,17 +55,20 @@ pub fn ranges(graph: &Graph, tree: &Tree, slack: &Slack) -> Ranges {
 
 /// The same, and how many statements were walked: what it took.
 pub fn ranges_counted(graph: &Graph, tree: &Tree, slack: &Slack) -> (Ranges, u64) {
+    let start: Vec<Range> = graph.ids().map(|id| known(graph, slack, id)).collect();
     let mut walk = Walk {
         graph,
         slack,
-        now: graph.ids().map(|id| known(graph, slack, id)).collect(),
+        now: start.clone(),
+        conditions: Conditions::new(graph),
+        saved: Vec::new(),
+        once: Once::new(graph, slack.direction.is_some()),
         carried: graph
             .loops
             .iter()
             .map(|l| vec![None; l.types.len()])
             .collect(),
         assumed: Vec::new(),
-        measured: trust::measured(graph),
         readers: match slack.expects() {
             true => readers(graph),
             false => Readers::default(),
@@ -71,7 +76,7 @@ pub fn ranges_counted(graph: &Graph, tree: &Tree, slack: &Slack) -> (Ranges, u64
         turns: 0,
         walked: 0,
         out: Ranges {
-            result: graph.ids().map(|id| known(graph, slack, id)).collect(),
+            result: start,
             exact: vec![Range::ALL; graph.nodes.len()],
             args: vec![[Range::ALL; 2]; graph.nodes.len()],
         },
@@ -92,11 +97,13 @@ pub(crate) struct Walk<'g> {
     slack: &'g Slack,
     /// Each node's range here: refined by the conditions around.
     now: Vec<Range>,
+    conditions: Conditions<'g>,
+    /// What the conditions around have narrowed, and what it was.
+    saved: Vec<(NodeId, Range)>,
+    once: Once,
     carried: Vec<Vec<Option<Range>>>,
     /// What values that are computed here are known to stay within.
     assumed: Vec<(NodeId, Range)>,
-    /// Values whose lengths are asked for, which are trusted to be no directions.
-    measured: BTreeSet<NodeId>,
     /// By whom carried values are read, where something is expected of them.
     readers: Readers,
     /// How many turns of loops have been walked.
@@ -165,10 +172,12 @@ impl Walk<'_> {
                 self.write(*place, range);
             }
             Statement::If { cond, yes, no } => {
-                let before = self.arm(*cond, true, yes);
-                let after = self.arm(*cond, false, no);
+                self.arm(*cond, true, yes);
+                let before = self.sets(yes);
+                self.arm(*cond, false, no);
                 for (place, range) in before {
-                    if after.iter().any(|(p, _)| *p == place) {
+                    // Arms end with what they set.
+                    if set_by(no).rev().any(|p| p == place) {
                         let both = self.place_range(place).join(range);
                         self.write(place, both);
                     }
@@ -180,27 +189,20 @@ impl Walk<'_> {
         }
     }
 
-    /// Walks an arm under its condition; answers what it sets, and to what.
-    fn arm(&mut self, cond: NodeId, holds: bool, block: &Block) -> Vec<(Place, Range)> {
-        let saved = refine::refine(self.graph, &mut self.now, cond, holds);
-        self.doubted(&saved, cond, holds);
-        let assumed = self.assumed.len();
-        self.assumed
-            .extend(refine::claimed(self.graph, cond, holds));
+    /// Walks an arm under its condition.
+    fn arm(&mut self, cond: NodeId, holds: bool, block: &Block) {
+        let (saved, assumed) = (self.saved.len(), self.assumed.len());
+        (self.conditions).refine(&mut self.now, &mut self.saved, cond, holds);
+        self.doubted(saved, cond, holds);
+        (self.assumed).extend_from_slice(self.conditions.claimed(cond, holds));
         self.block(block);
         self.assumed.truncate(assumed);
-        for (id, range) in saved.into_iter().rev() {
-            self.now[id.0 as usize] = range;
-        }
-        self.sets(block)
+        restore(&mut self.now, &mut self.saved, saved);
     }
 
+    /// What a block sets, and to what.
     fn sets(&self, block: &Block) -> Vec<(Place, Range)> {
-        let places = block.iter().filter_map(|s| match s {
-            Statement::Set { place, .. } => Some(*place),
-            _ => None,
-        });
-        places
+        set_by(block)
             .map(|place| (place, self.place_range(place)))
             .collect()
     }
@@ -225,49 +227,46 @@ impl Walk<'_> {
     }
 
     fn read(&self, id: NodeId) -> Range {
-        self.now[id.0 as usize]
+        *self.at(id)
+    }
+
+    fn at(&self, id: NodeId) -> &Range {
+        &self.now[id.0 as usize]
     }
 
     fn write(&mut self, place: Place, range: Range) {
         match place {
-            Place::Node(id) => {
-                let at = id.0 as usize;
-                let mut claims = self.assumed.iter().filter(|(of, _)| *of == id);
-                let range = match claims.next() {
-                    Some((_, claim)) => range.meet(*claim),
-                    None => range,
-                };
-                self.now[at] = range;
-                self.out.result[at] = match &mut self.shared[at] {
-                    // What is recorded holds for every call.
-                    Some(true) => self.out.result[at].join(range),
-                    shared => {
-                        *shared = shared.map(|_| true);
-                        range
-                    }
-                };
-            }
+            Place::Node(id) => self.put(id, range),
             Place::Carried(l, k) => self.carried[l.0 as usize][k as usize] = Some(range),
             Place::Scratch(..) => {}
         }
     }
 
+    /// Notes what a node comes to here.
+    fn put(&mut self, id: NodeId, range: Range) {
+        let at = id.0 as usize;
+        let mut claims = self.assumed.iter().filter(|(of, _)| *of == id);
+        let range = match claims.next() {
+            Some((_, claim)) => range.meet(*claim),
+            None => range,
+        };
+        self.now[at] = range;
+        self.out.result[at] = match &mut self.shared[at] {
+            // What is recorded holds for every call.
+            Some(true) => self.out.result[at].join(range),
+            shared => {
+                *shared = shared.map(|_| true);
+                range
+            }
+        };
+    }
+
     fn compute(&mut self, id: NodeId) {
         let at = id.0 as usize;
         let range = match self.graph.node(id) {
-            Node::Apply(op, [a, b]) => {
-                let (args, same) = self.operands(id, op, [a, b]);
-                let exact = whole(self.graph, id, args, interval(op, args, same));
-                let exact = self.part_of_length(id, exact);
-                if self.shared[at] == Some(true) {
-                    let [a, b] = self.out.args[at];
-                    self.out.args[at] = [a.join(args[0]), b.join(args[1])];
-                    self.out.exact[at] = self.out.exact[at].join(exact);
-                } else {
-                    self.out.args[at] = args;
-                    self.out.exact[at] = exact;
-                }
-                self.slack.result(id, op, &args[..op.arity()], exact)
+            Node::Apply(op, operands) => {
+                let range = self.apply(id, op, operands);
+                return self.put(id, range);
             }
             Node::Ramp { .. } => {
                 let last = self.graph.image.width.saturating_sub(1) as i32;
@@ -277,38 +276,79 @@ impl Walk<'_> {
                     // It may wrap.
                     false => self.slack.ints,
                 };
-                whole(self.graph, id, [Range::ALL; 2], range)
+                whole(self.graph, &mut self.once, id, [Range::ALL; 2], range)
             }
             // As the column's block has left it.
             Node::Tabulated(_) => self.read(id),
             Node::Stepped { first, step } => {
                 let args = [self.read(first), self.read(step)];
-                let exact = whole(self.graph, id, args, interval(Op::IntAdd, args, false));
+                let exact = interval(Op::IntAdd, args, false);
+                let exact = whole(self.graph, &mut self.once, id, args, exact);
                 self.out.exact[at] = exact;
                 self.slack.cut(Type::Int, exact)
             }
-            Node::Lookup { table, .. } => {
-                let entries = self
-                    .graph
-                    .tables
-                    .get(table.0 as usize)
-                    .into_iter()
-                    .flat_map(|t| &t.entries);
-                let values = entries.map(|e| Range::point(e.value().real()));
-                let all = values.reduce(Range::join).unwrap_or(Range::ALL);
-                let seeded = self.graph.tables.get(table.0 as usize);
-                let all = match (&self.slack.points, self.graph.ty(id)) {
-                    (Some(points), Type::Real) => points.rounded(id, all, 0.5),
-                    _ => all,
-                };
-                match seeded.is_some_and(|t| !t.seed.is_empty()) {
-                    true => self.slack.entry(all),
-                    false => all,
+            Node::Lookup { table, .. } => match self.once.computed(id) {
+                Some(range) => range,
+                None => {
+                    let range = self.entries(id, table);
+                    self.once.keep(id, range)
                 }
-            }
+            },
             _ => Range::ALL,
         };
         let range = self.trust(id, range);
-        self.write(Place::Node(id), range);
+        self.put(id, range);
     }
+
+    /// What an operation comes to here; its operands and its exact result are noted.
+    fn apply(&mut self, id: NodeId, op: Op, operands: [NodeId; 2]) -> Range {
+        let at = id.0 as usize;
+        // Where operands are read as they are, they are looked at where they stand.
+        let plain = self.slack.points.is_none();
+        if plain && let Some(range) = self.as_before(id, operands.map(|id| self.at(id))) {
+            return range;
+        }
+        let (args, same) = self.operands(id, op, operands);
+        if !plain && let Some(range) = self.as_before(id, args.each_ref()) {
+            return range;
+        }
+        let exact = interval(op, args, same);
+        let exact = whole(self.graph, &mut self.once, id, args, exact);
+        let exact = self.part_of_length(id, exact);
+        if self.shared[at] == Some(true) {
+            let [a, b] = self.out.args[at];
+            self.out.args[at] = [a.join(args[0]), b.join(args[1])];
+            self.out.exact[at] = self.out.exact[at].join(exact);
+        } else {
+            self.out.args[at] = args;
+            self.out.exact[at] = exact;
+        }
+        let range = self.slack.result(id, op, &args[..op.arity()], exact);
+        let range = self.trust(id, range);
+        self.once.keep(id, range)
+    }
+
+    /// What a table's entries stay within, as a lookup has them.
+    fn entries(&self, id: NodeId, table: TableId) -> Range {
+        let table = self.graph.tables.get(table.0 as usize);
+        let entries = table.into_iter().flat_map(|t| &t.entries);
+        let values = entries.map(|e| Range::point(e.value().real()));
+        let all = values.reduce(Range::join).unwrap_or(Range::ALL);
+        let all = match (&self.slack.points, self.graph.ty(id)) {
+            (Some(points), Type::Real) => points.rounded(id, all, 0.5),
+            _ => all,
+        };
+        match table.is_some_and(|t| !t.seed.is_empty()) {
+            true => self.slack.entry(all),
+            false => all,
+        }
+    }
+}
+
+/// The places that a block sets, but for what is set inside its statements.
+fn set_by(block: &Block) -> impl DoubleEndedIterator<Item = Place> {
+    block.iter().filter_map(|s| match s {
+        Statement::Set { place, .. } => Some(*place),
+        _ => None,
+    })
 }

@@ -1,6 +1,7 @@
 //! What intervals cannot see of whole numbers: one whose last bits are not all 0 is
 //! not 0 (an odd one, or ten times that), and one that is not 0 is at least 1.
 
+use super::once::Once;
 use crate::flow::graph::*;
 use slowlight_routine::{Op, Range, Type, Value};
 
@@ -8,16 +9,14 @@ use slowlight_routine::{Op, Range, Type, Value};
 const DEEP: u32 = 8;
 
 /// The range of an operation with what its being of whole numbers implies.
-pub fn whole(graph: &Graph, id: NodeId, args: [Range; 2], range: Range) -> Range {
+pub fn whole(graph: &Graph, once: &mut Once, id: NodeId, args: [Range; 2], range: Range) -> Range {
+    let mut int = || Range {
+        nonzero: range.nonzero || once.odd(graph, id),
+        ..range
+    };
     match graph.node(id) {
-        Node::Apply(op, _) if op.result() == Type::Int => Range {
-            nonzero: range.nonzero || low(graph, id, DEEP).rest != 0,
-            ..range
-        },
-        Node::Ramp { .. } | Node::Stepped { .. } => Range {
-            nonzero: range.nonzero || low(graph, id, DEEP).rest != 0,
-            ..range
-        },
+        Node::Apply(op, _) if op.result() == Type::Int => int(),
+        Node::Ramp { .. } | Node::Stepped { .. } => int(),
         // By a whole number that is not 0: no greater than the dividend. One that is cut to
         // what its format holds is still 1 at least where that is.
         Node::Apply(Op::Div, [_, by])
@@ -28,6 +27,11 @@ pub fn whole(graph: &Graph, id: NodeId, args: [Range; 2], range: Range) -> Range
         }
         _ => range,
     }
+}
+
+/// Whether an int's last bits are known not to be all 0.
+pub fn is_odd(graph: &Graph, id: NodeId) -> bool {
+    low(graph, id, DEEP).rest != 0
 }
 
 fn is_whole(graph: &Graph, id: NodeId) -> bool {

@@ -34,15 +34,20 @@ impl Walk<'_> {
         }
     }
 
-    /// Widens what a condition has narrowed: it compares what was rounded.
-    pub(super) fn doubted(&mut self, saved: &[(NodeId, Range)], cond: NodeId, holds: bool) {
-        let points = self.slack.points.as_ref();
-        let doubt = points.map_or(0.0, |points| points.doubt(self.graph, cond, holds));
+    /// Widens what a condition has narrowed, all that was saved but for so many before: it
+    /// compares what was rounded.
+    pub(super) fn doubted(&mut self, saved: usize, cond: NodeId, holds: bool) {
+        let Some(points) = &self.slack.points else {
+            return;
+        };
+        let find = || points.doubt(self.graph, cond, holds);
+        let doubt = self.once.doubt((cond, holds), find);
         if doubt == 0.0 {
             return;
         }
         let mut seen = BTreeSet::new();
-        for (id, before) in saved.iter().filter(|(id, _)| seen.insert(*id)) {
+        let narrowed = self.saved[saved..].iter();
+        for (id, before) in narrowed.filter(|(id, _)| seen.insert(*id)) {
             let now = &mut self.now[id.0 as usize];
             let doubt = match self.graph.ty(*id) {
                 Type::Int => doubt.ceil(),

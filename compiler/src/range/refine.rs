@@ -5,30 +5,6 @@ use crate::flow::graph::*;
 use crate::passes::region::implied;
 use slowlight_routine::{Op, Range};
 
-/// What a condition's holding or not says of values, by the comparisons that
-/// are claimed to be the same, also where they are computed only then.
-pub fn claimed(graph: &Graph, cond: NodeId, holds: bool) -> Vec<(NodeId, Range)> {
-    let mut found = Vec::new();
-    for (fact, holds) in implied(graph, cond, holds) {
-        let Some((op, [a, b])) = graph.claims.get(&fact) else {
-            continue;
-        };
-        let number = |id: &NodeId| graph.constant(*id).map(slowlight_routine::Value::real);
-        // By how much ints on the two sides of a border differ.
-        let strict = matches!(op, Op::IntLess) == holds;
-        let step = if strict { 1.0 } else { 0.0 };
-        let (below, above) = (f64::NEG_INFINITY, f64::INFINITY);
-        found.extend(match (number(a), number(b), holds) {
-            (Some(c), None, true) => Some((*b, Range::new(c + step, above))),
-            (Some(c), None, false) => Some((*b, Range::new(below, c - step))),
-            (None, Some(c), true) => Some((*a, Range::new(below, c - step))),
-            (None, Some(c), false) => Some((*a, Range::new(c + step, above))),
-            _ => None,
-        });
-    }
-    found
-}
-
 /// How many steps from a value down to what it is made of are gone.
 const DEEP: u32 = 8;
 
@@ -69,95 +45,200 @@ fn below(graph: &Graph, now: &[Range], id: NodeId, held: Range) -> Option<(NodeI
     Some((of, Range::new(p.min(q).ceil(), p.max(q).floor())))
 }
 
-/// A row or column as a real, where it is one that its format holds.
-fn reals_of(graph: &Graph, now: &[Range], axis: NodeId) -> Vec<NodeId> {
-    if !matches!(graph.node(axis), Node::Axis(_)) {
-        return Vec::new();
-    }
-    let whole = now[axis.0 as usize];
-    let same = |id: &NodeId| {
-        let held = now[id.0 as usize];
-        let real = matches!(graph.node(*id), Node::Apply(Op::ToReal, [a, _]) if a == axis);
-        real && held.lo <= whole.lo && whole.hi <= held.hi && whole.magnitude() <= EXACT
-    };
-    graph.ids().filter(same).collect()
+/// What conditions say, each looked into once: a walk through loops comes by it again and
+/// again.
+pub struct Conditions<'g> {
+    graph: &'g Graph,
+    /// By condition, where it does not hold and where it does.
+    said: Vec<[Option<Box<Said>>; 2]>,
+    /// Rows and columns, and what has one as a real.
+    reals: Vec<(NodeId, NodeId)>,
 }
 
-/// Narrows `now` by a condition that holds or does not; answers what it was
-/// before, in the order of change.
-pub fn refine(graph: &Graph, now: &mut [Range], cond: NodeId, holds: bool) -> Vec<(NodeId, Range)> {
-    let mut saved = Vec::new();
-    for (fact, holds) in implied(graph, cond, holds) {
-        let (op, [a, b]) = match (graph.claims.get(&fact), graph.node(fact)) {
-            (Some(claimed), _) => *claimed,
-            (_, Node::Apply(op, args)) => (op, args),
-            _ => continue,
+/// What a condition's holding or not says.
+struct Said {
+    /// The comparisons that are decided by it, and whether they hold.
+    compared: Vec<(Op, [NodeId; 2], bool)>,
+    /// What values that are computed only then stay within.
+    claimed: Vec<(NodeId, Range)>,
+}
+
+impl Said {
+    fn new(graph: &Graph, cond: NodeId, holds: bool) -> Said {
+        let (mut compared, mut all) = (Vec::new(), Vec::new());
+        for (fact, holds) in implied(graph, cond, holds) {
+            match (graph.claims.get(&fact), graph.node(fact)) {
+                (Some((op, args)), _) => {
+                    compared.push((*op, *args, holds));
+                    all.extend(claimed(graph, *op, *args, holds));
+                }
+                (_, Node::Apply(op, args)) => compared.push((op, args, holds)),
+                _ => {}
+            }
+        }
+        Said {
+            compared,
+            claimed: all,
+        }
+    }
+}
+
+/// What a claimed comparison's holding or not says of what it compares with a constant.
+fn claimed(graph: &Graph, op: Op, [a, b]: [NodeId; 2], holds: bool) -> Option<(NodeId, Range)> {
+    let number = |id: NodeId| graph.constant(id).map(slowlight_routine::Value::real);
+    // By how much ints on the two sides of a border differ.
+    let strict = matches!(op, Op::IntLess) == holds;
+    let step = if strict { 1.0 } else { 0.0 };
+    let (below, above) = (f64::NEG_INFINITY, f64::INFINITY);
+    match (number(a), number(b), holds) {
+        (Some(c), None, true) => Some((b, Range::new(c + step, above))),
+        (Some(c), None, false) => Some((b, Range::new(below, c - step))),
+        (None, Some(c), true) => Some((a, Range::new(below, c - step))),
+        (None, Some(c), false) => Some((a, Range::new(c + step, above))),
+        _ => None,
+    }
+}
+
+impl<'g> Conditions<'g> {
+    /// Of a graph, none looked into yet.
+    pub fn new(graph: &'g Graph) -> Conditions<'g> {
+        let real = |id: NodeId| match graph.node(id) {
+            Node::Apply(Op::ToReal, [of, _]) if matches!(graph.node(of), Node::Axis(_)) => {
+                Some((of, id))
+            }
+            _ => None,
         };
+        Conditions {
+            graph,
+            said: graph.ids().map(|_| [None, None]).collect(),
+            reals: graph.ids().filter_map(real).collect(),
+        }
+    }
+
+    fn said(&mut self, cond: NodeId, holds: bool) -> &Said {
+        let said = &mut self.said[cond.0 as usize][usize::from(holds)];
+        said.get_or_insert_with(|| Box::new(Said::new(self.graph, cond, holds)))
+    }
+
+    /// What a condition's holding or not says of values, by the comparisons that are
+    /// claimed to be the same, also where they are computed only then.
+    pub fn claimed(&mut self, cond: NodeId, holds: bool) -> &[(NodeId, Range)] {
+        &self.said(cond, holds).claimed
+    }
+
+    /// Narrows `now` by a condition that holds or does not; what was there before is put
+    /// behind what is `saved` already, in the order of change.
+    pub fn refine(
+        &mut self,
+        now: &mut [Range],
+        saved: &mut Vec<(NodeId, Range)>,
+        cond: NodeId,
+        holds: bool,
+    ) {
+        self.said(cond, holds);
+        let Some(said) = &self.said[cond.0 as usize][usize::from(holds)] else {
+            return;
+        };
+        let mut narrowing = Narrowing {
+            graph: self.graph,
+            reals: &self.reals,
+            now,
+            saved,
+        };
+        for &(op, args, holds) in &said.compared {
+            narrowing.compared(op, args, holds);
+        }
+    }
+}
+
+/// Takes back what refining has narrowed, down to so many that were saved before.
+pub fn restore(now: &mut [Range], saved: &mut Vec<(NodeId, Range)>, before: usize) {
+    for (id, range) in saved.drain(before..).rev() {
+        now[id.0 as usize] = range;
+    }
+}
+
+/// Ranges while they are narrowed, and what they were.
+struct Narrowing<'n> {
+    graph: &'n Graph,
+    reals: &'n [(NodeId, NodeId)],
+    now: &'n mut [Range],
+    saved: &'n mut Vec<(NodeId, Range)>,
+}
+
+impl Narrowing<'_> {
+    /// By a comparison that holds or does not.
+    fn compared(&mut self, op: Op, [a, b]: [NodeId; 2], holds: bool) {
         let unit = if op.args().first() == Some(&slowlight_routine::Type::Int) {
             1.0
         } else {
             0.0
         };
-        let (ra, rb) = (now[a.0 as usize], now[b.0 as usize]);
-        let mut narrow = |id: NodeId, range: Range, strict: bool| {
-            let at = id.0 as usize;
-            if graph.constant(id).is_none() {
-                saved.push((id, now[at]));
-                let held = now[at];
-                let mut met = held.meet(range);
-                met.nonzero |= strict && (range.lo == 0.0 || range.hi == 0.0);
-                now[at] = met;
-                // What it is a line in is narrowed with it, down to the row.
-                let (mut of, mut before) = (id, held);
-                for _ in 0..DEEP {
-                    let Some((inner, range)) = below(graph, now, of, before) else {
-                        break;
-                    };
-                    (of, before) = (inner, now[inner.0 as usize]);
-                    let mut all = reals_of(graph, now, inner);
-                    all.push(inner);
-                    for id in all {
-                        saved.push((id, now[id.0 as usize]));
-                        now[id.0 as usize] = now[id.0 as usize].meet(range);
-                    }
-                }
-            }
-        };
+        let (ra, rb) = (self.now[a.0 as usize], self.now[b.0 as usize]);
         match (op, holds) {
             (Op::Less | Op::IntLess, true) => {
-                narrow(a, Range::new(f64::NEG_INFINITY, rb.hi - unit), unit == 0.0);
-                narrow(b, Range::new(ra.lo + unit, f64::INFINITY), unit == 0.0);
+                self.narrow(a, Range::new(f64::NEG_INFINITY, rb.hi - unit), unit == 0.0);
+                self.narrow(b, Range::new(ra.lo + unit, f64::INFINITY), unit == 0.0);
             }
             (Op::Less | Op::IntLess, false) => {
-                narrow(a, Range::new(rb.lo, f64::INFINITY), false);
-                narrow(b, Range::new(f64::NEG_INFINITY, ra.hi), false);
+                self.narrow(a, Range::new(rb.lo, f64::INFINITY), false);
+                self.narrow(b, Range::new(f64::NEG_INFINITY, ra.hi), false);
             }
             (Op::LessEqual | Op::IntLessEqual, true) => {
-                narrow(a, Range::new(f64::NEG_INFINITY, rb.hi), false);
-                narrow(b, Range::new(ra.lo, f64::INFINITY), false);
+                self.narrow(a, Range::new(f64::NEG_INFINITY, rb.hi), false);
+                self.narrow(b, Range::new(ra.lo, f64::INFINITY), false);
             }
             (Op::LessEqual | Op::IntLessEqual, false) => {
-                narrow(a, Range::new(rb.lo + unit, f64::INFINITY), unit == 0.0);
-                narrow(b, Range::new(f64::NEG_INFINITY, ra.hi - unit), unit == 0.0);
+                self.narrow(a, Range::new(rb.lo + unit, f64::INFINITY), unit == 0.0);
+                self.narrow(b, Range::new(f64::NEG_INFINITY, ra.hi - unit), unit == 0.0);
             }
             (Op::Equal | Op::IntEqual, true) => {
-                narrow(a, rb, false);
-                narrow(b, ra, false);
+                self.narrow(a, rb, false);
+                self.narrow(b, ra, false);
             }
             (Op::Equal | Op::IntEqual, false) if rb.constant() == Some(0.0) => {
-                narrow(
-                    a,
-                    Range {
-                        nonzero: true,
-                        ..Range::ALL
-                    },
-                    false,
-                );
+                let nonzero = Range {
+                    nonzero: true,
+                    ..Range::ALL
+                };
+                self.narrow(a, nonzero, false);
             }
             _ => {}
         }
     }
-    saved
+
+    fn narrow(&mut self, id: NodeId, range: Range, strict: bool) {
+        if self.graph.constant(id).is_some() {
+            return;
+        }
+        let held = self.now[id.0 as usize];
+        let mut met = held.meet(range);
+        met.nonzero |= strict && (range.lo == 0.0 || range.hi == 0.0);
+        self.put(id, met);
+        // What it is a line in is narrowed with it, down to the row.
+        let (mut of, mut before) = (id, held);
+        for _ in 0..DEEP {
+            let Some((inner, range)) = below(self.graph, self.now, of, before) else {
+                break;
+            };
+            (of, before) = (inner, self.now[inner.0 as usize]);
+            // A row or column as a real, where it is one that its format holds.
+            for &(axis, real) in self.reals {
+                let held = self.now[real.0 as usize];
+                let same = held.lo <= before.lo && before.hi <= held.hi;
+                if axis == inner && same && before.magnitude() <= EXACT {
+                    self.put(real, held.meet(range));
+                }
+            }
+            self.put(inner, before.meet(range));
+        }
+    }
+
+    fn put(&mut self, id: NodeId, range: Range) {
+        let now = &mut self.now[id.0 as usize];
+        self.saved.push((id, *now));
+        *now = range;
+    }
 }
 
 #[cfg(test)]
@@ -206,12 +287,11 @@ mod tests {
             let before: Vec<Range> = graph.ids().map(known).collect();
             for (holds, lo, hi) in [(true, 0.0, 119.0), (false, 120.0, 239.0)] {
                 let mut now = before.clone();
-                let saved = refine(&graph, &mut now, above, holds);
+                let mut saved = Vec::new();
+                Conditions::new(&graph).refine(&mut now, &mut saved, above, holds);
                 assert_eq!(now[y.0 as usize], Range::new(lo, hi));
                 assert_eq!(now[height.0 as usize], Range::new(lo, hi));
-                for (id, range) in saved.into_iter().rev() {
-                    now[id.0 as usize] = range;
-                }
+                restore(&mut now, &mut saved, 0);
                 assert_eq!(now, before);
             }
         }

@@ -180,6 +180,9 @@ impl Slack {
     /// A range with what the routines of an operation may add to it.
     pub(super) fn enlarge(&self, op: Op, args: &[Range], range: Range) -> Range {
         let all = self.errors.get(op as usize).map_or(&[][..], Vec::as_slice);
+        if all.is_empty() {
+            return range;
+        }
         let worst = |x: f64| {
             let off = all.iter().map(|error| error.most(args, x));
             off.fold(0.0, f64::max)

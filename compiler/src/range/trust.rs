@@ -10,7 +10,7 @@ use std::collections::BTreeSet;
 /// Values whose squares are summed under a root: who asks for a length does not take it
 /// for 1. The way from a sphere's centre to a point is a normal only where the point
 /// lies on it, and may be the same value as what its distance is made of elsewhere.
-pub(super) fn measured(graph: &Graph) -> BTreeSet<NodeId> {
+fn measured(graph: &Graph) -> BTreeSet<NodeId> {
     let (mut all, mut arrays) = (BTreeSet::new(), false);
     for id in graph.ids() {
         let Node::Apply(Op::Sqrt | Op::ReciprocalRoot, [sum, _]) = graph.node(id) else {
@@ -38,6 +38,21 @@ pub(super) fn measured(graph: &Graph) -> BTreeSet<NodeId> {
         all.extend(copies);
     }
     all
+}
+
+/// The lengths of directions that are trusted, by node: of those whose lengths nobody asks
+/// for.
+pub(super) fn lengths(graph: &Graph) -> Vec<Option<f64>> {
+    let mut lengths = vec![None; graph.nodes.len()];
+    for (id, length) in &graph.directions {
+        lengths[id.0 as usize] = Some(*length);
+    }
+    if !graph.directions.is_empty() {
+        measured(graph)
+            .iter()
+            .for_each(|id| lengths[id.0 as usize] = None);
+    }
+    lengths
 }
 
 /// Whether a value of a column is what pixels have of it, out of its array or computed
@@ -68,13 +83,10 @@ impl Walk<'_> {
     /// A component of a direction whose range is unknown is trusted to be what
     /// the contract says, twice over for what roundings add.
     pub(super) fn trust(&self, id: NodeId, range: Range) -> Range {
-        match self.slack.direction {
-            Some(unit) if !self.measured.contains(&id) => match self.graph.directions.get(&id) {
-                Some(length) if range.magnitude() > 16.0 * length => {
-                    range.meet(Range::new(unit.lo * length, unit.hi * length))
-                }
-                _ => range,
-            },
+        match (self.once.length(id), self.slack.direction) {
+            (Some(length), Some(unit)) if range.magnitude() > 16.0 * length => {
+                range.meet(Range::new(unit.lo * length, unit.hi * length))
+            }
             _ => range,
         }
     }
@@ -200,12 +212,13 @@ impl Walk<'_> {
     /// subtracted: a point where a ray meets a sphere from its centre. Where both are
     /// computed under the same conditions only.
     pub(super) fn trust_back(&mut self, id: NodeId, before: &[Statement]) {
+        if self.once.length(id).is_none() {
+            return;
+        }
         let Node::Apply(Op::Sub, [point, from]) = self.graph.node(id) else {
             return;
         };
-        let beside = before.contains(&Statement::Let(point));
-        let trusted = self.graph.directions.contains_key(&id) && !self.measured.contains(&id);
-        if !beside || self.slack.direction.is_none() || !trusted {
+        if !before.contains(&Statement::Let(point)) {
             return;
         }
         let args = [self.read(from), self.read(id)];

@@ -114,30 +114,37 @@ impl Known {
 }
 
 /// A value at a sample; nothing where it depends on a loop.
-pub struct Follow<'n> {
-    pub nodes: &'n dyn Nodes,
+pub struct Follow<'n, N> {
+    pub nodes: &'n N,
     pub tables: &'n dyn Fn(TableId) -> Option<&'n Table>,
     pub sample: &'n Sample,
     pub known: Known,
+    /// The greatest magnitude of a real that was computed here.
+    most: f64,
+    /// Whether a root was taken of what is below 0.
+    misses_root: bool,
 }
 
-impl<'n> Follow<'n> {
+impl<'n, N: Nodes> Follow<'n, N> {
     pub fn new(
-        nodes: &'n dyn Nodes,
+        nodes: &'n N,
         tables: &'n dyn Fn(TableId) -> Option<&'n Table>,
         sample: &'n Sample,
-    ) -> Follow<'n> {
+    ) -> Follow<'n, N> {
         Follow {
             nodes,
             tables,
             sample,
             known: Known::default(),
+            most: 0.0,
+            misses_root: false,
         }
     }
 
     /// Goes on to another sample, of which nothing is known.
     pub fn to(&mut self, sample: &'n Sample) {
         self.known.forget();
+        (self.most, self.misses_root) = (0.0, false);
         self.sample = sample;
     }
 
@@ -174,7 +181,12 @@ impl<'n> Follow<'n> {
                     1 => a,
                     _ => self.value(b, deep + 1)?,
                 };
-                applied(op, a, b)
+                let made = applied(op, a, b);
+                if op.result() == Type::Real {
+                    self.most = self.most.max(made.value.abs());
+                    self.misses_root |= op == Op::Sqrt && a.value < 0.0;
+                }
+                made
             }
             _ => return None,
         };
@@ -183,24 +195,15 @@ impl<'n> Follow<'n> {
     }
 }
 
-impl Follow<'_> {
-    /// Whether a real is beyond the end of a format.
-    pub fn leaves(&self, end: f64) -> bool {
-        let mut values = self.known.iter();
-        values.any(|(id, r)| {
-            let real = match self.nodes.node(id) {
-                Node::Apply(op, _) => op.result() == Type::Real,
-                _ => false,
-            };
-            real && r.value.abs() > end
-        })
+impl<N> Follow<'_, N> {
+    /// The greatest magnitude of a real that an operation came to.
+    pub fn most(&self) -> f64 {
+        self.most
     }
 
     /// Whether a root was taken of what is below 0.
     pub fn misses_root(&self) -> bool {
-        let below = |id: NodeId| self.known.get(id).is_some_and(|a| a.value < 0.0);
-        let mut ids = self.known.nodes.iter();
-        ids.any(|id| matches!(self.nodes.node(*id), Node::Apply(Op::Sqrt, [a, _]) if below(a)))
+        self.misses_root
     }
 }
 

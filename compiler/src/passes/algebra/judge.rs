@@ -14,6 +14,7 @@ use crate::flow::graph::*;
 use rustc_hash::FxHashMap;
 use slowlight_routine::{Format, Op, Runtime, Type, scale};
 use std::collections::BTreeMap;
+use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
 /// Cycles a pixel for all that a value needs and that is another in every
 /// column, beside what is there anyway; either arm of a choice is taken for half
@@ -104,6 +105,55 @@ pub struct Judge<'g> {
     pub allowance: f64,
     /// The greatest real of the format: what a form has beyond it would saturate.
     pub end: f64,
+    /// What the graph's own values come to at the samples.
+    pub followed: &'g Followed,
+}
+
+/// What a graph's own values come to at its samples, kept for whoever judges other forms of
+/// them: forms are judged again and again, each time with other ones beside them.
+#[derive(Default)]
+pub struct Followed(Mutex<FxHashMap<NodeId, Arc<AtSamples>>>);
+
+/// A value at each sample, as far as it was looked at; nothing where it depends on a loop.
+type AtSamples = Vec<OnceLock<Option<Was>>>;
+
+/// A value at a sample.
+struct Was {
+    relative: f64,
+    value: Option<Rounded>,
+    misses_root: bool,
+    /// The greatest magnitude of a real on the way.
+    most: f64,
+    /// Entries of tables and ints on the way.
+    shared: Vec<(NodeId, Rounded)>,
+}
+
+impl Was {
+    fn new(follow: &mut Follow<'_, Graph>, id: NodeId) -> Option<Was> {
+        let graph = follow.nodes;
+        let relative = relative(follow, id)?;
+        let value = follow.value(id, 0);
+        let shared = follow.known.iter().filter(|(id, _)| {
+            matches!(graph.node(*id), Node::Lookup { .. }) || graph.ty(*id) == Type::Int
+        });
+        Some(Was {
+            relative,
+            value,
+            misses_root: follow.misses_root(),
+            most: follow.most(),
+            shared: shared.collect(),
+        })
+    }
+}
+
+impl Followed {
+    /// What is known of a value at so many samples.
+    fn of(&self, id: NodeId, samples: usize) -> Arc<AtSamples> {
+        // A thread that panicked has left whole entries.
+        let mut all = self.0.lock().unwrap_or_else(PoisonError::into_inner);
+        let none = || Arc::new((0..samples).map(|_| OnceLock::new()).collect());
+        all.entry(id).or_insert_with(none).clone()
+    }
 }
 
 /// The greatest real that a format of reals holds, wherever its point may be.
@@ -136,43 +186,43 @@ impl Judge<'_> {
         made: NodeId,
         where_equal: bool,
     ) -> bool {
-        let graph = self.graph;
         let Some(first) = self.samples.first() else {
             return false;
         };
-        let now = |t: TableId| graph.tables.get(t.0 as usize);
-        let mut was = Follow::new(graph, &now, first);
+        let now = |t: TableId| self.graph.tables.get(t.0 as usize);
+        let mut before = Follow::new(self.graph, &now, first);
         let next = |t: TableId| b.table_of(t);
         let mut is = Follow::new(b, &next, first);
+        let known = self.followed.of(old, self.samples.len());
         let mut told = 0;
-        for sample in self.samples {
-            was.to(sample);
-            let Some(before) = relative(&mut was, graph, old) else {
+        for (was, sample) in known.iter().zip(self.samples) {
+            let was = was.get_or_init(|| {
+                before.to(sample);
+                Was::new(&mut before, old)
+            });
+            let Some(was) = was else {
                 continue;
             };
-            let value = was.value(old, 0);
             // There the value is not needed: its roots are of what is not below 0.
-            if where_equal && was.misses_root() {
+            if where_equal && was.misses_root {
                 continue;
             }
             is.to(sample);
             // What both need is the same in both.
-            for (id, value) in was.known.iter() {
-                let shared =
-                    matches!(graph.node(id), Node::Lookup { .. }) || graph.ty(id) == Type::Int;
-                if let Some(id) = shared.then(|| new(id)).flatten() {
+            for &(id, value) in &was.shared {
+                if let Some(id) = new(id) {
                     is.known.insert(id, value);
                 }
             }
-            let Some(after) = relative(&mut is, b, made) else {
+            let Some(after) = relative(&mut is, made) else {
                 return false;
             };
             told += 1;
-            if is.leaves(self.end) && !was.leaves(self.end) {
+            if is.most() > self.end && was.most <= self.end {
                 return false;
             }
-            let differs = where_equal && !agree(value, is.value(made, 0));
-            if differs || after > self.allowance * before.max(2.0) {
+            let differs = where_equal && !agree(was.value, is.value(made, 0));
+            if differs || after > self.allowance * was.relative.max(2.0) {
                 return false;
             }
         }
@@ -191,13 +241,13 @@ fn agree(a: Option<Rounded>, b: Option<Rounded>) -> bool {
 
 /// How much of a value, or of a comparison's difference, roundings may change:
 /// in units of the format, as a part of it.
-fn relative(follow: &mut Follow<'_>, nodes: &dyn Nodes, id: NodeId) -> Option<f64> {
+fn relative<N: Nodes>(follow: &mut Follow<'_, N>, id: NodeId) -> Option<f64> {
     let part = |r: Rounded| r.off / r.value.abs().max(1e-300);
-    match nodes.node(id) {
+    match follow.nodes.node(id) {
         Node::Const(_) => Some(0.0),
         Node::Select { cond, yes, no } => {
             let holds = follow.value(cond, 0)?.value != 0.0;
-            relative(follow, nodes, if holds { yes } else { no })
+            relative(follow, if holds { yes } else { no })
         }
         Node::Apply(op, [a, b]) if op.result() == Type::Bool && op.arity() == 2 => {
             let (a, b) = (follow.value(a, 0)?, follow.value(b, 0)?);

@@ -53,7 +53,7 @@ pub(super) use form::Forms;
 use form::{Form, Part};
 pub use halved::Proofs;
 use judge::cycles;
-pub(super) use judge::{Judge, end};
+pub(super) use judge::{Followed, Judge, end};
 pub(super) use number::Number;
 use put::Put;
 use rustc_hash::FxHashMap;
@@ -97,6 +97,7 @@ pub struct Verdicts<'g> {
     full: OnceLock<Forms<'g>>,
     rows: OnceLock<Forms<'g>>,
     extents: Extents,
+    pub(super) followed: Followed,
     formulas: OnceLock<Vec<(NodeId, Found)>>,
 }
 
@@ -149,6 +150,7 @@ pub fn algebra<'g>(
         forms,
         runtime,
         allowance,
+        followed: &verdicts.followed,
     };
     let good = verdicts.good.get_or_init(|| {
         let mut site = site(Good::default());
@@ -168,7 +170,7 @@ pub(super) fn users(graph: &Graph) -> Vec<Vec<NodeId>> {
     let mut users = vec![Vec::new(); graph.nodes.len()];
     let reached = graph.reached();
     for id in graph.ids().filter(|id| reached[id.0 as usize]) {
-        for used in graph.references(id) {
+        for used in graph.refers(id) {
             users[used.0 as usize].push(id);
         }
     }
@@ -183,7 +185,7 @@ fn exits(forms: &Forms<'_>) -> Vec<bool> {
     let reached = graph.reached();
     for id in graph.ids().filter(|id| reached[id.0 as usize]) {
         if forms.get(id).is_none_or(|f| atom_of(f) == Some(id.0)) {
-            for used in graph.references(id) {
+            for used in graph.refers(id) {
                 exits[used.0 as usize] = true;
             }
         }
@@ -213,6 +215,7 @@ struct Site<'g> {
     samples: Vec<Sample>,
     runtime: &'g Runtime,
     allowance: f64,
+    followed: &'g Followed,
 }
 
 type New<'n> = &'n dyn Fn(NodeId) -> Option<NodeId>;
@@ -300,6 +303,7 @@ impl Site<'_> {
             samples: &self.samples,
             allowance: self.allowance,
             end: end(self.runtime.real),
+            followed: self.followed,
         };
         let good = |made| self.cheaper(b, new, id, made) && judge.sound(b, new, id, made);
         let good = held.unwrap_or_else(|| made.is_some_and(good));

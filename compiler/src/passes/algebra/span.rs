@@ -44,6 +44,7 @@ pub fn spans<'g>(
         samples: &samples,
         allowance,
         end: end(runtime.real),
+        followed: &verdicts.followed,
     };
     let column = graph
         .ids()

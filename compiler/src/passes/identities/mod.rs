@@ -58,6 +58,7 @@ pub fn identities<'g>(
         samples: &samples,
         allowance,
         end: end(runtime.real),
+        followed: &verdicts.followed,
     };
     let mut sites = Vec::new();
     let next = rebuild_old(graph, &mut |b, made, id, span| {
@@ -107,8 +108,9 @@ impl<'g> Search<'g> {
     }
 
     fn all(&self) -> Vec<(NodeId, Found)> {
-        let ids = self.graph.ids();
-        ids.filter_map(|id| Some((id, self.shorter(id)?))).collect()
+        let (ids, mut sums) = (self.graph.ids(), Sums::new());
+        ids.filter_map(|id| Some((id, self.shorter(id, &mut sums)?)))
+            .collect()
     }
 
     fn cycles(&self, op: Op) -> u32 {
@@ -126,7 +128,7 @@ impl<'g> Search<'g> {
     }
 
     /// A formula that costs less than what is computed for a value alone.
-    fn shorter(&self, id: NodeId) -> Option<Found> {
+    fn shorter(&self, id: NodeId, sums: &mut Sums) -> Option<Found> {
         let arithmetic = matches!(
             self.graph.node(id),
             Node::Apply(Op::Add | Op::Sub | Op::Mul | Op::Div, _)
@@ -144,7 +146,7 @@ impl<'g> Search<'g> {
         let (values, prints) = self.at_hand(id);
         let two = |k: &usize| self.is_either(values[*k]);
         let by: Vec<usize> = (0..values.len()).filter(two).collect();
-        let sums = Sums::new(&prints);
+        sums.of(prints);
         let cost = |formula: &Formula| {
             let mut needed = HashSet::new();
             for k in formula.values() {

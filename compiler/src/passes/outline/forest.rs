@@ -352,7 +352,7 @@ impl Forest {
                     of,
                     again,
                     parts: [start, body, next, done, otherwise],
-                } => Statement::Loop(Turns {
+                } => Statement::Loop(Box::new(Turns {
                     of,
                     start: self.take(start),
                     body: self.take(body),
@@ -360,7 +360,7 @@ impl Forest {
                     next: self.take(next),
                     done: self.take(done),
                     otherwise: self.take(otherwise),
-                }),
+                })),
             });
         }
         all

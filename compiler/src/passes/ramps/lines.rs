@@ -69,7 +69,7 @@ impl Find<'_> {
 /// Lines in numbers, with their roundings, at a sample.
 pub struct Numbers<'n, 'g> {
     pub find: &'n Find<'g>,
-    pub follow: Follow<'n>,
+    pub follow: Follow<'n, Graph>,
 }
 
 impl Lines for Numbers<'_, '_> {

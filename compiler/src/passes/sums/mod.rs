@@ -23,7 +23,7 @@ mod terms;
 mod tests;
 
 use super::algebra::follow::{Sample, samples};
-use super::algebra::{Judge, allowance, end, users};
+use super::algebra::{Followed, Judge, allowance, end, users};
 use super::rate::{Rates, rates};
 use super::rebuild::rebuild_old;
 use super::segment::Known;
@@ -31,12 +31,12 @@ use crate::flow::build::Builder;
 use crate::flow::graph::*;
 use crate::range::Ranges;
 pub use ends::sunk;
-use rustc_hash::FxHashMap;
+use rustc_hash::{FxHashMap, FxHashSet};
 use slowlight_routine::{Op, Runtime, Type};
 use terms::{Product, Term};
 
 /// What may be put.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Site {
     /// A sum, its terms gathered; or a quotient, without what goes against itself.
     Gathered(NodeId),
@@ -44,59 +44,6 @@ pub enum Site {
     Divided(NodeId),
     /// The sums that differ from one by what is the same for a run, made of that.
     From(NodeId),
-}
-
-/// Where sums might be cheaper; nothing in formats whose sums are exact anyway.
-pub fn sites(graph: &Graph, ranges: &Ranges, runtime: &Runtime) -> Vec<Site> {
-    if runtime.real.is_fixed() {
-        return Vec::new();
-    }
-    let sums = Sums::new(graph, ranges, runtime);
-    let gathered = graph.ids().filter(|id| sums.is_site(*id));
-    let mut all: Vec<Site> = gathered.map(Site::Gathered).collect();
-    let divided = graph.ids().filter(|id| sums.is_divided(*id));
-    all.extend(divided.map(Site::Divided));
-    for group in sums.groups.values().filter(|group| group.len() > 1) {
-        let bases = group.iter().filter(|member| sums.is_sum(member.id));
-        all.extend(bases.map(|member| Site::From(member.id)));
-    }
-    all
-}
-
-/// The graph with sums at some sites put in the other form, and the values in the place
-/// of which something else stands; nothing where there are none.
-pub fn regrouped(
-    graph: &Graph,
-    ranges: &Ranges,
-    runtime: &Runtime,
-    sites: &[Site],
-) -> Option<(Graph, Vec<NodeId>)> {
-    let sums = Sums::new(graph, ranges, runtime);
-    let pairs = sums.pairs(sites);
-    let mut done = Vec::new();
-    let next = rebuild_old(graph, &mut |builder, made, id, span| {
-        let mut put = put::Put {
-            sums: &sums,
-            pairs: &pairs,
-            builder,
-            made,
-            span,
-            proved: false,
-        };
-        let found = match sums.base(id, sites) {
-            Some(base) => put.made_from(id, base),
-            None if sites.contains(&Site::Divided(id)) => put.gathered(id, true),
-            None if sites.contains(&Site::Gathered(id)) => put.gathered(id, false),
-            None => None,
-        }?;
-        let new = |old: NodeId| made.get(old.0 as usize).copied().flatten();
-        let sound = put.proved || sums.judged(put.builder, &new, id, found);
-        sound.then(|| {
-            done.push(id);
-            found
-        })
-    });
-    (!done.is_empty()).then_some((next, done))
 }
 
 /// A value that is what a group has in common, or its negative, and something known.
@@ -112,9 +59,32 @@ struct Member {
 /// The terms that the members of a group have in common, the first one positive.
 type Common = Vec<Term>;
 
-struct Sums<'g> {
+/// What is put.
+type Sites = FxHashSet<Site>;
+
+/// A group, and the member from which the others are made.
+struct MadeFrom<'s> {
+    common: &'s Common,
+    group: &'s [Member],
+    base: &'s Member,
+}
+
+/// A value as a member of its group, and what it is made from.
+fn base<'s>(
+    id: NodeId,
+    made_from: &[MadeFrom<'s>],
+) -> Option<(&'s Common, &'s Member, &'s Member)> {
+    made_from.iter().find_map(|from| {
+        let member = from.group.iter().find(|member| member.id == id)?;
+        Some((from.common, member, from.base))
+    })
+}
+
+/// What is known of a graph's sums, whichever of them are put in another form.
+pub struct Sums<'g> {
     graph: &'g Graph,
     ranges: &'g Ranges,
+    runtime: &'g Runtime,
     users: Vec<Vec<NodeId>>,
     rates: Rates,
     /// What runs of columns know, on machines that have such.
@@ -122,24 +92,74 @@ struct Sums<'g> {
     samples: Vec<Sample>,
     allowance: f64,
     end: f64,
+    followed: Followed,
     groups: FxHashMap<Common, Vec<Member>>,
 }
 
 impl<'g> Sums<'g> {
-    fn new(graph: &'g Graph, ranges: &'g Ranges, runtime: &Runtime) -> Sums<'g> {
+    pub fn new(graph: &'g Graph, ranges: &'g Ranges, runtime: &'g Runtime) -> Sums<'g> {
         let mut sums = Sums {
             graph,
             ranges,
+            runtime,
             users: users(graph),
             rates: rates(graph),
             known: runtime.segments.then(|| Known::of(graph)),
             samples: samples(graph),
             allowance: allowance(runtime),
             end: end(runtime.real),
+            followed: Followed::default(),
             groups: FxHashMap::default(),
         };
         sums.groups = sums.grouped();
         sums
+    }
+
+    /// Where sums might be cheaper; nothing in formats whose sums are exact anyway.
+    pub fn sites(&self) -> Vec<Site> {
+        if self.runtime.real.is_fixed() {
+            return Vec::new();
+        }
+        let gathered = self.graph.ids().filter(|id| self.is_site(*id));
+        let mut all: Vec<Site> = gathered.map(Site::Gathered).collect();
+        let divided = self.graph.ids().filter(|id| self.is_divided(*id));
+        all.extend(divided.map(Site::Divided));
+        for group in self.groups.values().filter(|group| group.len() > 1) {
+            let bases = group.iter().filter(|member| self.is_sum(member.id));
+            all.extend(bases.map(|member| Site::From(member.id)));
+        }
+        all
+    }
+
+    /// The graph with sums at some sites put in the other form, and the values in the place
+    /// of which something else stands; nothing where there are none.
+    pub fn regrouped(&self, sites: &[Site]) -> Option<(Graph, Vec<NodeId>)> {
+        let sites: Sites = sites.iter().copied().collect();
+        let (pairs, made_from) = (self.pairs(&sites), self.made_from(&sites));
+        let mut done = Vec::new();
+        let next = rebuild_old(self.graph, &mut |builder, made, id, span| {
+            let mut put = put::Put {
+                sums: self,
+                pairs: &pairs,
+                builder,
+                made,
+                span,
+                proved: false,
+            };
+            let found = match base(id, &made_from) {
+                Some(base) => put.made_from(id, base),
+                None if sites.contains(&Site::Divided(id)) => put.gathered(id, true),
+                None if sites.contains(&Site::Gathered(id)) => put.gathered(id, false),
+                None => None,
+            }?;
+            let new = |old: NodeId| made.get(old.0 as usize).copied().flatten();
+            let sound = put.proved || self.judged(put.builder, &new, id, found);
+            sound.then(|| {
+                done.push(id);
+                found
+            })
+        });
+        (!done.is_empty()).then_some((next, done))
     }
 
     /// Whether a value is known before a run of columns, or a row.
@@ -220,17 +240,22 @@ impl<'g> Sums<'g> {
         groups
     }
 
-    /// The member of a value's group from which it is made.
-    fn base(&self, id: NodeId, sites: &[Site]) -> Option<(&Common, &Member, &Member)> {
-        self.groups.iter().find_map(|(common, group)| {
-            let member = group.iter().find(|member| member.id == id)?;
+    /// The groups of which one member is what others are made from.
+    fn made_from(&self, sites: &Sites) -> Vec<MadeFrom<'_>> {
+        let groups = self.groups.iter().filter_map(|(common, group)| {
             let is_base = |m: &&Member| sites.contains(&Site::From(m.id));
-            Some((common, member, group.iter().find(is_base)?))
-        })
+            let base = group.iter().find(is_base)?;
+            Some(MadeFrom {
+                common,
+                group,
+                base,
+            })
+        });
+        groups.collect()
     }
 
     /// The pairs of terms that several sums have, and how many.
-    fn pairs(&self, sites: &[Site]) -> FxHashMap<[Product; 2], usize> {
+    fn pairs(&self, sites: &Sites) -> FxHashMap<[Product; 2], usize> {
         let mut pairs = FxHashMap::default();
         for id in self.graph.ids() {
             let divides = sites.contains(&Site::Divided(id));
@@ -260,6 +285,7 @@ impl<'g> Sums<'g> {
             samples: &self.samples,
             allowance: self.allowance,
             end: self.end,
+            followed: &self.followed,
         };
         self.allowance >= 1.0 && self.graph.ty(old) == Type::Real && judge.sound(b, new, old, made)
     }

@@ -2,7 +2,7 @@
 //! where the sides are not equal.
 #![allow(clippy::unwrap_used)]
 
-use super::{Site, regrouped, sites, sunk};
+use super::{Site, Sums, sunk};
 use crate::eval::drawn::examples;
 use crate::eval::native::Native;
 use crate::eval::random_graphs;
@@ -41,9 +41,10 @@ fn lowered(ink: &str) -> Settled {
 
 /// The plan with some of its sites in the other form.
 fn put(plain: &Settled, which: impl Fn(&Site) -> bool) -> Option<Graph> {
-    let mut all = sites(&plain.graph, &plain.ranges, runtime());
+    let sums = Sums::new(&plain.graph, &plain.ranges, runtime());
+    let mut all = sums.sites();
     all.retain(which);
-    let (graph, _) = regrouped(&plain.graph, &plain.ranges, runtime(), &all)?;
+    let (graph, _) = sums.regrouped(&all)?;
     Some(fold(&graph))
 }
 
@@ -112,7 +113,7 @@ fn what_divides_all_terms_divides_once_where_it_is_not_0() {
 #[test]
 fn a_sum_is_made_of_another_that_differs_by_what_a_row_knows() {
     let plain = lowered("(s * t + r) * (s * t + 2 * y) * (s * t - 1.5) > 900");
-    let all = sites(&plain.graph, &plain.ranges, runtime());
+    let all = Sums::new(&plain.graph, &plain.ranges, runtime()).sites();
     let bases: Vec<&Site> = all.iter().filter(|s| matches!(s, Site::From(_))).collect();
     // Of the three, and of what is under the other root.
     assert_eq!(bases.len(), 4);
@@ -128,7 +129,7 @@ fn a_sum_is_made_of_another_that_differs_by_what_a_row_knows() {
 fn what_a_sum_would_drown_in_is_not_added_to_it() {
     // A small value made of a large one would be lost.
     let plain = lowered("(s * 0.001 + 0.001) * (s * 0.001 + 300000) > 900");
-    for site in sites(&plain.graph, &plain.ranges, runtime()) {
+    for site in Sums::new(&plain.graph, &plain.ranges, runtime()).sites() {
         let Site::From(id) = site else {
             continue;
         };

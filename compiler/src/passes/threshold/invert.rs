@@ -169,28 +169,37 @@ impl Chain {
     /// What a node that depends on the selector stays within.
     fn span_of(&self, graph: &Graph, id: NodeId) -> Option<Range> {
         let all = self.cells(graph).into_iter();
-        let ranges = all.map(|cell| Range::point(self.eval(graph, id, None, cell).real()));
+        let ranges = all.map(|cell| Range::point(self.eval(graph, id, cell).real()));
         ranges.reduce(Range::join)
     }
 
-    /// A node's value, given that of the chain's start and the selector's.
-    fn eval(&self, graph: &Graph, id: NodeId, start: Option<f64>, cell: Value) -> Value {
+    /// The value of a node that depends on constants and the selector alone.
+    fn eval(&self, graph: &Graph, id: NodeId, cell: Value) -> Value {
         if self.cell == Some(id) {
             return cell;
         }
-        if let Some(x) = start
-            && id == self.value
-        {
-            return Value::Real(x);
-        }
         match graph.node(id) {
             Node::Const(c) => c.value(),
-            Node::Apply(op, args) => {
-                let args = args.map(|a| self.eval(graph, a, start, cell));
-                op.eval(&args[..op.arity()])
-            }
+            Node::Apply(op, args) if op.arity() == 1 => op.eval(&[self.eval(graph, args[0], cell)]),
+            Node::Apply(op, args) => op.eval(&args.map(|a| self.eval(graph, a, cell))),
             _ => Value::Int(0),
         }
+    }
+
+    /// The steps, the first one first, where the selector has a value: what they combine the
+    /// chain's values with is computed once for all of these.
+    fn steps_with(&self, graph: &Graph, cell: Value) -> Vec<Step> {
+        let mut followed = self.value;
+        let steps = self.steps.iter().rev().filter_map(|&id| {
+            let Node::Apply(op, [a, b]) = graph.node(id) else {
+                return None;
+            };
+            let first = a == followed;
+            followed = id;
+            let other = (op.arity() > 1).then(|| self.eval(graph, if first { b } else { a }, cell));
+            Some(Step { op, first, other })
+        });
+        steps.collect()
     }
 
     /// For each result above the lowest, what the value is compared with, by
@@ -202,18 +211,23 @@ impl Chain {
         low: i32,
         high: i32,
     ) -> Option<Thresholds> {
-        let end = *self.steps.first()?;
+        if self.steps.is_empty() {
+            return None;
+        }
         let range = ranges.result.get(self.value.0 as usize)?;
         // Where no value reaches a result, any number beyond them all will do.
         let beyond = (range.magnitude() * 2.0 + 1.0).min(1e30);
         let cells = self.cells(graph);
-        let find = |ink: i32, cell: Value| {
-            let above = |x: f64| self.eval(graph, end, Some(x), cell).int() >= ink;
+        let cells: Vec<Vec<Step>> = (cells.into_iter())
+            .map(|cell| self.steps_with(graph, cell))
+            .collect();
+        let find = |ink: i32, steps: &Vec<Step>| {
+            let above = |x: f64| result(steps, x).int() >= ink;
             least(|x| above(x) == self.rising)
         };
         let inks = low + 1..=high;
         let from: Vec<Vec<f64>> = inks
-            .map(|ink| cells.iter().map(|cell| find(ink, *cell)).collect())
+            .map(|ink| cells.iter().map(|steps| find(ink, steps)).collect())
             .collect();
         let passed = |t: f64| t.next_down() + 0.0;
         let steps = from.iter().flatten().filter(|t| t.abs() < beyond);
@@ -226,6 +240,26 @@ impl Chain {
             .collect();
         Some(Thresholds { by_ink, strict })
     }
+}
+
+/// A step of a chain where the selector has a value.
+struct Step {
+    op: Op,
+    /// Whether the value that is followed is the first operand.
+    first: bool,
+    /// The other one, if there is one.
+    other: Option<Value>,
+}
+
+/// What a chain's steps make of its value.
+fn result(steps: &[Step], x: f64) -> Value {
+    steps
+        .iter()
+        .fold(Value::Real(x), |now, step| match (step.other, step.first) {
+            (None, _) => step.op.eval(&[now]),
+            (Some(other), true) => step.op.eval(&[now, other]),
+            (Some(other), false) => step.op.eval(&[other, now]),
+        })
 }
 
 /// What a value is compared with. Between two neighbours among `f64`s a result

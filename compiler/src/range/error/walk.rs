@@ -8,7 +8,7 @@ use crate::flow::ramp;
 use crate::flow::tree::*;
 use crate::plan::Plan;
 use crate::range::interval::interval;
-use crate::range::refine::refine;
+use crate::range::refine::{Conditions, restore};
 use slowlight_routine::{Op, Range, Type};
 
 /// How many turns of loops a tile is worth.
@@ -28,6 +28,8 @@ pub fn walk(plan: &Plan, tile: &Tile) -> Bounds {
         plan,
         graph,
         ranges: start.iter().map(|v| v.range).collect(),
+        conditions: Conditions::new(graph),
+        saved: Vec::new(),
         errors: start.into_iter().map(|v| v.error).collect(),
         carried: graph.loops.iter().map(slots).collect(),
         scratch: graph.loops.iter().map(slots).collect(),
@@ -98,6 +100,9 @@ pub(super) struct Walk<'p> {
     pub(super) graph: &'p Graph,
     /// What each node's exact value lies within here, refined by the conditions around.
     ranges: Vec<Range>,
+    conditions: Conditions<'p>,
+    /// What conditions around have narrowed, and what it was.
+    saved: Vec<(NodeId, Range)>,
     errors: Vec<Form>,
     carried: Vec<Vec<Value>>,
     scratch: Vec<Vec<Value>>,
@@ -151,11 +156,10 @@ impl<'p> Walk<'p> {
 
     /// Walks an arm under its condition; answers what it sets, and to what.
     fn arm(&mut self, cond: NodeId, holds: bool, block: &'p Block) -> Vec<(Place, Value)> {
-        let saved = refine(self.graph, &mut self.ranges, cond, holds);
+        let before = self.saved.len();
+        (self.conditions).refine(&mut self.ranges, &mut self.saved, cond, holds);
         self.block(block);
-        for (id, range) in saved.into_iter().rev() {
-            self.ranges[id.0 as usize] = range;
-        }
+        restore(&mut self.ranges, &mut self.saved, before);
         let places = block.iter().filter_map(|s| match s {
             Statement::Set { place, .. } => Some(*place),
             _ => None,

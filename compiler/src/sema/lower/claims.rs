@@ -112,7 +112,7 @@ fn wrong(
     for id in path.iter().rev().skip(1) {
         let span = graph.span(*id);
         let name = graph.names.get(id);
-        let itself = shown.len() > 1 && name == Some(&claim.name);
+        let itself = shown.len() > 1 && name.is_some_and(|name| **name == *claim.name);
         if !shown.contains(&span) && shown.len() < 4 && !itself {
             shown.push(span);
             let text = match name {
