@@ -33,6 +33,9 @@ const FACTORS: usize = 8;
 
 /// With operations made in the arms of choices where they are none in one of them.
 pub fn in_arms(plan: Settled, shop: &Workshop, thrift: Thrift) -> Settled {
+    if shop.fuel.spent() {
+        return plan;
+    }
     let price = Price::new(&plan, shop.runtime, thrift);
     let mut best = plan;
     for k in 0..conditions(&best.graph).len() {
@@ -54,7 +57,8 @@ pub fn in_arms(plan: Settled, shop: &Workshop, thrift: Thrift) -> Settled {
 pub fn asked_where_it_matters(plan: Settled, shop: &Workshop, thrift: Thrift) -> Settled {
     // Where each value has its own point, shades that nobody asks for in full would have
     // none that suits them, and errors of shades could not be told.
-    if shop.every_shade || matches!(shop.runtime.real, Format::Scaled { .. }) {
+    let scaled = matches!(shop.runtime.real, Format::Scaled { .. });
+    if shop.every_shade || scaled || shop.fuel.spent() {
         return plan;
     }
     let price = Price::new(&plan, shop.runtime, thrift);

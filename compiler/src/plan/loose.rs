@@ -26,8 +26,12 @@ pub(super) fn loosen(graph: &Graph, ranges: &Ranges, loose: &Loose, chosen: &mut
         loose,
         instead,
         reached: graph.reached(),
+        lows: vec![loose.held; graph.nodes.len()],
     };
-    while search.held_back(chosen) {}
+    let mut from = Some(0);
+    while let Some(at) = from {
+        from = search.held_back(chosen, at);
+    }
     for (routine, instead) in chosen.iter_mut().zip(search.instead) {
         *routine = instead.or(*routine);
     }
@@ -40,13 +44,25 @@ struct Search<'g> {
     /// What leaves each result as small as it comes, where that is wanted still.
     instead: Vec<Option<&'static Routine>>,
     reached: Vec<bool>,
+    /// How small each may be, as far as that is known.
+    lows: Vec<i32>,
 }
 
 impl Search<'_> {
-    /// Takes back what the first reader minds that does; whether there is one.
-    fn held_back(&mut self, chosen: &Chosen) -> bool {
-        let mut lows = vec![self.loose.held; self.graph.nodes.len()];
-        for id in self.graph.ids().filter(|id| self.reached[id.0 as usize]) {
+    /// Takes back what the first reader minds that does; from which node on all may be
+    /// otherwise then, if there is one. Up to `from` nothing has changed.
+    fn held_back(&mut self, chosen: &Chosen, from: usize) -> Option<usize> {
+        let mut lows = std::mem::take(&mut self.lows);
+        let minded = self.minded(chosen, from, &mut lows);
+        let taken = self.take_back(minded, &lows);
+        self.lows = lows;
+        taken
+    }
+
+    /// What the first reader minds that does, or what leaves the graph.
+    fn minded(&self, chosen: &Chosen, from: usize, lows: &mut [i32]) -> Vec<NodeId> {
+        let later = self.graph.ids().skip(from);
+        for id in later.filter(|id| self.reached[id.0 as usize]) {
             let at = id.0 as usize;
             let least = match (self.graph.node(id), self.instead[at].or(chosen[at])) {
                 (Node::Apply(op, args), Some(routine)) => {
@@ -65,27 +81,27 @@ impl Search<'_> {
             };
             match least {
                 Some(least) => lows[at] = least,
-                None => return self.take_back(self.graph.node(id).operands(), &lows),
+                None => return self.graph.node(id).operands().collect(),
             }
         }
         let loops = self.graph.loops.iter();
         let ends = loops.flat_map(|l| [&l.init, &l.next, &l.done, &l.otherwise].into_iter());
-        let ends: Vec<NodeId> = ends
-            .flatten()
+        ends.flatten()
             .copied()
             .chain(self.graph.outputs())
-            .collect();
-        self.take_back(ends.into_iter(), &lows)
+            .collect()
     }
 
-    /// Takes back those of these that are loose, or what makes them so; whether any was. A
+    /// Takes back those of these that are loose, or what makes them so; the first of them. A
     /// sum is as small as the greater of its summands, so that one need be held.
-    fn take_back(&mut self, these: impl Iterator<Item = NodeId>, lows: &[i32]) -> bool {
+    fn take_back(&mut self, mut minded: Vec<NodeId>, lows: &[i32]) -> Option<usize> {
         let loose = |id: &NodeId| lows[id.0 as usize] < self.loose.held;
-        let mut minded: Vec<NodeId> = these.filter(loose).collect();
-        let any = !minded.is_empty();
+        minded.retain(loose);
+        let mut first = None;
         while let Some(id) = minded.pop() {
-            if self.instead[id.0 as usize].take().is_some() {
+            let at = id.0 as usize;
+            if self.instead[at].take().is_some() {
+                first = Some(first.unwrap_or(at).min(at));
                 continue;
             }
             if let Node::Select { yes, no, .. } = self.graph.node(id) {
@@ -100,6 +116,6 @@ impl Search<'_> {
                 minded.extend(args[..op.arity()].iter().filter(|arg| loose(arg)).take(one));
             }
         }
-        any
+        first
     }
 }

@@ -78,7 +78,8 @@ type Rewrite = fn(&Graph, &Ranges, &[NodeId]) -> Option<Graph>;
 impl Site<'_> {
     /// A plan rewritten where that makes it cheaper.
     fn taken(&self, plain: Settled, found: Vec<NodeId>, rewrite: Rewrite) -> Settled {
-        if found.is_empty() || found.len() * plain.graph.nodes.len() > PATIENCE {
+        let many = found.len() * plain.graph.nodes.len() > PATIENCE;
+        if found.is_empty() || many || self.shop.fuel.spent() {
             return plain;
         }
         let cost = |plan: &Settled| self.price.of(plan);
