@@ -40,7 +40,9 @@ fn a_row_is_what_leaving_the_effect_out_changes() {
         assert_eq!(found["run"]["cycles"], whole["cycles"], "{target}");
         for name in ["halo", "rim"] {
             let row = row(&found, name);
-            let without = run(&["--without", name]);
+            // In the whole scene's format: for itself it might take another.
+            let format = whole["format"].as_str().expect("a format");
+            let without = run(&["--without", name, "--format", format]);
             let less = |key: &str| {
                 let of = |run: &Value| run[key].as_i64();
                 Some(of(&whole)? - of(&without)?)

@@ -45,12 +45,12 @@ mod tests {
         }
     }
 
-    /// A twentieth of the points has something of each of the grid's parts, four by four.
+    /// A tenth of the points has something of each of the grid's parts, four by four.
     #[test]
     fn the_first_are_spread_over_the_whole_grid() {
         let [columns, rows] = [31, 24];
         for choice in 0..12 {
-            let few = scattered([columns, rows], choice, 12).take(37);
+            let few = scattered([columns, rows], choice, 12).take(74);
             let parts: BTreeSet<_> = few.map(|(x, y)| (4 * x / columns, 4 * y / rows)).collect();
             assert_eq!(parts.len(), 16, "{choice}");
         }
