@@ -68,6 +68,17 @@ pub fn rebuild_old(graph: &Graph, rule: OldRule<'_>) -> Graph {
     )
 }
 
+/// What stands in a new graph for each node of the old one, if it is there.
+pub type Trace = Vec<Option<NodeId>>;
+
+/// [`rebuild_old`], and what stands for each old node.
+pub fn traced_old(graph: &Graph, rule: OldRule<'_>) -> (Graph, Trace) {
+    rebuild_all(
+        graph,
+        &mut Nodes(|builder: &mut Builder, made: &[_], id, _, span| rule(builder, made, id, span)),
+    )
+}
+
 /// A rule on nodes alone.
 struct Nodes<F>(F);
 
@@ -89,6 +100,10 @@ where
 
 /// The same by any rewriting.
 pub fn rebuild_by(graph: &Graph, rewrite: &mut dyn Rewrite) -> Graph {
+    rebuild_all(graph, rewrite).0
+}
+
+fn rebuild_all(graph: &Graph, rewrite: &mut dyn Rewrite) -> (Graph, Trace) {
     let mut rebuilder = Rebuilder {
         graph,
         builder: Builder::with_room(graph.nodes.len()),
@@ -154,7 +169,11 @@ pub fn rebuild_by(graph: &Graph, rewrite: &mut dyn Rewrite) -> Graph {
     for effect in &graph.effects {
         (0..effect.calls).for_each(|_| rebuilder.builder.effect(&effect.name));
     }
-    rebuilder.builder.finish(graph.image.clone(), ink, shade)
+    let made = rebuilder.made;
+    (
+        rebuilder.builder.finish(graph.image.clone(), ink, shade),
+        made,
+    )
 }
 
 struct Rebuilder<'g> {

@@ -11,8 +11,8 @@ use std::cell::{Cell, RefCell};
 pub(super) struct Meter<'g, C> {
     exact: Exact<'g>,
     cost: C,
-    /// What statements cost that ran: each is asked for once.
-    costs: RefCell<FxHashMap<*const Statement, f64>>,
+    /// What statements cost that ran, each asked for once, and how often they did.
+    costs: RefCell<FxHashMap<*const Statement, (f64, u64)>>,
     /// What it came to.
     pub sum: Cell<f64>,
     /// How many ran.
@@ -28,6 +28,14 @@ impl<'g, C: Fn(&Statement) -> f64> Meter<'g, C> {
             sum: Cell::new(0.0),
             ran: Cell::new(0),
         }
+    }
+
+    /// How often a statement ran.
+    pub fn count(&self, statement: &Statement) -> u64 {
+        let costs = self.costs.borrow();
+        costs
+            .get(&std::ptr::from_ref(statement))
+            .map_or(0, |(_, count)| *count)
     }
 }
 
@@ -65,7 +73,8 @@ impl<C: Fn(&Statement) -> f64> Arithmetic for &Meter<'_, C> {
         self.ran.set(self.ran.get() + 1);
         let mut costs = self.costs.borrow_mut();
         let cost = costs.entry(std::ptr::from_ref(statement));
-        let cost = *cost.or_insert_with(|| (self.cost)(statement));
-        self.sum.set(self.sum.get() + cost);
+        let (cost, count) = cost.or_insert_with(|| ((self.cost)(statement), 0));
+        *count += 1;
+        self.sum.set(self.sum.get() + *cost);
     }
 }

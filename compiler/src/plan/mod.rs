@@ -70,6 +70,7 @@ pub(crate) mod price;
 #[cfg(test)]
 mod price_tests;
 pub mod print;
+mod profile;
 pub mod recipes;
 pub(crate) mod settled;
 mod spread;

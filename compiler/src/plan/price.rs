@@ -129,6 +129,18 @@ impl Price {
         cycles * (1.0 + self.memory * (inside + self.around * around))
     }
 
+    /// How often a plan's values are computed; nothing where it cannot be run.
+    pub(super) fn profile(&self, plan: &Settled) -> Option<super::profile::Profile> {
+        let routines = choose(&plan.graph, &plan.tree, &plan.ranges, self.runtime, None).ok()?;
+        Some(super::profile::Profile::new(
+            plan,
+            self.runtime,
+            &routines,
+            &self.pixels,
+            PATIENCE,
+        ))
+    }
+
     /// Cycles a pixel.
     fn cycles(&self, plan: &Settled) -> f64 {
         let Ok(routines) = choose(&plan.graph, &plan.tree, &plan.ranges, self.runtime, None) else {

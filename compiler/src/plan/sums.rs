@@ -17,6 +17,12 @@ const GAIN: f64 = 0.9995;
 /// How many nodes may be scheduled again to find out which sums pay.
 const PATIENCE: usize = 60_000;
 
+/// By how much forms that are settled to be compared may differ by counts, and how many of
+/// those there are: so many nodes together, and at most.
+const DOUBT: f64 = 1.003;
+const EARNEST: usize = 6_000;
+const MOST: usize = 16;
+
 /// How often sums are looked at: what is known of some lets others be made.
 const ROUNDS: u32 = 3;
 
@@ -36,70 +42,82 @@ pub fn with_sums(plan: Settled, shop: &Workshop, thrift: Thrift) -> Settled {
 }
 
 /// The same once; nothing where it makes nothing cheaper.
+///
+/// Which sites pay is found by what graphs cost at the plan's own counts ([`super::profile`]).
+/// What comes of that, and of all sums together, is settled and priced; beside the cheaper of
+/// the two a few others are, that are nearly as good by counts.
 fn cheaper(plan: &Settled, shop: &Workshop, thrift: Thrift) -> Option<Settled> {
     let sums = Sums::new(&plan.graph, &plan.ranges, shop.runtime);
-    let found = sums.sites();
     let price = Price::new(plan, shop.runtime, thrift);
+    let profile = price.profile(plan)?;
     let made = |sites: &[Site]| {
         shop.may_look(&plan.graph);
         sums.regrouped(sites)
     };
-    let rewritten = |sites: &[Site]| {
-        let next = shop.settle(&made(sites)?.0);
-        Some((price.of(&next), next))
-    };
-    let gathers = |site: &&Site| matches!(site, Site::Gathered(_));
-    let mut gathered: Vec<Site> = found.iter().filter(gathers).copied().collect();
-    let changed = made(&gathered).map_or(Vec::new(), |(_, changed)| changed);
+    let gathers = |site: &Site| matches!(site, Site::Gathered(_));
+    let (mut gathered, others): (Vec<Site>, Vec<Site>) =
+        sums.sites().into_iter().partition(gathers);
+    let changed = made(&gathered).map_or(Vec::new(), |made| made.changed);
     gathered.retain(|site| matches!(site, Site::Gathered(id) if changed.contains(id)));
-    let others = found
-        .iter()
-        .filter(|site| !gathers(site) && made(&[**site]).is_some());
-    let now = price.of(plan);
-    let mut best = Best {
-        least: now,
-        sites: Vec::new(),
-        plan: None,
+    let about = |sites: &[Site]| {
+        let found = made(sites).map(|made| profile.cost(&made.graph, &made.trace));
+        found.unwrap_or(profile.own())
     };
-    if let Some((cost, next)) = rewritten(&gathered) {
-        best = Best {
-            least: cost,
-            sites: gathered.clone(),
-            plan: Some(next),
-        };
-    }
-    let tries = PATIENCE / plan.graph.nodes.len().max(1);
+    let mut best = gathered.clone();
+    let mut least = about(&best);
     // What pays beside others may not without them, and the other way round.
-    for site in gathered
-        .iter()
-        .rev()
-        .chain(others)
-        .chain(&gathered)
-        .take(tries)
-    {
+    let tries = gathered.iter().rev().chain(&others).chain(&gathered);
+    let mut doubtful: Vec<(f64, Site)> = Vec::new();
+    for &site in tries.take(PATIENCE / plan.graph.nodes.len().max(1)) {
         if shop.fuel.spent() {
             break;
         }
-        let (has, mut sites) = (best.sites.contains(site), best.sites.clone());
-        match has {
-            true => sites.retain(|other| other != site),
-            false => sites.push(*site),
-        }
-        let tried = rewritten(&sites);
-        let cost = tried.as_ref().map_or(now, |(cost, _)| *cost);
-        let limit = if has { best.least } else { GAIN * best.least };
-        if cost <= limit {
-            best = Best {
-                least: cost,
-                sites,
-                plan: tried.map(|(_, next)| next),
-            };
+        let sites = toggled(&best, site);
+        let (cost, has) = (about(&sites), best.contains(&site));
+        doubtful.retain(|(_, other)| *other != site);
+        doubtful.push((cost / least, site));
+        if cost <= if has { least } else { GAIN * least } {
+            (least, best) = (cost, sites);
         }
     }
-    let Best {
-        least, plan: found, ..
-    } = best;
-    found.filter(|_| least < GAIN * now)
+    let settled = |sites: &[Site]| match made(sites) {
+        Some(made) => shop.settle(&made.graph),
+        None => plan.clone(),
+    };
+    let mut found = settled(&best);
+    let all = settled(&gathered);
+    if price.of(&all) < price.of(&found) {
+        (found, best) = (all, gathered);
+    }
+    doubtful.retain(|(part, _)| (1.0 / DOUBT..DOUBT).contains(part));
+    // The fewer, the better.
+    doubtful.sort_by(|(a, one), (b, other)| {
+        let adds = |site: &Site| !best.contains(site);
+        adds(one).cmp(&adds(other)).then(a.total_cmp(b))
+    });
+    let few = (EARNEST / plan.graph.nodes.len().max(1)).clamp(1, MOST);
+    for (_, site) in doubtful.into_iter().take(few) {
+        if shop.fuel.spent() {
+            break;
+        }
+        let sites = toggled(&best, site);
+        let tried = settled(&sites);
+        let limit = if best.contains(&site) { 1.0 } else { GAIN };
+        if price.of(&tried) <= limit * price.of(&found) {
+            (found, best) = (tried, sites);
+        }
+    }
+    (price.of(&found) < GAIN * price.of(plan)).then_some(found)
+}
+
+/// Some sites with another one, or without it.
+fn toggled(sites: &[Site], site: Site) -> Vec<Site> {
+    let mut sites = sites.to_vec();
+    match sites.iter().position(|other| *other == site) {
+        Some(at) => drop(sites.remove(at)),
+        None => sites.push(site),
+    }
+    sites
 }
 
 /// The plan with no loop started that its first turn ends, and sums looked at again:
@@ -116,11 +134,4 @@ pub fn with_loops_skipped(plan: Settled, shop: &Workshop, thrift: Thrift) -> Set
         Some(other) if price.of(&other) < GAIN * price.of(&usual) => other,
         _ => usual,
     }
-}
-
-/// The cheapest so far: at which sites.
-struct Best {
-    least: f64,
-    sites: Vec<Site>,
-    plan: Option<Settled>,
 }

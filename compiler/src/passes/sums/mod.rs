@@ -25,7 +25,7 @@ mod tests;
 use super::algebra::follow::{Sample, samples};
 use super::algebra::{Followed, Judge, allowance, end, users};
 use super::rate::{Rates, rates};
-use super::rebuild::rebuild_old;
+use super::rebuild::{Trace, traced_old};
 use super::segment::Known;
 use crate::flow::build::Builder;
 use crate::flow::graph::*;
@@ -78,6 +78,14 @@ fn base<'s>(
         let member = from.group.iter().find(|member| member.id == id)?;
         Some((from.common, member, from.base))
     })
+}
+
+/// A graph with sums in other forms.
+pub struct Regrouped {
+    pub graph: Graph,
+    /// The values of the old graph in the place of which something else stands.
+    pub changed: Vec<NodeId>,
+    pub trace: Trace,
 }
 
 /// What is known of a graph's sums, whichever of them are put in another form.
@@ -133,11 +141,11 @@ impl<'g> Sums<'g> {
 
     /// The graph with sums at some sites put in the other form, and the values in the place
     /// of which something else stands; nothing where there are none.
-    pub fn regrouped(&self, sites: &[Site]) -> Option<(Graph, Vec<NodeId>)> {
+    pub fn regrouped(&self, sites: &[Site]) -> Option<Regrouped> {
         let sites: Sites = sites.iter().copied().collect();
         let (pairs, made_from) = (self.pairs(&sites), self.made_from(&sites));
-        let mut done = Vec::new();
-        let next = rebuild_old(self.graph, &mut |builder, made, id, span| {
+        let mut changed = Vec::new();
+        let (graph, trace) = traced_old(self.graph, &mut |builder, made, id, span| {
             let mut put = put::Put {
                 sums: self,
                 pairs: &pairs,
@@ -155,11 +163,16 @@ impl<'g> Sums<'g> {
             let new = |old: NodeId| made.get(old.0 as usize).copied().flatten();
             let sound = put.proved || self.judged(put.builder, &new, id, found);
             sound.then(|| {
-                done.push(id);
+                changed.push(id);
                 found
             })
         });
-        (!done.is_empty()).then_some((next, done))
+        let made = Regrouped {
+            graph,
+            changed,
+            trace,
+        };
+        (!made.changed.is_empty()).then_some(made)
     }
 
     /// Whether a value is known before a run of columns, or a row.
