@@ -192,7 +192,7 @@ fn candidates(
         Some(Candidate {
             target: plan.target,
             rows: plan.rows,
-            cycles: seen.cycles + f64::from(plan.target.starts),
+            cycles: seen.cycles(),
             wrong: unlike(seen, &native)?,
         })
     };

@@ -1,5 +1,6 @@
 //! What the planner's figures say of a picture's time: what each statement is said to take,
-//! times how often the model runs it, on a sample of the pixels.
+//! times how often the model runs it, on a sample of the pixels; and what its target says that
+//! a program takes to get ready, tables above all, which is most of what a coarse picture takes.
 //!
 //! A routine's cost is a mean over its arguments, and nothing is said of drawing: this
 //! orders programs, and says how much dearer some rows are than others. What a picture takes
@@ -102,17 +103,33 @@ type Adds<'t, 'p> = Run<'t, &'t Heard<Model<'p>, Adding<'p>>>;
 
 /// What the model shows at a sample of a plan's pixels.
 pub struct Sampled {
-    /// The cycles that the plan's statements take, all rows and columns together.
-    pub cycles: f64,
+    /// The cycles before the first row: what makes a program ready, what is carried out once a
+    /// picture, and once a column.
+    pub before: f64,
+    /// The cycles that the statements of all rows take together.
+    pub rows: f64,
     /// Pixels: column, row, and ink.
     pub inks: Vec<(u32, u32, u8)>,
     /// How many pixels the whole sample has.
     pub of: usize,
 }
 
-/// The cycles that a plan's statements take, all rows and columns together.
+impl Sampled {
+    /// The cycles of all that is foreseen.
+    pub fn cycles(&self) -> f64 {
+        self.before + self.rows
+    }
+}
+
+/// The cycles that a plan's program takes: to get ready, and for its statements, all rows and
+/// columns together.
 pub fn cycles(plan: &Plan) -> f64 {
-    sampled(plan, GRID, MOST).cycles
+    sampled(plan, GRID, MOST).cycles()
+}
+
+/// The cycles of the statements of all rows alone.
+pub fn rows(plan: &Plan) -> f64 {
+    sampled(plan, GRID, MOST).rows
 }
 
 /// The same, with the inks of a sample of so many rows and columns; of which only a part is
@@ -168,7 +185,8 @@ pub fn sampled(plan: &Plan, side: u32, most: u64) -> Sampled {
     let passes = f64::from(passes(&graph));
     let (width, height) = (f64::from(window.width()), f64::from(window.height()));
     Sampled {
-        cycles: frame + column * width + (row + (pass + runs) * passes + pixel * width) * height,
+        before: (plan.target.starts)(plan) as f64 + frame + column * width,
+        rows: (row + (pass + runs) * passes + pixel * width) * height,
         inks,
         of: rows.len() * columns.len(),
     }

@@ -181,7 +181,7 @@ impl Look<'_> {
         let expected = |rows: (u32, u32)| {
             let mut plan = self.plan.clone();
             plan.rows = rows;
-            estimate::cycles(&plan)
+            estimate::rows(&plan)
         };
         let part = expected((first, first + rows - 1)).max(1.0);
         Ok(before + (took - before) * expected((first, last)) / part)

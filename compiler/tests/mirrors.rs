@@ -35,7 +35,7 @@ static PLAIN: Target = Target {
     modes: &[MODE],
     offset: 1.0 / 256.0,
     hertz: 1e6,
-    starts: 0,
+    starts: |_| 0,
     sizes: slowlight_compiler::target::mos6502::PLAIN.sizes,
     wraps: false,
     columns: 0,

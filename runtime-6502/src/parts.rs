@@ -16,6 +16,7 @@ pub(crate) const fn part(
         source: Source::Text(text),
         needs,
         bytes,
+        starts: 0,
     }
 }
 
@@ -26,22 +27,27 @@ pub(crate) const fn terms(name: &'static str, make: fn() -> Vec<i32>, bytes: u32
         source: Source::Table(make),
         needs: &[],
         bytes,
+        starts: 0,
     }
 }
 
 /// In the order in which they stand in a program: what defines symbols for others first.
 const USUAL: &[Part] = &[
     part("zero_page", include_str!("../asm/zero_page.asm"), &[], 0),
-    part(
-        "squares",
-        concat!(
-            include_str!("../asm/squares_at.asm"),
-            include_str!("../asm/squares_pages.asm"),
-            include_str!("../asm/squares.asm")
-        ),
-        &["zero_page"],
-        2135,
-    ),
+    Part {
+        // Where a program does not have them in its file.
+        starts: 25_124,
+        ..part(
+            "squares",
+            concat!(
+                include_str!("../asm/squares_at.asm"),
+                include_str!("../asm/squares_pages.asm"),
+                include_str!("../asm/squares.asm")
+            ),
+            &["zero_page"],
+            2135,
+        )
+    },
     part(
         "scaled_page",
         include_str!("../asm/scaled/page.asm"),

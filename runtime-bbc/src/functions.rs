@@ -8,7 +8,7 @@ use slowlight_routine::{Part, Source};
 
 macro_rules! part {
     ($name:literal [$($need:literal),*] $bytes:literal $text:literal) => {
-        Part { name: $name, source: Source::Text($text), needs: &[$($need),*], bytes: $bytes }
+        Part { name: $name, source: Source::Text($text), needs: &[$($need),*], bytes: $bytes, starts: 0 }
     };
 }
 

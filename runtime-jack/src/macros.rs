@@ -50,9 +50,19 @@ macro_rules! routine {
     };
 }
 
-/// A part of a class: name, what else it needs, words of ROM, text.
+/// A part of a class: name, what else it needs, words of ROM, text, and the VM commands that
+/// `init` takes for it where it calls it.
 macro_rules! part {
     ($name:literal, [$($need:literal),*], $words:literal, $text:expr) => {
-        Part { name: $name, source: Source::Text($text), needs: &[$($need),*], bytes: $words }
+        part!($name, [$($need),*], $words, $text, 0)
+    };
+    ($name:literal, [$($need:literal),*], $words:literal, $text:expr, $starts:literal) => {
+        Part {
+            name: $name,
+            source: Source::Text($text),
+            needs: &[$($need),*],
+            bytes: $words,
+            starts: $starts,
+        }
     };
 }

@@ -184,25 +184,3 @@ fn what_nobody_looked_at_is_not_said_to_be_right() {
         assert_eq!(built["format"], usual_format(target));
     }
 }
-
-/// What a target states that its programs take before they begin a scene.
-#[test]
-fn tables_that_programs_make_first_take_what_is_stated() {
-    // A table of logarithms is asked for, and squares.
-    let dir = directory(&[(
-        "one.scn",
-        "image 1 x 1 inks black, white;
-        param a: real = 1.3 in 1 .. 2;
-        draw (x, y) = threshold(a * a + sqrt(a + x) / (a + y) - a, 0.5);",
-    )]);
-    for target in TARGETS {
-        for target in formats(target).filter(|t| t.starts > 0) {
-            let format = ["--format", target.runtime.format];
-            let run = ran(dir.path(), "one.scn", target.name, &format);
-            let (took, stated) = (cycles(&run), u64::from(target.starts));
-            // The screen is cleared, too, and a pixel computed.
-            let about = stated..stated + 200_000;
-            assert!(about.contains(&took), "{} {format:?}: {took}", target.name);
-        }
-    }
-}

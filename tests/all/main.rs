@@ -68,6 +68,7 @@ mod runs;
 mod seldom;
 mod snapshots;
 mod spread;
+mod started;
 mod stress;
 mod syntaxes;
 mod torus;

@@ -257,4 +257,7 @@ pub struct Part {
     pub needs: &'static [&'static str],
     /// Bytes (or words) in the machine.
     pub bytes: u32,
+    /// Cycles that a program takes for it at its start, to make tables that it keeps; what
+    /// parts that it needs take then is theirs.
+    pub starts: u32,
 }

@@ -7,6 +7,7 @@ pub mod bbc;
 pub mod colours;
 pub mod jack;
 pub mod mos6502;
+mod starts;
 
 use crate::passes::outline::Sizes;
 use crate::plan::Plan;
@@ -42,8 +43,9 @@ pub struct Target {
     pub offset: f64,
     /// Cycles a second, for estimates of the machine's time.
     pub hertz: f64,
-    /// Cycles that its programs take for tables of the runtime's before they begin a scene.
-    pub starts: u32,
+    /// Cycles that a plan's program takes before it begins the scene, about: for tables, params
+    /// and constants, and to open the screen.
+    pub starts: fn(&Plan) -> u64,
     /// What statements take in its programs where memory is short.
     pub sizes: Sizes,
     /// Whether a sum of ints that leaves 32 bits silently loses what is above them.

@@ -84,6 +84,8 @@ pub struct Bench {
     end: u16,
     /// Bytes of the use.
     pub bytes: u32,
+    /// Cycles of what stands before it.
+    pub prepared: u64,
 }
 
 const FIRST: u16 = 0x80;
@@ -172,8 +174,9 @@ impl Bench {
             start: at("prepare"),
             end: at("start"),
             bytes: u32::from(at("end") - at("start")),
+            prepared: 0,
         };
-        bench.go();
+        bench.prepared = bench.go();
         (bench.start, bench.end) = (at("start"), at("end"));
         bench
     }

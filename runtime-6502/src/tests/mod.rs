@@ -302,6 +302,8 @@ fn quarter_squares_are_made_as_they_are_stored() {
     };
     let bench = Bench::written(&RUNTIME, &squares);
     assert_eq!(bench.bytes, 16);
+    let part = RUNTIME.part("squares").unwrap();
+    assert_eq!(bench.prepared, u64::from(part.starts));
     for (k, table) in TABLES.iter().enumerate() {
         let made = &bench.memory(0x200 + 0x200 * k)[..511];
         let stored: Vec<u8> = table.bytes().collect();

@@ -7,6 +7,7 @@ mod functions;
 pub mod generator;
 pub mod machine;
 mod os;
+mod starts;
 mod table;
 
 use crate::model::{BOTTOM, Float, TOP, int_bits};

@@ -342,6 +342,11 @@ fn called_rarely(code: &Code<'_>) -> bool {
         })
 }
 
+/// Whether a part is carried out before anything else, not called.
+pub(super) fn is_first(part: &Part) -> bool {
+    matches!(part.source, Source::Text(text) if !text.starts_with("DEF"))
+}
+
 fn setup(plan: &Plan, code: &mut Code<'_>, parts: &[&Part], first: &str, last: &str) {
     code.line("DEF PROCsetup");
     let must = match plan.brief {
@@ -367,8 +372,8 @@ fn setup(plan: &Plan, code: &mut Code<'_>, parts: &[&Part], first: &str, last: &
         "IF {first}<{top} OR {last}>{bottom} OR {first}>{last} THEN PRINT \"rows{must} {top} to {bottom}\":END"
     ));
     for part in parts {
-        if let Source::Text(text) = part.source
-            && !text.starts_with("DEF")
+        if is_first(part)
+            && let Source::Text(text) = part.source
         {
             text.lines().for_each(|l| code.statement(l));
         }

@@ -45,6 +45,7 @@ mod screen;
 mod segment;
 mod short;
 mod spread;
+mod starts;
 mod tables;
 mod tail;
 mod terse;
@@ -87,7 +88,7 @@ pub static MICRO: Target = Target {
     modes: screen::MICRO,
     offset: OFFSET,
     hertz: 2_000_000.0,
-    starts: 0,
+    starts: starts::starts,
     sizes: SIZES,
     wraps: true,
     columns: 1024,
@@ -108,7 +109,7 @@ pub static AGON: Target = Target {
     offset: OFFSET,
     // Measured: the two mirrors in 11.6 minutes for BASIC II's 17.8e9 cycles.
     hertz: 25_500_000.0,
-    starts: 0,
+    starts: starts::starts,
     sizes: SIZES,
     wraps: false,
     columns: 1024,
@@ -125,7 +126,7 @@ pub static BASIC_V: Target = Target {
     offset: OFFSET,
     // Measured: 0.15 seconds for the same program.
     hertz: 1.2e11,
-    starts: 0,
+    starts: starts::starts,
     sizes: SIZES,
     wraps: false,
     columns: 1024,

@@ -15,16 +15,16 @@ use slowlight_runtime_bbc::literal;
 const ARRAYS: usize = 6;
 
 /// Tables that are filled in one loop.
-struct Group<'p> {
+pub(super) struct Group<'p> {
     /// Columns and rows.
-    size: (u32, u32),
+    pub size: (u32, u32),
     /// The cells' numbers, if any table is worked out from them.
-    seed: &'p [i32],
-    tables: Vec<(TableId, &'p Table)>,
+    pub seed: &'p [i32],
+    pub tables: Vec<(TableId, &'p Table)>,
 }
 
 /// The tables by their size and seeds, in the order of the plan's.
-fn groups(plan: &Plan) -> Vec<Group<'_>> {
+pub(super) fn groups(plan: &Plan) -> Vec<Group<'_>> {
     let mut groups: Vec<Group<'_>> = Vec::new();
     for (k, table) in plan.graph.tables.iter().enumerate() {
         let (id, size) = (TableId(k as u32), (table.width, table.height));

@@ -44,6 +44,7 @@ mod params;
 mod remark;
 mod report;
 mod spread;
+mod starts;
 mod statics;
 #[cfg(test)]
 mod tests;
@@ -70,7 +71,6 @@ pub static JACK_F316R: Target = Target {
 /// The same with logarithmic reals.
 pub static JACK_LOG10: Target = Target {
     runtime: &LOG10,
-    starts: 1_480_000,
     ..FLOATS
 };
 
@@ -98,7 +98,7 @@ const FLOATS: Target = Target {
     // VM commands a second of the official VM emulator. Its calls of the operating
     // system take longer, about 10 microseconds each, which one rate cannot say.
     hertz: 12.6e6,
-    starts: 0,
+    starts: starts::starts,
     // Words of the heap: code does not count there, values do.
     wraps: false,
     columns: 512,

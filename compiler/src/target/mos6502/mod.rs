@@ -58,6 +58,7 @@ mod screen;
 mod shapes;
 mod spread;
 mod squares;
+mod starts;
 pub mod syntax;
 mod table;
 #[cfg(test)]
@@ -115,15 +116,11 @@ pub static PLAIN_LOG10: Target = Target {
 /// few units away, comes out as a few thousandths.
 const LOG_OFFSET: f64 = 0.015_625;
 
-/// Cycles to make the quarter squares, which are data where a file may be as long as it likes.
-const SQUARES: u32 = 25_876;
-
 /// A BBC Micro, model B.
 pub static BBC: Target = Target {
     name: "6502:bbc",
     about: "a BBC Micro in machine code, with a disc drive",
     modes: bbc::MODES,
-    starts: SQUARES,
     ..USUAL
 };
 
@@ -157,7 +154,6 @@ pub static C64: Target = Target {
     about: "a Commodore 64 (PAL) in machine code",
     modes: c64::MODES,
     hertz: 985_248.0,
-    starts: SQUARES,
     ..USUAL
 };
 
@@ -206,7 +202,7 @@ const USUAL: Target = Target {
     // 1/256: far above the last place (1/65536), far below what a pixel sees.
     offset: 0.003_906_25,
     hertz: 2_000_000.0,
-    starts: 0,
+    starts: starts::starts,
     wraps: false,
     columns: 512,
     pixels: |_| 1,

@@ -4,6 +4,7 @@
 //! their next bytes, and so on; a plane whose bytes are all alike is left out.
 //! Up to 256 entries are indexed by x. A larger table is read through a pointer.
 
+use super::super::starts::tables;
 use super::Text;
 use super::code::Code;
 use crate::flow::graph::*;
@@ -39,27 +40,10 @@ fn label(table: TableId, k: usize) -> String {
     format!("table{}_{k}", table.0)
 }
 
-/// Which tables the plan reads.
-fn used(plan: &Plan) -> Vec<TableId> {
-    let tree = &plan.tree;
-    let mut found = Vec::new();
-    for block in tree.blocks() {
-        crate::flow::tree::walk(block, &mut |statement| {
-            if let crate::flow::tree::Statement::Let(id) = statement
-                && let Node::Lookup { table, .. } = plan.graph.node(*id)
-                && !found.contains(&table)
-            {
-                found.push(table);
-            }
-        });
-    }
-    found
-}
-
 /// Whether some table is too large for an index of one byte.
 pub(super) fn any_large(plan: &Plan) -> bool {
     let large = |t: &TableId| plan.graph.tables.get(t.0 as usize).is_some_and(is_large);
-    used(plan).iter().any(large)
+    tables(plan).iter().any(large)
 }
 
 fn is_large(table: &Table) -> bool {
@@ -68,7 +52,7 @@ fn is_large(table: &Table) -> bool {
 
 /// Writes the tables that are used.
 pub(super) fn data(plan: &Plan, text: &mut Text) {
-    for id in used(plan) {
+    for id in tables(plan) {
         let Some(table) = plan.graph.tables.get(id.0 as usize) else {
             continue;
         };
