@@ -66,6 +66,14 @@ pub struct Vector {
     /// What is wanted of the inputs rounded to a fixed-point format.
     #[serde(default)]
     pub expected_by_quantum: BTreeMap<String, Overlay>,
+    /// The params that the inputs are, in formats that have to know how large a value may
+    /// become: the usual value, the least and the greatest.
+    #[serde(default)]
+    pub params: BTreeMap<String, [f64; 3]>,
+    /// What is wanted of them rounded to a format of that name. Without an entry nothing is
+    /// known of the vector there.
+    #[serde(default)]
+    pub expected_by_format: BTreeMap<String, Overlay>,
 }
 
 /// An input's exact value.
@@ -146,6 +154,8 @@ pub enum Predicate {
     Sign { output: String, zero: Json },
     /// Integers or lists of cells agree.
     Equal { output: String },
+    /// Integers, or all those in lists of cells, differ by so much at most.
+    Near { output: String, by: f64 },
     /// lo - k u scale <= got <= hi + k u scale; `*` is every output.
     Interval {
         output: String,

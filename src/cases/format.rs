@@ -1,6 +1,8 @@
 //! The arithmetics that cases are tried in, and what an input becomes there.
 
 use slowlight_compiler::target::Target;
+use slowlight_routine::log::model::{LEAST, Log, MOST, OCTAVE, WHOLE};
+use slowlight_routine::scale::{fitting, most};
 use slowlight_routine::{Bits, Format, Value};
 
 /// A number format, as cases see it.
@@ -19,14 +21,18 @@ pub enum Key {
     Bits(&'static str),
     /// A fixed-point format.
     Quantum(&'static str),
-    /// The file says nothing about such a format.
-    None,
+    /// The format's own name.
+    Name,
 }
 
 impl Arithmetic {
-    /// That of a target's plans.
+    /// That of a target's plans: of two widths the smaller one, which values have that no
+    /// pixel needs more of.
     pub fn of(target: &Target) -> Arithmetic {
-        Arithmetic::Of(target.runtime.real)
+        match target.runtime.narrow {
+            Some(narrow) => Arithmetic::Of(Format::Scaled { bits: narrow.bits }),
+            None => Arithmetic::Of(target.runtime.real),
+        }
     }
 
     /// Its unit roundoff, or last place.
@@ -39,7 +45,12 @@ impl Arithmetic {
 
     /// Whether it is fixed point.
     pub fn is_fixed(self) -> bool {
-        matches!(self, Arithmetic::Of(Format::Fixed { .. }))
+        matches!(self, Arithmetic::Of(format) if format.is_fixed())
+    }
+
+    /// Whether its values have points of their own, which the plan places.
+    pub fn is_planned(self) -> bool {
+        matches!(self, Arithmetic::Of(Format::Scaled { .. }))
     }
 
     /// Greatest and least exponent, where values have them: below 2^emax, at least 2^emin.
@@ -47,6 +58,7 @@ impl Arithmetic {
         match self {
             Arithmetic::Native => Some((1024, -1074)),
             Arithmetic::Of(Format::Real40) => Some((127, -128)),
+            Arithmetic::Of(Format::Log { .. }) => Some(((MOST + 1) / OCTAVE, LEAST / OCTAVE)),
             Arithmetic::Of(_) => None,
         }
     }
@@ -59,9 +71,12 @@ impl Arithmetic {
         })
     }
 
-    /// Whether it cannot hold 2^(hi-1) or 2^lo.
+    /// Whether it cannot hold 2^(hi-1) or 2^lo. The least logarithm is 0, so it holds no
+    /// other number; where values have places of their own, each ends where its place does.
     pub fn cannot_hold(self, hi: i32, lo: i32) -> bool {
         match (self, self.exponents()) {
+            (Arithmetic::Of(Format::Scaled { .. }), _) => true,
+            (Arithmetic::Of(Format::Log { .. }), Some((emax, emin))) => hi > emax || lo <= emin,
             (Arithmetic::Of(Format::Fixed { bits, frac }), _) => {
                 hi > i32::from(bits) - i32::from(frac) - 1 || lo < -i32::from(frac)
             }
@@ -78,7 +93,7 @@ impl Arithmetic {
             Arithmetic::Of(Format::Float316 { .. }) => Key::Bits("14"),
             Arithmetic::Of(Format::Fixed { bits: 32, frac: 16 }) => Key::Quantum("16.16"),
             Arithmetic::Of(Format::Fixed { bits: 16, frac: 8 }) => Key::Quantum("8.8"),
-            Arithmetic::Of(_) => Key::None,
+            Arithmetic::Of(_) => Key::Name,
         }
     }
 
@@ -94,6 +109,9 @@ impl Arithmetic {
                 let end = 2f64.powi(i32::from(bits) - 1);
                 return (-end..end).contains(&n).then_some(n / scale);
             }
+            Arithmetic::Of(Format::Log { .. }) => return logarithm(x),
+            // Where its point stands says its param's range: [`placed`].
+            Arithmetic::Of(Format::Scaled { .. }) => return None,
             Arithmetic::Of(_) => return None,
         };
         let fits = match self.exponents() {
@@ -121,6 +139,37 @@ fn significant(x: f64, bits: i32) -> f64 {
     grown.round_ties_even() / 2f64.powi(half) / 2f64.powi(rest)
 }
 
+/// `x` with the nearest logarithm; none where it is beyond the ends. The least magnitude
+/// is 0 there, so nothing else is held as that. The logarithm nearest to a whole number is
+/// that number, as the format's floors have it.
+fn logarithm(x: f64) -> Option<f64> {
+    if x == 0.0 || x.fract() == 0.0 && x.abs() < f64::from(WHOLE) {
+        return Some(x);
+    }
+    let log = (x.abs().log2() * f64::from(OCTAVE)).round();
+    let fits = log > f64::from(LEAST) && log <= f64::from(MOST);
+    fits.then(|| Log::nearest(x).value())
+}
+
+/// `x` with as many fraction bits as numbers up to `greatest` leave room for in so many
+/// bits, to nearest, halves to even: what a param of such a range may be. None where it does
+/// not fit, or would be 0 and is not.
+pub fn placed(x: f64, greatest: f64, bits: u8) -> Option<f64> {
+    let scale = f64::from(fitting(greatest, bits)).exp2();
+    let n = (x * scale).round_ties_even();
+    let fits = n.abs() <= most(bits) as f64 && (n != 0.0 || x == 0.0);
+    fits.then_some(n / scale)
+}
+
+/// What a format's number is worth: the least logarithm, and what is smaller for a while,
+/// stands for 0.
+pub fn worth(format: Format, value: f64) -> f64 {
+    match format {
+        Format::Log { .. } if Log::nearest(value).log <= LEAST => 0.0,
+        _ => value,
+    }
+}
+
 /// The 40 bits of a real that BBC BASIC has: the exponent with bias 128, then a
 /// mantissa from 1/2 to 1 whose first bit gives its place to the sign.
 fn real40(x: f64) -> Bits {
@@ -134,12 +183,13 @@ fn real40(x: f64) -> Bits {
     Bits::from((exponent + 128).clamp(0, 255) as u8) << 32 | Bits::from(mantissa | sign)
 }
 
-/// The bits of a value that the format holds exactly.
-pub fn bits(target: &Target, value: Value) -> Bits {
-    match (target.runtime.real, value) {
+/// The bits of a value in its place's format, which holds it exactly, or with fewer fraction
+/// bits than it might have where the plan has no use for these.
+pub fn bits(target: &Target, value: Value, format: Format) -> Bits {
+    match (format, value) {
         // What BASIC reads from ten digits would be another value.
         (Format::Real40, Value::Real(x)) => real40(x),
-        _ => (target.runtime.encode)(value, target.runtime.format_of(value.ty())),
+        _ => (target.runtime.encode)(value, format),
     }
 }
 
@@ -166,6 +216,25 @@ mod tests {
             (fixed.round(32768.0), fixed.round(-32768.0)),
             (None, Some(-32768.0))
         );
+        let log = Arithmetic::Of(Format::Log { frac: 10 });
+        assert_eq!((log.round(0.0), log.round(-4.0)), (Some(0.0), Some(-4.0)));
+        assert_eq!(log.round(3.0), Some(3.0));
+        assert_eq!(log.round(1.5), Some((599.0f64 / 1024.0).exp2()));
+        assert_eq!(
+            (log.round(65536.0), log.round(0.5f64.powi(13))),
+            (None, None)
+        );
+        assert_eq!(
+            (log.tiny(), log.cannot_hold(16, -12)),
+            (0.5f64.powi(13), false)
+        );
+        assert!(log.cannot_hold(17, 0) && log.cannot_hold(0, -13));
+        assert_eq!(placed(0.3, 1.5, 16), Some(4915.0 / 16384.0));
+        assert_eq!(
+            (placed(-0.25, 3e4, 16), placed(0.0, 0.0, 16)),
+            (None, Some(0.0))
+        );
+        assert_eq!(worth(Format::Log { frac: 10 }, -0.5f64.powi(14)), 0.0);
         assert_eq!(Arithmetic::Native.tiny(), f64::from_bits(1));
         assert_eq!(Arithmetic::Native.round(f64::INFINITY), None);
     }

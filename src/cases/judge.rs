@@ -161,7 +161,8 @@ impl Judge<'_> {
                     Verdict::plain(got == want.sign() || (allowed && got == 0))
                 }
             },
-            Predicate::Equal { output } => self.equal(output)?,
+            Predicate::Equal { output } => self.equal(output, 0.0)?,
+            Predicate::Near { output, by } => self.equal(output, *by)?,
             Predicate::Interval {
                 output,
                 lo,
@@ -220,16 +221,19 @@ impl Judge<'_> {
         Some(Verdict::measured(self.value(output)?.distance(want), bound))
     }
 
-    fn equal(&self, output: &str) -> Option<Verdict> {
+    /// Whole numbers, as wanted but for so much.
+    fn equal(&self, output: &str, by: f64) -> Option<Verdict> {
         let want = self.wanted.expected.get(output)?;
         Some(Verdict::plain(match want {
             Json::Null => true,
             Json::Array(cells) => {
                 let pairs = cells.iter().filter_map(Json::as_array).flatten();
                 let want: Vec<f64> = pairs.filter_map(Json::as_f64).collect();
-                !want.is_empty() && self.got.values.get(..want.len()) == Some(&want)
+                let got = self.got.values.get(..want.len());
+                let near = |got: &[f64]| got.iter().zip(&want).all(|(a, b)| (a - b).abs() <= by);
+                !want.is_empty() && got.is_some_and(near)
             }
-            _ => self.value(output)?.distance(&self.want(output)??) == 0.0,
+            _ => self.value(output)?.distance(&self.want(output)??) <= by,
         }))
     }
 
@@ -316,6 +320,9 @@ mod tests {
         let equal = r#"{"kind": "equal", "output": "c"}"#;
         assert!(native(equal, &[0.0, 1.0, 2.0, 3.0, 9.0, 9.0]));
         assert!(!native(equal, &[0.0, 1.0, 2.0, 4.0]));
+        let near = r#"{"kind": "near", "output": "c", "by": 1}"#;
+        assert!(native(near, &[0.0, 2.0, 2.0, 2.0]) && !native(near, &[0.0, 1.0, 2.0, 5.0]));
+        assert!(!native(near, &[0.0, 1.0, 2.0]));
         let decided = r#"{"kind": "decided", "margin": 1e-10, "k": 8, "predicate": {"kind": "present", "value": false}}"#;
         assert!(!native(decided, &[1.0]) && passes(JACK, decided, one, &[1.0]));
         let length = r#"{"kind": "unit_vector", "outputs": ["a", "b"], "k": 4}"#;

@@ -13,6 +13,7 @@ use slowlight_compiler::flow::graph::Graph;
 use slowlight_compiler::scene::{self, Scene};
 use slowlight_compiler::sema::Options;
 use slowlight_routine::Range;
+use std::collections::BTreeMap;
 use std::fmt::Write;
 
 /// The kernels by stable forms, and those by the textbook's.
@@ -152,15 +153,22 @@ impl Kernel {
         }
     }
 
-    /// Its graph in a format; in fixed point its inputs may be anything that fits.
+    /// Its graph in a format; in fixed point its inputs may be anything that fits, or what
+    /// `params` say (the usual value, the least, the greatest).
     ///
     /// # Errors
     /// Where it does not compile.
-    pub fn graph(&self, precision: Precision, fixed: bool) -> Outcome<Graph> {
+    pub fn graph(
+        &self,
+        precision: Precision,
+        fixed: bool,
+        params: Option<&BTreeMap<String, [f64; 3]>>,
+    ) -> Outcome<Graph> {
         let options = Options {
             offset: precision.offset,
             epsilon: precision.epsilon,
             floats: precision.floats,
+            mantissas: precision.mantissas,
             report: Some("report".to_owned()),
             ..Options::default()
         };
@@ -169,6 +177,16 @@ impl Kernel {
         if fixed {
             for param in &mut graph.params {
                 param.range = Some(Range::new(-FIXED_MOST, FIXED_MOST));
+            }
+        }
+        if let Some(params) = params {
+            for (param, name) in graph.params.iter_mut().zip(&self.inputs) {
+                let Some([usual, least, greatest]) = params.get(name) else {
+                    let message = format!("nobody says how large `{name}` may become");
+                    return Err(Failure::Wrong(message));
+                };
+                (param.value, param.usual) = (*usual, *usual);
+                param.range = Some(Range::new(*least, *greatest));
             }
         }
         Ok(graph)

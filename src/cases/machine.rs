@@ -21,9 +21,13 @@ pub fn give(param: &mut ParamPlan, value: Value, bits: Bits, format: Format) {
     param.range = None;
     match (format, value) {
         (Format::Real40, Value::Real(x)) => param.text = product(x),
-        (Format::Fixed { .. }, Value::Real(_)) => {
+        (Format::Fixed { .. } | Format::Scaled { .. }, Value::Real(_)) => {
             param.digits = None;
             param.text = (bits as i64).to_string();
+        }
+        (Format::Log { .. }, Value::Real(_)) => {
+            param.digits = None;
+            param.text = bits.to_string();
         }
         (Format::Float316 { .. }, Value::Real(_)) => {
             param.digits = None;
@@ -79,7 +83,7 @@ pub fn run(plan: &Plan) -> Outcome<Vec<Value>> {
     let found = match plan.runtime.real {
         Format::Real40 => from_file(&run, &formats, plan),
         Format::Float316 { .. } => from_text(&run, &formats, plan),
-        Format::Log { .. } if plan.runtime.name == "jack" => from_text(&run, &formats, plan),
+        _ if plan.runtime.name == "jack" => from_text(&run, &formats, plan),
         _ => from_screen(&run, &formats, plan),
     };
     found.ok_or_else(|| {
@@ -140,6 +144,10 @@ fn from_text(run: &MachineRun, formats: &[Format], plan: &Plan) -> Option<Vec<Va
             Format::Log { .. } => {
                 let (minus, log) = (next()?, next()?);
                 let bits = Bits::from(log as u16) | Bits::from(minus != 0) << 16;
+                (plan.runtime.decode)(bits, *format)
+            }
+            Format::Fixed { .. } => {
+                let bits = i64::from(next()?) as Bits;
                 (plan.runtime.decode)(bits, *format)
             }
             _ => typed(f64::from(next()?), format.scalar()),

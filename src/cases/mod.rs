@@ -28,4 +28,4 @@ pub mod trial;
 pub mod watch;
 
 pub use file::{CaseFile, parse};
-pub use trial::{Row, Way, knows, run, ways};
+pub use trial::{Row, Rows, Way, knows, run, ways};

@@ -12,10 +12,10 @@ use crate::progress::Progress;
 use crate::scene::Precision;
 use slowlight_compiler::eval::model::ModelRun;
 use slowlight_compiler::eval::native::Native;
-use slowlight_compiler::flow::graph::Graph;
+use slowlight_compiler::flow::graph::{Graph, ParamId};
 use slowlight_compiler::plan::{Goal, Plan, plan_as_written};
 use slowlight_compiler::target::{Target, default_mode};
-use slowlight_routine::{Type, Value};
+use slowlight_routine::{Format, Type, Value};
 use std::collections::{BTreeMap, btree_map};
 
 /// A way to try a vector.
@@ -109,11 +109,10 @@ pub fn ways(targets: &[&'static Target], one: bool) -> Vec<Way> {
     all
 }
 
-/// Whether files of cases say what is right in a way's format, and its machine reports
-/// numbers: of those around a 6502 the plain one does, and the others compute the same.
+/// Whether a way's machine reports numbers: of those around a 6502 the plain one does, and
+/// the others compute the same.
 pub fn knows(way: Way) -> bool {
-    let reports = !matches!(way.place(), "6502:bbc" | "6502:c64");
-    reports && way.arithmetic().key() != Key::None
+    !matches!(way.place(), "6502:bbc" | "6502:c64")
 }
 
 /// Tries every vector of a file in every way.
@@ -125,14 +124,14 @@ pub fn run(file: &CaseFile, ways: &[Way], naive: bool) -> Outcome<Rows> {
     let progress = Progress::new("cases", (file.vectors.len() * ways.len()) as u64);
     let mut found = Rows::default();
     for &way in ways {
-        let mut graphs: BTreeMap<(&str, &str), Prepared> = BTreeMap::new();
+        let mut graphs: BTreeMap<(&str, &str, String), Prepared> = BTreeMap::new();
         for vector in &file.vectors {
             if interrupt::pressed() {
                 return Err(Failure::Interrupted);
             }
             progress.step(1);
-            let overlay = overlay(vector, way.arithmetic());
-            if overlay.is_some_and(|o| o.reason.is_some()) || way.arithmetic().key() == Key::None {
+            let overlay = overlay(vector, way);
+            if overlay.map_or(!is_usual(way), |o| o.reason.is_some()) {
                 found.skipped += 1;
                 continue;
             }
@@ -148,9 +147,12 @@ pub fn run(file: &CaseFile, ways: &[Way], naive: bool) -> Outcome<Rows> {
                     free.insert(Kernel::new(key.1, entry, vector, naive)?)
                 }
             };
+            // Where points are planned, a plan is for what its params may be.
+            let params = Some(&vector.params).filter(|_| way.arithmetic().is_planned());
+            let said = params.map_or(String::new(), |params| format!("{params:?}"));
             let prepared = graphs
-                .entry(key)
-                .or_insert_with(|| Prepared::new(kernel, way, key.1));
+                .entry((key.0, key.1, said))
+                .or_insert_with(|| Prepared::new(kernel, way, key.1, params));
             let (got, failure) = match prepared.run(kernel, vector, &entry.ints) {
                 Ok(got) => (got, None),
                 Err(Failure::Interrupted) => return Err(Failure::Interrupted),
@@ -180,12 +182,18 @@ pub fn run(file: &CaseFile, ways: &[Way], naive: bool) -> Outcome<Rows> {
 }
 
 /// What a case has to say of a format's rounding.
-fn overlay(vector: &Vector, arithmetic: Arithmetic) -> Option<&Overlay> {
-    match arithmetic.key() {
+fn overlay(vector: &Vector, way: Way) -> Option<&Overlay> {
+    match way.arithmetic().key() {
         Key::Bits(bits) => vector.expected_by_bits.get(bits),
         Key::Quantum(quantum) => vector.expected_by_quantum.get(quantum),
-        Key::None => None,
+        Key::Name => vector.expected_by_format.get(way.format()),
     }
+}
+
+/// Whether a vector as it stands says what is right where no input is rounded: formats by
+/// their own names round nearly all of them, or have them in places that a file must give.
+fn is_usual(way: Way) -> bool {
+    way.arithmetic().key() != Key::Name
 }
 
 fn words(why: &Failure) -> String {
@@ -206,11 +214,18 @@ enum Prepared {
     Native(Box<Graph>),
     Plan(Way, Box<Plan>),
     Not(String),
+    /// The planner says that a param does not fit.
+    Refused(String),
 }
 
 impl Prepared {
-    fn new(kernel: &Kernel, way: Way, name: &str) -> Prepared {
-        let graph = match kernel.graph(way.precision(), way.arithmetic().is_fixed()) {
+    fn new(
+        kernel: &Kernel,
+        way: Way,
+        name: &str,
+        params: Option<&BTreeMap<String, [f64; 3]>>,
+    ) -> Prepared {
+        let graph = match kernel.graph(way.precision(), way.arithmetic().is_fixed(), params) {
             Ok(graph) => graph,
             Err(why) => return Prepared::Not(words(&why)),
         };
@@ -232,8 +247,19 @@ impl Prepared {
             Ok(plan) => Prepared::Plan(way, Box::new(plan)),
             Err(said) => {
                 let all: Vec<&str> = said.iter().map(|d| d.message.as_str()).collect();
-                Prepared::Not(all.join("; "))
+                match way.arithmetic().is_planned() {
+                    true => Prepared::Refused(all.join("; ")),
+                    false => Prepared::Not(all.join("; ")),
+                }
             }
+        }
+    }
+
+    /// The format of its params that are reals.
+    fn real(&self) -> Option<Format> {
+        match self {
+            Prepared::Plan(_, plan) => Some(plan.runtime.real),
+            _ => None,
         }
     }
 
@@ -243,6 +269,12 @@ impl Prepared {
             Prepared::Native(_) => Arithmetic::Native,
             Prepared::Plan(way, _) => way.arithmetic(),
             Prepared::Not(why) => return Err(Failure::Wrong(why.clone())),
+            Prepared::Refused(why) => {
+                return Ok(Got {
+                    left: Some(why.clone()),
+                    ..Got::default()
+                });
+            }
         };
         let mut inputs = Vec::new();
         for name in &kernel.inputs {
@@ -252,9 +284,13 @@ impl Prepared {
                 return Err(Failure::Wrong(message));
             };
             let whole = ints.contains(name);
-            let value = match whole {
-                true => Some(exact),
-                false => arithmetic.round(exact),
+            let value = match self.real() {
+                _ if whole => Some(exact),
+                Some(Format::Scaled { bits }) => {
+                    let [_, least, greatest] = vector.params.get(name).copied().unwrap_or_default();
+                    format::placed(exact, least.abs().max(greatest.abs()), bits)
+                }
+                _ => arithmetic.round(exact),
             };
             match value {
                 Some(x) if whole => inputs.push(Value::Int(x as i32)),
@@ -284,23 +320,33 @@ impl Prepared {
                 };
                 set(&mut plan.graph, &inputs);
                 let format = plan.runtime.real;
-                for (param, value) in plan.params.iter_mut().zip(&inputs) {
-                    machine::give(param, *value, format::bits(target, *value), format);
+                let ids = 0..plan.params.len() as u32;
+                let places: Vec<Format> = ids.map(|k| plan.param_format(ParamId(k))).collect();
+                for ((param, value), place) in plan.params.iter_mut().zip(&inputs).zip(places) {
+                    machine::give(param, *value, format::bits(target, *value, place), format);
                 }
                 let mut model = ModelRun::new(plan);
                 model.pixel(0, 0);
                 let bits = model.reports();
-                let types = plan.graph.reports.iter().map(|&id| plan.graph.ty(id));
-                let decoded = types
-                    .zip(&bits)
-                    .map(|(ty, &bits)| (plan.runtime.decode)(bits, plan.runtime.format_of(ty)));
+                let reports = plan.graph.reports.iter();
+                let decoded = reports.zip(&bits).map(|(&id, &bits)| {
+                    let place = plan.format(id);
+                    // A constant is read in its place.
+                    let held = plan.graph.constant(id);
+                    let bits = held.map_or(bits, |value| (plan.runtime.encode)(value, place));
+                    (plan.runtime.decode)(bits, place)
+                });
                 let values: Vec<Value> = decoded.collect();
                 if matches!(way, Way::Machine(_)) && machine::run(plan)? != values {
                     return Err(Failure::Differs);
                 }
-                Ok(taken(kernel, &values, watch::plan(plan)))
+                let mut got = taken(kernel, &values, watch::plan(plan));
+                got.values
+                    .iter_mut()
+                    .for_each(|x| *x = format::worth(format, *x));
+                Ok(got)
             }
-            Prepared::Not(why) => Err(Failure::Wrong(why.clone())),
+            Prepared::Not(why) | Prepared::Refused(why) => Err(Failure::Wrong(why.clone())),
         }
     }
 }

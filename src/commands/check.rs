@@ -95,6 +95,10 @@ fn try_cases(args: &Args, path: &Path) -> Outcome<()> {
     ways.retain(|way| cases::knows(*way));
     let ways: Vec<Way> = ways.into_iter().filter(asked).collect();
     let found = cases::run(&file, &ways, args.naive)?;
+    if found.rows.is_empty() && found.skipped > 0 {
+        let message = "the file says of no vector what is right there (`expected_by_format`)";
+        return Err(Failure::Wrong(message.to_owned()));
+    }
     match args.json {
         true => say_json(&cases::table::to_json(&found)),
         false => say(&cases::table::text(&found)),

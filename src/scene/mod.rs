@@ -14,6 +14,7 @@ use slowlight_compiler::sema::{self, Options, Ways};
 use slowlight_compiler::source::{Diagnostic, SourceFile, Sources, Span};
 use slowlight_compiler::syntax;
 use slowlight_compiler::target::Target;
+use slowlight_routine::Format;
 use std::path::{Path, PathBuf};
 
 /// What a scene knows of the number format that it is computed in.
@@ -25,6 +26,8 @@ pub struct Precision {
     pub epsilon: f64,
     /// Whether its reals have an exponent.
     pub floats: bool,
+    /// Whether they have a mantissa beside it.
+    pub mantissas: bool,
 }
 
 impl Precision {
@@ -33,6 +36,7 @@ impl Precision {
         offset: 1e-9,
         epsilon: f64::EPSILON / 2.0,
         floats: true,
+        mantissas: true,
     };
 
     /// Of a target.
@@ -41,6 +45,10 @@ impl Precision {
             offset: target.offset,
             epsilon: target.runtime.real.epsilon(),
             floats: !target.runtime.real.is_fixed(),
+            mantissas: matches!(
+                target.runtime.real,
+                Format::Real40 | Format::Float316 { .. }
+            ),
         }
     }
 
@@ -50,6 +58,7 @@ impl Precision {
             offset: self.offset,
             epsilon: self.epsilon,
             floats: self.floats,
+            mantissas: self.mantissas,
             ..options
         }
     }

@@ -3,7 +3,9 @@
 
 use crate::cli::{directory, json, slowlight, success};
 use slowlight::cases::{self, Row, Way, ways};
-use slowlight_compiler::target::{TARGETS, jack::JACK_F316R};
+use slowlight_compiler::target::jack::{JACK, JACK_F316R};
+use slowlight_compiler::target::{TARGETS, Target};
+use slowlight_routine::{Error, Op};
 use std::collections::BTreeSet;
 
 const FILES: [&str; 2] = ["tests/hard_cases.json", "tests/orientation_cases.json"];
@@ -41,6 +43,27 @@ fn every_vector_passes_everywhere() {
         .iter()
         .filter(|r| r.way.format() == "f316" && r.id == ORIGINAL && !r.verdict.passed);
     assert_eq!(shown.count(), 2);
+}
+
+/// What f316's product loses there is within what its runtime states, which `check`'s bounds
+/// are made of, and that is more than the vector allows; what f316r states is not.
+#[test]
+fn the_originals_product_is_owned_up_to() {
+    let stated = |target: &Target| {
+        let mut products = target.runtime.routines.iter().filter(|r| r.op == Op::Mul);
+        match products.find(|r| r.name == "mul").map(|r| r.error) {
+            Some(Error::Relative(part)) => part,
+            other => panic!("{other:?}"),
+        }
+    };
+    let rows = rows(&[Way::Model(&JACK)], false);
+    let row = rows.iter().find(|r| r.id == ORIGINAL).expect("it");
+    let (Some(bound), worst) = (row.verdict.bound, row.verdict.worst) else {
+        panic!("{row:?}");
+    };
+    let wanted = 1.015_502_929_687_5 * 1.031_127_929_687_5;
+    assert!(worst > 1.0 && worst * bound <= stated(&JACK) * wanted);
+    assert!(stated(&JACK) * wanted > bound && stated(&JACK_F316R) * wanted < bound);
 }
 
 #[test]

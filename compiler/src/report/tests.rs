@@ -114,6 +114,7 @@ fn a_boxs_distance_has_a_slope_next_to_it_in_fixed_point() {
     let options = Options {
         offset: target.offset,
         floats: false,
+        mantissas: false,
         ..Options::default()
     };
     let graph = scene.lower(&options).unwrap();

@@ -30,6 +30,8 @@ pub enum Known {
     Epsilon,
     /// Whether the format's reals have an exponent.
     Floats,
+    /// Whether they have a mantissa beside it: a logarithm has none.
+    Mantissas,
     /// The format's self-intersection offset.
     Offset,
     /// How many rays a pixel may have; the largest int where nobody says less.

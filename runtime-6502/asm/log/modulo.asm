@@ -1,4 +1,4 @@
-; acc = acc - arg floor(acc / arg), of reals.
+; acc = acc - arg floor(acc / arg), of reals, or 0 where that is no remainder.
 log_modulo:
         ldx #2
 log_modulo_keep:
@@ -41,7 +41,27 @@ log_modulo_swap:
         sty acc,x
         dex
         bpl log_modulo_swap
-        jmp log_subtract
+        jsr log_subtract
+        lda acc+2           ; of the divisor's sign,
+        cmp prod+5
+        bne log_modulo_none
+        lda acc             ; and below it?
+        cmp prod+3
+        lda acc+1
+        sbc prod+4
+        bvc log_modulo_less
+        eor #$80
+log_modulo_less:
+        bmi log_modulo_done
+log_modulo_none:
+        lda prod+5
+        sta acc+2
+        lda #0
+        sta acc
+        lda #$cc
+        sta acc+1
+log_modulo_done:
+        rts
 
 ; acc = the int in acc, kept from -32767 to 32767.
 log_hold:

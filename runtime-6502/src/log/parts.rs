@@ -44,5 +44,5 @@ pub(crate) const ALL: &[Part] = &[
     part("log_exponential", asm!("exponential"), &["log_units", "log_keep"], 49),
     part("log_natural", asm!("logarithm"), &["log_from_int"], 85),
     part("log_power", asm!("power"), &["log_exponential", "log_natural", "log_is_whole"], 266),
-    part("log_modulo", asm!("modulo"), &["log_floor", "log_from_int", "log_add"], 122),
+    part("log_modulo", asm!("modulo"), &["log_floor", "log_from_int", "log_add"], 155),
 ];

@@ -93,7 +93,7 @@ const REALS: &[Routine] = &[
     routine!("any_sub" Sub(R, R) -> R, t::ANY_SUBTRACT, ["log_sum", "log_difference"], everywhere, DIFFERENCES, |a, b| a.sub(b), 102, 147),
     routine!("root" Sqrt(R) -> R, t::ROOT, [], plus, ROOT, |a| a.sqrt(), 23, 16),
     routine!("any_root" Sqrt(R) -> R, t::ANY_ROOT, [], everywhere, ROOT, |a| a.sqrt(), 26, 31),
-    routine!("mod" Mod(R, R) -> R, "log_modulo", ["log_modulo"], everywhere, UNKNOWN, |a, b| a.modulo(b), 781, 39),
+    routine!("mod" Mod(R, R) -> R, "log_modulo", ["log_modulo"], everywhere, UNKNOWN, |a, b| a.modulo(b), 816, 39),
     routine!("neg" Neg(R) -> R, t::NEGATE, [], everywhere, EXACT, |a| a.neg(), 20, 14),
     routine!("abs" Abs(R) -> R, t::ABS, [], everywhere, EXACT, |a| a.abs(), 17, 12),
     routine!("plus_min" Min(R, R) -> R, t::PLUS_MIN, [], plus, EXACT, |a, b| a.min(b), 34, 35),

@@ -206,11 +206,14 @@ pub(crate) const SIGN: &str = "    /** 1 or -1. */
     }
 ";
 
-pub(crate) const MOD: &str = "    /** Of a - b * floor(a / b); plus() is its sign. */
+pub(crate) const MOD: &str =
+    "    /** Of a - b * floor(a / b), or 0 where that is no remainder; plus() is its sign. */
     function int mod(int a, boolean aPlus, int b, boolean bPlus) {
         var int n;
         let n = Log.floor(Log.clamp(a - b), (aPlus = bPlus));
-        let b = Log.clamp(Log.fromInt(n) + b);
-        return Log.clamp(Log.add(a, aPlus, b, (n < 0) = bPlus));
+        let a = Log.clamp(Log.add(a, aPlus, Log.clamp(Log.fromInt(n) + b), (n < 0) = bPlus));
+        if ((plus = bPlus) & (a < b)) { return a; }
+        let plus = bPlus;
+        return -13312;
     }
 ";

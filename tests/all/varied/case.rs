@@ -1,16 +1,23 @@
 //! A case computed from its inputs: what is wanted, and when a result passes.
 
 use super::big::Big;
+use super::moves::{Moves, Rule};
 use super::parse::{Expr, Statement, body, expression};
 use super::predicate::Maker;
-use super::run::{Random, Run, Value};
+use super::run::{Move, Random, Run, Value};
 use serde_json::{Map, Value as Json, json};
-use slowlight::cases::format::Arithmetic;
+use slowlight::cases::format::{Arithmetic, placed};
 use slowlight_routine::Format;
 use std::collections::BTreeMap;
 
-/// More operations than this are not moved one by one: fixed point is not judged there.
-const MOST_MOVED: usize = 300;
+/// Formats whose points the plan places: their names, the bits of their params, and those
+/// of the values that no pixel needs more of.
+const PLANNED: [(&str, u8, u8); 4] = [
+    ("fixed12", 16, 8),
+    ("fixed16", 16, 16),
+    ("fixed20", 24, 16),
+    ("fixed24", 24, 24),
+];
 
 /// Inputs, as f64 has them.
 pub type Inputs = BTreeMap<String, f64>;
@@ -18,7 +25,7 @@ pub type Inputs = BTreeMap<String, f64>;
 /// A kernel, with its formula and how it varies.
 pub struct Kernel {
     stable: Vec<Statement>,
-    outputs: Vec<String>,
+    pub(super) outputs: Vec<String>,
     ints: Vec<String>,
     vary: Vec<Statement>,
     lets: Vec<Statement>,
@@ -95,7 +102,7 @@ impl Kernel {
         inputs.map(|(n, i)| (n.clone(), number(i))).collect()
     }
 
-    fn values(&self, inputs: &Inputs) -> BTreeMap<String, Value> {
+    pub(super) fn values(&self, inputs: &Inputs) -> BTreeMap<String, Value> {
         let value = |(name, x): (&String, &f64)| {
             let value = Value::Number(Big::new(*x), self.ints.contains(name));
             (name.clone(), value)
@@ -103,15 +110,20 @@ impl Kernel {
         inputs.iter().map(value).collect()
     }
 
-    /// A vector of the same kind.
-    pub fn varied(&self, vector: &Json, time: u64, random: &mut Random) -> Json {
+    /// Inputs of the same kind.
+    pub fn others(&self, vector: &Json, random: &mut Random) -> Inputs {
         let inputs = self.inputs(vector);
         let mut run = Run::new(self.values(&inputs));
         run.random = Some(random);
         run.body(&self.vary);
         let new = |name: &String| (name.clone(), run.names[name].number().near());
-        let inputs: Inputs = inputs.keys().map(new).collect();
-        let case = self.case(&inputs);
+        inputs.keys().map(new).collect()
+    }
+
+    /// One of several vectors of the same kind as the file's.
+    pub fn varied(&self, vector: &Json, time: usize, all: &[Inputs]) -> Json {
+        let inputs = &all[time];
+        let case = self.case(inputs, &Rule::Fixed);
         let written = inputs.iter();
         let written: Map<String, Json> = written
             .map(|(name, x)| (name.clone(), json!({"dec": decimal(*x)})))
@@ -125,26 +137,73 @@ impl Kernel {
         });
         let fixed = Format::Fixed { bits: 32, frac: 16 };
         let float = Format::Float316 { rounded: false };
-        for (key, name, format) in [
-            ("expected_by_bits", "14", float),
-            ("expected_by_bits", "32", Format::Real40),
-            ("expected_by_quantum", "16.16", fixed),
+        for (key, name, format, rule) in [
+            ("expected_by_bits", "14", float, Rule::Nothing),
+            ("expected_by_bits", "32", Format::Real40, Rule::Nothing),
+            ("expected_by_quantum", "16.16", fixed, Rule::Fixed),
         ] {
-            if let Some(overlay) = self.overlay(&inputs, Arithmetic::Of(format)) {
+            if let Some(overlay) = self.overlay(inputs, Arithmetic::Of(format), &rule) {
                 made[key][name] = overlay;
             }
         }
+        let own = &mut made["expected_by_format"];
+        // What does not fit is refused aloud.
+        let log = Arithmetic::Of(Format::Log { frac: 10 });
+        own["log10"] = self.among(
+            inputs,
+            |x, _| log.round(x),
+            &Rule::Logarithms(log.epsilon()),
+        );
+        let (params, places) = (self.params(all), self.places(all));
+        for (name, wide, narrow) in PLANNED {
+            let round = |x: f64, name: &str| {
+                let [_, least, greatest] = params[name];
+                placed(x, least.abs().max(greatest.abs()), wide)
+            };
+            own[name] = self.among(inputs, round, &Rule::Places(&places, narrow));
+        }
+        made["params"] = json!(params);
         made
     }
 
-    /// The case of the inputs as a format has them, where they differ.
-    fn overlay(&self, inputs: &Inputs, format: Arithmetic) -> Option<Json> {
-        let round = |(name, x): (&String, &f64)| match self.ints.contains(name) {
-            true => Some((name.clone(), *x)),
-            false => Some((name.clone(), format.round(*x)?)),
+    /// What params would be said to be that have the inputs of all these cases: the usual
+    /// value, the least and the greatest.
+    fn params(&self, all: &[Inputs]) -> BTreeMap<String, [f64; 3]> {
+        let of = |name: &String| {
+            let values = all.iter().map(|inputs| inputs[name]);
+            let least = values.clone().fold(f64::INFINITY, f64::min);
+            let greatest = values.fold(f64::NEG_INFINITY, f64::max);
+            (name.clone(), [all[0][name], least, greatest])
         };
-        let rounded: Option<Inputs> = inputs.iter().map(round).collect();
-        let Some(rounded) = rounded else {
+        all[0].keys().map(of).collect()
+    }
+
+    /// The inputs as a format has them; none where one does not fit.
+    fn rounded(&self, inputs: &Inputs, round: impl Fn(f64, &str) -> Option<f64>) -> Option<Inputs> {
+        let one = |(name, x): (&String, &f64)| match self.ints.contains(name) {
+            true => Some((name.clone(), *x)),
+            false => Some((name.clone(), round(*x, name)?)),
+        };
+        inputs.iter().map(one).collect()
+    }
+
+    /// The case of the inputs as a format by its own name has them. What does not fit there
+    /// is refused, as the case itself allows.
+    fn among(
+        &self,
+        inputs: &Inputs,
+        round: impl Fn(f64, &str) -> Option<f64>,
+        rule: &Rule,
+    ) -> Json {
+        match self.rounded(inputs, round) {
+            Some(rounded) => overlaid(self.case(&rounded, rule)),
+            None => json!({}),
+        }
+    }
+
+    /// The case of the inputs as a format has them, where they differ.
+    fn overlay(&self, inputs: &Inputs, format: Arithmetic, rule: &Rule) -> Option<Json> {
+        let Some(rounded) = self.rounded(inputs, |x, _| format.round(x)) else {
             // A float that cannot hold an input has to say so.
             return format.is_fixed().then(|| json!({"reason": "range"}));
         };
@@ -155,17 +214,16 @@ impl Kernel {
         if rounded.iter().any(lost) {
             return Some(json!({"reason": "zero"}));
         }
-        let case = self.case(&rounded);
-        Some(json!({"expected": case.expected, "predicate": case.predicate}))
+        Some(overlaid(self.case(&rounded, rule)))
     }
 
     /// The results of the stable formula, with such a roundoff; one of its operations
     /// may be moved.
-    fn results(
+    pub(super) fn results(
         &self,
         names: BTreeMap<String, Value>,
         u: Option<i32>,
-        moved: Option<(usize, Big)>,
+        moved: Option<Move>,
     ) -> (Vec<Value>, Run<'static>) {
         let mut run = Run::new(names);
         run.names.insert(
@@ -184,15 +242,27 @@ impl Kernel {
     }
 
     /// What is wanted of these inputs.
-    pub fn case(&self, inputs: &Inputs) -> Case {
+    pub fn case(&self, inputs: &Inputs, rule: &Rule) -> Case {
         let values = self.values(inputs);
         let (results, _) = self.results(values.clone(), self.u, None);
         let (rounded, run) = self.results(values.clone(), Some(-53), None);
         let (hi, lo) = run.seen.unwrap_or((0, 0));
+        let lo = match rule {
+            // Without a 0, what stands for it is the least number.
+            Rule::Logarithms(_) if run.zero => i32::MIN,
+            _ => lo,
+        };
+        let moves = Moves {
+            kernel: self,
+            values: &values,
+            results: &rounded,
+            trail: &run.trail,
+        };
         let mut maker = Maker {
             run: Run::new(values.clone()),
             present: !matches!(results[0], Value::Nothing),
-            quanta: self.quanta(&values, &rounded, run.operations),
+            quanta: moves.quanta(rule),
+            undecided: moves.undecided(rule),
         };
         for (name, value) in self.outputs.iter().zip(&results) {
             maker.run.names.insert(name.clone(), value.clone());
@@ -229,50 +299,10 @@ impl Kernel {
         let difference = at(&step).minus(&at(&step.negated()));
         difference.over(&step.times(&Big::new(2.0)))
     }
+}
 
-    /// By output, in last places, how far fixed point may be off: the sum of what every
-    /// operation moves it by when its own result moves by one, half of that more, and one
-    /// for its own. Not where there are very many.
-    fn quanta(
-        &self,
-        values: &BTreeMap<String, Value>,
-        results: &[Value],
-        operations: usize,
-    ) -> BTreeMap<String, f64> {
-        let mut sums = vec![0f64; self.outputs.len()];
-        if operations > MOST_MOVED {
-            return BTreeMap::new();
-        }
-        for quantum in [Big::power(-8), Big::power(-16)] {
-            let mut sum = vec![0.0; sums.len()];
-            for operation in 0..operations {
-                let mut most = vec![0f64; sums.len()];
-                for by in [quantum.clone(), quantum.negated()] {
-                    let moved = self.moved(values, operation, by);
-                    for (k, (there, here)) in moved.iter().zip(results).enumerate() {
-                        if let (Value::Number(a, false), Value::Number(b, false)) = (there, here) {
-                            let part = a.minus(b).magnitude().over(&quantum).near();
-                            most[k] = most[k].max(part);
-                        }
-                    }
-                }
-                sum.iter_mut()
-                    .zip(most)
-                    .for_each(|(sum, most)| *sum += most);
-            }
-            let both = sums.iter_mut().zip(sum);
-            both.for_each(|(greater, sum)| *greater = greater.max(sum));
-        }
-        let all = self.outputs.iter().cloned().zip(sums);
-        all.map(|(name, sum)| (name, (1.5 * sum + 1.0).ceil()))
-            .collect()
-    }
-
-    /// The results where an operation's is moved; none where another then has no meaning.
-    fn moved(&self, values: &BTreeMap<String, Value>, operation: usize, by: Big) -> Vec<Value> {
-        let (results, run) = self.results(values.clone(), Some(-53), Some((operation, by)));
-        if run.senseless { Vec::new() } else { results }
-    }
+fn overlaid(case: Case) -> Json {
+    json!({"expected": case.expected, "predicate": case.predicate})
 }
 
 /// A result as a file of cases writes it.

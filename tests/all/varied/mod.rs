@@ -4,15 +4,22 @@
 
 mod big;
 mod case;
+mod moves;
 mod parse;
 mod predicate;
 mod run;
+mod value;
 
 use case::{Kernel, kernels};
+use moves::Rule;
 use run::Random;
 use serde_json::{Value as Json, json};
-use slowlight::cases::{self, Row, Way, ways};
-use slowlight_compiler::target::{TARGETS, jack::JACK_F316R};
+use slowlight::cases::{self, Way, ways};
+use slowlight_compiler::target::jack::{JACK_F316R, JACK_FIXED16, JACK_LOG10};
+use slowlight_compiler::target::mos6502::{
+    PLAIN_FIXED12, PLAIN_FIXED16, PLAIN_FIXED20, PLAIN_FIXED24, PLAIN_LOG10,
+};
+use slowlight_compiler::target::{TARGETS, Target};
 
 const FILE: &str = include_str!("../../hard_cases.json");
 
@@ -23,24 +30,43 @@ fn file() -> Json {
     serde_json::from_str(FILE).expect("JSON")
 }
 
-/// Every vector of the file varied so often, as such a file; `only` says which of them.
-fn varied(only: impl Fn(u64, u64) -> bool) -> cases::CaseFile {
+/// How many vectors the file has, varied so often; `only` says which of them are made.
+fn varied(only: impl Fn(u64, u64) -> bool + Sync) -> Vec<(u64, Json)> {
     let file = file();
     let kernels = kernels(&file);
     let vectors = file["vectors"].as_array().expect("vectors");
-    let mut made = Vec::new();
-    for (n, vector) in (0..).zip(vectors) {
-        for time in (0..TIMES).filter(|&time| only(n, time)) {
+    let all: Vec<(u64, &Json)> = (0..).zip(vectors).collect();
+    let made = |&(n, vector): &(u64, &Json)| {
+        let kernel = &kernels[&Kernel::key(vector)];
+        let inputs = |time: u64| {
             let mut random = Random(0x9E37_79B9_7F4A_7C15 ^ (n * TIMES + time + 1) << 20);
-            made.push(kernels[&Kernel::key(vector)].varied(vector, time, &mut random));
-        }
-    }
-    let text = json!({"families": file["families"], "vectors": made}).to_string();
+            kernel.others(vector, &mut random)
+        };
+        let all: Vec<_> = (0..TIMES).map(inputs).collect();
+        let times = (0..TIMES).filter(|&time| only(n, time));
+        let made = times.map(|time| (n, kernel.varied(vector, time as usize, &all)));
+        made.collect::<Vec<_>>()
+    };
+    // Side by side: operations are moved one by one.
+    std::thread::scope(|scope| {
+        let parts = all.chunks(all.len().div_ceil(4));
+        let threads = parts.map(|part| scope.spawn(|| part.iter().flat_map(made).collect()));
+        let threads: Vec<_> = threads.collect();
+        let parts = threads.into_iter().map(|t| t.join().expect("it is made"));
+        parts.flat_map(|part: Vec<_>| part).collect()
+    })
+}
+
+/// A file of such vectors.
+fn written<'v>(vectors: impl Iterator<Item = &'v Json>) -> cases::CaseFile {
+    let vectors: Vec<&Json> = vectors.collect();
+    let text = json!({"families": file()["families"], "vectors": vectors}).to_string();
     cases::parse("varied cases", &text).expect("it is a file of cases")
 }
 
-fn tried(file: &cases::CaseFile, ways: &[Way]) -> Vec<Row> {
-    cases::run(file, ways, false).expect("it runs").rows
+/// Whether all ten of each vector are asked for.
+fn all() -> bool {
+    std::env::var("SLOWLIGHT_VARIED").is_ok_and(|v| v == "all")
 }
 
 /// Where the file has not what its own formula gives: the torus' tangent point is not
@@ -57,44 +83,106 @@ fn the_files_own_vectors_are_computed_again() {
     for vector in file["vectors"].as_array().expect("vectors") {
         let kernel = &kernels[&Kernel::key(vector)];
         let inputs = kernel.inputs(vector);
-        let found = kernel.case(&inputs);
+        let found = kernel.case(&inputs, &Rule::Fixed);
         wrong.extend(predicate::differences(vector, &found));
     }
     wrong.retain(|w| !OTHERWISE.iter().any(|known| w.starts_with(known)));
     assert_eq!(wrong, Vec::<String>::new(), "{}", wrong.join("\n"));
 }
 
+/// What does not pass, in words; and the table.
+fn failed(file: &cases::CaseFile, found: &cases::Rows) -> Vec<String> {
+    let failed = found.rows.iter().filter(|row| !row.verdict.passed);
+    let words = failed.map(|row| {
+        let (format, place) = (row.way.format(), row.way.place());
+        let vector = file.vectors.iter().find(|v| v.id == row.id).expect("it");
+        let inputs = vector.inputs.iter();
+        let inputs: Vec<String> = inputs.map(|(n, i)| format!("{n} {}", i.dec)).collect();
+        let (got, failure) = (&row.got, &row.failure);
+        format!(
+            "{format} {place}: {} ({}): {got:?} {failure:?} {:?}",
+            row.id,
+            inputs.join(", "),
+            row.verdict
+        )
+    });
+    let failed: Vec<String> = words.collect();
+    println!("{}", cases::table::text(found));
+    println!("{} of {} fail", failed.len(), found.rows.len());
+    failed
+}
+
 /// One of each vector's ten, or all of them with `SLOWLIGHT_VARIED=all`, natively, in the
 /// model of every format and on every machine.
 #[test]
 fn varied_vectors_pass_everywhere() {
-    let all = std::env::var("SLOWLIGHT_VARIED").is_ok_and(|v| v == "all");
-    let file = varied(|n, time| all || n % TIMES == time);
+    let all = all();
+    let made = varied(|n, time| all || n % TIMES == time);
+    let file = written(made.iter().map(|(_, vector)| vector));
     let targets = [TARGETS, &[&JACK_F316R]].concat();
-    let rows = tried(&file, &ways(&targets, true));
-    let failed = rows.iter().filter(|row| !row.verdict.passed);
-    let failed: Vec<String> = failed
-        .map(|row| {
-            let (format, place) = (row.way.format(), row.way.place());
-            let id = &row.id;
-            let inputs = &file
-                .vectors
-                .iter()
-                .find(|v| v.id == *id)
-                .expect("it")
-                .inputs;
-            let inputs: Vec<String> = inputs
-                .iter()
-                .map(|(n, i)| format!("{n} {}", i.dec))
-                .collect();
-            let (got, failure) = (&row.got, &row.failure);
-            format!(
-                "{format} {place}: {id} ({}): {got:?} {failure:?} {:?}",
-                inputs.join(", "),
-                row.verdict
-            )
-        })
-        .collect();
-    println!("{} of {} fail", failed.len(), rows.len());
+    let mut ways = ways(&targets, true);
+    // Both machines with logarithms: they share the format, not the program.
+    ways.push(Way::Model(&JACK_LOG10));
+    ways.extend([&JACK_LOG10, &PLAIN_LOG10].map(Way::Machine));
+    let found = cases::run(&file, &ways, false).expect("it runs");
+    let failed = failed(&file, &found);
     assert_eq!(failed, Vec::<String>::new(), "{}", failed.join("\n"));
+}
+
+/// Formats whose points the plan places. A machine is held to its model besides.
+const PLANNED: [&Target; 5] = [
+    &JACK_FIXED16,
+    &PLAIN_FIXED12,
+    &PLAIN_FIXED16,
+    &PLAIN_FIXED20,
+    &PLAIN_FIXED24,
+];
+
+/// What is silently wrong there, by format and beginning of a vector's name. It is written
+/// down so that what else goes wrong is seen, and what is mended:
+/// - a ray's height that is far below the last place of the points it is added to is lost,
+///   and the ray goes to and fro between two mirrors for ever;
+/// - a distance that carried values end below, so that a march does not end;
+/// - a difference of params that are read with fewer bits than they have;
+/// - an area below the last place that bytes have, which is taken for none;
+/// - a second look along a normal whose parts are bytes, which meets what it left;
+/// - roots of 24 bits, of which two are off by up to 2.5 times what they may.
+const OPEN: [(&str, &str); 10] = [
+    ("fixed12", "mirror_spheres/y2p-"),
+    ("fixed16", "mirror_spheres/y2p-16"),
+    ("fixed16", "march_grazing_plane/sin2p-9"),
+    ("fixed16", "no_guard_bit/guard_3"),
+    ("fixed20", "mirror_spheres/y2p-16"),
+    ("fixed20", "march_grazing_plane/sin2p-9"),
+    ("fixed24", "sphere_grazing/k20_hit"),
+    ("fixed24", "torus/axis_gradient"),
+    ("fixed12", "polygon_edge_on/e24"),
+    ("fixed12", "self_intersection/x64"),
+];
+
+/// The same where every value has a place of its own, so that a vector is a scene whose
+/// params are said to be what its ten are. A plan for each takes its time: without the
+/// variable every format has a fifth of the vectors.
+#[test]
+fn varied_vectors_pass_where_points_are_planned() {
+    let all = all();
+    let made = varied(|n, time| all || n % TIMES == time);
+    let mut wrong = Vec::new();
+    for (k, target) in (0..).zip(PLANNED) {
+        let part = made.iter().filter(|(n, _)| all || n % 5 == k);
+        let file = written(part.map(|(_, vector)| vector));
+        let found = cases::run(&file, &[Way::Machine(target)], false).expect("it runs");
+        assert_eq!(found.skipped, 0);
+        wrong.extend(failed(&file, &found));
+    }
+    let known = |wrong: &str, (format, id): &(&str, &str)| {
+        wrong.starts_with(format) && wrong.contains(&format!(": {id}"))
+    };
+    let mended = OPEN
+        .iter()
+        .filter(|open| !wrong.iter().any(|w| known(w, open)));
+    let mended: Vec<_> = mended.collect();
+    assert!(!all || mended.is_empty(), "these pass: {mended:?}");
+    wrong.retain(|wrong| !OPEN.iter().any(|open| known(wrong, open)));
+    assert_eq!(wrong, Vec::<String>::new(), "{}", wrong.join("\n"));
 }

@@ -13,6 +13,8 @@ pub struct Maker<'r> {
     pub present: bool,
     /// Last places that fixed point may be off.
     pub quanta: BTreeMap<String, f64>,
+    /// Whether what is decided on the way is too close to call in the format.
+    pub undecided: bool,
 }
 
 fn name(expr: &Expr) -> &str {
@@ -56,6 +58,7 @@ impl Maker<'_> {
             }
             "decided" => {
                 let [margin, k] = [0, 1].map(|n| self.number(&arguments[n]));
+                let margin = if self.undecided { 0.0 } else { margin };
                 let inner = self.predicate(&arguments[2]);
                 json!({"kind": "decided", "margin": margin, "k": k, "predicate": inner})
             }
@@ -83,6 +86,10 @@ impl Maker<'_> {
                     }
                     ("sign", [zero]) => {
                         json!({"kind": "sign", "output": output, "zero": *zero as i32})
+                    }
+                    // Ways that part at what is too close to call stay near each other.
+                    ("equal", []) if self.undecided => {
+                        json!({"kind": "near", "output": output, "by": 1})
                     }
                     ("equal", []) => json!({"kind": "equal", "output": output}),
                     _ => panic!("no predicate {called} of {numbers:?}"),

@@ -3,63 +3,37 @@
 
 use super::big::Big;
 use super::parse::{Expr, Statement};
+pub use super::value::{Random, Value};
+use slowlight_routine::Op;
 use std::cmp::Ordering;
 use std::collections::BTreeMap;
+use std::rc::Rc;
 
+/// Where in a formula an operation stands: however often it is carried out, in one case or
+/// in others of its kind, it is the same one.
+pub type Site = usize;
+
+fn site(expr: &Expr) -> Site {
+    std::ptr::from_ref(expr).addr()
+}
+
+/// What moves results.
+pub enum Move {
+    /// One operation, so far.
+    One(usize, Big),
+    /// All, each so far up or down.
+    All(Rc<BTreeMap<Site, Big>>, Random),
+}
+
+/// An operation that was carried out.
 #[derive(Clone, Debug)]
-pub enum Value {
-    Nothing,
-    Truth(bool),
-    /// A number, and whether it is an integer by type: those are never rounded.
-    Number(Big, bool),
-    List(Vec<Value>),
-    /// What a call of no known function is, with its arguments.
-    Called,
-}
-
-impl Value {
-    pub fn real(x: Big) -> Value {
-        Value::Number(x, false)
-    }
-
-    pub fn number(&self) -> &Big {
-        match self {
-            Value::Number(x, _) => x,
-            other => panic!("{other:?} is no number"),
-        }
-    }
-
-    pub fn truth(&self) -> bool {
-        match self {
-            Value::Truth(truth) => *truth,
-            Value::Number(x, _) => !x.is_zero(),
-            other => panic!("{other:?} is no truth"),
-        }
-    }
-
-    pub fn list(self) -> Vec<Value> {
-        match self {
-            Value::List(all) => all,
-            one => vec![one],
-        }
-    }
-}
-
-/// What functions draw from: xorshift.
-pub struct Random(pub u64);
-
-impl Random {
-    pub fn next(&mut self) -> u64 {
-        self.0 ^= self.0 << 13;
-        self.0 ^= self.0 >> 7;
-        self.0 ^= self.0 << 17;
-        self.0.wrapping_mul(0x2545_F491_4F6C_DD1D)
-    }
-
-    /// From 0 to below 1.
-    fn part(&mut self) -> f64 {
-        (self.next() >> 11) as f64 / (1u64 << 53) as f64
-    }
+pub struct Step {
+    pub site: Site,
+    /// What it is, if it is a function.
+    pub function: Option<Op>,
+    /// What it came to, and the greatest magnitude that this or a product in it has.
+    pub x: Big,
+    pub greatest: f64,
 }
 
 /// An evaluation.
@@ -69,8 +43,16 @@ pub struct Run<'r> {
     pub seen: Option<(i32, i32)>,
     /// How many operations on reals there were.
     pub operations: usize,
-    /// The operation whose result is moved, and how far.
-    pub moved: Option<(usize, Big)>,
+    /// Which operations' results are moved, and how far.
+    pub moved: Option<Move>,
+    /// Whether a number was 0 on the way.
+    pub zero: bool,
+    /// The operations on reals.
+    pub trail: Vec<Step>,
+    site: Site,
+    /// What the next operation is, if it is a function; and the greatest number in it.
+    function: Option<Op>,
+    within: f64,
     /// Whether there was a root or logarithm of what has none, or a quotient by 0: a moved
     /// operation may lead there.
     pub senseless: bool,
@@ -91,6 +73,11 @@ impl<'r> Run<'r> {
             seen: None,
             operations: 0,
             moved: None,
+            zero: false,
+            trail: Vec::new(),
+            site: 0,
+            function: None,
+            within: 0.0,
             senseless: false,
             random: None,
         };
@@ -104,6 +91,7 @@ impl<'r> Run<'r> {
     }
 
     fn look(&mut self, x: &Big) {
+        self.zero |= x.is_zero();
         if let Some(exponent) = x.exponent() {
             let (hi, lo) = self.seen.unwrap_or((exponent, exponent));
             self.seen = Some((hi.max(exponent), lo.min(exponent)));
@@ -117,11 +105,22 @@ impl<'r> Run<'r> {
         }
         let here = self.operations;
         self.operations += 1;
-        let x = match &self.moved {
-            Some((at, by)) if *at == here => x.plus(by),
+        let x = match &mut self.moved {
+            Some(Move::One(at, by)) if *at == here => x.plus(by),
+            Some(Move::All(by, random)) => match (by.get(&self.site), random.next() % 2) {
+                (Some(by), 0) => x.plus(by),
+                (Some(by), _) => x.minus(by),
+                (None, _) => x,
+            },
             _ => x,
         };
         self.look(&x);
+        self.trail.push(Step {
+            site: self.site,
+            function: self.function.take(),
+            greatest: x.near().abs().max(std::mem::take(&mut self.within)),
+            x: x.clone(),
+        });
         Value::real(x)
     }
 
@@ -224,6 +223,16 @@ impl<'r> Run<'r> {
             Expr::Binary(operator, a, b) => self.binary(operator, a, b),
             Expr::Call(name, arguments) => {
                 let arguments: Vec<Value> = arguments.iter().map(|e| self.value(e)).collect();
+                self.site = site(expr);
+                self.function = match name.as_str() {
+                    "sin" => Some(Op::Sin),
+                    "cos" => Some(Op::Cos),
+                    "atan" => Some(Op::Atan2),
+                    "acos" => Some(Op::Acos),
+                    "exp" => Some(Op::Exp),
+                    "log" => Some(Op::Log),
+                    _ => None,
+                };
                 self.call(name, arguments)
             }
         }
@@ -245,6 +254,7 @@ impl<'r> Run<'r> {
         // What a format's own roundoff makes is no number of an exact run.
         let seen = self.seen;
         let own = a.is_of("u") || b.is_of("u");
+        self.site = site(b);
         let made = self.applied(operator, (x, y), *p && *q);
         if own {
             self.seen = seen;
@@ -287,7 +297,10 @@ impl<'r> Run<'r> {
             "atan" => self.result(one(0).atan(), false),
             "acos" => self.result(one(0).acos(), false),
             "dot2" => {
-                let sum = one(0).times(one(1)).plus(&one(2).times(one(3)));
+                let products = [one(0).times(one(1)), one(2).times(one(3))];
+                let sum = products[0].plus(&products[1]);
+                // Two products that are rounded, where a machine has no such operation.
+                self.within = products.iter().fold(0.0, |m, p| p.near().abs().max(m));
                 self.result(sum, false)
             }
             "abs" => match &arguments[0] {

@@ -199,10 +199,18 @@ impl Log {
         if self.plus { 1 } else { -1 }
     }
 
-    /// a - b * floor(a / b).
+    /// a - b * floor(a / b), or 0 where that is no remainder: of large quotients the floor
+    /// has nine bits, and a product may be a last place above a.
     pub fn modulo(self, b: Log) -> Log {
         let n = Log::from_int(self.div(b).floor());
-        self.sub(n.mul(b))
+        let left = self.sub(n.mul(b));
+        match left.plus == b.plus && left.log < b.log {
+            true => left,
+            false => Log {
+                plus: b.plus,
+                ..Log::ZERO
+            },
+        }
     }
 }
 

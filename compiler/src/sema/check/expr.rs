@@ -131,7 +131,9 @@ impl<'a> Checker<'a> {
                 Some((_, known @ (Known::Offset | Known::Epsilon))) => {
                     (ExprKind::Known(*known), Ty::Real)
                 }
-                Some((_, known @ Known::Floats)) => (ExprKind::Known(*known), Ty::Bool),
+                Some((_, known @ (Known::Floats | Known::Mantissas))) => {
+                    (ExprKind::Known(*known), Ty::Bool)
+                }
                 Some((_, known)) => (ExprKind::Known(*known), Ty::Int),
                 None => (ExprKind::Error, Ty::Error),
             },

@@ -16,7 +16,7 @@ pub(super) enum Entity {
     Scene(SceneId),
     Record(RecordId),
     Map(MapId),
-    /// `inks`, `width`, `height`, `offset`, `epsilon`, `floats`, by place in [`KNOWN`].
+    /// `inks`, `width`, `epsilon` and the others, by place in [`KNOWN`].
     Known(usize),
     /// An index into the checker's signatures.
     Builtin(usize),
@@ -49,13 +49,14 @@ impl Entity {
 }
 
 /// Values that the language knows by name.
-pub(super) const KNOWN: [(&str, Known); 7] = [
+pub(super) const KNOWN: [(&str, Known); 8] = [
     ("inks", Known::Inks),
     ("width", Known::Width),
     ("height", Known::Height),
     ("offset", Known::Offset),
     ("epsilon", Known::Epsilon),
     ("floats", Known::Floats),
+    ("mantissas", Known::Mantissas),
     ("samples", Known::Samples),
 ];
 

@@ -49,6 +49,7 @@ impl<'a> Lower<'a> {
                 Known::Height => self.int(self.image.height as i32, span),
                 Known::Offset => self.real(self.options.offset, span),
                 Known::Floats => self.bool(self.options.floats, span),
+                Known::Mantissas => self.bool(self.options.mantissas, span),
                 Known::Epsilon => self.real(self.options.epsilon, span),
                 Known::Samples => {
                     let most = self.options.ways.samples.unwrap_or(u32::MAX);

@@ -84,6 +84,8 @@ pub struct Options {
     pub epsilon: f64,
     /// Whether its reals have an exponent.
     pub floats: bool,
+    /// Whether they have a mantissa beside it: logarithms have none.
+    pub mantissas: bool,
     /// No loop of the scene's own text takes more turns; what it then comes to is its
     /// `else`.
     pub max_turns: Option<u32>,
@@ -107,6 +109,7 @@ impl Default for Options {
             offset: 1e-9,
             epsilon: f64::EPSILON / 2.0,
             floats: true,
+            mantissas: true,
             max_turns: None,
             max_steps: None,
             ways: Ways::default(),

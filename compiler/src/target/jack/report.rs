@@ -3,7 +3,7 @@
 use super::Text;
 use super::code::Code;
 use super::frame::{Subroutine, line, subroutine};
-use slowlight_routine::Format;
+use slowlight_routine::{Format, Type};
 
 /// Prints what the graph reports, a line each: ints, bools as 0 or 1, Floats as
 /// sign, exponent and mantissa, logarithms after 1 for a negative, fixed point as its int. Answers the method that prints a Float, if needed.
@@ -11,7 +11,11 @@ pub(super) fn reports(code: &mut Code, text: &mut Text) -> Option<Subroutine> {
     let plan = code.plan;
     let mut floats = false;
     for &id in &plan.graph.reports {
-        let value = code.read(id).text;
+        // A constant is read in its own place, where values have such.
+        let value = match (plan.points(), plan.graph.ty(id)) {
+            (Some(points), Type::Real) => code.read_at(points, id, points.own(id)).text,
+            _ => code.read(id).text,
+        };
         match plan.format(id) {
             Format::Bool => {
                 text.open(format!("if ({value}) {{"));

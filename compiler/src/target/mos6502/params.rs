@@ -21,8 +21,10 @@ pub(super) struct Entry {
     pub least: String,
     pub greatest: String,
     pub unit: String,
-    /// What to divide it by for a real; 0 for an int.
+    /// What to divide it by for a real; 0 for an int, or where its bits are written.
     pub divisor: u32,
+    /// Whether it is a logarithm: three bytes.
+    pub log: bool,
     /// The fraction bits of a real that has its own.
     pub scale: Option<i8>,
 }
@@ -82,7 +84,12 @@ pub(super) fn entries(plan: &Plan, homes: &Homes) -> Vec<Entry> {
                 Some(_) if real => 10u32.saturating_pow(digits),
                 _ => 0,
             },
-            scale: scale(plan, ParamId(k as u32)).filter(|_| real),
+            log: real && logs::are(plan),
+            scale: match p.digits {
+                // The number's bits are at its own scale as they are.
+                None => Some(0).filter(|_| real && plan.points().is_some()),
+                Some(_) => scale(plan, ParamId(k as u32)).filter(|_| real),
+            },
         });
     }
     let shown = plan.shown_rows();
@@ -96,6 +103,7 @@ pub(super) fn entries(plan: &Plan, homes: &Homes) -> Vec<Entry> {
             greatest: shown.1.to_string(),
             unit: "a row".to_owned(),
             divisor: 0,
+            log: false,
             scale: None,
         });
     }
@@ -176,7 +184,7 @@ pub(super) fn take_params(
             "jsr take_param | lda acc | sta {home} | lda acc+1 | sta {home}+1"
         ));
         text.code(&format!("lda acc+2 | sta {home}+2"));
-        if entry.divisor == 0 || !logs::are(plan) {
+        if !entry.log {
             text.code(&format!("lda acc+3 | sta {home}+3"));
         }
     }
