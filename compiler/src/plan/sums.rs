@@ -89,11 +89,13 @@ fn cheaper(plan: &Settled, shop: &Workshop, thrift: Thrift) -> Option<Settled> {
     if price.of(&all) < price.of(&found) {
         (found, best) = (all, gathered);
     }
-    doubtful.retain(|(part, _)| (1.0 / DOUBT..DOUBT).contains(part));
+    // What a quotient's sign is asked for needs no division: that shows in earnest alone.
+    let divides = |site: &Site| matches!(site, Site::Divided(_));
+    doubtful.retain(|(part, site)| divides(site) || (1.0 / DOUBT..DOUBT).contains(part));
     // The fewer, the better.
     doubtful.sort_by(|(a, one), (b, other)| {
-        let adds = |site: &Site| !best.contains(site);
-        adds(one).cmp(&adds(other)).then(a.total_cmp(b))
+        let rank = |site: &Site| (!divides(site), !best.contains(site));
+        rank(one).cmp(&rank(other)).then(a.total_cmp(b))
     });
     let few = (EARNEST / plan.graph.nodes.len().max(1)).clamp(1, MOST);
     for (_, site) in doubtful.into_iter().take(few) {
