@@ -175,72 +175,47 @@ impl Profile {
         times: &mut dyn FnMut(NodeId, f64) -> Option<f64>,
     ) -> f64 {
         let (needed, rates) = (needed(graph), rates(graph));
-        let mut were: Vec<Seen> = vec![Seen::default(); graph.nodes.len()];
-        let mut loops: Vec<Option<usize>> = vec![None; graph.loops.len()];
-        for ((old, new), k) in self.known.iter().zip(made).zip(0..) {
-            let Some(new) = new else { continue };
-            let _ = k;
-            were[new.0 as usize] = *old;
-        }
-        for (k, l) in loops.iter_mut().enumerate() {
-            *l = Some(k);
-        }
-        let mut often = vec![0.0f64; graph.nodes.len()];
-        let mut uses = vec![0u32; graph.nodes.len()];
-        for (l, of) in graph.loops.iter().zip(&loops) {
-            let [turns, next, done, otherwise] = match of.and_then(|of| self.loops.get(of)) {
-                Some(times) => *times,
-                None => [1.0; 4],
-            };
-            let lists: [(&[NodeId], f64); 4] = [
-                (std::slice::from_ref(&l.again), turns),
-                (&l.next, next),
-                (&l.done, done),
-                (&l.otherwise, otherwise),
-            ];
-            let starts = l.init.iter().map(|root| (root, done + otherwise));
-            let others = lists
-                .iter()
-                .flat_map(|(list, times)| list.iter().map(move |r| (r, *times)));
-            for (root, times) in starts.chain(others) {
-                uses[root.0 as usize] += 2;
-                often[root.0 as usize] = often[root.0 as usize].max(times);
+        let mut were = vec![Seen::default(); graph.nodes.len()];
+        for (old, new) in self.known.iter().zip(made) {
+            if let Some(new) = new {
+                were[new.0 as usize] = *old;
             }
         }
-        for root in graph.outputs() {
-            uses[root.0 as usize] += 2;
-            often[root.0 as usize] = 1.0;
-        }
+        let mut demand = Demand::at_ends(graph, &self.loops);
         let mut sum = 0.0;
         // Users stand behind what they use: a value's count is known when it is come to.
         for id in graph.ids().rev().filter(|id| needed[id.0 as usize]) {
             let at = id.0 as usize;
+            let often = demand.often[at];
+            let times = times(id, often).unwrap_or(often).min(self.most(&rates, id));
             let node = graph.node(id);
-            let most = self.most(&rates, id);
-            let times = times(id, often[at]).unwrap_or(often[at]).min(most.max(0.0));
-            for (k, used) in node.operands().enumerate() {
-                let part = match node {
-                    Node::Select { cond, .. } if k > 0 => {
-                        let likely = were[cond.0 as usize].likely();
-                        if k == 1 { likely } else { 1.0 - likely }
-                    }
-                    _ => 1.0,
-                };
-                uses[used.0 as usize] += 1;
-                often[used.0 as usize] = often[used.0 as usize].max(part * times);
+            match node {
+                Node::Select { cond, yes, no } => {
+                    let likely = were[cond.0 as usize].likely();
+                    demand.add(cond, times, 1);
+                    demand.add(yes, likely * times, 1);
+                    demand.add(no, (1.0 - likely) * times, 1);
+                }
+                node => (node.operands()).for_each(|used| demand.add(used, times, 1)),
             }
             if let Node::Apply(op, _) = node {
                 let cycles = were[at].cycles.unwrap_or_else(|| self.usually(op));
-                let kind = usize::from(graph.ty(id) == Type::Real);
-                let beside = match self.runtime.stepping {
-                    Some(_) if uses[at] == 1 => 0,
-                    Some(stepping) => stepping.write[kind] + uses[at] * stepping.read[kind],
-                    None => self.runtime.statement,
-                };
+                let beside = self.beside(graph.ty(id), demand.uses[at]);
                 sum += times * f64::from(cycles + beside);
             }
         }
         sum
+    }
+
+    /// What it takes to keep a value and to read it so often; what is read once is written where
+    /// that is.
+    fn beside(&self, ty: Type, uses: u32) -> u32 {
+        let kind = usize::from(ty == Type::Real);
+        match self.runtime.stepping {
+            Some(_) if uses == 1 => 0,
+            Some(stepping) => stepping.write[kind] + uses * stepping.read[kind],
+            None => self.runtime.statement,
+        }
     }
 
     /// How often a value changes.
@@ -255,6 +230,46 @@ impl Profile {
             let last = self.runtime.routines.iter().filter(of_op(op)).next_back();
             last.map_or(0, |r| r.cycles)
         })
+    }
+}
+
+/// How often values are asked for, as far as what uses them was looked at.
+struct Demand {
+    /// By what uses each of them oftenest.
+    often: Vec<f64>,
+    /// How many uses there are.
+    uses: Vec<u32>,
+}
+
+impl Demand {
+    /// What the picture asks for, and the ends of loops that run so often.
+    fn at_ends(graph: &Graph, loops: &[[f64; 4]]) -> Demand {
+        let mut demand = Demand {
+            often: vec![0.0; graph.nodes.len()],
+            uses: vec![0; graph.nodes.len()],
+        };
+        // What goes to another place is not written where it is read: it counts as two uses.
+        for (k, l) in graph.loops.iter().enumerate() {
+            let [turns, next, done, otherwise] = loops.get(k).copied().unwrap_or([1.0; 4]);
+            demand.add(l.again, turns, 2);
+            let lists = [
+                (&l.init, done + otherwise),
+                (&l.next, next),
+                (&l.done, done),
+                (&l.otherwise, otherwise),
+            ];
+            for (list, times) in lists {
+                list.iter().for_each(|&root| demand.add(root, times, 2));
+            }
+        }
+        graph.outputs().for_each(|root| demand.add(root, 1.0, 2));
+        demand
+    }
+
+    fn add(&mut self, id: NodeId, times: f64, uses: u32) {
+        let at = id.0 as usize;
+        self.often[at] = self.often[at].max(times);
+        self.uses[at] += uses;
     }
 }
 

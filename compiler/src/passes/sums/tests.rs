@@ -44,7 +44,7 @@ fn put(plain: &Settled, which: impl Fn(&Site) -> bool) -> Option<Graph> {
     let sums = Sums::new(&plain.graph, &plain.ranges, runtime());
     let mut all = sums.sites();
     all.retain(which);
-    let (graph, _) = sums.regrouped(&all)?;
+    let graph = sums.regrouped(&all)?.graph;
     Some(fold(&graph))
 }
 
