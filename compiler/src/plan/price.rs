@@ -141,6 +141,13 @@ impl Price {
         ))
     }
 
+    /// About what a plan with so many cycles and values more than another is priced at, beside
+    /// that: as [`Price::of`] has it, a value taken for a statement of pixels.
+    pub(super) fn beside(&self, plan: &Settled, cycles: f64, more: f64) -> f64 {
+        let [inside, around] = memory(plan);
+        cycles * (1.0 + self.memory * (inside + more + self.around * around))
+    }
+
     /// Cycles a pixel.
     fn cycles(&self, plan: &Settled) -> f64 {
         let Ok(routines) = choose(&plan.graph, &plan.tree, &plan.ranges, self.runtime, None) else {

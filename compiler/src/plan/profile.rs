@@ -34,8 +34,8 @@ pub(super) struct Profile {
     loops: Vec<[f64; 4]>,
     /// A usual routine's cycles.
     usual: FxHashMap<Op, u32>,
-    /// What the plan's own graph costs.
-    own: f64,
+    /// What the plan's own graph costs, and how many values it computes.
+    own: (f64, f64),
 }
 
 /// What is known of a value of the plan.
@@ -131,7 +131,7 @@ impl Profile {
             changes,
             loops,
             usual: usual.map(|(op, (sum, n))| (op, (sum / n) as u32)).collect(),
-            own: 0.0,
+            own: (0.0, 0.0),
         };
         let same: Vec<Option<NodeId>> = graph.ids().map(Some).collect();
         made.own = made.summed(graph, &same, &mut |id, demand| {
@@ -149,11 +149,12 @@ impl Profile {
 
     /// About what the plan's own graph costs a pixel.
     pub(super) fn own(&self) -> f64 {
-        self.own
+        self.own.0
     }
 
-    /// About what a graph costs a pixel, given what stands in it for each of the plan's values.
-    pub(super) fn cost(&self, graph: &Graph, made: &[Option<NodeId>]) -> f64 {
+    /// About what a graph costs a pixel, and how many values more it computes than the plan's,
+    /// given what stands in it for each of the plan's values.
+    pub(super) fn cost(&self, graph: &Graph, made: &[Option<NodeId>]) -> (f64, f64) {
         let mut factors: Vec<Option<f64>> = vec![None; graph.nodes.len()];
         for (old, new) in self.known.iter().zip(made) {
             if let (Some(new), Some(_)) = (new, old.times) {
@@ -161,9 +162,10 @@ impl Profile {
                 *factor = Some(factor.map_or(old.factor, |f| f.min(old.factor)));
             }
         }
-        self.summed(graph, made, &mut |id, demand| {
+        let (cycles, values) = self.summed(graph, made, &mut |id, demand| {
             factors[id.0 as usize].map(|factor| factor * demand)
-        })
+        });
+        (cycles, values - self.own.1)
     }
 
     /// The same where it is said of values how often they are computed, given how often what
@@ -173,7 +175,7 @@ impl Profile {
         graph: &Graph,
         made: &[Option<NodeId>],
         times: &mut dyn FnMut(NodeId, f64) -> Option<f64>,
-    ) -> f64 {
+    ) -> (f64, f64) {
         let (needed, rates) = (needed(graph), rates(graph));
         let mut were = vec![Seen::default(); graph.nodes.len()];
         for (old, new) in self.known.iter().zip(made) {
@@ -182,7 +184,7 @@ impl Profile {
             }
         }
         let mut demand = Demand::at_ends(graph, &self.loops);
-        let mut sum = 0.0;
+        let (mut sum, mut values) = (0.0, 0.0);
         // Users stand behind what they use: a value's count is known when it is come to.
         for id in graph.ids().rev().filter(|id| needed[id.0 as usize]) {
             let at = id.0 as usize;
@@ -202,9 +204,10 @@ impl Profile {
                 let cycles = were[at].cycles.unwrap_or_else(|| self.usually(op));
                 let beside = self.beside(graph.ty(id), demand.uses[at]);
                 sum += times * f64::from(cycles + beside);
+                values += 1.0;
             }
         }
-        sum
+        (sum, values)
     }
 
     /// What it takes to keep a value and to read it so often; what is read once is written where

@@ -61,7 +61,8 @@ fn cheaper(plan: &Settled, shop: &Workshop, thrift: Thrift) -> Option<Settled> {
     gathered.retain(|site| matches!(site, Site::Gathered(id) if changed.contains(id)));
     let about = |sites: &[Site]| {
         let found = made(sites).map(|made| profile.cost(&made.graph, &made.trace));
-        found.unwrap_or(profile.own())
+        let (cycles, more) = found.unwrap_or((profile.own(), 0.0));
+        price.beside(plan, cycles, more)
     };
     let mut best = gathered.clone();
     let mut least = about(&best);
