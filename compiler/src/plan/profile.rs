@@ -228,9 +228,8 @@ impl Profile {
     }
 
     fn usually(&self, op: Op) -> u32 {
-        let of_op = |op: Op| move |r: &&slowlight_routine::Routine| r.op == op;
         self.usual.get(&op).copied().unwrap_or_else(|| {
-            let last = self.runtime.routines.iter().filter(of_op(op)).next_back();
+            let last = self.runtime.routines.iter().rfind(|r| r.op == op);
             last.map_or(0, |r| r.cycles)
         })
     }
