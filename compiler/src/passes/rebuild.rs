@@ -62,10 +62,7 @@ pub fn rebuild(graph: &Graph, rule: Rule<'_>) -> Graph {
 
 /// The same by a rule that matches the old graph, several nodes deep.
 pub fn rebuild_old(graph: &Graph, rule: OldRule<'_>) -> Graph {
-    rebuild_by(
-        graph,
-        &mut Nodes(|builder: &mut Builder, made: &[_], id, _, span| rule(builder, made, id, span)),
-    )
+    traced_old(graph, rule).0
 }
 
 /// What stands in a new graph for each node of the old one, if it is there.

@@ -14,7 +14,7 @@ use crate::passes::sums::{Site, Sums, sunk};
 /// By how much a sum's form must make a plan cheaper.
 const GAIN: f64 = 0.9995;
 
-/// How many nodes may be scheduled again to find out which sums pay.
+/// How many nodes may be rewritten to find out by counts which sums pay.
 const PATIENCE: usize = 60_000;
 
 /// By how much forms that are settled to be compared may differ by counts, and how many of

@@ -139,8 +139,7 @@ impl<'g> Sums<'g> {
         all
     }
 
-    /// The graph with sums at some sites put in the other form, and the values in the place
-    /// of which something else stands; nothing where there are none.
+    /// The graph with sums at some sites put in the other form; nothing where none is.
     pub fn regrouped(&self, sites: &[Site]) -> Option<Regrouped> {
         let sites: Sites = sites.iter().copied().collect();
         let (pairs, made_from) = (self.pairs(&sites), self.made_from(&sites));
