@@ -14,6 +14,9 @@ pub struct Got {
     pub values: Vec<f64>,
     /// Where values left the format, in words; what such a result is worth.
     pub left: Option<String>,
+    /// The result of exact arithmetic that loses only what left the format, where that is
+    /// known: what is right there is not excused by that.
+    pub lossy: Option<Box<Got>>,
 }
 
 /// What a judgement comes to.
@@ -111,8 +114,9 @@ impl Judge<'_> {
             },
             Predicate::RefuseOr { hi, lo, predicate } => {
                 let inner = self.by(predicate)?;
-                match self.got.left.is_some() && self.arithmetic.cannot_hold(*hi, *lo) {
-                    true if !inner.passed => Verdict {
+                let allowed = self.got.left.is_some() && self.arithmetic.cannot_hold(*hi, *lo);
+                match allowed && !inner.passed && self.is_lost(predicate) {
+                    true => Verdict {
                         refused: true,
                         ..Verdict::plain(true)
                     },
@@ -184,6 +188,14 @@ impl Judge<'_> {
                 Verdict::measured(error, k * u)
             }
             Predicate::Orthonormal { k } => self.orthonormal(k * u)?,
+        })
+    }
+
+    /// Whether what left the format alone makes a result wrong, as far as that is known.
+    fn is_lost(&self, predicate: &Predicate) -> bool {
+        self.got.lossy.as_deref().is_none_or(|got| {
+            let exactly = Judge { got, ..*self };
+            !exactly.by(predicate).is_some_and(|verdict| verdict.passed)
         })
     }
 
@@ -275,7 +287,7 @@ mod tests {
         let got = Got {
             there: !got.is_empty(),
             values: got.to_vec(),
-            left: None,
+            ..Got::default()
         };
         let judge = Judge {
             arithmetic,
@@ -353,6 +365,7 @@ mod tests {
                 there: true,
                 values: vec![5.0],
                 left,
+                lossy: None,
             };
             let judge = Judge {
                 arithmetic,

@@ -22,6 +22,7 @@ pub mod file;
 pub mod format;
 pub mod judge;
 pub mod kernel;
+mod lose;
 pub mod machine;
 pub mod table;
 pub mod trial;

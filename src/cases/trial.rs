@@ -4,6 +4,7 @@ use super::file::{CaseFile, Overlay, Vector};
 use super::format::{self, Arithmetic, Key};
 use super::judge::{Got, Judge, Verdict};
 use super::kernel::Kernel;
+use super::lose;
 use super::machine;
 use super::watch;
 use crate::failure::{Failure, Outcome};
@@ -12,8 +13,9 @@ use crate::progress::Progress;
 use crate::scene::Precision;
 use slowlight_compiler::eval::model::ModelRun;
 use slowlight_compiler::eval::native::Native;
-use slowlight_compiler::flow::graph::{Graph, ParamId};
+use slowlight_compiler::flow::graph::{Graph, Param, ParamId};
 use slowlight_compiler::plan::{Goal, Plan, plan_as_written};
+use slowlight_compiler::source::Diagnostic;
 use slowlight_compiler::target::{Target, default_mode};
 use slowlight_routine::{Format, Type, Value};
 use std::collections::{BTreeMap, btree_map};
@@ -247,7 +249,9 @@ impl Prepared {
             Ok(plan) => Prepared::Plan(way, Box::new(plan)),
             Err(said) => {
                 let all: Vec<&str> = said.iter().map(|d| d.message.as_str()).collect();
-                match way.arithmetic().is_planned() {
+                // All else that a planner has to say is its own fault.
+                let params = said.iter().all(|d| is_of_param(d, &graph, target));
+                match way.arithmetic().is_planned() && params {
                     true => Prepared::Refused(all.join("; ")),
                     false => Prepared::Not(all.join("; ")),
                 }
@@ -340,6 +344,13 @@ impl Prepared {
                 if matches!(way, Way::Machine(_)) && machine::run(plan)? != values {
                     return Err(Failure::Differs);
                 }
+                if let Some(lost) = lose::lost(plan) {
+                    let lossy = taken(kernel, &lost.reports, None);
+                    return Ok(Got {
+                        lossy: Some(Box::new(lossy)),
+                        ..taken(kernel, &values, lost.first)
+                    });
+                }
                 let mut got = taken(kernel, &values, watch::plan(plan));
                 got.values
                     .iter_mut()
@@ -349,6 +360,15 @@ impl Prepared {
             Prepared::Not(why) | Prepared::Refused(why) => Err(Failure::Wrong(why.clone())),
         }
     }
+}
+
+/// Whether a diagnostic says that a param is beyond what a target's may be.
+fn is_of_param(said: &Diagnostic, graph: &Graph, target: &Target) -> bool {
+    let beyond = |p: &Param| {
+        let ends = p.range.map_or(0.0, |range| range.magnitude());
+        p.span == said.span && p.value.abs().max(ends) > target.runtime.param_most
+    };
+    graph.params.iter().any(beyond)
 }
 
 fn set(graph: &mut Graph, inputs: &[Value]) {
@@ -368,5 +388,6 @@ fn taken(kernel: &Kernel, values: &[Value], left: Option<String>) -> Got {
         there,
         values: values.iter().map(|v| v.real()).collect(),
         left,
+        lossy: None,
     }
 }

@@ -1,0 +1,171 @@
+//! Exact arithmetic that loses only what the places of a plan's values cannot hold.
+//!
+//! Where every value has a point of its own, one is lost where it is brought to another place:
+//! it ends at that place's end, or is below half of its last place and vanishes. A result
+//! that is wrong may be excused by that only if nothing else is needed to make it wrong: so
+//! the plan's statements are run with exact reals that are not rounded, and lost where the
+//! plan loses them. What such a run gets right the machine has to get right, too.
+
+use slowlight_compiler::eval::arithmetic::Arithmetic;
+use slowlight_compiler::eval::run::Run;
+use slowlight_compiler::flow::graph::{Graph, NodeId, ParamId};
+use slowlight_compiler::flow::tree::Place;
+use slowlight_compiler::plan::Plan;
+use slowlight_compiler::plan::points::Points;
+use slowlight_routine::scale::{concerns, finest, most};
+use slowlight_routine::{Format, Op, Type, Value};
+use std::cell::RefCell;
+
+/// What a plan's statements come to with exact reals, and the first that was lost, in words.
+pub struct Lost {
+    /// What the graph reports.
+    pub reports: Vec<Value>,
+    /// None where nothing was.
+    pub first: Option<String>,
+}
+
+struct Losing<'p> {
+    plan: &'p Plan,
+    points: &'p Points,
+    first: RefCell<Option<String>>,
+}
+
+/// What becomes of a real in a place: all of it, nothing, or the place's end.
+fn held(x: f64, place: Format) -> f64 {
+    let Format::Fixed { bits, frac } = place else {
+        return x;
+    };
+    let last = f64::from(-frac).exp2();
+    match x.abs() {
+        size if size < last / 2.0 => 0.0,
+        // What is nearer to the end than a last place is rounded like all else.
+        size if size < place.most() => x,
+        _ => most(bits) as f64 * last * x.signum(),
+    }
+}
+
+impl Losing<'_> {
+    fn graph(&self) -> &Graph {
+        &self.plan.graph
+    }
+
+    fn say(&self, words: impl FnOnce() -> String) {
+        self.first.borrow_mut().get_or_insert_with(words);
+    }
+
+    /// A value brought to a place; where it is lost, that is said of what it is brought to.
+    fn brought(&self, x: f64, place: Format, what: impl Fn() -> String) -> f64 {
+        let held = held(x, place);
+        if held != x {
+            let why = match held == 0.0 {
+                true => "is below the last place",
+                false => "is beyond the end",
+            };
+            let format = self.plan.runtime.format;
+            self.say(|| format!("{x:.6e} {why} of {} in {format}", what()));
+        }
+        held
+    }
+
+    /// An operation's operand, as it is read.
+    fn operand(&self, id: NodeId, op: Op, k: usize, x: f64) -> f64 {
+        let (scales, bits) = (self.points.scales(id), self.points.widths().operands(id));
+        let place = Format::Fixed {
+            bits,
+            frac: scales.args[k],
+        };
+        let of = self.graph().node(id).operands().nth(k);
+        let constant = of.is_some_and(|of| self.graph().constant(of).is_some());
+        // A threshold or a bound above all that is told from it ends where that does.
+        let aside = constant || matches!(op, Op::Min | Op::Max) || op.result() == Type::Bool;
+        let held = held(x, place);
+        match aside && held != 0.0 {
+            true => held,
+            false => self.brought(x, place, || format!("an operand of {}", op.name())),
+        }
+    }
+}
+
+impl Arithmetic for &Losing<'_> {
+    type Value = Value;
+
+    fn constant(&self, value: Value) -> Value {
+        value
+    }
+
+    fn param(&self, id: ParamId) -> Value {
+        let at = id.0 as usize;
+        let bits = self.plan.params.get(at).map_or(0, |p| p.bits);
+        let held = (self.plan.runtime.decode)(bits, self.plan.param_format(id));
+        if let (Some(param), Value::Real(held)) = (self.graph().params.get(at), held)
+            && param.value != held
+        {
+            let (name, format) = (param.label(), self.plan.runtime.format);
+            self.say(|| format!("{name} = {} is {held} in {format}", param.value));
+        }
+        held
+    }
+
+    fn apply(&self, id: NodeId, op: Op, args: &[Value]) -> Value {
+        let mut read = [Value::Int(0); 2];
+        for (k, (to, from)) in read.iter_mut().zip(args).enumerate() {
+            *to = match *from {
+                Value::Real(x) if concerns(op) => Value::Real(self.operand(id, op, k, x)),
+                other => other,
+            };
+        }
+        let exact = op.eval(&read[..args.len().min(2)]);
+        let place = self.plan.format(id);
+        match (exact, place) {
+            // What is smaller than a last place is rounded like all else, but where no place
+            // is finer.
+            (Value::Real(x), Format::Fixed { bits, frac })
+                if frac == finest(bits) || x.abs() >= place.most() =>
+            {
+                Value::Real(self.brought(x, place, || format!("{}'s result", op.name())))
+            }
+            _ => exact,
+        }
+    }
+
+    fn copied(&self, place: Place, from: NodeId, value: Value) -> Value {
+        match value {
+            Value::Real(x) if self.graph().ty(from) == Type::Real => {
+                let place = self.points.place_format(place);
+                Value::Real(self.brought(x, place, || "what it is carried in".to_owned()))
+            }
+            other => other,
+        }
+    }
+
+    fn gather(&self, received: Value, sent: Value) -> Value {
+        Op::Add.eval(&[received, sent])
+    }
+
+    fn truth(&self, value: Value) -> bool {
+        value.truth()
+    }
+
+    fn int(&self, value: Value) -> i32 {
+        value.int()
+    }
+}
+
+/// Runs a plan's statements so; nothing where points are not the plan's affair.
+pub fn lost(plan: &Plan) -> Option<Lost> {
+    let losing = Losing {
+        plan,
+        points: plan.points()?,
+        first: RefCell::new(None),
+    };
+    let reports = {
+        let mut run = Run::new(&plan.graph, &plan.tree, &losing);
+        run.pixel(0, 0);
+        let ids = plan.graph.reports.iter();
+        ids.map(|&id| run.report(id)).collect()
+    };
+    Some(Lost {
+        reports,
+        first: losing.first.into_inner(),
+    })
+}
