@@ -1,10 +1,11 @@
 //! Exact arithmetic that loses only what the places of a plan's values cannot hold.
 //!
-//! Where every value has a point of its own, one is lost where it is brought to another place:
-//! it ends at that place's end, or is below half of its last place and vanishes. A result
-//! that is wrong may be excused by that only if nothing else is needed to make it wrong: so
-//! the plan's statements are run with exact reals that are not rounded, and lost where the
-//! plan loses them. What such a run gets right the machine has to get right, too.
+//! Where every value has a point of its own, one is lost where it is made, read or copied in
+//! a place that has no room for it: it ends at that place's end, or is no more than half of its
+//! last place and vanishes. A result that is wrong may be excused by that only if nothing else
+//! is needed to make it wrong: so the plan's statements are run with exact reals that are not
+//! rounded, and lost where the plan loses them. What such a run gets right the machine has to
+//! get right, too.
 
 use slowlight_compiler::eval::arithmetic::Arithmetic;
 use slowlight_compiler::eval::run::Run;
@@ -12,7 +13,7 @@ use slowlight_compiler::flow::graph::{Graph, NodeId, ParamId};
 use slowlight_compiler::flow::tree::Place;
 use slowlight_compiler::plan::Plan;
 use slowlight_compiler::plan::points::Points;
-use slowlight_routine::scale::{concerns, finest, most};
+use slowlight_routine::scale::{concerns, most};
 use slowlight_routine::{Format, Op, Type, Value};
 use std::cell::RefCell;
 
@@ -28,6 +29,8 @@ struct Losing<'p> {
     plan: &'p Plan,
     points: &'p Points,
     first: RefCell<Option<String>>,
+    /// A param that is rounded, which is said only where nothing else is lost.
+    rounded: RefCell<Option<String>>,
 }
 
 /// What becomes of a real in a place: all of it, nothing, or the place's end.
@@ -37,7 +40,8 @@ fn held(x: f64, place: Format) -> f64 {
     };
     let last = f64::from(-frac).exp2();
     match x.abs() {
-        size if size < last / 2.0 => 0.0,
+        // Not every routine rounds a half up.
+        size if size <= last / 2.0 => 0.0,
         // What is nearer to the end than a last place is rounded like all else.
         size if size < place.most() => x,
         _ => most(bits) as f64 * last * x.signum(),
@@ -49,10 +53,6 @@ impl Losing<'_> {
         &self.plan.graph
     }
 
-    fn say(&self, words: impl FnOnce() -> String) {
-        self.first.borrow_mut().get_or_insert_with(words);
-    }
-
     /// A value brought to a place; where it is lost, that is said of what it is brought to.
     fn brought(&self, x: f64, place: Format, what: impl Fn() -> String) -> f64 {
         let held = held(x, place);
@@ -62,7 +62,8 @@ impl Losing<'_> {
                 false => "is beyond the end",
             };
             let format = self.plan.runtime.format;
-            self.say(|| format!("{x:.6e} {why} of {} in {format}", what()));
+            let mut first = self.first.borrow_mut();
+            first.get_or_insert_with(|| format!("{x:.6e} {why} of {} in {format}", what()));
         }
         held
     }
@@ -101,7 +102,9 @@ impl Arithmetic for &Losing<'_> {
             && param.value != held
         {
             let (name, format) = (param.label(), self.plan.runtime.format);
-            self.say(|| format!("{name} = {} is {held} in {format}", param.value));
+            let mut rounded = self.rounded.borrow_mut();
+            rounded
+                .get_or_insert_with(|| format!("{name} = {} is {held} in {format}", param.value));
         }
         held
     }
@@ -114,17 +117,12 @@ impl Arithmetic for &Losing<'_> {
                 other => other,
             };
         }
-        let exact = op.eval(&read[..args.len().min(2)]);
-        let place = self.plan.format(id);
-        match (exact, place) {
-            // What is smaller than a last place is rounded like all else, but where no place
-            // is finer.
-            (Value::Real(x), Format::Fixed { bits, frac })
-                if frac == finest(bits) || x.abs() >= place.most() =>
-            {
-                Value::Real(self.brought(x, place, || format!("{}'s result", op.name())))
+        match op.eval(&read[..args.len().min(2)]) {
+            Value::Real(x) => {
+                let what = || format!("{}'s result", op.name());
+                Value::Real(self.brought(x, self.plan.format(id), what))
             }
-            _ => exact,
+            other => other,
         }
     }
 
@@ -156,7 +154,8 @@ pub fn lost(plan: &Plan) -> Option<Lost> {
     let losing = Losing {
         plan,
         points: plan.points()?,
-        first: RefCell::new(None),
+        first: RefCell::default(),
+        rounded: RefCell::default(),
     };
     let reports = {
         let mut run = Run::new(&plan.graph, &plan.tree, &losing);
@@ -166,6 +165,6 @@ pub fn lost(plan: &Plan) -> Option<Lost> {
     };
     Some(Lost {
         reports,
-        first: losing.first.into_inner(),
+        first: losing.first.into_inner().or(losing.rounded.into_inner()),
     })
 }

@@ -58,9 +58,14 @@ impl Way {
     }
 
     fn precision(self) -> Precision {
-        match self {
+        let own = match self {
             Way::Native => Precision::NATIVE,
             Way::Model(target) | Way::Machine(target) => Precision::of(target),
+        };
+        // By what steps end and rays begin has to be told apart in the bits that values have.
+        Precision {
+            epsilon: self.arithmetic().epsilon(),
+            ..own
         }
     }
 }
