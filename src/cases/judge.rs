@@ -14,8 +14,8 @@ pub struct Got {
     pub values: Vec<f64>,
     /// Where values left the format, in words; what such a result is worth.
     pub left: Option<String>,
-    /// The result of exact arithmetic that loses only what left the format, where that is
-    /// known: what is right there is not excused by that.
+    /// What exact arithmetic makes of it that loses nothing else, where it is not known that
+    /// this matters: if that is right, nothing is excused by what left.
     pub lossy: Option<Box<Got>>,
 }
 
@@ -356,16 +356,27 @@ mod tests {
             "predicate": {"kind": "rel", "output": "a", "k": 1, "cond": 1, "kq": 1}}}"#;
         let wanted: Wanted = serde_json::from_str(text).unwrap();
         let outputs = ["a".to_owned()];
-        for (arithmetic, left, passed) in [
-            (FIXED, Some("mul saturates".to_owned()), true),
-            (FIXED, None, false),
-            (JACK, Some("mul saturates".to_owned()), false),
+        let said = || Some("mul saturates".to_owned());
+        let lossy = |value: f64| {
+            Some(Box::new(Got {
+                there: true,
+                values: vec![value],
+                ..Got::default()
+            }))
+        };
+        for (arithmetic, left, lossy, passed) in [
+            (FIXED, said(), None, true),
+            (FIXED, None, None, false),
+            (JACK, said(), None, false),
+            // What is lost is enough to make it wrong, or is not.
+            (FIXED, said(), lossy(5.0), true),
+            (FIXED, said(), lossy(1.0), false),
         ] {
             let got = Got {
                 there: true,
                 values: vec![5.0],
                 left,
-                lossy: None,
+                lossy,
             };
             let judge = Judge {
                 arithmetic,

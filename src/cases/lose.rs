@@ -1,11 +1,12 @@
 //! Exact arithmetic that loses only what the places of a plan's values cannot hold.
 //!
-//! Where every value has a point of its own, one is lost where it is made, read or copied in
-//! a place that has no room for it: it ends at that place's end, or is no more than half of its
-//! last place and vanishes. A result that is wrong may be excused by that only if nothing else
-//! is needed to make it wrong: so the plan's statements are run with exact reals that are not
-//! rounded, and lost where the plan loses them. What such a run gets right the machine has to
-//! get right, too.
+//! Where every value has a point of its own, an operation whose result is beyond its place's end
+//! is seen as it happens ([`super::watch`]). Much else is lost there all the time, and mostly
+//! matters no more than any rounding: what is read or copied in a place that ends below it, or
+//! is no more than half of a last place and vanishes. A wrong result may be excused by that
+//! only if nothing else is needed to make it wrong: so the plan's statements are run with exact
+//! reals that are not rounded, and lost where the plan loses them. What such a run gets right
+//! the machine has to get right, too.
 
 use slowlight_compiler::eval::arithmetic::Arithmetic;
 use slowlight_compiler::eval::run::Run;
@@ -167,4 +168,25 @@ pub fn lost(plan: &Plan) -> Option<Lost> {
         reports,
         first: losing.first.into_inner().or(losing.rounded.into_inner()),
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_place_holds_what_is_rounded_and_neither_more_nor_less() {
+        let place = Format::Fixed { bits: 8, frac: 5 };
+        for (x, wanted) in [
+            (0.0, 0.0),
+            (1.0 / 64.0, 0.0),
+            (-1.0 / 63.0, -1.0 / 63.0),
+            (0.3, 0.3),
+            (3.99, 3.99),
+            (4.0, 127.0 / 32.0),
+            (-100.0, -127.0 / 32.0),
+        ] {
+            assert_eq!(held(x, place), wanted, "{x}");
+        }
+    }
 }

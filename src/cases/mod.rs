@@ -15,7 +15,8 @@
 //!
 //! A format that cannot hold a value saturates. Where the vector allows a
 //! refusal, such a result passes only because it is said which operation left
-//! the format ([`watch`]).
+//! the format ([`watch`]), or because what its places lose is enough to make it wrong
+//! ([`lose`]).
 
 pub mod exact;
 pub mod file;

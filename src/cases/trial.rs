@@ -349,17 +349,16 @@ impl Prepared {
                 if matches!(way, Way::Machine(_)) && machine::run(plan)? != values {
                     return Err(Failure::Differs);
                 }
-                if let Some(lost) = lose::lost(plan) {
-                    let lossy = taken(kernel, &lost.reports, None);
-                    return Ok(Got {
-                        lossy: Some(Box::new(lossy)),
-                        ..taken(kernel, &values, lost.first)
-                    });
-                }
                 let mut got = taken(kernel, &values, watch::plan(plan));
                 got.values
                     .iter_mut()
                     .for_each(|x| *x = format::worth(format, *x));
+                if got.left.is_none()
+                    && let Some(lost) = lose::lost(plan)
+                {
+                    got.left = lost.first;
+                    got.lossy = Some(Box::new(taken(kernel, &lost.reports, None)));
+                }
                 Ok(got)
             }
             Prepared::Not(why) | Prepared::Refused(why) => Err(Failure::Wrong(why.clone())),

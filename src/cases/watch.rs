@@ -11,7 +11,8 @@ use slowlight_compiler::eval::run::Run;
 use slowlight_compiler::flow::graph::{Graph, NodeId};
 use slowlight_compiler::passes::schedule::schedule;
 use slowlight_compiler::plan::Plan;
-use slowlight_routine::{Bits, Format, Op, Value};
+use slowlight_routine::scale::finest;
+use slowlight_routine::{Bits, Format, Op, Type, Value};
 use std::cell::RefCell;
 
 /// The greatest magnitude of a real in a format.
@@ -54,11 +55,36 @@ struct Models<'p> {
     left: RefCell<Option<String>>,
 }
 
+impl Models<'_> {
+    /// Looks at an operation whose values have places of their own. What is smaller than a
+    /// last place there is no more off than any rounding, but where no place is finer.
+    fn placed(&self, id: NodeId, op: Op, args: &[Bits], result: Bits) {
+        let (graph, runtime) = (&self.plan.graph, self.plan.runtime);
+        let operands = graph.node(id).operands().zip(args);
+        let values: Vec<Value> = operands
+            .map(|(of, bits)| {
+                let held = (runtime.decode)(*bits, self.plan.format(of));
+                graph.constant(of).unwrap_or(held)
+            })
+            .collect();
+        let place = self.plan.format(id);
+        let exact = exactly(op, &values);
+        let last = matches!(place, Format::Fixed { bits, frac } if frac == finest(bits));
+        let gone = last && result == 0 && exact != 0.0;
+        if op.result() == Type::Real && (gone || exact.abs() >= place.most()) {
+            note(&self.left, op, &values, runtime.format);
+        }
+    }
+}
+
 impl Listener<Bits> for Models<'_> {
     fn applied(&self, id: NodeId, op: Op, args: &[Bits], result: Bits) {
         let Some(routine) = self.plan.routine(id) else {
             return;
         };
+        if self.plan.points().is_some() {
+            return self.placed(id, op, args, result);
+        }
         let runtime = self.plan.runtime;
         let decoded = |bits, format| match (runtime.decode)(bits, format) {
             Value::Real(x) => Value::Real(worth(format, x)),
@@ -82,8 +108,7 @@ fn note(left: &RefCell<Option<String>>, op: Op, args: &[Value], format: &str) {
     }
 }
 
-/// The first operation of a plan's run that leaves its format, in words; of formats whose
-/// points are not the plan's affair.
+/// The first operation of a plan's run that leaves its format, in words.
 pub fn plan(plan: &Plan) -> Option<String> {
     let heard = Heard {
         arithmetic: Model(plan),

@@ -138,26 +138,15 @@ const PLANNED: [&Target; 5] = [
     &PLAIN_FIXED24,
 ];
 
-/// What is silently wrong there, by format and beginning of a vector's name. It is written
-/// down so that what else goes wrong is seen, and what is mended:
-/// - a ray's height that is far below the last place of the points it is added to is lost,
-///   and the ray goes to and fro between two mirrors for ever;
-/// - a distance that carried values end below, so that a march does not end;
-/// - a difference of params that are read with fewer bits than they have;
-/// - an area below the last place that bytes have, which is taken for none;
-/// - a second look along a normal whose parts are bytes, which meets what it left;
-/// - roots of 24 bits, of which two are off by up to 2.5 times what they may.
-const OPEN: [(&str, &str); 10] = [
-    ("fixed12", "mirror_spheres/y2p-"),
-    ("fixed16", "mirror_spheres/y2p-16"),
-    ("fixed16", "march_grazing_plane/sin2p-9"),
-    ("fixed16", "no_guard_bit/guard_3"),
-    ("fixed20", "mirror_spheres/y2p-16"),
-    ("fixed20", "march_grazing_plane/sin2p-9"),
-    ("fixed24", "sphere_grazing/k20_hit"),
-    ("fixed24", "torus/axis_gradient"),
-    ("fixed12", "polygon_edge_on/e24"),
-    ("fixed12", "self_intersection/x64"),
+/// What is wrong there and nothing leaves its place, by format and beginning of a vector's
+/// name. It is written down so that what else goes wrong is seen, and what is mended. Both are
+/// of squares in 24 bits: a product has no more fraction bits than its operands' last places
+/// are worth at their greatest, so that smaller ones are rounded further up than they need be,
+/// one of them by 2.5 times what a root of their difference may be off by, and a vector's
+/// length by 2.3 times.
+const OPEN: [(&str, &str); 2] = [
+    ("fixed24", "sphere_grazing/k20_hit_1"),
+    ("fixed24", "torus/axis_gradient_5"),
 ];
 
 /// The same where every value has a place of its own, so that a vector is a scene whose
