@@ -127,6 +127,11 @@ pub fn cycles(plan: &Plan) -> f64 {
     sampled(plan, GRID, MOST).cycles()
 }
 
+/// The cycles that it takes to get ready alone, by what a single pixel runs.
+pub fn before(plan: &Plan) -> f64 {
+    sampled(plan, 1, MOST).before
+}
+
 /// The cycles of the statements of all rows alone.
 pub fn rows(plan: &Plan) -> f64 {
     sampled(plan, GRID, MOST).rows

@@ -6,16 +6,17 @@
 //! with subroutines for what the program has several times: slower, and much
 //! smaller. Then come the modes that show a part of it, in the same way.
 
+mod forms;
 mod rom;
 
 pub use rom::fit_rom;
 
 use crate::failure::{Failure, Outcome};
-use crate::need::{Need, about, need};
-use rayon::prelude::*;
+use crate::need::{Need, about, need, room};
+use forms::Fitted;
 use slowlight_compiler::flow::graph::Table;
 use slowlight_compiler::fuel::Fuel;
-use slowlight_compiler::plan::{Copies, Plan, SEARCH};
+use slowlight_compiler::plan::{Plan, SEARCH};
 use slowlight_compiler::source::Span;
 use slowlight_compiler::target::Mode;
 use slowlight_compiler::target::mos6502::DISC_PAGE;
@@ -27,7 +28,7 @@ pub const FIT: u64 = 3_500_000_000;
 
 /// The same for the plans that spend less memory, all together: they are made at the same
 /// time, and have much in common that is made once and charged to each.
-const LADDER: u64 = 6_000_000_000;
+const LADDER: u64 = 2_000_000_000;
 
 /// The first of the plans whose program fits, as it reads best or tight; where
 /// none does, the first that does with subroutines. Modes that show a part of the
@@ -60,9 +61,57 @@ struct Search<'s> {
     name: &'s dyn Fn(Span) -> Option<String>,
 }
 
+/// Makes the plan for a mode with so much fuel.
+type Make<'m> = &'m dyn Fn(Mode, u64) -> Outcome<Plan>;
+
+/// A mode whose programs are too large.
+struct Large {
+    mode: Mode,
+    /// The smallest plan, if one was made: a mode may be passed over, as what the programs of
+    /// another mode take says what its own do.
+    plan: Option<Plan>,
+    /// What the smallest program takes without subroutines for what is done at each pixel, and
+    /// the smallest with them, if it was written.
+    plain: Need,
+    outlined: Option<Need>,
+}
+
+impl Large {
+    fn new(plan: Plan, plain: Need) -> Large {
+        Large {
+            mode: plan.mode,
+            plan: Some(plan),
+            plain,
+            outlined: None,
+        }
+    }
+
+    /// What the smallest program takes.
+    fn least(&self) -> &Need {
+        match &self.outlined {
+            Some(outlined) if outlined.total() < self.plain.total() => outlined,
+            _ => &self.plain,
+        }
+    }
+}
+
+/// What programs of a mode take by what the least of others' take, if that is too much by far:
+/// they differ by how inks are told and plotted.
+fn beyond_in<'n>(
+    mode: Mode,
+    others: impl Iterator<Item = &'n Need>,
+    large: &[Large],
+) -> Option<Need> {
+    let least = others.min_by_key(|need| need.total())?;
+    let mut plan = large.iter().find_map(|large| large.plan.clone())?;
+    plan.mode = mode;
+    let need = least.in_room(room(&plan)?);
+    need.exceeds(32).then_some(need)
+}
+
 impl Search<'_> {
-    fn found(&self, modes: Vec<Mode>, plan: &dyn Fn(Mode, u64) -> Outcome<Plan>) -> Outcome<Plan> {
-        let mut large: Vec<(Plan, Need)> = Vec::new();
+    fn found(&self, modes: Vec<Mode>, make: Make) -> Outcome<Plan> {
+        let mut large: Vec<Large> = Vec::new();
         let mut tried = None;
         let mut size = None;
         for (k, mode) in modes.iter().copied().enumerate() {
@@ -76,53 +125,84 @@ impl Search<'_> {
             if k > 0 && !is_last && self.fuel.spent() {
                 continue;
             }
-            let plan = plan(mode, self.allowance(1))?;
-            size = Some(plan.graph.image.on_screen());
-            self.fuel.burn(plan.work());
-            if tried.is_none() && crops(&plan) {
-                if let Some(fits) = self.outlined(&mut large)? {
+            if tried.is_none() && !whole(&mode) {
+                if let Some(fits) = self.outlined(&mut large, make)? {
                     return Ok(fits);
                 }
                 tried = Some(large.len());
             }
-            if let Some(fits) = self.quickest(&plan)? {
-                return self.with_copies(fits);
+            let plain = large.iter().map(|large| &large.plain);
+            if let Some(plain) = beyond_in(mode, plain, &large) {
+                large.push(Large {
+                    mode,
+                    plan: None,
+                    plain,
+                    outlined: None,
+                });
+                continue;
             }
-            // None of these fits as it is.
-            let last = plan.thrifts().saturating_sub(1);
-            let mut found =
-                self.as_is_or_tight(self.again(&plan, |p| p.thriftier(last)).unwrap_or(plan))?;
-            // Rather slower than with fewer inks.
-            while let Fitted::TooLarge(plan, _) = &found
-                && let Some(smaller) = self.again(plan, Plan::smaller)
-            {
-                found = self.as_is_or_tight(smaller)?;
+            let plan = make(mode, self.allowance(1))?;
+            if size.is_none() {
+                size = Some(plan.graph.image.on_screen());
+                tried = crops(&plan).then_some(0);
             }
-            match found {
+            self.fuel.burn(plan.work());
+            match self.fitted(plan)? {
                 Fitted::Fits(plan) => return Ok(*plan),
-                Fitted::TooLarge(plan, need) => large.push((*plan, need)),
+                Fitted::TooLarge(plan, need) => large.push(Large::new(*plan, need)),
             }
         }
-        if let Some(fits) = self.outlined(&mut large[tried.unwrap_or(0)..])? {
+        if let Some(fits) = self.outlined(
+            large.get_mut(tried.unwrap_or(0)..).unwrap_or_default(),
+            make,
+        )? {
             return Ok(fits);
         }
-        let mut said = String::new();
-        for (plan, least) in &large {
-            let mode = match plan.mode.name {
-                "" => String::new(),
-                name => format!("mode {name}: "),
-            };
-            said.push_str(&format!("\n  {mode}{}", least.text()));
-        }
-        let Some((plan, _)) = large.last() else {
-            return Err(Failure::Wrong("there is no mode to draw in".to_owned()));
+        Err(too_large(&large))
+    }
+
+    /// A mode's plan, or another of the scene, that fits without subroutines for what is done
+    /// at each pixel.
+    fn fitted(&self, plan: Plan) -> Outcome<Fitted> {
+        let quick = match self.with_calls_where_seldom(&plan)? {
+            Ok(fits) => return self.with_copies(fits).map(Fitted::from),
+            Err(need) => need,
         };
-        Err(Failure::Wrong(format!(
-            "{} does not fit {}:{said}\n{}",
-            plan.name,
-            plan.target.name,
-            help(plan)
-        )))
+        // What is written as the scene has it and short is about as small as it gets.
+        let stable = self.again(&plan, Plan::stable);
+        if let (Some(stable), Some(quick)) = (&stable, &quick)
+            && quick.exceeds(2)
+        {
+            let mut short = stable.clone();
+            (short.lean, short.tight) = (true, true);
+            if let Some(need) = about(&short, self.fuel)?
+                && need.exceeds(8)
+            {
+                return Ok(Fitted::TooLarge(Box::new(short), need.or_less(quick)));
+            }
+        }
+        let last = plan.thrifts().saturating_sub(1);
+        let least = self.again(&plan, |plan| plan.thriftier(last));
+        if let Some(least) = &least
+            && let Some(fits) = self.quickest(&plan, least)?
+        {
+            return self.with_copies(fits).map(Fitted::from);
+        }
+        let found = self.as_is_or_tight(least.unwrap_or(plan))?;
+        let found = match (found, stable) {
+            // Rather slower than with fewer inks.
+            (Fitted::TooLarge(_, fast), Some(stable)) => match self.as_is_or_tight(stable)? {
+                Fitted::TooLarge(plan, need) => Fitted::TooLarge(plan, need.or_less(&fast)),
+                fits => fits,
+            },
+            (found, _) => found,
+        };
+        Ok(match (found, quick) {
+            (Fitted::TooLarge(plan, need), Some(quick)) => {
+                Fitted::TooLarge(plan, need.or_less(&quick))
+            }
+            (found, _) => found,
+        })
     }
 
     /// How much fuel a search for a plan may have that is one of so many.
@@ -142,193 +222,68 @@ impl Search<'_> {
         Some(made)
     }
 
-    /// The first of the plans that fits with subroutines; where none does, what each
+    /// The first of the modes whose plan fits with subroutines; where none does, what each
     /// takes at least is noted.
-    fn outlined(&self, large: &mut [(Plan, Need)]) -> Outcome<Option<Plan>> {
-        for (plan, least) in large {
+    fn outlined(&self, large: &mut [Large], make: Make) -> Outcome<Option<Plan>> {
+        for k in 0..large.len() {
+            let seen = large.iter().filter_map(|large| large.outlined.as_ref());
+            let beyond = large.get(k).and_then(|of| beyond_in(of.mode, seen, large));
+            let Some(of) = large.get_mut(k) else {
+                break;
+            };
+            let plan = match (of.plan.take(), beyond) {
+                (Some(plan), _) => plan,
+                (None, Some(beyond)) => {
+                    of.outlined = Some(beyond);
+                    continue;
+                }
+                // Only its formulas as the scene has them are wanted.
+                (None, None) => {
+                    let plan = make(of.mode, 1)?;
+                    self.again(&plan, Plan::stable).unwrap_or(plan)
+                }
+            };
             // A fault of the plan with subroutines would be one of the plan without.
-            let Ok(outlined) = plan.outlined(self.name) else {
+            let outlined = plan.outlined(self.name);
+            of.plan = Some(plan);
+            let Ok(outlined) = outlined else {
                 continue;
             };
             match self.as_is_or_tight(outlined)? {
                 Fitted::Fits(plan) => return Ok(Some(*plan)),
-                Fitted::TooLarge(_, need) if need.total() < least.total() => *least = need,
-                Fitted::TooLarge(..) => {}
+                Fitted::TooLarge(_, need) => of.outlined = Some(need),
             }
         }
         Ok(None)
     }
+}
 
-    /// The plan, or the quickest of those that spend less memory on speed that fits as
-    /// it is, or with subroutines for what is done seldom: what is written short is slower.
-    /// A step that spends less need not be slower: what it leaves out may make room for
-    /// more. So where one of them fits, all are looked at that may be quicker.
-    fn quickest(&self, plan: &Plan) -> Outcome<Option<Plan>> {
-        if let Some(fits) = self.with_calls_where_seldom(plan)? {
-            return Ok(Some(fits));
-        }
-        let last = plan.thrifts().saturating_sub(1);
-        let Some(least) = self.again(plan, |plan| plan.thriftier(last)) else {
-            return Ok(None);
+/// By how much a scene's programs are too large in each mode, and what would help.
+fn too_large(large: &[Large]) -> Failure {
+    let Some(plan) = large.iter().rev().find_map(|large| large.plan.as_ref()) else {
+        return Failure::Wrong("there is no mode to draw in".to_owned());
+    };
+    let mut said = String::new();
+    for large in large {
+        let mode = match large.mode.name {
+            "" => String::new(),
+            name => format!("mode {name}: "),
         };
-        let Some(mut found) = self.with_calls_where_seldom(&least)? else {
-            return Ok(None);
-        };
-        let mut plans: Vec<(f64, Plan)> = (self.thriftier_plans(plan, last))
-            .into_iter()
-            .map(|plan| (plan.cycles_a_pixel(), plan))
-            .collect();
-        plans.sort_by(|(a, _), (b, _)| a.total_cmp(b));
-        plans.dedup_by(|(_, a), (_, b)| a.graph == b.graph);
-        let most = least.cycles_a_pixel();
-        for (cycles, plan) in plans {
-            if cycles >= most || self.fuel.spent() {
-                break;
-            }
-            if let Some(fits) = self.with_calls_where_seldom(&plan)? {
-                found = fits;
-                break;
-            }
-        }
-        Ok(Some(found))
+        let about = if large.plan.is_none() { "about " } else { "" };
+        said.push_str(&format!("\n  {mode}{about}{}", large.least().text()));
     }
-
-    /// What the plan is by the steps before the last that spend less memory, in their order:
-    /// by as many of them as there is fuel for. Which steps say nothing new is known once the
-    /// others are planned.
-    fn thriftier_plans(&self, plan: &Plan, last: usize) -> Vec<Plan> {
-        let each = plan.work().max(1);
-        let count = ((LADDER / each) as usize).min(last.saturating_sub(1));
-        let (every, mut from) = (last.saturating_sub(1).div_ceil(count.max(1)), plan.clone());
-        from.allow(SEARCH.min(LADDER / count.max(1) as u64));
-        let steps = (1..last).step_by(every.max(1)).take(count);
-        let (later, sooner): (Vec<usize>, Vec<usize>) = steps.partition(|&step| plan.repeats(step));
-        let planned = |steps: Vec<usize>| -> Vec<(usize, Plan)> {
-            let plans = steps.into_par_iter();
-            plans
-                .filter_map(|step| Some((step, from.thriftier(step)?)))
-                .collect()
-        };
-        let mut all = planned(sooner);
-        all.extend(planned(later));
-        all.sort_by_key(|(step, _)| *step);
-        if count < last.saturating_sub(1) {
-            self.fuel.note_cut();
-        }
-        all.into_iter().map(|(_, plan)| plan).collect()
-    }
-
-    /// The plan, with as much of what stands behind several ways written on each of them as
-    /// fits; rather tests than remarks. For the 6502 that is what pixels call, written in place:
-    /// where the program leaves a disc system its memory, no more than that leaves.
-    fn with_copies(&self, plan: Plan) -> Outcome<Plan> {
-        if self.fuel.spent() {
-            return Ok(plan);
-        }
-        let page = with_disc(plan.clone())?.page;
-        let ways = [
-            (Copies::Ends, plan.brief),
-            (Copies::Tests, plan.brief),
-            (Copies::Tests, true),
-        ];
-        let count = if is_basic(&plan) { 3 } else { 2 };
-        for (copies, brief) in ways.into_iter().take(count) {
-            let mut tried = plan.clone();
-            (tried.copies, tried.brief, tried.page) = (copies, brief, page);
-            if self.holds(&tried)? {
-                tried.page = plan.page;
-                return Ok(tried);
-            }
-        }
-        Ok(plan)
-    }
-
-    /// A plan that fits as it is, or else with subroutines for what is done seldom; each
-    /// without remarks where they are too much.
-    fn with_calls_where_seldom(&self, plan: &Plan) -> Outcome<Option<Plan>> {
-        let calls = |runs| plan.outlined_where_seldom(runs, self.name);
-        let ways: [&dyn Fn() -> Option<Plan>; 3] =
-            [&|| Some(plan.clone()), &|| calls(false), &|| calls(true)];
-        for way in ways {
-            if self.fuel.spent() {
-                break;
-            }
-            let Some(mut tried) = way() else {
-                continue;
-            };
-            for (brief, scant) in remarks(plan) {
-                (tried.brief, tried.scant) = (*brief, *scant);
-                match about(&tried, self.fuel)? {
-                    Some(need) if !need.is_near() => break,
-                    Some(need) if !need.fits() => {}
-                    _ => return Ok(Some(tried)),
-                }
-            }
-        }
-        Ok(None)
-    }
-
-    /// Whether the machine holds a plan's program.
-    fn holds(&self, plan: &Plan) -> Outcome<bool> {
-        Ok(about(plan, self.fuel)?.is_none_or(|need| need.fits()))
-    }
-
-    fn as_is_or_tight(&self, mut plan: Plan) -> Outcome<Fitted> {
-        let mut least: Option<Need> = None;
-        let styles = [(false, false), (true, false), (true, true)];
-        // What is to be read stays so, rather slower, while it can be smaller.
-        let count = if plan.listing && plan.may_be_smaller() {
-            1
-        } else {
-            3
-        };
-        for (lean, tight) in styles.into_iter().take(count) {
-            // Only Jack and BASIC have a leaner style: machine code is the same in it.
-            if lean && !tight && plan.target.name.starts_with("6502") {
-                continue;
-            }
-            // The last is the smallest.
-            if count == 3 && !tight && self.fuel.spent() {
-                continue;
-            }
-            (plan.lean, plan.tight) = (lean, tight);
-            let near = match about(&plan, self.fuel)? {
-                Some(need) if !need.fits() => {
-                    let near = need.is_near();
-                    if least.as_ref().is_none_or(|l| need.total() < l.total()) {
-                        least = Some(need);
-                    }
-                    near
-                }
-                _ => return Ok(Fitted::Fits(Box::new(plan))),
-            };
-            // Steps take a few bytes; to write it short costs more than they save.
-            let unstepped = |plan: &Plan| self.again(plan, Plan::unstepped);
-            let mut less = (near && !lean).then(|| unstepped(&plan)).flatten();
-            while let Some(plain) = less {
-                if self.holds(&plain)? {
-                    return Ok(Fitted::Fits(Box::new(plain)));
-                }
-                less = unstepped(&plain);
-            }
-        }
-        Ok(match least {
-            Some(need) => Fitted::TooLarge(Box::new(plan), need),
-            None => Fitted::Fits(Box::new(plan)),
-        })
-    }
+    Failure::Wrong(format!(
+        "{} does not fit {}:{said}\n{}",
+        plan.name,
+        plan.target.name,
+        help(plan)
+    ))
 }
 
 /// Whether the screen shows a part of the picture only.
 fn crops(plan: &Plan) -> bool {
     let (width, height) = plan.graph.image.on_screen();
     plan.mode.width < width || plan.mode.height < height
-}
-
-/// A plan that fits, or how large its smallest program is.
-enum Fitted {
-    Fits(Box<Plan>),
-    TooLarge(Box<Plan>, Need),
 }
 
 /// Ways to write a program: with fewer remarks, and short where that takes longer. Only

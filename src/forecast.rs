@@ -3,7 +3,9 @@
 //! A program for fewer rows is the same program with other bounds. Two rows, each by itself
 //! and both together, tell what a program does before its first row: by itself each does it
 //! once more. What is left is the rows' own, and rows spread evenly over the picture stand
-//! for the others. Where all rows together are no work, all are run.
+//! for the others. Where all rows together are no work, all are run. Where a single row is much
+//! work, few are run, at the same time, and what comes before them is what that is said to
+//! take ([`estimate::before`]): it hardly counts.
 //!
 //! Where errors go from row to row, a row wants all those above it. There as many rows from
 //! the top are run as are no work, and the routines' mean costs ([`crate::estimate`]) say
@@ -16,14 +18,15 @@ use crate::machine::{Machine, complaint};
 use crate::progress::Progress;
 use crate::target_args;
 use crate::trial::{self, HACK_HERTZ};
+use rayon::prelude::*;
 use slowlight_compiler::plan::Plan;
 use slowlight_compiler::target::Document;
 use slowlight_compiler::target::mos6502::for_rows;
 use slowlight_vm::Stop;
 
-/// Cycles after which no more rows are looked at, and after which a run is given up: half a
-/// second and some seconds of the host's time.
-const ENOUGH: f64 = 4e8;
+/// Cycles after which no more rows are looked at, and after which a run is given up: less than
+/// half a second and some seconds of the host's time.
+const ENOUGH: f64 = 1e8;
 const MOST: u64 = 2_000_000_000;
 
 /// So many rows are looked at, however long they take.
@@ -116,6 +119,12 @@ impl Look<'_> {
 
     /// Cycles of the program for some rows.
     fn took(&mut self, rows: (u32, u32)) -> Outcome<f64> {
+        let cycles = self.run(rows)?;
+        self.spent += cycles;
+        Ok(cycles)
+    }
+
+    fn run(&self, rows: (u32, u32)) -> Outcome<f64> {
         let documents = match &self.whole {
             Some(whole) => whole.iter().map(|d| for_rows(d, rows)).collect(),
             None => {
@@ -134,24 +143,35 @@ impl Look<'_> {
             _ => complaint(&run, MOST),
         };
         self.progress.step(1);
-        self.spent += run.cycles as f64;
         match wrong {
             Some(wrong) => Err(Failure::Wrong(wrong)),
             None => Ok(run.cycles as f64),
         }
     }
 
+    fn height(&self) -> u32 {
+        let (first, last) = self.plan.rows;
+        last - first + 1
+    }
+
+    /// A row by its place in sixteenths of the picture's height.
+    fn at(&self, place: u32) -> u32 {
+        let height = self.height();
+        self.plan.rows.0 + ((2 * place + 1) * height / 32).min(height - 1)
+    }
+
     /// Cycles of the whole, by rows spread over it.
     fn spread(&mut self) -> Outcome<f64> {
-        let (first, last) = self.plan.rows;
-        let height = last - first + 1;
-        let at = |place: u32| first + ((2 * place + 1) * height / 32).min(height - 1);
-        let middle = at(PLACES[0]);
+        let middle = self.at(PLACES[0]);
         let one = self.took((middle, middle))?;
+        if one * f64::from(FEW) > ENOUGH {
+            return self.spread_few(one);
+        }
         let both = self.took((middle, middle + 1))?;
         let other = self.took((middle + 1, middle + 1))?;
         let before = (one + other - both).clamp(0.0, one.min(other));
-        let whole = |sum: f64, rows: u32| before + sum / f64::from(rows) * f64::from(height);
+        let height = f64::from(self.height());
+        let whole = |sum: f64, rows: u32| before + sum / f64::from(rows) * height;
         let mut sum = one - before;
         self.rows = 1;
         for place in &PLACES[1..] {
@@ -159,11 +179,27 @@ impl Look<'_> {
             if !long || self.spent > ENOUGH && self.rows >= FEW {
                 break;
             }
-            let row = at(*place);
+            let row = self.at(*place);
             sum += self.took((row, row))? - before;
             self.rows += 1;
         }
         Ok(whole(sum, self.rows))
+    }
+
+    /// The same where one row, which took so long, is as much work as others should be
+    /// together.
+    fn spread_few(&mut self, one: f64) -> Outcome<f64> {
+        let rows = PLACES[1..FEW as usize]
+            .par_iter()
+            .map(|place| self.at(*place));
+        let others: Vec<f64> = rows
+            .map(|row| self.run((row, row)))
+            .collect::<Outcome<_>>()?;
+        let before = estimate::before(self.plan);
+        let own = |took: f64| (took - before).max(0.0);
+        let sum = own(one) + others.into_iter().map(own).sum::<f64>();
+        self.rows = FEW;
+        Ok(before + sum / f64::from(FEW) * f64::from(self.height()))
     }
 
     /// Cycles of the whole, by its first rows.

@@ -58,20 +58,12 @@ impl Plan {
         matches!(self.origin.1, Rewriting::Fast { .. })
     }
 
-    /// A plan of the same scene that spends less memory on speed. None where
-    /// this one spends none.
-    pub fn smaller(&self) -> Option<Plan> {
-        let less = match self.origin.1 {
-            Rewriting::Fast { thrift, .. } => match thrift.more() {
-                Some(thrift) => Rewriting::Fast {
-                    thrift,
-                    steps: Steps::All,
-                },
-                None => Rewriting::Stable,
-            },
-            _ => return None,
-        };
-        self.again(&self.origin.0, less)
+    /// A plan of the same scene with its formulas as the scene has them, but for what makes them
+    /// stable: the simplest and about the smallest. None where this one has them so.
+    pub fn stable(&self) -> Option<Plan> {
+        let fast = matches!(self.origin.1, Rewriting::Fast { .. });
+        fast.then(|| self.again(&self.origin.0, Rewriting::Stable))
+            .flatten()
     }
 
     /// In how many steps plans may spend less and less memory on speed; 1 where

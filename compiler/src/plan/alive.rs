@@ -20,7 +20,7 @@ use std::collections::HashMap;
 /// How many conditions are looked at both ways, at most: each only sets more apart. Of a large
 /// program as many as so many pairs of a step and a place allow.
 const CASES: usize = 24;
-const PAIRS: usize = 2_000_000_000;
+const PAIRS: usize = 300_000_000;
 
 /// One statement, or a part of one.
 #[derive(Default)]

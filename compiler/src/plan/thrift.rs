@@ -106,11 +106,6 @@ impl Thrift {
         (step < THRIFT.len()).then_some(Thrift(step))
     }
 
-    /// The next that spends less memory, if there is one.
-    pub fn more(self) -> Option<Thrift> {
-        (self.0 + 1 < THRIFT.len()).then_some(Thrift(self.0 + 1))
-    }
-
     /// What part of the plan's cycles a statement more must save.
     pub fn part(self) -> f64 {
         THRIFT[self.0].part

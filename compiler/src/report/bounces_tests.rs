@@ -36,11 +36,8 @@ fn planned(target: &str, source: &str) -> Plan {
         plot: true,
     };
     // The loop as the scene has it, its first turn not apart.
-    let mut plan = plan(&graph, target, &goal).unwrap();
-    while let Some(smaller) = plan.smaller() {
-        plan = smaller;
-    }
-    plan
+    let plan = plan(&graph, target, &goal).unwrap();
+    plan.stable().unwrap()
 }
 
 /// The mirrors' loop: the one that is seen to take most turns.

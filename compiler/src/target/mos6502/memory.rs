@@ -130,23 +130,29 @@ impl Machine {
         }
     }
 
+    /// Where it has memory for a plan's program and values, from an address and to another.
+    pub fn free(self, plan: &Plan) -> (u16, u16) {
+        match self {
+            Machine::Plain => (0, 0xFF00),
+            Machine::Bbc => {
+                let screen = Layout::of(plan).map_or(0x7C00, |layout| layout.start);
+                (plan.page.unwrap_or(LEAST_PAGE), screen)
+            }
+            Machine::C64 => (C64_ORIGIN, C64_END),
+        }
+    }
+
     /// What a program with these places may take.
     pub fn room(self, plan: &Plan, places: &Places) -> Room {
-        let (from, end, values) = match self {
-            Machine::Plain => (0, 0xFF00, u64::from(places.origin)),
-            Machine::Bbc => {
-                let page = places.values;
-                let screen = Layout::of(plan).map_or(0x7C00, |layout| layout.start);
-                (page, screen, u64::from(places.origin.saturating_sub(page)))
-            }
-            Machine::C64 => {
-                let values = u64::from(C64_END.saturating_sub(places.values));
-                (C64_ORIGIN, C64_END, values)
-            }
+        let (from, end) = self.free(plan);
+        let values = match self {
+            Machine::Plain => places.origin,
+            Machine::Bbc => places.origin.saturating_sub(places.values),
+            Machine::C64 => C64_END.saturating_sub(places.values),
         };
         Room {
             bytes: u64::from(end - from),
-            values,
+            values: u64::from(values),
         }
     }
 
@@ -186,6 +192,12 @@ impl Machine {
         });
         placed.collect::<Vec<_>>().join("\n")
     }
+}
+
+/// What a plan's machine has for its program and values, in bytes.
+pub fn bytes_of_room(plan: &Plan) -> u64 {
+    let (from, end) = Machine::of(plan).free(plan);
+    u64::from(end.saturating_sub(from))
 }
 
 /// Bytes of a plan's rows of errors.

@@ -71,7 +71,7 @@ use crate::plan::Plan;
 use crate::source::Span;
 pub use draft::Draft;
 use memory::Machine;
-pub use memory::{DISC_PAGE, Room};
+pub use memory::{DISC_PAGE, Room, bytes_of_room};
 use slowlight_runtime_6502::FIXED16_16;
 use slowlight_runtime_6502::log::{LOG10, LOG10_IN_RUNS};
 use slowlight_runtime_6502::scaled::{FIXED12, FIXED12_IN_RUNS, FIXED16, FIXED16_IN_RUNS};

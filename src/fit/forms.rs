@@ -1,0 +1,186 @@
+//! Ways to write a plan of one mode so that its program fits: with less memory spent on speed,
+//! with calls of what is done seldom, without remarks, short.
+
+use super::{LADDER, Search, is_basic, remarks, with_disc};
+use crate::failure::Outcome;
+use crate::need::{Need, about};
+use rayon::prelude::*;
+use slowlight_compiler::plan::{Copies, Plan, SEARCH};
+
+/// A plan that fits, or how large its smallest program is.
+pub(super) enum Fitted {
+    Fits(Box<Plan>),
+    TooLarge(Box<Plan>, Need),
+}
+
+impl From<Plan> for Fitted {
+    fn from(plan: Plan) -> Fitted {
+        Fitted::Fits(Box::new(plan))
+    }
+}
+
+impl Search<'_> {
+    /// The quickest of the plans that spend less memory on speed that fits as it is, or with
+    /// subroutines for what is done seldom: what is written short is slower. `least` spends
+    /// hardly any. A step that spends less need not be slower: what it leaves out may make room
+    /// for more. So where one of them fits, all are looked at that may be quicker.
+    pub(super) fn quickest(&self, plan: &Plan, least: &Plan) -> Outcome<Option<Plan>> {
+        let last = plan.thrifts().saturating_sub(1);
+        let Ok(mut found) = self.with_calls_where_seldom(least)? else {
+            return Ok(None);
+        };
+        let mut plans: Vec<(f64, Plan)> = (self.thriftier_plans(plan, last))
+            .into_iter()
+            .map(|plan| (plan.cycles_a_pixel(), plan))
+            .collect();
+        plans.sort_by(|(a, _), (b, _)| a.total_cmp(b));
+        plans.dedup_by(|(_, a), (_, b)| a.graph == b.graph);
+        let most = least.cycles_a_pixel();
+        for (cycles, plan) in plans {
+            if cycles >= most || self.fuel.spent() {
+                break;
+            }
+            if let Ok(fits) = self.with_calls_where_seldom(&plan)? {
+                found = fits;
+                break;
+            }
+        }
+        Ok(Some(found))
+    }
+
+    /// What the plan is by the steps before the last that spend less memory, in their order:
+    /// by as many of them as there is fuel for. Which steps say nothing new is known once the
+    /// others are planned.
+    fn thriftier_plans(&self, plan: &Plan, last: usize) -> Vec<Plan> {
+        let each = plan.work().max(1);
+        let count = ((LADDER / each) as usize).min(last.saturating_sub(1));
+        let (every, mut from) = (last.saturating_sub(1).div_ceil(count.max(1)), plan.clone());
+        from.allow(SEARCH.min(LADDER / count.max(1) as u64));
+        let steps = (1..last).step_by(every.max(1)).take(count);
+        let (later, sooner): (Vec<usize>, Vec<usize>) = steps.partition(|&step| plan.repeats(step));
+        let planned = |steps: Vec<usize>| -> Vec<(usize, Plan)> {
+            let plans = steps.into_par_iter();
+            plans
+                .filter_map(|step| Some((step, from.thriftier(step)?)))
+                .collect()
+        };
+        let mut all = planned(sooner);
+        all.extend(planned(later));
+        all.sort_by_key(|(step, _)| *step);
+        if count < last.saturating_sub(1) {
+            self.fuel.note_cut();
+        }
+        all.into_iter().map(|(_, plan)| plan).collect()
+    }
+
+    /// The plan, with as much of what stands behind several ways written on each of them as
+    /// fits; rather tests than remarks. For the 6502 that is what pixels call, written in place:
+    /// where the program leaves a disc system its memory, no more than that leaves.
+    pub(super) fn with_copies(&self, plan: Plan) -> Outcome<Plan> {
+        if self.fuel.spent() {
+            return Ok(plan);
+        }
+        let page = with_disc(plan.clone())?.page;
+        let ways = [
+            (Copies::Ends, plan.brief),
+            (Copies::Tests, plan.brief),
+            (Copies::Tests, true),
+        ];
+        let count = if is_basic(&plan) { 3 } else { 2 };
+        for (copies, brief) in ways.into_iter().take(count) {
+            let mut tried = plan.clone();
+            (tried.copies, tried.brief, tried.page) = (copies, brief, page);
+            if self.holds(&tried)? {
+                tried.page = plan.page;
+                return Ok(tried);
+            }
+        }
+        Ok(plan)
+    }
+
+    /// A plan that fits as it is, or else with subroutines for what is done seldom; each
+    /// without remarks where they are too much. Where none fits, what the least takes, as far as
+    /// there was fuel to look.
+    pub(super) fn with_calls_where_seldom(
+        &self,
+        plan: &Plan,
+    ) -> Outcome<Result<Plan, Option<Need>>> {
+        let calls = |runs| plan.outlined_where_seldom(runs, self.name);
+        let ways: [&dyn Fn() -> Option<Plan>; 3] =
+            [&|| Some(plan.clone()), &|| calls(false), &|| calls(true)];
+        let mut least: Option<Need> = None;
+        for way in ways {
+            if self.fuel.spent() {
+                break;
+            }
+            let Some(mut tried) = way() else {
+                continue;
+            };
+            for (brief, scant) in remarks(plan) {
+                (tried.brief, tried.scant) = (*brief, *scant);
+                let need = match about(&tried, self.fuel)? {
+                    Some(need) if !need.fits() => need,
+                    _ => return Ok(Ok(tried)),
+                };
+                let near = need.is_near();
+                if least.as_ref().is_none_or(|l| need.total() < l.total()) {
+                    least = Some(need);
+                }
+                if !near {
+                    break;
+                }
+            }
+        }
+        Ok(Err(least))
+    }
+
+    /// Whether the machine holds a plan's program.
+    fn holds(&self, plan: &Plan) -> Outcome<bool> {
+        Ok(about(plan, self.fuel)?.is_none_or(|need| need.fits()))
+    }
+
+    pub(super) fn as_is_or_tight(&self, mut plan: Plan) -> Outcome<Fitted> {
+        let mut least: Option<Need> = None;
+        let styles = [(false, false), (true, false), (true, true)];
+        // What is to be read stays so, rather slower, while it can be smaller.
+        let count = if plan.listing && plan.may_be_smaller() {
+            1
+        } else {
+            3
+        };
+        for (lean, tight) in styles.into_iter().take(count) {
+            // Only Jack and BASIC have a leaner style: machine code is the same in it.
+            if lean && !tight && plan.target.name.starts_with("6502") {
+                continue;
+            }
+            // The last is the smallest.
+            if count == 3 && !tight && self.fuel.spent() {
+                continue;
+            }
+            (plan.lean, plan.tight) = (lean, tight);
+            let near = match about(&plan, self.fuel)? {
+                Some(need) if !need.fits() => {
+                    let near = need.is_near();
+                    if least.as_ref().is_none_or(|l| need.total() < l.total()) {
+                        least = Some(need);
+                    }
+                    near
+                }
+                _ => return Ok(Fitted::Fits(Box::new(plan))),
+            };
+            // Steps take a few bytes; to write it short costs more than they save.
+            let unstepped = |plan: &Plan| self.again(plan, Plan::unstepped);
+            let mut less = (near && !lean).then(|| unstepped(&plan)).flatten();
+            while let Some(plain) = less {
+                if self.holds(&plain)? {
+                    return Ok(Fitted::Fits(Box::new(plain)));
+                }
+                less = unstepped(&plain);
+            }
+        }
+        Ok(match least {
+            Some(need) => Fitted::TooLarge(Box::new(plan), need),
+            None => Fitted::Fits(Box::new(plan)),
+        })
+    }
+}
