@@ -12,6 +12,9 @@
 //! The whole picture is looked at, whatever rows are asked for: a format is chosen for a scene.
 //! Where its pixels take more work than is worth it, nothing is known, and the machine's first
 //! format is taken.
+//!
+//! Formats of few bits are looked at first. Where the quickest of those is within the goal, and
+//! no slower than fixed point in 16 bits, the wider ones are not: they take longer.
 
 use crate::estimate::{self, Sampled};
 use crate::failure::{Failure, Outcome};
@@ -25,6 +28,7 @@ use slowlight_compiler::eval::native::Native;
 use slowlight_compiler::passes::coarse::coarse;
 use slowlight_compiler::plan::Plan;
 use slowlight_compiler::target::{Target, formats};
+use slowlight_routine::Format;
 
 /// Rows and columns of a candidate's sample and of its final plan's, and how many statements the
 /// model may run for each.
@@ -40,6 +44,9 @@ const ENOUGH: usize = 8;
 /// How much further than the goal a candidate may go: its final plan may be better, and the
 /// sample is small.
 const DOUBT: f64 = 1.5;
+
+/// Where no more of the pixels are wrong, they are made in the same way.
+const ALIKE: f64 = 0.1;
 
 /// How many formats are planned in earnest; the last is the one with fewest pixels wrong.
 const TRIES: usize = 3;
@@ -57,10 +64,6 @@ impl Chosen {
     pub fn said(self) -> Plan {
         if let Some(why) = self.why {
             let percent = |share: f64| format!("{}%", (share * 1000.0).round() / 10.0);
-            let quick = match why.gain > 1.05 {
-                true => format!(", about {:.1} times as quick as the usual one", why.gain),
-                false => String::new(),
-            };
             let (wrong, goal) = (percent(why.expected), percent(why.goal));
             let kept = match why.expected <= why.goal {
                 true => format!("about {wrong} of the pixels are wrong, of the {goal} that may be"),
@@ -70,7 +73,7 @@ impl Chosen {
                 ),
             };
             eprintln!(
-                "note: format {}{quick}: {kept} (--error, --goal; --format for another)",
+                "note: format {}: {kept} (--error, --goal; --format for another)",
                 self.plan.runtime.format,
             );
         }
@@ -85,8 +88,6 @@ pub struct Why {
     pub goal: f64,
     /// The share that is expected to be, by a sample of the plan's own.
     pub expected: f64,
-    /// How many times as long the machine's first format takes; 1 where nothing is known of it.
-    pub gain: f64,
 }
 
 /// A format as its plan without a search has it.
@@ -124,14 +125,37 @@ fn quickest(
     target: &'static Target,
 ) -> Outcome<Option<Chosen>> {
     let goal = screen.error_goal();
-    let candidates = candidates(screen, scene, target, goal);
-    let own = |of: &&Candidate| of.target.runtime.format == target.runtime.format;
-    let own = candidates.iter().find(own).map(|own| own.cycles);
-    let (first, rest) = candidates.split_at(candidates.len().min(TRIES - 1));
-    let surest = rest.iter().min_by(|a, b| a.wrong.total_cmp(&b.wrong));
+    // Where values have two widths, which of them are narrow is found by a search of its own,
+    // that takes longer than it gains.
+    let one_width = |t: &&Target| t.runtime.narrow.is_none();
+    let all = formats(target).filter(one_width);
+    let (short, mut long): (Vec<&'static Target>, Vec<_>) =
+        all.partition(|t| is_short(t.runtime.real));
+    let mut candidates = candidates(screen, scene, &short, goal);
     let mut best: Option<(Chosen, f64)> = None;
-    let mut too_large = 0;
-    for candidate in first.iter().chain(surest) {
+    let (mut tries, mut too_large) = (0, 0);
+    while tries < TRIES {
+        let found = candidates.iter().find(|one| one.wrong <= DOUBT * goal);
+        let enough = |one: &Candidate| tries == 0 && one.cycles <= least_of_wider(&candidates);
+        if !long.is_empty() && !found.is_some_and(enough) {
+            let more = self::candidates(screen, scene, &std::mem::take(&mut long), goal);
+            candidates.extend(more);
+            sort(&mut candidates, goal);
+        }
+        let next = match tries + 1 < TRIES {
+            true => 0,
+            false => {
+                let wrong = |one: &Candidate| one.wrong;
+                let all = candidates.iter().map(wrong).enumerate();
+                let surest = all.min_by(|(_, a), (_, b)| a.total_cmp(b));
+                surest.map_or(0, |(k, _)| k)
+            }
+        };
+        if next >= candidates.len() {
+            break;
+        }
+        let candidate = candidates.remove(next);
+        tries += 1;
         let format = screen.in_format_of(candidate.target);
         let plan = match format.plan(scene, target, &[]) {
             // To find that out takes longest.
@@ -147,12 +171,7 @@ fn quickest(
             continue;
         };
         if best.as_ref().is_none_or(|(_, least)| expected < *least) {
-            let gain = own.map_or(1.0, |own| own / candidate.cycles.max(1.0));
-            let why = Some(Why {
-                goal,
-                expected,
-                gain,
-            });
+            let why = Some(Why { goal, expected });
             best = Some((Chosen { plan, why }, expected));
         }
         if expected <= goal {
@@ -162,20 +181,29 @@ fn quickest(
     Ok(best.map(|(chosen, _)| chosen))
 }
 
-/// The formats that a scene compiles for, in which its program is not by far too large, and of
-/// which something is known: those that may be within the goal, the quickest first, then the
-/// others, those with fewest pixels wrong first.
+/// Whether a format is of those that are looked at first.
+fn is_short(format: Format) -> bool {
+    matches!(format, Format::Log { .. }) || (1..=16).contains(&format.bits())
+}
+
+/// The least that wider formats take: what those of 16 bits with a fixed point do, as each
+/// operation takes longer in more bits; 0 where their pictures are so wrong that they may be
+/// made by other turns of loops.
+fn least_of_wider(candidates: &[Candidate]) -> f64 {
+    let alike = |one: &&Candidate| one.target.runtime.real.is_fixed() && one.wrong <= ALIKE;
+    let alike = candidates.iter().filter(alike);
+    alike.map(|one| one.cycles).reduce(f64::min).unwrap_or(0.0)
+}
+
+/// Of these formats those that a scene compiles for, in which its program is not by far too
+/// large, and of which something is known: sorted.
 fn candidates(
     screen: &ScreenArgs,
     scene: &Scene,
-    target: &'static Target,
+    formats: &[&'static Target],
     goal: f64,
 ) -> Vec<Candidate> {
     let (_waiting, _blind) = (Waiting::new("formats"), interrupt::blind());
-    // Where values have two widths, which of them are narrow is found by a search of its own,
-    // that takes longer than it gains.
-    let one_width = |t: &&Target| t.runtime.narrow.is_none();
-    let all: Vec<&'static Target> = formats(target).filter(one_width).collect();
     let sampled = |&target: &&'static Target| {
         let plan = screen.unsearched(scene, target).ok()?;
         let near = need::first(&plan).ok()?.is_none_or(|need| need.is_near());
@@ -184,7 +212,7 @@ fn candidates(
             (plan, seen)
         })
     };
-    let all: Vec<(Plan, Sampled)> = all.par_iter().filter_map(sampled).collect();
+    let all: Vec<(Plan, Sampled)> = formats.par_iter().filter_map(sampled).collect();
     // All look at the same pixels, as far as they come.
     let longest = all.iter().max_by_key(|(_, seen)| seen.inks.len());
     let native = longest.map_or(Vec::new(), |(plan, seen)| native(scene, plan, seen));
@@ -197,13 +225,19 @@ fn candidates(
         })
     };
     let mut all: Vec<Candidate> = all.iter().filter_map(candidate).collect();
+    sort(&mut all, goal);
+    all
+}
+
+/// Those that may be within the goal come first, the quickest before the others; then those with
+/// fewest pixels wrong.
+fn sort(all: &mut [Candidate], goal: f64) {
     let may = |one: &Candidate| one.wrong <= DOUBT * goal;
     all.sort_by(|a, b| match (may(a), may(b)) {
         (true, true) => a.cycles.total_cmp(&b.cycles),
         (false, false) => a.wrong.total_cmp(&b.wrong),
         (a, b) => b.cmp(&a),
     });
-    all
 }
 
 /// The share of a plan's pixels in some rows whose inks are not the native ones, by a sample.
