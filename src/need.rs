@@ -384,7 +384,6 @@ mod tests {
             largest: None,
             system: false,
             of: Measured::Whole,
-            of: Measured::Whole,
         };
         assert!(!need.fits());
         assert_eq!(

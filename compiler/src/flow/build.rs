@@ -397,6 +397,7 @@ impl Builder {
             reports: self.reports,
             claims: self.claims,
             early: self.early,
+            invariant: Default::default(),
         }
     }
 }

@@ -378,7 +378,28 @@ impl Placer<'_> {
         match self.regions.get(region).kind {
             // Every turn of the loop would compute it.
             RegionKind::Body(l) if !depends(Dependence::Loop(l)) => self.regions.get(region).parent,
-            _ => None,
+            _ => self.before_loop(id, region),
         }
+    }
+
+    /// The region around the innermost loop that a value is to be computed before.
+    fn before_loop(&self, id: NodeId, region: RegionId) -> Option<RegionId> {
+        let first = (id, LoopId(0));
+        self.graph
+            .invariant
+            .range(first..)
+            .next()
+            .filter(|(of, _)| *of == id)?;
+        let mut at = region;
+        while at != PIXEL {
+            let found = self.regions.get(at);
+            if let RegionKind::Body(l) = found.kind
+                && self.graph.invariant.contains(&(id, l))
+            {
+                return found.parent;
+            }
+            at = found.parent?;
+        }
+        None
     }
 }

@@ -19,6 +19,7 @@ pub mod in_place;
 pub mod int_roots;
 pub mod int_signs;
 pub mod interlace;
+pub mod invariant;
 pub mod later;
 pub mod limits;
 mod moves;

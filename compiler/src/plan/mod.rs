@@ -46,6 +46,9 @@
 
 mod again;
 mod alive;
+mod before_loops;
+#[cfg(test)]
+mod before_loops_tests;
 mod beside;
 mod cheaper;
 mod choose;

@@ -31,6 +31,10 @@ const ROWS: u32 = 12;
 const COLUMNS: u32 = 13;
 const PATIENCE: u64 = 40_000;
 
+/// Of these pixels one in so many is looked at where more statements may run for each.
+const FEW: usize = 11;
+const LONG: u64 = 2_000_000;
+
 /// A way is seldom taken if not every such choice takes it.
 const SELDOM: u32 = 4;
 
@@ -87,8 +91,9 @@ pub struct Price {
     memory: f64,
     /// How much a statement around pixels counts beside theirs.
     around: f64,
-    /// The pixels that are looked at, row by row.
+    /// The pixels that are looked at, row by row, and how many statements may run there.
     pixels: Vec<(i32, i32)>,
+    patience: u64,
     /// Whether whole polynomials in the column are reckoned to be stepped.
     foresees: bool,
 }
@@ -96,15 +101,30 @@ pub struct Price {
 impl Price {
     /// Prices for plans of the scene of a first one.
     pub fn new(plain: &Settled, runtime: &'static Runtime, thrift: Thrift) -> Price {
+        Price::within(plain, runtime, thrift, (1, PATIENCE))
+    }
+
+    /// The same by fewer pixels that may take longer.
+    pub fn by_few(plain: &Settled, runtime: &'static Runtime, thrift: Thrift) -> Price {
+        Price::within(plain, runtime, thrift, (FEW, LONG))
+    }
+
+    fn within(
+        plain: &Settled,
+        runtime: &'static Runtime,
+        thrift: Thrift,
+        (of, patience): (usize, u64),
+    ) -> Price {
         let mut price = Price {
             runtime,
             memory: thrift.part(),
             around: thrift.around(),
             pixels: Vec::new(),
+            patience,
             foresees: false,
         };
         if plain.graph.diffusion.is_none() {
-            let all = spread(&plain.graph.image);
+            let all: Vec<(i32, i32)> = spread(&plain.graph.image).into_iter().step_by(of).collect();
             let meter = Meter::new(&plain.graph, |_: &Statement| 1.0);
             let run = price.run(plain, &all, &meter, None);
             if run.is_some() {
@@ -139,6 +159,22 @@ impl Price {
             &self.pixels,
             PATIENCE,
         ))
+    }
+
+    /// How often each statement of a plan ran at the pixels that are looked at; nothing where
+    /// none are.
+    pub(super) fn counts<'p>(
+        &self,
+        plan: &'p Settled,
+    ) -> Option<impl Fn(&Statement) -> u64 + use<'p>> {
+        let meter = Meter::new(&plan.graph, |_: &Statement| 0.0);
+        self.run(plan, &self.pixels, &meter, None)?;
+        (!self.pixels.is_empty()).then_some(move |statement: &Statement| meter.count(statement))
+    }
+
+    /// What a plan is priced at, by these pixels, whatever is known of it by others.
+    pub(super) fn anew(&self, plan: &Settled) -> f64 {
+        self.beside(plan, self.cycles(plan), 0.0)
     }
 
     /// About what a plan with so many cycles and values more than another is priced at, beside
@@ -286,7 +322,7 @@ impl Price {
         meter: &Meter<'_, impl Fn(&Statement) -> f64>,
         still: Option<(&Still, f64)>,
     ) -> Option<f64> {
-        let mut run = Run::within(&plan.graph, &plan.tree, meter, PATIENCE + 1);
+        let mut run = Run::within(&plan.graph, &plan.tree, meter, self.patience + 1);
         let mut row = None;
         let mut sum = 0.0;
         for &(x, y) in pixels {
@@ -305,7 +341,7 @@ impl Price {
                 Some((still, asked)) if still.conditions.iter().all(holds) => asked,
                 _ => meter.sum.get(),
             };
-            if meter.ran.get() > PATIENCE {
+            if meter.ran.get() > self.patience {
                 return None;
             }
         }
