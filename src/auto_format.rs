@@ -131,30 +131,30 @@ fn quickest(
     let all = formats(target).filter(one_width);
     let (short, mut long): (Vec<&'static Target>, Vec<_>) =
         all.partition(|t| is_short(t.runtime.real));
-    let mut candidates = candidates(screen, scene, &short, goal);
+    let mut known = candidates(screen, scene, &short, goal);
     let mut best: Option<(Chosen, f64)> = None;
     let (mut tries, mut too_large) = (0, 0);
     while tries < TRIES {
-        let found = candidates.iter().find(|one| one.wrong <= DOUBT * goal);
-        let enough = |one: &Candidate| tries == 0 && one.cycles <= least_of_wider(&candidates);
-        if !long.is_empty() && !found.is_some_and(enough) {
-            let more = self::candidates(screen, scene, &std::mem::take(&mut long), goal);
-            candidates.extend(more);
-            sort(&mut candidates, goal);
+        let enough = |one: &Candidate| {
+            tries == 0 && one.wrong <= DOUBT * goal && one.cycles <= least_of_wider(&known)
+        };
+        if !long.is_empty() && !known.first().is_some_and(enough) {
+            known.extend(candidates(screen, scene, &std::mem::take(&mut long), goal));
+            sort(&mut known, goal);
         }
+        // The last try is for the surest.
         let next = match tries + 1 < TRIES {
             true => 0,
             false => {
-                let wrong = |one: &Candidate| one.wrong;
-                let all = candidates.iter().map(wrong).enumerate();
+                let all = known.iter().map(|one| one.wrong).enumerate();
                 let surest = all.min_by(|(_, a), (_, b)| a.total_cmp(b));
                 surest.map_or(0, |(k, _)| k)
             }
         };
-        if next >= candidates.len() {
+        if next >= known.len() {
             break;
         }
-        let candidate = candidates.remove(next);
+        let candidate = known.remove(next);
         tries += 1;
         let format = screen.in_format_of(candidate.target);
         let plan = match format.plan(scene, target, &[]) {

@@ -170,7 +170,7 @@ impl Search<'_> {
         };
         // What is written as the scene has it and short is about as small as it gets.
         let stable = self.again(&plan, Plan::stable);
-        if let (Some(stable), Some(quick)) = (&stable, &quick)
+        if let (Some(stable), Some(quick)) = (&stable, quick.clone())
             && quick.exceeds(2)
         {
             let mut short = stable.clone();
@@ -178,7 +178,7 @@ impl Search<'_> {
             if let Some(need) = about(&short, self.fuel)?
                 && need.exceeds(8)
             {
-                return Ok(Fitted::TooLarge(Box::new(short), need.or_less(quick)));
+                return Ok(Fitted::TooLarge(Box::new(short), need.or_less(Some(quick))));
             }
         }
         let last = plan.thrifts().saturating_sub(1);
@@ -188,21 +188,16 @@ impl Search<'_> {
         {
             return self.with_copies(fits).map(Fitted::from);
         }
-        let found = self.as_is_or_tight(least.unwrap_or(plan))?;
-        let found = match (found, stable) {
+        match (
+            self.as_is_or_tight(least.unwrap_or(plan))?.or_less(quick),
+            stable,
+        ) {
             // Rather slower than with fewer inks.
-            (Fitted::TooLarge(_, fast), Some(stable)) => match self.as_is_or_tight(stable)? {
-                Fitted::TooLarge(plan, need) => Fitted::TooLarge(plan, need.or_less(&fast)),
-                fits => fits,
-            },
-            (found, _) => found,
-        };
-        Ok(match (found, quick) {
-            (Fitted::TooLarge(plan, need), Some(quick)) => {
-                Fitted::TooLarge(plan, need.or_less(&quick))
+            (Fitted::TooLarge(_, need), Some(stable)) => {
+                Ok(self.as_is_or_tight(stable)?.or_less(Some(need)))
             }
-            (found, _) => found,
-        })
+            (found, _) => Ok(found),
+        }
     }
 
     /// How much fuel a search for a plan may have that is one of so many.
@@ -240,6 +235,7 @@ impl Search<'_> {
                 // Only its formulas as the scene has them are wanted.
                 (None, None) => {
                     let plan = make(of.mode, 1)?;
+                    self.fuel.burn(plan.work());
                     self.again(&plan, Plan::stable).unwrap_or(plan)
                 }
             };

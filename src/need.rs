@@ -103,11 +103,10 @@ impl Need {
     }
 
     /// This or another, whichever is less.
-    pub fn or_less(self, other: &Need) -> Need {
-        match other.total() < self.total() {
-            true => other.clone(),
-            false => self,
-        }
+    pub fn or_less(self, other: Option<Need>) -> Need {
+        other
+            .filter(|other| other.total() < self.total())
+            .unwrap_or(self)
     }
 
     /// The same where the machine has more or less.

@@ -8,7 +8,7 @@
 //! reals that are not rounded, and lost where the plan loses them. What such a run gets right
 //! the machine has to get right, too.
 
-use slowlight_compiler::eval::arithmetic::Arithmetic;
+use slowlight_compiler::eval::arithmetic::{Arithmetic, Exact};
 use slowlight_compiler::eval::run::Run;
 use slowlight_compiler::flow::graph::{Graph, NodeId, ParamId};
 use slowlight_compiler::flow::tree::Place;
@@ -28,6 +28,7 @@ pub struct Lost {
 
 struct Losing<'p> {
     plan: &'p Plan,
+    exact: Exact<'p>,
     points: &'p Points,
     first: RefCell<Option<String>>,
     /// A param that is rounded, which is said only where nothing else is lost.
@@ -92,7 +93,7 @@ impl Arithmetic for &Losing<'_> {
     type Value = Value;
 
     fn constant(&self, value: Value) -> Value {
-        value
+        self.exact.constant(value)
     }
 
     fn param(&self, id: ParamId) -> Value {
@@ -138,15 +139,15 @@ impl Arithmetic for &Losing<'_> {
     }
 
     fn gather(&self, received: Value, sent: Value) -> Value {
-        Op::Add.eval(&[received, sent])
+        self.exact.gather(received, sent)
     }
 
     fn truth(&self, value: Value) -> bool {
-        value.truth()
+        self.exact.truth(value)
     }
 
     fn int(&self, value: Value) -> i32 {
-        value.int()
+        self.exact.int(value)
     }
 }
 
@@ -154,6 +155,7 @@ impl Arithmetic for &Losing<'_> {
 pub fn lost(plan: &Plan) -> Option<Lost> {
     let losing = Losing {
         plan,
+        exact: Exact(&plan.graph),
         points: plan.points()?,
         first: RefCell::default(),
         rounded: RefCell::default(),

@@ -13,6 +13,16 @@ pub(super) enum Fitted {
     TooLarge(Box<Plan>, Need),
 }
 
+impl Fitted {
+    /// The same where another of the programs that are too large takes so much.
+    pub(super) fn or_less(self, other: Option<Need>) -> Fitted {
+        match self {
+            Fitted::TooLarge(plan, need) => Fitted::TooLarge(plan, need.or_less(other)),
+            fits => fits,
+        }
+    }
+}
+
 impl From<Plan> for Fitted {
     fn from(plan: Plan) -> Fitted {
         Fitted::Fits(Box::new(plan))

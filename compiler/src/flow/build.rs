@@ -397,7 +397,7 @@ impl Builder {
             reports: self.reports,
             claims: self.claims,
             early: self.early,
-            invariant: Default::default(),
+            hoisted: Default::default(),
         }
     }
 }

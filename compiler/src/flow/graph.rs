@@ -202,9 +202,9 @@ pub struct Graph {
     /// decides would come out the same without it, but later
     /// ([`crate::passes::early`]).
     pub early: BTreeSet<NodeId>,
-    /// Values that are computed before a loop whose turns need them now and then only, as that
-    /// is less often ([`crate::passes::invariant`]).
-    pub invariant: BTreeSet<(NodeId, LoopId)>,
+    /// Values that are hoisted out of a loop whose turns need them now and then only, as that is
+    /// less often ([`crate::passes::licm`]).
+    pub hoisted: BTreeSet<(NodeId, LoopId)>,
     /// The pixel's ink, an int in 0..inks-1.
     pub ink: NodeId,
     /// The shade before the dither, if `draw` ends in one. It is looked at,

@@ -45,7 +45,7 @@ pub fn read(text: &str) -> Result<Graph, Unread> {
         reports: Vec::new(),
         claims: BTreeMap::new(),
         early: Default::default(),
-        invariant: Default::default(),
+        hoisted: Default::default(),
     };
     for (at, line) in text.lines().enumerate() {
         self::line(&mut graph, line.trim()).map_err(|what| Unread { line: at + 1, what })?;

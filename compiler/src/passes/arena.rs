@@ -21,7 +21,7 @@ impl<'g> Arena<'g> {
             directions: Default::default(),
             claims: Default::default(),
             early: Default::default(),
-            invariant: Default::default(),
+            hoisted: Default::default(),
             ..graph.clone()
         };
         Arena { graph, out }

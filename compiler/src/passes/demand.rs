@@ -382,24 +382,15 @@ impl Placer<'_> {
         }
     }
 
-    /// The region around the innermost loop that a value is to be computed before.
+    /// The region around the innermost loop that a value is hoisted out of.
     fn before_loop(&self, id: NodeId, region: RegionId) -> Option<RegionId> {
-        let first = (id, LoopId(0));
-        self.graph
-            .invariant
-            .range(first..)
-            .next()
-            .filter(|(of, _)| *of == id)?;
-        let mut at = region;
-        while at != PIXEL {
-            let found = self.regions.get(at);
-            if let RegionKind::Body(l) = found.kind
-                && self.graph.invariant.contains(&(id, l))
-            {
-                return found.parent;
-            }
-            at = found.parent?;
+        if self.graph.hoisted.is_empty() || region == PIXEL {
+            return None;
         }
-        None
+        let found = self.regions.get(region);
+        match found.kind {
+            RegionKind::Body(l) if self.graph.hoisted.contains(&(id, l)) => found.parent,
+            _ => self.before_loop(id, found.parent?),
+        }
     }
 }

@@ -1,8 +1,8 @@
 //! How a plan is made: the passes in their order, then a routine for each value.
 
-use super::before_loops::before_loops;
 use super::cheaper::{apart_at_last, cheaper, steps_ahead, with_inks_split, with_recipes_followed};
 use super::chosen::{asked_where_it_matters, in_arms, with_limits, with_reciprocals};
+use super::licm::licm;
 use super::narrowed::narrowed;
 use super::params::{self, ParamPlan};
 use super::price::Price;
@@ -203,7 +203,7 @@ fn planned_in(
         now = sooner.unwrap_or(usual);
         now = apart_at_last(now, shop, thrift);
         now = in_columns(now, shop, target, thrift);
-        now = before_loops(now, shop, thrift);
+        now = licm(now, shop, thrift);
     }
     let Known {
         graph,

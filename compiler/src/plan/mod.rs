@@ -46,9 +46,6 @@
 
 mod again;
 mod alive;
-mod before_loops;
-#[cfg(test)]
-mod before_loops_tests;
 mod beside;
 mod cheaper;
 mod choose;
@@ -57,6 +54,9 @@ mod fold_uses;
 mod interference;
 #[cfg(test)]
 mod interference_tests;
+mod licm;
+#[cfg(test)]
+mod licm_tests;
 mod lifetimes;
 mod loose;
 mod made;
@@ -75,6 +75,8 @@ mod price_tests;
 pub mod print;
 mod profile;
 pub mod recipes;
+mod seldom;
+mod semantics;
 pub(crate) mod settled;
 mod spread;
 mod stepped;
@@ -248,61 +250,6 @@ impl Plan {
     /// Where each real's point is, where the format leaves that to the plan.
     pub fn points(&self) -> Option<&points::Points> {
         self.points.as_ref()
-    }
-
-    /// What an operation's routine makes of its operands' bits, as the node's place keeps it.
-    pub fn computed(&self, id: NodeId, args: &[Bits]) -> Bits {
-        let Some(routine) = self.routine(id) else {
-            return 0;
-        };
-        let bits = match &self.points {
-            Some(points) => {
-                let (all, count) = points.operands(&self.graph, id, args);
-                (routine.model)(&all[..count])
-            }
-            None => (routine.model)(args),
-        };
-        match self.ranges.result.get(id.0 as usize) {
-            Some(range) if self.format(id) == self.runtime.real => {
-                (self.runtime.kept)(bits, *range)
-            }
-            _ => bits,
-        }
-    }
-
-    /// What a pixel has received when it is sent more.
-    pub fn gathered(&self, received: Bits, sent: Bits) -> Bits {
-        match (self.gather(), &self.points) {
-            (Some(routine), Some(_)) => (routine.model)(&[received, sent, 0]),
-            (Some(routine), None) => (routine.model)(&[received, sent]),
-            (None, _) => received,
-        }
-    }
-
-    /// What a node's bits are when they are sent to another pixel.
-    pub fn sent(&self, from: NodeId, bits: Bits) -> Bits {
-        match &self.points {
-            Some(points) => points.read(
-                &self.graph,
-                from,
-                bits,
-                (points.received(), points.widths().most()),
-            ),
-            None => bits,
-        }
-    }
-
-    /// What a place holds that is given a node's bits.
-    pub fn copied(&self, place: Place, from: NodeId, bits: Bits) -> Bits {
-        match &self.points {
-            Some(points) if self.graph.ty(from) == Type::Real => points.read(
-                &self.graph,
-                from,
-                bits,
-                (points.place(place), points.widths().place(place)),
-            ),
-            _ => bits,
-        }
     }
 
     /// The format of a node's value.

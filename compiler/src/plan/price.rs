@@ -24,19 +24,15 @@ use crate::passes::segment::bounds_segment;
 use crate::passes::still::{Inks, Still, still};
 use rustc_hash::FxHashSet;
 use slowlight_routine::Runtime;
-use std::collections::BTreeMap;
 
 /// Rows and columns that are looked at, and how many statements may run for that.
 const ROWS: u32 = 12;
 const COLUMNS: u32 = 13;
-const PATIENCE: u64 = 40_000;
+pub(super) const PATIENCE: u64 = 40_000;
 
 /// Of these pixels one in so many is looked at where more statements may run for each.
 const FEW: usize = 11;
 const LONG: u64 = 2_000_000;
-
-/// A way is seldom taken if not every such choice takes it.
-const SELDOM: u32 = 4;
 
 /// How many columns of a pass are looked at for where runs end, at most.
 const COLUMNS_LOOKED_AT: u32 = 80;
@@ -47,41 +43,6 @@ impl super::Plan {
     pub fn cycles_a_pixel(&self) -> f64 {
         let known = self.origin.0.scheduled(self.graph.clone());
         Price::new(&known, self.runtime, Thrift::default()).cycles(&known)
-    }
-
-    /// The choices of pixels of which one way has a loop and is seldom taken, and which
-    /// way that is: what a loop takes is much beside a jump to it. Nothing is known of
-    /// pixels that depend on each other.
-    pub fn seldom(&self) -> BTreeMap<NodeId, bool> {
-        let mut asked: BTreeMap<NodeId, (bool, [u32; 2])> = BTreeMap::new();
-        walk(&self.tree.pixel, &mut |s| {
-            if let Statement::If { cond, yes, no } = s
-                && often::loops(yes) != often::loops(no)
-            {
-                asked.insert(*cond, (often::loops(yes), [0; 2]));
-            }
-        });
-        if asked.is_empty() || self.listing || self.graph.diffusion.is_some() {
-            return BTreeMap::new();
-        }
-        let meter = Meter::new(&self.graph, |_: &Statement| 0.0);
-        let mut run = Run::within(&self.graph, &self.tree, &meter, PATIENCE + 1);
-        for (x, y) in spread(&self.graph.image) {
-            run.pixel(x, y);
-            for (cond, (_, taken)) in &mut asked {
-                if let Some(value) = run.last(*cond) {
-                    taken[usize::from(value.truth())] += 1;
-                }
-            }
-            if meter.ran.get() > PATIENCE {
-                return BTreeMap::new();
-            }
-        }
-        let rare = |(cond, (way, taken)): (NodeId, (bool, [u32; 2]))| {
-            let so = taken[usize::from(way)];
-            (SELDOM * so < taken[0] + taken[1]).then_some((cond, way))
-        };
-        asked.into_iter().filter_map(rare).collect()
     }
 }
 
@@ -350,7 +311,7 @@ impl Price {
 }
 
 /// Pixels spread over a picture, none above another.
-fn spread(image: &Image) -> Vec<(i32, i32)> {
+pub(super) fn spread(image: &Image) -> Vec<(i32, i32)> {
     let at = |k: u32, of: u32, long: u32| {
         ((u64::from(k) * 2 + 1) * u64::from(long) / 2 / u64::from(of)) as i32
     };

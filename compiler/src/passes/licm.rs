@@ -5,8 +5,8 @@
 //! in an arm is computed as often as pixels come there: more often than the loop is begun, it
 //! is worth its place before the loop, though some pixels then compute it in vain. Every
 //! operation is total, so that does no harm.
-//! (Aho, Lam, Sethi and Ullman, Compilers, 2nd edition, 9.5; by a profile as in Bodik, Gupta and
-//! Soffa, Complete removal of redundant expressions, PLDI 1998.)
+//! (Aho, Lam, Sethi and Ullman, Compilers, 2nd edition, 9.5; by a profile, as in Cai and Xue,
+//! Optimal and efficient speculation-based partial redundancy elimination, CGO 2003.)
 
 use super::rate::{Dependence, Rates, rates};
 use crate::flow::graph::*;
@@ -18,9 +18,9 @@ use std::collections::BTreeSet;
 const OFTENER: u64 = 5;
 const THAN: u64 = 4;
 
-/// The values of a pixel that are worth computing before loops, given how often each statement
-/// ran.
-pub fn invariant(
+/// The values of a pixel that are worth hoisting, and out of which loops, given how often each
+/// statement ran.
+pub fn hoisted(
     graph: &Graph,
     pixel: &Block,
     ran: &dyn Fn(&Statement) -> u64,
