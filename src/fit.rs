@@ -22,12 +22,12 @@ use slowlight_compiler::target::Mode;
 use slowlight_compiler::target::mos6502::DISC_PAGE;
 
 /// How much work may be done to find a plan whose program fits, in units of
-/// [`slowlight_compiler::fuel::Fuel`]: no example is cut short, of which fifty.scn on the 6502
-/// takes most.
+/// [`slowlight_compiler::fuel::Fuel`]: no example is cut short.
 pub const FIT: u64 = 3_500_000_000;
 
 /// The same for the plans that spend less memory, all together: they are made at the same
-/// time, and have much in common that is made once and charged to each.
+/// time, and have much in common that is made once and charged to each. The dearer they are,
+/// the fewer of the steps are looked at: no search is ended by that.
 const LADDER: u64 = 2_000_000_000;
 
 /// The first of the plans whose program fits, as it reads best or tight; where

@@ -77,9 +77,6 @@ impl Search<'_> {
         let mut all = planned(sooner);
         all.extend(planned(later));
         all.sort_by_key(|(step, _)| *step);
-        if count < last.saturating_sub(1) {
-            self.fuel.note_cut();
-        }
         all.into_iter().map(|(_, plan)| plan).collect()
     }
 
