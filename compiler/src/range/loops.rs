@@ -4,7 +4,7 @@
 use super::Walk;
 use crate::flow::graph::*;
 use crate::flow::tree::*;
-use slowlight_routine::Range;
+use slowlight_routine::{Range, Value};
 
 /// How many turns of loops are walked before bounds that still grow are widened.
 const PATIENCE: u32 = 2000;
@@ -14,26 +14,27 @@ const PATIENCE: u32 = 2000;
 /// of six the innermost is walked hundreds of times, however soon bounds are widened.
 pub(super) const STATEMENTS: u64 = 4_000_000;
 
+/// How many turns of a loop are walked before what more turns add is looked at.
+const FEW: u32 = 4;
+
+/// How many are walked before what is not known to be bounded by then has no bounds.
+const MANY: u32 = 64;
+
 impl Walk<'_> {
     pub(super) fn run_loop(&mut self, turns: &Turns) {
         let of = turns.of;
         let at = of.0 as usize;
-        let held = self.carried[at].clone();
         self.block(&turns.start);
-        self.join_carried(at, &held);
+        let start = self.carried[at].clone();
         let max = self.graph.loops[at].max;
+        let mut widened = false;
         for turn in 1.. {
             let last = self.walked > STATEMENTS;
             if last {
                 self.forget_carried(of);
             }
             let before = self.carried[at].clone();
-            for k in 0..self.once.carried(of).len() {
-                let (id, index) = self.once.carried(of)[k];
-                self.put(id, self.carried_range(of, index));
-            }
-            self.block(&turns.body);
-            self.arm(turns.again, true, &turns.next);
+            self.turn(turns);
             self.join_carried(at, &before);
             if last {
                 break;
@@ -41,20 +42,66 @@ impl Walk<'_> {
             // After `max` turns the bounds hold all that the loop can carry,
             // whether or not they would grow in one more.
             if self.carried[at] == before || turn > max {
+                if widened && turn <= max {
+                    self.carried[at].clone_from(&before);
+                    self.turn(turns);
+                    self.narrow(turns, &start, before);
+                }
                 break;
             }
             self.turns += 1;
-            if self.turns > PATIENCE {
+            let tired = self.turns > PATIENCE;
+            let open = tired && !widened || turn == MANY;
+            let again = open || turn == FEW;
+            if again && turn < max && self.accelerate(turns, &start, open) {
+                break;
+            }
+            if tired || turn >= MANY {
                 self.widen(of, &before);
+                widened = true;
             }
         }
         self.arm(turns.again, false, &turns.done);
         let ended = self.sets(&turns.done);
+        self.ended[at].clone_from(&ended);
         self.block(&turns.otherwise);
         for (place, range) in ended {
             let both = self.place_range(place).join(range);
             self.write(place, both);
         }
+    }
+
+    /// Where a loop's result holds that does not if its turns are used up, the loop has ended
+    /// by itself, and its other results are what it then left.
+    pub(super) fn known_ended(&mut self, (id, holds): (NodeId, bool)) {
+        let Node::Result { of, index } = self.graph.node(id) else {
+            return;
+        };
+        let used_up = self.graph.loops[of.0 as usize].otherwise[index as usize];
+        let used_up = self.graph.constant(used_up).map(Value::truth);
+        if !self.slack.inverts() || used_up != Some(!holds) {
+            return;
+        }
+        for &(place, range) in &self.ended[of.0 as usize] {
+            if let Place::Node(id) = place
+                && self.shared[id.0 as usize].is_none()
+            {
+                let now = &mut self.now[id.0 as usize];
+                self.saved.push((id, *now));
+                *now = now.meet(range);
+            }
+        }
+    }
+
+    /// Walks one turn, from what is carried now.
+    pub(super) fn turn(&mut self, turns: &Turns) {
+        let of = turns.of;
+        for k in 0..self.once.carried(of).len() {
+            let (id, index) = self.once.carried(of)[k];
+            self.put(id, self.carried_range(of, index));
+        }
+        self.block(&turns.body);
+        self.arm(turns.again, true, &turns.next);
     }
 
     fn join_carried(&mut self, at: usize, held: &[Option<Range>]) {

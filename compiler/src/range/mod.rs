@@ -7,8 +7,14 @@
 //! not exact, so every operation's interval is enlarged by the error that the
 //! machine's routines may make, and cut to what its formats can hold.
 
+mod accelerate;
+mod around;
 mod assuming;
+mod contract;
 pub mod error;
+mod fresh;
+#[cfg(test)]
+mod hold_tests;
 mod interval;
 mod known;
 mod loops;
@@ -26,14 +32,17 @@ use crate::flow::ramp;
 use crate::flow::tree::*;
 
 use crate::plan::points::sample::{Readers, readers};
+use accelerate::Growth;
+use around::Around;
 pub use assuming::assuming;
+use fresh::Fresh;
 use interval::interval;
 use known::known;
 #[cfg(test)]
 use loops::STATEMENTS;
 use once::Once;
 use parity::whole;
-use refine::{Conditions, restore};
+use refine::{Conditions, Known, restore};
 pub use slack::{ENTRIES, Slack};
 use slowlight_routine::{Op, Range, Type};
 
@@ -44,7 +53,8 @@ pub struct Ranges {
     pub result: Vec<Range>,
     /// What each operation's exact result stays within, before the format cuts it.
     pub exact: Vec<Range>,
-    /// What each operation's arguments stay within where it is computed.
+    /// What each operation's arguments, and each lookup's column and row, stay within where it
+    /// is computed.
     pub args: Vec<[Range; 2]>,
 }
 
@@ -82,6 +92,11 @@ pub fn ranges_counted(graph: &Graph, tree: &Tree, slack: &Slack) -> (Ranges, u64
         },
         tree,
         shared: shared(graph, tree),
+        growth: None,
+        narrowing: false,
+        ended: vec![Vec::new(); graph.loops.len()],
+        around: Around::default(),
+        fresh: Fresh::default(),
     };
     walk.block(&tree.frame);
     walk.block(&tree.column);
@@ -115,10 +130,20 @@ pub(crate) struct Walk<'g> {
     /// Each node that several calls of a subroutine compute or give it:
     /// whether one was walked already.
     shared: Vec<Option<bool>>,
+    /// What a turn gives to what its loop carries, where that is looked at.
+    growth: Option<Growth>,
+    /// Whether turns are walked to narrow bounds that hold.
+    narrowing: bool,
+    /// What each loop left where it ended by itself, when it was walked last.
+    ended: Vec<Vec<(Place, Range)>>,
+    /// What is known here.
+    around: Around,
+    /// What values come to under it.
+    fresh: Fresh,
 }
 
 /// Nodes that belong to subroutines, none of them written yet.
-fn shared(graph: &Graph, tree: &Tree) -> Vec<Option<bool>> {
+pub(crate) fn shared(graph: &Graph, tree: &Tree) -> Vec<Option<bool>> {
     let mut shared: Vec<Option<bool>> = (graph.nodes.iter())
         .map(|node| matches!(node, Node::Slot(_)).then_some(false))
         .collect();
@@ -159,7 +184,9 @@ impl Walk<'_> {
         match statement {
             Statement::Let(id) => self.compute(*id),
             Statement::Set { place, from } => {
+                self.note_growth(*place, *from);
                 let range = match *from {
+                    Origin::Node(id) if self.looks_closely(*place, id) => self.fresh(id),
                     Origin::Node(id) => self.read(id),
                     Origin::Scratch(l, k) => self.carried_range(l, k),
                 };
@@ -192,11 +219,26 @@ impl Walk<'_> {
     /// Walks an arm under its condition.
     fn arm(&mut self, cond: NodeId, holds: bool, block: &Block) {
         let (saved, assumed) = (self.saved.len(), self.assumed.len());
-        (self.conditions).refine(&mut self.now, &mut self.saved, cond, holds);
+        let known = Known {
+            slack: self.slack,
+            shared: &self.shared,
+        };
+        let (before, facts) = self
+            .around
+            .enter(&mut self.conditions, &self.shared, (cond, holds));
+        for fact in facts {
+            (self.conditions).refine(known, &mut self.now, &mut self.saved, fact);
+        }
+        for k in self.around.since(before) {
+            self.known_ended(self.around.fact(k));
+        }
+        self.fresh.clear();
         self.doubted(saved, cond, holds);
         (self.assumed).extend_from_slice(self.conditions.claimed(cond, holds));
         self.block(block);
         self.assumed.truncate(assumed);
+        self.around.leave(before);
+        self.fresh.clear();
         restore(&mut self.now, &mut self.saved, saved);
     }
 
@@ -251,6 +293,7 @@ impl Walk<'_> {
             None => range,
         };
         self.now[at] = range;
+        self.fresh.clear();
         self.out.result[at] = match &mut self.shared[at] {
             // What is recorded holds for every call.
             Some(true) => self.out.result[at].join(range),
@@ -287,13 +330,16 @@ impl Walk<'_> {
                 self.out.exact[at] = exact;
                 self.slack.cut(Type::Int, exact)
             }
-            Node::Lookup { table, .. } => match self.once.computed(id) {
-                Some(range) => range,
-                None => {
-                    let range = self.entries(id, table);
-                    self.once.keep(id, range)
+            Node::Lookup { table, column, row } => {
+                self.note_args(id, [column, row].map(|id| self.read(id)));
+                match self.once.computed(id) {
+                    Some(range) => range,
+                    None => {
+                        let range = self.entries(id, table);
+                        self.once.keep(id, range)
+                    }
                 }
-            },
+            }
             _ => Range::ALL,
         };
         let range = self.trust(id, range);
@@ -315,17 +361,24 @@ impl Walk<'_> {
         let exact = interval(op, args, same);
         let exact = whole(self.graph, &mut self.once, id, args, exact);
         let exact = self.part_of_length(id, exact);
-        if self.shared[at] == Some(true) {
-            let [a, b] = self.out.args[at];
-            self.out.args[at] = [a.join(args[0]), b.join(args[1])];
-            self.out.exact[at] = self.out.exact[at].join(exact);
-        } else {
-            self.out.args[at] = args;
-            self.out.exact[at] = exact;
-        }
+        self.note_args(id, args);
+        self.out.exact[at] = match self.shared[at] {
+            Some(true) => self.out.exact[at].join(exact),
+            _ => exact,
+        };
         let range = self.slack.result(id, op, &args[..op.arity()], exact);
         let range = self.trust(id, range);
         self.once.keep(id, range)
+    }
+
+    /// Notes what is given to a node here; of subroutines, to any of their calls.
+    fn note_args(&mut self, id: NodeId, args: [Range; 2]) {
+        let at = id.0 as usize;
+        let [a, b] = self.out.args[at];
+        self.out.args[at] = match self.shared[at] {
+            Some(true) => [a.join(args[0]), b.join(args[1])],
+            _ => args,
+        };
     }
 
     /// What a table's entries stay within, as a lookup has them.

@@ -18,6 +18,8 @@ pub(super) struct Once {
     computed: Vec<Option<Range>>,
     /// By loop, who reads its carried values.
     carried: Vec<Vec<(NodeId, u32)>>,
+    /// What carried ints are compared with.
+    compared: FxHashMap<(LoopId, u32), Vec<f64>>,
     /// How far what conditions say may be off.
     doubts: FxHashMap<(NodeId, bool), f64>,
 }
@@ -41,6 +43,7 @@ impl Once {
             odd: vec![None; graph.nodes.len()],
             computed: vec![None; graph.nodes.len()],
             carried,
+            compared: compared(graph),
             doubts: FxHashMap::default(),
         }
     }
@@ -60,6 +63,17 @@ impl Once {
         &self.carried[of.0 as usize]
     }
 
+    /// Bounds that a carried int may have because it is compared with them: of a range, the
+    /// next ones around it, itself included.
+    pub(super) fn thresholds(&self, carried: (LoopId, u32), range: Range) -> Range {
+        let all = self.compared.get(&carried).map_or(&[][..], Vec::as_slice);
+        let above = all.iter().copied().filter(|x| *x >= range.hi);
+        let below = all.iter().copied().filter(|x| *x <= range.lo);
+        let hi = above.reduce(f64::min).unwrap_or(range.hi);
+        let lo = below.reduce(f64::max).unwrap_or(range.lo);
+        range.join(Range::new(lo, hi))
+    }
+
     /// How far what a condition says may be off, found out where it was not yet.
     pub(super) fn doubt(&mut self, fact: (NodeId, bool), find: impl FnOnce() -> f64) -> f64 {
         *self.doubts.entry(fact).or_insert_with(find)
@@ -75,6 +89,25 @@ impl Once {
         self.computed[id.0 as usize] = Some(range);
         range
     }
+}
+
+/// What ints that loops carry are compared with: constants.
+fn compared(graph: &Graph) -> FxHashMap<(LoopId, u32), Vec<f64>> {
+    let mut all: FxHashMap<(LoopId, u32), Vec<f64>> = FxHashMap::default();
+    for id in graph.ids() {
+        let Node::Apply(Op::IntEqual | Op::IntLess | Op::IntLessEqual, [a, b]) = graph.node(id)
+        else {
+            continue;
+        };
+        for (of, with) in [(a, b), (b, a)] {
+            if let (Node::Carried { of, index }, Some(bound)) =
+                (graph.node(of), graph.constant(with))
+            {
+                all.entry((of, index)).or_default().push(bound.real());
+            }
+        }
+    }
+    all
 }
 
 impl Walk<'_> {

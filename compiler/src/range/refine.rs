@@ -1,8 +1,11 @@
 //! What a condition's holding says of the values that it compares, and of those
 //! that a comparison which it stands for would compare.
 
+use super::Slack;
+use super::around::Choice;
+use super::contract;
 use crate::flow::graph::*;
-use crate::passes::region::implied;
+use crate::passes::region::{Fact, implied};
 use slowlight_routine::{Op, Range};
 
 /// How many steps from a value down to what it is made of are gone.
@@ -61,12 +64,16 @@ struct Said {
     compared: Vec<(Op, [NodeId; 2], bool)>,
     /// What values that are computed only then stay within.
     claimed: Vec<(NodeId, Range)>,
+    /// All conditions that follow, and those of them that are choices.
+    facts: Vec<Fact>,
+    choices: Vec<Choice>,
 }
 
 impl Said {
     fn new(graph: &Graph, cond: NodeId, holds: bool) -> Said {
         let (mut compared, mut all) = (Vec::new(), Vec::new());
-        for (fact, holds) in implied(graph, cond, holds) {
+        let facts = implied(graph, cond, holds);
+        for &(fact, holds) in &facts {
             match (graph.claims.get(&fact), graph.node(fact)) {
                 (Some((op, args)), _) => {
                     compared.push((*op, *args, holds));
@@ -76,9 +83,20 @@ impl Said {
                 _ => {}
             }
         }
+        let choice = |&(id, holds): &Fact| match graph.node(id) {
+            Node::Select { cond, yes, no } => Some(Choice {
+                by: cond,
+                yes,
+                no,
+                holds,
+            }),
+            _ => None,
+        };
         Said {
             compared,
             claimed: all,
+            choices: facts.iter().filter_map(choice).collect(),
+            facts,
         }
     }
 }
@@ -126,14 +144,20 @@ impl<'g> Conditions<'g> {
         &self.said(cond, holds).claimed
     }
 
+    /// All that follows from a condition's holding or not, and what of it are choices.
+    pub(super) fn implied(&mut self, (cond, holds): Fact) -> (&[Fact], &[Choice]) {
+        let said = self.said(cond, holds);
+        (&said.facts, &said.choices)
+    }
+
     /// Narrows `now` by a condition that holds or does not; what was there before is put
     /// behind what is `saved` already, in the order of change.
     pub fn refine(
         &mut self,
+        known: Known,
         now: &mut [Range],
         saved: &mut Vec<(NodeId, Range)>,
-        cond: NodeId,
-        holds: bool,
+        (cond, holds): Fact,
     ) {
         self.said(cond, holds);
         let Some(said) = &self.said[cond.0 as usize][usize::from(holds)] else {
@@ -141,6 +165,8 @@ impl<'g> Conditions<'g> {
         };
         let mut narrowing = Narrowing {
             graph: self.graph,
+            slack: known.slack,
+            shared: known.shared,
             reals: &self.reals,
             now,
             saved,
@@ -158,11 +184,22 @@ pub fn restore(now: &mut [Range], saved: &mut Vec<(NodeId, Range)>, before: usiz
     }
 }
 
+/// What is known of the walk that comes by a condition.
+#[derive(Clone, Copy)]
+pub struct Known<'k> {
+    /// How its machine departs from exact arithmetic.
+    pub slack: &'k Slack,
+    /// By node, whether calls of a subroutine share it.
+    pub shared: &'k [Option<bool>],
+}
+
 /// Ranges while they are narrowed, and what they were.
-struct Narrowing<'n> {
-    graph: &'n Graph,
+pub(super) struct Narrowing<'n> {
+    pub(super) graph: &'n Graph,
+    pub(super) slack: &'n Slack,
+    pub(super) shared: &'n [Option<bool>],
     reals: &'n [(NodeId, NodeId)],
-    now: &'n mut [Range],
+    pub(super) now: &'n mut [Range],
     saved: &'n mut Vec<(NodeId, Range)>,
 }
 
@@ -202,6 +239,28 @@ impl Narrowing<'_> {
                     ..Range::ALL
                 };
                 self.narrow(a, nonzero, false);
+                self.unlike(unit, [a, b]);
+            }
+            (Op::IntEqual, false) => {
+                self.unlike(unit, [a, b]);
+                self.unlike(unit, [b, a]);
+            }
+            _ => {}
+        }
+    }
+
+    /// An int is not what the other one is known to be: it is not the end of its range.
+    fn unlike(&mut self, unit: f64, [id, other]: [NodeId; 2]) {
+        let held = self.now[id.0 as usize];
+        if unit == 0.0 || held.lo == held.hi {
+            return;
+        }
+        match self.now[other.0 as usize].constant() {
+            Some(end) if end == held.lo => {
+                self.narrow(id, Range::new(end + unit, f64::INFINITY), false);
+            }
+            Some(end) if end == held.hi => {
+                self.narrow(id, Range::new(f64::NEG_INFINITY, end - unit), false);
             }
             _ => {}
         }
@@ -215,6 +274,9 @@ impl Narrowing<'_> {
         let mut met = held.meet(range);
         met.nonzero |= strict && (range.lo == 0.0 || range.hi == 0.0);
         self.put(id, met);
+        if met.lo > held.lo || met.hi < held.hi {
+            self.contract(id, contract::DEEP);
+        }
         // What it is a line in is narrowed with it, down to the row.
         let (mut of, mut before) = (id, held);
         for _ in 0..DEEP {
@@ -234,7 +296,7 @@ impl Narrowing<'_> {
         }
     }
 
-    fn put(&mut self, id: NodeId, range: Range) {
+    pub(super) fn put(&mut self, id: NodeId, range: Range) {
         let now = &mut self.now[id.0 as usize];
         self.saved.push((id, *now));
         *now = range;
@@ -288,7 +350,11 @@ mod tests {
             for (holds, lo, hi) in [(true, 0.0, 119.0), (false, 120.0, 239.0)] {
                 let mut now = before.clone();
                 let mut saved = Vec::new();
-                Conditions::new(&graph).refine(&mut now, &mut saved, above, holds);
+                let known = Known {
+                    slack: &Slack::exact(),
+                    shared: &vec![None; graph.nodes.len()],
+                };
+                Conditions::new(&graph).refine(known, &mut now, &mut saved, (above, holds));
                 assert_eq!(now[y.0 as usize], Range::new(lo, hi));
                 assert_eq!(now[height.0 as usize], Range::new(lo, hi));
                 restore(&mut now, &mut saved, 0);

@@ -203,6 +203,41 @@ impl Slack {
         wide
     }
 
+    /// Whether what a result is known to be says something of the operands: neither where
+    /// reals are read at other points than they are kept at, nor where what is beyond an
+    /// expected size counts as that size.
+    pub(super) fn inverts(&self) -> bool {
+        self.points.is_none() && !self.expects() && !self.unknown
+    }
+
+    /// Whether an operation rounds nothing in a range, nor leaves what ints are.
+    pub(super) fn is_exact(&self, op: Op, range: Range) -> bool {
+        range.within(self.ints.lo, self.ints.hi) && self.enlarge(op, &[range], range) == range
+    }
+
+    /// What an operation's exact result stays within, given what the machine has of it: what
+    /// ends where the format does may be anything beyond.
+    pub(super) fn before(&self, op: Op, args: &[Range], result: Range) -> Range {
+        let twice = self.enlarge(op, args, self.enlarge(op, args, result));
+        let end = (self.most() / 2.0).min(1e37);
+        let end = if op == Op::Div {
+            end.min(self.quotient / 2.0)
+        } else {
+            end
+        };
+        let lo = if twice.lo < -end {
+            f64::NEG_INFINITY
+        } else {
+            twice.lo
+        };
+        let hi = if twice.hi > end {
+            f64::INFINITY
+        } else {
+            twice.hi
+        };
+        Range::new(lo, hi)
+    }
+
     /// What an operation's result stays within, given its exact range.
     pub(super) fn rounded(&self, op: Op, args: &[Range], exact: Range) -> Range {
         let exact = match op {

@@ -8,7 +8,8 @@ use crate::flow::ramp;
 use crate::flow::tree::*;
 use crate::plan::Plan;
 use crate::range::interval::interval;
-use crate::range::refine::{Conditions, restore};
+use crate::range::refine::{Conditions, Known, restore};
+use crate::range::{Slack, shared};
 use slowlight_routine::{Op, Range, Type};
 
 /// How many turns of loops a tile is worth.
@@ -29,6 +30,8 @@ pub fn walk(plan: &Plan, tile: &Tile) -> Bounds {
         graph,
         ranges: start.iter().map(|v| v.range).collect(),
         conditions: Conditions::new(graph),
+        slack: Slack::exact(),
+        shared: shared(graph, &plan.tree),
         saved: Vec::new(),
         errors: start.into_iter().map(|v| v.error).collect(),
         carried: graph.loops.iter().map(slots).collect(),
@@ -101,6 +104,10 @@ pub(super) struct Walk<'p> {
     /// What each node's exact value lies within here, refined by the conditions around.
     ranges: Vec<Range>,
     conditions: Conditions<'p>,
+    /// Of exact values.
+    slack: Slack,
+    /// What calls of subroutines share.
+    shared: Vec<Option<bool>>,
     /// What conditions around have narrowed, and what it was.
     saved: Vec<(NodeId, Range)>,
     errors: Vec<Form>,
@@ -157,7 +164,11 @@ impl<'p> Walk<'p> {
     /// Walks an arm under its condition; answers what it sets, and to what.
     fn arm(&mut self, cond: NodeId, holds: bool, block: &'p Block) -> Vec<(Place, Value)> {
         let before = self.saved.len();
-        (self.conditions).refine(&mut self.ranges, &mut self.saved, cond, holds);
+        let known = Known {
+            slack: &self.slack,
+            shared: &self.shared,
+        };
+        (self.conditions).refine(known, &mut self.ranges, &mut self.saved, (cond, holds));
         self.block(block);
         restore(&mut self.ranges, &mut self.saved, before);
         let places = block.iter().filter_map(|s| match s {

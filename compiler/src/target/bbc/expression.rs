@@ -130,7 +130,7 @@ impl<'p> Expressions<'p> {
     pub fn compute(&mut self, id: NodeId) -> Text {
         match self.plan.graph.node(id) {
             Node::Apply(op, args) => self.apply(id, op, args),
-            Node::Lookup { table, column, row } => self.lookup(table, column, row),
+            Node::Lookup { table, column, row } => self.lookup(id, table, [column, row]),
             Node::Tabulated(_) => Text::operand(format!("{}(X%)", self.names.column(id))),
             // As a row begins it; see [`super::ramp`].
             Node::Ramp { first, .. } => self.read(first),
@@ -193,7 +193,8 @@ impl<'p> Expressions<'p> {
         }
     }
 
-    fn lookup(&mut self, table: TableId, column: NodeId, row: NodeId) -> Text {
+    fn lookup(&mut self, id: NodeId, table: TableId, [column, row]: [NodeId; 2]) -> Text {
+        let inside = self.plan.ranges.args[id.0 as usize];
         let Some(t) = self.plan.graph.tables.get(table.0 as usize) else {
             return Text::operand("0");
         };
@@ -201,10 +202,10 @@ impl<'p> Expressions<'p> {
         let (width, height) = (t.width, t.height);
         let mut indices = Vec::new();
         if width > 1 || height == 1 {
-            indices.push(self.index(column, width));
+            indices.push(self.index(column, inside[0], width));
         }
         if height > 1 {
-            indices.push(self.index(row, height));
+            indices.push(self.index(row, inside[1], height));
         }
         let list = |fast: bool| {
             let all: Vec<String> = indices
@@ -221,11 +222,9 @@ impl<'p> Expressions<'p> {
     }
 
     /// An index, clamped unless its range proves it inside.
-    fn index(&mut self, id: NodeId, length: u32) -> Text {
+    fn index(&mut self, id: NodeId, range: Range, length: u32) -> Text {
         let text = self.read(id);
         let last = f64::from(length - 1);
-        let range = self.plan.ranges.result.get(id.0 as usize).copied();
-        let range = range.unwrap_or(Range::ALL);
         if range.within(0.0, last) {
             return text;
         }

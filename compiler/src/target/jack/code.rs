@@ -256,7 +256,7 @@ impl<'p> Code<'p> {
                 }
             }
             Node::Lookup { table, column, row } => {
-                let entry = self.entry(table, column, row);
+                let entry = self.entry(id, table, [column, row]);
                 if self.logs() && self.sign_is_looked_up(id, table) {
                     let home = self.home(place, format);
                     let sign = entry.text.replacen('[', "_plus[", 1);

@@ -10,7 +10,7 @@ use super::code::Code;
 use crate::flow::graph::*;
 use crate::flow::tree::Place;
 use crate::plan::Plan;
-use slowlight_routine::Bits;
+use slowlight_routine::{Bits, Range};
 use slowlight_runtime_6502::write::{self, Place as Operand};
 
 /// Byte `k` of every entry.
@@ -102,9 +102,10 @@ impl Code<'_> {
         if is_large(table) {
             return self.large_lookup((&home, bytes), (of, table), column, row);
         }
-        let column = self.index(column, table.width, "arg");
+        let [columns, rows] = plan.ranges.args[id.0 as usize];
+        let column = self.index(column, (columns, table.width), "arg");
         let row = if table.height > 1 {
-            Some(self.index(row, table.height, "low"))
+            Some(self.index(row, (rows, table.height), "low"))
         } else {
             None
         };
@@ -138,19 +139,14 @@ impl Code<'_> {
 
     /// One byte that holds an index, clamped to 0..n-1: the operand itself where
     /// its range is proved to lie inside, else kept in `to`.
-    fn index(&mut self, id: NodeId, n: u32, to: &str) -> String {
+    fn index(&mut self, id: NodeId, (range, n): (Range, u32), to: &str) -> String {
         let place = self.homes.operand(self.plan, id);
-        if self.inside(id, n) {
+        if range.within(0.0, f64::from(n) - 1.0) {
             return write::byte(&place, 0);
         }
         self.clamp(&place, n);
         self.text.code(&format!("lda acc | sta {to}"));
         to.to_owned()
-    }
-
-    fn inside(&self, id: NodeId, n: u32) -> bool {
-        let range = self.plan.ranges.result.get(id.0 as usize);
-        range.is_some_and(|r| r.within(0.0, f64::from(n) - 1.0))
     }
 
     /// `acc` = the index in a place, clamped.

@@ -1,0 +1,87 @@
+//! What values come to under conditions that they were computed without: forward propagation,
+//! once conditions have narrowed what the values are made of. Where a loop goes on only while
+//! it is not too far, the distance from there is no longer than from there.
+
+use super::Walk;
+use super::interval::interval;
+use crate::flow::graph::*;
+use crate::flow::tree::Place;
+use rustc_hash::FxHashMap;
+use slowlight_routine::Range;
+
+/// How many values are computed again for one that is asked for.
+const MOST: usize = 150;
+
+/// How deep the last of these lie.
+const DEEP: u32 = 24;
+
+/// What was computed again since conditions last changed.
+#[derive(Default)]
+pub(super) struct Fresh {
+    of: FxHashMap<NodeId, Range>,
+    /// The least node that conditions have narrowed: no node before it hangs on one.
+    first: Option<NodeId>,
+}
+
+impl Fresh {
+    /// Forgets all of it.
+    pub(super) fn clear(&mut self) {
+        if self.first.is_some() {
+            self.first = None;
+            self.of.clear();
+        }
+    }
+}
+
+impl Walk<'_> {
+    /// Whether what a place is given is worth computing again: where it makes what a loop
+    /// carries grow, or is to narrow it.
+    pub(super) fn looks_closely(&self, place: Place, from: NodeId) -> bool {
+        match place {
+            _ if self.narrowing || self.growth.is_some() => true,
+            Place::Carried(of, k) | Place::Scratch(of, k) => {
+                let (held, now) = (self.carried_range(of, k), self.read(from));
+                !now.within(held.lo, held.hi)
+            }
+            Place::Node(_) => false,
+        }
+    }
+
+    /// What a value comes to here.
+    pub(super) fn fresh(&mut self, id: NodeId) -> Range {
+        if self.saved.is_empty() || !self.slack.inverts() {
+            return self.read(id);
+        }
+        if self.fresh.first.is_none() {
+            self.fresh.first = self.saved.iter().map(|(id, _)| *id).min();
+        }
+        let most = self.fresh.of.len() + MOST;
+        self.computed_again(id, DEEP, most)
+    }
+
+    fn computed_again(&mut self, id: NodeId, deep: u32, most: usize) -> Range {
+        let held = self.read(id);
+        let known = Some(id) < self.fresh.first || self.shared[id.0 as usize].is_some();
+        if deep == 0 || known || held.lo == held.hi || self.fresh.of.len() > most {
+            return held;
+        }
+        if let Some(range) = self.fresh.of.get(&id) {
+            return *range;
+        }
+        let made = match self.graph.node(id) {
+            Node::Apply(op, operands) => {
+                let args = operands.map(|id| self.computed_again(id, deep - 1, most));
+                let exact = interval(op, args, operands[0] == operands[1]);
+                held.meet(self.slack.rounded(op, &args[..op.arity()], exact))
+            }
+            Node::Select { yes, no, .. } => {
+                let arms = [yes, no].map(|id| self.computed_again(id, deep - 1, most));
+                held.meet(arms[0].join(arms[1]))
+            }
+            _ => return held,
+        };
+        self.walked += 1;
+        self.fresh.of.insert(id, made);
+        made
+    }
+}
