@@ -74,6 +74,12 @@ fn meet(range: Range, other: Range) -> Range {
     Range::new(cut(range.lo), cut(range.hi))
 }
 
+/// Whether a factor is cut where the product is: that of a square or of a multiple. Of two
+/// other values neither is, so that their product has no more bits for being cut.
+pub fn cuts_factor(graph: &Graph, [a, b]: [NodeId; 2]) -> bool {
+    a == b || [a, b].iter().any(|id| graph.constant(*id).is_some())
+}
+
 /// What is useful of operand `k`, given what is of the result, and between which bounds
 /// the operands are; all of it where nothing is known.
 fn of_operand(op: Op, k: usize, own: Range, held: [Range; 2], same: bool) -> Option<Range> {

@@ -7,13 +7,14 @@ use slowlight_routine::scale::{self, FEWEST, FUNCTION, MOST, Scales, finest};
 use slowlight_routine::{Op, Type};
 
 /// Fraction bits that a result cannot have more of, given those that the operands have
-/// room for, and those it has room for itself.
+/// room for, and those it has room for itself. A product may be `finer` by so many than its
+/// operands' last places count for where these are greatest.
 pub fn cap(
     graph: &Graph,
-    op: Op,
-    [a, b]: [NodeId; 2],
+    (op, [a, b]): (Op, [NodeId; 2]),
     (result, bits): (i8, u8),
     room: &[i8],
+    finer: i8,
 ) -> i8 {
     let [of_a, of_b] = [a, b].map(|id| room[id.0 as usize]);
     let long = long(bits);
@@ -30,7 +31,10 @@ pub fn cap(
             (Some(by), _) => of_b + by,
             // Where the product has room for less than its operands' greatest would make,
             // one of them is small, and the other one's last place counts for less.
-            _ => (of_a + of_b - long).max(of_a.min(of_b) - (long - result + 1).div_euclid(2)),
+            _ => {
+                let last = of_a + of_b - long;
+                (last + finer).max(of_a.min(of_b) - (long - result + 1).div_euclid(2))
+            }
         },
         Op::Sqrt => (long + of_a).div_euclid(2),
         // Their tables have no more.
@@ -48,8 +52,10 @@ fn long(bits: u8) -> i8 {
     bits as i8 - 1
 }
 
-/// By how many bits a product may be shorter than that all the same.
-const WIDE: i8 = 3;
+/// By how many bits a product may be shorter than that all the same. Where its range leaves
+/// room for them it has as many more fraction bits than its greatest operands' last places
+/// count for: smaller ones count for less, a square's most of all.
+pub const WIDE: i8 = 3;
 
 /// The scale at which a constant is 1 or -1.
 fn power(graph: &Graph, id: NodeId) -> Option<i8> {
