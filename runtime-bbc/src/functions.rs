@@ -17,6 +17,13 @@ pub(crate) static ALL: &[Part] = &[
     part!("BIG" [] 71 "\
 BIG=1.7E38:HALF=BIG/2:ROOT=1E18:TINY=1E-15:FAR=1E33:WIDE=2147483648
 "),
+    // A variable takes 1,300 cycles less than the number would in an expression.
+    part!("MIDWAY" [] 14 "\
+MIDWAY=0.5
+"),
+    part!("QUARTER" [] 15 "\
+QUARTER=PI/2
+"),
     part!("FNadd" ["BIG"] 97 "\
 DEF FNadd(a,b)
 IF ABS(a)<HALF THEN IF ABS(b)<HALF THEN =a+b
@@ -70,16 +77,30 @@ UNTIL d<ABS(b) OR d=0
 IF a<0 THEN c=-c
 IF c<>0 AND (c<0)<>(b<0) THEN =c+b ELSE =c
 "),
+    // A little below 0 the quotient might vanish: that is not floored to -1.
+    part!("FNrem" ["BIG"] 58 "\
+DEF FNrem(a,b)
+IF a<0 THEN IF a>-TINY THEN =a+b
+=a-INT(a/b)*b
+"),
+    // The divisor in two halves, whose products with the quotient are exact (Dekker 1971). The quotient may
+    // be rounded up to a whole number, so one divisor may have to be added; never down past one.
+    part!("FNrest" [] 94 "\
+DEF FNrest(a,b)
+LOCAL c,d
+c=b*65537:d=c-(c-b):c=INT(a/b):a=a-c*d-c*(b-d)
+IF a<0 THEN =a+b ELSE =a
+"),
     part!("FNfloor" ["BIG"] 78 "\
 DEF FNfloor(a)
 IF ABS(a)<WIDE THEN =INT(a)
 IF a>0 THEN =2147483647 ELSE =-2147483647-1
 "),
-    part!("FNround" [] 124 "\
+    part!("FNround" ["BIG", "MIDWAY"] 129 "\
 DEF FNround(a)
-IF a>=2147483647 THEN =2147483647
-IF a<=-2147483648 THEN =-2147483647-1
-=SGN(a)*(INT(ABS(a))-(ABS(a)-INT(ABS(a))>=0.5))
+IF ABS(a)<WIDE-1 THEN =SGN(a)*INT(ABS(a)+MIDWAY)
+IF a>0 THEN =2147483647
+IF a>MIDWAY-WIDE THEN =-2147483647 ELSE =-2147483647-1
 "),
     part!("FNangle" ["FNmod"] 49 "\
 DEF FNangle(a)
@@ -92,11 +113,11 @@ DEF FNtan(a)=FNdiv(SIN(FNangle(a)),COS(FNangle(a)))
 DEF FNclamp(a)
 IF ABS(a)>1 THEN =SGN(a) ELSE =a
 "),
-    part!("FNatan2" [] 117 "\
+    part!("FNatan2" ["QUARTER"] 121 "\
 DEF FNatan2(a,b)
-IF ABS(a)>ABS(b) THEN =SGN(a)*PI/2-ATN(b/a)
-IF b=0 THEN =0
+IF ABS(a)>ABS(b) THEN =SGN(a)*QUARTER-ATN(b/a)
 IF b>0 THEN =ATN(a/b)
+IF b=0 THEN =0
 IF a<0 THEN =ATN(a/b)-PI ELSE =ATN(a/b)+PI
 "),
     part!("FNexp" ["BIG"] 54 "\
@@ -119,18 +140,25 @@ IF a<0 THEN c=FNmod(b,2):IF c<>c^2 THEN =0
 IF a<0 AND c<>0 THEN d=-1
 =d*FNexp(FNmul(b,LN(ABS(a))))
 "),
-    // The floor of a whole real is itself, within 32 bits.
-    part!("FNiadd" ["FNfloor"] 28 "\
-DEF FNiadd(a,b)=FNfloor(a+b)
+    // The floor of a whole real is itself; a call for it takes a quarter of the whole.
+    part!("FNiadd" ["FNfloor"] 58 "\
+DEF FNiadd(a,b)
+a=a+b
+IF ABS(a)<WIDE THEN =a ELSE =FNfloor(a)
 "),
-    part!("FNisub" ["FNfloor"] 28 "\
-DEF FNisub(a,b)=FNfloor(a-b)
+    part!("FNisub" ["FNfloor"] 58 "\
+DEF FNisub(a,b)
+a=a-b
+IF ABS(a)<WIDE THEN =a ELSE =FNfloor(a)
 "),
-    part!("FNimul" ["FNfloor"] 28 "\
-DEF FNimul(a,b)=FNfloor(a*b)
+    part!("FNimul" ["FNfloor"] 58 "\
+DEF FNimul(a,b)
+a=a*b
+IF ABS(a)<WIDE THEN =a ELSE =FNfloor(a)
 "),
-    part!("FNineg" ["FNfloor"] 25 "\
-DEF FNineg(a)=FNfloor(-a)
+    part!("FNineg" ["BIG"] 47 "\
+DEF FNineg(a)
+IF a>-WIDE THEN =-a ELSE =2147483647
 "),
     part!("FNimin" [] 41 "\
 DEF FNimin(a%,b%)

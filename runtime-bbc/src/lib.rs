@@ -18,7 +18,8 @@
 //! - **Constants** are decimals of at most ten digits ([`literal`]), which BASIC II reads with
 //!   correct rounding. Reals saturate at 1.7E38 ([`BIG`]), not at the format's odd last value.
 //! - **Parts** are lines of BASIC without numbers. Their functions use only their parameters and
-//!   LOCALs, so that they cannot disturb the program's variables.
+//!   LOCALs, so that they cannot disturb the program's variables. What is set once, before
+//!   anything else, has a name in capitals; expressions may read it, too, if they need that part.
 
 mod functions;
 pub mod guards;

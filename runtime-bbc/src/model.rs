@@ -123,6 +123,51 @@ pub fn fn_mod(a: Real40, b: Real40) -> Real40 {
     rest
 }
 
+/// a - INT(q)*b, with q = a/b.
+fn less_multiple(a: Real40, q: Real40, b: Real40) -> Real40 {
+    let whole = whole(q.int_floor().unwrap_or(0));
+    plain(arith::sub(a, mul(whole, b)))
+}
+
+/// The remainder by one quotient.
+pub fn rem(a: Real40, b: Real40) -> Real40 {
+    less_multiple(a, div(a, b), b)
+}
+
+/// The same by the quotient of the floor.
+pub fn whole_rem(a: Real40, b: Real40) -> Real40 {
+    let floor = whole(a.int_floor().unwrap_or(0));
+    less_multiple(a, div(floor, b), b)
+}
+
+/// The remainder by a power of two: the bits of the floor above it are taken off.
+pub fn masked_rem(a: Real40, b: i32) -> Real40 {
+    let multiple = a.int_floor().unwrap_or(0) & -b;
+    plain(arith::sub(a, whole(multiple)))
+}
+
+/// `FNrem`.
+pub fn fn_rem(a: Real40, b: Real40) -> Real40 {
+    if a.is_negative() && a > nearest(1e-15).negate() {
+        return add(a, b);
+    }
+    rem(a, b)
+}
+
+/// `FNrest`.
+pub fn fn_rest(a: Real40, b: Real40) -> Real40 {
+    let sub = |a, b| plain(arith::sub(a, b));
+    let wide = mul(b, whole(65_537));
+    let upper = sub(wide, sub(wide, b));
+    let quotient = whole(div(a, b).int_floor().unwrap_or(0));
+    let rest = sub(a, mul(quotient, upper));
+    let rest = sub(rest, mul(quotient, sub(b, upper)));
+    match rest.is_negative() {
+        true => add(rest, b),
+        false => rest,
+    }
+}
+
 /// `FNfloor`.
 pub fn fn_floor(a: Real40) -> i32 {
     if a >= nearest(2_147_483_648.0) {
@@ -134,18 +179,26 @@ pub fn fn_floor(a: Real40) -> i32 {
     a.int_floor().unwrap_or(0)
 }
 
+/// Half away from zero. The sum is never rounded up to a whole number: one that lies in the middle
+/// between two reals gets the odd one.
+pub fn round(a: Real40) -> i32 {
+    let n = add(a.abs(), nearest(0.5)).int_floor().unwrap_or(0);
+    a.signum().wrapping_mul(n)
+}
+
 /// `FNround`.
 pub fn fn_round(a: Real40) -> i32 {
-    if a >= nearest(2_147_483_647.0) {
+    let most = whole(i32::MAX);
+    if a.abs() < most {
+        return round(a);
+    }
+    if a >= most {
         return i32::MAX;
     }
-    if a <= nearest(-2_147_483_648.0) {
-        return i32::MIN;
+    if a > add(nearest(0.5), nearest(-2_147_483_648.0)) {
+        return -i32::MAX;
     }
-    let n = a.abs().int_floor().unwrap_or(0);
-    let fraction = plain(arith::sub(a.abs(), whole(n)));
-    let up = i32::from(fraction >= nearest(0.5));
-    a.signum().wrapping_mul(n.wrapping_add(up))
+    i32::MIN
 }
 
 pub fn fn_sin(a: Real40) -> Real40 {

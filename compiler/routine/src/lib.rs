@@ -147,6 +147,18 @@ pub enum Form {
     Statement(&'static str),
 }
 
+impl Form {
+    /// Whether an expression has an argument in several places: it should be a variable, then.
+    pub fn repeats(self, arg: usize) -> bool {
+        match self {
+            Form::Expression { template, .. } => {
+                template.matches(&format!("{{{arg}}}")).nth(1).is_some()
+            }
+            Form::Statement(_) => false,
+        }
+    }
+}
+
 /// How far a routine's result may be from [`Op::eval`] of its arguments.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Error {

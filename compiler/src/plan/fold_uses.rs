@@ -12,7 +12,8 @@ const READS: u32 = 4;
 
 /// For each node: whether it is computed by a `Let`, read exactly once, and
 /// that by a later statement of the same block with nothing in between that
-/// could change what it reads; more often where it is written as its operand is.
+/// could change what it reads; more often where it is written as its operand is. An expression
+/// that has an operand in several places reads it more than once.
 pub fn folded(
     graph: &Graph,
     tree: &Tree,
@@ -21,6 +22,7 @@ pub fn folded(
 ) -> Vec<bool> {
     let mut uses = Uses {
         graph,
+        routines,
         count: vec![0; graph.nodes.len()],
         reader: HashMap::new(),
         blocks: 0,
@@ -63,6 +65,7 @@ pub fn folded(
 
 struct Uses<'g> {
     graph: &'g Graph,
+    routines: &'g [Option<&'static Routine>],
     count: Vec<u32>,
     /// The block that a node was read in; 0 where those are several, or where it must
     /// not be folded.
@@ -79,6 +82,19 @@ impl Uses<'_> {
         let home = self.home.get(&id);
         let stepped = matches!(self.graph.node(id), Node::Stepped { .. });
         !stepped && home.is_some() && home == self.reader.get(&id)
+    }
+
+    /// Operands that a routine's expression has in several places.
+    fn read_again(&mut self, id: NodeId, block: u32) {
+        let routine = self.routines.get(id.0 as usize).copied().flatten();
+        let (Some(routine), Node::Apply(op, args)) = (routine, self.graph.node(id)) else {
+            return;
+        };
+        for (k, arg) in args.into_iter().take(op.arity()).enumerate() {
+            if routine.form.repeats(k) {
+                self.read(arg, block);
+            }
+        }
     }
 
     fn read(&mut self, id: NodeId, block: u32) {
@@ -117,6 +133,7 @@ impl Uses<'_> {
                         let here = if stepped == Some(operand) { 0 } else { number };
                         self.read(operand, here);
                     }
+                    self.read_again(*id, number);
                 }
                 Statement::Set {
                     place,

@@ -6,6 +6,7 @@ use super::columns;
 use super::dead;
 use super::lines::Lines;
 use super::passes::Passes;
+use super::pieces::{Piece, pieces};
 use super::poke::Poke;
 use super::ramp::{self, Late};
 use super::screen;
@@ -315,16 +316,17 @@ fn reports(plan: &Plan, code: &mut Code<'_>) {
     code.line(format!("CLOSE#{channel}"));
 }
 
-/// The parts that the program calls, as far as it is written, and those that
+/// The parts that the program calls or reads, as far as it is written, and those that
 /// they need: an expression may have taken a function's place.
 fn called(plan: &Plan, code: &Code<'_>) -> Vec<&'static Part> {
-    let calls = |text: &str, name: &str| text.contains(&format!("{name}("));
-    let names: Vec<&'static str> = plan
-        .runtime
-        .parts
-        .iter()
+    let has = |text: &str, part: &Part| match is_first(part) {
+        true => pieces(text).contains(&Piece::Name(part.name)),
+        false => text.contains(&format!("{}(", part.name)),
+    };
+    let parts = plan.runtime.parts.iter();
+    let names: Vec<&'static str> = parts
+        .filter(|part| code.lines.texts().any(|text| has(text, part)))
         .map(|part| part.name)
-        .filter(|name| code.lines.texts().any(|text| calls(text, name)))
         .collect();
     plan.runtime.closure(names)
 }

@@ -86,6 +86,11 @@ impl Expressions<'_> {
             let int = matches!(cheap.args.get(k), Some(Format::Int { .. }));
             tests.push(self.test(test, &text, range, int));
         }
+        for (k, arg) in args.iter().enumerate() {
+            if cheap.form.repeats(k) {
+                self.simple(*arg);
+            }
+        }
         Some(Guard {
             form: cheap.form,
             tests,

@@ -11,8 +11,10 @@ const FREE: &[&str] = &[
     "DIM", "READ", "GOTO", "PRINT", "ABS", "INT", "SGN", "SQR",
 ];
 
-/// Variables of the runtime's functions, which are in capitals.
-pub const LIMITS: &[&str] = &["BIG", "HALF", "ROOT", "TINY", "FAR", "WIDE"];
+/// Variables of the runtime, which are in capitals.
+pub const LIMITS: &[&str] = &[
+    "BIG", "HALF", "ROOT", "TINY", "FAR", "WIDE", "MIDWAY", "QUARTER",
+];
 
 /// A piece of a statement.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
