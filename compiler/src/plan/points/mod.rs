@@ -125,8 +125,7 @@ impl Points {
             let (bits, own) = (widths.value(id), rooms.of(widths.value(id), id));
             match graph.node(id) {
                 Node::Apply(op, args) if graph.ty(id) == Type::Real => {
-                    let room = rooms.all(bits);
-                    own.min(cap(graph, (op, args), (own, bits), room, wanted::WIDE))
+                    own.min(cap(graph, (op, args), (own, bits), rooms.all(bits)))
                 }
                 _ => own,
             }

@@ -10,8 +10,8 @@ use super::early::{Often, first_of_pixels, often};
 use super::scattered::{GOLDEN, scattered};
 use super::seen::{BRIEF, Seen};
 use super::tape::{NOWHERE, Tape, Traced};
+use super::wanted;
 use super::widths::Widths;
-use super::{useful, wanted};
 use crate::eval::arithmetic::{Arithmetic, Exact};
 use crate::eval::run::Run;
 use crate::flow::graph::*;
@@ -163,9 +163,7 @@ fn chosen(
         let full = fitting(seen[at].room(), bits);
         // More bits than what a value is made of gives it serve nothing.
         let cap = match graph.node(id) {
-            // How many bits it has is known only when its factor is cut.
-            Node::Apply(Op::Mul, args) if useful::cuts_factor(graph, args) => finest(bits),
-            Node::Apply(op, args) => wanted::cap(graph, (op, args), (full, bits), &room, 0),
+            Node::Apply(op, args) => wanted::uncut(graph, (op, args), (full, bits), &room),
             _ => {
                 let all = given[at].iter().map(|from| room[from.0 as usize]);
                 all.max().unwrap_or(finest(bits))

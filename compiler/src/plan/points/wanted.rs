@@ -1,15 +1,33 @@
 //! At which scales operations read their operands, and how many fraction bits their
 //! results can have.
 
+use super::useful::cuts_factor;
 use super::widths::BYTE;
 use crate::flow::graph::*;
 use slowlight_routine::scale::{self, FEWEST, FUNCTION, MOST, Scales, finest};
 use slowlight_routine::{Op, Type};
 
 /// Fraction bits that a result cannot have more of, given those that the operands have
-/// room for, and those it has room for itself. A product may be `finer` by so many than its
-/// operands' last places count for where these are greatest.
-pub fn cap(
+/// room for, and those it has room for itself.
+pub fn cap(graph: &Graph, of: (Op, [NodeId; 2]), own: (i8, u8), room: &[i8]) -> i8 {
+    let finer = if own.1 > BYTE { WIDE } else { 0 };
+    given(graph, of, own, room, finer)
+}
+
+/// The same while it is still open what values are cut to. Where a product's cut cuts its
+/// factor, how many bits it has is known only then; in a byte, which has few to lose, any
+/// product may be cut.
+pub fn uncut(graph: &Graph, of: (Op, [NodeId; 2]), own: (i8, u8), room: &[i8]) -> i8 {
+    let (op, args) = of;
+    match op == Op::Mul && (own.1 <= BYTE || cuts_factor(graph, args)) {
+        true => finest(own.1),
+        false => given(graph, of, own, room, 0),
+    }
+}
+
+/// Those that the operands give a result, and a product so many more than their last places
+/// count for where they are greatest.
+fn given(
     graph: &Graph,
     (op, [a, b]): (Op, [NodeId; 2]),
     (result, bits): (i8, u8),
@@ -55,7 +73,7 @@ fn long(bits: u8) -> i8 {
 /// By how many bits a product may be shorter than that all the same. Where its range leaves
 /// room for them it has as many more fraction bits than its greatest operands' last places
 /// count for: smaller ones count for less, a square's most of all.
-pub const WIDE: i8 = 3;
+const WIDE: i8 = 3;
 
 /// The scale at which a constant is 1 or -1.
 fn power(graph: &Graph, id: NodeId) -> Option<i8> {
