@@ -287,6 +287,12 @@ impl Checker<'_> {
             });
             value = self.expr(body, true);
             let joined = self.cx.loops.pop().map_or(Vec::new(), |l| l.joined);
+            // What is wrong in one round would not be said of a value that is wrong itself.
+            let right = |(now, before): (Ty, &Ty)| match now {
+                Ty::Error => before.clone(),
+                _ => now,
+            };
+            let joined: Vec<Ty> = joined.into_iter().zip(&types).map(right).collect();
             if joined == types {
                 break;
             }
