@@ -1,7 +1,8 @@
-//! What is known of values before anything is computed.
+//! What is known of values before anything is computed, and which of them several calls share.
 
 use super::Slack;
 use crate::flow::graph::*;
+use crate::flow::tree::*;
 use slowlight_routine::{Op, Range, Type};
 
 /// What is known of a value that needs no computing.
@@ -38,4 +39,31 @@ pub(super) fn known(graph: &Graph, slack: &Slack, id: NodeId) -> Range {
         Node::Axis(Axis::Y) => Range::new(0.0, f64::from(graph.image.height.saturating_sub(1))),
         _ => slack.cut(graph.ty(id), Range::ALL),
     }
+}
+
+/// Nodes that belong to subroutines, none of them written yet.
+pub(crate) fn shared(graph: &Graph, tree: &Tree) -> Vec<Option<bool>> {
+    let mut shared: Vec<Option<bool>> = (graph.nodes.iter())
+        .map(|node| matches!(node, Node::Slot(_)).then_some(false))
+        .collect();
+    let mut loops = vec![false; graph.loops.len()];
+    for subroutine in &tree.subroutines {
+        walk(&subroutine.body, &mut |statement| match statement {
+            Statement::Let(id)
+            | Statement::Set {
+                place: Place::Node(id),
+                ..
+            } => shared[id.0 as usize] = Some(false),
+            Statement::Loop(turns) => loops[turns.of.0 as usize] = true,
+            _ => {}
+        });
+    }
+    for id in graph.ids() {
+        if let Node::Carried { of, .. } | Node::Last { of, .. } = graph.node(id)
+            && loops.get(of.0 as usize) == Some(&true)
+        {
+            shared[id.0 as usize] = Some(false);
+        }
+    }
+    shared
 }

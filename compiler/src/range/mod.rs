@@ -38,6 +38,7 @@ pub use assuming::assuming;
 use fresh::Fresh;
 use interval::interval;
 use known::known;
+pub(crate) use known::shared;
 #[cfg(test)]
 use loops::STATEMENTS;
 use once::Once;
@@ -140,33 +141,6 @@ pub(crate) struct Walk<'g> {
     around: Around,
     /// What values come to under it.
     fresh: Fresh,
-}
-
-/// Nodes that belong to subroutines, none of them written yet.
-pub(crate) fn shared(graph: &Graph, tree: &Tree) -> Vec<Option<bool>> {
-    let mut shared: Vec<Option<bool>> = (graph.nodes.iter())
-        .map(|node| matches!(node, Node::Slot(_)).then_some(false))
-        .collect();
-    let mut loops = vec![false; graph.loops.len()];
-    for subroutine in &tree.subroutines {
-        walk(&subroutine.body, &mut |statement| match statement {
-            Statement::Let(id)
-            | Statement::Set {
-                place: Place::Node(id),
-                ..
-            } => shared[id.0 as usize] = Some(false),
-            Statement::Loop(turns) => loops[turns.of.0 as usize] = true,
-            _ => {}
-        });
-    }
-    for id in graph.ids() {
-        if let Node::Carried { of, .. } | Node::Last { of, .. } = graph.node(id)
-            && loops.get(of.0 as usize) == Some(&true)
-        {
-            shared[id.0 as usize] = Some(false);
-        }
-    }
-    shared
 }
 
 impl Walk<'_> {
