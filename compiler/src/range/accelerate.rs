@@ -267,7 +267,7 @@ impl Walk<'_> {
     }
 
     /// The format's ends, where a carried value has left its bounds.
-    fn opened(
+    pub(super) fn opened(
         &self,
         of: LoopId,
         k: usize,

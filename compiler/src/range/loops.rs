@@ -124,31 +124,10 @@ impl Walk<'_> {
 
     /// Moves every bound that still grows to the format's end.
     fn widen(&mut self, of: LoopId, before: &[Option<Range>]) {
-        let types = &self.graph.loops[of.0 as usize].types;
-        for ((now, before), &ty) in self.carried[of.0 as usize]
-            .iter_mut()
-            .zip(before)
-            .zip(types)
-        {
-            if let (Some(range), Some(old)) = (now.as_mut(), before) {
-                let lo = if range.lo < old.lo {
-                    f64::NEG_INFINITY
-                } else {
-                    range.lo
-                };
-                let hi = if range.hi > old.hi {
-                    f64::INFINITY
-                } else {
-                    range.hi
-                };
-                let nonzero = range.nonzero;
-                *range = self.slack.cut(
-                    ty,
-                    Range {
-                        nonzero,
-                        ..Range::new(lo, hi)
-                    },
-                );
+        for (k, before) in before.iter().enumerate() {
+            let now = self.carried[of.0 as usize][k];
+            if before.is_some() {
+                self.carried[of.0 as usize][k] = self.opened(of, k, *before, now);
             }
         }
     }

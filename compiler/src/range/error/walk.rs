@@ -104,7 +104,6 @@ pub(super) struct Walk<'p> {
     /// What each node's exact value lies within here, refined by the conditions around.
     ranges: Vec<Range>,
     conditions: Conditions<'p>,
-    /// Of exact values.
     slack: Slack,
     /// What calls of subroutines share.
     shared: Vec<Option<bool>>,
