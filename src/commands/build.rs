@@ -257,7 +257,7 @@ fn emit(args: &Args, scene: &Scene, stage: Stage) -> Outcome<String> {
     let text = file.map_or("", |f| f.text.as_str());
     let graph = || match args.target {
         Some(target) => {
-            let mode = args.screen.mode(target, scene.size())?;
+            let mode = args.screen.mode(target, scene)?;
             scene.graph(Some(mode.inks), Precision::of(target))
         }
         None => scene.graph(None, Precision::NATIVE),

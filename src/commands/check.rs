@@ -177,7 +177,7 @@ fn screens(scene: &Scene, targets: &[&'static Target]) -> Outcome<Vec<inks::Scre
     let own = ("the picture".to_owned(), None);
     let mut all = vec![own];
     for target in targets {
-        let mode = ScreenArgs::default().mode(target, scene.size())?;
+        let mode = ScreenArgs::default().mode(target, scene)?;
         all.push((target.name.to_owned(), Some(mode.inks)));
     }
     Ok(all)

@@ -46,7 +46,7 @@ pub fn run(args: &Args) -> Outcome<()> {
         ..ScreenArgs::default()
     };
     let shown = match args.target {
-        Some(target) => Some(screen.mode(target, (width, height))?.inks),
+        Some(target) => Some(screen.mode(target, &scene)?.inks),
         None => None,
     };
     let mut window = Window::whole(width, height);

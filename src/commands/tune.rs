@@ -194,7 +194,7 @@ impl Form {
 fn tell(args: &Args, told: &Told<'_>) -> Outcome<()> {
     if let Some(path) = &args.html {
         let scene = Scene::open(&told.base.path, &told.base.changes)?;
-        let inks = told.base.screen.mode(args.target, scene.size())?.inks;
+        let inks = told.base.screen.mode(args.target, &scene)?.inks;
         let (width, height) = scene.size();
         let native = Natives::default().of(&scene, inks, Window::whole(width, height))?;
         files::write(path, page(told, &encoded(&native)?).as_bytes())?;

@@ -271,6 +271,12 @@ impl Scene {
             .map_or((1, 1), |i| (i.width, i.height))
     }
 
+    /// How many inks the image has.
+    pub fn inks(&self) -> u32 {
+        let image = self.checked.program.image.as_ref();
+        image.map_or(1, |image| image.palette.len() as u32)
+    }
+
     /// The scene's graph for a screen of so many inks (the image's own where
     /// `None`) and a number format.
     ///

@@ -140,16 +140,17 @@ impl ScreenArgs {
     ///
     /// # Errors
     /// Where the target has no mode of that name.
-    pub fn mode(&self, target: &'static Target, size: (u32, u32)) -> Outcome<Mode> {
-        let modes = self.modes(target, size)?;
+    pub fn mode(&self, target: &'static Target, scene: &Scene) -> Outcome<Mode> {
+        let modes = self.modes(target, scene)?;
         let first = modes.first().copied();
         first.ok_or_else(|| Failure::Wrong(format!("{} has no screen", target.name)))
     }
 
     /// The modes to try: the one asked for, else the best first.
-    fn modes(&self, target: &'static Target, size: (u32, u32)) -> Outcome<Vec<Mode>> {
+    fn modes(&self, target: &'static Target, scene: &Scene) -> Outcome<Vec<Mode>> {
         let Some(name) = &self.mode else {
-            return Ok(target::modes_for(target, size.0, size.1));
+            let (width, height) = scene.size();
+            return Ok(target::modes_for(target, width, height, scene.inks()));
         };
         let found = target.modes.iter().find(|m| m.name == name);
         let found = found.map(|mode| vec![*mode]);
@@ -201,7 +202,7 @@ impl ScreenArgs {
         set: &[(String, Vec<f64>)],
     ) -> Outcome<Plan> {
         let target = self.formatted(target)?;
-        let modes = self.modes(target, scene.size())?;
+        let modes = self.modes(target, scene)?;
         let (_waiting, _blind) = (Waiting::new("planning"), interrupt::blind());
         let name = |span| scene.called_at(span);
         let made = |mode, fuel| self.plan_in((mode, fuel), scene, target, set);
@@ -234,7 +235,7 @@ impl ScreenArgs {
     /// # Errors
     /// As for [`ScreenArgs::draft`].
     pub fn unsearched(&self, scene: &Scene, target: &'static Target) -> Outcome<Plan> {
-        let mode = self.mode(target, scene.size())?;
+        let mode = self.mode(target, scene)?;
         let whole = ScreenArgs {
             rows: None,
             ..self.clone()
@@ -248,7 +249,7 @@ impl ScreenArgs {
     /// Where the scene does not compile for it, or the options do not fit.
     pub fn draft(&self, scene: &Scene, target: &'static Target) -> Outcome<Plan> {
         let target = self.formatted(target)?;
-        let mode = self.mode(target, scene.size())?;
+        let mode = self.mode(target, scene)?;
         let _blind = interrupt::blind();
         self.plan_in((mode, SEARCH), scene, target, &[])
     }

@@ -98,7 +98,7 @@ pub fn explore(search: &Search, found: &Arc<Mutex<Found>>) -> Outcome<()> {
     let frozen = Scene::open(&base.path, &base.changes(true))?;
     let scenes = Scenes { live, frozen };
     let natives = Natives::default();
-    let inks = base.screen.mode(base.target, scenes.live.size())?.inks;
+    let inks = base.screen.mode(base.target, &scenes.live)?.inks;
     let measure = search.measure;
     let error = |errors: &Errors| measure.of(errors);
     let asked = [

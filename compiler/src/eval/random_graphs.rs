@@ -22,6 +22,8 @@ struct Maker {
     table: TableId,
     /// What may be used here, by type.
     scope: Vec<NodeId>,
+    /// Whether loops have a counter that may end them.
+    counts: bool,
 }
 
 impl Maker {
@@ -123,20 +125,38 @@ impl Maker {
 
     fn turns(&mut self, depth: usize) {
         let types: Vec<Type> = (0..1 + self.below(3)).map(|_| self.ty()).collect();
-        let carried: Vec<_> = (types.iter())
+        let mut carried: Vec<_> = (types.iter())
             .map(|&ty| (String::new(), ty, self.any(ty)))
             .collect();
         let max = 1 + self.below(6) as u32;
+        if self.counts {
+            let first = self.b.constant(Value::Int(0), AT);
+            carried.push(("k".to_owned(), Type::Int, first));
+        }
         let of = self.b.open_loop(max, &carried, AT);
         let outside = self.scope.len();
-        for k in 0..types.len() as u32 {
+        for k in 0..carried.len() as u32 {
             let carried = self.b.carried(of, k, AT);
             self.scope.push(carried);
         }
+        if self.counts {
+            let k = self.b.carried(of, types.len() as u32, AT);
+            let real = self.b.apply(Op::ToReal, &[k], AT);
+            let sine = self.b.apply(Op::Sin, &[real], AT);
+            self.scope.push(sine);
+        }
         let nodes = 2 + self.below(10);
         self.grow(nodes, depth);
-        let again = self.any(Type::Bool);
-        let next: Vec<NodeId> = types.iter().map(|&ty| self.any(ty)).collect();
+        let mut again = self.any(Type::Bool);
+        let mut next: Vec<NodeId> = types.iter().map(|&ty| self.any(ty)).collect();
+        if self.counts {
+            let k = self.b.carried(of, types.len() as u32, AT);
+            let [one, end] = [1, self.below(6) as i32].map(|n| self.b.constant(Value::Int(n), AT));
+            next.push(self.b.apply(Op::IntAdd, &[k, one], AT));
+            if self.below(3) > 0 {
+                again = self.b.apply(Op::IntLess, &[k, end], AT);
+            }
+        }
         let results: Vec<Type> = (0..1 + self.below(2)).map(|_| self.ty()).collect();
         let done: Vec<NodeId> = results.iter().map(|&ty| self.any(ty)).collect();
         self.scope.truncate(outside);
@@ -154,6 +174,15 @@ impl Maker {
 
 /// A graph by its number; every third spreads an error.
 pub fn graph(seed: u64) -> Graph {
+    made(seed, false)
+}
+
+/// The same with a counter in each loop, which ends two of three.
+pub fn counted(seed: u64) -> Graph {
+    made(seed, true)
+}
+
+fn made(seed: u64, counts: bool) -> Graph {
     let mut b = Builder::new();
     let entries = [3, 1, 4, 1, 5, 9].map(Constant::Int).to_vec();
     let table = b.table(Table {
@@ -186,6 +215,7 @@ pub fn graph(seed: u64) -> Graph {
         b,
         table,
         scope,
+        counts,
     };
     // Rows in one pass, or in four.
     let passes = if spreads || seed.is_multiple_of(2) {

@@ -3,6 +3,7 @@
 pub mod algebra;
 pub mod along;
 pub mod apart;
+pub mod arcs;
 mod arena;
 pub mod arms;
 pub mod coarse;
@@ -16,6 +17,7 @@ pub mod guard;
 pub mod homogeneous;
 pub mod identities;
 pub mod in_place;
+pub mod induction_tables;
 pub mod int_roots;
 pub mod int_signs;
 pub mod interlace;
@@ -45,6 +47,7 @@ pub mod still;
 pub mod sums;
 pub mod threshold;
 pub mod units;
+pub mod unroll;
 pub mod whole_parts;
 pub mod zones;
 

@@ -2,6 +2,7 @@
 
 use super::cheaper::{apart_at_last, cheaper, steps_ahead, with_inks_split, with_recipes_followed};
 use super::chosen::{asked_where_it_matters, in_arms, with_limits, with_reciprocals};
+use super::counted::counted;
 use super::licm::licm;
 use super::narrowed::narrowed;
 use super::params::{self, ParamPlan};
@@ -168,7 +169,16 @@ fn planned_in(
         }
         _ => graph,
     };
-    let mut now = steady(shop, &whole(drawn(fold(&without(origin)))), rounds);
+    let ready = |graph: &Graph| steady(shop, &whole(drawn(fold(&without(graph)))), rounds);
+    let mut now = ready(origin);
+    let turns = match rewriting {
+        Rewriting::Fast { thrift, .. } => counted((origin, &now), &ready, shop, thrift),
+        _ => None,
+    };
+    let origin = turns.as_ref().map_or(origin, |(graph, _)| graph);
+    if let Some((_, plan)) = &turns {
+        now = plan.clone();
+    }
     if let Rewriting::Fast { thrift, steps } = rewriting {
         let early =
             (!origin.early.is_empty()).then(|| steady(shop, &whole(drawn(fold(origin))), rounds));

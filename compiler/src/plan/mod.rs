@@ -50,6 +50,7 @@ mod beside;
 mod cheaper;
 mod choose;
 mod chosen;
+mod counted;
 mod fold_uses;
 mod interference;
 #[cfg(test)]

@@ -93,6 +93,9 @@ const THRIFT: [Step; 19] = [
     },
 ];
 
+/// From what part of the cycles on a statement more is not spent on the turns of loops.
+const COUNTED: f64 = 0.0005;
+
 /// How much memory counts beside cycles: more where a program did not fit.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Thrift(usize);
@@ -125,6 +128,17 @@ impl Thrift {
     /// Whether what tables hold is to be worked out where it is needed, if it can be.
     pub fn follows(self) -> bool {
         THRIFT[self.0].follows
+    }
+
+    /// Whether there is memory to spare.
+    pub fn is_plenty(self) -> bool {
+        self.part() <= THRIFT[0].part
+    }
+
+    /// Whether the turns of loops may be written down one by one, and what hangs on their
+    /// counters may be in tables.
+    pub fn counts(self) -> bool {
+        self.part() < COUNTED
     }
 
     /// Whether runs of columns may be looked for.

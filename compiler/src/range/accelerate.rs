@@ -44,7 +44,7 @@ pub(super) struct Growth {
     met: Vec<NodeId>,
 }
 
-fn join(all: Option<Range>, more: Option<Range>) -> Option<Range> {
+pub(super) fn join(all: Option<Range>, more: Option<Range>) -> Option<Range> {
     match (all, more) {
         (Some(a), Some(b)) => Some(a.join(b)),
         (a, b) => a.or(b),
@@ -52,7 +52,7 @@ fn join(all: Option<Range>, more: Option<Range>) -> Option<Range> {
 }
 
 /// Whether what is known holds what comes after.
-fn contains(known: Option<Range>, next: Option<Range>) -> bool {
+pub(super) fn contains(known: Option<Range>, next: Option<Range>) -> bool {
     match (known, next) {
         (Some(known), Some(next)) => {
             next.within(known.lo, known.hi) && (next.nonzero || !known.nonzero)
@@ -145,6 +145,7 @@ impl Walk<'_> {
             })
             .collect();
         let mut added: Carried = vec![None; base.len()];
+        let heads = self.heads.clone();
         for turn in 0..TRIES {
             let head: Option<Carried> = (0..base.len())
                 .map(|k| match (base[k], added[k]) {
@@ -171,6 +172,7 @@ impl Walk<'_> {
             }
         }
         self.carried[at] = met;
+        self.heads = heads;
         false
     }
 

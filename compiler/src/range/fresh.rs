@@ -6,7 +6,6 @@ use super::Walk;
 use super::interval::interval;
 use crate::flow::graph::*;
 use crate::flow::tree::Place;
-use rustc_hash::FxHashMap;
 use slowlight_routine::Range;
 
 /// How many values are computed again for one that is asked for.
@@ -18,7 +17,12 @@ const DEEP: u32 = 24;
 /// What was computed again since conditions last changed.
 #[derive(Default)]
 pub(super) struct Fresh {
-    of: FxHashMap<NodeId, Range>,
+    /// Values, each with the time at which it was computed.
+    of: Vec<(u64, Range)>,
+    /// The time: what was computed before is forgotten.
+    now: u64,
+    /// How many values are known.
+    known: usize,
     /// The least node that conditions have narrowed: no node before it hangs on one.
     first: Option<NodeId>,
 }
@@ -28,8 +32,23 @@ impl Fresh {
     pub(super) fn clear(&mut self) {
         if self.first.is_some() {
             self.first = None;
-            self.of.clear();
+            self.known = 0;
+            self.now += 1;
         }
+    }
+
+    fn get(&self, id: NodeId) -> Option<Range> {
+        let (time, range) = self.of.get(id.0 as usize)?;
+        (*time == self.now).then_some(*range)
+    }
+
+    fn insert(&mut self, id: NodeId, range: Range) {
+        let at = id.0 as usize;
+        if self.of.len() <= at {
+            self.of.resize(at + 1, (u64::MAX, Range::ALL));
+        }
+        self.of[at] = (self.now, range);
+        self.known += 1;
     }
 }
 
@@ -55,18 +74,18 @@ impl Walk<'_> {
         if self.fresh.first.is_none() {
             self.fresh.first = self.saved.iter().map(|(id, _)| *id).min();
         }
-        let most = self.fresh.of.len() + MOST;
+        let most = self.fresh.known + MOST;
         self.computed_again(id, DEEP, most)
     }
 
     fn computed_again(&mut self, id: NodeId, deep: u32, most: usize) -> Range {
         let held = self.read(id);
         let known = Some(id) < self.fresh.first || self.shared[id.0 as usize].is_some();
-        if deep == 0 || known || held.lo == held.hi || self.fresh.of.len() > most {
+        if deep == 0 || known || held.lo == held.hi || self.fresh.known > most {
             return held;
         }
-        if let Some(range) = self.fresh.of.get(&id) {
-            return *range;
+        if let Some(range) = self.fresh.get(id) {
+            return range;
         }
         let made = match self.graph.node(id) {
             Node::Apply(op, operands) => {
@@ -81,7 +100,7 @@ impl Walk<'_> {
             _ => return held,
         };
         self.walked += 1;
-        self.fresh.of.insert(id, made);
+        self.fresh.insert(id, made);
         made
     }
 }

@@ -96,6 +96,7 @@ pub fn ranges_counted(graph: &Graph, tree: &Tree, slack: &Slack) -> (Ranges, u64
         growth: None,
         narrowing: false,
         ended: vec![Vec::new(); graph.loops.len()],
+        heads: vec![None; graph.loops.len()],
         around: Around::default(),
         fresh: Fresh::default(),
     };
@@ -118,6 +119,8 @@ pub(crate) struct Walk<'g> {
     saved: Vec<(NodeId, Range)>,
     once: Once,
     carried: Vec<Vec<Option<Range>>>,
+    /// What each loop's carried values stayed within when it was walked last.
+    heads: Vec<Option<accelerate::Carried>>,
     /// What values that are computed here are known to stay within.
     assumed: Vec<(NodeId, Range)>,
     /// By whom carried values are read, where something is expected of them.
@@ -267,7 +270,6 @@ impl Walk<'_> {
             None => range,
         };
         self.now[at] = range;
-        self.fresh.clear();
         self.out.result[at] = match &mut self.shared[at] {
             // What is recorded holds for every call.
             Some(true) => self.out.result[at].join(range),

@@ -13,6 +13,7 @@ use crate::passes::outline::Sizes;
 use crate::plan::Plan;
 use crate::source::Span;
 use slowlight_routine::Runtime;
+use std::cmp::Reverse;
 
 /// A screen mode of a machine.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -145,12 +146,12 @@ pub fn find(name: &str) -> Option<&'static Target> {
 /// The mode for a picture: of those that hold it whole the one with most inks,
 /// else the one with most pixels.
 pub fn default_mode(target: &Target, width: u32, height: u32) -> Option<Mode> {
-    modes_for(target, width, height).first().copied()
+    modes_for(target, width, height, u32::MAX).first().copied()
 }
 
-/// The modes for a picture, the best first: those that hold it whole by their
-/// inks, then the others by their pixels. Of equals the machine's order decides.
-pub fn modes_for(target: &Target, width: u32, height: u32) -> Vec<Mode> {
+/// The modes for a picture, the best first: those that hold it whole by how many of its
+/// inks they have, then the others by their pixels, too. Of equals the machine's order decides.
+pub fn modes_for(target: &Target, width: u32, height: u32, inks: u32) -> Vec<Mode> {
     if let Some(any) = target.modes.iter().find(|m| m.width == 0) {
         return vec![Mode {
             width,
@@ -160,7 +161,9 @@ pub fn modes_for(target: &Target, width: u32, height: u32) -> Vec<Mode> {
     }
     let holds = |m: &&Mode| m.width >= width && m.height >= height;
     let (mut whole, mut part): (Vec<&Mode>, Vec<&Mode>) = target.modes.iter().partition(holds);
-    whole.sort_by_key(|m| std::cmp::Reverse(m.inks));
-    part.sort_by_key(|m| std::cmp::Reverse(u64::from(m.width) * u64::from(m.height)));
+    let shown = |m: &Mode| m.inks.min(inks);
+    let pixels = |m: &Mode| u64::from(m.width) * u64::from(m.height);
+    whole.sort_by_key(|m| Reverse(shown(m)));
+    part.sort_by_key(|m| Reverse((pixels(m), shown(m))));
     whole.into_iter().chain(part).copied().collect()
 }
