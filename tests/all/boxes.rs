@@ -151,7 +151,7 @@ fn wrong_options_say_what_there_is() {
     for (args, said) in [
         (
             &["-t", "6502:bbc", "--mode", "7"][..],
-            "its modes are 1, 0, 2, 4, 5",
+            "its modes are 5, 4, 2, 1, 0",
         ),
         (
             &["-t", "6502:c64", "--mode", "1"],

@@ -66,7 +66,7 @@ fn other_angles_are_left_alone() {
     for shade in [
         "cos(2.5 * acos(u))",
         "cos(17 * acos(u))",
-        "cos(acos(u) + v * 1rad)",
+        "cos(acos(u) + sqrt(v + 2) * 1rad)",
         "sin(acos(u) + asin(v))",
         "sin(u * acos(v))",
         "tan(acos(u))",

@@ -62,3 +62,26 @@ fn what_is_said_of_a_nest_holds() {
         }
     }
 }
+
+/// Shapes of shapes: each is a loop over where its parts begin and end, in the loop of the one
+/// that it is a part of. Where bounds grow in each turn, nests are not walked through to the end.
+#[test]
+fn nests_of_shapes_are_walked_within_a_number_of_statements_a_node() {
+    let graph = graph(
+        "image 16 x 12 inks black, white;
+        scene world {
+          intersection(
+            union(intersection(sphere((-0.6, 0.4, 2), 0.5), cylinder((0.7, 0.6, 1.7), (0, 1, 0), 0.5)),
+              box((-0.2, -0.8, -0.2), (0.9, 0.8, 0.5))),
+            difference(box((-0.9, -0.5, -0.9), (0.6, 1, 1)), box((-0.4, 0, -0.4), (0.7, 0.4, 0.4)))) is 0.3;
+        }
+        draw (x, y) = threshold(if let h = world.trace(ray((1, 1, 4), unit((x / 16 - 0.5, 0.5 - y / 12, -1.5))), far: 100)
+          then h.tag * lambert(h, (0.48, 0.64, 0.6)) else 0.1, 0.5);",
+    );
+    let tree = schedule(&graph);
+    for target in TARGETS.iter() {
+        let (_, walked) = ranges_counted(&graph, &tree, &Slack::of(target.runtime));
+        let most = 400 * graph.nodes.len() as u64;
+        assert!(walked < most, "{}: {walked} of {most}", target.name);
+    }
+}

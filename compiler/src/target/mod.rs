@@ -6,6 +6,8 @@
 pub mod bbc;
 pub mod colours;
 pub mod jack;
+#[cfg(test)]
+mod mode_tests;
 pub mod mos6502;
 mod starts;
 
