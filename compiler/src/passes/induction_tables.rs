@@ -316,7 +316,7 @@ fn few(graph: &Graph, ranges: &Ranges, id: NodeId) -> Option<Counter> {
     };
     let range = ranges.result[id.0 as usize];
     let (lo, values) = (range.lo.ceil(), range.hi.floor() - range.lo.ceil() + 1.0);
-    (1.0..=FEW).contains(&values).then(|| Counter {
+    (1.0..=FEW).contains(&values).then_some(Counter {
         of: None,
         node: id,
         first: lo as i32,

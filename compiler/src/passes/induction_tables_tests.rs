@@ -135,7 +135,10 @@ fn tables_hold_what_turns_compute() {
 fn sines_of_rounded_ints_are_looked_up_and_draw_the_same() {
     // As many values as the range has that is known of what is rounded: 13, and any.
     for (shade, expected) in [
-        ("sin(round(6 * max(min(x / 4 - 1, 1), -1)) * 1rad)", Some(13)),
+        (
+            "sin(round(6 * max(min(x / 4 - 1, 1), -1)) * 1rad)",
+            Some(13),
+        ),
         ("sin(round(exp(x)) * 1rad)", None),
     ] {
         let graph = scene(shade);

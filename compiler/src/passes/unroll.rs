@@ -26,7 +26,7 @@ pub fn unroll(graph: &Graph) -> Option<Graph> {
         let short = going <= TURNS && (going + 1) * body.len() <= NODES;
         let result = |id: &NodeId| matches!(graph.node(*id), Node::Result { .. });
         let innermost = !body.iter().any(result);
-        (short && innermost).then(|| (of, Turns { body, going }))
+        (short && innermost).then_some((of, Turns { body, going }))
     };
     let loops: BTreeMap<LoopId, Turns> = counted(graph).into_iter().filter_map(fits).collect();
     (!loops.is_empty()).then(|| Unroller::new(graph, loops, rates).done())
