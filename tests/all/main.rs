@@ -57,6 +57,7 @@ mod peers_dialect;
 mod peers_drawings;
 #[cfg(feature = "peers")]
 mod peers_jsbeeb;
+mod pairs;
 mod planning;
 mod precise;
 mod predicted;

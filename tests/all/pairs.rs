@@ -1,0 +1,142 @@
+//! Scenes as people write them, beside what somebody who counts cycles would write: the
+//! compiler finds the second by itself.
+#![allow(clippy::unwrap_used)]
+
+use crate::cli::{directory, json};
+
+const HEAD: &str = "image 32 x 24 inks black, #555555, #aaaaaa, white;\n";
+
+/// What a scene takes from its twelfth row to its fifteenth, without what it does before.
+fn cycles(scene: &str, target: &str) -> f64 {
+    let dir = directory(&[("scene.scn", scene)]);
+    let run = |rows: &str| {
+        let said = json(
+            dir.path(),
+            &["run", "scene.scn", "-t", target, "--rows", rows, "--json"],
+        );
+        assert_eq!(said["differs_from_model"], 0, "{target}:\n{scene}");
+        said["cycles"].as_f64().unwrap()
+    };
+    run("12..15") - run("12..12")
+}
+
+/// Holds what the first scene takes to what the second does.
+fn is_as_quick(written: &str, by_hand: &str) {
+    for target in ["jack", "6502:plain", "bbc:micro"] {
+        let [written, by_hand] = [written, by_hand].map(|scene| cycles(scene, target));
+        let times = written / by_hand;
+        assert!(
+            times < 1.15,
+            "{target}: {written} for {by_hand}, {times:.2}"
+        );
+    }
+}
+
+/// Balls in a ring, where their centres are this.
+fn ring(table: &str, centre: &str) -> String {
+    format!(
+        "{HEAD}{table}
+        record near {{ t: real, n: vec3 }}
+        fn nearer(b: near, r: ray, c: vec3) -> near =
+          if let h = sphere(c, 0.15).hit(r) then (if h.t < b.t then near(h.t, h.normal) else b) else b;
+        draw (x, y) = {{
+          let r = pinhole((0.5, 2.2, 4.6), at: (0, 0.2, 0), field: 48deg).through(x, y);
+          let b = loop (k = 0, b = near(1000, (0, 1, 0))) max 40 {{
+            if k == 36 then b else next(k + 1, nearer(b, r, {centre}))
+          }} else b;
+          threshold(if b.t < 999 then 0.1 + 0.9 * max(dot(b.n, (0.48, 0.64, 0.6)), 0) else 0.05, bayer(4)[x mod 4, y mod 4])
+        }};"
+    )
+}
+
+#[test]
+fn what_hangs_on_a_counter_is_a_table() {
+    let centre = |k: i32| {
+        let (turn, wave) = (
+            f64::from(10 * k).to_radians(),
+            f64::from(30 * k).to_radians(),
+        );
+        let [x, y, z] = [1.6 * turn.cos(), 0.4 + 0.3 * wave.sin(), 1.6 * turn.sin()];
+        format!("{x:.9}, {y:.9}, {z:.9}")
+    };
+    let all: Vec<String> = (0..36).map(centre).collect();
+    let table = format!("const places = [{}];", all.join("; "));
+    is_as_quick(
+        &ring(
+            "",
+            "(1.6 * cos(k * 10deg), 0.4 + 0.3 * sin(k * 30deg), 1.6 * sin(k * 10deg))",
+        ),
+        &ring(&table, "(places[0, k], places[1, k], places[2, k])"),
+    );
+}
+
+#[test]
+fn a_short_loop_is_its_turns() {
+    let scene = |charge: &str| {
+        format!(
+            "{HEAD}param time: real = 0.2 in 0 .. 1;
+            const centres = [0.9, 0.2, 0; -0.6, 0.6, 0.3; 0.1, -0.5, 0.5];
+            fn one(p: vec3, c: vec3) -> real = {{ let d = p - c; 0.12 / max(dot(d, d), 0.02) }};
+            fn charge(p: vec3) -> real = {charge};
+            draw (x, y) = {{
+              let r = pinhole((0, 0.3, 4), at: (0, 0, 0), field: 50deg).through(x, y);
+              let v = loop (i = 0, s = 0.0) max 6 {{
+                if i == 5 then s else next(i + 1, max(s, charge(r.at(2.5 + 0.6 * i))))
+              }} else s;
+              threshold(v / 4, bayer(4)[x mod 4, y mod 4])
+            }};"
+        )
+    };
+    is_as_quick(
+        &scene(
+            "loop (k = 0, s = 0.0) max 4 {
+              if k == 3 then s
+              else next(k + 1, s + one(p, (centres[0, k] * cos(time * 1turn + k * 1rad), centres[1, k], centres[2, k])))
+            } else s",
+        ),
+        &scene(
+            "one(p, (0.9 * cos(time * 1turn), 0.2, 0)) + one(p, (-0.6 * cos(time * 1turn + 1rad), 0.6, 0.3))
+            + one(p, (0.1 * cos(time * 1turn + 2rad), -0.5, 0.5))",
+        ),
+    );
+}
+
+#[test]
+fn sines_of_arcs_are_products() {
+    let scene = |v: &str| {
+        format!(
+            "{HEAD}draw (x, y) = {{
+              let u = (x - 15.5) / 12;
+              let w = (y - 11.5) / 12;
+              let r = sqrt(u * u + w * w);
+              {v};
+              threshold(0.5 + 0.5 * v / max(r, 0.05), bayer(4)[x mod 4, y mod 4])
+            }};"
+        )
+    };
+    let (sin, cos) = 40f64.to_radians().sin_cos();
+    is_as_quick(
+        &scene("let v = r * cos(3 * atan2(w, u) - 40deg)"),
+        &scene(&format!(
+            "let a = u / r; let b = w / r; let a2 = a * a - b * b; let b2 = 2 * a * b;
+            let v = r * ((a2 * a - b2 * b) * {cos:.10} + (b2 * a + a2 * b) * {sin:.10})"
+        )),
+    );
+}
+
+#[test]
+fn whole_powers_are_products() {
+    let scene = |v: &str| {
+        format!(
+            "{HEAD}draw (x, y) = {{
+              let a = 1 - (x + 0.5) / 32 * ((y + 0.5) / 24);
+              {v};
+              threshold(v, bayer(4)[x mod 4, y mod 4])
+            }};"
+        )
+    };
+    is_as_quick(
+        &scene("let v = a ^ 10"),
+        &scene("let a2 = a * a; let a4 = a2 * a2; let v = a4 * a4 * a2"),
+    );
+}
