@@ -39,6 +39,7 @@ mod mos6502_fixed;
 mod mos6502_logs;
 mod need;
 mod numbers;
+mod pairs;
 #[cfg(feature = "peers")]
 mod peers_assemblers;
 #[cfg(feature = "peers")]
@@ -57,7 +58,6 @@ mod peers_dialect;
 mod peers_drawings;
 #[cfg(feature = "peers")]
 mod peers_jsbeeb;
-mod pairs;
 mod planning;
 mod precise;
 mod predicted;
