@@ -6,7 +6,7 @@ use crate::cli::{directory, json};
 
 const HEAD: &str = "image 32 x 24 inks black, #555555, #aaaaaa, white;\n";
 
-/// What a scene takes from its twelfth row to its fifteenth, without what it does before.
+/// What rows 13 to 15 of a scene take, without what it does before.
 fn cycles(scene: &str, target: &str) -> f64 {
     let dir = directory(&[("scene.scn", scene)]);
     let run = |rows: &str| {

@@ -3,7 +3,8 @@
 //! The sine of an arc's multiple is a polynomial in the arc's own sine and cosine, and these are
 //! what the arc was taken of, or a root of it: the angles that a fractal doubles, or the sector
 //! that a spiral stair turns back, need neither the arc nor a series. What else is in the angle
-//! must be constant, or hang on one int. (Abramowitz and Stegun, Handbook of mathematical functions, 4.3.16, 4.3.17.)
+//! must be constant, or hang on one int. (Abramowitz and Stegun, Handbook of mathematical
+//! functions, 4.3.16, 4.3.17.)
 
 use super::rebuild::rebuild_old;
 use crate::flow::build::Builder;

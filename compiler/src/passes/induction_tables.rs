@@ -1,9 +1,10 @@
-//! Functions of induction variables as constant tables.
+//! Functions of induction variables, and of ints of few values, as constant tables.
 //!
 //! A loop that counts often makes numbers of its counter: where the k-th ball stands, the
 //! corners of the k-th face. All turns of all pixels make the same few. Here what hangs on one
 //! or two counters alone, and takes more than to be looked up, is worked out beforehand, for
-//! each turn that the loop may take, and becomes a [`Table`] that is read by the counter.
+//! each turn that the loop may take, and becomes a [`Table`] that is read by the counter. An int
+//! that is rounded and stays within few values, whatever the pixel, is like a counter in that.
 //! (An induction variable as in Aho, Lam, Sethi and Ullman, Compilers, 2nd edition, 9.1.8.)
 
 use super::rebuild::rebuild_old;

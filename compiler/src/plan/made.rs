@@ -2,7 +2,6 @@
 
 use super::cheaper::{apart_at_last, cheaper, steps_ahead, with_inks_split, with_recipes_followed};
 use super::chosen::{asked_where_it_matters, in_arms, with_limits, with_reciprocals};
-use super::counted::counted;
 use super::licm::licm;
 use super::narrowed::narrowed;
 use super::params::{self, ParamPlan};
@@ -12,6 +11,7 @@ use super::stepped::{Steps, stepped};
 use super::sums::with_sums;
 use super::tabulated::in_columns;
 use super::thrift::Thrift;
+use super::whole_forms::cheapest_form;
 use super::workshop::Workshop;
 use super::{Copies, Goal, Plan, SEARCH, choose, fold_uses, names, points, recipes};
 use crate::flow::graph::*;
@@ -171,12 +171,12 @@ fn planned_in(
     };
     let ready = |graph: &Graph| steady(shop, &whole(drawn(fold(&without(graph)))), rounds);
     let mut now = ready(origin);
-    let turns = match rewriting {
-        Rewriting::Fast { thrift, .. } => counted((origin, &now), &ready, shop, thrift),
+    let form = match rewriting {
+        Rewriting::Fast { thrift, .. } => cheapest_form((origin, &now), &ready, shop, thrift),
         _ => None,
     };
-    let origin = turns.as_ref().map_or(origin, |(graph, _)| graph);
-    if let Some((_, plan)) = &turns {
+    let origin = form.as_ref().map_or(origin, |(graph, _)| graph);
+    if let Some((_, plan)) = &form {
         now = plan.clone();
     }
     if let Rewriting::Fast { thrift, steps } = rewriting {

@@ -50,7 +50,6 @@ mod beside;
 mod cheaper;
 mod choose;
 mod chosen;
-mod counted;
 mod fold_uses;
 mod interference;
 #[cfg(test)]
@@ -84,6 +83,7 @@ mod stepped;
 mod sums;
 mod tabulated;
 pub(crate) mod thrift;
+mod whole_forms;
 pub(crate) mod workshop;
 #[cfg(test)]
 mod workshop_tests;

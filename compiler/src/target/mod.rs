@@ -145,8 +145,8 @@ pub fn find(name: &str) -> Option<&'static Target> {
         .copied()
 }
 
-/// The mode for a picture: of those that hold it whole the one with most inks,
-/// else the one with most pixels.
+/// The mode for a picture of as many inks as there are: of those that hold it whole the one
+/// with most inks, else the one with most pixels.
 pub fn default_mode(target: &Target, width: u32, height: u32) -> Option<Mode> {
     modes_for(target, width, height, u32::MAX).first().copied()
 }

@@ -15,7 +15,7 @@ use slowlight_routine::Op;
 
 /// The cheapest such form, with its plan by `ready`; nothing where the plan of the scene as it
 /// is is cheaper.
-pub fn counted(
+pub fn cheapest_form(
     (origin, plan): (&Graph, &Settled),
     ready: &dyn Fn(&Graph) -> Settled,
     shop: &Workshop,
