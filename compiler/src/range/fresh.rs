@@ -11,6 +11,9 @@ use slowlight_routine::Range;
 /// How many values are computed again for one that is asked for.
 const MOST: usize = 150;
 
+/// How many in all: each arm of each turn asks anew.
+const IN_ALL: u64 = 20_000;
+
 /// How deep the last of these lie.
 const DEEP: u32 = 24;
 
@@ -23,6 +26,8 @@ pub(super) struct Fresh {
     now: u64,
     /// How many values are known.
     known: usize,
+    /// How many were computed in all.
+    computed: u64,
     /// The least node that conditions have narrowed: no node before it hangs on one.
     first: Option<NodeId>,
 }
@@ -49,6 +54,7 @@ impl Fresh {
         }
         self.of[at] = (self.now, range);
         self.known += 1;
+        self.computed += 1;
     }
 }
 
@@ -68,7 +74,8 @@ impl Walk<'_> {
 
     /// What a value comes to here.
     pub(super) fn fresh(&mut self, id: NodeId) -> Range {
-        if self.saved.is_empty() || !self.slack.inverts() {
+        let done = self.saved.is_empty() || self.fresh.computed > IN_ALL;
+        if done || !self.slack.inverts() {
             return self.read(id);
         }
         if self.fresh.first.is_none() {

@@ -11,7 +11,7 @@ use slowlight_routine::{Range, Value};
 const PATIENCE: u32 = 2000;
 
 /// How many statements are walked before that is done whatever the turns.
-const SOON: u64 = 300_000;
+const SOON: u64 = 100_000;
 
 /// How many statements are walked before loops are walked once, with nothing known of what
 /// they carry. Loops inside each other multiply, each walked until its bounds hold: in a nest
