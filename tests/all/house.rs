@@ -89,8 +89,10 @@ fn arrows_point_down_only() {
 fn links_of_documents_lead_somewhere() {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
     let mut pages = vec![root.join("README.md"), root.join("ARCHITECTURE.md")];
-    let docs = std::fs::read_dir(root.join("docs")).expect("docs");
-    pages.extend(docs.map(|entry| entry.expect("an entry").path()));
+    for folder in ["docs", "docs/design"] {
+        let docs = std::fs::read_dir(root.join(folder)).expect("docs");
+        pages.extend(docs.map(|entry| entry.expect("an entry").path()));
+    }
     pages.retain(|page| page.extension().is_some_and(|e| e == "md"));
     let mut links = 0;
     for page in pages {
@@ -106,4 +108,57 @@ fn links_of_documents_lead_somewhere() {
         }
     }
     assert!(links > 50, "{links}");
+}
+
+/// The map is short enough to be read, and names every pass.
+#[test]
+fn the_map_is_short_and_names_every_pass() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let map = std::fs::read_to_string(root.join("ARCHITECTURE.md")).expect("the map");
+    assert!(map.len() <= 15 * 1024, "{} bytes", map.len());
+    let passes = std::fs::read_dir(root.join("compiler/src/passes")).expect("passes");
+    for entry in passes {
+        let name = entry.expect("an entry").file_name();
+        let name = name.to_string_lossy().replace(".rs", "");
+        if name != "mod" && !name.ends_with("_tests") {
+            assert!(
+                map.contains(&format!("`{name}`")),
+                "{name} is not on the map"
+            );
+        }
+    }
+}
+
+/// Files can be held in the head: none is longer than 400 lines.
+#[test]
+fn files_are_short() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let (mut folders, mut files) = (Vec::new(), 0);
+    for name in [
+        "src",
+        "compiler",
+        "runtime-jack",
+        "runtime-bbc",
+        "runtime-6502",
+        "vm",
+        "tests",
+    ] {
+        folders.push(root.join(name));
+    }
+    while let Some(folder) = folders.pop() {
+        for entry in std::fs::read_dir(folder).expect("a folder") {
+            let path = entry.expect("an entry").path();
+            if path.is_dir() {
+                folders.push(path);
+            } else if path.extension().is_some_and(|e| e == "rs") {
+                let lines = std::fs::read_to_string(&path)
+                    .expect("text")
+                    .lines()
+                    .count();
+                assert!(lines <= 400, "{}: {lines} lines", path.display());
+                files += 1;
+            }
+        }
+    }
+    assert!(files > 800, "{files}");
 }

@@ -23,6 +23,13 @@ impl Narrowing<'_> {
         if deep == 0 || op.result() != Type::Real || !self.slack.inverts() {
             return;
         }
+        // What several calls compute may be another one's by now.
+        if operands
+            .iter()
+            .any(|id| self.shared[id.0 as usize].is_some())
+        {
+            return;
+        }
         let args = operands.map(|id| self.now[id.0 as usize]);
         let exact = self
             .slack
@@ -53,8 +60,7 @@ impl Narrowing<'_> {
         };
         for (operand, range) in [(operands[0], of_a), (operands[1], of_b)] {
             let Some(range) = range else { continue };
-            // What several calls compute may be another one's by now.
-            if self.graph.constant(operand).is_some() || self.shared[operand.0 as usize].is_some() {
+            if self.graph.constant(operand).is_some() {
                 continue;
             }
             let held = self.now[operand.0 as usize];

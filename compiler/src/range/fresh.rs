@@ -85,9 +85,15 @@ impl Walk<'_> {
         self.computed_again(id, DEEP, most)
     }
 
+    /// Whether several calls of a subroutine compute a value, or give it: by now it may be
+    /// another call's than the one that what it is part of was computed from.
+    fn is_shared(&self, id: NodeId) -> bool {
+        self.shared[id.0 as usize].is_some()
+    }
+
     fn computed_again(&mut self, id: NodeId, deep: u32, most: usize) -> Range {
         let held = self.read(id);
-        let known = Some(id) < self.fresh.first || self.shared[id.0 as usize].is_some();
+        let known = Some(id) < self.fresh.first || self.is_shared(id);
         if deep == 0 || known || held.lo == held.hi || self.fresh.known > most {
             return held;
         }
@@ -95,11 +101,13 @@ impl Walk<'_> {
             return range;
         }
         let made = match self.graph.node(id) {
+            Node::Apply(_, of) if of.iter().any(|id| self.is_shared(*id)) => held,
             Node::Apply(op, operands) => {
                 let args = operands.map(|id| self.computed_again(id, deep - 1, most));
                 let exact = interval(op, args, operands[0] == operands[1]);
                 held.meet(self.slack.rounded(op, &args[..op.arity()], exact))
             }
+            Node::Select { yes, no, .. } if self.is_shared(yes) || self.is_shared(no) => held,
             Node::Select { yes, no, .. } => {
                 let arms = [yes, no].map(|id| self.computed_again(id, deep - 1, most));
                 held.meet(arms[0].join(arms[1]))

@@ -91,6 +91,9 @@ fn holds_for(name: &str, text: &str) {
     let plan = planned(name, &exact);
     let found = wrong(&plan.graph, &plan.tree, &plan.ranges);
     assert_eq!(found, Vec::<String>::new(), "{name}, planned");
+    let called = plan.outlined(&|_| None).unwrap();
+    let found = wrong(&called.graph, &called.tree, &called.ranges);
+    assert_eq!(found, Vec::<String>::new(), "{name}, with subroutines");
 }
 
 #[test]

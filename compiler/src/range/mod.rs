@@ -31,7 +31,7 @@ use crate::flow::graph::*;
 use crate::flow::ramp;
 use crate::flow::tree::*;
 
-use crate::plan::points::sample::{Readers, readers};
+use crate::plan::points::carried::{Readers, readers};
 use accelerate::Growth;
 use around::Around;
 pub use assuming::assuming;

@@ -4,7 +4,7 @@
 use super::Walk;
 use crate::flow::graph::*;
 use crate::flow::tree::*;
-use crate::plan::points::sample::held_by;
+use crate::plan::points::carried::held_by;
 use slowlight_routine::{Op, Range, Type};
 use std::collections::BTreeSet;
 

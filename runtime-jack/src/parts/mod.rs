@@ -13,6 +13,8 @@
 #[macro_use]
 mod float;
 #[macro_use]
+mod float_sums;
+#[macro_use]
 mod fixed;
 #[macro_use]
 mod functions;
@@ -43,8 +45,8 @@ pub(crate) static ALL: &[Part] = &[
     part!("Float.abs", [], 60, float::ABS),
     part!("Float.mul", [], 360, float::MUL),
     part!("Float.scale", [], 140, float::SCALE),
-    part!("Float.add", ["Float.makePowers"], 520, float::ADD),
-    part!("Float.sub", ["Float.makePowers"], 530, float::SUB),
+    part!("Float.add", ["Float.makePowers"], 520, float_sums::ADD),
+    part!("Float.sub", ["Float.makePowers"], 530, float_sums::SUB),
     part!("Float.div", [], 420, float::DIV),
     part!("Float.sqrt", ["Float.makeRoot", "Float.add", "Float.ratio", "Float.scale", "Float.copy"], 280, float::SQRT),
     part!("Float.less", [], 260, float::LESS),
@@ -207,8 +209,8 @@ const fn same(a: &str, b: &str) -> bool {
 /// What takes the place of texts on the processor; their needs are as large.
 const ON_PROCESSOR: &[(&str, &str)] = &[
     (float::MAKE_POWERS, processor::MAKE_POWERS_AND_SHIFT),
-    (float::ADD, float::ADD_SHIFTED),
-    (float::SUB, float::SUB_SHIFTED),
+    (float_sums::ADD, float_sums::ADD_SHIFTED),
+    (float_sums::SUB, float_sums::SUB_SHIFTED),
     (float::MUL, processor::MUL),
     (float::DIV, processor::DIV),
     (functions::PRODUCT, rounded_bits::PRODUCT),

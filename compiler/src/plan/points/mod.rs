@@ -21,10 +21,13 @@
 mod agreed;
 mod asks;
 mod bounds;
+pub mod carried;
 mod doubts;
 mod early;
 pub(super) mod held;
 pub(crate) mod sample;
+#[cfg(test)]
+mod sample_tests;
 mod scattered;
 mod seen;
 mod tape;

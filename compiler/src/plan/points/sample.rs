@@ -6,6 +6,7 @@
 //! larger than all others by agreement, 1e6 for "nothing was hit", is asked for no more than
 //! what it is compared with.
 
+use super::carried::{Readers, held_by, readers};
 use super::early::{Often, first_of_pixels, often};
 use super::scattered::{GOLDEN, scattered};
 use super::seen::{BRIEF, Seen};
@@ -16,7 +17,6 @@ use crate::eval::arithmetic::{Arithmetic, Exact};
 use crate::eval::run::Run;
 use crate::flow::graph::*;
 use crate::flow::tree::*;
-use rustc_hash::FxHashMap;
 use slowlight_routine::scale::{finest, fitting};
 use slowlight_routine::{Op, Type, Value};
 use std::cell::{Cell, RefCell};
@@ -36,6 +36,10 @@ const CHOICES: u32 = 12;
 pub const PATIENCE: u64 = 3_000_000;
 pub const DRAFT: u64 = 1_000_000;
 
+/// How many values may be followed back, for each statement that may run: what is computed
+/// once a picture or row is followed back for each pixel.
+const FOLLOWED: u64 = 20;
+
 /// How many more the pixel may run at which these end.
 const LAST: u64 = 2_000_000;
 
@@ -51,6 +55,14 @@ pub struct Expected {
 pub struct Sample {
     seen: Vec<Seen>,
     pixels: f64,
+}
+
+#[cfg(test)]
+impl Sample {
+    /// How many pixels were looked at; what counts for several is several.
+    pub fn pixels(&self) -> f64 {
+        self.pixels
+    }
 }
 
 /// Looks at pixels, for values of so many bits at most, until so many statements have run.
@@ -89,8 +101,9 @@ pub fn seen(graph: &Graph, tree: &Tree, bits: u8, most: u64) -> Sample {
         let mut run = Run::within(&alone, tree, &watch, most + LAST);
         let begun = watch.tape.borrow().len();
         let mut now = None;
+        let mut followed = 0;
         for (column, row) in scattered([columns, rows], choice, CHOICES) {
-            if watch.ran.get() >= most {
+            if watch.ran.get() >= most || followed >= FOLLOWED * most {
                 break;
             }
             let [x, y] = [
@@ -114,6 +127,7 @@ pub fn seen(graph: &Graph, tree: &Tree, bits: u8, most: u64) -> Sample {
             let told = graph.reports.iter().filter_map(|id| run.last(*id));
             watch.roots.borrow_mut().pixel.extend(told);
             pixels += times;
+            followed += watch.tape.borrow().len() as u64;
             watch.ask(ink, &mut |id, value, asked| {
                 if let Some(seen) = seen.borrow_mut().get_mut(id.0 as usize)
                     && let Value::Real(x) = value
@@ -219,26 +233,6 @@ fn ends_passed_on(
                 false => most[at] = Some(least),
             }
         }
-    }
-}
-
-/// By whom carried values are read.
-pub type Readers = FxHashMap<(LoopId, u32), NodeId>;
-
-/// A node that reads each carried value.
-pub fn readers(graph: &Graph) -> Readers {
-    let of = |id: NodeId| match graph.node(id) {
-        Node::Carried { of, index } => Some(((of, index), id)),
-        _ => None,
-    };
-    graph.ids().filter_map(of).collect()
-}
-
-/// The node whose value a place holds.
-pub fn held_by(carried: &Readers, place: Place) -> Option<NodeId> {
-    match place {
-        Place::Node(id) => Some(id),
-        Place::Carried(of, index) | Place::Scratch(of, index) => carried.get(&(of, index)).copied(),
     }
 }
 

@@ -1,36 +1,28 @@
 //! Everything around a scene's statements.
 
+mod behind;
+
+pub use behind::is_first;
+
 use super::Style;
 use super::code::Code;
 use super::columns;
 use super::dead;
 use super::lines::Lines;
 use super::passes::Passes;
-use super::pieces::{Piece, pieces};
 use super::poke::Poke;
 use super::ramp::{self, Late};
 use super::screen;
 use super::segment::{SEGMENT, Segments};
-use super::short::{Known, SELDOM, short};
+use super::short::{Known, short};
 use super::spread::Spread;
 use super::tables;
 use super::tail;
 use super::thread::threaded;
 use super::ways;
-use crate::flow::tree::SubroutineId;
 use crate::plan::{Copies, Plan};
 use crate::source::Span;
-use slowlight_routine::{Part, Source, Type};
-
-/// A table's index clamped to 0..n.
-const FN_INDEX: &str = "\
-DEF FNindex(i%,n%)
-IF i%<0 THEN =0
-IF i%>n% THEN =n% ELSE =i%
-";
-
-/// The file of what a graph reports.
-const REPORTS: &str = "REPORTS";
+use behind::{called, called_rarely, functions, procedures, reports, setup};
 
 /// How often a row's and a pixel's statements are carried out, roughly: for
 /// the weights of names only.
@@ -300,124 +292,4 @@ fn seen(plan: &Plan, first: &str) -> String {
         text.push_str(&format!(" AND X%<={}", drawn.1));
     }
     text
-}
-
-/// Writes what the graph reports to a file, in the machine's own bytes.
-fn reports(plan: &Plan, code: &mut Code<'_>) {
-    if plan.graph.reports.is_empty() {
-        return;
-    }
-    let channel = code.values.names.unique("channel", "%");
-    code.line(format!("{channel}=OPENOUT(\"{REPORTS}\")"));
-    for &id in &plan.graph.reports {
-        let value = code.values.read(id).text;
-        code.line(format!("PRINT#{channel},{value}"));
-    }
-    code.line(format!("CLOSE#{channel}"));
-}
-
-/// The parts that the program calls or reads, as far as it is written, and those that
-/// they need: an expression may have taken a function's place.
-fn called(plan: &Plan, code: &Code<'_>) -> Vec<&'static Part> {
-    let has = |text: &str, part: &Part| match is_first(part) {
-        true => pieces(text).contains(&Piece::Name(part.name)),
-        false => text.contains(&format!("{}(", part.name)),
-    };
-    let parts = plan.runtime.parts.iter();
-    let names: Vec<&'static str> = parts
-        .filter(|part| code.lines.texts().any(|text| has(text, part)))
-        .map(|part| part.name)
-        .collect();
-    plan.runtime.closure(names)
-}
-
-/// Whether functions are called only where a test fails, and where little is done.
-fn called_rarely(code: &Code<'_>) -> bool {
-    let tests = code.values.style == Style::Fast;
-    tests
-        && code.lines.weighted().all(|(text, weight)| {
-            let usual = match text.split_once(" ELSE ") {
-                Some((usual, _)) if usual.starts_with("IF ") => usual,
-                _ => text,
-            };
-            weight <= SELDOM || !usual.contains("FN")
-        })
-}
-
-/// Whether a part is carried out before anything else, not called.
-pub(super) fn is_first(part: &Part) -> bool {
-    matches!(part.source, Source::Text(text) if !text.starts_with("DEF"))
-}
-
-fn setup(plan: &Plan, code: &mut Code<'_>, parts: &[&Part], first: &str, last: &str) {
-    code.line("DEF PROCsetup");
-    let must = match plan.brief {
-        true => ":",
-        false => " must be from",
-    };
-    for (k, (param, written)) in plan.graph.params.iter().zip(&plan.params).enumerate() {
-        let name = code.values.names.param(k).to_owned();
-        if let Some((lo, hi)) = &written.range {
-            code.lines.line(
-                format!(
-                    "IF {name}<{lo} OR {name}>{hi} THEN PRINT \"{name}{must} {lo} to {hi}\":END"
-                ),
-                Some(param.span),
-            );
-        }
-        if param.ty == Type::Bool {
-            code.statement(format!("{name}={name}<>0"));
-        }
-    }
-    let (top, bottom) = plan.shown_rows();
-    code.line(format!(
-        "IF {first}<{top} OR {last}>{bottom} OR {first}>{last} THEN PRINT \"rows{must} {top} to {bottom}\":END"
-    ));
-    for part in parts {
-        if is_first(part)
-            && let Source::Text(text) = part.source
-        {
-            text.lines().for_each(|l| code.statement(l));
-        }
-    }
-    let names = &code.values.names;
-    let constants: Vec<String> = names.constants().chain(names.copies()).collect();
-    for text in constants {
-        code.statement(text);
-    }
-    tables::make(plan, code);
-    code.line("ENDPROC");
-}
-
-/// What is called from several places.
-fn procedures(plan: &Plan, code: &mut Code<'_>) {
-    code.ends = code.ends_called.take();
-    for (k, subroutine) in plan.tree.subroutines.iter().enumerate() {
-        let id = SubroutineId(k as u32);
-        let name = code.values.names.procedure(id).to_owned();
-        let span = Some(subroutine.span);
-        if code.values.style == Style::Listing {
-            let calls = plan.tree.calls(id);
-            let about = format!("REM {}, called from {calls} places", subroutine.label());
-            code.lines.line(about, span);
-        }
-        code.lines.line(format!("DEF PROC{name}"), span);
-        code.block(&subroutine.body);
-        code.lines.line("ENDPROC", span);
-    }
-    code.ends = None;
-}
-
-fn functions(code: &mut Code<'_>, parts: &[&Part]) {
-    let mut whole = |text: &str| text.lines().for_each(|l| code.line(l));
-    for part in parts {
-        if let Source::Text(text) = part.source
-            && text.starts_with("DEF")
-        {
-            whole(text);
-        }
-    }
-    if code.values.clamps {
-        FN_INDEX.lines().for_each(|l| code.line(l));
-    }
 }

@@ -46,6 +46,8 @@ mod homes;
 mod inline;
 mod logs;
 mod memory;
+#[cfg(test)]
+mod memory_tests;
 mod moved;
 mod names;
 mod params;
