@@ -23,6 +23,6 @@ draw (x, y) = threshold((loop (v = 0.5) max {turns} {{
 #[test]
 fn a_picture_of_one_long_sum_is_looked_at_in_fewer_places() {
     let (short, long) = (looked_at(10), looked_at(10_000));
-    assert!(20.0 * long < short, "{long} {short}");
+    assert!(10.0 * long < short, "{long} {short}");
     assert!(long > 0.0);
 }
