@@ -126,8 +126,8 @@ pub fn plan(screen: &ScreenArgs, scene: &Scene, target: &'static Target) -> Outc
 fn say_cut(format: Format) {
     if format == (Format::Float316 { rounded: false }) {
         eprintln!(
-            "note: format f316 leaves the lowest part of each product out, as the original ray \
-             marcher does: up to 1.9 times as far off as f316r, which rounds (`check` has bounds)"
+            "note: f316 leaves the lowest part of each product out, as the original ray marcher \
+             does: up to 1.9 times as far off as f316r, which rounds (`check` has bounds)"
         );
     }
 }

@@ -118,7 +118,7 @@ fn some_rows_are_in_the_format_of_the_whole() {
 }
 
 #[test]
-fn a_format_that_is_asked_for_is_taken_in_silence() {
+fn a_format_that_is_asked_for_is_taken() {
     let dir = directory(&SCENES);
     let said = |more: &[&str]| {
         let args = ["run", "waves.scn", "--target", "jack"];
@@ -128,6 +128,9 @@ fn a_format_that_is_asked_for_is_taken_in_silence() {
     };
     assert!(said(&[]).contains("note: format "), "{}", said(&[]));
     assert!(!said(&["--format", "f316"]).contains("note: format"));
+    // What the original's floats lose is told.
+    assert!(said(&["--format", "f316"]).contains("as far off as f316r"));
+    assert_eq!(said(&["--format", "f316r"]), "");
     let both = [
         "run",
         "waves.scn",
