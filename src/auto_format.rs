@@ -28,7 +28,7 @@ use slowlight_compiler::eval::native::Native;
 use slowlight_compiler::passes::coarse::coarse;
 use slowlight_compiler::plan::Plan;
 use slowlight_compiler::target::{Target, formats};
-use slowlight_routine::Format;
+use slowlight_routine::{Format, Op, Runtime};
 
 /// Rows and columns of a candidate's sample and of its final plan's, and how many statements the
 /// model may run for each.
@@ -113,23 +113,32 @@ pub fn plan(screen: &ScreenArgs, scene: &Scene, target: &'static Target) -> Outc
         Some(chosen) => Ok(chosen),
         None => {
             let plan = screen.plan(scene, target, &[])?;
-            if screen.format.is_some() {
-                say_cut(plan.runtime.real);
+            let cut = plan.runtime.real == Format::Float316 { rounded: false };
+            if cut && screen.format.is_some() {
+                say_cut(plan.target);
             }
             Ok(Chosen { plan, why: None })
         }
     }
 }
 
-/// Says what the original's floats lose that rounded ones do not; who asks for them may want
-/// just that.
-fn say_cut(format: Format) {
-    if format == (Format::Float316 { rounded: false }) {
-        eprintln!(
-            "note: f316 leaves the lowest part of each product out, as the original ray marcher \
-             does: up to 1.9 times as far off as f316r, which rounds (`check` has bounds)"
-        );
-    }
+/// Says how much further products of cut floats are off than those of rounded ones; who asks
+/// for the original's numbers may want just that.
+fn say_cut(target: &Target) {
+    let rounded = |t: &&Target| t.runtime.real == (Format::Float316 { rounded: true });
+    let Some(rounded) = formats(target).find(rounded) else {
+        return;
+    };
+    let off = |runtime: &Runtime| {
+        let products = runtime.routines.iter().filter(|r| r.op == Op::Mul);
+        products.fold(0.0, |most, r| r.error.most(&[], 1.0).max(most))
+    };
+    eprintln!(
+        "note: f316 leaves the lowest part of each product out, as the original ray marcher does: \
+         up to {:.1} times as far off as {}, which rounds (`check` has bounds)",
+        off(target.runtime) / off(rounded.runtime),
+        rounded.runtime.format,
+    );
 }
 
 /// The quickest within the goal, or the nearest to it; none where nothing is known.

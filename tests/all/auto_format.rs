@@ -129,7 +129,7 @@ fn a_format_that_is_asked_for_is_taken() {
     assert!(said(&[]).contains("note: format "), "{}", said(&[]));
     assert!(!said(&["--format", "f316"]).contains("note: format"));
     // What the original's floats lose is told.
-    assert!(said(&["--format", "f316"]).contains("as far off as f316r"));
+    assert!(said(&["--format", "f316"]).contains("7.6 times as far off as f316r,"));
     assert_eq!(said(&["--format", "f316r"]), "");
     let both = [
         "run",

@@ -21,7 +21,7 @@
 mod agreed;
 mod asks;
 mod bounds;
-pub mod carried;
+pub(crate) mod carried;
 mod doubts;
 mod early;
 pub(super) mod held;
