@@ -9,6 +9,7 @@ mod library;
 
 use libfuzzer_sys::fuzz_target;
 use library::with_library;
+use slowlight_compiler::plan::pipeline::PassSet;
 use slowlight_compiler::plan::{Goal, plan_within};
 use slowlight_compiler::sema::{self, Options};
 use slowlight_compiler::source::Diagnostic;
@@ -58,7 +59,7 @@ fuzz_target!(|bytes: &[u8]| {
             rows: None,
             plot: true,
         };
-        if let Ok(plan) = plan_within(&graph, target, &goal, FUEL) {
+        if let Ok(plan) = plan_within(&graph, target, &goal, FUEL, PassSet::default()) {
             assert!(plan.work() <= FUEL + BEYOND, "{} units", plan.work());
             (target.emit)(&plan);
         }

@@ -16,6 +16,7 @@ use clap::ValueEnum;
 use serde_json::json;
 use slowlight_compiler::passes::rate::rates;
 use slowlight_compiler::plan::Plan;
+use slowlight_compiler::plan::pipeline::Pipeline;
 use slowlight_compiler::plan::print::{ranges_text, rates_text};
 use slowlight_compiler::syntax::print;
 use slowlight_compiler::target::mos6502::document;
@@ -65,6 +66,8 @@ enum Stage {
     Rates,
     /// Between which bounds each value stays on the target
     Ranges,
+    /// The planner's passes in their order; with a target, what each was good for
+    Passes,
     /// Which routine computes each value, when, and where it is kept
     Plan,
     /// The generated sources
@@ -108,6 +111,7 @@ pub fn run(args: &Args) -> Outcome<()> {
             "table_bytes": sizes.tables,
             "ram_bytes": sizes.ram,
             "heap": heap_json(&written),
+            "work": plan.work(),
             "cycles": forecast.cycles().map(f64::round),
             "machine_seconds": forecast.cycles().map(seconds),
             "rows_run": match forecast {
@@ -275,6 +279,10 @@ fn emit(args: &Args, scene: &Scene, stage: Stage) -> Outcome<String> {
             let plan = plan(args, scene)?;
             ranges_text(&plan.graph, &plan.ranges)
         }
+        Stage::Passes => match args.target {
+            Some(_) => plan(args, scene)?.pipeline().text(),
+            None => Pipeline::default().text(),
+        },
         Stage::Plan => plan(args, scene)?.to_string(),
         Stage::Text => {
             let plan = plan(args, scene)?;

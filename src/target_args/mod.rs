@@ -3,10 +3,12 @@
 
 mod heap;
 mod items;
+mod passes;
 mod read;
 mod values;
 
 pub use heap::HeapOf;
+pub use passes::PassArgs;
 pub use read::*;
 pub use values::*;
 
@@ -81,6 +83,9 @@ pub struct ScreenArgs {
     /// Other ways to what the scene asks for.
     #[command(flatten)]
     pub ways: WayArgs,
+    /// Passes of the planner that are left out.
+    #[command(flatten)]
+    pub passes: PassArgs,
     /// Rewrite nothing, neither for accuracy nor for speed: every formula as the scene has it
     #[arg(long)]
     pub as_written: bool,
@@ -304,7 +309,7 @@ impl ScreenArgs {
         let planned = match (self.as_written, self.every_shade) {
             (true, _) => plan_as_written(&graph, target, &goal),
             (_, true) => plan_with_every_shade(&graph, target, &goal),
-            _ => plan_within(&graph, target, &goal, fuel),
+            _ => plan_within(&graph, target, &goal, fuel, self.passes.left_out()),
         };
         let planned = planned.map(|plan| self.thrifty(plan));
         let planned = match self.outlined {

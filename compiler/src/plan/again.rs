@@ -1,6 +1,7 @@
 //! Other plans of the scene that a plan is of.
 
 use super::made::{Rewriting, planned};
+use super::pipeline::Pipeline;
 use super::stepped::Steps;
 use super::thrift::Thrift;
 use super::workshop::Workshop;
@@ -14,6 +15,11 @@ impl Plan {
     /// What searching for it took, in units of [`crate::fuel::Fuel`].
     pub fn work(&self) -> u64 {
         self.work
+    }
+
+    /// What ran the passes for it and for other plans of its scene.
+    pub fn pipeline(&self) -> &Pipeline {
+        &self.origin.0.pipeline
     }
 
     /// Whether the search was ended because it had done all the work that it may: there may
@@ -45,8 +51,9 @@ impl Plan {
         }
         let mut graph = Graph::clone(&self.origin.0.origin);
         graph.reports.extend(graph.shade);
-        let shop = Arc::new(Workshop::new(graph, self.runtime));
-        let mut plan = self.again(&shop, self.origin.1)?;
+        let mut shop = Workshop::new(graph, self.runtime);
+        shop.pipeline = Pipeline::without(self.pipeline().without);
+        let mut plan = self.again(&Arc::new(shop), self.origin.1)?;
         if self.calls_at_pixels() {
             plan = plan.outlined(&|_| None).ok()?;
         }

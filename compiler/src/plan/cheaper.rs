@@ -10,6 +10,7 @@
 mod sites;
 
 use super::chosen::chosen;
+use super::pipeline::Pass;
 use super::price::Price;
 use super::recipes::followed;
 use super::settled::Settled;
@@ -98,7 +99,7 @@ pub fn cheaper(
 }
 
 /// A pass that puts something in the place of nodes that may be replaced.
-type Pass = for<'g> fn(
+type Rule = for<'g> fn(
     &'g Graph,
     &'g Ranges,
     &Runtime,
@@ -115,7 +116,7 @@ pub enum Rewrite {
 }
 
 impl Rewrite {
-    fn pass(self) -> Pass {
+    fn rule(self) -> Rule {
         match self {
             Rewrite::Forms => algebra,
             Rewrite::Identities => identities,
@@ -131,26 +132,24 @@ pub fn with_recipes_followed(plan: Settled, shop: &Workshop, thrift: Thrift) -> 
     if shop.fuel.spent() && !thrift.follows() {
         return plan;
     }
-    let next = followed(&plan.graph, shop.runtime).map(|graph| shop.settle(&graph));
-    match next {
-        Some(next) if thrift.follows() || price.of(&next) < price.of(&plan) => next,
-        _ => plan,
-    }
+    let next = shop.always(Pass::TableRecipes, || {
+        let next = shop.settle(&followed(&plan.graph, shop.runtime)?);
+        (thrift.follows() || price.of(&next) < price.of(&plan)).then_some(next)
+    });
+    next.unwrap_or(plan)
 }
 
 /// With inks chosen by the one bool that runs of columns do not know, if that is worth
 /// the memory.
 pub fn with_inks_split(plan: Settled, shop: &Workshop, thrift: Thrift) -> Settled {
-    let runs = !plan.tree.segment.is_empty() && !shop.fuel.spent();
-    let next = runs.then(|| split(&plan.graph)).flatten();
-    let Some(next) = next.map(|graph| shop.settle(&graph)) else {
+    if plan.tree.segment.is_empty() {
         return plan;
-    };
-    let price = Price::new(&plan, shop.runtime, thrift);
-    match price.of(&next) < price.of(&plan) {
-        true => next,
-        false => plan,
     }
+    shop.pass(Pass::Unswitch, plan, |plan| {
+        let next = shop.settle(&split(&plan.graph)?);
+        let price = Price::new(plan, shop.runtime, thrift);
+        (price.of(&next) < price.of(plan)).then_some(next)
+    })
 }
 
 /// With values computed where they are needed rather than once for all, where
@@ -163,25 +162,25 @@ pub fn apart_at_last(plan: Settled, shop: &Workshop, thrift: Thrift) -> Settled 
         None => plan,
     };
     for _ in 0..LATER {
-        if shop.fuel.spent() {
+        let before = best.serial();
+        best = shop.pass(Pass::SinkPartial, best, |plan| {
+            let all = later(&plan.graph, shop.runtime.segments).into_iter();
+            let next = price.cheapest(all.map(|graph| shop.scheduled(graph)))?;
+            (price.of(&next) < GUARD * price.of(plan)).then_some(next)
+        });
+        if best.serial() == before {
             break;
-        }
-        let all = later(&best.graph, shop.runtime.segments).into_iter();
-        let next = price.cheapest(all.map(|graph| shop.scheduled(graph)));
-        match next {
-            Some(next) if price.of(&next) < GUARD * price.of(&best) => best = next,
-            _ => break,
         }
     }
     for _ in 0..APART {
-        if shop.fuel.spent() {
+        let before = best.serial();
+        best = shop.pass(Pass::Rematerialise, best, |plan| {
+            let next = apart(&plan.graph, &plan.tree, &price.worth(plan));
+            next.map(|graph| shop.scheduled(graph))
+        });
+        if best.serial() == before {
             break;
         }
-        let next = apart(&best.graph, &best.tree, &price.worth(&best));
-        let Some(next) = next else {
-            break;
-        };
-        best = shop.scheduled(next);
     }
     best
 }
@@ -226,9 +225,9 @@ impl Site<'_> {
                 // A second condition is for what is known before the loop.
                 Some(in_loops(&graph, None).unwrap_or(graph))
             };
-            self.keep(&mut best, Some(peeled), COPY);
-            self.keep(&mut best, guarded, GUARD);
-            if self.keep(&mut best, sooner(None), GUARD)
+            self.keep(Pass::Peel, &mut best, || Some(peeled), COPY);
+            self.keep(Pass::LoopGuard, &mut best, || guarded, GUARD);
+            if self.keep(Pass::EarlyExit, &mut best, || sooner(None), GUARD)
                 && self.runtime.segments
                 && self.thrift.beside()
             {
@@ -266,16 +265,23 @@ impl Site<'_> {
     }
 
     /// Whether a graph makes a plan that is cheaper than the best one, which it is then.
-    fn keep(&self, best: &mut Settled, graph: Option<Graph>, limit: f64) -> bool {
-        let tried = graph.map(|graph| self.shop.settle(&graph));
-        let tried = tried.and_then(|plan| self.rewritten(&plan));
-        match tried {
-            Some(found) if self.cost(&found) < limit * self.cost(best) => {
-                *best = found;
-                true
-            }
-            _ => false,
+    fn keep(
+        &self,
+        pass: Pass,
+        best: &mut Settled,
+        graph: impl FnOnce() -> Option<Graph>,
+        limit: f64,
+    ) -> bool {
+        let found = self.shop.always(pass, || {
+            let tried = self.shop.settle(&graph()?);
+            let found = self.rewritten(&tried)?;
+            (self.cost(&found) < limit * self.cost(best)).then_some(found)
+        });
+        let kept = found.is_some();
+        if let Some(found) = found {
+            *best = found;
         }
+        kept
     }
 
     /// A plan with thresholds, directions at their own length and algebra, as far
@@ -284,43 +290,48 @@ impl Site<'_> {
         if self.shop.fuel.spent() {
             return None;
         }
-        let compared = threshold(&plain.graph, &plain.ranges, self.runtime)
-            .map(|next| self.shop.settle(&next))
-            .filter(|next| self.cost(next) < self.cost(plain));
-        let base = compared.as_ref().unwrap_or(plain);
-        let mut best = self.sited(base, FORMS, Rewrite::Forms).or(compared.clone());
-        for held in self.held(base) {
-            let found = self.sited(&held, FORMS, Rewrite::Forms).unwrap_or(held);
-            let limit = best.as_ref().unwrap_or(plain);
-            if self.cost(&found) < self.cost(limit) {
-                best = Some(found);
+        let (shop, runtime) = (self.shop, self.runtime);
+        let mut now = shop.pass(Pass::InvertMonotone, plain.clone(), |plan| {
+            let next = shop.settle(&threshold(&plan.graph, &plan.ranges, runtime)?);
+            (self.cost(&next) < self.cost(plan)).then_some(next)
+        });
+        let base = now.clone();
+        now = self.sited(now, FORMS, Rewrite::Forms);
+        now = shop.pass(Pass::Unnormalised, now, |plan| {
+            let mut best = None;
+            for held in self.held(&base) {
+                let found = self.sited(held, FORMS, Rewrite::Forms);
+                if self.cost(&found) < self.cost(best.as_ref().unwrap_or(plan)) {
+                    best = Some(found);
+                }
             }
+            best
+        });
+        now = shop.pass(Pass::CommonSquares, now, |plan| {
+            let next = shop.settle(&squares(&plan.graph, &plan.ranges)?);
+            (self.cost(&next) < self.cost(plan)).then_some(next)
+        });
+        now = self.specialised(now);
+        now = shop.pass(Pass::LengthTests, now, |plan| self.around(plan));
+        let before = now.serial();
+        now = self.sited(now, SHORTER, Rewrite::Identities);
+        // A formula may have a factor of few values: where products are dear beside what
+        // is stepped, that is worth a choice.
+        if now.serial() != before && steps_ahead(runtime) {
+            now = self.specialised(now);
         }
-        let found = best;
-        let base = found.as_ref().unwrap_or(plain);
-        let shared = squares(&base.graph, &base.ranges)
-            .map(|next| self.shop.settle(&next))
-            .filter(|next| self.cost(next) < self.cost(base));
-        let found = shared.or(found);
-        let base = found.as_ref().unwrap_or(plain);
-        let found = chosen(base, self.shop, &self.price).or(found);
-        let base = found.as_ref().unwrap_or(plain);
-        let found = self.around(base).or(found);
-        let base = found.as_ref().unwrap_or(plain);
-        let found = match self.sited(base, SHORTER, Rewrite::Identities) {
-            // A formula may have a factor of few values: where products are dear beside what
-            // is stepped, that is worth a choice.
-            Some(shorter) if steps_ahead(self.runtime) => {
-                Some(chosen(&shorter, self.shop, &self.price).unwrap_or(shorter))
-            }
-            Some(shorter) => Some(shorter),
-            None => found,
-        };
-        let base = found.as_ref().unwrap_or(plain);
-        let cut = (self.thrift.runs())
-            .then(|| self.sited(base, SPANS, Rewrite::Spans))
-            .flatten();
-        cut.or(found)
+        if self.thrift.runs() {
+            now = self.sited(now, SPANS, Rewrite::Spans);
+        }
+        (now.serial() != plain.serial()).then_some(now)
+    }
+
+    /// The plan with factors of few values chosen by these, where that is cheaper.
+    fn specialised(&self, plan: Settled) -> Settled {
+        let shop = self.shop;
+        shop.pass(Pass::SpecialiseFactors, plan, |plan| {
+            chosen(plan, shop, &self.price)
+        })
     }
 
     /// The graph with one of its directions at its own length, each in turn.
@@ -347,7 +358,7 @@ impl Site<'_> {
 
     /// The plan without comparisons that the length of a vector decides.
     fn around(&self, plan: &Settled) -> Option<Settled> {
-        let few = plan.graph.nodes.len() <= NODES && !self.shop.fuel.spent();
+        let few = plan.graph.nodes.len() <= NODES;
         let next = few.then(|| around(&plan.graph, &plan.ranges, self.runtime))??;
         Some(self.shop.settle(&next))
     }

@@ -3,11 +3,12 @@
 //! that are asked only where they matter ([`crate::passes::either`], [`crate::passes::zones`]).
 
 use super::cheaper::NODES;
+use super::pipeline::Pass;
 use super::price::Price;
 use super::settled::Settled;
 use super::thrift::Thrift;
 use super::workshop::Workshop;
-use crate::flow::graph::Graph;
+use crate::flow::graph::{Graph, NodeId};
 use crate::passes::arms::{arms, conditions};
 use crate::passes::either::{self, either};
 use crate::passes::factors::factors;
@@ -33,21 +34,35 @@ const FACTORS: usize = 8;
 
 /// With operations made in the arms of choices where they are none in one of them.
 pub fn in_arms(plan: Settled, shop: &Workshop, thrift: Thrift) -> Settled {
-    if shop.fuel.spent() {
-        return plan;
-    }
-    let price = Price::new(&plan, shop.runtime, thrift);
-    let mut best = plan;
-    for k in 0..conditions(&best.graph).len() {
-        if !shop.may_look(&best.graph) {
+    shop.pass(Pass::PushIntoSelect, plan, |plan| {
+        let price = Price::new(plan, shop.runtime, thrift);
+        each_condition(plan, shop, &price, conditions, |plan, cond| {
+            arms(&plan.graph, &plan.ranges, cond)
+        })
+    })
+}
+
+/// The plan rewritten by its conditions, each in turn where that makes it cheaper; nothing
+/// where it nowhere does.
+fn each_condition(
+    plan: &Settled,
+    shop: &Workshop,
+    price: &Price,
+    conditions: fn(&Graph) -> Vec<NodeId>,
+    by: impl Fn(&Settled, NodeId) -> Option<Graph>,
+) -> Option<Settled> {
+    let mut best = None;
+    for k in 0..conditions(&plan.graph).len() {
+        let now = best.as_ref().unwrap_or(plan);
+        if !shop.may_look(&now.graph) {
             break;
         }
-        let cond = conditions(&best.graph).get(k).copied();
-        let next = cond.and_then(|cond| arms(&best.graph, &best.ranges, cond));
+        let cond = conditions(&now.graph).get(k).copied();
+        let next = cond.and_then(|cond| by(now, cond));
         if let Some(next) = next.map(|graph| shop.settle(&graph))
-            && price.of(&next) < ARMS * price.of(&best)
+            && price.of(&next) < ARMS * price.of(now)
         {
-            best = next;
+            best = Some(next);
         }
     }
     best
@@ -62,38 +77,32 @@ pub fn asked_where_it_matters(plan: Settled, shop: &Workshop, thrift: Thrift) ->
         return plan;
     }
     let price = Price::new(&plan, shop.runtime, thrift);
-    let mut best = plan;
-    for k in 0..either::conditions(&best.graph).len() {
-        if !shop.may_look(&best.graph) {
-            break;
-        }
-        let cond = either::conditions(&best.graph).get(k).copied();
-        let next = cond.and_then(|cond| either(&best.graph, cond));
-        if let Some(next) = next.map(|graph| shop.settle(&fold(&graph)))
-            && price.of(&next) < ARMS * price.of(&best)
-        {
-            best = next;
-        }
-    }
+    let plan = shop.pass(Pass::Shannon, plan, |plan| {
+        each_condition(plan, shop, &price, either::conditions, |plan, cond| {
+            either(&plan.graph, cond).map(|graph| fold(&graph))
+        })
+    });
     match thrift.zones() {
-        true => in_zones(best, shop, &price),
-        false => best,
+        true => shop.pass(Pass::ShannonRanges, plan, |plan| {
+            in_zones(plan, shop, &price)
+        }),
+        false => plan,
     }
 }
 
 /// With conditions asked only in zones of a value in which the ink is not the same either
 /// way: in those of them that make the plan cheapest.
-fn in_zones(plan: Settled, shop: &Workshop, price: &Price) -> Settled {
+fn in_zones(plan: &Settled, shop: &Workshop, price: &Price) -> Option<Settled> {
     let cost = |choice: &Choice<'_>, way: Way| {
         let next = shop.settle(&choice.put(&way));
         (price.of(&next), way, next)
     };
-    let mut best = plan;
+    let mut best = None;
     for k in 0..CHOICES {
-        if !shop.may_look(&best.graph) {
+        let known = best.as_ref().unwrap_or(plan).clone();
+        if !shop.may_look(&known.graph) {
             break;
         }
-        let known = best.clone();
         let Some(choice) = choices(&known.graph, &known.ranges).into_iter().nth(k) else {
             break;
         };
@@ -108,8 +117,8 @@ fn in_zones(plan: Settled, shop: &Workshop, price: &Price) -> Settled {
                 _ => break,
             }
         }
-        if found.0 < CHOICE * price.of(&best) {
-            best = found.2;
+        if found.0 < CHOICE * price.of(&known) {
+            best = Some(found.2);
         }
     }
     best
@@ -117,30 +126,34 @@ fn in_zones(plan: Settled, shop: &Workshop, price: &Price) -> Settled {
 
 /// With divisors compared instead of quotients, where those are dear.
 pub fn with_limits(plan: Settled, shop: &Workshop, thrift: Thrift) -> Settled {
-    let next = (shop.runtime.reciprocals && !shop.fuel.spent())
-        .then(|| limits(&plan.graph, &plan.ranges))
-        .flatten();
-    cheaper_of(plan, next, shop, thrift)
+    cheaper_of(Pass::CrossMultiply, plan, shop, thrift, |plan| {
+        limits(&plan.graph, &plan.ranges)
+    })
 }
 
 /// With products instead of quotients, where those are dear.
 pub fn with_reciprocals(plan: Settled, shop: &Workshop, thrift: Thrift) -> Settled {
-    let next = (shop.runtime.reciprocals && !shop.fuel.spent())
-        .then(|| reciprocals(&plan.graph, &plan.ranges, shop.runtime))
-        .flatten();
-    cheaper_of(plan, next, shop, thrift)
+    cheaper_of(Pass::Reciprocals, plan, shop, thrift, |plan| {
+        reciprocals(&plan.graph, &plan.ranges, shop.runtime)
+    })
 }
 
-/// A plan, or one of another graph of the same picture where that is cheaper.
-fn cheaper_of(plan: Settled, next: Option<Graph>, shop: &Workshop, thrift: Thrift) -> Settled {
-    let Some(next) = next.map(|graph| shop.settle(&graph)) else {
+/// A plan, or one of the graph that a pass makes of it where that is cheaper.
+fn cheaper_of(
+    pass: Pass,
+    plan: Settled,
+    shop: &Workshop,
+    thrift: Thrift,
+    by: impl FnOnce(&Settled) -> Option<Graph>,
+) -> Settled {
+    if !shop.runtime.reciprocals {
         return plan;
-    };
-    let price = Price::new(&plan, shop.runtime, thrift);
-    match price.of(&next) < price.of(&plan) {
-        true => next,
-        false => plan,
     }
+    shop.pass(pass, plan, |plan| {
+        let next = shop.settle(&by(plan)?);
+        let price = Price::new(plan, shop.runtime, thrift);
+        (price.of(&next) < price.of(plan)).then_some(next)
+    })
 }
 
 /// The plan with what is multiplied by one of few numbers chosen by which that is, each

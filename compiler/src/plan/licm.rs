@@ -1,6 +1,7 @@
 //! Loop-invariant code motion, where it makes a plan cheaper: by a profile of the plan's own
 //! statements ([`crate::passes::licm`]).
 
+use super::pipeline::Pass;
 use super::price::Price;
 use super::settled::Settled;
 use super::thrift::Thrift;
@@ -17,19 +18,21 @@ pub fn licm(plan: Settled, shop: &Workshop, thrift: Thrift) -> Settled {
     if plan.graph.loops.is_empty() {
         return plan;
     }
-    let price = Price::by_few(&plan, shop.runtime, thrift);
-    let counts = price.counts(&plan);
+    let next = shop.always(Pass::Licm, || hoisted_where_cheaper(&plan, shop, thrift));
+    next.unwrap_or(plan)
+}
+
+fn hoisted_where_cheaper(plan: &Settled, shop: &Workshop, thrift: Thrift) -> Option<Settled> {
+    let price = Price::by_few(plan, shop.runtime, thrift);
+    let counts = price.counts(plan);
     let found = counts.map(|ran| hoisted(&plan.graph, &plan.tree.pixel, &ran));
     let hoisted = found.unwrap_or_default();
     if hoisted.is_empty() {
-        return plan;
+        return None;
     }
     let next = shop.scheduled(Graph {
         hoisted,
         ..plan.graph.clone()
     });
-    match price.anew(&next) < CHEAPER * price.anew(&plan) {
-        true => next,
-        false => plan,
-    }
+    (price.anew(&next) < CHEAPER * price.anew(plan)).then_some(next)
 }

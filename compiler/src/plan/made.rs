@@ -5,6 +5,7 @@ use super::chosen::{asked_where_it_matters, in_arms, with_limits, with_reciproca
 use super::licm::licm;
 use super::narrowed::narrowed;
 use super::params::{self, ParamPlan};
+use super::pipeline::{Pass, PassSet, Pipeline};
 use super::price::Price;
 use super::settled::{Known, Settled};
 use super::stepped::{Steps, stepped};
@@ -39,16 +40,17 @@ use std::sync::Arc;
 
 /// Plans a graph that `sema` lowered for this target's inks and offset.
 pub fn plan(graph: &Graph, target: &'static Target, goal: &Goal) -> Result<Plan, Vec<Diagnostic>> {
-    plan_within(graph, target, goal, SEARCH)
+    plan_within(graph, target, goal, SEARCH, PassSet::default())
 }
 
-/// The same where the search may do so much work, in units of [`Fuel`]; by none the plan is a
-/// draft.
+/// The same where the search may do so much work, in units of [`Fuel`], and some passes are left
+/// out; by no work the plan is a draft.
 pub fn plan_within(
     graph: &Graph,
     target: &'static Target,
     goal: &Goal,
     fuel: u64,
+    without: PassSet,
 ) -> Result<Plan, Vec<Diagnostic>> {
     let all = Rewriting::Fast {
         thrift: Thrift::default(),
@@ -56,6 +58,7 @@ pub fn plan_within(
     };
     let mut shop = Workshop::new(graph.clone(), target.runtime);
     shop.draft = fuel == 0;
+    shop.pipeline = Pipeline::without(without);
     planned(&Arc::new(shop), target, goal, (all, Fuel::new(fuel)))
 }
 
@@ -134,7 +137,10 @@ pub(super) fn planned(
     };
     (plan.work, plan.cut) = (fuel.burnt(), fuel.was_cut());
     plan.allowance = fuel.given();
-    Ok(narrowed(plan))
+    match shop.pipeline.without.has(Pass::WordLengths) {
+        true => Ok(plan),
+        false => Ok(narrowed(plan)),
+    }
 }
 
 /// A plan by a workshop that is kept for other plans, with the fuel for this one.
@@ -159,13 +165,22 @@ fn planned_in(
     // Where sums are rounded to as few bits as that, tiles' edges move by whole pixels.
     let logs = rounds > 0 && matches!(runtime.real, Format::Log { .. });
     let whole = |graph: Graph| match (logs, rounds > 0 && steps_ahead(runtime)) {
-        (true, _) => whole_parts(&graph),
-        (_, true) => int_signs(&graph),
+        (true, _) => {
+            let made = shop.always(Pass::IntegerParts, || Some(whole_parts(&graph)));
+            made.unwrap_or(graph)
+        }
+        (_, true) => {
+            let made = shop.always(Pass::IntegerSigns, || Some(int_signs(&graph)));
+            made.unwrap_or(graph)
+        }
         _ => graph,
     };
     let drawn = |graph: Graph| match rewriting {
         Rewriting::Fast { thrift, .. } if apart && thrift.passes() && runtime.segments => {
-            interlaced(&graph, in_byte(&graph, target, goal)).unwrap_or(graph)
+            let made = shop.always(Pass::StripMine, || {
+                interlaced(&graph, in_byte(&graph, target, goal))
+            });
+            made.unwrap_or(graph)
         }
         _ => graph,
     };
@@ -180,8 +195,8 @@ fn planned_in(
         now = plan.clone();
     }
     if let Rewriting::Fast { thrift, steps } = rewriting {
-        let early =
-            (!origin.early.is_empty()).then(|| steady(shop, &whole(drawn(fold(origin))), rounds));
+        let exits = !origin.early.is_empty() && !shop.pipeline.without.has(Pass::EarlyExit);
+        let early = exits.then(|| steady(shop, &whole(drawn(fold(origin))), rounds));
         now = in_arms(now, shop, thrift);
         let early = early.map(|plan| in_arms(plan, shop, thrift));
         let early = early.as_ref().map(|settled| &settled.graph);
@@ -199,7 +214,8 @@ fn planned_in(
             price.cheapest(all)
         };
         let mut all = cheaper(now.clone(), early, shop, thrift);
-        if let Some(other) = points_along(&now.graph, runtime) {
+        let other = shop.always(Pass::RayParameter, || points_along(&now.graph, runtime));
+        if let Some(other) = other {
             let early = early.map(|graph| along(graph).unwrap_or(graph.clone()));
             all.extend(cheaper(shop.settle(&other), early.as_ref(), shop, thrift));
         }
@@ -243,13 +259,16 @@ fn planned_in(
 fn steady(shop: &Workshop, origin: &Graph, rounds: u32) -> Settled {
     let mut now = shop.scheduled(fold(origin));
     for _ in 0..rounds {
-        let Some(next) = stable(&now.graph, &now.ranges, shop.slack()) else {
+        let next = shop.always(Pass::AccuracyRules, || {
+            stable(&now.graph, &now.ranges, shop.slack())
+        });
+        let Some(next) = next else {
             break;
         };
         now = shop.scheduled(fold(&next));
     }
     if rounds > 0
-        && let Some(next) = units(&now.graph, &now.ranges)
+        && let Some(next) = shop.always(Pass::UnitVectors, || units(&now.graph, &now.ranges))
     {
         now = shop.scheduled(fold(&next));
     }

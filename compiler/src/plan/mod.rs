@@ -68,6 +68,7 @@ mod narrowed;
 mod narrowed_tests;
 mod outlined;
 mod params;
+pub mod pipeline;
 pub mod points;
 pub(crate) mod price;
 #[cfg(test)]

@@ -4,6 +4,7 @@
 //! or where computing it takes several multiplications. It is weighed against
 //! whole statements, with what is read and assigned, since a step is one.
 
+use super::pipeline::Pass;
 use super::price::Price;
 use super::settled::Settled;
 use super::thrift::Thrift;
@@ -53,7 +54,7 @@ pub fn stepped(
     let phased = match target.wraps && steps == Steps::All {
         true => {
             let found = parities(&plain.graph, &plain.ranges, target.runtime);
-            site.taken(plain, found, phases)
+            site.taken(Pass::Phases, plain, found, phases)
         }
         false => plain,
     };
@@ -61,9 +62,9 @@ pub fn stepped(
         true => Vec::new(),
         false => runs(&phased.graph, &phased.ranges),
     };
-    let run = site.taken(phased, found, in_runs);
+    let run = site.taken(Pass::ScanlineRuns, phased, found, in_runs);
     let found = sites(&run.graph, &run.ranges);
-    site.taken(run, found, ramps)
+    site.taken(Pass::StrengthReduce, run, found, ramps)
 }
 
 struct Site<'s> {
@@ -77,11 +78,17 @@ type Rewrite = fn(&Graph, &Ranges, &[NodeId]) -> Option<Graph>;
 
 impl Site<'_> {
     /// A plan rewritten where that makes it cheaper.
-    fn taken(&self, plain: Settled, found: Vec<NodeId>, rewrite: Rewrite) -> Settled {
+    fn taken(&self, pass: Pass, plain: Settled, found: Vec<NodeId>, rewrite: Rewrite) -> Settled {
         let many = found.len() * plain.graph.nodes.len() > PATIENCE;
-        if found.is_empty() || many || self.shop.fuel.spent() {
+        if found.is_empty() || many {
             return plain;
         }
+        self.shop
+            .pass(pass, plain, |plain| self.cheaper(plain, found, rewrite))
+    }
+
+    /// The same; nothing where that makes it cheaper nowhere.
+    fn cheaper(&self, plain: &Settled, found: Vec<NodeId>, rewrite: Rewrite) -> Option<Settled> {
         let cost = |plan: &Settled| self.price.of(plan);
         let rewritten = |at: &[NodeId]| {
             let next = (self.shop).settle(&rewrite(&plain.graph, &plain.ranges, at)?);
@@ -90,7 +97,7 @@ impl Site<'_> {
             right.then(|| (cost(&next), next))
         };
         let mut taken: Vec<NodeId> = Vec::new();
-        let mut least = cost(&plain);
+        let mut least = cost(plain);
         let mut best: Option<Settled> = None;
         for &site in &found {
             if self.shop.fuel.spent() {
@@ -128,7 +135,7 @@ impl Site<'_> {
                 (least, best, taken) = (cost, Some(next), other);
             }
         }
-        best.unwrap_or(plain)
+        best
     }
 }
 

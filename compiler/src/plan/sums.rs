@@ -4,6 +4,7 @@
 //! are at first, and each is left as it is where that is cheaper. Then values are
 //! tried that others are made of.
 
+use super::pipeline::Pass;
 use super::price::Price;
 use super::settled::Settled;
 use super::thrift::Thrift;
@@ -30,13 +31,11 @@ const ROUNDS: u32 = 3;
 pub fn with_sums(plan: Settled, shop: &Workshop, thrift: Thrift) -> Settled {
     let mut best = plan;
     for _ in 0..ROUNDS {
-        if shop.fuel.spent() {
+        let before = best.serial();
+        best = shop.pass(Pass::Reassociate, best, |plan| cheaper(plan, shop, thrift));
+        if best.serial() == before {
             break;
         }
-        let Some(next) = cheaper(&best, shop, thrift) else {
-            break;
-        };
-        best = next;
     }
     best
 }
@@ -126,15 +125,17 @@ fn toggled(sites: &[Site], site: Site) -> Vec<Site> {
 /// The plan with no loop started that its first turn ends, and sums looked at again:
 /// those behind the loop are of what it starts with now.
 pub fn with_loops_skipped(plan: Settled, shop: &Workshop, thrift: Thrift) -> Settled {
-    let price = Price::new(&plan, shop.runtime, thrift);
-    let skipped = |plan: &Settled| skip(&plan.graph).map(|next| shop.scheduled(next));
-    let Some(usual) = skipped(&plan) else {
-        return plan;
-    };
+    let next = shop.always(Pass::LoopBypass, || bypassed(&plan, shop, thrift));
+    next.unwrap_or(plan)
+}
+
+fn bypassed(plan: &Settled, shop: &Workshop, thrift: Thrift) -> Option<Settled> {
+    let price = Price::new(plan, shop.runtime, thrift);
+    let usual = shop.scheduled(skip(&plan.graph)?);
     let sunk = sunk(&usual.graph).map(|graph| shop.settle(&graph));
     let other = sunk.map(|plan| cheaper(&plan, shop, thrift).unwrap_or(plan));
-    match other {
+    Some(match other {
         Some(other) if price.of(&other) < GAIN * price.of(&usual) => other,
         _ => usual,
-    }
+    })
 }

@@ -1,6 +1,7 @@
 //! Which values are computed once a column: what [`crate::passes::columns`] offers, where
 //! that makes the plan cheaper.
 
+use super::pipeline::Pass;
 use super::price::Price;
 use super::settled::Settled;
 use super::thrift::Thrift;
@@ -24,10 +25,13 @@ pub fn in_columns(
     if plan.graph.image.width > target.columns {
         return plan;
     }
-    let Some(found) = columns(&plan.graph) else {
-        return plan;
-    };
-    let price = Price::new(&plan, shop.runtime, thrift);
+    let next = shop.always(Pass::ScalarExpansion, || expanded(&plan, shop, thrift));
+    next.unwrap_or(plan)
+}
+
+fn expanded(plan: &Settled, shop: &Workshop, thrift: Thrift) -> Option<Settled> {
+    let found = columns(&plan.graph)?;
+    let price = Price::new(plan, shop.runtime, thrift);
     let with = |chosen: &BTreeSet<NodeId>| {
         let next = shop.scheduled(tabulated(&plan.graph, &found, chosen));
         (price.of(&next), next)
@@ -49,8 +53,5 @@ pub fn in_columns(
             false => drop(chosen.insert(*id)),
         }
     }
-    match best.0 < CHEAPER * price.of(&plan) {
-        true => best.1,
-        false => plan,
-    }
+    (best.0 < CHEAPER * price.of(plan)).then_some(best.1)
 }

@@ -2,6 +2,7 @@
 //! tables of what hangs on counters or few ints, sines of arcs by addition theorems; each where
 //! it makes the plan cheaper.
 
+use super::pipeline::Pass;
 use super::price::Price;
 use super::settled::Settled;
 use super::thrift::Thrift;
@@ -40,16 +41,19 @@ fn forms(origin: &Graph, shop: &Workshop, thrift: Thrift) -> Vec<Graph> {
     // Where memory is short, a sum of an entry is rather computed than looked up.
     let worth = if thrift.is_plenty() { 2 } else { 4 } * ENTRY;
     let mut bases = vec![origin.clone()];
-    bases.extend(arcs(origin).map(folded));
+    let arcs = shop.always(Pass::AngleAddition, || arcs(origin));
+    bases.extend(arcs.map(folded));
     bases = (bases.into_iter())
         .map(|graph| with_few_ints(graph, shop))
         .collect();
     let mut all = Vec::new();
     for base in bases {
         if thrift.counts() && !base.loops.is_empty() {
-            let unrolled = unroll(&base).map(folded);
+            let unrolled = shop.always(Pass::Unroll, || unroll(&base)).map(folded);
             let both = [Some(&base), unrolled.as_ref()].into_iter().flatten();
-            all.extend(both.filter_map(|graph| induction_tables(graph, worth)));
+            let tables =
+                |graph| shop.always(Pass::InductionTables, || induction_tables(graph, worth));
+            all.extend(both.filter_map(tables));
             all.extend(unrolled);
         }
         all.push(base);
@@ -66,6 +70,8 @@ fn with_few_ints(graph: Graph, shop: &Workshop) -> Graph {
     }
     let known = shop.scheduled(graph);
     // An int must be moved to where the table begins, and be held to its ends perhaps.
-    let tables = tables_of_ints(&known.graph, &known.ranges, 4 * ENTRY);
+    let tables = shop.always(Pass::IntegerTables, || {
+        tables_of_ints(&known.graph, &known.ranges, 4 * ENTRY)
+    });
     tables.map_or_else(|| known.graph.clone(), |graph| fold(&graph))
 }

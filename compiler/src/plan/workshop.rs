@@ -6,6 +6,7 @@
 //! again finds most of what it tries here, as far as there is room to keep it.
 
 use super::cheaper::Rewrite;
+use super::pipeline::{Pass, Pipeline};
 use super::settled::{Settled, scheduled};
 use crate::flow::graph::*;
 use crate::fuel::Fuel;
@@ -46,6 +47,8 @@ pub struct Workshop {
     pub draft: bool,
     /// What searches for a plan may do yet.
     pub fuel: Fuel,
+    /// What runs the passes.
+    pub pipeline: Pipeline,
     slack: Arc<Slack>,
     memo: Arc<Memo>,
 }
@@ -91,6 +94,7 @@ impl Workshop {
             every_shade: false,
             draft: false,
             fuel: Fuel::new(u64::MAX),
+            pipeline: Pipeline::default(),
             slack: Arc::new(Slack::of(runtime)),
             memo: Arc::default(),
         }
@@ -105,9 +109,25 @@ impl Workshop {
             every_shade: self.every_shade,
             draft: self.draft,
             fuel,
+            pipeline: self.pipeline.clone(),
             slack: self.slack.clone(),
             memo: self.memo.clone(),
         }
+    }
+
+    /// [`Pipeline::pass`] by its fuel.
+    pub fn pass(
+        &self,
+        pass: Pass,
+        plan: Settled,
+        run: impl FnOnce(&Settled) -> Option<Settled>,
+    ) -> Settled {
+        self.pipeline.pass(&self.fuel, pass, plan, run)
+    }
+
+    /// [`Pipeline::always`] by its fuel.
+    pub fn always<T>(&self, pass: Pass, run: impl FnOnce() -> Option<T>) -> Option<T> {
+        self.pipeline.always(&self.fuel, pass, run)
     }
 
     /// How far the routines' results may be off.

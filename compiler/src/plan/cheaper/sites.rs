@@ -1,5 +1,6 @@
 //! At which of the sites of a pass its form pays.
 
+use super::super::pipeline::Pass;
 use super::super::settled::Settled;
 use super::super::workshop::{Rewritten, Workshop};
 use super::{NODES, PATIENCE, Rewrite, Site};
@@ -10,8 +11,19 @@ use std::collections::BTreeMap;
 
 impl Site<'_> {
     /// A plan with what a pass puts at the sites where that pays.
-    pub(super) fn sited(&self, plain: &Settled, part: f64, pass: Rewrite) -> Option<Settled> {
-        if plain.graph.nodes.len() > NODES || self.shop.fuel.spent() {
+    pub(super) fn sited(&self, plain: Settled, part: f64, rewrite: Rewrite) -> Settled {
+        let pass = match rewrite {
+            Rewrite::Forms => Pass::PolynomialForms,
+            Rewrite::Identities => Pass::Identities,
+            Rewrite::Spans => Pass::ScanlineSpans,
+        };
+        let run = |plain: &Settled| self.where_it_pays(plain, part, rewrite);
+        self.shop.pass(pass, plain, run)
+    }
+
+    /// The same; nothing where it pays nowhere.
+    fn where_it_pays(&self, plain: &Settled, part: f64, pass: Rewrite) -> Option<Settled> {
+        if plain.graph.nodes.len() > NODES {
             return None;
         }
         let verdicts = Verdicts::default();
@@ -110,7 +122,7 @@ impl Site<'_> {
         let (pass, verdicts) = pass;
         shop.rewritten(plain, pass, without, || {
             let may = |id: NodeId| !without.contains(&id);
-            let found = pass.pass()(&plain.graph, &plain.ranges, self.runtime, &may, verdicts)?;
+            let found = pass.rule()(&plain.graph, &plain.ranges, self.runtime, &may, verdicts)?;
             Some((shop.settle(&found.graph), found.sites))
         })
     }

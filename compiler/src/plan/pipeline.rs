@@ -1,0 +1,194 @@
+//! The pass pipeline: every pass that the planner runs, in the order in which it does.
+//!
+//! A pass goes from a plan's graph to another of the same picture. Some always apply; most are
+//! kept where the plan's price falls ([`super::price`]), and some are of one kind of machine.
+//! What runs a pass is [`Pipeline::pass`]: it leaves out those that it was told to leave out and
+//! those for which no fuel is left, and counts what each was good for (`build --emit passes`).
+
+use super::settled::Settled;
+use crate::fuel::Fuel;
+use std::fmt::Write;
+use std::sync::{Arc, Mutex, PoisonError};
+
+/// Declares [`Pass`] and what there is to say of each: its name, the file that has it, and what
+/// it does in the field's terms.
+macro_rules! passes {
+    ($($pass:ident $name:literal $file:literal $what:literal)*) => {
+        /// A pass, in the order of the pipeline.
+        #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+        pub enum Pass { $(
+            #[doc = $what]
+            $pass,
+        )* }
+
+        /// All of them.
+        pub const PASSES: &[Pass] = &[$(Pass::$pass),*];
+
+        impl Pass {
+            /// Its name on the command line, the file in `compiler/src` that has it, and what
+            /// it does.
+            pub fn about(self) -> (&'static str, &'static str, &'static str) {
+                match self { $(Pass::$pass => ($name, $file, $what),)* }
+            }
+        }
+    };
+}
+
+passes! {
+    StripMine "strip-mine" "passes/interlace" "strip-mining of rows by the residue of the column"
+    IntegerParts "integer-parts" "passes/whole_parts" "integers out of floors, where sums have few bits"
+    IntegerSigns "integer-signs" "passes/int_signs" "signs of integers stay integers"
+    AccuracyRules "accuracy-rules" "passes/stable" "rewriting for accuracy, by rules with conditions"
+    UnitVectors "unit-vectors" "passes/units" "lengths of unit vectors folded"
+    AngleAddition "angle-addition" "passes/arcs" "sines of an arc's multiples by addition theorems"
+    IntegerTables "integer-tables" "passes/induction_tables" "tables of functions of integers of few values"
+    Unroll "unroll" "passes/unroll" "full unrolling of counted loops"
+    InductionTables "induction-tables" "passes/induction_tables" "tables of functions of induction variables"
+    PushIntoSelect "push-into-select" "passes/arms" "operations sunk into the arms of selects"
+    EarlyExit "early-exit" "passes/early" "early exits that the scene declares"
+    RayParameter "ray-parameter" "passes/along" "points on rays by the ray's parameter"
+    Peel "peel" "passes/peel" "loop peeling"
+    LoopGuard "loop-guard" "passes/guard" "loop guards before a loop and its second turn"
+    InvertMonotone "invert-monotone" "passes/threshold" "comparisons before monotone functions"
+    PolynomialForms "polynomial-forms" "passes/algebra" "normal forms over polynomials and roots"
+    Unnormalised "unnormalised" "passes/homogeneous" "directions at their own length"
+    CommonSquares "common-squares" "passes/squares" "comparisons by squares that are there"
+    SpecialiseFactors "specialise-factors" "passes/factors" "value specialisation of factors"
+    LengthTests "length-tests" "passes/identities" "comparisons decided by the length of a vector"
+    Identities "identities" "passes/identities" "shorter forms by identities of vectors"
+    ScanlineSpans "scanline-spans" "passes/algebra/span" "comparisons solved for spans of columns"
+    Shannon "shannon" "passes/either" "Shannon expansion of the ink's comparisons"
+    ShannonRanges "shannon-ranges" "passes/zones" "the same guarded by intervals of a value"
+    CrossMultiply "cross-multiply" "passes/limits" "comparisons without division"
+    Reciprocals "reciprocals" "passes/reciprocals" "division as multiplication by a shared reciprocal"
+    TableRecipes "table-recipes" "plan/recipes" "rematerialisation of table entries"
+    Phases "phases" "passes/ramps" "phase accumulators for periodic functions of the column"
+    ScanlineRuns "scanline-runs" "passes/ramps/runs" "values stepped along runs of columns"
+    StrengthReduce "strength-reduce" "passes/ramps" "strength reduction of polynomials in the column"
+    Reassociate "reassociate" "passes/sums" "reassociation and common subexpressions of sums"
+    Unswitch "unswitch" "passes/split" "unswitching of the ink on one comparison"
+    LoopBypass "loop-bypass" "passes/skip" "zero-trip bypass of loops"
+    SinkPartial "sink-partial" "passes/later" "partial dead code sinking"
+    Rematerialise "rematerialise" "passes/apart" "rematerialisation where values are needed"
+    ScalarExpansion "scalar-expansion" "passes/columns" "arrays of values of the column"
+    Licm "licm" "passes/licm" "loop-invariant code motion by frequency"
+    WordLengths "word-lengths" "plan/narrowed" "fewer bits for values where the picture allows"
+}
+
+/// Some of the passes.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct PassSet(u64);
+
+impl PassSet {
+    /// The same with one more.
+    #[must_use]
+    pub fn with(self, pass: Pass) -> PassSet {
+        PassSet(self.0 | 1 << pass as u64)
+    }
+
+    /// Whether one is among them.
+    pub fn has(self, pass: Pass) -> bool {
+        self.0 & 1 << pass as u64 != 0
+    }
+
+    /// All that come after one.
+    pub fn after(pass: Pass) -> PassSet {
+        let after = PASSES.iter().skip_while(|p| **p != pass).skip(1);
+        after.fold(PassSet::default(), |all, pass| all.with(*pass))
+    }
+
+    /// Those of both.
+    #[must_use]
+    pub fn and(self, other: PassSet) -> PassSet {
+        PassSet(self.0 | other.0)
+    }
+}
+
+/// What a pass was good for so far.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Count {
+    /// How often it was run, and how often what it made was kept.
+    pub runs: u64,
+    pub kept: u64,
+    /// What it burnt, with what ran inside of it, in units of [`Fuel`].
+    pub work: u64,
+}
+
+/// What runs passes for all plans of a scene.
+#[derive(Clone, Debug, Default)]
+pub struct Pipeline {
+    /// Those that are left out.
+    pub without: PassSet,
+    counts: Arc<Mutex<Vec<Count>>>,
+}
+
+impl Pipeline {
+    /// One that leaves some out.
+    pub fn without(without: PassSet) -> Pipeline {
+        Pipeline {
+            without,
+            ..Pipeline::default()
+        }
+    }
+
+    /// Runs a pass that makes another plan of one, or nothing where that would be no better, if
+    /// it is not left out and there is fuel for it.
+    pub fn pass(
+        &self,
+        fuel: &Fuel,
+        pass: Pass,
+        plan: Settled,
+        run: impl FnOnce(&Settled) -> Option<Settled>,
+    ) -> Settled {
+        if self.without.has(pass) || fuel.spent() {
+            return plan;
+        }
+        self.always(fuel, pass, || run(&plan)).unwrap_or(plan)
+    }
+
+    /// Runs a pass, if it is not left out, whatever fuel there is.
+    pub fn always<T>(&self, fuel: &Fuel, pass: Pass, run: impl FnOnce() -> Option<T>) -> Option<T> {
+        if self.without.has(pass) {
+            return None;
+        }
+        let before = fuel.burnt();
+        let made = run();
+        let mut counts = self.counts.lock().unwrap_or_else(PoisonError::into_inner);
+        counts.resize(PASSES.len(), Count::default());
+        if let Some(count) = counts.get_mut(pass as usize) {
+            count.runs += 1;
+            count.kept += u64::from(made.is_some());
+            count.work += fuel.burnt() - before;
+        }
+        made
+    }
+
+    /// What each pass was good for.
+    pub fn count(&self, pass: Pass) -> Count {
+        let counts = self.counts.lock().unwrap_or_else(PoisonError::into_inner);
+        counts.get(pass as usize).copied().unwrap_or_default()
+    }
+
+    /// The passes in their order, with what was counted, as a table of text.
+    pub fn text(&self) -> String {
+        let mut text = format!(
+            "{:19} {:>7} {:>7} {:>11}  what it does (compiler/src)\n",
+            "pass", "runs", "kept", "work"
+        );
+        for pass in PASSES {
+            let (name, file, what) = pass.about();
+            let Count { runs, kept, work } = self.count(*pass);
+            let left = if self.without.has(*pass) {
+                "; left out"
+            } else {
+                ""
+            };
+            // Writing to a string cannot fail.
+            let _ = writeln!(
+                text,
+                "{name:19} {runs:7} {kept:7} {work:11}  {what} ({file}){left}"
+            );
+        }
+        text
+    }
+}

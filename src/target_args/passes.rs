@@ -1,0 +1,33 @@
+//! Options that leave passes of the planner out, to see what each is good for.
+
+use clap::Args;
+use slowlight_compiler::plan::pipeline::{PASSES, Pass, PassSet};
+
+/// Passes that are left out.
+#[derive(Args, Clone, Debug, Default)]
+pub struct PassArgs {
+    /// Leave a pass of the planner out (`build --emit passes` lists them); may be said again
+    #[arg(long, value_name = "PASS", value_parser = pass)]
+    without_pass: Vec<Pass>,
+    /// Leave all passes out that come after this one: with `--emit plan`, what stands there
+    #[arg(long, value_name = "PASS", value_parser = pass)]
+    stop_after: Option<Pass>,
+}
+
+impl PassArgs {
+    /// All that are left out.
+    pub fn left_out(&self) -> PassSet {
+        let after = self.stop_after.map(PassSet::after).unwrap_or_default();
+        let all = self.without_pass.iter();
+        all.fold(after, |all, pass| all.with(*pass))
+    }
+}
+
+/// Reads a pass's name.
+fn pass(text: &str) -> Result<Pass, String> {
+    let named = |pass: &&Pass| pass.about().0 == text;
+    PASSES.iter().find(named).copied().ok_or_else(|| {
+        let names: Vec<&str> = PASSES.iter().map(|pass| pass.about().0).collect();
+        format!("there is no such pass; the passes are {}", names.join(", "))
+    })
+}
