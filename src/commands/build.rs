@@ -16,7 +16,7 @@ use clap::ValueEnum;
 use serde_json::json;
 use slowlight_compiler::passes::rate::rates;
 use slowlight_compiler::plan::Plan;
-use slowlight_compiler::plan::pipeline::Pipeline;
+use slowlight_compiler::plan::pipeline::{PASSES, Pipeline};
 use slowlight_compiler::plan::print::{ranges_text, rates_text};
 use slowlight_compiler::syntax::print;
 use slowlight_compiler::target::mos6502::document;
@@ -112,6 +112,7 @@ pub fn run(args: &Args) -> Outcome<()> {
             "ram_bytes": sizes.ram,
             "heap": heap_json(&written),
             "work": plan.work(),
+            "passes": passes_json(&plan),
             "cycles": forecast.cycles().map(f64::round),
             "machine_seconds": forecast.cycles().map(seconds),
             "rows_run": match forecast {
@@ -226,6 +227,17 @@ fn heap_json(written: &Written) -> serde_json::Value {
         "largest": heap.largest,
         "systems": heap.systems,
     })
+}
+
+/// What the passes that ran were good for, as JSON.
+fn passes_json(plan: &Plan) -> serde_json::Value {
+    let pipeline = plan.pipeline();
+    let ran = PASSES.iter().filter_map(|pass| {
+        let count = pipeline.count(*pass);
+        let json = json!({"runs": count.runs, "kept": count.kept, "work": count.work});
+        (count.runs > 0).then(|| (pass.about().0.to_owned(), json))
+    });
+    ran.collect::<serde_json::Map<_, _>>().into()
 }
 
 fn target(args: &Args) -> Outcome<&'static Target> {

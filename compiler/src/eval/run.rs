@@ -103,6 +103,12 @@ impl<'t, A: Arithmetic> Run<'t, A> {
         self.unset
     }
 
+    /// Runs what stands before the pixel at column `x`, row `y`: the row's own statements, if it
+    /// is another row, and the pass's.
+    pub fn begin(&mut self, x: i32, y: i32) {
+        self.pass(x, y);
+    }
+
     /// Runs the pixel at column `x`, row `y`; answers its ink. Where the graph
     /// spreads its error, the pixels before it run too, if they have not.
     pub fn pixel(&mut self, x: i32, y: i32) -> A::Value {

@@ -16,7 +16,7 @@ use super::ramp;
 use crate::passes::ramps::runs::of_beginnings;
 use crate::passes::rate::{Rates, rates};
 use slowlight_routine::Type;
-use std::collections::HashMap;
+use rustc_hash::FxHashMap;
 
 /// A rule that is broken, and where.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
@@ -124,7 +124,7 @@ fn node(graph: &Graph, id: NodeId) -> Result<(), Broken> {
 
 /// Every loop's results.
 fn together(graph: &Graph, reached: &[bool]) -> Result<(), Broken> {
-    let mut last: HashMap<LoopId, NodeId> = HashMap::new();
+    let mut last: FxHashMap<LoopId, NodeId> = FxHashMap::default();
     for id in graph.ids().filter(|id| reached[id.0 as usize]) {
         let Node::Result { of, .. } = graph.node(id) else {
             continue;

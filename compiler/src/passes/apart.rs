@@ -10,7 +10,8 @@ use super::arena::Arena;
 use crate::flow::graph::*;
 use crate::flow::often;
 use crate::flow::tree::*;
-use std::collections::{BTreeMap, HashMap, HashSet};
+use rustc_hash::{FxHashMap, FxHashSet};
+use std::collections::BTreeMap;
 
 /// Whether copies are worth it: of which node, how many times a pixel less it is
 /// computed, how many copies there are more.
@@ -64,11 +65,11 @@ struct Part {
 struct Places {
     blocks: Vec<Part>,
     /// The block where each value is computed.
-    home: HashMap<NodeId, usize>,
+    home: FxHashMap<NodeId, usize>,
     /// What uses each value, and where.
     uses: BTreeMap<NodeId, Vec<(User, usize)>>,
     /// What is used otherwise.
-    fixed: HashSet<NodeId>,
+    fixed: FxHashSet<NodeId>,
 }
 
 impl Places {
@@ -155,7 +156,7 @@ fn copied(graph: &Graph, copies: &Copies) -> Graph {
     let mut moved: Vec<Option<NodeId>> = Vec::with_capacity(graph.nodes.len());
     let mut made: BTreeMap<(NodeId, usize), NodeId> = BTreeMap::new();
     for id in graph.ids() {
-        let mut operands: HashMap<NodeId, NodeId> = HashMap::new();
+        let mut operands: FxHashMap<NodeId, NodeId> = FxHashMap::default();
         let at = |id: NodeId| moved[id.0 as usize].unwrap_or(NodeId(0));
         for used in graph.node(id).operands() {
             let mut now = at(used);

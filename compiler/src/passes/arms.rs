@@ -17,7 +17,8 @@ use self::arm::Arm;
 use super::rebuild::rebuild_old;
 use crate::flow::graph::*;
 use crate::range::Ranges;
-use std::collections::{BTreeMap, BTreeSet, HashMap};
+use rustc_hash::FxHashMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// How many conditions are looked at.
 const CONDITIONS: usize = 6;
@@ -102,7 +103,7 @@ struct Pair {
 /// none in one.
 fn apart((graph, ranges): (&Graph, &Ranges), by: NodeId, these: &[bool]) -> (Graph, Vec<bool>) {
     let arms = [true, false].map(|holds| Arm::new(graph, ranges, by, holds));
-    let mut pairs: HashMap<NodeId, Pair> = HashMap::new();
+    let mut pairs: FxHashMap<NodeId, Pair> = FxHashMap::default();
     let mut shorter = vec![false; graph.nodes.len()];
     let next = rebuild_old(graph, &mut |builder, made, id, span| {
         let new = |old: NodeId| made.get(old.0 as usize).copied().flatten();
@@ -193,7 +194,7 @@ mod tests {
     fn price(graph: &Graph) -> f64 {
         let shop = Workshop::new(graph.clone(), &F316);
         let plan = shop.settle(graph);
-        Price::new(&plan, &F316, Thrift::default()).of(&plan)
+        Price::new(&shop, Thrift::default()).of(&plan)
     }
 
     #[test]

@@ -10,7 +10,7 @@ use crate::flow::build::Builder;
 use crate::flow::graph::*;
 use crate::source::Span;
 use slowlight_routine::{Op, Value};
-use std::collections::HashMap;
+use rustc_hash::FxHashMap;
 
 /// The graph of a picture of blocks, each so many columns wide and rows high. Its image
 /// counts blocks; both sides of the picture must be whole numbers of them.
@@ -22,7 +22,7 @@ pub fn coarse(graph: &Graph, block: (u32, u32)) -> Graph {
         graph,
         block,
         dithers: dithers(graph),
-        dithered: HashMap::new(),
+        dithered: FxHashMap::default(),
     };
     let mut made = rebuild_by(graph, &mut rewrite);
     made.image.width = (graph.image.width / block.0).max(1);
@@ -56,7 +56,7 @@ struct Coarse<'g> {
     /// By node: whether the dither works it out.
     dithers: Vec<bool>,
     /// What stands for a node in the dither, where that is another than elsewhere.
-    dithered: HashMap<NodeId, NodeId>,
+    dithered: FxHashMap<NodeId, NodeId>,
 }
 
 impl Coarse<'_> {

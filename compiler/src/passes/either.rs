@@ -44,13 +44,15 @@ pub fn conditions(graph: &Graph) -> Vec<NodeId> {
 
 /// How many nodes a value is made of.
 fn reached_from(graph: &Graph, id: NodeId) -> usize {
-    let mut seen = BTreeSet::from([id]);
-    let mut todo = vec![id];
+    let mut seen = vec![false; graph.nodes.len()];
+    let (mut count, mut todo) = (0, vec![id]);
     while let Some(id) = todo.pop() {
-        let next = graph.references(id).into_iter();
-        todo.extend(next.filter(|id| seen.insert(*id)));
+        if !std::mem::replace(&mut seen[id.0 as usize], true) {
+            count += 1;
+            todo.extend(graph.references(id));
+        }
     }
-    seen.len()
+    count
 }
 
 /// What a value is in the two arms, in the new graph.

@@ -12,7 +12,7 @@ use super::peel::{alone, before, body, cone};
 use super::rate::{Dependence, Rates, rates};
 use crate::flow::graph::*;
 use slowlight_routine::{Type, Value};
-use std::collections::HashMap;
+use rustc_hash::FxHashMap;
 
 /// The graph with a loop behind a guard of at most so many conditions; nothing where
 /// the loop stands in another or has one in its body, or where its body has more than
@@ -100,7 +100,7 @@ fn asked_first(
     let turns = &graph.loops[of.0 as usize];
     let at = |id: NodeId| moved[id.0 as usize].unwrap_or(NodeId(0));
     let roots: Vec<NodeId> = needed.iter().map(|(cond, _)| *cond).collect();
-    let mut first: HashMap<NodeId, NodeId> = HashMap::new();
+    let mut first: FxHashMap<NodeId, NodeId> = FxHashMap::default();
     for id in cone(graph, &roots, body) {
         let made = match graph.node(id) {
             Node::Carried { of: l, index } if l == of => {

@@ -4,7 +4,7 @@
 use crate::flow::graph::*;
 use crate::flow::tree::*;
 use slowlight_routine::Op;
-use std::collections::HashMap;
+use rustc_hash::FxHashMap;
 
 /// Whether a value is there for as long as what is made of it: what a loop carries is
 /// another one when its turn is over, and what a call is given in the next.
@@ -25,8 +25,8 @@ pub fn put(graph: &mut Graph, id: NodeId, op: Op, of: NodeId) {
 }
 
 /// How often statements read each value.
-pub fn uses(graph: &Graph, tree: &Tree) -> HashMap<NodeId, u32> {
-    let mut uses = HashMap::new();
+pub fn uses(graph: &Graph, tree: &Tree) -> FxHashMap<NodeId, u32> {
+    let mut uses = FxHashMap::default();
     let mut read = |id: NodeId| *uses.entry(id).or_insert(0) += 1;
     for block in tree.blocks() {
         walk(block, &mut |statement| match statement {
@@ -45,7 +45,7 @@ pub fn uses(graph: &Graph, tree: &Tree) -> HashMap<NodeId, u32> {
 }
 
 /// A value that is read once less; where nobody reads it any more, it is unread.
-pub fn read_less(uses: &mut HashMap<NodeId, u32>, id: NodeId, unread: &mut Vec<NodeId>) {
+pub fn read_less(uses: &mut FxHashMap<NodeId, u32>, id: NodeId, unread: &mut Vec<NodeId>) {
     if let Some(left) = uses.get_mut(&id) {
         *left -= 1;
         if *left == 0 {

@@ -16,12 +16,13 @@ use super::arena::Arena;
 use super::demand::{place, place_in_segments};
 use super::region::*;
 use crate::flow::graph::*;
+use slowlight_routine::Runtime;
 use std::collections::{BTreeMap, BTreeSet};
 
 /// Graphs of which each has what one way of a condition needs computed on that way.
-/// `segments`: the values are placed for runs of columns.
-pub fn later(graph: &Graph, segments: bool) -> Vec<Graph> {
-    let site = Site::new(graph, segments);
+/// Of many ways those are taken whose values take most cycles.
+pub fn later(graph: &Graph, runtime: &Runtime) -> Vec<Graph> {
+    let site = Site::new(graph, runtime.segments);
     let mut asked: BTreeSet<(RegionId, NodeId, bool)> = BTreeSet::new();
     for region in &site.regions.regions {
         if let (RegionKind::Arm { cond, holds }, Some(home)) = (region.kind, region.parent)
@@ -30,9 +31,18 @@ pub fn later(graph: &Graph, segments: bool) -> Vec<Graph> {
             asked.insert((home, cond, holds));
         }
     }
-    let moved = |(home, cond, holds)| Way::new(&site, home, cond, holds)?.moved();
-    asked.into_iter().filter_map(moved).collect()
+    let ways = asked.into_iter();
+    let mut ways: Vec<(u64, Way)> = ways
+        .filter_map(|(home, cond, holds)| Way::new(&site, home, cond, holds))
+        .map(|way| (way.cycles(runtime), way))
+        .collect();
+    ways.sort_by_key(|(cycles, _)| std::cmp::Reverse(*cycles));
+    let ways = ways.into_iter().take(WAYS);
+    ways.filter_map(|(_, way)| way.moved()).collect()
 }
+
+/// How many ways are tried: each is a graph that is scheduled and priced.
+const WAYS: usize = 8;
 
 /// Where a value is used: by which other, as what, and in which region.
 #[derive(Clone, Copy, Debug)]
@@ -204,6 +214,15 @@ impl<'s, 'g> Way<'s, 'g> {
             uses.any(|used| matches!(way.fate(used), Some(Fate::Chosen(_))))
         };
         way.values.iter().any(later).then_some(way)
+    }
+
+    /// What all of its values take together.
+    fn cycles(&self, runtime: &Runtime) -> u64 {
+        let of = |id: &NodeId| match self.site.graph.node(*id) {
+            Node::Apply(op, _) => runtime.usual(op).map_or(0, |routine| routine.cycles),
+            _ => 0,
+        };
+        self.values.iter().map(|id| u64::from(of(id))).sum()
     }
 
     /// What the way itself needs, at once or for another of the values.

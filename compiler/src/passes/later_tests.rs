@@ -62,7 +62,7 @@ fn a_value_goes_to_the_way_that_needs_it() {
         all.count()
     };
     assert_eq!((squares(&graph, &tree), top(&graph, &tree)), (1, 1));
-    let all = later(&graph, false);
+    let all = later(&graph, &slowlight_runtime_jack::F316);
     let moved = all.iter().map(|graph| (graph, schedule(graph)));
     let found = moved
         .filter(|(graph, tree)| squares(graph, tree) == 2 && top(graph, tree) == 0)
@@ -77,12 +77,16 @@ fn what_is_computed_later_draws_the_same() {
     for seed in 0..600 {
         let graph = apart_tests::graph(seed);
         for segments in [false, true] {
+            let runtime = match segments {
+                true => &slowlight_runtime_bbc::RUNTIME,
+                false => &slowlight_runtime_jack::F316,
+            };
             let scheduled = |graph: &Graph| match segments {
                 true => schedule_in_segments(graph),
                 false => schedule(graph),
             };
             let first = picture(&graph, &scheduled(&graph), &places);
-            for other in later(&graph, segments).into_iter().take(6) {
+            for other in later(&graph, runtime).into_iter().take(6) {
                 made += 1;
                 verify(&other).unwrap_or_else(|broken| panic!("seed {seed}: {broken}"));
                 let tree = scheduled(&other);

@@ -12,13 +12,13 @@
 use crate::flow::graph::*;
 use crate::flow::tree::*;
 use slowlight_routine::Op;
-use std::collections::{HashMap, HashSet};
+use rustc_hash::{FxHashMap, FxHashSet};
 
 /// What only runs of columns read of a pass's ints, if computing one takes no longer
 /// than reading it: it stands in front of the first statement that reads it, so that
 /// the subroutine that reads it may have it.
 pub fn down_to_runs(graph: &Graph, tree: &mut Tree) {
-    let mut elsewhere: HashSet<NodeId> = HashSet::new();
+    let mut elsewhere: FxHashSet<NodeId> = FxHashSet::default();
     for block in [
         &tree.frame,
         &tree.column,
@@ -37,7 +37,7 @@ pub fn down_to_runs(graph: &Graph, tree: &mut Tree) {
         }
     }
     elsewhere.extend(graph.reports.iter().copied().chain([graph.ink]));
-    let seldom: HashSet<NodeId> = (tree.segment.iter())
+    let seldom: FxHashSet<NodeId> = (tree.segment.iter())
         .flat_map(|s| reads(graph, s))
         .collect();
     let mut found = Vec::new();
@@ -111,7 +111,7 @@ pub fn near(graph: &Graph, block: Block) -> Block {
         reads: block.iter().map(|s| reads(graph, s)).collect(),
         all: Vec::with_capacity(block.len()),
     };
-    let read: HashSet<NodeId> = order.reads.iter().flatten().copied().collect();
+    let read: FxHashSet<NodeId> = order.reads.iter().flatten().copied().collect();
     for (at, statement) in block.iter().enumerate() {
         let waits = match statement {
             Statement::Let(id) => order.movable.contains_key(id) && read.contains(id),
@@ -138,7 +138,7 @@ fn inside(graph: &Graph, statement: Statement) -> Statement {
 }
 
 /// The operations of a block that may stand further down, and where they stand.
-fn movable(graph: &Graph, block: &[Statement]) -> HashMap<NodeId, usize> {
+fn movable(graph: &Graph, block: &[Statement]) -> FxHashMap<NodeId, usize> {
     let steady = |id: NodeId| {
         !matches!(
             graph.node(id),
@@ -173,7 +173,7 @@ fn reads(graph: &Graph, statement: &Statement) -> Vec<NodeId> {
 }
 
 struct Order {
-    movable: HashMap<NodeId, usize>,
+    movable: FxHashMap<NodeId, usize>,
     done: Vec<bool>,
     reads: Vec<Vec<NodeId>>,
     all: Vec<usize>,

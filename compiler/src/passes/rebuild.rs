@@ -3,7 +3,7 @@
 use crate::flow::build::Builder;
 use crate::flow::graph::*;
 use crate::source::Span;
-use std::collections::HashMap;
+use rustc_hash::FxHashMap;
 
 /// A rewriting rule: given the node's old id and the node with its operands
 /// already rebuilt, what stands for it instead, if anything.
@@ -105,8 +105,8 @@ fn rebuild_all(graph: &Graph, rewrite: &mut dyn Rewrite) -> (Graph, Trace) {
         graph,
         builder: Builder::with_room(graph.nodes.len()),
         made: vec![None; graph.nodes.len()],
-        loops: HashMap::new(),
-        results: HashMap::new(),
+        loops: FxHashMap::default(),
+        results: FxHashMap::default(),
     };
     let reached = graph.reached();
     // Params keep their numbers, used or not: they are the program's interface.
@@ -178,9 +178,9 @@ struct Rebuilder<'g> {
     builder: Builder,
     made: Vec<Option<NodeId>>,
     /// The new number of each old loop.
-    loops: HashMap<LoopId, LoopId>,
+    loops: FxHashMap<LoopId, LoopId>,
     /// The new results of each old loop that is closed.
-    results: HashMap<LoopId, Vec<NodeId>>,
+    results: FxHashMap<LoopId, Vec<NodeId>>,
 }
 
 impl Rebuilder<'_> {

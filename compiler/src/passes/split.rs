@@ -12,7 +12,7 @@ use crate::flow::build::Builder;
 use crate::flow::graph::*;
 use crate::source::Span;
 use slowlight_routine::{Op, Type, Value};
-use std::collections::HashMap;
+use rustc_hash::FxHashMap;
 
 /// What a value depends on beside what its run knows.
 #[derive(Clone, Copy, PartialEq)]
@@ -71,7 +71,7 @@ pub fn split(graph: &Graph) -> Option<Graph> {
                 known: &known,
                 cond,
                 holds,
-                done: HashMap::new(),
+                done: FxHashMap::default(),
             }
             .put(builder, id, span)
         };
@@ -90,7 +90,7 @@ struct Arm<'a, 'g> {
     made: &'a [Option<NodeId>],
     cond: NodeId,
     holds: bool,
-    done: HashMap<NodeId, NodeId>,
+    done: FxHashMap<NodeId, NodeId>,
 }
 
 impl Arm<'_, '_> {

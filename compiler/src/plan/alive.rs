@@ -15,7 +15,7 @@ use crate::flow::graph::*;
 use crate::flow::tree::*;
 use crate::passes::region::Fact;
 use slowlight_routine::{Format, Op, Value};
-use std::collections::HashMap;
+use rustc_hash::FxHashMap;
 
 /// How many conditions are looked at both ways, at most: each only sets more apart. Of a large
 /// program as many as so many pairs of a step and a place allow.
@@ -53,7 +53,7 @@ fn is_kept(graph: &Graph, id: NodeId) -> bool {
 pub struct Flow<'p> {
     pub plan: &'p Plan,
     pub places: Vec<Place>,
-    numbers: HashMap<Place, usize>,
+    numbers: FxHashMap<Place, usize>,
     pub steps: Vec<Step>,
     /// The steps of each loop, from its first to its last, inner ones first.
     loops: Vec<(usize, usize)>,
@@ -68,7 +68,7 @@ impl<'p> Flow<'p> {
         let mut flow = Flow {
             plan,
             places: Vec::new(),
-            numbers: HashMap::new(),
+            numbers: FxHashMap::default(),
             steps: Vec::new(),
             loops: Vec::new(),
             pixel: 0,

@@ -85,7 +85,7 @@ pub fn cheaper(
     let mut site = Site {
         shop,
         runtime: shop.runtime,
-        price: Price::new(&plain, shop.runtime, thrift).foreseeing(),
+        price: Price::new(shop, thrift).foreseeing(),
         thrift,
         products: false,
         other: AtomicBool::new(false),
@@ -128,7 +128,7 @@ impl Rewrite {
 /// With tables' recipes followed where their entries are needed, if that is worth
 /// the memory.
 pub fn with_recipes_followed(plan: Settled, shop: &Workshop, thrift: Thrift) -> Settled {
-    let price = Price::new(&plan, shop.runtime, thrift);
+    let price = Price::new(shop, thrift);
     if shop.fuel.spent() && !thrift.follows() {
         return plan;
     }
@@ -147,7 +147,7 @@ pub fn with_inks_split(plan: Settled, shop: &Workshop, thrift: Thrift) -> Settle
     }
     shop.pass(Pass::Unswitch, plan, |plan| {
         let next = shop.settle(&split(&plan.graph)?);
-        let price = Price::new(plan, shop.runtime, thrift);
+        let price = Price::new(shop, thrift);
         (price.of(&next) < price.of(plan)).then_some(next)
     })
 }
@@ -155,7 +155,7 @@ pub fn with_inks_split(plan: Settled, shop: &Workshop, thrift: Thrift) -> Settle
 /// With values computed where they are needed rather than once for all, where
 /// that is less often: the last of the passes.
 pub fn apart_at_last(plan: Settled, shop: &Workshop, thrift: Thrift) -> Settled {
-    let price = Price::new(&plan, shop.runtime, thrift);
+    let price = Price::new(shop, thrift);
     // Where copies are joined, what chooses what a loop starts with costs nothing.
     let mut best = match shop.runtime.stepping {
         Some(_) => with_loops_skipped(plan, shop, thrift),
@@ -164,7 +164,7 @@ pub fn apart_at_last(plan: Settled, shop: &Workshop, thrift: Thrift) -> Settled 
     for _ in 0..LATER {
         let before = best.serial();
         best = shop.pass(Pass::SinkPartial, best, |plan| {
-            let all = later(&plan.graph, shop.runtime.segments).into_iter();
+            let all = later(&plan.graph, shop.runtime).into_iter();
             let next = price.cheapest(all.map(|graph| shop.scheduled(graph)))?;
             (price.of(&next) < GUARD * price.of(plan)).then_some(next)
         });

@@ -35,7 +35,7 @@ const FACTORS: usize = 8;
 /// With operations made in the arms of choices where they are none in one of them.
 pub fn in_arms(plan: Settled, shop: &Workshop, thrift: Thrift) -> Settled {
     shop.pass(Pass::PushIntoSelect, plan, |plan| {
-        let price = Price::new(plan, shop.runtime, thrift);
+        let price = Price::new(shop, thrift);
         each_condition(plan, shop, &price, conditions, |plan, cond| {
             arms(&plan.graph, &plan.ranges, cond)
         })
@@ -76,7 +76,7 @@ pub fn asked_where_it_matters(plan: Settled, shop: &Workshop, thrift: Thrift) ->
     if shop.every_shade || scaled || shop.fuel.spent() {
         return plan;
     }
-    let price = Price::new(&plan, shop.runtime, thrift);
+    let price = Price::new(shop, thrift);
     let plan = shop.pass(Pass::Shannon, plan, |plan| {
         each_condition(plan, shop, &price, either::conditions, |plan, cond| {
             either(&plan.graph, cond).map(|graph| fold(&graph))
@@ -151,7 +151,7 @@ fn cheaper_of(
     }
     shop.pass(pass, plan, |plan| {
         let next = shop.settle(&by(plan)?);
-        let price = Price::new(plan, shop.runtime, thrift);
+        let price = Price::new(shop, thrift);
         (price.of(&next) < price.of(plan)).then_some(next)
     })
 }

@@ -4,7 +4,7 @@ use crate::flow::graph::*;
 use crate::flow::tree::*;
 use crate::passes::still::Still;
 use slowlight_routine::{Form, Routine};
-use std::collections::HashMap;
+use rustc_hash::FxHashMap;
 
 /// How often an int may be read as a real where it is not kept as one: each time takes
 /// a sixth of what keeping it takes.
@@ -24,9 +24,9 @@ pub fn folded(
         graph,
         routines,
         count: vec![0; graph.nodes.len()],
-        reader: HashMap::new(),
+        reader: FxHashMap::default(),
         blocks: 0,
-        home: HashMap::new(),
+        home: FxHashMap::default(),
     };
     for block in tree.blocks() {
         let number = uses.block(block);
@@ -69,10 +69,10 @@ struct Uses<'g> {
     count: Vec<u32>,
     /// The block that a node was read in; 0 where those are several, or where it must
     /// not be folded.
-    reader: HashMap<NodeId, u32>,
+    reader: FxHashMap<NodeId, u32>,
     blocks: u32,
     /// The block that a node is computed in.
-    home: HashMap<NodeId, u32>,
+    home: FxHashMap<NodeId, u32>,
 }
 
 impl Uses<'_> {

@@ -12,15 +12,15 @@ use crate::flow::graph::*;
 use crate::flow::tree::*;
 use crate::passes::region::{Fact, implied};
 use slowlight_routine::{Format, Op};
-use std::collections::{HashMap, HashSet};
+use rustc_hash::{FxHashMap, FxHashSet};
 
 /// The variables of places.
 #[derive(Clone, Debug, Default)]
 pub struct Homes {
     /// For each place, the number of its variable, among those of its format.
-    pub number: HashMap<Place, usize>,
+    pub number: FxHashMap<Place, usize>,
     /// The places that are one because of a copy: for each, the first of them.
-    pub one: HashMap<Place, Place>,
+    pub one: FxHashMap<Place, Place>,
 }
 
 /// The variables of a plan's places, as few as are easily found.
@@ -133,7 +133,7 @@ impl Flow<'_> {
             let one = classes.of(place);
             homes.one.insert(self.places[place], self.places[one]);
             let number = given[one].unwrap_or_else(|| {
-                let taken: HashSet<usize> = (meets.0[one].iter().chain(close.0[one].iter()))
+                let taken: FxHashSet<usize> = (meets.0[one].iter().chain(close.0[one].iter()))
                     .filter(|class| formats[*class] == formats[one])
                     .filter_map(|class| given[class])
                     .collect();

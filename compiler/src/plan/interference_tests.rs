@@ -15,21 +15,21 @@ use crate::scene::check;
 use crate::sema::Options;
 use crate::target::bbc;
 use slowlight_routine::Format;
-use std::collections::HashMap;
+use rustc_hash::FxHashMap;
 
 /// What is written: a number of its own for each writing that is no copy.
 type Mark = u64;
 
 struct Walk<'p> {
     plan: &'p Plan,
-    number: &'p HashMap<Place, usize>,
+    number: &'p FxHashMap<Place, usize>,
     random: Random,
     next: Mark,
     /// What was written to each place, as far as a way says.
-    places: HashMap<Place, Mark>,
-    variables: HashMap<(Format, usize), Mark>,
+    places: FxHashMap<Place, Mark>,
+    variables: FxHashMap<(Format, usize), Mark>,
     /// How conditions came out, by what they were; those that nothing computes, too.
-    answers: HashMap<Result<Mark, NodeId>, bool>,
+    answers: FxHashMap<Result<Mark, NodeId>, bool>,
     reads: u32,
 }
 
@@ -156,9 +156,9 @@ fn looked_at(plan: &Plan, seed: u64, pixels: u32) -> u32 {
         number: &homes.number,
         random: Random::new(seed),
         next: 0,
-        places: HashMap::new(),
-        variables: HashMap::new(),
-        answers: HashMap::new(),
+        places: FxHashMap::default(),
+        variables: FxHashMap::default(),
+        answers: FxHashMap::default(),
         reads: 0,
     };
     let tree = &plan.tree;

@@ -23,7 +23,7 @@ pub fn licm(plan: Settled, shop: &Workshop, thrift: Thrift) -> Settled {
 }
 
 fn hoisted_where_cheaper(plan: &Settled, shop: &Workshop, thrift: Thrift) -> Option<Settled> {
-    let price = Price::by_few(plan, shop.runtime, thrift);
+    let price = Price::new(shop, thrift);
     let counts = price.counts(plan);
     let found = counts.map(|ran| hoisted(&plan.graph, &plan.tree.pixel, &ran));
     let hoisted = found.unwrap_or_default();
@@ -34,5 +34,5 @@ fn hoisted_where_cheaper(plan: &Settled, shop: &Workshop, thrift: Thrift) -> Opt
         hoisted,
         ..plan.graph.clone()
     });
-    (price.anew(&next) < CHEAPER * price.anew(plan)).then_some(next)
+    (price.of(&next) < CHEAPER * price.of(plan)).then_some(next)
 }

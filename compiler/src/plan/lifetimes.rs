@@ -15,7 +15,7 @@ use super::merge::merged;
 use crate::flow::graph::*;
 use crate::flow::tree::*;
 use slowlight_routine::Format;
-use std::collections::HashMap;
+use rustc_hash::FxHashMap;
 
 /// From the first writing to the last reading, as numbers of statements.
 #[derive(Clone, Copy, Debug)]
@@ -27,20 +27,20 @@ struct Life {
 struct Lives<'p> {
     plan: &'p Plan,
     now: usize,
-    lives: HashMap<Place, Life>,
+    lives: FxHashMap<Place, Life>,
     /// For places that are one home for more than their lives: which one.
-    merged: HashMap<Place, Place>,
+    merged: FxHashMap<Place, Place>,
     /// Bodies of loops, inner ones first.
     bodies: Vec<Life>,
 }
 
 /// For each place, the number of the home that it shares with others of its
 /// format; numbers begin at 0 for each format.
-pub fn shared_homes(plan: &Plan) -> HashMap<Place, usize> {
+pub fn shared_homes(plan: &Plan) -> FxHashMap<Place, usize> {
     let mut lives = Lives {
         plan,
         now: 0,
-        lives: HashMap::new(),
+        lives: FxHashMap::default(),
         merged: merged(plan),
         bodies: Vec::new(),
     };
@@ -84,8 +84,8 @@ pub fn shared_homes(plan: &Plan) -> HashMap<Place, usize> {
     };
     // Stable: places that begin together stay in the order of their writing.
     all.sort_by_key(|(place, _)| life(place).from);
-    let mut free_from: HashMap<Format, Vec<usize>> = HashMap::new();
-    let mut homes = HashMap::new();
+    let mut free_from: FxHashMap<Format, Vec<usize>> = FxHashMap::default();
+    let mut homes = FxHashMap::default();
     for (place, format) in all {
         let Life { from, to } = life(&place);
         let taken = free_from.entry(format).or_default();

@@ -200,7 +200,7 @@ fn planned_in(
         now = in_arms(now, shop, thrift);
         let early = early.map(|plan| in_arms(plan, shop, thrift));
         let early = early.as_ref().map(|settled| &settled.graph);
-        let price = Price::new(&now, runtime, thrift);
+        let price = Price::new(shop, thrift);
         let cheapest = |all: Vec<Settled>| {
             let all = all
                 .into_iter()

@@ -9,13 +9,13 @@
 use super::Plan;
 use crate::flow::graph::*;
 use crate::flow::tree::*;
-use std::collections::HashMap;
+use rustc_hash::FxHashMap;
 
 /// For each place that another's home serves: whose.
-pub fn merged(plan: &Plan) -> HashMap<Place, Place> {
+pub fn merged(plan: &Plan) -> FxHashMap<Place, Place> {
     // Programs that fit stay as they are.
     if !plan.is_outlined() {
-        return HashMap::new();
+        return FxHashMap::default();
     }
     let mut all = Accesses::default();
     for block in plan.tree.blocks() {
@@ -24,7 +24,7 @@ pub fn merged(plan: &Plan) -> HashMap<Place, Place> {
     let graph = &plan.graph;
     let read_behind = graph.roots().chain(graph.shade);
     read_behind.for_each(|id| all.read(id));
-    let mut found = HashMap::new();
+    let mut found = FxHashMap::default();
     for block in plan.tree.blocks() {
         walk(block, &mut |statement| {
             let (one, other) = match statement {
@@ -47,7 +47,7 @@ pub fn merged(plan: &Plan) -> HashMap<Place, Place> {
 
 /// The places that are set at the end of an arm, as they are of the other, from
 /// what only this arm computes.
-fn arm(plan: &Plan, all: &Accesses, arm: &Block, other: &Block, found: &mut HashMap<Place, Place>) {
+fn arm(plan: &Plan, all: &Accesses, arm: &Block, other: &Block, found: &mut FxHashMap<Place, Place>) {
     let ends = |block: &Block, outer: Place| {
         let sets = block.iter().filter(|s| sets_place(s, outer));
         sets.count() == 1
@@ -88,8 +88,8 @@ fn sets_place(statement: &Statement, outer: Place) -> bool {
 /// How often nodes' homes are read and written.
 #[derive(Default)]
 struct Accesses {
-    reads: HashMap<NodeId, u32>,
-    writes: HashMap<NodeId, u32>,
+    reads: FxHashMap<NodeId, u32>,
+    writes: FxHashMap<NodeId, u32>,
 }
 
 impl Accesses {

@@ -13,6 +13,8 @@ pub(super) struct Meter<'g, C> {
     cost: C,
     /// What statements cost that ran, each asked for once, and how often they did.
     costs: RefCell<FxHashMap<*const Statement, (f64, u64)>>,
+    /// How often what runs now counts.
+    pub weight: Cell<u64>,
     /// What it came to.
     pub sum: Cell<f64>,
     /// How many ran.
@@ -25,9 +27,16 @@ impl<'g, C: Fn(&Statement) -> f64> Meter<'g, C> {
             exact: Exact(graph),
             cost,
             costs: RefCell::default(),
+            weight: Cell::new(1),
             sum: Cell::new(0.0),
             ran: Cell::new(0),
         }
+    }
+
+    /// Forgets what statements cost, and what it came to.
+    pub fn forget(&self) {
+        self.costs.borrow_mut().clear();
+        self.sum.set(0.0);
     }
 
     /// How often a statement ran.
@@ -74,7 +83,8 @@ impl<C: Fn(&Statement) -> f64> Arithmetic for &Meter<'_, C> {
         let mut costs = self.costs.borrow_mut();
         let cost = costs.entry(std::ptr::from_ref(statement));
         let (cost, count) = cost.or_insert_with(|| ((self.cost)(statement), 0));
-        *count += 1;
-        self.sum.set(self.sum.get() + *cost);
+        let weight = self.weight.get();
+        *count += weight;
+        self.sum.set(self.sum.get() + *cost * weight as f64);
     }
 }

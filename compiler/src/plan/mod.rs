@@ -69,6 +69,7 @@ mod narrowed_tests;
 mod outlined;
 mod params;
 pub mod pipeline;
+mod pixels;
 pub mod points;
 pub(crate) mod price;
 #[cfg(test)]
@@ -105,7 +106,7 @@ use crate::source::Span;
 use crate::target::{Mode, Target};
 use made::Rewriting;
 use slowlight_routine::{Bits, Format, Routine, Runtime, Type, Value};
-use std::collections::HashMap;
+use rustc_hash::FxHashMap;
 use std::sync::Arc;
 use workshop::Workshop;
 
@@ -205,7 +206,7 @@ pub struct Plan {
     folded: Vec<bool>,
     /// The runs of columns whose pixels need no computing, if there may be such.
     pub still: Option<Still>,
-    homes: HashMap<Place, String>,
+    homes: FxHashMap<Place, String>,
     /// What making it took, in units of [`Fuel`].
     work: u64,
     /// Whether a search for something cheaper was ended for want of fuel.
@@ -326,7 +327,7 @@ impl Plan {
     /// Every place that the tree writes, in order of first writing, with its format.
     pub fn places(&self) -> Vec<(Place, Format)> {
         let mut all: Vec<(Place, Format)> = Vec::new();
-        let mut seen = std::collections::HashSet::new();
+        let mut seen = rustc_hash::FxHashSet::default();
         for block in self.tree.blocks() {
             walk(block, &mut |statement| {
                 let place = match statement {

@@ -2,14 +2,14 @@
 
 use crate::flow::graph::*;
 use crate::flow::tree::*;
-use std::collections::{HashMap, HashSet};
+use rustc_hash::{FxHashMap, FxHashSet};
 
 /// A name for every place that the tree writes.
-pub fn homes(graph: &Graph, tree: &Tree) -> HashMap<Place, String> {
+pub fn homes(graph: &Graph, tree: &Tree) -> FxHashMap<Place, String> {
     let mut taken = Taken::default();
     taken.names.extend(graph.params.iter().map(Param::label));
     taken.names.extend(["x".to_owned(), "y".to_owned()]);
-    let mut homes = HashMap::new();
+    let mut homes = FxHashMap::default();
     for block in tree.blocks() {
         walk(block, &mut |statement| {
             let place = match statement {
@@ -57,9 +57,9 @@ fn wanted(graph: &Graph, place: Place) -> String {
 /// Names that are given away.
 #[derive(Default)]
 struct Taken {
-    names: HashSet<String>,
+    names: FxHashSet<String>,
     /// The first number behind a name that may be free: a large program has thousands of a name.
-    next: HashMap<String, usize>,
+    next: FxHashMap<String, usize>,
 }
 
 impl Taken {

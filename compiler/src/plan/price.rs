@@ -10,8 +10,10 @@ use super::beside::Beside;
 use super::choose::choose;
 use super::fold_uses::folded;
 use super::meter::Meter;
+use super::pixels::{PATIENCE, Pixel, Pixels};
 use super::settled::Settled;
 use super::thrift::Thrift;
+use super::workshop::Workshop;
 use crate::eval::run::Run;
 use crate::flow::graph::*;
 use crate::flow::often;
@@ -24,15 +26,10 @@ use crate::passes::segment::bounds_segment;
 use crate::passes::still::{Inks, Still, still};
 use rustc_hash::FxHashSet;
 use slowlight_routine::Runtime;
+use std::sync::Arc;
 
-/// Rows and columns that are looked at, and how many statements may run for that.
+/// Rows in which runs of columns are looked at.
 const ROWS: u32 = 12;
-const COLUMNS: u32 = 13;
-pub(super) const PATIENCE: u64 = 40_000;
-
-/// Of these pixels one in so many is looked at where more statements may run for each.
-const FEW: usize = 11;
-const LONG: u64 = 2_000_000;
 
 /// How many columns of a pass are looked at for where runs end, at most.
 const COLUMNS_LOOKED_AT: u32 = 80;
@@ -42,7 +39,7 @@ impl super::Plan {
     /// routines where pixels run, what begins rows, passes and runs, and no drawing.
     pub fn cycles_a_pixel(&self) -> f64 {
         let known = self.origin.0.scheduled(self.graph.clone());
-        Price::new(&known, self.runtime, Thrift::default()).cycles(&known)
+        Price::new(&self.origin.0, Thrift::default()).cycles(&known)
     }
 }
 
@@ -52,47 +49,22 @@ pub struct Price {
     memory: f64,
     /// How much a statement around pixels counts beside theirs.
     around: f64,
-    /// The pixels that are looked at, row by row, and how many statements may run there.
-    pixels: Vec<(i32, i32)>,
-    patience: u64,
+    /// The pixels that are looked at.
+    pixels: Arc<Pixels>,
     /// Whether whole polynomials in the column are reckoned to be stepped.
     foresees: bool,
 }
 
 impl Price {
-    /// Prices for plans of the scene of a first one.
-    pub fn new(plain: &Settled, runtime: &'static Runtime, thrift: Thrift) -> Price {
-        Price::within(plain, runtime, thrift, (1, PATIENCE))
-    }
-
-    /// The same by fewer pixels that may take longer.
-    pub fn by_few(plain: &Settled, runtime: &'static Runtime, thrift: Thrift) -> Price {
-        Price::within(plain, runtime, thrift, (FEW, LONG))
-    }
-
-    fn within(
-        plain: &Settled,
-        runtime: &'static Runtime,
-        thrift: Thrift,
-        (of, patience): (usize, u64),
-    ) -> Price {
-        let mut price = Price {
-            runtime,
+    /// Prices for plans of a scene.
+    pub fn new(shop: &Workshop, thrift: Thrift) -> Price {
+        Price {
+            runtime: shop.runtime,
             memory: thrift.part(),
             around: thrift.around(),
-            pixels: Vec::new(),
-            patience,
+            pixels: shop.pixels(),
             foresees: false,
-        };
-        if plain.graph.diffusion.is_none() {
-            let all: Vec<(i32, i32)> = spread(&plain.graph.image).into_iter().step_by(of).collect();
-            let meter = Meter::new(&plain.graph, |_: &Statement| 1.0);
-            let run = price.run(plain, &all, &meter, None);
-            if run.is_some() {
-                price.pixels = all;
-            }
         }
-        price
     }
 
     /// The same before it is known which values are stepped, where steps are so cheap that
@@ -118,7 +90,6 @@ impl Price {
             self.runtime,
             &routines,
             &self.pixels,
-            PATIENCE,
         ))
     }
 
@@ -129,13 +100,8 @@ impl Price {
         plan: &'p Settled,
     ) -> Option<impl Fn(&Statement) -> u64 + use<'p>> {
         let meter = Meter::new(&plan.graph, |_: &Statement| 0.0);
-        self.run(plan, &self.pixels, &meter, None)?;
+        self.run(plan, &meter, None)?;
         (!self.pixels.is_empty()).then_some(move |statement: &Statement| meter.count(statement))
-    }
-
-    /// What a plan is priced at, by these pixels, whatever is known of it by others.
-    pub(super) fn anew(&self, plan: &Settled) -> f64 {
-        self.beside(plan, self.cycles(plan), 0.0)
     }
 
     /// About what a plan with so many cycles and values more than another is priced at, beside
@@ -185,16 +151,17 @@ impl Price {
         let width = f64::from(plan.graph.image.width.max(1));
         let guess = |block: &Block| guessed(block, &cost);
         let bounds = bounds(plan);
-        let pixel = match self.pixels.as_slice() {
-            [] => guess(&plan.tree.pixel) + guess(&plan.tree.column) / height,
-            pixels => {
+        let pixel = match self.pixels.is_empty() {
+            true => guess(&plan.tree.pixel) + guess(&plan.tree.column) / height,
+            false => {
                 let meter = Meter::new(&plan.graph, by_pixel);
                 let still = still.as_ref().map(|still| match still.inks {
                     Inks::One(_) => (still, 0.0),
                     Inks::Either { cond, .. } => (still, f64::from(beside.asked(cond))),
                 });
-                let sum = self.run(plan, pixels, &meter, still);
-                sum.map_or_else(|| guess(&plan.tree.pixel), |sum| sum / pixels.len() as f64)
+                let sum = self.run(plan, &meter, still);
+                let weight = self.pixels.weight();
+                sum.map_or_else(|| guess(&plan.tree.pixel), |sum| sum / weight)
             }
         };
         let passes = f64::from(passes(&plan.graph));
@@ -275,21 +242,22 @@ impl Price {
         move |id, less, copies| less * f64::from(beside.kept(id)) > limit * copies as f64
     }
 
-    /// What the pixels cost together; nothing where too many statements run.
+    /// What the pixels cost together, by their weights; nothing where too many statements run.
     fn run(
         &self,
         plan: &Settled,
-        pixels: &[(i32, i32)],
         meter: &Meter<'_, impl Fn(&Statement) -> f64>,
         still: Option<(&Still, f64)>,
     ) -> Option<f64> {
-        let mut run = Run::within(&plan.graph, &plan.tree, meter, self.patience + 1);
+        let patience = self.pixels.patience;
+        let mut run = Run::within(&plan.graph, &plan.tree, meter, patience + 1);
         let mut row = None;
         let mut sum = 0.0;
-        for &(x, y) in pixels {
+        for &Pixel { x, y, weight } in &self.pixels.all {
+            meter.weight.set(weight);
             // The row's own statements are counted apart.
             if row.replace(y) != Some(y) {
-                run.pixel(x, y);
+                run.begin(x, y);
             }
             meter.sum.set(0.0);
             run.pixel(x, y);
@@ -299,32 +267,17 @@ impl Price {
             };
             // Of a run whose inks are known before nothing is computed, or one bool.
             sum += match still {
-                Some((still, asked)) if still.conditions.iter().all(holds) => asked,
+                Some((still, asked)) if still.conditions.iter().all(holds) => {
+                    asked * weight as f64
+                }
                 _ => meter.sum.get(),
             };
-            if meter.ran.get() > self.patience {
+            if meter.ran.get() > patience {
                 return None;
             }
         }
         Some(sum)
     }
-}
-
-/// Pixels spread over a picture, none above another.
-pub(super) fn spread(image: &Image) -> Vec<(i32, i32)> {
-    let at = |k: u32, of: u32, long: u32| {
-        ((u64::from(k) * 2 + 1) * u64::from(long) / 2 / u64::from(of)) as i32
-    };
-    let mut all = Vec::new();
-    for row in 0..ROWS {
-        let y = at(row, ROWS, image.height);
-        for column in 0..COLUMNS {
-            // Later rows a little further to the right.
-            let x = at(column * ROWS + row, COLUMNS * ROWS, image.width);
-            all.push((x, y));
-        }
-    }
-    all
 }
 
 /// The comparisons that may end a run of columns.

@@ -18,8 +18,8 @@ fn graph(text: &str) -> Graph {
 }
 
 fn price(graph: &Graph, runtime: &'static Runtime) -> f64 {
-    let plan = Workshop::new(graph.clone(), runtime).settle(graph);
-    let price = Price::new(&plan, runtime, Thrift::default()).of(&plan);
+    let shop = Workshop::new(graph.clone(), runtime);
+    let price = Price::new(&shop, Thrift::default()).of(&shop.settle(graph));
     assert!(price.is_finite() && price > 0.0);
     price
 }

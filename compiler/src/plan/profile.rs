@@ -9,6 +9,7 @@
 
 use super::choose::Chosen;
 use super::meter::Meter;
+use super::pixels::{Pixel, Pixels};
 use super::settled::Known;
 use crate::eval::run::Run;
 use crate::flow::graph::*;
@@ -62,24 +63,24 @@ impl Seen {
 }
 
 impl Profile {
-    /// Of a plan whose routines are chosen: at some pixels, if no more statements run; by
-    /// guesses otherwise.
+    /// Of a plan whose routines are chosen: at some pixels, or by guesses where too many
+    /// statements run there.
     pub(super) fn new(
         plan: &Known,
         runtime: &'static Runtime,
         routines: &Chosen,
-        pixels: &[(i32, i32)],
-        patience: u64,
+        pixels: &Pixels,
     ) -> Profile {
         let (graph, tree) = (&plan.graph, &plan.tree);
         let meter = Meter::new(graph, |_: &Statement| 0.0);
         {
-            let mut run = Run::within(graph, tree, &meter, patience + 1);
-            for &(x, y) in pixels {
+            let mut run = Run::within(graph, tree, &meter, pixels.patience + 1);
+            for &Pixel { x, y, weight } in &pixels.all {
+                meter.weight.set(weight);
                 run.pixel(x, y);
             }
         }
-        let ran = !pixels.is_empty() && meter.ran.get() <= patience;
+        let ran = !pixels.is_empty() && meter.ran.get() <= pixels.patience;
         let [width, height] = [graph.image.width, graph.image.height];
         let [width, height] = [width, height].map(|n| f64::from(n.max(1)));
         let passes = f64::from(passes(graph));
@@ -99,7 +100,7 @@ impl Profile {
         }
         match ran {
             true => {
-                let each = 1.0 / pixels.len() as f64;
+                let each = 1.0 / pixels.weight();
                 let count = |s: &Statement| each * meter.count(s) as f64;
                 counts.count(&tree.pixel, &count);
                 for subroutine in &tree.subroutines {

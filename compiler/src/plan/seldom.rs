@@ -2,7 +2,7 @@
 
 use super::Plan;
 use super::meter::Meter;
-use super::price::{PATIENCE, spread};
+use super::pixels::{PATIENCE, spread};
 use crate::eval::run::Run;
 use crate::flow::graph::NodeId;
 use crate::flow::often;

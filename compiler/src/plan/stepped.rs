@@ -49,7 +49,7 @@ pub fn stepped(
     let site = Site {
         shop,
         target,
-        price: Price::new(&plain, target.runtime, thrift),
+        price: Price::new(shop, thrift),
     };
     let phased = match target.wraps && steps == Steps::All {
         true => {

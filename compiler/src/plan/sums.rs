@@ -47,7 +47,7 @@ pub fn with_sums(plan: Settled, shop: &Workshop, thrift: Thrift) -> Settled {
 /// the two a few others are, that are nearly as good by counts.
 fn cheaper(plan: &Settled, shop: &Workshop, thrift: Thrift) -> Option<Settled> {
     let sums = Sums::new(&plan.graph, &plan.ranges, shop.runtime);
-    let price = Price::new(plan, shop.runtime, thrift);
+    let price = Price::new(shop, thrift);
     let profile = price.profile(plan)?;
     let made = |sites: &[Site]| {
         shop.may_look(&plan.graph);
@@ -130,7 +130,7 @@ pub fn with_loops_skipped(plan: Settled, shop: &Workshop, thrift: Thrift) -> Set
 }
 
 fn bypassed(plan: &Settled, shop: &Workshop, thrift: Thrift) -> Option<Settled> {
-    let price = Price::new(plan, shop.runtime, thrift);
+    let price = Price::new(shop, thrift);
     let usual = shop.scheduled(skip(&plan.graph)?);
     let sunk = sunk(&usual.graph).map(|graph| shop.settle(&graph));
     let other = sunk.map(|plan| cheaper(&plan, shop, thrift).unwrap_or(plan));

@@ -31,7 +31,7 @@ pub fn in_columns(
 
 fn expanded(plan: &Settled, shop: &Workshop, thrift: Thrift) -> Option<Settled> {
     let found = columns(&plan.graph)?;
-    let price = Price::new(plan, shop.runtime, thrift);
+    let price = Price::new(shop, thrift);
     let with = |chosen: &BTreeSet<NodeId>| {
         let next = shop.scheduled(tabulated(&plan.graph, &found, chosen));
         (price.of(&next), next)

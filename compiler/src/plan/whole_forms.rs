@@ -23,11 +23,11 @@ pub fn cheapest_form(
     thrift: Thrift,
 ) -> Option<(Graph, Settled)> {
     let all = forms(origin, shop, thrift);
-    let price = (!all.is_empty()).then(|| Price::by_few(plan, shop.runtime, thrift))?;
-    let mut best = (price.anew(plan), None);
+    let price = (!all.is_empty()).then(|| Price::new(shop, thrift))?;
+    let mut best = (price.of(plan), None);
     for graph in all {
         let other = ready(&graph);
-        let takes = price.anew(&other);
+        let takes = price.of(&other);
         if takes < best.0 {
             best = (takes, Some((graph, other)));
         }

@@ -7,10 +7,12 @@
 
 use super::cheaper::Rewrite;
 use super::pipeline::{Pass, Pipeline};
+use super::pixels::Pixels;
 use super::settled::{Settled, scheduled};
 use crate::flow::graph::*;
 use crate::fuel::Fuel;
 use crate::passes::algebra::Proofs;
+use crate::passes::early::without;
 use crate::passes::fold::fold;
 use crate::passes::narrow::narrow;
 use crate::range::Slack;
@@ -19,7 +21,7 @@ use slowlight_routine::Runtime;
 use std::fmt;
 use std::hash::{Hash, Hasher};
 use std::sync::atomic::{AtomicBool, Ordering};
-use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+use std::sync::{Arc, Mutex, MutexGuard, OnceLock, PoisonError};
 
 /// A graph with a rewrite, and where that was: nothing where there is none to do.
 pub type Rewritten = Option<(Settled, Vec<NodeId>)>;
@@ -59,6 +61,8 @@ struct Memo {
     kept: Mutex<Kept>,
     /// Whether a plan has a second condition of a shortcut.
     beside: AtomicBool,
+    /// The pixels by which plans are priced.
+    pixels: OnceLock<Arc<Pixels>>,
 }
 
 #[derive(Default)]
@@ -128,6 +132,15 @@ impl Workshop {
     /// [`Pipeline::always`] by its fuel.
     pub fn always<T>(&self, pass: Pass, run: impl FnOnce() -> Option<T>) -> Option<T> {
         self.pipeline.always(&self.fuel, pass, run)
+    }
+
+    /// The pixels by which plans are priced: chosen by what the scene as it is takes.
+    pub(super) fn pixels(&self) -> Arc<Pixels> {
+        let found = self.memo.pixels.get_or_init(|| {
+            let plan = self.found_or_scheduled(fold(&without(&self.origin)));
+            Arc::new(Pixels::of(&plan, self.runtime))
+        });
+        found.clone()
     }
 
     /// How far the routines' results may be off.

@@ -4,7 +4,7 @@ use super::interval::interval;
 use super::{Ranges, Slack};
 use crate::flow::graph::*;
 use slowlight_routine::{Range, Runtime};
-use std::collections::HashMap;
+use rustc_hash::FxHashMap;
 
 /// Between which bounds the arguments of a run of operations stay where some
 /// values are known to lie closer than `known` says.
@@ -14,10 +14,10 @@ pub fn assuming(
     known: &Ranges,
     assumed: &[(NodeId, Range)],
     run: &[NodeId],
-) -> HashMap<NodeId, [Range; 2]> {
+) -> FxHashMap<NodeId, [Range; 2]> {
     let slack = Slack::of(runtime);
-    let mut now: HashMap<NodeId, Range> = assumed.iter().copied().collect();
-    let mut found = HashMap::new();
+    let mut now: FxHashMap<NodeId, Range> = assumed.iter().copied().collect();
+    let mut found = FxHashMap::default();
     for &id in run {
         let at = id.0 as usize;
         let (Node::Apply(op, operands), Some(before)) = (graph.node(id), known.args.get(at)) else {

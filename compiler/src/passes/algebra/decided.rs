@@ -20,7 +20,7 @@ use crate::flow::graph::*;
 use crate::passes::rebuild::rebuild_old;
 use crate::range::Ranges;
 use slowlight_routine::{Op, Runtime, Value};
-use std::collections::HashMap;
+use rustc_hash::FxHashMap;
 
 /// How many of the format's units roundings may move a sum, as a part of the sum
 /// of its terms' sizes: what a value is computed by takes fewer operations.
@@ -45,7 +45,7 @@ pub fn decided(
     let margin = (UNITS * runtime.real.epsilon()).min(MOST);
     let reached = graph.reached();
     let asked = graph.ids().filter(|id| reached[id.0 as usize]);
-    let found: HashMap<NodeId, bool> = asked
+    let found: FxHashMap<NodeId, bool> = asked
         .filter_map(|id| Some((id, holds(&forms, id, margin, proofs)?)))
         .collect();
     (!found.is_empty()).then(|| {

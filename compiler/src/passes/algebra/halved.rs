@@ -63,21 +63,26 @@ fn above([p, rest, n]: [&Poly; 3], atoms: &[Atom], sides: &[Range], margin: f64)
     let [Some(n), Some(p), Some(rest)] = all else {
         return false;
     };
-    let mut open = vec![[n, p, rest]];
+    // Of p and the rest what is not above 0 in all of the box yet: what is stays so in its
+    // halves.
+    let mut open = vec![(n, vec![p, rest])];
     for _ in 0..BOXES {
-        let Some(polys) = open.pop() else {
+        let Some((n, mut asked)) = open.pop() else {
             return true;
         };
-        let [n, p, rest] = &polys;
-        if n.bounds().1 < -n.off || (p.bounds().0 > p.off && rest.bounds().0 > rest.off) {
+        if n.bounds().1 < -n.off {
+            continue;
+        }
+        asked.retain(|poly| poly.bounds().0 <= poly.off);
+        if asked.is_empty() {
             continue;
         }
         // Its middle is a point of it.
-        if n.middle() >= -n.off && (p.middle() <= p.off || rest.middle() <= rest.off) {
+        if n.middle() >= -n.off && asked.iter().any(|poly| poly.middle() <= poly.off) {
             return false;
         }
         let mut widths = vec![0.0; atoms.len()];
-        for poly in &polys {
+        for poly in asked.iter().chain([&n]) {
             poly.add_shares(&mut widths);
         }
         let widest = (0..atoms.len()).max_by(|&a, &b| widths[a].total_cmp(&widths[b]));
@@ -85,7 +90,8 @@ fn above([p, rest, n]: [&Poly; 3], atoms: &[Atom], sides: &[Range], margin: f64)
             return false;
         };
         for side in [-1.0, 1.0] {
-            open.push(polys.each_ref().map(|poly| poly.half(widest, side)));
+            let halves = asked.iter().map(|poly| poly.half(widest, side));
+            open.push((n.half(widest, side), halves.collect()));
         }
     }
     false

@@ -4,7 +4,7 @@
 use super::Site;
 use crate::flow::graph::*;
 use slowlight_routine::Type;
-use std::collections::HashSet;
+use rustc_hash::FxHashSet;
 
 impl Site<'_> {
     /// Whether a comparison costs no more than itself: what it compares is computed as it
@@ -30,7 +30,7 @@ impl Site<'_> {
     fn is_free(&self, value: NodeId, by: NodeId) -> bool {
         let graph = self.forms.graph;
         let decided = self.decided_by(by);
-        let mut seen = HashSet::new();
+        let mut seen = FxHashSet::default();
         let known = |user: &NodeId| graph.ty(*user) != Type::Bool;
         let mut todo: Vec<(NodeId, NodeId)> = Vec::new();
         todo.extend(
@@ -62,9 +62,9 @@ impl Site<'_> {
     }
 
     /// Conditions that a comparison has a part in, itself among them.
-    fn decided_by(&self, by: NodeId) -> HashSet<NodeId> {
+    fn decided_by(&self, by: NodeId) -> FxHashSet<NodeId> {
         let graph = self.forms.graph;
-        let (mut found, mut todo) = (HashSet::new(), vec![by]);
+        let (mut found, mut todo) = (FxHashSet::default(), vec![by]);
         while let Some(id) = todo.pop() {
             if found.insert(id) {
                 let users = self.users[id.0 as usize].iter().copied();

@@ -60,7 +60,8 @@ use rustc_hash::FxHashMap;
 use slowlight_routine::{Format, Op, Runtime, Type};
 pub use span::spans;
 use std::cell::RefCell;
-use std::collections::{BTreeSet, HashSet};
+use rustc_hash::FxHashSet;
+use std::collections::BTreeSet;
 use std::sync::OnceLock;
 pub(super) use turns::Turns;
 pub use whole::Whole;
@@ -348,7 +349,7 @@ impl Site<'_> {
         let own = own(graph, &self.users, id);
         let others = (0..id.0).map(NodeId).filter(|old| !own.contains(old));
         let mut todo: Vec<NodeId> = others.filter_map(new).collect();
-        let mut shared = HashSet::new();
+        let mut shared = FxHashSet::default();
         while let Some(id) = todo.pop() {
             if shared.insert(id) {
                 todo.extend(b.node(id).operands());
@@ -360,8 +361,8 @@ impl Site<'_> {
 }
 
 /// What is computed for a value alone.
-pub(super) fn own(graph: &Graph, users: &[Vec<NodeId>], id: NodeId) -> HashSet<NodeId> {
-    let mut own = HashSet::from([id]);
+pub(super) fn own(graph: &Graph, users: &[Vec<NodeId>], id: NodeId) -> FxHashSet<NodeId> {
+    let mut own = FxHashSet::from_iter([id]);
     let mut todo: BTreeSet<NodeId> = graph.node(id).operands().collect();
     while let Some(next) = todo.pop_last() {
         if users[next.0 as usize].iter().all(|u| own.contains(u)) {

@@ -7,10 +7,10 @@ use super::number::Number;
 use super::poly::Poly;
 use crate::flow::graph::*;
 use slowlight_routine::Op;
-use std::collections::HashMap;
+use rustc_hash::FxHashMap;
 
 /// The sign that tells how a condition or a sign goes, and whether the other way.
-pub type Turns = HashMap<NodeId, (NodeId, bool)>;
+pub type Turns = FxHashMap<NodeId, (NodeId, bool)>;
 
 impl Forms<'_> {
     /// The signs that are never 0, and the comparisons of what they are of with 0, by the
@@ -19,7 +19,7 @@ impl Forms<'_> {
         let reached = self.graph.reached();
         let ids = || self.graph.ids().filter(|id| reached[id.0 as usize]);
         let mut firsts: Vec<(Part, NodeId, bool)> = Vec::new();
-        let mut turns = Turns::new();
+        let mut turns = Turns::default();
         for id in ids() {
             let Node::Apply(Op::Sign | Op::IntSign, [of, _]) = self.graph.node(id) else {
                 continue;

@@ -5,14 +5,14 @@ use crate::flow::build::Builder;
 use crate::flow::graph::*;
 use crate::source::Span;
 use slowlight_routine::{Op, Value};
-use std::collections::HashMap;
+use rustc_hash::FxHashMap;
 
 /// What values are where a switch has one of its values.
 pub struct Arm<'a, 'g> {
     site: &'a Site<'g>,
     made: &'a [Option<NodeId>],
     /// The switch, and what is made of it.
-    done: HashMap<NodeId, NodeId>,
+    done: FxHashMap<NodeId, NodeId>,
 }
 
 /// A product without its constant factors: those together, and the rest unless it is 1.
@@ -28,7 +28,7 @@ impl<'a, 'g> Arm<'a, 'g> {
         Arm {
             site,
             made,
-            done: HashMap::from([(switch, value)]),
+            done: FxHashMap::from_iter([(switch, value)]),
         }
     }
 

@@ -32,14 +32,14 @@ use crate::flow::graph::*;
 use crate::range::Ranges;
 use crate::source::Span;
 use slowlight_routine::{Op, Range, Type, Value};
-use std::collections::HashMap;
+use rustc_hash::FxHashMap;
 
 /// The lengths that vectors of a graph are divided by: roots of what is proved
 /// above 0, each of them the divisor of several values.
 pub fn lengths(graph: &Graph, ranges: &Ranges) -> Vec<NodeId> {
     let rates = rates(graph);
     let reached = graph.reached();
-    let mut divided: HashMap<NodeId, u32> = HashMap::new();
+    let mut divided: FxHashMap<NodeId, u32> = FxHashMap::default();
     for id in graph.ids().filter(|id| reached[id.0 as usize]) {
         if let Node::Apply(Op::Div, [_, r]) = graph.node(id) {
             *divided.entry(r).or_default() += 1;
@@ -92,7 +92,7 @@ fn held(graph: &Graph, ranges: &Ranges, of: [NodeId; 2], whole: Whole<'_>) -> Gr
         bounds: Range::new(bounds.lo * by, bounds.hi * by),
         degrees: Vec::with_capacity(graph.nodes.len()),
         products: vec![0; graph.nodes.len()],
-        held: HashMap::new(),
+        held: FxHashMap::default(),
     };
     pass.learn();
     pass.count();
@@ -118,7 +118,7 @@ struct Pass<'g> {
     /// In how many products of two values of a degree each is.
     products: Vec<u32>,
     /// What holds an old value at a degree other than its own.
-    held: HashMap<(NodeId, i32), NodeId>,
+    held: FxHashMap<(NodeId, i32), NodeId>,
 }
 
 type Made<'m> = &'m [Option<NodeId>];

@@ -17,7 +17,8 @@ use crate::passes::algebra::{Forms, allowance};
 use crate::passes::rebuild::rebuild_old;
 use crate::range::Ranges;
 use slowlight_routine::{Op, Runtime, Type, Value};
-use std::collections::{BTreeSet, HashMap};
+use rustc_hash::FxHashMap;
+use std::collections::BTreeSet;
 
 /// By how much a comparison must be clear, as a part of what is compared: far more
 /// than roundings move it.
@@ -64,7 +65,7 @@ pub fn around(graph: &Graph, ranges: &Ranges, runtime: &Runtime) -> Option<Graph
         let holds = all.find_map(|vector| site.verdict(asked, vector))?;
         Some((asked.id, holds))
     });
-    let decided: HashMap<NodeId, Verdict> = decided.collect();
+    let decided: FxHashMap<NodeId, Verdict> = decided.collect();
     (!decided.is_empty()).then(|| {
         rebuild_old(graph, &mut |builder, made, id, span| {
             let (sign, above) = match *decided.get(&id)? {

@@ -26,7 +26,8 @@ pub use around::around;
 use field::{Field, Print};
 use search::{Formula, Fraction, Sums};
 use slowlight_routine::{Op, Runtime, Type, Value};
-use std::collections::{BTreeSet, HashSet};
+use rustc_hash::FxHashSet;
+use std::collections::BTreeSet;
 
 /// Among how many values that one is made of a formula is looked for.
 const VALUES: usize = 40;
@@ -148,7 +149,7 @@ impl<'g> Search<'g> {
         let by: Vec<usize> = (0..values.len()).filter(two).collect();
         sums.of(prints);
         let cost = |formula: &Formula| {
-            let mut needed = HashSet::new();
+            let mut needed = FxHashSet::default();
             for k in formula.values() {
                 self.own_cone(values[k], &own, &mut needed);
             }
@@ -210,7 +211,7 @@ impl<'g> Search<'g> {
     }
 
     /// What of the nodes computed for a value alone another one needs.
-    fn own_cone(&self, id: NodeId, own: &HashSet<NodeId>, needed: &mut HashSet<NodeId>) {
+    fn own_cone(&self, id: NodeId, own: &FxHashSet<NodeId>, needed: &mut FxHashSet<NodeId>) {
         if own.contains(&id) && needed.insert(id) {
             for used in self.graph.node(id).operands() {
                 self.own_cone(used, own, needed);

@@ -8,7 +8,7 @@ use crate::flow::tree::*;
 use crate::passes::region::Fact;
 use crate::passes::still::still;
 use crate::source::Span;
-use std::collections::{HashMap, HashSet};
+use rustc_hash::{FxHashMap, FxHashSet};
 
 /// Which block of a forest.
 pub(super) type BlockId = usize;
@@ -49,11 +49,11 @@ pub(super) struct Forest {
     /// The subroutine that each node belongs to, if it belongs to one.
     pub node_owner: Vec<Option<SubroutineId>>,
     /// The slots that subroutines write themselves, not their calls.
-    pub(super) ways: HashSet<NodeId>,
+    pub(super) ways: FxHashSet<NodeId>,
     /// How often each node is read anywhere.
     pub reads: Vec<u32>,
     /// The statement after which a node is computed on every way.
-    pub(super) assigned: HashMap<NodeId, (BlockId, usize)>,
+    pub(super) assigned: FxHashMap<NodeId, (BlockId, usize)>,
     /// Where what was computed before a block stands.
     pub(super) before: Vec<Above>,
     /// The statement that holds a block.
@@ -78,9 +78,9 @@ impl Forest {
             touched: Vec::new(),
             owner: Vec::new(),
             node_owner: vec![None; graph.nodes.len()],
-            ways: HashSet::new(),
+            ways: FxHashSet::default(),
             reads: vec![0; graph.nodes.len()],
-            assigned: HashMap::new(),
+            assigned: FxHashMap::default(),
             before: Vec::new(),
             around: Vec::new(),
             facts: Vec::new(),

@@ -6,7 +6,7 @@ use super::runs::{Given, Group, Run};
 use crate::flow::graph::*;
 use crate::flow::tree::*;
 use crate::source::Span;
-use std::collections::{HashMap, HashSet};
+use rustc_hash::{FxHashMap, FxHashSet};
 
 /// Adds nodes and subroutines.
 pub(super) struct Maker<'g> {
@@ -50,9 +50,9 @@ impl Maker<'_> {
                 .collect(),
             next: 0,
             own: self.own_nodes(group, own),
-            defined: HashSet::new(),
-            loops: HashMap::new(),
-            carried: HashMap::new(),
+            defined: FxHashSet::default(),
+            loops: FxHashMap::default(),
+            carried: FxHashMap::default(),
             owner: forest.owner[run.block],
             maker: self,
             forest,
@@ -86,10 +86,10 @@ impl Maker<'_> {
 
     /// The subroutine's nodes for what the first run computes, in the graph's
     /// order; what each is becomes known as its statement is copied.
-    fn own_nodes(&mut self, group: &Group, own: &[NodeId]) -> HashMap<NodeId, NodeId> {
+    fn own_nodes(&mut self, group: &Group, own: &[NodeId]) -> FxHashMap<NodeId, NodeId> {
         let mut numbers: Vec<usize> = (0..own.len()).collect();
         numbers.sort_unstable_by_key(|&k| own[k]);
-        let mut made = HashMap::new();
+        let mut made = FxHashMap::default();
         for k in numbers {
             let ty = self.graph.ty(own[k]);
             let node = self.node(Node::Slot(ty), own[k]);
@@ -111,7 +111,7 @@ impl Maker<'_> {
         k: usize,
         id: SubroutineId,
         slots: &[NodeId],
-        made: &HashMap<NodeId, NodeId>,
+        made: &FxHashMap<NodeId, NodeId>,
     ) -> Vec<Step> {
         let mut steps = Vec::new();
         let set = |to: NodeId, from: NodeId| Step::Set {
@@ -144,11 +144,11 @@ struct Copy<'c, 'g> {
     given: Vec<NodeId>,
     /// The next of these, in the order of the tokens.
     next: usize,
-    own: HashMap<NodeId, NodeId>,
+    own: FxHashMap<NodeId, NodeId>,
     /// Those of the run's nodes that a statement so far has written.
-    defined: HashSet<NodeId>,
-    loops: HashMap<LoopId, LoopId>,
-    carried: HashMap<NodeId, NodeId>,
+    defined: FxHashSet<NodeId>,
+    loops: FxHashMap<LoopId, LoopId>,
+    carried: FxHashMap<NodeId, NodeId>,
     /// The subroutine that the run stands in.
     owner: Option<SubroutineId>,
 }

@@ -5,7 +5,8 @@ use super::make::Maker;
 use super::token::Token;
 use crate::flow::graph::*;
 use slowlight_routine::Type;
-use std::collections::{BTreeMap, BinaryHeap, HashMap};
+use rustc_hash::FxHashMap;
+use std::collections::{BTreeMap, BinaryHeap};
 
 /// Statements that a run has at most, those inside others included.
 const LONGEST: usize = 400;
@@ -41,19 +42,33 @@ pub(super) struct Reader<'f> {
     graph: &'f Graph,
     forest: &'f Forest,
     block: BlockId,
-    own: HashMap<NodeId, u32>,
-    loops: HashMap<LoopId, u32>,
+    /// By node the run that computed it, and its number there.
+    own: Vec<(u32, u32)>,
+    /// Which run is read, from 1, and how many nodes it has computed so far.
+    run: u32,
+    count: u32,
+    loops: FxHashMap<LoopId, u32>,
 }
 
 impl<'f> Reader<'f> {
-    pub fn new(graph: &'f Graph, forest: &'f Forest, block: BlockId) -> Reader<'f> {
+    pub fn new(graph: &'f Graph, forest: &'f Forest) -> Reader<'f> {
         Reader {
             graph,
             forest,
-            block,
-            own: HashMap::new(),
-            loops: HashMap::new(),
+            block: 0,
+            own: vec![(0, 0); graph.nodes.len()],
+            run: 0,
+            count: 0,
+            loops: FxHashMap::default(),
         }
+    }
+
+    /// Goes on to a run in a block.
+    pub fn begin(&mut self, block: BlockId) {
+        self.block = block;
+        self.run += 1;
+        self.count = 0;
+        self.loops.clear();
     }
 
     fn is_fixed(&self, id: NodeId) -> bool {
@@ -62,7 +77,8 @@ impl<'f> Reader<'f> {
     }
 
     fn used(&self, id: NodeId) -> Reference {
-        if let Some(&number) = self.own.get(&id) {
+        let (run, number) = self.own[id.0 as usize];
+        if run == self.run {
             return Reference::Own(number);
         }
         if let node @ (Node::Carried { of, index } | Node::Last { of, index }) = self.graph.node(id)
@@ -76,10 +92,16 @@ impl<'f> Reader<'f> {
         Reference::Outside(self.graph.ty(id))
     }
 
-    /// A token's references: what it reads, what it writes, the loop whose
-    /// values it sets. `None` where it writes to a loop outside of the run.
-    pub fn token(&mut self, token: &Token) -> Option<References> {
-        let uses = token.uses.iter().map(|&id| self.used(id)).collect();
+    /// A token's references: what it reads, each told to `uses`, what it writes, the loop
+    /// whose values it sets. `None` where it writes to a loop outside of the run.
+    pub fn token(
+        &mut self,
+        token: &Token,
+        uses: &mut impl FnMut(Reference),
+    ) -> Option<(Option<Reference>, u32)> {
+        for &id in &token.uses {
+            uses(self.used(id));
+        }
         if let Some(of) = token.opens {
             let number = self.loops.len() as u32;
             self.loops.insert(of, number);
@@ -92,10 +114,14 @@ impl<'f> Reader<'f> {
             if self.is_fixed(id) {
                 return Reference::Fixed(id);
             }
-            let number = self.own.len() as u32;
-            Reference::Own(*self.own.entry(id).or_insert(number))
+            let own = &mut self.own[id.0 as usize];
+            if own.0 != self.run {
+                *own = (self.run, self.count);
+                self.count += 1;
+            }
+            Reference::Own(own.1)
         });
-        Some((uses, def, within))
+        Some((def, within))
     }
 }
 
@@ -135,8 +161,9 @@ struct Read {
     bytes: u32,
 }
 
-fn read(graph: &Graph, forest: &Forest, run: Run) -> Option<Read> {
-    let mut reader = Reader::new(graph, forest, run.block);
+fn read(reader: &mut Reader<'_>, run: Run) -> Option<Read> {
+    let forest = reader.forest;
+    reader.begin(run.block);
     let mut all = Read {
         key: Vec::new(),
         outside: Vec::new(),
@@ -145,7 +172,8 @@ fn read(graph: &Graph, forest: &Forest, run: Run) -> Option<Read> {
         bytes: 0,
     };
     for token in forest.tokens[run.block][run.from..run.to].iter().flatten() {
-        let (uses, def, within) = reader.token(token)?;
+        let mut uses = Vec::with_capacity(token.uses.len());
+        let (def, within) = reader.token(token, &mut |reference| uses.push(reference))?;
         for (reference, &id) in uses.iter().zip(&token.uses) {
             if matches!(reference, Reference::Outside(_)) {
                 all.outside.push(id);
@@ -166,7 +194,7 @@ fn read(graph: &Graph, forest: &Forest, run: Run) -> Option<Read> {
 /// What a run computes that is read elsewhere; `None` where some of that is
 /// computed on some ways only.
 fn left(forest: &Forest, run: Run, own: &[NodeId]) -> Option<Vec<u32>> {
-    let mut inside: HashMap<NodeId, u32> = HashMap::new();
+    let mut inside: FxHashMap<NodeId, u32> = FxHashMap::default();
     for token in forest.tokens[run.block][run.from..run.to].iter().flatten() {
         for id in &token.uses {
             *inside.entry(*id).or_default() += 1;
@@ -236,8 +264,9 @@ fn apart(forest: &Forest, runs: &[Run]) -> Vec<Run> {
 fn group(graph: &Graph, forest: &Forest, maker: &Maker<'_>, runs: &[Run]) -> Option<(u32, Group)> {
     let sizes = maker.sizes;
     let mut found: Vec<(Run, Read, Vec<u32>)> = Vec::new();
+    let mut reader = Reader::new(graph, forest);
     for run in apart(forest, runs) {
-        let Some(read) = read(graph, forest, run) else {
+        let Some(read) = read(&mut reader, run) else {
             continue;
         };
         // Numbers of 64 bits may meet by chance.
@@ -308,11 +337,12 @@ fn mixed(into: u64, reference: Reference) -> u64 {
 /// Runs of one shape that may be worth a subroutine, with what they would save
 /// if calls were free.
 fn candidates(graph: &Graph, forest: &Forest, least: u32) -> Vec<(u32, Vec<Run>)> {
-    let mut shapes: HashMap<u64, (u32, Vec<Run>)> = HashMap::new();
+    let mut shapes: FxHashMap<u64, (u32, Vec<Run>)> = FxHashMap::default();
+    let mut reader = Reader::new(graph, forest);
     for block in (0..forest.tokens.len()).filter(|block| forest.open[*block]) {
         let statements = &forest.tokens[block];
         for from in 0..statements.len() {
-            let mut reader = Reader::new(graph, forest, block);
+            reader.begin(block);
             let (mut hash, mut length, mut bytes) = (0, 0, 0);
             'run: for (at, tokens) in statements.iter().enumerate().skip(from) {
                 length += tokens.len();
@@ -320,14 +350,15 @@ fn candidates(graph: &Graph, forest: &Forest, least: u32) -> Vec<(u32, Vec<Run>)
                     break;
                 }
                 for token in tokens {
-                    let Some((uses, def, within)) = reader.token(token) else {
-                        break 'run;
-                    };
                     for part in token.shape {
                         hash = mix(hash, u64::from(part));
                     }
+                    let mut uses = |reference| hash = mixed(hash, reference);
+                    let Some((def, within)) = reader.token(token, &mut uses) else {
+                        break 'run;
+                    };
                     hash = mix(hash, u64::from(within));
-                    hash = uses.into_iter().chain(def).fold(hash, mixed);
+                    hash = def.into_iter().fold(hash, mixed);
                     bytes += token.bytes;
                 }
                 if bytes > least {

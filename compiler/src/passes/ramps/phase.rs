@@ -29,7 +29,7 @@ use crate::passes::rebuild::rebuild_old;
 use crate::range::Ranges;
 use crate::source::Span;
 use slowlight_routine::{Op, Runtime, Type, Value};
-use std::collections::HashMap;
+use rustc_hash::FxHashMap;
 
 /// By how much the phase may be further off than the reals: six bits.
 const MOST: f64 = 64.0;
@@ -71,7 +71,7 @@ pub fn parities(graph: &Graph, ranges: &Ranges, runtime: &Runtime) -> Vec<NodeId
 pub fn phases(graph: &Graph, ranges: &Ranges, at: &[NodeId]) -> Option<Graph> {
     let find = Find::of(graph, ranges);
     // For each parity, whether it is odd.
-    let mut odd: HashMap<NodeId, NodeId> = HashMap::new();
+    let mut odd: FxHashMap<NodeId, NodeId> = FxHashMap::default();
     let mut all = true;
     let made = rebuild_old(graph, &mut |builder, made, id, span| {
         if let Some(found) = compared(graph, builder, &odd, id, span) {
@@ -100,7 +100,7 @@ pub fn phases(graph: &Graph, ranges: &Ranges, at: &[NodeId]) -> Option<Graph> {
 fn compared(
     graph: &Graph,
     builder: &mut Builder,
-    odd: &HashMap<NodeId, NodeId>,
+    odd: &FxHashMap<NodeId, NodeId>,
     id: NodeId,
     span: Span,
 ) -> Option<NodeId> {
@@ -198,7 +198,7 @@ impl<'g> Find<'g> {
         let unit = 0.5 / TILE / runtime.real.epsilon();
         let tables = |t: TableId| self.graph.tables.get(t.0 as usize);
         // By row, params and floor: the worst of the reals and of the phase.
-        let mut worst: HashMap<(Vec<u64>, NodeId), (f64, f64)> = HashMap::new();
+        let mut worst: FxHashMap<(Vec<u64>, NodeId), (f64, f64)> = FxHashMap::default();
         for sample in samples {
             let follow = Follow::new(self.graph, &tables, sample);
             let mut numbers = Numbers { find: self, follow };

@@ -1,14 +1,14 @@
 //! The local names in sight: innermost first, found without a search.
 
 use crate::sema::program::LocalId;
-use std::collections::HashMap;
+use rustc_hash::FxHashMap;
 
 /// Names in the order of their declaration; a later one hides an earlier one.
 #[derive(Default)]
 pub(super) struct Scopes {
     names: Vec<String>,
     /// What each name has stood for, the innermost last.
-    known: HashMap<String, Vec<LocalId>>,
+    known: FxHashMap<String, Vec<LocalId>>,
 }
 
 impl Scopes {

@@ -11,7 +11,8 @@ use super::{Found, Lower};
 use crate::flow::graph::{Loop, LoopId, Node, NodeId};
 use crate::source::Span;
 use slowlight_routine::Type;
-use std::collections::{BTreeMap, BTreeSet, HashMap};
+use rustc_hash::FxHashMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// What becomes of a node at the point: its value and its slopes (none: 0).
 #[derive(Clone, Copy)]
@@ -39,8 +40,8 @@ struct Moving {
 /// A formula on its way to a point.
 struct Work {
     moving: Moving,
-    known: HashMap<NodeId, Dual>,
-    loops: HashMap<LoopId, Copied>,
+    known: FxHashMap<NodeId, Dual>,
+    loops: FxHashMap<LoopId, Copied>,
 }
 
 impl Work {
@@ -66,8 +67,8 @@ impl Lower<'_> {
         let one = self.real(1.0, span);
         let mut work = Work {
             moving,
-            known: HashMap::new(),
-            loops: HashMap::new(),
+            known: FxHashMap::default(),
+            loops: FxHashMap::default(),
         };
         for (axis, (&marker, &value)) in formula.markers.iter().zip(point).enumerate() {
             let mut slopes = [None; 3];

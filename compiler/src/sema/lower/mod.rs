@@ -38,7 +38,7 @@ use crate::sema::program::*;
 use crate::sema::ty::Ty;
 use crate::source::{Diagnostic, Span};
 use slowlight_routine::{Op, Type, Value};
-use std::collections::HashMap;
+use rustc_hash::FxHashMap;
 use value::Val;
 
 /// Nodes at most.
@@ -132,8 +132,8 @@ struct Lower<'a> {
     effect: Option<u16>,
     image: Image,
     params: Vec<Val>,
-    consts: HashMap<ConstId, Val>,
-    scenes: HashMap<SceneId, Vec<std::rc::Rc<value::Shape>>>,
+    consts: FxHashMap<ConstId, Val>,
+    scenes: FxHashMap<SceneId, Vec<std::rc::Rc<value::Shape>>>,
     claims: Vec<claims::Claimed>,
     tables: tables::Made,
     /// How many loops were opened.
@@ -141,7 +141,7 @@ struct Lower<'a> {
     /// What stands for the point where a facet is read as a formula.
     markers: Option<derive::Markers>,
     /// What the points of hits lie on, by their coordinates.
-    surfaces: HashMap<Vec<NodeId>, leaving::Surface>,
+    surfaces: FxHashMap<Vec<NodeId>, leaving::Surface>,
     /// Above 0 where only constants may come out.
     constant: usize,
     /// How many conditions that only the pixel decides choose among inks here.
@@ -208,13 +208,13 @@ impl<'a> Lower<'a> {
                 palette: thin(&image.palette, options.inks),
             },
             params: Vec::new(),
-            consts: HashMap::new(),
-            scenes: HashMap::new(),
+            consts: FxHashMap::default(),
+            scenes: FxHashMap::default(),
             claims: Vec::new(),
             tables: tables::Made::default(),
             loops: 0,
             markers: None,
-            surfaces: HashMap::new(),
+            surfaces: FxHashMap::default(),
             constant: 0,
             choices: 0,
             depth: 0,

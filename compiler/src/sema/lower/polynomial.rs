@@ -5,7 +5,7 @@ use super::{Found, Lower};
 use crate::flow::graph::{Node, NodeId};
 use crate::source::Span;
 use slowlight_routine::Op;
-use std::collections::HashMap;
+use rustc_hash::FxHashMap;
 
 impl Lower<'_> {
     /// The coefficients of 1, t and t^2 of a formula whose markers are
@@ -20,7 +20,7 @@ impl Lower<'_> {
         let Some(nodes) = self.needed(formula, &[formula.root]) else {
             return Ok(None);
         };
-        let mut known: HashMap<NodeId, Coefficients> = HashMap::new();
+        let mut known: FxHashMap<NodeId, Coefficients> = FxHashMap::default();
         for (&marker, (&o, &d)) in formula.markers.iter().zip(from.iter().zip(dir)) {
             known.insert(marker, [Some(o), Some(d), None]);
         }
@@ -46,7 +46,7 @@ impl Lower<'_> {
     fn collect(
         &mut self,
         node: Node,
-        known: &HashMap<NodeId, Coefficients>,
+        known: &FxHashMap<NodeId, Coefficients>,
         span: Span,
     ) -> Option<Coefficients> {
         let span = self.at(span);

@@ -7,7 +7,7 @@ use crate::sema::program::*;
 use crate::sema::ty::Ty;
 use crate::source::Span;
 use slowlight_routine::{Type, Value};
-use std::collections::HashMap;
+use rustc_hash::FxHashMap;
 use std::rc::Rc;
 
 /// The most rows of a Bayer matrix, whose steps are then 1/65536 of the range.
@@ -16,10 +16,10 @@ const BAYER: i32 = 256;
 /// Tables that were made already: a scene may look into a large one often.
 #[derive(Default)]
 pub(super) struct Made {
-    maps: HashMap<MapId, TableId>,
+    maps: FxHashMap<MapId, TableId>,
     /// By address; the table is kept, so that no other gets its address.
-    columns: HashMap<*const Table, (Rc<Table>, Rc<[TableId]>)>,
-    bayer: HashMap<i32, Rc<Table>>,
+    columns: FxHashMap<*const Table, (Rc<Table>, Rc<[TableId]>)>,
+    bayer: FxHashMap<i32, Rc<Table>>,
 }
 
 impl<'a> Lower<'a> {

@@ -7,7 +7,7 @@ use super::dead::Flow;
 use super::lines::{Label, Labels, Lines};
 use super::thread::jump;
 use super::ways::Test;
-use std::collections::HashMap;
+use rustc_hash::FxHashMap;
 
 /// The test that holds where another does not.
 pub fn opposite(test: &str) -> Option<String> {
@@ -36,17 +36,17 @@ pub fn opposite(test: &str) -> Option<String> {
 /// question's place. A way that sets it elsewhere, rarely, asks for itself.
 pub fn in_place(lines: Lines, labels: &mut Labels) -> Lines {
     let texts: Vec<String> = lines.texts().map(str::to_owned).collect();
-    let placed: HashMap<Label, usize> = lines.labelled().collect();
+    let placed: FxHashMap<Label, usize> = lines.labelled().collect();
     let flow = Flow::of(&texts, &placed);
     let jumps = |to: usize| {
         let leads =
-            move |label: &Label, placed: &HashMap<Label, usize>| placed.get(label) == Some(&to);
+            move |label: &Label, placed: &FxHashMap<Label, usize>| placed.get(label) == Some(&to);
         let count = |text: &String| Label::all_of(text).filter(|l| leads(l, &placed)).count();
         let each = texts.iter().map(count).enumerate();
         each.filter(|(_, count)| *count > 0).collect::<Vec<_>>()
     };
     let mut changed: Vec<Vec<String>> = texts.iter().map(|text| vec![text.clone()]).collect();
-    let mut behind = HashMap::new();
+    let mut behind = FxHashMap::default();
     for at in 1..texts.len() {
         let Some(name) = bits_asked(&texts[at]) else {
             continue;

@@ -7,12 +7,13 @@
 
 use super::lines::{Label, Lines};
 use super::pieces::{Piece, pieces};
-use std::collections::{BTreeSet, HashMap};
+use rustc_hash::FxHashMap;
+use std::collections::BTreeSet;
 
 /// The lines without flags that are set in vain before a jump or at a line's end.
 pub fn without(lines: Lines) -> Lines {
     let mut texts: Vec<String> = lines.texts().map(str::to_owned).collect();
-    let placed: HashMap<Label, usize> = lines.labelled().collect();
+    let placed: FxHashMap<Label, usize> = lines.labelled().collect();
     let flow = Flow::of(&texts, &placed);
     let changed: Vec<String> = texts
         .iter()
@@ -20,7 +21,7 @@ pub fn without(lines: Lines) -> Lines {
         .map(|(at, text)| flow.without_last(at, text, &placed))
         .collect();
     texts = changed;
-    lines.with_texts(texts, &HashMap::new())
+    lines.with_texts(texts, &FxHashMap::default())
 }
 
 /// A line, or what of it stands behind a statement to which control comes back.
@@ -47,11 +48,11 @@ pub struct Flow(Vec<Point>);
 /// What is known of a program while its flow is found.
 struct Finder<'t> {
     points: Vec<Point>,
-    placed: &'t HashMap<Label, usize>,
+    placed: &'t FxHashMap<Label, usize>,
     /// The line of each procedure's DEF.
-    defined: HashMap<&'t str, usize>,
+    defined: FxHashMap<&'t str, usize>,
     /// Where each procedure goes back to.
-    back: HashMap<&'t str, Vec<usize>>,
+    back: FxHashMap<&'t str, Vec<usize>>,
     /// Where loops begin anew.
     loops: Vec<usize>,
     /// What ends a loop's turn, and what ends a procedure, and what is written there.
@@ -64,7 +65,7 @@ struct Finder<'t> {
 
 impl Flow {
     /// The flow of a program's lines.
-    pub fn of(texts: &[String], placed: &HashMap<Label, usize>) -> Flow {
+    pub fn of(texts: &[String], placed: &FxHashMap<Label, usize>) -> Flow {
         let defined = texts.iter().enumerate();
         let defined =
             defined.filter_map(|(at, text)| Some((called(text.strip_prefix("DEF ")?)?, at)));
@@ -72,7 +73,7 @@ impl Flow {
             points: texts.iter().map(|_| Point::default()).collect(),
             placed,
             defined: defined.collect(),
-            back: HashMap::new(),
+            back: FxHashMap::default(),
             loops: Vec::new(),
             turns: Vec::new(),
             ends: Vec::new(),
@@ -176,7 +177,7 @@ impl Flow {
     }
 
     /// A line without the flags that it sets last and in vain.
-    fn without_last(&self, at: usize, text: &str, placed: &HashMap<Label, usize>) -> String {
+    fn without_last(&self, at: usize, text: &str, placed: &FxHashMap<Label, usize>) -> String {
         let plain = |text: &str| {
             let way = text.contains(" ELSE ") || text.contains("NEXT");
             !way && text.matches("IF ").count() <= 1

@@ -10,7 +10,7 @@ use crate::plan::Plan;
 use slowlight_routine::{Form, Op, Range, Type, Value};
 use slowlight_runtime_bbc::level::{OPERAND, PRODUCT, SUM};
 use slowlight_runtime_bbc::literal;
-use std::collections::HashMap;
+use rustc_hash::FxHashMap;
 
 /// Longer expressions are given a variable, so that lines stay short.
 const LONGEST: usize = 100;
@@ -48,7 +48,7 @@ pub struct Expressions<'p> {
     pub style: Style,
     pub names: Names,
     /// Values that are written where they are read.
-    inline: HashMap<NodeId, Text>,
+    inline: FxHashMap<NodeId, Text>,
     /// Whether a table's index needs clamping.
     pub clamps: bool,
     /// The variable of what earlier pixels sent to this one.
@@ -57,7 +57,7 @@ pub struct Expressions<'p> {
     pub before: Vec<(String, Text)>,
     /// Between which bounds arguments stay in the version being written, where
     /// that is better than what the ranges know.
-    pub assumed: HashMap<NodeId, [Range; 2]>,
+    pub assumed: FxHashMap<NodeId, [Range; 2]>,
     /// Whether to call functions rather than to test.
     pub calls: bool,
 }
@@ -68,11 +68,11 @@ impl<'p> Expressions<'p> {
             plan,
             style: Style::of(plan),
             names: Names::new(plan),
-            inline: HashMap::new(),
+            inline: FxHashMap::default(),
             clamps: false,
             received: String::new(),
             before: Vec::new(),
-            assumed: HashMap::new(),
+            assumed: FxHashMap::default(),
             calls: false,
         }
     }
@@ -279,12 +279,12 @@ impl<'p> Expressions<'p> {
     }
 
     /// What is written where it is read, at this point.
-    pub fn folds(&self) -> HashMap<NodeId, Text> {
+    pub fn folds(&self) -> FxHashMap<NodeId, Text> {
         self.inline.clone()
     }
 
     /// Goes back to that point.
-    pub fn set_folds(&mut self, folds: HashMap<NodeId, Text>) {
+    pub fn set_folds(&mut self, folds: FxHashMap<NodeId, Text>) {
         self.inline = folds;
     }
 

@@ -5,23 +5,24 @@ use crate::flow::graph::NodeId;
 use crate::flow::tree::{Place, SubroutineId, tabulated};
 use crate::plan::{Plan, quick_homes};
 use slowlight_routine::{Format, Type};
-use std::collections::{BTreeSet, HashMap, HashSet};
+use rustc_hash::{FxHashMap, FxHashSet};
+use std::collections::BTreeSet;
 
 /// Names of everything in the program.
 pub struct Names {
-    homes: HashMap<Place, String>,
+    homes: FxHashMap<Place, String>,
     /// The params, in the plan's order.
     params: Vec<String>,
     /// Copies of params in variables that may be renamed.
     copies: Vec<Option<String>>,
     pub tables: Vec<String>,
     /// Arrays by columns.
-    columns: HashMap<NodeId, String>,
+    columns: FxHashMap<NodeId, String>,
     /// Of the pass over a row.
     pub pass: String,
     /// Of the procedures for subroutines.
     procedures: Vec<String>,
-    taken: HashSet<String>,
+    taken: FxHashSet<String>,
     /// Constants by their text, in order of first use.
     constants: Vec<(String, String)>,
 }
@@ -34,14 +35,14 @@ fn suffix(ty: Type) -> &'static str {
 impl Names {
     pub fn new(plan: &Plan) -> Names {
         let mut names = Names {
-            homes: HashMap::new(),
+            homes: FxHashMap::default(),
             params: Vec::new(),
             copies: vec![None; plan.graph.params.len()],
             tables: Vec::new(),
-            columns: HashMap::new(),
+            columns: FxHashMap::default(),
             pass: String::new(),
             procedures: Vec::new(),
-            taken: HashSet::new(),
+            taken: FxHashSet::default(),
             constants: Vec::new(),
         };
         names.pass = names.unique("pass", "%");
@@ -53,7 +54,7 @@ impl Names {
         }
         // Values share variables where names are short: few are quick, and small.
         let shared = (Style::of(plan) != Style::Listing).then(|| quick_homes(plan));
-        let mut sharing: HashMap<(Format, usize), String> = HashMap::new();
+        let mut sharing: FxHashMap<(Format, usize), String> = FxHashMap::default();
         for (place, format) in plan.places() {
             let mut fresh = || names.unique(plan.home(place), suffix(format.scalar()));
             let name = match shared.as_ref().and_then(|s| s.number.get(&place)) {

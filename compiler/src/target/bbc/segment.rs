@@ -16,7 +16,7 @@ use crate::passes::still::{Inks, Still};
 use crate::plan::Plan;
 use slowlight_routine::Op;
 use slowlight_runtime_bbc::level::OPERAND;
-use std::collections::HashSet;
+use rustc_hash::FxHashSet;
 
 /// How often a segment's statements are carried out, roughly: for the weights
 /// of names only.
@@ -36,7 +36,7 @@ pub struct Segments {
 /// What the comparisons of a segment tell.
 pub struct Ends {
     end: String,
-    bounds: HashSet<NodeId>,
+    bounds: FxHashSet<NodeId>,
 }
 
 impl Segments {

@@ -7,7 +7,7 @@
 
 use super::lines::{Label, Labels, Lines};
 use super::pieces::{Piece, pieces, short_length};
-use std::collections::{HashMap, HashSet};
+use rustc_hash::{FxHashMap, FxHashSet};
 
 /// How long an end may be to stand on several ways.
 const LONGEST: usize = 48;
@@ -20,8 +20,8 @@ pub fn copied(lines: Lines, labels: &mut Labels) -> Lines {
     let texts: Vec<String> = lines.texts().map(str::to_owned).collect();
     let mut ends = Ends {
         placed: lines.labelled().collect(),
-        behind: HashMap::new(),
-        asked: HashSet::new(),
+        behind: FxHashMap::default(),
+        asked: FxHashSet::default(),
         texts: &texts,
         labels,
     };
@@ -39,11 +39,11 @@ pub fn copied(lines: Lines, labels: &mut Labels) -> Lines {
 
 struct Ends<'t> {
     /// The line that each label stands before.
-    placed: HashMap<Label, usize>,
+    placed: FxHashMap<Label, usize>,
     /// New labels, by the line that they stand behind.
-    behind: HashMap<usize, Label>,
+    behind: FxHashMap<usize, Label>,
     /// The lines that jumps go to.
-    asked: HashSet<usize>,
+    asked: FxHashSet<usize>,
     texts: &'t [String],
     labels: &'t mut Labels,
 }

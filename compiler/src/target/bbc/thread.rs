@@ -7,7 +7,8 @@
 
 use super::asked::opposite;
 use super::lines::{Label, Labels, Lines};
-use std::collections::{BTreeMap, HashMap};
+use rustc_hash::FxHashMap;
+use std::collections::BTreeMap;
 
 /// How many jumps are followed from one.
 const HOPS: usize = 8;
@@ -24,7 +25,7 @@ pub fn threaded(lines: Lines, labels: &mut Labels, longer: bool) -> Lines {
     let texts: Vec<String> = lines.texts().map(str::to_owned).collect();
     let mut road = Road {
         placed: lines.labelled().collect(),
-        behind: HashMap::new(),
+        behind: FxHashMap::default(),
         texts: &texts,
         labels,
         longer,
@@ -39,7 +40,7 @@ pub fn threaded(lines: Lines, labels: &mut Labels, longer: bool) -> Lines {
 fn decided(lines: Lines, labels: &mut Labels) -> Lines {
     let texts: Vec<String> = lines.texts().map(str::to_owned).collect();
     let mut changed: Vec<Vec<String>> = Vec::new();
-    let mut behind = HashMap::new();
+    let mut behind = FxHashMap::default();
     // From the last on: what becomes of the next line is what is met.
     for (at, text) in texts.iter().enumerate().rev() {
         let next = changed.last().and_then(|next| next.first());
@@ -78,9 +79,9 @@ fn split(text: &str, next: &str) -> Option<(String, String)> {
 
 struct Road<'t> {
     /// The line that each label stands before.
-    placed: HashMap<Label, usize>,
+    placed: FxHashMap<Label, usize>,
     /// New labels, by the line that they stand behind.
-    behind: HashMap<usize, Label>,
+    behind: FxHashMap<usize, Label>,
     texts: &'t [String],
     labels: &'t mut Labels,
     longer: bool,

@@ -15,7 +15,8 @@ use crate::flow::tree::{Block, Statement};
 use crate::range::assuming;
 use slowlight_routine::{Op, Range, Type, Value};
 use slowlight_runtime_bbc::guards;
-use std::collections::{BTreeSet, HashMap};
+use rustc_hash::FxHashMap;
+use std::collections::BTreeSet;
 
 /// How large values are taken to be, the largest that helps most.
 const LIMITS: [f64; 3] = [1e6, 30_000.0, 5_000.0];
@@ -30,7 +31,7 @@ pub struct Version {
     /// When it does not apply.
     fails: String,
     /// Between which bounds the arguments of its operations stay.
-    args: HashMap<NodeId, [Range; 2]>,
+    args: FxHashMap<NodeId, [Range; 2]>,
     saved: usize,
 }
 

@@ -21,7 +21,8 @@ use crate::plan::Copies;
 use region::{Copied, To};
 use roads::Roads;
 pub use roads::Test;
-use std::collections::{BTreeMap, HashMap};
+use rustc_hash::FxHashMap;
+use std::collections::BTreeMap;
 
 /// How far tests are looked for that a way knows, lines, and how much may be copied for
 /// each of them, bytes of the program.
@@ -60,7 +61,7 @@ fn copied(lines: Lines, labels: &mut Labels, copies: Copies) -> Lines {
     let mut made: BTreeMap<Vec<Copied>, Label> = BTreeMap::new();
     let mut blocks: Vec<(Label, Lines)> = Vec::new();
     // The lines that copies go on at get names.
-    let mut ends: HashMap<usize, Label> = HashMap::new();
+    let mut ends: FxHashMap<usize, Label> = FxHashMap::default();
     for (at, text) in texts.iter().enumerate() {
         if copies < Copies::Ends && seldom(at) {
             continue;
@@ -111,7 +112,7 @@ fn copied(lines: Lines, labels: &mut Labels, copies: Copies) -> Lines {
         return lines;
     }
     // What copies go on at is named before copies stand there.
-    let behind: HashMap<usize, Label> = ends.iter().map(|(on, l)| (on - 1, *l)).collect();
+    let behind: FxHashMap<usize, Label> = ends.iter().map(|(on, l)| (on - 1, *l)).collect();
     let mut lines = lines.with_texts(changed, &behind);
     for (label, block) in blocks {
         lines = lines.with_before(label, block);
@@ -167,7 +168,7 @@ fn decided(lines: Lines) -> Lines {
         }
     }
     // What is asked for at once and nowhere else is the test.
-    let asked: HashMap<usize, usize> = texts
+    let asked: FxHashMap<usize, usize> = texts
         .iter()
         .flat_map(|text| Label::all_of(text))
         .filter_map(|label| Some((*roads.placed.get(&label)?, 0)))
@@ -203,7 +204,7 @@ fn decided(lines: Lines) -> Lines {
             changed[at] = String::new();
         }
     }
-    let mut lines = lines.with_texts(changed, &HashMap::new());
+    let mut lines = lines.with_texts(changed, &FxHashMap::default());
     lines.remove_empty();
     lines
 }

@@ -11,7 +11,8 @@ use crate::flow::tree::*;
 use crate::plan::Plan;
 use slowlight_routine::{Form, Format, Routine, Value};
 use slowlight_runtime_jack::{SUM, TERM};
-use std::collections::{BTreeMap, BTreeSet, HashMap};
+use rustc_hash::FxHashMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// Lines that a subroutine holds at most before it is divided.
 const LONG: usize = 60;
@@ -44,7 +45,7 @@ pub(super) struct Code<'p> {
     /// What became a method of its own.
     pub methods: Vec<Method>,
     /// Values that are written where they are read.
-    pub folded: HashMap<NodeId, Expression>,
+    pub folded: FxHashMap<NodeId, Expression>,
     text: Text,
 }
 
@@ -61,7 +62,7 @@ impl<'p> Code<'p> {
             known: BTreeSet::new(),
             same_signs: BTreeMap::new(),
             methods: Vec::new(),
-            folded: HashMap::new(),
+            folded: FxHashMap::default(),
             text: Text::default(),
         }
     }

@@ -9,7 +9,8 @@ use crate::flow::graph::*;
 use crate::flow::tree::{Place, SubroutineId, tabulated};
 use crate::plan::{Plan, shared_homes};
 use slowlight_routine::Format;
-use std::collections::{BTreeMap, BTreeSet, HashMap};
+use rustc_hash::FxHashMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// Words that no variable may have for a name.
 const KEYWORDS: &[&str] = &[
@@ -71,7 +72,7 @@ pub(super) struct Names {
     pub rows: [String; 2],
     /// The pixel's column and row.
     pub axes: [String; 2],
-    homes: HashMap<Place, String>,
+    homes: FxHashMap<Place, String>,
     tables: BTreeMap<TableId, String>,
     columns: BTreeMap<NodeId, String>,
     turns: BTreeMap<LoopId, String>,
@@ -94,7 +95,7 @@ impl Names {
             params: Vec::new(),
             rows: Default::default(),
             axes: Default::default(),
-            homes: HashMap::new(),
+            homes: FxHashMap::default(),
             tables: BTreeMap::new(),
             columns: BTreeMap::new(),
             turns: BTreeMap::new(),
@@ -113,7 +114,7 @@ impl Names {
         let many = plan.statics && plan.places().len() > SHARED_BEYOND;
         names.shared = plan.tight || many;
         let shared = names.shared.then(|| shared_homes(plan));
-        let mut sharing: HashMap<(Format, usize), String> = HashMap::new();
+        let mut sharing: FxHashMap<(Format, usize), String> = FxHashMap::default();
         for (place, format) in plan.places() {
             let mut fresh = || names.fresh(plan.home(place));
             let name = match shared.as_ref().and_then(|s| s.get(&place)) {

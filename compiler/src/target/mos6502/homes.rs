@@ -14,7 +14,8 @@ use crate::passes::segment::bounds_segment;
 use crate::plan::{Plan, shared_homes};
 use slowlight_routine::Format;
 use slowlight_runtime_6502::write::{self, Place as Operand, Shape};
-use std::collections::{BTreeMap, BTreeSet, HashMap};
+use rustc_hash::FxHashMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// Something that the program keeps in memory.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -72,7 +73,7 @@ pub(super) struct Homes {
     /// The subroutines' labels.
     subroutines: Vec<String>,
     /// The place whose home each place shares, where memory is short or homes are small.
-    shared: HashMap<Place, Place>,
+    shared: FxHashMap<Place, Place>,
     /// In how many bytes values are kept, where that is by their ranges.
     shapes: Option<Shapes>,
     /// Reals that are kept at a second scale.
@@ -80,10 +81,10 @@ pub(super) struct Homes {
 }
 
 /// For each place, the first of those that it shares a home with.
-fn sharing(plan: &Plan, shapes: Option<&Shapes>) -> HashMap<Place, Place> {
+fn sharing(plan: &Plan, shapes: Option<&Shapes>) -> FxHashMap<Place, Place> {
     let homes = shared_homes(plan);
-    let mut first: HashMap<(Format, u8, usize), Place> = HashMap::new();
-    let mut shared = HashMap::new();
+    let mut first: FxHashMap<(Format, u8, usize), Place> = FxHashMap::default();
+    let mut shared = FxHashMap::default();
     for (place, format) in plan.places() {
         if let Some(&at) = homes.get(&place) {
             let bytes = shapes.map_or(0, |shapes| shapes.of(plan, place).bytes);
@@ -101,7 +102,7 @@ impl Homes {
         // are in one.
         let shared = match plan.tight || shapes.is_some() {
             true => sharing(plan, shapes.as_ref()),
-            false => HashMap::new(),
+            false => FxHashMap::default(),
         };
         let moved = moved::moved(plan);
         let count = uses::counted(plan, &moved, &shared, &fused);

@@ -10,14 +10,14 @@ use crate::flow::tree::*;
 use crate::plan::Plan;
 use slowlight_routine::{Format, Op, Range, Type, scale};
 use slowlight_runtime_6502::write::{Shape, size};
-use std::collections::{HashMap, HashSet};
+use rustc_hash::{FxHashMap, FxHashSet};
 
 /// Bytes of an int at most.
 const MOST: u8 = 4;
 
 /// Places' shapes.
 pub(super) struct Shapes {
-    places: HashMap<Place, Shape>,
+    places: FxHashMap<Place, Shape>,
 }
 
 /// Whether numbers are kept in as many bytes as their ranges need: ints, where reals are
@@ -31,7 +31,7 @@ pub(super) fn shapes(plan: &Plan) -> Option<Shapes> {
     if !by_range(plan) {
         return None;
     }
-    let mut ranges: HashMap<Place, Range> = HashMap::new();
+    let mut ranges: FxHashMap<Place, Range> = FxHashMap::default();
     let mut add = |place: Place, range: Range| {
         let known = ranges.entry(home(place)).or_insert(range);
         *known = known.join(range);
@@ -101,10 +101,10 @@ fn of_real(units: Range, most: u8) -> Shape {
 
 /// Of how many of their lower bytes ints are asked that are computed for others only: where
 /// only the lowest bits of a sum count, no more of its terms do.
-fn asked(plan: &Plan) -> HashMap<NodeId, u8> {
+fn asked(plan: &Plan) -> FxHashMap<NodeId, u8> {
     let graph = &plan.graph;
-    let mut computed: HashMap<NodeId, u8> = HashMap::new();
-    let mut whole: HashSet<NodeId> = graph.reports.iter().copied().collect();
+    let mut computed: FxHashMap<NodeId, u8> = FxHashMap::default();
+    let mut whole: FxHashSet<NodeId> = graph.reports.iter().copied().collect();
     whole.insert(graph.ink);
     for block in plan.tree.blocks() {
         walk(block, &mut |statement| match statement {
@@ -123,7 +123,7 @@ fn asked(plan: &Plan) -> HashMap<NodeId, u8> {
 }
 
 /// Tells all operands how much of them is asked; whether any did not know.
-fn ask(plan: &Plan, whole: &HashSet<NodeId>, computed: &mut HashMap<NodeId, u8>) -> bool {
+fn ask(plan: &Plan, whole: &FxHashSet<NodeId>, computed: &mut FxHashMap<NodeId, u8>) -> bool {
     let graph = &plan.graph;
     let mut more = false;
     for id in graph.ids().rev() {

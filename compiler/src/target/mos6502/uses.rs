@@ -7,14 +7,15 @@ use crate::flow::graph::*;
 use crate::flow::tree::*;
 use crate::passes::interlace::passes;
 use crate::plan::Plan;
-use std::collections::{BTreeMap, BTreeSet, HashMap};
+use rustc_hash::FxHashMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// How often each slot is read and written, roughly, where some places share a home and
 /// some bools have none.
 pub(super) fn counted(
     plan: &Plan,
     moved: &BTreeSet<Moved>,
-    shared: &HashMap<Place, Place>,
+    shared: &FxHashMap<Place, Place>,
     fused: &BTreeSet<NodeId>,
 ) -> BTreeMap<Slot, u64> {
     let mut uses = Uses {
@@ -33,7 +34,7 @@ pub(super) fn counted(
 struct Uses<'p> {
     plan: &'p Plan,
     moved: &'p BTreeSet<Moved>,
-    shared: &'p HashMap<Place, Place>,
+    shared: &'p FxHashMap<Place, Place>,
     fused: &'p BTreeSet<NodeId>,
     weight: u64,
     count: BTreeMap<Slot, u64>,

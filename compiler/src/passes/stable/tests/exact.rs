@@ -4,7 +4,7 @@ use crate::flow::graph::*;
 use dashu_float::FBig;
 use dashu_float::ops::{Abs, SquareRoot};
 use slowlight_routine::{Op, Value};
-use std::collections::HashMap;
+use rustc_hash::FxHashMap;
 
 pub type Big = FBig;
 
@@ -24,7 +24,7 @@ pub fn shade(graph: &Graph, params: &[f64]) -> Big {
     let mut run = Exactly {
         graph,
         params,
-        known: HashMap::new(),
+        known: FxHashMap::default(),
     };
     run.real(graph.shade.unwrap())
 }
@@ -32,7 +32,7 @@ pub fn shade(graph: &Graph, params: &[f64]) -> Big {
 struct Exactly<'g> {
     graph: &'g Graph,
     params: &'g [f64],
-    known: HashMap<NodeId, Exact>,
+    known: FxHashMap<NodeId, Exact>,
 }
 
 impl Exactly<'_> {

@@ -1,16 +1,16 @@
 //! Lines changed as a whole: other texts, lines left out, split, joined.
 
 use super::{Item, Label, Later, Lines, note, statements};
-use std::collections::{HashMap, HashSet};
+use rustc_hash::{FxHashMap, FxHashSet};
 
 impl Lines {
     /// The same lines with other texts, and with labels behind some of them.
-    pub fn with_texts(self, texts: Vec<String>, behind: &HashMap<usize, Label>) -> Lines {
+    pub fn with_texts(self, texts: Vec<String>, behind: &FxHashMap<usize, Label>) -> Lines {
         self.with_lines(texts.into_iter().map(|text| vec![text]).collect(), behind)
     }
 
     /// The same where several lines may stand for one.
-    pub fn with_lines(self, texts: Vec<Vec<String>>, behind: &HashMap<usize, Label>) -> Lines {
+    pub fn with_lines(self, texts: Vec<Vec<String>>, behind: &FxHashMap<usize, Label>) -> Lines {
         let mut texts = texts.into_iter().enumerate();
         let mut all = Lines::of_weight(self.weight);
         for item in self.items {
@@ -89,7 +89,7 @@ impl Lines {
     pub fn joined(self, width: usize) -> Lines {
         let ends = |text: &str| ["IF", "REM", "DATA"].iter().any(|w| text.contains(w));
         let begins = |text: &str| text.starts_with("DEF") || text.starts_with("DATA");
-        let asked: HashSet<Label> = self.texts().flat_map(Label::all_of).collect();
+        let asked: FxHashSet<Label> = self.texts().flat_map(Label::all_of).collect();
         let mut all = Lines::default();
         for item in self.items {
             if matches!(item, Item::Label(label) if !asked.contains(&label)) {

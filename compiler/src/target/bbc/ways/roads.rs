@@ -2,7 +2,7 @@
 
 use super::super::lines::Label;
 use super::super::thread::{Known, jump};
-use std::collections::HashMap;
+use rustc_hash::FxHashMap;
 
 /// A line that is one test.
 pub struct Test<'t> {
@@ -41,13 +41,13 @@ pub(super) fn is_plain(text: &str) -> bool {
 /// A program's lines, and where control comes to them.
 pub(super) struct Roads<'t> {
     pub texts: &'t [String],
-    pub placed: HashMap<Label, usize>,
+    pub placed: FxHashMap<Label, usize>,
     /// What is known before each line; nothing where control does not come.
     pub known: Vec<Option<Known>>,
 }
 
 impl<'t> Roads<'t> {
-    pub fn of(texts: &'t [String], placed: HashMap<Label, usize>) -> Roads<'t> {
+    pub fn of(texts: &'t [String], placed: FxHashMap<Label, usize>) -> Roads<'t> {
         let mut roads = Roads {
             texts,
             placed,

@@ -2,11 +2,11 @@
 
 use crate::source::Span;
 use slowlight_isa::opcodes::{self, Mode, OPCODES, Trust};
-use std::collections::HashMap;
+use rustc_hash::FxHashMap;
 
 /// What says how long an operand is: the addresses of a program's symbols.
 pub(super) struct Bytes<'t> {
-    symbols: HashMap<&'t str, u32>,
+    symbols: FxHashMap<&'t str, u32>,
 }
 
 impl<'t> Bytes<'t> {
