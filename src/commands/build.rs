@@ -112,6 +112,7 @@ pub fn run(args: &Args) -> Outcome<()> {
             "ram_bytes": sizes.ram,
             "heap": heap_json(&written),
             "work": plan.work(),
+            "priced_per_pixel": plan.cycles_a_pixel().round(),
             "passes": passes_json(&plan),
             "cycles": forecast.cycles().map(f64::round),
             "machine_seconds": forecast.cycles().map(seconds),

@@ -87,6 +87,15 @@ impl<'t, A: Arithmetic> Run<'t, A> {
         run
     }
 
+    /// The same with each pixel by itself: none receives what others send.
+    #[must_use]
+    pub fn alone(self) -> Run<'t, A> {
+        Run {
+            pending: None,
+            ..self
+        }
+    }
+
     /// Whether all statements that were allowed have run: what the last pixel came to is of
     /// no use then.
     pub fn spent(&self) -> bool {

@@ -11,9 +11,6 @@ pub(super) struct Beside<'p> {
     pub(super) runtime: &'static Runtime,
     pub(super) folded: Vec<bool>,
     pub(super) routines: Vec<Option<&'static Routine>>,
-    /// How many ramps each value takes that is reckoned to be stepped
-    /// ([`crate::passes::ramps::foreseen`]).
-    pub(super) steps: Vec<Option<u32>>,
 }
 
 impl Beside<'_> {
@@ -60,11 +57,7 @@ impl Beside<'_> {
             return self.runtime.index * if flat { 1 } else { 2 };
         }
         let routine = self.routines.get(id.0 as usize).copied().flatten();
-        let ramps = self.steps.get(id.0 as usize).copied().flatten();
-        match (ramps, self.runtime.stepping) {
-            (Some(ramps), Some(stepping)) => ramps * stepping.ramp,
-            _ => routine.map_or(0, |r| r.cycles),
-        }
+        routine.map_or(0, |r| r.cycles)
     }
 
     fn inline(&self, id: NodeId) -> bool {
@@ -133,8 +126,6 @@ impl super::Plan {
             runtime: self.runtime,
             folded: self.folded.clone(),
             routines: self.routines.clone(),
-            // What is stepped is known.
-            steps: Vec::new(),
         })
     }
 }

@@ -85,7 +85,7 @@ pub fn cheaper(
     let mut site = Site {
         shop,
         runtime: shop.runtime,
-        price: Price::new(shop, thrift).foreseeing(),
+        price: Price::new(shop, thrift),
         thrift,
         products: false,
         other: AtomicBool::new(false),

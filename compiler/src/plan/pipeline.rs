@@ -64,7 +64,6 @@ passes! {
     TableRecipes "table-recipes" "plan/recipes" "rematerialisation of table entries"
     Phases "phases" "passes/ramps" "phase accumulators for periodic functions of the column"
     ScanlineRuns "scanline-runs" "passes/ramps/runs" "values stepped along runs of columns"
-    StrengthReduce "strength-reduce" "passes/ramps" "strength reduction of polynomials in the column"
     Reassociate "reassociate" "passes/sums" "reassociation and common subexpressions of sums"
     Unswitch "unswitch" "passes/split" "unswitching of the ink on one comparison"
     LoopBypass "loop-bypass" "passes/skip" "zero-trip bypass of loops"

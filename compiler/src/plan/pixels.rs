@@ -28,7 +28,7 @@ pub(super) const PATIENCE: u64 = 40_000;
 const LONG: u64 = 2_000_000;
 
 /// How many pixels are chosen at least.
-const LEAST: usize = 12;
+const LEAST: usize = 24;
 
 /// How often plans may run as many statements as the one by which pixels were chosen.
 const MORE: u64 = 4;
@@ -51,8 +51,7 @@ pub(super) struct Pixel {
     pub weight: u64,
 }
 
-/// Pixels that stand for a picture, by rows; none where pixels depend on each other, or take too
-/// long.
+/// Pixels that stand for a picture, by rows; none where they take too long.
 #[derive(Debug, Default)]
 pub(super) struct Pixels {
     pub all: Vec<Pixel>,
@@ -64,16 +63,22 @@ pub(super) struct Pixels {
 struct Tried {
     at: (i32, i32),
     cycles: f64,
+    statements: u64,
     kind: u64,
+}
+
+impl Tried {
+    /// How probable it is to be chosen first of so many that take so much: by half for what
+    /// it takes.
+    fn size(&self, count: usize, total: f64) -> f64 {
+        0.5 / count as f64 + 0.5 * self.cycles / total.max(1.0)
+    }
 }
 
 impl Pixels {
     /// Those by which plans of a scene are priced, of which this is one.
     pub fn of(plan: &Settled, runtime: &Runtime) -> Pixels {
         let graph = &plan.graph;
-        if graph.diffusion.is_some() {
-            return Pixels::default();
-        }
         let places = spread(&graph.image);
         let (tried, ran) = tried(plan, runtime, &places);
         if tried.len() == places.len() && ran <= PATIENCE {
@@ -83,11 +88,17 @@ impl Pixels {
                 patience: PATIENCE,
             };
         }
-        let each = ran / tried.len().max(1) as u64;
-        let few = ((PATIENCE / each.max(1)) as usize).clamp(LEAST, places.len());
         if tried.len() < LEAST {
             return Pixels::default();
         }
+        // As many as may run with what one of them runs that is chosen by size.
+        let total: f64 = tried.iter().map(|pixel| pixel.cycles).sum();
+        let sizes = tried.iter().map(|pixel| {
+            let size = pixel.size(tried.len(), total);
+            size * pixel.statements as f64
+        });
+        let each = sizes.sum::<f64>().max(1.0) as u64;
+        let few = ((2 * PATIENCE / each) as usize).clamp(LEAST, places.len());
         Pixels {
             all: chosen(tried, few),
             patience: PATIENCE.max(MORE * few as u64 * each),
@@ -134,7 +145,7 @@ fn tried(plan: &Settled, runtime: &Runtime, places: &[(i32, i32)]) -> (Vec<Tried
         let usual = op.and_then(|op| runtime.usual(op));
         usual.map_or(PLAIN, |routine| f64::from(routine.cycles))
     });
-    let mut run = Run::within(graph, tree, &meter, LONG + 1);
+    let mut run = Run::within(graph, tree, &meter, LONG + 1).alone();
     let mut all = Vec::new();
     let mut ran = 0;
     for k in 0..places.len() {
@@ -151,6 +162,7 @@ fn tried(plan: &Settled, runtime: &Runtime, places: &[(i32, i32)]) -> (Vec<Tried
         all.push(Tried {
             at: (x, y),
             cycles: meter.sum.get(),
+            statements: meter.ran.get() - before,
             kind: kind.get(),
         });
     }
@@ -168,13 +180,13 @@ fn chosen(mut tried: Vec<Tried>, few: usize) -> Vec<Pixel> {
         let kind = |pixel: &Tried| first.get(&pixel.kind).copied();
         kind(a).cmp(&kind(b)).then(a.cycles.total_cmp(&b.cycles))
     });
-    let count = tried.len() as f64;
+    let count = tried.len();
     let total: f64 = tried.iter().map(|pixel| pixel.cycles).sum();
     let mut all: BTreeMap<(i32, i32), f64> = BTreeMap::new();
     let mut before = 0.0;
     let mut next = 0.5;
     for pixel in &tried {
-        let size = 0.5 / count + 0.5 * pixel.cycles / total.max(1.0);
+        let size = pixel.size(count, total);
         before += size * few as f64;
         let mut times = 0.0;
         while next < before {

@@ -3,8 +3,8 @@
 //! The statements are run in `f64` at pixels spread over the picture, with the
 //! params as the scene has them, and each that runs is added up with the
 //! cycles of the routine that the ranges allow. So what few pixels need weighs
-//! little. Where that would take too long, or pixels depend on each other, either
-//! way of a choice is thought to be as likely ([`crate::flow::often`]).
+//! little. Where that would take too long, either way of a choice is thought to be as
+//! likely ([`crate::flow::often`]). Errors that others send are left out.
 
 use super::beside::Beside;
 use super::choose::choose;
@@ -19,7 +19,6 @@ use crate::flow::graph::*;
 use crate::flow::often;
 use crate::flow::tree::*;
 use crate::passes::interlace::passes;
-use crate::passes::ramps::foreseen;
 use crate::passes::rate::rates;
 use crate::passes::region::Fact;
 use crate::passes::segment::bounds_segment;
@@ -51,8 +50,6 @@ pub struct Price {
     around: f64,
     /// The pixels that are looked at.
     pixels: Arc<Pixels>,
-    /// Whether whole polynomials in the column are reckoned to be stepped.
-    foresees: bool,
 }
 
 impl Price {
@@ -63,22 +60,12 @@ impl Price {
             memory: thrift.part(),
             around: thrift.around(),
             pixels: shop.pixels(),
-            foresees: false,
         }
-    }
-
-    /// The same before it is known which values are stepped, where steps are so cheap that
-    /// it may be guessed.
-    pub fn foreseeing(self) -> Price {
-        let foresees = self.runtime.stepping.is_some_and(|s| s.foreseen);
-        Price { foresees, ..self }
     }
 
     /// Cycles a pixel, and something for memory.
     pub fn of(&self, plan: &Settled) -> f64 {
-        let [guessed, foreseen] = [self.pixels.is_empty(), self.foresees].map(usize::from);
-        let known = &plan.costs[guessed + 2 * foreseen];
-        let (cycles, [inside, around]) = *known.get_or_init(|| (self.cycles(plan), memory(plan)));
+        let (cycles, [inside, around]) = *plan.cost.get_or_init(|| (self.cycles(plan), memory(plan)));
         cycles * (1.0 + self.memory * (inside + self.around * around))
     }
 
@@ -124,10 +111,6 @@ impl Price {
             // That ints are read as reals in place is a matter of writing, and left out.
             folded: folded(&plan.graph, &plan.tree, still.as_ref(), &[]),
             routines,
-            steps: match self.foresees {
-                true => foreseen(&plan.graph, &plan.ranges),
-                false => Vec::new(),
-            },
         };
         // What begins a pass or run of columns is not carried out at each of them.
         let mut runs = FxHashSet::default();
@@ -236,7 +219,6 @@ impl Price {
             // A copy has a variable.
             folded: Vec::new(),
             routines: routines.unwrap_or_default(),
-            steps: Vec::new(),
         };
         let limit = self.memory * self.of(plan);
         move |id, less, copies| less * f64::from(beside.kept(id)) > limit * copies as f64
@@ -250,7 +232,7 @@ impl Price {
         still: Option<(&Still, f64)>,
     ) -> Option<f64> {
         let patience = self.pixels.patience;
-        let mut run = Run::within(&plan.graph, &plan.tree, meter, patience + 1);
+        let mut run = Run::within(&plan.graph, &plan.tree, meter, patience + 1).alone();
         let mut row = None;
         let mut sum = 0.0;
         for &Pixel { x, y, weight } in &self.pixels.all {

@@ -74,7 +74,7 @@ impl Profile {
         let (graph, tree) = (&plan.graph, &plan.tree);
         let meter = Meter::new(graph, |_: &Statement| 0.0);
         {
-            let mut run = Run::within(graph, tree, &meter, pixels.patience + 1);
+            let mut run = Run::within(graph, tree, &meter, pixels.patience + 1).alone();
             for &Pixel { x, y, weight } in &pixels.all {
                 meter.weight.set(weight);
                 run.pixel(x, y);

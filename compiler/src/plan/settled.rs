@@ -32,9 +32,8 @@ pub struct Known {
     pub(super) work: u64,
     /// Its number: of no other.
     serial: u64,
-    /// Cycles and memory, pixels' and around them, as [`super::price`] has them: at
-    /// pixels, and where there are none to be looked at; the same where steps are foreseen.
-    pub(super) costs: [OnceLock<(f64, [f64; 2])>; 4],
+    /// Cycles and memory, pixels' and around them, as [`super::price`] has them.
+    pub(super) cost: OnceLock<(f64, [f64; 2])>,
 }
 
 impl Deref for Settled {
@@ -67,6 +66,6 @@ pub fn scheduled(graph: Graph, slack: &Slack) -> Settled {
         graph,
         tree,
         ranges,
-        costs: Default::default(),
+        cost: OnceLock::new(),
     }))
 }

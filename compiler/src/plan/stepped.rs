@@ -10,10 +10,8 @@ use super::settled::Settled;
 use super::thrift::Thrift;
 use super::workshop::Workshop;
 use crate::flow::graph::*;
-use crate::flow::ramp;
 use crate::passes::ramps::phase::{parities, phases};
 use crate::passes::ramps::runs::{in_runs, is_exact, runs};
-use crate::passes::ramps::{ramps, sites};
 use crate::range::Ranges;
 use crate::target::Target;
 use slowlight_routine::Op;
@@ -48,7 +46,6 @@ pub fn stepped(
     }
     let site = Site {
         shop,
-        target,
         price: Price::new(shop, thrift),
     };
     let phased = match target.wraps && steps == Steps::All {
@@ -62,14 +59,11 @@ pub fn stepped(
         true => Vec::new(),
         false => runs(&phased.graph, &phased.ranges),
     };
-    let run = site.taken(Pass::ScanlineRuns, phased, found, in_runs);
-    let found = sites(&run.graph, &run.ranges);
-    site.taken(Pass::StrengthReduce, run, found, ramps)
+    site.taken(Pass::ScanlineRuns, phased, found, in_runs)
 }
 
 struct Site<'s> {
     shop: &'s Workshop,
-    target: &'static Target,
     price: Price,
 }
 
@@ -92,9 +86,7 @@ impl Site<'_> {
         let cost = |plan: &Settled| self.price.of(plan);
         let rewritten = |at: &[NodeId]| {
             let next = (self.shop).settle(&rewrite(&plain.graph, &plain.ranges, at)?);
-            let right = is_exact(&next.graph, &next.tree, &next.ranges)
-                && (self.target.wraps || bounded(&next));
-            right.then(|| (cost(&next), next))
+            is_exact(&next.graph, &next.tree, &next.ranges).then(|| (cost(&next), next))
         };
         let mut taken: Vec<NodeId> = Vec::new();
         let mut least = cost(plain);
@@ -156,21 +148,4 @@ fn made_of(graph: &Graph, values: &[NodeId]) -> Vec<(NodeId, NodeId)> {
         }
     }
     all
-}
-
-/// Whether no ramp ever wraps, stepped once behind the last column too.
-fn bounded(plan: &Settled) -> bool {
-    let graph = &plan.graph;
-    let width = graph.image.width as i32;
-    let result = |id: NodeId| plan.ranges.result[id.0 as usize];
-    let mut all = graph.ids().filter(|id| is_ramp(graph, *id));
-    all.all(|id| {
-        // A pass ends behind the last column by its stride at most.
-        let behind = width + ramp::stride(graph, id) as i32 - 1;
-        ramp::range(graph, id, 0..=behind, result).within(f64::from(i32::MIN), f64::from(i32::MAX))
-    })
-}
-
-fn is_ramp(graph: &Graph, id: NodeId) -> bool {
-    matches!(graph.node(id), Node::Ramp { .. })
 }

@@ -1,15 +1,10 @@
-//! Forward differences: whole polynomials in the column as ramps.
+//! Strength reduction of induction variables: what grows with the column by steps
+//! ([`phase`], [`runs`]), and what both share: polynomials in the column with their
+//! coefficients.
 //!
-//! An int that is a polynomial in the column, its coefficients the same for the
-//! whole row or pass, takes an addition for each degree from one column to the next
-//! ([`crate::flow::ramp`]), where Horner's scheme takes a multiplication for
-//! each. The additions are taken at every pixel, so whether they pay depends on
-//! how many pixels need the value; the plan decides ([`crate::plan`]).
-//!
-//! What is exact in 32 bits without wrapping, as the ranges prove of every
-//! operation of the polynomial where it is computed, is the same modulo 2^32;
-//! so a ramp may wrap at columns where nobody needs it and is right where
-//! somebody does.
+//! (Whole polynomials in the column were stepped too, once a pixel each, Newton's forward
+//! differences: since values of the column stand in arrays ([`super::columns`]) that gained
+//! nothing on any scene, and took up to a third more, as what hangs on a step stands in none.)
 
 mod lines;
 pub mod phase;
@@ -17,9 +12,7 @@ pub mod phase;
 mod phase_tests;
 pub mod runs;
 
-use super::interlace::passes;
 use super::rate::rates;
-use super::rebuild::rebuild_old;
 use crate::flow::build::Builder;
 use crate::flow::graph::*;
 use crate::range::Ranges;
@@ -31,64 +24,6 @@ const DEGREE: usize = 2;
 
 /// Whole numbers within this are exact.
 const WHOLE: f64 = i32::MAX as f64;
-
-/// Values that could be ramps: of those that are polynomials, what something
-/// else than another of them reads.
-pub fn sites(graph: &Graph, ranges: &Ranges) -> Vec<NodeId> {
-    let known = Degrees::of(graph, ranges);
-    let reached = graph.reached();
-    let mut read = vec![false; graph.nodes.len()];
-    for id in graph.ids().filter(|id| reached[id.0 as usize]) {
-        if known.at(id).is_none() {
-            for operand in graph.references(id) {
-                read[operand.0 as usize] = true;
-            }
-        }
-    }
-    graph.roots().for_each(|id| read[id.0 as usize] = true);
-    let site = |id: &NodeId| {
-        let axis = matches!(graph.node(*id), Node::Axis(_));
-        !axis && read[id.0 as usize] && known.at(*id).is_some_and(|degree| degree > 0)
-    };
-    graph.ids().filter(site).collect()
-}
-
-/// How many ramps each value takes if it is stepped: what something else than another such
-/// polynomial reads as many as its degree, the others none; nothing for what is none.
-pub fn foreseen(graph: &Graph, ranges: &Ranges) -> Vec<Option<u32>> {
-    let known = Degrees::of(graph, ranges);
-    let mut all: Vec<Option<u32>> = (graph.ids())
-        .map(|id| known.at(id).filter(|degree| *degree > 0).map(|_| 0))
-        .collect();
-    for site in sites(graph, ranges) {
-        all[site.0 as usize] = known.at(site).map(|degree| degree as u32);
-    }
-    all
-}
-
-/// The graph with ramps at some sites; none where a coefficient might not be exact.
-pub fn ramps(graph: &Graph, ranges: &Ranges, at: &[NodeId]) -> Option<Graph> {
-    let known = Degrees::of(graph, ranges);
-    let mut exact = true;
-    let made = rebuild_old(graph, &mut |builder, made, id, span| {
-        if !at.contains(&id) {
-            return None;
-        }
-        let mut put = Put {
-            graph,
-            ranges,
-            known: &known,
-            stride: passes(graph),
-            builder,
-            made,
-            span,
-        };
-        let found = put.coefficients(id).and_then(|parts| put.ramp(&parts));
-        exact &= found.is_some();
-        found
-    });
-    exact.then_some(made)
-}
 
 /// The degree in the column of every int that is a polynomial in it.
 struct Degrees(Vec<Option<usize>>);
@@ -247,114 +182,5 @@ impl Put<'_> {
         };
         let fits = found.within(-WHOLE, WHOLE);
         fits.then(|| (self.builder.apply(op, &[a.0, b.0], self.span), found))
-    }
-
-    /// c0 + c1 x + c2 x² is c0 + (c1 + c2) x + 2 c2 x(x-1)/2.
-    fn ramp(&mut self, parts: &[Part]) -> Option<NodeId> {
-        let stride = self.stride;
-        match *parts {
-            [a] => Some(a.0),
-            [a, b] => Some(self.builder.ramp(a.0, b.0, stride, self.span)),
-            [a, b, c] => {
-                let first = self.both(Op::IntAdd, b, c)?;
-                let twice = self.both(Op::IntAdd, c, c)?;
-                let step = self.builder.ramp(first.0, twice.0, stride, self.span);
-                Some(self.builder.ramp(a.0, step, stride, self.span))
-            }
-            _ => None,
-        }
-    }
-}
-
-#[cfg(test)]
-#[allow(clippy::unwrap_used)]
-mod tests {
-    use super::*;
-    use crate::eval::native::Native;
-    use crate::eval::random::Random;
-    use crate::flow::verify::verify;
-    use crate::passes::schedule::schedule;
-    use crate::range::{Slack, ranges};
-
-    const AT: Span = Span {
-        file: 0,
-        start: 0,
-        end: 0,
-        within: None,
-        effect: None,
-    };
-
-    fn line(b: &mut Builder, random: &mut Random, axis: Axis) -> NodeId {
-        let axis = b.axis(axis, AT);
-        let [by, more] = [0, 0].map(|_| Value::Int(random.below(81) as i32 - 40));
-        let [by, more] = [by, more].map(|n| b.constant(n, AT));
-        let product = b.apply(Op::IntMul, &[axis, by], AT);
-        let op = [Op::IntAdd, Op::IntSub][random.below(2) as usize];
-        b.apply(op, &[product, more], AT)
-    }
-
-    /// The low bits of a polynomial of the second degree at most, written in some way.
-    fn picture(seed: u64) -> Graph {
-        let mut random = Random::new(seed);
-        let mut b = Builder::new();
-        let (x, again) = (Axis::X, random.below(2) == 0);
-        let lines = [x, x, Axis::Y, Axis::Y].map(|axis| line(&mut b, &mut random, axis));
-        let other = if again { lines[0] } else { lines[1] };
-        let product = b.apply(Op::IntMul, &[lines[0], other], AT);
-        let rest = b.apply(Op::IntMul, &[lines[1], lines[2]], AT);
-        let minus = b.apply(Op::IntNeg, &[rest], AT);
-        let sum = b.apply(Op::IntSub, &[product, minus], AT);
-        let sum = b.apply(Op::IntAdd, &[lines[3], sum], AT);
-        let mask = b.constant(Value::Int(255), AT);
-        let ink = b.apply(Op::BitAnd, &[sum, mask], AT);
-        let image = Image {
-            block: (1, 1),
-            width: 133,
-            height: 20,
-            palette: vec![[0; 3]; 256],
-        };
-        b.finish(image, ink, None)
-    }
-
-    #[test]
-    fn polynomials_are_the_same_in_steps() {
-        for seed in 0..60 {
-            let graph = picture(seed);
-            let found = ranges(&graph, &schedule(&graph), &Slack::exact());
-            let sites = sites(&graph, &found);
-            assert_eq!(sites.len(), 1, "{graph}");
-            let stepped = ramps(&graph, &found, &sites).unwrap();
-            verify(&stepped).unwrap();
-            let count = |g: &Graph| {
-                let ramp = |n: &&Node| matches!(n, Node::Ramp { .. });
-                g.nodes.iter().filter(ramp).count()
-            };
-            assert!((1..=2).contains(&count(&stepped)), "{stepped}");
-            let (mut before, mut after) = (Native::new(&graph), Native::new(&stepped));
-            for y in 0..20 {
-                for x in 0..133 {
-                    assert_eq!(before.pixel(x, y), after.pixel(x, y), "{seed}: {stepped}");
-                }
-            }
-        }
-    }
-
-    #[test]
-    fn what_may_saturate_is_left_alone() {
-        let mut b = Builder::new();
-        let x = b.axis(Axis::X, AT);
-        let y = b.axis(Axis::Y, AT);
-        let large = b.constant(Value::Int(2_000_000_000), AT);
-        let grown = b.apply(Op::IntMul, &[y, large], AT);
-        let sum = b.apply(Op::IntAdd, &[grown, x], AT);
-        let image = Image {
-            block: (1, 1),
-            width: 9,
-            height: 9,
-            palette: vec![[0; 3]; 2],
-        };
-        let graph = b.finish(image, sum, None);
-        let found = ranges(&graph, &schedule(&graph), &Slack::exact());
-        assert_eq!(sites(&graph, &found), []);
     }
 }
