@@ -13,6 +13,8 @@ pub(super) struct Meter<'g, C> {
     cost: C,
     /// What statements cost that ran, each asked for once, and how often they did.
     costs: RefCell<FxHashMap<*const Statement, (f64, u64)>>,
+    /// By node the greatest magnitude of a real that an operation came to, if that is watched.
+    largest: Option<RefCell<Vec<f64>>>,
     /// How often what runs now counts.
     pub weight: Cell<u64>,
     /// What it came to.
@@ -27,10 +29,26 @@ impl<'g, C: Fn(&Statement) -> f64> Meter<'g, C> {
             exact: Exact(graph),
             cost,
             costs: RefCell::default(),
+            largest: None,
             weight: Cell::new(1),
             sum: Cell::new(0.0),
             ran: Cell::new(0),
         }
+    }
+
+    /// The same, watching how large values are.
+    pub fn watching(self) -> Meter<'g, C> {
+        let nodes = self.exact.0.nodes.len();
+        Meter {
+            largest: Some(RefCell::new(vec![0.0; nodes])),
+            ..self
+        }
+    }
+
+    /// How large values were, by node.
+    pub fn largest(&self) -> Vec<f64> {
+        let all = self.largest.as_ref();
+        all.map_or_else(Vec::new, |all| all.borrow().clone())
     }
 
     /// Forgets what statements cost, and what it came to.
@@ -63,7 +81,13 @@ impl<C: Fn(&Statement) -> f64> Arithmetic for &Meter<'_, C> {
     }
 
     fn apply(&self, id: NodeId, op: Op, args: &[Value]) -> Value {
-        self.exact.apply(id, op, args)
+        let value = self.exact.apply(id, op, args);
+        if let (Some(largest), Value::Real(real)) = (&self.largest, value)
+            && let Some(most) = largest.borrow_mut().get_mut(id.0 as usize)
+        {
+            *most = most.max(real.abs());
+        }
+        value
     }
 
     fn gather(&self, received: Value, sent: Value) -> Value {

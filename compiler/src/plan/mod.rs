@@ -58,6 +58,7 @@ mod licm;
 #[cfg(test)]
 mod licm_tests;
 mod lifetimes;
+mod magnitudes;
 mod loose;
 mod made;
 mod merge;

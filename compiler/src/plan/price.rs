@@ -7,8 +7,9 @@
 //! likely ([`crate::flow::often`]). Errors that others send are left out.
 
 use super::beside::Beside;
-use super::choose::choose;
+use super::choose::{Chosen, choose};
 use super::fold_uses::folded;
+use super::magnitudes::seen;
 use super::meter::Meter;
 use super::pixels::{PATIENCE, Pixel, Pixels};
 use super::settled::Settled;
@@ -23,8 +24,9 @@ use crate::passes::rate::rates;
 use crate::passes::region::Fact;
 use crate::passes::segment::bounds_segment;
 use crate::passes::still::{Inks, Still, still};
+use crate::range::Ranges;
 use rustc_hash::FxHashSet;
-use slowlight_routine::Runtime;
+use slowlight_routine::{Format, Runtime};
 use std::sync::Arc;
 
 /// Rows in which runs of columns are looked at.
@@ -71,7 +73,7 @@ impl Price {
 
     /// How often a plan's values are computed; nothing where it cannot be run.
     pub(super) fn profile(&self, plan: &Settled) -> Option<super::profile::Profile> {
-        let routines = choose(&plan.graph, &plan.tree, &plan.ranges, self.runtime, None).ok()?;
+        let routines = self.routines(plan)?;
         Some(super::profile::Profile::new(
             plan,
             self.runtime,
@@ -98,9 +100,20 @@ impl Price {
         cycles * (1.0 + self.memory * (inside + more + self.around * around))
     }
 
+    /// About which routines a plan would have; nothing where there is none for an operation.
+    fn routines(&self, plan: &Settled) -> Option<Chosen> {
+        let by = |ranges: &Ranges| choose(&plan.graph, &plan.tree, ranges, self.runtime, None).ok();
+        if !matches!(self.runtime.real, Format::Scaled { .. }) || self.pixels.is_empty() {
+            return by(&plan.ranges);
+        }
+        let meter = Meter::new(&plan.graph, |_: &Statement| 0.0).watching();
+        self.run(plan, &meter, None);
+        by(&seen(&plan.graph, &plan.ranges, &meter))
+    }
+
     /// Cycles a pixel.
     fn cycles(&self, plan: &Settled) -> f64 {
-        let Ok(routines) = choose(&plan.graph, &plan.tree, &plan.ranges, self.runtime, None) else {
+        let Some(routines) = self.routines(plan) else {
             return f64::INFINITY;
         };
         let runs = !plan.tree.segment.is_empty();
