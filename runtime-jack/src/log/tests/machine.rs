@@ -9,7 +9,7 @@ use crate::tests::generator::{Generator, STIR, Sums, all_pairs};
 use crate::tests::machine::{pairs, run};
 use slowlight_routine::log::LOG;
 use slowlight_routine::log::model::{Log, clamp};
-use slowlight_routine::{Bits, Form, Format, Range, Routine};
+use slowlight_routine::{Bits, Form, Format, Op, Range, Routine};
 
 const MAIN: &str = "
     static int seed, block, first, second, i, j, out, a, b, r;
@@ -234,6 +234,15 @@ fn program(routine: &Routine, step: &str, with_edges: bool, count: u32) -> Vec<(
         count / 1000,
         draw.jack(routine),
     );
+    // A routine costs what it does of operands as pictures have them: angles are from 1/4 to 16,
+    // and what is rounded from 1 to 64.
+    if !with_edges && matches!(routine.op, Op::Sin | Op::Cos | Op::Floor | Op::Round) {
+        let angle = matches!(routine.op, Op::Sin | Op::Cos);
+        let less = if angle { " - 2048" } else { "" };
+        let usual = format!("let a = (Main.random() & 4095) + (Main.random() & 2047){less};\n");
+        main = main.replace("let a = Main.clamped(Main.any(0));\n", &usual);
+        main = main.replace("let a = Main.clamped(Main.inner(0));\n", &usual);
+    }
     let mut files = vec![("Main.jack".to_owned(), main)];
     let all = classes(&parts).into_iter();
     files.extend(all.map(|(name, text)| (format!("{name}.jack"), text)));
