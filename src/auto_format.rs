@@ -16,7 +16,7 @@
 //! Formats of few bits are looked at first. Where the quickest of those is within the goal, and
 //! no slower than fixed point in 16 bits, the wider ones are not: they take longer.
 
-use crate::estimate::{self, Sampled};
+use crate::estimate::{self, Inked, Sampled};
 use crate::failure::{Failure, Outcome};
 use crate::interrupt;
 use crate::need;
@@ -37,6 +37,9 @@ const FINAL: (u32, u64) = (64, 16_000_000);
 
 /// How many operations the native evaluation of a sample may take.
 const NATIVE: u64 = 200_000_000;
+
+/// In so many parts it is done at the same time.
+const PARTS: usize = 2;
 
 /// Of a sample one pixel in so many must have been looked at, or nothing is known.
 const ENOUGH: usize = 8;
@@ -238,13 +241,13 @@ fn candidates(
     let all: Vec<(Plan, Sampled)> = formats.par_iter().filter_map(sampled).collect();
     // All look at the same pixels, as far as they come.
     let longest = all.iter().max_by_key(|(_, seen)| seen.inks.len());
-    let native = longest.map_or(Vec::new(), |(plan, seen)| native(scene, plan, seen));
+    let native = longest.map_or(Vec::new(), |(plan, seen)| native(scene, plan, &seen.inks));
     let candidate = |(plan, seen): &(Plan, Sampled)| {
         Some(Candidate {
             target: plan.target,
             rows: plan.rows,
             cycles: seen.cycles(),
-            wrong: unlike(seen, &native)?,
+            wrong: unlike((&seen.inks, seen.of), &native)?,
         })
     };
     let mut all: Vec<Candidate> = all.iter().filter_map(candidate).collect();
@@ -268,31 +271,46 @@ fn expected(scene: &Scene, plan: &Plan, rows: (u32, u32)) -> Option<f64> {
     let (_waiting, _blind) = (Waiting::new("pixels"), interrupt::blind());
     let mut plan = plan.clone();
     plan.rows = rows;
-    let seen = estimate::sampled(&plan, FINAL.0, FINAL.1);
-    unlike(&seen, &native(scene, &plan, &seen))
+    let (inks, of) = estimate::inks(&plan, FINAL.0, FINAL.1 / PARTS as u64, PARTS);
+    unlike((&inks, of), &native(scene, &plan, &inks))
 }
 
 /// The native inks of a sample, each by itself, since nothing is sent to it by others; of as
-/// many pixels as take no more work than is worth it.
-fn native(scene: &Scene, plan: &Plan, seen: &Sampled) -> Vec<u8> {
+/// many as take no more work than is worth it.
+fn native(scene: &Scene, plan: &Plan, seen: &[Inked]) -> Vec<Option<u8>> {
     // What compiles for the machine compiles natively.
     let Ok(graph) = scene.graph(Some(plan.mode.inks), Precision::NATIVE) else {
         return Vec::new();
     };
     let mut graph = coarse(&graph, plan.graph.image.block);
     graph.diffusion = None;
-    let mut native = Native::within(&graph, NATIVE);
-    let ink = |&(x, y, _): &(u32, u32, u8)| {
-        let pixel = native.pixel(x as i32, y as i32);
-        (!native.spent()).then_some(pixel.ink)
-    };
-    seen.inks.iter().map_while(ink).collect()
+    // Rows are shared out among threads, each with its part of the work.
+    let rows: Vec<&[Inked]> = seen.chunk_by(|a, b| a.1 == b.1).collect();
+    let part = rows.len().div_ceil(PARTS).max(1);
+    let known: Vec<Vec<Option<u8>>> = rows
+        .par_chunks(part)
+        .map(|rows| {
+            let mut native = Native::within(&graph, NATIVE / PARTS as u64);
+            let mut inks = Vec::new();
+            for row in rows {
+                let columns: Vec<i32> = row.iter().map(|(x, _, _)| *x as i32).collect();
+                let mut pixels = Vec::new();
+                native.scattered(&columns, row[0].1 as i32, &mut pixels);
+                let known = !native.spent();
+                inks.extend(pixels.iter().map(|pixel| known.then_some(pixel.ink)));
+            }
+            inks
+        })
+        .collect();
+    known.concat()
 }
 
 /// The share of a sample's inks that are others than those; none where too few are known.
-fn unlike(seen: &Sampled, native: &[u8]) -> Option<f64> {
-    let known = seen.inks.len().min(native.len());
-    let pairs = seen.inks.iter().zip(native);
-    let wrong = pairs.filter(|((_, _, ink), native)| ink != *native);
-    (known > 0 && known * ENOUGH >= seen.of).then(|| wrong.count() as f64 / known as f64)
+fn unlike((seen, of): (&[Inked], usize), native: &[Option<u8>]) -> Option<f64> {
+    let pairs = seen.iter().zip(native);
+    let pairs = pairs.filter_map(|((_, _, ink), native)| Some((*ink, (*native)?)));
+    let (known, wrong) = pairs.fold((0, 0), |(known, wrong), (ink, native)| {
+        (known + 1, wrong + usize::from(ink != native))
+    });
+    (known > 0 && known * ENOUGH >= of).then(|| wrong as f64 / known as f64)
 }

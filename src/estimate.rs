@@ -11,6 +11,7 @@
 //! have.
 
 use crate::draw::{Window, coarse_first};
+use rayon::prelude::*;
 use rustc_hash::FxHashMap;
 use slowlight_compiler::eval::heard::{Heard, Listener};
 use slowlight_compiler::eval::model::{self, Model};
@@ -101,6 +102,9 @@ impl Listener<Bits> for Adding<'_> {
 
 type Adds<'t, 'p> = Run<'t, &'t Heard<Model<'p>, Adding<'p>>>;
 
+/// A pixel: column, row, and ink.
+pub type Inked = (u32, u32, u8);
+
 /// What the model shows at a sample of a plan's pixels.
 pub struct Sampled {
     /// The cycles before the first row: what makes a program ready, what is carried out once a
@@ -108,8 +112,7 @@ pub struct Sampled {
     pub before: f64,
     /// The cycles that the statements of all rows take together.
     pub rows: f64,
-    /// Pixels: column, row, and ink.
-    pub inks: Vec<(u32, u32, u8)>,
+    pub inks: Vec<Inked>,
     /// How many pixels the whole sample has.
     pub of: usize,
 }
@@ -195,6 +198,35 @@ pub fn sampled(plan: &Plan, side: u32, most: u64) -> Sampled {
         inks,
         of: rows.len() * columns.len(),
     }
+}
+
+/// The inks of a sample of so many rows and columns alone, in parts at the same time of which
+/// each may run so many statements; and how many pixels the whole sample has.
+pub fn inks(plan: &Plan, side: u32, most: u64, parts: usize) -> (Vec<Inked>, usize) {
+    let mut graph = plan.graph.clone();
+    graph.diffusion = None;
+    let window = Window::of(plan);
+    let rows = coarse_first(sample(window.rows, side));
+    let columns = sample(window.columns, side);
+    let part = rows.len().div_ceil(parts).max(1);
+    let all: Vec<Vec<Inked>> = rows
+        .par_chunks(part)
+        .map(|rows| {
+            let mut run = Run::within(&graph, &plan.tree, Model(plan), most);
+            let mut inks = Vec::new();
+            for &y in rows {
+                for &x in &columns {
+                    let ink = model::ink(plan, run.pixel(x as i32, y as i32));
+                    if run.spent() {
+                        return inks;
+                    }
+                    inks.push((x, y, ink));
+                }
+            }
+            inks
+        })
+        .collect();
+    (all.concat(), rows.len() * columns.len())
 }
 
 /// What begins runs of columns, in a pass.

@@ -167,21 +167,34 @@ impl Look<'_> {
         if one * f64::from(FEW) > ENOUGH {
             return self.spread_few(one);
         }
-        let both = self.took((middle, middle + 1))?;
-        let other = self.took((middle + 1, middle + 1))?;
+        let (both, other) = rayon::join(
+            || self.run((middle, middle + 1)),
+            || self.run((middle + 1, middle + 1)),
+        );
+        let (both, other) = (both?, other?);
+        self.spent += both + other;
         let before = (one + other - both).clamp(0.0, one.min(other));
         let height = f64::from(self.height());
         let whole = |sum: f64, rows: u32| before + sum / f64::from(rows) * height;
         let mut sum = one - before;
         self.rows = 1;
-        for place in &PLACES[1..] {
-            let long = whole(sum, self.rows) > ENOUGH;
-            if !long || self.spent > ENOUGH && self.rows >= FEW {
-                break;
+        if whole(sum, self.rows) <= ENOUGH {
+            return Ok(whole(sum, self.rows));
+        }
+        // Two at the same time; the second counts only if it were looked at after the first.
+        for places in PLACES[1..].chunks(2) {
+            let rows = places.par_iter().map(|place| self.at(*place));
+            let took: Vec<Outcome<f64>> = rows.map(|row| self.run((row, row))).collect();
+            for took in took {
+                let took = took?;
+                self.spent += took;
+                sum += took - before;
+                self.rows += 1;
+                let long = whole(sum, self.rows) > ENOUGH;
+                if !long || self.spent > ENOUGH && self.rows >= FEW {
+                    return Ok(whole(sum, self.rows));
+                }
             }
-            let row = self.at(*place);
-            sum += self.took((row, row))? - before;
-            self.rows += 1;
         }
         Ok(whole(sum, self.rows))
     }

@@ -15,8 +15,8 @@ use super::graph::*;
 use super::ramp;
 use crate::passes::ramps::runs::of_beginnings;
 use crate::passes::rate::{Rates, rates};
-use slowlight_routine::Type;
 use rustc_hash::FxHashMap;
+use slowlight_routine::Type;
 
 /// A rule that is broken, and where.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]

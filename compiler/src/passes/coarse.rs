@@ -9,8 +9,8 @@ use super::rebuild::{End, Rewrite, rebuild_by};
 use crate::flow::build::Builder;
 use crate::flow::graph::*;
 use crate::source::Span;
-use slowlight_routine::{Op, Value};
 use rustc_hash::FxHashMap;
+use slowlight_routine::{Op, Value};
 
 /// The graph of a picture of blocks, each so many columns wide and rows high. Its image
 /// counts blocks; both sides of the picture must be whole numbers of them.

@@ -11,8 +11,8 @@ use super::arena::Arena;
 use super::peel::{alone, before, body, cone};
 use super::rate::{Dependence, Rates, rates};
 use crate::flow::graph::*;
-use slowlight_routine::{Type, Value};
 use rustc_hash::FxHashMap;
+use slowlight_routine::{Type, Value};
 
 /// The graph with a loop behind a guard of at most so many conditions; nothing where
 /// the loop stands in another or has one in its body, or where its body has more than

@@ -3,8 +3,8 @@
 
 use crate::flow::graph::*;
 use crate::flow::tree::*;
-use slowlight_routine::Op;
 use rustc_hash::FxHashMap;
+use slowlight_routine::Op;
 
 /// Whether a value is there for as long as what is made of it: what a loop carries is
 /// another one when its turn is over, and what a call is given in the next.

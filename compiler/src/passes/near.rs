@@ -11,8 +11,8 @@
 
 use crate::flow::graph::*;
 use crate::flow::tree::*;
-use slowlight_routine::Op;
 use rustc_hash::{FxHashMap, FxHashSet};
+use slowlight_routine::Op;
 
 /// What only runs of columns read of a pass's ints, if computing one takes no longer
 /// than reading it: it stands in front of the first statement that reads it, so that

@@ -11,8 +11,8 @@ use super::segment::Known;
 use crate::flow::build::Builder;
 use crate::flow::graph::*;
 use crate::source::Span;
-use slowlight_routine::{Op, Type, Value};
 use rustc_hash::FxHashMap;
+use slowlight_routine::{Op, Type, Value};
 
 /// What a value depends on beside what its run knows.
 #[derive(Clone, Copy, PartialEq)]

@@ -14,8 +14,8 @@ use super::Plan;
 use crate::flow::graph::*;
 use crate::flow::tree::*;
 use crate::passes::region::Fact;
-use slowlight_routine::{Format, Op, Value};
 use rustc_hash::FxHashMap;
+use slowlight_routine::{Format, Op, Value};
 
 /// How many conditions are looked at both ways, at most: each only sets more apart. Of a large
 /// program as many as so many pairs of a step and a place allow.

@@ -3,8 +3,8 @@
 use crate::flow::graph::*;
 use crate::flow::tree::*;
 use crate::passes::still::Still;
-use slowlight_routine::{Form, Routine};
 use rustc_hash::FxHashMap;
+use slowlight_routine::{Form, Routine};
 
 /// How often an int may be read as a real where it is not kept as one: each time takes
 /// a sixth of what keeping it takes.

@@ -11,8 +11,8 @@ use super::alive::{Flow, Set};
 use crate::flow::graph::*;
 use crate::flow::tree::*;
 use crate::passes::region::{Fact, implied};
-use slowlight_routine::{Format, Op};
 use rustc_hash::{FxHashMap, FxHashSet};
+use slowlight_routine::{Format, Op};
 
 /// The variables of places.
 #[derive(Clone, Debug, Default)]

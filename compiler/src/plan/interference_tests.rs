@@ -14,8 +14,8 @@ use crate::passes::schedule::schedule_together;
 use crate::scene::check;
 use crate::sema::Options;
 use crate::target::bbc;
-use slowlight_routine::Format;
 use rustc_hash::FxHashMap;
+use slowlight_routine::Format;
 
 /// What is written: a number of its own for each writing that is no copy.
 type Mark = u64;

@@ -14,8 +14,8 @@ use super::Plan;
 use super::merge::merged;
 use crate::flow::graph::*;
 use crate::flow::tree::*;
-use slowlight_routine::Format;
 use rustc_hash::FxHashMap;
+use slowlight_routine::Format;
 
 /// From the first writing to the last reading, as numbers of statements.
 #[derive(Clone, Copy, Debug)]

@@ -58,12 +58,19 @@ pub(super) fn seen<C: Fn(&Statement) -> f64>(
         }
     };
     let all = |ranges: &[Range]| -> Vec<Range> {
-        graph.ids().zip(ranges).map(|(id, range)| cut(id, *range)).collect()
+        graph
+            .ids()
+            .zip(ranges)
+            .map(|(id, range)| cut(id, *range))
+            .collect()
     };
-    let args = graph.ids().zip(&ranges.args).map(|(id, args)| match graph.node(id) {
-        Node::Apply(_, of) => [cut(of[0], args[0]), cut(of[1], args[1])],
-        _ => *args,
-    });
+    let args = graph
+        .ids()
+        .zip(&ranges.args)
+        .map(|(id, args)| match graph.node(id) {
+            Node::Apply(_, of) => [cut(of[0], args[0]), cut(of[1], args[1])],
+            _ => *args,
+        });
     Ranges {
         result: all(&ranges.result),
         exact: all(&ranges.exact),

@@ -47,7 +47,13 @@ pub fn merged(plan: &Plan) -> FxHashMap<Place, Place> {
 
 /// The places that are set at the end of an arm, as they are of the other, from
 /// what only this arm computes.
-fn arm(plan: &Plan, all: &Accesses, arm: &Block, other: &Block, found: &mut FxHashMap<Place, Place>) {
+fn arm(
+    plan: &Plan,
+    all: &Accesses,
+    arm: &Block,
+    other: &Block,
+    found: &mut FxHashMap<Place, Place>,
+) {
     let ends = |block: &Block, outer: Place| {
         let sets = block.iter().filter(|s| sets_place(s, outer));
         sets.count() == 1

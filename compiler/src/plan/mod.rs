@@ -58,9 +58,9 @@ mod licm;
 #[cfg(test)]
 mod licm_tests;
 mod lifetimes;
-mod magnitudes;
 mod loose;
 mod made;
+mod magnitudes;
 mod merge;
 mod meter;
 mod names;
@@ -106,8 +106,8 @@ use crate::range::Ranges;
 use crate::source::Span;
 use crate::target::{Mode, Target};
 use made::Rewriting;
-use slowlight_routine::{Bits, Format, Routine, Runtime, Type, Value};
 use rustc_hash::FxHashMap;
+use slowlight_routine::{Bits, Format, Routine, Runtime, Type, Value};
 use std::sync::Arc;
 use workshop::Workshop;
 

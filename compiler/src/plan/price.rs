@@ -67,7 +67,8 @@ impl Price {
 
     /// Cycles a pixel, and something for memory.
     pub fn of(&self, plan: &Settled) -> f64 {
-        let (cycles, [inside, around]) = *plan.cost.get_or_init(|| (self.cycles(plan), memory(plan)));
+        let (cycles, [inside, around]) =
+            *plan.cost.get_or_init(|| (self.cycles(plan), memory(plan)));
         cycles * (1.0 + self.memory * (inside + self.around * around))
     }
 
@@ -262,9 +263,7 @@ impl Price {
             };
             // Of a run whose inks are known before nothing is computed, or one bool.
             sum += match still {
-                Some((still, asked)) if still.conditions.iter().all(holds) => {
-                    asked * weight as f64
-                }
+                Some((still, asked)) if still.conditions.iter().all(holds) => asked * weight as f64,
                 _ => meter.sum.get(),
             };
             if meter.ran.get() > patience {

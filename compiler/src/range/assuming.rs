@@ -3,8 +3,8 @@
 use super::interval::interval;
 use super::{Ranges, Slack};
 use crate::flow::graph::*;
-use slowlight_routine::{Range, Runtime};
 use rustc_hash::FxHashMap;
+use slowlight_routine::{Range, Runtime};
 
 /// Between which bounds the arguments of a run of operations stay where some
 /// values are known to lie closer than `known` says.

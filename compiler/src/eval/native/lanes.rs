@@ -230,20 +230,11 @@ impl Lanes {
         }
     }
 
-    /// `first`, `first + 1`, ... from lane 0 on.
-    pub fn count_up(&mut self, slot: u32, first: i32) {
+    /// A number in each lane, from lane 0 on.
+    pub fn each(&mut self, slot: u32, numbers: impl Iterator<Item = i32>) {
         let lanes = self.ints.slot_mut(slot).as_flattened_mut();
-        for (value, lane) in lanes.iter_mut().zip(0..) {
-            *value = first.wrapping_add(lane);
-        }
-    }
-
-    /// The same modulo a number above 0.
-    pub fn count_modulo(&mut self, slot: u32, first: i32, modulus: u32) {
-        self.count_up(slot, first);
-        let lanes = self.ints.slot_mut(slot).as_flattened_mut();
-        for value in lanes {
-            *value = value.rem_euclid(modulus.max(1) as i32);
+        for (value, number) in lanes.iter_mut().zip(numbers) {
+            *value = number;
         }
     }
 

@@ -72,6 +72,8 @@ pub struct Native<'g> {
     /// What is to be computed next, last first, and in which lanes.
     stack: Vec<(u32, Mask)>,
     block: Option<Block>,
+    /// Each lane's column.
+    columns: [i32; Mask::BITS as usize],
     operations: u64,
     /// How many may be computed before loops end.
     most: u64,
@@ -107,6 +109,7 @@ impl<'g> Native<'g> {
             done: vec![0; plan.loops.len()],
             stack: Vec::new(),
             block: None,
+            columns: [0; Mask::BITS as usize],
             operations: 0,
             most: u64::MAX,
             spreading: spread::Spreading::new(graph),
@@ -151,7 +154,28 @@ impl<'g> Native<'g> {
             return self.spread(columns, y, out);
         }
         for block in blocks(columns, y, self.lanes.lanes()) {
-            self.enter(block);
+            self.enter(block, block.x..);
+            self.shown(block.mask());
+            out.extend((0..block.count).map(|lane| self.look(lane)));
+        }
+    }
+
+    /// The pixels at any columns of row `y`, in their order; those to the left of others first
+    /// where the graph spreads its error.
+    pub fn scattered(&mut self, columns: &[i32], y: i32, out: &mut Vec<Pixel>) {
+        if self.spreading.is_some() {
+            out.extend(columns.iter().map(|x| self.pixel(*x, y)));
+            return;
+        }
+        for columns in columns.chunks(self.lanes.lanes()) {
+            let block = Block {
+                x: columns[0],
+                y,
+                count: columns.len(),
+            };
+            // Lanes without a pixel have a column, too.
+            let rest = std::iter::repeat(columns[0]);
+            self.enter(block, columns.iter().copied().chain(rest));
             self.shown(block.mask());
             out.extend((0..block.count).map(|lane| self.look(lane)));
         }
@@ -169,8 +193,8 @@ impl<'g> Native<'g> {
         all
     }
 
-    /// Comes to other pixels: forgets what depends on where they are.
-    fn enter(&mut self, block: Block) {
+    /// Comes to other pixels, at these columns: forgets what depends on where they are.
+    fn enter(&mut self, block: Block, columns: impl Iterator<Item = i32>) {
         let was = self.block.replace(block);
         if was.is_none_or(|was| was.y != block.y) {
             self.forget(Dependence::Row, ALL);
@@ -180,11 +204,18 @@ impl<'g> Native<'g> {
         if !was.is_some_and(same) {
             self.forget(Dependence::Column, ALL);
         }
+        for (known, column) in self.columns.iter_mut().zip(columns) {
+            *known = column;
+        }
+        let columns = self.columns.iter().copied();
         for &(axis, slot) in &self.plan.axes {
             match axis {
-                Axis::X | Axis::Run => self.lanes.count_up(slot, block.x),
+                Axis::X | Axis::Run => self.lanes.each(slot, columns.clone()),
                 Axis::Y => self.lanes.fill(Type::Int, slot, Value::Int(block.y)),
-                Axis::Pass(n) => self.lanes.count_modulo(slot, block.x, n),
+                Axis::Pass(n) => {
+                    let pass = |x: i32| x.rem_euclid(n.max(1) as i32);
+                    self.lanes.each(slot, columns.clone().map(pass));
+                }
             }
         }
     }

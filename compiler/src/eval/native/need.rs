@@ -149,7 +149,6 @@ impl Native<'_> {
     }
 
     fn ramp(&mut self, number: u32, slot: u32, mask: Mask) {
-        let first = self.block.map_or(0, |block| block.x);
         let mut rest = mask;
         while rest != 0 {
             let lane = rest.trailing_zeros();
@@ -157,7 +156,7 @@ impl Native<'_> {
             let parts: Vec<i32> = (ramp.parts.iter())
                 .map(|part| self.lanes.get(Type::Int, part.slot, lane as usize).int())
                 .collect();
-            let column = first.wrapping_add(lane as i32);
+            let column = self.columns[lane as usize];
             let value = ramp::at(column.div_euclid(ramp.stride), &parts);
             self.lanes
                 .set(Type::Int, slot, lane as usize, Value::Int(value));

@@ -100,7 +100,7 @@ impl Native<'_> {
 
     /// Draws pixels that are the next in order.
     fn spread_block(&mut self, block: Block, out: &mut Vec<Pixel>) {
-        self.enter(block);
+        self.enter(block, block.x..);
         let Some(mut spreading) = self.spreading.take() else {
             return;
         };

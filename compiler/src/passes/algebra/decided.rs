@@ -19,8 +19,8 @@ use super::poly::{Atom, Poly};
 use crate::flow::graph::*;
 use crate::passes::rebuild::rebuild_old;
 use crate::range::Ranges;
-use slowlight_routine::{Op, Runtime, Value};
 use rustc_hash::FxHashMap;
+use slowlight_routine::{Op, Runtime, Value};
 
 /// How many of the format's units roundings may move a sum, as a part of the sum
 /// of its terms' sizes: what a value is computed by takes fewer operations.

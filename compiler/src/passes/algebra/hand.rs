@@ -3,8 +3,8 @@
 
 use super::Site;
 use crate::flow::graph::*;
-use slowlight_routine::Type;
 use rustc_hash::FxHashSet;
+use slowlight_routine::Type;
 
 impl Site<'_> {
     /// Whether a comparison costs no more than itself: what it compares is computed as it

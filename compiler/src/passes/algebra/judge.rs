@@ -9,6 +9,7 @@
 
 use super::New;
 use super::follow::{Follow, Nodes, Rounded, Sample};
+use super::key::{Keys, shared};
 use crate::flow::build::Builder;
 use crate::flow::graph::*;
 use rustc_hash::FxHashMap;
@@ -112,7 +113,19 @@ pub struct Judge<'g> {
 /// What a graph's own values come to at its samples, kept for whoever judges other forms of
 /// them: forms are judged again and again, each time with other ones beside them.
 #[derive(Default)]
-pub struct Followed(Mutex<FxHashMap<NodeId, Arc<AtSamples>>>);
+pub struct Followed {
+    values: Mutex<FxHashMap<NodeId, Known>>,
+    /// Whether a form is good enough for a value, by its number ([`Keys`]).
+    judged: Mutex<FxHashMap<(NodeId, bool, u64), bool>>,
+}
+
+/// What is known of a value.
+#[derive(Clone)]
+struct Known {
+    at: Arc<AtSamples>,
+    /// What of it is the same in its forms.
+    shared: Arc<Vec<NodeId>>,
+}
 
 /// A value at each sample, as far as it was looked at; nothing where it depends on a loop.
 type AtSamples = Vec<OnceLock<Option<Was>>>;
@@ -148,11 +161,25 @@ impl Was {
 
 impl Followed {
     /// What is known of a value at so many samples.
-    fn of(&self, id: NodeId, samples: usize) -> Arc<AtSamples> {
+    fn of(&self, graph: &Graph, id: NodeId, samples: usize) -> Known {
         // A thread that panicked has left whole entries.
-        let mut all = self.0.lock().unwrap_or_else(PoisonError::into_inner);
-        let none = || Arc::new((0..samples).map(|_| OnceLock::new()).collect());
+        let mut all = self.values.lock().unwrap_or_else(PoisonError::into_inner);
+        let none = || Known {
+            at: Arc::new((0..samples).map(|_| OnceLock::new()).collect()),
+            shared: Arc::new(shared(graph, id)),
+        };
         all.entry(id).or_insert_with(none).clone()
+    }
+
+    /// What a form was judged to be, if it was; else what it is.
+    fn judged(&self, key: (NodeId, bool, u64), judge: impl FnOnce() -> bool) -> bool {
+        let held = || self.judged.lock().unwrap_or_else(PoisonError::into_inner);
+        let known = held().get(&key).copied();
+        known.unwrap_or_else(|| {
+            let good = judge();
+            held().insert(key, good);
+            good
+        })
     }
 }
 
@@ -186,6 +213,21 @@ impl Judge<'_> {
         made: NodeId,
         where_equal: bool,
     ) -> bool {
+        let known = self.followed.of(self.graph, old, self.samples.len());
+        let judge = || self.judged_at(&known.at, (b, new), (old, made), where_equal);
+        match Keys::new(b, new, &known.shared).of(made) {
+            Some(key) => self.followed.judged((old, where_equal, key), judge),
+            None => judge(),
+        }
+    }
+
+    fn judged_at(
+        &self,
+        known: &AtSamples,
+        (b, new): (&Builder, New<'_>),
+        (old, made): (NodeId, NodeId),
+        where_equal: bool,
+    ) -> bool {
         let Some(first) = self.samples.first() else {
             return false;
         };
@@ -193,7 +235,6 @@ impl Judge<'_> {
         let mut before = Follow::new(self.graph, &now, first);
         let next = |t: TableId| b.table_of(t);
         let mut is = Follow::new(b, &next, first);
-        let known = self.followed.of(old, self.samples.len());
         let mut told = 0;
         for (was, sample) in known.iter().zip(self.samples) {
             let was = was.get_or_init(|| {

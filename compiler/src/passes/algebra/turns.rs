@@ -6,8 +6,8 @@ use super::form::{Form, Forms, Part};
 use super::number::Number;
 use super::poly::Poly;
 use crate::flow::graph::*;
-use slowlight_routine::Op;
 use rustc_hash::FxHashMap;
+use slowlight_routine::Op;
 
 /// The sign that tells how a condition or a sign goes, and whether the other way.
 pub type Turns = FxHashMap<NodeId, (NodeId, bool)>;

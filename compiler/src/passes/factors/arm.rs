@@ -4,8 +4,8 @@ use super::{Site, Way};
 use crate::flow::build::Builder;
 use crate::flow::graph::*;
 use crate::source::Span;
-use slowlight_routine::{Op, Value};
 use rustc_hash::FxHashMap;
+use slowlight_routine::{Op, Value};
 
 /// What values are where a switch has one of its values.
 pub struct Arm<'a, 'g> {

@@ -31,8 +31,8 @@ use crate::flow::build::Builder;
 use crate::flow::graph::*;
 use crate::range::Ranges;
 use crate::source::Span;
-use slowlight_routine::{Op, Range, Type, Value};
 use rustc_hash::FxHashMap;
+use slowlight_routine::{Op, Range, Type, Value};
 
 /// The lengths that vectors of a graph are divided by: roots of what is proved
 /// above 0, each of them the divisor of several values.

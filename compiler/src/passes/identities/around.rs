@@ -16,8 +16,8 @@ use crate::flow::graph::*;
 use crate::passes::algebra::{Forms, allowance};
 use crate::passes::rebuild::rebuild_old;
 use crate::range::Ranges;
-use slowlight_routine::{Op, Runtime, Type, Value};
 use rustc_hash::FxHashMap;
+use slowlight_routine::{Op, Runtime, Type, Value};
 use std::collections::BTreeSet;
 
 /// By how much a comparison must be clear, as a part of what is compared: far more

@@ -24,9 +24,9 @@ use crate::range::Ranges;
 use crate::source::Span;
 pub use around::around;
 use field::{Field, Print};
+use rustc_hash::FxHashSet;
 use search::{Formula, Fraction, Sums};
 use slowlight_routine::{Op, Runtime, Type, Value};
-use rustc_hash::FxHashSet;
 use std::collections::BTreeSet;
 
 /// Among how many values that one is made of a formula is looked for.

@@ -4,8 +4,8 @@ use super::forest::{BlockId, Forest};
 use super::make::Maker;
 use super::token::Token;
 use crate::flow::graph::*;
-use slowlight_routine::Type;
 use rustc_hash::FxHashMap;
+use slowlight_routine::Type;
 use std::collections::{BTreeMap, BinaryHeap};
 
 /// Statements that a run has at most, those inside others included.

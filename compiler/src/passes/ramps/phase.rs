@@ -28,8 +28,8 @@ use crate::passes::rate::{Rates, rates};
 use crate::passes::rebuild::rebuild_old;
 use crate::range::Ranges;
 use crate::source::Span;
-use slowlight_routine::{Op, Runtime, Type, Value};
 use rustc_hash::FxHashMap;
+use slowlight_routine::{Op, Runtime, Type, Value};
 
 /// By how much the phase may be further off than the reals: six bits.
 const MOST: f64 = 64.0;

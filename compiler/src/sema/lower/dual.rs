@@ -10,8 +10,8 @@ use super::derive::{Formula, Markers};
 use super::{Found, Lower};
 use crate::flow::graph::{Loop, LoopId, Node, NodeId};
 use crate::source::Span;
-use slowlight_routine::Type;
 use rustc_hash::FxHashMap;
+use slowlight_routine::Type;
 use std::collections::{BTreeMap, BTreeSet};
 
 /// What becomes of a node at the point: its value and its slopes (none: 0).

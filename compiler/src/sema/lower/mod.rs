@@ -37,8 +37,8 @@ use crate::flow::graph::{Axis, Graph, Image, NodeId};
 use crate::sema::program::*;
 use crate::sema::ty::Ty;
 use crate::source::{Diagnostic, Span};
-use slowlight_routine::{Op, Type, Value};
 use rustc_hash::FxHashMap;
+use slowlight_routine::{Op, Type, Value};
 use value::Val;
 
 /// Nodes at most.

@@ -4,8 +4,8 @@ use super::derive::{Coefficients, Formula};
 use super::{Found, Lower};
 use crate::flow::graph::{Node, NodeId};
 use crate::source::Span;
-use slowlight_routine::Op;
 use rustc_hash::FxHashMap;
+use slowlight_routine::Op;
 
 impl Lower<'_> {
     /// The coefficients of 1, t and t^2 of a formula whose markers are

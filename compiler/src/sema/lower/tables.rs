@@ -6,8 +6,8 @@ use crate::flow::graph::{self, Constant, NodeId, TableId};
 use crate::sema::program::*;
 use crate::sema::ty::Ty;
 use crate::source::Span;
-use slowlight_routine::{Type, Value};
 use rustc_hash::FxHashMap;
+use slowlight_routine::{Type, Value};
 use std::rc::Rc;
 
 /// The most rows of a Bayer matrix, whose steps are then 1/65536 of the range.

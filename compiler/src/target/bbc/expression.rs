@@ -7,10 +7,10 @@ use super::pieces::{depth, short_length};
 use super::text::{Fast, Text};
 use crate::flow::graph::*;
 use crate::plan::Plan;
+use rustc_hash::FxHashMap;
 use slowlight_routine::{Form, Op, Range, Type, Value};
 use slowlight_runtime_bbc::level::{OPERAND, PRODUCT, SUM};
 use slowlight_runtime_bbc::literal;
-use rustc_hash::FxHashMap;
 
 /// Longer expressions are given a variable, so that lines stay short.
 const LONGEST: usize = 100;

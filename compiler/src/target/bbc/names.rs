@@ -4,8 +4,8 @@ use super::Style;
 use crate::flow::graph::NodeId;
 use crate::flow::tree::{Place, SubroutineId, tabulated};
 use crate::plan::{Plan, quick_homes};
-use slowlight_routine::{Format, Type};
 use rustc_hash::{FxHashMap, FxHashSet};
+use slowlight_routine::{Format, Type};
 use std::collections::BTreeSet;
 
 /// Names of everything in the program.

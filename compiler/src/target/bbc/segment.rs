@@ -14,9 +14,9 @@ use crate::passes::rate::rates;
 use crate::passes::segment::bounds_segment;
 use crate::passes::still::{Inks, Still};
 use crate::plan::Plan;
+use rustc_hash::FxHashSet;
 use slowlight_routine::Op;
 use slowlight_runtime_bbc::level::OPERAND;
-use rustc_hash::FxHashSet;
 
 /// How often a segment's statements are carried out, roughly: for the weights
 /// of names only.

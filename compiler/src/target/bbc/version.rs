@@ -13,9 +13,9 @@ use super::lines::Lines;
 use crate::flow::graph::{Node, NodeId};
 use crate::flow::tree::{Block, Statement};
 use crate::range::assuming;
+use rustc_hash::FxHashMap;
 use slowlight_routine::{Op, Range, Type, Value};
 use slowlight_runtime_bbc::guards;
-use rustc_hash::FxHashMap;
 use std::collections::BTreeSet;
 
 /// How large values are taken to be, the largest that helps most.

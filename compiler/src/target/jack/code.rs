@@ -9,9 +9,9 @@ use super::{Line, Text};
 use crate::flow::graph::*;
 use crate::flow::tree::*;
 use crate::plan::Plan;
+use rustc_hash::FxHashMap;
 use slowlight_routine::{Form, Format, Routine, Value};
 use slowlight_runtime_jack::{SUM, TERM};
-use rustc_hash::FxHashMap;
 use std::collections::{BTreeMap, BTreeSet};
 
 /// Lines that a subroutine holds at most before it is divided.

@@ -8,8 +8,8 @@ use super::canvas::Canvas;
 use crate::flow::graph::*;
 use crate::flow::tree::{Place, SubroutineId, tabulated};
 use crate::plan::{Plan, shared_homes};
-use slowlight_routine::Format;
 use rustc_hash::FxHashMap;
+use slowlight_routine::Format;
 use std::collections::{BTreeMap, BTreeSet};
 
 /// Words that no variable may have for a name.

@@ -12,9 +12,9 @@ use crate::flow::tree::*;
 use crate::passes::rate::rates;
 use crate::passes::segment::bounds_segment;
 use crate::plan::{Plan, shared_homes};
+use rustc_hash::FxHashMap;
 use slowlight_routine::Format;
 use slowlight_runtime_6502::write::{self, Place as Operand, Shape};
-use rustc_hash::FxHashMap;
 use std::collections::{BTreeMap, BTreeSet};
 
 /// Something that the program keeps in memory.

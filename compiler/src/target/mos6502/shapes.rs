@@ -8,9 +8,9 @@ use crate::flow::graph::*;
 use crate::flow::ramp;
 use crate::flow::tree::*;
 use crate::plan::Plan;
+use rustc_hash::{FxHashMap, FxHashSet};
 use slowlight_routine::{Format, Op, Range, Type, scale};
 use slowlight_runtime_6502::write::{Shape, size};
-use rustc_hash::{FxHashMap, FxHashSet};
 
 /// Bytes of an int at most.
 const MOST: u8 = 4;

@@ -3,8 +3,8 @@
 use crate::flow::graph::*;
 use dashu_float::FBig;
 use dashu_float::ops::{Abs, SquareRoot};
-use slowlight_routine::{Op, Value};
 use rustc_hash::FxHashMap;
+use slowlight_routine::{Op, Value};
 
 pub type Big = FBig;
 

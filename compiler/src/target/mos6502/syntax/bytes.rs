@@ -1,8 +1,8 @@
 //! Opcodes that an assembler has no names for, as bytes.
 
 use crate::source::Span;
-use slowlight_isa::opcodes::{self, Mode, OPCODES, Trust};
 use rustc_hash::FxHashMap;
+use slowlight_isa::opcodes::{self, Mode, OPCODES, Trust};
 
 /// What says how long an operand is: the addresses of a program's symbols.
 pub(super) struct Bytes<'t> {
