@@ -3,7 +3,8 @@
 //! `cargo bench --bench ablation -- SCENE...` (the examples where none is named) builds each scene
 //! for [`TARGETS`] as it is and without each pass that was kept there, in the same format. What a
 //! pass is worth is how many times as many cycles programs take without it, by the forecast that
-//! `build` tells from some of their rows. The table is Markdown, for docs/passes.md.
+//! `build` tells from some of their rows. A second table holds the planner's price of the usual
+//! programs to that forecast. Both are Markdown, for docs/passes.md.
 
 use rayon::prelude::*;
 use serde_json::Value;
@@ -13,10 +14,12 @@ use std::process::Command;
 
 const TARGETS: [&str; 3] = ["jack", "6502:plain", "bbc:micro"];
 
-/// A program's forecast in cycles, and the work that its plan took.
+/// A program's forecast in cycles, the work that its plan took, and what the planner thinks
+/// that it takes.
 struct Cost {
     cycles: f64,
     work: f64,
+    priced: f64,
 }
 
 /// A scene on a target, as it is and without some passes.
@@ -50,6 +53,52 @@ fn main() {
     for pass in PASSES {
         println!("{}", row(*pass, &all));
     }
+    println!();
+    println!("| target | programs | rank correlation | median ratio | median error |");
+    println!("|---|---|---|---|---|");
+    for target in 0..TARGETS.len() {
+        println!("{}", priced(target, &all));
+    }
+}
+
+/// A target's line of the table of prices.
+fn priced(target: usize, all: &[Ablated]) -> String {
+    let usual: Vec<&Cost> = (all.iter())
+        .filter(|one| one.target == target)
+        .map(|one| &one.usual)
+        .collect();
+    let mut ratios: Vec<f64> = usual.iter().map(|cost| cost.priced / cost.cycles).collect();
+    let mut off: Vec<f64> = ratios.iter().map(|ratio| (ratio - 1.0).abs()).collect();
+    format!(
+        "| {} | {} | {:.3} | {:.2} | {:.1}% |",
+        TARGETS[target],
+        usual.len(),
+        correlation(&usual),
+        median(&mut ratios),
+        100.0 * median(&mut off)
+    )
+}
+
+/// Spearman's rank correlation of prices and cycles.
+fn correlation(all: &[&Cost]) -> f64 {
+    let ranks = |of: fn(&Cost) -> f64| {
+        let mut order: Vec<usize> = (0..all.len()).collect();
+        order.sort_by(|a, b| of(all[*a]).total_cmp(&of(all[*b])));
+        let mut ranks = vec![0.0; all.len()];
+        for (rank, at) in order.into_iter().enumerate() {
+            ranks[at] = rank as f64;
+        }
+        ranks
+    };
+    let (a, b) = (ranks(|cost| cost.priced), ranks(|cost| cost.cycles));
+    let apart: f64 = a.iter().zip(&b).map(|(a, b)| (a - b).powi(2)).sum();
+    let count = all.len().max(2) as f64;
+    1.0 - 6.0 * apart / (count * (count * count - 1.0))
+}
+
+fn median(all: &mut [f64]) -> f64 {
+    all.sort_by(f64::total_cmp);
+    all.get(all.len() / 2).copied().unwrap_or(f64::NAN)
 }
 
 /// A pass's line of the table.
@@ -132,6 +181,7 @@ fn cost(built: &Value) -> Option<Cost> {
     Some(Cost {
         cycles: built["cycles"].as_f64()?,
         work: built["work"].as_f64()?.max(1.0),
+        priced: built["priced"].as_f64()?,
     })
 }
 

@@ -112,7 +112,7 @@ pub fn run(args: &Args) -> Outcome<()> {
             "ram_bytes": sizes.ram,
             "heap": heap_json(&written),
             "work": plan.work(),
-            "priced_per_pixel": plan.cycles_a_pixel().round(),
+            "priced": (plan.cycles_a_pixel() * pixels(&plan)).round(),
             "passes": passes_json(&plan),
             "cycles": forecast.cycles().map(f64::round),
             "machine_seconds": forecast.cycles().map(seconds),
@@ -228,6 +228,12 @@ fn heap_json(written: &Written) -> serde_json::Value {
         "largest": heap.largest,
         "systems": heap.systems,
     })
+}
+
+/// How many pixels a plan's program computes.
+fn pixels(plan: &Plan) -> f64 {
+    let ((left, right), (top, bottom)) = (plan.columns, plan.rows);
+    f64::from(right - left + 1) * f64::from(bottom - top + 1)
 }
 
 /// What the passes that ran were good for, as JSON.

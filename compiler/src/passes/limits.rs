@@ -15,10 +15,14 @@ use crate::flow::build::Builder;
 use crate::flow::graph::*;
 use crate::range::Ranges;
 use crate::source::Span;
-use slowlight_routine::{Op, Value};
+use slowlight_routine::{Op, Runtime, Value};
 
-/// The graph with limits where there are such comparisons; nothing where there are none.
-pub fn limits(graph: &Graph, ranges: &Ranges) -> Option<Graph> {
+/// The graph with limits where there are such comparisons; nothing where there are none, or
+/// where divisions are no dearer than products.
+pub fn limits(graph: &Graph, ranges: &Ranges, runtime: &Runtime) -> Option<Graph> {
+    if !runtime.reciprocals {
+        return None;
+    }
     let site = Site {
         graph,
         ranges,
@@ -119,7 +123,13 @@ mod tests {
     use crate::plan::workshop::Workshop;
     use crate::scene;
     use crate::sema::Options;
-    use crate::target::find;
+    use crate::target::{find, formats};
+
+    /// One whose divisions are dear.
+    fn runtime() -> &'static Runtime {
+        let mut all = formats(find("6502:plain").unwrap()).map(|target| target.runtime);
+        all.find(|runtime| runtime.reciprocals).unwrap()
+    }
 
     fn settled(source: &str) -> Settled {
         let scene = scene::check("test", source);
@@ -164,7 +174,7 @@ mod tests {
             ("7 / n < u", 1),
         ] {
             let plain = settled(&picture(comparison, "(x - 16) * (x - 16) / 8 + 1"));
-            let made = limits(&plain.graph, &plain.ranges).unwrap();
+            let made = limits(&plain.graph, &plain.ranges, runtime()).unwrap();
             verify(&made).unwrap();
             assert_eq!(quotients(&plain.graph), 1);
             assert_eq!(quotients(&made), left, "{comparison}: {made}");
@@ -189,7 +199,7 @@ mod tests {
         ] {
             let plain = settled(&picture(comparison, n));
             assert!(
-                limits(&plain.graph, &plain.ranges).is_none(),
+                limits(&plain.graph, &plain.ranges, runtime()).is_none(),
                 "{comparison}"
             );
         }

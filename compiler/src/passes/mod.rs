@@ -41,7 +41,6 @@ pub mod schedule;
 pub mod segment;
 pub mod skip;
 pub mod split;
-pub mod squares;
 pub mod stable;
 pub mod still;
 pub mod sums;

@@ -21,8 +21,12 @@ const SPREAD: f64 = 4.0;
 /// Reciprocals of what is less than such a power of two are taken as they are.
 const NEAR: i32 = 8;
 
-/// The graph with such products; nothing where there are none.
+/// The graph with such products; nothing where there are none, or where divisions are no dearer
+/// than products.
 pub fn reciprocals(graph: &Graph, ranges: &Ranges, runtime: &Runtime) -> Option<Graph> {
+    if !runtime.reciprocals {
+        return None;
+    }
     let scaled = matches!(runtime.real, Format::Scaled { .. });
     let mut dividends: BTreeMap<NodeId, usize> = BTreeMap::new();
     for id in graph.ids() {

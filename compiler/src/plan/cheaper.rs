@@ -27,7 +27,6 @@ use crate::passes::identities::{around, identities};
 use crate::passes::later::later;
 use crate::passes::peel::peel;
 use crate::passes::split::split;
-use crate::passes::squares::squares;
 use crate::passes::threshold::threshold;
 use crate::range::Ranges;
 use slowlight_routine::{Format, Runtime};
@@ -306,10 +305,6 @@ impl Site<'_> {
                 }
             }
             best
-        });
-        now = shop.pass(Pass::CommonSquares, now, |plan| {
-            let next = shop.settle(&squares(&plan.graph, &plan.ranges)?);
-            (self.cost(&next) < self.cost(plan)).then_some(next)
         });
         now = self.specialised(now);
         now = shop.pass(Pass::LengthTests, now, |plan| self.around(plan));

@@ -3,7 +3,7 @@
 //! that are asked only where they matter ([`crate::passes::either`], [`crate::passes::zones`]).
 
 use super::cheaper::NODES;
-use super::pipeline::Pass;
+use super::pipeline::{Pass, REWRITES};
 use super::price::Price;
 use super::settled::Settled;
 use super::thrift::Thrift;
@@ -13,8 +13,6 @@ use crate::passes::arms::{arms, conditions};
 use crate::passes::either::{self, either};
 use crate::passes::factors::factors;
 use crate::passes::fold::fold;
-use crate::passes::limits::limits;
-use crate::passes::reciprocals::reciprocals;
 use crate::passes::zones::{Choice, Way, choices};
 use slowlight_routine::Format;
 
@@ -124,35 +122,14 @@ fn in_zones(plan: &Settled, shop: &Workshop, price: &Price) -> Option<Settled> {
     best
 }
 
-/// With divisors compared instead of quotients, where those are dear.
-pub fn with_limits(plan: Settled, shop: &Workshop, thrift: Thrift) -> Settled {
-    cheaper_of(Pass::CrossMultiply, plan, shop, thrift, |plan| {
-        limits(&plan.graph, &plan.ranges)
-    })
-}
-
-/// With products instead of quotients, where those are dear.
-pub fn with_reciprocals(plan: Settled, shop: &Workshop, thrift: Thrift) -> Settled {
-    cheaper_of(Pass::Reciprocals, plan, shop, thrift, |plan| {
-        reciprocals(&plan.graph, &plan.ranges, shop.runtime)
-    })
-}
-
-/// A plan, or one of the graph that a pass makes of it where that is cheaper.
-fn cheaper_of(
-    pass: Pass,
-    plan: Settled,
-    shop: &Workshop,
-    thrift: Thrift,
-    by: impl FnOnce(&Settled) -> Option<Graph>,
-) -> Settled {
-    if !shop.runtime.reciprocals {
-        return plan;
-    }
-    shop.pass(pass, plan, |plan| {
-        let next = shop.settle(&by(plan)?);
-        let price = Price::new(shop, thrift);
-        (price.of(&next) < price.of(plan)).then_some(next)
+/// With what each of [`REWRITES`] makes of the plan, where that is cheaper.
+pub fn rewritten(plan: Settled, shop: &Workshop, thrift: Thrift) -> Settled {
+    let price = Price::new(shop, thrift);
+    REWRITES.iter().fold(plan, |plan, (pass, rewrite)| {
+        shop.pass(*pass, plan, |plan| {
+            let next = shop.settle(&rewrite(&plan.graph, &plan.ranges, shop.runtime)?);
+            (price.of(&next) < price.of(plan)).then_some(next)
+        })
     })
 }
 

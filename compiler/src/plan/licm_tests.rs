@@ -58,8 +58,14 @@ fn what_many_turns_need_is_computed_before_them() {
                 plot: true,
             };
             let plan = plan(&graph, target, &goal).unwrap();
-            let found = roots(&plan.graph, &plan.tree.pixel);
-            assert_eq!(found, expected, "{}: {turns}", target.name);
+            // A turn that stands before the loop may have one of its own.
+            let (inside, before) = roots(&plan.graph, &plan.tree.pixel);
+            assert_eq!(
+                (inside, before.min(1)),
+                expected,
+                "{}: {turns}",
+                target.name
+            );
             let [mut before, mut after] = [&graph, &plan.graph].map(Native::new);
             for (x, y) in [(0, 0), (31, 20), (63, 47)] {
                 assert_eq!(before.pixel(x, y).ink, after.pixel(x, y).ink);

@@ -1,7 +1,7 @@
 //! How a plan is made: the passes in their order, then a routine for each value.
 
 use super::cheaper::{apart_at_last, cheaper, steps_ahead, with_inks_split, with_recipes_followed};
-use super::chosen::{asked_where_it_matters, in_arms, with_limits, with_reciprocals};
+use super::chosen::{asked_where_it_matters, in_arms, rewritten};
 use super::licm::licm;
 use super::narrowed::narrowed;
 use super::params::{self, ParamPlan};
@@ -205,8 +205,7 @@ fn planned_in(
             let all = all
                 .into_iter()
                 .map(|plan| asked_where_it_matters(plan, shop, thrift))
-                .map(|plan| with_limits(plan, shop, thrift))
-                .map(|plan| with_reciprocals(plan, shop, thrift))
+                .map(|plan| rewritten(plan, shop, thrift))
                 .map(|plan| with_recipes_followed(plan, shop, thrift))
                 .map(|plan| stepped(plan, shop, target, thrift, steps))
                 .map(|plan| with_sums(plan, shop, thrift))

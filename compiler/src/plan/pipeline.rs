@@ -6,7 +6,12 @@
 //! those for which no fuel is left, and counts what each was good for (`build --emit passes`).
 
 use super::settled::Settled;
+use crate::flow::graph::Graph;
 use crate::fuel::Fuel;
+use crate::passes::limits::limits;
+use crate::passes::reciprocals::reciprocals;
+use crate::range::Ranges;
+use slowlight_routine::Runtime;
 use std::fmt::Write;
 use std::sync::{Arc, Mutex, PoisonError};
 
@@ -52,7 +57,6 @@ passes! {
     InvertMonotone "invert-monotone" "passes/threshold" "comparisons before monotone functions"
     PolynomialForms "polynomial-forms" "passes/algebra" "normal forms over polynomials and roots"
     Unnormalised "unnormalised" "passes/homogeneous" "directions at their own length"
-    CommonSquares "common-squares" "passes/squares" "comparisons by squares that are there"
     SpecialiseFactors "specialise-factors" "passes/factors" "value specialisation of factors"
     LengthTests "length-tests" "passes/identities" "comparisons decided by the length of a vector"
     Identities "identities" "passes/identities" "shorter forms by identities of vectors"
@@ -73,6 +77,16 @@ passes! {
     Licm "licm" "passes/licm" "loop-invariant code motion by frequency"
     WordLengths "word-lengths" "plan/narrowed" "fewer bits for values where the picture allows"
 }
+
+/// What makes another graph of the same picture; nothing where there is nothing to do.
+pub type Rewrite = fn(&Graph, &Ranges, &Runtime) -> Option<Graph>;
+
+/// The passes that only rewrite a graph, each kept where the plan's price falls: what is added
+/// here needs no other place in the planner.
+pub const REWRITES: &[(Pass, Rewrite)] = &[
+    (Pass::CrossMultiply, limits),
+    (Pass::Reciprocals, reciprocals),
+];
 
 /// Some of the passes.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
