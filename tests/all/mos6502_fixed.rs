@@ -75,7 +75,7 @@ fn rows_in_passes_and_runs_are_what_the_model_draws() {
         (two, SHADE, &[][..], &passes[..]),
         (two, SHADE, &["--block", "2"][..], &passes[..]),
         (three, halves.as_str(), &[][..], &still[..]),
-        (three, cut.as_str(), &[][..], &still[..]),
+        (three, cut.as_str(), &[][..], &runs[..]),
         (three, factor.as_str(), &[][..], &runs[..]),
     ] {
         let text = format!("image 64 x 24 inks {inks};\ndraw (x, y) = {draw};");

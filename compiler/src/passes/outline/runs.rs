@@ -2,7 +2,7 @@
 
 use super::forest::{BlockId, Forest};
 use super::make::Maker;
-use super::token::Token;
+use super::token::{Token, mix};
 use crate::flow::graph::*;
 use rustc_hash::FxHashMap;
 use slowlight_routine::Type;
@@ -314,14 +314,6 @@ fn group(graph: &Graph, forest: &Forest, maker: &Maker<'_>, runs: &[Run]) -> Opt
         group.left.push(left);
     }
     Some((saved, group))
-}
-
-/// Mixes a number into another (the finaliser of MurmurHash3).
-fn mix(into: u64, value: u64) -> u64 {
-    let mut h = (into ^ value).wrapping_mul(0xff51_afd7_ed55_8ccd);
-    h ^= h >> 33;
-    h = h.wrapping_mul(0xc4ce_b9fe_1a85_ec53);
-    h ^ (h >> 29)
 }
 
 fn mixed(into: u64, reference: Reference) -> u64 {

@@ -105,3 +105,11 @@ fn carried_type(graph: &Graph, of: LoopId, index: u32) -> slowlight_routine::Typ
     let found = found.and_then(|l| l.types.get(index as usize));
     found.copied().unwrap_or(slowlight_routine::Type::Real)
 }
+
+/// Mixes a number into another (the finaliser of MurmurHash3).
+pub(super) fn mix(into: u64, value: u64) -> u64 {
+    let mut h = (into ^ value).wrapping_mul(0xff51_afd7_ed55_8ccd);
+    h ^= h >> 33;
+    h = h.wrapping_mul(0xc4ce_b9fe_1a85_ec53);
+    h ^ (h >> 29)
+}
