@@ -30,6 +30,7 @@ const GOLDBERG: &str =
     "Goldberg, What Every Computer Scientist Should Know About Floating-Point Arithmetic (1991)";
 const HAINES: &str = "Haines, Günther, Akenine-Möller, Precision Improvements for Ray/Sphere Intersection (Ray Tracing Gems, 2019)";
 const HIGHAM: &str = "Higham, Accuracy and Stability of Numerical Algorithms (2002), chapter 1";
+const HAMMING: &str = "Hamming, Numerical Methods for Scientists and Engineers (1973), section 3.3";
 const BLUE: &str = "Blue, A Portable Fortran Program to Find the Euclidean Norm of a Vector (1978)";
 const SHEWCHUK: &str = "Shewchuk, Adaptive Precision Floating-Point Arithmetic (1997)";
 const BLANCHARD: &str =
@@ -54,6 +55,13 @@ const MINUS: Form = form!((Sub (Neg b) s));
 const PLUS: Form = form!((Sub s b));
 const COSINE: Form = form!((Sin (Mul 0.5 x)));
 const TOP3: Form = form!((Max (Max a b) c));
+
+/// Whether neither of two values may be 0, and their product is within the format.
+fn fits(s: &Site<'_>, a: &str, b: &str) -> bool {
+    let (a, b) = (s.range(a), s.range(b));
+    let some = |r: Range| r.lo > 0.0 || r.hi < 0.0;
+    some(a) && some(b) && a.magnitude() * b.magnitude() <= s.known.most
+}
 
 /// Every rule on one formula; the first that fits is taken.
 pub static RULES: &[Rule] = &[
@@ -187,6 +195,14 @@ pub static RULES: &[Rule] = &[
         when: |s| may_cancel(Range::point(1.0), s.range("q")),
         condition: "b*b may be near 1",
         source: GOLDBERG,
+    },
+    Rule {
+        name: "difference of reciprocals",
+        left: &[form!((Sub (p = (Div 1.0 a)) (q = (Div 1.0 b))))],
+        right: form!((Div (Sub b a) (Mul a b))),
+        when: |s| fits(s, "a", "b") && may_cancel(s.range("p"), s.range("q")),
+        condition: "neither a nor b may be 0, their product fits the format; 1/a may be near 1/b",
+        source: HAMMING,
     },
     Rule {
         name: "difference of square roots",

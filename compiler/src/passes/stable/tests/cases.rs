@@ -201,6 +201,13 @@ pub const CASES: &[Case] = &[
         vectors: &[("near 1", &[1.01])],
     },
     Case {
+        rules: &["difference of reciprocals"],
+        on: "jack",
+        params: &[("x", 1.0, 200.0)],
+        value: "1 / x - 1 / (x + 0.125)",
+        vectors: &[("far", &[100.0])],
+    },
+    Case {
         rules: &["difference of square roots"],
         on: "jack",
         params: &[("x", 0.0, 5000.0)],
