@@ -18,8 +18,8 @@ pub struct Stepping {
     pub write: [u32; 2],
     /// A test, beside what is tested.
     pub test: u32,
-    /// Whether a step is so much cheaper than a product of ints that whole polynomials in
-    /// the column are reckoned to be stepped, before it is known which are.
+    /// Whether a step is so much cheaper than a product of ints that algebra reckons whole
+    /// polynomials in the column to be stepped, which they are along runs of columns at most.
     pub foreseen: bool,
 }
 

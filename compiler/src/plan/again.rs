@@ -112,8 +112,8 @@ impl Plan {
         };
         let ramp = |node: &Node| matches!(node, Node::Ramp { .. } | Node::Stepped { .. });
         let steps = match steps {
-            Steps::All => Steps::Whole,
-            Steps::Whole | Steps::None => Steps::None,
+            Steps::All => Steps::Runs,
+            Steps::Runs | Steps::None => Steps::None,
         };
         let less = Rewriting::Fast { thrift, steps };
         let stepped = self.graph.nodes.iter().any(ramp);

@@ -137,10 +137,12 @@ pub(super) fn planned(
     };
     (plan.work, plan.cut) = (fuel.burnt(), fuel.was_cut());
     plan.allowance = fuel.given();
-    match shop.pipeline.without.has(Pass::WordLengths) {
-        true => Ok(plan),
-        false => Ok(narrowed(plan)),
+    if plan.runtime.narrow.is_none() {
+        return Ok(plan);
     }
+    let wide = plan.clone();
+    let narrow = shop.always(Pass::WordLengths, || Some(narrowed(plan)));
+    Ok(narrow.unwrap_or(wide))
 }
 
 /// A plan by a workshop that is kept for other plans, with the fuel for this one.

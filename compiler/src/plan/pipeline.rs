@@ -109,12 +109,6 @@ impl PassSet {
         let after = PASSES.iter().skip_while(|p| **p != pass).skip(1);
         after.fold(PassSet::default(), |all, pass| all.with(*pass))
     }
-
-    /// Those of both.
-    #[must_use]
-    pub fn and(self, other: PassSet) -> PassSet {
-        PassSet(self.0 | other.0)
-    }
 }
 
 /// What a pass was good for so far.

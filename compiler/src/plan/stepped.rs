@@ -25,10 +25,10 @@ const PATIENCE: usize = 20_000;
 /// What may be stepped.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Steps {
-    /// Whole polynomials, and phases, which take some memory once a row.
+    /// Values along runs of columns, and phases, which take some memory once a row.
     All,
-    /// Whole polynomials.
-    Whole,
+    /// Values along runs of columns.
+    Runs,
     /// Nothing.
     None,
 }
