@@ -181,11 +181,8 @@ impl Search<'_> {
                 return Ok(Fitted::TooLarge(Box::new(short), need.or_less(Some(quick))));
             }
         }
-        let last = plan.thrifts().saturating_sub(1);
-        let least = self.again(&plan, |plan| plan.thriftier(last));
-        if let Some(least) = &least
-            && let Some(fits) = self.quickest(&plan, least)?
-        {
+        let (least, quickest) = self.quickest(&plan)?;
+        if let Some(fits) = quickest {
             return self.with_copies(fits).map(Fitted::from);
         }
         match (
@@ -210,9 +207,7 @@ impl Search<'_> {
         if self.fuel.spent() {
             return None;
         }
-        let mut plan = plan.clone();
-        plan.allow(self.allowance(2));
-        let made = make(&plan)?;
+        let made = make(&plan.allowed(self.allowance(2)))?;
         self.fuel.burn(made.work());
         Some(made)
     }

@@ -50,7 +50,6 @@ const STEPPING: Stepping = Stepping {
     digit: 200,
     write: [480, 680],
     test: 320,
-    foreseen: false,
 };
 
 /// How tightly BASIC's operators bind.

@@ -5,7 +5,7 @@ use super::{LADDER, Search, is_basic, remarks, with_disc};
 use crate::failure::Outcome;
 use crate::need::{Need, about};
 use rayon::prelude::*;
-use slowlight_compiler::plan::{Copies, Plan, SEARCH};
+use slowlight_compiler::plan::{Candidate, Copies, Plan, SEARCH};
 
 /// A plan that fits, or how large its smallest program is.
 pub(super) enum Fitted {
@@ -30,54 +30,64 @@ impl From<Plan> for Fitted {
 }
 
 impl Search<'_> {
-    /// The quickest of the plans that spend less memory on speed that fits as it is, or with
-    /// subroutines for what is done seldom: what is written short is slower. `least` spends
-    /// hardly any. A step that spends less need not be slower: what it leaves out may make room
-    /// for more. So where one of them fits, all are looked at that may be quicker.
-    pub(super) fn quickest(&self, plan: &Plan, least: &Plan) -> Outcome<Option<Plan>> {
+    /// The plan that spends hardly any memory on speed; and the quickest of those that spend less
+    /// that fits as it is, or with subroutines for what is done seldom: what is written short is
+    /// slower. A step that spends less need not be slower: what it leaves out may make room for
+    /// more. So where the last of them fits, all are looked at that may be quicker.
+    pub(super) fn quickest(&self, plan: &Plan) -> Outcome<(Option<Plan>, Option<Plan>)> {
         let last = plan.thrifts().saturating_sub(1);
-        let Ok(mut found) = self.with_calls_where_seldom(least)? else {
-            return Ok(None);
+        if self.fuel.spent() || !plan.may_be_smaller() {
+            return Ok((None, None));
+        }
+        let Some(least) = plan.allowed(self.allowance(2)).thriftier(last) else {
+            return Ok((None, None));
         };
-        let mut plans: Vec<(f64, Plan)> = (self.thriftier_plans(plan, last))
-            .into_iter()
-            .map(|plan| (plan.cycles_a_pixel(), plan))
-            .collect();
-        plans.sort_by(|(a, _), (b, _)| a.total_cmp(b));
-        plans.dedup_by(|(_, a), (_, b)| a.graph == b.graph);
+        self.fuel.burn(least.work());
         let most = least.cycles_a_pixel();
-        for (cycles, plan) in plans {
-            if cycles >= most || self.fuel.spent() {
+        let Some(least) = plan.completed(least) else {
+            return Ok((None, None));
+        };
+        let Ok(mut found) = self.with_calls_where_seldom(&least)? else {
+            return Ok((Some(least), None));
+        };
+        let mut quicker = self.thriftier(plan, last);
+        quicker.sort_by(|a, b| a.cycles_a_pixel().total_cmp(&b.cycles_a_pixel()));
+        quicker.dedup_by(|a, b| a.is(b));
+        for tried in quicker {
+            if tried.cycles_a_pixel() >= most || self.fuel.spent() {
                 break;
             }
-            if let Ok(fits) = self.with_calls_where_seldom(&plan)? {
+            let Some(tried) = plan.completed(tried) else {
+                continue;
+            };
+            if let Ok(fits) = self.with_calls_where_seldom(&tried)? {
                 found = fits;
                 break;
             }
         }
-        Ok(Some(found))
+        Ok((Some(least), Some(found)))
     }
 
     /// What the plan is by the steps before the last that spend less memory, in their order:
     /// by as many of them as there is fuel for. Which steps say nothing new is known once the
     /// others are planned.
-    fn thriftier_plans(&self, plan: &Plan, last: usize) -> Vec<Plan> {
+    fn thriftier(&self, plan: &Plan, last: usize) -> Vec<Candidate> {
         let each = plan.work().max(1);
         let count = ((LADDER / each) as usize).min(last.saturating_sub(1));
-        let (every, mut from) = (last.saturating_sub(1).div_ceil(count.max(1)), plan.clone());
-        from.allow(SEARCH.min(LADDER / count.max(1) as u64));
+        let every = last.saturating_sub(1).div_ceil(count.max(1));
+        let from = plan.allowed(SEARCH.min(LADDER / count.max(1) as u64));
         let steps = (1..last).step_by(every.max(1)).take(count);
         let (later, sooner): (Vec<usize>, Vec<usize>) = steps.partition(|&step| plan.repeats(step));
-        let planned = |steps: Vec<usize>| -> Vec<(usize, Plan)> {
-            let plans = steps.into_par_iter();
-            plans
+        let planned = |steps: Vec<usize>| -> Vec<(usize, Candidate)> {
+            let steps = steps.into_par_iter();
+            steps
                 .filter_map(|step| Some((step, from.thriftier(step)?)))
                 .collect()
         };
         let mut all = planned(sooner);
         all.extend(planned(later));
         all.sort_by_key(|(step, _)| *step);
-        all.into_iter().map(|(_, plan)| plan).collect()
+        all.into_iter().map(|(_, made)| made).collect()
     }
 
     /// The plan, with as much of what stands behind several ways written on each of them as

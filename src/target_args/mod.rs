@@ -136,7 +136,7 @@ impl ScreenArgs {
             // Some steps are those before them, for this scene.
             step => (1..=step)
                 .rev()
-                .find_map(|step| plan.thriftier(step))
+                .find_map(|step| plan.completed(plan.thriftier(step)?))
                 .unwrap_or(plan),
         }
     }

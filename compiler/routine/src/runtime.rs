@@ -18,9 +18,6 @@ pub struct Stepping {
     pub write: [u32; 2],
     /// A test, beside what is tested.
     pub test: u32,
-    /// Whether a step is so much cheaper than a product of ints that algebra reckons whole
-    /// polynomials in the column to be stepped, which they are along runs of columns at most.
-    pub foreseen: bool,
 }
 
 /// Reals of fewer bits beside the usual ones.

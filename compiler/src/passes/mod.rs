@@ -19,7 +19,6 @@ pub mod identities;
 pub mod in_place;
 pub mod induction_tables;
 pub mod int_roots;
-pub mod int_signs;
 pub mod interlace;
 pub mod later;
 pub mod licm;

@@ -1,6 +1,6 @@
 //! Other plans of the scene that a plan is of.
 
-use super::made::{Rewriting, planned};
+use super::made::{Candidate, Rewriting, candidate};
 use super::pipeline::Pipeline;
 use super::stepped::Steps;
 use super::thrift::Thrift;
@@ -33,9 +33,13 @@ impl Plan {
         self.cut = true;
     }
 
-    /// From now on plans that are made from this one have so many units of fuel each.
-    pub fn allow(&mut self, units: u64) {
-        self.allowance = units;
+    /// The same plan; those that are made from it have so many units of fuel each.
+    #[must_use]
+    pub fn allowed(&self, units: u64) -> Plan {
+        Plan {
+            allowance: units,
+            ..self.clone()
+        }
     }
 
     /// A plan of the same scene that computes the shade at every pixel, where
@@ -87,21 +91,15 @@ impl Plan {
         Thrift::step(step).is_some_and(Thrift::repeats)
     }
 
-    /// A plan of the same scene by one of those steps, counted from 0. None where it
-    /// could only be that of a step before.
-    pub fn thriftier(&self, step: usize) -> Option<Plan> {
+    /// What the passes make of the same scene by one of those steps, counted from 0. None where
+    /// it could only be that of a step before.
+    pub fn thriftier(&self, step: usize) -> Option<Candidate> {
         let thrift = Thrift::step(step)?;
-        if self.repeats(step) && !self.origin.0.has_beside() {
+        if self.repeats(step) && !self.origin.0.has_beside() || !self.may_be_smaller() {
             return None;
         }
-        let less = match self.origin.1 {
-            Rewriting::Fast { .. } => Rewriting::Fast {
-                thrift,
-                steps: Steps::All,
-            },
-            _ => return None,
-        };
-        self.again(&self.origin.0, less)
+        let steps = Steps::All;
+        self.candidate(&self.origin.0, Rewriting::Fast { thrift, steps })
     }
 
     /// The same plan with less that is stepped from column to column, which takes
@@ -121,14 +119,17 @@ impl Plan {
     }
 
     fn again(&self, shop: &Arc<Workshop>, rewriting: Rewriting) -> Option<Plan> {
-        let goal = Goal {
-            name: self.name.clone(),
-            mode: self.mode,
-            rows: Some(self.rows),
-            plot: self.plot,
-        };
+        self.completed(self.candidate(shop, rewriting)?)
+    }
+
+    fn candidate(&self, shop: &Arc<Workshop>, rewriting: Rewriting) -> Option<Candidate> {
         let fuel = Fuel::new(self.allowance);
-        let mut plan = planned(shop, self.target, &goal, (rewriting, fuel)).ok()?;
+        candidate(shop, self.target, &self.goal(), (rewriting, fuel)).ok()
+    }
+
+    /// The plan of a candidate, for the same screen and written in the same way.
+    pub fn completed(&self, candidate: Candidate) -> Option<Plan> {
+        let mut plan = candidate.assembled(self.target, &self.goal()).ok()?;
         plan.params = self.params.clone();
         plan.hold();
         plan.items = self.items.clone();
@@ -137,6 +138,16 @@ impl Plan {
         plan.undocumented = self.undocumented;
         plan.statics = self.statics;
         Some(plan)
+    }
+
+    /// For what it is planned.
+    pub(super) fn goal(&self) -> Goal {
+        Goal {
+            name: self.name.clone(),
+            mode: self.mode,
+            rows: Some(self.rows),
+            plot: self.plot,
+        }
     }
 }
 

@@ -38,6 +38,9 @@ const BODY: usize = 160;
 /// By how much a copy of a loop's body must make the plan cheaper.
 const COPY: f64 = 0.9;
 
+/// From where on forms are thought to do something for a loop.
+const FORMED: f64 = 0.97;
+
 /// By how much a guard before its second turn must.
 const GUARD: f64 = 0.999;
 
@@ -184,11 +187,6 @@ pub fn apart_at_last(plan: Settled, shop: &Workshop, thrift: Thrift) -> Settled 
     best
 }
 
-/// Whether values are stepped so cheaply that plans may count on it.
-pub fn steps_ahead(runtime: &Runtime) -> bool {
-    runtime.stepping.is_some_and(|stepping| stepping.foreseen)
-}
-
 struct Site<'s> {
     shop: &'s Workshop,
     runtime: &'static Runtime,
@@ -208,6 +206,11 @@ impl Site<'_> {
     /// The cheapest plan, with turns of loops before them or not.
     fn cheapest(&self, plain: &Settled, early: Option<&Graph>) -> Settled {
         let mut best = self.rewritten(plain).unwrap_or(plain.clone());
+        // A copy that is dearer as it stands is for what forms make of it.
+        let limit = match self.cost(&best) < FORMED * self.cost(plain) {
+            true => f64::INFINITY,
+            false => self.cost(plain),
+        };
         for k in 0..plain.graph.loops.len() {
             if self.shop.fuel.spent() {
                 break;
@@ -224,9 +227,9 @@ impl Site<'_> {
                 // A second condition is for what is known before the loop.
                 Some(in_loops(&graph, None).unwrap_or(graph))
             };
-            self.keep(Pass::Peel, &mut best, || Some(peeled), COPY);
-            self.keep(Pass::LoopGuard, &mut best, || guarded, GUARD);
-            if self.keep(Pass::EarlyExit, &mut best, || sooner(None), GUARD)
+            self.keep(Pass::Peel, &mut best, || Some(peeled), (COPY, limit));
+            self.keep(Pass::LoopGuard, &mut best, || guarded, (GUARD, limit));
+            if self.keep(Pass::EarlyExit, &mut best, || sooner(None), (GUARD, limit))
                 && self.runtime.segments
                 && self.thrift.beside()
             {
@@ -263,18 +266,22 @@ impl Site<'_> {
         best.1
     }
 
-    /// Whether a graph makes a plan that is cheaper than the best one, which it is then.
+    /// Whether a graph makes a plan that is cheaper than such a part of the best one, which it is
+    /// then. What costs more than the limit before forms are looked for is not looked at.
     fn keep(
         &self,
         pass: Pass,
         best: &mut Settled,
         graph: impl FnOnce() -> Option<Graph>,
-        limit: f64,
+        (part, limit): (f64, f64),
     ) -> bool {
         let found = self.shop.always(pass, || {
             let tried = self.shop.settle(&graph()?);
+            if self.cost(&tried) > limit {
+                return None;
+            }
             let found = self.rewritten(&tried)?;
-            (self.cost(&found) < limit * self.cost(best)).then_some(found)
+            (self.cost(&found) < part * self.cost(best)).then_some(found)
         });
         let kept = found.is_some();
         if let Some(found) = found {
@@ -308,13 +315,7 @@ impl Site<'_> {
         });
         now = self.specialised(now);
         now = shop.pass(Pass::LengthTests, now, |plan| self.around(plan));
-        let before = now.serial();
         now = self.sited(now, SHORTER, Rewrite::Identities);
-        // A formula may have a factor of few values: where products are dear beside what
-        // is stepped, that is worth a choice.
-        if now.serial() != before && steps_ahead(runtime) {
-            now = self.specialised(now);
-        }
         if self.thrift.runs() {
             now = self.sited(now, SPANS, Rewrite::Spans);
         }

@@ -1,6 +1,7 @@
 //! How a plan is made: the passes in their order, then a routine for each value.
 
-use super::cheaper::{apart_at_last, cheaper, steps_ahead, with_inks_split, with_recipes_followed};
+use super::assemble::assemble;
+use super::cheaper::{apart_at_last, cheaper, with_inks_split, with_recipes_followed};
 use super::chosen::{asked_where_it_matters, in_arms, rewritten};
 use super::licm::licm;
 use super::narrowed::narrowed;
@@ -14,28 +15,23 @@ use super::tabulated::in_columns;
 use super::thrift::Thrift;
 use super::whole_forms::cheapest_form;
 use super::workshop::Workshop;
-use super::{Copies, Goal, Plan, SEARCH, choose, fold_uses, names, points, recipes};
+use super::{Goal, Plan, SEARCH};
 use crate::flow::graph::*;
-use crate::flow::tree::*;
 use crate::flow::verify::verify;
 use crate::fuel::Fuel;
 use crate::passes::along::along;
 use crate::passes::early::{everywhere, without};
 use crate::passes::fold::fold;
-use crate::passes::int_roots::int_roots;
-use crate::passes::int_signs::int_signs;
-use crate::passes::interlace::{interlaced, passes};
+use crate::passes::interlace::interlaced;
 use crate::passes::ramps::runs::is_exact;
-use crate::passes::reciprocal_roots::reciprocal_roots;
 use crate::passes::schedule::missing;
 use crate::passes::stable::stable;
-use crate::passes::still::still;
 use crate::passes::units::units;
 use crate::passes::whole_parts::whole_parts;
-use crate::range::Ranges;
 use crate::source::Diagnostic;
-use crate::target::{Mode, Target};
-use slowlight_routine::{Format, Op, Range, Routine, Runtime, scale};
+use crate::target::Target;
+use rayon::prelude::*;
+use slowlight_routine::Format;
 use std::sync::Arc;
 
 /// Plans a graph that `sema` lowered for this target's inks and offset.
@@ -59,7 +55,7 @@ pub fn plan_within(
     let mut shop = Workshop::new(graph.clone(), target.runtime);
     shop.draft = fuel == 0;
     shop.pipeline = Pipeline::without(without);
-    planned(&Arc::new(shop), target, goal, (all, Fuel::new(fuel)))
+    candidate(&Arc::new(shop), target, goal, (all, Fuel::new(fuel)))?.assembled(target, goal)
 }
 
 /// The same with every shade in full, even where the ink is known before: what that is less
@@ -75,7 +71,7 @@ pub fn plan_with_every_shade(
         thrift: Thrift::default(),
         steps: Steps::All,
     };
-    planned(&Arc::new(shop), target, goal, (all, Fuel::new(SEARCH)))
+    candidate(&Arc::new(shop), target, goal, (all, Fuel::new(SEARCH)))?.assembled(target, goal)
 }
 
 /// The same without the passes that rewrite formulas ([`crate::passes::stable`]
@@ -87,7 +83,7 @@ pub fn plan_as_written(
 ) -> Result<Plan, Vec<Diagnostic>> {
     let none = (Rewriting::None, Fuel::new(SEARCH));
     let shop = Workshop::new(graph.clone(), target.runtime);
-    planned(&Arc::new(shop), target, goal, none)
+    candidate(&Arc::new(shop), target, goal, none)?.assembled(target, goal)
 }
 
 /// Which passes may rewrite formulas.
@@ -104,55 +100,75 @@ pub(super) enum Rewriting {
 /// By how much shortcuts must make a plan cheaper: each is a test more to be read.
 const SOONER: f64 = 0.95;
 
+/// From where on only plans with them are looked at.
+const SURELY: f64 = 0.88;
+
 /// How often stable forms are looked for: what one makes may let another in.
 const STABLE_ROUNDS: u32 = 4;
 
-/// What a pixel of a pass takes more, in cycles: it says its column. In BASIC that is
-/// nothing beside what passes save.
-const APART: f64 = 30.0;
+/// What the passes made of a scene: scheduled, but with no routine selected yet.
+pub struct Candidate {
+    shop: Arc<Workshop>,
+    rewriting: Rewriting,
+    params: Vec<ParamPlan>,
+    plan: Settled,
+    /// What it took, whether it was cut short, and by how much fuel.
+    work: u64,
+    cut: bool,
+    allowance: u64,
+}
 
-/// A plan, in passes where these make it cheaper.
-pub(super) fn planned(
-    shop: &Arc<Workshop>,
+impl Candidate {
+    /// What [`Plan::cycles_a_pixel`] says of the plan that it makes.
+    pub fn cycles_a_pixel(&self) -> f64 {
+        Price::new(&self.shop, Thrift::default()).cycles_known(&self.plan)
+    }
+
+    /// What searching for it took, in units of [`Fuel`].
+    pub fn work(&self) -> u64 {
+        self.work
+    }
+
+    /// Whether two make the same plan.
+    pub fn is(&self, other: &Candidate) -> bool {
+        self.plan.serial() == other.plan.serial() || self.plan.graph == other.plan.graph
+    }
+
+    /// The plan with its routines.
+    pub(super) fn assembled(
+        self,
+        target: &'static Target,
+        goal: &Goal,
+    ) -> Result<Plan, Vec<Diagnostic>> {
+        let Known {
+            graph,
+            tree,
+            ranges,
+            ..
+        } = &*self.plan;
+        let origin = (self.shop, self.rewriting);
+        let (graph, tree, ranges) = (graph.clone(), tree.clone(), ranges.clone());
+        let mut plan = assemble(graph, tree, ranges, self.params, target, goal, origin)?;
+        (plan.work, plan.cut, plan.allowance) = (self.work, self.cut, self.allowance);
+        if plan.runtime.narrow.is_none() {
+            return Ok(plan);
+        }
+        let shop = plan.origin.0.clone();
+        let narrow = shop.always(Pass::WordLengths, || Some(narrowed(plan.clone())));
+        Ok(narrow.unwrap_or(plan))
+    }
+}
+
+/// What the passes make of a scene, by a workshop that is kept for other plans, with the fuel
+/// for this one.
+pub(super) fn candidate(
+    kept: &Arc<Workshop>,
     target: &'static Target,
     goal: &Goal,
     (rewriting, fuel): (Rewriting, Fuel),
-) -> Result<Plan, Vec<Diagnostic>> {
-    let steps = steps_ahead(target.runtime);
-    let first = shop.with(fuel.share());
-    let plan = planned_in((shop, &first), target, goal, rewriting, true)?;
-    fuel.settle(&first.fuel);
-    let mut plan = match steps && passes(&plan.graph) > 1 {
-        true => {
-            // What is left, and some in any case: the other way may be the better one.
-            let second = shop.with(Fuel::new(fuel.left().max(fuel.given() / 4)));
-            let other = planned_in((shop, &second), target, goal, rewriting, false)?;
-            fuel.settle(&second.fuel);
-            match other.cycles_a_pixel() < plan.cycles_a_pixel() + APART {
-                true => other,
-                false => plan,
-            }
-        }
-        false => plan,
-    };
-    (plan.work, plan.cut) = (fuel.burnt(), fuel.was_cut());
-    plan.allowance = fuel.given();
-    if plan.runtime.narrow.is_none() {
-        return Ok(plan);
-    }
-    let wide = plan.clone();
-    let narrow = shop.always(Pass::WordLengths, || Some(narrowed(plan)));
-    Ok(narrow.unwrap_or(wide))
-}
-
-/// A plan by a workshop that is kept for other plans, with the fuel for this one.
-fn planned_in(
-    (kept, shop): (&Arc<Workshop>, &Workshop),
-    target: &'static Target,
-    goal: &Goal,
-    rewriting: Rewriting,
-    apart: bool,
-) -> Result<Plan, Vec<Diagnostic>> {
+) -> Result<Candidate, Vec<Diagnostic>> {
+    let allowance = fuel.given();
+    let shop = &kept.with(fuel);
     let (origin, runtime) = (&*shop.origin, target.runtime);
     if let Err(broken) = verify(origin) {
         let message =
@@ -166,19 +182,12 @@ fn planned_in(
     };
     // Where sums are rounded to as few bits as that, tiles' edges move by whole pixels.
     let logs = rounds > 0 && matches!(runtime.real, Format::Log { .. });
-    let whole = |graph: Graph| match (logs, rounds > 0 && steps_ahead(runtime)) {
-        (true, _) => {
-            let made = shop.always(Pass::IntegerParts, || Some(whole_parts(&graph)));
-            made.unwrap_or(graph)
-        }
-        (_, true) => {
-            let made = shop.always(Pass::IntegerSigns, || Some(int_signs(&graph)));
-            made.unwrap_or(graph)
-        }
-        _ => graph,
+    let whole = |graph: Graph| {
+        let made = logs.then(|| shop.always(Pass::IntegerParts, || Some(whole_parts(&graph))));
+        made.flatten().unwrap_or(graph)
     };
     let drawn = |graph: Graph| match rewriting {
-        Rewriting::Fast { thrift, .. } if apart && thrift.passes() && runtime.segments => {
+        Rewriting::Fast { thrift, .. } if thrift.passes() && runtime.segments => {
             let made = shop.always(Pass::StripMine, || {
                 interlaced(&graph, in_byte(&graph, target, goal))
             });
@@ -199,38 +208,7 @@ fn planned_in(
     if let Rewriting::Fast { thrift, steps } = rewriting {
         let exits = !origin.early.is_empty() && !shop.pipeline.without.has(Pass::EarlyExit);
         let early = exits.then(|| steady(shop, &whole(drawn(fold(origin))), rounds));
-        now = in_arms(now, shop, thrift);
-        let early = early.map(|plan| in_arms(plan, shop, thrift));
-        let early = early.as_ref().map(|settled| &settled.graph);
-        let price = Price::new(shop, thrift);
-        let cheapest = |all: Vec<Settled>| {
-            let all = all
-                .into_iter()
-                .map(|plan| asked_where_it_matters(plan, shop, thrift))
-                .map(|plan| rewritten(plan, shop, thrift))
-                .map(|plan| with_recipes_followed(plan, shop, thrift))
-                .map(|plan| stepped(plan, shop, target, thrift, steps))
-                .map(|plan| with_sums(plan, shop, thrift))
-                .map(|plan| with_inks_split(plan, shop, thrift));
-            price.cheapest(all)
-        };
-        let mut all = cheaper(now.clone(), early, shop, thrift);
-        let other = shop.always(Pass::RayParameter, || points_along(&now.graph, runtime));
-        if let Some(other) = other {
-            let early = early.map(|graph| along(graph).unwrap_or(graph.clone()));
-            all.extend(cheaper(shop.settle(&other), early.as_ref(), shop, thrift));
-        }
-        let usual = cheapest(all).unwrap_or(now);
-        // Where spans of columns tell what a row meets, shortcuts outside of loops do not pay.
-        let spans = runtime.segments && !steps_ahead(runtime);
-        let sooner = early.filter(|_| !spans).and_then(everywhere);
-        let sooner = sooner
-            .and_then(|graph| cheapest(cheaper(shop.settle(&graph), None, shop, thrift)))
-            .filter(|sooner| price.of(sooner) < SOONER * price.of(&usual));
-        now = sooner.unwrap_or(usual);
-        now = apart_at_last(now, shop, thrift);
-        now = in_columns(now, shop, target, thrift);
-        now = licm(now, shop, thrift);
+        now = searched((now, early), shop, target, thrift, steps);
     }
     let Known {
         graph,
@@ -245,15 +223,82 @@ fn planned_in(
     {
         let steps = Steps::None;
         let without = Rewriting::Fast { thrift, steps };
-        return planned_in((kept, shop), target, goal, without, apart);
+        let mut made = candidate(kept, target, goal, (without, shop.fuel.share()))?;
+        made.work += shop.fuel.burnt();
+        made.allowance = allowance;
+        return Ok(made);
     }
     if let Some(id) = missing(graph, tree) {
         let message = format!("the schedule lost {id}: a fault of the compiler, please report it");
         return Err(vec![Diagnostic::error(graph.span(id), message)]);
     }
-    let origin = (kept.clone(), rewriting);
-    let (graph, tree, ranges) = (graph.clone(), tree.clone(), ranges.clone());
-    assemble(graph, tree, ranges, params, target, goal, origin)
+    Ok(Candidate {
+        shop: kept.clone(),
+        rewriting,
+        params,
+        plan: now,
+        work: shop.fuel.burnt(),
+        cut: shop.fuel.was_cut(),
+        allowance,
+    })
+}
+
+/// The cheapest plan that the passes that search find from one; `early` is the same with the
+/// scene's exits in it.
+fn searched(
+    (plain, early): (Settled, Option<Settled>),
+    shop: &Workshop,
+    target: &'static Target,
+    thrift: Thrift,
+    steps: Steps,
+) -> Settled {
+    let price = Price::new(shop, thrift);
+    let plain = in_arms(plain, shop, thrift);
+    let early = early.map(|plan| in_arms(plan, shop, thrift));
+    let early = early.as_ref().map(|settled| &settled.graph);
+    let exits = early.and_then(everywhere).map(|graph| shop.settle(&graph));
+    // How much the exits outside of loops gain hardly hangs on the other passes.
+    let part = (exits.as_ref()).map_or(1.0, |exits| price.of(exits) / price.of(&plain));
+    let exits = exits.filter(|_| part < SOONER);
+    let mut starts = Vec::new();
+    if part >= SURELY {
+        starts.push((plain.clone(), early.cloned()));
+        // Where runs of columns are drawn as a whole, points by their distance along a ray may
+        // tell where these end.
+        let along_rays = || shop.runtime.segments.then(|| along(&plain.graph)).flatten();
+        if let Some(other) = shop.always(Pass::RayParameter, along_rays) {
+            let early = early.map(|graph| along(graph).unwrap_or(graph.clone()));
+            starts.push((shop.settle(&other), early));
+        }
+    }
+    let usual = starts.len();
+    starts.extend(exits.map(|exits| (exits, None)));
+    let found: Vec<(Settled, Fuel)> = (starts.into_par_iter())
+        .map(|(plain, early)| {
+            let shop = shop.with(shop.fuel.share());
+            let all = cheaper(plain.clone(), early.as_ref(), &shop, thrift)
+                .into_iter()
+                .map(|plan| asked_where_it_matters(plan, &shop, thrift))
+                .map(|plan| rewritten(plan, &shop, thrift))
+                .map(|plan| with_recipes_followed(plan, &shop, thrift))
+                .map(|plan| stepped(plan, &shop, target, thrift, steps))
+                .map(|plan| with_sums(plan, &shop, thrift))
+                .map(|plan| with_inks_split(plan, &shop, thrift));
+            (price.cheapest(all).unwrap_or(plain), shop.fuel)
+        })
+        .collect();
+    found.iter().for_each(|(_, fuel)| shop.fuel.settle(fuel));
+    let mut found = found.into_iter().map(|(plan, _)| plan);
+    let best = price.cheapest(found.by_ref().take(usual));
+    let sooner = found.next().filter(|sooner| {
+        let cost = |best| SOONER * price.of(best);
+        best.as_ref()
+            .is_none_or(|best| price.of(sooner) < cost(best))
+    });
+    let mut now = sooner.or(best).unwrap_or(plain);
+    now = apart_at_last(now, shop, thrift);
+    now = in_columns(now, shop, target, thrift);
+    licm(now, shop, thrift)
 }
 
 /// A graph with stable forms of its formulas.
@@ -276,117 +321,10 @@ fn steady(shop: &Workshop, origin: &Graph, rounds: u32) -> Settled {
     shop.settle(&now.graph)
 }
 
-/// A plan of statements whose ranges are known.
-pub(super) fn assemble(
-    mut graph: Graph,
-    mut tree: Tree,
-    mut ranges_now: Ranges,
-    mut params: Vec<ParamPlan>,
-    target: &'static Target,
-    goal: &Goal,
-    origin: (Arc<Workshop>, Rewriting),
-) -> Result<Plan, Vec<Diagnostic>> {
-    let runtime = target.runtime;
-    if runtime.has(Op::IntRoot) {
-        let most = scale::most(runtime.real.bits()) as f64;
-        int_roots(&mut graph, &mut tree, &ranges_now, most);
-    }
-    if runtime.has(Op::ReciprocalRoot) {
-        reciprocal_roots(&mut graph, &mut tree);
-    }
-    let mut tables = recipes::made(&graph, runtime);
-    let mut points = None;
-    let looks = match origin.0.draft {
-        true => points::sample::DRAFT,
-        false => points::sample::PATIENCE,
-    };
-    if let Some((found, ranges)) = points::pointed(&graph, &tree, runtime, looks) {
-        points::held::hold(&graph, runtime, &found, &mut tables, &mut params);
-        (points, ranges_now) = (Some(found), ranges);
-    }
-    let routines = choose::choose(&graph, &tree, &ranges_now, runtime, points.as_ref())?;
-    let gather = graph.diffusion.as_ref().and_then(|_| gathering(runtime));
-    let runs = !tree.segment.is_empty();
-    let still = runs.then(|| still(&graph)).flatten();
-    let folded = fold_uses::folded(&graph, &tree, still.as_ref(), &routines);
-    let (offset, columns, rows) = frame(&graph.image, &goal.mode);
-    let rows = match goal.rows {
-        Some((first, last)) => (first.clamp(rows.0, rows.1), last.clamp(rows.0, rows.1)),
-        None => rows,
-    };
-    let homes = names::homes(&graph, &tree);
-    Ok(Plan {
-        name: goal.name.clone(),
-        target,
-        runtime,
-        mode: goal.mode,
-        offset,
-        columns,
-        rows,
-        plot: goal.plot,
-        tight: false,
-        listing: false,
-        statics: false,
-        items: Vec::new(),
-        drawn: None,
-        lean: false,
-        copies: Copies::None,
-        brief: false,
-        scant: false,
-        undocumented: false,
-        page: None,
-        ranges: ranges_now,
-        params,
-        routines,
-        points,
-        tables,
-        gather,
-        folded,
-        still,
-        homes,
-        graph,
-        tree,
-        work: 0,
-        cut: false,
-        allowance: SEARCH,
-        origin,
-    })
-}
-
-/// The graph with points by their distance along a ray, where polynomials that are stepped
-/// may tell what is met.
-fn points_along(graph: &Graph, runtime: &Runtime) -> Option<Graph> {
-    steps_ahead(runtime).then(|| along(graph)).flatten()
-}
-
 /// How many of the picture's pixels share a byte of the screen, where that matters.
 fn in_byte(graph: &Graph, target: &Target, goal: &Goal) -> u32 {
     match graph.image.block {
         (1, 1) => (target.pixels)(&goal.mode),
         _ => 1,
     }
-}
-
-/// The addition that is right for all arguments: what a pixel receives has no
-/// bounds that could be known beforehand.
-fn gathering(runtime: &'static Runtime) -> Option<&'static Routine> {
-    let all = Range::ALL;
-    let fits = |r: &&Routine| r.op == Op::Add && (r.domain)(&[all, all], all);
-    runtime.routines.iter().find(fits)
-}
-
-/// Where the picture stands on the screen, and which of it is seen: centred
-/// where the screen is larger, cropped where it is smaller.
-pub(super) fn frame(image: &Image, mode: &Mode) -> ((i32, i32), (u32, u32), (u32, u32)) {
-    let axis = |count: u32, block: u32, screen: u32| {
-        let (count, block, screen) = (i64::from(count), i64::from(block), i64::from(screen));
-        let offset = (screen - count * block).div_euclid(2);
-        // Whole blocks only.
-        let first = (-offset).max(0).div_euclid(block) + i64::from((-offset).max(0) % block > 0);
-        let last = ((screen - offset).div_euclid(block) - 1).min(count - 1);
-        (offset as i32, (first as u32, last.max(first) as u32))
-    };
-    let (left, columns) = axis(image.width, image.block.0, mode.width);
-    let (top, rows) = axis(image.height, image.block.1, mode.height);
-    ((left, top), columns, rows)
 }

@@ -46,6 +46,7 @@
 
 mod again;
 mod alive;
+mod assemble;
 mod beside;
 mod cheaper;
 mod choose;
@@ -94,7 +95,7 @@ mod workshop_tests;
 pub use beside::Costs;
 pub use interference::quick_homes;
 pub use lifetimes::shared_homes;
-pub use made::{plan, plan_as_written, plan_with_every_shade, plan_within};
+pub use made::{Candidate, plan, plan_as_written, plan_with_every_shade, plan_within};
 pub use params::ParamPlan;
 pub use spread::ErrorRows;
 
@@ -226,7 +227,7 @@ impl Plan {
 
     /// First and last picture row that the screen has.
     pub fn shown_rows(&self) -> (u32, u32) {
-        made::frame(&self.graph.image, &self.mode).2
+        assemble::frame(&self.graph.image, &self.mode).2
     }
 
     /// The routine that adds what a pixel sends to what another has received

@@ -1,8 +1,8 @@
 //! The plan of the same scene with subroutines, for machines that cannot hold
 //! everything where it is used.
 
-use super::made::assemble;
-use super::{Goal, Plan};
+use super::Plan;
+use super::assemble::assemble;
 use crate::flow::graph::{Graph, Node};
 use crate::flow::tree::*;
 use crate::passes::near::{down_to_runs, near};
@@ -99,12 +99,7 @@ impl Plan {
     /// The same scene and screen by other statements.
     pub(super) fn of(&self, graph: Graph, tree: Tree) -> Result<Plan, Vec<Diagnostic>> {
         let found = ranges(&graph, &tree, &Slack::of(self.runtime));
-        let goal = Goal {
-            name: self.name.clone(),
-            mode: self.mode,
-            rows: Some(self.rows),
-            plot: self.plot,
-        };
+        let goal = self.goal();
         let (params, origin) = (self.params.clone(), self.origin.clone());
         let mut plan = assemble(graph, tree, found, params, self.target, &goal, origin)?;
         (plan.work, plan.cut, plan.allowance) = (self.work, self.cut, self.allowance);

@@ -42,7 +42,6 @@ macro_rules! passes {
 passes! {
     StripMine "strip-mine" "passes/interlace" "strip-mining of rows by the residue of the column"
     IntegerParts "integer-parts" "passes/whole_parts" "integers out of floors, where sums have few bits"
-    IntegerSigns "integer-signs" "passes/int_signs" "signs of integers stay integers"
     AccuracyRules "accuracy-rules" "passes/stable" "rewriting for accuracy, by rules with conditions"
     UnitVectors "unit-vectors" "passes/units" "lengths of unit vectors folded"
     AngleAddition "angle-addition" "passes/arcs" "sines of an arc's multiples by addition theorems"

@@ -40,7 +40,7 @@ impl super::Plan {
     /// routines where pixels run, what begins rows, passes and runs, and no drawing.
     pub fn cycles_a_pixel(&self) -> f64 {
         let known = self.origin.0.scheduled(self.graph.clone());
-        Price::new(&self.origin.0, Thrift::default()).cycles(&known)
+        Price::new(&self.origin.0, Thrift::default()).cycles_known(&known)
     }
 }
 
@@ -67,9 +67,18 @@ impl Price {
 
     /// Cycles a pixel, and something for memory.
     pub fn of(&self, plan: &Settled) -> f64 {
-        let (cycles, [inside, around]) =
-            *plan.cost.get_or_init(|| (self.cycles(plan), memory(plan)));
+        let (cycles, [inside, around]) = self.known(plan);
         cycles * (1.0 + self.memory * (inside + self.around * around))
+    }
+
+    /// Cycles a pixel.
+    pub fn cycles_known(&self, plan: &Settled) -> f64 {
+        self.known(plan).0
+    }
+
+    /// Cycles and memory, found once.
+    fn known(&self, plan: &Settled) -> (f64, [f64; 2]) {
+        *plan.cost.get_or_init(|| (self.cycles(plan), memory(plan)))
     }
 
     /// How often a plan's values are computed; nothing where it cannot be run.

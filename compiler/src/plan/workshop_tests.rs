@@ -1,7 +1,7 @@
 //! What is found in a workshop is what would be made.
 #![allow(clippy::unwrap_used)]
 
-use super::made::{Rewriting, plan, planned};
+use super::made::{Rewriting, candidate, plan};
 use super::stepped::Steps;
 use super::thrift::Thrift;
 use super::workshop::Workshop;
@@ -27,9 +27,12 @@ fn plans_made_again_are_those_made_anew() {
     let text = |plan: &Plan| (target.emit)(plan)[0].text.clone();
     let plenty = plan(&graph, target, &goal).unwrap();
     let step = 6;
-    let again = plenty.thriftier(step).unwrap();
+    let again = plenty
+        .thriftier(step)
+        .and_then(|made| plenty.completed(made))
+        .unwrap();
     let thrift = Thrift::step(step).unwrap();
-    let anew = planned(
+    let anew = candidate(
         &Arc::new(Workshop::new(graph, target.runtime)),
         target,
         &goal,
@@ -41,6 +44,9 @@ fn plans_made_again_are_those_made_anew() {
             Fuel::new(SEARCH),
         ),
     );
-    assert_eq!(text(&again), text(&anew.unwrap()));
+    assert_eq!(
+        text(&again),
+        text(&anew.unwrap().assembled(target, &goal).unwrap())
+    );
     assert_ne!(text(&again), text(&plenty), "another plan");
 }

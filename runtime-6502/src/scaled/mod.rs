@@ -171,7 +171,6 @@ pub(crate) const STEPPING: Stepping = Stepping {
     digit: 0,
     write: [0, 0],
     test: 3,
-    foreseen: true,
 };
 
 /// The nearest bits, saturating; of a real without a scale, those of its int.

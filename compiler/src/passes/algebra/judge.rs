@@ -13,7 +13,7 @@ use super::key::{Keys, shared};
 use crate::flow::build::Builder;
 use crate::flow::graph::*;
 use rustc_hash::FxHashMap;
-use slowlight_routine::{Format, Op, Runtime, Type, scale};
+use slowlight_routine::{Format, Runtime, Type, scale};
 use std::collections::BTreeMap;
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
@@ -27,7 +27,6 @@ pub fn cycles(
     there: &dyn Fn(NodeId) -> bool,
 ) -> u32 {
     let mut varies = FxHashMap::default();
-    let stepping = runtime.stepping.filter(|s| s.foreseen);
     // How often each value is needed; users have greater numbers.
     let mut todo: BTreeMap<NodeId, f64> = BTreeMap::from([(root, 1.0)]);
     let mut sum = 0.0;
@@ -42,14 +41,6 @@ pub fn cycles(
                 false => held.max(often),
             };
         };
-        // The column itself is there anyway.
-        if let Some(stepping) = stepping
-            && !matches!(nodes.node(id), Node::Axis(_))
-            && let Some(degree @ 1..) = degree(nodes, id, &mut varies)
-        {
-            sum += often * f64::from(degree * stepping.ramp);
-            continue;
-        }
         match nodes.node(id) {
             Node::Select { cond, yes, no } => {
                 needs(cond, 1.0);
@@ -66,22 +57,6 @@ pub fn cycles(
         }
     }
     sum as u32
-}
-
-/// The degree of an int that is a polynomial in the column and could be stepped.
-fn degree(nodes: &dyn Nodes, id: NodeId, varies: &mut FxHashMap<NodeId, bool>) -> Option<u32> {
-    if !column(nodes, id, varies, 0) {
-        return Some(0);
-    }
-    let mut of = |id| degree(nodes, id, varies);
-    let found = match nodes.node(id) {
-        Node::Axis(Axis::X) => 1,
-        Node::Apply(Op::IntAdd | Op::IntSub, [a, b]) => of(a)?.max(of(b)?),
-        Node::Apply(Op::IntMul, [a, b]) => of(a)? + of(b)?,
-        Node::Apply(Op::IntNeg, [a, _]) => of(a)?,
-        _ => return None,
-    };
-    (found <= 2).then_some(found)
 }
 
 /// Whether a node depends on the column beyond its pass (or on a loop); deep graphs count as such.

@@ -38,7 +38,6 @@ pub fn spans<'g>(
         return None;
     }
     let samples = samples(graph);
-    let ahead = runtime.stepping.is_some_and(|stepping| stepping.foreseen);
     let judge = Judge {
         graph,
         samples: &samples,
@@ -71,8 +70,7 @@ pub fn spans<'g>(
         let strict = match op {
             Op::Less | Op::IntLess => true,
             Op::LessEqual | Op::IntLessEqual => false,
-            // Elsewhere a sign is a choice already.
-            Op::Sign | Op::IntSign if ahead && site.full.two(id.0)?.low == -1 => true,
+            Op::Sign | Op::IntSign if site.full.two(id.0)?.low == -1 => true,
             _ => return None,
         };
         let mut put = Put {
