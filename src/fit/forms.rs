@@ -69,25 +69,15 @@ impl Search<'_> {
     }
 
     /// What the plan is by the steps before the last that spend less memory, in their order:
-    /// by as many of them as there is fuel for. Which steps say nothing new is known once the
-    /// others are planned.
+    /// by as many of them as there is fuel for.
     fn thriftier(&self, plan: &Plan, last: usize) -> Vec<Candidate> {
         let each = plan.work().max(1);
         let count = ((LADDER / each) as usize).min(last.saturating_sub(1));
         let every = last.saturating_sub(1).div_ceil(count.max(1));
         let from = plan.allowed(SEARCH.min(LADDER / count.max(1) as u64));
-        let steps = (1..last).step_by(every.max(1)).take(count);
-        let (later, sooner): (Vec<usize>, Vec<usize>) = steps.partition(|&step| plan.repeats(step));
-        let planned = |steps: Vec<usize>| -> Vec<(usize, Candidate)> {
-            let steps = steps.into_par_iter();
-            steps
-                .filter_map(|step| Some((step, from.thriftier(step)?)))
-                .collect()
-        };
-        let mut all = planned(sooner);
-        all.extend(planned(later));
-        all.sort_by_key(|(step, _)| *step);
-        all.into_iter().map(|(_, made)| made).collect()
+        let steps: Vec<usize> = (1..last).step_by(every.max(1)).take(count).collect();
+        let made = steps.into_par_iter().map(|step| from.thriftier(step));
+        made.collect::<Vec<_>>().into_iter().flatten().collect()
     }
 
     /// The plan, with as much of what stands behind several ways written on each of them as

@@ -133,10 +133,8 @@ impl ScreenArgs {
         let step = usize::from(self.thrift.unwrap_or(0)).min(last);
         match step {
             0 => plan,
-            // Some steps are those before them, for this scene.
-            step => (1..=step)
-                .rev()
-                .find_map(|step| plan.completed(plan.thriftier(step)?))
+            step => (plan.thriftier(step))
+                .and_then(|made| plan.completed(made))
                 .unwrap_or(plan),
         }
     }

@@ -14,18 +14,15 @@ use std::collections::BTreeSet;
 
 /// The graph without shortcuts.
 pub fn without(graph: &Graph) -> Graph {
-    chosen(graph, &|_| None)
+    chosen(graph, &|_| false)
 }
 
 /// The graph with the shortcuts in its loops and without the others; nothing
 /// where there are none. Of one after the other the first is taken: the next asks
 /// for what a loop would have to compute anew.
 ///
-/// Where one of several conditions suffices for a shortcut, the last of them is taken,
-/// and after the one that `beside` counts, if there are so many: nothing where no
-/// shortcut has them. These are shortcuts still: what is copied of a loop keeps both
-/// conditions, and the loop has the last alone, taken once more.
-pub fn in_loops(graph: &Graph, beside: Option<usize>) -> Option<Graph> {
+/// Where one of several conditions suffices for a shortcut, the last of them is taken.
+pub fn in_loops(graph: &Graph) -> Option<Graph> {
     let rates = rates(graph);
     let asked = |id: NodeId| match graph.node(id) {
         Node::Select { cond, no, .. } => graph.early.contains(&cond).then_some((cond, no)),
@@ -37,36 +34,33 @@ pub fn in_loops(graph: &Graph, beside: Option<usize>) -> Option<Graph> {
         let mut all = rates.rate(id).iter();
         !after.contains(&id) && all.any(|d| matches!(d, Dependence::Loop(_)))
     };
-    let fits = |id: &NodeId| turns(*id) && beside.is_none_or(|k| k + 1 < ways(graph, *id).len());
-    let any = graph.early.iter().any(fits);
-    any.then(|| chosen(graph, &|id| turns(id).then_some(beside)))
+    let any = graph.early.iter().any(|id| turns(*id));
+    any.then(|| chosen(graph, &turns))
 }
 
 /// The graph with all shortcuts, each by the last of its conditions; nothing where there
 /// are none.
 pub fn everywhere(graph: &Graph) -> Option<Graph> {
-    (!graph.early.is_empty()).then(|| chosen(graph, &|_| Some(None)))
+    (!graph.early.is_empty()).then(|| chosen(graph, &|_| true))
 }
 
-/// The conditions of which any suffices for a shortcut.
-fn ways(graph: &Graph, shortcut: NodeId) -> Vec<NodeId> {
+/// The last of the conditions of which any suffices for a shortcut.
+fn last(graph: &Graph, shortcut: NodeId) -> Option<NodeId> {
     let holds = |id| graph.constant(id) == Some(Value::Bool(true));
-    let Node::Select { cond, .. } = graph.node(shortcut) else {
-        return Vec::new();
+    let Node::Select { mut cond, .. } = graph.node(shortcut) else {
+        return None;
     };
-    let (mut all, mut rest) = (Vec::new(), vec![cond]);
-    while let Some(next) = rest.pop() {
-        match graph.node(next) {
-            Node::Select { cond, yes, no } if holds(yes) => rest.extend([no, cond]),
-            _ => all.push(next),
-        }
+    while let Node::Select { yes, no, .. } = graph.node(cond)
+        && holds(yes)
+    {
+        cond = no;
     }
-    all
+    Some(cond)
 }
 
-/// The graph with the shortcuts that `taken` says, as choices like any other: by the last
-/// condition, after another perhaps.
-fn chosen(graph: &Graph, taken: &dyn Fn(NodeId) -> Option<Option<usize>>) -> Graph {
+/// The graph with the shortcuts that `taken` says, as choices like any other: by their last
+/// condition.
+fn chosen(graph: &Graph, taken: &dyn Fn(NodeId) -> bool) -> Graph {
     if graph.early.is_empty() {
         return graph.clone();
     }
@@ -78,20 +72,9 @@ fn chosen(graph: &Graph, taken: &dyn Fn(NodeId) -> Option<Option<usize>>) -> Gra
         if !graph.early.contains(&id) {
             return None;
         }
-        let new = |id: &NodeId| made.get(id.0 as usize).copied().flatten();
-        let Some(beside) = taken(id) else {
-            return Some(b.constant(Value::Bool(false), span));
-        };
-        let ways = ways(graph, id);
-        let (last, others) = ways.split_last()?;
-        let last = new(last)?;
-        Some(match beside.and_then(|k| others.get(k)) {
-            Some(first) => {
-                let yes = b.constant(Value::Bool(true), span);
-                let any = b.select(new(first)?, yes, last, span);
-                b.early(any, span)
-            }
-            None => last,
-        })
+        match taken(id) {
+            true => made.get(last(graph, id)?.0 as usize).copied().flatten(),
+            false => Some(b.constant(Value::Bool(false), span)),
+        }
     })
 }

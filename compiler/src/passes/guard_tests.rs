@@ -58,7 +58,7 @@ fn shortcuts_change_no_pixel() {
         let plain = drawn(&fold(&without(&graph)));
         assert_eq!(plain, drawn(&fold(&graph)));
         // The loop follows rays that meet spheres, so there are some in it.
-        let some = fold(&in_loops(&graph, None).unwrap());
+        let some = fold(&in_loops(&graph).unwrap());
         assert!(some.early.is_empty());
         assert_eq!(plain, drawn(&some));
     }

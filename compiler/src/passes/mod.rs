@@ -20,7 +20,6 @@ pub mod in_place;
 pub mod induction_tables;
 pub mod int_roots;
 pub mod interlace;
-pub mod later;
 pub mod licm;
 pub mod limits;
 mod moves;
@@ -47,7 +46,6 @@ pub mod threshold;
 pub mod units;
 pub mod unroll;
 pub mod whole_parts;
-pub mod zones;
 
 #[cfg(test)]
 mod apart_tests;
@@ -58,12 +56,8 @@ mod guard_tests;
 #[cfg(test)]
 mod int_roots_tests;
 #[cfg(test)]
-mod later_tests;
-#[cfg(test)]
 mod peel_tests;
 #[cfg(test)]
 mod reciprocal_roots_tests;
 #[cfg(test)]
 mod still_tests;
-#[cfg(test)]
-mod zones_tests;

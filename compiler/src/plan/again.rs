@@ -86,16 +86,10 @@ impl Plan {
         }
     }
 
-    /// Whether such a step is one before it but for what that may have come to.
-    pub fn repeats(&self, step: usize) -> bool {
-        Thrift::step(step).is_some_and(Thrift::repeats)
-    }
-
-    /// What the passes make of the same scene by one of those steps, counted from 0. None where
-    /// it could only be that of a step before.
+    /// What the passes make of the same scene by one of those steps, counted from 0.
     pub fn thriftier(&self, step: usize) -> Option<Candidate> {
         let thrift = Thrift::step(step)?;
-        if self.repeats(step) && !self.origin.0.has_beside() || !self.may_be_smaller() {
+        if !self.may_be_smaller() {
             return None;
         }
         let steps = Steps::All;

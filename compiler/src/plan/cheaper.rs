@@ -12,7 +12,6 @@ mod sites;
 use super::chosen::chosen;
 use super::pipeline::Pass;
 use super::price::Price;
-use super::recipes::followed;
 use super::settled::Settled;
 use super::sums::with_loops_skipped;
 use super::thrift::Thrift;
@@ -24,7 +23,6 @@ use crate::passes::early::in_loops;
 use crate::passes::guard::guard;
 use crate::passes::homogeneous::{homogeneous, lengths};
 use crate::passes::identities::{around, identities};
-use crate::passes::later::later;
 use crate::passes::peel::peel;
 use crate::passes::split::split;
 use crate::passes::threshold::threshold;
@@ -44,9 +42,6 @@ const FORMED: f64 = 0.97;
 /// By how much a guard before its second turn must.
 const GUARD: f64 = 0.999;
 
-/// How many conditions of a shortcut are tried beside its last.
-const BESIDE: usize = 3;
-
 /// By how much algebra must make the plan cheaper: what a statement costs beside
 /// its routines is not known so well.
 const FORMS: f64 = 0.9;
@@ -56,9 +51,6 @@ const SHORTER: f64 = 0.99;
 
 /// By how much spans must.
 const SPANS: f64 = 0.99;
-
-/// How many conditions have what one of their ways needs on that way.
-const LATER: usize = 2;
 
 /// How often values are taken apart: what one needs may be taken apart after it.
 const APART: usize = 6;
@@ -127,20 +119,6 @@ impl Rewrite {
     }
 }
 
-/// With tables' recipes followed where their entries are needed, if that is worth
-/// the memory.
-pub fn with_recipes_followed(plan: Settled, shop: &Workshop, thrift: Thrift) -> Settled {
-    let price = Price::new(shop, thrift);
-    if shop.fuel.spent() && !thrift.follows() {
-        return plan;
-    }
-    let next = shop.always(Pass::TableRecipes, || {
-        let next = shop.settle(&followed(&plan.graph, shop.runtime)?);
-        (thrift.follows() || price.of(&next) < price.of(&plan)).then_some(next)
-    });
-    next.unwrap_or(plan)
-}
-
 /// With inks chosen by the one bool that runs of columns do not know, if that is worth
 /// the memory.
 pub fn with_inks_split(plan: Settled, shop: &Workshop, thrift: Thrift) -> Settled {
@@ -163,17 +141,6 @@ pub fn apart_at_last(plan: Settled, shop: &Workshop, thrift: Thrift) -> Settled 
         Some(_) => with_loops_skipped(plan, shop, thrift),
         None => plan,
     };
-    for _ in 0..LATER {
-        let before = best.serial();
-        best = shop.pass(Pass::SinkPartial, best, |plan| {
-            let all = later(&plan.graph, shop.runtime).into_iter();
-            let next = price.cheapest(all.map(|graph| shop.scheduled(graph)))?;
-            (price.of(&next) < GUARD * price.of(plan)).then_some(next)
-        });
-        if best.serial() == before {
-            break;
-        }
-    }
     for _ in 0..APART {
         let before = best.serial();
         best = shop.pass(Pass::Rematerialise, best, |plan| {
@@ -221,49 +188,12 @@ impl Site<'_> {
             };
             let guarded = guard(&peeled, of, 1, BODY);
             let early = early.and_then(|graph| peel(graph, of, BODY));
-            let sooner = |beside| {
-                let graph = in_loops(early.as_ref()?, beside)?;
-                let graph = guard(&graph, of, 2, BODY)?;
-                // A second condition is for what is known before the loop.
-                Some(in_loops(&graph, None).unwrap_or(graph))
-            };
+            let sooner = || guard(&in_loops(early.as_ref()?)?, of, 2, BODY);
             self.keep(Pass::Peel, &mut best, || Some(peeled), (COPY, limit));
             self.keep(Pass::LoopGuard, &mut best, || guarded, (GUARD, limit));
-            if self.keep(Pass::EarlyExit, &mut best, || sooner(None), (GUARD, limit))
-                && self.runtime.segments
-                && self.thrift.beside()
-            {
-                best = self.beside(best, sooner);
-            }
+            self.keep(Pass::EarlyExit, &mut best, sooner, (GUARD, limit));
         }
         best
-    }
-
-    /// The cheapest of a plan with shortcuts and those with another condition beside the
-    /// last: what it saves is seen where values are taken apart.
-    fn beside(&self, plan: Settled, sooner: impl Fn(Option<usize>) -> Option<Graph>) -> Settled {
-        let cost = |plan: &Settled| self.cost(&apart_at_last(plan.clone(), self.shop, self.thrift));
-        let settled = |beside| sooner(beside).map(|graph| self.shop.settle(&graph));
-        // What costs more before forms are looked for is not looked at any further.
-        let limit = settled(None).map_or(f64::INFINITY, |plan| self.cost(&plan));
-        let mut best = (cost(&plan), plan);
-        for beside in 0..BESIDE {
-            let tried = settled(Some(beside)).filter(|_| !self.shop.fuel.spent());
-            let Some(tried) = tried else {
-                break;
-            };
-            if self.cost(&tried) >= limit {
-                continue;
-            }
-            let Some(found) = self.rewritten(&tried).map(|plan| (cost(&plan), plan)) else {
-                continue;
-            };
-            if found.0 < GUARD * best.0 {
-                self.shop.note_beside();
-                best = found;
-            }
-        }
-        best.1
     }
 
     /// Whether a graph makes a plan that is cheaper than such a part of the best one, which it is

@@ -1,6 +1,6 @@
 //! What is made of choices: operations in their arms ([`crate::passes::arms`]), factors
 //! that are chosen by the values that they take ([`crate::passes::factors`]), and conditions
-//! that are asked only where they matter ([`crate::passes::either`], [`crate::passes::zones`]).
+//! that are asked only where they matter ([`crate::passes::either`]).
 
 use super::cheaper::NODES;
 use super::pipeline::{Pass, REWRITES};
@@ -13,7 +13,6 @@ use crate::passes::arms::{arms, conditions};
 use crate::passes::either::{self, either};
 use crate::passes::factors::factors;
 use crate::passes::fold::fold;
-use crate::passes::zones::{Choice, Way, choices};
 use slowlight_routine::Format;
 
 /// By how much operations in arms must make the plan cheaper: each choice is asked once
@@ -23,9 +22,6 @@ const ARMS: f64 = 0.99;
 /// By how much a choice must make the plan cheaper: what a jump more costs is not known
 /// so well.
 const CHOICE: f64 = 0.999;
-
-/// How many choices are looked at for zones in which they are the same either way.
-const CHOICES: usize = 4;
 
 /// How many factors are chosen.
 const FACTORS: usize = 8;
@@ -75,51 +71,11 @@ pub fn asked_where_it_matters(plan: Settled, shop: &Workshop, thrift: Thrift) ->
         return plan;
     }
     let price = Price::new(shop, thrift);
-    let plan = shop.pass(Pass::Shannon, plan, |plan| {
+    shop.pass(Pass::Shannon, plan, |plan| {
         each_condition(plan, shop, &price, either::conditions, |plan, cond| {
             either(&plan.graph, cond).map(|graph| fold(&graph))
         })
-    });
-    match thrift.zones() {
-        true => shop.pass(Pass::ShannonRanges, plan, |plan| {
-            in_zones(plan, shop, &price)
-        }),
-        false => plan,
-    }
-}
-
-/// With conditions asked only in zones of a value in which the ink is not the same either
-/// way: in those of them that make the plan cheapest.
-fn in_zones(plan: &Settled, shop: &Workshop, price: &Price) -> Option<Settled> {
-    let cost = |choice: &Choice<'_>, way: Way| {
-        let next = shop.settle(&choice.put(&way));
-        (price.of(&next), way, next)
-    };
-    let mut best = None;
-    for k in 0..CHOICES {
-        let known = best.as_ref().unwrap_or(plan).clone();
-        if !shop.may_look(&known.graph) {
-            break;
-        }
-        let Some(choice) = choices(&known.graph, &known.ranges).into_iter().nth(k) else {
-            break;
-        };
-        let mut found = cost(&choice, choice.all());
-        loop {
-            let tries = choice.others(&found.1).into_iter();
-            let tries = tries
-                .take_while(|_| !shop.fuel.spent())
-                .map(|way| cost(&choice, way));
-            match tries.min_by(|a, b| a.0.total_cmp(&b.0)) {
-                Some(next) if next.0 < found.0 => found = next,
-                _ => break,
-            }
-        }
-        if found.0 < CHOICE * price.of(&known) {
-            best = Some(found.2);
-        }
-    }
-    best
+    })
 }
 
 /// With what each of [`REWRITES`] makes of the plan, where that is cheaper.

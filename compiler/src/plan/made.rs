@@ -1,7 +1,7 @@
 //! How a plan is made: the passes in their order, then a routine for each value.
 
 use super::assemble::assemble;
-use super::cheaper::{apart_at_last, cheaper, with_inks_split, with_recipes_followed};
+use super::cheaper::{apart_at_last, cheaper, with_inks_split};
 use super::chosen::{asked_where_it_matters, in_arms, rewritten};
 use super::licm::licm;
 use super::narrowed::narrowed;
@@ -280,7 +280,6 @@ fn searched(
                 .into_iter()
                 .map(|plan| asked_where_it_matters(plan, &shop, thrift))
                 .map(|plan| rewritten(plan, &shop, thrift))
-                .map(|plan| with_recipes_followed(plan, &shop, thrift))
                 .map(|plan| stepped(plan, &shop, target, thrift, steps))
                 .map(|plan| with_sums(plan, &shop, thrift))
                 .map(|plan| with_inks_split(plan, &shop, thrift));

@@ -10,12 +10,8 @@
 //! from the nearest numbers in the last places: by 2^-22 of an entry at most, or
 //! the table is not made so. The model has the same bits ([`Made::bits`]).
 
-use crate::flow::build::Builder;
 use crate::flow::graph::*;
-use crate::passes::rate::rates;
-use crate::passes::rebuild::rebuild_old;
 use crate::range::ENTRIES;
-use crate::source::Span;
 use slowlight_routine::{Bits, Op, Runtime, Type, Value};
 
 /// What an entry is worked out from.
@@ -62,107 +58,6 @@ pub fn made(graph: &Graph, runtime: &Runtime) -> Vec<Made> {
         all.push(next);
     }
     all
-}
-
-/// The graph with recipes followed where an entry is needed, for tables that are
-/// read once a row or pass at most: then the program has the cells alone. Nothing
-/// where there is no such table.
-pub fn followed(graph: &Graph, runtime: &Runtime) -> Option<Graph> {
-    let rates = rates(graph);
-    let made = made(graph, runtime);
-    let recipe = |table: TableId| made.get(table.0 as usize)?.recipe;
-    let lookup = |id: NodeId| match graph.node(id) {
-        Node::Lookup { table, column, row } => Some((table, column, row)),
-        _ => None,
-    };
-    let reached = graph.reached();
-    let all = || graph.ids().filter(|id| reached[id.0 as usize]);
-    // Others would be kept beside, or read at every pixel.
-    let often = |table: TableId| {
-        let mut of = all().filter(|id| lookup(*id).is_some_and(|(t, ..)| t == table));
-        of.any(|id| !rates.is_still(id))
-    };
-    let fits: Vec<bool> = (0..graph.tables.len() as u32)
-        .map(|k| recipe(TableId(k)).is_some() && !often(TableId(k)))
-        .collect();
-    let fits = |table: TableId| fits.get(table.0 as usize) == Some(&true);
-    if !all().any(|id| lookup(id).is_some_and(|(table, ..)| fits(table))) {
-        return None;
-    }
-    Some(rebuild_old(graph, &mut |builder, made, id, span| {
-        let (table, column, row) = lookup(id).filter(|(table, ..)| fits(*table))?;
-        let new = |id: NodeId| made.get(id.0 as usize).copied().flatten();
-        let mut follow = Follow {
-            graph,
-            recipe: &recipe,
-            place: (new(column)?, new(row)?),
-            builder,
-            span,
-        };
-        follow.entry(table)
-    }))
-}
-
-/// Where a recipe is followed.
-struct Follow<'f> {
-    graph: &'f Graph,
-    recipe: &'f dyn Fn(TableId) -> Option<Recipe>,
-    /// The entry's column and row.
-    place: (NodeId, NodeId),
-    builder: &'f mut Builder,
-    span: Span,
-}
-
-impl Follow<'_> {
-    fn entry(&mut self, table: TableId) -> Option<NodeId> {
-        let recipe = (self.recipe)(table)?;
-        let mut value = match recipe.from {
-            From::Seed => self.cell(table)?,
-            From::Table(other) => self.entry(other)?,
-        };
-        if recipe.moved != 0.0 {
-            value = self.with(Op::Add, value, recipe.moved);
-        }
-        if recipe.scale != 1.0 {
-            value = self.with(Op::Mul, value, recipe.scale);
-        }
-        if let Some(more) = recipe.more {
-            value = self.square(value);
-            if more != 0.0 {
-                value = self.with(Op::Add, value, more);
-            }
-        }
-        Some(if recipe.squared {
-            self.square(value)
-        } else {
-            value
-        })
-    }
-
-    /// The cell that a table's entry is made of.
-    fn cell(&mut self, table: TableId) -> Option<NodeId> {
-        let table = self.graph.tables.get(table.0 as usize)?;
-        let cells = self.builder.table(Table {
-            name: "cell".to_owned(),
-            ty: Type::Int,
-            entries: table.seed.iter().map(|n| Constant::Int(*n)).collect(),
-            seed: Vec::new(),
-            ..table.clone()
-        });
-        let (column, row) = self.place;
-        let cell = self.builder.lookup(cells, column, row, self.span);
-        Some(self.builder.apply(Op::ToReal, &[cell], self.span))
-    }
-
-    fn with(&mut self, op: Op, value: NodeId, by: f64) -> NodeId {
-        let by = self.builder.constant(Value::Real(by), self.span);
-        self.builder.apply(op, &[value, by], self.span)
-    }
-
-    fn square(&mut self, value: NodeId) -> NodeId {
-        let size = self.builder.apply(Op::Abs, &[value], self.span);
-        self.builder.apply(Op::Mul, &[value, size], self.span)
-    }
 }
 
 struct Site<'g> {

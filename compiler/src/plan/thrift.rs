@@ -8,43 +8,18 @@ struct Step {
     part: f64,
     /// How many times that for statements around pixels.
     around: f64,
-    /// Whether what tables hold is worked out where it is needed, even where that is
-    /// slower.
-    follows: bool,
     /// Whether runs of columns may be looked for, and whether rows may be drawn in
     /// passes: both take many statements a row, which hardly count by cycles.
     runs: bool,
     passes: bool,
-    /// Whether a shortcut may have a second condition, before a loop.
-    beside: bool,
-    /// Whether a step before is this one but for such a condition.
-    repeats: bool,
 }
 
 const fn step(part: f64) -> Step {
     Step {
         part,
         around: 1.0,
-        follows: false,
         runs: true,
         passes: true,
-        beside: false,
-        repeats: false,
-    }
-}
-
-const fn with_beside(part: f64) -> Step {
-    Step {
-        beside: true,
-        ..step(part)
-    }
-}
-
-const fn repeated(of: Step) -> Step {
-    Step {
-        beside: false,
-        repeats: true,
-        ..of
     }
 }
 
@@ -56,20 +31,9 @@ const fn without_runs(part: f64) -> Step {
 }
 
 /// From where there is plenty to where there was never enough.
-const THRIFT: [Step; 19] = [
-    with_beside(0.0001),
-    Step {
-        follows: true,
-        ..with_beside(0.0001)
-    },
-    with_beside(0.0004),
-    // What a second condition takes may be worth more elsewhere.
-    repeated(step(0.0001)),
-    repeated(Step {
-        follows: true,
-        ..step(0.0001)
-    }),
-    repeated(step(0.0004)),
+const THRIFT: [Step; 15] = [
+    step(0.0001),
+    step(0.0004),
     step(0.0006),
     step(0.0008),
     step(0.0011),
@@ -77,7 +41,6 @@ const THRIFT: [Step; 19] = [
     // What rows and passes know is worth less than what makes their pixels quick.
     Step {
         around: 4.0,
-        follows: true,
         ..step(0.0005)
     },
     step(0.0025),
@@ -119,17 +82,6 @@ impl Thrift {
         THRIFT[self.0].around
     }
 
-    /// Whether zones may be looked for ([`crate::passes::zones`]): more stands behind more
-    /// ways then, which takes flags where there is no memory for copies on each way.
-    pub fn zones(self) -> bool {
-        !self.follows()
-    }
-
-    /// Whether what tables hold is to be worked out where it is needed, if it can be.
-    pub fn follows(self) -> bool {
-        THRIFT[self.0].follows
-    }
-
     /// Whether there is memory to spare.
     pub fn is_plenty(self) -> bool {
         self.part() <= THRIFT[0].part
@@ -144,16 +96,6 @@ impl Thrift {
     /// Whether runs of columns may be looked for.
     pub fn runs(self) -> bool {
         THRIFT[self.0].runs
-    }
-
-    /// Whether a shortcut may have a second condition, before a loop.
-    pub fn beside(self) -> bool {
-        THRIFT[self.0].beside
-    }
-
-    /// Whether a step before is this one but for such conditions.
-    pub fn repeats(self) -> bool {
-        THRIFT[self.0].repeats
     }
 
     /// Whether rows may be drawn in passes.

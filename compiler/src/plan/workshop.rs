@@ -20,7 +20,6 @@ use rustc_hash::{FxHashMap, FxHasher};
 use slowlight_routine::Runtime;
 use std::fmt;
 use std::hash::{Hash, Hasher};
-use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex, MutexGuard, OnceLock, PoisonError};
 
 /// A graph with a rewrite, and where that was: nothing where there is none to do.
@@ -59,8 +58,6 @@ pub struct Workshop {
 #[derive(Default)]
 struct Memo {
     kept: Mutex<Kept>,
-    /// Whether a plan has a second condition of a shortcut.
-    beside: AtomicBool,
     /// The pixels by which plans are priced.
     pixels: OnceLock<Arc<Pixels>>,
 }
@@ -146,16 +143,6 @@ impl Workshop {
     /// How far the routines' results may be off.
     pub fn slack(&self) -> &Slack {
         &self.slack
-    }
-
-    /// Whether a second condition of a shortcut was taken: plans without are others then.
-    pub fn has_beside(&self) -> bool {
-        self.memo.beside.load(Ordering::Relaxed)
-    }
-
-    /// Notes that one was.
-    pub fn note_beside(&self) {
-        self.memo.beside.store(true, Ordering::Relaxed);
     }
 
     /// Charges a look at all of a graph; whether there is fuel for one.
