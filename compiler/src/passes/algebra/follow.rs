@@ -83,12 +83,11 @@ impl Rounded {
 pub struct Known {
     /// By node, what is known, and the turn that it is known of.
     values: Vec<(u32, Rounded)>,
-    nodes: Vec<NodeId>,
     turn: u32,
 }
 
 impl Known {
-    fn get(&self, id: NodeId) -> Option<Rounded> {
+    pub fn get(&self, id: NodeId) -> Option<Rounded> {
         let found = self.values.get(id.0 as usize);
         found.filter(|v| v.0 == self.turn + 1).map(|v| v.1)
     }
@@ -99,17 +98,10 @@ impl Known {
             self.values.resize(place + 1, (0, Rounded::exact(0.0)));
         }
         self.values[place] = (self.turn + 1, value);
-        self.nodes.push(id);
     }
 
     fn forget(&mut self) {
-        self.nodes.clear();
         self.turn += 1;
-    }
-
-    pub fn iter(&self) -> impl Iterator<Item = (NodeId, Rounded)> {
-        let known = |id: &NodeId| Some((*id, self.get(*id)?));
-        self.nodes.iter().filter_map(known)
     }
 }
 

@@ -9,7 +9,7 @@
 
 use super::New;
 use super::follow::{Follow, Nodes, Rounded, Sample};
-use super::key::{Keys, shared};
+use super::key::{Keys, near, shared};
 use crate::flow::build::Builder;
 use crate::flow::graph::*;
 use rustc_hash::FxHashMap;
@@ -89,6 +89,9 @@ pub struct Judge<'g> {
 /// them: forms are judged again and again, each time with other ones beside them.
 #[derive(Default)]
 pub struct Followed {
+    /// Whether forms are judged by what they do to the operands of values, which were judged
+    /// themselves: else by what they do from the pixel's place on.
+    local: bool,
     values: Mutex<FxHashMap<NodeId, Known>>,
     /// Whether a form is good enough for a value, by its number ([`Keys`]).
     judged: Mutex<FxHashMap<(NodeId, bool, u64), bool>>,
@@ -112,18 +115,15 @@ struct Was {
     misses_root: bool,
     /// The greatest magnitude of a real on the way.
     most: f64,
-    /// Entries of tables and ints on the way.
+    /// What is the same in its forms.
     shared: Vec<(NodeId, Rounded)>,
 }
 
 impl Was {
-    fn new(follow: &mut Follow<'_, Graph>, id: NodeId) -> Option<Was> {
-        let graph = follow.nodes;
+    fn new(follow: &mut Follow<'_, Graph>, id: NodeId, shared: &[NodeId]) -> Option<Was> {
         let relative = relative(follow, id)?;
         let value = follow.value(id, 0);
-        let shared = follow.known.iter().filter(|(id, _)| {
-            matches!(graph.node(*id), Node::Lookup { .. }) || graph.ty(*id) == Type::Int
-        });
+        let shared = (shared.iter()).filter_map(|id| Some((*id, follow.known.get(*id)?)));
         Some(Was {
             relative,
             value,
@@ -135,13 +135,24 @@ impl Was {
 }
 
 impl Followed {
+    /// For forms that are judged by their operands.
+    pub fn local() -> Followed {
+        Followed {
+            local: true,
+            ..Followed::default()
+        }
+    }
+
     /// What is known of a value at so many samples.
     fn of(&self, graph: &Graph, id: NodeId, samples: usize) -> Known {
         // A thread that panicked has left whole entries.
         let mut all = self.values.lock().unwrap_or_else(PoisonError::into_inner);
         let none = || Known {
             at: Arc::new((0..samples).map(|_| OnceLock::new()).collect()),
-            shared: Arc::new(shared(graph, id)),
+            shared: Arc::new(match self.local {
+                true => near(graph, id),
+                false => shared(graph, id),
+            }),
         };
         all.entry(id).or_insert_with(none).clone()
     }
@@ -189,7 +200,7 @@ impl Judge<'_> {
         where_equal: bool,
     ) -> bool {
         let known = self.followed.of(self.graph, old, self.samples.len());
-        let judge = || self.judged_at(&known.at, (b, new), (old, made), where_equal);
+        let judge = || self.judged_at(&known, (b, new), (old, made), where_equal);
         match Keys::new(b, new, &known.shared).of(made) {
             Some(key) => self.followed.judged((old, where_equal, key), judge),
             None => judge(),
@@ -198,7 +209,7 @@ impl Judge<'_> {
 
     fn judged_at(
         &self,
-        known: &AtSamples,
+        known: &Known,
         (b, new): (&Builder, New<'_>),
         (old, made): (NodeId, NodeId),
         where_equal: bool,
@@ -211,10 +222,10 @@ impl Judge<'_> {
         let next = |t: TableId| b.table_of(t);
         let mut is = Follow::new(b, &next, first);
         let mut told = 0;
-        for (was, sample) in known.iter().zip(self.samples) {
+        for (was, sample) in known.at.iter().zip(self.samples) {
             let was = was.get_or_init(|| {
                 before.to(sample);
-                Was::new(&mut before, old)
+                Was::new(&mut before, old, &known.shared)
             });
             let Some(was) = was else {
                 continue;

@@ -78,3 +78,22 @@ pub fn shared(graph: &Graph, of: NodeId) -> Vec<NodeId> {
     }
     all
 }
+
+/// How many values near another are the same in its forms, where these are judged by their
+/// operands.
+const NEAR: usize = 64;
+
+/// The values that an old value is made of, those first that it is made of directly: so many.
+pub fn near(graph: &Graph, of: NodeId) -> Vec<NodeId> {
+    let mut all = vec![of];
+    let mut at = 0;
+    while let Some(&id) = all.get(at).filter(|_| all.len() < NEAR) {
+        for operand in graph.node(id).operands() {
+            if !all.contains(&operand) {
+                all.push(operand);
+            }
+        }
+        at += 1;
+    }
+    all.split_off(1)
+}

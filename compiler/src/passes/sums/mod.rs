@@ -116,7 +116,7 @@ impl<'g> Sums<'g> {
             samples: samples(graph),
             allowance: allowance(runtime),
             end: end(runtime.real),
-            followed: Followed::default(),
+            followed: Followed::local(),
             groups: FxHashMap::default(),
         };
         sums.groups = sums.grouped();
