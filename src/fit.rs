@@ -20,6 +20,8 @@ use slowlight_compiler::plan::{Plan, SEARCH};
 use slowlight_compiler::source::Span;
 use slowlight_compiler::target::Mode;
 use slowlight_compiler::target::mos6502::DISC_PAGE;
+use std::cell::RefCell;
+use std::collections::VecDeque;
 
 /// How much work may be done to find a plan whose program fits, in units of
 /// [`slowlight_compiler::fuel::Fuel`]: no example is cut short.
@@ -47,7 +49,11 @@ pub fn fit(
     name: &dyn Fn(Span) -> Option<String>,
 ) -> Outcome<Plan> {
     let fuel = Fuel::new(FIT);
-    let search = Search { fuel: &fuel, name };
+    let search = Search {
+        fuel: &fuel,
+        name,
+        known: RefCell::default(),
+    };
     let mut found = search.found(modes, plan)?;
     if fuel.was_cut() {
         found.note_cut();
@@ -59,7 +65,12 @@ pub fn fit(
 struct Search<'s> {
     fuel: &'s Fuel,
     name: &'s dyn Fn(Span) -> Option<String>,
+    /// What programs take that were measured last: plans by several ways may be the same.
+    known: RefCell<VecDeque<(Plan, Option<Need>)>>,
 }
+
+/// How many of them.
+const KNOWN: usize = 8;
 
 /// Makes the plan for a mode with so much fuel.
 type Make<'m> = &'m dyn Fn(Mode, u64) -> Outcome<Plan>;
@@ -175,7 +186,7 @@ impl Search<'_> {
         {
             let mut short = stable.clone();
             (short.lean, short.tight) = (true, true);
-            if let Some(need) = about(&short, self.fuel)?
+            if let Some(need) = self.about(&short)?
                 && need.exceeds(8)
             {
                 return Ok(Fitted::TooLarge(Box::new(short), need.or_less(Some(quick))));
@@ -195,6 +206,19 @@ impl Search<'_> {
             }
             (found, _) => Ok(found),
         }
+    }
+
+    /// What a plan's program takes.
+    fn about(&self, plan: &Plan) -> Outcome<Option<Need>> {
+        let known = |(other, _): &&(Plan, Option<Need>)| plan.is_written_as(other);
+        if let Some((_, need)) = self.known.borrow().iter().find(known) {
+            return Ok(need.clone());
+        }
+        let need = about(plan, self.fuel)?;
+        let mut all = self.known.borrow_mut();
+        all.truncate(KNOWN - 1);
+        all.push_front((plan.clone(), need.clone()));
+        Ok(need)
     }
 
     /// How much fuel a search for a plan may have that is one of so many.

@@ -3,7 +3,7 @@
 
 use super::{LADDER, Search, is_basic, remarks, with_disc};
 use crate::failure::Outcome;
-use crate::need::{Need, about};
+use crate::need::Need;
 use rayon::prelude::*;
 use slowlight_compiler::plan::{Candidate, Copies, Plan, SEARCH};
 
@@ -125,13 +125,17 @@ impl Search<'_> {
             };
             for (brief, scant) in remarks(plan) {
                 (tried.brief, tried.scant) = (*brief, *scant);
-                let need = match about(&tried, self.fuel)? {
+                let need = match self.about(&tried)? {
                     Some(need) if !need.fits() => need,
                     _ => return Ok(Ok(tried)),
                 };
-                let near = need.is_near();
+                let (near, far) = (need.is_near(), need.exceeds(1));
                 if least.as_ref().is_none_or(|l| need.total() < l.total()) {
                     least = Some(need);
+                }
+                // What is done seldom is not half of a program.
+                if far {
+                    return Ok(Err(least));
                 }
                 if !near {
                     break;
@@ -143,7 +147,7 @@ impl Search<'_> {
 
     /// Whether the machine holds a plan's program.
     fn holds(&self, plan: &Plan) -> Outcome<bool> {
-        Ok(about(plan, self.fuel)?.is_none_or(|need| need.fits()))
+        Ok(self.about(plan)?.is_none_or(|need| need.fits()))
     }
 
     pub(super) fn as_is_or_tight(&self, mut plan: Plan) -> Outcome<Fitted> {
@@ -165,7 +169,7 @@ impl Search<'_> {
                 continue;
             }
             (plan.lean, plan.tight) = (lean, tight);
-            let near = match about(&plan, self.fuel)? {
+            let near = match self.about(&plan)? {
                 Some(need) if !need.fits() => {
                     let near = need.is_near();
                     if least.as_ref().is_none_or(|l| need.total() < l.total()) {

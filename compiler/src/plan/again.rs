@@ -64,6 +64,16 @@ impl Plan {
         Some(plan)
     }
 
+    /// Whether another plan of the same scene and target makes the same program.
+    pub fn is_written_as(&self, other: &Plan) -> bool {
+        let style = |plan: &Plan| {
+            let short = (plan.tight, plan.lean, plan.brief, plan.scant, plan.copies);
+            (short, plan.listing, plan.statics, plan.page)
+        };
+        let whole = (self.mode, self.rows) == (other.mode, other.rows);
+        whole && style(self) == style(other) && self.tree == other.tree && self.graph == other.graph
+    }
+
     /// Whether there is a plan that spends less memory on speed.
     pub fn may_be_smaller(&self) -> bool {
         matches!(self.origin.1, Rewriting::Fast { .. })
