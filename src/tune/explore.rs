@@ -14,6 +14,7 @@ use crate::measure::Errors;
 use crate::progress::Progress;
 use crate::scene::Scene;
 use serde::{Deserialize, Serialize};
+use slowlight_compiler::plan::THRIFTS;
 use slowlight_compiler::target;
 use std::sync::{Arc, Mutex};
 
@@ -247,7 +248,16 @@ fn note(found: &Mutex<Found>, write: impl FnOnce(&mut Found)) {
 }
 
 /// Ways to a smaller program: subroutines, or how much less memory is spent on speed.
-const SMALLER: [(bool, u8); 5] = [(false, 0), (false, 6), (false, 12), (false, 18), (true, 0)];
+const SMALLER: [(bool, u8); 5] = {
+    let last = THRIFTS as u8 - 1;
+    [
+        (false, 0),
+        (false, last / 3),
+        (false, last * 2 / 3),
+        (false, last),
+        (true, 0),
+    ]
+};
 
 /// All formats and settings, with params changeable and folded.
 fn choices(search: &Search, scenes: &Scenes, settings: &[Setting]) -> Vec<Choice> {

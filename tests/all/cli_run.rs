@@ -188,7 +188,7 @@ fn a_listing_names_the_items_that_its_lines_come_from() {
         success(dir.path(), &args)
     };
     let listing = build("listing");
-    for item in ["REM draw", "REM effect tiles", "REM dither demo"] {
+    for item in ["REM draw", "REM effect tiles", "REM effect mirrors"] {
         assert!(listing.contains(item), "{item}\n{listing}");
     }
     assert!(!build("fast").contains("REM effect"));

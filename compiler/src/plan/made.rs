@@ -100,8 +100,9 @@ pub(super) enum Rewriting {
 /// By how much shortcuts must make a plan cheaper: each is a test more to be read.
 const SOONER: f64 = 0.95;
 
-/// From where on only plans with them are looked at.
-const SURELY: f64 = 0.88;
+/// From where on only plans with them are looked at, where runs of columns may tell what exits
+/// would: there the plan without may gain more by the other passes.
+const SURELY: f64 = 0.75;
 
 /// How often stable forms are looked for: what one makes may let another in.
 const STABLE_ROUNDS: u32 = 4;
@@ -257,11 +258,15 @@ fn searched(
     let early = early.map(|plan| in_arms(plan, shop, thrift));
     let early = early.as_ref().map(|settled| &settled.graph);
     let exits = early.and_then(everywhere).map(|graph| shop.settle(&graph));
-    // How much the exits outside of loops gain hardly hangs on the other passes.
+    // How much the exits outside of loops gain hardly hangs on the other passes, but for spans.
     let part = (exits.as_ref()).map_or(1.0, |exits| price.of(exits) / price.of(&plain));
     let exits = exits.filter(|_| part < SOONER);
     let mut starts = Vec::new();
-    if part >= SURELY {
+    let surely = match shop.runtime.segments {
+        true => SURELY,
+        false => SOONER,
+    };
+    if part >= surely {
         starts.push((plain.clone(), early.cloned()));
         // Where runs of columns are drawn as a whole, points by their distance along a ray may
         // tell where these end.
