@@ -226,6 +226,7 @@ pub(super) fn candidate(
         let without = Rewriting::Fast { thrift, steps };
         let mut made = candidate(kept, target, goal, (without, shop.fuel.share()))?;
         made.work += shop.fuel.burnt();
+        made.cut |= shop.fuel.was_cut();
         made.allowance = allowance;
         return Ok(made);
     }
@@ -266,7 +267,8 @@ fn searched(
         true => SURELY,
         false => SOONER,
     };
-    if part >= surely {
+    let alone = exits.is_some() && part < surely;
+    if !alone {
         starts.push((plain.clone(), early.cloned()));
         // Where runs of columns are drawn as a whole, points by their distance along a ray may
         // tell where these end.
