@@ -209,7 +209,7 @@ fn quickest(
 
 /// Whether a format is of those that are looked at first.
 fn is_short(format: Format) -> bool {
-    matches!(format, Format::Log { .. }) || (1..=16).contains(&format.bits())
+    matches!(format, Format::Log { frac: ..=10, .. }) || (1..=16).contains(&format.bits())
 }
 
 /// The least that wider formats take: what those of 16 bits with a fixed point do, as each

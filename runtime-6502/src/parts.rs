@@ -3,7 +3,7 @@
 use slowlight_routine::{Part, Source};
 
 use crate::model::{ARCTANGENT, LOGARITHM, POWER_OF_TWO, SINE};
-use crate::{log, scaled};
+use crate::scaled;
 
 pub(crate) const fn part(
     name: &'static str,
@@ -160,11 +160,15 @@ const USUAL: &[Part] = &[
     ),
 ];
 
-/// All of them, those of logarithms behind the others.
-pub(crate) static ALL: &[Part] =
-    &joined::<{ OTHERS + log::PARTS.len() }>(&joined::<OTHERS>(USUAL, scaled::PARTS), log::PARTS);
+/// All of them but those of logarithms.
+pub(crate) static ALL: &[Part] = &joined::<{ USUAL.len() + scaled::PARTS.len() }>(USUAL, scaled::PARTS);
 
-const OTHERS: usize = USUAL.len() + scaled::PARTS.len();
+/// The usual ones, and others behind them.
+pub(crate) const fn with<const N: usize>(others: &[Part]) -> [Part; N] {
+    joined(USUAL, others)
+}
+
+pub(crate) const OF_USUAL: usize = USUAL.len();
 
 const fn joined<const N: usize>(a: &[Part], b: &[Part]) -> [Part; N] {
     let mut all = [a[0]; N];

@@ -1,7 +1,7 @@
 //! The arithmetics that cases are tried in, and what an input becomes there.
 
 use slowlight_compiler::target::Target;
-use slowlight_routine::log::model::{LEAST, Log, MOST, OCTAVE, WHOLE};
+use slowlight_routine::log::model::{Logarithm, WHOLE};
 use slowlight_routine::scale::{fitting, most};
 use slowlight_routine::{Bits, Format, Value};
 
@@ -58,7 +58,10 @@ impl Arithmetic {
         match self {
             Arithmetic::Native => Some((1024, -1074)),
             Arithmetic::Of(Format::Real40) => Some((127, -128)),
-            Arithmetic::Of(Format::Log { .. }) => Some(((MOST + 1) / OCTAVE, LEAST / OCTAVE)),
+            Arithmetic::Of(format @ Format::Log { .. }) => {
+                let (least, most, octave) = ends(format);
+                Some(((most + 1) / octave, least / octave))
+            }
             Arithmetic::Of(_) => None,
         }
     }
@@ -109,7 +112,7 @@ impl Arithmetic {
                 let end = 2f64.powi(i32::from(bits) - 1);
                 return (-end..end).contains(&n).then_some(n / scale);
             }
-            Arithmetic::Of(Format::Log { .. }) => return logarithm(x),
+            Arithmetic::Of(format @ Format::Log { .. }) => return logarithm(format, x),
             // Where its point stands says its param's range: [`placed`].
             Arithmetic::Of(Format::Scaled { .. }) => return None,
             Arithmetic::Of(_) => return None,
@@ -139,16 +142,32 @@ fn significant(x: f64, bits: i32) -> f64 {
     grown.round_ties_even() / 2f64.powi(half) / 2f64.powi(rest)
 }
 
+/// The least and the greatest logarithm that a format holds, and its units in an octave.
+fn ends(format: Format) -> (i32, i32, i32) {
+    match format {
+        Format::Log { octaves: 32, .. } => of_logs::<10, true>(),
+        Format::Log { frac: 11, .. } => of_logs::<11, true>(),
+        _ => of_logs::<10, false>(),
+    }
+}
+
+fn of_logs<const FRAC: u8, const WIDE: bool>() -> (i32, i32, i32) {
+    type L<const F: u8, const W: bool> = Logarithm<F, W>;
+    let octave = L::<FRAC, WIDE>::OCTAVE;
+    (L::<FRAC, WIDE>::LEAST, L::<FRAC, WIDE>::MOST, octave)
+}
+
 /// `x` with the nearest logarithm; none where it is beyond the ends. The least magnitude
 /// is 0 there, so nothing else is held as that. The logarithm nearest to a whole number is
 /// that number, as the format's floors have it.
-fn logarithm(x: f64) -> Option<f64> {
+fn logarithm(format: Format, x: f64) -> Option<f64> {
     if x == 0.0 || x.fract() == 0.0 && x.abs() < f64::from(WHOLE) {
         return Some(x);
     }
-    let log = (x.abs().log2() * f64::from(OCTAVE)).round();
-    let fits = log > f64::from(LEAST) && log <= f64::from(MOST);
-    fits.then(|| Log::nearest(x).value())
+    let (least, most, octave) = ends(format);
+    let log = (x.abs().log2() * f64::from(octave)).round();
+    let fits = log > f64::from(least) && log <= f64::from(most);
+    fits.then(|| (log / f64::from(octave)).exp2().copysign(x))
 }
 
 /// `x` with as many fraction bits as numbers up to `greatest` leave room for in so many
@@ -165,7 +184,11 @@ pub fn placed(x: f64, greatest: f64, bits: u8) -> Option<f64> {
 /// stands for 0.
 pub fn worth(format: Format, value: f64) -> f64 {
     match format {
-        Format::Log { .. } if Log::nearest(value).log <= LEAST => 0.0,
+        Format::Log { .. } => {
+            let (least, _, octave) = ends(format);
+            let held = (value.abs().log2() * f64::from(octave)).round() > f64::from(least);
+            if held { value } else { 0.0 }
+        }
         _ => value,
     }
 }
@@ -216,7 +239,10 @@ mod tests {
             (fixed.round(32768.0), fixed.round(-32768.0)),
             (None, Some(-32768.0))
         );
-        let log = Arithmetic::Of(Format::Log { frac: 10 });
+        let log = Arithmetic::Of(Format::Log {
+            frac: 10,
+            octaves: 16,
+        });
         assert_eq!((log.round(0.0), log.round(-4.0)), (Some(0.0), Some(-4.0)));
         assert_eq!(log.round(3.0), Some(3.0));
         assert_eq!(log.round(1.5), Some((599.0f64 / 1024.0).exp2()));
@@ -234,7 +260,10 @@ mod tests {
             (placed(-0.25, 3e4, 16), placed(0.0, 0.0, 16)),
             (None, Some(0.0))
         );
-        assert_eq!(worth(Format::Log { frac: 10 }, -0.5f64.powi(14)), 0.0);
+        assert_eq!(worth(Format::Log {
+            frac: 10,
+            octaves: 16,
+        }, -0.5f64.powi(14)), 0.0);
         assert_eq!(Arithmetic::Native.tiny(), f64::from_bits(1));
         assert_eq!(Arithmetic::Native.round(f64::INFINITY), None);
     }

@@ -40,8 +40,8 @@ pub enum Format {
     /// results are cut; or rounded.
     Float316 { rounded: bool },
     /// A sign, and the binary logarithm of the magnitude in 16 bits, `frac` of them after
-    /// the point, from -2^(14 - frac) to 2^(14 - frac); there is no 0.
-    Log { frac: u8 },
+    /// the point, up to `octaves`; there is no 0.
+    Log { frac: u8, octaves: u8 },
     /// Two's complement of `bits` bits, `frac` of them after the point. As [`Bits`]: sign-extended.
     Fixed { bits: u8, frac: i8 },
     /// Of a runtime's reals: [`Format::Fixed`] of so many bits, each value with fraction
@@ -58,7 +58,7 @@ impl Format {
             Format::Fixed { bits, frac } => 2f64.powi(i32::from(bits) - 1 - i32::from(frac)),
             Format::Real40 => 2f64.powi(127),
             Format::Float316 { .. } => f64::MAX,
-            Format::Log { frac } => f64::from(14 - i32::from(frac)).exp2().exp2(),
+            Format::Log { octaves, .. } => f64::from(octaves).exp2(),
             Format::Scaled { .. } => f64::MAX,
         }
     }
@@ -100,7 +100,7 @@ impl Format {
             Format::Real40 => 1.0 / 4_294_967_296.0,
             Format::Float316 { rounded: false } => 1.0 / 8192.0,
             Format::Float316 { rounded: true } => 1.0 / 16384.0,
-            Format::Log { frac } => 0.5f64.powi(i32::from(frac) + 1) * std::f64::consts::LN_2,
+            Format::Log { frac, .. } => 0.5f64.powi(i32::from(frac) + 1) * std::f64::consts::LN_2,
             Format::Fixed { frac, .. } => 0.5f64.powi(i32::from(frac)),
             // Of values up to 2, with a sign.
             Format::Scaled { bits } => 0.5f64.powi(i32::from(bits) - 2),
@@ -116,7 +116,7 @@ impl std::fmt::Display for Format {
             Format::Real40 => f.write_str("real40"),
             Format::Float316 { rounded: false } => f.write_str("f316"),
             Format::Float316 { rounded: true } => f.write_str("f316r"),
-            Format::Log { frac } => write!(f, "log{frac}"),
+            Format::Log { frac, .. } => write!(f, "log{frac}"),
             Format::Fixed { bits, frac } => {
                 write!(f, "fixed{}.{frac}", i32::from(*bits) - i32::from(*frac))
             }
@@ -176,6 +176,13 @@ pub enum Error {
     /// result, and `absolute`. In fixed point, what a function with large
     /// results loses on the way, and the rounding of the last place.
     Mixed { relative: f64, absolute: f64 },
+    /// That, and so many times the greatest magnitude among the arguments: what is left where
+    /// equals are taken from each other.
+    Differences {
+        relative: f64,
+        larger: f64,
+        absolute: f64,
+    },
 }
 
 impl Error {
@@ -187,6 +194,14 @@ impl Error {
             Error::Relative(part) => part * exact.abs(),
             Error::Absolute(most) => most,
             Error::Mixed { relative, absolute } => relative * exact.abs() + absolute,
+            Error::Differences {
+                relative,
+                larger,
+                absolute,
+            } => {
+                let most = |m: f64, r: &Range| m.max(r.magnitude());
+                relative * exact.abs() + larger * args.iter().fold(0.0, most) + absolute
+            }
             Error::Larger(part) => {
                 let most = |m: f64, r: &Range| m.max(r.magnitude());
                 part * args.iter().fold(exact.abs(), most)

@@ -122,6 +122,8 @@ pub static OTHER_FORMATS: &[&Target] = &[
     &mos6502::C64_FIXED24,
     &mos6502::PLAIN_LOG10,
     &mos6502::C64_LOG10,
+    &mos6502::PLAIN_LOG11,
+    &mos6502::C64_LOG11,
 ];
 
 /// Every target in every format.

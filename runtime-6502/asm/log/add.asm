@@ -11,6 +11,9 @@ log_add_unlike:
         sbc arg
         lda acc+1
         sbc arg+1
+        bvc log_add_told
+        eor #$80
+log_add_told:
         bpl log_add_first
         lda arg+2
         sta acc+2

@@ -6,10 +6,18 @@ log_angle:
         tay
         lda acc+1
         sbc arg+1
+        bvs log_angle_far
         bpl log_angle_steep
+log_angle_flat:
         sty acc
         sta acc+1
         jmp log_arc
+log_angle_far:              ; the ratio is the least
+        ldy #0
+        asl
+        lda #$80
+        bcc log_angle_flat
+        bcs log_angle_upright
 log_angle_steep:
         sec
         lda arg
@@ -17,11 +25,12 @@ log_angle_steep:
         tay
         lda arg+1
         sbc acc+1
+log_angle_upright:
         sty acc
         sta acc+1
         jsr log_arc
-        lda #$9b            ; a quarter turn less that
-        ldx #2
+        lda #<(log_of_quarter)     ; less that
+        ldx #>(log_of_quarter)
 ; acc = a x less acc.
 log_less_acc:
         ldy acc
@@ -36,9 +45,9 @@ log_less_acc:
 ; turn less that of (1 - x) / (1 + x).
 log_arc:
         lda acc
-        cmp #$ea            ; -1302
+        cmp #<(log_of_steep)
         lda acc+1
-        sbc #$fa
+        sbc #>(log_of_steep)
         bpl log_arc_long
         ldx #6
         ldy #10
@@ -71,12 +80,17 @@ log_arc_long:
         sta acc
         lda acc+1
         sbc prod+3
+        bvc log_arc_fits
+        lda #0
+        sta acc
+        lda #$80
+log_arc_fits:
         sta acc+1
         ldx #6
         ldy #10
         jsr log_series
-        lda #$9b            ; -357
-        ldx #$fe
+        lda #<(log_of_eighth)
+        ldx #>(log_of_eighth)
         jmp log_less_acc
 
 ; acc = the angle of (x, y): y in acc, x in arg.
@@ -86,19 +100,13 @@ log_arctangent2:
         jsr log_angle
         pla
         bne log_left
-        lda acc+1
-        jmp log_keep_least
+        rts
 
 ; acc = half a turn less acc.
 log_left:
-        lda #$9b            ; 1691
-        ldx #6
+        lda #<(log_of_half_turn)
+        ldx #>(log_of_half_turn)
         jmp log_less_acc
-
-; acc kept from the least on.
-log_keep_least:
-        ora #0
-        jmp log_keep_low
 
 ; acc = the angle whose sine it is, of what is kept within -1 and 1.
 log_arcsine:
@@ -107,9 +115,9 @@ log_arcsine:
         jsr log_beside
         jmp log_angle
 log_arcsine_end:
-        lda #$9b
+        lda #<(log_of_quarter)
         sta acc
-        lda #2
+        lda #>(log_of_quarter)
         sta acc+1
         rts
 
@@ -149,6 +157,12 @@ log_beside:
         sta arg+1
         asl arg
         rol arg+1
+        bmi log_beside_squared      ; below 0 as it was
+        lda #0
+        sta arg
+        lda #$80
+        sta arg+1
+log_beside_squared:
         lda #0
         sta acc
         sta acc+1

@@ -4,14 +4,17 @@ log_exponential:
         pha
         clc
         lda acc
-        adc #$1d            ; 10781
+        adc #<(log_of_natural)
         sta acc
         lda acc+1
-        adc #$2a
+        adc #>(log_of_natural)
+        bvc log_exponential_fits
+        lda #$7f
+log_exponential_fits:
         sta acc+1
         jsr log_units
         pla
-; acc = the power of 2 of as many units as acc has, above 0 where a is 0, kept within the ends.
+; acc = the power of 2 of as many units as acc has, above 0 where a is 0, which fit.
 log_power_of:
         tax
         lda #0
@@ -25,7 +28,5 @@ log_power_of:
         lda #0
         sbc acc+1
         sta acc+1
-        jmp log_keep
 log_power_above:
-        lda acc+1
-        jmp log_keep
+        rts

@@ -11,9 +11,11 @@ log_floor_minus:
         jsr log_whole
         lda #0              ; above 512, no more is known
         cmp log_x
-        lda #$24
+        lda #9*log_octave
         sbc log_x+1
+        bvs log_floor_few
         bmi log_floor_negate
+log_floor_few:
         jsr log_is_whole
         beq log_floor_negate
         ldx #3              ; 1 less
@@ -33,7 +35,9 @@ log_floor_negate:
         sbc acc+1
         sta acc+1
         lda #0
-        sbc #0
+        sbc acc+2
         sta acc+2
+        lda #0
+        sbc acc+3
         sta acc+3
         rts

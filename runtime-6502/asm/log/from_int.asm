@@ -22,19 +22,40 @@ log_from_int:
 log_from_magnitude:
         ldx log_side
         lda acc+2
-        stx acc+2
         ora acc+3
-        bne log_from_most
+        bne log_from_long
+        stx acc+2
         lda acc+1
         bpl log_of_short
-        lsr acc+1           ; of its half, an octave above
+        ldx #0              ; of its half, an octave above
+        stx acc+2
+log_from_long:
+        ldy #0
+log_from_half:
+        iny
+        lsr acc+3
+        ror acc+2
+        ror acc+1
         ror acc
+        lda acc+2
+        ora acc+3
+        bne log_from_half
+        lda acc+1
+        bmi log_from_half
+        ldx log_side
+        stx acc+2
+        sty log_z
         jsr log_of_short
+        ldy log_z
+log_from_double:
         clc
         lda acc+1
-        adc #4
+        adc #log_octave
+        bvs log_from_most
         sta acc+1
-        jmp log_keep
+        dey
+        bne log_from_double
+        rts
 log_from_most:
         jmp log_most
 
@@ -65,7 +86,7 @@ log_of_long:
         sta acc
         clc
         txa
-        adc #24
+        adc #6*log_octave
         sta acc+1
         ldy log_n
         beq log_of_even

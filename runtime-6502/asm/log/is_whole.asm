@@ -23,5 +23,5 @@ log_of_low:
         rts
 log_of_512:
         lda #0
-        ldx #$24
+        ldx #9*log_octave
         rts

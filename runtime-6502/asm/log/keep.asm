@@ -1,23 +1,18 @@
-; acc is kept from the least on, where the flags are those of its high byte.
-log_keep_low:
-        bpl log_kept
-        cmp #$cc
-        bcs log_kept
+; acc is kept within both ends, where the flags are those of what made its high byte: beyond
+; them that overflows.
+log_keep:
+        bvc log_kept
+        bmi log_most
 log_least:
-        lda #$cc
+        lda #$80
         sta acc+1
         lda #0
         sta acc
 log_kept:
         rts
 
-; acc kept within both ends, where the flags are those of its high byte.
-log_keep:
-        bmi log_keep_low
-        cmp #$40
-        bcc log_kept
 log_most:
-        lda #$3f
+        lda #$7f
         sta acc+1
         lda #$ff
         sta acc

@@ -12,10 +12,10 @@ log_natural:
         jsr log_of_short
         sec
         lda acc
-        sbc #$1d            ; 10781
+        sbc #<(log_of_natural)
         sta acc
         lda acc+1
-        sbc #$2a
+        sbc #>(log_of_natural)
         sta acc+1
         lda log_side
         sta acc+2
@@ -44,12 +44,15 @@ log_size:
 log_size_done:
         rts
 
-; The carry: whether the logarithm in acc is at most that of 0.
+; The carry: whether the logarithm in acc is that of 0.
 log_is_least:
-        lda #0
-        cmp acc
-        lda #$cc
-        sbc acc+1
+        lda acc
+        bne log_is_more
+        lda acc+1
         eor #$80
-        asl
+        bne log_is_more
+        sec
+        rts
+log_is_more:
+        clc
         rts

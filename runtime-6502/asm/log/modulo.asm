@@ -58,7 +58,7 @@ log_modulo_none:
         sta acc+2
         lda #0
         sta acc
-        lda #$cc
+        lda #$80
         sta acc+1
 log_modulo_done:
         rts
@@ -67,15 +67,23 @@ log_modulo_done:
 log_hold:
         lda acc+3
         bmi log_hold_low
+        ora acc+2
+        bne log_hold_most
         lda acc+1
         bpl log_hold_done
+log_hold_most:
         lda #$7f
         sta acc+1
         lda #$ff
         sta acc
+        lda #0
+        beq log_hold_above
 log_hold_done:
         rts
 log_hold_low:
+        and acc+2
+        cmp #$ff
+        bne log_hold_least
         lda acc+1
         bpl log_hold_least
         lda acc             ; -32768?
@@ -88,4 +96,8 @@ log_hold_least:
         sta acc+1
         lda #1
         sta acc
+        lda #$ff
+log_hold_above:
+        sta acc+2
+        sta acc+3
         rts

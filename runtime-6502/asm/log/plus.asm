@@ -6,9 +6,13 @@ log_plus:
         tay
         lda acc+1
         sbc arg+1
+        bvs log_plus_far
         bmi log_plus_less
+log_plus_first:
         jsr log_sum
         jmp log_grow
+log_plus_far:
+        bmi log_plus_first
 log_plus_less:
         jsr log_exchange
         jsr log_sum

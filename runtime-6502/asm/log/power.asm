@@ -71,9 +71,11 @@ log_power_kind:
 log_power_fraction:
         lda #0              ; above 9 octaves all are whole
         cmp log_x
-        lda #$24
+        lda #9*log_octave
         sbc log_x+1
+        bvs log_power_none
         bmi log_power_sized
+log_power_none:
         lda #0
         sta acc+2
         jmp log_least
@@ -98,6 +100,9 @@ log_power_any:
         sta acc
         lda acc+1
         adc prod+4
+        bvc log_power_fits
+        lda #$7f
+log_power_fits:
         sta acc+1
         lda prod+7
         pha
@@ -116,7 +121,7 @@ log_power_scaled:
         sta acc+2
         rts
 
-; acc = acc times log_c, at most 16383.
+; acc = acc times log_c, at most 32767.
 log_times:
         lda acc
         sta log_z
@@ -136,17 +141,14 @@ log_times_next:
         lda acc+1
         adc log_z+1
         sta acc+1
-        cmp #$40
-        bcs log_times_most
+        bmi log_times_most
 log_times_even:
         lda log_c
         ora log_c+1
         beq log_times_done
         asl log_z
         rol log_z+1
-        lda log_z+1
-        cmp #$40
-        bcc log_times_next
+        bpl log_times_next
 log_times_most:
         jmp log_most
 log_times_done:

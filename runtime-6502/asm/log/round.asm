@@ -3,7 +3,7 @@ log_round:
         lda #0
         sta arg
         sta arg+2
-        lda #$fc            ; a half
+        lda #256-log_octave  ; a half
         sta arg+1
         jsr log_add
         jmp log_floor

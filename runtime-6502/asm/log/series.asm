@@ -2,7 +2,7 @@
 ; where the logarithms of the k stand in log_terms, and behind which they end.
 log_series:
         lda acc+1
-        cmp #$ea            ; below 2^-5.5 that is x
+        cmp #>(log_of_short_series)        ; below that is x
         bpl log_series_long
         rts
 log_series_long:
@@ -52,6 +52,3 @@ log_series_next:
         adc log_x+1
         sta acc+1
         rts
-log_terms:
-        .byte $39, $ea, $b6, $ee, $a9, $f5      ; of the sine: -5575, -4426, -2647
-        .byte $75, $fc, $a9, $f9                ; of the arc: -907, -1623

@@ -22,10 +22,13 @@ log_quarter_sine:
         sta arg+1
         sec                 ; the whole quarter turns in it
         lda acc
-        sbc #$9b            ; 667
+        sbc #<(log_of_quarter)
         sta acc
         lda acc+1
-        sbc #2
+        sbc #>(log_of_quarter)
+        bvc log_sine_turns
+        lda #$80            ; none
+log_sine_turns:
         sta acc+1
         jsr log_short
         clc
@@ -41,10 +44,10 @@ log_quarter_sine:
         beq log_sine_first
         lda log_logs_low,y  ; less the whole ones
         clc
-        adc #$9b
+        adc #<(log_of_quarter)
         sta acc
         lda log_logs_high,y
-        adc #2
+        adc #>(log_of_quarter)
         sta acc+1
         jsr log_sine_sides
         jmp log_sine_rest
@@ -60,9 +63,9 @@ log_sine_rest:
         lda log_quarter
         lsr
         bcc log_sine_angle
-        lda #$9b            ; a quarter turn less the rest
+        lda #<(log_of_quarter)     ; less the rest
         sta arg
-        lda #2
+        lda #>(log_of_quarter)
         sta arg+1
         lda log_side
         beq log_sine_less
@@ -91,6 +94,9 @@ log_sine_sides:
         sbc acc
         lda arg+1
         sbc acc+1
+        bvc log_sine_told
+        eor #$80
+log_sine_told:
         asl
         lda #0
         rol

@@ -3,7 +3,7 @@
 log_units:
         lda acc+1
         bmi log_units_few
-        cmp #$3c            ; 15 octaves
+        cmp #15*log_octave
         bcc log_units_fit
         lda #$7f
         sta acc+1
@@ -11,11 +11,11 @@ log_units:
         sta acc
         rts
 log_units_fit:
-        cmp #$20            ; 8
+        cmp #8*log_octave
         bcs log_units_many
 log_units_few:
         clc                 ; half of twice as many, and a half
-        adc #4
+        adc #log_octave
         sta acc+1
         jsr log_whole
         inc acc
@@ -29,9 +29,9 @@ log_units_many:
         ldx #0              ; by how many octaves less than nine
         stx prod
 log_units_octave:
-        cmp #$24
+        cmp #9*log_octave
         bcc log_units_mantissa
-        sbc #4
+        sbc #log_octave
         inc prod
         bne log_units_octave
 log_units_mantissa:

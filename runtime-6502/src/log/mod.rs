@@ -1,17 +1,19 @@
-//! Logarithmic reals: the runtime for the 6502 in which a product costs an addition.
+//! Logarithmic reals: the runtimes for the 6502 in which a product costs an addition.
 //!
-//! What the format means is in [`slowlight_routine::log`]: the same numbers as in Jack. Here a
-//! real is three bytes: its logarithm, low byte first, and a sign, 1 where it is below 0; of a
-//! real whose sign the ranges know the third is neither written nor read
-//! ([`crate::write::Place::Signed`]). An int is one of 32 bits, kept in the bytes that its
-//! range needs.
+//! What the format means is in [`slowlight_routine::log`]. Here a real is three bytes: its
+//! logarithm, low byte first, and a sign, 1 where it is below 0; of a real whose sign the
+//! ranges know the third is neither written nor read ([`crate::write::Place::Signed`]). All 16
+//! bits of the logarithm count: with ten behind the point (`log10`) magnitudes end at 2^32 and
+//! 2^-32, with eleven (`log11`) at 2^16 and 2^-16. What is beyond them, the overflow flag
+//! tells. An int is one of 32 bits, kept in the bytes that its range needs.
 //!
 //! # Tables
-//! What a sum adds to the greater logarithm has a byte for each distance up to six octaves,
-//! and a second one up to where it is below 256; so has what a difference adds, which is
-//! negative. Behind six octaves some steps are counted. These 17,664 bytes are part of the
-//! program. Whole parts come from 1,024 bytes of mantissas, logarithms of ints from two tables
-//! of 513.
+//! Of ten bits, what a sum adds to the greater logarithm has a byte for each distance up to six
+//! octaves, and a second one up to where it is below 256; so has what a difference adds, which
+//! is negative. Behind six octaves some steps are counted. These are 17,664 bytes of the
+//! program. Of eleven bits, there is an entry for each distance up to two octaves, for each two
+//! up to six, and then for each 16: 29,952 bytes. Whole parts come from 1,024 bytes of
+//! mantissas, or 2,048, logarithms of ints from two tables of 513.
 
 mod parts;
 mod routines;
@@ -20,13 +22,12 @@ mod templates;
 #[cfg(test)]
 mod tests;
 
-pub(crate) use parts::ALL as PARTS;
 pub use templates::same;
 
 use crate::scaled::STEPPING;
-use slowlight_routine::log::model::{LEAST, Log};
-use slowlight_routine::log::{LOG, kept, loose};
-use slowlight_routine::{Bits, Format, Loose, Runtime, Value, scale};
+use slowlight_routine::log::kept;
+use slowlight_routine::log::model::Logarithm;
+use slowlight_routine::{Bits, Format, Runtime, Value, scale};
 
 /// The first byte of the zero page that this runtime leaves alone.
 pub const FREE_ZERO_PAGE: u8 = 0x32;
@@ -34,56 +35,70 @@ pub const FREE_ZERO_PAGE: u8 = 0x32;
 /// The greatest int that a param is written with.
 const PARAM: f64 = 32767.0;
 
-/// The runtime of logarithmic reals, ten bits behind the point.
-pub static LOG10: Runtime = USUAL;
-
-const USUAL: Runtime = Runtime {
+/// Logarithmic reals, ten bits behind the point.
+pub static LOG10: Runtime = Runtime {
     format: "log10",
-    real: LOG,
-    routines: &routines::ALL,
-    encode,
-    decode,
-    quotient: 65536.0,
-    kept,
-    loose: Some(Loose {
-        held: LEAST,
-        instead: |routine| loose::instead(routine, &routines::ALL),
-        least: loose::least,
-    }),
-    statement: 4,
-    index: 6,
-    param_most: PARAM,
-    param_digits: |greatest, ranged| Some(scale::param_digits(greatest, ranged, PARAM)),
-    param_bits,
-    ..crate::USUAL
+    routines: &routines::WITH_TEN,
+    parts: &parts::WITH_TEN,
+    ..of::<10>()
 };
 
-/// The same for programs that draw rows in passes and runs of columns.
-pub static LOG10_IN_RUNS: Runtime = Runtime {
-    stepping: Some(STEPPING),
-    segments: true,
-    ..USUAL
+/// The same with eleven.
+pub static LOG11: Runtime = Runtime {
+    format: "log11",
+    routines: &routines::WITH_ELEVEN,
+    parts: &parts::WITH_ELEVEN,
+    ..of::<11>()
 };
+
+/// For programs that draw rows in passes and runs of columns.
+pub static LOG10_IN_RUNS: Runtime = in_runs(LOG10);
+pub static LOG11_IN_RUNS: Runtime = in_runs(LOG11);
+
+const fn in_runs(runtime: Runtime) -> Runtime {
+    Runtime {
+        stepping: Some(STEPPING),
+        segments: true,
+        ..runtime
+    }
+}
+
+const fn of<const FRAC: u8>() -> Runtime {
+    Runtime {
+        real: Logarithm::<FRAC, true>::FORMAT,
+        encode: encode::<FRAC>,
+        decode: decode::<FRAC>,
+        quotient: Logarithm::<FRAC, true>::END,
+        kept,
+        statement: 4,
+        index: 6,
+        param_most: PARAM,
+        param_digits: |greatest, ranged| Some(scale::param_digits(greatest, ranged, PARAM)),
+        param_bits: param_bits::<FRAC>,
+        ..crate::USUAL
+    }
+}
 
 /// The nearest bits, saturating.
-fn encode(value: Value, format: Format) -> Bits {
+fn encode<const FRAC: u8>(value: Value, format: Format) -> Bits {
     match format {
-        Format::Log { .. } => Log::nearest(value.real()).bits(),
+        Format::Log { .. } => Logarithm::<FRAC, true>::nearest(value.real()).bits(),
         _ => (crate::USUAL.encode)(value, format),
     }
 }
 
-fn decode(bits: Bits, format: Format) -> Value {
+fn decode<const FRAC: u8>(bits: Bits, format: Format) -> Value {
     match format {
-        Format::Log { .. } => Value::Real(Log::from_bits(bits).value()),
+        Format::Log { .. } => Value::Real(Logarithm::<FRAC, true>::from_bits(bits).value()),
         _ => (crate::USUAL.decode)(bits, format),
     }
 }
 
 /// The program takes one int's logarithm from the other's.
-fn param_bits(scaled: i64, digits: u8) -> Bits {
+fn param_bits<const FRAC: u8>(scaled: i64, digits: u8) -> Bits {
     let ends = (i64::from(i32::MIN), i64::from(i32::MAX));
-    let of = |n: i64| Log::from_wide_int(n.clamp(ends.0, ends.1) as i32);
+    let of =
+        |n: i64| Logarithm::<FRAC, true>::from_wide_int(n.clamp(ends.0, ends.1) as i32);
     of(scaled)
         .div(of(10i64.saturating_pow(u32::from(digits))))
         .bits()

@@ -1,12 +1,13 @@
 //! The tables of logarithms as bytes.
 
-use slowlight_routine::log::model::{LEAST, MOST, OCTAVE, STEPS, WHOLE};
-use slowlight_routine::log::tables::tables;
+use slowlight_routine::log::model::{Logarithm, WHOLE};
+use slowlight_routine::log::tables::{STEPS, tables};
 
-/// Pages of upper bytes of what sums add: from there on it is a byte.
-pub const SUM_PAGES: usize = 10;
-/// The same of what differences add: from there on the upper byte is 255.
-pub const LOST_PAGES: usize = 11;
+/// Pages of entries of one table of distances, and of upper bytes: behind these a sum's entry
+/// is a byte, and the upper one of a difference's is 255.
+pub const fn pages(frac: u8) -> (usize, usize, usize) {
+    if frac == 10 { (24, 10, 11) } else { (36, 22, 23) }
+}
 
 fn low(n: &i32) -> i32 {
     n & 0xFF
@@ -16,39 +17,65 @@ fn high(n: &i32) -> i32 {
     n >> 8 & 0xFF
 }
 
-/// All lower bytes, then so many pages of upper ones.
-fn planes(list: &[i32], pages: usize) -> Vec<i32> {
-    let upper = list.iter().take(pages * 256).map(high);
-    list.iter().map(low).chain(upper).collect()
+/// All lower bytes, to the end of a page, then so many pages of upper ones.
+fn planes(list: &[i32], pages: usize, upper: usize) -> Vec<i32> {
+    let mut all: Vec<i32> = list.iter().map(low).collect();
+    all.resize(pages * 256, 0);
+    all.extend(list.iter().take(upper * 256).map(high));
+    all
 }
 
-/// What sums add.
-pub fn sums() -> Vec<i32> {
-    planes(&tables().sums, SUM_PAGES)
-}
+/// Those of so many bits behind the point.
+pub struct Bytes<const FRAC: u8>;
 
-/// What differences add; that of 0 brings the greatest logarithm down to the least.
-pub fn lost() -> Vec<i32> {
-    let mut all: Vec<i32> = tables().differences.iter().map(|k| -k).collect();
-    if let Some(none) = all.first_mut() {
-        *none = LEAST - MOST;
+impl<const FRAC: u8> Bytes<FRAC> {
+    /// What sums add.
+    pub fn sums() -> Vec<i32> {
+        let (all, upper, _) = pages(FRAC);
+        planes(&tables(FRAC).sums.entries, all, upper)
     }
-    planes(&all, LOST_PAGES)
-}
 
-/// 256 x 2^(k/1024) less 256, the whole part, as logarithms of whole numbers have it.
-pub fn parts() -> Vec<i32> {
-    let logs = &tables().logs;
-    let of = |k: i32| logs.partition_point(|entry| *entry <= 8 * OCTAVE + k) as i32 - 1;
-    (0..OCTAVE).map(|k| of(k) - WHOLE / 2).collect()
-}
+    /// What differences add; that of 0 is as much below 0 as two bytes are.
+    pub fn lost() -> Vec<i32> {
+        let entries = &tables(FRAC).differences.entries;
+        let mut lost: Vec<i32> = entries.iter().map(|k| -k).collect();
+        if let Some(none) = lost.first_mut() {
+            *none = i32::from(i16::MIN);
+        }
+        let (all, _, upper) = pages(FRAC);
+        planes(&lost, all, upper)
+    }
 
-pub fn logs_low() -> Vec<i32> {
-    tables().logs.iter().map(low).collect()
-}
+    /// 256 x 2^(k/OCTAVE) less 256, the whole part, as logarithms of whole numbers have it.
+    pub fn parts() -> Vec<i32> {
+        let (logs, octave) = (&tables(FRAC).logs, 1 << FRAC);
+        let of = |k: i32| logs.partition_point(|entry| *entry <= 8 * octave + k) as i32 - 1;
+        (0..octave).map(|k| of(k) - WHOLE / 2).collect()
+    }
 
-pub fn logs_high() -> Vec<i32> {
-    tables().logs.iter().map(high).collect()
+    pub fn logs_low() -> Vec<i32> {
+        Self::logs().iter().map(low).collect()
+    }
+
+    pub fn logs_high() -> Vec<i32> {
+        Self::logs().iter().map(high).collect()
+    }
+
+    /// That of 0 is the least.
+    fn logs() -> Vec<i32> {
+        let mut logs = tables(FRAC).logs.clone();
+        if let Some(none) = logs.first_mut() {
+            *none = i32::from(i16::MIN);
+        }
+        logs
+    }
+
+    /// Of the sine's series, then of the arc's.
+    pub fn terms() -> Vec<i32> {
+        let of = Logarithm::<FRAC, true>::CONSTANTS;
+        let all = of.sine.iter().chain(&of.arc);
+        all.flat_map(|term| [low(term), high(term)]).collect()
+    }
 }
 
 /// The first page that has steps, and the first that has none.

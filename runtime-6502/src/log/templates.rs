@@ -20,25 +20,25 @@ macro_rules! minus {
         "[s lda #1 | sta {r.2}]"
     };
 }
-/// A logarithm below the least becomes that; N is its sign, and the accumulator its upper byte.
+/// A logarithm below the least becomes that: the overflow flag tells.
 macro_rules! low {
     () => {
-        "| bpl fits{n} | cmp #$cc | bcs fits{n} | lda #$cc | sta {r.1} | lda #0 | sta {r.0} | fits{n}: |"
+        "| bvc fits{n} | lda #$80 | sta {r.1} | lda #0 | sta {r.0} | fits{n}: |"
     };
 }
 
 /// One above the greatest becomes that.
 macro_rules! high {
     () => {
-        "| bmi even{n} | cmp #$40 | bcc even{n} | lda #$3f | sta {r.1} | lda #$ff | sta {r.0} | even{n}: |"
+        "| bvc even{n} | lda #$7f | sta {r.1} | lda #$ff | sta {r.0} | even{n}: |"
     };
 }
 
-/// Both.
+/// Both: where it overflows, its sign is the other one.
 macro_rules! ends {
     () => {
-        "| bmi low{n} | cmp #$40 | bcc fits{n} | lda #$3f | sta {r.1} | lda #$ff | bne least{n}
-        low{n}: | cmp #$cc | bcs fits{n} | lda #$cc | sta {r.1} | lda #0
+        "| bvc fits{n} | bpl low{n} | lda #$7f | sta {r.1} | lda #$ff | bne least{n}
+        low{n}: | lda #$80 | sta {r.1} | lda #0
         least{n}: | sta {r.0} | fits{n}: |"
     };
 }
@@ -59,9 +59,16 @@ macro_rules! square {
     };
 }
 
+/// The same with the overflow flag.
+macro_rules! told_square {
+    () => {
+        "lda {0.0} | asl | sta {r.0} | lda {0.1} | adc {0.1} | sta {r.1} |"
+    };
+}
+
 const SQUARE: &str = concat!(square!(), plus!());
-const LOW_SQUARE: &str = concat!(square!(), low!(), plus!());
-const ANY_SQUARE: &str = concat!(square!(), ends!(), plus!());
+const LOW_SQUARE: &str = concat!(told_square!(), low!(), plus!());
+const ANY_SQUARE: &str = concat!(told_square!(), ends!(), plus!());
 
 macro_rules! divide {
     () => {
@@ -78,11 +85,13 @@ pub const ANY_DIVIDE: &str = concat!(divide!(), ends!(), unlike!());
 macro_rules! apart {
     ($first:expr, $second:expr, $look:literal) => {
         concat!(
-            "sec | lda {0.0} | sbc {1.0} | tay | lda {0.1} | sbc {1.1} | bmi less{n} |",
+            "sec | lda {0.0} | sbc {1.0} | tay | lda {0.1} | sbc {1.1} | bvs far{n} | bmi less{n}
+            more{n}: |",
             $first,
             "| jsr ",
             $look,
             " | adc {0.0} | sta {r.0} | txa | adc {0.1} | jmp grown{n}
+            far{n}: | bmi more{n}
             less{n}: |",
             $second,
             "| sec | lda {1.0} | sbc {0.0} | tay | lda {1.1} | sbc {0.1} | jsr ",
@@ -110,8 +119,7 @@ macro_rules! difference {
                 concat!("[s lda {1.2} |", $second, "| sta {r.2}]"),
                 "log_difference"
             ),
-            "| bvs none{n} | bpl fits{n} | cmp #$cc | bcs fits{n}
-            none{n}: | lda #$cc | sta {r.1} | lda #0 | sta {r.0} | fits{n}: |"
+            low!()
         )
     };
 }
@@ -129,8 +137,9 @@ macro_rules! either {
             "lda {0.2} | eor {1.2} | ",
             $unlike,
             " differ{n} |
-            sec | lda {0.0} | sbc {1.0} | tay | lda {0.1} | sbc {1.1} | bmi second{n} |
-            jsr log_sum | adc {0.0} | sta {r.0} | txa | adc {0.1} | jmp summed{n}
+            sec | lda {0.0} | sbc {1.0} | tay | lda {0.1} | sbc {1.1} | bvs away{n} | bmi second{n}
+            first{n}: | jsr log_sum | adc {0.0} | sta {r.0} | txa | adc {0.1} | jmp summed{n}
+            away{n}: | bmi first{n}
             second{n}: | sec | lda {1.0} | sbc {0.0} | tay | lda {1.1} | sbc {0.1} | jsr log_sum
             adc {1.0} | sta {r.0} | txa | adc {1.1}
             summed{n}: | sta {r.1} |",
@@ -149,7 +158,7 @@ pub const ANY_SUBTRACT: &str = either!("beq", "eor #1", high!());
 
 macro_rules! twice {
     () => {
-        "lda {0.0} | sta {r.0} | clc | lda {0.1} | adc #4 | sta {r.1} |"
+        "lda {0.0} | sta {r.0} | clc | lda {0.1} | adc #log_octave | sta {r.1} |"
     };
 }
 macro_rules! same_sign {
@@ -189,7 +198,7 @@ pub const ANY_ROOT: &str = concat!(
     "lda {0.2} | bne none{n} |",
     root!(),
     "jmp fits{n}
-    none{n}: | lda #$cc | sta {r.1} | lda #0 | sta {r.0}
+    none{n}: | lda #$80 | sta {r.1} | lda #0 | sta {r.0}
     fits{n}: |",
     plus!()
 );
@@ -201,13 +210,13 @@ pub const ABS: &str = concat!("lda {0.0} | sta {r.0} | lda {0.1} | sta {r.1} |",
 /// Leaves in N whether the first logarithm is less.
 macro_rules! lower {
     () => {
-        "lda {0.0} | cmp {1.0} | lda {0.1} | sbc {1.1} |"
+        "lda {0.0} | cmp {1.0} | lda {0.1} | sbc {1.1} | bvc lower{n} | eor #$80 | lower{n}: |"
     };
 }
 /// The same of the second.
 macro_rules! upper {
     () => {
-        "lda {1.0} | cmp {0.0} | lda {1.1} | sbc {0.1} |"
+        "lda {1.0} | cmp {0.0} | lda {1.1} | sbc {0.1} | bvc upper{n} | eor #$80 | upper{n}: |"
     };
 }
 
@@ -246,13 +255,13 @@ pub const MAX: &str = concat!(less!(), pick!("bcs"));
 /// A negative becomes 0.
 pub const MAX_ZERO: &str = concat!(
     "lda {0.2} | bne none{n} | lda {0.0} | sta {r.0} | lda {0.1} | jmp fits{n}
-    none{n}: | lda #0 | sta {r.0} | lda #$cc
+    none{n}: | lda #0 | sta {r.0} | lda #$80
     fits{n}: | sta {r.1} |",
     plus!()
 );
 pub const ZERO_MAX: &str = concat!(
     "lda {1.2} | bne none{n} | lda {1.0} | sta {r.0} | lda {1.1} | jmp fits{n}
-    none{n}: | lda #0 | sta {r.0} | lda #$cc
+    none{n}: | lda #0 | sta {r.0} | lda #$80
     fits{n}: | sta {r.1} |",
     plus!()
 );
@@ -287,16 +296,11 @@ pub const PLUS_LESS_ANY: &str = told_by!("{1.2}", "clc", lower!());
 pub const NEGATIVE: &str = "lda {0.2} | lsr";
 pub const NOT_NEGATIVE: &str = "lda {1.2} | eor #1 | lsr";
 
-/// Leaves in N whether an argument is more than what stands for 0.
-macro_rules! above_least {
-    ($k:literal) => {
-        concat!("lda #0 | cmp {", $k, ".0} | lda #$cc | sbc {", $k, ".1} |")
-    };
-}
-
-pub const POSITIVE: &str = told_by!("{1.2}", "clc", above_least!("1"));
-pub const NOT_POSITIVE: &str = told_by!("{0.2}", "sec", concat!(above_least!("0"), "eor #$80 |"));
-pub const IS_ZERO: &str = concat!(above_least!("0"), "eor #$80 | asl");
+pub const POSITIVE: &str = "lda {1.2} | lsr | bcs not{n} | lda {1.1} | eor #$80 | ora {1.0} | cmp #1
+    bcs told{n} | not{n}: | clc | told{n}:";
+pub const NOT_POSITIVE: &str = "lda {0.2} | lsr | bcs told{n} | lda {0.1} | eor #$80 | ora {0.0}
+    sec | beq told{n} | clc | told{n}:";
+pub const IS_ZERO: &str = "lda {0.1} | eor #$80 | ora {0.0} | sec | beq told{n} | clc | told{n}:";
 
 pub const PLUS_LESS_EQUAL: &str = concat!(upper!(), "eor #$80 | asl");
 pub const LESS_EQUAL: &str = concat!(

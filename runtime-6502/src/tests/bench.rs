@@ -37,13 +37,14 @@ impl Bus for Ram {
 }
 
 /// The parts that are needed, each between two labels.
-fn parts(names: &[&str]) -> (String, bool) {
+fn parts(runtime: &Runtime, names: &[&str]) -> (String, bool) {
     let mut text = String::new();
-    let mut closure = RUNTIME.closure(names.iter().copied());
     // Logarithms have a page of their own, which names the same.
-    if !closure.iter().any(|p| p.name == "log_page") {
-        closure = RUNTIME.closure(names.iter().copied().chain(["scaled24_page"]));
-    }
+    let page = match runtime.real {
+        Format::Log { .. } => "log_page",
+        _ => "scaled24_page",
+    };
+    let closure = runtime.closure(names.iter().copied().chain([page]));
     for part in &closure {
         let source = match part.source {
             Source::Text(source) => source.to_owned(),
@@ -59,8 +60,8 @@ fn parts(names: &[&str]) -> (String, bool) {
 }
 
 /// Bytes of a part: its code and its tables in memory.
-pub fn part_bytes(name: &str) -> u32 {
-    let (text, _) = parts(&[name]);
+pub fn part_bytes(runtime: &Runtime, name: &str) -> u32 {
+    let (text, _) = parts(runtime, &[name]);
     let program = assemble(&format!("* = $0a00\n{text}")).unwrap();
     let at = |label: &str| program.symbols[&format!("{label}_{name}")];
     let tables = if name == "squares" { 2048 } else { 0 };
@@ -138,12 +139,12 @@ impl Bench {
 
     /// Instructions by themselves, and the parts that they need.
     pub fn written(
-        _: &'static Runtime,
+        runtime: &'static Runtime,
         write: &dyn Fn(&mut Vec<String>) -> Vec<&'static str>,
     ) -> Bench {
         let mut lines = Vec::new();
         let needs = write(&mut lines);
-        let (parts, squares) = parts(&needs);
+        let (parts, squares) = parts(runtime, &needs);
         let mut prepare = if squares { "jsr make_squares" } else { "" }.to_owned();
         if parts.contains("set_squares24:") {
             prepare += " | jsr set_squares24";

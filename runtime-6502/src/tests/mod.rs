@@ -244,7 +244,7 @@ fn costs_are_as_measured() {
         }
     }
     for part in RUNTIME.parts {
-        let bytes = bench::part_bytes(part.name);
+        let bytes = bench::part_bytes(&crate::FIXED16_16, part.name);
         if bytes != part.bytes {
             moved += &format!("part {} {bytes}\n", part.name);
         }

@@ -14,7 +14,7 @@ const EXACT: Error = Error::Exact;
 /// Two arguments of known signs, and a sum that fits.
 macro_rules! signs {
     ($a:ident $b:ident) => {
-        |args: &[Range], result: Range| signs(args, result, [sign!($a), sign!($b)])
+        |args: &[Range], result: Range| Log::signs(args, result, [sign!($a), sign!($b)])
     };
 }
 macro_rules! sign {
@@ -33,23 +33,23 @@ use Form::Statement as Do;
 
 #[rustfmt::skip]
 const REALS: &[Routine] = &[
-    routine!("mul" Mul(R, R) -> R, Do("let {r} = {0} + {1};\nlet {r+} = {0+} = {1+};"), [], inner_product, PRODUCT, |a, b| a.mul(b), 5, 16),
-    routine!("low_mul" Mul(R, R) -> R, Do("let {r} = {0} + {1};\nif ({r} < (-13312)) { let {r} = -13312; }\nlet {r+} = {0+} = {1+};"), [], fits, PRODUCT, |a, b| a.mul(b), 11, 32),
-    routine!("loose_mul" Mul(R, R) -> R, Do("let {r} = {0} + {1};\nlet {r+} = {0+} = {1+};"), [], never, PRODUCT, |a, b| a.loose_mul(b), 5, 16),
-    routine!("any_mul" Mul(R, R) -> R, Do("let {r} = Log.clamp({0} + {1});\nlet {r+} = {0+} = {1+};"), ["Log.clamp"], everywhere, PRODUCT, |a, b| a.mul(b), 19, 22),
-    routine!("div" Div(R, R) -> R, Do("let {r} = {0} - {1};\nlet {r+} = {0+} = {1+};"), [], inner_quotient, PRODUCT, |a, b| a.div(b), 5, 16),
-    routine!("low_div" Div(R, R) -> R, Do("let {r} = {0} - {1};\nif ({r} < (-13312)) { let {r} = -13312; }\nlet {r+} = {0+} = {1+};"), [], low_quotient, PRODUCT, |a, b| a.div(b), 11, 32),
-    routine!("loose_div" Div(R, R) -> R, Do("let {r} = {0} - {1};\nlet {r+} = {0+} = {1+};"), [], never, PRODUCT, |a, b| a.loose_div(b), 5, 16),
-    routine!("high_div" Div(R, R) -> R, Do("let {r} = {0} - {1};\nif ({r} > 16383) { let {r} = 16383; }\nlet {r+} = {0+} = {1+};"), [], high_quotient, PRODUCT, |a, b| a.div(b), 10, 30),
-    routine!("any_div" Div(R, R) -> R, Do("let {r} = Log.clamp({0} - {1});\nlet {r+} = {0+} = {1+};"), ["Log.clamp"], everywhere, PRODUCT, |a, b| a.div(b), 19, 22),
-    routine!("sum" Add(R, R) -> R, Do("let {r} = Log.sum({0}, {1});\nlet {r+} = true;"), ["Log.sum"], signs!(plus plus), SUMS, |a, b| a.add(b), 27, 14),
-    routine!("any_sum" Add(R, R) -> R, Do("let {r} = Log.clamp(Log.sum({0}, {1}));\nlet {r+} = true;"), ["Log.sum", "Log.clamp"], plus, SUMS, |a, b| a.add(b), 41, 22),
-    routine!("minus_sum" Add(R, R) -> R, Do("let {r} = Log.sum({0}, {1});\nlet {r+} = false;"), ["Log.sum"], signs!(minus minus), SUMS, |a, b| a.add(b), 26, 14),
-    routine!("difference_sum" Sub(R, R) -> R, Do("let {r} = Log.sum({0}, {1});\nlet {r+} = true;"), ["Log.sum"], signs!(plus minus), SUMS, |a, b| a.sub(b), 27, 14),
-    routine!("minus_difference_sum" Sub(R, R) -> R, Do("let {r} = Log.sum({0}, {1});\nlet {r+} = false;"), ["Log.sum"], signs!(minus plus), SUMS, |a, b| a.sub(b), 26, 14),
-    routine!("root" Sqrt(R) -> R, Do("let {r} = Log.half({0});\nlet {r+} = true;"), ["Log.half"], plus, ROOT, |a| a.sqrt(), 45, 14),
-    routine!("any_root" Sqrt(R) -> R, Do("let {r} = Log.root({0}, {0+});\nlet {r+} = true;"), ["Log.root"], everywhere, ROOT, |a| a.sqrt(), 36, 20),
-    routine!("mod" Mod(R, R) -> R, Do("let {r} = Log.mod({0}, {0+}, {1}, {1+});\nlet {r+} = Log.plus();"), ["Log.mod"], everywhere, UNKNOWN, |a, b| a.modulo(b), 236, 30),
+    routine!("mul" Mul(R, R) -> R, Do("let {r} = {0} + {1};\nlet {r+} = {0+} = {1+};"), [], Log::inner_product, Log::PRODUCT, |a, b| a.mul(b), 5, 16),
+    routine!("low_mul" Mul(R, R) -> R, Do("let {r} = {0} + {1};\nif ({r} < (-13312)) { let {r} = -13312; }\nlet {r+} = {0+} = {1+};"), [], Log::fits, Log::PRODUCT, |a, b| a.mul(b), 11, 32),
+    routine!("loose_mul" Mul(R, R) -> R, Do("let {r} = {0} + {1};\nlet {r+} = {0+} = {1+};"), [], never, Log::PRODUCT, |a, b| a.loose_mul(b), 5, 16),
+    routine!("any_mul" Mul(R, R) -> R, Do("let {r} = Log.clamp({0} + {1});\nlet {r+} = {0+} = {1+};"), ["Log.clamp"], everywhere, Log::PRODUCT, |a, b| a.mul(b), 19, 22),
+    routine!("div" Div(R, R) -> R, Do("let {r} = {0} - {1};\nlet {r+} = {0+} = {1+};"), [], Log::inner_quotient, Log::PRODUCT, |a, b| a.div(b), 5, 16),
+    routine!("low_div" Div(R, R) -> R, Do("let {r} = {0} - {1};\nif ({r} < (-13312)) { let {r} = -13312; }\nlet {r+} = {0+} = {1+};"), [], Log::low_quotient, Log::PRODUCT, |a, b| a.div(b), 11, 32),
+    routine!("loose_div" Div(R, R) -> R, Do("let {r} = {0} - {1};\nlet {r+} = {0+} = {1+};"), [], never, Log::PRODUCT, |a, b| a.loose_div(b), 5, 16),
+    routine!("high_div" Div(R, R) -> R, Do("let {r} = {0} - {1};\nif ({r} > 16383) { let {r} = 16383; }\nlet {r+} = {0+} = {1+};"), [], Log::high_quotient, Log::PRODUCT, |a, b| a.div(b), 10, 30),
+    routine!("any_div" Div(R, R) -> R, Do("let {r} = Log.clamp({0} - {1});\nlet {r+} = {0+} = {1+};"), ["Log.clamp"], everywhere, Log::PRODUCT, |a, b| a.div(b), 19, 22),
+    routine!("sum" Add(R, R) -> R, Do("let {r} = Log.sum({0}, {1});\nlet {r+} = true;"), ["Log.sum"], signs!(plus plus), Log::SUMS, |a, b| a.add(b), 27, 14),
+    routine!("any_sum" Add(R, R) -> R, Do("let {r} = Log.clamp(Log.sum({0}, {1}));\nlet {r+} = true;"), ["Log.sum", "Log.clamp"], plus, Log::SUMS, |a, b| a.add(b), 41, 22),
+    routine!("minus_sum" Add(R, R) -> R, Do("let {r} = Log.sum({0}, {1});\nlet {r+} = false;"), ["Log.sum"], signs!(minus minus), Log::SUMS, |a, b| a.add(b), 26, 14),
+    routine!("difference_sum" Sub(R, R) -> R, Do("let {r} = Log.sum({0}, {1});\nlet {r+} = true;"), ["Log.sum"], signs!(plus minus), Log::SUMS, |a, b| a.sub(b), 27, 14),
+    routine!("minus_difference_sum" Sub(R, R) -> R, Do("let {r} = Log.sum({0}, {1});\nlet {r+} = false;"), ["Log.sum"], signs!(minus plus), Log::SUMS, |a, b| a.sub(b), 26, 14),
+    routine!("root" Sqrt(R) -> R, Do("let {r} = Log.half({0});\nlet {r+} = true;"), ["Log.half"], plus, Log::ROOT, |a| a.sqrt(), 45, 14),
+    routine!("any_root" Sqrt(R) -> R, Do("let {r} = Log.root({0}, {0+});\nlet {r+} = true;"), ["Log.root"], everywhere, Log::ROOT, |a| a.sqrt(), 36, 20),
+    routine!("mod" Mod(R, R) -> R, Do("let {r} = Log.mod({0}, {0+}, {1}, {1+});\nlet {r+} = Log.plus();"), ["Log.mod"], everywhere, Log::UNKNOWN, |a, b| a.modulo(b), 236, 30),
     routine!("neg" Neg(R) -> R, Do("let {r+} = ~{0+};\nlet {r} = {0};"), [], everywhere, EXACT, |a| a.neg(), 3, 12),
     routine!("abs" Abs(R) -> R, Do("let {r} = {0};\nlet {r+} = true;"), [], everywhere, EXACT, |a| a.abs(), 3, 10),
     routine!("plus_min" Min(R, R) -> R, Do("let {r} = Math.min({0}, {1});\nlet {r+} = true;"), [], plus, EXACT, |a, b| a.min(b), 4, 14),
@@ -65,7 +65,7 @@ const REALS: &[Routine] = &[
     routine!("floor" Floor(R) -> I, call("Log.floor({0}, {0+})"), ["Log.floor"], everywhere, STEP, |a| a.floor(), 173, 20),
     routine!("round" Round(R) -> I, call("Log.round({0}, {0+})"), ["Log.round"], everywhere, STEP, |a| a.round(), 229, 20),
     routine!("sign" Sign(R) -> I, call("Log.sign({0+})"), ["Log.sign"], everywhere, EXACT, |a| a.sign(), 7, 14),
-    routine!("from_int" ToReal(I) -> R, Do("let {r+} = ~({0} < 0);\nlet {r} = Log.fromInt({0});"), ["Log.fromInt"], everywhere, WHOLE, |a| Log::from_int(a), 41, 24),
+    routine!("from_int" ToReal(I) -> R, Do("let {r+} = ~({0} < 0);\nlet {r} = Log.fromInt({0});"), ["Log.fromInt"], everywhere, Log::WHOLE, |a| Log::from_int(a), 41, 24),
     routine!("negative" Less(R, R) -> B, sum("~{0+}"), [], against_zero, EXACT, |a, _b| !a.plus, 0, 6),
     routine!("positive" Less(R, R) -> B, sum("{1+} & ({1} > (-13312))"), [], from_zero, EXACT, |_a, b| b.plus && b.log > model::LEAST, 4, 24),
     routine!("plus_less" Less(R, R) -> B, sum("{0} < {1}"), [], plus, EXACT, |a, b| a.less(b), 1, 12),
@@ -89,7 +89,7 @@ macro_rules! either {
         routine!($name $op(R, R) -> R, Do(concat!(
             "if (", $same, ") {\nlet {r} = Log.sum({0}, {1});\nlet {r+} = ", $plus, ";\n}\nelse {\nlet {r+} = ", $greater,
             ";\nlet {r} = ", $difference, "({0}, {1});\n}"
-        )), ["Log.sum", $difference], $domain, DIFFERENCES, |a, b| a.$model(b), $cycles, 60)
+        )), ["Log.sum", $difference], $domain, Log::DIFFERENCES, |a, b| a.$model(b), $cycles, 60)
     };
 }
 
@@ -97,14 +97,14 @@ macro_rules! either {
 macro_rules! left {
     ($name:literal $op:ident, $greater:literal, $difference:literal, $domain:expr, $model:ident, $cycles:literal) => {
         routine!($name $op(R, R) -> R, Do(concat!("let {r+} = ", $greater, ";\nlet {r} = ", $difference, "({0}, {1});")),
-            [$difference], $domain, DIFFERENCES, |a, b| a.$model(b), $cycles, 24)
+            [$difference], $domain, Log::DIFFERENCES, |a, b| a.$model(b), $cycles, 24)
     };
 }
 
 /// The domain of the one where nothing that is left needs clamping.
 macro_rules! ample {
     ($a:ident $b:ident) => {
-        |args: &[Range], result: Range| signs(args, result, [sign!($a), sign!($b)]) && ample(args)
+        |args: &[Range], result: Range| Log::signs(args, result, [sign!($a), sign!($b)]) && Log::ample(args)
     };
 }
 
@@ -134,12 +134,12 @@ const SUMS_OF_SIGNS: &[Routine] = &[
     either!("sub_plus_second" Sub, "~{0+}", "false", "~({0} < {1})", "Log.difference", signs!(any plus), sub, 36),
     either!("ample_sub_minus_second" Sub, "{0+}", "true", "{0} < {1}", "Log.leave", ample!(any minus), sub, 31),
     either!("sub_minus_second" Sub, "{0+}", "true", "{0} < {1}", "Log.difference", signs!(any minus), sub, 35),
-    either!("ample_add" Add, "{0+} = {1+}", "{0+}", "(~({0} < {1})) = {0+}", "Log.leave", |args, result| high(result) && ample(args), add, 34),
-    either!("add" Add, "{0+} = {1+}", "{0+}", "(~({0} < {1})) = {0+}", "Log.difference", fits, add, 38),
-    either!("ample_sub" Sub, "{0+} = (~{1+})", "{0+}", "(~({0} < {1})) = {0+}", "Log.leave", |args, result| high(result) && ample(args), sub, 35),
-    either!("sub" Sub, "{0+} = (~{1+})", "{0+}", "(~({0} < {1})) = {0+}", "Log.difference", fits, sub, 39),
-    routine!("any_add" Add(R, R) -> R, Do("let {r} = Log.clamp(Log.add({0}, {0+}, {1}, {1+}));\nlet {r+} = Log.plus();"), ["Log.add", "Log.clamp"], everywhere, DIFFERENCES, |a, b| a.add(b), 61, 36),
-    routine!("any_sub" Sub(R, R) -> R, Do("let {r} = Log.clamp(Log.add({0}, {0+}, {1}, ~{1+}));\nlet {r+} = Log.plus();"), ["Log.add", "Log.clamp"], everywhere, DIFFERENCES, |a, b| a.sub(b), 62, 37),
+    either!("ample_add" Add, "{0+} = {1+}", "{0+}", "(~({0} < {1})) = {0+}", "Log.leave", |args, result| Log::high(result) && Log::ample(args), add, 34),
+    either!("add" Add, "{0+} = {1+}", "{0+}", "(~({0} < {1})) = {0+}", "Log.difference", Log::fits, add, 38),
+    either!("ample_sub" Sub, "{0+} = (~{1+})", "{0+}", "(~({0} < {1})) = {0+}", "Log.leave", |args, result| Log::high(result) && Log::ample(args), sub, 35),
+    either!("sub" Sub, "{0+} = (~{1+})", "{0+}", "(~({0} < {1})) = {0+}", "Log.difference", Log::fits, sub, 39),
+    routine!("any_add" Add(R, R) -> R, Do("let {r} = Log.clamp(Log.add({0}, {0+}, {1}, {1+}));\nlet {r+} = Log.plus();"), ["Log.add", "Log.clamp"], everywhere, Log::DIFFERENCES, |a, b| a.add(b), 61, 36),
+    routine!("any_sub" Sub(R, R) -> R, Do("let {r} = Log.clamp(Log.add({0}, {0+}, {1}, ~{1+}));\nlet {r+} = Log.plus();"), ["Log.add", "Log.clamp"], everywhere, Log::DIFFERENCES, |a, b| a.sub(b), 62, 37),
 ];
 
 #[rustfmt::skip]
@@ -150,17 +150,17 @@ const FUNCTIONS: &[Routine] = &[
     routine!("near_cos" Cos(R) -> R, Do("let {r} = Log.quarterSine({0}, 1);\nlet {r+} = Log.plus();"), ["Log.sine"], near_angle, NEAR_SINE, |a| a.cos(), 304, 24),
     routine!("cos" Cos(R) -> R, Do("let {r} = Log.quarterSine({0}, 1);\nlet {r+} = Log.plus();"), ["Log.sine"], angle, SINE, |a| a.cos(), 304, 24),
     routine!("any_cos" Cos(R) -> R, Do("let {r} = Log.quarterSine({0}, 1);\nlet {r+} = Log.plus();"), ["Log.sine"], everywhere, ANY_SINE, |a| a.cos(), 304, 24),
-    routine!("tan" Tan(R) -> R, Do("let {r} = Log.tan({0}, {0+});\nlet {r+} = Log.plus();"), ["Log.tan"], near_tangent, TANGENT, |a| a.tan(), 502, 26),
-    routine!("any_tan" Tan(R) -> R, Do("let {r} = Log.tan({0}, {0+});\nlet {r+} = Log.plus();"), ["Log.tan"], everywhere, UNKNOWN, |a| a.tan(), 546, 26),
-    routine!("asin" Asin(R) -> R, Do("let {r} = Log.asin({0});\nlet {r+} = {0+};"), ["Log.asin"], everywhere, ARC, |a| a.asin(), 141, 22),
-    routine!("acos" Acos(R) -> R, Do("let {r} = Log.acos({0}, {0+});\nlet {r+} = true;"), ["Log.acos"], everywhere, ARC, |a| a.acos(), 165, 24),
-    routine!("atan2" Atan2(R, R) -> R, Do("let {r} = Log.atan2({0}, {1}, {1+});\nlet {r+} = {0+};"), ["Log.atan2"], everywhere, ARC, |a, b| a.atan2(b), 187, 30),
+    routine!("tan" Tan(R) -> R, Do("let {r} = Log.tan({0}, {0+});\nlet {r+} = Log.plus();"), ["Log.tan"], near_tangent, Log::TANGENT, |a| a.tan(), 502, 26),
+    routine!("any_tan" Tan(R) -> R, Do("let {r} = Log.tan({0}, {0+});\nlet {r+} = Log.plus();"), ["Log.tan"], everywhere, Log::UNKNOWN, |a| a.tan(), 546, 26),
+    routine!("asin" Asin(R) -> R, Do("let {r} = Log.asin({0});\nlet {r+} = {0+};"), ["Log.asin"], everywhere, Log::ARC, |a| a.asin(), 141, 22),
+    routine!("acos" Acos(R) -> R, Do("let {r} = Log.acos({0}, {0+});\nlet {r+} = true;"), ["Log.acos"], everywhere, Log::ARC, |a| a.acos(), 165, 24),
+    routine!("atan2" Atan2(R, R) -> R, Do("let {r} = Log.atan2({0}, {1}, {1+});\nlet {r+} = {0+};"), ["Log.atan2"], everywhere, Log::ARC, |a, b| a.atan2(b), 187, 30),
     routine!("near_exp" Exp(R) -> R, Do("let {r} = Log.exp({0}, {0+});\nlet {r+} = true;"), ["Log.exp"], near_angle, NEAR_EXP, |a| a.exp(), 485, 24),
-    routine!("exp" Exp(R) -> R, Do("let {r} = Log.exp({0}, {0+});\nlet {r+} = true;"), ["Log.exp"], everywhere, EXP, |a| a.exp(), 414, 24),
-    routine!("log" Log(R) -> R, Do("let {r} = Log.log({0}, {0+});\nlet {r+} = Log.plus();"), ["Log.log"], above_zero, LOGARITHM, |a| a.log(), 70, 26),
-    routine!("any_log" Log(R) -> R, Do("let {r} = Log.log({0}, {0+});\nlet {r+} = Log.plus();"), ["Log.log"], everywhere, UNKNOWN, |a| a.log(), 51, 26),
-    routine!("pow" Pow(R, R) -> R, Do("let {r} = Log.pow({0}, {0+}, {1}, {1+});\nlet {r+} = Log.plus();"), ["Log.pow"], above_zero, POWER, |a, b| a.pow(b), 467, 36),
-    routine!("any_pow" Pow(R, R) -> R, Do("let {r} = Log.pow({0}, {0+}, {1}, {1+});\nlet {r+} = Log.plus();"), ["Log.pow"], everywhere, UNKNOWN, |a, b| a.pow(b), 301, 36),
+    routine!("exp" Exp(R) -> R, Do("let {r} = Log.exp({0}, {0+});\nlet {r+} = true;"), ["Log.exp"], everywhere, Log::EXP, |a| a.exp(), 414, 24),
+    routine!("log" Log(R) -> R, Do("let {r} = Log.log({0}, {0+});\nlet {r+} = Log.plus();"), ["Log.log"], Log::above_zero, Log::LOGARITHM, |a| a.log(), 70, 26),
+    routine!("any_log" Log(R) -> R, Do("let {r} = Log.log({0}, {0+});\nlet {r+} = Log.plus();"), ["Log.log"], everywhere, Log::UNKNOWN, |a| a.log(), 51, 26),
+    routine!("pow" Pow(R, R) -> R, Do("let {r} = Log.pow({0}, {0+}, {1}, {1+});\nlet {r+} = Log.plus();"), ["Log.pow"], Log::above_zero, Log::POWER, |a, b| a.pow(b), 467, 36),
+    routine!("any_pow" Pow(R, R) -> R, Do("let {r} = Log.pow({0}, {0+}, {1}, {1+});\nlet {r+} = Log.plus();"), ["Log.pow"], everywhere, Log::UNKNOWN, |a, b| a.pow(b), 301, 36),
 ];
 
 /// The routines of logarithms, and those of ints.

@@ -1,7 +1,8 @@
 //! Decision trees over the distance of two summands, where one is so much smaller that
 //! what it adds changes seldom: a comparison costs less room there than an entry.
 
-use slowlight_routine::log::model::{STEPS, added, taken};
+use slowlight_routine::log::model::Log;
+use slowlight_routine::log::tables::STEPS;
 use std::fmt::Write;
 
 /// From which distance on the class asks a tree instead of its tables.
@@ -20,12 +21,12 @@ struct Leaf {
 
 pub(crate) fn sum() -> String {
     let about = "What a summand adds whose logarithm is d less, from 4608 on: little.";
-    subroutine("farSum", about, added)
+    subroutine("farSum", about, Log::added)
 }
 
 pub(crate) fn difference() -> String {
     let about = "What it takes away.";
-    subroutine("farDifference", about, taken)
+    subroutine("farDifference", about, Log::taken)
 }
 
 fn subroutine(name: &str, about: &str, of: fn(i32) -> i32) -> String {

@@ -38,7 +38,7 @@ fn stated_by(runtime: &Runtime, op: Op) -> f64 {
     let of = |error| match error {
         Error::Relative(r) => r,
         Error::Exact => 0.0,
-        Error::Larger(a) | Error::Absolute(a) | Error::Mixed { absolute: a, .. } => panic!("{a}"),
+        other => panic!("{other:?}"),
     };
     runtime
         .routines

@@ -54,7 +54,7 @@ const ROWS: &[Row] = &[
 /// Every positive real of a format with these exponents.
 fn reals(format: Format, (least, most): (i32, i32)) -> Vec<Bits> {
     match format {
-        Format::Log { frac } => {
+        Format::Log { frac, .. } => {
             let one = 1 << frac;
             let logs = least * one..(most + 1) * one;
             logs.map(|log| Log { plus: true, log }.bits()).collect()

@@ -148,7 +148,7 @@ impl Kernel {
         }
         let own = &mut made["expected_by_format"];
         // What does not fit is refused aloud.
-        let log = Arithmetic::Of(Format::Log { frac: 10 });
+        let log = Arithmetic::Of(slowlight_routine::log::LOG);
         own["log10"] = self.among(
             inputs,
             |x, _| log.round(x),

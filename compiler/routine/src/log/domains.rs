@@ -1,40 +1,14 @@
 //! How far the operations on logarithmic reals are off, and for which ranges they are right
 //! without a test: the same wherever they are computed.
 
+use super::model::Logarithm;
 use crate::{Error, Range};
 
-/// Products are exact between the format's ends.
-pub const PRODUCT: Error = Error::Mixed {
-    relative: 1e-12,
-    absolute: ZERO,
-};
-/// Entries of the table of sums are right to 0.54 units, what a far summand adds to 0.76.
-pub const SUMS: Error = Error::Mixed {
-    relative: 4.8e-4,
-    absolute: ZERO,
-};
-/// Those of differences to 0.6 units, and to 1.22 where the summands are as near as 2^(1/4).
-pub const DIFFERENCES: Error = Error::Mixed {
-    relative: 8.4e-4,
-    absolute: ZERO,
-};
-/// Half a unit is cut.
-pub const ROOT: Error = Error::Mixed {
-    relative: 3.4e-4,
-    absolute: ZERO,
-};
-/// The logarithms of whole numbers are right to 0.55 units; from 512 on they are sums.
-pub const WHOLE: Error = Error::Mixed {
-    relative: 8.5e-4,
-    absolute: ZERO,
-};
 /// What is as near to a whole number as logarithms tell counts as that; nine bits.
 pub const STEP: Error = Error::Mixed {
     relative: 1.0 / 256.0,
     absolute: 1.0,
 };
-/// A quotient that is cut beside a whole number moves the result by the divisor.
-pub const UNKNOWN: Error = Error::Absolute(131_072.0);
 /// Of angles up to 1: one unit of 1.
 pub const NEAR_SINE: Error = Error::Absolute(6.8e-4);
 /// The whole quarter turns of an angle are taken away as a value of the format: of 64, half a
@@ -42,64 +16,137 @@ pub const NEAR_SINE: Error = Error::Absolute(6.8e-4);
 pub const SINE: Error = Error::Absolute(0.022);
 /// From 256 quarter turns on these are all that counts.
 pub const ANY_SINE: Error = Error::Absolute(2.0);
-/// Up to 1.4, where the cosine is 0.17.
-pub const TANGENT: Error = Error::Mixed {
-    relative: 2e-3,
-    absolute: ZERO,
-};
-/// Three sums, of which the last counts most.
-pub const ARC: Error = Error::Mixed {
-    relative: 1e-3,
-    absolute: ZERO,
-};
 pub const NEAR_EXP: Error = Error::Relative(8.2e-4);
-/// An exponent of 2 is as near as a table of whole numbers' logarithms tells, of 16
-/// octaves 1/100.
-pub const EXP: Error = Error::Mixed {
-    relative: 0.01,
-    absolute: ZERO,
-};
-/// There the exponent is a product with a logarithm of its own.
-pub const POWER: Error = Error::Mixed {
-    relative: 0.0155,
-    absolute: ZERO,
-};
-/// A whole number's logarithm, and the constant's rounding.
-pub const LOGARITHM: Error = Error::Mixed {
-    relative: 1.1e-3,
-    absolute: ZERO,
-};
-/// The least magnitude, which stands for 0.
-pub const ZERO: f64 = 1.0 / 8192.0;
 
-/// Magnitudes that need no clamping above, with room for what roundings add.
-pub const HIGH: f64 = 60_000.0;
+impl<const FRAC: u8, const WIDE: bool> Logarithm<FRAC, WIDE> {
+    /// The least magnitude, which stands for 0.
+    pub const LEAST_MAGNITUDE: f64 = match (FRAC, WIDE) {
+        (_, false) => 1.0 / 8192.0,
+        (10, true) => 1.0 / 4_294_967_296.0,
+        (_, true) => 1.0 / 65536.0,
+    };
+    /// The greatest magnitude, or a little more.
+    pub const END: f64 = match (FRAC, WIDE) {
+        (10, true) => 4_294_967_296.0,
+        _ => 65536.0,
+    };
+    /// Magnitudes that need no clamping above, with room for what roundings add.
+    pub const HIGH: f64 = match (FRAC, WIDE) {
+        (10, true) => 4e9,
+        _ => 60_000.0,
+    };
+    /// A unit of the last place, of one of ten bits.
+    const UNIT: f64 = if FRAC == 10 { 1.0 } else { 0.5 };
+    /// What is left of equals, of them.
+    const EQUALS: f64 = if WIDE { 1.0 / Self::END } else { 0.0 };
 
-/// The least magnitude in a range.
-pub fn least(range: &Range) -> f64 {
-    range.lo.max(-range.hi).max(ZERO)
-}
+    /// How many times 16 octaves an exponent has.
+    const EXPONENTS: f64 = if Self::HIGH > 1e6 { 2.0 } else { 1.0 };
 
-pub fn high(result: Range) -> bool {
-    result.within(-HIGH, HIGH)
-}
+    /// A quotient that is cut beside a whole number moves the result by the divisor.
+    pub const UNKNOWN: Error = Error::Absolute(2.5 * Self::HIGH);
+    /// Products are exact between the format's ends.
+    pub const PRODUCT: Error = Error::Mixed {
+        relative: 1e-12,
+        absolute: Self::LEAST_MAGNITUDE,
+    };
+    /// Entries of the table of sums are right to 0.54 units, what a far summand adds to 0.76.
+    pub const SUMS: Error = Error::Mixed {
+        relative: 4.8e-4 * Self::UNIT,
+        absolute: Self::LEAST_MAGNITUDE,
+    };
+    /// Those of differences to 0.6 units, and to 1.22 where the summands are as near as 2^(1/4).
+    pub const DIFFERENCES: Error = Error::Differences {
+        relative: 8.4e-4 * Self::UNIT,
+        larger: Self::EQUALS,
+        absolute: Self::LEAST_MAGNITUDE,
+    };
+    /// Half a unit is cut.
+    pub const ROOT: Error = Error::Mixed {
+        relative: 3.4e-4 * Self::UNIT,
+        absolute: Self::LEAST_MAGNITUDE,
+    };
+    /// The logarithms of whole numbers are right to 0.55 units; from 512 on they are sums.
+    pub const WHOLE: Error = Error::Mixed {
+        relative: 8.5e-4 * Self::UNIT,
+        absolute: Self::LEAST_MAGNITUDE,
+    };
+    /// Up to 1.4, where the cosine is 0.17.
+    pub const TANGENT: Error = Error::Mixed {
+        relative: 2e-3,
+        absolute: Self::LEAST_MAGNITUDE,
+    };
+    /// Three sums, of which the last counts most.
+    pub const ARC: Error = Error::Mixed {
+        relative: if WIDE { 1.25e-3 } else { 1e-3 },
+        absolute: Self::LEAST_MAGNITUDE,
+    };
+    /// An exponent of 2 is as near as a table of whole numbers' logarithms tells, of 16
+    /// octaves 1/100.
+    pub const EXP: Error = Error::Mixed {
+        relative: 0.01 * Self::EXPONENTS,
+        absolute: 1.002 * Self::LEAST_MAGNITUDE,
+    };
+    /// There the exponent is a product with a logarithm of its own.
+    pub const POWER: Error = Error::Mixed {
+        relative: 0.0155 * Self::EXPONENTS,
+        absolute: 1.002 * Self::LEAST_MAGNITUDE,
+    };
+    /// A whole number's logarithm, and the constant's rounding.
+    pub const LOGARITHM: Error = Error::Mixed {
+        relative: 1.1e-3,
+        absolute: Self::LEAST_MAGNITUDE,
+    };
 
-/// Products that stay between the ends.
-pub fn inner_product(args: &[Range], result: Range) -> bool {
-    matches!(args, [a, b, ..] if high(result) && least(a) * least(b) >= ZERO)
-}
+    /// The least magnitude in a range.
+    pub fn least(range: &Range) -> f64 {
+        range.lo.max(-range.hi).max(Self::LEAST_MAGNITUDE)
+    }
 
-pub fn inner_quotient(args: &[Range], result: Range) -> bool {
-    low_quotient(args, result) && high_quotient(args, result)
-}
+    pub fn high(result: Range) -> bool {
+        result.within(-Self::HIGH, Self::HIGH)
+    }
 
-/// Divisors below the least magnitude are held as that, which makes quotients smaller.
-pub fn low_quotient(args: &[Range], result: Range) -> bool {
-    high(result) || matches!(args, [a, b, ..] if a.magnitude() < HIGH * least(b))
-}
+    /// Products that stay between the ends.
+    pub fn inner_product(args: &[Range], result: Range) -> bool {
+        matches!(args, [a, b, ..] if Self::high(result) && Self::least(a) * Self::least(b) >= Self::LEAST_MAGNITUDE)
+    }
 
-pub fn high_quotient(args: &[Range], _: Range) -> bool {
-    matches!(args, [a, b, ..] if least(a) >= ZERO * b.magnitude())
+    pub fn inner_quotient(args: &[Range], result: Range) -> bool {
+        Self::low_quotient(args, result) && Self::high_quotient(args, result)
+    }
+
+    /// Divisors below the least magnitude are held as that, which makes quotients smaller.
+    pub fn low_quotient(args: &[Range], result: Range) -> bool {
+        Self::high(result) || matches!(args, [a, b, ..] if a.magnitude() < Self::HIGH * Self::least(b))
+    }
+
+    pub fn high_quotient(args: &[Range], _: Range) -> bool {
+        matches!(args, [a, b, ..] if Self::least(a) >= Self::LEAST_MAGNITUDE * b.magnitude())
+    }
+
+    /// A first argument that is more than what stands for 0, and a result that fits.
+    pub fn above_zero(args: &[Range], result: Range) -> bool {
+        Self::high(result) && args.first().is_some_and(|a| a.lo > 1.001 * Self::LEAST_MAGNITUDE)
+    }
+
+    /// Two arguments of such signs, and a sum that fits.
+    pub fn signs(args: &[Range], result: Range, [first, second]: [Sign; 2]) -> bool {
+        matches!(args, [a, b, ..] if first.is_of(a) && second.is_of(b)) && Self::high(result)
+    }
+
+    /// Results that need no clamping above.
+    pub fn fits(_: &[Range], result: Range) -> bool {
+        Self::high(result)
+    }
+
+    pub fn ample(args: &[Range]) -> bool {
+        args.iter().any(|a| Self::least(a) >= Self::AMPLE)
+    }
+
+    /// What differences are taken from: where one magnitude is at least this, so that the
+    /// greater is, nothing that is left of it is less than the format tells from 0.
+    pub const AMPLE: f64 = 0.181;
 }
 
 pub fn near_angle(args: &[Range], _: Range) -> bool {
@@ -112,11 +159,6 @@ pub fn angle(args: &[Range], _: Range) -> bool {
 
 pub fn near_tangent(args: &[Range], _: Range) -> bool {
     args.iter().all(|a| a.within(-1.4, 1.4))
-}
-
-/// A first argument that is more than what stands for 0, and a result that fits.
-pub fn above_zero(args: &[Range], result: Range) -> bool {
-    high(result) && args.first().is_some_and(|a| a.lo > 1.001 * ZERO)
 }
 
 /// What is known of an operand's sign.
@@ -136,24 +178,6 @@ impl Sign {
             Sign::Any => true,
         }
     }
-}
-
-/// Two arguments of such signs, and a sum that fits.
-pub fn signs(args: &[Range], result: Range, [first, second]: [Sign; 2]) -> bool {
-    matches!(args, [a, b, ..] if first.is_of(a) && second.is_of(b)) && high(result)
-}
-
-/// What differences are taken from: where one magnitude is at least this, so that the
-/// greater is, nothing that is left of it is less than the format tells from 0.
-pub const AMPLE: f64 = 0.181;
-
-pub fn ample(args: &[Range]) -> bool {
-    args.iter().any(|a| least(a) >= AMPLE)
-}
-
-/// Results that need no clamping above.
-pub fn fits(_: &[Range], result: Range) -> bool {
-    high(result)
 }
 
 pub fn plus(args: &[Range], _: Range) -> bool {

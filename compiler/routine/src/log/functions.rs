@@ -4,170 +4,202 @@
 //! each further term is smaller, so its rounding counts less. What is linear in a
 //! logarithm, a power, is computed with that as an int.
 
-use super::model::{LEAST, Log, MOST, OCTAVE, WHOLE, clamp, difference, half, log_of, sum, whole};
-use super::tables::tables;
+use super::model::{Logarithm, WHOLE};
 
-/// The logarithms of a quarter, a half and an eighth of a turn.
-const QUARTER: i32 = 667;
-const HALF_TURN: i32 = 1691;
-const EIGHTH: i32 = -357;
-/// What an int that counts units of logarithms is too large by, to be a natural one.
-const UNITS: i32 = 10781;
-
-/// Of the sine's series; its relative error is 9.3e-6 up to a quarter turn.
-const SINE: [i32; 3] = [-5575, -4426, -2647];
-/// Of the arc tangent's; 6.6e-5 up to the root of 2 less 1.
-const ARC: [i32; 2] = [-907, -1623];
-
-/// x times the series in x^2. Where x is below 2^-5.5 that is x, to half a unit.
-fn series(x: i32, terms: &[i32]) -> i32 {
-    if x < -5632 {
-        return x;
-    }
-    let next = |rest, term| difference(0, x + x + rest + term);
-    x + terms.iter().fold(0, next)
+/// What hangs on how many units an octave has.
+pub struct Constants {
+    /// The logarithms of a quarter, a half and an eighth of a turn.
+    pub quarter: i32,
+    pub half_turn: i32,
+    pub eighth: i32,
+    /// What an int that counts units of logarithms is too large by, to be a natural one.
+    pub units: i32,
+    /// Of the sine's series; its relative error is 9.3e-6 up to a quarter turn.
+    pub sine: [i32; 3],
+    /// Of the arc tangent's; 6.6e-5 up to the root of 2 less 1.
+    pub arc: [i32; 2],
+    /// Below it a series is its first term, to half a unit.
+    pub short: i32,
+    /// From the root of 2 less 1 on an arc is told by that of (1 - x)/(1 + x).
+    pub steep: i32,
 }
 
-/// The angle of a ratio of at most 1: by that of (1 - x)/(1 + x) from the root of 2 less 1 on.
-fn arc(x: i32) -> i32 {
-    if x < -1302 {
-        return series(x, &ARC);
-    }
-    let other = difference(0, x) - sum(0, x);
-    difference(EIGHTH, series(other, &ARC))
-}
+const TEN: Constants = Constants {
+    quarter: 667,
+    half_turn: 1691,
+    eighth: -357,
+    units: 10781,
+    sine: [-5575, -4426, -2647],
+    arc: [-907, -1623],
+    short: -5632,
+    steep: -1302,
+};
 
-/// The angle of (x, y) = (b, a), both positive.
-fn angle(a: i32, b: i32) -> i32 {
-    match a < b {
-        true => arc(a - b),
-        false => difference(QUARTER, arc(b - a)),
-    }
-}
+const ELEVEN: Constants = Constants {
+    quarter: 1334,
+    half_turn: 3382,
+    eighth: -714,
+    units: 23611,
+    sine: [-11150, -8851, -5294],
+    arc: [-1814, -3246],
+    short: -10752,
+    steep: -2604,
+};
 
-/// The nearest int to 2^(a/1024), at most 32767: between entries of the table of whole
-/// numbers' logarithms, from 256 on, in proportion.
-fn units(mut a: i32) -> i32 {
-    if a > 15 * OCTAVE - 1 {
-        return 32767;
-    }
-    if a < 8 * OCTAVE {
-        return (whole(a + OCTAVE) + 1) / 2;
-    }
-    let mut unit = 1;
-    while a > 9 * OCTAVE - 1 {
-        a -= OCTAVE;
-        unit += unit;
-    }
-    let n = whole(a);
-    let at = |n: i32| tables().logs.get(n as usize).copied().unwrap_or(LEAST);
-    let gap = at(n + 1) - at(n);
-    n * unit + ((a - at(n)) * unit + gap / 2) / gap
-}
+impl<const FRAC: u8, const WIDE: bool> Logarithm<FRAC, WIDE> {
+    /// Those of this format.
+    pub const CONSTANTS: Constants = if FRAC == 10 { TEN } else { ELEVEN };
 
-impl Log {
+    /// x times the series in x^2.
+    fn series(x: i32, terms: &[i32]) -> i32 {
+        if x < Self::CONSTANTS.short {
+            return x;
+        }
+        let next = |rest, term| Self::difference(0, x + x + rest + term);
+        x + terms.iter().fold(0, next)
+    }
+
+    /// The angle of a ratio of at most 1.
+    fn arc(x: i32) -> i32 {
+        let Constants { arc, eighth, .. } = Self::CONSTANTS;
+        if x < Self::CONSTANTS.steep {
+            return Self::series(x, &arc);
+        }
+        // In a word.
+        let other = (Self::difference(0, x) - Self::sum(0, x)).max(i32::from(i16::MIN));
+        Self::difference(eighth, Self::series(other, &arc))
+    }
+
+    /// The angle of (x, y) = (b, a), both positive.
+    fn angle(a: i32, b: i32) -> i32 {
+        match a < b {
+            true => Self::arc(Self::clamp(a - b)),
+            false => Self::difference(Self::CONSTANTS.quarter, Self::arc(Self::clamp(b - a))),
+        }
+    }
+
+    /// The nearest int to 2^(a/OCTAVE), at most 32767: between entries of the table of whole
+    /// numbers' logarithms, from 256 on, in proportion.
+    fn units(mut a: i32) -> i32 {
+        if a > 15 * Self::OCTAVE - 1 {
+            return 32767;
+        }
+        if a < 8 * Self::OCTAVE {
+            return (Self::whole(a + Self::OCTAVE) + 1) / 2;
+        }
+        let mut unit = 1;
+        while a > 9 * Self::OCTAVE - 1 {
+            a -= Self::OCTAVE;
+            unit += unit;
+        }
+        let n = Self::whole(a);
+        let at = Self::of_whole(n);
+        let gap = Self::of_whole(n + 1) - at;
+        n * unit + ((a - at) * unit + gap / 2) / gap
+    }
+
     /// The sine of the magnitude and `quarter` quarter turns. From 256 of these on, with
     /// values more than a quarter turn apart, magnitudes count as whole quarters.
-    fn quarter_sine(self, quarter: i32) -> Log {
-        let turns = whole(self.log - QUARTER);
+    fn quarter_sine(self, quarter: i32) -> Self {
+        let turns = Self::whole(self.log - Self::CONSTANTS.quarter);
         let rest = match turns {
             0 => self.abs(),
-            1..=255 => self.abs().sub(Log {
+            1..=255 => self.abs().sub(Self {
                 plus: true,
-                log: log_of(turns) + QUARTER,
+                log: Self::log_of(turns) + Self::CONSTANTS.quarter,
             }),
-            _ => Log::ZERO,
+            _ => Self::ZERO,
         };
-        let quarters = Log {
+        let quarters = Self {
             plus: true,
-            log: QUARTER,
+            log: Self::CONSTANTS.quarter,
         };
         let angle = match (turns + quarter) & 1 {
             0 => rest,
             _ => quarters.sub(rest),
         };
         let back = (turns + quarter) & 2 != 0;
-        Log {
+        Self {
             plus: angle.plus != back,
-            log: series(angle.log, &SINE),
+            log: Self::series(angle.log, &Self::CONSTANTS.sine),
         }
     }
 
-    pub fn sin(self) -> Log {
+    pub fn sin(self) -> Self {
         let sine = self.quarter_sine(0);
-        Log {
+        Self {
             plus: sine.plus == self.plus,
             ..sine
         }
     }
 
-    pub fn cos(self) -> Log {
+    pub fn cos(self) -> Self {
         self.quarter_sine(1)
     }
 
-    pub fn tan(self) -> Log {
+    pub fn tan(self) -> Self {
         self.sin().div(self.cos())
     }
 
     /// The angle of (y, x) = (self, x).
-    pub fn atan2(self, x: Log) -> Log {
-        let inner = angle(self.log, x.log);
+    pub fn atan2(self, x: Self) -> Self {
+        let inner = Self::angle(self.log, x.log);
         let log = match x.plus {
-            true => inner.max(LEAST),
-            false => difference(HALF_TURN, inner),
+            true => inner.max(Self::LEAST),
+            false => Self::difference(Self::CONSTANTS.half_turn, inner),
         };
-        Log { log, ..self }
+        Self { log, ..self }
     }
 
     /// Of the argument clamped to -1..1.
-    pub fn asin(self) -> Log {
+    pub fn asin(self) -> Self {
         let log = match self.log < 0 {
-            true => angle(self.log, self.beside()),
-            false => QUARTER,
+            true => Self::angle(self.log, self.beside()),
+            false => Self::CONSTANTS.quarter,
         };
-        Log { log, ..self }
+        Self { log, ..self }
     }
 
     /// Of the argument clamped to -1..1.
-    pub fn acos(self) -> Log {
+    pub fn acos(self) -> Self {
         let inner = match self.log < 0 {
-            true => angle(self.beside(), self.log),
-            false => LEAST,
+            true => Self::angle(self.beside(), self.log),
+            false => Self::LEAST,
         };
         let log = match self.plus {
             true => inner,
-            false => difference(HALF_TURN, inner),
+            false => Self::difference(Self::CONSTANTS.half_turn, inner),
         };
-        Log { plus: true, log }
+        Self { plus: true, log }
     }
 
     /// The root of 1 less the square.
     fn beside(self) -> i32 {
-        half(difference(0, self.log + self.log))
+        Self::half(Self::difference(0, Self::clamp(self.log + self.log)))
     }
 
     /// e to this power.
-    pub fn exp(self) -> Log {
-        let n = units(self.log + UNITS);
-        Log {
+    pub fn exp(self) -> Self {
+        let n = Self::units(self.log + Self::CONSTANTS.units);
+        Self {
             plus: true,
-            log: clamp(if self.plus { n } else { -n }),
+            log: Self::clamp(if self.plus { n } else { -n }),
         }
     }
 
     /// Natural; of 0 or a negative the most negative value.
-    pub fn log(self) -> Log {
-        if !self.plus || self.log <= LEAST {
-            return Log {
+    pub fn log(self) -> Self {
+        if !self.plus || self.log <= Self::LEAST {
+            return Self {
                 plus: false,
-                log: MOST,
+                log: Self::MOST,
             };
         }
         let log = match self.log {
-            0 => LEAST,
-            n => log_of(n) - UNITS,
+            0 => Self::LEAST,
+            n => Self::log_of(n) - Self::CONSTANTS.units,
         };
-        Log {
+        Self {
             plus: self.log >= 0,
             log,
         }
@@ -175,28 +207,28 @@ impl Log {
 
     /// x^0 is 1, 0 to a negative the largest value, a negative to a fraction 0. Whole
     /// exponents multiply the logarithm exactly.
-    pub fn pow(self, b: Log) -> Log {
-        let of = |plus, log| Log { plus, log };
-        if b.log <= LEAST {
+    pub fn pow(self, b: Self) -> Self {
+        let of = |plus, log| Self { plus, log };
+        if b.log <= Self::LEAST {
             return of(true, 0);
         }
-        if self.log <= LEAST {
-            return if b.plus { Log::ZERO } else { of(true, MOST) };
+        if self.log <= Self::LEAST {
+            return if b.plus { Self::ZERO } else { of(true, Self::MOST) };
         }
-        let n = whole(b.log);
-        let exact = n <= WHOLE && tables().logs.get(n as usize) == Some(&b.log);
-        if !self.plus && !exact && b.log <= 9 * OCTAVE {
-            return Log::ZERO;
+        let n = Self::whole(b.log);
+        let exact = n <= WHOLE && Self::of_whole(n) == b.log;
+        if !self.plus && !exact && b.log <= 9 * Self::OCTAVE {
+            return Self::ZERO;
         }
         let plus = self.plus || !exact || n & 1 == 0;
         let size = self.log.abs();
         let product = match size {
             0 => 0,
-            _ if !exact => units(b.log + log_of(size)),
-            _ if size > MOST / n => MOST,
+            _ if !exact => Self::units(b.log + Self::log_of(size)),
+            _ if size > Self::MOST / n => Self::MOST,
             _ => size * n,
         };
         let less = (self.log < 0) == b.plus;
-        of(plus, clamp(if less { -product } else { product }))
+        of(plus, Self::clamp(if less { -product } else { product }))
     }
 }

@@ -20,8 +20,8 @@ pub mod tables;
 use crate::{Bits, Format, Range};
 use model::Log;
 
-/// The format of the reals.
-pub const LOG: Format = Format::Log { frac: 10 };
+/// The format of Jack's reals.
+pub const LOG: Format = Log::FORMAT;
 
 /// The greatest int that a param's digits may make.
 const INT_MOST: i64 = 32767;

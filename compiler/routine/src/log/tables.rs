@@ -1,31 +1,113 @@
-//! The tables that sums are looked up in, made as a program in Jack makes them: with 16-bit
-//! sums alone, from a geometric sequence by its differences.
+//! The tables that sums are looked up in. Those of ten bits are made as a program in Jack makes
+//! them: with 16-bit sums alone, from a geometric sequence by its differences.
 
-use super::model::{LEAST, NEAR, OCTAVE, WHOLE};
+use super::model::{LEAST, Logarithm, NEAR, OCTAVE, WHOLE};
 use std::sync::LazyLock;
 
 /// What a runtime knows.
 pub struct Tables {
-    /// 1024 log2(1 + 2^(-d/1024)) for d below [`NEAR`].
-    pub sums: Vec<i32>,
-    /// -1024 log2(1 - 2^(-d/1024)) for d below [`NEAR`]; 0 for d = 0, which is never asked.
-    pub differences: Vec<i32>,
-    /// 1024 log2(n) for n to [`WHOLE`]; [`LEAST`] for 0.
+    /// OCTAVE log2(1 + 2^(-d/OCTAVE)) by the distance d.
+    pub sums: ByDistance,
+    /// -OCTAVE log2(1 - 2^(-d/OCTAVE)); 0 for d = 0, which is never asked.
+    pub differences: ByDistance,
+    /// OCTAVE log2(n) for n to [`WHOLE`]; the least for 0.
     pub logs: Vec<i32>,
 }
 
-/// The tables, made once.
-pub fn tables() -> &'static Tables {
-    static TABLES: LazyLock<Tables> = LazyLock::new(|| {
-        let powers = powers();
-        let logs = logs(&powers);
-        Tables {
-            sums: sums(&powers),
-            differences: differences(&powers, &logs),
-            logs,
+/// What hangs on how far apart two logarithms are: an entry for each distance up to where a
+/// stretch begins that has one for so many.
+pub struct ByDistance {
+    pub entries: Vec<i32>,
+    /// From which distance on there is an entry for each 2^k distances.
+    stretches: &'static [(i32, u32)],
+    /// Behind the last entry: the distances beyond which it is less than one half more.
+    steps: &'static [i32],
+}
+
+impl ByDistance {
+    /// What stands there.
+    pub fn at(&self, apart: i32) -> i32 {
+        let mut first = 0;
+        let (mut from, mut shift) = (0, 0);
+        for &(next, by) in self.stretches {
+            if apart < next {
+                break;
+            }
+            first += (next - from) >> shift;
+            (from, shift) = (next, by);
         }
-    });
-    &TABLES
+        let entry = first + ((apart - from) >> shift);
+        let beyond = || self.steps.iter().filter(|step| apart <= **step).count() as i32;
+        let entry = self.entries.get(entry as usize).copied();
+        entry.unwrap_or_else(beyond)
+    }
+}
+
+/// The tables of logarithms of so many bits behind the point, made once.
+pub fn tables(frac: u8) -> &'static Tables {
+    static TEN: LazyLock<Tables> = LazyLock::new(ten);
+    static ELEVEN: LazyLock<Tables> = LazyLock::new(eleven);
+    if frac == 10 { &TEN } else { &ELEVEN }
+}
+
+/// As a program in Jack makes them.
+fn ten() -> Tables {
+    let powers = powers();
+    let logs = logs(&powers);
+    let by_distance = |entries| ByDistance {
+        entries,
+        stretches: &[],
+        steps: &STEPS,
+    };
+    Tables {
+        sums: by_distance(sums(&powers)),
+        differences: by_distance(differences(&powers, &logs)),
+        logs,
+    }
+}
+
+/// Beyond which distances a far smaller summand adds less than 1/2, 3/2, ... units.
+pub const STEPS: [i32; 23] = [
+    11805, 10182, 9427, 8930, 8559, 8263, 8016, 7804, 7619, 7455, 7307, 7173, 7050, 6936, 6830,
+    6732, 6640, 6553, 6471, 6393, 6319, 6249, 6182,
+];
+
+/// Where an octave is 2048: how far there is an entry for each distance, for each two, and
+/// where there is nothing any more.
+pub const STRETCHES: [(i32, u32); 2] = [(2 * 2048, 1), (6 * 2048, 4)];
+pub const NOTHING: i32 = 25_600;
+
+/// To the nearest, in the middle of what an entry is for: none is so near to a half that the
+/// last place of a logarithm in `f64` would count.
+fn eleven() -> Tables {
+    type Log = Logarithm<11, true>;
+    let octave = f64::from(Log::OCTAVE);
+    let by_distance = |of: fn(f64) -> f64| {
+        let middle = |from: i32, shift: u32| f64::from(from) + f64::from((1 << shift) - 1) / 2.0;
+        let mut entries = Vec::new();
+        let ends = STRETCHES.iter().map(|(end, _)| *end).chain([NOTHING]);
+        let stretches = [(0, 0)].into_iter().chain(STRETCHES);
+        for ((from, shift), end) in stretches.zip(ends) {
+            let all = (from..end).step_by(1 << shift);
+            let ratio = |d: i32| (-middle(d, shift) / octave).exp2();
+            entries.extend(all.map(|d| (octave * of(ratio(d))).round() as i32));
+        }
+        ByDistance {
+            entries,
+            stretches: &STRETCHES,
+            steps: &[],
+        }
+    };
+    let mut differences = by_distance(|ratio| -(1.0 - ratio).log2());
+    if let Some(none) = differences.entries.first_mut() {
+        *none = 0;
+    }
+    let log = |n: i32| (octave * f64::from(n).log2()).round() as i32;
+    Tables {
+        sums: by_distance(|ratio| (1.0 + ratio).log2()),
+        differences,
+        logs: [Log::LEAST].into_iter().chain((1..=WHOLE).map(log)).collect(),
+    }
 }
 
 /// A number of three words: whole, and twice 14 bits behind the point.

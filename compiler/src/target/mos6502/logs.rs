@@ -8,7 +8,7 @@ use slowlight_routine::{Format, Type};
 use slowlight_runtime_6502::write::{Place as Operand, Shape, size};
 
 /// The upper byte of the logarithm that stands for 0; its lower byte is 0.
-pub(super) const LEAST: u8 = 0xCC;
+pub(super) const LEAST: u8 = 0x80;
 
 /// Whether a plan's reals are logarithms.
 pub(super) fn are(plan: &Plan) -> bool {

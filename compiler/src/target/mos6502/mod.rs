@@ -75,7 +75,7 @@ pub use draft::Draft;
 use memory::Machine;
 pub use memory::{DISC_PAGE, Room, bytes_of_room};
 use slowlight_runtime_6502::FIXED16_16;
-use slowlight_runtime_6502::log::{LOG10, LOG10_IN_RUNS};
+use slowlight_runtime_6502::log::{LOG10, LOG10_IN_RUNS, LOG11, LOG11_IN_RUNS};
 use slowlight_runtime_6502::scaled::{FIXED12, FIXED12_IN_RUNS, FIXED16, FIXED16_IN_RUNS};
 use slowlight_runtime_6502::scaled::{FIXED20, FIXED20_IN_RUNS, FIXED24, FIXED24_IN_RUNS};
 use syntax::Syntax;
@@ -114,7 +114,14 @@ pub static PLAIN_LOG10: Target = Target {
     ..USUAL
 };
 
-/// Numbers are known to 1/2000 of themselves, so a point's distance from its own surface, a
+/// The same with a bit more.
+pub static PLAIN_LOG11: Target = Target {
+    runtime: &LOG11_IN_RUNS,
+    offset: LOG_OFFSET / 2.0,
+    ..USUAL
+};
+
+/// Of ten bits, numbers are known to 1/2000 of themselves, so a point's distance from its own surface, a
 /// few units away, comes out as a few thousandths.
 const LOG_OFFSET: f64 = 0.015_625;
 
@@ -175,6 +182,13 @@ pub static C64_FIXED16: Target = Target {
 pub static C64_LOG10: Target = Target {
     runtime: &LOG10,
     offset: LOG_OFFSET,
+    ..C64
+};
+
+/// The same with a bit more.
+pub static C64_LOG11: Target = Target {
+    runtime: &LOG11,
+    offset: LOG_OFFSET / 2.0,
     ..C64
 };
 

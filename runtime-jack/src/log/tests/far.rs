@@ -6,7 +6,7 @@ use crate::log::LOG10;
 use crate::parts::{ALL, ROUNDED};
 use crate::tests::machine::run;
 use slowlight_routine::Source;
-use slowlight_routine::log::model::{added, taken};
+use slowlight_routine::log::model::Log;
 
 /// A program's files: what it does, with some parts.
 fn program(body: &str, needs: &[&str]) -> Vec<(String, String)> {
@@ -40,8 +40,8 @@ fn a_tree_is_what_the_table_says_at_every_distance() {
         )
     };
     for (name, of) in [
-        ("farSum", added as fn(i32) -> i32),
-        ("farDifference", taken),
+        ("farSum", Log::added as fn(i32) -> i32),
+        ("farDifference", Log::taken),
     ] {
         let found = run(&program(&body(name), &[&format!("Log.{name}")]));
         let mut expected = String::new();

@@ -8,7 +8,7 @@ use crate::model::{MOST as MOST_INT, int_bits};
 use crate::tests::generator::{Generator, STIR, Sums, all_pairs};
 use crate::tests::machine::{pairs, run};
 use slowlight_routine::log::LOG;
-use slowlight_routine::log::model::{Log, clamp};
+use slowlight_routine::log::model::Log;
 use slowlight_routine::{Bits, Form, Format, Op, Range, Routine};
 
 const MAIN: &str = "
@@ -104,7 +104,7 @@ impl Draw {
                 .into_iter()
                 .flat_map(|n: i32| [n, -n.max(-MOST_INT), n / 2 + 1])
                 .collect(),
-            (true, true) => edges().into_iter().map(clamp).collect(),
+            (true, true) => edges().into_iter().map(Log::clamp).collect(),
             (true, false) => {
                 let inner = |log: &i32| (-2500..=5600).contains(log);
                 edges().into_iter().filter(inner).collect()
@@ -165,7 +165,7 @@ impl Draw {
         let mut draw = |other| {
             let log = any(generator, other);
             match self.wide {
-                true => clamp(log),
+                true => Log::clamp(log),
                 false if !(-2500..=5600).contains(&log) => 17,
                 false => log,
             }

@@ -4,8 +4,7 @@ set_lost:
         sta lost_up
         rts
 
-; The same in a difference: what is added is below 0, and so much for a difference of 0 that
-; the result is less than any.
+; The same in a difference: what is added is below 0, for a difference of 0 by half of all.
 log_difference:
         cmp #11             ; from there on the high byte is $ff
         bcs log_difference_far
