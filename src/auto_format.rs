@@ -7,7 +7,9 @@
 //! ones ([`estimate::sampled`]). Then the quickest candidate within the goal is planned in
 //! earnest, and looked at again by a larger sample: only then are its formulas and word lengths
 //! final. Where that goes beyond the goal, or the program does not fit its machine, the next one
-//! has its turn; one whose program is half as large again as the machine is left out.
+//! has its turn, and also where a program that had to be made small for its machine is slower
+//! than the next one is without a search; one whose program is half as large again as the
+//! machine is left out.
 //!
 //! The whole picture is looked at, whatever rows are asked for: a format is chosen for a scene.
 //! Where its pixels take more work than is worth it, nothing is known, and the machine's first
@@ -158,7 +160,9 @@ fn quickest(
     let (short, mut long): (Vec<&'static Target>, Vec<_>) =
         all.partition(|t| is_short(t.runtime.real));
     let mut known = candidates(screen, scene, &short, goal);
+    // Within the goal the quickest, else the nearest to it.
     let mut best: Option<(Chosen, f64)> = None;
+    let mut kept: Option<f64> = None;
     let (mut tries, mut too_large) = (0, 0);
     while tries < TRIES {
         let enough = |one: &Candidate| {
@@ -169,7 +173,7 @@ fn quickest(
             sort(&mut known, goal);
         }
         // The last try is for the surest.
-        let next = match tries + 1 < TRIES {
+        let next = match tries + 1 < TRIES || kept.is_some() {
             true => 0,
             false => {
                 let all = known.iter().map(|one| one.wrong).enumerate();
@@ -181,6 +185,11 @@ fn quickest(
             break;
         }
         let candidate = known.remove(next);
+        // A program that had to be made small may be slower than another is without a search.
+        let sooner = |kept| candidate.cycles < kept && candidate.wrong <= DOUBT * goal;
+        if kept.is_some_and(|kept| !sooner(kept)) {
+            break;
+        }
         tries += 1;
         let format = screen.in_format_of(candidate.target);
         let plan = match format.plan(scene, target, &[]) {
@@ -193,15 +202,22 @@ fn quickest(
             Err(Failure::Scene(_)) => continue,
             plan => plan?,
         };
-        let Some(expected) = expected(scene, &plan, candidate.rows) else {
+        let mut whole = plan.clone();
+        whole.rows = candidate.rows;
+        let Some(expected) = expected(scene, &whole) else {
             continue;
         };
-        if best.as_ref().is_none_or(|(_, least)| expected < *least) {
+        let cycles = estimate::cycles(&whole);
+        let better = match (kept, expected <= goal) {
+            (None, true) => true,
+            (Some(kept), true) => cycles < kept,
+            (Some(_), false) => false,
+            (None, false) => best.as_ref().is_none_or(|(_, least)| expected < *least),
+        };
+        if better {
             let why = Some(Why { goal, expected });
             best = Some((Chosen { plan, why }, expected));
-        }
-        if expected <= goal {
-            break;
+            kept = (expected <= goal).then_some(cycles).or(kept);
         }
     }
     Ok(best.map(|(chosen, _)| chosen))
@@ -209,7 +225,7 @@ fn quickest(
 
 /// Whether a format is of those that are looked at first.
 fn is_short(format: Format) -> bool {
-    matches!(format, Format::Log { frac: ..=10, .. }) || (1..=16).contains(&format.bits())
+    matches!(format, Format::Log { .. }) || (1..=16).contains(&format.bits())
 }
 
 /// The least that wider formats take: what those of 16 bits with a fixed point do, as each
@@ -266,13 +282,11 @@ fn sort(all: &mut [Candidate], goal: f64) {
     });
 }
 
-/// The share of a plan's pixels in some rows whose inks are not the native ones, by a sample.
-fn expected(scene: &Scene, plan: &Plan, rows: (u32, u32)) -> Option<f64> {
+/// The share of a plan's pixels whose inks are not the native ones, by a sample.
+fn expected(scene: &Scene, plan: &Plan) -> Option<f64> {
     let (_waiting, _blind) = (Waiting::new("pixels"), interrupt::blind());
-    let mut plan = plan.clone();
-    plan.rows = rows;
-    let (inks, of) = estimate::inks(&plan, FINAL.0, FINAL.1 / PARTS as u64, PARTS);
-    unlike((&inks, of), &native(scene, &plan, &inks))
+    let (inks, of) = estimate::inks(plan, FINAL.0, FINAL.1 / PARTS as u64, PARTS);
+    unlike((&inks, of), &native(scene, plan, &inks))
 }
 
 /// The native inks of a sample, each by itself, since nothing is sent to it by others; of as
