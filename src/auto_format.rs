@@ -29,7 +29,7 @@ use rayon::prelude::*;
 use slowlight_compiler::eval::native::Native;
 use slowlight_compiler::passes::coarse::coarse;
 use slowlight_compiler::plan::Plan;
-use slowlight_compiler::target::{Target, formats};
+use slowlight_compiler::target::{Lean, Target, formats};
 use slowlight_routine::{Format, Op, Runtime};
 
 /// Rows and columns of a candidate's sample and of its final plan's, and how many statements the
@@ -247,7 +247,8 @@ fn candidates(
 ) -> Vec<Candidate> {
     let (_waiting, _blind) = (Waiting::new("formats"), interrupt::blind());
     let sampled = |&target: &&'static Target| {
-        let plan = screen.unsearched(scene, target).ok()?;
+        let mut plan = screen.unsearched(scene, target).ok()?;
+        plan.lean = plan.target.lean == Lean::Calls;
         let near = need::first(&plan).ok()?.is_none_or(|need| need.is_near());
         near.then(|| {
             let seen = estimate::sampled(&plan, CANDIDATE.0, CANDIDATE.1);

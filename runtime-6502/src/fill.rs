@@ -123,9 +123,11 @@ fn repeated(text: &str, width: u8) -> String {
     while let Some((before, behind)) = rest.split_once('[') {
         let (inside, after) = behind.split_once(']').unwrap_or((behind, ""));
         made.push_str(before);
-        let (inside, bytes) = match (inside.strip_prefix('+'), inside.strip_prefix('-')) {
-            (Some(inside), _) => (inside, 1..width),
-            (_, Some(inside)) => (inside, 0..width.saturating_sub(1)),
+        let kinds = ['+', '-', '1'].map(|kind| inside.strip_prefix(kind));
+        let (inside, bytes) = match kinds {
+            [Some(inside), ..] => (inside, 1..width),
+            [_, Some(inside), _] => (inside, 0..width.saturating_sub(1)),
+            [.., Some(inside)] => (inside, 1..width.min(2)),
             _ => (inside, 0..width),
         };
         for k in bytes {

@@ -58,6 +58,10 @@ fn fits_int(_: &[Range], result: Range) -> bool {
     result.within(-WHOLE, WHOLE)
 }
 
+fn bytes(args: &[Range], _: Range) -> bool {
+    args.iter().take(2).all(|a| a.within(0.0, 255.0))
+}
+
 /// An int that 16.16 holds.
 fn from_short(args: &[Range], _: Range) -> bool {
     args.first().is_some_and(|a| a.within(-32768.0, 32767.0))
@@ -167,6 +171,7 @@ pub(crate) const INTS: &[Routine] = &[
     routine!("int_sign" IntSign(I) -> I, t::SIGN, [], everywhere, EXACT, |a| a.signum(), 29, 28),
     routine!("int_twice" IntMul(I, I) -> I, t::TWICE, [], with!(1 = 2.0, fits_int), EXACT, |a, _b| a.wrapping_mul(2), 32, 20),
     routine!("int_four_times" IntMul(I, I) -> I, t::FOUR_TIMES, [], with!(1 = 4.0, fits_int), EXACT, |a, _b| a.wrapping_mul(4), 52, 28),
+    routine!("byte_product" IntMul(I, I) -> I, t::BYTE_PRODUCT, ["squares"], bytes, EXACT, |a, b| a.wrapping_mul(b), 64, 39),
     routine!("int_mul" IntMul(I, I) -> I, "int_multiply", ["int_multiply"], everywhere, EXACT, |a, b| a.saturating_mul(b), 636, 51),
     routine!("int_div_2" IntDiv(I, I) -> I, t::INT_HALF, [], with!(1 = 2.0), EXACT, |a, _b| a >> 1, 34, 22),
     routine!("int_div_4" IntDiv(I, I) -> I, t::INT_QUARTER, [], with!(1 = 4.0), EXACT, |a, _b| a >> 2, 59, 34),

@@ -203,6 +203,10 @@ macro_rules! double {
     };
 }
 
+/// Of two bytes, by quarter squares.
+pub(crate) const BYTE_PRODUCT: &str = "~[+lda #0 | sta {r.k}]
+    lda {0.0} | sta sum_lo | sta sum_hi | eor #$ff | sta dif_lo | sta dif_hi | ldy {1.0}
+    sec | lda (sum_lo),y | sbc (dif_lo),y | sta {r.0} | lda (sum_hi),y | sbc (dif_hi),y [1| sta {r.k}]";
 pub(crate) const TWICE: &str = double!();
 pub(crate) const FOUR_TIMES: &str =
     concat!(double!(), "asl {r.0} | rol {r.1} | rol {r.2} | rol {r.3}");

@@ -227,6 +227,8 @@ pub struct Use<'a> {
     pub serial: u32,
     /// What a routine has to know of its values' points ([`slowlight_routine::scale`]).
     pub number: i32,
+    /// Whether what may be written out is called.
+    pub calls: bool,
 }
 
 /// The instructions that compute a routine; answers what part of the runtime they need
@@ -240,6 +242,8 @@ pub fn instructions(used: Use<'_>, lines: &mut Vec<String>) -> Option<&'static s
         _ => (None, None),
     };
     let text = same.or(square.map(|s| s.0)).unwrap_or(text);
+    let looked_up = text.contains("look ").then(|| log::looked_up(text, used.calls));
+    let text = looked_up.as_deref().unwrap_or(text);
     let need = square.map(|s| s.1);
     let (routine, full) = (used.routine, size(used.routine.result));
     let (to, bytes) = match *used.goal {

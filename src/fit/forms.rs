@@ -6,6 +6,7 @@ use crate::failure::Outcome;
 use crate::need::Need;
 use rayon::prelude::*;
 use slowlight_compiler::plan::{Candidate, Copies, Plan, SEARCH};
+use slowlight_compiler::target::Lean;
 
 /// A plan that fits, or how large its smallest program is.
 pub(super) enum Fitted {
@@ -160,8 +161,7 @@ impl Search<'_> {
             3
         };
         for (lean, tight) in styles.into_iter().take(count) {
-            // Only Jack and BASIC have a leaner style: machine code is the same in it.
-            if lean && !tight && plan.target.name.starts_with("6502") {
+            if lean && !tight && plan.target.lean == Lean::Nothing {
                 continue;
             }
             // The last is the smallest.

@@ -6,6 +6,7 @@ use super::stepped::Steps;
 use super::thrift::Thrift;
 use super::workshop::Workshop;
 use super::{Goal, Plan};
+use crate::target::Lean;
 use crate::flow::graph::*;
 use crate::flow::tree::*;
 use crate::fuel::Fuel;
@@ -141,6 +142,7 @@ impl Plan {
         (plan.listing, plan.page) = (self.listing, self.page);
         plan.undocumented = self.undocumented;
         plan.statics = self.statics;
+        plan.lean = self.lean && self.target.lean == Lean::Calls;
         Some(plan)
     }
 

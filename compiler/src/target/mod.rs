@@ -59,8 +59,21 @@ pub struct Target {
     /// How many pixels of a mode stand in a byte that the program writes; 1 where
     /// it plots them one by one.
     pub pixels: fn(&Mode) -> u32,
+    /// What a leaner style of its programs is.
+    pub lean: Lean,
     /// Writes a plan down.
     pub emit: fn(&Plan) -> Vec<Document>,
+}
+
+/// What [`Plan::lean`] makes of a machine's programs.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Lean {
+    /// The same.
+    Nothing,
+    /// What is written out is called: a few parts in a hundred slower.
+    Calls,
+    /// They are short, and slower for it.
+    Short,
 }
 
 /// A generated source file.

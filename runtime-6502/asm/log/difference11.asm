@@ -2,22 +2,47 @@ set_lost:
         lda #<(log_lost)
         sta lost_at
         sta lost_up
+        lda #<(log_lost+1)
+        sta less_lost_at
+        sta less_lost_up
         rts
 
 ; The same in a difference: what is added is below 0, for a difference of 0 by half of all.
 log_difference:
-        cmp #16
-        bcs log_difference_far
+        cmp #log_lost_pages
+        bcs log_difference_slow
         adc #>(log_lost)
 log_difference_both:
         sta lost_at+1
-        adc #36
+        adc #log_pages
         sta lost_up+1
         lda (lost_up),y
         tax
         lda (lost_at),y
         rts
-log_difference_far:
+; The same where y a is below 0: its complement is one less than its magnitude.
+log_difference_less:
+        eor #$ff
+        tax
+        tya
+        eor #$ff
+        tay
+        txa
+        cmp #log_lost_pages
+        bcs log_difference_less_slow
+        adc #>(log_lost+1)
+        sta less_lost_at+1
+        adc #log_pages
+        sta less_lost_up+1
+        lda (less_lost_up),y
+        tax
+        lda (less_lost_at),y
+        rts
+log_difference_less_slow:
+        iny                 ; the carry is set
+        bne log_difference_slow
+        adc #0
+log_difference_slow:
         cmp #48
         bcs log_difference_farther
         lsr

@@ -6,3 +6,7 @@ log_of_eighth = $fe9b        ; an eighth of a turn
 log_of_natural = $2a1d       ; what an int of units is too large by to be a natural logarithm
 log_of_steep = $faea         ; the root of 2 less 1
 log_of_short_series = $ea00  ; below it a series is its first term
+; Pages of distances with an upper byte each, and from where it lies behind the lower one.
+log_sums_pages = 10
+log_lost_pages = 11
+log_pages = 24

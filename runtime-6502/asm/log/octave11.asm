@@ -6,3 +6,7 @@ log_of_eighth = $fd36        ; an eighth of a turn
 log_of_natural = $5c3b       ; what an int of units is too large by to be a natural logarithm
 log_of_steep = $f5d4         ; the root of 2 less 1
 log_of_short_series = $d600  ; below it a series is its first term
+; Pages of distances with an upper byte each, and from where it lies behind the lower one.
+log_sums_pages = 16
+log_lost_pages = 16
+log_pages = 36

@@ -11,6 +11,11 @@ log_c = $2c
 log_n = $2e
 log_side = $30       ; a sign
 log_quarter = $31
+; As sums_at and the others, one further: for distances of which the complement is known.
+less_sums_at = $32
+less_sums_up = $34
+less_lost_at = $36
+less_lost_up = $38
 ; Where operands of ints go that have to be extended, and results of which a part is kept.
 first = $00
 second = $04

@@ -2,23 +2,48 @@ set_sums:
         lda #<(log_sums)
         sta sums_at
         sta sums_up
+        lda #<(log_sums+1)
+        sta less_sums_at
+        sta less_sums_up
         rts
 
 ; a x = low and high byte of what the greater of two logarithms grows by, in a sum of two
 ; values of one sign; y a = by how much it is greater. Leaves the carry clear.
 log_sum:
-        cmp #16             ; two octaves: an entry for each
-        bcs log_sum_far
+        cmp #log_sums_pages             ; two octaves: an entry for each
+        bcs log_sum_slow
         adc #>(log_sums)
 log_sum_both:
         sta sums_at+1
-        adc #36
+        adc #log_pages
         sta sums_up+1
         lda (sums_up),y
         tax
         lda (sums_at),y
         rts
-log_sum_far:
+; The same where y a is below 0: its complement is one less than its magnitude.
+log_sum_less:
+        eor #$ff
+        tax
+        tya
+        eor #$ff
+        tay
+        txa
+        cmp #log_sums_pages
+        bcs log_sum_less_slow
+        adc #>(log_sums+1)
+        sta less_sums_at+1
+        adc #log_pages
+        sta less_sums_up+1
+        lda (less_sums_up),y
+        tax
+        lda (less_sums_at),y
+        rts
+log_sum_less_slow:
+        iny                 ; the carry is set
+        bne log_sum_slow
+        adc #0
+log_sum_slow:
         cmp #48             ; six: one for two
         bcs log_sum_farther
         lsr

@@ -1,5 +1,21 @@
         tax                 ; octaves
         lda (parts_at),y    ; with 256 the nine bits
+        cpx #5
+        bcs log_whole_large
+        sta log_n
+        lda #1              ; few bits come soonest from above
+        cpx #0
+        beq log_whole_few
+log_whole_bit:
+        asl log_n
+        rol
+        dex
+        bne log_whole_bit
+log_whole_few:
+        sta acc
+        stx acc+1
+        rts
+log_whole_large:
         cpx #31
         bcs log_whole_most
         cpx #8

@@ -10,9 +10,9 @@
 //! # Tables
 //! Of ten bits, what a sum adds to the greater logarithm has a byte for each distance up to six
 //! octaves, and a second one up to where it is below 256; so has what a difference adds, which
-//! is negative. Behind six octaves some steps are counted. These are 17,664 bytes of the
+//! is negative. Behind six octaves some steps are counted. These are 17,666 bytes of the
 //! program. Of eleven bits, there is an entry for each distance up to two octaves, for each two
-//! up to six, and then for each 16: 29,952 bytes. Whole parts come from 1,024 bytes of
+//! up to six, and then for each 16: 29,954 bytes. Whole parts come from 1,024 bytes of
 //! mantissas, or 2,048, logarithms of ints from two tables of 513.
 
 mod parts;
@@ -22,7 +22,7 @@ mod templates;
 #[cfg(test)]
 mod tests;
 
-pub use templates::same;
+pub use templates::{looked_up, same};
 
 use crate::scaled::STEPPING;
 use slowlight_routine::log::kept;
@@ -30,7 +30,7 @@ use slowlight_routine::log::model::Logarithm;
 use slowlight_routine::{Bits, Format, Runtime, Value, scale};
 
 /// The first byte of the zero page that this runtime leaves alone.
-pub const FREE_ZERO_PAGE: u8 = 0x32;
+pub const FREE_ZERO_PAGE: u8 = 0x3A;
 
 /// The greatest int that a param is written with.
 const PARAM: f64 = 32767.0;

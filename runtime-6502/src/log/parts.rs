@@ -52,21 +52,21 @@ macro_rules! parts {
 
 #[rustfmt::skip]
 const TEN: &[Part] = parts!(
-    10, 8704, 8960, 1024, "        lsr\n        lsr\n",
+    10, 8705, 8961, 1024, "        lsr\n        lsr\n",
     [
         terms("log_rest_first", super::tables::rest_first, 23),
         terms("log_rest_low", super::tables::rest_low, 24),
         terms("log_rest_high", super::tables::rest_high, 24),
         part("log_rest", asm!("rest"), &["log_page", "log_rest_first", "log_rest_low", "log_rest_high"], 40)
     ],
-    "log_rest", [41, 50, 119]
+    "log_rest", [78, 87, 142]
 );
 
 #[rustfmt::skip]
 const ELEVEN: &[Part] = parts!(
-    11, 14_848, 15_104, 2048, "        lsr\n        lsr\n        lsr\n",
+    11, 14_849, 15_105, 2048, "        lsr\n        lsr\n        lsr\n",
     [part("log_sixteenth", asm!("sixteenth"), &["log_page"], 32)],
-    "log_sixteenth", [66, 68, 120]
+    "log_sixteenth", [103, 105, 143]
 );
 
 /// Those of ten bits, and of eleven, behind the usual ones, which ints need.

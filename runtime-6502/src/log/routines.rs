@@ -77,6 +77,11 @@ macro_rules! routine {
     };
 }
 
+/// An int of a byte.
+fn byte(args: &[Range], _: Range) -> bool {
+    args.first().is_some_and(|a| a.within(0.0, 255.0))
+}
+
 /// Two arguments of known signs, and a sum that fits.
 macro_rules! signs {
     ($a:ident $b:ident) => {
@@ -97,22 +102,22 @@ impl<const FRAC: u8> Of<FRAC> {
         routine!("low_div" Div(R, R) -> R, t::LOW_DIVIDE, [], L::<FRAC>::low_quotient, L::<FRAC>::PRODUCT, |a, b| a.div(b), [32, 32], [29, 29]),
         routine!("high_div" Div(R, R) -> R, t::HIGH_DIVIDE, [], L::<FRAC>::high_quotient, L::<FRAC>::PRODUCT, |a, b| a.div(b), [32, 32], [29, 29]),
         routine!("any_div" Div(R, R) -> R, t::ANY_DIVIDE, [], everywhere, L::<FRAC>::PRODUCT, |a, b| a.div(b), [32, 32], [39, 39]),
-        routine!("sum" Add(R, R) -> R, t::SUM, ["log_sum"], signs!(Plus Plus), L::<FRAC>::SUMS, |a, b| a.add(b), [86, 90], [55, 55]),
-        routine!("any_sum" Add(R, R) -> R, t::ANY_SUM, ["log_sum"], plus, L::<FRAC>::SUMS, |a, b| a.add(b), [89, 93], [65, 65]),
-        routine!("minus_sum" Add(R, R) -> R, t::MINUS_SUM, ["log_sum"], signs!(Minus Minus), L::<FRAC>::SUMS, |a, b| a.add(b), [86, 89], [55, 55]),
-        routine!("difference_sum" Sub(R, R) -> R, t::SUM, ["log_sum"], signs!(Plus Minus), L::<FRAC>::SUMS, |a, b| a.sub(b), [85, 90], [55, 55]),
-        routine!("minus_difference_sum" Sub(R, R) -> R, t::MINUS_SUM, ["log_sum"], signs!(Minus Plus), L::<FRAC>::SUMS, |a, b| a.sub(b), [86, 90], [55, 55]),
-        routine!("sum_less" Add(R, R) -> R, t::SUM_LESS, ["log_difference"], signs!(Plus Minus), L::<FRAC>::DIFFERENCES, |a, b| a.add(b), [89, 94], [69, 69]),
-        routine!("less_sum" Add(R, R) -> R, t::SUM_LESS, ["log_difference"], signs!(Minus Plus), L::<FRAC>::DIFFERENCES, |a, b| a.add(b), [90, 94], [69, 69]),
-        routine!("difference" Sub(R, R) -> R, t::DIFFERENCE, ["log_difference"], signs!(Plus Plus), L::<FRAC>::DIFFERENCES, |a, b| a.sub(b), [91, 95], [71, 71]),
-        routine!("minus_difference" Sub(R, R) -> R, t::DIFFERENCE, ["log_difference"], signs!(Minus Minus), L::<FRAC>::DIFFERENCES, |a, b| a.sub(b), [90, 94], [71, 71]),
-        routine!("add" Add(R, R) -> R, t::ADD, ["log_sum", "log_difference"], L::<FRAC>::fits, L::<FRAC>::DIFFERENCES, |a, b| a.add(b), [99, 102], [133, 133]),
-        routine!("sub" Sub(R, R) -> R, t::SUBTRACT, ["log_sum", "log_difference"], L::<FRAC>::fits, L::<FRAC>::DIFFERENCES, |a, b| a.sub(b), [99, 103], [135, 135]),
-        routine!("any_add" Add(R, R) -> R, t::ANY_ADD, ["log_sum", "log_difference"], everywhere, L::<FRAC>::DIFFERENCES, |a, b| a.add(b), [100, 104], [143, 143]),
-        routine!("any_sub" Sub(R, R) -> R, t::ANY_SUBTRACT, ["log_sum", "log_difference"], everywhere, L::<FRAC>::DIFFERENCES, |a, b| a.sub(b), [101, 104], [145, 145]),
+        routine!("sum" Add(R, R) -> R, t::SUM, ["log_sum"], signs!(Plus Plus), L::<FRAC>::SUMS, |a, b| a.add(b), [78, 78], [93, 93]),
+        routine!("any_sum" Add(R, R) -> R, t::ANY_SUM, ["log_sum"], plus, L::<FRAC>::SUMS, |a, b| a.add(b), [81, 81], [103, 103]),
+        routine!("minus_sum" Add(R, R) -> R, t::MINUS_SUM, ["log_sum"], signs!(Minus Minus), L::<FRAC>::SUMS, |a, b| a.add(b), [78, 77], [93, 93]),
+        routine!("difference_sum" Sub(R, R) -> R, t::SUM, ["log_sum"], signs!(Plus Minus), L::<FRAC>::SUMS, |a, b| a.sub(b), [78, 77], [93, 93]),
+        routine!("minus_difference_sum" Sub(R, R) -> R, t::MINUS_SUM, ["log_sum"], signs!(Minus Plus), L::<FRAC>::SUMS, |a, b| a.sub(b), [78, 78], [93, 93]),
+        routine!("sum_less" Add(R, R) -> R, t::SUM_LESS, ["log_difference"], signs!(Plus Minus), L::<FRAC>::DIFFERENCES, |a, b| a.add(b), [81, 81], [107, 107]),
+        routine!("less_sum" Add(R, R) -> R, t::SUM_LESS, ["log_difference"], signs!(Minus Plus), L::<FRAC>::DIFFERENCES, |a, b| a.add(b), [81, 82], [107, 107]),
+        routine!("difference" Sub(R, R) -> R, t::DIFFERENCE, ["log_difference"], signs!(Plus Plus), L::<FRAC>::DIFFERENCES, |a, b| a.sub(b), [82, 83], [109, 109]),
+        routine!("minus_difference" Sub(R, R) -> R, t::DIFFERENCE, ["log_difference"], signs!(Minus Minus), L::<FRAC>::DIFFERENCES, |a, b| a.sub(b), [82, 82], [109, 109]),
+        routine!("add" Add(R, R) -> R, t::ADD, ["log_sum", "log_difference"], L::<FRAC>::fits, L::<FRAC>::DIFFERENCES, |a, b| a.add(b), [90, 90], [209, 209]),
+        routine!("sub" Sub(R, R) -> R, t::SUBTRACT, ["log_sum", "log_difference"], L::<FRAC>::fits, L::<FRAC>::DIFFERENCES, |a, b| a.sub(b), [90, 91], [211, 211]),
+        routine!("any_add" Add(R, R) -> R, t::ANY_ADD, ["log_sum", "log_difference"], everywhere, L::<FRAC>::DIFFERENCES, |a, b| a.add(b), [91, 92], [219, 219]),
+        routine!("any_sub" Sub(R, R) -> R, t::ANY_SUBTRACT, ["log_sum", "log_difference"], everywhere, L::<FRAC>::DIFFERENCES, |a, b| a.sub(b), [91, 93], [221, 221]),
         routine!("root" Sqrt(R) -> R, t::ROOT, [], plus, L::<FRAC>::ROOT, |a| a.sqrt(), [23, 23], [16, 16]),
         routine!("any_root" Sqrt(R) -> R, t::ANY_ROOT, [], everywhere, L::<FRAC>::ROOT, |a| a.sqrt(), [26, 26], [31, 31]),
-        routine!("mod" Mod(R, R) -> R, "log_modulo", ["log_modulo"], everywhere, L::<FRAC>::UNKNOWN, |a, b| a.modulo(b), [805, 813], [39, 39]),
+        routine!("mod" Mod(R, R) -> R, "log_modulo", ["log_modulo"], everywhere, L::<FRAC>::UNKNOWN, |a, b| a.modulo(b), [761, 757], [39, 39]),
         routine!("neg" Neg(R) -> R, t::NEGATE, [], everywhere, EXACT, |a| a.neg(), [20, 20], [14, 14]),
         routine!("abs" Abs(R) -> R, t::ABS, [], everywhere, EXACT, |a| a.abs(), [17, 17], [12, 12]),
         routine!("plus_min" Min(R, R) -> R, t::PLUS_MIN, [], plus, EXACT, |a, b| a.min(b), [37, 37], [39, 39]),
@@ -121,10 +126,11 @@ impl<const FRAC: u8> Of<FRAC> {
         routine!("max_zero" Max(R, R) -> R, t::MAX_ZERO, [], against_zero, EXACT, |a, _b| a.max(L::<FRAC>::ZERO), [23, 23], [25, 25]),
         routine!("zero_max" Max(R, R) -> R, t::ZERO_MAX, [], from_zero, EXACT, |_a, b| L::<FRAC>::ZERO.max(b), [23, 23], [25, 25]),
         routine!("max" Max(R, R) -> R, t::MAX, [], everywhere, EXACT, |a, b| a.max(b), [42, 42], [65, 65]),
-        routine!("floor" Floor(R) -> I, "log_floor", ["log_floor"], everywhere, STEP, |a| a.wide_floor(), [229, 235], [31, 31]),
-        routine!("round" Round(R) -> I, "log_round", ["log_round"], everywhere, STEP, |a| a.wide_round(), [366, 388], [31, 31]),
+        routine!("floor" Floor(R) -> I, "log_floor", ["log_floor"], everywhere, STEP, |a| a.wide_floor(), [178, 176], [31, 31]),
+        routine!("round" Round(R) -> I, "log_round", ["log_round"], everywhere, STEP, |a| a.wide_round(), [311, 320], [31, 31]),
         routine!("sign" Sign(R) -> I, t::SIGN, [], everywhere, EXACT, |a| a.sign(), [24, 24], [18, 18]),
-        routine!("from_int" ToReal(I) -> R, "log_from_int", ["log_from_int"], everywhere, L::<FRAC>::WHOLE, |a| L::<FRAC>::from_wide_int(a), [223, 231], [31, 31]),
+        routine!("byte_from_int" ToReal(I) -> R, t::OF_BYTE, ["log_is_whole"], byte, L::<FRAC>::WHOLE, |a| L::<FRAC>::from_wide_int(a), [22, 22], [16, 16]),
+        routine!("from_int" ToReal(I) -> R, "log_from_int", ["log_from_int"], everywhere, L::<FRAC>::WHOLE, |a| L::<FRAC>::from_wide_int(a), [224, 230], [31, 31]),
         routine!("negative" Less(R, R) -> B, t::NEGATIVE, [], against_zero, EXACT, |a, _b| !a.plus, [12, 12], [8, 8]),
         routine!("positive" Less(R, R) -> B, t::POSITIVE, [], from_zero, EXACT, |_a, b| b.plus && b.log > L::<FRAC>::LEAST, [22, 22], [21, 21]),
         routine!("plus_less" Less(R, R) -> B, t::PLUS_LESS, [], plus, EXACT, |a, b| a.less(b), [24, 24], [18, 18]),
@@ -140,23 +146,23 @@ impl<const FRAC: u8> Of<FRAC> {
     ];
 
     const FUNCTIONS: &'static [Routine] = &[
-        routine!("near_sin" Sin(R) -> R, "log_sine", ["log_sine"], near_angle, NEAR_SINE, |a| a.sin(), [946, 927], [27, 27]),
-        routine!("sin" Sin(R) -> R, "log_sine", ["log_sine"], angle, SINE, |a| a.sin(), [1078, 1062], [27, 27]),
-        routine!("any_sin" Sin(R) -> R, "log_sine", ["log_sine"], everywhere, ANY_SINE, |a| a.sin(), [1078, 1062], [27, 27]),
-        routine!("near_cos" Cos(R) -> R, "log_cosine", ["log_sine"], near_angle, NEAR_SINE, |a| a.cos(), [995, 1059], [27, 27]),
-        routine!("cos" Cos(R) -> R, "log_cosine", ["log_sine"], angle, SINE, |a| a.cos(), [1112, 1121], [27, 27]),
-        routine!("any_cos" Cos(R) -> R, "log_cosine", ["log_sine"], everywhere, ANY_SINE, |a| a.cos(), [1112, 1121], [27, 27]),
-        routine!("tan" Tan(R) -> R, "log_tangent", ["log_tangent"], near_tangent, L::<FRAC>::TANGENT, |a| a.tan(), [2060, 2107], [27, 27]),
-        routine!("any_tan" Tan(R) -> R, "log_tangent", ["log_tangent"], everywhere, L::<FRAC>::UNKNOWN, |a| a.tan(), [2308, 2298], [27, 27]),
-        routine!("asin" Asin(R) -> R, "log_arcsine", ["log_arc"], everywhere, L::<FRAC>::ARC, |a| a.asin(), [514, 621], [27, 27]),
-        routine!("acos" Acos(R) -> R, "log_arccosine", ["log_arc"], everywhere, L::<FRAC>::ARC, |a| a.acos(), [663, 747], [27, 27]),
-        routine!("atan2" Atan2(R, R) -> R, "log_arctangent2", ["log_arc"], everywhere, L::<FRAC>::ARC, |a, b| a.atan2(b), [880, 1005], [39, 39]),
-        routine!("near_exp" Exp(R) -> R, "log_exponential", ["log_exponential"], near_angle, NEAR_EXP, |a| a.exp(), [414, 553], [27, 27]),
-        routine!("exp" Exp(R) -> R, "log_exponential", ["log_exponential"], everywhere, L::<FRAC>::EXP, |a| a.exp(), [544, 630], [27, 27]),
-        routine!("log" Log(R) -> R, "log_natural", ["log_natural"], L::<FRAC>::above_zero, L::<FRAC>::LOGARITHM, |a| a.log(), [335, 343], [27, 27]),
-        routine!("any_log" Log(R) -> R, "log_natural", ["log_natural"], everywhere, L::<FRAC>::UNKNOWN, |a| a.log(), [207, 211], [27, 27]),
-        routine!("pow" Pow(R, R) -> R, "log_power", ["log_power"], L::<FRAC>::above_zero, L::<FRAC>::POWER, |a, b| a.pow(b), [1189, 1188], [39, 39]),
-        routine!("any_pow" Pow(R, R) -> R, "log_power", ["log_power"], everywhere, L::<FRAC>::UNKNOWN, |a, b| a.pow(b), [818, 823], [39, 39]),
+        routine!("near_sin" Sin(R) -> R, "log_sine", ["log_sine"], near_angle, NEAR_SINE, |a| a.sin(), [951, 926], [27, 27]),
+        routine!("sin" Sin(R) -> R, "log_sine", ["log_sine"], angle, SINE, |a| a.sin(), [1040, 1025], [27, 27]),
+        routine!("any_sin" Sin(R) -> R, "log_sine", ["log_sine"], everywhere, ANY_SINE, |a| a.sin(), [1040, 1025], [27, 27]),
+        routine!("near_cos" Cos(R) -> R, "log_cosine", ["log_sine"], near_angle, NEAR_SINE, |a| a.cos(), [1000, 1057], [27, 27]),
+        routine!("cos" Cos(R) -> R, "log_cosine", ["log_sine"], angle, SINE, |a| a.cos(), [1074, 1082], [27, 27]),
+        routine!("any_cos" Cos(R) -> R, "log_cosine", ["log_sine"], everywhere, ANY_SINE, |a| a.cos(), [1074, 1082], [27, 27]),
+        routine!("tan" Tan(R) -> R, "log_tangent", ["log_tangent"], near_tangent, L::<FRAC>::TANGENT, |a| a.tan(), [2067, 2104], [27, 27]),
+        routine!("any_tan" Tan(R) -> R, "log_tangent", ["log_tangent"], everywhere, L::<FRAC>::UNKNOWN, |a| a.tan(), [2229, 2222], [27, 27]),
+        routine!("asin" Asin(R) -> R, "log_arcsine", ["log_arc"], everywhere, L::<FRAC>::ARC, |a| a.asin(), [516, 621], [27, 27]),
+        routine!("acos" Acos(R) -> R, "log_arccosine", ["log_arc"], everywhere, L::<FRAC>::ARC, |a| a.acos(), [665, 747], [27, 27]),
+        routine!("atan2" Atan2(R, R) -> R, "log_arctangent2", ["log_arc"], everywhere, L::<FRAC>::ARC, |a, b| a.atan2(b), [882, 1005], [39, 39]),
+        routine!("near_exp" Exp(R) -> R, "log_exponential", ["log_exponential"], near_angle, NEAR_EXP, |a| a.exp(), [421, 562], [27, 27]),
+        routine!("exp" Exp(R) -> R, "log_exponential", ["log_exponential"], everywhere, L::<FRAC>::EXP, |a| a.exp(), [552, 639], [27, 27]),
+        routine!("log" Log(R) -> R, "log_natural", ["log_natural"], L::<FRAC>::above_zero, L::<FRAC>::LOGARITHM, |a| a.log(), [334, 344], [27, 27]),
+        routine!("any_log" Log(R) -> R, "log_natural", ["log_natural"], everywhere, L::<FRAC>::UNKNOWN, |a| a.log(), [207, 212], [27, 27]),
+        routine!("pow" Pow(R, R) -> R, "log_power", ["log_power"], L::<FRAC>::above_zero, L::<FRAC>::POWER, |a, b| a.pow(b), [1142, 1130], [39, 39]),
+        routine!("any_pow" Pow(R, R) -> R, "log_power", ["log_power"], everywhere, L::<FRAC>::UNKNOWN, |a, b| a.pow(b), [770, 765], [39, 39]),
     ];
 }
 

@@ -17,11 +17,12 @@ fn high(n: &i32) -> i32 {
     n >> 8 & 0xFF
 }
 
-/// All lower bytes, to the end of a page, then so many pages of upper ones.
+/// All lower bytes, to the end of a page, then so many pages of upper ones, and one more: it
+/// may be met from the entry before it.
 fn planes(list: &[i32], pages: usize, upper: usize) -> Vec<i32> {
     let mut all: Vec<i32> = list.iter().map(low).collect();
     all.resize(pages * 256, 0);
-    all.extend(list.iter().take(upper * 256).map(high));
+    all.extend(list.iter().take(upper * 256 + 1).map(high));
     all
 }
 

@@ -81,23 +81,19 @@ pub const LOW_DIVIDE: &str = concat!(divide!(), low!(), unlike!());
 pub const HIGH_DIVIDE: &str = concat!(divide!(), high!(), unlike!());
 pub const ANY_DIVIDE: &str = concat!(divide!(), ends!(), unlike!());
 
-/// By how much the first logarithm is greater, or where it is less, the second.
+/// By how much the first logarithm is greater or less, and what the greater one grows by:
+/// `look` is what [`looked_up`] writes out. In the labels stands a letter more.
 macro_rules! apart {
-    ($first:expr, $second:expr, $look:literal) => {
+    ($l:literal, $first:literal, $second:expr, $look:literal) => {
         concat!(
-            "sec | lda {0.0} | sbc {1.0} | tay | lda {0.1} | sbc {1.1} | bvs far{n} | bmi less{n}
-            more{n}: |",
+            "sec | lda {0.0} | sbc {1.0} | tay | lda {0.1} | sbc {1.1} | bvs far", $l, "{n} | bmi less", $l, "{n}
+            more", $l, "{n}: |",
             $first,
-            "| jsr ",
-            $look,
-            " | adc {0.0} | sta {r.0} | txa | adc {0.1} | jmp grown{n}
-            far{n}: | bmi more{n}
-            less{n}: |",
+            "| look ", $look, " | adc {0.0} | sta {r.0} | txa | adc {0.1} | sta {r.1} | jmp grown", $l, "{n}
+            far", $l, "{n}: | bmi more", $l, "{n}
+            less", $l, "{n}: | look ", $look, "_less | adc {1.0} | sta {r.0} | txa | adc {1.1} | sta {r.1} |",
             $second,
-            "| sec | lda {1.0} | sbc {0.0} | tay | lda {1.1} | sbc {0.1} | jsr ",
-            $look,
-            " | adc {1.0} | sta {r.0} | txa | adc {1.1}
-            grown{n}: | sta {r.1} |"
+            "| grown", $l, "{n}: |"
         )
     };
 }
@@ -105,7 +101,7 @@ macro_rules! apart {
 /// Of two values of one sign.
 macro_rules! sum {
     () => {
-        apart!("", "", "log_sum")
+        apart!("s", "", "", "log_sum")
     };
 }
 
@@ -115,6 +111,7 @@ macro_rules! difference {
     ($second:literal) => {
         concat!(
             apart!(
+                "d",
                 "[s ldx {0.2} | stx {r.2}]",
                 concat!("[s lda {1.2} |", $second, "| sta {r.2}]"),
                 "log_difference"
@@ -130,19 +127,14 @@ pub const MINUS_SUM: &str = concat!(sum!(), minus!());
 pub const SUM_LESS: &str = difference!("");
 pub const DIFFERENCE: &str = difference!("eor #1");
 
-/// Labels of the sum differ from those of the difference.
+/// A sum or a difference, by the signs.
 macro_rules! either {
     ($unlike:literal, $second:literal, $high:expr) => {
         concat!(
             "lda {0.2} | eor {1.2} | ",
             $unlike,
-            " differ{n} |
-            sec | lda {0.0} | sbc {1.0} | tay | lda {0.1} | sbc {1.1} | bvs away{n} | bmi second{n}
-            first{n}: | jsr log_sum | adc {0.0} | sta {r.0} | txa | adc {0.1} | jmp summed{n}
-            away{n}: | bmi first{n}
-            second{n}: | sec | lda {1.0} | sbc {0.0} | tay | lda {1.1} | sbc {0.1} | jsr log_sum
-            adc {1.0} | sta {r.0} | txa | adc {1.1}
-            summed{n}: | sta {r.1} |",
+            " differ{n} |",
+            sum!(),
             $high,
             "[s lda {0.2} | sta {r.2}] | jmp fits{n}
             differ{n}: |",
@@ -155,6 +147,52 @@ pub const ADD: &str = either!("bne", "", "");
 pub const SUBTRACT: &str = either!("beq", "eor #1", "");
 pub const ANY_ADD: &str = either!("bne", "", high!());
 pub const ANY_SUBTRACT: &str = either!("beq", "eor #1", high!());
+
+/// A template with what it looks up in tables written out, or called where memory is short:
+/// y a holds a distance, below 0 where the name ends so, of which the complement is one less
+/// than its magnitude. Behind the pages with upper bytes the subroutine is called.
+pub fn looked_up(text: &str, calls: bool) -> String {
+    let parts: Vec<&str> = text.split(['|', '\n']).map(str::trim).collect();
+    let look = |part: &str| part.strip_prefix("look ").map(str::to_owned);
+    if calls {
+        let call = |part: &&str| look(part).map_or((*part).to_owned(), |name| format!("jsr {name}"));
+        return parts.iter().map(call).collect::<Vec<_>>().join(" | ");
+    }
+    let mut made: Vec<String> = Vec::new();
+    for (at, part) in parts.iter().enumerate() {
+        made.push(look(part).map_or((*part).to_owned(), |name| inline(&name, at)));
+        // Nothing comes by here: what is called where the first, or the second, is far greater.
+        if part.starts_with("jmp grown") {
+            let before = (0..at).rev().find_map(|k| Some((k, look(parts[k])?)));
+            let behind = (at..parts.len()).find_map(|k| Some((k, look(parts[k])?)));
+            for (at, name) in before.into_iter().chain(behind) {
+                made.push(format!("slow{at}x{{n}}: | jsr {name}_slow | bcc back{at}x{{n}}"));
+            }
+        }
+    }
+    made.join(" | ")
+}
+
+/// What a subroutine of so much a name does where both bytes are in its table.
+fn inline(name: &str, at: usize) -> String {
+    let table = match name.starts_with("log_sum") {
+        true => "sums",
+        false => "lost",
+    };
+    let (turned, by, pointer) = match name.ends_with("_less") {
+        false => ("", "", table.to_owned()),
+        true => (
+            "eor #$ff | tax | tya | eor #$ff | tay | txa |",
+            "+1",
+            format!("less_{table}"),
+        ),
+    };
+    format!(
+        "{turned} cmp #log_{table}_pages | bcs slow{at}x{{n}} | adc #>(log_{table}{by})
+        sta {pointer}_at+1 | adc #log_pages | sta {pointer}_up+1
+        lda ({pointer}_up),y | tax | lda ({pointer}_at),y | back{at}x{{n}}:"
+    )
+}
 
 macro_rules! twice {
     () => {
@@ -268,6 +306,12 @@ pub const ZERO_MAX: &str = concat!(
 
 pub const SIGN: &str = "ldx #0 | lda {0.2} | beq above{n} | dex
     above{n}: | txa | ora #1 | sta {r.0} | stx {r.1} | stx {r.2} | stx {r.3}";
+
+/// Of an int of a byte.
+pub const OF_BYTE: &str = concat!(
+    "ldy {0.0} | lda log_logs_low,y | sta {r.0} | lda log_logs_high,y | sta {r.1} |",
+    plus!()
+);
 
 pub const LESS: &str = less!();
 pub const PLUS_LESS: &str = concat!(lower!(), "asl");

@@ -9,7 +9,7 @@ use crate::tests::bench::{Bench, Random, Setting, part_bytes};
 use crate::write::{Goal, Place, Use, instructions};
 use slowlight_routine::log::model::Logarithm;
 use slowlight_routine::log::tables::tables as words;
-use slowlight_routine::{Bits, Error, Format, Op, Part, Range, Routine, Runtime, Source, Value};
+use slowlight_routine::{Bits, Error, Form, Format, Op, Part, Range, Routine, Runtime, Source, Value};
 use slowlight_vm::mos6502::assemble;
 
 type L<const FRAC: u8> = Logarithm<FRAC, true>;
@@ -255,7 +255,7 @@ fn known_signs_give_the_same_logarithms_of<const FRAC: u8>() {
             let names = ["first_operand", "second_operand_value"];
             let place = |k: usize| Place::Signed(names[k].into(), signs[k]);
             let places: Vec<Place> = (0..routine.args.len()).map(place).collect();
-            let mut bench = bench_of::<FRAC>(routine, &places);
+            let mut bench = bench_of::<FRAC>(routine, &places, false);
             for _ in 0..300 {
                 let mut args: Vec<Bits> = Vec::new();
                 for (k, format) in routine.args.iter().enumerate() {
@@ -285,8 +285,32 @@ fn known_signs_give_the_same_logarithms_of<const FRAC: u8>() {
     }
 }
 
+/// What is written out may be called.
+#[test]
+fn calls_give_the_same() {
+    calls_give_the_same_of::<10>();
+    calls_give_the_same_of::<11>();
+}
+
+fn calls_give_the_same_of<const FRAC: u8>() {
+    let names = ["first_operand", "second_operand_value"];
+    let looks = |r: &&Routine| matches!(r.form, Form::Statement(text) if text.contains("look "));
+    let mut random = Random(9);
+    for routine in of_reals::<FRAC>().iter().filter(looks) {
+        let places = names.map(|name| Place::At(name.into()));
+        let mut bench = bench_of::<FRAC>(routine, &places, true);
+        let all = operands::<FRAC>(routine);
+        for _ in 0..4000 {
+            let args = &all[random.next() as usize % all.len()];
+            let ints: Vec<i32> = args.iter().map(|a| *a as u32 as i32).collect();
+            let (found, expected) = (bench.run(&ints).0, (routine.model)(args) as i32);
+            assert_eq!(found & 0xFFFF, expected & 0xFFFF, "{} {args:x?}", routine.name);
+        }
+    }
+}
+
 /// A use whose result keeps no sign.
-fn bench_of<const FRAC: u8>(routine: &'static Routine, places: &[Place]) -> Bench {
+fn bench_of<const FRAC: u8>(routine: &'static Routine, places: &[Place], calls: bool) -> Bench {
     let write = |lines: &mut Vec<String>| {
         let goal = match routine.result {
             Format::Log { .. } => Goal::Held("result", 2),
@@ -298,6 +322,7 @@ fn bench_of<const FRAC: u8>(routine: &'static Routine, places: &[Place]) -> Benc
             goal: &goal,
             serial: 1,
             number: 0,
+            calls,
         };
         let mut needs = routine.needs.to_vec();
         needs.extend(instructions(used, lines));

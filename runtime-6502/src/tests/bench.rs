@@ -125,6 +125,7 @@ impl Bench {
                 goal: &goal,
                 serial: 1,
                 number,
+                calls: false,
             };
             let mut needs = routine.needs.to_vec();
             needs.extend(instructions(used, lines));

@@ -92,11 +92,12 @@ fn check(bench: &mut Bench, routine: &Routine, args: &[i32]) {
     assert!(off <= bound, "{}({args:x?}) is {off} off", routine.name);
 }
 
-/// A random operand: half of them edges, the others of all magnitudes.
+/// A random operand: half of them edges, of the others some bytes, and some of all magnitudes.
 fn draw(format: Format, random: &mut Random, edges: &[i32]) -> i32 {
     match format {
         Format::Bool => (random.next() & 1) as i32,
         _ if random.next() & 1 == 0 => edges[random.next() as usize % edges.len()],
+        _ if random.next() & 1 == 0 => (random.next() & 0xFF) as i32,
         _ => (random.next() as i32) >> (random.next() % 32),
     }
 }
@@ -136,7 +137,7 @@ fn agree(wanted: fn(&Routine) -> bool) {
         let mut random = Random(1);
         let mut checked = 0;
         let pairs = pairs(routine);
-        for _ in 0..4 * pairs {
+        for _ in 0..8 * pairs {
             // A domain that asks for constants gets them.
             let formats = routine.args.iter().zip(&let_through);
             let operands = formats.map(|(format, few)| match few.len() {

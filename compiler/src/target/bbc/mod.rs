@@ -58,7 +58,7 @@ mod ways;
 
 pub(super) use screen::{MICRO as MICRO_MODES, colours, first_colour};
 
-use super::{Document, Target};
+use super::{Document, Lean, Target};
 use crate::passes::outline::Sizes;
 use crate::plan::Plan;
 use slowlight_runtime_bbc::RUNTIME;
@@ -87,6 +87,7 @@ pub static MICRO: Target = Target {
     runtime: &RUNTIME,
     modes: screen::MICRO,
     offset: OFFSET,
+    lean: Lean::Short,
     hertz: 2_000_000.0,
     starts: starts::starts,
     sizes: SIZES,
@@ -107,6 +108,7 @@ pub static AGON: Target = Target {
     runtime: &RUNTIME,
     modes: screen::AGON,
     offset: OFFSET,
+    lean: Lean::Short,
     // Measured: the two mirrors in 11.6 minutes for BASIC II's 17.8e9 cycles.
     hertz: 25_500_000.0,
     starts: starts::starts,
@@ -124,6 +126,7 @@ pub static BASIC_V: Target = Target {
     runtime: &RUNTIME,
     modes: screen::BASIC_V,
     offset: OFFSET,
+    lean: Lean::Short,
     // Measured: 0.15 seconds for the same program.
     hertz: 1.2e11,
     starts: starts::starts,

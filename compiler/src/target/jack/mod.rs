@@ -52,7 +52,7 @@ mod tests;
 /// The operating system for programs on the processor.
 pub use slowlight_runtime_jack::os;
 
-use super::{Document, Mode, Target};
+use super::{Document, Lean, Mode, Target};
 use crate::passes::outline::Sizes;
 use crate::source::Span;
 use slowlight_runtime_jack::fixed::FIXED16;
@@ -95,6 +95,7 @@ const FLOATS: Target = Target {
     // from its own surface comes out as large; four times that is still far
     // below what a pixel sees.
     offset: 0.015_625,
+    lean: Lean::Short,
     // VM commands a second of the official VM emulator. Its calls of the operating
     // system take longer, about 10 microseconds each, which one rate cannot say.
     hertz: 12.6e6,

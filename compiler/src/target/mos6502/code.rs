@@ -183,6 +183,7 @@ impl<'p> Code<'p> {
             goal,
             serial,
             number,
+            calls: self.plan.lean || self.plan.tight,
         };
         self.needs.extend(write::instructions(used, &mut lines));
         lines.iter().for_each(|line| self.text.line(line));

@@ -67,7 +67,7 @@ mod table;
 mod tests;
 mod uses;
 
-use super::{Document, Mode, Target};
+use super::{Document, Lean, Mode, Target};
 use crate::passes::outline::Sizes;
 use crate::plan::Plan;
 use crate::source::Span;
@@ -111,6 +111,7 @@ pub static PLAIN_FIXED24: Target = Target {
 pub static PLAIN_LOG10: Target = Target {
     runtime: &LOG10_IN_RUNS,
     offset: LOG_OFFSET,
+    lean: Lean::Calls,
     ..USUAL
 };
 
@@ -118,6 +119,7 @@ pub static PLAIN_LOG10: Target = Target {
 pub static PLAIN_LOG11: Target = Target {
     runtime: &LOG11_IN_RUNS,
     offset: LOG_OFFSET / 2.0,
+    lean: Lean::Calls,
     ..USUAL
 };
 
@@ -182,6 +184,7 @@ pub static C64_FIXED16: Target = Target {
 pub static C64_LOG10: Target = Target {
     runtime: &LOG10,
     offset: LOG_OFFSET,
+    lean: Lean::Calls,
     ..C64
 };
 
@@ -189,6 +192,7 @@ pub static C64_LOG10: Target = Target {
 pub static C64_LOG11: Target = Target {
     runtime: &LOG11,
     offset: LOG_OFFSET / 2.0,
+    lean: Lean::Calls,
     ..C64
 };
 
@@ -217,6 +221,7 @@ const USUAL: Target = Target {
     }],
     // 1/256: far above the last place (1/65536), far below what a pixel sees.
     offset: 0.003_906_25,
+    lean: Lean::Nothing,
     hertz: 2_000_000.0,
     starts: starts::starts,
     wraps: false,
