@@ -159,16 +159,28 @@ fn quickest(
     let all = formats(target).filter(one_width);
     let (short, mut long): (Vec<&'static Target>, Vec<_>) =
         all.partition(|t| is_short(t.runtime.real));
+    let (mut finer, short): (Vec<&'static Target>, Vec<_>) =
+        short.into_iter().partition(|t| is_finer(t.runtime.real));
     let mut known = candidates(screen, scene, &short, goal);
     // Within the goal the quickest, else the nearest to it.
     let mut best: Option<(Chosen, f64)> = None;
     let mut kept: Option<f64> = None;
     let (mut tries, mut too_large) = (0, 0);
     while tries < TRIES {
+        // Logarithms with a bit more are only looked for where those without are quick and wrong.
+        let worth = |first: &Candidate| {
+            let (far, none) = (first.wrong > DOUBT * goal, tries > 0);
+            let sooner = |one: &Candidate| is_log(one) && (far || one.cycles < first.cycles);
+            none || known.iter().any(sooner)
+        };
+        if !finer.is_empty() && kept.is_none() && known.first().is_some_and(worth) {
+            known.extend(candidates(screen, scene, &std::mem::take(&mut finer), goal));
+            sort(&mut known, goal);
+        }
         let enough = |one: &Candidate| {
             tries == 0 && one.wrong <= DOUBT * goal && one.cycles <= least_of_wider(&known)
         };
-        if !long.is_empty() && !known.first().is_some_and(enough) {
+        if !long.is_empty() && kept.is_none() && !known.first().is_some_and(enough) {
             known.extend(candidates(screen, scene, &std::mem::take(&mut long), goal));
             sort(&mut known, goal);
         }
@@ -207,7 +219,14 @@ fn quickest(
         let Some(expected) = expected(scene, &whole) else {
             continue;
         };
-        let cycles = estimate::cycles(&whole);
+        if expected <= goal && kept.is_none() && !plan.is_made_small() {
+            let why = Some(Why { goal, expected });
+            return Ok(Some(Chosen { plan, why }));
+        }
+        let cycles = match expected <= goal {
+            true => estimate::cycles(&whole),
+            false => f64::INFINITY,
+        };
         let better = match (kept, expected <= goal) {
             (None, true) => true,
             (Some(kept), true) => cycles < kept,
@@ -226,6 +245,15 @@ fn quickest(
 /// Whether a format is of those that are looked at first.
 fn is_short(format: Format) -> bool {
     matches!(format, Format::Log { .. }) || (1..=16).contains(&format.bits())
+}
+
+/// Whether it is one of those that only have more bits behind the point than another.
+fn is_finer(format: Format) -> bool {
+    matches!(format, Format::Log { frac: 11.., .. })
+}
+
+fn is_log(candidate: &Candidate) -> bool {
+    matches!(candidate.target.runtime.real, Format::Log { .. })
 }
 
 /// The least that wider formats take: what those of 16 bits with a fixed point do, as each

@@ -18,8 +18,8 @@ use slowlight_compiler::flow::graph::Table;
 use slowlight_compiler::fuel::Fuel;
 use slowlight_compiler::plan::{Plan, SEARCH};
 use slowlight_compiler::source::Span;
-use slowlight_compiler::target::{Lean, Mode};
 use slowlight_compiler::target::mos6502::DISC_PAGE;
+use slowlight_compiler::target::{Lean, Mode};
 use std::cell::RefCell;
 use std::collections::VecDeque;
 
@@ -175,18 +175,14 @@ impl Search<'_> {
     /// A mode's plan, or another of the scene, that fits without subroutines for what is done
     /// at each pixel.
     fn fitted(&self, mut plan: Plan) -> Outcome<Fitted> {
-        let mut quick = match self.with_calls_where_seldom(&plan)? {
+        // Calls are slower by a few parts in a hundred, a step that spends less memory by more.
+        if plan.target.lean == Lean::Calls && !self.holds(&plan)? {
+            plan.lean = true;
+        }
+        let quick = match self.with_calls_where_seldom(&plan)? {
             Ok(fits) => return self.with_copies(fits).map(Fitted::from),
             Err(need) => need,
         };
-        // That is slower by a few parts in a hundred, a step that spends less memory by more.
-        if plan.target.lean == Lean::Calls {
-            plan.lean = true;
-            quick = match self.with_calls_where_seldom(&plan)? {
-                Ok(fits) => return self.with_copies(fits).map(Fitted::from),
-                Err(need) => need,
-            };
-        }
         // What is written as the scene has it and short is about as small as it gets.
         let stable = self.again(&plan, Plan::stable);
         if let (Some(stable), Some(quick)) = (&stable, quick.clone())

@@ -161,7 +161,8 @@ const USUAL: &[Part] = &[
 ];
 
 /// All of them but those of logarithms.
-pub(crate) static ALL: &[Part] = &joined::<{ USUAL.len() + scaled::PARTS.len() }>(USUAL, scaled::PARTS);
+pub(crate) static ALL: &[Part] =
+    &joined::<{ USUAL.len() + scaled::PARTS.len() }>(USUAL, scaled::PARTS);
 
 /// The usual ones, and others behind them.
 pub(crate) const fn with<const N: usize>(others: &[Part]) -> [Part; N] {

@@ -242,7 +242,9 @@ pub fn instructions(used: Use<'_>, lines: &mut Vec<String>) -> Option<&'static s
         _ => (None, None),
     };
     let text = same.or(square.map(|s| s.0)).unwrap_or(text);
-    let looked_up = text.contains("look ").then(|| log::looked_up(text, used.calls));
+    let looked_up = text
+        .contains("look ")
+        .then(|| log::looked_up(text, used.calls));
     let text = looked_up.as_deref().unwrap_or(text);
     let need = square.map(|s| s.1);
     let (routine, full) = (used.routine, size(used.routine.result));

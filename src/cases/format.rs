@@ -260,10 +260,16 @@ mod tests {
             (placed(-0.25, 3e4, 16), placed(0.0, 0.0, 16)),
             (None, Some(0.0))
         );
-        assert_eq!(worth(Format::Log {
-            frac: 10,
-            octaves: 16,
-        }, -0.5f64.powi(14)), 0.0);
+        assert_eq!(
+            worth(
+                Format::Log {
+                    frac: 10,
+                    octaves: 16,
+                },
+                -0.5f64.powi(14)
+            ),
+            0.0
+        );
         assert_eq!(Arithmetic::Native.tiny(), f64::from_bits(1));
         assert_eq!(Arithmetic::Native.round(f64::INFINITY), None);
     }

@@ -147,7 +147,7 @@ impl Search<'_> {
     }
 
     /// Whether the machine holds a plan's program.
-    fn holds(&self, plan: &Plan) -> Outcome<bool> {
+    pub(super) fn holds(&self, plan: &Plan) -> Outcome<bool> {
         Ok(self.about(plan)?.is_none_or(|need| need.fits()))
     }
 
@@ -161,7 +161,9 @@ impl Search<'_> {
             3
         };
         for (lean, tight) in styles.into_iter().take(count) {
-            if lean && !tight && plan.target.lean == Lean::Nothing {
+            let of = plan.target.lean;
+            // Machine code is the same in two of them; what is too large without calls stays so.
+            if !tight && (lean && of == Lean::Nothing || !lean && of == Lean::Calls) {
                 continue;
             }
             // The last is the smallest.

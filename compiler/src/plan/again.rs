@@ -6,10 +6,10 @@ use super::stepped::Steps;
 use super::thrift::Thrift;
 use super::workshop::Workshop;
 use super::{Goal, Plan};
-use crate::target::Lean;
 use crate::flow::graph::*;
 use crate::flow::tree::*;
 use crate::fuel::Fuel;
+use crate::target::Lean;
 use std::sync::Arc;
 
 impl Plan {
@@ -73,6 +73,13 @@ impl Plan {
         };
         let whole = (self.mode, self.rows) == (other.mode, other.rows);
         whole && style(self) == style(other) && self.tree == other.tree && self.graph == other.graph
+    }
+
+    /// Whether it is slower than another of the same scene and target would be that had more
+    /// memory.
+    pub fn is_made_small(&self) -> bool {
+        let plenty = matches!(self.origin.1, Rewriting::Fast { thrift, .. } if thrift.is_plenty());
+        !plenty || self.tight || self.calls_at_pixels()
     }
 
     /// Whether there is a plan that spends less memory on speed.

@@ -97,8 +97,7 @@ fn decode<const FRAC: u8>(bits: Bits, format: Format) -> Value {
 /// The program takes one int's logarithm from the other's.
 fn param_bits<const FRAC: u8>(scaled: i64, digits: u8) -> Bits {
     let ends = (i64::from(i32::MIN), i64::from(i32::MAX));
-    let of =
-        |n: i64| Logarithm::<FRAC, true>::from_wide_int(n.clamp(ends.0, ends.1) as i32);
+    let of = |n: i64| Logarithm::<FRAC, true>::from_wide_int(n.clamp(ends.0, ends.1) as i32);
     of(scaled)
         .div(of(10i64.saturating_pow(u32::from(digits))))
         .bits()

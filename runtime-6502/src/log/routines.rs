@@ -166,8 +166,10 @@ impl<const FRAC: u8> Of<FRAC> {
     ];
 }
 
-pub(super) const TEN: &[Routine] =
-    &joined::<{ Of::<10>::REALS.len() + Of::<10>::FUNCTIONS.len() }>(Of::<10>::REALS, Of::<10>::FUNCTIONS);
+pub(super) const TEN: &[Routine] = &joined::<{ Of::<10>::REALS.len() + Of::<10>::FUNCTIONS.len() }>(
+    Of::<10>::REALS,
+    Of::<10>::FUNCTIONS,
+);
 pub(super) const ELEVEN: &[Routine] =
     &joined::<{ TEN.len() }>(Of::<11>::REALS, Of::<11>::FUNCTIONS);
 

@@ -6,7 +6,11 @@ use slowlight_routine::log::tables::{STEPS, tables};
 /// Pages of entries of one table of distances, and of upper bytes: behind these a sum's entry
 /// is a byte, and the upper one of a difference's is 255.
 pub const fn pages(frac: u8) -> (usize, usize, usize) {
-    if frac == 10 { (24, 10, 11) } else { (36, 22, 23) }
+    if frac == 10 {
+        (24, 10, 11)
+    } else {
+        (36, 22, 23)
+    }
 }
 
 fn low(n: &i32) -> i32 {

@@ -86,14 +86,34 @@ pub const ANY_DIVIDE: &str = concat!(divide!(), ends!(), unlike!());
 macro_rules! apart {
     ($l:literal, $first:literal, $second:expr, $look:literal) => {
         concat!(
-            "sec | lda {0.0} | sbc {1.0} | tay | lda {0.1} | sbc {1.1} | bvs far", $l, "{n} | bmi less", $l, "{n}
-            more", $l, "{n}: |",
+            "sec | lda {0.0} | sbc {1.0} | tay | lda {0.1} | sbc {1.1} | bvs far",
+            $l,
+            "{n} | bmi less",
+            $l,
+            "{n}
+            more",
+            $l,
+            "{n}: |",
             $first,
-            "| look ", $look, " | adc {0.0} | sta {r.0} | txa | adc {0.1} | sta {r.1} | jmp grown", $l, "{n}
-            far", $l, "{n}: | bmi more", $l, "{n}
-            less", $l, "{n}: | look ", $look, "_less | adc {1.0} | sta {r.0} | txa | adc {1.1} | sta {r.1} |",
+            "| look ",
+            $look,
+            " | adc {0.0} | sta {r.0} | txa | adc {0.1} | sta {r.1} | jmp grown",
+            $l,
+            "{n}
+            far",
+            $l,
+            "{n}: | bmi more",
+            $l,
+            "{n}
+            less",
+            $l,
+            "{n}: | look ",
+            $look,
+            "_less | adc {1.0} | sta {r.0} | txa | adc {1.1} | sta {r.1} |",
             $second,
-            "| grown", $l, "{n}: |"
+            "| grown",
+            $l,
+            "{n}: |"
         )
     };
 }
@@ -155,7 +175,8 @@ pub fn looked_up(text: &str, calls: bool) -> String {
     let parts: Vec<&str> = text.split(['|', '\n']).map(str::trim).collect();
     let look = |part: &str| part.strip_prefix("look ").map(str::to_owned);
     if calls {
-        let call = |part: &&str| look(part).map_or((*part).to_owned(), |name| format!("jsr {name}"));
+        let call =
+            |part: &&str| look(part).map_or((*part).to_owned(), |name| format!("jsr {name}"));
         return parts.iter().map(call).collect::<Vec<_>>().join(" | ");
     }
     let mut made: Vec<String> = Vec::new();
@@ -166,7 +187,9 @@ pub fn looked_up(text: &str, calls: bool) -> String {
             let before = (0..at).rev().find_map(|k| Some((k, look(parts[k])?)));
             let behind = (at..parts.len()).find_map(|k| Some((k, look(parts[k])?)));
             for (at, name) in before.into_iter().chain(behind) {
-                made.push(format!("slow{at}x{{n}}: | jsr {name}_slow | bcc back{at}x{{n}}"));
+                made.push(format!(
+                    "slow{at}x{{n}}: | jsr {name}_slow | bcc back{at}x{{n}}"
+                ));
             }
         }
     }
@@ -340,7 +363,8 @@ pub const PLUS_LESS_ANY: &str = told_by!("{1.2}", "clc", lower!());
 pub const NEGATIVE: &str = "lda {0.2} | lsr";
 pub const NOT_NEGATIVE: &str = "lda {1.2} | eor #1 | lsr";
 
-pub const POSITIVE: &str = "lda {1.2} | lsr | bcs not{n} | lda {1.1} | eor #$80 | ora {1.0} | cmp #1
+pub const POSITIVE: &str =
+    "lda {1.2} | lsr | bcs not{n} | lda {1.1} | eor #$80 | ora {1.0} | cmp #1
     bcs told{n} | not{n}: | clc | told{n}:";
 pub const NOT_POSITIVE: &str = "lda {0.2} | lsr | bcs told{n} | lda {0.1} | eor #$80 | ora {0.0}
     sec | beq told{n} | clc | told{n}:";

@@ -9,7 +9,9 @@ use crate::tests::bench::{Bench, Random, Setting, part_bytes};
 use crate::write::{Goal, Place, Use, instructions};
 use slowlight_routine::log::model::Logarithm;
 use slowlight_routine::log::tables::tables as words;
-use slowlight_routine::{Bits, Error, Form, Format, Op, Part, Range, Routine, Runtime, Source, Value};
+use slowlight_routine::{
+    Bits, Error, Form, Format, Op, Part, Range, Routine, Runtime, Source, Value,
+};
 use slowlight_vm::mos6502::assemble;
 
 type L<const FRAC: u8> = Logarithm<FRAC, true>;
@@ -42,7 +44,17 @@ fn edges<const FRAC: u8>() -> Vec<i32> {
         5633, 6143, 6144, 6145, 6182, 6183, 8192, 9215, 9216, 9217,
     ];
     let octaves = [2, 5, 6, 8, 9, 12, 15].map(|octaves| octaves * L::<FRAC>::OCTAVE);
-    let far = [10182, 11805, 11806, 16383, 16384, 25599, 25600, MOST - 1, MOST];
+    let far = [
+        10182,
+        11805,
+        11806,
+        16383,
+        16384,
+        25599,
+        25600,
+        MOST - 1,
+        MOST,
+    ];
     let far = octaves.iter().flat_map(|n| [n - 1, *n, n + 1]).chain(far);
     let mut all: Vec<i32> = near.into_iter().chain(far).collect();
     all.extend(all.clone().iter().map(|log| -log));
@@ -209,7 +221,9 @@ fn machine_and_model_agree_bit_for_bit_of<const FRAC: u8>() {
                 expected,
                 "{}{:?} {FRAC} ({ints:x?}): machine {:?}, model {:?}",
                 routine.name,
-                args.iter().map(|a| L::<FRAC>::from_bits(*a)).collect::<Vec<_>>(),
+                args.iter()
+                    .map(|a| L::<FRAC>::from_bits(*a))
+                    .collect::<Vec<_>>(),
                 L::<FRAC>::from_bits(found as Bits),
                 L::<FRAC>::from_bits(expected as Bits)
             );
@@ -234,7 +248,12 @@ fn one_value_as_both_operands_gives_the_same_of<const FRAC: u8>() {
                 let a = L::<FRAC> { plus, log }.bits();
                 if may::<FRAC>(routine, &[a, a]) {
                     let expected = (routine.model)(&[a, a]) as i32;
-                    assert_eq!(bench.run(&[a as i32]).0, expected, "{}{FRAC} {log}", routine.name);
+                    assert_eq!(
+                        bench.run(&[a as i32]).0,
+                        expected,
+                        "{}{FRAC} {log}",
+                        routine.name
+                    );
                 }
             }
         }
@@ -250,7 +269,10 @@ fn known_signs_give_the_same_logarithms() {
 
 fn known_signs_give_the_same_logarithms_of<const FRAC: u8>() {
     let mut random = Random(5);
-    for routine in of_reals::<FRAC>().iter().filter(|r| r.args[0] == L::<FRAC>::FORMAT) {
+    for routine in of_reals::<FRAC>()
+        .iter()
+        .filter(|r| r.args[0] == L::<FRAC>::FORMAT)
+    {
         for signs in [[true, true], [true, false], [false, true], [false, false]] {
             let names = ["first_operand", "second_operand_value"];
             let place = |k: usize| Place::Signed(names[k].into(), signs[k]);
@@ -278,7 +300,11 @@ fn known_signs_give_the_same_logarithms_of<const FRAC: u8>() {
                     .map(|a| (*a as i32 & 0xFFFF) | 0x55_0000)
                     .collect();
                 let (found, expected) = (bench.run(&dirty).0, (routine.model)(&args) as i32);
-                let mask = if routine.result == L::<FRAC>::FORMAT { 0xFFFF } else { !0 };
+                let mask = if routine.result == L::<FRAC>::FORMAT {
+                    0xFFFF
+                } else {
+                    !0
+                };
                 assert_eq!(found & mask, expected & mask, "{} {args:x?}", routine.name);
             }
         }
@@ -304,7 +330,12 @@ fn calls_give_the_same_of<const FRAC: u8>() {
             let args = &all[random.next() as usize % all.len()];
             let ints: Vec<i32> = args.iter().map(|a| *a as u32 as i32).collect();
             let (found, expected) = (bench.run(&ints).0, (routine.model)(args) as i32);
-            assert_eq!(found & 0xFFFF, expected & 0xFFFF, "{} {args:x?}", routine.name);
+            assert_eq!(
+                found & 0xFFFF,
+                expected & 0xFFFF,
+                "{} {args:x?}",
+                routine.name
+            );
         }
     }
 }
@@ -399,7 +430,10 @@ fn every_operation_has_a_total_routine() {
 fn every_operation_has_a_total_routine_of<const FRAC: u8>() {
     for op in Op::ALL {
         let total = |r: &&Routine| r.op == *op && (r.domain)(&[Range::ALL, Range::ALL], Range::ALL);
-        assert!(runtime::<FRAC>().routines.iter().any(|r| total(&r)), "{op:?}");
+        assert!(
+            runtime::<FRAC>().routines.iter().any(|r| total(&r)),
+            "{op:?}"
+        );
     }
 }
 
@@ -413,8 +447,16 @@ fn bytes_beyond_the_pages_are_what_the_source_takes_them_for_of<const FRAC: u8>(
     let tables = words(FRAC);
     let (_, sums, lost) = tables::pages(FRAC);
     let (sums, lost) = (sums * 256, lost * 256);
-    assert!(tables.sums.entries[sums..].iter().all(|k| (0..256).contains(k)));
-    assert!(tables.differences.entries[lost..].iter().all(|k| (1..=256).contains(k)));
+    assert!(
+        tables.sums.entries[sums..]
+            .iter()
+            .all(|k| (0..256).contains(k))
+    );
+    assert!(
+        tables.differences.entries[lost..]
+            .iter()
+            .all(|k| (1..=256).contains(k))
+    );
 }
 
 /// What the source calls by name is what the model counts with.
@@ -429,7 +471,9 @@ fn numbers_by_name_are_the_models_of<const FRAC: u8>() {
     let Source::Text(page) = page.source else {
         panic!("a text");
     };
-    let symbols = assemble(&format!("* = $0a00\n{page}\n nop")).unwrap().symbols;
+    let symbols = assemble(&format!("* = $0a00\n{page}\n nop"))
+        .unwrap()
+        .symbols;
     let of = L::<FRAC>::CONSTANTS;
     for (name, n) in [
         ("log_of_quarter", of.quarter),
@@ -465,7 +509,11 @@ fn params_are_ratios_of_ints() {
 
 fn params_are_ratios_of_ints_of<const FRAC: u8>() {
     for (scaled, digits, expected) in [(350, 3, 0.35), (-15, 1, -1.5), (40_000, 0, 40_000.0)] {
-        let found = (runtime::<FRAC>().decode)((runtime::<FRAC>().param_bits)(scaled, digits), L::<FRAC>::FORMAT).real();
+        let found = (runtime::<FRAC>().decode)(
+            (runtime::<FRAC>().param_bits)(scaled, digits),
+            L::<FRAC>::FORMAT,
+        )
+        .real();
         assert!((found / expected - 1.0).abs() < 1.5e-3, "{found}");
     }
 }

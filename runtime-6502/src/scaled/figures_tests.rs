@@ -77,7 +77,11 @@ fn figures_are_as_documented() {
             cycles += bench.run(&pair).1 - figure.around;
         }
         let mean = (cycles + times / 2) / times;
-        let bytes: u32 = figure.parts.iter().map(|name| part_bytes(&crate::FIXED16_16, name)).sum();
+        let bytes: u32 = figure
+            .parts
+            .iter()
+            .map(|name| part_bytes(&crate::FIXED16_16, name))
+            .sum();
         println!("{}: {mean} cycles, {bytes} bytes", figure.name);
         if (mean, bytes) != figure.wanted {
             moved += &format!("{}: {mean}, {bytes}\n", figure.name);

@@ -104,7 +104,9 @@ macro_rules! left {
 /// The domain of the one where nothing that is left needs clamping.
 macro_rules! ample {
     ($a:ident $b:ident) => {
-        |args: &[Range], result: Range| Log::signs(args, result, [sign!($a), sign!($b)]) && Log::ample(args)
+        |args: &[Range], result: Range| {
+            Log::signs(args, result, [sign!($a), sign!($b)]) && Log::ample(args)
+        }
     };
 }
 

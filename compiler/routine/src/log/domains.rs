@@ -118,7 +118,8 @@ impl<const FRAC: u8, const WIDE: bool> Logarithm<FRAC, WIDE> {
 
     /// Divisors below the least magnitude are held as that, which makes quotients smaller.
     pub fn low_quotient(args: &[Range], result: Range) -> bool {
-        Self::high(result) || matches!(args, [a, b, ..] if a.magnitude() < Self::HIGH * Self::least(b))
+        Self::high(result)
+            || matches!(args, [a, b, ..] if a.magnitude() < Self::HIGH * Self::least(b))
     }
 
     pub fn high_quotient(args: &[Range], _: Range) -> bool {
@@ -127,7 +128,10 @@ impl<const FRAC: u8, const WIDE: bool> Logarithm<FRAC, WIDE> {
 
     /// A first argument that is more than what stands for 0, and a result that fits.
     pub fn above_zero(args: &[Range], result: Range) -> bool {
-        Self::high(result) && args.first().is_some_and(|a| a.lo > 1.001 * Self::LEAST_MAGNITUDE)
+        Self::high(result)
+            && args
+                .first()
+                .is_some_and(|a| a.lo > 1.001 * Self::LEAST_MAGNITUDE)
     }
 
     /// Two arguments of such signs, and a sum that fits.

@@ -213,7 +213,11 @@ impl<const FRAC: u8, const WIDE: bool> Logarithm<FRAC, WIDE> {
             return of(true, 0);
         }
         if self.log <= Self::LEAST {
-            return if b.plus { Self::ZERO } else { of(true, Self::MOST) };
+            return if b.plus {
+                Self::ZERO
+            } else {
+                of(true, Self::MOST)
+            };
         }
         let n = Self::whole(b.log);
         let exact = n <= WHOLE && Self::of_whole(n) == b.log;

@@ -106,7 +106,10 @@ fn eleven() -> Tables {
     Tables {
         sums: by_distance(|ratio| (1.0 + ratio).log2()),
         differences,
-        logs: [Log::LEAST].into_iter().chain((1..=WHOLE).map(log)).collect(),
+        logs: [Log::LEAST]
+            .into_iter()
+            .chain((1..=WHOLE).map(log))
+            .collect(),
     }
 }
 

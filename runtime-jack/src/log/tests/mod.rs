@@ -29,8 +29,12 @@ fn tables_are_right_to_what_is_stated() {
     let less = |d: f64| (-d / f64::from(OCTAVE)).exp2();
     let found = [
         worst(&tables.sums.entries, 0, &|d| (1.0 + less(d)).log2()),
-        worst(&tables.differences.entries, 256, &|d| -(1.0 - less(d)).log2()),
-        worst(&tables.differences.entries[..256], 1, &|d| -(1.0 - less(d)).log2()),
+        worst(&tables.differences.entries, 256, &|d| {
+            -(1.0 - less(d)).log2()
+        }),
+        worst(&tables.differences.entries[..256], 1, &|d| {
+            -(1.0 - less(d)).log2()
+        }),
         worst(&tables.logs, 1, &f64::log2),
     ];
     assert_eq!(
