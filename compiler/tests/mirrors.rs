@@ -11,7 +11,7 @@ use slowlight_compiler::passes::schedule::schedule;
 use slowlight_compiler::plan::{Goal, plan};
 use slowlight_compiler::scene;
 use slowlight_compiler::sema::Options;
-use slowlight_compiler::target::{Mode, Target};
+use slowlight_compiler::target::{Lean, Mode, Target};
 
 fn graph(options: &Options) -> Graph {
     let text = include_str!("../../examples/mirrors.scn");
@@ -40,6 +40,7 @@ static PLAIN: Target = Target {
     wraps: false,
     columns: 0,
     pixels: |_| 1,
+    lean: Lean::Nothing,
     emit: |_| Vec::new(),
 };
 

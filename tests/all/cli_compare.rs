@@ -21,7 +21,7 @@ fn a_machine_in_each_of_its_formats() {
         all.len() > 2 && all.contains(&"log10".to_owned()),
         "{all:?}"
     );
-    let output = slowlight(dir.path(), &["compare", "steps.scn", "--format", "log11"]);
+    let output = slowlight(dir.path(), &["compare", "steps.scn", "--format", "log12"]);
     assert_eq!(output.status.code(), Some(2));
     let said = String::from_utf8_lossy(&output.stderr).into_owned();
     assert!(said.contains("did you mean `log10`"), "{said}");

@@ -176,13 +176,6 @@ pub enum Error {
     /// result, and `absolute`. In fixed point, what a function with large
     /// results loses on the way, and the rounding of the last place.
     Mixed { relative: f64, absolute: f64 },
-    /// That, and so many times the greatest magnitude among the arguments: what is left where
-    /// equals are taken from each other.
-    Differences {
-        relative: f64,
-        larger: f64,
-        absolute: f64,
-    },
 }
 
 impl Error {
@@ -194,14 +187,6 @@ impl Error {
             Error::Relative(part) => part * exact.abs(),
             Error::Absolute(most) => most,
             Error::Mixed { relative, absolute } => relative * exact.abs() + absolute,
-            Error::Differences {
-                relative,
-                larger,
-                absolute,
-            } => {
-                let most = |m: f64, r: &Range| m.max(r.magnitude());
-                relative * exact.abs() + larger * args.iter().fold(0.0, most) + absolute
-            }
             Error::Larger(part) => {
                 let most = |m: f64, r: &Range| m.max(r.magnitude());
                 part * args.iter().fold(exact.abs(), most)

@@ -7,20 +7,26 @@ set_lost:
         sta less_lost_up
         rts
 
-; The same in a difference: what is added is below 0, for a difference of 0 by half of all.
+; What is added in a difference, which is below 0; y a = by how much the first logarithm is
+; greater, less 1.
 log_difference:
         cmp #log_lost_pages
         bcs log_difference_slow
-        adc #>(log_lost)
-log_difference_both:
-        sta lost_at+1
+        adc #>(log_lost+1)
+        sta less_lost_at+1
         adc #log_pages
-        sta lost_up+1
-        lda (lost_up),y
+        sta less_lost_up+1
+        lda (less_lost_up),y
         tax
-        lda (lost_at),y
+        lda (less_lost_at),y
         rts
-; The same where y a is below 0: its complement is one less than its magnitude.
+log_difference_slow:
+        iny                 ; the carry is set
+        bne log_difference_less_slow
+        adc #0
+        bne log_difference_less_slow
+
+; The same where that is below 0, and x = 1 where the two are equal.
 log_difference_less:
         eor #$ff
         tax
@@ -30,19 +36,16 @@ log_difference_less:
         txa
         cmp #log_lost_pages
         bcs log_difference_less_slow
-        adc #>(log_lost+1)
-        sta less_lost_at+1
+        adc #>(log_lost)
+log_difference_both:
+        sta lost_at+1
         adc #log_pages
-        sta less_lost_up+1
-        lda (less_lost_up),y
+        sta lost_up+1
+        lda (lost_up),y
         tax
-        lda (less_lost_at),y
+        lda (lost_at),y
         rts
 log_difference_less_slow:
-        iny                 ; the carry is set
-        bne log_difference_slow
-        adc #0
-log_difference_slow:
         cmp #48
         bcs log_difference_farther
         lsr

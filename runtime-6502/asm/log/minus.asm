@@ -1,6 +1,6 @@
 ; acc = that of the difference of two values, kept from the least on.
 log_minus:
-        sec
+        clc
         lda acc
         sbc arg
         tay
@@ -10,14 +10,21 @@ log_minus:
         bmi log_minus_less
 log_minus_first:
         jsr log_difference
-        jmp log_minus_kept
+        jsr log_grow
+        bvs log_minus_least
+        rts
 log_minus_far:
         bmi log_minus_first
 log_minus_less:
-        jsr log_exchange
-        jsr log_difference
-log_minus_kept:
-        jsr log_grow
+        jsr log_difference_less
+        cpx #1
+        beq log_minus_least
+        clc
+        adc arg
+        sta acc
+        txa
+        adc arg+1
+        sta acc+1
         bvs log_minus_least
         rts
 log_minus_least:

@@ -15,6 +15,7 @@
 //! up to six, and then for each 16: 29,954 bytes. Whole parts come from 1,024 bytes of
 //! mantissas, or 2,048, logarithms of ints from two tables of 513.
 
+mod look;
 mod parts;
 mod routines;
 mod tables;
@@ -22,7 +23,8 @@ mod templates;
 #[cfg(test)]
 mod tests;
 
-pub use templates::{looked_up, same};
+pub use look::looked_up;
+pub use templates::same;
 
 use crate::scaled::STEPPING;
 use slowlight_routine::log::kept;

@@ -29,7 +29,7 @@ macro_rules! parts {
             part("log_difference", include_str!(concat!("../../asm/log/difference", $frac, ".asm")), &[$rest, "log_lost"], $difference),
             part("log_keep", asm!("keep"), &["log_page"], 22),
             part("log_plus", asm!("plus"), &["log_sum"], 65),
-            part("log_minus", asm!("minus"), &["log_plus", "log_difference", "log_keep"], 37),
+            part("log_minus", asm!("minus"), &["log_plus", "log_difference", "log_keep"], 48),
             part("log_add", asm!("add"), &["log_minus", "log_keep"], 43),
             part("log_whole", concat!(asm!("whole"), $octaves, asm!("whole_part")), &["log_page", "log_parts"], $whole),
             part("log_is_whole", asm!("is_whole"), &["log_page", "log_logs_low", "log_logs_high"], 38),
@@ -59,14 +59,14 @@ const TEN: &[Part] = parts!(
         terms("log_rest_high", super::tables::rest_high, 24),
         part("log_rest", asm!("rest"), &["log_page", "log_rest_first", "log_rest_low", "log_rest_high"], 40)
     ],
-    "log_rest", [78, 87, 142]
+    "log_rest", [78, 89, 142]
 );
 
 #[rustfmt::skip]
 const ELEVEN: &[Part] = parts!(
     11, 14_849, 15_105, 2048, "        lsr\n        lsr\n        lsr\n",
     [part("log_sixteenth", asm!("sixteenth"), &["log_page"], 32)],
-    "log_sixteenth", [103, 105, 143]
+    "log_sixteenth", [103, 107, 143]
 );
 
 /// Those of ten bits, and of eleven, behind the usual ones, which ints need.

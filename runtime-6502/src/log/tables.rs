@@ -40,12 +40,12 @@ impl<const FRAC: u8> Bytes<FRAC> {
         planes(&tables(FRAC).sums.entries, all, upper)
     }
 
-    /// What differences add; that of 0 is as much below 0 as two bytes are.
+    /// What differences add. That of 0 is told by its upper byte: no other one is above 0.
     pub fn lost() -> Vec<i32> {
         let entries = &tables(FRAC).differences.entries;
         let mut lost: Vec<i32> = entries.iter().map(|k| -k).collect();
         if let Some(none) = lost.first_mut() {
-            *none = i32::from(i16::MIN);
+            *none = 256;
         }
         let (all, _, upper) = pages(FRAC);
         planes(&lost, all, upper)

@@ -82,11 +82,12 @@ pub const HIGH_DIVIDE: &str = concat!(divide!(), high!(), unlike!());
 pub const ANY_DIVIDE: &str = concat!(divide!(), ends!(), unlike!());
 
 /// By how much the first logarithm is greater or less, and what the greater one grows by:
-/// `look` is what [`looked_up`] writes out. In the labels stands a letter more.
+/// `look` is what [`super::look`] writes out. In the labels stands a letter more.
 macro_rules! apart {
-    ($l:literal, $first:literal, $second:expr, $look:literal) => {
+    ($l:literal, $borrow:literal, $first:literal, $second:expr, $look:literal) => {
         concat!(
-            "sec | lda {0.0} | sbc {1.0} | tay | lda {0.1} | sbc {1.1} | bvs far",
+            $borrow,
+            " | lda {0.0} | sbc {1.0} | tay | lda {0.1} | sbc {1.1} | bvs far",
             $l,
             "{n} | bmi less",
             $l,
@@ -121,7 +122,7 @@ macro_rules! apart {
 /// Of two values of one sign.
 macro_rules! sum {
     () => {
-        apart!("s", "", "", "log_sum")
+        apart!("s", "sec", "", "", "log_sum")
     };
 }
 
@@ -132,11 +133,12 @@ macro_rules! difference {
         concat!(
             apart!(
                 "d",
+                "clc",
                 "[s ldx {0.2} | stx {r.2}]",
                 concat!("[s lda {1.2} |", $second, "| sta {r.2}]"),
                 "log_difference"
             ),
-            low!()
+            "| bvc fits{n} | none{n}: | lda #$80 | sta {r.1} | lda #0 | sta {r.0} | fits{n}: |"
         )
     };
 }
@@ -167,55 +169,6 @@ pub const ADD: &str = either!("bne", "", "");
 pub const SUBTRACT: &str = either!("beq", "eor #1", "");
 pub const ANY_ADD: &str = either!("bne", "", high!());
 pub const ANY_SUBTRACT: &str = either!("beq", "eor #1", high!());
-
-/// A template with what it looks up in tables written out, or called where memory is short:
-/// y a holds a distance, below 0 where the name ends so, of which the complement is one less
-/// than its magnitude. Behind the pages with upper bytes the subroutine is called.
-pub fn looked_up(text: &str, calls: bool) -> String {
-    let parts: Vec<&str> = text.split(['|', '\n']).map(str::trim).collect();
-    let look = |part: &str| part.strip_prefix("look ").map(str::to_owned);
-    if calls {
-        let call =
-            |part: &&str| look(part).map_or((*part).to_owned(), |name| format!("jsr {name}"));
-        return parts.iter().map(call).collect::<Vec<_>>().join(" | ");
-    }
-    let mut made: Vec<String> = Vec::new();
-    for (at, part) in parts.iter().enumerate() {
-        made.push(look(part).map_or((*part).to_owned(), |name| inline(&name, at)));
-        // Nothing comes by here: what is called where the first, or the second, is far greater.
-        if part.starts_with("jmp grown") {
-            let before = (0..at).rev().find_map(|k| Some((k, look(parts[k])?)));
-            let behind = (at..parts.len()).find_map(|k| Some((k, look(parts[k])?)));
-            for (at, name) in before.into_iter().chain(behind) {
-                made.push(format!(
-                    "slow{at}x{{n}}: | jsr {name}_slow | bcc back{at}x{{n}}"
-                ));
-            }
-        }
-    }
-    made.join(" | ")
-}
-
-/// What a subroutine of so much a name does where both bytes are in its table.
-fn inline(name: &str, at: usize) -> String {
-    let table = match name.starts_with("log_sum") {
-        true => "sums",
-        false => "lost",
-    };
-    let (turned, by, pointer) = match name.ends_with("_less") {
-        false => ("", "", table.to_owned()),
-        true => (
-            "eor #$ff | tax | tya | eor #$ff | tay | txa |",
-            "+1",
-            format!("less_{table}"),
-        ),
-    };
-    format!(
-        "{turned} cmp #log_{table}_pages | bcs slow{at}x{{n}} | adc #>(log_{table}{by})
-        sta {pointer}_at+1 | adc #log_pages | sta {pointer}_up+1
-        lda ({pointer}_up),y | tax | lda ({pointer}_at),y | back{at}x{{n}}:"
-    )
-}
 
 macro_rules! twice {
     () => {

@@ -43,29 +43,16 @@ pub(super) struct Effects {
     pub unknown: bool,
 }
 
-/// What is known of all cells at all instructions is at most so much: of large programs only
-/// what the bytes that are named most often hold is followed.
-const FOLLOWED: usize = 4_000_000;
-
 impl Space {
     pub fn of<'a>(code: impl Iterator<Item = &'a Instruction> + Clone) -> Space {
         let mut space = Space::default();
-        let mut named: FxHashMap<u16, usize> = FxHashMap::default();
-        let mut cells = Vec::new();
         for instruction in code.clone() {
             if let Operand::Cell(at, text) = &instruction.operand {
-                let times = named.entry(*at).or_default();
-                if *times == 0 {
-                    cells.push(*at);
-                    space.names.insert(*at, text.clone());
-                }
-                *times += 1;
+                space.add(*at);
+                space.names.entry(*at).or_insert_with(|| text.clone());
             }
         }
-        cells.sort_by_key(|at| std::cmp::Reverse(named.get(at).copied()));
-        cells.iter().for_each(|at| space.add(*at));
-        let most = FOLLOWED / code.clone().count().max(1);
-        space.cells = space.len().min(REGISTERS + most);
+        space.cells = space.len();
         for instruction in code {
             match &instruction.operand {
                 Operand::Pointed(at, _) => (0..2).for_each(|k| space.add(at.wrapping_add(k))),

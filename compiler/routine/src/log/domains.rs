@@ -37,8 +37,6 @@ impl<const FRAC: u8, const WIDE: bool> Logarithm<FRAC, WIDE> {
     };
     /// A unit of the last place, of one of ten bits.
     const UNIT: f64 = if FRAC == 10 { 1.0 } else { 0.5 };
-    /// What is left of equals, of them.
-    const EQUALS: f64 = if WIDE { 1.0 / Self::END } else { 0.0 };
 
     /// How many times 16 octaves an exponent has.
     const EXPONENTS: f64 = if Self::HIGH > 1e6 { 2.0 } else { 1.0 };
@@ -56,9 +54,8 @@ impl<const FRAC: u8, const WIDE: bool> Logarithm<FRAC, WIDE> {
         absolute: Self::LEAST_MAGNITUDE,
     };
     /// Those of differences to 0.6 units, and to 1.22 where the summands are as near as 2^(1/4).
-    pub const DIFFERENCES: Error = Error::Differences {
+    pub const DIFFERENCES: Error = Error::Mixed {
         relative: 8.4e-4 * Self::UNIT,
-        larger: Self::EQUALS,
         absolute: Self::LEAST_MAGNITUDE,
     };
     /// Half a unit is cut.

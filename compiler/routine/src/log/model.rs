@@ -247,15 +247,13 @@ impl<const FRAC: u8, const WIDE: bool> Logarithm<FRAC, WIDE> {
         (more + Self::added(more - less)).min(Self::MOST)
     }
 
-    /// Of the difference of two values, from those of both. That of equals is the least, or
-    /// as much less than them as a word says, 2^-16 of them where an octave is 2048.
+    /// Of the difference of two values, from those of both.
     pub(super) fn difference(a: i32, b: i32) -> i32 {
         let (more, less) = (a.max(b), a.min(b));
-        let taken = match more == less {
-            true => (Self::MOST - Self::LEAST).min(32768),
-            false => Self::taken(more - less),
-        };
-        (more - taken).max(Self::LEAST)
+        match more == less {
+            true => Self::LEAST,
+            false => (more - Self::taken(more - less)).max(Self::LEAST),
+        }
     }
 
     /// What a summand adds to a logarithm that is greater by this, 0 or more.

@@ -28,9 +28,14 @@ pub(super) fn starts(plan: &Plan) -> u64 {
         Squares::Made => parts.iter().map(|part| u64::from(part.starts)).sum(),
         Squares::Stored | Squares::Unused => 0,
     };
-    let [divide, convert] = [Op::Div, Op::ToReal].map(|op| usual(plan, op));
+    let divide = usual(plan, Op::Div);
     let reals = match plan.runtime.real {
-        Format::Log { .. } => made * (convert + divide),
+        Format::Log { .. } => {
+            // Of any int, which the last one takes.
+            let mut all = plan.runtime.routines.iter().rev();
+            let convert = all.find(|routine| routine.op == Op::ToReal);
+            made * (convert.map_or(0, |routine| u64::from(routine.cycles)) + divide)
+        }
         // Where reals have points of their own, whole numbers are only moved.
         _ if plan.points().is_some() => divided * divide,
         _ => made * divide,
