@@ -24,7 +24,7 @@ fn a_machine_in_each_of_its_formats() {
     let output = slowlight(dir.path(), &["compare", "steps.scn", "--format", "log12"]);
     assert_eq!(output.status.code(), Some(2));
     let said = String::from_utf8_lossy(&output.stderr).into_owned();
-    assert!(said.contains("did you mean `log10`"), "{said}");
+    assert!(said.contains("did you mean `log11`"), "{said}");
 }
 
 #[test]
