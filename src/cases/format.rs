@@ -1,7 +1,7 @@
 //! The arithmetics that cases are tried in, and what an input becomes there.
 
 use slowlight_compiler::target::Target;
-use slowlight_routine::log::model::{Logarithm, WHOLE};
+use slowlight_routine::log::model::{Log, WHOLE};
 use slowlight_routine::scale::{fitting, most};
 use slowlight_routine::{Bits, Format, Value};
 
@@ -142,19 +142,16 @@ fn significant(x: f64, bits: i32) -> f64 {
     grown.round_ties_even() / 2f64.powi(half) / 2f64.powi(rest)
 }
 
-/// The least and the greatest logarithm that a format holds, and its units in an octave.
+/// The least and the greatest logarithm that a format holds, and its units in an octave: where
+/// not all of a word counts, Jack's.
 fn ends(format: Format) -> (i32, i32, i32) {
-    match format {
-        Format::Log { octaves: 32, .. } => of_logs::<10, true>(),
-        Format::Log { frac: 11, .. } => of_logs::<11, true>(),
-        _ => of_logs::<10, false>(),
-    }
-}
-
-fn of_logs<const FRAC: u8, const WIDE: bool>() -> (i32, i32, i32) {
-    type L<const F: u8, const W: bool> = Logarithm<F, W>;
-    let octave = L::<FRAC, WIDE>::OCTAVE;
-    (L::<FRAC, WIDE>::LEAST, L::<FRAC, WIDE>::MOST, octave)
+    let Format::Log { frac, octaves } = format else {
+        return (Log::LEAST, Log::MOST, Log::OCTAVE);
+    };
+    let octave = 1 << frac;
+    let most = i32::from(octaves) * octave - 1;
+    let whole = most == i32::from(i16::MAX);
+    (if whole { -most - 1 } else { Log::LEAST }, most, octave)
 }
 
 /// `x` with the nearest logarithm; none where it is beyond the ends. The least magnitude

@@ -286,8 +286,13 @@ fn raised_values_are_exact() {
             off += (model.shade - native).powi(2);
             left += (exact.pixel(x, y).shade - native).powi(2);
         }
+        // Constants and params are not raised: with eleven bits these are half of what is left.
+        let rest = match target.runtime.format {
+            "log11" => 2.0,
+            _ => 4.0,
+        };
         assert!(
-            left <= off / 3.5,
+            left <= off / rest,
             "{} {}: {left} of {off}",
             target.name,
             target.runtime.format

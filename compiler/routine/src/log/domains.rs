@@ -20,29 +20,24 @@ pub const NEAR_EXP: Error = Error::Relative(8.2e-4);
 
 impl<const FRAC: u8, const WIDE: bool> Logarithm<FRAC, WIDE> {
     /// The least magnitude, which stands for 0.
-    pub const LEAST_MAGNITUDE: f64 = match (FRAC, WIDE) {
-        (_, false) => 1.0 / 8192.0,
-        (10, true) => 1.0 / 4_294_967_296.0,
-        (_, true) => 1.0 / 65536.0,
-    };
+    pub const LEAST_MAGNITUDE: f64 = 1.0 / (1u64 << (-Self::LEAST / Self::OCTAVE)) as f64;
     /// The greatest magnitude, or a little more.
-    pub const END: f64 = match (FRAC, WIDE) {
-        (10, true) => 4_294_967_296.0,
-        _ => 65536.0,
-    };
+    pub const END: f64 = (1u64 << ((Self::MOST + 1) / Self::OCTAVE)) as f64;
     /// Magnitudes that need no clamping above, with room for what roundings add.
-    pub const HIGH: f64 = match (FRAC, WIDE) {
-        (10, true) => 4e9,
-        _ => 60_000.0,
+    pub const HIGH: f64 = Self::END * 60_000.0 / 65_536.0;
+    /// The least power of 2: its exponent, an int of units, is not less than -32767.
+    const LEAST_POWER: f64 = match WIDE {
+        true => 1.002 * Self::LEAST_MAGNITUDE,
+        false => Self::LEAST_MAGNITUDE,
     };
     /// A unit of the last place, of one of ten bits.
     const UNIT: f64 = if FRAC == 10 { 1.0 } else { 0.5 };
 
     /// How many times 16 octaves an exponent has.
-    const EXPONENTS: f64 = if Self::HIGH > 1e6 { 2.0 } else { 1.0 };
+    const EXPONENTS: f64 = if Self::END > 65_536.0 { 2.0 } else { 1.0 };
 
     /// A quotient that is cut beside a whole number moves the result by the divisor.
-    pub const UNKNOWN: Error = Error::Absolute(2.5 * Self::HIGH);
+    pub const UNKNOWN: Error = Error::Absolute(2.0 * Self::END);
     /// Products are exact between the format's ends.
     pub const PRODUCT: Error = Error::Mixed {
         relative: 1e-12,
@@ -73,7 +68,8 @@ impl<const FRAC: u8, const WIDE: bool> Logarithm<FRAC, WIDE> {
         relative: 2e-3,
         absolute: Self::LEAST_MAGNITUDE,
     };
-    /// Three sums, of which the last counts most.
+    /// Three sums, of which the last counts most. Where the least magnitude is larger, what is
+    /// beyond a thousandth is within that.
     pub const ARC: Error = Error::Mixed {
         relative: if WIDE { 1.25e-3 } else { 1e-3 },
         absolute: Self::LEAST_MAGNITUDE,
@@ -82,12 +78,12 @@ impl<const FRAC: u8, const WIDE: bool> Logarithm<FRAC, WIDE> {
     /// octaves 1/100.
     pub const EXP: Error = Error::Mixed {
         relative: 0.01 * Self::EXPONENTS,
-        absolute: 1.002 * Self::LEAST_MAGNITUDE,
+        absolute: Self::LEAST_POWER,
     };
     /// There the exponent is a product with a logarithm of its own.
     pub const POWER: Error = Error::Mixed {
         relative: 0.0155 * Self::EXPONENTS,
-        absolute: 1.002 * Self::LEAST_MAGNITUDE,
+        absolute: Self::LEAST_POWER,
     };
     /// A whole number's logarithm, and the constant's rounding.
     pub const LOGARITHM: Error = Error::Mixed {
