@@ -6,8 +6,8 @@ use slowlight_routine::Part;
 
 /// The text of a file.
 macro_rules! asm {
-    ($name:literal) => {
-        include_str!(concat!("../../asm/log/", $name, ".asm"))
+    ($($name:literal),+) => {
+        include_str!(concat!("../../asm/log/", $($name,)+ ".asm"))
     };
 }
 
@@ -17,7 +17,7 @@ macro_rules! parts {
     ($frac:literal, $sums:literal, $lost:literal, $parts:literal, $octaves:literal,
      [$($far:expr),*], $rest:literal, [$sum:literal, $difference:literal, $whole:literal]) => {
         &[
-            part("log_page", concat!(asm!("page"), include_str!(concat!("../../asm/log/octave", $frac, ".asm"))), &["zero_page"], 0),
+            part("log_page", concat!(asm!("page"), asm!("octave", $frac)), &["zero_page"], 0),
             terms("log_sums", Bytes::<$frac>::sums, $sums),
             terms("log_lost", Bytes::<$frac>::lost, $lost),
             terms("log_parts", Bytes::<$frac>::parts, $parts),
@@ -25,8 +25,8 @@ macro_rules! parts {
             terms("log_logs_high", Bytes::<$frac>::logs_high, 513),
             terms("log_terms", Bytes::<$frac>::terms, 10),
             $($far,)*
-            part("log_sum", include_str!(concat!("../../asm/log/sum", $frac, ".asm")), &[$rest, "log_sums"], $sum),
-            part("log_difference", include_str!(concat!("../../asm/log/difference", $frac, ".asm")), &[$rest, "log_lost"], $difference),
+            part("log_sum", concat!(asm!("sum"), asm!("sum_far", $frac)), &[$rest, "log_sums"], $sum),
+            part("log_difference", concat!(asm!("difference"), asm!("difference_far", $frac)), &[$rest, "log_lost"], $difference),
             part("log_keep", asm!("keep"), &["log_page"], 22),
             part("log_plus", asm!("plus"), &["log_sum"], 65),
             part("log_minus", asm!("minus"), &["log_plus", "log_difference", "log_keep"], 48),

@@ -37,27 +37,11 @@ log_difference_less:
         cmp #log_lost_pages
         bcs log_difference_less_slow
         adc #>(log_lost)
+log_difference_both:
         sta lost_at+1
         adc #log_pages
         sta lost_up+1
         lda (lost_up),y
         tax
         lda (lost_at),y
-        rts
-log_difference_less_slow:
-        cmp #24
-        bcs log_difference_rest
-        adc #>(log_lost)
-        sta lost_at+1
-        ldx #$ff
-        lda (lost_at),y
-        rts
-log_difference_rest:
-        jsr log_rest
-        eor #$ff
-        adc #1
-        bcs log_difference_none
-        dex
-log_difference_none:
-        clc
         rts

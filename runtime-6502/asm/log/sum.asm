@@ -10,9 +10,10 @@ set_sums:
 ; a x = low and high byte of what the greater of two logarithms grows by, in a sum of two
 ; values of one sign; y a = by how much it is greater. Leaves the carry clear.
 log_sum:
-        cmp #log_sums_pages             ; from there on it is a byte
+        cmp #log_sums_pages
         bcs log_sum_slow
         adc #>(log_sums)
+log_sum_both:
         sta sums_at+1
         adc #log_pages
         sta sums_up+1
@@ -20,6 +21,7 @@ log_sum:
         tax
         lda (sums_at),y
         rts
+
 ; The same where y a is below 0: its complement is one less than its magnitude.
 log_sum_less:
         eor #$ff
@@ -42,13 +44,3 @@ log_sum_less_slow:
         iny                 ; the carry is set
         bne log_sum_slow
         adc #0
-log_sum_slow:
-        cmp #24
-        bcc log_sum_byte
-        jmp log_rest
-log_sum_byte:
-        adc #>(log_sums)
-        sta sums_at+1
-        ldx #0
-        lda (sums_at),y
-        rts
