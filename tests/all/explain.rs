@@ -286,9 +286,10 @@ fn raised_values_are_exact() {
             off += (model.shade - native).powi(2);
             left += (exact.pixel(x, y).shade - native).powi(2);
         }
-        // Constants and params are not raised: with eleven bits these are half of what is left.
+        // What is not raised, constants and params among it, counts for more where the error is
+        // least: 0.27 of it is left there.
         let rest = match target.runtime.format {
-            "log11" => 2.0,
+            "log11" => 3.5,
             _ => 4.0,
         };
         assert!(
