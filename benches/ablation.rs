@@ -8,7 +8,7 @@
 
 use rayon::prelude::*;
 use serde_json::Value;
-use slowlight_compiler::plan::pipeline::{PASSES, Pass};
+use slowlight_compiler::planner::pipeline::{PASSES, Pass};
 use std::path::{Path, PathBuf};
 use std::process::Command;
 

@@ -7,10 +7,11 @@
 //! adds to it.
 
 use slowlight::trial::LIMIT;
-use slowlight_compiler::plan::{Goal, plan};
+use slowlight_compiler::backend::{Target, default_mode, find};
+use slowlight_compiler::plan::Goal;
+use slowlight_compiler::planner::plan;
 use slowlight_compiler::scene;
 use slowlight_compiler::sema::Options;
-use slowlight_compiler::target::{Target, default_mode, find};
 use slowlight_vm::Stop;
 use slowlight_vm::bbc::{Config, Dialect, Machine};
 use std::path::Path;

@@ -3,10 +3,11 @@
 //! `cargo bench --bench compile`
 
 use criterion::{Criterion, criterion_group, criterion_main};
-use slowlight_compiler::plan::{Goal, plan};
+use slowlight_compiler::backend::{TARGETS, Target, default_mode};
+use slowlight_compiler::plan::Goal;
+use slowlight_compiler::planner::plan;
 use slowlight_compiler::scene;
 use slowlight_compiler::sema::Options;
-use slowlight_compiler::target::{TARGETS, Target, default_mode};
 use std::hint::black_box;
 
 const MIRRORS: &str = include_str!("../examples/mirrors.scn");

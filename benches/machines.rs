@@ -12,11 +12,12 @@ mod yardstick;
 
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 use slowlight::trial::{LIMIT, build};
-use slowlight_compiler::plan::{Goal, Plan, plan};
+use slowlight_compiler::backend::jack::JACK;
+use slowlight_compiler::backend::{TARGETS, Target, default_mode, formats};
+use slowlight_compiler::plan::{Goal, Plan};
+use slowlight_compiler::planner::plan;
 use slowlight_compiler::scene;
 use slowlight_compiler::sema::Options;
-use slowlight_compiler::target::jack::JACK;
-use slowlight_compiler::target::{TARGETS, Target, default_mode, formats};
 use slowlight_vm::hack::jack;
 use slowlight_vm::hack::vm::{Machine, Program};
 use std::hint::black_box;

@@ -14,7 +14,7 @@ mod vectors;
 use bayer::bayer8;
 use criterion::{Criterion, criterion_group, criterion_main};
 use slowlight_compiler::eval::native::Native;
-use slowlight_compiler::flow::graph::Graph;
+use slowlight_compiler::ir::graph::Graph;
 use slowlight_compiler::scene;
 use slowlight_compiler::sema::Options;
 use std::hint::black_box;

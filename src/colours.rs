@@ -2,8 +2,8 @@
 
 use crate::diagnostics;
 use crate::scene::Scene;
+use slowlight_compiler::backend::{Target, colours};
 use slowlight_compiler::source::Diagnostic;
-use slowlight_compiler::target::{Target, colours};
 
 /// What is to be said of the colours in which these targets show a scene, once for each
 /// machine.

@@ -6,10 +6,10 @@ use crate::interrupt;
 use crate::picture::Picture;
 use crate::progress::Progress;
 use rayon::prelude::*;
-use slowlight_compiler::eval::model::ModelRun;
 use slowlight_compiler::eval::native::{Native, Pixel};
-use slowlight_compiler::flow::graph::Graph;
+use slowlight_compiler::ir::graph::Graph;
 use slowlight_compiler::plan::Plan;
+use slowlight_compiler::plan::model::ModelRun;
 use std::ops::Range;
 use std::sync::atomic::{AtomicU64, Ordering};
 

@@ -17,11 +17,11 @@ use crate::scene::{Precision, Scene};
 use crate::target_args::ScreenArgs;
 use crate::trial::{self, Trial};
 use serde::Serialize;
-use slowlight_compiler::flow::graph::Graph;
-use slowlight_compiler::passes::coarse::coarse;
+use slowlight_compiler::backend::Target;
+use slowlight_compiler::ir::graph::Graph;
+use slowlight_compiler::passes::pixel_blocks::coarse;
 use slowlight_compiler::plan::Plan;
 use slowlight_compiler::report::effects::{Effect, Own, Seen, Turns, effects, own, turns, watch};
-use slowlight_compiler::target::Target;
 
 /// Rows and columns of the sample that is watched in the model.
 const GRID: u32 = 48;

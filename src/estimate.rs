@@ -13,16 +13,18 @@
 use crate::draw::{Window, coarse_first};
 use rayon::prelude::*;
 use rustc_hash::FxHashMap;
+use slowlight_compiler::analysis::rate::rates;
+use slowlight_compiler::cost::statement::Costs;
 use slowlight_compiler::eval::heard::{Heard, Listener};
-use slowlight_compiler::eval::model::{self, Model};
 use slowlight_compiler::eval::run::Run;
-use slowlight_compiler::flow::graph::{Graph, NodeId};
-use slowlight_compiler::flow::tree::{Statement, walk};
-use slowlight_compiler::passes::interlace::passes;
-use slowlight_compiler::passes::rate::rates;
-use slowlight_compiler::passes::segment::bounds_segment;
-use slowlight_compiler::passes::still::{Inks, Still};
-use slowlight_compiler::plan::{Costs, Plan};
+use slowlight_compiler::ir::graph::{Graph, NodeId};
+use slowlight_compiler::ir::tree::{Statement, walk};
+use slowlight_compiler::passes::loops::strip_mine::passes;
+use slowlight_compiler::plan::Plan;
+use slowlight_compiler::plan::model;
+use slowlight_compiler::plan::model::Model;
+use slowlight_compiler::schedule::constant_runs::{Inks, Still};
+use slowlight_compiler::schedule::segment::bounds_segment;
 use slowlight_routine::{Bits, Format};
 use std::cell::Cell;
 

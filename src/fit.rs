@@ -14,12 +14,13 @@ pub use rom::fit_rom;
 use crate::failure::{Failure, Outcome};
 use crate::need::{Need, about, need, room};
 use forms::Fitted;
-use slowlight_compiler::flow::graph::Table;
+use slowlight_compiler::backend::mos6502::DISC_PAGE;
+use slowlight_compiler::backend::{Lean, Mode};
 use slowlight_compiler::fuel::Fuel;
-use slowlight_compiler::plan::{Plan, SEARCH};
+use slowlight_compiler::ir::graph::Table;
+use slowlight_compiler::plan::Plan;
+use slowlight_compiler::planner::SEARCH;
 use slowlight_compiler::source::Span;
-use slowlight_compiler::target::mos6502::DISC_PAGE;
-use slowlight_compiler::target::{Lean, Mode};
 use std::cell::RefCell;
 use std::collections::VecDeque;
 

@@ -19,9 +19,9 @@ use crate::progress::Progress;
 use crate::target_args;
 use crate::trial::{self, HACK_HERTZ};
 use rayon::prelude::*;
+use slowlight_compiler::backend::Document;
+use slowlight_compiler::backend::mos6502::for_rows;
 use slowlight_compiler::plan::Plan;
-use slowlight_compiler::target::Document;
-use slowlight_compiler::target::mos6502::for_rows;
 use slowlight_vm::Stop;
 
 /// Cycles after which no more rows are looked at, and after which a run is given up: less than

@@ -12,8 +12,8 @@
 use crate::failure::{Failure, Outcome};
 use crate::files;
 use crate::machine::{File, Machine};
+use slowlight_compiler::backend::Document;
 use slowlight_compiler::plan::{ParamPlan, Plan};
-use slowlight_compiler::target::Document;
 use std::path::Path;
 
 /// Params by name, with the values of their components.

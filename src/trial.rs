@@ -10,10 +10,10 @@ use crate::progress::Progress;
 use crate::scene::{Precision, Scene};
 use serde::Serialize;
 use serde_json::{Value, json};
-use slowlight_compiler::flow::graph::{Node, TableId};
-use slowlight_compiler::flow::tree::Place;
+use slowlight_compiler::backend::{Document, Target};
+use slowlight_compiler::ir::graph::{Node, TableId};
+use slowlight_compiler::ir::tree::Place;
 use slowlight_compiler::plan::Plan;
-use slowlight_compiler::target::{Document, Target};
 use slowlight_routine::Format;
 use std::collections::BTreeSet;
 

@@ -2,17 +2,23 @@
 //!
 //! A pure library: no files, no clock, no terminal.
 
+pub mod analysis;
+pub mod backend;
+pub mod cost;
 pub mod eval;
-pub mod flow;
 pub mod fuel;
+pub mod homes;
+pub mod ir;
 pub mod passes;
 pub mod plan;
+pub mod planner;
 pub mod prelude;
-pub mod range;
 pub mod report;
 pub mod scene;
+pub mod schedule;
+pub mod selection;
 pub mod sema;
-pub mod target;
+pub mod wordlength;
 
 /// Text to tree and back; its own crate because its parser is slow to compile.
 pub use slowlight_syntax as syntax;

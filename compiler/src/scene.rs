@@ -1,7 +1,7 @@
 //! A scene from its text: parsed, checked, lowered, with all that is to be said
 //! about it.
 
-use crate::flow::graph::Graph;
+use crate::ir::graph::Graph;
 use crate::prelude::PRELUDE;
 use crate::sema::{self, Options, Program};
 use crate::source::{Diagnostic, SourceFile, Sources, Span};

@@ -1,17 +1,18 @@
 //! The front end and the middle on the first example, without a machine.
 #![allow(clippy::unwrap_used)]
 
+use slowlight_compiler::analysis::verify::verify;
+use slowlight_compiler::backend::{Lean, Mode, Target};
 use slowlight_compiler::eval::arithmetic::Exact;
-use slowlight_compiler::eval::model::ModelRun;
 use slowlight_compiler::eval::native::Native;
 use slowlight_compiler::eval::run::Run;
-use slowlight_compiler::flow::graph::Graph;
-use slowlight_compiler::flow::verify::verify;
-use slowlight_compiler::passes::schedule::schedule;
-use slowlight_compiler::plan::{Goal, plan};
+use slowlight_compiler::ir::graph::Graph;
+use slowlight_compiler::plan::Goal;
+use slowlight_compiler::plan::model::ModelRun;
+use slowlight_compiler::planner::plan;
 use slowlight_compiler::scene;
+use slowlight_compiler::schedule::statements::schedule;
 use slowlight_compiler::sema::Options;
-use slowlight_compiler::target::{Lean, Mode, Target};
 
 fn graph(options: &Options) -> Graph {
     let text = include_str!("../../examples/mirrors.scn");
@@ -36,7 +37,7 @@ static PLAIN: Target = Target {
     offset: 1.0 / 256.0,
     hertz: 1e6,
     starts: |_| 0,
-    sizes: slowlight_compiler::target::mos6502::PLAIN.sizes,
+    sizes: slowlight_compiler::backend::mos6502::PLAIN.sizes,
     wraps: false,
     columns: 0,
     pixels: |_| 1,

@@ -9,12 +9,13 @@ mod library;
 
 use libfuzzer_sys::fuzz_target;
 use library::with_library;
-use slowlight_compiler::plan::pipeline::PassSet;
-use slowlight_compiler::plan::{Goal, plan_within};
+use slowlight_compiler::planner::pipeline::PassSet;
+use slowlight_compiler::plan::Goal;
+use slowlight_compiler::planner::plan_within;
 use slowlight_compiler::sema::{self, Options};
 use slowlight_compiler::source::Diagnostic;
 use slowlight_compiler::syntax;
-use slowlight_compiler::target::TARGETS;
+use slowlight_compiler::backend::TARGETS;
 
 /// What a search may burn: little, so that many inputs are tried and most large ones are cut.
 const FUEL: u64 = 2_000_000;

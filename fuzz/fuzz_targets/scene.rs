@@ -11,7 +11,7 @@ mod library;
 
 use libfuzzer_sys::fuzz_target;
 use library::with_library;
-use slowlight_compiler::flow::verify::verify;
+use slowlight_compiler::analysis::verify::verify;
 use slowlight_compiler::sema::{self, Freeze, Options, Program};
 use slowlight_compiler::source::Diagnostic;
 use slowlight_compiler::syntax::{self, format::format};

@@ -9,7 +9,7 @@
 use super::file::{Argument, Entry, Vector};
 use crate::failure::{Failure, Outcome};
 use crate::scene::{Precision, wrong};
-use slowlight_compiler::flow::graph::Graph;
+use slowlight_compiler::ir::graph::Graph;
 use slowlight_compiler::scene::{self, Scene};
 use slowlight_compiler::sema::Options;
 use slowlight_routine::Range;

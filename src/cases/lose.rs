@@ -8,12 +8,12 @@
 //! reals that are not rounded, and lost where the plan loses them. What such a run gets right
 //! the machine has to get right, too.
 
+use slowlight_compiler::analysis::points::Points;
 use slowlight_compiler::eval::arithmetic::{Arithmetic, Exact};
 use slowlight_compiler::eval::run::Run;
-use slowlight_compiler::flow::graph::{Graph, NodeId, ParamId};
-use slowlight_compiler::flow::tree::Place;
+use slowlight_compiler::ir::graph::{Graph, NodeId, ParamId};
+use slowlight_compiler::ir::tree::Place;
 use slowlight_compiler::plan::Plan;
-use slowlight_compiler::plan::points::Points;
 use slowlight_routine::scale::{concerns, most};
 use slowlight_routine::{Format, Op, Type, Value};
 use std::cell::RefCell;

@@ -6,11 +6,11 @@
 use super::format::worth;
 use slowlight_compiler::eval::arithmetic::Exact;
 use slowlight_compiler::eval::heard::{Heard, Listener};
-use slowlight_compiler::eval::model::Model;
 use slowlight_compiler::eval::run::Run;
-use slowlight_compiler::flow::graph::{Graph, NodeId};
-use slowlight_compiler::passes::schedule::schedule;
+use slowlight_compiler::ir::graph::{Graph, NodeId};
 use slowlight_compiler::plan::Plan;
+use slowlight_compiler::plan::model::Model;
+use slowlight_compiler::schedule::statements::schedule;
 use slowlight_routine::scale::finest;
 use slowlight_routine::{Bits, Format, Op, Type, Value};
 use std::cell::RefCell;

@@ -10,7 +10,8 @@ use crate::target_args::{self, ALL_FORMATS, Os, ScreenArgs};
 use crate::trial::{self, LIMIT, Trial};
 use crate::{files, jobs, say, say_json};
 use serde_json::{Value, json};
-use slowlight_compiler::target::{self, TARGETS, Target};
+use slowlight_compiler::backend;
+use slowlight_compiler::backend::{TARGETS, Target};
 use std::path::{Path, PathBuf};
 
 /// Pixels between two pictures.
@@ -139,7 +140,7 @@ fn in_formats(args: &Args, target: &'static Target) -> Vec<&'static Target> {
         let named = |f: &String| f == t.runtime.format || f == ALL_FORMATS;
         args.format.iter().any(named)
     };
-    let found: Vec<&'static Target> = target::formats(target).filter(wanted).collect();
+    let found: Vec<&'static Target> = backend::formats(target).filter(wanted).collect();
     if found.is_empty() {
         vec![target]
     } else {

@@ -13,8 +13,8 @@ use crate::target_args::{self, HeapOf, ScreenArgs};
 use crate::trial::{self, LIMIT, Trial};
 use crate::{inks, program, say, say_json};
 use serde::Serialize;
+use slowlight_compiler::backend::{Target, formats};
 use slowlight_compiler::plan::Plan;
-use slowlight_compiler::target::{Target, formats};
 use std::collections::BTreeMap;
 use std::path::PathBuf;
 

@@ -10,7 +10,7 @@ use crate::target_args::{self, ScreenArgs};
 use crate::trial::{self, LIMIT, Trial};
 use crate::{files, jobs, say, say_json};
 use serde_json::{Value, json};
-use slowlight_compiler::target::{TARGETS, Target};
+use slowlight_compiler::backend::{TARGETS, Target};
 use std::path::{Path, PathBuf};
 
 /// Options of `snapshot`.

@@ -6,7 +6,8 @@ use crate::machine::Machine;
 use crate::trial::mode_json;
 use crate::{say, say_json};
 use serde_json::{Value, json};
-use slowlight_compiler::target::{self, TARGETS, Target};
+use slowlight_compiler::backend;
+use slowlight_compiler::backend::{TARGETS, Target};
 
 /// Options of `targets`.
 #[derive(clap::Args, Debug)]
@@ -49,7 +50,7 @@ pub fn run(args: &Args) -> Outcome<()> {
 }
 
 fn formats(target: &Target) -> Vec<&'static str> {
-    target::formats(target).map(|t| t.runtime.format).collect()
+    backend::formats(target).map(|t| t.runtime.format).collect()
 }
 
 fn object(target: &Target) -> Value {

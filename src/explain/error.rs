@@ -7,7 +7,7 @@ use crate::progress::Progress;
 use crate::scene::{Precision, Scene};
 use rayon::prelude::*;
 use slowlight_compiler::eval::native::{Native, Pixel};
-use slowlight_compiler::passes::coarse::coarse;
+use slowlight_compiler::passes::pixel_blocks::coarse;
 use slowlight_compiler::plan::Plan;
 use slowlight_compiler::report::raised::{RaisedRun, raisable};
 use std::collections::BTreeMap;

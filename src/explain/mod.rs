@@ -16,9 +16,9 @@ use crate::trial;
 use error::{Errors, Without};
 use serde::Serialize;
 use serde_json::Value;
+use slowlight_compiler::backend::{Document, Target};
 use slowlight_compiler::plan::Plan;
 use slowlight_compiler::report::profile::{self, Cost, Measured, Part, Profile, SourceLine};
-use slowlight_compiler::target::{Document, Target};
 use std::collections::BTreeMap;
 
 /// A profile and what is needed to show it.

@@ -5,8 +5,9 @@ use super::{LADDER, Search, is_basic, remarks, with_disc};
 use crate::failure::Outcome;
 use crate::need::Need;
 use rayon::prelude::*;
-use slowlight_compiler::plan::{Candidate, Copies, Plan, SEARCH};
-use slowlight_compiler::target::Lean;
+use slowlight_compiler::backend::Lean;
+use slowlight_compiler::plan::{Copies, Plan};
+use slowlight_compiler::planner::{Candidate, SEARCH};
 
 /// A plan that fits, or how large its smallest program is.
 pub(super) enum Fitted {

@@ -2,7 +2,8 @@
 
 use super::{File, refused};
 use crate::failure::{Failure, Outcome};
-use slowlight_compiler::target::jack::os::{self, Wanted};
+use slowlight_compiler::backend::jack::os;
+use slowlight_compiler::backend::jack::os::Wanted;
 use slowlight_vm::hack::jack;
 use slowlight_vm::hack::vm::{self, Names};
 

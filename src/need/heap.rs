@@ -2,7 +2,7 @@
 
 use super::{HEADER, HEAP, Measured, Need};
 use crate::machine::File;
-use slowlight_compiler::target::Document;
+use slowlight_compiler::backend::Document;
 
 /// Words of a string beside its characters, in the web IDE, which has most: the two lengths,
 /// where the characters are, and the header of these.

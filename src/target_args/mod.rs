@@ -23,10 +23,12 @@ use crate::scene::{Limits, Precision, Scene};
 use crate::trial;
 use crate::ways::WayArgs;
 use clap::Args;
-use slowlight_compiler::passes::coarse::coarse;
-use slowlight_compiler::plan::{Goal, Plan, SEARCH};
-use slowlight_compiler::plan::{plan_as_written, plan_with_every_shade, plan_within};
-use slowlight_compiler::target::{self, Mode, Target};
+use slowlight_compiler::backend;
+use slowlight_compiler::backend::{Mode, Target};
+use slowlight_compiler::passes::pixel_blocks::coarse;
+use slowlight_compiler::plan::{Goal, Plan};
+use slowlight_compiler::planner::SEARCH;
+use slowlight_compiler::planner::{plan_as_written, plan_with_every_shade, plan_within};
 use std::sync::Once;
 
 /// Screen and rows.
@@ -153,7 +155,7 @@ impl ScreenArgs {
     fn modes(&self, target: &'static Target, scene: &Scene) -> Outcome<Vec<Mode>> {
         let Some(name) = &self.mode else {
             let (width, height) = scene.size();
-            return Ok(target::modes_for(target, width, height, scene.inks()));
+            return Ok(backend::modes_for(target, width, height, scene.inks()));
         };
         let found = target.modes.iter().find(|m| m.name == name);
         let found = found.map(|mode| vec![*mode]);
@@ -180,9 +182,9 @@ impl ScreenArgs {
         let Some(name) = &self.format else {
             return Ok(target);
         };
-        let mut all = target::formats(target);
+        let mut all = backend::formats(target);
         all.find(|t| t.runtime.format == name).ok_or_else(|| {
-            let names: Vec<&str> = target::formats(target).map(|t| t.runtime.format).collect();
+            let names: Vec<&str> = backend::formats(target).map(|t| t.runtime.format).collect();
             let message = format!(
                 "{} has no format {name}; it has {}",
                 target.name,

@@ -1,7 +1,7 @@
 //! Options that leave passes of the planner out, to see what each is good for.
 
 use clap::Args;
-use slowlight_compiler::plan::pipeline::{PASSES, Pass, PassSet};
+use slowlight_compiler::planner::pipeline::{PASSES, Pass, PassSet};
 
 /// Passes that are left out.
 #[derive(Args, Clone, Debug, Default)]

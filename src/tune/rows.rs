@@ -145,7 +145,8 @@ fn power(measure: Measure) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use slowlight_compiler::plan::{Goal, plan};
+    use slowlight_compiler::plan::Goal;
+    use slowlight_compiler::planner::plan;
 
     #[test]
     fn bands_are_inside_and_apart() {
@@ -166,7 +167,7 @@ mod tests {
             draw (x, y) = d(x / 9, x, y);\n";
         let scene = slowlight_compiler::scene::check("spread", text);
         let graph = scene.lower(&Default::default()).expect("a graph");
-        let target = slowlight_compiler::target::find("jack").expect("a target");
+        let target = slowlight_compiler::backend::find("jack").expect("a target");
         let goal = Goal {
             name: "spread".to_owned(),
             mode: target.modes[0],

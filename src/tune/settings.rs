@@ -12,8 +12,8 @@ use crate::measure::{Errors, errors};
 use crate::progress::Progress;
 use crate::scene::{Limits, Precision, Scene};
 use serde::{Deserialize, Serialize};
-use slowlight_compiler::flow::graph::Graph;
-use slowlight_compiler::passes::coarse::coarse;
+use slowlight_compiler::ir::graph::Graph;
+use slowlight_compiler::passes::pixel_blocks::coarse;
 use slowlight_compiler::sema::{Millionths, Search, Ways};
 
 /// The areas that blocks have, in pixels.

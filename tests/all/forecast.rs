@@ -5,7 +5,7 @@ use slowlight::forecast::{Forecast, forecast};
 use slowlight::scene::{Changes, Scene};
 use slowlight::target_args::ScreenArgs;
 use slowlight::trial;
-use slowlight_compiler::target::find;
+use slowlight_compiler::backend::find;
 use std::path::Path;
 
 /// The forecast of an example, and the cycles of the whole.

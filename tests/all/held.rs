@@ -3,8 +3,8 @@
 
 use slowlight_compiler::eval::arithmetic::Arithmetic;
 use slowlight_compiler::eval::run::Run;
-use slowlight_compiler::flow::graph::{NodeId, ParamId, TableId};
-use slowlight_compiler::flow::tree::Place;
+use slowlight_compiler::ir::graph::{NodeId, ParamId, TableId};
+use slowlight_compiler::ir::tree::Place;
 use slowlight_compiler::plan::Plan;
 use slowlight_routine::{Bits, Format, Op, Type, Value};
 use std::cell::Cell;

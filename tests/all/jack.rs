@@ -3,12 +3,14 @@
 
 use crate::mos6502::Scribe;
 use slowlight::scene::Precision;
-use slowlight_compiler::eval::{model::ModelRun, native::Native};
-use slowlight_compiler::plan::{Goal, Plan, plan};
+use slowlight_compiler::backend::jack::{JACK_F316R, JACK_LOG10};
+use slowlight_compiler::backend::{Document, Target, default_mode, find};
+use slowlight_compiler::eval::native::Native;
+use slowlight_compiler::plan::model::ModelRun;
+use slowlight_compiler::plan::{Goal, Plan};
+use slowlight_compiler::planner::plan;
 use slowlight_compiler::scene;
 use slowlight_compiler::sema::Options;
-use slowlight_compiler::target::jack::{JACK_F316R, JACK_LOG10};
-use slowlight_compiler::target::{Document, Target, default_mode, find};
 use slowlight_vm::Stop;
 use slowlight_vm::hack::jack::compile;
 use slowlight_vm::hack::vm::{Machine, Program, Run};

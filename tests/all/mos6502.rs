@@ -2,11 +2,13 @@
 #![allow(clippy::unwrap_used)]
 
 use slowlight::scene::Precision;
-use slowlight_compiler::eval::{model::ModelRun, native::Native};
-use slowlight_compiler::plan::{Goal, Plan, plan};
+use slowlight_compiler::backend::{default_mode, find};
+use slowlight_compiler::eval::native::Native;
+use slowlight_compiler::plan::model::ModelRun;
+use slowlight_compiler::plan::{Goal, Plan};
+use slowlight_compiler::planner::plan;
 use slowlight_compiler::scene;
 use slowlight_compiler::sema::Options;
-use slowlight_compiler::target::{default_mode, find};
 use slowlight_vm::Stop;
 use slowlight_vm::mos6502::{Plain, Run, assemble};
 

@@ -4,9 +4,9 @@
 use crate::cli::{directory, json};
 use crate::jack::planned_in;
 use crate::mos6502::Scribe;
-use slowlight_compiler::eval::model::ModelRun;
+use slowlight_compiler::backend::mos6502::PLAIN_LOG10;
 use slowlight_compiler::plan::Plan;
-use slowlight_compiler::target::mos6502::PLAIN_LOG10;
+use slowlight_compiler::plan::model::ModelRun;
 use slowlight_vm::Stop;
 use slowlight_vm::mos6502::{Plain, assemble};
 use std::path::Path;

@@ -8,7 +8,7 @@
 //! the scenes below a value that is asked for always shows.
 
 use slowlight_compiler::eval::native::Native;
-use slowlight_compiler::flow::graph::Graph;
+use slowlight_compiler::ir::graph::Graph;
 use slowlight_compiler::prelude::PRELUDE;
 use slowlight_compiler::scene;
 use slowlight_compiler::sema::Options;

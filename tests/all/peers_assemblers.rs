@@ -2,8 +2,8 @@
 
 use crate::cli::{directory, json, slowlight};
 use crate::syntaxes::{Program, programs};
-use slowlight_compiler::target::mos6502::document;
-use slowlight_compiler::target::mos6502::syntax;
+use slowlight_compiler::backend::mos6502::document;
+use slowlight_compiler::backend::mos6502::syntax;
 use std::path::Path;
 use std::process::Command;
 

@@ -6,9 +6,9 @@ use crate::held::{Seen, hold};
 use crate::jack::planned_in;
 use crate::mos6502::Scribe;
 use crate::ramps::random::Random;
-use slowlight_compiler::flow::graph::ParamId;
+use slowlight_compiler::backend::{find, formats};
+use slowlight_compiler::ir::graph::ParamId;
 use slowlight_compiler::plan::Plan;
-use slowlight_compiler::target::{find, formats};
 use slowlight_routine::{Bits, Value};
 
 /// Points that each scene is evaluated at: a pixel, and a place for each param.
@@ -93,7 +93,7 @@ impl Builder {
 
 /// Somewhere in its range, for each param; at its ends in a third of the cases each.
 fn anywhere(plan: &Plan, random: &mut Random) -> Vec<Bits> {
-    let place = |(k, p): (usize, &slowlight_compiler::flow::graph::Param)| {
+    let place = |(k, p): (usize, &slowlight_compiler::ir::graph::Param)| {
         let range = p.range.unwrap();
         let part = match random.below(3) {
             0 => 0.0,

@@ -4,12 +4,13 @@
 
 use crate::bbc::{differences, run, text};
 use random::Random;
+use slowlight_compiler::backend::find;
 use slowlight_compiler::eval::native::Native;
-use slowlight_compiler::flow::build::Builder;
-use slowlight_compiler::flow::graph::*;
-use slowlight_compiler::plan::{Goal, plan};
+use slowlight_compiler::ir::build::Builder;
+use slowlight_compiler::ir::graph::*;
+use slowlight_compiler::plan::Goal;
+use slowlight_compiler::planner::plan;
 use slowlight_compiler::source::Span;
-use slowlight_compiler::target::find;
 use slowlight_routine::{Op, Type, Value};
 use slowlight_vm::Stop;
 use slowlight_vm::bbc::Dialect;
@@ -123,7 +124,7 @@ fn ramps_on_the_machine_are_their_closed_form() {
         // All is whole, so the machine is exact.
         let (mut native, mut model) = (
             Native::new(&graph),
-            slowlight_compiler::eval::model::ModelRun::new(&plan),
+            slowlight_compiler::plan::model::ModelRun::new(&plan),
         );
         for y in 0..3 {
             for x in 0..width as i32 {

@@ -6,11 +6,13 @@ use crate::bbc::{differences, run, text};
 use crate::runs::{HEIGHT, MACHINES, picture};
 use slowlight::fit::fit;
 use slowlight::need::need;
-use slowlight_compiler::eval::{model::ModelRun, native::Native};
-use slowlight_compiler::flow::graph::Graph;
-use slowlight_compiler::flow::tree::{Block, Statement, walk};
-use slowlight_compiler::plan::{Copies, Goal, Plan, plan};
-use slowlight_compiler::target::{default_mode, find};
+use slowlight_compiler::backend::{default_mode, find};
+use slowlight_compiler::eval::native::Native;
+use slowlight_compiler::ir::graph::Graph;
+use slowlight_compiler::ir::tree::{Block, Statement, walk};
+use slowlight_compiler::plan::model::ModelRun;
+use slowlight_compiler::plan::{Copies, Goal, Plan};
+use slowlight_compiler::planner::plan;
 use slowlight_vm::Stop;
 use slowlight_vm::bbc::Dialect;
 

@@ -2,15 +2,16 @@
 //! target: source and output in one file, so that a change shows in review.
 
 use slowlight::scene::Precision;
-use slowlight_compiler::passes::rate::rates;
-use slowlight_compiler::passes::schedule::schedule;
+use slowlight_compiler::analysis::range::{Slack, ranges};
+use slowlight_compiler::analysis::rate::rates;
+use slowlight_compiler::backend::{TARGETS, Target, default_mode};
 use slowlight_compiler::plan::print::{ranges_text, rates_text};
-use slowlight_compiler::plan::{Goal, Plan, plan};
-use slowlight_compiler::range::{Slack, ranges};
+use slowlight_compiler::plan::{Goal, Plan};
+use slowlight_compiler::planner::plan;
 use slowlight_compiler::scene::{self, Scene};
+use slowlight_compiler::schedule::statements::schedule;
 use slowlight_compiler::sema::Options;
 use slowlight_compiler::syntax;
-use slowlight_compiler::target::{TARGETS, Target, default_mode};
 use std::fmt::Write;
 
 fn load(name: &str) -> (String, Scene) {

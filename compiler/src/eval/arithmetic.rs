@@ -1,9 +1,9 @@
-//! What a walk over statements computes with: how values are held, and what an
-//! operation makes of them.
+//! Arithmetics that statements are run in: how values are held, and what an operation makes of
+//! them.
 
-use crate::flow::graph::*;
-use crate::flow::ramp;
-use crate::flow::tree::*;
+use crate::ir::graph::*;
+use crate::ir::ramp;
+use crate::ir::tree::*;
 use slowlight_routine::{Op, Value};
 
 /// How values are held and computed.

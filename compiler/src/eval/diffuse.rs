@@ -4,9 +4,9 @@
 //! Only the rows that a share can still reach are kept. [`Graph::diffusion`]
 //! says in which order shares are added up.
 //!
-//! [`Graph::diffusion`]: crate::flow::graph::Graph
+//! [`Graph::diffusion`]: crate::ir::graph::Graph
 
-use crate::flow::graph::{Graph, Share};
+use crate::ir::graph::{Graph, Share};
 use std::collections::VecDeque;
 use std::ops::Range;
 

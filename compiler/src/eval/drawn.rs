@@ -3,12 +3,12 @@
 
 use super::arithmetic::Exact;
 use super::run::Run;
-use crate::flow::graph::*;
-use crate::flow::tree::Tree;
-use crate::flow::verify::verify;
-use crate::passes::fold::fold;
-use crate::passes::schedule::missing;
+use crate::analysis::verify::verify;
+use crate::ir::graph::*;
+use crate::ir::tree::Tree;
+use crate::passes::simplify::fold::fold;
 use crate::scene::check;
+use crate::schedule::statements::missing;
 use crate::sema::Options;
 
 /// Inks and shades of some pixels, as text, nothing being read that was not written.

@@ -1,9 +1,9 @@
-//! An arithmetic with somebody who listens: for who counts, prices or looks for faults,
+//! Instrumentation of an arithmetic by a listener: for who counts, prices or looks for faults,
 //! while all is computed as without them.
 
 use super::arithmetic::Arithmetic;
-use crate::flow::graph::*;
-use crate::flow::tree::{Place, Statement};
+use crate::ir::graph::*;
+use crate::ir::tree::{Place, Statement};
 use slowlight_routine::{Op, Value};
 
 /// Who is told of what is computed.

@@ -5,8 +5,8 @@
 use super::native::{Native, Pixel};
 use super::random_graphs;
 use super::scalar::Scalar;
-use crate::flow::graph::*;
-use crate::flow::verify::verify;
+use crate::analysis::verify::verify;
+use crate::ir::graph::*;
 use crate::scene::check;
 use crate::sema::Options;
 

@@ -4,7 +4,6 @@
 pub mod arithmetic;
 pub mod diffuse;
 pub mod heard;
-pub mod model;
 pub mod native;
 mod places;
 pub mod run;

@@ -1,7 +1,7 @@
-//! What the blocks of a statement tree write.
+//! Definitions of a block: the places that a statement tree's blocks write.
 
-use crate::flow::graph::*;
-use crate::flow::tree::*;
+use crate::ir::graph::*;
+use crate::ir::tree::*;
 
 /// What each subroutine computes itself. What it sets for those that it calls
 /// may have been set before: that is not forgotten.

@@ -3,8 +3,8 @@
 //! it the same for a whole row or picture.
 
 use super::random::Random;
-use crate::flow::build::Builder;
-use crate::flow::graph::*;
+use crate::ir::build::Builder;
+use crate::ir::graph::*;
 use crate::source::Span;
 use slowlight_routine::{Op, Type, Value};
 

@@ -1,4 +1,4 @@
-//! Runs a statement tree, pixel by pixel, in any arithmetic.
+//! Interpreter of statement trees, pixel by pixel, in any arithmetic.
 //!
 //! The same walk serves the tree in `f64` (to hold the passes against the
 //! native evaluation) and in the routines' models (to hold the machines
@@ -9,9 +9,9 @@
 use super::arithmetic::Arithmetic;
 use super::diffuse::Pending;
 use super::places::{own_places, places};
-use crate::flow::graph::*;
-use crate::flow::ramp;
-use crate::flow::tree::*;
+use crate::ir::graph::*;
+use crate::ir::ramp;
+use crate::ir::tree::*;
 use slowlight_routine::{Op, Value};
 
 /// Runs a tree over a graph.

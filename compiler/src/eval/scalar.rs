@@ -7,9 +7,9 @@
 
 use super::diffuse::Pending;
 use super::native::{Pixel, param_value};
-use crate::flow::graph::*;
-use crate::flow::ramp;
-use crate::passes::rate::{Dependence, Rates, rates};
+use crate::analysis::rate::{Dependence, Rates, rates};
+use crate::ir::graph::*;
+use crate::ir::ramp;
 use slowlight_routine::{Op, Value};
 
 /// How a loop's last run ended.
@@ -57,7 +57,7 @@ fn number(d: Dependence) -> usize {
 }
 
 impl<'g> Scalar<'g> {
-    /// Prepares a graph that [`crate::flow::verify`] accepts.
+    /// Prepares a graph that [`crate::analysis::verify`] accepts.
     pub fn new(graph: &'g Graph) -> Scalar<'g> {
         let rates = rates(graph);
         let mut members = vec![Vec::new(); 3 + 2 * graph.loops.len()];

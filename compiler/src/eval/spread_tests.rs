@@ -2,19 +2,20 @@
 #![allow(clippy::unwrap_used)]
 
 use super::arithmetic::Exact;
-use super::model::ModelRun;
 use super::native::Native;
 use super::run::Run;
-use crate::flow::graph::*;
-use crate::flow::tree::{Statement, walk};
-use crate::flow::verify::verify;
-use crate::passes::fold::fold;
-use crate::passes::rate::{Dependence, rates};
-use crate::passes::schedule::{missing, schedule};
-use crate::plan::{Goal, plan};
+use crate::analysis::rate::{Dependence, rates};
+use crate::analysis::verify::verify;
+use crate::backend::{TARGETS, default_mode};
+use crate::ir::graph::*;
+use crate::ir::tree::{Statement, walk};
+use crate::passes::simplify::fold::fold;
+use crate::plan::Goal;
+use crate::plan::model::ModelRun;
+use crate::planner::plan;
 use crate::scene::check;
+use crate::schedule::statements::{missing, schedule};
 use crate::sema::Options;
-use crate::target::{TARGETS, default_mode};
 
 const WIDTH: i32 = 40;
 const HEIGHT: i32 = 24;
@@ -149,13 +150,13 @@ fn what_is_received_is_never_moved_out_of_the_pixel() {
 fn a_graph_that_spreads_reads_back() {
     let printed = fold(&gradient("floyd")).to_string();
     assert!(printed.contains("received") && printed.contains("send -1 1 %"));
-    let read = crate::flow::read::read(&printed).unwrap();
+    let read = crate::ir::read::read(&printed).unwrap();
     verify(&read).unwrap();
     assert_eq!(read.to_string(), printed);
     assert_eq!(inks(&read), by_hand(&FLOYD));
     // Sent backwards; sent by nobody.
     for (from, to) in [("send 1 0", "send -1 0"), ("send", "effect")] {
-        let wrong = crate::flow::read::read(&printed.replace(from, to));
+        let wrong = crate::ir::read::read(&printed.replace(from, to));
         assert!(wrong.is_err() || verify(&wrong.unwrap()).is_err(), "{to}");
     }
 }

@@ -5,10 +5,10 @@
 use super::arithmetic::Exact;
 use super::native::Native;
 use super::run::Run;
-use crate::flow::build::Builder;
-use crate::flow::graph::*;
-use crate::flow::verify::verify;
-use crate::passes::schedule::schedule;
+use crate::analysis::verify::verify;
+use crate::ir::build::Builder;
+use crate::ir::graph::*;
+use crate::schedule::statements::schedule;
 use crate::source::Span;
 use slowlight_routine::{Op, Type, Value};
 
@@ -222,7 +222,7 @@ fn the_schedule_draws_what_the_graph_means() {
 #[test]
 fn folding_changes_no_pixel() {
     let graph = mirrors();
-    let folded = crate::passes::fold::fold(&graph);
+    let folded = crate::passes::simplify::fold::fold(&graph);
     verify(&folded).unwrap();
     assert!(folded.nodes.len() < graph.nodes.len());
     let (mut before, mut after) = (Native::new(&graph), Native::new(&folded));
@@ -236,7 +236,7 @@ fn folding_changes_no_pixel() {
 #[test]
 fn a_printed_graph_reads_back() {
     let printed = mirrors().to_string();
-    let read = crate::flow::read::read(&printed).unwrap();
+    let read = crate::ir::read::read(&printed).unwrap();
     verify(&read).unwrap();
     assert_eq!(read.to_string(), printed);
     let mut native = Native::new(&read);
@@ -251,6 +251,6 @@ fn a_printed_graph_reads_back() {
         "loop 0 max (",
         "nonsense",
     ] {
-        assert!(crate::flow::read::read(wrong).is_err(), "{wrong}");
+        assert!(crate::ir::read::read(wrong).is_err(), "{wrong}");
     }
 }

@@ -1,11 +1,11 @@
 //! For tests of what passes make of [`Graph::claims`].
 
-use super::rate::{Dependence, rates};
-use super::schedule::schedule;
+use crate::analysis::rate::{Dependence, rates};
 use crate::eval::arithmetic::Exact;
 use crate::eval::drawn::grid;
 use crate::eval::run::Run;
-use crate::flow::graph::*;
+use crate::ir::graph::*;
+use crate::schedule::statements::schedule;
 use slowlight_routine::Value;
 
 /// The graph, everything that is made of two values claimed to be what it is.

@@ -1,7 +1,7 @@
 //! The plan: how one machine computes a scene. Targets start from here.
 //!
 //! A [`Plan`] is a graph, the statement tree that says when each value is
-//! computed ([`crate::flow::tree`]), and, for each value, a format, a routine
+//! computed ([`crate::ir::tree`]), and, for each value, a format, a routine
 //! and a home. Emission only writes it down: everything that can fail has
 //! failed before.
 //!
@@ -42,82 +42,33 @@
 //! - Constants, params and axes are read as such: [`Plan::bits`] gives a
 //!   constant's bits, `params` how the parameter block writes each param.
 //!
-//! The model ([`crate::eval::model`]) runs the same plan bit for bit.
+//! The model ([`crate::plan::model`]) runs the same plan bit for bit.
 
-mod again;
-mod alive;
-mod assemble;
-mod beside;
-mod cheaper;
-mod choose;
-mod chosen;
-mod fold_uses;
-mod interference;
-#[cfg(test)]
-mod interference_tests;
-mod licm;
-#[cfg(test)]
-mod licm_tests;
-mod lifetimes;
-mod loose;
-mod made;
-mod magnitudes;
-mod merge;
-mod meter;
-mod names;
-mod narrowed;
-#[cfg(test)]
-mod narrowed_tests;
-mod outlined;
-mod params;
-pub mod pipeline;
-mod pixels;
-pub mod points;
-pub(crate) mod price;
-#[cfg(test)]
-mod price_tests;
+pub mod error;
+pub mod model;
+
+mod error_rows;
+pub(crate) mod params;
 pub mod print;
-mod profile;
-pub mod recipes;
-mod seldom;
 mod semantics;
-pub(crate) mod settled;
-mod spread;
-mod stepped;
-mod sums;
-mod tabulated;
-pub(crate) mod thrift;
-mod whole_forms;
-pub(crate) mod workshop;
-#[cfg(test)]
-mod workshop_tests;
+pub mod table_init;
 
-pub use beside::Costs;
-pub use interference::quick_homes;
-pub use lifetimes::shared_homes;
-pub use made::{Candidate, plan, plan_as_written, plan_with_every_shade, plan_within};
+pub use error_rows::ErrorRows;
 pub use params::ParamPlan;
-pub use spread::ErrorRows;
 
-use crate::flow::graph::*;
-use crate::flow::ramp;
-use crate::flow::tree::*;
-use crate::passes::still::Still;
-use crate::range::Ranges;
+use crate::analysis::points::Points;
+use crate::analysis::range::Ranges;
+use crate::backend::{Mode, Target};
+use crate::ir::graph::*;
+use crate::ir::ramp;
+use crate::ir::tree::*;
+use crate::planner::made::Rewriting;
+use crate::planner::memo::Workshop;
+use crate::schedule::constant_runs::Still;
 use crate::source::Span;
-use crate::target::{Mode, Target};
-use made::Rewriting;
 use rustc_hash::FxHashMap;
 use slowlight_routine::{Bits, Format, Routine, Runtime, Type, Value};
 use std::sync::Arc;
-use workshop::Workshop;
-
-/// How much work a search for a plan may do, in units of [`crate::fuel::Fuel`]: some seconds'
-/// worth, a few times what the dearest of the examples takes.
-pub const SEARCH: u64 = 400_000_000;
-
-/// In how many steps plans may spend less and less memory on speed.
-pub const THRIFTS: usize = thrift::Thrift::COUNT;
 
 /// What to build, beside the scene and the target.
 #[derive(Clone, Debug, PartialEq)]
@@ -200,23 +151,23 @@ pub struct Plan {
     pub ranges: Ranges,
     /// The live params, in the graph's order.
     pub params: Vec<ParamPlan>,
-    routines: Vec<Option<&'static Routine>>,
+    pub(crate) routines: Vec<Option<&'static Routine>>,
     /// Where reals have their points, where that is the plan's affair.
-    points: Option<points::Points>,
-    tables: Vec<recipes::Made>,
-    gather: Option<&'static Routine>,
-    folded: Vec<bool>,
+    pub(crate) points: Option<Points>,
+    pub(crate) tables: Vec<table_init::Made>,
+    pub(crate) gather: Option<&'static Routine>,
+    pub(crate) folded: Vec<bool>,
     /// The runs of columns whose pixels need no computing, if there may be such.
     pub still: Option<Still>,
-    homes: FxHashMap<Place, String>,
+    pub(crate) homes: FxHashMap<Place, String>,
     /// What making it took, in units of [`Fuel`].
-    work: u64,
+    pub(crate) work: u64,
     /// Whether a search for something cheaper was ended for want of fuel.
-    cut: bool,
+    pub(crate) cut: bool,
     /// How much fuel there is for each plan that is made from this one.
-    allowance: u64,
+    pub(crate) allowance: u64,
     /// What was planned and made on the way, and how its formulas could be rewritten.
-    origin: (Arc<Workshop>, Rewriting),
+    pub(crate) origin: (Arc<Workshop>, Rewriting),
 }
 
 impl Plan {
@@ -227,7 +178,7 @@ impl Plan {
 
     /// First and last picture row that the screen has.
     pub fn shown_rows(&self) -> (u32, u32) {
-        assemble::frame(&self.graph.image, &self.mode).2
+        placed(&self.graph.image, &self.mode).2
     }
 
     /// The routine that adds what a pixel sends to what another has received
@@ -237,7 +188,7 @@ impl Plan {
     }
 
     /// How the program has a table.
-    pub fn table(&self, id: TableId) -> Option<&recipes::Made> {
+    pub fn table(&self, id: TableId) -> Option<&table_init::Made> {
         self.tables.get(id.0 as usize)
     }
 
@@ -253,7 +204,7 @@ impl Plan {
     }
 
     /// Where each real's point is, where the format leaves that to the plan.
-    pub fn points(&self) -> Option<&points::Points> {
+    pub fn points(&self) -> Option<&Points> {
         self.points.as_ref()
     }
 
@@ -387,4 +338,20 @@ impl Plan {
             .flat_map(|r| r.needs.iter().copied());
         self.runtime.closure(names)
     }
+}
+
+/// Where the picture stands on the screen, and which of it is seen: centred
+/// where the screen is larger, cropped where it is smaller.
+pub(crate) fn placed(image: &Image, mode: &Mode) -> ((i32, i32), (u32, u32), (u32, u32)) {
+    let axis = |count: u32, block: u32, screen: u32| {
+        let (count, block, screen) = (i64::from(count), i64::from(block), i64::from(screen));
+        let offset = (screen - count * block).div_euclid(2);
+        // Whole blocks only.
+        let first = (-offset).max(0).div_euclid(block) + i64::from((-offset).max(0) % block > 0);
+        let last = ((screen - offset).div_euclid(block) - 1).min(count - 1);
+        (offset as i32, (first as u32, last.max(first) as u32))
+    };
+    let (left, columns) = axis(image.width, image.block.0, mode.width);
+    let (top, rows) = axis(image.height, image.block.1, mode.height);
+    ((left, top), columns, rows)
 }

@@ -1,6 +1,6 @@
-//! Params as the parameter block writes them, and what a machine cannot write.
+//! Parameter block: params as a program writes them, and what a machine cannot write.
 
-use crate::flow::graph::{Graph, Param};
+use crate::ir::graph::{Graph, Param};
 use crate::source::Diagnostic;
 use slowlight_routine::{Bits, Format, Runtime, Type, Value};
 
@@ -24,7 +24,7 @@ pub struct ParamPlan {
 /// All params in the graph's order, or what is wrong with them on this machine.
 // A diagnostic is large; it is made once, where the scene is wrong.
 #[allow(clippy::result_large_err)]
-pub(super) fn params(graph: &Graph, runtime: &Runtime) -> Result<Vec<ParamPlan>, Vec<Diagnostic>> {
+pub(crate) fn params(graph: &Graph, runtime: &Runtime) -> Result<Vec<ParamPlan>, Vec<Diagnostic>> {
     let wrong = |p| ranged(p, runtime).and_then(|()| small(p, runtime)).err();
     let said: Vec<Diagnostic> = graph.params.iter().filter_map(wrong).collect();
     if said.is_empty() {
@@ -150,9 +150,9 @@ mod tests {
     #![allow(clippy::unwrap_used)]
 
     use super::*;
+    use crate::backend::find;
     use crate::scene::check;
     use crate::sema::Options;
-    use crate::target::find;
 
     fn planned(target: &str, param: &str, set: Option<f64>) -> Result<ParamPlan, Vec<Diagnostic>> {
         let text = format!(

@@ -2,11 +2,11 @@
 //! the statements in order.
 
 use super::Plan;
-use crate::flow::graph::*;
-use crate::flow::print::{node_text, type_name};
-use crate::flow::tree::*;
-use crate::passes::rate::Rates;
-use crate::range::Ranges;
+use crate::analysis::range::Ranges;
+use crate::analysis::rate::Rates;
+use crate::ir::graph::*;
+use crate::ir::print::{node_text, type_name};
+use crate::ir::tree::*;
 use slowlight_routine::Range;
 use std::fmt::{self, Display, Write};
 

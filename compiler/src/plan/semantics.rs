@@ -1,9 +1,9 @@
 //! Semantics of a plan's statements on bits: what its routines, points and ranges make of what
-//! places hold. The model ([`crate::eval::model`]) and constant folding evaluate by these.
+//! places hold. The model ([`crate::plan::model`]) and constant folding evaluate by these.
 
 use super::Plan;
-use crate::flow::graph::*;
-use crate::flow::tree::Place;
+use crate::ir::graph::*;
+use crate::ir::tree::Place;
 use slowlight_routine::{Bits, Type};
 
 impl Plan {

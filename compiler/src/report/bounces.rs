@@ -17,7 +17,7 @@
 use super::shadow::{Pair, Shadow};
 use crate::eval::heard::{Heard, Listener};
 use crate::eval::run::Run;
-use crate::flow::graph::*;
+use crate::ir::graph::*;
 use crate::plan::Plan;
 use crate::source::Diagnostic;
 use slowlight_routine::Type;

@@ -4,10 +4,11 @@
 #![allow(clippy::unwrap_used)]
 
 use super::bounces::{Growth, measure, mirrors, warnings};
-use crate::plan::{Goal, Plan, plan};
+use crate::backend::{default_mode, find};
+use crate::plan::{Goal, Plan};
+use crate::planner::plan;
 use crate::scene;
 use crate::sema::Options;
-use crate::target::{default_mode, find};
 use std::fmt::Write;
 use std::path::Path;
 

@@ -1,9 +1,9 @@
 //! What is proved of a picture's shades, beside what is measured.
 
-use crate::eval::model::ModelRun;
 use crate::eval::native::Native;
 use crate::plan::Plan;
-use crate::range::error::{Tile, bounds};
+use crate::plan::error::{Tile, bounds};
+use crate::plan::model::ModelRun;
 
 /// About how many pixels are looked at.
 const SAMPLE: u32 = 400;

@@ -1,8 +1,8 @@
 //! Divisions whose divisor may be 0, as the scene writes them.
 
-use crate::flow::graph::*;
-use crate::passes::schedule::schedule;
-use crate::range::{Slack, ranges};
+use crate::analysis::range::{Slack, ranges};
+use crate::ir::graph::*;
+use crate::schedule::statements::schedule;
 use crate::source::{Diagnostic, Label, Sources};
 use slowlight_routine::Op;
 use std::collections::BTreeSet;

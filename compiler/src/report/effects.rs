@@ -9,13 +9,13 @@
 use super::profile::Measured;
 use crate::eval::arithmetic::Exact;
 use crate::eval::heard::{Heard, Listener};
-use crate::eval::model::Model;
 use crate::eval::run::Run;
-use crate::flow::graph::*;
-use crate::flow::tree::Statement;
-use crate::passes::schedule::schedule;
+use crate::ir::graph::*;
+use crate::ir::tree::Statement;
 use crate::plan::Plan;
+use crate::plan::model::Model;
 use crate::scene::Scene;
+use crate::schedule::statements::schedule;
 use crate::sema::FunctionKind;
 use crate::source::Span;
 use slowlight_routine::{Bits, Op, Value};

@@ -16,12 +16,12 @@
 //! that is an outline, on many a margin that the scene chose too small.
 
 use super::shadow::{Event, Shadow, What};
-use crate::eval::model::ModelRun;
+use crate::analysis::rate::{Dependence, rates};
 use crate::eval::native::Native;
 use crate::eval::run::Run;
-use crate::flow::graph::*;
-use crate::passes::rate::{Dependence, rates};
+use crate::ir::graph::*;
 use crate::plan::Plan;
+use crate::plan::model::ModelRun;
 use std::collections::{BTreeMap, BTreeSet};
 
 /// About how many pixels are looked at: some of each row.

@@ -5,7 +5,7 @@
 //! writes them. A dither counts in the screen's own inks, so its numbers are all there.
 
 use crate::eval::native::Native;
-use crate::flow::graph::*;
+use crate::ir::graph::*;
 use crate::source::Span;
 use slowlight_routine::Value;
 

@@ -12,11 +12,11 @@
 //! What the library computes belongs to the scene's line that calls it, and is told
 //! by the library's functions as well ([`SourceLine::within`]).
 
-use crate::passes::rate::{Dependence, rates};
+use crate::analysis::rate::{Dependence, rates};
+use crate::backend::Document;
 use crate::plan::Plan;
 use crate::scene::Scene;
 use crate::source::Span;
-use crate::target::Document;
 use std::collections::{BTreeMap, BTreeSet};
 
 /// A line of a generated program, or a statement of it; all numbers are from 0.
@@ -200,7 +200,7 @@ fn line_rates(plan: &Plan, lines: &Lines<'_>) -> BTreeMap<Place, BTreeSet<&'stat
     let rates = rates(&plan.graph);
     let mut found: BTreeMap<Place, BTreeSet<&'static str>> = BTreeMap::new();
     for (place, _) in plan.places() {
-        let crate::flow::tree::Place::Node(id) = place else {
+        let crate::ir::tree::Place::Node(id) = place else {
             continue;
         };
         let line = found.entry(lines.place(plan.graph.span(id))).or_default();

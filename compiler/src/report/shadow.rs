@@ -2,8 +2,8 @@
 
 use crate::eval::arithmetic::Arithmetic;
 use crate::eval::native::param_value;
-use crate::flow::graph::*;
-use crate::flow::tree::Place;
+use crate::ir::graph::*;
+use crate::ir::tree::Place;
 use crate::plan::Plan;
 use slowlight_routine::{Bits, Format, Op, Type, Value};
 use std::cell::RefCell;

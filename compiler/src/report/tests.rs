@@ -3,14 +3,15 @@
 
 use super::fragile::fragile;
 use super::words::warnings;
-use crate::eval::model::ModelRun;
+use crate::backend::{Target, default_mode, find, in_all_formats};
 use crate::eval::native::Native;
-use crate::flow::graph::Graph;
-use crate::plan::{Goal, Plan, plan, plan_as_written};
+use crate::ir::graph::Graph;
+use crate::plan::model::ModelRun;
+use crate::plan::{Goal, Plan};
+use crate::planner::{plan, plan_as_written};
 use crate::scene::{self, Scene};
 use crate::sema::Options;
 use crate::source::Diagnostic;
-use crate::target::{Target, default_mode, find, in_all_formats};
 
 fn said(target: &str, scene: &Scene) -> Vec<Diagnostic> {
     said_of(find(target).unwrap(), scene)

@@ -1,7 +1,7 @@
 //! What is fragile, in words.
 
 use super::fragile::{Found, Fragile, Weakness};
-use crate::flow::graph::*;
+use crate::ir::graph::*;
 use crate::plan::Plan;
 use crate::source::Diagnostic;
 use slowlight_routine::{Format, Op, scale};

@@ -5,7 +5,7 @@
 //! on how the scene is used. [`lower`] then evaluates `draw` as far as the
 //! scene alone allows: functions are expanded at their calls; vectors, records,
 //! optional values, shapes and functions exist only while compiling; what is
-//! left are scalars, which become nodes of the [`Graph`](crate::flow::graph::Graph).
+//! left are scalars, which become nodes of the [`Graph`](crate::ir::graph::Graph).
 
 mod builtins;
 mod check;

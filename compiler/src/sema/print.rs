@@ -5,7 +5,7 @@
 use super::check::symbol;
 use super::program::*;
 use super::ty::Ty;
-use crate::flow::print::value_text;
+use crate::ir::print::value_text;
 use crate::syntax::tree::{Claim, UnaryOp};
 use slowlight_routine::Value;
 use std::cell::RefCell;

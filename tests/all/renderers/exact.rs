@@ -4,7 +4,7 @@
 
 use super::gradients::{Big, Point, big};
 use dashu_float::ops::{Abs, SquareRoot};
-use slowlight_compiler::flow::graph::{Graph, LoopId, Node, NodeId};
+use slowlight_compiler::ir::graph::{Graph, LoopId, Node, NodeId};
 use slowlight_compiler::scene;
 use slowlight_compiler::sema::Options;
 use slowlight_routine::{Op, Value};

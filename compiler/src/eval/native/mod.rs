@@ -19,15 +19,15 @@
 //! The evaluation keeps a stack of its own: graphs may be deeper than the
 //! host's stack ([`need`]). Only nested loops recurse.
 //!
-//! [`Node::Select`]: crate::flow::graph::Node
+//! [`Node::Select`]: crate::ir::graph::Node
 
 mod lanes;
 mod need;
 mod plan;
 mod spread;
 
-use crate::flow::graph::*;
-use crate::passes::rate::Dependence;
+use crate::analysis::rate::Dependence;
+use crate::ir::graph::*;
 use lanes::{Lanes, Mask};
 use plan::{Plan, Task};
 use slowlight_routine::{Type, Value};
@@ -84,7 +84,7 @@ pub struct Native<'g> {
 const ALL: Mask = !0;
 
 impl<'g> Native<'g> {
-    /// Prepares a graph that [`crate::flow::verify`] accepts.
+    /// Prepares a graph that [`crate::analysis::verify`] accepts.
     pub fn new(graph: &'g Graph) -> Native<'g> {
         let plan = Plan::new(graph);
         let mut lanes = Lanes::new(plan.count);

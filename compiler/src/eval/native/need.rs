@@ -1,11 +1,11 @@
-//! Values by need: a stack of what is to be computed next, and in which lanes.
+//! Demand-driven evaluation: a stack of what is to be computed next, and in which lanes.
 
 use super::lanes::{Lanes, Mask};
 use super::plan::{Move, Source, Task};
 use super::{ALL, Native};
-use crate::flow::graph::*;
-use crate::flow::ramp;
-use crate::passes::rate::Dependence;
+use crate::analysis::rate::Dependence;
+use crate::ir::graph::*;
+use crate::ir::ramp;
 use slowlight_routine::{Type, Value};
 
 impl Native<'_> {

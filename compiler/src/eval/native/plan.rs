@@ -1,11 +1,10 @@
-//! What the native evaluation knows of a graph before it begins: for each node
-//! what to do and where its lanes are, for each thing that changes what is then
-//! to be forgotten.
+//! Compiled form of a graph for the native evaluation: for each node what to do and where its
+//! lanes are, for each thing that changes what is then to be forgotten.
 
 use super::lanes::Count;
-use crate::flow::graph::*;
-use crate::flow::ramp;
-use crate::passes::rate::{Dependence, Rates, rates};
+use crate::analysis::rate::{Dependence, Rates, rates};
+use crate::ir::graph::*;
+use crate::ir::ramp;
 use slowlight_routine::{Op, Type};
 
 /// Where a value comes from: its node, for what is known of it, and its slot.
@@ -113,7 +112,7 @@ fn number(d: Dependence) -> usize {
 }
 
 impl Plan {
-    /// Prepares a graph that [`crate::flow::verify`] accepts.
+    /// Prepares a graph that [`crate::analysis::verify`] accepts.
     pub fn new(graph: &Graph) -> Plan {
         let rates = rates(graph);
         let sets = loop_sets(graph, &rates);

@@ -7,7 +7,7 @@
 
 use super::{Block, Native, Pixel, blocks};
 use crate::eval::diffuse::Pending;
-use crate::flow::graph::*;
+use crate::ir::graph::*;
 use slowlight_routine::{Op, Type, Value};
 use std::ops::Range;
 

@@ -2,7 +2,7 @@
 
 use super::value::{Shape, Val};
 use super::{Found, Lower};
-use crate::flow::graph::{Node, NodeId};
+use crate::ir::graph::{Node, NodeId};
 use crate::sema::builtins::Builtin;
 use crate::sema::program::*;
 use crate::sema::ty::Ty;

@@ -4,7 +4,7 @@
 //! `frame let` on neither. What a value really depends on is the union over
 //! its operands; through a loop, over everything that the loop refers to.
 
-use crate::flow::graph::*;
+use crate::ir::graph::*;
 use crate::source::{Diagnostic, Span};
 use crate::syntax::tree::Claim;
 

@@ -1,7 +1,7 @@
 //! Leaves out what nothing needs: a loop or table that no output reaches would
 //! still have its number, and so change what is generated from the rest.
 
-use crate::flow::graph::*;
+use crate::ir::graph::*;
 
 /// The graph without unreached loops and tables; nodes keep their numbers.
 pub(super) fn compact(mut graph: Graph) -> Graph {

@@ -8,7 +8,7 @@
 
 use super::derive::{Formula, Markers};
 use super::{Found, Lower};
-use crate::flow::graph::{Loop, LoopId, Node, NodeId};
+use crate::ir::graph::{Loop, LoopId, Node, NodeId};
 use crate::source::Span;
 use rustc_hash::FxHashMap;
 use slowlight_routine::Type;

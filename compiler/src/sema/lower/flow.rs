@@ -7,7 +7,7 @@
 use super::claims::Claimed;
 use super::value::Val;
 use super::{Found, Lower};
-use crate::flow::graph::NodeId;
+use crate::ir::graph::NodeId;
 use crate::sema::program::*;
 use crate::sema::ty::Ty;
 use crate::source::Span;
@@ -253,7 +253,7 @@ impl<'a> Lower<'a> {
     }
 
     fn is_undefined(&self, node: NodeId) -> bool {
-        matches!(self.b.node(node), crate::flow::graph::Node::Undefined(_))
+        matches!(self.b.node(node), crate::ir::graph::Node::Undefined(_))
     }
 
     /// A start that is always defined, so that whoever runs the graph may

@@ -8,7 +8,7 @@
 
 use super::value::{Shape, Val};
 use super::{Found, Lower};
-use crate::flow::graph::NodeId;
+use crate::ir::graph::NodeId;
 use crate::sema::program::{FacetKind, SceneId};
 use crate::source::Span;
 use std::rc::Rc;

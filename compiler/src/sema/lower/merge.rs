@@ -2,7 +2,7 @@
 
 use super::value::{Table, Val, WAITING};
 use super::{Found, Lower};
-use crate::flow::graph::NodeId;
+use crate::ir::graph::NodeId;
 use crate::sema::ty::Ty;
 use crate::source::Span;
 use slowlight_routine::{Op, Value};

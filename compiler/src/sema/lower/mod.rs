@@ -32,8 +32,8 @@ mod ways;
 pub use params::params;
 pub use ways::{Millionths, Search, Ways};
 
-use crate::flow::build::Builder;
-use crate::flow::graph::{Axis, Graph, Image, NodeId};
+use crate::ir::build::Builder;
+use crate::ir::graph::{Axis, Graph, Image, NodeId};
 use crate::sema::program::*;
 use crate::sema::ty::Ty;
 use crate::source::{Diagnostic, Span};

@@ -2,7 +2,7 @@
 
 use super::value::Val;
 use super::{Found, Lower};
-use crate::flow::graph::NodeId;
+use crate::ir::graph::NodeId;
 use crate::sema::program::*;
 use crate::sema::ty::Ty;
 use crate::source::Span;

@@ -3,7 +3,8 @@
 use super::flow::Leaf;
 use super::value::{Val, scalar};
 use super::{Found, Freeze, Lower, Options};
-use crate::flow::graph::{self, NodeId};
+use crate::ir::graph;
+use crate::ir::graph::NodeId;
 use crate::sema::program::*;
 use crate::sema::ty::Ty;
 use crate::source::{Diagnostic, Span};

@@ -2,7 +2,7 @@
 
 use super::derive::{Coefficients, Formula};
 use super::{Found, Lower};
-use crate::flow::graph::{Node, NodeId};
+use crate::ir::graph::{Node, NodeId};
 use crate::source::Span;
 use rustc_hash::FxHashMap;
 use slowlight_routine::Op;

@@ -3,7 +3,7 @@
 use super::shape::{REACH, Solution};
 use super::value::{Shape, Val};
 use super::{Found, Lower, Search, leaving};
-use crate::flow::graph::NodeId;
+use crate::ir::graph::NodeId;
 use crate::sema::builtins::Builtin;
 use crate::sema::program::*;
 use crate::sema::ty::Ty;

@@ -7,7 +7,7 @@
 
 use super::value::{Shape, Val};
 use super::{Found, Lower, leaving};
-use crate::flow::graph::NodeId;
+use crate::ir::graph::NodeId;
 use crate::sema::builtins::Builtin;
 use crate::sema::program::*;
 use crate::sema::ty::Ty;

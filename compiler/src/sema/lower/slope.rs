@@ -1,7 +1,7 @@
 //! The rules of differentiation, one operation at a time.
 
 use super::Lower;
-use crate::flow::graph::NodeId;
+use crate::ir::graph::NodeId;
 use crate::source::Span;
 use slowlight_routine::Op;
 

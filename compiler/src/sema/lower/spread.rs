@@ -7,7 +7,7 @@
 
 use super::value::Val;
 use super::{Found, Lower};
-use crate::flow::graph::{Axis, Node, NodeId, Share};
+use crate::ir::graph::{Axis, Node, NodeId, Share};
 use crate::sema::program::*;
 use crate::sema::ty::Ty;
 use crate::source::{Diagnostic, Span};

@@ -2,7 +2,8 @@
 
 use super::value::{Table, Val};
 use super::{Found, Lower};
-use crate::flow::graph::{self, Constant, NodeId, TableId};
+use crate::ir::graph;
+use crate::ir::graph::{Constant, NodeId, TableId};
 use crate::sema::program::*;
 use crate::sema::ty::Ty;
 use crate::source::Span;

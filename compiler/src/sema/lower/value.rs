@@ -1,7 +1,7 @@
 //! Values while compiling: structure is known, scalars are nodes.
 
 use super::{Found, Lower};
-use crate::flow::graph::NodeId;
+use crate::ir::graph::NodeId;
 use crate::sema::program::*;
 use crate::sema::ty::Ty;
 use crate::source::Span;

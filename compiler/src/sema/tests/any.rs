@@ -2,8 +2,8 @@
 //! that holds together or with a diagnostic. The short form of `fuzz/`.
 
 use super::{MIRRORS, right};
+use crate::analysis::verify::verify;
 use crate::eval::native::Native;
-use crate::flow::verify::verify;
 use crate::scene::check;
 use crate::sema::{Freeze, Options};
 use proptest::prelude::*;

@@ -5,8 +5,8 @@ mod any;
 mod hard;
 mod pictures;
 
+use crate::analysis::verify::verify;
 use crate::eval::native::Native;
-use crate::flow::verify::verify;
 use crate::scene::{Scene, check};
 use crate::sema::{Freeze, Options};
 use crate::source::{Diagnostic, Sources};

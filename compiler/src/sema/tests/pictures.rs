@@ -2,8 +2,8 @@
 //! explicit ones.
 
 use super::{right, snapshot};
+use crate::analysis::verify::verify;
 use crate::eval::native::Native;
-use crate::flow::verify::verify;
 use crate::sema::Options;
 
 /// Every `step`th pixel, an ink a character.

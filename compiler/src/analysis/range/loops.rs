@@ -1,0 +1,174 @@
+//! Loops in the walk that finds ranges: turn by turn until nothing grows, then by widening
+//! (Cousot and Cousot, Abstract interpretation, POPL 1977), then by knowing nothing.
+
+use super::Walk;
+use super::accelerate::{Carried, contains, join};
+use crate::ir::graph::*;
+use crate::ir::tree::*;
+use slowlight_routine::{Range, Value};
+
+/// How many turns of loops are walked before bounds that still grow are widened.
+const PATIENCE: u32 = 2000;
+
+/// How many statements are walked before that is done whatever the turns.
+const SOON: u64 = 100_000;
+
+/// How many statements are walked before loops are walked once, with nothing known of what
+/// they carry. Loops inside each other multiply, each walked until its bounds hold: in a nest
+/// of six the innermost is walked hundreds of times, however soon bounds are widened.
+pub(super) const STATEMENTS: u64 = 4_000_000;
+
+/// How many turns of a loop are walked before what more turns add is looked at.
+const FEW: u32 = 4;
+
+/// How many are walked before what is not known to be bounded by then has no bounds.
+const MANY: u32 = 64;
+
+impl Walk<'_> {
+    pub(super) fn run_loop(&mut self, turns: &Turns) {
+        let of = turns.of;
+        let at = of.0 as usize;
+        self.block(&turns.start);
+        let start = self.carried[at].clone();
+        if !self.holds_still(turns, &start) {
+            self.grow(turns, &start);
+        }
+        self.heads[at] = Some(self.carried[at].clone());
+        self.arm(turns.again, false, &turns.done);
+        let ended = self.sets(&turns.done);
+        self.ended[at].clone_from(&ended);
+        self.block(&turns.otherwise);
+        for (place, range) in ended {
+            let both = self.place_range(place).join(range);
+            self.write(place, both);
+        }
+    }
+
+    /// Tries the bounds that held when the loop was walked last, in another turn of a loop
+    /// around it: where that grows, these mostly hold again, and loops in each other take
+    /// a few turns each instead of many times as many at each depth. Where bounds are narrowed
+    /// that would find none that are nearer.
+    fn holds_still(&mut self, turns: &Turns, start: &Carried) -> bool {
+        let at = turns.of.0 as usize;
+        let Some(mut head) = self.heads[at].clone() else {
+            return false;
+        };
+        if self.narrowing || !self.slack.inverts() || self.walked > STATEMENTS {
+            return false;
+        }
+        for (head, start) in head.iter_mut().zip(start) {
+            *head = join(*head, *start);
+        }
+        self.carried[at].clone_from(&head);
+        self.turn(turns);
+        let holds = (head.iter().zip(&self.carried[at])).all(|(head, now)| contains(*head, *now));
+        match holds {
+            true => self.narrow(turns, start, head),
+            false => self.carried[at].clone_from(start),
+        }
+        holds
+    }
+
+    /// Walks turns until what they carry stays within bounds.
+    fn grow(&mut self, turns: &Turns, start: &Carried) {
+        let of = turns.of;
+        let at = of.0 as usize;
+        let max = self.graph.loops[at].max;
+        let mut widened = false;
+        for turn in 1.. {
+            let last = self.walked > STATEMENTS;
+            if last {
+                self.forget_carried(of);
+            }
+            let before = self.carried[at].clone();
+            self.turn(turns);
+            self.join_carried(at, &before);
+            if last {
+                break;
+            }
+            // After `max` turns the bounds hold all that the loop can carry,
+            // whether or not they would grow in one more.
+            if self.carried[at] == before || turn > max {
+                if widened && turn <= max {
+                    self.carried[at].clone_from(&before);
+                    self.turn(turns);
+                    self.narrow(turns, start, before);
+                }
+                break;
+            }
+            self.turns += 1;
+            let tired = self.turns > PATIENCE || self.walked > SOON;
+            let open = tired && !widened || turn == MANY;
+            let again = open || turn == FEW;
+            if again && turn < max && self.accelerate(turns, start, open) {
+                break;
+            }
+            if tired || turn >= MANY {
+                self.widen(of, &before);
+                widened = true;
+            }
+        }
+    }
+
+    /// Where a loop's result holds that does not if its turns are used up, the loop has ended
+    /// by itself, and its other results are what it then left.
+    pub(super) fn known_ended(&mut self, (id, holds): (NodeId, bool)) {
+        let Node::Result { of, index } = self.graph.node(id) else {
+            return;
+        };
+        let used_up = self.graph.loops[of.0 as usize].otherwise[index as usize];
+        let used_up = self.graph.constant(used_up).map(Value::truth);
+        if !self.slack.inverts() || used_up != Some(!holds) {
+            return;
+        }
+        for &(place, range) in &self.ended[of.0 as usize] {
+            if let Place::Node(id) = place
+                && self.shared[id.0 as usize].is_none()
+            {
+                let now = &mut self.now[id.0 as usize];
+                self.saved.push((id, *now));
+                *now = now.meet(range);
+            }
+        }
+    }
+
+    /// Walks one turn, from what is carried now.
+    pub(super) fn turn(&mut self, turns: &Turns) {
+        let of = turns.of;
+        self.fresh.clear();
+        for k in 0..self.once.carried(of).len() {
+            let (id, index) = self.once.carried(of)[k];
+            self.put(id, self.carried_range(of, index));
+        }
+        self.block(&turns.body);
+        self.arm(turns.again, true, &turns.next);
+    }
+
+    fn join_carried(&mut self, at: usize, held: &[Option<Range>]) {
+        for (now, held) in self.carried[at].iter_mut().zip(held) {
+            *now = match (*now, *held) {
+                (Some(a), Some(b)) => Some(a.join(b)),
+                (a, b) => a.or(b),
+            };
+        }
+    }
+
+    /// Gives what a loop carries the bounds of its format.
+    fn forget_carried(&mut self, of: LoopId) {
+        let at = of.0 as usize;
+        let slack = self.slack;
+        let types = self.graph.loops[at].types.iter();
+        let all = types.map(|ty| Some(slack.cut(*ty, Range::ALL)));
+        self.carried[at] = all.collect();
+    }
+
+    /// Moves every bound that still grows to the format's end.
+    fn widen(&mut self, of: LoopId, before: &[Option<Range>]) {
+        for (k, before) in before.iter().enumerate() {
+            let now = self.carried[of.0 as usize][k];
+            if before.is_some() {
+                self.carried[of.0 as usize][k] = self.opened(of, k, *before, now);
+            }
+        }
+    }
+}

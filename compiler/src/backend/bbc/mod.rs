@@ -1,0 +1,175 @@
+//! From a plan to BBC BASIC.
+//!
+//! One program serves BASIC II, the Agon and Brandy. It reads from the top:
+//!
+//! 1. the parameter block: what may be changed, as decimals, and which rows to draw;
+//! 2. the picture: once a frame, a FOR over rows, a FOR over columns;
+//! 3. `PROCsetup`: checks the parameters, then constants, tables;
+//! 4. the runtime's functions, and DATA.
+//!
+//! A value lives in a variable, real or integer by its `%`, or is written where it is read
+//! once. Decimal constants live in variables too: BASIC II takes three times as long to read
+//! one from the text. What is resident (`I% R% X% Y%`) is quick: the pixel's ink, its row's
+//! height on the screen, its column and row.
+//!
+//! What BASIC II asks for and the others bear: a space after a name before a keyword, DATA
+//! first on its line, lines under 250 characters, MODE outside procedures, never more than one
+//! ELSE on a line, no loops over fractions.
+//!
+//! - `lines`: lines with labels, numbered at the end; `names`; `expression`: values; `text`:
+//!   their text; `guard`: tests in place of functions; `version`: one test
+//!   for a run of assignments;
+//! - `code`: statements; `frame`: everything around them; `screen`: modes, colours, coordinates;
+//! - `poke`: pixels put into the Micro's memory; `passes`: rows drawn every nth column at a time;
+//! - `ramp`: ints that are stepped from column to column; `reads`: what a pixel reads;
+//! - `spread`: error diffusion; `thread`, `tail`, `dead`: fewer jumps and flags; `short`: short names and lines, for speed and for size;
+//! - `pieces`: statements cut into names and words; `terse`: the same said shorter.
+
+mod asked;
+mod code;
+mod columns;
+mod dead;
+#[cfg(test)]
+mod dead_tests;
+mod expression;
+mod frame;
+mod guard;
+mod lines;
+mod names;
+mod passes;
+mod pieces;
+mod poke;
+mod ramp;
+mod reads;
+mod screen;
+mod segment;
+mod short;
+mod spread;
+mod starts;
+mod tables;
+mod tail;
+mod terse;
+#[cfg(test)]
+mod tests;
+mod text;
+mod thread;
+mod version;
+mod ways;
+
+pub(super) use screen::{MICRO as MICRO_MODES, colours, first_colour};
+
+use super::{Document, Lean, Target};
+use crate::plan::Plan;
+use crate::schedule::outline::Sizes;
+use slowlight_runtime_bbc::RUNTIME;
+
+/// The least distance along a ray that counts as in front: reals of 32 bits are good to 1E-9
+/// at the scenes' scale, a pixel to 1E-3.
+const OFFSET: f64 = 1e-5;
+
+/// Bytes of tokens in a tight program.
+const SIZES: Sizes = Sizes {
+    operation: 5,
+    copy_bool: 6,
+    copy: 6,
+    home: 8,
+    test: 14,
+    turns: 40,
+    call: 4,
+    around: 20,
+    ends: 25,
+};
+
+/// A BBC Micro with BASIC II.
+pub static MICRO: Target = Target {
+    name: "bbc:micro",
+    about: "a BBC Micro with BASIC II and a disc drive (PAGE &1900)",
+    runtime: &RUNTIME,
+    modes: screen::MICRO,
+    offset: OFFSET,
+    lean: Lean::Short,
+    hertz: 2_000_000.0,
+    starts: starts::starts,
+    sizes: SIZES,
+    wraps: true,
+    columns: 1024,
+    pixels: |mode| match mode.inks {
+        2 => 8,
+        4 => 4,
+        _ => 2,
+    },
+    emit,
+};
+
+/// An Agon Light with BBC BASIC.
+pub static AGON: Target = Target {
+    name: "bbc:agon",
+    about: "an Agon Light with BBC BASIC; times are from a comparison of one program",
+    runtime: &RUNTIME,
+    modes: screen::AGON,
+    offset: OFFSET,
+    lean: Lean::Short,
+    // Measured: the two mirrors in 11.6 minutes for BASIC II's 17.8e9 cycles.
+    hertz: 25_500_000.0,
+    starts: starts::starts,
+    sizes: SIZES,
+    wraps: false,
+    columns: 1024,
+    pixels: |_| 1,
+    emit,
+};
+
+/// Matrix Brandy on a computer of today.
+pub static BASIC_V: Target = Target {
+    name: "bbc:basicv",
+    about: "Matrix Brandy (BASIC V) on a computer of today; its reals are doubles",
+    runtime: &RUNTIME,
+    modes: screen::BASIC_V,
+    offset: OFFSET,
+    lean: Lean::Short,
+    // Measured: 0.15 seconds for the same program.
+    hertz: 1.2e11,
+    starts: starts::starts,
+    sizes: SIZES,
+    wraps: false,
+    columns: 1024,
+    pixels: |_| 1,
+    emit,
+};
+
+/// How a program is written.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Style {
+    /// To be read: the scene's names, short lines, a remark for each item.
+    Listing,
+    /// To be quick: one-letter names, few spaces, long lines.
+    Fast,
+    /// The same, with function calls in place of tests and two ways to
+    /// compute, which take memory, but in loops.
+    Lean,
+    /// To be small: the same, and constants where they are read.
+    Small,
+}
+
+impl Style {
+    fn of(plan: &Plan) -> Style {
+        match plan {
+            Plan { tight: true, .. } => Style::Small,
+            Plan { lean: true, .. } => Style::Lean,
+            Plan { listing: true, .. } => Style::Listing,
+            _ => Style::Fast,
+        }
+    }
+}
+
+fn emit(plan: &Plan) -> Vec<Document> {
+    let program = frame::program(plan);
+    let later = program.later();
+    let (text, lines) = program.finish();
+    vec![Document {
+        name: format!("{}.bas", plan.name),
+        text,
+        lines,
+        later,
+    }]
+}

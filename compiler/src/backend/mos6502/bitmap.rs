@@ -1,0 +1,301 @@
+//! Screens that are memory: pixels gathered into bytes, and each byte stored once.
+//!
+//! In both machines a byte is some pixels side by side, and the next row's is in the next
+//! byte of the same character: eight bytes a character, then the character to the right.
+//! So a row steps by 8 and the next row by 1, and only every eighth row by more; no
+//! address is computed.
+//!
+//! A byte that is being gathered has a **mark** in front of its pixels, which leaves it
+//! for the carry flag when the last pixel comes in: that is all that counts them. How far
+//! a pixel shifts those before it depends on how they lie ([`Lie`]).
+
+use super::Text;
+use super::homes::{Homes, Slot};
+use crate::ir::graph::Axis;
+use crate::plan::Plan;
+use std::ops::RangeInclusive;
+
+/// How a byte's pixels lie in it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Lie {
+    /// One bit each, the left one in front.
+    Bits,
+    /// The BBC's: the bits of an ink as far apart as there are pixels, and the first of
+    /// all pixels in front; a pixel shifts the others by one bit.
+    Spread,
+    /// Side by side, two bits each.
+    Pairs,
+}
+
+/// A screen in memory.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct Layout {
+    pub lie: Lie,
+    /// Pixels of a byte.
+    pub pixels: u32,
+    /// Its first byte.
+    pub start: u16,
+    /// Bytes of a row of characters.
+    pub row: u32,
+}
+
+impl Layout {
+    /// The screen of a plan's mode; none where it is no memory.
+    pub fn of(plan: &Plan) -> Option<Layout> {
+        let layout = |lie, pixels, start, row| {
+            Some(Layout {
+                lie,
+                pixels,
+                start,
+                row,
+            })
+        };
+        match (plan.target.name, plan.mode.name) {
+            ("6502:bbc", "0") => layout(Lie::Bits, 8, 0x3000, 640),
+            ("6502:bbc", "1") => layout(Lie::Spread, 4, 0x3000, 640),
+            ("6502:bbc", "2") => layout(Lie::Spread, 2, 0x3000, 640),
+            ("6502:bbc", "4") => layout(Lie::Bits, 8, 0x5800, 320),
+            ("6502:bbc", "5") => layout(Lie::Spread, 4, 0x5800, 320),
+            ("6502:c64", "hires") => layout(Lie::Bits, 8, 0xE000, 320),
+            ("6502:c64", "multicolour") => layout(Lie::Pairs, 4, 0xE000, 320),
+            _ => None,
+        }
+    }
+
+    /// What stands in a byte when so many pixels are in it, all ink 0: the mark.
+    fn mark(&self, pixels: u32) -> u32 {
+        match self.lie {
+            Lie::Pairs => 1 << (2 * pixels),
+            Lie::Bits | Lie::Spread => 1 << (8 - self.pixels + pixels),
+        }
+    }
+
+    /// An ink's bits where the last pixel of a byte is.
+    fn pattern(&self, ink: u32) -> u32 {
+        let bits = 8 / self.pixels;
+        (0..bits).map(|k| (ink >> k & 1) << (k * self.pixels)).sum()
+    }
+}
+
+/// How a plan's picture goes to its screen.
+pub(super) struct Bitmap {
+    layout: Layout,
+    /// Columns on the screen of the first pixel, and how many are drawn.
+    left: u32,
+    width: u32,
+    /// The row on the screen of the first that may be drawn, and which of the picture's that is.
+    top: u32,
+    first: u32,
+    block: (u32, u32),
+    inks: u32,
+    /// The columns that are seen, where more are computed.
+    seen: Option<RangeInclusive<u32>>,
+    /// Whether rows are computed that are not drawn.
+    rows_unseen: bool,
+    /// The pixel's column, its row, and the first row to draw.
+    axes: [String; 3],
+    byte: String,
+    at: String,
+    line: String,
+}
+
+impl Bitmap {
+    /// Where the plan draws on a screen that is memory.
+    pub fn new(plan: &Plan, homes: &Homes) -> Option<Bitmap> {
+        let layout = Layout::of(plan)?;
+        let block = plan.graph.image.block;
+        let place = |k: u32, size: u32, offset: i32| {
+            u32::try_from(i64::from(k) * i64::from(size) + i64::from(offset)).unwrap_or(0)
+        };
+        let (first, _) = plan.shown_rows();
+        let (from, to) = plan.columns;
+        let name = |slot| homes.name(slot).to_owned();
+        Some(Bitmap {
+            layout,
+            left: place(from, block.0, plan.offset.0),
+            width: (to - from + 1) * block.0,
+            top: place(first, block.1, plan.offset.1),
+            first,
+            block,
+            inks: plan.mode.inks,
+            seen: (plan.computed_columns() != plan.columns).then_some(from..=to),
+            rows_unseen: plan.error_rows().is_some(),
+            axes: [Slot::Axis(Axis::X), Slot::Axis(Axis::Y), Slot::Rows(false)].map(name),
+            byte: name(Slot::ScreenByte),
+            at: name(Slot::ScreenAt),
+            line: name(Slot::ScreenLine),
+        })
+    }
+
+    /// At the picture's beginning: to its first row.
+    pub fn open(&self, text: &mut Text) {
+        let Layout {
+            start, row, pixels, ..
+        } = self.layout;
+        let place = self.top / 8 * row + self.left / pixels * 8 + self.top % 8;
+        let [lo, hi, ..] = (u32::from(start) + place).to_le_bytes();
+        let (line, [_, _, first]) = (&self.line, &self.axes);
+        text.line("        ; to the first row");
+        text.code(&format!(
+            "lda #{lo} | sta {line} | lda #{hi} | sta {line}+1"
+        ));
+        text.code(&format!("lda {first}"));
+        if self.first > 0 {
+            text.code(&format!("sec | sbc #{}", self.first));
+        }
+        text.code("tax | beq first_line");
+        text.label("skip_row");
+        self.lines("skip_line", self.block.1, text);
+        text.code("dex | bne skip_row");
+        text.label("first_line");
+    }
+
+    /// So many lines down. Leaves x alone.
+    fn lines(&self, label: &str, count: u32, text: &mut Text) {
+        if count == 1 {
+            return text.code("jsr next_line");
+        }
+        text.code(&format!("ldy #{count}"));
+        text.label(label);
+        text.code(&format!("jsr next_line | dey | bne {label}"));
+    }
+
+    /// Before a row's first pixel.
+    pub fn row(&self, text: &mut Text) {
+        let Bitmap { line, at, byte, .. } = self;
+        text.code(&format!(
+            "lda {line} | sta {at} | lda {line}+1 | sta {at}+1"
+        ));
+        let mark = self.layout.mark(self.left % self.layout.pixels);
+        text.code(&format!("lda #{mark} | sta {byte}"));
+    }
+
+    /// Puts a pixel into its byte, and a byte that is whole onto the screen. Goes to
+    /// `unseen_pixel` where its column is not seen.
+    pub fn pixel(&self, ink: &str, text: &mut Text) {
+        let [x, ..] = &self.axes;
+        if let Some(seen) = &self.seen {
+            let [a0, a1, ..] = seen.start().to_le_bytes();
+            let [b0, b1, ..] = seen.end().to_le_bytes();
+            text.code(&format!(
+                "lda {x} | cmp #{a0} | lda {x}+1 | sbc #{a1} | bcc unseen_pixel"
+            ));
+            text.code(&format!(
+                "lda #{b0} | cmp {x} | lda #{b1} | sbc {x}+1 | bcc unseen_pixel"
+            ));
+        }
+        if self.block.0 > 1 {
+            text.code(&format!("ldx #{}", self.block.0));
+            text.label("block_dot");
+        }
+        self.put(ink, text);
+        if self.block.0 > 1 {
+            text.code("dex | bne block_dot");
+        }
+    }
+
+    fn put(&self, ink: &str, text: &mut Text) {
+        let Bitmap { byte, at, .. } = self;
+        text.code(&match self.layout.lie {
+            Lie::Bits => format!("lda {ink} | lsr | rol {byte} | bcc part_of_byte | lda {byte}"),
+            Lie::Spread => {
+                format!("ldy {ink} | lda patterns,y | asl {byte} | ora {byte} | bcc part_of_byte")
+            }
+            Lie::Pairs => {
+                format!("lda {byte} | asl | asl | ora {ink} | bcc part_of_byte")
+            }
+        });
+        // The carry is 1 here.
+        text.code(&format!(
+            "ldy #0 | sta ({at}),y | lda {at} | adc #7 | sta {at} | bcc next_byte | inc {at}+1"
+        ));
+        text.label("next_byte");
+        text.code(&format!("lda #{}", self.layout.mark(0)));
+        match self.layout.lie {
+            Lie::Bits => {
+                text.code(&format!("sta {byte}"));
+                text.label("part_of_byte");
+            }
+            Lie::Spread | Lie::Pairs => {
+                text.label("part_of_byte");
+                text.code(&format!("sta {byte}"));
+            }
+        }
+    }
+
+    /// Behind a row's last pixel: what is left of a byte, a block's other lines, and to
+    /// the next row.
+    pub fn row_done(&self, text: &mut Text) {
+        let Bitmap { byte, at, .. } = self;
+        let [_, y, first] = &self.axes;
+        if self.rows_unseen {
+            text.code(&format!(
+                "lda {y} | cmp {first} | lda {y}+1 | sbc {first}+1 | bcc unseen_row"
+            ));
+        }
+        let over = (self.left + self.width) % self.layout.pixels;
+        if over > 0 {
+            let left = self.layout.pixels - over;
+            let bits = match self.layout.lie {
+                Lie::Pairs => 2 * left,
+                Lie::Bits | Lie::Spread => left,
+            };
+            let shifts = " | asl".repeat(bits as usize);
+            text.code(&format!("lda {byte}{shifts} | ldy #0 | sta ({at}),y"));
+        }
+        if self.block.1 > 1 {
+            self.copy_lines(text);
+        }
+        text.code("jsr next_line");
+        if self.rows_unseen {
+            text.label("unseen_row");
+        }
+    }
+
+    /// A block's other lines are copies of its first.
+    fn copy_lines(&self, text: &mut Text) {
+        let Bitmap { line, at, .. } = self;
+        let bytes = (self.left % self.layout.pixels + self.width).div_ceil(self.layout.pixels);
+        text.code(&format!("ldx #{}", self.block.1 - 1));
+        text.label("copy_line");
+        text.code(&format!(
+            "lda {line} | sta {at} | lda {line}+1 | sta {at}+1 | jsr next_line"
+        ));
+        text.code(&format!(
+            "lda {line} | sta prod | lda {line}+1 | sta prod+1 | ldy #0 | lda #{bytes} | sta count"
+        ));
+        text.label("copy_byte");
+        text.code(&format!(
+            "lda ({at}),y | sta (prod),y | tya | clc | adc #8 | tay | bcc copied_byte | inc {at}+1 | inc prod+1"
+        ));
+        text.label("copied_byte");
+        text.code("dec count | bne copy_byte | dex | bne copy_line");
+    }
+
+    /// What is called, and the inks' patterns.
+    pub fn data(&self, text: &mut Text) {
+        let line = &self.line;
+        text.headline("the screen");
+        text.line(
+            "; the line below: the next byte, or every eighth time the next character's first",
+        );
+        text.label("next_line");
+        text.code(&format!(
+            "lda {line} | and #7 | cmp #7 | beq next_character"
+        ));
+        text.code(&format!("inc {line} | rts"));
+        text.label("next_character");
+        // The carry is 1 here.
+        let [lo, hi, ..] = (self.layout.row - 8).to_le_bytes();
+        text.code(&format!(
+            "lda {line} | adc #{lo} | sta {line} | lda {line}+1 | adc #{hi} | sta {line}+1 | rts"
+        ));
+        if self.layout.lie == Lie::Spread {
+            let patterns = (0..self.inks).map(|ink| format!("${:02x}", self.layout.pattern(ink)));
+            let patterns: Vec<String> = patterns.collect();
+            text.line("; each ink's bits where a byte's last pixel has them");
+            text.label("patterns");
+            text.line(format!("        .byte {}", patterns.join(", ")));
+        }
+    }
+}

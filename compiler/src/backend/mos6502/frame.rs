@@ -1,0 +1,319 @@
+//! The program around the statements: its head, the picture's opening and end, and the
+//! runtime's parts.
+
+use super::code::Code;
+use super::homes::Homes;
+use super::logs;
+use super::memory::Machine;
+use super::params::{Entry, entries, take_params};
+use super::rows::Rows;
+use super::screen::Screen;
+use super::squares::Squares;
+use super::syntax::Syntax;
+use super::{Text, bbc, c64, ports, table};
+use crate::ir::tree::SubroutineId;
+use crate::plan::Plan;
+use slowlight_routine::{Format, Part, Source, Type};
+use slowlight_runtime_6502::write::{self, Place as Operand};
+use std::ops::Range;
+
+/// Where parts of a program's text are, by lines.
+#[derive(Clone, PartialEq, Eq)]
+pub(super) struct Lines {
+    /// What names the bytes that nobody else uses.
+    pub symbols: Range<usize>,
+    /// What the scene became.
+    pub code: Range<usize>,
+}
+
+/// The whole program.
+pub(super) fn program(plan: &Plan, homes: &Homes, syntax: &Syntax, text: &mut Text) -> Lines {
+    let entries = entries(plan, homes);
+    head(plan, homes, &entries, syntax, text);
+    // What operands are read with is known when they have been.
+    let mut body = Text::default();
+    let (clamps, read) = main(plan, homes, &mut body);
+    let parts = parts(plan, &entries, &read);
+    let named_from = symbols(plan, homes, &parts, text);
+    let named_to = text.lines.len();
+    begin(plan, homes, &parts, text);
+    text.append(body);
+    let code = named_to..text.lines.len();
+    take_params(plan, homes, &entries, syntax, text);
+    let machine = Machine::of(plan);
+    if machine != Machine::Plain {
+        bbc::data(plan, machine, text);
+    }
+    if plan.plot {
+        Screen::new(plan, homes).data(plan, text);
+    }
+    if clamps {
+        text.headline("an index kept inside its table");
+        text.line(table::CLAMP);
+    }
+    table::data(plan, text);
+    let squares = Squares::of(machine, &parts);
+    let behind = |part: &&&Part| !is_page(part) && !squares.replace(part);
+    for part in parts.iter().filter(behind) {
+        text.headline(&format!("runtime: {}", part.name));
+        source(machine, part, text);
+    }
+    if machine == Machine::Bbc {
+        bbc::move_down(&homes.places, text);
+    }
+    let loaded = match machine {
+        Machine::Bbc => Some(bbc::loaded_at(&homes.places)),
+        _ => None,
+    };
+    let last = syntax.last(&plan.name, loaded);
+    last.iter().for_each(|line| text.line(line));
+    Lines {
+        symbols: named_from..named_to,
+        code,
+    }
+}
+
+/// The parts that the program needs: those of the plan and of its own frame.
+fn parts(plan: &Plan, entries: &[Entry], read: &[&'static str]) -> Vec<&'static Part> {
+    let mut names: Vec<&str> = plan.parts().iter().map(|p| p.name).collect();
+    names.extend(read);
+    names.push("zero_page");
+    names.extend(plan.points().map(|_| match write::size(plan.runtime.real) {
+        2 => "scaled_page",
+        _ => "scaled24_page",
+    }));
+    if logs::are(plan) {
+        names.push("log_page");
+    }
+    for entry in entries {
+        names.extend(entry.needs(plan));
+    }
+    if table::any_large(plan) {
+        names.push("int_multiply");
+    }
+    plan.runtime.closure(names)
+}
+
+/// Whether a part only names places in the zero page.
+fn is_page(part: &Part) -> bool {
+    let pages = ["zero_page", "scaled_page", "scaled24_page", "log_page"];
+    pages.contains(&part.name)
+}
+
+fn source(machine: Machine, part: &Part, text: &mut Text) {
+    match part.source {
+        Source::Text(lines) => text.line(machine.placed(lines.trim_end())),
+        Source::Made(write) => text.line(machine.placed(write().trim_end())),
+        Source::Table(make) => {
+            text.label(part.name);
+            text.bytes(make().into_iter().map(|b| (b & 0xFF) as u8));
+        }
+    }
+}
+
+fn head(plan: &Plan, homes: &Homes, entries: &[Entry], syntax: &Syntax, text: &mut Text) {
+    let (image, machine) = (&plan.graph.image, Machine::of(plan));
+    text.line(format!(
+        "; {}: {} x {} {}, {} inks, for {} ({})",
+        plan.name,
+        image.width,
+        image.height,
+        image.unit(),
+        image.palette.len(),
+        machine.about(),
+        plan.runtime.format
+    ));
+    for line in syntax.how(&plan.name, plan.target.name, plan.undocumented) {
+        text.line(line);
+    }
+    match machine {
+        Machine::Plain => {}
+        Machine::Bbc => bbc::how(&homes.places, text),
+        Machine::C64 => c64::how(text),
+    }
+    syntax.first().iter().for_each(|line| text.line(line));
+    text.headline("parameters: change them here");
+    text.line("; Checked once at the start: the first one outside its range ends the");
+    text.line(match machine {
+        Machine::Plain => "; program with its number as the exit status.",
+        Machine::Bbc | Machine::C64 => "; program, which says its number.",
+    });
+    for (k, entry) in entries.iter().enumerate() {
+        let assignment = format!("{} = {}", entry.symbol, entry.text);
+        let Entry {
+            unit,
+            least,
+            greatest,
+            ..
+        } = entry;
+        text.line(format!(
+            "{assignment:<24}; {}: {unit}, from {least} to {greatest}",
+            k + 1
+        ));
+    }
+}
+
+/// Answers the line from which on bytes have names that nobody else uses.
+fn symbols(plan: &Plan, homes: &Homes, parts: &[&'static Part], text: &mut Text) -> usize {
+    let machine = Machine::of(plan);
+    match machine {
+        Machine::Plain => ports::symbols(text),
+        Machine::Bbc => bbc::symbols(text),
+        Machine::C64 => c64::symbols(text),
+    }
+    let first = text.lines.len();
+    text.headline("the runtime's zero page");
+    for part in parts.iter().filter(|p| is_page(p)) {
+        source(machine, part, text);
+    }
+    text.headline("values, the most used in the zero page");
+    for home in homes.by_address() {
+        let width = if home.address < 0x100 { 2 } else { 4 };
+        text.line(format!("{} = ${:0width$x}", home.name, home.address));
+    }
+    if plan.error_rows().is_some() {
+        text.line(format!("errors = ${:04x}", homes.places.errors));
+    }
+    text.line("");
+    let origin = Squares::of(machine, parts).origin(homes.places.origin);
+    text.line(format!("* = ${origin:04x}"));
+    first
+}
+
+/// What sets the pointers into a part's tables, or makes these.
+const MADE: [(&str, &str); 5] = [
+    ("product", "set_squares"),
+    ("squares24", "set_squares24"),
+    ("log_sum", "set_sums"),
+    ("log_difference", "set_lost"),
+    ("log_whole", "set_parts"),
+];
+
+/// How the program begins, by the parts that it has.
+fn begin(plan: &Plan, homes: &Homes, parts: &[&'static Part], text: &mut Text) {
+    text.line("");
+    text.label("start");
+    let machine = Machine::of(plan);
+    let squares = Squares::of(machine, parts);
+    squares.tables(text);
+    match machine {
+        Machine::Plain => text.code("cld | ldx #$ff | txs"),
+        Machine::Bbc => bbc::begin(&homes.places, text),
+        Machine::C64 => c64::begin(text),
+    }
+    squares.set(text);
+    for (part, make) in MADE {
+        if parts.iter().any(|p| p.name == part) {
+            text.code(&format!("jsr {make}"));
+        }
+    }
+    text.code("jsr take_params");
+}
+
+/// The program proper; answers whether it clamps an index, and with what operands are read.
+fn main(plan: &Plan, homes: &Homes, text: &mut Text) -> (bool, Vec<&'static str>) {
+    let machine = Machine::of(plan);
+    let screen = plan.plot.then(|| Screen::new(plan, homes));
+    if let Some(screen) = &screen {
+        screen.open(plan, text);
+    }
+    let mut code = Code::new(plan, homes, text);
+    let errors = plan.error_rows();
+    if let Some(rows) = &errors {
+        code.start_errors(rows);
+    }
+    if !plan.tree.frame.is_empty() {
+        code.text.headline("once a picture");
+        code.block(&plan.tree.frame);
+    }
+    code.fill_columns(plan.computed_columns());
+    code.text.span = plan.drawn;
+    Rows::new(&code, screen.as_ref(), errors.as_ref()).write(&mut code);
+    let (clamps, mut needs) = (code.clamps, std::mem::take(&mut code.needs));
+    let text = &mut *code.text;
+    text.label("picture_done");
+    match machine {
+        Machine::Plain => {
+            reports(plan, homes, text);
+            text.code("lda #0 | sta exit_port");
+            text.label("halted");
+            text.code("jmp halted");
+        }
+        Machine::Bbc => bbc::end(text),
+        Machine::C64 => c64::end(text),
+    }
+    let called = subroutines(plan, homes, text);
+    needs.extend(called.1);
+    (called.0 || clamps, needs)
+}
+
+/// What is called from several places; answers what [`main`] does.
+fn subroutines(plan: &Plan, homes: &Homes, text: &mut Text) -> (bool, Vec<&'static str>) {
+    let (mut clamps, mut needs) = (false, Vec::new());
+    for (k, subroutine) in plan.tree.subroutines.iter().enumerate() {
+        let calls = plan.tree.calls(SubroutineId(k as u32));
+        text.headline(&format!(
+            "{}, called from {calls} places",
+            subroutine.label()
+        ));
+        text.label(homes.subroutine(SubroutineId(k as u32)));
+        let mut code = Code::new(plan, homes, text);
+        // What a run calls may end it; elsewhere a run that ends sooner is right as well.
+        code.in_run = !plan.tree.segment.is_empty();
+        code.block(&subroutine.body);
+        clamps |= code.clamps;
+        needs.append(&mut code.needs);
+        text.span = Some(subroutine.span);
+        text.code("rts");
+        text.span = None;
+    }
+    (clamps, needs)
+}
+
+/// Gives out what the graph reports through the one port for bytes that there
+/// is: as a picture of one row, four inks a value, low byte first.
+fn reports(plan: &Plan, homes: &Homes, text: &mut Text) {
+    if plan.graph.reports.is_empty() || plan.plot {
+        return;
+    }
+    let [lo, hi, ..] = (4 * plan.graph.reports.len()).to_le_bytes();
+    text.code(&format!(
+        "lda #{lo} | sta width_port | lda #{hi} | sta width_port+1"
+    ));
+    text.code("lda #1 | sta height_port | lda #0 | sta height_port+1 | sta inks_port");
+    for &id in &plan.graph.reports {
+        let mut value = homes.operand(plan, id);
+        if let (Some(points), Some(constant)) = (plan.points(), plan.graph.constant(id)) {
+            let real = plan.graph.ty(id) == Type::Real;
+            let bits = (plan.runtime.encode)(constant, plan.format(id));
+            value = Operand::Constant(if real {
+                points.read(
+                    &plan.graph,
+                    id,
+                    bits,
+                    (points.own(id), points.widths().value(id)),
+                )
+            } else {
+                bits
+            });
+        }
+        if let Operand::Held(..) = value {
+            let mut lines = Vec::new();
+            write::copy_bytes(&value, "acc", 4, &mut lines);
+            lines.iter().for_each(|line| text.line(line));
+            value = Operand::At("acc".to_owned());
+        }
+        let bytes = match plan.format(id) {
+            Format::Bool => 1,
+            Format::Log { .. } => 3,
+            _ => 4,
+        };
+        for k in 0..4 {
+            let byte = match k < bytes {
+                true => write::byte(&value, k),
+                false => "#0".to_owned(),
+            };
+            text.code(&format!("lda {byte} | sta ink_port"));
+        }
+    }
+}

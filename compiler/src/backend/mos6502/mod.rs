@@ -1,0 +1,357 @@
+//! From a plan to 6502 assembly.
+//!
+//! The text assembles with the bundled assembler, and with ca65 as
+//! `ca65 --feature pc_assignment`, to the same bytes; other assemblers have theirs
+//! (see [`syntax`]). It reads from the top:
+//!
+//! 1. the parameter block: what may be changed, as scaled integers;
+//! 2. the ports of the machine, the runtime's zero page, the homes of values;
+//! 3. on the plain machine, the quarter squares;
+//! 4. the program: once a picture, once a row, once a pixel;
+//! 5. constant tables, and the parts of the runtime that are used.
+//!
+//! A value lives in memory: in the zero page those that are used most (loops
+//! count eightfold), the others before the program or behind it. Routines are
+//! written as [`slowlight_runtime_6502::write`] says; a condition that the next
+//! statement branches on stays in the carry flag.
+//!
+//! - `memory`: the machines, and what of their memory is left to a program;
+//! - `screen`: what is drawn on; `ports`, `blocks`: the plain machine's; `bitmap`: memory;
+//!   `bbc`, `c64`: those machines' beginnings and ends;
+//! - `homes`: where values live and what they are called; `shapes`: in how many bytes;
+//! - `uses`: how often they are met; `columns`: arrays by columns;
+//! - `moved`: reals that are kept at a second scale;
+//! - `scaled`: reals with points of their own, read where they are wanted;
+//! - `code`: statements; `comparisons`: in the carry; `table`: lookups; `comment`: what a
+//!   statement means;
+//! - `logs`: logarithmic reals; `inline`: products in place;
+//! - `draft`: a program before it is read again as a whole, and behind that; `extent`: how
+//!   long it is;
+//! - `params`: the parameter block's checks; `frame`: everything around the statements;
+//!   `rows`: the loops over rows, passes, runs of columns and pixels;
+//! - `spread`: error diffusion; `squares`: tables of quarter squares.
+
+mod bbc;
+mod bitmap;
+mod blocks;
+mod c64;
+mod code;
+mod columns;
+mod comment;
+mod comparisons;
+mod draft;
+mod extent;
+mod frame;
+mod homes;
+mod inline;
+mod logs;
+mod memory;
+#[cfg(test)]
+mod memory_tests;
+mod moved;
+mod names;
+mod params;
+mod ports;
+#[cfg(test)]
+mod quotient_tests;
+mod rows;
+mod scaled;
+mod screen;
+mod shapes;
+mod spread;
+mod squares;
+mod starts;
+pub mod syntax;
+mod table;
+#[cfg(test)]
+mod tests;
+mod uses;
+
+use super::{Document, Lean, Mode, Target};
+use crate::plan::Plan;
+use crate::schedule::outline::Sizes;
+use crate::source::Span;
+pub use draft::Draft;
+use memory::Machine;
+pub use memory::{DISC_PAGE, Room, bytes_of_room};
+use slowlight_runtime_6502::FIXED16_16;
+use slowlight_runtime_6502::log::{LOG10, LOG10_IN_RUNS, LOG11, LOG11_IN_RUNS};
+use slowlight_runtime_6502::scaled::{FIXED12, FIXED12_IN_RUNS, FIXED16, FIXED16_IN_RUNS};
+use slowlight_runtime_6502::scaled::{FIXED20, FIXED20_IN_RUNS, FIXED24, FIXED24_IN_RUNS};
+use syntax::Syntax;
+
+/// The plain machine: 64K of RAM and a port that takes ink by ink.
+pub static PLAIN: Target = USUAL;
+
+/// The same with reals of 8 bits or 16, each with fraction bits of its own.
+pub static PLAIN_FIXED12: Target = Target {
+    runtime: &FIXED12_IN_RUNS,
+    ..USUAL
+};
+
+/// The same with reals of 16 bits, each with fraction bits of its own.
+pub static PLAIN_FIXED16: Target = Target {
+    runtime: &FIXED16_IN_RUNS,
+    ..USUAL
+};
+
+/// The same with reals of 16 bits or 24.
+pub static PLAIN_FIXED20: Target = Target {
+    runtime: &FIXED20_IN_RUNS,
+    ..USUAL
+};
+
+/// The same with reals of 24 bits.
+pub static PLAIN_FIXED24: Target = Target {
+    runtime: &FIXED24_IN_RUNS,
+    ..USUAL
+};
+
+/// The same with logarithmic reals.
+pub static PLAIN_LOG10: Target = Target {
+    runtime: &LOG10_IN_RUNS,
+    offset: LOG_OFFSET,
+    lean: Lean::Calls,
+    ..USUAL
+};
+
+/// The same with a bit more.
+pub static PLAIN_LOG11: Target = Target {
+    runtime: &LOG11_IN_RUNS,
+    offset: LOG_OFFSET / 2.0,
+    lean: Lean::Calls,
+    ..USUAL
+};
+
+/// Of ten bits, numbers are known to 1/2000 of themselves, so a point's distance from its own surface, a
+/// few units away, comes out as a few thousandths.
+const LOG_OFFSET: f64 = 0.015_625;
+
+/// A BBC Micro, model B.
+pub static BBC: Target = Target {
+    name: "6502:bbc",
+    about: "a BBC Micro in machine code, with a disc drive",
+    modes: bbc::MODES,
+    ..USUAL
+};
+
+/// The same with reals of 8 bits or 16.
+pub static BBC_FIXED12: Target = Target {
+    runtime: &FIXED12,
+    ..BBC
+};
+
+/// The same with reals of 16 bits.
+pub static BBC_FIXED16: Target = Target {
+    runtime: &FIXED16,
+    ..BBC
+};
+
+/// The same with reals of 16 bits or 24.
+pub static BBC_FIXED20: Target = Target {
+    runtime: &FIXED20,
+    ..BBC
+};
+
+/// The same with reals of 24 bits.
+pub static BBC_FIXED24: Target = Target {
+    runtime: &FIXED24,
+    ..BBC
+};
+
+/// A Commodore 64, for PAL.
+pub static C64: Target = Target {
+    name: "6502:c64",
+    about: "a Commodore 64 (PAL) in machine code",
+    modes: c64::MODES,
+    hertz: 985_248.0,
+    ..USUAL
+};
+
+/// The same with reals of 8 bits or 16.
+pub static C64_FIXED12: Target = Target {
+    runtime: &FIXED12,
+    ..C64
+};
+
+/// The same with reals of 16 bits.
+pub static C64_FIXED16: Target = Target {
+    runtime: &FIXED16,
+    ..C64
+};
+
+/// The same with logarithmic reals.
+pub static C64_LOG10: Target = Target {
+    runtime: &LOG10,
+    offset: LOG_OFFSET,
+    lean: Lean::Calls,
+    ..C64
+};
+
+/// The same with a bit more.
+pub static C64_LOG11: Target = Target {
+    runtime: &LOG11,
+    offset: LOG_OFFSET / 2.0,
+    lean: Lean::Calls,
+    ..C64
+};
+
+/// The same with reals of 16 bits or 24.
+pub static C64_FIXED20: Target = Target {
+    runtime: &FIXED20,
+    ..C64
+};
+
+/// The same with reals of 24 bits.
+pub static C64_FIXED24: Target = Target {
+    runtime: &FIXED24,
+    ..C64
+};
+
+const USUAL: Target = Target {
+    name: "6502:plain",
+    about: "a 6502 with 64K of RAM and a page of ports that draw",
+    runtime: &FIXED16_16,
+    // As large as the picture.
+    modes: &[Mode {
+        name: "",
+        width: 0,
+        height: 0,
+        inks: 256,
+    }],
+    // 1/256: far above the last place (1/65536), far below what a pixel sees.
+    offset: 0.003_906_25,
+    lean: Lean::Nothing,
+    hertz: 2_000_000.0,
+    starts: starts::starts,
+    wraps: false,
+    columns: 512,
+    pixels: |_| 1,
+    sizes: Sizes {
+        operation: 0,
+        copy_bool: 4,
+        copy: 20,
+        home: 4,
+        test: 9,
+        turns: 30,
+        call: 3,
+        around: 1,
+        ends: 0,
+    },
+    emit,
+};
+
+/// Writes a plan down as one file of assembly.
+fn emit(plan: &Plan) -> Vec<Document> {
+    vec![document(plan, syntax::USUAL)]
+}
+
+/// A plan as one file of assembly for some assembler.
+pub fn document(plan: &Plan, syntax: &Syntax) -> Document {
+    let mut draft = Draft::with(plan, syntax);
+    draft.tidy();
+    draft.document()
+}
+
+/// The program that a plan's is for other rows of the picture: the same, but for what the
+/// parameters say.
+pub fn for_rows(document: &Document, (first, last): (u32, u32)) -> Document {
+    let mut other = document.clone();
+    other.text.clear();
+    for line in document.text.lines() {
+        let row = params::ROWS
+            .iter()
+            .zip([first, last])
+            .find_map(|(name, row)| {
+                let said = line.strip_prefix(name)?.strip_prefix(" = ")?;
+                let (_, remark) = said.split_once(';')?;
+                Some(format!("{:<24};{remark}", format!("{name} = {row}")))
+            });
+        other.text.push_str(row.as_deref().unwrap_or(line));
+        other.text.push('\n');
+    }
+    other
+}
+
+/// Where the file of a plan's program is loaded, if not where it is assembled for.
+pub fn moved_from(plan: &Plan) -> Option<u16> {
+    match Machine::of(plan) {
+        Machine::Bbc => bbc::moved_from(&homes::Homes::new(plan).places),
+        Machine::Plain | Machine::C64 => None,
+    }
+}
+
+/// Lines of assembly, each with the place in the scene that it comes from.
+#[derive(Default)]
+struct Text {
+    lines: Vec<(String, Option<Span>)>,
+    /// The place that lines come from now.
+    span: Option<Span>,
+    /// Makes labels unique.
+    serial: u32,
+    /// The symbol of the factor that the pointers into the quarter squares are for, where
+    /// that is known: no way comes here from elsewhere, and nothing else set them.
+    kept: Option<String>,
+}
+
+impl Text {
+    /// A line as it stands; several if it has line ends.
+    fn line(&mut self, text: impl AsRef<str>) {
+        for line in text.as_ref().split('\n') {
+            if self.kept.as_deref().is_some_and(|kept| forgets(line, kept)) {
+                self.kept = None;
+            }
+            self.lines.push((line.to_owned(), self.span));
+        }
+    }
+
+    /// Instructions, separated by `|`.
+    fn code(&mut self, instructions: &str) {
+        for instruction in instructions.split('|') {
+            self.line(format!("        {}", instruction.trim()));
+        }
+    }
+
+    /// Bytes of a table, sixteen a line.
+    fn bytes(&mut self, bytes: impl Iterator<Item = u8>) {
+        let bytes: Vec<String> = bytes.map(|byte| byte.to_string()).collect();
+        for row in bytes.chunks(16) {
+            self.line(format!("        .byte {}", row.join(", ")));
+        }
+    }
+
+    fn label(&mut self, name: &str) {
+        self.kept = None;
+        self.line(format!("{name}:"));
+    }
+
+    fn next_serial(&mut self) -> u32 {
+        self.serial += 1;
+        self.serial
+    }
+
+    /// What was written elsewhere, as if it had been written here: labels were made there only.
+    fn append(&mut self, other: Text) {
+        self.lines.extend(other.lines);
+        (self.span, self.serial, self.kept) = (other.span, other.serial, other.kept);
+    }
+
+    /// A headline over a part of the program.
+    fn headline(&mut self, title: &str) {
+        self.line("");
+        self.line(format!("; ---- {title}"));
+    }
+}
+
+/// Whether an instruction changes a symbol's value, or may set the pointers into the quarter
+/// squares.
+fn forgets(line: &str, kept: &str) -> bool {
+    let mut words = line.split_whitespace();
+    match (words.next(), words.next()) {
+        (Some("jsr" | "jmp" | "rts"), _) => true,
+        (Some("sta" | "stx" | "sty" | "inc" | "dec" | "asl" | "lsr" | "rol" | "ror"), Some(to)) => {
+            to.split('+').next() == Some(kept)
+        }
+        _ => false,
+    }
+}

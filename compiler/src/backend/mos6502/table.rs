@@ -1,0 +1,219 @@
+//! Constant tables and lookups in them.
+//!
+//! A table is kept as planes: the low bytes of all entries, row by row, then
+//! their next bytes, and so on; a plane whose bytes are all alike is left out.
+//! Up to 256 entries are indexed by x. A larger table is read through a pointer.
+
+use super::super::starts::tables;
+use super::Text;
+use super::code::Code;
+use crate::ir::graph::*;
+use crate::ir::tree::Place;
+use crate::plan::Plan;
+use slowlight_routine::{Bits, Range};
+use slowlight_runtime_6502::write::{self, Place as Operand};
+
+/// Byte `k` of every entry.
+fn plane(plan: &Plan, (id, table): (TableId, &Table), k: u8) -> Vec<u8> {
+    let byte = |bits: Bits| bits.to_le_bytes().get(usize::from(k)).copied().unwrap_or(0);
+    let bits = |(at, e): (usize, &Constant)| match plan.points() {
+        Some(_) => plan.entry(id, at),
+        None => plan.bits(e.value()),
+    };
+    let entries = table.entries.iter().enumerate();
+    entries.map(|entry| byte(bits(entry))).collect()
+}
+
+/// The one byte that a plane is made of, if it is.
+fn uniform(plane: &[u8]) -> Option<u8> {
+    let first = plane.first()?;
+    plane.iter().all(|b| b == first).then_some(*first)
+}
+
+fn planes(plan: &Plan, id: TableId, table: &Table) -> Vec<Vec<u8>> {
+    let size = write::size(plan.entry_format(id));
+    (0..size).map(|k| plane(plan, (id, table), k)).collect()
+}
+
+/// A plane's label.
+fn label(table: TableId, k: usize) -> String {
+    format!("table{}_{k}", table.0)
+}
+
+/// Whether some table is too large for an index of one byte.
+pub(super) fn any_large(plan: &Plan) -> bool {
+    let large = |t: &TableId| plan.graph.tables.get(t.0 as usize).is_some_and(is_large);
+    tables(plan).iter().any(large)
+}
+
+fn is_large(table: &Table) -> bool {
+    table.entries.len() > 256
+}
+
+/// Writes the tables that are used.
+pub(super) fn data(plan: &Plan, text: &mut Text) {
+    for id in tables(plan) {
+        let Some(table) = plan.graph.tables.get(id.0 as usize) else {
+            continue;
+        };
+        text.headline(&format!(
+            "table {}, {} x {}",
+            table.name, table.width, table.height
+        ));
+        for (k, plane) in planes(plan, id, table).iter().enumerate() {
+            if uniform(plane).is_some() && !is_large(table) {
+                continue;
+            }
+            text.label(&label(id, k));
+            for row in plane.chunks(16) {
+                let bytes: Vec<String> = row.iter().map(u8::to_string).collect();
+                text.line(format!("        .byte {}", bytes.join(", ")));
+            }
+        }
+        if !is_large(table) && table.height > 1 && !table.width.is_power_of_two() {
+            text.label(&rows_label(id));
+            let offsets = (0..table.height).map(|row| ((row * table.width) & 0xFF).to_string());
+            text.line(format!(
+                "        .byte {}",
+                offsets.collect::<Vec<_>>().join(", ")
+            ));
+        }
+    }
+}
+
+/// Where each row begins.
+fn rows_label(table: TableId) -> String {
+    format!("table{}_rows", table.0)
+}
+
+impl Code<'_> {
+    /// Computes a lookup into its home.
+    pub(super) fn lookup(&mut self, id: NodeId, of: TableId, column: NodeId, row: NodeId) {
+        let plan = self.plan;
+        let Some(table) = plan.graph.tables.get(of.0 as usize) else {
+            return;
+        };
+        let place = Place::Node(id);
+        let home = self.homes.place(place).to_owned();
+        let bytes = match self.homes.shape(plan, place) {
+            Some(shape) => shape.bytes,
+            None => write::size(plan.runtime.format_of(table.ty)),
+        };
+        if is_large(table) {
+            return self.large_lookup((&home, bytes), (of, table), column, row);
+        }
+        let [columns, rows] = plan.ranges.args[id.0 as usize];
+        let column = self.index(column, (columns, table.width), "arg");
+        let row = if table.height > 1 {
+            Some(self.index(row, (rows, table.height), "low"))
+        } else {
+            None
+        };
+        self.text.code(&match row {
+            None => format!("ldx {column}"),
+            Some(row) if table.width.is_power_of_two() => {
+                let shifts = " | asl".repeat(table.width.trailing_zeros() as usize);
+                format!("lda {row}{shifts} | clc | adc {column} | tax")
+            }
+            Some(row) => {
+                let load = if row.starts_with('#') {
+                    format!("lda {row} | tax")
+                } else {
+                    format!("ldx {row}")
+                };
+                format!(
+                    "{load} | lda {},x | clc | adc {column} | tax",
+                    rows_label(of)
+                )
+            }
+        });
+        let planes = planes(plan, of, table);
+        for (k, plane) in planes.iter().enumerate().take(usize::from(bytes)) {
+            let to = write::byte_at(&home, k as u8);
+            self.text.code(&match uniform(plane) {
+                Some(byte) => format!("lda #${byte:02x} | sta {to}"),
+                None => format!("lda {},x | sta {to}", label(of, k)),
+            });
+        }
+    }
+
+    /// One byte that holds an index, clamped to 0..n-1: the operand itself where
+    /// its range is proved to lie inside, else kept in `to`.
+    fn index(&mut self, id: NodeId, (range, n): (Range, u32), to: &str) -> String {
+        let place = self.homes.operand(self.plan, id);
+        if range.within(0.0, f64::from(n) - 1.0) {
+            return write::byte(&place, 0);
+        }
+        self.clamp(&place, n);
+        self.text.code(&format!("lda acc | sta {to}"));
+        to.to_owned()
+    }
+
+    /// `acc` = the index in a place, clamped.
+    fn clamp(&mut self, place: &Operand, n: u32) {
+        self.copy_to(place, "acc");
+        self.copy_to(&Operand::Constant(Bits::from(n.saturating_sub(1))), "prod");
+        self.text.code("jsr clamp_index");
+        self.clamps = true;
+    }
+
+    /// Through a pointer to the entry's low byte; the other planes follow.
+    fn large_lookup(
+        &mut self,
+        (home, bytes): (&str, u8),
+        (of, table): (TableId, &Table),
+        column: NodeId,
+        row: NodeId,
+    ) {
+        let pixel_row = self.homes.operand(self.plan, row);
+        self.clamp(&pixel_row, table.height);
+        self.copy_to(&Operand::Constant(Bits::from(table.width)), "arg");
+        self.text
+            .code("jsr int_multiply | lda acc | sta prod+4 | lda acc+1 | sta prod+5");
+        let pixel_column = self.homes.operand(self.plan, column);
+        self.clamp(&pixel_column, table.width);
+        let first = label(of, 0);
+        self.text
+            .code("clc | lda acc | adc prod+4 | sta acc | lda acc+1 | adc prod+5 | sta acc+1");
+        self.text
+            .code(&format!("clc | lda acc | adc #<({first}) | sta acc"));
+        self.text
+            .code(&format!("lda acc+1 | adc #>({first}) | sta acc+1 | ldy #0"));
+        let [lo, hi, ..] = (table.entries.len() as u32).to_le_bytes();
+        for k in 0..bytes {
+            if k > 0 {
+                self.text.code(&format!(
+                    "clc | lda acc | adc #{lo} | sta acc | lda acc+1 | adc #{hi} | sta acc+1"
+                ));
+            }
+            self.text
+                .code(&format!("lda (acc),y | sta {}", write::byte_at(home, k)));
+        }
+    }
+}
+
+/// `acc` clamped to 0..prod, which is not negative.
+pub(super) const CLAMP: &str = "\
+clamp_index:
+        lda acc+3
+        bpl clamp_index_above
+        lda #0
+        sta acc
+        sta acc+1
+        rts
+clamp_index_above:
+        lda prod
+        cmp acc
+        lda prod+1
+        sbc acc+1
+        lda #0
+        sbc acc+2
+        lda #0
+        sbc acc+3
+        bcs clamp_index_done
+        lda prod
+        sta acc
+        lda prod+1
+        sta acc+1
+clamp_index_done:
+        rts";

@@ -1,0 +1,13 @@
+//! The intermediate representation: the graph of scalar operations, its text form, and the
+//! statement tree.
+
+pub mod build;
+pub mod diffusion;
+pub mod graph;
+pub mod node;
+mod notes;
+pub mod often;
+pub mod print;
+pub mod ramp;
+pub mod read;
+pub mod tree;

@@ -1,0 +1,219 @@
+//! Shannon expansion of comparisons: what comes out the same either way is not asked for.
+//!
+//! Whether a point lies in the shadow takes a second ray to find out, and often does not
+//! matter: where a pixel is darker than its threshold lit, it is dark in any case. So what
+//! is made of a choice and then compared, or made an int, is worked out for both of its
+//! arms; only where these differ is the choice's condition asked. It is Shannon's expansion
+//! of the comparison, so nothing needs to be proved, and no pixel changes, in any arithmetic:
+//! each arm's way is what it was.
+//!
+//! It doubles what lies between the choice and the comparison, so it is for the plan to find
+//! out whether that pays.
+
+use crate::ir::build::Builder;
+use crate::ir::graph::*;
+use crate::passes::rewrite::rebuild::rebuild_old;
+use crate::source::Span;
+use slowlight_routine::{Op, Type};
+use std::collections::{BTreeMap, BTreeSet};
+
+/// How many conditions are looked at.
+const CONDITIONS: usize = 4;
+
+/// The conditions of choices between reals, those first that most is computed for.
+pub fn conditions(graph: &Graph) -> Vec<NodeId> {
+    let reached = graph.reached();
+    let mut all: BTreeSet<NodeId> = BTreeSet::new();
+    for id in graph.ids().filter(|id| reached[id.0 as usize]) {
+        if let Node::Select { cond, .. } = graph.node(id)
+            && graph.ty(id) == Type::Real
+        {
+            all.insert(cond);
+        }
+    }
+    let mut all: Vec<(usize, NodeId)> = all
+        .into_iter()
+        .map(|cond| (reached_from(graph, cond), cond))
+        .collect();
+    all.sort_by_key(|(count, cond)| (std::cmp::Reverse(*count), *cond));
+    all.into_iter()
+        .take(CONDITIONS)
+        .map(|(_, cond)| cond)
+        .collect()
+}
+
+/// How many nodes a value is made of.
+fn reached_from(graph: &Graph, id: NodeId) -> usize {
+    let mut seen = vec![false; graph.nodes.len()];
+    let (mut count, mut todo) = (0, vec![id]);
+    while let Some(id) = todo.pop() {
+        if !std::mem::replace(&mut seen[id.0 as usize], true) {
+            count += 1;
+            todo.extend(graph.references(id));
+        }
+    }
+    count
+}
+
+/// What a value is in the two arms, in the new graph.
+#[derive(Clone, Copy)]
+struct Pair {
+    yes: NodeId,
+    no: NodeId,
+}
+
+/// The graph in which a condition is asked only where it matters; nothing where no choice by
+/// it comes to a comparison. Where errors are sent on, each shade matters.
+pub fn either(graph: &Graph, by: NodeId) -> Option<Graph> {
+    if graph.diffusion.is_some() {
+        return None;
+    }
+    let mut pairs: BTreeMap<NodeId, Pair> = BTreeMap::new();
+    let mut some = false;
+    let next = rebuild_old(graph, &mut |builder, made, id, span| {
+        let new = |old: NodeId| made.get(old.0 as usize).copied().flatten();
+        let node = graph.node(id);
+        let mut arms = |of: fn(&Pair) -> NodeId| -> Option<NodeId> {
+            let one = |arg: NodeId| pairs.get(&arg).map(of).or_else(|| new(arg));
+            put(builder, node, by, one, span)
+        };
+        let chosen = matches!(node, Node::Select { cond, .. } if cond == by);
+        if !chosen && !node.operands().any(|arg| pairs.contains_key(&arg)) {
+            return None;
+        }
+        let pair = match node {
+            // Each arm is one way.
+            Node::Select { yes, no, .. } if chosen => Pair {
+                yes: pairs.get(&yes).map(|p| p.yes).or_else(|| new(yes))?,
+                no: pairs.get(&no).map(|p| p.no).or_else(|| new(no))?,
+            },
+            _ => Pair {
+                yes: arms(|pair| pair.yes)?,
+                no: arms(|pair| pair.no)?,
+            },
+        };
+        if graph.ty(id) == Type::Real {
+            pairs.insert(id, pair);
+            return None;
+        }
+        if chosen {
+            return None;
+        }
+        some = true;
+        let cond = new(by)?;
+        let same = same(builder, pair, graph.ty(id), span);
+        let asked = builder.select(cond, pair.yes, pair.no, span);
+        Some(builder.select(same, pair.no, asked, span))
+    });
+    some.then_some(next)
+}
+
+/// A node with other operands.
+fn put(
+    builder: &mut Builder,
+    node: Node,
+    by: NodeId,
+    one: impl Fn(NodeId) -> Option<NodeId>,
+    span: Span,
+) -> Option<NodeId> {
+    match node {
+        Node::Apply(op, args) => {
+            let args: Option<Vec<NodeId>> = args[..op.arity()].iter().map(|a| one(*a)).collect();
+            Some(builder.apply(op, &args?, span))
+        }
+        Node::Select { cond, yes, no } if cond != by => {
+            let (cond, yes, no) = (one(cond)?, one(yes)?, one(no)?);
+            Some(builder.select(cond, yes, no, span))
+        }
+        _ => None,
+    }
+}
+
+/// Whether the two ways come to the same.
+fn same(builder: &mut Builder, pair: Pair, ty: Type, span: Span) -> NodeId {
+    match ty {
+        Type::Bool => {
+            let not = builder.apply(Op::Not, &[pair.no], span);
+            builder.select(pair.yes, pair.no, not, span)
+        }
+        _ => builder.apply(Op::IntEqual, &[pair.yes, pair.no], span),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::eval::drawn::grid;
+    use crate::eval::native::Native;
+    use crate::passes::simplify::fold::fold;
+    use crate::scene;
+    use crate::sema::Options;
+
+    fn lowered(draw: &str) -> Graph {
+        let source = format!(
+            "image 24 x 16 inks black, grey, white; param p: real = 0.75 in -2 .. 2;
+             draw (x, y) = {{
+               let dear = loop (v = x * 0.1 + y * 0.07 + p, n = 0) max 40 {{
+                 if n < 30 then next(v * 1.1 + 0.01, n + 1) else v > 20
+               }} else false;
+               {draw}
+             }};"
+        );
+        let options = Options {
+            inks: Some(3),
+            ..Options::default()
+        };
+        let checked = scene::check("test", &source);
+        fold(&checked.lower(&options).expect(&source))
+    }
+
+    /// The inks, and how many operations they took.
+    fn inks(graph: &Graph) -> (Vec<u8>, u64) {
+        // Nobody asks for the shade.
+        let graph = Graph {
+            shade: None,
+            ..graph.clone()
+        };
+        let mut native = Native::new(&graph);
+        let places = grid(24, 16, 1);
+        let inks = places.iter().map(|(x, y)| native.pixel(*x, *y).ink);
+        (inks.collect(), native.operations())
+    }
+
+    #[test]
+    fn a_dear_condition_is_asked_only_where_it_matters() {
+        for ink in [
+            "threshold((if dear then 0.25 else 1) * (y / 16), bayer(4)[x mod 4, y mod 4])",
+            "ink(if (if dear then p else 2) * y < x then 1 else 2)",
+            "ink(floor((if dear then y / 20 else y / 10) * 1.5))",
+        ] {
+            let graph = lowered(ink);
+            let (drawn, all) = inks(&graph);
+            let found = conditions(&graph).into_iter();
+            let found = found.filter_map(|cond| either(&graph, cond));
+            let found: Vec<_> = found.map(|next| inks(&next)).collect();
+            assert!(found.iter().all(|(inks, _)| *inks == drawn), "{ink}");
+            // It still matters at some.
+            let fewer = |few: u64| few < all * 3 / 4 && few > all / 100;
+            let few: Vec<u64> = found.iter().map(|(_, few)| *few).collect();
+            assert!(few.iter().any(|few| fewer(*few)), "{ink}: {few:?} of {all}");
+        }
+    }
+
+    #[test]
+    fn errors_that_are_sent_on_need_every_shade() {
+        let source = "image 16 x 8 inks black, white;
+            dither send(v: real, x: int, y: int) -> ink = {
+              let q = clamp(round(v), 0, 1);
+              spread v - q to { (1, 0): 7/16 };
+              ink(q)
+            };
+            draw (x, y) = send((if x * x > 8 then 0.25 else 1) * y / 8, x, y);";
+        let graph = scene::check("test", source).lower(&Options::default());
+        let graph = graph.expect("a graph");
+        assert!(!conditions(&graph).is_empty());
+        for cond in conditions(&graph) {
+            assert!(either(&graph, cond).is_none());
+        }
+    }
+}

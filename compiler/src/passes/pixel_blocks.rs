@@ -1,0 +1,213 @@
+//! Lower sampling rate: the same picture, computed once for several pixels of the screen, a
+//! block.
+//!
+//! A block's shade is that of the pixel at its middle; its dither sees the block's own
+//! column and row, as it would in a smaller picture. Were it to see the pixel's, only
+//! every nth entry of its matrix would ever be met, and those need not have the
+//! matrix's mean.
+
+use crate::ir::build::Builder;
+use crate::ir::graph::*;
+use crate::passes::rewrite::rebuild::{End, Rewrite, rebuild_by};
+use crate::source::Span;
+use rustc_hash::FxHashMap;
+use slowlight_routine::{Op, Value};
+
+/// The graph of a picture of blocks, each so many columns wide and rows high. Its image
+/// counts blocks; both sides of the picture must be whole numbers of them.
+pub fn coarse(graph: &Graph, block: (u32, u32)) -> Graph {
+    if block == (1, 1) {
+        return graph.clone();
+    }
+    let mut rewrite = Coarse {
+        graph,
+        block,
+        dithers: dithers(graph),
+        dithered: FxHashMap::default(),
+    };
+    let mut made = rebuild_by(graph, &mut rewrite);
+    made.image.width = (graph.image.width / block.0).max(1);
+    made.image.height = (graph.image.height / block.1).max(1);
+    made.image.block = (graph.image.block.0 * block.0, graph.image.block.1 * block.1);
+    made
+}
+
+/// What is between the shade and what comes out: what the dither works out.
+fn dithers(graph: &Graph) -> Vec<bool> {
+    let mut found = vec![false; graph.nodes.len()];
+    let Some(shade) = graph.shade else {
+        return found;
+    };
+    let mut todo: Vec<NodeId> = graph.roots().collect();
+    while let Some(id) = todo.pop() {
+        let Some(flag) = found.get_mut(id.0 as usize) else {
+            continue;
+        };
+        if id == shade || std::mem::replace(flag, true) {
+            continue;
+        }
+        todo.extend(graph.references(id));
+    }
+    found
+}
+
+struct Coarse<'g> {
+    graph: &'g Graph,
+    block: (u32, u32),
+    /// By node: whether the dither works it out.
+    dithers: Vec<bool>,
+    /// What stands for a node in the dither, where that is another than elsewhere.
+    dithered: FxHashMap<NodeId, NodeId>,
+}
+
+impl Coarse<'_> {
+    /// The middle of the block: its column or row times its size, and half of that.
+    fn middle(&self, b: &mut Builder, axis: Axis, span: Span) -> NodeId {
+        let size = match axis {
+            Axis::Y => self.block.1,
+            _ => self.block.0,
+        };
+        let own = b.axis(axis, span);
+        if size == 1 {
+            return own;
+        }
+        let [size, half] = [size, size / 2].map(|n| b.constant(Value::Int(n as i32), span));
+        let first = b.apply(Op::IntMul, &[own, size], span);
+        b.apply(Op::IntAdd, &[first, half], span)
+    }
+
+    /// What stands for an operand in the dither.
+    fn seen(&self, made: &[Option<NodeId>], id: NodeId) -> Option<NodeId> {
+        let plain = || made.get(id.0 as usize).copied().flatten();
+        self.dithered.get(&id).copied().or_else(plain)
+    }
+
+    /// The dither's node: as it is, over what the dither's operands are.
+    fn dither(
+        &self,
+        b: &mut Builder,
+        made: &[Option<NodeId>],
+        id: NodeId,
+        moved: Node,
+        span: Span,
+    ) -> Option<NodeId> {
+        let seen = |id| self.seen(made, id);
+        Some(match (self.graph.node(id), moved) {
+            (Node::Axis(axis), _) => b.axis(axis, span),
+            (Node::Apply(op, args), _) => {
+                let args: Option<Vec<NodeId>> =
+                    args[..op.arity()].iter().map(|a| seen(*a)).collect();
+                b.apply(op, &args?, span)
+            }
+            (Node::Select { cond, yes, no }, _) => {
+                b.select(seen(cond)?, seen(yes)?, seen(no)?, span)
+            }
+            (Node::Lookup { column, row, .. }, Node::Lookup { table, .. }) => {
+                b.lookup(table, seen(column)?, seen(row)?, span)
+            }
+            _ => return None,
+        })
+    }
+}
+
+impl Rewrite for Coarse<'_> {
+    fn node(
+        &mut self,
+        b: &mut Builder,
+        made: &[Option<NodeId>],
+        id: NodeId,
+        moved: Node,
+        span: Span,
+    ) -> Option<NodeId> {
+        if self.dithers.get(id.0 as usize) == Some(&true)
+            && let Some(own) = self.dither(b, made, id, moved, span)
+        {
+            self.dithered.insert(id, own);
+        }
+        match moved {
+            Node::Axis(axis) => Some(self.middle(b, axis, span)),
+            _ => None,
+        }
+    }
+
+    fn end(
+        &mut self,
+        _: &mut Builder,
+        made: &[Option<NodeId>],
+        id: NodeId,
+        end: End,
+    ) -> Option<NodeId> {
+        match end {
+            End::Ink | End::Output if Some(id) != self.graph.shade => self.seen(made, id),
+            _ => None,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::eval::native::Native;
+    use crate::scene::check;
+    use crate::sema::Options;
+
+    fn graph(text: &str) -> Graph {
+        let scene = check("test", text);
+        assert!(scene.is_right(), "{:?}", scene.diagnostics);
+        scene.lower(&Options::default()).expect("it lowers")
+    }
+
+    /// Shades and inks, row by row.
+    fn drawn(graph: &Graph) -> Vec<Vec<(u8, f64)>> {
+        let mut native = Native::new(graph);
+        let mut row = |y| {
+            let mut out = Vec::new();
+            native.pixels(0..graph.image.width as i32, y, &mut out);
+            out.iter().map(|p| (p.ink, p.shade)).collect()
+        };
+        (0..graph.image.height as i32).map(&mut row).collect()
+    }
+
+    /// The column takes part in the shade and in the dither, by the same expression too.
+    const DITHERED: &str = "image 24 x 12 inks black, grey, white;
+draw (x, y) = threshold((x mod 8) / 16 + y / 24, bayer(4)[(x mod 8) mod 4, y mod 4]);
+";
+
+    #[test]
+    fn a_block_has_the_shade_of_its_middle_and_a_dither_of_its_own() {
+        let fine = graph(DITHERED);
+        let made = coarse(&fine, (3, 2));
+        assert_eq!((made.image.width, made.image.height), (8, 6));
+        assert_eq!(
+            (made.image.block, made.image.on_screen()),
+            ((3, 2), (24, 12))
+        );
+        assert_eq!(crate::analysis::verify::verify(&made).err(), None);
+        // The same written by hand as a picture of so many pixels.
+        let by_hand = "image 8 x 6 inks black, grey, white;
+draw (x, y) = threshold(((3 * x + 1) mod 8) / 16 + (2 * y + 1) / 24, bayer(4)[(x mod 8) mod 4, y mod 4]);
+";
+        assert_eq!(drawn(&made), drawn(&graph(by_hand)));
+    }
+
+    #[test]
+    fn blocks_of_one_pixel_and_pictures_without_a_dither() {
+        let fine = graph(DITHERED);
+        assert_eq!(coarse(&fine, (1, 1)), fine);
+        let plain = graph(
+            "image 8 x 8 inks black, white;\ndraw (x, y) = ink((x div 4 + y div 4) mod 2);\n",
+        );
+        let made = drawn(&coarse(&plain, (2, 2)));
+        let inks: Vec<u8> = made[1].iter().map(|(ink, _)| *ink).collect();
+        assert_eq!(inks, [0, 0, 1, 1]);
+    }
+
+    #[test]
+    fn a_graph_of_blocks_is_read_back() {
+        let made = coarse(&graph(DITHERED), (3, 2));
+        let text = made.to_string();
+        assert!(text.starts_with("image 8x6 of 3x2 inks"), "{text}");
+        let read = crate::ir::read::read(&text).expect("it reads");
+        assert_eq!(read.image, made.image);
+    }
+}

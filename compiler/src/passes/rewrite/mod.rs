@@ -1,0 +1,4 @@
+//! What rewriting passes share: graphs made anew node by node.
+
+pub(crate) mod arena;
+pub mod rebuild;

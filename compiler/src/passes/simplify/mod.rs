@@ -1,0 +1,7 @@
+//! Simplification: values that are equal by algebra or by their ranges, in fewer operations.
+
+pub mod fold;
+pub mod integer_parts;
+pub mod range_folding;
+pub mod reciprocals;
+pub mod unit_vectors;

@@ -1,0 +1,338 @@
+//! The planning driver: the passes in their order, then a routine for each value.
+
+use super::SEARCH;
+use super::assemble::assemble;
+use super::pipeline::{Pass, PassSet, Pipeline};
+use crate::analysis::verify::verify;
+use crate::backend::Target;
+use crate::cost::price::Price;
+use crate::cost::size_budget::Thrift;
+use crate::fuel::Fuel;
+use crate::ir::graph::*;
+use crate::passes::accuracy::stable;
+use crate::passes::algebra::ray_parameter::along;
+use crate::passes::branches::early_exit::{everywhere, without};
+use crate::passes::loops::strength_reduction::runs::is_exact;
+use crate::passes::loops::strip_mine::interlaced;
+use crate::passes::simplify::fold::fold;
+use crate::passes::simplify::integer_parts::whole_parts;
+use crate::passes::simplify::unit_vectors::units;
+use crate::plan::params;
+use crate::plan::params::ParamPlan;
+use crate::plan::{Goal, Plan};
+use crate::planner::memo::Workshop;
+use crate::planner::search::branches::{asked_where_it_matters, in_arms, rewritten};
+use crate::planner::search::columns::in_columns;
+use crate::planner::search::forms::{apart_at_last, cheaper, with_inks_split};
+use crate::planner::search::licm::licm;
+use crate::planner::search::stepped::{Steps, stepped};
+use crate::planner::search::sums::with_sums;
+use crate::planner::search::whole_forms::cheapest_form;
+use crate::schedule::analysed::{Known, Settled};
+use crate::schedule::statements::missing;
+use crate::source::Diagnostic;
+use crate::wordlength::precision::narrowed;
+use rayon::prelude::*;
+use slowlight_routine::Format;
+use std::sync::Arc;
+
+/// Plans a graph that `sema` lowered for this target's inks and offset.
+pub fn plan(graph: &Graph, target: &'static Target, goal: &Goal) -> Result<Plan, Vec<Diagnostic>> {
+    plan_within(graph, target, goal, SEARCH, PassSet::default())
+}
+
+/// The same where the search may do so much work, in units of [`Fuel`], and some passes are left
+/// out; by no work the plan is a draft.
+pub fn plan_within(
+    graph: &Graph,
+    target: &'static Target,
+    goal: &Goal,
+    fuel: u64,
+    without: PassSet,
+) -> Result<Plan, Vec<Diagnostic>> {
+    let all = Rewriting::Fast {
+        thrift: Thrift::default(),
+        steps: Steps::All,
+    };
+    let mut shop = Workshop::new(graph.clone(), target.runtime);
+    shop.draft = fuel == 0;
+    shop.pipeline = Pipeline::without(without);
+    candidate(&Arc::new(shop), target, goal, (all, Fuel::new(fuel)))?.assembled(target, goal)
+}
+
+/// The same with every shade in full, even where the ink is known before: what that is less
+/// than [`plan`] is saved by [`crate::passes::branches::shannon`].
+pub fn plan_with_every_shade(
+    graph: &Graph,
+    target: &'static Target,
+    goal: &Goal,
+) -> Result<Plan, Vec<Diagnostic>> {
+    let mut shop = Workshop::new(graph.clone(), target.runtime);
+    shop.every_shade = true;
+    let all = Rewriting::Fast {
+        thrift: Thrift::default(),
+        steps: Steps::All,
+    };
+    candidate(&Arc::new(shop), target, goal, (all, Fuel::new(SEARCH)))?.assembled(target, goal)
+}
+
+/// The same without the passes that rewrite formulas ([`crate::passes::accuracy`]
+/// and those for speed): every one as the scene has it. For warnings about what the formulas lose, and to show what the pass does.
+pub fn plan_as_written(
+    graph: &Graph,
+    target: &'static Target,
+    goal: &Goal,
+) -> Result<Plan, Vec<Diagnostic>> {
+    let none = (Rewriting::None, Fuel::new(SEARCH));
+    let shop = Workshop::new(graph.clone(), target.runtime);
+    candidate(&Arc::new(shop), target, goal, none)?.assembled(target, goal)
+}
+
+/// Which passes may rewrite formulas.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Rewriting {
+    /// None: every formula as the scene has it.
+    None,
+    /// [`crate::passes::accuracy`].
+    Stable,
+    /// Those for speed, too; perhaps with little memory.
+    Fast { thrift: Thrift, steps: Steps },
+}
+
+/// By how much shortcuts must make a plan cheaper: each is a test more to be read.
+const SOONER: f64 = 0.95;
+
+/// From where on only plans with them are looked at, where runs of columns may tell what exits
+/// would: there the plan without may gain more by the other passes.
+const SURELY: f64 = 0.75;
+
+/// How often stable forms are looked for: what one makes may let another in.
+const STABLE_ROUNDS: u32 = 4;
+
+/// What the passes made of a scene: scheduled, but with no routine selected yet.
+pub struct Candidate {
+    shop: Arc<Workshop>,
+    rewriting: Rewriting,
+    params: Vec<ParamPlan>,
+    plan: Settled,
+    /// What it took, whether it was cut short, and by how much fuel.
+    work: u64,
+    cut: bool,
+    allowance: u64,
+}
+
+impl Candidate {
+    /// What [`Plan::cycles_a_pixel`] says of the plan that it makes.
+    pub fn cycles_a_pixel(&self) -> f64 {
+        Price::new(&self.shop, Thrift::default()).cycles_known(&self.plan)
+    }
+
+    /// What searching for it took, in units of [`Fuel`].
+    pub fn work(&self) -> u64 {
+        self.work
+    }
+
+    /// Whether two make the same plan.
+    pub fn is(&self, other: &Candidate) -> bool {
+        self.plan.serial() == other.plan.serial() || self.plan.graph == other.plan.graph
+    }
+
+    /// The plan with its routines.
+    pub(crate) fn assembled(
+        self,
+        target: &'static Target,
+        goal: &Goal,
+    ) -> Result<Plan, Vec<Diagnostic>> {
+        let Known {
+            graph,
+            tree,
+            ranges,
+            ..
+        } = &*self.plan;
+        let origin = (self.shop, self.rewriting);
+        let (graph, tree, ranges) = (graph.clone(), tree.clone(), ranges.clone());
+        let mut plan = assemble(graph, tree, ranges, self.params, target, goal, origin)?;
+        (plan.work, plan.cut, plan.allowance) = (self.work, self.cut, self.allowance);
+        if plan.runtime.narrow.is_none() {
+            return Ok(plan);
+        }
+        let shop = plan.origin.0.clone();
+        let narrow = shop.always(Pass::WordLengths, || Some(narrowed(plan.clone())));
+        Ok(narrow.unwrap_or(plan))
+    }
+}
+
+/// What the passes make of a scene, by a workshop that is kept for other plans, with the fuel
+/// for this one.
+pub(crate) fn candidate(
+    kept: &Arc<Workshop>,
+    target: &'static Target,
+    goal: &Goal,
+    (rewriting, fuel): (Rewriting, Fuel),
+) -> Result<Candidate, Vec<Diagnostic>> {
+    let allowance = fuel.given();
+    let shop = &kept.with(fuel);
+    let (origin, runtime) = (&*shop.origin, target.runtime);
+    if let Err(broken) = verify(origin) {
+        let message =
+            format!("the graph is broken: {broken}; a fault of the compiler, please report it");
+        return Err(vec![Diagnostic::error(origin.span(broken.node), message)]);
+    }
+    let params = params::params(origin, runtime)?;
+    let rounds = match rewriting {
+        Rewriting::None => 0,
+        _ => STABLE_ROUNDS,
+    };
+    // Where sums are rounded to as few bits as that, tiles' edges move by whole pixels.
+    let logs = rounds > 0 && matches!(runtime.real, Format::Log { .. });
+    let whole = |graph: Graph| {
+        let made = logs.then(|| shop.always(Pass::IntegerParts, || Some(whole_parts(&graph))));
+        made.flatten().unwrap_or(graph)
+    };
+    let drawn = |graph: Graph| match rewriting {
+        Rewriting::Fast { thrift, .. } if thrift.passes() && runtime.segments => {
+            let made = shop.always(Pass::StripMine, || {
+                interlaced(&graph, in_byte(&graph, target, goal))
+            });
+            made.unwrap_or(graph)
+        }
+        _ => graph,
+    };
+    let ready = |graph: &Graph| steady(shop, &whole(drawn(fold(&without(graph)))), rounds);
+    let mut now = ready(origin);
+    let form = match rewriting {
+        Rewriting::Fast { thrift, .. } => cheapest_form((origin, &now), &ready, shop, thrift),
+        _ => None,
+    };
+    let origin = form.as_ref().map_or(origin, |(graph, _)| graph);
+    if let Some((_, plan)) = &form {
+        now = plan.clone();
+    }
+    if let Rewriting::Fast { thrift, steps } = rewriting {
+        let exits = !origin.early.is_empty() && !shop.pipeline.without.has(Pass::EarlyExit);
+        let early = exits.then(|| steady(shop, &whole(drawn(fold(origin))), rounds));
+        now = searched((now, early), shop, target, thrift, steps);
+    }
+    let Known {
+        graph,
+        tree,
+        ranges,
+        ..
+    } = &*now;
+    // What the last passes placed anew must still begin with its run.
+    if let Rewriting::Fast { thrift, steps } = rewriting
+        && steps != Steps::None
+        && !is_exact(graph, tree, ranges)
+    {
+        let steps = Steps::None;
+        let without = Rewriting::Fast { thrift, steps };
+        let mut made = candidate(kept, target, goal, (without, shop.fuel.share()))?;
+        made.work += shop.fuel.burnt();
+        made.cut |= shop.fuel.was_cut();
+        made.allowance = allowance;
+        return Ok(made);
+    }
+    if let Some(id) = missing(graph, tree) {
+        let message = format!("the schedule lost {id}: a fault of the compiler, please report it");
+        return Err(vec![Diagnostic::error(graph.span(id), message)]);
+    }
+    Ok(Candidate {
+        shop: kept.clone(),
+        rewriting,
+        params,
+        plan: now,
+        work: shop.fuel.burnt(),
+        cut: shop.fuel.was_cut(),
+        allowance,
+    })
+}
+
+/// The cheapest plan that the passes that search find from one; `early` is the same with the
+/// scene's exits in it.
+fn searched(
+    (plain, early): (Settled, Option<Settled>),
+    shop: &Workshop,
+    target: &'static Target,
+    thrift: Thrift,
+    steps: Steps,
+) -> Settled {
+    let price = Price::new(shop, thrift);
+    let plain = in_arms(plain, shop, thrift);
+    let early = early.map(|plan| in_arms(plan, shop, thrift));
+    let early = early.as_ref().map(|settled| &settled.graph);
+    let exits = early.and_then(everywhere).map(|graph| shop.settle(&graph));
+    // How much the exits outside of loops gain hardly hangs on the other passes, but for spans.
+    let part = (exits.as_ref()).map_or(1.0, |exits| price.of(exits) / price.of(&plain));
+    let exits = exits.filter(|_| part < SOONER);
+    let mut starts = Vec::new();
+    let surely = match shop.runtime.segments {
+        true => SURELY,
+        false => SOONER,
+    };
+    let alone = exits.is_some() && part < surely;
+    if !alone {
+        starts.push((plain.clone(), early.cloned()));
+        // Where runs of columns are drawn as a whole, points by their distance along a ray may
+        // tell where these end.
+        let along_rays = || shop.runtime.segments.then(|| along(&plain.graph)).flatten();
+        if let Some(other) = shop.always(Pass::RayParameter, along_rays) {
+            let early = early.map(|graph| along(graph).unwrap_or(graph.clone()));
+            starts.push((shop.settle(&other), early));
+        }
+    }
+    let usual = starts.len();
+    starts.extend(exits.map(|exits| (exits, None)));
+    let found: Vec<(Settled, Fuel)> = (starts.into_par_iter())
+        .map(|(plain, early)| {
+            let shop = shop.with(shop.fuel.share());
+            let all = cheaper(plain.clone(), early.as_ref(), &shop, thrift)
+                .into_iter()
+                .map(|plan| asked_where_it_matters(plan, &shop, thrift))
+                .map(|plan| rewritten(plan, &shop, thrift))
+                .map(|plan| stepped(plan, &shop, target, thrift, steps))
+                .map(|plan| with_sums(plan, &shop, thrift))
+                .map(|plan| with_inks_split(plan, &shop, thrift));
+            (price.cheapest(all).unwrap_or(plain), shop.fuel)
+        })
+        .collect();
+    found.iter().for_each(|(_, fuel)| shop.fuel.settle(fuel));
+    let mut found = found.into_iter().map(|(plan, _)| plan);
+    let best = price.cheapest(found.by_ref().take(usual));
+    let sooner = found.next().filter(|sooner| {
+        let cost = |best| SOONER * price.of(best);
+        best.as_ref()
+            .is_none_or(|best| price.of(sooner) < cost(best))
+    });
+    let mut now = sooner.or(best).unwrap_or(plain);
+    now = apart_at_last(now, shop, thrift);
+    now = in_columns(now, shop, target, thrift);
+    licm(now, shop, thrift)
+}
+
+/// A graph with stable forms of its formulas.
+fn steady(shop: &Workshop, origin: &Graph, rounds: u32) -> Settled {
+    let mut now = shop.scheduled(fold(origin));
+    for _ in 0..rounds {
+        let next = shop.always(Pass::AccuracyRules, || {
+            stable(&now.graph, &now.ranges, shop.slack())
+        });
+        let Some(next) = next else {
+            break;
+        };
+        now = shop.scheduled(fold(&next));
+    }
+    if rounds > 0
+        && let Some(next) = shop.always(Pass::UnitVectors, || units(&now.graph, &now.ranges))
+    {
+        now = shop.scheduled(fold(&next));
+    }
+    shop.settle(&now.graph)
+}
+
+/// How many of the picture's pixels share a byte of the screen, where that matters.
+fn in_byte(graph: &Graph, target: &Target, goal: &Goal) -> u32 {
+    match graph.image.block {
+        (1, 1) => (target.pixels)(&goal.mode),
+        _ => 1,
+    }
+}

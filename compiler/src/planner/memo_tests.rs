@@ -1,0 +1,53 @@
+//! What is found in a workshop is what would be made.
+#![allow(clippy::unwrap_used)]
+
+use super::SEARCH;
+use super::made::{Rewriting, candidate, plan};
+use crate::backend::{default_mode, find};
+use crate::cost::size_budget::Thrift;
+use crate::fuel::Fuel;
+use crate::plan::{Goal, Plan};
+use crate::planner::memo::Workshop;
+use crate::planner::search::stepped::Steps;
+use crate::scene::check;
+use crate::sema::Options;
+use std::sync::Arc;
+
+/// A plan with less memory that was made after another is the one made by itself.
+#[test]
+fn plans_made_again_are_those_made_anew() {
+    let scene = check("mirrors", include_str!("../../../examples/mirrors.scn"));
+    let target = find("bbc:micro").unwrap();
+    let graph = scene.lower(&Options::default()).unwrap();
+    let goal = Goal {
+        name: "mirrors".to_owned(),
+        mode: default_mode(target, 320, 256).unwrap(),
+        rows: None,
+        plot: true,
+    };
+    let text = |plan: &Plan| (target.emit)(plan)[0].text.clone();
+    let plenty = plan(&graph, target, &goal).unwrap();
+    let step = 6;
+    let again = plenty
+        .thriftier(step)
+        .and_then(|made| plenty.completed(made))
+        .unwrap();
+    let thrift = Thrift::step(step).unwrap();
+    let anew = candidate(
+        &Arc::new(Workshop::new(graph, target.runtime)),
+        target,
+        &goal,
+        (
+            Rewriting::Fast {
+                thrift,
+                steps: Steps::All,
+            },
+            Fuel::new(SEARCH),
+        ),
+    );
+    assert_eq!(
+        text(&again),
+        text(&anew.unwrap().assembled(target, &goal).unwrap())
+    );
+    assert_ne!(text(&again), text(&plenty), "another plan");
+}

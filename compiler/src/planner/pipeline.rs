@@ -1,0 +1,197 @@
+//! The pass pipeline: every pass that the planner runs, in the order in which it does.
+//!
+//! A pass goes from a plan's graph to another of the same picture. Some always apply; most are
+//! kept where the plan's price falls ([`crate::cost::price`]), and some are of one kind of machine.
+//! What runs a pass is [`Pipeline::pass`]: it leaves out those that it was told to leave out and
+//! those for which no fuel is left, and counts what each was good for (`build --emit passes`).
+
+use crate::analysis::range::Ranges;
+use crate::fuel::Fuel;
+use crate::ir::graph::Graph;
+use crate::passes::branches::cross_multiply::limits;
+use crate::passes::simplify::reciprocals::reciprocals;
+use crate::schedule::analysed::Settled;
+use slowlight_routine::Runtime;
+use std::fmt::Write;
+use std::sync::{Arc, Mutex, PoisonError};
+
+/// Declares [`Pass`] and what there is to say of each: its name, the file that has it, and what
+/// it does in the field's terms.
+macro_rules! passes {
+    ($($pass:ident $name:literal $file:literal $what:literal)*) => {
+        /// A pass, in the order of the pipeline.
+        #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+        pub enum Pass { $(
+            #[doc = $what]
+            $pass,
+        )* }
+
+        /// All of them.
+        pub const PASSES: &[Pass] = &[$(Pass::$pass),*];
+
+        impl Pass {
+            /// Its name on the command line, the file in `compiler/src` that has it, and what
+            /// it does.
+            pub fn about(self) -> (&'static str, &'static str, &'static str) {
+                match self { $(Pass::$pass => ($name, $file, $what),)* }
+            }
+        }
+    };
+}
+
+passes! {
+    StripMine "strip-mine" "passes/loops/strip_mine" "strip-mining of rows by the residue of the column"
+    IntegerParts "integer-parts" "passes/simplify/integer_parts" "integers out of floors, where sums have few bits"
+    AccuracyRules "accuracy-rules" "passes/accuracy" "rewriting for accuracy, by rules with conditions"
+    UnitVectors "unit-vectors" "passes/simplify/unit_vectors" "lengths of unit vectors folded"
+    AngleAddition "angle-addition" "passes/algebra/angle_addition" "sines of an arc's multiples by addition theorems"
+    IntegerTables "integer-tables" "passes/loops/induction_tables" "tables of functions of integers of few values"
+    Unroll "unroll" "passes/loops/unroll" "full unrolling of counted loops"
+    InductionTables "induction-tables" "passes/loops/induction_tables" "tables of functions of induction variables"
+    PushIntoSelect "push-into-select" "passes/branches/push_into_select" "operations sunk into the arms of selects"
+    EarlyExit "early-exit" "passes/branches/early_exit" "early exits that the scene declares"
+    RayParameter "ray-parameter" "passes/algebra/ray_parameter" "points on rays by the ray's parameter"
+    Peel "peel" "passes/loops/peel" "loop peeling"
+    LoopGuard "loop-guard" "passes/loops/guard" "loop guards before a loop and its second turn"
+    InvertMonotone "invert-monotone" "passes/branches/invert_monotone" "comparisons before monotone functions"
+    PolynomialForms "polynomial-forms" "passes/algebra/polynomial" "normal forms over polynomials and roots"
+    Unnormalised "unnormalised" "passes/algebra/unnormalised" "directions at their own length"
+    SpecialiseFactors "specialise-factors" "passes/branches/specialise_factors" "value specialisation of factors"
+    LengthTests "length-tests" "passes/algebra/identities" "comparisons decided by the length of a vector"
+    Identities "identities" "passes/algebra/identities" "shorter forms by identities of vectors"
+    ScanlineSpans "scanline-spans" "passes/algebra/polynomial/span" "comparisons solved for spans of columns"
+    Shannon "shannon" "passes/branches/shannon" "Shannon expansion of the ink's comparisons"
+    CrossMultiply "cross-multiply" "passes/branches/cross_multiply" "comparisons without division"
+    Reciprocals "reciprocals" "passes/simplify/reciprocals" "division as multiplication by a shared reciprocal"
+    Phases "phases" "passes/loops/strength_reduction" "phase accumulators for periodic functions of the column"
+    ScanlineRuns "scanline-runs" "passes/loops/strength_reduction/runs" "values stepped along runs of columns"
+    Reassociate "reassociate" "passes/algebra/reassociate" "reassociation and common subexpressions of sums"
+    Unswitch "unswitch" "passes/branches/unswitch" "unswitching of the ink on one comparison"
+    LoopBypass "loop-bypass" "passes/loops/bypass" "zero-trip bypass of loops"
+    Rematerialise "rematerialise" "passes/rematerialise" "rematerialisation where values are needed"
+    ScalarExpansion "scalar-expansion" "passes/loops/scalar_expansion" "arrays of values of the column"
+    Licm "licm" "passes/loops/licm" "loop-invariant code motion by frequency"
+    WordLengths "word-lengths" "wordlength/precision" "fewer bits for values where the picture allows"
+}
+
+/// What makes another graph of the same picture; nothing where there is nothing to do.
+pub type Rewrite = fn(&Graph, &Ranges, &Runtime) -> Option<Graph>;
+
+/// The passes that only rewrite a graph, each kept where the plan's price falls: what is added
+/// here needs no other place in the planner.
+pub const REWRITES: &[(Pass, Rewrite)] = &[
+    (Pass::CrossMultiply, limits),
+    (Pass::Reciprocals, reciprocals),
+];
+
+/// Some of the passes.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct PassSet(u64);
+
+impl PassSet {
+    /// The same with one more.
+    #[must_use]
+    pub fn with(self, pass: Pass) -> PassSet {
+        PassSet(self.0 | 1 << pass as u64)
+    }
+
+    /// Whether one is among them.
+    pub fn has(self, pass: Pass) -> bool {
+        self.0 & 1 << pass as u64 != 0
+    }
+
+    /// All that come after one.
+    pub fn after(pass: Pass) -> PassSet {
+        let after = PASSES.iter().skip_while(|p| **p != pass).skip(1);
+        after.fold(PassSet::default(), |all, pass| all.with(*pass))
+    }
+}
+
+/// What a pass was good for so far.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Count {
+    /// How often it was run, and how often what it made was kept.
+    pub runs: u64,
+    pub kept: u64,
+    /// What it burnt, with what ran inside of it, in units of [`Fuel`].
+    pub work: u64,
+}
+
+/// What runs passes for all plans of a scene.
+#[derive(Clone, Debug, Default)]
+pub struct Pipeline {
+    /// Those that are left out.
+    pub without: PassSet,
+    counts: Arc<Mutex<Vec<Count>>>,
+}
+
+impl Pipeline {
+    /// One that leaves some out.
+    pub fn without(without: PassSet) -> Pipeline {
+        Pipeline {
+            without,
+            ..Pipeline::default()
+        }
+    }
+
+    /// Runs a pass that makes another plan of one, or nothing where that would be no better, if
+    /// it is not left out and there is fuel for it.
+    pub fn pass(
+        &self,
+        fuel: &Fuel,
+        pass: Pass,
+        plan: Settled,
+        run: impl FnOnce(&Settled) -> Option<Settled>,
+    ) -> Settled {
+        if self.without.has(pass) || fuel.spent() {
+            return plan;
+        }
+        self.always(fuel, pass, || run(&plan)).unwrap_or(plan)
+    }
+
+    /// Runs a pass, if it is not left out, whatever fuel there is.
+    pub fn always<T>(&self, fuel: &Fuel, pass: Pass, run: impl FnOnce() -> Option<T>) -> Option<T> {
+        if self.without.has(pass) {
+            return None;
+        }
+        let before = fuel.burnt();
+        let made = run();
+        let mut counts = self.counts.lock().unwrap_or_else(PoisonError::into_inner);
+        counts.resize(PASSES.len(), Count::default());
+        if let Some(count) = counts.get_mut(pass as usize) {
+            count.runs += 1;
+            count.kept += u64::from(made.is_some());
+            count.work += fuel.burnt() - before;
+        }
+        made
+    }
+
+    /// What each pass was good for.
+    pub fn count(&self, pass: Pass) -> Count {
+        let counts = self.counts.lock().unwrap_or_else(PoisonError::into_inner);
+        counts.get(pass as usize).copied().unwrap_or_default()
+    }
+
+    /// The passes in their order, with what was counted, as a table of text.
+    pub fn text(&self) -> String {
+        let mut text = format!(
+            "{:19} {:>7} {:>7} {:>11}  what it does (compiler/src)\n",
+            "pass", "runs", "kept", "work"
+        );
+        for pass in PASSES {
+            let (name, file, what) = pass.about();
+            let Count { runs, kept, work } = self.count(*pass);
+            let left = if self.without.has(*pass) {
+                "; left out"
+            } else {
+                ""
+            };
+            // Writing to a string cannot fail.
+            let _ = writeln!(
+                text,
+                "{name:19} {runs:7} {kept:7} {work:11}  {what} ({file}){left}"
+            );
+        }
+        text
+    }
+}

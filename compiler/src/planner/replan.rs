@@ -1,0 +1,174 @@
+//! Replanning: other plans of the scene that a plan is of, for less memory or another question.
+
+use super::made::{Candidate, Rewriting, candidate};
+use super::pipeline::Pipeline;
+use crate::backend::Lean;
+use crate::cost::size_budget::Thrift;
+use crate::fuel::Fuel;
+use crate::ir::graph::*;
+use crate::ir::tree::*;
+use crate::plan::{Goal, Plan};
+use crate::planner::memo::Workshop;
+use crate::planner::search::stepped::Steps;
+use std::sync::Arc;
+
+impl Plan {
+    /// What searching for it took, in units of [`crate::fuel::Fuel`].
+    pub fn work(&self) -> u64 {
+        self.work
+    }
+
+    /// What ran the passes for it and for other plans of its scene.
+    pub fn pipeline(&self) -> &Pipeline {
+        &self.origin.0.pipeline
+    }
+
+    /// Whether the search was ended because it had done all the work that it may: there may
+    /// be a quicker plan.
+    pub fn was_cut(&self) -> bool {
+        self.cut
+    }
+
+    /// Notes that a search that led to it was ended before its time.
+    pub fn note_cut(&mut self) {
+        self.cut = true;
+    }
+
+    /// The same plan; those that are made from it have so many units of fuel each.
+    #[must_use]
+    pub fn allowed(&self, units: u64) -> Plan {
+        Plan {
+            allowance: units,
+            ..self.clone()
+        }
+    }
+
+    /// A plan of the same scene that computes the shade at every pixel, where
+    /// this one does not: the dither may need less than the shade, and a
+    /// picture's error is measured on shades. None where this plan will do.
+    pub fn shaded(&self) -> Option<Plan> {
+        let shade = self.graph.shade?;
+        let always = |b: &Block| b.iter().any(|s| writes(s, shade));
+        let tree = &self.tree;
+        let gone = matches!(self.graph.node(shade), Node::Undefined(_));
+        if !gone && (self.place(shade).is_none() || tree.outer().into_iter().any(always)) {
+            return None;
+        }
+        let mut graph = Graph::clone(&self.origin.0.origin);
+        graph.reports.extend(graph.shade);
+        let mut shop = Workshop::new(graph, self.runtime);
+        shop.pipeline = Pipeline::without(self.pipeline().without);
+        let mut plan = self.again(&Arc::new(shop), self.origin.1)?;
+        if self.calls_at_pixels() {
+            plan = plan.outlined(&|_| None).ok()?;
+        }
+        Some(plan)
+    }
+
+    /// Whether another plan of the same scene and target makes the same program.
+    pub fn is_written_as(&self, other: &Plan) -> bool {
+        let style = |plan: &Plan| {
+            let short = (plan.tight, plan.lean, plan.brief, plan.scant, plan.copies);
+            (short, plan.listing, plan.statics, plan.page)
+        };
+        let whole = (self.mode, self.rows) == (other.mode, other.rows);
+        whole && style(self) == style(other) && self.tree == other.tree && self.graph == other.graph
+    }
+
+    /// Whether it is slower than another of the same scene and target would be that had more
+    /// memory.
+    pub fn is_made_small(&self) -> bool {
+        let plenty = matches!(self.origin.1, Rewriting::Fast { thrift, .. } if thrift.is_plenty());
+        !plenty || self.tight || self.calls_at_pixels()
+    }
+
+    /// Whether there is a plan that spends less memory on speed.
+    pub fn may_be_smaller(&self) -> bool {
+        matches!(self.origin.1, Rewriting::Fast { .. })
+    }
+
+    /// A plan of the same scene with its formulas as the scene has them, but for what makes them
+    /// stable: the simplest and about the smallest. None where this one has them so.
+    pub fn stable(&self) -> Option<Plan> {
+        let fast = matches!(self.origin.1, Rewriting::Fast { .. });
+        fast.then(|| self.again(&self.origin.0, Rewriting::Stable))
+            .flatten()
+    }
+
+    /// In how many steps plans may spend less and less memory on speed; 1 where
+    /// this one spends none.
+    pub fn thrifts(&self) -> usize {
+        match self.origin.1 {
+            Rewriting::Fast { .. } => Thrift::COUNT,
+            _ => 1,
+        }
+    }
+
+    /// What the passes make of the same scene by one of those steps, counted from 0.
+    pub fn thriftier(&self, step: usize) -> Option<Candidate> {
+        let thrift = Thrift::step(step)?;
+        if !self.may_be_smaller() {
+            return None;
+        }
+        let steps = Steps::All;
+        self.candidate(&self.origin.0, Rewriting::Fast { thrift, steps })
+    }
+
+    /// The same plan with less that is stepped from column to column, which takes
+    /// a little less memory. None where nothing is.
+    pub fn unstepped(&self) -> Option<Plan> {
+        let Rewriting::Fast { thrift, steps } = self.origin.1 else {
+            return None;
+        };
+        let ramp = |node: &Node| matches!(node, Node::Ramp { .. } | Node::Stepped { .. });
+        let steps = match steps {
+            Steps::All => Steps::Runs,
+            Steps::Runs | Steps::None => Steps::None,
+        };
+        let less = Rewriting::Fast { thrift, steps };
+        let stepped = self.graph.nodes.iter().any(ramp);
+        stepped.then(|| self.again(&self.origin.0, less)).flatten()
+    }
+
+    fn again(&self, shop: &Arc<Workshop>, rewriting: Rewriting) -> Option<Plan> {
+        self.completed(self.candidate(shop, rewriting)?)
+    }
+
+    fn candidate(&self, shop: &Arc<Workshop>, rewriting: Rewriting) -> Option<Candidate> {
+        let fuel = Fuel::new(self.allowance);
+        candidate(shop, self.target, &self.goal(), (rewriting, fuel)).ok()
+    }
+
+    /// The plan of a candidate, for the same screen and written in the same way.
+    pub fn completed(&self, candidate: Candidate) -> Option<Plan> {
+        let mut plan = candidate.assembled(self.target, &self.goal()).ok()?;
+        plan.params = self.params.clone();
+        plan.hold();
+        plan.items = self.items.clone();
+        plan.drawn = self.drawn;
+        (plan.listing, plan.page) = (self.listing, self.page);
+        plan.undocumented = self.undocumented;
+        plan.statics = self.statics;
+        plan.lean = self.lean && self.target.lean == Lean::Calls;
+        Some(plan)
+    }
+
+    /// For what it is planned.
+    pub(crate) fn goal(&self) -> Goal {
+        Goal {
+            name: self.name.clone(),
+            mode: self.mode,
+            rows: Some(self.rows),
+            plot: self.plot,
+        }
+    }
+}
+
+/// Whether a statement is the one that gives a node its value.
+fn writes(statement: &Statement, node: NodeId) -> bool {
+    match statement {
+        Statement::Let(id) => *id == node,
+        Statement::Set { place, .. } => *place == Place::Node(node),
+        _ => false,
+    }
+}

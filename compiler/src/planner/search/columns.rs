@@ -1,0 +1,57 @@
+//! Search over scalar expansion: which values are computed once a column, of what
+//! [`crate::passes::loops::scalar_expansion`] offers, where that makes the plan cheaper.
+
+use crate::backend::Target;
+use crate::cost::price::Price;
+use crate::cost::size_budget::Thrift;
+use crate::ir::graph::NodeId;
+use crate::passes::loops::scalar_expansion::{columns, tabulated};
+use crate::planner::memo::Workshop;
+use crate::planner::pipeline::Pass;
+use crate::schedule::analysed::Settled;
+use std::collections::BTreeSet;
+
+/// By how much arrays must make the plan cheaper.
+const CHEAPER: f64 = 0.98;
+
+/// The plan with what hangs on the column alone in arrays, where that pays; after all
+/// passes that rebuild the graph.
+pub fn in_columns(
+    plan: Settled,
+    shop: &Workshop,
+    target: &'static Target,
+    thrift: Thrift,
+) -> Settled {
+    if plan.graph.image.width > target.columns {
+        return plan;
+    }
+    let next = shop.always(Pass::ScalarExpansion, || expanded(&plan, shop, thrift));
+    next.unwrap_or(plan)
+}
+
+fn expanded(plan: &Settled, shop: &Workshop, thrift: Thrift) -> Option<Settled> {
+    let found = columns(&plan.graph)?;
+    let price = Price::new(shop, thrift);
+    let with = |chosen: &BTreeSet<NodeId>| {
+        let next = shop.scheduled(tabulated(&plan.graph, &found, chosen));
+        (price.of(&next), next)
+    };
+    let mut chosen: BTreeSet<NodeId> = found.all.iter().copied().collect();
+    let mut best = with(&chosen);
+    // What takes less than to be kept and read again is computed where it is needed.
+    for id in &found.all {
+        if found.made_in_loops.contains(id) {
+            continue;
+        }
+        if shop.fuel.spent() {
+            break;
+        }
+        chosen.remove(id);
+        let next = with(&chosen);
+        match next.0 < best.0 {
+            true => best = next,
+            false => drop(chosen.insert(*id)),
+        }
+    }
+    (best.0 < CHEAPER * price.of(plan)).then_some(best.1)
+}

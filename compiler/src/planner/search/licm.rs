@@ -1,0 +1,38 @@
+//! Loop-invariant code motion, where it makes a plan cheaper: by a profile of the plan's own
+//! statements ([`crate::passes::loops::licm`]).
+
+use crate::cost::price::Price;
+use crate::cost::size_budget::Thrift;
+use crate::ir::graph::Graph;
+use crate::passes::loops::licm::hoisted;
+use crate::planner::memo::Workshop;
+use crate::planner::pipeline::Pass;
+use crate::schedule::analysed::Settled;
+
+/// By how much that must make the plan cheaper: what a variable more costs is not known so well.
+const CHEAPER: f64 = 0.99;
+
+/// The plan with what its loops' turns have in common before them, where that pays; after all
+/// passes that rebuild the graph.
+pub fn licm(plan: Settled, shop: &Workshop, thrift: Thrift) -> Settled {
+    if plan.graph.loops.is_empty() {
+        return plan;
+    }
+    let next = shop.always(Pass::Licm, || hoisted_where_cheaper(&plan, shop, thrift));
+    next.unwrap_or(plan)
+}
+
+fn hoisted_where_cheaper(plan: &Settled, shop: &Workshop, thrift: Thrift) -> Option<Settled> {
+    let price = Price::new(shop, thrift);
+    let counts = price.counts(plan);
+    let found = counts.map(|ran| hoisted(&plan.graph, &plan.tree.pixel, &ran));
+    let hoisted = found.unwrap_or_default();
+    if hoisted.is_empty() {
+        return None;
+    }
+    let next = shop.scheduled(Graph {
+        hoisted,
+        ..plan.graph.clone()
+    });
+    (price.of(&next) < CHEAPER * price.of(plan)).then_some(next)
+}

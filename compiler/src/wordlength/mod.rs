@@ -1,0 +1,302 @@
+//! Fixed-point word-length optimisation: where each real's point stands, in formats that leave
+//! that to the plan ([`Format::Scaled`]): as many fraction bits as its range leaves room for.
+//!
+//! First the ranges are walked with exact reals ([`Slack::expecting`]). Intervals know
+//! little of vectors, so where they are far wider than what pixels show that are spread over
+//! the picture, with params all over their ranges ([`sample`]), a value is expected to
+//! stay within twice that. From these ranges the points follow: a value has no more
+//! fraction bits than fit, nor more than its operands give it, nor more than anybody reads.
+//! What nobody tells apart counts for nothing there ([`saturation`]).
+//! Then the ranges are walked again with what the machine does: every value is rounded to
+//! its last place and ends where its bits do ([`Slack::with_points`]). What that second walk
+//! does not prove to stay within its bits is computed by a routine that saturates. So an
+//! expectation that is wrong costs accuracy, and nothing wraps.
+//!
+//! Copies and operands may be read at another scale than a value has; see
+//! [`slowlight_routine::scale`].
+//!
+//! [`Slack::expecting`]: crate::analysis::range::Slack::expecting
+//! [`Slack::with_points`]: crate::analysis::range::Slack::with_points
+
+pub(crate) mod precision;
+#[cfg(test)]
+mod precision_tests;
+
+mod adjoint;
+mod doubts;
+pub(crate) mod encode;
+mod histogram;
+mod low_discrepancy;
+mod rates;
+pub(crate) mod sample;
+#[cfg(test)]
+mod sample_tests;
+mod saturation;
+mod scales;
+mod tape;
+
+use crate::analysis::points::unify::{Other, agreed};
+use crate::analysis::points::widths::Widths;
+use crate::analysis::points::{Points, RECEIVED};
+use crate::analysis::range::{Ranges, Slack, ranges};
+use crate::ir::graph::*;
+use crate::ir::tree::*;
+use scales::{cap, wanted};
+use slowlight_routine::scale::{self, Scales, finest, fitting};
+use slowlight_routine::{Format, Op, Range, Routine, Runtime, Type};
+
+/// How often ranges are cut to what is useful.
+const ROUNDS: u32 = 2;
+
+/// What is compared must be told from what it is compared with.
+const BESIDE: f64 = 1.0 + 1.0 / 64.0;
+
+/// What only the sign is asked of keeps one: at 0 it would be told from nothing.
+const LEAST: f64 = 1.0 / (1u64 << 40) as f64;
+
+/// The points of a plan, and its ranges with them, by pixels that may run so many statements;
+/// nothing where the format has its own.
+pub fn pointed(
+    graph: &Graph,
+    tree: &Tree,
+    runtime: &'static Runtime,
+    most: u64,
+) -> Option<(Points, Ranges)> {
+    let Format::Scaled { bits } = runtime.real else {
+        return None;
+    };
+    let seen = sample::seen(graph, tree, bits, most);
+    Some(placed(
+        (graph, tree),
+        runtime,
+        &seen,
+        &Widths::uniform(bits),
+    ))
+}
+
+/// The points of values of such widths, and the ranges with them.
+pub(crate) fn placed(
+    (graph, tree): (&Graph, &Tree),
+    runtime: &'static Runtime,
+    seen: &sample::Sample,
+    widths: &Widths,
+) -> (Points, Ranges) {
+    let sampled = sample::expected((graph, tree), seen, widths);
+    let walk =
+        |expected: &[Option<f64>]| ranges(graph, tree, &Slack::expecting(runtime, expected.into()));
+    let mut expected = sampled.ends;
+    // Nothing is cut where its format does not end.
+    Points::new(graph, &walk(&expected), runtime, widths).ends(graph, &mut expected, &sampled.all);
+    let mut planned = walk(&expected);
+    // What is cut makes what is made of it smaller.
+    for _ in 0..ROUNDS {
+        let useful = saturation::useful(graph, tree, &planned);
+        for (expected, useful) in expected.iter_mut().zip(&useful) {
+            let most = (useful.magnitude() * BESIDE).max(LEAST);
+            *expected = Some(expected.map_or(most, |held| held.min(most)));
+        }
+        planned = walk(&expected);
+    }
+    let points = Points::new(graph, &planned, runtime, widths);
+    let slack = Slack::with_points(runtime, points.clone());
+    let found = ranges(graph, tree, &slack);
+    (points, found)
+}
+
+impl Points {
+    /// The points that ranges leave room for.
+    pub fn new(graph: &Graph, ranges: &Ranges, runtime: &Runtime, widths: &Widths) -> Points {
+        let rooms = Rooms::new(graph, ranges, widths);
+        let capped = |id: NodeId| {
+            let (bits, own) = (widths.value(id), rooms.of(widths.value(id), id));
+            match graph.node(id) {
+                Node::Apply(op, args) if graph.ty(id) == Type::Real => {
+                    own.min(cap(graph, (op, args), (own, bits), rooms.all(bits)))
+                }
+                _ => own,
+            }
+        };
+        let mut own: Vec<i8> = graph.ids().map(capped).collect();
+        no_finer(graph, &mut own);
+        read_at_most(graph, widths, &mut own);
+        for id in graph.ids().filter(|id| graph.ty(*id) != Type::Real) {
+            own[id.0 as usize] = 0;
+        }
+        let param = |node: &Node| match node {
+            Node::Param(p) => Some(p.0 as usize),
+            _ => None,
+        };
+        let params = (graph.params.len(), param as Other);
+        let carried = agreed(graph, &mut own, (i8::MAX, i8::min), params);
+        // As far as each width has room for them.
+        let held: Vec<(u8, Vec<i8>)> = (rooms.0.iter())
+            .map(|(bits, room)| {
+                (
+                    *bits,
+                    own.iter().zip(room).map(|(o, r)| *o.min(r)).collect(),
+                )
+            })
+            .collect();
+        let scales = (graph.ids())
+            .map(|id| match graph.node(id) {
+                Node::Apply(op, args) if scale::concerns(op) => {
+                    let bits = widths.operands(id);
+                    // Only whole ints are exact, and only routines that know it make what is longer.
+                    let made = |longer| longer == 0 || runtime.middle && bits == 16;
+                    let fits = |args, longer| {
+                        made(longer) && product_fits(ranges, id, args, (longer, bits))
+                    };
+                    let held = held.iter().find(|(of, _)| *of == bits);
+                    let held = held.map_or(own.as_slice(), |(_, held)| held);
+                    wanted(
+                        graph,
+                        (op, args),
+                        (own[id.0 as usize], widths.operation(id)),
+                        (held, rooms.all(bits), bits),
+                        &fits,
+                    )
+                }
+                _ => Scales::default(),
+            })
+            .collect();
+        Points {
+            widths: widths.clone(),
+            shifted: runtime.shifted,
+            own,
+            carried,
+            scales,
+        }
+    }
+}
+
+/// How many fraction bits each value has room for, in each width.
+struct Rooms(Vec<(u8, Vec<i8>)>);
+
+impl Rooms {
+    fn new(graph: &Graph, ranges: &Ranges, widths: &Widths) -> Rooms {
+        let greatest = |id: NodeId| {
+            let range = ranges.result[id.0 as usize];
+            match (graph.node(id), graph.constant(id)) {
+                (_, Some(value)) => value.real().abs().min(range.magnitude()),
+                (Node::Received, _) => RECEIVED,
+                (Node::Lookup { table, .. }, _) => greatest(graph, table),
+                _ => range.magnitude(),
+            }
+        };
+        let greatest: Vec<f64> = graph.ids().map(greatest).collect();
+        let of = |bits: u8| greatest.iter().map(|g| fitting(*g, bits)).collect();
+        Rooms(widths.all().map(|bits| (bits, of(bits))).collect())
+    }
+
+    /// Those in one width.
+    fn all(&self, bits: u8) -> &[i8] {
+        let found = self.0.iter().find(|(of, _)| *of == bits);
+        found.map_or(&[], |(_, all)| all)
+    }
+
+    fn of(&self, bits: u8, id: NodeId) -> i8 {
+        self.all(bits)[id.0 as usize]
+    }
+}
+
+/// The routine that divides a param by a power of ten.
+pub fn divided(runtime: &Runtime, own: i8) -> Option<&'static Routine> {
+    let number = Range::point(f64::from(own));
+    let fits =
+        |r: &&Routine| r.op == Op::Div && (r.domain)(&[Range::ALL, Range::ALL, number], Range::ALL);
+    runtime.routines.iter().find(fits)
+}
+
+/// The greatest magnitude in a table that is to have room. What is beyond all ints, a
+/// threshold that nothing reaches, saturates above the others.
+fn greatest(graph: &Graph, table: TableId) -> f64 {
+    let table = graph.tables.get(table.0 as usize);
+    let entries = table.iter().flat_map(|t| &t.entries);
+    let sizes: Vec<f64> = entries.map(|e| e.value().real().abs()).collect();
+    let most = |sizes: &mut dyn Iterator<Item = &f64>| sizes.fold(0.0, |a, b| f64::max(a, *b));
+    let all = most(&mut sizes.iter());
+    let near = most(&mut sizes.iter().filter(|size| **size < BEYOND));
+    match all < BEYOND || near == 0.0 {
+        true => all,
+        false => ABOVE * near,
+    }
+}
+
+/// From where on entries of a table are beyond all ints, and how far above the others
+/// they are then.
+const BEYOND: f64 = 32768.0;
+const ABOVE: f64 = 3.0;
+
+/// Leaves what is one of its operands, or the sum of them, no more bits than the finest of
+/// these has.
+fn no_finer(graph: &Graph, own: &mut [i8]) {
+    for id in graph.ids().filter(|id| graph.ty(*id) == Type::Real) {
+        let Node::Apply(op, args) = graph.node(id) else {
+            continue;
+        };
+        let live = args[..op.arity()]
+            .iter()
+            .filter(|arg| graph.constant(**arg).is_none());
+        let finest = live.map(|arg| own[arg.0 as usize]).max();
+        if let (true, Some(finest)) = (at_one_scale(op), finest) {
+            own[id.0 as usize] = own[id.0 as usize].min(finest);
+        }
+    }
+}
+
+/// Leaves a value the bits that somebody reads.
+fn read_at_most(graph: &Graph, widths: &Widths, own: &mut [i8]) {
+    let bits = widths.most();
+    let mut read = vec![scale::FEWEST; graph.nodes.len()];
+    let all = graph.loops.iter().flat_map(Loop::roots);
+    for id in all.chain(graph.outputs()) {
+        read[id.0 as usize] = finest(bits);
+    }
+    for id in graph.ids().rev() {
+        let at = id.0 as usize;
+        let set = match graph.node(id) {
+            Node::Lookup { .. } | Node::Received => true,
+            Node::Apply(op, _) => scale::given(op, widths.value(id)).is_some(),
+            _ => false,
+        };
+        if !set {
+            own[at] = own[at].min(read[at].max(scale::FEWEST));
+        }
+        let (most, sum) = match graph.node(id) {
+            Node::Apply(op, _) => (finest(bits), at_one_scale(op)),
+            Node::Select { .. } | Node::Tabulated(_) => (finest(bits), true),
+            _ => (finest(bits), false),
+        };
+        let most = if sum && graph.ty(id) == Type::Real {
+            own[at] + i8::from(is_twice(graph, id))
+        } else {
+            most
+        };
+        for arg in graph.node(id).operands() {
+            let read = &mut read[arg.0 as usize];
+            *read = (*read).max(most);
+        }
+    }
+}
+
+/// Whether a value is added to itself.
+fn is_twice(graph: &Graph, id: NodeId) -> bool {
+    matches!(graph.node(id), Node::Apply(Op::Add, [a, b]) if a == b)
+}
+
+/// Operations whose operands are read at the scale of the result.
+fn at_one_scale(op: Op) -> bool {
+    matches!(
+        op,
+        Op::Add | Op::Sub | Op::Min | Op::Max | Op::Mod | Op::Neg | Op::Abs
+    )
+}
+
+/// Whether a product that is so many bits longer than its result fits into it.
+fn product_fits(ranges: &Ranges, id: NodeId, args: [i8; 2], (longer, bits): (i8, u8)) -> bool {
+    let units = |k: usize| {
+        let range: Range = ranges.args[id.0 as usize][k];
+        scale::in_units(range, args[k]).magnitude()
+    };
+    units(0) * units(1) <= (scale::most(bits) as f64 * 0.99) * f64::from(longer).exp2()
+}
