@@ -28,7 +28,7 @@ use crate::target_args::ScreenArgs;
 use rayon::prelude::*;
 use slowlight_compiler::backend::{Lean, Target, formats};
 use slowlight_compiler::eval::native::Native;
-use slowlight_compiler::passes::pixel_blocks::coarse;
+use slowlight_compiler::passes::pixel_blocks::pixel_blocks;
 use slowlight_compiler::plan::Plan;
 use slowlight_routine::{Format, Op, Runtime};
 
@@ -325,7 +325,7 @@ fn native(scene: &Scene, plan: &Plan, seen: &[Inked]) -> Vec<Option<u8>> {
     let Ok(graph) = scene.graph(Some(plan.mode.inks), Precision::NATIVE) else {
         return Vec::new();
     };
-    let mut graph = coarse(&graph, plan.graph.image.block);
+    let mut graph = pixel_blocks(&graph, plan.graph.image.block);
     graph.diffusion = None;
     // Rows are shared out among threads, each with its part of the work.
     let rows: Vec<&[Inked]> = seen.chunk_by(|a, b| a.1 == b.1).collect();

@@ -19,7 +19,7 @@ use crate::trial::{self, Trial};
 use serde::Serialize;
 use slowlight_compiler::backend::Target;
 use slowlight_compiler::ir::graph::Graph;
-use slowlight_compiler::passes::pixel_blocks::coarse;
+use slowlight_compiler::passes::pixel_blocks::pixel_blocks;
 use slowlight_compiler::plan::Plan;
 use slowlight_compiler::report::effects::{Effect, Own, Seen, Turns, effects, own, turns, watch};
 
@@ -210,7 +210,7 @@ pub fn look(
 fn as_written(scene: &Scene, plan: &Plan, screen: &ScreenArgs) -> Outcome<Graph> {
     let inks = Some(plan.mode.inks);
     let graph = scene.graph_within(inks, Precision::NATIVE, &[], screen.limits())?;
-    Ok(coarse(&graph, plan.graph.image.block))
+    Ok(pixel_blocks(&graph, plan.graph.image.block))
 }
 
 /// A plan's program on its machine.

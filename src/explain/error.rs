@@ -7,7 +7,7 @@ use crate::progress::Progress;
 use crate::scene::{Precision, Scene};
 use rayon::prelude::*;
 use slowlight_compiler::eval::native::{Native, Pixel};
-use slowlight_compiler::passes::pixel_blocks::coarse;
+use slowlight_compiler::passes::pixel_blocks::pixel_blocks;
 use slowlight_compiler::plan::Plan;
 use slowlight_compiler::report::raised::{RaisedRun, raisable};
 use std::collections::BTreeMap;
@@ -62,7 +62,7 @@ pub fn errors_with(scene: &Scene, plan: &Plan, shaded: Option<&Plan>) -> Outcome
     let places = looked_at(shaded, each);
     let written = scene.graph(Some(plan.mode.inks), Precision::NATIVE)?;
     // What blocks leave out is no line's.
-    let graph = coarse(&written, plan.graph.image.block);
+    let graph = pixel_blocks(&written, plan.graph.image.block);
     let mut native = Native::within(&graph, MOST);
     let native: Vec<Pixel> = places.iter().map(|(x, y)| native.pixel(*x, *y)).collect();
     let look = |nodes: Vec<bool>| -> Option<(f64, usize)> {

@@ -25,7 +25,7 @@ use crate::ways::WayArgs;
 use clap::Args;
 use slowlight_compiler::backend;
 use slowlight_compiler::backend::{Mode, Target};
-use slowlight_compiler::passes::pixel_blocks::coarse;
+use slowlight_compiler::passes::pixel_blocks::pixel_blocks;
 use slowlight_compiler::plan::{Goal, Plan};
 use slowlight_compiler::planner::SEARCH;
 use slowlight_compiler::planner::{plan_as_written, plan_with_every_shade, plan_within};
@@ -299,7 +299,7 @@ impl ScreenArgs {
                 block.0, block.1, size.0, size.1
             )));
         }
-        let graph = coarse(&graph, block);
+        let graph = pixel_blocks(&graph, block);
         let goal = Goal {
             name: scene.name.clone(),
             mode,

@@ -13,7 +13,7 @@ use crate::progress::Progress;
 use crate::scene::{Limits, Precision, Scene};
 use serde::{Deserialize, Serialize};
 use slowlight_compiler::ir::graph::Graph;
-use slowlight_compiler::passes::pixel_blocks::coarse;
+use slowlight_compiler::passes::pixel_blocks::pixel_blocks;
 use slowlight_compiler::sema::{Millionths, Search, Ways};
 
 /// The areas that blocks have, in pixels.
@@ -101,7 +101,7 @@ pub fn worthwhile(
 
 /// Draws a setting.
 fn drafted(graph: &Graph, setting: Setting, truth: &Drawn) -> Outcome<Drafted> {
-    let graph = coarse(graph, setting.block);
+    let graph = pixel_blocks(graph, setting.block);
     let window = Window::whole(graph.image.width, graph.image.height);
     let (drawn, work) = native_counted(&graph, window)?;
     let inks: Vec<u8> = drawn.pixels.iter().map(|p| p.ink).collect();

@@ -12,7 +12,7 @@ use super::meter::Meter;
 use crate::eval::run::Run;
 use crate::ir::graph::*;
 use crate::ir::tree::*;
-use crate::schedule::analysed::Settled;
+use crate::schedule::analysed::Analysed;
 use rustc_hash::{FxHashMap, FxHasher};
 use slowlight_routine::Runtime;
 use std::cell::Cell;
@@ -77,7 +77,7 @@ impl Tried {
 
 impl Pixels {
     /// Those by which plans of a scene are priced, of which this is one.
-    pub fn of(plan: &Settled, runtime: &Runtime) -> Pixels {
+    pub fn of(plan: &Analysed, runtime: &Runtime) -> Pixels {
         let graph = &plan.graph;
         let places = spread(&graph.image);
         let (tried, ran) = tried(plan, runtime, &places);
@@ -117,7 +117,7 @@ impl Pixels {
 }
 
 /// What pixels take, as many as may be tried, and how many statements ran.
-fn tried(plan: &Settled, runtime: &Runtime, places: &[(i32, i32)]) -> (Vec<Tried>, u64) {
+fn tried(plan: &Analysed, runtime: &Runtime, places: &[(i32, i32)]) -> (Vec<Tried>, u64) {
     let (graph, tree) = (&plan.graph, &plan.tree);
     let mut numbers: FxHashMap<*const Statement, u64> = FxHashMap::default();
     for block in [&tree.segment, &tree.pixel] {

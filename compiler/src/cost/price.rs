@@ -12,7 +12,7 @@ use super::pixels::{PATIENCE, Pixel, Pixels};
 use crate::analysis::range::Ranges;
 use crate::analysis::rate::rates;
 use crate::analysis::region::Fact;
-use crate::cost::size_budget::Thrift;
+use crate::cost::size_budget::SizeBudget;
 use crate::cost::statement::Beside;
 use crate::eval::run::Run;
 use crate::homes::single_use::folded;
@@ -20,8 +20,8 @@ use crate::ir::graph::*;
 use crate::ir::often;
 use crate::ir::tree::*;
 use crate::passes::loops::strip_mine::passes;
-use crate::planner::memo::Workshop;
-use crate::schedule::analysed::Settled;
+use crate::planner::context::Context;
+use crate::schedule::analysed::Analysed;
 use crate::schedule::constant_runs::{Inks, Still, still};
 use crate::schedule::segment::bounds_segment;
 use crate::selection::routines::{Chosen, choose};
@@ -40,7 +40,7 @@ impl crate::plan::Plan {
     /// routines where pixels run, what begins rows, passes and runs, and no drawing.
     pub fn cycles_a_pixel(&self) -> f64 {
         let known = self.origin.0.scheduled(self.graph.clone());
-        Price::new(&self.origin.0, Thrift::default()).cycles_known(&known)
+        Price::new(&self.origin.0, SizeBudget::default()).cycles_known(&known)
     }
 }
 
@@ -56,33 +56,33 @@ pub struct Price {
 
 impl Price {
     /// Prices for plans of a scene.
-    pub fn new(shop: &Workshop, thrift: Thrift) -> Price {
+    pub fn new(cx: &Context, budget: SizeBudget) -> Price {
         Price {
-            runtime: shop.runtime,
-            memory: thrift.part(),
-            around: thrift.around(),
-            pixels: shop.pixels(),
+            runtime: cx.runtime,
+            memory: budget.part(),
+            around: budget.around(),
+            pixels: cx.pixels(),
         }
     }
 
     /// Cycles a pixel, and something for memory.
-    pub fn of(&self, plan: &Settled) -> f64 {
+    pub fn of(&self, plan: &Analysed) -> f64 {
         let (cycles, [inside, around]) = self.known(plan);
         cycles * (1.0 + self.memory * (inside + self.around * around))
     }
 
     /// Cycles a pixel.
-    pub fn cycles_known(&self, plan: &Settled) -> f64 {
+    pub fn cycles_known(&self, plan: &Analysed) -> f64 {
         self.known(plan).0
     }
 
     /// Cycles and memory, found once.
-    fn known(&self, plan: &Settled) -> (f64, [f64; 2]) {
+    fn known(&self, plan: &Analysed) -> (f64, [f64; 2]) {
         *plan.cost.get_or_init(|| (self.cycles(plan), memory(plan)))
     }
 
     /// How often a plan's values are computed; nothing where it cannot be run.
-    pub(crate) fn profile(&self, plan: &Settled) -> Option<super::profile::Profile> {
+    pub(crate) fn profile(&self, plan: &Analysed) -> Option<super::profile::Profile> {
         let routines = self.routines(plan)?;
         Some(super::profile::Profile::new(
             plan,
@@ -96,7 +96,7 @@ impl Price {
     /// none are.
     pub(crate) fn counts<'p>(
         &self,
-        plan: &'p Settled,
+        plan: &'p Analysed,
     ) -> Option<impl Fn(&Statement) -> u64 + use<'p>> {
         let meter = Meter::new(&plan.graph, |_: &Statement| 0.0);
         self.run(plan, &meter, None)?;
@@ -105,13 +105,13 @@ impl Price {
 
     /// About what a plan with so many cycles and values more than another is priced at, beside
     /// that: as [`Price::of`] has it, a value taken for a statement of pixels.
-    pub(crate) fn beside(&self, plan: &Settled, cycles: f64, more: f64) -> f64 {
+    pub(crate) fn beside(&self, plan: &Analysed, cycles: f64, more: f64) -> f64 {
         let [inside, around] = memory(plan);
         cycles * (1.0 + self.memory * (inside + more + self.around * around))
     }
 
     /// About which routines a plan would have; nothing where there is none for an operation.
-    fn routines(&self, plan: &Settled) -> Option<Chosen> {
+    fn routines(&self, plan: &Analysed) -> Option<Chosen> {
         let by = |ranges: &Ranges| choose(&plan.graph, &plan.tree, ranges, self.runtime, None).ok();
         if !matches!(self.runtime.real, Format::Scaled { .. }) || self.pixels.is_empty() {
             return by(&plan.ranges);
@@ -122,7 +122,7 @@ impl Price {
     }
 
     /// Cycles a pixel.
-    fn cycles(&self, plan: &Settled) -> f64 {
+    fn cycles(&self, plan: &Analysed) -> f64 {
         let Some(routines) = self.routines(plan) else {
             return f64::INFINITY;
         };
@@ -178,8 +178,8 @@ impl Price {
     }
 
     /// The cheapest of some plans, the first of several.
-    pub fn cheapest(&self, plans: impl Iterator<Item = Settled>) -> Option<Settled> {
-        let mut all: Vec<Settled> = plans.collect();
+    pub fn cheapest(&self, plans: impl Iterator<Item = Analysed>) -> Option<Analysed> {
+        let mut all: Vec<Analysed> = plans.collect();
         match all.len() {
             0 | 1 => all.pop(),
             _ => all
@@ -191,7 +191,7 @@ impl Price {
     /// What it costs a pass to begin its runs of columns: some rows, a pass each,
     /// are gone through by what ends runs alone. Where that would take too long, runs
     /// are thought to be as many as there are comparisons.
-    fn begun(&self, plan: &Settled, bounds: &[NodeId], cost: &dyn Fn(&Statement) -> f64) -> f64 {
+    fn begun(&self, plan: &Analysed, bounds: &[NodeId], cost: &dyn Fn(&Statement) -> f64) -> f64 {
         if plan.tree.segment.is_empty() {
             return 0.0;
         }
@@ -234,7 +234,7 @@ impl Price {
 
     /// Whether copies of a value are worth their memory: given how many times a
     /// pixel less it is computed, and how many copies there are more.
-    pub fn worth<'p>(&self, plan: &'p Settled) -> impl Fn(NodeId, f64, usize) -> bool + use<'p> {
+    pub fn worth<'p>(&self, plan: &'p Analysed) -> impl Fn(NodeId, f64, usize) -> bool + use<'p> {
         let routines = choose(&plan.graph, &plan.tree, &plan.ranges, self.runtime, None);
         let beside = Beside {
             graph: &plan.graph,
@@ -250,7 +250,7 @@ impl Price {
     /// What the pixels cost together, by their weights; nothing where too many statements run.
     fn run(
         &self,
-        plan: &Settled,
+        plan: &Analysed,
         meter: &Meter<'_, impl Fn(&Statement) -> f64>,
         still: Option<(&Still, f64)>,
     ) -> Option<f64> {
@@ -284,7 +284,7 @@ impl Price {
 }
 
 /// The comparisons that may end a run of columns.
-fn bounds(plan: &Settled) -> Vec<NodeId> {
+fn bounds(plan: &Analysed) -> Vec<NodeId> {
     let mut bounds = Vec::new();
     if plan.tree.segment.is_empty() {
         return bounds;
@@ -301,7 +301,7 @@ fn bounds(plan: &Settled) -> Vec<NodeId> {
 }
 
 /// Memory in statements: of pixels with the tables, and around pixels.
-fn memory(plan: &Settled) -> [f64; 2] {
+fn memory(plan: &Analysed) -> [f64; 2] {
     let mut statements = 0;
     for block in plan.tree.outer() {
         walk(block, &mut |_| statements += 1);

@@ -3,10 +3,10 @@
 
 use super::price::Price;
 use crate::backend::{bbc, jack, mos6502};
-use crate::cost::size_budget::Thrift;
+use crate::cost::size_budget::SizeBudget;
 use crate::eval::native::Native;
 use crate::ir::graph::*;
-use crate::planner::memo::Workshop;
+use crate::planner::context::Context;
 use crate::scene::check;
 use crate::sema::Options;
 use slowlight_routine::Runtime;
@@ -18,8 +18,8 @@ fn graph(text: &str) -> Graph {
 }
 
 fn price(graph: &Graph, runtime: &'static Runtime) -> f64 {
-    let shop = Workshop::new(graph.clone(), runtime);
-    let price = Price::new(&shop, Thrift::default()).of(&shop.settle(graph));
+    let cx = Context::new(graph.clone(), runtime);
+    let price = Price::new(&cx, SizeBudget::default()).of(&cx.simplified(graph));
     assert!(price.is_finite() && price > 0.0);
     price
 }

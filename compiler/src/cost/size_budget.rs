@@ -61,15 +61,15 @@ const COUNTED: f64 = 0.0005;
 
 /// How much memory counts beside cycles: more where a program did not fit.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Thrift(usize);
+pub struct SizeBudget(usize);
 
-impl Thrift {
+impl SizeBudget {
     /// How many steps there are.
     pub const COUNT: usize = THRIFT.len();
 
     /// A step by its number.
-    pub fn step(step: usize) -> Option<Thrift> {
-        (step < THRIFT.len()).then_some(Thrift(step))
+    pub fn step(step: usize) -> Option<SizeBudget> {
+        (step < THRIFT.len()).then_some(SizeBudget(step))
     }
 
     /// What part of the plan's cycles a statement more must save.

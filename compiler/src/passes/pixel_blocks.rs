@@ -15,7 +15,7 @@ use slowlight_routine::{Op, Value};
 
 /// The graph of a picture of blocks, each so many columns wide and rows high. Its image
 /// counts blocks; both sides of the picture must be whole numbers of them.
-pub fn coarse(graph: &Graph, block: (u32, u32)) -> Graph {
+pub fn pixel_blocks(graph: &Graph, block: (u32, u32)) -> Graph {
     if block == (1, 1) {
         return graph.clone();
     }
@@ -176,7 +176,7 @@ draw (x, y) = threshold((x mod 8) / 16 + y / 24, bayer(4)[(x mod 8) mod 4, y mod
     #[test]
     fn a_block_has_the_shade_of_its_middle_and_a_dither_of_its_own() {
         let fine = graph(DITHERED);
-        let made = coarse(&fine, (3, 2));
+        let made = pixel_blocks(&fine, (3, 2));
         assert_eq!((made.image.width, made.image.height), (8, 6));
         assert_eq!(
             (made.image.block, made.image.on_screen()),
@@ -193,18 +193,18 @@ draw (x, y) = threshold(((3 * x + 1) mod 8) / 16 + (2 * y + 1) / 24, bayer(4)[(x
     #[test]
     fn blocks_of_one_pixel_and_pictures_without_a_dither() {
         let fine = graph(DITHERED);
-        assert_eq!(coarse(&fine, (1, 1)), fine);
+        assert_eq!(pixel_blocks(&fine, (1, 1)), fine);
         let plain = graph(
             "image 8 x 8 inks black, white;\ndraw (x, y) = ink((x div 4 + y div 4) mod 2);\n",
         );
-        let made = drawn(&coarse(&plain, (2, 2)));
+        let made = drawn(&pixel_blocks(&plain, (2, 2)));
         let inks: Vec<u8> = made[1].iter().map(|(ink, _)| *ink).collect();
         assert_eq!(inks, [0, 0, 1, 1]);
     }
 
     #[test]
     fn a_graph_of_blocks_is_read_back() {
-        let made = coarse(&graph(DITHERED), (3, 2));
+        let made = pixel_blocks(&graph(DITHERED), (3, 2));
         let text = made.to_string();
         assert!(text.starts_with("image 8x6 of 3x2 inks"), "{text}");
         let read = crate::ir::read::read(&text).expect("it reads");

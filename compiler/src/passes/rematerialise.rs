@@ -18,7 +18,7 @@ use std::collections::BTreeMap;
 pub type Worth<'w> = &'w dyn Fn(NodeId, f64, usize) -> bool;
 
 /// The graph with copies; nothing where none is worth it.
-pub fn apart(graph: &Graph, tree: &Tree, worth: Worth<'_>) -> Option<Graph> {
+pub fn rematerialise(graph: &Graph, tree: &Tree, worth: Worth<'_>) -> Option<Graph> {
     let mut places = Places::default();
     places.block(graph, &tree.pixel, None, 1.0);
     let mut copies = Copies::new();

@@ -5,7 +5,7 @@ use crate::analysis::rate::{Dependence, rates};
 use crate::eval::drawn::assert_same;
 use crate::eval::random_graphs;
 use crate::ir::graph::*;
-use crate::passes::rematerialise::apart;
+use crate::passes::rematerialise::rematerialise;
 use crate::passes::rewrite::rebuild::rebuild_old;
 use crate::passes::simplify::fold::fold;
 use crate::schedule::statements::schedule;
@@ -65,7 +65,7 @@ pub(super) fn graph(seed: u64) -> Graph {
 fn copied(graph: &Graph) -> Graph {
     let mut now = graph.clone();
     for _ in 0..3 {
-        let Some(next) = apart(&now, &schedule(&now), &|_, _, _| true) else {
+        let Some(next) = rematerialise(&now, &schedule(&now), &|_, _, _| true) else {
             break;
         };
         now = next;

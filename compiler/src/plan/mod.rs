@@ -62,8 +62,8 @@ use crate::backend::{Mode, Target};
 use crate::ir::graph::*;
 use crate::ir::ramp;
 use crate::ir::tree::*;
+use crate::planner::context::Context;
 use crate::planner::made::Rewriting;
-use crate::planner::memo::Workshop;
 use crate::schedule::constant_runs::Still;
 use crate::source::Span;
 use rustc_hash::FxHashMap;
@@ -167,7 +167,7 @@ pub struct Plan {
     /// How much fuel there is for each plan that is made from this one.
     pub(crate) allowance: u64,
     /// What was planned and made on the way, and how its formulas could be rewritten.
-    pub(crate) origin: (Arc<Workshop>, Rewriting),
+    pub(crate) origin: (Arc<Context>, Rewriting),
 }
 
 impl Plan {

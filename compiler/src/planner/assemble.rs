@@ -11,7 +11,7 @@ use crate::ir::tree::*;
 use crate::plan::params::ParamPlan;
 use crate::plan::placed;
 use crate::plan::{Copies, Goal, Plan, table_init};
-use crate::planner::memo::Workshop;
+use crate::planner::context::Context;
 use crate::schedule::constant_runs::still;
 use crate::selection::integer_roots::int_roots;
 use crate::selection::reciprocal_roots::reciprocal_roots;
@@ -29,7 +29,7 @@ pub(crate) fn assemble(
     mut params: Vec<ParamPlan>,
     target: &'static Target,
     goal: &Goal,
-    origin: (Arc<Workshop>, Rewriting),
+    origin: (Arc<Context>, Rewriting),
 ) -> Result<Plan, Vec<Diagnostic>> {
     let runtime = target.runtime;
     if runtime.has(Op::IntRoot) {

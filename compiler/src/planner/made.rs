@@ -6,21 +6,21 @@ use super::pipeline::{Pass, PassSet, Pipeline};
 use crate::analysis::verify::verify;
 use crate::backend::Target;
 use crate::cost::price::Price;
-use crate::cost::size_budget::Thrift;
+use crate::cost::size_budget::SizeBudget;
 use crate::fuel::Fuel;
 use crate::ir::graph::*;
-use crate::passes::accuracy::stable;
-use crate::passes::algebra::ray_parameter::along;
+use crate::passes::accuracy::accurate;
+use crate::passes::algebra::ray_parameter::by_ray_parameter;
 use crate::passes::branches::early_exit::{everywhere, without};
 use crate::passes::loops::strength_reduction::runs::is_exact;
-use crate::passes::loops::strip_mine::interlaced;
+use crate::passes::loops::strip_mine::strip_mined;
 use crate::passes::simplify::fold::fold;
-use crate::passes::simplify::integer_parts::whole_parts;
-use crate::passes::simplify::unit_vectors::units;
+use crate::passes::simplify::integer_parts::integer_parts;
+use crate::passes::simplify::unit_vectors::unit_vectors;
 use crate::plan::params;
 use crate::plan::params::ParamPlan;
 use crate::plan::{Goal, Plan};
-use crate::planner::memo::Workshop;
+use crate::planner::context::Context;
 use crate::planner::search::branches::{asked_where_it_matters, in_arms, rewritten};
 use crate::planner::search::columns::in_columns;
 use crate::planner::search::forms::{apart_at_last, cheaper, with_inks_split};
@@ -28,7 +28,7 @@ use crate::planner::search::licm::licm;
 use crate::planner::search::stepped::{Steps, stepped};
 use crate::planner::search::sums::with_sums;
 use crate::planner::search::whole_forms::cheapest_form;
-use crate::schedule::analysed::{Known, Settled};
+use crate::schedule::analysed::{Analysed, Known};
 use crate::schedule::statements::missing;
 use crate::source::Diagnostic;
 use crate::wordlength::precision::narrowed;
@@ -51,13 +51,13 @@ pub fn plan_within(
     without: PassSet,
 ) -> Result<Plan, Vec<Diagnostic>> {
     let all = Rewriting::Fast {
-        thrift: Thrift::default(),
+        budget: SizeBudget::default(),
         steps: Steps::All,
     };
-    let mut shop = Workshop::new(graph.clone(), target.runtime);
-    shop.draft = fuel == 0;
-    shop.pipeline = Pipeline::without(without);
-    candidate(&Arc::new(shop), target, goal, (all, Fuel::new(fuel)))?.assembled(target, goal)
+    let mut cx = Context::new(graph.clone(), target.runtime);
+    cx.draft = fuel == 0;
+    cx.pipeline = Pipeline::without(without);
+    candidate(&Arc::new(cx), target, goal, (all, Fuel::new(fuel)))?.assembled(target, goal)
 }
 
 /// The same with every shade in full, even where the ink is known before: what that is less
@@ -67,13 +67,13 @@ pub fn plan_with_every_shade(
     target: &'static Target,
     goal: &Goal,
 ) -> Result<Plan, Vec<Diagnostic>> {
-    let mut shop = Workshop::new(graph.clone(), target.runtime);
-    shop.every_shade = true;
+    let mut cx = Context::new(graph.clone(), target.runtime);
+    cx.every_shade = true;
     let all = Rewriting::Fast {
-        thrift: Thrift::default(),
+        budget: SizeBudget::default(),
         steps: Steps::All,
     };
-    candidate(&Arc::new(shop), target, goal, (all, Fuel::new(SEARCH)))?.assembled(target, goal)
+    candidate(&Arc::new(cx), target, goal, (all, Fuel::new(SEARCH)))?.assembled(target, goal)
 }
 
 /// The same without the passes that rewrite formulas ([`crate::passes::accuracy`]
@@ -84,8 +84,8 @@ pub fn plan_as_written(
     goal: &Goal,
 ) -> Result<Plan, Vec<Diagnostic>> {
     let none = (Rewriting::None, Fuel::new(SEARCH));
-    let shop = Workshop::new(graph.clone(), target.runtime);
-    candidate(&Arc::new(shop), target, goal, none)?.assembled(target, goal)
+    let cx = Context::new(graph.clone(), target.runtime);
+    candidate(&Arc::new(cx), target, goal, none)?.assembled(target, goal)
 }
 
 /// Which passes may rewrite formulas.
@@ -96,7 +96,7 @@ pub(crate) enum Rewriting {
     /// [`crate::passes::accuracy`].
     Stable,
     /// Those for speed, too; perhaps with little memory.
-    Fast { thrift: Thrift, steps: Steps },
+    Fast { budget: SizeBudget, steps: Steps },
 }
 
 /// By how much shortcuts must make a plan cheaper: each is a test more to be read.
@@ -111,10 +111,10 @@ const STABLE_ROUNDS: u32 = 4;
 
 /// What the passes made of a scene: scheduled, but with no routine selected yet.
 pub struct Candidate {
-    shop: Arc<Workshop>,
+    cx: Arc<Context>,
     rewriting: Rewriting,
     params: Vec<ParamPlan>,
-    plan: Settled,
+    plan: Analysed,
     /// What it took, whether it was cut short, and by how much fuel.
     work: u64,
     cut: bool,
@@ -124,7 +124,7 @@ pub struct Candidate {
 impl Candidate {
     /// What [`Plan::cycles_a_pixel`] says of the plan that it makes.
     pub fn cycles_a_pixel(&self) -> f64 {
-        Price::new(&self.shop, Thrift::default()).cycles_known(&self.plan)
+        Price::new(&self.cx, SizeBudget::default()).cycles_known(&self.plan)
     }
 
     /// What searching for it took, in units of [`Fuel`].
@@ -149,15 +149,15 @@ impl Candidate {
             ranges,
             ..
         } = &*self.plan;
-        let origin = (self.shop, self.rewriting);
+        let origin = (self.cx, self.rewriting);
         let (graph, tree, ranges) = (graph.clone(), tree.clone(), ranges.clone());
         let mut plan = assemble(graph, tree, ranges, self.params, target, goal, origin)?;
         (plan.work, plan.cut, plan.allowance) = (self.work, self.cut, self.allowance);
         if plan.runtime.narrow.is_none() {
             return Ok(plan);
         }
-        let shop = plan.origin.0.clone();
-        let narrow = shop.always(Pass::WordLengths, || Some(narrowed(plan.clone())));
+        let cx = plan.origin.0.clone();
+        let narrow = cx.always(Pass::WordLengths, || Some(narrowed(plan.clone())));
         Ok(narrow.unwrap_or(plan))
     }
 }
@@ -165,14 +165,14 @@ impl Candidate {
 /// What the passes make of a scene, by a workshop that is kept for other plans, with the fuel
 /// for this one.
 pub(crate) fn candidate(
-    kept: &Arc<Workshop>,
+    kept: &Arc<Context>,
     target: &'static Target,
     goal: &Goal,
     (rewriting, fuel): (Rewriting, Fuel),
 ) -> Result<Candidate, Vec<Diagnostic>> {
     let allowance = fuel.given();
-    let shop = &kept.with(fuel);
-    let (origin, runtime) = (&*shop.origin, target.runtime);
+    let cx = &kept.with(fuel);
+    let (origin, runtime) = (&*cx.origin, target.runtime);
     if let Err(broken) = verify(origin) {
         let message =
             format!("the graph is broken: {broken}; a fault of the compiler, please report it");
@@ -186,32 +186,32 @@ pub(crate) fn candidate(
     // Where sums are rounded to as few bits as that, tiles' edges move by whole pixels.
     let logs = rounds > 0 && matches!(runtime.real, Format::Log { .. });
     let whole = |graph: Graph| {
-        let made = logs.then(|| shop.always(Pass::IntegerParts, || Some(whole_parts(&graph))));
+        let made = logs.then(|| cx.always(Pass::IntegerParts, || Some(integer_parts(&graph))));
         made.flatten().unwrap_or(graph)
     };
     let drawn = |graph: Graph| match rewriting {
-        Rewriting::Fast { thrift, .. } if thrift.passes() && runtime.segments => {
-            let made = shop.always(Pass::StripMine, || {
-                interlaced(&graph, in_byte(&graph, target, goal))
+        Rewriting::Fast { budget, .. } if budget.passes() && runtime.segments => {
+            let made = cx.always(Pass::StripMine, || {
+                strip_mined(&graph, in_byte(&graph, target, goal))
             });
             made.unwrap_or(graph)
         }
         _ => graph,
     };
-    let ready = |graph: &Graph| steady(shop, &whole(drawn(fold(&without(graph)))), rounds);
+    let ready = |graph: &Graph| steady(cx, &whole(drawn(fold(&without(graph)))), rounds);
     let mut now = ready(origin);
     let form = match rewriting {
-        Rewriting::Fast { thrift, .. } => cheapest_form((origin, &now), &ready, shop, thrift),
+        Rewriting::Fast { budget, .. } => cheapest_form((origin, &now), &ready, cx, budget),
         _ => None,
     };
     let origin = form.as_ref().map_or(origin, |(graph, _)| graph);
     if let Some((_, plan)) = &form {
         now = plan.clone();
     }
-    if let Rewriting::Fast { thrift, steps } = rewriting {
-        let exits = !origin.early.is_empty() && !shop.pipeline.without.has(Pass::EarlyExit);
-        let early = exits.then(|| steady(shop, &whole(drawn(fold(origin))), rounds));
-        now = searched((now, early), shop, target, thrift, steps);
+    if let Rewriting::Fast { budget, steps } = rewriting {
+        let exits = !origin.early.is_empty() && !cx.pipeline.without.has(Pass::EarlyExit);
+        let early = exits.then(|| steady(cx, &whole(drawn(fold(origin))), rounds));
+        now = searched((now, early), cx, target, budget, steps);
     }
     let Known {
         graph,
@@ -220,15 +220,15 @@ pub(crate) fn candidate(
         ..
     } = &*now;
     // What the last passes placed anew must still begin with its run.
-    if let Rewriting::Fast { thrift, steps } = rewriting
+    if let Rewriting::Fast { budget, steps } = rewriting
         && steps != Steps::None
         && !is_exact(graph, tree, ranges)
     {
         let steps = Steps::None;
-        let without = Rewriting::Fast { thrift, steps };
-        let mut made = candidate(kept, target, goal, (without, shop.fuel.share()))?;
-        made.work += shop.fuel.burnt();
-        made.cut |= shop.fuel.was_cut();
+        let without = Rewriting::Fast { budget, steps };
+        let mut made = candidate(kept, target, goal, (without, cx.fuel.share()))?;
+        made.work += cx.fuel.burnt();
+        made.cut |= cx.fuel.was_cut();
         made.allowance = allowance;
         return Ok(made);
     }
@@ -237,12 +237,12 @@ pub(crate) fn candidate(
         return Err(vec![Diagnostic::error(graph.span(id), message)]);
     }
     Ok(Candidate {
-        shop: kept.clone(),
+        cx: kept.clone(),
         rewriting,
         params,
         plan: now,
-        work: shop.fuel.burnt(),
-        cut: shop.fuel.was_cut(),
+        work: cx.fuel.burnt(),
+        cut: cx.fuel.was_cut(),
         allowance,
     })
 }
@@ -250,22 +250,24 @@ pub(crate) fn candidate(
 /// The cheapest plan that the passes that search find from one; `early` is the same with the
 /// scene's exits in it.
 fn searched(
-    (plain, early): (Settled, Option<Settled>),
-    shop: &Workshop,
+    (plain, early): (Analysed, Option<Analysed>),
+    cx: &Context,
     target: &'static Target,
-    thrift: Thrift,
+    budget: SizeBudget,
     steps: Steps,
-) -> Settled {
-    let price = Price::new(shop, thrift);
-    let plain = in_arms(plain, shop, thrift);
-    let early = early.map(|plan| in_arms(plan, shop, thrift));
+) -> Analysed {
+    let price = Price::new(cx, budget);
+    let plain = in_arms(plain, cx, budget);
+    let early = early.map(|plan| in_arms(plan, cx, budget));
     let early = early.as_ref().map(|settled| &settled.graph);
-    let exits = early.and_then(everywhere).map(|graph| shop.settle(&graph));
+    let exits = early
+        .and_then(everywhere)
+        .map(|graph| cx.simplified(&graph));
     // How much the exits outside of loops gain hardly hangs on the other passes, but for spans.
     let part = (exits.as_ref()).map_or(1.0, |exits| price.of(exits) / price.of(&plain));
     let exits = exits.filter(|_| part < SOONER);
     let mut starts = Vec::new();
-    let surely = match shop.runtime.segments {
+    let surely = match cx.runtime.segments {
         true => SURELY,
         false => SOONER,
     };
@@ -274,28 +276,33 @@ fn searched(
         starts.push((plain.clone(), early.cloned()));
         // Where runs of columns are drawn as a whole, points by their distance along a ray may
         // tell where these end.
-        let along_rays = || shop.runtime.segments.then(|| along(&plain.graph)).flatten();
-        if let Some(other) = shop.always(Pass::RayParameter, along_rays) {
-            let early = early.map(|graph| along(graph).unwrap_or(graph.clone()));
-            starts.push((shop.settle(&other), early));
+        let along_rays = || {
+            cx.runtime
+                .segments
+                .then(|| by_ray_parameter(&plain.graph))
+                .flatten()
+        };
+        if let Some(other) = cx.always(Pass::RayParameter, along_rays) {
+            let early = early.map(|graph| by_ray_parameter(graph).unwrap_or(graph.clone()));
+            starts.push((cx.simplified(&other), early));
         }
     }
     let usual = starts.len();
     starts.extend(exits.map(|exits| (exits, None)));
-    let found: Vec<(Settled, Fuel)> = (starts.into_par_iter())
+    let found: Vec<(Analysed, Fuel)> = (starts.into_par_iter())
         .map(|(plain, early)| {
-            let shop = shop.with(shop.fuel.share());
-            let all = cheaper(plain.clone(), early.as_ref(), &shop, thrift)
+            let cx = cx.with(cx.fuel.share());
+            let all = cheaper(plain.clone(), early.as_ref(), &cx, budget)
                 .into_iter()
-                .map(|plan| asked_where_it_matters(plan, &shop, thrift))
-                .map(|plan| rewritten(plan, &shop, thrift))
-                .map(|plan| stepped(plan, &shop, target, thrift, steps))
-                .map(|plan| with_sums(plan, &shop, thrift))
-                .map(|plan| with_inks_split(plan, &shop, thrift));
-            (price.cheapest(all).unwrap_or(plain), shop.fuel)
+                .map(|plan| asked_where_it_matters(plan, &cx, budget))
+                .map(|plan| rewritten(plan, &cx, budget))
+                .map(|plan| stepped(plan, &cx, target, budget, steps))
+                .map(|plan| with_sums(plan, &cx, budget))
+                .map(|plan| with_inks_split(plan, &cx, budget));
+            (price.cheapest(all).unwrap_or(plain), cx.fuel)
         })
         .collect();
-    found.iter().for_each(|(_, fuel)| shop.fuel.settle(fuel));
+    found.iter().for_each(|(_, fuel)| cx.fuel.settle(fuel));
     let mut found = found.into_iter().map(|(plan, _)| plan);
     let best = price.cheapest(found.by_ref().take(usual));
     let sooner = found.next().filter(|sooner| {
@@ -304,29 +311,29 @@ fn searched(
             .is_none_or(|best| price.of(sooner) < cost(best))
     });
     let mut now = sooner.or(best).unwrap_or(plain);
-    now = apart_at_last(now, shop, thrift);
-    now = in_columns(now, shop, target, thrift);
-    licm(now, shop, thrift)
+    now = apart_at_last(now, cx, budget);
+    now = in_columns(now, cx, target, budget);
+    licm(now, cx, budget)
 }
 
 /// A graph with stable forms of its formulas.
-fn steady(shop: &Workshop, origin: &Graph, rounds: u32) -> Settled {
-    let mut now = shop.scheduled(fold(origin));
+fn steady(cx: &Context, origin: &Graph, rounds: u32) -> Analysed {
+    let mut now = cx.scheduled(fold(origin));
     for _ in 0..rounds {
-        let next = shop.always(Pass::AccuracyRules, || {
-            stable(&now.graph, &now.ranges, shop.slack())
+        let next = cx.always(Pass::AccuracyRules, || {
+            accurate(&now.graph, &now.ranges, cx.slack())
         });
         let Some(next) = next else {
             break;
         };
-        now = shop.scheduled(fold(&next));
+        now = cx.scheduled(fold(&next));
     }
     if rounds > 0
-        && let Some(next) = shop.always(Pass::UnitVectors, || units(&now.graph, &now.ranges))
+        && let Some(next) = cx.always(Pass::UnitVectors, || unit_vectors(&now.graph, &now.ranges))
     {
-        now = shop.scheduled(fold(&next));
+        now = cx.scheduled(fold(&next));
     }
-    shop.settle(&now.graph)
+    cx.simplified(&now.graph)
 }
 
 /// How many of the picture's pixels share a byte of the screen, where that matters.

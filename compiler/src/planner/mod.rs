@@ -1,21 +1,21 @@
 //! The planner: from a graph to the plan that is cheapest on a machine.
 //!
 //! [`pipeline`] lists the passes, [`search`] asks each family of them for candidates and keeps
-//! what the cost model finds cheaper, [`memo`] holds what was made so far, [`made`] runs all of
+//! what the cost model finds cheaper, [`context`] holds what was made so far, [`made`] runs all of
 //! it, [`assemble`] selects routines, and [`replan`] and [`outlined`] plan the same scene again
 //! for less memory.
 
 pub(crate) mod assemble;
-pub(crate) mod made;
-pub(crate) mod memo;
+pub(crate) mod context;
 #[cfg(test)]
-mod memo_tests;
+mod context_tests;
+pub(crate) mod made;
 pub(crate) mod outlined;
 pub mod pipeline;
 pub(crate) mod replan;
 pub(crate) mod search;
 
-use crate::cost::size_budget::Thrift;
+use crate::cost::size_budget::SizeBudget;
 pub use made::{Candidate, plan, plan_as_written, plan_with_every_shade, plan_within};
 
 /// How much work a search for a plan may do, in units of [`crate::fuel::Fuel`]: some seconds'
@@ -23,4 +23,4 @@ pub use made::{Candidate, plan, plan_as_written, plan_with_every_shade, plan_wit
 pub const SEARCH: u64 = 400_000_000;
 
 /// In how many steps plans may spend less and less memory on speed.
-pub const THRIFTS: usize = Thrift::COUNT;
+pub const THRIFTS: usize = SizeBudget::COUNT;

@@ -6,7 +6,7 @@ use crate::analysis::range::{Slack, ranges};
 use crate::ir::graph::{Graph, Node};
 use crate::ir::tree::*;
 use crate::plan::Plan;
-use crate::schedule::locality::{down_to_runs, near};
+use crate::schedule::locality::{by_first_use, down_to_runs};
 use crate::schedule::outline::{Extent, Sizes, outline};
 use crate::schedule::statements::schedule_together;
 use crate::source::{Diagnostic, Span};
@@ -74,7 +74,7 @@ impl Plan {
             false => Extent::Rows,
         };
         for block in blocks {
-            *block = near(&self.graph, std::mem::take(block));
+            *block = by_first_use(&self.graph, std::mem::take(block));
         }
         let sizes = &self.target.sizes;
         let (graph, tree) = self.with_subroutines(tree, extent, sizes, name);

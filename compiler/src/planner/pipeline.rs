@@ -8,9 +8,9 @@
 use crate::analysis::range::Ranges;
 use crate::fuel::Fuel;
 use crate::ir::graph::Graph;
-use crate::passes::branches::cross_multiply::limits;
+use crate::passes::branches::cross_multiply::cross_multiply;
 use crate::passes::simplify::reciprocals::reciprocals;
-use crate::schedule::analysed::Settled;
+use crate::schedule::analysed::Analysed;
 use slowlight_routine::Runtime;
 use std::fmt::Write;
 use std::sync::{Arc, Mutex, PoisonError};
@@ -80,7 +80,7 @@ pub type Rewrite = fn(&Graph, &Ranges, &Runtime) -> Option<Graph>;
 /// The passes that only rewrite a graph, each kept where the plan's price falls: what is added
 /// here needs no other place in the planner.
 pub const REWRITES: &[(Pass, Rewrite)] = &[
-    (Pass::CrossMultiply, limits),
+    (Pass::CrossMultiply, cross_multiply),
     (Pass::Reciprocals, reciprocals),
 ];
 
@@ -140,9 +140,9 @@ impl Pipeline {
         &self,
         fuel: &Fuel,
         pass: Pass,
-        plan: Settled,
-        run: impl FnOnce(&Settled) -> Option<Settled>,
-    ) -> Settled {
+        plan: Analysed,
+        run: impl FnOnce(&Analysed) -> Option<Analysed>,
+    ) -> Analysed {
         if self.without.has(pass) || fuel.spent() {
             return plan;
         }

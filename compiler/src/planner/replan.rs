@@ -3,12 +3,12 @@
 use super::made::{Candidate, Rewriting, candidate};
 use super::pipeline::Pipeline;
 use crate::backend::Lean;
-use crate::cost::size_budget::Thrift;
+use crate::cost::size_budget::SizeBudget;
 use crate::fuel::Fuel;
 use crate::ir::graph::*;
 use crate::ir::tree::*;
 use crate::plan::{Goal, Plan};
-use crate::planner::memo::Workshop;
+use crate::planner::context::Context;
 use crate::planner::search::stepped::Steps;
 use std::sync::Arc;
 
@@ -56,9 +56,9 @@ impl Plan {
         }
         let mut graph = Graph::clone(&self.origin.0.origin);
         graph.reports.extend(graph.shade);
-        let mut shop = Workshop::new(graph, self.runtime);
-        shop.pipeline = Pipeline::without(self.pipeline().without);
-        let mut plan = self.again(&Arc::new(shop), self.origin.1)?;
+        let mut cx = Context::new(graph, self.runtime);
+        cx.pipeline = Pipeline::without(self.pipeline().without);
+        let mut plan = self.again(&Arc::new(cx), self.origin.1)?;
         if self.calls_at_pixels() {
             plan = plan.outlined(&|_| None).ok()?;
         }
@@ -78,7 +78,7 @@ impl Plan {
     /// Whether it is slower than another of the same scene and target would be that had more
     /// memory.
     pub fn is_made_small(&self) -> bool {
-        let plenty = matches!(self.origin.1, Rewriting::Fast { thrift, .. } if thrift.is_plenty());
+        let plenty = matches!(self.origin.1, Rewriting::Fast { budget, .. } if budget.is_plenty());
         !plenty || self.tight || self.calls_at_pixels()
     }
 
@@ -99,25 +99,25 @@ impl Plan {
     /// this one spends none.
     pub fn thrifts(&self) -> usize {
         match self.origin.1 {
-            Rewriting::Fast { .. } => Thrift::COUNT,
+            Rewriting::Fast { .. } => SizeBudget::COUNT,
             _ => 1,
         }
     }
 
     /// What the passes make of the same scene by one of those steps, counted from 0.
     pub fn thriftier(&self, step: usize) -> Option<Candidate> {
-        let thrift = Thrift::step(step)?;
+        let budget = SizeBudget::step(step)?;
         if !self.may_be_smaller() {
             return None;
         }
         let steps = Steps::All;
-        self.candidate(&self.origin.0, Rewriting::Fast { thrift, steps })
+        self.candidate(&self.origin.0, Rewriting::Fast { budget, steps })
     }
 
     /// The same plan with less that is stepped from column to column, which takes
     /// a little less memory. None where nothing is.
     pub fn unstepped(&self) -> Option<Plan> {
-        let Rewriting::Fast { thrift, steps } = self.origin.1 else {
+        let Rewriting::Fast { budget, steps } = self.origin.1 else {
             return None;
         };
         let ramp = |node: &Node| matches!(node, Node::Ramp { .. } | Node::Stepped { .. });
@@ -125,18 +125,18 @@ impl Plan {
             Steps::All => Steps::Runs,
             Steps::Runs | Steps::None => Steps::None,
         };
-        let less = Rewriting::Fast { thrift, steps };
+        let less = Rewriting::Fast { budget, steps };
         let stepped = self.graph.nodes.iter().any(ramp);
         stepped.then(|| self.again(&self.origin.0, less)).flatten()
     }
 
-    fn again(&self, shop: &Arc<Workshop>, rewriting: Rewriting) -> Option<Plan> {
-        self.completed(self.candidate(shop, rewriting)?)
+    fn again(&self, cx: &Arc<Context>, rewriting: Rewriting) -> Option<Plan> {
+        self.completed(self.candidate(cx, rewriting)?)
     }
 
-    fn candidate(&self, shop: &Arc<Workshop>, rewriting: Rewriting) -> Option<Candidate> {
+    fn candidate(&self, cx: &Arc<Context>, rewriting: Rewriting) -> Option<Candidate> {
         let fuel = Fuel::new(self.allowance);
-        candidate(shop, self.target, &self.goal(), (rewriting, fuel)).ok()
+        candidate(cx, self.target, &self.goal(), (rewriting, fuel)).ok()
     }
 
     /// The plan of a candidate, for the same screen and written in the same way.

@@ -21,7 +21,7 @@ const PRICED: u64 = 20_000;
 /// A graph, when each value of it is computed, and what each stays within. Copies
 /// share what is known of it.
 #[derive(Clone)]
-pub struct Settled(Arc<Known>);
+pub struct Analysed(Arc<Known>);
 
 /// What is known of a graph.
 pub struct Known {
@@ -36,7 +36,7 @@ pub struct Known {
     pub(crate) cost: OnceLock<(f64, [f64; 2])>,
 }
 
-impl Deref for Settled {
+impl Deref for Analysed {
     type Target = Known;
 
     fn deref(&self) -> &Known {
@@ -44,7 +44,7 @@ impl Deref for Settled {
     }
 }
 
-impl Settled {
+impl Analysed {
     /// Something that copies of it have, and no other.
     pub(crate) fn serial(&self) -> u64 {
         self.0.serial
@@ -52,12 +52,12 @@ impl Settled {
 }
 
 /// A graph as it is, scheduled, with its ranges.
-pub fn scheduled(graph: Graph, slack: &Slack) -> Settled {
+pub fn scheduled(graph: Graph, slack: &Slack) -> Analysed {
     static SERIAL: AtomicU64 = AtomicU64::new(0);
     let (tree, visits) = schedule_counted(&graph, slack.segments());
     let (ranges, walked) = ranges_counted(&graph, &tree, slack);
     let nodes = graph.nodes.len() as u64;
-    Settled(Arc::new(Known {
+    Analysed(Arc::new(Known {
         work: (NODE + nodes / MANY) * nodes
             + VISIT * visits
             + WALKED * walked

@@ -10,8 +10,8 @@ use crate::eval::run::Run;
 use crate::ir::build::Builder;
 use crate::ir::graph::*;
 use crate::ir::ramp;
-use crate::passes::branches::unswitch::split;
-use crate::passes::loops::strip_mine::{interlaced, passes};
+use crate::passes::branches::unswitch::unswitch;
+use crate::passes::loops::strip_mine::{passes, strip_mined};
 use crate::schedule::constant_runs::{Inks, still};
 use crate::schedule::statements::schedule_in_segments;
 use crate::source::Span;
@@ -97,8 +97,8 @@ fn runs_and_passes_draw_the_same_and_still_inks_are_known() {
         let plain = picture(seed, seed % 2 == 1);
         let stepped = |graph: &Graph| graph.nodes.iter().any(|n| matches!(n, Node::Ramp { .. }));
         let graph = match stepped(&plain) {
-            true => split(&plain),
-            false => interlaced(&plain, 1),
+            true => unswitch(&plain),
+            false => strip_mined(&plain, 1),
         };
         splits += usize::from(stepped(&plain) && graph.is_some());
         let graph = graph.unwrap_or_else(|| plain.clone());
@@ -183,7 +183,7 @@ fn passes_are_a_multiple_of_all_that_they_must_be() {
             palette: vec![[0; 3]; 256],
         };
         let graph = b.finish(image, ink, None);
-        let made = interlaced(&graph, multiple)?;
+        let made = strip_mined(&graph, multiple)?;
         let (mut before, mut after) = (Native::new(&graph), Native::new(&made));
         for x in 0..320 {
             assert_eq!(before.pixel(x, 0), after.pixel(x, 0));

@@ -103,7 +103,7 @@ fn left_out(block: Block, id: NodeId) -> Block {
 }
 
 /// A block with its values where they are first read, and so with its arms.
-pub fn near(graph: &Graph, block: Block) -> Block {
+pub fn by_first_use(graph: &Graph, block: Block) -> Block {
     let block: Vec<Statement> = block.into_iter().map(|s| inside(graph, s)).collect();
     let mut order = Order {
         movable: movable(graph, &block),
@@ -130,8 +130,8 @@ fn inside(graph: &Graph, statement: Statement) -> Statement {
     match statement {
         Statement::If { cond, yes, no } => Statement::If {
             cond,
-            yes: near(graph, yes),
-            no: near(graph, no),
+            yes: by_first_use(graph, yes),
+            no: by_first_use(graph, no),
         },
         other => other,
     }
@@ -217,7 +217,7 @@ mod tests {
             let plain = schedule(&graph);
             let mut tree = plain.clone();
             for block in [&mut tree.frame, &mut tree.row, &mut tree.pixel] {
-                let ordered = near(&graph, std::mem::take(block));
+                let ordered = by_first_use(&graph, std::mem::take(block));
                 *block = ordered;
             }
             moved += u32::from(tree != plain);

@@ -37,7 +37,7 @@ use site::{Known, Site};
 /// What a rule made is looked at when the pass runs again.
 ///
 /// `slack` knows the ends of the format.
-pub fn stable(graph: &Graph, ranges: &Ranges, slack: &Slack) -> Option<Graph> {
+pub fn accurate(graph: &Graph, ranges: &Ranges, slack: &Slack) -> Option<Graph> {
     let (next, applied) = rewritten(graph, ranges, slack);
     (!applied.is_empty()).then_some(next)
 }

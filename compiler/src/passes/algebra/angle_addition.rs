@@ -22,7 +22,7 @@ const OFF: f64 = 1e-9;
 const DEEP: u32 = 8;
 
 /// The graph with such sines and cosines by products; nothing where it has none.
-pub fn arcs(graph: &Graph) -> Option<Graph> {
+pub fn angle_addition(graph: &Graph) -> Option<Graph> {
     let mut found = false;
     let next = rebuild_old(graph, &mut |b, made, id, span| {
         let Node::Apply(op @ (Op::Sin | Op::Cos), [angle, _]) = graph.node(id) else {

@@ -1,7 +1,7 @@
 //! What sines of arcs become is the same number.
 #![allow(clippy::unwrap_used)]
 
-use super::arcs;
+use super::angle_addition;
 use crate::analysis::verify::verify;
 use crate::eval::native::Native;
 use crate::ir::graph::*;
@@ -49,7 +49,8 @@ fn sines_of_arcs_are_the_same_numbers() {
         ("{ let a = asin(u); cos(a + a / 2 + a / 2) }", 0),
     ] {
         let graph = scene(shade);
-        let other = fold(&arcs(&graph).unwrap_or_else(|| panic!("{shade}: nothing found")));
+        let other =
+            fold(&angle_addition(&graph).unwrap_or_else(|| panic!("{shade}: nothing found")));
         verify(&other).unwrap_or_else(|broken| panic!("{shade}: {broken}"));
         assert_eq!(count(&other, &[Op::Sin, Op::Cos]), left, "{shade}");
         let [mut before, mut after] = [&graph, &other].map(Native::new);
@@ -71,6 +72,6 @@ fn other_angles_are_left_alone() {
         "sin(u * acos(v))",
         "tan(acos(u))",
     ] {
-        assert!(arcs(&scene(shade)).is_none(), "{shade}");
+        assert!(angle_addition(&scene(shade)).is_none(), "{shade}");
     }
 }

@@ -15,7 +15,7 @@ use crate::passes::rewrite::rebuild::rebuild_old;
 use slowlight_routine::Op;
 
 /// The graph with such points; nothing where there are none.
-pub fn along(graph: &Graph) -> Option<Graph> {
+pub fn by_ray_parameter(graph: &Graph) -> Option<Graph> {
     let reached = graph.reached();
     let ids = || graph.ids().filter(|id| reached[id.0 as usize]);
     ids().find(|id| Way::of(graph, *id).is_some())?;
@@ -179,7 +179,7 @@ mod tests {
     fn points_are_the_same_by_their_distance() {
         for either in [false, true] {
             let graph = picture(either);
-            let made = along(&graph).unwrap();
+            let made = by_ray_parameter(&graph).unwrap();
             verify(&made).unwrap();
             let products = |g: &Graph| {
                 let reached = g.reached();
@@ -196,7 +196,7 @@ mod tests {
                     assert_eq!(before.pixel(x, y), after.pixel(x, y), "{made}");
                 }
             }
-            assert!(along(&made).is_none());
+            assert!(by_ray_parameter(&made).is_none());
         }
     }
 }

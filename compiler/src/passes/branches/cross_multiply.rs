@@ -20,7 +20,7 @@ use slowlight_routine::{Op, Runtime, Value};
 
 /// The graph with limits where there are such comparisons; nothing where there are none, or
 /// where divisions are no dearer than products.
-pub fn limits(graph: &Graph, ranges: &Ranges, runtime: &Runtime) -> Option<Graph> {
+pub fn cross_multiply(graph: &Graph, ranges: &Ranges, runtime: &Runtime) -> Option<Graph> {
     if !runtime.reciprocals {
         return None;
     }
@@ -121,9 +121,9 @@ mod tests {
     use crate::analysis::verify::verify;
     use crate::backend::{find, formats};
     use crate::eval::native::Native;
-    use crate::planner::memo::Workshop;
+    use crate::planner::context::Context;
     use crate::scene;
-    use crate::schedule::analysed::Settled;
+    use crate::schedule::analysed::Analysed;
     use crate::sema::Options;
 
     /// One whose divisions are dear.
@@ -132,12 +132,12 @@ mod tests {
         all.find(|runtime| runtime.reciprocals).unwrap()
     }
 
-    fn settled(source: &str) -> Settled {
+    fn settled(source: &str) -> Analysed {
         let scene = scene::check("test", source);
         assert!(scene.is_right(), "{source}: {:?}", scene.diagnostics);
         let graph = scene.lower(&Options::default()).unwrap();
         let runtime = find("6502:plain").unwrap().runtime;
-        Workshop::new(graph.clone(), runtime).settle(&graph)
+        Context::new(graph.clone(), runtime).simplified(&graph)
     }
 
     /// Quotients that pixels compute whatever they compare.
@@ -175,7 +175,7 @@ mod tests {
             ("7 / n < u", 1),
         ] {
             let plain = settled(&picture(comparison, "(x - 16) * (x - 16) / 8 + 1"));
-            let made = limits(&plain.graph, &plain.ranges, runtime()).unwrap();
+            let made = cross_multiply(&plain.graph, &plain.ranges, runtime()).unwrap();
             verify(&made).unwrap();
             assert_eq!(quotients(&plain.graph), 1);
             assert_eq!(quotients(&made), left, "{comparison}: {made}");
@@ -200,7 +200,7 @@ mod tests {
         ] {
             let plain = settled(&picture(comparison, n));
             assert!(
-                limits(&plain.graph, &plain.ranges, runtime()).is_none(),
+                cross_multiply(&plain.graph, &plain.ranges, runtime()).is_none(),
                 "{comparison}"
             );
         }

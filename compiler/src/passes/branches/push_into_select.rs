@@ -44,7 +44,7 @@ pub fn conditions(graph: &Graph) -> Vec<NodeId> {
 
 /// The graph with what is made of choices by a condition made in their arms, where that
 /// leaves operations out; nothing where it does not.
-pub fn arms(graph: &Graph, ranges: &Ranges, cond: NodeId) -> Option<Graph> {
+pub fn push_into_select(graph: &Graph, ranges: &Ranges, cond: NodeId) -> Option<Graph> {
     let all = before_dither(graph);
     let (_, shorter) = apart((graph, ranges), cond, &all);
     if !shorter.contains(&true) {
@@ -142,10 +142,10 @@ mod tests {
     use super::*;
     use crate::analysis::range::{Slack, ranges};
     use crate::cost::price::Price;
-    use crate::cost::size_budget::Thrift;
+    use crate::cost::size_budget::SizeBudget;
     use crate::eval::drawn::{grid, picture};
     use crate::passes::simplify::fold::fold;
-    use crate::planner::memo::Workshop;
+    use crate::planner::context::Context;
     use crate::scene;
     use crate::schedule::statements::schedule;
     use crate::sema::Options;
@@ -180,7 +180,7 @@ mod tests {
             let of = now.as_ref().unwrap_or(graph);
             let next = conditions(of)
                 .get(k)
-                .and_then(|cond| arms(of, &ranged(of), *cond))
+                .and_then(|cond| push_into_select(of, &ranged(of), *cond))
                 .map(|next| fold(&next));
             now = next.or(now);
         }
@@ -193,9 +193,9 @@ mod tests {
 
     /// What a pixel costs on Jack.
     fn price(graph: &Graph) -> f64 {
-        let shop = Workshop::new(graph.clone(), &F316);
-        let plan = shop.settle(graph);
-        Price::new(&shop, Thrift::default()).of(&plan)
+        let cx = Context::new(graph.clone(), &F316);
+        let plan = cx.simplified(graph);
+        Price::new(&cx, SizeBudget::default()).of(&plan)
     }
 
     #[test]
@@ -258,7 +258,7 @@ mod tests {
         );
         assert!(!conditions(&graph).is_empty());
         for cond in conditions(&graph) {
-            assert!(arms(&graph, &ranged(&graph), cond).is_none());
+            assert!(push_into_select(&graph, &ranged(&graph), cond).is_none());
         }
     }
 
@@ -271,7 +271,10 @@ mod tests {
             let graph = lowered(ink);
             let flat = |id: &NodeId| matches!(graph.node(*id), Node::Apply(Op::IntLess, _));
             let cond = conditions(&graph).into_iter().find(flat).expect(ink);
-            assert!(arms(&graph, &ranged(&graph), cond).is_none(), "{ink}");
+            assert!(
+                push_into_select(&graph, &ranged(&graph), cond).is_none(),
+                "{ink}"
+            );
         }
     }
 }

@@ -64,7 +64,7 @@ struct Pair {
 
 /// The graph in which a condition is asked only where it matters; nothing where no choice by
 /// it comes to a comparison. Where errors are sent on, each shade matters.
-pub fn either(graph: &Graph, by: NodeId) -> Option<Graph> {
+pub fn shannon(graph: &Graph, by: NodeId) -> Option<Graph> {
     if graph.diffusion.is_some() {
         return None;
     }
@@ -190,7 +190,7 @@ mod tests {
             let graph = lowered(ink);
             let (drawn, all) = inks(&graph);
             let found = conditions(&graph).into_iter();
-            let found = found.filter_map(|cond| either(&graph, cond));
+            let found = found.filter_map(|cond| shannon(&graph, cond));
             let found: Vec<_> = found.map(|next| inks(&next)).collect();
             assert!(found.iter().all(|(inks, _)| *inks == drawn), "{ink}");
             // It still matters at some.
@@ -213,7 +213,7 @@ mod tests {
         let graph = graph.expect("a graph");
         assert!(!conditions(&graph).is_empty());
         for cond in conditions(&graph) {
-            assert!(either(&graph, cond).is_none());
+            assert!(shannon(&graph, cond).is_none());
         }
     }
 }

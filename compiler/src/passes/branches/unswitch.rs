@@ -35,7 +35,7 @@ impl Depends {
 }
 
 /// The graph with such values chosen by their bools; nothing where there are none.
-pub fn split(graph: &Graph) -> Option<Graph> {
+pub fn unswitch(graph: &Graph) -> Option<Graph> {
     let known = Known::of(graph);
     let mut depends = Vec::with_capacity(graph.nodes.len());
     for id in graph.ids() {

@@ -26,7 +26,7 @@ pub fn passes(graph: &Graph) -> u32 {
 /// The graph with remainders of the column as passes, a whole number of times
 /// `multiple`; nothing where it has none, or such that would take too many.
 /// Pixels that send something to others are drawn in order.
-pub fn interlaced(graph: &Graph, multiple: u32) -> Option<Graph> {
+pub fn strip_mined(graph: &Graph, multiple: u32) -> Option<Graph> {
     // What is stepped already is stepped from each column to the next.
     let stepped = graph
         .nodes

@@ -14,7 +14,7 @@ use slowlight_routine::{Op, Value};
 const MOST: f64 = 1000.0;
 
 /// The graph with floors of sums with whole numbers as sums of floors.
-pub fn whole_parts(graph: &Graph) -> Graph {
+pub fn integer_parts(graph: &Graph) -> Graph {
     rebuild(graph, &mut |builder, _, node, span| match node {
         Node::Apply(Op::Floor, [sum, _]) => taken_out(builder, sum, span),
         _ => None,
@@ -89,7 +89,7 @@ mod tests {
             ("floor(p + x * 0.3)", true),
         ] {
             let graph = lowered(floors);
-            let next = whole_parts(&graph);
+            let next = integer_parts(&graph);
             let places = grid(24, 16, 1);
             assert!(of_sums(&graph), "{floors}");
             assert_eq!(of_sums(&next), left, "{floors}");

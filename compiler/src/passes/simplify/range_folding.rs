@@ -11,7 +11,7 @@ use crate::passes::rewrite::rebuild::rebuild;
 use slowlight_routine::{Op, Range, Type, Value};
 
 /// The graph with every decided operation replaced.
-pub fn narrow(graph: &Graph, ranges: &Ranges) -> Graph {
+pub fn fold_by_ranges(graph: &Graph, ranges: &Ranges) -> Graph {
     rebuild(graph, &mut |builder, old, node, span| {
         let Node::Apply(op, [a, b]) = node else {
             return None;

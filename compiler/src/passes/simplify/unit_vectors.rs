@@ -16,7 +16,7 @@ use std::collections::{BTreeMap, BTreeSet};
 type Length = [NodeId; 3];
 
 /// The graph with such lengths and parts; nothing where there are none.
-pub fn units(graph: &Graph, ranges: &Ranges) -> Option<Graph> {
+pub fn unit_vectors(graph: &Graph, ranges: &Ranges) -> Option<Graph> {
     // The parts of what has no length are nothing over nothing.
     let some = |id: &NodeId| ranges.result.get(id.0 as usize).is_some_and(|r| r.lo > 0.0);
     let lengths: BTreeMap<NodeId, Length> = graph
@@ -207,7 +207,7 @@ mod tests {
             assert_eq!(count(&graph, Op::Sqrt), 2, "{t}, {way}");
             let tree = schedule(&graph);
             let ranges = ranges(&graph, &tree, &Slack::of(&F316));
-            let found = units(&graph, &ranges);
+            let found = unit_vectors(&graph, &ranges);
             assert_eq!(found.is_some(), roots < 2, "{t}, {way}");
             let next = found.map_or(graph.clone(), |next| fold(&next));
             let counts = (count(&next, Op::Sqrt), count(&next, Op::Div));

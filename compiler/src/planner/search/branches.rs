@@ -4,17 +4,17 @@
 //! only where they matter ([`crate::passes::branches::shannon`]).
 
 use crate::cost::price::Price;
-use crate::cost::size_budget::Thrift;
+use crate::cost::size_budget::SizeBudget;
 use crate::ir::graph::{Graph, NodeId};
-use crate::passes::branches::push_into_select::{arms, conditions};
+use crate::passes::branches::push_into_select::{conditions, push_into_select};
 use crate::passes::branches::shannon;
-use crate::passes::branches::shannon::either;
-use crate::passes::branches::specialise_factors::factors;
+use crate::passes::branches::shannon::shannon;
+use crate::passes::branches::specialise_factors::specialise_factors;
 use crate::passes::simplify::fold::fold;
-use crate::planner::memo::Workshop;
+use crate::planner::context::Context;
 use crate::planner::pipeline::{Pass, REWRITES};
 use crate::planner::search::forms::NODES;
-use crate::schedule::analysed::Settled;
+use crate::schedule::analysed::Analysed;
 use slowlight_routine::Format;
 
 /// By how much operations in arms must make the plan cheaper: each choice is asked once
@@ -29,11 +29,11 @@ const CHOICE: f64 = 0.999;
 const FACTORS: usize = 8;
 
 /// With operations made in the arms of choices where they are none in one of them.
-pub fn in_arms(plan: Settled, shop: &Workshop, thrift: Thrift) -> Settled {
-    shop.pass(Pass::PushIntoSelect, plan, |plan| {
-        let price = Price::new(shop, thrift);
-        each_condition(plan, shop, &price, conditions, |plan, cond| {
-            arms(&plan.graph, &plan.ranges, cond)
+pub fn in_arms(plan: Analysed, cx: &Context, budget: SizeBudget) -> Analysed {
+    cx.pass(Pass::PushIntoSelect, plan, |plan| {
+        let price = Price::new(cx, budget);
+        each_condition(plan, cx, &price, conditions, |plan, cond| {
+            push_into_select(&plan.graph, &plan.ranges, cond)
         })
     })
 }
@@ -41,21 +41,21 @@ pub fn in_arms(plan: Settled, shop: &Workshop, thrift: Thrift) -> Settled {
 /// The plan rewritten by its conditions, each in turn where that makes it cheaper; nothing
 /// where it nowhere does.
 fn each_condition(
-    plan: &Settled,
-    shop: &Workshop,
+    plan: &Analysed,
+    cx: &Context,
     price: &Price,
     conditions: fn(&Graph) -> Vec<NodeId>,
-    by: impl Fn(&Settled, NodeId) -> Option<Graph>,
-) -> Option<Settled> {
+    by: impl Fn(&Analysed, NodeId) -> Option<Graph>,
+) -> Option<Analysed> {
     let mut best = None;
     for k in 0..conditions(&plan.graph).len() {
         let now = best.as_ref().unwrap_or(plan);
-        if !shop.may_look(&now.graph) {
+        if !cx.may_look(&now.graph) {
             break;
         }
         let cond = conditions(&now.graph).get(k).copied();
         let next = cond.and_then(|cond| by(now, cond));
-        if let Some(next) = next.map(|graph| shop.settle(&graph))
+        if let Some(next) = next.map(|graph| cx.simplified(&graph))
             && price.of(&next) < ARMS * price.of(now)
         {
             best = Some(next);
@@ -65,27 +65,27 @@ fn each_condition(
 }
 
 /// With conditions asked only where the ink is not the same either way.
-pub fn asked_where_it_matters(plan: Settled, shop: &Workshop, thrift: Thrift) -> Settled {
+pub fn asked_where_it_matters(plan: Analysed, cx: &Context, budget: SizeBudget) -> Analysed {
     // Where each value has its own point, shades that nobody asks for in full would have
     // none that suits them, and errors of shades could not be told.
-    let scaled = matches!(shop.runtime.real, Format::Scaled { .. });
-    if shop.every_shade || scaled || shop.fuel.spent() {
+    let scaled = matches!(cx.runtime.real, Format::Scaled { .. });
+    if cx.every_shade || scaled || cx.fuel.spent() {
         return plan;
     }
-    let price = Price::new(shop, thrift);
-    shop.pass(Pass::Shannon, plan, |plan| {
-        each_condition(plan, shop, &price, shannon::conditions, |plan, cond| {
-            either(&plan.graph, cond).map(|graph| fold(&graph))
+    let price = Price::new(cx, budget);
+    cx.pass(Pass::Shannon, plan, |plan| {
+        each_condition(plan, cx, &price, shannon::conditions, |plan, cond| {
+            shannon(&plan.graph, cond).map(|graph| fold(&graph))
         })
     })
 }
 
 /// With what each of [`REWRITES`] makes of the plan, where that is cheaper.
-pub fn rewritten(plan: Settled, shop: &Workshop, thrift: Thrift) -> Settled {
-    let price = Price::new(shop, thrift);
+pub fn rewritten(plan: Analysed, cx: &Context, budget: SizeBudget) -> Analysed {
+    let price = Price::new(cx, budget);
     REWRITES.iter().fold(plan, |plan, (pass, rewrite)| {
-        shop.pass(*pass, plan, |plan| {
-            let next = shop.settle(&rewrite(&plan.graph, &plan.ranges, shop.runtime)?);
+        cx.pass(*pass, plan, |plan| {
+            let next = cx.simplified(&rewrite(&plan.graph, &plan.ranges, cx.runtime)?);
             (price.of(&next) < price.of(plan)).then_some(next)
         })
     })
@@ -93,18 +93,18 @@ pub fn rewritten(plan: Settled, shop: &Workshop, thrift: Thrift) -> Settled {
 
 /// The plan with what is multiplied by one of few numbers chosen by which that is, each
 /// in the cheapest way; nothing where that pays nowhere.
-pub fn chosen(plan: &Settled, shop: &Workshop, price: &Price) -> Option<Settled> {
-    let mut best: Option<Settled> = None;
+pub fn chosen(plan: &Analysed, cx: &Context, price: &Price) -> Option<Analysed> {
+    let mut best: Option<Analysed> = None;
     if plan.graph.nodes.len() > NODES {
         return best;
     }
     for _ in 0..FACTORS {
-        if shop.fuel.spent() {
+        if cx.fuel.spent() {
             break;
         }
         let now = best.as_ref().unwrap_or(plan);
-        let ways = factors(&now.graph, &now.ranges, shop.runtime);
-        let next = price.cheapest(ways.map(|graph| shop.settle(&graph)));
+        let ways = specialise_factors(&now.graph, &now.ranges, cx.runtime);
+        let next = price.cheapest(ways.map(|graph| cx.simplified(&graph)));
         let limit = CHOICE * price.of(now);
         let Some(next) = next.filter(|next| price.of(next) < limit) else {
             break;

@@ -3,12 +3,12 @@
 
 use crate::backend::Target;
 use crate::cost::price::Price;
-use crate::cost::size_budget::Thrift;
+use crate::cost::size_budget::SizeBudget;
 use crate::ir::graph::NodeId;
 use crate::passes::loops::scalar_expansion::{columns, tabulated};
-use crate::planner::memo::Workshop;
+use crate::planner::context::Context;
 use crate::planner::pipeline::Pass;
-use crate::schedule::analysed::Settled;
+use crate::schedule::analysed::Analysed;
 use std::collections::BTreeSet;
 
 /// By how much arrays must make the plan cheaper.
@@ -17,23 +17,23 @@ const CHEAPER: f64 = 0.98;
 /// The plan with what hangs on the column alone in arrays, where that pays; after all
 /// passes that rebuild the graph.
 pub fn in_columns(
-    plan: Settled,
-    shop: &Workshop,
+    plan: Analysed,
+    cx: &Context,
     target: &'static Target,
-    thrift: Thrift,
-) -> Settled {
+    budget: SizeBudget,
+) -> Analysed {
     if plan.graph.image.width > target.columns {
         return plan;
     }
-    let next = shop.always(Pass::ScalarExpansion, || expanded(&plan, shop, thrift));
+    let next = cx.always(Pass::ScalarExpansion, || expanded(&plan, cx, budget));
     next.unwrap_or(plan)
 }
 
-fn expanded(plan: &Settled, shop: &Workshop, thrift: Thrift) -> Option<Settled> {
+fn expanded(plan: &Analysed, cx: &Context, budget: SizeBudget) -> Option<Analysed> {
     let found = columns(&plan.graph)?;
-    let price = Price::new(shop, thrift);
+    let price = Price::new(cx, budget);
     let with = |chosen: &BTreeSet<NodeId>| {
-        let next = shop.scheduled(tabulated(&plan.graph, &found, chosen));
+        let next = cx.scheduled(tabulated(&plan.graph, &found, chosen));
         (price.of(&next), next)
     };
     let mut chosen: BTreeSet<NodeId> = found.all.iter().copied().collect();
@@ -43,7 +43,7 @@ fn expanded(plan: &Settled, shop: &Workshop, thrift: Thrift) -> Option<Settled> 
         if found.made_in_loops.contains(id) {
             continue;
         }
-        if shop.fuel.spent() {
+        if cx.fuel.spent() {
             break;
         }
         chosen.remove(id);

@@ -13,21 +13,23 @@ mod sites;
 use super::sums::with_loops_skipped;
 use crate::analysis::range::Ranges;
 use crate::cost::price::Price;
-use crate::cost::size_budget::Thrift;
+use crate::cost::size_budget::SizeBudget;
 use crate::ir::graph::*;
 use crate::passes::algebra::identities::{around, identities};
-use crate::passes::algebra::polynomial::{Cheaper, Verdicts, algebra, allowance, decided, spans};
-use crate::passes::algebra::unnormalised::{homogeneous, lengths};
+use crate::passes::algebra::polynomial::{
+    Cheaper, Verdicts, allowance, decided, normal_forms, spans,
+};
+use crate::passes::algebra::unnormalised::{lengths, unnormalised};
 use crate::passes::branches::early_exit::in_loops;
-use crate::passes::branches::invert_monotone::threshold;
-use crate::passes::branches::unswitch::split;
+use crate::passes::branches::invert_monotone::invert_monotone;
+use crate::passes::branches::unswitch::unswitch;
 use crate::passes::loops::guard::guard;
 use crate::passes::loops::peel::peel;
-use crate::passes::rematerialise::apart;
-use crate::planner::memo::Workshop;
+use crate::passes::rematerialise::rematerialise;
+use crate::planner::context::Context;
 use crate::planner::pipeline::Pass;
 use crate::planner::search::branches::chosen;
-use crate::schedule::analysed::Settled;
+use crate::schedule::analysed::Analysed;
 use slowlight_routine::{Format, Runtime};
 use std::sync::atomic::{AtomicBool, Ordering};
 
@@ -69,19 +71,19 @@ const PATIENCE: usize = 10_000;
 /// is another. Which of them is cheaper is seen only when values are stepped.
 /// `early` is the same graph with the scene's shortcuts in it, if it has any.
 pub fn cheaper(
-    plain: Settled,
+    plain: Analysed,
     early: Option<&Graph>,
-    shop: &Workshop,
-    thrift: Thrift,
-) -> Vec<Settled> {
-    if shop.fuel.spent() {
+    cx: &Context,
+    budget: SizeBudget,
+) -> Vec<Analysed> {
+    if cx.fuel.spent() {
         return vec![plain];
     }
     let mut site = Site {
-        shop,
-        runtime: shop.runtime,
-        price: Price::new(shop, thrift),
-        thrift,
+        cx,
+        runtime: cx.runtime,
+        price: Price::new(cx, budget),
+        budget,
         products: false,
         other: AtomicBool::new(false),
     };
@@ -113,7 +115,7 @@ pub enum Rewrite {
 impl Rewrite {
     fn rule(self) -> Rule {
         match self {
-            Rewrite::Forms => algebra,
+            Rewrite::Forms => normal_forms,
             Rewrite::Identities => identities,
             Rewrite::Spans => spans,
         }
@@ -122,31 +124,31 @@ impl Rewrite {
 
 /// With inks chosen by the one bool that runs of columns do not know, if that is worth
 /// the memory.
-pub fn with_inks_split(plan: Settled, shop: &Workshop, thrift: Thrift) -> Settled {
+pub fn with_inks_split(plan: Analysed, cx: &Context, budget: SizeBudget) -> Analysed {
     if plan.tree.segment.is_empty() {
         return plan;
     }
-    shop.pass(Pass::Unswitch, plan, |plan| {
-        let next = shop.settle(&split(&plan.graph)?);
-        let price = Price::new(shop, thrift);
+    cx.pass(Pass::Unswitch, plan, |plan| {
+        let next = cx.simplified(&unswitch(&plan.graph)?);
+        let price = Price::new(cx, budget);
         (price.of(&next) < price.of(plan)).then_some(next)
     })
 }
 
 /// With values computed where they are needed rather than once for all, where
 /// that is less often: the last of the passes.
-pub fn apart_at_last(plan: Settled, shop: &Workshop, thrift: Thrift) -> Settled {
-    let price = Price::new(shop, thrift);
+pub fn apart_at_last(plan: Analysed, cx: &Context, budget: SizeBudget) -> Analysed {
+    let price = Price::new(cx, budget);
     // Where copies are joined, what chooses what a loop starts with costs nothing.
-    let mut best = match shop.runtime.stepping {
-        Some(_) => with_loops_skipped(plan, shop, thrift),
+    let mut best = match cx.runtime.stepping {
+        Some(_) => with_loops_skipped(plan, cx, budget),
         None => plan,
     };
     for _ in 0..APART {
         let before = best.serial();
-        best = shop.pass(Pass::Rematerialise, best, |plan| {
-            let next = apart(&plan.graph, &plan.tree, &price.worth(plan));
-            next.map(|graph| shop.scheduled(graph))
+        best = cx.pass(Pass::Rematerialise, best, |plan| {
+            let next = rematerialise(&plan.graph, &plan.tree, &price.worth(plan));
+            next.map(|graph| cx.scheduled(graph))
         });
         if best.serial() == before {
             break;
@@ -156,10 +158,10 @@ pub fn apart_at_last(plan: Settled, shop: &Workshop, thrift: Thrift) -> Settled 
 }
 
 struct Site<'s> {
-    shop: &'s Workshop,
+    cx: &'s Context,
     runtime: &'static Runtime,
     price: Price,
-    thrift: Thrift,
+    budget: SizeBudget,
     /// Whether directions are so long that their products are whole, too.
     products: bool,
     /// Whether that makes a difference.
@@ -167,12 +169,12 @@ struct Site<'s> {
 }
 
 impl Site<'_> {
-    fn cost(&self, plan: &Settled) -> f64 {
+    fn cost(&self, plan: &Analysed) -> f64 {
         self.price.of(plan)
     }
 
     /// The cheapest plan, with turns of loops before them or not.
-    fn cheapest(&self, plain: &Settled, early: Option<&Graph>) -> Settled {
+    fn cheapest(&self, plain: &Analysed, early: Option<&Graph>) -> Analysed {
         let mut best = self.rewritten(plain).unwrap_or(plain.clone());
         // A copy that is dearer as it stands is for what forms make of it.
         let limit = match self.cost(&best) < FORMED * self.cost(plain) {
@@ -180,7 +182,7 @@ impl Site<'_> {
             false => self.cost(plain),
         };
         for k in 0..plain.graph.loops.len() {
-            if self.shop.fuel.spent() {
+            if self.cx.fuel.spent() {
                 break;
             }
             let of = LoopId(k as u32);
@@ -202,12 +204,12 @@ impl Site<'_> {
     fn keep(
         &self,
         pass: Pass,
-        best: &mut Settled,
+        best: &mut Analysed,
         graph: impl FnOnce() -> Option<Graph>,
         (part, limit): (f64, f64),
     ) -> bool {
-        let found = self.shop.always(pass, || {
-            let tried = self.shop.settle(&graph()?);
+        let found = self.cx.always(pass, || {
+            let tried = self.cx.simplified(&graph()?);
             if self.cost(&tried) > limit {
                 return None;
             }
@@ -223,18 +225,18 @@ impl Site<'_> {
 
     /// A plan with thresholds, directions at their own length and algebra, as far
     /// as they make it cheaper; nothing where they do not.
-    fn rewritten(&self, plain: &Settled) -> Option<Settled> {
-        if self.shop.fuel.spent() {
+    fn rewritten(&self, plain: &Analysed) -> Option<Analysed> {
+        if self.cx.fuel.spent() {
             return None;
         }
-        let (shop, runtime) = (self.shop, self.runtime);
-        let mut now = shop.pass(Pass::InvertMonotone, plain.clone(), |plan| {
-            let next = shop.settle(&threshold(&plan.graph, &plan.ranges, runtime)?);
+        let (cx, runtime) = (self.cx, self.runtime);
+        let mut now = cx.pass(Pass::InvertMonotone, plain.clone(), |plan| {
+            let next = cx.simplified(&invert_monotone(&plan.graph, &plan.ranges, runtime)?);
             (self.cost(&next) < self.cost(plan)).then_some(next)
         });
         let base = now.clone();
         now = self.sited(now, FORMS, Rewrite::Forms);
-        now = shop.pass(Pass::Unnormalised, now, |plan| {
+        now = cx.pass(Pass::Unnormalised, now, |plan| {
             let mut best = None;
             for held in self.held(&base) {
                 let found = self.sited(held, FORMS, Rewrite::Forms);
@@ -245,24 +247,24 @@ impl Site<'_> {
             best
         });
         now = self.specialised(now);
-        now = shop.pass(Pass::LengthTests, now, |plan| self.around(plan));
+        now = cx.pass(Pass::LengthTests, now, |plan| self.around(plan));
         now = self.sited(now, SHORTER, Rewrite::Identities);
-        if self.thrift.runs() {
+        if self.budget.runs() {
             now = self.sited(now, SPANS, Rewrite::Spans);
         }
         (now.serial() != plain.serial()).then_some(now)
     }
 
     /// The plan with factors of few values chosen by these, where that is cheaper.
-    fn specialised(&self, plan: Settled) -> Settled {
-        let shop = self.shop;
-        shop.pass(Pass::SpecialiseFactors, plan, |plan| {
-            chosen(plan, shop, &self.price)
+    fn specialised(&self, plan: Analysed) -> Analysed {
+        let cx = self.cx;
+        cx.pass(Pass::SpecialiseFactors, plan, |plan| {
+            chosen(plan, cx, &self.price)
         })
     }
 
     /// The graph with one of its directions at its own length, each in turn.
-    fn held(&self, plain: &Settled) -> impl Iterator<Item = Settled> {
+    fn held(&self, plain: &Analysed) -> impl Iterator<Item = Analysed> {
         // A fixed point has the digits for directions of length 1, but where each has its
         // own, and logarithms have no room for the squares of long ones.
         let narrow = (self.runtime.real.is_fixed() && allowance(self.runtime) < 1.0)
@@ -273,30 +275,30 @@ impl Site<'_> {
             false => Vec::new(),
         };
         all.into_iter().take(LENGTHS).filter_map(|length| {
-            if self.shop.fuel.spent() {
+            if self.cx.fuel.spent() {
                 return None;
             }
-            let (held, longer) = homogeneous(&plain.graph, &plain.ranges, length)?;
+            let (held, longer) = unnormalised(&plain.graph, &plain.ranges, length)?;
             self.other.fetch_or(longer.is_some(), Ordering::Relaxed);
             let held = longer.filter(|_| self.products).unwrap_or(held);
-            Some(self.decided(self.shop.settle(&held)))
+            Some(self.decided(self.cx.simplified(&held)))
         })
     }
 
     /// The plan without comparisons that the length of a vector decides.
-    fn around(&self, plan: &Settled) -> Option<Settled> {
+    fn around(&self, plan: &Analysed) -> Option<Analysed> {
         let few = plan.graph.nodes.len() <= NODES;
         let next = few.then(|| around(&plan.graph, &plan.ranges, self.runtime))??;
-        Some(self.shop.settle(&next))
+        Some(self.cx.simplified(&next))
     }
 
     /// The plan without comparisons that come out the same at every pixel.
-    fn decided(&self, plan: Settled) -> Settled {
+    fn decided(&self, plan: Analysed) -> Analysed {
         if plan.graph.nodes.len() > NODES {
             return plan;
         }
-        match decided(&plan.graph, &plan.ranges, self.runtime, &self.shop.proofs) {
-            Some(next) => self.shop.settle(&next),
+        match decided(&plan.graph, &plan.ranges, self.runtime, &self.cx.proofs) {
+            Some(next) => self.cx.simplified(&next),
             None => plan,
         }
     }

@@ -2,35 +2,35 @@
 //! statements ([`crate::passes::loops::licm`]).
 
 use crate::cost::price::Price;
-use crate::cost::size_budget::Thrift;
+use crate::cost::size_budget::SizeBudget;
 use crate::ir::graph::Graph;
 use crate::passes::loops::licm::hoisted;
-use crate::planner::memo::Workshop;
+use crate::planner::context::Context;
 use crate::planner::pipeline::Pass;
-use crate::schedule::analysed::Settled;
+use crate::schedule::analysed::Analysed;
 
 /// By how much that must make the plan cheaper: what a variable more costs is not known so well.
 const CHEAPER: f64 = 0.99;
 
 /// The plan with what its loops' turns have in common before them, where that pays; after all
 /// passes that rebuild the graph.
-pub fn licm(plan: Settled, shop: &Workshop, thrift: Thrift) -> Settled {
+pub fn licm(plan: Analysed, cx: &Context, budget: SizeBudget) -> Analysed {
     if plan.graph.loops.is_empty() {
         return plan;
     }
-    let next = shop.always(Pass::Licm, || hoisted_where_cheaper(&plan, shop, thrift));
+    let next = cx.always(Pass::Licm, || hoisted_where_cheaper(&plan, cx, budget));
     next.unwrap_or(plan)
 }
 
-fn hoisted_where_cheaper(plan: &Settled, shop: &Workshop, thrift: Thrift) -> Option<Settled> {
-    let price = Price::new(shop, thrift);
+fn hoisted_where_cheaper(plan: &Analysed, cx: &Context, budget: SizeBudget) -> Option<Analysed> {
+    let price = Price::new(cx, budget);
     let counts = price.counts(plan);
     let found = counts.map(|ran| hoisted(&plan.graph, &plan.tree.pixel, &ran));
     let hoisted = found.unwrap_or_default();
     if hoisted.is_empty() {
         return None;
     }
-    let next = shop.scheduled(Graph {
+    let next = cx.scheduled(Graph {
         hoisted,
         ..plan.graph.clone()
     });

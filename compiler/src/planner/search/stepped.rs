@@ -7,13 +7,13 @@
 use crate::analysis::range::Ranges;
 use crate::backend::Target;
 use crate::cost::price::Price;
-use crate::cost::size_budget::Thrift;
+use crate::cost::size_budget::SizeBudget;
 use crate::ir::graph::*;
 use crate::passes::loops::strength_reduction::phase::{parities, phases};
 use crate::passes::loops::strength_reduction::runs::{in_runs, is_exact, runs};
-use crate::planner::memo::Workshop;
+use crate::planner::context::Context;
 use crate::planner::pipeline::Pass;
-use crate::schedule::analysed::Settled;
+use crate::schedule::analysed::Analysed;
 use slowlight_routine::Op;
 
 /// By how much a ramp must make a plan cheaper.
@@ -35,18 +35,18 @@ pub enum Steps {
 
 /// The plan with ramps where they make it cheaper.
 pub fn stepped(
-    plain: Settled,
-    shop: &Workshop,
+    plain: Analysed,
+    cx: &Context,
     target: &'static Target,
-    thrift: Thrift,
+    budget: SizeBudget,
     steps: Steps,
-) -> Settled {
+) -> Analysed {
     if target.runtime.stepping.is_none() || steps == Steps::None {
         return plain;
     }
     let site = Site {
-        shop,
-        price: Price::new(shop, thrift),
+        cx,
+        price: Price::new(cx, budget),
     };
     let phased = match target.wraps && steps == Steps::All {
         true => {
@@ -63,7 +63,7 @@ pub fn stepped(
 }
 
 struct Site<'s> {
-    shop: &'s Workshop,
+    cx: &'s Context,
     price: Price,
 }
 
@@ -72,27 +72,27 @@ type Rewrite = fn(&Graph, &Ranges, &[NodeId]) -> Option<Graph>;
 
 impl Site<'_> {
     /// A plan rewritten where that makes it cheaper.
-    fn taken(&self, pass: Pass, plain: Settled, found: Vec<NodeId>, rewrite: Rewrite) -> Settled {
+    fn taken(&self, pass: Pass, plain: Analysed, found: Vec<NodeId>, rewrite: Rewrite) -> Analysed {
         let many = found.len() * plain.graph.nodes.len() > PATIENCE;
         if found.is_empty() || many {
             return plain;
         }
-        self.shop
+        self.cx
             .pass(pass, plain, |plain| self.cheaper(plain, found, rewrite))
     }
 
     /// The same; nothing where that makes it cheaper nowhere.
-    fn cheaper(&self, plain: &Settled, found: Vec<NodeId>, rewrite: Rewrite) -> Option<Settled> {
-        let cost = |plan: &Settled| self.price.of(plan);
+    fn cheaper(&self, plain: &Analysed, found: Vec<NodeId>, rewrite: Rewrite) -> Option<Analysed> {
+        let cost = |plan: &Analysed| self.price.of(plan);
         let rewritten = |at: &[NodeId]| {
-            let next = (self.shop).settle(&rewrite(&plain.graph, &plain.ranges, at)?);
+            let next = (self.cx).simplified(&rewrite(&plain.graph, &plain.ranges, at)?);
             is_exact(&next.graph, &next.tree, &next.ranges).then(|| (cost(&next), next))
         };
         let mut taken: Vec<NodeId> = Vec::new();
         let mut least = cost(plain);
-        let mut best: Option<Settled> = None;
+        let mut best: Option<Analysed> = None;
         for &site in &found {
-            if self.shop.fuel.spent() {
+            if self.cx.fuel.spent() {
                 break;
             }
             taken.push(site);
@@ -106,7 +106,7 @@ impl Site<'_> {
         // One that paid by itself may not beside those that came after it.
         for site in found {
             let rest: Vec<NodeId> = taken.iter().copied().filter(|id| *id != site).collect();
-            if rest.is_empty() || rest.len() == taken.len() || self.shop.fuel.spent() {
+            if rest.is_empty() || rest.len() == taken.len() || self.cx.fuel.spent() {
                 continue;
             }
             if let Some((cost, next)) = rewritten(&rest)
@@ -120,7 +120,7 @@ impl Site<'_> {
             let others = taken.iter().copied().filter(|id| *id != of);
             let other: Vec<NodeId> = others.chain([site]).collect();
             if other.len() == taken.len()
-                && !self.shop.fuel.spent()
+                && !self.cx.fuel.spent()
                 && let Some((cost, next)) = rewritten(&other)
                 && cost < least
             {

@@ -5,12 +5,12 @@
 //! tried that others are made of.
 
 use crate::cost::price::Price;
-use crate::cost::size_budget::Thrift;
+use crate::cost::size_budget::SizeBudget;
 use crate::passes::algebra::reassociate::{Site, Sums, sunk};
 use crate::passes::loops::bypass::skip;
-use crate::planner::memo::Workshop;
+use crate::planner::context::Context;
 use crate::planner::pipeline::Pass;
-use crate::schedule::analysed::Settled;
+use crate::schedule::analysed::Analysed;
 
 /// By how much a sum's form must make a plan cheaper.
 const GAIN: f64 = 0.9995;
@@ -28,11 +28,11 @@ const MOST: usize = 16;
 const ROUNDS: u32 = 3;
 
 /// The plan with sums in other forms where that makes it cheaper.
-pub fn with_sums(plan: Settled, shop: &Workshop, thrift: Thrift) -> Settled {
+pub fn with_sums(plan: Analysed, cx: &Context, budget: SizeBudget) -> Analysed {
     let mut best = plan;
     for _ in 0..ROUNDS {
         let before = best.serial();
-        best = shop.pass(Pass::Reassociate, best, |plan| cheaper(plan, shop, thrift));
+        best = cx.pass(Pass::Reassociate, best, |plan| cheaper(plan, cx, budget));
         if best.serial() == before {
             break;
         }
@@ -45,12 +45,12 @@ pub fn with_sums(plan: Settled, shop: &Workshop, thrift: Thrift) -> Settled {
 /// Which sites pay is found by what graphs cost at the plan's own counts ([`crate::cost::profile`]).
 /// What comes of that, and of all sums together, is settled and priced; beside the cheaper of
 /// the two a few others are, that are nearly as good by counts.
-fn cheaper(plan: &Settled, shop: &Workshop, thrift: Thrift) -> Option<Settled> {
-    let sums = Sums::new(&plan.graph, &plan.ranges, shop.runtime);
-    let price = Price::new(shop, thrift);
+fn cheaper(plan: &Analysed, cx: &Context, budget: SizeBudget) -> Option<Analysed> {
+    let sums = Sums::new(&plan.graph, &plan.ranges, cx.runtime);
+    let price = Price::new(cx, budget);
     let profile = price.profile(plan)?;
     let made = |sites: &[Site]| {
-        shop.may_look(&plan.graph);
+        cx.may_look(&plan.graph);
         sums.regrouped(sites)
     };
     let gathers = |site: &Site| matches!(site, Site::Gathered(_));
@@ -69,7 +69,7 @@ fn cheaper(plan: &Settled, shop: &Workshop, thrift: Thrift) -> Option<Settled> {
     let tries = gathered.iter().rev().chain(&others).chain(&gathered);
     let mut doubtful: Vec<(f64, Site)> = Vec::new();
     for &site in tries.take(PATIENCE / plan.graph.nodes.len().max(1)) {
-        if shop.fuel.spent() {
+        if cx.fuel.spent() {
             break;
         }
         let sites = toggled(&best, site);
@@ -81,7 +81,7 @@ fn cheaper(plan: &Settled, shop: &Workshop, thrift: Thrift) -> Option<Settled> {
         }
     }
     let settled = |sites: &[Site]| match made(sites) {
-        Some(made) => shop.settle(&made.graph),
+        Some(made) => cx.simplified(&made.graph),
         None => plan.clone(),
     };
     let mut found = settled(&best);
@@ -99,7 +99,7 @@ fn cheaper(plan: &Settled, shop: &Workshop, thrift: Thrift) -> Option<Settled> {
     });
     let few = (EARNEST / plan.graph.nodes.len().max(1)).clamp(1, MOST);
     for (_, site) in doubtful.into_iter().take(few) {
-        if shop.fuel.spent() {
+        if cx.fuel.spent() {
             break;
         }
         let sites = toggled(&best, site);
@@ -124,16 +124,16 @@ fn toggled(sites: &[Site], site: Site) -> Vec<Site> {
 
 /// The plan with no loop started that its first turn ends, and sums looked at again:
 /// those behind the loop are of what it starts with now.
-pub fn with_loops_skipped(plan: Settled, shop: &Workshop, thrift: Thrift) -> Settled {
-    let next = shop.always(Pass::LoopBypass, || bypassed(&plan, shop, thrift));
+pub fn with_loops_skipped(plan: Analysed, cx: &Context, budget: SizeBudget) -> Analysed {
+    let next = cx.always(Pass::LoopBypass, || bypassed(&plan, cx, budget));
     next.unwrap_or(plan)
 }
 
-fn bypassed(plan: &Settled, shop: &Workshop, thrift: Thrift) -> Option<Settled> {
-    let price = Price::new(shop, thrift);
-    let usual = shop.scheduled(skip(&plan.graph)?);
-    let sunk = sunk(&usual.graph).map(|graph| shop.settle(&graph));
-    let other = sunk.map(|plan| cheaper(&plan, shop, thrift).unwrap_or(plan));
+fn bypassed(plan: &Analysed, cx: &Context, budget: SizeBudget) -> Option<Analysed> {
+    let price = Price::new(cx, budget);
+    let usual = cx.scheduled(skip(&plan.graph)?);
+    let sunk = sunk(&usual.graph).map(|graph| cx.simplified(&graph));
+    let other = sunk.map(|plan| cheaper(&plan, cx, budget).unwrap_or(plan));
     Some(match other {
         Some(other) if price.of(&other) < GAIN * price.of(&usual) => other,
         _ => usual,

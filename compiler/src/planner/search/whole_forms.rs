@@ -3,27 +3,27 @@
 //! it makes the plan cheaper.
 
 use crate::cost::price::Price;
-use crate::cost::size_budget::Thrift;
+use crate::cost::size_budget::SizeBudget;
 use crate::ir::graph::*;
-use crate::passes::algebra::angle_addition::arcs;
+use crate::passes::algebra::angle_addition::angle_addition;
 use crate::passes::loops::induction_tables::{ENTRY, induction_tables, tables_of_ints};
 use crate::passes::loops::unroll::unroll;
 use crate::passes::simplify::fold::fold;
-use crate::planner::memo::Workshop;
+use crate::planner::context::Context;
 use crate::planner::pipeline::Pass;
-use crate::schedule::analysed::Settled;
+use crate::schedule::analysed::Analysed;
 use slowlight_routine::Op;
 
 /// The cheapest such form, with its plan by `ready`; nothing where the plan of the scene as it
 /// is is cheaper.
 pub fn cheapest_form(
-    (origin, plan): (&Graph, &Settled),
-    ready: &dyn Fn(&Graph) -> Settled,
-    shop: &Workshop,
-    thrift: Thrift,
-) -> Option<(Graph, Settled)> {
-    let all = forms(origin, shop, thrift);
-    let price = (!all.is_empty()).then(|| Price::new(shop, thrift))?;
+    (origin, plan): (&Graph, &Analysed),
+    ready: &dyn Fn(&Graph) -> Analysed,
+    cx: &Context,
+    budget: SizeBudget,
+) -> Option<(Graph, Analysed)> {
+    let all = forms(origin, cx, budget);
+    let price = (!all.is_empty()).then(|| Price::new(cx, budget))?;
     let mut best = (price.of(plan), None);
     for graph in all {
         let other = ready(&graph);
@@ -36,23 +36,23 @@ pub fn cheapest_form(
 }
 
 /// The forms of a scene that differ from it.
-fn forms(origin: &Graph, shop: &Workshop, thrift: Thrift) -> Vec<Graph> {
+fn forms(origin: &Graph, cx: &Context, budget: SizeBudget) -> Vec<Graph> {
     let folded = |graph: Graph| fold(&graph);
     // Where memory is short, a sum of an entry is rather computed than looked up.
-    let worth = if thrift.is_plenty() { 2 } else { 4 } * ENTRY;
+    let worth = if budget.is_plenty() { 2 } else { 4 } * ENTRY;
     let mut bases = vec![origin.clone()];
-    let arcs = shop.always(Pass::AngleAddition, || arcs(origin));
+    let arcs = cx.always(Pass::AngleAddition, || angle_addition(origin));
     bases.extend(arcs.map(folded));
     bases = (bases.into_iter())
-        .map(|graph| with_few_ints(graph, shop))
+        .map(|graph| with_few_ints(graph, cx))
         .collect();
     let mut all = Vec::new();
     for base in bases {
-        if thrift.counts() && !base.loops.is_empty() {
-            let unrolled = shop.always(Pass::Unroll, || unroll(&base)).map(folded);
+        if budget.counts() && !base.loops.is_empty() {
+            let unrolled = cx.always(Pass::Unroll, || unroll(&base)).map(folded);
             let both = [Some(&base), unrolled.as_ref()].into_iter().flatten();
             let tables =
-                |graph| shop.always(Pass::InductionTables, || induction_tables(graph, worth));
+                |graph| cx.always(Pass::InductionTables, || induction_tables(graph, worth));
             all.extend(both.filter_map(tables));
             all.extend(unrolled);
         }
@@ -63,14 +63,14 @@ fn forms(origin: &Graph, shop: &Workshop, thrift: Thrift) -> Vec<Graph> {
 }
 
 /// The graph with tables of what hangs on ints that are rounded and stay within few values.
-fn with_few_ints(graph: Graph, shop: &Workshop) -> Graph {
+fn with_few_ints(graph: Graph, cx: &Context) -> Graph {
     let rounds = |node: &Node| matches!(node, Node::Apply(Op::Round | Op::Floor, _));
     if !graph.nodes.iter().any(rounds) {
         return graph;
     }
-    let known = shop.scheduled(graph);
+    let known = cx.scheduled(graph);
     // An int must be moved to where the table begins, and be held to its ends perhaps.
-    let tables = shop.always(Pass::IntegerTables, || {
+    let tables = cx.always(Pass::IntegerTables, || {
         tables_of_ints(&known.graph, &known.ranges, 4 * ENTRY)
     });
     tables.map_or_else(|| known.graph.clone(), |graph| fold(&graph))

@@ -8,18 +8,18 @@ use crate::eval::native::Native;
 use crate::eval::random_graphs;
 use crate::ir::graph::*;
 use crate::passes::algebra::polynomial::Verdicts;
-use crate::planner::memo::Workshop;
+use crate::planner::context::Context;
 use crate::scene;
-use crate::schedule::analysed::Settled;
+use crate::schedule::analysed::Analysed;
 use crate::sema::Options;
 use slowlight_routine::Op;
 
-fn settled(graph: &Graph) -> Settled {
+fn settled(graph: &Graph) -> Analysed {
     let runtime = find("bbc:micro").unwrap().runtime;
-    Workshop::new(graph.clone(), runtime).settle(graph)
+    Context::new(graph.clone(), runtime).simplified(graph)
 }
 
-fn found(plain: &Settled) -> Option<Cheaper> {
+fn found(plain: &Analysed) -> Option<Cheaper> {
     let runtime = find("bbc:micro").unwrap().runtime;
     let all = |_| true;
     identities(

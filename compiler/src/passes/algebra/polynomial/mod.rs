@@ -133,7 +133,7 @@ pub struct Cheaper {
 
 /// The graph with cheaper forms in the place of nodes that `may` be replaced;
 /// nothing where there are none, or where the format bears none.
-pub fn algebra<'g>(
+pub fn normal_forms<'g>(
     graph: &'g Graph,
     ranges: &'g Ranges,
     runtime: &Runtime,

@@ -87,7 +87,7 @@ mod tests {
     use super::*;
     use crate::backend::find;
     use crate::ir::build::Builder;
-    use crate::planner::memo::Workshop;
+    use crate::planner::context::Context;
     use crate::source::Span;
     use slowlight_routine::Value;
 
@@ -130,7 +130,7 @@ mod tests {
         };
         let graph = b.finish(image, ink, None);
         let runtime = find("6502:plain").unwrap().runtime;
-        let plain = Workshop::new(graph.clone(), runtime).scheduled(graph.clone());
+        let plain = Context::new(graph.clone(), runtime).scheduled(graph.clone());
         let forms = Forms::new(&graph, &plain.ranges);
         let turns = forms.turns();
         assert_eq!(turns.get(&also), Some(&(sign, true)), "{graph}");

@@ -10,9 +10,9 @@ use crate::eval::native::Native;
 use crate::eval::random_graphs;
 use crate::ir::graph::*;
 use crate::passes::simplify::fold::fold;
-use crate::planner::memo::Workshop;
+use crate::planner::context::Context;
 use crate::scene;
-use crate::schedule::analysed::Settled;
+use crate::schedule::analysed::Analysed;
 use crate::sema::Options;
 use slowlight_routine::{Op, Runtime};
 
@@ -20,11 +20,11 @@ fn runtime() -> &'static Runtime {
     find("jack").unwrap().runtime
 }
 
-fn settled(graph: &Graph) -> Settled {
-    Workshop::new(graph.clone(), runtime()).settle(graph)
+fn settled(graph: &Graph) -> Analysed {
+    Context::new(graph.clone(), runtime()).simplified(graph)
 }
 
-fn lowered(ink: &str) -> Settled {
+fn lowered(ink: &str) -> Analysed {
     let source = format!(
         "image 32 x 24 inks black, white; param p: real = 2 in 1 .. 3;
          draw (x, y) = ink({{
@@ -40,7 +40,7 @@ fn lowered(ink: &str) -> Settled {
 }
 
 /// The plan with some of its sites in the other form.
-fn put(plain: &Settled, which: impl Fn(&Site) -> bool) -> Option<Graph> {
+fn put(plain: &Analysed, which: impl Fn(&Site) -> bool) -> Option<Graph> {
     let sums = Sums::new(&plain.graph, &plain.ranges, runtime());
     let mut all = sums.sites();
     all.retain(which);

@@ -58,7 +58,7 @@ pub fn lengths(graph: &Graph, ranges: &Ranges) -> Vec<NodeId> {
 /// The graph with every value that depends on a vector divided by `length`
 /// held at that length; and, where that is another graph, at one at which its products
 /// with other vectors are whole, too.
-pub fn homogeneous(
+pub fn unnormalised(
     graph: &Graph,
     ranges: &Ranges,
     length: NodeId,

@@ -2,14 +2,14 @@
 
 #![allow(clippy::unwrap_used)]
 
-use super::{homogeneous, lengths};
+use super::{unnormalised, lengths};
 use crate::analysis::range::{Ranges, Slack, ranges};
 use crate::analysis::verify::verify;
 use crate::backend::bbc::MICRO;
 use crate::eval::drawn::examples;
 use crate::eval::native::Native;
 use crate::ir::graph::*;
-use crate::passes::branches::invert_monotone::threshold;
+use crate::passes::branches::invert_monotone::invert_monotone;
 use crate::passes::simplify::fold::fold;
 use crate::schedule::statements::schedule;
 
@@ -26,7 +26,7 @@ fn ranged(graph: &Graph) -> Ranges {
 fn hold(name: &str, graph: &Graph) -> usize {
     let ranges = ranged(graph);
     let held = (lengths(graph, &ranges).into_iter())
-        .filter_map(|length| homogeneous(graph, &ranges, length))
+        .filter_map(|length| unnormalised(graph, &ranges, length))
         .flat_map(|(held, longer)| std::iter::once(held).chain(longer));
     let mut found = 0;
     for other in held {
@@ -54,7 +54,7 @@ fn inks_stay_as_they_were() {
     let (mut shaded, mut compared) = (0, 0);
     for (name, graph) in examples() {
         shaded += hold(&name, &graph);
-        if let Some(next) = threshold(&graph, &ranged(&graph), MICRO.runtime) {
+        if let Some(next) = invert_monotone(&graph, &ranged(&graph), MICRO.runtime) {
             compared += hold(&name, &fold(&next));
         }
     }
@@ -78,7 +78,7 @@ fn products_are_whole_at_a_greater_length() {
         let all = lengths(&graph, &ranges);
         let made = all
             .iter()
-            .map(|id| homogeneous(&graph, &ranges, *id).unwrap());
+            .map(|id| unnormalised(&graph, &ranges, *id).unwrap());
         let longer = made.filter(|(_, longer)| longer.is_some()).count();
         assert_eq!((all.len(), longer), (1, usize::from(another)), "{decimal}");
     }

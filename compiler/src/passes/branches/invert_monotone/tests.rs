@@ -1,7 +1,7 @@
 //! The comparisons give the ink that the steps give.
 #![allow(clippy::unwrap_used)]
 
-use super::threshold;
+use super::invert_monotone;
 use crate::analysis::range::{Slack, ranges};
 use crate::analysis::rate::{Dependence, rates};
 use crate::analysis::verify::verify;
@@ -23,7 +23,7 @@ fn both(source: &str) -> (Graph, Option<Graph>) {
     let graph = fold(&scene.lower(&Options::default()).unwrap());
     let ranges = ranges(&graph, &schedule(&graph), &Slack::exact());
     let runtime = find("bbc:micro").unwrap().runtime;
-    let after = threshold(&graph, &ranges, runtime);
+    let after = invert_monotone(&graph, &ranges, runtime);
     (graph, after.map(|g| fold(&g)))
 }
 
@@ -271,7 +271,7 @@ fn random_shades_are_compared_where_their_loops_end() {
     for graph in (0..400).filter_map(stepping) {
         let found = ranges(&graph, &schedule(&graph), &Slack::exact());
         let runtime = find("bbc:micro").unwrap().runtime;
-        if let Some(after) = threshold(&graph, &found, runtime) {
+        if let Some(after) = invert_monotone(&graph, &found, runtime) {
             made += sunk("random", &graph, &fold(&after));
             let mut native = Native::new(&graph);
             inks.extend((0..71).map(|x| native.pixel(x, 2).ink));

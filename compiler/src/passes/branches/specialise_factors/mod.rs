@@ -40,7 +40,7 @@ const BETWEEN: usize = 32;
 
 /// The graph with a factor's switch asked sooner, for each of the ways to do that: the
 /// widest choice of each factor first.
-pub fn factors(
+pub fn specialise_factors(
     graph: &Graph,
     ranges: &Ranges,
     runtime: &Runtime,

@@ -1,7 +1,7 @@
 //! What is chosen by a factor's few values is what the factor made.
 #![allow(clippy::unwrap_used)]
 
-use super::factors;
+use super::specialise_factors;
 use crate::analysis::range::{Slack, ranges};
 use crate::analysis::verify::verify;
 use crate::backend::{default_mode, find};
@@ -32,7 +32,7 @@ fn graph(draw: &str) -> Graph {
 /// Every way there is, one at a time.
 fn ways(graph: &Graph, runtime: &Runtime) -> Vec<Graph> {
     let found = ranges(graph, &schedule(graph), &Slack::exact());
-    factors(graph, &found, runtime)
+    specialise_factors(graph, &found, runtime)
         .map(|next| fold(&next))
         .collect()
 }

@@ -13,9 +13,9 @@ use crate::ir::graph::*;
 use crate::passes::algebra::polynomial::Proofs;
 use crate::passes::branches::early_exit::without;
 use crate::passes::simplify::fold::fold;
-use crate::passes::simplify::range_folding::narrow;
+use crate::passes::simplify::range_folding::fold_by_ranges;
 use crate::planner::search::forms::Rewrite;
-use crate::schedule::analysed::{Settled, scheduled};
+use crate::schedule::analysed::{Analysed, scheduled};
 use rustc_hash::{FxHashMap, FxHasher};
 use slowlight_routine::Runtime;
 use std::fmt;
@@ -23,7 +23,7 @@ use std::hash::{Hash, Hasher};
 use std::sync::{Arc, Mutex, MutexGuard, OnceLock, PoisonError};
 
 /// A graph with a rewrite, and where that was: nothing where there is none to do.
-pub type Rewritten = Option<(Settled, Vec<NodeId>)>;
+pub type Rewritten = Option<(Analysed, Vec<NodeId>)>;
 
 /// How many nodes all graphs together may have that are kept: some 400 bytes each. Beyond
 /// that they are dropped, and made anew where they are asked for again.
@@ -36,7 +36,7 @@ const REWRITTEN: u64 = 100;
 const LOOKED_AT: u64 = 10;
 
 /// Graphs made of one scene's for one machine, and how much more work may be done for a plan.
-pub struct Workshop {
+pub struct Context {
     /// What is planned.
     pub origin: Arc<Graph>,
     pub runtime: &'static Runtime,
@@ -65,7 +65,7 @@ struct Memo {
 #[derive(Default)]
 struct Kept {
     /// Those that were scheduled, by a hash of their nodes.
-    scheduled: FxHashMap<u64, Vec<Settled>>,
+    scheduled: FxHashMap<u64, Vec<Analysed>>,
     /// With the units of work that it took.
     rewritten: FxHashMap<Asked, (Rewritten, u64)>,
     /// How many nodes they have, all together.
@@ -85,10 +85,10 @@ impl Kept {
 /// What was rewritten, by its number, how, and the sites left out.
 type Asked = (u64, Rewrite, Vec<NodeId>);
 
-impl Workshop {
+impl Context {
     /// Nothing made yet, and no end of fuel.
-    pub fn new(origin: Graph, runtime: &'static Runtime) -> Workshop {
-        Workshop {
+    pub fn new(origin: Graph, runtime: &'static Runtime) -> Context {
+        Context {
             origin: Arc::new(origin),
             runtime,
             proofs: Arc::default(),
@@ -102,8 +102,8 @@ impl Workshop {
     }
 
     /// The same workshop with other fuel.
-    pub fn with(&self, fuel: Fuel) -> Workshop {
-        Workshop {
+    pub fn with(&self, fuel: Fuel) -> Context {
+        Context {
             origin: self.origin.clone(),
             runtime: self.runtime,
             proofs: self.proofs.clone(),
@@ -120,9 +120,9 @@ impl Workshop {
     pub fn pass(
         &self,
         pass: Pass,
-        plan: Settled,
-        run: impl FnOnce(&Settled) -> Option<Settled>,
-    ) -> Settled {
+        plan: Analysed,
+        run: impl FnOnce(&Analysed) -> Option<Analysed>,
+    ) -> Analysed {
         self.pipeline.pass(&self.fuel, pass, plan, run)
     }
 
@@ -152,18 +152,18 @@ impl Workshop {
     }
 
     /// A graph as it is, scheduled, with its ranges; the same graph is scheduled once.
-    pub fn scheduled(&self, graph: Graph) -> Settled {
+    pub fn scheduled(&self, graph: Graph) -> Analysed {
         let found = self.found_or_scheduled(graph);
         // As if it were made anew: what others have made hangs on the order of threads.
         self.fuel.burn(found.work);
         found
     }
 
-    fn found_or_scheduled(&self, graph: Graph) -> Settled {
+    fn found_or_scheduled(&self, graph: Graph) -> Analysed {
         let mut hasher = FxHasher::default();
         graph.nodes.hash(&mut hasher);
         let hash = hasher.finish();
-        let same = |all: &Vec<Settled>| all.iter().find(|known| known.graph == graph).cloned();
+        let same = |all: &Vec<Analysed>| all.iter().find(|known| known.graph == graph).cloned();
         if let Some(known) = held(&self.memo.kept).scheduled.get(&hash).and_then(same) {
             return known;
         }
@@ -181,10 +181,10 @@ impl Workshop {
 
     /// What is equal by algebra or decided by the ranges is folded. What the
     /// ranges decide may let more be folded; a few rounds settle it.
-    pub fn settle(&self, graph: &Graph) -> Settled {
+    pub fn simplified(&self, graph: &Graph) -> Analysed {
         let mut now = self.scheduled(fold(graph));
         for _ in 0..3 {
-            let next = fold(&narrow(&now.graph, &now.ranges));
+            let next = fold(&fold_by_ranges(&now.graph, &now.ranges));
             if next.nodes == now.graph.nodes {
                 break;
             }
@@ -196,7 +196,7 @@ impl Workshop {
     /// A graph of this workshop rewritten but at some sites, made where it was not yet.
     pub fn rewritten(
         &self,
-        plain: &Settled,
+        plain: &Analysed,
         rewrite: Rewrite,
         without: &[NodeId],
         make: impl FnOnce() -> Rewritten,
@@ -227,9 +227,9 @@ fn held<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
     mutex.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
-impl fmt::Debug for Workshop {
+impl fmt::Debug for Context {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.debug_struct("Workshop")
+        f.debug_struct("Context")
             .field("origin", &self.origin)
             .finish_non_exhaustive()
     }

@@ -4,10 +4,10 @@
 use super::SEARCH;
 use super::made::{Rewriting, candidate, plan};
 use crate::backend::{default_mode, find};
-use crate::cost::size_budget::Thrift;
+use crate::cost::size_budget::SizeBudget;
 use crate::fuel::Fuel;
 use crate::plan::{Goal, Plan};
-use crate::planner::memo::Workshop;
+use crate::planner::context::Context;
 use crate::planner::search::stepped::Steps;
 use crate::scene::check;
 use crate::sema::Options;
@@ -32,14 +32,14 @@ fn plans_made_again_are_those_made_anew() {
         .thriftier(step)
         .and_then(|made| plenty.completed(made))
         .unwrap();
-    let thrift = Thrift::step(step).unwrap();
+    let budget = SizeBudget::step(step).unwrap();
     let anew = candidate(
-        &Arc::new(Workshop::new(graph, target.runtime)),
+        &Arc::new(Context::new(graph, target.runtime)),
         target,
         &goal,
         (
             Rewriting::Fast {
-                thrift,
+                budget,
                 steps: Steps::All,
             },
             Fuel::new(SEARCH),
