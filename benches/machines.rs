@@ -14,7 +14,8 @@ use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 use slowlight::trial::{LIMIT, build};
 use slowlight_compiler::backend::jack::JACK;
 use slowlight_compiler::backend::{TARGETS, Target, default_mode, formats};
-use slowlight_compiler::plan::{Goal, Plan};
+use slowlight_compiler::plan::Goal;
+use slowlight_compiler::planner::PlannedScene;
 use slowlight_compiler::planner::plan;
 use slowlight_compiler::scene;
 use slowlight_compiler::sema::Options;
@@ -28,7 +29,7 @@ const MIRRORS: &str = include_str!("../examples/mirrors.scn");
 const ROW: u32 = 150;
 
 /// The plan of one row.
-fn row(target: &'static Target) -> Option<Plan> {
+fn row(target: &'static Target) -> Option<PlannedScene> {
     let checked = scene::check("mirrors.scn", MIRRORS);
     let image = checked.program.image.as_ref()?;
     let mode = default_mode(target, image.width, image.height)?;
@@ -47,7 +48,7 @@ fn row(target: &'static Target) -> Option<Plan> {
 }
 
 /// The cycles that a program takes.
-fn cycles(plan: &Plan) -> Option<u64> {
+fn cycles(plan: &PlannedScene) -> Option<u64> {
     let mut loaded = build(plan).ok()?.loaded;
     loaded.run(LIMIT, &mut |_| ()).ok().map(|run| run.cycles)
 }
@@ -68,7 +69,7 @@ fn running(criterion: &mut Criterion) {
 }
 
 /// The VM code of a plan for Jack.
-fn vm_code(plan: &Plan) -> Vec<(String, String)> {
+fn vm_code(plan: &PlannedScene) -> Vec<(String, String)> {
     let documents = (plan.target.emit)(plan).into_iter();
     let sources: Vec<(String, String)> = documents.map(|d| (d.name, d.text)).collect();
     match jack::compile(&sources) {

@@ -29,7 +29,7 @@ use rayon::prelude::*;
 use slowlight_compiler::backend::{Lean, Target, formats};
 use slowlight_compiler::eval::native::Native;
 use slowlight_compiler::passes::pixel_blocks::pixel_blocks;
-use slowlight_compiler::plan::Plan;
+use slowlight_compiler::planner::PlannedScene;
 use slowlight_routine::{Format, Op, Runtime};
 
 /// Rows and columns of a candidate's sample and of its final plan's, and how many statements the
@@ -59,14 +59,14 @@ const TRIES: usize = 3;
 /// A plan, and what is known of its format.
 pub struct Chosen {
     /// In the format that was chosen, or asked for.
-    pub plan: Plan,
+    pub plan: PlannedScene,
     /// Why that one; nothing where it was asked for, or there is one only.
     pub why: Option<Why>,
 }
 
 impl Chosen {
     /// The plan; why it is in its format is said on standard error.
-    pub fn said(self) -> Plan {
+    pub fn said(self) -> PlannedScene {
         if let Some(why) = self.why {
             let percent = |share: f64| format!("{}%", (share * 1000.0).round() / 10.0);
             let (wrong, goal) = (percent(why.expected), percent(why.goal));
@@ -283,11 +283,11 @@ fn candidates(
             (plan, seen)
         })
     };
-    let all: Vec<(Plan, Sampled)> = formats.par_iter().filter_map(sampled).collect();
+    let all: Vec<(PlannedScene, Sampled)> = formats.par_iter().filter_map(sampled).collect();
     // All look at the same pixels, as far as they come.
     let longest = all.iter().max_by_key(|(_, seen)| seen.inks.len());
     let native = longest.map_or(Vec::new(), |(plan, seen)| native(scene, plan, &seen.inks));
-    let candidate = |(plan, seen): &(Plan, Sampled)| {
+    let candidate = |(plan, seen): &(PlannedScene, Sampled)| {
         Some(Candidate {
             target: plan.target,
             rows: plan.rows,
@@ -312,7 +312,7 @@ fn sort(all: &mut [Candidate], goal: f64) {
 }
 
 /// The share of a plan's pixels whose inks are not the native ones, by a sample.
-fn expected(scene: &Scene, plan: &Plan) -> Option<f64> {
+fn expected(scene: &Scene, plan: &PlannedScene) -> Option<f64> {
     let (_waiting, _blind) = (Waiting::new("pixels"), interrupt::blind());
     let (inks, of) = estimate::inks(plan, FINAL.0, FINAL.1 / PARTS as u64, PARTS);
     unlike((&inks, of), &native(scene, plan, &inks))
@@ -320,7 +320,7 @@ fn expected(scene: &Scene, plan: &Plan) -> Option<f64> {
 
 /// The native inks of a sample, each by itself, since nothing is sent to it by others; of as
 /// many as take no more work than is worth it.
-fn native(scene: &Scene, plan: &Plan, seen: &[Inked]) -> Vec<Option<u8>> {
+fn native(scene: &Scene, plan: &PlannedScene, seen: &[Inked]) -> Vec<Option<u8>> {
     // What compiles for the machine compiles natively.
     let Ok(graph) = scene.graph(Some(plan.mode.inks), Precision::NATIVE) else {
         return Vec::new();

@@ -10,6 +10,7 @@ use slowlight_compiler::eval::native::{Native, Pixel};
 use slowlight_compiler::ir::graph::Graph;
 use slowlight_compiler::plan::Plan;
 use slowlight_compiler::plan::model::ModelRun;
+use slowlight_compiler::planner::PlannedScene;
 use std::ops::Range;
 use std::sync::atomic::{AtomicU64, Ordering};
 
@@ -192,8 +193,8 @@ pub fn native_counted(graph: &Graph, window: Window) -> Outcome<(Drawn, u64)> {
 ///
 /// # Errors
 /// Only an interruption.
-pub fn model(plan: &Plan) -> Outcome<Drawn> {
-    model_with(plan, plan.shaded().as_ref())
+pub fn model(plan: &PlannedScene) -> Outcome<Drawn> {
+    model_with(plan, plan.shaded().as_deref())
 }
 
 /// The same with the shades of a plan that is known already, since to make one may take

@@ -21,6 +21,7 @@ use slowlight_compiler::backend::Target;
 use slowlight_compiler::ir::graph::Graph;
 use slowlight_compiler::passes::pixel_blocks::pixel_blocks;
 use slowlight_compiler::plan::Plan;
+use slowlight_compiler::planner::PlannedScene;
 use slowlight_compiler::report::effects::{Effect, Own, Seen, Turns, effects, own, turns, watch};
 
 /// Rows and columns of the sample that is watched in the model.
@@ -214,7 +215,7 @@ fn as_written(scene: &Scene, plan: &Plan, screen: &ScreenArgs) -> Outcome<Graph>
 }
 
 /// A plan's program on its machine.
-fn tried(scene: &Scene, plan: Plan, screen: &ScreenArgs, limit: u64) -> Outcome<Trial> {
+fn tried(scene: &Scene, plan: PlannedScene, screen: &ScreenArgs, limit: u64) -> Outcome<Trial> {
     let loaded = trial::build_for(&plan, screen.machine(plan.target)?)?.loaded;
     trial::run(scene, plan, &[], loaded, limit)
 }
@@ -283,11 +284,10 @@ impl Job<'_> {
     /// What an effect that is not called costs: the program of a compiler without it.
     fn absent(&self, effect: &Effect) -> Outcome<Found> {
         let digest = match self.scene.without_item(effect.span) {
-            Some(scene) => Some(digest::program(&self.screen.plan(
-                &scene,
-                self.target,
-                &[],
-            )?)),
+            Some(scene) => {
+                let plan = self.screen.plan(&scene, self.target, &[])?;
+                Some(digest::program(&plan))
+            }
             None => None,
         };
         Ok(Found::Absent([Some(self.digest.to_owned()), digest]))

@@ -18,7 +18,7 @@ use slowlight_compiler::backend::mos6502::DISC_PAGE;
 use slowlight_compiler::backend::{Lean, Mode};
 use slowlight_compiler::fuel::Fuel;
 use slowlight_compiler::ir::graph::Table;
-use slowlight_compiler::plan::Plan;
+use slowlight_compiler::planner::PlannedScene;
 use slowlight_compiler::planner::SEARCH;
 use slowlight_compiler::source::Span;
 use std::cell::RefCell;
@@ -46,9 +46,9 @@ const LADDER: u64 = 2_000_000_000;
 /// Where none does: how far each is from it, and what would help.
 pub fn fit(
     modes: Vec<Mode>,
-    plan: &dyn Fn(Mode, u64) -> Outcome<Plan>,
+    plan: &dyn Fn(Mode, u64) -> Outcome<PlannedScene>,
     name: &dyn Fn(Span) -> Option<String>,
-) -> Outcome<Plan> {
+) -> Outcome<PlannedScene> {
     let fuel = Fuel::new(FIT);
     let search = Search {
         fuel: &fuel,
@@ -67,21 +67,21 @@ struct Search<'s> {
     fuel: &'s Fuel,
     name: &'s dyn Fn(Span) -> Option<String>,
     /// What programs take that were measured last: plans by several ways may be the same.
-    known: RefCell<VecDeque<(Plan, Option<Need>)>>,
+    known: RefCell<VecDeque<(PlannedScene, Option<Need>)>>,
 }
 
 /// How many of them.
 const KNOWN: usize = 8;
 
 /// Makes the plan for a mode with so much fuel.
-type Make<'m> = &'m dyn Fn(Mode, u64) -> Outcome<Plan>;
+type Make<'m> = &'m dyn Fn(Mode, u64) -> Outcome<PlannedScene>;
 
 /// A mode whose programs are too large.
 struct Large {
     mode: Mode,
     /// The smallest plan, if one was made: a mode may be passed over, as what the programs of
     /// another mode take says what its own do.
-    plan: Option<Plan>,
+    plan: Option<PlannedScene>,
     /// What the smallest program takes without subroutines for what is done at each pixel, and
     /// the smallest with them, if it was written.
     plain: Need,
@@ -89,7 +89,7 @@ struct Large {
 }
 
 impl Large {
-    fn new(plan: Plan, plain: Need) -> Large {
+    fn new(plan: PlannedScene, plain: Need) -> Large {
         Large {
             mode: plan.mode,
             plan: Some(plan),
@@ -122,7 +122,7 @@ fn beyond_in<'n>(
 }
 
 impl Search<'_> {
-    fn found(&self, modes: Vec<Mode>, make: Make) -> Outcome<Plan> {
+    fn found(&self, modes: Vec<Mode>, make: Make) -> Outcome<PlannedScene> {
         let mut large: Vec<Large> = Vec::new();
         let mut tried = None;
         let mut size = None;
@@ -175,7 +175,7 @@ impl Search<'_> {
 
     /// A mode's plan, or another of the scene, that fits without subroutines for what is done
     /// at each pixel.
-    fn fitted(&self, mut plan: Plan) -> Outcome<Fitted> {
+    fn fitted(&self, mut plan: PlannedScene) -> Outcome<Fitted> {
         // Calls are slower by a few parts in a hundred, a step that spends less memory by more.
         if plan.target.lean == Lean::Calls && !self.holds(&plan)? {
             plan.lean = true;
@@ -185,7 +185,7 @@ impl Search<'_> {
             Err(need) => need,
         };
         // What is written as the scene has it and short is about as small as it gets.
-        let stable = self.again(&plan, Plan::stable);
+        let stable = self.again(&plan, PlannedScene::stable);
         if let (Some(stable), Some(quick)) = (&stable, quick.clone())
             && quick.exceeds(2)
         {
@@ -214,8 +214,8 @@ impl Search<'_> {
     }
 
     /// What a plan's program takes.
-    fn about(&self, plan: &Plan) -> Outcome<Option<Need>> {
-        let known = |(other, _): &&(Plan, Option<Need>)| plan.is_written_as(other);
+    fn about(&self, plan: &PlannedScene) -> Outcome<Option<Need>> {
+        let known = |(other, _): &&(PlannedScene, Option<Need>)| plan.is_written_as(other);
         if let Some((_, need)) = self.known.borrow().iter().find(known) {
             return Ok(need.clone());
         }
@@ -232,7 +232,11 @@ impl Search<'_> {
     }
 
     /// Another plan of the scene, by what fuel is left; none where there is none.
-    fn again(&self, plan: &Plan, make: impl FnOnce(&Plan) -> Option<Plan>) -> Option<Plan> {
+    fn again(
+        &self,
+        plan: &PlannedScene,
+        make: impl FnOnce(&PlannedScene) -> Option<PlannedScene>,
+    ) -> Option<PlannedScene> {
         if self.fuel.spent() {
             return None;
         }
@@ -243,7 +247,7 @@ impl Search<'_> {
 
     /// The first of the modes whose plan fits with subroutines; where none does, what each
     /// takes at least is noted.
-    fn outlined(&self, large: &mut [Large], make: Make) -> Outcome<Option<Plan>> {
+    fn outlined(&self, large: &mut [Large], make: Make) -> Outcome<Option<PlannedScene>> {
         for k in 0..large.len() {
             let seen = large.iter().filter_map(|large| large.outlined.as_ref());
             let beyond = large.get(k).and_then(|of| beyond_in(of.mode, seen, large));
@@ -260,7 +264,7 @@ impl Search<'_> {
                 (None, None) => {
                     let plan = make(of.mode, 1)?;
                     self.fuel.burn(plan.work());
-                    self.again(&plan, Plan::stable).unwrap_or(plan)
+                    self.again(&plan, PlannedScene::stable).unwrap_or(plan)
                 }
             };
             // A fault of the plan with subroutines would be one of the plan without.
@@ -301,21 +305,21 @@ fn too_large(large: &[Large]) -> Failure {
 }
 
 /// Whether the screen shows a part of the picture only.
-fn crops(plan: &Plan) -> bool {
+fn crops(plan: &PlannedScene) -> bool {
     let (width, height) = plan.graph.image.on_screen();
     plan.mode.width < width || plan.mode.height < height
 }
 
 /// Ways to write a program: with fewer remarks, and short where that takes longer. Only
 /// where the text itself is what the machine holds do they make it smaller.
-fn remarks(plan: &Plan) -> &'static [(bool, bool)] {
+fn remarks(plan: &PlannedScene) -> &'static [(bool, bool)] {
     match is_basic(plan) {
         true => &[(false, false), (true, false), (true, true)],
         false => &[(false, false)],
     }
 }
 
-fn is_basic(plan: &Plan) -> bool {
+fn is_basic(plan: &PlannedScene) -> bool {
     plan.target.name.starts_with("bbc")
 }
 
@@ -324,7 +328,7 @@ fn is_basic(plan: &Plan) -> bool {
 ///
 /// # Errors
 /// Where the machine's tools refuse the text, which is a fault of ours.
-pub fn with_disc(plan: Plan) -> Outcome<Plan> {
+pub fn with_disc(plan: PlannedScene) -> Outcome<PlannedScene> {
     if plan.target.name != "6502:bbc" || plan.page.is_some() {
         return Ok(plan);
     }
@@ -337,7 +341,7 @@ pub fn with_disc(plan: Plan) -> Outcome<Plan> {
 }
 
 /// What makes a program smaller.
-fn help(plan: &Plan) -> String {
+fn help(plan: &PlannedScene) -> String {
     let mut ways = Vec::new();
     let effects: Vec<&str> = plan.graph.effects.iter().map(|e| e.name.as_str()).collect();
     if !effects.is_empty() {

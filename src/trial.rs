@@ -14,6 +14,7 @@ use slowlight_compiler::backend::{Document, Target};
 use slowlight_compiler::ir::graph::{Node, TableId};
 use slowlight_compiler::ir::tree::Place;
 use slowlight_compiler::plan::Plan;
+use slowlight_compiler::planner::PlannedScene;
 use slowlight_routine::Format;
 use std::collections::BTreeSet;
 
@@ -75,7 +76,7 @@ pub struct Trial {
     /// The scene's name.
     pub scene: String,
     /// The plan.
-    pub plan: Plan,
+    pub plan: PlannedScene,
     /// The machine's counts.
     pub run: MachineRun,
     /// The machine's picture: what was asked for of it, without the screen
@@ -100,7 +101,7 @@ pub struct Trial {
 /// Where the program does not end by itself, or shows no such picture.
 pub fn run(
     scene: &Scene,
-    plan: Plan,
+    plan: PlannedScene,
     set: &[(String, Vec<f64>)],
     loaded: Loaded,
     limit: u64,
@@ -141,7 +142,7 @@ pub fn ran(scene: &Scene, plan: &Plan, mut loaded: Loaded, limit: u64) -> Outcom
 ///
 /// # Errors
 /// Where it shows no such picture.
-pub fn held(scene: &Scene, plan: Plan, run: MachineRun, native: Drawn) -> Outcome<Trial> {
+pub fn held(scene: &Scene, plan: PlannedScene, run: MachineRun, native: Drawn) -> Outcome<Trial> {
     let modelled = model(&plan)?;
     held_with(scene, plan, run, native, modelled)
 }
@@ -152,7 +153,7 @@ pub fn held(scene: &Scene, plan: Plan, run: MachineRun, native: Drawn) -> Outcom
 /// As for [`held`].
 pub fn held_with(
     scene: &Scene,
-    plan: Plan,
+    plan: PlannedScene,
     run: MachineRun,
     native: Drawn,
     modelled: Drawn,

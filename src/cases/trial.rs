@@ -252,7 +252,7 @@ impl Prepared {
         };
         // The kernels are judged, not what the compiler makes of them.
         match plan_as_written(&graph, target, &goal) {
-            Ok(plan) => Prepared::Plan(way, Box::new(plan)),
+            Ok(plan) => Prepared::Plan(way, Box::new(plan.plan)),
             Err(said) => {
                 let all: Vec<&str> = said.iter().map(|d| d.message.as_str()).collect();
                 // All else that a planner has to say is its own fault.

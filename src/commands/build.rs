@@ -18,8 +18,8 @@ use slowlight_compiler::analysis::rate::rates;
 use slowlight_compiler::backend::mos6502::document;
 use slowlight_compiler::backend::mos6502::syntax::Syntax;
 use slowlight_compiler::backend::{Document, Target};
-use slowlight_compiler::plan::Plan;
 use slowlight_compiler::plan::print::{ranges_text, rates_text};
+use slowlight_compiler::planner::PlannedScene;
 use slowlight_compiler::planner::pipeline::{PASSES, Pipeline};
 use slowlight_compiler::syntax::print;
 use std::collections::BTreeMap;
@@ -181,7 +181,7 @@ impl Written {
 /// # Errors
 /// Where the machine's tools refuse it, or a file cannot be written.
 pub fn write(
-    plan: &Plan,
+    plan: &PlannedScene,
     screen: &ScreenArgs,
     (syntax, more): (Option<&'static Syntax>, &[File]),
     dir: &Path,
@@ -231,13 +231,13 @@ fn heap_json(written: &Written) -> serde_json::Value {
 }
 
 /// How many pixels a plan's program computes.
-fn pixels(plan: &Plan) -> f64 {
+fn pixels(plan: &PlannedScene) -> f64 {
     let ((left, right), (top, bottom)) = (plan.columns, plan.rows);
     f64::from(right - left + 1) * f64::from(bottom - top + 1)
 }
 
 /// What the passes that ran were good for, as JSON.
-fn passes_json(plan: &Plan) -> serde_json::Value {
+fn passes_json(plan: &PlannedScene) -> serde_json::Value {
     let pipeline = plan.pipeline();
     let ran = PASSES.iter().filter_map(|pass| {
         let count = pipeline.count(*pass);
@@ -259,7 +259,7 @@ fn target(args: &Args) -> Outcome<&'static Target> {
 }
 
 /// The sources, in the syntax that was asked for.
-fn documents(syntax: Option<&'static Syntax>, plan: &Plan) -> Vec<Document> {
+fn documents(syntax: Option<&'static Syntax>, plan: &PlannedScene) -> Vec<Document> {
     match syntax {
         Some(syntax) => vec![document(plan, syntax)],
         None => (plan.target.emit)(plan),
@@ -267,7 +267,7 @@ fn documents(syntax: Option<&'static Syntax>, plan: &Plan) -> Vec<Document> {
 }
 
 /// The plan of a stage, which may be looked at also where its program does not fit.
-fn plan(args: &Args, scene: &Scene) -> Outcome<Plan> {
+fn plan(args: &Args, scene: &Scene) -> Outcome<PlannedScene> {
     let target = target(args)?;
     match auto_format::plan(&args.screen, scene, target) {
         Err(Failure::Wrong(_)) => args.screen.draft(scene, target),

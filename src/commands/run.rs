@@ -14,7 +14,7 @@ use crate::trial::{self, LIMIT, Trial};
 use crate::{inks, program, say, say_json};
 use serde::Serialize;
 use slowlight_compiler::backend::{Target, formats};
-use slowlight_compiler::plan::Plan;
+use slowlight_compiler::planner::PlannedScene;
 use std::collections::BTreeMap;
 use std::path::PathBuf;
 
@@ -97,7 +97,7 @@ struct Report<'t> {
     differs_from: BTreeMap<String, u64>,
 }
 
-fn prepare(args: &Args, scene: &Scene) -> Outcome<(Plan, program::Values, Loaded)> {
+fn prepare(args: &Args, scene: &Scene) -> Outcome<(PlannedScene, program::Values, Loaded)> {
     let machine = args.screen.machine(args.target)?;
     let machine = HeapOf::of(args.heap, args.screen.os, machine)?;
     let chosen = auto_format::plan(&args.screen, scene, args.target)?;
@@ -130,7 +130,12 @@ fn prepare(args: &Args, scene: &Scene) -> Outcome<(Plan, program::Values, Loaded
 
 /// The plan that a program was made by: it may have been built in another format than is chosen
 /// unasked.
-fn of_program(args: &Args, scene: &Scene, chosen: Chosen, sources: &[File]) -> Outcome<Plan> {
+fn of_program(
+    args: &Args,
+    scene: &Scene,
+    chosen: Chosen,
+    sources: &[File],
+) -> Outcome<PlannedScene> {
     if args.screen.format.is_some() || program::is_of(&chosen.plan, sources) {
         return Ok(chosen.said());
     }

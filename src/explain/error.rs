@@ -9,6 +9,7 @@ use rayon::prelude::*;
 use slowlight_compiler::eval::native::{Native, Pixel};
 use slowlight_compiler::passes::pixel_blocks::pixel_blocks;
 use slowlight_compiler::plan::Plan;
+use slowlight_compiler::planner::PlannedScene;
 use slowlight_compiler::report::raised::{RaisedRun, raisable};
 use std::collections::BTreeMap;
 
@@ -46,7 +47,7 @@ pub struct Without {
 ///
 /// # Errors
 /// Where the scene does not compile, and an interruption.
-pub fn errors(scene: &Scene, plan: &Plan) -> Outcome<Errors> {
+pub fn errors(scene: &Scene, plan: &PlannedScene) -> Outcome<Errors> {
     // The program may compare without ever computing the shade.
     errors_with(scene, plan, plan.shaded().as_ref())
 }
@@ -55,7 +56,11 @@ pub fn errors(scene: &Scene, plan: &Plan) -> Outcome<Errors> {
 ///
 /// # Errors
 /// As for [`errors`].
-pub fn errors_with(scene: &Scene, plan: &Plan, shaded: Option<&Plan>) -> Outcome<Errors> {
+pub fn errors_with(
+    scene: &Scene,
+    plan: &PlannedScene,
+    shaded: Option<&PlannedScene>,
+) -> Outcome<Errors> {
     let shaded = shaded.unwrap_or(plan);
     let lines: Vec<_> = raisable(&scene.checked, shaded).into_iter().collect();
     let each = MOST / (lines.len() as u64 + 2);

@@ -17,7 +17,7 @@ use error::{Errors, Without};
 use serde::Serialize;
 use serde_json::Value;
 use slowlight_compiler::backend::{Document, Target};
-use slowlight_compiler::plan::Plan;
+use slowlight_compiler::planner::PlannedScene;
 use slowlight_compiler::report::profile::{self, Cost, Measured, Part, Profile, SourceLine};
 use std::collections::BTreeMap;
 
@@ -26,7 +26,7 @@ pub struct Explained {
     /// The scene.
     pub scene: Scene,
     /// Its plan.
-    pub plan: Plan,
+    pub plan: PlannedScene,
     /// The machine's counts.
     pub run: MachineRun,
     /// The counts by the scene's lines.
@@ -38,7 +38,7 @@ pub struct Explained {
 /// A program that was run, with what its lines took.
 pub struct Counted {
     /// What it is of.
-    pub plan: Plan,
+    pub plan: PlannedScene,
     /// The machine's counts in all.
     pub run: MachineRun,
     documents: Vec<Document>,
@@ -65,7 +65,12 @@ impl Counted {
 ///
 /// # Errors
 /// Where it does not end by itself.
-pub fn count_lines(scene: &Scene, plan: Plan, screen: &ScreenArgs, limit: u64) -> Outcome<Counted> {
+pub fn count_lines(
+    scene: &Scene,
+    plan: PlannedScene,
+    screen: &ScreenArgs,
+    limit: u64,
+) -> Outcome<Counted> {
     let documents = (plan.target.emit)(&plan);
     let mut loaded = trial::build_for(&plan, screen.machine(plan.target)?)?.loaded;
     let span = |line: profile::Line| {

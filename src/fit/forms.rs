@@ -6,13 +6,14 @@ use crate::failure::Outcome;
 use crate::need::Need;
 use rayon::prelude::*;
 use slowlight_compiler::backend::Lean;
-use slowlight_compiler::plan::{Copies, Plan};
+use slowlight_compiler::plan::Copies;
+use slowlight_compiler::planner::PlannedScene;
 use slowlight_compiler::planner::{Candidate, SEARCH};
 
 /// A plan that fits, or how large its smallest program is.
 pub(super) enum Fitted {
-    Fits(Box<Plan>),
-    TooLarge(Box<Plan>, Need),
+    Fits(Box<PlannedScene>),
+    TooLarge(Box<PlannedScene>, Need),
 }
 
 impl Fitted {
@@ -25,8 +26,8 @@ impl Fitted {
     }
 }
 
-impl From<Plan> for Fitted {
-    fn from(plan: Plan) -> Fitted {
+impl From<PlannedScene> for Fitted {
+    fn from(plan: PlannedScene) -> Fitted {
         Fitted::Fits(Box::new(plan))
     }
 }
@@ -36,7 +37,10 @@ impl Search<'_> {
     /// that fits as it is, or with subroutines for what is done seldom: what is written short is
     /// slower. A step that spends less need not be slower: what it leaves out may make room for
     /// more. So where the last of them fits, all are looked at that may be quicker.
-    pub(super) fn quickest(&self, plan: &Plan) -> Outcome<(Option<Plan>, Option<Plan>)> {
+    pub(super) fn quickest(
+        &self,
+        plan: &PlannedScene,
+    ) -> Outcome<(Option<PlannedScene>, Option<PlannedScene>)> {
         let last = plan.thrifts().saturating_sub(1);
         if self.fuel.spent() || !plan.may_be_smaller() {
             return Ok((None, None));
@@ -72,7 +76,7 @@ impl Search<'_> {
 
     /// What the plan is by the steps before the last that spend less memory, in their order:
     /// by as many of them as there is fuel for.
-    fn thriftier(&self, plan: &Plan, last: usize) -> Vec<Candidate> {
+    fn thriftier(&self, plan: &PlannedScene, last: usize) -> Vec<Candidate> {
         let each = plan.work().max(1);
         let count = ((LADDER / each) as usize).min(last.saturating_sub(1));
         let every = last.saturating_sub(1).div_ceil(count.max(1));
@@ -85,7 +89,7 @@ impl Search<'_> {
     /// The plan, with as much of what stands behind several ways written on each of them as
     /// fits; rather tests than remarks. For the 6502 that is what pixels call, written in place:
     /// where the program leaves a disc system its memory, no more than that leaves.
-    pub(super) fn with_copies(&self, plan: Plan) -> Outcome<Plan> {
+    pub(super) fn with_copies(&self, plan: PlannedScene) -> Outcome<PlannedScene> {
         if self.fuel.spent() {
             return Ok(plan);
         }
@@ -112,10 +116,10 @@ impl Search<'_> {
     /// there was fuel to look.
     pub(super) fn with_calls_where_seldom(
         &self,
-        plan: &Plan,
-    ) -> Outcome<Result<Plan, Option<Need>>> {
+        plan: &PlannedScene,
+    ) -> Outcome<Result<PlannedScene, Option<Need>>> {
         let calls = |runs| plan.outlined_where_seldom(runs, self.name);
-        let ways: [&dyn Fn() -> Option<Plan>; 3] =
+        let ways: [&dyn Fn() -> Option<PlannedScene>; 3] =
             [&|| Some(plan.clone()), &|| calls(false), &|| calls(true)];
         let mut least: Option<Need> = None;
         for way in ways {
@@ -148,11 +152,11 @@ impl Search<'_> {
     }
 
     /// Whether the machine holds a plan's program.
-    pub(super) fn holds(&self, plan: &Plan) -> Outcome<bool> {
+    pub(super) fn holds(&self, plan: &PlannedScene) -> Outcome<bool> {
         Ok(self.about(plan)?.is_none_or(|need| need.fits()))
     }
 
-    pub(super) fn as_is_or_tight(&self, mut plan: Plan) -> Outcome<Fitted> {
+    pub(super) fn as_is_or_tight(&self, mut plan: PlannedScene) -> Outcome<Fitted> {
         let mut least: Option<Need> = None;
         let styles = [(false, false), (true, false), (true, true)];
         // What is to be read stays so, rather slower, while it can be smaller.
@@ -183,7 +187,7 @@ impl Search<'_> {
                 _ => return Ok(Fitted::Fits(Box::new(plan))),
             };
             // Steps take a few bytes; to write it short costs more than they save.
-            let unstepped = |plan: &Plan| self.again(plan, Plan::unstepped);
+            let unstepped = |plan: &PlannedScene| self.again(plan, PlannedScene::unstepped);
             let mut less = (near && !lean).then(|| unstepped(&plan)).flatten();
             while let Some(plain) = less {
                 if self.holds(&plain)? {

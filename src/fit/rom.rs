@@ -5,7 +5,7 @@ use crate::failure::{Failure, Outcome};
 use crate::machine::Machine;
 use crate::need::need_beside;
 use crate::trial::build_for;
-use slowlight_compiler::plan::Plan;
+use slowlight_compiler::planner::PlannedScene;
 use slowlight_compiler::source::Span;
 
 /// A plan whose program fits the ROM of the Hack's processor as well, and its heap beside
@@ -15,12 +15,12 @@ use slowlight_compiler::source::Span;
 /// # Errors
 /// By how many words it does not, and what would help.
 pub fn fit_rom(
-    plan: Plan,
+    plan: PlannedScene,
     machine: Machine,
     name: &dyn Fn(Span) -> Option<String>,
-) -> Outcome<Plan> {
+) -> Outcome<PlannedScene> {
     // The text is ours: its size is all that the machine's tools can refuse.
-    let refused = |plan: &Plan| match build_for(plan, machine) {
+    let refused = |plan: &PlannedScene| match build_for(plan, machine) {
         Ok(built) => {
             let need = need_beside(plan, &built.loaded.system);
             Ok((!need.fits()).then(|| need.text()))

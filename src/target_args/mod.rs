@@ -26,7 +26,8 @@ use clap::Args;
 use slowlight_compiler::backend;
 use slowlight_compiler::backend::{Mode, Target};
 use slowlight_compiler::passes::pixel_blocks::pixel_blocks;
-use slowlight_compiler::plan::{Goal, Plan};
+use slowlight_compiler::plan::Goal;
+use slowlight_compiler::planner::PlannedScene;
 use slowlight_compiler::planner::SEARCH;
 use slowlight_compiler::planner::{plan_as_written, plan_with_every_shade, plan_within};
 use std::sync::Once;
@@ -130,7 +131,7 @@ impl ScreenArgs {
     }
 
     /// The plan that spends as little memory on speed as was asked for, or as it can.
-    fn thrifty(&self, plan: Plan) -> Plan {
+    fn thrifty(&self, plan: PlannedScene) -> PlannedScene {
         let last = plan.thrifts().saturating_sub(1);
         let step = usize::from(self.thrift.unwrap_or(0)).min(last);
         match step {
@@ -205,7 +206,7 @@ impl ScreenArgs {
         scene: &Scene,
         target: &'static Target,
         set: &[(String, Vec<f64>)],
-    ) -> Outcome<Plan> {
+    ) -> Outcome<PlannedScene> {
         let target = self.formatted(target)?;
         let modes = self.modes(target, scene)?;
         let (_waiting, _blind) = (Waiting::new("planning"), interrupt::blind());
@@ -239,7 +240,7 @@ impl ScreenArgs {
     ///
     /// # Errors
     /// As for [`ScreenArgs::draft`].
-    pub fn unsearched(&self, scene: &Scene, target: &'static Target) -> Outcome<Plan> {
+    pub fn unsearched(&self, scene: &Scene, target: &'static Target) -> Outcome<PlannedScene> {
         let mode = self.mode(target, scene)?;
         let whole = ScreenArgs {
             rows: None,
@@ -252,7 +253,7 @@ impl ScreenArgs {
     ///
     /// # Errors
     /// Where the scene does not compile for it, or the options do not fit.
-    pub fn draft(&self, scene: &Scene, target: &'static Target) -> Outcome<Plan> {
+    pub fn draft(&self, scene: &Scene, target: &'static Target) -> Outcome<PlannedScene> {
         let target = self.formatted(target)?;
         let mode = self.mode(target, scene)?;
         let _blind = interrupt::blind();
@@ -265,7 +266,7 @@ impl ScreenArgs {
         scene: &Scene,
         target: &'static Target,
         set: &[(String, Vec<f64>)],
-    ) -> Outcome<Plan> {
+    ) -> Outcome<PlannedScene> {
         if self.os.is_some() && target.name != "jack" {
             let message = format!("--os is Jack's, and {} has its own", target.name);
             return Err(Failure::Usage(message));

@@ -3,21 +3,21 @@
 
 use crate::draw::{Drawn, model_with};
 use crate::failure::Outcome;
-use slowlight_compiler::plan::Plan;
+use slowlight_compiler::planner::PlannedScene;
 use std::sync::OnceLock;
 
 /// A plan and its shades'.
 pub struct Planned {
     /// What the machine's program is made of.
-    pub plan: Plan,
+    pub plan: PlannedScene,
     /// What computes every pixel's shade, where the program does without; made when it is
     /// first asked for.
-    shaded: OnceLock<Option<Plan>>,
+    shaded: OnceLock<Option<PlannedScene>>,
 }
 
 impl Planned {
     /// Of a plan of the whole picture.
-    pub fn new(plan: Plan) -> Planned {
+    pub fn new(plan: PlannedScene) -> Planned {
         Planned {
             plan,
             shaded: OnceLock::new(),
@@ -25,12 +25,12 @@ impl Planned {
     }
 
     /// The plan of the shades, where it is another.
-    pub fn shaded(&self) -> Option<&Plan> {
+    pub fn shaded(&self) -> Option<&PlannedScene> {
         self.shaded.get_or_init(|| self.plan.shaded()).as_ref()
     }
 
     /// The program for some rows.
-    pub fn band(&self, rows: (u32, u32)) -> Plan {
+    pub fn band(&self, rows: (u32, u32)) -> PlannedScene {
         in_rows(&self.plan, rows)
     }
 
@@ -41,11 +41,11 @@ impl Planned {
     pub fn modelled(&self, rows: (u32, u32), shades: bool) -> Outcome<Drawn> {
         let shaded = shades.then(|| self.shaded()).flatten();
         let shaded = shaded.map(|plan| in_rows(plan, rows));
-        model_with(&self.band(rows), shaded.as_ref())
+        model_with(&self.band(rows), shaded.as_deref())
     }
 }
 
-fn in_rows(plan: &Plan, rows: (u32, u32)) -> Plan {
+fn in_rows(plan: &PlannedScene, rows: (u32, u32)) -> PlannedScene {
     let mut band = plan.clone();
     band.rows = rows;
     band

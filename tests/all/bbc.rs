@@ -5,8 +5,9 @@ use crate::mos6502::Scribe;
 use slowlight::scene::Precision;
 use slowlight_compiler::backend::{default_mode, find};
 use slowlight_compiler::eval::native::Native;
+use slowlight_compiler::plan::Goal;
 use slowlight_compiler::plan::model::ModelRun;
-use slowlight_compiler::plan::{Goal, Plan};
+use slowlight_compiler::planner::PlannedScene;
 use slowlight_compiler::planner::plan;
 use slowlight_compiler::scene;
 use slowlight_compiler::sema::{Freeze, Options};
@@ -21,8 +22,8 @@ const MIRRORS: &str = include_str!("../../examples/mirrors.scn");
 type Asked = (&'static str, Vec<u64>);
 
 /// Rows of mirrors, of one program for the whole picture: it takes long to plan.
-fn mirrors(target: &'static str, eye: &[f64], rows: (u32, u32)) -> Plan {
-    static PLANS: Mutex<BTreeMap<Asked, Arc<OnceLock<Plan>>>> = Mutex::new(BTreeMap::new());
+fn mirrors(target: &'static str, eye: &[f64], rows: (u32, u32)) -> PlannedScene {
+    static PLANS: Mutex<BTreeMap<Asked, Arc<OnceLock<PlannedScene>>>> = Mutex::new(BTreeMap::new());
     let asked = (target, eye.iter().map(|x| x.to_bits()).collect());
     let known = PLANS.lock().unwrap().entry(asked).or_default().clone();
     let mut plan = known
@@ -33,7 +34,7 @@ fn mirrors(target: &'static str, eye: &[f64], rows: (u32, u32)) -> Plan {
 }
 
 /// A scene's plan for a target.
-fn planned(target: &str, source: &str, set: &[f64], rows: Option<(u32, u32)>) -> Plan {
+fn planned(target: &str, source: &str, set: &[f64], rows: Option<(u32, u32)>) -> PlannedScene {
     let target = find(target).unwrap();
     let scene = scene::check("test", source);
     assert!(scene.is_right(), "{:?}\n{source}", scene.diagnostics);
@@ -60,12 +61,12 @@ fn planned(target: &str, source: &str, set: &[f64], rows: Option<(u32, u32)>) ->
 }
 
 /// The plan, or the next one that spends less memory on speed, that fits.
-fn fitting(plan: Plan) -> Plan {
+fn fitting(plan: PlannedScene) -> PlannedScene {
     slowlight::fit::fit(vec![plan.mode], &|_, _| Ok(plan.clone()), &|_| None)
         .unwrap_or_else(|e| panic!("{e:?}"))
 }
 
-pub fn text(plan: &Plan) -> String {
+pub fn text(plan: &PlannedScene) -> String {
     (plan.target.emit)(plan).remove(0).text
 }
 
@@ -83,13 +84,13 @@ pub fn run_at(page: u16, dialect: Dialect, text: &str) -> Run {
 }
 
 /// The ink that stands where a pixel of the picture belongs.
-fn ink(plan: &Plan, run: &Run, x: u32, y: u32) -> u8 {
+fn ink(plan: &PlannedScene, run: &Run, x: u32, y: u32) -> u8 {
     let (x, y) = (x as i32 + plan.offset.0, y as i32 + plan.offset.1);
     run.screen.pixels[(y * run.screen.width as i32 + x) as usize]
 }
 
 /// Pixels of the plan's rows in which the machine and the model differ.
-pub fn differences(plan: &Plan, run: &Run) -> u32 {
+pub fn differences(plan: &PlannedScene, run: &Run) -> u32 {
     let mut model = ModelRun::new(plan);
     let mut different = 0;
     for y in plan.rows.0..=plan.rows.1 {
@@ -149,7 +150,7 @@ fn two_mirrors_fit_a_disc_micro() {
 }
 
 /// A scene's plan for a mode of the Micro, its params folded.
-fn folded(source: &str, mode: &str, rows: (u32, u32), plot: bool) -> Plan {
+fn folded(source: &str, mode: &str, rows: (u32, u32), plot: bool) -> PlannedScene {
     let target = find("bbc:micro").unwrap();
     let mode = *target.modes.iter().find(|m| m.name == mode).unwrap();
     // As the command line has it.

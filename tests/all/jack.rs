@@ -6,8 +6,9 @@ use slowlight::scene::Precision;
 use slowlight_compiler::backend::jack::{JACK_F316R, JACK_LOG10};
 use slowlight_compiler::backend::{Document, Target, default_mode, find};
 use slowlight_compiler::eval::native::Native;
+use slowlight_compiler::plan::Goal;
 use slowlight_compiler::plan::model::ModelRun;
-use slowlight_compiler::plan::{Goal, Plan};
+use slowlight_compiler::planner::PlannedScene;
 use slowlight_compiler::planner::plan;
 use slowlight_compiler::scene;
 use slowlight_compiler::sema::Options;
@@ -18,7 +19,7 @@ use slowlight_vm::hack::vm::{Machine, Program, Run};
 pub const MIRRORS: &str = include_str!("../../examples/mirrors.scn");
 
 /// A scene's plan for the target.
-fn planned(source: &str, set: &[f64], rows: Option<(u32, u32)>, plot: bool) -> Plan {
+fn planned(source: &str, set: &[f64], rows: Option<(u32, u32)>, plot: bool) -> PlannedScene {
     let found = planned_in(find("jack").unwrap(), source, (set, rows), plot);
     found.unwrap_or_else(|said| panic!("{said}\n{source}"))
 }
@@ -29,7 +30,7 @@ pub fn planned_in(
     source: &str,
     (set, rows): (&[f64], Option<(u32, u32)>),
     plot: bool,
-) -> Result<Plan, String> {
+) -> Result<PlannedScene, String> {
     let scene = scene::check("test", source);
     assert!(scene.is_right(), "{:?}\n{source}", scene.diagnostics);
     let set = if set.is_empty() {
@@ -55,7 +56,7 @@ pub fn planned_in(
 
 /// The classes; `Main` first, the scene's second. None clears the screen: in the web IDE that
 /// takes the upper half of the heap with it.
-pub fn documents(plan: &Plan) -> Vec<Document> {
+pub fn documents(plan: &PlannedScene) -> Vec<Document> {
     let documents = (plan.target.emit)(plan);
     for document in &documents {
         assert!(
@@ -80,7 +81,7 @@ fn run(documents: &[Document]) -> Run {
 
 /// Pixels of the plan's rows in which the screen is not what `ink` says, given
 /// the picture's column and row.
-pub fn differences(plan: &Plan, run: &Run, mut ink: impl FnMut(i32, i32) -> u8) -> u32 {
+pub fn differences(plan: &PlannedScene, run: &Run, mut ink: impl FnMut(i32, i32) -> u8) -> u32 {
     let mut different = 0;
     for y in plan.rows.0..=plan.rows.1 {
         for x in plan.columns.0..=plan.columns.1 {
@@ -94,7 +95,7 @@ pub fn differences(plan: &Plan, run: &Run, mut ink: impl FnMut(i32, i32) -> u8) 
 }
 
 /// Runs a plan; its every pixel must be the model's.
-pub fn agrees(plan: &Plan, documents: &[Document], source: &str) -> Run {
+pub fn agrees(plan: &PlannedScene, documents: &[Document], source: &str) -> Run {
     let run = run(documents);
     assert_eq!(run.stop, Stop::Ended, "{source}");
     assert_eq!(run.text, "", "{source}");

@@ -7,12 +7,12 @@ use crate::jack::{MIRRORS, agrees, differences, documents, planned_in};
 use crate::mos6502::Scribe;
 use slowlight_compiler::backend::jack::JACK_FIXED16;
 use slowlight_compiler::eval::native::Native;
-use slowlight_compiler::plan::Plan;
+use slowlight_compiler::planner::PlannedScene;
 
 const TORUS: &str = include_str!("../../examples/torus.scn");
 const MAZE: &str = include_str!("../../examples/maze.scn");
 
-fn planned(source: &str, set: &[f64], rows: Option<(u32, u32)>) -> Result<Plan, String> {
+fn planned(source: &str, set: &[f64], rows: Option<(u32, u32)>) -> Result<PlannedScene, String> {
     planned_in(&JACK_FIXED16, source, (set, rows), true)
 }
 

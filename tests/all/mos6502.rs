@@ -4,8 +4,9 @@
 use slowlight::scene::Precision;
 use slowlight_compiler::backend::{default_mode, find};
 use slowlight_compiler::eval::native::Native;
+use slowlight_compiler::plan::Goal;
 use slowlight_compiler::plan::model::ModelRun;
-use slowlight_compiler::plan::{Goal, Plan};
+use slowlight_compiler::planner::PlannedScene;
 use slowlight_compiler::planner::plan;
 use slowlight_compiler::scene;
 use slowlight_compiler::sema::Options;
@@ -15,7 +16,7 @@ use slowlight_vm::mos6502::{Plain, Run, assemble};
 const MIRRORS: &str = include_str!("../../examples/mirrors.scn");
 
 /// A scene's plan for the target, and its graph for the native evaluation.
-fn planned(source: &str, set: &[f64], rows: Option<(u32, u32)>) -> Plan {
+fn planned(source: &str, set: &[f64], rows: Option<(u32, u32)>) -> PlannedScene {
     let target = find("6502:plain").unwrap();
     let scene = scene::check("test", source);
     assert!(scene.is_right(), "{:?}\n{source}", scene.diagnostics);
@@ -44,7 +45,7 @@ fn planned(source: &str, set: &[f64], rows: Option<(u32, u32)>) -> Plan {
     .unwrap()
 }
 
-fn text(plan: &Plan) -> String {
+fn text(plan: &PlannedScene) -> String {
     (plan.target.emit)(plan).remove(0).text
 }
 
@@ -56,7 +57,7 @@ fn run(text: &str) -> Run {
 }
 
 /// Pixels of the plan's rows in which the machine and the model differ.
-fn differences(plan: &Plan, run: &Run) -> u32 {
+fn differences(plan: &PlannedScene, run: &Run) -> u32 {
     let screen = run.screen.as_ref().unwrap();
     let mut model = ModelRun::new(plan);
     let mut different = 0;

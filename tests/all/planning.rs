@@ -12,7 +12,7 @@ use slowlight::scene::{Scene, SceneArgs};
 use slowlight::target_args::ScreenArgs;
 use slowlight_compiler::backend::{TARGETS, find};
 use slowlight_compiler::fuel::Fuel;
-use slowlight_compiler::plan::Plan;
+use slowlight_compiler::planner::PlannedScene;
 use std::fmt::Write;
 use std::path::Path;
 
@@ -155,7 +155,7 @@ fn scene(seed: u64, size: &Size) -> String {
 }
 
 /// The plan of a scene for a target; nothing where it does not fit, which is said.
-fn planned(text: &str, target: &str) -> Option<Plan> {
+fn planned(text: &str, target: &str) -> Option<PlannedScene> {
     let folder = tempfile::tempdir().expect("a folder");
     let path = folder.path().join("random.scn");
     std::fs::write(&path, text).expect("a file");

@@ -11,12 +11,13 @@ use slowlight_compiler::eval::native::Native;
 use slowlight_compiler::ir::graph::Graph;
 use slowlight_compiler::ir::tree::{Block, Statement, walk};
 use slowlight_compiler::plan::model::ModelRun;
-use slowlight_compiler::plan::{Copies, Goal, Plan};
+use slowlight_compiler::plan::{Copies, Goal};
+use slowlight_compiler::planner::PlannedScene;
 use slowlight_compiler::planner::plan;
 use slowlight_vm::Stop;
 use slowlight_vm::bbc::Dialect;
 
-fn planned(graph: &Graph, (name, dialect): (&str, Dialect)) -> Plan {
+fn planned(graph: &Graph, (name, dialect): (&str, Dialect)) -> PlannedScene {
     let target = find(name).unwrap();
     let goal = Goal {
         name: "seldom".to_owned(),

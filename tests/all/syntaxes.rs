@@ -10,7 +10,7 @@ use slowlight_compiler::backend::mos6502::document;
 use slowlight_compiler::backend::mos6502::syntax;
 use slowlight_compiler::backend::mos6502::syntax::USUAL;
 use slowlight_compiler::backend::{Target, find, formats};
-use slowlight_compiler::plan::Plan;
+use slowlight_compiler::planner::PlannedScene;
 use slowlight_vm::mos6502::{Assembly, Dialect, assemble_as};
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
@@ -48,7 +48,7 @@ fn in_format(name: &str) -> &'static Target {
 }
 
 /// The plan that `build` makes of a scene.
-fn planned(path: &Path, target: &'static Target, options: &[&str]) -> Plan {
+fn planned(path: &Path, target: &'static Target, options: &[&str]) -> PlannedScene {
     let options = Options::parse_from(options);
     let scene = Scene::open(path, &Changes::default());
     let plan = scene.and_then(|scene| options.screen.plan(&scene, target, &[]));
@@ -69,13 +69,13 @@ fn scenes(directory: &str) -> Vec<PathBuf> {
 
 /// What assemblers are given.
 pub struct Program {
-    pub plan: Plan,
+    pub plan: PlannedScene,
     /// What the bundled assembler makes of the usual text.
     pub usual: Assembly,
 }
 
 impl Program {
-    fn of(plan: Plan) -> Program {
+    fn of(plan: PlannedScene) -> Program {
         let usual = read(&plan, &document(&plan, USUAL).text, Dialect::Common);
         Program { plan, usual }
     }
@@ -146,7 +146,7 @@ fn screens(waves: &Path) -> Vec<Build> {
     all
 }
 
-fn read(plan: &Plan, text: &str, dialect: Dialect) -> Assembly {
+fn read(plan: &PlannedScene, text: &str, dialect: Dialect) -> Assembly {
     let name = &plan.name;
     assemble_as(text, dialect).unwrap_or_else(|f| panic!("{name}: {}", f[0]))
 }

@@ -35,15 +35,6 @@ const ROWS: u32 = 12;
 /// How many columns of a pass are looked at for where runs end, at most.
 const COLUMNS_LOOKED_AT: u32 = 80;
 
-impl crate::plan::Plan {
-    /// Cycles a pixel, as plans of one scene are compared by where memory is no matter:
-    /// routines where pixels run, what begins rows, passes and runs, and no drawing.
-    pub fn cycles_a_pixel(&self) -> f64 {
-        let known = self.origin.0.scheduled(self.graph.clone());
-        Price::new(&self.origin.0, SizeBudget::default()).cycles_known(&known)
-    }
-}
-
 /// How plans are priced.
 pub struct Price {
     runtime: &'static Runtime,

@@ -10,7 +10,8 @@ use crate::homes::interference::quick_homes;
 use crate::ir::graph::*;
 use crate::ir::tree::*;
 use crate::passes::simplify::fold::fold;
-use crate::plan::{Goal, Plan};
+use crate::plan::Goal;
+use crate::planner::PlannedScene;
 use crate::planner::plan;
 use crate::scene::check;
 use crate::schedule::outline::{Extent, Sizes};
@@ -23,7 +24,7 @@ use slowlight_routine::Format;
 type Mark = u64;
 
 struct Walk<'p> {
-    plan: &'p Plan,
+    plan: &'p PlannedScene,
     number: &'p FxHashMap<Place, usize>,
     random: Random,
     next: Mark,
@@ -151,7 +152,7 @@ impl Walk<'_> {
 }
 
 /// Walks a plan's picture along random ways; how many reads were looked at.
-fn looked_at(plan: &Plan, seed: u64, pixels: u32) -> u32 {
+fn looked_at(plan: &PlannedScene, seed: u64, pixels: u32) -> u32 {
     let homes = quick_homes(plan);
     let mut walk = Walk {
         plan,
@@ -179,7 +180,7 @@ fn looked_at(plan: &Plan, seed: u64, pixels: u32) -> u32 {
     walk.reads
 }
 
-fn planned(graph: &Graph) -> Plan {
+fn planned(graph: &Graph) -> PlannedScene {
     let goal = Goal {
         name: "test".to_owned(),
         mode: bbc::MICRO.modes[0],
@@ -206,8 +207,8 @@ fn values_that_share_a_variable_never_meet() {
 #[test]
 fn values_that_share_a_variable_with_subroutines_never_meet() {
     let (mut reads, mut plans) = (0, 0);
-    let mut look = |plan: Option<Plan>, seed: u64, pixels: u32| {
-        if let Some(plan) = plan.filter(Plan::is_outlined) {
+    let mut look = |plan: Option<PlannedScene>, seed: u64, pixels: u32| {
+        if let Some(plan) = plan.filter(|plan| plan.is_outlined()) {
             plans += 1;
             reads += looked_at(&plan, seed, pixels);
         }
@@ -222,7 +223,7 @@ fn values_that_share_a_variable_with_subroutines_never_meet() {
         around: 1,
         ..bbc::MICRO.sizes
     };
-    let called = |plan: &Plan, extent: Extent| {
+    let called = |plan: &PlannedScene, extent: Extent| {
         let tree = match extent {
             Extent::All => schedule_together(&plan.graph),
             Extent::Rows | Extent::Runs => plan.tree.clone(),

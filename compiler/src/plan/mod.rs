@@ -62,13 +62,10 @@ use crate::backend::{Mode, Target};
 use crate::ir::graph::*;
 use crate::ir::ramp;
 use crate::ir::tree::*;
-use crate::planner::context::Context;
-use crate::planner::made::Rewriting;
 use crate::schedule::constant_runs::Still;
 use crate::source::Span;
 use rustc_hash::FxHashMap;
 use slowlight_routine::{Bits, Format, Routine, Runtime, Type, Value};
-use std::sync::Arc;
 
 /// What to build, beside the scene and the target.
 #[derive(Clone, Debug, PartialEq)]
@@ -160,17 +157,61 @@ pub struct Plan {
     /// The runs of columns whose pixels need no computing, if there may be such.
     pub still: Option<Still>,
     pub(crate) homes: FxHashMap<Place, String>,
-    /// What making it took, in units of [`Fuel`].
-    pub(crate) work: u64,
     /// Whether a search for something cheaper was ended for want of fuel.
     pub(crate) cut: bool,
-    /// How much fuel there is for each plan that is made from this one.
-    pub(crate) allowance: u64,
-    /// What was planned and made on the way, and how its formulas could be rewritten.
-    pub(crate) origin: (Arc<Context>, Rewriting),
 }
 
 impl Plan {
+    /// Whether it has subroutines.
+    pub fn is_outlined(&self) -> bool {
+        !self.tree.subroutines.is_empty()
+    }
+
+    /// Whether a pixel calls subroutines, not only what is done more seldom.
+    pub fn calls_at_pixels(&self) -> bool {
+        let mut calls = false;
+        walk(&self.tree.pixel, &mut |statement| {
+            calls |= matches!(statement, Statement::Call(_));
+        });
+        calls
+    }
+
+    /// Whether only what is done more seldom than pixels calls subroutines: the plan
+    /// did not fit as it was.
+    pub fn calls_seldom(&self) -> bool {
+        self.is_outlined() && !self.calls_at_pixels()
+    }
+
+    /// Whether another plan of the same scene and target makes the same program.
+    pub fn is_written_as(&self, other: &Plan) -> bool {
+        let style = |plan: &Plan| {
+            let short = (plan.tight, plan.lean, plan.brief, plan.scant, plan.copies);
+            (short, plan.listing, plan.statics, plan.page)
+        };
+        let whole = (self.mode, self.rows) == (other.mode, other.rows);
+        whole && style(self) == style(other) && self.tree == other.tree && self.graph == other.graph
+    }
+
+    /// For what it is planned.
+    pub(crate) fn goal(&self) -> Goal {
+        Goal {
+            name: self.name.clone(),
+            mode: self.mode,
+            rows: Some(self.rows),
+            plot: self.plot,
+        }
+    }
+    /// Whether the search was ended because it had done all the work that it may: there may
+    /// be a quicker plan.
+    pub fn was_cut(&self) -> bool {
+        self.cut
+    }
+
+    /// Notes that a search that led to it was ended before its time.
+    pub fn note_cut(&mut self) {
+        self.cut = true;
+    }
+
     /// The routine that computes an operation.
     pub fn routine(&self, id: NodeId) -> Option<&'static Routine> {
         self.routines.get(id.0 as usize).copied().flatten()

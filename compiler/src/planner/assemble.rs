@@ -1,8 +1,6 @@
 //! Instruction selection: a routine for each value of a graph that is scheduled, its points and
 //! tables, and where values are kept.
 
-use super::SEARCH;
-use super::made::Rewriting;
 use crate::analysis::range::Ranges;
 use crate::backend::Target;
 use crate::homes::{names, single_use};
@@ -11,7 +9,6 @@ use crate::ir::tree::*;
 use crate::plan::params::ParamPlan;
 use crate::plan::placed;
 use crate::plan::{Copies, Goal, Plan, table_init};
-use crate::planner::context::Context;
 use crate::schedule::constant_runs::still;
 use crate::selection::integer_roots::int_roots;
 use crate::selection::reciprocal_roots::reciprocal_roots;
@@ -19,19 +16,28 @@ use crate::selection::routines;
 use crate::source::Diagnostic;
 use crate::wordlength;
 use slowlight_routine::{Op, Range, Routine, Runtime, scale};
-use std::sync::Arc;
 
-/// A plan of statements whose ranges are known.
-pub(crate) fn assemble(
-    mut graph: Graph,
-    mut tree: Tree,
-    mut ranges_now: Ranges,
+/// Statements whose ranges are known.
+pub(super) struct Scheduled {
+    pub graph: Graph,
+    pub tree: Tree,
+    pub ranges: Ranges,
+}
+
+/// A plan of statements; to place points as many of them are run as `looks` says.
+pub(super) fn assemble(
+    scheduled: Scheduled,
     mut params: Vec<ParamPlan>,
     target: &'static Target,
     goal: &Goal,
-    origin: (Arc<Context>, Rewriting),
+    looks: u64,
 ) -> Result<Plan, Vec<Diagnostic>> {
     let runtime = target.runtime;
+    let Scheduled {
+        mut graph,
+        mut tree,
+        ranges: mut ranges_now,
+    } = scheduled;
     if runtime.has(Op::IntRoot) {
         let most = scale::most(runtime.real.bits()) as f64;
         int_roots(&mut graph, &mut tree, &ranges_now, most);
@@ -41,10 +47,6 @@ pub(crate) fn assemble(
     }
     let mut tables = table_init::made(&graph, runtime);
     let mut points = None;
-    let looks = match origin.0.draft {
-        true => wordlength::sample::DRAFT,
-        false => wordlength::sample::PATIENCE,
-    };
     if let Some((found, ranges)) = wordlength::pointed(&graph, &tree, runtime, looks) {
         wordlength::encode::hold(&graph, runtime, &found, &mut tables, &mut params);
         (points, ranges_now) = (Some(found), ranges);
@@ -91,10 +93,7 @@ pub(crate) fn assemble(
         homes,
         graph,
         tree,
-        work: 0,
         cut: false,
-        allowance: SEARCH,
-        origin,
     })
 }
 

@@ -16,6 +16,7 @@ use crate::passes::simplify::fold::fold;
 use crate::passes::simplify::range_folding::fold_by_ranges;
 use crate::planner::search::forms::Rewrite;
 use crate::schedule::analysed::{Analysed, scheduled};
+use crate::wordlength::sample;
 use rustc_hash::{FxHashMap, FxHasher};
 use slowlight_routine::Runtime;
 use std::fmt;
@@ -138,6 +139,14 @@ impl Context {
             Arc::new(Pixels::of(&plan, self.runtime))
         });
         found.clone()
+    }
+
+    /// How many statements may be run to place points.
+    pub(super) fn looks(&self) -> u64 {
+        match self.draft {
+            true => sample::DRAFT,
+            false => sample::PATIENCE,
+        }
     }
 
     /// How far the routines' results may be off.

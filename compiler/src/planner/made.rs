@@ -1,8 +1,9 @@
 //! The planning driver: the passes in their order, then a routine for each value.
 
 use super::SEARCH;
-use super::assemble::assemble;
+use super::assemble::{Scheduled, assemble};
 use super::pipeline::{Pass, PassSet, Pipeline};
+use super::replan::PlannedScene;
 use crate::analysis::verify::verify;
 use crate::backend::Target;
 use crate::cost::price::Price;
@@ -17,9 +18,9 @@ use crate::passes::loops::strip_mine::strip_mined;
 use crate::passes::simplify::fold::fold;
 use crate::passes::simplify::integer_parts::integer_parts;
 use crate::passes::simplify::unit_vectors::unit_vectors;
+use crate::plan::Goal;
 use crate::plan::params;
 use crate::plan::params::ParamPlan;
-use crate::plan::{Goal, Plan};
 use crate::planner::context::Context;
 use crate::planner::search::branches::{asked_where_it_matters, in_arms, rewritten};
 use crate::planner::search::columns::in_columns;
@@ -37,7 +38,11 @@ use slowlight_routine::Format;
 use std::sync::Arc;
 
 /// Plans a graph that `sema` lowered for this target's inks and offset.
-pub fn plan(graph: &Graph, target: &'static Target, goal: &Goal) -> Result<Plan, Vec<Diagnostic>> {
+pub fn plan(
+    graph: &Graph,
+    target: &'static Target,
+    goal: &Goal,
+) -> Result<PlannedScene, Vec<Diagnostic>> {
     plan_within(graph, target, goal, SEARCH, PassSet::default())
 }
 
@@ -49,7 +54,7 @@ pub fn plan_within(
     goal: &Goal,
     fuel: u64,
     without: PassSet,
-) -> Result<Plan, Vec<Diagnostic>> {
+) -> Result<PlannedScene, Vec<Diagnostic>> {
     let all = Rewriting::Fast {
         budget: SizeBudget::default(),
         steps: Steps::All,
@@ -66,7 +71,7 @@ pub fn plan_with_every_shade(
     graph: &Graph,
     target: &'static Target,
     goal: &Goal,
-) -> Result<Plan, Vec<Diagnostic>> {
+) -> Result<PlannedScene, Vec<Diagnostic>> {
     let mut cx = Context::new(graph.clone(), target.runtime);
     cx.every_shade = true;
     let all = Rewriting::Fast {
@@ -82,7 +87,7 @@ pub fn plan_as_written(
     graph: &Graph,
     target: &'static Target,
     goal: &Goal,
-) -> Result<Plan, Vec<Diagnostic>> {
+) -> Result<PlannedScene, Vec<Diagnostic>> {
     let none = (Rewriting::None, Fuel::new(SEARCH));
     let cx = Context::new(graph.clone(), target.runtime);
     candidate(&Arc::new(cx), target, goal, none)?.assembled(target, goal)
@@ -122,7 +127,7 @@ pub struct Candidate {
 }
 
 impl Candidate {
-    /// What [`Plan::cycles_a_pixel`] says of the plan that it makes.
+    /// What [`PlannedScene::cycles_a_pixel`] says of the plan that it makes.
     pub fn cycles_a_pixel(&self) -> f64 {
         Price::new(&self.cx, SizeBudget::default()).cycles_known(&self.plan)
     }
@@ -138,27 +143,35 @@ impl Candidate {
     }
 
     /// The plan with its routines.
-    pub(crate) fn assembled(
+    pub(super) fn assembled(
         self,
         target: &'static Target,
         goal: &Goal,
-    ) -> Result<Plan, Vec<Diagnostic>> {
+    ) -> Result<PlannedScene, Vec<Diagnostic>> {
         let Known {
             graph,
             tree,
             ranges,
             ..
         } = &*self.plan;
-        let origin = (self.cx, self.rewriting);
-        let (graph, tree, ranges) = (graph.clone(), tree.clone(), ranges.clone());
-        let mut plan = assemble(graph, tree, ranges, self.params, target, goal, origin)?;
-        (plan.work, plan.cut, plan.allowance) = (self.work, self.cut, self.allowance);
-        if plan.runtime.narrow.is_none() {
-            return Ok(plan);
+        let scheduled = Scheduled {
+            graph: graph.clone(),
+            tree: tree.clone(),
+            ranges: ranges.clone(),
+        };
+        let mut plan = assemble(scheduled, self.params, target, goal, self.cx.looks())?;
+        plan.cut = self.cut;
+        if plan.runtime.narrow.is_some() {
+            let narrow = (self.cx).always(Pass::WordLengths, || Some(narrowed(plan.clone())));
+            plan = narrow.unwrap_or(plan);
         }
-        let cx = plan.origin.0.clone();
-        let narrow = cx.always(Pass::WordLengths, || Some(narrowed(plan.clone())));
-        Ok(narrow.unwrap_or(plan))
+        Ok(PlannedScene {
+            plan,
+            cx: self.cx,
+            rewriting: self.rewriting,
+            work: self.work,
+            allowance: self.allowance,
+        })
     }
 }
 

@@ -1,37 +1,17 @@
 //! Outlining of a whole plan: the same scene with subroutines, for machines that cannot hold
 //! everything where it is used.
 
-use super::assemble::assemble;
+use super::assemble::{Scheduled, assemble};
+use super::replan::PlannedScene;
 use crate::analysis::range::{Slack, ranges};
 use crate::ir::graph::{Graph, Node};
 use crate::ir::tree::*;
-use crate::plan::Plan;
 use crate::schedule::locality::{by_first_use, down_to_runs};
 use crate::schedule::outline::{Extent, Sizes, outline};
 use crate::schedule::statements::schedule_together;
 use crate::source::{Diagnostic, Span};
 
-impl Plan {
-    /// Whether it has subroutines.
-    pub fn is_outlined(&self) -> bool {
-        !self.tree.subroutines.is_empty()
-    }
-
-    /// Whether a pixel calls subroutines, not only what is done more seldom.
-    pub fn calls_at_pixels(&self) -> bool {
-        let mut calls = false;
-        walk(&self.tree.pixel, &mut |statement| {
-            calls |= matches!(statement, Statement::Call(_));
-        });
-        calls
-    }
-
-    /// Whether only what is done more seldom than pixels calls subroutines: the plan
-    /// did not fit as it was.
-    pub fn calls_seldom(&self) -> bool {
-        self.is_outlined() && !self.calls_at_pixels()
-    }
-
+impl PlannedScene {
     /// The plan with [`crate::schedule::outline`]; `name` says what the source
     /// calls what stands at a place. Where bounds differ between the calls of a
     /// subroutine, its routines are right for all of them: a program with
@@ -39,7 +19,10 @@ impl Plan {
     ///
     /// # Errors
     /// Where an operation has no routine, as for [`super::plan`].
-    pub fn outlined(&self, name: &dyn Fn(Span) -> Option<String>) -> Result<Plan, Vec<Diagnostic>> {
+    pub fn outlined(
+        &self,
+        name: &dyn Fn(Span) -> Option<String>,
+    ) -> Result<PlannedScene, Vec<Diagnostic>> {
         // What is stepped along a run has its place before every pixel of it.
         let stepped = |node: &Node| matches!(node, Node::Stepped { .. });
         if self.graph.nodes.iter().any(stepped)
@@ -60,7 +43,7 @@ impl Plan {
         &self,
         runs: bool,
         name: &dyn Fn(Span) -> Option<String>,
-    ) -> Option<Plan> {
+    ) -> Option<PlannedScene> {
         let mut tree = self.tree.clone();
         if runs {
             down_to_runs(&self.graph, &mut tree);
@@ -97,16 +80,24 @@ impl Plan {
     }
 
     /// The same scene and screen by other statements.
-    pub(crate) fn of(&self, graph: Graph, tree: Tree) -> Result<Plan, Vec<Diagnostic>> {
+    pub(crate) fn of(&self, graph: Graph, tree: Tree) -> Result<PlannedScene, Vec<Diagnostic>> {
         let found = ranges(&graph, &tree, &Slack::of(self.runtime));
         let goal = self.goal();
-        let (params, origin) = (self.params.clone(), self.origin.clone());
-        let mut plan = assemble(graph, tree, found, params, self.target, &goal, origin)?;
-        (plan.work, plan.cut, plan.allowance) = (self.work, self.cut, self.allowance);
+        let scheduled = Scheduled {
+            graph,
+            tree,
+            ranges: found,
+        };
+        let (params, looks) = (self.params.clone(), self.cx.looks());
+        let mut plan = assemble(scheduled, params, self.target, &goal, looks)?;
+        plan.cut = self.cut;
         plan.items = self.items.clone();
         (plan.listing, plan.page) = (self.listing, self.page);
         plan.undocumented = self.undocumented;
         plan.statics = self.statics;
-        Ok(plan)
+        Ok(PlannedScene {
+            plan,
+            ..self.clone()
+        })
     }
 }

@@ -3,16 +3,46 @@
 use super::made::{Candidate, Rewriting, candidate};
 use super::pipeline::Pipeline;
 use crate::backend::Lean;
+use crate::cost::price::Price;
 use crate::cost::size_budget::SizeBudget;
 use crate::fuel::Fuel;
 use crate::ir::graph::*;
 use crate::ir::tree::*;
-use crate::plan::{Goal, Plan};
+use crate::plan::Plan;
 use crate::planner::context::Context;
 use crate::planner::search::stepped::Steps;
+use std::ops::{Deref, DerefMut};
 use std::sync::Arc;
 
-impl Plan {
+/// A plan, and how it was made: whoever needs another plan of the same scene asks it.
+#[derive(Clone, Debug)]
+pub struct PlannedScene {
+    /// The plan.
+    pub plan: Plan,
+    /// What was made on the way, and how its formulas could be rewritten.
+    pub(super) cx: Arc<Context>,
+    pub(super) rewriting: Rewriting,
+    /// What making it took, in units of [`Fuel`].
+    pub(super) work: u64,
+    /// How much fuel there is for each plan that is made from this one.
+    pub(super) allowance: u64,
+}
+
+impl Deref for PlannedScene {
+    type Target = Plan;
+
+    fn deref(&self) -> &Plan {
+        &self.plan
+    }
+}
+
+impl DerefMut for PlannedScene {
+    fn deref_mut(&mut self) -> &mut Plan {
+        &mut self.plan
+    }
+}
+
+impl PlannedScene {
     /// What searching for it took, in units of [`crate::fuel::Fuel`].
     pub fn work(&self) -> u64 {
         self.work
@@ -20,24 +50,20 @@ impl Plan {
 
     /// What ran the passes for it and for other plans of its scene.
     pub fn pipeline(&self) -> &Pipeline {
-        &self.origin.0.pipeline
+        &self.cx.pipeline
     }
 
-    /// Whether the search was ended because it had done all the work that it may: there may
-    /// be a quicker plan.
-    pub fn was_cut(&self) -> bool {
-        self.cut
-    }
-
-    /// Notes that a search that led to it was ended before its time.
-    pub fn note_cut(&mut self) {
-        self.cut = true;
+    /// Cycles a pixel, as plans of one scene are compared by where memory is no matter:
+    /// routines where pixels run, what begins rows, passes and runs, and no drawing.
+    pub fn cycles_a_pixel(&self) -> f64 {
+        let known = self.cx.scheduled(self.graph.clone());
+        Price::new(&self.cx, SizeBudget::default()).cycles_known(&known)
     }
 
     /// The same plan; those that are made from it have so many units of fuel each.
     #[must_use]
-    pub fn allowed(&self, units: u64) -> Plan {
-        Plan {
+    pub fn allowed(&self, units: u64) -> PlannedScene {
+        PlannedScene {
             allowance: units,
             ..self.clone()
         }
@@ -46,7 +72,7 @@ impl Plan {
     /// A plan of the same scene that computes the shade at every pixel, where
     /// this one does not: the dither may need less than the shade, and a
     /// picture's error is measured on shades. None where this plan will do.
-    pub fn shaded(&self) -> Option<Plan> {
+    pub fn shaded(&self) -> Option<PlannedScene> {
         let shade = self.graph.shade?;
         let always = |b: &Block| b.iter().any(|s| writes(s, shade));
         let tree = &self.tree;
@@ -54,51 +80,41 @@ impl Plan {
         if !gone && (self.place(shade).is_none() || tree.outer().into_iter().any(always)) {
             return None;
         }
-        let mut graph = Graph::clone(&self.origin.0.origin);
+        let mut graph = Graph::clone(&self.cx.origin);
         graph.reports.extend(graph.shade);
         let mut cx = Context::new(graph, self.runtime);
         cx.pipeline = Pipeline::without(self.pipeline().without);
-        let mut plan = self.again(&Arc::new(cx), self.origin.1)?;
+        let mut plan = self.again(&Arc::new(cx), self.rewriting)?;
         if self.calls_at_pixels() {
             plan = plan.outlined(&|_| None).ok()?;
         }
         Some(plan)
     }
 
-    /// Whether another plan of the same scene and target makes the same program.
-    pub fn is_written_as(&self, other: &Plan) -> bool {
-        let style = |plan: &Plan| {
-            let short = (plan.tight, plan.lean, plan.brief, plan.scant, plan.copies);
-            (short, plan.listing, plan.statics, plan.page)
-        };
-        let whole = (self.mode, self.rows) == (other.mode, other.rows);
-        whole && style(self) == style(other) && self.tree == other.tree && self.graph == other.graph
-    }
-
     /// Whether it is slower than another of the same scene and target would be that had more
     /// memory.
     pub fn is_made_small(&self) -> bool {
-        let plenty = matches!(self.origin.1, Rewriting::Fast { budget, .. } if budget.is_plenty());
+        let plenty = matches!(self.rewriting, Rewriting::Fast { budget, .. } if budget.is_plenty());
         !plenty || self.tight || self.calls_at_pixels()
     }
 
     /// Whether there is a plan that spends less memory on speed.
     pub fn may_be_smaller(&self) -> bool {
-        matches!(self.origin.1, Rewriting::Fast { .. })
+        matches!(self.rewriting, Rewriting::Fast { .. })
     }
 
     /// A plan of the same scene with its formulas as the scene has them, but for what makes them
     /// stable: the simplest and about the smallest. None where this one has them so.
-    pub fn stable(&self) -> Option<Plan> {
-        let fast = matches!(self.origin.1, Rewriting::Fast { .. });
-        fast.then(|| self.again(&self.origin.0, Rewriting::Stable))
+    pub fn stable(&self) -> Option<PlannedScene> {
+        let fast = matches!(self.rewriting, Rewriting::Fast { .. });
+        fast.then(|| self.again(&self.cx, Rewriting::Stable))
             .flatten()
     }
 
     /// In how many steps plans may spend less and less memory on speed; 1 where
     /// this one spends none.
     pub fn thrifts(&self) -> usize {
-        match self.origin.1 {
+        match self.rewriting {
             Rewriting::Fast { .. } => SizeBudget::COUNT,
             _ => 1,
         }
@@ -111,13 +127,13 @@ impl Plan {
             return None;
         }
         let steps = Steps::All;
-        self.candidate(&self.origin.0, Rewriting::Fast { budget, steps })
+        self.candidate(&self.cx, Rewriting::Fast { budget, steps })
     }
 
     /// The same plan with less that is stepped from column to column, which takes
     /// a little less memory. None where nothing is.
-    pub fn unstepped(&self) -> Option<Plan> {
-        let Rewriting::Fast { budget, steps } = self.origin.1 else {
+    pub fn unstepped(&self) -> Option<PlannedScene> {
+        let Rewriting::Fast { budget, steps } = self.rewriting else {
             return None;
         };
         let ramp = |node: &Node| matches!(node, Node::Ramp { .. } | Node::Stepped { .. });
@@ -127,10 +143,10 @@ impl Plan {
         };
         let less = Rewriting::Fast { budget, steps };
         let stepped = self.graph.nodes.iter().any(ramp);
-        stepped.then(|| self.again(&self.origin.0, less)).flatten()
+        stepped.then(|| self.again(&self.cx, less)).flatten()
     }
 
-    fn again(&self, cx: &Arc<Context>, rewriting: Rewriting) -> Option<Plan> {
+    fn again(&self, cx: &Arc<Context>, rewriting: Rewriting) -> Option<PlannedScene> {
         self.completed(self.candidate(cx, rewriting)?)
     }
 
@@ -140,7 +156,7 @@ impl Plan {
     }
 
     /// The plan of a candidate, for the same screen and written in the same way.
-    pub fn completed(&self, candidate: Candidate) -> Option<Plan> {
+    pub fn completed(&self, candidate: Candidate) -> Option<PlannedScene> {
         let mut plan = candidate.assembled(self.target, &self.goal()).ok()?;
         plan.params = self.params.clone();
         plan.hold();
@@ -151,16 +167,6 @@ impl Plan {
         plan.statics = self.statics;
         plan.lean = self.lean && self.target.lean == Lean::Calls;
         Some(plan)
-    }
-
-    /// For what it is planned.
-    pub(crate) fn goal(&self) -> Goal {
-        Goal {
-            name: self.name.clone(),
-            mode: self.mode,
-            rows: Some(self.rows),
-            plot: self.plot,
-        }
     }
 }
 

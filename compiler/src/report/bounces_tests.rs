@@ -5,7 +5,8 @@
 
 use super::bounces::{Growth, measure, mirrors, warnings};
 use crate::backend::{default_mode, find};
-use crate::plan::{Goal, Plan};
+use crate::plan::Goal;
+use crate::planner::PlannedScene;
 use crate::planner::plan;
 use crate::scene;
 use crate::sema::Options;
@@ -21,7 +22,7 @@ const TARGETS: [(&str, &str); 3] = [
 /// Bounces that are shown.
 const SHOWN: usize = 8;
 
-fn planned(target: &str, source: &str) -> Plan {
+fn planned(target: &str, source: &str) -> PlannedScene {
     let target = find(target).unwrap();
     let scene = scene::check("test", source);
     assert!(scene.is_right(), "{:?}", scene.diagnostics);

@@ -5,8 +5,9 @@ use crate::backend::{Target, default_mode, mos6502};
 use crate::eval::arithmetic::Exact;
 use crate::eval::run::Run;
 use crate::ir::graph::*;
+use crate::plan::Goal;
 use crate::plan::model::ModelRun;
-use crate::plan::{Goal, Plan};
+use crate::planner::PlannedScene;
 use crate::planner::plan;
 use crate::scene::check;
 use crate::sema::{Freeze, Options};
@@ -15,7 +16,7 @@ use slowlight_routine::{Type, Value};
 const WIDE: (u32, u32) = (160, 120);
 
 /// The mirrors at a quarter of their size.
-fn planned(target: &'static Target) -> Plan {
+fn planned(target: &'static Target) -> PlannedScene {
     let text = include_str!("../../../examples/mirrors.scn")
         .replace("image 320 x 240", &format!("image {} x {}", WIDE.0, WIDE.1))
         .replace(
@@ -29,7 +30,12 @@ fn planned(target: &'static Target) -> Plan {
     planned_with(&text, target, &freeze, WIDE)
 }
 
-fn planned_with(text: &str, target: &'static Target, options: &Options, size: (u32, u32)) -> Plan {
+fn planned_with(
+    text: &str,
+    target: &'static Target,
+    options: &Options,
+    size: (u32, u32),
+) -> PlannedScene {
     let scene = check("test", text);
     assert!(scene.is_right(), "{:?}", scene.diagnostics);
     let goal = Goal {
@@ -42,7 +48,7 @@ fn planned_with(text: &str, target: &'static Target, options: &Options, size: (u
 }
 
 /// How many of a plan's inks are not those of its graph in `f64`.
-fn off(plan: &Plan) -> usize {
+fn off(plan: &PlannedScene) -> usize {
     let mut exact = Run::new(&plan.graph, &plan.tree, Exact(&plan.graph));
     let mut model = ModelRun::new(plan);
     let all = (0..WIDE.1 as i32).flat_map(|y| (0..WIDE.0 as i32).map(move |x| (x, y)));
@@ -57,12 +63,12 @@ fn off(plan: &Plan) -> usize {
 }
 
 /// In how many bits reals are computed: how many in 16, how many in 24.
-fn widths(plan: &Plan) -> [usize; 2] {
+fn widths(plan: &PlannedScene) -> [usize; 2] {
     computed_in(plan, [16, 24])
 }
 
 /// How many reals are computed in each of two widths.
-fn computed_in(plan: &Plan, bits: [u8; 2]) -> [usize; 2] {
+fn computed_in(plan: &PlannedScene, bits: [u8; 2]) -> [usize; 2] {
     let real = |id: &NodeId| plan.graph.ty(*id) == Type::Real && plan.routine(*id).is_some();
     let widths = plan.points().unwrap().widths();
     bits.map(|bits| {
@@ -126,7 +132,7 @@ fn widths_are_those_of_the_scene_whatever_its_params_are_set_to() {
         };
         planned_with(text, &mos6502::PLAIN_FIXED20, &options, (48, 32))
     };
-    let of = |plan: &Plan| {
+    let of = |plan: &PlannedScene| {
         let ids = plan.graph.ids();
         let points = plan.points().unwrap();
         let own = ids.map(|id| (points.widths().value(id), points.own(id)));

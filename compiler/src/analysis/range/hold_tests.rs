@@ -8,7 +8,8 @@ use crate::eval::heard::{Heard, Listener};
 use crate::eval::run::Run;
 use crate::ir::graph::*;
 use crate::ir::tree::Tree;
-use crate::plan::{Goal, Plan};
+use crate::plan::Goal;
+use crate::planner::PlannedScene;
 use crate::planner::plan;
 use crate::scene::check;
 use crate::schedule::statements::schedule;
@@ -72,7 +73,7 @@ fn graph(name: &str, text: &str) -> Graph {
     scene.lower(&Options::default()).unwrap()
 }
 
-fn planned(name: &str, graph: &Graph) -> Plan {
+fn planned(name: &str, graph: &Graph) -> PlannedScene {
     let target = find("bbc:micro").unwrap();
     let goal = Goal {
         name: name.to_owned(),

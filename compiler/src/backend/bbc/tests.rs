@@ -1,12 +1,13 @@
 #![allow(clippy::unwrap_used)]
 
 use crate::backend::{default_mode, find};
-use crate::plan::{Goal, Plan};
+use crate::plan::Goal;
+use crate::planner::PlannedScene;
 use crate::planner::plan;
 use crate::scene::check;
 use crate::sema::Options;
 
-fn planned(target: &str, source: &str, plot: bool) -> Plan {
+fn planned(target: &str, source: &str, plot: bool) -> PlannedScene {
     let target = find(target).unwrap();
     let scene = check("test", source);
     assert!(scene.is_right(), "{:?}", scene.diagnostics);

@@ -3,7 +3,8 @@
 use crate::backend::default_mode;
 use crate::ir::build::Builder;
 use crate::ir::graph::{Axis, Graph, Image, Table};
-use crate::plan::{Goal, Plan};
+use crate::plan::Goal;
+use crate::planner::PlannedScene;
 use crate::planner::plan;
 use crate::scene::check;
 use crate::sema::Options;
@@ -21,7 +22,7 @@ fn lowered(source: &str) -> Graph {
     scene.lower(&options).unwrap()
 }
 
-fn planned(name: &str, graph: &Graph) -> Plan {
+fn planned(name: &str, graph: &Graph) -> PlannedScene {
     let mode = default_mode(&super::JACK, graph.image.width, graph.image.height).unwrap();
     let goal = Goal {
         name: name.to_owned(),

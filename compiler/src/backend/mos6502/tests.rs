@@ -2,17 +2,18 @@
 
 use crate::backend::mos6502::syntax::{SYNTAXES, USUAL, find as find_syntax};
 use crate::backend::{default_mode, find, formats};
-use crate::plan::{Goal, Plan};
+use crate::plan::Goal;
+use crate::planner::PlannedScene;
 use crate::planner::plan;
 use crate::scene::check;
 use crate::sema::Options;
 use std::collections::BTreeSet;
 
-pub(super) fn planned(source: &str) -> Plan {
+pub(super) fn planned(source: &str) -> PlannedScene {
     planned_in(source, "fixed16.16")
 }
 
-pub(super) fn planned_in(source: &str, format: &str) -> Plan {
+pub(super) fn planned_in(source: &str, format: &str) -> PlannedScene {
     let mut all = formats(find("6502:plain").unwrap());
     let target = all.find(|t| t.runtime.format == format).unwrap();
     let scene = check("test", source);
@@ -84,7 +85,7 @@ fn products_stand_in_place_where_there_is_room() {
           ink(floor(v * (v * tilt + y) * (tilt + v)) mod 2)
         };";
     let mut plan = planned_in(source, "fixed16");
-    let at_pixels = |plan: &Plan, what: &str| {
+    let at_pixels = |plan: &PlannedScene, what: &str| {
         let text = super::emit(plan).remove(0).text;
         let pixel = text.split("once a pixel").nth(1).unwrap();
         let pixel = pixel.split("picture_done:").next().unwrap();

@@ -135,7 +135,8 @@ fn planned(target: &'static Target, inputs: &[(String, f64, f64)], value: &str) 
         rows: None,
         plot: true,
     };
-    plan_as_written(&graph, target, &goal).unwrap_or_else(|e| panic!("{value}: {e:?}"))
+    let planned = plan_as_written(&graph, target, &goal);
+    planned.unwrap_or_else(|e| panic!("{value}: {e:?}")).plan
 }
 
 fn inputs(text: &str) -> Vec<(String, f64, f64)> {

@@ -32,7 +32,7 @@ fn planned(source: &str, set: &[(String, Vec<f64>)]) -> (Graph, Plan, Plan) {
         rows: None,
         plot: true,
     };
-    let [fast, written] = [plan, plan_as_written].map(|p| p(&graph, target, &goal).unwrap());
+    let [fast, written] = [plan, plan_as_written].map(|p| p(&graph, target, &goal).unwrap().plan);
     (graph, fast, written)
 }
 

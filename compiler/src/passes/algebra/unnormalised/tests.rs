@@ -2,7 +2,7 @@
 
 #![allow(clippy::unwrap_used)]
 
-use super::{unnormalised, lengths};
+use super::{lengths, unnormalised};
 use crate::analysis::range::{Ranges, Slack, ranges};
 use crate::analysis::verify::verify;
 use crate::backend::bbc::MICRO;
