@@ -7,11 +7,11 @@
 //! adds to it.
 
 use slowlight::trial::LIMIT;
-use slowlight_compiler::backend::{Target, default_mode, find};
 use slowlight_compiler::plan::Goal;
 use slowlight_compiler::planner::plan;
 use slowlight_compiler::scene;
 use slowlight_compiler::sema::Options;
+use slowlight_compiler::targets::{Target, default_mode, find};
 use slowlight_vm::Stop;
 use slowlight_vm::bbc::{Config, Dialect, Machine};
 use std::path::Path;
@@ -39,7 +39,7 @@ fn program(target: &'static Target) -> Option<String> {
         plot: true,
     };
     let plan = plan(&checked.lower(&options).ok()?, target, &goal).ok()?;
-    let documents = (target.emit)(&plan);
+    let documents = slowlight_compiler::backend::emit(&plan);
     documents.into_iter().next().map(|d| d.text)
 }
 

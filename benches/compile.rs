@@ -3,11 +3,11 @@
 //! `cargo bench --bench compile`
 
 use criterion::{Criterion, criterion_group, criterion_main};
-use slowlight_compiler::backend::{TARGETS, Target, default_mode};
 use slowlight_compiler::plan::Goal;
 use slowlight_compiler::planner::plan;
 use slowlight_compiler::scene;
 use slowlight_compiler::sema::Options;
+use slowlight_compiler::targets::{TARGETS, Target, default_mode};
 use std::hint::black_box;
 
 const MIRRORS: &str = include_str!("../examples/mirrors.scn");
@@ -35,7 +35,10 @@ fn compile(text: &str, target: &'static Target) -> usize {
         .lower(&options)
         .and_then(|graph| plan(&graph, target, &goal));
     plan.map_or(0, |plan| {
-        (target.emit)(&plan).iter().map(|d| d.text.len()).sum()
+        slowlight_compiler::backend::emit(&plan)
+            .iter()
+            .map(|d| d.text.len())
+            .sum()
     })
 }
 

@@ -12,13 +12,13 @@ mod yardstick;
 
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 use slowlight::trial::{LIMIT, build};
-use slowlight_compiler::backend::jack::JACK;
-use slowlight_compiler::backend::{TARGETS, Target, default_mode, formats};
 use slowlight_compiler::plan::Goal;
 use slowlight_compiler::planner::PlannedScene;
 use slowlight_compiler::planner::plan;
 use slowlight_compiler::scene;
 use slowlight_compiler::sema::Options;
+use slowlight_compiler::targets::jack::JACK;
+use slowlight_compiler::targets::{TARGETS, Target, default_mode, formats};
 use slowlight_vm::hack::jack;
 use slowlight_vm::hack::vm::{Machine, Program};
 use std::hint::black_box;
@@ -70,7 +70,7 @@ fn running(criterion: &mut Criterion) {
 
 /// The VM code of a plan for Jack.
 fn vm_code(plan: &PlannedScene) -> Vec<(String, String)> {
-    let documents = (plan.target.emit)(plan).into_iter();
+    let documents = slowlight_compiler::backend::emit(plan).into_iter();
     let sources: Vec<(String, String)> = documents.map(|d| (d.name, d.text)).collect();
     match jack::compile(&sources) {
         Ok(files) => files.into_iter().map(|f| (f.name, f.text)).collect(),

@@ -26,10 +26,10 @@ use crate::progress::Waiting;
 use crate::scene::{Precision, Scene};
 use crate::target_args::ScreenArgs;
 use rayon::prelude::*;
-use slowlight_compiler::backend::{Lean, Target, formats};
 use slowlight_compiler::eval::native::Native;
 use slowlight_compiler::passes::pixel_blocks::pixel_blocks;
 use slowlight_compiler::planner::PlannedScene;
+use slowlight_compiler::targets::{Lean, Target, formats};
 use slowlight_routine::{Format, Op, Runtime};
 
 /// Rows and columns of a candidate's sample and of its final plan's, and how many statements the

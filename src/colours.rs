@@ -2,8 +2,9 @@
 
 use crate::diagnostics;
 use crate::scene::Scene;
-use slowlight_compiler::backend::{Target, colours};
+use slowlight_compiler::backend::colours;
 use slowlight_compiler::source::Diagnostic;
+use slowlight_compiler::targets::Target;
 
 /// What is to be said of the colours in which these targets show a scene, once for each
 /// machine.

@@ -5,7 +5,7 @@ use slowlight_compiler::plan::Plan;
 
 /// SHA-256 of a program's files, names and texts, in hexadecimal.
 pub fn program(plan: &Plan) -> String {
-    let documents = (plan.target.emit)(plan);
+    let documents = slowlight_compiler::backend::emit(plan);
     let parts = documents.iter().flat_map(|d| [&d.name, &d.text]);
     let mut hash = Sha256::new();
     for part in parts {

@@ -17,12 +17,12 @@ use crate::scene::{Precision, Scene};
 use crate::target_args::ScreenArgs;
 use crate::trial::{self, Trial};
 use serde::Serialize;
-use slowlight_compiler::backend::Target;
 use slowlight_compiler::ir::graph::Graph;
 use slowlight_compiler::passes::pixel_blocks::pixel_blocks;
 use slowlight_compiler::plan::Plan;
 use slowlight_compiler::planner::PlannedScene;
 use slowlight_compiler::report::effects::{Effect, Own, Seen, Turns, effects, own, turns, watch};
+use slowlight_compiler::targets::Target;
 
 /// Rows and columns of the sample that is watched in the model.
 const GRID: u32 = 48;
@@ -216,7 +216,7 @@ fn as_written(scene: &Scene, plan: &Plan, screen: &ScreenArgs) -> Outcome<Graph>
 
 /// A plan's program on its machine.
 fn tried(scene: &Scene, plan: PlannedScene, screen: &ScreenArgs, limit: u64) -> Outcome<Trial> {
-    let loaded = trial::build_for(&plan, screen.machine(plan.target)?)?.loaded;
+    let loaded = trial::build_for(&plan, screen.machine(plan.target))?.loaded;
     trial::run(scene, plan, &[], loaded, limit)
 }
 

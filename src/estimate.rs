@@ -195,7 +195,7 @@ pub fn sampled(plan: &Plan, side: u32, most: u64) -> Sampled {
     let passes = f64::from(passes(&graph));
     let (width, height) = (f64::from(window.width()), f64::from(window.height()));
     Sampled {
-        before: (plan.target.starts)(plan) as f64 + frame + column * width,
+        before: slowlight_compiler::backend::starts(plan) as f64 + frame + column * width,
         rows: (row + (pass + runs) * passes + pixel * width) * height,
         inks,
         of: rows.len() * columns.len(),

@@ -15,12 +15,12 @@ use crate::failure::{Failure, Outcome};
 use crate::need::{Need, about, need, room};
 use forms::Fitted;
 use slowlight_compiler::backend::mos6502::DISC_PAGE;
-use slowlight_compiler::backend::{Lean, Mode};
 use slowlight_compiler::fuel::Fuel;
 use slowlight_compiler::ir::graph::Table;
 use slowlight_compiler::planner::PlannedScene;
 use slowlight_compiler::planner::SEARCH;
 use slowlight_compiler::source::Span;
+use slowlight_compiler::targets::{Language, Lean, Mode, System};
 use std::cell::RefCell;
 use std::collections::VecDeque;
 
@@ -320,7 +320,7 @@ fn remarks(plan: &PlannedScene) -> &'static [(bool, bool)] {
 }
 
 fn is_basic(plan: &PlannedScene) -> bool {
-    plan.target.name.starts_with("bbc")
+    plan.target.system.language() == Language::Basic
 }
 
 /// A plan whose program leaves the disc system of a BBC Micro its memory, where it may
@@ -329,7 +329,7 @@ fn is_basic(plan: &PlannedScene) -> bool {
 /// # Errors
 /// Where the machine's tools refuse the text, which is a fault of ours.
 pub fn with_disc(plan: PlannedScene) -> Outcome<PlannedScene> {
-    if plan.target.name != "6502:bbc" || plan.page.is_some() {
+    if plan.target.system != System::BbcCode || plan.page.is_some() {
         return Ok(plan);
     }
     let mut high = plan.clone();

@@ -73,7 +73,7 @@ pub fn forecast(plan: &Plan, machine: Machine) -> Outcome<Forecast> {
     let progress = Progress::new("rows, for the time", PLACES.len() as u64);
     let mut look = Look {
         plan,
-        whole: target_args::is_6502(plan.target).then(|| (plan.target.emit)(plan)),
+        whole: target_args::is_6502(plan.target).then(|| slowlight_compiler::backend::emit(plan)),
         machine,
         progress,
         spent: 0.0,
@@ -130,7 +130,7 @@ impl Look<'_> {
             None => {
                 let mut plan = self.plan.clone();
                 plan.rows = rows;
-                (plan.target.emit)(&plan)
+                slowlight_compiler::backend::emit(&plan)
             }
         };
         let mut loaded = trial::build_written(&documents, self.plan, self.machine)?.loaded;

@@ -20,7 +20,7 @@ const PART: &str = "; ---- ";
 /// # Errors
 /// Where the assembler refuses the program, which is a fault of ours.
 pub fn listing(scene: &Scene, plan: &Plan) -> Outcome<File> {
-    let document = (plan.target.emit)(plan).remove(0);
+    let document = slowlight_compiler::backend::emit(plan).remove(0);
     let assembly = assemble(&document.text).map_err(|faults| {
         let said: Vec<String> = faults.iter().map(ToString::to_string).collect();
         Failure::Wrong(said.join("\n"))

@@ -16,6 +16,7 @@ use slowlight_compiler::backend::mos6502;
 use slowlight_compiler::fuel::Fuel;
 use slowlight_compiler::ir::tree::{Statement, Tree, walk};
 use slowlight_compiler::plan::Plan;
+use slowlight_compiler::targets::System;
 use slowlight_vm::bbc::{Config, Dialect, Machine, tokenise};
 use slowlight_vm::hack::vm::Heap;
 use slowlight_vm::mos6502::extent;
@@ -173,20 +174,20 @@ pub fn need(plan: &Plan) -> Outcome<Option<Need>> {
         draft.tidy();
         return Ok(Some(assembly(&draft)));
     }
-    let documents = (plan.target.emit)(plan);
+    let documents = slowlight_compiler::backend::emit(plan);
     match (dialect(plan), documents.first()) {
         (Some(dialect), Some(document)) => basic(plan, document, dialect),
-        (None, Some(_)) if plan.target.name == "jack" => Ok(Some(heap(&documents, &[]))),
+        (None, Some(_)) if plan.target.system == System::Hack => Ok(Some(heap(&documents, &[]))),
         _ => Ok(None),
     }
 }
 
 /// The BASIC that a plan is written in.
 fn dialect(plan: &Plan) -> Option<Dialect> {
-    match plan.target.name {
-        "bbc:micro" => Some(Dialect::Micro),
-        "bbc:agon" => Some(Dialect::Agon),
-        "bbc:basicv" => Some(Dialect::BasicV),
+    match plan.target.system {
+        System::BbcBasic => Some(Dialect::Micro),
+        System::Agon => Some(Dialect::Agon),
+        System::BasicV => Some(Dialect::BasicV),
         _ => None,
     }
 }
@@ -196,7 +197,7 @@ pub fn room(plan: &Plan) -> Option<u64> {
     match dialect(plan) {
         Some(dialect) => basic_room(plan, &basic_machine(plan, dialect)),
         None if is_6502(plan.target) => Some(mos6502::bytes_of_room(plan)),
-        None => (plan.target.name == "jack").then_some(HEAP),
+        None => (plan.target.system == System::Hack).then_some(HEAP),
     }
 }
 
@@ -225,8 +226,8 @@ pub fn about(plan: &Plan, fuel: &Fuel) -> Outcome<Option<Need>> {
         walk(block, &mut |_| statements += 1);
     }
     if !is_6502(plan.target) {
-        let written = match plan.target.name {
-            "jack" => WRITTEN_IN_JACK,
+        let written = match plan.target.system {
+            System::Hack => WRITTEN_IN_JACK,
             _ => WRITTEN_IN_BASIC + statements / PAIRS,
         };
         fuel.burn(written * statements);
@@ -274,7 +275,7 @@ const PAIRS: u64 = 2;
 /// What a plan's program takes of the Hack's heap where this operating system has its
 /// part of it.
 pub fn need_beside(plan: &Plan, system: &[File]) -> Need {
-    heap(&(plan.target.emit)(plan), system)
+    heap(&slowlight_compiler::backend::emit(plan), system)
 }
 
 fn basic(plan: &Plan, document: &Document, dialect: Dialect) -> Outcome<Option<Need>> {

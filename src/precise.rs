@@ -8,10 +8,10 @@ use crate::progress::Progress;
 use crate::scene::Scene;
 use crate::target_args::ScreenArgs;
 use serde_json::{Value, json};
-use slowlight_compiler::backend::Target;
 use slowlight_compiler::report::bounded::{Bounded, bounded};
 use slowlight_compiler::report::{bounces, fragile::fragile, words::warnings};
 use slowlight_compiler::source::{Diagnostic, Severity};
+use slowlight_compiler::targets::Target;
 
 /// What was found of one target.
 pub struct Fared {

@@ -59,7 +59,7 @@ pub fn is_of(plan: &Plan, edited: &[File]) -> bool {
             .filter(|(own, other)| own != other);
         unlike.count() + own.count().abs_diff(other.count())
     };
-    let documents = (plan.target.emit)(plan);
+    let documents = slowlight_compiler::backend::emit(plan);
     let changed = documents.iter().map(changed).fold(0, usize::saturating_add);
     changed <= plan.params.len() + 2
 }

@@ -10,7 +10,7 @@ use crate::progress::Progress;
 use crate::scene::{Precision, Scene};
 use serde::Serialize;
 use serde_json::{Value, json};
-use slowlight_compiler::backend::{Document, Target};
+use slowlight_compiler::backend::Document;
 use slowlight_compiler::ir::graph::{Node, TableId};
 use slowlight_compiler::ir::tree::Place;
 use slowlight_compiler::plan::Plan;
@@ -33,21 +33,12 @@ pub struct Built {
     pub loaded: Loaded,
 }
 
-/// The machine of a target.
-///
-/// # Errors
-/// Where none is bundled.
-pub fn machine(target: &Target) -> Outcome<Machine> {
-    Machine::of(target.name)
-        .ok_or_else(|| Failure::Wrong(format!("no machine is bundled for {}", target.name)))
-}
-
 /// Writes a plan down and gives it to the machine.
 ///
 /// # Errors
 /// Where the machine's tools refuse the text, which is a fault of ours.
 pub fn build(plan: &Plan) -> Outcome<Built> {
-    build_for(plan, machine(plan.target)?)
+    build_for(plan, Machine::of(plan.target))
 }
 
 /// The same for a machine with other options than the target's own.
@@ -55,7 +46,7 @@ pub fn build(plan: &Plan) -> Outcome<Built> {
 /// # Errors
 /// As for [`build`], and where the program is too large for what it is to run on.
 pub fn build_for(plan: &Plan, machine: Machine) -> Outcome<Built> {
-    build_written(&(plan.target.emit)(plan), plan, machine)
+    build_written(&slowlight_compiler::backend::emit(plan), plan, machine)
 }
 
 /// The same for a plan that is written down.

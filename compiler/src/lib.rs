@@ -18,6 +18,7 @@ pub mod scene;
 pub mod schedule;
 pub mod selection;
 pub mod sema;
+pub mod targets;
 pub mod wordlength;
 
 /// Text to tree and back; its own crate because its parser is slow to compile.

@@ -2,7 +2,6 @@
 #![allow(clippy::unwrap_used)]
 
 use slowlight_compiler::analysis::verify::verify;
-use slowlight_compiler::backend::{Lean, Mode, Target};
 use slowlight_compiler::eval::arithmetic::Exact;
 use slowlight_compiler::eval::native::Native;
 use slowlight_compiler::eval::run::Run;
@@ -13,6 +12,7 @@ use slowlight_compiler::planner::plan;
 use slowlight_compiler::scene;
 use slowlight_compiler::schedule::statements::schedule;
 use slowlight_compiler::sema::Options;
+use slowlight_compiler::targets::{Lean, Mode, System, Target};
 
 fn graph(options: &Options) -> Graph {
     let text = include_str!("../../examples/mirrors.scn");
@@ -31,18 +31,17 @@ static MODE: Mode = Mode {
 };
 static PLAIN: Target = Target {
     name: "6502:test",
+    system: System::Plain6502,
     about: "the routines without a machine",
     runtime: &slowlight_runtime_6502::FIXED16_16,
     modes: &[MODE],
     offset: 1.0 / 256.0,
     hertz: 1e6,
-    starts: |_| 0,
-    sizes: slowlight_compiler::backend::mos6502::PLAIN.sizes,
+    sizes: slowlight_compiler::targets::mos6502::PLAIN.sizes,
     wraps: false,
     columns: 0,
     pixels: |_| 1,
     lean: Lean::Nothing,
-    emit: |_| Vec::new(),
 };
 
 /// Where the eye may be, the default first.

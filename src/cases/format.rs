@@ -1,6 +1,6 @@
 //! The arithmetics that cases are tried in, and what an input becomes there.
 
-use slowlight_compiler::backend::Target;
+use slowlight_compiler::targets::Target;
 use slowlight_routine::log::model::{Log, WHOLE};
 use slowlight_routine::scale::{fitting, most};
 use slowlight_routine::{Bits, Format, Value};

@@ -10,6 +10,7 @@ use crate::failure::{Failure, Outcome};
 use crate::machine::{MachineRun, complaint};
 use crate::trial::build;
 use slowlight_compiler::plan::{ParamPlan, Plan};
+use slowlight_compiler::targets::System;
 use slowlight_routine::{Bits, Format, Type, Value};
 
 /// Cycles after which a run is given up: a hang, which is a failure.
@@ -83,7 +84,7 @@ pub fn run(plan: &Plan) -> Outcome<Vec<Value>> {
     let found = match plan.runtime.real {
         Format::Real40 => from_file(&run, &formats, plan),
         Format::Float316 { .. } => from_text(&run, &formats, plan),
-        _ if plan.runtime.name == "jack" => from_text(&run, &formats, plan),
+        _ if plan.target.system == System::Hack => from_text(&run, &formats, plan),
         _ => from_screen(&run, &formats, plan),
     };
     found.ok_or_else(|| {

@@ -11,13 +11,13 @@ use crate::failure::{Failure, Outcome};
 use crate::interrupt;
 use crate::progress::Progress;
 use crate::scene::Precision;
-use slowlight_compiler::backend::{Target, default_mode};
 use slowlight_compiler::eval::native::Native;
 use slowlight_compiler::ir::graph::{Graph, Param, ParamId};
 use slowlight_compiler::plan::model::ModelRun;
 use slowlight_compiler::plan::{Goal, Plan};
 use slowlight_compiler::planner::plan_as_written;
 use slowlight_compiler::source::Diagnostic;
+use slowlight_compiler::targets::{Target, default_mode};
 use slowlight_routine::{Format, Type, Value};
 use std::collections::{BTreeMap, btree_map};
 

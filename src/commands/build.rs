@@ -15,13 +15,14 @@ use crate::{files, inks, say, say_json};
 use clap::ValueEnum;
 use serde_json::json;
 use slowlight_compiler::analysis::rate::rates;
+use slowlight_compiler::backend::Document;
 use slowlight_compiler::backend::mos6502::document;
 use slowlight_compiler::backend::mos6502::syntax::Syntax;
-use slowlight_compiler::backend::{Document, Target};
 use slowlight_compiler::plan::print::{ranges_text, rates_text};
 use slowlight_compiler::planner::PlannedScene;
 use slowlight_compiler::planner::pipeline::{PASSES, Pipeline};
 use slowlight_compiler::syntax::print;
+use slowlight_compiler::targets::{System, Target};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
@@ -91,7 +92,7 @@ pub fn run(args: &Args) -> Outcome<()> {
         _ => Vec::new(),
     };
     let written = write(&plan, &args.screen, (args.syntax, &more), &args.output)?;
-    let machine = args.screen.machine(plan.target)?;
+    let machine = args.screen.machine(plan.target);
     let forecast = forecast(&plan, machine)?;
     let seconds = |cycles: f64| cycles / forecast::hertz(&plan, machine);
     let sizes = written.sizes;
@@ -186,7 +187,7 @@ pub fn write(
     (syntax, more): (Option<&'static Syntax>, &[File]),
     dir: &Path,
 ) -> Outcome<Written> {
-    let mut built = trial::build_for(plan, screen.machine(plan.target)?)?;
+    let mut built = trial::build_for(plan, screen.machine(plan.target))?;
     if syntax.is_some() {
         let documents = documents(syntax, plan);
         let files = documents.iter().map(|d| File::text(&d.name, &d.text));
@@ -208,8 +209,8 @@ pub fn write(
             .iter()
             .map(|(path, bytes)| (path.clone(), bytes.len()))
             .collect(),
-        heap: match plan.target.name {
-            "jack" => Some(need_beside(plan, &built.loaded.system)),
+        heap: match plan.target.system {
+            System::Hack => Some(need_beside(plan, &built.loaded.system)),
             _ => None,
         },
         sizes: built.loaded.sizes,
@@ -262,7 +263,7 @@ fn target(args: &Args) -> Outcome<&'static Target> {
 fn documents(syntax: Option<&'static Syntax>, plan: &PlannedScene) -> Vec<Document> {
     match syntax {
         Some(syntax) => vec![document(plan, syntax)],
-        None => (plan.target.emit)(plan),
+        None => slowlight_compiler::backend::emit(plan),
     }
 }
 

@@ -11,9 +11,9 @@ use crate::target_args::{ScreenArgs, target};
 use crate::together::together;
 use crate::{diagnostics, files, inks, say, say_json};
 use serde_json::json;
-use slowlight_compiler::backend::{TARGETS, Target, find, formats, in_all_formats};
 use slowlight_compiler::report::domain;
 use slowlight_compiler::source::Diagnostic;
+use slowlight_compiler::targets::{TARGETS, Target, find, formats, in_all_formats};
 use std::path::{Path, PathBuf};
 
 /// Options of `check`.

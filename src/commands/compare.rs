@@ -10,8 +10,8 @@ use crate::target_args::{self, ALL_FORMATS, Os, ScreenArgs};
 use crate::trial::{self, LIMIT, Trial};
 use crate::{files, jobs, say, say_json};
 use serde_json::{Value, json};
-use slowlight_compiler::backend;
-use slowlight_compiler::backend::{TARGETS, Target};
+use slowlight_compiler::targets;
+use slowlight_compiler::targets::{System, TARGETS, Target};
 use std::path::{Path, PathBuf};
 
 /// Pixels between two pictures.
@@ -140,7 +140,7 @@ fn in_formats(args: &Args, target: &'static Target) -> Vec<&'static Target> {
         let named = |f: &String| f == t.runtime.format || f == ALL_FORMATS;
         args.format.iter().any(named)
     };
-    let found: Vec<&'static Target> = backend::formats(target).filter(wanted).collect();
+    let found: Vec<&'static Target> = targets::formats(target).filter(wanted).collect();
     if found.is_empty() {
         vec![target]
     } else {
@@ -153,11 +153,11 @@ fn one(args: &Args, scene: &Scene, target: &'static Target) -> Outcome<Trial> {
         rows: args.rows.clone(),
         format: Some(target.runtime.format.to_owned()),
         as_written: args.as_written,
-        os: args.os.filter(|_| target.name == "jack"),
+        os: args.os.filter(|_| target.system == System::Hack),
         ..ScreenArgs::default()
     };
     let plan = screen.plan(scene, target, &[])?;
-    let loaded = trial::build_for(&plan, screen.machine(target)?)?.loaded;
+    let loaded = trial::build_for(&plan, screen.machine(target))?.loaded;
     trial::run(scene, plan, &[], loaded, args.limit)
 }
 

@@ -11,7 +11,7 @@ use crate::target_args::{self, ScreenArgs};
 use crate::trial::LIMIT;
 use crate::{files, say, say_json};
 use serde_json::{Value, json};
-use slowlight_compiler::backend::Target;
+use slowlight_compiler::targets::Target;
 use std::path::PathBuf;
 
 /// Options of `effects`.

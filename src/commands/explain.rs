@@ -7,7 +7,7 @@ use crate::scene::{Scene, SceneArgs};
 use crate::target_args::{self, ScreenArgs};
 use crate::trial::LIMIT;
 use crate::{say, say_json};
-use slowlight_compiler::backend::Target;
+use slowlight_compiler::targets::Target;
 use std::path::PathBuf;
 
 /// Options of `explain`.

@@ -7,7 +7,7 @@ use crate::scene::{Precision, Scene, SceneArgs};
 use crate::target_args::{self, ScreenArgs};
 use crate::{ascii, diagnostics, inks, say, say_json};
 use serde_json::json;
-use slowlight_compiler::backend::Target;
+use slowlight_compiler::targets::Target;
 use std::path::PathBuf;
 
 /// Options of `render`.

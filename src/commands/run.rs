@@ -13,8 +13,8 @@ use crate::target_args::{self, HeapOf, ScreenArgs};
 use crate::trial::{self, LIMIT, Trial};
 use crate::{inks, program, say, say_json};
 use serde::Serialize;
-use slowlight_compiler::backend::{Target, formats};
 use slowlight_compiler::planner::PlannedScene;
+use slowlight_compiler::targets::{Target, formats};
 use std::collections::BTreeMap;
 use std::path::PathBuf;
 
@@ -98,7 +98,7 @@ struct Report<'t> {
 }
 
 fn prepare(args: &Args, scene: &Scene) -> Outcome<(PlannedScene, program::Values, Loaded)> {
-    let machine = args.screen.machine(args.target)?;
+    let machine = args.screen.machine(args.target);
     let machine = HeapOf::of(args.heap, args.screen.os, machine)?;
     let chosen = auto_format::plan(&args.screen, scene, args.target)?;
     let Some(dir) = &args.program else {
@@ -108,7 +108,7 @@ fn prepare(args: &Args, scene: &Scene) -> Outcome<(PlannedScene, program::Values
     };
     let sources = program::read(dir, &scene.name, machine)?;
     let plan = of_program(args, scene, chosen, &sources)?;
-    let unedited = (args.target.emit)(&plan);
+    let unedited = slowlight_compiler::backend::emit(&plan);
     let set = program::values(&plan, &unedited, &sources)?;
     let rows = program::rows(&plan, &unedited, &sources)?;
     if let Some(asked) = &args.screen.rows

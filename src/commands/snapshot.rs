@@ -10,7 +10,7 @@ use crate::target_args::{self, ScreenArgs};
 use crate::trial::{self, LIMIT, Trial};
 use crate::{files, jobs, say, say_json};
 use serde_json::{Value, json};
-use slowlight_compiler::backend::{TARGETS, Target};
+use slowlight_compiler::targets::{TARGETS, Target};
 use std::path::{Path, PathBuf};
 
 /// Options of `snapshot`.
@@ -174,7 +174,7 @@ impl Case<'_> {
         let making = &self.making.args;
         let scene = Scene::open(self.path, &making.changes)?;
         let plan = auto_format::plan(&making.screen, &scene, self.target)?.plan;
-        let built = trial::build_for(&plan, making.screen.machine(plan.target)?)?;
+        let built = trial::build_for(&plan, making.screen.machine(plan.target))?;
         let trial = trial::run(&scene, plan, &[], built.loaded, args.limit)?;
         let made = snapshot::Made {
             text: &self.making.text(),

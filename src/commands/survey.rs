@@ -8,7 +8,7 @@ use crate::survey::document::document;
 use crate::survey::{Survey, survey};
 use crate::target_args;
 use crate::tune::goal::Measure;
-use slowlight_compiler::backend::{TARGETS, Target};
+use slowlight_compiler::targets::{TARGETS, Target};
 use std::path::{Path, PathBuf};
 
 /// Options of `survey`.

@@ -2,12 +2,11 @@
 
 use crate::failure::Outcome;
 use crate::format::table;
-use crate::machine::Machine;
 use crate::trial::mode_json;
 use crate::{say, say_json};
 use serde_json::{Value, json};
-use slowlight_compiler::backend;
-use slowlight_compiler::backend::{TARGETS, Target};
+use slowlight_compiler::targets;
+use slowlight_compiler::targets::{TARGETS, Target};
 
 /// Options of `targets`.
 #[derive(clap::Args, Debug)]
@@ -50,7 +49,7 @@ pub fn run(args: &Args) -> Outcome<()> {
 }
 
 fn formats(target: &Target) -> Vec<&'static str> {
-    backend::formats(target).map(|t| t.runtime.format).collect()
+    targets::formats(target).map(|t| t.runtime.format).collect()
 }
 
 fn object(target: &Target) -> Value {
@@ -81,7 +80,6 @@ fn object(target: &Target) -> Value {
         "formats": formats(target),
         "hertz": target.hertz,
         "offset": target.offset,
-        "machine": Machine::of(target.name).is_some(),
         "operations": operations,
         "modes": modes,
     })

@@ -19,7 +19,7 @@ use crate::tune::plot::svg;
 use crate::tune::point::{Natives, Point, encoded};
 use crate::tune::tell::Told;
 use crate::{say, say_json};
-use slowlight_compiler::backend::Target;
+use slowlight_compiler::targets::Target;
 use std::path::PathBuf;
 use std::sync::{Arc, Mutex};
 

@@ -16,9 +16,10 @@ use crate::trial;
 use error::{Errors, Without};
 use serde::Serialize;
 use serde_json::Value;
-use slowlight_compiler::backend::{Document, Target};
+use slowlight_compiler::backend::Document;
 use slowlight_compiler::planner::PlannedScene;
 use slowlight_compiler::report::profile::{self, Cost, Measured, Part, Profile, SourceLine};
+use slowlight_compiler::targets::Target;
 use std::collections::BTreeMap;
 
 /// A profile and what is needed to show it.
@@ -71,8 +72,8 @@ pub fn count_lines(
     screen: &ScreenArgs,
     limit: u64,
 ) -> Outcome<Counted> {
-    let documents = (plan.target.emit)(&plan);
-    let mut loaded = trial::build_for(&plan, screen.machine(plan.target)?)?.loaded;
+    let documents = slowlight_compiler::backend::emit(&plan);
+    let mut loaded = trial::build_for(&plan, screen.machine(plan.target))?.loaded;
     let span = |line: profile::Line| {
         let document: &Document = documents.get(line.document)?;
         document.span(line.line, line.statement)

@@ -5,10 +5,10 @@ use super::{LADDER, Search, is_basic, remarks, with_disc};
 use crate::failure::Outcome;
 use crate::need::Need;
 use rayon::prelude::*;
-use slowlight_compiler::backend::Lean;
 use slowlight_compiler::plan::Copies;
 use slowlight_compiler::planner::PlannedScene;
 use slowlight_compiler::planner::{Candidate, SEARCH};
+use slowlight_compiler::targets::Lean;
 
 /// A plan that fits, or how large its smallest program is.
 pub(super) enum Fitted {

@@ -22,6 +22,7 @@ pub use mos6502::{Board, Config as Mos6502Config};
 use crate::failure::{Failure, Outcome};
 use crate::interrupt;
 use crate::picture::Picture;
+use slowlight_compiler::targets::{System, Target};
 use slowlight_vm::bbc::{Config, Dialect, LineCost};
 use slowlight_vm::hack::vm::Heap;
 use slowlight_vm::{Progress, Screen, Stop};
@@ -125,28 +126,27 @@ pub struct MachineRun {
 
 impl Machine {
     /// The machine of a target.
-    pub fn of(name: &str) -> Option<Machine> {
+    pub fn of(target: &Target) -> Machine {
         let bbc = |dialect| {
-            Some(Machine::Bbc(Config {
+            Machine::Bbc(Config {
                 dialect,
                 ..Config::default()
-            }))
+            })
         };
         let mos6502 = |board| {
-            Some(Machine::Mos6502(Mos6502Config {
+            Machine::Mos6502(Mos6502Config {
                 board,
                 ..Mos6502Config::default()
-            }))
+            })
         };
-        match name {
-            "jack" => Some(Machine::Hack(HackConfig::default())),
-            "bbc:micro" => bbc(Dialect::Micro),
-            "bbc:agon" => bbc(Dialect::Agon),
-            "bbc:basicv" => bbc(Dialect::BasicV),
-            "6502:plain" => mos6502(Board::Plain),
-            "6502:bbc" => mos6502(Board::Bbc),
-            "6502:c64" => mos6502(Board::C64),
-            _ => None,
+        match target.system {
+            System::Hack => Machine::Hack(HackConfig::default()),
+            System::BbcBasic => bbc(Dialect::Micro),
+            System::Agon => bbc(Dialect::Agon),
+            System::BasicV => bbc(Dialect::BasicV),
+            System::Plain6502 => mos6502(Board::Plain),
+            System::BbcCode => mos6502(Board::Bbc),
+            System::C64 => mos6502(Board::C64),
         }
     }
 

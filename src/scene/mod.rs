@@ -8,12 +8,12 @@ use crate::failure::{Failure, Outcome};
 use crate::files;
 use changes::{options, settable};
 use clap::Args;
-use slowlight_compiler::backend::Target;
 use slowlight_compiler::ir::graph::Graph;
 use slowlight_compiler::scene;
 use slowlight_compiler::sema::{self, Options, Ways};
 use slowlight_compiler::source::{Diagnostic, SourceFile, Sources, Span};
 use slowlight_compiler::syntax;
+use slowlight_compiler::targets::Target;
 use slowlight_routine::Format;
 use std::path::{Path, PathBuf};
 

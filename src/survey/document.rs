@@ -3,7 +3,7 @@
 use super::Survey;
 use super::section::Section;
 use crate::format::count;
-use slowlight_compiler::backend::Target;
+use slowlight_compiler::targets::Target;
 
 /// The text; `own` is the command that wrote it, and `pictures` the way from it to the plots.
 pub fn document(asked: &Survey, sections: &[Section], own: &str, pictures: &str) -> String {

@@ -22,7 +22,7 @@ use crate::tune::marks;
 use crate::tune::tell::Told;
 use by_scene::ByScene;
 use section::Section;
-use slowlight_compiler::backend::Target;
+use slowlight_compiler::targets::Target;
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex};
 

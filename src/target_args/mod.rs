@@ -20,16 +20,15 @@ use crate::interrupt;
 use crate::machine::Machine;
 use crate::progress::Waiting;
 use crate::scene::{Limits, Precision, Scene};
-use crate::trial;
 use crate::ways::WayArgs;
 use clap::Args;
-use slowlight_compiler::backend;
-use slowlight_compiler::backend::{Mode, Target};
 use slowlight_compiler::passes::pixel_blocks::pixel_blocks;
 use slowlight_compiler::plan::Goal;
 use slowlight_compiler::planner::PlannedScene;
 use slowlight_compiler::planner::SEARCH;
 use slowlight_compiler::planner::{plan_as_written, plan_with_every_shade, plan_within};
+use slowlight_compiler::targets;
+use slowlight_compiler::targets::{Language, Mode, System, Target};
 use std::sync::Once;
 
 /// Screen and rows.
@@ -105,20 +104,17 @@ pub struct ScreenArgs {
 
 /// Whether a target is one of those in machine code of the 6502.
 pub fn is_6502(target: &Target) -> bool {
-    target.name.starts_with("6502:")
+    target.system.language() == Language::Assembly
 }
 
 impl ScreenArgs {
     /// The machine that a target's programs run on, as these options have it.
-    ///
-    /// # Errors
-    /// Where none is bundled.
-    pub fn machine(&self, target: &Target) -> Outcome<Machine> {
-        let machine = trial::machine(target)?.at_page(self.page);
-        Ok(match self.os {
+    pub fn machine(&self, target: &Target) -> Machine {
+        let machine = Machine::of(target).at_page(self.page);
+        match self.os {
             Some(Os::Jack) => machine.on_processor(),
             Some(Os::Native) | None => machine,
-        })
+        }
     }
 
     /// What of the scene is done with less, or otherwise.
@@ -156,7 +152,7 @@ impl ScreenArgs {
     fn modes(&self, target: &'static Target, scene: &Scene) -> Outcome<Vec<Mode>> {
         let Some(name) = &self.mode else {
             let (width, height) = scene.size();
-            return Ok(backend::modes_for(target, width, height, scene.inks()));
+            return Ok(targets::modes_for(target, width, height, scene.inks()));
         };
         let found = target.modes.iter().find(|m| m.name == name);
         let found = found.map(|mode| vec![*mode]);
@@ -183,9 +179,9 @@ impl ScreenArgs {
         let Some(name) = &self.format else {
             return Ok(target);
         };
-        let mut all = backend::formats(target);
+        let mut all = targets::formats(target);
         all.find(|t| t.runtime.format == name).ok_or_else(|| {
-            let names: Vec<&str> = backend::formats(target).map(|t| t.runtime.format).collect();
+            let names: Vec<&str> = targets::formats(target).map(|t| t.runtime.format).collect();
             let message = format!(
                 "{} has no format {name}; it has {}",
                 target.name,
@@ -217,7 +213,7 @@ impl ScreenArgs {
             say_cut();
         }
         match self.os {
-            Some(Os::Jack) => fit::fit_rom(plan, self.machine(target)?, &name),
+            Some(Os::Jack) => fit::fit_rom(plan, self.machine(target), &name),
             _ => fit::with_disc(plan),
         }
     }
@@ -267,11 +263,11 @@ impl ScreenArgs {
         target: &'static Target,
         set: &[(String, Vec<f64>)],
     ) -> Outcome<PlannedScene> {
-        if self.os.is_some() && target.name != "jack" {
+        if self.os.is_some() && target.system != System::Hack {
             let message = format!("--os is Jack's, and {} has its own", target.name);
             return Err(Failure::Usage(message));
         }
-        let basic = target.name.starts_with("bbc:");
+        let basic = target.system.language() == Language::Basic;
         if self.style.is_some() && !basic && !is_6502(target) {
             let message = format!(
                 "--style is BASIC's and the 6502's; {} has one way to write",
@@ -283,7 +279,7 @@ impl ScreenArgs {
             let message = format!("--undocumented is the 6502's; {} is none", target.name);
             return Err(Failure::Usage(message));
         }
-        if self.page.is_some() && !matches!(target.name, "bbc:micro" | "6502:bbc") {
+        if self.page.is_some() && !matches!(target.system, System::BbcBasic | System::BbcCode) {
             let message = format!("--page is the BBC Micro's; {} has none", target.name);
             return Err(Failure::Usage(message));
         }

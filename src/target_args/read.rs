@@ -1,11 +1,11 @@
 //! Reads the options that choose a target, its screen, and what is left out.
 
 use crate::failure::{Failure, Outcome, unknown};
-use slowlight_compiler::backend;
 use slowlight_compiler::backend::mos6502::syntax;
 use slowlight_compiler::backend::mos6502::syntax::{SYNTAXES, Syntax};
-use slowlight_compiler::backend::{TARGETS, Target};
 use slowlight_compiler::planner::THRIFTS;
+use slowlight_compiler::targets;
+use slowlight_compiler::targets::{TARGETS, Target};
 use std::collections::BTreeSet;
 
 /// Reads `--target`.
@@ -14,7 +14,7 @@ use std::collections::BTreeSet;
 /// Where there is no such target: what there is.
 pub fn target(name: &str) -> Result<&'static Target, String> {
     let names = TARGETS.iter().map(|t| t.name);
-    backend::find(name).ok_or_else(|| unknown("target", name, names))
+    targets::find(name).ok_or_else(|| unknown("target", name, names))
 }
 
 /// What there is for `--target`, in one line.
@@ -43,7 +43,7 @@ pub const ALL_FORMATS: &str = "all";
 /// # Errors
 /// Where no machine has it: what there is.
 pub fn format_or_all(name: &str) -> Result<String, String> {
-    let formats = TARGETS.iter().flat_map(|t| backend::formats(t));
+    let formats = TARGETS.iter().flat_map(|t| targets::formats(t));
     let names: BTreeSet<&str> = formats.map(|t| t.runtime.format).collect();
     match name == ALL_FORMATS || names.contains(name) {
         true => Ok(name.to_owned()),

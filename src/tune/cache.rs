@@ -11,7 +11,7 @@ use crate::scene::Scene;
 use serde::Serialize;
 use serde::de::DeserializeOwned;
 use sha2::{Digest, Sha256};
-use slowlight_compiler::backend::Target;
+use slowlight_compiler::targets::Target;
 use std::path::PathBuf;
 
 /// How large a file is read at most: a point has two pictures.

@@ -6,7 +6,7 @@ use crate::target_args::{Os, ScreenArgs};
 use crate::trial::HACK_HERTZ;
 use crate::ways::WayArgs;
 use serde::{Deserialize, Serialize};
-use slowlight_compiler::backend::{Target, formats};
+use slowlight_compiler::targets::{Target, formats};
 use std::path::PathBuf;
 
 /// What is left out of a picture for speed.
@@ -190,7 +190,7 @@ impl Base {
 mod tests {
     use super::*;
     use crate::ways;
-    use slowlight_compiler::backend::find;
+    use slowlight_compiler::targets::find;
 
     fn base() -> Base {
         Base {

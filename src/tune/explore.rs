@@ -14,8 +14,8 @@ use crate::measure::Errors;
 use crate::progress::Progress;
 use crate::scene::Scene;
 use serde::{Deserialize, Serialize};
-use slowlight_compiler::backend;
 use slowlight_compiler::planner::THRIFTS;
+use slowlight_compiler::targets;
 use std::sync::{Arc, Mutex};
 
 /// What is tuned and how.
@@ -272,7 +272,7 @@ fn choices(search: &Search, scenes: &Scenes, settings: &[Setting]) -> Vec<Choice
     };
     let mut all = Vec::new();
     for &setting in settings {
-        for target in backend::formats(search.base.target) {
+        for target in targets::formats(search.base.target) {
             for &frozen in frozen {
                 for &(outlined, thrift) in smaller {
                     all.push(Choice {

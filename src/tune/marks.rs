@@ -11,8 +11,8 @@ use crate::format::duration;
 use crate::scene::{self, Scene};
 use crate::sheet::escaped;
 use crate::target_args::{Os, share};
-use slowlight_compiler::backend;
 use slowlight_compiler::source::{Diagnostic, Span};
+use slowlight_compiler::targets;
 use std::fmt::Write as _;
 
 /// What a mark's words begin with in a scene.
@@ -114,7 +114,7 @@ fn in_remark(line: &str, base: &Base) -> Option<Result<Mark, String>> {
     let rest = line.trim().strip_prefix(BEGINS)?;
     let (name, said) = rest.split_once(": ")?;
     // Other words before a colon are no mark.
-    let target = backend::find(name.trim())?;
+    let target = targets::find(name.trim())?;
     (target.name == base.target.name).then(|| mark(said))
 }
 

@@ -7,6 +7,7 @@ use super::marks::diamond;
 use super::tell::Told;
 use crate::format::duration;
 use crate::sheet::escaped;
+use slowlight_compiler::targets::System;
 
 /// The picture's size, and where the axes are in it.
 const SIZE: (f64, f64) = (920.0, 560.0);
@@ -209,7 +210,7 @@ fn grid(out: &mut String, x: &Axis, y: &Axis, exact: bool) {
 fn captions(out: &mut String, told: &Told<'_>) {
     let (width, height) = SIZE;
     let middle = (LEFT + width - RIGHT) / 2.0;
-    let clock = if told.base.target.name == "jack" {
+    let clock = if told.base.target.system == System::Hack {
         "time of the Hack computer, at the rate of the web IDE's emulator"
     } else {
         "time of the machine"

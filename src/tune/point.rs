@@ -113,7 +113,7 @@ pub fn measure(
         true => spent(scene, &planned, &base.screen(choice), limit)?,
         false => Vec::new(),
     };
-    let loaded = trial::build_for(plan, base.screen(choice).machine(plan.target)?)?.loaded;
+    let loaded = trial::build_for(plan, base.screen(choice).machine(plan.target))?.loaded;
     let run = trial::ran(scene, plan, loaded, limit)?;
     let native = natives.of(scene, plan.mode.inks, Window::on_screen(plan))?;
     let modelled = planned.modelled(plan.rows, true)?;

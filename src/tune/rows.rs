@@ -108,7 +108,7 @@ pub fn look(
     (measure, limit): (Measure, u64),
 ) -> Outcome<Look> {
     let plan = &planned.plan;
-    let machine = base.screen(choice).machine(plan.target)?;
+    let machine = base.screen(choice).machine(plan.target);
     let (mut took, mut predicted, mut squares, mut pixels) = (0.0, 0.0, 0.0, 0.0);
     for rows in bands(plan.rows) {
         let band = planned.band(rows);
@@ -167,7 +167,7 @@ mod tests {
             draw (x, y) = d(x / 9, x, y);\n";
         let scene = slowlight_compiler::scene::check("spread", text);
         let graph = scene.lower(&Default::default()).expect("a graph");
-        let target = slowlight_compiler::backend::find("jack").expect("a target");
+        let target = slowlight_compiler::targets::find("jack").expect("a target");
         let goal = Goal {
             name: "spread".to_owned(),
             mode: target.modes[0],

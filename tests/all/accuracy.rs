@@ -10,7 +10,7 @@ use slowlight::scene::{Changes, Scene};
 use slowlight::target_args::ScreenArgs;
 use slowlight::ways::{apart, search};
 use slowlight::{digest, target_args};
-use slowlight_compiler::backend::find;
+use slowlight_compiler::targets::find;
 use std::path::{Path, PathBuf};
 
 /// A row of a frontier.

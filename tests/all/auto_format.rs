@@ -3,7 +3,7 @@
 
 use crate::cli::{LONG, directory, json, slowlight, success, usual_format};
 use serde_json::Value;
-use slowlight_compiler::backend::{TARGETS, formats};
+use slowlight_compiler::targets::{TARGETS, formats};
 use std::path::Path;
 
 /// A ball over a floor: few pixels are wrong in most formats.

@@ -3,7 +3,6 @@
 
 use crate::mos6502::Scribe;
 use slowlight::scene::Precision;
-use slowlight_compiler::backend::{default_mode, find};
 use slowlight_compiler::eval::native::Native;
 use slowlight_compiler::plan::Goal;
 use slowlight_compiler::plan::model::ModelRun;
@@ -11,6 +10,7 @@ use slowlight_compiler::planner::PlannedScene;
 use slowlight_compiler::planner::plan;
 use slowlight_compiler::scene;
 use slowlight_compiler::sema::{Freeze, Options};
+use slowlight_compiler::targets::{default_mode, find};
 use slowlight_vm::Stop;
 use slowlight_vm::bbc::{Config, Dialect, Machine, Run};
 use std::collections::BTreeMap;
@@ -67,7 +67,7 @@ fn fitting(plan: PlannedScene) -> PlannedScene {
 }
 
 pub fn text(plan: &PlannedScene) -> String {
-    (plan.target.emit)(plan).remove(0).text
+    slowlight_compiler::backend::emit(plan).remove(0).text
 }
 
 pub fn run(dialect: Dialect, text: &str) -> Run {

@@ -39,7 +39,7 @@ pub fn directory(files: &[(&str, &str)]) -> tempfile::TempDir {
 
 /// The format of reals that a target has first: another may be taken where none is asked for.
 pub fn usual_format(target: &str) -> &'static str {
-    let found = slowlight_compiler::backend::find(target).expect("a target");
+    let found = slowlight_compiler::targets::find(target).expect("a target");
     found.runtime.format
 }
 

@@ -4,7 +4,8 @@
 use crate::cli::{directory, json, slowlight, success};
 use crate::jack::{MIRRORS, documents, planned_in};
 use slowlight::need::need;
-use slowlight_compiler::backend::{Target, jack};
+use slowlight_compiler::targets::Target;
+use slowlight_compiler::targets::jack;
 use slowlight_vm::hack::jack::compile;
 use slowlight_vm::hack::vm::{Machine, Program};
 use std::path::Path;

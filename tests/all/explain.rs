@@ -3,7 +3,6 @@
 use crate::cli::{directory, json, names, slowlight, success, usual_format};
 use crate::cli_run::{SPOT, targets};
 use serde_json::Value;
-use slowlight_compiler::backend::{default_mode, in_all_formats};
 use slowlight_compiler::eval::native::Native;
 use slowlight_compiler::plan::Goal;
 use slowlight_compiler::plan::model::ModelRun;
@@ -11,6 +10,7 @@ use slowlight_compiler::planner::plan;
 use slowlight_compiler::report::raised::{RaisedRun, raisable};
 use slowlight_compiler::scene::check;
 use slowlight_compiler::sema::Options;
+use slowlight_compiler::targets::{default_mode, in_all_formats};
 use std::path::Path;
 
 /// Scenes that come with the project, and rows of each that are quick to draw.

@@ -5,7 +5,7 @@ use slowlight::forecast::{Forecast, forecast};
 use slowlight::scene::{Changes, Scene};
 use slowlight::target_args::ScreenArgs;
 use slowlight::trial;
-use slowlight_compiler::backend::find;
+use slowlight_compiler::targets::find;
 use std::path::Path;
 
 /// The forecast of an example, and the cycles of the whole.
@@ -19,7 +19,7 @@ fn both(scene: &str, target: &str, block: u32) -> (Forecast, f64) {
     };
     let target = find(target).expect("a target");
     let plan = screen.plan(&scene, target, &[]).expect("a plan");
-    let machine = screen.machine(target).expect("a machine");
+    let machine = screen.machine(target);
     let told = forecast(&plan, machine).expect("a forecast");
     let mut loaded = trial::build(&plan).expect("a program").loaded;
     let run = loaded.run(trial::LIMIT, &mut |_| {}).expect("it runs");

@@ -3,8 +3,8 @@
 
 use crate::cli::{directory, json, slowlight, success};
 use slowlight::cases::{self, Row, Way, ways};
-use slowlight_compiler::backend::jack::{JACK, JACK_F316R};
-use slowlight_compiler::backend::{TARGETS, Target};
+use slowlight_compiler::targets::jack::{JACK, JACK_F316R};
+use slowlight_compiler::targets::{TARGETS, Target};
 use slowlight_routine::{Error, Op};
 use std::collections::BTreeSet;
 

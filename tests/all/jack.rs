@@ -3,8 +3,7 @@
 
 use crate::mos6502::Scribe;
 use slowlight::scene::Precision;
-use slowlight_compiler::backend::jack::{JACK_F316R, JACK_LOG10};
-use slowlight_compiler::backend::{Document, Target, default_mode, find};
+use slowlight_compiler::backend::Document;
 use slowlight_compiler::eval::native::Native;
 use slowlight_compiler::plan::Goal;
 use slowlight_compiler::plan::model::ModelRun;
@@ -12,6 +11,8 @@ use slowlight_compiler::planner::PlannedScene;
 use slowlight_compiler::planner::plan;
 use slowlight_compiler::scene;
 use slowlight_compiler::sema::Options;
+use slowlight_compiler::targets::jack::{JACK_F316R, JACK_LOG10};
+use slowlight_compiler::targets::{Target, default_mode, find};
 use slowlight_vm::Stop;
 use slowlight_vm::hack::jack::compile;
 use slowlight_vm::hack::vm::{Machine, Program, Run};
@@ -57,7 +58,7 @@ pub fn planned_in(
 /// The classes; `Main` first, the scene's second. None clears the screen: in the web IDE that
 /// takes the upper half of the heap with it.
 pub fn documents(plan: &PlannedScene) -> Vec<Document> {
-    let documents = (plan.target.emit)(plan);
+    let documents = slowlight_compiler::backend::emit(plan);
     for document in &documents {
         assert!(
             !document.text.contains("do Screen.clearScreen"),

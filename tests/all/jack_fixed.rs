@@ -5,9 +5,9 @@
 use crate::held::stays_within_bounds;
 use crate::jack::{MIRRORS, agrees, differences, documents, planned_in};
 use crate::mos6502::Scribe;
-use slowlight_compiler::backend::jack::JACK_FIXED16;
 use slowlight_compiler::eval::native::Native;
 use slowlight_compiler::planner::PlannedScene;
+use slowlight_compiler::targets::jack::JACK_FIXED16;
 
 const TORUS: &str = include_str!("../../examples/torus.scn");
 const MAZE: &str = include_str!("../../examples/maze.scn");

@@ -2,8 +2,8 @@
 //! there and on the 6502: the machine draws what the model says.
 
 use crate::cli::{directory, json};
-use slowlight_compiler::backend;
-use slowlight_compiler::backend::jack::JACK;
+use slowlight_compiler::targets;
+use slowlight_compiler::targets::jack::JACK;
 use std::path::Path;
 
 /// Rows in which each scene shows most of what it has; errors spread from row 0 on.
@@ -28,7 +28,7 @@ const OTHERS: [(&str, &str, bool); 6] = [
 
 #[test]
 fn scenes_are_drawn_in_every_format() {
-    for format in backend::formats(&JACK).map(|t| t.runtime.format) {
+    for format in targets::formats(&JACK).map(|t| t.runtime.format) {
         for (name, rows) in SCENES {
             is_drawn("jack", (name, rows), format, true);
         }

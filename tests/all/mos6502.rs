@@ -2,7 +2,6 @@
 #![allow(clippy::unwrap_used)]
 
 use slowlight::scene::Precision;
-use slowlight_compiler::backend::{default_mode, find};
 use slowlight_compiler::eval::native::Native;
 use slowlight_compiler::plan::Goal;
 use slowlight_compiler::plan::model::ModelRun;
@@ -10,6 +9,7 @@ use slowlight_compiler::planner::PlannedScene;
 use slowlight_compiler::planner::plan;
 use slowlight_compiler::scene;
 use slowlight_compiler::sema::Options;
+use slowlight_compiler::targets::{default_mode, find};
 use slowlight_vm::Stop;
 use slowlight_vm::mos6502::{Plain, Run, assemble};
 
@@ -46,7 +46,7 @@ fn planned(source: &str, set: &[f64], rows: Option<(u32, u32)>) -> PlannedScene 
 }
 
 fn text(plan: &PlannedScene) -> String {
-    (plan.target.emit)(plan).remove(0).text
+    slowlight_compiler::backend::emit(plan).remove(0).text
 }
 
 fn run(text: &str) -> Run {

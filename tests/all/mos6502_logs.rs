@@ -4,16 +4,16 @@
 use crate::cli::{directory, json};
 use crate::jack::planned_in;
 use crate::mos6502::Scribe;
-use slowlight_compiler::backend::mos6502::PLAIN_LOG10;
 use slowlight_compiler::plan::Plan;
 use slowlight_compiler::plan::model::ModelRun;
+use slowlight_compiler::targets::mos6502::PLAIN_LOG10;
 use slowlight_vm::Stop;
 use slowlight_vm::mos6502::{Plain, assemble};
 use std::path::Path;
 
 /// The machine's inks, held against the model's.
 fn agrees(plan: &Plan, source: &str) -> Vec<u8> {
-    let text = (plan.target.emit)(plan).remove(0).text;
+    let text = slowlight_compiler::backend::emit(plan).remove(0).text;
     let program = assemble(&text).unwrap_or_else(|faults| panic!("{}\n{text}", faults[0]));
     let mut machine = Plain::new();
     machine.load(&program.image()).unwrap();
@@ -65,7 +65,7 @@ fn known_signs_are_not_read() {
     let plan = planned_in(&PLAIN_LOG10, source, (&[], None), true).unwrap();
     let pixels = agrees(&plan, source);
     assert!(pixels.contains(&0) && pixels.contains(&1));
-    let text = (plan.target.emit)(&plan).remove(0).text;
+    let text = slowlight_compiler::backend::emit(&plan).remove(0).text;
     assert!(text.contains("lda b_value+2"), "{text}");
     assert!(!text.contains("lda a_value+2"), "{text}");
 }

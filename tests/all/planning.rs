@@ -10,9 +10,9 @@ use slowlight::fit::FIT;
 use slowlight::need::about;
 use slowlight::scene::{Scene, SceneArgs};
 use slowlight::target_args::ScreenArgs;
-use slowlight_compiler::backend::{TARGETS, find};
 use slowlight_compiler::fuel::Fuel;
 use slowlight_compiler::planner::PlannedScene;
+use slowlight_compiler::targets::{TARGETS, find};
 use std::fmt::Write;
 use std::path::Path;
 

@@ -6,9 +6,9 @@ use crate::held::{Seen, hold};
 use crate::jack::planned_in;
 use crate::mos6502::Scribe;
 use crate::ramps::random::Random;
-use slowlight_compiler::backend::{find, formats};
 use slowlight_compiler::ir::graph::ParamId;
 use slowlight_compiler::plan::Plan;
+use slowlight_compiler::targets::{find, formats};
 use slowlight_routine::{Bits, Value};
 
 /// Points that each scene is evaluated at: a pixel, and a place for each param.

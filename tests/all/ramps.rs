@@ -4,13 +4,13 @@
 
 use crate::bbc::{differences, run, text};
 use random::Random;
-use slowlight_compiler::backend::find;
 use slowlight_compiler::eval::native::Native;
 use slowlight_compiler::ir::build::Builder;
 use slowlight_compiler::ir::graph::*;
 use slowlight_compiler::plan::Goal;
 use slowlight_compiler::planner::plan;
 use slowlight_compiler::source::Span;
+use slowlight_compiler::targets::find;
 use slowlight_routine::{Op, Type, Value};
 use slowlight_vm::Stop;
 use slowlight_vm::bbc::Dialect;

@@ -6,7 +6,6 @@
 use crate::bbc::{differences, run_at, text};
 use crate::ramps::random::Random;
 use slowlight_compiler::analysis::verify::verify;
-use slowlight_compiler::backend::{default_mode, find};
 use slowlight_compiler::eval::native::Native;
 use slowlight_compiler::ir::build::Builder;
 use slowlight_compiler::ir::graph::*;
@@ -14,6 +13,7 @@ use slowlight_compiler::plan::Goal;
 use slowlight_compiler::plan::model::ModelRun;
 use slowlight_compiler::planner::plan;
 use slowlight_compiler::source::Span;
+use slowlight_compiler::targets::{default_mode, find};
 use slowlight_routine::{Op, Value};
 use slowlight_vm::Stop;
 use slowlight_vm::bbc::Dialect;

@@ -6,7 +6,6 @@ use crate::bbc::{differences, run, text};
 use crate::runs::{HEIGHT, MACHINES, picture};
 use slowlight::fit::fit;
 use slowlight::need::need;
-use slowlight_compiler::backend::{default_mode, find};
 use slowlight_compiler::eval::native::Native;
 use slowlight_compiler::ir::graph::Graph;
 use slowlight_compiler::ir::tree::{Block, Statement, walk};
@@ -14,6 +13,7 @@ use slowlight_compiler::plan::model::ModelRun;
 use slowlight_compiler::plan::{Copies, Goal};
 use slowlight_compiler::planner::PlannedScene;
 use slowlight_compiler::planner::plan;
+use slowlight_compiler::targets::{default_mode, find};
 use slowlight_vm::Stop;
 use slowlight_vm::bbc::Dialect;
 

@@ -4,7 +4,6 @@
 use slowlight::scene::Precision;
 use slowlight_compiler::analysis::range::{Slack, ranges};
 use slowlight_compiler::analysis::rate::rates;
-use slowlight_compiler::backend::{TARGETS, Target, default_mode};
 use slowlight_compiler::plan::Goal;
 use slowlight_compiler::plan::print::{ranges_text, rates_text};
 use slowlight_compiler::planner::PlannedScene;
@@ -13,6 +12,7 @@ use slowlight_compiler::scene::{self, Scene};
 use slowlight_compiler::schedule::statements::schedule;
 use slowlight_compiler::sema::Options;
 use slowlight_compiler::syntax;
+use slowlight_compiler::targets::{TARGETS, Target, default_mode};
 use std::fmt::Write;
 
 fn load(name: &str) -> (String, Scene) {
@@ -93,7 +93,7 @@ fn generated_code() {
         for target in TARGETS.iter().filter(|t| !large || !is_box(t)) {
             let plan = planned(&scene, stem, target);
             let mut output = text.clone();
-            for document in (target.emit)(&plan) {
+            for document in slowlight_compiler::backend::emit(&plan) {
                 let lines = document.text.lines().count();
                 assert_eq!(
                     document.lines.len(),

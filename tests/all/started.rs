@@ -5,7 +5,7 @@ use slowlight::estimate;
 use slowlight::scene::{Changes, Scene};
 use slowlight::target_args::ScreenArgs;
 use slowlight::trial;
-use slowlight_compiler::backend::{TARGETS, formats};
+use slowlight_compiler::targets::{TARGETS, formats};
 
 /// Tables of the scene's, of a dither's, and of the runtimes'; params that are divided.
 const SCENES: [(&str, &str); 5] = [

@@ -10,7 +10,7 @@ use slowlight::tune::explore::Found;
 use slowlight::tune::goal::{Goals, Measure};
 use slowlight::tune::point::{Measured, Point};
 use slowlight::tune::tell::Told;
-use slowlight_compiler::backend::find;
+use slowlight_compiler::targets::find;
 use std::path::{Path, PathBuf};
 
 /// A bright ball, mirrored by itself some times; params, loops and a dither.

@@ -3,11 +3,11 @@
 
 use rayon::prelude::*;
 use slowlight::scene::Precision;
-use slowlight_compiler::backend::{Target, default_mode, find};
 use slowlight_compiler::plan::Goal;
 use slowlight_compiler::plan::model::ModelRun;
 use slowlight_compiler::planner::plan;
 use slowlight_compiler::scene;
+use slowlight_compiler::targets::{Target, default_mode, find};
 use std::path::{Path, PathBuf};
 
 fn examples() -> Vec<PathBuf> {

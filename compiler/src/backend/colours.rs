@@ -1,10 +1,10 @@
 //! A machine's own colours for a scene's inks: an assignment that keeps the order of
 //! lightness, with the least distance in the OKLab colour space.
 
-use super::Target;
 use crate::sema::Image;
 use crate::sema::colours::colour;
 use crate::source::Diagnostic;
+use crate::targets::{System, Target};
 use palette::{FromColor, Oklab, Srgb};
 use slowlight_isa::c64;
 use std::collections::BTreeMap;
@@ -201,10 +201,10 @@ pub fn assign(palette: &[[u8; 3]], own: &[Own]) -> Vec<u8> {
 
 /// The colours that a target has, and its name; none where it shows every colour.
 fn machine(target: &Target) -> Option<(&'static str, Vec<Own>)> {
-    Some(match target.name {
-        "bbc:micro" | "6502:bbc" => ("a BBC Micro", micro()),
-        "bbc:agon" => ("an Agon", agon()),
-        "6502:c64" => ("a Commodore 64", commodore()),
+    Some(match target.system {
+        System::BbcBasic | System::BbcCode => ("a BBC Micro", micro()),
+        System::Agon => ("an Agon", agon()),
+        System::C64 => ("a Commodore 64", commodore()),
         _ => return None,
     })
 }

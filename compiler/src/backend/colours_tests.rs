@@ -2,8 +2,8 @@
 #![allow(clippy::unwrap_used)]
 
 use super::*;
-use crate::backend::find;
 use crate::source::Span;
+use crate::targets::find;
 use proptest::prelude::*;
 
 /// The palettes with fewer colours than a scene may ask for.

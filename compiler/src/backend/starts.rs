@@ -1,6 +1,6 @@
 //! What programs are given at their start, whatever their machine: which tables they read
 //! and which numbers they may keep. Each target says what having these ready takes it
-//! ([`super::Target::starts`]).
+//! ([`crate::targets::Target::starts`]).
 
 use crate::ir::graph::*;
 use crate::ir::tree::{Origin, Statement, walk};

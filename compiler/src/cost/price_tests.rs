@@ -2,13 +2,13 @@
 #![allow(clippy::unwrap_used)]
 
 use super::price::Price;
-use crate::backend::{bbc, jack, mos6502};
 use crate::cost::size_budget::SizeBudget;
 use crate::eval::native::Native;
 use crate::ir::graph::*;
 use crate::planner::context::Context;
 use crate::scene::check;
 use crate::sema::Options;
+use crate::targets::{bbc, jack, mos6502};
 use slowlight_routine::Runtime;
 
 fn graph(text: &str) -> Graph {

@@ -6,7 +6,6 @@ use super::native::Native;
 use super::run::Run;
 use crate::analysis::rate::{Dependence, rates};
 use crate::analysis::verify::verify;
-use crate::backend::{TARGETS, default_mode};
 use crate::ir::graph::*;
 use crate::ir::tree::{Statement, walk};
 use crate::passes::simplify::fold::fold;
@@ -16,6 +15,7 @@ use crate::planner::plan;
 use crate::scene::check;
 use crate::schedule::statements::{missing, schedule};
 use crate::sema::Options;
+use crate::targets::{TARGETS, default_mode};
 
 const WIDTH: i32 = 40;
 const HEIGHT: i32 = 24;

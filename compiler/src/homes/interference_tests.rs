@@ -3,7 +3,6 @@
 //! that is read.
 #![allow(clippy::unwrap_used)]
 
-use crate::backend::bbc;
 use crate::eval::random::Random;
 use crate::eval::random_graphs;
 use crate::homes::interference::quick_homes;
@@ -14,9 +13,11 @@ use crate::plan::Goal;
 use crate::planner::PlannedScene;
 use crate::planner::plan;
 use crate::scene::check;
-use crate::schedule::outline::{Extent, Sizes};
+use crate::schedule::outline::Extent;
 use crate::schedule::statements::schedule_together;
 use crate::sema::Options;
+use crate::targets::Sizes;
+use crate::targets::bbc;
 use rustc_hash::FxHashMap;
 use slowlight_routine::Format;
 

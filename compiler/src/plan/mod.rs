@@ -58,12 +58,12 @@ pub use params::ParamPlan;
 
 use crate::analysis::points::Points;
 use crate::analysis::range::Ranges;
-use crate::backend::{Mode, Target};
 use crate::ir::graph::*;
 use crate::ir::ramp;
 use crate::ir::tree::*;
 use crate::schedule::constant_runs::Still;
 use crate::source::Span;
+use crate::targets::{Mode, Target};
 use rustc_hash::FxHashMap;
 use slowlight_routine::{Bits, Format, Routine, Runtime, Type, Value};
 

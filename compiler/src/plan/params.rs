@@ -150,9 +150,9 @@ mod tests {
     #![allow(clippy::unwrap_used)]
 
     use super::*;
-    use crate::backend::find;
     use crate::scene::check;
     use crate::sema::Options;
+    use crate::targets::find;
 
     fn planned(target: &str, param: &str, set: Option<f64>) -> Result<ParamPlan, Vec<Diagnostic>> {
         let text = format!(

@@ -2,7 +2,6 @@
 //! tables, and where values are kept.
 
 use crate::analysis::range::Ranges;
-use crate::backend::Target;
 use crate::homes::{names, single_use};
 use crate::ir::graph::*;
 use crate::ir::tree::*;
@@ -14,6 +13,7 @@ use crate::selection::integer_roots::int_roots;
 use crate::selection::reciprocal_roots::reciprocal_roots;
 use crate::selection::routines;
 use crate::source::Diagnostic;
+use crate::targets::Target;
 use crate::wordlength;
 use slowlight_routine::{Op, Range, Routine, Runtime, scale};
 

@@ -3,7 +3,6 @@
 
 use super::SEARCH;
 use super::made::{Rewriting, candidate, plan};
-use crate::backend::{default_mode, find};
 use crate::cost::size_budget::SizeBudget;
 use crate::fuel::Fuel;
 use crate::plan::{Goal, Plan};
@@ -11,6 +10,7 @@ use crate::planner::context::Context;
 use crate::planner::search::stepped::Steps;
 use crate::scene::check;
 use crate::sema::Options;
+use crate::targets::{default_mode, find};
 use std::sync::Arc;
 
 /// A plan with less memory that was made after another is the one made by itself.
@@ -25,7 +25,7 @@ fn plans_made_again_are_those_made_anew() {
         rows: None,
         plot: true,
     };
-    let text = |plan: &Plan| (target.emit)(plan)[0].text.clone();
+    let text = |plan: &Plan| crate::backend::emit(plan)[0].text.clone();
     let plenty = plan(&graph, target, &goal).unwrap();
     let step = 6;
     let again = plenty

@@ -7,9 +7,10 @@ use crate::analysis::range::{Slack, ranges};
 use crate::ir::graph::{Graph, Node};
 use crate::ir::tree::*;
 use crate::schedule::locality::{by_first_use, down_to_runs};
-use crate::schedule::outline::{Extent, Sizes, outline};
+use crate::schedule::outline::{Extent, outline};
 use crate::schedule::statements::schedule_together;
 use crate::source::{Diagnostic, Span};
+use crate::targets::Sizes;
 
 impl PlannedScene {
     /// The plan with [`crate::schedule::outline`]; `name` says what the source

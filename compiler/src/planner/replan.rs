@@ -2,7 +2,6 @@
 
 use super::made::{Candidate, Rewriting, candidate};
 use super::pipeline::Pipeline;
-use crate::backend::Lean;
 use crate::cost::price::Price;
 use crate::cost::size_budget::SizeBudget;
 use crate::fuel::Fuel;
@@ -11,6 +10,7 @@ use crate::ir::tree::*;
 use crate::plan::Plan;
 use crate::planner::context::Context;
 use crate::planner::search::stepped::Steps;
+use crate::targets::Lean;
 use std::ops::{Deref, DerefMut};
 use std::sync::Arc;
 

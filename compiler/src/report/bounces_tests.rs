@@ -4,12 +4,12 @@
 #![allow(clippy::unwrap_used)]
 
 use super::bounces::{Growth, measure, mirrors, warnings};
-use crate::backend::{default_mode, find};
 use crate::plan::Goal;
 use crate::planner::PlannedScene;
 use crate::planner::plan;
 use crate::scene;
 use crate::sema::Options;
+use crate::targets::{default_mode, find};
 use std::fmt::Write;
 use std::path::Path;
 

@@ -1,11 +1,11 @@
 #![allow(clippy::unwrap_used)]
 
 use super::profile::*;
-use crate::backend;
 use crate::plan::Goal;
 use crate::planner::plan;
 use crate::scene::check;
 use crate::sema::Options;
+use crate::targets;
 
 const SCENE: &str = "image 8 x 4 inks black, white;
 param eye: vec3 = (0, 0, 3) in (-1, -1, 2) .. (1, 1, 4);
@@ -20,8 +20,8 @@ draw (x, y) = {
 /// the first that has a place.
 fn measured(name: &str) -> (Profile, u64, u64) {
     let scene = check("s.scn", SCENE);
-    let target = backend::find(name).unwrap();
-    let mode = backend::default_mode(target, 8, 4).unwrap();
+    let target = targets::find(name).unwrap();
+    let mode = targets::default_mode(target, 8, 4).unwrap();
     let graph = scene
         .lower(&Options {
             inks: Some(mode.inks),
@@ -37,7 +37,7 @@ fn measured(name: &str) -> (Profile, u64, u64) {
     };
     let mut plan = plan(&graph, target, &goal).unwrap();
     plan.drawn = scene.program.draw.as_ref().map(|draw| draw.span);
-    let documents = (target.emit)(&plan);
+    let documents = crate::backend::emit(&plan);
     let mut costs = Vec::new();
     let mut sizes = Vec::new();
     for (document, text) in documents.iter().enumerate() {
@@ -84,7 +84,7 @@ fn measured(name: &str) -> (Profile, u64, u64) {
 
 #[test]
 fn every_cycle_and_every_byte_has_a_line() {
-    for target in backend::in_all_formats() {
+    for target in targets::in_all_formats() {
         let (found, cycles, size) = measured(target.name);
         assert_eq!(found.cycles, cycles, "{}", target.name);
         let of_lines: u64 = found.lines.iter().map(|line| line.cycles).sum();

@@ -3,7 +3,6 @@
 
 use super::fragile::fragile;
 use super::words::warnings;
-use crate::backend::{Target, default_mode, find, in_all_formats};
 use crate::eval::native::Native;
 use crate::ir::graph::Graph;
 use crate::plan::model::ModelRun;
@@ -12,6 +11,7 @@ use crate::planner::{plan, plan_as_written};
 use crate::scene::{self, Scene};
 use crate::sema::Options;
 use crate::source::Diagnostic;
+use crate::targets::{Target, default_mode, find, in_all_formats};
 
 fn said(target: &str, scene: &Scene) -> Vec<Diagnostic> {
     said_of(find(target).unwrap(), scene)

@@ -4,11 +4,11 @@
 use crate::analysis::points::Points;
 use crate::analysis::points::widths::Widths;
 use crate::analysis::range::Ranges;
-use crate::backend::{TARGETS, Target};
 use crate::ir::graph::*;
 use crate::ir::tree::*;
 use crate::selection::underflow::loosen;
 use crate::source::Diagnostic;
+use crate::targets::{TARGETS, Target};
 use slowlight_routine::{Format, Op, Routine, Runtime};
 
 /// Which targets can compute an operation.

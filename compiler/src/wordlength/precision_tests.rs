@@ -1,7 +1,6 @@
 //! Reals of two widths are as many narrow as a picture's inks allow.
 #![allow(clippy::unwrap_used)]
 
-use crate::backend::{Target, default_mode, mos6502};
 use crate::eval::arithmetic::Exact;
 use crate::eval::run::Run;
 use crate::ir::graph::*;
@@ -11,6 +10,8 @@ use crate::planner::PlannedScene;
 use crate::planner::plan;
 use crate::scene::check;
 use crate::sema::{Freeze, Options};
+use crate::targets::mos6502;
+use crate::targets::{Target, default_mode};
 use slowlight_routine::{Type, Value};
 
 const WIDE: (u32, u32) = (160, 120);

@@ -15,11 +15,11 @@ use moves::Rule;
 use run::Random;
 use serde_json::{Value as Json, json};
 use slowlight::cases::{self, Way, ways};
-use slowlight_compiler::backend::jack::{JACK_F316R, JACK_FIXED16, JACK_LOG10};
-use slowlight_compiler::backend::mos6502::{
+use slowlight_compiler::targets::jack::{JACK_F316R, JACK_FIXED16, JACK_LOG10};
+use slowlight_compiler::targets::mos6502::{
     PLAIN_FIXED12, PLAIN_FIXED16, PLAIN_FIXED20, PLAIN_FIXED24, PLAIN_LOG10,
 };
-use slowlight_compiler::backend::{TARGETS, Target};
+use slowlight_compiler::targets::{TARGETS, Target};
 
 const FILE: &str = include_str!("../../hard_cases.json");
 

@@ -2,7 +2,6 @@
 #![allow(clippy::unwrap_used)]
 
 use super::{Ranges, Slack, ranges};
-use crate::backend::{default_mode, find};
 use crate::eval::arithmetic::Exact;
 use crate::eval::heard::{Heard, Listener};
 use crate::eval::run::Run;
@@ -14,6 +13,7 @@ use crate::planner::plan;
 use crate::scene::check;
 use crate::schedule::statements::schedule;
 use crate::sema::Options;
+use crate::targets::{default_mode, find};
 use slowlight_routine::{Op, Range, Value};
 use std::cell::RefCell;
 

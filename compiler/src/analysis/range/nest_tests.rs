@@ -2,13 +2,13 @@
 #![allow(clippy::unwrap_used)]
 
 use super::{STATEMENTS, Slack, ranges_counted};
-use crate::backend::TARGETS;
 use crate::eval::native::Native;
 use crate::ir::graph::Graph;
 use crate::ir::tree::walk;
 use crate::scene::check;
 use crate::schedule::statements::schedule;
 use crate::sema::Options;
+use crate::targets::TARGETS;
 
 fn graph(text: &str) -> Graph {
     let scene = check("nest", text);

@@ -248,11 +248,11 @@ impl Walk<'_> {
 
 #[cfg(test)]
 mod tests {
-    use crate::backend::{default_mode, find};
     use crate::plan::Goal;
     use crate::planner::plan;
     use crate::scene;
     use crate::sema::Options;
+    use crate::targets::{default_mode, find};
     use slowlight_routine::{Op, Range};
 
     /// The widest range of the results of an operation in a scene's plan for Jack.

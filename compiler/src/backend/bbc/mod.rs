@@ -56,86 +56,11 @@ mod thread;
 mod version;
 mod ways;
 
-pub(super) use screen::{MICRO as MICRO_MODES, colours, first_colour};
+pub(super) use screen::{colours, first_colour};
+pub(super) use starts::starts;
 
-use super::{Document, Lean, Target};
+use super::Document;
 use crate::plan::Plan;
-use crate::schedule::outline::Sizes;
-use slowlight_runtime_bbc::RUNTIME;
-
-/// The least distance along a ray that counts as in front: reals of 32 bits are good to 1E-9
-/// at the scenes' scale, a pixel to 1E-3.
-const OFFSET: f64 = 1e-5;
-
-/// Bytes of tokens in a tight program.
-const SIZES: Sizes = Sizes {
-    operation: 5,
-    copy_bool: 6,
-    copy: 6,
-    home: 8,
-    test: 14,
-    turns: 40,
-    call: 4,
-    around: 20,
-    ends: 25,
-};
-
-/// A BBC Micro with BASIC II.
-pub static MICRO: Target = Target {
-    name: "bbc:micro",
-    about: "a BBC Micro with BASIC II and a disc drive (PAGE &1900)",
-    runtime: &RUNTIME,
-    modes: screen::MICRO,
-    offset: OFFSET,
-    lean: Lean::Short,
-    hertz: 2_000_000.0,
-    starts: starts::starts,
-    sizes: SIZES,
-    wraps: true,
-    columns: 1024,
-    pixels: |mode| match mode.inks {
-        2 => 8,
-        4 => 4,
-        _ => 2,
-    },
-    emit,
-};
-
-/// An Agon Light with BBC BASIC.
-pub static AGON: Target = Target {
-    name: "bbc:agon",
-    about: "an Agon Light with BBC BASIC; times are from a comparison of one program",
-    runtime: &RUNTIME,
-    modes: screen::AGON,
-    offset: OFFSET,
-    lean: Lean::Short,
-    // Measured: the two mirrors in 11.6 minutes for BASIC II's 17.8e9 cycles.
-    hertz: 25_500_000.0,
-    starts: starts::starts,
-    sizes: SIZES,
-    wraps: false,
-    columns: 1024,
-    pixels: |_| 1,
-    emit,
-};
-
-/// Matrix Brandy on a computer of today.
-pub static BASIC_V: Target = Target {
-    name: "bbc:basicv",
-    about: "Matrix Brandy (BASIC V) on a computer of today; its reals are doubles",
-    runtime: &RUNTIME,
-    modes: screen::BASIC_V,
-    offset: OFFSET,
-    lean: Lean::Short,
-    // Measured: 0.15 seconds for the same program.
-    hertz: 1.2e11,
-    starts: starts::starts,
-    sizes: SIZES,
-    wraps: false,
-    columns: 1024,
-    pixels: |_| 1,
-    emit,
-};
 
 /// How a program is written.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -162,7 +87,7 @@ impl Style {
     }
 }
 
-fn emit(plan: &Plan) -> Vec<Document> {
+pub(super) fn emit(plan: &Plan) -> Vec<Document> {
     let program = frame::program(plan);
     let later = program.later();
     let (text, lines) = program.finish();

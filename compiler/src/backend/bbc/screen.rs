@@ -1,54 +1,14 @@
 //! Modes, colours and coordinates.
 
-use super::super::Mode;
 use super::super::colours::{agon, assign, micro, physical};
 use super::code::Code;
 use super::segment::Draw;
 use crate::plan::Plan;
+use crate::targets::{Mode, System};
 
 /// The resident variables that have their own use: the ink, the row's height on
 /// the screen, the column and the row. (`@%` formats numbers.)
 pub const OWN: &str = "IRXY";
-
-const fn mode(name: &'static str, width: u32, height: u32, inks: u32) -> Mode {
-    Mode {
-        name,
-        width,
-        height,
-        inks,
-    }
-}
-
-/// By the memory that the screen takes from the program: 10K in modes 4 and 5, 20K in the others.
-pub static MICRO: &[Mode] = &[
-    mode("5", 160, 256, 4),
-    mode("4", 320, 256, 2),
-    mode("2", 160, 256, 16),
-    mode("1", 320, 256, 4),
-    mode("0", 640, 256, 2),
-];
-
-pub static AGON: &[Mode] = &[
-    mode("9", 320, 240, 16),
-    mode("10", 320, 240, 4),
-    mode("11", 320, 240, 2),
-    mode("4", 640, 240, 16),
-    mode("5", 640, 240, 4),
-    mode("0", 640, 480, 16),
-    mode("1", 640, 480, 4),
-    mode("2", 640, 480, 2),
-];
-
-pub static BASIC_V: &[Mode] = &[
-    mode("9", 320, 256, 16),
-    mode("1", 320, 256, 4),
-    mode("4", 320, 256, 2),
-    mode("2", 160, 256, 16),
-    mode("12", 640, 256, 16),
-    mode("8", 640, 256, 4),
-    mode("0", 640, 256, 2),
-    mode("20", 640, 512, 16),
-];
 
 /// The physical colours of a mode's inks when it starts.
 pub fn first_colour(mode: &Mode, ink: usize) -> u8 {
@@ -70,14 +30,14 @@ pub fn colour(plan: &Plan, ink: usize, rgb: [u8; 3]) -> Option<String> {
     let palette = &plan.graph.image.palette;
     let first = first_colour(&plan.mode, ink);
     let number = |given: Vec<u8>| given.get(ink).copied().unwrap_or(7);
-    match plan.target.name {
-        "bbc:agon" => {
+    match plan.target.system {
+        System::Agon => {
             let own = agon();
             let shown = own.get(usize::from(number(assign(palette, &own))));
             let [r, g, b] = shown.map_or(rgb, |own| own.rgb);
             (physical(first) != [r, g, b]).then(|| format!("VDU 19,{ink},255,{r},{g},{b}"))
         }
-        "bbc:basicv" => {
+        System::BasicV => {
             let [r, g, b] = rgb;
             match (0..8).find(|c| physical(*c) == rgb) {
                 Some(own) if own == first => None,

@@ -30,7 +30,7 @@ const LOOK: u64 = 5_500;
 const FIRST: u64 = 15_000;
 
 /// What a plan's program takes.
-pub(super) fn starts(plan: &Plan) -> u64 {
+pub(in crate::backend) fn starts(plan: &Plan) -> u64 {
     let Some(stepping) = plan.runtime.stepping else {
         return 0;
     };

@@ -1,11 +1,11 @@
 #![allow(clippy::unwrap_used)]
 
-use crate::backend::{default_mode, find};
 use crate::plan::Goal;
 use crate::planner::PlannedScene;
 use crate::planner::plan;
 use crate::scene::check;
 use crate::sema::Options;
+use crate::targets::{default_mode, find};
 
 fn planned(target: &str, source: &str, plot: bool) -> PlannedScene {
     let target = find(target).unwrap();

@@ -17,7 +17,7 @@ use slowlight_runtime_jack::{classes, classes_for_processor, has_init};
 use std::collections::BTreeSet;
 
 /// Writes a plan down as the classes of a program, `Main` first.
-pub(super) fn program(plan: &Plan) -> Vec<Document> {
+pub(in crate::backend) fn program(plan: &Plan) -> Vec<Document> {
     let mut code = Code::new(plan);
     let mut drawing = drawing(&mut code);
     let mut making = making(&mut code);

@@ -16,7 +16,7 @@ const VALUE: u64 = 13;
 const PARAM: u64 = 14;
 
 /// What a plan's program takes.
-pub(super) fn starts(plan: &Plan) -> u64 {
+pub(in crate::backend) fn starts(plan: &Plan) -> u64 {
     let real = plan.runtime.real;
     let floats = matches!(real, Format::Float316 { .. });
     let logs = matches!(real, Format::Log { .. });

@@ -1,6 +1,5 @@
 #![allow(clippy::unwrap_used)]
 
-use crate::backend::default_mode;
 use crate::ir::build::Builder;
 use crate::ir::graph::{Axis, Graph, Image, Table};
 use crate::plan::Goal;
@@ -9,6 +8,7 @@ use crate::planner::plan;
 use crate::scene::check;
 use crate::sema::Options;
 use crate::source::Span;
+use crate::targets::default_mode;
 use slowlight_routine::{Op, Type, Value};
 
 fn lowered(source: &str) -> Graph {
@@ -16,26 +16,31 @@ fn lowered(source: &str) -> Graph {
     assert!(scene.is_right(), "{:?}", scene.diagnostics);
     let options = Options {
         inks: Some(2),
-        offset: super::JACK.offset,
+        offset: crate::targets::jack::JACK.offset,
         ..Options::default()
     };
     scene.lower(&options).unwrap()
 }
 
 fn planned(name: &str, graph: &Graph) -> PlannedScene {
-    let mode = default_mode(&super::JACK, graph.image.width, graph.image.height).unwrap();
+    let mode = default_mode(
+        &crate::targets::jack::JACK,
+        graph.image.width,
+        graph.image.height,
+    )
+    .unwrap();
     let goal = Goal {
         name: name.to_owned(),
         mode,
         rows: None,
         plot: true,
     };
-    plan(graph, &super::JACK, &goal).unwrap()
+    plan(graph, &crate::targets::jack::JACK, &goal).unwrap()
 }
 
 /// All classes, each under its name.
 fn text(name: &str, graph: &Graph) -> String {
-    let documents = (super::JACK.emit)(&planned(name, graph));
+    let documents = crate::backend::emit(&planned(name, graph));
     let mut all = String::new();
     for document in documents {
         assert_eq!(document.text.lines().count(), document.lines.len());
@@ -131,7 +136,7 @@ fn no_subroutine_is_long() {
 #[test]
 fn classes_are_named_after_the_scene() {
     let class = |name: &str| {
-        let documents = (super::JACK.emit)(&planned(name, &built_by_hand()));
+        let documents = crate::backend::emit(&planned(name, &built_by_hand()));
         documents[1].name.clone()
     };
     assert_eq!(class("two-mirrors"), "TwoMirrors.jack");

@@ -7,14 +7,10 @@
 //! Interrupts stay on: the clock runs, and keys are heard. At the end the program waits
 //! for one, with the picture standing, and then enters BASIC anew, whose memory it used.
 
-use super::super::Mode;
-use super::super::bbc::{MICRO_MODES, colours, first_colour};
+use super::super::bbc::{colours, first_colour};
 use super::Text;
 use super::memory::{DISC_PAGE, Machine, Places};
 use crate::plan::Plan;
-
-/// The modes that show pictures, as BASIC has them.
-pub(super) const MODES: &[Mode] = MICRO_MODES;
 
 /// Calls of the operating system.
 pub(super) fn symbols(text: &mut Text) {

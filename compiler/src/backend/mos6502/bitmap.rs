@@ -13,6 +13,7 @@ use super::Text;
 use super::homes::{Homes, Slot};
 use crate::ir::graph::Axis;
 use crate::plan::Plan;
+use crate::targets::System;
 use std::ops::RangeInclusive;
 
 /// How a byte's pixels lie in it.
@@ -50,14 +51,14 @@ impl Layout {
                 row,
             })
         };
-        match (plan.target.name, plan.mode.name) {
-            ("6502:bbc", "0") => layout(Lie::Bits, 8, 0x3000, 640),
-            ("6502:bbc", "1") => layout(Lie::Spread, 4, 0x3000, 640),
-            ("6502:bbc", "2") => layout(Lie::Spread, 2, 0x3000, 640),
-            ("6502:bbc", "4") => layout(Lie::Bits, 8, 0x5800, 320),
-            ("6502:bbc", "5") => layout(Lie::Spread, 4, 0x5800, 320),
-            ("6502:c64", "hires") => layout(Lie::Bits, 8, 0xE000, 320),
-            ("6502:c64", "multicolour") => layout(Lie::Pairs, 4, 0xE000, 320),
+        match (plan.target.system, plan.mode.name) {
+            (System::BbcCode, "0") => layout(Lie::Bits, 8, 0x3000, 640),
+            (System::BbcCode, "1") => layout(Lie::Spread, 4, 0x3000, 640),
+            (System::BbcCode, "2") => layout(Lie::Spread, 2, 0x3000, 640),
+            (System::BbcCode, "4") => layout(Lie::Bits, 8, 0x5800, 320),
+            (System::BbcCode, "5") => layout(Lie::Spread, 4, 0x5800, 320),
+            (System::C64, "hires") => layout(Lie::Bits, 8, 0xE000, 320),
+            (System::C64, "multicolour") => layout(Lie::Pairs, 4, 0xE000, 320),
             _ => None,
         }
     }

@@ -4,29 +4,12 @@
 //! runs there are no interrupts and no ROMs, and all of the zero page is its own. The
 //! picture stands until a key is pressed; then everything is put back, and BASIC goes on.
 
-use super::super::Mode;
 use super::super::colours::{assign, commodore};
 use super::Text;
 use super::bbc::complain;
 use super::bitmap::Lie;
 use crate::backend::mos6502::bitmap::Layout;
 use crate::plan::Plan;
-
-/// Its bitmaps.
-pub(super) const MODES: &[Mode] = &[
-    Mode {
-        name: "hires",
-        width: 320,
-        height: 200,
-        inks: 2,
-    },
-    Mode {
-        name: "multicolour",
-        width: 160,
-        height: 200,
-        inks: 4,
-    },
-];
 
 /// Where what belongs to the ROMs is kept: the zero page but its first two bytes, in which
 /// the processor's port is, and the stack pointer in place of the first.

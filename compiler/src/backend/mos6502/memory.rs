@@ -12,6 +12,7 @@ use super::bitmap::Layout;
 use super::spread;
 use super::squares::JUMP;
 use crate::plan::Plan;
+use crate::targets::System;
 use slowlight_runtime_6502::{FREE_MEMORY, free_zero_page};
 use std::ops::Range;
 
@@ -56,9 +57,9 @@ pub struct Room {
 
 impl Machine {
     pub fn of(plan: &Plan) -> Machine {
-        match plan.target.name {
-            "6502:bbc" => Machine::Bbc,
-            "6502:c64" => Machine::C64,
+        match plan.target.system {
+            System::BbcCode => Machine::Bbc,
+            System::C64 => Machine::C64,
             _ => Machine::Plain,
         }
     }

@@ -1,7 +1,7 @@
 #![allow(clippy::unwrap_used)]
 
 use super::tests::{GRADIENT, planned};
-use crate::backend::{find, formats};
+use crate::targets::{find, formats};
 
 /// A plain machine's program begins at a page, and nothing else is in the three bytes before.
 #[test]

@@ -20,7 +20,7 @@ const PAGE: u64 = 2_820;
 const PAGES: u64 = 39;
 
 /// What a plan's program takes.
-pub(super) fn starts(plan: &Plan) -> u64 {
+pub(in crate::backend) fn starts(plan: &Plan) -> u64 {
     let [made, divided] = params_made(plan);
     let parts = plan.parts();
     let machine = Machine::of(plan);

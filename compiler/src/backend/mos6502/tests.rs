@@ -1,12 +1,12 @@
 #![allow(clippy::unwrap_used)]
 
 use crate::backend::mos6502::syntax::{SYNTAXES, USUAL, find as find_syntax};
-use crate::backend::{default_mode, find, formats};
 use crate::plan::Goal;
 use crate::planner::PlannedScene;
 use crate::planner::plan;
 use crate::scene::check;
 use crate::sema::Options;
+use crate::targets::{default_mode, find, formats};
 use std::collections::BTreeSet;
 
 pub(super) fn planned(source: &str) -> PlannedScene {

@@ -119,12 +119,12 @@ impl Site<'_> {
 mod tests {
     use super::*;
     use crate::analysis::verify::verify;
-    use crate::backend::{find, formats};
     use crate::eval::native::Native;
     use crate::planner::context::Context;
     use crate::scene;
     use crate::schedule::analysed::Analysed;
     use crate::sema::Options;
+    use crate::targets::{find, formats};
 
     /// One whose divisions are dear.
     fn runtime() -> &'static Runtime {

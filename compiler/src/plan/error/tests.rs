@@ -4,7 +4,6 @@
 #![allow(clippy::unwrap_used)]
 
 use super::*;
-use crate::backend::{Target, default_mode, in_all_formats};
 use crate::eval::native::Native;
 use crate::eval::random::Random;
 use crate::plan::Goal;
@@ -12,6 +11,7 @@ use crate::plan::model::ModelRun;
 use crate::planner::plan_as_written;
 use crate::scene;
 use crate::sema::Options;
+use crate::targets::{Target, default_mode, in_all_formats};
 use slowlight_routine::{Format, Value as Scalar};
 
 /// A formula: its inputs with the ranges that boxes are taken from, and the value.

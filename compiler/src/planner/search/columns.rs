@@ -1,7 +1,6 @@
 //! Search over scalar expansion: which values are computed once a column, of what
 //! [`crate::passes::loops::scalar_expansion`] offers, where that makes the plan cheaper.
 
-use crate::backend::Target;
 use crate::cost::price::Price;
 use crate::cost::size_budget::SizeBudget;
 use crate::ir::graph::NodeId;
@@ -9,6 +8,7 @@ use crate::passes::loops::scalar_expansion::{columns, tabulated};
 use crate::planner::context::Context;
 use crate::planner::pipeline::Pass;
 use crate::schedule::analysed::Analysed;
+use crate::targets::Target;
 use std::collections::BTreeSet;
 
 /// By how much arrays must make the plan cheaper.

@@ -2,7 +2,6 @@
 //! where turns come to the arm often; in no other case.
 #![allow(clippy::unwrap_used)]
 
-use crate::backend::{bbc, default_mode, jack, mos6502};
 use crate::eval::native::Native;
 use crate::ir::graph::*;
 use crate::ir::tree::{Block, Statement, walk};
@@ -10,6 +9,8 @@ use crate::plan::Goal;
 use crate::planner::plan;
 use crate::scene::check;
 use crate::sema::Options;
+use crate::targets::default_mode;
+use crate::targets::{bbc, jack, mos6502};
 use slowlight_routine::Op;
 
 /// A loop of 90 turns of which about so many in 9,973 add a root that none of them changes.

@@ -5,7 +5,6 @@
 //! whole statements, with what is read and assigned, since a step is one.
 
 use crate::analysis::range::Ranges;
-use crate::backend::Target;
 use crate::cost::price::Price;
 use crate::cost::size_budget::SizeBudget;
 use crate::ir::graph::*;
@@ -14,6 +13,7 @@ use crate::passes::loops::strength_reduction::runs::{in_runs, is_exact, runs};
 use crate::planner::context::Context;
 use crate::planner::pipeline::Pass;
 use crate::schedule::analysed::Analysed;
+use crate::targets::Target;
 use slowlight_routine::Op;
 
 /// By how much a ramp must make a plan cheaper.

@@ -1,9 +1,9 @@
 //! Canonical tokens of statements, by which runs are compared for outlining.
 
-use super::Sizes;
 use super::forest::{BlockId, Forest, Step};
 use super::token::{Token, plain, reads_of};
 use crate::ir::graph::*;
+use crate::targets::Sizes;
 use slowlight_routine::Op;
 
 impl Forest {

@@ -1,13 +1,14 @@
 //! Arena form of statements: every block in one arena, so that runs of them can be numbered,
 //! compared and replaced.
 
+use super::Extent;
 use super::token::{Token, reads_of};
-use super::{Extent, Sizes};
 use crate::analysis::region::Fact;
 use crate::ir::graph::*;
 use crate::ir::tree::*;
 use crate::schedule::constant_runs::still;
 use crate::source::Span;
+use crate::targets::Sizes;
 use rustc_hash::{FxHashMap, FxHashSet};
 
 /// Which block of a forest.

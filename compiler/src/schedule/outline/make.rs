@@ -1,11 +1,11 @@
 //! Function extraction: a subroutine made of several runs, and calls where they stood.
 
-use super::Sizes;
 use super::forest::{BlockId, Forest, Step};
 use super::runs::{Given, Group, Run};
 use crate::ir::graph::*;
 use crate::ir::tree::*;
 use crate::source::Span;
+use crate::targets::Sizes;
 use rustc_hash::{FxHashMap, FxHashSet};
 
 /// Adds nodes and subroutines.

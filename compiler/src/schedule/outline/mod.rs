@@ -37,39 +37,7 @@ mod token;
 use crate::ir::graph::*;
 use crate::ir::tree::*;
 use crate::source::Span;
-use slowlight_routine::Type;
-
-/// How many bytes (or words) statements take on a machine, about.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Sizes {
-    /// An operation, beside its routine's own bytes.
-    pub operation: u32,
-    /// A copy of a bool.
-    pub copy_bool: u32,
-    /// A copy of an int or real.
-    pub copy: u32,
-    /// A home of a subroutine.
-    pub home: u32,
-    /// The test and jumps of an `If`.
-    pub test: u32,
-    /// The counting and jumps of a loop.
-    pub turns: u32,
-    /// A call.
-    pub call: u32,
-    /// What a subroutine has around its statements.
-    pub around: u32,
-    /// What a comparison has beside that ends a run of columns.
-    pub ends: u32,
-}
-
-impl Sizes {
-    fn copy_of(&self, ty: Type) -> u32 {
-        match ty {
-            Type::Bool => self.copy_bool,
-            Type::Int | Type::Real => self.copy,
-        }
-    }
-}
+use crate::targets::Sizes;
 
 /// What of a picture may become subroutines.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

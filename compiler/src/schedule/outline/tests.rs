@@ -11,7 +11,7 @@ use crate::passes::simplify::fold::fold;
 use crate::scene::check;
 use crate::schedule::statements::{schedule, schedule_in_segments, schedule_together};
 use crate::sema::Options;
-use slowlight_routine::{Op, Value};
+use slowlight_routine::{Op, Type, Value};
 
 const AT: Span = Span {
     file: 0,
@@ -127,7 +127,7 @@ fn the_examples_draw_the_same() {
     let (mut compared, mut called) = (0, 0);
     for (name, graph) in examples() {
         let plain = schedule(&graph);
-        let (other, tree) = outlined(&graph, &crate::backend::mos6502::PLAIN.sizes);
+        let (other, tree) = outlined(&graph, &crate::targets::mos6502::PLAIN.sizes);
         let image = &graph.image;
         let places = match graph.diffusion {
             // All pixels before one are drawn too.

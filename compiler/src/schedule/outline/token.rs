@@ -1,9 +1,9 @@
 //! Equivalence of statements for outlining: what statements of one shape have to agree in.
 
-use super::Sizes;
 use super::forest::Step;
 use crate::ir::graph::*;
 use crate::ir::tree::*;
+use crate::targets::Sizes;
 
 /// What a statement, or the beginning or end of one, has to agree in, and what it refers to.
 #[derive(Clone, Debug, Default)]

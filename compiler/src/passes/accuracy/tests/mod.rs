@@ -6,7 +6,6 @@ mod exact;
 
 use super::*;
 use crate::analysis::range::{Slack, ranges};
-use crate::backend::{default_mode, find};
 use crate::passes::simplify::fold::fold;
 use crate::plan::model::ModelRun;
 use crate::plan::{Goal, Plan};
@@ -14,6 +13,7 @@ use crate::planner::{plan, plan_as_written};
 use crate::scene;
 use crate::schedule::statements::schedule;
 use crate::sema::Options;
+use crate::targets::{default_mode, find};
 use cases::{CASES, Case};
 use exact::{Big, big};
 use std::collections::BTreeSet;

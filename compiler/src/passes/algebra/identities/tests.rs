@@ -3,7 +3,6 @@
 #![allow(clippy::unwrap_used)]
 
 use super::{Cheaper, around, identities};
-use crate::backend::find;
 use crate::eval::native::Native;
 use crate::eval::random_graphs;
 use crate::ir::graph::*;
@@ -12,6 +11,7 @@ use crate::planner::context::Context;
 use crate::scene;
 use crate::schedule::analysed::Analysed;
 use crate::sema::Options;
+use crate::targets::find;
 use slowlight_routine::Op;
 
 fn settled(graph: &Graph) -> Analysed {

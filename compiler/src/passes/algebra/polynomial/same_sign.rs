@@ -85,10 +85,10 @@ fn primitive(form: &Form) -> Option<(Part, bool)> {
 #[allow(clippy::unwrap_used)]
 mod tests {
     use super::*;
-    use crate::backend::find;
     use crate::ir::build::Builder;
     use crate::planner::context::Context;
     use crate::source::Span;
+    use crate::targets::find;
     use slowlight_routine::Value;
 
     #[test]

@@ -4,7 +4,6 @@
 use super::spans;
 use crate::analysis::range::{Slack, ranges};
 use crate::analysis::verify::verify;
-use crate::backend::{default_mode, find};
 use crate::eval::native::Native;
 use crate::eval::random::Random;
 use crate::ir::build::Builder;
@@ -14,6 +13,7 @@ use crate::plan::model::ModelRun;
 use crate::planner::plan;
 use crate::schedule::statements::schedule;
 use crate::source::Span;
+use crate::targets::{default_mode, find};
 use slowlight_routine::{Op, Type, Value};
 
 const AT: Span = Span {

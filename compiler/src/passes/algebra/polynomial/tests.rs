@@ -4,7 +4,6 @@
 use super::extent::surely;
 use super::number::Number;
 use super::poly::Poly;
-use crate::backend::{default_mode, find};
 use crate::eval::native::Native;
 use crate::ir::graph::*;
 use crate::ir::tree::{Statement, walk};
@@ -13,6 +12,7 @@ use crate::plan::{Goal, Plan};
 use crate::planner::{plan, plan_as_written};
 use crate::scene;
 use crate::sema::Options;
+use crate::targets::{default_mode, find};
 use slowlight_routine::{Op, Range};
 
 fn planned(source: &str, set: &[(String, Vec<f64>)]) -> (Graph, Plan, Plan) {

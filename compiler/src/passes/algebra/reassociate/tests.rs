@@ -4,7 +4,6 @@
 
 use super::{Site, Sums, sunk};
 use crate::analysis::rate::rates;
-use crate::backend::find;
 use crate::eval::drawn::examples;
 use crate::eval::native::Native;
 use crate::eval::random_graphs;
@@ -14,6 +13,7 @@ use crate::planner::context::Context;
 use crate::scene;
 use crate::schedule::analysed::Analysed;
 use crate::sema::Options;
+use crate::targets::find;
 use slowlight_routine::{Op, Runtime};
 
 fn runtime() -> &'static Runtime {

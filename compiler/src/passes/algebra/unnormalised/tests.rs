@@ -5,13 +5,13 @@
 use super::{lengths, unnormalised};
 use crate::analysis::range::{Ranges, Slack, ranges};
 use crate::analysis::verify::verify;
-use crate::backend::bbc::MICRO;
 use crate::eval::drawn::examples;
 use crate::eval::native::Native;
 use crate::ir::graph::*;
 use crate::passes::branches::invert_monotone::invert_monotone;
 use crate::passes::simplify::fold::fold;
 use crate::schedule::statements::schedule;
+use crate::targets::bbc::MICRO;
 
 /// Every so many rows are compared. Row 129 of mirrors.scn, where two values that
 /// are compared are the same over the reals, so that roundings decide, is none of them.

@@ -5,7 +5,6 @@ use super::invert_monotone;
 use crate::analysis::range::{Slack, ranges};
 use crate::analysis::rate::{Dependence, rates};
 use crate::analysis::verify::verify;
-use crate::backend::find;
 use crate::eval::native::Native;
 use crate::eval::random_graphs;
 use crate::ir::graph::*;
@@ -14,6 +13,7 @@ use crate::scene;
 use crate::schedule::statements::schedule;
 use crate::sema::Options;
 use crate::source::Span;
+use crate::targets::find;
 use slowlight_routine::{Op, Type, Value};
 
 /// A graph before and after the pass, if it does anything.
@@ -106,7 +106,7 @@ fn what_is_not_monotone_is_left_alone() {
 #[test]
 fn thresholds_are_worked_out_from_the_cells() {
     let scene = crate::scene::check("test", include_str!("../../../../../examples/mirrors.scn"));
-    let target = crate::backend::find("bbc:micro").unwrap();
+    let target = crate::targets::find("bbc:micro").unwrap();
     let options = crate::sema::Options {
         offset: target.offset,
         ..Default::default()
@@ -114,7 +114,7 @@ fn thresholds_are_worked_out_from_the_cells() {
     let graph = scene.lower(&options).unwrap();
     let goal = crate::plan::Goal {
         name: "test".to_owned(),
-        mode: crate::backend::default_mode(target, 320, 240).unwrap(),
+        mode: crate::targets::default_mode(target, 320, 240).unwrap(),
         rows: None,
         plot: true,
     };

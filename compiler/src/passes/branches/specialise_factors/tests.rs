@@ -4,7 +4,6 @@
 use super::specialise_factors;
 use crate::analysis::range::{Slack, ranges};
 use crate::analysis::verify::verify;
-use crate::backend::{default_mode, find};
 use crate::eval::drawn::{grid, picture};
 use crate::eval::native::Native;
 use crate::eval::random_graphs;
@@ -16,6 +15,7 @@ use crate::planner::plan;
 use crate::scene::check;
 use crate::schedule::statements::schedule;
 use crate::sema::Options;
+use crate::targets::{default_mode, find};
 use slowlight_routine::{Format, Op, Runtime};
 
 fn runtime(target: &str) -> &'static Runtime {

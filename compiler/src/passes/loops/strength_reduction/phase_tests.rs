@@ -4,7 +4,6 @@
 use super::phase::{parities, phases};
 use crate::analysis::range::{Slack, ranges};
 use crate::analysis::verify::verify;
-use crate::backend::bbc::MICRO;
 use crate::eval::native::Native;
 use crate::eval::random::Random;
 use crate::ir::build::Builder;
@@ -15,6 +14,7 @@ use crate::plan::model::ModelRun;
 use crate::planner::plan;
 use crate::schedule::statements::schedule;
 use crate::source::Span;
+use crate::targets::bbc::MICRO;
 use slowlight_routine::{Op, Value};
 
 const AT: Span = Span {
