@@ -4,6 +4,7 @@
 //! megabyte, so only the lines around a place are handed to the renderer, and
 //! of a very long line only a piece.
 
+use crate::failure::Failure;
 use crate::output::remark;
 use annotate_snippets::{Annotation, AnnotationKind, Level, Origin, Renderer, Snippet};
 use serde_json::{Value, json};
@@ -11,6 +12,7 @@ use slowlight_compiler::source::{Diagnostic, SourceFile, Sources, Span};
 use std::fmt::Write;
 use std::io::IsTerminal;
 use std::ops::Range;
+use std::process::ExitCode;
 
 /// How many diagnostics are shown in full.
 const SHOWN: usize = 20;
@@ -199,6 +201,17 @@ pub fn to_json(sources: &Sources, diagnostics: &[Diagnostic]) -> Value {
         })
     });
     Value::Array(all.collect())
+}
+
+/// Says why a command stopped, on standard error; its exit status.
+pub fn report(failure: &Failure) -> ExitCode {
+    match failure {
+        Failure::Scene(said) | Failure::Options(said) => print(&said.sources, &said.diagnostics),
+        Failure::Wrong(message) | Failure::Usage(message) => remark(&format!("error: {message}")),
+        Failure::Differs | Failure::Cases | Failure::Several(_) => {}
+        Failure::Interrupted => remark("interrupted"),
+    }
+    ExitCode::from(failure.status())
 }
 
 #[cfg(test)]

@@ -1,8 +1,15 @@
 //! Why a command did not do what was asked, and the exit status for it.
 
-use crate::output::remark;
-use crate::scene::Said;
-use std::process::ExitCode;
+use slowlight_compiler::source::{Diagnostic, Sources};
+
+/// Texts and what was said about them.
+#[derive(Debug)]
+pub struct Said {
+    /// The texts.
+    pub sources: Sources,
+    /// What was said.
+    pub diagnostics: Vec<Diagnostic>,
+}
 
 /// Why a command stopped.
 #[derive(Debug)]
@@ -57,21 +64,6 @@ impl Failure {
             Failure::Interrupted => "interrupted".to_owned(),
         }
     }
-
-    /// Says it on standard error.
-    pub fn report(&self) -> ExitCode {
-        match self {
-            Failure::Scene(said) | Failure::Options(said) => {
-                crate::diagnostics::print(&said.sources, &said.diagnostics)
-            }
-            Failure::Wrong(message) | Failure::Usage(message) => {
-                remark(&format!("error: {message}"))
-            }
-            Failure::Differs | Failure::Cases | Failure::Several(_) => {}
-            Failure::Interrupted => remark("interrupted"),
-        }
-        ExitCode::from(self.status())
-    }
 }
 
 /// The name nearest to a misspelt one, where one is near enough to be meant.
@@ -103,5 +95,14 @@ pub fn unknown<'a>(
         format!("no {what} `{name}`; there is none")
     } else {
         format!("no {what} `{name}`; there is {}", all.join(", "))
+    }
+}
+
+/// A system error without its number.
+pub fn plain(e: &std::io::Error) -> String {
+    let text = e.to_string();
+    match text.find(" (os error") {
+        Some(at) => text[..at].to_owned(),
+        None => text,
     }
 }

@@ -1,6 +1,6 @@
 //! Files in and out: bounded when read, whole or not at all when written.
 
-use crate::failure::{Failure, Outcome};
+use crate::failure::{Failure, Outcome, plain};
 use std::io::{Read, Write};
 use std::path::{Path, PathBuf};
 use std::sync::OnceLock;
@@ -205,15 +205,6 @@ pub fn write_all(files: &[(&Path, &[u8])]) -> Outcome<()> {
 /// Where it cannot be written.
 pub fn write(path: &Path, bytes: &[u8]) -> Outcome<()> {
     write_all(&[(path, bytes)])
-}
-
-/// A system error without its number.
-pub fn plain(e: &std::io::Error) -> String {
-    let text = e.to_string();
-    match text.find(" (os error") {
-        Some(at) => text[..at].to_owned(),
-        None => text,
-    }
 }
 
 /// The files of a directory with an extension, by name.

@@ -72,7 +72,7 @@ pub fn main() -> ExitCode {
     };
     match done {
         Ok(()) => ExitCode::SUCCESS,
-        Err(failure) => failure.report(),
+        Err(failure) => crate::diagnostics::report(&failure),
     }
 }
 

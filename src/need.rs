@@ -9,14 +9,13 @@ mod heap;
 use crate::failure::{Failure, Outcome};
 use crate::format::count;
 use crate::machine::File;
-use crate::target_args::is_6502;
 use heap::heap;
 use slowlight_compiler::backend::Document;
 use slowlight_compiler::backend::mos6502;
 use slowlight_compiler::fuel::Fuel;
 use slowlight_compiler::ir::tree::{Statement, Tree, walk};
 use slowlight_compiler::plan::Plan;
-use slowlight_compiler::targets::System;
+use slowlight_compiler::targets::{Language, System};
 use slowlight_vm::bbc::{Config, Dialect, Machine, tokenise};
 use slowlight_vm::hack::vm::Heap;
 use slowlight_vm::mos6502::extent;
@@ -169,7 +168,7 @@ impl Need {
 /// # Errors
 /// Where the machine's tools refuse the text, which is a fault of ours.
 pub fn need(plan: &Plan) -> Outcome<Option<Need>> {
-    if is_6502(plan.target) {
+    if is_assembly(plan) {
         let mut draft = mos6502::Draft::new(plan);
         draft.tidy();
         return Ok(Some(assembly(&draft)));
@@ -180,6 +179,11 @@ pub fn need(plan: &Plan) -> Outcome<Option<Need>> {
         (None, Some(_)) if plan.target.system == System::Hack => Ok(Some(heap(&documents, &[]))),
         _ => Ok(None),
     }
+}
+
+/// Whether a plan is written in assembly.
+fn is_assembly(plan: &Plan) -> bool {
+    plan.target.system.language() == Language::Assembly
 }
 
 /// The BASIC that a plan is written in.
@@ -196,7 +200,7 @@ fn dialect(plan: &Plan) -> Option<Dialect> {
 pub fn room(plan: &Plan) -> Option<u64> {
     match dialect(plan) {
         Some(dialect) => basic_room(plan, &basic_machine(plan, dialect)),
-        None if is_6502(plan.target) => Some(mos6502::bytes_of_room(plan)),
+        None if is_assembly(plan) => Some(mos6502::bytes_of_room(plan)),
         None => (plan.target.system == System::Hack).then_some(HEAP),
     }
 }
@@ -225,7 +229,7 @@ pub fn about(plan: &Plan, fuel: &Fuel) -> Outcome<Option<Need>> {
     for block in plan.tree.blocks() {
         walk(block, &mut |_| statements += 1);
     }
-    if !is_6502(plan.target) {
+    if !is_assembly(plan) {
         let written = match plan.target.system {
             System::Hack => WRITTEN_IN_JACK,
             _ => WRITTEN_IN_BASIC + statements / PAIRS,
@@ -255,7 +259,7 @@ pub fn about(plan: &Plan, fuel: &Fuel) -> Outcome<Option<Need>> {
 /// # Errors
 /// As for [`need`].
 pub fn first(plan: &Plan) -> Outcome<Option<Need>> {
-    match is_6502(plan.target) {
+    match is_assembly(plan) {
         true => Ok(Some(assembly(&mos6502::Draft::new(plan)))),
         false => need(plan),
     }

@@ -3,8 +3,7 @@
 //! What cannot be written is an error, as for any file: a full disc must not look like
 //! success. A reader that has gone away (`| head`) has what it wanted, and that is none.
 
-use crate::failure::{Failure, Outcome};
-use crate::files::plain;
+use crate::failure::{Failure, Outcome, plain};
 use std::io::{ErrorKind, IsTerminal, Write};
 
 /// Prints a text as it is.

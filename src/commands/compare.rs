@@ -87,7 +87,7 @@ pub fn run(args: &Args) -> Outcome<()> {
     let mut status = None;
     for failure in rows.into_iter().filter_map(|r| r.tried.err()) {
         status.get_or_insert(failure.status());
-        failure.report();
+        crate::diagnostics::report(&failure);
     }
     match status {
         _ if differs => Err(Failure::Differs),

@@ -44,7 +44,7 @@ pub fn run(args: &Args) -> Outcome<()> {
     };
     let mut status = None;
     for (_, failure) in &wrong {
-        failure.report();
+        crate::diagnostics::report(failure);
         status.get_or_insert(failure.status());
     }
     done?;

@@ -264,7 +264,7 @@ fn conclude(args: &Args, cases: &[Case<'_>], found: Vec<Outcome<Found>>) -> Outc
             Ok(_) => {}
             Err(failure) => {
                 let status = failure.status();
-                failure.report();
+                crate::diagnostics::report(&failure);
                 failed.get_or_insert(status);
             }
         }

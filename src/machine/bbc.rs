@@ -1,6 +1,6 @@
 //! BBC BASIC: text or tokens in, a picture and text out.
 
-use super::charge::LineMap;
+use super::line_map::LineMap;
 use super::{File, Loaded, MachineRun, Program, Sizes, refused};
 use super::{boot, dfs};
 use crate::failure::{Failure, Outcome};

@@ -5,8 +5,8 @@
 //! bytes of load address, low byte first) or a disc of a BBC Micro, `.ssd`, whose catalogue
 //! has both addresses; for any other somebody has to say.
 
+use super::board::{Board, Config};
 use super::dfs::{self, Disc, DiscFile};
-use super::mos6502::{Board, Config};
 use super::{File, refused};
 use crate::failure::{Failure, Outcome};
 use slowlight_vm::Fault;

@@ -1,7 +1,7 @@
 //! Tests of how programs that are no source are told, placed and begun.
 #![allow(clippy::unwrap_used)]
 
-use super::super::mos6502::Config;
+use super::super::board::Config;
 use super::*;
 
 fn file(name: &str, bytes: &[u8]) -> File {

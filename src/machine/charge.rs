@@ -3,31 +3,13 @@
 //! Machines count by places of their own ([`slowlight_vm::Charge`]); here those
 //! become lines of the files that were given.
 
+use super::line_map::LineMap;
 use super::{Loaded, MachineRun, Program, bbc, hack, mos6502};
 use crate::failure::{Failure, Outcome};
 use crate::interrupt;
 use slowlight_compiler::report::profile::{Cost, Line};
 use slowlight_vm::{Charge, Progress, Roles, Stop};
 use std::collections::BTreeMap;
-
-/// From a machine's places to lines.
-#[derive(Clone, Debug, Default)]
-pub(super) enum LineMap {
-    /// Not known.
-    #[default]
-    Unknown,
-    /// The line of each place; none for what no file has.
-    Places(Vec<Option<Line>>),
-}
-
-impl LineMap {
-    fn line(&self, place: u32) -> Option<Line> {
-        match self {
-            LineMap::Unknown => None,
-            LineMap::Places(lines) => lines.get(place as usize).copied().flatten(),
-        }
-    }
-}
 
 /// What lines are to who counts, as [`Roles`] says it of places.
 #[derive(Clone, Copy)]

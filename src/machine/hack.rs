@@ -5,7 +5,7 @@
 //! translated and run on the CPU, where what the program does not bring of an OS is
 //! ours.
 
-use super::charge::LineMap;
+use super::line_map::LineMap;
 use super::os::{Noted, System, complete};
 use super::{File, Loaded, MachineRun, Program, Sizes, refused};
 use crate::failure::{Failure, Outcome};

@@ -6,18 +6,20 @@
 
 mod bbc;
 mod binary;
+mod board;
 mod boot;
 mod charge;
 mod dfs;
 mod hack;
 mod keys;
+mod line_map;
 mod mos6502;
 mod os;
 
 pub use binary::address;
+pub use board::{Board, Config as Mos6502Config};
 pub use charge::{LineRoles, Lines};
 pub use hack::Config as HackConfig;
-pub use mos6502::{Board, Config as Mos6502Config};
 
 use crate::failure::{Failure, Outcome};
 use crate::interrupt;
@@ -89,7 +91,7 @@ pub struct Loaded {
     /// Sizes as far as they are known before it runs.
     pub sizes: Sizes,
     program: Program,
-    map: charge::LineMap,
+    map: line_map::LineMap,
 }
 
 enum Program {

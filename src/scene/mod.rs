@@ -4,7 +4,7 @@ mod changes;
 
 pub use changes::Changes;
 
-use crate::failure::{Failure, Outcome};
+use crate::failure::{Failure, Outcome, Said};
 use crate::files;
 use changes::{options, settable};
 use clap::Args;
@@ -92,15 +92,6 @@ pub struct ScenesArgs {
     pub scenes: Vec<PathBuf>,
     #[command(flatten)]
     pub changes: Changes,
-}
-
-/// Texts and what was said about them.
-#[derive(Debug)]
-pub struct Said {
-    /// The texts.
-    pub sources: Sources,
-    /// What was said.
-    pub diagnostics: Vec<Diagnostic>,
 }
 
 /// A scene that was read and found right.

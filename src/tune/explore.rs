@@ -1,5 +1,6 @@
 //! The search: which choices are tried, in which order, and what is kept.
 
+use super::bands;
 use super::cache::Cache;
 use super::choice::{Base, Choice, Setting};
 use super::goal::Measure;
@@ -221,7 +222,7 @@ fn begun(search: &Search, scene: &Scene, natives: &Natives, choice: &Choice) -> 
             .map(Planned::new)
             .and_then(|planned| {
                 rows::hopeless(&planned.plan, search.limit)?;
-                if !rows::pays(&planned.plan) {
+                if !bands::pays(&planned.plan) {
                     let point =
                         point::measure(base, scene, natives, choice, planned, search.how())?;
                     return Ok(First::Whole(Box::new(point)));

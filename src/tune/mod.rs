@@ -16,6 +16,7 @@
 //!
 //! Cycles and errors of the frontier are those of whole runs; nothing is estimated.
 
+pub mod bands;
 pub mod cache;
 pub mod choice;
 pub mod explore;

@@ -5,6 +5,7 @@
 //! neither a dear band nor what a program does at its start misleads. What others clearly
 //! beat by these figures is not run whole; that is all they are for.
 
+use super::bands::bands;
 use super::choice::{Base, Choice};
 use super::goal::Measure;
 use super::planned::Planned;
@@ -16,12 +17,6 @@ use crate::scene::Scene;
 use crate::{estimate, measure, trial};
 use serde::{Deserialize, Serialize};
 use slowlight_compiler::plan::Plan;
-
-/// Predicted cycles from which on rows are looked at first: less is run whole in no time.
-const LONG: f64 = 1e8;
-
-/// The bands' share of the rows is one in so many, each.
-const SHARE: u32 = 24;
 
 /// By how much another must be cheaper and better, as figures of a few rows are not exact.
 const CLEARLY: f64 = 0.8;
@@ -60,13 +55,6 @@ impl Look {
     }
 }
 
-/// Whether rows should be looked at before the whole is run. Where errors spread, all rows
-/// are computed in any case.
-pub fn pays(plan: &Plan) -> bool {
-    let rows = plan.rows.1 - plan.rows.0 + 1;
-    plan.graph.diffusion.is_none() && rows >= SHARE && estimate::cycles(plan) > LONG
-}
-
 /// Where rows cannot be looked at, the planner's figures say what is not begun at all.
 ///
 /// # Errors
@@ -80,19 +68,6 @@ pub fn hopeless(plan: &Plan, limit: u64) -> Outcome<()> {
     Err(Failure::Wrong(format!(
         "the planner expects {cycles} cycles, and {limit} are the limit (--limit)"
     )))
-}
-
-/// The bands: first and last row of each.
-pub fn bands((first, last): (u32, u32)) -> [(u32, u32); 3] {
-    let count = last - first + 1;
-    let high = count.div_ceil(SHARE);
-    [1, 3, 5].map(|sixth| {
-        let top = first
-            + (count * sixth / 6)
-                .saturating_sub(high / 2)
-                .min(count - high);
-        (top, top + high - 1)
-    })
 }
 
 /// Looks at a plan's bands on its machine.

@@ -3,8 +3,8 @@
 //!
 //! Lines are charged as `explain` does it, on the bands of rows that a first look takes.
 
+use super::bands::{bands, pays};
 use super::planned::Planned;
-use super::rows::{bands, pays};
 use crate::explain::{Counted, count_lines, error};
 use crate::failure::Outcome;
 use crate::scene::Scene;

@@ -38,10 +38,9 @@ fn planned(target: &str, source: &str, set: &[f64], rows: Option<(u32, u32)>) ->
     let target = find(target).unwrap();
     let scene = scene::check("test", source);
     assert!(scene.is_right(), "{:?}\n{source}", scene.diagnostics);
-    let set = if set.is_empty() {
-        Vec::new()
-    } else {
-        vec![("eye".to_owned(), set.to_vec())]
+    let set = match set.is_empty() {
+        true => Vec::new(),
+        false => vec![("eye".to_owned(), set.to_vec())],
     };
     let (width, height) = (320, 240);
     let mode = default_mode(target, width, height).unwrap();

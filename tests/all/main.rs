@@ -29,6 +29,7 @@ mod hack_rom;
 mod hard_cases;
 mod held;
 mod house;
+mod imports;
 mod jack;
 mod jack_fixed;
 mod jack_formats;

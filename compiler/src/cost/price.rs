@@ -20,7 +20,6 @@ use crate::ir::graph::*;
 use crate::ir::often;
 use crate::ir::tree::*;
 use crate::passes::loops::strip_mine::passes;
-use crate::planner::context::Context;
 use crate::schedule::analysed::Analysed;
 use crate::schedule::constant_runs::{Inks, Still, still};
 use crate::schedule::segment::bounds_segment;
@@ -46,13 +45,13 @@ pub struct Price {
 }
 
 impl Price {
-    /// Prices for plans of a scene.
-    pub fn new(cx: &Context, budget: SizeBudget) -> Price {
+    /// Prices for plans of a scene, by the pixels that stand for all.
+    pub fn new(runtime: &'static Runtime, pixels: Arc<Pixels>, budget: SizeBudget) -> Price {
         Price {
-            runtime: cx.runtime,
+            runtime,
             memory: budget.part(),
             around: budget.around(),
-            pixels: cx.pixels(),
+            pixels,
         }
     }
 

@@ -1,7 +1,6 @@
 //! Prices depend on what the scene gives a param, not on what it is now.
 #![allow(clippy::unwrap_used)]
 
-use super::price::Price;
 use crate::cost::size_budget::SizeBudget;
 use crate::eval::native::Native;
 use crate::ir::graph::*;
@@ -19,7 +18,7 @@ fn graph(text: &str) -> Graph {
 
 fn price(graph: &Graph, runtime: &'static Runtime) -> f64 {
     let cx = Context::new(graph.clone(), runtime);
-    let price = Price::new(&cx, SizeBudget::default()).of(&cx.simplified(graph));
+    let price = cx.price(SizeBudget::default()).of(&cx.simplified(graph));
     assert!(price.is_finite() && price > 0.0);
     price
 }

@@ -1,8 +1,8 @@
 //! Error diffusion weights: errors that pixels send to later ones.
 
 #[cfg(doc)]
-use super::graph::Node;
-use super::graph::NodeId;
+use super::node::Node;
+use super::node::NodeId;
 use crate::source::Span;
 
 /// What a pixel sends to one that the scan reaches later.

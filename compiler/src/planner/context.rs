@@ -8,13 +8,14 @@
 use super::pipeline::{Pass, Pipeline};
 use crate::analysis::range::Slack;
 use crate::cost::pixels::Pixels;
+use crate::cost::price::Price;
+use crate::cost::size_budget::SizeBudget;
 use crate::fuel::Fuel;
 use crate::ir::graph::*;
 use crate::passes::algebra::polynomial::Proofs;
 use crate::passes::branches::early_exit::without;
 use crate::passes::simplify::fold::fold;
 use crate::passes::simplify::range_folding::fold_by_ranges;
-use crate::planner::search::forms::Rewrite;
 use crate::schedule::analysed::{Analysed, scheduled};
 use crate::wordlength::sample;
 use rustc_hash::{FxHashMap, FxHasher};
@@ -133,12 +134,17 @@ impl Context {
     }
 
     /// The pixels by which plans are priced: chosen by what the scene as it is takes.
-    pub(crate) fn pixels(&self) -> Arc<Pixels> {
+    fn pixels(&self) -> Arc<Pixels> {
         let found = self.memo.pixels.get_or_init(|| {
             let plan = self.found_or_scheduled(fold(&without(&self.origin)));
             Arc::new(Pixels::of(&plan, self.runtime))
         });
         found.clone()
+    }
+
+    /// Prices for plans of the scene, where memory is as dear as that.
+    pub fn price(&self, budget: SizeBudget) -> Price {
+        Price::new(self.runtime, self.pixels(), budget)
     }
 
     /// How many statements may be run to place points.
@@ -243,3 +249,14 @@ impl fmt::Debug for Context {
             .finish_non_exhaustive()
     }
 }
+
+/// Which of these.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Rewrite {
+    Forms,
+    Identities,
+    Spans,
+}
+
+/// How many nodes a graph may have to be looked at by algebra.
+pub(super) const NODES: usize = 1000;

@@ -2,7 +2,8 @@
 #![allow(clippy::unwrap_used)]
 
 use super::SEARCH;
-use super::made::{Rewriting, candidate, plan};
+use super::made::{candidate, plan};
+use super::planned::Rewriting;
 use crate::cost::size_budget::SizeBudget;
 use crate::fuel::Fuel;
 use crate::plan::{Goal, Plan};

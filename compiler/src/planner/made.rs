@@ -3,9 +3,8 @@
 use super::SEARCH;
 use super::assemble::{Scheduled, assemble};
 use super::pipeline::{Pass, PassSet, Pipeline};
-use super::replan::PlannedScene;
+use super::planned::{PlannedScene, Rewriting};
 use crate::analysis::verify::verify;
-use crate::cost::price::Price;
 use crate::cost::size_budget::SizeBudget;
 use crate::fuel::Fuel;
 use crate::ir::graph::*;
@@ -93,17 +92,6 @@ pub fn plan_as_written(
     candidate(&Arc::new(cx), target, goal, none)?.assembled(target, goal)
 }
 
-/// Which passes may rewrite formulas.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) enum Rewriting {
-    /// None: every formula as the scene has it.
-    None,
-    /// [`crate::passes::accuracy`].
-    Stable,
-    /// Those for speed, too; perhaps with little memory.
-    Fast { budget: SizeBudget, steps: Steps },
-}
-
 /// By how much shortcuts must make a plan cheaper: each is a test more to be read.
 const SOONER: f64 = 0.95;
 
@@ -129,7 +117,9 @@ pub struct Candidate {
 impl Candidate {
     /// What [`PlannedScene::cycles_a_pixel`] says of the plan that it makes.
     pub fn cycles_a_pixel(&self) -> f64 {
-        Price::new(&self.cx, SizeBudget::default()).cycles_known(&self.plan)
+        self.cx
+            .price(SizeBudget::default())
+            .cycles_known(&self.plan)
     }
 
     /// What searching for it took, in units of [`Fuel`].
@@ -269,7 +259,7 @@ fn searched(
     budget: SizeBudget,
     steps: Steps,
 ) -> Analysed {
-    let price = Price::new(cx, budget);
+    let price = cx.price(budget);
     let plain = in_arms(plain, cx, budget);
     let early = early.map(|plan| in_arms(plan, cx, budget));
     let early = early.as_ref().map(|settled| &settled.graph);

@@ -12,12 +12,13 @@ mod context_tests;
 pub(crate) mod made;
 pub(crate) mod outlined;
 pub mod pipeline;
+pub(crate) mod planned;
 pub(crate) mod replan;
 pub(crate) mod search;
 
 use crate::cost::size_budget::SizeBudget;
 pub use made::{Candidate, plan, plan_as_written, plan_with_every_shade, plan_within};
-pub use replan::PlannedScene;
+pub use planned::PlannedScene;
 
 /// How much work a search for a plan may do, in units of [`crate::fuel::Fuel`]: some seconds'
 /// worth, a few times what the dearest of the examples takes.

@@ -2,7 +2,7 @@
 //! everything where it is used.
 
 use super::assemble::{Scheduled, assemble};
-use super::replan::PlannedScene;
+use super::planned::PlannedScene;
 use crate::analysis::range::{Slack, ranges};
 use crate::ir::graph::{Graph, Node};
 use crate::ir::tree::*;

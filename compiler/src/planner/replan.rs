@@ -1,46 +1,16 @@
 //! Replanning: other plans of the scene that a plan is of, for less memory or another question.
 
-use super::made::{Candidate, Rewriting, candidate};
+use super::made::{Candidate, candidate};
 use super::pipeline::Pipeline;
-use crate::cost::price::Price;
+use super::planned::{PlannedScene, Rewriting};
 use crate::cost::size_budget::SizeBudget;
 use crate::fuel::Fuel;
 use crate::ir::graph::*;
 use crate::ir::tree::*;
-use crate::plan::Plan;
 use crate::planner::context::Context;
 use crate::planner::search::stepped::Steps;
 use crate::targets::Lean;
-use std::ops::{Deref, DerefMut};
 use std::sync::Arc;
-
-/// A plan, and how it was made: whoever needs another plan of the same scene asks it.
-#[derive(Clone, Debug)]
-pub struct PlannedScene {
-    /// The plan.
-    pub plan: Plan,
-    /// What was made on the way, and how its formulas could be rewritten.
-    pub(super) cx: Arc<Context>,
-    pub(super) rewriting: Rewriting,
-    /// What making it took, in units of [`Fuel`].
-    pub(super) work: u64,
-    /// How much fuel there is for each plan that is made from this one.
-    pub(super) allowance: u64,
-}
-
-impl Deref for PlannedScene {
-    type Target = Plan;
-
-    fn deref(&self) -> &Plan {
-        &self.plan
-    }
-}
-
-impl DerefMut for PlannedScene {
-    fn deref_mut(&mut self) -> &mut Plan {
-        &mut self.plan
-    }
-}
 
 impl PlannedScene {
     /// What searching for it took, in units of [`crate::fuel::Fuel`].
@@ -57,7 +27,7 @@ impl PlannedScene {
     /// routines where pixels run, what begins rows, passes and runs, and no drawing.
     pub fn cycles_a_pixel(&self) -> f64 {
         let known = self.cx.scheduled(self.graph.clone());
-        Price::new(&self.cx, SizeBudget::default()).cycles_known(&known)
+        self.cx.price(SizeBudget::default()).cycles_known(&known)
     }
 
     /// The same plan; those that are made from it have so many units of fuel each.

@@ -3,12 +3,16 @@
 
 use crate::analysis::range::Ranges;
 use crate::ir::graph::*;
-use crate::selection::routines::Chosen;
 use slowlight_routine::{Loose, Op, Routine};
 
 /// Puts routines that leave small results as they come in the place of those that do not,
 /// where everything that reads a result takes that.
-pub(crate) fn loosen(graph: &Graph, ranges: &Ranges, loose: &Loose, chosen: &mut Chosen) {
+pub(crate) fn loosen(
+    graph: &Graph,
+    ranges: &Ranges,
+    loose: &Loose,
+    chosen: &mut [Option<&'static Routine>],
+) {
     // Calls copy what they are given and leave; nobody looks at what reads these.
     if graph
         .ids()
@@ -51,7 +55,7 @@ struct Search<'g> {
 impl Search<'_> {
     /// Takes back what the first reader minds that does; from which node on all may be
     /// otherwise then, if there is one. Up to `from` nothing has changed.
-    fn held_back(&mut self, chosen: &Chosen, from: usize) -> Option<usize> {
+    fn held_back(&mut self, chosen: &[Option<&'static Routine>], from: usize) -> Option<usize> {
         let mut lows = std::mem::take(&mut self.lows);
         let minded = self.minded(chosen, from, &mut lows);
         let taken = self.take_back(minded, &lows);
@@ -60,7 +64,12 @@ impl Search<'_> {
     }
 
     /// What the first reader minds that does, or what leaves the graph.
-    fn minded(&self, chosen: &Chosen, from: usize, lows: &mut [i32]) -> Vec<NodeId> {
+    fn minded(
+        &self,
+        chosen: &[Option<&'static Routine>],
+        from: usize,
+        lows: &mut [i32],
+    ) -> Vec<NodeId> {
         let later = self.graph.ids().skip(from);
         for id in later.filter(|id| self.reached[id.0 as usize]) {
             let at = id.0 as usize;

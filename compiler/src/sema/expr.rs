@@ -1,7 +1,7 @@
 //! Expressions of a checked program: typed, names resolved.
 
 use super::builtins::Builtin;
-use super::program::*;
+use super::ids::*;
 use super::ty::Ty;
 use crate::source::Span;
 use crate::syntax::tree::{BinaryOp, Claim, UnaryOp};

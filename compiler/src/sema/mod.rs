@@ -11,9 +11,11 @@ mod builtins;
 mod check;
 pub mod colours;
 mod expr;
+mod ids;
 mod lower;
 mod print;
 mod program;
+mod show;
 mod ty;
 
 #[cfg(test)]

@@ -6,35 +6,9 @@
 //! is `None` (the callee's default). Locals are slots of their function's frame.
 
 pub use super::expr::*;
+pub use super::ids::*;
 use super::ty::Ty;
 use crate::source::Span;
-
-macro_rules! ids {
-    ($($(#[$doc:meta])* $name:ident)*) => {
-        $($(#[$doc])*
-        #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
-        pub struct $name(pub usize);)*
-    };
-}
-
-ids! {
-    /// A function, dither or effect of [`Program::functions`].
-    FunctionId
-    /// A constant of [`Program::consts`].
-    ConstId
-    /// A param of [`Program::params`].
-    ParamId
-    /// A shape of [`Program::shapes`].
-    ShapeId
-    /// A scene of [`Program::scenes`].
-    SceneId
-    /// A record of [`Program::records`].
-    RecordId
-    /// A map of [`Program::maps`].
-    MapId
-    /// A slot of the enclosing function's frame.
-    LocalId
-}
 
 /// A local name: an argument, a `let`, a carried value.
 #[derive(Clone, Debug, PartialEq)]

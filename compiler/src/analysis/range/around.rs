@@ -1,18 +1,9 @@
 //! Path conditions: the facts that hold where the walk is, and what two of them say together: of
 //! a condition that one of two others decides, and of which of the two.
 
-use super::refine::Conditions;
+use super::refine::{Choice, Conditions};
 use crate::analysis::region::Fact;
 use crate::ir::graph::*;
-
-/// A condition that is known to hold, or not to, and of which one of two others decides.
-#[derive(Clone, Copy)]
-pub(super) struct Choice {
-    pub(super) by: NodeId,
-    pub(super) yes: NodeId,
-    pub(super) no: NodeId,
-    pub(super) holds: bool,
-}
 
 /// More facts than these are not looked through.
 const MANY: usize = 200;

@@ -9,14 +9,18 @@ use crate::ir::graph::*;
 use slowlight_routine::{Op, Range, Type};
 
 /// How many steps from a result down to what it is made of are gone.
-pub(super) const DEEP: u32 = 8;
+const DEEP: u32 = 8;
 
 /// No less than this is said of the size of a square: below, formats may take it for 0.
 const SMALL: f64 = 1e-12;
 
 impl Narrowing<'_> {
     /// Narrows what a real that was narrowed is made of.
-    pub(super) fn contract(&mut self, id: NodeId, deep: u32) {
+    pub(super) fn contracted(&mut self, id: NodeId) {
+        self.contract(id, DEEP);
+    }
+
+    fn contract(&mut self, id: NodeId, deep: u32) {
         let Node::Apply(op, operands) = self.graph.node(id) else {
             return;
         };

@@ -41,7 +41,6 @@ pub(crate) use known::shared;
 #[cfg(test)]
 use loops::STATEMENTS;
 use once::Once;
-use parity::whole;
 use refine::{Conditions, Known, restore};
 pub use slack::{ENTRIES, Slack};
 use slowlight_routine::{Op, Range, Type};
@@ -279,6 +278,12 @@ impl Walk<'_> {
         };
     }
 
+    /// An operation's range with what its being of whole numbers implies.
+    fn whole(&mut self, id: NodeId, args: [Range; 2], range: Range) -> Range {
+        let (graph, once) = (self.graph, &mut self.once);
+        parity::whole(graph, &mut || once.odd(graph, id), id, args, range)
+    }
+
     fn compute(&mut self, id: NodeId) {
         let at = id.0 as usize;
         let range = match self.graph.node(id) {
@@ -294,14 +299,14 @@ impl Walk<'_> {
                     // It may wrap.
                     false => self.slack.ints,
                 };
-                whole(self.graph, &mut self.once, id, [Range::ALL; 2], range)
+                self.whole(id, [Range::ALL; 2], range)
             }
             // As the column's block has left it.
             Node::Tabulated(_) => self.read(id),
             Node::Stepped { first, step } => {
                 let args = [self.read(first), self.read(step)];
                 let exact = interval(Op::IntAdd, args, false);
-                let exact = whole(self.graph, &mut self.once, id, args, exact);
+                let exact = self.whole(id, args, exact);
                 self.out.exact[at] = exact;
                 self.slack.cut(Type::Int, exact)
             }
@@ -334,7 +339,7 @@ impl Walk<'_> {
             return range;
         }
         let exact = interval(op, args, same);
-        let exact = whole(self.graph, &mut self.once, id, args, exact);
+        let exact = self.whole(id, args, exact);
         let exact = self.part_of_length(id, exact);
         self.note_args(id, args);
         self.out.exact[at] = match self.shared[at] {

@@ -1,7 +1,6 @@
 //! Congruence facts: what intervals cannot see of whole numbers: one whose last bits are not all
 //! 0 is not 0 (an odd one, or ten times that), and one that is not 0 is at least 1.
 
-use super::once::Once;
 use crate::ir::graph::*;
 use slowlight_routine::{Op, Range, Type, Value};
 
@@ -9,9 +8,15 @@ use slowlight_routine::{Op, Range, Type, Value};
 const DEEP: u32 = 8;
 
 /// The range of an operation with what its being of whole numbers implies.
-pub fn whole(graph: &Graph, once: &mut Once, id: NodeId, args: [Range; 2], range: Range) -> Range {
+pub fn whole(
+    graph: &Graph,
+    is_odd: &mut dyn FnMut() -> bool,
+    id: NodeId,
+    args: [Range; 2],
+    range: Range,
+) -> Range {
     let mut int = || Range {
-        nonzero: range.nonzero || once.odd(graph, id),
+        nonzero: range.nonzero || is_odd(),
         ..range
     };
     match graph.node(id) {

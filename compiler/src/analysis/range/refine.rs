@@ -2,8 +2,6 @@
 //! that it compares, and of those that a comparison which it stands for would compare.
 
 use super::Slack;
-use super::around::Choice;
-use super::contract;
 use crate::analysis::region::{Fact, implied};
 use crate::ir::graph::*;
 use slowlight_routine::{Op, Range};
@@ -275,7 +273,7 @@ impl Narrowing<'_> {
         met.nonzero |= strict && (range.lo == 0.0 || range.hi == 0.0);
         self.put(id, met);
         if met.lo > held.lo || met.hi < held.hi {
-            self.contract(id, contract::DEEP);
+            self.contracted(id);
         }
         // What it is a line in is narrowed with it, down to the row.
         let (mut of, mut before) = (id, held);
@@ -301,6 +299,15 @@ impl Narrowing<'_> {
         self.saved.push((id, *now));
         *now = range;
     }
+}
+
+/// A condition that is known to hold, or not to, and of which one of two others decides.
+#[derive(Clone, Copy)]
+pub(super) struct Choice {
+    pub(super) by: NodeId,
+    pub(super) yes: NodeId,
+    pub(super) no: NodeId,
+    pub(super) holds: bool,
 }
 
 #[cfg(test)]

@@ -4,33 +4,11 @@
 //! which only the lowest bits are asked for stands in the question's place.
 
 use super::dead::Flow;
+use super::lines::jump;
 use super::lines::{Label, Labels, Lines};
-use super::thread::jump;
-use super::ways::Test;
+use super::test_line::Test;
+use super::test_line::opposite;
 use rustc_hash::FxHashMap;
-
-/// The test that holds where another does not.
-pub fn opposite(test: &str) -> Option<String> {
-    if let Some(name) = test.strip_prefix("NOT ") {
-        return (!name.contains([' ', '(', '<', '>', '='])).then(|| name.to_owned());
-    }
-    let sign = |c: char| "<>=".contains(c);
-    let from = test.find(sign)?;
-    let length = test.get(from..)?.find(|c| !sign(c))?;
-    let (left, rest) = test.split_at_checked(from)?;
-    let (sign_is, right) = rest.split_at_checked(length)?;
-    let alone = |text: &str| !text.contains(sign) && !text.contains("AND") && !text.contains("OR");
-    let turned = match sign_is {
-        "<" => ">=",
-        "<=" => ">",
-        ">" => "<=",
-        ">=" => "<",
-        "=" => "<>",
-        "<>" => "=",
-        _ => return None,
-    };
-    (alone(left) && alone(right)).then(|| format!("{left}{turned}{right}"))
-}
 
 /// The lines with an int that is set only for its lowest bits to be asked for in the
 /// question's place. A way that sets it elsewhere, rarely, asks for itself.

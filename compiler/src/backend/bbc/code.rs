@@ -3,8 +3,6 @@
 use super::Style;
 use super::expression::Expressions;
 use super::lines::{Label, Labels, Lines};
-use super::ramp::{self, Late};
-use super::segment::Ends;
 use super::text::Text;
 use crate::analysis::region::Fact;
 use crate::ir::graph::{Node, NodeId};
@@ -12,6 +10,7 @@ use crate::ir::often;
 use crate::ir::tree::*;
 use crate::plan::Plan;
 use crate::source::Span;
+use rustc_hash::FxHashSet;
 use slowlight_routine::Op;
 use std::collections::BTreeMap;
 
@@ -184,7 +183,7 @@ impl<'p> Code<'p> {
         self.span = Some(self.values.plan.graph.span(id));
         self.end_run(id);
         if let Node::Stepped { step, .. } = self.values.plan.graph.node(id) {
-            return ramp::add(self.values.plan, self, id, step);
+            return self.add_step(id, step);
         }
         if self.extreme(id) {
             return;
@@ -373,4 +372,18 @@ impl<'p> Code<'p> {
         self.lines.append(done);
         self.lines.place(end);
     }
+}
+
+/// Ramps that only runs of two inks read ([`Inks::Either`]): they are stepped
+/// there, and before that over all columns that were passed since.
+pub struct Late {
+    pub(super) ramps: Vec<(NodeId, NodeId)>,
+    /// The variable of where they stand: a column, or its byte.
+    pub(super) at: String,
+}
+
+/// What the comparisons of a segment tell.
+pub struct Ends {
+    pub(super) end: String,
+    pub(super) bounds: FxHashSet<NodeId>,
 }

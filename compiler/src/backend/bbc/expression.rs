@@ -1,9 +1,9 @@
 //! Values as text.
 
 use super::Style;
-use super::guard::filled;
 use super::names::Names;
 use super::pieces::{depth, short_length};
+use super::text::filled;
 use super::text::{Fast, Text};
 use crate::ir::graph::*;
 use crate::plan::Plan;

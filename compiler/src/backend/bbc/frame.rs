@@ -2,16 +2,16 @@
 
 mod behind;
 
-pub use behind::is_first;
-
 use super::Style;
 use super::code::Code;
+use super::code::Late;
 use super::columns;
 use super::dead;
 use super::lines::Lines;
 use super::passes::Passes;
 use super::poke::Poke;
-use super::ramp::{self, Late};
+use super::procedure::as_procedure;
+use super::ramp;
 use super::screen;
 use super::segment::{SEGMENT, Segments};
 use super::short::{Known, short};
@@ -159,7 +159,7 @@ fn picture(plan: &Plan, code: &mut Code<'_>, first: &str, last: &str, spread: Op
         code.statement(format!("R%={}", screen::y_expression(plan)));
     }
     let mut apart = Vec::new();
-    if let Some(row) = behind(code, "row", |code| {
+    if let Some(row) = as_procedure(code, "row", |code| {
         code.block(&plan.tree.row);
         if passes.is_none() && plan.computed_columns().0 > 0 {
             ramp::start(plan, code, &plan.computed_columns().0.to_string());
@@ -191,7 +191,7 @@ fn picture(plan: &Plan, code: &mut Code<'_>, first: &str, last: &str, spread: Op
             ramp::are_at(code, "X%");
             code.lines.place(top_label);
             let draw = screen::run(plan, code, segments.end(), 1);
-            apart.extend(behind(code, "segment", |code| {
+            apart.extend(as_procedure(code, "segment", |code| {
                 segments.begin(plan, code, Some(&draw));
             }));
             segments.drawn(plan, code, behind_run);
@@ -249,32 +249,6 @@ fn picture(plan: &Plan, code: &mut Code<'_>, first: &str, last: &str, spread: Op
     reports(plan, code);
     code.line("END");
     apart.into_iter().for_each(|lines| code.lines.append(lines));
-}
-
-/// Lines of code that stand close to the top are found sooner: a jump looks
-/// through all lines before its own. So what is done once a row or run, if it is
-/// of more than a few lines, becomes a procedure that stands behind the pixel's
-/// code; answers it.
-pub(super) fn behind<'p>(
-    code: &mut Code<'p>,
-    name: &str,
-    write: impl FnOnce(&mut Code<'p>),
-) -> Option<Lines> {
-    let weight = code.lines.weight;
-    let outer = std::mem::replace(&mut code.lines, Lines::of_weight(weight));
-    write(code);
-    let mut lines = std::mem::replace(&mut code.lines, outer);
-    if code.values.style != Style::Fast || lines.texts().count() <= 2 {
-        code.lines.append(lines);
-        return None;
-    }
-    let name = code.values.names.unique(&format!("PROC{name}"), "");
-    code.statement(name.clone());
-    let mut procedure = Lines::of_weight(weight);
-    procedure.line(format!("DEF {name}"), code.frame);
-    lines.line("ENDPROC", code.frame);
-    procedure.append(lines);
-    Some(procedure)
 }
 
 /// What a pixel that is computed must pass beside to be drawn.

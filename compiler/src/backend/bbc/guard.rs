@@ -11,8 +11,8 @@ use super::text::{Fast, Text};
 use crate::ir::graph::NodeId;
 use crate::ir::tree::Place;
 use slowlight_routine::{Form, Format, Range, Value};
+use slowlight_runtime_bbc::RUNTIME;
 use slowlight_runtime_bbc::guards::{self, Test};
-use slowlight_runtime_bbc::{RUNTIME, level};
 
 /// More tests than this take as long as the call that they save.
 const TESTS: usize = 3;
@@ -26,35 +26,6 @@ pub struct Guard {
     pub tests: Vec<String>,
     pub below: Option<f64>,
     pub otherwise: Option<&'static str>,
-}
-
-/// A routine's expression with its operands, as they are under their tests or always.
-pub fn filled(form: Form, operands: &[Text], fast: bool) -> Text {
-    let Form::Expression {
-        template,
-        level,
-        operands: levels,
-    } = form
-    else {
-        return Text::operand("0");
-    };
-    let mut text = template.to_owned();
-    for (k, operand) in operands.iter().enumerate() {
-        let need = levels.get(k).copied().unwrap_or(level::OPERAND);
-        let hole = format!("{{{k}}}");
-        let mut operand = if fast {
-            operand.fast_at(need)
-        } else {
-            operand.at(need)
-        };
-        // Two signs beside each other are hard to read.
-        let sign = |sign: &str| text.contains(&format!("{sign}{hole}"));
-        if operand.starts_with('-') && (sign("+") || sign("-")) {
-            operand = format!("({operand})");
-        }
-        text = text.replace(&hole, &operand);
-    }
-    Text::new(text, level)
 }
 
 impl Expressions<'_> {

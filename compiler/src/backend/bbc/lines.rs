@@ -299,3 +299,9 @@ impl Lines {
         (text, spans)
     }
 }
+
+/// What stands before the label that a line jumps to at its end, and that label.
+pub fn jump(text: &str) -> Option<(&str, Label)> {
+    let (before, label) = Label::last_of(text)?;
+    (before.ends_with("GOTO ") || before.ends_with("THEN ")).then_some((before, label))
+}

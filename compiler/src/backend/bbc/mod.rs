@@ -39,6 +39,7 @@ mod names;
 mod passes;
 mod pieces;
 mod poke;
+mod procedure;
 mod ramp;
 mod reads;
 mod screen;
@@ -49,6 +50,7 @@ mod starts;
 mod tables;
 mod tail;
 mod terse;
+mod test_line;
 #[cfg(test)]
 mod tests;
 mod text;
@@ -61,6 +63,7 @@ pub(super) use starts::starts;
 
 use super::Document;
 use crate::plan::Plan;
+use slowlight_routine::{Part, Source};
 
 /// How a program is written.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -97,4 +100,9 @@ pub(super) fn emit(plan: &Plan) -> Vec<Document> {
         lines,
         later,
     }]
+}
+
+/// Whether a part is carried out before anything else, not called.
+fn is_first(part: &Part) -> bool {
+    matches!(part.source, Source::Text(text) if !text.starts_with("DEF"))
 }

@@ -6,9 +6,9 @@
 //! there is a part of a table, and each pixel is added to its byte.
 
 use super::code::Code;
-use super::frame::behind;
 use super::lines::{Label, Lines};
 use super::poke;
+use super::procedure::as_procedure;
 use super::ramp;
 use super::reads;
 use super::screen;
@@ -96,7 +96,7 @@ impl Passes {
             0 => format!("X%={pass}+{first}"),
             off => format!("X%=({pass}+{}) MOD {n}+{first}", n - off),
         });
-        apart.extend(behind(code, "pass", |code| {
+        apart.extend(as_procedure(code, "pass", |code| {
             code.block(&plan.tree.pass);
             if first > 0 {
                 ramp::start_at(plan, code, n, first >= n);
@@ -121,7 +121,7 @@ impl Passes {
         let draw = self.run(plan, code, segments.end());
         ramp::are_at(code, &draw.count);
         code.lines.place(again);
-        apart.extend(behind(code, "segment", |code| {
+        apart.extend(as_procedure(code, "segment", |code| {
             segments.begin(plan, code, Some(&draw));
         }));
         segments.drawn(plan, code, behind_run);

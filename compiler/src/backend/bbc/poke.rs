@@ -8,8 +8,8 @@
 
 use super::Style;
 use super::code::Code;
-use super::frame::behind;
 use super::lines::{Label, Lines};
+use super::procedure::as_procedure;
 use super::segment::Segments;
 use crate::plan::Plan;
 
@@ -138,7 +138,7 @@ impl Poke {
         code.lines.place(again);
         let inside = code.labels.next();
         code.line(format!("IF X%<={end} THEN {inside}"));
-        let apart = behind(code, "segment", |code| segments.begin(plan, code, None));
+        let apart = as_procedure(code, "segment", |code| segments.begin(plan, code, None));
         code.lines.place(inside);
         code.line(format!(
             "IF {last}<={end} THEN {until}={last} ELSE {until}={end}"

@@ -4,7 +4,7 @@
 //! steps another ramp is stepped after it, so that each is right at the next column.
 
 use super::Style;
-use super::code::Code;
+use super::code::{Code, Late};
 use super::reads;
 use super::text::Text;
 use crate::ir::graph::{Node, NodeId};
@@ -17,7 +17,7 @@ pub fn start(plan: &Plan, code: &mut Code<'_>, steps: &str) {
     if !plan.ramps().is_empty() {
         code.line(format!("FOR I%=1 TO {steps}"));
         for (id, by) in plan.ramps() {
-            add(plan, code, id, by);
+            code.add_step(id, by);
         }
         code.line("NEXT");
     }
@@ -42,15 +42,18 @@ pub fn step(plan: &Plan, code: &mut Code<'_>) {
     for (id, by) in plan.ramps() {
         let late = |late: &Late| late.ramps.contains(&(id, by));
         if !code.late.as_ref().is_some_and(late) {
-            add(plan, code, id, by);
+            code.add_step(id, by);
         }
     }
 }
 
 /// Adds a step to what is stepped.
-pub fn add(plan: &Plan, code: &mut Code<'_>, id: NodeId, by: NodeId) {
-    let text = added(plan, code, id, by);
-    code.statement(text);
+impl Code<'_> {
+    /// Adds a step to what is stepped.
+    pub fn add_step(&mut self, id: NodeId, by: NodeId) {
+        let text = added(self.values.plan, self, id, by);
+        self.statement(text);
+    }
 }
 
 fn added(plan: &Plan, code: &mut Code<'_>, id: NodeId, by: NodeId) -> String {
@@ -76,14 +79,6 @@ fn amount(plan: &Plan, code: &mut Code<'_>, by: NodeId) -> String {
         Some(_) => code.values.names.whole(&text.text),
         None => text.at(slowlight_runtime_bbc::level::PRODUCT),
     }
-}
-
-/// Ramps that only runs of two inks read ([`Inks::Either`]): they are stepped
-/// there, and before that over all columns that were passed since.
-pub struct Late {
-    ramps: Vec<(NodeId, NodeId)>,
-    /// The variable of where they stand: a column, or its byte.
-    at: String,
 }
 
 impl Late {
@@ -140,10 +135,10 @@ pub fn catch_up(plan: &Plan, code: &mut Code<'_>, at: &str, by: u32) {
 }
 
 /// Steps late ramps at a pixel of a run that reads them.
-pub fn step_late(plan: &Plan, code: &mut Code<'_>) {
+pub fn step_late(code: &mut Code<'_>) {
     let ramps = code.late.as_ref().map(|late| late.ramps.clone());
     for (id, by) in ramps.unwrap_or_default() {
-        add(plan, code, id, by);
+        code.add_step(id, by);
     }
 }
 

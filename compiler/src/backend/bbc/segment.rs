@@ -6,7 +6,7 @@
 //! So a comparison that is not reached there ends no run.
 
 use super::Style;
-use super::code::Code;
+use super::code::{Code, Ends};
 use super::lines::{Label, Lines};
 use super::ramp;
 use crate::analysis::rate::rates;
@@ -14,7 +14,6 @@ use crate::ir::graph::*;
 use crate::plan::Plan;
 use crate::schedule::constant_runs::{Inks, Still};
 use crate::schedule::segment::bounds_segment;
-use rustc_hash::FxHashSet;
 use slowlight_routine::Op;
 use slowlight_runtime_bbc::level::OPERAND;
 
@@ -31,12 +30,6 @@ pub struct Segments {
     end: String,
     /// The last column of all.
     last: u32,
-}
-
-/// What the comparisons of a segment tell.
-pub struct Ends {
-    end: String,
-    bounds: FxHashSet<NodeId>,
 }
 
 impl Segments {
@@ -202,7 +195,7 @@ impl Segments {
             .iter()
             .for_each(|text| code.statement_or_test(text));
         ramp::step(plan, code);
-        ramp::step_late(plan, code);
+        ramp::step_late(code);
         code.lines.weight = weight;
         draw.behind(code);
         ramp::are_at(code, &draw.count);

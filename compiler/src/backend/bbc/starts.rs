@@ -3,7 +3,7 @@
 //! its digits whenever it meets them, so a text's length counts.
 
 use super::super::starts::{constants, usual};
-use super::frame::is_first;
+use super::is_first;
 use super::screen;
 use super::tables::groups;
 use crate::plan::Plan;

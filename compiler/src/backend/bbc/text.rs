@@ -1,5 +1,7 @@
 //! Expressions as text, and the tests under which they may be written shorter.
 
+use slowlight_routine::Form;
+use slowlight_runtime_bbc::level;
 use slowlight_runtime_bbc::level::OPERAND;
 
 /// The same value without a function call, where tests allow it.
@@ -64,4 +66,33 @@ impl Text {
         let text = self.text.strip_prefix('-').unwrap_or(&self.text);
         text.chars().all(plain)
     }
+}
+
+/// A routine's expression with its operands, as they are under their tests or always.
+pub fn filled(form: Form, operands: &[Text], fast: bool) -> Text {
+    let Form::Expression {
+        template,
+        level,
+        operands: levels,
+    } = form
+    else {
+        return Text::operand("0");
+    };
+    let mut text = template.to_owned();
+    for (k, operand) in operands.iter().enumerate() {
+        let need = levels.get(k).copied().unwrap_or(level::OPERAND);
+        let hole = format!("{{{k}}}");
+        let mut operand = if fast {
+            operand.fast_at(need)
+        } else {
+            operand.at(need)
+        };
+        // Two signs beside each other are hard to read.
+        let sign = |sign: &str| text.contains(&format!("{sign}{hole}"));
+        if operand.starts_with('-') && (sign("+") || sign("-")) {
+            operand = format!("({operand})");
+        }
+        text = text.replace(&hole, &operand);
+    }
+    Text::new(text, level)
 }

@@ -5,8 +5,9 @@
 //! statements, those of the known way are carried out on the way. (Jump threading
 //! and tail duplication: Aho, Lam, Sethi and Ullman, Compilers, 2nd edition, 8.7.3.)
 
-use super::asked::opposite;
+use super::lines::jump;
 use super::lines::{Label, Labels, Lines};
+use super::test_line::opposite;
 use rustc_hash::FxHashMap;
 use std::collections::BTreeMap;
 
@@ -300,12 +301,6 @@ fn compares(test: &str) -> bool {
 fn last(statements: &str) -> &str {
     let from = statements.rfind([':', ' ']).map_or(0, |at| at + 1);
     &statements[from..]
-}
-
-/// What stands before the label that a line jumps to at its end, and that label.
-pub fn jump(text: &str) -> Option<(&str, Label)> {
-    let (before, label) = Label::last_of(text)?;
-    (before.ends_with("GOTO ") || before.ends_with("THEN ")).then_some((before, label))
 }
 
 #[cfg(test)]

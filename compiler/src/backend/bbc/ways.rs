@@ -14,13 +14,14 @@ mod roads;
 
 use super::asked::{in_place, joined, same_either_way};
 use super::dead::Flow;
+use super::lines::jump;
 use super::lines::{Label, Labels, Lines};
 use super::pieces::short_length;
-use super::thread::{jump, threaded};
+use super::test_line::Test;
+use super::thread::threaded;
 use crate::plan::Copies;
 use region::{Copied, To};
 use roads::Roads;
-pub use roads::Test;
 use rustc_hash::FxHashMap;
 use std::collections::BTreeMap;
 

@@ -4,7 +4,6 @@
 //! it is one command, and a pixel's share of gathering a word is eight.
 
 use super::Text;
-use super::names::Names;
 use crate::plan::Plan;
 
 /// Where the screen's words begin, and how many are a row.
@@ -29,15 +28,15 @@ pub(super) struct Canvas {
 
 impl Canvas {
     /// For a plan that draws all that it computes, for the processor.
-    pub fn new(plan: &Plan, names: &mut Names) -> Option<Canvas> {
+    pub fn new(plan: &Plan, fresh: &mut dyn FnMut(&str) -> String) -> Option<Canvas> {
         let wanted = plan.statics && plan.plot && plan.graph.diffusion.is_none();
         let wanted = wanted && plan.graph.image.block == (1, 1);
         let [first, last] = [plan.columns.0, plan.columns.1].map(i32::try_from);
         let (first, last) = (first.ok()?, last.ok()?);
         wanted.then(|| Canvas {
-            word: names.fresh("word"),
-            bits: names.fresh("bits"),
-            bit: names.fresh("bit"),
+            word: fresh("word"),
+            bits: fresh("bits"),
+            bit: fresh("bit"),
             columns: (first + plan.offset.0, last + plan.offset.0),
             above: plan.offset.1,
         })

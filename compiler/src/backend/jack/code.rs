@@ -1,10 +1,9 @@
 //! Statements and expressions.
 
-use super::expression::{Expression, int};
-use super::logs::constant;
+use super::error_names::Spread;
+use super::expression::{Expression, constant, int};
 use super::names::Names;
 use super::object::Object;
-use super::spread::Spread;
 use super::{Line, Text};
 use crate::ir::graph::*;
 use crate::ir::tree::*;

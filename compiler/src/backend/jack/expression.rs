@@ -1,5 +1,6 @@
 //! Expressions as Jack writes them.
 
+use slowlight_routine::log::model::Log;
 use slowlight_runtime_jack::{SUM, TERM};
 
 /// An expression: its text, and how tightly it binds.
@@ -40,4 +41,9 @@ pub(super) fn int(value: i32) -> Expression {
             level: SUM,
         },
     }
+}
+
+/// A constant's logarithm as Jack writes it.
+pub(super) fn constant(bits: slowlight_routine::Bits) -> Expression {
+    int(Log::from_bits(bits).log)
 }

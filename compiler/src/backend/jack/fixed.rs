@@ -3,7 +3,7 @@
 use super::Line;
 use super::code::Code;
 use super::expression::{Expression, int};
-use super::frame::line;
+use super::line;
 use crate::analysis::points::Points;
 use crate::ir::graph::*;
 use crate::plan::ParamPlan;

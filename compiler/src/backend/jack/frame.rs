@@ -8,7 +8,7 @@ use super::logs::{has_signs, without_idle_signs};
 use super::making::making;
 use super::params::{checks, parameters};
 use super::statics::statics;
-use super::{Document, Line, Text};
+use super::{Document, Line, Subroutine, Text, line, subroutine};
 use crate::ir::graph::TableId;
 use crate::plan::Plan;
 use drawing::drawing;
@@ -80,25 +80,6 @@ fn main(class: &str, parts: &[&slowlight_routine::Part]) -> Text {
     text.close("}");
     text.close("}");
     text
-}
-
-/// A subroutine under construction: what stands over it, its first line, its body.
-pub(super) struct Subroutine {
-    about: String,
-    head: String,
-    body: Vec<Line>,
-}
-
-pub(super) fn subroutine(
-    about: impl Into<String>,
-    head: impl Into<String>,
-    body: Vec<Line>,
-) -> Subroutine {
-    Subroutine {
-        about: about.into(),
-        head: head.into(),
-        body,
-    }
 }
 
 /// A name that can neither end a comment nor a line.
@@ -267,12 +248,4 @@ fn declared(code: &Code) -> Vec<(&'static str, Vec<String>, &'static str)> {
     all.push(("int", ints.chain(counters).collect(), ""));
     all.push(("boolean", of(Format::Bool), ""));
     all
-}
-
-pub(super) fn line(text: &str) -> Line {
-    Line {
-        depth: 0,
-        text: text.to_owned(),
-        span: None,
-    }
 }

@@ -265,11 +265,6 @@ pub(super) fn without_idle_signs(signs: &BTreeSet<String>, all: &mut [&mut Vec<L
     }
 }
 
-/// A constant's logarithm as Jack writes it.
-pub(super) fn constant(bits: slowlight_routine::Bits) -> Expression {
-    super::expression::int(Log::from_bits(bits).log)
-}
-
 /// Whether a table has entries below 0, whose signs stand in an array beside it.
 pub(super) fn has_signs(table: &Table) -> bool {
     let below = |value: Value| matches!(value, Value::Real(r) if r < 0.0);

@@ -2,9 +2,9 @@
 
 use super::Line;
 use super::code::Code;
-use super::expression::{Expression, int};
-use super::frame::{Subroutine, line, subroutine};
-use super::logs::{constant, has_signs};
+use super::expression::{Expression, constant, int};
+use super::logs::has_signs;
+use super::{Subroutine, line, subroutine};
 use crate::plan::ParamPlan;
 use slowlight_routine::log::model::Log;
 use slowlight_routine::{Form, Format, Op, Type, Value};

@@ -32,6 +32,7 @@ mod canvas;
 mod code;
 mod columns;
 mod copies;
+mod error_names;
 mod expression;
 mod fixed;
 mod frame;
@@ -46,6 +47,30 @@ mod report;
 mod spread;
 mod starts;
 mod statics;
+
+/// A subroutine under construction: what stands over it, its first line, its body.
+struct Subroutine {
+    about: String,
+    head: String,
+    body: Vec<Line>,
+}
+
+fn subroutine(about: impl Into<String>, head: impl Into<String>, body: Vec<Line>) -> Subroutine {
+    Subroutine {
+        about: about.into(),
+        head: head.into(),
+        body,
+    }
+}
+
+fn line(text: &str) -> Line {
+    Line {
+        depth: 0,
+        text: text.to_owned(),
+        span: None,
+    }
+}
+
 #[cfg(test)]
 mod tests;
 

@@ -110,7 +110,7 @@ impl Names {
         names.params = plan.params.iter().map(|p| names.fresh(&p.label)).collect();
         names.rows = ["first_row", "last_row"].map(|n| names.fresh(n));
         names.axes = ["x", "y"].map(|n| names.fresh(n));
-        names.canvas = Canvas::new(plan, &mut names);
+        names.canvas = Canvas::new(plan, &mut |name| names.fresh(name));
         // In little memory values share fields, and statics, of which there are few.
         let many = plan.statics && plan.places().len() > SHARED_BEYOND;
         names.shared = plan.tight || many;

@@ -2,7 +2,7 @@
 
 use super::code::Code;
 use super::expression::int;
-use super::frame::line;
+use super::line;
 use super::{Line, Text};
 use crate::plan::ParamPlan;
 use slowlight_runtime_jack::TERM;

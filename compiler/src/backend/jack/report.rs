@@ -2,7 +2,7 @@
 
 use super::Text;
 use super::code::Code;
-use super::frame::{Subroutine, line, subroutine};
+use super::{Subroutine, line, subroutine};
 use slowlight_routine::{Format, Type};
 
 /// Prints what the graph reports, a line each: ints, bools as 0 or 1, Floats as

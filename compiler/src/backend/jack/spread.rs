@@ -2,43 +2,14 @@
 //! one for each row that a share reaches ([`ErrorRows`]).
 
 use super::code::Code;
-use super::frame::{Subroutine, subroutine};
-use super::names::Names;
+use super::error_names::Spread;
 use super::{Line, Text};
+use super::{Subroutine, subroutine};
 use crate::ir::graph::NodeId;
-use crate::plan::{ErrorRows, Plan};
 use slowlight_routine::{Form, Value};
 use slowlight_runtime_jack::TERM;
 
-/// The names of what the errors need.
-#[derive(Clone)]
-pub(super) struct Spread {
-    pub rows: ErrorRows,
-    /// What the pixel has received.
-    pub received: String,
-    /// What a share is added to.
-    pub sum: String,
-    /// The row being drawn, the one below, and so on; then one for the exchange.
-    pub ring: Vec<String>,
-}
-
 impl Spread {
-    /// Where the plan spreads errors.
-    pub fn new(plan: &Plan, names: &mut Names) -> Option<Spread> {
-        let rows = plan.error_rows()?;
-        let ring = (0..=rows.rows).map(|k| match k < rows.rows {
-            true => names.fresh(&format!("errors_{k}")),
-            false => names.fresh("errors_done"),
-        });
-        let ring = ring.collect();
-        Some(Spread {
-            received: names.fresh("received"),
-            sum: names.fresh("error_sum"),
-            ring,
-            rows,
-        })
-    }
-
     /// The element for a column `dx` to the right, `dy` rows down.
     fn element(&self, x: &str, dx: i64, dy: usize) -> String {
         let row = self.ring.get(dy).map_or("", String::as_str);

@@ -47,7 +47,7 @@ fn declared(text: &str) -> usize {
 
 #[cfg(test)]
 mod tests {
-    use super::super::frame::line;
+    use super::super::line;
     use super::*;
 
     #[test]

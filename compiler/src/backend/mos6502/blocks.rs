@@ -2,7 +2,8 @@
 //! itself after each ink, and to the next line never.
 
 use super::Text;
-use super::homes::{Homes, Slot};
+use super::homes::Homes;
+use super::slots::Slot;
 use crate::ir::graph::Axis;
 use crate::passes::loops::strip_mine::passes;
 use crate::plan::Plan;

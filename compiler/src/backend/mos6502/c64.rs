@@ -7,8 +7,7 @@
 use super::super::colours::{assign, commodore};
 use super::Text;
 use super::bbc::complain;
-use super::bitmap::Lie;
-use crate::backend::mos6502::bitmap::Layout;
+use super::layout::{Layout, Lie};
 use crate::plan::Plan;
 
 /// Where what belongs to the ROMs is kept: the zero page but its first two bytes, in which

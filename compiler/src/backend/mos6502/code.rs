@@ -2,12 +2,13 @@
 
 use super::Text;
 use super::comment;
-use super::homes::{Homes, Slot, most_turns};
-use super::inline;
+use super::homes::{Homes, most_turns};
 use super::shapes::by_range;
+use super::slots::Slot;
 use crate::ir::graph::*;
 use crate::ir::tree::*;
 use crate::plan::Plan;
+use slowlight_routine::Op;
 use slowlight_routine::{Format, Routine};
 use slowlight_runtime_6502::write::{self, Goal, Place as Operand};
 
@@ -55,7 +56,7 @@ impl<'p> Code<'p> {
     pub fn block(&mut self, block: &Block) {
         for (k, statement) in block.iter().enumerate() {
             if self.quick {
-                self.ahead = inline::ahead(self.plan, block.get(k + 1..).unwrap_or_default());
+                self.ahead = ahead(self.plan, block.get(k + 1..).unwrap_or_default());
             }
             self.statement(statement);
         }
@@ -344,4 +345,24 @@ impl<'p> Code<'p> {
         self.append(ending);
         self.text.label(&format!("after{n}"));
     }
+}
+
+/// Where operands go that are read at another scale.
+pub(super) const READ: [&str; 2] = ["first", "second"];
+
+/// How many statements are looked at for a product with the same factor.
+const FAR: usize = 6;
+
+/// The factors of the products among the statements that follow.
+fn ahead(plan: &Plan, rest: &[Statement]) -> Vec<NodeId> {
+    let product = |statement: &Statement| match statement {
+        Statement::Let(id) => match plan.graph.node(*id) {
+            Node::Apply(Op::Mul, args) => Some(args),
+            _ => None,
+        },
+        _ => None,
+    };
+    let straight = rest.iter().take(FAR);
+    let straight = straight.take_while(|s| !matches!(s, Statement::If { .. } | Statement::Loop(_)));
+    straight.filter_map(product).flatten().collect()
 }

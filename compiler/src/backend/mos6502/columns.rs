@@ -4,19 +4,14 @@
 //! columns, then their next bytes, and so on.
 
 use super::code::Code;
-use super::homes::Slot;
+use super::shapes::entry;
+use super::slots::Slot;
 use crate::ir::graph::*;
 use crate::ir::tree::Place;
-use crate::plan::Plan;
-use slowlight_runtime_6502::write::{Place as Operand, byte_at, size};
+use slowlight_runtime_6502::write::{Place as Operand, byte_at};
 
 /// Columns that an index of one byte reaches.
 const NEAR: u32 = 256;
-
-/// Bytes of an entry, if nothing says better.
-pub(super) fn entry(plan: &Plan, id: NodeId) -> u8 {
-    size(plan.place_format(Place::Node(id)))
-}
 
 impl Code<'_> {
     /// The loop over the columns, `first` to `last`, that fills the arrays.

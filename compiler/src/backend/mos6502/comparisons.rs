@@ -1,8 +1,8 @@
 //! Comparisons, left in the carry, and where those of a column end a run.
 
 use super::code::Code;
-use super::homes::Slot;
 use super::shapes::by_range;
+use super::slots::Slot;
 use crate::ir::graph::*;
 use slowlight_routine::{Op, Routine};
 use slowlight_runtime_6502::write::{self, Goal, Place as Operand};

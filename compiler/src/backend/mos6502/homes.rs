@@ -1,11 +1,11 @@
 //! Where values live, and what they are called in the program.
 
-use super::columns;
 use super::logs;
 use super::memory::{self, Machine, Places, Room};
 use super::moved::{self, Moved};
 use super::names::Names;
 use super::shapes::{self, Shapes};
+use super::slots::{Slot, of_axis};
 use super::uses;
 use crate::analysis::rate::rates;
 use crate::homes::intervals::shared_homes;
@@ -17,41 +17,6 @@ use rustc_hash::FxHashMap;
 use slowlight_routine::Format;
 use slowlight_runtime_6502::write::{self, Place as Operand, Shape};
 use std::collections::{BTreeMap, BTreeSet};
-
-/// Something that the program keeps in memory.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub(super) enum Slot {
-    /// A value, carried value or scratch place of the tree.
-    Value(Place),
-    /// A value with so many fraction bits instead of its own.
-    Moved(Moved),
-    /// A param, made a real (or what it is) at the start.
-    Param(u32),
-    /// The pixel's column or row.
-    Axis(Axis),
-    /// Where the block that is drawn stands on the screen.
-    Block(Axis),
-    /// The turns that a loop has left.
-    Turns(LoopId),
-    /// First and last row to draw.
-    Rows(bool),
-    /// Which param is being made.
-    Which,
-    /// A pass's first column, and the last of a run.
-    PassFirst,
-    RunEnd,
-    /// What earlier pixels sent to this one.
-    Received,
-    /// A value's array by columns.
-    Column(NodeId),
-    /// A pointer into a row of errors.
-    Errors(u32),
-    /// Where a screen is memory: the byte whose pixels are gathered, a pointer to where
-    /// it goes, and where the row began.
-    ScreenByte,
-    ScreenAt,
-    ScreenLine,
-}
 
 /// A slot's place in memory.
 #[derive(Clone, Debug)]
@@ -246,14 +211,6 @@ impl Homes {
     }
 }
 
-/// A run begins at its first column.
-pub(super) fn of_axis(axis: Axis) -> Slot {
-    match axis {
-        Axis::Run => Slot::Axis(Axis::X),
-        axis => Slot::Axis(axis),
-    }
-}
-
 /// Comparisons of the column with what the row knows, where columns come in runs.
 fn bounds(plan: &Plan) -> BTreeSet<NodeId> {
     if plan.tree.segment.is_empty() {
@@ -300,7 +257,7 @@ fn size(plan: &Plan, shapes: Option<&Shapes>, slot: Slot) -> u16 {
         (Slot::Column(id), _) => {
             let entry = match shapes {
                 Some(shapes) => shapes.of(plan, Place::Node(id)).bytes,
-                None => columns::entry(plan, id),
+                None => shapes::entry(plan, id),
             };
             let bytes = u32::from(entry) * plan.graph.image.width;
             return u16::try_from(bytes).unwrap_or(u16::MAX);

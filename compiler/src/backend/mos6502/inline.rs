@@ -1,30 +1,11 @@
 //! Products written in place at pixels, where the program has memory for that.
 
-use super::code::Code;
-use super::scaled::READ;
+use super::code::{Code, READ};
 use crate::ir::graph::*;
-use crate::ir::tree::{Place, Statement};
-use crate::plan::Plan;
-use slowlight_routine::{Form, Format, Op, Type};
+use crate::ir::tree::Place;
+use slowlight_routine::{Form, Format, Type};
 use slowlight_runtime_6502::scaled::{copied, inline, inline_byte};
 use slowlight_runtime_6502::write::{Place as Operand, copy_bytes, shift_of_one};
-
-/// How many statements are looked at for a product with the same factor.
-const FAR: usize = 6;
-
-/// The factors of the products among the statements that follow.
-pub(super) fn ahead(plan: &Plan, rest: &[Statement]) -> Vec<NodeId> {
-    let product = |statement: &Statement| match statement {
-        Statement::Let(id) => match plan.graph.node(*id) {
-            Node::Apply(Op::Mul, args) => Some(args),
-            _ => None,
-        },
-        _ => None,
-    };
-    let straight = rest.iter().take(FAR);
-    let straight = straight.take_while(|s| !matches!(s, Statement::If { .. } | Statement::Loop(_)));
-    straight.filter_map(product).flatten().collect()
-}
 
 impl Code<'_> {
     /// Writes a value that is only another one, at another scale perhaps; whether it is

@@ -8,11 +8,11 @@
 //! | program | behind those | behind those, up to the screen | from $0801 up to those |
 //! | screen | ports | &3000 or &5800 | $E000, its colours at $CC00 |
 
-use super::bitmap::Layout;
-use super::spread;
-use super::squares::JUMP;
+use super::layout::Layout;
+use crate::plan::ErrorRows;
 use crate::plan::Plan;
 use crate::targets::System;
+use slowlight_runtime_6502::write;
 use slowlight_runtime_6502::{FREE_MEMORY, free_zero_page};
 use std::ops::Range;
 
@@ -204,5 +204,18 @@ pub fn bytes_of_room(plan: &Plan) -> u64 {
 /// Bytes of a plan's rows of errors.
 pub(super) fn error_bytes(plan: &Plan) -> Option<u16> {
     let rows = plan.error_rows()?;
-    Some(u16::try_from(spread::bytes(plan, &rows)).unwrap_or(0xFF00))
+    Some(u16::try_from(row_bytes(plan, &rows)).unwrap_or(0xFF00))
+}
+
+/// Bytes of the jump over the tables.
+pub(super) const JUMP: u16 = 3;
+
+/// Bytes of all rows, to whole pages.
+pub(super) fn row_bytes(plan: &Plan, rows: &ErrorRows) -> u32 {
+    (rows.rows * rows.length() * error_size(plan) + 0xFF) & !0xFF
+}
+
+/// Bytes of an error.
+pub(super) fn error_size(plan: &Plan) -> u32 {
+    u32::from(write::size(plan.runtime.real))
 }

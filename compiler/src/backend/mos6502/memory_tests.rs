@@ -22,7 +22,7 @@ fn the_jump_over_the_squares_has_room() {
             0 => places.values + values,
             _ => places.errors + errors,
         };
-        assert!(end + super::squares::JUMP <= origin);
+        assert!(end + super::memory::JUMP <= origin);
     }
 }
 

@@ -44,6 +44,7 @@ mod extent;
 mod frame;
 mod homes;
 mod inline;
+mod layout;
 mod logs;
 mod memory;
 #[cfg(test)]
@@ -58,6 +59,7 @@ mod rows;
 mod scaled;
 mod screen;
 mod shapes;
+mod slots;
 mod spread;
 mod squares;
 mod starts;

@@ -1,9 +1,10 @@
 //! The params: scaled integers in the parameter block, checked once at the
 //! start and made what the program computes with.
 
-use super::homes::{Homes, Slot};
+use super::homes::Homes;
 use super::logs;
 use super::memory::Machine;
+use super::slots::Slot;
 use super::syntax::Syntax;
 use super::{Text, bbc, c64};
 use crate::ir::graph::*;

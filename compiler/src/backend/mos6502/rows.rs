@@ -8,8 +8,8 @@
 //! ([`crate::schedule::constant_runs`]) is drawn in a loop that does nothing else.
 
 use super::code::Code;
-use super::homes::Slot;
 use super::screen::Screen;
+use super::slots::Slot;
 use crate::ir::graph::*;
 use crate::passes::loops::strip_mine::passes;
 use crate::plan::{Copies, ErrorRows};

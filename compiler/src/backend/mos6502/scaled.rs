@@ -1,18 +1,13 @@
 //! Reals with points of their own: read where they are wanted.
 
-use super::code::Code;
+use super::code::{Code, READ};
+use super::shapes::LEAST;
 use crate::analysis::points::Points;
 use crate::ir::graph::*;
 use crate::ir::tree::Place;
 use slowlight_routine::{Op, Type, scale};
 use slowlight_runtime_6502::scaled;
 use slowlight_runtime_6502::write::{Place as Operand, Shape};
-
-/// Where operands go that are read at another scale.
-pub(super) const READ: [&str; 2] = ["first", "second"];
-
-/// Reals have so many bytes at least.
-pub(super) const LEAST: u8 = 2;
 
 impl Code<'_> {
     /// An operation's operands as its routine wants them.

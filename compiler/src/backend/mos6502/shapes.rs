@@ -1,9 +1,8 @@
 //! In how many bytes numbers are kept where reals have points of their own, or are
 //! logarithms: as many as their ranges need, of reals two at least.
 
-use super::homes::Slot;
 use super::logs;
-use super::scaled::LEAST;
+use super::slots::Slot;
 use crate::ir::graph::*;
 use crate::ir::ramp;
 use crate::ir::tree::*;
@@ -219,3 +218,11 @@ pub(super) fn of_slot(plan: &Plan, slot: Slot) -> Shape {
         _ => Shape::whole(MOST),
     }
 }
+
+/// Bytes of an entry, if nothing says better.
+pub(super) fn entry(plan: &Plan, id: NodeId) -> u8 {
+    size(plan.place_format(Place::Node(id)))
+}
+
+/// Reals have so many bytes at least.
+pub(super) const LEAST: u8 = 2;

@@ -6,20 +6,12 @@
 //! the pixels; behind a row they go back, and change places.
 
 use super::code::Code;
-use super::homes::{Homes, Slot};
+use super::homes::Homes;
 use super::logs;
-use crate::plan::{ErrorRows, Plan};
+use super::memory::{error_size, row_bytes};
+use super::slots::Slot;
+use crate::plan::ErrorRows;
 use slowlight_runtime_6502::write::{self, Goal, Place as Operand};
-
-/// Bytes of an error.
-fn size(plan: &Plan) -> u32 {
-    u32::from(write::size(plan.runtime.real))
-}
-
-/// Bytes of all rows, to whole pages.
-pub(super) fn bytes(plan: &Plan, rows: &ErrorRows) -> u32 {
-    (rows.rows * rows.length() * size(plan) + 0xFF) & !0xFF
-}
 
 fn pointer(homes: &Homes, row: u32) -> String {
     homes.name(Slot::Errors(row)).to_owned()
@@ -29,7 +21,7 @@ impl Code<'_> {
     /// All errors 0, and the pointers at their rows' beginnings.
     pub(super) fn start_errors(&mut self, rows: &ErrorRows) {
         let first = pointer(self.homes, 0);
-        let (pages, size) = (bytes(self.plan, rows) >> 8, size(self.plan));
+        let (pages, size) = (row_bytes(self.plan, rows) >> 8, error_size(self.plan));
         let text = &mut *self.text;
         text.headline("no errors yet");
         text.code(&format!(
@@ -51,7 +43,7 @@ impl Code<'_> {
 
     /// Takes what a pixel has received, and leaves 0.
     pub(super) fn receive_errors(&mut self, rows: &ErrorRows) {
-        let size = size(self.plan);
+        let size = error_size(self.plan);
         let (row, home) = (pointer(self.homes, 0), self.homes.name(Slot::Received));
         self.text.line(format!("        ; {home} = what came here"));
         for k in 0..size {
@@ -70,7 +62,7 @@ impl Code<'_> {
 
     /// Sends a pixel's shares, and moves the pointers on.
     pub(super) fn send_errors(&mut self, rows: &ErrorRows) {
-        let size = size(self.plan);
+        let size = error_size(self.plan);
         for share in &rows.shares {
             let row = pointer(self.homes, u32::try_from(share.dy).unwrap_or(0));
             let right = i64::from(rows.left) + i64::from(share.dx);
@@ -108,7 +100,7 @@ impl Code<'_> {
     /// Instructions for each byte of an error; `acc` and `prod` in them stand
     /// for the byte's place, and y moves on.
     fn each_byte(&mut self, instructions: &str) {
-        for k in 0..size(self.plan) as u8 {
+        for k in 0..error_size(self.plan) as u8 {
             let text = ["acc", "prod"]
                 .iter()
                 .fold(instructions.to_owned(), |t, n| {
@@ -134,7 +126,7 @@ impl Code<'_> {
     /// the furthest one.
     pub(super) fn turn_errors(&mut self, rows: &ErrorRows) {
         let names: Vec<String> = (0..rows.rows).map(|k| pointer(self.homes, k)).collect();
-        let [lo, hi, ..] = (size(self.plan) * rows.width).to_le_bytes();
+        let [lo, hi, ..] = (error_size(self.plan) * rows.width).to_le_bytes();
         for name in &names {
             self.text.code(&format!(
                 "sec | lda {name} | sbc #{lo} | sta {name} | lda {name}+1 | sbc #{hi} | sta {name}+1"

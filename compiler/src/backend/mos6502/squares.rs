@@ -5,15 +5,12 @@
 //! empty for that. The first instruction, a jump over them, ends the page before.
 
 use super::Text;
-use super::memory::Machine;
+use super::memory::{JUMP, Machine};
 use slowlight_routine::Part;
 use slowlight_runtime_6502::squares::{PAGES, TABLES};
 
 /// The part of the runtime that they are.
 const PART: &str = "squares";
-
-/// Bytes of the jump over the tables.
-pub(super) const JUMP: u16 = 3;
 
 /// Where a program has the quarter squares from.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -1,8 +1,8 @@
 //! How often the program reads and writes what it keeps: the most used is in the zero page.
 
-use super::homes::{Slot, of_axis};
 use super::memory::Machine;
 use super::moved::{self, Moved};
+use super::slots::{Slot, of_axis};
 use crate::ir::graph::*;
 use crate::ir::tree::*;
 use crate::passes::loops::strip_mine::passes;

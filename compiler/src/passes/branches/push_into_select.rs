@@ -141,7 +141,6 @@ fn apart((graph, ranges): (&Graph, &Ranges), by: NodeId, these: &[bool]) -> (Gra
 mod tests {
     use super::*;
     use crate::analysis::range::{Slack, ranges};
-    use crate::cost::price::Price;
     use crate::cost::size_budget::SizeBudget;
     use crate::eval::drawn::{grid, picture};
     use crate::passes::simplify::fold::fold;
@@ -195,7 +194,7 @@ mod tests {
     fn price(graph: &Graph) -> f64 {
         let cx = Context::new(graph.clone(), &F316);
         let plan = cx.simplified(graph);
-        Price::new(&cx, SizeBudget::default()).of(&plan)
+        cx.price(SizeBudget::default()).of(&plan)
     }
 
     #[test]

@@ -12,8 +12,8 @@ use crate::passes::branches::shannon::shannon;
 use crate::passes::branches::specialise_factors::specialise_factors;
 use crate::passes::simplify::fold::fold;
 use crate::planner::context::Context;
+use crate::planner::context::NODES;
 use crate::planner::pipeline::{Pass, REWRITES};
-use crate::planner::search::forms::NODES;
 use crate::schedule::analysed::Analysed;
 use slowlight_routine::Format;
 
@@ -31,7 +31,7 @@ const FACTORS: usize = 8;
 /// With operations made in the arms of choices where they are none in one of them.
 pub fn in_arms(plan: Analysed, cx: &Context, budget: SizeBudget) -> Analysed {
     cx.pass(Pass::PushIntoSelect, plan, |plan| {
-        let price = Price::new(cx, budget);
+        let price = cx.price(budget);
         each_condition(plan, cx, &price, conditions, |plan, cond| {
             push_into_select(&plan.graph, &plan.ranges, cond)
         })
@@ -72,7 +72,7 @@ pub fn asked_where_it_matters(plan: Analysed, cx: &Context, budget: SizeBudget) 
     if cx.every_shade || scaled || cx.fuel.spent() {
         return plan;
     }
-    let price = Price::new(cx, budget);
+    let price = cx.price(budget);
     cx.pass(Pass::Shannon, plan, |plan| {
         each_condition(plan, cx, &price, shannon::conditions, |plan, cond| {
             shannon(&plan.graph, cond).map(|graph| fold(&graph))
@@ -82,7 +82,7 @@ pub fn asked_where_it_matters(plan: Analysed, cx: &Context, budget: SizeBudget) 
 
 /// With what each of [`REWRITES`] makes of the plan, where that is cheaper.
 pub fn rewritten(plan: Analysed, cx: &Context, budget: SizeBudget) -> Analysed {
-    let price = Price::new(cx, budget);
+    let price = cx.price(budget);
     REWRITES.iter().fold(plan, |plan, (pass, rewrite)| {
         cx.pass(*pass, plan, |plan| {
             let next = cx.simplified(&rewrite(&plan.graph, &plan.ranges, cx.runtime)?);

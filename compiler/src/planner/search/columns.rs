@@ -1,7 +1,6 @@
 //! Search over scalar expansion: which values are computed once a column, of what
 //! [`crate::passes::loops::scalar_expansion`] offers, where that makes the plan cheaper.
 
-use crate::cost::price::Price;
 use crate::cost::size_budget::SizeBudget;
 use crate::ir::graph::NodeId;
 use crate::passes::loops::scalar_expansion::{columns, tabulated};
@@ -31,7 +30,7 @@ pub fn in_columns(
 
 fn expanded(plan: &Analysed, cx: &Context, budget: SizeBudget) -> Option<Analysed> {
     let found = columns(&plan.graph)?;
-    let price = Price::new(cx, budget);
+    let price = cx.price(budget);
     let with = |chosen: &BTreeSet<NodeId>| {
         let next = cx.scheduled(tabulated(&plan.graph, &found, chosen));
         (price.of(&next), next)

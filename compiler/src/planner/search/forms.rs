@@ -27,6 +27,8 @@ use crate::passes::loops::guard::guard;
 use crate::passes::loops::peel::peel;
 use crate::passes::rematerialise::rematerialise;
 use crate::planner::context::Context;
+use crate::planner::context::NODES;
+use crate::planner::context::Rewrite;
 use crate::planner::pipeline::Pass;
 use crate::planner::search::branches::chosen;
 use crate::schedule::analysed::Analysed;
@@ -61,9 +63,7 @@ const APART: usize = 6;
 /// How many directions are tried at their own length.
 const LENGTHS: usize = 4;
 
-/// How many nodes a graph may have to be looked at by algebra, and how many may
-/// be scheduled again to find out which forms pay.
-pub(crate) const NODES: usize = 1000;
+/// How many nodes may be scheduled again to find out which forms pay.
 const PATIENCE: usize = 10_000;
 
 /// Graphs that give the same picture in fewer cycles: the cheapest one, and the
@@ -82,7 +82,7 @@ pub fn cheaper(
     let mut site = Site {
         cx,
         runtime: cx.runtime,
-        price: Price::new(cx, budget),
+        price: cx.price(budget),
         budget,
         products: false,
         other: AtomicBool::new(false),
@@ -104,14 +104,6 @@ type Rule = for<'g> fn(
     &Verdicts<'g>,
 ) -> Option<Cheaper>;
 
-/// Which of these.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum Rewrite {
-    Forms,
-    Identities,
-    Spans,
-}
-
 impl Rewrite {
     fn rule(self) -> Rule {
         match self {
@@ -130,7 +122,7 @@ pub fn with_inks_split(plan: Analysed, cx: &Context, budget: SizeBudget) -> Anal
     }
     cx.pass(Pass::Unswitch, plan, |plan| {
         let next = cx.simplified(&unswitch(&plan.graph)?);
-        let price = Price::new(cx, budget);
+        let price = cx.price(budget);
         (price.of(&next) < price.of(plan)).then_some(next)
     })
 }
@@ -138,7 +130,7 @@ pub fn with_inks_split(plan: Analysed, cx: &Context, budget: SizeBudget) -> Anal
 /// With values computed where they are needed rather than once for all, where
 /// that is less often: the last of the passes.
 pub fn apart_at_last(plan: Analysed, cx: &Context, budget: SizeBudget) -> Analysed {
-    let price = Price::new(cx, budget);
+    let price = cx.price(budget);
     // Where copies are joined, what chooses what a loop starts with costs nothing.
     let mut best = match cx.runtime.stepping {
         Some(_) => with_loops_skipped(plan, cx, budget),

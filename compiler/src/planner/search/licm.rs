@@ -1,7 +1,6 @@
 //! Loop-invariant code motion, where it makes a plan cheaper: by a profile of the plan's own
 //! statements ([`crate::passes::loops::licm`]).
 
-use crate::cost::price::Price;
 use crate::cost::size_budget::SizeBudget;
 use crate::ir::graph::Graph;
 use crate::passes::loops::licm::hoisted;
@@ -23,7 +22,7 @@ pub fn licm(plan: Analysed, cx: &Context, budget: SizeBudget) -> Analysed {
 }
 
 fn hoisted_where_cheaper(plan: &Analysed, cx: &Context, budget: SizeBudget) -> Option<Analysed> {
-    let price = Price::new(cx, budget);
+    let price = cx.price(budget);
     let counts = price.counts(plan);
     let found = counts.map(|ran| hoisted(&plan.graph, &plan.tree.pixel, &ran));
     let hoisted = found.unwrap_or_default();

@@ -46,7 +46,7 @@ pub fn stepped(
     }
     let site = Site {
         cx,
-        price: Price::new(cx, budget),
+        price: cx.price(budget),
     };
     let phased = match target.wraps && steps == Steps::All {
         true => {

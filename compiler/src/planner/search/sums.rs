@@ -4,7 +4,6 @@
 //! are at first, and each is left as it is where that is cheaper. Then values are
 //! tried that others are made of.
 
-use crate::cost::price::Price;
 use crate::cost::size_budget::SizeBudget;
 use crate::passes::algebra::reassociate::{Site, Sums, sunk};
 use crate::passes::loops::bypass::skip;
@@ -47,7 +46,7 @@ pub fn with_sums(plan: Analysed, cx: &Context, budget: SizeBudget) -> Analysed {
 /// the two a few others are, that are nearly as good by counts.
 fn cheaper(plan: &Analysed, cx: &Context, budget: SizeBudget) -> Option<Analysed> {
     let sums = Sums::new(&plan.graph, &plan.ranges, cx.runtime);
-    let price = Price::new(cx, budget);
+    let price = cx.price(budget);
     let profile = price.profile(plan)?;
     let made = |sites: &[Site]| {
         cx.may_look(&plan.graph);
@@ -130,7 +129,7 @@ pub fn with_loops_skipped(plan: Analysed, cx: &Context, budget: SizeBudget) -> A
 }
 
 fn bypassed(plan: &Analysed, cx: &Context, budget: SizeBudget) -> Option<Analysed> {
-    let price = Price::new(cx, budget);
+    let price = cx.price(budget);
     let usual = cx.scheduled(skip(&plan.graph)?);
     let sunk = sunk(&usual.graph).map(|graph| cx.simplified(&graph));
     let other = sunk.map(|plan| cheaper(&plan, cx, budget).unwrap_or(plan));

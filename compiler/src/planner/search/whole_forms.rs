@@ -2,7 +2,6 @@
 //! tables of what hangs on counters or few ints, sines of arcs by addition theorems; each where
 //! it makes the plan cheaper.
 
-use crate::cost::price::Price;
 use crate::cost::size_budget::SizeBudget;
 use crate::ir::graph::*;
 use crate::passes::algebra::angle_addition::angle_addition;
@@ -23,7 +22,7 @@ pub fn cheapest_form(
     budget: SizeBudget,
 ) -> Option<(Graph, Analysed)> {
     let all = forms(origin, cx, budget);
-    let price = (!all.is_empty()).then(|| Price::new(cx, budget))?;
+    let price = (!all.is_empty()).then(|| cx.price(budget))?;
     let mut best = (price.of(plan), None);
     for graph in all {
         let other = ready(&graph);

@@ -1,6 +1,7 @@
 //! Canonical tokens of statements, by which runs are compared for outlining.
 
-use super::forest::{BlockId, Forest, Step};
+use super::forest::Forest;
+use super::step::{BlockId, Step};
 use super::token::{Token, plain, reads_of};
 use crate::ir::graph::*;
 use crate::targets::Sizes;

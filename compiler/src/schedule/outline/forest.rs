@@ -2,6 +2,7 @@
 //! compared and replaced.
 
 use super::Extent;
+use super::step::{BlockId, Step};
 use super::token::{Token, reads_of};
 use crate::analysis::region::Fact;
 use crate::ir::graph::*;
@@ -10,29 +11,6 @@ use crate::schedule::constant_runs::still;
 use crate::source::Span;
 use crate::targets::Sizes;
 use rustc_hash::{FxHashMap, FxHashSet};
-
-/// Which block of a forest.
-pub(super) type BlockId = usize;
-
-/// A statement, its blocks elsewhere.
-#[derive(Clone, Debug)]
-pub(super) enum Step {
-    Let(NodeId),
-    Set {
-        place: Place,
-        from: Origin,
-    },
-    If {
-        cond: NodeId,
-        arms: [BlockId; 2],
-    },
-    Loop {
-        of: LoopId,
-        again: NodeId,
-        parts: [BlockId; 5],
-    },
-    Call(SubroutineId),
-}
 
 /// A block's place: in which block, before which statement of it.
 type Above = Option<(BlockId, usize)>;

@@ -1,7 +1,8 @@
 //! Availability at a place: whether a forest's nodes are computed there.
 
 use super::Extent;
-use super::forest::{BlockId, Forest};
+use super::forest::Forest;
+use super::step::BlockId;
 use crate::analysis::region::Fact;
 use crate::ir::graph::*;
 use crate::ir::tree::SubroutineId;

@@ -1,12 +1,15 @@
 //! Function extraction: a subroutine made of several runs, and calls where they stood.
 
-use super::forest::{BlockId, Forest, Step};
+use super::forest::Forest;
 use super::runs::{Given, Group, Run};
+use super::runs::{candidates, group};
+use super::step::{BlockId, Step};
 use crate::ir::graph::*;
 use crate::ir::tree::*;
 use crate::source::Span;
 use crate::targets::Sizes;
 use rustc_hash::{FxHashMap, FxHashSet};
+use std::collections::BinaryHeap;
 
 /// Adds nodes and subroutines.
 pub(super) struct Maker<'g> {
@@ -323,4 +326,29 @@ impl Copy<'_, '_> {
             parts: [start, body, next, done, otherwise],
         }
     }
+}
+
+/// Replaces what is worth it, the most first; answers how many subroutines were made.
+pub(super) fn replace(forest: &mut Forest, maker: &mut Maker<'_>) -> usize {
+    let least = maker.sizes.call;
+    let all = candidates(maker.graph, forest, least);
+    // What each would save at most, and, once looked at, what it does.
+    let mut heap: BinaryHeap<(u32, std::cmp::Reverse<usize>, bool)> = BinaryHeap::new();
+    for (at, (bound, _)) in all.iter().enumerate() {
+        heap.push((*bound, std::cmp::Reverse(at), false));
+    }
+    let mut made = 0;
+    while let Some((_, std::cmp::Reverse(at), looked)) = heap.pop() {
+        let Some((saved, group)) = group(maker.graph, forest, maker.sizes, &all[at].1) else {
+            continue;
+        };
+        let next = heap.peek().map_or(0, |(bound, ..)| *bound);
+        if looked && saved >= next {
+            maker.make(forest, &group);
+            made += 1;
+        } else {
+            heap.push((saved, std::cmp::Reverse(at), true));
+        }
+    }
+    made
 }

@@ -30,6 +30,7 @@ mod forest;
 mod known;
 mod make;
 mod runs;
+mod step;
 #[cfg(test)]
 mod tests;
 mod token;
@@ -79,7 +80,7 @@ pub fn outline(
             sizes: &sizes,
             name,
         };
-        let made = runs::replace(&mut forest, &mut maker);
+        let made = make::replace(&mut forest, &mut maker);
         tree = forest.into_tree();
         if made == 0 {
             break;

@@ -1,13 +1,14 @@
 //! Repeated sequences: which runs of statements have one shape, and which of them are worth a
 //! subroutine.
 
-use super::forest::{BlockId, Forest};
-use super::make::Maker;
+use super::forest::Forest;
+use super::step::BlockId;
 use super::token::{Token, mix};
 use crate::ir::graph::*;
+use crate::targets::Sizes;
 use rustc_hash::FxHashMap;
 use slowlight_routine::Type;
-use std::collections::{BTreeMap, BinaryHeap};
+use std::collections::BTreeMap;
 
 /// Statements that a run has at most, those inside others included.
 const LONGEST: usize = 400;
@@ -262,8 +263,12 @@ fn apart(forest: &Forest, runs: &[Run]) -> Vec<Run> {
 }
 
 /// What a subroutine of these runs would save, if anything, and how.
-fn group(graph: &Graph, forest: &Forest, maker: &Maker<'_>, runs: &[Run]) -> Option<(u32, Group)> {
-    let sizes = maker.sizes;
+pub(super) fn group(
+    graph: &Graph,
+    forest: &Forest,
+    sizes: &Sizes,
+    runs: &[Run],
+) -> Option<(u32, Group)> {
     let mut found: Vec<(Run, Read, Vec<u32>)> = Vec::new();
     let mut reader = Reader::new(graph, forest);
     for run in apart(forest, runs) {
@@ -329,7 +334,7 @@ fn mixed(into: u64, reference: Reference) -> u64 {
 
 /// Runs of one shape that may be worth a subroutine, with what they would save
 /// if calls were free.
-fn candidates(graph: &Graph, forest: &Forest, least: u32) -> Vec<(u32, Vec<Run>)> {
+pub(super) fn candidates(graph: &Graph, forest: &Forest, least: u32) -> Vec<(u32, Vec<Run>)> {
     let mut shapes: FxHashMap<u64, (u32, Vec<Run>)> = FxHashMap::default();
     let mut reader = Reader::new(graph, forest);
     for block in (0..forest.tokens.len()).filter(|block| forest.open[*block]) {
@@ -369,29 +374,4 @@ fn candidates(graph: &Graph, forest: &Forest, least: u32) -> Vec<(u32, Vec<Run>)
     // In an order that no hash decides.
     all.sort_unstable_by(|a, b| (b.0, &a.1).cmp(&(a.0, &b.1)));
     all
-}
-
-/// Replaces what is worth it, the most first; answers how many subroutines were made.
-pub(super) fn replace(forest: &mut Forest, maker: &mut Maker<'_>) -> usize {
-    let least = maker.sizes.call;
-    let all = candidates(maker.graph, forest, least);
-    // What each would save at most, and, once looked at, what it does.
-    let mut heap: BinaryHeap<(u32, std::cmp::Reverse<usize>, bool)> = BinaryHeap::new();
-    for (at, (bound, _)) in all.iter().enumerate() {
-        heap.push((*bound, std::cmp::Reverse(at), false));
-    }
-    let mut made = 0;
-    while let Some((_, std::cmp::Reverse(at), looked)) = heap.pop() {
-        let Some((saved, group)) = group(maker.graph, forest, maker, &all[at].1) else {
-            continue;
-        };
-        let next = heap.peek().map_or(0, |(bound, ..)| *bound);
-        if looked && saved >= next {
-            maker.make(forest, &group);
-            made += 1;
-        } else {
-            heap.push((saved, std::cmp::Reverse(at), true));
-        }
-    }
-    made
 }

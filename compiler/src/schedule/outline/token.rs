@@ -1,6 +1,6 @@
 //! Equivalence of statements for outlining: what statements of one shape have to agree in.
 
-use super::forest::Step;
+use super::step::Step;
 use crate::ir::graph::*;
 use crate::ir::tree::*;
 use crate::targets::Sizes;

@@ -1,11 +1,11 @@
 //! What stands behind a picture's statements: reports, the set-up, procedures, and those of
 //! the runtime's functions that are called.
 
-use super::super::Style;
 use super::super::code::Code;
 use super::super::pieces::{Piece, pieces};
 use super::super::short::SELDOM;
 use super::super::tables;
+use super::super::{Style, is_first};
 use crate::ir::tree::SubroutineId;
 use crate::plan::Plan;
 use slowlight_routine::{Part, Source, Type};
@@ -60,11 +60,6 @@ pub(super) fn called_rarely(code: &Code<'_>) -> bool {
             };
             weight <= SELDOM || !usual.contains("FN")
         })
-}
-
-/// Whether a part is carried out before anything else, not called.
-pub fn is_first(part: &Part) -> bool {
-    matches!(part.source, Source::Text(text) if !text.starts_with("DEF"))
 }
 
 pub(super) fn setup(plan: &Plan, code: &mut Code<'_>, parts: &[&Part], first: &str, last: &str) {

@@ -1,9 +1,11 @@
 //! What is copied for a way of which more is known.
 
-use super::super::asked::opposite;
 use super::super::lines::Label;
-use super::super::thread::{Known, jump};
-use super::roads::{Roads, Test, is_plain};
+use super::super::lines::jump;
+use super::super::test_line::Test;
+use super::super::test_line::opposite;
+use super::super::thread::Known;
+use super::roads::{Roads, is_plain};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// Where a copied line goes on.

@@ -1,25 +1,12 @@
 //! A program's lines, and what is known where control comes to them.
 
 use super::super::lines::Label;
-use super::super::thread::{Known, jump};
+use super::super::lines::jump;
+use super::super::test_line::Test;
+use super::super::thread::Known;
 use rustc_hash::FxHashMap;
 
-/// A line that is one test.
-pub struct Test<'t> {
-    pub test: &'t str,
-    pub yes: &'t str,
-    pub no: &'t str,
-}
-
-impl<'t> Test<'t> {
-    /// The test of a line, if it is one and no more.
-    pub fn of(text: &'t str) -> Option<Test<'t>> {
-        let (test, ways) = text.strip_prefix("IF ")?.split_once(" THEN ")?;
-        let (yes, no) = ways.split_once(" ELSE ").unwrap_or((ways, ""));
-        let one = !ways.contains("IF ") && !no.contains(" ELSE ");
-        one.then_some(Test { test, yes, no })
-    }
-
+impl Test<'_> {
     /// Whether it holds, where that is known.
     pub fn outcome(&self, known: &Known) -> Option<bool> {
         match self.test.strip_prefix("NOT ") {

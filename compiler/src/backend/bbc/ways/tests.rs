@@ -1,7 +1,7 @@
 //! Lines before and behind.
 
-use super::super::asked::opposite;
 use super::super::lines::texts::of_texts;
+use super::super::test_line::opposite;
 use super::*;
 
 /// The lines `texts`, where `@n;` goes to the line number n, without tests that are known.

@@ -15,6 +15,9 @@ mod search;
 #[cfg(test)]
 mod tests;
 
+use super::formula::Formula;
+use super::formula::Found;
+use super::formula::Fraction;
 use crate::analysis::range::Ranges;
 use crate::ir::build::Builder;
 use crate::ir::graph::*;
@@ -27,7 +30,7 @@ use crate::source::Span;
 pub use around::around;
 use field::{Field, Print};
 use rustc_hash::FxHashSet;
-use search::{Formula, Fraction, Sums};
+use search::Sums;
 use slowlight_routine::{Op, Runtime, Type, Value};
 use std::collections::BTreeSet;
 
@@ -74,13 +77,6 @@ pub fn identities<'g>(
         })
     });
     (!sites.is_empty()).then_some(Cheaper { graph: next, sites })
-}
-
-/// A formula and the values in it.
-#[derive(Clone, Debug)]
-pub struct Found {
-    formula: Formula,
-    values: Vec<NodeId>,
 }
 
 struct Search<'g> {

@@ -6,6 +6,7 @@
 //! the factor c, is put into a table; then each d w and a is looked up.
 
 use super::field::*;
+use crate::passes::algebra::formula::{Formula, Fraction, Sum};
 use rustc_hash::FxHashMap;
 
 /// Constants that are tried for d and s, as fractions.
@@ -20,24 +21,8 @@ const FACTORS: [(i64, i64); 8] = [
     (-4, 1),
 ];
 
-/// A constant.
-pub type Fraction = (i64, i64);
-
-/// u + s v, with v none for 1.
-pub type Sum = (usize, Option<(Fraction, Option<usize>)>);
-
 /// d w: the constant, also as an element, one value, and another unless w is the first alone.
 type Product = ((Fraction, u64), usize, Option<usize>);
-
-/// d w + c a (u + s v), the values by their place in the list that was looked
-/// through; none is 1 for a and v, and for w nothing.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Formula {
-    pub product: Option<(Fraction, usize, Option<usize>)>,
-    pub factor: Fraction,
-    pub by: Option<usize>,
-    pub sum: Sum,
-}
 
 impl Formula {
     /// What it is in the field, given the values.

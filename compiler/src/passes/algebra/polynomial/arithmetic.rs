@@ -95,17 +95,6 @@ impl Forms<'_> {
     }
 }
 
-/// A form times a number.
-pub fn scaled(form: &Form, by: Number) -> Form {
-    let parts = form.parts.iter().map(|p| Part {
-        roots: p.roots.clone(),
-        poly: p.poly.scaled(by),
-    });
-    Form {
-        parts: parts.collect(),
-    }
-}
-
 fn power(roots: &Roots, root: usize) -> i32 {
     roots
         .iter()

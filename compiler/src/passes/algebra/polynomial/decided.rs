@@ -11,9 +11,9 @@
 //! alone that do not ([`super::halved`]).
 
 use super::allowance;
-use super::arithmetic::scaled;
 use super::extent::{known, negative, surely};
 use super::form::Forms;
+use super::form::scaled;
 use super::halved::Proofs;
 use super::number::Number;
 use super::poly::{Atom, Poly};

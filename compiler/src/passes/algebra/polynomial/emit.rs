@@ -9,8 +9,8 @@
 
 use super::form::{Forms, Other, Two, primitive};
 use super::number::Number;
+use super::number::isqrt;
 use super::poly::{Atom, Poly};
-use super::rooted::isqrt;
 use crate::ir::build::Builder;
 use crate::ir::graph::*;
 use crate::source::Span;

@@ -15,7 +15,7 @@
 
 use super::number::Number;
 use super::poly::Poly;
-use super::span::Site;
+use super::span::{Asked, Site};
 use crate::ir::graph::*;
 use crate::passes::algebra::polynomial::emit::{Out, Put};
 use slowlight_routine::{Op, Value};
@@ -26,17 +26,6 @@ const OFF: f64 = 0.25;
 /// What part of its greatest value a coefficient's least must be, at least: then no
 /// roundings make it a half of that.
 const SURE: f64 = 1e-4;
-
-/// A row's polynomial with its first coefficient above 0, and what is asked of it.
-pub(super) struct Asked {
-    /// From power 0 on.
-    pub(super) parts: Vec<Poly>,
-    /// What is added to the first, one divided by the other: where all others have
-    /// a factor that the whole was divided by.
-    pub(super) more: Option<(Poly, Poly)>,
-    /// Whether it is to be below 0, or at most 0.
-    pub(super) strict: bool,
-}
 
 /// What two columns of a x² + b x have as their sum where it is the same, if that is whole
 /// and the same for all rows: so the last column of a span is as far from there as

@@ -10,7 +10,6 @@
 //! Polynomials are in the pixel's place, in params, in what is the same for a
 //! whole row, and in ints of two values, whose squares are known.
 
-use super::arithmetic::scaled;
 use super::number::Number;
 use super::poly::{Atom, Poly};
 use crate::analysis::range::Ranges;
@@ -338,4 +337,15 @@ fn one(roots: Roots, poly: Poly) -> Form {
         false => vec![Part { roots, poly }],
     };
     Form { parts }
+}
+
+/// A form times a number.
+pub fn scaled(form: &Form, by: Number) -> Form {
+    let parts = form.parts.iter().map(|p| Part {
+        roots: p.roots.clone(),
+        poly: p.poly.scaled(by),
+    });
+    Form {
+        parts: parts.collect(),
+    }
 }

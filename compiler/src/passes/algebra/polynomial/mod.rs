@@ -41,7 +41,7 @@ mod span_tests;
 #[cfg(test)]
 mod tests;
 
-use super::identities::Found;
+use super::formula::Found;
 use crate::analysis::range::Ranges;
 use crate::ir::build::Builder;
 use crate::ir::graph::*;
@@ -51,10 +51,11 @@ use crate::passes::algebra::polynomial::rounding_samples::{Sample, samples};
 pub(crate) use crate::passes::algebra::polynomial::same_sign::Turns;
 use crate::passes::rewrite::rebuild::rebuild_old;
 use crate::source::Span;
-use arithmetic::{multiplied, scaled};
+use arithmetic::multiplied;
 pub use decided::decided;
 use extent::Extents;
 pub(crate) use form::Forms;
+use form::scaled;
 use form::{Form, Part};
 pub use halved::Proofs;
 use judge::cycles;

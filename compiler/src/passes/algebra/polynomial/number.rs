@@ -115,3 +115,9 @@ impl Number {
         }
     }
 }
+
+/// The root of a square of a whole number.
+pub(super) fn isqrt(n: i128) -> Option<i128> {
+    let root = (n as f64).sqrt().round() as i128;
+    (root * root == n).then_some(root)
+}

@@ -2,6 +2,7 @@
 
 use super::form::{Form, Part};
 use super::number::Number;
+use super::number::isqrt;
 use super::poly::{Atom, Poly};
 use crate::ir::graph::*;
 use crate::passes::algebra::polynomial::emit::{Out, Put, real};
@@ -184,10 +185,4 @@ impl Put<'_, '_> {
         let (column, row) = ((self.new)(column)?, (self.new)(row)?);
         Some(real(self.builder.lookup(table, column, row, self.span)))
     }
-}
-
-/// The root of a square of a whole number.
-pub(super) fn isqrt(n: i128) -> Option<i128> {
-    let root = (n as f64).sqrt().round() as i128;
-    (root * root == n).then_some(root)
 }

@@ -1,7 +1,7 @@
 //! Sign equivalence of polynomials: what signs and comparisons turn on: two of them that ask for
 //! the sign of one polynomial, but for a factor, go together.
 
-use super::arithmetic::scaled;
+use super::form::scaled;
 use super::form::{Form, Forms, Part};
 use super::number::Number;
 use super::poly::Poly;

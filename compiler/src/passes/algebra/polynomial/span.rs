@@ -6,7 +6,6 @@
 //! ordinary nodes, and a pixel compares its column with them ([`super::ends`]). The sign of
 //! such a polynomial that is never 0 is chosen by that.
 
-use super::ends::Asked;
 use super::extent::{Extents, negative};
 use super::form::{Forms, Two};
 use super::judge::cycles;
@@ -333,4 +332,15 @@ impl Site<'_> {
             strict,
         }
     }
+}
+
+/// A row's polynomial with its first coefficient above 0, and what is asked of it.
+pub(super) struct Asked {
+    /// From power 0 on.
+    pub(super) parts: Vec<Poly>,
+    /// What is added to the first, one divided by the other: where all others have
+    /// a factor that the whole was divided by.
+    pub(super) more: Option<(Poly, Poly)>,
+    /// Whether it is to be below 0, or at most 0.
+    pub(super) strict: bool,
 }

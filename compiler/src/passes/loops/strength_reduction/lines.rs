@@ -1,7 +1,9 @@
 //! Affine induction variables: values that are affine in the column, worked out in a graph or in
 //! numbers.
 
-use super::phase::Find;
+use super::Degrees;
+use crate::analysis::range::Ranges;
+use crate::analysis::rate::{Rates, rates};
 use crate::ir::graph::*;
 use crate::passes::algebra::polynomial::rounding_samples::{Follow, Rounded, applied};
 use slowlight_routine::Op;
@@ -109,5 +111,28 @@ impl Lines for Numbers<'_, '_> {
 
     fn apply(&mut self, op: Op, a: Rounded, b: Rounded) -> Rounded {
         applied(op, a, b)
+    }
+}
+
+/// Where parities are looked for.
+pub struct Find<'g> {
+    pub(super) graph: &'g Graph,
+    pub(super) ranges: &'g Ranges,
+    pub(super) rates: Rates,
+    pub(super) degrees: Degrees,
+}
+
+impl<'g> Find<'g> {
+    pub(super) fn of(graph: &'g Graph, ranges: &'g Ranges) -> Find<'g> {
+        Find {
+            graph,
+            ranges,
+            rates: rates(graph),
+            degrees: Degrees::of(graph, ranges),
+        }
+    }
+
+    pub fn is_row(&self, id: NodeId) -> bool {
+        self.rates.is_still(id)
     }
 }

@@ -18,10 +18,9 @@
 //! floor alone where, in some row, the phase's worst is more than [`MOST`] times the
 //! reals' worst. A phase of slow tiles is refused so: reals near 0 are finer.
 
-use super::lines::{Line, Lines, Numbers};
-use super::{Degrees, Put};
+use super::Put;
+use super::lines::{Find, Line, Lines, Numbers};
 use crate::analysis::range::Ranges;
-use crate::analysis::rate::{Rates, rates};
 use crate::ir::build::Builder;
 use crate::ir::graph::*;
 use crate::passes::algebra::polynomial::rounding_samples::{Follow, Sample, samples};
@@ -128,28 +127,7 @@ fn compared(
     })
 }
 
-/// Where parities are looked for.
-pub struct Find<'g> {
-    pub(super) graph: &'g Graph,
-    ranges: &'g Ranges,
-    rates: Rates,
-    pub(super) degrees: Degrees,
-}
-
-impl<'g> Find<'g> {
-    fn of(graph: &'g Graph, ranges: &'g Ranges) -> Find<'g> {
-        Find {
-            graph,
-            ranges,
-            rates: rates(graph),
-            degrees: Degrees::of(graph, ranges),
-        }
-    }
-
-    pub fn is_row(&self, id: NodeId) -> bool {
-        self.rates.is_still(id)
-    }
-
+impl Find<'_> {
     fn is_exact(&self, id: NodeId) -> bool {
         let exact = self.ranges.exact.get(id.0 as usize);
         exact.is_some_and(|range| range.within(-WHOLE, WHOLE))

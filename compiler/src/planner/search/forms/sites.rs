@@ -1,8 +1,10 @@
 //! Greedy selection of sites: at which of the sites of a pass its form pays.
 
-use super::{NODES, PATIENCE, Rewrite, Site};
+use super::{PATIENCE, Site};
 use crate::ir::graph::*;
 use crate::passes::algebra::polynomial::Verdicts;
+use crate::planner::context::NODES;
+use crate::planner::context::Rewrite;
 use crate::planner::context::{Context, Rewritten};
 use crate::planner::pipeline::Pass;
 use crate::schedule::analysed::Analysed;

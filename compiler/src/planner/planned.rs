@@ -1,0 +1,47 @@
+//! A plan with how it was made.
+
+use super::context::Context;
+use super::search::stepped::Steps;
+use crate::cost::size_budget::SizeBudget;
+use crate::plan::Plan;
+use std::ops::{Deref, DerefMut};
+use std::sync::Arc;
+
+/// Which passes may rewrite formulas.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Rewriting {
+    /// None: every formula as the scene has it.
+    None,
+    /// [`crate::passes::accuracy`].
+    Stable,
+    /// Those for speed, too; perhaps with little memory.
+    Fast { budget: SizeBudget, steps: Steps },
+}
+
+/// A plan, and how it was made: whoever needs another plan of the same scene asks it.
+#[derive(Clone, Debug)]
+pub struct PlannedScene {
+    /// The plan.
+    pub plan: Plan,
+    /// What was made on the way, and how its formulas could be rewritten.
+    pub(super) cx: Arc<Context>,
+    pub(super) rewriting: Rewriting,
+    /// What making it took, in units of [`Fuel`].
+    pub(super) work: u64,
+    /// How much fuel there is for each plan that is made from this one.
+    pub(super) allowance: u64,
+}
+
+impl Deref for PlannedScene {
+    type Target = Plan;
+
+    fn deref(&self) -> &Plan {
+        &self.plan
+    }
+}
+
+impl DerefMut for PlannedScene {
+    fn deref_mut(&mut self) -> &mut Plan {
+        &mut self.plan
+    }
+}
