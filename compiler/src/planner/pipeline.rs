@@ -9,6 +9,7 @@ use crate::analysis::range::Ranges;
 use crate::fuel::Fuel;
 use crate::ir::graph::Graph;
 use crate::passes::branches::cross_multiply::cross_multiply;
+use crate::passes::branches::prune_minima::prune_minima;
 use crate::passes::simplify::reciprocals::reciprocals;
 use crate::schedule::analysed::Analysed;
 use slowlight_routine::Runtime;
@@ -62,6 +63,7 @@ passes! {
     ScanlineSpans "scanline-spans" "passes/algebra/polynomial/span" "comparisons solved for spans of columns"
     Shannon "shannon" "passes/branches/shannon" "Shannon expansion of the ink's comparisons"
     CrossMultiply "cross-multiply" "passes/branches/cross_multiply" "comparisons without division"
+    PruneMinima "prune-minima" "passes/branches/prune_minima" "roots in minima only where they win"
     Reciprocals "reciprocals" "passes/simplify/reciprocals" "division as multiplication by a shared reciprocal"
     Phases "phases" "passes/loops/strength_reduction" "phase accumulators for periodic functions of the column"
     ScanlineRuns "scanline-runs" "passes/loops/strength_reduction/runs" "values stepped along runs of columns"
@@ -81,6 +83,7 @@ pub type Rewrite = fn(&Graph, &Ranges, &Runtime) -> Option<Graph>;
 /// here needs no other place in the planner.
 pub const REWRITES: &[(Pass, Rewrite)] = &[
     (Pass::CrossMultiply, cross_multiply),
+    (Pass::PruneMinima, prune_minima),
     (Pass::Reciprocals, reciprocals),
 ];
 

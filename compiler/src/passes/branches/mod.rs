@@ -3,6 +3,7 @@
 pub mod cross_multiply;
 pub mod early_exit;
 pub mod invert_monotone;
+pub mod prune_minima;
 pub mod push_into_select;
 pub mod shannon;
 pub mod specialise_factors;

@@ -1,0 +1,104 @@
+//! Pruned minima are the minima, and leave out what loses.
+#![allow(clippy::unwrap_used)]
+
+use super::*;
+use crate::analysis::verify::verify;
+use crate::cost::size_budget::SizeBudget;
+use crate::eval::native::Native;
+use crate::planner::context::Context;
+use crate::scene;
+use crate::schedule::analysed::Analysed;
+use crate::sema::Options;
+use crate::targets::bbc::MICRO;
+
+const SIZE: (i32, i32) = (24, 16);
+
+/// The picture of a value `v` of the pixel's place `p`, and where it is planned.
+fn settled(v: &str) -> (Context, Analysed) {
+    let source = format!(
+        "image 24 x 16 inks black, white;
+         fn ball(p: vec3, r: real) -> real = length(p) - r;
+         fn box(p: vec3, half: vec3) -> real = {{
+           let q = abs(p) - half;
+           length(max(q, (0, 0, 0))) + min(max(q.x, max(q.y, q.z)), 0)
+         }};
+         fn ring(p: vec3, major: real, minor: real) -> real =
+           length((length((p.x, p.z, 0)) - major, p.y, 0)) - minor;
+         draw (x, y) = {{
+           let p = (x / 4 - 3, y / 4 - 2, (x + y) / 8 - 2);
+           let v = {v};
+           threshold(v / 4 + 0.5, 0.5)
+         }};"
+    );
+    let checked = scene::check("test", &source);
+    assert!(checked.is_right(), "{source}: {:?}", checked.diagnostics);
+    let graph = checked.lower(&Options::default()).unwrap();
+    let cx = Context::new(graph.clone(), MICRO.runtime);
+    let plain = cx.simplified(&graph);
+    (cx, plain)
+}
+
+fn pruned(plain: &Analysed) -> Option<Graph> {
+    prune_minima(&plain.graph, &plain.ranges, MICRO.runtime)
+}
+
+/// Shades everywhere.
+fn shades(graph: &Graph) -> Vec<f64> {
+    let mut native = Native::new(graph);
+    let places = (0..SIZE.1).flat_map(|y| (0..SIZE.0).map(move |x| (x, y)));
+    places.map(|(x, y)| native.pixel(x, y).shade).collect()
+}
+
+#[test]
+fn minima_are_what_they_were_and_less_is_computed() {
+    for (v, most) in [
+        // Of two, of many, and minima of minima.
+        ("min(ball(p, 1), ball(p - (1, 0, 0), 0.5))", 1.0),
+        (
+            "min(min(ball(p, 1), box(p + (2, 0, 0), (0.5, 1, 0.3))), \
+             min(ring(p - (1, 0, 0), 1, 0.2), ball(p - (2, 1, 0), 0.4)))",
+            0.9,
+        ),
+        // What is at hand first.
+        ("min(p.y, box(p, (0.5, 1, 0.3)))", 0.9),
+        // What is taken away.
+        ("max(ball(p, 1), -ball(p - (0.5, 0.5, 0), 0.8))", 1.0),
+        ("max(p.y, -min(ball(p, 1), box(p, (1, 0.2, 1))))", 1.0),
+        ("max(p.y, 1.5 - length(p))", 1.0),
+        // What is common.
+        ("max(ball(p, 1), ball(p - (0.5, 0.5, 0), 0.8))", 1.0),
+    ] {
+        let (cx, plain) = settled(v);
+        let made = pruned(&plain).unwrap_or_else(|| panic!("{v}: nothing pruned"));
+        verify(&made).unwrap();
+        for (a, b) in shades(&plain.graph).iter().zip(&shades(&made)) {
+            assert!((a - b).abs() < 1e-12, "{v}: {a} {b}");
+        }
+        let price = cx.price(SizeBudget::default());
+        let cycles = |plan: &Analysed| price.cycles_known(plan);
+        let part = cycles(&cx.simplified(&made)) / cycles(&plain);
+        assert!(part < most, "{v}: {part}");
+    }
+}
+
+#[test]
+fn what_is_cheap_or_read_elsewhere_is_left() {
+    for v in [
+        "min(p.x, p.y)",
+        // Its root is needed in any case.
+        "{ let d = ball(p, 1); min(p.y, d) + d }",
+        // No bound, and no root.
+        "min(p.y, sin(p.x * 1rad) * cos(p.y * 1rad))",
+    ] {
+        assert!(pruned(&settled(v).1).is_none(), "{v}");
+    }
+}
+
+/// max(x, y) + min(max(x, y), 0) is less than x where that is below 0: no bound of it.
+#[test]
+fn what_only_looks_like_a_box_is_no_bound() {
+    let v = "min(p.z / 8 - 1, { let m = max(p.x * p.x * p.x - 9, p.y); m + min(m, 0) + sqrt(p.z + 5) })";
+    let (_, plain) = settled(v);
+    let Some(made) = pruned(&plain) else { return };
+    assert_eq!(shades(&plain.graph), shades(&made));
+}
