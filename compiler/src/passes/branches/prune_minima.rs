@@ -17,6 +17,8 @@
 //! the roundings of squares, either may be taken. Minima of minima are gone through one
 //! after the other, those that are cheap first.
 
+mod bounds;
+
 use crate::analysis::range::Ranges;
 use crate::ir::build::Builder;
 use crate::ir::graph::*;
@@ -59,6 +61,8 @@ struct Site<'g> {
     cycles: Vec<f64>,
     /// Those of a comparison.
     comparison: f64,
+    /// Whether a minimum or maximum is part of another one.
+    joins: Vec<bool>,
 }
 
 /// A value of which the least or greatest is wanted, and whether it is its negation that is.
@@ -89,14 +93,33 @@ struct Rooted {
     offset: Offset,
 }
 
-/// A value that another is never less than: `of`, or its magnitude, and an offset.
-#[derive(Clone, Debug)]
-struct Bound {
-    of: NodeId,
-    magnitude: bool,
-    offset: Offset,
-    /// Whether the other is no less than 0 either, but for the offset.
-    rooted: bool,
+fn opposite(op: Op) -> Op {
+    match op {
+        Op::Min => Op::Max,
+        _ => Op::Min,
+    }
+}
+
+/// Which minima and maxima are read by one other alone, of the same kind or, negated, of the
+/// other kind.
+fn joins(graph: &Graph, reads: &[u32]) -> Vec<bool> {
+    let mut joins = vec![false; graph.nodes.len()];
+    let once = |id: NodeId| reads[id.0 as usize] == 1;
+    for id in graph.ids() {
+        let Node::Apply(op @ (Op::Min | Op::Max), args) = graph.node(id) else {
+            continue;
+        };
+        for arg in args.into_iter().filter(|arg| once(*arg)) {
+            let (of, inner) = match graph.node(arg) {
+                Node::Apply(Op::Neg, [inner, _]) => (opposite(op), inner),
+                _ => (op, arg),
+            };
+            if once(inner) && matches!(graph.node(inner), Node::Apply(found, _) if found == of) {
+                joins[inner.0 as usize] = true;
+            }
+        }
+    }
+    joins
 }
 
 impl<'g> Site<'g> {
@@ -127,12 +150,14 @@ impl<'g> Site<'g> {
             let below: f64 = alone.map(|of| cycles[of.0 as usize]).sum();
             cycles.push(own + below);
         }
+        let joins = joins(graph, &reads);
         Site {
             graph,
             ranges,
             reads,
             cycles,
             comparison: least(Op::Less),
+            joins,
         }
     }
 
@@ -182,113 +207,6 @@ impl<'g> Site<'g> {
     fn is_no_less_than_0(&self, id: NodeId) -> bool {
         (self.ranges.result.get(id.0 as usize)).is_some_and(|range| range.lo >= 0.0)
     }
-
-    /// Cheap values that a value is never less than.
-    fn lower_bounds(&self, id: NodeId) -> Vec<Bound> {
-        let mut bounds = self.below(id, DEEP);
-        // What takes most of the value tells too late.
-        let half = self.cycles[id.0 as usize] / 2.0;
-        bounds.retain(|bound| self.cycles[bound.of.0 as usize] < half);
-        bounds
-    }
-
-    fn below(&self, id: NodeId, deep: u32) -> Vec<Bound> {
-        let plain = |of, magnitude, rooted| Bound {
-            of,
-            magnitude,
-            offset: Offset::default(),
-            rooted,
-        };
-        if deep == 0 {
-            return Vec::new();
-        }
-        let Node::Apply(op, [a, c]) = self.graph.node(id) else {
-            return Vec::new();
-        };
-        match op {
-            Op::Sqrt => {
-                let parts = self.squared(a).into_iter();
-                let parts = parts.filter_map(|factor| match self.beside_0(Op::Max, factor) {
-                    Some(inner) => self.is_cheap(inner).then(|| plain(inner, false, true)),
-                    None => self.is_cheap(factor).then(|| plain(factor, true, true)),
-                });
-                parts.collect()
-            }
-            Op::Max => {
-                let of = |side: NodeId| match self.is_cheap(side) {
-                    true => vec![plain(side, false, false)],
-                    false => self.below(side, deep - 1),
-                };
-                // A constant tells nothing of the value.
-                let sides = [a, c].into_iter();
-                let sides = sides.filter(|side| self.graph.constant(*side).is_none());
-                sides.flat_map(of).collect()
-            }
-            Op::Add | Op::Sub => {
-                let sides = if op == Op::Add {
-                    vec![(a, c), (c, a)]
-                } else {
-                    vec![(a, c)]
-                };
-                let of = |(side, other): (NodeId, NodeId)| {
-                    let mut all = self.below(side, deep - 1);
-                    if self.is_cheap(other) {
-                        let off = (other, op == Op::Sub);
-                        all.iter_mut().for_each(|bound| bound.offset.0.push(off));
-                    } else {
-                        all.retain(|bound| op == Op::Add && self.is_inside(other, bound));
-                    }
-                    all
-                };
-                sides.into_iter().flat_map(of).collect()
-            }
-            _ => Vec::new(),
-        }
-    }
-
-    /// The factors of a sum of squares.
-    fn squared(&self, sum: NodeId) -> Vec<NodeId> {
-        let (mut left, mut factors) = (vec![sum], Vec::new());
-        while let Some(id) = left.pop() {
-            match self.graph.node(id) {
-                Node::Apply(Op::Add, args) => left.extend(args),
-                Node::Apply(Op::Mul, [a, c]) if a == c => factors.push(a),
-                _ if self.is_no_less_than_0(id) => {}
-                _ => return Vec::new(),
-            }
-        }
-        factors
-    }
-
-    /// Of a maximum or minimum with 0 the other value.
-    fn beside_0(&self, op: Op, id: NodeId) -> Option<NodeId> {
-        let Node::Apply(of, [a, c]) = self.graph.node(id) else {
-            return None;
-        };
-        let zero = |id| (self.graph.constant(id)).is_some_and(|value| value.real() == 0.0);
-        match (of == op, zero(a), zero(c)) {
-            (true, _, true) => Some(a),
-            (true, true, _) => Some(c),
-            _ => None,
-        }
-    }
-
-    /// Whether a value is min(m, 0), m the greatest of some values one of which is the bound's
-    /// x: as what a box adds inside. With max(x, 0), which the bound is of, it is no less than x:
-    /// above 0 it is 0, as m is no less than x, and below it is no less than x itself.
-    fn is_inside(&self, id: NodeId, bound: &Bound) -> bool {
-        let Some(greatest) = self.beside_0(Op::Min, id) else {
-            return false;
-        };
-        let (mut left, mut found) = (vec![greatest], false);
-        while let Some(id) = left.pop() {
-            match self.graph.node(id) {
-                Node::Apply(Op::Max, args) => left.extend(args),
-                _ => found |= id == bound.of,
-            }
-        }
-        found && bound.rooted && !bound.magnitude && bound.offset.0.is_empty()
-    }
 }
 
 impl Site<'_> {
@@ -297,11 +215,14 @@ impl Site<'_> {
         let Node::Apply(op @ (Op::Min | Op::Max), _) = self.graph.node(id) else {
             return None;
         };
-        let mut leaves = Vec::new();
-        self.leaves(id, (op, false), true, &mut leaves);
+        if self.joins[id.0 as usize] {
+            return None;
+        }
         // As they are written, but cheap ones first.
-        let (dear, mut order): (Vec<Leaf>, Vec<Leaf>) =
-            leaves.into_iter().partition(|leaf| self.is_dear(leaf.id));
+        let (dear, mut order): (Vec<Leaf>, Vec<Leaf>) = self
+            .leaves(id, op)
+            .into_iter()
+            .partition(|leaf| self.is_dear(leaf.id));
         let first = order.len().max(1);
         order.extend(dear);
         let mut best: Option<NodeId> = None;
@@ -324,23 +245,24 @@ impl Site<'_> {
         best.filter(|_| pruned)
     }
 
-    /// The values of a tree of minima, or of maxima of negations.
-    fn leaves(&self, id: NodeId, (op, negated): (Op, bool), is_root: bool, all: &mut Vec<Leaf>) {
-        let turned = match op {
-            Op::Min => Op::Max,
-            _ => Op::Min,
-        };
-        let inner = is_root || self.is_read_once(id);
-        match self.graph.node(id) {
-            Node::Apply(of, args) if inner && of == if negated { turned } else { op } => {
-                args.iter()
-                    .for_each(|arg| self.leaves(*arg, (op, negated), false, all));
+    /// The values of a tree of minima, or of maxima of negations, as they are written.
+    fn leaves(&self, root: NodeId, op: Op) -> Vec<Leaf> {
+        let (mut left, mut all) = (vec![(root, false)], Vec::new());
+        while let Some((id, negated)) = left.pop() {
+            let of = if negated { opposite(op) } else { op };
+            match self.graph.node(id) {
+                Node::Apply(found, [a, c])
+                    if found == of && (id == root || self.joins[id.0 as usize]) =>
+                {
+                    left.extend([(c, negated), (a, negated)]);
+                }
+                Node::Apply(Op::Neg, [arg, _]) if self.is_read_once(id) => {
+                    left.push((arg, !negated));
+                }
+                _ => all.push(Leaf { id, negated }),
             }
-            Node::Apply(Op::Neg, [arg, _]) if self.is_read_once(id) => {
-                self.leaves(arg, (op, !negated), false, all);
-            }
-            _ => all.push(Leaf { id, negated }),
         }
+        all
     }
 
     /// The better of the best so far and another value, which is worked out only where its

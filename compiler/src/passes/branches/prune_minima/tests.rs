@@ -102,3 +102,24 @@ fn what_only_looks_like_a_box_is_no_bound() {
     let Some(made) = pruned(&plain) else { return };
     assert_eq!(shades(&plain.graph), shades(&made));
 }
+
+/// Long chains and doubled sums take no time of their own.
+#[test]
+fn many_minima_are_one_chain() {
+    let balls: Vec<String> = (0..150)
+        .map(|k| format!("ball(p - ({k} / 50 - 1, 0, 0), 0.1 + {k} / 1000)"))
+        .collect();
+    let v = balls
+        .iter()
+        .skip(1)
+        .fold(balls[0].clone(), |all, ball| format!("min({all}, {ball})"));
+    let (_, plain) = settled(&v);
+    let made = pruned(&plain).unwrap();
+    assert!(made.nodes.len() < 3 * plain.graph.nodes.len());
+    let mut doubled = "p.x * p.x".to_owned();
+    for _ in 0..7 {
+        doubled = format!("({doubled} + {doubled})");
+    }
+    let (_, plain) = settled(&format!("min(p.y, sqrt({doubled}) - 1)"));
+    pruned(&plain).unwrap();
+}
