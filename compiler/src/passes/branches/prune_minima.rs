@@ -139,9 +139,12 @@ impl<'g> Site<'g> {
             of.map(|routine| f64::from(routine.cycles))
                 .fold(f64::INFINITY, f64::min)
         };
+        let comparison = least(Op::Less);
         let mut cycles: Vec<f64> = Vec::with_capacity(graph.nodes.len());
         for id in graph.ids() {
             let own = match graph.node(id) {
+                // They become choices.
+                Node::Apply(Op::Min | Op::Max, _) => comparison,
                 Node::Apply(op, _) => least(op),
                 _ => 0.0,
             };
@@ -156,7 +159,7 @@ impl<'g> Site<'g> {
             ranges,
             reads,
             cycles,
-            comparison: least(Op::Less),
+            comparison,
             joins,
         }
     }
@@ -216,6 +219,12 @@ impl Site<'_> {
             return None;
         };
         if self.joins[id.0 as usize] {
+            return None;
+        }
+        let leaves = self.leaves(id, op);
+        // What is only cut to a constant mostly wins.
+        let constant = |leaf: &&Leaf| self.graph.constant(leaf.id).is_some();
+        if leaves.iter().filter(constant).count() + 1 >= leaves.len() {
             return None;
         }
         // As they are written, but cheap ones first.
