@@ -1,4 +1,4 @@
-//! What was made of a scene's graph so far.
+//! Planning context of a scene (a memo of graphs): what was made of its graph so far.
 //!
 //! A program that does not fit is planned again with less memory spent. What a
 //! rewrite makes of a graph does not depend on that, nor do its schedule, its
@@ -103,7 +103,7 @@ impl Context {
         }
     }
 
-    /// The same workshop with other fuel.
+    /// The same context with other fuel.
     pub fn with(&self, fuel: Fuel) -> Context {
         Context {
             origin: self.origin.clone(),
@@ -208,7 +208,7 @@ impl Context {
         now
     }
 
-    /// A graph of this workshop rewritten but at some sites, made where it was not yet.
+    /// A graph of this context rewritten but at some sites, made where it was not yet.
     pub fn rewritten(
         &self,
         plain: &Analysed,

@@ -1,4 +1,4 @@
-//! What is found in a workshop is what would be made.
+//! What is found in a context is what would be made.
 #![allow(clippy::unwrap_used)]
 
 use super::SEARCH;

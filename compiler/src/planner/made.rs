@@ -165,7 +165,7 @@ impl Candidate {
     }
 }
 
-/// What the passes make of a scene, by a workshop that is kept for other plans, with the fuel
+/// What the passes make of a scene, by a context that is kept for other plans, with the fuel
 /// for this one.
 pub(crate) fn candidate(
     kept: &Arc<Context>,
