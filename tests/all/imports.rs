@@ -6,7 +6,7 @@ use std::path::Path;
 use syn::visit::Visit;
 
 /// The compiler's folders, the lowest first: each imports from those before it only.
-const FLOORS: [&str; 20] = [
+const FLOORS: [&str; 18] = [
     "fuel",
     "prelude",
     "ir",
@@ -25,8 +25,6 @@ const FLOORS: [&str; 20] = [
     "planner",
     "backend",
     "report",
-    "syntax",
-    "source",
 ];
 
 /// A crate's modules by their paths (`plan::model`), and which of them each imports from.

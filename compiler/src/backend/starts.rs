@@ -1,6 +1,6 @@
 //! What programs are given at their start, whatever their machine: which tables they read
 //! and which numbers they may keep. Each target says what having these ready takes it
-//! ([`crate::targets::Target::starts`]).
+//! ([`super::starts`]).
 
 use crate::ir::graph::*;
 use crate::ir::tree::{Origin, Statement, walk};

@@ -63,7 +63,7 @@ passes! {
     ScanlineSpans "scanline-spans" "passes/algebra/polynomial/span" "comparisons solved for spans of columns"
     Shannon "shannon" "passes/branches/shannon" "Shannon expansion of the ink's comparisons"
     CrossMultiply "cross-multiply" "passes/branches/cross_multiply" "comparisons without division"
-    PruneMinima "prune-minima" "passes/branches/prune_minima" "roots in minima only where they win"
+    PruneMinima "prune-minima" "passes/branches/prune_minima" "branch and bound on minima and maxima"
     Reciprocals "reciprocals" "passes/simplify/reciprocals" "division as multiplication by a shared reciprocal"
     Phases "phases" "passes/loops/strength_reduction" "phase accumulators for periodic functions of the column"
     ScanlineRuns "scanline-runs" "passes/loops/strength_reduction/runs" "values stepped along runs of columns"

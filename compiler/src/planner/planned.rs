@@ -26,7 +26,7 @@ pub struct PlannedScene {
     /// What was made on the way, and how its formulas could be rewritten.
     pub(super) cx: Arc<Context>,
     pub(super) rewriting: Rewriting,
-    /// What making it took, in units of [`Fuel`].
+    /// What making it took, in units of [`crate::fuel::Fuel`].
     pub(super) work: u64,
     /// How much fuel there is for each plan that is made from this one.
     pub(super) allowance: u64,

@@ -374,7 +374,7 @@ impl<'p> Code<'p> {
     }
 }
 
-/// Ramps that only runs of two inks read ([`Inks::Either`]): they are stepped
+/// Ramps that only runs of two inks read ([`crate::schedule::constant_runs::Inks::Either`]): they are stepped
 /// there, and before that over all columns that were passed since.
 pub struct Late {
     pub(super) ramps: Vec<(NodeId, NodeId)>,

@@ -1,5 +1,5 @@
 //! Error diffusion: what pixels send to later ones waits in arrays of Floats,
-//! one for each row that a share reaches ([`ErrorRows`]).
+//! one for each row that a share reaches ([`crate::plan::ErrorRows`]).
 
 use super::code::Code;
 use super::error_names::Spread;

@@ -228,10 +228,8 @@ impl Site<'_> {
             return None;
         }
         // As they are written, but cheap ones first.
-        let (dear, mut order): (Vec<Leaf>, Vec<Leaf>) = self
-            .leaves(id, op)
-            .into_iter()
-            .partition(|leaf| self.is_dear(leaf.id));
+        let (dear, mut order): (Vec<Leaf>, Vec<Leaf>) =
+            leaves.into_iter().partition(|leaf| self.is_dear(leaf.id));
         let first = order.len().max(1);
         order.extend(dear);
         let mut best: Option<NodeId> = None;
