@@ -71,14 +71,16 @@ fn rows_in_passes_and_runs_are_what_the_model_draws() {
     );
     let factor = format!("if (if x < 20 + y then 1.5 else 0.25) * {BALL} then ink(2) else ink(1)");
     let (two, three) = ("black, white", "black, grey, white");
-    for (inks, draw, more, parts) in [
-        (two, SHADE, &[][..], &passes[..]),
-        (two, SHADE, &["--block", "2"][..], &passes[..]),
-        (three, halves.as_str(), &[][..], &still[..]),
-        (three, cut.as_str(), &[][..], &runs[..]),
-        (three, factor.as_str(), &[][..], &runs[..]),
+    for (width, inks, draw, more, parts) in [
+        (64, two, SHADE, &[][..], &passes[..]),
+        // A pass but the last ends at the last column.
+        (61, two, SHADE, &[][..], &passes[..]),
+        (64, two, SHADE, &["--block", "2"][..], &passes[..]),
+        (64, three, halves.as_str(), &[][..], &still[..]),
+        (64, three, cut.as_str(), &[][..], &runs[..]),
+        (64, three, factor.as_str(), &[][..], &runs[..]),
     ] {
-        let text = format!("image 64 x 24 inks {inks};\ndraw (x, y) = {draw};");
+        let text = format!("image {width} x 24 inks {inks};\ndraw (x, y) = {draw};");
         let dir = directory(&[("small.scn", &text)]);
         for format in OWN {
             let of = |command: &[&'static str]| -> Vec<&'static str> {

@@ -36,16 +36,25 @@ pub(super) struct Ports {
     column: Option<String>,
     /// Whether the port is told the column as soon as that is stepped.
     follows: bool,
+    /// The row, where passes are told it as well: one before them may end at the screen's last
+    /// column, from where the ports go on to the next row.
+    wraps: Option<String>,
 }
 
 impl Ports {
     pub fn new(plan: &Plan, homes: &Homes) -> Ports {
-        let apart = passes(&plan.graph) > 1;
+        let n = passes(&plan.graph);
+        let apart = n > 1;
         let left = match apart {
             true => i64::from(plan.offset.0),
             false => i64::from(plan.computed_columns().0) + i64::from(plan.offset.0),
         };
+        let (first_column, _) = plan.computed_columns();
+        let last = i64::from(plan.mode.width.max(1)) - 1 - left;
+        let in_pass = (last - i64::from(first_column)).rem_euclid(i64::from(n));
+        let wraps = in_pass + 1 < i64::from(n);
         Ports {
+            wraps: wraps.then(|| homes.name(Slot::Axis(Axis::Y)).to_owned()),
             follows: apart && left == 0 && plan.graph.image.block == (1, 1),
             column: apart.then(|| homes.name(Slot::Axis(Axis::X)).to_owned()),
             blocks: Blocks::new(plan, homes),
@@ -88,6 +97,11 @@ impl Ports {
         }
         let [x0, x1] = [0, 1].map(|k| write::byte(&Operand::Constant(self.first[0]), k));
         text.code(&format!("lda {x0} | sta x_port | lda {x1} | sta x_port+1"));
+        self.to_row(y, text);
+    }
+
+    /// Tells the row.
+    fn to_row(&self, y: &str, text: &mut Text) {
         let [dy0, dy1] = [0, 1].map(|k| write::byte(&Operand::Constant(self.first[1]), k));
         text.code(&format!("clc | lda {y} | adc {dy0} | sta y_port"));
         text.code(&format!("lda {y}+1 | adc {dy1} | sta y_port+1"));
@@ -116,7 +130,12 @@ impl Ports {
     pub fn pass(&self, start: &str, first: u32, text: &mut Text) {
         if let Some(blocks) = &self.blocks {
             blocks.pass(start, first, text);
-        } else if self.follows {
+            return;
+        }
+        if let Some(y) = &self.wraps {
+            self.to_row(y, text);
+        }
+        if self.follows {
             text.code(&format!(
                 "lda {start} | sta x_port | lda {start}+1 | sta x_port+1"
             ));
