@@ -23,6 +23,7 @@
 
 use super::graph::*;
 use crate::source::Span;
+use slowlight_routine::Value;
 use std::fmt::{self, Display};
 
 /// Statements in order.
@@ -155,6 +156,11 @@ pub struct Turns {
 }
 
 impl Turns {
+    /// Whether it never ends by itself.
+    pub fn always(&self, graph: &Graph) -> bool {
+        graph.constant(self.again).is_some_and(Value::truth)
+    }
+
     /// The blocks, in the order in which they are written down.
     pub fn blocks(&self) -> [&Block; 5] {
         [

@@ -2,6 +2,7 @@
 #![allow(clippy::unwrap_used)]
 
 use super::{Ranges, Slack, ranges};
+use crate::backend::emit;
 use crate::eval::arithmetic::Exact;
 use crate::eval::heard::{Heard, Listener};
 use crate::eval::run::Run;
@@ -111,7 +112,7 @@ fn what_is_said_of_values_in_the_examples_holds() {
 }
 
 /// Loops whose values are bounded, each by another of the ways in which that is found.
-const BOUNDED: [(&str, &str); 5] = [
+const BOUNDED: [(&str, &str); 6] = [
     (
         "squares that end a loop",
         "loop (p = x / 8, q = y / 8) max 500 {
@@ -128,6 +129,15 @@ const BOUNDED: [(&str, &str); 5] = [
         "a distance where the loop goes on",
         "loop (t = 0.0, s = 0.0) max 3000 {
            let d = sqrt((t - 3) * (t - 3) + x) - 0.5;
+           if d < 0.01 then s * t else if t > 20 then t * t else next(t + d, d * d)
+         } else 0",
+    ),
+    (
+        "a distance by a loop of its own where the loop goes on",
+        "loop (t = 0.0, s = 0.0) max 3000 {
+           let d = loop (k = 0, z = t + x / 8) max 6 {
+             if z > 2 or k == 4 then z / 4 else next(k + 1, z * z + t / 9)
+           } else 0;
            if d < 0.01 then s * t else if t > 20 then t * t else next(t + d, d * d)
          } else 0",
     ),
@@ -159,6 +169,29 @@ fn what_is_bounded_is_computed_without_tests() {
         let tested: Vec<&str> = tested.map(|r| r.name).collect();
         assert_eq!(tested, Vec::<&str>::new(), "{by}");
     }
+}
+
+/// A search by halves always goes on, so that the result of its end is undefined.
+#[test]
+fn what_is_undefined_bounds_nothing() {
+    let text = "image 8 x 8 inks black, white;
+        shape lump() {
+          f(p) = 1 - 1 / max(dot(p, p), 0.02);
+          bound = sphere((0, 0, 0), 1.8);
+          steps = 8;
+        }
+        scene world { lump() is 0.9; }
+        draw (x, y) = {
+          let r = pinhole((0, 0.3, 4), at: (0, 0, 0), field: 50deg).through(x, y);
+          let v = if let h = world.trace(r, far: 20) then h.tag * lambert(h, (3, 5, 4)) else 0.05;
+          ink(if v > 0.5 then 1 else 0)
+        };";
+    holds_for("a search", text);
+    let plan = planned("a search", &graph("a search", text));
+    let mut routines = plan.graph.ids().filter_map(|id| plan.routine(id));
+    assert!(!routines.any(|r| r.name == "FNmul"));
+    let text = &emit(&plan)[0].text;
+    assert!(!text.contains("TRUE THEN"), "{text}");
 }
 
 #[test]

@@ -18,7 +18,7 @@ pub(super) fn known(graph: &Graph, slack: &Slack, id: NodeId) -> Range {
             points.rounded(id, range, 1.0)
         }
         // Nobody looks at it.
-        Node::Undefined(_) if plain.is_some() || slack.expects() => Range::point(0.0),
+        Node::Undefined(ty) if ty != Type::Bool => Range::point(0.0),
         _ if let Some(points) = plain => points.rounded(id, Range::ALL, 0.0),
         Node::Const(c) => {
             let held = slack.constant(c.value());

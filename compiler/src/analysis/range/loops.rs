@@ -140,8 +140,66 @@ impl Walk<'_> {
             let (id, index) = self.once.carried(of)[k];
             self.put(id, self.carried_range(of, index));
         }
+        // What it gives on is looked at below, if it is walked twice.
+        let nested = self.slack.inverts()
+            && turns.body.iter().any(has_loop)
+            && !turns.next.iter().any(has_loop);
+        let growth = if nested { self.growth.take() } else { None };
+        self.block(&turns.body);
+        if !nested {
+            return self.arm(turns.again, true, &turns.next);
+        }
+        self.growth = growth;
+        let closer = self.closer_where(turns);
+        match closer.is_empty() {
+            true => self.arm(turns.again, true, &turns.next),
+            false => self.turn_that_goes_on(turns, &closer),
+        }
+    }
+
+    /// What a turn carries, of those that go on, where that is closer than of all.
+    fn closer_where(&mut self, turns: &Turns) -> Vec<(NodeId, Range)> {
+        self.under((turns.again, true), |walk| {
+            let carried = walk.once.carried(turns.of).iter();
+            let closer = carried.filter_map(|&(id, index)| {
+                let (all, now) = (walk.carried_range(turns.of, index), walk.read(id));
+                (now != all && now.lo <= now.hi).then_some((id, now))
+            });
+            closer.collect()
+        })
+    }
+
+    /// Walks a turn with nothing but what those carry that go on: that tells what loops inside
+    /// of it come to there, as they would not be walked again by [`Walk::fresh`]. What was found
+    /// of all turns stands as it was.
+    fn turn_that_goes_on(&mut self, turns: &Turns, closer: &[(NodeId, Range)]) {
+        let now = self.now.clone();
+        let found = (self.out.clone(), self.once.found());
+        let loops = (self.ended.clone(), self.heads.clone());
+        let mut own = Vec::new();
+        walk(&turns.next, &mut |statement| match *statement {
+            Statement::Let(id)
+            | Statement::Set {
+                place: Place::Node(id),
+                ..
+            } => own.push(id),
+            _ => {}
+        });
+        for &(id, range) in closer {
+            self.put(id, range);
+        }
         self.block(&turns.body);
         self.arm(turns.again, true, &turns.next);
+        self.now = now;
+        (self.ended, self.heads) = loops;
+        // What only turns compute that go on stays as it is.
+        let (went_on, memo) = (std::mem::replace(&mut self.out, found.0), self.once.found());
+        self.once.put_back(found.1);
+        for id in own {
+            self.out.copy(&went_on, id);
+            self.once.put_back_of(&memo, id);
+        }
+        self.fresh.clear();
     }
 
     fn join_carried(&mut self, at: usize, held: &[Option<Range>]) {
@@ -170,5 +228,14 @@ impl Walk<'_> {
                 self.carried[of.0 as usize][k] = self.opened(of, k, *before, now);
             }
         }
+    }
+}
+
+/// Whether a statement is a loop or has one, as subroutines may.
+fn has_loop(statement: &Statement) -> bool {
+    match statement {
+        Statement::Loop(_) | Statement::Call(_) => true,
+        Statement::If { yes, no, .. } => yes.iter().chain(no).any(has_loop),
+        _ => false,
     }
 }

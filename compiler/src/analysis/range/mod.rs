@@ -31,6 +31,7 @@ use crate::ir::ramp;
 use crate::ir::tree::*;
 
 use crate::analysis::carried::{Readers, readers};
+use crate::analysis::region::Fact;
 use accelerate::Growth;
 use around::Around;
 pub use assuming::assuming;
@@ -193,6 +194,11 @@ impl Walk<'_> {
 
     /// Walks an arm under its condition.
     fn arm(&mut self, cond: NodeId, holds: bool, block: &Block) {
+        self.under((cond, holds), |walk| walk.block(block));
+    }
+
+    /// Does what is to be done where a condition holds, or does not.
+    fn under<T>(&mut self, (cond, holds): Fact, run: impl FnOnce(&mut Self) -> T) -> T {
         let (saved, assumed) = (self.saved.len(), self.assumed.len());
         let known = Known {
             slack: self.slack,
@@ -210,11 +216,12 @@ impl Walk<'_> {
         self.fresh.clear();
         self.doubted(saved, cond, holds);
         (self.assumed).extend_from_slice(self.conditions.claimed(cond, holds));
-        self.block(block);
+        let found = run(self);
         self.assumed.truncate(assumed);
         self.around.leave(before);
         self.fresh.clear();
         restore(&mut self.now, &mut self.saved, saved);
+        found
     }
 
     /// What a block sets, and to what.

@@ -3,7 +3,7 @@
 //! the turn before.
 
 use super::parity::is_odd;
-use super::{Walk, trust};
+use super::{Ranges, Walk, trust};
 use crate::ir::graph::*;
 use rustc_hash::FxHashMap;
 use slowlight_routine::{Op, Range};
@@ -85,6 +85,22 @@ impl Once {
         self.computed[id.0 as usize]
     }
 
+    /// What was computed so far, to be put back later.
+    pub(super) fn found(&self) -> Vec<Option<Range>> {
+        self.computed.clone()
+    }
+
+    /// Puts back what was computed by then.
+    pub(super) fn put_back(&mut self, found: Vec<Option<Range>>) {
+        self.computed = found;
+    }
+
+    /// The same of a node.
+    pub(super) fn put_back_of(&mut self, found: &[Option<Range>], id: NodeId) {
+        let at = id.0 as usize;
+        self.computed[at] = found[at];
+    }
+
     /// Keeps what is computed for a node.
     pub(super) fn keep(&mut self, id: NodeId, range: Range) -> Range {
         self.computed[id.0 as usize] = Some(range);
@@ -109,6 +125,16 @@ fn compared(graph: &Graph) -> FxHashMap<(LoopId, u32), Vec<f64>> {
         }
     }
     all
+}
+
+impl Ranges {
+    /// Takes over what others say of a node.
+    pub(super) fn copy(&mut self, from: &Ranges, id: NodeId) {
+        let at = id.0 as usize;
+        self.result[at] = from.result[at];
+        self.exact[at] = from.exact[at];
+        self.args[at] = from.args[at];
+    }
 }
 
 impl Walk<'_> {

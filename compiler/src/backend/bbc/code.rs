@@ -358,18 +358,23 @@ impl<'p> Code<'p> {
         self.loops += 1;
         self.often(&turns.body, TURNS);
         self.loops -= 1;
-        let fails = self.values.condition(turns.again, false);
-        self.lines.line(format!("IF {fails} THEN {leave}"), span);
+        let ends = !turns.always(&plan.graph);
+        if ends {
+            let fails = self.values.condition(turns.again, false);
+            self.lines.line(format!("IF {fails} THEN {leave}"), span);
+        }
         self.block(&turns.next);
         self.lines.statement(format!("{turn}={turn}+1"), span);
         self.lines.line(format!("IF {turn}<{max} THEN {top}"), span);
         self.block(&turns.otherwise);
-        let done = self.apart(&turns.done);
-        if !done.is_empty() {
-            self.lines.line(format!("GOTO {end}"), span);
+        if ends {
+            let done = self.apart(&turns.done);
+            if !done.is_empty() {
+                self.lines.line(format!("GOTO {end}"), span);
+            }
+            self.lines.place(leave);
+            self.lines.append(done);
         }
-        self.lines.place(leave);
-        self.lines.append(done);
         self.lines.place(end);
     }
 }

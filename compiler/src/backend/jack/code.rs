@@ -192,8 +192,11 @@ impl<'p> Code<'p> {
         self.text.line(format!("let {counter} = 0;"));
         self.text.open(format!("while (~({counter} = {most})) {{"));
         self.block(&turns.body, name);
-        let again = self.read(turns.again);
-        self.text.open(format!("if ({}) {{", again.text));
+        let ends = !turns.always(&self.plan.graph);
+        if ends {
+            let again = self.read(turns.again);
+            self.text.open(format!("if ({}) {{", again.text));
+        }
         self.block(&turns.next, name);
         self.text.line(format!("let {counter} = {counter} + 1;"));
         if !turns.otherwise.is_empty() {
@@ -201,11 +204,13 @@ impl<'p> Code<'p> {
             self.block(&turns.otherwise, name);
             self.text.close("}");
         }
-        self.text.close("}");
-        self.text.open("else {");
-        self.block(&turns.done, name);
-        self.text.line(format!("let {counter} = {most};"));
-        self.text.close("}");
+        if ends {
+            self.text.close("}");
+            self.text.open("else {");
+            self.block(&turns.done, name);
+            self.text.line(format!("let {counter} = {most};"));
+            self.text.close("}");
+        }
         self.text.close("}");
     }
 
