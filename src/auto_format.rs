@@ -8,7 +8,8 @@
 //! earnest, and looked at again by a larger sample: only then are its formulas and word lengths
 //! final. Where that goes beyond the goal, or the program does not fit its machine, the next one
 //! has its turn, and also where a program that had to be made small for its machine is slower
-//! than the next one is without a search; one whose program is half as large again as the
+//! than the next one is without a search, and where the next one is nearly as quick without a
+//! search: the quicker program of both is taken. One whose program is half as large again as the
 //! machine is left out.
 //!
 //! The whole picture is looked at, whatever rows are asked for: a format is chosen for a scene.
@@ -52,6 +53,10 @@ const DOUBT: f64 = 1.5;
 
 /// Where no more of the pixels are wrong, they are made in the same way.
 const ALIKE: f64 = 0.1;
+
+/// A candidate that takes no more than so many times as much without a search may be the quicker
+/// one after it.
+const CLOSE: f64 = 1.25;
 
 /// How many formats are planned in earnest; the last is the one with fewest pixels wrong.
 const TRIES: usize = 3;
@@ -165,6 +170,7 @@ fn quickest(
     // Within the goal the quickest, else the nearest to it.
     let mut best: Option<(Chosen, f64)> = None;
     let mut kept: Option<f64> = None;
+    let mut unsearched = 0.0;
     let (mut tries, mut too_large) = (0, 0);
     while tries < TRIES {
         // Logarithms with a bit more are only looked for where those without are quick and wrong.
@@ -198,7 +204,10 @@ fn quickest(
         }
         let candidate = known.remove(next);
         // A program that had to be made small may be slower than another is without a search.
-        let sooner = |kept| candidate.cycles < kept && candidate.wrong <= DOUBT * goal;
+        let sooner = |kept: f64| {
+            let close = candidate.cycles < CLOSE * unsearched;
+            (candidate.cycles < kept || close) && candidate.wrong <= DOUBT * goal
+        };
         if kept.is_some_and(|kept| !sooner(kept)) {
             break;
         }
@@ -219,7 +228,11 @@ fn quickest(
         let Some(expected) = expected(scene, &whole) else {
             continue;
         };
-        if expected <= goal && kept.is_none() && !plan.is_made_small() {
+        let close = |other: &Candidate| {
+            other.cycles < CLOSE * candidate.cycles && other.wrong <= DOUBT * goal
+        };
+        let sure = !plan.is_made_small() && !known.first().is_some_and(close);
+        if expected <= goal && kept.is_none() && sure {
             let why = Some(Why { goal, expected });
             return Ok(Some(Chosen { plan, why }));
         }
@@ -236,6 +249,7 @@ fn quickest(
         if better {
             let why = Some(Why { goal, expected });
             best = Some((Chosen { plan, why }, expected));
+            unsearched = candidate.cycles;
             kept = (expected <= goal).then_some(cycles).or(kept);
         }
     }
