@@ -3,23 +3,22 @@
 //! `cargo bench --bench ablation -- SCENE...` (the examples where none is named) builds each scene
 //! for [`TARGETS`] as it is and without each pass that was kept there, in the same format. What a
 //! pass is worth is how many times as many cycles programs take without it, by the forecast that
-//! `build` tells from some of their rows. A second table holds the planner's price of the usual
-//! programs to that forecast. Both are Markdown, for docs/passes.md.
+//! `build` tells from some of their rows. The table is Markdown, for docs/passes.md.
 
+mod corpus;
+
+use corpus::{build, scenes};
 use rayon::prelude::*;
 use serde_json::Value;
 use slowlight_compiler::planner::pipeline::{PASSES, Pass};
 use std::path::{Path, PathBuf};
-use std::process::Command;
 
 const TARGETS: [&str; 3] = ["jack", "6502:plain", "bbc:micro"];
 
-/// A program's forecast in cycles, the work that its plan took, and what the planner thinks
-/// that it takes.
+/// A program's forecast in cycles, and the work that its plan took.
 struct Cost {
     cycles: f64,
     work: f64,
-    priced: f64,
 }
 
 /// A scene on a target, as it is and without some passes.
@@ -31,12 +30,7 @@ struct Ablated {
 }
 
 fn main() {
-    let named: Vec<PathBuf> = std::env::args()
-        .skip(1)
-        .filter(|arg| !arg.starts_with("--"))
-        .map(PathBuf::from)
-        .collect();
-    let scenes = if named.is_empty() { examples() } else { named };
+    let scenes = scenes();
     let jobs: Vec<(&PathBuf, usize)> = (scenes.iter())
         .flat_map(|scene| (0..TARGETS.len()).map(move |target| (scene, target)))
         .collect();
@@ -53,52 +47,6 @@ fn main() {
     for pass in PASSES {
         println!("{}", row(*pass, &all));
     }
-    println!();
-    println!("| target | programs | rank correlation | median ratio | median error |");
-    println!("|---|---|---|---|---|");
-    for target in 0..TARGETS.len() {
-        println!("{}", priced(target, &all));
-    }
-}
-
-/// A target's line of the table of prices.
-fn priced(target: usize, all: &[Ablated]) -> String {
-    let usual: Vec<&Cost> = (all.iter())
-        .filter(|one| one.target == target)
-        .map(|one| &one.usual)
-        .collect();
-    let mut ratios: Vec<f64> = usual.iter().map(|cost| cost.priced / cost.cycles).collect();
-    let mut off: Vec<f64> = ratios.iter().map(|ratio| (ratio - 1.0).abs()).collect();
-    format!(
-        "| {} | {} | {:.3} | {:.2} | {:.1}% |",
-        TARGETS[target],
-        usual.len(),
-        correlation(&usual),
-        median(&mut ratios),
-        100.0 * median(&mut off)
-    )
-}
-
-/// Spearman's rank correlation of prices and cycles.
-fn correlation(all: &[&Cost]) -> f64 {
-    let ranks = |of: fn(&Cost) -> f64| {
-        let mut order: Vec<usize> = (0..all.len()).collect();
-        order.sort_by(|a, b| of(all[*a]).total_cmp(&of(all[*b])));
-        let mut ranks = vec![0.0; all.len()];
-        for (rank, at) in order.into_iter().enumerate() {
-            ranks[at] = rank as f64;
-        }
-        ranks
-    };
-    let (a, b) = (ranks(|cost| cost.priced), ranks(|cost| cost.cycles));
-    let apart: f64 = a.iter().zip(&b).map(|(a, b)| (a - b).powi(2)).sum();
-    let count = all.len().max(2) as f64;
-    1.0 - 6.0 * apart / (count * (count * count - 1.0))
-}
-
-fn median(all: &mut [f64]) -> f64 {
-    all.sort_by(f64::total_cmp);
-    all.get(all.len() / 2).copied().unwrap_or(f64::NAN)
 }
 
 /// A pass's line of the table.
@@ -156,7 +104,7 @@ fn mean(all: Vec<f64>) -> f64 {
 
 /// Nothing where the scene does not build as it is.
 fn ablated(scene: &Path, target: usize) -> Option<Ablated> {
-    let built = build(scene, target, &[])?;
+    let built = build(scene, TARGETS[target], &[])?;
     let format = built["format"].as_str()?.to_owned();
     let passes = built["passes"].as_object()?;
     let kept = |pass: &&Pass| {
@@ -164,10 +112,13 @@ fn ablated(scene: &Path, target: usize) -> Option<Ablated> {
         // What the scene declares counts where loops are peeled, too.
         count.is_some_and(|count| count["kept"] != 0 || **pass == Pass::EarlyExit)
     };
-    let usual = build(scene, target, &["--format", &format])?;
+    let usual = build(scene, TARGETS[target], &["--format", &format])?;
     let without = PASSES.iter().filter(kept).map(|pass| {
         let args = ["--format", &format, "--without-pass", pass.about().0];
-        (*pass, build(scene, target, &args).as_ref().and_then(cost))
+        (
+            *pass,
+            build(scene, TARGETS[target], &args).as_ref().and_then(cost),
+        )
     });
     Some(Ablated {
         scene: scene.file_stem()?.to_string_lossy().into_owned(),
@@ -181,21 +132,7 @@ fn cost(built: &Value) -> Option<Cost> {
     Some(Cost {
         cycles: built["cycles"].as_f64()?,
         work: built["work"].as_f64()?.max(1.0),
-        priced: built["priced"].as_f64()?,
     })
-}
-
-/// What `build` says of a scene.
-fn build(scene: &Path, target: usize, args: &[&str]) -> Option<Value> {
-    let dir = tempfile::tempdir().ok()?;
-    let out = Command::new(env!("CARGO_BIN_EXE_slowlight"))
-        .args(["build", "--json", "-t", TARGETS[target], "-o"])
-        .arg(dir.path())
-        .arg(scene)
-        .args(args)
-        .output()
-        .ok()?;
-    serde_json::from_slice(&out.stdout).ok()
 }
 
 /// How many lines a pass has, tests apart.
@@ -212,15 +149,4 @@ fn lines(file: &str) -> usize {
         false => std::fs::read_to_string(path).map_or(0, |text| text.lines().count()),
     };
     all.iter().map(text).sum()
-}
-
-fn examples() -> Vec<PathBuf> {
-    let dir = Path::new(env!("CARGO_MANIFEST_DIR")).join("examples");
-    let scenes = std::fs::read_dir(dir).into_iter().flatten();
-    let mut all: Vec<PathBuf> = scenes
-        .filter_map(|entry| Some(entry.ok()?.path()))
-        .filter(|path| path.extension().is_some_and(|ext| ext == "scn"))
-        .collect();
-    all.sort();
-    all
 }

@@ -41,6 +41,8 @@ static PLAIN: Target = Target {
     wraps: false,
     columns: 0,
     pixels: |_| 1,
+    drawing: 0,
+    stolen: 0.0,
     lean: Lean::Nothing,
 };
 

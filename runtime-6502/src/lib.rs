@@ -45,7 +45,7 @@ pub mod write;
 #[cfg(test)]
 mod tests;
 
-use slowlight_routine::{Bits, Format, Runtime, Value};
+use slowlight_routine::{Bits, Format, Overhead, Runtime, Value};
 
 /// The first byte of the zero page that the runtime leaves alone.
 pub const FREE_ZERO_PAGE: u8 = 0x1E;
@@ -81,7 +81,15 @@ const USUAL: Runtime = Runtime {
     decode,
     shifted: slowlight_routine::scale::shifted,
     quotient: f64::INFINITY,
-    stepping: None,
+    overhead: Overhead {
+        step: None,
+        read: [0, 0],
+        nested: 0,
+        digit: 0,
+        write: [36, 36],
+        test: 36,
+        index: 0,
+    },
     segments: false,
     reciprocals: false,
     middle: false,
@@ -89,8 +97,6 @@ const USUAL: Runtime = Runtime {
     derives: false,
     kept: slowlight_routine::whole,
     loose: None,
-    statement: 36,
-    index: 0,
     param_most: 32767.0,
     param_digits,
     param_bits,

@@ -28,7 +28,7 @@ mod routines;
 
 use slowlight_isa::real40::Real40;
 use slowlight_isa::real40::text::{Parsed, parse};
-use slowlight_routine::{Bits, Format, Runtime, Stepping, Value};
+use slowlight_routine::{Bits, Format, Overhead, Runtime, Value};
 
 /// The reals.
 pub const REAL: Format = Format::Real40;
@@ -44,12 +44,14 @@ pub const FAR: f64 = 1e33;
 
 /// BASIC II's cycles, from the whole statements measured on the ROM: `C%=C%+S%`
 /// on resident variables takes 1,245, `C%=A%` 804 and `X=A` 1,243.
-const STEPPING: Stepping = Stepping {
-    ramp: 1245,
-    read: [325, 560],
-    digit: 200,
-    write: [480, 680],
+const OVERHEAD: Overhead = Overhead {
+    step: Some(1245),
+    read: [300, 740],
+    nested: 0,
+    digit: 150,
+    write: [500, 500],
     test: 320,
+    index: 1000,
 };
 
 /// How tightly BASIC's operators bind.
@@ -83,7 +85,7 @@ pub static RUNTIME: Runtime = Runtime {
     decode,
     shifted: slowlight_routine::scale::shifted,
     quotient: FAR,
-    stepping: Some(STEPPING),
+    overhead: OVERHEAD,
     segments: true,
     reciprocals: false,
     middle: false,
@@ -91,8 +93,6 @@ pub static RUNTIME: Runtime = Runtime {
     derives: true,
     kept: slowlight_routine::whole,
     loose: None,
-    statement: 800,
-    index: 850,
     param_most: BIG,
     param_digits: decimal,
     param_bits,

@@ -47,7 +47,7 @@ mod tests;
 pub use parts::{classes, classes_for_processor, has_init};
 
 use model::Float;
-use slowlight_routine::{Bits, Format, Runtime, Value};
+use slowlight_routine::{Bits, Format, Overhead, Runtime, Value};
 
 /// The level of a variable, a call, or what stands in parentheses.
 pub const TERM: u8 = 1;
@@ -81,7 +81,15 @@ const CUT: Runtime = Runtime {
     decode,
     shifted: slowlight_routine::scale::shifted,
     quotient: f64::INFINITY,
-    stepping: None,
+    overhead: Overhead {
+        step: None,
+        read: [0, 0],
+        nested: 0,
+        digit: 0,
+        write: [11, 11],
+        test: 11,
+        index: 0,
+    },
     segments: false,
     reciprocals: false,
     middle: false,
@@ -89,8 +97,6 @@ const CUT: Runtime = Runtime {
     derives: false,
     kept: slowlight_routine::whole,
     loose: None,
-    statement: 11,
-    index: 0,
     param_most: model::MOST as f64,
     param_digits,
     param_bits: |scaled, digits| of_param(scaled, digits, Float::div),

@@ -15,9 +15,9 @@ use crate::{files, inks, say, say_json};
 use clap::ValueEnum;
 use serde_json::json;
 use slowlight_compiler::analysis::rate::rates;
-use slowlight_compiler::backend::Document;
 use slowlight_compiler::backend::mos6502::document;
 use slowlight_compiler::backend::mos6502::syntax::Syntax;
+use slowlight_compiler::backend::{self, Document};
 use slowlight_compiler::plan::print::{ranges_text, rates_text};
 use slowlight_compiler::planner::PlannedScene;
 use slowlight_compiler::planner::pipeline::{PASSES, Pipeline};
@@ -113,7 +113,7 @@ pub fn run(args: &Args) -> Outcome<()> {
             "ram_bytes": sizes.ram,
             "heap": heap_json(&written),
             "work": plan.work(),
-            "priced": (plan.cycles_a_pixel() * pixels(&plan)).round(),
+            "priced": priced(&plan).round(),
             "passes": passes_json(&plan),
             "cycles": forecast.cycles().map(f64::round),
             "machine_seconds": forecast.cycles().map(seconds),
@@ -229,6 +229,15 @@ fn heap_json(written: &Written) -> serde_json::Value {
         "largest": heap.largest,
         "systems": heap.systems,
     })
+}
+
+/// What a program takes by its plan's price, in cycles: its pixels, with what draws them, and
+/// what makes it ready.
+fn priced(plan: &PlannedScene) -> f64 {
+    let drawing = if plan.plot { plan.target.drawing } else { 0 };
+    let pixel = plan.cycles_a_pixel() + f64::from(drawing);
+    let all = pixel * pixels(plan) + backend::starts(plan) as f64;
+    all / (1.0 - plan.target.stolen)
 }
 
 /// How many pixels a plan's program computes.

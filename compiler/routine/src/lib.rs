@@ -25,7 +25,7 @@ pub mod scale;
 
 pub use op::{Op, Type, Value};
 pub use range::Range;
-pub use runtime::{Loose, Narrow, Runtime, Stepping};
+pub use runtime::{Loose, Narrow, Overhead, Runtime};
 
 /// How a machine holds a value.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]

@@ -3,21 +3,24 @@
 use crate::scale;
 use crate::{Bits, Format, Op, Part, Range, Routine, Type, Value};
 
-/// What it costs to step an int from column to column, and what statements cost
-/// beside their routines, so that the one can be weighed against the other: in
-/// the machine's cycles.
+/// What statements take beside their routines, in the machine's cycles.
 #[derive(Clone, Copy, Debug)]
-pub struct Stepping {
-    /// `n = n + step`, as a statement of its own.
-    pub ramp: u32,
+pub struct Overhead {
+    /// `n = n + step` from column to column, as a statement of its own; `None` where programs
+    /// do not step ints.
+    pub step: Option<u32>,
     /// Reading an int's and a real's variable.
     pub read: [u32; 2],
+    /// Taking a real that is written out where it is read.
+    pub nested: u32,
     /// Reading each digit of a whole constant.
     pub digit: u32,
     /// Assigning an int and a real, beside what is assigned.
     pub write: [u32; 2],
     /// A test, beside what is tested.
     pub test: u32,
+    /// Reading a table, an index, beside reading a variable.
+    pub index: u32,
 }
 
 /// Reals of fewer bits beside the usual ones.
@@ -60,9 +63,8 @@ pub struct Runtime {
     /// by 0 among them, saturate there. A runtime may choose it below its
     /// format's end, so that what is computed from a quotient needs no guard.
     pub quotient: f64,
-    /// What stepping an int from column to column costs; `None` where programs
-    /// do not do it.
-    pub stepping: Option<Stepping>,
+    /// What statements take beside their routines.
+    pub overhead: Overhead,
     /// Whether programs go through a row in runs of columns within which
     /// comparisons of the column with what the row knows do not change, and
     /// compute what depends on these alone once a run.
@@ -80,10 +82,6 @@ pub struct Runtime {
     pub kept: fn(Bits, Range) -> Bits,
     /// Which results may be smaller than the format's least magnitude, if any.
     pub loose: Option<Loose>,
-    /// Cycles that a statement takes beside its routine, about.
-    pub statement: u32,
-    /// Cycles that reading a table takes beside reading a variable, an index, about.
-    pub index: u32,
     /// The greatest magnitude of a real `param`, its range included, that the
     /// generated source can write and the program can take.
     pub param_most: f64,

@@ -19,7 +19,7 @@ use crate::passes::loops::strip_mine::passes;
 use crate::schedule::analysed::Known;
 use crate::selection::routines::Chosen;
 use rustc_hash::FxHashMap;
-use slowlight_routine::{Op, Runtime, Type};
+use slowlight_routine::{Op, Overhead, Runtime, Type};
 
 /// How often a run of columns is thought to begin, a pixel.
 const RUNS: f64 = 0.1;
@@ -215,10 +215,10 @@ impl Profile {
     /// that is.
     fn beside(&self, ty: Type, uses: u32) -> u32 {
         let kind = usize::from(ty == Type::Real);
-        match self.runtime.stepping {
-            Some(_) if uses == 1 => 0,
-            Some(stepping) => stepping.write[kind] + uses * stepping.read[kind],
-            None => self.runtime.statement,
+        let Overhead { read, write, .. } = self.runtime.overhead;
+        match uses {
+            1 => 0,
+            uses => write[kind] + uses * read[kind],
         }
     }
 

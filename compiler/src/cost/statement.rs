@@ -3,7 +3,7 @@
 
 use crate::ir::graph::*;
 use crate::ir::tree::*;
-use slowlight_routine::{Routine, Runtime, Stepping, Type};
+use slowlight_routine::{Overhead, Routine, Runtime, Type};
 
 /// Routines, and what statements cost beside them.
 pub(crate) struct Beside<'p> {
@@ -16,45 +16,43 @@ pub(crate) struct Beside<'p> {
 impl Beside<'_> {
     /// Cycles of a statement by itself.
     pub(crate) fn statement(&self, statement: &Statement) -> u32 {
-        let Some(stepping) = self.runtime.stepping else {
-            // Of these machines nothing better is known.
-            let step = self.runtime.statement;
-            return match statement {
-                Statement::Let(id) => step + self.own(*id),
-                Statement::Loop(_) => 0,
-                _ => step,
-            };
-        };
+        let Overhead {
+            step,
+            read,
+            write,
+            test,
+            ..
+        } = self.runtime.overhead;
         match statement {
             Statement::Let(id) if matches!(self.graph.node(*id), Node::Stepped { .. }) => {
-                stepping.ramp
+                step.unwrap_or(0)
             }
-            Statement::Let(id) => self.computed(*id, stepping),
+            Statement::Let(id) => self.computed(*id),
             Statement::Set { place, from } => {
                 let reading = match from {
-                    Origin::Node(id) => self.read(*id, stepping),
-                    Origin::Scratch(..) => stepping.read[1],
+                    Origin::Node(id) => self.read(*id),
+                    Origin::Scratch(..) => read[1],
                 };
                 let kind = match place {
                     Place::Node(id) => kind(self.graph.ty(*id)),
                     _ => 1,
                 };
-                reading + stepping.write[kind]
+                reading + write[kind]
             }
-            Statement::If { cond, .. } => stepping.test + self.read(*cond, stepping),
-            Statement::Loop(_) | Statement::Call(_) => stepping.test,
+            Statement::If { cond, .. } => test + self.read(*cond),
+            Statement::Loop(_) | Statement::Call(_) => test,
         }
     }
 
     /// What computing a node costs, its operands not.
     fn own(&self, id: NodeId) -> u32 {
         if let Node::Tabulated(_) = self.graph.node(id) {
-            return self.runtime.index;
+            return self.runtime.overhead.index;
         }
         if let Node::Lookup { table, .. } = self.graph.node(id) {
             let table = self.graph.tables.get(table.0 as usize);
             let flat = table.is_some_and(|t| t.width == 1 || t.height == 1);
-            return self.runtime.index * if flat { 1 } else { 2 };
+            return self.runtime.overhead.index * if flat { 1 } else { 2 };
         }
         let routine = self.routines.get(id.0 as usize).copied().flatten();
         routine.map_or(0, |r| r.cycles)
@@ -64,45 +62,49 @@ impl Beside<'_> {
         self.folded.get(id.0 as usize) == Some(&true)
     }
 
-    fn read(&self, id: NodeId, stepping: Stepping) -> u32 {
+    fn read(&self, id: NodeId) -> u32 {
+        let Overhead {
+            read,
+            nested,
+            digit,
+            ..
+        } = self.runtime.overhead;
         let ty = self.graph.ty(id);
         match self.graph.constant(id) {
+            _ if self.inline(id) && ty == Type::Real => nested,
             _ if self.inline(id) => 0,
             Some(value) if ty == Type::Int => {
-                stepping.digit * value.int().unsigned_abs().to_string().len() as u32
+                digit * value.int().unsigned_abs().to_string().len() as u32
             }
-            _ => stepping.read[kind(ty)],
+            _ => read[kind(ty)],
         }
     }
 
     /// What computing a node and keeping it costs, its operands not.
     pub(crate) fn kept(&self, id: NodeId) -> u32 {
-        let kept = match self.runtime.stepping {
-            Some(stepping) if !self.inline(id) => stepping.write[kind(self.graph.ty(id))],
-            _ => 0,
+        let kept = match self.inline(id) {
+            false => self.runtime.overhead.write[kind(self.graph.ty(id))],
+            true => 0,
         };
         self.own(id) + kept
     }
 
-    fn computed(&self, id: NodeId, stepping: Stepping) -> u32 {
+    fn computed(&self, id: NodeId) -> u32 {
         let node = self.graph.node(id);
-        let operands: u32 = node.inputs().map(|used| self.read(used, stepping)).sum();
+        let operands: u32 = node.inputs().map(|used| self.read(used)).sum();
         operands + self.kept(id)
     }
 
     /// What it takes to ask a bool that is not kept.
     pub(crate) fn asked(&self, id: NodeId) -> u32 {
-        let Some(stepping) = self.runtime.stepping else {
-            return self.runtime.statement + self.own(id);
-        };
         let operands = self.graph.node(id).operands();
-        let operands: u32 = operands.map(|used| self.read(used, stepping)).sum();
-        stepping.test + operands + self.own(id)
+        let operands: u32 = operands.map(|used| self.read(used)).sum();
+        self.runtime.overhead.test + operands + self.own(id)
     }
 
     /// What ramps take behind each pixel.
     pub(crate) fn steps(&self, row: &Block) -> f64 {
-        let ramp = self.runtime.stepping.map_or(0, |s| s.ramp);
+        let step = self.runtime.overhead.step.unwrap_or(0);
         let mut ramps = 0;
         walk(row, &mut |statement| {
             let node = |id: &NodeId| self.graph.node(*id);
@@ -110,7 +112,7 @@ impl Beside<'_> {
                 matches!(statement, Statement::Let(id) if matches!(node(id), Node::Ramp { .. })),
             );
         });
-        f64::from(ramps * ramp)
+        f64::from(ramps * step)
     }
 }
 
@@ -147,7 +149,7 @@ impl Costs<'_> {
     }
 }
 
-/// Where a type's costs stand in [`Stepping`].
+/// Where a type's costs stand in [`Overhead`].
 fn kind(ty: Type) -> usize {
     usize::from(ty == Type::Real)
 }

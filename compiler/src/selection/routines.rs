@@ -58,7 +58,7 @@ pub(crate) fn choose(
             };
             let Node::Apply(op, _) = graph.node(id) else {
                 if matches!(graph.node(id), Node::Ramp { .. } | Node::Stepped { .. })
-                    && runtime.stepping.is_none()
+                    && runtime.overhead.step.is_none()
                 {
                     let message = format!("{} cannot step ints along a row", runtime.name);
                     missing.push(Diagnostic::error(graph.span(id), message));

@@ -68,6 +68,8 @@ pub static MICRO: Target = Target {
     runtime: &RUNTIME,
     modes: MICRO_MODES,
     offset: OFFSET,
+    drawing: 3_400,
+    stolen: 0.0,
     lean: Lean::Short,
     hertz: 2_000_000.0,
     sizes: SIZES,
@@ -88,6 +90,8 @@ pub static AGON: Target = Target {
     runtime: &RUNTIME,
     modes: AGON_MODES,
     offset: OFFSET,
+    drawing: 6_600,
+    stolen: 0.0,
     lean: Lean::Short,
     // Measured: the two mirrors in 11.6 minutes for BASIC II's 17.8e9 cycles.
     hertz: 25_500_000.0,
@@ -105,6 +109,8 @@ pub static BASIC_V: Target = Target {
     runtime: &RUNTIME,
     modes: BASIC_V_MODES,
     offset: OFFSET,
+    drawing: 6_600,
+    stolen: 0.0,
     lean: Lean::Short,
     // Measured: 0.15 seconds for the same program.
     hertz: 1.2e11,

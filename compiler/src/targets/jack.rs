@@ -42,6 +42,8 @@ const FLOATS: Target = Target {
     // from its own surface comes out as large; four times that is still far
     // below what a pixel sees.
     offset: 0.015_625,
+    drawing: 29,
+    stolen: 0.0,
     lean: Lean::Short,
     // VM commands a second of the official VM emulator. Its calls of the operating
     // system take longer, about 10 microseconds each, which one rate cannot say.

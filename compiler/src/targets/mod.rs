@@ -89,6 +89,10 @@ pub struct Target {
     /// How many pixels of a mode stand in a byte that the program writes; 1 where
     /// it plots them one by one.
     pub pixels: fn(&Mode) -> u32,
+    /// Cycles that a pixel takes by itself, about: the loop over columns, and its ink.
+    pub drawing: u32,
+    /// The share of all cycles in which the screen holds the processor up.
+    pub stolen: f64,
     /// What a leaner style of its programs is.
     pub lean: Lean,
 }

@@ -26,10 +26,10 @@ mod tests;
 pub use look::looked_up;
 pub use templates::same;
 
-use crate::scaled::STEPPING;
+use crate::scaled::OVERHEAD;
 use slowlight_routine::log::kept;
 use slowlight_routine::log::model::Logarithm;
-use slowlight_routine::{Bits, Format, Runtime, Value, scale};
+use slowlight_routine::{Bits, Format, Overhead, Runtime, Value, scale};
 
 /// The first byte of the zero page that this runtime leaves alone.
 pub const FREE_ZERO_PAGE: u8 = 0x3A;
@@ -59,7 +59,7 @@ pub static LOG11_IN_RUNS: Runtime = in_runs(LOG11);
 
 const fn in_runs(runtime: Runtime) -> Runtime {
     Runtime {
-        stepping: Some(STEPPING),
+        overhead: OVERHEAD,
         segments: true,
         ..runtime
     }
@@ -72,8 +72,11 @@ const fn of<const FRAC: u8>() -> Runtime {
         decode: decode::<FRAC>,
         quotient: Logarithm::<FRAC, true>::END,
         kept,
-        statement: 4,
-        index: 6,
+        overhead: Overhead {
+            step: None,
+            write: [4, 4],
+            ..OVERHEAD
+        },
         param_most: PARAM,
         param_digits: |greatest, ranged| Some(scale::param_digits(greatest, ranged, PARAM)),
         param_bits: param_bits::<FRAC>,

@@ -52,7 +52,7 @@ pub use templates::{copied, squared};
 pub(crate) use parts::ALL as PARTS;
 
 use slowlight_routine::scale;
-use slowlight_routine::{Bits, Format, Narrow, Runtime, Stepping, Value};
+use slowlight_routine::{Bits, Format, Narrow, Overhead, Runtime, Value};
 
 /// Bits of a real.
 pub const BITS: u8 = 16;
@@ -132,7 +132,6 @@ const USUAL_LONG: Runtime = Runtime {
     format: "fixed24",
     real: LONG,
     routines: &routines::ALL_LONG,
-    statement: 6,
     param_digits: |greatest, ranged| {
         let most = scale::most(long::BITS) as f64;
         Some(scale::param_digits(greatest, ranged, most))
@@ -150,9 +149,7 @@ const USUAL: Runtime = Runtime {
     shifted: model::shifted,
     reciprocals: true,
     middle: true,
-    stepping: Some(STEPPING),
-    statement: 4,
-    index: 6,
+    overhead: OVERHEAD,
     param_digits: |greatest, ranged| {
         Some(scale::param_digits(
             greatest,
@@ -165,12 +162,14 @@ const USUAL: Runtime = Runtime {
 };
 
 /// An int of four bytes is added to another.
-pub(crate) const STEPPING: Stepping = Stepping {
-    ramp: 38,
+pub(crate) const OVERHEAD: Overhead = Overhead {
+    step: Some(38),
     read: [0, 0],
+    nested: 0,
     digit: 0,
     write: [0, 0],
     test: 3,
+    index: 6,
 };
 
 /// The nearest bits, saturating; of a real without a scale, those of its int.

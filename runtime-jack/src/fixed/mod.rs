@@ -21,7 +21,7 @@ pub(crate) mod tests;
 
 use crate::{INT, SUM, TERM, param_digits, parts};
 use slowlight_routine::scale::{self, Scales};
-use slowlight_routine::{Bits, Format, Runtime, Value};
+use slowlight_routine::{Bits, Format, Overhead, Runtime, Value};
 
 /// Bits of a real.
 pub const BITS: u8 = 16;
@@ -41,7 +41,15 @@ pub static FIXED16: Runtime = Runtime {
     decode,
     shifted: slowlight_routine::scale::shifted,
     quotient: f64::INFINITY,
-    stepping: None,
+    overhead: Overhead {
+        step: None,
+        read: [0, 1],
+        nested: 0,
+        digit: 0,
+        write: [4, 4],
+        test: 4,
+        index: 4,
+    },
     segments: false,
     reciprocals: false,
     middle: false,
@@ -49,8 +57,6 @@ pub static FIXED16: Runtime = Runtime {
     derives: false,
     kept: slowlight_routine::whole,
     loose: None,
-    statement: 4,
-    index: 0,
     param_most: crate::model::MOST as f64,
     param_digits,
     param_bits: |scaled, _| scaled as Bits,

@@ -19,7 +19,7 @@ mod tests;
 use crate::{INT, param_digits, parts};
 use slowlight_routine::log::model::{LEAST, Log};
 use slowlight_routine::log::{LOG, kept, loose, param_bits};
-use slowlight_routine::{Bits, Format, Loose, Runtime, Value};
+use slowlight_routine::{Bits, Format, Loose, Overhead, Runtime, Value};
 
 /// The runtime of logarithmic reals, ten bits behind the point.
 pub static LOG10: Runtime = Runtime {
@@ -33,7 +33,15 @@ pub static LOG10: Runtime = Runtime {
     decode,
     shifted: slowlight_routine::scale::shifted,
     quotient: 65536.0,
-    stepping: None,
+    overhead: Overhead {
+        step: None,
+        read: [1, 1],
+        nested: 3,
+        digit: 0,
+        write: [3, 3],
+        test: 2,
+        index: 2,
+    },
     segments: false,
     reciprocals: false,
     middle: false,
@@ -45,8 +53,6 @@ pub static LOG10: Runtime = Runtime {
         instead: |routine| loose::instead(routine, &routines::ALL),
         least: loose::least,
     }),
-    statement: 4,
-    index: 0,
     param_most: crate::model::MOST as f64,
     param_digits,
     param_bits,

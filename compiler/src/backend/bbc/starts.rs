@@ -8,7 +8,7 @@ use super::screen;
 use super::tables::groups;
 use crate::plan::Plan;
 use crate::plan::table_init::Recipe;
-use slowlight_routine::{Op, Stepping, Value};
+use slowlight_routine::{Op, Overhead, Value};
 use slowlight_runtime_bbc::literal;
 
 /// `NEXT` after an entry; an array's element, beside its subscripts; each subscript more.
@@ -31,9 +31,6 @@ const FIRST: u64 = 15_000;
 
 /// What a plan's program takes.
 pub(in crate::backend) fn starts(plan: &Plan) -> u64 {
-    let Some(stepping) = plan.runtime.stepping else {
-        return 0;
-    };
     let parts = plan.parts();
     let first = parts.iter().filter(|part| is_first(part)).count() as u64;
     let params = plan.params.iter().map(|param| {
@@ -54,12 +51,13 @@ pub(in crate::backend) fn starts(plan: &Plan) -> u64 {
         false => 0,
     };
     // The rows are looked at together.
-    first * FIRST + params + LOOK + kept + screen + filling(plan, stepping)
+    first * FIRST + params + LOOK + kept + screen + filling(plan)
 }
 
 /// Reading tables, and working them out.
-fn filling(plan: &Plan, stepping: Stepping) -> u64 {
-    let [read_int, read] = stepping.read.map(u64::from);
+fn filling(plan: &Plan) -> u64 {
+    let Overhead { read, write, .. } = plan.runtime.overhead;
+    let [read_int, read] = read.map(u64::from);
     let groups = groups(plan);
     let each = groups.iter().map(|group| {
         let (width, height) = group.size;
@@ -80,7 +78,7 @@ fn filling(plan: &Plan, stepping: Stepping) -> u64 {
                 Value::Bool(b) => (-i32::from(b)).to_string(),
             });
             let read: u64 = texts.map(|text| digits(&text)).sum();
-            read + DIM + cells * (CLEARED + element + u64::from(stepping.write[1]))
+            read + DIM + cells * (CLEARED + element + u64::from(write[1]))
         });
         let tables: u64 = tables.sum();
         let seeds = group.seed.iter().map(|n| KEEP + digits(&n.to_string()));

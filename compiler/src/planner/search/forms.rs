@@ -132,7 +132,7 @@ pub fn with_inks_split(plan: Analysed, cx: &Context, budget: SizeBudget) -> Anal
 pub fn apart_at_last(plan: Analysed, cx: &Context, budget: SizeBudget) -> Analysed {
     let price = cx.price(budget);
     // Where copies are joined, what chooses what a loop starts with costs nothing.
-    let mut best = match cx.runtime.stepping {
+    let mut best = match cx.runtime.overhead.step {
         Some(_) => with_loops_skipped(plan, cx, budget),
         None => plan,
     };

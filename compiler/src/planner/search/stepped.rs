@@ -41,7 +41,7 @@ pub fn stepped(
     budget: SizeBudget,
     steps: Steps,
 ) -> Analysed {
-    if target.runtime.stepping.is_none() || steps == Steps::None {
+    if target.runtime.overhead.step.is_none() || steps == Steps::None {
         return plain;
     }
     let site = Site {
