@@ -109,6 +109,33 @@ struct Candidate {
     wrong: f64,
 }
 
+impl Candidate {
+    /// Whether its plan may be within the goal.
+    fn may(&self, goal: f64) -> bool {
+        self.wrong <= DOUBT * goal
+    }
+
+    /// Whether it may be quicker in the end than what takes so many cycles without a search.
+    fn is_close(&self, unsearched: f64) -> bool {
+        self.cycles < CLOSE * unsearched
+    }
+}
+
+/// A plan within the goal: the cycles of its program, and of that without a search.
+#[derive(Clone, Copy)]
+struct Kept {
+    cycles: f64,
+    unsearched: f64,
+}
+
+impl Kept {
+    /// Whether another format's program may be quicker. It may be so already without a search
+    /// where this one had to be made small.
+    fn may_lose(&self, to: &Candidate, goal: f64) -> bool {
+        to.may(goal) && (to.cycles < self.cycles || to.is_close(self.unsearched))
+    }
+}
+
 /// Plans a scene in the format that is asked for, or else in the quickest within the goal; where
 /// no format is, in that with fewest pixels wrong.
 ///
@@ -169,13 +196,12 @@ fn quickest(
     let mut known = candidates(screen, scene, &short, goal);
     // Within the goal the quickest, else the nearest to it.
     let mut best: Option<(Chosen, f64)> = None;
-    let mut kept: Option<f64> = None;
-    let mut unsearched = 0.0;
+    let mut kept: Option<Kept> = None;
     let (mut tries, mut too_large) = (0, 0);
     while tries < TRIES {
         // Logarithms with a bit more are only looked for where those without are quick and wrong.
         let worth = |first: &Candidate| {
-            let (far, none) = (first.wrong > DOUBT * goal, tries > 0);
+            let (far, none) = (!first.may(goal), tries > 0);
             let sooner = |one: &Candidate| is_log(one) && (far || one.cycles < first.cycles);
             none || known.iter().any(sooner)
         };
@@ -183,9 +209,8 @@ fn quickest(
             known.extend(candidates(screen, scene, &std::mem::take(&mut finer), goal));
             sort(&mut known, goal);
         }
-        let enough = |one: &Candidate| {
-            tries == 0 && one.wrong <= DOUBT * goal && one.cycles <= least_of_wider(&known)
-        };
+        let enough =
+            |one: &Candidate| tries == 0 && one.may(goal) && one.cycles <= least_of_wider(&known);
         if !long.is_empty() && kept.is_none() && !known.first().is_some_and(enough) {
             known.extend(candidates(screen, scene, &std::mem::take(&mut long), goal));
             sort(&mut known, goal);
@@ -203,12 +228,7 @@ fn quickest(
             break;
         }
         let candidate = known.remove(next);
-        // A program that had to be made small may be slower than another is without a search.
-        let sooner = |kept: f64| {
-            let close = candidate.cycles < CLOSE * unsearched;
-            (candidate.cycles < kept || close) && candidate.wrong <= DOUBT * goal
-        };
-        if kept.is_some_and(|kept| !sooner(kept)) {
+        if kept.is_some_and(|kept| !kept.may_lose(&candidate, goal)) {
             break;
         }
         tries += 1;
@@ -228,29 +248,29 @@ fn quickest(
         let Some(expected) = expected(scene, &whole) else {
             continue;
         };
-        let close = |other: &Candidate| {
-            other.cycles < CLOSE * candidate.cycles && other.wrong <= DOUBT * goal
-        };
+        let close = |next: &Candidate| next.may(goal) && next.is_close(candidate.cycles);
         let sure = !plan.is_made_small() && !known.first().is_some_and(close);
         if expected <= goal && kept.is_none() && sure {
             let why = Some(Why { goal, expected });
             return Ok(Some(Chosen { plan, why }));
         }
-        let cycles = match expected <= goal {
-            true => estimate::cycles(&whole),
-            false => f64::INFINITY,
+        let now = Kept {
+            cycles: match expected <= goal {
+                true => estimate::cycles(&whole),
+                false => f64::INFINITY,
+            },
+            unsearched: candidate.cycles,
         };
         let better = match (kept, expected <= goal) {
             (None, true) => true,
-            (Some(kept), true) => cycles < kept,
+            (Some(kept), true) => now.cycles < kept.cycles,
             (Some(_), false) => false,
             (None, false) => best.as_ref().is_none_or(|(_, least)| expected < *least),
         };
         if better {
             let why = Some(Why { goal, expected });
             best = Some((Chosen { plan, why }, expected));
-            unsearched = candidate.cycles;
-            kept = (expected <= goal).then_some(cycles).or(kept);
+            kept = (expected <= goal).then_some(now).or(kept);
         }
     }
     Ok(best.map(|(chosen, _)| chosen))
@@ -317,8 +337,7 @@ fn candidates(
 /// Those that may be within the goal come first, the quickest before the others; then those with
 /// fewest pixels wrong.
 fn sort(all: &mut [Candidate], goal: f64) {
-    let may = |one: &Candidate| one.wrong <= DOUBT * goal;
-    all.sort_by(|a, b| match (may(a), may(b)) {
+    all.sort_by(|a, b| match (a.may(goal), b.may(goal)) {
         (true, true) => a.cycles.total_cmp(&b.cycles),
         (false, false) => a.wrong.total_cmp(&b.wrong),
         (a, b) => b.cmp(&a),

@@ -42,16 +42,18 @@ pub const BIG: f64 = 1.7e38;
 /// far enough from it that products of one with lengths, and their sums, need no guard.
 pub const FAR: f64 = 1e33;
 
-/// BASIC II's cycles, from the whole statements measured on the ROM: `C%=C%+S%`
-/// on resident variables takes 1,245, `C%=A%` 804 and `X=A` 1,243.
+/// BASIC II's cycles, as they come to in whole programs (`cargo bench --bench prices`). Of single
+/// statements the ROM takes 1,245 for `C%=C%+S%` on resident variables, 804 for `C%=A%` and
+/// 1,243 for `X=A`; a real is read in 560 if it is the first of its letter, which most are not,
+/// and each before it takes 103.
 const OVERHEAD: Overhead = Overhead {
     step: Some(1245),
     read: [300, 740],
-    nested: 0,
     digit: 150,
     write: [500, 500],
     test: 320,
     index: 1000,
+    ..Overhead::NONE
 };
 
 /// How tightly BASIC's operators bind.

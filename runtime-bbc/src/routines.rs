@@ -1,7 +1,9 @@
 //! The list of routines: for each operation the cheap and restricted ones first.
 //!
 //! Cycles are BASIC II's for the operation alone, from the table of whole statements measured on
-//! the ROM; bytes are those of the operator.
+//! the ROM; those of products, sines and functions of our own are means over whole programs
+//! (`cargo bench --bench prices`), whose operands are shorter and whose guards mostly hold. Bytes
+//! are those of the operator.
 
 use slowlight_isa::real40::{Real40, arith, elementary};
 use slowlight_routine::{Error, Form, Format, Op, Range, Routine, everywhere};

@@ -82,13 +82,9 @@ const CUT: Runtime = Runtime {
     shifted: slowlight_routine::scale::shifted,
     quotient: f64::INFINITY,
     overhead: Overhead {
-        step: None,
-        read: [0, 0],
-        nested: 0,
-        digit: 0,
-        write: [11, 11],
+        write: [11; 2],
         test: 11,
-        index: 0,
+        ..Overhead::NONE
     },
     segments: false,
     reciprocals: false,

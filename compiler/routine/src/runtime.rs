@@ -23,6 +23,19 @@ pub struct Overhead {
     pub index: u32,
 }
 
+impl Overhead {
+    /// Statements that take nothing beside their routines, and no steps of columns.
+    pub const NONE: Overhead = Overhead {
+        step: None,
+        read: [0; 2],
+        nested: 0,
+        digit: 0,
+        write: [0; 2],
+        test: 0,
+        index: 0,
+    };
+}
+
 /// Reals of fewer bits beside the usual ones.
 #[derive(Clone, Copy, Debug)]
 pub struct Narrow {

@@ -164,12 +164,9 @@ const USUAL: Runtime = Runtime {
 /// An int of four bytes is added to another.
 pub(crate) const OVERHEAD: Overhead = Overhead {
     step: Some(38),
-    read: [0, 0],
-    nested: 0,
-    digit: 0,
-    write: [0, 0],
     test: 3,
     index: 6,
+    ..Overhead::NONE
 };
 
 /// The nearest bits, saturating; of a real without a scale, those of its int.

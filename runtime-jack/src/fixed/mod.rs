@@ -42,13 +42,11 @@ pub static FIXED16: Runtime = Runtime {
     shifted: slowlight_routine::scale::shifted,
     quotient: f64::INFINITY,
     overhead: Overhead {
-        step: None,
         read: [0, 1],
-        nested: 0,
-        digit: 0,
-        write: [4, 4],
+        write: [4; 2],
         test: 4,
         index: 4,
+        ..Overhead::NONE
     },
     segments: false,
     reciprocals: false,

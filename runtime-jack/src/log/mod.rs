@@ -34,13 +34,12 @@ pub static LOG10: Runtime = Runtime {
     shifted: slowlight_routine::scale::shifted,
     quotient: 65536.0,
     overhead: Overhead {
-        step: None,
-        read: [1, 1],
+        read: [1; 2],
         nested: 3,
-        digit: 0,
-        write: [3, 3],
+        write: [3; 2],
         test: 2,
         index: 2,
+        ..Overhead::NONE
     },
     segments: false,
     reciprocals: false,
