@@ -136,7 +136,7 @@ const BOUNDED: [(&str, &str); 6] = [
         "a distance by a loop of its own where the loop goes on",
         "loop (t = 0.0, s = 0.0) max 3000 {
            let d = loop (k = 0, z = t + x / 8) max 6 {
-             if z > 2 or k == 4 then z / 4 else next(k + 1, z * z + t / 9)
+             if z > 2 or k == 4 then z * z / 4 else next(k + 1, z * z + t / 9)
            } else 0;
            if d < 0.01 then s * t else if t > 20 then t * t else next(t + d, d * d)
          } else 0",
