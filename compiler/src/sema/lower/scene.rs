@@ -155,7 +155,7 @@ impl<'a> Lower<'a> {
         let mut found = Vec::new();
         let shapes = self.shapes_of(id, span)?;
         for (at, shape) in shapes.iter().enumerate() {
-            let solution = self.solved_in(id, at, shape, &ray, span)?;
+            let solution = self.solved_in(id, (at, shape), &ray, Some(best), span)?;
             let near = self.scalar(BinaryOp::Le, &Ty::Real, solution.t, best, span)?;
             let no = self.bool(false, span);
             let win = self.select(solution.present, near, no, span);
@@ -226,16 +226,17 @@ impl<'a> Lower<'a> {
         })
     }
 
-    /// The nearest hit of a scene's shape; none where the ray leaves it for good.
+    /// The nearest hit of a scene's shape; none where the ray leaves it for good, and perhaps
+    /// none where it is beyond `reach`.
     fn solved_in(
         &mut self,
         id: SceneId,
-        at: usize,
-        shape: &Rc<Shape>,
+        (at, shape): (usize, &Rc<Shape>),
         ray: &Val,
+        reach: Option<NodeId>,
         span: Span,
     ) -> Found<Solution> {
-        let mut found = self.solved(shape, ray.clone(), span)?;
+        let mut found = self.solved(shape, ray.clone(), reach, span)?;
         if let Some(leaves) = self.leaves_one_of(id, at, shape, ray, span)? {
             let no = self.bool(false, span);
             found.present = self.select(leaves, no, found.present, span);
@@ -253,7 +254,7 @@ impl<'a> Lower<'a> {
         for (at, shape) in self.shapes_of(id, span)?.iter().enumerate() {
             let Solution {
                 present: there, t, ..
-            } = self.solved_in(id, at, shape, &ray, span)?;
+            } = self.solved_in(id, (at, shape), &ray, far, span)?;
             hits.push(match far {
                 Some(far) => {
                     let near = self.scalar(BinaryOp::Lt, &Ty::Real, t, far, span)?;

@@ -144,9 +144,15 @@ impl<'a> Lower<'a> {
         self.options.epsilon > AMPLE || !otherwise.iter().any(|&kind| self.has(shape, kind))
     }
 
-    /// The nearest hit along a ray.
-    pub(super) fn solved(&mut self, shape: &Rc<Shape>, ray: Val, span: Span) -> Found<Solution> {
-        let Val::Optional { present, value } = self.distance_along(shape, ray, span)? else {
+    /// The nearest hit along a ray; none, perhaps, where that is beyond `reach`.
+    pub(super) fn solved(
+        &mut self,
+        shape: &Rc<Shape>,
+        ray: Val,
+        reach: Option<NodeId>,
+        span: Span,
+    ) -> Found<Solution> {
+        let Val::Optional { present, value } = self.distance_along(shape, ray, reach, span)? else {
             return Err(self.confused(span));
         };
         let (t, known) = match (*value).clone() {
@@ -164,21 +170,25 @@ impl<'a> Lower<'a> {
     }
 
     /// The distance along a ray: optional; a real, or a hit where the
-    /// shape's own solution gives one.
-    fn distance_along(&mut self, shape: &Rc<Shape>, ray: Val, span: Span) -> Found<Val> {
+    /// shape's own solution gives one. Steps along the ray end at `reach`: they only grow, so
+    /// that whatever they found behind it would be farther.
+    fn distance_along(
+        &mut self,
+        shape: &Rc<Shape>,
+        ray: Val,
+        reach: Option<NodeId>,
+        span: Span,
+    ) -> Found<Val> {
         let itself = Val::Shape(shape.clone());
         let bound = |l: &mut Self| l.facet_of(shape, FacetKind::Bound, Vec::new(), span);
         if self.approached(shape)? {
-            return match bound(self)? {
-                Some(bound) => {
-                    self.library("approach_in", Ty::Shape, vec![itself, bound, ray], span)
-                }
-                None => {
-                    let (near, far) = (self.real(0.0, span), self.real(REACH, span));
-                    let args = vec![itself, ray, Val::Node(near), Val::Node(far)];
-                    self.library("approach", Ty::Shape, args, span)
-                }
+            let reach = reach.unwrap_or_else(|| self.real(f64::MAX, span));
+            let (name, bound) = match bound(self)? {
+                Some(bound) => ("approach_in", bound),
+                None => ("approach_up_to", Val::Node(self.real(REACH, span))),
             };
+            let args = vec![itself, ray, bound, Val::Node(reach)];
+            return self.library(name, Ty::Shape, args, span);
         }
         if let Some(t) = self.facet(shape, FacetKind::Hit, ray.clone(), span)? {
             return Ok(t);
@@ -265,7 +275,7 @@ impl<'a> Lower<'a> {
 
     /// A hit of a bare shape; its point and normal are worked out if used.
     fn shape_hit(&mut self, shape: &Rc<Shape>, ray: Val, span: Span) -> Found<Val> {
-        let mut found = self.solved(shape, ray.clone(), span)?;
+        let mut found = self.solved(shape, ray.clone(), None, span)?;
         if self.leaves(shape, &ray, span)? {
             found.present = self.bool(false, span);
         }
