@@ -10,6 +10,9 @@ use crate::fuel::Fuel;
 use crate::ir::graph::Graph;
 use crate::passes::branches::cross_multiply::cross_multiply;
 use crate::passes::branches::prune_minima::prune_minima;
+use crate::passes::loops::polynomials::polynomials;
+use crate::passes::loops::trip_counts::trip_counts;
+use crate::passes::simplify::constant_factors::constant_factors;
 use crate::passes::simplify::reciprocals::reciprocals;
 use crate::schedule::analysed::Analysed;
 use slowlight_routine::Runtime;
@@ -62,8 +65,11 @@ passes! {
     Identities "identities" "passes/algebra/identities" "shorter forms by identities of vectors"
     ScanlineSpans "scanline-spans" "passes/algebra/polynomial/span" "comparisons solved for spans of columns"
     Shannon "shannon" "passes/branches/shannon" "Shannon expansion of the ink's comparisons"
+    TripCounts "trip-counts" "passes/loops/trip_counts" "loops ended by the count of their turns"
+    LoopPolynomials "loop-polynomials" "passes/loops/polynomials" "polynomials of what a loop's turns change, by coefficients"
     CrossMultiply "cross-multiply" "passes/branches/cross_multiply" "comparisons without division"
     PruneMinima "prune-minima" "passes/branches/prune_minima" "branch and bound on minima and maxima"
+    ConstantFactors "constant-factors" "passes/simplify/constant_factors" "constant factors joined"
     Reciprocals "reciprocals" "passes/simplify/reciprocals" "division as multiplication by a shared reciprocal"
     Phases "phases" "passes/loops/strength_reduction" "phase accumulators for periodic functions of the column"
     ScanlineRuns "scanline-runs" "passes/loops/strength_reduction/runs" "values stepped along runs of columns"
@@ -82,8 +88,11 @@ pub type Rewrite = fn(&Graph, &Ranges, &Runtime) -> Option<Graph>;
 /// The passes that only rewrite a graph, each kept where the plan's price falls: what is added
 /// here needs no other place in the planner.
 pub const REWRITES: &[(Pass, Rewrite)] = &[
+    (Pass::TripCounts, trip_counts),
+    (Pass::LoopPolynomials, polynomials),
     (Pass::CrossMultiply, cross_multiply),
     (Pass::PruneMinima, prune_minima),
+    (Pass::ConstantFactors, constant_factors),
     (Pass::Reciprocals, reciprocals),
 ];
 

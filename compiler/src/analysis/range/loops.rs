@@ -5,7 +5,7 @@ use super::Walk;
 use super::accelerate::{Carried, contains, join};
 use crate::ir::graph::*;
 use crate::ir::tree::*;
-use slowlight_routine::{Range, Value};
+use slowlight_routine::{Op, Range, Value};
 
 /// How many turns of loops are walked before bounds that still grow are widened.
 const PATIENCE: u32 = 2000;
@@ -138,7 +138,7 @@ impl Walk<'_> {
         self.fresh.clear();
         for k in 0..self.once.carried(of).len() {
             let (id, index) = self.once.carried(of)[k];
-            self.put(id, self.carried_range(of, index));
+            self.put(id, self.in_turn(of, (id, index)));
         }
         // What it gives on is looked at below, if it is walked twice.
         let nested = self.slack.inverts()
@@ -157,12 +157,35 @@ impl Walk<'_> {
         }
     }
 
+    /// What a carried value may be in a turn: one that counts them has not counted the last.
+    fn in_turn(&self, of: LoopId, (id, index): (NodeId, u32)) -> Range {
+        let all = self.carried_range(of, index);
+        let turns = &self.graph.loops[of.0 as usize];
+        let int = |id: &NodeId| match self.graph.constant(*id) {
+            Some(Value::Int(int)) => Some(f64::from(int)),
+            _ => None,
+        };
+        let step = |next: &NodeId| match self.graph.node(*next) {
+            Node::Apply(Op::IntAdd, [now, by]) if now == id => int(&by),
+            _ => None,
+        };
+        let first = turns.init.get(index as usize).and_then(int);
+        let step = turns.next.get(index as usize).and_then(step);
+        match first.zip(step) {
+            Some((first, step)) => {
+                let last = first + step * f64::from(turns.max - 1);
+                all.meet(Range::new(first.min(last), first.max(last)))
+            }
+            None => all,
+        }
+    }
+
     /// What a turn carries, of those that go on, where that is closer than of all.
     fn closer_where(&mut self, turns: &Turns) -> Vec<(NodeId, Range)> {
         self.under((turns.again, true), |walk| {
             let carried = walk.once.carried(turns.of).iter();
             let closer = carried.filter_map(|&(id, index)| {
-                let (all, now) = (walk.carried_range(turns.of, index), walk.read(id));
+                let (all, now) = (walk.in_turn(turns.of, (id, index)), walk.read(id));
                 (now != all && now.lo <= now.hi).then_some((id, now))
             });
             closer.collect()

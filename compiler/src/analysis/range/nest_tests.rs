@@ -85,3 +85,20 @@ fn nests_of_shapes_are_walked_within_a_number_of_statements_a_node() {
         assert!(walked < most, "{}: {walked} of {most}", target.name);
     }
 }
+
+/// A counter that its loop's turns end before it gets somewhere is not asked whether it is there.
+#[test]
+fn a_counter_has_not_counted_the_last_turn() {
+    for (most, is_asked) in [(4, false), (5, true)] {
+        let graph = graph(&format!(
+            "image 8 x 8 inks black, white;
+             draw (x, y) = ink((loop (k = 0, s = 1) max {most} {{
+               if k == 4 then x else next(k + 1, 2 * s + x) }} else s) mod 2);"
+        ));
+        let tree = schedule(&graph);
+        let found = ranges_counted(&graph, &tree, &Slack::exact()).0;
+        let again = graph.loops.first().unwrap().again;
+        let always = found.result.get(again.0 as usize).unwrap().constant();
+        assert_eq!(always.is_none(), is_asked, "{most}");
+    }
+}

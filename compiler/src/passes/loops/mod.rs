@@ -9,7 +9,9 @@ pub mod licm;
 pub mod peel;
 #[cfg(test)]
 mod peel_tests;
+pub mod polynomials;
 pub mod scalar_expansion;
 pub mod strength_reduction;
 pub mod strip_mine;
+pub mod trip_counts;
 pub mod unroll;

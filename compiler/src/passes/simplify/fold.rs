@@ -35,9 +35,19 @@ pub(crate) fn folded(b: &mut Builder, op: Op, x: NodeId, y: NodeId, span: Span) 
         Op::Add | Op::Sub | Op::IntAdd | Op::IntSub if is(right, 0.0) => x,
         Op::Sub if is(left, 0.0) => b.apply(Op::Neg, &[y], span),
         Op::IntSub if is(left, 0.0) => b.apply(Op::IntNeg, &[y], span),
+        Op::Sub if x == y => b.constant(Value::Real(0.0), span),
+        Op::IntSub if x == y => b.constant(Value::Int(0), span),
+        Op::IntSub
+            if right.is_some_and(|by| by.real() < 0.0 && by.real() > f64::from(i32::MIN)) =>
+        {
+            let by = right.map_or(0, |by| -by.real() as i32);
+            let by = b.constant(Value::Int(by), span);
+            b.apply(Op::IntAdd, &[x, by], span)
+        }
         Op::Mul | Op::IntMul if is(left, 1.0) => y,
         Op::Mul | Op::Div | Op::IntMul | Op::IntDiv if is(right, 1.0) => x,
         Op::Mul if is(left, 0.0) || is(right, 0.0) => b.constant(Value::Real(0.0), span),
+        Op::Div if is(left, 0.0) => b.constant(Value::Real(0.0), span),
         Op::IntMul if is(left, 0.0) || is(right, 0.0) => b.constant(Value::Int(0), span),
         Op::Mul if is(left, -1.0) => b.apply(Op::Neg, &[y], span),
         Op::Mul if is(right, -1.0) => b.apply(Op::Neg, &[x], span),

@@ -10,8 +10,15 @@ use crate::ir::graph::*;
 use crate::passes::rewrite::rebuild::rebuild;
 use slowlight_routine::{Op, Range, Type, Value};
 
+/// Whole numbers within this are no end of an int.
+const WHOLE: f64 = i32::MAX as f64;
+
 /// The graph with every decided operation replaced.
 pub fn fold_by_ranges(graph: &Graph, ranges: &Ranges) -> Graph {
+    let mut uses = vec![0_u32; graph.nodes.len()];
+    let all = graph.ids().flat_map(|id| graph.refers(id));
+    all.chain(graph.roots())
+        .for_each(|id| uses[id.0 as usize] += 1);
     rebuild(graph, &mut |builder, old, node, span| {
         let Node::Apply(op, [a, b]) = node else {
             return None;
@@ -19,10 +26,14 @@ pub fn fold_by_ranges(graph: &Graph, ranges: &Ranges) -> Graph {
         let at = old.0 as usize;
         let (exact, args) = (*ranges.exact.get(at)?, *ranges.args.get(at)?);
         let [left, right]: [Range; 2] = args;
-        if op.result() == Type::Bool
-            && let Some(value) = exact.constant()
-        {
-            return Some(builder.constant(Value::Bool(value != 0.0), span));
+        let only = match op.result() {
+            Type::Bool => exact.constant().map(|value| Value::Bool(value != 0.0)),
+            Type::Int => exact.constant().map(|value| Value::Int(value as i32)),
+            // What is cut at a format's end is a fault to be told, wherever it goes from there.
+            Type::Real => None,
+        };
+        if let Some(value) = only {
+            return Some(builder.constant(value, span));
         }
         match op {
             Op::Min | Op::IntMin if left.hi <= right.lo => Some(a),
@@ -30,6 +41,28 @@ pub fn fold_by_ranges(graph: &Graph, ranges: &Ranges) -> Graph {
             Op::Max | Op::IntMax if left.lo >= right.hi => Some(a),
             Op::Max | Op::IntMax if right.lo >= left.hi => Some(b),
             Op::Abs | Op::IntAbs if left.lo >= 0.0 => Some(a),
+            Op::IntAdd | Op::IntSub
+                if exact.within(-WHOLE, WHOLE) && left.within(-WHOLE, WHOLE) =>
+            {
+                // What is added to a sum that nothing else needs joins it.
+                let Node::Apply(_, [sum, _]) = graph.node(old) else {
+                    return None;
+                };
+                let Node::Apply(inner @ (Op::IntAdd | Op::IntSub), [of, first]) = builder.node(a)
+                else {
+                    return None;
+                };
+                let signed = |op, id| {
+                    let value = builder.value(id)?.real();
+                    Some(if op == Op::IntSub { -value } else { value })
+                };
+                let all = signed(inner, first)? + signed(op, b)?;
+                let op = if all < 0.0 { Op::IntSub } else { Op::IntAdd };
+                (uses[sum.0 as usize] == 1 && all.abs() < WHOLE).then(|| {
+                    let by = builder.constant(Value::Int(all.abs() as i32), span);
+                    builder.apply(op, &[of, by], span)
+                })
+            }
             _ => None,
         }
     })

@@ -21,7 +21,7 @@ pub fn unit_vectors(graph: &Graph, ranges: &Ranges) -> Option<Graph> {
     let some = |id: &NodeId| ranges.result.get(id.0 as usize).is_some_and(|r| r.lo > 0.0);
     let lengths: BTreeMap<NodeId, Length> = graph
         .ids()
-        .filter_map(|id| Some((id, length(graph, id)?)))
+        .filter_map(|id| Some((id, length(&|id| graph.node(id), id)?)))
         .collect();
     let known: BTreeSet<NodeId> = lengths.keys().copied().filter(some).collect();
     let find = Find {
@@ -136,13 +136,13 @@ impl Find<'_> {
 }
 
 /// What is squared under a root of three squares; they must be three values.
-fn length(graph: &Graph, id: NodeId) -> Option<Length> {
-    let Node::Apply(Op::Sqrt, [sum, _]) = graph.node(id) else {
+fn length(node: &dyn Fn(NodeId) -> Node, id: NodeId) -> Option<Length> {
+    let Node::Apply(Op::Sqrt, [sum, _]) = node(id) else {
         return None;
     };
     let (mut squared, mut todo) = (Vec::new(), vec![sum]);
     while let Some(term) = todo.pop() {
-        match graph.node(term) {
+        match node(term) {
             Node::Apply(Op::Add, [a, b]) if squared.len() < 3 => todo.extend([a, b]),
             Node::Apply(Op::Mul, [a, b]) if a == b => squared.push(a),
             _ => return None,
@@ -151,6 +151,26 @@ fn length(graph: &Graph, id: NodeId) -> Option<Length> {
     squared.sort_unstable();
     squared.dedup();
     squared.try_into().ok()
+}
+
+/// Whether values, or their negatives, are the parts of one vector over its length.
+pub fn are_parts_of_unit(node: &dyn Fn(NodeId) -> Node, values: &[NodeId]) -> bool {
+    let quotient = |id: NodeId| match node(id) {
+        Node::Apply(Op::Neg, [of, _]) => node(of),
+        of => of,
+    };
+    let parts: Option<Vec<(NodeId, NodeId)>> = (values.iter())
+        .map(|id| match quotient(*id) {
+            Node::Apply(Op::Div, [part, by]) => Some((by, part)),
+            _ => None,
+        })
+        .collect();
+    let Some((mut parts, by)) = parts.and_then(|parts| Some((parts.clone(), parts.first()?.0)))
+    else {
+        return false;
+    };
+    parts.sort_unstable();
+    length(node, by).is_some_and(|of| parts == of.map(|part| (by, part)))
 }
 
 #[cfg(test)]

@@ -86,10 +86,13 @@ pub fn rewritten(plan: Analysed, cx: &Context, budget: SizeBudget) -> Analysed {
     REWRITES.iter().fold(plan, |plan, (pass, rewrite)| {
         cx.pass(*pass, plan, |plan| {
             let next = cx.simplified(&rewrite(&plan.graph, &plan.ranges, cx.runtime)?);
-            (price.of(&next) < price.of(plan)).then_some(next)
+            (price.of(&next) < GAIN * price.of(plan)).then_some(next)
         })
     })
 }
+
+/// By how much one of [`REWRITES`] must make a plan cheaper: prices are no nearer than that.
+const GAIN: f64 = 0.998;
 
 /// The plan with what is multiplied by one of few numbers chosen by which that is, each
 /// in the cheapest way; nothing where that pays nowhere.

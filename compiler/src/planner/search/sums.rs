@@ -7,6 +7,8 @@
 use crate::cost::size_budget::SizeBudget;
 use crate::passes::algebra::reassociate::{Site, Sums, sunk};
 use crate::passes::loops::bypass::skip;
+use crate::passes::loops::trip_counts::trip_counts;
+use crate::passes::simplify::fold::fold;
 use crate::planner::context::Context;
 use crate::planner::pipeline::Pass;
 use crate::schedule::analysed::Analysed;
@@ -130,7 +132,11 @@ pub fn with_loops_skipped(plan: Analysed, cx: &Context, budget: SizeBudget) -> A
 
 fn bypassed(plan: &Analysed, cx: &Context, budget: SizeBudget) -> Option<Analysed> {
     let price = cx.price(budget);
-    let usual = cx.scheduled(skip(&plan.graph)?);
+    let counts = !cx.pipeline.without.has(Pass::TripCounts);
+    let next = skip(&plan.graph)?;
+    // A loop that its first turn does not end may be counted now.
+    let counted = trip_counts(&next, &plan.ranges, cx.runtime).filter(|_| counts);
+    let usual = cx.scheduled(counted.map_or(next, |graph| fold(&graph)));
     let sunk = sunk(&usual.graph).map(|graph| cx.simplified(&graph));
     let other = sunk.map(|plan| cheaper(&plan, cx, budget).unwrap_or(plan));
     Some(match other {

@@ -10,7 +10,7 @@ use crate::syntax::tree::{BinaryOp, UnaryOp};
 use slowlight_routine::Op;
 
 /// Powers that are multiplied out.
-const POWERS: f64 = 16.0;
+const POWERS: f64 = 64.0;
 
 impl<'a> Lower<'a> {
     pub(super) fn unary(&mut self, op: UnaryOp, of: &'a Expr, span: Span) -> Found<Val> {
