@@ -140,3 +140,100 @@ fn whole_powers_are_products() {
         &scene("let a2 = a * a; let a4 = a2 * a2; let v = a4 * a4 * a2"),
     );
 }
+
+/// A march towards what `shapes` are, and whether it gets there.
+fn marched(shapes: &str, rest: &str) -> String {
+    format!(
+        "{HEAD}shape lump(c: vec3) {{
+          dist(p) = {{ let q = abs(p - c) - (0.5, 0.3, 0.4); length(max(q, (0, 0, 0))) + min(max(q.x, max(q.y, q.z)), 0) - 0.1 }};
+        }}
+        {shapes}
+        draw (x, y) = {{
+          let r = pinhole((0.4, 1.2, 3), at: (0, 0.2, 0), field: 48deg).through(x, y);
+          {rest}
+        }};"
+    )
+}
+
+#[test]
+fn steps_end_where_nothing_farther_is_asked_for() {
+    let scene = |far: &str| {
+        marched(
+            "scene world { lump((0, 0.2, 0)); }",
+            &format!("ink(if let h = world.trace(r, far: {far}) then 3 else 0)"),
+        )
+    };
+    for target in ["jack", "6502:plain", "bbc:micro"] {
+        let [near, far] = ["5", "900"].map(|far| cycles(&scene(far), target));
+        assert!(near < 0.8 * far, "{target}: {near} {far}");
+    }
+    // What is hit first is as good as an end.
+    is_as_quick(
+        &marched(
+            "scene world { plane((0, 1, 0), -0.5); lump((0, 0.2, 0)); }",
+            "ink(if let h = world.trace(r, far: 9) then (if h.point.y < -0.49 then 1 else 3) else 0)",
+        ),
+        &marched(
+            "scene world { lump((0, 0.2, 0)); }",
+            "let t = if r.dir.y < 0 then min(-(1.2 + 0.5) / r.dir.y, 9) else 9;
+             ink(if let h = world.trace(r, far: t) then 3 else if t < 9 then 1 else 0)",
+        ),
+    );
+}
+
+#[test]
+fn a_turned_point_on_a_ray_is_a_point_on_a_turned_ray() {
+    let scene = |before: &str, at: &str| {
+        format!(
+            "{HEAD}fn away(p: vec3) -> real = max(abs(p.x), max(abs(p.y) + 0.2, abs(p.z))) - 0.7;
+            fn turned(p: vec3) -> vec3 = (0.8 * p.x + 0.6 * p.z, p.y, 0.8 * p.z - 0.6 * p.x);
+            draw (x, y) = {{
+              let r = pinhole((0.4, 1.2, 3), at: (0, 0, 0), field: 48deg).through(x, y);
+              {before};
+              ink(loop (t = 0.0) max 40 {{
+                let d = away({at});
+                if t + d > 6 then 0 else if d < 0.01 then 3 else next(t + d)
+              }} else 1)
+            }};"
+        )
+    };
+    is_as_quick(
+        &scene("let s = r", "turned(s.at(t))"),
+        &scene("let s = ray(turned(r.from), turned(r.dir))", "s.at(t)"),
+    );
+}
+
+#[test]
+fn a_counter_that_ends_a_loop_is_its_count_of_turns() {
+    let scene = |turns: &str| {
+        format!(
+            "{HEAD}draw (x, y) = {{
+              let a = (x + 0.5) / 40;
+              let v = {turns};
+              threshold(v, bayer(4)[x mod 4, y mod 4])
+            }};"
+        )
+    };
+    is_as_quick(
+        &scene(
+            "loop (k = 0, s = 0.2) max 99 { if k == 60 then s else next(k + 1, s * a + 0.1) } else 0",
+        ),
+        &scene("loop (s = 0.2) max 60 { next(s * a + 0.1) } else s"),
+    );
+}
+
+/// BASIC has room for ten FOR loops: those that are left must not stay there. Their counters
+/// are asked for behind them.
+#[test]
+fn loops_that_are_left_again_and_again_draw_what_they_should() {
+    let scene = format!(
+        "{HEAD}fn inside(a: real) -> int =
+          loop (k = 2, s = a) max 9 {{ if s > 4 then 10 * k else next(k + 1, s + a) }} else 7;
+        draw (x, y) = ink((loop (i = 0, n = x + y) max 30 {{
+          if n > 2000 then n + i else next(i + 1, n + inside(0.3 + i mod 5 * 0.2) + inside(0.9))
+        }} else n) mod 4);"
+    );
+    for target in ["jack", "6502:plain", "bbc:micro", "bbc:agon"] {
+        assert!(cycles(&scene, target) > 0.0);
+    }
+}

@@ -11,11 +11,12 @@
 //! as far as it does not go round a loop.
 
 use crate::analysis::region::Fact;
+use crate::homes::single_use::is_kept;
 use crate::ir::graph::*;
 use crate::ir::tree::*;
 use crate::plan::Plan;
 use rustc_hash::FxHashMap;
-use slowlight_routine::{Format, Op, Value};
+use slowlight_routine::Format;
 
 /// How many conditions are looked at both ways, at most: each only sets more apart. Of a large
 /// program as many as so many pairs of a step and a place allow.
@@ -35,18 +36,8 @@ pub struct Step {
     ends: bool,
     /// The condition by which it goes on to the next step, or jumps.
     asks: Option<NodeId>,
-}
-
-/// Whether a value has a variable even where it is read once: of a value and a number
-/// the smaller is found by a test, which assigns.
-fn is_kept(graph: &Graph, id: NodeId) -> bool {
-    let Node::Apply(Op::Min | Op::Max | Op::IntMin | Op::IntMax, [_, number]) = graph.node(id)
-    else {
-        return false;
-    };
-    // The least int has no literal of its own.
-    let number = graph.constant(number);
-    number.is_some_and(|value| value != Value::Int(i32::MIN))
+    /// How many choices it stands in.
+    pub choices: u32,
 }
 
 /// A plan's statements as a graph of control flow.
@@ -56,7 +47,9 @@ pub struct Flow<'p> {
     numbers: FxHashMap<Place, usize>,
     pub steps: Vec<Step>,
     /// The steps of each loop, from its first to its last, inner ones first.
-    loops: Vec<(usize, usize)>,
+    pub loops: Vec<(usize, usize)>,
+    /// How many choices the step that is made stands in.
+    choices: u32,
     /// The first step of a pixel.
     pub pixel: usize,
     /// The first writing of each place and its last reading.
@@ -71,6 +64,7 @@ impl<'p> Flow<'p> {
             numbers: FxHashMap::default(),
             steps: Vec::new(),
             loops: Vec::new(),
+            choices: 0,
             pixel: 0,
             span: Vec::new(),
         };
@@ -110,7 +104,10 @@ impl<'p> Flow<'p> {
     }
 
     fn step(&mut self) -> usize {
-        self.steps.push(Step::default());
+        self.steps.push(Step {
+            choices: self.choices,
+            ..Step::default()
+        });
         self.steps.len() - 1
     }
 
@@ -170,12 +167,14 @@ impl<'p> Flow<'p> {
                 Statement::If { cond, yes, no } => {
                     self.reads(at, *cond);
                     self.steps[at].asks = Some(*cond);
+                    self.choices += 1;
                     self.block(yes);
                     let behind = self.step();
                     self.steps[behind].ends = true;
                     let other = self.step();
                     self.steps[at].jumps.push(other);
                     self.block(no);
+                    self.choices -= 1;
                     let join = self.step();
                     self.steps[behind].jumps.push(join);
                 }

@@ -4,7 +4,7 @@ use crate::ir::graph::*;
 use crate::ir::tree::*;
 use crate::schedule::constant_runs::Still;
 use rustc_hash::FxHashMap;
-use slowlight_routine::{Form, Routine};
+use slowlight_routine::{Form, Op, Routine, Value};
 
 /// How often an int may be read as a real where it is not kept as one: each time takes
 /// a sixth of what keeping it takes.
@@ -160,4 +160,16 @@ impl Uses<'_> {
         }
         number
     }
+}
+
+/// Whether a value has a variable even where it is read once: of a value and a number
+/// the smaller is found by a test, which assigns.
+pub(super) fn is_kept(graph: &Graph, id: NodeId) -> bool {
+    let Node::Apply(Op::Min | Op::Max | Op::IntMin | Op::IntMax, [_, number]) = graph.node(id)
+    else {
+        return false;
+    };
+    // The least int has no literal of its own.
+    let number = graph.constant(number);
+    number.is_some_and(|value| value != Value::Int(i32::MIN))
 }

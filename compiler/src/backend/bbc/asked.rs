@@ -112,7 +112,9 @@ pub fn joined(before: &str, text: &str, reads: impl Fn(&str) -> bool) -> Option<
     };
     // A number would be cut in bits by NOT.
     let compares = value.contains(['<', '>', '=']);
-    if !compares || reads(name) {
+    let of = value.strip_prefix("NOT ").unwrap_or(&value);
+    let other = of != "TRUE" && of != "FALSE" && of.ends_with('%') && of.chars().all(plain);
+    if !(compares || other) || reads(name) {
         return None;
     }
     let value = match turned {

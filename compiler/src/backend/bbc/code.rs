@@ -4,6 +4,7 @@ use super::Style;
 use super::expression::Expressions;
 use super::lines::{Label, Labels, Lines};
 use super::text::Text;
+use super::turns::Counted;
 use crate::analysis::region::Fact;
 use crate::ir::graph::{Node, NodeId};
 use crate::ir::often;
@@ -14,9 +15,7 @@ use rustc_hash::FxHashSet;
 use slowlight_routine::Op;
 use std::collections::BTreeMap;
 
-/// About how many turns a loop takes, and how often an arm is taken: for the
-/// weights of names only.
-const TURNS: u64 = 2;
+/// About how often an arm is taken, for the weights of names only.
 const ARM: u64 = 2;
 
 /// An assignment with a test and both its ways stands on one line.
@@ -34,6 +33,8 @@ pub struct Code<'p> {
     ways: BTreeMap<NodeId, bool>,
     /// Loops of the scene around what is written.
     pub loops: u32,
+    /// What loops count by themselves.
+    pub counted: Counted,
     pub labels: Labels,
     /// What ends a run of columns, where its block is being written.
     pub ends: Option<Ends>,
@@ -57,6 +58,7 @@ impl<'p> Code<'p> {
             seldom: Vec::new(),
             ways: plan.seldom(),
             loops: 0,
+            counted: Counted::default(),
             labels: Labels::default(),
             ends: None,
             ends_called: None,
@@ -91,7 +93,7 @@ impl<'p> Code<'p> {
     }
 
     /// A block's lines by themselves.
-    fn apart(&mut self, block: &Block) -> Lines {
+    pub fn apart(&mut self, block: &Block) -> Lines {
         let weight = (self.lines.weight / ARM).max(1);
         let outer = std::mem::replace(&mut self.lines, Lines::of_weight(weight));
         self.block(block);
@@ -129,6 +131,7 @@ impl<'p> Code<'p> {
         }
         match statement {
             Statement::Let(id) => self.assignment(*id, true),
+            Statement::Set { place, .. } if self.counted.sets(*place) => {}
             Statement::Set { place, from } => {
                 let text = match *from {
                     Origin::Node(id) => self.values.read(id),
@@ -180,6 +183,9 @@ impl<'p> Code<'p> {
 
     /// Computes a node. `fold`: it may be written where it is read.
     pub fn assignment(&mut self, id: NodeId, fold: bool) {
+        if self.counted.nexts.contains(&id) {
+            return;
+        }
         self.span = Some(self.values.plan.graph.span(id));
         self.end_run(id);
         if let Node::Stepped { step, .. } = self.values.plan.graph.node(id) {
@@ -340,42 +346,6 @@ impl<'p> Code<'p> {
             self.lines.line(text.clone(), span);
         }
         short.is_some()
-    }
-
-    /// A loop: turns are counted, so that it ends.
-    fn repeat(&mut self, turns: &Turns) {
-        self.block(&turns.start);
-        let plan = self.values.plan;
-        let (max, span) = plan
-            .graph
-            .loops
-            .get(turns.of.0 as usize)
-            .map_or((1, None), |l| (l.max, Some(l.span)));
-        let turn = self.values.names.unique("turn", "%");
-        let (top, leave, end) = (self.labels.next(), self.labels.next(), self.labels.next());
-        self.lines.statement(format!("{turn}=0"), span);
-        self.lines.place(top);
-        self.loops += 1;
-        self.often(&turns.body, TURNS);
-        self.loops -= 1;
-        let ends = !turns.always(&plan.graph);
-        if ends {
-            let fails = self.values.condition(turns.again, false);
-            self.lines.line(format!("IF {fails} THEN {leave}"), span);
-        }
-        self.block(&turns.next);
-        self.lines.statement(format!("{turn}={turn}+1"), span);
-        self.lines.line(format!("IF {turn}<{max} THEN {top}"), span);
-        self.block(&turns.otherwise);
-        if ends {
-            let done = self.apart(&turns.done);
-            if !done.is_empty() {
-                self.lines.line(format!("GOTO {end}"), span);
-            }
-            self.lines.place(leave);
-            self.lines.append(done);
-        }
-        self.lines.place(end);
     }
 }
 

@@ -5,9 +5,11 @@
 //! (liveness: Aho, Lam, Sethi and Ullman, Compilers, 2nd edition, 9.2.5); what is not
 //! certain counts as read.
 
+mod statements;
+
 use super::lines::{Label, Lines};
-use super::pieces::{Piece, pieces};
 use rustc_hash::FxHashMap;
+use statements::{called, counts, cut, flag, last, leaves, loop_end, written};
 use std::collections::BTreeSet;
 
 /// The lines without flags that are set in vain before a jump or at a line's end.
@@ -53,10 +55,11 @@ struct Finder<'t> {
     defined: FxHashMap<&'t str, usize>,
     /// Where each procedure goes back to.
     back: FxHashMap<&'t str, Vec<usize>>,
-    /// Where loops begin anew.
-    loops: Vec<usize>,
-    /// What ends a loop's turn, and what ends a procedure, and what is written there.
-    turns: Vec<(usize, BTreeSet<String>)>,
+    /// Where loops begin anew, and what counts their turns.
+    loops: Vec<(&'t str, usize)>,
+    /// What ends a loop's turn, if it says which, and what ends a procedure, and what is
+    /// written there.
+    turns: Vec<(Option<&'t str>, usize, BTreeSet<String>)>,
     ends: Vec<(usize, &'t str, BTreeSet<String>)>,
     /// The procedure that the line stands in, and the line behind it.
     inside: &'t str,
@@ -91,8 +94,10 @@ impl Flow {
                 finder.points[at].next.push((at + 1, BTreeSet::new()));
             }
         }
-        for (at, writes) in &finder.turns {
-            let all = finder.loops.iter().map(|to| (*to, writes.clone()));
+        for (of, at, writes) in &finder.turns {
+            let right = |counts: &str| of.is_none_or(|of| of == counts);
+            let all = finder.loops.iter().filter(|(counts, _)| right(counts));
+            let all = all.map(|(_, to)| (*to, writes.clone()));
             finder.points[*at].next.extend(all);
         }
         for (at, name, writes) in &finder.ends {
@@ -184,7 +189,8 @@ impl Flow {
         };
         if let Some((before, label)) = Label::last_of(text)
             && let Some(&to) = placed.get(&label)
-            && let Some(mut before) = before.strip_suffix("GOTO ")
+            && let Some(whole) = before.strip_suffix("GOTO ")
+            && let (mut before, end) = loop_end(whole)
             && plain(before)
         {
             while let Some((front, last)) = last(before.strip_suffix(':').unwrap_or(""))
@@ -192,9 +198,9 @@ impl Flow {
             {
                 before = front;
             }
-            return match before.ends_with(" THEN ") {
+            return match before.ends_with(" THEN ") && end.is_empty() {
                 true => format!("{before}{label}"),
-                false => format!("{before}GOTO {label}"),
+                false => format!("{before}{end}GOTO {label}"),
             };
         }
         match flag(text) {
@@ -243,11 +249,11 @@ impl<'t> Finder<'t> {
             for (from, _) in ways.match_indices("PROC") {
                 self.turning(at, ways.get(from..).unwrap_or(""), self.behind, &writes);
             }
-            if ways.contains("FOR ") {
-                self.loops.push(at);
+            if let Some((_, turn)) = ways.split_once("FOR ") {
+                self.loops.push((counts(turn), at));
             }
             if ways.contains("NEXT") {
-                self.turns.push((at, writes.clone()));
+                self.turns.push((None, at, writes.clone()));
             }
             if ways.contains("ENDPROC") {
                 self.ends.push((at, self.inside, writes.clone()));
@@ -275,10 +281,14 @@ impl<'t> Finder<'t> {
                 self.points[at].calls.push(((*to, writes.clone()), on));
                 return;
             }
-        } else if turn.starts_with("FOR ") {
-            self.loops.push(on);
+        } else if let Some(turn) = turn.strip_prefix("FOR ") {
+            self.loops.push((counts(turn), on));
         } else {
-            self.turns.push((at, writes.clone()));
+            let of = turn.strip_prefix("NEXT ");
+            // Where a way sets what counts the turns, there is no other one.
+            if of.is_none_or(|of| !writes.contains(of)) {
+                self.turns.push((of, at, writes.clone()));
+            }
         }
         self.points[at].next.push((on, writes.clone()));
     }
@@ -301,84 +311,4 @@ impl<'t> Finder<'t> {
     fn written(&mut self, at: usize, text: &str, before: &BTreeSet<String>) -> BTreeSet<String> {
         written(text, before, &mut self.points[at].reads)
     }
-}
-
-/// The statements up to the first call, head or end of a loop, and that one.
-fn cut(plain: &str) -> Option<(&str, &str)> {
-    let mut from = 0;
-    for statement in plain.split(':') {
-        let to = from + statement.len();
-        if ["PROC", "FOR ", "NEXT"]
-            .iter()
-            .any(|word| statement.starts_with(word))
-        {
-            return Some((plain.get(..to)?, statement));
-        }
-        from = to + 1;
-    }
-    None
-}
-
-/// The name of the procedure that a text begins with the call of.
-fn called(text: &str) -> Option<&str> {
-    match pieces(text).first() {
-        Some(Piece::Fixed(name)) if name.starts_with("PROC") => text.get(..name.len()),
-        _ => None,
-    }
-}
-
-/// The last of some statements, and what stands before it.
-fn last(statements: &str) -> Option<(&str, &str)> {
-    let from = statements.rfind([':', ' ']).map_or(0, |at| at + 1);
-    let (front, last) = statements.split_at_checked(from)?;
-    (!last.is_empty()).then_some((front, last))
-}
-
-/// The variable of a statement that sets a flag.
-fn flag(statement: &str) -> Option<&str> {
-    let (name, value) = statement.split_once('=')?;
-    let plain = |c: char| c.is_ascii_alphanumeric() || c == '_' || c == '%';
-    let lone = name.starts_with(|c: char| c.is_ascii_lowercase()) && name.chars().all(plain);
-    (lone && ["TRUE", "FALSE"].contains(&value)).then_some(name)
-}
-
-/// Whether control never goes on behind some statements.
-fn leaves(text: &str) -> bool {
-    let last = text.rsplit(':').next().unwrap_or(text);
-    let ends = ["GOTO ", "ENDPROC", "END", "="];
-    Label::last_of(last).is_some_and(|(before, _)| before.is_empty())
-        || !text.contains("IF ") && ends.iter().any(|word| last.starts_with(word))
-}
-
-/// What is written behind some statements, where something is written before; what
-/// they read that is not is noted.
-fn written(
-    text: &str,
-    before: &BTreeSet<String>,
-    reads: &mut BTreeSet<String>,
-) -> BTreeSet<String> {
-    let mut writes = before.clone();
-    let arms = text.split(" THEN ").flat_map(|t| t.split(" ELSE "));
-    let one = arms.clone().count() == 1;
-    for statement in arms.flat_map(|t| t.split(':')) {
-        let (to, from) = match statement.split_once('=') {
-            Some((name, value)) if is_name(name) => (Some(name), value),
-            _ => (None, statement),
-        };
-        for piece in pieces(from) {
-            if let Piece::Name(name) = piece
-                && !(one && writes.contains(name))
-            {
-                reads.insert(name.to_owned());
-            }
-        }
-        if let Some(name) = to.filter(|_| one) {
-            writes.insert(name.to_owned());
-        }
-    }
-    writes
-}
-
-fn is_name(text: &str) -> bool {
-    matches!(pieces(text).as_slice(), [Piece::Name(_)])
 }

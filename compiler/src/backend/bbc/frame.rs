@@ -57,16 +57,21 @@ pub fn program(plan: &Plan) -> Lines {
     let params = (0..plan.params.len()).map(|k| code.values.names.param(k).to_owned());
     let keep: Vec<String> = params.chain([first, last]).collect();
     let lines = threaded(code.lines, &mut code.labels, style != Style::Small);
-    let lines = match style {
-        Style::Fast => ways::split(dead::without(lines), &mut code.labels, plan.copies),
-        _ => lines,
+    let rounds = match style {
+        Style::Fast => ROUNDS,
+        _ => 0,
     };
-    let lines = dead::without(lines);
+    // What nothing asks for any more leaves ways that are the same.
+    let lines = (0..rounds).fold(dead::without(lines), |lines, _| {
+        dead::without(ways::split(lines, &mut code.labels, plan.copies))
+    });
     let lines = match plan.copies {
         Copies::Ends => tail::copied(lines, &mut code.labels),
         _ => lines,
     };
-    let lines = lines.away(&code.seldom);
+    let mut lines = lines.away(&code.seldom);
+    // The innermost loop is meant in any case, and is found sooner without its name.
+    lines.each_text(|text| *text = unnamed(text));
     let assigned = code.values.names.constants();
     let constants = assigned
         .filter_map(|text| Some(text.split_once('=')?.0.to_owned()))
@@ -79,6 +84,19 @@ pub fn program(plan: &Plan) -> Lines {
         scant: plan.scant,
     };
     short(lines, &keep, &known, style)
+}
+
+/// How often ways are split and what they set in vain is left out.
+const ROUNDS: usize = 2;
+
+/// Statements with the names of loops that end left out.
+fn unnamed(text: &str) -> String {
+    let mut parts = text.split("NEXT ");
+    let first = parts.next().unwrap_or("").to_owned();
+    let of = |c: char| c.is_ascii_alphanumeric() || c == '_' || c == '%';
+    parts.fold(first, |done, part| {
+        format!("{done}NEXT{}", part.trim_start_matches(of))
+    })
 }
 
 /// The scene's item that something comes from: the last that begins before it.

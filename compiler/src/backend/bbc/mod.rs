@@ -55,6 +55,7 @@ mod test_line;
 mod tests;
 mod text;
 mod thread;
+mod turns;
 mod version;
 mod ways;
 

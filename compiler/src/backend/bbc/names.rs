@@ -161,6 +161,11 @@ impl Names {
         all.map(|(_, name)| name.clone()).collect()
     }
 
+    /// Gives a place another variable.
+    pub fn rename(&mut self, place: Place, name: &str) {
+        self.homes.insert(place, name.to_owned());
+    }
+
     pub fn home(&self, place: Place) -> &str {
         self.homes.get(&place).map_or("unused", String::as_str)
     }

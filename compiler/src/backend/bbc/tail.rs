@@ -101,7 +101,11 @@ impl Ends<'_> {
     /// The end of a loop that begins at a label.
     fn end(&mut self, to: Label) -> Option<End> {
         let from = *self.placed.get(&to)?;
-        let length = self.texts.get(from..)?.iter().position(|t| t == "NEXT")?;
+        let length = self
+            .texts
+            .get(from..)?
+            .iter()
+            .position(|t| t.starts_with("NEXT"))?;
         let texts = self.texts.get(from..=from + length)?;
         let statements = texts.join(":");
         let leaves = |word| pieces(&statements).contains(&Piece::Word(word));

@@ -114,6 +114,7 @@ impl Road<'_> {
                     for statement in way.split(':') {
                         if !known.has(statement) {
                             known.learn(statement);
+                            before = without_flag(&before, statement);
                             before = format!("{before}{statement}:");
                         }
                     }
@@ -186,6 +187,15 @@ impl Road<'_> {
     }
 }
 
+/// Statements without a last one that sets the flag that another one sets behind it.
+fn without_flag(before: &str, statement: &str) -> String {
+    let name = statement.split_once('=').map_or("", |(name, _)| name);
+    let set = ["TRUE", "FALSE"].map(|value| format!("{name}={value}:"));
+    let front = set.iter().find_map(|set| before.strip_suffix(set.as_str()));
+    let whole = |front: &&str| front.ends_with([':', ' ']);
+    front.filter(whole).unwrap_or(before).to_owned()
+}
+
 /// What a jump meets.
 enum Step {
     Jump(Label),
@@ -249,15 +259,27 @@ impl Known {
     /// What a statement tells of a variable; what is no assignment may change any.
     pub fn learn(&mut self, statement: &str) {
         let plain = |c: char| c.is_ascii_alphanumeric() || c == '_' || c == '%';
+        // What counts a loop's turns is no flag.
+        if statement.starts_with("NEXT") {
+            self.holds.retain(|test, _| test.chars().all(plain));
+            self.told.clear();
+            return;
+        }
         let Some((name, value)) = (statement.split_once('='))
             .filter(|(name, _)| !name.is_empty() && name.chars().all(plain))
         else {
             *self = Known::default();
             return;
         };
+        let holds = match value.strip_prefix("NOT ") {
+            _ if value == "TRUE" || value == "FALSE" => Some(value == "TRUE"),
+            Some(flag) if flag.chars().all(plain) => self.of(flag).map(|holds| !holds),
+            None if value.chars().all(plain) => self.of(value),
+            _ => None,
+        };
         self.forget(name);
-        if let "TRUE" | "FALSE" = value {
-            self.holds.insert(name.to_owned(), value == "TRUE");
+        if let Some(holds) = holds {
+            self.holds.insert(name.to_owned(), holds);
         }
     }
 }

@@ -126,7 +126,12 @@ impl Roads<'_> {
             Some(test) => {
                 let plain = |way: &str| way.is_empty() || is_plain(way);
                 match Label::last_of(test.yes) {
-                    Some((before, _)) => test.no.is_empty() && plain(statements(before)),
+                    Some((before, _)) => {
+                        // A loop that ends has no other turn.
+                        let way = statements(before);
+                        let ends = way.rsplit_once(":NEXT ").map_or(way, |(before, _)| before);
+                        test.no.is_empty() && plain(ends)
+                    }
                     None => plain(test.yes) && plain(test.no),
                 }
             }

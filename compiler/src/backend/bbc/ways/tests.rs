@@ -114,7 +114,7 @@ fn lowest_bits_are_asked_for_in_place() {
         50z=1\n60END\n70IF FNfloor(x) AND 1 THEN 50\n80GOTO 30\n";
     assert_eq!(written(&source, false), expected);
     let mut read = source;
-    read[3] = "z=n%";
+    read[3] = "z=n%+1";
     assert!(written(&read, false).contains("n%=INT(x)+INT(y)\n"));
 }
 
