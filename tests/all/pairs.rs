@@ -237,3 +237,28 @@ fn loops_that_are_left_again_and_again_draw_what_they_should() {
         assert!(cycles(&scene, target) > 0.0);
     }
 }
+
+/// What a loop comes to when its turns run out is another value at each turn of the loop around.
+#[test]
+fn what_the_last_turn_gave_stays_in_the_loop_around() {
+    let scene = format!(
+        "{HEAD}fn rough(p: real) -> real =
+          loop (k = 0, q = p, high = 0.5, sum = 0.0) max 4 {{
+            next(k + 1, 2 * q mod 1, high / 2, sum + high * q)
+          }} else sum / (1 - 2 * high);
+        draw (x, y) = {{
+          let v = loop (t = 0.05) max 12 {{
+            let d = rough(x / 40 + t) * rough(y / 30 + t / 2) - t;
+            if d < 0.01 then t else if t > 3 then 0.9 else next(t + d / 2)
+          }} else 0.5;
+          threshold(v, bayer(4)[x mod 4, y mod 4])
+        }};"
+    );
+    let dir = directory(&[("scene.scn", &scene)]);
+    for target in ["jack", "6502:plain", "bbc:micro"] {
+        let said = json(dir.path(), &["run", "scene.scn", "-t", target, "--json"]);
+        assert_eq!(said["differs_from_model"], 0, "{target}");
+        let wrong = said["differs_from_native"].as_u64().unwrap();
+        assert!(wrong < 8, "{target}: {wrong} of 768");
+    }
+}

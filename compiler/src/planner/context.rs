@@ -6,7 +6,7 @@
 //! again finds most of what it tries here, as far as there is room to keep it.
 
 use super::pipeline::{Pass, Pipeline};
-use crate::analysis::range::Slack;
+use crate::analysis::range::{Slack, ranges_counted};
 use crate::cost::pixels::Pixels;
 use crate::cost::price::Price;
 use crate::cost::size_budget::SizeBudget;
@@ -199,7 +199,12 @@ impl Context {
     pub fn simplified(&self, graph: &Graph) -> Analysed {
         let mut now = self.scheduled(fold(graph));
         for _ in 0..3 {
-            let next = fold(&fold_by_ranges(&now.graph, &now.ranges));
+            let without_ends = || {
+                let (found, walked) = ranges_counted(&now.graph, &now.tree, &Slack::exact());
+                self.fuel.burn(walked);
+                found
+            };
+            let next = fold(&fold_by_ranges(&now.graph, &now.ranges, &without_ends));
             if next.nodes == now.graph.nodes {
                 break;
             }

@@ -4,9 +4,8 @@ use super::Style;
 use super::expression::Expressions;
 use super::lines::{Label, Labels, Lines};
 use super::text::Text;
-use super::turns::Counted;
 use crate::analysis::region::Fact;
-use crate::ir::graph::{Node, NodeId};
+use crate::ir::graph::{LoopId, Node, NodeId};
 use crate::ir::often;
 use crate::ir::tree::*;
 use crate::plan::Plan;
@@ -346,6 +345,26 @@ impl<'p> Code<'p> {
             self.lines.line(text.clone(), span);
         }
         short.is_some()
+    }
+}
+
+/// What loops count by themselves: values that need no statement.
+#[derive(Default)]
+pub struct Counted {
+    pub carried: FxHashSet<(LoopId, u32)>,
+    /// One more than those, where that is what they carry on and no more.
+    pub nexts: FxHashSet<NodeId>,
+}
+
+impl Counted {
+    /// Whether the loop itself sets a place.
+    pub fn sets(&self, place: Place) -> bool {
+        match place {
+            Place::Carried(of, index) | Place::Scratch(of, index) => {
+                self.carried.contains(&(of, index))
+            }
+            Place::Node(_) => false,
+        }
     }
 }
 

@@ -5,31 +5,10 @@ use super::code::Code;
 use crate::ir::graph::*;
 use crate::ir::tree::*;
 use crate::plan::Plan;
-use rustc_hash::FxHashSet;
 use slowlight_routine::{Op, Value};
 
 /// About how many turns a loop takes, for the weights of names only.
 const TURNS: u64 = 2;
-
-/// What loops count by themselves: values that need no statement.
-#[derive(Default)]
-pub struct Counted {
-    carried: FxHashSet<(LoopId, u32)>,
-    /// One more than those, where that is what they carry on and no more.
-    pub nexts: FxHashSet<NodeId>,
-}
-
-impl Counted {
-    /// Whether the loop itself sets a place.
-    pub fn sets(&self, place: Place) -> bool {
-        match place {
-            Place::Carried(of, index) | Place::Scratch(of, index) => {
-                self.carried.contains(&(of, index))
-            }
-            Place::Node(_) => false,
-        }
-    }
-}
 
 /// A carried int that counts the turns of its loop.
 struct Counter {
@@ -48,6 +27,10 @@ fn counter(plan: &Plan, turns: &Turns) -> Option<Counter> {
     let graph = &plan.graph;
     let of = graph.loops.get(turns.of.0 as usize)?;
     let left = !turns.always(graph);
+    // A procedure is written once, and knows one variable of what it reads.
+    let calls = [&turns.body, &turns.next, &turns.done]
+        .into_iter()
+        .any(calls);
     let counts = |(index, (init, next)): (usize, (&NodeId, &NodeId))| {
         let Some(Value::Int(first)) = graph.constant(*init) else {
             return None;
@@ -84,7 +67,16 @@ fn counter(plan: &Plan, turns: &Turns) -> Option<Counter> {
             }
         })
     };
-    of.init.iter().zip(&of.next).enumerate().find_map(counts)
+    let mut all = of.init.iter().zip(&of.next).enumerate().filter_map(counts);
+    all.find(|counter| !(calls && counter.asked[0]))
+}
+
+fn calls(block: &Block) -> bool {
+    let mut found = false;
+    walk(block, &mut |statement| {
+        found |= matches!(statement, Statement::Call(_))
+    });
+    found
 }
 
 /// Whether statements read a value.

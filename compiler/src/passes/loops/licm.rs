@@ -87,6 +87,11 @@ impl Finder<'_> {
 
     /// A value that was computed so often.
     fn value(&mut self, id: NodeId, times: u64) {
+        // What a loop's last turn gave changes with the loops around that one, of which its
+        // rate knows nothing.
+        if (self.rates.rate(id).iter()).any(|by| matches!(by, Dependence::Last(_))) {
+            return;
+        }
         for (of, begun) in self.around.iter().rev() {
             let changes = [Dependence::Loop(*of), Dependence::Last(*of)];
             let stays = !changes.into_iter().any(|by| self.rates.depends(id, by));

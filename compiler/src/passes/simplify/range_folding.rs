@@ -9,12 +9,17 @@ use crate::analysis::range::Ranges;
 use crate::ir::graph::*;
 use crate::passes::rewrite::rebuild::rebuild;
 use slowlight_routine::{Op, Range, Type, Value};
+use std::cell::LazyCell;
 
 /// Whole numbers within this are no end of an int.
 const WHOLE: f64 = i32::MAX as f64;
 
 /// The graph with every decided operation replaced.
-pub fn fold_by_ranges(graph: &Graph, ranges: &Ranges) -> Graph {
+///
+/// `without_ends`: the ranges of a format without ends. Where an int can be only one value because
+/// something is cut at its format's end, that is a fault to be told.
+pub fn fold_by_ranges(graph: &Graph, ranges: &Ranges, without_ends: &dyn Fn() -> Ranges) -> Graph {
+    let without_ends = LazyCell::new(without_ends);
     let mut uses = vec![0_u32; graph.nodes.len()];
     let all = graph.ids().flat_map(|id| graph.refers(id));
     all.chain(graph.roots())
@@ -28,8 +33,11 @@ pub fn fold_by_ranges(graph: &Graph, ranges: &Ranges) -> Graph {
         let [left, right]: [Range; 2] = args;
         let only = match op.result() {
             Type::Bool => exact.constant().map(|value| Value::Bool(value != 0.0)),
-            Type::Int => exact.constant().map(|value| Value::Int(value as i32)),
-            // What is cut at a format's end is a fault to be told, wherever it goes from there.
+            Type::Int => {
+                let sure = |value: &f64| without_ends.exact[at].constant() == Some(*value);
+                let value = exact.constant().filter(sure);
+                value.map(|value| Value::Int(value as i32))
+            }
             Type::Real => None,
         };
         if let Some(value) = only {
