@@ -6,6 +6,7 @@
 //! its arm.
 
 use crate::analysis::range::Ranges;
+use crate::analysis::rate::{Dependence, rates};
 use crate::ir::graph::*;
 use crate::passes::rewrite::rebuild::rebuild;
 use slowlight_routine::{Op, Range, Type, Value};
@@ -20,6 +21,8 @@ const WHOLE: f64 = i32::MAX as f64;
 /// something is cut at its format's end, that is a fault to be told.
 pub fn fold_by_ranges(graph: &Graph, ranges: &Ranges, without_ends: &dyn Fn() -> Ranges) -> Graph {
     let without_ends = LazyCell::new(without_ends);
+    // What is worked out once a picture takes nothing, and stays to be looked at.
+    let rates = LazyCell::new(|| rates(graph));
     let mut uses = vec![0_u32; graph.nodes.len()];
     let all = graph.ids().flat_map(|id| graph.refers(id));
     all.chain(graph.roots())
@@ -34,7 +37,10 @@ pub fn fold_by_ranges(graph: &Graph, ranges: &Ranges, without_ends: &dyn Fn() ->
         let only = match op.result() {
             Type::Bool => exact.constant().map(|value| Value::Bool(value != 0.0)),
             Type::Int => {
-                let sure = |value: &f64| without_ends.exact[at].constant() == Some(*value);
+                let sure = |value: &f64| {
+                    let often = rates.rate(old).iter().any(|by| *by != Dependence::Frame);
+                    often && without_ends.exact[at].constant() == Some(*value)
+                };
                 let value = exact.constant().filter(sure);
                 value.map(|value| Value::Int(value as i32))
             }
