@@ -170,7 +170,7 @@ impl<'g> Loops<'g> {
         let (degree, sizes) = match op {
             Op::Neg => (x.degree, x.sizes),
             Op::Mul => (x.degree + y.degree, products(x.sizes, y.sizes)),
-            // Of what is as great as it may be nothing is known.
+            // As many times as great as the quotient is.
             Op::Div if y.degree == 0 => {
                 let part = self.size(id) / self.size(a).max(f64::MIN_POSITIVE);
                 (x.degree, x.sizes.map(|size| size * part))

@@ -132,10 +132,11 @@ pub fn with_loops_skipped(plan: Analysed, cx: &Context, budget: SizeBudget) -> A
 
 fn bypassed(plan: &Analysed, cx: &Context, budget: SizeBudget) -> Option<Analysed> {
     let price = cx.price(budget);
-    let counts = !cx.pipeline.without.has(Pass::TripCounts);
     let next = skip(&plan.graph)?;
     // A loop that its first turn does not end may be counted now.
-    let counted = trip_counts(&next, &plan.ranges, cx.runtime).filter(|_| counts);
+    let counted = cx.always(Pass::TripCounts, || {
+        trip_counts(&next, &plan.ranges, cx.runtime)
+    });
     let usual = cx.scheduled(counted.map_or(next, |graph| fold(&graph)));
     let sunk = sunk(&usual.graph).map(|graph| cx.simplified(&graph));
     let other = sunk.map(|plan| cheaper(&plan, cx, budget).unwrap_or(plan));
