@@ -21,7 +21,7 @@ use slowlight_compiler::planner::PlannedScene;
 use slowlight_compiler::planner::SEARCH;
 use slowlight_compiler::source::Span;
 use slowlight_compiler::targets::{Language, Lean, Mode, System};
-use std::cell::RefCell;
+use std::cell::{Cell, RefCell};
 use std::collections::VecDeque;
 
 /// How much work may be done to find a plan whose program fits, in units of
@@ -54,6 +54,7 @@ pub fn fit(
         fuel: &fuel,
         name,
         known: RefCell::default(),
+        kept: Cell::default(),
     };
     let mut found = search.found(modes, plan)?;
     if fuel.was_cut() {
@@ -68,6 +69,8 @@ struct Search<'s> {
     name: &'s dyn Fn(Span) -> Option<String>,
     /// What programs take that were measured last: plans by several ways may be the same.
     known: RefCell<VecDeque<(PlannedScene, Option<Need>)>>,
+    /// What part of machine code was left at least where it was read again; 0 where none was.
+    kept: Cell<f64>,
 }
 
 /// How many of them.
@@ -219,7 +222,7 @@ impl Search<'_> {
         if let Some((_, need)) = self.known.borrow().iter().find(known) {
             return Ok(need.clone());
         }
-        let need = about(plan, self.fuel)?;
+        let need = about(plan, self.fuel, &self.kept)?;
         let mut all = self.known.borrow_mut();
         all.truncate(KNOWN - 1);
         all.push_front((plan.clone(), need.clone()));

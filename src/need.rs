@@ -4,30 +4,23 @@
 //! list entries of its names, the assembler's bytes. What only running would
 //! tell is bounded: BASIC's stack, the heap of a Jack program at its start.
 
+mod basic;
 mod heap;
 
-use crate::failure::{Failure, Outcome};
+use crate::failure::Outcome;
 use crate::format::count;
 use crate::machine::File;
+use basic::{basic, basic_machine, basic_room};
 use heap::heap;
-use slowlight_compiler::backend::Document;
 use slowlight_compiler::backend::mos6502;
 use slowlight_compiler::fuel::Fuel;
-use slowlight_compiler::ir::tree::{Statement, Tree, walk};
+use slowlight_compiler::ir::tree::walk;
 use slowlight_compiler::plan::Plan;
 use slowlight_compiler::targets::{Language, System};
-use slowlight_vm::bbc::{Config, Dialect, Machine, tokenise};
+use slowlight_vm::bbc::Dialect;
 use slowlight_vm::hack::vm::Heap;
 use slowlight_vm::mos6502::extent;
-
-/// What BASIC's stack takes at most: three calls of the runtime's functions
-/// inside each other, of 28 bytes and 8 an argument, and as much as a call more
-/// for what an expression holds meanwhile.
-const BASIC_STACK: u64 = 160;
-
-/// What a procedure without arguments leaves on it while it runs: the
-/// processor's stack, and where to return to.
-const BASIC_CALL: u64 = 28;
+use std::cell::Cell;
 
 /// Words of the Hack computer's heap that every system has which is built into an emulator,
 /// and those that each object has beside its own.
@@ -41,6 +34,9 @@ const EVERYWHERE: u64 = 11_500;
 /// examples' programs by 19 in 100 at most, by 2 in the mean.
 const TIDIED: u64 = 4;
 
+/// By what part of themselves programs of one scene may differ in what reading them again spares.
+const ALIKE: f64 = 0.03;
+
 /// How a program was measured.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Measured {
@@ -48,7 +44,9 @@ enum Measured {
     Whole,
     /// Machine code as it is first written.
     First,
-    /// The same, read again as a whole.
+    /// The same, too large by what others of its scene became when they were read again.
+    Beyond,
+    /// Machine code read again as a whole.
     Tidied,
 }
 
@@ -97,7 +95,7 @@ impl Need {
     pub fn exceeds(&self, part: u64) -> bool {
         let most = self.room + self.room / part;
         match self.of {
-            Measured::First => self.total() > most + most / TIDIED,
+            Measured::First | Measured::Beyond => self.total() > most + most / TIDIED,
             _ => self.total() > most,
         }
     }
@@ -124,6 +122,7 @@ impl Need {
         match self.of {
             Measured::Whole => !self.exceeds(2),
             Measured::First => self.total() <= self.room + self.room / TIDIED,
+            Measured::Beyond => false,
             Measured::Tidied => !self.exceeds(16),
         }
     }
@@ -205,26 +204,19 @@ pub fn room(plan: &Plan) -> Option<u64> {
     }
 }
 
-fn basic_machine(plan: &Plan, dialect: Dialect) -> Machine {
-    let page = plan.page.unwrap_or(Config::default().page);
-    Machine::new(Config { dialect, page })
-}
-
-fn basic_room(plan: &Plan, machine: &Machine) -> Option<u64> {
-    let mode = plan.mode.name.parse().ok()?;
-    machine.memory(mode).map(|room| room as u64)
-}
-
 /// The same where it is enough to know whether the machine holds it: of machine code as it is
 /// before it is read again as a whole, where that says so already. That makes a program
 /// shorter, but by a small part, and takes most of the time.
+///
+/// Where another of its scene's programs was read again, `kept` has what part of it was left:
+/// one that is too large by that is not.
 ///
 /// It is charged by what the program is made of, not by its text: an edited param has other
 /// digits, and must not move the end of a search.
 ///
 /// # Errors
 /// As for [`need`].
-pub fn about(plan: &Plan, fuel: &Fuel) -> Outcome<Option<Need>> {
+pub fn about(plan: &Plan, fuel: &Fuel, kept: &Cell<f64>) -> Outcome<Option<Need>> {
     let mut statements = 0;
     for block in plan.tree.blocks() {
         walk(block, &mut |_| statements += 1);
@@ -243,13 +235,22 @@ pub fn about(plan: &Plan, fuel: &Fuel) -> Outcome<Option<Need>> {
         of: Measured::First,
         ..assembly(&draft)
     };
-    if !need.fits() && need.is_near() {
+    let first = need.total() as f64;
+    if first * (kept.get() - ALIKE) > need.room as f64 {
+        need.of = Measured::Beyond;
+    } else if !need.fits() && need.is_near() {
         fuel.burn(READ_AGAIN * statements);
         draft.tidy();
         need = Need {
             of: Measured::Tidied,
             ..assembly(&draft)
         };
+        let part = need.total() as f64 / first;
+        kept.set(if kept.get() > 0.0 {
+            part.min(kept.get())
+        } else {
+            part
+        });
     }
     Ok(Some(need))
 }
@@ -282,73 +283,6 @@ pub fn need_beside(plan: &Plan, system: &[File]) -> Need {
     heap(&slowlight_compiler::backend::emit(plan), system)
 }
 
-fn basic(plan: &Plan, document: &Document, dialect: Dialect) -> Outcome<Option<Need>> {
-    let refuse = |fault: slowlight_vm::Fault| {
-        Failure::Wrong(format!("the tokeniser refuses {}: {fault}", document.name))
-    };
-    let tokens = tokenise(&document.text, dialect).map_err(refuse)?;
-    let mut machine = basic_machine(plan, dialect);
-    machine.load_tokenised(&tokens).map_err(refuse)?;
-    let Some(room) = basic_room(plan, &machine) else {
-        return Ok(None);
-    };
-    Ok(Some(Need {
-        unit: "bytes",
-        parts: vec![
-            ("program", machine.program_bytes() as u64),
-            ("variables", machine.entry_bytes() as u64),
-            ("arrays", arrays(&document.text)),
-            ("stack", BASIC_STACK + BASIC_CALL * depth(&plan.tree)),
-        ],
-        room,
-        largest: None,
-        system: false,
-        of: Measured::Whole,
-    }))
-}
-
-/// How many subroutines run inside each other at most.
-fn depth(tree: &Tree) -> u64 {
-    let mut depths: Vec<u64> = vec![0; tree.subroutines.len()];
-    // One that is called stands before or behind who calls it; no chain of
-    // calls is longer than there are subroutines.
-    for _ in 0..depths.len() {
-        for (k, subroutine) in tree.subroutines.iter().enumerate() {
-            let mut inner = 0;
-            walk(&subroutine.body, &mut |statement| {
-                if let Statement::Call(id) = statement {
-                    inner = inner.max(depths.get(id.0 as usize).copied().unwrap_or(0));
-                }
-            });
-            if let Some(depth) = depths.get_mut(k) {
-                *depth = inner + 1;
-            }
-        }
-    }
-    depths.into_iter().max().unwrap_or(0)
-}
-
-/// Bytes of the arrays that a program makes with constant bounds.
-fn arrays(text: &str) -> u64 {
-    let mut bytes = 0;
-    for (at, _) in text.match_indices("DIM") {
-        let mut rest = text.get(at + 3..).unwrap_or_default();
-        while let Some((name, behind)) = rest.split_once('(')
-            && let Some((bounds, behind)) = behind.split_once(')')
-        {
-            let bounds: Vec<u64> = bounds.split(',').filter_map(|n| n.parse().ok()).collect();
-            let element = if name.ends_with('%') { 4 } else { 5 };
-            let elements: u64 = bounds.iter().map(|n| n + 1).product();
-            bytes += 1 + 2 * bounds.len() as u64 + element * elements;
-            rest = match behind.strip_prefix(',') {
-                Some(rest) => rest,
-                None => break,
-            };
-        }
-    }
-    bytes
-}
-
 fn assembly(draft: &mos6502::Draft) -> Need {
     let assembled = || extent(&draft.document().text);
     let counted = draft.extent();
@@ -370,14 +304,6 @@ fn assembly(draft: &mos6502::Draft) -> Need {
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn arrays_are_counted_as_the_machine_makes_them() {
-        assert_eq!(arrays("10DIM a(7,7):b=1"), 5 + 5 * 64);
-        assert_eq!(arrays("10DIMn%(3):DIM error(9,1)"), 3 + 16 + 5 + 100);
-        assert_eq!(arrays("10DIMn%(3),error(9,1):a=f(2)"), 3 + 16 + 5 + 100);
-        assert_eq!(arrays("10PRINT"), 0);
-    }
 
     #[test]
     fn a_need_says_how_far_it_is_off() {

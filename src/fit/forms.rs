@@ -119,32 +119,45 @@ impl Search<'_> {
         plan: &PlannedScene,
     ) -> Outcome<Result<PlannedScene, Option<Need>>> {
         let calls = |runs| plan.outlined_where_seldom(runs, self.name);
-        let ways: [&dyn Fn() -> Option<PlannedScene>; 3] =
-            [&|| Some(plan.clone()), &|| calls(false), &|| calls(true)];
+        let remarks = remarks(plan);
+        let (Some(first), Some(last), false) = (remarks.first(), remarks.last(), self.fuel.spent())
+        else {
+            return Ok(Err(None));
+        };
         let mut least: Option<Need> = None;
-        for way in ways {
-            if self.fuel.spent() {
-                break;
+        // What it takes where that is too much.
+        let mut excess = |plan: &mut PlannedScene, (brief, scant)| -> Outcome<Option<Need>> {
+            (plan.brief, plan.scant) = (brief, scant);
+            let need = self.about(plan)?.filter(|need| !need.fits());
+            if let Some(need) = &need
+                && least.as_ref().is_none_or(|l| need.total() < l.total())
+            {
+                least = Some(need.clone());
             }
-            let Some(mut tried) = way() else {
+            Ok(need)
+        };
+        let mut as_is = plan.clone();
+        match excess(&mut as_is, *first)? {
+            None => return Ok(Ok(as_is)),
+            // What is done seldom is not half of a program.
+            Some(need) if need.exceeds(1) => return Ok(Err(least)),
+            Some(_) => {}
+        }
+        // What is too much in the shortest way is too much in those before it.
+        let mut ways = vec![as_is];
+        ways.extend([false, true].into_iter().filter_map(calls));
+        if let Some(shortest) = ways.last_mut()
+            && excess(shortest, *last)?.is_some()
+        {
+            return Ok(Err(least));
+        }
+        for mut tried in ways {
+            if self.fuel.spent() || excess(&mut tried, *last)?.is_some() {
                 continue;
-            };
-            for (brief, scant) in remarks(plan) {
-                (tried.brief, tried.scant) = (*brief, *scant);
-                let need = match self.about(&tried)? {
-                    Some(need) if !need.fits() => need,
-                    _ => return Ok(Ok(tried)),
-                };
-                let (near, far) = (need.is_near(), need.exceeds(1));
-                if least.as_ref().is_none_or(|l| need.total() < l.total()) {
-                    least = Some(need);
-                }
-                // What is done seldom is not half of a program.
-                if far {
-                    return Ok(Err(least));
-                }
-                if !near {
-                    break;
+            }
+            for style in remarks {
+                if excess(&mut tried, *style)?.is_none() {
+                    return Ok(Ok(tried));
                 }
             }
         }

@@ -244,11 +244,11 @@ mod tests {
             format: "log10".to_owned(),
             frozen: true,
             outlined: true,
-            thrift: 7,
+            thrift: 5,
         };
         let words = base().words(&choice).join(" ");
         let wanted = "--format log10 --freeze all --block 4x2 --max-turns 3 --max-steps 8 \
-             --hits march:64:0.01 --differences 0.005 --samples 4 --thrift 7 --outlined";
+             --hits march:64:0.01 --differences 0.005 --samples 4 --thrift 5 --outlined";
         assert_eq!(words, wanted);
     }
 }

@@ -13,6 +13,7 @@ use slowlight::target_args::ScreenArgs;
 use slowlight_compiler::fuel::Fuel;
 use slowlight_compiler::planner::PlannedScene;
 use slowlight_compiler::targets::{TARGETS, find};
+use std::cell::Cell;
 use std::fmt::Write;
 use std::path::Path;
 
@@ -222,7 +223,7 @@ fn digits_of_a_param_are_no_work() {
         let burnt = |value: &str| {
             let plan = planned(&text(value), target.name).expect("a plan");
             let fuel = Fuel::new(FIT);
-            about(&plan, &fuel).expect("a size");
+            about(&plan, &fuel, &Cell::default()).expect("a size");
             fuel.burnt()
         };
         assert_eq!(burnt("1"), burnt("-1234.5678"), "{}", target.name);

@@ -86,7 +86,7 @@ fn less_memory_for_speed_is_a_smaller_program() {
     let plenty = drawn(&scene, "bbc:micro", &[]);
     let same = drawn(&scene, "bbc:micro", &["--thrift", "0"]);
     assert_eq!(figures(&same), figures(&plenty));
-    let little = drawn(&scene, "bbc:micro", &["--thrift", "14"]);
+    let little = drawn(&scene, "bbc:micro", &["--thrift", "6"]);
     assert!(
         little["code_bytes"].as_u64() < plenty["code_bytes"].as_u64(),
         "{little}"
@@ -111,7 +111,7 @@ draw (x, y) = if let h = world.trace(ray((0, 1, 4), unit((x - 3.5, 3.5 - y, -8))
         (&["--hits", "look"], 2, "march:STEPS:NEAR"),
         (&["--differences", "0"], 2, "a distance is"),
         (&["--samples", "0"], 2, "1..=64"),
-        (&["--thrift", "15"], 2, "from 0 to 14"),
+        (&["--thrift", "7"], 2, "from 0 to 6"),
     ] {
         let args = [&["run", "bowl.scn", "-t", "6502"][..], more].concat();
         let output = slowlight(dir.path(), &args);

@@ -19,13 +19,15 @@ use crate::homes::single_use::folded;
 use crate::ir::graph::*;
 use crate::ir::often;
 use crate::ir::tree::*;
+use crate::passes::loops::licm::{Hoist, hoisted};
 use crate::passes::loops::strip_mine::passes;
-use crate::schedule::analysed::Analysed;
+use crate::schedule::analysed::{Analysed, Cost};
 use crate::schedule::constant_runs::{Inks, Still, still};
 use crate::schedule::segment::bounds_segment;
 use crate::selection::routines::{Chosen, choose};
 use rustc_hash::FxHashSet;
 use slowlight_routine::{Format, Runtime};
+use std::collections::BTreeMap;
 use std::sync::Arc;
 
 /// Rows in which runs of columns are looked at.
@@ -38,8 +40,6 @@ const COLUMNS_LOOKED_AT: u32 = 80;
 pub struct Price {
     runtime: &'static Runtime,
     memory: f64,
-    /// How much a statement around pixels counts beside theirs.
-    around: f64,
     /// The pixels that are looked at.
     pixels: Arc<Pixels>,
 }
@@ -50,25 +50,37 @@ impl Price {
         Price {
             runtime,
             memory: budget.part(),
-            around: budget.around(),
             pixels,
         }
     }
 
-    /// Cycles a pixel, and something for memory.
+    /// Cycles a pixel once loop-invariant code is moved, and something for memory.
     pub fn of(&self, plan: &Analysed) -> f64 {
-        let (cycles, [inside, around]) = self.known(plan);
-        cycles * (1.0 + self.memory * (inside + self.around * around))
+        let cost = self.known(plan);
+        (cost.cycles - cost.hoisted) * (1.0 + self.memory * cost.statements)
+    }
+
+    /// The same with all code where it is.
+    pub fn as_it_stands(&self, plan: &Analysed) -> f64 {
+        let cost = self.known(plan);
+        cost.cycles * (1.0 + self.memory * cost.statements)
     }
 
     /// Cycles a pixel.
     pub fn cycles_known(&self, plan: &Analysed) -> f64 {
-        self.known(plan).0
+        self.known(plan).cycles
     }
 
-    /// Cycles and memory, found once.
-    fn known(&self, plan: &Analysed) -> (f64, [f64; 2]) {
-        *plan.cost.get_or_init(|| (self.cycles(plan), memory(plan)))
+    /// Found once.
+    fn known(&self, plan: &Analysed) -> Cost {
+        *plan.cost.get_or_init(|| {
+            let (cycles, hoisted) = self.cycles(plan);
+            Cost {
+                cycles,
+                hoisted,
+                statements: memory(plan),
+            }
+        })
     }
 
     /// How often a plan's values are computed; nothing where it cannot be run.
@@ -96,8 +108,7 @@ impl Price {
     /// About what a plan with so many cycles and values more than another is priced at, beside
     /// that: as [`Price::of`] has it, a value taken for a statement of pixels.
     pub(crate) fn beside(&self, plan: &Analysed, cycles: f64, more: f64) -> f64 {
-        let [inside, around] = memory(plan);
-        cycles * (1.0 + self.memory * (inside + more + self.around * around))
+        cycles * (1.0 + self.memory * (memory(plan) + more))
     }
 
     /// About which routines a plan would have; nothing where there is none for an operation.
@@ -111,10 +122,10 @@ impl Price {
         by(&seen(&plan.graph, &plan.ranges, &meter))
     }
 
-    /// Cycles a pixel.
-    fn cycles(&self, plan: &Analysed) -> f64 {
+    /// Cycles a pixel, and what hoisting spares of them.
+    fn cycles(&self, plan: &Analysed) -> (f64, f64) {
         let Some(routines) = self.routines(plan) else {
-            return f64::INFINITY;
+            return (f64::INFINITY, 0.0);
         };
         let runs = !plan.tree.segment.is_empty();
         let still = runs.then(|| still(&plan.graph)).flatten();
@@ -147,6 +158,7 @@ impl Price {
         let width = f64::from(plan.graph.image.width.max(1));
         let guess = |block: &Block| guessed(block, &cost);
         let bounds = bounds(plan);
+        let mut hoisted = 0.0;
         let pixel = match self.pixels.is_empty() {
             true => guess(&plan.tree.pixel) + guess(&plan.tree.column) / height,
             false => {
@@ -157,6 +169,7 @@ impl Price {
                 });
                 let sum = self.run(plan, &meter, still);
                 let weight = self.pixels.weight();
+                hoisted = spared(plan, &meter, &beside) / weight;
                 sum.map_or_else(|| guess(&plan.tree.pixel), |sum| sum / weight)
             }
         };
@@ -164,7 +177,7 @@ impl Price {
         let pass = guess(&plan.tree.pass) + self.begun(plan, &bounds, &cost);
         let outside = guess(&plan.tree.row) + pass * passes;
         let steps = beside.steps(&plan.tree.row) + beside.steps(&plan.tree.pass);
-        outside / width + pixel + steps
+        (outside / width + pixel + steps, hoisted)
     }
 
     /// The cheapest of some plans, the first of several.
@@ -273,6 +286,35 @@ impl Price {
     }
 }
 
+/// How many times as often as its loop begins a value is computed for which that is sure: below,
+/// what is found by few pixels is not true of all.
+const SURELY: u64 = 4;
+
+/// What loop-invariant code motion spares of what the pixels cost together.
+fn spared(
+    plan: &Analysed,
+    meter: &Meter<'_, impl Fn(&Statement) -> f64>,
+    beside: &Beside<'_>,
+) -> f64 {
+    if plan.graph.loops.is_empty() {
+        return 0.0;
+    }
+    let ran = |statement: &Statement| meter.count(statement);
+    let mut least: BTreeMap<NodeId, Hoist> = BTreeMap::new();
+    for ((id, _), hoist) in hoisted(&plan.graph, &plan.tree.pixel, &ran) {
+        let known = least.entry(id).or_insert(hoist);
+        known.begun = known.begun.min(hoist.begun);
+    }
+    let spared = |(id, hoist): (NodeId, Hoist)| {
+        let times = match hoist.times < SURELY * hoist.begun {
+            true => 0,
+            false => hoist.times - hoist.begun,
+        };
+        times as f64 * f64::from(beside.statement(&Statement::Let(id)))
+    };
+    least.into_iter().map(spared).sum()
+}
+
 /// The comparisons that may end a run of columns.
 fn bounds(plan: &Analysed) -> Vec<NodeId> {
     let mut bounds = Vec::new();
@@ -290,24 +332,21 @@ fn bounds(plan: &Analysed) -> Vec<NodeId> {
     bounds
 }
 
-/// Memory in statements: of pixels with the tables, and around pixels.
-fn memory(plan: &Analysed) -> [f64; 2] {
+/// Memory in statements, tables among them.
+fn memory(plan: &Analysed) -> f64 {
     let mut statements = 0;
     for block in plan.tree.outer() {
         walk(block, &mut |_| statements += 1);
     }
-    let mut inside = 0;
-    walk(&plan.tree.pixel, &mut |_| inside += 1);
     let entries = plan.graph.tables.iter().map(|t| match t.seed.is_empty() {
         true => t.entries.len() as f64 / 3.0,
         // The array, and how it is worked out.
         false => t.entries.len() as f64 / 2.0 + 4.0,
     });
-    let around = f64::from(statements - inside);
     // An array's entries are as long as values are.
     let tabulated = (plan.graph.nodes.iter()).filter(|n| matches!(n, Node::Tabulated(_)));
     let arrays = tabulated.count() as f64 * f64::from(plan.graph.image.width) / 3.0;
-    [f64::from(inside) + entries.sum::<f64>() + arrays, around]
+    f64::from(statements) + entries.sum::<f64>() + arrays
 }
 
 /// Cycles of a block in a pixel of which nothing is known.

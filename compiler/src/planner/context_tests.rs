@@ -28,7 +28,7 @@ fn plans_made_again_are_those_made_anew() {
     };
     let text = |plan: &Plan| crate::backend::emit(plan)[0].text.clone();
     let plenty = plan(&graph, target, &goal).unwrap();
-    let step = 6;
+    let step = 4;
     let again = plenty
         .thriftier(step)
         .and_then(|made| plenty.completed(made))

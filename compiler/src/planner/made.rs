@@ -193,7 +193,7 @@ pub(crate) fn candidate(
         made.flatten().unwrap_or(graph)
     };
     let drawn = |graph: Graph| match rewriting {
-        Rewriting::Fast { budget, .. } if budget.passes() && runtime.segments => {
+        Rewriting::Fast { budget, .. } if budget.runs() && runtime.segments => {
             let made = cx.always(Pass::StripMine, || {
                 strip_mined(&graph, in_byte(&graph, target, goal))
             });

@@ -55,7 +55,6 @@ passes! {
     PushIntoSelect "push-into-select" "passes/branches/push_into_select" "operations sunk into the arms of selects"
     EarlyExit "early-exit" "passes/branches/early_exit" "early exits that the scene declares"
     RayParameter "ray-parameter" "passes/algebra/ray_parameter" "points on rays by the ray's parameter"
-    Peel "peel" "passes/loops/peel" "loop peeling"
     LoopGuard "loop-guard" "passes/loops/guard" "loop guards before a loop and its second turn"
     InvertMonotone "invert-monotone" "passes/branches/invert_monotone" "comparisons before monotone functions"
     PolynomialForms "polynomial-forms" "passes/algebra/polynomial" "normal forms over polynomials and roots"

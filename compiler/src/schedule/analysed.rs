@@ -18,6 +18,18 @@ const WALKED: u64 = 3;
 const LOOKED_AT: u64 = 40;
 const PRICED: u64 = 20_000;
 
+/// What a plan costs, as [`crate::cost::price`] has it.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Cost {
+    /// Cycles a pixel.
+    pub cycles: f64,
+    /// Of these what loop-invariant code motion will spare ([`crate::passes::loops::licm`]),
+    /// which comes last.
+    pub hoisted: f64,
+    /// Memory.
+    pub statements: f64,
+}
+
 /// A graph, when each value of it is computed, and what each stays within. Copies
 /// share what is known of it.
 #[derive(Clone)]
@@ -32,8 +44,8 @@ pub struct Known {
     pub(crate) work: u64,
     /// Its number: of no other.
     serial: u64,
-    /// Cycles and memory, pixels' and around them, as [`crate::cost::price`] has them.
-    pub(crate) cost: OnceLock<(f64, [f64; 2])>,
+    /// What it costs, once that was asked for.
+    pub(crate) cost: OnceLock<Cost>,
 }
 
 impl Deref for Analysed {

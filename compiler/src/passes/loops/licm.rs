@@ -11,12 +11,21 @@
 use crate::analysis::rate::{Dependence, Rates, rates};
 use crate::ir::graph::*;
 use crate::ir::tree::*;
-use std::collections::BTreeSet;
+use std::collections::BTreeMap;
 
 /// How many times as often as the loop begins a value must be computed: one that is kept
 /// through it takes a variable, and is written to it.
 const OFTENER: u64 = 5;
 const THAN: u64 = 4;
+
+/// How often a value was computed, and how often the loop began that it is hoisted out of.
+#[derive(Clone, Copy, Debug)]
+pub struct Hoist {
+    /// As it stands.
+    pub times: u64,
+    /// Before the loop.
+    pub begun: u64,
+}
 
 /// The values of a pixel that are worth hoisting, and out of which loops, given how often each
 /// statement ran.
@@ -24,13 +33,13 @@ pub fn hoisted(
     graph: &Graph,
     pixel: &Block,
     ran: &dyn Fn(&Statement) -> u64,
-) -> BTreeSet<(NodeId, LoopId)> {
+) -> BTreeMap<(NodeId, LoopId), Hoist> {
     let mut finder = Finder {
         graph,
         rates: rates(graph),
         ran,
         around: Vec::new(),
-        found: BTreeSet::new(),
+        found: BTreeMap::new(),
     };
     finder.block(pixel);
     finder.found
@@ -42,7 +51,7 @@ struct Finder<'g> {
     ran: &'g dyn Fn(&Statement) -> u64,
     /// The loops around, outermost first, and how often each was begun.
     around: Vec<(LoopId, u64)>,
-    found: BTreeSet<(NodeId, LoopId)>,
+    found: BTreeMap<(NodeId, LoopId), Hoist>,
 }
 
 impl Finder<'_> {
@@ -98,7 +107,11 @@ impl Finder<'_> {
             if !stays || THAN * times <= OFTENER * begun {
                 break;
             }
-            self.found.insert((id, *of));
+            let hoist = Hoist {
+                times,
+                begun: *begun,
+            };
+            self.found.insert((id, *of), hoist);
         }
     }
 }

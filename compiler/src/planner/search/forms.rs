@@ -38,13 +38,10 @@ use std::sync::atomic::{AtomicBool, Ordering};
 /// How many nodes of a loop's body are copied at most.
 const BODY: usize = 160;
 
-/// By how much a copy of a loop's body must make the plan cheaper.
-const COPY: f64 = 0.9;
-
 /// From where on forms are thought to do something for a loop.
 const FORMED: f64 = 0.97;
 
-/// By how much a guard before its second turn must.
+/// By how much a guard before a loop's second turn must make the plan cheaper.
 const GUARD: f64 = 0.999;
 
 /// By how much algebra must make the plan cheaper: what a statement costs beside
@@ -184,35 +181,32 @@ impl Site<'_> {
             let guarded = guard(&peeled, of, 1, BODY);
             let early = early.and_then(|graph| peel(graph, of, BODY));
             let sooner = || guard(&in_loops(early.as_ref()?)?, of, 2, BODY);
-            self.keep(Pass::Peel, &mut best, || Some(peeled), (COPY, limit));
-            self.keep(Pass::LoopGuard, &mut best, || guarded, (GUARD, limit));
-            self.keep(Pass::EarlyExit, &mut best, sooner, (GUARD, limit));
+            self.keep(Pass::LoopGuard, &mut best, || guarded, limit);
+            self.keep(Pass::EarlyExit, &mut best, sooner, limit);
         }
         best
     }
 
-    /// Whether a graph makes a plan that is cheaper than such a part of the best one, which it is
-    /// then. What costs more than the limit before forms are looked for is not looked at.
+    /// Puts the plan that a graph makes in the best one's place where it is cheaper. What costs
+    /// more than the limit before forms are looked for is not looked at.
     fn keep(
         &self,
         pass: Pass,
         best: &mut Analysed,
         graph: impl FnOnce() -> Option<Graph>,
-        (part, limit): (f64, f64),
-    ) -> bool {
+        limit: f64,
+    ) {
         let found = self.cx.always(pass, || {
             let tried = self.cx.simplified(&graph()?);
             if self.cost(&tried) > limit {
                 return None;
             }
             let found = self.rewritten(&tried)?;
-            (self.cost(&found) < part * self.cost(best)).then_some(found)
+            (self.cost(&found) < GUARD * self.cost(best)).then_some(found)
         });
-        let kept = found.is_some();
         if let Some(found) = found {
             *best = found;
         }
-        kept
     }
 
     /// A plan with thresholds, directions at their own length and algebra, as far

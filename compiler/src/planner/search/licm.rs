@@ -2,11 +2,12 @@
 //! statements ([`crate::passes::loops::licm`]).
 
 use crate::cost::size_budget::SizeBudget;
-use crate::ir::graph::Graph;
+use crate::ir::graph::{Graph, LoopId, NodeId};
 use crate::passes::loops::licm::hoisted;
 use crate::planner::context::Context;
 use crate::planner::pipeline::Pass;
 use crate::schedule::analysed::Analysed;
+use std::collections::BTreeSet;
 
 /// By how much that must make the plan cheaper: what a variable more costs is not known so well.
 const CHEAPER: f64 = 0.99;
@@ -25,7 +26,7 @@ fn hoisted_where_cheaper(plan: &Analysed, cx: &Context, budget: SizeBudget) -> O
     let price = cx.price(budget);
     let counts = price.counts(plan);
     let found = counts.map(|ran| hoisted(&plan.graph, &plan.tree.pixel, &ran));
-    let hoisted = found.unwrap_or_default();
+    let hoisted: BTreeSet<(NodeId, LoopId)> = found.unwrap_or_default().into_keys().collect();
     if hoisted.is_empty() {
         return None;
     }
@@ -33,5 +34,5 @@ fn hoisted_where_cheaper(plan: &Analysed, cx: &Context, budget: SizeBudget) -> O
         hoisted,
         ..plan.graph.clone()
     });
-    (price.of(&next) < CHEAPER * price.of(plan)).then_some(next)
+    (price.as_it_stands(&next) < CHEAPER * price.as_it_stands(plan)).then_some(next)
 }

@@ -10,12 +10,13 @@
 
 use super::poly::{Atom, Poly};
 use slowlight_routine::Range;
+use std::collections::{BTreeMap, BTreeSet};
 use std::rc::Rc;
 use std::sync::{Mutex, PoisonError};
 
 /// How many boxes are looked at, and how many numbers a polynomial may have.
 const BOXES: usize = 1 << 15;
-const NUMBERS: usize = 1 << 12;
+const NUMBERS: usize = 1 << 10;
 
 /// What was asked for, with the atoms' bounds, and whether it holds: plans of one scene
 /// ask the same.
@@ -67,6 +68,7 @@ fn above([p, rest, n]: [&Poly; 3], atoms: &[Atom], sides: &[Range], margin: f64)
     // Of p and the rest what is not above 0 in all of the box yet: what is stays so in its
     // halves.
     let mut open = vec![(n, vec![p, rest])];
+    let mut widths = vec![0.0; atoms.len()];
     for _ in 0..BOXES {
         let Some((n, mut asked)) = open.pop() else {
             return true;
@@ -82,7 +84,7 @@ fn above([p, rest, n]: [&Poly; 3], atoms: &[Atom], sides: &[Range], margin: f64)
         if n.middle() >= -n.off && asked.iter().any(|poly| poly.middle() <= poly.off) {
             return false;
         }
-        let mut widths = vec![0.0; atoms.len()];
+        widths.fill(0.0);
         for poly in asked.iter().chain([&n]) {
             poly.add_shares(&mut widths);
         }
@@ -107,60 +109,82 @@ struct Local {
     off: f64,
 }
 
-/// Which number is of which monomial.
+/// The power of each place in a monomial.
+type Powers = Vec<u32>;
+
+/// Which number is of which monomial: those of a polynomial and what divides them, as these are
+/// what comes of other places in it.
 struct Layout {
-    /// How many powers each place has, and how far apart the numbers of two stand.
-    powers: Vec<(usize, usize)>,
-    /// Which places each monomial has in it, and whether it is never below 0.
+    /// Which places each monomial has in it, and whether it is never below 0; the first is 1.
     monomials: Vec<(Vec<usize>, bool)>,
+    /// For each place the monomials that differ in its power alone, from power 0 on.
+    chains: Vec<Vec<Vec<usize>>>,
 }
 
 impl Layout {
-    fn new(powers: Vec<(usize, usize)>, count: usize) -> Layout {
-        let monomial = |at: usize| {
-            let power = |k: &usize| at / powers[*k].1 % powers[*k].0;
-            let places: Vec<usize> = (0..powers.len()).filter(|k| power(k) > 0).collect();
-            let even = places.iter().all(|k| power(k) % 2 == 0);
-            (places, even)
-        };
-        Layout {
-            monomials: (0..count).map(monomial).collect(),
-            powers,
+    /// Nothing where there are too many monomials.
+    fn new(terms: &BTreeMap<Powers, f64>, places: usize) -> Option<(Layout, Vec<Powers>)> {
+        let mut all = BTreeSet::from([vec![0; places]]);
+        let mut open: Vec<Powers> = terms.keys().cloned().collect();
+        while let Some(powers) = open.pop() {
+            for k in (0..places).filter(|k| powers[*k] > 0) {
+                let mut less = powers.clone();
+                less[k] -= 1;
+                open.extend((!all.contains(&less)).then_some(less));
+            }
+            all.insert(powers);
+            if all.len() > NUMBERS {
+                return None;
+            }
         }
+        let all: Vec<Powers> = all.into_iter().collect();
+        let monomial = |powers: &Powers| {
+            let places: Vec<usize> = (0..places).filter(|k| powers[*k] > 0).collect();
+            (places, powers.iter().all(|power| power % 2 == 0))
+        };
+        let chains = |k: usize| {
+            let chain = |powers: &Powers| {
+                let mut of = powers.clone();
+                let one_more = |_: &usize| {
+                    of[k] += 1;
+                    all.binary_search(&of).ok()
+                };
+                let first = all.binary_search(powers).ok();
+                std::iter::successors(first, one_more).collect()
+            };
+            all.iter().filter(|of| of[k] == 0).map(chain).collect()
+        };
+        let layout = Layout {
+            monomials: all.iter().map(monomial).collect(),
+            chains: (0..places).map(chains).collect(),
+        };
+        Some((layout, all))
     }
 }
 
 impl Local {
     /// Nothing where an atom has no bounds, or where it has too many numbers.
     fn new(poly: &Poly, atoms: &[Atom], sides: &[Range], margin: f64) -> Option<Local> {
-        let mut powers = Vec::new();
-        let mut count = 1_usize;
-        for atom in atoms {
-            let of = |(a, power): &(Atom, u32)| (a == atom).then_some(*power as usize);
-            let most = poly
-                .terms
-                .keys()
-                .flat_map(|m| m.iter().filter_map(of))
-                .max();
-            let many = most.unwrap_or(0) + 1;
-            powers.push((many, count));
-            count = count.checked_mul(many).filter(|count| *count <= NUMBERS)?;
-        }
-        let mut made = Local {
-            numbers: vec![0.0; count],
-            layout: Rc::new(Layout::new(powers, count)),
-            off: 0.0,
-        };
+        let mut terms = BTreeMap::new();
+        let mut off = 0.0;
         for (monomial, number) in &poly.terms {
-            let (mut at, mut size) = (0, number.real().abs());
+            let mut powers = vec![0; atoms.len()];
+            let mut size = number.real().abs();
             for (atom, power) in monomial {
                 let k = atoms.iter().position(|a| a == atom)?;
-                at += made.layout.powers[k].1 * *power as usize;
+                powers[k] += power;
                 size *= sides[k].magnitude().powi(*power as i32);
             }
-            made.numbers[at] += number.real();
-            made.off += margin * size;
+            *terms.entry(powers).or_insert(0.0) += number.real();
+            off += margin * size;
         }
+        let (layout, all) = Layout::new(&terms, atoms.len())?;
+        let number = |powers| terms.get(powers).copied().unwrap_or(0.0);
+        let mut made = Local {
+            numbers: all.iter().map(number).collect(),
+            layout: Rc::new(layout),
+            off,
+        };
         for (k, side) in sides.iter().enumerate() {
             made.place(
                 k,
@@ -173,21 +197,16 @@ impl Local {
 
     /// What it is of a + b x in place of x.
     fn place(&mut self, k: usize, a: f64, b: f64) {
-        let (many, step) = self.layout.powers[k];
-        for start in 0..self.numbers.len() {
-            if start / step % many != 0 {
-                continue;
-            }
-            let at = |power: usize| start + power * step;
+        for chain in &self.layout.chains[k] {
             // Horner's scheme about a, then each power of b.
-            for low in 0..many {
-                for power in (low..many - 1).rev() {
-                    self.numbers[at(power)] += a * self.numbers[at(power + 1)];
+            for low in 0..chain.len() {
+                for pair in chain[low..].windows(2).rev() {
+                    self.numbers[pair[0]] += a * self.numbers[pair[1]];
                 }
             }
             let mut factor = 1.0;
-            for power in 0..many {
-                self.numbers[at(power)] *= factor;
+            for at in chain {
+                self.numbers[*at] *= factor;
                 factor *= b;
             }
         }
