@@ -222,6 +222,39 @@ fn a_counter_that_ends_a_loop_is_its_count_of_turns() {
     );
 }
 
+/// Triangles by Moeller and Trumbore, beside what is left where the eye stands still.
+#[test]
+fn a_ray_meets_triangles_by_what_their_corners_and_the_eye_say() {
+    let scene = |face: &str, numbers: &str| {
+        format!(
+            "{HEAD}fn corner(k: int) -> vec3 = (cos(40deg * k), 0.3 * sin(70deg * k), sin(50deg * k));
+            fn eye() -> vec3 = (0.5, 2.2, 4.6);
+            fn face(k: int, d: vec3) -> real = {{
+              let p = corner(k);
+              let e = corner(k + 3) - p;
+              let f = corner(k + 5) - p;
+              let o = eye() - p;
+              {numbers}
+              if abs(a) < 0.001 then 99 else {{
+                let u = {face} / a;
+                if u < 0 or u > 1 then 99 else u
+              }}
+            }};
+            draw (x, y) = {{
+              let r = pinhole(eye(), at: (0, 0, 0), field: 48deg).through(x, y);
+              let t = loop (k = 0, t = 99.0) max 24 {{
+                if k == 20 then t else next(k + 1, min(t, face(k, r.dir)))
+              }} else t;
+              threshold(t, bayer(4)[x mod 4, y mod 4])
+            }};"
+        )
+    };
+    is_as_quick(
+        &scene("dot(o, h)", "let h = cross(d, f); let a = dot(e, h);"),
+        &scene("dot(d, cross(f, o))", "let a = dot(d, cross(f, e));"),
+    );
+}
+
 /// BASIC has room for ten FOR loops: those that are left must not stay there. Their counters
 /// are asked for behind them.
 #[test]

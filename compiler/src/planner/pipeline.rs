@@ -51,6 +51,7 @@ passes! {
     AngleAddition "angle-addition" "passes/algebra/angle_addition" "sines of an arc's multiples by addition theorems"
     IntegerTables "integer-tables" "passes/loops/induction_tables" "tables of functions of integers of few values"
     Unroll "unroll" "passes/loops/unroll" "full unrolling of counted loops"
+    Collect "collect" "passes/loops/collect" "polynomials collected by what hangs on a counter"
     InductionTables "induction-tables" "passes/loops/induction_tables" "tables of functions of induction variables"
     PushIntoSelect "push-into-select" "passes/branches/push_into_select" "operations sunk into the arms of selects"
     EarlyExit "early-exit" "passes/branches/early_exit" "early exits that the scene declares"

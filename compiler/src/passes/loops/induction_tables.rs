@@ -51,6 +51,14 @@ pub(crate) fn counted(graph: &Graph) -> Vec<(LoopId, usize)> {
         .collect()
 }
 
+/// Of each value whether it hangs on loops' counters alone, and not on none; nothing where no loop
+/// counts.
+pub(crate) fn on_counters(graph: &Graph) -> Option<Vec<bool>> {
+    let tables = Tables::of(graph)?;
+    let hangs = |known: &Option<Known>| known.as_ref().is_some_and(|of| of.by[0].is_some());
+    Some(tables.known.iter().map(hangs).collect())
+}
+
 /// A carried int that each turn moves on by 1 or back by 1, from a constant; or an int that
 /// stays within as many values.
 struct Counter {

@@ -1,6 +1,7 @@
 //! Passes on loops, of the scene and over the picture's rows and columns.
 
 pub mod bypass;
+pub mod collect;
 pub mod guard;
 #[cfg(test)]
 mod guard_tests;

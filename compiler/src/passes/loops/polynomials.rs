@@ -29,7 +29,7 @@ use rustc_hash::{FxHashMap, FxHashSet};
 use slowlight_routine::{Op, Runtime, Type};
 
 /// What roundings may come to, beside terms that are greater than their sum.
-const SOUND: f64 = 1.0 / 1_048_576.0;
+pub(super) const SOUND: f64 = 1.0 / 1_048_576.0;
 
 /// How many times the greatest value on the way a term may be.
 const LARGER: f64 = 4.0;

@@ -5,6 +5,7 @@
 use crate::cost::size_budget::SizeBudget;
 use crate::ir::graph::*;
 use crate::passes::algebra::angle_addition::angle_addition;
+use crate::passes::loops::collect::collected;
 use crate::passes::loops::induction_tables::{ENTRY, induction_tables, tables_of_ints};
 use crate::passes::loops::unroll::unroll;
 use crate::passes::simplify::fold::fold;
@@ -49,7 +50,13 @@ fn forms(origin: &Graph, cx: &Context, budget: SizeBudget) -> Vec<Graph> {
     for base in bases {
         if budget.counts() && !base.loops.is_empty() {
             let unrolled = cx.always(Pass::Unroll, || unroll(&base)).map(folded);
-            let both = [Some(&base), unrolled.as_ref()].into_iter().flatten();
+            let collected = cx.always(Pass::Collect, || {
+                let known = cx.scheduled(base.clone());
+                collected(&known.graph, &known.ranges, cx.runtime)
+            });
+            let collected = collected.map(folded);
+            let both = [Some(&base), collected.as_ref(), unrolled.as_ref()];
+            let both = both.into_iter().flatten();
             let tables =
                 |graph| cx.always(Pass::InductionTables, || induction_tables(graph, worth));
             all.extend(both.filter_map(tables));

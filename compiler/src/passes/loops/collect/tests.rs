@@ -1,0 +1,87 @@
+//! Collected polynomials draw what they drew with fewer products, where no digits are lost.
+#![allow(clippy::unwrap_used)]
+
+use super::*;
+use crate::eval::native::Native;
+use crate::passes::loops::induction_tables::induction_tables;
+use crate::planner::context::Context;
+use crate::scene;
+use crate::schedule::analysed::Analysed;
+use crate::sema::Options;
+use crate::targets::bbc::MICRO;
+use crate::targets::mos6502::PLAIN;
+
+/// The least of a number over seven turns: of `k`, the vectors `p`, `q` and `s` that hang on it,
+/// and the ray `r`.
+fn least(number: &str, runtime: &'static Runtime) -> Analysed {
+    let source = format!(
+        "image 24 x 16 inks black, white;
+         fn at(k: real) -> vec3 = (0.3 * k, 1 - 0.2 * k, sin(40deg * k));
+         draw (x, y) = {{
+           let r = pinhole((2, 1.5, 3), at: (0, 0, 0), field: 50deg).through(x, y);
+           let t = loop (k = 0, t = 9.0) max 8 {{
+             let p = at(k); let q = at(k + 1); let s = at(2 * k);
+             if k == 7 then t else next(k + 1, min(t, {number}))
+           }} else 9;
+           threshold(t / 9, 0.5)
+         }};"
+    );
+    let checked = scene::check("test", &source);
+    assert!(checked.is_right(), "{source}: {:?}", checked.diagnostics);
+    let graph = checked.lower(&Options::default()).unwrap();
+    Context::new(graph.clone(), runtime).simplified(&graph)
+}
+
+/// Products of reals at each turn, once what hangs on the counter is in tables.
+fn products(graph: &Graph) -> usize {
+    let graph = induction_tables(graph, 2).unwrap();
+    let (reached, rates) = (graph.reached(), rates(&graph));
+    let counts = |id: &NodeId| {
+        let mut by = rates.rate(*id).iter();
+        let in_loop = by.any(|by| matches!(by, Dependence::Loop(_)));
+        let is_product = matches!(graph.node(*id), Node::Apply(Op::Mul, _));
+        reached[id.0 as usize] && in_loop && is_product
+    };
+    graph.ids().filter(counts).count()
+}
+
+fn shades(graph: &Graph) -> Vec<f64> {
+    let mut native = Native::new(graph);
+    let places = (0..16).flat_map(|y| (0..24).map(move |x| (x, y)));
+    places.map(|(x, y)| native.pixel(x, y).shade).collect()
+}
+
+#[test]
+fn what_hangs_on_the_counter_stands_together() {
+    for (number, before, after) in [
+        // A triple product, and one of what is known of the eye.
+        ("dot(p, cross(r.dir, q))", 9, 3),
+        ("dot(r.from - p, cross(r.dir, q - p))", 9, 3),
+        // Of rays from elsewhere, where both kinds of factors are vectors.
+        ("dot(r.at(2) - p, cross(r.dir, q))", 9, 6),
+        // A sum of two is one.
+        ("dot(p, r.dir) + dot(q, r.dir)", 6, 3),
+    ] {
+        let plain = least(number, MICRO.runtime);
+        let next = collected(&plain.graph, &plain.ranges, MICRO.runtime).unwrap();
+        let found = (products(&plain.graph), products(&next));
+        assert_eq!(found, (before, after), "{number}");
+        for (old, new) in shades(&plain.graph).into_iter().zip(shades(&next)) {
+            assert!((old - new).abs() < 1e-9, "{number}: {old} {new}");
+        }
+    }
+}
+
+#[test]
+fn what_is_no_shorter_or_loses_digits_is_left_alone() {
+    let is_left = |number: &str, runtime: &'static Runtime| {
+        let plain = least(number, runtime);
+        collected(&plain.graph, &plain.ranges, runtime).is_none()
+    };
+    assert!(is_left("dot(p, r.dir)", MICRO.runtime));
+    assert!(is_left("sqrt(abs(r.dir.x)) * p.x", MICRO.runtime));
+    // A small difference of large numbers: of reals of few bits, nothing would be left of it.
+    let far = "dot(r.at(2) + (9, 9, 9) - (p + (9, 9, 9)), cross(r.dir, q - p))";
+    assert!(!is_left(far, MICRO.runtime));
+    assert!(is_left(far, PLAIN.runtime));
+}
