@@ -9,8 +9,9 @@
 //! final. Where that goes beyond the goal, or the program does not fit its machine, the next one
 //! has its turn, and also where a program that had to be made small for its machine is slower
 //! than the next one is without a search, and where the next one is nearly as quick without a
-//! search: the quicker program of both is taken. One whose program is half as large again as the
-//! machine is left out.
+//! search: the quicker program of both is taken. One whose program is half as large again as what
+//! the machine has for it in any mode is left out. Where one does
+//! not fit, larger ones are not tried, but for the machine's first format.
 //!
 //! The whole picture is looked at, whatever rows are asked for: a format is chosen for a scene.
 //! Where its pixels take more work than is worth it, nothing is known, and the machine's first
@@ -19,44 +20,18 @@
 //! Formats of few bits are looked at first. Where the quickest of those is within the goal, and
 //! no slower than fixed point in 16 bits, the wider ones are not: they take longer.
 
-use crate::estimate::{self, Inked, Sampled};
+mod candidates;
+
+use crate::estimate;
 use crate::failure::{Failure, Outcome};
-use crate::interrupt;
-use crate::need;
-use crate::progress::Waiting;
-use crate::scene::{Precision, Scene};
+use crate::scene::Scene;
 use crate::target_args::ScreenArgs;
-use rayon::prelude::*;
-use slowlight_compiler::eval::native::Native;
-use slowlight_compiler::passes::pixel_blocks::pixel_blocks;
+use candidates::{
+    Candidate, candidates, expected, is_finer, is_log, is_short, least_of_wider, sort,
+};
 use slowlight_compiler::planner::PlannedScene;
-use slowlight_compiler::targets::{Lean, Target, formats};
+use slowlight_compiler::targets::{Target, formats};
 use slowlight_routine::{Format, Op, Runtime};
-
-/// Rows and columns of a candidate's sample and of its final plan's, and how many statements the
-/// model may run for each.
-const CANDIDATE: (u32, u64) = (36, 8_000_000);
-const FINAL: (u32, u64) = (64, 16_000_000);
-
-/// How many operations the native evaluation of a sample may take.
-const NATIVE: u64 = 200_000_000;
-
-/// In so many parts it is done at the same time.
-const PARTS: usize = 2;
-
-/// Of a sample one pixel in so many must have been looked at, or nothing is known.
-const ENOUGH: usize = 8;
-
-/// How much further than the goal a candidate may go: its final plan may be better, and the
-/// sample is small.
-const DOUBT: f64 = 1.5;
-
-/// Where no more of the pixels are wrong, they are made in the same way.
-const ALIKE: f64 = 0.1;
-
-/// A candidate that takes no more than so many times as much without a search may be the quicker
-/// one after it.
-const CLOSE: f64 = 1.25;
 
 /// How many formats are planned in earnest; the last is the one with fewest pixels wrong.
 const TRIES: usize = 3;
@@ -98,27 +73,6 @@ pub struct Why {
     pub goal: f64,
     /// The share that is expected to be, by a sample of the plan's own.
     pub expected: f64,
-}
-
-/// A format as its plan without a search has it.
-struct Candidate {
-    target: &'static Target,
-    /// Of the picture, first and last, that the screen shows.
-    rows: (u32, u32),
-    cycles: f64,
-    wrong: f64,
-}
-
-impl Candidate {
-    /// Whether its plan may be within the goal.
-    fn may(&self, goal: f64) -> bool {
-        self.wrong <= DOUBT * goal
-    }
-
-    /// Whether it may be quicker in the end than what takes so many cycles without a search.
-    fn is_close(&self, unsearched: f64) -> bool {
-        self.cycles < CLOSE * unsearched
-    }
 }
 
 /// A plan within the goal: the cycles of its program, and of that without a search.
@@ -198,6 +152,7 @@ fn quickest(
     let mut best: Option<(Chosen, f64)> = None;
     let mut kept: Option<Kept> = None;
     let (mut tries, mut too_large) = (0, 0);
+    let is_first = |one: &Candidate| one.target.runtime.format == target.runtime.format;
     while tries < TRIES {
         // Logarithms with a bit more are only looked for where those without are quick and wrong.
         let worth = |first: &Candidate| {
@@ -238,6 +193,7 @@ fn quickest(
             Err(Failure::Wrong(_)) if too_large > 0 => break,
             Err(Failure::Wrong(_)) => {
                 too_large += 1;
+                known.retain(|one| one.size < candidate.size || is_first(one));
                 continue;
             }
             Err(Failure::Scene(_)) => continue,
@@ -245,9 +201,8 @@ fn quickest(
         };
         let mut whole = plan.clone();
         whole.rows = candidate.rows;
-        let Some(expected) = expected(scene, &whole) else {
-            continue;
-        };
+        // Where too little of it was seen, as the plan without a search has it.
+        let expected = expected(scene, &whole).unwrap_or(candidate.wrong);
         let close = |next: &Candidate| next.may(goal) && next.is_close(candidate.cycles);
         let sure = !plan.is_made_small() && !known.first().is_some_and(close);
         if expected <= goal && kept.is_none() && sure {
@@ -274,119 +229,4 @@ fn quickest(
         }
     }
     Ok(best.map(|(chosen, _)| chosen))
-}
-
-/// Whether a format is of those that are looked at first.
-fn is_short(format: Format) -> bool {
-    matches!(format, Format::Log { .. }) || (1..=16).contains(&format.bits())
-}
-
-/// Whether it is one of those that only have more bits behind the point than another.
-fn is_finer(format: Format) -> bool {
-    matches!(format, Format::Log { frac: 11.., .. })
-}
-
-fn is_log(candidate: &Candidate) -> bool {
-    matches!(candidate.target.runtime.real, Format::Log { .. })
-}
-
-/// The least that wider formats take: what those of 16 bits with a fixed point do, as each
-/// operation takes longer in more bits; 0 where their pictures are so wrong that they may be
-/// made by other turns of loops.
-fn least_of_wider(candidates: &[Candidate]) -> f64 {
-    let alike = |one: &&Candidate| one.target.runtime.real.is_fixed() && one.wrong <= ALIKE;
-    let alike = candidates.iter().filter(alike);
-    alike.map(|one| one.cycles).reduce(f64::min).unwrap_or(0.0)
-}
-
-/// Of these formats those that a scene compiles for, in which its program is not by far too
-/// large, and of which something is known: sorted.
-fn candidates(
-    screen: &ScreenArgs,
-    scene: &Scene,
-    formats: &[&'static Target],
-    goal: f64,
-) -> Vec<Candidate> {
-    let (_waiting, _blind) = (Waiting::new("formats"), interrupt::blind());
-    let sampled = |&target: &&'static Target| {
-        let mut plan = screen.unsearched(scene, target).ok()?;
-        plan.lean = plan.target.lean == Lean::Calls;
-        let near = need::first(&plan).ok()?.is_none_or(|need| need.is_near());
-        near.then(|| {
-            let seen = estimate::sampled(&plan, CANDIDATE.0, CANDIDATE.1);
-            (plan, seen)
-        })
-    };
-    let all: Vec<(PlannedScene, Sampled)> = formats.par_iter().filter_map(sampled).collect();
-    // All look at the same pixels, as far as they come.
-    let longest = all.iter().max_by_key(|(_, seen)| seen.inks.len());
-    let native = longest.map_or(Vec::new(), |(plan, seen)| native(scene, plan, &seen.inks));
-    let candidate = |(plan, seen): &(PlannedScene, Sampled)| {
-        Some(Candidate {
-            target: plan.target,
-            rows: plan.rows,
-            cycles: seen.cycles(),
-            wrong: unlike((&seen.inks, seen.of), &native)?,
-        })
-    };
-    let mut all: Vec<Candidate> = all.iter().filter_map(candidate).collect();
-    sort(&mut all, goal);
-    all
-}
-
-/// Those that may be within the goal come first, the quickest before the others; then those with
-/// fewest pixels wrong.
-fn sort(all: &mut [Candidate], goal: f64) {
-    all.sort_by(|a, b| match (a.may(goal), b.may(goal)) {
-        (true, true) => a.cycles.total_cmp(&b.cycles),
-        (false, false) => a.wrong.total_cmp(&b.wrong),
-        (a, b) => b.cmp(&a),
-    });
-}
-
-/// The share of a plan's pixels whose inks are not the native ones, by a sample.
-fn expected(scene: &Scene, plan: &PlannedScene) -> Option<f64> {
-    let (_waiting, _blind) = (Waiting::new("pixels"), interrupt::blind());
-    let (inks, of) = estimate::inks(plan, FINAL.0, FINAL.1 / PARTS as u64, PARTS);
-    unlike((&inks, of), &native(scene, plan, &inks))
-}
-
-/// The native inks of a sample, each by itself, since nothing is sent to it by others; of as
-/// many as take no more work than is worth it.
-fn native(scene: &Scene, plan: &PlannedScene, seen: &[Inked]) -> Vec<Option<u8>> {
-    // What compiles for the machine compiles natively.
-    let Ok(graph) = scene.graph(Some(plan.mode.inks), Precision::NATIVE) else {
-        return Vec::new();
-    };
-    let mut graph = pixel_blocks(&graph, plan.graph.image.block);
-    graph.diffusion = None;
-    // Rows are shared out among threads, each with its part of the work.
-    let rows: Vec<&[Inked]> = seen.chunk_by(|a, b| a.1 == b.1).collect();
-    let part = rows.len().div_ceil(PARTS).max(1);
-    let known: Vec<Vec<Option<u8>>> = rows
-        .par_chunks(part)
-        .map(|rows| {
-            let mut native = Native::within(&graph, NATIVE / PARTS as u64);
-            let mut inks = Vec::new();
-            for row in rows {
-                let columns: Vec<i32> = row.iter().map(|(x, _, _)| *x as i32).collect();
-                let mut pixels = Vec::new();
-                native.scattered(&columns, row[0].1 as i32, &mut pixels);
-                let known = !native.spent();
-                inks.extend(pixels.iter().map(|pixel| known.then_some(pixel.ink)));
-            }
-            inks
-        })
-        .collect();
-    known.concat()
-}
-
-/// The share of a sample's inks that are others than those; none where too few are known.
-fn unlike((seen, of): (&[Inked], usize), native: &[Option<u8>]) -> Option<f64> {
-    let pairs = seen.iter().zip(native);
-    let pairs = pairs.filter_map(|((_, _, ink), native)| Some((*ink, (*native)?)));
-    let (known, wrong) = pairs.fold((0, 0), |(known, wrong), (ink, native)| {
-        (known + 1, wrong + usize::from(ink != native))
-    });
-    (known > 0 && known * ENOUGH >= of).then(|| wrong as f64 / known as f64)
 }

@@ -12,7 +12,7 @@ mod rom;
 pub use rom::fit_rom;
 
 use crate::failure::{Failure, Outcome};
-use crate::need::{Need, about, need, room};
+use crate::need::{Need, about, need, room_in};
 use forms::Fitted;
 use slowlight_compiler::backend::mos6502::DISC_PAGE;
 use slowlight_compiler::fuel::Fuel;
@@ -118,9 +118,8 @@ fn beyond_in<'n>(
     large: &[Large],
 ) -> Option<Need> {
     let least = others.min_by_key(|need| need.total())?;
-    let mut plan = large.iter().find_map(|large| large.plan.clone())?;
-    plan.mode = mode;
-    let need = least.in_room(room(&plan)?);
+    let plan = large.iter().find_map(|large| large.plan.as_ref())?;
+    let need = least.in_room(room_in(plan, mode)?);
     need.exceeds(32).then_some(need)
 }
 

@@ -16,7 +16,8 @@ use slowlight_compiler::backend::mos6502;
 use slowlight_compiler::fuel::Fuel;
 use slowlight_compiler::ir::tree::walk;
 use slowlight_compiler::plan::Plan;
-use slowlight_compiler::targets::{Language, System};
+use slowlight_compiler::planner::PlannedScene;
+use slowlight_compiler::targets::{Language, Mode, System};
 use slowlight_vm::bbc::Dialect;
 use slowlight_vm::hack::vm::Heap;
 use slowlight_vm::mos6502::extent;
@@ -202,6 +203,13 @@ pub fn room(plan: &Plan) -> Option<u64> {
         None if is_assembly(plan) => Some(mos6502::bytes_of_room(plan)),
         None => (plan.target.system == System::Hack).then_some(HEAP),
     }
+}
+
+/// The same in another mode.
+pub fn room_in(plan: &PlannedScene, mode: Mode) -> Option<u64> {
+    let mut plan = plan.clone();
+    plan.mode = mode;
+    room(&plan)
 }
 
 /// The same where it is enough to know whether the machine holds it: of machine code as it is

@@ -149,7 +149,10 @@ impl ScreenArgs {
     }
 
     /// The modes to try: the one asked for, else the best first.
-    fn modes(&self, target: &'static Target, scene: &Scene) -> Outcome<Vec<Mode>> {
+    ///
+    /// # Errors
+    /// Where the target has no mode of that name.
+    pub fn modes(&self, target: &'static Target, scene: &Scene) -> Outcome<Vec<Mode>> {
         let Some(name) = &self.mode else {
             let (width, height) = scene.size();
             return Ok(targets::modes_for(target, width, height, scene.inks()));

@@ -173,6 +173,21 @@ fn an_edited_program_keeps_its_format() {
     }
 }
 
+/// Without a search a torus is too large for a mode of a BBC Micro in any format.
+#[test]
+fn what_another_mode_has_room_for_is_looked_at() {
+    let dir = directory(&[("torus.scn", include_str!("../../examples/torus.scn"))]);
+    let run = |more: &[&str]| {
+        let rows = ["--rows", "120..123"];
+        let all = [&rows[..], more].concat();
+        ran(dir.path(), "torus.scn", "6502:bbc", &all)
+    };
+    let (usual, exact) = (run(&[]), run(&["--format", "fixed16.16"]));
+    assert_eq!(usual["format"], "fixed16");
+    assert!(wrong(&usual) <= 0.01, "{usual}");
+    assert!(3 * cycles(&usual) < cycles(&exact), "{usual} {exact}");
+}
+
 /// Of pixels that take longer than anybody looks nothing is claimed; and the looking ends.
 #[test]
 fn what_nobody_looked_at_is_not_said_to_be_right() {

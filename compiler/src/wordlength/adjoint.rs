@@ -316,13 +316,25 @@ fn between(own: f64, [less, more]: [f64; 2]) -> Bounds {
     }
 }
 
+/// The power [`REST`] of what is not below 0.
+fn rest(of: f64) -> f64 {
+    of.sqrt().sqrt().sqrt()
+}
+
+/// The power 1 - [`REST`].
+fn but_rest(of: f64) -> f64 {
+    let half = of.sqrt();
+    let quarter = half.sqrt();
+    half * quarter * quarter.sqrt()
+}
+
 /// Of a factor of a product that keeps to bounds. The larger may be cut to a few times what
 /// both may be; the smaller to half of itself.
 fn factor(k: usize, own: f64, other: f64, within: Bounds) -> Bounds {
     let [less, more] = times(own * other, within);
     let larger = own.abs() > other.abs() || own.abs() == other.abs() && k == 0;
     let of_smaller = match less > 0.0 {
-        true => less.powf(REST).max(0.5),
+        true => rest(less).max(0.5),
         false => 0.0,
     };
     let less = match (larger, less > 0.0) {
@@ -336,13 +348,13 @@ fn factor(k: usize, own: f64, other: f64, within: Bounds) -> Bounds {
 /// Of what is divided, where the quotient keeps to bounds: cut, it makes it smaller.
 fn dividend(own: f64, other: f64, within: Bounds) -> Bounds {
     let [less, more] = times(own / other, within);
-    between(own, [less.powf(1.0 - REST), more.powf(REST)])
+    between(own, [but_rest(less), rest(more)])
 }
 
 /// Of what divides: cut, it makes the quotient larger.
 fn divisor(own: f64, other: f64, within: Bounds) -> Bounds {
     let [less, more] = times(other / own, within);
-    between(own, [more.powf(REST - 1.0), less.powf(-REST)])
+    between(own, [but_rest(more).recip(), rest(less).recip()])
 }
 
 /// Of one of two, the greater of which is the result.

@@ -62,7 +62,8 @@ struct Collector<'g> {
     ranges: &'g Ranges,
     runtime: &'g Runtime,
     rates: Rates,
-    /// What hangs on counters alone.
+    /// What hangs on counters alone, and is no polynomial in them: those are for
+    /// [`super::polynomials`].
     on_counters: Vec<bool>,
     /// What has factors that do, as polynomials in these and in others.
     polys: Vec<Option<Poly>>,
@@ -78,10 +79,16 @@ impl<'g> Collector<'g> {
             ranges,
             runtime,
             rates: rates(graph),
-            on_counters: on_counters(graph)?,
+            on_counters: Vec::new(),
             polys: Vec::with_capacity(graph.nodes.len()),
             users: vec![Vec::new(); graph.nodes.len()],
         };
+        let counted = counted(graph).into_iter();
+        let on = on_counters(graph)?.into_iter();
+        made.on_counters = on
+            .zip(counted)
+            .map(|(on, counted)| on && !counted)
+            .collect();
         for id in graph.ids() {
             let poly = made.poly(id);
             made.polys.push(poly);
@@ -237,6 +244,24 @@ impl<'g> Collector<'g> {
             .sum();
         sum.is_finite() && (sum <= LARGER * most || sum * self.runtime.real.epsilon() <= SOUND)
     }
+}
+
+/// Of each value whether it is a polynomial in counters, or in others that loops carry.
+fn counted(graph: &Graph) -> Vec<bool> {
+    let mut counted: Vec<bool> = Vec::with_capacity(graph.nodes.len());
+    for id in graph.ids() {
+        let of = |id: NodeId| counted[id.0 as usize];
+        counted.push(match graph.node(id) {
+            Node::Const(_) | Node::Carried { .. } => true,
+            Node::Apply(op, _) => {
+                let reals = matches!(op, Op::Add | Op::Sub | Op::Mul | Op::Neg | Op::ToReal);
+                let ints = matches!(op, Op::IntAdd | Op::IntSub | Op::IntMul | Op::IntNeg);
+                (reals || ints) && graph.node(id).operands().all(of)
+            }
+            _ => false,
+        });
+    }
+    counted
 }
 
 struct Emit<'b> {

@@ -16,7 +16,7 @@ use crate::targets::mos6502::PLAIN;
 fn least(number: &str, runtime: &'static Runtime) -> Analysed {
     let source = format!(
         "image 24 x 16 inks black, white;
-         fn at(k: real) -> vec3 = (0.3 * k, 1 - 0.2 * k, sin(40deg * k));
+         fn at(k: real) -> vec3 = (cos(70deg * k), 1 - sin(20deg * k), sin(40deg * k));
          draw (x, y) = {{
            let r = pinhole((2, 1.5, 3), at: (0, 0, 0), field: 50deg).through(x, y);
            let t = loop (k = 0, t = 9.0) max 8 {{
@@ -80,6 +80,11 @@ fn what_is_no_shorter_or_loses_digits_is_left_alone() {
     };
     assert!(is_left("dot(p, r.dir)", MICRO.runtime));
     assert!(is_left("sqrt(abs(r.dir.x)) * p.x", MICRO.runtime));
+    // A polynomial in the counter.
+    assert!(is_left(
+        "(2 + 0.1 * k) * (r.dir.x + 0.3 * k) * (r.dir.y - 0.2 * k)",
+        MICRO.runtime
+    ));
     // A small difference of large numbers: of reals of few bits, nothing would be left of it.
     let far = "dot(r.at(2) + (9, 9, 9) - (p + (9, 9, 9)), cross(r.dir, q - p))";
     assert!(!is_left(far, MICRO.runtime));

@@ -1,0 +1,186 @@
+//! The formats that a choice is made among, each judged by a plan without a search and a sample of
+//! its pixels.
+
+use crate::estimate::{self, Inked, Sampled};
+use crate::interrupt;
+use crate::need::{self, Need};
+use crate::progress::Waiting;
+use crate::scene::{Precision, Scene};
+use crate::target_args::ScreenArgs;
+use rayon::prelude::*;
+use slowlight_compiler::eval::native::Native;
+use slowlight_compiler::passes::pixel_blocks::pixel_blocks;
+use slowlight_compiler::planner::PlannedScene;
+use slowlight_compiler::targets::{Lean, Target};
+use slowlight_routine::Format;
+
+/// Rows and columns of a candidate's sample and of its final plan's, and how many statements the
+/// model may run for each.
+const CANDIDATE: (u32, u64) = (36, 8_000_000);
+const FINAL: (u32, u64) = (64, 16_000_000);
+
+/// How many operations the native evaluation of a sample may take.
+const NATIVE: u64 = 200_000_000;
+
+/// In so many parts it is done at the same time.
+const PARTS: usize = 2;
+
+/// Of a sample one pixel in so many must have been looked at, or nothing is known.
+const ENOUGH: usize = 8;
+
+/// How much further than the goal a candidate may go: its final plan may be better, and the
+/// sample is small.
+const DOUBT: f64 = 1.5;
+
+/// Where no more of the pixels are wrong, they are made in the same way.
+const ALIKE: f64 = 0.1;
+
+/// A candidate that takes no more than so many times as much without a search may be the quicker
+/// one after it.
+const CLOSE: f64 = 1.25;
+
+/// A format as its plan without a search has it.
+pub(super) struct Candidate {
+    pub target: &'static Target,
+    /// Of the picture, first and last, that the screen shows.
+    pub rows: (u32, u32),
+    /// What its program takes of the machine.
+    pub size: u64,
+    pub cycles: f64,
+    pub wrong: f64,
+}
+
+impl Candidate {
+    /// Whether its plan may be within the goal.
+    pub fn may(&self, goal: f64) -> bool {
+        self.wrong <= DOUBT * goal
+    }
+
+    /// Whether it may be quicker in the end than what takes so many cycles without a search.
+    pub fn is_close(&self, unsearched: f64) -> bool {
+        self.cycles < CLOSE * unsearched
+    }
+}
+
+/// Whether a format is of those that are looked at first.
+pub(super) fn is_short(format: Format) -> bool {
+    matches!(format, Format::Log { .. }) || (1..=16).contains(&format.bits())
+}
+
+/// Whether it is one of those that only have more bits behind the point than another.
+pub(super) fn is_finer(format: Format) -> bool {
+    matches!(format, Format::Log { frac: 11.., .. })
+}
+
+pub(super) fn is_log(candidate: &Candidate) -> bool {
+    matches!(candidate.target.runtime.real, Format::Log { .. })
+}
+
+/// The least that wider formats take: what those of 16 bits with a fixed point do, as each
+/// operation takes longer in more bits; 0 where their pictures are so wrong that they may be
+/// made by other turns of loops.
+pub(super) fn least_of_wider(candidates: &[Candidate]) -> f64 {
+    let alike = |one: &&Candidate| one.target.runtime.real.is_fixed() && one.wrong <= ALIKE;
+    let alike = candidates.iter().filter(alike);
+    alike.map(|one| one.cycles).reduce(f64::min).unwrap_or(0.0)
+}
+
+/// Of these formats those that a scene compiles for, in which its program is not by far too
+/// large, and of which something is known: sorted.
+pub(super) fn candidates(
+    screen: &ScreenArgs,
+    scene: &Scene,
+    formats: &[&'static Target],
+    goal: f64,
+) -> Vec<Candidate> {
+    let (_waiting, _blind) = (Waiting::new("formats"), interrupt::blind());
+    let sampled = |&target: &&'static Target| {
+        let mut plan = screen.unsearched(scene, target).ok()?;
+        plan.lean = plan.target.lean == Lean::Calls;
+        let modes = screen.modes(target, scene).ok()?;
+        let need = need::first(&plan).ok()?;
+        // Another mode may leave it more.
+        let rooms = modes.iter().filter_map(|mode| need::room_in(&plan, *mode));
+        let room = rooms.max().unwrap_or_default();
+        let near = |need: &Need| need.is_near() || need.in_room(room).is_near();
+        need.as_ref().is_none_or(near).then(|| {
+            let seen = estimate::sampled(&plan, CANDIDATE.0, CANDIDATE.1);
+            (plan, need.map_or(0, |need| need.total()), seen)
+        })
+    };
+    let all: Vec<(PlannedScene, u64, Sampled)> = formats.par_iter().filter_map(sampled).collect();
+    // All look at the same pixels, as far as they come.
+    let longest = all.iter().max_by_key(|(.., seen)| seen.inks.len());
+    let native = longest.map_or(Vec::new(), |(plan, _, seen)| {
+        native(scene, plan, &seen.inks)
+    });
+    let candidate = |(plan, size, seen): &(PlannedScene, u64, Sampled)| {
+        Some(Candidate {
+            target: plan.target,
+            rows: plan.rows,
+            size: *size,
+            cycles: seen.cycles(),
+            wrong: unlike((&seen.inks, seen.of), &native)?,
+        })
+    };
+    let mut all: Vec<Candidate> = all.iter().filter_map(candidate).collect();
+    sort(&mut all, goal);
+    all
+}
+
+/// Those that may be within the goal come first, the quickest before the others; then those with
+/// fewest pixels wrong.
+pub(super) fn sort(all: &mut [Candidate], goal: f64) {
+    all.sort_by(|a, b| match (a.may(goal), b.may(goal)) {
+        (true, true) => a.cycles.total_cmp(&b.cycles),
+        (false, false) => a.wrong.total_cmp(&b.wrong),
+        (a, b) => b.cmp(&a),
+    });
+}
+
+/// The share of a plan's pixels whose inks are not the native ones, by a sample.
+pub(super) fn expected(scene: &Scene, plan: &PlannedScene) -> Option<f64> {
+    let (_waiting, _blind) = (Waiting::new("pixels"), interrupt::blind());
+    let (inks, of) = estimate::inks(plan, FINAL.0, FINAL.1 / PARTS as u64, PARTS);
+    unlike((&inks, of), &native(scene, plan, &inks))
+}
+
+/// The native inks of a sample, each by itself, since nothing is sent to it by others; of as
+/// many as take no more work than is worth it.
+fn native(scene: &Scene, plan: &PlannedScene, seen: &[Inked]) -> Vec<Option<u8>> {
+    // What compiles for the machine compiles natively.
+    let Ok(graph) = scene.graph(Some(plan.mode.inks), Precision::NATIVE) else {
+        return Vec::new();
+    };
+    let mut graph = pixel_blocks(&graph, plan.graph.image.block);
+    graph.diffusion = None;
+    // Rows are shared out among threads, each with its part of the work.
+    let rows: Vec<&[Inked]> = seen.chunk_by(|a, b| a.1 == b.1).collect();
+    let part = rows.len().div_ceil(PARTS).max(1);
+    let known: Vec<Vec<Option<u8>>> = rows
+        .par_chunks(part)
+        .map(|rows| {
+            let mut native = Native::within(&graph, NATIVE / PARTS as u64);
+            let mut inks = Vec::new();
+            for row in rows {
+                let columns: Vec<i32> = row.iter().map(|(x, _, _)| *x as i32).collect();
+                let mut pixels = Vec::new();
+                native.scattered(&columns, row[0].1 as i32, &mut pixels);
+                let known = !native.spent();
+                inks.extend(pixels.iter().map(|pixel| known.then_some(pixel.ink)));
+            }
+            inks
+        })
+        .collect();
+    known.concat()
+}
+
+/// The share of a sample's inks that are others than those; none where too few are known.
+fn unlike((seen, of): (&[Inked], usize), native: &[Option<u8>]) -> Option<f64> {
+    let pairs = seen.iter().zip(native);
+    let pairs = pairs.filter_map(|((_, _, ink), native)| Some((*ink, (*native)?)));
+    let (known, wrong) = pairs.fold((0, 0), |(known, wrong), (ink, native)| {
+        (known + 1, wrong + usize::from(ink != native))
+    });
+    (known > 0 && known * ENOUGH >= of).then(|| wrong as f64 / known as f64)
+}
