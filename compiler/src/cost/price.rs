@@ -40,6 +40,8 @@ const COLUMNS_LOOKED_AT: u32 = 80;
 pub struct Price {
     runtime: &'static Runtime,
     memory: f64,
+    /// Whether loop-invariant code is moved in the end.
+    hoists: bool,
     /// The pixels that are looked at.
     pixels: Arc<Pixels>,
 }
@@ -50,7 +52,16 @@ impl Price {
         Price {
             runtime,
             memory: budget.part(),
+            hoists: true,
             pixels,
+        }
+    }
+
+    /// The same where loop-invariant code stays where it is.
+    pub fn without_hoisting(self) -> Price {
+        Price {
+            hoists: false,
+            ..self
         }
     }
 
@@ -169,7 +180,10 @@ impl Price {
                 });
                 let sum = self.run(plan, &meter, still);
                 let weight = self.pixels.weight();
-                hoisted = spared(plan, &meter, &beside) / weight;
+                // Of runs whose inks are known before, it is not computed at most pixels.
+                if self.hoists && still.is_none() && sum.is_some() {
+                    hoisted = spared(plan, &meter, &beside) / weight;
+                }
                 sum.map_or_else(|| guess(&plan.tree.pixel), |sum| sum / weight)
             }
         };

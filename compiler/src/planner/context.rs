@@ -144,7 +144,11 @@ impl Context {
 
     /// Prices for plans of the scene, where memory is as dear as that.
     pub fn price(&self, budget: SizeBudget) -> Price {
-        Price::new(self.runtime, self.pixels(), budget)
+        let price = Price::new(self.runtime, self.pixels(), budget);
+        match self.pipeline.without.has(Pass::Licm) {
+            true => price.without_hoisting(),
+            false => price,
+        }
     }
 
     /// How many statements may be run to place points.

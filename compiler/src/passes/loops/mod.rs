@@ -2,6 +2,8 @@
 
 pub mod bypass;
 pub mod collect;
+#[cfg(test)]
+mod drawn;
 pub mod guard;
 #[cfg(test)]
 mod guard_tests;

@@ -2,12 +2,9 @@
 #![allow(clippy::unwrap_used)]
 
 use super::*;
-use crate::eval::native::Native;
+use crate::passes::loops::drawn::{analysed, products, shades};
 use crate::passes::loops::induction_tables::induction_tables;
-use crate::planner::context::Context;
-use crate::scene;
 use crate::schedule::analysed::Analysed;
-use crate::sema::Options;
 use crate::targets::bbc::MICRO;
 use crate::targets::mos6502::PLAIN;
 
@@ -26,29 +23,12 @@ fn least(number: &str, runtime: &'static Runtime) -> Analysed {
            threshold(t / 9, 0.5)
          }};"
     );
-    let checked = scene::check("test", &source);
-    assert!(checked.is_right(), "{source}: {:?}", checked.diagnostics);
-    let graph = checked.lower(&Options::default()).unwrap();
-    Context::new(graph.clone(), runtime).simplified(&graph)
+    analysed(&source, runtime)
 }
 
-/// Products of reals at each turn, once what hangs on the counter is in tables.
-fn products(graph: &Graph) -> usize {
-    let graph = induction_tables(graph, 2).unwrap();
-    let (reached, rates) = (graph.reached(), rates(&graph));
-    let counts = |id: &NodeId| {
-        let mut by = rates.rate(*id).iter();
-        let in_loop = by.any(|by| matches!(by, Dependence::Loop(_)));
-        let is_product = matches!(graph.node(*id), Node::Apply(Op::Mul, _));
-        reached[id.0 as usize] && in_loop && is_product
-    };
-    graph.ids().filter(counts).count()
-}
-
-fn shades(graph: &Graph) -> Vec<f64> {
-    let mut native = Native::new(graph);
-    let places = (0..16).flat_map(|y| (0..24).map(move |x| (x, y)));
-    places.map(|(x, y)| native.pixel(x, y).shade).collect()
+/// Products at each turn, once what hangs on the counter is in tables.
+fn left(graph: &Graph) -> usize {
+    products(&induction_tables(graph, 2).unwrap())
 }
 
 #[test]
@@ -64,7 +44,7 @@ fn what_hangs_on_the_counter_stands_together() {
     ] {
         let plain = least(number, MICRO.runtime);
         let next = collected(&plain.graph, &plain.ranges, MICRO.runtime).unwrap();
-        let found = (products(&plain.graph), products(&next));
+        let found = (left(&plain.graph), left(&next));
         assert_eq!(found, (before, after), "{number}");
         for (old, new) in shades(&plain.graph).into_iter().zip(shades(&next)) {
             assert!((old - new).abs() < 1e-9, "{number}: {old} {new}");

@@ -2,11 +2,8 @@
 #![allow(clippy::unwrap_used)]
 
 use super::*;
-use crate::eval::native::Native;
-use crate::planner::context::Context;
-use crate::scene;
+use crate::passes::loops::drawn::{analysed, products, shades};
 use crate::schedule::analysed::Analysed;
-use crate::sema::Options;
 use crate::targets::bbc::MICRO;
 
 /// A march along a ray by a distance `d` of a point `p`.
@@ -23,34 +20,11 @@ fn marched(d: &str, far: &str) -> Analysed {
            threshold(t / 9, 0.5)
          }};"
     );
-    let checked = scene::check("test", &source);
-    assert!(checked.is_right(), "{source}: {:?}", checked.diagnostics);
-    let graph = checked.lower(&Options::default()).unwrap();
-    Context::new(graph.clone(), MICRO.runtime).simplified(&graph)
+    analysed(&source, MICRO.runtime)
 }
 
 fn put(plain: &Analysed) -> Option<Graph> {
     polynomials(&plain.graph, &plain.ranges, MICRO.runtime)
-}
-
-/// Products of reals at each turn.
-fn products(graph: &Graph) -> usize {
-    let (reached, rates) = (graph.reached(), rates(graph));
-    let counts = |id: &NodeId| {
-        let in_loop = rates
-            .rate(*id)
-            .iter()
-            .any(|by| matches!(by, Dependence::Loop(_)));
-        let is_product = matches!(graph.node(*id), Node::Apply(Op::Mul, _));
-        reached[id.0 as usize] && in_loop && is_product
-    };
-    graph.ids().filter(counts).count()
-}
-
-fn shades(graph: &Graph) -> Vec<f64> {
-    let mut native = Native::new(graph);
-    let places = (0..16).flat_map(|y| (0..24).map(move |x| (x, y)));
-    places.map(|(x, y)| native.pixel(x, y).shade).collect()
 }
 
 #[test]
