@@ -70,6 +70,7 @@ impl WayArgs {
             search: self.hits,
             differences: self.differences,
             samples: self.samples,
+            unbounded: false,
         }
     }
 

@@ -122,7 +122,7 @@ impl ScreenArgs {
         Limits {
             turns: self.max_turns,
             steps: self.max_steps,
-            ways: self.ways.ways(),
+            ways: self.passes.ways(self.ways.ways(), self.as_written),
         }
     }
 

@@ -2,6 +2,7 @@
 
 use clap::Args;
 use slowlight_compiler::planner::pipeline::{PASSES, Pass, PassSet};
+use slowlight_compiler::sema::Ways;
 
 /// Passes that are left out.
 #[derive(Args, Clone, Debug, Default)]
@@ -20,6 +21,14 @@ impl PassArgs {
         let after = self.stop_after.map(PassSet::after).unwrap_or_default();
         let all = self.without_pass.iter();
         all.fold(after, |all, pass| all.with(*pass))
+    }
+
+    /// Ways, without what passes before the planner's find where those are left out.
+    pub fn ways(&self, ways: Ways, as_written: bool) -> Ways {
+        Ways {
+            unbounded: as_written || self.left_out().has(Pass::Bounds),
+            ..ways
+        }
     }
 }
 

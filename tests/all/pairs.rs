@@ -8,12 +8,14 @@ const HEAD: &str = "image 32 x 24 inks black, #555555, #aaaaaa, white;\n";
 
 /// What rows 13 to 15 of a scene take, without what it does before.
 fn cycles(scene: &str, target: &str) -> f64 {
+    cycles_with(scene, target, &[])
+}
+
+fn cycles_with(scene: &str, target: &str, options: &[&str]) -> f64 {
     let dir = directory(&[("scene.scn", scene)]);
     let run = |rows: &str| {
-        let said = json(
-            dir.path(),
-            &["run", "scene.scn", "-t", target, "--rows", rows, "--json"],
-        );
+        let args = ["run", "scene.scn", "-t", target, "--rows", rows, "--json"];
+        let said = json(dir.path(), &[&args, options].concat());
         assert_eq!(said["differs_from_model"], 0, "{target}:\n{scene}");
         said["cycles"].as_f64().unwrap()
     };
@@ -164,8 +166,12 @@ fn steps_end_where_nothing_farther_is_asked_for() {
         )
     };
     for target in ["jack", "6502:plain", "bbc:micro"] {
-        let [near, far] = ["5", "900"].map(|far| cycles(&scene(far), target));
+        let everywhere = ["--without-pass", "bounds"];
+        let [near, far] = ["5", "900"].map(|far| cycles_with(&scene(far), target, &everywhere));
         assert!(near < 0.8 * far, "{target}: {near} {far}");
+        // Nor where the shape is known not to be.
+        let in_its_box = cycles(&scene("900"), target);
+        assert!(in_its_box < 0.8 * near, "{target}: {in_its_box} {near}");
     }
     // What is hit first is as good as an end.
     is_as_quick(

@@ -81,6 +81,16 @@ impl Builder {
             .unwrap_or(Node::Undefined(Type::Real))
     }
 
+    /// Where a node stands, if there is such a one.
+    pub fn find(&self, node: &Node) -> Option<NodeId> {
+        self.known.get(node).copied()
+    }
+
+    /// A live param's scalar.
+    pub fn param_of(&self, id: ParamId) -> Option<&Param> {
+        self.params.get(id.0 as usize)
+    }
+
     /// A loop, which is whole once it is closed.
     pub fn loop_of(&self, id: LoopId) -> Option<&Loop> {
         self.loops.get(id.0 as usize)

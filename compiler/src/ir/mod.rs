@@ -3,7 +3,10 @@
 
 pub mod build;
 pub mod diffusion;
+pub mod enclosure;
+pub mod extent;
 pub mod graph;
+pub(crate) mod interval;
 pub mod node;
 mod notes;
 pub mod often;

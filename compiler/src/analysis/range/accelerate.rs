@@ -5,8 +5,8 @@
 //! that lies outside of what was given before. Turns walked with bounds that hold narrow them.
 
 use super::Walk;
-use super::interval::interval;
 use crate::ir::graph::*;
+use crate::ir::interval::interval;
 use crate::ir::tree::*;
 use rustc_hash::FxHashMap;
 use slowlight_routine::{Op, Range, Type};

@@ -1,8 +1,8 @@
 //! Conditional range analysis: ranges of a run of operations under more than is known everywhere.
 
-use super::interval::interval;
 use super::{Ranges, Slack};
 use crate::ir::graph::*;
+use crate::ir::interval::interval;
 use rustc_hash::FxHashMap;
 use slowlight_routine::{Range, Runtime};
 

@@ -3,9 +3,9 @@
 //! and Puget, Revising hull and box consistency, ICLP 1999). A loop that ends where the sum
 //! of some squares is above 4 carries no more than 2 in each of them.
 
-use super::interval::interval;
 use super::refine::Narrowing;
 use crate::ir::graph::*;
+use crate::ir::interval::interval;
 use slowlight_routine::{Op, Range, Type};
 
 /// How many steps from a result down to what it is made of are gone.

@@ -3,8 +3,8 @@
 //! it is not too far, the distance from there is no longer than from there.
 
 use super::Walk;
-use super::interval::interval;
 use crate::ir::graph::*;
+use crate::ir::interval::interval;
 use crate::ir::tree::Place;
 use slowlight_routine::Range;
 

@@ -14,7 +14,6 @@ mod contract;
 mod fresh;
 #[cfg(test)]
 mod hold_tests;
-pub(crate) mod interval;
 mod known;
 mod loops;
 #[cfg(test)]
@@ -27,6 +26,7 @@ mod slack;
 mod trust;
 
 use crate::ir::graph::*;
+use crate::ir::interval::interval;
 use crate::ir::ramp;
 use crate::ir::tree::*;
 
@@ -36,7 +36,6 @@ use accelerate::Growth;
 use around::Around;
 pub use assuming::assuming;
 use fresh::Fresh;
-use interval::interval;
 use known::known;
 pub(crate) use known::shared;
 #[cfg(test)]

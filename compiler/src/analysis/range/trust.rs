@@ -2,8 +2,8 @@
 //! they are made of.
 
 use super::Walk;
-use super::interval::interval;
 use crate::ir::graph::*;
+use crate::ir::interval::interval;
 use crate::ir::tree::Statement;
 use slowlight_routine::{Op, Range};
 use std::collections::BTreeSet;
@@ -99,6 +99,9 @@ impl Walk<'_> {
     /// nothing is known.
     pub(super) fn part_of_length(&self, id: NodeId, exact: Range) -> Range {
         match self.graph.node(id) {
+            Node::Apply(Op::Div, [part, whole]) if self.is_share(part, whole) => {
+                exact.meet(Range::new(0.0, 1.0))
+            }
             _ if !self.slack.relative => exact,
             Node::Apply(Op::Div, [part, length]) if self.has_part(length, part) => {
                 let most = self.most_of_length(part);
@@ -113,6 +116,17 @@ impl Walk<'_> {
                 shorter.map_or(exact, |shorter| exact.meet(shorter))
             }
             _ => exact,
+        }
+    }
+
+    /// Whether a value is one of two terms of a sum, neither of which is negative.
+    fn is_share(&self, part: NodeId, whole: NodeId) -> bool {
+        let no_negative = |id: NodeId| self.read(id).lo >= 0.0;
+        match self.graph.node(whole) {
+            Node::Apply(Op::Add, [a, b]) => {
+                (a == part || b == part) && no_negative(a) && no_negative(b)
+            }
+            _ => false,
         }
     }
 

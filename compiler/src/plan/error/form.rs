@@ -1,6 +1,6 @@
 //! Affine error forms: how far a value is off, to first order and with proof.
 
-use crate::analysis::range::interval::product;
+use crate::ir::interval::product;
 use slowlight_routine::Range;
 
 /// A rounding that was made once, on the way to a value.

@@ -7,7 +7,7 @@
 
 use super::Value;
 use super::form::Form;
-use crate::analysis::range::interval::{interval, product};
+use crate::ir::interval::{interval, product};
 use slowlight_routine::{Op, Range};
 use std::f64::consts::{FRAC_PI_2, PI};
 

@@ -3,10 +3,10 @@
 use super::form::{Form, Source};
 use super::rules::inherited;
 use super::{Bound, Bounds, Tile, Value};
-use crate::analysis::range::interval::interval;
 use crate::analysis::range::refine::{Conditions, Known, restore};
 use crate::analysis::range::{Slack, shared};
 use crate::ir::graph::*;
+use crate::ir::interval::interval;
 use crate::ir::ramp;
 use crate::ir::tree::*;
 use crate::plan::Plan;

@@ -9,6 +9,7 @@
 //! **Invariant**: whatever the program, this ends: items form no cycles (the
 //! checker saw to it), and steps, depth and nodes are counted.
 
+mod bounds;
 mod call;
 mod claims;
 mod compact;
@@ -29,10 +30,12 @@ mod tables;
 mod value;
 mod ways;
 
+pub use bounds::{Bounded, extents};
 pub use params::params;
 pub use ways::{Millionths, Search, Ways};
 
 use crate::ir::build::Builder;
+use crate::ir::extent::Extent;
 use crate::ir::graph::{Axis, Graph, Image, NodeId};
 use crate::sema::program::*;
 use crate::sema::ty::Ty;
@@ -140,6 +143,8 @@ struct Lower<'a> {
     loops: u32,
     /// What stands for the point where a facet is read as a formula.
     markers: Option<derive::Markers>,
+    /// The boxes of formulas, by their roots and levels.
+    extents: FxHashMap<(NodeId, u64), Extent>,
     /// What the points of hits lie on, by their coordinates.
     surfaces: FxHashMap<Vec<NodeId>, leaving::Surface>,
     /// Above 0 where only constants may come out.
@@ -178,19 +183,6 @@ pub fn lower(program: &Program, options: &Options) -> Result<Graph, Vec<Diagnost
     }
 }
 
-/// The palette on a screen of `inks` inks: evenly, first and last kept.
-fn thin(palette: &[[u8; 3]], inks: Option<u32>) -> Vec<[u8; 3]> {
-    let have = palette.len();
-    let want = inks.map_or(have, |n| (n as usize).clamp(2, have.max(2)));
-    if want >= have {
-        return palette.to_vec();
-    }
-    let at = |k: usize| (2 * k * (have - 1) + (want - 1)) / (2 * (want - 1));
-    (0..want)
-        .filter_map(|k| palette.get(at(k)).copied())
-        .collect()
-}
-
 impl<'a> Lower<'a> {
     fn new(program: &'a Program, options: &'a Options, image: &crate::sema::Image) -> Lower<'a> {
         Lower {
@@ -205,7 +197,7 @@ impl<'a> Lower<'a> {
                 block: (1, 1),
                 width: image.width,
                 height: image.height,
-                palette: thin(&image.palette, options.inks),
+                palette: params::thin(&image.palette, options.inks),
             },
             params: Vec::new(),
             consts: FxHashMap::default(),
@@ -214,6 +206,7 @@ impl<'a> Lower<'a> {
             tables: tables::Made::default(),
             loops: 0,
             markers: None,
+            extents: FxHashMap::default(),
             surfaces: FxHashMap::default(),
             constant: 0,
             choices: 0,

@@ -12,6 +12,19 @@ use slowlight_routine::{Op, Range, Type, Value};
 
 const COMPONENTS: [&str; 3] = ["x", "y", "z"];
 
+/// The palette on a screen of `inks` inks: evenly, first and last kept.
+pub(super) fn thin(palette: &[[u8; 3]], inks: Option<u32>) -> Vec<[u8; 3]> {
+    let have = palette.len();
+    let want = inks.map_or(have, |n| (n as usize).clamp(2, have.max(2)));
+    if want >= have {
+        return palette.to_vec();
+    }
+    let at = |k: usize| (2 * k * (have - 1) + (want - 1)) / (2 * (want - 1));
+    (0..want)
+        .filter_map(|k| palette.get(at(k)).copied())
+        .collect()
+}
+
 impl<'a> Lower<'a> {
     /// Names in the options that the scene does not have.
     pub(super) fn check_options(&self, place: Span) -> Result<(), Vec<Diagnostic>> {

@@ -16,7 +16,7 @@ const MOST_STEPS: u32 = 65535;
 
 impl<'a> Lower<'a> {
     /// A scene's shapes, made once.
-    fn shapes_of(&mut self, id: SceneId, span: Span) -> Found<Vec<Rc<Shape>>> {
+    pub(super) fn shapes_of(&mut self, id: SceneId, span: Span) -> Found<Vec<Rc<Shape>>> {
         if let Some(found) = self.scenes.get(&id) {
             return Ok(found.clone());
         }
@@ -196,12 +196,30 @@ impl<'a> Lower<'a> {
     /// Sphere tracing in so many steps, until so near, and so far: the hit's normal and tag are those of the shape nearest
     /// to the point where it stops.
     fn march(&mut self, id: SceneId, ray: Val, how: Vec<Val>, ty: &Ty, span: Span) -> Found<Val> {
-        let mut args = vec![Val::Scene(id), ray.clone()];
-        args.extend(how);
-        let (present, t) = match self.library("marched", Ty::Scene(None), args, span)? {
-            Val::Optional { present, value } => (present, (*value).clone()),
-            _ => return Err(self.confused(span)),
+        let [steps, near, far] = <[Val; 3]>::try_from(how).map_err(|_| self.confused(span))?;
+        let near = self.node(near, &Ty::Real, span)?;
+        let far = self.node(far, &Ty::Real, span)?;
+        let shapes = self.shapes_of(id, span)?;
+        let stretch = match self.b.value(near) {
+            Some(near) => self.stretch_of_any(&shapes, &ray, (near.real(), far), span)?,
+            None => None,
         };
+        let (start, far) = match stretch {
+            Some(on) => (on.near, on.far),
+            None => (self.real(0.0, span), far),
+        };
+        let args = [Val::Node(start), steps, Val::Node(near), Val::Node(far)];
+        let args = [Val::Scene(id), ray.clone()].into_iter().chain(args);
+        let found = self.library("marched", Ty::Scene(None), args.collect(), span)?;
+        let Val::Optional { present, value } = found else {
+            return Err(self.confused(span));
+        };
+        let (mut present, t) = (present, (*value).clone());
+        if let Some(on) = stretch {
+            let is_met = self.scalar(BinaryOp::Le, &Ty::Real, on.near, on.far, span)?;
+            let no = self.bool(false, span);
+            present = self.select(is_met, present, no, span);
+        }
         let along = t.clone();
         let point = self.later("point", move |l| l.along(&ray, along, span));
         let at = point.clone();

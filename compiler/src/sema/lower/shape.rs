@@ -13,6 +13,7 @@ use crate::sema::program::*;
 use crate::sema::ty::Ty;
 use crate::source::Span;
 use crate::syntax::tree::BinaryOp;
+use slowlight_routine::Op;
 use std::rc::Rc;
 
 /// How far shapes that have nothing but `dist` are looked for.
@@ -38,7 +39,7 @@ pub(super) struct Solution {
 }
 
 impl<'a> Lower<'a> {
-    fn shape_name(&self, shape: &Shape) -> String {
+    pub(super) fn shape_name(&self, shape: &Shape) -> String {
         let found = self.program.shapes.get(shape.id.0);
         found.map_or_else(String::new, |s| s.name.clone())
     }
@@ -59,7 +60,7 @@ impl<'a> Lower<'a> {
         found.is_some_and(|s| s.facets.iter().any(|f| f.kind == kind))
     }
 
-    fn facet_of(
+    pub(super) fn facet_of(
         &mut self,
         shape: &Rc<Shape>,
         kind: FacetKind,
@@ -183,12 +184,23 @@ impl<'a> Lower<'a> {
         let bound = |l: &mut Self| l.facet_of(shape, FacetKind::Bound, Vec::new(), span);
         if self.approached(shape)? {
             let reach = reach.unwrap_or_else(|| self.real(f64::MAX, span));
-            let (name, bound) = match bound(self)? {
-                Some(bound) => ("approach_in", bound),
-                None => ("approach_up_to", Val::Node(self.real(REACH, span))),
+            if let Some(bound) = bound(self)? {
+                let args = vec![itself, ray, bound, Val::Node(reach)];
+                return self.library("approach_in", Ty::Shape, args, span);
+            }
+            let most = self.real(REACH, span);
+            let far = self.apply(Op::Min, &[reach, most], span)?;
+            return match self.stretch_of(shape, &ray, far, span)? {
+                None => {
+                    let start = Val::Node(self.real(0.0, span));
+                    let args = vec![itself, ray, start, Val::Node(far)];
+                    self.library("approach", Ty::Shape, args, span)
+                }
+                Some(on) => {
+                    let args = vec![itself, ray, Val::Node(on.near), Val::Node(on.far)];
+                    self.library("approach_on", Ty::Shape, args, span)
+                }
             };
-            let args = vec![itself, ray, bound, Val::Node(reach)];
-            return self.library(name, Ty::Shape, args, span);
         }
         if let Some(t) = self.facet(shape, FacetKind::Hit, ray.clone(), span)? {
             return Ok(t);
@@ -196,18 +208,27 @@ impl<'a> Lower<'a> {
         if let Some(t) = self.derived_root(shape, &ray, span)? {
             return Ok(t);
         }
-        let Some(bound) = bound(self)? else {
+        let steps = match self.facet_of(shape, FacetKind::Steps, Vec::new(), span)? {
+            Some(steps) => steps,
+            None => Val::Node(self.int(STEPS, span)),
+        };
+        if let Some(bound) = bound(self)? {
+            return self.library(
+                "search_in",
+                Ty::Shape,
+                vec![itself, ray, bound, steps],
+                span,
+            );
+        }
+        let Some(on) = self.stretch_across(shape, &ray, span)? else {
             let name = self.shape_name(shape);
             let error = self.error(span, format!("nothing says where to look for `{name}`"));
             return Err(Box::new(error.help(
                 "give the shape a finite `bound = box(..);`, or its own `hit(r) = ..`",
             )));
         };
-        let steps = match self.facet_of(shape, FacetKind::Steps, Vec::new(), span)? {
-            Some(steps) => steps,
-            None => Val::Node(self.int(STEPS, span)),
-        };
-        self.library("search", Ty::Shape, vec![itself, bound, ray, steps], span)
+        let args = vec![itself, ray, Val::Node(on.near), Val::Node(on.far), steps];
+        self.library("search_on", Ty::Shape, args, span)
     }
 
     /// The point of a hit: the solution's own, else that of the ray.

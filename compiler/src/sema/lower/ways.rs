@@ -42,4 +42,6 @@ pub struct Ways {
     pub differences: Option<Millionths>,
     /// How many rays a pixel has at most, where the library draws it by several.
     pub samples: Option<u32>,
+    /// Rays are followed from end to end, whatever is known of where shapes are.
+    pub unbounded: bool,
 }

@@ -2,6 +2,7 @@
 #![allow(clippy::unwrap_used)]
 
 mod any;
+mod bounds;
 mod hard;
 mod pictures;
 

@@ -1,0 +1,293 @@
+//! Bounding volumes derived from distances: rays are followed only where they are within them.
+//!
+//! Outside of its shape's box a distance is proved to be above 0 ([`extent`]), so nothing can be
+//! hit there: a ray that misses the box is not followed, one that meets it begins where it enters
+//! and ends where it leaves (slabs; Kay and Kajiya, Ray Tracing Complex Scenes, SIGGRAPH 1986). A
+//! box may be open: ground is below a plane, a field of columns below its tops. Params are
+//! anywhere in their ranges. What a scene says in `bound` is believed, too.
+
+use super::value::{Shape, Val};
+use super::{Found, Lower, Options};
+use crate::ir::enclosure::Enclosure;
+use crate::ir::extent::{Extent, extent};
+use crate::ir::graph::NodeId;
+use crate::sema::program::*;
+use crate::sema::ty::Ty;
+use crate::source::{Diagnostic, Span};
+use crate::syntax::tree::BinaryOp;
+use slowlight_routine::Op;
+use std::rc::Rc;
+
+/// How many nodes are evaluated for a shape's box at most.
+const WORK: u64 = 400_000;
+
+/// A shape's surface is where its distance is below this, at least; and that far outside of
+/// their boxes rays begin.
+const LEVEL: f64 = 1.0 / 1024.0;
+
+/// By what part of their width boxes are made larger, for the roundings of rays.
+const ROOM: f64 = 1.0 / 1024.0;
+
+/// How many boxes a scene's rays are tested with at most.
+const BOXES: usize = 3;
+
+/// A stretch of a ray: from where to where; none of it where it ends before it begins.
+#[derive(Clone, Copy)]
+pub(super) struct Stretch {
+    pub(super) near: NodeId,
+    pub(super) far: NodeId,
+}
+
+/// Where one of a scene's shapes is, as far as its `dist` or else its `f` tells.
+#[derive(Clone, Debug)]
+pub struct Bounded {
+    /// What the shape is called.
+    pub name: String,
+    /// The scene's member.
+    pub span: Span,
+    /// Its box, if a face of it is known.
+    pub extent: Option<Extent>,
+}
+
+/// The boxes of all shapes of all scenes of a program that was checked without errors.
+///
+/// # Errors
+/// What does not lower.
+pub fn extents(program: &Program, options: &Options) -> Result<Vec<Bounded>, Vec<Diagnostic>> {
+    let Some(image) = &program.image else {
+        return Ok(Vec::new());
+    };
+    let mut said = Vec::new();
+    let mut lower = Lower::new(program, options, image);
+    lower.declare_params(&mut said);
+    if !said.is_empty() {
+        return Err(said);
+    }
+    let mut found = Vec::new();
+    for (k, scene) in program.scenes.iter().enumerate() {
+        let shapes = lower.shapes_of(SceneId(k), scene.span);
+        let shapes = shapes.map_err(|e| vec![*e])?;
+        for (shape, member) in shapes.iter().zip(&scene.members) {
+            let span = member.shape.value.span;
+            found.push(Bounded {
+                name: lower.shape_name(shape),
+                span,
+                extent: lower.derived(shape, 0.0, span).map_err(|e| vec![*e])?,
+            });
+        }
+    }
+    Ok(found)
+}
+
+impl Lower<'_> {
+    /// A box outside of which a shape's distance, or else its `f`, is above `level`, by what is
+    /// derived and by what the scene says; none where not one of its faces is known, or nobody
+    /// wants to know.
+    fn extent_of(&mut self, shape: &Rc<Shape>, level: f64, span: Span) -> Found<Option<Extent>> {
+        if self.options.ways.unbounded {
+            return Ok(None);
+        }
+        let derived = self.derived(shape, level, span)?;
+        let said = match self.bound_of(shape, span)? {
+            Some(bound) => self.derived(&bound, level, span)?,
+            None => None,
+        };
+        Ok(match (derived, said) {
+            (Some(derived), Some(said)) => Some(derived.meet(said)),
+            (derived, said) => derived.or(said),
+        })
+    }
+
+    fn derived(&mut self, shape: &Rc<Shape>, level: f64, span: Span) -> Found<Option<Extent>> {
+        // A shape made of shapes may have a facet that those do not.
+        let mut of = |kind| self.formula(shape, kind, span).ok().flatten();
+        let formula = of(FacetKind::Dist).or_else(|| of(FacetKind::Implicit));
+        let level = level.max(2.0 * self.options.offset).max(LEVEL);
+        let Some(formula) = formula else {
+            return Ok(None);
+        };
+        let key = (formula.root, level.to_bits());
+        let found = match self.extents.get(&key) {
+            Some(found) => *found,
+            None => {
+                let mut enclosure = Enclosure::new(&self.b, formula.markers, formula.root, WORK);
+                let found = extent(&mut enclosure, level);
+                self.extents.insert(key, found);
+                found
+            }
+        };
+        Ok((found != Extent::ALL).then_some(found))
+    }
+
+    fn bound_of(&mut self, shape: &Rc<Shape>, span: Span) -> Found<Option<Rc<Shape>>> {
+        match self.facet_of(shape, FacetKind::Bound, Vec::new(), span)? {
+            Some(Val::Shape(bound)) => Ok(Some(bound)),
+            _ => Ok(None),
+        }
+    }
+
+    /// Where a ray is within a box.
+    fn within(&mut self, of: Extent, ray: &Val, span: Span) -> Found<Stretch> {
+        let of = of.grown(ROOM, LEVEL.max(2.0 * self.options.offset));
+        let from = self.part(ray.clone(), 0, span)?;
+        let dir = self.part(ray.clone(), 1, span)?;
+        let (from, dir) = (self.vector(from, 3, span)?, self.vector(dir, 3, span)?);
+        let mut found: Option<Stretch> = None;
+        for (k, (from, dir)) in from.into_iter().zip(dir).enumerate() {
+            let Some(here) = self.between((of.low[k], of.high[k]), from, dir, span)? else {
+                continue;
+            };
+            found = Some(match found {
+                Some(so_far) => self.meet_stretches(so_far, here, span)?,
+                None => here,
+            });
+        }
+        found.ok_or_else(|| self.confused(span))
+    }
+
+    /// Where one coordinate of a ray is between two faces; none if both are at infinity.
+    fn between(
+        &mut self,
+        (low, high): (f64, f64),
+        from: NodeId,
+        dir: NodeId,
+        span: Span,
+    ) -> Found<Option<Stretch>> {
+        let (name, gap, more) = match (low.is_finite(), high.is_finite()) {
+            (false, false) => return Ok(None),
+            (true, true) => {
+                let middle = self.real((low + high) / 2.0, span);
+                let half = self.real((high - low) / 2.0, span);
+                let gap = self.scalar(BinaryOp::Sub, &Ty::Real, middle, from, span)?;
+                ("between_faces", gap, vec![dir, half])
+            }
+            (false, true) => {
+                let high = self.real(high, span);
+                let gap = self.scalar(BinaryOp::Sub, &Ty::Real, high, from, span)?;
+                ("before_face", gap, vec![dir])
+            }
+            (true, false) => {
+                let low = self.real(low, span);
+                let gap = self.scalar(BinaryOp::Sub, &Ty::Real, from, low, span)?;
+                ("before_face", gap, vec![self.apply(Op::Neg, &[dir], span)?])
+            }
+        };
+        let is_along = self.b.value(dir).is_some_and(|dir| dir.real() == 0.0);
+        let (name, args) = match (is_along, more.get(1)) {
+            (false, _) => (name, [vec![gap], more].concat()),
+            (true, Some(half)) => {
+                let away = self.apply(Op::Abs, &[gap], span)?;
+                let inside = self.scalar(BinaryOp::Le, &Ty::Real, away, *half, span)?;
+                ("along_faces", vec![inside])
+            }
+            (true, None) => {
+                let zero = self.real(0.0, span);
+                let inside = self.scalar(BinaryOp::Le, &Ty::Real, zero, gap, span)?;
+                ("along_faces", vec![inside])
+            }
+        };
+        let args = args.into_iter().map(Val::Node).collect();
+        let chord = self.library(name, if is_along { Ty::Bool } else { Ty::Real }, args, span)?;
+        let near = self.part(chord.clone(), 0, span)?;
+        let far = self.part(chord, 1, span)?;
+        Ok(Some(Stretch {
+            near: self.node(near, &Ty::Real, span)?,
+            far: self.node(far, &Ty::Real, span)?,
+        }))
+    }
+
+    fn meet_stretches(&mut self, a: Stretch, b: Stretch, span: Span) -> Found<Stretch> {
+        Ok(Stretch {
+            near: self.apply(Op::Max, &[a.near, b.near], span)?,
+            far: self.apply(Op::Min, &[a.far, b.far], span)?,
+        })
+    }
+
+    /// From the beginning of the first to the end of the last.
+    fn join_stretches(&mut self, a: Stretch, b: Stretch, span: Span) -> Found<Stretch> {
+        let has_a = self.scalar(BinaryOp::Le, &Ty::Real, a.near, a.far, span)?;
+        let has_b = self.scalar(BinaryOp::Le, &Ty::Real, b.near, b.far, span)?;
+        let near = self.apply(Op::Min, &[a.near, b.near], span)?;
+        let far = self.apply(Op::Max, &[a.far, b.far], span)?;
+        let both = |l: &mut Self, both, one, other| {
+            let with_a = l.select(has_b, both, one, span);
+            l.select(has_a, with_a, other, span)
+        };
+        Ok(Stretch {
+            near: both(self, near, a.near, b.near),
+            far: both(self, far, a.far, b.far),
+        })
+    }
+
+    /// Where a ray ahead of it, as far as `far`, may meet a shape that is found by its distance
+    /// alone; none where nothing is known of that.
+    pub(super) fn stretch_of(
+        &mut self,
+        shape: &Rc<Shape>,
+        ray: &Val,
+        far: NodeId,
+        span: Span,
+    ) -> Found<Option<Stretch>> {
+        let Some(of) = self.extent_of(shape, 0.0, span)? else {
+            return Ok(None);
+        };
+        let within = self.within(of, ray, span)?;
+        self.ahead(within, far, span).map(Some)
+    }
+
+    /// Where a ray ahead of it is in a shape's box; none where that is open.
+    pub(super) fn stretch_across(
+        &mut self,
+        shape: &Rc<Shape>,
+        ray: &Val,
+        span: Span,
+    ) -> Found<Option<Stretch>> {
+        let of = self.derived(shape, 0.0, span)?;
+        let Some(of) = of.filter(Extent::is_finite) else {
+            return Ok(None);
+        };
+        let far = self.real(f64::MAX, span);
+        let within = self.within(of, ray, span)?;
+        self.ahead(within, far, span).map(Some)
+    }
+
+    fn ahead(&mut self, of: Stretch, far: NodeId, span: Span) -> Found<Stretch> {
+        let near = self.real(0.0, span);
+        self.meet_stretches(of, Stretch { near, far }, span)
+    }
+
+    /// The same of one of a scene's shapes, whichever, where distances below `near` are hits.
+    pub(super) fn stretch_of_any(
+        &mut self,
+        shapes: &[Rc<Shape>],
+        ray: &Val,
+        (near, far): (f64, NodeId),
+        span: Span,
+    ) -> Found<Option<Stretch>> {
+        let mut closed: Option<Extent> = None;
+        let mut boxes = Vec::new();
+        for shape in shapes {
+            match self.extent_of(shape, near, span)? {
+                None => return Ok(None),
+                Some(of) if of.is_finite() => {
+                    closed = Some(closed.map_or(of, |so_far| so_far.join(of)));
+                }
+                Some(of) => boxes.push(of),
+            }
+        }
+        boxes.extend(closed);
+        if boxes.len() > BOXES {
+            return Ok(None);
+        }
+        let mut found: Option<Stretch> = None;
+        for of in boxes {
+            let here = self.within(of, ray, span)?;
+            let here = self.ahead(here, far, span)?;
+            found = Some(match found {
+                Some(so_far) => self.join_stretches(so_far, here, span)?,
+                None => here,
+            });
+        }
+        Ok(found)
+    }
+}
