@@ -18,6 +18,12 @@ const SILENCE: Duration = Duration::from_secs(1);
 /// All lines that are shown.
 static LINES: LazyLock<MultiProgress> = LazyLock::new(MultiProgress::new);
 
+/// Says a line above what is shown, on a terminal; nothing elsewhere.
+pub fn say(line: &str) {
+    // That a line could not be written is nothing that the work hangs on.
+    let _ = LINES.println(line);
+}
+
 /// How far some work has come; may be shared between threads.
 pub struct Progress {
     bar: ProgressBar,

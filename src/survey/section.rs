@@ -137,6 +137,12 @@ fn notes(told: &Told<'_>) -> Vec<String> {
             others.join("; ")
         ));
     }
+    let foreseen = told.found.foreseen.len();
+    if foreseen > 0 {
+        notes.push(format!(
+            "Left out by what formats and settings are by themselves: {foreseen}."
+        ));
+    }
     let looked = told.found.left.len();
     if looked > 0 {
         notes.push(format!("Left out after three bands of rows: {looked}."));

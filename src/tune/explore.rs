@@ -3,16 +3,17 @@
 use super::bands;
 use super::cache::Cache;
 use super::choice::{Base, Choice, Setting};
-use super::goal::Measure;
+use super::foresee::{Foreseen, is_first};
+use super::goal::{Measure, percent};
 use super::planned::Planned;
 use super::point::{self, Natives, Point};
 use super::rows::{self, Look};
 use super::settings::{Drafted, Drafts, worthwhile};
 use crate::failure::{Failure, Outcome};
-use crate::format::count;
+use crate::format::{count, duration};
 use crate::jobs;
 use crate::measure::Errors;
-use crate::progress::Progress;
+use crate::progress::{self, Progress};
 use crate::scene::Scene;
 use serde::{Deserialize, Serialize};
 use slowlight_compiler::planner::THRIFTS;
@@ -45,6 +46,14 @@ impl Search {
         (self.limit, self.by_line)
     }
 
+    /// Says on a terminal what a choice comes to as soon as that is known.
+    fn tell(&self, choice: &Choice, look: &Look, about: &str) {
+        let time = duration(look.cycles / self.base.hertz());
+        let (error, phrase) = (percent(look.error), self.measure.phrase());
+        let options = self.base.words(choice).join(" ");
+        progress::say(&format!("{about}{time}, {error} {phrase}: {options}"));
+    }
+
     /// What the figures of a choice depend on: its options, and when a machine is given up.
     fn words(&self, choice: &Choice) -> Vec<String> {
         let mut words = self.base.words(choice);
@@ -65,6 +74,8 @@ pub struct Found {
     pub drafted: Vec<Drafted>,
     /// Operations of the scene as written, in `f64`.
     pub whole_work: u64,
+    /// Choices that others are expected to beat clearly, by figures of other choices.
+    pub foreseen: Vec<(Choice, Look)>,
     /// Choices that others clearly beat on some rows, and what these said.
     pub left: Vec<(Choice, Look)>,
     /// Choices that cannot be had, and why.
@@ -111,29 +122,50 @@ pub fn explore(search: &Search, found: &Arc<Mutex<Found>>) -> Outcome<()> {
     words.push(base.changes.text());
     let work = || worthwhile(&scenes.live, &natives, inks, &error, search.settings);
     let drafts: Drafts = (search.cache).known_or(&scenes.live, base.target, &words, work)?;
-    let choices = choices(search, &scenes, &drafts.chosen);
+    let settings: Vec<Setting> = drafts.chosen.iter().map(|d| d.setting).collect();
+    let (whole, others): (Vec<Choice>, Vec<Choice>) =
+        (choices(search, &scenes, &settings).into_iter()).partition(is_first);
     note(found, |f| {
-        f.tried = choices.len();
-        (f.drafted, f.whole_work) = (drafts.left, drafts.whole_work);
+        f.tried = whole.len() + others.len();
+        (f.drafted, f.whole_work) = (drafts.left.clone(), drafts.whole_work);
     });
-    let progress = Progress::new("choices", 2 * choices.len() as u64);
-    let first = jobs::each(&choices, |choice| {
-        let begun = begun(search, scenes.of(choice), &natives, choice)?;
-        // What takes long is there a second time.
-        progress.step(if matches!(begun.first, First::Rows(_)) {
-            1
-        } else {
-            2
-        });
-        match &begun.first {
-            First::Whole(point) => note(found, |f| f.points.push((**point).clone())),
-            First::Not(why) => note(found, |f| f.failed.push((choice.clone(), why.clone()))),
-            First::Rows(_) => {}
-        }
-        Ok(begun)
-    })?;
-    // What cannot be had is told; all else ends the search.
-    let first: Vec<Begun> = first.into_iter().collect::<Outcome<_>>()?;
+    let begin = |choices: &[Choice], progress: &Progress| {
+        let begun = jobs::each(choices, |choice| {
+            let begun = begun(search, scenes.of(choice), &natives, choice)?;
+            // What takes long is there a second time.
+            progress.step(if matches!(begun.first, First::Rows(_)) {
+                1
+            } else {
+                2
+            });
+            match &begun.first {
+                First::Whole(point) => {
+                    search.tell(choice, &Look::of(point, measure), "");
+                    note(found, |f| f.points.push((**point).clone()));
+                }
+                First::Not(why) => note(found, |f| f.failed.push((choice.clone(), why.clone()))),
+                First::Rows(look) => search.tell(choice, look, "about "),
+            }
+            Ok(begun)
+        })?;
+        // What cannot be had is told; all else ends the search.
+        begun.into_iter().collect::<Outcome<Vec<Begun>>>()
+    };
+    let progress = Progress::new("formats", 2 * whole.len() as u64);
+    let mut first = begin(&whole, &progress)?;
+    drop(progress);
+    let looked = |(choice, begun): (_, &Begun)| Some((choice, begun.first.look(measure)?));
+    let (others, beaten) = Foreseen {
+        known: whole.iter().zip(&first).filter_map(looked).collect(),
+        drafts: &drafts,
+        measure,
+    }
+    .sifted(others);
+    note(found, |f| f.foreseen = beaten);
+    let long = first.iter().filter(|b| matches!(b.first, First::Rows(_)));
+    let progress = Progress::new("choices", (2 * others.len() + long.count()) as u64);
+    first.extend(begin(&others, &progress)?);
+    let choices = [whole, others].concat();
     let looks: Vec<Option<Look>> = first.iter().map(|b| b.first.look(measure)).collect();
     let beaten = |look: &Look| {
         looks
@@ -168,6 +200,9 @@ pub fn explore(search: &Search, found: &Arc<Mutex<Found>>) -> Outcome<()> {
         let work = || tried(search, scene, &natives, choice, plan);
         let tried: Tried = search.cache.known_or(scene, base.target, &words, work)?;
         progress.step(1);
+        if let Ok(point) = &tried {
+            search.tell(choice, &Look::of(point, measure), "");
+        }
         note(found, |f| match tried {
             Ok(point) => f.points.push(point),
             Err(why) => f.failed.push((choice.clone(), why)),

@@ -9,8 +9,9 @@
 //! goes on ([`explore`]):
 //! 1. every setting is drawn in `f64`, which says what is lost by the setting alone, and
 //!    counts operations;
-//! 2. those left are planned, in each format; what takes long is run on some rows of the
-//!    picture first ([`rows`]);
+//! 2. the whole picture is planned in each format, and then what is left of settings in
+//!    formats, as far as these let one expect that nothing clearly beats it ([`foresee`]); what
+//!    takes long is run on some rows of the picture first ([`rows`]);
 //! 3. those that nothing clearly beats there are run whole, and held against the native
 //!    picture.
 //!
@@ -20,6 +21,7 @@ pub mod bands;
 pub mod cache;
 pub mod choice;
 pub mod explore;
+pub mod foresee;
 pub mod goal;
 pub mod marks;
 pub mod page;

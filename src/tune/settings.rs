@@ -40,7 +40,7 @@ const CLEARLY: f64 = 0.9;
 #[derive(Clone, Debug, Default, Serialize, Deserialize)]
 pub struct Drafts {
     /// What is worth a machine's time.
-    pub chosen: Vec<Setting>,
+    pub chosen: Vec<Drafted>,
     /// What is not: others clearly beat it, or are like it and take less work.
     pub left: Vec<Drafted>,
     /// Operations of the scene as written.
@@ -91,7 +91,7 @@ pub fn worthwhile(
     let chosen = spread(kept(all.clone(), error), error, most);
     let whole = all.iter().find(|one| one.setting == Setting::WHOLE);
     let whole_work = whole.map_or(0, |one| one.work);
-    all.retain(|one| !chosen.contains(&one.setting));
+    all.retain(|one| !chosen.contains(one));
     Ok(Drafts {
         chosen,
         left: all,
@@ -235,7 +235,7 @@ fn kept(all: Vec<Drafted>, error: &dyn Fn(&Errors) -> f64) -> Vec<Drafted> {
 }
 
 /// At most so many, evenly over the logarithm of their work; the picture as written always.
-fn spread(mut all: Vec<Drafted>, error: &dyn Fn(&Errors) -> f64, most: usize) -> Vec<Setting> {
+fn spread(mut all: Vec<Drafted>, error: &dyn Fn(&Errors) -> f64, most: usize) -> Vec<Drafted> {
     all.sort_by(|a, b| b.work.cmp(&a.work).then(a.setting.cmp(&b.setting)));
     let log = |d: &Drafted| (d.work.max(1) as f64).ln();
     // The closest pair loses the one that is further off.
@@ -260,9 +260,5 @@ fn spread(mut all: Vec<Drafted>, error: &dyn Fn(&Errors) -> f64, most: usize) ->
             all.remove(out);
         }
     }
-    let mut settings: Vec<Setting> = all.into_iter().map(|d| d.setting).collect();
-    if !settings.contains(&Setting::WHOLE) {
-        settings.insert(0, Setting::WHOLE);
-    }
-    settings
+    all
 }

@@ -182,6 +182,13 @@ impl<'a> Told<'a> {
                 })
             })
             .collect();
+        let foreseen = (self.found.foreseen.iter()).map(|(choice, look)| {
+            json!({
+                "options": self.base.words(choice).join(" "),
+                "cycles_expected": look.cycles.round(),
+                "error_expected": look.error,
+            })
+        });
         let drafts = (self.found.drafted.iter()).map(|draft| {
             json!({
                 "options": self.base.setting(&draft.setting).join(" "),
@@ -216,6 +223,7 @@ impl<'a> Told<'a> {
             },
             "points": points,
             "left_after_drafts": drafts,
+            "left_after_formats": foreseen.collect::<Vec<Value>>(),
             "left_after_rows": left,
             "failed": failed.collect::<Vec<Value>>(),
             "chosen": chosen.map(|p| self.base.words(&p.choice).join(" ")),

@@ -75,10 +75,10 @@ impl Code<'_> {
             return self.text.code(&from(0));
         }
         let n = self.text.next_serial();
-        self.text.code(&format!("lda {x}+1 | bne right{n}"));
+        self.text.code(&format!("lda {x}+1 | bne beyond{n}"));
         self.text.code(&from(0));
         self.text.code(&format!("jmp column{n}"));
-        self.text.label(&format!("right{n}"));
+        self.text.label(&format!("beyond{n}"));
         self.text.code(&from(NEAR));
         self.text.label(&format!("column{n}"));
     }

@@ -155,3 +155,34 @@ impl Names {
         name
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use crate::targets;
+    use slowlight_routine::Source;
+
+    /// The words of labels that are numbered as they come, in the code of a graph.
+    const NUMBERED: [&str; 15] = [
+        "after", "beyond", "column", "done", "else", "end", "go", "loop", "low", "moved", "out",
+        "palette", "param", "run", "still",
+    ];
+
+    #[test]
+    fn no_runtime_has_a_label_that_is_a_numbered_one() {
+        let all = targets::TARGETS.iter().chain(targets::OTHER_FORMATS);
+        let all = all.flat_map(|target| target.runtime.parts);
+        let mut seen = 0;
+        for part in all {
+            let Source::Text(text) = part.source else {
+                continue;
+            };
+            for line in text.lines().filter(|line| line.contains(':')) {
+                let label = line.split(':').next().unwrap_or_default();
+                let word = label.trim_end_matches(|c: char| c.is_ascii_digit());
+                seen += usize::from(word != label);
+                assert!(word == label || !NUMBERED.contains(&word), "{label}");
+            }
+        }
+        assert!(seen > 20, "{seen} labels end in a number");
+    }
+}
