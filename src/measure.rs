@@ -48,7 +48,7 @@ pub fn psnr(rmse: f64) -> Option<f64> {
 }
 
 /// How far a machine's picture is from the native one of the same pixels.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Errors {
     /// Pixels counted.
     pub count: u64,

@@ -28,9 +28,6 @@ const LEVEL: f64 = 1.0 / 1024.0;
 /// By what part of their width boxes are made larger, for the roundings of rays.
 const ROOM: f64 = 1.0 / 1024.0;
 
-/// How many boxes a scene's rays are tested with at most.
-const BOXES: usize = 3;
-
 /// A stretch of a ray: from where to where; none of it where it ends before it begins.
 #[derive(Clone, Copy)]
 pub(super) struct Stretch {
@@ -102,7 +99,7 @@ impl Lower<'_> {
         // A shape made of shapes may have a facet that those do not.
         let mut of = |kind| self.formula(shape, kind, span).ok().flatten();
         let formula = of(FacetKind::Dist).or_else(|| of(FacetKind::Implicit));
-        let level = level.max(2.0 * self.options.offset).max(LEVEL);
+        let level = self.level(level);
         let Some(formula) = formula else {
             return Ok(None);
         };
@@ -126,9 +123,13 @@ impl Lower<'_> {
         }
     }
 
-    /// Where a ray is within a box.
-    fn within(&mut self, of: Extent, ray: &Val, span: Span) -> Found<Stretch> {
-        let of = of.grown(ROOM, LEVEL.max(2.0 * self.options.offset));
+    fn level(&self, asked: f64) -> f64 {
+        asked.max(2.0 * self.options.offset).max(LEVEL)
+    }
+
+    /// Where a ray is within a box of a level, or that far outside.
+    fn within(&mut self, of: Extent, level: f64, ray: &Val, span: Span) -> Found<Stretch> {
+        let of = of.grown(ROOM, self.level(level));
         let from = self.part(ray.clone(), 0, span)?;
         let dir = self.part(ray.clone(), 1, span)?;
         let (from, dir) = (self.vector(from, 3, span)?, self.vector(dir, 3, span)?);
@@ -203,22 +204,6 @@ impl Lower<'_> {
         })
     }
 
-    /// From the beginning of the first to the end of the last.
-    fn join_stretches(&mut self, a: Stretch, b: Stretch, span: Span) -> Found<Stretch> {
-        let has_a = self.scalar(BinaryOp::Le, &Ty::Real, a.near, a.far, span)?;
-        let has_b = self.scalar(BinaryOp::Le, &Ty::Real, b.near, b.far, span)?;
-        let near = self.apply(Op::Min, &[a.near, b.near], span)?;
-        let far = self.apply(Op::Max, &[a.far, b.far], span)?;
-        let both = |l: &mut Self, both, one, other| {
-            let with_a = l.select(has_b, both, one, span);
-            l.select(has_a, with_a, other, span)
-        };
-        Ok(Stretch {
-            near: both(self, near, a.near, b.near),
-            far: both(self, far, a.far, b.far),
-        })
-    }
-
     /// Where a ray ahead of it, as far as `far`, may meet a shape that is found by its distance
     /// alone; none where nothing is known of that.
     pub(super) fn stretch_of(
@@ -231,7 +216,7 @@ impl Lower<'_> {
         let Some(of) = self.extent_of(shape, 0.0, span)? else {
             return Ok(None);
         };
-        let within = self.within(of, ray, span)?;
+        let within = self.within(of, 0.0, ray, span)?;
         self.ahead(within, far, span).map(Some)
     }
 
@@ -247,7 +232,7 @@ impl Lower<'_> {
             return Ok(None);
         };
         let far = self.real(f64::MAX, span);
-        let within = self.within(of, ray, span)?;
+        let within = self.within(of, 0.0, ray, span)?;
         self.ahead(within, far, span).map(Some)
     }
 
@@ -256,38 +241,26 @@ impl Lower<'_> {
         self.meet_stretches(of, Stretch { near, far }, span)
     }
 
-    /// The same of one of a scene's shapes, whichever, where distances below `near` are hits.
+    /// The same of any of a scene's shapes, where distances below `level` are hits; none where
+    /// one of them has no end: most rays that are sent there meet it.
     pub(super) fn stretch_of_any(
         &mut self,
         shapes: &[Rc<Shape>],
-        ray: &Val,
-        (near, far): (f64, NodeId),
+        level: f64,
+        (ray, far): (&Val, NodeId),
         span: Span,
     ) -> Found<Option<Stretch>> {
-        let mut closed: Option<Extent> = None;
-        let mut boxes = Vec::new();
+        let mut all: Option<Extent> = None;
         for shape in shapes {
-            match self.extent_of(shape, near, span)? {
-                None => return Ok(None),
-                Some(of) if of.is_finite() => {
-                    closed = Some(closed.map_or(of, |so_far| so_far.join(of)));
-                }
-                Some(of) => boxes.push(of),
+            match self.extent_of(shape, level, span)? {
+                Some(of) if of.is_finite() => all = Some(all.map_or(of, |all| all.join(of))),
+                _ => return Ok(None),
             }
         }
-        boxes.extend(closed);
-        if boxes.len() > BOXES {
+        let Some(all) = all else {
             return Ok(None);
-        }
-        let mut found: Option<Stretch> = None;
-        for of in boxes {
-            let here = self.within(of, ray, span)?;
-            let here = self.ahead(here, far, span)?;
-            found = Some(match found {
-                Some(so_far) => self.join_stretches(so_far, here, span)?,
-                None => here,
-            });
-        }
-        Ok(found)
+        };
+        let within = self.within(all, level, ray, span)?;
+        self.ahead(within, far, span).map(Some)
     }
 }

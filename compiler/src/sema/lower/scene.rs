@@ -199,23 +199,19 @@ impl<'a> Lower<'a> {
         let [steps, near, far] = <[Val; 3]>::try_from(how).map_err(|_| self.confused(span))?;
         let near = self.node(near, &Ty::Real, span)?;
         let far = self.node(far, &Ty::Real, span)?;
-        let shapes = self.shapes_of(id, span)?;
-        let stretch = match self.b.value(near) {
-            Some(near) => self.stretch_of_any(&shapes, &ray, (near.real(), far), span)?,
-            None => None,
-        };
-        let (start, far) = match stretch {
-            Some(on) => (on.near, on.far),
-            None => (self.real(0.0, span), far),
-        };
-        let args = [Val::Node(start), steps, Val::Node(near), Val::Node(far)];
+        let args = [steps, Val::Node(near), Val::Node(far)];
         let args = [Val::Scene(id), ray.clone()].into_iter().chain(args);
         let found = self.library("marched", Ty::Scene(None), args.collect(), span)?;
         let Val::Optional { present, value } = found else {
             return Err(self.confused(span));
         };
         let (mut present, t) = (present, (*value).clone());
-        if let Some(on) = stretch {
+        // Where a march stops hangs on its steps: those that are made are the same ones.
+        let level = self.b.value(near).map(|near| near.real());
+        let shapes = self.shapes_of(id, span)?;
+        if let Some(level) = level
+            && let Some(on) = self.stretch_of_any(&shapes, level, (&ray, far), span)?
+        {
             let is_met = self.scalar(BinaryOp::Le, &Ty::Real, on.near, on.far, span)?;
             let no = self.bool(false, span);
             present = self.select(is_met, present, no, span);
