@@ -41,6 +41,8 @@ pub struct Measured {
     pub seconds: f64,
     /// The cycles that the planner's figures predict.
     pub predicted: f64,
+    /// Those of them before the first row.
+    pub before: f64,
     /// Bytes of code, tables and memory beside, where they are known.
     pub bytes: [Option<u64>; 3],
     /// Pixels unlike the model's: 0, or something is broken.
@@ -109,6 +111,7 @@ pub fn measure(
 ) -> Outcome<Point> {
     let plan = &planned.plan;
     let predicted = estimate::cycles(plan);
+    let before = estimate::before(plan);
     let spent = match by_line {
         true => spent(scene, &planned, &base.screen(choice), limit)?,
         false => Vec::new(),
@@ -141,6 +144,7 @@ pub fn measure(
             cycles: tried.run.cycles,
             seconds: tried.seconds(),
             predicted,
+            before,
             bytes: [code, tables, ram],
             differs_from_model: tried.from_model.as_ref().map_or(0, Vec::len) as u64,
             errors,

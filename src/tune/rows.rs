@@ -29,6 +29,8 @@ const FAR: f64 = 1.5;
 pub struct Look {
     /// Cycles of the whole picture, as far as rows can say.
     pub cycles: f64,
+    /// Those of them before the first row, by the planner's figures.
+    pub before: f64,
     /// The error on the rows.
     pub error: f64,
     /// How many pixels were looked at.
@@ -40,6 +42,7 @@ impl Look {
     pub fn of(point: &Point, measure: Measure) -> Look {
         Look {
             cycles: point.measured.cycles as f64,
+            before: point.measured.before,
             error: measure.of(&point.measured.errors),
             pixels: point.measured.errors.count as f64,
         }
@@ -104,6 +107,7 @@ pub fn look(
     }
     Ok(Look {
         cycles: took / predicted.max(1.0) * estimate::cycles(plan),
+        before: estimate::before(plan),
         error: (squares / pixels.max(1.0)).powf(1.0 / power(measure)),
         pixels,
     })
@@ -159,6 +163,7 @@ mod tests {
     fn few_pixels_prove_little() {
         let look = |cycles, error, pixels| Look {
             cycles,
+            before: 0.0,
             error,
             pixels,
         };
