@@ -318,6 +318,7 @@ fn planted(block: u32, cycles: u64, pixels: u64) -> Point {
             cycles,
             seconds: cycles as f64,
             predicted: cycles as f64,
+            before: 0.0,
             bytes: [Some(100 * cycles), None, None],
             differs_from_model: 0,
             errors,
