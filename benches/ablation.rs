@@ -108,11 +108,15 @@ fn ablated(scene: &Path, target: usize) -> Option<Ablated> {
     let format = built["format"].as_str()?.to_owned();
     let passes = built["passes"].as_object()?;
     let kept = |pass: &&Pass| {
+        // What is done before there is a graph is not counted as it runs.
+        if **pass == Pass::Bounds {
+            return true;
+        }
         let count = passes.get(pass.about().0);
         // What the scene declares counts where loops are peeled, too.
         count.is_some_and(|count| count["kept"] != 0 || **pass == Pass::EarlyExit)
     };
-    let usual = build(scene, TARGETS[target], &["--format", &format])?;
+    let usual = cost(&build(scene, TARGETS[target], &["--format", &format])?)?;
     let without = PASSES.iter().filter(kept).map(|pass| {
         let args = ["--format", &format, "--without-pass", pass.about().0];
         (
@@ -120,11 +124,16 @@ fn ablated(scene: &Path, target: usize) -> Option<Ablated> {
             build(scene, TARGETS[target], &args).as_ref().and_then(cost),
         )
     });
+    let changed = |(pass, cost): &(Pass, Option<Cost>)| {
+        let same = |cost: &Cost| *pass == Pass::Bounds && cost.cycles == usual.cycles;
+        !cost.as_ref().is_some_and(same)
+    };
+    let without = without.filter(changed).collect();
     Some(Ablated {
         scene: scene.file_stem()?.to_string_lossy().into_owned(),
         target,
-        usual: cost(&usual)?,
-        without: without.collect(),
+        usual,
+        without,
     })
 }
 
