@@ -137,10 +137,10 @@ fn notes(told: &Told<'_>) -> Vec<String> {
             others.join("; ")
         ));
     }
-    let foreseen = told.found.foreseen.len();
-    if foreseen > 0 {
+    let pruned = told.found.pruned.len();
+    if pruned > 0 {
         notes.push(format!(
-            "Left out by what formats and settings are by themselves: {foreseen}."
+            "Left out by what formats and settings are by themselves: {pruned}."
         ));
     }
     let looked = told.found.left.len();

@@ -3,10 +3,10 @@
 use super::bands;
 use super::cache::Cache;
 use super::choice::{Base, Choice, Setting};
-use super::foresee::{Foreseen, is_first};
 use super::goal::{Measure, percent};
 use super::planned::Planned;
 use super::point::{self, Natives, Point};
+use super::prune::{Predictor, is_first};
 use super::rows::{self, Look};
 use super::settings::{Drafted, Drafts, worthwhile};
 use crate::failure::{Failure, Outcome};
@@ -75,7 +75,7 @@ pub struct Found {
     /// Operations of the scene as written, in `f64`.
     pub whole_work: u64,
     /// Choices that others are expected to beat clearly, by figures of other choices.
-    pub foreseen: Vec<(Choice, Look)>,
+    pub pruned: Vec<(Choice, Look)>,
     /// Choices that others clearly beat on some rows, and what these said.
     pub left: Vec<(Choice, Look)>,
     /// Choices that cannot be had, and why.
@@ -155,13 +155,13 @@ pub fn explore(search: &Search, found: &Arc<Mutex<Found>>) -> Outcome<()> {
     let mut first = begin(&whole, &progress)?;
     drop(progress);
     let looked = |(choice, begun): (_, &Begun)| Some((choice, begun.first.look(measure)?));
-    let (others, beaten) = Foreseen {
+    let (others, beaten) = Predictor {
         known: whole.iter().zip(&first).filter_map(looked).collect(),
         drafts: &drafts,
         measure,
     }
-    .sifted(others);
-    note(found, |f| f.foreseen = beaten);
+    .pruned(others);
+    note(found, |f| f.pruned = beaten);
     let long = first.iter().filter(|b| matches!(b.first, First::Rows(_)));
     let progress = Progress::new("choices", (2 * others.len() + long.count()) as u64);
     first.extend(begin(&others, &progress)?);

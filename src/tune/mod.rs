@@ -10,7 +10,7 @@
 //! 1. every setting is drawn in `f64`, which says what is lost by the setting alone, and
 //!    counts operations;
 //! 2. the whole picture is planned in each format, and then what is left of settings in
-//!    formats, as far as these let one expect that nothing clearly beats it ([`foresee`]); what
+//!    formats, as far as these let one expect that nothing clearly beats it ([`prune`]); what
 //!    takes long is run on some rows of the picture first ([`rows`]);
 //! 3. those that nothing clearly beats there are run whole, and held against the native
 //!    picture.
@@ -21,13 +21,13 @@ pub mod bands;
 pub mod cache;
 pub mod choice;
 pub mod explore;
-pub mod foresee;
 pub mod goal;
 pub mod marks;
 pub mod page;
 pub mod planned;
 pub mod plot;
 pub mod point;
+pub mod prune;
 pub mod rows;
 pub mod settings;
 pub mod spent;

@@ -254,11 +254,8 @@ fn spread(mut all: Vec<Drafted>, error: &dyn Fn(&Errors) -> f64, most: usize) ->
         // The cheapest of all stays: it is one end of what can be had.
         let last = k + 2 == all.len();
         let out = if first_is_better && !last { k + 1 } else { k };
-        if all[out].setting == Setting::WHOLE {
-            all.remove(k + 1);
-        } else {
-            all.remove(out);
-        }
+        let is_whole = all[out].setting == Setting::WHOLE;
+        all.remove(if is_whole { 2 * k + 1 - out } else { out });
     }
     all
 }

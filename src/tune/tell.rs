@@ -182,7 +182,7 @@ impl<'a> Told<'a> {
                 })
             })
             .collect();
-        let foreseen = (self.found.foreseen.iter()).map(|(choice, look)| {
+        let pruned = (self.found.pruned.iter()).map(|(choice, look)| {
             json!({
                 "options": self.base.words(choice).join(" "),
                 "cycles_expected": look.cycles.round(),
@@ -223,7 +223,7 @@ impl<'a> Told<'a> {
             },
             "points": points,
             "left_after_drafts": drafts,
-            "left_after_formats": foreseen.collect::<Vec<Value>>(),
+            "left_after_formats": pruned.collect::<Vec<Value>>(),
             "left_after_rows": left,
             "failed": failed.collect::<Vec<Value>>(),
             "chosen": chosen.map(|p| self.base.words(&p.choice).join(" ")),

@@ -92,6 +92,8 @@ impl Walk<'_> {
         }
     }
 
+    /// A term over the sum of two that are not negative is at most 1.
+    ///
     /// A part of a vector over the vector's length is at most 1, twice over for what
     /// roundings add: a quotient by the root of a sum that has the dividend's square
     /// among terms of no negative. Where squares end at the greatest value that the

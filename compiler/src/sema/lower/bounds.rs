@@ -4,22 +4,26 @@
 //! hit there: a ray that misses the box is not followed, one that meets it begins where it enters
 //! and ends where it leaves (slabs; Kay and Kajiya, Ray Tracing Complex Scenes, SIGGRAPH 1986). A
 //! box may be open: ground is below a plane, a field of columns below its tops. Params are
-//! anywhere in their ranges. What a scene says in `bound` is believed, too.
+//! anywhere in their ranges. A march that meets the box makes all of its steps, since they decide
+//! where it stops; it believes what a scene says in `bound`, too.
 
+#[cfg(test)]
+use super::Options;
 use super::value::{Shape, Val};
-use super::{Found, Lower, Options};
+use super::{Found, Lower};
 use crate::ir::enclosure::Enclosure;
 use crate::ir::extent::{Extent, extent};
 use crate::ir::graph::NodeId;
 use crate::sema::program::*;
 use crate::sema::ty::Ty;
-use crate::source::{Diagnostic, Span};
+use crate::source::Span;
 use crate::syntax::tree::BinaryOp;
 use slowlight_routine::Op;
 use std::rc::Rc;
 
-/// How many nodes are evaluated for a shape's box at most.
+/// How many nodes are evaluated at most: for a shape's box, and for all of a lowering.
 const WORK: u64 = 400_000;
+pub(super) const ALL_WORK: u64 = 10_000_000;
 
 /// A shape's surface is where its distance is below this, at least; and that far outside of
 /// their boxes rays begin.
@@ -35,42 +39,18 @@ pub(super) struct Stretch {
     pub(super) far: NodeId,
 }
 
-/// Where one of a scene's shapes is, as far as its `dist` or else its `f` tells.
-#[derive(Clone, Debug)]
-pub struct Bounded {
-    /// What the shape is called.
-    pub name: String,
-    /// The scene's member.
-    pub span: Span,
-    /// Its box, if a face of it is known.
-    pub extent: Option<Extent>,
-}
-
 /// The boxes of all shapes of all scenes of a program that was checked without errors.
-///
-/// # Errors
-/// What does not lower.
-pub fn extents(program: &Program, options: &Options) -> Result<Vec<Bounded>, Vec<Diagnostic>> {
-    let Some(image) = &program.image else {
-        return Ok(Vec::new());
-    };
-    let mut said = Vec::new();
-    let mut lower = Lower::new(program, options, image);
-    lower.declare_params(&mut said);
-    if !said.is_empty() {
-        return Err(said);
-    }
+#[cfg(test)]
+pub fn extents(program: &Program, options: &Options) -> Found<Vec<Option<Extent>>> {
     let mut found = Vec::new();
+    let Some(image) = &program.image else {
+        return Ok(found);
+    };
+    let mut lower = Lower::new(program, options, image);
+    lower.declare_params(&mut Vec::new());
     for (k, scene) in program.scenes.iter().enumerate() {
-        let shapes = lower.shapes_of(SceneId(k), scene.span);
-        let shapes = shapes.map_err(|e| vec![*e])?;
-        for (shape, member) in shapes.iter().zip(&scene.members) {
-            let span = member.shape.value.span;
-            found.push(Bounded {
-                name: lower.shape_name(shape),
-                span,
-                extent: lower.derived(shape, 0.0, span).map_err(|e| vec![*e])?,
-            });
+        for shape in lower.shapes_of(SceneId(k), scene.span)? {
+            found.push(lower.derived(&shape, 0.0, scene.span)?);
         }
     }
     Ok(found)
@@ -107,8 +87,10 @@ impl Lower<'_> {
         let found = match self.extents.get(&key) {
             Some(found) => *found,
             None => {
-                let mut enclosure = Enclosure::new(&self.b, formula.markers, formula.root, WORK);
+                let work = WORK.min(self.extent_work);
+                let mut enclosure = Enclosure::new(&self.b, formula.markers, formula.root, work);
                 let found = extent(&mut enclosure, level);
+                self.extent_work -= work - enclosure.left();
                 self.extents.insert(key, found);
                 found
             }

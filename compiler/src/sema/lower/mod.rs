@@ -30,7 +30,8 @@ mod tables;
 mod value;
 mod ways;
 
-pub use bounds::{Bounded, extents};
+#[cfg(test)]
+pub(in crate::sema) use bounds::extents;
 pub use params::params;
 pub use ways::{Millionths, Search, Ways};
 
@@ -145,6 +146,7 @@ struct Lower<'a> {
     markers: Option<derive::Markers>,
     /// The boxes of formulas, by their roots and levels.
     extents: FxHashMap<(NodeId, u64), Extent>,
+    extent_work: u64,
     /// What the points of hits lie on, by their coordinates.
     surfaces: FxHashMap<Vec<NodeId>, leaving::Surface>,
     /// Above 0 where only constants may come out.
@@ -207,6 +209,7 @@ impl<'a> Lower<'a> {
             loops: 0,
             markers: None,
             extents: FxHashMap::default(),
+            extent_work: bounds::ALL_WORK,
             surfaces: FxHashMap::default(),
             constant: 0,
             choices: 0,

@@ -39,7 +39,7 @@ pub(super) struct Solution {
 }
 
 impl<'a> Lower<'a> {
-    pub(super) fn shape_name(&self, shape: &Shape) -> String {
+    fn shape_name(&self, shape: &Shape) -> String {
         let found = self.program.shapes.get(shape.id.0);
         found.map_or_else(String::new, |s| s.name.clone())
     }

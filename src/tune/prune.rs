@@ -17,14 +17,14 @@ const CLEARLY: f64 = 0.8;
 /// By how much it may be worse: errors are not quite the sum of two.
 const HARDLY: f64 = 1.1;
 
-/// The choices that the others are foreseen by: whole pictures in each format, by the quickest
+/// The choices that the others are predicted by: whole pictures in each format, by the quickest
 /// program.
 pub fn is_first(choice: &Choice) -> bool {
     choice.setting == Setting::WHOLE && !choice.outlined && choice.thrift == 0
 }
 
-/// What is foreseen of choices by some that were looked at.
-pub struct Foreseen<'s> {
+/// What predicts the figures of choices by some that were looked at.
+pub struct Predictor<'s> {
     /// Those, whole pictures.
     pub known: Vec<(&'s Choice, Look)>,
     /// What settings are in `f64`.
@@ -33,9 +33,9 @@ pub struct Foreseen<'s> {
     pub measure: Measure,
 }
 
-impl Foreseen<'_> {
+impl Predictor<'_> {
     /// A choice's figures; none where its format is not known.
-    pub fn look(&self, choice: &Choice) -> Option<Look> {
+    pub fn predict(&self, choice: &Choice) -> Option<Look> {
         let alike = |known: &Choice| known.format == choice.format && known.frozen == choice.frozen;
         let (_, whole) = self.known.iter().find(|(known, _)| alike(known))?;
         let of = |d: &&Drafted| d.setting == choice.setting;
@@ -51,8 +51,8 @@ impl Foreseen<'_> {
     }
 
     /// The choices that nothing is expected to beat clearly, and the others with their figures.
-    pub fn sifted(&self, choices: Vec<Choice>) -> (Vec<Choice>, Vec<(Choice, Look)>) {
-        let looks: Vec<Option<Look>> = choices.iter().map(|choice| self.look(choice)).collect();
+    pub fn pruned(&self, choices: Vec<Choice>) -> (Vec<Choice>, Vec<(Choice, Look)>) {
+        let looks: Vec<Option<Look>> = choices.iter().map(|choice| self.predict(choice)).collect();
         let beats =
             |a: &Look, b: &Look| a.cycles < CLEARLY * b.cycles && a.error <= HARDLY * b.error;
         let known = self.known.iter().map(|(_, look)| look);
@@ -113,7 +113,7 @@ mod tests {
     #[test]
     fn a_dear_format_is_not_tried_where_the_setting_is_what_is_wrong() {
         let (quick, dear) = (choice(1, "quick"), choice(1, "dear"));
-        let foreseen = Foreseen {
+        let predictor = Predictor {
             known: vec![(&quick, look(1e6, 0.02)), (&dear, look(1e7, 0.0))],
             drafts: &Drafts {
                 chosen: vec![drafted(1, 1000, 0), drafted(2, 250, 3000)],
@@ -122,15 +122,20 @@ mod tests {
             },
             measure: Measure::Pixels,
         };
-        assert_eq!(foreseen.look(&choice(2, "dear")), Some(look(2.65e6, 0.3)));
-        let both = foreseen.look(&choice(2, "quick")).map(|look| look.error);
+        assert_eq!(
+            predictor.predict(&choice(2, "dear")),
+            Some(look(2.65e6, 0.3))
+        );
+        let both = predictor
+            .predict(&choice(2, "quick"))
+            .map(|look| look.error);
         assert!(
             both.is_some_and(|error| (0.3006..0.3007).contains(&error)),
             "{both:?}"
         );
-        assert_eq!(foreseen.look(&choice(2, "other")), None);
+        assert_eq!(predictor.predict(&choice(2, "other")), None);
         let all = ["quick", "dear", "other"].map(|format| choice(2, format));
-        let (worth, beaten) = foreseen.sifted(all.to_vec());
+        let (worth, beaten) = predictor.pruned(all.to_vec());
         assert_eq!(worth, [choice(2, "quick"), choice(2, "other")]);
         assert_eq!(beaten, [(choice(2, "dear"), look(2.65e6, 0.3))]);
     }
