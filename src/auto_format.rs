@@ -202,7 +202,7 @@ fn quickest(
         let mut whole = plan.clone();
         whole.rows = candidate.rows;
         // Where too little of it was seen, as the plan without a search has it.
-        let expected = expected(scene, &whole).unwrap_or(candidate.wrong);
+        let expected = expected(scene, &whole, goal).unwrap_or(candidate.wrong);
         let close = |next: &Candidate| next.may(goal) && next.is_close(candidate.cycles);
         let sure = !plan.is_made_small() && !known.first().is_some_and(close);
         if expected <= goal && kept.is_none() && sure {

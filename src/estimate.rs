@@ -165,13 +165,12 @@ pub fn sampled(plan: &Plan, side: u32, most: u64) -> Sampled {
     let mut run = Run::within(&graph, &plan.tree, &heard, most);
     let still = plan.still.as_ref();
     let frame = added.sum(When::Frame);
-    let rows = coarse_first(sample(window.rows, side));
-    let columns = sample(window.columns, side);
+    let rows = spread(window.rows, window.columns, side);
     let mut inks = Vec::new();
     let (mut pixels, mut begun) = (0.0, 0);
-    'rows: for &y in &rows {
+    'rows: for (y, columns) in &rows {
         begun += 1;
-        for &x in &columns {
+        for (x, y) in columns.iter().map(|&x| (x, *y)) {
             let before = added.sum(When::Pixel);
             let ink = model::ink(plan, run.pixel(x as i32, y as i32));
             if run.spent() {
@@ -198,7 +197,7 @@ pub fn sampled(plan: &Plan, side: u32, most: u64) -> Sampled {
         before: slowlight_compiler::backend::starts(plan) as f64 + frame + column * width,
         rows: (row + (pass + runs) * passes + pixel * width) * height,
         inks,
-        of: rows.len() * columns.len(),
+        of: rows.iter().map(|(_, columns)| columns.len()).sum(),
     }
 }
 
@@ -208,16 +207,15 @@ pub fn inks(plan: &Plan, side: u32, most: u64, parts: usize) -> (Vec<Inked>, usi
     let mut graph = plan.graph.clone();
     graph.diffusion = None;
     let window = Window::of(plan);
-    let rows = coarse_first(sample(window.rows, side));
-    let columns = sample(window.columns, side);
+    let rows = spread(window.rows, window.columns, side);
     let part = rows.len().div_ceil(parts).max(1);
     let all: Vec<Vec<Inked>> = rows
         .par_chunks(part)
         .map(|rows| {
             let mut run = Run::within(&graph, &plan.tree, Model(plan), most);
             let mut inks = Vec::new();
-            for &y in rows {
-                for &x in &columns {
+            for (y, columns) in rows {
+                for (x, y) in columns.iter().map(|&x| (x, *y)) {
                     let ink = model::ink(plan, run.pixel(x as i32, y as i32));
                     if run.spent() {
                         return inks;
@@ -228,7 +226,8 @@ pub fn inks(plan: &Plan, side: u32, most: u64, parts: usize) -> (Vec<Inked>, usi
             inks
         })
         .collect();
-    (all.concat(), rows.len() * columns.len())
+    let of = rows.iter().map(|(_, columns)| columns.len()).sum();
+    (all.concat(), of)
 }
 
 /// What begins runs of columns, in a pass.
@@ -288,6 +287,25 @@ fn asked(still: &Still, costs: &Costs<'_>) -> f64 {
     }
 }
 
+/// A sample of so many rows and columns, coarse first: rows with their columns. A row of a picture
+/// may be wrong as a whole, where numbers fall together; so those between two rows of the sample
+/// share its columns among them.
+fn spread(rows: (u32, u32), columns: (u32, u32), side: u32) -> Vec<(u32, Vec<u32>)> {
+    let (all, columns) = (sample(rows, side), sample(columns, side));
+    let next = |k: usize| all.get(k + 1).copied().unwrap_or(rows.1 + 1);
+    let order = coarse_first((0..all.len()).collect());
+    let stretches = order.into_iter().map(|k| all[k]..next(k).max(all[k] + 1));
+    let shared = stretches.flat_map(|stretch| {
+        let between = stretch.len().min(columns.len());
+        let columns = &columns;
+        stretch.take(between).enumerate().map(move |(k, y)| {
+            let mine = columns.iter().skip(k).step_by(between);
+            (y, mine.copied().collect())
+        })
+    });
+    shared.collect()
+}
+
 /// Up to so many numbers spread evenly between two, both included.
 fn sample((first, last): (u32, u32), most: u32) -> Vec<u32> {
     let span = last - first;
@@ -307,5 +325,26 @@ mod tests {
         let wide = sample((9, 239), GRID);
         assert_eq!(wide.len(), GRID as usize);
         assert_eq!((wide.first(), wide.last()), (Some(&9), Some(&239)));
+    }
+
+    #[test]
+    fn samples_are_not_of_whole_rows() {
+        let of = spread((0, 119), (0, 159), 36);
+        assert_eq!(
+            of.iter().map(|(_, columns)| columns.len()).sum::<usize>(),
+            36 * 36
+        );
+        assert!(
+            of.iter()
+                .all(|(_, columns)| (6..=18).contains(&columns.len()))
+        );
+        let rows: std::collections::BTreeSet<u32> = of.iter().map(|(y, _)| *y).collect();
+        assert_eq!(rows.len(), 120);
+        // Where there are no more rows than are asked for, each has all columns.
+        assert!(
+            spread((4, 9), (0, 9), 36)
+                .iter()
+                .all(|(_, columns)| columns.len() == 10)
+        );
     }
 }

@@ -71,6 +71,7 @@ impl WayArgs {
             differences: self.differences,
             samples: self.samples,
             unbounded: false,
+            separate: false,
         }
     }
 

@@ -17,6 +17,7 @@ pub const PRELUDE: &[Text] = texts! {
     "shapes.scn"
     "solve.scn"
     "grid.scn"
+    "instances.scn"
     "lights.scn"
     "dithers.scn"
     "noise.scn"

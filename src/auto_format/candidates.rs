@@ -19,6 +19,12 @@ use slowlight_routine::Format;
 const CANDIDATE: (u32, u64) = (36, 8_000_000);
 const FINAL: (u32, u64) = (64, 16_000_000);
 
+/// The same where that is so near to the goal that other pixels may say otherwise.
+const CLOSER: (u32, u64) = (120, 48_000_000);
+
+/// How near, as parts of the goal.
+const NEAR: std::ops::Range<f64> = 0.6..1.6;
+
 /// How many operations the native evaluation of a sample may take.
 const NATIVE: u64 = 200_000_000;
 
@@ -138,11 +144,19 @@ pub(super) fn sort(all: &mut [Candidate], goal: f64) {
     });
 }
 
-/// The share of a plan's pixels whose inks are not the native ones, by a sample.
-pub(super) fn expected(scene: &Scene, plan: &PlannedScene) -> Option<f64> {
+/// The share of a plan's pixels whose inks are not the native ones, by a sample that is the
+/// larger the nearer that share is to the goal.
+pub(super) fn expected(scene: &Scene, plan: &PlannedScene, goal: f64) -> Option<f64> {
     let (_waiting, _blind) = (Waiting::new("pixels"), interrupt::blind());
-    let (inks, of) = estimate::inks(plan, FINAL.0, FINAL.1 / PARTS as u64, PARTS);
-    unlike((&inks, of), &native(scene, plan, &inks))
+    let by = |(side, most): (u32, u64)| {
+        let (inks, of) = estimate::inks(plan, side, most / PARTS as u64, PARTS);
+        unlike((&inks, of), &native(scene, plan, &inks))
+    };
+    let first = by(FINAL)?;
+    match NEAR.contains(&(first / goal.max(f64::MIN_POSITIVE))) {
+        true => by(CLOSER).or(Some(first)),
+        false => Some(first),
+    }
 }
 
 /// The native inks of a sample, each by itself, since nothing is sent to it by others; of as

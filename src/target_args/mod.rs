@@ -3,6 +3,7 @@
 
 mod heap;
 mod items;
+mod lowered;
 mod passes;
 mod read;
 mod values;
@@ -19,7 +20,7 @@ use crate::fit;
 use crate::interrupt;
 use crate::machine::Machine;
 use crate::progress::Waiting;
-use crate::scene::{Limits, Precision, Scene};
+use crate::scene::{Limits, Scene};
 use crate::ways::WayArgs;
 use clap::Args;
 use slowlight_compiler::passes::pixel_blocks::pixel_blocks;
@@ -291,8 +292,13 @@ impl ScreenArgs {
         let block = self.block.unwrap_or((1, 1));
         let asked = self.rows.as_deref().map(|r| rows(r, height)).transpose()?;
         let asked = asked.map(|asked| blocks_of(asked, block.1)).transpose()?;
-        let graph =
-            scene.graph_within(Some(mode.inks), Precision::of(target), set, self.limits())?;
+        let goal = Goal {
+            name: scene.name.clone(),
+            mode,
+            rows: asked,
+            plot: !self.no_plot,
+        };
+        let graph = self.lowered(scene, target, &goal, set)?;
         if !size.0.is_multiple_of(block.0) || !size.1.is_multiple_of(block.1) {
             return Err(Failure::Usage(format!(
                 "--block {}x{}: the picture of {} x {} pixels is no whole number of such blocks",
@@ -300,12 +306,6 @@ impl ScreenArgs {
             )));
         }
         let graph = pixel_blocks(&graph, block);
-        let goal = Goal {
-            name: scene.name.clone(),
-            mode,
-            rows: asked,
-            plot: !self.no_plot,
-        };
         let planned = match (self.as_written, self.every_shade) {
             (true, _) => plan_as_written(&graph, target, &goal),
             (_, true) => plan_with_every_shade(&graph, target, &goal),

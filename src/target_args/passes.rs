@@ -27,6 +27,7 @@ impl PassArgs {
     pub fn ways(&self, ways: Ways, as_written: bool) -> Ways {
         Ways {
             unbounded: as_written || self.left_out().has(Pass::Bounds),
+            separate: as_written || self.left_out().has(Pass::Instances),
             ..ways
         }
     }

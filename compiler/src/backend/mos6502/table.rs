@@ -100,7 +100,7 @@ impl Code<'_> {
             None => write::size(plan.runtime.format_of(table.ty)),
         };
         if is_large(table) {
-            return self.large_lookup((&home, bytes), (of, table), column, row);
+            return self.large_lookup((id, &home, bytes), (of, table), column, row);
         }
         let [columns, rows] = plan.ranges.args[id.0 as usize];
         let column = self.index(column, (columns, table.width), "arg");
@@ -160,25 +160,38 @@ impl Code<'_> {
     /// Through a pointer to the entry's low byte; the other planes follow.
     fn large_lookup(
         &mut self,
-        (home, bytes): (&str, u8),
+        (id, home, bytes): (NodeId, &str, u8),
         (of, table): (TableId, &Table),
         column: NodeId,
         row: NodeId,
     ) {
-        let pixel_row = self.homes.operand(self.plan, row);
-        self.clamp(&pixel_row, table.height);
-        self.copy_to(&Operand::Constant(Bits::from(table.width)), "arg");
-        self.text
-            .code("jsr int_multiply | lda acc | sta prod+4 | lda acc+1 | sta prod+5");
-        let pixel_column = self.homes.operand(self.plan, column);
-        self.clamp(&pixel_column, table.width);
+        let [columns, _] = self.plan.ranges.args[id.0 as usize];
+        if table.height > 1 {
+            let row = self.homes.operand(self.plan, row);
+            self.clamp(&row, table.height);
+            self.copy_to(&Operand::Constant(Bits::from(table.width)), "arg");
+            self.text
+                .code("jsr int_multiply | lda acc | sta prod+4 | lda acc+1 | sta prod+5");
+        }
+        let mut place = self.homes.operand(self.plan, column);
+        if !columns.within(0.0, f64::from(table.width) - 1.0) {
+            self.clamp(&place, table.width);
+            place = Operand::At("acc".to_owned());
+        }
+        let [mut low, mut high] = [0, 1].map(|k| write::byte(&place, k));
+        if table.height > 1 {
+            self.text
+                .code(&format!("clc | lda {low} | adc prod+4 | sta acc"));
+            self.text
+                .code(&format!("lda {high} | adc prod+5 | sta acc+1"));
+            (low, high) = ("acc".to_owned(), "acc+1".to_owned());
+        }
         let first = label(of, 0);
         self.text
-            .code("clc | lda acc | adc prod+4 | sta acc | lda acc+1 | adc prod+5 | sta acc+1");
-        self.text
-            .code(&format!("clc | lda acc | adc #<({first}) | sta acc"));
-        self.text
-            .code(&format!("lda acc+1 | adc #>({first}) | sta acc+1 | ldy #0"));
+            .code(&format!("clc | lda {low} | adc #<({first}) | sta acc"));
+        self.text.code(&format!(
+            "lda {high} | adc #>({first}) | sta acc+1 | ldy #0"
+        ));
         let [lo, hi, ..] = (table.entries.len() as u32).to_le_bytes();
         for k in 0..bytes {
             if k > 0 {

@@ -220,8 +220,13 @@ impl<'g> Tables<'g> {
     fn least(&self, id: NodeId, worth: u32) -> u32 {
         let known = self.known[id.0 as usize].as_ref();
         let by = known.map_or([None; 2], |known| known.by);
-        let free = |at: &usize| self.counters[*at].of.is_none();
-        let free = by.iter().flatten().filter(|at| free(at)).count();
+        let counters = by.iter().flatten().map(|&at| &self.counters[at]);
+        // What was looked up is a number of an entry as it is.
+        let is_index = |c: &Counter| matches!(self.graph.node(c.node), Node::Lookup { .. });
+        if counters.clone().all(|c| c.first == 0 && is_index(c)) {
+            return worth / 2;
+        }
+        let free = counters.filter(|c| c.of.is_none()).count();
         worth * (free.max(1) as u32)
     }
 
@@ -318,14 +323,16 @@ fn counter(graph: &Graph, id: NodeId) -> Option<Counter> {
     })
 }
 
-/// The int that a node rounds to, where it stays within few values.
+/// The int that a node rounds to, or is looked up, where it stays within few values.
 fn few(graph: &Graph, ranges: &Ranges, id: NodeId) -> Option<Counter> {
-    let Node::Apply(Op::Round | Op::Floor, _) = graph.node(id) else {
-        return None;
+    let most = match graph.node(id) {
+        Node::Apply(Op::Round | Op::Floor, _) => FEW,
+        Node::Lookup { .. } if graph.ty(id) == Type::Int => MOST as f64,
+        _ => return None,
     };
     let range = ranges.result[id.0 as usize];
     let (lo, values) = (range.lo.ceil(), range.hi.floor() - range.lo.ceil() + 1.0);
-    (1.0..=FEW).contains(&values).then_some(Counter {
+    (1.0..=most).contains(&values).then_some(Counter {
         of: None,
         node: id,
         first: lo as i32,

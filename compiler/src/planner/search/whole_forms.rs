@@ -12,7 +12,7 @@ use crate::passes::simplify::fold::fold;
 use crate::planner::context::Context;
 use crate::planner::pipeline::Pass;
 use crate::schedule::analysed::Analysed;
-use slowlight_routine::Op;
+use slowlight_routine::{Op, Type};
 
 /// The cheapest such form, with its plan by `ready`; nothing where the plan of the scene as it
 /// is is cheaper.
@@ -70,8 +70,12 @@ fn forms(origin: &Graph, cx: &Context, budget: SizeBudget) -> Vec<Graph> {
 
 /// The graph with tables of what hangs on ints that are rounded and stay within few values.
 fn with_few_ints(graph: Graph, cx: &Context) -> Graph {
-    let rounds = |node: &Node| matches!(node, Node::Apply(Op::Round | Op::Floor, _));
-    if !graph.nodes.iter().any(rounds) {
+    let rounds = |id: NodeId| match graph.node(id) {
+        Node::Apply(Op::Round | Op::Floor, _) => true,
+        Node::Lookup { .. } => graph.ty(id) == Type::Int,
+        _ => false,
+    };
+    if !graph.ids().any(rounds) {
         return graph;
     }
     let known = cx.scheduled(graph);

@@ -60,7 +60,12 @@ impl Lower<'_> {
     /// A box outside of which a shape's distance, or else its `f`, is above `level`, by what is
     /// derived and by what the scene says; none where not one of its faces is known, or nobody
     /// wants to know.
-    fn extent_of(&mut self, shape: &Rc<Shape>, level: f64, span: Span) -> Found<Option<Extent>> {
+    pub(super) fn extent_of(
+        &mut self,
+        shape: &Rc<Shape>,
+        level: f64,
+        span: Span,
+    ) -> Found<Option<Extent>> {
         if self.options.ways.unbounded {
             return Ok(None);
         }
@@ -139,10 +144,10 @@ impl Lower<'_> {
         let (name, gap, more) = match (low.is_finite(), high.is_finite()) {
             (false, false) => return Ok(None),
             (true, true) => {
-                let middle = self.real((low + high) / 2.0, span);
-                let half = self.real((high - low) / 2.0, span);
-                let gap = self.scalar(BinaryOp::Sub, &Ty::Real, middle, from, span)?;
-                ("between_faces", gap, vec![dir, half])
+                let (low, high) = (self.real(low, span), self.real(high, span));
+                let low = self.scalar(BinaryOp::Sub, &Ty::Real, low, from, span)?;
+                let high = self.scalar(BinaryOp::Sub, &Ty::Real, high, from, span)?;
+                ("between_faces", low, vec![high, dir])
             }
             (false, true) => {
                 let high = self.real(high, span);
@@ -156,14 +161,17 @@ impl Lower<'_> {
             }
         };
         let is_along = self.b.value(dir).is_some_and(|dir| dir.real() == 0.0);
-        let (name, args) = match (is_along, more.get(1)) {
+        let (name, args) = match (is_along, &more[..]) {
             (false, _) => (name, [vec![gap], more].concat()),
-            (true, Some(half)) => {
-                let away = self.apply(Op::Abs, &[gap], span)?;
-                let inside = self.scalar(BinaryOp::Le, &Ty::Real, away, *half, span)?;
+            (true, &[high, _]) => {
+                let zero = self.real(0.0, span);
+                let is_above = self.scalar(BinaryOp::Le, &Ty::Real, gap, zero, span)?;
+                let is_below = self.scalar(BinaryOp::Le, &Ty::Real, zero, high, span)?;
+                let no = self.bool(false, span);
+                let inside = self.select(is_above, is_below, no, span);
                 ("along_faces", vec![inside])
             }
-            (true, None) => {
+            (true, _) => {
                 let zero = self.real(0.0, span);
                 let inside = self.scalar(BinaryOp::Le, &Ty::Real, zero, gap, span)?;
                 ("along_faces", vec![inside])

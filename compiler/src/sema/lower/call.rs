@@ -1,5 +1,6 @@
 //! Calls: a function's body stands where it is called.
 
+use super::instances::Instances;
 use super::value::{Shape, Val};
 use super::{Found, Lower};
 use crate::ir::graph::{Node, NodeId};
@@ -21,6 +22,7 @@ impl<'a> Lower<'a> {
         let callee = match callee {
             Callee::Local(id) => match self.frame.get(id.0).cloned() {
                 Some(Val::Function(callee)) => callee,
+                Some(Val::Rows(of)) => return self.call_row(&of, args, span),
                 _ => return Err(self.confused(span)),
             },
             other => other.clone(),
@@ -49,6 +51,15 @@ impl<'a> Lower<'a> {
             Callee::Builtin(builtin) => self.builtin(builtin, args, ty, span),
             Callee::Local(_) => Err(self.confused(span)),
         }
+    }
+
+    fn call_row(&mut self, of: &Instances, args: &'a [Option<Expr>], span: Span) -> Found<Val> {
+        let Some(Some(row)) = args.first() else {
+            return Err(self.confused(span));
+        };
+        let row = self.expr(row)?;
+        let row = self.node(row, &Ty::Int, span)?;
+        Ok(Val::Shape(self.instance(of, row, span)?))
     }
 
     /// The arguments' values; what is left out is its parameter's default.

@@ -31,7 +31,7 @@ pub(super) type Coefficients = [Option<NodeId>; 3];
 
 impl<'a> Lower<'a> {
     /// Nodes that nothing else is: the carried values of a loop that is never run.
-    fn markers(&mut self, span: Span) -> Markers {
+    pub(super) fn markers(&mut self, span: Span) -> Markers {
         if let Some(markers) = self.markers {
             return markers;
         }

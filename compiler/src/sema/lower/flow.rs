@@ -182,7 +182,7 @@ impl<'a> Lower<'a> {
             None => self.options.max_turns,
         };
         // Constants are the scene's: nothing that a machine computes.
-        let limit = limit.filter(|_| self.constant == 0);
+        let limit = limit.filter(|_| self.constant == 0 && !self.all_turns);
         let count = limit.map_or(count, |most| count.min(most.clamp(1, 65535) as i32));
         let mut inits = Vec::new();
         for (_, init) in carried {

@@ -74,7 +74,7 @@ impl Lower<'_> {
     }
 
     /// Whether `f` of a shape is of degree 1 at most along every ray.
-    fn flat(&mut self, shape: &Rc<Shape>, span: Span) -> Found<bool> {
+    pub(super) fn flat(&mut self, shape: &Rc<Shape>, span: Span) -> Found<bool> {
         let Some(formula) = self.formula(shape, FacetKind::Implicit, span)? else {
             return Ok(false);
         };

@@ -54,6 +54,7 @@ impl Lower<'_> {
             (Val::Table(a), Val::Table(b)) if Rc::ptr_eq(&a, &b) => Val::Table(a),
             (Val::Shape(a), Val::Shape(b)) if Rc::ptr_eq(&a, &b) => Val::Shape(a),
             (Val::Map(a), Val::Map(b)) if a == b => Val::Map(a),
+            (Val::Rows(a), Val::Rows(b)) if Rc::ptr_eq(&a, &b) => Val::Rows(a),
             (Val::Scene(a), Val::Scene(b)) if a == b => Val::Scene(a),
             (Val::Function(a), Val::Function(b)) if a == b => Val::Function(a),
             _ => {

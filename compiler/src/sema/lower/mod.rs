@@ -17,6 +17,8 @@ mod derive;
 mod dual;
 mod expr;
 mod flow;
+mod grid;
+mod instances;
 mod leaving;
 mod merge;
 mod ops;
@@ -32,6 +34,7 @@ mod ways;
 
 #[cfg(test)]
 pub(in crate::sema) use bounds::extents;
+pub use instances::INSTANCES;
 pub use params::params;
 pub use ways::{Millionths, Search, Ways};
 
@@ -138,10 +141,13 @@ struct Lower<'a> {
     params: Vec<Val>,
     consts: FxHashMap<ConstId, Val>,
     scenes: FxHashMap<SceneId, Vec<std::rc::Rc<value::Shape>>>,
+    members: FxHashMap<SceneId, std::rc::Rc<[instances::Member]>>,
     claims: Vec<claims::Claimed>,
     tables: tables::Made,
     /// How many loops were opened.
     loops: u32,
+    /// Whether loops here go over all of a scene's shapes, whatever turns the options allow.
+    all_turns: bool,
     /// What stands for the point where a facet is read as a formula.
     markers: Option<derive::Markers>,
     /// The boxes of formulas, by their roots and levels.
@@ -204,9 +210,11 @@ impl<'a> Lower<'a> {
             params: Vec::new(),
             consts: FxHashMap::default(),
             scenes: FxHashMap::default(),
+            members: FxHashMap::default(),
             claims: Vec::new(),
             tables: tables::Made::default(),
             loops: 0,
+            all_turns: false,
             markers: None,
             extents: FxHashMap::default(),
             extent_work: bounds::ALL_WORK,

@@ -1,5 +1,6 @@
 //! Scenes: the nearest of their shapes.
 
+use super::instances::Member;
 use super::shape::{REACH, Solution};
 use super::value::{Shape, Val};
 use super::{Found, Lower, Search, leaving};
@@ -10,6 +11,13 @@ use crate::sema::ty::Ty;
 use crate::source::Span;
 use crate::syntax::tree::BinaryOp;
 use std::rc::Rc;
+
+/// What is met of a scene's shape, or of a group: in which row.
+#[derive(Clone)]
+enum Hit {
+    Of(Solution),
+    In(NodeId),
+}
 
 /// Turns that a loop may have at most.
 const MOST_STEPS: u32 = 65535;
@@ -123,18 +131,20 @@ impl<'a> Lower<'a> {
     }
 
     fn tag_of(&mut self, id: SceneId, wins: &[NodeId], p: Val, span: Span) -> Found<Val> {
-        let Some(scene) = self.program.scenes.get(id.0) else {
+        self.of_winner(wins, span, |l, k| l.tag_at(id, k, p.clone(), span))
+    }
+
+    /// The tag of one of a scene's shapes at a point.
+    pub(super) fn tag_at(&mut self, id: SceneId, at: usize, p: Val, span: Span) -> Found<Val> {
+        let scene = self.program.scenes.get(id.0);
+        let member = scene.and_then(|scene| scene.members.get(at));
+        let Some(tag) = member.and_then(|member| member.tag.as_ref()) else {
             return Err(self.confused(span));
         };
-        self.of_winner(wins, span, |l, k| {
-            let Some(tag) = scene.members.get(k).and_then(|m| m.tag.as_ref()) else {
-                return Err(l.confused(span));
-            };
-            let place = l.place.take();
-            let value = l.enter(tag, vec![p.clone()], |l| l.expr(&tag.value));
-            l.place = place;
-            value
-        })
+        let place = self.place.take();
+        let value = self.enter(tag, vec![p], |l| l.expr(&tag.value));
+        self.place = place;
+        value
     }
 
     /// The nearest hit; the later shape on a tie.
@@ -153,17 +163,27 @@ impl<'a> Lower<'a> {
         let mut present = self.bool(false, span);
         let mut wins = Vec::new();
         let mut found = Vec::new();
-        let shapes = self.shapes_of(id, span)?;
-        for (at, shape) in shapes.iter().enumerate() {
-            let solution = self.solved_in(id, (at, shape), &ray, Some(best), span)?;
-            let near = self.scalar(BinaryOp::Le, &Ty::Real, solution.t, best, span)?;
-            let no = self.bool(false, span);
-            let win = self.select(solution.present, near, no, span);
-            best = self.select(win, solution.t, best, span);
+        let members = self.members_of(id, span)?;
+        for (at, member) in members.iter().enumerate() {
+            let (win, of) = match member {
+                Member::One(_, shape) => {
+                    let solution = self.solved_in(id, (at, shape), &ray, Some(best), span)?;
+                    let near = self.scalar(BinaryOp::Le, &Ty::Real, solution.t, best, span)?;
+                    let no = self.bool(false, span);
+                    let win = self.select(solution.present, near, no, span);
+                    best = self.select(win, solution.t, best, span);
+                    (win, Hit::Of(solution))
+                }
+                Member::Group(group) => {
+                    let met = self.nearest_instance(group, &ray, best, span)?;
+                    best = met.t;
+                    (met.present, Hit::In(met.row))
+                }
+            };
             let yes = self.bool(true, span);
             present = self.select(win, yes, present, span);
             wins.push(win);
-            found.push(solution);
+            found.push(of);
         }
         self.b.name(best, "t");
         // One point of the ray, whoever wins: a point of each shape's solution
@@ -171,21 +191,36 @@ impl<'a> Lower<'a> {
         let t = Val::Node(best);
         let along = t.clone();
         let on = leaving::Surface::Of(id, wins.clone());
+        let on_ray = ray.clone();
         let point = self.later("point", move |l| {
-            let point = l.along(&ray, along, span)?;
+            let point = l.along(&on_ray, along, span)?;
             l.lies_on(&point, on, span)?;
             Ok(point)
         });
         let (at, won) = (point.clone(), wins.clone());
+        let (of, hits) = (members.clone(), found.clone());
         let normal = self.later("normal", move |l| {
-            l.of_winner(&won, span, |l, k| match shapes.get(k).zip(found.get(k)) {
-                Some((shape, found)) => l.normal_of(shape, found, at.clone(), span),
-                None => Err(l.confused(span)),
+            l.of_winner(&won, span, |l, k| match (&of[k], &hits[k]) {
+                (Member::One(_, shape), Hit::Of(hit)) => l.normal_of(shape, hit, at.clone(), span),
+                (Member::Group(group), Hit::In(row)) => {
+                    let shape = l.instance(group, *row, span)?;
+                    let hit = l.solved(&shape, ray.clone(), None, span)?;
+                    l.normal_of(&shape, &hit, at.clone(), span)
+                }
+                _ => Err(l.confused(span)),
             })
         });
         let mut parts = vec![point.clone(), normal, t];
         if has_tag(ty) {
-            parts.push(self.here(move |l| l.tag_of(id, &wins, point, span)));
+            parts.push(self.here(move |l| {
+                l.of_winner(&wins, span, |l, k| match (&members[k], &found[k]) {
+                    (Member::Group(group), Hit::In(row)) => {
+                        l.instance_tag(id, group, *row, point.clone(), span)
+                    }
+                    (Member::One(at, _), _) => l.tag_at(id, *at, point.clone(), span),
+                    _ => Err(l.confused(span)),
+                })
+            }));
         }
         Ok(Val::Optional {
             present,
@@ -265,7 +300,15 @@ impl<'a> Lower<'a> {
             None => None,
         };
         let mut hits = Vec::new();
-        for (at, shape) in self.shapes_of(id, span)?.iter().enumerate() {
+        for (at, member) in self.members_of(id, span)?.iter().enumerate() {
+            let shape = match member {
+                Member::One(_, shape) => shape,
+                Member::Group(group) => {
+                    let far = far.unwrap_or_else(|| self.real(f64::MAX, span));
+                    hits.push(self.any_instance(group, &ray, far, span)?);
+                    continue;
+                }
+            };
             let Solution {
                 present: there, t, ..
             } = self.solved_in(id, (at, shape), &ray, far, span)?;

@@ -75,12 +75,14 @@ impl<'a> Lower<'a> {
         };
         let mut args = shape.args.clone();
         args.extend(arg);
+        let all_turns = std::mem::replace(&mut self.all_turns, false);
         let found = self.inside(item.library, span, |l| {
             l.enter(&facet.body, args, |l| {
                 let value = l.expr(&facet.body.value)?;
                 l.force(value)
             })
         });
+        self.all_turns = all_turns;
         found.map(Some)
     }
 
@@ -117,7 +119,7 @@ impl<'a> Lower<'a> {
     }
 
     /// Whether a shape is found by its distance alone.
-    fn approached(&mut self, shape: &Rc<Shape>) -> Found<bool> {
+    pub(super) fn approached(&mut self, shape: &Rc<Shape>) -> Found<bool> {
         if !self.has(shape, FacetKind::Dist) {
             return Ok(false);
         }

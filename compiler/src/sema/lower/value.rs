@@ -1,5 +1,6 @@
 //! Values while compiling: structure is known, scalars are nodes.
 
+use super::instances::Instances;
 use super::{Found, Lower};
 use crate::ir::graph::NodeId;
 use crate::sema::program::*;
@@ -48,6 +49,8 @@ pub(super) enum Val {
     Function(Callee),
     Shape(Rc<Shape>),
     Scene(SceneId),
+    /// A function from rows to a group's shapes.
+    Rows(Rc<Instances>),
     /// At its first use.
     Lazy(Rc<Lazy>),
     /// What no path needs.

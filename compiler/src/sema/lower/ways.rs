@@ -44,4 +44,6 @@ pub struct Ways {
     pub samples: Option<u32>,
     /// Rays are followed from end to end, whatever is known of where shapes are.
     pub unbounded: bool,
+    /// Shapes that are alike but for numbers are code each.
+    pub separate: bool,
 }

@@ -149,16 +149,23 @@ fn params_are_anywhere_in_their_ranges() {
 
 #[test]
 fn nothing_is_lost_by_boxes() {
+    // By the last a row and a column of rays are along the axes. Steps that begin at the box may
+    // end a part of an offset farther, so that only what is hit is compared there.
+    let aside = "pinhole((5, 3, 7), at: (0.2, 0.3, 0), field: 40deg).through(x, y)";
+    let along = "pinhole((0.21, 0.13, 7), at: (0.21, 0.13, 0), field: 40deg).through_point(x + 1.5, y + 1.5)";
+    let lit = "0.2 + 0.7 * lambert(h, (0.48, 0.64, 0.6))";
+    let march = "march(r, steps: 90, near: 0.001, far: 30)";
     let views = [
-        ("trace(r, far: 30)", "trace"),
-        ("march(r, steps: 90, near: 0.001, far: 30)", "march"),
+        (aside, "trace(r, far: 30)", lit, "trace"),
+        (aside, march, lit, "march"),
+        (along, "trace(r, far: 30)", "1", "trace along axes"),
     ];
     let (mut pictures, mut unseen) = (0, Vec::new());
     for shape in SHAPES {
-        for (find, how) in views {
+        for (ray, find, shade, how) in views {
             let draw = format!(
-                "{{ let r = pinhole((5, 3, 7), at: (0.2, 0.3, 0), field: 40deg).through(x, y); \
-                 let v = if let h = s.{find} then 0.2 + 0.7 * lambert(h, (0.48, 0.64, 0.6)) else 0; \
+                "{{ let r = {ray}; \
+                 let v = if let h = s.{find} then {shade} else 0; \
                  threshold(v, bayer(4)[x div 2 mod 4, y div 2 mod 4]) }}"
             );
             // Not all have a `dist` to march by.
@@ -186,10 +193,13 @@ fn nothing_is_lost_by_boxes() {
             if !with.contains(&1) {
                 unseen.push((shape, how));
             }
-            let differ = with.iter().zip(&without).filter(|(a, b)| a != b).count();
-            assert_eq!(differ, 0, "{shape} by {how}");
+            let differ: Vec<(usize, usize)> = (0..with.len())
+                .filter(|&k| with[k] != without[k])
+                .map(|k| (2 * (k % 80), 2 * (k / 80)))
+                .collect();
+            assert_eq!(differ, [], "{shape} by {how}");
         }
     }
     // Two are out of sight.
-    assert!(pictures > 50 && unseen.len() <= 4, "{unseen:?}");
+    assert!(pictures > 75 && unseen.len() <= 6, "{pictures} {unseen:?}");
 }

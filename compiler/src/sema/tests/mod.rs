@@ -4,6 +4,7 @@
 mod any;
 mod bounds;
 mod hard;
+mod instances;
 mod pictures;
 
 use crate::analysis::verify::verify;

@@ -1,0 +1,355 @@
+//! Instancing: shapes of a scene that are alike but for numbers, as rows of a table.
+//!
+//! Neighbours among a scene's shapes that are made by one item from constants (or from the same
+//! values) become one group. What a ray meets of it is found by a loop over the table, and by the
+//! cells of a grid where the shapes have boxes; what is asked of the nearest one alone, its normal
+//! or its tag, is made from the row that it stands in.
+
+use super::grid::Grid;
+use super::value::{Shape, Val};
+use super::{Found, Lower};
+use crate::ir::graph::{self, Constant, NodeId, TableId};
+use crate::sema::program::*;
+use crate::sema::ty::Ty;
+use crate::source::Span;
+use crate::syntax::tree::BinaryOp;
+use slowlight_routine::Type;
+use std::rc::Rc;
+
+/// How many shapes a group has at least.
+pub const INSTANCES: usize = 8;
+
+/// A shape of a scene, or several of a kind.
+#[derive(Clone)]
+pub(super) enum Member {
+    /// One, by its place among the scene's shapes.
+    One(usize, Rc<Shape>),
+    /// Several.
+    Group(Rc<Instances>),
+}
+
+/// Shapes that are alike but for numbers.
+pub(super) struct Instances {
+    /// The first one, and its place among the scene's shapes.
+    pub(super) first: Rc<Shape>,
+    pub(super) at: usize,
+    pub(super) count: usize,
+    /// Of each of a shape's scalars, where it is looked up; none where it is the first one's.
+    columns: Vec<Option<TableId>>,
+    /// The same of the tag's.
+    tags: Vec<Option<TableId>>,
+    grid: Option<Grid>,
+}
+
+/// The nearest hit of a group: whether there is one, how far along the ray, and the shape's row.
+pub(super) struct Met {
+    pub(super) present: NodeId,
+    pub(super) t: NodeId,
+    pub(super) row: NodeId,
+}
+
+/// A shape's, or a tag's, scalars with their names.
+type Scalars = Vec<(String, Type, NodeId)>;
+
+/// What tells one group from another, and the scalars that differ in it.
+struct Row {
+    kinds: Vec<ShapeId>,
+    scalars: Scalars,
+}
+
+impl<'a> Lower<'a> {
+    /// A scene's shapes, those of a kind together.
+    pub(super) fn members_of(&mut self, id: SceneId, span: Span) -> Found<Rc<[Member]>> {
+        if let Some(found) = self.members.get(&id) {
+            return Ok(found.clone());
+        }
+        let shapes = self.shapes_of(id, span)?;
+        let mut found = Vec::new();
+        let mut at = 0;
+        while at < shapes.len() {
+            let group = self.group_from(id, &shapes, at, span)?;
+            match group {
+                Some(group) => {
+                    at += group.count;
+                    found.push(Member::Group(Rc::new(group)));
+                }
+                None => {
+                    found.push(Member::One(at, shapes[at].clone()));
+                    at += 1;
+                }
+            }
+        }
+        let found: Rc<[Member]> = found.into();
+        self.members.insert(id, found.clone());
+        Ok(found)
+    }
+
+    /// The group that begins at a shape, if it is large enough.
+    fn group_from(
+        &mut self,
+        id: SceneId,
+        shapes: &[Rc<Shape>],
+        at: usize,
+        span: Span,
+    ) -> Found<Option<Instances>> {
+        let first = &shapes[at];
+        if self.options.ways.separate || !self.is_instance(first, span)? {
+            return Ok(None);
+        }
+        let Some(start) = self.row_of(first, span)? else {
+            return Ok(None);
+        };
+        let mut rows = vec![start];
+        for shape in &shapes[at + 1..] {
+            match self.row_of(shape, span)? {
+                Some(row) if self.are_alike(&rows[0], &row) => rows.push(row),
+                _ => break,
+            }
+        }
+        let mut tags: Vec<Scalars> = Vec::new();
+        if rows.len() >= INSTANCES {
+            for k in 0..rows.len() {
+                match self.tag_scalars(id, at + k, span)? {
+                    Some(tag) if tags.first().is_none_or(|first| self.all_alike(first, &tag)) => {
+                        tags.push(tag);
+                    }
+                    _ => break,
+                }
+            }
+        }
+        if tags.len() < INSTANCES {
+            return Ok(None);
+        }
+        rows.truncate(tags.len());
+        let count = rows.len();
+        let rows: Vec<Scalars> = rows.into_iter().map(|row| row.scalars).collect();
+        let grid = self.grid_of(&shapes[at..at + count], span)?;
+        Ok(Some(Instances {
+            first: first.clone(),
+            at,
+            count,
+            columns: self.columns_of(&rows),
+            tags: self.columns_of(&tags),
+            grid,
+        }))
+    }
+
+    /// Whether loops may stand for shapes of this kind: found by a formula, which says what its
+    /// distance says; and not flat, as such leave out what a ray starts on.
+    fn is_instance(&mut self, shape: &Rc<Shape>, span: Span) -> Found<bool> {
+        let item = self.program.shapes.get(shape.id.0);
+        let library = item.is_some_and(|item| item.library);
+        Ok(library && !self.approached(shape)? && !self.flat(shape, span)?)
+    }
+
+    fn row_of(&mut self, shape: &Rc<Shape>, span: Span) -> Found<Option<Row>> {
+        let mut row = Row {
+            kinds: Vec::new(),
+            scalars: Vec::new(),
+        };
+        let whole = self.read_row(shape, &mut row, span)?;
+        Ok(whole.then_some(row))
+    }
+
+    /// Whether all of a shape's arguments are numbers or shapes of numbers.
+    fn read_row(&mut self, shape: &Rc<Shape>, row: &mut Row, span: Span) -> Found<bool> {
+        row.kinds.push(shape.id);
+        let Some(item) = self.program.shapes.get(shape.id.0) else {
+            return Err(self.confused(span));
+        };
+        for (arg, param) in shape.args.iter().zip(&item.params) {
+            if param.ty.is_data() {
+                let layout = self.layout(&param.ty, &param.name, span)?;
+                let mut nodes = Vec::new();
+                self.flatten(arg.clone(), &param.ty, &mut nodes, span)?;
+                let named = layout.into_iter().zip(nodes);
+                row.scalars
+                    .extend(named.map(|((name, ty), node)| (name, ty, node)));
+            } else if let Val::Shape(part) = self.force(arg.clone())? {
+                if !self.read_row(&part, row, span)? {
+                    return Ok(false);
+                }
+            } else {
+                return Ok(false);
+            }
+        }
+        Ok(true)
+    }
+
+    /// The scalars of a shape's tag, at any point; none of a scene without tags.
+    fn tag_scalars(&mut self, id: SceneId, at: usize, span: Span) -> Found<Option<Scalars>> {
+        let Some(ty) = self.program.scenes.get(id.0).and_then(|s| s.tag.clone()) else {
+            return Ok(Some(Vec::new()));
+        };
+        if !ty.is_data() {
+            return Ok(None);
+        }
+        let claims = self.claims.len();
+        let point = Val::parts(self.markers(span).map(Val::Node).to_vec());
+        let value = self.tag_at(id, at, point, span)?;
+        self.claims.truncate(claims);
+        let layout = self.layout(&ty, "tag", span)?;
+        let mut nodes = Vec::new();
+        self.flatten(value, &ty, &mut nodes, span)?;
+        let named = layout.into_iter().zip(nodes);
+        Ok(Some(
+            named.map(|((name, ty), node)| (name, ty, node)).collect(),
+        ))
+    }
+
+    fn are_alike(&self, a: &Row, b: &Row) -> bool {
+        a.kinds == b.kinds && self.all_alike(&a.scalars, &b.scalars)
+    }
+
+    /// Whether scalars are the same nodes or constants.
+    fn all_alike(&self, a: &Scalars, b: &Scalars) -> bool {
+        let is_constant = |node| self.b.value(node).is_some();
+        let alike = |(a, b)| a == b || is_constant(a) && is_constant(b);
+        a.len() == b.len() && a.iter().zip(b).map(|(a, b)| (a.2, b.2)).all(alike)
+    }
+
+    /// Tables of what differs from row to row.
+    fn columns_of(&mut self, rows: &[Scalars]) -> Vec<Option<TableId>> {
+        let Some(first) = rows.first() else {
+            return Vec::new();
+        };
+        let mut found = Vec::new();
+        for (k, (name, ty, node)) in first.iter().enumerate() {
+            let values = rows.iter().map(|row| self.b.value(row[k].2));
+            let values: Option<Vec<Constant>> = values.map(|v| v.map(Constant::new)).collect();
+            let differ = rows.iter().any(|row| row[k].2 != *node);
+            found.push(values.filter(|_| differ).map(|entries| {
+                self.b.table(graph::Table {
+                    name: name.clone(),
+                    width: entries.len() as u32,
+                    height: 1,
+                    ty: *ty,
+                    entries,
+                    seed: Vec::new(),
+                })
+            }));
+        }
+        found
+    }
+
+    /// The shape in a row.
+    pub(super) fn instance(&mut self, of: &Instances, row: NodeId, span: Span) -> Found<Rc<Shape>> {
+        let mut columns = of.columns.iter().copied();
+        self.made_in(&of.first, &mut columns, row, span)
+    }
+
+    fn made_in(
+        &mut self,
+        like: &Rc<Shape>,
+        columns: &mut impl Iterator<Item = Option<TableId>>,
+        row: NodeId,
+        span: Span,
+    ) -> Found<Rc<Shape>> {
+        let Some(item) = self.program.shapes.get(like.id.0) else {
+            return Err(self.confused(span));
+        };
+        let mut args = Vec::new();
+        for (arg, param) in like.args.iter().zip(&item.params) {
+            args.push(match self.force(arg.clone())? {
+                Val::Shape(part) => Val::Shape(self.made_in(&part, columns, row, span)?),
+                value => self.looked_up(value, &param.ty, columns, row, span)?,
+            });
+        }
+        Ok(Rc::new(Shape { id: like.id, args }))
+    }
+
+    /// A value whose scalars stand in tables, where they differ.
+    fn looked_up(
+        &mut self,
+        like: Val,
+        ty: &Ty,
+        columns: &mut impl Iterator<Item = Option<TableId>>,
+        row: NodeId,
+        span: Span,
+    ) -> Found<Val> {
+        let mut nodes = Vec::new();
+        self.flatten(like, ty, &mut nodes, span)?;
+        let first = self.int(0, span);
+        let here = self.at(span);
+        for node in &mut nodes {
+            if let Some(table) = columns.next().flatten() {
+                *node = self.b.lookup(table, row, first, here);
+            }
+        }
+        Ok(self.unflatten(ty, &mut nodes.into_iter()))
+    }
+
+    /// The tag of the shape in a row.
+    pub(super) fn instance_tag(
+        &mut self,
+        id: SceneId,
+        of: &Instances,
+        row: NodeId,
+        p: Val,
+        span: Span,
+    ) -> Found<Val> {
+        let Some(ty) = self.program.scenes.get(id.0).and_then(|s| s.tag.clone()) else {
+            return Err(self.confused(span));
+        };
+        let like = self.tag_at(id, of.at, p, span)?;
+        let mut columns = of.tags.iter().copied();
+        self.looked_up(like, &ty, &mut columns, row, span)
+    }
+
+    /// The nearest hit of a group that is not beyond `far`, and the row of the shape that is hit.
+    pub(super) fn nearest_instance(
+        &mut self,
+        of: &Rc<Instances>,
+        ray: &Val,
+        far: NodeId,
+        span: Span,
+    ) -> Found<Met> {
+        let met = self.among(of, ("nearest_in", "nearest_of"), ray, far, span)?;
+        let t = self.part(met.clone(), 0, span)?;
+        let t = self.node(t, &Ty::Real, span)?;
+        let row = self.part(met, 1, span)?;
+        let row = self.node(row, &Ty::Int, span)?;
+        let none = self.int(0, span);
+        let present = self.scalar(BinaryOp::Ge, &Ty::Int, row, none, span)?;
+        Ok(Met { present, t, row })
+    }
+
+    /// Whether one of a group is hit nearer than `far`.
+    pub(super) fn any_instance(
+        &mut self,
+        of: &Rc<Instances>,
+        ray: &Val,
+        far: NodeId,
+        span: Span,
+    ) -> Found<NodeId> {
+        let any = self.among(of, ("any_in", "any_of"), ray, far, span)?;
+        self.node(any, &Ty::Bool, span)
+    }
+
+    fn among(
+        &mut self,
+        of: &Rc<Instances>,
+        (by_cells, by_rows): (&str, &str),
+        ray: &Val,
+        far: NodeId,
+        span: Span,
+    ) -> Found<Val> {
+        let mut args = vec![Val::Rows(of.clone())];
+        let name = match &of.grid {
+            Some(grid) => {
+                args.extend(self.grid_values(grid, span));
+                by_cells
+            }
+            None => {
+                args.push(Val::Node(self.int(of.count as i32, span)));
+                by_rows
+            }
+        };
+        args.extend([ray.clone(), Val::Node(far)]);
+        let first = Ty::Function(vec![Ty::Int], Box::new(Ty::Shape));
+        let outer = std::mem::replace(&mut self.all_turns, true);
+        let found = self.library(name, first, args, span);
+        self.all_turns = outer;
+        found
+    }
+}

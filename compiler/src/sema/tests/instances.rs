@@ -1,0 +1,154 @@
+//! Instances: shapes that are alike but for numbers are found in tables and grids as they are
+//! found one by one.
+
+use super::right;
+use crate::eval::native::Native;
+use crate::ir::graph::Graph;
+use crate::sema::{Options, Ways};
+
+/// Numbers that look random, from 0 to 1 (Knuth's linear congruential generator, MMIX).
+struct Numbers(u64);
+
+impl Numbers {
+    fn next(&mut self) -> f64 {
+        self.0 = (self.0.wrapping_mul(6_364_136_223_846_793_005)).wrapping_add(1);
+        (self.0 >> 40) as f64 / f64::from(1 << 24)
+    }
+
+    fn between(&mut self, low: f64, high: f64) -> f64 {
+        // Two places, as people write: so that faces and cells' borders coincide at times.
+        ((low + (high - low) * self.next()) * 100.0).round() / 100.0
+    }
+
+    fn point(&mut self) -> String {
+        let [x, y, z] = [(-4.0, 4.0), (0.0, 3.0), (-5.0, 2.0)].map(|(l, h)| self.between(l, h));
+        format!("({x}, {y}, {z})")
+    }
+}
+
+/// A shape of a kind; its size and place are random.
+fn shape(kind: usize, n: &mut Numbers) -> String {
+    let (at, size) = (n.point(), n.between(0.2, 0.7));
+    match kind {
+        0 => format!("sphere({at}, {size})"),
+        1 => format!(
+            "box({at}, {at} + ({size}, {}, {size}))",
+            n.between(0.1, 0.9)
+        ),
+        2 => format!("clip(cylinder({at}, (0, 1, 0), {size}), slab(0.2, 1.6))"),
+        3 => format!("quadric({at}, ({}, 9, 4))", n.between(3.0, 30.0)),
+        4 => format!(
+            "rotation(box((-0.3, 0, -0.2), (0.3, 1, 0.2)), (0, 1, 0), {size}turn).translation({at})"
+        ),
+        _ => format!("sphere({at}, {size} + sway)"),
+    }
+}
+
+fn scene(kind: usize, count: usize, n: &mut Numbers) -> String {
+    let mut items = String::new();
+    for k in 0..count {
+        let shape = shape(kind, n);
+        items += &format!("  {shape} is {};\n", (k % 7) as f64 / 8.0 + 0.2);
+        // The later one is seen where two are at one place.
+        if k % 9 == 4 {
+            items += &format!("  {shape} is 0.05;\n");
+        }
+    }
+    let eye = n.point();
+    format!(
+        "image 64 x 48 inks black, grey, white;\n\
+         param sway: real = 0.1 in 0 .. 0.3;\n\
+         scene s {{\n  plane((0, 1, 0), 0) is 0.4;\n{items}}}\n\
+         draw (x, y) = {{\n\
+           let r = if y < 16 then pinhole((0, 2, 9), at: (0, 1, 0), field: 50deg).through(x, 2 * y)\n\
+             else if y < 32 then pinhole({eye}, at: (0.1, 0.9, -1), field: 80deg).through(x, 2 * y - 24)\n\
+             else ray(((x - 32) / 8, (48 - y) / 5, 7), (0, 0, -1));\n\
+           let v = if let h = s.trace(r, far: 12) then\n\
+             h.tag * (0.3 + 0.7 * lambert(h, (0.48, 0.64, 0.6)))\n\
+             * (if s.blocked(ray(h.point + 0.01 * h.normal, (0.48, 0.64, 0.6)), far: 20) then 0.5 else 1) else 0;\n\
+           threshold(v, bayer(4)[x mod 4, y mod 4])\n}};"
+    )
+}
+
+fn graph_of(text: &str, ways: Ways) -> Graph {
+    let options = Options {
+        ways,
+        ..Options::default()
+    };
+    right(text).lower(&options).unwrap()
+}
+
+fn inks(graph: &Graph) -> Vec<u8> {
+    let mut native = Native::new(graph);
+    let places = (0..48).flat_map(|y| (0..64).map(move |x| (x, y)));
+    places.map(|(x, y)| native.pixel(x, y).ink).collect()
+}
+
+/// How many nodes a graph needs.
+fn size(graph: &Graph) -> usize {
+    graph
+        .reached()
+        .into_iter()
+        .filter(|&reached| reached)
+        .count()
+}
+
+fn separate() -> Ways {
+    Ways {
+        separate: true,
+        ..Ways::default()
+    }
+}
+
+#[test]
+fn pictures_are_those_of_shapes_one_by_one() {
+    let n = &mut Numbers(5);
+    let (mut tables, mut grids) = (0, 0);
+    for round in 0..36 {
+        let (kind, count) = (round % 6, [9, 16, 30, 60][round / 6 % 4]);
+        let text = scene(kind, count, n);
+        let one_by_one = graph_of(&text, separate());
+        let expected = inks(&one_by_one);
+        assert!(expected.iter().any(|&ink| ink == 2), "{text}");
+        let together = graph_of(&text, Ways::default());
+        let unbounded = Ways {
+            unbounded: true,
+            ..Ways::default()
+        };
+        let rows = graph_of(&text, unbounded);
+        let has = |graph: &Graph, name: &str| graph.tables.iter().any(|t| t.name == name);
+        tables += usize::from(size(&together) < size(&one_by_one));
+        grids += usize::from(has(&together, "list"));
+        assert!(!has(&rows, "list"));
+        for (graph, how) in [(together, "a grid"), (rows, "a table")] {
+            let differ = inks(&graph)
+                .iter()
+                .zip(&expected)
+                .filter(|(a, b)| a != b)
+                .count();
+            assert_eq!(differ, 0, "{how}: {text}");
+        }
+    }
+    // Spheres that hang on a param are code each.
+    assert!(tables >= 24 && grids >= 20, "{tables} {grids}");
+}
+
+#[test]
+fn a_grid_grows_less_than_shapes() {
+    let n = &mut Numbers(9);
+    let nodes =
+        |count: usize, n: &mut Numbers| size(&graph_of(&scene(0, count, n), Ways::default()));
+    let (few, many) = (nodes(20, n), nodes(200, n));
+    assert!(many < few + few / 10, "{few} {many}");
+}
+
+#[test]
+fn turns_of_the_library_do_not_cut_tables_short() {
+    let text = scene(0, 60, &mut Numbers(3));
+    let cut = Options {
+        max_steps: Some(4),
+        ..Options::default()
+    };
+    let graph = right(&text).lower(&cut).unwrap();
+    assert!(inks(&graph) == inks(&graph_of(&text, separate())));
+}
