@@ -3,7 +3,7 @@
 
 use clap::Args;
 use serde::{Deserialize, Serialize};
-use slowlight_compiler::sema::{Millionths, Search, Ways};
+use slowlight_compiler::sema::{Instancing, Millionths, Search, Ways};
 
 /// Other ways to what the scene asks for.
 #[derive(
@@ -71,7 +71,7 @@ impl WayArgs {
             differences: self.differences,
             samples: self.samples,
             unbounded: false,
-            separate: false,
+            instancing: Instancing::default(),
         }
     }
 

@@ -1,21 +1,59 @@
-//! The graph of a scene as a target is to run it: whether shapes that are alike are a table and a
-//! loop, or code each, is decided by what plans of both without a search are said to take.
+//! The graph of a scene as a target is to run it: whether shapes that are alike are found in a
+//! grid, in a table, or by code each, is decided by what plans without a search are said to take.
 
 use super::ScreenArgs;
 use crate::estimate;
-use crate::failure::Outcome;
+use crate::failure::{Failure, Outcome};
 use crate::need;
 use crate::scene::{Limits, Precision, Scene};
 use slowlight_compiler::ir::graph::Graph;
 use slowlight_compiler::plan::Goal;
 use slowlight_compiler::planner::{PlannedScene, plan_within};
-use slowlight_compiler::sema::{INSTANCES, Ways};
+use slowlight_compiler::sema::{INSTANCES, Instancing, Ways};
 use slowlight_compiler::targets::Target;
 
 /// Of how many shapes a scene may be for each to be code of its own, where it could be otherwise.
 const MOST: usize = 40;
 
+/// How large a plan's program may be, in parts of its room, for one of its smaller forms to fit.
+const FULL: f64 = 1.25;
+
+/// What takes less memory, and longer.
+const LESS: [Instancing; 2] = [Instancing::FewCells, Instancing::Rows];
+
+/// How many shapes the largest of a file's scenes has.
+fn shapes(scene: &Scene) -> usize {
+    let counts = scene.checked.program.scenes.iter().map(|s| s.members.len());
+    counts.max().unwrap_or(0)
+}
+
 impl ScreenArgs {
+    /// What `plan` makes of these options; where its program does not fit, with less memory for
+    /// how shapes are found.
+    ///
+    /// # Errors
+    /// Where none does, that of the first.
+    pub(super) fn smaller(
+        &self,
+        scene: &Scene,
+        plan: impl Fn(&ScreenArgs) -> Outcome<PlannedScene>,
+    ) -> Outcome<PlannedScene> {
+        let first = plan(self);
+        if !matches!(first, Err(Failure::Wrong(_))) || shapes(scene) < INSTANCES {
+            return first;
+        }
+        let less = LESS
+            .into_iter()
+            .filter(|less| *less > self.limits().ways.instancing);
+        let mut others = less.map(|less| {
+            plan(&ScreenArgs {
+                instancing: less,
+                ..self.clone()
+            })
+        });
+        others.find(Result::is_ok).unwrap_or(first)
+    }
+
     /// The graph of a scene.
     ///
     /// # Errors
@@ -28,42 +66,52 @@ impl ScreenArgs {
         set: &[(String, Vec<f64>)],
     ) -> Outcome<Graph> {
         let limits = self.limits();
-        let lower = |limits: Limits| {
+        let most = shapes(scene);
+        let by = |instancing| {
+            let ways = Ways {
+                instancing,
+                ..limits.ways
+            };
+            let limits = Limits { ways, ..limits };
             scene.graph_within(Some(goal.mode.inks), Precision::of(target), set, limits)
         };
-        let together = lower(limits)?;
-        let counts = scene.checked.program.scenes.iter().map(|s| s.members.len());
-        let most = counts.max().unwrap_or(0);
-        if limits.ways.separate || !(INSTANCES..=MOST).contains(&most) {
-            return Ok(together);
+        let first = by(limits.ways.instancing)?;
+        if limits.ways.instancing == Instancing::Separate || most < INSTANCES {
+            return Ok(first);
         }
-        let separate = lower(Limits {
-            ways: Ways {
-                separate: true,
-                ..limits.ways
-            },
-            ..limits
-        })?;
-        if separate.nodes.len() == together.nodes.len() {
-            return Ok(together);
+        let separate = by(Instancing::Separate)?;
+        if separate.nodes.len() == first.nodes.len() {
+            return Ok(first);
         }
+        let whole = Goal {
+            rows: None,
+            ..goal.clone()
+        };
+        // Nothing where the program is larger than what the machine has for it.
         let takes = |graph: &Graph| {
-            let whole = Goal {
-                rows: None,
-                ..goal.clone()
-            };
             let plan = plan_within(graph, target, &whole, 0, self.passes.left_out()).ok()?;
             fits(&plan).then(|| estimate::cycles(&plan))
         };
-        Ok(match (takes(&together), takes(&separate)) {
-            (Some(a), Some(b)) if b < a => separate,
-            (None, Some(_)) => separate,
-            _ => together,
+        let mut best = (takes(&first), first);
+        for less in LESS {
+            if best.0.is_none() && less > limits.ways.instancing {
+                let graph = by(less)?;
+                best = (takes(&graph), graph);
+            }
+        }
+        let alone = (most <= MOST).then(|| takes(&separate)).flatten();
+        Ok(match (best.0, alone) {
+            (Some(together), Some(alone)) if together <= alone => best.1,
+            (_, Some(_)) => separate,
+            _ => best.1,
         })
     }
 }
 
-/// Whether a plan's program is small enough as it is.
+/// Whether a plan's program is so small, as it is, that it may fit in the end.
 fn fits(plan: &PlannedScene) -> bool {
-    need::first(plan).is_ok_and(|need| need.is_none_or(|need| need.fits()))
+    match (need::first(plan), need::room(plan)) {
+        (Ok(Some(need)), Some(room)) => need.total() as f64 <= FULL * room as f64,
+        _ => true,
+    }
 }

@@ -28,6 +28,7 @@ use slowlight_compiler::plan::Goal;
 use slowlight_compiler::planner::PlannedScene;
 use slowlight_compiler::planner::SEARCH;
 use slowlight_compiler::planner::{plan_as_written, plan_with_every_shade, plan_within};
+use slowlight_compiler::sema::Instancing;
 use slowlight_compiler::targets;
 use slowlight_compiler::targets::{Language, Mode, System, Target};
 use std::sync::Once;
@@ -101,6 +102,9 @@ pub struct ScreenArgs {
     /// Spend less memory on speed, from 0, the default, to 18, also where the program fits
     #[arg(long, value_name = "STEP", value_parser = thrift)]
     pub thrift: Option<u8>,
+    /// How shapes that are alike may be found.
+    #[arg(skip)]
+    pub instancing: Instancing,
 }
 
 /// Whether a target is one of those in machine code of the 6502.
@@ -123,7 +127,9 @@ impl ScreenArgs {
         Limits {
             turns: self.max_turns,
             steps: self.max_steps,
-            ways: self.passes.ways(self.ways.ways(), self.as_written),
+            ways: self
+                .passes
+                .ways(self.ways.ways(), self.as_written, self.instancing),
         }
     }
 
@@ -211,8 +217,10 @@ impl ScreenArgs {
         let modes = self.modes(target, scene)?;
         let (_waiting, _blind) = (Waiting::new("planning"), interrupt::blind());
         let name = |span| scene.called_at(span);
-        let made = |mode, fuel| self.plan_in((mode, fuel), scene, target, set);
-        let plan = fit::fit(modes, &made, &name)?;
+        let plan = self.smaller(scene, |by| {
+            let made = |mode, fuel| by.plan_in((mode, fuel), scene, target, set);
+            fit::fit(modes.clone(), &made, &name)
+        })?;
         if plan.was_cut() {
             say_cut();
         }

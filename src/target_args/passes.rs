@@ -2,7 +2,7 @@
 
 use clap::Args;
 use slowlight_compiler::planner::pipeline::{PASSES, Pass, PassSet};
-use slowlight_compiler::sema::Ways;
+use slowlight_compiler::sema::{Instancing, Ways};
 
 /// Passes that are left out.
 #[derive(Args, Clone, Debug, Default)]
@@ -24,10 +24,13 @@ impl PassArgs {
     }
 
     /// Ways, without what passes before the planner's find where those are left out.
-    pub fn ways(&self, ways: Ways, as_written: bool) -> Ways {
+    pub fn ways(&self, ways: Ways, as_written: bool, instancing: Instancing) -> Ways {
         Ways {
             unbounded: as_written || self.left_out().has(Pass::Bounds),
-            separate: as_written || self.left_out().has(Pass::Instances),
+            instancing: match as_written || self.left_out().has(Pass::Instances) {
+                true => Instancing::Separate,
+                false => instancing,
+            },
             ..ways
         }
     }

@@ -1,6 +1,7 @@
 //! Uniform grids: which of a group's boxes have something in which cell of space.
 
 use super::value::{Shape, Table, Val};
+use super::ways::Instancing;
 use super::{Found, Lower};
 use crate::ir::extent::Extent;
 use crate::source::Span;
@@ -10,9 +11,22 @@ use std::rc::Rc;
 const FEW: usize = 8;
 
 /// Cells along a side, cells in all, and entries of all cells' lists, at most.
-const MOST_ALONG: usize = 16;
-const MOST_CELLS: usize = 256;
-const MOST_ENTRIES: usize = 2048;
+struct Most {
+    along: usize,
+    cells: usize,
+    /// Entries for each shape.
+    entries: usize,
+}
+const MANY: Most = Most {
+    along: 16,
+    cells: 256,
+    entries: 20,
+};
+const SOME: Most = Most {
+    along: 5,
+    cells: 50,
+    entries: 4,
+};
 
 /// What it costs to go on to the next cell, in parts of what a ray costs against a shape.
 const STEP: f64 = 0.25;
@@ -97,6 +111,11 @@ impl Lower<'_> {
     /// The grid in which rays meet shapes at least cost; none where that is no less than to ask
     /// them all, or one of them has no box.
     pub(super) fn grid_of(&mut self, shapes: &[Rc<Shape>], span: Span) -> Found<Option<Grid>> {
+        let most = match self.options.ways.instancing {
+            Instancing::Cells => MANY,
+            Instancing::FewCells => SOME,
+            Instancing::Rows | Instancing::Separate => return Ok(None),
+        };
         if shapes.len() < FEW {
             return Ok(None);
         }
@@ -115,16 +134,16 @@ impl Lower<'_> {
         let room = 4.0 * self.options.epsilon * widths.iter().sum::<f64>();
         let mut best: Option<(f64, Cells<'_>)> = None;
         let widest = widths.iter().copied().fold(0.0, f64::max);
-        for most in 1..=MOST_ALONG {
-            let along = widths.map(|w| ((w / widest * most as f64).round() as usize).max(1));
+        for along in 1..=most.along {
+            let along = widths.map(|w| ((w / widest * along as f64).round() as usize).max(1));
             let cells = Cells {
                 boxes: &boxes,
                 whole: all,
                 along,
                 room,
             };
-            let fits = along.iter().product::<usize>() <= MOST_CELLS;
-            if !fits || cells.entries() > MOST_ENTRIES {
+            let fits = along.iter().product::<usize>() <= most.cells;
+            if !fits || cells.entries() > most.entries * shapes.len() {
                 break;
             }
             let cost = cells.cost();

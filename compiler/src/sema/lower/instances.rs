@@ -7,6 +7,7 @@
 
 use super::grid::Grid;
 use super::value::{Shape, Val};
+use super::ways::Instancing;
 use super::{Found, Lower};
 use crate::ir::graph::{self, Constant, NodeId, TableId};
 use crate::sema::program::*;
@@ -93,7 +94,7 @@ impl<'a> Lower<'a> {
         span: Span,
     ) -> Found<Option<Instances>> {
         let first = &shapes[at];
-        if self.options.ways.separate || !self.is_instance(first, span)? {
+        if self.options.ways.instancing == Instancing::Separate || !self.is_instance(first, span)? {
             return Ok(None);
         }
         let Some(start) = self.row_of(first, span)? else {

@@ -36,7 +36,7 @@ mod ways;
 pub(in crate::sema) use bounds::extents;
 pub use instances::INSTANCES;
 pub use params::params;
-pub use ways::{Millionths, Search, Ways};
+pub use ways::{Instancing, Millionths, Search, Ways};
 
 use crate::ir::build::Builder;
 use crate::ir::extent::Extent;

@@ -32,6 +32,20 @@ pub enum Search {
     },
 }
 
+/// How a scene's shapes that are alike but for numbers are found.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Instancing {
+    /// In a table, by the cells of a grid where that takes less.
+    #[default]
+    Cells,
+    /// The same with few cells, which take less memory.
+    FewCells,
+    /// In a table, one after the other.
+    Rows,
+    /// Each by code of its own.
+    Separate,
+}
+
 /// What is found in another way than the scene says.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct Ways {
@@ -44,6 +58,6 @@ pub struct Ways {
     pub samples: Option<u32>,
     /// Rays are followed from end to end, whatever is known of where shapes are.
     pub unbounded: bool,
-    /// Shapes that are alike but for numbers are code each.
-    pub separate: bool,
+    /// How shapes that are alike are found.
+    pub instancing: Instancing,
 }

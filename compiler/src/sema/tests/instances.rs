@@ -4,7 +4,7 @@
 use super::right;
 use crate::eval::native::Native;
 use crate::ir::graph::Graph;
-use crate::sema::{Options, Ways};
+use crate::sema::{Instancing, Options, Ways};
 
 /// Numbers that look random, from 0 to 1 (Knuth's linear congruential generator, MMIX).
 struct Numbers(u64);
@@ -95,7 +95,7 @@ fn size(graph: &Graph) -> usize {
 
 fn separate() -> Ways {
     Ways {
-        separate: true,
+        instancing: Instancing::Separate,
         ..Ways::default()
     }
 }
@@ -111,16 +111,18 @@ fn pictures_are_those_of_shapes_one_by_one() {
         let expected = inks(&one_by_one);
         assert!(expected.iter().any(|&ink| ink == 2), "{text}");
         let together = graph_of(&text, Ways::default());
-        let unbounded = Ways {
-            unbounded: true,
+        let by = |instancing| Ways {
+            instancing,
             ..Ways::default()
         };
-        let rows = graph_of(&text, unbounded);
+        let rows = graph_of(&text, by(Instancing::Rows));
+        let few = graph_of(&text, by(Instancing::FewCells));
         let has = |graph: &Graph, name: &str| graph.tables.iter().any(|t| t.name == name);
         tables += usize::from(size(&together) < size(&one_by_one));
         grids += usize::from(has(&together, "list"));
         assert!(!has(&rows, "list"));
-        for (graph, how) in [(together, "a grid"), (rows, "a table")] {
+        let all = [(together, "a grid"), (few, "few cells"), (rows, "a table")];
+        for (graph, how) in all {
             let differ = inks(&graph)
                 .iter()
                 .zip(&expected)
