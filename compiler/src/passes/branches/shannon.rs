@@ -10,6 +10,7 @@
 //! It doubles what lies between the choice and the comparison, so it is for the plan to find
 //! out whether that pays.
 
+use crate::analysis::rate::{Dependence, Rates, rates};
 use crate::ir::build::Builder;
 use crate::ir::graph::*;
 use crate::passes::rewrite::rebuild::rebuild_old;
@@ -17,16 +18,19 @@ use crate::source::Span;
 use slowlight_routine::{Op, Type};
 use std::collections::{BTreeMap, BTreeSet};
 
-/// How many conditions are looked at.
+/// How many conditions are looked at, and how many more that no loop's turns change: what is
+/// found by loops is made of many choices, each of which all of the loop is computed for.
 const CONDITIONS: usize = 4;
+const OUTSIDE: usize = 2;
 
-/// The conditions of choices between reals, those first that most is computed for.
+/// The conditions of choices, those first that most is computed for.
 pub fn conditions(graph: &Graph) -> Vec<NodeId> {
     let reached = graph.reached();
+    let rates = rates(graph);
     let mut all: BTreeSet<NodeId> = BTreeSet::new();
     for id in graph.ids().filter(|id| reached[id.0 as usize]) {
-        if let Node::Select { cond, .. } = graph.node(id)
-            && graph.ty(id) == Type::Real
+        if let Node::Select { cond, yes, no } = graph.node(id)
+            && (graph.ty(id) == Type::Real || loops_alone((graph, &rates), cond, [yes, no]))
         {
             all.insert(cond);
         }
@@ -36,10 +40,42 @@ pub fn conditions(graph: &Graph) -> Vec<NodeId> {
         .map(|cond| (reached_from(graph, cond), cond))
         .collect();
     all.sort_by_key(|(count, cond)| (std::cmp::Reverse(*count), *cond));
-    all.into_iter()
-        .take(CONDITIONS)
-        .map(|(_, cond)| cond)
-        .collect()
+    let mut all = all.into_iter().map(|(_, cond)| cond);
+    let mut found: Vec<NodeId> = all.by_ref().take(CONDITIONS).collect();
+    let in_turns = |by: &Dependence| matches!(by, Dependence::Loop(_));
+    let is_outside = |cond: &NodeId| !rates.rate(*cond).iter().any(in_turns);
+    let more = OUTSIDE.saturating_sub(found.iter().filter(|cond| is_outside(cond)).count());
+    found.extend(all.filter(is_outside).take(more));
+    found
+}
+
+/// Whether what has been compared already chooses by what a loop finds at each pixel that it is
+/// not made of itself: then it is cheap beside. Constants differ.
+fn loops_alone(of: (&Graph, &Rates), cond: NodeId, arms: [NodeId; 2]) -> bool {
+    if arms.iter().all(|&arm| of.0.constant(arm).is_some()) {
+        return false;
+    }
+    let beside = loops_of(of, &arms);
+    loops_of(of, &[cond]).difference(&beside).next().is_some()
+}
+
+/// The loops that values are made of, of those that each pixel runs.
+fn loops_of((graph, rates): (&Graph, &Rates), ids: &[NodeId]) -> BTreeSet<LoopId> {
+    let (mut seen, mut todo) = (BTreeSet::new(), ids.to_vec());
+    let mut found = BTreeSet::new();
+    while let Some(id) = todo.pop() {
+        if seen.insert(id) {
+            todo.extend(graph.references(id));
+            let each_pixel =
+                rates.depends(id, Dependence::Row) && rates.depends(id, Dependence::Column);
+            if let Node::Result { of, .. } = graph.node(id)
+                && each_pixel
+            {
+                found.insert(of);
+            }
+        }
+    }
+    found
 }
 
 /// How many nodes a value is made of.
@@ -62,14 +98,24 @@ struct Pair {
     no: NodeId,
 }
 
+/// What is worked out for both arms of a choice.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Expanded {
+    /// Each comparison by itself.
+    Comparisons,
+    /// The ink: one question, where several comparisons make it.
+    Ink,
+}
+
 /// The graph in which a condition is asked only where it matters; nothing where no choice by
-/// it comes to a comparison. Where errors are sent on, each shade matters.
-pub fn shannon(graph: &Graph, by: NodeId) -> Option<Graph> {
+/// it comes to a comparison, or to the ink. Where errors are sent on, each shade matters.
+pub fn shannon(graph: &Graph, by: NodeId, what: Expanded) -> Option<Graph> {
     if graph.diffusion.is_some() {
         return None;
     }
     let mut pairs: BTreeMap<NodeId, Pair> = BTreeMap::new();
     let mut some = false;
+    let rates = rates(graph);
     let next = rebuild_old(graph, &mut |builder, made, id, span| {
         let new = |old: NodeId| made.get(old.0 as usize).copied().flatten();
         let node = graph.node(id);
@@ -92,11 +138,18 @@ pub fn shannon(graph: &Graph, by: NodeId) -> Option<Graph> {
                 no: arms(|pair| pair.no)?,
             },
         };
-        if graph.ty(id) == Type::Real {
+        let goes_on = match what {
+            Expanded::Comparisons => graph.ty(id) == Type::Real,
+            Expanded::Ink => id != graph.ink,
+        };
+        if goes_on {
             pairs.insert(id, pair);
             return None;
         }
-        if chosen {
+        if let Node::Select { cond, yes, no } = node
+            && chosen
+            && !loops_alone((graph, &rates), cond, [yes, no])
+        {
             return None;
         }
         some = true;
@@ -190,7 +243,7 @@ mod tests {
             let graph = lowered(ink);
             let (drawn, all) = inks(&graph);
             let found = conditions(&graph).into_iter();
-            let found = found.filter_map(|cond| shannon(&graph, cond));
+            let found = found.filter_map(|cond| shannon(&graph, cond, Expanded::Comparisons));
             let found: Vec<_> = found.map(|next| inks(&next)).collect();
             assert!(found.iter().all(|(inks, _)| *inks == drawn), "{ink}");
             // It still matters at some.
@@ -213,7 +266,7 @@ mod tests {
         let graph = graph.expect("a graph");
         assert!(!conditions(&graph).is_empty());
         for cond in conditions(&graph) {
-            assert!(shannon(&graph, cond).is_none());
+            assert!(shannon(&graph, cond, Expanded::Comparisons).is_none());
         }
     }
 }

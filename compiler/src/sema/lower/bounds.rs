@@ -9,6 +9,7 @@
 
 #[cfg(test)]
 use super::Options;
+use super::derive::Formula;
 use super::value::{Shape, Val};
 use super::{Found, Lower};
 use crate::ir::enclosure::Enclosure;
@@ -80,12 +81,16 @@ impl Lower<'_> {
         })
     }
 
-    fn derived(&mut self, shape: &Rc<Shape>, level: f64, span: Span) -> Found<Option<Extent>> {
+    /// What is above 0 outside of a shape: its distance, or else its `f`.
+    pub(super) fn outside_of(&mut self, shape: &Rc<Shape>, span: Span) -> Option<Formula> {
         // A shape made of shapes may have a facet that those do not.
         let mut of = |kind| self.formula(shape, kind, span).ok().flatten();
-        let formula = of(FacetKind::Dist).or_else(|| of(FacetKind::Implicit));
+        of(FacetKind::Dist).or_else(|| of(FacetKind::Implicit))
+    }
+
+    fn derived(&mut self, shape: &Rc<Shape>, level: f64, span: Span) -> Found<Option<Extent>> {
         let level = self.level(level);
-        let Some(formula) = formula else {
+        let Some(formula) = self.outside_of(shape, span) else {
             return Ok(None);
         };
         let key = (formula.root, level.to_bits());
@@ -110,7 +115,7 @@ impl Lower<'_> {
         }
     }
 
-    fn level(&self, asked: f64) -> f64 {
+    pub(super) fn level(&self, asked: f64) -> f64 {
         asked.max(2.0 * self.options.offset).max(LEVEL)
     }
 

@@ -1,10 +1,13 @@
 //! Uniform grids: which of a group's boxes have something in which cell of space.
 
+use super::derive::Formula;
 use super::value::{Shape, Table, Val};
 use super::ways::Instancing;
 use super::{Found, Lower};
+use crate::ir::enclosure::Enclosure;
 use crate::ir::extent::Extent;
 use crate::source::Span;
+use slowlight_routine::Range;
 use std::rc::Rc;
 
 /// How many shapes a grid is worth.
@@ -33,6 +36,9 @@ const STEP: f64 = 0.25;
 
 /// By what part of a cell boxes are made larger, for the roundings of rays' ways.
 const ROOM: f64 = 1.0 / 32.0;
+
+/// How many nodes are evaluated for each shape at most, to leave it out of cells.
+const WORK: u64 = 20_000;
 
 /// Cells and what is in them.
 pub(super) struct Grid {
@@ -90,7 +96,18 @@ impl Cells<'_> {
         surface(self.side()) / surface(whole) * (STEP * count as f64 + self.entries() as f64)
     }
 
-    fn lists(&self) -> Vec<Vec<i32>> {
+    /// What is in a cell, or near by.
+    fn region(&self, cell: [usize; 3]) -> [Range; 3] {
+        let side = self.side();
+        [0, 1, 2].map(|k| {
+            let low = self.whole.low[k] + side[k] * cell[k] as f64;
+            let room = self.room + ROOM * side[k];
+            Range::new(low - room, low + side[k] + room)
+        })
+    }
+
+    /// Each cell's boxes, but those of whose shapes nothing is there.
+    fn lists(&self, mut is_empty: impl FnMut(usize, [Range; 3]) -> bool) -> Vec<Vec<i32>> {
         let [nx, ny, nz] = self.along;
         let mut lists = vec![Vec::new(); nx * ny * nz];
         for (k, of) in self.boxes.iter().enumerate() {
@@ -98,7 +115,9 @@ impl Cells<'_> {
             for layer in z.0..=z.1 {
                 for row in y.0..=y.1 {
                     for column in x.0..=x.1 {
-                        lists[column + nx * (row + ny * layer)].push(k as i32);
+                        if !is_empty(k, self.region([column, row, layer])) {
+                            lists[column + nx * (row + ny * layer)].push(k as i32);
+                        }
                     }
                 }
             }
@@ -157,7 +176,19 @@ impl Lower<'_> {
         if cost > shapes.len() as f64 / 2.0 {
             return Ok(None);
         }
-        let lists = cells.lists();
+        let level = self.level(0.0);
+        let formulas: Vec<Option<Formula>> =
+            shapes.iter().map(|s| self.outside_of(s, span)).collect();
+        let enclosure = |formula: &Option<Formula>| {
+            let formula = formula.as_ref()?;
+            Some(Enclosure::new(&self.b, formula.markers, formula.root, WORK))
+        };
+        let mut enclosures: Vec<Option<Enclosure<'_>>> = formulas.iter().map(enclosure).collect();
+        let lists = cells.lists(|k, region| match &mut enclosures[k] {
+            Some(of) => of.of(region).lo > level && of.left() > 0,
+            None => false,
+        });
+        drop(enclosures);
         let ends = lists.iter().scan(0, |at, list| {
             *at += list.len() as i32;
             Some(*at)
