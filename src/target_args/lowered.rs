@@ -67,7 +67,7 @@ impl ScreenArgs {
     ) -> Outcome<Graph> {
         let limits = self.limits();
         let most = shapes(scene);
-        let by = |instancing| {
+        let lower = |instancing, set: &[(String, Vec<f64>)]| {
             let ways = Ways {
                 instancing,
                 ..limits.ways
@@ -75,13 +75,15 @@ impl ScreenArgs {
             let limits = Limits { ways, ..limits };
             scene.graph_within(Some(goal.mode.inks), Precision::of(target), set, limits)
         };
-        let first = by(limits.ways.instancing)?;
-        if limits.ways.instancing == Instancing::Separate || most < INSTANCES {
-            return Ok(first);
+        let asked = limits.ways.instancing;
+        if asked == Instancing::Separate || most < INSTANCES {
+            return lower(asked, set);
         }
-        let separate = by(Instancing::Separate)?;
-        if separate.nodes.len() == first.nodes.len() {
-            return Ok(first);
+        // An edited program is that of the scene as it is.
+        let by = |instancing| lower(instancing, &[]);
+        let (first, separate) = (by(asked)?, by(Instancing::Separate)?);
+        if size(&separate) == size(&first) {
+            return lower(asked, set);
         }
         let whole = Goal {
             rows: None,
@@ -92,20 +94,26 @@ impl ScreenArgs {
             let plan = plan_within(graph, target, &whole, 0, self.passes.left_out()).ok()?;
             fits(&plan).then(|| estimate::cycles(&plan))
         };
-        let mut best = (takes(&first), first);
+        let mut best = (takes(&first), asked);
         for less in LESS {
-            if best.0.is_none() && less > limits.ways.instancing {
-                let graph = by(less)?;
-                best = (takes(&graph), graph);
+            if best.0.is_none() && less > asked {
+                best = (takes(&by(less)?), less);
             }
         }
         let alone = (most <= MOST).then(|| takes(&separate)).flatten();
-        Ok(match (best.0, alone) {
+        let chosen = match (best.0, alone) {
             (Some(together), Some(alone)) if together <= alone => best.1,
-            (_, Some(_)) => separate,
+            (_, Some(_)) => Instancing::Separate,
             _ => best.1,
-        })
+        };
+        lower(chosen, set)
     }
+}
+
+/// How many nodes and tables a graph needs.
+fn size(graph: &Graph) -> (usize, usize) {
+    let needed = graph.reached().into_iter().filter(|&reached| reached);
+    (needed.count(), graph.tables.len())
 }
 
 /// Whether a plan's program is so small, as it is, that it may fit in the end.

@@ -254,6 +254,49 @@ mod tests {
     }
 
     #[test]
+    fn an_ink_of_several_comparisons_is_one_question() {
+        let draw = "threshold((if dear then 0.3 else 1) * (y / 16), bayer(4)[x mod 4, y mod 4])";
+        let graph = lowered(draw);
+        let (drawn, all) = inks(&graph);
+        let found = conditions(&graph).into_iter();
+        let found = found.filter_map(|cond| shannon(&graph, cond, Expanded::Ink));
+        let found: Vec<_> = found.map(|next| inks(&fold(&next))).collect();
+        assert!(found.iter().all(|(inks, _)| *inks == drawn));
+        assert!(found.iter().any(|(_, few)| *few < all * 3 / 4));
+    }
+
+    #[test]
+    fn arms_that_are_compared_already_may_decide_alone() {
+        let lit = "y / 16 > bayer(4)[x mod 4, y mod 4]";
+        for (draw, some) in [
+            (
+                format!("ink(if (if dear then {lit} else y > 12) then 1 else 0)"),
+                true,
+            ),
+            (
+                format!("ink(if (if dear then false else {lit}) then 1 else 0)"),
+                true,
+            ),
+            (
+                "ink(if (if dear then false else true) then 1 else 0)".to_owned(),
+                false,
+            ),
+        ] {
+            let graph = lowered(&draw);
+            let (drawn, all) = inks(&graph);
+            let found = conditions(&graph).into_iter();
+            let found = found.filter_map(|cond| shannon(&graph, cond, Expanded::Comparisons));
+            let found: Vec<_> = found.map(|next| inks(&fold(&next))).collect();
+            assert!(found.iter().all(|(inks, _)| *inks == drawn), "{draw}");
+            assert_eq!(
+                found.iter().any(|(_, few)| *few < all * 3 / 4),
+                some,
+                "{draw}"
+            );
+        }
+    }
+
+    #[test]
     fn errors_that_are_sent_on_need_every_shade() {
         let source = "image 16 x 8 inks black, white;
             dither send(v: real, x: int, y: int) -> ink = {
