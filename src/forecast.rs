@@ -5,7 +5,7 @@
 //! once more. What is left is the rows' own, and rows spread evenly over the picture stand
 //! for the others. Where all rows together are no work, all are run. Where a single row is much
 //! work, few are run, at the same time, and what comes before them is what that is said to
-//! take ([`estimate::before`]): it hardly counts.
+//! take ([`estimate::before`]), where that hardly counts.
 //!
 //! Where errors go from row to row, a row wants all those above it. There as many rows from
 //! the top are run as are no work, and the routines' mean costs ([`crate::estimate`]) say
@@ -31,6 +31,9 @@ const MOST: u64 = 2_000_000_000;
 
 /// So many rows are looked at, however long they take.
 const FEW: u32 = 4;
+
+/// What comes before the first row counts where it is said to be such a part of a row.
+const COUNTS: f64 = 0.1;
 
 /// Where rows are looked at, in sixteenths of the picture's height: each beginning of this
 /// order is spread over all of it.
@@ -167,13 +170,7 @@ impl Look<'_> {
         if one * f64::from(FEW) > ENOUGH {
             return self.spread_few(one);
         }
-        let (both, other) = rayon::join(
-            || self.run((middle, middle + 1)),
-            || self.run((middle + 1, middle + 1)),
-        );
-        let (both, other) = (both?, other?);
-        self.spent += both + other;
-        let before = (one + other - both).clamp(0.0, one.min(other));
+        let before = self.before((middle, one))?;
         let height = f64::from(self.height());
         let whole = |sum: f64, rows: u32| before + sum / f64::from(rows) * height;
         let mut sum = one - before;
@@ -199,6 +196,15 @@ impl Look<'_> {
         Ok(whole(sum, self.rows))
     }
 
+    /// The cycles before the first row, by a row that took so long and the next one.
+    fn before(&mut self, (row, one): (u32, f64)) -> Outcome<f64> {
+        let (both, other) =
+            rayon::join(|| self.run((row, row + 1)), || self.run((row + 1, row + 1)));
+        let (both, other) = (both?, other?);
+        self.spent += both + other;
+        Ok((one + other - both).clamp(0.0, one.min(other)))
+    }
+
     /// The same where one row, which took so long, is as much work as others should be
     /// together.
     fn spread_few(&mut self, one: f64) -> Outcome<f64> {
@@ -208,7 +214,10 @@ impl Look<'_> {
         let others: Vec<f64> = rows
             .map(|row| self.run((row, row)))
             .collect::<Outcome<_>>()?;
-        let before = estimate::before(self.plan);
+        let mut before = estimate::before(self.plan);
+        if before > one * COUNTS {
+            before = self.before((self.at(PLACES[0]), one))?;
+        }
         let own = |took: f64| (took - before).max(0.0);
         let sum = own(one) + others.into_iter().map(own).sum::<f64>();
         self.rows = FEW;

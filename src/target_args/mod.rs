@@ -25,12 +25,10 @@ use crate::ways::WayArgs;
 use clap::Args;
 use slowlight_compiler::passes::pixel_blocks::pixel_blocks;
 use slowlight_compiler::plan::Goal;
-use slowlight_compiler::planner::PlannedScene;
-use slowlight_compiler::planner::SEARCH;
+use slowlight_compiler::planner::{PlannedScene, SEARCH};
 use slowlight_compiler::planner::{plan_as_written, plan_with_every_shade, plan_within};
 use slowlight_compiler::sema::Instancing;
-use slowlight_compiler::targets;
-use slowlight_compiler::targets::{Language, Mode, System, Target};
+use slowlight_compiler::targets::{self, Language, Mode, System, Target};
 use std::sync::Once;
 
 /// Screen and rows.

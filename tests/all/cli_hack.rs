@@ -227,7 +227,7 @@ fn errors_are_reported() {
 
 #[test]
 fn what_does_not_fit_the_rom_is_not_written() {
-    let scene = Path::new(env!("CARGO_MANIFEST_DIR")).join("examples/fifty.scn");
+    let scene = Path::new(env!("CARGO_MANIFEST_DIR")).join("examples/csg.scn");
     let scene = scene.to_str().expect("a path");
     let dir = directory(&[]);
     let dir = dir.path();

@@ -1,7 +1,6 @@
 //! Calls: a function's body stands where it is called.
 
-use super::instances::Instances;
-use super::value::{Shape, Val};
+use super::value::{Instances, Shape, Val};
 use super::{Found, Lower};
 use crate::ir::graph::{Node, NodeId};
 use crate::sema::builtins::Builtin;

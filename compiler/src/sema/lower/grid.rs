@@ -1,7 +1,7 @@
 //! Uniform grids: which of a group's boxes have something in which cell of space.
 
 use super::derive::Formula;
-use super::value::{Shape, Table, Val};
+use super::value::{Grid, Shape, Table, Val};
 use super::ways::Instancing;
 use super::{Found, Lower};
 use crate::ir::enclosure::Enclosure;
@@ -39,18 +39,6 @@ const ROOM: f64 = 1.0 / 32.0;
 
 /// How many nodes are evaluated for each shape at most, to leave it out of cells.
 const WORK: u64 = 20_000;
-
-/// Cells and what is in them.
-pub(super) struct Grid {
-    whole: Extent,
-    side: [f64; 3],
-    along: [usize; 3],
-    /// Where each cell's list begins, and before what it ends.
-    first: Rc<Table>,
-    last: Rc<Table>,
-    list: Rc<Table>,
-    most: usize,
-}
 
 /// Boxes in so many cells along each side.
 struct Cells<'e> {

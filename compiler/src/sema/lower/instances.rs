@@ -5,9 +5,8 @@
 //! cells of a grid where the shapes have boxes; what is asked of the nearest one alone, its normal
 //! or its tag, is made from the row that it stands in.
 
-use super::grid::Grid;
-use super::value::{Shape, Val};
-use super::ways::Instancing;
+use super::value::{Instances, Shape, Val};
+use super::ways::{INSTANCES, Instancing};
 use super::{Found, Lower};
 use crate::ir::graph::{self, Constant, NodeId, TableId};
 use crate::sema::program::*;
@@ -17,9 +16,6 @@ use crate::syntax::tree::BinaryOp;
 use slowlight_routine::Type;
 use std::rc::Rc;
 
-/// How many shapes a group has at least.
-pub const INSTANCES: usize = 8;
-
 /// A shape of a scene, or several of a kind.
 #[derive(Clone)]
 pub(super) enum Member {
@@ -27,19 +23,6 @@ pub(super) enum Member {
     One(usize, Rc<Shape>),
     /// Several.
     Group(Rc<Instances>),
-}
-
-/// Shapes that are alike but for numbers.
-pub(super) struct Instances {
-    /// The first one, and its place among the scene's shapes.
-    pub(super) first: Rc<Shape>,
-    pub(super) at: usize,
-    pub(super) count: usize,
-    /// Of each of a shape's scalars, where it is looked up; none where it is the first one's.
-    columns: Vec<Option<TableId>>,
-    /// The same of the tag's.
-    tags: Vec<Option<TableId>>,
-    grid: Option<Grid>,
 }
 
 /// The nearest hit of a group: whether there is one, how far along the ray, and the shape's row.

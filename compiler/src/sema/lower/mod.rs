@@ -34,9 +34,8 @@ mod ways;
 
 #[cfg(test)]
 pub(in crate::sema) use bounds::extents;
-pub use instances::INSTANCES;
 pub use params::params;
-pub use ways::{Instancing, Millionths, Search, Ways};
+pub use ways::{INSTANCES, Instancing, Millionths, Search, Ways};
 
 use crate::ir::build::Builder;
 use crate::ir::extent::Extent;
@@ -368,7 +367,7 @@ impl<'a> Lower<'a> {
             _ => None,
         };
         if let Some(wrong) = wrong {
-            return Err(Box::new(self.error(span, wrong).help(op_domain(op))));
+            return Err(Box::new(self.error(span, wrong).help(ops::op_domain(op))));
         }
         let span = self.at(span);
         Ok(self.b.apply(op, args, span))
@@ -387,16 +386,5 @@ impl<'a> Lower<'a> {
     fn bool(&mut self, value: bool, span: Span) -> NodeId {
         let span = self.at(span);
         self.b.constant(Value::Bool(value), span)
-    }
-}
-
-/// The way out where an operation's arguments are outside its domain.
-fn op_domain(op: Op) -> &'static str {
-    match op {
-        Op::Sqrt => "bound it: `sqrt(max(v, 0))`",
-        Op::Log => "bound it: `log(max(v, least))` with a `least` above 0",
-        Op::Asin | Op::Acos => "bound it: `clamp(v, -1, 1)`",
-        Op::Pow => "bound the base: `max(v, least) ^ p`",
-        _ => "divide by something else, or say what stands there: `if d == 0 then .. else n / d`",
     }
 }

@@ -174,3 +174,14 @@ impl<'a> Lower<'a> {
         Ok(product)
     }
 }
+
+/// The way out where an operation's arguments are outside its domain.
+pub(super) fn op_domain(op: Op) -> &'static str {
+    match op {
+        Op::Sqrt => "bound it: `sqrt(max(v, 0))`",
+        Op::Log => "bound it: `log(max(v, least))` with a `least` above 0",
+        Op::Asin | Op::Acos => "bound it: `clamp(v, -1, 1)`",
+        Op::Pow => "bound the base: `max(v, least) ^ p`",
+        _ => "divide by something else, or say what stands there: `if d == 0 then .. else n / d`",
+    }
+}

@@ -1,8 +1,8 @@
 //! Values while compiling: structure is known, scalars are nodes.
 
-use super::instances::Instances;
 use super::{Found, Lower};
-use crate::ir::graph::NodeId;
+use crate::ir::extent::Extent;
+use crate::ir::graph::{NodeId, TableId};
 use crate::sema::program::*;
 use crate::sema::ty::Ty;
 use crate::source::Span;
@@ -74,6 +74,31 @@ impl Table {
 pub(super) struct Shape {
     pub(super) id: ShapeId,
     pub(super) args: Vec<Val>,
+}
+
+/// Shapes that are alike but for numbers.
+pub(super) struct Instances {
+    /// The first one, and its place among the scene's shapes.
+    pub(super) first: Rc<Shape>,
+    pub(super) at: usize,
+    pub(super) count: usize,
+    /// Of each of a shape's scalars, where it is looked up; none where it is the first one's.
+    pub(super) columns: Vec<Option<TableId>>,
+    /// The same of the tag's.
+    pub(super) tags: Vec<Option<TableId>>,
+    pub(super) grid: Option<Grid>,
+}
+
+/// Cells and what is in them.
+pub(super) struct Grid {
+    pub(super) whole: Extent,
+    pub(super) side: [f64; 3],
+    pub(super) along: [usize; 3],
+    /// Where each cell's list begins, and before what it ends.
+    pub(super) first: Rc<Table>,
+    pub(super) last: Rc<Table>,
+    pub(super) list: Rc<Table>,
+    pub(super) most: usize,
 }
 
 /// The scalar that a type is, if it is one.

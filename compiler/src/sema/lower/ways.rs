@@ -32,6 +32,9 @@ pub enum Search {
     },
 }
 
+/// How many shapes that are alike are a group at least.
+pub const INSTANCES: usize = 8;
+
 /// How a scene's shapes that are alike but for numbers are found.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Instancing {
