@@ -32,17 +32,8 @@ fn words(text: &str) -> Vec<&str> {
 }
 
 fn tuned(dir: &Path, target: &str, more: &[&str]) -> Value {
-    let args = [
-        "tune",
-        "ball.scn",
-        "-t",
-        target,
-        "--json",
-        "--no-cache",
-        "--settings",
-        "6",
-    ];
-    json(dir, &[&args[..], more].concat())
+    let args = words("tune ball.scn --json --no-cache --settings 6 -t");
+    json(dir, &[&args[..], &[target], more].concat())
 }
 
 fn points(tuned: &Value) -> &Vec<Value> {
@@ -84,19 +75,12 @@ fn the_planner_orders_what_was_tried_as_the_machine_does() {
     let dir = directory(&[("ball.scn", BALL)]);
     for target in ["6502:plain", "jack"] {
         let tuned = tuned(dir.path(), target, &["--live"]);
-        let all = points(&tuned).iter().map(|point| {
-            let of = |name: &str| point[name].as_f64().expect("cycles");
-            (of("predicted_cycles"), of("cycles"))
-        });
-        let all: Vec<(f64, f64)> = all.collect();
+        let of = |point: &Value, name| point[name].as_f64().expect("cycles");
+        let pair = |point| (of(point, "predicted_cycles"), of(point, "cycles"));
+        let all: Vec<(f64, f64)> = points(&tuned).iter().map(pair).collect();
         // On the frontier alone neighbours may change places that are a twentieth apart.
         let order = rank_correlation(&all).expect("an order");
         assert!(all.len() > 8 && order >= 0.95, "{target}: {all:?}");
-        let frontier = tuned["frontier"]["rank_correlation"].as_f64();
-        assert!(
-            frontier.is_some_and(|order| order >= 0.8),
-            "{target}: {frontier:?}"
-        );
     }
 }
 
