@@ -109,7 +109,7 @@ fn pictures_are_those_of_shapes_one_by_one() {
         let text = scene(kind, count, n);
         let one_by_one = graph_of(&text, separate());
         let expected = inks(&one_by_one);
-        assert!(expected.iter().any(|&ink| ink == 2), "{text}");
+        assert!(expected.contains(&2), "{text}");
         let together = graph_of(&text, Ways::default());
         let by = |instancing| Ways {
             instancing,
