@@ -28,6 +28,17 @@ fn shapes(scene: &Scene) -> usize {
 }
 
 impl ScreenArgs {
+    /// What of the scene is done with less, or otherwise.
+    pub fn limits(&self) -> Limits {
+        Limits {
+            turns: self.max_turns,
+            steps: self.max_steps,
+            ways: self
+                .passes
+                .ways(self.ways.ways(), self.as_written, self.instancing),
+        }
+    }
+
     /// What `plan` makes of these options; where its program does not fit, with less memory for
     /// how shapes are found.
     ///

@@ -20,7 +20,7 @@ use crate::fit;
 use crate::interrupt;
 use crate::machine::Machine;
 use crate::progress::Waiting;
-use crate::scene::{Limits, Scene};
+use crate::scene::Scene;
 use crate::ways::WayArgs;
 use clap::Args;
 use slowlight_compiler::passes::pixel_blocks::pixel_blocks;
@@ -117,17 +117,6 @@ impl ScreenArgs {
         match self.os {
             Some(Os::Jack) => machine.on_processor(),
             Some(Os::Native) | None => machine,
-        }
-    }
-
-    /// What of the scene is done with less, or otherwise.
-    pub fn limits(&self) -> Limits {
-        Limits {
-            turns: self.max_turns,
-            steps: self.max_steps,
-            ways: self
-                .passes
-                .ways(self.ways.ways(), self.as_written, self.instancing),
         }
     }
 
