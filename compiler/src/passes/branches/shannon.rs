@@ -37,6 +37,7 @@ pub fn conditions(graph: &Graph) -> Vec<NodeId> {
     }
     let mut all: Vec<(usize, NodeId)> = all
         .into_iter()
+        .filter(|cond| !bares_directions(graph, *cond))
         .map(|cond| (reached_from(graph, cond), cond))
         .collect();
     all.sort_by_key(|(count, cond)| (std::cmp::Reverse(*count), *cond));
@@ -47,6 +48,23 @@ pub fn conditions(graph: &Graph) -> Vec<NodeId> {
     let more = OUTSIDE.saturating_sub(found.iter().filter(|cond| is_outside(cond)).count());
     found.extend(all.filter(is_outside).take(more));
     found
+}
+
+/// Whether an arm of a choice is made of a direction that the condition is not: where the other
+/// arm holds there may be no such direction, a missed surface's normal, say, and it has not the
+/// length that is trusted.
+fn bares_directions(graph: &Graph, by: NodeId) -> bool {
+    let asked = reached_by(graph, &[by]);
+    graph.ids().any(|id| match graph.node(id) {
+        Node::Select { cond, yes, no } if cond == by => {
+            let arms = reached_by(graph, &[yes, no]);
+            graph
+                .directions
+                .keys()
+                .any(|id| arms[id.0 as usize] && !asked[id.0 as usize])
+        }
+        _ => false,
+    })
 }
 
 /// Whether what has been compared already chooses by what a loop finds at each pixel that it is
@@ -61,34 +79,33 @@ fn loops_alone(of: (&Graph, &Rates), cond: NodeId, arms: [NodeId; 2]) -> bool {
 
 /// The loops that values are made of, of those that each pixel runs.
 fn loops_of((graph, rates): (&Graph, &Rates), ids: &[NodeId]) -> BTreeSet<LoopId> {
-    let (mut seen, mut todo) = (BTreeSet::new(), ids.to_vec());
-    let mut found = BTreeSet::new();
-    while let Some(id) = todo.pop() {
-        if seen.insert(id) {
-            todo.extend(graph.references(id));
-            let each_pixel =
-                rates.depends(id, Dependence::Row) && rates.depends(id, Dependence::Column);
-            if let Node::Result { of, .. } = graph.node(id)
-                && each_pixel
-            {
-                found.insert(of);
-            }
-        }
-    }
-    found
+    let reached = reached_by(graph, ids);
+    let each_pixel =
+        |id: NodeId| rates.depends(id, Dependence::Row) && rates.depends(id, Dependence::Column);
+    let loops = graph.ids().filter_map(|id| match graph.node(id) {
+        Node::Result { of, .. } if reached[id.0 as usize] && each_pixel(id) => Some(of),
+        _ => None,
+    });
+    loops.collect()
 }
 
 /// How many nodes a value is made of.
 fn reached_from(graph: &Graph, id: NodeId) -> usize {
-    let mut seen = vec![false; graph.nodes.len()];
-    let (mut count, mut todo) = (0, vec![id]);
+    reached_by(graph, &[id])
+        .into_iter()
+        .filter(|&reached| reached)
+        .count()
+}
+
+/// Of each node whether values are made of it.
+fn reached_by(graph: &Graph, ids: &[NodeId]) -> Vec<bool> {
+    let (mut seen, mut todo) = (vec![false; graph.nodes.len()], ids.to_vec());
     while let Some(id) = todo.pop() {
         if !std::mem::replace(&mut seen[id.0 as usize], true) {
-            count += 1;
             todo.extend(graph.references(id));
         }
     }
-    count
+    seen
 }
 
 /// What a value is in the two arms, in the new graph.
@@ -98,19 +115,10 @@ struct Pair {
     no: NodeId,
 }
 
-/// What is worked out for both arms of a choice.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Expanded {
-    /// Each comparison by itself.
-    Comparisons,
-    /// The ink: one question, where several comparisons make it.
-    Ink,
-}
-
 /// The graph in which a condition is asked only where it matters; nothing where no choice by
-/// it comes to a comparison, or to the ink. Where errors are sent on, each shade matters.
-pub fn shannon(graph: &Graph, by: NodeId, what: Expanded) -> Option<Graph> {
-    if graph.diffusion.is_some() {
+/// it comes to a comparison. Where errors are sent on, each shade matters.
+pub fn shannon(graph: &Graph, by: NodeId) -> Option<Graph> {
+    if graph.diffusion.is_some() || bares_directions(graph, by) {
         return None;
     }
     let mut pairs: BTreeMap<NodeId, Pair> = BTreeMap::new();
@@ -138,11 +146,7 @@ pub fn shannon(graph: &Graph, by: NodeId, what: Expanded) -> Option<Graph> {
                 no: arms(|pair| pair.no)?,
             },
         };
-        let goes_on = match what {
-            Expanded::Comparisons => graph.ty(id) == Type::Real,
-            Expanded::Ink => id != graph.ink,
-        };
-        if goes_on {
+        if graph.ty(id) == Type::Real {
             pairs.insert(id, pair);
             return None;
         }
@@ -243,7 +247,7 @@ mod tests {
             let graph = lowered(ink);
             let (drawn, all) = inks(&graph);
             let found = conditions(&graph).into_iter();
-            let found = found.filter_map(|cond| shannon(&graph, cond, Expanded::Comparisons));
+            let found = found.filter_map(|cond| shannon(&graph, cond));
             let found: Vec<_> = found.map(|next| inks(&next)).collect();
             assert!(found.iter().all(|(inks, _)| *inks == drawn), "{ink}");
             // It still matters at some.
@@ -251,18 +255,6 @@ mod tests {
             let few: Vec<u64> = found.iter().map(|(_, few)| *few).collect();
             assert!(few.iter().any(|few| fewer(*few)), "{ink}: {few:?} of {all}");
         }
-    }
-
-    #[test]
-    fn an_ink_of_several_comparisons_is_one_question() {
-        let draw = "threshold((if dear then 0.3 else 1) * (y / 16), bayer(4)[x mod 4, y mod 4])";
-        let graph = lowered(draw);
-        let (drawn, all) = inks(&graph);
-        let found = conditions(&graph).into_iter();
-        let found = found.filter_map(|cond| shannon(&graph, cond, Expanded::Ink));
-        let found: Vec<_> = found.map(|next| inks(&fold(&next))).collect();
-        assert!(found.iter().all(|(inks, _)| *inks == drawn));
-        assert!(found.iter().any(|(_, few)| *few < all * 3 / 4));
     }
 
     #[test]
@@ -285,7 +277,7 @@ mod tests {
             let graph = lowered(&draw);
             let (drawn, all) = inks(&graph);
             let found = conditions(&graph).into_iter();
-            let found = found.filter_map(|cond| shannon(&graph, cond, Expanded::Comparisons));
+            let found = found.filter_map(|cond| shannon(&graph, cond));
             let found: Vec<_> = found.map(|next| inks(&fold(&next))).collect();
             assert!(found.iter().all(|(inks, _)| *inks == drawn), "{draw}");
             assert_eq!(
@@ -309,7 +301,7 @@ mod tests {
         let graph = graph.expect("a graph");
         assert!(!conditions(&graph).is_empty());
         for cond in conditions(&graph) {
-            assert!(shannon(&graph, cond, Expanded::Comparisons).is_none());
+            assert!(shannon(&graph, cond).is_none());
         }
     }
 }

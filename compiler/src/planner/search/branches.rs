@@ -8,7 +8,7 @@ use crate::cost::size_budget::SizeBudget;
 use crate::ir::graph::{Graph, NodeId};
 use crate::passes::branches::push_into_select::{conditions, push_into_select};
 use crate::passes::branches::shannon;
-use crate::passes::branches::shannon::{Expanded, shannon};
+use crate::passes::branches::shannon::shannon;
 use crate::passes::branches::specialise_factors::specialise_factors;
 use crate::passes::simplify::fold::fold;
 use crate::planner::context::Context;
@@ -33,8 +33,7 @@ pub fn in_arms(plan: Analysed, cx: &Context, budget: SizeBudget) -> Analysed {
     cx.pass(Pass::PushIntoSelect, plan, |plan| {
         let price = cx.price(budget);
         each_condition(plan, cx, &price, conditions, |plan, cond| {
-            let next = push_into_select(&plan.graph, &plan.ranges, cond);
-            next.into_iter().collect()
+            push_into_select(&plan.graph, &plan.ranges, cond)
         })
     })
 }
@@ -46,7 +45,7 @@ fn each_condition(
     cx: &Context,
     price: &Price,
     conditions: fn(&Graph) -> Vec<NodeId>,
-    by: impl Fn(&Analysed, NodeId) -> Vec<Graph>,
+    by: impl Fn(&Analysed, NodeId) -> Option<Graph>,
 ) -> Option<Analysed> {
     let mut best = None;
     for k in 0..conditions(&plan.graph).len() {
@@ -55,9 +54,8 @@ fn each_condition(
             break;
         }
         let cond = conditions(&now.graph).get(k).copied();
-        let ways = cond.map(|cond| by(now, cond)).unwrap_or_default();
-        let next = price.cheapest(ways.into_iter().map(|graph| cx.simplified(&graph)));
-        if let Some(next) = next
+        let next = cond.and_then(|cond| by(now, cond));
+        if let Some(next) = next.map(|graph| cx.simplified(&graph))
             && price.of(&next) < ARMS * price.of(now)
         {
             best = Some(next);
@@ -77,11 +75,7 @@ pub fn asked_where_it_matters(plan: Analysed, cx: &Context, budget: SizeBudget) 
     let price = cx.price(budget);
     cx.pass(Pass::Shannon, plan, |plan| {
         each_condition(plan, cx, &price, shannon::conditions, |plan, cond| {
-            let several = plan.graph.image.palette.len() > 2;
-            let ways = [Expanded::Comparisons, Expanded::Ink].into_iter();
-            let ways = ways.take(if several { 2 } else { 1 });
-            let next = ways.filter_map(|what| shannon(&plan.graph, cond, what));
-            next.map(|graph| fold(&graph)).collect()
+            shannon(&plan.graph, cond).map(|graph| fold(&graph))
         })
     })
 }
