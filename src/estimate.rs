@@ -291,10 +291,12 @@ fn asked(still: &Still, costs: &Costs<'_>) -> f64 {
 /// may be wrong as a whole, where numbers fall together; so those between two rows of the sample
 /// share its columns among them.
 fn spread(rows: (u32, u32), columns: (u32, u32), side: u32) -> Vec<(u32, Vec<u32>)> {
-    let (all, columns) = (sample(rows, side), sample(columns, side));
-    let next = |k: usize| all.get(k + 1).copied().unwrap_or(rows.1 + 1);
-    let order = coarse_first((0..all.len()).collect());
-    let stretches = order.into_iter().map(|k| all[k]..next(k).max(all[k] + 1));
+    let columns = sample(columns, side);
+    let all = rows.1 - rows.0 + 1;
+    let side = side.min(all);
+    let starts = |k: u32| rows.0 + (u64::from(all) * u64::from(k) / u64::from(side)) as u32;
+    let order = coarse_first((0..side).collect());
+    let stretches = order.into_iter().map(|k| starts(k)..starts(k + 1));
     let shared = stretches.flat_map(|stretch| {
         let between = stretch.len().min(columns.len());
         let columns = &columns;
