@@ -68,15 +68,15 @@ pub fn hertz(plan: &Plan, machine: Machine) -> f64 {
     }
 }
 
-/// Runs a plan's program, or as many of its rows as are no work.
+/// Runs a plan's program, whose text is known, or as many of its rows as are no work.
 ///
 /// # Errors
 /// Only an interruption: why nothing can be told is an answer.
-pub fn forecast(plan: &Plan, machine: Machine) -> Outcome<Forecast> {
+pub fn forecast((plan, text): (&Plan, &[Document]), machine: Machine) -> Outcome<Forecast> {
     let progress = Progress::new("rows, for the time", PLACES.len() as u64);
     let mut look = Look {
         plan,
-        whole: target_args::is_6502(plan.target).then(|| slowlight_compiler::backend::emit(plan)),
+        whole: target_args::is_6502(plan.target).then_some(text),
         machine,
         progress,
         spent: 0.0,
@@ -94,7 +94,7 @@ struct Look<'p> {
     plan: &'p Plan,
     /// The program of the whole, where that of fewer rows is soon made of it: machine code takes
     /// long to write.
-    whole: Option<Vec<Document>>,
+    whole: Option<&'p [Document]>,
     machine: Machine,
     progress: Progress,
     /// Cycles that were run.

@@ -91,9 +91,15 @@ pub fn run(args: &Args) -> Outcome<()> {
         Some(Style::Listing) if target_args::is_6502(plan.target) => vec![listing(&scene, &plan)?],
         _ => Vec::new(),
     };
-    let written = write(&plan, &args.screen, (args.syntax, &more), &args.output)?;
+    let text = backend::emit(&plan);
+    let written = write(
+        (&plan, &text),
+        &args.screen,
+        (args.syntax, &more),
+        &args.output,
+    )?;
     let machine = args.screen.machine(plan.target);
-    let forecast = forecast(&plan, machine)?;
+    let forecast = forecast((&plan, &text), machine)?;
     let seconds = |cycles: f64| cycles / forecast::hertz(&plan, machine);
     let sizes = written.sizes;
     if args.json {
@@ -176,18 +182,18 @@ impl Written {
     }
 }
 
-/// Writes a plan's program to a directory, ready for the real machine, in some syntax, and
-/// more files beside it.
+/// Writes a plan's program, whose text is known, to a directory, ready for the real machine, in
+/// some syntax, and more files beside it.
 ///
 /// # Errors
 /// Where the machine's tools refuse it, or a file cannot be written.
 pub fn write(
-    plan: &PlannedScene,
+    (plan, text): (&PlannedScene, &[Document]),
     screen: &ScreenArgs,
     (syntax, more): (Option<&'static Syntax>, &[File]),
     dir: &Path,
 ) -> Outcome<Written> {
-    let mut built = trial::build_for(plan, screen.machine(plan.target))?;
+    let mut built = trial::build_written(text, plan, screen.machine(plan.target))?;
     if syntax.is_some() {
         let documents = documents(syntax, plan);
         let files = documents.iter().map(|d| File::text(&d.name, &d.text));

@@ -243,5 +243,6 @@ fn build(args: &Args, told: &Told<'_>, point: &Point) -> Outcome<Written> {
     let scene = Scene::open(&told.base.path, &told.base.changes(choice.frozen))?;
     let screen = told.base.screen(choice);
     let plan = screen.plan(&scene, args.target, &[])?;
-    build::write(&plan, &screen, (None, &[]), &args.output)
+    let text = slowlight_compiler::backend::emit(&plan);
+    build::write((&plan, &text), &screen, (None, &[]), &args.output)
 }

@@ -20,7 +20,8 @@ fn both(scene: &str, target: &str, block: u32) -> (Forecast, f64) {
     let target = find(target).expect("a target");
     let plan = screen.plan(&scene, target, &[]).expect("a plan");
     let machine = screen.machine(target);
-    let told = forecast(&plan, machine).expect("a forecast");
+    let told =
+        forecast((&plan, &slowlight_compiler::backend::emit(&plan)), machine).expect("a forecast");
     let mut loaded = trial::build(&plan).expect("a program").loaded;
     let run = loaded.run(trial::LIMIT, &mut |_| {}).expect("it runs");
     (told, run.cycles as f64)

@@ -87,6 +87,19 @@ impl Seen {
         }
     }
 
+    /// Counts what another has counted.
+    pub fn add(&mut self, other: &Seen) {
+        self.most = self.most.max(other.most);
+        self.need = self.need.max(other.need);
+        for (mine, others) in [
+            (&mut self.lost, &other.lost),
+            (&mut self.gains, &other.gains),
+            (&mut self.wholes, &other.wholes),
+        ] {
+            mine.iter_mut().zip(others).for_each(|(n, m)| *n += m);
+        }
+    }
+
     /// What leaves room for all that was seen.
     pub fn room(&self) -> f64 {
         self.most * ROOM

@@ -34,6 +34,7 @@ mod sample_tests;
 mod saturation;
 mod scales;
 mod tape;
+mod watch;
 
 use crate::analysis::points::unify::{Other, agreed};
 use crate::analysis::points::widths::Widths;

@@ -6,20 +6,19 @@
 //! larger than all others by agreement, 1e6 for "nothing was hit", is asked for no more than
 //! what it is compared with.
 
-use super::tape::{NOWHERE, Tape, Traced};
+use super::watch::Watch;
 use crate::analysis::carried::{Readers, held_by, readers};
 use crate::analysis::points::widths::Widths;
-use crate::eval::arithmetic::{Arithmetic, Exact};
 use crate::eval::run::Run;
 use crate::ir::graph::*;
 use crate::ir::tree::*;
 use crate::wordlength::histogram::{BRIEF, Seen};
-use crate::wordlength::low_discrepancy::{GOLDEN, scattered};
-use crate::wordlength::rates::{Often, first_of_pixels, often};
+use crate::wordlength::low_discrepancy::scattered;
+use crate::wordlength::rates::{Often, often};
 use crate::wordlength::scales;
+use rayon::prelude::*;
 use slowlight_routine::scale::{finest, fitting};
 use slowlight_routine::{Op, Type, Value};
-use std::cell::{Cell, RefCell};
 
 /// Rows and columns that are looked at, the picture's borders among them.
 const LOOKED_AT: [u32; 2] = [24, 31];
@@ -30,6 +29,9 @@ const CLOSELY: [u32; 2] = [80, 101];
 
 /// How often params are chosen anew.
 const CHOICES: u32 = 12;
+
+/// In how many parts, which may be looked at at the same time, where they are not.
+const PARTS: u32 = 4;
 
 /// How many statements may run, all choices together: for a plan that is to be run, and for
 /// one that is only judged.
@@ -57,53 +59,95 @@ pub struct Sample {
     pixels: f64,
 }
 
-#[cfg(test)]
 impl Sample {
+    /// Of no pixel.
+    fn none(graph: &Graph) -> Sample {
+        Sample {
+            seen: vec![Seen::default(); graph.nodes.len()],
+            pixels: 0.0,
+        }
+    }
+
+    /// Of another's pixels too.
+    fn with(mut self, other: Sample) -> Sample {
+        for (seen, other) in self.seen.iter_mut().zip(&other.seen) {
+            seen.add(other);
+        }
+        self.pixels += other.pixels;
+        self
+    }
     /// How many pixels were looked at; what counts for several is several.
+    #[cfg(test)]
     pub fn pixels(&self) -> f64 {
         self.pixels
     }
 }
 
-/// Looks at pixels, for values of so many bits at most, until so many statements have run.
+/// Looks at pixels, for values of so many bits at most, until so many statements have run. The
+/// parts are the same on any number of threads, and are added up in their order.
 pub fn seen(graph: &Graph, tree: &Tree, bits: u8, most: u64) -> Sample {
-    let seen = RefCell::new(vec![Seen::default(); graph.nodes.len()]);
-    let carried = readers(graph);
-    let often = often(graph, tree);
     let live = graph.params.iter().any(|p| p.range.is_some());
-    let choices = if live { CHOICES } else { 1 };
-    let [rows, columns] = match !live && bits > BRIEF {
+    let [choices, parts] = if live { [CHOICES, 1] } else { [1, PARTS] };
+    let looked_at = match !live && bits > BRIEF {
         true => CLOSELY,
         false => LOOKED_AT,
     };
-    let mut pixels = 0.0;
     // What pixels send is looked at, but not carried through the whole picture.
     let alone = Graph {
         diffusion: None,
         ..graph.clone()
     };
-    for choice in 0..choices {
-        let watch = Watch {
-            exact: Exact(graph),
-            carried: &carried,
-            choice,
-            often: &often,
-            tape: RefCell::new(Tape::new(graph)),
-            roots: RefCell::default(),
-            received: Cell::new(0.0),
-            ran: Cell::new(0),
-            first: first_of_pixels(tree),
-            kept: Cell::new(usize::MAX),
-        };
-        let most = most / u64::from(choices);
+    let look = Look {
+        graph,
+        alone: &alone,
+        tree,
+        carried: readers(graph),
+        often: often(graph, tree),
+        looked_at,
+        parts,
+        most: most / u64::from(choices * parts),
+    };
+    let jobs: Vec<[u32; 2]> = (0..choices)
+        .flat_map(|choice| (0..parts).map(move |part| [choice, part]))
+        .collect();
+    let seen = jobs.into_par_iter().map(|job| look.at(job));
+    let mut samples = seen.collect::<Vec<Sample>>().into_iter();
+    let first = samples.next().unwrap_or_else(|| Sample::none(graph));
+    samples.fold(first, Sample::with)
+}
+
+/// What a sample is taken of, and how much of it by each part.
+struct Look<'g> {
+    graph: &'g Graph,
+    /// The same without what pixels leave to others.
+    alone: &'g Graph,
+    tree: &'g Tree,
+    carried: Readers,
+    often: Vec<Often>,
+    /// Rows and columns.
+    looked_at: [u32; 2],
+    parts: u32,
+    /// How many statements a part may run.
+    most: u64,
+}
+
+impl Look<'_> {
+    /// Looks at every so many-th of the scattered pixels, with the params chosen so.
+    fn at(&self, [choice, part]: [u32; 2]) -> Sample {
+        let Look { graph, most, .. } = *self;
+        let watch = Watch::new((graph, self.tree), &self.carried, &self.often, choice);
+        let mut sample = Sample::none(graph);
         // The scene's own params count as much as all others.
         let times = f64::from(if choice == 0 { CHOICES - 1 } else { 1 });
-        let mut run = Run::within(&alone, tree, &watch, most + LAST);
-        let begun = watch.tape.borrow().len();
+        let last = LAST / u64::from(self.parts);
+        let mut run = Run::within(self.alone, self.tree, &watch, most + last);
+        let begun = watch.kept();
         let mut now = None;
         let mut followed = 0;
-        for (column, row) in scattered([columns, rows], choice, CHOICES) {
-            if watch.ran.get() >= most || followed >= FOLLOWED * most {
+        let [rows, columns] = self.looked_at;
+        let all = scattered([columns, rows], choice, CHOICES);
+        for (column, row) in all.skip(part as usize).step_by(self.parts as usize) {
+            if watch.ran() >= most || followed >= FOLLOWED * most {
                 break;
             }
             let [x, y] = [
@@ -118,27 +162,25 @@ pub fn seen(graph: &Graph, tree: &Tree, bits: u8, most: u64) -> Sample {
             }
             let ink = run.pixel(x, y);
             // One that goes on for longer than all of them may is not followed back.
-            if run.spent() && pixels > 0.0 {
+            if run.spent() && sample.pixels > 0.0 {
                 break;
             }
             let sent = graph.shares().filter_map(|s| run.last(s.node));
             watch.send(sent);
-            // What is told at the end is told as it is: a shade that is measured.
             let told = graph.reports.iter().filter_map(|id| run.last(*id));
-            watch.roots.borrow_mut().pixel.extend(told);
-            pixels += times;
-            followed += watch.tape.borrow().len() as u64;
+            watch.tell(told);
+            sample.pixels += times;
+            followed += watch.kept() as u64;
             watch.ask(ink, &mut |id, value, asked| {
-                if let Some(seen) = seen.borrow_mut().get_mut(id.0 as usize)
+                if let Some(seen) = sample.seen.get_mut(id.0 as usize)
                     && let Value::Real(x) = value
                 {
                     seen.see(x, asked, times);
                 }
             });
         }
+        sample
     }
-    let seen = seen.into_inner();
-    Sample { seen, pixels }
 }
 
 /// What values are expected to stay within in so many bits.
@@ -232,165 +274,6 @@ fn ends_passed_on(
                 true => most[to] = Some(held),
                 false => most[at] = Some(least),
             }
-        }
-    }
-}
-
-/// Values by which a way or an entry was chosen: of the picture, the row and the pixel.
-#[derive(Default)]
-struct Roots {
-    frame: Vec<Traced>,
-    row: Vec<Traced>,
-    pixel: Vec<Traced>,
-}
-
-/// Computes in `f64` and keeps what was computed.
-struct Watch<'g> {
-    exact: Exact<'g>,
-    /// By whom carried values are read.
-    carried: &'g Readers,
-    choice: u32,
-    often: &'g [Often],
-    tape: RefCell<Tape>,
-    roots: RefCell<Roots>,
-    /// What the pixel has received: all that the one looked at before it has sent.
-    received: Cell<f64>,
-    ran: Cell<u64>,
-    /// Where pixels begin, and how long the tape was there: what follows is of no use once
-    /// the pixel has been followed back.
-    first: Option<*const Statement>,
-    kept: Cell<usize>,
-}
-
-impl Watch<'_> {
-    fn send(&self, sent: impl Iterator<Item = Traced>) {
-        let sum = |sum: f64, traced: Traced| {
-            self.decides(traced);
-            sum + traced.value.real()
-        };
-        self.received.set(sent.fold(0.0, sum));
-    }
-
-    /// A node's value where it is read.
-    fn read(&self, id: NodeId, traced: Traced) -> Traced {
-        match self.exact.0.node(id) {
-            Node::Received => untraced(Value::Real(self.received.get())),
-            _ => traced,
-        }
-    }
-
-    /// Tells of every value what is asked of it by a pixel that has just been run.
-    fn ask(
-        &self,
-        ink: Traced,
-        tell: &mut impl FnMut(NodeId, Value, crate::wordlength::adjoint::Asked),
-    ) {
-        let mut roots = self.roots.borrow_mut();
-        let Roots { frame, row, pixel } = &*roots;
-        let all = [frame, row, pixel].into_iter().flatten().copied();
-        self.tape.borrow_mut().follow(all.chain([ink]), tell);
-        roots.pixel.clear();
-        self.tape.borrow_mut().back_to(self.kept.get());
-    }
-
-    /// What was computed for a row is of no use any more: the tape is as it was before.
-    fn end_row(&self, begun: usize) {
-        self.roots.borrow_mut().row.clear();
-        self.tape.borrow_mut().back_to(begun);
-    }
-
-    fn decides(&self, traced: Traced) {
-        let Some(id) = self.tape.borrow().node(traced) else {
-            return;
-        };
-        let mut roots = self.roots.borrow_mut();
-        match self.often.get(id.0 as usize) {
-            Some(Often::Frame) => roots.frame.push(traced),
-            Some(Often::Row) => roots.row.push(traced),
-            _ => roots.pixel.push(traced),
-        }
-    }
-
-    /// Where in its range a param is: as it is, at either end, in the middle, then spread.
-    fn part(&self, param: u32) -> f64 {
-        match self.choice {
-            1 => 0.0,
-            2 => 1.0,
-            3 => 0.5,
-            // Multiples of the golden ratio's fraction, another for each param.
-            n => (f64::from(n * (param + 1)) * GOLDEN).fract(),
-        }
-    }
-
-    fn chosen(&self, id: ParamId) -> Value {
-        let own = self.exact.param(id);
-        let found = self.exact.0.params.get(id.0 as usize);
-        let Some((param, range)) = found.and_then(|p| Some((p, p.range?))) else {
-            return own;
-        };
-        let part = self.part(id.0);
-        let value = range.lo + part * (range.hi - range.lo);
-        match param.ty {
-            // As the scene has it: a program whose params are edited keeps its points.
-            _ if self.choice == 0 => param.usual(),
-            Type::Bool => Value::Bool(part > 0.5),
-            Type::Int => Value::Int(value.round() as i32),
-            Type::Real => Value::Real(value),
-        }
-    }
-}
-
-fn untraced(value: Value) -> Traced {
-    Traced { value, at: NOWHERE }
-}
-
-impl Arithmetic for &Watch<'_> {
-    type Value = Traced;
-
-    fn constant(&self, value: Value) -> Traced {
-        untraced(self.exact.constant(value))
-    }
-
-    fn param(&self, id: ParamId) -> Traced {
-        untraced(self.chosen(id))
-    }
-
-    fn apply(&self, id: NodeId, op: Op, args: &[Traced]) -> Traced {
-        let mut all = [untraced(Value::Int(0)); 2];
-        let of = self.exact.0.node(id).operands();
-        for ((held, arg), of) in all.iter_mut().zip(args).zip(of) {
-            *held = self.read(of, *arg);
-        }
-        let mut tape = self.tape.borrow_mut();
-        tape.computed(self.exact.0, id, op, &all[..args.len().min(2)])
-    }
-
-    fn copied(&self, place: Place, from: NodeId, traced: Traced) -> Traced {
-        let traced = self.read(from, traced);
-        match held_by(self.carried, place) {
-            Some(id) => self.tape.borrow_mut().copied(id, from, traced),
-            None => traced,
-        }
-    }
-
-    fn gather(&self, received: Traced, sent: Traced) -> Traced {
-        untraced(self.exact.gather(received.value, sent.value))
-    }
-
-    fn truth(&self, traced: Traced) -> bool {
-        self.decides(traced);
-        self.exact.truth(traced.value)
-    }
-
-    fn int(&self, traced: Traced) -> i32 {
-        self.decides(traced);
-        self.exact.int(traced.value)
-    }
-
-    fn step(&self, statement: &Statement) {
-        self.ran.set(self.ran.get() + 1);
-        if self.first == Some(std::ptr::from_ref(statement)) {
-            self.kept.set(self.tape.borrow().len());
         }
     }
 }

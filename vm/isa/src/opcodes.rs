@@ -10,7 +10,7 @@
 //! Names of the undocumented opcodes are those of "NMOS 6510 Unintended
 //! Opcodes: no more secrets" (groepaz), which most assemblers follow.
 
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 use std::sync::LazyLock;
 
 /// How an instruction finds its operand.
@@ -139,8 +139,13 @@ pub fn usual_name(name: &str) -> &str {
 
 /// Whether some opcode has this mnemonic (lower case). A jam has none that can be written.
 pub fn is_mnemonic(name: &str) -> bool {
-    name != JAM.mnemonic && OPCODES.iter().any(|o| o.mnemonic == name)
+    let letters: Result<[u8; 3], _> = name.as_bytes().try_into();
+    letters.is_ok_and(|letters| MNEMONICS.contains(&letters))
 }
+
+/// All that are [mnemonics](is_mnemonic): every word of a program that is assembled is looked up.
+static MNEMONICS: LazyLock<HashSet<[u8; 3]>> =
+    LazyLock::new(|| BY_NAME.keys().map(|(letters, _)| *letters).collect());
 
 use Mode::*;
 
