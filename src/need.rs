@@ -35,6 +35,10 @@ const EVERYWHERE: u64 = 11_500;
 /// examples' programs by 19 in 100 at most, by 2 in the mean.
 const TIDIED: u64 = 4;
 
+/// How many times as short machine code may become at most where what it has several times is
+/// called: of the examples' programs by a third.
+const OUTLINED: u64 = 2;
+
 /// By what part of themselves programs of one scene may differ in what reading them again spares.
 const ALIKE: f64 = 0.03;
 
@@ -45,6 +49,8 @@ enum Measured {
     Whole,
     /// Machine code as it is first written.
     First,
+    /// The same, where what it has several times is to be called.
+    Repeats,
     /// The same, too large by what others of its scene became when they were read again.
     Beyond,
     /// Machine code read again as a whole.
@@ -97,6 +103,7 @@ impl Need {
         let most = self.room + self.room / part;
         match self.of {
             Measured::First | Measured::Beyond => self.total() > most + most / TIDIED,
+            Measured::Repeats => self.total() > OUTLINED * most,
             _ => self.total() > most,
         }
     }
@@ -123,6 +130,7 @@ impl Need {
         match self.of {
             Measured::Whole => !self.exceeds(2),
             Measured::First => self.total() <= self.room + self.room / TIDIED,
+            Measured::Repeats => self.total() <= OUTLINED * self.room,
             Measured::Beyond => false,
             Measured::Tidied => !self.exceeds(16),
         }
@@ -240,11 +248,14 @@ pub fn about(plan: &Plan, fuel: &Fuel, kept: &Cell<f64>) -> Outcome<Option<Need>
     fuel.burn(WRITTEN_AS_CODE * statements);
     let mut draft = mos6502::Draft::new(plan);
     let mut need = Need {
-        of: Measured::First,
+        of: match plan.tight {
+            true => Measured::Repeats,
+            false => Measured::First,
+        },
         ..assembly(&draft)
     };
     let first = need.total() as f64;
-    if first * (kept.get() - ALIKE) > need.room as f64 {
+    if !plan.tight && first * (kept.get() - ALIKE) > need.room as f64 {
         need.of = Measured::Beyond;
     } else if !need.fits() && need.is_near() {
         fuel.burn(READ_AGAIN * statements);
@@ -254,11 +265,11 @@ pub fn about(plan: &Plan, fuel: &Fuel, kept: &Cell<f64>) -> Outcome<Option<Need>
             ..assembly(&draft)
         };
         let part = need.total() as f64 / first;
-        kept.set(if kept.get() > 0.0 {
-            part.min(kept.get())
-        } else {
-            part
-        });
+        match kept.get() {
+            _ if plan.tight => {}
+            0.0 => kept.set(part),
+            least => kept.set(part.min(least)),
+        }
     }
     Ok(Some(need))
 }

@@ -21,6 +21,7 @@ mod effects;
 mod flow;
 mod jumps;
 mod live;
+pub mod outline;
 mod rules;
 mod state;
 #[cfg(test)]

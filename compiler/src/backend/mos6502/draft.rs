@@ -12,6 +12,7 @@ use super::syntax::{self, Syntax};
 use super::{Document, Text};
 use crate::plan::Plan;
 use crate::source::Span;
+use slowlight_runtime_6502::tidy::outline::outline;
 use slowlight_runtime_6502::tidy::tidy;
 use slowlight_runtime_6502::tidy::undocumented::undocumented as put_undocumented;
 use std::sync::{Mutex, PoisonError};
@@ -33,6 +34,7 @@ type Line = (String, Option<Span>);
 struct Tidied {
     parts: Lines,
     undocumented: bool,
+    room: Option<Room>,
     before: Vec<Line>,
     behind: Vec<Line>,
 }
@@ -59,12 +61,15 @@ impl<'p> Draft<'p> {
         }
     }
 
-    /// Leaves out what it does without, which only ever makes it shorter.
+    /// Leaves out what it does without, which only ever makes it shorter; where it is to be short,
+    /// what it has several times is called, as far as it is too large.
     pub fn tidy(&mut self) {
         let undocumented = self.plan.undocumented;
+        let room = self.plan.tight.then_some(self.room);
         let same = |last: &&Tidied| {
             last.parts == self.parts
                 && last.undocumented == undocumented
+                && last.room == room
                 && last.before == self.lines
         };
         let last = LAST.lock().unwrap_or_else(PoisonError::into_inner);
@@ -76,15 +81,28 @@ impl<'p> Draft<'p> {
         let before = self.lines.clone();
         let Lines { symbols, code } = &self.parts;
         tidy(&mut self.lines, symbols, code);
+        if let Some(excess) = room.and_then(|room| self.excess(room)) {
+            let gone = before.len() - self.lines.len();
+            let own = code.start..code.end - gone;
+            outline(&mut self.lines, symbols, &own, excess);
+        }
         if undocumented {
             put_undocumented(&mut self.lines, symbols, code.start);
         }
         *LAST.lock().unwrap_or_else(PoisonError::into_inner) = Some(Tidied {
             parts: self.parts.clone(),
             undocumented,
+            room,
             before,
             behind: self.lines.clone(),
         });
+    }
+
+    /// By how many bytes it is too large.
+    fn excess(&self, room: Room) -> Option<u32> {
+        let (origin, end) = self.extent()?;
+        let all = u64::from(end.saturating_sub(origin)) + room.values;
+        u32::try_from(all.saturating_sub(room.bytes)).ok()
     }
 
     /// The addresses of its first byte and behind its last one, which may be beyond 64K;
