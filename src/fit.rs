@@ -48,19 +48,30 @@ pub fn fit(
     modes: Vec<Mode>,
     plan: &dyn Fn(Mode, u64) -> Outcome<PlannedScene>,
     name: &dyn Fn(Span) -> Option<String>,
+    most: u64,
 ) -> Outcome<PlannedScene> {
-    let fuel = Fuel::new(FIT);
+    let fuel = Fuel::new(most);
     let search = Search {
         fuel: &fuel,
         name,
         known: RefCell::default(),
         kept: Cell::default(),
     };
-    let mut found = search.found(modes, plan)?;
+    let mut found = match search.found(modes, plan) {
+        // With more of it something might have fitted.
+        Err(Failure::Wrong(_)) if most < FIT && fuel.was_cut() => return Err(too_dear()),
+        other => other?,
+    };
     if fuel.was_cut() {
         found.note_cut();
     }
     Ok(found)
+}
+
+/// Why a way among many is left: less work than usual was allowed, and it was not enough. It
+/// is no fault of the scene's, for which something else would be tried.
+pub fn too_dear() -> Failure {
+    Failure::Usage("to find a program that fits takes too long for one way of many".to_owned())
 }
 
 /// A search for a plan that fits.

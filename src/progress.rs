@@ -1,11 +1,12 @@
 //! Progress with an estimate, on standard error, for what takes over a second.
 //!
-//! Nothing is shown where standard error is no terminal (indicatif sees to
+//! No progress is shown where standard error is no terminal (indicatif sees to
 //! that) or where the work is done within the second. Works that go on at the
 //! same time have a line each.
 
 use indicatif::{MultiProgress, ProgressBar, ProgressDrawTarget, ProgressStyle};
 use std::borrow::Cow;
+use std::io::{IsTerminal, Write};
 use std::sync::LazyLock;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{RecvTimeoutError, Sender, channel};
@@ -18,10 +19,13 @@ const SILENCE: Duration = Duration::from_secs(1);
 /// All lines that are shown.
 static LINES: LazyLock<MultiProgress> = LazyLock::new(MultiProgress::new);
 
-/// Says a line above what is shown, on a terminal; nothing elsewhere.
+/// Says a line: on a terminal above what is shown, elsewhere by itself.
 pub fn say(line: &str) {
     // That a line could not be written is nothing that the work hangs on.
-    let _ = LINES.println(line);
+    let _ = match std::io::stderr().is_terminal() {
+        true => LINES.println(line),
+        false => writeln!(std::io::stderr(), "{line}"),
+    };
 }
 
 /// How far some work has come; may be shared between threads.

@@ -11,6 +11,7 @@ use crate::target_args::{self, Os, ScreenArgs};
 use crate::trial::LIMIT;
 use crate::tune::cache::Cache;
 use crate::tune::choice::Base;
+use crate::tune::effort::Effort;
 use crate::tune::explore::{Found, Search, explore};
 use crate::tune::goal::{self, Goals, Measure};
 use crate::tune::marks::{self, Mark};
@@ -77,6 +78,9 @@ pub struct Args {
     /// How many settings, of blocks and loops, are tried in each format
     #[arg(long, value_name = "N", default_value_t = 12, value_parser = clap::value_parser!(u16).range(1..=200))]
     settings: u16,
+    /// How much work to do: so many times the usual, which takes a minute on two processors
+    #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u16).range(1..))]
+    effort: u16,
     /// Measure everything anew, and keep nothing for the next time
     #[arg(long)]
     no_cache: bool,
@@ -112,7 +116,9 @@ pub fn run(args: &Args) -> Outcome<()> {
         smaller: args.memory.is_some(),
         settings: usize::from(args.settings),
         limit: args.limit,
-        by_line: true,
+        // It takes as long again, and only these tell it.
+        by_line: args.json || args.html.is_some(),
+        effort: Effort::times(args.effort),
         cache: match args.no_cache {
             true => Cache::none(),
             false => Cache::of_user(),

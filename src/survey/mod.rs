@@ -16,6 +16,7 @@ use crate::scene::{Changes, Scene};
 use crate::target_args::ScreenArgs;
 use crate::tune::cache::Cache;
 use crate::tune::choice::Base;
+use crate::tune::effort::Effort;
 use crate::tune::explore::{Found, Search, explore};
 use crate::tune::goal::Measure;
 use crate::tune::marks;
@@ -103,6 +104,7 @@ fn tuned(asked: &Survey, base: &Base) -> Outcome<Section> {
         settings: usize::try_from(asked.settings.of(base)).unwrap_or(usize::MAX),
         limit: asked.limit.of(base),
         by_line: false,
+        effort: Effort::ALL,
         cache: match asked.cached {
             true => Cache::of_user(),
             false => Cache::none(),

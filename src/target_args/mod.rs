@@ -103,6 +103,9 @@ pub struct ScreenArgs {
     /// How shapes that are alike may be found.
     #[arg(skip)]
     pub instancing: Instancing,
+    /// Work to make a program fit, where it is one of many; what is cut short is refused then.
+    #[arg(skip)]
+    pub fuel: Option<u64>,
 }
 
 /// Whether a target is one of those in machine code of the 6502.
@@ -206,8 +209,11 @@ impl ScreenArgs {
         let name = |span| scene.called_at(span);
         let plan = self.smaller(scene, |by| {
             let made = |mode, fuel| by.plan_in((mode, fuel), scene, target, set);
-            fit::fit(modes.clone(), &made, &name)
+            fit::fit(modes.clone(), &made, &name, self.fuel.unwrap_or(fit::FIT))
         })?;
+        if plan.was_cut() && self.fuel.is_some() {
+            return Err(fit::too_dear());
+        }
         if plan.was_cut() {
             say_cut();
         }

@@ -1,25 +1,46 @@
 //! Stratified samples of a picture's rows: bands that stand for all of it.
 
-use crate::estimate;
+use super::effort;
+use super::planned::Planned;
 use slowlight_compiler::plan::Plan;
 
 /// Predicted cycles from which on rows are looked at first: less is run whole in no time.
-const LONG: f64 = 1e8;
+pub const LONG: f64 = 1e8;
 
-/// The bands' share of the rows is one in so many, each.
-const SHARE: u32 = 24;
+/// The bands' share of the rows is one in so many, each; the first whose rows take little work
+/// enough, or the last.
+const SHARES: [u32; 4] = [24, 48, 96, 192];
+
+/// What three bands may take, as [`effort`] counts it.
+pub const MOST: f64 = 6e8;
 
 /// Whether rows should be looked at before the whole is run. Where errors spread, all rows
 /// are computed in any case.
-pub fn pays(plan: &Plan) -> bool {
+pub fn pays(planned: &Planned) -> bool {
+    let plan = &planned.plan;
     let rows = plan.rows.1 - plan.rows.0 + 1;
-    plan.graph.diffusion.is_none() && rows >= SHARE && estimate::cycles(plan) > LONG
+    plan.graph.diffusion.is_none() && rows >= SHARES[0] && planned.cycles() > LONG
 }
 
-/// The bands: first and last row of each.
-pub fn bands((first, last): (u32, u32)) -> [(u32, u32); 3] {
+/// The bands of a plan: the dearer, the fewer of its rows.
+pub fn bands_of(planned: &Planned) -> [(u32, u32); 3] {
+    let plan: &Plan = &planned.plan;
+    let work = effort::of_cycles(plan.target, planned.cycles());
+    bands(plan.rows, share(3.0 * work, MOST))
+}
+
+/// The share of rows, one in so many, that takes no more than so much of what all rows take; the
+/// least share that is looked at where none does.
+pub fn share(all: f64, most: f64) -> u32 {
+    let mut shares = SHARES.into_iter();
+    let fits = shares.find(|share| all / f64::from(*share) <= most);
+    fits.unwrap_or(SHARES[SHARES.len() - 1])
+}
+
+/// The bands, each of one row in so many: first and last row.
+pub fn bands((first, last): (u32, u32), share: u32) -> [(u32, u32); 3] {
     let count = last - first + 1;
-    let high = count.div_ceil(SHARE);
+    let high = count.div_ceil(share);
     [1, 3, 5].map(|sixth| {
         let top = first
             + (count * sixth / 6)

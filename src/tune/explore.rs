@@ -1,21 +1,21 @@
 //! The search: which choices are tried, in which order, and what is kept.
 
-use super::bands;
 use super::cache::Cache;
 use super::choice::{Base, Choice, Setting};
+use super::effort::{self, Effort};
 use super::goal::{Measure, percent};
+use super::looked::{Begun, First, Tried, begun, tried};
 use super::planned::Planned;
-use super::point::{self, Natives, Point};
+use super::point::{Natives, Point};
 use super::prune::{Predictor, is_first};
-use super::rows::{self, Look};
-use super::settings::{Drafted, Drafts, worthwhile};
-use crate::failure::{Failure, Outcome};
+use super::rows::Look;
+use super::settings::{Asked, Drafted, Drafts, quick_block, worthwhile};
+use crate::failure::Outcome;
 use crate::format::{count, duration};
 use crate::jobs;
 use crate::measure::Errors;
 use crate::progress::{self, Progress};
 use crate::scene::Scene;
-use serde::{Deserialize, Serialize};
 use slowlight_compiler::planner::THRIFTS;
 use slowlight_compiler::targets;
 use std::sync::{Arc, Mutex};
@@ -34,6 +34,8 @@ pub struct Search {
     pub settings: usize,
     /// Cycles after which a machine is given up.
     pub limit: u64,
+    /// How much is tried at all.
+    pub effort: Effort,
     /// Whether to tell what each point's time goes to.
     pub by_line: bool,
     /// What is known from before.
@@ -41,12 +43,7 @@ pub struct Search {
 }
 
 impl Search {
-    /// When a machine is given up, and whether its lines are counted.
-    fn how(&self) -> (u64, bool) {
-        (self.limit, self.by_line)
-    }
-
-    /// Says on a terminal what a choice comes to as soon as that is known.
+    /// Says what a choice comes to as soon as that is known.
     fn tell(&self, choice: &Choice, look: &Look, about: &str) {
         let time = duration(look.cycles / self.base.hertz());
         let (error, phrase) = (percent(look.error), self.measure.phrase());
@@ -55,9 +52,9 @@ impl Search {
     }
 
     /// What the figures of a choice depend on: its options, and when a machine is given up.
-    fn words(&self, choice: &Choice) -> Vec<String> {
+    pub fn words(&self, choice: &Choice) -> Vec<String> {
         let mut words = self.base.words(choice);
-        words.push(format!("limit {}", self.limit));
+        words.push(format!("limit {} {:?}", self.limit, self.effort));
         if !self.by_line {
             words.push("not by line".to_owned());
         }
@@ -78,6 +75,8 @@ pub struct Found {
     pub pruned: Vec<(Choice, Look)>,
     /// Choices that others clearly beat on some rows, and what these said.
     pub left: Vec<(Choice, Look)>,
+    /// Choices that would have taken too much work beside the others, and what is expected.
+    pub beyond: Vec<(Choice, Look)>,
     /// Choices that cannot be had, and why.
     pub failed: Vec<(Choice, String)>,
     /// How many choices there were.
@@ -99,6 +98,17 @@ impl Scenes {
     }
 }
 
+/// A search as it goes on.
+struct Going<'s> {
+    search: &'s Search,
+    scenes: &'s Scenes,
+    natives: &'s Natives,
+    found: &'s Mutex<Found>,
+}
+
+/// A choice that is to be run whole, what is known of it, and its plan.
+type Rest = (Choice, Look, Mutex<Option<Planned>>);
+
 /// Searches; what is found goes to `found` as it is found, so that it can be told
 /// whenever the user has had enough.
 ///
@@ -109,172 +119,229 @@ pub fn explore(search: &Search, found: &Arc<Mutex<Found>>) -> Outcome<()> {
     let live = Scene::open(&base.path, &base.changes)?;
     live.warn();
     let frozen = Scene::open(&base.path, &base.changes(true))?;
-    let scenes = Scenes { live, frozen };
-    let natives = Natives::default();
-    let inks = base.screen.mode(base.target, &scenes.live)?.inks;
-    let measure = search.measure;
-    let error = |errors: &Errors| measure.of(errors);
-    let asked = [
-        "settings",
-        &format!("{measure:?} {inks} {}", search.settings),
-    ];
-    let mut words = asked.map(str::to_owned).to_vec();
-    words.push(base.changes.text());
-    let work = || worthwhile(&scenes.live, &natives, inks, &error, search.settings);
-    let drafts: Drafts = (search.cache).known_or(&scenes.live, base.target, &words, work)?;
+    let going = Going {
+        search,
+        scenes: &Scenes { live, frozen },
+        natives: &Natives::default(),
+        found,
+    };
+    let quick = going.quick()?;
+    let drafts = going.drafts()?;
     let settings: Vec<Setting> = drafts.chosen.iter().map(|d| d.setting).collect();
-    let (whole, others): (Vec<Choice>, Vec<Choice>) =
-        (choices(search, &scenes, &settings).into_iter()).partition(is_first);
+    let folds = going.folds();
+    let first = |choice: &Choice| is_first(choice, folds);
+    let (whole, mut others): (Vec<Choice>, Vec<Choice>) =
+        (choices(search, folds, &settings).into_iter()).partition(first);
+    let quick: Vec<(Choice, Begun)> = quick.into_iter().collect();
+    others.retain(|choice| quick.iter().all(|(quick, _)| quick != choice));
     note(found, |f| {
-        f.tried = whole.len() + others.len();
+        f.tried = whole.len() + others.len() + quick.len();
         (f.drafted, f.whole_work) = (drafts.left.clone(), drafts.whole_work);
     });
-    let begin = |choices: &[Choice], progress: &Progress| {
-        let begun = jobs::each(choices, |choice| {
-            let begun = begun(search, scenes.of(choice), &natives, choice)?;
-            // What takes long is there a second time.
-            progress.step(if matches!(begun.first, First::Rows(_)) {
-                1
-            } else {
-                2
-            });
-            match &begun.first {
-                First::Whole(point) => {
-                    search.tell(choice, &Look::of(point, measure), "");
-                    note(found, |f| f.points.push((**point).clone()));
-                }
-                First::Not(why) => note(found, |f| f.failed.push((choice.clone(), why.clone()))),
-                First::Rows(look) => search.tell(choice, look, "about "),
+    let progress = Progress::new("formats", whole.len() as u64);
+    let mut seen = going.begin(whole, &progress)?;
+    drop(progress);
+    let others = going.worth_a_look(others, &seen, &drafts);
+    let progress = Progress::new("choices", others.len() as u64);
+    seen.extend(going.begin(others, &progress)?);
+    seen.extend(quick);
+    drop(progress);
+    going.run_whole(going.worth_a_run(seen))
+}
+
+impl Going<'_> {
+    fn measure(&self) -> Measure {
+        self.search.measure
+    }
+
+    /// Whether params are folded wherever it does not matter: it is quicker.
+    fn folds(&self) -> bool {
+        let has_params = !self.scenes.live.checked.program.params.is_empty();
+        has_params && !self.search.live
+    }
+
+    /// A coarse picture, which is there at once: something to look at while settings are
+    /// drawn.
+    fn quick(&self) -> Outcome<Option<(Choice, Begun)>> {
+        let Some(block) = quick_block(self.scenes.live.size()) else {
+            return Ok(None);
+        };
+        let setting = Setting {
+            block,
+            ..Setting::WHOLE
+        };
+        let choice = Choice {
+            setting,
+            format: self.search.base.target.runtime.format.to_owned(),
+            frozen: self.folds(),
+            outlined: false,
+            thrift: 0,
+        };
+        let begun = self.look(&choice)?;
+        // Why it cannot be had is said of the whole picture.
+        Ok(matches!(begun.first, First::Whole(_)).then_some((choice, begun)))
+    }
+
+    /// The settings that are worth a machine's time, or what is remembered of them.
+    fn drafts(&self) -> Outcome<Drafts> {
+        let Search { base, measure, .. } = self.search;
+        let scene = &self.scenes.live;
+        let asked = Asked {
+            inks: base.screen.mode(base.target, scene)?.inks,
+            most: self.search.settings,
+            operations: self.search.effort.drafts(),
+        };
+        let words = ["settings", &format!("{measure:?} {asked:?}")];
+        let mut words = words.map(str::to_owned).to_vec();
+        words.push(base.changes.text());
+        let error = |errors: &Errors| measure.of(errors);
+        let work = || worthwhile(scene, self.natives, &error, &asked);
+        (self.search.cache).known_or(scene, base.target, &words, work)
+    }
+
+    /// A first look at a choice, which is told.
+    fn look(&self, choice: &Choice) -> Outcome<Begun> {
+        let begun = begun(self.search, self.scenes.of(choice), self.natives, choice)?;
+        match &begun.first {
+            First::Whole(point) => {
+                let look = Look::of(point, self.measure());
+                self.search.tell(choice, &look, "");
+                note(self.found, |f| f.points.push((**point).clone()));
             }
+            First::Rows(look) if look.pixels > 0.0 => self.search.tell(choice, look, "about "),
+            First::Rows(_) | First::Not(_) => {}
+        }
+        Ok(begun)
+    }
+
+    /// First looks at choices.
+    fn begin(&self, choices: Vec<Choice>, progress: &Progress) -> Outcome<Vec<(Choice, Begun)>> {
+        let begun = jobs::each(&choices, |choice| {
+            let begun = self.look(choice)?;
+            if let First::Not(why) = &begun.first {
+                note(self.found, |f| f.failed.push((choice.clone(), why.clone())));
+            }
+            progress.step(1);
             Ok(begun)
         })?;
         // What cannot be had is told; all else ends the search.
-        begun.into_iter().collect::<Outcome<Vec<Begun>>>()
-    };
-    let progress = Progress::new("formats", 2 * whole.len() as u64);
-    let mut first = begin(&whole, &progress)?;
-    drop(progress);
-    let looked = |(choice, begun): (_, &Begun)| Some((choice, begun.first.look(measure)?));
-    let (others, beaten) = Predictor {
-        known: whole.iter().zip(&first).filter_map(looked).collect(),
-        drafts: &drafts,
-        measure,
+        let begun = begun.into_iter().collect::<Outcome<Vec<Begun>>>()?;
+        Ok(choices.into_iter().zip(begun).collect())
     }
-    .pruned(others);
-    note(found, |f| f.pruned = beaten);
-    let long = first.iter().filter(|b| matches!(b.first, First::Rows(_)));
-    let progress = Progress::new("choices", (2 * others.len() + long.count()) as u64);
-    first.extend(begin(&others, &progress)?);
-    let choices = [whole, others].concat();
-    let looks: Vec<Option<Look>> = first.iter().map(|b| b.first.look(measure)).collect();
-    let beaten = |look: &Look| {
-        looks
-            .iter()
-            .flatten()
-            .any(|other| other.clearly_beats(look))
-    };
-    let mut rest = Vec::new();
-    for (choice, begun) in choices.into_iter().zip(first) {
-        match begun.first {
-            First::Rows(look) if beaten(&look) => {
-                progress.step(1);
-                note(found, |f| f.left.push((choice, look)));
-            }
-            First::Rows(look) if look.cycles > OVER * search.limit as f64 => {
-                progress.step(1);
-                let (cycles, limit) = (count(look.cycles as u64), count(search.limit));
-                let why = format!(
-                    "by three bands of its rows it takes {cycles} cycles, and {limit} are the \
-                     limit (--limit)"
-                );
-                note(found, |f| f.failed.push((choice, why)));
-            }
-            First::Rows(_) => rest.push((choice, Mutex::new(begun.plan))),
-            First::Whole(_) | First::Not(_) => {}
-        }
-    }
-    let each = jobs::each(&rest, |(choice, plan)| {
-        let scene = scenes.of(choice);
-        let plan = plan.lock().ok().and_then(|mut plan| plan.take());
-        let words = search.words(choice);
-        let work = || tried(search, scene, &natives, choice, plan);
-        let tried: Tried = search.cache.known_or(scene, base.target, &words, work)?;
-        progress.step(1);
-        if let Ok(point) = &tried {
-            search.tell(choice, &Look::of(point, measure), "");
-        }
-        note(found, |f| match tried {
-            Ok(point) => f.points.push(point),
-            Err(why) => f.failed.push((choice.clone(), why)),
+
+    /// The choices that may reach the frontier by what is predicted, as many as work allows,
+    /// the quickest first.
+    fn worth_a_look(
+        &self,
+        others: Vec<Choice>,
+        seen: &[(Choice, Begun)],
+        drafts: &Drafts,
+    ) -> Vec<Choice> {
+        let target = self.search.base.target;
+        let looked = |(choice, begun): &'_ (Choice, Begun)| {
+            Some((choice.clone(), begun.first.look(self.measure())?))
+        };
+        let predictor = Predictor {
+            known: seen.iter().filter_map(looked).collect(),
+            drafts,
+            measure: self.measure(),
+        };
+        let (others, beaten) = predictor.pruned(others);
+        let there: Vec<Look> = predictor.known.iter().map(|(_, look)| *look).collect();
+        let others: Vec<(Choice, Option<Look>)> = others
+            .into_iter()
+            .map(|choice| (predictor.predict(&choice), choice))
+            .map(|(look, choice)| (choice, look))
+            .collect();
+        let sorted = effort::by_worth(others, |(_, look)| *look, &there);
+        let cost = |(_, look): &(Choice, Option<Look>)| {
+            let cycles = look.map_or(0.0, |look| look.cycles);
+            effort::of_look(target, cycles)
+        };
+        // Of memory, too, several ways are tried.
+        let most = self.search.effort.looks() * if self.search.smaller { 3.0 } else { 1.0 };
+        let (mut taken, left) = effort::within(sorted, cost, most);
+        let cycles = |look: &Option<Look>| look.map_or(0.0, |look| look.cycles);
+        taken.sort_by(|(_, a), (_, b)| cycles(a).total_cmp(&cycles(b)));
+        note(self.found, |f| {
+            f.pruned = beaten;
+            let left = left.into_iter();
+            f.beyond = left
+                .filter_map(|(choice, look)| Some((choice, look?)))
+                .collect();
         });
+        taken.into_iter().map(|(choice, _)| choice).collect()
+    }
+
+    /// What of that which takes long is to be run whole, the quickest first.
+    fn worth_a_run(&self, seen: Vec<(Choice, Begun)>) -> Vec<Rest> {
+        let Search { base, limit, .. } = self.search;
+        let measure = self.measure();
+        let looks = |(_, begun): &(Choice, Begun)| begun.first.look(measure);
+        let looks: Vec<Look> = seen.iter().filter_map(looks).collect();
+        let mut there = Vec::new();
+        let mut rest: Vec<Rest> = Vec::new();
+        for (choice, begun) in seen {
+            match begun.first {
+                First::Rows(look) if looks.iter().any(|other| other.clearly_beats(&look)) => {
+                    note(self.found, |f| f.left.push((choice, look)));
+                }
+                First::Rows(look) if look.cycles > OVER * *limit as f64 => {
+                    let why = over(&look, *limit);
+                    note(self.found, |f| f.failed.push((choice, why)));
+                }
+                First::Rows(look) => rest.push((choice, look, Mutex::new(begun.plan))),
+                First::Whole(point) => there.push(Look::of(&point, measure)),
+                First::Not(_) => {}
+            }
+        }
+        let sorted = effort::by_worth(rest, |(_, look, _)| Some(*look), &there);
+        let cost = |(_, look, _): &Rest| effort::of_cycles(base.target, look.cycles);
+        let (mut taken, left) = effort::within(sorted, cost, self.search.effort.wholes());
+        taken.sort_by(|(_, a, _), (_, b, _)| a.cycles.total_cmp(&b.cycles));
+        let left = left.into_iter().map(|(choice, look, _)| (choice, look));
+        note(self.found, |f| f.beyond.extend(left));
+        taken
+    }
+
+    /// Runs whole pictures.
+    fn run_whole(&self, rest: Vec<Rest>) -> Outcome<()> {
+        let base = &self.search.base;
+        let cycles = |look: &Look| (look.cycles / 1e6) as u64;
+        let all = rest.iter().map(|(_, look, _)| cycles(look)).sum();
+        let progress = Progress::new("whole pictures", all);
+        let each = jobs::each(&rest, |(choice, look, plan)| {
+            let scene = self.scenes.of(choice);
+            let plan = plan.lock().ok().and_then(|mut plan| plan.take());
+            let words = self.search.words(choice);
+            let work = || tried(self.search, scene, self.natives, choice, plan);
+            let tried: Tried = (self.search.cache).known_or(scene, base.target, &words, work)?;
+            progress.step(cycles(look));
+            if let Ok(point) = &tried {
+                let look = Look::of(point, self.measure());
+                self.search.tell(choice, &look, "");
+            }
+            note(self.found, |f| match tried {
+                Ok(point) => f.points.push(point),
+                Err(why) => f.failed.push((choice.clone(), why)),
+            });
+            Ok(())
+        })?;
+        each.into_iter().collect::<Outcome<Vec<()>>>()?;
         Ok(())
-    })?;
-    each.into_iter().collect::<Outcome<Vec<()>>>()?;
-    Ok(())
+    }
 }
 
 /// By how much a few rows must exceed the limit for the whole not to be run: they may be
 /// dearer than others.
 const OVER: f64 = 1.25;
 
-/// What a first look at a choice came to.
-#[derive(Clone, Serialize, Deserialize)]
-enum First {
-    /// It is quick, so it was run whole.
-    Whole(Box<Point>),
-    /// It takes long, so some rows were run.
-    Rows(Look),
-    /// It cannot be had.
-    Not(String),
-}
-
-impl First {
-    fn look(&self, measure: Measure) -> Option<Look> {
-        match self {
-            First::Whole(point) => Some(Look::of(point, measure)),
-            First::Rows(look) => Some(*look),
-            First::Not(_) => None,
-        }
-    }
-}
-
-/// The same with the plan, where one was made and is needed again: planning takes long.
-struct Begun {
-    first: First,
-    plan: Option<Planned>,
-}
-
-/// Looks at a choice, or remembers what was seen.
-fn begun(search: &Search, scene: &Scene, natives: &Natives, choice: &Choice) -> Outcome<Begun> {
-    let (base, measure) = (&search.base, search.measure);
-    let mut words = search.words(choice);
-    words.push(format!("first {measure:?}"));
-    let mut kept = None;
-    let work = || {
-        let tried = base
-            .screen(choice)
-            .plan(scene, base.target, &[])
-            .map(Planned::new)
-            .and_then(|planned| {
-                rows::hopeless(&planned.plan, search.limit)?;
-                if !bands::pays(&planned.plan) {
-                    let point =
-                        point::measure(base, scene, natives, choice, planned, search.how())?;
-                    return Ok(First::Whole(Box::new(point)));
-                }
-                let how = (measure, search.limit);
-                let look = rows::look(base, scene, natives, choice, &planned, how)?;
-                kept = Some(planned);
-                Ok(First::Rows(look))
-            });
-        match tried {
-            Err(Failure::Interrupted) => Err(Failure::Interrupted),
-            Err(other) => Ok(First::Not(other.reason())),
-            Ok(first) => Ok(first),
-        }
-    };
-    let first = search.cache.known_or(scene, base.target, &words, work)?;
-    Ok(Begun { first, plan: kept })
+/// What is said of a choice that takes more.
+fn over(look: &Look, limit: u64) -> String {
+    let (cycles, limit) = (count(look.cycles as u64), count(limit));
+    format!(
+        "by three bands of its rows it takes {cycles} cycles, and {limit} are the limit (--limit)"
+    )
 }
 
 fn note(found: &Mutex<Found>, write: impl FnOnce(&mut Found)) {
@@ -296,9 +363,8 @@ const SMALLER: [(bool, u8); 5] = {
 };
 
 /// All formats and settings, with params changeable and folded.
-fn choices(search: &Search, scenes: &Scenes, settings: &[Setting]) -> Vec<Choice> {
-    let has_params = !scenes.live.checked.program.params.is_empty();
-    let frozen: &[bool] = match has_params && !search.live {
+fn choices(search: &Search, folds: bool, settings: &[Setting]) -> Vec<Choice> {
+    let frozen: &[bool] = match folds {
         true => &[false, true],
         false => &[false],
     };
@@ -323,27 +389,4 @@ fn choices(search: &Search, scenes: &Scenes, settings: &[Setting]) -> Vec<Choice
         }
     }
     all
-}
-
-/// A choice's point, or why it cannot be had.
-type Tried = Result<Point, String>;
-
-fn tried(
-    search: &Search,
-    scene: &Scene,
-    natives: &Natives,
-    choice: &Choice,
-    plan: Option<Planned>,
-) -> Outcome<Tried> {
-    let base = &search.base;
-    let plan = match plan {
-        Some(plan) => Ok(plan),
-        None => (base.screen(choice).plan(scene, base.target, &[])).map(Planned::new),
-    };
-    let measured = |plan| point::measure(base, scene, natives, choice, plan, search.how());
-    match plan.and_then(measured) {
-        Ok(point) => Ok(Ok(point)),
-        Err(Failure::Interrupted) => Err(Failure::Interrupted),
-        Err(other) => Ok(Err(other.reason())),
-    }
 }

@@ -20,8 +20,10 @@
 pub mod bands;
 pub mod cache;
 pub mod choice;
+pub mod effort;
 pub mod explore;
 pub mod goal;
+pub mod looked;
 pub mod marks;
 pub mod page;
 pub mod planned;

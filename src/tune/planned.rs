@@ -2,6 +2,7 @@
 //! bands of rows and the whole picture share both.
 
 use crate::draw::{Drawn, model_with};
+use crate::estimate;
 use crate::failure::Outcome;
 use slowlight_compiler::planner::PlannedScene;
 use std::sync::OnceLock;
@@ -13,6 +14,8 @@ pub struct Planned {
     /// What computes every pixel's shade, where the program does without; made when it is
     /// first asked for.
     shaded: OnceLock<Option<PlannedScene>>,
+    /// The cycles that the planner's figures predict.
+    cycles: OnceLock<f64>,
 }
 
 impl Planned {
@@ -21,7 +24,13 @@ impl Planned {
         Planned {
             plan,
             shaded: OnceLock::new(),
+            cycles: OnceLock::new(),
         }
+    }
+
+    /// The cycles that the planner's figures predict of the whole picture.
+    pub fn cycles(&self) -> f64 {
+        *self.cycles.get_or_init(|| estimate::cycles(&self.plan))
     }
 
     /// The plan of the shades, where it is another.

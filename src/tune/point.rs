@@ -110,7 +110,7 @@ pub fn measure(
     (limit, by_line): (u64, bool),
 ) -> Outcome<Point> {
     let plan = &planned.plan;
-    let predicted = estimate::cycles(plan);
+    let predicted = planned.cycles();
     let before = estimate::before(plan);
     let spent = match by_line {
         true => spent(scene, &planned, &base.screen(choice), limit)?,

@@ -18,15 +18,16 @@ const CLEARLY: f64 = 0.8;
 const HARDLY: f64 = 1.1;
 
 /// The choices that the others are predicted by: whole pictures in each format, by the quickest
-/// program.
-pub fn is_first(choice: &Choice) -> bool {
-    choice.setting == Setting::WHOLE && !choice.outlined && choice.thrift == 0
+/// program, with params folded where they may be.
+pub fn is_first(choice: &Choice, folds: bool) -> bool {
+    let plain = !choice.outlined && choice.thrift == 0 && choice.frozen == folds;
+    choice.setting == Setting::WHOLE && plain
 }
 
 /// What predicts the figures of choices by some that were looked at.
 pub struct Predictor<'s> {
     /// Those, whole pictures.
-    pub known: Vec<(&'s Choice, Look)>,
+    pub known: Vec<(Choice, Look)>,
     /// What settings are in `f64`.
     pub drafts: &'s Drafts,
     /// The error that decides.
@@ -36,7 +37,7 @@ pub struct Predictor<'s> {
 impl Predictor<'_> {
     /// A choice's figures; none where its format is not known.
     pub fn predict(&self, choice: &Choice) -> Option<Look> {
-        let alike = |known: &Choice| known.format == choice.format && known.frozen == choice.frozen;
+        let alike = |known: &Choice| known.format == choice.format;
         let (_, whole) = self.known.iter().find(|(known, _)| alike(known))?;
         let of = |d: &&Drafted| d.setting == choice.setting;
         let draft = self.drafts.chosen.iter().find(of)?;
@@ -114,7 +115,7 @@ mod tests {
     fn a_dear_format_is_not_tried_where_the_setting_is_what_is_wrong() {
         let (quick, dear) = (choice(1, "quick"), choice(1, "dear"));
         let predictor = Predictor {
-            known: vec![(&quick, look(1e6, 0.02)), (&dear, look(1e7, 0.0))],
+            known: vec![(quick, look(1e6, 0.02)), (dear, look(1e7, 0.0))],
             drafts: &Drafts {
                 chosen: vec![drafted(1, 1000, 0), drafted(2, 250, 3000)],
                 left: Vec::new(),

@@ -5,7 +5,7 @@
 //! neither a dear band nor what a program does at its start misleads. What others clearly
 //! beat by these figures is not run whole; that is all they are for.
 
-use super::bands::bands;
+use super::bands::{LONG, bands_of};
 use super::choice::{Base, Choice};
 use super::goal::Measure;
 use super::planned::Planned;
@@ -16,7 +16,6 @@ use crate::format::count;
 use crate::scene::Scene;
 use crate::{estimate, measure, trial};
 use serde::{Deserialize, Serialize};
-use slowlight_compiler::plan::Plan;
 
 /// By how much another must be cheaper and better, as figures of a few rows are not exact.
 const CLEARLY: f64 = 0.8;
@@ -62,15 +61,27 @@ impl Look {
 ///
 /// # Errors
 /// Where they are far beyond the limit: what they are.
-pub fn hopeless(plan: &Plan, limit: u64) -> Outcome<()> {
-    let predicted = estimate::cycles(plan);
-    if plan.graph.diffusion.is_none() || predicted <= FAR * limit as f64 {
+pub fn hopeless(planned: &Planned, limit: u64) -> Outcome<()> {
+    let predicted = planned.cycles();
+    if planned.plan.graph.diffusion.is_none() || predicted <= FAR * limit as f64 {
         return Ok(());
     }
     let (cycles, limit) = (count(predicted as u64), count(limit));
     Err(Failure::Wrong(format!(
         "the planner expects {cycles} cycles, and {limit} are the limit (--limit)"
     )))
+}
+
+/// What is expected of a plan that takes long and of which no rows can be run alone: nothing of
+/// its error.
+pub fn unseen(planned: &Planned) -> Option<Look> {
+    let spreads = planned.plan.graph.diffusion.is_some();
+    (spreads && planned.cycles() > LONG).then(|| Look {
+        cycles: planned.cycles(),
+        before: estimate::before(&planned.plan),
+        error: 0.0,
+        pixels: 0.0,
+    })
 }
 
 /// Looks at a plan's bands on its machine.
@@ -88,9 +99,9 @@ pub fn look(
     let plan = &planned.plan;
     let machine = base.screen(choice).machine(plan.target);
     let (mut took, mut predicted, mut squares, mut pixels) = (0.0, 0.0, 0.0, 0.0);
-    for rows in bands(plan.rows) {
+    for rows in bands_of(planned) {
         let band = planned.band(rows);
-        predicted += estimate::cycles(&band);
+        predicted += estimate::cycles_roughly(&band);
         let loaded = trial::build_for(&band, machine)?.loaded;
         let run = trial::ran(scene, &band, loaded, limit)?;
         took += run.cycles as f64;
@@ -106,7 +117,7 @@ pub fn look(
         pixels += count;
     }
     Ok(Look {
-        cycles: took / predicted.max(1.0) * estimate::cycles(plan),
+        cycles: took / predicted.max(1.0) * planned.cycles(),
         before: estimate::before(plan),
         error: (squares / pixels.max(1.0)).powf(1.0 / power(measure)),
         pixels,
@@ -124,13 +135,14 @@ fn power(measure: Measure) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::tune::bands::bands;
     use slowlight_compiler::plan::Goal;
     use slowlight_compiler::planner::plan;
 
     #[test]
     fn bands_are_inside_and_apart() {
         for (first, last) in [(0, 255), (9, 239), (0, 23), (100, 124)] {
-            let bands = bands((first, last));
+            let bands = bands((first, last), 24);
             assert!(bands[0].0 >= first && bands[2].1 <= last, "{bands:?}");
             assert!(
                 bands[0].1 < bands[1].0 && bands[1].1 < bands[2].0,
@@ -154,9 +166,10 @@ mod tests {
             plot: true,
         };
         let plan = plan(&graph, target, &goal).expect("a plan");
-        let predicted = estimate::cycles(&plan) as u64;
-        assert!(hopeless(&plan, predicted).is_ok());
-        assert!(hopeless(&plan, predicted / 4).is_err());
+        let planned = Planned::new(plan);
+        let predicted = planned.cycles() as u64;
+        assert!(hopeless(&planned, predicted).is_ok());
+        assert!(hopeless(&planned, predicted / 4).is_err());
     }
 
     #[test]

@@ -4,6 +4,7 @@
 //! before any machine runs, and so is how many operations it takes. What is no better than
 //! another setting in either goes no further.
 
+use super::bands::{bands, share};
 use super::choice::Setting;
 use super::point::Natives;
 use crate::draw::{Drawn, Window, native_counted};
@@ -12,7 +13,8 @@ use crate::measure::{Errors, errors};
 use crate::progress::Progress;
 use crate::scene::{Limits, Precision, Scene};
 use serde::{Deserialize, Serialize};
-use slowlight_compiler::ir::graph::Graph;
+use slowlight_compiler::eval::native::Pixel;
+use slowlight_compiler::ir::graph::{Graph, Image};
 use slowlight_compiler::passes::pixel_blocks::pixel_blocks;
 use slowlight_compiler::sema::{Millionths, Search, Ways};
 
@@ -58,22 +60,39 @@ pub struct Drafted {
     pub errors: Errors,
 }
 
-/// The settings of a scene on a screen of so many inks that may be worth their time by an
-/// error: at most `most`, spread over the work that they take.
+/// What is asked of settings.
+#[derive(Clone, Copy, Debug)]
+pub struct Asked {
+    /// The screen's inks.
+    pub inks: u32,
+    /// How many settings at most.
+    pub most: usize,
+    /// How many operations drawing them may take: where whole pictures take more, bands of
+    /// their rows are drawn.
+    pub operations: f64,
+}
+
+/// The settings of a scene that may be worth their time by an error, spread over the work that
+/// they take.
 ///
 /// # Errors
 /// Only an interruption.
 pub fn worthwhile(
     scene: &Scene,
     natives: &Natives,
-    inks: u32,
     error: &dyn Fn(&Errors) -> f64,
-    most: usize,
+    asked: &Asked,
 ) -> Outcome<Drafts> {
     let (width, height) = scene.size();
-    let truth = natives.of(scene, inks, Window::whole(width, height))?;
-    let limits = limits(scene, inks)?;
-    let blocks = blocks(scene, inks, &truth, error)?;
+    let truth = natives.of(scene, asked.inks, Window::whole(width, height))?;
+    let limits = limits(scene, asked.inks)?;
+    let graph = scene.graph(Some(asked.inks), Precision::NATIVE)?;
+    let share = rows_share(&graph, limits.len(), asked.operations)?;
+    let truth = Truth {
+        drawn: &truth,
+        share,
+    };
+    let blocks = blocks(&graph, &truth, error)?;
     let progress = Progress::new("settings", (limits.len() * blocks.len()) as u64);
     let mut all = Vec::new();
     for (graph, limit) in &limits {
@@ -88,7 +107,7 @@ pub fn worthwhile(
             progress.step(1);
         }
     }
-    let chosen = spread(kept(all.clone(), error), error, most);
+    let chosen = spread(kept(all.clone(), error), error, asked.most);
     let whole = all.iter().find(|one| one.setting == Setting::WHOLE);
     let whole_work = whole.map_or(0, |one| one.work);
     all.retain(|one| !chosen.contains(one));
@@ -99,19 +118,90 @@ pub fn worthwhile(
     })
 }
 
+/// The picture as written, and whether settings are drawn on bands of rows only, each of one
+/// row in so many.
+struct Truth<'t> {
+    drawn: &'t Drawn,
+    share: Option<u32>,
+}
+
+/// Rows of blocks from which on some stand for all.
+const MANY: u32 = 8;
+
+impl Truth<'_> {
+    /// The windows, of blocks, that are drawn of a picture.
+    fn windows(&self, image: &Image) -> Vec<Window> {
+        let whole = Window::whole(image.width, image.height);
+        match self.share {
+            Some(share) if image.height >= MANY => {
+                let bands = bands(whole.rows, share).into_iter();
+                bands.map(|rows| Window { rows, ..whole }).collect()
+            }
+            _ => vec![whole],
+        }
+    }
+
+    /// The rows of a window of blocks.
+    fn pixels(&self, window: Window, block: (u32, u32)) -> &[Pixel] {
+        let Window { rows, .. } = window.times(block);
+        let width = self.drawn.window.width() as usize;
+        let (from, to) = (rows.0 as usize * width, (rows.1 as usize + 1) * width);
+        self.drawn.pixels.get(from..to).unwrap_or_default()
+    }
+}
+
+/// How much dearer all blocks of a way are than its pixels: the sum of their areas' inverses,
+/// with room for the shapes that each area has.
+const BLOCKS: f64 = 2.5;
+
+/// What share of the rows settings are drawn on, one in so many in each of three bands; none for
+/// whole pictures, where these take no more than so many operations, or where errors spread.
+fn rows_share(graph: &Graph, limits: usize, most: f64) -> Outcome<Option<u32>> {
+    let (_, work) = native_counted(graph, Window::whole(graph.image.width, graph.image.height))?;
+    let all = work as f64 * limits as f64 * BLOCKS;
+    let whole = all <= most || graph.diffusion.is_some();
+    Ok((!whole).then(|| share(3.0 * all, most)))
+}
+
 /// Draws a setting.
-fn drafted(graph: &Graph, setting: Setting, truth: &Drawn) -> Outcome<Drafted> {
+fn drafted(graph: &Graph, setting: Setting, truth: &Truth<'_>) -> Outcome<Drafted> {
     let graph = pixel_blocks(graph, setting.block);
-    let window = Window::whole(graph.image.width, graph.image.height);
-    let (drawn, work) = native_counted(&graph, window)?;
-    let inks: Vec<u8> = drawn.pixels.iter().map(|p| p.ink).collect();
-    let (pixels, levels) = (&truth.pixels, graph.image.palette.len());
-    let errors = errors(truth.window.width(), &inks, &drawn.pixels, pixels, levels);
+    let (mut drawn, mut native, mut work, mut rows) = (Vec::new(), Vec::new(), 0, 0);
+    for window in truth.windows(&graph.image) {
+        let (picture, operations) = native_counted(&graph, window)?;
+        drawn.extend(picture.pixels);
+        native.extend_from_slice(truth.pixels(window, setting.block));
+        work += operations;
+        rows += window.height();
+    }
+    let inks: Vec<u8> = drawn.iter().map(|p| p.ink).collect();
+    let (width, levels) = (truth.drawn.window.width(), graph.image.palette.len());
+    let errors = errors(width, &inks, &drawn, &native, levels);
     Ok(Drafted {
         setting,
-        work,
+        work: work * u64::from(graph.image.height) / u64::from(rows.max(1)),
         errors,
     })
+}
+
+/// A block of about 64 pixels that a picture is whole numbers of.
+pub fn quick_block((width, height): (u32, u32)) -> Option<(u32, u32)> {
+    let coarse = AREAS.into_iter().filter(|area| (16..=64).contains(area));
+    coarse
+        .rev()
+        .find_map(|area| shapes(area, (width, height)).next())
+}
+
+/// The blocks of an area that a picture is whole numbers of.
+fn shapes(area: u32, (width, height): (u32, u32)) -> impl Iterator<Item = (u32, u32)> {
+    let sides = (1..=area).filter(move |wide| area.is_multiple_of(*wide));
+    sides
+        .map(move |wide| (wide, area / wide))
+        .filter(move |(wide, high)| {
+            let whole = width.is_multiple_of(*wide) && height.is_multiple_of(*high);
+            // A block much longer than wide is off by its length.
+            whole && *wide <= 2 * high && *high <= 2 * wide
+        })
 }
 
 /// The scene's graph as written, and done with less or otherwise wherever that makes another.
@@ -178,30 +268,20 @@ fn otherwise() -> Vec<Limits> {
 
 /// Of each area the block that is least off.
 fn blocks(
-    scene: &Scene,
-    inks: u32,
-    truth: &Drawn,
+    graph: &Graph,
+    truth: &Truth<'_>,
     error: &dyn Fn(&Errors) -> f64,
 ) -> Outcome<Vec<(u32, u32)>> {
-    let (width, height) = scene.size();
-    let graph = scene.graph(Some(inks), Precision::NATIVE)?;
+    let size = (graph.image.width, graph.image.height);
     let mut found = Vec::new();
     for area in AREAS {
-        let sides = (1..=area).filter(|wide| area % wide == 0);
-        let shapes = sides
-            .map(|wide| (wide, area / wide))
-            .filter(|(wide, high)| {
-                let whole = width % wide == 0 && height % high == 0;
-                // A block much longer than wide is off by its length.
-                whole && *wide <= 2 * high && *high <= 2 * wide
-            });
         let mut best: Option<(f64, (u32, u32))> = None;
-        for block in shapes {
+        for block in shapes(area, size) {
             let setting = Setting {
                 block,
                 ..Setting::WHOLE
             };
-            let off = error(&drafted(&graph, setting, truth)?.errors);
+            let off = error(&drafted(graph, setting, truth)?.errors);
             if best.is_none_or(|(least, _)| off < least) {
                 best = Some((off, block));
             }

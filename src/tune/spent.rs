@@ -3,14 +3,13 @@
 //!
 //! Lines are charged as `explain` does it, on the bands of rows that a first look takes.
 
-use super::bands::{bands, pays};
+use super::bands::{bands_of, pays};
 use super::planned::Planned;
 use crate::explain::{Counted, count_lines, error};
 use crate::failure::Outcome;
 use crate::scene::Scene;
 use crate::target_args::ScreenArgs;
 use serde::{Deserialize, Serialize};
-use slowlight_compiler::plan::Plan;
 use slowlight_compiler::report::profile::{Part, Profile, profile};
 use std::collections::BTreeMap;
 
@@ -55,7 +54,7 @@ pub fn spent(
 ) -> Outcome<Vec<Spent>> {
     let mut lines: BTreeMap<(u16, usize), Line> = BTreeMap::new();
     let mut all = 0;
-    for rows in looked_at(&planned.plan) {
+    for rows in looked_at(planned) {
         let counted = count_lines(scene, planned.band(rows), screen, limit)?;
         all += add(&mut lines, &profile_of(scene, &counted));
     }
@@ -87,10 +86,10 @@ pub fn spent(
 }
 
 /// The rows that are looked at: all, where that is no work.
-fn looked_at(plan: &Plan) -> Vec<(u32, u32)> {
-    match pays(plan) {
-        true => bands(plan.rows).to_vec(),
-        false => vec![plan.rows],
+fn looked_at(planned: &Planned) -> Vec<(u32, u32)> {
+    match pays(planned) {
+        true => bands_of(planned).to_vec(),
+        false => vec![planned.plan.rows],
     }
 }
 

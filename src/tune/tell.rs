@@ -5,6 +5,7 @@ use super::explore::Found;
 use super::goal::{Measure, percent};
 use super::marks::Mark;
 use super::point::Point;
+use super::rows::Look;
 use crate::format::{count, duration, table};
 use serde_json::{Value, json};
 use slowlight_compiler::report::frontier::{Way, dominated, rank_correlation};
@@ -164,7 +165,27 @@ impl<'a> Told<'a> {
                 self.base.words(choice).join(" ")
             ));
         }
+        if let Some(beyond) = self.beyond() {
+            out.push_str(&beyond);
+        }
         out
+    }
+
+    /// What was left out because it takes much work, if anything: the best of it.
+    fn beyond(&self) -> Option<String> {
+        let all = &self.found.beyond;
+        let best = |a: &&(Choice, Look), b: &&(Choice, Look)| {
+            let key = |(_, look): &(Choice, Look)| (look.error, look.cycles);
+            let ((e, c), (f, d)) = (key(a), key(b));
+            e.total_cmp(&f).then(c.total_cmp(&d))
+        };
+        let (choice, look) = all.iter().min_by(best)?;
+        Some(format!(
+            "{} more ways would take more work (--effort): {}, about {}, say\n",
+            all.len(),
+            self.base.words(choice).join(" "),
+            duration(look.cycles / self.base.hertz()),
+        ))
     }
 
     /// All points as JSON.
@@ -183,6 +204,13 @@ impl<'a> Told<'a> {
             })
             .collect();
         let pruned = (self.found.pruned.iter()).map(|(choice, look)| {
+            json!({
+                "options": self.base.words(choice).join(" "),
+                "cycles_expected": look.cycles.round(),
+                "error_expected": look.error,
+            })
+        });
+        let beyond = (self.found.beyond.iter()).map(|(choice, look)| {
             json!({
                 "options": self.base.words(choice).join(" "),
                 "cycles_expected": look.cycles.round(),
@@ -225,6 +253,7 @@ impl<'a> Told<'a> {
             "left_after_drafts": drafts,
             "left_after_formats": pruned.collect::<Vec<Value>>(),
             "left_after_rows": left,
+            "left_for_effort": beyond.collect::<Vec<Value>>(),
             "failed": failed.collect::<Vec<Value>>(),
             "chosen": chosen.map(|p| self.base.words(&p.choice).join(" ")),
         })

@@ -1,0 +1,194 @@
+//! A budget of counted work, and what of a search is worth it: an epsilon-dominance ranking of
+//! what is expected, taken from the front while the budget lasts.
+//!
+//! Work is counted in nanoseconds of one processor, by what operations and cycles usually take:
+//! counted, never timed, so that what is found hangs neither on the machine nor on its threads.
+
+use super::bands::{LONG, MOST, share};
+use super::rows::Look;
+use slowlight_compiler::targets::{Language, Target};
+
+/// What settings may take where they are drawn natively, in operations.
+const DRAFTS: f64 = 2e9;
+
+/// What may be spent on plans and on first looks at them, beside whole pictures in each format.
+const LOOKS: f64 = 2e10;
+
+/// What may be spent on whole pictures.
+const WHOLES: f64 = 4e10;
+
+/// What may be done to make a plan's program fit, in units of
+/// [`slowlight_compiler::fuel::Fuel`]: of all choices by far the most need no tenth of it.
+const FIT: u64 = 100_000_000;
+
+/// How much work may be done: so many times the usual, which is to take less than a minute on
+/// two processors; or all there is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Effort(Option<u16>);
+
+impl Effort {
+    /// Whatever it takes.
+    pub const ALL: Effort = Effort(None);
+
+    /// So many times the usual.
+    pub fn times(usual: u16) -> Effort {
+        Effort(Some(usual))
+    }
+
+    fn of(self, work: f64) -> f64 {
+        self.0
+            .map_or(f64::INFINITY, |times| f64::from(times) * work)
+    }
+
+    /// Operations that settings may take.
+    pub fn drafts(self) -> f64 {
+        self.of(DRAFTS)
+    }
+
+    /// Work for plans and first looks.
+    pub fn looks(self) -> f64 {
+        self.of(LOOKS)
+    }
+
+    /// Work for whole pictures.
+    pub fn wholes(self) -> f64 {
+        self.of(WHOLES)
+    }
+
+    /// Fuel to make a program fit; none is that of `build`.
+    pub fn fit(self) -> Option<u64> {
+        self.0.map(|times| u64::from(times) * FIT)
+    }
+}
+
+/// What a plan takes to be made.
+pub fn of_plan(target: &Target) -> f64 {
+    match target.system.language() {
+        Language::Jack => 3e8,
+        Language::Basic | Language::Assembly => 1e9,
+    }
+}
+
+/// What a run of so many cycles takes, together with the model's of the same pixels. A command
+/// of BASIC takes some thousand cycles, and is carried out as a whole.
+pub fn of_cycles(target: &Target, cycles: f64) -> f64 {
+    cycles
+        * match target.system.language() {
+            Language::Jack => 3.0,
+            Language::Basic => 0.05,
+            Language::Assembly => 1.7,
+        }
+}
+
+/// What a plan of so many cycles and a first look at it take.
+pub fn of_look(target: &Target, cycles: f64) -> f64 {
+    let rows = match cycles > LONG {
+        true => 3.0 / f64::from(share(3.0 * of_cycles(target, cycles), MOST)),
+        false => 1.0,
+    };
+    of_plan(target) + rows * of_cycles(target, cycles)
+}
+
+/// By how much another is cheaper and better at once: a factor above 1, and 1 where it is the
+/// same and comes before; below 1 where nothing is as good.
+fn behind(at: usize, all: &[Option<Look>]) -> f64 {
+    let Some(Some(own)) = all.get(at) else {
+        return 0.0;
+    };
+    let pixel = 1.0 / own.pixels.max(1.0);
+    let others = all.iter().enumerate().filter(|(k, _)| *k != at);
+    let factors = others.filter_map(|(k, other)| {
+        let other = other.as_ref()?;
+        let cheaper = own.cycles / other.cycles.max(1.0);
+        let better = (own.error + pixel) / (other.error + pixel);
+        let same = cheaper == 1.0 && better == 1.0;
+        Some(cheaper.min(better)).filter(|_| !same || k < at)
+    });
+    factors.fold(0.0, f64::max)
+}
+
+/// Items in the order of their worth, by what is expected of each and of what is there already:
+/// first those that nothing is as good as, from the quickest to the slowest, then the others, the
+/// less behind the sooner. What nothing is known of comes first.
+pub fn by_worth<T>(items: Vec<T>, look: impl Fn(&T) -> Option<Look>, there: &[Look]) -> Vec<T> {
+    let mut looks: Vec<Option<Look>> = items.iter().map(look).collect();
+    let count = looks.len();
+    looks.extend(there.iter().copied().map(Some));
+    let key = |k: usize| {
+        let behind = behind(k, &looks);
+        let cycles = looks.get(k).copied().flatten().map_or(0.0, |l| l.cycles);
+        (if behind < 1.0 { 0.0 } else { behind }, cycles)
+    };
+    let keys: Vec<(f64, f64)> = (0..count).map(key).collect();
+    let mut all: Vec<((f64, f64), T)> = keys.into_iter().zip(items).collect();
+    all.sort_by(|((a, c), _), ((b, d), _)| a.total_cmp(b).then(c.total_cmp(d)));
+    all.into_iter().map(|(_, item)| item).collect()
+}
+
+/// Those of some items that a budget allows, in their order, and the others: what is too dear
+/// leaves the budget to those behind it.
+pub fn within<T>(items: Vec<T>, cost: impl Fn(&T) -> f64, most: f64) -> (Vec<T>, Vec<T>) {
+    let mut spent = 0.0;
+    items.into_iter().partition(|item| {
+        let cost = cost(item);
+        let fits = spent + cost <= most;
+        if fits {
+            spent += cost;
+        }
+        fits
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn look(cycles: f64, error: f64) -> Look {
+        Look {
+            cycles,
+            before: 0.0,
+            error,
+            pixels: 1e4,
+        }
+    }
+
+    #[test]
+    fn what_is_on_the_frontier_comes_first_and_what_is_too_dear_is_left_out() {
+        let all = vec![
+            ("dear", look(9e9, 0.0)),
+            ("twice as dear and no better", look(4e8, 0.1)),
+            ("quick", look(1e8, 0.3)),
+            ("a little behind", look(2.2e8, 0.1)),
+            ("middling", look(2e8, 0.1)),
+            ("the same", look(2e8, 0.1)),
+            ("as one that is there, and dearer", look(1.2e7, 0.4)),
+        ];
+        let there = [look(1e7, 0.4)];
+        let sorted = by_worth(all, |(_, look)| Some(*look), &there);
+        let (taken, left) = within(sorted, |(_, look)| look.cycles, 1e9);
+        let names = |all: &[(&'static str, Look)]| -> Vec<&'static str> {
+            all.iter().map(|(name, _)| *name).collect()
+        };
+        assert_eq!(
+            names(&taken),
+            [
+                "quick",
+                "middling",
+                "the same",
+                "a little behind",
+                "as one that is there, and dearer",
+                "twice as dear and no better",
+            ]
+        );
+        assert_eq!(names(&left), ["dear"]);
+    }
+
+    #[test]
+    fn more_effort_is_more_of_everything() {
+        let (one, two) = (Effort::times(1), Effort::times(2));
+        assert!(two.drafts() > one.drafts() && two.looks() > one.looks());
+        assert!(two.wholes() > one.wholes() && two.fit() > one.fit());
+        assert_eq!(Effort::ALL.wholes(), f64::INFINITY);
+        assert_eq!(Effort::ALL.fit(), None);
+    }
+}
