@@ -16,6 +16,7 @@
 mod form;
 mod pointed;
 mod rules;
+mod subdivision;
 mod walk;
 
 use crate::ir::graph::{NodeId, ParamId};
@@ -23,6 +24,7 @@ use crate::plan::Plan;
 use form::Form;
 use slowlight_routine::Range;
 use std::collections::BTreeSet;
+pub use subdivision::{Proved, bound_within};
 
 /// A part of the picture, and a box of params.
 #[derive(Clone, Debug, PartialEq)]
