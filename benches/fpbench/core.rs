@@ -1,7 +1,7 @@
 //! FPCore translation: a core as a scene of one pixel, its inputs as params with ranges.
 
-use crate::reader::Form;
-use crate::within::{ends, number};
+use super::reader::Form;
+use super::within::{ends, number};
 
 /// A core that the scene language can say.
 pub struct Core {
@@ -117,7 +117,7 @@ impl Says {
                         return Err("a let".to_owned());
                     };
                     let from = if head == "let" { known } else { &inner };
-                    let made = self.value(value, &from.to_vec())?;
+                    let made = self.value(value, from)?;
                     let as_name = format!("l{}", self.count);
                     self.count += 1;
                     self.lets += &format!("  let {as_name} = {made};\n");
@@ -128,6 +128,9 @@ impl Says {
             // In which precision it is meant is not said: here each format is tried.
             ("!", [.., body]) | ("cast", [body]) => return self.value(body, known),
             _ => {}
+        }
+        if head.starts_with("while") || head.starts_with("for") {
+            return Err("a loop".to_owned());
         }
         let made: Result<Vec<String>, String> =
             args.iter().map(|arg| self.value(arg, known)).collect();
@@ -165,7 +168,6 @@ fn operation(head: &str, args: &[String]) -> Result<String, String> {
         ("fmin", [a, b]) => format!("min({a}, {b})"),
         ("fmax", [a, b]) => format!("max({a}, {b})"),
         ("pow", [a, b]) => format!("({a} ^ {b})"),
-        ("while" | "while*", _) => return Err("a loop".to_owned()),
         _ => return Err(format!("the operation {head}")),
     })
 }

@@ -1,6 +1,6 @@
 //! Preconditions: the ends of inputs, and whether a box of inputs may meet what is asked of them.
 
-use crate::reader::Form;
+use super::reader::Form;
 use slowlight_routine::Range;
 
 /// A decimal number or a fraction.

@@ -25,6 +25,7 @@ mod effects;
 mod explain;
 mod fit;
 mod forecast;
+mod fpbench;
 mod hack_rom;
 mod hard_cases;
 mod held;

@@ -10,7 +10,8 @@
 //! proved, the place is listed ([`Bounds::undecided`]).
 //!
 //! The smaller the tile, the sharper the bound: a tile of one pixel takes one
-//! way through the program. Loops are walked turn by turn; a value of one that
+//! way through the program. A box of params that is wide is taken in parts, the worst in
+//! smaller ones ([`bound_within`]). Loops are walked turn by turn; a value of one that
 //! goes on for more turns than a tile is worth has no bound.
 
 mod form;
@@ -24,7 +25,7 @@ use crate::plan::Plan;
 use form::Form;
 use slowlight_routine::Range;
 use std::collections::BTreeSet;
-pub use subdivision::{Proved, bound_within};
+pub use subdivision::{Keep, Proved, bound_within};
 
 /// A part of the picture, and a box of params.
 #[derive(Clone, Debug, PartialEq)]

@@ -12,11 +12,21 @@ use slowlight_routine::Range;
 use std::cmp::Ordering;
 use std::collections::BinaryHeap;
 
-/// How many of the ways to halve a box are tried, the widest first.
+/// How many of the ways to halve a box are tried, what gained most before first.
 const WAYS: usize = 3;
+
+/// By how much a gain that is old counts for more with each halving since: it may be another now.
+const AGED: f64 = 1.2;
+
+/// How seldom the side that was halved least is halved whatever it gains: what gains by two
+/// halvings together (of a side about 0, say) gains nothing by the first.
+const WHATEVER: u32 = 3;
 
 /// How often a side is halved at most.
 const DEEP: u32 = 40;
+
+/// Which boxes of params are looked at: what each param may be, and how far the machine's is off.
+pub type Keep<'a> = dyn Fn(&[(Range, f64)]) -> bool + 'a;
 
 /// What is proved of one value over a box of params.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -34,13 +44,7 @@ pub struct Proved {
 /// What is proved of a node over a tile's params, for so many statements and roundings. Boxes
 /// that are not to be kept hold nothing that matters: `keep` has to hold of every box with a
 /// point that does.
-pub fn bound_within(
-    plan: &Plan,
-    tile: &Tile,
-    of: NodeId,
-    fuel: u64,
-    keep: &dyn Fn(&[(Range, f64)]) -> bool,
-) -> Proved {
+pub fn bound_within(plan: &Plan, tile: &Tile, of: NodeId, fuel: u64, keep: &Keep<'_>) -> Proved {
     let mut search = Search {
         plan,
         of,
@@ -48,7 +52,10 @@ pub fn bound_within(
         spent: 0,
         keep,
     };
-    let mut open: BinaryHeap<Part> = search.part(tile.clone(), Vec::new()).into_iter().collect();
+    let mut open: BinaryHeap<Part> = search
+        .part(tile.clone(), vec![0; tile.params.len()])
+        .into_iter()
+        .collect();
     let mut boxes = open.len();
     while search.spent < fuel
         && let Some(worst) = open.peek()
@@ -76,6 +83,8 @@ struct Part {
     tile: Tile,
     /// How often each side was halved.
     depths: Vec<u32>,
+    /// How many times as great the bound was before each side was halved last.
+    gains: Vec<f64>,
     error: f64,
     undecided: bool,
 }
@@ -108,13 +117,12 @@ struct Search<'a> {
     of: NodeId,
     fuel: u64,
     spent: u64,
-    keep: &'a dyn Fn(&[(Range, f64)]) -> bool,
+    keep: &'a Keep<'a>,
 }
 
 impl Search<'_> {
     /// A box with its bound; nothing where it is not to be kept.
-    fn part(&mut self, tile: Tile, mut depths: Vec<u32>) -> Option<Part> {
-        depths.resize(tile.params.len(), 0);
+    fn part(&mut self, tile: Tile, depths: Vec<u32>) -> Option<Part> {
         if !(self.keep)(&tile.params) {
             return None;
         }
@@ -123,6 +131,7 @@ impl Search<'_> {
         let undecided = found.undecided.iter().any(|&id| id < self.of);
         let error = found.of(self.of).map(|Bound { error, .. }| error);
         Some(Part {
+            gains: vec![f64::INFINITY; depths.len()],
             tile,
             depths,
             error: match error {
@@ -140,19 +149,29 @@ impl Search<'_> {
             .collect();
         sides.sort_by_key(|&k| part.depths[k]);
         // Without a bound nothing says which side is worth it.
-        let ways = if part.error.is_finite() { WAYS } else { 1 };
+        let whatever = part.depths.iter().sum::<u32>() % WHATEVER == WHATEVER - 1;
+        if whatever || part.error.is_infinite() {
+            return sides.first().map(|&k| self.halved(part, k));
+        }
+        sides.sort_by(|&a, &b| part.gains[b].total_cmp(&part.gains[a]));
+        let mut gains: Vec<f64> = part.gains.iter().map(|gain| gain * AGED).collect();
         let mut best: Option<(f64, Vec<Part>)> = None;
-        for k in sides.into_iter().take(ways) {
+        for k in sides.into_iter().take(WAYS) {
             if best.is_some() && self.spent >= self.fuel {
                 break;
             }
             let made = self.halved(part, k);
             let worst = made.iter().map(|p| p.error).fold(0.0, f64::max);
+            gains[k] = part.error / worst;
             if best.as_ref().is_none_or(|(least, _)| worst < *least) {
                 best = Some((worst, made));
             }
         }
-        best.map(|(_, made)| made)
+        let (_, mut made) = best?;
+        for half in &mut made {
+            half.gains.clone_from(&gains);
+        }
+        Some(made)
     }
 
     fn halved(&mut self, part: &Part, k: usize) -> Vec<Part> {
@@ -170,6 +189,7 @@ impl Search<'_> {
         // What holds for the whole holds for its halves.
         let least = |mut half: Part| {
             half.error = half.error.min(part.error);
+            half.gains.clone_from(&part.gains);
             half
         };
         each.into_iter().flatten().map(least).collect()

@@ -3,6 +3,8 @@
 
 #![allow(clippy::unwrap_used)]
 
+mod boxes;
+
 use super::*;
 use crate::eval::native::Native;
 use crate::eval::random::Random;
