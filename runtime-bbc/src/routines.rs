@@ -20,8 +20,15 @@ const ULP: Error = Error::Relative(2.7e-10);
 const ROOT: Error = Error::Relative(3.6e-10);
 /// Two sums, one behind the other.
 const TWICE: Error = Error::Relative(8e-10);
-/// `EXP`: up to 88 products, each with e (2.2e-10 from the real one) and rounded (2.4e-10).
-const POWERS_OF_E: Error = Error::Relative(4.1e-8);
+/// `EXP`: a product with e (2.2e-10 from the real one, rounded by 2.4e-10) for each of up to 88
+/// units, and a fraction for the rest, off by 8e-10 at most of a hundred thousand arguments.
+const POWERS_OF_E: Error = Error::Growing {
+    relative: 1.5e-9,
+    each: 4.7e-10,
+    most: 88.1,
+};
+/// `LN`: a multiple of LN(2), and a fraction that takes at most half of it away again.
+const LOGARITHM: Error = Error::Relative(2e-9);
 
 /// Sums of what may be BASIC integers stay far from wrapping.
 const SMALL: f64 = 1_073_741_824.0;
@@ -257,8 +264,8 @@ pub(crate) static ALL: &[Routine] = &[
     routine!("FNatan2" Atan2(R, R) -> R, call("FNatan2({0},{1})"), ["FNatan2"], everywhere, Error::Absolute(4e-9), |a: real, b: real| m::fn_atan2(a, b), 57000, 11),
     routine!("exp" Exp(R) -> R, call("EXP({0})"), [], |args, _| arg(args, -80.0, 80.0), POWERS_OF_E, |a: real| plain(elementary::exp(a)), 32500, 3),
     routine!("FNexp" Exp(R) -> R, call("FNexp({0})"), ["FNexp"], everywhere, POWERS_OF_E, |a: real| m::fn_exp(a), 42000, 8),
-    routine!("ln" Log(R) -> R, call("LN({0})"), [], |args, _| arg(args, 1e-37, f64::MAX), Error::Absolute(1e-7), |a: real| plain(elementary::ln(a)), 29400, 3),
-    routine!("FNln" Log(R) -> R, call("FNln({0})"), ["FNln"], everywhere, Error::Absolute(1e-7), |a: real| m::fn_ln(a), 36000, 7),
+    routine!("ln" Log(R) -> R, call("LN({0})"), [], |args, _| arg(args, 1e-37, f64::MAX), LOGARITHM, |a: real| plain(elementary::ln(a)), 29400, 3),
+    routine!("FNln" Log(R) -> R, call("FNln({0})"), ["FNln"], everywhere, LOGARITHM, |a: real| m::fn_ln(a), 36000, 7),
     routine!("whole_power" Pow(R, R) -> R, form("{0}^{1}", POWER, &[OPERAND, OPERAND]), [], whole_power, Error::Relative(3e-9), |a: real, b: real| plain(elementary::pow(a, b)), 9000, 1),
     routine!("FNpow" Pow(R, R) -> R, call("FNpow({0},{1})"), ["FNpow"], everywhere, Error::Relative(1e-6), |a: real, b: real| m::fn_pow(a, b), 104000, 9),
     routine!("floor" Floor(R) -> I, call("INT({0})"), [], fits_int, EXACT, |a: real| a.int_floor().unwrap_or(0), 1640, 3),

@@ -176,6 +176,9 @@ pub enum Error {
     /// result, and `absolute`. In fixed point, what a function with large
     /// results loses on the way, and the rounding of the last place.
     Mixed { relative: f64, absolute: f64 },
+    /// At most `relative`, and `each` for each unit of the argument's magnitude up to `most`,
+    /// times the magnitude of the exact result: powers by repeated products.
+    Growing { relative: f64, each: f64, most: f64 },
 }
 
 impl Error {
@@ -187,6 +190,14 @@ impl Error {
             Error::Relative(part) => part * exact.abs(),
             Error::Absolute(most) => most,
             Error::Mixed { relative, absolute } => relative * exact.abs() + absolute,
+            Error::Growing {
+                relative,
+                each,
+                most,
+            } => {
+                let steps = args.first().map_or(most, |x| x.magnitude().min(most));
+                (relative + each * steps) * exact.abs()
+            }
             Error::Larger(part) => {
                 let most = |m: f64, r: &Range| m.max(r.magnitude());
                 part * args.iter().fold(exact.abs(), most)
