@@ -61,8 +61,13 @@ fn planned(target: &str, source: &str, set: &[f64], rows: Option<(u32, u32)>) ->
 
 /// The plan, or the next one that spends less memory on speed, that fits.
 fn fitting(plan: PlannedScene) -> PlannedScene {
-    slowlight::fit::fit(vec![plan.mode], &|_, _| Ok(plan.clone()), &|_| None)
-        .unwrap_or_else(|e| panic!("{e:?}"))
+    slowlight::fit::fit(
+        vec![plan.mode],
+        &|_, _| Ok(plan.clone()),
+        &|_| None,
+        slowlight::fit::FIT,
+    )
+    .unwrap_or_else(|e| panic!("{e:?}"))
 }
 
 pub fn text(plan: &PlannedScene) -> String {
