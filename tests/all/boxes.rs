@@ -126,7 +126,7 @@ fn a_large_program_fits_lower() {
         "--mode",
         "1",
         "--format",
-        "fixed16",
+        "fixed24",
         "--rows",
         "120..120",
     ];
