@@ -1,8 +1,8 @@
 //! Stratified samples of a picture's rows: bands that stand for all of it.
 
+use super::effort;
 use super::planned::Planned;
 use slowlight_compiler::plan::Plan;
-use slowlight_compiler::targets::{Language, Target};
 
 /// Predicted cycles from which on rows are looked at first: less is run whole in no time.
 pub const LONG: f64 = 1e8;
@@ -11,19 +11,8 @@ pub const LONG: f64 = 1e8;
 /// enough, or the last.
 const SHARES: [u32; 4] = [24, 48, 96, 192];
 
-/// What three bands may take, as [`of_cycles`] counts it.
+/// What three bands may take, as [`effort`] counts it.
 pub const MOST: f64 = 6e8;
-
-/// What a run of so many cycles takes, together with the model's of the same pixels. A command
-/// of BASIC takes some thousand cycles, and is carried out as a whole.
-pub fn of_cycles(target: &Target, cycles: f64) -> f64 {
-    cycles
-        * match target.system.language() {
-            Language::Jack => 3.0,
-            Language::Basic => 0.05,
-            Language::Assembly => 1.7,
-        }
-}
 
 /// Whether rows should be looked at before the whole is run. Where errors spread, all rows
 /// are computed in any case.
@@ -36,7 +25,7 @@ pub fn pays(planned: &Planned) -> bool {
 /// The bands of a plan: the dearer, the fewer of its rows.
 pub fn bands_of(planned: &Planned) -> [(u32, u32); 3] {
     let plan: &Plan = &planned.plan;
-    let work = of_cycles(plan.target, planned.cycles());
+    let work = effort::of_cycles(plan.target, planned.cycles());
     bands(plan.rows, share(3.0 * work, MOST))
 }
 

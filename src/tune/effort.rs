@@ -4,7 +4,6 @@
 //! Work is counted in nanoseconds of one processor, by what operations and cycles usually take:
 //! counted, never timed, so that what is found hangs neither on the machine nor on its threads.
 
-pub use super::bands::of_cycles;
 use super::bands::{LONG, MOST, share};
 use super::rows::Look;
 use slowlight_compiler::targets::{Language, Target};
@@ -68,6 +67,17 @@ pub fn of_plan(target: &Target) -> f64 {
         Language::Jack => 3e8,
         Language::Basic | Language::Assembly => 1e9,
     }
+}
+
+/// What a run of so many cycles takes, together with the model's of the same pixels. A command
+/// of BASIC takes some thousand cycles, and is carried out as a whole.
+pub fn of_cycles(target: &Target, cycles: f64) -> f64 {
+    cycles
+        * match target.system.language() {
+            Language::Jack => 3.0,
+            Language::Basic => 0.05,
+            Language::Assembly => 1.7,
+        }
 }
 
 /// What a plan of so many cycles and a first look at it take.

@@ -1,11 +1,10 @@
 //! The search: which choices are tried, in which order, and what is kept.
 
-mod looked;
-
 use super::cache::Cache;
 use super::choice::{Base, Choice, Setting};
 use super::effort::{self, Effort};
 use super::goal::{Measure, percent};
+use super::looked::{Begun, First, Tried, begun, tried};
 use super::planned::Planned;
 use super::point::{Natives, Point};
 use super::prune::{Predictor, is_first};
@@ -17,7 +16,6 @@ use crate::jobs;
 use crate::measure::Errors;
 use crate::progress::{self, Progress};
 use crate::scene::Scene;
-use looked::{Begun, First, Tried, begun, tried};
 use slowlight_compiler::planner::THRIFTS;
 use slowlight_compiler::targets;
 use std::sync::{Arc, Mutex};

@@ -23,6 +23,7 @@ pub mod choice;
 pub mod effort;
 pub mod explore;
 pub mod goal;
+pub mod looked;
 pub mod marks;
 pub mod page;
 pub mod planned;

@@ -2,12 +2,12 @@
 #![allow(clippy::unwrap_used)]
 
 use crate::mos6502::Scribe;
-use slowlight::fit::{FIT, fit};
 use slowlight::scene::Precision;
 use slowlight_compiler::eval::native::Native;
 use slowlight_compiler::plan::Goal;
 use slowlight_compiler::plan::model::ModelRun;
-use slowlight_compiler::planner::{PlannedScene, plan};
+use slowlight_compiler::planner::PlannedScene;
+use slowlight_compiler::planner::plan;
 use slowlight_compiler::scene;
 use slowlight_compiler::sema::{Freeze, Options};
 use slowlight_compiler::targets::{default_mode, find};
@@ -61,8 +61,8 @@ fn planned(target: &str, source: &str, set: &[f64], rows: Option<(u32, u32)>) ->
 
 /// The plan, or the next one that spends less memory on speed, that fits.
 fn fitting(plan: PlannedScene) -> PlannedScene {
-    let made = |_, _| Ok(plan.clone());
-    fit(vec![plan.mode], &made, &|_| None, FIT).unwrap_or_else(|e| panic!("{e:?}"))
+    slowlight::fit::fit(vec![plan.mode], &|_, _| Ok(plan.clone()), &|_| None)
+        .unwrap_or_else(|e| panic!("{e:?}"))
 }
 
 pub fn text(plan: &PlannedScene) -> String {

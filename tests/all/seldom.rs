@@ -92,13 +92,7 @@ fn what_fits_as_it_is_stays_so() {
             continue;
         }
         let as_it_is = text(&plan);
-        let fits = fit(
-            vec![plan.mode],
-            &|_, _| Ok(plan.clone()),
-            &|_| None,
-            slowlight::fit::FIT,
-        )
-        .unwrap();
+        let fits = fit(vec![plan.mode], &|_, _| Ok(plan.clone()), &|_| None).unwrap();
         assert_eq!(text(&fits), as_it_is, "{seed}");
     }
     assert!(could > 5, "{could}");

@@ -1,14 +1,14 @@
 //! A first look at a choice, and its whole picture: what is planned and run, or remembered.
 
-use super::Search;
+use super::bands;
+use super::choice::Choice;
+use super::explore::Search;
+use super::goal::Measure;
+use super::planned::Planned;
+use super::point::{self, Natives, Point};
+use super::rows::{self, Look};
 use crate::failure::{Failure, Outcome};
 use crate::scene::Scene;
-use crate::tune::bands;
-use crate::tune::choice::Choice;
-use crate::tune::goal::Measure;
-use crate::tune::planned::Planned;
-use crate::tune::point::{self, Natives, Point};
-use crate::tune::rows::{self, Look};
 use serde::{Deserialize, Serialize};
 
 /// What a first look at a choice came to.
