@@ -62,6 +62,7 @@ pub fn fit(
         Err(Failure::Wrong(_)) if most < FIT && fuel.was_cut() => return Err(too_dear()),
         other => other?,
     };
+    found.note_burnt(fuel.burnt());
     if fuel.was_cut() {
         found.note_cut();
     }
@@ -70,8 +71,11 @@ pub fn fit(
 
 /// Why a way among many is left: less work than usual was allowed, and it was not enough. It
 /// is no fault of the scene's, for which something else would be tried.
+pub const TOO_DEAR: &str = "to plan it takes too long for one way of many (--effort)";
+
+/// The same as a failure.
 pub fn too_dear() -> Failure {
-    Failure::Usage("to find a program that fits takes too long for one way of many".to_owned())
+    Failure::Usage(TOO_DEAR.to_owned())
 }
 
 /// A search for a plan that fits.
@@ -231,6 +235,11 @@ impl Search<'_> {
         let known = |(other, _): &&(PlannedScene, Option<Need>)| plan.is_written_as(other);
         if let Some((_, need)) = self.known.borrow().iter().find(known) {
             return Ok(need.clone());
+        }
+        // What is found by a plan that was cut hangs on it, wherever it was cut for being one of
+        // many.
+        if self.fuel.given() < FIT && plan.was_cut() {
+            self.fuel.note_cut();
         }
         let need = about(plan, self.fuel, &self.kept)?;
         let mut all = self.known.borrow_mut();

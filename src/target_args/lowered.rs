@@ -65,6 +65,14 @@ impl ScreenArgs {
         others.find(Result::is_ok).unwrap_or(first)
     }
 
+    /// The same options, with a plan's format asked for.
+    pub fn in_format_of(&self, target: &Target) -> ScreenArgs {
+        ScreenArgs {
+            format: Some(target.runtime.format.to_owned()),
+            ..self.clone()
+        }
+    }
+
     /// The graph of a scene.
     ///
     /// # Errors

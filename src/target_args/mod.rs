@@ -26,7 +26,7 @@ use clap::Args;
 use slowlight_compiler::passes::pixel_blocks::pixel_blocks;
 use slowlight_compiler::plan::Goal;
 use slowlight_compiler::planner::{PlannedScene, SEARCH};
-use slowlight_compiler::planner::{plan_as_written, plan_with_every_shade, plan_within};
+use slowlight_compiler::planner::{plan_among, plan_as_written, plan_with_every_shade};
 use slowlight_compiler::sema::Instancing;
 use slowlight_compiler::targets::{self, Language, Mode, System, Target};
 use std::sync::Once;
@@ -103,9 +103,9 @@ pub struct ScreenArgs {
     /// How shapes that are alike may be found.
     #[arg(skip)]
     pub instancing: Instancing,
-    /// Work to make a program fit, where it is one of many; what is cut short is refused then.
+    /// What may be done where it is one way of many; what is cut short is refused then.
     #[arg(skip)]
-    pub fuel: Option<u64>,
+    pub fuel: Option<Among>,
 }
 
 /// Whether a target is one of those in machine code of the 6502.
@@ -208,8 +208,16 @@ impl ScreenArgs {
         let (_waiting, _blind) = (Waiting::new("planning"), interrupt::blind());
         let name = |span| scene.called_at(span);
         let plan = self.smaller(scene, |by| {
-            let made = |mode, fuel| by.plan_in((mode, fuel), scene, target, set);
-            fit::fit(modes.clone(), &made, &name, self.fuel.unwrap_or(fit::FIT))
+            let made = |mode, fuel| match by.plan_in((mode, fuel), scene, target, set)? {
+                plan if plan.was_cut() && self.fuel.is_some() => Err(fit::too_dear()),
+                plan => Ok(plan),
+            };
+            fit::fit(
+                modes.clone(),
+                &made,
+                &name,
+                self.fuel.map_or(fit::FIT, |fuel| fuel.fit),
+            )
         })?;
         if plan.was_cut() && self.fuel.is_some() {
             return Err(fit::too_dear());
@@ -220,14 +228,6 @@ impl ScreenArgs {
         match self.os {
             Some(Os::Jack) => fit::fit_rom(plan, self.machine(target), &name),
             _ => fit::with_disc(plan),
-        }
-    }
-
-    /// The same options, with a plan's format asked for.
-    pub fn in_format_of(&self, target: &Target) -> ScreenArgs {
-        ScreenArgs {
-            format: Some(target.runtime.format.to_owned()),
-            ..self.clone()
         }
     }
 
@@ -310,7 +310,10 @@ impl ScreenArgs {
         let planned = match (self.as_written, self.every_shade) {
             (true, _) => plan_as_written(&graph, target, &goal),
             (_, true) => plan_with_every_shade(&graph, target, &goal),
-            _ => plan_within(&graph, target, &goal, fuel, self.passes.left_out()),
+            _ => {
+                let fuel = (fuel, self.fuel.map_or(u64::MAX, |fuel| fuel.modelled));
+                plan_among(&graph, target, &goal, fuel, self.passes.left_out())
+            }
         };
         let planned = planned.map(|plan| self.thrifty(plan));
         let planned = match self.outlined {

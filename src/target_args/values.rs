@@ -2,6 +2,15 @@
 
 use clap::ValueEnum;
 
+/// What may be done for the plan of one way among many.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Among {
+    /// Work to make its program fit, in units of [`slowlight_compiler::fuel::Fuel`].
+    pub fit: u64,
+    /// Statements that may run to find the widths of values, in formats of several.
+    pub modelled: u64,
+}
+
 /// An operating system for Jack programs.
 #[derive(ValueEnum, Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Os {

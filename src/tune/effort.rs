@@ -6,20 +6,24 @@
 
 use super::bands::{LONG, MOST, share};
 use super::rows::Look;
+use crate::target_args::Among;
+use slowlight_compiler::planner::PlannedScene;
 use slowlight_compiler::targets::{Language, Target};
 
 /// What settings may take where they are drawn natively, in operations.
 const DRAFTS: f64 = 2e9;
 
 /// What may be spent on plans and on first looks at them, beside whole pictures in each format.
-const LOOKS: f64 = 2e10;
+const LOOKS: f64 = 1.5e10;
 
 /// What may be spent on whole pictures.
-const WHOLES: f64 = 4e10;
+const WHOLES: f64 = 3e10;
 
-/// What may be done to make a plan's program fit, in units of
-/// [`slowlight_compiler::fuel::Fuel`]: of all choices by far the most need no tenth of it.
-const FIT: u64 = 100_000_000;
+/// What may be done for one choice's plan: of all choices by far the most need no tenth of it.
+const PLAN: Among = Among {
+    fit: 200_000_000,
+    modelled: 100_000_000,
+};
 
 /// How much work may be done: so many times the usual, which is to take less than a minute on
 /// two processors; or all there is.
@@ -55,18 +59,30 @@ impl Effort {
         self.of(WHOLES)
     }
 
-    /// Fuel to make a program fit; none is that of `build`.
-    pub fn fit(self) -> Option<u64> {
-        self.0.map(|times| u64::from(times) * FIT)
+    /// What may be done for a choice's plan; none is as much as `build` does.
+    pub fn plan(self) -> Option<Among> {
+        self.0.map(|times| Among {
+            fit: PLAN.fit * u64::from(times),
+            modelled: PLAN.modelled * u64::from(times),
+        })
     }
 }
 
-/// What a plan takes to be made.
-pub fn of_plan(target: &Target) -> f64 {
-    match target.system.language() {
-        Language::Jack => 3e8,
-        Language::Basic | Language::Assembly => 1e9,
-    }
+/// What any plan takes, a unit of fuel that it burns, and a statement in the routines' models.
+const PLANNED: f64 = 3e7;
+const BURNT: f64 = 30.0;
+const MODELLED: f64 = 60.0;
+
+/// What it takes to estimate a plan that takes long.
+const ESTIMATED: f64 = 5e8;
+
+/// What is spent at most on what something else is as good as: one part in so many.
+const SECOND: f64 = 3.0;
+
+/// What a plan took to be made: whatever it is, by how much fuel its fit has burnt, and how many
+/// statements ran in the models for it.
+pub fn of_plan(plan: &PlannedScene) -> f64 {
+    PLANNED + BURNT * plan.burnt() as f64 + MODELLED * plan.modelled() as f64
 }
 
 /// What a run of so many cycles takes, together with the model's of the same pixels. A command
@@ -80,13 +96,13 @@ pub fn of_cycles(target: &Target, cycles: f64) -> f64 {
         }
 }
 
-/// What a plan of so many cycles and a first look at it take.
+/// What a first look takes at a plan of so many cycles, once it is made.
 pub fn of_look(target: &Target, cycles: f64) -> f64 {
-    let rows = match cycles > LONG {
-        true => 3.0 / f64::from(share(3.0 * of_cycles(target, cycles), MOST)),
-        false => 1.0,
-    };
-    of_plan(target) + rows * of_cycles(target, cycles)
+    let all = of_cycles(target, cycles);
+    match cycles > LONG {
+        true => ESTIMATED + 3.0 * all / f64::from(share(3.0 * all, MOST)),
+        false => all,
+    }
 }
 
 /// By how much another is cheaper and better at once: a factor above 1, and 1 where it is the
@@ -109,8 +125,13 @@ fn behind(at: usize, all: &[Option<Look>]) -> f64 {
 
 /// Items in the order of their worth, by what is expected of each and of what is there already:
 /// first those that nothing is as good as, from the quickest to the slowest, then the others, the
-/// less behind the sooner. What nothing is known of comes first.
-pub fn by_worth<T>(items: Vec<T>, look: impl Fn(&T) -> Option<Look>, there: &[Look]) -> Vec<T> {
+/// less behind the sooner. What nothing is known of comes first. With each, whether it is of the
+/// first.
+pub fn by_worth<T>(
+    items: Vec<T>,
+    look: impl Fn(&T) -> Option<Look>,
+    there: &[Look],
+) -> Vec<(bool, T)> {
     let mut looks: Vec<Option<Look>> = items.iter().map(look).collect();
     let count = looks.len();
     looks.extend(there.iter().copied().map(Some));
@@ -122,21 +143,29 @@ pub fn by_worth<T>(items: Vec<T>, look: impl Fn(&T) -> Option<Look>, there: &[Lo
     let keys: Vec<(f64, f64)> = (0..count).map(key).collect();
     let mut all: Vec<((f64, f64), T)> = keys.into_iter().zip(items).collect();
     all.sort_by(|((a, c), _), ((b, d), _)| a.total_cmp(b).then(c.total_cmp(d)));
-    all.into_iter().map(|(_, item)| item).collect()
+    let first = |(behind, _): (f64, f64)| behind < 1.0;
+    all.into_iter()
+        .map(|(key, item)| (first(key), item))
+        .collect()
 }
 
 /// Those of some items that a budget allows, in their order, and the others: what is too dear
-/// leaves the budget to those behind it.
-pub fn within<T>(items: Vec<T>, cost: impl Fn(&T) -> f64, most: f64) -> (Vec<T>, Vec<T>) {
+/// leaves the budget to those behind it. Of what something else is as good as, as far as can be
+/// expected, only so much is taken as a part of the budget allows.
+pub fn within<T>(items: Vec<(bool, T)>, cost: impl Fn(&T) -> f64, most: f64) -> (Vec<T>, Vec<T>) {
     let mut spent = 0.0;
-    items.into_iter().partition(|item| {
-        let cost = cost(item);
-        let fits = spent + cost <= most;
-        if fits {
-            spent += cost;
+    let (mut taken, mut left) = (Vec::new(), Vec::new());
+    for (first, item) in items {
+        let cost = cost(&item);
+        match spent + cost <= if first { most } else { most / SECOND } {
+            true => {
+                spent += cost;
+                taken.push(item);
+            }
+            false => left.push(item),
         }
-        fits
-    })
+    }
+    (taken, left)
 }
 
 #[cfg(test)]
@@ -165,12 +194,13 @@ mod tests {
         ];
         let there = [look(1e7, 0.4)];
         let sorted = by_worth(all, |(_, look)| Some(*look), &there);
-        let (taken, left) = within(sorted, |(_, look)| look.cycles, 1e9);
-        let names = |all: &[(&'static str, Look)]| -> Vec<&'static str> {
-            all.iter().map(|(name, _)| *name).collect()
+        let cost = |(_, look): &(&str, Look)| look.cycles;
+        let names = |all: Vec<(&'static str, Look)>| -> Vec<&'static str> {
+            all.into_iter().map(|(name, _)| name).collect()
         };
+        let (taken, left) = within(sorted.clone(), cost, 4e9);
         assert_eq!(
-            names(&taken),
+            names(taken),
             [
                 "quick",
                 "middling",
@@ -180,15 +210,28 @@ mod tests {
                 "twice as dear and no better",
             ]
         );
-        assert_eq!(names(&left), ["dear"]);
+        assert_eq!(names(left), ["dear"]);
+        // Of what is behind, only as much as a third of the budget pays for.
+        let (taken, _) = within(sorted, cost, 1.6e9);
+        assert_eq!(
+            names(taken),
+            [
+                "quick",
+                "middling",
+                "the same",
+                "as one that is there, and dearer"
+            ]
+        );
     }
 
     #[test]
     fn more_effort_is_more_of_everything() {
         let (one, two) = (Effort::times(1), Effort::times(2));
         assert!(two.drafts() > one.drafts() && two.looks() > one.looks());
-        assert!(two.wholes() > one.wholes() && two.fit() > one.fit());
+        assert!(
+            two.wholes() > one.wholes() && two.plan().map(|p| p.fit) > one.plan().map(|p| p.fit)
+        );
         assert_eq!(Effort::ALL.wholes(), f64::INFINITY);
-        assert_eq!(Effort::ALL.fit(), None);
+        assert!(Effort::ALL.plan().is_none());
     }
 }

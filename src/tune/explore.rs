@@ -2,6 +2,7 @@
 
 use super::cache::Cache;
 use super::choice::{Base, Choice, Setting};
+use super::choices::choices;
 use super::effort::{self, Effort};
 use super::goal::{Measure, percent};
 use super::looked::{Begun, First, Tried, begun, tried};
@@ -11,13 +12,12 @@ use super::prune::{Predictor, is_first};
 use super::rows::Look;
 use super::settings::{Asked, Drafted, Drafts, quick_block, worthwhile};
 use crate::failure::Outcome;
+use crate::fit::TOO_DEAR;
 use crate::format::{count, duration};
 use crate::jobs;
 use crate::measure::Errors;
 use crate::progress::{self, Progress};
 use crate::scene::Scene;
-use slowlight_compiler::planner::THRIFTS;
-use slowlight_compiler::targets;
 use std::sync::{Arc, Mutex};
 
 /// What is tuned and how.
@@ -209,7 +209,7 @@ impl Going<'_> {
                 note(self.found, |f| f.points.push((**point).clone()));
             }
             First::Rows(look) if look.pixels > 0.0 => self.search.tell(choice, look, "about "),
-            First::Rows(_) | First::Not(_) => {}
+            First::Rows(_) | First::Not(_) | First::Dear => {}
         }
         Ok(begun)
     }
@@ -218,8 +218,15 @@ impl Going<'_> {
     fn begin(&self, choices: Vec<Choice>, progress: &Progress) -> Outcome<Vec<(Choice, Begun)>> {
         let begun = jobs::each(&choices, |choice| {
             let begun = self.look(choice)?;
-            if let First::Not(why) = &begun.first {
-                note(self.found, |f| f.failed.push((choice.clone(), why.clone())));
+            let why = match &begun.first {
+                First::Not(why) => Some(why.as_str()),
+                First::Dear => Some(TOO_DEAR),
+                _ => None,
+            };
+            if let Some(why) = why {
+                note(self.found, |f| {
+                    f.failed.push((choice.clone(), why.to_owned()))
+                });
             }
             progress.step(1);
             Ok(begun)
@@ -246,6 +253,13 @@ impl Going<'_> {
             drafts,
             measure: self.measure(),
         };
+        let begun = |choice: &Choice| {
+            let mut seen = seen.iter();
+            Some(&seen.find(|(known, _)| known.format == choice.format)?.1)
+        };
+        // A format whose plan takes too much does so in other settings.
+        let dear = |choice: &Choice| begun(choice).is_some_and(|b| matches!(b.first, First::Dear));
+        let others = others.into_iter().filter(|c| !dear(c)).collect();
         let (others, beaten) = predictor.pruned(others);
         let there: Vec<Look> = predictor.known.iter().map(|(_, look)| *look).collect();
         let others: Vec<(Choice, Option<Look>)> = others
@@ -254,9 +268,9 @@ impl Going<'_> {
             .map(|(look, choice)| (choice, look))
             .collect();
         let sorted = effort::by_worth(others, |(_, look)| *look, &there);
-        let cost = |(_, look): &(Choice, Option<Look>)| {
+        let cost = |(choice, look): &(Choice, Option<Look>)| {
             let cycles = look.map_or(0.0, |look| look.cycles);
-            effort::of_look(target, cycles)
+            begun(choice).map_or(0.0, |b| b.planning) + effort::of_look(target, cycles)
         };
         // Of memory, too, several ways are tried.
         let most = self.search.effort.looks() * if self.search.smaller { 3.0 } else { 1.0 };
@@ -292,7 +306,7 @@ impl Going<'_> {
                 }
                 First::Rows(look) => rest.push((choice, look, Mutex::new(begun.plan))),
                 First::Whole(point) => there.push(Look::of(&point, measure)),
-                First::Not(_) => {}
+                First::Not(_) | First::Dear => {}
             }
         }
         let sorted = effort::by_worth(rest, |(_, look, _)| Some(*look), &there);
@@ -348,45 +362,4 @@ fn note(found: &Mutex<Found>, write: impl FnOnce(&mut Found)) {
     if let Ok(mut found) = found.lock() {
         write(&mut found);
     }
-}
-
-/// Ways to a smaller program: subroutines, or how much less memory is spent on speed.
-const SMALLER: [(bool, u8); 5] = {
-    let last = THRIFTS as u8 - 1;
-    [
-        (false, 0),
-        (false, last / 3),
-        (false, last * 2 / 3),
-        (false, last),
-        (true, 0),
-    ]
-};
-
-/// All formats and settings, with params changeable and folded.
-fn choices(search: &Search, folds: bool, settings: &[Setting]) -> Vec<Choice> {
-    let frozen: &[bool] = match folds {
-        true => &[false, true],
-        false => &[false],
-    };
-    let smaller: &[(bool, u8)] = match search.smaller {
-        true => &SMALLER,
-        false => &SMALLER[..1],
-    };
-    let mut all = Vec::new();
-    for &setting in settings {
-        for target in targets::formats(search.base.target) {
-            for &frozen in frozen {
-                for &(outlined, thrift) in smaller {
-                    all.push(Choice {
-                        setting,
-                        format: target.runtime.format.to_owned(),
-                        frozen,
-                        outlined,
-                        thrift,
-                    });
-                }
-            }
-        }
-    }
-    all
 }

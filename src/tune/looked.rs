@@ -2,12 +2,14 @@
 
 use super::bands;
 use super::choice::Choice;
+use super::effort;
 use super::explore::Search;
 use super::goal::Measure;
 use super::planned::Planned;
 use super::point::{self, Natives, Point};
 use super::rows::{self, Look};
 use crate::failure::{Failure, Outcome};
+use crate::fit::TOO_DEAR;
 use crate::scene::Scene;
 use serde::{Deserialize, Serialize};
 
@@ -20,6 +22,8 @@ pub enum First {
     Rows(Look),
     /// It cannot be had.
     Not(String),
+    /// To plan it takes too much.
+    Dear,
 }
 
 impl First {
@@ -28,7 +32,7 @@ impl First {
         match self {
             First::Whole(point) => Some(Look::of(point, measure)),
             First::Rows(look) => Some(*look),
-            First::Not(_) => None,
+            First::Not(_) | First::Dear => None,
         }
     }
 }
@@ -37,6 +41,8 @@ impl First {
 pub struct Begun {
     /// What was seen.
     pub first: First,
+    /// What it took to be planned, as [`effort`] counts it.
+    pub planning: f64,
     /// The plan.
     pub plan: Option<Planned>,
 }
@@ -49,9 +55,10 @@ pub fn begun(search: &Search, scene: &Scene, natives: &Natives, choice: &Choice)
     let (base, measure) = (&search.base, search.measure);
     let mut words = search.words(choice);
     words.push(format!("first {measure:?}"));
-    let mut kept = None;
+    let (mut kept, mut planning) = (None, 0.0);
     let work = || {
         let tried = planned(search, scene, choice).and_then(|planned| {
+            planning = effort::of_plan(&planned.plan);
             rows::hopeless(&planned, search.limit)?;
             if let Some(look) = rows::unseen(&planned) {
                 kept = Some(planned);
@@ -75,18 +82,23 @@ pub fn begun(search: &Search, scene: &Scene, natives: &Natives, choice: &Choice)
         });
         match tried {
             Err(Failure::Interrupted) => Err(Failure::Interrupted),
-            Err(other) => Ok(First::Not(other.reason())),
-            Ok(first) => Ok(first),
+            Err(other) if other.reason() == TOO_DEAR => Ok((First::Dear, 0.0)),
+            Err(other) => Ok((First::Not(other.reason()), 0.0)),
+            Ok(first) => Ok((first, planning)),
         }
     };
-    let first = search.cache.known_or(scene, base.target, &words, work)?;
-    Ok(Begun { first, plan: kept })
+    let (first, planning) = search.cache.known_or(scene, base.target, &words, work)?;
+    Ok(Begun {
+        first,
+        planning,
+        plan: kept,
+    })
 }
 
 /// A choice's plan, which is refused where it takes too much to be made for one of many.
 fn planned(search: &Search, scene: &Scene, choice: &Choice) -> Outcome<Planned> {
     let mut screen = search.base.screen(choice);
-    screen.fuel = search.effort.fit();
+    screen.fuel = search.effort.plan();
     Ok(Planned::new(screen.plan(scene, search.base.target, &[])?))
 }
 

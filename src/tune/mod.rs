@@ -15,11 +15,15 @@
 //! 3. those that nothing clearly beats there are run whole, and held against the native
 //!    picture.
 //!
+//! At each step as much is done as a budget of counted work allows, what is worth most first
+//! ([`effort`]).
+//!
 //! Cycles and errors of the frontier are those of whole runs; nothing is estimated.
 
 pub mod bands;
 pub mod cache;
 pub mod choice;
+pub mod choices;
 pub mod effort;
 pub mod explore;
 pub mod goal;

@@ -181,7 +181,7 @@ impl<'a> Told<'a> {
         };
         let (choice, look) = all.iter().min_by(best)?;
         Some(format!(
-            "{} more ways would take more work (--effort): {}, about {}, say\n",
+            "beyond --effort: {}, such as {}, about {}\n",
             all.len(),
             self.base.words(choice).join(" "),
             duration(look.cycles / self.base.hertz()),

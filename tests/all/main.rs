@@ -76,6 +76,7 @@ mod stress;
 mod syntaxes;
 mod torus;
 mod tune;
+mod tune_effort;
 mod varied;
 mod ways;
 mod whole;

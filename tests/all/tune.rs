@@ -15,7 +15,7 @@ use slowlight_compiler::targets::find;
 use std::path::{Path, PathBuf};
 
 /// A bright ball, mirrored by itself some times; params, loops and a dither.
-const BALL: &str = "image 32 x 24 inks black, grey, white;
+pub const BALL: &str = "image 32 x 24 inks black, grey, white;
 param light: vec3 = (0.5, 0.7, 0.5) in (-1, -1, 0) .. (1, 1, 1);
 effect glow(first: real) -> real else first =
   loop (v = first, n = 0) max 9 { if v < 0.6 and n < 8 then next(v * 1.25 + 0.01, n + 1) else v } else 0.1;
@@ -283,7 +283,8 @@ fn what_is_wrong_is_said() {
     }
 }
 
-fn planted(block: u32, cycles: u64, pixels: u64) -> Point {
+/// A point on Jack of blocks so large, with so many cycles and wrong pixels.
+pub fn planted(block: u32, cycles: u64, pixels: u64) -> Point {
     let errors = slowlight::measure::Errors {
         count: 100,
         rmse: pixels as f64 / 100.0,

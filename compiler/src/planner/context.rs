@@ -17,11 +17,13 @@ use crate::passes::branches::early_exit::without;
 use crate::passes::simplify::fold::fold;
 use crate::passes::simplify::range_folding::fold_by_ranges;
 use crate::schedule::analysed::{Analysed, scheduled};
+use crate::wordlength::precision::MODELLED;
 use crate::wordlength::sample;
 use rustc_hash::{FxHashMap, FxHasher};
 use slowlight_routine::Runtime;
 use std::fmt;
 use std::hash::{Hash, Hasher};
+use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Arc, Mutex, MutexGuard, OnceLock, PoisonError};
 
 /// A graph with a rewrite, and where that was: nothing where there is none to do.
@@ -50,6 +52,12 @@ pub struct Context {
     pub draft: bool,
     /// What searches for a plan may do yet.
     pub fuel: Fuel,
+    /// How many statements may run in the routines' models to find the widths of values.
+    pub modelled: u64,
+    /// How many ran, for all plans of the scene.
+    pub ran: Arc<AtomicU64>,
+    /// Fuel that was burnt beside, to make its program fit.
+    pub burnt: Arc<AtomicU64>,
     /// What runs the passes.
     pub pipeline: Pipeline,
     slack: Arc<Slack>,
@@ -97,6 +105,9 @@ impl Context {
             every_shade: false,
             draft: false,
             fuel: Fuel::new(u64::MAX),
+            modelled: MODELLED,
+            ran: Arc::default(),
+            burnt: Arc::default(),
             pipeline: Pipeline::default(),
             slack: Arc::new(Slack::of(runtime)),
             memo: Arc::default(),
@@ -112,9 +123,21 @@ impl Context {
             every_shade: self.every_shade,
             draft: self.draft,
             fuel,
+            modelled: self.modelled,
+            ran: self.ran.clone(),
+            burnt: self.burnt.clone(),
             pipeline: self.pipeline.clone(),
             slack: self.slack.clone(),
             memo: self.memo.clone(),
+        }
+    }
+
+    /// How many statements may run yet in the routines' models: where a plan is one among many,
+    /// all ways to make it fit have them together.
+    pub fn may_model(&self) -> u64 {
+        match self.modelled < MODELLED {
+            true => (self.modelled).saturating_sub(self.ran.load(Ordering::Relaxed)),
+            false => MODELLED,
         }
     }
 

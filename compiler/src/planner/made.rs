@@ -31,10 +31,11 @@ use crate::schedule::analysed::{Analysed, Known};
 use crate::schedule::statements::missing;
 use crate::source::Diagnostic;
 use crate::targets::Target;
-use crate::wordlength::precision::narrowed;
+use crate::wordlength::precision::{MODELLED, narrowed};
 use rayon::prelude::*;
 use slowlight_routine::Format;
 use std::sync::Arc;
+use std::sync::atomic::Ordering;
 
 /// Plans a graph that `sema` lowered for this target's inks and offset.
 pub fn plan(
@@ -54,12 +55,25 @@ pub fn plan_within(
     fuel: u64,
     without: PassSet,
 ) -> Result<PlannedScene, Vec<Diagnostic>> {
+    plan_among(graph, target, goal, (fuel, MODELLED), without)
+}
+
+/// The same for a plan among many, where fewer statements than usual may run in the routines'
+/// models to find values' widths: where that is not enough, the plan was cut.
+pub fn plan_among(
+    graph: &Graph,
+    target: &'static Target,
+    goal: &Goal,
+    (fuel, modelled): (u64, u64),
+    without: PassSet,
+) -> Result<PlannedScene, Vec<Diagnostic>> {
     let all = Rewriting::Fast {
         budget: SizeBudget::default(),
         steps: Steps::All,
     };
     let mut cx = Context::new(graph.clone(), target.runtime);
     cx.draft = fuel == 0;
+    cx.modelled = modelled.min(MODELLED);
     cx.pipeline = Pipeline::without(without);
     candidate(&Arc::new(cx), target, goal, (all, Fuel::new(fuel)))?.assembled(target, goal)
 }
@@ -152,7 +166,11 @@ impl Candidate {
         let mut plan = assemble(scheduled, self.params, target, goal, self.cx.looks())?;
         plan.cut = self.cut;
         if plan.runtime.narrow.is_some() {
-            let narrow = (self.cx).always(Pass::WordLengths, || Some(narrowed(plan.clone())));
+            let narrow = (self.cx).always(Pass::WordLengths, || {
+                let (plan, ran) = narrowed(plan.clone(), self.cx.may_model());
+                self.cx.ran.fetch_add(ran, Ordering::Relaxed);
+                Some(plan)
+            });
             plan = narrow.unwrap_or(plan);
         }
         Ok(PlannedScene {

@@ -17,7 +17,7 @@ pub(crate) mod replan;
 pub(crate) mod search;
 
 use crate::cost::size_budget::SizeBudget;
-pub use made::{Candidate, plan, plan_as_written, plan_with_every_shade, plan_within};
+pub use made::{Candidate, plan, plan_among, plan_as_written, plan_with_every_shade, plan_within};
 pub use planned::PlannedScene;
 
 /// How much work a search for a plan may do, in units of [`crate::fuel::Fuel`]: some seconds'

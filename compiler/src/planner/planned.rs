@@ -6,6 +6,7 @@ use crate::cost::size_budget::SizeBudget;
 use crate::plan::Plan;
 use std::ops::{Deref, DerefMut};
 use std::sync::Arc;
+use std::sync::atomic::Ordering;
 
 /// Which passes may rewrite formulas.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -43,5 +44,23 @@ impl Deref for PlannedScene {
 impl DerefMut for PlannedScene {
     fn deref_mut(&mut self) -> &mut Plan {
         &mut self.plan
+    }
+}
+
+impl PlannedScene {
+    /// How many statements ran in the routines' models to find the widths of values, for this
+    /// plan and those that were made with it.
+    pub fn modelled(&self) -> u64 {
+        self.cx.ran.load(Ordering::Relaxed)
+    }
+
+    /// Units of fuel that were burnt to make its program fit, if that is noted.
+    pub fn burnt(&self) -> u64 {
+        self.cx.burnt.load(Ordering::Relaxed)
+    }
+
+    /// Notes what was burnt.
+    pub fn note_burnt(&self, units: u64) {
+        self.cx.burnt.store(units, Ordering::Relaxed);
     }
 }

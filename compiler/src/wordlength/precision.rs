@@ -48,38 +48,49 @@ const APART: i32 = 8;
 
 /// How many statements may run in the routines' models, all plans together, before no more
 /// groups are looked at.
-const MODELLED: u64 = 400_000_000;
+pub(crate) const MODELLED: u64 = 400_000_000;
 
 /// A plan with as many values narrow as its picture allows, where its format knows two
-/// widths.
-pub(crate) fn narrowed(mut plan: Plan) -> Plan {
+/// widths. Where fewer statements than usual may run in the models and are not enough, it is
+/// noted that the search was cut. With it, how many statements ran.
+pub(crate) fn narrowed(mut plan: Plan, modelled: u64) -> (Plan, u64) {
     let (Some(narrow), Format::Scaled { bits }) = (plan.runtime.narrow, plan.runtime.real) else {
-        return plan;
+        return (plan, 0);
     };
     if plan.graph.diffusion.is_some() {
-        return plan;
+        return (plan, 0);
+    }
+    if modelled == 0 {
+        plan.note_cut();
+        return (plan, 0);
     }
     // Whatever they are set to: an edited program keeps its plan.
     let Ok(usual) = params(&as_usual(&plan.graph), plan.runtime) else {
-        return plan;
+        return (plan, 0);
     };
     let own = std::mem::replace(&mut plan.params, usual);
     plan.hold();
     let sample = sample::seen(&plan.graph, &plan.tree, bits, sample::PATIENCE);
     let (pixels, often) = looked_at(&plan);
-    let search = Search {
+    let mut search = Search {
         plan,
         sample,
         bits,
         narrow,
         pixels,
         often,
-        left: Cell::new(MODELLED),
+        left: Cell::new(modelled),
     };
-    let mut plan = search.found();
+    search.find();
+    let ran = modelled - search.left.get();
+    let cut = modelled < MODELLED && search.left.get() == 0;
+    let mut plan = search.plan;
+    if cut {
+        plan.note_cut();
+    }
     plan.params = own;
     plan.hold();
-    plan
+    (plan, ran)
 }
 
 /// A graph whose params have the values that the scene gives them.
@@ -140,8 +151,8 @@ struct Search {
 }
 
 impl Search {
-    /// The plan with what is found.
-    fn found(mut self) -> Plan {
+    /// Makes values of the plan narrow.
+    fn find(&mut self) {
         let graph = &self.plan.graph;
         let varies = |id: &NodeId| graph.ty(*id) == Type::Real && graph.constant(*id).is_none();
         let reals: Vec<NodeId> = graph.ids().filter(varies).collect();
@@ -150,7 +161,7 @@ impl Search {
         let least = at_stake.len();
         if !self.hold(&vec![true; wide.len()]) {
             self.hold(&wide);
-            return self.plan;
+            return;
         }
         let most = self.wrong(&self.pixels);
         let limit = least + most.len().saturating_sub(least) / self.narrow.wrong.max(1);
@@ -171,7 +182,6 @@ impl Search {
             at_stake.extend(wrong);
         }
         self.hold(&best.1);
-        self.plan
     }
 
     /// The nodes that may be narrow so that no more than so many pixels are wrong of those
