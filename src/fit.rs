@@ -48,6 +48,18 @@ pub fn fit(
     modes: Vec<Mode>,
     plan: &dyn Fn(Mode, u64) -> Outcome<PlannedScene>,
     name: &dyn Fn(Span) -> Option<String>,
+) -> Outcome<PlannedScene> {
+    fit_within(modes, plan, name, FIT)
+}
+
+/// The same by so much fuel. Where that is less than usual and not enough, the plan was cut.
+///
+/// # Errors
+/// As for [`fit`], and where more fuel might find one.
+pub fn fit_within(
+    modes: Vec<Mode>,
+    plan: &dyn Fn(Mode, u64) -> Outcome<PlannedScene>,
+    name: &dyn Fn(Span) -> Option<String>,
     most: u64,
 ) -> Outcome<PlannedScene> {
     let fuel = Fuel::new(most);

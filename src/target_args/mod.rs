@@ -212,7 +212,7 @@ impl ScreenArgs {
                 plan if plan.was_cut() && self.fuel.is_some() => Err(fit::too_dear()),
                 plan => Ok(plan),
             };
-            fit::fit(
+            fit::fit_within(
                 modes.clone(),
                 &made,
                 &name,

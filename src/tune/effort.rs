@@ -17,12 +17,12 @@ const DRAFTS: f64 = 2e9;
 const LOOKS: f64 = 1.5e10;
 
 /// What may be spent on whole pictures.
-const WHOLES: f64 = 3e10;
+const WHOLES: f64 = 3.5e10;
 
 /// What may be done for one choice's plan: of all choices by far the most need no tenth of it.
 const PLAN: Among = Among {
     fit: 200_000_000,
-    modelled: 100_000_000,
+    modelled: 80_000_000,
 };
 
 /// How much work may be done: so many times the usual, which is to take less than a minute on
@@ -124,9 +124,9 @@ fn behind(at: usize, all: &[Option<Look>]) -> f64 {
 }
 
 /// Items in the order of their worth, by what is expected of each and of what is there already:
-/// first those that nothing is as good as, from the quickest to the slowest, then the others, the
-/// less behind the sooner. What nothing is known of comes first. With each, whether it is of the
-/// first.
+/// first those that nothing is as good as, the slowest, which is the best, and then from the
+/// quickest on; then the others, the less behind the sooner. With each, whether it is of the
+/// first, as is what nothing is known of.
 pub fn by_worth<T>(
     items: Vec<T>,
     look: impl Fn(&T) -> Option<Look>,
@@ -144,6 +144,10 @@ pub fn by_worth<T>(
     let mut all: Vec<((f64, f64), T)> = keys.into_iter().zip(items).collect();
     all.sort_by(|((a, c), _), ((b, d), _)| a.total_cmp(b).then(c.total_cmp(d)));
     let first = |(behind, _): (f64, f64)| behind < 1.0;
+    let ends = all.iter().take_while(|(key, _)| first(*key)).count();
+    if let Some(front) = all.get_mut(..ends).filter(|front| !front.is_empty()) {
+        front.rotate_right(1);
+    }
     all.into_iter()
         .map(|(key, item)| (first(key), item))
         .collect()
@@ -211,6 +215,9 @@ mod tests {
             ]
         );
         assert_eq!(names(left), ["dear"]);
+        // The best comes first, if it can be had at all.
+        let (taken, _) = within(sorted.clone(), cost, 9.05e9);
+        assert_eq!(names(taken), ["dear"]);
         // Of what is behind, only as much as a third of the budget pays for.
         let (taken, _) = within(sorted, cost, 1.6e9);
         assert_eq!(

@@ -80,10 +80,11 @@ pub(crate) fn narrowed(mut plan: Plan, modelled: u64) -> (Plan, u64) {
         pixels,
         often,
         left: Cell::new(modelled),
+        few: modelled < MODELLED,
     };
     search.find();
     let ran = modelled - search.left.get();
-    let cut = modelled < MODELLED && search.left.get() == 0;
+    let cut = search.is_cut();
     let mut plan = search.plan;
     if cut {
         plan.note_cut();
@@ -148,6 +149,8 @@ struct Search {
     often: Vec<f64>,
     /// How many statements may run yet.
     left: Cell<u64>,
+    /// Whether it is less than usual: where that is not enough, nothing is wanted.
+    few: bool,
 }
 
 impl Search {
@@ -164,6 +167,9 @@ impl Search {
             return;
         }
         let most = self.wrong(&self.pixels);
+        if self.is_cut() {
+            return;
+        }
         let limit = least + most.len().saturating_sub(least) / self.narrow.wrong.max(1);
         at_stake.extend(most);
         let mut best = (usize::MAX, wide);
@@ -172,6 +178,9 @@ impl Search {
             at_stake.dedup();
             let narrow = self.halved(&reals, &at_stake, limit);
             self.hold(&narrow);
+            if self.is_cut() {
+                return;
+            }
             let wrong = self.wrong(&self.pixels);
             if wrong.len() < best.0 {
                 best = (wrong.len(), narrow);
@@ -182,6 +191,11 @@ impl Search {
             at_stake.extend(wrong);
         }
         self.hold(&best.1);
+    }
+
+    /// Whether less than usual may be done, and was not enough.
+    fn is_cut(&self) -> bool {
+        self.few && self.left.get() == 0
     }
 
     /// The nodes that may be narrow so that no more than so many pixels are wrong of those
@@ -229,7 +243,10 @@ impl Search {
     /// Those of some pixels whose inks are wrong.
     fn wrong(&self, pixels: &[Pixel]) -> Vec<Pixel> {
         // In fewer bits a loop may go on for longer: what does not end in time is wrong.
-        let most = 4 * PATIENCE;
+        let most = match self.few {
+            true => self.left.get().min(4 * PATIENCE),
+            false => 4 * PATIENCE,
+        };
         let mut run = ModelRun::within(&self.plan, most);
         let mut all = pixels.to_vec();
         all.retain(|(x, y, ink)| run.pixel(*x, *y).ink != *ink || run.spent());
