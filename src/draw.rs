@@ -242,6 +242,9 @@ fn modelled(what: &'static str, plan: &Plan) -> Outcome<Vec<Pixel>> {
 /// Pixels that are drawn between looks at whether Ctrl-C was pressed.
 const BLOCK: usize = 64;
 
+/// Into how many parts a window is cut, for threads to take.
+const SHARES: usize = 32;
+
 /// Evaluates a window, each thread with an evaluation of its own, which is
 /// given some columns of a row and where to put their pixels. An evaluation
 /// that spreads errors draws by itself what comes before the window, so only
@@ -256,10 +259,11 @@ where
     E: FnMut(Range<i32>, i32, &mut Vec<Pixel>),
 {
     let progress = Progress::new(what, u64::from(window.height()));
-    // Starting an evaluation costs a walk over the graph: not for each row.
+    // Starting an evaluation costs a walk over the graph: not for each row. What is started
+    // is counted, so it hangs on no number of threads.
     let shares = match graph.diffusion {
         Some(_) => 1,
-        None => 8 * rayon::current_num_threads(),
+        None => SHARES,
     };
     let share = (window.height() as usize).div_ceil(shares);
     let rows: Vec<u32> = (window.rows.0..=window.rows.1).collect();
@@ -283,4 +287,24 @@ where
         .collect();
     let all: Option<Vec<Vec<Pixel>>> = parts.into_iter().collect();
     Ok(all.ok_or(Failure::Interrupted)?.concat())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn operations_are_the_same_by_any_number_of_threads() {
+        let text = "image 40 x 30 inks black, white;\n\
+            param turn: angle = 0.05turn in 0turn .. 1turn;\n\
+            draw (x, y) = threshold(0.5 + 0.3 * cos(turn) * sin(turn) + x / 200, bayer(2)[x mod 2, y mod 2]);\n";
+        let scene = slowlight_compiler::scene::check("turned", text);
+        let graph = scene.lower(&Default::default()).expect("a graph");
+        let counted = |threads| {
+            let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
+            let draw = || native_counted(&graph, Window::whole(40, 30)).expect("a picture");
+            pool.expect("threads").install(draw).1
+        };
+        assert_eq!(counted(1), counted(3));
+    }
 }

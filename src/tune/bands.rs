@@ -1,8 +1,9 @@
 //! Stratified samples of a picture's rows: bands that stand for all of it.
 
-use super::effort;
 use super::planned::Planned;
+use super::work;
 use slowlight_compiler::plan::Plan;
+use slowlight_compiler::targets::Target;
 
 /// Predicted cycles from which on rows are looked at first: less is run whole in no time.
 pub const LONG: f64 = 1e8;
@@ -11,8 +12,11 @@ pub const LONG: f64 = 1e8;
 /// enough, or the last.
 const SHARES: [u32; 4] = [24, 48, 96, 192];
 
-/// What three bands may take, as [`effort`] counts it.
-pub const MOST: f64 = 6e8;
+/// What three bands may take, as [`work`] counts it.
+const MOST: f64 = 6e8;
+
+/// What it takes to estimate a plan that takes long.
+const ESTIMATED: f64 = 5e8;
 
 /// Whether rows should be looked at before the whole is run. Where errors spread, all rows
 /// are computed in any case.
@@ -25,8 +29,17 @@ pub fn pays(planned: &Planned) -> bool {
 /// The bands of a plan: the dearer, the fewer of its rows.
 pub fn bands_of(planned: &Planned) -> [(u32, u32); 3] {
     let plan: &Plan = &planned.plan;
-    let work = effort::of_cycles(plan.target, planned.cycles());
+    let work = work::of_cycles(plan.target, planned.cycles());
     bands(plan.rows, share(3.0 * work, MOST))
+}
+
+/// What a first look takes at a plan of so many cycles, once it is made.
+pub fn of_look(target: &Target, cycles: f64) -> f64 {
+    let all = work::of_cycles(target, cycles);
+    match cycles > LONG {
+        true => ESTIMATED + 3.0 * all / f64::from(share(3.0 * all, MOST)),
+        false => all,
+    }
 }
 
 /// The share of rows, one in so many, that takes no more than so much of what all rows take; the

@@ -1,14 +1,11 @@
 //! A budget of counted work, and what of a search is worth it: an epsilon-dominance ranking of
 //! what is expected, taken from the front while the budget lasts.
 //!
-//! Work is counted in nanoseconds of one processor, by what operations and cycles usually take:
-//! counted, never timed, so that what is found hangs neither on the machine nor on its threads.
+//! Work is counted ([`super::work`]), never timed, so that what is found hangs neither on the
+//! machine nor on its threads.
 
-use super::bands::{LONG, MOST, share};
 use super::rows::Look;
 use crate::target_args::Among;
-use slowlight_compiler::planner::PlannedScene;
-use slowlight_compiler::targets::{Language, Target};
 
 /// What settings may take where they are drawn natively, in operations.
 const DRAFTS: f64 = 2e9;
@@ -68,42 +65,8 @@ impl Effort {
     }
 }
 
-/// What any plan takes, a unit of fuel that it burns, and a statement in the routines' models.
-const PLANNED: f64 = 3e7;
-const BURNT: f64 = 30.0;
-const MODELLED: f64 = 60.0;
-
-/// What it takes to estimate a plan that takes long.
-const ESTIMATED: f64 = 5e8;
-
 /// What is spent at most on what something else is as good as: one part in so many.
 const SECOND: f64 = 3.0;
-
-/// What a plan took to be made: whatever it is, by how much fuel its fit has burnt, and how many
-/// statements ran in the models for it.
-pub fn of_plan(plan: &PlannedScene) -> f64 {
-    PLANNED + BURNT * plan.burnt() as f64 + MODELLED * plan.modelled() as f64
-}
-
-/// What a run of so many cycles takes, together with the model's of the same pixels. A command
-/// of BASIC takes some thousand cycles, and is carried out as a whole.
-pub fn of_cycles(target: &Target, cycles: f64) -> f64 {
-    cycles
-        * match target.system.language() {
-            Language::Jack => 3.0,
-            Language::Basic => 0.05,
-            Language::Assembly => 1.7,
-        }
-}
-
-/// What a first look takes at a plan of so many cycles, once it is made.
-pub fn of_look(target: &Target, cycles: f64) -> f64 {
-    let all = of_cycles(target, cycles);
-    match cycles > LONG {
-        true => ESTIMATED + 3.0 * all / f64::from(share(3.0 * all, MOST)),
-        false => all,
-    }
-}
 
 /// By how much another is cheaper and better at once: a factor above 1, and 1 where it is the
 /// same and comes before; below 1 where nothing is as good.

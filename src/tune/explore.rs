@@ -1,5 +1,6 @@
 //! The search: which choices are tried, in which order, and what is kept.
 
+use super::bands;
 use super::cache::Cache;
 use super::choice::{Base, Choice, Setting};
 use super::choices::choices;
@@ -11,6 +12,7 @@ use super::point::{Natives, Point};
 use super::prune::{Predictor, is_first};
 use super::rows::Look;
 use super::settings::{Asked, Drafted, Drafts, quick_block, worthwhile};
+use super::work;
 use crate::failure::Outcome;
 use crate::fit::TOO_DEAR;
 use crate::format::{count, duration};
@@ -270,7 +272,7 @@ impl Going<'_> {
         let sorted = effort::by_worth(others, |(_, look)| *look, &there);
         let cost = |(choice, look): &(Choice, Option<Look>)| {
             let cycles = look.map_or(0.0, |look| look.cycles);
-            begun(choice).map_or(0.0, |b| b.planning) + effort::of_look(target, cycles)
+            begun(choice).map_or(0.0, |b| b.planning) + bands::of_look(target, cycles)
         };
         // Of memory, too, several ways are tried.
         let most = self.search.effort.looks() * if self.search.smaller { 3.0 } else { 1.0 };
@@ -310,7 +312,7 @@ impl Going<'_> {
             }
         }
         let sorted = effort::by_worth(rest, |(_, look, _)| Some(*look), &there);
-        let cost = |(_, look, _): &Rest| effort::of_cycles(base.target, look.cycles);
+        let cost = |(_, look, _): &Rest| work::of_cycles(base.target, look.cycles);
         let (mut taken, left) = effort::within(sorted, cost, self.search.effort.wholes());
         taken.sort_by(|(_, a, _), (_, b, _)| a.cycles.total_cmp(&b.cycles));
         let left = left.into_iter().map(|(choice, look, _)| (choice, look));

@@ -2,12 +2,12 @@
 
 use super::bands;
 use super::choice::Choice;
-use super::effort;
 use super::explore::Search;
 use super::goal::Measure;
 use super::planned::Planned;
 use super::point::{self, Natives, Point};
 use super::rows::{self, Look};
+use super::work;
 use crate::failure::{Failure, Outcome};
 use crate::fit::TOO_DEAR;
 use crate::scene::Scene;
@@ -41,7 +41,7 @@ impl First {
 pub struct Begun {
     /// What was seen.
     pub first: First,
-    /// What it took to be planned, as [`effort`] counts it.
+    /// What it took to be planned, as [`work`] counts it.
     pub planning: f64,
     /// The plan.
     pub plan: Option<Planned>,
@@ -58,7 +58,7 @@ pub fn begun(search: &Search, scene: &Scene, natives: &Natives, choice: &Choice)
     let (mut kept, mut planning) = (None, 0.0);
     let work = || {
         let tried = planned(search, scene, choice).and_then(|planned| {
-            planning = effort::of_plan(&planned.plan);
+            planning = work::of_plan(&planned.plan);
             rows::hopeless(&planned, search.limit)?;
             if let Some(look) = rows::unseen(&planned) {
                 kept = Some(planned);

@@ -38,3 +38,4 @@ pub mod rows;
 pub mod settings;
 pub mod spent;
 pub mod tell;
+pub mod work;
