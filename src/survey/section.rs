@@ -1,10 +1,10 @@
 //! One scene on one machine, as a part of the document.
 
 use crate::format::duration;
-use crate::tune::explore::Search;
 use crate::tune::goal::{Measure, percent};
 use crate::tune::plot::svg;
 use crate::tune::point::Point;
+use crate::tune::search::Search;
 use crate::tune::settings::Drafted;
 use crate::tune::tell::Told;
 use std::path::PathBuf;

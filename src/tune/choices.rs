@@ -1,7 +1,7 @@
 //! The search space: every setting in every format, params changeable or folded.
 
 use super::choice::{Choice, Setting};
-use super::explore::Search;
+use super::search::Search;
 use slowlight_compiler::planner::THRIFTS;
 use slowlight_compiler::targets;
 

@@ -1,68 +1,26 @@
 //! The search: which choices are tried, in which order, and what is kept.
 
 use super::bands;
-use super::cache::Cache;
-use super::choice::{Base, Choice, Setting};
+use super::choice::{Choice, Setting};
 use super::choices::choices;
-use super::effort::{self, Effort};
-use super::goal::{Measure, percent};
+use super::effort;
+use super::goal::Measure;
 use super::looked::{Begun, First, Tried, begun, tried};
 use super::planned::Planned;
 use super::point::{Natives, Point};
 use super::prune::{Predictor, is_first};
 use super::rows::Look;
+use super::search::Search;
 use super::settings::{Asked, Drafted, Drafts, quick_block, worthwhile};
 use super::work;
 use crate::failure::Outcome;
 use crate::fit::TOO_DEAR;
-use crate::format::{count, duration};
+use crate::format::count;
 use crate::jobs;
 use crate::measure::Errors;
-use crate::progress::{self, Progress};
+use crate::progress::Progress;
 use crate::scene::Scene;
 use std::sync::{Arc, Mutex};
-
-/// What is tuned and how.
-pub struct Search {
-    /// What stays as the user has it.
-    pub base: Base,
-    /// The error that decides.
-    pub measure: Measure,
-    /// Whether params must stay changeable.
-    pub live: bool,
-    /// Whether to try smaller programs where what is quickest fits, too.
-    pub smaller: bool,
-    /// How many settings go to the machines.
-    pub settings: usize,
-    /// Cycles after which a machine is given up.
-    pub limit: u64,
-    /// How much is tried at all.
-    pub effort: Effort,
-    /// Whether to tell what each point's time goes to.
-    pub by_line: bool,
-    /// What is known from before.
-    pub cache: Cache,
-}
-
-impl Search {
-    /// Says what a choice comes to as soon as that is known.
-    fn tell(&self, choice: &Choice, look: &Look, about: &str) {
-        let time = duration(look.cycles / self.base.hertz());
-        let (error, phrase) = (percent(look.error), self.measure.phrase());
-        let options = self.base.words(choice).join(" ");
-        progress::say(&format!("{about}{time}, {error} {phrase}: {options}"));
-    }
-
-    /// What the figures of a choice depend on: its options, and when a machine is given up.
-    pub fn words(&self, choice: &Choice) -> Vec<String> {
-        let mut words = self.base.words(choice);
-        words.push(format!("limit {} {:?}", self.limit, self.effort));
-        if !self.by_line {
-            words.push("not by line".to_owned());
-        }
-        words
-    }
-}
 
 /// What was found so far.
 #[derive(Clone, Debug, Default)]

@@ -2,11 +2,11 @@
 
 use super::bands;
 use super::choice::Choice;
-use super::explore::Search;
 use super::goal::Measure;
 use super::planned::Planned;
 use super::point::{self, Natives, Point};
 use super::rows::{self, Look};
+use super::search::Search;
 use super::work;
 use crate::failure::{Failure, Outcome};
 use crate::fit::TOO_DEAR;

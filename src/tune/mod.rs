@@ -35,6 +35,7 @@ pub mod plot;
 pub mod point;
 pub mod prune;
 pub mod rows;
+pub mod search;
 pub mod settings;
 pub mod spent;
 pub mod tell;

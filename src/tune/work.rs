@@ -7,7 +7,7 @@ use slowlight_compiler::targets::{Language, Target};
 /// What any plan takes, a unit of fuel that it burns, and a statement in the routines' models.
 const PLANNED: f64 = 3e7;
 const BURNT: f64 = 30.0;
-const MODELLED: f64 = 60.0;
+const MODELLED: f64 = 200.0;
 
 /// What a plan took to be made: whatever it is, by how much fuel its fit has burnt, and how many
 /// statements ran in the models for it.

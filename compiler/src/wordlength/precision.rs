@@ -249,7 +249,7 @@ impl Search {
         };
         let mut run = ModelRun::within(&self.plan, most);
         let mut all = pixels.to_vec();
-        all.retain(|(x, y, ink)| run.pixel(*x, *y).ink != *ink || run.spent());
+        all.retain(|(x, y, ink)| run.spent() || run.pixel(*x, *y).ink != *ink || run.spent());
         let ran = most - run.left();
         self.left.set(self.left.get().saturating_sub(ran));
         all
