@@ -4,11 +4,12 @@
 use super::ScreenArgs;
 use crate::estimate;
 use crate::failure::{Failure, Outcome};
+use crate::fit;
 use crate::need;
 use crate::scene::{Limits, Precision, Scene};
 use slowlight_compiler::ir::graph::Graph;
 use slowlight_compiler::plan::Goal;
-use slowlight_compiler::planner::{PlannedScene, plan_within};
+use slowlight_compiler::planner::{PlannedScene, plan_among};
 use slowlight_compiler::sema::{INSTANCES, Instancing, Ways};
 use slowlight_compiler::targets::Target;
 
@@ -109,17 +110,27 @@ impl ScreenArgs {
             ..goal.clone()
         };
         // Nothing where the program is larger than what the machine has for it.
+        let modelled = self.fuel.map(|fuel| fuel.modelled);
         let takes = |graph: &Graph| {
-            let plan = plan_within(graph, target, &whole, 0, self.passes.left_out()).ok()?;
-            fits(&plan).then(|| estimate::cycles(&plan))
+            let fuel = (0, modelled.unwrap_or(u64::MAX));
+            let plan = plan_among(graph, target, &whole, fuel, self.passes.left_out());
+            let Ok(plan) = plan else {
+                return Ok(None);
+            };
+            // Which is quicker hangs on it.
+            if modelled.is_some_and(|most| plan.modelled() >= most) {
+                return Err(fit::too_dear());
+            }
+            Ok(fits(&plan).then(|| estimate::cycles(&plan)))
         };
-        let mut best = (takes(&first), asked);
+        let mut best = (takes(&first)?, asked);
         for less in LESS {
             if best.0.is_none() && less > asked {
-                best = (takes(&by(less)?), less);
+                best = (takes(&by(less)?)?, less);
             }
         }
-        let alone = (most <= MOST).then(|| takes(&separate)).flatten();
+        let alone = (most <= MOST).then(|| takes(&separate)).transpose()?;
+        let alone = alone.flatten();
         let chosen = match (best.0, alone) {
             (Some(together), Some(alone)) if together <= alone => best.1,
             (_, Some(_)) => Instancing::Separate,
