@@ -145,6 +145,20 @@ fn a_large_program_fits_lower() {
     assert!(!dir.path().join("mirrors.asm").exists());
 }
 
+/// What such a program has several times is called, and it draws what it did.
+#[test]
+fn a_program_that_calls_what_it_repeats_draws_the_same() {
+    let mirrors = include_str!("../../examples/mirrors.scn");
+    let dir = directory(&[("mirrors.scn", mirrors)]);
+    let of = "mirrors.scn -t 6502:bbc --mode 1 --format fixed16 --rows 120..123 --page 1900";
+    let of: Vec<&str> = of.split(' ').collect();
+    assert_eq!(wrong(dir.path(), &of), (0, 4 * 320));
+    let built = slowlight(dir.path(), &[&["build"], &of[..]].concat());
+    assert!(built.status.success());
+    let text = std::fs::read_to_string(dir.path().join("mirrors.asm")).unwrap();
+    assert!(text.matches("jsr shared").count() > 10);
+}
+
 #[test]
 fn wrong_options_say_what_there_is() {
     let dir = directory(&[("waves.scn", &waves(24, 16))]);

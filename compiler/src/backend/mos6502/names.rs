@@ -160,11 +160,12 @@ impl Names {
 mod tests {
     use crate::targets;
     use slowlight_routine::Source;
+    use slowlight_runtime_6502::tidy::outline::{CALLED, WITHIN};
 
     /// The words of labels that are numbered as they come, in the code of a graph.
-    const NUMBERED: [&str; 15] = [
+    const NUMBERED: [&str; 17] = [
         "after", "beyond", "column", "done", "else", "end", "go", "loop", "low", "moved", "out",
-        "palette", "param", "run", "still",
+        "palette", "param", "run", "still", CALLED, WITHIN,
     ];
 
     #[test]

@@ -2,6 +2,7 @@
 
 use super::{Repeat, Step};
 use rustc_hash::FxHashMap;
+use std::collections::BTreeMap;
 use std::ops::Range;
 
 /// Puts calls where the sequences were, and these once behind the program's own lines. Remarks
@@ -16,9 +17,8 @@ pub(super) fn replace<T: Clone>(
     let mut calls = FxHashMap::default();
     let mut bodies = Vec::new();
     for repeat in found {
-        *count += 1;
-        let name = format!("shared{count}");
-        bodies.extend(subroutine(&name, &repeat.body, lines));
+        let name = fresh(CALLED, count);
+        bodies.extend(subroutine(&name, &repeat.body, lines, count));
         calls.extend((repeat.places.iter()).map(|of| (of.start, (of.end, name.clone()))));
     }
     let all = std::mem::take(lines);
@@ -42,21 +42,39 @@ fn is_silent(text: &str) -> bool {
     code.is_empty() || code.contains(" = ")
 }
 
-/// A sequence as a subroutine; labels are called by it and by how many instructions stand
-/// before them.
-fn subroutine<T: Clone>(name: &str, body: &[Step], lines: &[(String, T)]) -> Vec<(String, T)> {
-    let label = |k: usize| match k {
-        0 => name.to_owned(),
-        _ => format!("{name}_{k}"),
-    };
+/// The words of subroutines' labels, and of those within them.
+pub const CALLED: &str = "shared";
+pub const WITHIN: &str = "within";
+
+/// A label as all that are numbered: a word and a number, which no value is called by.
+fn fresh(word: &str, count: &mut usize) -> String {
+    *count += 1;
+    format!("{word}{count}")
+}
+
+/// A sequence as a subroutine.
+fn subroutine<T: Clone>(
+    name: &str,
+    body: &[Step],
+    lines: &[(String, T)],
+    count: &mut usize,
+) -> Vec<(String, T)> {
+    let mut labels: BTreeMap<usize, String> = (body.iter())
+        .filter_map(|step| step.goes.filter(|to| *to > 0))
+        .map(|to| (to, String::new()))
+        .collect();
+    for label in labels.values_mut() {
+        *label = fresh(WITHIN, count);
+    }
+    labels.insert(0, name.to_owned());
     let mut made: Vec<(String, T)> = Vec::new();
     let Some((_, of)) = body.first().and_then(|step| lines.get(step.line)) else {
         return made;
     };
     let mut of = of.clone();
     for k in 0..=body.len() {
-        if k == 0 || body.iter().any(|step| step.goes == Some(k)) {
-            made.push((format!("{}:", label(k)), of.clone()));
+        if let Some(label) = labels.get(&k) {
+            made.push((format!("{label}:"), of.clone()));
         }
         let step = body.get(k);
         let Some((text, here)) = step.and_then(|step| lines.get(step.line)) else {
@@ -65,8 +83,8 @@ fn subroutine<T: Clone>(name: &str, body: &[Step], lines: &[(String, T)]) -> Vec
         of = here.clone();
         let code = text.split(';').next().unwrap_or(text).trim();
         let (branch, _) = code.split_once(' ').unwrap_or((code, ""));
-        let said = match step.and_then(|step| step.goes) {
-            Some(to) => format!("        {branch} {}", label(to)),
+        let said = match step.and_then(|step| labels.get(&step.goes?)) {
+            Some(label) => format!("        {branch} {label}"),
             None => format!("        {code}"),
         };
         made.push((said, of.clone()));

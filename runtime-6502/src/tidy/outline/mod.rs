@@ -15,6 +15,7 @@ mod repeats;
 
 use super::code::Names;
 use calls::replace;
+pub use calls::{CALLED, WITHIN};
 use repeats::Program;
 use std::ops::Range;
 

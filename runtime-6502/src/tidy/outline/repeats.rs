@@ -103,11 +103,11 @@ impl Program {
         let inner = of.start + 1..of.end;
         let entered = inner.filter_map(|k| self.entries.get(&k)).flatten();
         let mut entered = entered.map(|entry| !entry.pinned && within(&entry.from, of));
-        let ends = of.clone().filter_map(|k| {
+        let mut ends = of.clone().filter_map(|k| {
             let to = k.checked_add_signed(self.tokens.get(k)?.goes?)?;
             Some(of.start <= to && to <= of.end)
         });
-        entered.all(|whole| whole) && ends.into_iter().all(|within| within)
+        entered.all(|whole| whole) && ends.all(|within| within)
     }
 
     fn keys(&self, from: usize) -> impl Iterator<Item = u32> + '_ {

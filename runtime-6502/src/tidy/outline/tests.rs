@@ -45,12 +45,12 @@ fn what_a_program_has_twice_becomes_a_subroutine() {
         rts
 shared1:
         lda a_1
-        bpl shared1_6
+        bpl within2
         inc a_2
-        bne shared1_6
+        bne within2
         sec
         adc #1
-shared1_6:
+within2:
         sta b_2
         rts";
     assert_eq!(made, wanted);
@@ -112,7 +112,7 @@ fn branches_to_either_end_stay_within() {
     );
     let made = outlined(&own, "", 100);
     assert!(
-        made.contains("bcs shared1_6\n        dex\n        bne shared1\nshared1_6:\n        rts"),
+        made.contains("bcs within2\n        dex\n        bne shared1\nwithin2:\n        rts"),
         "{made}"
     );
     assert_eq!(made.matches("jsr shared1").count(), 2);
