@@ -155,7 +155,7 @@ fn a_program_that_calls_what_it_repeats_draws_the_same() {
     assert_eq!(wrong(dir.path(), &of), (0, 4 * 320));
     let built = slowlight(dir.path(), &[&["build"], &of[..]].concat());
     assert!(built.status.success());
-    let text = std::fs::read_to_string(dir.path().join("mirrors.asm")).unwrap();
+    let text = std::fs::read_to_string(dir.path().join("mirrors.asm")).expect("a program");
     assert!(text.matches("jsr shared").count() > 10);
 }
 
