@@ -7,13 +7,7 @@ int_divide:
         bne int_divide_do
         jmp divide_by_zero
 int_divide_do:
-        jsr magnitudes
-        lda #0
-        sta prod
-        sta prod+1
-        sta prod+2
-        sta prod+3
-        jsr divide
+        jsr divide_signed
         bit sign
         bmi int_divide_negative
         lda acc+3           ; 2^31: the most negative by -1

@@ -8,13 +8,7 @@ modulo:
         beq modulo_zero
         lda arg+3
         sta mixed
-        jsr magnitudes
-        lda #0
-        sta prod
-        sta prod+1
-        sta prod+2
-        sta prod+3
-        jsr divide
+        jsr divide_signed
         lda prod
         ora prod+1
         ora prod+2

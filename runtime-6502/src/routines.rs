@@ -76,6 +76,10 @@ fn by_small_power(args: &[Range], _: Range) -> bool {
     (1..8).any(|k| constant(args, 1) == Some(f64::from(1 << k)))
 }
 
+fn by_power(args: &[Range], _: Range) -> bool {
+    constant(args, 1).is_some_and(|by| (-16..15).any(|k| by == f64::from(k).exp2()))
+}
+
 /// A domain: operand `$k` is the constant `$value`, and `$more` holds of the ranges.
 macro_rules! with {
     ($k:literal = $value:literal) => {
@@ -132,7 +136,8 @@ const REALS: &[Routine] = &[
     routine!("div_4" Div(R, R) -> R, t::QUARTER, [], with!(1 = 4.0), NEAREST, |a, _b| model::shift_round(a, 2), 66, 50),
     routine!("div" Div(R, R) -> R, "fixed_divide", ["fixed_divide"], everywhere, NEAREST, |a, b| model::fixed_divide(a, b), 1736, 51),
     routine!("sqrt" Sqrt(R) -> R, "root", ["root"], everywhere, NEAREST, |a| model::root(a), 2228, 35),
-    routine!("mod" Mod(R, R) -> R, "modulo", ["modulo"], everywhere, EXACT, |a, b| model::modulo(a, b), 760, 51),
+    routine!("mod_power" Mod(R, R) -> R, t::REAL_MOD_POWER, [], by_power, EXACT, |a, b| a & b.wrapping_sub(1), 46, 33),
+    routine!("mod" Mod(R, R) -> R, "modulo", ["modulo"], everywhere, EXACT, |a, b| model::modulo(a, b), 446, 51),
     routine!("sin" Sin(R) -> R, "sine", ["sine"], everywhere, PLACE, |a| model::sine(a), 8109, 35),
     routine!("cos" Cos(R) -> R, "cosine", ["sine"], everywhere, PLACE, |a| model::cosine(a), 8090, 35),
     routine!("tan" Tan(R) -> R, "tangent", ["tangent"], far_from_poles, PLACE, |a| model::tangent(a), 14934, 35),
@@ -177,9 +182,9 @@ pub(crate) const INTS: &[Routine] = &[
     routine!("int_div_4" IntDiv(I, I) -> I, t::INT_QUARTER, [], with!(1 = 4.0), EXACT, |a, _b| a >> 2, 59, 34),
     routine!("int_div_8" IntDiv(I, I) -> I, t::INT_EIGHTH, [], with!(1 = 8.0), EXACT, |a, _b| a >> 3, 84, 46),
     routine!("int_div_16" IntDiv(I, I) -> I, t::INT_SIXTEENTH, [], with!(1 = 16.0), EXACT, |a, _b| a >> 4, 109, 58),
-    routine!("int_div" IntDiv(I, I) -> I, "int_divide", ["int_divide"], everywhere, EXACT, |a, b| model::int_divide(a, b), 754, 51),
+    routine!("int_div" IntDiv(I, I) -> I, "int_divide", ["int_divide"], everywhere, EXACT, |a, b| model::int_divide(a, b), 400, 51),
     routine!("int_mod_power" IntMod(I, I) -> I, t::MOD_POWER, [], by_small_power, EXACT, |a, b| a & (b.wrapping_sub(1) & 0xFF), 24, 17),
-    routine!("int_mod" IntMod(I, I) -> I, "modulo", ["modulo"], everywhere, EXACT, |a, b| model::modulo(a, b), 798, 51),
+    routine!("int_mod" IntMod(I, I) -> I, "modulo", ["modulo"], everywhere, EXACT, |a, b| model::modulo(a, b), 444, 51),
     routine!("and" BitAnd(I, I) -> I, t::AND, [], everywhere, EXACT, |a, b| a & b, 36, 24),
     routine!("int_negative" IntLess(I, I) -> B, t::NEGATIVE, [], with!(1 = 0.0), EXACT, |a, _b| i32::from(a < 0), 12, 8),
     routine!("int_positive" IntLess(I, I) -> B, t::POSITIVE, [], with!(0 = 0.0), EXACT, |_a, b| i32::from(b > 0), 19, 27),

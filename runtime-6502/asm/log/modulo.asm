@@ -1,13 +1,17 @@
 ; acc = acc - arg floor(acc / arg), of reals, or 0 where that is no remainder.
 log_modulo:
-        ldx #2
-log_modulo_keep:
-        lda acc,x
-        sta prod,x
-        lda arg,x
-        sta prod+3,x
-        dex
-        bpl log_modulo_keep
+        lda acc
+        sta prod
+        lda acc+1
+        sta prod+1
+        lda acc+2
+        sta prod+2
+        lda arg
+        sta prod+3
+        lda arg+1
+        sta prod+4
+        lda arg+2
+        sta prod+5
         lda acc+2
         eor arg+2
         sta acc+2
@@ -33,14 +37,18 @@ log_modulo_keep:
         adc prod+4
         sta acc+1
         jsr log_keep
-        ldx #2
-log_modulo_swap:
-        ldy prod,x
-        lda acc,x
-        sta arg,x
-        sty acc,x
-        dex
-        bpl log_modulo_swap
+        lda acc
+        sta arg
+        lda prod
+        sta acc
+        lda acc+1
+        sta arg+1
+        lda prod+1
+        sta acc+1
+        lda acc+2
+        sta arg+2
+        lda prod+2
+        sta acc+2
         jsr log_subtract
         lda acc+2           ; of the divisor's sign,
         cmp prod+5

@@ -45,7 +45,7 @@ macro_rules! parts {
             part("log_exponential", asm!("exponential"), &["log_units", "log_keep"], 46),
             part("log_natural", asm!("logarithm"), &["log_from_int"], 87),
             part("log_power", asm!("power"), &["log_exponential", "log_natural", "log_is_whole"], 266),
-            part("log_modulo", asm!("modulo"), &["log_floor", "log_from_int", "log_add"], 175),
+            part("log_modulo", asm!("modulo"), &["log_floor", "log_from_int", "log_add"], 197),
         ]
     };
 }

@@ -117,7 +117,7 @@ impl<const FRAC: u8> Of<FRAC> {
         routine!("any_sub" Sub(R, R) -> R, t::ANY_SUBTRACT, ["log_sum", "log_difference"], everywhere, L::<FRAC>::DIFFERENCES, |a, b| a.sub(b), [92, 93], [230, 230]),
         routine!("root" Sqrt(R) -> R, t::ROOT, [], plus, L::<FRAC>::ROOT, |a| a.sqrt(), [23, 23], [16, 16]),
         routine!("any_root" Sqrt(R) -> R, t::ANY_ROOT, [], everywhere, L::<FRAC>::ROOT, |a| a.sqrt(), [26, 26], [31, 31]),
-        routine!("mod" Mod(R, R) -> R, "log_modulo", ["log_modulo"], everywhere, L::<FRAC>::UNKNOWN, |a, b| a.modulo(b), [739, 735], [39, 39]),
+        routine!("mod" Mod(R, R) -> R, "log_modulo", ["log_modulo"], everywhere, L::<FRAC>::UNKNOWN, |a, b| a.modulo(b), [683, 679], [39, 39]),
         routine!("neg" Neg(R) -> R, t::NEGATE, [], everywhere, EXACT, |a| a.neg(), [20, 20], [14, 14]),
         routine!("abs" Abs(R) -> R, t::ABS, [], everywhere, EXACT, |a| a.abs(), [17, 17], [12, 12]),
         routine!("plus_min" Min(R, R) -> R, t::PLUS_MIN, [], plus, EXACT, |a, b| a.min(b), [37, 37], [39, 39]),

@@ -87,6 +87,12 @@ pub(crate) const ALL: &[Part] = &[
         42,
     ),
     part(
+        "modulo16",
+        include_str!("../../asm/scaled/modulo.asm"),
+        &["zero_page"],
+        144,
+    ),
+    part(
         "product32",
         include_str!("../../asm/scaled/product32.asm"),
         &["product"],
@@ -259,6 +265,12 @@ pub(crate) const ALL: &[Part] = &[
         include_str!("../../asm/scaled24/widen.asm"),
         &["widen_both"],
         51,
+    ),
+    part(
+        "modulo24",
+        include_str!("../../asm/scaled24/modulo.asm"),
+        &["widen24", "modulo"],
+        8,
     ),
     part(
         "exact24",

@@ -113,6 +113,12 @@ fn power_of_two(args: &[Range], _: Range) -> bool {
     one.is_some_and(|one| one >= 1.0 && (one as u32).is_power_of_two())
 }
 
+/// A divisor of which nothing but a mask is left.
+fn by_power(args: &[Range], _: Range) -> bool {
+    let divisor = args.get(1).and_then(|r| r.constant());
+    divisor.is_some_and(|b| b >= 1.0 && (b as u32).is_power_of_two())
+}
+
 /// Ints of 16 bits.
 fn short(args: &[Range], _: Range) -> bool {
     args.iter().all(|a| a.within(-32768.0, 32767.0))
@@ -130,7 +136,7 @@ fn is(k: usize, value: f64) -> impl Fn(&[Range], Range) -> bool {
 /// A routine: as for 16.16, but that the last of the model's operands is the number of the
 /// scales.
 macro_rules! scaled {
-    ($name:literal $op:ident($($arg:ident),+) -> $result:ident, $text:expr, [$($need:literal),*],
+    ($name:literal $op:ident($($arg:ident),+) -> $result:ident, $text:expr, [$($need:expr),*],
      $domain:expr, $error:expr, |$a:ident, $b:ident, $n:ident| $body:expr, $cycles:expr, $bytes:expr) => {
         Routine {
             name: $name,
@@ -195,7 +201,8 @@ macro_rules! of_bytes {
             scaled!("pow_10" Pow($r, $r) -> $r, $t::POWER[1], [$both, "power", $narrow], sides!(false, true), ANY, |a, b, n| model::power(a, b, Scales::unpacked(n), 8 * $w), 20000, 20 + 10 * $w),
             scaled!("pow_01" Pow($r, $r) -> $r, $t::POWER[2], [$both, "power", $narrow], sides!(true, false), ANY, |a, b, n| model::power(a, b, Scales::unpacked(n), 8 * $w), 20000, 20 + 10 * $w),
             scaled!("pow_11" Pow($r, $r) -> $r, $t::POWER[3], [$both, "power", $narrow], sides!(false, false), ANY, |a, b, n| model::power(a, b, Scales::unpacked(n), 8 * $w), 20000, 20 + 10 * $w),
-            scaled!("mod" Mod($r, $r) -> $r, $t::MODULO, [$both, "modulo"], everywhere, EXACT, |a, b, n| wide::modulo(a, b), 1000, 16 + 10 * $w),
+            scaled!("mod_power" Mod($r, $r) -> $r, templates::REAL_MOD_POWER, [], by_power, EXACT, |a, b, n| a & (b - 1), 2 + 12 * $w, 1 + 10 * $w),
+            scaled!("mod" Mod($r, $r) -> $r, $t::MODULO, [$t::MODULO_PART], everywhere, EXACT, |a, b, n| wide::modulo(a, b), $t::MODULO_CYCLES, 6 + 10 * $w),
             scaled!("neg" Neg($r) -> $r, templates::NEGATE, [], everywhere, EXACT, |a, b, n| -a, 2 + 8 * $w, 1 + 6 * $w),
             scaled!("abs" Abs($r) -> $r, t::ABS, [], everywhere, EXACT, |a, b, n| a.abs(), 6 + 7 * $w, 8 + 10 * $w),
             scaled!("min" Min($r, $r) -> $r, templates::MIN, [], everywhere, EXACT, |a, b, n| a.min(b), 9 + 13 * $w, 11 + 12 * $w),

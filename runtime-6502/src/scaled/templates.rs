@@ -181,10 +181,10 @@ pub(crate) const EXPONENTIAL_16: &str = concat!(
 );
 
 pub(crate) const MODULO: &str = concat!(
-    both!(),
-    "| ldy #0 | jsr widen_both | jsr modulo | ldx acc+1 | lda acc",
-    result!()
+    both!(), "| jsr modulo16", result!()
 );
+pub(crate) const MODULO_PART: &str = "modulo16";
+pub(crate) const MODULO_CYCLES: u32 = 250;
 /// The whole part of what is below 1.
 pub(crate) const FRACTION_FLOOR: &str =
     "~ldx #0 | lda {0.1} | bpl even{n} | dex | even{n}: [stx {r.k}]";

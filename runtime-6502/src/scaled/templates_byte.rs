@@ -131,10 +131,10 @@ pub(crate) const ODD_RECIPROCAL_ROOT: &str = concat!(
 );
 
 pub(crate) const MODULO: &str = concat!(
-    both!(),
-    "| ldy #0 | jsr widen_both | jsr modulo | lda acc",
-    result!()
+    both!(), "| jsr modulo16", result!()
 );
+pub(crate) const MODULO_PART: &str = "modulo16";
+pub(crate) const MODULO_CYCLES: u32 = 240;
 /// The whole part of what is below 1.
 pub(crate) const FRACTION_FLOOR: &str =
     "~ldx #0 | lda {0.0} | bpl even{n} | dex | even{n}: [stx {r.k}]";

@@ -128,9 +128,11 @@ pub(crate) const ODD_ROOT: &str = concat!("ldy {#25-n/2} |", first!(), "| jsr ro
 
 pub(crate) const MODULO: &str = concat!(
     both!(),
-    "| ldy #0 | jsr widen24_both | jsr modulo",
+    "| jsr modulo24",
     result!()
 );
+pub(crate) const MODULO_PART: &str = "modulo24";
+pub(crate) const MODULO_CYCLES: u32 = 690;
 /// The whole part of what is below 1.
 pub(crate) const FRACTION_FLOOR: &str =
     "~ldx #0 | lda {0.2} | bpl even{n} | dex | even{n}: [stx {r.k}]";

@@ -299,20 +299,22 @@ fn has_all(kind: &Kind) {
 /// Prints what routines take, for the table in the documentation.
 #[test]
 fn costs_of_what_is_met_most() {
-    let short: [(&str, i32, u64); 6] = [
+    let short: [(&str, i32, u64); 7] = [
         ("mul", 16, 290),
         ("double_mul", 15, 310),
         ("any_mul_14", 14, 335),
         ("div", 14, 610),
         ("odd_root", 13, 320),
+        ("mod", 10, 280),
         ("add", 0, 25),
     ];
-    let long: [(&str, i32, u64); 6] = [
+    let long: [(&str, i32, u64); 7] = [
         ("long_mul_24", 24, 470),
         ("long_mul_23", 23, 490),
         ("long_mul_up", 22, 570),
         ("long_div", 22, 1500),
         ("long_odd_root", 21, 740),
+        ("mod", 14, 700),
         ("add", 0, 30),
     ];
     for (kind, bounds) in [(SHORT, short), (LONG, long)] {
