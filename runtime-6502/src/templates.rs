@@ -159,8 +159,7 @@ pub(crate) const MOD_POWER: &str = "~
     sec | lda {1.0} | sbc #1 | and {0.0} | sta {r.0} | lda #0 [+ sta {r.k}]";
 
 /// By a power of two: the bits below it, for reals of any length.
-pub(crate) const REAL_MOD_POWER: &str =
-    "~clc | [lda {1.k} | adc #$ff | and {0.k} | sta {r.k}]";
+pub(crate) const REAL_MOD_POWER: &str = "~clc | [lda {1.k} | adc #$ff | and {0.k} | sta {r.k}]";
 
 /// Argument 0 halved, towards minus infinity, into the result; the rest is left in the carry.
 macro_rules! halve {

@@ -180,9 +180,7 @@ pub(crate) const EXPONENTIAL_16: &str = concat!(
     result!()
 );
 
-pub(crate) const MODULO: &str = concat!(
-    both!(), "| jsr modulo16", result!()
-);
+pub(crate) const MODULO: &str = concat!(both!(), "| jsr modulo16", result!());
 pub(crate) const MODULO_PART: &str = "modulo16";
 pub(crate) const MODULO_CYCLES: u32 = 250;
 /// The whole part of what is below 1.

@@ -130,9 +130,7 @@ pub(crate) const ODD_RECIPROCAL_ROOT: &str = concat!(
     upper!()
 );
 
-pub(crate) const MODULO: &str = concat!(
-    both!(), "| jsr modulo16", result!()
-);
+pub(crate) const MODULO: &str = concat!(both!(), "| jsr modulo16", result!());
 pub(crate) const MODULO_PART: &str = "modulo16";
 pub(crate) const MODULO_CYCLES: u32 = 240;
 /// The whole part of what is below 1.

@@ -126,11 +126,7 @@ pub(crate) const ONE_OVER: &str = concat!(divisor!(), "| ldy {%} | jsr one_over2
 pub(crate) const ROOT: &str = concat!("ldy {#24-n/2} |", first!(), "| jsr root24", made!());
 pub(crate) const ODD_ROOT: &str = concat!("ldy {#25-n/2} |", first!(), "| jsr root24_odd", made!());
 
-pub(crate) const MODULO: &str = concat!(
-    both!(),
-    "| jsr modulo24",
-    result!()
-);
+pub(crate) const MODULO: &str = concat!(both!(), "| jsr modulo24", result!());
 pub(crate) const MODULO_PART: &str = "modulo24";
 pub(crate) const MODULO_CYCLES: u32 = 690;
 /// The whole part of what is below 1.

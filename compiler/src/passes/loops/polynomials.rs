@@ -13,8 +13,12 @@
 //!
 //! Over the reals both are the same. A polynomial of the first degree has terms about as large
 //! as those that it comes from, which is tested. The terms of a square cancel where the value is
-//! small: it is left alone unless the format's roundings of its greatest term are below
-//! [`SOUND`].
+//! small: unless the format's roundings of its greatest term are below [`SOUND`], it is put so
+//! only along a direction of length 1, and measured from the point that is nearest to the
+//! centre, where no terms cancel but those that the point's own places have, too:
+//! ```text
+//! |o + t d - c|^2   is   (t + u)^2 + |o - c - u d|^2   where   u = (o - c) . d
+//! ```
 //! (Cocke and Kennedy, An algorithm for reduction of operator strength, CACM 1977, reduce
 //! further, to sums, where steps are equal; those of a march are not.)
 
@@ -24,6 +28,7 @@ use crate::analysis::range::Ranges;
 use crate::analysis::rate::{Dependence, Rates, rates};
 use crate::ir::graph::*;
 use crate::passes::rewrite::rebuild::rebuild_old;
+use crate::passes::simplify::unit_vectors::are_parts_of_unit;
 use coefficients::Build;
 use rustc_hash::{FxHashMap, FxHashSet};
 use slowlight_routine::{Op, Runtime, Type};
@@ -36,6 +41,9 @@ const LARGER: f64 = 4.0;
 
 /// How long a chain of operations is looked through.
 const DEEP: u32 = 64;
+
+/// How many turns a loop is taken to make, if it may: what is computed before it is to pay.
+const TURNS: u32 = 8;
 
 /// How many values are weighed one by one.
 const MANY: usize = 100;
@@ -60,7 +68,10 @@ pub fn polynomials(graph: &Graph, ranges: &Ranges, runtime: &Runtime) -> Option<
             span,
         };
         let coefficients = build.coefficients(id)?;
-        build.horner(coefficients, atom)
+        match found.is_centred(id) {
+            true => build.centred(coefficients, atom),
+            false => build.horner(coefficients, atom),
+        }
     }))
 }
 
@@ -75,7 +86,15 @@ struct Polynomial {
     /// The greatest magnitude of a value on the way.
     most: f64,
     deep: u32,
+    slopes: Slopes,
 }
+
+/// What the atom is multiplied by, where that is a value of the graph: of a value of the first
+/// degree, or of each of up to three whose squares make one of the second, as far as they are
+/// known.
+type Slopes = [Option<NodeId>; 3];
+
+const NO_SLOPES: Slopes = [None; 3];
 
 /// The values of loops as polynomials.
 struct Loops<'g> {
@@ -136,6 +155,7 @@ impl<'g> Loops<'g> {
                 sizes: [0.0, 1.0, 0.0],
                 most: size,
                 deep: 0,
+                slopes: NO_SLOPES,
             },
             _ => Polynomial {
                 atom: None,
@@ -143,6 +163,7 @@ impl<'g> Loops<'g> {
                 sizes: [size, 0.0, 0.0],
                 most: size,
                 deep: 0,
+                slopes: NO_SLOPES,
             },
         }
     }
@@ -192,6 +213,7 @@ impl<'g> Loops<'g> {
             sizes,
             most: x.most.max(y.most).max(self.size(id)),
             deep,
+            slopes: slopes(op, [a, b], [&x, &y]),
         })
     }
 
@@ -205,7 +227,7 @@ impl<'g> Loops<'g> {
             let ends = |user: &NodeId| self.of(*user).is_none_or(|of| of.atom != polynomial.atom);
             let used = self.users[id.0 as usize].iter().any(ends)
                 || self.graph.roots().any(|root| root == id);
-            if used && self.is_sound(&polynomial) {
+            if used && (self.is_sound(&polynomial) || self.is_centred(id)) {
                 all.entry(home).or_default().push(id);
             }
         }
@@ -221,6 +243,18 @@ impl<'g> Loops<'g> {
             2 => most * self.runtime.real.epsilon() <= SOUND,
             _ => most <= LARGER * of.most && of.most.is_finite(),
         }
+    }
+
+    /// Whether a value is a sum of squares along a direction of length 1, whose terms may not be
+    /// rounded by themselves.
+    fn is_centred(&self, id: NodeId) -> bool {
+        let Some(of) = self.of(id).filter(|of| of.degree == 2) else {
+            return false;
+        };
+        let slopes: Vec<NodeId> = of.slopes.into_iter().flatten().collect();
+        !self.is_sound(&of)
+            && slopes.len() == 3
+            && are_parts_of_unit(&|id| self.graph.node(id), &slopes)
     }
 
     fn cycles(&self, op: Op) -> f64 {
@@ -247,9 +281,12 @@ impl<'g> Loops<'g> {
                     gain += self.cycles(op);
                 }
             }
-            if is_put {
-                let times = polynomial.degree as f64;
-                gain -= times * (self.cycles(Op::Mul) + self.cycles(Op::Add));
+            let [times, sum] = [Op::Mul, Op::Add].map(|op| self.cycles(op));
+            if is_put && self.is_centred(id) {
+                let turns = self.graph.loops[home.0 as usize].max.clamp(1, TURNS);
+                gain -= times + 2.0 * sum + (9.0 * times + 7.0 * sum) / f64::from(turns);
+            } else if is_put {
+                gain -= polynomial.degree as f64 * (times + sum);
             }
         }
         gain
@@ -291,6 +328,23 @@ fn homes(graph: &Graph, rates: &Rates) -> Vec<Option<LoopId>> {
         loops.max_by_key(|of| carries.get(of).copied())
     };
     graph.ids().map(home).collect()
+}
+
+/// The slopes of a result, of two operands and what they are as polynomials.
+fn slopes(op: Op, [a, b]: [NodeId; 2], [x, y]: [&Polynomial; 2]) -> Slopes {
+    let some = |of: &Polynomial| of.slopes.into_iter().flatten();
+    match (op, x.degree, y.degree) {
+        (Op::Neg, ..) | (Op::Add | Op::Sub, _, 0) => x.slopes,
+        (Op::Add | Op::Sub, 0, _) => y.slopes,
+        (Op::Mul, 1, 0) if x.atom == Some(a) => [Some(b), None, None],
+        (Op::Mul, 0, 1) if y.atom == Some(b) => [Some(a), None, None],
+        (Op::Mul, 1, 1) if a == b => x.slopes,
+        (Op::Add, 2, 2) if some(x).count() + some(y).count() <= 3 => {
+            let mut all = some(x).chain(some(y));
+            [all.next(), all.next(), all.next()]
+        }
+        _ => NO_SLOPES,
+    }
 }
 
 fn products(x: [f64; 3], y: [f64; 3]) -> [f64; 3] {

@@ -6,6 +6,7 @@
 use crate::cost::price::Price;
 use crate::cost::size_budget::SizeBudget;
 use crate::ir::graph::{Graph, NodeId};
+use crate::passes::branches::prune_minima::prune_minima;
 use crate::passes::branches::push_into_select::{conditions, push_into_select};
 use crate::passes::branches::shannon;
 use crate::passes::branches::shannon::shannon;
@@ -13,9 +14,10 @@ use crate::passes::branches::specialise_factors::specialise_factors;
 use crate::passes::simplify::fold::fold;
 use crate::planner::context::Context;
 use crate::planner::context::NODES;
-use crate::planner::pipeline::{Pass, REWRITES};
+use crate::planner::pipeline::{Pass, REWRITES, Rewrite};
 use crate::schedule::analysed::Analysed;
 use slowlight_routine::Format;
+use std::cell::Cell;
 
 /// By how much operations in arms must make the plan cheaper: each choice is asked once
 /// more.
@@ -81,14 +83,31 @@ pub fn asked_where_it_matters(plan: Analysed, cx: &Context, budget: SizeBudget) 
 }
 
 /// With what each of [`REWRITES`] makes of the plan, where that is cheaper.
+///
+/// Minima whose terms are bounded and the same terms as polynomials are seldom both had: which
+/// of the two comes first is decided by the price of what all make of it.
 pub fn rewritten(plan: Analysed, cx: &Context, budget: SizeBudget) -> Analysed {
     let price = cx.price(budget);
-    REWRITES.iter().fold(plan, |plan, (pass, rewrite)| {
+    let polynomials = Cell::new(false);
+    let by = |plan: Analysed, (pass, rewrite): &(Pass, Rewrite)| {
         cx.pass(*pass, plan, |plan| {
             let next = cx.simplified(&rewrite(&plan.graph, &plan.ranges, cx.runtime)?);
-            (price.of(&next) < GAIN * price.of(plan)).then_some(next)
+            let kept = price.of(&next) < GAIN * price.of(plan);
+            polynomials.set(polynomials.get() || kept && *pass == Pass::LoopPolynomials);
+            kept.then_some(next)
         })
-    })
+    };
+    let first = REWRITES.iter().fold(plan.clone(), by);
+    if !polynomials.get() || prune_minima(&plan.graph, &plan.ranges, cx.runtime).is_none() {
+        return first;
+    }
+    let (early, late): (Vec<_>, Vec<_>) =
+        (REWRITES.iter()).partition(|(pass, _)| *pass != Pass::LoopPolynomials);
+    let second = early.into_iter().chain(late).fold(plan, by);
+    match price.of(&second) < price.of(&first) {
+        true => second,
+        false => first,
+    }
 }
 
 /// By how much one of [`REWRITES`] must make a plan cheaper: prices are no nearer than that.

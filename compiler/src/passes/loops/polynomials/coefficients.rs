@@ -16,8 +16,17 @@ pub(super) struct Coefficients {
     /// Half of what else the linear term has: squares have twice a product.
     half: Option<NodeId>,
     square: Option<NodeId>,
-    /// Whose squares make that, if they do.
-    squares: Option<Vec<NodeId>>,
+    /// Whose squares the whole is a sum of, if it is, by their coefficients.
+    squares: Option<Vec<Line>>,
+    /// What that sum lacks.
+    beside: Option<NodeId>,
+}
+
+/// A polynomial of the first degree.
+#[derive(Clone, Copy)]
+struct Line {
+    low: Option<NodeId>,
+    linear: NodeId,
 }
 
 pub(super) struct Build<'b, 'g> {
@@ -67,7 +76,7 @@ impl Build<'_, '_> {
             linear,
             half,
             square,
-            squares: None,
+            ..Coefficients::default()
         }
     }
 
@@ -94,11 +103,22 @@ impl Build<'_, '_> {
         let still = |of: NodeId| self.loops.operand(home, of).degree == 0;
         Some(match op {
             Op::Add | Op::Sub => {
-                let squares = match (op, &x.squares, &y.squares) {
-                    (Op::Add, Some(x), Some(y)) => Some([x.as_slice(), y].concat()),
-                    (_, of, None) if y.square.is_none() => of.clone(),
-                    (Op::Add, None, of) if x.square.is_none() => of.clone(),
-                    _ => None,
+                let own = |of: &Coefficients| match of.squares {
+                    Some(_) => of.beside,
+                    None => of.low,
+                };
+                let (squares, beside) = match (op, &x.squares, &y.squares) {
+                    (Op::Add, Some(a), Some(b)) => (
+                        Some([a.as_slice(), b].concat()),
+                        self.sum(op, x.beside, y.beside),
+                    ),
+                    (_, of, None) if y.square.is_none() && y.linear.is_none() => {
+                        (of.clone(), self.sum(op, own(&x), y.low))
+                    }
+                    (Op::Add, None, of) if x.square.is_none() && x.linear.is_none() => {
+                        (of.clone(), self.sum(op, x.low, own(&y)))
+                    }
+                    _ => (None, None),
                 };
                 Coefficients {
                     low: self.sum(op, x.low, y.low),
@@ -106,6 +126,7 @@ impl Build<'_, '_> {
                     half: self.sum(op, x.half, y.half),
                     square: self.sum(op, x.square, y.square),
                     squares,
+                    beside,
                 }
             }
             Op::Mul if a == b => Coefficients {
@@ -113,7 +134,8 @@ impl Build<'_, '_> {
                 linear: None,
                 half: self.both(x.low, x.linear),
                 square: self.both(x.linear, x.linear),
-                squares: x.linear.map(|part| vec![part]),
+                squares: x.linear.map(|linear| vec![Line { low: x.low, linear }]),
+                beside: None,
             },
             Op::Mul if still(a) => {
                 let by = x.low?;
@@ -131,7 +153,7 @@ impl Build<'_, '_> {
                     linear: self.sum(Op::Add, one, other),
                     half: None,
                     square: self.both(x.linear, y.linear),
-                    squares: None,
+                    ..Coefficients::default()
                 }
             }
             _ => {
@@ -159,7 +181,10 @@ impl Build<'_, '_> {
         let t = self.made.get(atom.0 as usize).copied().flatten();
         let twice = self.sum(Op::Add, of.half, of.half);
         let linear = self.sum(Op::Add, of.linear, twice);
-        let is_unit = |parts: &Vec<NodeId>| are_parts_of_unit(&|id| self.builder.node(id), parts);
+        let is_unit = |parts: &Vec<Line>| {
+            let slopes: Vec<NodeId> = parts.iter().map(|part| part.linear).collect();
+            are_parts_of_unit(&|id| self.builder.node(id), &slopes)
+        };
         let first = match of.square {
             Some(_) if of.squares.as_ref().is_some_and(is_unit) => t,
             square => self.both(t, square),
@@ -167,5 +192,28 @@ impl Build<'_, '_> {
         let slope = self.sum(Op::Add, first, linear);
         let first = self.both(t, slope);
         self.sum(Op::Add, first, of.low)
+    }
+
+    /// A sum of squares along a direction of length 1 at its atom, from the point on the line
+    /// that is nearest to where all of them are 0.
+    pub fn centred(&mut self, of: Coefficients, atom: NodeId) -> Option<NodeId> {
+        let t = self.made.get(atom.0 as usize).copied().flatten();
+        let lines = of.squares?;
+        let mut along = None;
+        for line in &lines {
+            let part = self.both(line.low, Some(line.linear));
+            along = self.sum(Op::Add, along, part);
+        }
+        let mut across = None;
+        for line in &lines {
+            let way = self.both(along, Some(line.linear));
+            let part = self.sum(Op::Sub, line.low, way);
+            let square = self.both(part, part);
+            across = self.sum(Op::Add, across, square);
+        }
+        let from = self.sum(Op::Add, t, along);
+        let square = self.both(from, from);
+        let sum = self.sum(Op::Add, square, across);
+        self.sum(Op::Add, sum, of.beside)
     }
 }
