@@ -42,6 +42,7 @@ use crate::analysis::points::{Points, RECEIVED};
 use crate::analysis::range::{Ranges, Slack, ranges};
 use crate::ir::graph::*;
 use crate::ir::tree::*;
+use rustc_hash::FxHashSet;
 use scales::{cap, wanted};
 use slowlight_routine::scale::{self, Scales, finest, fitting};
 use slowlight_routine::{Format, Op, Range, Routine, Runtime, Type};
@@ -87,7 +88,11 @@ pub(crate) fn placed(
         |expected: &[Option<f64>]| ranges(graph, tree, &Slack::expecting(runtime, expected.into()));
     let mut expected = sampled.ends;
     // Nothing is cut where its format does not end.
-    Points::new(graph, &walk(&expected), runtime, widths).ends(graph, &mut expected, &sampled.all);
+    Points::new((graph, tree), &walk(&expected), runtime, widths).ends(
+        graph,
+        &mut expected,
+        &sampled.all,
+    );
     let mut planned = walk(&expected);
     // What is cut makes what is made of it smaller.
     for _ in 0..ROUNDS {
@@ -98,7 +103,7 @@ pub(crate) fn placed(
         }
         planned = walk(&expected);
     }
-    let points = Points::new(graph, &planned, runtime, widths);
+    let points = Points::new((graph, tree), &planned, runtime, widths);
     let slack = Slack::with_points(runtime, points.clone());
     let found = ranges(graph, tree, &slack);
     (points, found)
@@ -106,11 +111,18 @@ pub(crate) fn placed(
 
 impl Points {
     /// The points that ranges leave room for.
-    pub fn new(graph: &Graph, ranges: &Ranges, runtime: &Runtime, widths: &Widths) -> Points {
+    pub fn new(
+        (graph, tree): (&Graph, &Tree),
+        ranges: &Ranges,
+        runtime: &Runtime,
+        widths: &Widths,
+    ) -> Points {
         let rooms = Rooms::new(graph, ranges, widths);
+        let copies = Copies::of(graph, tree);
         let capped = |id: NodeId| {
             let (bits, own) = (widths.value(id), rooms.of(widths.value(id), id));
             match graph.node(id) {
+                _ if copies.is_copy(id) => own,
                 Node::Apply(op, args) if graph.ty(id) == Type::Real => {
                     own.min(cap(graph, (op, args), (own, bits), rooms.all(bits)))
                 }
@@ -118,8 +130,8 @@ impl Points {
             }
         };
         let mut own: Vec<i8> = graph.ids().map(capped).collect();
-        no_finer(graph, &mut own);
-        read_at_most(graph, widths, &mut own);
+        no_finer(graph, &copies, &mut own);
+        read_at_most(graph, &copies, widths, &mut own);
         for id in graph.ids().filter(|id| graph.ty(*id) != Type::Real) {
             own[id.0 as usize] = 0;
         }
@@ -230,8 +242,9 @@ const ABOVE: f64 = 3.0;
 
 /// Leaves what is one of its operands, or the sum of them, no more bits than the finest of
 /// these has.
-fn no_finer(graph: &Graph, own: &mut [i8]) {
-    for id in graph.ids().filter(|id| graph.ty(*id) == Type::Real) {
+fn no_finer(graph: &Graph, copies: &Copies, own: &mut [i8]) {
+    let computed = |id: &NodeId| graph.ty(*id) == Type::Real && !copies.is_copy(*id);
+    for id in graph.ids().filter(computed) {
         let Node::Apply(op, args) = graph.node(id) else {
             continue;
         };
@@ -245,18 +258,57 @@ fn no_finer(graph: &Graph, own: &mut [i8]) {
     }
 }
 
+/// What statements alone hand on: values that subroutines are given, and those that they leave
+/// behind, each at the node that it is a copy for.
+struct Copies {
+    from: FxHashSet<NodeId>,
+    to: FxHashSet<NodeId>,
+}
+
+impl Copies {
+    fn of(graph: &Graph, tree: &Tree) -> Copies {
+        let mut copies = Copies {
+            from: FxHashSet::default(),
+            to: FxHashSet::default(),
+        };
+        for block in tree.blocks() {
+            walk(block, &mut |statement| {
+                if let Statement::Set {
+                    place: Place::Node(to),
+                    from: Origin::Node(from),
+                } = statement
+                    && !matches!(graph.node(*to), Node::Select { .. } | Node::Tabulated(_))
+                {
+                    copies.from.insert(*from);
+                    copies.to.insert(*to);
+                }
+            });
+        }
+        copies
+    }
+
+    /// Whether a value is not computed where its node says so: what that would be made of is
+    /// computed nowhere.
+    fn is_copy(&self, id: NodeId) -> bool {
+        self.to.contains(&id)
+    }
+}
+
 /// Leaves a value the bits that somebody reads.
-fn read_at_most(graph: &Graph, widths: &Widths, own: &mut [i8]) {
+fn read_at_most(graph: &Graph, copies: &Copies, widths: &Widths, own: &mut [i8]) {
     let bits = widths.most();
     let mut read = vec![scale::FEWEST; graph.nodes.len()];
     let all = graph.loops.iter().flat_map(Loop::roots);
     for id in all.chain(graph.outputs()) {
         read[id.0 as usize] = finest(bits);
     }
+    for id in &copies.from {
+        read[id.0 as usize] = finest(bits);
+    }
     for id in graph.ids().rev() {
         let at = id.0 as usize;
         let set = match graph.node(id) {
-            Node::Lookup { .. } | Node::Received => true,
+            Node::Lookup { .. } | Node::Received | Node::Slot(_) => true,
             Node::Apply(op, _) => scale::given(op, widths.value(id)).is_some(),
             _ => false,
         };
@@ -273,7 +325,7 @@ fn read_at_most(graph: &Graph, widths: &Widths, own: &mut [i8]) {
         } else {
             most
         };
-        for arg in graph.node(id).operands() {
+        for arg in graph.node(id).operands().filter(|_| !copies.is_copy(id)) {
             let read = &mut read[arg.0 as usize];
             *read = (*read).max(most);
         }

@@ -113,6 +113,36 @@ fn some_reals_are_bytes_where_few_inks_change_for_that() {
     assert_eq!(computed_in(&plans[1], [8, 16])[0], 0);
 }
 
+/// What is computed in subroutines, and what they are given and leave, has the bits that it had
+/// where it stood.
+#[test]
+fn what_subroutines_are_given_and_leave_keeps_its_bits() {
+    let balls: Vec<String> = (0..10)
+        .map(|k| {
+            let [x, y, z] = [0.7, 0.5, 0.9].map(|by| (f64::from(k) * by) % 1.6 - 0.8);
+            format!("sphere(({x:.2}, {y:.2}, {z:.2}), 0.{})", 20 + k)
+        })
+        .collect();
+    let all = balls[1..].iter().fold(balls[0].clone(), |all, ball| {
+        format!("smooth_union({all}, {ball}, 0.3)")
+    });
+    let text = format!(
+        "image 160 x 120 inks black, grey, white;
+         scene world {{ {all} is 0.9; }}
+         draw (x, y) = {{
+           let r = pinhole((0, 1, 4), at: (0, 0, 0), field: 40deg).through(x, y);
+           let v = if let h = world.march(r, steps: 40, near: 0.01, far: 9)
+             then h.tag * lambert(h, (0.48, 0.64, 0.6)) else 0.1;
+           threshold(v, bayer(4)[x mod 4, y mod 4])
+         }};"
+    );
+    let plain = planned_with(&text, &mos6502::PLAIN_FIXED16, &Options::default(), WIDE);
+    let called = plain.outlined(&|_| None).unwrap();
+    let [plain, called] = [&plain, &called].map(off);
+    println!("{plain} {called}");
+    assert!(called <= 2 * plain + 20, "{called} {plain}");
+}
+
 /// An edited program is the one that would be made for the edited param.
 #[test]
 fn widths_are_those_of_the_scene_whatever_its_params_are_set_to() {
