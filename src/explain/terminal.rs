@@ -241,3 +241,14 @@ fn errors(found: &Explained) -> String {
         count(errors.differ as u64)
     )
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn no_share_of_an_error_is_below_nothing() {
+        let told = [0.25, 0.0, -0.000_01, -1.097].map(error);
+        assert_eq!(told, ["25.0%", "0.0%", "0.0%", "cancels"]);
+    }
+}

@@ -38,7 +38,7 @@ fn warning(plan: &Plan, found: &Found, f: &Fragile) -> Diagnostic {
     let share = share(f.pixels, found.looked);
     // A call of the library's stands for what that computes.
     let here = match graph.span(f.node).called() {
-        Some(_) => "in what the library computes here",
+        Some(_) => "here, in the library's code",
         None => "here",
     };
     let (message, help) = match f.weakness {
