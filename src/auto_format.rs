@@ -10,7 +10,7 @@
 //! has its turn, and also where a program that had to be made small for its machine is slower
 //! than the next one is without a search, and where the next one is nearly as quick without a
 //! search: the quicker program of both is taken. One whose program is half as large again as what
-//! the machine has for it in any mode is left out. Where one does not fit in the end, larger ones
+//! the machine has for it in any mode is left out, unless nothing else is within the goal. Where one does not fit in the end, larger ones
 //! are not tried, but for the machine's first format.
 //!
 //! The whole picture is looked at, whatever rows are asked for: a format is chosen for a scene.
@@ -21,14 +21,18 @@
 //! no slower than fixed point in 16 bits, the wider ones are not: they take longer.
 
 mod candidates;
+mod said;
 
 use crate::estimate;
 use crate::failure::{Failure, Outcome};
+use crate::need::Need;
 use crate::scene::Scene;
 use crate::target_args::ScreenArgs;
 use candidates::{
     Candidate, candidates, expected, is_finer, is_log, is_short, least_of_wider, sort,
 };
+use said::Others;
+pub use said::Why;
 use slowlight_compiler::planner::PlannedScene;
 use slowlight_compiler::targets::{Target, formats};
 use slowlight_routine::{Format, Op, Runtime};
@@ -48,31 +52,10 @@ impl Chosen {
     /// The plan; why it is in its format is said on standard error.
     pub fn said(self) -> PlannedScene {
         if let Some(why) = self.why {
-            let percent = |share: f64| format!("{}%", (share * 1000.0).round() / 10.0);
-            let (wrong, goal) = (percent(why.expected), percent(why.goal));
-            let kept = match why.expected <= why.goal {
-                true => format!("about {wrong} of the pixels are wrong, of the {goal} that may be"),
-                false => format!(
-                    "about {wrong} of the pixels are wrong, more than the {goal} that may be: none \
-                     that was tried is nearer"
-                ),
-            };
-            eprintln!(
-                "note: format {}: {kept} (--error, --goal; --format for another)",
-                self.plan.runtime.format,
-            );
+            eprintln!("note: {}", why.text(&self.plan));
         }
         self.plan
     }
-}
-
-/// What a choice was made by.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Why {
-    /// The share of the picture's pixels that may be wrong.
-    pub goal: f64,
-    /// The share that is expected to be, by a sample of the plan's own.
-    pub expected: f64,
 }
 
 /// A plan within the goal: the cycles of its program, and of that without a search.
@@ -147,13 +130,25 @@ fn quickest(
         all.partition(|t| is_short(t.runtime.real));
     let (mut finer, short): (Vec<&'static Target>, Vec<_>) =
         short.into_iter().partition(|t| is_finer(t.runtime.real));
-    let mut known = candidates(screen, scene, &short, goal);
+    // Those whose programs are too large, as far as nobody looked closer.
+    let mut left: Vec<Candidate> = Vec::new();
+    let mut others = Others::default();
+    let mut known = candidates(screen, scene, &short, goal, &mut left);
     // Within the goal the quickest, else the nearest to it.
     let mut best: Option<(Chosen, f64)> = None;
     let mut kept: Option<Kept> = None;
     let (mut tries, mut too_large) = (0, 0);
     let is_first = |one: &Candidate| one.target.runtime.format == target.runtime.format;
-    while tries < TRIES {
+    loop {
+        if tries == TRIES || known.is_empty() && best.is_some() {
+            // Where all that is within the goal is too large at first sight, one is looked at
+            // closer: written smaller, if slower, it may fit.
+            left.sort_by_key(Candidate::size);
+            if kept.is_some() || best.is_none() || too_large > 0 || left.is_empty() {
+                break;
+            }
+            (known, tries) = (vec![left.remove(0)], TRIES - 1);
+        }
         // Logarithms with a bit more are only looked for where those without are quick and wrong.
         let worth = |first: &Candidate| {
             let (far, none) = (!first.may(goal), tries > 0);
@@ -161,13 +156,15 @@ fn quickest(
             none || known.iter().any(sooner)
         };
         if !finer.is_empty() && kept.is_none() && known.first().is_some_and(worth) {
-            known.extend(candidates(screen, scene, &std::mem::take(&mut finer), goal));
+            let more = std::mem::take(&mut finer);
+            known.extend(candidates(screen, scene, &more, goal, &mut left));
             sort(&mut known, goal);
         }
         let enough =
             |one: &Candidate| tries == 0 && one.may(goal) && one.cycles <= least_of_wider(&known);
         if !long.is_empty() && kept.is_none() && !known.first().is_some_and(enough) {
-            known.extend(candidates(screen, scene, &std::mem::take(&mut long), goal));
+            let more = std::mem::take(&mut long);
+            known.extend(candidates(screen, scene, &more, goal, &mut left));
             sort(&mut known, goal);
         }
         // The last try is for the surest.
@@ -189,11 +186,15 @@ fn quickest(
         tries += 1;
         let format = screen.in_format_of(candidate.target);
         let plan = match format.plan(scene, target, &[]) {
-            // To find that out takes longest.
-            Err(Failure::Wrong(_)) if too_large > 0 => break,
-            Err(Failure::Wrong(_)) => {
+            Err(Failure::Wrong(said)) => {
+                others.does_not_fit(candidate.target.runtime.format, &said);
+                // To find that out takes longest.
+                if too_large > 0 {
+                    break;
+                }
                 too_large += 1;
-                known.retain(|one| one.size < candidate.size || is_first(one));
+                let larger = |one: &mut Candidate| one.size() >= candidate.size() && !is_first(one);
+                left.extend(known.extract_if(.., larger));
                 continue;
             }
             Err(Failure::Scene(_)) => continue,
@@ -203,10 +204,20 @@ fn quickest(
         whole.rows = candidate.rows;
         // Where too little of it was seen, as the plan without a search has it.
         let expected = expected(scene, &whole, goal).unwrap_or(candidate.wrong);
+        others.seen.push(candidate.seen(expected));
+        let why = |expected| Why {
+            goal,
+            expected,
+            unsearched: match candidate.cycles.is_finite() {
+                true => candidate.cycles,
+                false => estimate::cycles(&whole),
+            },
+            others: Others::default(),
+        };
         let close = |next: &Candidate| next.may(goal) && next.is_close(candidate.cycles);
         let sure = !plan.is_made_small() && !known.first().is_some_and(close);
         if expected <= goal && kept.is_none() && sure {
-            let why = Some(Why { goal, expected });
+            let why = Some(why(expected));
             return Ok(Some(Chosen { plan, why }));
         }
         let now = Kept {
@@ -223,10 +234,31 @@ fn quickest(
             (None, false) => best.as_ref().is_none_or(|(_, least)| expected < *least),
         };
         if better {
-            let why = Some(Why { goal, expected });
+            let why = Some(why(expected));
             best = Some((Chosen { plan, why }, expected));
             kept = (expected <= goal).then_some(now).or(kept);
         }
     }
-    Ok(best.map(|(chosen, _)| chosen))
+    let drafted = known.iter().filter(|one| one.cycles.is_finite());
+    others.seen.extend(drafted.map(|one| one.seen(one.wrong)));
+    for one in &left {
+        let need = one.need.as_ref().filter(|need| !need.fits());
+        let tries = one.target.runtime.format;
+        let at_sight = |need: &Need| {
+            format!(
+                "{} at first sight (--format {tries} looks closer)",
+                need.short()
+            )
+        };
+        let text = need.map(at_sight);
+        others
+            .large
+            .extend(text.map(|text| (one.target.runtime.format, text)));
+    }
+    Ok(best.map(|(mut chosen, _)| {
+        if let Some(why) = &mut chosen.why {
+            why.others = others;
+        }
+        chosen
+    }))
 }

@@ -375,7 +375,7 @@ pub fn with_disc(plan: PlannedScene) -> Outcome<PlannedScene> {
 }
 
 /// What makes a program smaller.
-fn help(plan: &PlannedScene) -> String {
+pub fn help(plan: &PlannedScene) -> String {
     let mut ways = Vec::new();
     let effects: Vec<&str> = plan.graph.effects.iter().map(|e| e.name.as_str()).collect();
     if !effects.is_empty() {

@@ -1,10 +1,12 @@
-//! What is said where a screen has fewer inks than the scene's ink numbers need.
+//! What is said where a screen has fewer inks than the scene's ink numbers need, or a machine
+//! shorter ints.
 
 use crate::draw::Window;
 use crate::failure::Outcome;
 use crate::format::count;
 use crate::scene::{Precision, Scene};
 use slowlight_compiler::plan::Plan;
+use slowlight_compiler::report::domain;
 use slowlight_compiler::report::inks::{Beyond, beyond};
 use slowlight_compiler::source::Diagnostic;
 use std::collections::BTreeMap;
@@ -64,13 +66,18 @@ pub fn warnings(scene: &Scene, screens: &[Screen], window: Window) -> Outcome<Ve
     Ok(said)
 }
 
-/// Says on standard error what the screen of a plan clips.
+/// Says on standard error what the screen of a plan clips, and where its machine's ints do.
 ///
 /// # Errors
 /// As for [`warnings`].
 pub fn warn(scene: &Scene, plan: &Plan) -> Outcome<()> {
     let screen = (plan.target.name.to_owned(), Some(plan.mode.inks));
-    let said = warnings(scene, &[screen], Window::on_screen(plan))?;
+    let mut said = warnings(scene, &[screen], Window::on_screen(plan))?;
+    if plan.target.runtime.int.bits() < 32 {
+        let graph = scene.graph(Some(plan.mode.inks), Precision::NATIVE)?;
+        let sources = &scene.checked.sources;
+        said.extend(domain::int_warning(&graph, sources, plan.target));
+    }
     crate::diagnostics::print(&scene.checked.sources, &said);
     Ok(())
 }

@@ -152,7 +152,18 @@ impl Need {
         })
     }
 
-    /// `6,120 of 5,888 bytes, 232 too many (program 5,300, ..)`.
+    /// `6,120 of 5,888 bytes, 232 too many`.
+    pub fn short(&self) -> String {
+        format!(
+            "{} of {} {}, {} too many",
+            count(self.total()),
+            count(self.room),
+            self.unit,
+            count(self.total().saturating_sub(self.room)),
+        )
+    }
+
+    /// The same with its parts: `.. (program 5,300, ..)`.
     pub fn text(&self) -> String {
         let parts = self.parts.iter().filter(|(_, size)| *size > 0);
         let parts: Vec<String> = parts.map(|(n, s)| format!("{n} {}", count(*s))).collect();
@@ -160,14 +171,7 @@ impl Need {
             Some((name, size)) => format!("; largest: {name}, {}", count(*size)),
             None => String::new(),
         };
-        format!(
-            "{} of {} {}, {} too many ({}{largest})",
-            count(self.total()),
-            count(self.room),
-            self.unit,
-            count(self.total().saturating_sub(self.room)),
-            parts.join(", ")
-        )
+        format!("{} ({}{largest})", self.short(), parts.join(", "))
     }
 }
 

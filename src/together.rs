@@ -36,7 +36,8 @@ fn join(known: &mut Diagnostic, next: Diagnostic) {
 /// Adds a part behind a semicolon, unless it is there but for its figures.
 fn add(text: &mut String, part: &str) {
     let plain = |t: &str| t.replace(|c: char| c.is_ascii_digit() || c == '.', "");
-    let there = text.split("; ").any(|p| plain(p) == plain(part));
+    // What is there may have semicolons of its own.
+    let there = format!("; {}; ", plain(text)).contains(&format!("; {}; ", plain(part)));
     if part.is_empty() || there {
         return;
     }
@@ -60,15 +61,18 @@ mod tests {
             said("in f316 2 of 13 bits are left", "rearrange"),
             said("in real40 3 of 32 bits are left", "rearrange"),
             elsewhere.clone(),
-            said("a tie on 6.2 %", "move the eye"),
-            said("a tie on 6.4 %", "move the eye"),
+            said("a tie on 6.2 %", "it counts as 0; move the eye"),
+            said("a tie on 6.4 %", "it counts as 0; move the eye"),
         ]);
         assert_eq!(all.len(), 2);
         assert_eq!(
             all[0].message,
             "in f316 2 of 13 bits are left; in real40 3 of 32 bits are left; a tie on 6.2 %"
         );
-        assert_eq!(all[0].help.as_deref(), Some("rearrange; move the eye"));
+        assert_eq!(
+            all[0].help.as_deref(),
+            Some("rearrange; it counts as 0; move the eye")
+        );
         assert_eq!(all[1], elsewhere);
     }
 }

@@ -261,9 +261,18 @@ impl Trial {
         self.run.cycles as f64 / hertz
     }
 
-    /// Cycles a pixel.
+    /// Pixels that the program ran: where errors are spread, those of all rows above, too.
+    pub fn pixels_run(&self) -> u64 {
+        let window = self.native.window;
+        match self.plan.error_rows() {
+            Some(_) => u64::from(window.rows.1 + 1) * u64::from(window.width()),
+            None => self.pixels(),
+        }
+    }
+
+    /// Cycles a pixel, of those that were run.
     pub fn cycles_per_pixel(&self) -> f64 {
-        self.run.cycles as f64 / self.pixels().max(1) as f64
+        self.run.cycles as f64 / self.pixels_run().max(1) as f64
     }
 
     /// What `run --json` prints.

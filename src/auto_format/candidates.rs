@@ -50,13 +50,23 @@ pub(super) struct Candidate {
     pub target: &'static Target,
     /// Of the picture, first and last, that the screen shows.
     pub rows: (u32, u32),
-    /// What its program takes of the machine.
-    pub size: u64,
+    /// What its program takes of the machine, in the mode with most room.
+    pub need: Option<Need>,
     pub cycles: f64,
     pub wrong: f64,
 }
 
 impl Candidate {
+    /// How large its program is.
+    pub fn size(&self) -> u64 {
+        self.need.as_ref().map_or(0, Need::total)
+    }
+
+    /// Its format, what it takes without a search, and its pixels wrong.
+    pub fn seen(&self, wrong: f64) -> (&'static str, f64, f64) {
+        (self.target.runtime.format, self.cycles, wrong)
+    }
+
     /// Whether its plan may be within the goal.
     pub fn may(&self, goal: f64) -> bool {
         self.wrong <= DOUBT * goal
@@ -92,12 +102,13 @@ pub(super) fn least_of_wider(candidates: &[Candidate]) -> f64 {
 }
 
 /// Of these formats those that a scene compiles for, in which its program is not by far too
-/// large, and of which something is known: sorted.
+/// large, and of which something is known: sorted. Those too large are in `left`.
 pub(super) fn candidates(
     screen: &ScreenArgs,
     scene: &Scene,
     formats: &[&'static Target],
     goal: f64,
+    left: &mut Vec<Candidate>,
 ) -> Vec<Candidate> {
     let (_waiting, _blind) = (Waiting::new("formats"), interrupt::blind());
     let sampled = |&target: &&'static Target| {
@@ -108,23 +119,39 @@ pub(super) fn candidates(
         // Another mode may leave it more.
         let rooms = modes.iter().filter_map(|mode| need::room_in(&plan, *mode));
         let room = rooms.max().unwrap_or_default();
-        let near = |need: &Need| need.is_near() || need.in_room(room).is_near();
-        need.as_ref().is_none_or(near).then(|| {
-            let seen = estimate::sampled(&plan, CANDIDATE.0, CANDIDATE.1);
-            (plan, need.map_or(0, |need| need.total()), seen)
-        })
+        let roomy = need.as_ref().map(|need| need.in_room(room));
+        let near = need.iter().chain(&roomy).any(Need::is_near);
+        if need.is_some() && !near {
+            return Some(Err(Candidate {
+                target: plan.target,
+                rows: plan.rows,
+                need: roomy,
+                cycles: f64::INFINITY,
+                wrong: 1.0,
+            }));
+        }
+        let seen = estimate::sampled(&plan, CANDIDATE.0, CANDIDATE.1);
+        Some(Ok((plan, roomy, seen)))
     };
-    let all: Vec<(PlannedScene, u64, Sampled)> = formats.par_iter().filter_map(sampled).collect();
+    type Seen = (PlannedScene, Option<Need>, Sampled);
+    let looked: Vec<Result<Seen, _>> = formats.par_iter().filter_map(sampled).collect();
+    let mut all = Vec::new();
+    for one in looked {
+        match one {
+            Ok(seen) => all.push(seen),
+            Err(large) => left.push(large),
+        }
+    }
     // All look at the same pixels, as far as they come.
     let longest = all.iter().max_by_key(|(.., seen)| seen.inks.len());
     let native = longest.map_or(Vec::new(), |(plan, _, seen)| {
         native(scene, plan, &seen.inks)
     });
-    let candidate = |(plan, size, seen): &(PlannedScene, u64, Sampled)| {
+    let candidate = |(plan, need, seen): &Seen| {
         Some(Candidate {
             target: plan.target,
             rows: plan.rows,
-            size: *size,
+            need: need.clone(),
             cycles: seen.cycles(),
             wrong: unlike((&seen.inks, seen.of), &native)?,
         })

@@ -149,6 +149,9 @@ fn check(args: &Args, of: &Path) -> Outcome<()> {
         let fared = precise::look(&scene, &targets)?;
         let mut said = zero;
         said.extend(beyond);
+        said.extend(domain::clamped(&graph, &scene.checked.sources));
+        let narrow = targets.iter().find(|t| t.runtime.int.bits() < 32);
+        said.extend(narrow.and_then(|t| domain::int_warning(&graph, &scene.checked.sources, t)));
         // Of machines that are asked for: most scenes are not for all.
         if !args.target.is_empty() {
             said.extend(colours::warnings(&scene, &targets));

@@ -171,6 +171,13 @@ fn report(trial: &Trial, others: &[(String, u64)]) -> String {
     let mut rows: Vec<Vec<String>> = Vec::new();
     let mut row = |what: &str, text: String| rows.push(vec![format!("  {what}"), text]);
     row("cycles", count(trial.run.cycles));
+    if trial.pixels_run() > trial.pixels() {
+        let run = count(trial.pixels_run());
+        row(
+            "pixels run",
+            format!("{run}, as errors come from all rows above"),
+        );
+    }
     row("cycles a pixel", format!("{:.1}", trial.cycles_per_pixel()));
     if let Some(plot) = trial.run.plot_cycles {
         row("cycles of drawing", count(plot));

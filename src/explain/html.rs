@@ -1,7 +1,7 @@
 //! A profile as one page of HTML: no scripts, no network, nothing beside it.
 
 use super::Explained;
-use super::terminal::{percent, rate};
+use super::terminal::{error, percent, rate};
 use crate::draw::Window;
 use crate::format::count;
 use crate::sheet::{escaped, marked};
@@ -58,7 +58,7 @@ fn columns(found: &Explained) -> [(&'static str, String); 8] {
         (
             "error",
             plain(
-                "the share of the mean square error that goes where this line's values are in 64-bit floating point",
+                "the share of the mean square error that goes where this line's values are in 64-bit floating point; `cancels` where it grows",
             ),
         ),
         ("rate", plain(per_turn)),
@@ -141,9 +141,7 @@ fn row(
         return;
     };
     let heat = 100.0 * line.cycles as f64 / most.max(1) as f64;
-    let error = found
-        .error(line)
-        .map_or(String::new(), |e| percent(e.share));
+    let error = found.error(line).map_or(String::new(), |e| error(e.share));
     let _ = write!(
         out,
         "<tr><td>{}<td data-name=\"{}\">{}<td data-name=\"runs\">{}<td data-name=\"{}\">{}\

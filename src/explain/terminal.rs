@@ -98,9 +98,7 @@ fn cells(
         count(line.cycles),
         count(line.executions),
         count(line.size),
-        found
-            .error(line)
-            .map_or(String::new(), |e| percent(e.share)),
+        found.error(line).map_or(String::new(), |e| error(e.share)),
         rate(line),
     ])
 }
@@ -108,6 +106,15 @@ fn cells(
 /// A share in percent.
 pub fn percent(share: f64) -> String {
     format!("{:.1}%", 100.0 * share)
+}
+
+/// A line's share of the error, in percent; a word where the error is no smaller without it,
+/// as errors cancel.
+pub fn error(share: f64) -> String {
+    match share < -0.0005 {
+        true => "cancels".to_owned(),
+        false => percent(share.max(0.0)),
+    }
 }
 
 /// What a line's values depend on, in a word or two.
@@ -233,4 +240,15 @@ fn errors(found: &Explained) -> String {
         errors.rmse,
         count(errors.differ as u64)
     )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn no_share_of_an_error_is_below_nothing() {
+        let told = [0.25, 0.0, -0.000_01, -1.097].map(error);
+        assert_eq!(told, ["25.0%", "0.0%", "0.0%", "cancels"]);
+    }
 }

@@ -31,6 +31,19 @@ const ORBIT: &str = "image 64 x 48 inks black, white;
 const WAVES: &str = "image 64 x 48 inks black, white;
     draw (x, y) = threshold(0.5 + 0.25 * sin(x * 1rad / 7) + 0.25 * sin((y / 5 + x / 11) * 1rad), 0.5);";
 
+/// A surface of degree 6: its normals lose bits.
+const HEART: &str = "image 160 x 128 inks black, red, white;
+    shape heart() {
+      f(p) = { let a = p.x*p.x + 2.25*p.y*p.y + p.z*p.z - 1; a*a*a - p.x*p.x*p.z*p.z*p.z - 0.1125*p.y*p.y*p.z*p.z*p.z };
+      bound = sphere((0,0,0), 1.6);
+    }
+    scene s { heart() is 1; }
+    draw (x, y) = {
+      let r = ray((0, -4, 0.2), unit(((x - 79.5) / 80, 1.5, (63.5 - y) / 80)));
+      let v = if let h = s.trace(r, far: 20) then 0.1 + 0.9 * lambert(h, (0.48, -0.8, 0.36)) else 0;
+      threshold(v, bayer(4)[x mod 4, y mod 4])
+    };";
+
 const SCENES: [(&str, &str); 3] = [
     ("ball.scn", BALL),
     ("orbit.scn", ORBIT),
@@ -105,6 +118,40 @@ fn the_error_that_is_allowed_decides() {
     assert!(cycles(&any) < cycles(&exact), "{any} {exact}");
     assert_ne!(any["format"], exact["format"]);
     assert_eq!(run(&["--goal", "balanced"]), usual);
+}
+
+#[test]
+fn a_format_that_is_much_quicker_and_hardly_worse_is_named() {
+    let dir = directory(&[("heart.scn", HEART)]);
+    let args = ["build", "heart.scn", "-t", "6502:plain", "-o", "out"];
+    let output = slowlight(dir.path(), &[&args[..], &["--error", "0.3%"]].concat());
+    let said = String::from_utf8_lossy(&output.stderr);
+    assert!(said.contains("none that was tried is nearer"), "{said}");
+    assert!(said.contains("log10 is about 7.0 times as quick"), "{said}");
+    assert!(said.contains("--format log10, or --error 1%"), "{said}");
+}
+
+/// An orbit whose fine parts count, and so many formulas that without a search only the shortest
+/// format is not too large for the machine.
+#[test]
+fn what_is_too_large_at_first_sight_is_looked_at_where_nothing_else_is_within_the_goal() {
+    let sum: Vec<String> = (0..22)
+        .map(|k| {
+            format!(
+                "+ sqrt(c * {k}.3 + v) / (1 + {k} * v * v + {}.7 * c * v)",
+                k + 1
+            )
+        })
+        .collect();
+    let fine = format!(
+        "threshold((v * 40) mod 1 + 0.0001 * (0.0 {}), 0.5)",
+        sum.join(" ")
+    );
+    let orbit = ORBIT.replace("k >= 7", "k >= 9").replace("max 8", "max 14");
+    let scene = orbit.replace("threshold(v, 0.5)", &fine);
+    let dir = directory(&[("fine.scn", &scene)]);
+    let args = ["build", "fine.scn", "-t", "6502:bbc", "-o", "out", "--json"];
+    assert_eq!(json(dir.path(), &args)["format"], "fixed24");
 }
 
 #[test]

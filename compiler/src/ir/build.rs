@@ -118,6 +118,13 @@ impl Builder {
         matches!(self.node(id), Node::Undefined(_))
     }
 
+    /// A constant that is a node of its own: it stands where it is written, and is not the
+    /// equal one that was written before.
+    pub fn constant_apart(&mut self, value: Value, span: Span) -> NodeId {
+        self.known.remove(&Node::Const(Constant::new(value)));
+        self.constant(value, span)
+    }
+
     /// A constant.
     pub fn constant(&mut self, value: Value, span: Span) -> NodeId {
         let value = match value {

@@ -1,10 +1,12 @@
-//! Divisions whose divisor may be 0, as the scene writes them.
+//! Divisions whose divisor may be 0, and ints that may leave a machine's, as the scene writes
+//! them.
 
 use crate::analysis::range::{Slack, ranges};
 use crate::ir::graph::*;
 use crate::schedule::statements::schedule;
 use crate::source::{Diagnostic, Label, Sources};
-use slowlight_routine::Op;
+use crate::targets::Target;
+use slowlight_routine::{Format, Op, Range};
 use std::collections::BTreeSet;
 
 /// Warnings for what a scene divides by although its range, refined by the
@@ -54,6 +56,96 @@ pub fn warnings(graph: &Graph, sources: &Sources) -> Vec<Diagnostic> {
         }
     }
     said.into_iter().map(|(_, warning)| warning).collect()
+}
+
+/// A warning where sums and products of ints, as the scene writes them, may leave the ints of
+/// a target that has fewer bits than the language; none where it has as many. What follows
+/// from a value that has left them, or that no range was found of, is passed over.
+pub fn int_warning(graph: &Graph, sources: &Sources, target: &Target) -> Option<Diagnostic> {
+    let Format::Int { bits: bits @ ..32 } = target.runtime.int else {
+        return None;
+    };
+    let slack = Slack::exact_with_ints_of(target.runtime);
+    let (lo, hi) = (
+        -f64::from(1u32 << (bits - 1)),
+        f64::from((1u32 << (bits - 1)) - 1),
+    );
+    let found = ranges(graph, &schedule(graph), &slack);
+    let leaves = |range: &Range| range.lo < lo || range.hi > hi;
+    let mut said: Option<Diagnostic> = None;
+    for id in graph.ids() {
+        let Node::Apply(Op::IntAdd | Op::IntSub | Op::IntMul, _) = graph.node(id) else {
+            continue;
+        };
+        let at = id.0 as usize;
+        let (Some(exact), Some(args)) = (found.exact.get(at), found.args.get(at)) else {
+            continue;
+        };
+        let known = |range: &Range| range.lo > lo && range.hi < hi;
+        let span = graph.span(id);
+        let own = sources.files.get(usize::from(span.file));
+        let own = own.is_some_and(|f| !f.library) && span.called().is_none();
+        if !own || !leaves(exact) || !args.iter().all(known) {
+            continue;
+        }
+        said = Some(match said {
+            Some(said) if said.span == span => said,
+            Some(said) => said.also(span, "and here"),
+            None => {
+                let message = format!(
+                    "`{}` {}, and an int of {} has {bits} bits: it stops at {lo} and {hi}",
+                    sources.text(span),
+                    lies(exact.lo, exact.hi),
+                    target.name
+                );
+                let help = "count in reals: `x * 1.0` in the place of an int `x`";
+                Diagnostic::warning(span, message).help(help)
+            }
+        });
+    }
+    said
+}
+
+/// Warnings for tables that are smaller than the picture and have its columns or rows for
+/// indices as they are: all beyond their end is their last entry.
+pub fn clamped(graph: &Graph, sources: &Sources) -> Vec<Diagnostic> {
+    let mut said: Vec<Diagnostic> = Vec::new();
+    let axis = |id: NodeId| match graph.node(id) {
+        Node::Axis(Axis::X) => Some(("x", graph.image.width)),
+        Node::Axis(Axis::Y) => Some(("y", graph.image.height)),
+        _ => None,
+    };
+    for id in graph.ids() {
+        let Node::Lookup { table, column, row } = graph.node(id) else {
+            continue;
+        };
+        let span = graph.span(id);
+        let own = sources.files.get(usize::from(span.file));
+        let own = own.is_some_and(|f| !f.library) && span.called().is_none();
+        let Some(table) = graph.tables.get(table.0 as usize).filter(|_| own) else {
+            continue;
+        };
+        let sides = [
+            (column, table.width, "columns"),
+            (row, table.height, "rows"),
+        ];
+        let short = sides.into_iter().find_map(|(index, side, what)| {
+            let (name, most) = axis(index)?;
+            (most > side && side > 1).then_some((name, most, side, what))
+        });
+        if let Some((name, most, side, what)) = short
+            && said.iter().all(|d| d.span != span)
+        {
+            let message = format!(
+                "this table has {side} {what}, and {name} goes up to {}: all beyond them look \
+                 like the last",
+                most - 1
+            );
+            let help = format!("let it begin again: `{name} mod {side}`");
+            said.push(Diagnostic::warning(span, message).help(help));
+        }
+    }
+    said
 }
 
 /// Where a value lies, as far as that says anything.

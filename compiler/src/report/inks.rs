@@ -107,8 +107,11 @@ mod tests {
             "draw (x, y) = if x < 4 then ink(y div 8) else if y > 3 then ink(2) else ink(1);";
         let (beyond, text) = found(chosen, 2).expect("numbers beyond");
         assert_eq!((beyond.greatest, beyond.pixels), (2, 48));
-        // A number by itself stands where it is written.
-        assert_eq!(text, "2");
+        assert_eq!(text, "ink(2)");
+        // The same number elsewhere is another's.
+        let shared = "draw (x, y) = if x mod 2 + 2 > 2 then ink(2) else ink(1);";
+        let (_, text) = found(shared, 2).expect("numbers beyond");
+        assert_eq!(text, "ink(2)");
         assert!(found(chosen, 3).is_none());
     }
 

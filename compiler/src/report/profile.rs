@@ -136,9 +136,13 @@ pub fn profile(scene: &Scene, plan: &Plan, measured: Measured<'_>) -> Profile {
     let lines = Lines::new(scene);
     let mut found: BTreeMap<Place, Found> = BTreeMap::new();
     let mut made = Profile::default();
+    let draw = scene.program.draw.as_ref().map(|draw| draw.span);
     let span_of = |line: Line| {
         let document = measured.documents.get(line.document)?;
-        document.span(line.line, line.statement)
+        let span = document.span(line.line, line.statement)?;
+        // What a pass made of nothing that is written belongs to the picture as a whole.
+        let nowhere = span.range().is_empty() && span.called().is_none();
+        Some(draw.filter(|_| nowhere).unwrap_or(span))
     };
     let image = scene.program.image.as_ref().map(|image| image.span);
     for cost in measured.costs {

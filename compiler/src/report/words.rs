@@ -36,25 +36,30 @@ fn warning(plan: &Plan, found: &Found, f: &Fragile) -> Diagnostic {
     let graph = &plan.graph;
     let format = plan.runtime.format;
     let share = share(f.pixels, found.looked);
+    // A call of the library's stands for what that computes.
+    let here = match graph.span(f.node).called() {
+        Some(_) => "here, in the library's code",
+        None => "here",
+    };
     let (message, help) = match f.weakness {
         Weakness::Grows => (
-            format!("in {format} {} here, on {share}", lost(plan, f)),
+            format!("in {format} {} {here}, on {share}", lost(plan, f)),
             way_out(graph, f.node),
         ),
         Weakness::Gradual => (
             format!(
-                "in {format} an error has grown bit by bit to {} here, on {share}",
+                "in {format} an error has grown bit by bit to {} {here}, on {share}",
                 units(f.units)
             ),
             "fewer turns of the loop, a shorter chain, or a finer `--format`",
         ),
         Weakness::NoMeaning => (
-            format!("0/0 here, on {share}"),
+            format!("0/0 {here}, on {share}"),
             "it counts as 0; choose another way where both are 0",
         ),
         Weakness::Coarse => (
             format!(
-                "in {format} neighbouring values are {:.2} apart here, on {share}: too far for whole steps",
+                "in {format} neighbouring values are {:.2} apart {here}, on {share}: too far for whole steps",
                 f.units
             ),
             "fade to the mean colour before that distance, or choose a finer `--format`",
@@ -65,7 +70,7 @@ fn warning(plan: &Plan, found: &Found, f: &Fragile) -> Diagnostic {
         ),
         Weakness::Close => (
             format!(
-                "in {format} the border is too close here, on {share}: the exact value lies within {} of it",
+                "in {format} the border is too close {here}, on {share}: the exact value lies within {} of it",
                 units(f.units.ceil())
             ),
             "keep clear of the border by several `epsilon` of the largest value, or choose a finer `--format`",

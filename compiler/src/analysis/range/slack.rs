@@ -61,6 +61,14 @@ impl Slack {
         }
     }
 
+    /// The same with ints that saturate where a runtime's do.
+    pub fn exact_with_ints_of(runtime: &Runtime) -> Slack {
+        Slack {
+            ints: Slack::of(runtime).ints,
+            ..Slack::exact()
+        }
+    }
+
     /// Exact reals, which are expected to stay within some magnitudes: for planning where
     /// their points shall be.
     pub fn expecting(runtime: &Runtime, expected: Vec<Option<f64>>) -> Slack {

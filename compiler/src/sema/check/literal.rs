@@ -49,7 +49,13 @@ impl Checker<'_> {
                     let mut error = Diagnostic::error(ink.span, error);
                     error.help = self
                         .among(&ink.text, COLOURS.iter().map(|c| c.0))
-                        .or_else(|| Some("use a name such as `red`, `#rrggbb` or `#rgb`".into()));
+                        .or_else(|| {
+                            let names: Vec<&str> = COLOURS.iter().map(|c| c.0).collect();
+                            Some(format!(
+                                "use `#rrggbb`, `#rgb`, or one of: {}",
+                                names.join(", ")
+                            ))
+                        });
                     self.report(error);
                     palette.push([0, 0, 0]);
                 }

@@ -60,6 +60,55 @@ pub(super) const KNOWN: [(&str, Known); 8] = [
     ("samples", Known::Samples),
 ];
 
+/// Functions that other languages have, and what stands for them in this one.
+const FOREIGN: [(&[&str], &str); 18] = [
+    (&["fract", "frac"], "write `a mod 1`"),
+    (&["fmod", "modulo", "rem"], "write `a mod b`"),
+    (&["pow"], "write `a ^ b`"),
+    (&["sqr", "square"], "write `a ^ 2`"),
+    (
+        &["normalize", "normalise", "normalized"],
+        "did you mean `unit`?",
+    ),
+    (&["norm", "magnitude", "len"], "did you mean `length`?"),
+    (&["distance"], "write `length(a - b)`"),
+    (&["lerp"], "did you mean `mix`?"),
+    (&["saturate"], "write `clamp(a, 0, 1)`"),
+    (&["step"], "write `if a < edge then 0 else 1`"),
+    (&["xor"], "two bools differ where `a != b`"),
+    (
+        &["bool"],
+        "a number is no bool: write a comparison, `a != 0`",
+    ),
+    (
+        &["int", "trunc"],
+        "an int is made by `floor(a)`, `round(a)` or `ceil(a)`",
+    ),
+    (
+        &["real", "float"],
+        "an int is a real wherever one is wanted; `a * 1.0` is one",
+    ),
+    (&["ln"], "did you mean `log`?"),
+    (
+        &["log10", "log2"],
+        "write `log(a) / log(10)`, and so on: `log` is the natural one",
+    ),
+    (
+        &["rand", "random"],
+        "there is no chance: `hash(x, y)` or `white_noise(x, y)` look like it",
+    ),
+    (
+        &["radians", "degrees"],
+        "angles carry their unit: `a * 1deg`, `angle / 1deg`",
+    ),
+];
+
+/// What stands for a function of other languages.
+fn foreign(name: &str) -> Option<&'static str> {
+    let found = FOREIGN.iter().find(|(names, _)| names.contains(&name));
+    found.map(|(_, help)| *help)
+}
+
 /// The library's names and the user's, sorted so that suggestions never vary.
 #[derive(Default)]
 pub(super) struct Layers {
@@ -160,6 +209,9 @@ impl Checker<'_> {
             error.message = format!("`{name}` is a {}, it cannot be called", entity.kind());
         } else if self.find_local(name).is_some() {
             error.message = format!("`{name}` is a value, it cannot be called");
+        } else if let Some(help) = foreign(name) {
+            error.message = format!("no function `{name}`");
+            error = error.help(help);
         } else if let Some((close, _)) = close {
             error = error.help(format!("did you mean `{close}`?"));
         }

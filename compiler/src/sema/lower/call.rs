@@ -174,7 +174,14 @@ impl<'a> Lower<'a> {
                 let last = self.int(last, span);
                 let least = self.int(0, span);
                 let below = self.apply(Op::IntMin, &[i, last], span)?;
-                Ok(Val::Node(self.apply(Op::IntMax, &[below, least], span)?))
+                let ink = self.apply(Op::IntMax, &[below, least], span)?;
+                // Who looks for ink numbers wants the place of each.
+                Ok(Val::Node(match self.b.value(ink) {
+                    Some(value) if self.options.all_inks => {
+                        self.b.constant_apart(value, self.at(span))
+                    }
+                    _ => ink,
+                }))
             }
             Builtin::Early => {
                 let c = self.node(value, &first.ty, span)?;

@@ -11,6 +11,10 @@ impl Spot<'_> {
         let gap = |what: &str| Diagnostic::error(self.gap(), format!("missing `{what}`"));
         let found = self.found();
         let equals = found == Some(Token::Sym("="));
+        if found == Some(Token::Ident("xor")) && self.expects("an operator") {
+            let place = Diagnostic::error(self.place(), "`xor` is no operator of this language");
+            return Some(place.help("two bools differ where `a != b`"));
+        }
         if self.expects("`then`") && !equals && !self.compares() {
             return Some(gap("then").help("an `if` reads `if condition then a else b`"));
         }
@@ -29,7 +33,14 @@ impl Spot<'_> {
             Some(Token::Sym(_)) => false,
             Some(_) => self.on_new_line(),
         };
-        (self.expects("`;`") && ended).then(|| gap(";"))
+        let in_scene = self.item() == "scene" && self.holds(Token::Word("loop"));
+        (self.expects("`;`") && ended).then(|| match in_scene {
+            true => gap(";").help(
+                "a `loop` makes a value, and no members: it stands in a function or in an \
+                 argument; a scene names each of its shapes",
+            ),
+            false => gap(";"),
+        })
     }
 
     fn compares(&self) -> bool {
@@ -122,6 +133,12 @@ impl Spot<'_> {
         }
     }
 
+    /// Whether the item has a token before the place.
+    fn holds(&self, token: Token<'_>) -> bool {
+        let before = self.tokens.get(..self.at).unwrap_or(&[]);
+        before.iter().any(|(one, _)| *one == token)
+    }
+
     /// Whether the place lies before the body of the item.
     fn in_head(&self) -> bool {
         let before = self.tokens.get(..self.at).unwrap_or(&[]);
@@ -153,6 +170,9 @@ impl Spot<'_> {
                 "each member of a scene ends with `;`"
             }
             _ if self.item() == "shape" && self.expects("`=`") => return self.usage(),
+            (_, Some(Token::Word(word @ ("mod" | "div" | "and" | "or")))) if !operator => {
+                return Some(format!("`{word}` stands between two values: `a {word} b`"));
+            }
             (Some(Token::Ident("return")), _) => {
                 "a block's value is its last expression; there is no `return`"
             }
