@@ -2,6 +2,8 @@
 //! they use of the library. Names are resolved (`unit<vec3>` says which of
 //! several), types are written, and widenings stand as `as real`.
 
+mod each;
+
 use super::check::symbol;
 use super::program::*;
 use super::ty::Ty;
@@ -181,31 +183,6 @@ impl Printer<'_> {
         list.join(", ")
     }
 
-    fn member(&self, member: &Member, deep: usize) -> String {
-        let lead = "  ".repeat(deep);
-        match member {
-            Member::One { shape, tag } => {
-                let shape = self.expr(shape, &shape.value, deep);
-                let tag = tag.as_ref().map(|tag| self.expr(tag, &tag.value, deep));
-                let tag = tag.map_or(String::new(), |tag| format!(" is {tag}"));
-                format!("{lead}{shape}{tag}\n")
-            }
-            Member::Each {
-                name,
-                low,
-                high,
-                members,
-                ..
-            } => {
-                let low = self.expr(low, &low.value, deep);
-                let high = self.expr(high, &high.value, deep);
-                let inside = members.iter().map(|m| self.member(m, deep + 1));
-                let inside: String = inside.collect();
-                format!("{lead}each {name} in {low} .. {high} {{\n{inside}{lead}}}\n")
-            }
-        }
-    }
-
     fn callee(&self, body: &Body, callee: &Callee) -> String {
         let p = self.program;
         match callee {
@@ -355,20 +332,7 @@ impl Printer<'_> {
                 let turn = self.expr(body, turn, deep + 1);
                 format!("{head}{}{turn}{}else {}", line(1), line(0), of(otherwise))
             }
-            ExprKind::Each(each) => {
-                let args = match &each.join.kind {
-                    ExprKind::Convert(call) => &call.kind,
-                    call => call,
-                };
-                let joined = match args {
-                    ExprKind::Call { callee, .. } => self.callee(body, callee),
-                    _ => "?".into(),
-                };
-                let (low, high) = (of(&each.low), of(&each.high));
-                let name = self.local(body, each.counter);
-                let made = self.expr(body, &each.body, deep + 1);
-                format!("{joined} each {name} in {low} .. {high}{}{made}", line(1))
-            }
+            ExprKind::Each(each) => self.each(body, each, deep),
             ExprKind::Next(values) => format!("next({})", self.list(body, values, deep)),
             ExprKind::Block { statements, result } => {
                 let mut out = "{".to_owned();

@@ -113,6 +113,8 @@ struct Open {
     indent: usize,
     /// Whether what it closes is whole, as a scene's `each` is.
     is_whole: bool,
+    /// How many lines are above its own.
+    above: usize,
 }
 
 /// The result while it is being laid out.
@@ -209,7 +211,10 @@ impl<'t, 'a> Layout<'t, 'a> {
         } else if self.spaced(at) {
             self.line.text.push(' ');
         }
-        if token == Token::Word("is") {
+        // A whole `each` on one line stands by itself.
+        let is_within =
+            (self.open.last()).is_some_and(|open| open.is_whole && open.above == self.lines.len());
+        if token == Token::Word("is") && !is_within {
             self.line.member = Some(self.line.text.len());
         }
         self.line.text += token.parts().1;
@@ -227,6 +232,7 @@ impl<'t, 'a> Layout<'t, 'a> {
                 self.open.push(Open {
                     indent: self.indent,
                     is_whole,
+                    above: self.lines.len(),
                 });
             }
             _ if closes => ended = self.open.pop().is_some_and(|open| open.is_whole),

@@ -62,6 +62,9 @@ impl Checker<'_> {
                 break;
             }
             let (left, right, join) = self.join(tree, &ty, body.span, span);
+            if join.ty == Ty::Error {
+                break;
+            }
             if join.ty.fits(&ty) {
                 let kind = ExprKind::Each(Box::new(Each {
                     counter: local,
@@ -107,7 +110,19 @@ impl Checker<'_> {
             },
         });
         let args: Vec<tree::Argument> = two.into_iter().chain(tree.args.iter().cloned()).collect();
+        let said = self.diagnostics.len();
         let join = self.call(&tree.name, None, &args, span);
+        let name = &tree.name.text;
+        for error in self.diagnostics.iter_mut().skip(said) {
+            if error
+                .message
+                .starts_with(&format!("`{name}` lacks its argument"))
+            {
+                let help = "what it takes beside the two stands behind its name";
+                let counter = &tree.counter.name.text;
+                error.help = Some(format!("{help}: `{name}(..) each {counter} in ..`"));
+            }
+        }
         self.cx.scopes.truncate(scope);
         (left, right, join)
     }

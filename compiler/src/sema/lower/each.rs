@@ -22,6 +22,26 @@ impl Placed<'_> {
     pub(super) fn locals(&self) -> Vec<Val> {
         numbers(&self.counters)
     }
+
+    /// What is wrong with this copy alone, perhaps.
+    pub(super) fn wrong(&self, error: Box<Diagnostic>) -> Box<Diagnostic> {
+        let names = self.shape.locals.iter().map(|local| local.name.as_str());
+        let counters = names.zip(self.counters.iter().copied());
+        in_copy(error, counters, self.shape.value.span)
+    }
+}
+
+/// Says in which copy something is wrong.
+fn in_copy<'n>(
+    error: Box<Diagnostic>,
+    counters: impl Iterator<Item = (&'n str, i32)>,
+    span: Span,
+) -> Box<Diagnostic> {
+    let all: Vec<String> = counters.map(|(k, n)| format!("`{k}` is {n}")).collect();
+    match all.is_empty() {
+        true => error,
+        false => Box::new(error.also(span, format!("in the copy where {}", all.join(", ")))),
+    }
 }
 
 fn numbers(counters: &[i32]) -> Vec<Val> {
@@ -175,7 +195,11 @@ impl<'a> Lower<'a> {
         self.step(span)?;
         if let &[number] = numbers {
             self.put(each.counter, Val::Number(number));
-            return self.expr(&each.body);
+            let name = self.locals.get(each.counter.0);
+            let name = name.map_or("", |local| local.name.as_str());
+            let counter = std::iter::once((name, number));
+            let made = self.expr(&each.body);
+            return made.map_err(|error| in_copy(error, counter, each.body.span));
         }
         let (left, right) = numbers.split_at(numbers.len().div_ceil(2));
         let (left, right) = (

@@ -36,7 +36,7 @@ impl<'a> Lower<'a> {
                 l.force(value)
             });
             self.place = place;
-            match shape? {
+            match shape.map_err(|error| placed.wrong(error))? {
                 Val::Shape(shape) => found.push(shape),
                 _ => return Err(self.confused(span)),
             }
@@ -142,7 +142,7 @@ impl<'a> Lower<'a> {
         args.extend(placed.locals());
         let value = self.enter(tag, args, |l| l.expr(&tag.value));
         self.place = place;
-        value
+        value.map_err(|error| placed.wrong(error))
     }
 
     /// The nearest hit; the later shape on a tie.

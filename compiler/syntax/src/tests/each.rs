@@ -69,7 +69,7 @@ fn wrong() {
 #[test]
 fn formatted() {
     let messy = "scene w{plane(1)is 1;\neach k in - n..2*n{\nsphere(k)is k+1;\neach j in 0 ..k{a(j)is 2;}\n\
-                 // inside\neach i\nin 0 ..\n9\n{ b(i)\nis 3;\n}\n}\nbox(2) is 4; // behind\n\
+                 // inside\neach i\nin 0 ..\n9\n{ b(i)\nis 3;\n}\n}\neach l in 0 .. 1 { d(l) is 7; }\nbox(2) is 4; // behind\n\
                  union each k in 0 ..9{let a=k;\nsphere(a)\n}\nis 5;\n}\n\
                  const m=max each k in 0..3{k}+1;\nfn f()->shape=\nsmooth_union( 0.2 )each k in 1..3{\nc(k)}\n.moved(1);";
     let once = format::format(messy, 0).unwrap();
