@@ -322,6 +322,11 @@ impl Scene {
         sema::lower(&self.checked.program, &options).map_err(|said| self.wrong(said))
     }
 
+    /// How many shapes the largest of its scenes has.
+    pub fn shapes(&self) -> usize {
+        sema::most_shapes(&self.checked.program, &self.options)
+    }
+
     /// What the source calls at a place: `sphere` where it has `sphere((0, 0, 0), 1)`.
     pub fn called_at(&self, span: Span) -> Option<String> {
         let (path, _) = self.checked.sources.text(span).split_once('(')?;

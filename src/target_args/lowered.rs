@@ -22,12 +22,6 @@ const FULL: f64 = 1.25;
 /// What takes less memory, and longer.
 const LESS: [Instancing; 2] = [Instancing::FewCells, Instancing::Rows];
 
-/// How many shapes the largest of a file's scenes has.
-fn shapes(scene: &Scene) -> usize {
-    let counts = scene.checked.program.scenes.iter().map(|s| s.members.len());
-    counts.max().unwrap_or(0)
-}
-
 impl ScreenArgs {
     /// What of the scene is done with less, or otherwise.
     pub fn limits(&self) -> Limits {
@@ -51,7 +45,7 @@ impl ScreenArgs {
         plan: impl Fn(&ScreenArgs) -> Outcome<PlannedScene>,
     ) -> Outcome<PlannedScene> {
         let first = plan(self);
-        if !matches!(first, Err(Failure::Wrong(_))) || shapes(scene) < INSTANCES {
+        if !matches!(first, Err(Failure::Wrong(_))) || scene.shapes() < INSTANCES {
             return first;
         }
         let less = LESS
@@ -86,7 +80,7 @@ impl ScreenArgs {
         set: &[(String, Vec<f64>)],
     ) -> Outcome<Graph> {
         let limits = self.limits();
-        let most = shapes(scene);
+        let most = scene.shapes();
         let lower = |instancing, set: &[(String, Vec<f64>)]| {
             let ways = Ways {
                 instancing,

@@ -135,12 +135,31 @@ pub enum ExprKind {
         body: Box<Expr>,
         otherwise: Box<Expr>,
     },
+    /// `union each k in 0 .. 9 { .. }`
+    Each(Box<Each>),
     /// Values for the innermost loop's carried locals.
     Next(Vec<Expr>),
     Block {
         statements: Vec<Statement>,
         result: Box<Expr>,
     },
+}
+
+/// `union each k in low .. high { body }`
+#[derive(Clone, Debug, PartialEq)]
+pub struct Each {
+    /// What is counted; an int.
+    pub counter: LocalId,
+    /// Its first number, and its last.
+    pub low: Expr,
+    pub high: Expr,
+    /// What is made for each number.
+    pub body: Expr,
+    /// Two of these, of the body's type.
+    pub left: LocalId,
+    pub right: LocalId,
+    /// Both joined, of the same type.
+    pub join: Expr,
 }
 
 impl Expr {

@@ -23,6 +23,8 @@ mod tests;
 
 pub use builtins::Builtin;
 pub use check::{check, tidy};
-pub use lower::{Freeze, INSTANCES, Instancing, Millionths, Options, Search, Ways, lower, params};
+pub use lower::{
+    Freeze, INSTANCES, Instancing, Millionths, Options, Search, Ways, lower, most_shapes, params,
+};
 pub use program::*;
 pub use ty::Ty;

@@ -2,6 +2,8 @@
 //! they use of the library. Names are resolved (`unit<vec3>` says which of
 //! several), types are written, and widenings stand as `as real`.
 
+mod each;
+
 use super::check::symbol;
 use super::program::*;
 use super::ty::Ty;
@@ -69,15 +71,7 @@ impl fmt::Display for Program {
         for scene in &self.scenes {
             writeln!(f, "scene {} {{", scene.name)?;
             for member in &scene.members {
-                write!(
-                    f,
-                    "  {}",
-                    printer.expr(&member.shape, &member.shape.value, 1)
-                )?;
-                match &member.tag {
-                    Some(tag) => writeln!(f, " is {}", printer.expr(tag, &tag.value, 1))?,
-                    None => writeln!(f)?,
-                }
+                f.write_str(&printer.member(member, 1))?;
             }
             writeln!(f, "}}")?;
         }
@@ -338,6 +332,7 @@ impl Printer<'_> {
                 let turn = self.expr(body, turn, deep + 1);
                 format!("{head}{}{turn}{}else {}", line(1), line(0), of(otherwise))
             }
+            ExprKind::Each(each) => self.each(body, each, deep),
             ExprKind::Next(values) => format!("next({})", self.list(body, values, deep)),
             ExprKind::Block { statements, result } => {
                 let mut out = "{".to_owned();

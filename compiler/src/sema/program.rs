@@ -158,11 +158,18 @@ pub struct Shape {
 
 /// A member of a scene.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Member {
-    /// The shape; its frame is empty at the start.
-    pub shape: Body,
-    /// The tag; local 0 is `p`, the point hit.
-    pub tag: Option<Body>,
+pub enum Member {
+    /// A shape; its first locals are the counters of the `each`s around it. The tag's are `p`,
+    /// the point hit, and then these.
+    One { shape: Body, tag: Option<Body> },
+    /// `each k in low .. high { .. }`; the first locals of the bounds are the counters around it.
+    Each {
+        name: String,
+        low: Body,
+        high: Body,
+        members: Vec<Member>,
+        span: Span,
+    },
 }
 
 /// A scene.
@@ -172,7 +179,7 @@ pub struct Scene {
     pub name: String,
     /// Its tags' type, if it has tags.
     pub tag: Option<Ty>,
-    /// Its shapes.
+    /// Its shapes; some may stand for several.
     pub members: Vec<Member>,
     /// Where its name stands.
     pub span: Span,

@@ -135,12 +135,23 @@ fn partner(opener: &str) -> &'static str {
 struct Level {
     /// For an `if` or `loop`: whether its `else` was seen.
     branch: Option<bool>,
+    /// For an `each`: where it stands, and whether what it repeats has begun.
+    each: Option<(Each, bool)>,
     /// The deepest of the parts that are complete.
     deepest: usize,
     /// The deepest level inside the part that is being read.
     inside: usize,
     /// Operators of the part that is being read: each may add a level.
     operators: usize,
+}
+
+/// Where an `each` stands.
+#[derive(Clone, Copy, PartialEq)]
+enum Each {
+    /// Among a scene's members.
+    Member,
+    /// Behind a function's name.
+    Operand,
 }
 
 impl Level {
@@ -189,7 +200,10 @@ fn deeper(span: Span) -> Diagnostic {
 
 fn step(levels: &mut Vec<Level>, token: Token, before: Option<Token>) {
     match token {
-        Token::Sym("(" | "[" | "{") => {
+        Token::Sym(sign @ ("(" | "[" | "{")) => {
+            if sign == "{" && ends_operand(before) {
+                repeated(levels);
+            }
             // What is called or indexed again stands a level deeper each time.
             if let Some(Token::Sym(")" | "]" | "}")) = before {
                 operator(levels);
@@ -199,9 +213,18 @@ fn step(levels: &mut Vec<Level>, token: Token, before: Option<Token>) {
         Token::Sym(")" | "]" | "}") => {
             close_branches(levels);
             close(levels);
+            end_each(levels);
         }
         Token::Word("if" | "loop") => levels.push(Level {
             branch: Some(false),
+            ..Level::default()
+        }),
+        Token::Word("each") => levels.push(Level {
+            branch: Some(true),
+            each: Some(match before {
+                Some(Token::Sym("{" | "}" | ";")) => (Each::Member, false),
+                _ => (Each::Operand, false),
+            }),
             ..Level::default()
         }),
         Token::Word("else") => {
@@ -222,6 +245,54 @@ fn step(levels: &mut Vec<Level>, token: Token, before: Option<Token>) {
         }
         Token::Word("and" | "or" | "not" | "div" | "mod") | Token::Sym(_) => operator(levels),
         _ => {}
+    }
+}
+
+/// Whether an operand may end with a token; a block begins behind none such.
+fn ends_operand(token: Option<Token>) -> bool {
+    match token {
+        Some(Token::Ident(_) | Token::Int(_) | Token::Real(_) | Token::Angle(_)) => true,
+        Some(Token::Sym(sign)) => matches!(sign, ")" | "]" | "}"),
+        Some(Token::Word(word)) => matches!(word, "true" | "false" | "none"),
+        _ => false,
+    }
+}
+
+/// What an `each` repeats begins, if the innermost level but ended branches is one's.
+fn repeated(levels: &mut Vec<Level>) {
+    let ended = |level: &&Level| level.branch == Some(true) && level.each.is_none();
+    let above = levels.iter().rev().take_while(ended).count();
+    let at = levels.len().checked_sub(above + 1);
+    if !at
+        .and_then(|at| levels.get(at))
+        .is_some_and(|l| l.each.is_some())
+    {
+        return;
+    }
+    for _ in 0..above {
+        close(levels);
+    }
+    if let Some(Level {
+        each: Some((_, begun)),
+        ..
+    }) = levels.last_mut()
+    {
+        *begun = true;
+    }
+}
+
+/// Ends an `each` with what it repeats; a member of a scene stands beside the others.
+fn end_each(levels: &mut Vec<Level>) {
+    if let Some(Level {
+        each: Some((of, true)),
+        ..
+    }) = levels.last()
+    {
+        let is_member = *of == Each::Member;
+        close(levels);
+        if is_member {
+            part(levels);
+        }
     }
 }
 

@@ -107,13 +107,26 @@ fn align(lines: &mut [Line], mark: impl Fn(&Line) -> Option<usize>) {
     }
 }
 
+/// An open bracket.
+struct Open {
+    /// The indent of its line.
+    indent: usize,
+    /// Whether what it closes is whole, as a scene's `each` is.
+    is_whole: bool,
+    /// How many lines are above its own.
+    above: usize,
+}
+
 /// The result while it is being laid out.
 struct Layout<'t, 'a> {
     tokens: &'t [Spanned<'a>],
     /// Indices of the tokens that begin items.
     begins: HashSet<usize>,
-    /// The sign and the indent of the line of each open bracket.
-    open: Vec<(&'a str, usize)>,
+    open: Vec<Open>,
+    /// At how many open brackets an `each` of a scene stands whose brace is to come.
+    each: Option<usize>,
+    /// Indices of the tokens that end such.
+    ends: HashSet<usize>,
     /// Whether the next piece begins a line.
     fresh: bool,
     /// Whether the next token begins a statement, an argument, an item.
@@ -134,6 +147,8 @@ impl<'t, 'a> Layout<'t, 'a> {
             tokens,
             begins: begins.collect(),
             open: Vec::new(),
+            each: None,
+            ends: HashSet::new(),
             fresh: true,
             starts: true,
             indent: 0,
@@ -167,7 +182,7 @@ impl<'t, 'a> Layout<'t, 'a> {
     /// The indent of what stands here: inside what is open, and one step more
     /// where something goes on.
     fn inside(&self) -> usize {
-        let base = self.open.last().map_or(0, |(_, indent)| indent + STEP);
+        let base = self.open.last().map_or(0, |open| open.indent + STEP);
         if self.starts { base } else { base + STEP }
     }
 
@@ -189,31 +204,56 @@ impl<'t, 'a> Layout<'t, 'a> {
             let row = matches!(token, Token::Text(_)) && !self.open.is_empty();
             self.starts = self.starts || row;
             let indent = match self.open.last() {
-                Some((_, indent)) if closes => *indent,
+                Some(open) if closes => open.indent,
                 _ => self.inside(),
             };
             self.begin_line(indent);
         } else if self.spaced(at) {
             self.line.text.push(' ');
         }
-        if token == Token::Word("is") {
+        // A whole `each` on one line stands by itself.
+        let is_within =
+            (self.open.last()).is_some_and(|open| open.is_whole && open.above == self.lines.len());
+        if token == Token::Word("is") && !is_within {
             self.line.member = Some(self.line.text.len());
         }
         self.line.text += token.parts().1;
+        let behind = at.checked_sub(1);
+        let mut ended = false;
         match token {
-            Token::Sym(sign @ ("(" | "[" | "{")) => self.open.push((sign, self.indent)),
-            _ if closes => {
-                self.open.pop();
+            Token::Word("each") if self.is_member(behind) => self.each = Some(self.open.len()),
+            Token::Sym("(" | "[" | "{") => {
+                // No block begins behind an operand.
+                let each = self.each.filter(|_| token == Token::Sym("{"));
+                let is_whole = each == Some(self.open.len()) && self.ends_operand(behind);
+                if is_whole {
+                    self.each = None;
+                }
+                self.open.push(Open {
+                    indent: self.indent,
+                    is_whole,
+                    above: self.lines.len(),
+                });
             }
+            _ if closes => ended = self.open.pop().is_some_and(|open| open.is_whole),
             _ => {}
+        }
+        if ended {
+            self.ends.insert(at);
         }
         // At the top only another item starts anew.
         let top = self.open.is_empty();
         self.starts = match token {
             Token::Sym("(" | "[" | "{") => true,
+            _ if ended => true,
             Token::Sym("," | ";") if !top => true,
             _ => top && (self.begins.contains(&(at + 1)) || at + 1 == self.tokens.len()),
         };
+    }
+
+    /// Whether what stands behind the token at `at` is a member of a scene.
+    fn is_member(&self, at: Option<usize>) -> bool {
+        matches!(self.at(at), Some(Token::Sym("{" | "}" | ";")))
     }
 
     fn at(&self, at: Option<usize>) -> Option<Token<'a>> {
@@ -223,9 +263,13 @@ impl<'t, 'a> Layout<'t, 'a> {
     /// Whether an operand ends with the token at `at`. A name behind an operand
     /// is a word of the language (`x`, `inks`, `max`, `to`): none ends there.
     fn ends_operand(&self, at: Option<usize>) -> bool {
+        let before = at.and_then(|at| at.checked_sub(1));
+        let is_end = |at: Option<usize>| at.is_some_and(|at| self.ends.contains(&at));
         match self.at(at) {
+            Some(Token::Sym("}")) if is_end(at) => false,
+            Some(Token::Ident(_)) if is_end(before) => true,
             Some(Token::Ident(_)) => !matches!(
-                self.at(at.and_then(|at| at.checked_sub(1))),
+                self.at(before),
                 Some(
                     Token::Ident(_)
                         | Token::Int(_)

@@ -7,8 +7,8 @@
 
 use super::lexer;
 use super::tree::{
-    AngleUnit, Argument, BinaryOp, Binding, Claim, Expr, ExprKind, File, Function, Item, ItemKind,
-    Statement, Type, TypeKind, UnaryOp,
+    AngleUnit, Argument, BinaryOp, Binding, Claim, Counter, Expr, ExprKind, File, Function, Item,
+    ItemKind, Member, Statement, Type, TypeKind, UnaryOp,
 };
 use std::fmt::Write;
 
@@ -144,11 +144,7 @@ fn item(item: &Item) -> Node {
             Node::list(format!("shape {}", name.text), parts)
         }
         ItemKind::Scene { name, members } => {
-            let members = members.iter().map(|member| match &member.tag {
-                Some(tag) => Node::list("is", [expr(&member.shape), expr(tag)]),
-                None => expr(&member.shape),
-            });
-            Node::list(format!("scene {}", name.text), members)
+            Node::list(format!("scene {}", name.text), members.iter().map(member))
         }
         ItemKind::Record { name, fields } => {
             Node::list(format!("record {}", name.text), fields.iter().map(binding))
@@ -165,6 +161,24 @@ fn item(item: &Item) -> Node {
         }
         ItemKind::Use { path, .. } => Node::list("use", [Node::word(format!("\"{path}\""))]),
     }
+}
+
+fn member(member: &Member) -> Node {
+    match member {
+        Member::One { shape, tag } => match tag {
+            Some(tag) => Node::list("is", [expr(shape), expr(tag)]),
+            None => expr(shape),
+        },
+        Member::Each { counter, members } => {
+            let members = members.iter().map(self::member);
+            Node::list("each", self::counter(counter).into_iter().chain(members))
+        }
+    }
+}
+
+fn counter(counter: &Counter) -> [Node; 2] {
+    let range = [expr(&counter.low), expr(&counter.high)];
+    [Node::word(&counter.name.text), Node::list("in", range)]
 }
 
 fn function(word: &str, function: &Function, otherwise: Option<&Expr>) -> Node {
@@ -321,6 +335,12 @@ fn expr(value: &Expr) -> Node {
                 Node::list("else", [expr(otherwise)]),
             ];
             Node::list("loop", carried.chain(rest))
+        }
+        ExprKind::Each(each) => {
+            let args = each.args.iter().map(argument);
+            let parts = args.chain(counter(&each.counter));
+            let parts = parts.chain([expr(&each.body)]);
+            Node::list(format!("each {}", each.name.text), parts)
         }
         ExprKind::Next(values) => Node::list("next", values.iter().map(expr)),
         ExprKind::Block { statements, result } => {

@@ -27,7 +27,7 @@ pub enum Token<'a> {
     Item(&'a str),
     /// Any other reserved word.
     #[regex(
-        "if|let|then|else|loop|next|spread|and|or|not|div|mod|true|false|none|is|in|where",
+        "if|let|then|else|loop|next|spread|each|and|or|not|div|mod|true|false|none|is|in|where",
         priority = 60
     )]
     Word(&'a str),

@@ -136,13 +136,42 @@ pub struct Facet {
     pub body: Expr,
 }
 
-/// One member of a scene: `shape is tag;`.
+/// A member of a scene.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Member {
-    /// The shape.
-    pub shape: Expr,
-    /// The tag; it may use `p`, the point hit.
-    pub tag: Option<Expr>,
+pub enum Member {
+    /// `shape is tag;`; the tag may use `p`, the point hit.
+    One { shape: Expr, tag: Option<Expr> },
+    /// `each k in 0 .. 9 { shape is tag; .. }`
+    Each {
+        counter: Counter,
+        members: Vec<Member>,
+    },
+}
+
+/// `k in 0 .. 9`: what an `each` counts, from the first to the last.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Counter {
+    /// Its name.
+    pub name: Name,
+    /// The first number.
+    pub low: Expr,
+    /// The last number.
+    pub high: Expr,
+    /// From `each` to the last number.
+    pub span: Span,
+}
+
+/// `union each k in 0 .. 9 { shape }`
+#[derive(Clone, Debug, PartialEq)]
+pub struct Each {
+    /// The function that joins two.
+    pub name: Name,
+    /// Its arguments behind these two.
+    pub args: Vec<Argument>,
+    /// What is counted.
+    pub counter: Counter,
+    /// What is made for each number.
+    pub body: Expr,
 }
 
 /// A type as written.
@@ -310,6 +339,8 @@ pub enum ExprKind {
         body: Box<Expr>,
         otherwise: Box<Expr>,
     },
+    /// `union each k in 0 .. 9 { shape }`
+    Each(Box<Each>),
     /// `next(a, b)`
     Next(Vec<Expr>),
     /// `{ let a = b; c }`

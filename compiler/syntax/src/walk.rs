@@ -1,6 +1,8 @@
 //! Visits the parts of a tree, so that each analysis says only what it looks for.
 
-use super::tree::{Expr, ExprKind, Facet, File, Function, Image, ItemKind, Member, Statement};
+use super::tree::{
+    Counter, Expr, ExprKind, Facet, File, Function, Image, ItemKind, Member, Statement,
+};
 
 /// Calls `visit` with each expression directly inside `expr`, left to right.
 pub fn children<'t>(expr: &'t Expr, visit: &mut dyn FnMut(&'t Expr)) {
@@ -46,6 +48,11 @@ pub fn children<'t>(expr: &'t Expr, visit: &mut dyn FnMut(&'t Expr)) {
             visit(max);
             visit(body);
             visit(otherwise);
+        }
+        ExprKind::Each(each) => {
+            each.args.iter().for_each(|a| visit(&a.value));
+            counter_roots(&each.counter, visit);
+            visit(&each.body);
         }
         ExprKind::Block { statements, result } => {
             for statement in statements {
@@ -103,16 +110,32 @@ pub fn item_roots<'t>(item: &'t ItemKind, visit: &mut dyn FnMut(&'t Expr)) {
                 .for_each(&mut *visit);
             facets.iter().for_each(|Facet { body, .. }| visit(body));
         }
-        ItemKind::Scene { members, .. } => {
-            for Member { shape, tag } in members {
-                visit(shape);
-                tag.iter().for_each(&mut *visit);
-            }
-        }
+        ItemKind::Scene { members, .. } => member_roots(members, visit),
         ItemKind::Record { .. } | ItemKind::Use { .. } => {}
         ItemKind::Map { cells, .. } => cells.iter().for_each(|(_, value)| visit(value)),
         ItemKind::Draw { body, .. } => visit(body),
     }
+}
+
+// Recursion is bounded: members nest no deeper than `cut::MAX_DEPTH`.
+fn member_roots<'t>(members: &'t [Member], visit: &mut dyn FnMut(&'t Expr)) {
+    for member in members {
+        match member {
+            Member::One { shape, tag } => {
+                visit(shape);
+                tag.iter().for_each(&mut *visit);
+            }
+            Member::Each { counter, members } => {
+                counter_roots(counter, visit);
+                member_roots(members, visit);
+            }
+        }
+    }
+}
+
+fn counter_roots<'t>(counter: &'t Counter, visit: &mut dyn FnMut(&'t Expr)) {
+    visit(&counter.low);
+    visit(&counter.high);
 }
 
 fn function_roots<'t>(

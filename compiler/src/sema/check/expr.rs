@@ -80,6 +80,7 @@ impl<'a> Checker<'a> {
                 body,
                 otherwise,
             } => self.loop_(carried, max, body, otherwise, span),
+            Tree::Each(each) => self.each(each, span),
             Tree::Next(values) => self.next(values, tail, span),
             Tree::Block { statements, result } => self.block(statements, result, tail, span),
         }

@@ -34,7 +34,7 @@ impl<'a> Checker<'a> {
         }
     }
 
-    fn context(item: Entity, library: bool) -> Context {
+    pub(super) fn context(item: Entity, library: bool) -> Context {
         Context {
             item: Some(item),
             library,
@@ -43,7 +43,7 @@ impl<'a> Checker<'a> {
     }
 
     /// A body of a known type with the given locals.
-    fn body(
+    pub(super) fn body(
         &mut self,
         cx: Context,
         locals: &[(String, Ty)],
@@ -81,86 +81,6 @@ impl<'a> Checker<'a> {
             State::Done => self.program.consts[id.0].body.value.ty.clone(),
             _ => Ty::Error,
         }
-    }
-
-    /// A scene's tags' type, found on demand.
-    pub(super) fn scene(&mut self, id: SceneId) -> Ty {
-        if let State::Todo(members) = self.scenes[id.0] {
-            self.scenes[id.0] = State::Busy;
-            let before = (
-                std::mem::take(&mut self.diagnostics),
-                std::mem::take(&mut self.mentions),
-            );
-            let (tag, members) = self.members(id, members);
-            self.settle(before.0, before.1);
-            let scene = &mut self.program.scenes[id.0];
-            (scene.tag, scene.members) = (tag, members);
-            self.scenes[id.0] = State::Done;
-        }
-        match self.scenes[id.0] {
-            State::Done => Ty::Scene(self.program.scenes[id.0].tag.clone().map(Box::new)),
-            _ => Ty::Error,
-        }
-    }
-
-    fn members(&mut self, id: SceneId, trees: &[tree::Member]) -> (Option<Ty>, Vec<Member>) {
-        let cx = || Self::context(Entity::Scene(id), false);
-        let mut found = Vec::new();
-        let mut tag: Option<(Ty, Span)> = None;
-        if trees.is_empty() {
-            let span = self.program.scenes[id.0].span;
-            self.error(span, "a scene has at least one shape");
-        }
-        for tree in trees {
-            let want = Some((&Ty::Shape, "a member of a scene"));
-            let shape = self.body(cx(), &[], &tree.shape, want);
-            let locals = [("p".to_owned(), Ty::Vector(3))];
-            let mark = tree.tag.as_ref().map(|t| self.body(cx(), &locals, t, None));
-            let ty = mark.as_ref().map(|m| m.value.ty.clone());
-            match (&tag, ty) {
-                (None, Some(ty)) => tag = Some((ty, tree.shape.span)),
-                (Some((old, first)), Some(ty)) => match old.join(&ty) {
-                    Some(joined) => tag = Some((joined, *first)),
-                    None => {
-                        let message = format!(
-                            "this tag is {}, an earlier one {}",
-                            self.a(&ty),
-                            self.a(old)
-                        );
-                        let span = tree.tag.as_ref().map_or(tree.shape.span, |t| t.span);
-                        let error = Diagnostic::error(span, message);
-                        let error = error.help("all tags of a scene have one type");
-                        self.report(error.also(*first, "the first tag is here"));
-                    }
-                },
-                _ => {}
-            }
-            found.push(Member { shape, tag: mark });
-        }
-        if let Some((ty, first)) = &tag {
-            if !ty.is_data() {
-                let message = format!("a tag cannot be {}", self.a(ty));
-                self.error(*first, message);
-            }
-            for (member, tree) in found.iter_mut().zip(trees) {
-                match &mut member.tag {
-                    Some(mark) => {
-                        let value =
-                            std::mem::replace(&mut mark.value, Expr::error(Span::default()));
-                        mark.value = match value.ty.fits(ty) {
-                            true => super::widen(value, ty),
-                            false => Expr::error(value.span),
-                        };
-                    }
-                    None => {
-                        let error = Diagnostic::error(tree.shape.span, "this shape has no tag");
-                        let error = error.also(*first, "this one has one");
-                        self.report(error.help("give every shape of the scene a tag, or none"));
-                    }
-                }
-            }
-        }
-        (tag.map(|(ty, _)| ty), found)
     }
 
     /// The defaults that bindings give, by place.

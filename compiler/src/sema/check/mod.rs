@@ -10,6 +10,7 @@
 
 mod call;
 mod cycles;
+mod each;
 mod expr;
 mod flow;
 mod head;
@@ -17,6 +18,7 @@ mod items;
 mod literal;
 mod names;
 mod ops;
+mod scenes;
 mod scopes;
 mod types;
 
@@ -59,6 +61,8 @@ struct Context {
     locals: Vec<Local>,
     scopes: Scopes,
     loops: Vec<OpenLoop>,
+    /// What the `each`s around this place count, and where they say so.
+    counters: Vec<(String, Span)>,
     /// How many loops enclose this place, in whatever part of them.
     nest: usize,
     /// Whether `spread` may stand here.

@@ -31,7 +31,10 @@ impl<'a> Lower<'a> {
                 present: self.bool(false, span),
                 value: Rc::new(Val::Undefined),
             }),
-            ExprKind::Local(id) => Ok(self.frame.get(id.0).cloned().unwrap_or(Val::Undefined)),
+            ExprKind::Local(id) => Ok(match self.frame.get(id.0) {
+                Some(&Val::Number(number)) => Val::Node(self.int(number, span)),
+                value => value.cloned().unwrap_or(Val::Undefined),
+            }),
             ExprKind::Param(id) => match self.params.get(id.0) {
                 Some(value) => Ok(value.clone()),
                 None => {
@@ -102,6 +105,7 @@ impl<'a> Lower<'a> {
                 body,
                 otherwise,
             } => self.loop_(carried, max, body, otherwise, &e.ty, span),
+            ExprKind::Each(each) => self.joined_each(each, span),
             ExprKind::Next(_) => Err(self.confused(span)),
         }
     }

@@ -15,6 +15,7 @@ mod claims;
 mod compact;
 mod derive;
 mod dual;
+mod each;
 mod expr;
 mod flow;
 mod grid;
@@ -34,6 +35,7 @@ mod ways;
 
 #[cfg(test)]
 pub(in crate::sema) use bounds::extents;
+pub use each::most_shapes;
 pub use params::params;
 pub use ways::{INSTANCES, Instancing, Millionths, Search, Ways};
 
@@ -140,6 +142,7 @@ struct Lower<'a> {
     params: Vec<Val>,
     consts: FxHashMap<ConstId, Val>,
     scenes: FxHashMap<SceneId, Vec<std::rc::Rc<value::Shape>>>,
+    placed: FxHashMap<SceneId, std::rc::Rc<[each::Placed<'a>]>>,
     members: FxHashMap<SceneId, std::rc::Rc<[instances::Member]>>,
     claims: Vec<claims::Claimed>,
     tables: tables::Made,
@@ -171,9 +174,13 @@ pub fn lower(program: &Program, options: &Options) -> Result<Graph, Vec<Diagnost
     let mut lower = Lower::new(program, options, image);
     lower.check_options(image.span)?;
     let mut said = Vec::new();
-    // A constant that nothing uses leaves nothing, but its mistakes are the
-    // scene's: they are looked for in a lowering that is thrown away.
-    Lower::new(program, options, image).evaluate_consts(&mut said);
+    // A constant or scene that nothing uses leaves nothing, but its mistakes are
+    // the scene's: they are looked for in a lowering that is thrown away.
+    let mut trial = Lower::new(program, options, image);
+    trial.evaluate_consts(&mut said);
+    trial.place_scenes(&mut said);
+    // What bounds are worked out from leaves nothing in the graph.
+    lower.placed = std::mem::take(&mut trial.placed);
     lower.declare_params(&mut said);
     if !said.is_empty() {
         return Err(said);
@@ -209,6 +216,7 @@ impl<'a> Lower<'a> {
             params: Vec::new(),
             consts: FxHashMap::default(),
             scenes: FxHashMap::default(),
+            placed: FxHashMap::default(),
             members: FxHashMap::default(),
             claims: Vec::new(),
             tables: tables::Made::default(),

@@ -28,18 +28,15 @@ impl<'a> Lower<'a> {
         if let Some(found) = self.scenes.get(&id) {
             return Ok(found.clone());
         }
-        let Some(scene) = self.program.scenes.get(id.0) else {
-            return Err(self.confused(span));
-        };
         let mut found = Vec::new();
-        for member in &scene.members {
+        for placed in self.placed(id, span)?.iter() {
             let place = self.place.take();
-            let shape = self.enter(&member.shape, Vec::new(), |l| {
-                let value = l.expr(&member.shape.value)?;
+            let shape = self.enter(placed.shape, placed.locals(), |l| {
+                let value = l.expr(&placed.shape.value)?;
                 l.force(value)
             });
             self.place = place;
-            match shape? {
+            match shape.map_err(|error| placed.wrong(error))? {
                 Val::Shape(shape) => found.push(shape),
                 _ => return Err(self.confused(span)),
             }
@@ -136,15 +133,16 @@ impl<'a> Lower<'a> {
 
     /// The tag of one of a scene's shapes at a point.
     pub(super) fn tag_at(&mut self, id: SceneId, at: usize, p: Val, span: Span) -> Found<Val> {
-        let scene = self.program.scenes.get(id.0);
-        let member = scene.and_then(|scene| scene.members.get(at));
-        let Some(tag) = member.and_then(|member| member.tag.as_ref()) else {
+        let all = self.placed(id, span)?;
+        let Some((placed, tag)) = all.get(at).and_then(|placed| Some((placed, placed.tag?))) else {
             return Err(self.confused(span));
         };
         let place = self.place.take();
-        let value = self.enter(tag, vec![p], |l| l.expr(&tag.value));
+        let mut args = vec![p];
+        args.extend(placed.locals());
+        let value = self.enter(tag, args, |l| l.expr(&tag.value));
         self.place = place;
-        value
+        value.map_err(|error| placed.wrong(error))
     }
 
     /// The nearest hit; the later shape on a tie.

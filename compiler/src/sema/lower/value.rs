@@ -37,6 +37,8 @@ pub(super) const WAITING: usize = 64;
 pub(super) enum Val {
     /// A bool, int, real, angle or ink.
     Node(NodeId),
+    /// What an `each` counts, in its local alone: it stands where it is named, as if written.
+    Number(i32),
     /// A vector, ray, hit or record, part by part.
     Parts(Rc<[Val]>),
     /// A value that is there where `present` (a bool) holds.

@@ -12,10 +12,11 @@ const TORUS: &str = include_str!("../../../../examples/torus.scn");
 const MAZE: &str = include_str!("../../../../examples/maze.scn");
 const GLASS: &str = include_str!("../../../../examples/glass.scn");
 const TWIST: &str = include_str!("../../../../examples/twist.scn");
-const SCENES: [&str; 5] = [MIRRORS, TORUS, MAZE, GLASS, TWIST];
+const HELIX: &str = include_str!("../../../syntax/src/tests/scenes/helix.scn");
+const SCENES: [&str; 6] = [MIRRORS, TORUS, MAZE, GLASS, TWIST, HELIX];
 
 /// What may stand in the place of a word.
-const WORDS: [&str; 40] = [
+const WORDS: [&str; 42] = [
     "x",
     "y",
     "0",
@@ -43,6 +44,8 @@ const WORDS: [&str; 40] = [
     "sphere",
     "next",
     "loop",
+    "each",
+    "..",
     "if",
     "let",
     "then",

@@ -23,6 +23,8 @@ pub fn not_an_item(tokens: &[Spanned]) -> Option<Diagnostic> {
         }
         Token::Word("let") => here("`let` stands inside blocks".into())
             .help("at the top of a file write `const name = ...;`"),
+        Token::Word("each") => here("`each` stands inside scenes".into())
+            .help("write `scene world { each k in 0 .. 9 { sphere((k, 0, 0), 1) is k; } }`"),
         Token::Ident(word) => {
             let diagnostic = here(format!("expected an item, found {token}"));
             match meant(word) {

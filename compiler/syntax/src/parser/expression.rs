@@ -3,7 +3,7 @@
 //! Every alternative is known by its first token (or, for a named argument, by
 //! its first two), so that no text is read twice and time stays linear.
 
-use super::super::tree::{AngleUnit, Argument, BinaryOp, Expr, ExprKind, UnaryOp};
+use super::super::tree::{AngleUnit, Argument, BinaryOp, Counter, Each, Expr, ExprKind, UnaryOp};
 use super::block::block;
 use super::{Raw, Rule, Tokens, contextual, name, sign, word};
 use crate::source::Span;
@@ -196,19 +196,47 @@ fn operand<'t>(expr: Rule<'t, Expr>) -> Rule<'t, Expr> {
     .boxed()
 }
 
-/// `a`, `a(b)`
+/// `a`, `a(b)`, `a each k in 0 .. 9 { b }`
 fn named<'t>(expr: Rule<'t, Expr>) -> Rule<'t, Expr> {
+    let each = counter(expr.clone())
+        .then(block(expr.clone()))
+        .labelled("an operator")
+        .boxed();
     name()
         .then(arguments(expr).or_not())
-        .map_with(|(name, args), e| {
-            let kind = match args {
-                Some(args) => ExprKind::Call { name, args },
-                None => ExprKind::Name(name.text),
+        .then(each.or_not())
+        .map_with(|((name, args), each), e| {
+            let kind = match (args, each) {
+                (args, Some((counter, body))) => ExprKind::Each(Box::new(Each {
+                    name,
+                    args: args.unwrap_or_default(),
+                    counter,
+                    body,
+                })),
+                (Some(args), None) => ExprKind::Call { name, args },
+                (None, None) => ExprKind::Name(name.text),
             };
             Expr {
                 kind,
                 span: e.span(),
             }
+        })
+        .boxed()
+}
+
+/// `each k in 0 .. 9`
+pub fn counter<'t>(expr: Rule<'t, Expr>) -> Rule<'t, Counter> {
+    word("each")
+        .ignore_then(name())
+        .then_ignore(word("in"))
+        .then(expr.clone())
+        .then_ignore(sign(".."))
+        .then(expr)
+        .map_with(|((name, low), high), e| Counter {
+            name,
+            low,
+            high,
+            span: e.span(),
         })
         .boxed()
 }

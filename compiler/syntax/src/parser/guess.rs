@@ -30,6 +30,7 @@ impl Spot<'_> {
         }
         let ended = match found {
             None | Some(Token::Word("let" | "spread") | Token::Sym("}")) => true,
+            Some(Token::Word("each")) => self.item() == "scene",
             Some(Token::Sym(_)) => false,
             Some(_) => self.on_new_line(),
         };
@@ -53,6 +54,13 @@ impl Spot<'_> {
         let operand = self.expects("an expression");
         let operator = self.expects("an operator");
         match self.found()? {
+            Token::Word("each")
+                if matches!(self.ahead(), Some(Token::Ident(_))) && self.item() == "shape" =>
+            {
+                Some(here("`each` does not repeat facets".into()).help(
+                    "inside a facet write `min each k in 0 .. 9 { length(p - (k, 0, 0)) - 1 }`",
+                ))
+            }
             Token::Item(word) | Token::Word(word)
                 if self.expects("a name") || self.expects("a colour") =>
             {
@@ -72,6 +80,11 @@ impl Spot<'_> {
                 here("the value at the end of a block has no `;`".into())
                     .help("remove the `;`, or name the value with `let` and end in an expression"),
             ),
+            Token::Sym(";")
+                if operand && self.item() == "scene" && self.before() == Some(Token::Sym("}")) =>
+            {
+                Some(here("an `each` ends with its `}`".into()).help("remove the `;`"))
+            }
             Token::Sym("}")
                 if operand
                     && self.item() != "scene"
@@ -154,6 +167,13 @@ impl Spot<'_> {
             _ if self.in_head() || matches!(self.item(), "record" | "map" | "image") => {
                 return self.usage();
             }
+            (Some(Token::Ident("for" | "foreach" | "repeat")), Some(Token::Ident(_)))
+                if self.item() == "scene" =>
+            {
+                return self.each();
+            }
+            (_, Some(Token::Word("each"))) => return self.each(),
+            _ if self.in_each() => return self.each(),
             (Some(Token::Int(_) | Token::Real(_)), Some(Token::Ident(_) | Token::Sym("(")))
                 if operator =>
             {
@@ -183,7 +203,9 @@ impl Spot<'_> {
                 "a `let` names one value; take a vector apart by `.x`, `.y`, `.z`"
             }
             (_, Some(Token::Sym("?"))) => "a choice is written `if condition then a else b`",
-            (_, Some(Token::Sym(".."))) => "`..` stands between the ends of a `param`'s range only",
+            (_, Some(Token::Sym(".."))) => {
+                "`..` stands between the ends of a `param`'s range, or of an `each`'s, only"
+            }
             (Some(Token::Sym("[")), Some(Token::Sym("]"))) => {
                 "a table or an index has at least one value"
             }
@@ -220,6 +242,30 @@ impl Spot<'_> {
             _ => return None,
         };
         Some(help.into())
+    }
+
+    /// How an `each` reads.
+    fn each(&self) -> Option<String> {
+        let help = match self.item() {
+            "scene" => "this reads `each k in 0 .. 9 { sphere((k, 0, 0), 1) is k; }`",
+            _ => {
+                "outside of scenes `each` stands behind the name of what joins two: \
+                 `union each k in 0 .. 9 { sphere((k, 0, 0), 1) }`"
+            }
+        };
+        Some(help.into())
+    }
+
+    /// Whether the place lies in an `each`, before what it repeats.
+    fn in_each(&self) -> bool {
+        let before = self.tokens.get(..self.at).unwrap_or(&[]);
+        let words = before.iter().rev().take_while(|(token, _)| {
+            !matches!(token, Token::Sym("{" | "}" | ";") | Token::Word("loop"))
+        });
+        words.into_iter().any(|(t, _)| *t == Token::Word("each"))
+            && ["`in`", "`..`", "`{`", "a name"]
+                .iter()
+                .any(|e| self.expects(e))
     }
 
     /// How the item reads when it is right.

@@ -5,7 +5,7 @@ use super::super::tree::{
     TypeKind,
 };
 use super::block::{body, error};
-use super::expression::{comma, expression};
+use super::expression::{comma, counter, expression};
 use super::{Raw, Rule, Tokens, contextual, name, semicolon, sign, skip, word};
 use crate::source::Span;
 use crate::token::Token;
@@ -187,26 +187,39 @@ fn shape<'t>(expr: Rule<'t, Expr>) -> Rule<'t, ItemKind> {
 
 /// `scene name { shape is tag; .. }`
 fn scene<'t>(expr: Rule<'t, Expr>) -> Rule<'t, ItemKind> {
-    let tag = word("is").ignore_then(expr.clone()).or_not();
-    let broken = skip().map(|span| Member {
-        shape: error(span),
-        tag: None,
-    });
-    let member = expr
-        .then(tag)
-        .then_ignore(semicolon())
-        .map(|(shape, tag)| Member { shape, tag })
-        .recover_with(via_parser(broken));
     begins("scene")
         .ignore_then(name())
-        .then(
-            member
-                .repeated()
-                .collect()
-                .delimited_by(sign("{"), sign("}")),
-        )
+        .then(members(expr))
         .map(|(name, members)| ItemKind::Scene { name, members })
         .boxed()
+}
+
+/// `{ shape is tag; each k in 0 .. 9 { .. } .. }`
+fn members<'t>(expr: Rule<'t, Expr>) -> Rule<'t, Vec<Member>> {
+    recursive(
+        |members: Recursive<dyn Parser<'t, Tokens<'t>, Vec<Member>, extra::Err<Raw<'t>>>>| {
+            let tag = word("is").ignore_then(expr.clone()).or_not();
+            let broken = skip().map(|span| Member::One {
+                shape: error(span),
+                tag: None,
+            });
+            let one = expr
+                .clone()
+                .then(tag)
+                .then_ignore(semicolon())
+                .map(|(shape, tag)| Member::One { shape, tag });
+            let each = counter(expr)
+                .then(members)
+                .map(|(counter, members)| Member::Each { counter, members })
+                .labelled("an expression");
+            choice((each.boxed(), one.boxed()))
+                .recover_with(via_parser(broken))
+                .repeated()
+                .collect()
+                .delimited_by(sign("{"), sign("}"))
+        },
+    )
+    .boxed()
 }
 
 /// `record name { field: T, .. }`

@@ -148,6 +148,7 @@ fn semicolon<'t>() -> Rule<'t, ()> {
         end(),
         just(Token::Word("let")).ignored(),
         just(Token::Word("spread")).ignored(),
+        just(Token::Word("each")).ignored(),
         just(Token::Sym("}")).ignored(),
     ))
     .rewind();

@@ -32,7 +32,7 @@ fn formatted(text: &str) -> String {
 }
 
 #[test]
-fn the_four_scenes() {
+fn whole_scenes() {
     let all: Vec<String> = SCENES.iter().map(|scene| formatted(scene)).collect();
     snapshot("formatted_scenes", &all.join("---\n"));
 }

@@ -4,7 +4,7 @@ use super::*;
 use crate::print;
 
 #[test]
-fn the_four_scenes_parse_without_diagnostics() {
+fn whole_scenes_parse_without_diagnostics() {
     for scene in SCENES {
         let (file, diagnostics) = parse(scene, 0);
         assert_eq!(plain(scene, &diagnostics), "");

@@ -67,6 +67,8 @@ fn a_megabyte_of_anything_deep_is_one_diagnostic() {
         "-(",
         "a+(",
         "{spread a to {",
+        "f each k in ",
+        "f each k in 0 .. 1 {",
         "if let a = ",
     ];
     for part in parts {
@@ -122,6 +124,12 @@ fn the_deepest_that_is_allowed_fits_the_stack() {
         ("(", "1 1", ")"),
         ("{ let a = ", "1 1", "; a }"),
         ("f(", "", ")"),
+        ("f each k in 1 .. 2 { ", "1", " }"),
+        ("f each k in ", "1", " .. 2 { 3 }"),
+        ("f each k in 1 .. ", "2", " { 3 }"),
+        ("f each k in {1} + ", "1", " .. {2} { 3 }"),
+        ("f each k in 1 .. if a then b else ", "2", " { 3 }"),
+        ("if a then f each k in 1 .. 2 { 3 } + ", "1", " else 2"),
     ];
     for (open, middle, close) in forms {
         // A level is at most three of what is counted, so a third always fits.
@@ -183,13 +191,13 @@ fn a_number_beyond_every_format_stays_finite() {
     assert!(!print::tree(&file).contains("inf"));
 }
 
-const SOUP: [&str; 78] = [
+const SOUP: [&str; 79] = [
     "image", "param", "const", "fn", "effect", "shape", "scene", "record", "map", "dither", "draw",
-    "use", "if", "let", "then", "else", "loop", "next", "spread", "and", "or", "not", "div", "mod",
-    "true", "none", "is", "in", "where", "x", "y", "inks", "max", "to", "frame", "row", "a", "f",
-    "vec3", "real", "1", "0.5", "90deg", "#ff0000", "\"##\"", "'#'", "(", ")", "[", "]", "{", "}",
-    ",", ";", ":", ".", "?", "<", ">", "=", "+", "*", "/", "^", "-", "..", "->", "=>", "==", "<=",
-    "//", "\n", "5.", "'", "\"", "&&", "é", "\0",
+    "use", "if", "let", "then", "else", "loop", "next", "spread", "each", "and", "or", "not",
+    "div", "mod", "true", "none", "is", "in", "where", "x", "y", "inks", "max", "to", "frame",
+    "row", "a", "f", "vec3", "real", "1", "0.5", "90deg", "#ff0000", "\"##\"", "'#'", "(", ")",
+    "[", "]", "{", "}", ",", ";", ":", ".", "?", "<", ">", "=", "+", "*", "/", "^", "-", "..",
+    "->", "=>", "==", "<=", "//", "\n", "5.", "'", "\"", "&&", "é", "\0",
 ];
 
 proptest! {

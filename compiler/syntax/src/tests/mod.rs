@@ -1,6 +1,7 @@
 //! The tests of the syntax, by what they ask.
 #![allow(clippy::unwrap_used)]
 
+mod each;
 mod formatted;
 mod good;
 mod hard;
@@ -13,7 +14,8 @@ const MIRRORS: &str = include_str!("../../../../examples/mirrors.scn");
 const TORUS: &str = include_str!("scenes/torus.scn");
 const MAZE: &str = include_str!("scenes/maze.scn");
 const PRIMITIVES: &str = include_str!("scenes/primitives.scn");
-const SCENES: [&str; 4] = [MIRRORS, TORUS, MAZE, PRIMITIVES];
+const HELIX: &str = include_str!("scenes/helix.scn");
+const SCENES: [&str; 5] = [MIRRORS, TORUS, MAZE, PRIMITIVES, HELIX];
 
 /// Diagnostics as plain text: place, message, label, help.
 fn plain(text: &str, diagnostics: &[Diagnostic]) -> String {
