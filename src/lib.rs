@@ -15,6 +15,7 @@ pub mod digest;
 pub mod draw;
 pub mod effects;
 pub mod estimate;
+pub mod examples;
 pub mod explain;
 pub mod failure;
 pub mod files;
@@ -45,8 +46,8 @@ pub mod trial;
 pub mod tune;
 pub mod ways;
 
-use clap::Parser;
 use clap::error::{ContextKind, ErrorKind};
+use clap::{CommandFactory, Parser};
 use failure::{Failure, Outcome};
 pub use output::{say, say_json};
 use std::process::ExitCode;
@@ -58,6 +59,11 @@ use std::process::ExitCode;
 struct Cli {
     #[command(subcommand)]
     command: commands::Command,
+}
+
+/// What the command line takes.
+pub fn command_line() -> clap::Command {
+    Cli::command()
 }
 
 /// Runs the command line; answers the exit status.
@@ -97,10 +103,8 @@ fn usage(found: &clap::Error) -> Outcome<()> {
 
 #[cfg(test)]
 mod tests {
-    use clap::CommandFactory;
-
     #[test]
     fn the_command_line_is_sound() {
-        super::Cli::command().debug_assert();
+        super::command_line().debug_assert();
     }
 }

@@ -6,6 +6,7 @@ mod compare;
 mod effects;
 mod explain;
 mod fmt;
+mod new;
 mod render;
 mod run;
 mod snapshot;
@@ -20,6 +21,8 @@ use clap::Subcommand;
 /// What to do.
 #[derive(Subcommand, Debug)]
 pub enum Command {
+    /// Write a scene to begin with
+    New(new::Args),
     /// Draw the native picture
     Render(render::Args),
     /// Say what is wrong with a scene, or may surprise
@@ -55,6 +58,7 @@ impl Command {
     /// Whatever goes wrong.
     pub fn run(&self) -> Outcome<()> {
         match self {
+            Command::New(args) => new::run(args),
             Command::Render(args) => render::run(args),
             Command::Check(args) => check::run(args),
             Command::Build(args) => build::run(args),

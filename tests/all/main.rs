@@ -13,6 +13,7 @@ mod cli_fmt;
 mod cli_hack;
 mod cli_heap;
 mod cli_keys;
+mod cli_new;
 mod cli_params;
 mod cli_run;
 mod cli_said;
