@@ -27,6 +27,7 @@ pub mod inks;
 pub mod interrupt;
 pub mod jobs;
 pub mod keys;
+pub mod library;
 pub mod listing;
 pub mod machine;
 pub mod measure;

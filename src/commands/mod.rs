@@ -3,6 +3,7 @@
 mod build;
 mod check;
 mod compare;
+mod doc;
 mod effects;
 mod explain;
 mod fmt;
@@ -45,6 +46,8 @@ pub enum Command {
     Snapshot(snapshot::Args),
     /// Format scenes in place
     Fmt(fmt::Args),
+    /// Say what the library has: shapes, lights, vectors and so on
+    Doc(doc::Args),
     /// Run any program on a bundled machine
     Vm(vm::Args),
     /// List the targets, their modes and formats
@@ -70,6 +73,7 @@ impl Command {
             Command::Survey(args) => survey::run(args),
             Command::Snapshot(args) => snapshot::run(args),
             Command::Fmt(args) => fmt::run(args),
+            Command::Doc(args) => doc::run(args),
             Command::Vm(args) => vm::run(args),
             Command::Targets(args) => targets::run(args),
         }

@@ -9,6 +9,7 @@ mod blue_noise;
 mod boxes;
 mod cli;
 mod cli_compare;
+mod cli_doc;
 mod cli_fmt;
 mod cli_hack;
 mod cli_heap;
