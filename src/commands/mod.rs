@@ -3,10 +3,12 @@
 mod build;
 mod check;
 mod compare;
+mod completions;
 mod doc;
 mod effects;
 mod explain;
 mod fmt;
+mod man;
 mod new;
 mod render;
 mod run;
@@ -52,6 +54,10 @@ pub enum Command {
     Vm(vm::Args),
     /// List the targets, their modes and formats
     Targets(targets::Args),
+    /// Print a shell's script that completes command lines
+    Completions(completions::Args),
+    /// Write manual pages
+    Man(man::Args),
 }
 
 impl Command {
@@ -76,6 +82,8 @@ impl Command {
             Command::Doc(args) => doc::run(args),
             Command::Vm(args) => vm::run(args),
             Command::Targets(args) => targets::run(args),
+            Command::Completions(args) => completions::run(args),
+            Command::Man(args) => man::run(args),
         }
     }
 }

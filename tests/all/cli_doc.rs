@@ -1,6 +1,7 @@
-//! `doc`: what there is in the library.
+//! `doc`, `completions` and `man`: what there is, said of itself.
 
-use crate::cli::{slowlight, success};
+use crate::cli::{directory, names, slowlight, success};
+use slowlight::command_line;
 use slowlight::library::pages;
 use slowlight_compiler::prelude::PRELUDE;
 use slowlight_compiler::scene::check;
@@ -115,4 +116,39 @@ fn records_of_the_list_are_known_to_scenes() {
     );
     let scene = check("test", &text);
     assert!(scene.is_right(), "{:?}", scene.diagnostics);
+}
+
+#[test]
+fn shells_complete_every_command() {
+    for shell in ["bash", "zsh", "fish", "powershell", "elvish"] {
+        let script = success(Path::new("."), &["completions", shell]);
+        for command in command_line().get_subcommands() {
+            assert!(script.contains(command.get_name()), "{shell}: {command}");
+        }
+        assert!(script.contains("without-pass"), "{shell}");
+        assert!(script.contains("torus-march"), "{shell}: values, too");
+    }
+    let output = slowlight(Path::new("."), &["completions", "csh"]);
+    assert_eq!(output.status.code(), Some(2));
+}
+
+#[test]
+fn every_command_has_a_manual_page() {
+    let dir = directory(&[]);
+    let dir = dir.path();
+    success(dir, &["man", "share/man1"]);
+    let mut pages: Vec<String> = (command_line().get_subcommands())
+        .map(|command| format!("slowlight-{}.1", command.get_name()))
+        .collect();
+    pages.push("slowlight.1".to_owned());
+    pages.sort();
+    assert_eq!(names(&dir.join("share/man1")), pages);
+    let page = std::fs::read_to_string(dir.join("share/man1/slowlight-run.1"));
+    let page = page.expect("a page");
+    assert!(page.contains("slowlight run"), "{page}");
+    assert!(page.contains("\\-\\-target"), "{page}");
+    // Where a file is in the way, none is written.
+    std::fs::write(dir.join("file"), "").expect("a file");
+    let output = slowlight(dir, &["man", "file"]);
+    assert_eq!(output.status.code(), Some(1));
 }
