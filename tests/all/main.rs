@@ -43,6 +43,7 @@ mod mos6502_fixed;
 mod mos6502_logs;
 mod need;
 mod numbers;
+mod packages;
 mod pairs;
 #[cfg(feature = "peers")]
 mod peers_assemblers;
