@@ -152,3 +152,13 @@ fn every_command_has_a_manual_page() {
     let output = slowlight(dir, &["man", "file"]);
     assert_eq!(output.status.code(), Some(1));
 }
+
+#[test]
+fn the_readme_lists_every_command() {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("README.md");
+    let readme = std::fs::read_to_string(path).expect("the page");
+    for command in command_line().get_subcommands() {
+        let row = format!("\n| `slowlight {}", command.get_name());
+        assert!(readme.contains(&row), "{row}");
+    }
+}
