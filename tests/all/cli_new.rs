@@ -14,7 +14,8 @@ fn read(path: &Path) -> String {
 fn the_binary_has_all_examples() {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("examples");
     let all = names(&folder);
-    let scenes: Vec<&str> = all.iter().filter_map(|n| n.strip_suffix(".scn")).collect();
+    let mut scenes: Vec<&str> = all.iter().filter_map(|n| n.strip_suffix(".scn")).collect();
+    scenes.sort_unstable();
     let known: Vec<&str> = EXAMPLES.iter().map(|(name, _)| *name).collect();
     assert_eq!(known, scenes, "src/examples.rs lists them");
     for (name, text) in EXAMPLES {
@@ -57,7 +58,8 @@ fn a_new_scene_may_be_an_example_anywhere() {
     let glass = EXAMPLES.iter().find(|(name, _)| *name == "glass");
     let (_, glass) = glass.expect("an example");
     assert_eq!(read(&dir.join("my scenes/a.b.scn")), *glass);
-    success(dir, &["new", "my scenes/a.b"]);
+    let output = slowlight(dir, &["new", "my scenes/a.b"]);
+    assert_eq!(output.status.code(), Some(1));
     success(dir, &["new", "v1.5", "--from", "torus"]);
     assert_eq!(names(dir), ["my scenes", "v1.5.scn"]);
 }
