@@ -15,6 +15,7 @@ pub mod digest;
 pub mod draw;
 pub mod effects;
 pub mod estimate;
+pub mod examples;
 pub mod explain;
 pub mod failure;
 pub mod files;
@@ -26,6 +27,7 @@ pub mod inks;
 pub mod interrupt;
 pub mod jobs;
 pub mod keys;
+pub mod library;
 pub mod listing;
 pub mod machine;
 pub mod measure;
@@ -45,8 +47,8 @@ pub mod trial;
 pub mod tune;
 pub mod ways;
 
-use clap::Parser;
 use clap::error::{ContextKind, ErrorKind};
+use clap::{CommandFactory, Parser};
 use failure::{Failure, Outcome};
 pub use output::{say, say_json};
 use std::process::ExitCode;
@@ -58,6 +60,11 @@ use std::process::ExitCode;
 struct Cli {
     #[command(subcommand)]
     command: commands::Command,
+}
+
+/// What the command line takes.
+pub fn command_line() -> clap::Command {
+    Cli::command()
 }
 
 /// Runs the command line; answers the exit status.
@@ -97,10 +104,8 @@ fn usage(found: &clap::Error) -> Outcome<()> {
 
 #[cfg(test)]
 mod tests {
-    use clap::CommandFactory;
-
     #[test]
     fn the_command_line_is_sound() {
-        super::Cli::command().debug_assert();
+        super::command_line().debug_assert();
     }
 }

@@ -2,7 +2,7 @@
 //! its results are what the graph reports.
 //!
 //! The kernels themselves are a library in the scene language,
-//! `compiler/kernels/`, which calls the prelude wherever the prelude has the
+//! `kernels/`, which calls the prelude wherever the prelude has the
 //! thing. There `case_NAME` is the kernel NAME of a file; a result of several
 //! parts is the record `NAME_result`, and a list of cells one record of them.
 
@@ -17,8 +17,8 @@ use std::collections::BTreeMap;
 use std::fmt::Write;
 
 /// The kernels by stable forms, and those by the textbook's.
-const STABLE: &str = include_str!("../../compiler/kernels/stable.scn");
-const NAIVE: &str = include_str!("../../compiler/kernels/naive.scn");
+const STABLE: &str = include_str!("kernels/stable.scn");
+const NAIVE: &str = include_str!("kernels/naive.scn");
 
 /// The greatest magnitude that a fixed-point param may be said to have.
 const FIXED_MOST: f64 = 32767.0;

@@ -3,9 +3,13 @@
 mod build;
 mod check;
 mod compare;
+mod completions;
+mod doc;
 mod effects;
 mod explain;
 mod fmt;
+mod man;
+mod new;
 mod render;
 mod run;
 mod snapshot;
@@ -20,6 +24,8 @@ use clap::Subcommand;
 /// What to do.
 #[derive(Subcommand, Debug)]
 pub enum Command {
+    /// Write a scene to begin with
+    New(new::Args),
     /// Draw the native picture
     Render(render::Args),
     /// Say what is wrong with a scene, or may surprise
@@ -42,10 +48,16 @@ pub enum Command {
     Snapshot(snapshot::Args),
     /// Format scenes in place
     Fmt(fmt::Args),
+    /// Say what the library has: shapes, lights, vectors and so on
+    Doc(doc::Args),
     /// Run any program on a bundled machine
     Vm(vm::Args),
     /// List the targets, their modes and formats
     Targets(targets::Args),
+    /// Print a shell's script that completes command lines
+    Completions(completions::Args),
+    /// Write manual pages
+    Man(man::Args),
 }
 
 impl Command {
@@ -55,6 +67,7 @@ impl Command {
     /// Whatever goes wrong.
     pub fn run(&self) -> Outcome<()> {
         match self {
+            Command::New(args) => new::run(args),
             Command::Render(args) => render::run(args),
             Command::Check(args) => check::run(args),
             Command::Build(args) => build::run(args),
@@ -66,8 +79,11 @@ impl Command {
             Command::Survey(args) => survey::run(args),
             Command::Snapshot(args) => snapshot::run(args),
             Command::Fmt(args) => fmt::run(args),
+            Command::Doc(args) => doc::run(args),
             Command::Vm(args) => vm::run(args),
             Command::Targets(args) => targets::run(args),
+            Command::Completions(args) => completions::run(args),
+            Command::Man(args) => man::run(args),
         }
     }
 }

@@ -150,8 +150,11 @@ fn scenes_come_from_standard_input() {
     assert_eq!(wrong.status.code(), Some(1));
     let said = String::from_utf8_lossy(&wrong.stderr).into_owned();
     assert!(said.contains("standard input:1:"), "{said}");
-    let wrong = fed(dir, "", &["fmt", "-"]);
-    assert_eq!(String::from_utf8_lossy(&wrong.stdout), "");
+    for text in ["", "draw (x, y) = ink(;"] {
+        let wrong = fed(dir, text, &["fmt", "-"]);
+        assert_eq!(String::from_utf8_lossy(&wrong.stdout), "");
+        assert_eq!(wrong.status.success(), text.is_empty());
+    }
 }
 
 /// What a Micro needs for drawing grows with the picture, and what its mode needs does not
