@@ -140,32 +140,33 @@ fn quickest(
     let (mut tries, mut too_large) = (0, 0);
     let is_first = |one: &Candidate| one.target.runtime.format == target.runtime.format;
     loop {
-        if tries == TRIES || known.is_empty() && best.is_some() {
-            // Where all that is within the goal is too large at first sight, one is looked at
-            // closer: written smaller, if slower, it may fit.
-            left.sort_by_key(Candidate::size);
-            if kept.is_some() || best.is_none() || too_large > 0 || left.is_empty() {
-                break;
-            }
-            (known, tries) = (vec![left.remove(0)], TRIES - 1);
-        }
         // Logarithms with a bit more are only looked for where those without are quick and wrong.
         let worth = |first: &Candidate| {
             let (far, none) = (!first.may(goal), tries > 0);
             let sooner = |one: &Candidate| is_log(one) && (far || one.cycles < first.cycles);
             none || known.iter().any(sooner)
         };
-        if !finer.is_empty() && kept.is_none() && known.first().is_some_and(worth) {
+        let more = kept.is_none() && tries < TRIES;
+        if more && !finer.is_empty() && known.first().is_some_and(worth) {
             let more = std::mem::take(&mut finer);
             known.extend(candidates(screen, scene, &more, goal, &mut left));
             sort(&mut known, goal);
         }
         let enough =
             |one: &Candidate| tries == 0 && one.may(goal) && one.cycles <= least_of_wider(&known);
-        if !long.is_empty() && kept.is_none() && !known.first().is_some_and(enough) {
+        if more && !long.is_empty() && !known.first().is_some_and(enough) {
             let more = std::mem::take(&mut long);
             known.extend(candidates(screen, scene, &more, goal, &mut left));
             sort(&mut known, goal);
+        }
+        if tries == TRIES || known.is_empty() {
+            // Where all that is within the goal is too large at first sight, one is looked at
+            // closer: written smaller, if slower, it may fit.
+            left.sort_by_key(Candidate::size);
+            if kept.is_some() || too_large > 0 || left.is_empty() {
+                break;
+            }
+            (known, tries) = (vec![left.remove(0)], TRIES - 1);
         }
         // The last try is for the surest.
         let next = match tries + 1 < TRIES || kept.is_some() {
@@ -188,13 +189,21 @@ fn quickest(
         let plan = match format.plan(scene, target, &[]) {
             Err(Failure::Wrong(said)) => {
                 others.does_not_fit(candidate.target.runtime.format, &said);
-                // To find that out takes longest.
-                if too_large > 0 {
-                    break;
-                }
                 too_large += 1;
                 let larger = |one: &mut Candidate| one.size() >= candidate.size() && !is_first(one);
                 left.extend(known.extract_if(.., larger));
+                // To find that out takes longest: after two nothing but the smallest is tried.
+                if too_large > 1 {
+                    if too_large > 2 || best.is_some() {
+                        break;
+                    }
+                    left.append(&mut known);
+                    left.sort_by_key(Candidate::size);
+                    let smaller = |one: &mut Candidate| one.size() < candidate.size();
+                    known = left.extract_if(.., smaller).take(1).collect();
+                    tries = TRIES - 1;
+                    (finer, long) = (Vec::new(), Vec::new());
+                }
                 continue;
             }
             Err(Failure::Scene(_)) => continue,

@@ -42,7 +42,7 @@ use crate::analysis::points::{Points, RECEIVED};
 use crate::analysis::range::{Ranges, Slack, ranges};
 use crate::ir::graph::*;
 use crate::ir::tree::*;
-use rustc_hash::FxHashSet;
+use rustc_hash::{FxHashMap, FxHashSet};
 use scales::{cap, wanted};
 use slowlight_routine::scale::{self, Scales, finest, fitting};
 use slowlight_routine::{Format, Op, Range, Routine, Runtime, Type};
@@ -131,6 +131,7 @@ impl Points {
         };
         let mut own: Vec<i8> = graph.ids().map(capped).collect();
         no_finer(graph, &copies, &mut own);
+        copies.no_finer(&mut own);
         read_at_most(graph, &copies, widths, &mut own);
         for id in graph.ids().filter(|id| graph.ty(*id) != Type::Real) {
             own[id.0 as usize] = 0;
@@ -261,16 +262,14 @@ fn no_finer(graph: &Graph, copies: &Copies, own: &mut [i8]) {
 /// What statements alone hand on: values that subroutines are given, and those that they leave
 /// behind, each at the node that it is a copy for.
 struct Copies {
-    from: FxHashSet<NodeId>,
+    /// From what, and for what node.
+    all: Vec<(NodeId, NodeId)>,
     to: FxHashSet<NodeId>,
 }
 
 impl Copies {
     fn of(graph: &Graph, tree: &Tree) -> Copies {
-        let mut copies = Copies {
-            from: FxHashSet::default(),
-            to: FxHashSet::default(),
-        };
+        let mut all = Vec::new();
         for block in tree.blocks() {
             walk(block, &mut |statement| {
                 if let Statement::Set {
@@ -279,12 +278,25 @@ impl Copies {
                 } = statement
                     && !matches!(graph.node(*to), Node::Select { .. } | Node::Tabulated(_))
                 {
-                    copies.from.insert(*from);
-                    copies.to.insert(*to);
+                    all.push((*from, *to));
                 }
             });
         }
-        copies
+        let to = all.iter().map(|(_, to)| *to).collect();
+        Copies { all, to }
+    }
+
+    /// Leaves a copy no more bits than the finest has that it is made of.
+    fn no_finer(&self, own: &mut [i8]) {
+        let mut finest: FxHashMap<NodeId, i8> = FxHashMap::default();
+        for (from, to) in &self.all {
+            let finest = finest.entry(*to).or_insert(scale::FEWEST);
+            *finest = (*finest).max(own[from.0 as usize]);
+        }
+        for (to, finest) in finest {
+            let own = &mut own[to.0 as usize];
+            *own = (*own).min(finest);
+        }
     }
 
     /// Whether a value is not computed where its node says so: what that would be made of is
@@ -302,7 +314,7 @@ fn read_at_most(graph: &Graph, copies: &Copies, widths: &Widths, own: &mut [i8])
     for id in all.chain(graph.outputs()) {
         read[id.0 as usize] = finest(bits);
     }
-    for id in &copies.from {
+    for (id, _) in &copies.all {
         read[id.0 as usize] = finest(bits);
     }
     for id in graph.ids().rev() {
