@@ -263,10 +263,8 @@ fn repeated(levels: &mut Vec<Level>) {
     let ended = |level: &&Level| level.branch == Some(true) && level.each.is_none();
     let above = levels.iter().rev().take_while(ended).count();
     let at = levels.len().checked_sub(above + 1);
-    if !at
-        .and_then(|at| levels.get(at))
-        .is_some_and(|l| l.each.is_some())
-    {
+    let innermost = at.and_then(|at| levels.get(at));
+    if innermost.is_none_or(|level| level.each.is_none()) {
         return;
     }
     for _ in 0..above {
