@@ -58,7 +58,7 @@ fn columns(found: &Explained) -> [(&'static str, String); 8] {
         (
             "error",
             plain(
-                "the share of the mean square error that goes where this line's values are in 64-bit floating point; `cancels` where it grows",
+                "the share of the mean square error that goes where this line's values are in 64-bit floating point; “cancels” where it grows",
             ),
         ),
         ("rate", plain(per_turn)),
