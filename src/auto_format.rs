@@ -10,8 +10,9 @@
 //! has its turn, and also where a program that had to be made small for its machine is slower
 //! than the next one is without a search, and where the next one is nearly as quick without a
 //! search: the quicker program of both is taken. One whose program is half as large again as what
-//! the machine has for it in any mode is left out, unless nothing else is within the goal. Where one does not fit in the end, larger ones
-//! are not tried, but for the machine's first format.
+//! the machine has for it in any mode is left out, unless nothing else is within the goal. Where
+//! one does not fit in the end, larger ones are not tried, but for the machine's first format;
+//! where two do not, nothing but the smallest is.
 //!
 //! The whole picture is looked at, whatever rows are asked for: a format is chosen for a scene.
 //! Where its pixels take more work than is worth it, nothing is known, and the machine's first

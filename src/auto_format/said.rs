@@ -26,7 +26,7 @@ pub struct Why {
 /// The formats that a choice was not for.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Others {
-    /// Whose programs the machine does not hold, and by how much, the smallest first.
+    /// Whose programs the machine does not hold, and by how much.
     pub large: Vec<(&'static str, String)>,
     /// The others that were looked at: what they take, and their pixels wrong.
     pub seen: Vec<(&'static str, f64, f64)>,

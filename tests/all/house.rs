@@ -1,26 +1,13 @@
 //! The house: which crate may know which (ARCHITECTURE.md, "Arrows point down only"), and what its
 //! documents point at.
 
+use crate::packages::packages;
 use std::collections::BTreeSet;
 use std::path::Path;
-use std::process::Command;
 
 /// The workspace's own crates that a crate's normal dependencies name.
 fn arrows() -> Vec<(String, BTreeSet<String>)> {
-    let output = Command::new(env!("CARGO"))
-        .args([
-            "metadata",
-            "--format-version",
-            "1",
-            "--no-deps",
-            "--offline",
-        ])
-        .current_dir(env!("CARGO_MANIFEST_DIR"))
-        .output()
-        .expect("cargo runs");
-    let json: serde_json::Value =
-        serde_json::from_slice(&output.stdout).expect("cargo prints JSON");
-    let packages = json["packages"].as_array().expect("packages");
+    let packages = packages();
     let name = |v: &serde_json::Value| v["name"].as_str().unwrap_or_default().to_owned();
     let own: BTreeSet<String> = packages.iter().map(name).collect();
     let normal = |p: &serde_json::Value| {

@@ -4,7 +4,7 @@
 use crate::analysis::range::{Slack, ranges};
 use crate::ir::graph::*;
 use crate::schedule::statements::schedule;
-use crate::source::{Diagnostic, Label, Sources};
+use crate::source::{Diagnostic, Label, Sources, Span};
 use crate::targets::Target;
 use slowlight_routine::{Format, Op, Range};
 use std::collections::BTreeSet;
@@ -83,9 +83,7 @@ pub fn int_warning(graph: &Graph, sources: &Sources, target: &Target) -> Option<
         };
         let known = |range: &Range| range.lo > lo && range.hi < hi;
         let span = graph.span(id);
-        let own = sources.files.get(usize::from(span.file));
-        let own = own.is_some_and(|f| !f.library) && span.called().is_none();
-        if !own || !leaves(exact) || !args.iter().all(known) {
+        if !is_own(span, sources) || !leaves(exact) || !args.iter().all(known) {
             continue;
         }
         said = Some(match said {
@@ -120,9 +118,11 @@ pub fn clamped(graph: &Graph, sources: &Sources) -> Vec<Diagnostic> {
             continue;
         };
         let span = graph.span(id);
-        let own = sources.files.get(usize::from(span.file));
-        let own = own.is_some_and(|f| !f.library) && span.called().is_none();
-        let Some(table) = graph.tables.get(table.0 as usize).filter(|_| own) else {
+        let Some(table) = graph
+            .tables
+            .get(table.0 as usize)
+            .filter(|_| is_own(span, sources))
+        else {
             continue;
         };
         let sides = [
@@ -146,6 +146,12 @@ pub fn clamped(graph: &Graph, sources: &Sources) -> Vec<Diagnostic> {
         }
     }
     said
+}
+
+/// Whether the scene's author wrote what stands there, not the library's.
+fn is_own(span: Span, sources: &Sources) -> bool {
+    let file = sources.files.get(usize::from(span.file));
+    file.is_some_and(|file| !file.library) && span.called().is_none()
 }
 
 /// Where a value lies, as far as that says anything.

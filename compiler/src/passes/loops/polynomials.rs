@@ -14,8 +14,8 @@
 //! Over the reals both are the same. A polynomial of the first degree has terms about as large
 //! as those that it comes from, which is tested. The terms of a square cancel where the value is
 //! small: unless the format's roundings of its greatest term are below [`SOUND`], it is put so
-//! only along a direction of length 1, and measured from the point that is nearest to the
-//! centre, where no terms cancel but those that the point's own places have, too:
+//! only along a direction of length 1, by completing the square: measured from the point that is
+//! nearest to the centre, where no terms cancel but those that the point's own places have, too:
 //! ```text
 //! |o + t d - c|^2   is   (t + u)^2 + |o - c - u d|^2   where   u = (o - c) . d
 //! ```
@@ -68,8 +68,8 @@ pub fn polynomials(graph: &Graph, ranges: &Ranges, runtime: &Runtime) -> Option<
             span,
         };
         let coefficients = build.coefficients(id)?;
-        match found.is_centred(id) {
-            true => build.centred(coefficients, atom),
+        match found.completes_square(id) {
+            true => build.completed_square(coefficients, atom),
             false => build.horner(coefficients, atom),
         }
     }))
@@ -227,7 +227,7 @@ impl<'g> Loops<'g> {
             let ends = |user: &NodeId| self.of(*user).is_none_or(|of| of.atom != polynomial.atom);
             let used = self.users[id.0 as usize].iter().any(ends)
                 || self.graph.roots().any(|root| root == id);
-            if used && (self.is_sound(&polynomial) || self.is_centred(id)) {
+            if used && (self.is_sound(&polynomial) || self.completes_square(id)) {
                 all.entry(home).or_default().push(id);
             }
         }
@@ -247,7 +247,7 @@ impl<'g> Loops<'g> {
 
     /// Whether a value is a sum of squares along a direction of length 1, whose terms may not be
     /// rounded by themselves.
-    fn is_centred(&self, id: NodeId) -> bool {
+    fn completes_square(&self, id: NodeId) -> bool {
         let Some(of) = self.of(id).filter(|of| of.degree == 2) else {
             return false;
         };
@@ -282,7 +282,7 @@ impl<'g> Loops<'g> {
                 }
             }
             let [times, sum] = [Op::Mul, Op::Add].map(|op| self.cycles(op));
-            if is_put && self.is_centred(id) {
+            if is_put && self.completes_square(id) {
                 let turns = self.graph.loops[home.0 as usize].max.clamp(1, TURNS);
                 gain -= times + 2.0 * sum + (9.0 * times + 7.0 * sum) / f64::from(turns);
             } else if is_put {
@@ -333,13 +333,14 @@ fn homes(graph: &Graph, rates: &Rates) -> Vec<Option<LoopId>> {
 /// The slopes of a result, of two operands and what they are as polynomials.
 fn slopes(op: Op, [a, b]: [NodeId; 2], [x, y]: [&Polynomial; 2]) -> Slopes {
     let some = |of: &Polynomial| of.slopes.into_iter().flatten();
+    let known = |of: &Polynomial| some(of).count();
     match (op, x.degree, y.degree) {
-        (Op::Neg, ..) | (Op::Add | Op::Sub, _, 0) => x.slopes,
-        (Op::Add | Op::Sub, 0, _) => y.slopes,
+        (Op::Neg, 1, _) | (Op::Add | Op::Sub, _, 0) => x.slopes,
+        (Op::Add, 0, _) | (Op::Sub, 0, 1) => y.slopes,
         (Op::Mul, 1, 0) if x.atom == Some(a) => [Some(b), None, None],
         (Op::Mul, 0, 1) if y.atom == Some(b) => [Some(a), None, None],
         (Op::Mul, 1, 1) if a == b => x.slopes,
-        (Op::Add, 2, 2) if some(x).count() + some(y).count() <= 3 => {
+        (Op::Add, 2, 2) if known(x) > 0 && known(y) > 0 && known(x) + known(y) <= 3 => {
             let mut all = some(x).chain(some(y));
             [all.next(), all.next(), all.next()]
         }

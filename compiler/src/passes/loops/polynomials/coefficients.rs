@@ -196,7 +196,7 @@ impl Build<'_, '_> {
 
     /// A sum of squares along a direction of length 1 at its atom, from the point on the line
     /// that is nearest to where all of them are 0.
-    pub fn centred(&mut self, of: Coefficients, atom: NodeId) -> Option<NodeId> {
+    pub fn completed_square(&mut self, of: Coefficients, atom: NodeId) -> Option<NodeId> {
         let t = self.made.get(atom.0 as usize).copied().flatten();
         let lines = of.squares?;
         let mut along = None;
