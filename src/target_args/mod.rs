@@ -150,12 +150,12 @@ impl ScreenArgs {
     /// # Errors
     /// Where the target has no mode of that name.
     pub fn modes(&self, target: &'static Target, scene: &Scene) -> Outcome<Vec<Mode>> {
+        let (width, height) = scene.size();
         let Some(name) = &self.mode else {
-            let (width, height) = scene.size();
             return Ok(targets::modes_for(target, width, height, scene.inks()));
         };
         let found = target.modes.iter().find(|m| m.name == name);
-        let found = found.map(|mode| vec![*mode]);
+        let found = found.map(|mode| vec![targets::shown_in(target, mode, width, height)]);
         found.ok_or_else(|| {
             let names: Vec<&str> = target
                 .modes

@@ -27,6 +27,8 @@
 //   "marks"            [number, cycles since the start] for each write to &70
 //   "text"             what was written to the screen, control codes included
 //   "memory"           the dump, hex
+//   "video"            what the screen's hardware was told last: "registers" of the 6845, "control"
+//                      and "palette" of the video ULA, colours by patterns
 //   "cases"            see below
 //   "drawings"         see below
 // of "programs" only
@@ -113,6 +115,7 @@ class Micro {
     await this.machine.initialise();
     this.cpu = this.machine.processor;
     this.fields();
+    this.watch();
     this.marks = [];
     this.start = 0;
     this.cpu.debugInstruction.add((pc) => this.instruction(pc));
@@ -136,6 +139,22 @@ class Micro {
       task.reschedule(high ? PULSE : FIELD - PULSE);
     });
     task.schedule(FIELD);
+  }
+
+  /** Notes what the screen's hardware is told: the 6845's registers, the video ULA's control and
+      palette. */
+  watch() {
+    const seen = { registers: Array(18).fill(0), control: 0, palette: Array(16).fill(0) };
+    let chosen = 0;
+    this.cpu.video.crtc.write = (address, value) => {
+      if (address & 1) seen.registers[chosen & 31] = value;
+      else chosen = value;
+    };
+    this.cpu.video.ula.write = (address, value) => {
+      if (address & 1) seen.palette[value >> 4] = (value & 15) ^ 7;
+      else seen.control = value;
+    };
+    this.seen = seen;
   }
 
   now() {
@@ -362,6 +381,7 @@ class Micro {
     const cycles = this.now() - this.start;
     const [from, to] = job.dump ?? [0, 0];
     const memory = Buffer.from(this.cpu.ramRomOs.subarray(from, to)).toString("hex");
+    const video = structuredClone(this.seen);
     let back = false;
     if (job.press) {
       this.pressed = true;
@@ -375,6 +395,7 @@ class Micro {
       marks: this.marks,
       text: Buffer.from(this.text).toString("latin1"),
       memory,
+      video,
       back,
       cases: this.answers,
     };

@@ -3,7 +3,7 @@
 use super::{Lean, Mode, Sizes, System, Target};
 use slowlight_runtime_bbc::RUNTIME;
 
-const fn mode(name: &'static str, width: u32, height: u32, inks: u32) -> Mode {
+pub(super) const fn mode(name: &'static str, width: u32, height: u32, inks: u32) -> Mode {
     Mode {
         name,
         width,
@@ -71,6 +71,7 @@ pub static MICRO: Target = Target {
     drawing: 3_400,
     stolen: 0.0,
     lean: Lean::Short,
+    windows: false,
     hertz: 2_000_000.0,
     sizes: SIZES,
     wraps: true,
@@ -93,6 +94,7 @@ pub static AGON: Target = Target {
     drawing: 6_600,
     stolen: 0.0,
     lean: Lean::Short,
+    windows: false,
     // Measured: the two mirrors in 11.6 minutes for BASIC II's 17.8e9 cycles.
     hertz: 25_500_000.0,
     sizes: SIZES,
@@ -112,6 +114,7 @@ pub static BASIC_V: Target = Target {
     drawing: 6_600,
     stolen: 0.0,
     lean: Lean::Short,
+    windows: false,
     // Measured: 0.15 seconds for the same program.
     hertz: 1.2e11,
     sizes: SIZES,

@@ -95,6 +95,8 @@ pub struct Target {
     pub stolen: f64,
     /// What a leaner style of its programs is.
     pub lean: Lean,
+    /// Whether its programs set up a screen no larger than the picture, whatever the mode.
+    pub windows: bool,
 }
 
 /// What [`crate::plan::Plan::lean`] makes of a machine's programs.
@@ -170,8 +172,10 @@ pub static OTHER_FORMATS: &[&Target] = &[
     &mos6502::BBC_FIXED24,
     &mos6502::C64_FIXED24,
     &mos6502::PLAIN_LOG10,
+    &mos6502::BBC_LOG10,
     &mos6502::C64_LOG10,
     &mos6502::PLAIN_LOG11,
+    &mos6502::BBC_LOG11,
     &mos6502::C64_LOG11,
 ];
 
@@ -218,5 +222,21 @@ pub fn modes_for(target: &Target, width: u32, height: u32, inks: u32) -> Vec<Mod
     let pixels = |m: &Mode| u64::from(m.width) * u64::from(m.height);
     whole.sort_by_key(|m| Reverse(shown(m)));
     part.sort_by_key(|m| Reverse((pixels(m), shown(m))));
-    whole.into_iter().chain(part).copied().collect()
+    let all = whole.into_iter().chain(part);
+    all.map(|mode| shown_in(target, mode, width, height))
+        .collect()
+}
+
+/// A mode as it shows a picture: no larger than that where the target's programs set up the
+/// screen themselves, to whole bytes and rows of characters.
+pub fn shown_in(target: &Target, mode: &Mode, width: u32, height: u32) -> Mode {
+    if !target.windows {
+        return *mode;
+    }
+    let pixels = 8 / mode.inks.ilog2().max(1);
+    Mode {
+        width: mode.width.min(width.next_multiple_of(pixels)),
+        height: mode.height.min(height.next_multiple_of(8)),
+        ..*mode
+    }
 }

@@ -1,6 +1,6 @@
 //! Target descriptions of 6502 machines, by the format of their reals.
 
-use super::bbc::MICRO_MODES;
+use super::bbc::mode;
 use super::{Lean, Mode, Sizes, System, Target};
 use slowlight_runtime_6502::FIXED16_16;
 use slowlight_runtime_6502::log::{LOG10, LOG10_IN_RUNS, LOG11, LOG11_IN_RUNS};
@@ -70,12 +70,23 @@ pub static PLAIN_LOG11: Target = Target {
 /// few units away, comes out as a few thousandths.
 const LOG_OFFSET: f64 = 0.015_625;
 
+/// The modes of a BBC Micro, whose screens are as large as the picture: of equal inks those with
+/// square pixels first.
+static BBC_MODES: &[Mode] = &[
+    mode("4", 320, 256, 2),
+    mode("1", 320, 256, 4),
+    mode("2", 160, 256, 16),
+    mode("0", 640, 256, 2),
+    mode("5", 160, 256, 4),
+];
+
 /// A BBC Micro, model B.
 pub static BBC: Target = Target {
     name: "6502:bbc",
     system: System::BbcCode,
     about: "a BBC Micro in machine code, with a disc drive",
-    modes: MICRO_MODES,
+    modes: BBC_MODES,
+    windows: true,
     drawing: 55,
     ..USUAL
 };
@@ -101,6 +112,22 @@ pub static BBC_FIXED20: Target = Target {
 /// The same with reals of 24 bits.
 pub static BBC_FIXED24: Target = Target {
     runtime: &FIXED24,
+    ..BBC
+};
+
+/// The same with logarithmic reals.
+pub static BBC_LOG10: Target = Target {
+    runtime: &LOG10,
+    offset: LOG_OFFSET,
+    lean: Lean::Calls,
+    ..BBC
+};
+
+/// The same with a bit more.
+pub static BBC_LOG11: Target = Target {
+    runtime: &LOG11,
+    offset: LOG_OFFSET / 2.0,
+    lean: Lean::Calls,
     ..BBC
 };
 
@@ -174,6 +201,7 @@ const USUAL: Target = Target {
     drawing: 38,
     stolen: 0.0,
     lean: Lean::Nothing,
+    windows: false,
     hertz: 2_000_000.0,
     wraps: false,
     columns: 512,

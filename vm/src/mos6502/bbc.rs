@@ -9,12 +9,14 @@
 //! |---|---|---|
 //! | &FFEE | OSWRCH | VDU 22 chooses a mode, VDU 19 gives an ink its colour, VDU 23,1 hides the cursor; in MODE 7, text |
 //! | &FFE3, &FFE7 | OSASCI, OSNEWL | text, and the end of a line |
-//! | &FFF4 | OSBYTE | 119, 124 and 21, of which nothing is seen here |
+//! | &FFF4 | OSBYTE | 119, 124 and 21, of which nothing is seen here; 154, the video ULA's control |
 //! | &FFF4 | OSBYTE | 129 (INKEY), where there is a keyboard |
 //! | &FFE0 | OSRDCH | the next key, where there is a keyboard; else nobody presses one: the program has **ended** |
+//! | &FFF7 | OSCLI | `*BASIC`: the program has ended |
 //!
 //! A program that ends in MODE 7 and has printed something ends with that as a fault.
-//! Everything else there and all other hardware is not there: what calls, reads or sets
+//! Of the hardware what makes the screen may be set: the 6845's registers by &FE00 and &FE01, the
+//! video ULA's at &FE20 and &FE21. Everything else is not there: what calls, reads or sets
 //! it ends the run with a fault. Programs that return end, too.
 //!
 //! # Cycles
@@ -25,51 +27,24 @@
 //! genuine one, to a few per cent ([`MODE_CYCLES`]).
 
 mod keyboard;
+mod video;
 
 use super::computer::{Board, Computer, fault, return_from};
 use super::cpu::{Bus, Cpu};
 use crate::bbc::cost;
 use crate::keys::Keyboard;
 use crate::{Screen, Stop};
+use video::{MODES, Mode, Video};
 
 /// The machine.
 pub type Bbc = Computer<Micro>;
 
 /// Where RAM ends.
 const RAM: u16 = 0x8000;
+/// Where the screen of MODE 7 begins.
+const TEXT: u16 = 0x7C00;
 /// Where a program returns to.
 const RETURN: u16 = RAM;
-
-/// A graphics mode.
-#[derive(Clone, Copy, Debug)]
-struct Mode {
-    number: u8,
-    width: u32,
-    /// Bits of a pixel.
-    bits: u8,
-    /// Where its memory begins; it ends at &8000.
-    start: u16,
-}
-
-const MODES: [Mode; 5] = [
-    mode(0, 640, 1, 0x3000),
-    mode(1, 320, 2, 0x3000),
-    mode(2, 160, 4, 0x3000),
-    mode(4, 320, 1, 0x5800),
-    mode(5, 160, 2, 0x5800),
-];
-
-const fn mode(number: u8, width: u32, bits: u8, start: u16) -> Mode {
-    Mode {
-        number,
-        width,
-        bits,
-        start,
-    }
-}
-
-/// Rows of every mode.
-const HEIGHT: u32 = 256;
 
 /// Cycles of VDU 22, which clears the screen, for 20K of it and for 10K.
 pub const MODE_CYCLES: [u64; 2] = [111_000, 60_500];
@@ -81,9 +56,7 @@ const CALL_CYCLES: u64 = 150;
 pub struct Micro {
     ram: Box<[u8; 0x1_0000]>,
     cycles: u64,
-    mode: Option<Mode>,
-    /// The physical colour of each ink.
-    colours: [u8; 16],
+    video: Video,
     /// A VDU command whose bytes have not all come.
     vdu: Vec<u8>,
     text: Vec<u8>,
@@ -98,8 +71,7 @@ impl Default for Micro {
         Micro {
             ram: Box::new([0; 0x1_0000]),
             cycles: 0,
-            mode: None,
-            colours: [0; 16],
+            video: Video::default(),
             vdu: Vec::new(),
             text: Vec::new(),
             last: 0,
@@ -128,12 +100,24 @@ impl Bus for Micro {
                 self.last = address;
             }
         } else {
-            self.absent("sets", address);
+            self.set(address, value);
         }
     }
 }
 
 impl Micro {
+    /// Sets a register of the hardware.
+    #[cold]
+    fn set(&mut self, address: u16, value: u8) {
+        if !self.video.write(address, value) {
+            return self.absent("sets", address);
+        }
+        // The 6845 is on the bus of 1 MHz: the processor waits for that.
+        if address < 0xFE20 {
+            self.cycles += 1;
+        }
+    }
+
     #[cold]
     fn absent(&mut self, does: &str, address: u16) {
         // The vector of `brk`: who takes it says so.
@@ -155,6 +139,7 @@ impl Micro {
             0xFFE3 => self.write_vdu(cpu.a),
             0xFFE7 => [10, 13].into_iter().for_each(|c| self.write_vdu(c)),
             0xFFF4 if matches!(cpu.a, 21 | 119 | 124) => {}
+            0xFFF4 if cpu.a == 154 => self.video.set_control(cpu.x),
             0xFFF4 if cpu.a == 129 && self.keyboard.is_some() => self.inkey(cpu),
             0xFFE0 if self.keyboard.is_some() => self.read_key(cpu),
             0xFFF4 => self.fail(format!(
@@ -162,18 +147,26 @@ impl Micro {
                 cpu.a
             )),
             0xFFE0 | RETURN => return self.end(),
+            0xFFF7 if self.command(cpu) == b"BASIC" => return self.end(),
             at => self.fail(format!(
                 "the program calls &{at:04X}: of the machine's ROMs only OSWRCH, OSASCI, OSNEWL, \
-                 OSBYTE and OSRDCH are bundled"
+                 OSBYTE, OSRDCH and *BASIC are bundled"
             )),
         }
         return_from(cpu, &self.ram);
     }
 
+    /// A command of the operating system's, as X and Y say where it stands.
+    fn command(&self, cpu: &Cpu) -> &[u8] {
+        let from = self.ram.get(usize::from(u16::from_le_bytes([cpu.x, cpu.y]))..);
+        let mut lines = from.unwrap_or_default().split(|byte| *byte == 13);
+        lines.next().unwrap_or_default()
+    }
+
     fn end(&mut self) {
         let said = String::from_utf8_lossy(&self.text).trim().to_owned();
-        self.stop.get_or_insert(match self.mode {
-            None if !said.is_empty() => Stop::Fault(fault(said)),
+        self.stop.get_or_insert(match self.video.is_graphic() {
+            false if !said.is_empty() => Stop::Fault(fault(said)),
             _ => Stop::Ended,
         });
     }
@@ -195,13 +188,9 @@ impl Micro {
         match (*first, rest) {
             _ if rest.len() < follow => self.vdu = vdu,
             (22, &[number]) => self.choose(number),
-            (19, &[ink, colour, _, _, _]) => {
-                if let Some(own) = self.colours.get_mut(usize::from(ink)) {
-                    *own = colour & 7;
-                }
-            }
+            (19, &[ink, colour, _, _, _]) => self.video.colour(ink, colour),
             (23, [1, ..]) => {}
-            (10 | 13 | 32..=126, []) if self.mode.is_none() => {
+            (10 | 13 | 32..=126, []) if !self.video.is_graphic() => {
                 if byte != 13 {
                     self.text.push(byte);
                 }
@@ -215,37 +204,17 @@ impl Micro {
     }
 
     fn choose(&mut self, number: u8) {
-        let found = MODES.iter().find(|m| m.number == number & 0x7F);
-        let Some(&mode) = found else {
+        let number = number & 0x7F;
+        let found: Option<Mode> = MODES.iter().find(|m| m.number == number).copied();
+        if found.is_none() && number != 7 {
             return self.fail(format!(
-                "MODE {number} is not bundled: 0, 1, 2, 4 and 5 are"
+                "MODE {number} is not bundled: 0, 1, 2, 4, 5 and 7 are"
             ));
-        };
-        self.mode = Some(mode);
-        self.cycles += MODE_CYCLES[usize::from(mode.start > 0x3000)];
-        self.ram[usize::from(mode.start)..usize::from(RAM)].fill(0);
-        for (ink, colour) in (0..).zip(&mut self.colours) {
-            *colour = match mode.bits {
-                1 => [0, 7][ink & 1],
-                2 => [0, 1, 3, 7][ink & 3],
-                _ => (ink & 7) as u8,
-            };
         }
-    }
-
-    /// Bytes of a row of characters.
-    fn row_bytes(mode: Mode) -> u32 {
-        mode.width * u32::from(mode.bits)
-    }
-
-    /// The ink of a pixel: a byte's pixels stand side by side in each of its bits.
-    fn ink(&self, mode: Mode, x: u32, y: u32) -> u8 {
-        let pixels = 8 / u32::from(mode.bits);
-        let at = y / 8 * Self::row_bytes(mode) + x / pixels * 8 + y % 8;
-        let byte = self.ram.get(usize::from(mode.start) + at as usize);
-        let byte = byte.copied().unwrap_or(0);
-        let bit = |k: u32| byte >> (7 - x % pixels - k * pixels) & 1;
-        (0..u32::from(mode.bits)).fold(0, |ink, k| ink << 1 | bit(k))
+        let start = found.map_or(TEXT, |mode| mode.start);
+        self.video.enter(found);
+        self.cycles += MODE_CYCLES[usize::from(start > 0x3000)];
+        self.ram[usize::from(start)..usize::from(RAM)].fill(0);
     }
 }
 
@@ -298,26 +267,11 @@ impl Board for Micro {
     }
 
     fn row(&self) -> Option<u32> {
-        let mode = self.mode?;
-        let at = u32::from(self.last.checked_sub(mode.start)?);
-        Some(at / Self::row_bytes(mode) * 8 + at % 8)
+        self.video.line(self.last)
     }
 
     fn screen(&self) -> Option<Screen> {
-        let mode = self.mode?;
-        let rows = (0..HEIGHT).flat_map(|y| (0..mode.width).map(move |x| (x, y)));
-        let colour = |c: &u8| [1, 2, 4].map(|bit| if c & bit == 0 { 0 } else { 255 });
-        Some(Screen {
-            width: mode.width,
-            height: HEIGHT,
-            pixels: rows.map(|(x, y)| self.ink(mode, x, y)).collect(),
-            palette: self
-                .colours
-                .iter()
-                .take(1 << mode.bits)
-                .map(colour)
-                .collect(),
-        })
+        self.video.screen(&self.ram[..usize::from(RAM)])
     }
 
     fn output(&self) -> Vec<u8> {

@@ -1,4 +1,5 @@
-//! A BBC Micro: modes and colours through its operating system, pixels into its memory.
+//! A BBC Micro: its screen set up by registers, no larger than the picture, and pixels
+//! written into its memory.
 //!
 //! A program is loaded where the disc system leaves memory (&1900). Where it is not at
 //! home there but lower, it puts itself in order: the file's first instruction jumps to
@@ -9,8 +10,10 @@
 
 use super::super::bbc::{colours, first_colour};
 use super::Text;
+use super::layout::Layout;
 use super::memory::{DISC_PAGE, Machine, Places};
 use crate::plan::Plan;
+use crate::targets::Mode;
 
 /// Calls of the operating system.
 pub(super) fn symbols(text: &mut Text) {
@@ -59,35 +62,101 @@ pub(super) fn begin(places: &Places, text: &mut Text) {
     text.code("cld");
 }
 
-/// The mode, its colours, and no cursor.
+/// The screen, empty: as wide and high as the mode says, below &8000. No mode is entered for
+/// it, which would clear what the picture leaves to the program.
 pub(super) fn open(plan: &Plan, text: &mut Text) {
-    text.code("ldx #0");
-    text.label("screen_code");
-    text.code(&format!(
-        "lda screen_codes,x | jsr oswrch | inx | cpx #{} | bne screen_code",
-        codes(plan)
-            .iter()
-            .map(|(bytes, _)| bytes.len())
-            .sum::<usize>()
+    let Some(layout) = Layout::of(plan) else {
+        return;
+    };
+    let [lo, hi] = layout.start.to_le_bytes();
+    text.line(format!(
+        "        ; the screen, from ${:04x}, empty",
+        layout.start
     ));
+    text.code(&format!(
+        "lda #${hi:02x} | sta prod+1 | ldy #${lo:02x} | lda #0 | sta prod"
+    ));
+    text.label("clear_byte");
+    text.code("sta (prod),y | iny | bne clear_byte | inc prod+1 | bpl clear_byte");
+    text.line("        ; its shape, how its bytes are read, its colours");
+    text.code("ldx #13");
+    text.label("screen_shape");
+    text.code("lda shape,x | stx $fe00 | sta $fe01 | dex | bpl screen_shape");
+    text.code(&format!(
+        "lda #154 | ldx #${:02x} | jsr osbyte | ldx #15",
+        shown(&plan.mode).control
+    ));
+    text.label("screen_colour");
+    text.code("lda colour,x | sta $fe21 | dex | bpl screen_colour");
 }
 
-/// What the VDU is told, and why.
-fn codes(plan: &Plan) -> Vec<(Vec<u8>, String)> {
-    let mode = plan.mode.name;
-    let number = mode.parse().unwrap_or(0);
-    let mut all = vec![
-        (vec![22, number], format!("MODE {mode}")),
-        (vec![23, 1, 0, 0, 0, 0, 0, 0, 0, 0], "no cursor".to_owned()),
-    ];
-    for (ink, own) in colours(&plan.graph.image.palette).into_iter().enumerate() {
-        // The upper inks of a mode with 16 flash.
-        if own != first_colour(&plan.mode, ink) || ink > 7 {
-            let bytes = vec![19, ink as u8, own, 0, 0, 0];
-            all.push((bytes, format!("ink {ink} is colour {own}")));
-        }
-    }
-    all
+/// How a mode is shown.
+struct Shown {
+    /// The video ULA's control register.
+    control: u8,
+    /// Whether bytes are read at 2 MHz, or at half that.
+    fast: bool,
+}
+
+fn shown(mode: &Mode) -> Shown {
+    // As the operating system has them (Bray, Dickens and Holmes, The Advanced User Guide,
+    // 19.1): the cursor's width, the clock, and characters a line.
+    let (control, fast) = match mode.name {
+        "0" => (0x9C, true),
+        "1" => (0xD8, true),
+        "2" => (0xF4, true),
+        "4" => (0x88, false),
+        _ => (0xC4, false),
+    };
+    Shown { control, fast }
+}
+
+/// The 6845's registers 0 to 13 for a screen of a mode, in the middle of what a television
+/// shows (The Advanced User Guide, 18).
+fn shape(layout: &Layout, mode: &Mode) -> [u8; 14] {
+    // Characters of a line in all, of which seen, where it ends, and its pulse.
+    let [line, most, end, pulse] = match shown(mode).fast {
+        true => [127, 80, 98, 0x28],
+        false => [63, 40, 49, 0x24],
+    };
+    let across = layout.characters().min(most) as u8;
+    let down = (mode.height / 8).min(32) as u8;
+    let [low, high] = (layout.start / 8).to_le_bytes();
+    let side = (most as u8 - across) / 2;
+    let above = (32 - down) / 2;
+    [
+        line as u8,
+        across,
+        end as u8 - side,
+        pulse as u8,
+        38,
+        0,
+        down,
+        34 - above,
+        1,
+        7,
+        // No cursor.
+        0x20,
+        8,
+        high,
+        low,
+    ]
+}
+
+/// What the video ULA is told of each pattern of a byte's first bits: the ink that they are.
+fn palette(plan: &Plan) -> [u8; 16] {
+    let own = colours(&plan.graph.image.palette);
+    let bits = plan.mode.inks.ilog2();
+    std::array::from_fn(|pattern| {
+        // Of two inks the first bit tells, of four the first and the third.
+        let ink = match bits {
+            1 => pattern >> 3,
+            2 => pattern >> 3 << 1 | pattern >> 1 & 1,
+            _ => pattern,
+        };
+        let colour = own.get(ink).copied().unwrap_or(first_colour(&plan.mode, ink));
+        (pattern as u8) << 4 | colour ^ 7
+    })
 }
 
 /// Behind the picture: it stands until a key is pressed.
@@ -95,6 +164,8 @@ pub(super) fn end(text: &mut Text) {
     text.label("keep_picture");
     text.line("        ; Escape and keys that were pressed meanwhile are forgotten");
     text.code("lda #124 | jsr osbyte | lda #21 | ldx #0 | jsr osbyte | jsr osrdch");
+    text.line("        ; MODE 7");
+    text.code("lda #22 | jsr oswrch | lda #7 | jsr oswrch");
     text.code("ldx #<(basic) | ldy #>(basic) | jmp oscli");
     text.label("basic");
     text.line("        .byte 66, 65, 83, 73, 67, 13     ; *BASIC");
@@ -139,12 +210,28 @@ pub(super) fn data(plan: &Plan, machine: Machine, text: &mut Text) {
     if machine != Machine::Bbc || !plan.plot {
         return;
     }
-    text.label("screen_codes");
-    for (bytes, about) in codes(plan) {
-        let bytes: Vec<String> = bytes.iter().map(u8::to_string).collect();
-        let line = format!("        .byte {}", bytes.join(", "));
-        text.line(format!("{line:<48}; {about}"));
-    }
+    let Some(layout) = Layout::of(plan) else {
+        return;
+    };
+    let mut table = |name: &str, bytes: &[u8], about: &str| {
+        text.line(format!("; {about}"));
+        text.label(name);
+        let bytes: Vec<String> = bytes.iter().map(|b| format!("${b:02x}")).collect();
+        for bytes in bytes.chunks(8) {
+            text.line(format!("        .byte {}", bytes.join(", ")));
+        }
+    };
+    let (across, down) = (layout.characters(), plan.mode.height / 8);
+    table(
+        "shape",
+        &shape(&layout, &plan.mode),
+        &format!("the 6845's registers: {across} bytes side by side, {down} rows of characters"),
+    );
+    table(
+        "colour",
+        &palette(plan),
+        "the video ULA's palette: a pixel's pattern, its colour's bits inverted",
+    );
 }
 
 /// Behind everything: what moves the program down. It runs where it was loaded; a loop

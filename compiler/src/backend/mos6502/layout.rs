@@ -1,7 +1,7 @@
 //! Screens that are memory: where their pixels stand.
 
 use crate::plan::Plan;
-use crate::targets::System;
+use crate::targets::{Mode, System};
 
 /// How a byte's pixels lie in it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -39,15 +39,24 @@ impl Layout {
             })
         };
         match (plan.target.system, plan.mode.name) {
-            (System::BbcCode, "0") => layout(Lie::Bits, 8, 0x3000, 640),
-            (System::BbcCode, "1") => layout(Lie::Spread, 4, 0x3000, 640),
-            (System::BbcCode, "2") => layout(Lie::Spread, 2, 0x3000, 640),
-            (System::BbcCode, "4") => layout(Lie::Bits, 8, 0x5800, 320),
-            (System::BbcCode, "5") => layout(Lie::Spread, 4, 0x5800, 320),
+            (System::BbcCode, _) => {
+                let pixels = 8 / plan.mode.inks.ilog2().max(1);
+                let row = plan.mode.width / pixels * 8;
+                let lie = match pixels {
+                    8 => Lie::Bits,
+                    _ => Lie::Spread,
+                };
+                layout(lie, pixels, micro_start(&plan.mode), row)
+            }
             (System::C64, "hires") => layout(Lie::Bits, 8, 0xE000, 320),
             (System::C64, "multicolour") => layout(Lie::Pairs, 4, 0xE000, 320),
             _ => None,
         }
+    }
+
+    /// How many bytes stand side by side.
+    pub fn characters(&self) -> u32 {
+        self.row / 8
     }
 
     /// What stands in a byte when so many pixels are in it, all ink 0: the mark.
@@ -63,4 +72,10 @@ impl Layout {
         let bits = 8 / self.pixels;
         (0..bits).map(|k| (ink >> k & 1) << (k * self.pixels)).sum()
     }
+}
+
+/// Where a screen of a BBC Micro begins that is as large as a mode says: it ends where RAM does.
+fn micro_start(mode: &Mode) -> u16 {
+    let bytes = mode.width * mode.height / 8 * mode.inks.ilog2();
+    u16::try_from(0x8000 - bytes.min(0x5000)).unwrap_or(0x3000)
 }

@@ -6,7 +6,7 @@
 //! | quarter squares | the program's first 2K | &400 (the language's), &900-&CFF (cassette, keys, letters) | $C000 |
 //! | values, errors | from $0200 | from PAGE | below $C000 |
 //! | program | behind those | behind those, up to the screen | from $0801 up to those |
-//! | screen | ports | &3000 or &5800 | $E000, its colours at $CC00 |
+//! | screen | ports | as much as the picture takes, up to &8000 | $E000, its colours at $CC00 |
 
 use super::layout::Layout;
 use crate::plan::ErrorRows;
@@ -20,6 +20,8 @@ use std::ops::Range;
 pub const DISC_PAGE: u16 = 0x1900;
 /// Where programs may begin once the disc is not needed any more.
 pub const LEAST_PAGE: u16 = 0x0E00;
+/// Where the text screen begins that is there while a file is loaded.
+const TEXT_SCREEN: u16 = 0x7C00;
 /// Where a BASIC program of the Commodore 64 begins.
 pub(super) const C64_ORIGIN: u16 = 0x0801;
 /// What its program and values may take ends here.
@@ -136,8 +138,8 @@ impl Machine {
         match self {
             Machine::Plain => (0, 0xFF00),
             Machine::Bbc => {
-                let screen = Layout::of(plan).map_or(0x7C00, |layout| layout.start);
-                (plan.page.unwrap_or(LEAST_PAGE), screen)
+                let screen = Layout::of(plan).map_or(TEXT_SCREEN, |layout| layout.start);
+                (plan.page.unwrap_or(LEAST_PAGE), screen.min(TEXT_SCREEN))
             }
             Machine::C64 => (C64_ORIGIN, C64_END),
         }
@@ -151,8 +153,15 @@ impl Machine {
             Machine::Bbc => places.origin.saturating_sub(places.values),
             Machine::C64 => C64_END.saturating_sub(places.values),
         };
+        let bytes = match self {
+            // A file that moves itself down is loaded higher.
+            Machine::Bbc if places.origin < DISC_PAGE => {
+                (end - from).min(values.saturating_add(TEXT_SCREEN - DISC_PAGE))
+            }
+            _ => end - from,
+        };
         Room {
-            bytes: u64::from(end - from),
+            bytes: u64::from(bytes),
             values: u64::from(values),
         }
     }

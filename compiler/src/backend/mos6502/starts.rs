@@ -10,11 +10,11 @@ use slowlight_routine::{Format, Op};
 
 /// A param or row, compared with its range and kept.
 const PARAM: u64 = 270;
-/// An ink's colour, told a port; the operating system.
+/// An ink's colour, told a port.
 const COLOUR: u64 = 50;
-const VDU_COLOUR: u64 = 900;
-/// What a BBC Micro's system takes for a mode of 20K, and for one of 10K.
-const MODE: [u64; 2] = [111_000, 60_500];
+/// A byte of a BBC Micro's screen that is cleared, and its registers.
+const BYTE: u64 = 11;
+const REGISTERS: u64 = 800;
 /// A page of a Commodore's screen that is filled, and how many there are, with the colours.
 const PAGE: u64 = 2_820;
 const PAGES: u64 = 39;
@@ -48,7 +48,7 @@ pub(in crate::backend) fn starts(plan: &Plan) -> u64 {
         Machine::Bbc => {
             let bytes = u64::from(plan.mode.width) * u64::from(plan.mode.height) / 8
                 * u64::from(plan.mode.inks.max(2).ilog2());
-            MODE[usize::from(bytes <= 10_240)] + VDU_COLOUR * inks
+            BYTE * bytes + REGISTERS
         }
         Machine::C64 => PAGE * PAGES,
     };
