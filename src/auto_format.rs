@@ -213,7 +213,11 @@ fn quickest(
         let mut whole = plan.clone();
         whole.rows = candidate.rows;
         // Where too little of it was seen, as the plan without a search has it.
-        let expected = expected(scene, &whole, goal).unwrap_or(candidate.wrong);
+        let share = expected(scene, &whole, goal);
+        let (expected, most) = share.map_or((candidate.wrong, candidate.wrong), |share| {
+            (share.expected, share.most)
+        });
+        let within = most <= goal;
         others.seen.push(candidate.seen(expected));
         let why = |expected| Why {
             goal,
@@ -226,18 +230,18 @@ fn quickest(
         };
         let close = |next: &Candidate| next.may(goal) && next.is_close(candidate.cycles);
         let sure = !plan.is_made_small() && !known.first().is_some_and(close);
-        if expected <= goal && kept.is_none() && sure {
+        if within && kept.is_none() && sure {
             let why = Some(why(expected));
             return Ok(Some(Chosen { plan, why }));
         }
         let now = Kept {
-            cycles: match expected <= goal {
+            cycles: match within {
                 true => estimate::cycles(&whole),
                 false => f64::INFINITY,
             },
             unsearched: candidate.cycles,
         };
-        let better = match (kept, expected <= goal) {
+        let better = match (kept, within) {
             (None, true) => true,
             (Some(kept), true) => now.cycles < kept.cycles,
             (Some(_), false) => false,
@@ -246,7 +250,7 @@ fn quickest(
         if better {
             let why = Some(why(expected));
             best = Some((Chosen { plan, why }, expected));
-            kept = (expected <= goal).then_some(now).or(kept);
+            kept = within.then_some(now).or(kept);
         }
     }
     let drafted = known.iter().filter(|one| one.cycles.is_finite());

@@ -310,12 +310,16 @@ fn assembly(draft: &mos6502::Draft) -> Need {
     let assembled = || extent(&draft.document().text);
     let counted = draft.extent();
     debug_assert!(counted.is_none_or(|counted| counted == assembled()));
-    let (origin, end) = counted.unwrap_or_else(assembled);
+    let whole = || {
+        let (origin, end) = assembled();
+        u64::from(end.saturating_sub(origin))
+    };
+    let bytes = draft.bytes().unwrap_or_else(whole);
     Need {
         unit: "bytes",
         parts: vec![
             ("values and the runtime's tables", draft.room.values),
-            ("program", u64::from(end.saturating_sub(origin))),
+            ("program", bytes),
         ],
         room: draft.room.bytes,
         largest: None,

@@ -241,12 +241,14 @@ pub fn instructions(used: Use<'_>, lines: &mut Vec<String>) -> Option<&'static s
         [a, b] if a == b => (scaled::squared(text), log::same(text)),
         _ => (None, None),
     };
-    let text = same.or(square.map(|s| s.0)).unwrap_or(text);
+    let short = scaled::short(text, full_of(used.routine)).filter(|_| used.calls);
+    let made = square.or(short);
+    let text = same.or(made.map(|s| s.0)).unwrap_or(text);
     let looked_up = text
         .contains("look ")
         .then(|| log::looked_up(text, used.calls));
     let text = looked_up.as_deref().unwrap_or(text);
-    let need = square.map(|s| s.1);
+    let need = made.map(|s| s.1);
     let (routine, full) = (used.routine, size(used.routine.result));
     let (to, bytes) = match *used.goal {
         Goal::At(to) => (Some(to), full),

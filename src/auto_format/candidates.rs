@@ -20,10 +20,14 @@ const CANDIDATE: (u32, u64) = (36, 8_000_000);
 const FINAL: (u32, u64) = (64, 16_000_000);
 
 /// The same where that is so near to the goal that other pixels may say otherwise.
-const CLOSER: (u32, u64) = (120, 48_000_000);
+const CLOSER: (u32, u64) = (160, 64_000_000);
 
-/// How near, as parts of the goal.
-const NEAR: std::ops::Range<f64> = 0.6..1.6;
+/// By so many of its standard deviations a share that a sample tells may be less than the picture's.
+const DEVIATIONS: f64 = 0.5;
+
+/// How near, as a part of the goal, and as standard deviations of what a sample tells of a share
+/// that is the goal.
+const NEAR: (f64, f64) = (0.5, 2.0);
 
 /// How many operations the native evaluation of a sample may take.
 const NATIVE: u64 = 200_000_000;
@@ -171,16 +175,44 @@ pub(super) fn sort(all: &mut [Candidate], goal: f64) {
     });
 }
 
+/// A share of a picture's pixels, as a sample of them tells.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Share {
+    pub expected: f64,
+    /// What it may be where the sample was a lucky one.
+    pub most: f64,
+    seen: usize,
+}
+
+impl Share {
+    /// As so many of a picture's pixels say, of that share of them.
+    fn of(share: f64, seen: usize, pixels: usize) -> Share {
+        // What is drawn without replacement varies less, and not at all once all is drawn (Cochran,
+        // Sampling Techniques, 1977, 3.2).
+        let left = 1.0 - seen as f64 / pixels.max(seen).max(1) as f64;
+        let variance = share * (1.0 - share) / seen.max(1) as f64 * left;
+        Share {
+            expected: share,
+            most: share + DEVIATIONS * variance.sqrt(),
+            seen: seen.max(1),
+        }
+    }
+}
+
 /// The share of a plan's pixels whose inks are not the native ones, by a sample that is the
 /// larger the nearer that share is to the goal.
-pub(super) fn expected(scene: &Scene, plan: &PlannedScene, goal: f64) -> Option<f64> {
+pub(super) fn expected(scene: &Scene, plan: &PlannedScene, goal: f64) -> Option<Share> {
     let (_waiting, _blind) = (Waiting::new("pixels"), interrupt::blind());
     let by = |(side, most): (u32, u64)| {
         let (inks, of) = estimate::inks(plan, side, most / PARTS as u64, PARTS);
-        unlike((&inks, of), &native(scene, plan, &inks))
+        let share = unlike((&inks, of), &native(scene, plan, &inks))?;
+        let rows = plan.rows.1 - plan.rows.0 + 1;
+        let columns = plan.columns.1 - plan.columns.0 + 1;
+        Some(Share::of(share, inks.len(), (rows * columns) as usize))
     };
     let first = by(FINAL)?;
-    match NEAR.contains(&(first / goal.max(f64::MIN_POSITIVE))) {
+    let most = (NEAR.0 * goal).max(NEAR.1 * (goal / first.seen as f64).sqrt());
+    match (first.expected - goal).abs() < most {
         true => by(CLOSER).or(Some(first)),
         false => Some(first),
     }

@@ -276,7 +276,7 @@ impl Copies {
                     place: Place::Node(to),
                     from: Origin::Node(from),
                 } = statement
-                    && !matches!(graph.node(*to), Node::Select { .. } | Node::Tabulated(_))
+                    && !is_of(graph.node(*to), *from)
                 {
                     all.push((*from, *to));
                 }
@@ -303,6 +303,16 @@ impl Copies {
     /// computed nowhere.
     fn is_copy(&self, id: NodeId) -> bool {
         self.to.contains(&id)
+    }
+}
+
+/// Whether a value is one of those that a node is made of by statements: an arm of a choice, what
+/// is kept by columns.
+fn is_of(node: Node, from: NodeId) -> bool {
+    match node {
+        Node::Select { yes, no, .. } => [yes, no].contains(&from),
+        Node::Tabulated(_) => true,
+        _ => false,
     }
 }
 

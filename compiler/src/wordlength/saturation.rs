@@ -14,14 +14,15 @@ use slowlight_routine::{Op, Range, Type};
 /// What is useful of each node's value.
 pub fn useful(graph: &Graph, tree: &Tree, ranges: &Ranges) -> Vec<Range> {
     let mut all: Vec<Option<Range>> = vec![None; graph.nodes.len()];
-    // What places are given: choices and what loops carry have all that they may hold.
+    // What places are given, but choices their arms: what subroutines are given and leave, and
+    // what loops carry, have all that they may hold.
     for block in tree.blocks() {
         walk(block, &mut |statement| {
             if let Statement::Set {
                 place,
                 from: Origin::Node(from),
             } = statement
-                && !matches!(place, Place::Node(id) if is_choice(graph, *id))
+                && !matches!(place, Place::Node(id) if is_arm(graph, *id, *from))
             {
                 join(&mut all, *from, ranges.result[from.0 as usize]);
             }
@@ -59,8 +60,13 @@ pub fn useful(graph: &Graph, tree: &Tree, ranges: &Ranges) -> Vec<Range> {
         .collect()
 }
 
-fn is_choice(graph: &Graph, id: NodeId) -> bool {
-    matches!(graph.node(id), Node::Select { .. }) && graph.ty(id) == Type::Real
+/// Whether a real is one of the two that a choice is between.
+fn is_arm(graph: &Graph, choice: NodeId, arm: NodeId) -> bool {
+    let arms = match graph.node(choice) {
+        Node::Select { yes, no, .. } => [yes, no],
+        _ => return false,
+    };
+    arms.contains(&arm) && graph.ty(choice) == Type::Real
 }
 
 fn join(all: &mut [Option<Range>], id: NodeId, range: Range) {

@@ -36,6 +36,8 @@ mod read_tests;
 #[cfg(test)]
 mod reciprocal_root_tests;
 mod routines;
+#[cfg(test)]
+mod short_tests;
 pub mod sines;
 #[cfg(test)]
 mod sines_tests;
@@ -46,8 +48,8 @@ mod templates_long;
 mod tests;
 mod wide;
 
-pub use read::{Read, floor, read};
-pub use templates::{copied, squared};
+pub use read::{Pace, Read, floor, read};
+pub use templates::{copied, short, squared};
 
 pub(crate) use parts::ALL as PARTS;
 

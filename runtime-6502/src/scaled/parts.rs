@@ -51,6 +51,24 @@ pub(crate) const ALL: &[Part] = &[
         94,
     ),
     part(
+        "saturate16",
+        include_str!("../../asm/scaled/saturate.asm"),
+        &[],
+        14,
+    ),
+    part(
+        "abs16",
+        include_str!("../../asm/scaled/abs.asm"),
+        &["zero_page"],
+        18,
+    ),
+    part(
+        "right16",
+        include_str!("../../asm/scaled/right16.asm"),
+        &["zero_page"],
+        60,
+    ),
+    part(
         "lower24",
         include_str!("../../asm/scaled/lower.asm"),
         &["product"],

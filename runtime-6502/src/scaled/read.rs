@@ -17,8 +17,18 @@ pub struct Read<'a> {
     pub bytes: u8,
     /// Must differ at each use in a program.
     pub serial: u32,
-    /// Whether memory may be spent for speed.
-    pub quick: bool,
+    /// What is spent for what.
+    pub pace: Pace,
+}
+
+/// What of memory and speed may be spent for the other.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Pace {
+    /// Memory.
+    Quick,
+    Usual,
+    /// Speed.
+    Short,
 }
 
 /// Adds instructions that are separated by `|` to lines.
@@ -53,9 +63,10 @@ pub fn read(read: Read<'_>, lines: &mut Vec<String>) -> Option<&'static str> {
         fits,
         to,
         bytes,
-        quick,
+        pace,
         ..
     } = read;
+    let short = pace == Pace::Short && bytes == 2;
     let wide = matches!(from, Place::Held(_, shape) if shape.bytes > bytes || shape.bytes == bytes && !shape.signed && !shape.spare);
     // Where it fits, its lower bytes are all of it.
     if wide && (by < 0 || !fits) {
@@ -82,6 +93,9 @@ pub fn read(read: Read<'_>, lines: &mut Vec<String>) -> Option<&'static str> {
     };
     let read = Read { from, ..read };
     match by {
+        // Less than a byte, of which in place each bit takes three bytes and more.
+        2..8 if short && fits => return Some(called_near(read, "left16", lines)),
+        -7..0 if short => return Some(called_near(read, "right16", lines)),
         0.. if fits => add(&up(read), lines),
         1..8 if bytes == 1 => add(&byte_up(read), lines),
         0.. if bytes == 1 => {
@@ -89,7 +103,7 @@ pub fn read(read: Read<'_>, lines: &mut Vec<String>) -> Option<&'static str> {
             return Some(called(read, "narrow_left", lines));
         }
         // What leaves 16 bits has another sign then.
-        1 if bytes == 2 && !narrow && !same => {
+        1 if bytes == 2 && !narrow && !same && !short => {
             let (low, high, n) = (byte(from, 0), byte(from, 1), read.serial);
             let text = format!(
                 "lda {low} | asl | sta {to} | lda {high} | rol | sta {to}+1 | eor {high} | bpl fits{n}
@@ -99,7 +113,7 @@ pub fn read(read: Read<'_>, lines: &mut Vec<String>) -> Option<&'static str> {
             add(&text, lines);
         }
         // What the bits that are lost say must be the sign.
-        2..8 if quick && bytes == 2 => {
+        2..8 if pace == Pace::Quick && bytes == 2 => {
             let (low, high, n) = (byte(from, 0), byte(from, 1), read.serial);
             let text = format!(
                 "lda {high} | clc | adc #{} | cmp #{} | bcs large{n}
@@ -112,12 +126,7 @@ pub fn read(read: Read<'_>, lines: &mut Vec<String>) -> Option<&'static str> {
             );
             add(&text, lines);
         }
-        0.. if bytes == 2 => {
-            let (low, high) = (byte(from, 0), byte(from, 1));
-            let load = format!("lda {low} | ldx {high}");
-            add(&load, lines);
-            return Some(called(read, "left16", lines));
-        }
+        0.. if bytes == 2 => return Some(called_near(read, "left16", lines)),
         0.. => {
             copy_bytes(from, "acc", 3, lines);
             return Some(called(read, "left24", lines));
@@ -125,6 +134,17 @@ pub fn read(read: Read<'_>, lines: &mut Vec<String>) -> Option<&'static str> {
         _ => add(&down(read), lines),
     }
     None
+}
+
+/// Reads one of two bytes by a subroutine; answers its part.
+fn called_near(read: Read<'_>, name: &str, lines: &mut Vec<String>) -> &'static str {
+    let (low, high) = (byte(read.from, 0), byte(read.from, 1));
+    add(&format!("lda {low} | ldx {high}"), lines);
+    let part = called(read, name, lines);
+    match name {
+        "right16" => "right16",
+        _ => part,
+    }
 }
 
 /// Reads by a subroutine, of whose name that for three bytes follows; answers its part.

@@ -2,10 +2,19 @@
 #![allow(clippy::unwrap_used)]
 
 use super::kinds::{BYTE, Kind, LONG, SHORT};
-use super::{FIXED16, Read, floor, model, read};
+use super::{FIXED16, Pace, Read, floor, model, read};
 use crate::tests::bench::{Bench, Random};
 use crate::write::{Place, Shape};
 use slowlight_routine::scale::most;
+
+/// Whether a number is known to fit, and what is spent for what.
+const WAYS: [(bool, Pace); 5] = [
+    (false, Pace::Usual),
+    (false, Pace::Quick),
+    (false, Pace::Short),
+    (true, Pace::Usual),
+    (true, Pace::Short),
+];
 
 #[test]
 fn numbers_are_read_at_other_scales() {
@@ -22,7 +31,7 @@ fn reads(kind: &Kind, held: u8) {
     let fits_in = |a: &i32| i64::from(*a).abs() <= most(8 * held);
     let edges: Vec<i32> = kind.edges().into_iter().filter(fits_in).collect();
     for by in -30..=25 {
-        for (fits, quick) in [(false, false), (false, true), (true, false)] {
+        for (fits, pace) in WAYS {
             let held = Place::Held("first_operand".into(), Shape::whole(held));
             let write = |lines: &mut Vec<String>| {
                 let what = Read {
@@ -32,7 +41,7 @@ fn reads(kind: &Kind, held: u8) {
                     to: "result",
                     bytes,
                     serial: 1,
-                    quick,
+                    pace,
                 };
                 read(what, lines).into_iter().collect()
             };
@@ -64,9 +73,8 @@ fn reads_wide(kind: &Kind) {
         signed: false,
         ..Shape::whole(own)
     };
-    let ways = [(true, false), (false, true), (false, false)];
     let shapes = [Shape::whole(4), Shape::whole(3), unsigned];
-    for (shape, (fits, quick)) in shapes.into_iter().flat_map(|s| ways.map(|way| (s, way))) {
+    for (shape, (fits, pace)) in shapes.into_iter().flat_map(|s| WAYS.map(|way| (s, way))) {
         let held = Place::Held("first_operand".into(), shape);
         // Further to the left hardly any number fits.
         for by in -20..=9.min(i32::from(bits) - 4) {
@@ -78,7 +86,7 @@ fn reads_wide(kind: &Kind) {
                     to: "result",
                     bytes: own,
                     serial: 1,
-                    quick,
+                    pace,
                 };
                 read(what, lines).into_iter().collect()
             };

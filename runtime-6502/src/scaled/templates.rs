@@ -264,6 +264,30 @@ pub fn copied(text: &str) -> Option<usize> {
     }
 }
 
+/// What numbers of two bytes have in fewer bytes, where that may take longer, and the part with it.
+const SHORT: [(&str, &str, &str); 3] = [
+    (
+        SATURATING_ADD,
+        "clc | lda {0.0} | adc {1.0} | tax | lda {0.1} | adc {1.1}
+        | jsr saturate16 | sta {r.1} | stx {r.0}",
+        "saturate16",
+    ),
+    (
+        SATURATING_SUBTRACT,
+        "sec | lda {0.0} | sbc {1.0} | tax | lda {0.1} | sbc {1.1}
+        | jsr saturate16 | sta {r.1} | stx {r.0}",
+        "saturate16",
+    ),
+    (ABS, concat!(first!(), "| jsr abs16", result!()), "abs16"),
+];
+
+/// The same for a template and so many bytes, if there is one.
+pub fn short(text: &str, bytes: u8) -> Option<(&'static str, &'static str)> {
+    let mut all = SHORT.iter().filter(|_| bytes == 2);
+    let found = all.find(|(long, ..)| *long == text);
+    found.map(|(_, short, part)| (*short, *part))
+}
+
 /// What a product of a number with itself is instead, the same bits, and the part with it.
 pub fn squared(text: &'static str) -> Option<(&'static str, &'static str)> {
     let all = [

@@ -2,7 +2,7 @@
 //! are taken from where they stand, and only what is left of the shift is done bit by bit.
 
 use super::Read;
-use super::read::{add, one_more};
+use super::read::{Pace, add, one_more};
 use crate::write::{Place, byte, byte_at};
 
 /// The most bits to the right that are read so.
@@ -87,7 +87,7 @@ fn saturating(used: Read<'_>, lines: &mut Vec<String>) -> bool {
         to,
         bytes,
         serial: n,
-        quick,
+        pace,
         ..
     } = used;
     let Place::Held(name, shape) = from else {
@@ -96,7 +96,7 @@ fn saturating(used: Read<'_>, lines: &mut Vec<String>) -> bool {
     // Of the upper byte's bits, those that come down.
     let left =
         i64::from(by.unsigned_abs()) + 8 * i64::from(bytes) - 1 - 8 * i64::from(shape.bytes - 1);
-    if !quick || !shape.signed || name == to || left < 0 {
+    if pace != Pace::Quick || !shape.signed || name == to || left < 0 {
         return false;
     }
     let top = byte(from, shape.bytes - 1);

@@ -158,7 +158,9 @@ impl Micro {
 
     /// A command of the operating system's, as X and Y say where it stands.
     fn command(&self, cpu: &Cpu) -> &[u8] {
-        let from = self.ram.get(usize::from(u16::from_le_bytes([cpu.x, cpu.y]))..);
+        let from = self
+            .ram
+            .get(usize::from(u16::from_le_bytes([cpu.x, cpu.y]))..);
         let mut lines = from.unwrap_or_default().split(|byte| *byte == 13);
         lines.next().unwrap_or_default()
     }

@@ -5,6 +5,8 @@
 //! home there but lower, it puts itself in order: the file's first instruction jumps to
 //! its end, and from there a short loop in the zero page moves all of it down.
 //!
+//! What is done once, before the picture, stands last, and may be where the screen will be.
+//!
 //! Interrupts stay on: the clock runs, and keys are heard. At the end the program waits
 //! for one, with the picture standing, and then enters BASIC anew, whose memory it used.
 
@@ -49,45 +51,56 @@ pub(super) fn loaded_at(places: &Places) -> u16 {
     moved_from(places).unwrap_or(places.origin)
 }
 
+/// Where what is done once begins, and where the picture does.
+pub(super) const SET_UP: &str = "set_up";
+pub(super) const PICTURE: &str = "picture";
+
 /// The program's first instruction.
-pub(super) fn begin(places: &Places, text: &mut Text) {
-    if let Some(from) = moved_from(places) {
-        text.line(format!(
-            "        ; loaded at ${from:04x}, at home at ${:04x}",
-            places.origin
-        ));
-        text.code(&format!("jmp move_down+{}", from - places.origin));
-        text.label("begin");
-    }
-    text.code("cld");
+pub(super) fn start(places: &Places, text: &mut Text) {
+    text.line("");
+    text.label("start");
+    let Some(from) = moved_from(places) else {
+        return text.code(&format!("jmp {SET_UP}"));
+    };
+    text.line(format!(
+        "        ; loaded at ${from:04x}, at home at ${:04x}",
+        places.origin
+    ));
+    text.code(&format!("jmp move_down+{}", from - places.origin));
 }
 
-/// The screen, empty: as wide and high as the mode says, below &8000. No mode is entered for
-/// it, which would clear what the picture leaves to the program.
+/// The screen: as wide and high as the mode says, below &8000. No mode is entered for it, which
+/// would clear what the picture leaves to the program. What is done once may stand where it will
+/// be, and be gone once it is cleared.
 pub(super) fn open(plan: &Plan, text: &mut Text) {
-    let Some(layout) = Layout::of(plan) else {
-        return;
-    };
-    let [lo, hi] = layout.start.to_le_bytes();
-    text.line(format!(
-        "        ; the screen, from ${:04x}, empty",
-        layout.start
-    ));
-    text.code(&format!(
-        "lda #${hi:02x} | sta prod+1 | ldy #${lo:02x} | lda #0 | sta prod"
-    ));
-    text.label("clear_byte");
-    text.code("sta (prod),y | iny | bne clear_byte | inc prod+1 | bpl clear_byte");
-    text.line("        ; its shape, how its bytes are read, its colours");
-    text.code("ldx #13");
-    text.label("screen_shape");
-    text.code("lda shape,x | stx $fe00 | sta $fe01 | dex | bpl screen_shape");
-    text.code(&format!(
-        "lda #154 | ldx #${:02x} | jsr osbyte | ldx #15",
-        shown(&plan.mode).control
-    ));
-    text.label("screen_colour");
-    text.code("lda colour,x | sta $fe21 | dex | bpl screen_colour");
+    let screen = Layout::of(plan).filter(|_| plan.plot);
+    if screen.is_some() {
+        text.line("        ; the screen's shape, how its bytes are read, its colours");
+        text.code("ldx #13");
+        text.label("screen_shape");
+        text.code("lda shape,x | stx $fe00 | sta $fe01 | dex | bpl screen_shape");
+        text.code(&format!(
+            "lda #154 | ldx #${:02x} | jsr osbyte | ldx #15",
+            shown(&plan.mode).control
+        ));
+        text.label("screen_colour");
+        text.code("lda colour,x | sta $fe21 | dex | bpl screen_colour");
+    }
+    text.code(&format!("jmp {PICTURE}"));
+    text.headline("the picture");
+    text.label(PICTURE);
+    if let Some(layout) = screen {
+        let [lo, hi] = layout.start.to_le_bytes();
+        text.line(format!(
+            "        ; the screen, from ${:04x}, empty",
+            layout.start
+        ));
+        text.code(&format!(
+            "lda #${hi:02x} | sta prod+1 | ldy #${lo:02x} | lda #0 | sta prod"
+        ));
+        text.label("clear_byte");
+        text.code("sta (prod),y | iny | bne clear_byte | inc prod+1 | bpl clear_byte");
+    }
 }
 
 /// How a mode is shown.
@@ -154,7 +167,10 @@ fn palette(plan: &Plan) -> [u8; 16] {
             2 => pattern >> 3 << 1 | pattern >> 1 & 1,
             _ => pattern,
         };
-        let colour = own.get(ink).copied().unwrap_or(first_colour(&plan.mode, ink));
+        let colour = own
+            .get(ink)
+            .copied()
+            .unwrap_or(first_colour(&plan.mode, ink));
         (pattern as u8) << 4 | colour ^ 7
     })
 }
@@ -257,6 +273,7 @@ pub(super) fn move_down(places: &Places, text: &mut Text) {
     text.code("ldy #0");
     text.label("move_byte");
     text.code(&format!("lda ${from:04x},y | sta ${:04x},y", places.origin));
-    text.code("iny | bne move_byte | inc $04 | inc $07 | dex | bne move_byte | jmp begin");
+    text.code("iny | bne move_byte | inc $04 | inc $07 | dex | bne move_byte");
+    text.code(&format!("jmp {SET_UP}"));
     text.label("program_end");
 }

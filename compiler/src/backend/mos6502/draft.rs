@@ -4,7 +4,8 @@
 //! how long it is before it is tidied, and the program that was tidied last is kept. The one
 //! that is found to fit is the one that is wanted next, more than once.
 
-use super::extent::extent;
+use super::bbc::SET_UP;
+use super::extent::{Extent, extent};
 use super::frame::{self, Lines};
 use super::homes::Homes;
 use super::memory::Room;
@@ -83,7 +84,12 @@ impl<'p> Draft<'p> {
         tidy(&mut self.lines, symbols, code);
         if let Some(excess) = room.and_then(|room| self.excess(room)) {
             let gone = before.len() - self.lines.len();
-            let own = code.start..code.end - gone;
+            let mut own = code.start..code.end - gone;
+            // What is done once takes no room where it stands, and must not be called later.
+            let once = |(line, _): &Line| line.strip_suffix(':') == Some(SET_UP);
+            if let Some(at) = self.lines[own.clone()].iter().position(once) {
+                own.end = own.start + at;
+            }
             outline(&mut self.lines, symbols, &own, excess);
         }
         if undocumented {
@@ -100,15 +106,27 @@ impl<'p> Draft<'p> {
 
     /// By how many bytes it is too large.
     fn excess(&self, room: Room) -> Option<u32> {
-        let (origin, end) = self.extent()?;
-        let all = u64::from(end.saturating_sub(origin)) + room.values;
+        let all = self.bytes()? + room.values;
         u32::try_from(all.saturating_sub(room.bytes)).ok()
+    }
+
+    /// Bytes that it takes of its room, without what of it may be where the screen will be;
+    /// nothing where that is not known without assembling it.
+    pub fn bytes(&self) -> Option<u64> {
+        let Extent { origin, label, end } = self.placed()?;
+        let whole = end.saturating_sub(origin);
+        let resident = label.map_or(whole, |label| label.saturating_sub(origin));
+        Some(u64::from(resident).max(u64::from(whole).saturating_sub(self.room.once)))
     }
 
     /// The addresses of its first byte and behind its last one, which may be beyond 64K;
     /// nothing where that is not known without assembling it.
     pub fn extent(&self) -> Option<(u32, u32)> {
-        extent(self.lines.iter().map(|(line, _)| line.as_str()))
+        self.placed().map(|extent| (extent.origin, extent.end))
+    }
+
+    fn placed(&self) -> Option<Extent> {
+        extent(self.lines.iter().map(|(line, _)| line.as_str()), SET_UP)
     }
 
     /// As a text.

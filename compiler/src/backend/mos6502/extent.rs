@@ -7,16 +7,32 @@
 use rustc_hash::FxHashMap;
 use slowlight_isa::opcodes::{self, Mode};
 
-/// The addresses of a program's first byte and behind its last one; nothing where a line is
-/// none of those that are counted here.
-pub(super) fn extent<'l>(lines: impl Iterator<Item = &'l str>) -> Option<(u32, u32)> {
+/// Where a program is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct Extent {
+    /// The address of its first byte.
+    pub origin: u32,
+    /// The address of a label in it, if it has that.
+    pub label: Option<u32>,
+    /// The address behind its last byte, which may be beyond 64K.
+    pub end: u32,
+}
+
+/// Where a program is, and a label in it; nothing where a line is none of those that are counted
+/// here.
+pub(super) fn extent<'l>(lines: impl Iterator<Item = &'l str>, label: &str) -> Option<Extent> {
     let mut counted = Counted::default();
     for line in lines {
         let code = line.split(';').next().unwrap_or(line).trim_end();
         counted.line(code)?;
     }
     let origin = counted.origin?;
-    Some((origin, u32::try_from(counted.here).ok()?))
+    let label = counted.symbols.get(label);
+    Some(Extent {
+        origin,
+        label: label.and_then(|at| u32::try_from(*at).ok()),
+        end: u32::try_from(counted.here).ok()?,
+    })
 }
 
 /// A program so far.
@@ -153,7 +169,8 @@ mod tests {
     use super::extent;
 
     fn counted(text: &str) -> Option<(u32, u32)> {
-        extent(text.lines())
+        let extent = extent(text.lines(), "there")?;
+        Some((extent.origin, extent.end))
     }
 
     #[test]
@@ -201,6 +218,8 @@ mod tests {
     fn what_is_named_behind_its_use_is_not_near() {
         let text = "* = $0010\n        lda there\nthere:\n        lda there\n";
         assert_eq!(counted(text), Some((0x10, 0x15)));
+        let there = extent(text.lines(), "there").and_then(|extent| extent.label);
+        assert_eq!(there, Some(0x13));
         assert_eq!(counted("a = 1\na = 2\n* = $0800"), None);
         assert_eq!(counted("        rts"), None);
         assert_eq!(counted("* = $0800\n* = $0900"), None);

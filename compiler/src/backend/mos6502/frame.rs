@@ -36,31 +36,40 @@ pub(super) fn program(plan: &Plan, homes: &Homes, syntax: &Syntax, text: &mut Te
     let parts = parts(plan, &entries, &read);
     let named_from = symbols(plan, homes, &parts, text);
     let named_to = text.lines.len();
-    begin(plan, homes, &parts, text);
-    text.append(body);
-    let code = named_to..text.lines.len();
-    take_params(plan, homes, &entries, syntax, text);
     let machine = Machine::of(plan);
-    if machine != Machine::Plain {
-        bbc::data(plan, machine, text);
-    }
-    if plan.plot {
-        Screen::new(plan, homes).data(plan, text);
-    }
-    if clamps {
-        text.headline("an index kept inside its table");
-        text.line(table::CLAMP);
-    }
-    table::data(plan, text);
-    let squares = Squares::of(machine, &parts);
-    let behind = |part: &&&Part| !is_page(part) && !squares.replace(part);
-    for part in parts.iter().filter(behind) {
-        text.headline(&format!("runtime: {}", part.name));
-        source(machine, part, text);
-    }
-    if machine == Machine::Bbc {
-        bbc::move_down(&homes.places, text);
-    }
+    let code = match machine {
+        // What is done once may be where the screen will be, if it stands last.
+        Machine::Bbc => {
+            bbc::start(&homes.places, text);
+            resident(plan, homes, (clamps, &parts), text);
+            let from = text.lines.len();
+            let mut once = Text::default();
+            once.label(bbc::SET_UP);
+            once.code("cld");
+            set_up(plan, &parts, &mut once);
+            let is_picture = |(line, _): &(String, _)| line.strip_suffix(':') == Some(bbc::PICTURE);
+            let picture = body.lines.iter().position(is_picture).unwrap_or(0);
+            once.lines.extend(body.lines.drain(..picture));
+            body.lines.extend(once.lines);
+            text.append(body);
+            let to = text.lines.len();
+            take_params(plan, homes, &entries, syntax, text);
+            bbc::data(plan, machine, text);
+            bbc::move_down(&homes.places, text);
+            from..to
+        }
+        _ => {
+            begin(plan, &parts, text);
+            text.append(body);
+            let to = text.lines.len();
+            take_params(plan, homes, &entries, syntax, text);
+            if machine == Machine::C64 {
+                bbc::data(plan, machine, text);
+            }
+            resident(plan, homes, (clamps, &parts), text);
+            named_to..to
+        }
+    };
     let loaded = match machine {
         Machine::Bbc => Some(bbc::loaded_at(&homes.places)),
         _ => None,
@@ -70,6 +79,30 @@ pub(super) fn program(plan: &Plan, homes: &Homes, syntax: &Syntax, text: &mut Te
     Lines {
         symbols: named_from..named_to,
         code,
+    }
+}
+
+/// What is read and called until the picture is done.
+fn resident(
+    plan: &Plan,
+    homes: &Homes,
+    (clamps, parts): (bool, &[&'static Part]),
+    text: &mut Text,
+) {
+    let machine = Machine::of(plan);
+    if plan.plot {
+        Screen::new(plan, homes).data(plan, text);
+    }
+    if clamps {
+        text.headline("an index kept inside its table");
+        text.line(table::CLAMP);
+    }
+    table::data(plan, text);
+    let squares = Squares::of(machine, parts);
+    let behind = |part: &&&Part| !is_page(part) && !squares.replace(part);
+    for part in parts.iter().filter(behind) {
+        text.headline(&format!("runtime: {}", part.name));
+        source(machine, part, text);
     }
 }
 
@@ -189,19 +222,22 @@ const MADE: [(&str, &str); 5] = [
     ("log_whole", "set_parts"),
 ];
 
-/// How the program begins, by the parts that it has.
-fn begin(plan: &Plan, homes: &Homes, parts: &[&'static Part], text: &mut Text) {
+/// How the program begins, but on a BBC Micro.
+fn begin(plan: &Plan, parts: &[&'static Part], text: &mut Text) {
     text.line("");
     text.label("start");
     let machine = Machine::of(plan);
-    let squares = Squares::of(machine, parts);
-    squares.tables(text);
+    Squares::of(machine, parts).tables(text);
     match machine {
-        Machine::Plain => text.code("cld | ldx #$ff | txs"),
-        Machine::Bbc => bbc::begin(&homes.places, text),
         Machine::C64 => c64::begin(text),
+        _ => text.code("cld | ldx #$ff | txs"),
     }
-    squares.set(text);
+    set_up(plan, parts, text);
+}
+
+/// What the runtime's parts and the params want before everything else.
+fn set_up(plan: &Plan, parts: &[&'static Part], text: &mut Text) {
+    Squares::of(Machine::of(plan), parts).set(text);
     for (part, make) in MADE {
         if parts.iter().any(|p| p.name == part) {
             text.code(&format!("jsr {make}"));
@@ -227,6 +263,9 @@ fn main(plan: &Plan, homes: &Homes, text: &mut Text) -> (bool, Vec<&'static str>
         code.block(&plan.tree.frame);
     }
     code.fill_columns(plan.computed_columns());
+    if machine == Machine::Bbc {
+        bbc::open(plan, code.text);
+    }
     code.text.span = plan.drawn;
     Rows::new(&code, screen.as_ref(), errors.as_ref()).write(&mut code);
     let (clamps, mut needs) = (code.clamps, std::mem::take(&mut code.needs));

@@ -55,6 +55,8 @@ pub struct Room {
     /// Bytes of the values, rows of errors among them, and of what is made at the start
     /// where that takes of the same memory.
     pub values: u64,
+    /// So many bytes more may what is done once take, which stands last.
+    pub once: u64,
 }
 
 impl Machine {
@@ -153,16 +155,20 @@ impl Machine {
             Machine::Bbc => places.origin.saturating_sub(places.values),
             Machine::C64 => C64_END.saturating_sub(places.values),
         };
-        let bytes = match self {
-            // A file that moves itself down is loaded higher.
+        // What is done once may be where the screen will be, but not beyond that of text; and a
+        // file that moves itself down is loaded higher.
+        let last = match self {
             Machine::Bbc if places.origin < DISC_PAGE => {
-                (end - from).min(values.saturating_add(TEXT_SCREEN - DISC_PAGE))
+                (places.origin + (TEXT_SCREEN - DISC_PAGE)).min(TEXT_SCREEN)
             }
-            _ => end - from,
+            Machine::Bbc => TEXT_SCREEN,
+            _ => end,
         };
+        let end = end.min(last);
         Room {
-            bytes: u64::from(bytes),
+            bytes: u64::from(end.saturating_sub(from)),
             values: u64::from(values),
+            once: u64::from(last - end),
         }
     }
 
@@ -219,9 +225,9 @@ pub(super) fn error_bytes(plan: &Plan) -> Option<u16> {
 /// Bytes of the jump over the tables.
 pub(super) const JUMP: u16 = 3;
 
-/// Bytes of all rows, to whole pages.
+/// Bytes of all rows.
 pub(super) fn row_bytes(plan: &Plan, rows: &ErrorRows) -> u32 {
-    (rows.rows * rows.length() * error_size(plan) + 0xFF) & !0xFF
+    rows.rows * rows.length() * error_size(plan)
 }
 
 /// Bytes of an error.

@@ -160,7 +160,11 @@ impl Code<'_> {
             to: into,
             bytes,
             serial,
-            quick: self.quick,
+            pace: match (self.quick, self.plan.tight) {
+                (true, _) => scaled::Pace::Quick,
+                (_, true) => scaled::Pace::Short,
+                _ => scaled::Pace::Usual,
+            },
         };
         self.needs.extend(scaled::read(read, &mut lines));
         lines.iter().for_each(|line| self.text.line(line));

@@ -4,7 +4,7 @@ use super::bitmap::Bitmap;
 use super::homes::Homes;
 use super::memory::Machine;
 use super::ports::{self, Ports};
-use super::{Text, bbc, c64};
+use super::{Text, c64};
 use crate::plan::Plan;
 
 /// How a plan's pixels are drawn.
@@ -26,9 +26,9 @@ impl Screen {
         match self {
             Screen::Ports(ports) => ports.open(plan, text),
             Screen::Bitmap(bitmap) => {
-                match Machine::of(plan) {
-                    Machine::C64 => c64::open(plan, text),
-                    _ => bbc::open(plan, text),
+                // A BBC Micro's may be where what is done before the picture stands.
+                if Machine::of(plan) == Machine::C64 {
+                    c64::open(plan, text);
                 }
                 bitmap.open(text);
             }

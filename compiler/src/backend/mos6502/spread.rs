@@ -21,13 +21,16 @@ impl Code<'_> {
     /// All errors 0, and the pointers at their rows' beginnings.
     pub(super) fn start_errors(&mut self, rows: &ErrorRows) {
         let first = pointer(self.homes, 0);
-        let (pages, size) = (row_bytes(self.plan, rows) >> 8, error_size(self.plan));
+        let (bytes, size) = (row_bytes(self.plan, rows), error_size(self.plan));
+        // The first page from where the others are whole.
+        let pages = bytes.div_ceil(256);
+        let before = pages * 256 - bytes;
         let text = &mut *self.text;
         text.headline("no errors yet");
         text.code(&format!(
-            "lda #<(errors) | sta {first} | lda #>(errors) | sta {first}+1"
+            "lda #<(errors-{before}) | sta {first} | lda #>(errors-{before}) | sta {first}+1"
         ));
-        text.code(&format!("ldx #{pages} | ldy #0 | tya"));
+        text.code(&format!("ldx #{pages} | ldy #{before} | lda #0"));
         text.label("clear_errors");
         text.code(&format!(
             "sta ({first}),y | iny | bne clear_errors | inc {first}+1 | dex | bne clear_errors"
