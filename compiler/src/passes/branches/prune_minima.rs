@@ -18,6 +18,7 @@
 //! after the other, those that are cheap first.
 
 mod bounds;
+mod smooth;
 
 use crate::analysis::range::Ranges;
 use crate::ir::build::Builder;
@@ -70,6 +71,17 @@ struct Site<'g> {
 struct Leaf {
     id: NodeId,
     negated: bool,
+}
+
+/// What comes of asking a value for whether it is less than a limit.
+#[derive(Clone, Copy)]
+struct Outcome {
+    /// Where it is not.
+    lost: NodeId,
+    /// Where it is.
+    won: NodeId,
+    /// In either case.
+    undecided: NodeId,
 }
 
 /// What is added to a value, each with whether it is taken away.
@@ -170,7 +182,11 @@ impl<'g> Site<'g> {
 
     /// Whether a value is worth some questions: what somebody else reads is at hand.
     fn is_dear(&self, id: NodeId) -> bool {
-        self.is_read_once(id) && self.cycles[id.0 as usize] > DEAR * self.comparison
+        self.is_read_once(id) && self.takes_long(id)
+    }
+
+    fn takes_long(&self, id: NodeId) -> bool {
+        self.cycles[id.0 as usize] > DEAR * self.comparison
     }
 
     fn is_cheap(&self, id: NodeId) -> bool {
@@ -216,7 +232,7 @@ impl Site<'_> {
     /// What stands for a minimum or maximum that is part of no other.
     fn pruned(&self, b: &mut Builder, new: New<'_>, id: NodeId, span: Span) -> Option<NodeId> {
         let Node::Apply(op @ (Op::Min | Op::Max), _) = self.graph.node(id) else {
-            return None;
+            return self.smoothed(b, new, id, span);
         };
         if self.joins[id.0 as usize] {
             return None;
@@ -243,9 +259,20 @@ impl Site<'_> {
                 None => value,
                 Some(best) if k < first => b.apply(op, &[best, value], span),
                 Some(best) => {
-                    let made = self.asked(b, new, (op, leaf), (best, value), span);
+                    let either = b.apply(op, &[best, value], span);
+                    // What the leaf itself must be less than, or greater.
+                    let limit = match leaf.negated {
+                        true => b.apply(Op::Neg, &[best], span),
+                        false => best,
+                    };
+                    let outcome = Outcome {
+                        lost: best,
+                        won: value,
+                        undecided: either,
+                    };
+                    let made = self.asked(b, new, (op, leaf), limit, outcome, span);
                     pruned |= made.is_some();
-                    made.unwrap_or_else(|| b.apply(op, &[best, value], span))
+                    made.unwrap_or(either)
                 }
             });
         }
@@ -272,21 +299,17 @@ impl Site<'_> {
         all
     }
 
-    /// The better of the best so far and another value, which is worked out only where its
-    /// bounds do not say that it is not; nothing where there are no bounds.
+    /// What comes of a value that must be less than a limit, or greater, and that is worked out
+    /// only where its bounds do not say that it is not; nothing where there are no bounds.
     fn asked(
         &self,
         b: &mut Builder,
         new: New<'_>,
         (op, leaf): (Op, Leaf),
-        (best, value): (NodeId, NodeId),
+        limit: NodeId,
+        outcome: Outcome,
         span: Span,
     ) -> Option<NodeId> {
-        // What the leaf itself must be less than, or greater.
-        let limit = match leaf.negated {
-            true => b.apply(Op::Neg, &[best], span),
-            false => best,
-        };
         let is_less = (op == Op::Min) != leaf.negated;
         let exact = self.rooted(leaf.id).and_then(|root| {
             let mut limit = root.offset.limit(b, new, limit, span)?;
@@ -302,7 +325,7 @@ impl Site<'_> {
                 [square, of]
             };
             let wins = b.apply(Op::Less, &sides, span);
-            Some(b.select(wins, value, best, span))
+            Some(b.select(wins, outcome.won, outcome.lost, span))
         });
         let bounds = match is_less {
             true => self.lower_bounds(leaf.id),
@@ -311,7 +334,7 @@ impl Site<'_> {
         if exact.is_none() && bounds.is_empty() {
             return None;
         }
-        let mut made = exact.unwrap_or_else(|| b.apply(op, &[best, value], span));
+        let mut made = exact.unwrap_or(outcome.undecided);
         for bound in bounds.iter().take(BOUNDS).rev() {
             let limit = bound.offset.limit(b, new, limit, span)?;
             let mut of = new(bound.of)?;
@@ -319,7 +342,7 @@ impl Site<'_> {
                 of = b.apply(Op::Abs, &[of], span);
             }
             let may = b.apply(Op::Less, &[of, limit], span);
-            made = b.select(may, made, best, span);
+            made = b.select(may, made, outcome.lost, span);
         }
         Some(made)
     }

@@ -65,6 +65,16 @@ fn minima_are_what_they_were_and_less_is_computed() {
         ("max(ball(p, 1), -ball(p - (0.5, 0.5, 0), 0.8))", 1.0),
         ("max(p.y, -min(ball(p, 1), box(p, (1, 0.2, 1))))", 1.0),
         ("max(p.y, 1.5 - length(p))", 1.0),
+        // What is rounded.
+        (
+            "smooth_min(smooth_min(ball(p, 1), ball(p - (1, 0, 0), 0.5), 0.4), \
+             box(p + (2, 0, 0), (0.5, 1, 0.3)), 0.6)",
+            0.95,
+        ),
+        (
+            "-smooth_min(-ball(p, 1), ball(p - (1, 0, 0), 0.5), 0.4)",
+            1.0,
+        ),
         // What is common.
         ("max(ball(p, 1), ball(p - (0.5, 0.5, 0), 0.8))", 1.0),
     ] {
@@ -87,6 +97,8 @@ fn what_is_cheap_or_read_elsewhere_is_left() {
         "min(p.x, p.y)",
         // Its root is needed in any case.
         "{ let d = ball(p, 1); min(p.y, d) + d }",
+        // What is rounded is 0 nowhere.
+        "smooth_min_exp(p.y, ball(p, 1), 4)",
         // No bound, and no root.
         "min(p.y, sin(p.x * 1rad) * cos(p.y * 1rad))",
     ] {
