@@ -7,16 +7,18 @@
 //! smaller. Then come the modes that show a part of it, in the same way.
 
 mod forms;
+mod large;
 mod rom;
 
 pub use rom::fit_rom;
 
 use crate::failure::{Failure, Outcome};
-use crate::need::{Need, about, need, room_in};
+use crate::need::{Need, about, need};
 use forms::Fitted;
+pub use large::help;
+use large::{Large, beyond_in, too_large};
 use slowlight_compiler::backend::mos6502::DISC_PAGE;
 use slowlight_compiler::fuel::Fuel;
-use slowlight_compiler::ir::graph::Table;
 use slowlight_compiler::planner::PlannedScene;
 use slowlight_compiler::planner::SEARCH;
 use slowlight_compiler::source::Span;
@@ -106,50 +108,6 @@ const KNOWN: usize = 8;
 /// Makes the plan for a mode with so much fuel.
 type Make<'m> = &'m dyn Fn(Mode, u64) -> Outcome<PlannedScene>;
 
-/// A mode whose programs are too large.
-struct Large {
-    mode: Mode,
-    /// The smallest plan, if one was made: a mode may be passed over, as what the programs of
-    /// another mode take says what its own do.
-    plan: Option<PlannedScene>,
-    /// What the smallest program takes without subroutines for what is done at each pixel, and
-    /// the smallest with them, if it was written.
-    plain: Need,
-    outlined: Option<Need>,
-}
-
-impl Large {
-    fn new(plan: PlannedScene, plain: Need) -> Large {
-        Large {
-            mode: plan.mode,
-            plan: Some(plan),
-            plain,
-            outlined: None,
-        }
-    }
-
-    /// What the smallest program takes.
-    fn least(&self) -> &Need {
-        match &self.outlined {
-            Some(outlined) if outlined.total() < self.plain.total() => outlined,
-            _ => &self.plain,
-        }
-    }
-}
-
-/// What programs of a mode take by what the least of others' take, if that is too much by far:
-/// they differ by how inks are told and plotted.
-fn beyond_in<'n>(
-    mode: Mode,
-    others: impl Iterator<Item = &'n Need>,
-    large: &[Large],
-) -> Option<Need> {
-    let least = others.min_by_key(|need| need.total())?;
-    let plan = large.iter().find_map(|large| large.plan.as_ref())?;
-    let need = least.in_room(room_in(plan, mode)?);
-    need.exceeds(32).then_some(need)
-}
-
 impl Search<'_> {
     fn found(&self, modes: Vec<Mode>, make: Make) -> Outcome<PlannedScene> {
         let mut large: Vec<Large> = Vec::new();
@@ -176,6 +134,7 @@ impl Search<'_> {
             if let Some(plain) = beyond_in(mode, plain, &large) {
                 large.push(Large {
                     mode,
+                    quick: None,
                     plan: None,
                     plain,
                     outlined: None,
@@ -188,9 +147,12 @@ impl Search<'_> {
                 tried = crops(&plan).then_some(0);
             }
             self.fuel.burn(plan.work());
-            match self.fitted(plan)? {
+            match self.fitted(plan.clone())? {
                 Fitted::Fits(plan) => return Ok(*plan),
-                Fitted::TooLarge(plan, need) => large.push(Large::new(*plan, need)),
+                Fitted::TooLarge(small, need) => large.push(Large {
+                    quick: Some(plan),
+                    ..Large::new(*small, need)
+                }),
             }
         }
         if let Some(fits) = self.outlined(
@@ -228,6 +190,7 @@ impl Search<'_> {
         }
         let (least, quickest) = self.quickest(&plan)?;
         if let Some(fits) = quickest {
+            let fits = self.or_outlined(&plan, fits)?;
             return self.with_copies(fits).map(Fitted::from);
         }
         match (
@@ -301,6 +264,11 @@ impl Search<'_> {
                     self.again(&plan, PlannedScene::stable).unwrap_or(plan)
                 }
             };
+            if let Some(quick) = of.quick.take()
+                && let Some(fits) = self.outlined_to_fit(&quick)?
+            {
+                return Ok(Some(fits));
+            }
             // A fault of the plan with subroutines would be one of the plan without.
             let outlined = plan.outlined(self.name);
             of.plan = Some(plan);
@@ -314,28 +282,6 @@ impl Search<'_> {
         }
         Ok(None)
     }
-}
-
-/// By how much a scene's programs are too large in each mode, and what would help.
-fn too_large(large: &[Large]) -> Failure {
-    let Some(plan) = large.iter().rev().find_map(|large| large.plan.as_ref()) else {
-        return Failure::Wrong("there is no mode to draw in".to_owned());
-    };
-    let mut said = String::new();
-    for large in large {
-        let mode = match large.mode.name {
-            "" => String::new(),
-            name => format!("mode {name}: "),
-        };
-        let about = if large.plan.is_none() { "about " } else { "" };
-        said.push_str(&format!("\n  {mode}{about}{}", large.least().text()));
-    }
-    Failure::Wrong(format!(
-        "{} does not fit {}:{said}\n{}",
-        plan.name,
-        plan.target.name,
-        help(plan)
-    ))
 }
 
 /// Whether the screen shows a part of the picture only.
@@ -372,28 +318,4 @@ pub fn with_disc(plan: PlannedScene) -> Outcome<PlannedScene> {
         Some(need) if !need.fits() => Ok(plan),
         _ => Ok(high),
     }
-}
-
-/// What makes a program smaller.
-pub fn help(plan: &PlannedScene) -> String {
-    let mut ways = Vec::new();
-    let effects: Vec<&str> = plan.graph.effects.iter().map(|e| e.name.as_str()).collect();
-    if !effects.is_empty() {
-        ways.push(format!(
-            "leave an effect out (--without {})",
-            effects.join(", ")
-        ));
-    }
-    if !plan.params.is_empty() {
-        ways.push("fold the params (--freeze all)".to_owned());
-    }
-    if plan.graph.diffusion.is_some() {
-        ways.push("dither by a matrix, which keeps no rows of errors".to_owned());
-    }
-    let large = |t: &Table| t.entries.len() > 1000;
-    if plan.graph.tables.iter().any(large) {
-        ways.push("make tables smaller".to_owned());
-    }
-    ways.push("draw fewer shapes, or more of one kind: what is alike is written once".to_owned());
-    format!("what would help: {}", ways.join("; "))
 }

@@ -108,6 +108,11 @@ impl Need {
         }
     }
 
+    /// By how much it is more than the machine holds.
+    pub fn excess(&self) -> u64 {
+        self.total().saturating_sub(self.room)
+    }
+
     /// This or another, whichever is less.
     pub fn or_less(self, other: Option<Need>) -> Need {
         other

@@ -2,6 +2,7 @@
 //! with calls of what is done seldom, without remarks, short.
 
 use super::{LADDER, Search, is_basic, remarks, with_disc};
+use crate::estimate;
 use crate::failure::Outcome;
 use crate::need::Need;
 use rayon::prelude::*;
@@ -9,6 +10,13 @@ use slowlight_compiler::plan::Copies;
 use slowlight_compiler::planner::PlannedScene;
 use slowlight_compiler::planner::{Candidate, SEARCH};
 use slowlight_compiler::targets::Lean;
+
+/// To find what a plan has several times takes so small a part of what it took to find the plan.
+const OUTLINING: u64 = 8;
+
+/// Plans that take so many times as much as one that does not fit may be slower than that is with
+/// subroutines.
+const SLOWER: f64 = 1.15;
 
 /// A plan that fits, or how large its smallest program is.
 pub(super) enum Fitted {
@@ -72,6 +80,46 @@ impl Search<'_> {
             }
         }
         Ok((Some(least), Some(found)))
+    }
+
+    /// The plan with subroutines for what it has several times, as far as that is needed for its
+    /// program to fit; none where it does not in any case.
+    pub(super) fn outlined_to_fit(&self, plan: &PlannedScene) -> Outcome<Option<PlannedScene>> {
+        let mut plan = plan.clone();
+        plan.lean |= plan.target.lean == Lean::Calls;
+        let Some(need) = self.about(&plan)? else {
+            return Ok(None);
+        };
+        let excess = need.excess();
+        // What statements take is known about, and what they call takes some of it back.
+        for enough in [excess + excess / 4, 2 * excess, u64::MAX] {
+            if self.fuel.spent() {
+                break;
+            }
+            let Ok(tried) = plan.outlined_until(enough, self.name) else {
+                break;
+            };
+            self.fuel.burn(plan.work() / OUTLINING);
+            if self.holds(&tried)? {
+                return Ok(Some(tried));
+            }
+        }
+        Ok(None)
+    }
+
+    /// A plan that fits, or another of the same scene with subroutines, where that is quicker.
+    pub(super) fn or_outlined(
+        &self,
+        plan: &PlannedScene,
+        fits: PlannedScene,
+    ) -> Outcome<PlannedScene> {
+        let cycles = estimate::cycles_roughly(&fits);
+        if self.fuel.spent() || cycles < SLOWER * estimate::cycles_roughly(plan) {
+            return Ok(fits);
+        }
+        let outlined = self.outlined_to_fit(plan)?;
+        let quicker = outlined.filter(|outlined| estimate::cycles_roughly(outlined) < cycles);
+        Ok(quicker.unwrap_or(fits))
     }
 
     /// What the plan is by the steps before the last that spend less memory, in their order:

@@ -229,7 +229,7 @@ fn values_that_share_a_variable_with_subroutines_never_meet() {
             Extent::All => schedule_together(&plan.graph),
             Extent::Rows | Extent::Runs => plan.tree.clone(),
         };
-        let (graph, tree) = plan.with_subroutines(tree, extent, &eager, &|_| None);
+        let (graph, tree) = plan.with_subroutines(tree, (extent, u64::MAX), &eager, &|_| None);
         plan.of(graph, tree).ok()
     };
     for seed in 0..60 {

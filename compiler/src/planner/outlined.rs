@@ -24,16 +24,29 @@ impl PlannedScene {
         &self,
         name: &dyn Fn(Span) -> Option<String>,
     ) -> Result<PlannedScene, Vec<Diagnostic>> {
+        self.outlined_until(u64::MAX, name)
+    }
+
+    /// The same until so many bytes are saved, about: what saves most comes first, so that few calls
+    /// spare much.
+    ///
+    /// # Errors
+    /// As for [`PlannedScene::outlined`].
+    pub fn outlined_until(
+        &self,
+        enough: u64,
+        name: &dyn Fn(Span) -> Option<String>,
+    ) -> Result<PlannedScene, Vec<Diagnostic>> {
         // What is stepped along a run has its place before every pixel of it.
         let stepped = |node: &Node| matches!(node, Node::Stepped { .. });
         if self.graph.nodes.iter().any(stepped)
             && let Some(plain) = self.unstepped()
         {
-            return plain.outlined(name);
+            return plain.outlined_until(enough, name);
         }
         let tree = schedule_together(&self.graph);
         let sizes = &self.target.sizes;
-        let (graph, tree) = self.with_subroutines(tree, Extent::All, sizes, name);
+        let (graph, tree) = self.with_subroutines(tree, (Extent::All, enough), sizes, name);
         self.of(graph, tree)
     }
 
@@ -61,7 +74,7 @@ impl PlannedScene {
             *block = by_first_use(&self.graph, std::mem::take(block));
         }
         let sizes = &self.target.sizes;
-        let (graph, tree) = self.with_subroutines(tree, extent, sizes, name);
+        let (graph, tree) = self.with_subroutines(tree, (extent, u64::MAX), sizes, name);
         let plan = self.of(graph, tree).ok()?;
         plan.is_outlined().then_some(plan)
     }
@@ -70,7 +83,7 @@ impl PlannedScene {
     pub(crate) fn with_subroutines(
         &self,
         tree: Tree,
-        extent: Extent,
+        extent: (Extent, u64),
         sizes: &Sizes,
         name: &dyn Fn(Span) -> Option<String>,
     ) -> (Graph, Tree) {

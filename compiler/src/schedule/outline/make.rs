@@ -328,8 +328,9 @@ impl Copy<'_, '_> {
     }
 }
 
-/// Replaces what is worth it, the most first; answers how many subroutines were made.
-pub(super) fn replace(forest: &mut Forest, maker: &mut Maker<'_>) -> usize {
+/// Replaces what is worth it, the most first, until so many bytes are saved, of which it takes
+/// away what it does; answers how many subroutines were made.
+pub(super) fn replace(forest: &mut Forest, maker: &mut Maker<'_>, enough: &mut u64) -> usize {
     let least = maker.sizes.call;
     let all = candidates(maker.graph, forest, least);
     // What each would save at most, and, once looked at, what it does.
@@ -338,7 +339,9 @@ pub(super) fn replace(forest: &mut Forest, maker: &mut Maker<'_>) -> usize {
         heap.push((*bound, std::cmp::Reverse(at), false));
     }
     let mut made = 0;
-    while let Some((_, std::cmp::Reverse(at), looked)) = heap.pop() {
+    while *enough > 0
+        && let Some((_, std::cmp::Reverse(at), looked)) = heap.pop()
+    {
         let Some((saved, group)) = group(maker.graph, forest, maker.sizes, &all[at].1) else {
             continue;
         };
@@ -346,6 +349,7 @@ pub(super) fn replace(forest: &mut Forest, maker: &mut Maker<'_>) -> usize {
         if looked && saved >= next {
             maker.make(forest, &group);
             made += 1;
+            *enough = enough.saturating_sub(u64::from(saved));
         } else {
             heap.push((saved, std::cmp::Reverse(at), true));
         }

@@ -55,14 +55,15 @@ pub enum Extent {
 const ROUNDS: u32 = 6;
 
 /// The graph and its statements with subroutines for what they have several
-/// times, within an extent. `bytes` are those of each node's routine; `name` says what the source
-/// calls what stands at a place. What does not get smaller stays as it is.
+/// times, within an extent, until so many bytes are saved as `enough` says. `bytes` are those of
+/// each node's routine; `name` says what the source calls what stands at a place. What does not get
+/// smaller stays as it is.
 pub fn outline(
     graph: &Graph,
     tree: Tree,
     bytes: &[u32],
     sizes: &Sizes,
-    extent: Extent,
+    (extent, enough): (Extent, u64),
     name: &dyn Fn(Span) -> Option<String>,
 ) -> (Graph, Tree) {
     let (mut graph, mut tree) = (graph.clone(), tree);
@@ -72,6 +73,7 @@ pub fn outline(
     if extent != Extent::Runs {
         sizes.ends = 0;
     }
+    let mut left = enough;
     for _ in 0..ROUNDS {
         let mut forest = forest::Forest::new(&graph, tree, &bytes, &sizes, extent);
         let mut maker = make::Maker {
@@ -80,7 +82,7 @@ pub fn outline(
             sizes: &sizes,
             name,
         };
-        let made = make::replace(&mut forest, &mut maker);
+        let made = make::replace(&mut forest, &mut maker, &mut left);
         tree = forest.into_tree();
         if made == 0 {
             break;

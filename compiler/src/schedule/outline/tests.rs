@@ -85,7 +85,14 @@ fn what_is_done_seldom_alone_calls() {
         let plain = schedule_in_segments(&graph);
         let places = grid(7, 5, 1);
         for extent in [Extent::Rows, Extent::Runs] {
-            let (other, tree) = outline(&graph, plain.clone(), &[], &EAGER, extent, &|_| None);
+            let (other, tree) = outline(
+                &graph,
+                plain.clone(),
+                &[],
+                &EAGER,
+                (extent, u64::MAX),
+                &|_| None,
+            );
             made += tree.subroutines.len();
             assert_eq!(calls(&tree.pixel), 0);
             assert!(extent == Extent::Runs || calls(&tree.segment) == 0);
@@ -185,7 +192,14 @@ fn what_does_not_get_smaller_stays() {
         ..EAGER
     };
     let plain = schedule_together(&graph);
-    let (other, tree) = outline(&graph, plain.clone(), &[], &dear, Extent::All, &|_| None);
+    let (other, tree) = outline(
+        &graph,
+        plain.clone(),
+        &[],
+        &dear,
+        (Extent::All, u64::MAX),
+        &|_| None,
+    );
     assert_eq!(tree, plain);
     assert_eq!(other, graph);
 }
