@@ -193,15 +193,17 @@ impl Search<'_> {
             let fits = self.or_outlined(&plan, fits)?;
             return self.with_copies(fits).map(Fitted::from);
         }
-        match (
-            self.as_is_or_tight(least.unwrap_or(plan))?.or_less(quick),
-            stable,
-        ) {
+        let small = least.unwrap_or_else(|| plan.clone());
+        let found = match (self.as_is_or_tight(small)?.or_less(quick), stable) {
             // Rather slower than with fewer inks.
             (Fitted::TooLarge(_, need), Some(stable)) => {
-                Ok(self.as_is_or_tight(stable)?.or_less(Some(need)))
+                self.as_is_or_tight(stable)?.or_less(Some(need))
             }
-            (found, _) => Ok(found),
+            (found, _) => found,
+        };
+        match found {
+            Fitted::Fits(fits) => self.or_outlined(&plan, *fits).map(Fitted::from),
+            large => Ok(large),
         }
     }
 

@@ -4,7 +4,7 @@
 use super::{LADDER, Search, is_basic, remarks, with_disc};
 use crate::estimate;
 use crate::failure::Outcome;
-use crate::need::Need;
+use crate::need::{Need, first};
 use rayon::prelude::*;
 use slowlight_compiler::plan::Copies;
 use slowlight_compiler::planner::PlannedScene;
@@ -13,6 +13,9 @@ use slowlight_compiler::targets::Lean;
 
 /// To find what a plan has several times takes so small a part of what it took to find the plan.
 const OUTLINING: u64 = 8;
+
+/// How often it is tried, the last time with all of it.
+const OUTLINED: u32 = 5;
 
 /// Plans that take so many times as much as one that does not fit may be slower than that is with
 /// subroutines.
@@ -90,9 +93,17 @@ impl Search<'_> {
         let Some(need) = self.about(&plan)? else {
             return Ok(None);
         };
-        let excess = need.excess();
-        // What statements take is known about, and what they call takes some of it back.
-        for enough in [excess + excess / 4, 2 * excess, u64::MAX] {
+        let total = |plan: &PlannedScene| -> Outcome<u64> {
+            Ok(first(plan)?.map_or(0, |need| need.total()))
+        };
+        // Statements stand in another order, which is not as short.
+        let Ok(whole) = plan.outlined_until(0, self.name) else {
+            return Ok(None);
+        };
+        let written = total(&whole)?;
+        let excess = need.excess() + written.saturating_sub(total(&plan)?);
+        let mut enough = excess / 2;
+        for left in (0..OUTLINED).rev() {
             if self.fuel.spent() {
                 break;
             }
@@ -103,6 +114,13 @@ impl Search<'_> {
             if self.holds(&tried)? {
                 return Ok(Some(tried));
             }
+            // What statements take is known about: it is told by what they took.
+            let saved = written.saturating_sub(total(&tried)?);
+            let by = 1.05 * excess as f64 / saved.max(1) as f64;
+            enough = match left {
+                0 | 1 => u64::MAX,
+                _ => (enough as f64 * by.clamp(1.2, 3.0)) as u64,
+            };
         }
         Ok(None)
     }
