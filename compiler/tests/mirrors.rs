@@ -44,6 +44,7 @@ static PLAIN: Target = Target {
     drawing: 0,
     stolen: 0.0,
     lean: Lean::Nothing,
+    windows: false,
 };
 
 /// Where the eye may be, the default first.

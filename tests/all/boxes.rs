@@ -148,16 +148,19 @@ fn a_large_program_fits_lower() {
 /// What such a program has several times is called, and it draws what it did.
 #[test]
 fn a_program_that_calls_what_it_repeats_draws_the_same() {
-    // A screen of all rows leaves less to the program.
-    let mirrors = include_str!("../../examples/mirrors.scn").replace("320 x 240", "320 x 256");
-    let dir = directory(&[("mirrors.scn", &mirrors)]);
-    let of = "mirrors.scn -t 6502:bbc --mode 1 --format fixed16 --rows 120..123 --page 1900";
+    let csg = include_str!("../../examples/csg.scn");
+    let dir = directory(&[("csg.scn", csg)]);
+    let of = "csg.scn -t 6502:bbc --mode 4 --format fixed16 --rows 120..120";
     let of: Vec<&str> = of.split(' ').collect();
-    assert_eq!(wrong(dir.path(), &of), (0, 4 * 320));
+    assert_eq!(wrong(dir.path(), &of), (0, 320));
     let built = slowlight(dir.path(), &[&["build"], &of[..]].concat());
     assert!(built.status.success());
-    let text = std::fs::read_to_string(dir.path().join("mirrors.asm")).expect("a program");
+    let text = std::fs::read_to_string(dir.path().join("csg.asm")).expect("a program");
     assert!(text.matches("jsr shared").count() > 10);
+    // What is short is called as well.
+    for called in ["jsr saturate16", "jsr abs16", "jsr right16"] {
+        assert!(text.contains(called), "{called}");
+    }
 }
 
 #[test]

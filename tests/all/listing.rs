@@ -60,10 +60,12 @@ fn a_listing_has_all_bytes_and_all_lines_of_the_scene() {
             (8, "threshold(v, bayer(2)"),
         ] {
             let head = format!("; ball.scn:{number}: {line}");
-            let at = listing.find(&head).unwrap_or_else(|| panic!("{head}"));
-            let code = listing[at..].lines().skip(1).take(12);
-            let coded = code.filter(|l| l.starts_with(|c: char| c.is_ascii_hexdigit()));
-            assert!(coded.count() > 3, "{head}");
+            let coded = listing.match_indices(&head).map(|(at, _)| {
+                let code = listing[at..].lines().skip(1).take(12);
+                code.filter(|l| l.starts_with(|c: char| c.is_ascii_hexdigit()))
+                    .count()
+            });
+            assert!(coded.max() > Some(3), "{head}");
         }
         // An instruction with its cycles.
         assert!(listing.contains("  60                        6           rts"));

@@ -6,6 +6,7 @@ use slowlight::scene::{Changes, Scene};
 use slowlight::target_args::ScreenArgs;
 use slowlight::trial;
 use slowlight_compiler::targets::{TARGETS, formats};
+use slowlight_routine::Format;
 
 /// Tables of the scene's, of a dither's, and of the runtimes'; params that are divided.
 const SCENES: [(&str, &str); 5] = [
@@ -59,7 +60,15 @@ fn few_pixels_take_what_is_foreseen() {
         for target in TARGETS {
             for target in formats(target) {
                 let screen = ScreenArgs::default();
-                let plan = screen.plan(&scene, target, &[]).expect("a plan");
+                let plan = match screen.plan(&scene, target, &[]) {
+                    Ok(plan) => plan,
+                    // Tables of logarithms leave a BBC Micro little.
+                    Err(said) => {
+                        let log = matches!(target.runtime.real, Format::Log { .. });
+                        assert!(log && target.name == "6502:bbc", "{}", said.reason());
+                        continue;
+                    }
+                };
                 let mut loaded = trial::build(&plan).expect("a program").loaded;
                 let run = loaded.run(trial::LIMIT, &mut |_| {}).expect("it runs");
                 let (foreseen, took) = (estimate::cycles(&plan), run.cycles as f64);

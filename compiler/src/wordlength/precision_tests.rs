@@ -136,11 +136,18 @@ fn what_subroutines_are_given_and_leave_keeps_its_bits() {
            threshold(v, bayer(4)[x mod 4, y mod 4])
          }};"
     );
-    let plain = planned_with(&text, &mos6502::PLAIN_FIXED16, &Options::default(), WIDE);
-    let called = plain.outlined(&|_| None).unwrap();
-    let [plain, called] = [&plain, &called].map(off);
-    println!("{plain} {called}");
-    assert!(called <= 2 * plain + 20, "{called} {plain}");
+    // Choices are left behind as well, and asked for their signs.
+    let glass = include_str!("../../../examples/glass.scn").replace("320 x 240", "160 x 120");
+    for (text, target) in [
+        (text.as_str(), &mos6502::PLAIN_FIXED16),
+        (glass.as_str(), &mos6502::PLAIN_FIXED24),
+    ] {
+        let plain = planned_with(text, target, &Options::default(), WIDE);
+        let called = plain.outlined(&|_| None).unwrap();
+        let [plain, called] = [&plain, &called].map(off);
+        println!("{plain} {called}");
+        assert!(called <= 2 * plain + 20, "{called} {plain}");
+    }
 }
 
 /// An edited program is the one that would be made for the edited param.

@@ -126,7 +126,12 @@ impl<'p> Draft<'p> {
     }
 
     fn placed(&self) -> Option<Extent> {
-        extent(self.lines.iter().map(|(line, _)| line.as_str()), SET_UP)
+        // What an assembler is told around the program is no part of it.
+        let told = |line: &&str| Some(*line) == self.syntax.first();
+        let behind = usize::from(self.syntax.last("", None).is_some());
+        let lines = self.lines.len() - behind;
+        let lines = self.lines.iter().take(lines).map(|(line, _)| line.as_str());
+        extent(lines.filter(|line| !told(line)), SET_UP)
     }
 
     /// As a text.

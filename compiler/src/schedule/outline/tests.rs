@@ -41,15 +41,42 @@ fn graph(text: &str) -> Graph {
 }
 
 fn outlined(graph: &Graph, sizes: &Sizes) -> (Graph, Tree) {
+    outlined_until(u64::MAX, graph, sizes)
+}
+
+fn outlined_until(enough: u64, graph: &Graph, sizes: &Sizes) -> (Graph, Tree) {
     let called = |_| Some("shape".to_owned());
     outline(
         graph,
         schedule_together(graph),
         &[],
         sizes,
-        Extent::All,
+        (Extent::All, enough),
         &called,
     )
+}
+
+/// No more subroutines are made than what is wanted takes: none, the one that saves most, all.
+#[test]
+fn what_is_saved_is_enough() {
+    let mut several = 0;
+    for seed in 0..100 {
+        let graph = fold(&random_graphs::graph(seed));
+        let count = |enough| {
+            let (other, tree) = outlined_until(enough, &graph, &EAGER);
+            let places = grid(7, 5, 1);
+            assert_eq!(
+                picture(&graph, &schedule(&graph), &places),
+                picture(&other, &tree, &places),
+                "seed {seed}, {enough}:\n{tree}"
+            );
+            tree.subroutines.len()
+        };
+        let all = count(u64::MAX);
+        assert_eq!((count(0), count(1)), (0, all.min(1)), "seed {seed}");
+        several += usize::from(all > 1);
+    }
+    assert!(several > 20, "{several}");
 }
 
 fn calls(block: &[Statement]) -> usize {
