@@ -136,11 +136,11 @@ fn what_subroutines_are_given_and_leave_keeps_its_bits() {
            threshold(v, bayer(4)[x mod 4, y mod 4])
          }};"
     );
-    // Choices are left behind as well, and asked for their signs.
-    let glass = include_str!("../../../examples/glass.scn").replace("320 x 240", "160 x 120");
+    // Choices are left behind as well.
+    let twist = include_str!("../../../examples/twist.scn").replace("320 x 240", "160 x 120");
     for (text, target) in [
         (text.as_str(), &mos6502::PLAIN_FIXED16),
-        (glass.as_str(), &mos6502::PLAIN_FIXED24),
+        (twist.as_str(), &mos6502::PLAIN_FIXED16),
     ] {
         let plain = planned_with(text, target, &Options::default(), WIDE);
         let called = plain.outlined(&|_| None).unwrap();
