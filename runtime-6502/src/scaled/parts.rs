@@ -54,19 +54,19 @@ pub(crate) const ALL: &[Part] = &[
         "saturate16",
         include_str!("../../asm/scaled/saturate.asm"),
         &[],
-        14,
+        27,
     ),
     part(
         "abs16",
         include_str!("../../asm/scaled/abs.asm"),
         &["zero_page"],
-        18,
+        19,
     ),
     part(
         "right16",
         include_str!("../../asm/scaled/right16.asm"),
         &["zero_page"],
-        60,
+        22,
     ),
     part(
         "lower24",

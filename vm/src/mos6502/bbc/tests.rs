@@ -73,7 +73,7 @@ fn what_is_not_bundled_is_said() {
     for (source, said) in [
         (" jsr $ffd1\n", "calls &FFD1"),
         (" lda $fe40\n", "reads &FE40"),
-        (" sta $fe21\n", "sets &FE21"),
+        (" sta $fe40\n", "sets &FE40"),
         (" lda #129\n jsr $fff4\n", "OSBYTE 129"),
         (" lda #25\n jsr $ffee\n", "VDU 25"),
         (" lda #22\n jsr $ffee\n lda #3\n jsr $ffee\n", "MODE 3"),
@@ -96,4 +96,49 @@ fn interrupts_take_their_share() {
     let run = run(" ldx #250\n ldy #4\nl: dex\n bne l\n ldx #250\n dey\n bne l\n rts\n");
     let own = 2 + 2 + 4 * (250 * 5 - 1 + 2 + 2 + 3) - 1;
     assert_eq!(run.cycles, cost::with_interrupts(own + 6 + CALL_CYCLES));
+}
+
+/// Two characters of MODE 1 side by side and one row of them, with two of its inks exchanged; the
+/// registers are those of the manual.
+#[test]
+fn a_screen_may_be_set_up_by_its_registers() {
+    let registers = [
+        (1, 2),
+        (6, 1),
+        (9, 7),
+        (12, 0x7F00 >> 11),
+        (13, 0x7F00 >> 3 & 0xFF),
+    ];
+    let set = |(number, value): &(u32, u32)| {
+        format!(" lda #{number}\n sta $fe00\n lda #{value}\n sta $fe01\n")
+    };
+    let mut source: String = registers.iter().map(set).collect();
+    source += " lda #154\n ldx #$d8\n jsr $fff4\n";
+    // Of a byte's bits 7, 5, 3 and 1 the first and the third are a pixel's ink.
+    for pattern in 0..16u32 {
+        let ink = pattern >> 3 << 1 | pattern >> 1 & 1;
+        let colour = [0, 3, 1, 7][ink as usize] ^ 7;
+        source += &format!(" lda #{}\n sta $fe21\n", pattern << 4 | colour);
+    }
+    source += " lda #%00110101\n sta $7f08\n lda #%11110000\n sta $7f03\n jsr $ffe0\n";
+    let run = run(&source);
+    assert_eq!(run.stop, Stop::Ended);
+    let screen = run.screen.unwrap();
+    assert_eq!((screen.width, screen.height), (8, 8));
+    assert_eq!(screen.pixels[4..8], [0, 1, 2, 3]);
+    assert_eq!(screen.pixels[24..32], [2, 2, 2, 2, 0, 0, 0, 0]);
+    let [red, yellow] = [[255, 0, 0], [255, 255, 0]];
+    assert_eq!(screen.palette, [[0; 3], yellow, red, [255; 3]]);
+}
+
+/// In MODE 7 a program writes again; BASIC is where it ends.
+#[test]
+fn a_program_may_go_back_to_basic() {
+    let source = format!(
+        "{} ldx #<basic\n ldy #>basic\n jmp $fff7\nbasic: .byte 66, 65, 83, 73, 67, 13\n",
+        vdu(&[22, 1, 22, 7])
+    );
+    let run = run(&source);
+    assert_eq!(run.stop, Stop::Ended);
+    assert!(run.screen.is_none());
 }
