@@ -100,3 +100,19 @@ fn rows_in_passes_and_runs_are_what_the_model_draws() {
         }
     }
 }
+
+/// A choice that a subroutine leaves is asked for more than its sign, though nothing else is asked
+/// of it where it is made.
+#[test]
+fn choices_that_subroutines_leave_keep_their_magnitudes() {
+    let glass = include_str!("../../examples/glass.scn");
+    let dir = directory(&[("glass.scn", glass)]);
+    let run = |more: &[&str]| {
+        let args = "run glass.scn -t 6502:plain --format fixed24 --rows 100..101 --json";
+        let args: Vec<&str> = args.split(' ').collect();
+        let run = json(dir.path(), &[&args[..], more].concat());
+        run["differs_from_native"].as_u64().expect("a number")
+    };
+    let [usual, called] = [&[][..], &["--outlined"]].map(run);
+    assert!(called <= usual + 13, "{called} {usual} of 640");
+}

@@ -3,7 +3,7 @@
 use super::{Lean, Mode, Sizes, System, Target};
 use slowlight_runtime_bbc::RUNTIME;
 
-pub(super) const fn mode(name: &'static str, width: u32, height: u32, inks: u32) -> Mode {
+const fn mode(name: &'static str, width: u32, height: u32, inks: u32) -> Mode {
     Mode {
         name,
         width,
@@ -12,14 +12,15 @@ pub(super) const fn mode(name: &'static str, width: u32, height: u32, inks: u32)
     }
 }
 
+/// A BBC Micro's modes for pictures, by their numbers.
+pub(super) const MODE_0: Mode = mode("0", 640, 256, 2);
+pub(super) const MODE_1: Mode = mode("1", 320, 256, 4);
+pub(super) const MODE_2: Mode = mode("2", 160, 256, 16);
+pub(super) const MODE_4: Mode = mode("4", 320, 256, 2);
+pub(super) const MODE_5: Mode = mode("5", 160, 256, 4);
+
 /// By the memory that the screen takes from the program: 10K in modes 4 and 5, 20K in the others.
-pub static MICRO_MODES: &[Mode] = &[
-    mode("5", 160, 256, 4),
-    mode("4", 320, 256, 2),
-    mode("2", 160, 256, 16),
-    mode("1", 320, 256, 4),
-    mode("0", 640, 256, 2),
-];
+static MICRO_MODES: &[Mode] = &[MODE_5, MODE_4, MODE_2, MODE_1, MODE_0];
 
 static AGON_MODES: &[Mode] = &[
     mode("9", 320, 240, 16),

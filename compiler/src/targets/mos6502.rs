@@ -1,6 +1,6 @@
 //! Target descriptions of 6502 machines, by the format of their reals.
 
-use super::bbc::mode;
+use super::bbc::{MODE_0, MODE_1, MODE_2, MODE_4, MODE_5};
 use super::{Lean, Mode, Sizes, System, Target};
 use slowlight_runtime_6502::FIXED16_16;
 use slowlight_runtime_6502::log::{LOG10, LOG10_IN_RUNS, LOG11, LOG11_IN_RUNS};
@@ -72,13 +72,7 @@ const LOG_OFFSET: f64 = 0.015_625;
 
 /// The modes of a BBC Micro, whose screens are as large as the picture: of equal inks those with
 /// square pixels first.
-static BBC_MODES: &[Mode] = &[
-    mode("4", 320, 256, 2),
-    mode("1", 320, 256, 4),
-    mode("2", 160, 256, 16),
-    mode("0", 640, 256, 2),
-    mode("5", 160, 256, 4),
-];
+static BBC_MODES: &[Mode] = &[MODE_4, MODE_1, MODE_2, MODE_0, MODE_5];
 
 /// A BBC Micro, model B.
 pub static BBC: Target = Target {

@@ -52,10 +52,11 @@ fn planned_with(
 fn off(plan: &PlannedScene) -> usize {
     let mut exact = Run::new(&plan.graph, &plan.tree, Exact(&plan.graph));
     let mut model = ModelRun::new(plan);
+    let most = plan.graph.image.palette.len() as i32 - 1;
     let all = (0..WIDE.1 as i32).flat_map(|y| (0..WIDE.0 as i32).map(move |x| (x, y)));
     all.filter(|&(x, y)| {
         let ink = match exact.pixel(x, y) {
-            Value::Int(ink) => ink.clamp(0, 3),
+            Value::Int(ink) => ink.clamp(0, most),
             _ => -1,
         };
         i32::from(model.pixel(x, y).ink) != ink

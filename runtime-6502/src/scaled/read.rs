@@ -94,8 +94,8 @@ pub fn read(read: Read<'_>, lines: &mut Vec<String>) -> Option<&'static str> {
     let read = Read { from, ..read };
     match by {
         // Less than a byte, of which in place each bit takes three bytes and more.
-        2..8 if short && fits => return Some(called_near(read, "left16", lines)),
-        -7..0 if short => return Some(called_near(read, "right16", lines)),
+        2..8 if short && fits => return Some(called_in_16(read, lines)),
+        -7..0 if short => return Some(called_in_16(read, lines)),
         0.. if fits => add(&up(read), lines),
         1..8 if bytes == 1 => add(&byte_up(read), lines),
         0.. if bytes == 1 => {
@@ -126,7 +126,7 @@ pub fn read(read: Read<'_>, lines: &mut Vec<String>) -> Option<&'static str> {
             );
             add(&text, lines);
         }
-        0.. if bytes == 2 => return Some(called_near(read, "left16", lines)),
+        0.. if bytes == 2 => return Some(called_in_16(read, lines)),
         0.. => {
             copy_bytes(from, "acc", 3, lines);
             return Some(called(read, "left24", lines));
@@ -136,15 +136,16 @@ pub fn read(read: Read<'_>, lines: &mut Vec<String>) -> Option<&'static str> {
     None
 }
 
-/// Reads one of two bytes by a subroutine; answers its part.
-fn called_near(read: Read<'_>, name: &str, lines: &mut Vec<String>) -> &'static str {
+/// Reads one of two bytes by a subroutine that has no more; answers its part.
+fn called_in_16(read: Read<'_>, lines: &mut Vec<String>) -> &'static str {
     let (low, high) = (byte(read.from, 0), byte(read.from, 1));
     add(&format!("lda {low} | ldx {high}"), lines);
-    let part = called(read, name, lines);
-    match name {
-        "right16" => "right16",
-        _ => part,
-    }
+    let (name, part) = match read.by {
+        0.. => ("left16", "narrow"),
+        _ => ("right16", "right16"),
+    };
+    called(read, name, lines);
+    part
 }
 
 /// Reads by a subroutine, of whose name that for three bytes follows; answers its part.

@@ -4,27 +4,7 @@
 use super::kinds::SHORT;
 use super::short;
 use crate::tests::bench::Bench;
-use crate::write::{Goal, Place, Use, instructions};
 use slowlight_routine::{Form, Routine};
-
-fn bench(routine: &'static Routine, calls: bool) -> Bench {
-    let names = ["first_operand", "second_operand_value"];
-    let places = names.map(|name| Place::At(name.into()));
-    let write = |lines: &mut Vec<String>| {
-        let used = Use {
-            routine,
-            args: &places[..routine.args.len()],
-            goal: &Goal::At("result"),
-            serial: 1,
-            number: 0,
-            calls,
-        };
-        let mut needs = routine.needs.to_vec();
-        needs.extend(instructions(used, lines));
-        needs
-    };
-    Bench::written(SHORT.setting.runtime, &write).sized(SHORT.setting.sizes)
-}
 
 #[test]
 fn what_is_short_gives_the_same() {
@@ -43,7 +23,8 @@ fn what_is_short_gives_the_same() {
     }
     let edges = SHORT.edges();
     for routine in all {
-        let [mut long, mut short] = [false, true].map(|calls| bench(routine, calls));
+        let [mut long, mut short] =
+            [false, true].map(|calls| Bench::used(SHORT.setting, routine, (&[], 0), calls));
         for a in &edges {
             let seconds = match routine.args.len() {
                 1 => &edges[..1],

@@ -105,6 +105,16 @@ impl Bench {
 
     /// The same of a runtime's, with what it has to know of scales.
     pub fn of(setting: Setting, routine: &Routine, places: &[Place], number: i32) -> Bench {
+        Bench::used(setting, routine, (places, number), false)
+    }
+
+    /// The same where what may be written out is called, or not.
+    pub fn used(
+        setting: Setting,
+        routine: &Routine,
+        (places, number): (&[Place], i32),
+        calls: bool,
+    ) -> Bench {
         let names = ["first_operand", "second_operand_value"];
         let zero_page = names.map(|name| Place::At(name.into()));
         let places = if places.is_empty() {
@@ -125,7 +135,7 @@ impl Bench {
                 goal: &goal,
                 serial: 1,
                 number,
-                calls: false,
+                calls,
             };
             let mut needs = routine.needs.to_vec();
             needs.extend(instructions(used, lines));

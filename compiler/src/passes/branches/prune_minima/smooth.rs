@@ -143,6 +143,8 @@ impl Site<'_> {
         let (Op::Sub, [a, c]) = apply(difference)? else {
             return None;
         };
-        ([a, c] == [x, y] || [a, c] == [y, x]).then_some(width)
+        // Of less than 0 nothing is rounded, but the limit would be beyond the other value.
+        let found = [a, c] == [x, y] || [a, c] == [y, x];
+        (found && self.is_no_less_than_0(width)).then_some(width)
     }
 }

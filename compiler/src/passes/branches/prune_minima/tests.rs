@@ -97,6 +97,8 @@ fn what_is_cheap_or_read_elsewhere_is_left() {
         "min(p.x, p.y)",
         // Its root is needed in any case.
         "{ let d = ball(p, 1); min(p.y, d) + d }",
+        // By a width that may be below 0.
+        "smooth_min(p.y, ball(p, 1), p.x)",
         // What is rounded is 0 nowhere.
         "smooth_min_exp(p.y, ball(p, 1), 4)",
         // No bound, and no root.
