@@ -40,6 +40,8 @@ pub(super) struct Flow {
     pub effects: Vec<Effects>,
     /// The blocks behind calls.
     pub returns: Vec<usize>,
+    /// The blocks in reverse postorder: but for loops, what comes to one stands before it.
+    pub order: Vec<usize>,
 }
 
 impl Flow {
@@ -90,12 +92,42 @@ impl Flow {
             .flat_map(|block| block.next.clone())
             .collect();
         Flow {
+            order: reverse_postorder(&blocks),
             blocks,
             space,
             effects,
             returns,
         }
     }
+}
+
+/// The blocks, depth first from those that nothing known comes to, then from what is left.
+fn reverse_postorder(blocks: &[Block]) -> Vec<usize> {
+    let is_root = |block: &Block| block.entered || block.before.is_empty();
+    let (roots, rest): (Vec<usize>, Vec<usize>) =
+        (0..blocks.len()).partition(|b| blocks.get(*b).is_some_and(is_root));
+    let mut order = Vec::with_capacity(blocks.len());
+    let mut seen = vec![false; blocks.len()];
+    for root in roots.into_iter().chain(rest) {
+        // With how many of the ways on from each were taken.
+        let mut open = vec![(root, 0)];
+        while let Some((b, taken)) = open.pop() {
+            let first = taken == 0;
+            if first
+                && seen
+                    .get_mut(b)
+                    .is_none_or(|seen| std::mem::replace(seen, true))
+            {
+                continue;
+            }
+            match blocks.get(b).and_then(|block| block.next.get(taken)) {
+                Some(next) => open.extend([(b, taken + 1), (*next, 0)]),
+                None => order.push(b),
+            }
+        }
+    }
+    order.reverse();
+    order
 }
 
 /// The lines at which blocks begin: labels that are met, and what stands behind a branch, a

@@ -149,7 +149,10 @@ fn solve(flow: &Flow, blocks: &[Whole], given: Option<&[Places]>) -> Alive {
         if given.is_some() {
             (flow.returns.iter().filter_map(|b| ahead.get(*b))).for_each(|a| returned.add(a));
         }
-        for (b, block) in flow.blocks.iter().enumerate().rev() {
+        for &b in flow.order.iter().rev() {
+            let Some(block) = flow.blocks.get(b) else {
+                continue;
+            };
             let mut alive = Places::none(count);
             for next in &block.next {
                 ahead.get(*next).iter().for_each(|a| alive.add(a));

@@ -43,6 +43,9 @@ use values::Held;
 /// Rounds of all rules, at most; what a round leaves is a program like any other.
 const ROUNDS: usize = 8;
 
+/// A round that changes no more than one line in so many is the last of them.
+const FEW: usize = 2_000;
+
 /// What stands for a line that is left out, until all are taken away.
 const GONE: &str = ";";
 
@@ -51,13 +54,20 @@ const GONE: &str = ";";
 /// keeps.
 pub fn tidy<T>(lines: &mut Vec<(String, T)>, symbols: &Range<usize>, own: &Range<usize>) {
     let mut program = Program::new(lines, symbols);
-    let rules = [forward, backward, threads, jumps];
-    let mut idle = 0;
-    for rule in rules.iter().cycle().take(ROUNDS * rules.len()) {
-        let edits = rule(&program, own);
-        let changed = program.change(lines, edits);
-        idle = if changed { 0 } else { idle + 1 };
-        if idle == rules.len() {
+    for _ in 0..ROUNDS {
+        let mut changed = 0;
+        for rule in [forward, backward, threads, jumps] {
+            let edits = rule(&program, own);
+            changed += program.change(lines, edits);
+        }
+        if changed * FEW <= lines.len() {
+            break;
+        }
+    }
+    // What is left is mostly theirs, and they look at no more than lines.
+    for _ in 0..ROUNDS {
+        let edits = jumps(&program, own);
+        if program.change(lines, edits) == 0 {
             break;
         }
     }
@@ -106,21 +116,21 @@ impl Program {
         })
     }
 
-    /// Edits touch instructions alone, so names stay what they are. Whether any was one.
-    fn change<T>(&mut self, lines: &mut [(String, T)], edits: Vec<(usize, Edit)>) -> bool {
-        let mut changed = false;
+    /// Edits touch instructions alone, so names stay what they are. How many lines became others.
+    fn change<T>(&mut self, lines: &mut [(String, T)], edits: Vec<(usize, Edit)>) -> usize {
+        let mut changed = 0;
         for (k, edit) in edits {
             if let (Some((text, _)), Some(code)) = (lines.get_mut(k), self.code.get_mut(k)) {
                 let other = match edit {
                     Edit::Gone => GONE.to_owned(),
                     Edit::Instead(code) => format!("        {code}"),
                 };
-                changed |= *text != other;
+                changed += usize::from(*text != other);
                 *text = other;
                 *code = self.names.read(text);
             }
         }
-        if changed {
+        if changed > 0 {
             let held = self.facts.take().and_then(|facts| facts.held.into_inner());
             self.spare.set(held.unwrap_or_default());
         }

@@ -167,10 +167,13 @@ impl Held {
         state.resize(flow.space.cells());
         for _ in 0..ROUNDS {
             let mut any = false;
-            for (b, block) in flow.blocks.iter().enumerate() {
+            for &b in &flow.order {
                 if !waiting.get(b).copied().unwrap_or_default() {
                     continue;
                 }
+                let Some(block) = flow.blocks.get(b) else {
+                    continue;
+                };
                 let Some(ways) = self.ways_to(flow, b) else {
                     continue;
                 };
