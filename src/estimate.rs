@@ -147,6 +147,12 @@ pub fn rows(plan: &Plan) -> f64 {
     sampled(plan, GRID, MOST).rows
 }
 
+/// The same by all their pixels.
+pub fn all_rows(plan: &Plan) -> f64 {
+    let window = Window::of(plan);
+    sampled(plan, window.width().max(window.height()), MOST).rows
+}
+
 /// The same, with the inks of a sample of so many rows and columns; of which only a part is
 /// looked at once so many statements have run.
 pub fn sampled(plan: &Plan, side: u32, most: u64) -> Sampled {

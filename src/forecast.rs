@@ -2,14 +2,15 @@
 //!
 //! A program for fewer rows is the same program with other bounds. Two rows, each by itself
 //! and both together, tell what a program does before its first row: by itself each does it
-//! once more. What is left is the rows' own, and rows spread evenly over the picture stand
-//! for the others. Where all rows together are no work, all are run. Where a single row is much
-//! work, few are run, at the same time, and what comes before them is what that is said to
-//! take ([`estimate::before`]), where that hardly counts.
+//! once more. What is left is the rows' own, of rows spread evenly over the picture; and the
+//! routines' mean costs ([`crate::estimate`]) say how much dearer all rows are than those (a
+//! ratio estimate: Cochran, Sampling Techniques, 1977, chapter 6). Where all rows together are
+//! no work, all are run. Where a single row is much work, two are run, at the same time, and
+//! what comes before them is what that is said to take ([`estimate::before`]), where that hardly
+//! counts.
 //!
 //! Where errors go from row to row, a row wants all those above it. There as many rows from
-//! the top are run as are no work, and the routines' mean costs ([`crate::estimate`]) say
-//! how much dearer the others are.
+//! the top are run as are no work.
 
 use crate::estimate;
 use crate::failure::{Failure, Outcome};
@@ -24,13 +25,14 @@ use slowlight_compiler::backend::mos6502::for_rows;
 use slowlight_compiler::plan::Plan;
 use slowlight_vm::Stop;
 
-/// Cycles after which no more rows are looked at, and after which a run is given up: less than
-/// half a second and some seconds of the host's time.
-const ENOUGH: f64 = 1e8;
+/// Cycles after which no more rows are looked at, and after which a run is given up: about a
+/// tenth of a second and some seconds of the host's time.
+const ENOUGH: f64 = 3e7;
 const MOST: u64 = 2_000_000_000;
 
-/// So many rows are looked at, however long they take.
-const FEW: u32 = 4;
+/// Where so many rows are as much work as may be, what comes before them is measured only where
+/// it counts.
+const FEW: f64 = 4.0;
 
 /// What comes before the first row counts where it is said to be such a part of a row.
 const COUNTS: f64 = 0.1;
@@ -163,65 +165,54 @@ impl Look<'_> {
         self.plan.rows.0 + ((2 * place + 1) * height / 32).min(height - 1)
     }
 
-    /// Cycles of the whole, by rows spread over it.
+    /// Cycles of the whole, by rows spread over it, two at the same time.
     fn spread(&mut self) -> Outcome<f64> {
-        let middle = self.at(PLACES[0]);
-        let one = self.took((middle, middle))?;
-        if one * f64::from(FEW) > ENOUGH {
-            return self.spread_few(one);
-        }
-        let before = self.before((middle, one))?;
-        let height = f64::from(self.height());
-        let whole = |sum: f64, rows: u32| before + sum / f64::from(rows) * height;
-        let mut sum = one - before;
-        self.rows = 1;
-        if whole(sum, self.rows) <= ENOUGH {
-            return Ok(whole(sum, self.rows));
-        }
-        // Two at the same time; the second counts only if it were looked at after the first.
-        for places in PLACES[1..].chunks(2) {
+        let said = estimate::rows(self.plan);
+        let (mut sum, mut before, mut whole) = (0.0, None, 0.0);
+        // What is said of the rows that are looked at.
+        let mut part = 0.0;
+        for places in PLACES.chunks(2) {
             let rows = places.par_iter().map(|place| self.at(*place));
-            let took: Vec<Outcome<f64>> = rows.map(|row| self.run((row, row))).collect();
-            for took in took {
-                let took = took?;
+            let looked = rows.map(|row| Ok((self.run((row, row))?, self.said(row))));
+            let looked: Vec<(f64, f64)> = looked.collect::<Outcome<_>>()?;
+            let before = match before {
+                Some(before) => before,
+                None => *before.insert(self.before(looked.first().map_or(0.0, |(took, _)| *took))?),
+            };
+            for (took, said) in looked {
                 self.spent += took;
-                sum += took - before;
                 self.rows += 1;
-                let long = whole(sum, self.rows) > ENOUGH;
-                if !long || self.spent > ENOUGH && self.rows >= FEW {
-                    return Ok(whole(sum, self.rows));
-                }
+                sum += (took - before).max(0.0);
+                part += said;
+            }
+            whole = before + sum * said / f64::max(part, 1.0);
+            if whole <= ENOUGH || self.spent > ENOUGH {
+                break;
             }
         }
-        Ok(whole(sum, self.rows))
+        Ok(whole)
     }
 
-    /// The cycles before the first row, by a row that took so long and the next one.
-    fn before(&mut self, (row, one): (u32, f64)) -> Outcome<f64> {
+    /// What the statements of a row are said to take.
+    fn said(&self, row: u32) -> f64 {
+        let mut plan = self.plan.clone();
+        plan.rows = (row, row);
+        estimate::all_rows(&plan)
+    }
+
+    /// The cycles before the first row, where the middle one by itself takes so long: as they are
+    /// said, where they hardly count, else by that row and the next one.
+    fn before(&mut self, one: f64) -> Outcome<f64> {
+        let said = estimate::before(self.plan);
+        if one * FEW > ENOUGH && said <= one * COUNTS {
+            return Ok(said);
+        }
+        let row = self.at(PLACES[0]);
         let (both, other) =
             rayon::join(|| self.run((row, row + 1)), || self.run((row + 1, row + 1)));
         let (both, other) = (both?, other?);
         self.spent += both + other;
         Ok((one + other - both).clamp(0.0, one.min(other)))
-    }
-
-    /// The same where one row, which took so long, is as much work as others should be
-    /// together.
-    fn spread_few(&mut self, one: f64) -> Outcome<f64> {
-        let rows = PLACES[1..FEW as usize]
-            .par_iter()
-            .map(|place| self.at(*place));
-        let others: Vec<f64> = rows
-            .map(|row| self.run((row, row)))
-            .collect::<Outcome<_>>()?;
-        let mut before = estimate::before(self.plan);
-        if before > one * COUNTS {
-            before = self.before((self.at(PLACES[0]), one))?;
-        }
-        let own = |took: f64| (took - before).max(0.0);
-        let sum = own(one) + others.into_iter().map(own).sum::<f64>();
-        self.rows = FEW;
-        Ok(before + sum / f64::from(FEW) * f64::from(self.height()))
     }
 
     /// Cycles of the whole, by its first rows.
