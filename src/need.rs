@@ -108,6 +108,12 @@ impl Need {
         }
     }
 
+    /// Whether it is more than the machine holds, whatever of machine code as it was first
+    /// written becomes subroutines.
+    pub fn is_beyond_calls(&self) -> bool {
+        self.total() > OUTLINED * (self.room + self.room / TIDIED)
+    }
+
     /// By how much it is more than the machine holds.
     pub fn excess(&self) -> u64 {
         self.total().saturating_sub(self.room)

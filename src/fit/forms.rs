@@ -90,7 +90,8 @@ impl Search<'_> {
     pub(super) fn outlined_to_fit(&self, plan: &PlannedScene) -> Outcome<Option<PlannedScene>> {
         let mut plan = plan.clone();
         plan.lean |= plan.target.lean == Lean::Calls;
-        let Some(need) = self.about(&plan)? else {
+        let need = self.about(&plan)?;
+        let Some(need) = need.filter(|need| !need.is_beyond_calls()) else {
             return Ok(None);
         };
         let total = |plan: &PlannedScene| -> Outcome<u64> {
@@ -102,7 +103,7 @@ impl Search<'_> {
         };
         let written = total(&whole)?;
         let excess = need.excess() + written.saturating_sub(total(&plan)?);
-        let mut enough = excess / 2;
+        let (mut enough, mut before) = (excess / 2, None);
         for left in (0..OUTLINED).rev() {
             if self.fuel.spent() {
                 break;
@@ -116,6 +117,10 @@ impl Search<'_> {
             }
             // What statements take is known about: it is told by what they took.
             let saved = written.saturating_sub(total(&tried)?);
+            // All is called already.
+            if before.replace(saved) == Some(saved) {
+                break;
+            }
             let by = 1.05 * excess as f64 / saved.max(1) as f64;
             enough = match left {
                 0 | 1 => u64::MAX,
