@@ -15,6 +15,9 @@ use std::path::{Path, PathBuf};
 
 const TARGETS: [&str; 3] = ["jack", "6502:plain", "bbc:micro"];
 
+/// What is done before there is a graph: programs that it changes have it.
+const EARLY: [Pass; 2] = [Pass::Bounds, Pass::Instances];
+
 /// A program's forecast in cycles, and the work that its plan took.
 struct Cost {
     cycles: f64,
@@ -109,7 +112,7 @@ fn ablated(scene: &Path, target: usize) -> Option<Ablated> {
     let passes = built["passes"].as_object()?;
     let kept = |pass: &&Pass| {
         // What is done before there is a graph is not counted as it runs.
-        if **pass == Pass::Bounds {
+        if EARLY.contains(*pass) {
             return true;
         }
         let count = passes.get(pass.about().0);
@@ -125,7 +128,7 @@ fn ablated(scene: &Path, target: usize) -> Option<Ablated> {
         )
     });
     let changed = |(pass, cost): &(Pass, Option<Cost>)| {
-        let same = |cost: &Cost| *pass == Pass::Bounds && cost.cycles == usual.cycles;
+        let same = |cost: &Cost| EARLY.contains(pass) && cost.cycles == usual.cycles;
         !cost.as_ref().is_some_and(same)
     };
     let without = without.filter(changed).collect();

@@ -116,3 +116,39 @@ fn choices_that_subroutines_leave_keep_their_magnitudes() {
     let [usual, called] = [&[][..], &["--outlined"]].map(run);
     assert!(called <= usual + 13, "{called} {usual} of 640");
 }
+
+/// A march of as many steps as bounds are looked for in: what it carries is held within what
+/// its turns give on, and all that is made of it keeps its digits.
+#[test]
+fn what_marches_carry_has_bounds_after_any_count_of_steps() {
+    let scene = "image 40 x 30 inks black, #404060, #9090b0, white;
+shape sponge() {
+  dist(p) = {
+    let q = abs(p) - (1, 1, 1);
+    let box = length(max(q, (0, 0, 0))) + min(max(q.x, max(q.y, q.z)), 0);
+    loop (k = 0, d = box, s = 1.0) max 2 {
+      let a = (p.x * s + 1) mod 2 - 1;
+      let b = (p.y * s + 1) mod 2 - 1;
+      let c = (p.z * s + 1) mod 2 - 1;
+      let r = (abs(1 - 3 * abs(a)), abs(1 - 3 * abs(b)), abs(1 - 3 * abs(c)));
+      let e = (min(max(r.x, r.y), min(max(r.y, r.z), max(r.z, r.x))) - 1) / (3 * s);
+      if k == 1 then max(d, e) else next(k + 1, max(d, e), 3 * s)
+    } else box
+  };
+}
+scene world { sponge() is 0.9; }
+draw (x, y) = {
+  let r = pinhole((2.2, 1.6, 2.8), at: (0, 0, 0), field: 40deg).through(x, y);
+  let v = if let h = world.march(r, steps: STEPS, near: 0.005, far: 8)
+    then 0.15 + 0.8 * lambert(h, (0.36, 0.8, 0.48)) else 0.05;
+  threshold(v, bayer(8)[x mod 8, y mod 8])
+};\n";
+    for steps in ["63", "64", "65"] {
+        let scene = scene.replace("STEPS", steps);
+        let dir = directory(&[("sponge.scn", &scene)]);
+        let args = "run sponge.scn -t 6502:plain --format fixed24 --json";
+        let run = json(dir.path(), &args.split(' ').collect::<Vec<_>>());
+        let wrong = run["differs_from_native"].as_u64().expect("a number");
+        assert!(wrong <= 3, "{wrong} of 1200 by {steps} steps");
+    }
+}

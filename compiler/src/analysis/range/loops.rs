@@ -89,10 +89,10 @@ impl Walk<'_> {
             // After `max` turns the bounds hold all that the loop can carry,
             // whether or not they would grow in one more.
             if self.carried[at] == before || turn > max {
-                if widened && turn <= max {
-                    self.carried[at].clone_from(&before);
+                if widened {
+                    let head = self.carried[at].clone();
                     self.turn(turns);
-                    self.narrow(turns, start, before);
+                    self.narrow(turns, start, head);
                 }
                 break;
             }
@@ -103,7 +103,8 @@ impl Walk<'_> {
             if again && turn < max && self.accelerate(turns, start, open) {
                 break;
             }
-            if tired || turn >= MANY {
+            // What is walked as often as it turns needs no wider bounds.
+            if (tired || turn >= MANY) && turn < max {
                 self.widen(of, &before);
                 widened = true;
             }
