@@ -213,10 +213,11 @@ fn quickest(
             Err(Failure::Scene(_)) => continue,
             plan => plan?,
         };
-        // Where this one fits only by calls, what is larger by a good part fits in no way.
+        // Where this one fits only by calls, what is larger by a good part fits in no way; but for
+        // logarithms, which are short beside their tables.
         if plan.tight || plan.calls_at_pixels() {
             let most = candidate.size() + candidate.size() / LARGER;
-            left.extend(known.extract_if(.., |one| one.size() > most));
+            left.extend(known.extract_if(.., |one| !is_log(one) && one.size() > most));
         }
         let mut whole = plan.clone();
         whole.rows = candidate.rows;

@@ -117,8 +117,8 @@ impl Search<'_> {
             }
             // What statements take is known about: it is told by what they took.
             let saved = written.saturating_sub(total(&tried)?);
-            // All is called already.
-            if before.replace(saved) == Some(saved) {
+            // All is called already: no more is spared, though far more is asked for.
+            if before.replace(saved) == Some(saved) && enough > 2 * saved {
                 break;
             }
             let by = 1.05 * excess as f64 / saved.max(1) as f64;
