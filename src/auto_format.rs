@@ -41,9 +41,6 @@ use slowlight_routine::{Format, Op, Runtime};
 /// How many formats are planned in earnest; the last is the one with fewest pixels wrong.
 const TRIES: usize = 3;
 
-/// A program that is larger by more than one part in so many than one that hardly fits does not.
-const LARGER: u64 = 4;
-
 /// A plan, and what is known of its format.
 pub struct Chosen {
     /// In the format that was chosen, or asked for.
@@ -213,12 +210,6 @@ fn quickest(
             Err(Failure::Scene(_)) => continue,
             plan => plan?,
         };
-        // Where this one fits only by calls, what is larger by a good part fits in no way; but for
-        // logarithms, which are short beside their tables.
-        if plan.tight || plan.calls_at_pixels() {
-            let most = candidate.size() + candidate.size() / LARGER;
-            left.extend(known.extract_if(.., |one| !is_log(one) && one.size() > most));
-        }
         let mut whole = plan.clone();
         whole.rows = candidate.rows;
         // Where too little of it was seen, as the plan without a search has it.
