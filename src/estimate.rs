@@ -169,7 +169,7 @@ pub fn sampled(plan: &Plan, side: u32, most: u64) -> Sampled {
         sends = f64::from(each) * errors.shares.len() as f64;
     }
     let heard = Heard {
-        arithmetic: Model(plan),
+        arithmetic: Model::of(plan),
         listener: Adding::new(plan),
     };
     let added = &heard.listener;
@@ -223,7 +223,7 @@ pub fn inks(plan: &Plan, side: u32, most: u64, parts: usize) -> (Vec<Inked>, usi
     let all: Vec<Vec<Inked>> = rows
         .par_chunks(part)
         .map(|rows| {
-            let mut run = Run::within(&graph, &plan.tree, Model(plan), most);
+            let mut run = Run::within(&graph, &plan.tree, Model::of(plan), most);
             let mut inks = Vec::new();
             for (y, columns) in rows {
                 for (x, y) in columns.iter().map(|&x| (x, *y)) {

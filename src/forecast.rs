@@ -15,13 +15,12 @@
 use crate::estimate;
 use crate::failure::{Failure, Outcome};
 use crate::format::count;
-use crate::machine::{Machine, complaint};
+use crate::machine::{File, Machine, Mos6502Source, complaint};
 use crate::progress::Progress;
-use crate::target_args;
 use crate::trial::{self, HACK_HERTZ};
 use rayon::prelude::*;
 use slowlight_compiler::backend::Document;
-use slowlight_compiler::backend::mos6502::for_rows;
+use slowlight_compiler::backend::mos6502::ROWS;
 use slowlight_compiler::plan::Plan;
 use slowlight_vm::Stop;
 
@@ -76,9 +75,15 @@ pub fn hertz(plan: &Plan, machine: Machine) -> f64 {
 /// Only an interruption: why nothing can be told is an answer.
 pub fn forecast((plan, text): (&Plan, &[Document]), machine: Machine) -> Outcome<Forecast> {
     let progress = Progress::new("rows, for the time", PLACES.len() as u64);
+    let whole = match (machine, text) {
+        (Machine::Mos6502(config), [one]) => {
+            Some(Mos6502Source::of(&File::text(&one.name, &one.text), config))
+        }
+        _ => None,
+    };
     let mut look = Look {
         plan,
-        whole: target_args::is_6502(plan.target).then_some(text),
+        whole,
         machine,
         progress,
         spent: 0.0,
@@ -95,8 +100,8 @@ pub fn forecast((plan, text): (&Plan, &[Document]), machine: Machine) -> Outcome
 struct Look<'p> {
     plan: &'p Plan,
     /// The program of the whole, where that of fewer rows is soon made of it: machine code takes
-    /// long to write.
-    whole: Option<&'p [Document]>,
+    /// long to write and to read.
+    whole: Option<Mos6502Source>,
     machine: Machine,
     progress: Progress,
     /// Cycles that were run.
@@ -130,15 +135,14 @@ impl Look<'_> {
     }
 
     fn run(&self, rows: (u32, u32)) -> Outcome<f64> {
-        let documents = match &self.whole {
-            Some(whole) => whole.iter().map(|d| for_rows(d, rows)).collect(),
+        let mut loaded = match &self.whole {
+            Some(whole) => whole.load(&[(ROWS[0], rows.0.into()), (ROWS[1], rows.1.into())])?,
             None => {
                 let mut plan = self.plan.clone();
                 plan.rows = rows;
-                slowlight_compiler::backend::emit(&plan)
+                trial::build_for(&plan, self.machine)?.loaded
             }
         };
-        let mut loaded = trial::build_written(&documents, self.plan, self.machine)?.loaded;
         let run = loaded.run(MOST, &mut |_| {})?;
         let wrong = match run.stop {
             Stop::CycleLimit => Some(format!(

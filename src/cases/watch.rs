@@ -111,7 +111,7 @@ fn note(left: &RefCell<Option<String>>, op: Op, args: &[Value], format: &str) {
 /// The first operation of a plan's run that leaves its format, in words.
 pub fn plan(plan: &Plan) -> Option<String> {
     let heard = Heard {
-        arithmetic: Model(plan),
+        arithmetic: Model::of(plan),
         listener: Models {
             plan,
             left: RefCell::new(None),

@@ -20,6 +20,7 @@ pub use binary::address;
 pub use board::{Board, Config as Mos6502Config};
 pub use charge::{LineRoles, Lines};
 pub use hack::Config as HackConfig;
+pub use mos6502::Source as Mos6502Source;
 
 use crate::failure::{Failure, Outcome};
 use crate::interrupt;

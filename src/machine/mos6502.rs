@@ -7,7 +7,7 @@ use super::{File, Loaded, MachineRun, Program, Sizes, refused};
 use crate::failure::{Failure, Outcome};
 use slowlight_compiler::report::profile::Line;
 use slowlight_vm::mos6502::plain::port;
-use slowlight_vm::mos6502::{Assembly, Machine, Run, assemble_as};
+use slowlight_vm::mos6502::{Assembly, Machine, Parsed, Run};
 use slowlight_vm::{Charges, Roles, Watch};
 use std::collections::BTreeMap;
 
@@ -41,43 +41,65 @@ fn load_binary(file: &File, config: Config) -> Outcome<Loaded> {
 }
 
 fn load_source(file: &File, config: Config) -> Outcome<Loaded> {
-    let Config {
-        board,
-        dialect,
-        at,
-        start,
-    } = config;
-    if at.is_some() {
+    if config.at.is_some() {
         let message = format!(
             "{} is a text, which is assembled and says itself where it lies; --at is for binaries",
             file.name
         );
         return Err(Failure::Usage(message));
     }
-    let assembly = assemble_as(&file.as_text(), dialect).map_err(|faults| {
-        let failure = refused("assembler", &file.name, &faults);
-        match failure {
-            Failure::Wrong(said) => Failure::Wrong(format!("{said}\n{}", ANY_ASSEMBLER)),
-            other => other,
+    Source::of(file, config).load(&[])
+}
+
+/// A program's text, read: it can be loaded with other numbers than it has.
+pub struct Source {
+    name: String,
+    parsed: Parsed,
+    config: Config,
+}
+
+impl Source {
+    /// Of a file of assembly; what is wrong with it is said where it is loaded.
+    pub fn of(file: &File, config: Config) -> Source {
+        Source {
+            name: file.name.clone(),
+            parsed: Parsed::of(&file.as_text(), config.dialect),
+            config,
         }
-    })?;
+    }
+
+    /// Assembles it with these numbers for symbols that it assigns others, and loads it.
+    ///
+    /// # Errors
+    /// What the assembler says of it, and what the machine does.
+    pub fn load(&self, numbers: &[(&str, i64)]) -> Outcome<Loaded> {
+        let assembly = self.parsed.assemble(numbers).map_err(|faults| {
+            let failure = refused("assembler", &self.name, &faults);
+            match failure {
+                Failure::Wrong(said) => Failure::Wrong(format!("{said}\n{}", ANY_ASSEMBLER)),
+                other => other,
+            }
+        })?;
+        loaded(&assembly, &self.name, self.config)
+    }
+}
+
+fn loaded(assembly: &Assembly, name: &str, config: Config) -> Outcome<Loaded> {
+    let Config { board, start, .. } = config;
     let image = assembly.image();
     let mut machine = board.machine();
     let loaded = match board.loaded(&image).as_slice() {
         [lo, hi, bytes @ ..] => machine.load_at(u16::from_le_bytes([*lo, *hi]), bytes, start),
         _ => Ok(()),
     };
-    loaded.map_err(|fault| refused("machine", &file.name, &[fault]))?;
-    let stem = file
-        .name
-        .rsplit_once('.')
-        .map_or(file.name.as_str(), |(stem, _)| stem);
+    loaded.map_err(|fault| refused("machine", name, &[fault]))?;
+    let stem = name.rsplit_once('.').map_or(name, |(stem, _)| stem);
     Ok(Loaded {
         system: Vec::new(),
         binaries: board.files(stem, image),
-        sizes: sizes(&assembly),
+        sizes: sizes(assembly),
         program: Program::Mos6502(machine),
-        map: map(&assembly),
+        map: map(assembly),
     })
 }
 

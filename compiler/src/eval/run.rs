@@ -19,16 +19,18 @@ pub struct Run<'t, A: Arithmetic> {
     graph: &'t Graph,
     tree: &'t Tree,
     arithmetic: A,
-    values: Vec<Option<A::Value>>,
-    carried: Vec<Vec<Option<A::Value>>>,
-    scratch: Vec<Vec<Option<A::Value>>>,
+    /// Where each node is read.
+    sources: Vec<Source>,
+    /// What is held: by node, then what each loop carries, then its scratch places. Constants
+    /// and params are there from the start.
+    held: Vec<Option<A::Value>>,
+    /// Where what each loop carries begins among them.
+    carried: Vec<u32>,
     /// What the row and the pixel block write, to forget between turns.
     row_places: Vec<Place>,
     pixel_places: Vec<Place>,
     /// What each subroutine computes, to forget before it runs.
     own_places: Vec<Vec<Place>>,
-    /// The constants, ahead of time.
-    constants: Vec<Option<A::Value>>,
     entries: Vec<Vec<A::Value>>,
     position: (i32, i32),
     row: Option<i32>,
@@ -38,6 +40,36 @@ pub struct Run<'t, A: Arithmetic> {
     /// What later pixels will receive, and what this one has received.
     pending: Option<Pending<A::Value>>,
     received: A::Value,
+}
+
+/// Where a node's value is found.
+#[derive(Clone, Copy)]
+enum Source {
+    /// Among what is held.
+    Held(u32),
+    /// The pixel's place.
+    Column,
+    Row,
+    /// Its column's number in a pass of so many.
+    Pass(i32),
+    Received,
+    /// To be worked out from its coefficients.
+    Ramp,
+}
+
+/// Where a node is read, what each loop carries beginning at those numbers.
+fn source(graph: &Graph, carried: &[u32], id: NodeId) -> Source {
+    match graph.node(id) {
+        Node::Axis(Axis::X | Axis::Run) => Source::Column,
+        Node::Axis(Axis::Y) => Source::Row,
+        Node::Axis(Axis::Pass(n)) => Source::Pass(n.max(1) as i32),
+        Node::Received => Source::Received,
+        Node::Carried { of, index } | Node::Last { of, index } => {
+            Source::Held(carried.get(of.0 as usize).map_or(id.0, |at| at + index))
+        }
+        Node::Ramp { .. } => Source::Ramp,
+        _ => Source::Held(id.0),
+    }
 }
 
 impl<'t, A: Arithmetic> Run<'t, A> {
@@ -50,30 +82,36 @@ impl<'t, A: Arithmetic> Run<'t, A> {
     /// loops end as if they had no turns left, so that a pixel ends however many turns the
     /// scene allows it. See [`Run::spent`].
     pub fn within(graph: &'t Graph, tree: &'t Tree, arithmetic: A, most: u64) -> Run<'t, A> {
-        let constants = graph
-            .ids()
-            .map(|id| graph.constant(id).map(|v| arithmetic.constant(v)))
+        let mut carried = Vec::with_capacity(graph.loops.len());
+        let mut held: Vec<Option<A::Value>> = (graph.ids())
+            .map(|id| match graph.node(id) {
+                Node::Const(c) => Some(arithmetic.constant(c.value())),
+                Node::Param(p) => Some(arithmetic.param(p)),
+                _ => None,
+            })
             .collect();
+        for one in &graph.loops {
+            carried.push(held.len() as u32);
+            held.resize(held.len() + 2 * one.types.len(), None);
+        }
         let entries = graph.tables.iter().zip(0..).map(|(t, k)| {
             let each = t.entries.iter().enumerate();
             each.map(|(at, e)| arithmetic.entry(TableId(k), at, e.value()))
                 .collect()
         });
-        let slots = |l: &Loop| vec![None; l.types.len()];
         let zero = arithmetic.constant(Value::Real(0.0));
         let mut run = Run {
             pending: Pending::new(graph, zero),
             received: zero,
-            values: vec![None; graph.nodes.len()],
-            carried: graph.loops.iter().map(slots).collect(),
-            scratch: graph.loops.iter().map(slots).collect(),
+            sources: graph.ids().map(|id| source(graph, &carried, id)).collect(),
+            held,
+            carried,
             row_places: places(tree, &tree.row),
             pixel_places: [&tree.column, &tree.pass, &tree.segment, &tree.pixel]
                 .into_iter()
                 .flat_map(|block| places(tree, block))
                 .collect(),
             own_places: own_places(graph, tree),
-            constants,
             entries: entries.collect(),
             position: (0, 0),
             row: None,
@@ -183,11 +221,11 @@ impl<'t, A: Arithmetic> Run<'t, A> {
         }
         self.position = (x, y);
         for id in bools {
-            self.values[id.0 as usize] = None;
+            self.held[id.0 as usize] = None;
         }
         self.block(&self.tree.segment);
         let held = |id: &NodeId| {
-            let value = self.values.get(id.0 as usize).copied().flatten()?;
+            let value = self.held.get(id.0 as usize).copied().flatten()?;
             Some((*id, self.arithmetic.truth(value)))
         };
         bools.iter().filter_map(held).collect()
@@ -195,12 +233,7 @@ impl<'t, A: Arithmetic> Run<'t, A> {
 
     /// A node's value after the last pixel, if the tree computed it.
     pub fn last(&self, id: NodeId) -> Option<A::Value> {
-        match self.graph.node(id) {
-            Node::Const(c) => Some(self.arithmetic.constant(c.value())),
-            // No statement writes it.
-            Node::Param(p) => Some(self.arithmetic.param(p)),
-            _ => self.values.get(id.0 as usize).copied().flatten(),
-        }
+        self.held.get(id.0 as usize).copied().flatten()
     }
 
     /// A value that the graph reports, after the last pixel.
@@ -224,12 +257,20 @@ impl<'t, A: Arithmetic> Run<'t, A> {
         }) = places;
     }
 
-    fn slot(&mut self, place: Place) -> &mut Option<A::Value> {
+    fn at(&self, place: Place) -> usize {
+        let carried = |l: LoopId| self.carried[l.0 as usize] as usize;
         match place {
-            Place::Node(id) => &mut self.values[id.0 as usize],
-            Place::Carried(l, k) => &mut self.carried[l.0 as usize][k as usize],
-            Place::Scratch(l, k) => &mut self.scratch[l.0 as usize][k as usize],
+            Place::Node(id) => id.0 as usize,
+            Place::Carried(l, k) => carried(l) + k as usize,
+            Place::Scratch(l, k) => {
+                carried(l) + self.graph.loops[l.0 as usize].types.len() + k as usize
+            }
         }
+    }
+
+    fn slot(&mut self, place: Place) -> &mut Option<A::Value> {
+        let at = self.at(place);
+        &mut self.held[at]
     }
 
     fn checked(&mut self, found: Option<A::Value>) -> A::Value {
@@ -240,48 +281,32 @@ impl<'t, A: Arithmetic> Run<'t, A> {
     }
 
     fn read(&mut self, id: NodeId) -> A::Value {
-        match self.graph.node(id) {
-            Node::Const(_) => self.checked(self.constants[id.0 as usize]),
-            Node::Param(p) => self.arithmetic.param(p),
-            Node::Axis(Axis::X | Axis::Run) => {
-                self.arithmetic.constant(Value::Int(self.position.0))
-            }
-            Node::Axis(Axis::Y) => self.arithmetic.constant(Value::Int(self.position.1)),
-            Node::Axis(Axis::Pass(n)) => {
-                let pass = self.position.0.rem_euclid(n.max(1) as i32);
-                self.arithmetic.constant(Value::Int(pass))
-            }
-            Node::Received => self.received,
-            Node::Carried { of, index } | Node::Last { of, index } => {
-                self.checked(self.carried[of.0 as usize][index as usize])
-            }
-            Node::Ramp { .. } => self.ramp(id),
-            _ => self.checked(self.values[id.0 as usize]),
-        }
+        let int = match self.sources[id.0 as usize] {
+            Source::Held(at) => return self.checked(self.held[at as usize]),
+            Source::Column => self.position.0,
+            Source::Row => self.position.1,
+            Source::Pass(n) => self.position.0.rem_euclid(n),
+            Source::Received => return self.received,
+            Source::Ramp => return self.ramp(id),
+        };
+        self.arithmetic.constant(Value::Int(int))
     }
 
     /// Whether nothing was written here that could be copied: what a search leaves
     /// that has found nothing, say. Who copies it has as little; who uses it is
     /// counted.
     fn is_unset(&self, id: NodeId) -> bool {
-        match self.graph.node(id) {
-            Node::Undefined(_) => true,
-            Node::Carried { of, index } | Node::Last { of, index } => {
-                self.carried[of.0 as usize][index as usize].is_none()
+        match self.sources[id.0 as usize] {
+            Source::Held(at) => {
+                self.held[at as usize].is_none() && !matches!(self.graph.node(id), Node::Slot(_))
             }
-            Node::Apply(..)
-            | Node::Select { .. }
-            | Node::Lookup { .. }
-            | Node::Stepped { .. }
-            | Node::Tabulated(_)
-            | Node::Result { .. } => self.values[id.0 as usize].is_none(),
             _ => false,
         }
     }
 
     /// A ramp here: set where the row or pass began, stepped at the end of each pixel.
     fn ramp(&mut self, id: NodeId) -> A::Value {
-        self.checked(self.values[id.0 as usize]);
+        self.checked(self.held[id.0 as usize]);
         let parts = ramp::coefficients(self.graph, id);
         let parts: Vec<A::Value> = parts.into_iter().map(|part| self.read(part)).collect();
         let stride = ramp::stride(self.graph, id) as i32;
@@ -339,7 +364,7 @@ impl<'t, A: Arithmetic> Run<'t, A> {
             match statement {
                 Statement::Let(id) => {
                     let value = self.compute(*id);
-                    self.values[id.0 as usize] = Some(value);
+                    self.held[id.0 as usize] = Some(value);
                 }
                 Statement::Set { place, from } => {
                     *self.slot(*place) = match *from {
@@ -348,7 +373,7 @@ impl<'t, A: Arithmetic> Run<'t, A> {
                             let value = self.read(id);
                             Some(self.arithmetic.copied(*place, id, value))
                         }
-                        Origin::Scratch(l, k) => self.scratch[l.0 as usize][k as usize],
+                        Origin::Scratch(l, k) => self.held[self.at(Place::Scratch(l, k))],
                     };
                 }
                 Statement::If { cond, yes, no } => {
@@ -374,7 +399,9 @@ impl<'t, A: Arithmetic> Run<'t, A> {
             }
             self.block(&turns.next);
             taken += 1;
-            if let Some(carried) = self.carried.get(turns.of.0 as usize) {
+            if let Some(of) = found {
+                let from = self.carried[turns.of.0 as usize] as usize;
+                let carried = &self.held[from..from + of.types.len()];
                 self.arithmetic.turn(turns.of, taken, carried);
             }
             if taken == max || self.spent() {

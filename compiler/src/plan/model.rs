@@ -9,48 +9,62 @@ use crate::eval::run::Run;
 use crate::ir::graph::*;
 use crate::ir::tree::Place;
 use crate::plan::Plan;
+use crate::plan::semantics::Operations;
 use slowlight_routine::{Bits, Format, Op, Value};
 
 /// A plan's arithmetic: bits and models.
-pub struct Model<'p>(pub &'p Plan);
+pub struct Model<'p> {
+    plan: &'p Plan,
+    operations: Operations<'p>,
+}
+
+impl<'p> Model<'p> {
+    /// That of a plan.
+    pub fn of(plan: &'p Plan) -> Model<'p> {
+        Model {
+            plan,
+            operations: Operations::of(plan),
+        }
+    }
+}
 
 impl Arithmetic for Model<'_> {
     type Value = Bits;
 
     fn constant(&self, value: Value) -> Bits {
-        self.0.bits(value)
+        self.plan.bits(value)
     }
 
     fn entry(&self, table: TableId, at: usize, _: Value) -> Bits {
-        self.0.entry(table, at)
+        self.plan.entry(table, at)
     }
 
     fn param(&self, id: ParamId) -> Bits {
-        self.0.params.get(id.0 as usize).map_or(0, |p| p.bits)
+        self.plan.params.get(id.0 as usize).map_or(0, |p| p.bits)
     }
 
     fn apply(&self, id: NodeId, _: Op, args: &[Bits]) -> Bits {
-        self.0.computed(id, args)
+        self.operations.computed(id, args)
     }
 
     fn sent(&self, from: NodeId, value: Bits) -> Bits {
-        self.0.sent(from, value)
+        self.plan.sent(from, value)
     }
 
     fn copied(&self, place: Place, from: NodeId, value: Bits) -> Bits {
-        self.0.copied(place, from, value)
+        self.plan.copied(place, from, value)
     }
 
     fn gather(&self, received: Bits, sent: Bits) -> Bits {
-        self.0.gathered(received, sent)
+        self.plan.gathered(received, sent)
     }
 
     fn truth(&self, value: Bits) -> bool {
-        (self.0.runtime.decode)(value, Format::Bool).truth()
+        (self.plan.runtime.decode)(value, Format::Bool).truth()
     }
 
     fn int(&self, value: Bits) -> i32 {
-        (self.0.runtime.decode)(value, self.0.runtime.int).int()
+        (self.plan.runtime.decode)(value, self.plan.runtime.int).int()
     }
 }
 
@@ -71,7 +85,7 @@ impl<'p> ModelRun<'p> {
     pub fn within(plan: &'p Plan, most: u64) -> ModelRun<'p> {
         ModelRun {
             plan,
-            run: Run::within(&plan.graph, &plan.tree, Model(plan), most),
+            run: Run::within(&plan.graph, &plan.tree, Model::of(plan), most),
         }
     }
 

@@ -124,7 +124,7 @@ const MOST: u64 = 100_000_000;
 /// first of them are watched: also how many were.
 pub fn watch(plan: &Plan, pixels: &[(i32, i32)]) -> (BTreeMap<u16, Seen>, usize) {
     let watched = Heard {
-        arithmetic: Model(plan),
+        arithmetic: Model::of(plan),
         listener: Watched {
             plan,
             log: RefCell::default(),

@@ -13,7 +13,7 @@ mod computer;
 pub mod cpu;
 pub mod plain;
 
-pub use asm::{Assembly, Dialect, LineSpan, Taken, assemble, assemble_as, extent};
+pub use asm::{Assembly, Dialect, LineSpan, Parsed, Taken, assemble, assemble_as, extent};
 pub use bbc::Bbc;
 pub use c64::C64;
 pub use computer::{Board, Computer, Machine, Run};

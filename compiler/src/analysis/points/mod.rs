@@ -9,7 +9,7 @@ pub mod widths;
 use crate::ir::graph::*;
 use crate::ir::tree::Place;
 use slowlight_routine::scale::{self, Scales, fitting};
-use slowlight_routine::{Bits, Format, Op, Type};
+use slowlight_routine::{Bits, Format, Type};
 use widths::Widths;
 
 /// What a pixel receives from others is held to so much: fraction bits in 16.
@@ -70,28 +70,6 @@ impl Points {
     /// The fraction bits of what a pixel receives.
     pub fn received(&self) -> i8 {
         fitting(RECEIVED, self.widths.most())
-    }
-
-    /// What a routine's model is given: the operands at the scales wanted and the number; and
-    /// how many these are.
-    pub fn operands(&self, graph: &Graph, id: NodeId, args: &[Bits]) -> ([Bits; 3], usize) {
-        let mut all = [0; 3];
-        let count = args.len().min(2);
-        all[..count].copy_from_slice(&args[..count]);
-        let scales = self.scales(id);
-        let (op, of) = match graph.node(id) {
-            Node::Apply(op, of) if scale::concerns(op) => (op, of),
-            _ => return (all, count),
-        };
-        // All bits of an int, which may be more than a real has.
-        if op != Op::IntRoot {
-            let width = self.widths.operands(id);
-            for (k, bits) in all[..count].iter_mut().enumerate() {
-                *bits = self.read(graph, of[k], *bits, (scales.args[k], width));
-            }
-        }
-        all[count] = i64::from(scales.number(op)) as Bits;
-        (all, count + 1)
     }
 
     /// A node's bits read at a scale in some width.

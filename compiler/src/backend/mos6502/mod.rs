@@ -75,6 +75,7 @@ use crate::source::Span;
 pub use draft::Draft;
 use memory::Machine;
 pub use memory::{DISC_PAGE, Room, bytes_of_room};
+pub use params::ROWS;
 pub(super) use starts::starts;
 use syntax::Syntax;
 
@@ -88,26 +89,6 @@ pub fn document(plan: &Plan, syntax: &Syntax) -> Document {
     let mut draft = Draft::with(plan, syntax);
     draft.tidy();
     draft.document()
-}
-
-/// The program that a plan's is for other rows of the picture: the same, but for what the
-/// parameters say.
-pub fn for_rows(document: &Document, (first, last): (u32, u32)) -> Document {
-    let mut other = document.clone();
-    other.text.clear();
-    for line in document.text.lines() {
-        let row = params::ROWS
-            .iter()
-            .zip([first, last])
-            .find_map(|(name, row)| {
-                let said = line.strip_prefix(name)?.strip_prefix(" = ")?;
-                let (_, remark) = said.split_once(';')?;
-                Some(format!("{:<24};{remark}", format!("{name} = {row}")))
-            });
-        other.text.push_str(row.as_deref().unwrap_or(line));
-        other.text.push('\n');
-    }
-    other
 }
 
 /// Where the file of a plan's program is loaded, if not where it is assembled for.

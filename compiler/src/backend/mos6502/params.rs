@@ -57,8 +57,9 @@ impl Entry {
     }
 }
 
-/// What the first and the last row to draw are called.
-pub(super) const ROWS: [&str; 2] = ["first_row", "last_row"];
+/// What a program calls the first and the last row to draw: that for other rows is the same, but
+/// for these numbers.
+pub const ROWS: [&str; 2] = ["first_row", "last_row"];
 
 pub(super) fn entries(plan: &Plan, homes: &Homes) -> Vec<Entry> {
     let bound = |text: Option<&String>, end: i32| {

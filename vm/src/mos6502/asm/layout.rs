@@ -44,6 +44,8 @@ pub(super) const END: u32 = 0x1_0000;
 struct Pass<'s, 'f> {
     symbols: &'f mut Symbols,
     faults: &'f mut Faults,
+    /// Symbols that are assigned other numbers than the text's.
+    others: &'f [(usize, i64)],
     layout: Layout<'s>,
     /// Address of the next byte.
     here: u32,
@@ -54,12 +56,14 @@ struct Pass<'s, 'f> {
 
 pub(super) fn layout<'s>(
     statements: &'s [Statement],
+    others: &[(usize, i64)],
     symbols: &mut Symbols,
     faults: &mut Faults,
 ) -> Layout<'s> {
     let mut pass = Pass {
         symbols,
         faults,
+        others,
         layout: Layout {
             origin: 0,
             placed: Vec::new(),
@@ -216,7 +220,8 @@ impl<'s> Pass<'s, '_> {
     }
 
     fn assign(&mut self, symbol: usize, expr: &'s Expr, line: u32) {
-        match self.now(expr) {
+        let other = self.others.iter().find(|(other, _)| *other == symbol);
+        match other.map_or_else(|| self.now(expr), |(_, value)| Ok(*value)) {
             Ok(value) => self.symbols.set(symbol, value),
             Err(NoValue::Unknown(_)) => {
                 self.waiting.push((symbol, expr, i64::from(self.here)));

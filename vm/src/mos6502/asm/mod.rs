@@ -111,6 +111,7 @@ impl Assembly {
 }
 
 /// Where things go wrong, collected up to a limit.
+#[derive(Clone, Default)]
 struct Faults(Vec<Fault>);
 
 impl Faults {
@@ -129,11 +130,56 @@ impl Faults {
 /// The addresses of a program's first byte and behind its last one, which is
 /// beyond 64K where the program is too long. Nothing is said of what is wrong.
 pub fn extent(source: &str) -> (u32, u32) {
-    let mut faults = Faults(Vec::new());
-    let mut symbols = Symbols::default();
-    let statements = statements(source, Dialect::Common, &mut symbols, &mut faults);
-    let placed = layout::layout(&statements, &mut symbols, &mut faults);
+    let Parsed {
+        statements,
+        mut symbols,
+        mut faults,
+    } = Parsed::of(source, Dialect::Common);
+    let placed = layout::layout(&statements, &[], &mut symbols, &mut faults);
     (placed.origin, placed.end)
+}
+
+/// A program's text, parsed: it can be assembled more than once, each time with other numbers
+/// for what it names.
+pub struct Parsed {
+    statements: Vec<parse::Statement>,
+    symbols: Symbols,
+    faults: Faults,
+}
+
+impl Parsed {
+    /// Reads a text. What is wrong with it is said where it is assembled.
+    pub fn of(source: &str, dialect: Dialect) -> Parsed {
+        let mut faults = Faults::default();
+        let mut symbols = Symbols::default();
+        let statements = statements(source, dialect, &mut symbols, &mut faults);
+        Parsed {
+            statements,
+            symbols,
+            faults,
+        }
+    }
+
+    /// Assembles it, as if each of these symbols were assigned that number where the text
+    /// assigns it another; one that the text does not assign changes nothing.
+    ///
+    /// # Errors
+    /// As for [`assemble`].
+    pub fn assemble(&self, others: &[(&str, i64)]) -> Result<Assembly, Vec<Fault>> {
+        let (mut symbols, mut faults) = (self.symbols.clone(), self.faults.clone());
+        let other = |(name, value): &(&str, i64)| Some((symbols.find(name)?, *value));
+        let others: Vec<(usize, i64)> = others.iter().filter_map(other).collect();
+        let placed = layout::layout(&self.statements, &others, &mut symbols, &mut faults);
+        if placed.end > layout::END {
+            return Err(faults.0);
+        }
+        let assembly = emit::emit(&placed, &symbols, &mut faults);
+        if faults.0.is_empty() {
+            Ok(assembly)
+        } else {
+            Err(faults.0)
+        }
+    }
 }
 
 /// Reads a program's statements.
@@ -169,17 +215,5 @@ pub fn assemble(source: &str) -> Result<Assembly, Vec<Fault>> {
 /// # Errors
 /// As for [`assemble`].
 pub fn assemble_as(source: &str, dialect: Dialect) -> Result<Assembly, Vec<Fault>> {
-    let mut faults = Faults(Vec::new());
-    let mut symbols = Symbols::default();
-    let statements = statements(source, dialect, &mut symbols, &mut faults);
-    let placed = layout::layout(&statements, &mut symbols, &mut faults);
-    if placed.end > layout::END {
-        return Err(faults.0);
-    }
-    let assembly = emit::emit(&placed, &symbols, &mut faults);
-    if faults.0.is_empty() {
-        Ok(assembly)
-    } else {
-        Err(faults.0)
-    }
+    Parsed::of(source, dialect).assemble(&[])
 }

@@ -5,7 +5,7 @@ use std::collections::{BTreeMap, VecDeque};
 use super::expr::{Expr, NoValue};
 
 /// A name, where it was met and what it stands for.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub(super) struct Symbol {
     pub name: String,
     pub value: Option<i64>,
@@ -15,7 +15,7 @@ pub(super) struct Symbol {
     pub used: (u32, u32),
 }
 
-#[derive(Debug, Default)]
+#[derive(Clone, Debug, Default)]
 pub(super) struct Symbols {
     all: Vec<Symbol>,
     by_name: BTreeMap<String, usize>,
@@ -36,6 +36,11 @@ impl Symbols {
         });
         self.by_name.insert(name.to_owned(), index);
         index
+    }
+
+    /// The symbol of this name, if there is one.
+    pub fn find(&self, name: &str) -> Option<usize> {
+        self.by_name.get(name).copied()
     }
 
     /// Says that a symbol is defined here; the line of the first definition where it already was.

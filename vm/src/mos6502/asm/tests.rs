@@ -353,3 +353,18 @@ fn beebasms_dialect_refuses_what_beebasm_would() {
         assert!(assemble(source).is_err(), "{source}");
     }
 }
+
+/// A program that was read once is assembled again with other numbers, as if they stood in it.
+#[test]
+fn numbers_are_assigned_anew() {
+    let text =
+        |rows: u32| format!("* = $800\nrows = {rows}\nlast = rows - 1\n lda #last\n ldx rows\n");
+    let parsed = Parsed::of(&text(3), Dialect::Common);
+    for rows in [3, 7, 300] {
+        let anew = parsed.assemble(&[("rows", i64::from(rows)), ("columns", 1)]);
+        assert_eq!(anew, assemble(&text(rows)), "{rows}");
+    }
+    // Not a label: what the text does not assign stays where it is.
+    let label = Parsed::of("* = $800\nhere: jmp here\n", Dialect::Common);
+    assert_eq!(label.assemble(&[("here", 5)]), label.assemble(&[]));
+}
