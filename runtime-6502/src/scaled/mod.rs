@@ -26,6 +26,7 @@ mod int_product_tests;
 mod int_root_tests;
 #[cfg(test)]
 mod kinds;
+pub mod logarithms;
 pub mod long;
 pub mod model;
 mod parts;

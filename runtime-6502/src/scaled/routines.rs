@@ -2,7 +2,7 @@
 //! dear and total.
 
 use super::{
-    BYTE as S, LONG as L, REAL as R, byte, long, model, powers, sines, templates as t,
+    BYTE as S, LONG as L, REAL as R, byte, logarithms, long, model, powers, sines, templates as t,
     templates_byte as tb, templates_long as tl,
 };
 use crate::model as wide;
@@ -193,10 +193,10 @@ macro_rules! of_bytes {
             scaled!("exp_10" Exp($r) -> $r, $t::EXPONENTIAL[1], [$widen, "exponential", $narrow], sides!(false, true), Error::Absolute(16.0), |a, b, n| function(wide::exponential, a, n, 8 * $w), 9400, 18 + 5 * $w),
             scaled!("exp_01" Exp($r) -> $r, $t::EXPONENTIAL[2], [$widen, "exponential", $narrow], sides!(true, false), ANY, |a, b, n| function(wide::exponential, a, n, 8 * $w), 9400, 18 + 5 * $w),
             scaled!("exp_11" Exp($r) -> $r, $t::EXPONENTIAL[3], [$widen, "exponential", $narrow], sides!(false, false), ANY, |a, b, n| function(wide::exponential, a, n, 8 * $w), 9400, 18 + 5 * $w),
-            scaled!("log" Log($r) -> $r, $t::LOGARITHM[0], [$widen, "logarithm", $narrow], sides!(true, true), Error::Absolute(1.5), |a, b, n| function(wide::logarithm, a, n, 8 * $w), 13000, 18 + 5 * $w),
-            scaled!("log_10" Log($r) -> $r, $t::LOGARITHM[1], [$widen, "logarithm", $narrow], sides!(false, true), ANY, |a, b, n| function(wide::logarithm, a, n, 8 * $w), 13000, 18 + 5 * $w),
-            scaled!("log_01" Log($r) -> $r, $t::LOGARITHM[2], [$widen, "logarithm", $narrow], sides!(true, false), ANY, |a, b, n| function(wide::logarithm, a, n, 8 * $w), 13000, 18 + 5 * $w),
-            scaled!("log_11" Log($r) -> $r, $t::LOGARITHM[3], [$widen, "logarithm", $narrow], sides!(false, false), ANY, |a, b, n| function(wide::logarithm, a, n, 8 * $w), 13000, 18 + 5 * $w),
+            scaled!("log" Log($r) -> $r, $t::LOGARITHM[0], [$widen, "table_logarithm", $narrow], sides!(true, true), Error::Absolute(1.5), |a, b, n| function(logarithms::logarithm, a, n, 8 * $w), 2500 - 600 * $w, 18 + 5 * $w),
+            scaled!("log_10" Log($r) -> $r, $t::LOGARITHM[1], [$widen, "table_logarithm", $narrow], sides!(false, true), ANY, |a, b, n| function(logarithms::logarithm, a, n, 8 * $w), 2500 - 600 * $w, 18 + 5 * $w),
+            scaled!("log_01" Log($r) -> $r, $t::LOGARITHM[2], [$widen, "table_logarithm", $narrow], sides!(true, false), ANY, |a, b, n| function(logarithms::logarithm, a, n, 8 * $w), 2500 - 600 * $w, 18 + 5 * $w),
+            scaled!("log_11" Log($r) -> $r, $t::LOGARITHM[3], [$widen, "table_logarithm", $narrow], sides!(false, false), ANY, |a, b, n| function(logarithms::logarithm, a, n, 8 * $w), 2500 - 600 * $w, 18 + 5 * $w),
             scaled!("pow" Pow($r, $r) -> $r, $t::POWER[0], [$both, "power", $narrow], sides!(true, true), ANY, |a, b, n| model::power(a, b, Scales::unpacked(n), 8 * $w), 20000, 20 + 10 * $w),
             scaled!("pow_10" Pow($r, $r) -> $r, $t::POWER[1], [$both, "power", $narrow], sides!(false, true), ANY, |a, b, n| model::power(a, b, Scales::unpacked(n), 8 * $w), 20000, 20 + 10 * $w),
             scaled!("pow_01" Pow($r, $r) -> $r, $t::POWER[2], [$both, "power", $narrow], sides!(true, false), ANY, |a, b, n| model::power(a, b, Scales::unpacked(n), 8 * $w), 20000, 20 + 10 * $w),

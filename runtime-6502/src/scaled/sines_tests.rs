@@ -2,7 +2,7 @@
 
 #![allow(clippy::unwrap_used)]
 
-use super::{kinds::SHORT, powers, sines};
+use super::{kinds::SHORT, logarithms, powers, sines};
 use crate::tests::bench::Bench;
 use slowlight_routine::scale::Scales;
 use slowlight_routine::{Op, Range, Routine};
@@ -132,4 +132,23 @@ fn powers_are_the_models_on_the_processor() {
     let mean = cycles as f64 / f64::from(times);
     println!("{}: {mean} cycles", routine.name);
     assert!((mean - f64::from(routine.cycles)).abs() < 2.0, "{mean}");
+}
+
+/// Numbers of all magnitudes, in units of the last place; what is a power of two is rounded alone.
+#[test]
+fn logarithms_are_within_their_bound() {
+    let exact = |a: i32| (f64::from(a) / 65536.0).ln() * 65536.0;
+    let off = |a: i32| (f64::from(logarithms::logarithm(a)) - exact(a)).abs();
+    let step = |a: &i32| a.checked_add(1 + a / 30011);
+    let all = std::iter::successors(Some(1), step);
+    let worst = all.map(off).fold(0.0, f64::max);
+    println!("logarithms: {worst}");
+    assert!((1.0..1.15).contains(&worst), "{worst}");
+    for place in 0..31 {
+        assert!(off(1 << place) <= 0.501, "2^{place}: {}", off(1 << place));
+    }
+    assert_eq!(logarithms::logarithm(0x1_0000), 0);
+    for a in [0, -1, i32::MIN] {
+        assert_eq!(logarithms::logarithm(a), i32::MIN);
+    }
 }

@@ -208,7 +208,7 @@ macro_rules! functions {
         functions!(@by $first $result $narrow_right, ARCCOSINE, $sine, $widen, "arccosine", $angle);
         functions!(@sides $first $result $widen $widen_right $narrow_right $narrow_left, TANGENT, "", "tangent");
         functions!(@sides $first $result $widen $widen_right $narrow_right $narrow_left, EXPONENTIAL, "", "exponential");
-        functions!(@sides $first $result $widen $widen_right $narrow_right $narrow_left, LOGARITHM, "", "logarithm");
+        functions!(@sides $first $result $widen $widen_right $narrow_right $narrow_left, LOGARITHM, "", "table_logarithm");
         // An exponent has at most 16 bits behind its point.
         functions!(@sides $first $result $widen $widen_right $narrow_right $narrow_left, POWER,
             concat!("ldy {#16-b} |", $second!(), "| jsr ", $widen, " | jsr second_operand |"), "power");

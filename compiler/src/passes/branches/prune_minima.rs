@@ -11,13 +11,16 @@
 //!                                         then sqrt(u u + v v) - r else a) else a
 //! ```
 //! What is taken away from a shape is a maximum of a value and the negation of others: it is
-//! gone through in the same way, from the value on.
+//! gone through in the same way, from the value on. No point is further below a ball's surface
+//! than its radius, and where the value is greater than that, which is nearly everywhere, the ball
+//! is not asked for at all.
 //!
 //! All sides are equal over the reals, as roots are monotone; where two values come closer than
 //! the roundings of squares, either may be taken. Minima of minima are gone through one
 //! after the other, those that are cheap first.
 
 mod bounds;
+mod limits;
 mod smooth;
 
 use crate::analysis::range::Ranges;
@@ -25,7 +28,8 @@ use crate::ir::build::Builder;
 use crate::ir::graph::*;
 use crate::passes::rewrite::rebuild::rebuild_old;
 use crate::source::Span;
-use slowlight_routine::{Op, Runtime, Type};
+use limits::{Limit, mostly_beyond, nearer};
+use slowlight_routine::{Op, Range, Runtime, Type, Value};
 use std::collections::BTreeSet;
 
 /// How many bounds of a value are asked, at most.
@@ -249,6 +253,7 @@ impl Site<'_> {
         let first = order.len().max(1);
         order.extend(dear);
         let mut best: Option<NodeId> = None;
+        let mut within: Option<Range> = None;
         let mut pruned = false;
         for (k, leaf) in order.into_iter().enumerate() {
             let value = match leaf.negated {
@@ -261,10 +266,12 @@ impl Site<'_> {
                 Some(best) => {
                     let either = b.apply(op, &[best, value], span);
                     // What the leaf itself must be less than, or greater.
-                    let limit = match leaf.negated {
+                    let id = match leaf.negated {
                         true => b.apply(Op::Neg, &[best], span),
                         false => best,
                     };
+                    let within = within.map(|range| leaf.signed(range));
+                    let limit = Limit { id, within };
                     let outcome = Outcome {
                         lost: best,
                         won: value,
@@ -274,6 +281,12 @@ impl Site<'_> {
                     pruned |= made.is_some();
                     made.unwrap_or(either)
                 }
+            });
+            let range = self.ranges.result.get(leaf.id.0 as usize);
+            let range = leaf.signed(range.copied().unwrap_or(Range::ALL));
+            within = Some(match within {
+                None => range,
+                Some(all) => nearer(op, all, range),
             });
         }
         best.filter(|_| pruned)
@@ -306,11 +319,16 @@ impl Site<'_> {
         b: &mut Builder,
         new: New<'_>,
         (op, leaf): (Op, Leaf),
-        limit: NodeId,
+        Limit { id: limit, within }: Limit,
         outcome: Outcome,
         span: Span,
     ) -> Option<NodeId> {
         let is_less = (op == Op::Min) != leaf.negated;
+        let range = self.ranges.result.get(leaf.id.0 as usize);
+        let end = range.zip(within).and_then(|(range, within)| {
+            let end = if is_less { range.lo } else { range.hi };
+            mostly_beyond(end, is_less, within).then_some(end)
+        });
         let exact = self.rooted(leaf.id).and_then(|root| {
             let mut limit = root.offset.limit(b, new, limit, span)?;
             if root.negated {
@@ -331,7 +349,7 @@ impl Site<'_> {
             true => self.lower_bounds(leaf.id),
             false => Vec::new(),
         };
-        if exact.is_none() && bounds.is_empty() {
+        if exact.is_none() && bounds.is_empty() && end.is_none() {
             return None;
         }
         let mut made = exact.unwrap_or(outcome.undecided);
@@ -342,6 +360,12 @@ impl Site<'_> {
                 of = b.apply(Op::Abs, &[of], span);
             }
             let may = b.apply(Op::Less, &[of, limit], span);
+            made = b.select(may, made, outcome.lost, span);
+        }
+        if let Some(end) = end {
+            let end = b.constant(Value::Real(end), span);
+            let sides = if is_less { [end, limit] } else { [limit, end] };
+            let may = b.apply(Op::Less, &sides, span);
             made = b.select(may, made, outcome.lost, span);
         }
         Some(made)

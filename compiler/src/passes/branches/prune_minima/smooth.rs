@@ -7,6 +7,7 @@
 //! nothing is left but a where b is no less than a + k: what is taken off is a product with a
 //! factor that is 0 then. So b is asked for as it would be of min(a + k, b).
 
+use super::limits::Limit;
 use super::{Leaf, New, Outcome, Site};
 use crate::ir::build::Builder;
 use crate::ir::graph::*;
@@ -47,7 +48,10 @@ impl Site<'_> {
             _ => Op::Sub,
         };
         let best = new(first)?;
-        let limit = b.apply(on, &[best, new(smooth.width)?], span);
+        let limit = Limit {
+            id: b.apply(on, &[best, new(smooth.width)?], span),
+            within: None,
+        };
         let leaf = Leaf {
             id: dear,
             negated: false,

@@ -65,6 +65,11 @@ fn minima_are_what_they_were_and_less_is_computed() {
         ("max(ball(p, 1), -ball(p - (0.5, 0.5, 0), 0.8))", 1.0),
         ("max(p.y, -min(ball(p, 1), box(p, (1, 0.2, 1))))", 1.0),
         ("max(p.y, 1.5 - length(p))", 1.0),
+        // What is never great.
+        (
+            "max(ball(p, 1), sin(p.x * 3rad) * cos(p.y * 3rad) / 9)",
+            0.8,
+        ),
         // What is rounded.
         (
             "smooth_min(smooth_min(ball(p, 1), ball(p - (1, 0, 0), 0.5), 0.4), \
