@@ -188,8 +188,8 @@ fn quickest(
         tries += 1;
         let format = screen.in_format_of(candidate.target);
         let plan = match format.plan(scene, target, &[]) {
-            Err(Failure::Wrong(said)) => {
-                others.does_not_fit(candidate.target.runtime.format, &said);
+            Err(Failure::TooLarge(large)) => {
+                others.does_not_fit(candidate.target.runtime.format, &large.least);
                 too_large += 1;
                 let larger = |one: &mut Candidate| one.size() >= candidate.size() && !is_first(one);
                 left.extend(known.extract_if(.., larger));

@@ -208,6 +208,7 @@ pub fn report(failure: &Failure) -> ExitCode {
     match failure {
         Failure::Scene(said) | Failure::Options(said) => print(&said.sources, &said.diagnostics),
         Failure::Wrong(message) | Failure::Usage(message) => remark(&format!("error: {message}")),
+        Failure::TooLarge(large) => remark(&format!("error: {}", large.text)),
         Failure::Differs | Failure::Cases | Failure::Several(_) => {}
         Failure::Interrupted => remark("interrupted"),
     }

@@ -11,6 +11,15 @@ pub struct Said {
     pub diagnostics: Vec<Diagnostic>,
 }
 
+/// A program that its machine does not hold.
+#[derive(Debug)]
+pub struct TooLarge {
+    /// By how much in each mode, and what would help.
+    pub text: String,
+    /// By how much in that mode where it is least.
+    pub least: String,
+}
+
 /// Why a command stopped.
 #[derive(Debug)]
 pub enum Failure {
@@ -18,6 +27,8 @@ pub enum Failure {
     Scene(Box<Said>),
     /// A file, a generated program or its machine is wrong.
     Wrong(String),
+    /// The program of a scene is too large.
+    TooLarge(Box<TooLarge>),
     /// What was asked for does not exist or does not fit together.
     Usage(String),
     /// Options that do not fit the scene; the diagnostics say which.
@@ -40,7 +51,7 @@ impl Failure {
     /// machine differs from the model or a snapshot changed, 130 interrupted (128 + SIGINT, as shells have it).
     pub fn status(&self) -> u8 {
         match self {
-            Failure::Scene(_) | Failure::Wrong(_) | Failure::Cases => 1,
+            Failure::Scene(_) | Failure::Wrong(_) | Failure::TooLarge(_) | Failure::Cases => 1,
             Failure::Usage(_) | Failure::Options(_) => 2,
             Failure::Differs => 3,
             Failure::Several(status) => *status,
@@ -55,15 +66,18 @@ impl Failure {
                 let first = said.diagnostics.iter().find(|d| d.is_error());
                 first.map_or("the scene is wrong".to_owned(), |d| d.message.clone())
             }
-            Failure::Wrong(message) | Failure::Usage(message) => {
-                // What was wrong, and the first of the facts under it.
-                let lines = message.lines().map(str::trim).take(2);
-                lines.collect::<Vec<&str>>().join(" ")
-            }
+            Failure::Wrong(message) | Failure::Usage(message) => two_lines(message),
+            Failure::TooLarge(large) => two_lines(&large.text),
             Failure::Differs | Failure::Cases | Failure::Several(_) => "failed".to_owned(),
             Failure::Interrupted => "interrupted".to_owned(),
         }
     }
+}
+
+/// What was wrong, and the first of the facts under it.
+fn two_lines(message: &str) -> String {
+    let lines = message.lines().map(str::trim).take(2);
+    lines.collect::<Vec<&str>>().join(" ")
 }
 
 /// The name nearest to a misspelt one, where one is near enough to be meant.

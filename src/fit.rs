@@ -73,7 +73,7 @@ pub fn fit_within(
     };
     let mut found = match search.found(modes, plan) {
         // With more of it something might have fitted.
-        Err(Failure::Wrong(_)) if most < FIT && fuel.was_cut() => return Err(too_dear()),
+        Err(Failure::TooLarge(_)) if most < FIT && fuel.was_cut() => return Err(too_dear()),
         other => other?,
     };
     found.note_burnt(fuel.burnt());

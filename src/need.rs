@@ -170,7 +170,7 @@ impl Need {
             count(self.total()),
             count(self.room),
             self.unit,
-            count(self.total().saturating_sub(self.room)),
+            count(self.excess()),
         )
     }
 

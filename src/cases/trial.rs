@@ -211,6 +211,7 @@ fn words(why: &Failure) -> String {
             all.collect::<Vec<_>>().join("; ")
         }
         Failure::Wrong(message) | Failure::Usage(message) => message.clone(),
+        Failure::TooLarge(large) => large.text.clone(),
         Failure::Cases | Failure::Several(_) => "a case does not pass".to_owned(),
         Failure::Differs => "the machine differs from the model".to_owned(),
         Failure::Interrupted => "interrupted".to_owned(),

@@ -286,7 +286,7 @@ fn documents(syntax: Option<&'static Syntax>, plan: &PlannedScene) -> Vec<Docume
 fn plan(args: &Args, scene: &Scene) -> Outcome<PlannedScene> {
     let target = target(args)?;
     match auto_format::plan(&args.screen, scene, target) {
-        Err(Failure::Wrong(_)) => args.screen.draft(scene, target),
+        Err(Failure::TooLarge(_)) => args.screen.draft(scene, target),
         plan => Ok(plan?.said()),
     }
 }

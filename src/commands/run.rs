@@ -144,7 +144,7 @@ fn of_program(
         let screen = args.screen.in_format_of(target);
         match screen.plan(scene, args.target, &[]) {
             Ok(plan) if program::is_of(&plan, sources) => return Ok(plan),
-            Ok(_) | Err(Failure::Wrong(_) | Failure::Scene(_)) => {}
+            Ok(_) | Err(Failure::TooLarge(_) | Failure::Wrong(_) | Failure::Scene(_)) => {}
             Err(other) => return Err(other),
         }
     }

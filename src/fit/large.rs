@@ -1,6 +1,6 @@
 //! Modes whose programs are too large: by how much, and what would help.
 
-use crate::failure::Failure;
+use crate::failure::{Failure, TooLarge};
 use crate::need::{Need, room_in};
 use slowlight_compiler::ir::graph::Table;
 use slowlight_compiler::planner::PlannedScene;
@@ -28,6 +28,15 @@ impl Large {
             plan: Some(plan),
             plain,
             outlined: None,
+        }
+    }
+
+    /// What a line about it begins with: its mode, and whether it was measured in another.
+    fn mode(&self) -> String {
+        let about = if self.plan.is_none() { "about " } else { "" };
+        match self.mode.name {
+            "" => about.to_owned(),
+            name => format!("mode {name}: {about}"),
         }
     }
 
@@ -60,19 +69,20 @@ pub(super) fn too_large(large: &[Large]) -> Failure {
     };
     let mut said = String::new();
     for large in large {
-        let mode = match large.mode.name {
-            "" => String::new(),
-            name => format!("mode {name}: "),
-        };
-        let about = if large.plan.is_none() { "about " } else { "" };
-        said.push_str(&format!("\n  {mode}{about}{}", large.least().text()));
+        said.push_str(&format!("\n  {}{}", large.mode(), large.least().text()));
     }
-    Failure::Wrong(format!(
-        "{} does not fit {}:{said}\n{}",
-        plan.name,
-        plan.target.name,
-        help(plan)
-    ))
+    let nearest = large.iter().min_by_key(|large| large.least().excess());
+    Failure::TooLarge(Box::new(TooLarge {
+        text: format!(
+            "{} does not fit {}:{said}\n{}",
+            plan.name,
+            plan.target.name,
+            help(plan)
+        ),
+        least: nearest.map_or(String::new(), |large| {
+            format!("{}{}", large.mode(), large.least().short())
+        }),
+    }))
 }
 
 /// What makes a program smaller.

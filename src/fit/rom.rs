@@ -1,7 +1,7 @@
 //! Fit for the Hack's processor: code in its ROM, the heap beside the operating system's.
 
 use super::help;
-use crate::failure::{Failure, Outcome};
+use crate::failure::{Failure, Outcome, TooLarge};
 use crate::machine::Machine;
 use crate::need::need_beside;
 use crate::trial::build_for;
@@ -42,10 +42,13 @@ pub fn fit_rom(
             }
         }
     }
-    Err(Failure::Wrong(format!(
-        "{} does not fit the Hack with its operating system: {said}\n{}; run it on the VM, where \
-         code and the system take no memory (--os native)",
-        plan.name,
-        help(&plan)
-    )))
+    Err(Failure::TooLarge(Box::new(TooLarge {
+        text: format!(
+            "{} does not fit the Hack with its operating system: {said}\n{}; run it on the VM, where \
+             code and the system take no memory (--os native)",
+            plan.name,
+            help(&plan)
+        ),
+        least: said,
+    })))
 }

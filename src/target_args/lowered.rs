@@ -45,7 +45,7 @@ impl ScreenArgs {
         plan: impl Fn(&ScreenArgs) -> Outcome<PlannedScene>,
     ) -> Outcome<PlannedScene> {
         let first = plan(self);
-        if !matches!(first, Err(Failure::Wrong(_))) || scene.shapes() < INSTANCES {
+        if !matches!(first, Err(Failure::TooLarge(_))) || scene.shapes() < INSTANCES {
             return first;
         }
         let less = LESS
