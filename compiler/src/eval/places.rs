@@ -1,4 +1,5 @@
-//! Definitions of a block: the places that a statement tree's blocks write.
+//! Uses and definitions: where a node's value is read, and the places that a statement tree's
+//! blocks write.
 
 use crate::ir::graph::*;
 use crate::ir::tree::*;
@@ -43,4 +44,34 @@ pub(super) fn places(tree: &Tree, block: &[Statement]) -> Vec<Place> {
         });
     }
     all
+}
+
+/// Where a node's value is found.
+#[derive(Clone, Copy)]
+pub(super) enum Source {
+    /// Among what is held.
+    Held(u32),
+    /// The pixel's place.
+    Column,
+    Row,
+    /// Its column's number in a pass of so many.
+    Pass(i32),
+    Received,
+    /// To be worked out from its coefficients.
+    Ramp,
+}
+
+/// Where a node is read, what each loop carries beginning at those numbers.
+pub(super) fn source(graph: &Graph, carried: &[u32], id: NodeId) -> Source {
+    match graph.node(id) {
+        Node::Axis(Axis::X | Axis::Run) => Source::Column,
+        Node::Axis(Axis::Y) => Source::Row,
+        Node::Axis(Axis::Pass(n)) => Source::Pass(n.max(1) as i32),
+        Node::Received => Source::Received,
+        Node::Carried { of, index } | Node::Last { of, index } => {
+            Source::Held(carried.get(of.0 as usize).map_or(id.0, |at| at + index))
+        }
+        Node::Ramp { .. } => Source::Ramp,
+        _ => Source::Held(id.0),
+    }
 }

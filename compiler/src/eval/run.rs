@@ -8,7 +8,7 @@
 
 use super::arithmetic::Arithmetic;
 use super::diffuse::Pending;
-use super::places::{own_places, places};
+use super::places::{Source, own_places, places, source};
 use crate::ir::graph::*;
 use crate::ir::ramp;
 use crate::ir::tree::*;
@@ -40,36 +40,6 @@ pub struct Run<'t, A: Arithmetic> {
     /// What later pixels will receive, and what this one has received.
     pending: Option<Pending<A::Value>>,
     received: A::Value,
-}
-
-/// Where a node's value is found.
-#[derive(Clone, Copy)]
-enum Source {
-    /// Among what is held.
-    Held(u32),
-    /// The pixel's place.
-    Column,
-    Row,
-    /// Its column's number in a pass of so many.
-    Pass(i32),
-    Received,
-    /// To be worked out from its coefficients.
-    Ramp,
-}
-
-/// Where a node is read, what each loop carries beginning at those numbers.
-fn source(graph: &Graph, carried: &[u32], id: NodeId) -> Source {
-    match graph.node(id) {
-        Node::Axis(Axis::X | Axis::Run) => Source::Column,
-        Node::Axis(Axis::Y) => Source::Row,
-        Node::Axis(Axis::Pass(n)) => Source::Pass(n.max(1) as i32),
-        Node::Received => Source::Received,
-        Node::Carried { of, index } | Node::Last { of, index } => {
-            Source::Held(carried.get(of.0 as usize).map_or(id.0, |at| at + index))
-        }
-        Node::Ramp { .. } => Source::Ramp,
-        _ => Source::Held(id.0),
-    }
 }
 
 impl<'t, A: Arithmetic> Run<'t, A> {

@@ -46,6 +46,9 @@ const WIDE_SINE: Error = Error::Absolute(2.05);
 const POWER: Error = Error::Absolute(1.25);
 const ANY: Error = Error::Absolute(65536.0);
 
+/// What logarithms take of one, two and three bytes: most of it to move points, of bytes by most.
+const LOGARITHM: [u32; 3] = [2100, 710, 580];
+
 /// The number of the scales, which stands behind the arguments.
 fn number(args: &[Range]) -> i32 {
     args.last().map_or(0, |n| n.lo as i32)
@@ -193,10 +196,10 @@ macro_rules! of_bytes {
             scaled!("exp_10" Exp($r) -> $r, $t::EXPONENTIAL[1], [$widen, "exponential", $narrow], sides!(false, true), Error::Absolute(16.0), |a, b, n| function(wide::exponential, a, n, 8 * $w), 9400, 18 + 5 * $w),
             scaled!("exp_01" Exp($r) -> $r, $t::EXPONENTIAL[2], [$widen, "exponential", $narrow], sides!(true, false), ANY, |a, b, n| function(wide::exponential, a, n, 8 * $w), 9400, 18 + 5 * $w),
             scaled!("exp_11" Exp($r) -> $r, $t::EXPONENTIAL[3], [$widen, "exponential", $narrow], sides!(false, false), ANY, |a, b, n| function(wide::exponential, a, n, 8 * $w), 9400, 18 + 5 * $w),
-            scaled!("log" Log($r) -> $r, $t::LOGARITHM[0], [$widen, "table_logarithm", $narrow], sides!(true, true), Error::Absolute(1.5), |a, b, n| function(logarithms::logarithm, a, n, 8 * $w), 2500 - 600 * $w, 18 + 5 * $w),
-            scaled!("log_10" Log($r) -> $r, $t::LOGARITHM[1], [$widen, "table_logarithm", $narrow], sides!(false, true), ANY, |a, b, n| function(logarithms::logarithm, a, n, 8 * $w), 2500 - 600 * $w, 18 + 5 * $w),
-            scaled!("log_01" Log($r) -> $r, $t::LOGARITHM[2], [$widen, "table_logarithm", $narrow], sides!(true, false), ANY, |a, b, n| function(logarithms::logarithm, a, n, 8 * $w), 2500 - 600 * $w, 18 + 5 * $w),
-            scaled!("log_11" Log($r) -> $r, $t::LOGARITHM[3], [$widen, "table_logarithm", $narrow], sides!(false, false), ANY, |a, b, n| function(logarithms::logarithm, a, n, 8 * $w), 2500 - 600 * $w, 18 + 5 * $w),
+            scaled!("log" Log($r) -> $r, $t::LOGARITHM[0], [$widen, "table_logarithm", $narrow], sides!(true, true), Error::Absolute(1.5), |a, b, n| function(logarithms::logarithm, a, n, 8 * $w), LOGARITHM[$w - 1], 18 + 5 * $w),
+            scaled!("log_10" Log($r) -> $r, $t::LOGARITHM[1], [$widen, "table_logarithm", $narrow], sides!(false, true), ANY, |a, b, n| function(logarithms::logarithm, a, n, 8 * $w), LOGARITHM[$w - 1], 18 + 5 * $w),
+            scaled!("log_01" Log($r) -> $r, $t::LOGARITHM[2], [$widen, "table_logarithm", $narrow], sides!(true, false), ANY, |a, b, n| function(logarithms::logarithm, a, n, 8 * $w), LOGARITHM[$w - 1], 18 + 5 * $w),
+            scaled!("log_11" Log($r) -> $r, $t::LOGARITHM[3], [$widen, "table_logarithm", $narrow], sides!(false, false), ANY, |a, b, n| function(logarithms::logarithm, a, n, 8 * $w), LOGARITHM[$w - 1], 18 + 5 * $w),
             scaled!("pow" Pow($r, $r) -> $r, $t::POWER[0], [$both, "power", $narrow], sides!(true, true), ANY, |a, b, n| model::power(a, b, Scales::unpacked(n), 8 * $w), 20000, 20 + 10 * $w),
             scaled!("pow_10" Pow($r, $r) -> $r, $t::POWER[1], [$both, "power", $narrow], sides!(false, true), ANY, |a, b, n| model::power(a, b, Scales::unpacked(n), 8 * $w), 20000, 20 + 10 * $w),
             scaled!("pow_01" Pow($r, $r) -> $r, $t::POWER[2], [$both, "power", $narrow], sides!(true, false), ANY, |a, b, n| model::power(a, b, Scales::unpacked(n), 8 * $w), 20000, 20 + 10 * $w),

@@ -2,7 +2,8 @@
 
 #![allow(clippy::unwrap_used)]
 
-use super::{kinds::SHORT, logarithms, powers, sines};
+use super::kinds::{LONG, SHORT};
+use super::{logarithms, powers, sines};
 use crate::tests::bench::Bench;
 use slowlight_routine::scale::Scales;
 use slowlight_routine::{Op, Range, Routine};
@@ -150,5 +151,28 @@ fn logarithms_are_within_their_bound() {
     assert_eq!(logarithms::logarithm(0x1_0000), 0);
     for a in [0, -1, i32::MIN] {
         assert_eq!(logarithms::logarithm(a), i32::MIN);
+    }
+}
+
+/// Costs hang on how far points are moved: what is told is about the mean over those that are met.
+#[test]
+fn logarithms_take_what_is_told() {
+    for (kind, from) in [(&SHORT, 8), (&LONG, 12)] {
+        let routine = kind.routine("log");
+        let (mut cycles, mut times) = (0, 0);
+        for (a, result) in (from..=16).flat_map(|a| (from..=16).map(move |r| (a, r))) {
+            let number = Scales {
+                args: [a, 0],
+                result,
+            };
+            let mut bench = Bench::of(kind.setting, routine, &[], number.number(Op::Log));
+            for a in (1..kind.most()).step_by(kind.most() as usize / 40) {
+                (cycles, times) = (cycles + bench.run(&[a]).1, times + 1);
+            }
+        }
+        let mean = cycles as f64 / f64::from(times);
+        println!("log of {} bits: {mean:.0} cycles", kind.bits);
+        let told = f64::from(routine.cycles);
+        assert!((mean - told).abs() < 0.1 * told, "{}: {mean}", kind.bits);
     }
 }
