@@ -47,7 +47,7 @@ pub fn logarithm(a: i32) -> i32 {
     let shifted = a.unsigned_abs() << a.leading_zeros();
     let place = 31 - a.leading_zeros();
     // What is behind the upper bit, 16 bits of it, rounded.
-    let at = i64::from((shifted << 1 >> 15) + 1 >> 1);
+    let at = i64::from(((shifted << 1 >> 15) + 1) >> 1);
     let (place, at) = if at > 0xFFFF {
         (place + 1, 0)
     } else {
