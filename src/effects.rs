@@ -302,10 +302,10 @@ fn change(with: u64, without: u64) -> i64 {
 /// Pixels evenly over what is drawn, row by row.
 fn sample(plan: &Plan) -> Vec<(i32, i32)> {
     let window = Window::of(plan);
-    match plan.graph.diffusion {
+    match plan.graph.is_in_order() {
         // Pixels want those before them.
-        Some(_) => window.grid(GRID),
-        None => window.grid_coarse_first(GRID),
+        true => window.grid(GRID),
+        false => window.grid_coarse_first(GRID),
     }
 }
 

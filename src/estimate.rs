@@ -159,12 +159,12 @@ pub fn sampled(plan: &Plan, side: u32, most: u64) -> Sampled {
     let mut window = Window::of(plan);
     let mut graph = plan.graph.clone();
     let mut sends = 0.0;
+    // Pixels are sampled as if nothing had been sent to them: else all those before had to be
+    // run.
+    graph.part_pixels();
+    window.columns = plan.computed_columns();
+    window.rows = plan.computed_rows();
     if let Some(errors) = plan.error_rows() {
-        // Pixels are sampled as if nothing had been sent to them: else all
-        // those before had to be run.
-        graph.diffusion = None;
-        window.columns = plan.computed_columns();
-        window.rows.0 = 0;
         let each = plan.gather().map_or(0, |routine| routine.cycles);
         sends = f64::from(each) * errors.shares.len() as f64;
     }
@@ -216,7 +216,7 @@ pub fn sampled(plan: &Plan, side: u32, most: u64) -> Sampled {
 /// each may run so many statements; and how many pixels the whole sample has.
 pub fn inks(plan: &Plan, side: u32, most: u64, parts: usize) -> (Vec<Inked>, usize) {
     let mut graph = plan.graph.clone();
-    graph.diffusion = None;
+    graph.part_pixels();
     let window = Window::of(plan);
     let rows = spread(window.rows, window.columns, side);
     let part = rows.len().div_ceil(parts).max(1);

@@ -261,13 +261,10 @@ impl Trial {
         self.run.cycles as f64 / hertz
     }
 
-    /// Pixels that the program ran: where errors are spread, those of all rows above, too.
+    /// Pixels that the program ran: where pixels hang on others, those of other rows, too.
     pub fn pixels_run(&self) -> u64 {
-        let window = self.native.window;
-        match self.plan.error_rows() {
-            Some(_) => u64::from(window.rows.1 + 1) * u64::from(window.width()),
-            None => self.pixels(),
-        }
+        let (first, last) = self.plan.computed_rows();
+        u64::from(last + 1 - first) * u64::from(self.native.window.width())
     }
 
     /// Cycles a pixel, of those that were run.

@@ -226,7 +226,7 @@ fn native(scene: &Scene, plan: &PlannedScene, seen: &[Inked]) -> Vec<Option<u8>>
         return Vec::new();
     };
     let mut graph = pixel_blocks(&graph, plan.graph.image.block);
-    graph.diffusion = None;
+    graph.part_pixels();
     // Rows are shared out among threads, each with its part of the work.
     let rows: Vec<&[Inked]> = seen.chunk_by(|a, b| a.1 == b.1).collect();
     let part = rows.len().div_ceil(PARTS).max(1);

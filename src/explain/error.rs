@@ -113,10 +113,10 @@ pub fn errors_with(
 /// spread over it, in the order of the scan.
 fn looked_at(plan: &Plan, most: u64) -> Vec<(i32, i32)> {
     let window = Window::of(plan);
-    let mut some = match plan.graph.diffusion {
+    let mut some = match plan.graph.is_in_order() {
         // Pixels want those before them.
-        Some(_) => window.grid(GRID),
-        None => window.grid_coarse_first(GRID),
+        true => window.grid(GRID),
+        false => window.grid_coarse_first(GRID),
     };
     let mut run = RaisedRun::within(plan, Vec::new(), most);
     let reached = some.iter().take_while(|(x, y)| {

@@ -73,11 +73,20 @@ fn depth(tree: &Tree) -> u64 {
     depths.into_iter().max().unwrap_or(0)
 }
 
-/// Bytes of the arrays that a program makes with constant bounds.
+/// Bytes of the arrays, and of the places for bytes, that a program makes with constant bounds.
 fn arrays(text: &str) -> u64 {
     let mut bytes = 0;
     for (at, _) in text.match_indices("DIM") {
         let mut rest = text.get(at + 3..).unwrap_or_default();
+        // `DIM name% 99`: so many bytes and one more.
+        let last = rest.split([':', '\n']).next().unwrap_or_default();
+        if let Some((name, last)) = last.split_once('%')
+            && !name.contains(['(', ','])
+            && let Ok(last) = last.trim().parse::<u64>()
+        {
+            bytes += last + 1;
+            continue;
+        }
         while let Some((name, behind)) = rest.split_once('(')
             && let Some((bounds, behind)) = behind.split_once(')')
         {
@@ -104,5 +113,6 @@ mod tests {
         assert_eq!(arrays("10DIMn%(3):DIM error(9,1)"), 3 + 16 + 5 + 100);
         assert_eq!(arrays("10DIMn%(3),error(9,1):a=f(2)"), 3 + 16 + 5 + 100);
         assert_eq!(arrays("10PRINT"), 0);
+        assert_eq!(arrays("10DIM kept% 99:DIMn%(3)\n20DIMb%7"), 100 + 19 + 8);
     }
 }

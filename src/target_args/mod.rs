@@ -6,11 +6,13 @@ mod items;
 mod lowered;
 mod passes;
 mod read;
+mod sampling;
 mod values;
 
 pub use heap::HeapOf;
 pub use passes::PassArgs;
 pub use read::*;
+pub use sampling::{Refining, refining};
 pub use values::*;
 
 use items::items;
@@ -23,7 +25,6 @@ use crate::progress::Waiting;
 use crate::scene::Scene;
 use crate::ways::WayArgs;
 use clap::Args;
-use slowlight_compiler::passes::pixel_blocks::pixel_blocks;
 use slowlight_compiler::plan::Goal;
 use slowlight_compiler::planner::{PlannedScene, SEARCH};
 use slowlight_compiler::planner::{plan_among, plan_as_written, plan_with_every_shade};
@@ -75,6 +76,10 @@ pub struct ScreenArgs {
     /// of the block's middle. The picture must be whole blocks
     #[arg(long, value_name = "N|WxH", value_parser = block)]
     pub block: Option<(u32, u32)>,
+    /// Trace every Nth row, and between them only pixels whose neighbours differ by more than
+    /// TOL of white; the others lie between those [default of TOL: 0.03125]
+    #[arg(long, value_name = "N[:TOL]", value_parser = refining)]
+    pub refine: Option<Refining>,
     /// Let no loop that the scene writes (bounces, say) take more than N turns on the
     /// machine; its `else` then says what it comes to. The native picture keeps them all
     #[arg(long, value_name = "N", value_parser = turns)]
@@ -288,8 +293,7 @@ impl ScreenArgs {
             let message = format!("--page is the BBC Micro's; {} has none", target.name);
             return Err(Failure::Usage(message));
         }
-        let size = scene.size();
-        let (_, height) = size;
+        let (_, height) = scene.size();
         let block = self.block.unwrap_or((1, 1));
         let asked = self.rows.as_deref().map(|r| rows(r, height)).transpose()?;
         let asked = asked.map(|asked| blocks_of(asked, block.1)).transpose()?;
@@ -300,13 +304,7 @@ impl ScreenArgs {
             plot: !self.no_plot,
         };
         let graph = self.lowered(scene, target, &goal, set)?;
-        if !size.0.is_multiple_of(block.0) || !size.1.is_multiple_of(block.1) {
-            return Err(Failure::Usage(format!(
-                "--block {}x{}: the picture of {} x {} pixels is no whole number of such blocks",
-                block.0, block.1, size.0, size.1
-            )));
-        }
-        let graph = pixel_blocks(&graph, block);
+        let graph = self.sampled(&graph)?;
         let planned = match (self.as_written, self.every_shade) {
             (true, _) => plan_as_written(&graph, target, &goal),
             (_, true) => plan_with_every_shade(&graph, target, &goal),

@@ -153,7 +153,9 @@ pub fn rates(graph: &Graph) -> Rates {
             Node::Axis(Axis::Pass(_)) => sets.intern(vec![Dependence::Pass]),
             Node::Axis(Axis::X | Axis::Run) => sets.intern(vec![Dependence::Column]),
             // Another value in every pixel: it stands in the pixel's own block.
-            Node::Received => sets.intern(vec![Dependence::Row, Dependence::Column]),
+            Node::Received | Node::Neighbour(_) => {
+                sets.intern(vec![Dependence::Row, Dependence::Column])
+            }
             Node::Ramp { first, step, .. } => {
                 let at = |id: NodeId| of.get(id.0 as usize).copied().unwrap_or(SetId(0));
                 let both = sets.union(at(first), at(step));

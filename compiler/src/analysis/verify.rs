@@ -65,6 +65,16 @@ pub fn verify(graph: &Graph) -> Result<(), Broken> {
             rule: rule.to_owned(),
         });
     }
+    if let Some(Refinement { step, kept }) = graph.refinement {
+        let rule = match step.is_power_of_two() && step > 1 {
+            true if graph.ty(kept) == Type::Int => None,
+            true => Some("is left to other pixels, and is no int".to_owned()),
+            false => Some(format!("is left every {step} rows, which cannot be halved")),
+        };
+        if let Some(rule) = rule {
+            return Err(Broken { node: kept, rule });
+        }
+    }
     match graph.ty(graph.ink) {
         Type::Int => Ok(()),
         _ => Err(Broken {
@@ -110,6 +120,9 @@ fn node(graph: &Graph, id: NodeId) -> Result<(), Broken> {
         }
         Node::Received if graph.diffusion.is_none() => {
             return broken("receives, but no pixel sends".to_owned());
+        }
+        Node::Neighbour(_) if graph.refinement.is_none() => {
+            return broken("has neighbours, but no pixel leaves anything".to_owned());
         }
         Node::Result { of, index } => {
             let found = graph.loops.get(of.0 as usize);

@@ -25,7 +25,7 @@ impl Plan {
                 asked.insert(*cond, (often::loops(yes), [0; 2]));
             }
         });
-        if asked.is_empty() || self.listing || self.graph.diffusion.is_some() {
+        if asked.is_empty() || self.listing || self.graph.is_in_order() {
             return BTreeMap::new();
         }
         let meter = Meter::new(&self.graph, |_: &Statement| 0.0);

@@ -5,6 +5,7 @@ pub mod arithmetic;
 pub mod diffuse;
 pub mod heard;
 pub mod native;
+pub mod neighbours;
 mod places;
 pub mod run;
 

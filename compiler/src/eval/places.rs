@@ -57,6 +57,7 @@ pub(super) enum Source {
     /// Its column's number in a pass of so many.
     Pass(i32),
     Received,
+    Neighbour(Neighbour),
     /// To be worked out from its coefficients.
     Ramp,
 }
@@ -68,6 +69,7 @@ pub(super) fn source(graph: &Graph, carried: &[u32], id: NodeId) -> Source {
         Node::Axis(Axis::Y) => Source::Row,
         Node::Axis(Axis::Pass(n)) => Source::Pass(n.max(1) as i32),
         Node::Received => Source::Received,
+        Node::Neighbour(which) => Source::Neighbour(which),
         Node::Carried { of, index } | Node::Last { of, index } => {
             Source::Held(carried.get(of.0 as usize).map_or(id.0, |at| at + index))
         }

@@ -8,6 +8,7 @@
 
 use super::arithmetic::Arithmetic;
 use super::diffuse::Pending;
+use super::neighbours::Neighbours;
 use super::places::{Source, own_places, places, source};
 use crate::ir::graph::*;
 use crate::ir::ramp;
@@ -40,6 +41,9 @@ pub struct Run<'t, A: Arithmetic> {
     /// What later pixels will receive, and what this one has received.
     pending: Option<Pending<A::Value>>,
     received: A::Value,
+    /// What earlier pixels left, and what those around this one did.
+    neighbours: Option<Neighbours>,
+    around: [i32; 3],
 }
 
 impl<'t, A: Arithmetic> Run<'t, A> {
@@ -73,6 +77,8 @@ impl<'t, A: Arithmetic> Run<'t, A> {
         let mut run = Run {
             pending: Pending::new(graph, zero),
             received: zero,
+            neighbours: Neighbours::new(graph),
+            around: Neighbour::ALL.map(Neighbour::alone),
             sources: graph.ids().map(|id| source(graph, &carried, id)).collect(),
             held,
             carried,
@@ -95,11 +101,12 @@ impl<'t, A: Arithmetic> Run<'t, A> {
         run
     }
 
-    /// The same with each pixel by itself: none receives what others send.
+    /// The same with each pixel by itself: none receives what others send or leave.
     #[must_use]
     pub fn alone(self) -> Run<'t, A> {
         Run {
             pending: None,
+            neighbours: None,
             ..self
         }
     }
@@ -126,14 +133,18 @@ impl<'t, A: Arithmetic> Run<'t, A> {
         self.pass(x, y);
     }
 
-    /// Runs the pixel at column `x`, row `y`; answers its ink. Where the graph
-    /// spreads its error, the pixels before it run too, if they have not.
+    /// Runs the pixel at column `x`, row `y`; answers its ink. Where it hangs on others,
+    /// these run too, if they have not.
     pub fn pixel(&mut self, x: i32, y: i32) -> A::Value {
         let due = self.pending.as_mut().map_or(0..0, |p| p.due(x, y));
         for number in due {
             if let Some((x, y)) = self.pending.as_ref().map(|p| p.place(number)) {
                 self.next(x, y);
             }
+        }
+        let due = self.neighbours.as_mut().map(|n| n.due(x, y));
+        for (x, y) in due.into_iter().flatten() {
+            self.next(x, y);
         }
         self.next(x, y)
     }
@@ -143,7 +154,17 @@ impl<'t, A: Arithmetic> Run<'t, A> {
         if let Some(pending) = &mut self.pending {
             self.received = pending.receive(x, y);
         }
+        if let Some(neighbours) = &self.neighbours {
+            self.around = neighbours.around(x, y);
+        }
         let ink = self.plain(x, y);
+        if let Some(refinement) = &self.graph.refinement {
+            let kept = self.read(refinement.kept);
+            let kept = self.arithmetic.int(kept);
+            if let Some(neighbours) = &mut self.neighbours {
+                neighbours.keep(x, y, kept);
+            }
+        }
         for share in self.graph.shares() {
             let sent = self.read(share.node);
             let sent = self.arithmetic.sent(share.node, sent);
@@ -257,6 +278,7 @@ impl<'t, A: Arithmetic> Run<'t, A> {
             Source::Row => self.position.1,
             Source::Pass(n) => self.position.0.rem_euclid(n),
             Source::Received => return self.received,
+            Source::Neighbour(which) => self.around[which as usize],
             Source::Ramp => return self.ramp(id),
         };
         self.arithmetic.constant(Value::Int(int))

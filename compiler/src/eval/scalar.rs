@@ -261,6 +261,7 @@ impl<'g> Scalar<'g> {
                 value.unwrap_or(Some(Value::Int(0)))
             }
             Node::Received => Some(self.received),
+            Node::Neighbour(which) => Some(Value::Int(which.alone())),
             Node::Slot(_) | Node::Undefined(_) => Some(Value::Int(0)),
         }
     }

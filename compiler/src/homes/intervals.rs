@@ -62,7 +62,7 @@ pub fn shared_homes(plan: &Plan) -> FxHashMap<Place, usize> {
     let pixel = lives.now;
     lives.block(&plan.tree.pixel);
     lives.read(plan.graph.ink);
-    plan.graph.shares().for_each(|s| lives.read(s.node));
+    plan.graph.left_to_others().for_each(|id| lives.read(id));
     plan.graph.reports.iter().for_each(|&id| lives.read(id));
     lives.steps();
     lives.extend();

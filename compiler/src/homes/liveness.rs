@@ -86,11 +86,8 @@ impl<'p> Flow<'p> {
         flow.pixel = flow.step();
         flow.block(&tree.pixel);
         let graph = &plan.graph;
-        let read = graph.shares().map(|share| share.node);
         let last = flow.step();
-        let read = [graph.ink].into_iter().chain(read);
-        let read = read.chain(graph.reports.iter().copied());
-        read.for_each(|id| flow.reads(last, id));
+        graph.roots().for_each(|id| flow.reads(last, id));
         let stepped = flow.step();
         flow.steps[asked].jumps.push(stepped);
         flow.ramps();

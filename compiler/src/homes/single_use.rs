@@ -32,8 +32,8 @@ pub fn folded(
         let number = uses.block(block);
         if std::ptr::eq(block, &raw const tree.pixel) {
             uses.read(graph.ink, number);
-            // What is sent is read after the ink, and what is reported last of all.
-            graph.shares().for_each(|s| uses.read(s.node, 0));
+            // What is left to others is read after the ink, and what is reported last of all.
+            graph.left_to_others().for_each(|id| uses.read(id, 0));
             graph.reports.iter().for_each(|&id| uses.read(id, 0));
             still
                 .into_iter()

@@ -29,6 +29,7 @@ pub struct Builder {
     pub(super) effects: Vec<EffectUse>,
     pub(super) directions: BTreeMap<NodeId, f64>,
     diffusion: Option<Diffusion>,
+    refinement: Option<Refinement>,
     reports: Vec<NodeId>,
     pub(super) claims: BTreeMap<NodeId, (Op, [NodeId; 2])>,
     early: BTreeSet<NodeId>,
@@ -143,6 +144,16 @@ impl Builder {
     /// What earlier pixels sent to this one.
     pub fn received(&mut self, span: Span) -> NodeId {
         self.add(Node::Received, Type::Real, span)
+    }
+
+    /// What a neighbour left.
+    pub fn neighbour(&mut self, which: Neighbour, span: Span) -> NodeId {
+        self.add(Node::Neighbour(which), Type::Int, span)
+    }
+
+    /// Leaves an int to the pixels that are drawn later.
+    pub fn keep(&mut self, refinement: Refinement) {
+        self.refinement = Some(refinement);
     }
 
     /// Sends shares to later pixels, after those that are sent already.
@@ -316,6 +327,7 @@ impl Builder {
             ink,
             shade,
             diffusion: self.diffusion,
+            refinement: self.refinement,
             effects: self.effects,
             reports: self.reports,
             claims: self.claims,

@@ -23,6 +23,7 @@
 
 pub use super::diffusion::{Diffusion, Share};
 pub use super::node::*;
+pub use super::refinement::Refinement;
 use crate::source::Span;
 use rustc_hash::FxHashMap;
 use slowlight_routine::{Op, Range, Type, Value};
@@ -212,6 +213,8 @@ pub struct Graph {
     pub shade: Option<NodeId>,
     /// What the pixel sends to later ones, if the dither spreads its error.
     pub diffusion: Option<Diffusion>,
+    /// What the pixel leaves to later ones, if some of them are not traced.
+    pub refinement: Option<Refinement>,
     /// The effects that were called, by name.
     pub effects: Vec<EffectUse>,
     /// Values that are computed beside the ink and kept where the program
@@ -284,16 +287,33 @@ impl Graph {
     /// The pixel's ink and shade, what it sends to later pixels, and what is reported.
     pub fn outputs(&self) -> impl Iterator<Item = NodeId> + '_ {
         let pixel = [Some(self.ink), self.shade].into_iter().flatten();
-        let sent = self.shares().map(|s| s.node);
-        pixel.chain(sent).chain(self.reports.iter().copied())
+        pixel
+            .chain(self.left_to_others())
+            .chain(self.reports.iter().copied())
     }
 
     /// What has to be computed for each pixel: its ink, what it sends, and what is reported.
     pub fn roots(&self) -> impl Iterator<Item = NodeId> + '_ {
-        let sent = self.shares().map(|s| s.node);
         std::iter::once(self.ink)
-            .chain(sent)
+            .chain(self.left_to_others())
             .chain(self.reports.iter().copied())
+    }
+
+    /// What the pixel sends or leaves to later ones.
+    pub fn left_to_others(&self) -> impl Iterator<Item = NodeId> + '_ {
+        let kept = self.refinement.iter().map(|refinement| refinement.kept);
+        self.shares().map(|s| s.node).chain(kept)
+    }
+
+    /// Whether a pixel hangs on others, which are drawn before it.
+    pub fn is_in_order(&self) -> bool {
+        self.diffusion.is_some() || self.refinement.is_some()
+    }
+
+    /// Lets each pixel be what it is by itself: none receives what others send or leave.
+    pub fn part_pixels(&mut self) {
+        self.diffusion = None;
+        self.refinement = None;
     }
 
     /// What the pixel sends to later ones, in order.

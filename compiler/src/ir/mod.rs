@@ -13,4 +13,5 @@ pub mod often;
 pub mod print;
 pub mod ramp;
 pub mod read;
+pub mod refinement;
 pub mod tree;

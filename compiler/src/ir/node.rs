@@ -33,6 +33,18 @@ pub enum Axis {
     Run,
 }
 
+/// A pixel that was drawn before this one, where some are not traced
+/// ([`super::refinement`]).
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum Neighbour {
+    /// In the same column, as many rows up as the row's number can be halved.
+    Above,
+    /// In the same column, as many rows down.
+    Below,
+    /// In the same row, the column before; at the first column the one above.
+    Left,
+}
+
 /// A scalar constant that can be a key: reals by their bits.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum Constant {
@@ -112,6 +124,8 @@ pub enum Node {
     /// What earlier pixels sent to this one ([`Graph::diffusion`]); a real, 0
     /// where none did.
     Received,
+    /// What a neighbour left ([`Graph::refinement`]); an int.
+    Neighbour(Neighbour),
     /// A home that is only set: what a subroutine is given, or leaves behind
     /// on one of several ways. None in a graph before [`crate::schedule::outline`].
     Slot(Type),

@@ -82,6 +82,7 @@ pub fn node_text(graph: &Graph, node: Node) -> String {
         Node::Last { of, index } => format!("last {}.{index}", of.0),
         Node::Result { of, index } => format!("result {}.{index}", of.0),
         Node::Received => "received".to_owned(),
+        Node::Neighbour(which) => format!("neighbour {}", which.name()),
         Node::Slot(_) => "slot".to_owned(),
         Node::Undefined(_) => "undefined".to_owned(),
     }
@@ -166,6 +167,9 @@ impl Display for Graph {
         }
         for Share { dx, dy, node } in self.shares() {
             writeln!(f, "send {dx} {dy} {node}")?;
+        }
+        if let Some(Refinement { step, kept }) = self.refinement {
+            writeln!(f, "keep {kept} every {step}")?;
         }
         for report in &self.reports {
             writeln!(f, "report {report}")?;

@@ -41,6 +41,7 @@ pub fn read(text: &str) -> Result<Graph, Unread> {
         ink: NodeId(0),
         shade: None,
         diffusion: None,
+        refinement: None,
         effects: Vec::new(),
         reports: Vec::new(),
         claims: BTreeMap::new(),
@@ -93,6 +94,14 @@ fn line(graph: &mut Graph, line: &str) -> Read<()> {
             let diffusion = graph.diffusion.get_or_insert_with(none);
             diffusion.shares.push(share);
         }),
+        "keep" => {
+            let (kept, step) = rest
+                .split_once(" every ")
+                .ok_or("kept every so many rows")?;
+            let (kept, step) = (node_id(kept)?, number(step)?);
+            graph.refinement = Some(Refinement { step, kept });
+            Ok(())
+        }
         "report" => node_id(rest).map(|id| graph.reports.push(id)),
         "ink" => node_id(rest).map(|id| graph.ink = id),
         _ => node(graph, line),
@@ -304,6 +313,10 @@ fn node_body(ty: Type, body: &str) -> Read<Node> {
         "last" => part(rest).map(|(of, index)| Node::Last { of, index })?,
         "result" => part(rest).map(|(of, index)| Node::Result { of, index })?,
         "received" => Node::Received,
+        "neighbour" => {
+            let named = Neighbour::ALL.into_iter().find(|one| one.name() == rest);
+            Node::Neighbour(named.ok_or("a neighbour is above, below or left")?)
+        }
         "slot" => Node::Slot(ty),
         "undefined" => Node::Undefined(ty),
         "select" => match node_list(rest)?[..] {

@@ -6,6 +6,7 @@ pub mod algebra;
 pub mod branches;
 pub mod loops;
 pub mod pixel_blocks;
+pub mod refine;
 pub mod rematerialise;
 pub mod rewrite;
 pub mod simplify;

@@ -8,9 +8,9 @@
 
 use crate::ir::build::Builder;
 use crate::ir::graph::*;
+use crate::passes::rewrite::dither::Dither;
 use crate::passes::rewrite::rebuild::{End, Rewrite, rebuild_by};
 use crate::source::Span;
-use rustc_hash::FxHashMap;
 use slowlight_routine::{Op, Value};
 
 /// The graph of a picture of blocks, each so many columns wide and rows high. Its image
@@ -22,8 +22,7 @@ pub fn pixel_blocks(graph: &Graph, block: (u32, u32)) -> Graph {
     let mut rewrite = Coarse {
         graph,
         block,
-        dithers: dithers(graph),
-        dithered: FxHashMap::default(),
+        dither: Dither::of(graph),
     };
     let mut made = rebuild_by(graph, &mut rewrite);
     made.image.width = (graph.image.width / block.0).max(1);
@@ -32,32 +31,10 @@ pub fn pixel_blocks(graph: &Graph, block: (u32, u32)) -> Graph {
     made
 }
 
-/// What is between the shade and what comes out: what the dither works out.
-fn dithers(graph: &Graph) -> Vec<bool> {
-    let mut found = vec![false; graph.nodes.len()];
-    let Some(shade) = graph.shade else {
-        return found;
-    };
-    let mut todo: Vec<NodeId> = graph.roots().collect();
-    while let Some(id) = todo.pop() {
-        let Some(flag) = found.get_mut(id.0 as usize) else {
-            continue;
-        };
-        if id == shade || std::mem::replace(flag, true) {
-            continue;
-        }
-        todo.extend(graph.references(id));
-    }
-    found
-}
-
 struct Coarse<'g> {
     graph: &'g Graph,
     block: (u32, u32),
-    /// By node: whether the dither works it out.
-    dithers: Vec<bool>,
-    /// What stands for a node in the dither, where that is another than elsewhere.
-    dithered: FxHashMap<NodeId, NodeId>,
+    dither: Dither<'g>,
 }
 
 impl Coarse<'_> {
@@ -75,39 +52,6 @@ impl Coarse<'_> {
         let first = b.apply(Op::IntMul, &[own, size], span);
         b.apply(Op::IntAdd, &[first, half], span)
     }
-
-    /// What stands for an operand in the dither.
-    fn seen(&self, made: &[Option<NodeId>], id: NodeId) -> Option<NodeId> {
-        let plain = || made.get(id.0 as usize).copied().flatten();
-        self.dithered.get(&id).copied().or_else(plain)
-    }
-
-    /// The dither's node: as it is, over what the dither's operands are.
-    fn dither(
-        &self,
-        b: &mut Builder,
-        made: &[Option<NodeId>],
-        id: NodeId,
-        moved: Node,
-        span: Span,
-    ) -> Option<NodeId> {
-        let seen = |id| self.seen(made, id);
-        Some(match (self.graph.node(id), moved) {
-            (Node::Axis(axis), _) => b.axis(axis, span),
-            (Node::Apply(op, args), _) => {
-                let args: Option<Vec<NodeId>> =
-                    args[..op.arity()].iter().map(|a| seen(*a)).collect();
-                b.apply(op, &args?, span)
-            }
-            (Node::Select { cond, yes, no }, _) => {
-                b.select(seen(cond)?, seen(yes)?, seen(no)?, span)
-            }
-            (Node::Lookup { column, row, .. }, Node::Lookup { table, .. }) => {
-                b.lookup(table, seen(column)?, seen(row)?, span)
-            }
-            _ => return None,
-        })
-    }
 }
 
 impl Rewrite for Coarse<'_> {
@@ -119,11 +63,7 @@ impl Rewrite for Coarse<'_> {
         moved: Node,
         span: Span,
     ) -> Option<NodeId> {
-        if self.dithers.get(id.0 as usize) == Some(&true)
-            && let Some(own) = self.dither(b, made, id, moved, span)
-        {
-            self.dithered.insert(id, own);
-        }
+        self.dither.make(b, made, (id, moved), span);
         match moved {
             Node::Axis(axis) => Some(self.middle(b, axis, span)),
             _ => None,
@@ -138,7 +78,7 @@ impl Rewrite for Coarse<'_> {
         end: End,
     ) -> Option<NodeId> {
         match end {
-            End::Ink | End::Output if Some(id) != self.graph.shade => self.seen(made, id),
+            End::Ink | End::Output if Some(id) != self.graph.shade => self.dither.seen(made, id),
             _ => None,
         }
     }

@@ -49,13 +49,4 @@ impl Plan {
             width: self.graph.image.width,
         })
     }
-
-    /// First and last picture column computed: those drawn; all where errors
-    /// are spread, as what is not seen sends to what is.
-    pub fn computed_columns(&self) -> (u32, u32) {
-        match self.graph.diffusion {
-            Some(_) => (0, self.graph.image.width.saturating_sub(1)),
-            None => self.columns,
-        }
-    }
 }

@@ -39,6 +39,10 @@
 //!   is what has come to the pixel, and after `tree.pixel` each share is added,
 //!   by [`Plan::gather`], to what its pixel has received so far. Then all rows
 //!   from 0 and all columns are computed, and only those above are drawn.
+//! - Where not all pixels are traced ([`Plan::kept_rows`]), [`Node::Neighbour`] is a byte that
+//!   another pixel left. Rows come in bands ([`KeptRows`]); all rows of a band and all columns
+//!   are computed ([`Plan::computed_rows`]), and only those above are drawn. Behind
+//!   `tree.pixel` the pixel leaves what [`crate::ir::refinement::Refinement::kept`] is.
 //! - Constants, params and axes are read as such: [`Plan::bits`] gives a
 //!   constant's bits, `params` how the parameter block writes each param.
 //!
@@ -48,12 +52,14 @@ pub mod error;
 pub mod model;
 
 mod error_rows;
+mod kept_rows;
 pub(crate) mod params;
 pub mod print;
 mod semantics;
 pub mod table_init;
 
 pub use error_rows::ErrorRows;
+pub use kept_rows::KeptRows;
 pub use params::ParamPlan;
 
 use crate::analysis::points::Points;
@@ -304,6 +310,7 @@ impl Plan {
             | Node::Param(_)
             | Node::Axis(_)
             | Node::Received
+            | Node::Neighbour(_)
             | Node::Undefined(_) => None,
             Node::Carried { of, index } | Node::Last { of, index } => {
                 Some(Place::Carried(of, index))

@@ -93,7 +93,7 @@ pub struct Measured {
 /// What earlier pixels send is left out.
 pub fn measure(plan: &Plan) -> Measured {
     let mut plan = plan.clone();
-    plan.graph.diffusion = None;
+    plan.graph.part_pixels();
     let plan = &plan;
     let shadow = Shadow::new(plan);
     let heard = Heard {

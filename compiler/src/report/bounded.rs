@@ -38,7 +38,7 @@ pub struct Bounded {
 /// Nothing is looked at where the picture has no shade before its dither.
 pub fn bounded(plan: &Plan) -> Bounded {
     let mut plan = plan.clone();
-    plan.graph.diffusion = None;
+    plan.graph.part_pixels();
     let plan = &plan;
     let Some(shade) = plan.graph.shade else {
         return Bounded::default();

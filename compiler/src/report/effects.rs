@@ -178,6 +178,7 @@ pub fn turns(graph: &Graph, pixels: &[(i32, i32)]) -> BTreeMap<u16, Turns> {
     // What earlier pixels send only moves the ink.
     let graph = &Graph {
         diffusion: None,
+        refinement: None,
         ..graph.clone()
     };
     let tree = schedule(graph);

@@ -89,7 +89,7 @@ pub struct Found {
 /// What is weak without changing a pixel's shade by an eighth of a level is no fault.
 pub fn fragile(plan: &Plan) -> Found {
     let mut plan = plan.clone();
-    plan.graph.diffusion = None;
+    plan.graph.part_pixels();
     let plan = &plan;
     let shadow = Shadow::new(plan);
     let mut run = Run::within(&plan.graph, &plan.tree, &shadow, MOST);

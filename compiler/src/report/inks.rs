@@ -31,7 +31,7 @@ pub struct Beyond {
 pub fn beyond(graph: &Graph, places: &[(i32, i32)]) -> Option<Beyond> {
     let last = graph.image.palette.len() as i32 - 1;
     let mut graph = graph.clone();
-    graph.diffusion = None;
+    graph.part_pixels();
     graph.reports = vec![graph.ink];
     let mut native = Native::within(&graph, PATIENCE);
     let mut looked = 0;

@@ -36,7 +36,7 @@ pub fn down_to_runs(graph: &Graph, tree: &mut Tree) {
             elsewhere.extend(graph.node(id).operands());
         }
     }
-    elsewhere.extend(graph.reports.iter().copied().chain([graph.ink]));
+    elsewhere.extend(graph.roots());
     let seldom: FxHashSet<NodeId> = (tree.segment.iter())
         .flat_map(|s| reads(graph, s))
         .collect();

@@ -179,7 +179,8 @@ impl Placer<'_> {
             }
             Node::Result { of, .. } => self.visit_loop(of),
             // Known without computing.
-            Node::Const(_) | Node::Param(_) | Node::Axis(_) | Node::Received => {}
+            Node::Const(_) | Node::Param(_) | Node::Axis(_) => {}
+            Node::Received | Node::Neighbour(_) => {}
             Node::Carried { .. } | Node::Last { .. } => {}
             Node::Slot(_) | Node::Undefined(_) => {}
         }

@@ -68,6 +68,8 @@ pub(crate) fn narrowed(mut plan: Plan, modelled: u64) -> (Plan, u64) {
     let Ok(usual) = params(&as_usual(&plan.graph), plan.runtime) else {
         return (plan, 0);
     };
+    // Each pixel by itself: what others leave moves a shade, and asks for no more bits.
+    let refinement = plan.graph.refinement.take();
     let own = std::mem::replace(&mut plan.params, usual);
     plan.hold();
     let sample = sample::seen(&plan.graph, &plan.tree, bits, sample::PATIENCE);
@@ -90,6 +92,7 @@ pub(crate) fn narrowed(mut plan: Plan, modelled: u64) -> (Plan, u64) {
         plan.note_cut();
     }
     plan.params = own;
+    plan.graph.refinement = refinement;
     plan.hold();
     (plan, ran)
 }

@@ -95,6 +95,7 @@ pub fn seen(graph: &Graph, tree: &Tree, bits: u8, most: u64) -> Sample {
     // What pixels send is looked at, but not carried through the whole picture.
     let alone = Graph {
         diffusion: None,
+        refinement: None,
         ..graph.clone()
     };
     let look = Look {

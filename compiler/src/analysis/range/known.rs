@@ -3,6 +3,7 @@
 
 use super::Slack;
 use crate::ir::graph::*;
+use crate::ir::refinement::LEVELS;
 use crate::ir::tree::*;
 use slowlight_routine::{Op, Range, Type};
 
@@ -38,6 +39,7 @@ pub(super) fn known(graph: &Graph, slack: &Slack, id: NodeId) -> Range {
         }
         Node::Axis(Axis::Pass(n)) => Range::new(0.0, f64::from(n.saturating_sub(1))),
         Node::Axis(Axis::Y) => Range::new(0.0, f64::from(graph.image.height.saturating_sub(1))),
+        Node::Neighbour(_) => Range::new(0.0, f64::from(LEVELS)),
         _ => slack.cut(graph.ty(id), Range::ALL),
     }
 }

@@ -53,6 +53,8 @@ pub struct Expressions<'p> {
     pub clamps: bool,
     /// The variable of what earlier pixels sent to this one.
     pub received: String,
+    /// The variables of what neighbours left.
+    pub neighbours: [String; 3],
     /// Values that must be assigned before what was computed last, since it reads them twice.
     pub before: Vec<(String, Text)>,
     /// Between which bounds arguments stay in the version being written, where
@@ -71,6 +73,7 @@ impl<'p> Expressions<'p> {
             inline: FxHashMap::default(),
             clamps: false,
             received: String::new(),
+            neighbours: Default::default(),
             before: Vec::new(),
             assumed: FxHashMap::default(),
             calls: false,
@@ -93,6 +96,7 @@ impl<'p> Expressions<'p> {
             (Node::Axis(Axis::Y), _) => Text::operand("Y%"),
             (Node::Axis(Axis::Pass(_)), _) => Text::operand(&self.names.pass),
             (Node::Received, _) => Text::operand(&self.received),
+            (Node::Neighbour(which), _) => Text::operand(&self.neighbours[which as usize]),
             (_, Some(place)) => Text::operand(self.names.home(place)),
             _ => Text::operand("0"),
         }

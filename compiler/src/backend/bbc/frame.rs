@@ -12,6 +12,7 @@ use super::passes::Passes;
 use super::poke::Poke;
 use super::procedure::as_procedure;
 use super::ramp;
+use super::refine::Refined;
 use super::screen;
 use super::segment::{SEGMENT, Segments};
 use super::short::{Known, short};
@@ -165,13 +166,20 @@ fn picture(plan: &Plan, code: &mut Code<'_>, first: &str, last: &str, spread: Op
     }
     code.block(&plan.tree.frame);
     columns::fill(plan, code);
+    let refined = Refined::new(plan, code);
     // Errors come from the rows above, drawn or not.
     let top = if spread.is_some() { "0" } else { first };
     let passes = Passes::new(plan, code);
     let poke = passes.is_none().then(|| Poke::new(plan, code)).flatten();
     code.frame = plan.drawn;
-    code.line(format!("FOR Y%={top} TO {last}"));
+    match &refined {
+        Some(refined) => refined.begin(code, (first, last)),
+        None => code.line(format!("FOR Y%={top} TO {last}")),
+    }
     code.lines.weight = ROW;
+    if let Some(refined) = &refined {
+        refined.row(code);
+    }
     let pokes = poke.is_some() || passes.as_ref().is_some_and(Passes::pokes);
     if plan.plot && !pokes {
         code.statement(format!("R%={}", screen::y_expression(plan)));
@@ -221,6 +229,9 @@ fn picture(plan: &Plan, code: &mut Code<'_>, first: &str, last: &str, spread: Op
     if let Some(spread) = spread {
         spread.receive(code);
     }
+    if let Some(refined) = &refined {
+        refined.receive(code);
+    }
     code.block(&plan.tree.pixel);
     code.known = None;
     let ink = code.values.read(plan.graph.ink);
@@ -231,7 +242,7 @@ fn picture(plan: &Plan, code: &mut Code<'_>, first: &str, last: &str, spread: Op
         row.put(code);
     } else if plan.plot {
         // After MODE the screen is ink 0 already.
-        let seen = seen(plan, first);
+        let seen = seen(plan, (first, last));
         code.line(format!(
             "IF I%{seen} THEN GCOL 0,I%:{}",
             screen::point(plan)
@@ -240,6 +251,9 @@ fn picture(plan: &Plan, code: &mut Code<'_>, first: &str, last: &str, spread: Op
     if let Some(spread) = spread {
         spread.send(code);
     }
+    if let Some(refined) = &refined {
+        refined.send(code);
+    }
     ramp::step(plan, code);
     code.line("NEXT");
     if let (Some(row), Some(_)) = (&passes, &segments) {
@@ -247,7 +261,12 @@ fn picture(plan: &Plan, code: &mut Code<'_>, first: &str, last: &str, spread: Op
         row.after_run(code);
     }
     match (&poke, &segments) {
-        (Some(poke), _) => poke.put(plan, code, first, segments.is_some().then_some(top_label)),
+        (Some(poke), _) => poke.put(
+            plan,
+            code,
+            (first, last),
+            segments.is_some().then_some(top_label),
+        ),
         (None, Some(_)) => {
             code.lines.place(behind_run);
             code.line(format!("IF X%<={} THEN {top_label}", columns.1));
@@ -261,7 +280,13 @@ fn picture(plan: &Plan, code: &mut Code<'_>, first: &str, last: &str, spread: Op
     if let Some(spread) = spread {
         spread.turn(code);
     }
-    code.line("NEXT");
+    match &refined {
+        Some(refined) => {
+            refined.end(code);
+            apart.push(refined.procedures(code));
+        }
+        None => code.line("NEXT"),
+    }
     code.lines.weight = 1;
     code.frame = None;
     reports(plan, code);
@@ -270,12 +295,12 @@ fn picture(plan: &Plan, code: &mut Code<'_>, first: &str, last: &str, spread: Op
 }
 
 /// What a pixel that is computed must pass beside to be drawn.
-fn seen(plan: &Plan, first: &str) -> String {
+fn seen(plan: &Plan, rows: (&str, &str)) -> String {
     let mut text = String::new();
-    if plan.graph.diffusion.is_none() {
+    if !plan.graph.is_in_order() {
         return text;
     }
-    text.push_str(&format!(" AND Y%>={first}"));
+    text.push_str(&format!(" AND {}", screen::seen_rows(plan, rows)));
     let (computed, drawn) = (plan.computed_columns(), plan.columns);
     if computed.0 < drawn.0 {
         text.push_str(&format!(" AND X%>={}", drawn.0));

@@ -42,6 +42,7 @@ mod poke;
 mod procedure;
 mod ramp;
 mod reads;
+mod refine;
 mod screen;
 mod segment;
 mod short;

@@ -10,6 +10,7 @@ use super::Style;
 use super::code::Code;
 use super::lines::{Label, Lines};
 use super::procedure::as_procedure;
+use super::screen;
 use super::segment::Segments;
 use crate::plan::Plan;
 
@@ -158,13 +159,13 @@ impl Poke {
     }
 
     /// Puts a byte, and ends the loop over them.
-    pub fn put(&self, plan: &Plan, code: &mut Code<'_>, first: &str, again: Option<Label>) {
+    pub fn put(&self, plan: &Plan, code: &mut Code<'_>, rows: (&str, &str), again: Option<Label>) {
         if let Some(again) = again {
             code.line(format!("IF X%<={} THEN {again}", self.last));
         }
         let put = format!("?{}={}", self.at, self.byte);
-        if plan.graph.diffusion.is_some() {
-            code.line(format!("IF Y%>={first} THEN {put}"));
+        if plan.graph.is_in_order() {
+            code.line(format!("IF {} THEN {put}", screen::seen_rows(plan, rows)));
         } else {
             code.statement(put);
         }

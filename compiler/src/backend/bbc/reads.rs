@@ -25,8 +25,7 @@ pub fn pixel(plan: &Plan) -> Reads<'_> {
     reads.known = still.and_then(Still::otherwise);
     reads.block(&plan.tree.pixel);
     reads.value(plan.graph.ink);
-    let shares: Vec<NodeId> = plan.graph.shares().map(|share| share.node).collect();
-    shares.into_iter().for_each(|id| reads.value(id));
+    plan.graph.left_to_others().for_each(|id| reads.value(id));
     reads
 }
 

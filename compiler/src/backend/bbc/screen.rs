@@ -93,6 +93,14 @@ pub fn run(plan: &Plan, code: &mut Code<'_>, to: &str, stride: u32) -> Draw {
     }
 }
 
+/// The test for a row that is computed to be drawn: from the first to the last.
+pub fn seen_rows(plan: &Plan, (first, last): (&str, &str)) -> String {
+    match plan.graph.refinement {
+        Some(_) => format!("Y%>={first} AND Y%<={last}"),
+        None => format!("Y%>={first}"),
+    }
+}
+
 /// The graphics x of picture column `X%`.
 pub fn x_expression(plan: &Plan) -> String {
     let unit = 1280 / i64::from(plan.mode.width.max(1));

@@ -29,7 +29,7 @@ pub(super) struct Canvas {
 impl Canvas {
     /// For a plan that draws all that it computes, for the processor.
     pub fn new(plan: &Plan, fresh: &mut dyn FnMut(&str) -> String) -> Option<Canvas> {
-        let wanted = plan.statics && plan.plot && plan.graph.diffusion.is_none();
+        let wanted = plan.statics && plan.plot && !plan.graph.is_in_order();
         let wanted = wanted && plan.graph.image.block == (1, 1);
         let [first, last] = [plan.columns.0, plan.columns.1].map(i32::try_from);
         let (first, last) = (first.ok()?, last.ok()?);

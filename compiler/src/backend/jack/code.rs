@@ -4,6 +4,7 @@ use super::error_names::Spread;
 use super::expression::{Expression, constant, int};
 use super::names::Names;
 use super::object::Object;
+use super::refine::Refined;
 use super::{Line, Text};
 use crate::ir::graph::*;
 use crate::ir::tree::*;
@@ -33,6 +34,8 @@ pub(super) struct Code<'p> {
     pub object: Object,
     /// What pixels send to later ones.
     pub spread: Option<Spread>,
+    /// What they leave.
+    pub refined: Option<Refined>,
     /// The parts of the runtime that are needed, beside those of the routines.
     pub needs: BTreeSet<&'static str>,
     /// The fields of homes that are written, by format.
@@ -54,6 +57,7 @@ impl<'p> Code<'p> {
         Code {
             plan,
             spread: Spread::new(plan, &mut names),
+            refined: Refined::new(plan, &mut names),
             names,
             object: Object::default(),
             needs: BTreeSet::new(),
@@ -355,6 +359,10 @@ impl<'p> Code<'p> {
             Node::Axis(Axis::Pass(_)) => Expression::term("0"),
             Node::Received => {
                 Expression::term(self.spread.as_ref().map_or("0", |s| s.received.as_str()))
+            }
+            Node::Neighbour(which) => {
+                let names = self.refined.as_ref().map(|r| &r.neighbours);
+                Expression::term(names.map_or("0", |names| names[which as usize].as_str()))
             }
             Node::Undefined(ty) => self.constant(match ty {
                 slowlight_routine::Type::Real => Value::Real(0.0),

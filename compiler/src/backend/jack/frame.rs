@@ -227,6 +227,9 @@ fn declared(code: &Code) -> Vec<(&'static str, Vec<String>, &'static str)> {
         all.push(("Array", rows, " // what pixels send to later ones"));
         all.push((real, vec![spread.received.clone(), spread.sum.clone()], ""));
     }
+    for (ty, names) in code.refined.iter().flat_map(|refined| refined.declared()) {
+        all.push((ty, names, " // what pixels leave to later ones"));
+    }
     for (ty, names) in names.canvas.iter().flat_map(|canvas| canvas.declared()) {
         all.push((ty, names, " // the screen's word"));
     }

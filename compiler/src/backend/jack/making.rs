@@ -88,6 +88,7 @@ pub(super) fn making(code: &mut Code) -> Vec<Subroutine> {
     if let Some(spread) = code.spread.clone() {
         all.push(spread.making(code));
     }
+    all.extend(code.refined.iter().map(|refined| refined.making()));
     let tables = tables(code);
     for (name, about, lines) in [
         (

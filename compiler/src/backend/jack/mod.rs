@@ -42,6 +42,7 @@ mod making;
 mod names;
 mod object;
 mod params;
+mod refine;
 mod remark;
 mod report;
 mod spread;

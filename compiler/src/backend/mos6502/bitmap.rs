@@ -12,7 +12,7 @@
 use super::Text;
 use super::homes::Homes;
 use super::layout::{Layout, Lie};
-use super::slots::Slot;
+use super::slots::{Sampling, Slot};
 use crate::ir::graph::Axis;
 use crate::plan::Plan;
 use std::ops::RangeInclusive;
@@ -30,8 +30,10 @@ pub(super) struct Bitmap {
     inks: u32,
     /// The columns that are seen, where more are computed.
     seen: Option<RangeInclusive<u32>>,
-    /// Whether rows are computed that are not drawn.
-    rows_unseen: bool,
+    /// Where rows are computed that are not drawn: what goes to `unseen_row` there.
+    unseen: Option<String>,
+    /// Whether rows come in another order than down the screen.
+    jumps: bool,
     /// The pixel's column, its row, and the first row to draw.
     axes: [String; 3],
     byte: String,
@@ -50,6 +52,15 @@ impl Bitmap {
         let (first, _) = plan.shown_rows();
         let (from, to) = plan.columns;
         let name = |slot| homes.name(slot).to_owned();
+        let axes = [Slot::Axis(Axis::X), Slot::Axis(Axis::Y), Slot::Rows(false)].map(name);
+        let [_, y, top] = &axes;
+        let unseen = match plan.kept_rows() {
+            Some(_) => format!(
+                "lda {} | beq unseen_row",
+                name(Slot::Sampling(Sampling::Seen))
+            ),
+            None => format!("lda {y} | cmp {top} | lda {y}+1 | sbc {top}+1 | bcc unseen_row"),
+        };
         Some(Bitmap {
             layout,
             left: place(from, block.0, plan.offset.0),
@@ -59,8 +70,9 @@ impl Bitmap {
             block,
             inks: plan.mode.inks,
             seen: (plan.computed_columns() != plan.columns).then_some(from..=to),
-            rows_unseen: plan.error_rows().is_some(),
-            axes: [Slot::Axis(Axis::X), Slot::Axis(Axis::Y), Slot::Rows(false)].map(name),
+            unseen: plan.graph.is_in_order().then_some(unseen),
+            jumps: plan.kept_rows().is_some(),
+            axes,
             byte: name(Slot::ScreenByte),
             at: name(Slot::ScreenAt),
             line: name(Slot::ScreenLine),
@@ -74,6 +86,9 @@ impl Bitmap {
         } = self.layout;
         let place = self.top / 8 * row + self.left / pixels * 8 + self.top % 8;
         let [lo, hi, ..] = (u32::from(start) + place).to_le_bytes();
+        if self.jumps {
+            return;
+        }
         let (line, [_, _, first]) = (&self.line, &self.axes);
         text.line("        ; to the first row");
         text.code(&format!(
@@ -100,9 +115,44 @@ impl Bitmap {
         text.code(&format!("jsr next_line | dey | bne {label}"));
     }
 
+    /// To the line of a row that need not be the next: its characters' first line, and then
+    /// so many further.
+    fn to_row(&self, text: &mut Text) {
+        let Layout {
+            start, row, pixels, ..
+        } = self.layout;
+        let (line, [_, y, _]) = (&self.line, &self.axes);
+        let [lo, hi, ..] = (u32::from(start) + self.left / pixels * 8).to_le_bytes();
+        // Rows that are not shown have a line of others, which is left alone.
+        let top = self.top.wrapping_sub(self.first * self.block.1) & 0xFF;
+        match self.block.1 {
+            1 => text.code(&format!("clc | lda {y} | adc #{top}")),
+            high => {
+                text.code(&format!("lda #{top} | ldx {y} | beq on_line"));
+                text.label("lines_to_row");
+                text.code(&format!("clc | adc #{high} | dex | bne lines_to_row"));
+                text.label("on_line");
+            }
+        }
+        text.code(&format!(
+            "tax | and #7 | clc | adc #{lo} | sta {line} | lda #{hi} | adc #0 | sta {line}+1"
+        ));
+        let [lo, hi, ..] = row.to_le_bytes();
+        text.code("txa | lsr | lsr | lsr | tax | beq at_row");
+        text.label("characters_to_row");
+        text.code(&format!(
+            "clc | lda {line} | adc #{lo} | sta {line} | lda {line}+1 | adc #{hi} | sta {line}+1"
+        ));
+        text.code("dex | bne characters_to_row");
+        text.label("at_row");
+    }
+
     /// Before a row's first pixel.
     pub fn row(&self, text: &mut Text) {
         let Bitmap { line, at, byte, .. } = self;
+        if self.jumps {
+            self.to_row(text);
+        }
         text.code(&format!(
             "lda {line} | sta {at} | lda {line}+1 | sta {at}+1"
         ));
@@ -167,11 +217,8 @@ impl Bitmap {
     /// the next row.
     pub fn row_done(&self, text: &mut Text) {
         let Bitmap { byte, at, .. } = self;
-        let [_, y, first] = &self.axes;
-        if self.rows_unseen {
-            text.code(&format!(
-                "lda {y} | cmp {first} | lda {y}+1 | sbc {first}+1 | bcc unseen_row"
-            ));
+        if let Some(unseen) = &self.unseen {
+            text.code(unseen);
         }
         let over = (self.left + self.width) % self.layout.pixels;
         if over > 0 {
@@ -187,7 +234,7 @@ impl Bitmap {
             self.copy_lines(text);
         }
         text.code("jsr next_line");
-        if self.rows_unseen {
+        if self.unseen.is_some() {
             text.label("unseen_row");
         }
     }

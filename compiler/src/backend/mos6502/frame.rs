@@ -6,6 +6,7 @@ use super::homes::Homes;
 use super::logs;
 use super::memory::Machine;
 use super::params::{Entry, entries, take_params};
+use super::refine::{self, Refined};
 use super::rows::Rows;
 use super::screen::Screen;
 use super::squares::Squares;
@@ -207,6 +208,9 @@ fn symbols(plan: &Plan, homes: &Homes, parts: &[&'static Part], text: &mut Text)
     if plan.error_rows().is_some() {
         text.line(format!("errors = ${:04x}", homes.places.errors));
     }
+    if plan.kept_rows().is_some() {
+        text.line(format!("{} = ${:04x}", refine::KEPT, homes.places.errors));
+    }
     text.line("");
     let origin = Squares::of(machine, parts).origin(homes.places.origin);
     text.line(format!("* = ${origin:04x}"));
@@ -267,7 +271,9 @@ fn main(plan: &Plan, homes: &Homes, text: &mut Text) -> (bool, Vec<&'static str>
         bbc::open(plan, code.text);
     }
     code.text.span = plan.drawn;
-    Rows::new(&code, screen.as_ref(), errors.as_ref()).write(&mut code);
+    let refined = Refined::new(plan, homes);
+    let others = (errors.as_ref(), refined.as_ref());
+    Rows::new(&code, screen.as_ref(), others).write(&mut code);
     let (clamps, mut needs) = (code.clamps, std::mem::take(&mut code.needs));
     let text = &mut *code.text;
     text.label("picture_done");
@@ -280,6 +286,9 @@ fn main(plan: &Plan, homes: &Homes, text: &mut Text) -> (bool, Vec<&'static str>
         }
         Machine::Bbc => bbc::end(text),
         Machine::C64 => c64::end(text),
+    }
+    if let Some(refined) = &refined {
+        refined.data(text);
     }
     let called = subroutines(plan, homes, text);
     needs.extend(called.1);

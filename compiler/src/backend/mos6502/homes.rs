@@ -206,6 +206,7 @@ impl Homes {
             (None, Node::Param(p)) => at(Slot::Param(p.0)),
             (None, Node::Axis(axis)) => at(of_axis(axis)),
             (None, Node::Received) => at(Slot::Received),
+            (None, Node::Neighbour(which)) => at(Slot::Neighbour(which)),
             (None, _) => Operand::Constant(0),
         }
     }
@@ -263,6 +264,8 @@ fn size(plan: &Plan, shapes: Option<&Shapes>, slot: Slot) -> u16 {
             return u16::try_from(bytes).unwrap_or(u16::MAX);
         }
         (Slot::Value(place), Some(shapes)) => return u16::from(shapes.of(plan, place).bytes),
+        (Slot::Neighbour(_), Some(_)) => return 1,
+        (Slot::Sampling(what), _) => return what.bytes(),
         (Slot::Param(_) | Slot::Axis(_) | Slot::Received | Slot::RunEnd, Some(_)) => {
             return u16::from(shapes::of_slot(plan, slot).bytes);
         }
@@ -278,8 +281,10 @@ fn size(plan: &Plan, shapes: Option<&Shapes>, slot: Slot) -> u16 {
         | Slot::Errors(_)
         | Slot::Block(_)
         | Slot::ScreenAt
+        | Slot::Sampling(_)
         | Slot::ScreenLine => 2,
-        Slot::Param(_) | Slot::Axis(_) | Slot::RunEnd | Slot::Rows(_) | Slot::Received => 4,
+        Slot::Param(_) | Slot::Axis(_) | Slot::RunEnd | Slot::Rows(_) => 4,
+        Slot::Received | Slot::Neighbour(_) => 4,
     }
 }
 
@@ -312,6 +317,8 @@ fn wanted(plan: &Plan, slot: Slot) -> String {
         Slot::Rows(true) => "last_row_value".to_owned(),
         Slot::Which => "which_param".to_owned(),
         Slot::Received => "received".to_owned(),
+        Slot::Neighbour(which) => format!("left_{}", which.name()),
+        Slot::Sampling(what) => what.name().to_owned(),
         Slot::Errors(k) => format!("errors_{k}"),
         Slot::ScreenByte => "screen_byte".to_owned(),
         Slot::ScreenAt => "screen_at".to_owned(),

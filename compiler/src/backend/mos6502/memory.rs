@@ -216,10 +216,11 @@ pub fn bytes_of_room(plan: &Plan) -> u64 {
     u64::from(end.saturating_sub(from))
 }
 
-/// Bytes of a plan's rows of errors.
+/// Bytes of a plan's rows of errors, or of what its pixels leave.
 pub(super) fn error_bytes(plan: &Plan) -> Option<u16> {
-    let rows = plan.error_rows()?;
-    Some(u16::try_from(row_bytes(plan, &rows)).unwrap_or(0xFF00))
+    let errors = plan.error_rows().map(|rows| row_bytes(plan, &rows));
+    let bytes = errors.or(plan.kept_rows().map(|rows| rows.bytes()))?;
+    Some(u16::try_from(bytes).unwrap_or(0xFF00))
 }
 
 /// Bytes of the jump over the tables.

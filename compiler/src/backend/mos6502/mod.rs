@@ -55,6 +55,7 @@ mod params;
 mod ports;
 #[cfg(test)]
 mod quotient_tests;
+mod refine;
 mod rows;
 mod scaled;
 mod screen;

@@ -7,7 +7,9 @@
 //! met, says how far the run goes at most. What of runs needs no computing at all
 //! ([`crate::schedule::constant_runs`]) is drawn in a loop that does nothing else.
 
+use super::Text;
 use super::code::Code;
+use super::refine::Refined;
 use super::screen::Screen;
 use super::slots::Slot;
 use crate::ir::graph::*;
@@ -20,6 +22,7 @@ use slowlight_runtime_6502::write::{self, Place as Operand};
 pub(super) struct Rows<'r> {
     screen: Option<&'r Screen>,
     errors: Option<&'r ErrorRows>,
+    refined: Option<&'r Refined>,
     /// The names of the column, the row, and the first and last row to draw.
     x: String,
     y: String,
@@ -35,13 +38,14 @@ impl<'r> Rows<'r> {
     pub fn new(
         code: &Code<'_>,
         screen: Option<&'r Screen>,
-        errors: Option<&'r ErrorRows>,
+        (errors, refined): (Option<&'r ErrorRows>, Option<&'r Refined>),
     ) -> Rows<'r> {
         let name = |slot| code.homes.name(slot).to_owned();
         let plan = code.plan;
         Rows {
             screen,
             errors,
+            refined,
             x: name(Slot::Axis(Axis::X)),
             y: name(Slot::Axis(Axis::Y)),
             first: name(Slot::Rows(false)),
@@ -55,17 +59,23 @@ impl<'r> Rows<'r> {
     /// All rows; goes to `picture_done`.
     pub fn write(&self, code: &mut Code<'_>) {
         let plan = code.plan;
-        let Rows { y, last, .. } = self;
+        let y = &self.y;
         // Errors come from the rows above, drawn or not.
         let top = match self.errors {
             Some(_) => Operand::Constant(0),
             None => Operand::At(self.first.clone()),
         };
-        code.copy_axis(&top, y);
+        match self.refined {
+            Some(refined) => refined.begin(code),
+            None => code.copy_axis(&top, y),
+        }
         code.text.headline("once a row");
         code.text.label("next_row");
         if let Some(screen) = self.screen {
             screen.row(y, code.text);
+        }
+        if let Some(refined) = self.refined {
+            refined.row(code);
         }
         let first = Operand::Constant(u64::from(self.columns.0));
         code.copy_axis(&first, &self.x);
@@ -88,17 +98,25 @@ impl<'r> Rows<'r> {
         if let Some(rows) = self.errors {
             code.turn_errors(rows);
         }
-        let text = &mut *code.text;
         if let Some(screen) = self.screen {
-            screen.row_done(text);
+            screen.row_done(code.text);
         }
+        match self.refined {
+            Some(refined) => refined.end(code),
+            None => self.next_row(code.text),
+        }
+        code.text.span = None;
+    }
+
+    /// To the next row, or to `picture_done`.
+    fn next_row(&self, text: &mut Text) {
+        let Rows { y, last, .. } = self;
         text.code(&format!(
             "lda {y} | cmp {last} | lda {y}+1 | sbc {last}+1 | bcs picture_done"
         ));
         text.code(&format!("inc {y} | bne more_rows | inc {y}+1"));
         text.label("more_rows");
         text.code("jmp next_row");
-        text.span = None;
     }
 
     /// Brings the ramps to the first column, by as many steps as there are before it: one
@@ -259,18 +277,15 @@ impl<'r> Rows<'r> {
     }
 
     fn pixel(&self, code: &mut Code<'_>) {
-        let Rows {
-            x,
-            y,
-            first,
-            last: _,
-            ..
-        } = self;
+        let Rows { x, y, first, .. } = self;
         let plan = code.plan;
         code.text.headline("once a pixel");
         code.text.label("next_pixel");
         if let Some(rows) = self.errors {
             code.receive_errors(rows);
+        }
+        if let Some(refined) = self.refined {
+            refined.receive(code);
         }
         code.quick = plan.copies != Copies::None;
         code.block(&plan.tree.pixel);
@@ -283,14 +298,20 @@ impl<'r> Rows<'r> {
                     "lda {y} | cmp {first} | lda {y}+1 | sbc {first}+1 | bcc unseen_pixel"
                 ));
             }
+            if let Some(refined) = self.refined {
+                code.text.code(&refined.unseen());
+            }
             screen.pixel(&ink, code.text);
-            if self.errors.is_some() {
+            if plan.graph.is_in_order() {
                 code.text.label("unseen_pixel");
             }
             screen.next(code.text);
         }
         if let Some(rows) = self.errors {
             code.send_errors(rows);
+        }
+        if let Some(refined) = self.refined {
+            refined.send(code);
         }
         code.step();
         self.next_column("next_column", code);
@@ -317,8 +338,9 @@ impl<'r> Rows<'r> {
     fn next_column(&self, label: &str, code: &mut Code<'_>) {
         let x = &self.x;
         let follows = self.screen.and_then(Screen::follows);
+        let page = self.refined.map(Refined::next_page).unwrap_or_default();
         code.text.code(&match (self.passes, follows) {
-            (1, _) => format!("inc {x} | bne {label} | inc {x}+1"),
+            (1, _) => format!("inc {x} | bne {label} | inc {x}+1{page}"),
             (n, None) => format!("clc | lda {x} | adc #{n} | sta {x} | bcc {label} | inc {x}+1"),
             // Its upper byte has been told unless it changes.
             (n, Some(port)) => format!(

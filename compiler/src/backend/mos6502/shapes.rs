@@ -210,6 +210,7 @@ impl Shapes {
 pub(super) fn of_slot(plan: &Plan, slot: Slot) -> Shape {
     match slot {
         Slot::Axis(_) | Slot::RunEnd => Shape::of(Range::new(0.0, 32767.0), MOST),
+        Slot::Neighbour(_) => Shape::of(Range::new(0.0, 255.0), MOST),
         Slot::Received => Shape::whole(size(plan.runtime.real)),
         Slot::Param(p) => match plan.graph.params.get(p as usize).map(|p| p.ty) {
             Some(Type::Real) => Shape::whole(size(plan.runtime.real)),

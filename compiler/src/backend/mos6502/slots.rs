@@ -28,6 +28,10 @@ pub(super) enum Slot {
     RunEnd,
     /// What earlier pixels sent to this one.
     Received,
+    /// What a neighbour left.
+    Neighbour(Neighbour),
+    /// Where not all pixels are traced.
+    Sampling(Sampling),
     /// A value's array by columns.
     Column(NodeId),
     /// A pointer into a row of errors.
@@ -37,6 +41,64 @@ pub(super) enum Slot {
     ScreenByte,
     ScreenAt,
     ScreenLine,
+}
+
+/// What goes over rows of which not all pixels are traced.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(super) enum Sampling {
+    /// Pointers to what the neighbours above and below left, and to the row's own.
+    Up,
+    Down,
+    Own,
+    /// The key row above the band, its last row, and the last of all.
+    Band,
+    Till,
+    End,
+    /// How far neighbours are from the row.
+    Reach,
+    /// Whether the row is drawn.
+    Seen,
+}
+
+impl Sampling {
+    /// All of them, in their order.
+    pub const ALL: [Sampling; 8] = [
+        Sampling::Up,
+        Sampling::Down,
+        Sampling::Own,
+        Sampling::Band,
+        Sampling::Till,
+        Sampling::End,
+        Sampling::Reach,
+        Sampling::Seen,
+    ];
+
+    /// Its name in a program.
+    pub fn name(self) -> &'static str {
+        match self {
+            Sampling::Up => "kept_above",
+            Sampling::Down => "kept_below",
+            Sampling::Own => "kept_here",
+            Sampling::Band => "band",
+            Sampling::Till => "band_till",
+            Sampling::End => "rows_till",
+            Sampling::Reach => "reach",
+            Sampling::Seen => "row_seen",
+        }
+    }
+
+    /// Whether it is a pointer.
+    pub fn points(self) -> bool {
+        matches!(self, Sampling::Up | Sampling::Down | Sampling::Own)
+    }
+
+    /// Its bytes.
+    pub fn bytes(self) -> u16 {
+        match self {
+            Sampling::Reach | Sampling::Seen => 1,
+            _ => 2,
+        }
+    }
 }
 
 /// A run begins at its first column.

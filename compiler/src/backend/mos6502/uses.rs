@@ -2,7 +2,7 @@
 
 use super::memory::Machine;
 use super::moved::{self, Moved};
-use super::slots::{Slot, of_axis};
+use super::slots::{Sampling, Slot, of_axis};
 use crate::ir::graph::*;
 use crate::ir::tree::*;
 use crate::passes::loops::strip_mine::passes;
@@ -78,6 +78,18 @@ impl Uses<'_> {
             let pointers = (0..rows.rows).map(|k| (Slot::Errors(k), u64::MAX));
             self.count.extend(pointers);
         }
+        if let Some(refinement) = graph.refinement {
+            self.read(refinement.kept);
+            for which in Neighbour::ALL {
+                self.add(Slot::Neighbour(which));
+            }
+            for what in Sampling::ALL {
+                match what.points() {
+                    true => drop(self.count.insert(Slot::Sampling(what), u64::MAX)),
+                    false => self.add(Slot::Sampling(what)),
+                }
+            }
+        }
         self.add(Slot::Axis(Axis::X));
         self.add(Slot::Axis(Axis::Y));
         let passes = passes(graph);
@@ -122,6 +134,7 @@ impl Uses<'_> {
             (None, Node::Param(p)) => self.add(Slot::Param(p.0)),
             (None, Node::Axis(axis)) => self.add(of_axis(axis)),
             (None, Node::Received) => self.add(Slot::Received),
+            (None, Node::Neighbour(which)) => self.add(Slot::Neighbour(which)),
             _ => {}
         }
     }

@@ -98,6 +98,8 @@ impl<'g> Native<'g> {
             let value = match graph.node(id) {
                 Node::Const(c) => c.value(),
                 Node::Param(p) => param_value(graph, p),
+                // Natively every pixel is traced.
+                Node::Neighbour(which) => Value::Int(which.alone()),
                 _ => continue,
             };
             // Slot 0 is what no output reaches.

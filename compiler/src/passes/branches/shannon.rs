@@ -118,7 +118,7 @@ struct Pair {
 /// The graph in which a condition is asked only where it matters; nothing where no choice by
 /// it comes to a comparison. Where errors are sent on, each shade matters.
 pub fn shannon(graph: &Graph, by: NodeId) -> Option<Graph> {
-    if graph.diffusion.is_some() || bares_directions(graph, by) {
+    if graph.is_in_order() || bares_directions(graph, by) {
         return None;
     }
     let mut pairs: BTreeMap<NodeId, Pair> = BTreeMap::new();

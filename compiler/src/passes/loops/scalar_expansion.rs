@@ -154,7 +154,7 @@ impl World {
             world.plain[id.0 as usize] = match graph.node(id) {
                 Node::Axis(axis) => axis == Axis::X,
                 Node::Ramp { .. } | Node::Stepped { .. } | Node::Tabulated(_) => false,
-                Node::Received | Node::Slot(_) => false,
+                Node::Received | Node::Neighbour(_) | Node::Slot(_) => false,
                 Node::Result { of, .. } => {
                     let mut roots = graph.loops[of.0 as usize].roots();
                     roots.all(|root| world.plain[root.0 as usize])

@@ -32,7 +32,7 @@ pub fn strip_mined(graph: &Graph, multiple: u32) -> Option<Graph> {
         .nodes
         .iter()
         .any(|node| matches!(node, Node::Ramp { .. }));
-    if graph.diffusion.is_some() || !graph.reports.is_empty() || stepped {
+    if graph.is_in_order() || !graph.reports.is_empty() || stepped {
         return None;
     }
     let reached = graph.reached();

@@ -84,6 +84,9 @@ impl<'g> Arena<'g> {
             let shares = diffusion.shares.iter_mut();
             shares.for_each(|share| share.node = at(share.node));
         }
+        if let Some(refinement) = &mut out.refinement {
+            refinement.kept = at(refinement.kept);
+        }
         for (id, (op, [a, b])) in &graph.claims {
             if let (Some(id), Some(a), Some(b)) = (there(*id), there(*a), there(*b)) {
                 out.claims.insert(id, (*op, [a, b]));

@@ -1,4 +1,5 @@
 //! What rewriting passes share: graphs made anew node by node.
 
 pub(crate) mod arena;
+pub mod dither;
 pub mod rebuild;

@@ -154,6 +154,13 @@ fn rebuild_all(graph: &Graph, rewrite: &mut dyn Rewrite) -> (Graph, Trace) {
             .collect();
         rebuilder.builder.spread(&shares, diffusion.span);
     }
+    if let Some(refinement) = &graph.refinement {
+        let kept = rebuilder.end(refinement.kept, End::Output, rewrite);
+        rebuilder.builder.keep(Refinement {
+            kept,
+            ..*refinement
+        });
+    }
     for &report in &graph.reports {
         let report = rebuilder.end(report, End::Output, rewrite);
         rebuilder.builder.report(report);
@@ -275,6 +282,7 @@ impl Rebuilder<'_> {
             Node::Carried { of, index } => b.carried(of, index, span),
             Node::Last { of, index } => b.last(of, index, span),
             Node::Received => b.received(span),
+            Node::Neighbour(which) => b.neighbour(which, span),
             // Graphs are rebuilt before they have subroutines.
             Node::Slot(ty) | Node::Undefined(ty) => b.undefined(ty),
             Node::Param(_) | Node::Result { .. } => b.undefined(slowlight_routine::Type::Real),

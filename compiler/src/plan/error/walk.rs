@@ -94,6 +94,9 @@ fn known(plan: &Plan, tile: &Tile, id: NodeId) -> Value {
         }
         // Where errors are spread, what comes from other pixels is not known.
         Node::Received if graph.diffusion.is_none() => Value::exact(Range::point(0.0)),
+        Node::Neighbour(which) if graph.refinement.is_none() => {
+            Value::exact(Range::point(f64::from(which.alone())))
+        }
         _ => unknown(),
     }
 }

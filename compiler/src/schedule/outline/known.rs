@@ -11,7 +11,8 @@ impl Forest {
     /// Whether a node is computed on every way to a statement.
     pub fn is_assigned(&self, graph: &Graph, id: NodeId, block: BlockId, at: usize) -> bool {
         match graph.node(id) {
-            Node::Const(_) | Node::Param(_) | Node::Axis(_) | Node::Received => return true,
+            Node::Const(_) | Node::Param(_) | Node::Axis(_) => return true,
+            Node::Received | Node::Neighbour(_) => return true,
             Node::Carried { .. } | Node::Last { .. } => return true,
             // Set by every call.
             Node::Slot(_) if !self.ways.contains(&id) => {

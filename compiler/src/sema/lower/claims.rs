@@ -47,7 +47,7 @@ fn axes(graph: &Graph) -> Vec<u8> {
             let mut set = match graph.node(id) {
                 Node::Axis(Axis::X) => X,
                 Node::Axis(Axis::Y) => Y,
-                Node::Received => X | Y,
+                Node::Received | Node::Neighbour(_) => X | Y,
                 _ => 0,
             };
             for operand in references(graph, id) {
@@ -133,7 +133,7 @@ fn path(graph: &Graph, axes: &[u8], from: NodeId, axis: u8) -> Vec<NodeId> {
     while let Some(id) = queue.pop_front() {
         let found = match graph.node(id) {
             Node::Axis(a) => (a == Axis::X) == (axis == X),
-            node => node == Node::Received,
+            node => matches!(node, Node::Received | Node::Neighbour(_)),
         };
         if found {
             let mut path = vec![id];

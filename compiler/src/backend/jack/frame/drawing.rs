@@ -2,16 +2,21 @@
 
 use super::super::Text;
 use super::super::code::Code;
+use super::super::error_names::Spread;
 use super::super::report::reports;
 use super::{Subroutine, subroutine};
 use crate::plan::Plan;
 use slowlight_runtime_jack::TERM;
 
 /// What a pixel that is computed must pass beside to be drawn.
-fn seen(plan: &Plan, [x, y]: &[&str; 2], first_row: &str) -> Vec<String> {
+fn seen(code: &Code, [x, y]: &[String; 2], rows: &[String; 2]) -> Vec<String> {
+    let plan = code.plan;
     let mut tests = Vec::new();
-    if plan.graph.diffusion.is_some() {
-        tests.push(format!("~({y} < {first_row})"));
+    if plan.graph.is_in_order() {
+        match &code.refined {
+            Some(refined) => tests.extend(refined.seen(y, rows)),
+            None => tests.push(format!("~({y} < {})", rows[0])),
+        }
         let (computed, drawn) = (plan.computed_columns(), plan.columns);
         if computed.0 < drawn.0 {
             tests.push(format!("~({x} < {})", drawn.0));
@@ -55,6 +60,19 @@ fn drawn(plan: &Plan, [x, y]: [&str; 2]) -> String {
     format!("do Screen.drawRectangle({x0}, {y0}, {x1}, {y1});")
 }
 
+/// The loop over the rows. Errors come from the rows above, drawn or not.
+fn down(y: &str, [first, last]: &[String; 2], spread: Option<&Spread>, text: &mut Text) {
+    let top = if spread.is_some() { "0" } else { first };
+    text.line(format!("let {y} = {top};"));
+    text.open(format!("while (~({y} > {last})) {{"));
+    text.line("do drawRow();");
+    if let Some(spread) = spread {
+        spread.turn(text);
+    }
+    text.line(format!("let {y} = {y} + 1;"));
+    text.close("}");
+}
+
 /// What is worked out once a picture, once a row, once a pixel.
 pub(super) fn drawing(code: &mut Code) -> Vec<Subroutine> {
     let plan = code.plan;
@@ -66,7 +84,8 @@ pub(super) fn drawing(code: &mut Code) -> Vec<Subroutine> {
     let ink = code.read(plan.graph.ink);
     let spread = code.spread.clone();
     let [x, y] = code.names.axes.clone();
-    let [first_row, last_row] = code.names.rows.clone();
+    let rows = code.names.rows.clone();
+    let refined = code.refined.clone();
 
     let mut picture = Text::default();
     if code.object.values().next().is_some() {
@@ -79,22 +98,19 @@ pub(super) fn drawing(code: &mut Code) -> Vec<Subroutine> {
     if plan.plot && canvas.is_none() {
         picture.line("do Screen.setColor(true);");
     }
-    // Errors come from the rows above, drawn or not.
-    let top = if spread.is_some() { "0" } else { &first_row };
-    picture.line(format!("let {y} = {top};"));
-    picture.open(format!("while (~({y} > {last_row})) {{"));
-    picture.line("do drawRow();");
-    if let Some(spread) = &spread {
-        spread.turn(&mut picture);
+    match &refined {
+        Some(refined) => refined.picture(&y, &rows, &mut picture),
+        None => down(&y, &rows, spread.as_ref(), &mut picture),
     }
-    picture.line(format!("let {y} = {y} + 1;"));
-    picture.close("}");
     let told = reports(code, &mut picture);
 
     let mut across = Text {
         span: plan.drawn,
         ..Text::default()
     };
+    if let Some(refined) = &refined {
+        refined.row(&y, &mut across);
+    }
     across.append(row);
     let columns = plan.computed_columns();
     if let Some(canvas) = &canvas {
@@ -116,12 +132,15 @@ pub(super) fn drawing(code: &mut Code) -> Vec<Subroutine> {
     if let Some(spread) = &spread {
         spread.receive(code, &x, &mut dot);
     }
+    if let Some(refined) = &refined {
+        refined.receive(&x, &mut dot);
+    }
     dot.append(pixel);
     dot.span = plan.drawn.or(Some(plan.graph.span(plan.graph.ink)));
     if let Some(canvas) = &canvas {
         canvas.pixel(&black(&ink.at(TERM), &[]), &mut dot);
     } else if plan.plot {
-        let seen = seen(plan, &[&x, &y], &first_row);
+        let seen = seen(code, &code.names.axes, &rows);
         dot.open(format!("if ({}) {{", black(&ink.at(TERM), &seen)));
         dot.line(drawn(plan, [&x, &y]));
         dot.close("}");
@@ -134,6 +153,9 @@ pub(super) fn drawing(code: &mut Code) -> Vec<Subroutine> {
     }
     if let Some(spread) = &spread {
         dot.append(spread.send(code, &x));
+    }
+    if let Some(refined) = &refined {
+        refined.send(code, &x, &mut dot);
     }
     let (first, last) = columns;
     let mut all = vec![
@@ -154,5 +176,7 @@ pub(super) fn drawing(code: &mut Code) -> Vec<Subroutine> {
         ),
     ];
     all.extend(told);
+    let next = refined.iter().flat_map(|r| r.methods(&code.names.axes));
+    all.extend(next);
     all
 }

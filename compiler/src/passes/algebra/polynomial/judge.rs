@@ -67,7 +67,8 @@ fn column(nodes: &dyn Nodes, id: NodeId, known: &mut FxHashMap<NodeId, bool>, de
     let made = match nodes.node(id) {
         Node::Axis(Axis::X) => true,
         _ if deep > 500 => true,
-        Node::Carried { .. } | Node::Last { .. } | Node::Result { .. } | Node::Received => true,
+        Node::Carried { .. } | Node::Last { .. } | Node::Result { .. } => true,
+        Node::Received | Node::Neighbour(_) => true,
         node => node.operands().any(|a| column(nodes, a, known, deep + 1)),
     };
     known.insert(id, made);

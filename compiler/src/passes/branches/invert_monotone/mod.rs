@@ -42,7 +42,7 @@ const ARMS: u32 = 6;
 /// The graph with the ink found by comparisons; nothing where it is not
 /// monotone in a shade, or where that costs no less on this machine.
 pub fn invert_monotone(graph: &Graph, ranges: &Ranges, runtime: &Runtime) -> Option<Graph> {
-    if graph.diffusion.is_some() {
+    if graph.is_in_order() {
         return None; // The error needs the dither's own steps.
     }
     let chain = Chain::find(graph, ranges, graph.ink)?;
