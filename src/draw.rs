@@ -114,6 +114,8 @@ pub struct Drawn {
     pub palette: Vec<[u8; 3]>,
     /// A pixel each.
     pub pixels: Vec<Pixel>,
+    /// How many of them were traced, where that may be less than all.
+    pub traced: Option<u64>,
 }
 
 impl Drawn {
@@ -184,6 +186,7 @@ pub fn native_counted(graph: &Graph, window: Window) -> Outcome<(Drawn, u64)> {
         window: window.times(block),
         palette: graph.image.palette.clone(),
         pixels: enlarged(pixels, window.width(), block),
+        traced: None,
     };
     Ok((drawn, operations.into_inner()))
 }
@@ -203,9 +206,9 @@ pub fn model(plan: &PlannedScene) -> Outcome<Drawn> {
 /// # Errors
 /// Only an interruption.
 pub fn model_with(plan: &Plan, shaded: Option<&Plan>) -> Outcome<Drawn> {
-    let mut pixels = modelled("model", plan)?;
+    let (mut pixels, traced) = modelled("model", plan)?;
     if let Some(shaded) = shaded {
-        for (pixel, other) in pixels.iter_mut().zip(modelled("shades", shaded)?) {
+        for (pixel, other) in pixels.iter_mut().zip(modelled("shades", shaded)?.0) {
             pixel.shade = other.shade;
         }
     }
@@ -213,6 +216,7 @@ pub fn model_with(plan: &Plan, shaded: Option<&Plan>) -> Outcome<Drawn> {
         window: Window::on_screen(plan),
         palette: plan.graph.image.palette.clone(),
         pixels: enlarged(pixels, Window::of(plan).width(), plan.graph.image.block),
+        traced: plan.graph.refinement.map(|_| traced),
     })
 }
 
@@ -232,11 +236,19 @@ fn enlarged(pixels: Vec<Pixel>, width: u32, (wide, high): (u32, u32)) -> Vec<Pix
     out
 }
 
-fn modelled(what: &'static str, plan: &Plan) -> Outcome<Vec<Pixel>> {
-    rows(what, &plan.graph, Window::of(plan), || {
+/// A plan's picture, and how many of its pixels were traced.
+fn modelled(what: &'static str, plan: &Plan) -> Outcome<(Vec<Pixel>, u64)> {
+    let traced = AtomicU64::new(0);
+    let counted = &traced;
+    let pixels = rows(what, &plan.graph, Window::of(plan), || {
         let mut model = ModelRun::new(plan);
-        move |columns, y, out| out.extend(columns.map(|x| model.pixel(x, y)))
-    })
+        move |columns, y, out| {
+            let before = model.traced();
+            out.extend(columns.map(|x| model.pixel(x, y)));
+            counted.fetch_add(model.traced() - before, Ordering::Relaxed);
+        }
+    })?;
+    Ok((pixels, traced.into_inner()))
 }
 
 /// Pixels that are drawn between looks at whether Ctrl-C was pressed.

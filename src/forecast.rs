@@ -172,12 +172,15 @@ impl Look<'_> {
     /// Cycles of the whole, by rows spread over it, two at the same time.
     fn spread(&mut self) -> Outcome<f64> {
         let said = estimate::rows(self.plan);
-        let (mut sum, mut before, mut whole) = (0.0, None, 0.0);
+        let refined = self.plan.graph.refinement.is_some();
+        let each = self.plan.graph.refinement.map_or(1, |r| r.step);
+        let mut before = refined.then(|| estimate::before(self.plan));
+        let (mut sum, mut whole) = (0.0, 0.0);
         // What is said of the rows that are looked at.
         let mut part = 0.0;
         for places in PLACES.chunks(2) {
             let rows = places.par_iter().map(|place| self.at(*place));
-            let looked = rows.map(|row| Ok((self.run((row, row))?, self.said(row))));
+            let looked = rows.map(|row| self.looked(row));
             let looked: Vec<(f64, f64)> = looked.collect::<Outcome<_>>()?;
             let before = match before {
                 Some(before) => before,
@@ -185,7 +188,7 @@ impl Look<'_> {
             };
             for (took, said) in looked {
                 self.spent += took;
-                self.rows += 1;
+                self.rows += each;
                 sum += (took - before).max(0.0);
                 part += said;
             }
@@ -197,10 +200,25 @@ impl Look<'_> {
         Ok(whole)
     }
 
-    /// What the statements of a row are said to take.
-    fn said(&self, row: u32) -> f64 {
+    /// Cycles of a row by itself, and what its statements are said to take. Where not all pixels
+    /// are traced, those of its band: a program for a band computes one key row more than the
+    /// band has, so that one is run by itself.
+    fn looked(&self, row: u32) -> Outcome<(f64, f64)> {
+        let Some(refinement) = self.plan.graph.refinement else {
+            return Ok((self.run((row, row))?, self.said((row, row))));
+        };
+        let (first, last) = self.plan.rows;
+        let key = (row / refinement.step * refinement.step).max(first);
+        let band = (key, (key + refinement.step - 1).min(last));
+        let (all, one) = (self.run(band)?, self.run((key, key))?);
+        let before = estimate::before(self.plan);
+        Ok(((all - one).max(0.0) + before, self.said(band)))
+    }
+
+    /// What the statements of some rows are said to take.
+    fn said(&self, rows: (u32, u32)) -> f64 {
         let mut plan = self.plan.clone();
-        plan.rows = (row, row);
+        plan.rows = rows;
         estimate::all_rows(&plan)
     }
 

@@ -287,6 +287,7 @@ impl Trial {
             width: self.native.window.width(),
             height: self.native.window.height(),
             pixels: self.pixels(),
+            traced: self.modelled.traced,
             cycles: run.cycles,
             plot_cycles: run.plot_cycles,
             cycles_per_pixel: self.cycles_per_pixel(),
@@ -325,6 +326,9 @@ pub struct Report<'t> {
     /// Rows drawn.
     height: u32,
     pixels: u64,
+    /// With `--refine` alone: how many of them were traced.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    traced: Option<u64>,
     cycles: u64,
     /// Of those, what drawing took, where the machine can tell.
     plot_cycles: Option<u64>,

@@ -44,7 +44,11 @@ impl Why {
     /// The note for a plan that was taken by this.
     pub fn text(&self, plan: &PlannedScene) -> String {
         let ways = || fit::help(plan);
-        self.note(plan.runtime.format, plan.target.name, &ways)
+        let note = self.note(plan.runtime.format, plan.target.name, &ways);
+        match plan.graph.refinement {
+            Some(_) => format!("{note}; those that are not traced come on top, `run` counts all"),
+            None => note,
+        }
     }
 
     fn note(&self, format: &str, target: &str, ways: &dyn Fn() -> String) -> String {

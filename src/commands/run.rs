@@ -208,6 +208,10 @@ fn report(trial: &Trial, others: &[(String, u64)]) -> String {
         Some(list) => count(list.len() as u64),
         None => "not drawn".to_owned(),
     };
+    if let Some(traced) = trial.modelled.traced {
+        let share = 100.0 * traced as f64 / trial.pixels().max(1) as f64;
+        row("pixels traced", format!("{} ({share:.0}%)", count(traced)));
+    }
     row("differs from model", counted(&trial.from_model));
     row("differs from native", counted(&trial.from_native));
     for (file, pixels) in others {

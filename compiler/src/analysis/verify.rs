@@ -65,7 +65,7 @@ pub fn verify(graph: &Graph) -> Result<(), Broken> {
             rule: rule.to_owned(),
         });
     }
-    if let Some(Refinement { step, kept }) = graph.refinement {
+    if let Some(Refinement { step, kept, .. }) = graph.refinement {
         let rule = match step.is_power_of_two() && step > 1 {
             true if graph.ty(kept) == Type::Int => None,
             true => Some("is left to other pixels, and is no int".to_owned()),

@@ -74,6 +74,12 @@ impl Neighbours {
         })
     }
 
+    /// Whether a pixel is traced with such neighbours.
+    pub fn traces(&self, y: i32, around: [i32; 3]) -> bool {
+        let row = u32::try_from(y).unwrap_or(0);
+        self.refinement.traces(row, self.height, around)
+    }
+
     /// Keeps what a pixel leaves, where it is the next of its row; what was there already is
     /// the same.
     pub fn keep(&mut self, x: i32, y: i32, kept: i32) {

@@ -44,6 +44,7 @@ pub struct Run<'t, A: Arithmetic> {
     /// What earlier pixels left, and what those around this one did.
     neighbours: Option<Neighbours>,
     around: [i32; 3],
+    traced: u64,
 }
 
 impl<'t, A: Arithmetic> Run<'t, A> {
@@ -79,6 +80,7 @@ impl<'t, A: Arithmetic> Run<'t, A> {
             received: zero,
             neighbours: Neighbours::new(graph),
             around: Neighbour::ALL.map(Neighbour::alone),
+            traced: 0,
             sources: graph.ids().map(|id| source(graph, &carried, id)).collect(),
             held,
             carried,
@@ -101,7 +103,8 @@ impl<'t, A: Arithmetic> Run<'t, A> {
         run
     }
 
-    /// The same with each pixel by itself: none receives what others send or leave.
+    /// The same with each pixel by itself: none receives what others send, and what they leave
+    /// is made up ([`Refinement::sampled`]).
     #[must_use]
     pub fn alone(self) -> Run<'t, A> {
         Run {
@@ -146,7 +149,16 @@ impl<'t, A: Arithmetic> Run<'t, A> {
         for (x, y) in due.into_iter().flatten() {
             self.next(x, y);
         }
-        self.next(x, y)
+        let ink = self.next(x, y);
+        let traces = |n: &Neighbours| n.traces(y, self.around);
+        self.traced += u64::from(self.neighbours.as_ref().is_none_or(traces));
+        ink
+    }
+
+    /// How many of the pixels that were asked for were traced, and are not what lies between
+    /// those around them.
+    pub fn traced(&self) -> u64 {
+        self.traced
     }
 
     /// Runs a pixel, the next in order where that matters.
@@ -154,17 +166,20 @@ impl<'t, A: Arithmetic> Run<'t, A> {
         if let Some(pending) = &mut self.pending {
             self.received = pending.receive(x, y);
         }
-        if let Some(neighbours) = &self.neighbours {
-            self.around = neighbours.around(x, y);
-        }
-        let ink = self.plain(x, y);
-        if let Some(refinement) = &self.graph.refinement {
+        if let Some(refinement) = self.graph.refinement {
+            self.around = match &self.neighbours {
+                Some(neighbours) => neighbours.around(x, y),
+                None => Refinement::sampled(x, y),
+            };
+            let ink = self.plain(x, y);
             let kept = self.read(refinement.kept);
             let kept = self.arithmetic.int(kept);
             if let Some(neighbours) = &mut self.neighbours {
                 neighbours.keep(x, y, kept);
             }
+            return ink;
         }
+        let ink = self.plain(x, y);
         for share in self.graph.shares() {
             let sent = self.read(share.node);
             let sent = self.arithmetic.sent(share.node, sent);

@@ -168,8 +168,13 @@ impl Display for Graph {
         for Share { dx, dy, node } in self.shares() {
             writeln!(f, "send {dx} {dy} {node}")?;
         }
-        if let Some(Refinement { step, kept }) = self.refinement {
-            writeln!(f, "keep {kept} every {step}")?;
+        if let Some(refinement) = self.refinement {
+            let Refinement {
+                step,
+                tolerance,
+                kept,
+            } = refinement;
+            writeln!(f, "keep {kept} every {step} within {tolerance}")?;
         }
         for report in &self.reports {
             writeln!(f, "report {report}")?;

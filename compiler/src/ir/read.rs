@@ -95,11 +95,14 @@ fn line(graph: &mut Graph, line: &str) -> Read<()> {
             diffusion.shares.push(share);
         }),
         "keep" => {
-            let (kept, step) = rest
-                .split_once(" every ")
-                .ok_or("kept every so many rows")?;
-            let (kept, step) = (node_id(kept)?, number(step)?);
-            graph.refinement = Some(Refinement { step, kept });
+            let every = rest.split_once(" every ");
+            let within = every.and_then(|(kept, rest)| Some((kept, rest.split_once(" within ")?)));
+            let (kept, (step, tolerance)) = within.ok_or("kept every n rows within so much")?;
+            graph.refinement = Some(Refinement {
+                step: number(step)?,
+                tolerance: number(tolerance)?,
+                kept: node_id(kept)?,
+            });
             Ok(())
         }
         "report" => node_id(rest).map(|id| graph.reports.push(id)),

@@ -17,6 +17,8 @@ use super::node::{Neighbour, NodeId};
 pub struct Refinement {
     /// Rows from one key row to the next: a power of two, at least 2.
     pub step: u32,
+    /// By how much neighbours may differ for a pixel not to be traced, of [`LEVELS`].
+    pub tolerance: i32,
     /// An int of [`LEVELS`] that others read as [`Node::Neighbour`].
     pub kept: NodeId,
 }
@@ -31,6 +33,24 @@ impl Refinement {
         let reach = 1 << y.trailing_zeros().min(31);
         let between = !y.is_multiple_of(self.step.max(1)) && y + reach < height;
         between.then_some(reach)
+    }
+
+    /// Whether a pixel is traced, by what its neighbours above, below and to the left left.
+    pub fn traces(&self, y: u32, height: u32, [above, below, left]: [i32; 3]) -> bool {
+        let differ = |a: i32, b: i32| (a - b).abs() > self.tolerance;
+        self.reach(y, height).is_none()
+            || differ(above, below)
+            || differ((above + below) / 2, left)
+    }
+
+    /// What the neighbours of a pixel of a sample may have left: of five in eight the same, so
+    /// that as many pixels are traced as in pictures of all kinds (docs/refine.md).
+    pub fn sampled(x: i32, y: i32) -> [i32; 3] {
+        let number = x.wrapping_mul(5).wrapping_add(y.wrapping_mul(3));
+        match number.rem_euclid(8) {
+            0..5 => [number.rem_euclid(LEVELS + 1); 3],
+            _ => Neighbour::ALL.map(Neighbour::alone),
+        }
     }
 
     /// The rows that a row hangs on, in an order in which each comes behind those that it
@@ -89,6 +109,7 @@ mod tests {
 
     const EIGHT: Refinement = Refinement {
         step: 8,
+        tolerance: 8,
         kept: NodeId(0),
     };
 

@@ -52,7 +52,12 @@ pub fn refine(graph: &Graph, step: u32, tolerance: f64) -> Result<Graph, Unrefin
         dither: Dither::of(graph),
         done: false,
     };
-    Ok(rebuild_by(graph, &mut refine))
+    let made = rebuild_by(graph, &mut refine);
+    // A choice between a dither and an ink has a shade, too, that no dither reads.
+    match made.refinement {
+        Some(_) => Ok(made),
+        None => Err(Unrefined::NoShade),
+    }
 }
 
 struct Refine<'g> {
@@ -149,6 +154,7 @@ impl Refine<'_> {
         let shade = at.select(needed, traced, shade);
         b.keep(Refinement {
             step: self.step,
+            tolerance: self.tolerance,
             kept,
         });
         shade

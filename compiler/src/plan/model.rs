@@ -115,6 +115,11 @@ impl<'p> ModelRun<'p> {
         Pixel { ink, shade }
     }
 
+    /// How many pixels were traced ([`Run::traced`]).
+    pub fn traced(&self) -> u64 {
+        self.run.traced()
+    }
+
     /// The bits of what the graph reports, after the last pixel.
     pub fn reports(&mut self) -> Vec<Bits> {
         let ids = self.plan.graph.reports.iter();

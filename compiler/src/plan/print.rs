@@ -124,7 +124,7 @@ impl Display for Plan {
         for Share { dx, dy, node } in self.graph.shares() {
             writeln!(f, "send {dx} {dy} {}", self.operand(node))?;
         }
-        if let Some(Refinement { step, kept }) = self.graph.refinement {
+        if let Some(Refinement { step, kept, .. }) = self.graph.refinement {
             writeln!(f, "keep {} every {step}", self.operand(kept))?;
         }
         writeln!(f, "ink {}", self.operand(self.graph.ink))
