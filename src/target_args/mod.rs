@@ -77,7 +77,7 @@ pub struct ScreenArgs {
     #[arg(long, value_name = "N|WxH", value_parser = block)]
     pub block: Option<(u32, u32)>,
     /// Trace every Nth row, and between them only pixels whose neighbours differ by more than
-    /// TOL of white; the others lie between those [default of TOL: 0.03125]
+    /// TOL of white; the others lie between those [default of TOL: 0.031]
     #[arg(long, value_name = "N[:TOL]", value_parser = refining)]
     pub refine: Option<Refining>,
     /// Let no loop that the scene writes (bounces, say) take more than N turns on the

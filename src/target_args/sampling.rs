@@ -2,18 +2,31 @@
 
 use super::ScreenArgs;
 use crate::failure::{Failure, Outcome};
+use serde::{Deserialize, Serialize};
 use slowlight_compiler::ir::graph::Graph;
+use slowlight_compiler::ir::refinement::LEVELS;
 use slowlight_compiler::passes::pixel_blocks::pixel_blocks;
 use slowlight_compiler::passes::refine::{STEPS, TOLERANCE, Unrefined, refine};
+use std::fmt::{self, Display};
 
-/// `--refine`: rows from one key row to the next, and by what share of white neighbours may
-/// differ for a pixel between them not to be traced.
-#[derive(Clone, Copy, Debug, PartialEq)]
+/// `--refine`: which pixels are traced.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
 pub struct Refining {
-    /// A power of two.
+    /// Rows from one that is traced as a whole to the next, a power of two.
     pub step: u32,
-    /// From 0 to 1.
-    pub tolerance: f64,
+    /// By how many levels neighbours of a pixel between them may differ for it not to be.
+    pub tolerance: u8,
+}
+
+impl Display for Refining {
+    /// As the option has it.
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}", self.step)?;
+        match self.tolerance {
+            TOLERANCE => Ok(()),
+            levels => write!(f, ":{:.3}", f64::from(levels) / f64::from(LEVELS)),
+        }
+    }
 }
 
 /// Reads `--refine`: `8`, or `8:0.05`.
@@ -21,15 +34,18 @@ pub struct Refining {
 /// # Errors
 /// Where it is no such thing: what it may be.
 pub fn refining(text: &str) -> Result<Refining, String> {
+    let share = |text: &str| {
+        let share = text.trim().parse::<f64>().ok();
+        let share = share.filter(|share| (0.0..=1.0).contains(share))?;
+        Some((share * f64::from(LEVELS)).round() as u8)
+    };
     let (step, tolerance) = match text.split_once(':') {
-        Some((step, tolerance)) => (step, tolerance.trim().parse().ok()),
+        Some((step, tolerance)) => (step, share(tolerance)),
         None => (text, Some(TOLERANCE)),
     };
     let step = step.trim().parse().ok().filter(|step| STEPS.contains(step));
     match (step, tolerance) {
-        (Some(step), Some(tolerance)) if (0.0..=1.0).contains(&tolerance) => {
-            Ok(Refining { step, tolerance })
-        }
+        (Some(step), Some(tolerance)) => Ok(Refining { step, tolerance }),
         _ => Err(
             "so many rows from one that is traced as a whole to the next, 2, 4, 8 or 16, and \
              how far shades may differ for those between not to be traced, from 0 to 1: \
@@ -82,12 +98,18 @@ mod tests {
     fn refining_is_a_step_and_a_tolerance() {
         let whole = |step, tolerance| Ok(Refining { step, tolerance });
         assert_eq!(refining("8"), whole(8, TOLERANCE));
-        assert_eq!(refining("2:0"), whole(2, 0.0));
-        assert_eq!(refining("16:0.25"), whole(16, 0.25));
-        for wrong in [
-            "", "3", "32", "1", "8:", "8:2", "8:-1", "8:x", "8:nan", ":0.1",
-        ] {
+        assert_eq!(refining("2:0"), whole(2, 0));
+        assert_eq!(refining("16:0.25"), whole(16, 64));
+        for wrong in ["", "3", "32", "1", "8:", "8:2", "8:-1", "8:x", "8:nan", ":0.1"] {
             assert!(refining(wrong).is_err(), "{wrong}");
+        }
+    }
+
+    #[test]
+    fn refining_is_read_as_it_is_written() {
+        for tolerance in 0..=255 {
+            let one = Refining { step: 4, tolerance };
+            assert_eq!(refining(&one.to_string()), Ok(one));
         }
     }
 }

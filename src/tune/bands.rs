@@ -23,7 +23,7 @@ const ESTIMATED: f64 = 5e8;
 pub fn pays(planned: &Planned) -> bool {
     let plan = &planned.plan;
     let rows = plan.rows.1 - plan.rows.0 + 1;
-    plan.graph.diffusion.is_none() && rows >= SHARES[0] && planned.cycles() > LONG
+    !plan.graph.is_in_order() && rows >= SHARES[0] && planned.cycles() > LONG
 }
 
 /// The bands of a plan: the dearer, the fewer of its rows.

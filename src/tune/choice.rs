@@ -2,7 +2,7 @@
 
 use crate::given::quoted;
 use crate::scene::{Changes, Limits};
-use crate::target_args::{Os, ScreenArgs};
+use crate::target_args::{Os, Refining, ScreenArgs};
 use crate::trial::HACK_HERTZ;
 use crate::ways::WayArgs;
 use serde::{Deserialize, Serialize};
@@ -14,6 +14,8 @@ use std::path::PathBuf;
 pub struct Setting {
     /// Columns and rows of a block; 1 and 1 for pixels.
     pub block: (u32, u32),
+    /// Which pixels are traced, where not all are.
+    pub refine: Option<Refining>,
     /// The most turns of the scene's loops, where they are fewer than the scene's own.
     pub max_turns: Option<u32>,
     /// The same of the library's.
@@ -26,6 +28,7 @@ impl Setting {
     /// The picture as the scene has it.
     pub const WHOLE: Setting = Setting {
         block: (1, 1),
+        refine: None,
         max_turns: None,
         max_steps: None,
         ways: WayArgs {
@@ -138,6 +141,9 @@ impl Base {
             (wide, high) if wide == high => add("--block", wide.to_string()),
             (wide, high) => add("--block", format!("{wide}x{high}")),
         }
+        if let Some(refine) = setting.refine {
+            add("--refine", refine.to_string());
+        }
         let limits = [
             ("--max-turns", setting.max_turns),
             ("--max-steps", setting.max_steps),
@@ -167,6 +173,7 @@ impl Base {
         ScreenArgs {
             format: Some(choice.format.clone()),
             block: Some(choice.setting.block),
+            refine: choice.setting.refine,
             max_turns: choice.setting.max_turns,
             max_steps: choice.setting.max_steps,
             ways: choice.setting.ways,
@@ -233,6 +240,10 @@ mod tests {
         let choice = Choice {
             setting: Setting {
                 block: (4, 2),
+                refine: Some(Refining {
+                    step: 8,
+                    tolerance: 16,
+                }),
                 max_turns: Some(3),
                 max_steps: Some(8),
                 ways: WayArgs {
@@ -247,7 +258,7 @@ mod tests {
             thrift: 5,
         };
         let words = base().words(&choice).join(" ");
-        let wanted = "--format log10 --freeze all --block 4x2 --max-turns 3 --max-steps 8 \
+        let wanted = "--format log10 --freeze all --block 4x2 --refine 8:0.063 --max-turns 3 --max-steps 8 \
              --hits march:64:0.01 --differences 0.005 --samples 4 --thrift 5 --outlined";
         assert_eq!(words, wanted);
     }

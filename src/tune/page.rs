@@ -186,9 +186,14 @@ fn in_words(told: &Told<'_>, point: &Point) -> Vec<String> {
         }
         false => "The scene's params stay changeable in the program.".to_owned(),
     });
-    words.push(match choice.setting.block {
-        (1, 1) => "Every pixel is traced by itself.".to_owned(),
-        (wide, high) => format!("One ray is traced for a block of {wide} x {high} pixels."),
+    words.push(match (choice.setting.block, choice.setting.refine) {
+        (_, Some(refine)) => format!(
+            "Every {}th row is traced, and between them only pixels whose neighbours differ; the \
+             others lie between those.",
+            refine.step
+        ),
+        ((1, 1), None) => "Every pixel is traced by itself.".to_owned(),
+        ((wide, high), None) => format!("One ray is traced for a block of {wide} x {high} pixels."),
     });
     if choice.outlined {
         words.push(

@@ -63,7 +63,7 @@ impl Look {
 /// Where they are far beyond the limit: what they are.
 pub fn hopeless(planned: &Planned, limit: u64) -> Outcome<()> {
     let predicted = planned.cycles();
-    if planned.plan.graph.diffusion.is_none() || predicted <= FAR * limit as f64 {
+    if !planned.plan.graph.is_in_order() || predicted <= FAR * limit as f64 {
         return Ok(());
     }
     let (cycles, limit) = (count(predicted as u64), count(limit));
@@ -75,8 +75,8 @@ pub fn hopeless(planned: &Planned, limit: u64) -> Outcome<()> {
 /// What is expected of a plan that takes long and of which no rows can be run alone: nothing of
 /// its error.
 pub fn unseen(planned: &Planned) -> Option<Look> {
-    let spreads = planned.plan.graph.diffusion.is_some();
-    (spreads && planned.cycles() > LONG).then(|| Look {
+    let whole = planned.plan.graph.is_in_order();
+    (whole && planned.cycles() > LONG).then(|| Look {
         cycles: planned.cycles(),
         before: estimate::before(&planned.plan),
         error: 0.0,

@@ -12,14 +12,28 @@ use crate::failure::{Failure, Outcome};
 use crate::measure::{Errors, errors};
 use crate::progress::Progress;
 use crate::scene::{Limits, Precision, Scene};
+use crate::target_args::Refining;
 use serde::{Deserialize, Serialize};
 use slowlight_compiler::eval::native::Pixel;
 use slowlight_compiler::ir::graph::{Graph, Image};
 use slowlight_compiler::passes::pixel_blocks::pixel_blocks;
+use slowlight_compiler::passes::refine::refine;
 use slowlight_compiler::sema::{Millionths, Search, Ways};
 
 /// The areas that blocks have, in pixels.
 const AREAS: [u32; 13] = [1, 2, 4, 8, 9, 16, 25, 32, 64, 128, 256, 512, 1024];
+
+/// How far key rows are from each other where not every pixel is traced, and by how many levels
+/// neighbours may differ.
+const REFINED: [(u32, u8); 7] = [
+    (4, 4),
+    (8, 8),
+    (8, 16),
+    (16, 32),
+    (16, 64),
+    (16, 128),
+    (16, 255),
+];
 
 /// Turns that loops may be cut to.
 const TURNS: [u32; 13] = [1, 2, 3, 4, 6, 8, 12, 16, 24, 32, 48, 64, 96];
@@ -99,12 +113,23 @@ pub fn worthwhile(
         for &block in &blocks {
             let setting = Setting {
                 block,
+                refine: None,
                 max_turns: limit.turns,
                 max_steps: limit.steps,
                 ways: limit.ways.into(),
             };
             all.push(drafted(graph, setting, &truth)?);
             progress.step(1);
+        }
+        for refine in refined(graph) {
+            let setting = Setting {
+                block: (1, 1),
+                refine: Some(refine),
+                max_turns: limit.turns,
+                max_steps: limit.steps,
+                ways: limit.ways.into(),
+            };
+            all.push(drafted(graph, setting, &truth)?);
         }
     }
     let chosen = spread(kept(all.clone(), error), error, asked.most);
@@ -163,9 +188,19 @@ fn rows_share(graph: &Graph, limits: usize, most: f64) -> Outcome<Option<u32>> {
     Ok((!whole).then(|| share(3.0 * all, most)))
 }
 
+/// The ways not to trace every pixel of a graph; none where it has no shade of its own.
+fn refined(graph: &Graph) -> Vec<Refining> {
+    let all = REFINED.map(|(step, tolerance)| Refining { step, tolerance });
+    let can = |one: &Refining| refine(graph, one.step, one.tolerance).is_ok();
+    all.into_iter().filter(can).collect()
+}
+
 /// Draws a setting.
 fn drafted(graph: &Graph, setting: Setting, truth: &Truth<'_>) -> Outcome<Drafted> {
-    let graph = pixel_blocks(graph, setting.block);
+    let mut graph = pixel_blocks(graph, setting.block);
+    if let Some(Refining { step, tolerance }) = setting.refine {
+        graph = refine(&graph, step, tolerance).unwrap_or(graph);
+    }
     let (mut drawn, mut native, mut work, mut rows) = (Vec::new(), Vec::new(), 0, 0);
     for window in truth.windows(&graph.image) {
         let (picture, operations) = native_counted(&graph, window)?;

@@ -271,6 +271,7 @@ impl<'a> Told<'a> {
             "format": choice.format,
             "frozen": choice.frozen,
             "block": choice.setting.block,
+            "refine": choice.setting.refine.map(|refine| refine.to_string()),
             "outlined": choice.outlined,
             "max_turns": choice.setting.max_turns,
             "max_steps": choice.setting.max_steps,

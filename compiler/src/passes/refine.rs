@@ -20,9 +20,9 @@ use slowlight_routine::{Op, Value};
 /// Rows from one key row to the next that may be asked for.
 pub const STEPS: [u32; 4] = [2, 4, 8, 16];
 
-/// By what share of white neighbours may differ where nothing else is said: over scenes of all
-/// kinds a hundredth of the inks is another then (docs/refine.md).
-pub const TOLERANCE: f64 = 1.0 / 32.0;
+/// By how many levels neighbours may differ where nothing else is said: over scenes of all kinds
+/// a hundredth of the inks is another then (docs/refine.md).
+pub const TOLERANCE: u8 = 8;
 
 /// Why a picture cannot be refined.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -33,12 +33,12 @@ pub enum Unrefined {
     NoShade,
 }
 
-/// The graph of a picture whose pixels are traced where their neighbours differ by more than a
-/// share of white.
+/// The graph of a picture whose pixels are traced where their neighbours differ by more than so
+/// many levels ([`LEVELS`]).
 ///
 /// # Errors
 /// Where the picture has no shade by itself.
-pub fn refine(graph: &Graph, step: u32, tolerance: f64) -> Result<Graph, Unrefined> {
+pub fn refine(graph: &Graph, step: u32, tolerance: u8) -> Result<Graph, Unrefined> {
     if graph.is_in_order() {
         return Err(Unrefined::Spreads);
     }
@@ -48,7 +48,7 @@ pub fn refine(graph: &Graph, step: u32, tolerance: f64) -> Result<Graph, Unrefin
         shade,
         span: graph.span(shade),
         step,
-        tolerance: (tolerance * f64::from(LEVELS)).round() as i32,
+        tolerance: tolerance.into(),
         dither: Dither::of(graph),
         done: false,
     };

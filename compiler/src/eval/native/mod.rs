@@ -24,6 +24,7 @@
 mod lanes;
 mod need;
 mod plan;
+mod refined;
 mod spread;
 
 use crate::analysis::rate::Dependence;
@@ -78,6 +79,7 @@ pub struct Native<'g> {
     /// How many may be computed before loops end.
     most: u64,
     spreading: Option<spread::Spreading>,
+    refining: Option<refined::Refining>,
 }
 
 /// Every lane.
@@ -98,7 +100,7 @@ impl<'g> Native<'g> {
             let value = match graph.node(id) {
                 Node::Const(c) => c.value(),
                 Node::Param(p) => param_value(graph, p),
-                // Natively every pixel is traced.
+                // Of a graph by itself no neighbours are drawn.
                 Node::Neighbour(which) => Value::Int(which.alone()),
                 _ => continue,
             };
@@ -115,6 +117,7 @@ impl<'g> Native<'g> {
             operations: 0,
             most: u64::MAX,
             spreading: spread::Spreading::new(graph),
+            refining: refined::Refining::new(graph),
             graph,
             plan,
             lanes,
@@ -155,6 +158,9 @@ impl<'g> Native<'g> {
         if self.spreading.is_some() {
             return self.spread(columns, y, out);
         }
+        if self.refining.is_some() {
+            return self.refine(columns, y, out);
+        }
         for block in blocks(columns, y, self.lanes.lanes()) {
             self.enter(block, block.x..);
             self.shown(block.mask());
@@ -165,7 +171,7 @@ impl<'g> Native<'g> {
     /// The pixels at any columns of row `y`, in their order; those to the left of others first
     /// where the graph spreads its error.
     pub fn scattered(&mut self, columns: &[i32], y: i32, out: &mut Vec<Pixel>) {
-        if self.spreading.is_some() {
+        if self.spreading.is_some() || self.refining.is_some() {
             out.extend(columns.iter().map(|x| self.pixel(*x, y)));
             return;
         }

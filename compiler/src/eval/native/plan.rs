@@ -94,6 +94,8 @@ pub struct Plan {
     pub axes: Vec<(Axis, u32)>,
     /// Where what the pixel has received goes.
     pub received: Vec<u32>,
+    /// Where what its neighbours left goes.
+    pub neighbours: Vec<(Neighbour, u32)>,
     /// The sets of things that values depend on, by thing ([`number`]).
     members: Vec<Vec<u32>>,
     /// What depends on each set: nodes, and loops by [`Plan::ran`].
@@ -148,6 +150,7 @@ impl Plan {
             ramps: maker.ramps,
             axes: Vec::new(),
             received: Vec::new(),
+            neighbours: Vec::new(),
             steps,
             loops,
         };
@@ -156,6 +159,7 @@ impl Plan {
             match graph.node(id) {
                 Node::Axis(axis) => plan.axes.push((axis, step.slot)),
                 Node::Received => plan.received.push(step.slot),
+                Node::Neighbour(which) => plan.neighbours.push((which, step.slot)),
                 _ => {}
             }
         }

@@ -32,13 +32,13 @@ impl Spreading {
     }
 }
 
-/// The nodes that every pixel needs and that depend on nothing received, those
-/// alone that something else needs.
-fn early(graph: &Graph) -> Vec<u32> {
+/// The nodes that every pixel needs and that depend on nothing received or left by others,
+/// those alone that something else needs.
+pub(super) fn early(graph: &Graph) -> Vec<u32> {
     let mut late = vec![false; graph.nodes.len()];
     for id in graph.ids() {
         let mut references = graph.references(id).into_iter();
-        late[id.0 as usize] = graph.node(id) == Node::Received
+        late[id.0 as usize] = matches!(graph.node(id), Node::Received | Node::Neighbour(_))
             || references.any(|n| late.get(n.0 as usize) == Some(&true));
     }
     let mut seen = vec![false; graph.nodes.len()];
