@@ -160,8 +160,8 @@ pub fn sampled(plan: &Plan, side: u32, most: u64) -> Sampled {
     let mut graph = plan.graph.clone();
     let mut sends = 0.0;
     // Pixels are sampled as if nothing had been sent to them: else all those before had to be
-    // run.
-    graph.part_pixels();
+    // run. What neighbours left is made up, and inks are of pixels that are traced.
+    graph.diffusion = None;
     window.columns = plan.computed_columns();
     window.rows = plan.computed_rows();
     if let Some(errors) = plan.error_rows() {
@@ -173,12 +173,13 @@ pub fn sampled(plan: &Plan, side: u32, most: u64) -> Sampled {
         listener: Adding::new(plan),
     };
     let added = &heard.listener;
-    let mut run = Run::within(&graph, &plan.tree, &heard, most);
+    let mut run = Run::within(&graph, &plan.tree, &heard, most).alone();
     let still = plan.still.as_ref();
     let frame = added.sum(When::Frame);
     let rows = spread(window.rows, window.columns, side);
     let mut inks = Vec::new();
-    let (mut pixels, mut begun) = (0.0, 0);
+    let (mut pixels, mut begun, mut looked) = (0.0, 0, 0.0);
+    let (mut traced, mut untraced) = (0, 0);
     'rows: for (y, columns) in &rows {
         begun += 1;
         for (x, y) in columns.iter().map(|&x| (x, *y)) {
@@ -187,14 +188,19 @@ pub fn sampled(plan: &Plan, side: u32, most: u64) -> Sampled {
             if run.spent() {
                 break 'rows;
             }
-            inks.push((x, y, ink));
+            looked += 1.0;
+            match run.traced() > traced {
+                true => inks.push((x, y, ink)),
+                false => untraced += 1,
+            }
+            traced = run.traced();
             pixels += match still.filter(|still| holds(plan, still, &run)) {
                 Some(still) => asked(still, &added.costs),
                 None => added.sum(When::Pixel) - before,
             };
         }
     }
-    let looked = inks.len().max(1) as f64;
+    let looked = f64::max(looked, 1.0);
     let row = added.sum(When::Row) / f64::from(begun.max(1));
     let pass = added.sum(When::Pass) / looked;
     // The model makes it anew at every pixel.
@@ -208,7 +214,7 @@ pub fn sampled(plan: &Plan, side: u32, most: u64) -> Sampled {
         before: slowlight_compiler::backend::starts(plan) as f64 + frame + column * width,
         rows: (row + (pass + runs) * passes + pixel * width) * height,
         inks,
-        of: rows.iter().map(|(_, columns)| columns.len()).sum(),
+        of: rows.iter().map(|(_, columns)| columns.len()).sum::<usize>() - untraced,
     }
 }
 

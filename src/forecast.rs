@@ -36,6 +36,12 @@ const FEW: f64 = 4.0;
 /// What comes before the first row counts where it is said to be such a part of a row.
 const COUNTS: f64 = 0.1;
 
+/// Bands that are looked at at least, where not every pixel is traced.
+const BANDS: u32 = 6;
+
+/// The cycles after which there are no more of those.
+const LONG: f64 = 20.0 * ENOUGH;
+
 /// Where rows are looked at, in sixteenths of the picture's height: each beginning of this
 /// order is spread over all of it.
 const PLACES: [u32; 16] = [8, 4, 12, 2, 10, 6, 14, 1, 9, 5, 13, 3, 11, 7, 15, 0];
@@ -174,6 +180,8 @@ impl Look<'_> {
         let said = estimate::rows(self.plan);
         let refined = self.plan.graph.refinement.is_some();
         let each = self.plan.graph.refinement.map_or(1, |r| r.step);
+        // What is said of rows knows nothing of which pixels are traced.
+        let least = if refined { BANDS * each } else { 0 };
         let mut before = refined.then(|| estimate::before(self.plan));
         let (mut sum, mut whole) = (0.0, 0.0);
         // What is said of the rows that are looked at.
@@ -193,7 +201,9 @@ impl Look<'_> {
                 part += said;
             }
             whole = before + sum * said / f64::max(part, 1.0);
-            if whole <= ENOUGH || self.spent > ENOUGH {
+            let many = self.rows >= least || self.spent > LONG;
+            let enough = self.spent > ENOUGH && many;
+            if whole <= ENOUGH || enough {
                 break;
             }
         }
@@ -212,7 +222,8 @@ impl Look<'_> {
         let band = (key, (key + refinement.step - 1).min(last));
         let (all, one) = (self.run(band)?, self.run((key, key))?);
         let before = estimate::before(self.plan);
-        Ok(((all - one).max(0.0) + before, self.said(band)))
+        let said = self.said(band) - self.said((key, key));
+        Ok(((all - one).max(0.0) + before, said))
     }
 
     /// What the statements of some rows are said to take.

@@ -173,10 +173,11 @@ fn report(trial: &Trial, others: &[(String, u64)]) -> String {
     row("cycles", count(trial.run.cycles));
     if trial.pixels_run() > trial.pixels() {
         let run = count(trial.pixels_run());
-        row(
-            "pixels run",
-            format!("{run}, as errors come from all rows above"),
-        );
+        let why = match trial.plan.graph.refinement {
+            Some(_) => "bands are computed whole",
+            None => "errors come from all rows above",
+        };
+        row("pixels run", format!("{run}, as {why}"));
     }
     row("cycles a pixel", format!("{:.1}", trial.cycles_per_pixel()));
     if let Some(plot) = trial.run.plot_cycles {

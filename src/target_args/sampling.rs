@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 use slowlight_compiler::ir::graph::Graph;
 use slowlight_compiler::ir::refinement::LEVELS;
 use slowlight_compiler::passes::pixel_blocks::pixel_blocks;
-use slowlight_compiler::passes::refine::{STEPS, TOLERANCE, Unrefined, refine};
+use slowlight_compiler::passes::refine::{STEPS, TOLERANCE, Unrefined, expected, refine};
 use std::fmt::{self, Display};
 
 /// `--refine`: which pixels are traced.
@@ -74,7 +74,8 @@ impl ScreenArgs {
         let Some(refining) = self.refine else {
             return Ok(graph);
         };
-        refine(&graph, refining.step, refining.tolerance).map_err(|why| {
+        let refined = refine(&graph, refining.step, refining.tolerance);
+        refined.map(expected).map_err(|why| {
             Failure::Usage(format!(
                 "--refine: this picture {}",
                 match why {
@@ -100,7 +101,9 @@ mod tests {
         assert_eq!(refining("8"), whole(8, TOLERANCE));
         assert_eq!(refining("2:0"), whole(2, 0));
         assert_eq!(refining("16:0.25"), whole(16, 64));
-        for wrong in ["", "3", "32", "1", "8:", "8:2", "8:-1", "8:x", "8:nan", ":0.1"] {
+        for wrong in [
+            "", "3", "32", "1", "8:", "8:2", "8:-1", "8:x", "8:nan", ":0.1",
+        ] {
             assert!(refining(wrong).is_err(), "{wrong}");
         }
     }

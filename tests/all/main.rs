@@ -68,6 +68,7 @@ mod planning;
 mod precise;
 mod predicted;
 mod ramps;
+mod refine;
 mod renderers;
 mod rom_operations;
 mod rom_vectors;

@@ -74,10 +74,11 @@ impl Neighbours {
         })
     }
 
-    /// Whether a pixel is traced with such neighbours.
-    pub fn traces(&self, y: i32, around: [i32; 3]) -> bool {
-        let row = u32::try_from(y).unwrap_or(0);
-        self.refinement.traces(row, self.height, around)
+    /// Whether a pixel between key rows is traced with such neighbours; nothing in other rows.
+    pub fn traces_between(&self, y: i32, around: [i32; 3]) -> Option<bool> {
+        let (row, height) = (u32::try_from(y).ok()?, self.height);
+        self.refinement.reach(row, height)?;
+        Some(self.refinement.traces(row, height, around))
     }
 
     /// Keeps what a pixel leaves, where it is the next of its row; what was there already is
@@ -89,5 +90,72 @@ impl Neighbours {
         {
             row.push(kept);
         }
+    }
+}
+
+/// What is around a pixel that is being evaluated, and how many of those that were asked for
+/// are traced.
+#[derive(Clone, Debug)]
+pub struct Around {
+    /// What was left so far; none where each pixel is by itself.
+    drawn: Option<Neighbours>,
+    /// What the neighbours of the pixel left.
+    pub left: [i32; 3],
+    traced: u64,
+}
+
+impl Around {
+    /// Before the first pixel.
+    pub fn new(graph: &Graph) -> Around {
+        Around {
+            drawn: Neighbours::new(graph),
+            left: Neighbour::ALL.map(Neighbour::alone),
+            traced: 0,
+        }
+    }
+
+    /// The same with each pixel by itself: what neighbours leave is made up
+    /// ([`Refinement::sampled`]).
+    #[must_use]
+    pub fn alone(self) -> Around {
+        Around {
+            drawn: None,
+            ..self
+        }
+    }
+
+    /// The pixels that have to be drawn before the one at (x, y), in that order.
+    pub fn due(&mut self, x: i32, y: i32) -> Vec<(i32, i32)> {
+        let drawn = self.drawn.as_mut();
+        drawn.map_or(Vec::new(), |drawn| drawn.due(x, y))
+    }
+
+    /// Comes to a pixel.
+    pub fn come(&mut self, graph: &Graph, x: i32, y: i32) {
+        if let Some(refinement) = graph.refinement {
+            self.left = match &self.drawn {
+                Some(drawn) => drawn.around(x, y),
+                None => refinement.sampled(x, y),
+            };
+        }
+    }
+
+    /// Keeps what a pixel leaves.
+    pub fn keep(&mut self, x: i32, y: i32, kept: i32) {
+        if let Some(drawn) = &mut self.drawn {
+            drawn.keep(x, y, kept);
+        }
+    }
+
+    /// Counts a pixel that was asked for.
+    pub fn count(&mut self, graph: &Graph, y: i32) {
+        let row = u32::try_from(y).unwrap_or(0);
+        let traces = |r: Refinement| r.traces(row, graph.image.height, self.left);
+        self.traced += u64::from(graph.refinement.is_none_or(traces));
+    }
+
+    /// How many of those were traced, and are not what lies between those around them.
+    pub fn traced(&self) -> u64 {
+        self.traced
     }
 }

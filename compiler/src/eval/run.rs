@@ -8,7 +8,7 @@
 
 use super::arithmetic::Arithmetic;
 use super::diffuse::Pending;
-use super::neighbours::Neighbours;
+use super::neighbours::Around;
 use super::places::{Source, own_places, places, source};
 use crate::ir::graph::*;
 use crate::ir::ramp;
@@ -41,10 +41,8 @@ pub struct Run<'t, A: Arithmetic> {
     /// What later pixels will receive, and what this one has received.
     pending: Option<Pending<A::Value>>,
     received: A::Value,
-    /// What earlier pixels left, and what those around this one did.
-    neighbours: Option<Neighbours>,
-    around: [i32; 3],
-    traced: u64,
+    /// What those around it left.
+    around: Around,
 }
 
 impl<'t, A: Arithmetic> Run<'t, A> {
@@ -78,9 +76,7 @@ impl<'t, A: Arithmetic> Run<'t, A> {
         let mut run = Run {
             pending: Pending::new(graph, zero),
             received: zero,
-            neighbours: Neighbours::new(graph),
-            around: Neighbour::ALL.map(Neighbour::alone),
-            traced: 0,
+            around: Around::new(graph),
             sources: graph.ids().map(|id| source(graph, &carried, id)).collect(),
             held,
             carried,
@@ -104,12 +100,12 @@ impl<'t, A: Arithmetic> Run<'t, A> {
     }
 
     /// The same with each pixel by itself: none receives what others send, and what they leave
-    /// is made up ([`Refinement::sampled`]).
+    /// is made up ([`Around::alone`]).
     #[must_use]
     pub fn alone(self) -> Run<'t, A> {
         Run {
             pending: None,
-            neighbours: None,
+            around: self.around.alone(),
             ..self
         }
     }
@@ -145,20 +141,17 @@ impl<'t, A: Arithmetic> Run<'t, A> {
                 self.next(x, y);
             }
         }
-        let due = self.neighbours.as_mut().map(|n| n.due(x, y));
-        for (x, y) in due.into_iter().flatten() {
+        for (x, y) in self.around.due(x, y) {
             self.next(x, y);
         }
         let ink = self.next(x, y);
-        let traces = |n: &Neighbours| n.traces(y, self.around);
-        self.traced += u64::from(self.neighbours.as_ref().is_none_or(traces));
+        self.around.count(self.graph, y);
         ink
     }
 
-    /// How many of the pixels that were asked for were traced, and are not what lies between
-    /// those around them.
+    /// How many of the pixels that were asked for were traced ([`Around::traced`]).
     pub fn traced(&self) -> u64 {
-        self.traced
+        self.around.traced()
     }
 
     /// Runs a pixel, the next in order where that matters.
@@ -166,20 +159,12 @@ impl<'t, A: Arithmetic> Run<'t, A> {
         if let Some(pending) = &mut self.pending {
             self.received = pending.receive(x, y);
         }
-        if let Some(refinement) = self.graph.refinement {
-            self.around = match &self.neighbours {
-                Some(neighbours) => neighbours.around(x, y),
-                None => Refinement::sampled(x, y),
-            };
-            let ink = self.plain(x, y);
-            let kept = self.read(refinement.kept);
-            let kept = self.arithmetic.int(kept);
-            if let Some(neighbours) = &mut self.neighbours {
-                neighbours.keep(x, y, kept);
-            }
-            return ink;
-        }
+        self.around.come(self.graph, x, y);
         let ink = self.plain(x, y);
+        if let Some(Refinement { kept, .. }) = self.graph.refinement {
+            let kept = self.read(kept);
+            self.around.keep(x, y, self.arithmetic.int(kept));
+        }
         for share in self.graph.shares() {
             let sent = self.read(share.node);
             let sent = self.arithmetic.sent(share.node, sent);
@@ -213,9 +198,8 @@ impl<'t, A: Arithmetic> Run<'t, A> {
         self.block(&tree.pass);
     }
 
-    /// Runs what begins a run of columns as if one began at a pixel, of the same
-    /// pass as the last unless `first`; answers which of some bools it computed there,
-    /// and what they are. Not the pixel itself.
+    /// Runs what begins a run of columns as if one began at a pixel, of the same pass as the
+    /// last unless `first`; answers which of some bools it computed there, and what they are.
     pub fn segment(
         &mut self,
         (x, y): (i32, i32),
@@ -248,19 +232,15 @@ impl<'t, A: Arithmetic> Run<'t, A> {
     }
 
     fn forget(&mut self, row: bool) {
-        let places = std::mem::take(if row {
-            &mut self.row_places
-        } else {
-            &mut self.pixel_places
-        });
+        let of = |run: &mut Self, places| match row {
+            true => std::mem::replace(&mut run.row_places, places),
+            false => std::mem::replace(&mut run.pixel_places, places),
+        };
+        let places = of(self, Vec::new());
         for &place in &places {
             *self.slot(place) = None;
         }
-        *(if row {
-            &mut self.row_places
-        } else {
-            &mut self.pixel_places
-        }) = places;
+        of(self, places);
     }
 
     fn at(&self, place: Place) -> usize {
@@ -293,7 +273,7 @@ impl<'t, A: Arithmetic> Run<'t, A> {
             Source::Row => self.position.1,
             Source::Pass(n) => self.position.0.rem_euclid(n),
             Source::Received => return self.received,
-            Source::Neighbour(which) => self.around[which as usize],
+            Source::Neighbour(which) => self.around.left[which as usize],
             Source::Ramp => return self.ramp(id),
         };
         self.arithmetic.constant(Value::Int(int))

@@ -172,9 +172,13 @@ impl Display for Graph {
             let Refinement {
                 step,
                 tolerance,
+                often,
                 kept,
             } = refinement;
-            writeln!(f, "keep {kept} every {step} within {tolerance}")?;
+            writeln!(
+                f,
+                "keep {kept} every {step} within {tolerance} often {often}"
+            )?;
         }
         for report in &self.reports {
             writeln!(f, "report {report}")?;

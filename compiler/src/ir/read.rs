@@ -95,12 +95,14 @@ fn line(graph: &mut Graph, line: &str) -> Read<()> {
             diffusion.shares.push(share);
         }),
         "keep" => {
-            let every = rest.split_once(" every ");
-            let within = every.and_then(|(kept, rest)| Some((kept, rest.split_once(" within ")?)));
-            let (kept, (step, tolerance)) = within.ok_or("kept every n rows within so much")?;
+            let words: Vec<&str> = rest.split(' ').collect();
+            let [kept, "every", step, "within", tolerance, "often", often] = words[..] else {
+                return Err("kept every n rows within so much, so often".to_owned());
+            };
             graph.refinement = Some(Refinement {
                 step: number(step)?,
                 tolerance: number(tolerance)?,
+                often: number(often)?,
                 kept: node_id(kept)?,
             });
             Ok(())

@@ -19,6 +19,8 @@ pub struct Refinement {
     pub step: u32,
     /// By how much neighbours may differ for a pixel not to be traced, of [`LEVELS`].
     pub tolerance: i32,
+    /// How many of sixteen pixels between key rows are expected to be traced: for prices.
+    pub often: u8,
     /// An int of [`LEVELS`] that others read as [`Node::Neighbour`].
     pub kept: NodeId,
 }
@@ -38,18 +40,16 @@ impl Refinement {
     /// Whether a pixel is traced, by what its neighbours above, below and to the left left.
     pub fn traces(&self, y: u32, height: u32, [above, below, left]: [i32; 3]) -> bool {
         let differ = |a: i32, b: i32| (a - b).abs() > self.tolerance;
-        self.reach(y, height).is_none()
-            || differ(above, below)
-            || differ((above + below) / 2, left)
+        self.reach(y, height).is_none() || differ(above, below) || differ((above + below) / 2, left)
     }
 
-    /// What the neighbours of a pixel of a sample may have left: of five in eight the same, so
-    /// that as many pixels are traced as in pictures of all kinds (docs/refine.md).
-    pub fn sampled(x: i32, y: i32) -> [i32; 3] {
+    /// What the neighbours of a pixel of a sample may have left: as often the same that as many
+    /// pixels are traced as are expected to be.
+    pub fn sampled(&self, x: i32, y: i32) -> [i32; 3] {
         let number = x.wrapping_mul(5).wrapping_add(y.wrapping_mul(3));
-        match number.rem_euclid(8) {
-            0..5 => [number.rem_euclid(LEVELS + 1); 3],
-            _ => Neighbour::ALL.map(Neighbour::alone),
+        match number.rem_euclid(16) < self.often.into() {
+            true => Neighbour::ALL.map(Neighbour::alone),
+            false => [number.rem_euclid(LEVELS + 1); 3],
         }
     }
 
@@ -110,6 +110,7 @@ mod tests {
     const EIGHT: Refinement = Refinement {
         step: 8,
         tolerance: 8,
+        often: 6,
         kept: NodeId(0),
     };
 

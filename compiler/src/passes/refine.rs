@@ -9,6 +9,7 @@
 //! samples are added where those at a square's corners differ), by rows, so that a program
 //! keeps few of them and draws each from left to right.
 
+use crate::eval::native::Native;
 use crate::ir::build::Builder;
 use crate::ir::graph::*;
 use crate::ir::refinement::LEVELS;
@@ -23,6 +24,37 @@ pub const STEPS: [u32; 4] = [2, 4, 8, 16];
 /// By how many levels neighbours may differ where nothing else is said: over scenes of all kinds
 /// a hundredth of the inks is another then (docs/refine.md).
 pub const TOLERANCE: u8 = 8;
+
+/// How many of sixteen pixels between key rows are traced in pictures of all kinds.
+const USUAL: u8 = 6;
+
+/// Bands on which it is seen how many are, and how many operations that may take.
+const BANDS: u32 = 6;
+const OPERATIONS: u64 = 20_000_000;
+
+/// The graph with how many of its pixels are expected to be traced, as bands of its native
+/// picture have it.
+pub fn expected(mut graph: Graph) -> Graph {
+    let Some(mut refinement) = graph.refinement else {
+        return graph;
+    };
+    let mut native = Native::within(&graph, OPERATIONS);
+    let bands = graph.image.height / refinement.step;
+    let mut pixels = Vec::new();
+    for k in 0..BANDS.min(bands) {
+        let band = (2 * k + 1) * bands / (2 * BANDS.min(bands));
+        for y in band * refinement.step..(band + 1) * refinement.step {
+            native.pixels(0..graph.image.width as i32, y as i32, &mut pixels);
+            pixels.clear();
+        }
+        if native.spent() {
+            break;
+        }
+    }
+    refinement.often = (16.0 * native.traced_between()).round() as u8;
+    graph.refinement = Some(refinement);
+    graph
+}
 
 /// Why a picture cannot be refined.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -155,6 +187,7 @@ impl Refine<'_> {
         b.keep(Refinement {
             step: self.step,
             tolerance: self.tolerance,
+            often: USUAL,
             kept,
         });
         shade
@@ -193,5 +226,124 @@ impl Rewrite for Refine<'_> {
             End::Ink | End::Output => self.dither.seen(made, id),
             _ => None,
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::analysis::verify::verify;
+    use crate::eval::arithmetic::Exact;
+    use crate::eval::native::Pixel;
+    use crate::eval::neighbours::Neighbours;
+    use crate::eval::run::Run;
+    use crate::scene::check;
+    use crate::schedule::statements::schedule;
+    use crate::sema::Options;
+
+    fn graph(text: &str) -> Graph {
+        let scene = check("test", text);
+        assert!(scene.is_right(), "{:?}", scene.diagnostics);
+        scene.lower(&Options::default()).expect("it lowers")
+    }
+
+    /// The column takes part in the shade and in the dither, by the same expression too.
+    const STEP: &str = "image 24 x 20 inks black, grey, white;
+draw (x, y) = threshold(if x + y < 18 then (x mod 8) / 200 else 0.5 + y / 100,
+  bayer(4)[(x mod 8) mod 4, y mod 4]);
+";
+
+    fn drawn(graph: &Graph) -> Vec<Vec<Pixel>> {
+        let mut native = Native::new(graph);
+        let mut row = |y| {
+            let mut out = Vec::new();
+            native.pixels(0..graph.image.width as i32, y, &mut out);
+            out
+        };
+        (0..graph.image.height as i32).map(&mut row).collect()
+    }
+
+    /// The byte that is kept of a shade.
+    fn level(shade: f64) -> i32 {
+        (shade.clamp(0.0, 1.0) * f64::from(LEVELS) + 0.5).floor() as i32
+    }
+
+    #[test]
+    fn a_pixel_is_the_scenes_or_its_neighbours_mean() {
+        let whole = graph(STEP);
+        let refined = refine(&whole, 4, TOLERANCE).expect("it has a shade");
+        assert_eq!(verify(&refined).err(), None);
+        let (plain, made) = (drawn(&whole), drawn(&refined));
+        let mut neighbours = Neighbours::new(&refined).expect("neighbours");
+        let mut left = std::collections::BTreeMap::new();
+        let (mut traced, mut others) = (0, 0);
+        for y in 0..20 {
+            for x in 0..24 {
+                let mut all = neighbours.due(x, y);
+                all.push((x, y));
+                for (x, y) in all {
+                    let around = neighbours.around(x, y);
+                    let (column, row) = (x as usize, y as usize);
+                    let (is, was) = (made[row][column], plain[row][column]);
+                    let is_traced = neighbours.traces_between(y, around).unwrap_or(true);
+                    let kept = match is_traced {
+                        true => {
+                            assert_eq!(is, was, "({x}, {y})");
+                            level(was.shade)
+                        }
+                        false => {
+                            let mean = (around[0] + around[1]) / 2;
+                            let shade = f64::from(mean) * (1.0 / 255.0);
+                            assert_eq!(is.shade, shade, "({x}, {y})");
+                            mean
+                        }
+                    };
+                    if left.insert((x, y), kept).is_none() {
+                        traced += i32::from(is_traced);
+                        others += i32::from(!is_traced);
+                    }
+                    neighbours.keep(x, y, kept);
+                }
+            }
+        }
+        assert!(traced > 100 && others > 100, "{traced} and {others}");
+    }
+
+    /// In any order of rows, and in lanes or through statements.
+    #[test]
+    fn evaluations_agree_on_refined_pictures() {
+        for step in STEPS {
+            let refined = refine(&graph(STEP), step, TOLERANCE).expect("it has a shade");
+            let all = drawn(&refined);
+            let tree = schedule(&refined);
+            let mut run = Run::new(&refined, &tree, Exact(&refined));
+            for y in (0..20).rev() {
+                for x in 0..24 {
+                    let ink = run.pixel(x, y).int();
+                    let native = all[y as usize][x as usize].ink;
+                    assert_eq!(ink, i32::from(native), "({x}, {y}) every {step}");
+                }
+            }
+            assert_eq!(run.unset_reads(), 0);
+            assert!(run.traced() < 24 * 20, "{step}");
+        }
+    }
+
+    #[test]
+    fn a_refined_graph_is_read_back() {
+        let made = refine(&graph(STEP), 8, 3).expect("it has a shade");
+        let text = made.to_string();
+        assert!(text.contains(" every 8 within 3 often 6\n"), "{text}");
+        let read = crate::ir::read::read(&text).expect("it reads");
+        assert_eq!(read.refinement, made.refinement);
+        assert_eq!(verify(&read).err(), None);
+    }
+
+    #[test]
+    fn what_has_no_shade_of_its_own_is_not_refined() {
+        let inks = graph("image 8 x 8 inks black, white; draw (x, y) = ink(x mod 2);");
+        assert_eq!(refine(&inks, 8, 0), Err(Unrefined::NoShade));
+        let sent = graph("image 8 x 8 inks black, white; draw (x, y) = floyd(x / 8, x, y);");
+        assert_eq!(refine(&sent, 8, 0), Err(Unrefined::Spreads));
     }
 }

@@ -4,8 +4,14 @@
 //! by halves. Of a band every second row is kept, the key rows around it included: no other has
 //! neighbours, and a row between two that are kept writes over the one above it, which nothing
 //! reads any more. Behind the band the key row below it becomes the one above the next.
+//!
+//! All rows of a band and all columns are computed, and only a plan's own are drawn. Before
+//! `tree.pixel` each [`Node::Neighbour`] is read, behind it a pixel leaves
+//! [`Refinement::kept`].
 
 use super::Plan;
+#[cfg(doc)]
+use crate::ir::graph::Node;
 use crate::ir::graph::Refinement;
 
 /// The rows that a program keeps.

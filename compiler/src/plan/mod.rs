@@ -39,10 +39,7 @@
 //!   is what has come to the pixel, and after `tree.pixel` each share is added,
 //!   by [`Plan::gather`], to what its pixel has received so far. Then all rows
 //!   from 0 and all columns are computed, and only those above are drawn.
-//! - Where not all pixels are traced ([`Plan::kept_rows`]), [`Node::Neighbour`] is a byte that
-//!   another pixel left. Rows come in bands ([`KeptRows`]); all rows of a band and all columns
-//!   are computed ([`Plan::computed_rows`]), and only those above are drawn. Behind
-//!   `tree.pixel` the pixel leaves what [`crate::ir::refinement::Refinement::kept`] is.
+//! - Where not all pixels are traced, [`KeptRows`] says what pixels leave to others.
 //! - Constants, params and axes are read as such: [`Plan::bits`] gives a
 //!   constant's bits, `params` how the parameter block writes each param.
 //!

@@ -116,6 +116,7 @@ impl Run<'_> {
             Node::Ramp { .. }
             | Node::Stepped { .. }
             | Node::Received
+            | Node::Neighbour(_)
             | Node::Slot(_)
             | Node::Undefined(_) => {
                 panic!("needed: {id:?}")

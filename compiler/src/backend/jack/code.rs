@@ -2,9 +2,9 @@
 
 use super::error_names::Spread;
 use super::expression::{Expression, constant, int};
+use super::kept_names::Refined;
 use super::names::Names;
 use super::object::Object;
-use super::refine::Refined;
 use super::{Line, Text};
 use crate::ir::graph::*;
 use crate::ir::tree::*;

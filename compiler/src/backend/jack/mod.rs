@@ -36,6 +36,7 @@ mod error_names;
 mod expression;
 mod fixed;
 mod frame;
+mod kept_names;
 mod logs;
 mod lookup;
 mod making;

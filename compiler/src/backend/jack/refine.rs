@@ -5,50 +5,13 @@
 //! the middles of what is left. A method goes to the next.
 
 use super::code::Code;
-use super::names::Names;
+use super::kept_names::Refined;
 use super::{Line, Subroutine, Text, subroutine};
-use crate::ir::graph::Neighbour;
-use crate::plan::{KeptRows, Plan};
+#[cfg(doc)]
+use crate::plan::KeptRows;
 use slowlight_runtime_jack::TERM;
 
-/// The names of what the rows need.
-#[derive(Clone)]
-pub(super) struct Refined {
-    rows: KeptRows,
-    height: u32,
-    /// What neighbours left.
-    pub neighbours: [String; 3],
-    /// The array, and where in it the rows of the neighbours and the pixel itself begin.
-    kept: String,
-    up: String,
-    down: String,
-    own: String,
-    /// The key row above the band, the last row of the band and the last of all, and how far
-    /// neighbours are from the row.
-    band: String,
-    till: String,
-    end: String,
-    reach: String,
-}
-
 impl Refined {
-    /// Where a plan does not trace every pixel.
-    pub fn new(plan: &Plan, names: &mut Names) -> Option<Refined> {
-        Some(Refined {
-            rows: plan.kept_rows()?,
-            height: plan.graph.image.height,
-            neighbours: Neighbour::ALL.map(|which| names.fresh(which.name())),
-            kept: names.fresh("kept"),
-            up: names.fresh("up"),
-            down: names.fresh("down"),
-            own: names.fresh("own"),
-            band: names.fresh("band"),
-            till: names.fresh("till"),
-            end: names.fresh("end"),
-            reach: names.fresh("reach"),
-        })
-    }
-
     /// The array and the ints.
     pub fn declared(&self) -> [(&'static str, Vec<String>); 2] {
         let Refined {

@@ -16,6 +16,8 @@ pub(super) struct Refining {
     /// What is needed in any case and depends on no neighbour.
     early: Vec<u32>,
     kept: NodeId,
+    /// How many pixels between key rows were traced, and how many there were.
+    between: (u64, u64),
 }
 
 impl Refining {
@@ -25,11 +27,20 @@ impl Refining {
             neighbours: Neighbours::new(graph)?,
             early: early(graph),
             kept: graph.refinement?.kept,
+            between: (0, 0),
         })
     }
 }
 
 impl Native<'_> {
+    /// What share of the pixels between key rows were traced so far; 1 where there are none.
+    pub fn traced_between(&self) -> f64 {
+        match self.refining.as_ref().map(|refining| refining.between) {
+            Some((traced, all @ 1..)) => traced as f64 / all as f64,
+            _ => 1.0,
+        }
+    }
+
     /// Appends the pixels of some columns of row `y`, after drawing those that they hang on.
     pub(super) fn refine(&mut self, columns: Range<i32>, y: i32, out: &mut Vec<Pixel>) {
         let due = match &mut self.refining {
@@ -73,6 +84,10 @@ impl Native<'_> {
             out.push(self.look(lane));
             self.need(refining.kept.0, mask);
             neighbours.keep(x, y, self.get(refining.kept, lane).int());
+            if let Some(traced) = neighbours.traces_between(y, around) {
+                refining.between.0 += u64::from(traced);
+                refining.between.1 += 1;
+            }
         }
         self.refining = Some(refining);
     }
