@@ -8,18 +8,17 @@
 //! What a target has to know:
 //!
 //! - The program draws picture rows `rows.0..=rows.1` and picture columns
-//!   `columns.0..=columns.1` (both inclusive): `tree.frame` once, then `tree.column` for each of its x
-//!   ([`Node::Tabulated`]), then for each
-//!   y `tree.row`, then `tree.pass` for each pass over the row's columns, where the
-//!   graph has such, then for each of its x `tree.segment` (or that only where one of its
-//!   comparisons with x has changed) and `tree.pixel`, after which [`Graph::ink`] is
-//!   the ink to plot at screen position (x + offset.0, y + offset.1), if the
-//!   plan says [`Plan::plot`]. Where the image is of blocks ([`Image::block`]), columns and
-//!   rows are of blocks, and the ink fills the one whose top left is at (x * block.0 +
-//!   offset.0, y * block.1 + offset.1).
-//! - [`Statement::Let`] computes node `id` by `plan.routine(id)` (operations) or
-//!   by reading `graph.tables` (lookups; both indices clamp to the table unless
-//!   `plan.ranges` proves them inside) and keeps it in the node's home.
+//!   `columns.0..=columns.1` (both inclusive): `tree.frame` once, then `tree.column` for each of
+//!   its x ([`Node::Tabulated`]), then for each y `tree.row`, then `tree.pass` for each pass over
+//!   the row's columns, where the graph has such, then for each of its x `tree.segment` (or that
+//!   only where one of its comparisons with x has changed) and `tree.pixel`, after which
+//!   [`Graph::ink`] is the ink to plot at screen position (x + offset.0, y + offset.1), if the
+//!   plan says [`Plan::plot`]. Where the image is of blocks ([`Image::block`]), columns and rows
+//!   are of blocks, and the ink fills the one whose top left is at (x * block.0 + offset.0, y *
+//!   block.1 + offset.1).
+//! - [`Statement::Let`] computes node `id` by `plan.routine(id)` (operations) or by reading
+//!   `graph.tables` (lookups; both indices clamp to the table unless `plan.ranges` proves them
+//!   inside) and keeps it in the node's home.
 //! - Homes: one variable for each node that is computed or set, one for each
 //!   carried value that is read ([`Node::Carried`] and [`Node::Last`] share it),
 //!   and one for each scratch place that is set. [`Plan::home`] names them:
@@ -35,10 +34,9 @@
 //! - [`Node::Stepped`], let in the pixel's block, is kept where its first value is,
 //!   which the segment's block sets: there it is stepped, `home = home + step`.
 //! - A loop needs a count of its turns; see [`Statement::Loop`].
-//! - Where the graph spreads its error ([`Plan::error_rows`]), [`Node::Received`]
-//!   is what has come to the pixel, and after `tree.pixel` each share is added,
-//!   by [`Plan::gather`], to what its pixel has received so far. Then all rows
-//!   from 0 and all columns are computed, and only those above are drawn.
+//! - Where the graph spreads its error ([`Plan::error_rows`]), [`Node::Received`] is what has
+//!   come to the pixel, and after `tree.pixel` each share is added, by [`Plan::gather`], to what
+//!   its pixel has received so far. Then [`Plan::computed_rows`] and columns are more than drawn.
 //! - Where not all pixels are traced, [`KeptRows`] says what pixels leave to others.
 //! - Constants, params and axes are read as such: [`Plan::bits`] gives a
 //!   constant's bits, `params` how the parameter block writes each param.
