@@ -278,8 +278,8 @@ where
         None => SHARES,
     };
     let share = (window.height() as usize).div_ceil(shares);
-    // A row between key rows wants those around it: a share is some bands.
-    let band = graph.refinement.map_or(1, |r| 2 * r.step as usize);
+    // A row between key rows wants those around it: a share is as many rows as some bands.
+    let band = graph.refinement.map_or(1, |r| 4 * r.step as usize);
     let share = share.next_multiple_of(band);
     let rows: Vec<u32> = (window.rows.0..=window.rows.1).collect();
     let parts: Vec<Option<Vec<Pixel>>> = rows

@@ -160,7 +160,8 @@ pub fn sampled(plan: &Plan, side: u32, most: u64) -> Sampled {
     let mut graph = plan.graph.clone();
     let mut sends = 0.0;
     // Pixels are sampled as if nothing had been sent to them: else all those before had to be
-    // run. What neighbours left is made up, and inks are of pixels that are traced.
+    // run. What neighbours left is made up, and inks are of pixels that are traced; what it takes
+    // to keep bytes of them and to find the rows is in no figure.
     graph.diffusion = None;
     window.columns = plan.computed_columns();
     window.rows = plan.computed_rows();

@@ -175,20 +175,40 @@ impl Look<'_> {
         self.plan.rows.0 + ((2 * place + 1) * height / 32).min(height - 1)
     }
 
+    /// What is looked at by itself, in its order: rows; where not all pixels are traced, bands
+    /// that have a key row below them, each once.
+    fn places(&self) -> Vec<(u32, u32)> {
+        let rows = PLACES.into_iter().map(|place| self.at(place));
+        let Some(refinement) = self.plan.graph.refinement else {
+            return rows.map(|row| (row, row)).collect();
+        };
+        let (first, last) = self.plan.rows;
+        let mut all: Vec<(u32, u32)> = Vec::new();
+        for row in rows {
+            let key = row / refinement.step * refinement.step;
+            let band = (key, key + refinement.step - 1);
+            if key >= first && band.1 < last && !all.contains(&band) {
+                all.push(band);
+            }
+        }
+        all
+    }
+
     /// Cycles of the whole, by rows spread over it, two at the same time.
     fn spread(&mut self) -> Outcome<f64> {
         let said = estimate::rows(self.plan);
+        let all = self.places();
+        if all.is_empty() {
+            return self.took(self.plan.rows);
+        }
         let refined = self.plan.graph.refinement.is_some();
-        let each = self.plan.graph.refinement.map_or(1, |r| r.step);
-        // What is said of rows knows nothing of which pixels are traced.
-        let least = if refined { BANDS * each } else { 0 };
+        let mut bands = 0;
         let mut before = refined.then(|| estimate::before(self.plan));
         let (mut sum, mut whole) = (0.0, 0.0);
         // What is said of the rows that are looked at.
         let mut part = 0.0;
-        for places in PLACES.chunks(2) {
-            let rows = places.par_iter().map(|place| self.at(*place));
-            let looked = rows.map(|row| self.looked(row));
+        for places in all.chunks(2) {
+            let looked = places.par_iter().map(|rows| self.looked(*rows));
             let looked: Vec<(f64, f64)> = looked.collect::<Outcome<_>>()?;
             let before = match before {
                 Some(before) => before,
@@ -196,12 +216,14 @@ impl Look<'_> {
             };
             for (took, said) in looked {
                 self.spent += took;
-                self.rows += each;
+                bands += 1;
                 sum += (took - before).max(0.0);
                 part += said;
             }
             whole = before + sum * said / f64::max(part, 1.0);
-            let many = self.rows >= least || self.spent > LONG;
+            self.rows += places.iter().map(|(from, to)| to + 1 - from).sum::<u32>();
+            // What is said of rows knows little of which pixels are traced.
+            let many = !refined || bands >= BANDS || self.spent > LONG;
             let enough = self.spent > ENOUGH && many;
             if whole <= ENOUGH || enough {
                 break;
@@ -210,19 +232,16 @@ impl Look<'_> {
         Ok(whole)
     }
 
-    /// Cycles of a row by itself, and what its statements are said to take. Where not all pixels
-    /// are traced, those of its band: a program for a band computes one key row more than the
-    /// band has, so that one is run by itself.
-    fn looked(&self, row: u32) -> Outcome<(f64, f64)> {
-        let Some(refinement) = self.plan.graph.refinement else {
-            return Ok((self.run((row, row))?, self.said((row, row))));
-        };
-        let (first, last) = self.plan.rows;
-        let key = (row / refinement.step * refinement.step).max(first);
-        let band = (key, (key + refinement.step - 1).min(last));
-        let (all, one) = (self.run(band)?, self.run((key, key))?);
+    /// Cycles of a row by itself, and what its statements are said to take; or of a band: a
+    /// program for one computes one key row more than the band has, so that is run by itself.
+    fn looked(&self, rows: (u32, u32)) -> Outcome<(f64, f64)> {
+        if self.plan.graph.refinement.is_none() {
+            return Ok((self.run(rows)?, self.said(rows)));
+        }
+        let key = (rows.0, rows.0);
+        let (all, one) = (self.run(rows)?, self.run(key)?);
         let before = estimate::before(self.plan);
-        let said = self.said(band) - self.said((key, key));
+        let said = self.said(rows) - self.said(key);
         Ok(((all - one).max(0.0) + before, said))
     }
 

@@ -264,7 +264,8 @@ impl Trial {
     /// Pixels that the program ran: where pixels hang on others, those of other rows, too.
     pub fn pixels_run(&self) -> u64 {
         let (first, last) = self.plan.computed_rows();
-        u64::from(last + 1 - first) * u64::from(self.native.window.width())
+        let rows = u64::from(last + 1 - first) * u64::from(self.plan.graph.image.block.1);
+        rows * u64::from(self.native.window.width())
     }
 
     /// Cycles a pixel, of those that were run.

@@ -101,6 +101,9 @@ pub fn help(plan: &PlannedScene) -> String {
     if plan.graph.diffusion.is_some() {
         ways.push("dither by a matrix, which keeps no rows of errors".to_owned());
     }
+    if plan.graph.refinement.is_some() {
+        ways.push("keep fewer rows (a smaller N of --refine)".to_owned());
+    }
     let large = |t: &Table| t.entries.len() > 1000;
     if plan.graph.tables.iter().any(large) {
         ways.push("make tables smaller".to_owned());

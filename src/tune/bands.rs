@@ -18,8 +18,8 @@ const MOST: f64 = 6e8;
 /// What it takes to estimate a plan that takes long.
 const ESTIMATED: f64 = 5e8;
 
-/// Whether rows should be looked at before the whole is run. Where errors spread, all rows
-/// are computed in any case.
+/// Whether rows should be looked at before the whole is run. Where pixels hang on others,
+/// more rows than those are computed, so the whole is run.
 pub fn pays(planned: &Planned) -> bool {
     let plan = &planned.plan;
     let rows = plan.rows.1 - plan.rows.0 + 1;

@@ -72,7 +72,7 @@ pub fn hopeless(planned: &Planned, limit: u64) -> Outcome<()> {
     )))
 }
 
-/// What is expected of a plan that takes long and of which no rows can be run alone: nothing of
+/// What is expected of a plan that takes long and of which no rows are run alone: nothing of
 /// its error.
 pub fn unseen(planned: &Planned) -> Option<Look> {
     let whole = planned.plan.graph.is_in_order();

@@ -107,7 +107,8 @@ pub fn worthwhile(
         share,
     };
     let blocks = blocks(&graph, &truth, error)?;
-    let progress = Progress::new("settings", (limits.len() * blocks.len()) as u64);
+    let each = blocks.len() + refined(&graph).len();
+    let progress = Progress::new("settings", (limits.len() * each) as u64);
     let mut all = Vec::new();
     for (graph, limit) in &limits {
         for &block in &blocks {
@@ -130,6 +131,7 @@ pub fn worthwhile(
                 ways: limit.ways.into(),
             };
             all.push(drafted(graph, setting, &truth)?);
+            progress.step(1);
         }
     }
     let chosen = spread(kept(all.clone(), error), error, asked.most);
@@ -179,11 +181,14 @@ impl Truth<'_> {
 /// with room for the shapes that each area has.
 const BLOCKS: f64 = 2.5;
 
+/// What part of its pixels a picture has traced that is refined, about.
+const TRACED: f64 = 0.4;
+
 /// What share of the rows settings are drawn on, one in so many in each of three bands; none for
 /// whole pictures, where these take no more than so many operations, or where errors spread.
 fn rows_share(graph: &Graph, limits: usize, most: f64) -> Outcome<Option<u32>> {
     let (_, work) = native_counted(graph, Window::whole(graph.image.width, graph.image.height))?;
-    let all = work as f64 * limits as f64 * BLOCKS;
+    let all = work as f64 * limits as f64 * (BLOCKS + TRACED * refined(graph).len() as f64);
     let whole = all <= most || graph.diffusion.is_some();
     Ok((!whole).then(|| share(3.0 * all, most)))
 }
@@ -202,7 +207,11 @@ fn drafted(graph: &Graph, setting: Setting, truth: &Truth<'_>) -> Outcome<Drafte
         graph = refine(&graph, step, tolerance).unwrap_or(graph);
     }
     let (mut drawn, mut native, mut work, mut rows) = (Vec::new(), Vec::new(), 0, 0);
-    for window in truth.windows(&graph.image) {
+    for mut window in truth.windows(&graph.image) {
+        // Those that they hang on are drawn in any case.
+        if let Some(refinement) = graph.refinement {
+            window.rows = refinement.computed(window.rows, graph.image.height);
+        }
         let (picture, operations) = native_counted(&graph, window)?;
         drawn.extend(picture.pixels);
         native.extend_from_slice(truth.pixels(window, setting.block));

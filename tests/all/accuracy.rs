@@ -73,6 +73,7 @@ fn program(row: &Row) -> String {
             "--format" => screen.format = Some(value),
             "--freeze" => changes.freeze.push(value),
             "--block" => screen.block = target_args::block(&value).ok(),
+            "--refine" => screen.refine = target_args::refining(&value).ok(),
             "--max-turns" => screen.max_turns = value.parse().ok(),
             "--max-steps" => screen.max_steps = value.parse().ok(),
             "--hits" => screen.ways.hits = search(&value).ok(),

@@ -115,6 +115,24 @@ fn every_machine_draws_what_its_model_does() {
     }
 }
 
+/// What a pixel takes is told of the screen's pixels, blocks or not.
+#[test]
+fn pixels_of_blocks_are_pixels() {
+    let dir = directory(&[("blocks.scn", &disc(48, 48))]);
+    for more in [
+        &[][..],
+        &["--block", "4"],
+        &["--block", "2", "--refine", "2"],
+    ] {
+        let args = [&["blocks.scn", "-t", "jack", "--format", "fixed16"], more].concat();
+        let said = run(dir.path(), &args);
+        assert_eq!(number(&said, "pixels"), 48 * 48);
+        let each = said["cycles_per_pixel"].as_f64().expect("cycles");
+        let all = number(&said, "cycles") as f64;
+        assert!((each * 2304.0 / all - 1.0).abs() < 1e-9, "{more:?}: {each}");
+    }
+}
+
 /// What is traced, what that takes and what it loses, beside the same picture as a whole.
 #[test]
 fn fewer_pixels_take_less_and_lose_little() {

@@ -25,7 +25,8 @@ pub const STEPS: [u32; 4] = [2, 4, 8, 16];
 /// a hundredth of the inks is another then (docs/refine.md).
 pub const TOLERANCE: u8 = 8;
 
-/// How many of sixteen pixels between key rows are traced in pictures of all kinds.
+/// How many of sixteen pixels between key rows are thought to be traced until [`expected`] has
+/// looked.
 const USUAL: u8 = 6;
 
 /// Bands on which it is seen how many are, and how many operations that may take.
