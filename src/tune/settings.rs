@@ -25,15 +25,7 @@ const AREAS: [u32; 13] = [1, 2, 4, 8, 9, 16, 25, 32, 64, 128, 256, 512, 1024];
 
 /// How far key rows are from each other where not every pixel is traced, and by how many levels
 /// neighbours may differ.
-const REFINED: [(u32, u8); 7] = [
-    (4, 4),
-    (8, 8),
-    (8, 16),
-    (16, 32),
-    (16, 64),
-    (16, 128),
-    (16, 255),
-];
+const REFINED: [(u32, u8); 6] = [(4, 4), (8, 8), (8, 16), (8, 32), (8, 64), (8, 255)];
 
 /// Turns that loops may be cut to.
 const TURNS: [u32; 13] = [1, 2, 3, 4, 6, 8, 12, 16, 24, 32, 48, 64, 96];
@@ -358,19 +350,24 @@ fn kept(all: Vec<Drafted>, error: &dyn Fn(&Errors) -> f64) -> Vec<Drafted> {
         .collect()
 }
 
-/// At most so many, evenly over the logarithm of their work; the picture as written always.
+/// Errors below this are as good as none.
+const NO_ERROR: f64 = 1e-3;
+
+/// At most so many, evenly over the logarithms of their work and error, as a plot has them; the
+/// picture as written always.
 fn spread(mut all: Vec<Drafted>, error: &dyn Fn(&Errors) -> f64, most: usize) -> Vec<Drafted> {
     all.sort_by(|a, b| b.work.cmp(&a.work).then(a.setting.cmp(&b.setting)));
-    let log = |d: &Drafted| (d.work.max(1) as f64).ln();
+    let work = |d: &Drafted| (d.work.max(1) as f64).ln();
+    let off = |d: &Drafted| error(&d.errors).max(NO_ERROR).ln();
+    let apart = |a: &Drafted, b: &Drafted| (work(a) - work(b)).hypot(off(a) - off(b));
     // The closest pair loses the one that is further off.
     while all.len() > most.max(1) {
         let pairs = all
             .windows(2)
             .enumerate()
             .filter(|(k, _)| *k > 0 || all.len() <= 2);
-        let closest = pairs.min_by(|(_, a), (_, b)| {
-            (log(&a[0]) - log(&a[1])).total_cmp(&(log(&b[0]) - log(&b[1])))
-        });
+        let closest =
+            pairs.min_by(|(_, a), (_, b)| apart(&a[0], &a[1]).total_cmp(&apart(&b[0], &b[1])));
         let Some((k, pair)) = closest else {
             break;
         };

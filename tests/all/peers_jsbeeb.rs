@@ -2,6 +2,7 @@
 //! drives it.
 
 use crate::cli::{directory, success};
+use crate::refine;
 use crate::rom_operations::{Gives, OPERATIONS, Operands, Operation, error_bytes};
 use serde_json::{Value, json};
 use slowlight_vm::Stop;
@@ -243,9 +244,11 @@ fn different_inks(mode: u32, rom: &Value, ours: &Run) -> usize {
     pairs.filter(|(a, b)| a != b).count()
 }
 
-/// A scene's rows, typed and as tokens, on the ROM and on ours: inks that differ, and cycles.
-fn compared(scene: &str, mode: u32, rows: &str) -> (usize, f64) {
-    let written = build(scene, &["--mode", &mode.to_string(), "--rows", rows]);
+/// A scene by some options, typed and as tokens, on the ROM and on ours: inks that differ, and
+/// cycles.
+fn compared(scene: &str, mode: u32, options: &[&str]) -> (usize, f64) {
+    let mode_option = mode.to_string();
+    let written = build(scene, &[&["--mode", &mode_option], options].concat());
     let dump = json!([layout(mode).0, 0x8000]);
     let results = jsbeeb(&[
         json!({"typed": written.text, "dump": dump}),
@@ -348,14 +351,16 @@ fn generated_programs_draw_and_take_what_they_do_on_the_rom() {
     let mirrors = include_str!("../../examples/mirrors.scn");
     let torus = include_str!("../../examples/torus.scn");
     let maze = include_str!("../../examples/maze.scn");
-    for (name, scene, mode, rows) in [
-        ("mirrors", mirrors, 1, "120..121"),
-        ("torus", torus, 4, "60..60"),
-        ("maze", maze, 2, "14..17"),
+    let disc = refine::disc(64, 43);
+    for (name, scene, mode, options) in [
+        ("mirrors", mirrors, 1, &["--rows", "120..121"][..]),
+        ("torus", torus, 4, &["--rows", "60..60"]),
+        ("maze", maze, 2, &["--rows", "14..17"]),
+        ("disc", &disc, 2, &["--refine", "8", "--rows", "2..41"]),
     ] {
-        let (different, excess) = compared(scene, mode, rows);
+        let (different, excess) = compared(scene, mode, options);
         println!(
-            "{name}, rows {rows}: {different} inks differ, cycles {:+.2}%",
+            "{name}, {options:?}: {different} inks differ, cycles {:+.2}%",
             100.0 * excess
         );
         assert_eq!(different, 0, "{name}");

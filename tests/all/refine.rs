@@ -11,7 +11,7 @@ use slowlight_compiler::targets::find;
 use std::path::Path;
 
 /// A disc with a shade of its own before a gradient: edges, flat parts and slopes.
-fn disc(width: u32, height: u32) -> String {
+pub fn disc(width: u32, height: u32) -> String {
     format!(
         "image {width} x {height} inks black, red, yellow, white;
         param big: real = 0.3 in 0.1 .. 0.5;
