@@ -62,12 +62,13 @@ fn unknown() -> Value {
 /// with the error of being written in the machine's format.
 fn known(plan: &Plan, tile: &Tile, id: NodeId) -> Value {
     let graph = &plan.graph;
+    let point = |value| Value::exact(Range::point(value));
     match graph.node(id) {
         Node::Const(c) => {
             let exact = c.value();
             // It is rounded where it is read.
             if plan.points().is_some() {
-                return Value::exact(Range::point(exact.real()));
+                return point(exact.real());
             }
             let format = plan.runtime.format_of(exact.ty());
             let made = (plan.runtime.decode)(plan.bits(exact), format).real();
@@ -76,14 +77,11 @@ fn known(plan: &Plan, tile: &Tile, id: NodeId) -> Value {
                 error: Form::within((made - exact.real()).abs()),
             }
         }
-        Node::Param(p) => match tile.params.get(p.0 as usize) {
-            Some(&(range, off)) => Value {
-                range,
-                // Each param has a rounding of its own.
-                error: Form::rounding(u32::MAX - p.0, off),
-            },
-            None => unknown(),
-        },
+        // Each param has a rounding of its own.
+        Node::Param(p) => (tile.params.get(p.0 as usize)).map_or_else(unknown, |param| Value {
+            range: param.0,
+            error: Form::rounding(u32::MAX - p.0, param.1),
+        }),
         Node::Axis(axis) => {
             let (first, last) = match axis {
                 Axis::X | Axis::Run => tile.columns,
@@ -93,10 +91,8 @@ fn known(plan: &Plan, tile: &Tile, id: NodeId) -> Value {
             Value::exact(Range::new(f64::from(first), f64::from(last.max(first))))
         }
         // Where errors are spread, what comes from other pixels is not known.
-        Node::Received if graph.diffusion.is_none() => Value::exact(Range::point(0.0)),
-        Node::Neighbour(which) if graph.refinement.is_none() => {
-            Value::exact(Range::point(f64::from(which.alone())))
-        }
+        Node::Received if graph.diffusion.is_none() => point(0.0),
+        Node::Neighbour(which) if graph.refinement.is_none() => point(which.alone().into()),
         _ => unknown(),
     }
 }
