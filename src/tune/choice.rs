@@ -258,7 +258,8 @@ mod tests {
             thrift: 5,
         };
         let words = base().words(&choice).join(" ");
-        let wanted = "--format log10 --freeze all --block 4x2 --refine 8:0.063 --max-turns 3 --max-steps 8 \
+        let wanted = "--format log10 --freeze all --block 4x2 --refine 8:0.063 \
+             --max-turns 3 --max-steps 8 \
              --hits march:64:0.01 --differences 0.005 --samples 4 --thrift 5 --outlined";
         assert_eq!(words, wanted);
     }

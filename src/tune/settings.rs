@@ -103,21 +103,12 @@ pub fn worthwhile(
     let progress = Progress::new("settings", (limits.len() * each) as u64);
     let mut all = Vec::new();
     for (graph, limit) in &limits {
-        for &block in &blocks {
+        let each = blocks.iter().map(|block| (*block, None));
+        let refined = refined(graph).into_iter().map(|one| ((1, 1), Some(one)));
+        for (block, refine) in each.chain(refined) {
             let setting = Setting {
                 block,
-                refine: None,
-                max_turns: limit.turns,
-                max_steps: limit.steps,
-                ways: limit.ways.into(),
-            };
-            all.push(drafted(graph, setting, &truth)?);
-            progress.step(1);
-        }
-        for refine in refined(graph) {
-            let setting = Setting {
-                block: (1, 1),
-                refine: Some(refine),
+                refine,
                 max_turns: limit.turns,
                 max_steps: limit.steps,
                 ways: limit.ways.into(),

@@ -154,7 +154,7 @@ fn fewer_pixels_take_less_and_lose_little() {
         let [before, after] = [&whole, &refined].map(|said| number(said, "cycles"));
         assert!(after < before, "{target}: {after} cycles, not {before}");
         let wrong = number(&refined, "differs_from_native");
-        assert!(wrong * 40 < pixels, "{target}: {wrong} of {pixels}");
+        assert!(wrong * 100 < pixels, "{target}: {wrong} of {pixels}");
         // Where nothing may differ, what is not traced is alike all around.
         let exact = number(&of(&["--refine", "8:0"]), "traced");
         assert!(exact > traced, "{target}: {exact}");

@@ -2,6 +2,7 @@
 #![allow(clippy::unwrap_used)]
 
 use super::arithmetic::Exact;
+use super::native::{Native, Pixel};
 use super::run::Run;
 use crate::analysis::verify::verify;
 use crate::ir::graph::*;
@@ -10,6 +11,24 @@ use crate::passes::simplify::fold::fold;
 use crate::scene::check;
 use crate::schedule::statements::missing;
 use crate::sema::Options;
+
+/// A scene's graph as it is written.
+pub fn lowered(text: &str) -> Graph {
+    let scene = check("test", text);
+    assert!(scene.is_right(), "{:?}", scene.diagnostics);
+    scene.lower(&Options::default()).unwrap()
+}
+
+/// The native picture, row by row.
+pub fn native(graph: &Graph) -> Vec<Vec<Pixel>> {
+    let mut native = Native::new(graph);
+    let mut row = |y| {
+        let mut out = Vec::new();
+        native.pixels(0..graph.image.width as i32, y, &mut out);
+        out
+    };
+    (0..graph.image.height as i32).map(&mut row).collect()
+}
 
 /// Inks and shades of some pixels, as text, nothing being read that was not written.
 pub fn picture(graph: &Graph, tree: &Tree, places: &[(i32, i32)]) -> Vec<String> {

@@ -87,25 +87,13 @@ impl Rewrite for Coarse<'_> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::eval::native::Native;
-    use crate::scene::check;
-    use crate::sema::Options;
-
-    fn graph(text: &str) -> Graph {
-        let scene = check("test", text);
-        assert!(scene.is_right(), "{:?}", scene.diagnostics);
-        scene.lower(&Options::default()).expect("it lowers")
-    }
+    use crate::eval::drawn::{lowered, native};
 
     /// Shades and inks, row by row.
     fn drawn(graph: &Graph) -> Vec<Vec<(u8, f64)>> {
-        let mut native = Native::new(graph);
-        let mut row = |y| {
-            let mut out = Vec::new();
-            native.pixels(0..graph.image.width as i32, y, &mut out);
-            out.iter().map(|p| (p.ink, p.shade)).collect()
-        };
-        (0..graph.image.height as i32).map(&mut row).collect()
+        let all = native(graph).into_iter();
+        all.map(|row| row.iter().map(|p| (p.ink, p.shade)).collect())
+            .collect()
     }
 
     /// The column takes part in the shade and in the dither, by the same expression too.
@@ -115,7 +103,7 @@ draw (x, y) = threshold((x mod 8) / 16 + y / 24, bayer(4)[(x mod 8) mod 4, y mod
 
     #[test]
     fn a_block_has_the_shade_of_its_middle_and_a_dither_of_its_own() {
-        let fine = graph(DITHERED);
+        let fine = lowered(DITHERED);
         let made = pixel_blocks(&fine, (3, 2));
         assert_eq!((made.image.width, made.image.height), (8, 6));
         assert_eq!(
@@ -127,14 +115,14 @@ draw (x, y) = threshold((x mod 8) / 16 + y / 24, bayer(4)[(x mod 8) mod 4, y mod
         let by_hand = "image 8 x 6 inks black, grey, white;
 draw (x, y) = threshold(((3 * x + 1) mod 8) / 16 + (2 * y + 1) / 24, bayer(4)[(x mod 8) mod 4, y mod 4]);
 ";
-        assert_eq!(drawn(&made), drawn(&graph(by_hand)));
+        assert_eq!(drawn(&made), drawn(&lowered(by_hand)));
     }
 
     #[test]
     fn blocks_of_one_pixel_and_pictures_without_a_dither() {
-        let fine = graph(DITHERED);
+        let fine = lowered(DITHERED);
         assert_eq!(pixel_blocks(&fine, (1, 1)), fine);
-        let plain = graph(
+        let plain = lowered(
             "image 8 x 8 inks black, white;\ndraw (x, y) = ink((x div 4 + y div 4) mod 2);\n",
         );
         let made = drawn(&pixel_blocks(&plain, (2, 2)));
@@ -144,7 +132,7 @@ draw (x, y) = threshold(((3 * x + 1) mod 8) / 16 + (2 * y + 1) / 24, bayer(4)[(x
 
     #[test]
     fn a_graph_of_blocks_is_read_back() {
-        let made = pixel_blocks(&graph(DITHERED), (3, 2));
+        let made = pixel_blocks(&lowered(DITHERED), (3, 2));
         let text = made.to_string();
         assert!(text.starts_with("image 8x6 of 3x2 inks"), "{text}");
         let read = crate::ir::read::read(&text).expect("it reads");

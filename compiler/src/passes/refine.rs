@@ -235,34 +235,16 @@ mod tests {
     use super::*;
     use crate::analysis::verify::verify;
     use crate::eval::arithmetic::Exact;
-    use crate::eval::native::Pixel;
+    use crate::eval::drawn::{lowered, native};
     use crate::eval::neighbours::Neighbours;
     use crate::eval::run::Run;
-    use crate::scene::check;
     use crate::schedule::statements::schedule;
-    use crate::sema::Options;
-
-    fn graph(text: &str) -> Graph {
-        let scene = check("test", text);
-        assert!(scene.is_right(), "{:?}", scene.diagnostics);
-        scene.lower(&Options::default()).expect("it lowers")
-    }
 
     /// The column takes part in the shade and in the dither, by the same expression too.
     const STEP: &str = "image 24 x 20 inks black, grey, white;
 draw (x, y) = threshold(if x + y < 18 then (x mod 8) / 200 else 0.5 + y / 100,
   bayer(4)[(x mod 8) mod 4, y mod 4]);
 ";
-
-    fn drawn(graph: &Graph) -> Vec<Vec<Pixel>> {
-        let mut native = Native::new(graph);
-        let mut row = |y| {
-            let mut out = Vec::new();
-            native.pixels(0..graph.image.width as i32, y, &mut out);
-            out
-        };
-        (0..graph.image.height as i32).map(&mut row).collect()
-    }
 
     /// The byte that is kept of a shade.
     fn level(shade: f64) -> i32 {
@@ -271,10 +253,10 @@ draw (x, y) = threshold(if x + y < 18 then (x mod 8) / 200 else 0.5 + y / 100,
 
     #[test]
     fn a_pixel_is_the_scenes_or_its_neighbours_mean() {
-        let whole = graph(STEP);
+        let whole = lowered(STEP);
         let refined = refine(&whole, 4, TOLERANCE).expect("it has a shade");
         assert_eq!(verify(&refined).err(), None);
-        let (plain, made) = (drawn(&whole), drawn(&refined));
+        let (plain, made) = (native(&whole), native(&refined));
         let mut neighbours = Neighbours::new(&refined).expect("neighbours");
         let mut left = std::collections::BTreeMap::new();
         let (mut traced, mut others) = (0, 0);
@@ -314,15 +296,15 @@ draw (x, y) = threshold(if x + y < 18 then (x mod 8) / 200 else 0.5 + y / 100,
     #[test]
     fn evaluations_agree_on_refined_pictures() {
         for step in STEPS {
-            let refined = refine(&graph(STEP), step, TOLERANCE).expect("it has a shade");
-            let all = drawn(&refined);
+            let refined = refine(&lowered(STEP), step, TOLERANCE).expect("it has a shade");
+            let all = native(&refined);
             let tree = schedule(&refined);
             let mut run = Run::new(&refined, &tree, Exact(&refined));
             for y in (0..20).rev() {
                 for x in 0..24 {
                     let ink = run.pixel(x, y).int();
-                    let native = all[y as usize][x as usize].ink;
-                    assert_eq!(ink, i32::from(native), "({x}, {y}) every {step}");
+                    let found = all[y as usize][x as usize].ink;
+                    assert_eq!(ink, i32::from(found), "({x}, {y}) every {step}");
                 }
             }
             assert_eq!(run.unset_reads(), 0);
@@ -332,7 +314,7 @@ draw (x, y) = threshold(if x + y < 18 then (x mod 8) / 200 else 0.5 + y / 100,
 
     #[test]
     fn a_refined_graph_is_read_back() {
-        let made = refine(&graph(STEP), 8, 3).expect("it has a shade");
+        let made = refine(&lowered(STEP), 8, 3).expect("it has a shade");
         let text = made.to_string();
         assert!(text.contains(" every 8 within 3 often 6\n"), "{text}");
         let read = crate::ir::read::read(&text).expect("it reads");
@@ -342,9 +324,9 @@ draw (x, y) = threshold(if x + y < 18 then (x mod 8) / 200 else 0.5 + y / 100,
 
     #[test]
     fn what_has_no_shade_of_its_own_is_not_refined() {
-        let inks = graph("image 8 x 8 inks black, white; draw (x, y) = ink(x mod 2);");
+        let inks = lowered("image 8 x 8 inks black, white; draw (x, y) = ink(x mod 2);");
         assert_eq!(refine(&inks, 8, 0), Err(Unrefined::NoShade));
-        let sent = graph("image 8 x 8 inks black, white; draw (x, y) = floyd(x / 8, x, y);");
+        let sent = lowered("image 8 x 8 inks black, white; draw (x, y) = floyd(x / 8, x, y);");
         assert_eq!(refine(&sent, 8, 0), Err(Unrefined::Spreads));
     }
 }

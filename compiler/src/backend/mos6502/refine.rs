@@ -20,8 +20,17 @@ pub(super) const KEPT: &str = "kept_rows";
 pub(super) struct Refined {
     rows: KeptRows,
     height: u32,
-    /// By [`Sampling`].
-    names: [String; 8],
+    /// Pointers to what the neighbours left, and to the row's own.
+    up: String,
+    down: String,
+    own: String,
+    /// The key row above the band, its last row, and the last of all.
+    band: String,
+    till: String,
+    end: String,
+    /// How far neighbours are from the row, and whether it is drawn.
+    reach: String,
+    seen: String,
     neighbours: [String; 3],
     /// The column, the row, the first and the last row to draw.
     axes: [String; 4],
@@ -33,10 +42,18 @@ impl Refined {
     /// Where a plan does not trace every pixel.
     pub fn new(plan: &Plan, homes: &Homes) -> Option<Refined> {
         let name = |slot| homes.name(slot).to_owned();
+        let of = |what| name(Slot::Sampling(what));
         Some(Refined {
             rows: plan.kept_rows()?,
             height: plan.graph.image.height,
-            names: Sampling::ALL.map(|what| name(Slot::Sampling(what))),
+            up: of(Sampling::Up),
+            down: of(Sampling::Down),
+            own: of(Sampling::Own),
+            band: of(Sampling::Band),
+            till: of(Sampling::Till),
+            end: of(Sampling::End),
+            reach: of(Sampling::Reach),
+            seen: of(Sampling::Seen),
             neighbours: Neighbour::ALL.map(|which| name(Slot::Neighbour(which))),
             axes: [
                 Slot::Axis(Axis::X),
@@ -52,22 +69,18 @@ impl Refined {
         })
     }
 
-    fn name(&self, what: Sampling) -> &str {
-        &self.names[what as usize]
-    }
-
     /// Before the first row: the key row above the first that is drawn, and the last of all.
     pub fn begin(&self, code: &mut Code<'_>) {
         let [_, y, first, last] = &self.axes;
         code.copy_axis(&Operand::At(first.clone()), y);
         let step = self.rows.refinement.step;
-        let [band, till, end, reach] = [
-            Sampling::Band,
-            Sampling::Till,
-            Sampling::End,
-            Sampling::Reach,
-        ]
-        .map(|what| self.name(what));
+        let Refined {
+            band,
+            till,
+            end,
+            reach,
+            ..
+        } = self;
         let text = &mut *code.text;
         let mask = 256 - step;
         text.code(&format!("lda {y} | and #{mask} | sta {y} | sta {till}"));
@@ -100,15 +113,15 @@ impl Refined {
     /// Before a row's first pixel: where its neighbours are, and whether it is drawn.
     pub fn row(&self, code: &mut Code<'_>) {
         let [_, y, first, last] = &self.axes;
-        let [up, down, own, band, reach, seen] = [
-            Sampling::Up,
-            Sampling::Down,
-            Sampling::Own,
-            Sampling::Band,
-            Sampling::Reach,
-            Sampling::Seen,
-        ]
-        .map(|what| self.name(what));
+        let Refined {
+            up,
+            down,
+            own,
+            band,
+            reach,
+            seen,
+            ..
+        } = self;
         let text = &mut *code.text;
         let point = |at: &str| {
             format!("lsr | tax | lda kept_low,x | sta {at} | lda kept_high,x | sta {at}+1")
@@ -137,7 +150,7 @@ impl Refined {
     pub fn receive(&self, code: &mut Code<'_>) {
         let [x, ..] = &self.axes;
         let [above, below, _] = &self.neighbours;
-        let (up, down) = (self.name(Sampling::Up), self.name(Sampling::Down));
+        let Refined { up, down, .. } = self;
         code.text.code(&format!(
             "ldy {x} | lda ({up}),y | sta {above} | lda ({down}),y | sta {below}"
         ));
@@ -148,7 +161,7 @@ impl Refined {
         let [x, ..] = &self.axes;
         let [_, _, left] = &self.neighbours;
         let kept = code.homes.operand(code.plan, self.rows.refinement.kept);
-        let (kept, own) = (write::byte(&kept, 0), self.name(Sampling::Own));
+        let (kept, own) = (write::byte(&kept, 0), &self.own);
         code.text.code(&format!(
             "lda {kept} | sta {left} | ldy {x} | sta ({own}),y"
         ));
@@ -156,13 +169,13 @@ impl Refined {
 
     /// Goes on where a pixel is not seen.
     pub fn unseen(&self) -> String {
-        format!("lda {} | beq unseen_pixel", self.name(Sampling::Seen))
+        format!("lda {} | beq unseen_pixel", self.seen)
     }
 
     /// What follows the column into the next 256.
     pub fn next_page(&self) -> String {
-        let pointers = [Sampling::Up, Sampling::Down, Sampling::Own];
-        let high = pointers.map(|what| format!(" | inc {}+1", self.name(what)));
+        let pointers = [&self.up, &self.down, &self.own];
+        let high = pointers.map(|name| format!(" | inc {name}+1"));
         high.concat()
     }
 
@@ -177,15 +190,15 @@ impl Refined {
     /// What goes to the next row, with the carry set where there is none.
     pub fn data(&self, text: &mut Text) {
         let [_, y, ..] = &self.axes;
-        let [up, own, band, till, end, reach] = [
-            Sampling::Up,
-            Sampling::Own,
-            Sampling::Band,
-            Sampling::Till,
-            Sampling::End,
-            Sampling::Reach,
-        ]
-        .map(|what| self.name(what));
+        let Refined {
+            up,
+            own,
+            band,
+            till,
+            end,
+            reach,
+            ..
+        } = self;
         let (step, width) = (self.rows.refinement.step, self.rows.width);
         text.headline("rows by halves of what is between two key rows");
         text.label("below_row");
