@@ -20,7 +20,11 @@ const MOST: usize = 40;
 const FULL: f64 = 1.25;
 
 /// What takes less memory, and longer.
-const LESS: [Instancing; 2] = [Instancing::FewCells, Instancing::Rows];
+const LESS: [Instancing; 3] = [
+    Instancing::FewerCells,
+    Instancing::FewCells,
+    Instancing::Rows,
+];
 
 impl ScreenArgs {
     /// What of the scene is done with less, or otherwise.
@@ -35,7 +39,8 @@ impl ScreenArgs {
     }
 
     /// What `plan` makes of these options; where its program does not fit, with less memory for
-    /// how shapes are found.
+    /// how shapes are found, and where it had to be made small for its machine, with that if it is
+    /// quicker.
     ///
     /// # Errors
     /// Where none does, that of the first.
@@ -45,7 +50,11 @@ impl ScreenArgs {
         plan: impl Fn(&ScreenArgs) -> Outcome<PlannedScene>,
     ) -> Outcome<PlannedScene> {
         let first = plan(self);
-        if !matches!(first, Err(Failure::TooLarge(_))) || scene.shapes() < INSTANCES {
+        let is_small = match &first {
+            Ok(plan) => plan.is_made_small(),
+            Err(failure) => matches!(failure, Failure::TooLarge(_)),
+        };
+        if !is_small || scene.shapes() < INSTANCES {
             return first;
         }
         let less = LESS
@@ -57,7 +66,13 @@ impl ScreenArgs {
                 ..self.clone()
             })
         });
-        others.find(Result::is_ok).unwrap_or(first)
+        let Ok(fits) = first else {
+            return others.find(Result::is_ok).unwrap_or(first);
+        };
+        match others.next() {
+            Some(Ok(other)) if estimate::cycles(&other) < estimate::cycles(&fits) => Ok(other),
+            _ => Ok(fits),
+        }
     }
 
     /// The same options, with a plan's format asked for.

@@ -48,6 +48,11 @@ impl Extent {
         both.into_iter().all(|face| face.is_finite())
     }
 
+    /// What it covers of each axis.
+    pub fn ranges(&self) -> [Range; 3] {
+        [0, 1, 2].map(|k| Range::new(self.low[k], self.high[k]))
+    }
+
     /// What both hold.
     pub fn meet(self, other: Extent) -> Extent {
         let of = |k: usize| {
@@ -70,6 +75,14 @@ impl Extent {
         Extent {
             low: [0, 1, 2].map(|k| self.low[k].min(other.low[k])),
             high: [0, 1, 2].map(|k| self.high[k].max(other.high[k])),
+        }
+    }
+
+    /// The same with faces farther out by so much along each axis.
+    pub fn grown_by(&self, more: [f64; 3]) -> Extent {
+        Extent {
+            low: [0, 1, 2].map(|k| self.low[k] - more[k]),
+            high: [0, 1, 2].map(|k| self.high[k] + more[k]),
         }
     }
 

@@ -61,7 +61,7 @@ pub(super) fn data(plan: &Plan, text: &mut Text) {
             table.name, table.width, table.height
         ));
         for (k, plane) in planes(plan, id, table).iter().enumerate() {
-            if uniform(plane).is_some() && !is_large(table) {
+            if uniform(plane).is_some() {
                 continue;
             }
             text.label(&label(id, k));
@@ -157,7 +157,7 @@ impl Code<'_> {
         self.clamps = true;
     }
 
-    /// Through a pointer to the entry's low byte; the other planes follow.
+    /// Through a pointer to the entry's first byte that is not that of all; the other planes follow.
     fn large_lookup(
         &mut self,
         (id, home, bytes): (NodeId, &str, u8),
@@ -186,21 +186,31 @@ impl Code<'_> {
                 .code(&format!("lda {high} | adc prod+5 | sta acc+1"));
             (low, high) = ("acc".to_owned(), "acc+1".to_owned());
         }
-        let first = label(of, 0);
-        self.text
-            .code(&format!("clc | lda {low} | adc #<({first}) | sta acc"));
-        self.text.code(&format!(
-            "lda {high} | adc #>({first}) | sta acc+1 | ldy #0"
-        ));
         let [lo, hi, ..] = (table.entries.len() as u32).to_le_bytes();
-        for k in 0..bytes {
-            if k > 0 {
+        let mut is_at_one = false;
+        for (k, plane) in planes(self.plan, of, table).iter().enumerate() {
+            let to = write::byte_at(home, k as u8);
+            if k >= usize::from(bytes) {
+                break;
+            }
+            if let Some(byte) = uniform(plane) {
+                self.text.code(&format!("lda #${byte:02x} | sta {to}"));
+                continue;
+            }
+            if is_at_one {
                 self.text.code(&format!(
                     "clc | lda acc | adc #{lo} | sta acc | lda acc+1 | adc #{hi} | sta acc+1"
                 ));
+            } else {
+                let first = label(of, k);
+                self.text
+                    .code(&format!("clc | lda {low} | adc #<({first}) | sta acc"));
+                self.text.code(&format!(
+                    "lda {high} | adc #>({first}) | sta acc+1 | ldy #0"
+                ));
             }
-            self.text
-                .code(&format!("lda (acc),y | sta {}", write::byte_at(home, k)));
+            is_at_one = true;
+            self.text.code(&format!("lda (acc),y | sta {to}"));
         }
     }
 }

@@ -5,7 +5,8 @@
 //! cells of a grid where the shapes have boxes; what is asked of the nearest one alone, its normal
 //! or its tag, is made from the row that it stands in.
 
-use super::value::{Instances, Shape, Val};
+use super::value::{Grid, Instances, Shape, Val};
+use super::view::Order;
 use super::ways::{INSTANCES, Instancing};
 use super::{Found, Lower};
 use crate::ir::graph::{self, Constant, NodeId, TableId};
@@ -14,6 +15,7 @@ use crate::sema::ty::Ty;
 use crate::source::Span;
 use crate::syntax::tree::BinaryOp;
 use slowlight_routine::Type;
+use std::cell::{OnceCell, RefCell};
 use std::rc::Rc;
 
 /// A shape of a scene, or several of a kind.
@@ -54,7 +56,7 @@ impl<'a> Lower<'a> {
             let group = self.group_from(id, &shapes, at, span)?;
             match group {
                 Some(group) => {
-                    at += group.count;
+                    at += group.shapes.len();
                     found.push(Member::Group(Rc::new(group)));
                 }
                 None => {
@@ -107,14 +109,15 @@ impl<'a> Lower<'a> {
         rows.truncate(tags.len());
         let count = rows.len();
         let rows: Vec<Scalars> = rows.into_iter().map(|row| row.scalars).collect();
-        let grid = self.grid_of(&shapes[at..at + count], span)?;
+        let shapes = &shapes[at..at + count];
         Ok(Some(Instances {
-            first: first.clone(),
+            shapes: shapes.into(),
             at,
-            count,
             columns: self.columns_of(&rows),
             tags: self.columns_of(&tags),
-            grid,
+            boxes: self.boxes_of(shapes, span)?,
+            grid: OnceCell::new(),
+            views: RefCell::default(),
         }))
     }
 
@@ -219,7 +222,7 @@ impl<'a> Lower<'a> {
     /// The shape in a row.
     pub(super) fn instance(&mut self, of: &Instances, row: NodeId, span: Span) -> Found<Rc<Shape>> {
         let mut columns = of.columns.iter().copied();
-        self.made_in(&of.first, &mut columns, row, span)
+        self.made_in(&of.shapes[0], &mut columns, row, span)
     }
 
     fn made_in(
@@ -288,7 +291,7 @@ impl<'a> Lower<'a> {
         far: NodeId,
         span: Span,
     ) -> Found<Met> {
-        let met = self.among(of, ("nearest_in", "nearest_of"), ray, far, span)?;
+        let met = self.among(of, "nearest", ray, far, span)?;
         let t = self.part(met.clone(), 0, span)?;
         let t = self.node(t, &Ty::Real, span)?;
         let row = self.part(met, 1, span)?;
@@ -306,34 +309,55 @@ impl<'a> Lower<'a> {
         far: NodeId,
         span: Span,
     ) -> Found<NodeId> {
-        let any = self.among(of, ("any_in", "any_of"), ray, far, span)?;
+        let any = self.among(of, "any", ray, far, span)?;
         self.node(any, &Ty::Bool, span)
     }
 
+    /// What is found of a group by a ray: by the cells of its pencil's view, by those of space, or
+    /// one by one.
     fn among(
         &mut self,
         of: &Rc<Instances>,
-        (by_cells, by_rows): (&str, &str),
+        what: &str,
         ray: &Val,
         far: NodeId,
         span: Span,
     ) -> Found<Val> {
         let mut args = vec![Val::Rows(of.clone())];
-        let name = match &of.grid {
-            Some(grid) => {
-                args.extend(self.grid_values(grid, span));
-                by_cells
-            }
-            None => {
-                args.push(Val::Node(self.int(of.count as i32, span)));
-                by_rows
-            }
+        let seen = self.view_of(of, ray, what == "any", span)?;
+        let how = if let Some(ray) = seen {
+            let lists = &ray.view.lists;
+            args.extend(lists.values());
+            args.push(Val::Node(self.int(lists.most as i32, span)));
+            let is_sorted = ray.order == Order::Nearest;
+            args.extend(is_sorted.then(|| Val::Table(ray.view.near.clone())));
+            args.push(ray.cell);
+            if is_sorted { "seen" } else { "along" }
+        } else if let Some(grid) = self.grid_in(of, span)? {
+            args.extend(self.grid_values(grid, span));
+            "in"
+        } else {
+            args.push(Val::Node(self.int(of.shapes.len() as i32, span)));
+            "of"
         };
         args.extend([ray.clone(), Val::Node(far)]);
         let first = Ty::Function(vec![Ty::Int], Box::new(Ty::Shape));
         let outer = std::mem::replace(&mut self.all_turns, true);
-        let found = self.library(name, first, args, span);
+        let found = self.library(&format!("{what}_{how}"), first, args, span);
         self.all_turns = outer;
         found
+    }
+
+    /// A group's grid, made for the first ray that asks.
+    fn grid_in<'i>(&mut self, of: &'i Instances, span: Span) -> Found<Option<&'i Grid>> {
+        if of.grid.get().is_none() {
+            let grid = match &of.boxes {
+                Some(boxes) => self.grid_of(&of.shapes, boxes, span)?,
+                None => None,
+            };
+            // Nobody else makes it meanwhile.
+            let _ = of.grid.set(grid);
+        }
+        Ok(of.grid.get().and_then(Option::as_ref))
     }
 }

@@ -11,6 +11,7 @@
 
 mod bounds;
 mod call;
+mod cells;
 mod claims;
 mod compact;
 mod derive;
@@ -24,13 +25,16 @@ mod leaving;
 mod merge;
 mod ops;
 mod params;
+mod pencil;
 mod polynomial;
+mod projection;
 mod scene;
 mod shape;
 mod slope;
 mod spread;
 mod tables;
 mod value;
+mod view;
 mod ways;
 
 #[cfg(test)]
@@ -45,7 +49,7 @@ use crate::ir::graph::{Axis, Graph, Image, NodeId};
 use crate::sema::program::*;
 use crate::sema::ty::Ty;
 use crate::source::{Diagnostic, Span};
-use rustc_hash::FxHashMap;
+use rustc_hash::{FxHashMap, FxHashSet};
 use slowlight_routine::{Op, Type, Value};
 use value::Val;
 
@@ -157,6 +161,8 @@ struct Lower<'a> {
     extent_work: u64,
     /// What the points of hits lie on, by their coordinates.
     surfaces: FxHashMap<Vec<NodeId>, leaving::Surface>,
+    /// The coordinates of hits' normals.
+    normals: FxHashSet<NodeId>,
     /// Above 0 where only constants may come out.
     constant: usize,
     /// How many conditions that only the pixel decides choose among inks here.
@@ -226,6 +232,7 @@ impl<'a> Lower<'a> {
             extents: FxHashMap::default(),
             extent_work: bounds::ALL_WORK,
             surfaces: FxHashMap::default(),
+            normals: FxHashSet::default(),
             constant: 0,
             choices: 0,
             depth: 0,

@@ -197,17 +197,22 @@ impl<'a> Lower<'a> {
         });
         let (at, won) = (point.clone(), wins.clone());
         let (of, hits) = (members.clone(), found.clone());
-        let normal = self.later("normal", move |l| {
-            l.of_winner(&won, span, |l, k| match (&of[k], &hits[k]) {
-                (Member::One(_, shape), Hit::Of(hit)) => l.normal_of(shape, hit, at.clone(), span),
-                (Member::Group(group), Hit::In(row)) => {
-                    let shape = l.instance(group, *row, span)?;
-                    let hit = l.solved(&shape, ray.clone(), None, span)?;
-                    l.normal_of(&shape, &hit, at.clone(), span)
-                }
-                _ => Err(l.confused(span)),
-            })
-        });
+        let normal = self.later_normal(
+            move |l| {
+                l.of_winner(&won, span, |l, k| match (&of[k], &hits[k]) {
+                    (Member::One(_, shape), Hit::Of(hit)) => {
+                        l.normal_of(shape, hit, at.clone(), span)
+                    }
+                    (Member::Group(group), Hit::In(row)) => {
+                        let shape = l.instance(group, *row, span)?;
+                        let hit = l.solved(&shape, ray.clone(), None, span)?;
+                        l.normal_of(&shape, &hit, at.clone(), span)
+                    }
+                    _ => Err(l.confused(span)),
+                })
+            },
+            span,
+        );
         let mut parts = vec![point.clone(), normal, t];
         if has_tag(ty) {
             parts.push(self.here(move |l| {
@@ -252,14 +257,17 @@ impl<'a> Lower<'a> {
         let along = t.clone();
         let point = self.later("point", move |l| l.along(&ray, along, span));
         let at = point.clone();
-        let normal = self.later("normal", move |l| {
-            let shapes = l.shapes_of(id, span)?;
-            let (_, wins) = l.nearest(id, &at, span)?;
-            l.of_winner(&wins, span, |l, k| match shapes.get(k) {
-                Some(shape) => l.shape_normal(shape, at.clone(), span),
-                None => Err(l.confused(span)),
-            })
-        });
+        let normal = self.later_normal(
+            move |l| {
+                let shapes = l.shapes_of(id, span)?;
+                let (_, wins) = l.nearest(id, &at, span)?;
+                l.of_winner(&wins, span, |l, k| match shapes.get(k) {
+                    Some(shape) => l.shape_normal(shape, at.clone(), span),
+                    None => Err(l.confused(span)),
+                })
+            },
+            span,
+        );
         let mut parts = vec![point.clone(), normal, t];
         if has_tag(ty) {
             parts.push(self.here(move |l| {

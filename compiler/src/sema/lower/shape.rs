@@ -312,7 +312,7 @@ impl<'a> Lower<'a> {
             Ok(point)
         });
         let (of, at) = (shape.clone(), point.clone());
-        let normal = self.later("normal", move |l| l.normal_of(&of, &found, at, span));
+        let normal = self.later_normal(move |l| l.normal_of(&of, &found, at, span), span);
         Ok(Val::Optional {
             present,
             value: Rc::new(Val::parts(vec![point, normal, t])),
@@ -329,6 +329,20 @@ impl<'a> Lower<'a> {
             let vector = work(l)?;
             l.name(&vector, &Ty::Vector(3), name);
             Ok(vector)
+        })
+    }
+
+    /// The same of a hit's normal.
+    pub(super) fn later_normal(
+        &self,
+        work: impl for<'b> FnOnce(&mut Lower<'b>) -> Found<Val> + 'static,
+        span: Span,
+    ) -> Val {
+        self.later("normal", move |l| {
+            let normal = work(l)?;
+            let nodes = l.vector(normal.clone(), 3, span)?;
+            l.normals.extend(nodes);
+            Ok(normal)
         })
     }
 

@@ -1,5 +1,7 @@
 //! Values while compiling: structure is known, scalars are nodes.
 
+use super::pencil::Pencil;
+use super::view::Order;
 use super::{Found, Lower};
 use crate::ir::extent::Extent;
 use crate::ir::graph::{NodeId, TableId};
@@ -7,7 +9,7 @@ use crate::sema::program::*;
 use crate::sema::ty::Ty;
 use crate::source::Span;
 use slowlight_routine::Type;
-use std::cell::RefCell;
+use std::cell::{OnceCell, RefCell};
 use std::rc::Rc;
 
 /// The most scalars that one value may have.
@@ -80,15 +82,19 @@ pub(super) struct Shape {
 
 /// Shapes that are alike but for numbers.
 pub(super) struct Instances {
-    /// The first one, and its place among the scene's shapes.
-    pub(super) first: Rc<Shape>,
+    /// Each by itself, and the first one's place among the scene's shapes.
+    pub(super) shapes: Rc<[Rc<Shape>]>,
     pub(super) at: usize,
-    pub(super) count: usize,
     /// Of each of a shape's scalars, where it is looked up; none where it is the first one's.
     pub(super) columns: Vec<Option<TableId>>,
     /// The same of the tag's.
     pub(super) tags: Vec<Option<TableId>>,
-    pub(super) grid: Option<Grid>,
+    /// Their boxes, where there are enough of them and all have one.
+    pub(super) boxes: Option<Vec<Extent>>,
+    /// The cells in which any ray finds them, made for the first that asks.
+    pub(super) grid: OnceCell<Option<Grid>>,
+    /// Those of the rays of a pencil.
+    pub(super) views: RefCell<Vec<((Pencil, Order), Option<Rc<View>>)>>,
 }
 
 /// Cells and what is in them.
@@ -96,11 +102,37 @@ pub(super) struct Grid {
     pub(super) whole: Extent,
     pub(super) side: [f64; 3],
     pub(super) along: [usize; 3],
-    /// Where each cell's list begins, and before what it ends.
+    pub(super) lists: Lists,
+}
+
+/// Cells of a picture of shapes, from a point or along a direction.
+pub(super) struct View {
+    /// The axis along which it looks; the next two are across.
+    pub(super) ahead: usize,
+    pub(super) low: [f64; 2],
+    pub(super) side: [f64; 2],
+    pub(super) along: [usize; 2],
+    /// How much of a direction into it is ahead at least.
+    pub(super) least: f64,
+    pub(super) lists: Lists,
+    /// How far from the point that it is seen from each shape is at least: what is nearer comes
+    /// first in lists.
+    pub(super) near: Rc<Table>,
+}
+
+/// What is in each of some cells.
+pub(super) struct Lists {
+    /// Where each cell's list begins; the next one's begins where it ends.
     pub(super) first: Rc<Table>,
-    pub(super) last: Rc<Table>,
     pub(super) list: Rc<Table>,
+    /// How many entries a cell has at most.
     pub(super) most: usize,
+}
+
+impl Lists {
+    pub(super) fn values(&self) -> [Val; 2] {
+        [&self.first, &self.list].map(|table| Val::Table(table.clone()))
+    }
 }
 
 /// The scalar that a type is, if it is one.

@@ -41,7 +41,9 @@ pub enum Instancing {
     /// In a table, by the cells of a grid where that takes less.
     #[default]
     Cells,
-    /// The same with few cells, which take less memory.
+    /// The same with fewer cells, which take less memory.
+    FewerCells,
+    /// With few.
     FewCells,
     /// In a table, one after the other.
     Rows,

@@ -1,0 +1,110 @@
+//! Pencils of rays: those of one place in a scene's text that all pass one point, or are parallel.
+//!
+//! A camera's rays start at its eye. Those that ask whether a lamp is seen lead to it, from points
+//! that are lifted off their surface; those of a sun have one direction. What such a ray may meet
+//! hangs on two numbers, where for any ray it is four.
+
+use super::value::Val;
+use super::{Found, Lower};
+use crate::ir::graph::{Node, NodeId};
+use crate::source::Span;
+use slowlight_routine::Op;
+
+/// What the rays of one place have in common.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Pencil {
+    /// They pass a point, beside it by at most so much along each axis.
+    Through {
+        point: [f64; 3],
+        beside: [f64; 3],
+        /// Whether they start at it.
+        starts: bool,
+    },
+    /// They lead along one direction, forwards or backwards.
+    Along([f64; 3]),
+}
+
+impl Lower<'_> {
+    /// What a ray has in common with those of all other pixels; none where nothing is known.
+    pub(super) fn pencil_of(&mut self, ray: &Val, span: Span) -> Found<Option<Pencil>> {
+        let [from, dir] = self.start_and_direction(ray, span)?;
+        if let Some(point) = self.constants(from) {
+            return Ok(Some(Pencil::Through {
+                point,
+                beside: [0.0; 3],
+                starts: true,
+            }));
+        }
+        if let Some(dir) = self.constants(dir) {
+            return Ok(Some(Pencil::Along(dir)));
+        }
+        Ok(self.towards(from, dir))
+    }
+
+    /// The coordinates of where a ray starts and of its direction.
+    pub(super) fn start_and_direction(&mut self, ray: &Val, span: Span) -> Found<[[NodeId; 3]; 2]> {
+        let of = |l: &mut Self, part| {
+            let vector = l.part(ray.clone(), part, span)?;
+            let nodes = l.vector(vector, 3, span)?;
+            <[NodeId; 3]>::try_from(nodes).map_err(|_| l.confused(span))
+        };
+        Ok([of(self, 0)?, of(self, 1)?])
+    }
+
+    fn constants(&self, of: [NodeId; 3]) -> Option<[f64; 3]> {
+        let [x, y, z] = of.map(|node| self.b.value(node).map(|v| v.real()));
+        Some([x?, y?, z?])
+    }
+
+    /// A direction that is what lies between a constant point and another, made as long as it may
+    /// be, of a ray that starts at the other point or beside it.
+    fn towards(&self, from: [NodeId; 3], dir: [NodeId; 3]) -> Option<Pencil> {
+        let scaled = dir.map(|node| self.scaled(node));
+        let [x, y, z] = scaled;
+        let (op, by) = (x?.0, x?.2);
+        if [y?, z?].iter().any(|other| (other.0, other.2) != (op, by)) {
+            return None;
+        }
+        let (mut point, mut beside) = ([0.0; 3], [0.0; 3]);
+        for axis in 0..3 {
+            let Node::Apply(Op::Sub, [to, at]) = self.b.node(scaled[axis]?.1) else {
+                return None;
+            };
+            point[axis] = self.b.value(to)?.real();
+            beside[axis] = self.beside(from[axis], at)?;
+        }
+        Some(Pencil::Through {
+            point,
+            beside,
+            starts: false,
+        })
+    }
+
+    /// A quotient or product: the operation, what is scaled, and by what.
+    fn scaled(&self, node: NodeId) -> Option<(Op, NodeId, NodeId)> {
+        match self.b.node(node) {
+            Node::Apply(op @ (Op::Div | Op::Mul), [of, by]) => Some((op, of, by)),
+            _ => None,
+        }
+    }
+
+    /// How far a coordinate is from another at most: not at all, or by a part of a normal.
+    fn beside(&self, coordinate: NodeId, of: NodeId) -> Option<f64> {
+        if coordinate == of {
+            return Some(0.0);
+        }
+        let Node::Apply(Op::Add | Op::Sub, [a, b]) = self.b.node(coordinate) else {
+            return None;
+        };
+        let Node::Apply(Op::Mul, [lift, normal]) = self.b.node(b) else {
+            return None;
+        };
+        let (lift, normal) = match self.normals.contains(&normal) {
+            true => (lift, normal),
+            false => (normal, lift),
+        };
+        // A normal has length 1.
+        (a == of && self.normals.contains(&normal)).then_some(())?;
+        Some(self.b.value(lift)?.real().abs())
+    }
+}

@@ -1,0 +1,232 @@
+//! Cells of the picture that is seen from a point, or along a direction, and the shapes in each:
+//! what the rays of a pencil may meet, without a walk from cell to cell.
+//!
+//! From a lamp it is a light buffer (Haines and Greenberg, The Light Buffer: A Shadow-Testing
+//! Accelerator, 1986).
+
+use super::cells::{Cells, Most};
+use super::pencil::Pencil;
+use super::projection::{Projection, joined};
+use super::value::{Instances, Val, View};
+use super::ways::Instancing;
+use super::{Found, Lower};
+use crate::ir::extent::Extent;
+use crate::ir::graph::NodeId;
+use crate::sema::ty::Ty;
+use crate::source::Span;
+use slowlight_routine::Range;
+use std::rc::Rc;
+
+const MANY: Most = Most {
+    along: 32,
+    cells: 512,
+    entries: 20,
+};
+const FEWER: Most = Most {
+    along: 20,
+    cells: 160,
+    entries: 8,
+};
+const SOME: Most = Most {
+    along: 16,
+    cells: 100,
+    entries: 5,
+};
+
+/// What a place in tables costs, in parts of what a ray costs against a shape.
+const PLACE: f64 = 1.0 / 4096.0;
+
+/// In which order a cell's shapes are asked.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Order {
+    /// As they stand in the scene.
+    Given,
+    /// What is nearest to the point first.
+    Nearest,
+    /// What is seen largest first, which most lines meet.
+    Largest,
+}
+
+/// Where each box is seen, and the window around those that are seen somewhere. What is not, as
+/// it is beside the point, may be anywhere.
+struct Seen {
+    boxes: Vec<[Range; 2]>,
+    window: [Range; 2],
+    anywhere: Vec<i32>,
+}
+
+impl Seen {
+    fn of(by: Projection, boxes: &[Extent]) -> Option<Seen> {
+        let boxes: Vec<Option<[Range; 2]>> = boxes.iter().map(|of| by.seen(of)).collect();
+        let somewhere = boxes.iter().copied().flatten();
+        let window = somewhere.reduce(|[a, b], [c, d]| [joined(a, c), joined(b, d)])?;
+        let window = window.map(|side| {
+            let more = (side.hi - side.lo) / 64.0;
+            Range::new(side.lo - more, side.hi + more)
+        });
+        let anywhere = (0..).zip(&boxes).filter(|(_, seen)| seen.is_none());
+        Some(Seen {
+            anywhere: anywhere.map(|(k, _)| k).collect(),
+            boxes: boxes.iter().map(|seen| seen.unwrap_or(window)).collect(),
+            window,
+        })
+    }
+
+    /// Puts a list into an order.
+    fn sort(&self, list: &mut [i32], order: Order, near: &[f64]) {
+        let area = |k: i32| {
+            let [a, b] = self.boxes[k as usize];
+            (a.hi - a.lo) * (b.hi - b.lo)
+        };
+        match order {
+            Order::Given => {}
+            Order::Nearest => list.sort_by(|&a, &b| near[a as usize].total_cmp(&near[b as usize])),
+            Order::Largest => list.sort_by(|&a, &b| area(b).total_cmp(&area(a))),
+        }
+    }
+}
+
+/// A ray in a view.
+pub(super) struct InView {
+    pub(super) view: Rc<View>,
+    /// In which of its cells.
+    pub(super) cell: Val,
+    pub(super) order: Order,
+}
+
+impl Lower<'_> {
+    /// The cells of a group's picture from a ray's pencil, and the ray's cell there; none where
+    /// there is no such pencil, or they are worth nothing.
+    pub(super) fn view_of(
+        &mut self,
+        of: &Instances,
+        ray: &Val,
+        is_any: bool,
+        span: Span,
+    ) -> Found<Option<InView>> {
+        let Some(pencil) = self.pencil_of(ray, span)? else {
+            return Ok(None);
+        };
+        let order = match pencil {
+            _ if is_any => Order::Largest,
+            Pencil::Through { starts: true, .. } => Order::Nearest,
+            _ => Order::Given,
+        };
+        let key = (pencil, order);
+        let known = of.views.borrow().iter().find(|v| v.0 == key).cloned();
+        let view = match known {
+            Some((_, view)) => view,
+            None => {
+                let view = self.view_from(of, key, span).map(Rc::new);
+                of.views.borrow_mut().push((key, view.clone()));
+                view
+            }
+        };
+        match view {
+            Some(view) => Ok(Some(InView {
+                cell: self.cell_in(&view, pencil, ray, span)?,
+                order,
+                view,
+            })),
+            None => Ok(None),
+        }
+    }
+
+    fn view_from(
+        &mut self,
+        of: &Instances,
+        (pencil, order): (Pencil, Order),
+        span: Span,
+    ) -> Option<View> {
+        let most = match self.options.ways.instancing {
+            Instancing::Cells => MANY,
+            Instancing::FewerCells => FEWER,
+            Instancing::FewCells => SOME,
+            Instancing::Rows | Instancing::Separate => return None,
+        };
+        let boxes = of.boxes.as_deref()?;
+        let all = boxes.iter().copied().reduce(Extent::join)?;
+        let epsilon = self.options.epsilon;
+        let mut best: Option<(f64, View)> = None;
+        for ahead in 0..3 {
+            if matches!(pencil, Pencil::Along(dir) if dir[ahead] == 0.0) {
+                continue;
+            }
+            let projection = Projection { pencil, ahead };
+            let Some(seen) = Seen::of(projection, boxes) else {
+                continue;
+            };
+            let (room, least) = projection.room(seen.window, &all, epsilon);
+            // What a ray costs that leads where shapes are: how large the empty rest of the window is
+            // hangs on the axis alone.
+            let cost = |cells: &Cells<'_, 2>| {
+                cells.crowd() + PLACE * (cells.count() + cells.entries()) as f64
+            };
+            let cells = Cells::cheapest(&seen.boxes, seen.window, [room; 2], &most, cost);
+            let Some((cost, cells)) = cells else {
+                continue;
+            };
+            let is_worth = cost <= boxes.len() as f64 / 2.0;
+            if !is_worth || best.as_ref().is_some_and(|(least, _)| cost >= *least) {
+                continue;
+            }
+            let mut lists = self.without_empty(
+                &of.shapes,
+                &cells,
+                |seen, k| projection.slices(seen, &boxes[k]),
+                span,
+            );
+            let near: Vec<f64> = boxes.iter().map(|of| projection.distance(of)).collect();
+            // The last one is what a line outside of the window may meet.
+            lists.push(seen.anywhere.clone());
+            for list in &mut lists {
+                seen.sort(list, order, &near);
+            }
+            best = Some((
+                cost,
+                View {
+                    ahead,
+                    low: seen.window.map(|side| side.lo),
+                    side: cells.side(),
+                    along: cells.along,
+                    least: least * (1.0 - 1.0 / 64.0),
+                    lists: self.lists_of(&lists, span),
+                    near: self.reals("near", &near, span),
+                },
+            ));
+        }
+        best.map(|(_, view)| view)
+    }
+
+    /// The cell that a ray of a pencil is in.
+    fn cell_in(&mut self, view: &View, pencil: Pencil, ray: &Val, span: Span) -> Found<Val> {
+        let [from, dir] = self.start_and_direction(ray, span)?;
+        let projection = Projection {
+            pencil,
+            ahead: view.ahead,
+        };
+        let [u, v, w] = projection.axes();
+        let across = |of: [NodeId; 3]| [of[u], of[v], of[w]].map(Val::Node);
+        let seen = self.view_value(view, span);
+        let (name, mut args) = match pencil {
+            Pencil::Through { .. } => ("cell_through", across(dir).to_vec()),
+            Pencil::Along(dir) => {
+                let slopes = [dir[u] / dir[w], dir[v] / dir[w]];
+                let slopes = slopes.map(|slope| Val::Node(self.real(slope, span)));
+                let args = across(from).into_iter().chain(slopes);
+                ("cell_along", args.collect())
+            }
+        };
+        args.push(seen);
+        self.library(name, Ty::Real, args, span)
+    }
+
+    /// A view as the library's record.
+    fn view_value(&mut self, view: &View, span: Span) -> Val {
+        let mut pair = |of: [f64; 2]| Val::parts(of.map(|v| Val::Node(self.real(v, span))).into());
+        let (low, side) = (pair(view.low), pair(view.side));
+        let [across, up] = view.along.map(|n| Val::Node(self.int(n as i32, span)));
+        let least = Val::Node(self.real(view.least, span));
+        Val::parts(vec![low, side, across, up, least])
+    }
+}
