@@ -23,9 +23,9 @@ const MANY: Most = Most {
     entries: 20,
 };
 const FEWER: Most = Most {
-    along: 20,
-    cells: 160,
-    entries: 8,
+    along: 24,
+    cells: 200,
+    entries: 10,
 };
 const SOME: Most = Most {
     along: 16,
