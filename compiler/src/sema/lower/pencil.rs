@@ -56,14 +56,20 @@ impl Lower<'_> {
         Some([x?, y?, z?])
     }
 
-    /// A direction that is what lies between a constant point and another, made as long as it may
-    /// be, of a ray that starts at the other point or beside it.
+    /// A direction that is what lies between a point and another, made as long as it may be, of a
+    /// ray that starts at the first point or beside it: where the other one is a constant, or as
+    /// far from the first one for all of them.
     fn towards(&self, from: [NodeId; 3], dir: [NodeId; 3]) -> Option<Pencil> {
         let scaled = dir.map(|node| self.scaled(node));
         let [x, y, z] = scaled;
         let (op, by) = (x?.0, x?.2);
         if [y?, z?].iter().any(|other| (other.0, other.2) != (op, by)) {
             return None;
+        }
+        let gaps = scaled.map(|of| of.map(|(_, gap, _)| gap));
+        if let [Some(x), Some(y), Some(z)] = gaps.map(|gap| gap.and_then(|gap| self.apart(gap))) {
+            let length = (x * x + y * y + z * z).sqrt();
+            return (length > 0.0).then(|| Pencil::Along([x, y, z].map(|part| part / length)));
         }
         let (mut point, mut beside) = ([0.0; 3], [0.0; 3]);
         for axis in 0..3 {
@@ -86,6 +92,20 @@ impl Lower<'_> {
             Node::Apply(op @ (Op::Div | Op::Mul), [of, by]) => Some((op, of, by)),
             _ => None,
         }
+    }
+
+    /// What lies between a coordinate and another that is it and a constant.
+    fn apart(&self, gap: NodeId) -> Option<f64> {
+        let Node::Apply(Op::Sub, [to, at]) = self.b.node(gap) else {
+            return None;
+        };
+        let Node::Apply(Op::Add, [a, b]) = self.b.node(to) else {
+            return None;
+        };
+        let by = if a == at { b } else { a };
+        (a == at || b == at)
+            .then(|| self.b.value(by))?
+            .map(|v| v.real())
     }
 
     /// How far a coordinate is from another at most: not at all, or by a part of a normal.

@@ -33,6 +33,9 @@ const SOME: Most = Most {
     entries: 5,
 };
 
+/// What part of its shapes' costs a view may cost.
+const WORTH: f64 = 0.75;
+
 /// What a place in tables costs, in parts of what a ray costs against a shape.
 const PLACE: f64 = 1.0 / 4096.0;
 
@@ -166,7 +169,7 @@ impl Lower<'_> {
             let Some((cost, cells)) = cells else {
                 continue;
             };
-            let is_worth = cost <= boxes.len() as f64 / 2.0;
+            let is_worth = cost <= WORTH * boxes.len() as f64;
             if !is_worth || best.as_ref().is_some_and(|(least, _)| cost >= *least) {
                 continue;
             }
