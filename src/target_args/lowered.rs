@@ -138,14 +138,25 @@ impl ScreenArgs {
                 best = (takes(&by(less)?)?, less);
             }
         }
-        let alone = (most <= MOST).then(|| takes(&separate)).transpose()?;
-        let alone = alone.flatten();
-        let chosen = match (best.0, alone) {
-            (Some(together), Some(alone)) if together <= alone => best.1,
-            (_, Some(_)) => Instancing::Separate,
-            _ => best.1,
-        };
-        lower(chosen, set)
+        let mut chosen = best;
+        if most <= MOST {
+            let seen = by(Instancing::Seen)?;
+            let others = [
+                (
+                    Instancing::Seen,
+                    Some(seen).filter(|seen| size(seen) != size(&separate)),
+                ),
+                (Instancing::Separate, Some(separate)),
+            ];
+            for (instancing, graph) in others {
+                let cycles = graph.map(|graph| takes(&graph)).transpose()?.flatten();
+                let is_less = cycles.is_some_and(|less| chosen.0.is_none_or(|most| less < most));
+                if is_less {
+                    chosen = (cycles, instancing);
+                }
+            }
+        }
+        lower(chosen.1, set)
     }
 }
 

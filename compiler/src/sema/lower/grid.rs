@@ -76,7 +76,7 @@ impl Lower<'_> {
             Instancing::Cells => MANY,
             Instancing::FewerCells => FEWER,
             Instancing::FewCells => SOME,
-            Instancing::Rows | Instancing::Separate => return Ok(None),
+            Instancing::Rows | Instancing::Seen | Instancing::Separate => return Ok(None),
         };
         let all = boxes.iter().copied().reduce(Extent::join);
         let Some(all) = all.map(|all| all.grown(1.0 / 64.0, 0.0)) else {

@@ -323,27 +323,96 @@ impl<'a> Lower<'a> {
         far: NodeId,
         span: Span,
     ) -> Found<Val> {
-        let mut args = vec![Val::Rows(of.clone())];
-        let seen = self.view_of(of, ray, what == "any", span)?;
-        let how = if let Some(ray) = seen {
-            let lists = &ray.view.lists;
-            args.extend(lists.values());
-            args.push(Val::Node(self.int(lists.most as i32, span)));
-            let is_sorted = ray.order == Order::Nearest;
-            args.extend(is_sorted.then(|| Val::Table(ray.view.near.clone())));
-            args.push(ray.cell);
-            if is_sorted { "seen" } else { "along" }
-        } else if let Some(grid) = self.grid_in(of, span)? {
-            args.extend(self.grid_values(grid, span));
-            "in"
-        } else {
-            args.push(Val::Node(self.int(of.shapes.len() as i32, span)));
-            "of"
+        let Some(seen) = self.view_of(of, ray, what == "any", span)? else {
+            return self.among_all(of, what, ray, far, span);
         };
-        args.extend([ray.clone(), Val::Node(far)]);
+        let lists = &seen.view.lists;
+        let mut args = lists.values().to_vec();
+        args.push(Val::Node(self.int(lists.most as i32, span)));
+        let is_sorted = seen.order == Order::Nearest;
+        args.extend(is_sorted.then(|| Val::Table(seen.view.near.clone())));
+        args.push(seen.cell);
+        let how = if is_sorted { "seen" } else { "along" };
+        let found = self.found_by(of, (what, how), args, (ray, far), span)?;
+        match seen.when {
+            Some(when) => {
+                let other = self.among_all(of, what, ray, far, span)?;
+                self.merge(when, found, other, span)
+            }
+            None => Ok(found),
+        }
+    }
+
+    /// The same of any ray.
+    fn among_all(
+        &mut self,
+        of: &Rc<Instances>,
+        what: &str,
+        ray: &Val,
+        far: NodeId,
+        span: Span,
+    ) -> Found<Val> {
+        if self.options.ways.instancing == Instancing::Seen {
+            return self.one_by_one(of, what, ray, far, span);
+        }
+        let (how, args) = match self.grid_in(of, span)? {
+            Some(grid) => ("in", self.grid_values(grid, span).to_vec()),
+            None => (
+                "of",
+                vec![Val::Node(self.int(of.shapes.len() as i32, span))],
+            ),
+        };
+        self.found_by(of, (what, how), args, (ray, far), span)
+    }
+
+    /// The same by code for each shape.
+    fn one_by_one(
+        &mut self,
+        of: &Rc<Instances>,
+        what: &str,
+        ray: &Val,
+        far: NodeId,
+        span: Span,
+    ) -> Found<Val> {
+        let (mut t, mut row) = (far, self.int(-1, span));
+        let (yes, no) = (self.bool(true, span), self.bool(false, span));
+        let mut hits = Vec::new();
+        let is_any = what == "any";
+        for (k, shape) in (0..).zip(of.shapes.iter()) {
+            let found = self.solved(shape, ray.clone(), Some(t), span)?;
+            let near = if is_any { BinaryOp::Lt } else { BinaryOp::Le };
+            let near = self.scalar(near, &Ty::Real, found.t, t, span)?;
+            let win = self.select(found.present, near, no, span);
+            if is_any {
+                hits.push(win);
+                continue;
+            }
+            t = self.select(win, found.t, t, span);
+            let k = self.int(k, span);
+            row = self.select(win, k, row, span);
+        }
+        let hits = hits.into_iter().rev();
+        let any = hits.fold(no, |any, hit| self.select(hit, yes, any, span));
+        Ok(match is_any {
+            true => Val::Node(any),
+            false => Val::parts(vec![Val::Node(t), Val::Node(row)]),
+        })
+    }
+
+    fn found_by(
+        &mut self,
+        of: &Rc<Instances>,
+        (what, how): (&str, &str),
+        args: Vec<Val>,
+        (ray, far): (&Val, NodeId),
+        span: Span,
+    ) -> Found<Val> {
+        let mut all = vec![Val::Rows(of.clone())];
+        all.extend(args);
+        all.extend([ray.clone(), Val::Node(far)]);
         let first = Ty::Function(vec![Ty::Int], Box::new(Ty::Shape));
         let outer = std::mem::replace(&mut self.all_turns, true);
-        let found = self.library(&format!("{what}_{how}"), first, args, span);
+        let found = self.library(&format!("{what}_{how}"), first, all, span);
         self.all_turns = outer;
         found
     }

@@ -7,7 +7,9 @@
 use super::value::Val;
 use super::{Found, Lower};
 use crate::ir::graph::{Node, NodeId};
+use crate::sema::ty::Ty;
 use crate::source::Span;
+use crate::syntax::tree::BinaryOp;
 use slowlight_routine::Op;
 
 /// What the rays of one place have in common.
@@ -39,6 +41,41 @@ impl Lower<'_> {
             return Ok(Some(Pencil::Along(dir)));
         }
         Ok(self.towards(from, dir))
+    }
+
+    /// The point at which a ray starts that a loop carries, in the loop's first turn, and whether
+    /// it starts there: a bool.
+    pub(super) fn first_pencil(
+        &mut self,
+        ray: &Val,
+        span: Span,
+    ) -> Found<Option<(Pencil, NodeId)>> {
+        let [from, _] = self.start_and_direction(ray, span)?;
+        let starts = from.map(|node| match self.b.node(node) {
+            Node::Carried { of, index } => {
+                let carried = self.b.loop_of(of)?.init.get(index as usize);
+                carried.copied()
+            }
+            _ => None,
+        });
+        let [Some(x), Some(y), Some(z)] = starts else {
+            return Ok(None);
+        };
+        let Some(point) = self.constants([x, y, z]) else {
+            return Ok(None);
+        };
+        let mut all = self.bool(true, span);
+        for (at, start) in from.into_iter().zip([x, y, z]).rev() {
+            let equal = self.scalar(BinaryOp::Eq, &Ty::Real, at, start, span)?;
+            let no = self.bool(false, span);
+            all = self.select(equal, all, no, span);
+        }
+        let pencil = Pencil::Through {
+            point,
+            beside: [0.0; 3],
+            starts: true,
+        };
+        Ok(Some((pencil, all)))
     }
 
     /// The coordinates of where a ray starts and of its direction.

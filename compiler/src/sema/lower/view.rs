@@ -95,6 +95,8 @@ pub(super) struct InView {
     /// In which of its cells.
     pub(super) cell: Val,
     pub(super) order: Order,
+    /// Where not all of its rays are the pencil's, whether this one is.
+    pub(super) when: Option<NodeId>,
 }
 
 impl Lower<'_> {
@@ -107,8 +109,12 @@ impl Lower<'_> {
         is_any: bool,
         span: Span,
     ) -> Found<Option<InView>> {
-        let Some(pencil) = self.pencil_of(ray, span)? else {
-            return Ok(None);
+        let (pencil, when) = match self.pencil_of(ray, span)? {
+            Some(pencil) => (pencil, None),
+            None => match self.first_pencil(ray, span)? {
+                Some((pencil, when)) => (pencil, Some(when)),
+                None => return Ok(None),
+            },
         };
         let order = match pencil {
             _ if is_any => Order::Largest,
@@ -129,6 +135,7 @@ impl Lower<'_> {
             Some(view) => Ok(Some(InView {
                 cell: self.cell_in(&view, pencil, ray, span)?,
                 order,
+                when,
                 view,
             })),
             None => Ok(None),
@@ -142,7 +149,7 @@ impl Lower<'_> {
         span: Span,
     ) -> Option<View> {
         let most = match self.options.ways.instancing {
-            Instancing::Cells => MANY,
+            Instancing::Cells | Instancing::Seen => MANY,
             Instancing::FewerCells => FEWER,
             Instancing::FewCells => SOME,
             Instancing::Rows | Instancing::Separate => return None,

@@ -47,6 +47,8 @@ pub enum Instancing {
     FewCells,
     /// In a table, one after the other.
     Rows,
+    /// In a table by rays that share a point or a direction, else each by code of its own.
+    Seen,
     /// Each by code of its own.
     Separate,
 }
