@@ -16,6 +16,10 @@ use slowlight_compiler::targets::Target;
 /// Of how many shapes a scene may be for each to be code of its own, where it could be otherwise.
 const MOST: usize = 40;
 
+/// By how much a search makes code for each shape quicker than it makes loops over tables: where
+/// shapes stand is no constant there.
+const SEARCHED: f64 = 1.25;
+
 /// How large a plan's program may be, in parts of its room, for one of its smaller forms to fit.
 const FULL: f64 = 1.25;
 
@@ -138,25 +142,30 @@ impl ScreenArgs {
                 best = (takes(&by(less)?)?, less);
             }
         }
-        let mut chosen = best;
         if most <= MOST {
-            let seen = by(Instancing::Seen)?;
-            let others = [
-                (
-                    Instancing::Seen,
-                    Some(seen).filter(|seen| size(seen) != size(&separate)),
-                ),
-                (Instancing::Separate, Some(separate)),
-            ];
-            for (instancing, graph) in others {
-                let cycles = graph.map(|graph| takes(&graph)).transpose()?.flatten();
-                let is_less = cycles.is_some_and(|less| chosen.0.is_none_or(|most| less < most));
-                if is_less {
-                    chosen = (cycles, instancing);
+            if asked < Instancing::Rows {
+                let seen = by(Instancing::Seen)?;
+                if [&first, &separate]
+                    .iter()
+                    .all(|other| size(other) != size(&seen))
+                {
+                    let cycles = takes(&seen)?;
+                    best = least(best, (cycles, Instancing::Seen));
                 }
             }
+            let cycles = takes(&separate)?.map(|cycles| cycles / SEARCHED);
+            best = least(best, (cycles, Instancing::Separate));
         }
-        lower(chosen.1, set)
+        lower(best.1, set)
+    }
+}
+
+/// The way that takes less, of those that fit.
+fn least(a: (Option<f64>, Instancing), b: (Option<f64>, Instancing)) -> (Option<f64>, Instancing) {
+    match (a.0, b.0) {
+        (Some(one), Some(other)) if one <= other => a,
+        (_, Some(_)) => b,
+        _ => a,
     }
 }
 

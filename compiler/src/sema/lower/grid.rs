@@ -12,7 +12,7 @@ use slowlight_routine::Range;
 use std::rc::Rc;
 
 /// How many shapes a grid is worth.
-const FEW: usize = 2;
+const FEW: usize = 3;
 
 const MANY: Most = Most {
     along: 16,

@@ -9,6 +9,7 @@
 //! **Invariant**: whatever the program, this ends: items form no cycles (the
 //! checker saw to it), and steps, depth and nodes are counted.
 
+mod among;
 mod bounds;
 mod call;
 mod cells;

@@ -4,6 +4,7 @@
 //! that are lifted off their surface; those of a sun have one direction. What such a ray may meet
 //! hangs on two numbers, where for any ray it is four.
 
+use super::projection::Pencil;
 use super::value::Val;
 use super::{Found, Lower};
 use crate::ir::graph::{Node, NodeId};
@@ -11,20 +12,6 @@ use crate::sema::ty::Ty;
 use crate::source::Span;
 use crate::syntax::tree::BinaryOp;
 use slowlight_routine::Op;
-
-/// What the rays of one place have in common.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum Pencil {
-    /// They pass a point, beside it by at most so much along each axis.
-    Through {
-        point: [f64; 3],
-        beside: [f64; 3],
-        /// Whether they start at it.
-        starts: bool,
-    },
-    /// They lead along one direction, forwards or backwards.
-    Along([f64; 3]),
-}
 
 impl Lower<'_> {
     /// What a ray has in common with those of all other pixels; none where nothing is known.

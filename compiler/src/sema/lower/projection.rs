@@ -1,12 +1,36 @@
-//! Projections: where boxes are seen from a point, or along a direction.
+//! Pencils of rays, and projections: where boxes are seen from a point, or along a direction.
 //!
 //! A point is seen by what its line has of two axes for each unit of a third. So lines are told
 //! apart and not their two directions: of what lies behind the point is seen where the same line
 //! meets it.
 
-use super::pencil::Pencil;
 use crate::ir::extent::Extent;
 use slowlight_routine::Range;
+
+/// What the rays of one place have in common.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Pencil {
+    /// They pass a point, beside it by at most so much along each axis.
+    Through {
+        point: [f64; 3],
+        beside: [f64; 3],
+        /// Whether they start at it.
+        starts: bool,
+    },
+    /// They lead along one direction, forwards or backwards.
+    Along([f64; 3]),
+}
+
+/// In which order a cell's shapes are asked.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Order {
+    /// As they stand in the scene.
+    Given,
+    /// What is nearest to the point first.
+    Nearest,
+    /// What is seen largest first, which most lines meet.
+    Largest,
+}
 
 /// How near shapes may be to a point, in parts of how far the farthest is, for it to see them.
 const NEAR: f64 = 1.0 / 64.0;

@@ -1,7 +1,6 @@
 //! Values while compiling: structure is known, scalars are nodes.
 
-use super::pencil::Pencil;
-use super::view::Order;
+use super::projection::{Order, Pencil};
 use super::{Found, Lower};
 use crate::ir::extent::Extent;
 use crate::ir::graph::{NodeId, TableId};
@@ -94,7 +93,7 @@ pub(super) struct Instances {
     /// The cells in which any ray finds them, made for the first that asks.
     pub(super) grid: OnceCell<Option<Grid>>,
     /// Those of the rays of a pencil.
-    pub(super) views: RefCell<Vec<((Pencil, Order), Option<Rc<View>>)>>,
+    pub(super) views: RefCell<Views>,
 }
 
 /// Cells and what is in them.
@@ -104,6 +103,9 @@ pub(super) struct Grid {
     pub(super) along: [usize; 3],
     pub(super) lists: Lists,
 }
+
+/// Views by whose rays they are for, and in which order; none where one is worth nothing.
+type Views = Vec<((Pencil, Order), Option<Rc<View>>)>;
 
 /// Cells of a picture of shapes, from a point or along a direction.
 pub(super) struct View {

@@ -5,8 +5,7 @@
 //! Accelerator, 1986).
 
 use super::cells::{Cells, Most};
-use super::pencil::Pencil;
-use super::projection::{Projection, joined};
+use super::projection::{Order, Pencil, Projection, joined};
 use super::value::{Instances, Val, View};
 use super::ways::Instancing;
 use super::{Found, Lower};
@@ -38,17 +37,6 @@ const WORTH: f64 = 0.75;
 
 /// What a place in tables costs, in parts of what a ray costs against a shape.
 const PLACE: f64 = 1.0 / 4096.0;
-
-/// In which order a cell's shapes are asked.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Order {
-    /// As they stand in the scene.
-    Given,
-    /// What is nearest to the point first.
-    Nearest,
-    /// What is seen largest first, which most lines meet.
-    Largest,
-}
 
 /// Where each box is seen, and the window around those that are seen somewhere. What is not, as
 /// it is beside the point, may be anywhere.

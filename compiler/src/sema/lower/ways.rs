@@ -33,7 +33,7 @@ pub enum Search {
 }
 
 /// How many shapes that are alike are a group at least.
-pub const INSTANCES: usize = 2;
+pub const INSTANCES: usize = 3;
 
 /// How a scene's shapes that are alike but for numbers are found.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
