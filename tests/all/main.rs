@@ -44,6 +44,7 @@ mod mos6502_fixed;
 mod mos6502_logs;
 mod need;
 mod numbers;
+mod objects;
 mod packages;
 mod pairs;
 #[cfg(feature = "peers")]

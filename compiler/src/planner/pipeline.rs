@@ -44,7 +44,7 @@ macro_rules! passes {
 }
 
 passes! {
-    Instances "instances" "sema/lower/instances" "shapes alike but for numbers as a table, found by a loop or a grid"
+    Instances "instances" "sema/lower/instances" "shapes alike but for numbers as a table, found by a loop or by cells"
     Bounds "bounds" "sema/lower/bounds" "bounding boxes of shapes that are found by their distances"
     StripMine "strip-mine" "passes/loops/strip_mine" "strip-mining of rows by the residue of the column"
     IntegerParts "integer-parts" "passes/simplify/integer_parts" "integers out of floors, where sums have few bits"

@@ -65,8 +65,14 @@ fn scene(kind: usize, count: usize, n: &mut Numbers) -> String {
              * (0.8 + 0.6 * hard_shadow(s, h, {lamp})) else 0;\n\
          fn mirrored(r: ray) -> real = if let h = s.trace(r, far: 12) then\n\
              seen(ray(h.point + 0.01 * h.normal, reflect(r.dir, h.normal))) else 0.5;\n\
+         fn followed(first: ray) -> real = loop (r = first, left = 1.2) max 3 {{\n\
+             if let h = s.trace(r, far: 12) then\n\
+               (if h.tag > 0.5 then next(ray(h.point + 0.01 * h.normal, reflect(r.dir, h.normal)), left * h.tag)\n\
+                else left * h.tag)\n\
+             else 0.7 * left }} else left;\n\
          draw (x, y) = {{\n\
-           let v = if y < 16 then seen(pinhole((0, 2, 9), at: (0, 1, 0), field: 50deg).through(x, 2 * y))\n\
+           let v = if y < 8 then followed(pinhole((0, 2, 9), at: (0, 1, 0), field: 50deg).through(x, 4 * y))\n\
+             else if y < 16 then seen(pinhole((0, 2, 9), at: (0, 1, 0), field: 50deg).through(x, 2 * y))\n\
              else if y < 32 then seen(pinhole({eye}, at: (0.1, 0.9, -1), field: 80deg).through(x, 2 * y - 24))\n\
              else mirrored(ray(((x - 32) / 8, (48 - y) / 5, 7), (0, 0, -1)));\n\
            threshold(v, bayer(4)[x mod 4, y mod 4])\n}};"
