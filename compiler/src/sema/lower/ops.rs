@@ -7,7 +7,7 @@ use crate::sema::program::*;
 use crate::sema::ty::Ty;
 use crate::source::Span;
 use crate::syntax::tree::{BinaryOp, UnaryOp};
-use slowlight_routine::Op;
+use slowlight_routine::{Op, Value};
 
 /// Powers that are multiplied out.
 const POWERS: f64 = 64.0;
@@ -93,6 +93,41 @@ impl<'a> Lower<'a> {
             .map(|(a, b)| Ok(Val::Node(self.scalar(op, &Ty::Real, a, b, span)?)))
             .collect();
         Ok(Val::parts(parts?))
+    }
+
+    /// An operation; a constant outside its domain is an error.
+    pub(super) fn apply(&mut self, op: Op, args: &[NodeId], span: Span) -> Found<NodeId> {
+        self.step(span)?;
+        let values: Vec<Option<Value>> = args.iter().map(|&a| self.b.value(a)).collect();
+        let first = values.first().copied().flatten().map(Value::real);
+        let last = values.last().copied().flatten().map(Value::real);
+        let wrong = match op {
+            Op::Div | Op::Mod | Op::IntDiv | Op::IntMod => {
+                (last == Some(0.0)).then_some("this divides by zero")
+            }
+            Op::Sqrt => first
+                .filter(|&a| a < 0.0)
+                .map(|_| "this is the square root of a negative"),
+            Op::Log => first
+                .filter(|&a| a <= 0.0)
+                .map(|_| "this is the logarithm of 0 or less"),
+            Op::Asin | Op::Acos => {
+                (first.filter(|&a| a.abs() > 1.0)).map(|_| "no angle has this sine or cosine")
+            }
+            Op::Pow => match (first, last) {
+                (Some(a), Some(b)) if a < 0.0 && b.fract() != 0.0 => {
+                    Some("this is a negative to a power that is not whole")
+                }
+                (Some(0.0), Some(b)) if b < 0.0 => Some("this divides by zero"),
+                _ => None,
+            },
+            _ => None,
+        };
+        if let Some(wrong) = wrong {
+            return Err(Box::new(self.error(span, wrong).help(op_domain(op))));
+        }
+        let span = self.at(span);
+        Ok(self.b.apply(op, args, span))
     }
 
     /// An operator on two scalars of one type.
