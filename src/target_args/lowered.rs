@@ -1,5 +1,5 @@
-//! The graph of a scene as a target is to run it: whether shapes that are alike are found in a
-//! grid, in a table, or by code each, is decided by what plans without a search are said to take.
+//! The graph of a scene as a target is to run it: whether shapes that are alike are found by
+//! cells, in a table, or by code each, is decided by what plans without a search are said to take.
 
 use super::ScreenArgs;
 use crate::estimate;
@@ -143,7 +143,8 @@ impl ScreenArgs {
             }
         }
         if most <= MOST {
-            if asked < Instancing::Rows {
+            // Of less memory there is no such way.
+            if asked == Instancing::Cells {
                 let seen = by(Instancing::Seen)?;
                 if [&first, &separate]
                     .iter()

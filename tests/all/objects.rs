@@ -33,8 +33,17 @@ fn balls(count: u32, rays: &str) -> String {
 fn cycles(scene: &str, target: &str, options: &[&str]) -> f64 {
     let dir = directory(&[("scene.scn", scene)]);
     let run = |rows: &str| {
-        let args = ["run", "scene.scn", "-t", target, "--rows", rows, "--json"];
-        let args = [&args, &["--format", "log10"], options].concat();
+        let mut args = vec![
+            "run",
+            "scene.scn",
+            "-t",
+            target,
+            "--format",
+            "log10",
+            "--json",
+        ];
+        args.extend(["--rows", rows]);
+        args.extend(options);
         let said = json(dir.path(), &args);
         assert_eq!(said["differs_from_model"], 0, "{target}:\n{scene}");
         said["cycles"].as_f64().expect("cycles are a number")

@@ -187,17 +187,12 @@ impl Code<'_> {
             (low, high) = ("acc".to_owned(), "acc+1".to_owned());
         }
         let [lo, hi, ..] = (table.entries.len() as u32).to_le_bytes();
-        let mut is_at_one = false;
-        for (k, plane) in planes(self.plan, of, table).iter().enumerate() {
+        let planes = planes(self.plan, of, table);
+        let planes = planes.iter().enumerate().take(usize::from(bytes));
+        let (alike, others): (Vec<_>, Vec<_>) = planes.partition(|(_, p)| uniform(p).is_some());
+        for (nth, (k, _)) in others.into_iter().enumerate() {
             let to = write::byte_at(home, k as u8);
-            if k >= usize::from(bytes) {
-                break;
-            }
-            if let Some(byte) = uniform(plane) {
-                self.text.code(&format!("lda #${byte:02x} | sta {to}"));
-                continue;
-            }
-            if is_at_one {
+            if nth > 0 {
                 self.text.code(&format!(
                     "clc | lda acc | adc #{lo} | sta acc | lda acc+1 | adc #{hi} | sta acc+1"
                 ));
@@ -209,8 +204,13 @@ impl Code<'_> {
                     "lda {high} | adc #>({first}) | sta acc+1 | ldy #0"
                 ));
             }
-            is_at_one = true;
             self.text.code(&format!("lda (acc),y | sta {to}"));
+        }
+        // Only then, as nothing says here that the index is elsewhere than the entry.
+        for (k, plane) in alike {
+            let (to, byte) = (write::byte_at(home, k as u8), plane.first());
+            let byte = byte.copied().unwrap_or(0);
+            self.text.code(&format!("lda #${byte:02x} | sta {to}"));
         }
     }
 }

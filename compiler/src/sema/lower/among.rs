@@ -2,7 +2,7 @@
 //! space, by a loop over all, or by code for each.
 
 use super::projection::Order;
-use super::value::{Grid, Instances, Val};
+use super::value::{Asked, Grid, Instances, Val};
 use super::ways::Instancing;
 use super::{Found, Lower};
 use crate::ir::graph::NodeId;
@@ -27,7 +27,7 @@ impl Lower<'_> {
         far: NodeId,
         span: Span,
     ) -> Found<Met> {
-        let met = self.among(of, "nearest", ray, far, span)?;
+        let met = self.among(of, Asked::Nearest, ray, far, span)?;
         let t = self.part(met.clone(), 0, span)?;
         let t = self.node(t, &Ty::Real, span)?;
         let row = self.part(met, 1, span)?;
@@ -45,7 +45,7 @@ impl Lower<'_> {
         far: NodeId,
         span: Span,
     ) -> Found<NodeId> {
-        let any = self.among(of, "any", ray, far, span)?;
+        let any = self.among(of, Asked::Any, ray, far, span)?;
         self.node(any, &Ty::Bool, span)
     }
 
@@ -54,13 +54,13 @@ impl Lower<'_> {
     fn among(
         &mut self,
         of: &Rc<Instances>,
-        what: &str,
+        asked: Asked,
         ray: &Val,
         far: NodeId,
         span: Span,
     ) -> Found<Val> {
-        let Some(seen) = self.view_of(of, ray, what == "any", span)? else {
-            return self.among_all(of, what, ray, far, span);
+        let Some(seen) = self.view_of(of, ray, asked, span)? else {
+            return self.among_all(of, asked, ray, far, span);
         };
         let lists = &seen.view.lists;
         let mut args = lists.values().to_vec();
@@ -69,10 +69,10 @@ impl Lower<'_> {
         args.extend(is_sorted.then(|| Val::Table(seen.view.near.clone())));
         args.push(seen.cell);
         let how = if is_sorted { "seen" } else { "along" };
-        let found = self.found_by(of, (what, how), args, (ray, far), span)?;
+        let found = self.found_by(of, (asked, how), args, (ray, far), span)?;
         match seen.when {
             Some(when) => {
-                let other = self.among_all(of, what, ray, far, span)?;
+                let other = self.among_all(of, asked, ray, far, span)?;
                 self.merge(when, found, other, span)
             }
             None => Ok(found),
@@ -83,13 +83,13 @@ impl Lower<'_> {
     fn among_all(
         &mut self,
         of: &Rc<Instances>,
-        what: &str,
+        asked: Asked,
         ray: &Val,
         far: NodeId,
         span: Span,
     ) -> Found<Val> {
         if self.options.ways.instancing == Instancing::Seen {
-            return self.one_by_one(of, what, ray, far, span);
+            return self.one_by_one(of, asked, ray, far, span);
         }
         let (how, args) = match self.grid_in(of, span)? {
             Some(grid) => ("in", self.grid_values(grid, span).to_vec()),
@@ -98,14 +98,14 @@ impl Lower<'_> {
                 vec![Val::Node(self.int(of.shapes.len() as i32, span))],
             ),
         };
-        self.found_by(of, (what, how), args, (ray, far), span)
+        self.found_by(of, (asked, how), args, (ray, far), span)
     }
 
     /// The same by code for each shape.
     fn one_by_one(
         &mut self,
         of: &Rc<Instances>,
-        what: &str,
+        asked: Asked,
         ray: &Val,
         far: NodeId,
         span: Span,
@@ -113,7 +113,7 @@ impl Lower<'_> {
         let (mut t, mut row) = (far, self.int(-1, span));
         let (yes, no) = (self.bool(true, span), self.bool(false, span));
         let mut hits = Vec::new();
-        let is_any = what == "any";
+        let is_any = asked == Asked::Any;
         for (k, shape) in (0..).zip(of.shapes.iter()) {
             let found = self.solved(shape, ray.clone(), Some(t), span)?;
             let near = if is_any { BinaryOp::Lt } else { BinaryOp::Le };
@@ -138,7 +138,7 @@ impl Lower<'_> {
     fn found_by(
         &mut self,
         of: &Rc<Instances>,
-        (what, how): (&str, &str),
+        (asked, how): (Asked, &str),
         args: Vec<Val>,
         (ray, far): (&Val, NodeId),
         span: Span,
@@ -146,6 +146,10 @@ impl Lower<'_> {
         let mut all = vec![Val::Rows(of.clone())];
         all.extend(args);
         all.extend([ray.clone(), Val::Node(far)]);
+        let what = match asked {
+            Asked::Nearest => "nearest",
+            Asked::Any => "any",
+        };
         let first = Ty::Function(vec![Ty::Int], Box::new(Ty::Shape));
         let outer = std::mem::replace(&mut self.all_turns, true);
         let found = self.library(&format!("{what}_{how}"), first, all, span);

@@ -27,6 +27,21 @@ pub(super) struct Cells<'e, const N: usize> {
 }
 
 impl<'e, const N: usize> Cells<'e, N> {
+    /// Boxes in so many cells.
+    pub(super) fn new(
+        boxes: &'e [[Range; N]],
+        whole: [Range; N],
+        room: [f64; N],
+        along: [usize; N],
+    ) -> Self {
+        Cells {
+            boxes,
+            whole,
+            along,
+            room,
+        }
+    }
+
     /// The cells that cost least, and what they do: as near to cubes as may be.
     pub(super) fn cheapest(
         boxes: &'e [[Range; N]],
@@ -40,12 +55,7 @@ impl<'e, const N: usize> Cells<'e, N> {
         let mut best: Option<(f64, Self)> = None;
         for along in 1..=most.along {
             let along = widths.map(|w| ((w / widest * along as f64).round() as usize).max(1));
-            let cells = Cells {
-                boxes,
-                whole,
-                along,
-                room,
-            };
+            let cells = Cells::new(boxes, whole, room, along);
             if cells.count() > most.cells || cells.entries() > most.entries * boxes.len() {
                 break;
             }
@@ -149,7 +159,11 @@ impl Lower<'_> {
             Some(*at)
         });
         let first = std::iter::once(0).chain(ends).collect();
-        let flat: Vec<i32> = lists.iter().flatten().copied().collect();
+        let mut flat: Vec<i32> = lists.iter().flatten().copied().collect();
+        if flat.is_empty() {
+            // A table has an entry.
+            flat.push(0);
+        }
         Lists {
             most: lists.iter().map(Vec::len).max().unwrap_or(0),
             first: self.ints("first", first, span),

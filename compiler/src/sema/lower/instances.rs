@@ -1,8 +1,8 @@
 //! Instancing: shapes of a scene that are alike but for numbers, as rows of a table.
 //!
 //! Neighbours among a scene's shapes that are made by one item from constants (or from the same
-//! values) become one group. What a ray meets of it is found by a loop over the table, and by the
-//! cells of a grid where the shapes have boxes; what is asked of the nearest one alone, its normal
+//! values) become one group. What a ray meets of it is found by a loop over the table, and by
+//! cells where the shapes have boxes (`among`); what is asked of the nearest one alone, its normal
 //! or its tag, is made from the row that it stands in.
 
 use super::value::{Instances, Shape, Val};

@@ -18,11 +18,7 @@ impl Lower<'_> {
     pub(super) fn pencil_of(&mut self, ray: &Val, span: Span) -> Found<Option<Pencil>> {
         let [from, dir] = self.start_and_direction(ray, span)?;
         if let Some(point) = self.constants(from) {
-            return Ok(Some(Pencil::Through {
-                point,
-                beside: [0.0; 3],
-                starts: true,
-            }));
+            return Ok(Some(Pencil::from(point)));
         }
         if let Some(dir) = self.constants(dir) {
             return Ok(Some(Pencil::Along(dir)));
@@ -57,12 +53,7 @@ impl Lower<'_> {
             let no = self.bool(false, span);
             all = self.select(equal, all, no, span);
         }
-        let pencil = Pencil::Through {
-            point,
-            beside: [0.0; 3],
-            starts: true,
-        };
-        Ok(Some((pencil, all)))
+        Ok(Some((Pencil::from(point), all)))
     }
 
     /// The coordinates of where a ray starts and of its direction.
@@ -110,7 +101,8 @@ impl Lower<'_> {
         })
     }
 
-    /// A quotient or product: the operation, what is scaled, and by what.
+    /// A quotient or product: the operation, what is scaled, and by what. Of a product with the
+    /// factor first nothing is known, as vectors are scaled from behind by `unit` alone.
     fn scaled(&self, node: NodeId) -> Option<(Op, NodeId, NodeId)> {
         match self.b.node(node) {
             Node::Apply(op @ (Op::Div | Op::Mul), [of, by]) => Some((op, of, by)),
@@ -118,7 +110,8 @@ impl Lower<'_> {
         }
     }
 
-    /// What lies between a coordinate and another that is it and a constant.
+    /// What lies between a coordinate and another that is it and a constant, but for the roundings
+    /// of both.
     fn apart(&self, gap: NodeId) -> Option<f64> {
         let Node::Apply(Op::Sub, [to, at]) = self.b.node(gap) else {
             return None;

@@ -21,6 +21,17 @@ pub(super) enum Pencil {
     Along([f64; 3]),
 }
 
+impl Pencil {
+    /// Rays that start at a point.
+    pub(super) fn from(point: [f64; 3]) -> Pencil {
+        Pencil::Through {
+            point,
+            beside: [0.0; 3],
+            starts: true,
+        }
+    }
+}
+
 /// In which order a cell's shapes are asked.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Order {
@@ -32,11 +43,14 @@ pub(super) enum Order {
     Largest,
 }
 
-/// How near shapes may be to a point, in parts of how far the farthest is, for it to see them.
+/// How near a box may be to a point, in parts of how far its own far side is, to be seen from it.
 const NEAR: f64 = 1.0 / 64.0;
 
+/// By what part lengths are other than they should, by roundings, in any format.
+pub(super) const SLACK: f64 = 1.0 / 64.0;
+
 /// How many slices of what is seen in a cell are asked whether a shape is there.
-const SLICES: usize = 4;
+const SLICES: usize = 8;
 
 /// By how many units of rounding a ray is elsewhere than it should.
 const ROUNDINGS: f64 = 8.0;
@@ -86,21 +100,19 @@ impl Projection {
         };
         let outside = |k: usize| (of.low[k] - point[k]).max(point[k] - of.high[k]).max(0.0);
         let [x, y, z] = [0, 1, 2].map(outside);
-        (1.0 - NEAR) * (x * x + y * y + z * z).sqrt()
+        (1.0 - SLACK) * (x * x + y * y + z * z).sqrt()
     }
 
     /// What of a box is seen in a part of the picture, in slices.
     pub(super) fn slices(self, [u, v]: [Range; 2], of: &Extent) -> Vec<[Range; 3]> {
         let [a, b, w] = self.axes();
-        let of = match self.pencil {
-            Pencil::Through { beside, .. } => of.grown_by(beside),
-            Pencil::Along(_) => *of,
-        };
         let at = |k: usize| of.low[w] + (of.high[w] - of.low[w]) * k as f64 / SLICES as f64;
         let slice = |k: usize| {
             let ends = [at(k), at(k + 1)];
             let across = |axis: usize, seen: Range| match self.pencil {
                 Pencil::Through { point, beside, .. } => {
+                    // A line beside the point is there by that much sooner or later.
+                    let ends = [ends[0] - beside[w], ends[1] + beside[w]];
                     let there = hull(ends, |end| {
                         [seen.lo, seen.hi].map(|seen| point[axis] + seen * (end - point[w]))
                     });
@@ -119,7 +131,8 @@ impl Projection {
     }
 
     /// By how much roundings move what is seen in a window, and how much of a direction of length 1
-    /// is ahead at least.
+    /// is ahead at least. Parallel rays that start far behind the shapes are off by more, and so
+    /// are their hits.
     pub(super) fn room(self, window: [Range; 2], of: &Extent, epsilon: f64) -> (f64, f64) {
         let [u, v, w] = self.axes();
         let [a, b] = window.map(|side| side.lo.abs().max(side.hi.abs()));

@@ -79,6 +79,15 @@ pub(super) struct Shape {
     pub(super) args: Vec<Val>,
 }
 
+/// What is asked of shapes by a ray.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Asked {
+    /// Which one it meets first, and where.
+    Nearest,
+    /// Whether it meets one.
+    Any,
+}
+
 /// Shapes that are alike but for numbers.
 pub(super) struct Instances {
     /// Each by itself, and the first one's place among the scene's shapes.

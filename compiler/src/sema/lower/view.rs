@@ -5,8 +5,8 @@
 //! Accelerator, 1986).
 
 use super::cells::{Cells, Most};
-use super::projection::{Order, Pencil, Projection, joined};
-use super::value::{Instances, Val, View};
+use super::projection::{Order, Pencil, Projection, SLACK, joined};
+use super::value::{Asked, Instances, Val, View};
 use super::ways::Instancing;
 use super::{Found, Lower};
 use crate::ir::extent::Extent;
@@ -41,26 +41,46 @@ const PLACE: f64 = 1.0 / 4096.0;
 /// Where each box is seen, and the window around those that are seen somewhere. What is not, as
 /// it is beside the point, may be anywhere.
 struct Seen {
+    by: Projection,
     boxes: Vec<[Range; 2]>,
     window: [Range; 2],
     anywhere: Vec<i32>,
+    /// By how much roundings move what is seen.
+    room: f64,
+    /// How much of a direction into the window is ahead at least.
+    least: f64,
 }
 
 impl Seen {
-    fn of(by: Projection, boxes: &[Extent]) -> Option<Seen> {
+    fn of(by: Projection, boxes: &[Extent], epsilon: f64) -> Option<Seen> {
+        let all = boxes.iter().copied().reduce(Extent::join)?;
         let boxes: Vec<Option<[Range; 2]>> = boxes.iter().map(|of| by.seen(of)).collect();
         let somewhere = boxes.iter().copied().flatten();
         let window = somewhere.reduce(|[a, b], [c, d]| [joined(a, c), joined(b, d)])?;
+        let (room, least) = by.room(window, &all, epsilon);
         let window = window.map(|side| {
-            let more = (side.hi - side.lo) / 64.0;
+            let more = room + SLACK * (side.hi - side.lo);
             Range::new(side.lo - more, side.hi + more)
         });
         let anywhere = (0..).zip(&boxes).filter(|(_, seen)| seen.is_none());
         Some(Seen {
+            by,
             anywhere: anywhere.map(|(k, _)| k).collect(),
             boxes: boxes.iter().map(|seen| seen.unwrap_or(window)).collect(),
             window,
+            room,
+            least: (1.0 - SLACK) * least,
         })
+    }
+
+    /// What cells cost: a ray that leads where shapes are. How large the empty rest of the window
+    /// is hangs on the axis ahead alone.
+    fn cheapest(&self, most: &Most) -> Option<(f64, [usize; 2])> {
+        let cost =
+            |cells: &Cells<'_, 2>| cells.crowd() + PLACE * (cells.count() + cells.entries()) as f64;
+        let room = [self.room; 2];
+        let (cost, cells) = Cells::cheapest(&self.boxes, self.window, room, most, cost)?;
+        (cost <= WORTH * self.boxes.len() as f64).then_some((cost, cells.along))
     }
 
     /// Puts a list into an order.
@@ -94,7 +114,7 @@ impl Lower<'_> {
         &mut self,
         of: &Instances,
         ray: &Val,
-        is_any: bool,
+        asked: Asked,
         span: Span,
     ) -> Found<Option<InView>> {
         let (pencil, when) = match self.pencil_of(ray, span)? {
@@ -105,7 +125,7 @@ impl Lower<'_> {
             },
         };
         let order = match pencil {
-            _ if is_any => Order::Largest,
+            _ if asked == Asked::Any => Order::Largest,
             Pencil::Through { starts: true, .. } => Order::Nearest,
             _ => Order::Given,
         };
@@ -143,57 +163,38 @@ impl Lower<'_> {
             Instancing::Rows | Instancing::Separate => return None,
         };
         let boxes = of.boxes.as_deref()?;
-        let all = boxes.iter().copied().reduce(Extent::join)?;
-        let epsilon = self.options.epsilon;
-        let mut best: Option<(f64, View)> = None;
+        let mut best: Option<(f64, Seen, [usize; 2])> = None;
         for ahead in 0..3 {
             if matches!(pencil, Pencil::Along(dir) if dir[ahead] == 0.0) {
                 continue;
             }
-            let projection = Projection { pencil, ahead };
-            let Some(seen) = Seen::of(projection, boxes) else {
-                continue;
-            };
-            let (room, least) = projection.room(seen.window, &all, epsilon);
-            // What a ray costs that leads where shapes are: how large the empty rest of the window is
-            // hangs on the axis alone.
-            let cost = |cells: &Cells<'_, 2>| {
-                cells.crowd() + PLACE * (cells.count() + cells.entries()) as f64
-            };
-            let cells = Cells::cheapest(&seen.boxes, seen.window, [room; 2], &most, cost);
-            let Some((cost, cells)) = cells else {
-                continue;
-            };
-            let is_worth = cost <= WORTH * boxes.len() as f64;
-            if !is_worth || best.as_ref().is_some_and(|(least, _)| cost >= *least) {
-                continue;
+            let by = Projection { pencil, ahead };
+            if let Some(seen) = Seen::of(by, boxes, self.options.epsilon)
+                && let Some((cost, along)) = seen.cheapest(&most)
+                && best.as_ref().is_none_or(|(least, ..)| cost < *least)
+            {
+                best = Some((cost, seen, along));
             }
-            let mut lists = self.without_empty(
-                &of.shapes,
-                &cells,
-                |seen, k| projection.slices(seen, &boxes[k]),
-                span,
-            );
-            let near: Vec<f64> = boxes.iter().map(|of| projection.distance(of)).collect();
-            // The last one is what a line outside of the window may meet.
-            lists.push(seen.anywhere.clone());
-            for list in &mut lists {
-                seen.sort(list, order, &near);
-            }
-            best = Some((
-                cost,
-                View {
-                    ahead,
-                    low: seen.window.map(|side| side.lo),
-                    side: cells.side(),
-                    along: cells.along,
-                    least: least * (1.0 - 1.0 / 64.0),
-                    lists: self.lists_of(&lists, span),
-                    near: self.reals("near", &near, span),
-                },
-            ));
         }
-        best.map(|(_, view)| view)
+        let (_, seen, along) = best?;
+        let cells = Cells::new(&seen.boxes, seen.window, [seen.room; 2], along);
+        let slices = |part, k: usize| seen.by.slices(part, &boxes[k]);
+        let mut lists = self.without_empty(&of.shapes, &cells, slices, span);
+        // The last one is what a line outside of the window may meet.
+        lists.push(seen.anywhere.clone());
+        let near: Vec<f64> = boxes.iter().map(|of| seen.by.distance(of)).collect();
+        for list in &mut lists {
+            seen.sort(list, order, &near);
+        }
+        Some(View {
+            ahead: seen.by.ahead,
+            low: seen.window.map(|side| side.lo),
+            side: cells.side(),
+            along,
+            least: seen.least,
+            lists: self.lists_of(&lists, span),
+            near: self.reals("near", &near, span),
+        })
     }
 
     /// The cell that a ray of a pencil is in.

@@ -38,7 +38,7 @@ pub const INSTANCES: usize = 3;
 /// How a scene's shapes that are alike but for numbers are found.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Instancing {
-    /// In a table, by the cells of a grid where that takes less.
+    /// In a table, by the cells of a view or of a grid where that takes less.
     #[default]
     Cells,
     /// The same with fewer cells, which take less memory.

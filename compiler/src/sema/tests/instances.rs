@@ -54,7 +54,7 @@ fn scene(kind: usize, count: usize, n: &mut Numbers) -> String {
             items += &format!("  {shape} is 0.05;\n");
         }
     }
-    let (eye, lamp) = (n.point(), n.point());
+    let (eye, lamp, lift) = (n.point(), n.point(), n.between(0.01, 0.5));
     format!(
         "image 64 x 48 inks black, grey, white;\n\
          param sway: real = 0.1 in 0 .. 0.3;\n\
@@ -62,7 +62,7 @@ fn scene(kind: usize, count: usize, n: &mut Numbers) -> String {
          fn seen(r: ray) -> real = if let h = s.trace(r, far: 12) then\n\
              h.tag * (0.3 + 0.7 * lambert(h, (0.48, 0.64, 0.6)))\n\
              * (if s.blocked(ray(h.point + 0.01 * h.normal, (0.48, 0.64, 0.6)), far: 20) then 0.5 else 1)\n\
-             * (0.8 + 0.6 * hard_shadow(s, h, {lamp})) else 0;\n\
+             * (0.8 + 0.6 * hard_shadow(s, h, {lamp}, lift: {lift})) else 0;\n\
          fn mirrored(r: ray) -> real = if let h = s.trace(r, far: 12) then\n\
              seen(ray(h.point + 0.01 * h.normal, reflect(r.dir, h.normal))) else 0.5;\n\
          fn followed(first: ray) -> real = loop (r = first, left = 1.2) max 3 {{\n\
