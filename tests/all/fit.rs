@@ -117,7 +117,7 @@ fn subroutines_draw_the_same_everywhere() {
 /// Nothing is written where nothing fits, and the message says by how much.
 #[test]
 fn what_does_not_fit_is_said_in_bytes() {
-    let entries: Vec<String> = (0..18_000)
+    let entries: Vec<String> = (0..34_000)
         .map(|k| format!("0.{:04}", k * 7919 % 10_000))
         .collect();
     let scene = format!(

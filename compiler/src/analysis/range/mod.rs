@@ -371,7 +371,11 @@ impl Walk<'_> {
     fn entries(&self, id: NodeId, table: TableId) -> Range {
         let table = self.graph.tables.get(table.0 as usize);
         let entries = table.into_iter().flat_map(|t| &t.entries);
-        let values = entries.map(|e| Range::point(e.value().real()));
+        let values = entries.map(|e| match &self.slack.points {
+            Some(_) => Range::point(e.value().real()),
+            // As it is held, where all reals have one point.
+            None => self.slack.constant(e.value()),
+        });
         let all = values.reduce(Range::join).unwrap_or(Range::ALL);
         let all = match (&self.slack.points, self.graph.ty(id)) {
             (Some(points), Type::Real) => points.rounded(id, all, 0.5),
