@@ -18,6 +18,16 @@ pub(super) struct Met {
     pub(super) row: NodeId,
 }
 
+/// What is asked of a group: by which ray, and how far away at most.
+#[derive(Clone, Copy)]
+struct Question<'q> {
+    of: &'q Rc<Instances>,
+    asked: Asked,
+    ray: &'q Val,
+    far: NodeId,
+    span: Span,
+}
+
 impl Lower<'_> {
     /// The nearest hit of a group that is not beyond `far`, and the row of the shape that is hit.
     pub(super) fn nearest_instance(
@@ -27,7 +37,13 @@ impl Lower<'_> {
         far: NodeId,
         span: Span,
     ) -> Found<Met> {
-        let met = self.among(of, Asked::Nearest, ray, far, span)?;
+        let met = self.among(Question {
+            of,
+            asked: Asked::Nearest,
+            ray,
+            far,
+            span,
+        })?;
         let t = self.part(met.clone(), 0, span)?;
         let t = self.node(t, &Ty::Real, span)?;
         let row = self.part(met, 1, span)?;
@@ -45,76 +61,62 @@ impl Lower<'_> {
         far: NodeId,
         span: Span,
     ) -> Found<NodeId> {
-        let any = self.among(of, Asked::Any, ray, far, span)?;
+        let any = self.among(Question {
+            of,
+            asked: Asked::Any,
+            ray,
+            far,
+            span,
+        })?;
         self.node(any, &Ty::Bool, span)
     }
 
     /// What is found of a group by a ray: by the cells of its pencil's view, by those of space, or
     /// one by one.
-    fn among(
-        &mut self,
-        of: &Rc<Instances>,
-        asked: Asked,
-        ray: &Val,
-        far: NodeId,
-        span: Span,
-    ) -> Found<Val> {
-        let Some(seen) = self.view_of(of, ray, asked, span)? else {
-            return self.among_all(of, asked, ray, far, span);
+    fn among(&mut self, ask: Question<'_>) -> Found<Val> {
+        let Some(seen) = self.view_of(ask.of, ask.ray, ask.asked, ask.span)? else {
+            return self.among_all(ask);
         };
         let lists = &seen.view.lists;
         let mut args = lists.values().to_vec();
-        args.push(Val::Node(self.int(lists.most as i32, span)));
+        args.push(Val::Node(self.int(lists.most as i32, ask.span)));
         let is_sorted = seen.order == Order::Nearest;
         args.extend(is_sorted.then(|| Val::Table(seen.view.near.clone())));
         args.push(seen.cell);
         let how = if is_sorted { "seen" } else { "along" };
-        let found = self.found_by(of, (asked, how), args, (ray, far), span)?;
+        let found = self.found_by(ask, how, args)?;
         match seen.when {
             Some(when) => {
-                let other = self.among_all(of, asked, ray, far, span)?;
-                self.merge(when, found, other, span)
+                let other = self.among_all(ask)?;
+                self.merge(when, found, other, ask.span)
             }
             None => Ok(found),
         }
     }
 
     /// The same of any ray.
-    fn among_all(
-        &mut self,
-        of: &Rc<Instances>,
-        asked: Asked,
-        ray: &Val,
-        far: NodeId,
-        span: Span,
-    ) -> Found<Val> {
+    fn among_all(&mut self, ask: Question<'_>) -> Found<Val> {
         if self.options.ways.instancing == Instancing::Seen {
-            return self.one_by_one(of, asked, ray, far, span);
+            return self.one_by_one(ask);
         }
-        let (how, args) = match self.grid_in(of, span)? {
-            Some(grid) => ("in", self.grid_values(grid, span).to_vec()),
-            None => (
-                "of",
-                vec![Val::Node(self.int(of.shapes.len() as i32, span))],
-            ),
+        let (how, args) = match self.grid_in(ask.of, ask.span)? {
+            Some(grid) => ("in", self.grid_values(grid, ask.span).to_vec()),
+            None => {
+                let count = self.int(ask.of.shapes.len() as i32, ask.span);
+                ("of", vec![Val::Node(count)])
+            }
         };
-        self.found_by(of, (asked, how), args, (ray, far), span)
+        self.found_by(ask, how, args)
     }
 
     /// The same by code for each shape.
-    fn one_by_one(
-        &mut self,
-        of: &Rc<Instances>,
-        asked: Asked,
-        ray: &Val,
-        far: NodeId,
-        span: Span,
-    ) -> Found<Val> {
+    fn one_by_one(&mut self, ask: Question<'_>) -> Found<Val> {
+        let Question { ray, far, span, .. } = ask;
         let (mut t, mut row) = (far, self.int(-1, span));
         let (yes, no) = (self.bool(true, span), self.bool(false, span));
         let mut hits = Vec::new();
-        let is_any = asked == Asked::Any;
-        for (k, shape) in (0..).zip(of.shapes.iter()) {
+        let is_any = ask.asked == Asked::Any;
+        for (k, shape) in (0..).zip(ask.of.shapes.iter()) {
             let found = self.solved(shape, ray.clone(), Some(t), span)?;
             let near = if is_any { BinaryOp::Lt } else { BinaryOp::Le };
             let near = self.scalar(near, &Ty::Real, found.t, t, span)?;
@@ -135,24 +137,18 @@ impl Lower<'_> {
         })
     }
 
-    fn found_by(
-        &mut self,
-        of: &Rc<Instances>,
-        (asked, how): (Asked, &str),
-        args: Vec<Val>,
-        (ray, far): (&Val, NodeId),
-        span: Span,
-    ) -> Found<Val> {
-        let mut all = vec![Val::Rows(of.clone())];
+    /// The same by the library's function for this way.
+    fn found_by(&mut self, ask: Question<'_>, how: &str, args: Vec<Val>) -> Found<Val> {
+        let mut all = vec![Val::Rows(ask.of.clone())];
         all.extend(args);
-        all.extend([ray.clone(), Val::Node(far)]);
-        let what = match asked {
+        all.extend([ask.ray.clone(), Val::Node(ask.far)]);
+        let what = match ask.asked {
             Asked::Nearest => "nearest",
             Asked::Any => "any",
         };
         let first = Ty::Function(vec![Ty::Int], Box::new(Ty::Shape));
         let outer = std::mem::replace(&mut self.all_turns, true);
-        let found = self.library(&format!("{what}_{how}"), first, all, span);
+        let found = self.library(&format!("{what}_{how}"), first, all, ask.span);
         self.all_turns = outer;
         found
     }

@@ -2,6 +2,7 @@
 
 use super::Lower;
 use super::value::{Lists, Table, Val};
+use super::ways::Instancing;
 use crate::ir::graph::NodeId;
 use crate::source::Span;
 use slowlight_routine::Range;
@@ -9,9 +10,31 @@ use std::rc::Rc;
 
 /// Cells along a side, cells in all, and entries of all cells' lists for each shape, at most.
 pub(super) struct Most {
-    pub(super) along: usize,
-    pub(super) cells: usize,
-    pub(super) entries: usize,
+    along: usize,
+    cells: usize,
+    entries: usize,
+}
+
+impl Most {
+    pub(super) const fn new(along: usize, cells: usize, entries: usize) -> Most {
+        Most {
+            along,
+            cells,
+            entries,
+        }
+    }
+
+    /// Of limits for many cells, fewer and few those that are asked for; none where there are to
+    /// be no cells.
+    pub(super) fn asked(all: [Most; 3], instancing: Instancing) -> Option<Most> {
+        let [many, fewer, few] = all;
+        match instancing {
+            Instancing::Cells | Instancing::Seen => Some(many),
+            Instancing::FewerCells => Some(fewer),
+            Instancing::FewCells => Some(few),
+            Instancing::Rows | Instancing::Separate => None,
+        }
+    }
 }
 
 /// By what part of a cell boxes are made larger, for the roundings of rays' ways.

@@ -3,7 +3,6 @@
 use super::cells::{Cells, Most};
 use super::derive::Formula;
 use super::value::{Grid, Shape, Val};
-use super::ways::Instancing;
 use super::{Found, Lower};
 use crate::ir::enclosure::Enclosure;
 use crate::ir::extent::Extent;
@@ -11,24 +10,12 @@ use crate::source::Span;
 use slowlight_routine::Range;
 use std::rc::Rc;
 
-/// How many shapes a grid is worth.
-const FEW: usize = 3;
-
-const MANY: Most = Most {
-    along: 16,
-    cells: 256,
-    entries: 20,
-};
-const FEWER: Most = Most {
-    along: 10,
-    cells: 128,
-    entries: 8,
-};
-const SOME: Most = Most {
-    along: 5,
-    cells: 50,
-    entries: 4,
-};
+/// Many cells, fewer, few.
+const MOST: [Most; 3] = [
+    Most::new(16, 256, 20),
+    Most::new(10, 128, 8),
+    Most::new(5, 50, 4),
+];
 
 /// What it costs to go on to the next cell, in parts of what a ray costs against a shape.
 const STEP: f64 = 0.25;
@@ -45,16 +32,13 @@ fn cost(cells: &Cells<'_, 3>, widths: [f64; 3]) -> f64 {
 }
 
 impl Lower<'_> {
-    /// The boxes of shapes, if they are enough for cells and each has one.
+    /// The boxes of shapes, if each has one.
     pub(super) fn boxes_of(
         &mut self,
         shapes: &[Rc<Shape>],
         span: Span,
     ) -> Found<Option<Vec<Extent>>> {
         let mut boxes = Vec::new();
-        if shapes.len() < FEW {
-            return Ok(None);
-        }
         for shape in shapes {
             match self.extent_of(shape, 0.0, span)? {
                 Some(of) if of.is_finite() => boxes.push(of),
@@ -72,11 +56,8 @@ impl Lower<'_> {
         boxes: &[Extent],
         span: Span,
     ) -> Found<Option<Grid>> {
-        let most = match self.options.ways.instancing {
-            Instancing::Cells => MANY,
-            Instancing::FewerCells => FEWER,
-            Instancing::FewCells => SOME,
-            Instancing::Rows | Instancing::Seen | Instancing::Separate => return Ok(None),
+        let Some(most) = Most::asked(MOST, self.options.ways.instancing) else {
+            return Ok(None);
         };
         let all = boxes.iter().copied().reduce(Extent::join);
         let Some(all) = all.map(|all| all.grown(1.0 / 64.0, 0.0)) else {

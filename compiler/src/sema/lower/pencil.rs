@@ -101,8 +101,8 @@ impl Lower<'_> {
         })
     }
 
-    /// A quotient or product: the operation, what is scaled, and by what. Of a product with the
-    /// factor first nothing is known, as vectors are scaled from behind by `unit` alone.
+    /// A quotient or product: the operation, what is scaled, and by what. `unit` divides a vector;
+    /// a product is read with the vector's part first.
     fn scaled(&self, node: NodeId) -> Option<(Op, NodeId, NodeId)> {
         match self.b.node(node) {
             Node::Apply(op @ (Op::Div | Op::Mul), [of, by]) => Some((op, of, by)),

@@ -1,6 +1,6 @@
 //! Values while compiling: structure is known, scalars are nodes.
 
-use super::projection::{Order, Pencil};
+use super::projection::{Order, Pencil, Projection};
 use super::{Found, Lower};
 use crate::ir::extent::Extent;
 use crate::ir::graph::{NodeId, TableId};
@@ -118,8 +118,7 @@ type Views = Vec<((Pencil, Order), Option<Rc<View>>)>;
 
 /// Cells of a picture of shapes, from a point or along a direction.
 pub(super) struct View {
-    /// The axis along which it looks; the next two are across.
-    pub(super) ahead: usize,
+    pub(super) by: Projection,
     pub(super) low: [f64; 2],
     pub(super) side: [f64; 2],
     pub(super) along: [usize; 2],

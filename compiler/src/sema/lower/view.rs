@@ -7,7 +7,6 @@
 use super::cells::{Cells, Most};
 use super::projection::{Order, Pencil, Projection, SLACK, joined};
 use super::value::{Asked, Instances, Val, View};
-use super::ways::Instancing;
 use super::{Found, Lower};
 use crate::ir::extent::Extent;
 use crate::ir::graph::NodeId;
@@ -16,21 +15,12 @@ use crate::source::Span;
 use slowlight_routine::Range;
 use std::rc::Rc;
 
-const MANY: Most = Most {
-    along: 32,
-    cells: 512,
-    entries: 20,
-};
-const FEWER: Most = Most {
-    along: 24,
-    cells: 200,
-    entries: 10,
-};
-const SOME: Most = Most {
-    along: 16,
-    cells: 100,
-    entries: 5,
-};
+/// Many cells, fewer, few.
+const MOST: [Most; 3] = [
+    Most::new(32, 512, 20),
+    Most::new(24, 200, 10),
+    Most::new(16, 100, 5),
+];
 
 /// What part of its shapes' costs a view may cost.
 const WORTH: f64 = 0.75;
@@ -141,7 +131,7 @@ impl Lower<'_> {
         };
         match view {
             Some(view) => Ok(Some(InView {
-                cell: self.cell_in(&view, pencil, ray, span)?,
+                cell: self.cell_in(&view, ray, span)?,
                 order,
                 when,
                 view,
@@ -156,12 +146,7 @@ impl Lower<'_> {
         (pencil, order): (Pencil, Order),
         span: Span,
     ) -> Option<View> {
-        let most = match self.options.ways.instancing {
-            Instancing::Cells | Instancing::Seen => MANY,
-            Instancing::FewerCells => FEWER,
-            Instancing::FewCells => SOME,
-            Instancing::Rows | Instancing::Separate => return None,
-        };
+        let most = Most::asked(MOST, self.options.ways.instancing)?;
         let boxes = of.boxes.as_deref()?;
         let mut best: Option<(f64, Seen, [usize; 2])> = None;
         for ahead in 0..3 {
@@ -187,7 +172,7 @@ impl Lower<'_> {
             seen.sort(list, order, &near);
         }
         Some(View {
-            ahead: seen.by.ahead,
+            by: seen.by,
             low: seen.window.map(|side| side.lo),
             side: cells.side(),
             along,
@@ -198,16 +183,12 @@ impl Lower<'_> {
     }
 
     /// The cell that a ray of a pencil is in.
-    fn cell_in(&mut self, view: &View, pencil: Pencil, ray: &Val, span: Span) -> Found<Val> {
+    fn cell_in(&mut self, view: &View, ray: &Val, span: Span) -> Found<Val> {
         let [from, dir] = self.start_and_direction(ray, span)?;
-        let projection = Projection {
-            pencil,
-            ahead: view.ahead,
-        };
-        let [u, v, w] = projection.axes();
+        let [u, v, w] = view.by.axes();
         let across = |of: [NodeId; 3]| [of[u], of[v], of[w]].map(Val::Node);
         let seen = self.view_value(view, span);
-        let (name, mut args) = match pencil {
+        let (name, mut args) = match view.by.pencil {
             Pencil::Through { .. } => ("cell_through", across(dir).to_vec()),
             Pencil::Along(dir) => {
                 let slopes = [dir[u] / dir[w], dir[v] / dir[w]];

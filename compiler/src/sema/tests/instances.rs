@@ -126,13 +126,19 @@ fn pictures_are_those_of_shapes_one_by_one() {
         };
         let rows = graph_of(&text, by(Instancing::Rows));
         let few = graph_of(&text, by(Instancing::FewCells));
+        let seen = graph_of(&text, by(Instancing::Seen));
         let has = |graph: &Graph, name: &str| graph.tables.iter().any(|t| t.name == name);
         tables += usize::from(size(&together) < size(&one_by_one));
         grids += usize::from(has(&together, "list"));
         // Of what rays from the eye meet, of what hides the lamp, and of what stands in the sun.
         views += together.tables.iter().filter(|t| t.name == "first").count();
         assert!(!has(&rows, "list"));
-        let all = [(together, "a grid"), (few, "few cells"), (rows, "a table")];
+        let all = [
+            (together, "a grid"),
+            (few, "few cells"),
+            (rows, "a table"),
+            (seen, "views and code for each"),
+        ];
         for (graph, how) in all {
             let differ = inks(&graph)
                 .iter()
