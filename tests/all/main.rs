@@ -47,6 +47,7 @@ mod numbers;
 mod objects;
 mod packages;
 mod pairs;
+mod pairs_small;
 #[cfg(feature = "peers")]
 mod peers_assemblers;
 #[cfg(feature = "peers")]

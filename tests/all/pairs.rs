@@ -4,7 +4,7 @@
 
 use crate::cli::{directory, json};
 
-const HEAD: &str = "image 32 x 24 inks black, #555555, #aaaaaa, white;\n";
+pub(crate) const HEAD: &str = "image 32 x 24 inks black, #555555, #aaaaaa, white;\n";
 
 /// What rows 13 to 15 of a scene take, without what it does before.
 fn cycles(scene: &str, target: &str) -> f64 {
@@ -23,7 +23,7 @@ fn cycles_with(scene: &str, target: &str, options: &[&str]) -> f64 {
 }
 
 /// Holds what the first scene takes to what the second does.
-fn is_as_quick(written: &str, by_hand: &str) {
+pub(crate) fn is_as_quick(written: &str, by_hand: &str) {
     for target in ["jack", "6502:plain", "bbc:micro"] {
         let [written, by_hand] = [written, by_hand].map(|scene| cycles(scene, target));
         let times = written / by_hand;

@@ -10,10 +10,12 @@ use crate::fuel::Fuel;
 use crate::ir::graph::Graph;
 use crate::passes::branches::cross_multiply::cross_multiply;
 use crate::passes::branches::prune_minima::prune_minima;
+use crate::passes::loops::polynomials::differences::forward_differences;
 use crate::passes::loops::polynomials::polynomials;
 use crate::passes::loops::trip_counts::trip_counts;
 use crate::passes::simplify::constant_factors::constant_factors;
 use crate::passes::simplify::reciprocals::reciprocals;
+use crate::passes::simplify::remainders::remainders;
 use crate::schedule::analysed::Analysed;
 use slowlight_routine::Runtime;
 use std::fmt::Write;
@@ -69,9 +71,11 @@ passes! {
     Shannon "shannon" "passes/branches/shannon" "Shannon expansion of the ink's comparisons"
     TripCounts "trip-counts" "passes/loops/trip_counts" "loops ended by the count of their turns"
     LoopPolynomials "loop-polynomials" "passes/loops/polynomials" "polynomials of what a loop's turns change, by coefficients"
+    ForwardDifferences "forward-differences" "passes/loops/polynomials/differences" "polynomials of what grows evenly from turn to turn, by forward differences"
     CrossMultiply "cross-multiply" "passes/branches/cross_multiply" "comparisons without division"
     PruneMinima "prune-minima" "passes/branches/prune_minima" "branch and bound on minima and maxima"
     ConstantFactors "constant-factors" "passes/simplify/constant_factors" "constant factors joined"
+    Remainders "remainders" "passes/simplify/remainders" "remainders by constants as differences"
     Reciprocals "reciprocals" "passes/simplify/reciprocals" "division as multiplication by a shared reciprocal"
     Phases "phases" "passes/loops/strength_reduction" "phase accumulators for periodic functions of the column"
     ScanlineRuns "scanline-runs" "passes/loops/strength_reduction/runs" "values stepped along runs of columns"
@@ -92,9 +96,11 @@ pub type Rewrite = fn(&Graph, &Ranges, &Runtime) -> Option<Graph>;
 pub const REWRITES: &[(Pass, Rewrite)] = &[
     (Pass::TripCounts, trip_counts),
     (Pass::LoopPolynomials, polynomials),
+    (Pass::ForwardDifferences, forward_differences),
     (Pass::CrossMultiply, cross_multiply),
     (Pass::PruneMinima, prune_minima),
     (Pass::ConstantFactors, constant_factors),
+    (Pass::Remainders, remainders),
     (Pass::Reciprocals, reciprocals),
 ];
 

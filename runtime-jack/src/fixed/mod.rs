@@ -49,7 +49,7 @@ pub static FIXED16: Runtime = Runtime {
         ..Overhead::NONE
     },
     segments: false,
-    reciprocals: false,
+    reciprocals: true,
     middle: false,
     narrow: None,
     derives: false,

@@ -87,6 +87,12 @@ fn is_one(k: usize) -> impl Fn(&[Range], Range) -> bool {
     move |args, _| args.get(k).and_then(|r| r.constant()) == Some(1.0)
 }
 
+/// Whether the divisor is a power of two as the machine holds it: a mask is left.
+fn by_power(args: &[Range], _: Range) -> bool {
+    let divisor = args.get(1).and_then(|r| r.constant());
+    divisor.is_some_and(|b| b >= 1.0 && (b as u32).is_power_of_two())
+}
+
 fn even_root(args: &[Range], _: Range) -> bool {
     (1..=15).contains(&number(args)) && number(args) % 2 == 0
 }
@@ -139,6 +145,7 @@ const REALS: &[Routine] = &[
     fixed!("pow" Pow(R, R) -> R, call("Fixed.pow({0}, {1}, {14-a}, {2^(15-b)}, {2^(b-5)}, {r})"), ["Fixed.pow"], scales!(b: 13..=15), Error::Absolute(8.0), |a, b, n| functions::pow(a, b, Scales::unpacked(n)), 191, 72),
     fixed!("wide_pow" Pow(R, R) -> R, call("Fixed.pow({0}, {1}, {14-a}, {2^(15-b)}, {2^(b-5)}, {r})"), ["Fixed.pow"], scales!(b: 10..=12), Error::Absolute(60.0), |a, b, n| functions::pow(a, b, Scales::unpacked(n)), 170, 72),
     fixed!("far_pow" Pow(R, R) -> R, call("Fixed.pow({0}, {1}, {14-a}, {2^(15-b)}, {2^(b-5)}, {r})"), ["Fixed.pow"], scales!(b: 5..=9), Error::Absolute(1900.0), |a, b, n| functions::pow(a, b, Scales::unpacked(n)), 180, 72),
+    fixed!("power_mod" Mod(R, R) -> R, sum("{0} & ({1} - 1)"), [], by_power, EXACT, |a, b, n| a & (b - 1), 3, 20),
     fixed!("mod" Mod(R, R) -> R, call("Int.mod({0}, {1})"), ["Int.mod"], everywhere, EXACT, |a, b, n| modulo(a, b), 64, 36),
     fixed!("neg" Neg(R) -> R, sum("-{0}"), [], everywhere, EXACT, |a, b, n| -a, 1, 4),
     fixed!("abs" Abs(R) -> R, call("Math.abs({0})"), [], everywhere, EXACT, |a, b, n| a.abs(), 1, 36),

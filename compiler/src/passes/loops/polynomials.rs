@@ -23,6 +23,7 @@
 //! further, to sums, where steps are equal; those of a march are not.)
 
 mod coefficients;
+pub mod differences;
 
 use crate::analysis::range::Ranges;
 use crate::analysis::rate::{Dependence, Rates, rates};
@@ -102,6 +103,7 @@ struct Loops<'g> {
     runtime: &'g Runtime,
     /// The innermost loop whose turns change each value.
     homes: Vec<Option<LoopId>>,
+    rates: Rates,
     /// Each value that is no atom.
     known: Vec<Option<Polynomial>>,
     users: Vec<Vec<NodeId>>,
@@ -110,10 +112,12 @@ struct Loops<'g> {
 
 impl<'g> Loops<'g> {
     fn new(graph: &'g Graph, ranges: &'g Ranges, runtime: &'g Runtime) -> Loops<'g> {
+        let rates = rates(graph);
         let mut loops = Loops {
             graph,
             runtime,
-            homes: homes(graph, &rates(graph)),
+            homes: homes(graph, &rates),
+            rates,
             known: Vec::with_capacity(graph.nodes.len()),
             users: vec![Vec::new(); graph.nodes.len()],
             ranges,
@@ -217,17 +221,29 @@ impl<'g> Loops<'g> {
         })
     }
 
-    /// By loop, the values that something else than a polynomial needs, which may be put.
+    /// By loop, the values that something else than a polynomial needs, which may be put by
+    /// Horner's rule.
     fn candidates(&self) -> FxHashMap<LoopId, Vec<NodeId>> {
+        self.candidates_by(|id, polynomial| self.is_sound(polynomial) || self.completes_square(id))
+    }
+
+    /// The same of those that something else may be made of.
+    fn candidates_by(
+        &self,
+        may_be: impl Fn(NodeId, &Polynomial) -> bool,
+    ) -> FxHashMap<LoopId, Vec<NodeId>> {
         let mut all: FxHashMap<LoopId, Vec<NodeId>> = FxHashMap::default();
         for id in self.graph.ids() {
             let Some((home, polynomial)) = self.home(id).zip(self.of(id)) else {
                 continue;
             };
-            let ends = |user: &NodeId| self.of(*user).is_none_or(|of| of.atom != polynomial.atom);
+            let ends = |user: &NodeId| {
+                let same = self.of(*user).filter(|of| of.atom == polynomial.atom);
+                same.is_none_or(|of| !may_be(*user, &of))
+            };
             let used = self.users[id.0 as usize].iter().any(ends)
                 || self.graph.roots().any(|root| root == id);
-            if used && (self.is_sound(&polynomial) || self.completes_square(id)) {
+            if used && may_be(id, &polynomial) {
                 all.entry(home).or_default().push(id);
             }
         }
@@ -262,8 +278,20 @@ impl<'g> Loops<'g> {
         routine.map_or(0.0, |routine| f64::from(routine.cycles))
     }
 
-    /// What the values of a loop's turn save, put so, in cycles.
-    fn gain(&self, put: &[NodeId]) -> f64 {
+    /// What a value takes at a turn by Horner's rule, in cycles.
+    fn by_horner(&self, id: NodeId, degree: usize) -> f64 {
+        let [times, sum] = [Op::Mul, Op::Add].map(|op| self.cycles(op));
+        match self.home(id).filter(|_| self.completes_square(id)) {
+            Some(home) => {
+                let turns = self.graph.loops[home.0 as usize].max.clamp(1, TURNS);
+                times + 2.0 * sum + (9.0 * times + 7.0 * sum) / f64::from(turns)
+            }
+            None => degree as f64 * (times + sum),
+        }
+    }
+
+    /// What the values of a loop's turn save that take so many cycles then.
+    fn gain(&self, put: &[NodeId], takes: &dyn Fn(NodeId, usize) -> f64) -> f64 {
         let mut gone: FxHashSet<NodeId> = FxHashSet::default();
         let mut gain = 0.0;
         let Some((home, last)) = put.first().and_then(|id| self.home(*id)).zip(put.last()) else {
@@ -281,24 +309,25 @@ impl<'g> Loops<'g> {
                     gain += self.cycles(op);
                 }
             }
-            let [times, sum] = [Op::Mul, Op::Add].map(|op| self.cycles(op));
-            if is_put && self.completes_square(id) {
-                let turns = self.graph.loops[home.0 as usize].max.clamp(1, TURNS);
-                gain -= times + 2.0 * sum + (9.0 * times + 7.0 * sum) / f64::from(turns);
-            } else if is_put {
-                gain -= polynomial.degree as f64 * (times + sum);
+            if is_put {
+                gain -= takes(id, polynomial.degree);
             }
         }
         gain
     }
 
-    /// Those of a loop's candidates that together are worth it.
-    fn worth(&self, mut put: Vec<NodeId>) -> Vec<NodeId> {
-        let mut gain = self.gain(&put);
+    /// Those of a loop's candidates that together are worth it by Horner's rule.
+    fn worth(&self, put: Vec<NodeId>) -> Vec<NodeId> {
+        self.worth_by(put, |id, degree| self.by_horner(id, degree))
+    }
+
+    /// The same where each takes so many cycles.
+    fn worth_by(&self, mut put: Vec<NodeId>, takes: impl Fn(NodeId, usize) -> f64) -> Vec<NodeId> {
+        let mut gain = self.gain(&put, &takes);
         if put.len() <= MANY {
             for id in put.clone() {
                 let without: Vec<NodeId> = put.iter().copied().filter(|of| *of != id).collect();
-                let other = self.gain(&without);
+                let other = self.gain(&without, &takes);
                 if other >= gain {
                     (gain, put) = (other, without);
                 }

@@ -5,4 +5,5 @@ pub mod fold;
 pub mod integer_parts;
 pub mod range_folding;
 pub mod reciprocals;
+pub mod remainders;
 pub mod unit_vectors;
