@@ -177,6 +177,9 @@ pub static OTHER_FORMATS: &[&Target] = &[
     &mos6502::PLAIN_LOG11,
     &mos6502::BBC_LOG11,
     &mos6502::C64_LOG11,
+    &mos6502::PLAIN_REAL40,
+    &mos6502::BBC_REAL40,
+    &mos6502::C64_REAL40,
 ];
 
 /// Every target in every format.

@@ -3,6 +3,7 @@
 use super::bbc::{MODE_0, MODE_1, MODE_2, MODE_4, MODE_5};
 use super::{Lean, Mode, Sizes, System, Target};
 use slowlight_runtime_6502::FIXED16_16;
+use slowlight_runtime_6502::float::REAL40;
 use slowlight_runtime_6502::log::{LOG10, LOG10_IN_RUNS, LOG11, LOG11_IN_RUNS};
 use slowlight_runtime_6502::scaled::{FIXED12, FIXED12_IN_RUNS, FIXED16, FIXED16_IN_RUNS};
 use slowlight_runtime_6502::scaled::{FIXED20, FIXED20_IN_RUNS, FIXED24, FIXED24_IN_RUNS};
@@ -66,6 +67,12 @@ pub static PLAIN_LOG11: Target = Target {
     ..USUAL
 };
 
+/// The same with floating-point reals.
+pub static PLAIN_REAL40: Target = Target {
+    runtime: &REAL40,
+    ..USUAL
+};
+
 /// Of ten bits, numbers are known to 1/2000 of themselves, so a point's distance from its own surface, a
 /// few units away, comes out as a few thousandths.
 const LOG_OFFSET: f64 = 0.015_625;
@@ -125,6 +132,12 @@ pub static BBC_LOG11: Target = Target {
     ..BBC
 };
 
+/// The same with floating-point reals.
+pub static BBC_REAL40: Target = Target {
+    runtime: &REAL40,
+    ..BBC
+};
+
 /// A Commodore 64, for PAL.
 pub static C64: Target = Target {
     name: "6502:c64",
@@ -175,6 +188,12 @@ pub static C64_FIXED20: Target = Target {
 /// The same with reals of 24 bits.
 pub static C64_FIXED24: Target = Target {
     runtime: &FIXED24,
+    ..C64
+};
+
+/// The same with floating-point reals.
+pub static C64_REAL40: Target = Target {
+    runtime: &REAL40,
     ..C64
 };
 
