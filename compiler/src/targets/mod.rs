@@ -95,6 +95,8 @@ pub struct Target {
     pub stolen: f64,
     /// What a leaner style of its programs is.
     pub lean: Lean,
+    /// Whether its format is exact and slow: one for goals that none of the machine's others keeps.
+    pub last: bool,
     /// Whether its programs set up a screen no larger than the picture, whatever the mode.
     pub windows: bool,
 }

@@ -70,6 +70,7 @@ pub static PLAIN_LOG11: Target = Target {
 /// The same with floating-point reals.
 pub static PLAIN_REAL40: Target = Target {
     runtime: &REAL40,
+    last: true,
     ..USUAL
 };
 
@@ -135,6 +136,7 @@ pub static BBC_LOG11: Target = Target {
 /// The same with floating-point reals.
 pub static BBC_REAL40: Target = Target {
     runtime: &REAL40,
+    last: true,
     ..BBC
 };
 
@@ -194,6 +196,7 @@ pub static C64_FIXED24: Target = Target {
 /// The same with floating-point reals.
 pub static C64_REAL40: Target = Target {
     runtime: &REAL40,
+    last: true,
     ..C64
 };
 
@@ -214,6 +217,7 @@ const USUAL: Target = Target {
     drawing: 38,
     stolen: 0.0,
     lean: Lean::Nothing,
+    last: false,
     windows: false,
     hertz: 2_000_000.0,
     wraps: false,
