@@ -46,7 +46,7 @@ static BASIC_V_MODES: &[Mode] = &[
 
 /// The least distance along a ray that counts as in front: reals of 32 bits are good to 1E-9
 /// at the scenes' scale, a pixel to 1E-3.
-const OFFSET: f64 = 1e-5;
+pub(super) const OFFSET: f64 = 1e-5;
 
 /// Bytes of tokens in a tight program.
 const SIZES: Sizes = Sizes {

@@ -1,6 +1,6 @@
 //! Target descriptions of 6502 machines, by the format of their reals.
 
-use super::bbc::{MODE_0, MODE_1, MODE_2, MODE_4, MODE_5};
+use super::bbc::{MODE_0, MODE_1, MODE_2, MODE_4, MODE_5, OFFSET};
 use super::{Lean, Mode, Sizes, System, Target};
 use slowlight_runtime_6502::FIXED16_16;
 use slowlight_runtime_6502::float::REAL40;
@@ -70,6 +70,7 @@ pub static PLAIN_LOG11: Target = Target {
 /// The same with floating-point reals.
 pub static PLAIN_REAL40: Target = Target {
     runtime: &REAL40,
+    offset: OFFSET,
     last: true,
     ..USUAL
 };
@@ -136,6 +137,7 @@ pub static BBC_LOG11: Target = Target {
 /// The same with floating-point reals.
 pub static BBC_REAL40: Target = Target {
     runtime: &REAL40,
+    offset: OFFSET,
     last: true,
     ..BBC
 };
@@ -196,6 +198,7 @@ pub static C64_FIXED24: Target = Target {
 /// The same with floating-point reals.
 pub static C64_REAL40: Target = Target {
     runtime: &REAL40,
+    offset: OFFSET,
     last: true,
     ..C64
 };
