@@ -19,7 +19,9 @@
 //! format is taken.
 //!
 //! Formats of few bits are looked at first. Where the quickest of those is within the goal, and
-//! no slower than fixed point in 16 bits, the wider ones are not: they take longer.
+//! no slower than fixed point in 16 bits, the wider ones are not: they take longer. Formats that are
+//! exact and slow ([`Target::last`]) are looked at where no other may keep the goal, or two that
+//! might have kept it do not.
 
 mod candidates;
 mod said;
@@ -127,8 +129,9 @@ fn quickest(
     // that takes longer than it gains.
     let one_width = |t: &&Target| t.runtime.narrow.is_none();
     let all = formats(target).filter(one_width);
+    let (mut last, all): (Vec<&'static Target>, Vec<_>) = all.partition(|t| t.last);
     let (short, mut long): (Vec<&'static Target>, Vec<_>) =
-        all.partition(|t| is_short(t.runtime.real));
+        all.into_iter().partition(|t| is_short(t.runtime.real));
     let (mut finer, short): (Vec<&'static Target>, Vec<_>) =
         short.into_iter().partition(|t| is_finer(t.runtime.real));
     // Those whose programs are too large, as far as nobody looked closer.
@@ -160,10 +163,19 @@ fn quickest(
             known.extend(candidates(screen, scene, &more, goal, &mut left));
             sort(&mut known, goal);
         }
+        // The exact ones are looked at where no other may be within the goal, or two that might
+        // have been are not.
+        let none = !known.iter().any(|one| one.may(goal)) || tries + 1 == TRIES;
+        let some = tries > 0 || !known.is_empty();
+        if kept.is_none() && tries < TRIES && !last.is_empty() && some && none {
+            let more = std::mem::take(&mut last);
+            known.extend(candidates(screen, scene, &more, goal, &mut left));
+            sort(&mut known, goal);
+        }
         if tries == TRIES || known.is_empty() {
             // Where all that is within the goal is too large at first sight, one is looked at
             // closer: written smaller, if slower, it may fit.
-            left.sort_by_key(Candidate::size);
+            left.sort_by_key(Candidate::order);
             if kept.is_some() || too_large > 0 || left.is_empty() {
                 break;
             }
@@ -199,11 +211,11 @@ fn quickest(
                         break;
                     }
                     left.append(&mut known);
-                    left.sort_by_key(Candidate::size);
+                    left.sort_by_key(Candidate::order);
                     let smaller = |one: &mut Candidate| one.size() < candidate.size();
                     known = left.extract_if(.., smaller).take(1).collect();
                     tries = TRIES - 1;
-                    (finer, long) = (Vec::new(), Vec::new());
+                    (finer, long, last) = (Vec::new(), Vec::new(), Vec::new());
                 }
                 continue;
             }

@@ -44,6 +44,7 @@ static PLAIN: Target = Target {
     drawing: 0,
     stolen: 0.0,
     lean: Lean::Nothing,
+    last: false,
     windows: false,
 };
 

@@ -10,7 +10,7 @@
 //! A [`Form::Statement`](slowlight_routine::Form::Statement) is here one of two things:
 //!
 //! - a **name**: a subroutine. Its operands go to `acc` and `arg` in the zero
-//!   page, its result is in `acc`;
+//!   page, its result is in `acc`; of floating-point reals ([`float`]) to `fa` and `fb`;
 //! - a **template**: instructions, one a line. `{0.2}` is byte 2 of the first
 //!   argument and `{r.2}` of the result; `{n}` is a number that makes labels unique.
 //!   Where an argument is a constant its bytes become immediate operands. `[ ]` holds what
@@ -28,10 +28,11 @@
 //!
 //! # Memory
 //! `$00-$1d` is the runtime's (see the part `zero_page`), to `$33` where reals have points
-//! of their own (`scaled_page`). Its tables of quarter squares are in the program, or in
+//! of their own (`scaled_page`), to `$3e` where they float (`float_page`). Its tables of quarter squares are in the program, or in
 //! 2,048 bytes that `make_squares` fills at the start ([`squares`]). All else is free.
 
 mod fill;
+pub mod float;
 pub mod log;
 pub mod model;
 mod parts;
@@ -58,6 +59,7 @@ pub fn free_zero_page(runtime: &Runtime) -> u8 {
         Format::Scaled { bits: 16 } => scaled::FREE_ZERO_PAGE,
         Format::Scaled { .. } => scaled::LONG_FREE_ZERO_PAGE,
         Format::Log { .. } => log::FREE_ZERO_PAGE,
+        Format::Real40 => float::FREE_ZERO_PAGE,
         _ => FREE_ZERO_PAGE,
     }
 }

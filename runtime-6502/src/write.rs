@@ -93,6 +93,7 @@ pub fn size(format: Format) -> u8 {
         Format::Fixed { bits, .. } | Format::Scaled { bits } | Format::Int { bits } => bits / 8,
         // The sign last.
         Format::Log { .. } => 3,
+        Format::Real40 => 5,
         _ => 4,
     }
 }
@@ -266,7 +267,8 @@ pub fn instructions(used: Use<'_>, lines: &mut Vec<String>) -> Option<&'static s
         operands(routine, used.args, lines);
         lines.push(format!("        jsr {text}"));
         if let (Some(to), false) = (to, routine.result == Format::Bool) {
-            copy_bytes(&Place::At("acc".to_owned()), to, bytes, lines);
+            let [result, _] = accumulators(routine.result);
+            copy_bytes(&Place::At(result.to_owned()), to, bytes, lines);
         }
     }
     if let (Some(to), Format::Bool) = (to, routine.result) {
@@ -288,21 +290,32 @@ fn held_in(from: &Place, bytes: u8) -> Place {
     }
 }
 
+/// Where a subroutine has its operands of a format, and in the first of them its result.
+fn accumulators(format: Format) -> [&'static str; 2] {
+    match format {
+        Format::Real40 => ["fa", "fb"],
+        _ => ["acc", "arg"],
+    }
+}
+
 /// Copies a subroutine's operands to where it wants them.
 fn operands(routine: &Routine, args: &[Place], lines: &mut Vec<String>) {
     if let [a @ Place::At(_), b] = args
         && a == b
     {
         // A square: each byte is loaded once.
-        for k in 0..4 {
+        let format = routine.args.first().copied().unwrap_or(routine.result);
+        let bytes = size(format).max(4);
+        for k in 0..bytes {
             lines.push(format!("        lda {}", byte(a, k)));
-            lines.push(format!("        sta {}", byte_at("acc", k)));
-            lines.push(format!("        sta {}", byte_at("arg", k)));
+            for to in accumulators(format) {
+                lines.push(format!("        sta {}", byte_at(to, k)));
+            }
         }
         return;
     }
-    for ((place, format), to) in args.iter().zip(routine.args).zip(["acc", "arg"]) {
-        copy(place, to, *format, lines);
+    for (k, (place, format)) in args.iter().zip(routine.args).take(2).enumerate() {
+        copy(place, accumulators(*format)[k], *format, lines);
     }
 }
 

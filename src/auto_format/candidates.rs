@@ -66,6 +66,11 @@ impl Candidate {
         self.need.as_ref().map_or(0, Need::total)
     }
 
+    /// The smallest first, the exact ones last.
+    pub fn order(&self) -> (bool, u64) {
+        (self.target.last, self.size())
+    }
+
     /// Its format, what it takes without a search, and its pixels wrong.
     pub fn seen(&self, wrong: f64) -> (&'static str, f64, f64) {
         (self.target.runtime.format, self.cycles, wrong)

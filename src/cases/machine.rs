@@ -10,17 +10,24 @@ use crate::failure::{Failure, Outcome};
 use crate::machine::{MachineRun, complaint};
 use crate::trial::build;
 use slowlight_compiler::plan::{ParamPlan, Plan};
-use slowlight_compiler::targets::System;
+use slowlight_compiler::targets::{Language, Target};
 use slowlight_routine::{Bits, Format, Type, Value};
 
 /// Cycles after which a run is given up: a hang, which is a failure.
 const LIMIT: u64 = 20_000_000_000;
 
-/// Gives a param its bits.
-pub fn give(param: &mut ParamPlan, value: Value, bits: Bits, format: Format) {
+/// Gives a param its bits, in a target's source.
+pub fn give(param: &mut ParamPlan, value: Value, bits: Bits, target: &Target) {
+    let format = target.runtime.real;
+    let assembly = target.system.language() == Language::Assembly;
     param.bits = bits;
     param.range = None;
     match (format, value) {
+        // The exponent goes beside what is written.
+        (Format::Real40, Value::Real(_)) if assembly => {
+            param.digits = None;
+            param.text = (bits as u32 as i32).to_string();
+        }
         (Format::Real40, Value::Real(x)) => param.text = product(x),
         (Format::Fixed { .. } | Format::Scaled { .. }, Value::Real(_)) => {
             param.digits = None;
@@ -82,10 +89,12 @@ pub fn run(plan: &Plan) -> Outcome<Vec<Value>> {
         .map(|&id| plan.format(id))
         .collect();
     let found = match plan.runtime.real {
+        _ if plan.target.system.language() == Language::Assembly => {
+            from_screen(&run, &formats, plan)
+        }
         Format::Real40 => from_file(&run, &formats, plan),
         Format::Float316 { .. } => from_text(&run, &formats, plan),
-        _ if plan.target.system == System::Hack => from_text(&run, &formats, plan),
-        _ => from_screen(&run, &formats, plan),
+        _ => from_text(&run, &formats, plan),
     };
     found.ok_or_else(|| {
         let message = format!("{}: the program's report is incomplete", plan.target.name);
@@ -157,16 +166,26 @@ fn from_text(run: &MachineRun, formats: &[Format], plan: &Plan) -> Option<Vec<Va
     Some(values)
 }
 
-/// The 6502's pixels: four bytes a value, low byte first.
+/// The 6502's pixels: four bytes a value, of a float five, low byte first.
 fn from_screen(run: &MachineRun, formats: &[Format], plan: &Plan) -> Option<Vec<Value>> {
-    let pixels = &run.screen.as_ref()?.pixels;
-    let (words, _) = pixels.as_chunks::<4>();
-    let found = formats.iter().zip(words).map(|(format, bytes)| {
-        let bits = i64::from(i32::from_le_bytes(*bytes)) as Bits;
-        (plan.runtime.decode)(bits, *format)
-    });
-    let found: Vec<Value> = found.collect();
-    (found.len() == formats.len()).then_some(found)
+    let mut rest = run.screen.as_ref()?.pixels.as_slice();
+    let mut values = Vec::new();
+    for format in formats {
+        let (upper, count) = match format {
+            Format::Real40 => (0, 5),
+            _ => (32, 4),
+        };
+        let (bytes, others) = rest.split_at_checked(count)?;
+        rest = others;
+        let bits = bytes
+            .iter()
+            .rev()
+            .fold(0, |bits, &b| bits << 8 | Bits::from(b));
+        // Sign-extended, where it is.
+        let bits = (bits as i64) << upper >> upper;
+        values.push((plan.runtime.decode)(bits as Bits, *format));
+    }
+    Some(values)
 }
 
 #[cfg(test)]

@@ -334,7 +334,7 @@ impl Prepared {
                 let ids = 0..plan.params.len() as u32;
                 let places: Vec<Format> = ids.map(|k| plan.param_format(ParamId(k))).collect();
                 for ((param, value), place) in plan.params.iter_mut().zip(&inputs).zip(places) {
-                    machine::give(param, *value, format::bits(target, *value, place), format);
+                    machine::give(param, *value, format::bits(target, *value, place), target);
                 }
                 let mut model = ModelRun::new(plan);
                 model.pixel(0, 0);

@@ -4,6 +4,7 @@
 use crate::cli::{directory, json, slowlight, success};
 use slowlight::cases::{self, Row, Way, ways};
 use slowlight_compiler::targets::jack::{JACK, JACK_F316R};
+use slowlight_compiler::targets::mos6502::PLAIN_REAL40;
 use slowlight_compiler::targets::{TARGETS, Target};
 use slowlight_routine::{Error, Op};
 use std::collections::BTreeSet;
@@ -27,7 +28,10 @@ fn rows(ways: &[Way], naive: bool) -> Vec<Row> {
 #[test]
 fn every_vector_passes_everywhere() {
     let targets = [TARGETS, &[&JACK_F316R]].concat();
-    let rows = rows(&ways(&targets, true), false);
+    // Of a format's name there is one runtime among them.
+    let more = [Way::Model(&PLAIN_REAL40), Way::Machine(&PLAIN_REAL40)];
+    let ways = [ways(&targets, true), more.to_vec()].concat();
+    let rows = rows(&ways, false);
     let places: BTreeSet<&str> = rows.iter().map(|r| r.way.place()).collect();
     assert_eq!(
         places.into_iter().collect::<Vec<_>>(),
@@ -212,7 +216,14 @@ fn planted_overflows_saturate_and_are_named() {
     for (a, op, b, wanted) in planted() {
         let scene = operation(a, op, b, wanted);
         let dir = directory(&[("planted.scn", &scene)]);
-        for format in ["fixed16.16", "fixed12", "fixed16", "fixed20", "fixed24"] {
+        for format in [
+            "fixed16.16",
+            "fixed12",
+            "fixed16",
+            "fixed20",
+            "fixed24",
+            "real40",
+        ] {
             let run = [
                 "run",
                 "planted.scn",

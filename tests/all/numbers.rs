@@ -4,7 +4,7 @@
 use crate::cli::{directory, json};
 
 /// Machines and formats whose ends are near, and those whose are not.
-const FORMATS: [(&str, &str); 11] = [
+const FORMATS: [(&str, &str); 12] = [
     ("jack", "f316"),
     ("jack", "f316r"),
     ("jack", "log10"),
@@ -16,6 +16,7 @@ const FORMATS: [(&str, &str); 11] = [
     ("6502:plain", "fixed20"),
     ("6502:plain", "fixed24"),
     ("6502:plain", "log10"),
+    ("6502:plain", "real40"),
 ];
 
 /// Pixels of a scene that are not the native's.

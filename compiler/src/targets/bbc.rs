@@ -46,7 +46,7 @@ static BASIC_V_MODES: &[Mode] = &[
 
 /// The least distance along a ray that counts as in front: reals of 32 bits are good to 1E-9
 /// at the scenes' scale, a pixel to 1E-3.
-const OFFSET: f64 = 1e-5;
+pub(super) const OFFSET: f64 = 1e-5;
 
 /// Bytes of tokens in a tight program.
 const SIZES: Sizes = Sizes {
@@ -72,6 +72,7 @@ pub static MICRO: Target = Target {
     drawing: 3_400,
     stolen: 0.0,
     lean: Lean::Short,
+    last: false,
     windows: false,
     hertz: 2_000_000.0,
     sizes: SIZES,
@@ -95,6 +96,7 @@ pub static AGON: Target = Target {
     drawing: 6_600,
     stolen: 0.0,
     lean: Lean::Short,
+    last: false,
     windows: false,
     // Measured: the two mirrors in 11.6 minutes for BASIC II's 17.8e9 cycles.
     hertz: 25_500_000.0,
@@ -115,6 +117,7 @@ pub static BASIC_V: Target = Target {
     drawing: 6_600,
     stolen: 0.0,
     lean: Lean::Short,
+    last: false,
     windows: false,
     // Measured: 0.15 seconds for the same program.
     hertz: 1.2e11,

@@ -45,6 +45,7 @@ const FLOATS: Target = Target {
     drawing: 29,
     stolen: 0.0,
     lean: Lean::Short,
+    last: false,
     windows: false,
     // VM commands a second of the official VM emulator. Its calls of the operating
     // system take longer, about 10 microseconds each, which one rate cannot say.

@@ -95,6 +95,8 @@ pub struct Target {
     pub stolen: f64,
     /// What a leaner style of its programs is.
     pub lean: Lean,
+    /// Whether its format is exact and slow: one for goals that none of the machine's others keeps.
+    pub last: bool,
     /// Whether its programs set up a screen no larger than the picture, whatever the mode.
     pub windows: bool,
 }
@@ -177,6 +179,9 @@ pub static OTHER_FORMATS: &[&Target] = &[
     &mos6502::PLAIN_LOG11,
     &mos6502::BBC_LOG11,
     &mos6502::C64_LOG11,
+    &mos6502::PLAIN_REAL40,
+    &mos6502::BBC_REAL40,
+    &mos6502::C64_REAL40,
 ];
 
 /// Every target in every format.

@@ -1,8 +1,9 @@
 //! Target descriptions of 6502 machines, by the format of their reals.
 
-use super::bbc::{MODE_0, MODE_1, MODE_2, MODE_4, MODE_5};
+use super::bbc::{MODE_0, MODE_1, MODE_2, MODE_4, MODE_5, OFFSET};
 use super::{Lean, Mode, Sizes, System, Target};
 use slowlight_runtime_6502::FIXED16_16;
+use slowlight_runtime_6502::float::REAL40;
 use slowlight_runtime_6502::log::{LOG10, LOG10_IN_RUNS, LOG11, LOG11_IN_RUNS};
 use slowlight_runtime_6502::scaled::{FIXED12, FIXED12_IN_RUNS, FIXED16, FIXED16_IN_RUNS};
 use slowlight_runtime_6502::scaled::{FIXED20, FIXED20_IN_RUNS, FIXED24, FIXED24_IN_RUNS};
@@ -66,6 +67,14 @@ pub static PLAIN_LOG11: Target = Target {
     ..USUAL
 };
 
+/// The same with floating-point reals.
+pub static PLAIN_REAL40: Target = Target {
+    runtime: &REAL40,
+    offset: OFFSET,
+    last: true,
+    ..USUAL
+};
+
 /// Of ten bits, numbers are known to 1/2000 of themselves, so a point's distance from its own surface, a
 /// few units away, comes out as a few thousandths.
 const LOG_OFFSET: f64 = 0.015_625;
@@ -125,6 +134,14 @@ pub static BBC_LOG11: Target = Target {
     ..BBC
 };
 
+/// The same with floating-point reals.
+pub static BBC_REAL40: Target = Target {
+    runtime: &REAL40,
+    offset: OFFSET,
+    last: true,
+    ..BBC
+};
+
 /// A Commodore 64, for PAL.
 pub static C64: Target = Target {
     name: "6502:c64",
@@ -178,6 +195,14 @@ pub static C64_FIXED24: Target = Target {
     ..C64
 };
 
+/// The same with floating-point reals.
+pub static C64_REAL40: Target = Target {
+    runtime: &REAL40,
+    offset: OFFSET,
+    last: true,
+    ..C64
+};
+
 const USUAL: Target = Target {
     name: "6502:plain",
     system: System::Plain6502,
@@ -195,6 +220,7 @@ const USUAL: Target = Target {
     drawing: 38,
     stolen: 0.0,
     lean: Lean::Nothing,
+    last: false,
     windows: false,
     hertz: 2_000_000.0,
     wraps: false,

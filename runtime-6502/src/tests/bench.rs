@@ -42,6 +42,7 @@ fn parts(runtime: &Runtime, names: &[&str]) -> (String, bool) {
     // Logarithms have a page of their own, which names the same.
     let page = match runtime.real {
         Format::Log { .. } => "log_page",
+        Format::Real40 => "float_page",
         _ => "scaled24_page",
     };
     let closure = runtime.closure(names.iter().copied().chain([page]));
@@ -90,8 +91,8 @@ pub struct Bench {
 }
 
 const FIRST: u16 = 0x80;
-const SECOND: u16 = 0x84;
-const RESULT: u16 = 0x88;
+const SECOND: u16 = 0x88;
+const RESULT: u16 = 0x90;
 
 impl Bench {
     /// The routine with its arguments at `places`, or all in the zero page if there are none.
@@ -217,19 +218,28 @@ impl Bench {
 
     /// The result for these operands, and the cycles of the use.
     pub fn run(&mut self, args: &[i32]) -> (i32, u64) {
+        let wide: Vec<u64> = args.iter().map(|a| *a as u64).collect();
+        let (bits, cycles) = self.run_bits(&wide);
+        let result = match self.size {
+            1 => bits as u8 as i32,
+            2 => i32::from(bits as u16 as i16),
+            3 => (bits as u32 as i32) << 8 >> 8,
+            _ => bits as u32 as i32,
+        };
+        (result, cycles)
+    }
+
+    /// The same of numbers of up to eight bytes; those of the result, no more.
+    pub fn run_bits(&mut self, args: &[u64]) -> (u64, u64) {
         for (value, at) in args.iter().zip([FIRST, SECOND]) {
             let at = usize::from(at);
-            self.ram.bytes[at..at + 4].copy_from_slice(&value.to_le_bytes());
+            self.ram.bytes[at..at + 8].copy_from_slice(&value.to_le_bytes());
         }
         let cycles = self.go();
         let at = usize::from(RESULT);
-        let bytes: [u8; 4] = self.ram.bytes[at..at + 4].try_into().unwrap();
-        let result = match self.size {
-            1 => i32::from(bytes[0]),
-            2 => i32::from(i16::from_le_bytes([bytes[0], bytes[1]])),
-            3 => i32::from_le_bytes([0, bytes[0], bytes[1], bytes[2]]) >> 8,
-            _ => i32::from_le_bytes(bytes),
-        };
-        (result, cycles)
+        let mut bytes = [0; 8];
+        let size = usize::from(self.size);
+        bytes[..size].copy_from_slice(&self.ram.bytes[at..at + size]);
+        (u64::from_le_bytes(bytes), cycles)
     }
 }

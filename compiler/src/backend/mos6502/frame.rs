@@ -3,7 +3,6 @@
 
 use super::code::Code;
 use super::homes::Homes;
-use super::logs;
 use super::memory::Machine;
 use super::params::{Entry, entries, take_params};
 use super::refine::{self, Refined};
@@ -116,8 +115,10 @@ fn parts(plan: &Plan, entries: &[Entry], read: &[&'static str]) -> Vec<&'static 
         2 => "scaled_page",
         _ => "scaled24_page",
     }));
-    if logs::are(plan) {
-        names.push("log_page");
+    match plan.runtime.real {
+        Format::Log { .. } => names.push("log_page"),
+        Format::Real40 => names.push("float_page"),
+        _ => {}
     }
     for entry in entries {
         names.extend(entry.needs(plan));
@@ -130,7 +131,13 @@ fn parts(plan: &Plan, entries: &[Entry], read: &[&'static str]) -> Vec<&'static 
 
 /// Whether a part only names places in the zero page.
 fn is_page(part: &Part) -> bool {
-    let pages = ["zero_page", "scaled_page", "scaled24_page", "log_page"];
+    let pages = [
+        "zero_page",
+        "scaled_page",
+        "scaled24_page",
+        "log_page",
+        "float_page",
+    ];
     pages.contains(&part.name)
 }
 
@@ -318,13 +325,20 @@ fn subroutines(plan: &Plan, homes: &Homes, text: &mut Text) -> (bool, Vec<&'stat
     (clamps, needs)
 }
 
+/// How many bytes of a value are reported.
+pub(super) fn reported(format: Format) -> usize {
+    usize::from(write::size(format)).max(4)
+}
+
 /// Gives out what the graph reports through the one port for bytes that there
-/// is: as a picture of one row, four inks a value, low byte first.
+/// is: as a picture of one row, an ink a byte ([`reported`]), low byte first.
 fn reports(plan: &Plan, homes: &Homes, text: &mut Text) {
     if plan.graph.reports.is_empty() || plan.plot {
         return;
     }
-    let [lo, hi, ..] = (4 * plan.graph.reports.len()).to_le_bytes();
+    let reports = plan.graph.reports.iter();
+    let all: usize = reports.map(|id| reported(plan.format(*id))).sum();
+    let [lo, hi, ..] = all.to_le_bytes();
     text.code(&format!(
         "lda #{lo} | sta width_port | lda #{hi} | sta width_port+1"
     ));
@@ -354,9 +368,9 @@ fn reports(plan: &Plan, homes: &Homes, text: &mut Text) {
         let bytes = match plan.format(id) {
             Format::Bool => 1,
             Format::Log { .. } => 3,
-            _ => 4,
+            format => write::size(format).max(4),
         };
-        for k in 0..4 {
+        for k in 0..reported(plan.format(id)) as u8 {
             let byte = match k < bytes {
                 true => write::byte(&value, k),
                 false => "#0".to_owned(),

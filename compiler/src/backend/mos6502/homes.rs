@@ -283,8 +283,13 @@ fn size(plan: &Plan, shapes: Option<&Shapes>, slot: Slot) -> u16 {
         | Slot::ScreenAt
         | Slot::Sampling(_)
         | Slot::ScreenLine => 2,
-        Slot::Param(_) | Slot::Axis(_) | Slot::RunEnd | Slot::Rows(_) => 4,
-        Slot::Received | Slot::Neighbour(_) => 4,
+        Slot::Param(p) => {
+            let ty = plan.graph.params.get(p as usize).map(|p| p.ty);
+            let format = ty.map_or(plan.runtime.int, |ty| plan.runtime.format_of(ty));
+            u16::from(write::size(format)).max(4)
+        }
+        Slot::Received => u16::from(write::size(plan.runtime.real)),
+        Slot::Axis(_) | Slot::RunEnd | Slot::Rows(_) | Slot::Neighbour(_) => 4,
     }
 }
 

@@ -9,7 +9,7 @@ use super::syntax::Syntax;
 use super::{Text, bbc, c64};
 use crate::ir::graph::*;
 use crate::plan::Plan;
-use slowlight_routine::Type;
+use slowlight_routine::{Format, Type};
 use slowlight_runtime_6502::write::{self, Place as Operand};
 
 /// What is written into the table of params.
@@ -26,6 +26,9 @@ pub(super) struct Entry {
     pub divisor: u32,
     /// Whether it is a logarithm: three bytes.
     pub log: bool,
+    /// Whether it floats, in five bytes; the last one where its bits are written, as the value's
+    /// four are the others.
+    pub float: Option<u8>,
     /// The fraction bits of a real that has its own.
     pub scale: Option<i8>,
 }
@@ -39,9 +42,10 @@ impl Entry {
     /// The parts of the runtime that it is taken with.
     pub fn needs(&self, plan: &Plan) -> Option<&'static str> {
         match plan.points() {
-            None => (self.divisor > 0).then_some(match logs::are(plan) {
-                true => "log_param",
-                false => "fixed_divide",
+            None => (self.divisor > 0).then_some(match plan.runtime.real {
+                Format::Log { .. } => "log_param",
+                Format::Real40 => "float_ratio",
+                _ => "fixed_divide",
             }),
             Some(_) => {
                 let [divide, hold] = match is_long(plan) {
@@ -87,6 +91,8 @@ pub(super) fn entries(plan: &Plan, homes: &Homes) -> Vec<Entry> {
                 _ => 0,
             },
             log: real && logs::are(plan),
+            float: Some((p.bits >> 32) as u8)
+                .filter(|_| real && plan.runtime.real == Format::Real40),
             scale: match p.digits {
                 // The number's bits are at its own scale as they are.
                 None => Some(0).filter(|_| real && plan.points().is_some()),
@@ -106,6 +112,7 @@ pub(super) fn entries(plan: &Plan, homes: &Homes) -> Vec<Entry> {
             unit: "a row".to_owned(),
             divisor: 0,
             log: false,
+            float: None,
             scale: None,
         });
     }
@@ -182,6 +189,20 @@ pub(super) fn take_params(
             text.code(&made(plan, entry, scale, home));
             continue;
         }
+        if let Some(exponent) = entry.float {
+            text.code("jsr take_param");
+            let mut lines = Vec::new();
+            match entry.divisor {
+                0 => {
+                    write::copy_bytes(&Operand::At("acc".to_owned()), home, 4, &mut lines);
+                    lines.push(format!("        lda #${exponent:02x}"));
+                    lines.push(format!("        sta {home}+4"));
+                }
+                _ => write::copy_bytes(&Operand::At("fa".to_owned()), home, 5, &mut lines),
+            }
+            lines.iter().for_each(|line| text.line(line));
+            continue;
+        }
         text.code(&format!(
             "jsr take_param | lda acc | sta {home} | lda acc+1 | sta {home}+1"
         ));
@@ -202,8 +223,14 @@ pub(super) fn take_params(
     // Where points are the params' own, they are divided by who knows them.
     let template = match plan.points() {
         Some(_) => template.replace("jmp fixed_divide", "rts"),
-        None if logs::are(plan) => template.replace("fixed_divide", "log_ratio"),
-        None => template.to_owned(),
+        None => template.replace(
+            "fixed_divide",
+            match plan.runtime.real {
+                Format::Log { .. } => "log_ratio",
+                Format::Real40 => "float_ratio",
+                _ => "fixed_divide",
+            },
+        ),
     };
     text.line(template);
     if machine != Machine::Plain {

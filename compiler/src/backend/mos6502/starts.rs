@@ -30,7 +30,7 @@ pub(in crate::backend) fn starts(plan: &Plan) -> u64 {
     };
     let divide = usual(plan, Op::Div);
     let reals = match plan.runtime.real {
-        Format::Log { .. } => {
+        Format::Log { .. } | Format::Real40 => {
             // Of any int, which the last one takes.
             let mut all = plan.runtime.routines.iter().rev();
             let convert = all.find(|routine| routine.op == Op::ToReal);
