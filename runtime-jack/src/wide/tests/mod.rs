@@ -1,0 +1,1 @@
+//! How far wide Floats are from the exact results.
