@@ -19,7 +19,8 @@
 //! format is taken.
 //!
 //! Formats of few bits are looked at first. Where the quickest of those is within the goal, and
-//! no slower than fixed point in 16 bits, the wider ones are not: they take longer.
+//! no slower than fixed point in 16 bits, the wider ones are not: they take longer. The widest of
+//! all are only looked at where no other keeps the goal.
 
 mod candidates;
 mod said;
@@ -30,7 +31,7 @@ use crate::need::Need;
 use crate::scene::Scene;
 use crate::target_args::ScreenArgs;
 use candidates::{
-    Candidate, candidates, expected, is_finer, is_log, is_short, least_of_wider, sort,
+    Candidate, candidates, expected, is_finer, is_last, is_log, is_short, least_of_wider, sort,
 };
 use said::Others;
 pub use said::Why;
@@ -127,6 +128,9 @@ fn quickest(
     // that takes longer than it gains.
     let one_width = |t: &&Target| t.runtime.narrow.is_none();
     let all = formats(target).filter(one_width);
+    let (mut last, all): (Vec<&'static Target>, Vec<_>) =
+        all.partition(|t| is_last(t.runtime.real));
+    let all = all.into_iter();
     let (short, mut long): (Vec<&'static Target>, Vec<_>) =
         all.partition(|t| is_short(t.runtime.real));
     let (mut finer, short): (Vec<&'static Target>, Vec<_>) =
@@ -157,6 +161,14 @@ fn quickest(
             |one: &Candidate| tries == 0 && one.may(goal) && one.cycles <= least_of_wider(&known);
         if more && !long.is_empty() && !known.first().is_some_and(enough) {
             let more = std::mem::take(&mut long);
+            known.extend(candidates(screen, scene, &more, goal, &mut left));
+            sort(&mut known, goal);
+        }
+        // So that there is a try for it.
+        let hopeless = tries + 1 >= TRIES || !known.first().is_some_and(|one| one.may(goal));
+        let looked = long.is_empty() && (tries > 0 || !known.is_empty());
+        if more && !last.is_empty() && looked && hopeless {
+            let more = std::mem::take(&mut last);
             known.extend(candidates(screen, scene, &more, goal, &mut left));
             sort(&mut known, goal);
         }
@@ -203,7 +215,7 @@ fn quickest(
                     let smaller = |one: &mut Candidate| one.size() < candidate.size();
                     known = left.extract_if(.., smaller).take(1).collect();
                     tries = TRIES - 1;
-                    (finer, long) = (Vec::new(), Vec::new());
+                    (finer, long, last) = (Vec::new(), Vec::new(), Vec::new());
                 }
                 continue;
             }

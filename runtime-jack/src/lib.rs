@@ -44,7 +44,7 @@ mod routines;
 pub mod wide;
 
 #[cfg(test)]
-mod tests;
+pub(crate) mod tests;
 
 pub use parts::{classes, classes_for_processor, has_init};
 
@@ -147,14 +147,5 @@ pub fn words(bits: Bits, format: Format) -> Vec<i32> {
             let Float { s, e, m } = Float::from_bits(bits);
             vec![s, e, m]
         }
-    }
-}
-
-/// From the words that a program printed; the rest is taken as 0.
-pub fn from_words(words: &[i32], format: Format) -> Bits {
-    let word = |k: usize| Bits::from(words.get(k).copied().unwrap_or(0) as u16);
-    match format {
-        wide::REAL => word(3) | word(2) << 16 | word(1) << 32 | word(0) << 48,
-        _ => word(2) | word(1) << 16 | word(0) << 32,
     }
 }

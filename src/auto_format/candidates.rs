@@ -92,6 +92,12 @@ pub(super) fn is_finer(format: Format) -> bool {
     matches!(format, Format::Log { frac: 11.., .. })
 }
 
+/// Whether it is one that is looked at where no other keeps the goal: its programs are slower
+/// than those of all others, and as good as exact.
+pub(super) fn is_last(format: Format) -> bool {
+    format == Format::Float416
+}
+
 pub(super) fn is_log(candidate: &Candidate) -> bool {
     matches!(candidate.target.runtime.real, Format::Log { .. })
 }

@@ -87,10 +87,19 @@ impl Format {
         }
     }
 
-    /// Whether its reals are objects of the Jack class `Float`: words for sign, exponent and
-    /// mantissa.
+    /// Words of a real that is an object of the Jack class `Float`: sign, exponent, and one or
+    /// two of the mantissa; else 0.
+    pub fn words(self) -> u8 {
+        match self {
+            Format::Float316 { .. } => 3,
+            Format::Float416 => 4,
+            _ => 0,
+        }
+    }
+
+    /// Whether its reals are objects of the Jack class `Float`.
     pub fn is_object(self) -> bool {
-        matches!(self, Format::Float316 { .. } | Format::Float416)
+        self.words() > 0
     }
 
     /// Whether its reals have a mantissa, whose roundings are relative.

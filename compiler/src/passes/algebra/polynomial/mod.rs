@@ -74,9 +74,7 @@ use std::sync::OnceLock;
 pub fn allowance(runtime: &Runtime) -> f64 {
     let format = runtime.real;
     match (format, runtime.int) {
-        (Format::Real40 | Format::Float316 { .. }, _) => {
-            (0.5f64.powi(20) / format.epsilon()).min(64.0)
-        }
+        (real, _) if real.has_mantissa() => (0.5f64.powi(20) / format.epsilon()).min(64.0),
         // Each value has all its bits where its point is its own, and ints have more: what
         // they make exact is gained.
         (Format::Scaled { bits }, Format::Int { bits: whole }) if whole > bits => ONCE_MORE,
