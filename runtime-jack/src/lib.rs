@@ -26,6 +26,8 @@
 //! Nothing is allocated: results go into Floats that exist. [`classes`] puts
 //! the classes together from the parts that a program needs.
 //!
+//! [`wide`] has the same with 28 bits, [`log`] and [`fixed`] have reals that are ints.
+//!
 //! # Costs
 //! Cycles are VM commands, means over operands drawn at random, measured by the
 //! tests, the loads of the operands and the store of the result left out; a

@@ -4,11 +4,12 @@
 use crate::cli::{directory, json};
 
 /// Machines and formats whose ends are near, and those whose are not.
-const FORMATS: [(&str, &str); 11] = [
+const FORMATS: [(&str, &str); 12] = [
     ("jack", "f316"),
     ("jack", "f316r"),
     ("jack", "log10"),
     ("jack", "fixed16"),
+    ("jack", "f416"),
     ("bbc:micro", "real40"),
     ("6502:plain", "fixed16.16"),
     ("6502:plain", "fixed12"),

@@ -60,6 +60,13 @@ const MAIN: &str = "
         return;
     }
 
+    function void noteFloat(Array f) {
+        do Main.note(f[0]);
+        do Main.note(f[1]);
+        do Main.note(f[2]);
+        return;
+    }
+
     function void note(int word) {
         let first = (first * 31) + word;
         let second = ((second + word) * 25173) + 1;
@@ -74,6 +81,7 @@ fn main_of(real: Format) -> String {
             .replace("] = 0; }", "] = 0; let f[3] = 0; }")
             .replace("f[2] = 0;\n", "f[2] = 0;\n let f[3] = 0;\n")
             .replace("/ 4);\n", "/ 4);\n let f[3] = Main.random() / 2;\n")
+            .replace("note(f[2]);", "note(f[2]); do Main.note(f[3]);")
             .replace("= ms[", "= ms[n - ((n / 5) * 5)];\n let f[3] = ls["),
         _ => MAIN.to_owned(),
     }
@@ -302,23 +310,7 @@ type Classes = dyn Fn(&[&Part]) -> Vec<(&'static str, String)>;
 
 fn computes_what_its_model_does((runtime, routine): (&Runtime, &Routine), classes: &Classes) {
     let use_of = (runtime, routine);
-    let mut files = program(use_of, &noted(routine), true, pairs(), classes);
-    files[0].1 = files[0].1.replacen(
-        "    function void note(",
-        "    function void noteFloat(Array f) {
-        do Main.note(f[0]);
-        do Main.note(f[1]);
-        do Main.note(f[2]);
-        do Main.note(f[3]);
-        return;
-    }
-
-    function void note(",
-        1,
-    );
-    if runtime.real != Format::Float416 {
-        files[0].1 = files[0].1.replacen("do Main.note(f[3]);", "", 1);
-    }
+    let files = program(use_of, &noted(routine), true, pairs(), classes);
     let Sums(first, second) = expected(routine, true, pairs());
     assert_eq!(
         run(&files).text,
