@@ -3,7 +3,7 @@
 
 use crate::cli::{directory, json, slowlight, success};
 use slowlight::cases::{self, Row, Way, ways};
-use slowlight_compiler::targets::jack::{JACK, JACK_F316R};
+use slowlight_compiler::targets::jack::{JACK, JACK_F316R, JACK_F416};
 use slowlight_compiler::targets::{TARGETS, Target};
 use slowlight_routine::{Error, Op};
 use std::collections::BTreeSet;
@@ -26,7 +26,7 @@ fn rows(ways: &[Way], naive: bool) -> Vec<Row> {
 
 #[test]
 fn every_vector_passes_everywhere() {
-    let targets = [TARGETS, &[&JACK_F316R]].concat();
+    let targets = [TARGETS, &[&JACK_F316R, &JACK_F416]].concat();
     let rows = rows(&ways(&targets, true), false);
     let places: BTreeSet<&str> = rows.iter().map(|r| r.way.place()).collect();
     assert_eq!(

@@ -74,11 +74,14 @@ use std::sync::OnceLock;
 pub fn allowance(runtime: &Runtime) -> f64 {
     let format = runtime.real;
     match (format, runtime.int) {
-        (real, _) if real.has_mantissa() => (0.5f64.powi(20) / format.epsilon()).min(64.0),
+        (Format::Real40 | Format::Float316 { .. }, _) => {
+            (0.5f64.powi(20) / format.epsilon()).min(64.0)
+        }
         // Each value has all its bits where its point is its own, and ints have more: what
         // they make exact is gained.
         (Format::Scaled { bits }, Format::Int { bits: whole }) if whole > bits => ONCE_MORE,
-        // A fixed point has no relative roundings.
+        // A fixed point has no relative roundings. `f416` has bits to spare, but what is whole
+        // is put in ints of 31 bits, of which Jack has 15.
         _ => 0.0,
     }
 }
