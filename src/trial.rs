@@ -172,8 +172,8 @@ pub fn held_with(
 fn table_bytes(plan: &Plan) -> u64 {
     let bytes = |format: Format| match format {
         Format::Real40 => 5,
-        // An object of three words.
-        Format::Float316 { .. } => 6,
+        // An object of three words or four.
+        Format::Float316 { .. } | Format::Float416 => 2 * u64::from(format.words()),
         // A logarithm and a sign.
         Format::Log { .. } => 4,
         Format::Int { bits } | Format::Fixed { bits, .. } | Format::Scaled { bits } => {

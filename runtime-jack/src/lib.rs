@@ -26,6 +26,8 @@
 //! Nothing is allocated: results go into Floats that exist. [`classes`] puts
 //! the classes together from the parts that a program needs.
 //!
+//! [`wide`] has the same with 28 bits, [`log`] and [`fixed`] have reals that are ints.
+//!
 //! # Costs
 //! Cycles are VM commands, means over operands drawn at random, measured by the
 //! tests, the loads of the operands and the store of the result left out; a
@@ -39,10 +41,12 @@ pub mod log;
 pub mod model;
 pub mod os;
 mod parts;
+#[macro_use]
 mod routines;
+pub mod wide;
 
 #[cfg(test)]
-mod tests;
+pub(crate) mod tests;
 
 pub use parts::{classes, classes_for_processor, has_init};
 
@@ -125,8 +129,25 @@ fn param_digits(greatest: f64, ranged: bool) -> Option<u8> {
 
 /// The program divides the two ints as Floats.
 fn of_param(scaled: i64, digits: u8, div: fn(Float, Float) -> Float) -> Bits {
+    let [scaled, unit] = param_ints(scaled, digits);
+    div(Float::from_int(scaled), Float::from_int(unit)).bits()
+}
+
+/// A param's int, and the power of ten that it is divided by.
+fn param_ints(scaled: i64, digits: u8) -> [i32; 2] {
     let most = i64::from(model::MOST);
-    let clamp = |n: i64| n.clamp(-most, most) as i32;
-    let unit = clamp(10i64.saturating_pow(u32::from(digits)));
-    div(Float::from_int(clamp(scaled)), Float::from_int(unit)).bits()
+    let unit = 10i64.saturating_pow(u32::from(digits));
+    [scaled, unit].map(|n| n.clamp(-most, most) as i32)
+}
+
+/// What a real's class makes a value of, in the order of `Float.constant`'s arguments: sign,
+/// exponent, and one or two words of the mantissa, the upper first.
+pub fn words(bits: Bits, format: Format) -> Vec<i32> {
+    match format {
+        wide::REAL => wide::model::Wide::from_bits(bits).words().to_vec(),
+        _ => {
+            let Float { s, e, m } = Float::from_bits(bits);
+            vec![s, e, m]
+        }
+    }
 }

@@ -94,6 +94,7 @@ impl Arithmetic {
             Arithmetic::Native => Key::Bits("53"),
             Arithmetic::Of(Format::Real40) => Key::Bits("32"),
             Arithmetic::Of(Format::Float316 { .. }) => Key::Bits("14"),
+            Arithmetic::Of(Format::Float416) => Key::Bits("28"),
             Arithmetic::Of(Format::Fixed { bits: 32, frac: 16 }) => Key::Quantum("16.16"),
             Arithmetic::Of(Format::Fixed { bits: 16, frac: 8 }) => Key::Quantum("8.8"),
             Arithmetic::Of(_) => Key::Name,
@@ -106,6 +107,7 @@ impl Arithmetic {
             Arithmetic::Native => x,
             Arithmetic::Of(Format::Real40) => significant(x, 32),
             Arithmetic::Of(Format::Float316 { .. }) => significant(x, 14),
+            Arithmetic::Of(Format::Float416) => significant(x, 28),
             Arithmetic::Of(Format::Fixed { bits, frac }) => {
                 let scale = 2f64.powi(i32::from(frac));
                 let n = (x * scale).round_ties_even();

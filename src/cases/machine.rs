@@ -37,7 +37,7 @@ pub fn give(param: &mut ParamPlan, value: Value, bits: Bits, target: &Target) {
             param.digits = None;
             param.text = bits.to_string();
         }
-        (Format::Float316 { .. }, Value::Real(_)) => {
+        (real, Value::Real(_)) if real.is_object() => {
             param.digits = None;
             param.text = "0".to_owned();
         }
@@ -93,7 +93,6 @@ pub fn run(plan: &Plan) -> Outcome<Vec<Value>> {
             from_screen(&run, &formats, plan)
         }
         Format::Real40 => from_file(&run, &formats, plan),
-        Format::Float316 { .. } => from_text(&run, &formats, plan),
         _ => from_text(&run, &formats, plan),
     };
     found.ok_or_else(|| {
@@ -137,7 +136,7 @@ fn typed(number: f64, ty: Type) -> Value {
     }
 }
 
-/// Jack's lines: a number, or a Float's three, or a logarithm after 1 for a negative.
+/// Jack's lines: a number, or a Float's three or four, or a logarithm after 1 for a negative.
 fn from_text(run: &MachineRun, formats: &[Format], plan: &Plan) -> Option<Vec<Value>> {
     let text = String::from_utf8_lossy(&run.output);
     let mut numbers = text.split_whitespace().map(str::parse::<i32>);
@@ -145,11 +144,13 @@ fn from_text(run: &MachineRun, formats: &[Format], plan: &Plan) -> Option<Vec<Va
     let mut values = Vec::new();
     for format in formats {
         values.push(match format {
-            Format::Float316 { .. } => {
-                let (s, e, m) = (next()?, next()?, next()?);
-                let word = |x: i32| Bits::from(x as u16);
-                let bits = word(m) | word(e) << 16 | word(s) << 32;
-                (plan.runtime.decode)(bits, *format)
+            real if real.is_object() => {
+                let mut words = 0..real.words();
+                let bits = words.try_fold(0, |bits, _| {
+                    let word = next()? as u16;
+                    Some(bits << 16 | Bits::from(word))
+                })?;
+                (plan.runtime.decode)(bits, *real)
             }
             Format::Log { .. } => {
                 let (minus, log) = (next()?, next()?);

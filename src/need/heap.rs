@@ -8,6 +8,9 @@ use slowlight_compiler::backend::Document;
 /// where the characters are, and the header of these.
 const STRING: u64 = 3 + HEADER;
 
+/// How the class of Floats of four words begins.
+const WIDE: &str = "field int s, e, m, l;";
+
 /// The heap of a Jack program before it draws: one object of fields, Floats and
 /// arrays, the tables of its classes and of the system's, and the longest message. Rows
 /// of errors are filled in a loop, of Floats with one an element.
@@ -42,7 +45,8 @@ pub(super) fn heap(documents: &[Document], system: &[File]) -> Need {
             message = message.max(length + STRING + HEADER);
         }
     }
-    let float = 3 + HEADER;
+    let words = documents.iter().map(|d| d.text.contains(WIDE));
+    let float = 3 + u64::from(words.fold(false, |a, b| a | b)) + HEADER;
     let classes = documents.iter().skip(2).flat_map(|d| d.text.lines());
     let arithmetic = classes.filter_map(|line| match line.contains("= Float.new(") {
         true => Some(float),

@@ -14,7 +14,6 @@ use slowlight_compiler::sema::{self, Options, Ways};
 use slowlight_compiler::source::{Diagnostic, SourceFile, Sources, Span};
 use slowlight_compiler::syntax;
 use slowlight_compiler::targets::Target;
-use slowlight_routine::Format;
 use std::path::{Path, PathBuf};
 
 /// What a scene knows of the number format that it is computed in.
@@ -45,10 +44,7 @@ impl Precision {
             offset: target.offset,
             epsilon: target.runtime.real.epsilon(),
             floats: !target.runtime.real.is_fixed(),
-            mantissas: matches!(
-                target.runtime.real,
-                Format::Real40 | Format::Float316 { .. }
-            ),
+            mantissas: target.runtime.real.has_mantissa(),
         }
     }
 

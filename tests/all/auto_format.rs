@@ -179,6 +179,24 @@ fn what_is_too_large_at_first_sight_is_looked_at_where_nothing_else_is_within_th
     assert_eq!(json(dir.path(), &args)["format"], "fixed24");
 }
 
+/// Where no other of Jack's formats keeps the goal, that with twice as many bits does.
+#[test]
+fn the_widest_format_is_the_last_resort() {
+    let long = ORBIT
+        .replace("k >= 7", "k >= 11")
+        .replace("max 8", "max 12");
+    let dir = directory(&[("long.scn", &long), ("waves.scn", WAVES)]);
+    let exact = ran(dir.path(), "long.scn", "jack", &["--goal", "exact"]);
+    assert_eq!(exact["format"], "f416");
+    assert_eq!(exact["differs_from_model"], 0);
+    assert!(wrong(&exact) <= 0.001, "{exact}");
+    let rounded = ran(dir.path(), "long.scn", "jack", &["--format", "f316r"]);
+    assert!(wrong(&rounded) > 0.01, "{rounded}");
+    assert!(cycles(&rounded) < cycles(&exact));
+    let waves = ran(dir.path(), "waves.scn", "jack", &["--goal", "exact"]);
+    assert_ne!(waves["format"], "f416");
+}
+
 #[test]
 fn some_rows_are_in_the_format_of_the_whole() {
     let dir = directory(&SCENES);

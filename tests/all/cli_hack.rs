@@ -78,7 +78,7 @@ fn a_program_draws_the_same_with_any_system_on_both_machines() {
 fn a_scene_draws_the_same_from_the_rom() {
     let dir = directory(&[("spot.scn", SPOT)]);
     let dir = dir.path();
-    for format in ["f316", "f316r", "log10", "fixed16"] {
+    for format in ["f316", "f316r", "log10", "fixed16", "f416"] {
         let run = |more: &[&str]| {
             let args = [
                 "run", "spot.scn", "-t", "jack", "--json", "--format", format,

@@ -82,7 +82,7 @@ fn wrong_usage_is_status_2() {
     fails(
         &["run", "steps.scn", "-t", "jack", "--format", "log9"],
         2,
-        "it has f316, f316r, log10, fixed16",
+        "it has f316, f316r, log10, fixed16, f416",
     );
     fails(
         &["vm", "hack", "steps.scn", "--page", "E00"],

@@ -145,7 +145,7 @@ fn and_so_it_has_where_the_plan_is_rewritten() {
             &["--rows", "10..11"],
         );
     }
-    for format in ["f316r", "log10", "fixed16"] {
+    for format in ["f316r", "log10", "fixed16", "f416"] {
         held(dir.path(), "spot.scn", "jack", &["--format", format]);
     }
     held(dir.path(), "spot.scn", "bbc:micro", &["--style", "listing"]);

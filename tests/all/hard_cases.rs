@@ -3,7 +3,7 @@
 
 use crate::cli::{directory, json, slowlight, success};
 use slowlight::cases::{self, Row, Way, ways};
-use slowlight_compiler::targets::jack::{JACK, JACK_F316R};
+use slowlight_compiler::targets::jack::{JACK, JACK_F316R, JACK_F416};
 use slowlight_compiler::targets::mos6502::PLAIN_REAL40;
 use slowlight_compiler::targets::{TARGETS, Target};
 use slowlight_routine::{Error, Op};
@@ -27,7 +27,7 @@ fn rows(ways: &[Way], naive: bool) -> Vec<Row> {
 
 #[test]
 fn every_vector_passes_everywhere() {
-    let targets = [TARGETS, &[&JACK_F316R]].concat();
+    let targets = [TARGETS, &[&JACK_F316R, &JACK_F416]].concat();
     // Of a format's name there is one runtime among them.
     let more = [Way::Model(&PLAIN_REAL40), Way::Machine(&PLAIN_REAL40)];
     let ways = [ways(&targets, true), more.to_vec()].concat();

@@ -9,6 +9,7 @@ const FORMATS: [(&str, &str); 12] = [
     ("jack", "f316r"),
     ("jack", "log10"),
     ("jack", "fixed16"),
+    ("jack", "f416"),
     ("bbc:micro", "real40"),
     ("6502:plain", "fixed16.16"),
     ("6502:plain", "fixed12"),

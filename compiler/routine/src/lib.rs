@@ -39,6 +39,8 @@ pub enum Format {
     /// Sign, exponent (bias 127) and 14-bit mantissa of the Jack ray marcher, whose
     /// results are cut; or rounded.
     Float316 { rounded: bool },
+    /// The same with 28 bits of mantissa, in two words; rounded.
+    Float416,
     /// A sign, and the binary logarithm of the magnitude in 16 bits, `frac` of them after
     /// the point, up to `octaves`; there is no 0.
     Log { frac: u8, octaves: u8 },
@@ -57,7 +59,7 @@ impl Format {
             Format::Int { bits } => 2f64.powi(i32::from(bits) - 1),
             Format::Fixed { bits, frac } => 2f64.powi(i32::from(bits) - 1 - i32::from(frac)),
             Format::Real40 => 2f64.powi(127),
-            Format::Float316 { .. } => f64::MAX,
+            Format::Float316 { .. } | Format::Float416 => f64::MAX,
             Format::Log { octaves, .. } => f64::from(octaves).exp2(),
             Format::Scaled { .. } => f64::MAX,
         }
@@ -70,6 +72,7 @@ impl Format {
             Format::Int { .. } => Type::Int,
             Format::Real40
             | Format::Float316 { .. }
+            | Format::Float416
             | Format::Log { .. }
             | Format::Fixed { .. }
             | Format::Scaled { .. } => Type::Real,
@@ -82,6 +85,26 @@ impl Format {
             Format::Int { bits } | Format::Fixed { bits, .. } | Format::Scaled { bits } => bits,
             _ => 0,
         }
+    }
+
+    /// Words of a real that is an object of the Jack class `Float`: sign, exponent, and one or
+    /// two of the mantissa; else 0.
+    pub fn words(self) -> u8 {
+        match self {
+            Format::Float316 { .. } => 3,
+            Format::Float416 => 4,
+            _ => 0,
+        }
+    }
+
+    /// Whether its reals are objects of the Jack class `Float`.
+    pub fn is_object(self) -> bool {
+        self.words() > 0
+    }
+
+    /// Whether its reals have a mantissa, whose roundings are relative.
+    pub fn has_mantissa(self) -> bool {
+        self == Format::Real40 || self.is_object()
     }
 
     /// Whether its reals have a fixed point, all the same or each its own.
@@ -100,6 +123,7 @@ impl Format {
             Format::Real40 => 1.0 / 4_294_967_296.0,
             Format::Float316 { rounded: false } => 1.0 / 8192.0,
             Format::Float316 { rounded: true } => 1.0 / 16384.0,
+            Format::Float416 => 1.0 / 268_435_456.0,
             Format::Log { frac, .. } => 0.5f64.powi(i32::from(frac) + 1) * std::f64::consts::LN_2,
             Format::Fixed { frac, .. } => 0.5f64.powi(i32::from(frac)),
             // Of values up to 2, with a sign.
@@ -116,6 +140,7 @@ impl std::fmt::Display for Format {
             Format::Real40 => f.write_str("real40"),
             Format::Float316 { rounded: false } => f.write_str("f316"),
             Format::Float316 { rounded: true } => f.write_str("f316r"),
+            Format::Float416 => f.write_str("f416"),
             Format::Log { frac, .. } => write!(f, "log{frac}"),
             Format::Fixed { bits, frac } => {
                 write!(f, "fixed{}.{frac}", i32::from(*bits) - i32::from(*frac))

@@ -3,6 +3,7 @@
 use super::{Lean, Mode, Sizes, System, Target};
 use slowlight_runtime_jack::fixed::FIXED16;
 use slowlight_runtime_jack::log::LOG10;
+use slowlight_runtime_jack::wide::F416;
 use slowlight_runtime_jack::{F316, F316R};
 
 /// The Hack computer, programmed in Jack.
@@ -11,6 +12,15 @@ pub static JACK: Target = FLOATS;
 /// The same with rounded reals.
 pub static JACK_F316R: Target = Target {
     runtime: &F316R,
+    ..FLOATS
+};
+
+/// The same with reals of twice as many bits, rounded. A hit is known as well as on machines
+/// with 32 bits of mantissa, and so is how far it is from its own surface.
+pub static JACK_F416: Target = Target {
+    runtime: &F416,
+    offset: 1e-5,
+    last: true,
     ..FLOATS
 };
 

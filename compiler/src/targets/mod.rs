@@ -161,6 +161,7 @@ pub static OTHER_FORMATS: &[&Target] = &[
     &jack::JACK_F316R,
     &jack::JACK_LOG10,
     &jack::JACK_FIXED16,
+    &jack::JACK_F416,
     &mos6502::PLAIN_FIXED12,
     &mos6502::PLAIN_FIXED16,
     &mos6502::BBC_FIXED12,

@@ -11,14 +11,14 @@
 //! everywhere (Jack has no precedence), nothing allocated but in `make...`.
 
 #[macro_use]
-mod float;
+pub(crate) mod float;
 #[macro_use]
 mod float_sums;
 #[macro_use]
 mod fixed;
 #[macro_use]
-mod functions;
-mod int;
+pub(crate) mod functions;
+pub(crate) mod int;
 mod log;
 mod log_far;
 mod log_functions;
@@ -265,7 +265,14 @@ pub fn classes(parts: &[&Part]) -> Vec<(&'static str, String)> {
             .filter(|p| class_of(p) == name)
             .collect();
         let init = has_init(name, &own).then(|| init(makers(name, &own)));
-        (name, class(ALL, name, &own, init))
+        // Where the class has a head of its own, that is among them.
+        let head = own.iter().any(|part| part.name == name);
+        let all = if head {
+            own.iter().map(|part| **part).collect()
+        } else {
+            ALL.to_vec()
+        };
+        (name, class(&all, name, &own, init))
     };
     names.into_iter().map(text).collect()
 }

@@ -2,7 +2,8 @@
 
 use super::{Random, edges};
 use crate::model::{Float, Rounded, Sums, int};
-use crate::{F316, F316R};
+use crate::wide::F416;
+use crate::{F316, F316R, words};
 use slowlight_routine::{Bits, Error, Format, Op, Runtime, Value};
 
 fn unit(m: i32) -> Float {
@@ -178,7 +179,7 @@ fn neighbours_in_different_binades_are_told_apart() {
 /// Every routine against the operation that it claims to be, in its domain.
 #[test]
 fn routines_keep_within_their_errors() {
-    for runtime in [&F316, &F316R] {
+    for runtime in [&F316, &F316R, &F416] {
         keep_within_their_errors(runtime);
     }
 }
@@ -200,7 +201,7 @@ fn keep_within_their_errors(runtime: &Runtime) {
             let bits = [a, b];
             // What f64 cannot follow, and an int that stands for another, are the machine's affair.
             let far = |f: &Format, x| match f {
-                Format::Float316 { .. } => !(-300..=600).contains(&Float::from_bits(x).e),
+                f if f.is_object() => !(-300..=600).contains(&words(x, *f)[1]),
                 _ => int(x) == -32768,
             };
             let beyond = routine.args.iter().zip(bits).any(|(f, x)| far(f, x));

@@ -1,6 +1,7 @@
 //! The operands that the harness's Jack makes and the sums that it forms, a second time.
 
 use crate::model::{Float, int, int_bits, wrap};
+use crate::wide::model::Wide;
 use slowlight_routine::{Bits, Format};
 
 /// The generator: what `Main.random` does. The lower half of its state comes back after
@@ -23,7 +24,8 @@ impl Generator {
         self.0 = wrap((self.0 >> 16) + 9973) << 16 | self.0 & 0xFFFF;
     }
 
-    fn float(&mut self) -> Float {
+    /// Sign, exponent and mantissa, with so many words behind its first.
+    fn float(&mut self, lower: usize) -> (Float, i32) {
         let kind = self.next() / 4096;
         let e = match kind {
             0 => (self.next() - 8000).min(8000),
@@ -31,10 +33,11 @@ impl Generator {
         };
         let s = self.next() / 16384;
         let m = 8192 + self.next() / 4;
+        let l = (0..lower).fold(0, |_, _| self.next() / 2);
         if kind == 7 && self.next() < 4096 {
-            Float { s, e: 0, m: 0 }
+            (Float { s, e: 0, m: 0 }, 0)
         } else {
-            Float { s, e, m }
+            (Float { s, e, m }, l)
         }
     }
 
@@ -51,7 +54,12 @@ impl Generator {
     pub fn bits(&mut self, format: Format) -> Bits {
         match format {
             Format::Bool => Bits::from(self.next() < 16384),
-            Format::Float316 { .. } => self.float().bits(),
+            Format::Float316 { .. } => self.float(0).0.bits(),
+            Format::Float416 => {
+                let (Float { s, e, m }, l) = self.float(1);
+                let m = i64::from(m << 14 | l);
+                Wide { s, e, m }.bits()
+            }
             _ => int_bits(self.int()),
         }
     }
@@ -97,9 +105,9 @@ impl Sums {
     pub fn result(&mut self, bits: Bits, format: Format) {
         match format {
             Format::Bool => self.note(if bits == 0 { 0 } else { -1 }),
-            Format::Float316 { .. } => {
-                let Float { s, e, m } = Float::from_bits(bits);
-                [s, e, m].into_iter().for_each(|word| self.note(word));
+            format if format.is_object() => {
+                let words = crate::words(bits, format);
+                words.into_iter().for_each(|word| self.note(word));
             }
             _ => self.note(int(bits)),
         }

@@ -8,6 +8,7 @@
 use super::generator::{Generator, STIR, Sums};
 use super::{edges, int_edges};
 use crate::model::{Float, int};
+use crate::wide::F416;
 use crate::{F316, F316R, classes, classes_for_processor, has_init};
 use slowlight_routine::{Bits, Form, Format, Part, Routine, Runtime};
 use slowlight_vm::Stop;
@@ -17,7 +18,7 @@ use slowlight_vm::hack::vm::{Machine, Program, Run};
 const MAIN: &str = "
     static int seed, block, first, second, i, j, out;
     static boolean p, q, said;
-    static Array es, ms, ints;
+    static Array es, ms, ls, ints;
     static Float a, b, r;
 
     function int random() {
@@ -59,6 +60,13 @@ const MAIN: &str = "
         return;
     }
 
+    function void noteFloat(Array f) {
+        do Main.note(f[0]);
+        do Main.note(f[1]);
+        do Main.note(f[2]);
+        return;
+    }
+
     function void note(int word) {
         let first = (first * 31) + word;
         let second = ((second + word) * 25173) + 1;
@@ -66,11 +74,24 @@ const MAIN: &str = "
     }
 ";
 
+/// The harness of reals in a format.
+fn main_of(real: Format) -> String {
+    match real {
+        Format::Float416 => MAIN
+            .replace("] = 0; }", "] = 0; let f[3] = 0; }")
+            .replace("f[2] = 0;\n", "f[2] = 0;\n let f[3] = 0;\n")
+            .replace("/ 4);\n", "/ 4);\n let f[3] = Main.random() / 2;\n")
+            .replace("note(f[2]);", "note(f[2]); do Main.note(f[3]);")
+            .replace("= ms[", "= ms[n - ((n / 5) * 5)];\n let f[3] = ls["),
+        _ => MAIN.to_owned(),
+    }
+}
+
 /// What the harness calls operand `k` of a format.
 fn operand(format: Format, k: usize) -> &'static str {
     let names = match format {
         Format::Bool => ["p", "q"],
-        Format::Float316 { .. } => ["a", "b"],
+        format if format.is_object() => ["a", "b"],
         _ => ["i", "j"],
     };
     names[k]
@@ -111,7 +132,7 @@ fn program(
     classes: &Classes,
 ) -> Vec<(String, String)> {
     let mut main = String::from("class Main {\n");
-    main += MAIN;
+    main += &main_of(runtime.real);
     main += "    function void step() {\n";
     if routine.name == "int_quotient" {
         main += "        if ((i < 0) | (j < 1)) { return; }\n";
@@ -137,17 +158,18 @@ fn program(
     main += "        let a = Float.new();\n        let b = Float.new();\n        let r = Float.new();\n";
     main += &list("es", super::EXPONENTS);
     main += &list("ms", super::MANTISSAS);
+    main += &list("ls", super::LOWER);
     main += &list("ints", &int_edges());
     let set = |k: usize, index: &str| match routine.args.get(k) {
         None => String::new(),
         Some(Format::Bool) => format!("let {} = ({index} = 1);", ["p", "q"][k]),
-        Some(Format::Float316 { .. }) => format!("do Main.edge({}, {index});", ["a", "b"][k]),
+        Some(f) if f.is_object() => format!("do Main.edge({}, {index});", ["a", "b"][k]),
         Some(_) => format!("let {} = ints[{index}];", ["i", "j"][k]),
     };
     let any = |k: usize| match routine.args.get(k) {
         None => String::new(),
         Some(Format::Bool) => format!("let {} = Main.random() < 16384;", ["p", "q"][k]),
-        Some(Format::Float316 { .. }) => format!("do Main.anyFloat({});", ["a", "b"][k]),
+        Some(f) if f.is_object() => format!("do Main.anyFloat({});", ["a", "b"][k]),
         Some(_) => format!("let {} = Main.anyInt();", ["i", "j"][k]),
     };
     let count = |k: usize| routine.args.get(k).map_or(1, |f| edges(*f).len());
@@ -266,6 +288,13 @@ fn rounded_routines_compute_what_their_models_do() {
     }
 }
 
+#[test]
+fn wide_routines_compute_what_their_models_do() {
+    for routine in F416.routines {
+        computes_what_its_model_does((&F416, routine), &classes);
+    }
+}
+
 /// Only those of whose parts the processor has others.
 #[test]
 fn routines_for_the_processor_do_so_too() {
@@ -281,19 +310,7 @@ type Classes = dyn Fn(&[&Part]) -> Vec<(&'static str, String)>;
 
 fn computes_what_its_model_does((runtime, routine): (&Runtime, &Routine), classes: &Classes) {
     let use_of = (runtime, routine);
-    let mut files = program(use_of, &noted(routine), true, pairs(), classes);
-    files[0].1 = files[0].1.replacen(
-        "    function void note(",
-        "    function void noteFloat(Array f) {
-        do Main.note(f[0]);
-        do Main.note(f[1]);
-        do Main.note(f[2]);
-        return;
-    }
-
-    function void note(",
-        1,
-    );
+    let files = program(use_of, &noted(routine), true, pairs(), classes);
     let Sums(first, second) = expected(routine, true, pairs());
     assert_eq!(
         run(&files).text,
@@ -370,6 +387,6 @@ fn routines_cost_what_they_say() {
             (measured != r.cycles).then(|| format!("{said:?}: {measured}"))
         })
     };
-    let differ = [&F316, &F316R].into_iter().flat_map(differ);
+    let differ = [&F316, &F316R, &F416].into_iter().flat_map(differ);
     assert_eq!(differ.collect::<Vec<_>>(), Vec::<String>::new());
 }

@@ -11,6 +11,8 @@ mod starts;
 mod table;
 
 use crate::model::{BOTTOM, Float, TOP, int_bits};
+use crate::wide::F416;
+use crate::wide::model::Wide;
 use crate::{F316, F316R};
 use slowlight_routine::{Bits, Format};
 
@@ -45,6 +47,19 @@ impl Random {
         }
     }
 
+    /// The same with more bits, of which the last are often alike.
+    pub fn wide(&mut self) -> Wide {
+        let Float { s, e, m } = self.float();
+        let l = match self.below(6) {
+            0 => 0,
+            1 => 16383 - self.below(3),
+            _ => self.below(16384),
+        };
+        let l = if m == 0 { 0 } else { l };
+        let m = i64::from(m << 14 | l);
+        Wide { s, e, m }
+    }
+
     pub fn int(&mut self) -> i32 {
         let wide = self.below(65536) - 32768;
         match self.below(3) {
@@ -58,6 +73,7 @@ impl Random {
         match format {
             Format::Bool => self.next() & 1,
             Format::Float316 { .. } => self.float().bits(),
+            Format::Float416 => self.wide().bits(),
             _ => int_bits(self.int()),
         }
     }
@@ -83,6 +99,8 @@ pub const EXPONENTS: &[i32] = &[
     TOP,
 ];
 pub const MANTISSAS: &[i32] = &[8192, 8193, 12288, 16382, 16383];
+/// The lower words that mantissas of wide Floats have at the edges.
+pub const LOWER: &[i32] = &[0, 16383, 8192, 0, 16383];
 
 /// Floats at every edge: zeros, ends, powers of two and their neighbours.
 pub fn float_edges() -> Vec<Float> {
@@ -101,6 +119,20 @@ pub fn float_edges() -> Vec<Float> {
     all
 }
 
+/// The same with lower words.
+pub fn wide_edges() -> Vec<Wide> {
+    let lower = |m| {
+        let at = MANTISSAS.iter().position(|other| *other == m);
+        at.map_or(0, |at| LOWER[at])
+    };
+    let wide = |Float { s, e, m }| Wide {
+        s,
+        e,
+        m: i64::from(m << 14 | lower(m)),
+    };
+    float_edges().into_iter().map(wide).collect()
+}
+
 pub fn int_edges() -> Vec<i32> {
     vec![
         -32768, -32767, -32766, -16385, -16384, -16383, -256, -128, -127, -3, -2, -1, 0, 1, 2, 3,
@@ -113,6 +145,7 @@ pub fn edges(format: Format) -> Vec<Bits> {
     match format {
         Format::Bool => vec![0, 1],
         Format::Float316 { .. } => float_edges().into_iter().map(Float::bits).collect(),
+        Format::Float416 => wide_edges().into_iter().map(Wide::bits).collect(),
         _ => int_edges().into_iter().map(int_bits).collect(),
     }
 }
@@ -123,11 +156,17 @@ fn bits_go_there_and_back() {
         assert_eq!(Float::from_bits(f.bits()), f);
     }
     assert_eq!(Float::from_bits(u64::MAX).m, 0, "no value of the format");
+    for f in wide_edges() {
+        assert_eq!(Wide::from_bits(f.bits()), f);
+        let words = crate::words(f.bits(), F416.real);
+        assert_eq!(words.len(), usize::from(F416.real.words()));
+    }
+    assert_eq!(Wide::from_bits(u64::MAX).m, 0, "no value of the format");
 }
 
 #[test]
 fn names_are_unique_and_needs_exist() {
-    for runtime in [&F316, &F316R] {
+    for runtime in [&F316, &F316R, &F416] {
         let routines = runtime.routines.iter();
         let mut names: Vec<&str> = routines.clone().map(|r| r.name).collect();
         names.sort_unstable();
@@ -182,6 +221,8 @@ fn params_have_as_many_digits_as_an_int_holds() {
     assert_eq!((F316.param_bits)(1_000_000, 0), (F316.param_bits)(32767, 0));
     let value = Float::from_bits((F316R.param_bits)(-100, 3)).value();
     assert!((value + 0.1).abs() < 0.1 / 16384.0, "{value}");
+    let value = Wide::from_bits((F416.param_bits)(-100, 3)).value();
+    assert!((value + 0.1).abs() < 0.1 / 2e8, "{value}");
 }
 
 #[test]
@@ -191,7 +232,7 @@ fn every_operation_has_a_total_routine() {
         let total = |r: &&slowlight_routine::Routine| {
             r.op == *op && (r.domain)(&[Range::ALL, Range::ALL], Range::ALL)
         };
-        for runtime in [&F316, &F316R] {
+        for runtime in [&F316, &F316R, &F416] {
             assert!(runtime.routines.iter().any(|r| total(&r)), "{op:?}");
         }
     }

@@ -4,6 +4,7 @@ use super::machine::run;
 use crate::fixed::FIXED16;
 use crate::log::LOG10;
 use crate::parts::class_of;
+use crate::wide::F416;
 use crate::{F316, F316R, classes};
 use slowlight_routine::Part;
 
@@ -27,7 +28,7 @@ fn started(all: &[&Part], part: &Part, included: bool) -> u64 {
 #[test]
 fn parts_start_as_they_say() {
     let mut differ = Vec::new();
-    for runtime in [&F316, &F316R, &LOG10, &FIXED16] {
+    for runtime in [&F316, &F316R, &F416, &LOG10, &FIXED16] {
         // Runtimes list parts of all, and have those that their routines need.
         let needs = runtime.routines.iter().flat_map(|r| r.needs);
         let all = runtime.closure(needs.copied().chain(["Float", "Log", "Fixed"]));

@@ -99,7 +99,7 @@ impl Slack {
         };
         // In a format whose ends are near, a scene that breaks the contract
         // would wrap: there the routines saturate instead.
-        let floats = matches!(runtime.real, Format::Real40 | Format::Float316 { .. });
+        let floats = runtime.real.has_mantissa();
         // Units of last places that are nowhere yet say nothing.
         let errors = match runtime.real {
             Format::Scaled { .. } => Vec::new(),

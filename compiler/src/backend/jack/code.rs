@@ -285,7 +285,7 @@ impl<'p> Code<'p> {
             }
             _ => return,
         };
-        if let Format::Float316 { .. } = format {
+        if format.is_object() {
             let home = self.home(place, format);
             self.needs.insert("Float.copy");
             self.text

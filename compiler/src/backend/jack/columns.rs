@@ -6,12 +6,11 @@ use super::logs::known;
 use super::{Line, Text};
 use crate::ir::graph::*;
 use crate::ir::tree::{Place, tabulated};
-use slowlight_routine::Format;
 
 impl Code<'_> {
     /// Whether a value is an object.
     fn is_float(&self, id: NodeId) -> bool {
-        matches!(self.plan.format(id), Format::Float316 { .. })
+        self.plan.format(id).is_object()
     }
 
     /// Whether a value's sign has an array of its own.

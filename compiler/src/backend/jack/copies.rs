@@ -33,7 +33,7 @@ impl Code<'_> {
         if from.text == home {
             return;
         }
-        if let Format::Float316 { .. } = format {
+        if format.is_object() {
             self.needs.insert("Float.copy");
             self.line(format!("do {home}.copy({});", from.text));
         } else {

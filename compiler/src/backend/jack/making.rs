@@ -7,8 +7,8 @@ use super::logs::has_signs;
 use super::{Subroutine, line, subroutine};
 use crate::plan::ParamPlan;
 use slowlight_routine::log::model::Log;
-use slowlight_routine::{Form, Format, Op, Type, Value};
-use slowlight_runtime_jack::model::{self, Float};
+use slowlight_routine::{Bits, Form, Format, Op, Type, Value};
+use slowlight_runtime_jack::{model, words};
 
 /// The methods that make constants, Floats and tables, and read the params.
 pub(super) fn making(code: &mut Code) -> Vec<Subroutine> {
@@ -38,10 +38,8 @@ pub(super) fn making(code: &mut Code) -> Vec<Subroutine> {
         if param.digits.is_none() {
             // Given by its bits, which no scaled int can say.
             code.needs.insert("Float.constant");
-            let Float { s, e, m } = Float::from_bits(param.bits);
-            taking.push(line(&format!(
-                "let {value} = Float.constant({s}, {e}, {m});"
-            )));
+            let constant = real_constant(param.bits, plan.runtime.real);
+            taking.push(line(&format!("let {value} = {constant};")));
             continue;
         }
         taking.push(line(&format!("do {value}.fromInt({label});")));
@@ -57,20 +55,15 @@ pub(super) fn making(code: &mut Code) -> Vec<Subroutine> {
     }
 
     let constants = code.object.constants().iter().map(|c| {
-        let Float { s, e, m } = Float::from_bits(c.bits);
         let (name, value) = (&c.name, c.value);
-        line(&format!(
-            "let {name} = Float.constant({s}, {e}, {m}); // {value}"
-        ))
+        let constant = real_constant(c.bits, plan.runtime.real);
+        line(&format!("let {name} = {constant}; // {value}"))
     });
     let constants: Vec<Line> = constants.collect();
     if !constants.is_empty() {
         code.needs.insert("Float.constant");
     }
-    let floats = code
-        .written
-        .iter()
-        .filter(|(_, f)| matches!(f, Format::Float316 { .. }));
+    let floats = code.written.iter().filter(|(_, f)| f.is_object());
     let floats = floats.map(|(name, _)| name.clone());
     // What is an int needs no making.
     let values = values
@@ -110,6 +103,12 @@ pub(super) fn making(code: &mut Code) -> Vec<Subroutine> {
         all.push(subroutine(about, "method void takeParameters()", body));
     }
     all
+}
+
+/// What makes an object of a real's bits.
+fn real_constant(bits: Bits, real: Format) -> String {
+    let words = words(bits, real).into_iter().map(|word| word.to_string());
+    format!("Float.constant({})", words.collect::<Vec<_>>().join(", "))
 }
 
 /// What divides a real in place, as the runtime's own routine for quotients does.
@@ -179,8 +178,7 @@ fn tables(code: &mut Code) -> Vec<Line> {
                 Value::Real(_) if code.points().is_some() => int(model::int(bits)),
                 Value::Real(_) => {
                     code.needs.insert("Float.constant");
-                    let Float { s, e, m } = Float::from_bits(bits);
-                    Expression::term(format!("Float.constant({s}, {e}, {m})"))
+                    Expression::term(real_constant(bits, plan.runtime.real))
                 }
             };
             let said = match table.ty {

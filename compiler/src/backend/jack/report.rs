@@ -6,7 +6,7 @@ use super::{Subroutine, line, subroutine};
 use slowlight_routine::{Format, Type};
 
 /// Prints what the graph reports, a line each: ints, bools as 0 or 1, Floats as
-/// sign, exponent and mantissa, logarithms after 1 for a negative, fixed point as its int. Answers the method that prints a Float, if needed.
+/// sign, exponent and mantissa's words, logarithms after 1 for a negative, fixed point as its int. Answers the method that prints a Float, if needed.
 pub(super) fn reports(code: &mut Code, text: &mut Text) -> Option<Subroutine> {
     let plan = code.plan;
     let mut floats = false;
@@ -47,14 +47,14 @@ pub(super) fn reports(code: &mut Code, text: &mut Text) -> Option<Subroutine> {
         text.line("do Output.println();");
     }
     floats.then(|| {
-        let parts = [0, 1, 2].map(|k| {
+        let parts = (0..plan.runtime.real.words()).map(|k| {
             let part = line(&format!("do Output.printInt(a[{k}]);"));
             [part, line("do Output.printChar(32);")]
         });
         subroutine(
             "A Float's sign, exponent and mantissa.",
             "method void reportFloat(Array a)",
-            parts.into_iter().flatten().collect(),
+            parts.flatten().collect(),
         )
     })
 }

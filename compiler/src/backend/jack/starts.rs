@@ -18,7 +18,12 @@ const PARAM: u64 = 14;
 /// What a plan's program takes.
 pub(in crate::backend) fn starts(plan: &Plan) -> u64 {
     let real = plan.runtime.real;
-    let floats = matches!(real, Format::Float316 { .. });
+    let floats = real.is_object();
+    // A word more to a real.
+    let [constant, value] = match real {
+        Format::Float416 => [CONSTANT + 3, VALUE + 2],
+        _ => [CONSTANT, VALUE],
+    };
     let logs = matches!(real, Format::Log { .. });
     let [made, divided] = params_made(plan);
 
@@ -32,7 +37,7 @@ pub(in crate::backend) fn starts(plan: &Plan) -> u64 {
     let read = read.filter_map(|id| plan.graph.tables.get(id.0 as usize));
     let entries = read.map(|table| {
         let each = match table.ty == Type::Real {
-            true if floats => ENTRY + CONSTANT,
+            true if floats => ENTRY + constant,
             true if logs && has_signs(table) => 2 * ENTRY,
             _ => ENTRY,
         };
@@ -44,7 +49,7 @@ pub(in crate::backend) fn starts(plan: &Plan) -> u64 {
         true => {
             let places = plan.places().into_iter();
             let values = made + places.filter(|(_, format)| *format == real).count() as u64;
-            CONSTANT * constants(plan).len() as u64 + VALUE * values
+            constant * constants(plan).len() as u64 + value * values
         }
         false => 0,
     };
