@@ -16,10 +16,8 @@ use slowlight_routine::{Format, Op, Runtime, Value};
 
 /// The graph with such differences; nothing where there are none.
 pub fn remainders(graph: &Graph, _: &Ranges, runtime: &Runtime) -> Option<Graph> {
-    let relative = matches!(
-        runtime.real,
-        Format::Real40 | Format::Float316 { .. } | Format::Log { .. }
-    );
+    let real = runtime.real;
+    let relative = real.has_mantissa() || matches!(real, Format::Log { .. });
     if !relative {
         return None;
     }
