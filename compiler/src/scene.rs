@@ -3,10 +3,12 @@
 
 use crate::ir::graph::Graph;
 use crate::prelude::PRELUDE;
-use crate::sema::{self, Options, Program};
+use crate::sema::{self, Options, Program, Ty};
 use crate::source::{Diagnostic, SourceFile, Sources, Span};
 use crate::syntax::tree::{File, ItemKind};
 use crate::syntax::{self};
+use std::collections::BTreeMap;
+use std::sync::{Arc, Mutex};
 
 /// How many files a scene may have, those that it uses included.
 const FILES: usize = 64;
@@ -51,6 +53,30 @@ pub fn check(name: &str, text: &str) -> Scene {
 /// A scene from its text; `prelude` (names and texts) replaces the embedded
 /// library. Never fails: what is wrong is in [`Scene::diagnostics`].
 pub fn load(name: &str, text: &str, prelude: Option<&[(String, String)]>, read: Read<'_>) -> Scene {
+    load_whole((name, text), prelude, read, true).scene
+}
+
+/// A scene with what it was made from and what became of it.
+#[derive(Clone, Debug)]
+pub struct Whole {
+    /// The scene.
+    pub scene: Scene,
+    /// The tree of each of its texts, and whether it is the library's.
+    pub trees: Vec<(File, bool)>,
+    /// The types of the scene's own expressions, as far as they were found.
+    pub types: Vec<(Span, Ty)>,
+    /// Its graph for the usual options; none where it is wrong, or not asked for.
+    pub graph: Option<Graph>,
+}
+
+/// As [`load`], of a name and a text, with all that was found on the way; mistakes that only
+/// the lowering finds are not, unless it is asked for.
+pub fn load_whole(
+    (name, text): (&str, &str),
+    prelude: Option<&[(String, String)]>,
+    read: Read<'_>,
+    lowered: bool,
+) -> Whole {
     let mut loader = Loader {
         sources: Sources::default(),
         files: Vec::new(),
@@ -64,11 +90,7 @@ pub fn load(name: &str, text: &str, prelude: Option<&[(String, String)]>, read: 
                 loader.add(name.clone(), text.clone(), true);
             }
         }
-        None => {
-            for (name, text) in PRELUDE {
-                loader.add((*name).to_owned(), (*text).to_owned(), true);
-            }
-        }
+        None => loader.add_library(),
     }
     let Loader {
         sources,
@@ -77,21 +99,48 @@ pub fn load(name: &str, text: &str, prelude: Option<&[(String, String)]>, read: 
     } = loader;
     // Where an item could not be read, what refers to it would be called
     // unknown: the mistakes of the text come first.
-    let (program, said) = sema::check(&files);
+    let (program, said, types) = sema::check_noting(&files);
     if !diagnostics.iter().any(Diagnostic::is_error) {
         diagnostics.extend(said);
     }
-    if !diagnostics.iter().any(Diagnostic::is_error)
-        && let Err(said) = sema::lower(&program, &Options::default())
-    {
-        diagnostics.extend(said);
+    let mut graph = None;
+    if lowered && !diagnostics.iter().any(Diagnostic::is_error) {
+        match sema::lower(&program, &Options::default()) {
+            Ok(made) => graph = Some(made),
+            Err(said) => diagnostics.extend(said),
+        }
     }
     sema::tidy(&mut diagnostics);
-    Scene {
-        sources,
-        program,
-        diagnostics,
+    Whole {
+        scene: Scene {
+            sources,
+            program,
+            diagnostics,
+        },
+        trees: files,
+        types,
+        graph,
     }
+}
+
+/// Trees, and what is to be said of them.
+type Parsed = Vec<(File, Vec<Diagnostic>)>;
+
+/// The embedded library's trees, where its first file has a number: parsed once, since that
+/// takes as long as all else that is done to most scenes.
+fn library(first: usize) -> Arc<Parsed> {
+    static KNOWN: Mutex<BTreeMap<usize, Arc<Parsed>>> = Mutex::new(BTreeMap::new());
+    let known = KNOWN.lock().ok().and_then(|k| k.get(&first).cloned());
+    known.unwrap_or_else(|| {
+        let number = |k: usize| u16::try_from(first + k).unwrap_or(u16::MAX);
+        let texts = PRELUDE.iter().enumerate();
+        let parsed = texts.map(|(k, (_, text))| syntax::parse(text, number(k)));
+        let parsed = Arc::new(parsed.collect());
+        if let Ok(mut known) = KNOWN.lock() {
+            known.insert(first, Arc::clone(&parsed));
+        }
+        parsed
+    })
 }
 
 struct Loader {
@@ -111,6 +160,20 @@ impl Loader {
         });
         self.files.push((tree, library));
         self.diagnostics.extend(said);
+    }
+
+    /// Adds the embedded library.
+    fn add_library(&mut self) {
+        let parsed = library(self.sources.files.len());
+        for ((name, text), (tree, said)) in PRELUDE.iter().zip(parsed.iter()) {
+            self.sources.add(SourceFile {
+                name: (*name).to_owned(),
+                text: (*text).to_owned(),
+                library: true,
+            });
+            self.files.push((tree.clone(), true));
+            self.diagnostics.extend(said.iter().cloned());
+        }
     }
 
     /// Reads what `use` names, each file once.

@@ -27,6 +27,7 @@ use super::program::*;
 use super::ty::Ty;
 use crate::source::{Diagnostic, Span};
 use crate::syntax::tree;
+pub use names::known;
 use names::{Entity, Layers};
 pub(super) use ops::symbol;
 use scopes::Scopes;
@@ -102,6 +103,8 @@ struct Checker<'a> {
     /// loop that is checked again must not forget it.
     settled: Vec<Diagnostic>,
     settled_mentions: Vec<(Entity, Entity, Span)>,
+    /// Types of the scene's own expressions, as they are found.
+    noted: Vec<(Span, Ty)>,
     depth: usize,
     steps: usize,
 }
@@ -109,6 +112,13 @@ struct Checker<'a> {
 /// Checks the files' items together. A program comes back in any case; it may
 /// be lowered only where no diagnostic is an error.
 pub fn check(files: &[(tree::File, bool)]) -> (Program, Vec<Diagnostic>) {
+    let (program, diagnostics, _) = check_noting(files);
+    (program, diagnostics)
+}
+
+/// The same, with the types of the scene's own expressions, those of what is wrong elsewhere
+/// included: of an expression that is checked more than once the last stands.
+pub fn check_noting(files: &[(tree::File, bool)]) -> (Program, Vec<Diagnostic>, Vec<(Span, Ty)>) {
     let mut checker = Checker {
         program: Program::default(),
         diagnostics: Vec::new(),
@@ -121,6 +131,7 @@ pub fn check(files: &[(tree::File, bool)]) -> (Program, Vec<Diagnostic>) {
         mentions: Vec::new(),
         settled: Vec::new(),
         settled_mentions: Vec::new(),
+        noted: Vec::new(),
         depth: 0,
         steps: 0,
     };
@@ -135,10 +146,11 @@ pub fn check(files: &[(tree::File, bool)]) -> (Program, Vec<Diagnostic>) {
     let Checker {
         program,
         mut diagnostics,
+        noted,
         ..
     } = checker;
     tidy(&mut diagnostics);
-    (program, diagnostics)
+    (program, diagnostics, noted)
 }
 
 /// In source order, each once, and not more than anyone reads.

@@ -1,0 +1,186 @@
+//! What is known of a scene as it is in the editor: checked, with its names and types.
+//!
+//! Made anew for each edit; what only some requests ask for is found when it is first asked
+//! for.
+
+use super::facts::Facts;
+use super::names::Names;
+use super::shelf;
+use super::text::{full, path_of, range_of, uri_of};
+use super::types::Types;
+use crate::scene;
+use lsp_types::{Location, Uri};
+use slowlight_compiler::ir::graph::Graph;
+use slowlight_compiler::report::domain;
+use slowlight_compiler::scene::{Whole, load_whole};
+use slowlight_compiler::source::{Diagnostic, SourceFile, Span};
+use slowlight_compiler::syntax::tree::ItemKind;
+use std::cell::OnceCell;
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+
+/// The texts that an editor has open, by their files' full names.
+pub type Open = BTreeMap<PathBuf, String>;
+
+/// A scene and what is known of it.
+#[derive(Debug)]
+pub struct Analysis {
+    /// The scene, its trees and its graph.
+    pub whole: Whole,
+    /// What may surprise, of a scene without mistakes.
+    pub warnings: Vec<Diagnostic>,
+    /// Where its first text is.
+    uri: Uri,
+    types: OnceCell<Types>,
+    names: OnceCell<Names>,
+    facts: OnceCell<Facts>,
+}
+
+/// The name of a scene's first text for the compiler: its file's full name, else its address.
+pub fn name_of(uri: &Uri) -> String {
+    match path_of(uri) {
+        Some(path) => full(&path).display().to_string(),
+        None => uri.as_str().to_owned(),
+    }
+}
+
+/// A file that a scene uses, from the editor or else the disk.
+fn used(open: &Open, from: &str, path: &str) -> Result<(String, String), String> {
+    let from = Path::new(from);
+    if !from.is_absolute() {
+        return Err(format!(
+            "there is no file `{path}` beside a scene that has none"
+        ));
+    }
+    let path = full(&from.parent().unwrap_or(from).join(path));
+    if let Some(text) = open.get(&path) {
+        return Ok((path.display().to_string(), text.clone()));
+    }
+    scene::text(&path).map_err(|failure| failure.reason())
+}
+
+impl Analysis {
+    /// Of a text at an address. What takes longest, the graph, is made if it is asked for.
+    pub fn new(uri: &Uri, text: &str, open: &Open, lowered: bool) -> Analysis {
+        let name = name_of(uri);
+        let mut read = |from: &str, path: &str| used(open, from, path);
+        let mut whole = load_whole((&name, text), None, &mut read, lowered);
+        let sources = &whole.scene.sources;
+        let warnings = match &whole.graph {
+            Some(graph) => {
+                let mut said = domain::warnings(graph, sources);
+                said.extend(domain::clamped(graph, sources));
+                said
+            }
+            None => Vec::new(),
+        };
+        if !is_scene(&whole) {
+            // A file for others to use needs neither.
+            let whole_file = |d: &Diagnostic| d.span == Span::new(0, 0, 0);
+            let lacks = |d: &Diagnostic| d.message.starts_with("the scene has no `");
+            whole
+                .scene
+                .diagnostics
+                .retain(|d| !(whole_file(d) && lacks(d)));
+        }
+        Analysis {
+            whole,
+            warnings,
+            uri: uri.clone(),
+            types: OnceCell::new(),
+            names: OnceCell::new(),
+            facts: OnceCell::new(),
+        }
+    }
+
+    /// Where its first text is.
+    pub fn root_uri(&self) -> &Uri {
+        &self.uri
+    }
+
+    /// Whether it draws something, rather than being there for others to use.
+    pub fn is_scene(&self) -> bool {
+        is_scene(&self.whole)
+    }
+
+    /// Whether nothing is wrong with it.
+    pub fn is_right(&self) -> bool {
+        self.whole.scene.is_right()
+    }
+
+    /// Its graph, where it has one.
+    pub fn graph(&self) -> Option<&Graph> {
+        self.whole.graph.as_ref()
+    }
+
+    /// Types by place.
+    pub fn types(&self) -> &Types {
+        self.types
+            .get_or_init(|| Types::new(&self.whole.scene.program, &self.whole.types))
+    }
+
+    /// Names; the library's uses only where its own text is open.
+    pub fn names(&self) -> &Names {
+        let all = shelf::holds(&self.uri);
+        let names = || Names::new(&self.whole.trees, self.types(), all);
+        self.names.get_or_init(names)
+    }
+
+    /// Rates and ranges, where there is a graph.
+    pub fn facts(&self) -> Option<&Facts> {
+        let graph = self.graph()?;
+        Some(self.facts.get_or_init(|| Facts::new(graph)))
+    }
+
+    /// All texts.
+    pub fn files(&self) -> &[SourceFile] {
+        &self.whole.scene.sources.files
+    }
+
+    /// The text under a span.
+    pub fn text(&self, span: Span) -> &str {
+        self.whole.scene.sources.text(span)
+    }
+
+    /// A text on one line.
+    pub fn line(&self, span: Span) -> String {
+        let words: Vec<&str> = self.text(span).split_whitespace().collect();
+        words.join(" ")
+    }
+
+    /// The number of the text at an address, and the text.
+    pub fn file(&self, uri: &Uri) -> Option<(u16, &str)> {
+        let library = shelf::file_name(uri);
+        let own = name_of(uri);
+        let wanted = |f: &SourceFile| match &library {
+            Some(name) => f.library && f.name == *name,
+            None => !f.library && f.name == own,
+        };
+        let number = self.files().iter().position(wanted)?;
+        let text = self.files().get(number)?.text.as_str();
+        Some((u16::try_from(number).ok()?, text))
+    }
+
+    /// The address of a text.
+    pub fn uri(&self, file: u16) -> Option<Uri> {
+        let found = self.files().get(usize::from(file))?;
+        match (file, found.library) {
+            (_, true) => shelf::uri(&found.name),
+            (0, false) => Some(self.uri.clone()),
+            _ => uri_of(Path::new(&found.name)),
+        }
+    }
+
+    /// A place for the editor.
+    pub fn location(&self, span: Span) -> Option<Location> {
+        let text = &self.files().get(usize::from(span.file))?.text;
+        Some(Location::new(self.uri(span.file)?, range_of(text, span)))
+    }
+}
+
+fn is_scene(whole: &Whole) -> bool {
+    let draws = |kind: &ItemKind| matches!(kind, ItemKind::Image(_) | ItemKind::Draw { .. });
+    let own = whole.trees.iter().filter(|(_, library)| !library);
+    own.flat_map(|(file, _)| &file.items)
+        .any(|item| draws(&item.kind))
+}
