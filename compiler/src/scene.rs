@@ -53,30 +53,34 @@ pub fn check(name: &str, text: &str) -> Scene {
 /// A scene from its text; `prelude` (names and texts) replaces the embedded
 /// library. Never fails: what is wrong is in [`Scene::diagnostics`].
 pub fn load(name: &str, text: &str, prelude: Option<&[(String, String)]>, read: Read<'_>) -> Scene {
-    load_whole((name, text), prelude, read, true).scene
+    let mut scene = load_checked(name, text, prelude, read).scene;
+    if scene.is_right()
+        && let Err(said) = sema::lower(&scene.program, &Options::default())
+    {
+        scene.diagnostics.extend(said);
+        sema::tidy(&mut scene.diagnostics);
+    }
+    scene
 }
 
-/// A scene with what it was made from and what became of it.
+/// A scene with what was found on the way to it.
 #[derive(Clone, Debug)]
-pub struct Whole {
-    /// The scene.
+pub struct Checked {
+    /// The scene; mistakes that only the lowering finds are not said.
     pub scene: Scene,
     /// The tree of each of its texts, and whether it is the library's.
     pub trees: Vec<(File, bool)>,
     /// The types of the scene's own expressions, as far as they were found.
     pub types: Vec<(Span, Ty)>,
-    /// Its graph for the usual options; none where it is wrong, or not asked for.
-    pub graph: Option<Graph>,
 }
 
-/// As [`load`], of a name and a text, with all that was found on the way; mistakes that only
-/// the lowering finds are not, unless it is asked for.
-pub fn load_whole(
-    (name, text): (&str, &str),
+/// As [`load`] up to the lowering.
+pub fn load_checked(
+    name: &str,
+    text: &str,
     prelude: Option<&[(String, String)]>,
     read: Read<'_>,
-    lowered: bool,
-) -> Whole {
+) -> Checked {
     let mut loader = Loader {
         sources: Sources::default(),
         files: Vec::new(),
@@ -103,15 +107,8 @@ pub fn load_whole(
     if !diagnostics.iter().any(Diagnostic::is_error) {
         diagnostics.extend(said);
     }
-    let mut graph = None;
-    if lowered && !diagnostics.iter().any(Diagnostic::is_error) {
-        match sema::lower(&program, &Options::default()) {
-            Ok(made) => graph = Some(made),
-            Err(said) => diagnostics.extend(said),
-        }
-    }
     sema::tidy(&mut diagnostics);
-    Whole {
+    Checked {
         scene: Scene {
             sources,
             program,
@@ -119,7 +116,6 @@ pub fn load_whole(
         },
         trees: files,
         types,
-        graph,
     }
 }
 

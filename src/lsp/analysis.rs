@@ -12,7 +12,8 @@ use crate::scene;
 use lsp_types::{Location, Uri};
 use slowlight_compiler::ir::graph::Graph;
 use slowlight_compiler::report::domain;
-use slowlight_compiler::scene::{Whole, load_whole};
+use slowlight_compiler::scene::{Checked, load_checked};
+use slowlight_compiler::sema::{self, Options};
 use slowlight_compiler::source::{Diagnostic, SourceFile, Span};
 use slowlight_compiler::syntax::tree::ItemKind;
 use std::cell::OnceCell;
@@ -25,12 +26,11 @@ pub type Open = BTreeMap<PathBuf, String>;
 /// A scene and what is known of it.
 #[derive(Debug)]
 pub struct Analysis {
-    /// The scene, its trees and its graph.
-    pub whole: Whole,
-    /// What may surprise, of a scene without mistakes.
-    pub warnings: Vec<Diagnostic>,
+    /// The scene and its trees.
+    pub whole: Checked,
     /// Where its first text is.
     uri: Uri,
+    lowered: OnceCell<Lowered>,
     types: OnceCell<Types>,
     names: OnceCell<Names>,
     facts: OnceCell<Facts>,
@@ -59,38 +59,76 @@ fn used(open: &Open, from: &str, path: &str) -> Result<(String, String), String>
     scene::text(&path).map_err(|failure| failure.reason())
 }
 
+/// What only the lowering finds.
+#[derive(Debug, Default)]
+struct Lowered {
+    graph: Option<Graph>,
+    said: Vec<Diagnostic>,
+}
+
 impl Analysis {
-    /// Of a text at an address. What takes longest, the graph, is made if it is asked for.
-    pub fn new(uri: &Uri, text: &str, open: &Open, lowered: bool) -> Analysis {
+    /// Of a text at an address.
+    pub fn new(uri: &Uri, text: &str, open: &Open) -> Analysis {
         let name = name_of(uri);
         let mut read = |from: &str, path: &str| used(open, from, path);
-        let mut whole = load_whole((&name, text), None, &mut read, lowered);
-        let sources = &whole.scene.sources;
-        let warnings = match &whole.graph {
-            Some(graph) => {
-                let mut said = domain::warnings(graph, sources);
-                said.extend(domain::clamped(graph, sources));
-                said
-            }
-            None => Vec::new(),
-        };
+        let mut whole = load_checked(&name, text, None, &mut read);
         if !is_scene(&whole) {
             // A file for others to use needs neither.
             let whole_file = |d: &Diagnostic| d.span == Span::new(0, 0, 0);
             let lacks = |d: &Diagnostic| d.message.starts_with("the scene has no `");
-            whole
-                .scene
-                .diagnostics
-                .retain(|d| !(whole_file(d) && lacks(d)));
+            let diagnostics = &mut whole.scene.diagnostics;
+            diagnostics.retain(|d| !(whole_file(d) && lacks(d)));
         }
         Analysis {
             whole,
-            warnings,
             uri: uri.clone(),
+            lowered: OnceCell::new(),
             types: OnceCell::new(),
             names: OnceCell::new(),
             facts: OnceCell::new(),
         }
+    }
+
+    /// What the lowering finds, of a scene that the checker found right: that takes longest.
+    fn lowered(&self) -> &Lowered {
+        self.lowered.get_or_init(|| {
+            let scene = &self.whole.scene;
+            if !self.is_checked() || !self.is_scene() {
+                return Lowered::default();
+            }
+            match sema::lower(&scene.program, &Options::default()) {
+                Ok(graph) => {
+                    let mut said = domain::warnings(&graph, &scene.sources);
+                    said.extend(domain::clamped(&graph, &scene.sources));
+                    Lowered {
+                        graph: Some(graph),
+                        said,
+                    }
+                }
+                Err(said) => Lowered { graph: None, said },
+            }
+        })
+    }
+
+    /// All that is to be said of it.
+    pub fn said(&self) -> impl Iterator<Item = &Diagnostic> {
+        let checked = self.whole.scene.diagnostics.iter();
+        checked.chain(&self.lowered().said)
+    }
+
+    /// Whether the checker found no mistake: all names and types are known.
+    pub fn is_checked(&self) -> bool {
+        self.whole.scene.is_right()
+    }
+
+    /// Whether nothing is wrong with it.
+    pub fn is_right(&self) -> bool {
+        self.is_checked() && (self.graph().is_some() || !self.is_scene())
+    }
+
+    /// Its graph, where it has one.
+    pub fn graph(&self) -> Option<&Graph> {
+        self.lowered().graph.as_ref()
     }
 
     /// Where its first text is.
@@ -101,16 +139,6 @@ impl Analysis {
     /// Whether it draws something, rather than being there for others to use.
     pub fn is_scene(&self) -> bool {
         is_scene(&self.whole)
-    }
-
-    /// Whether nothing is wrong with it.
-    pub fn is_right(&self) -> bool {
-        self.whole.scene.is_right()
-    }
-
-    /// Its graph, where it has one.
-    pub fn graph(&self) -> Option<&Graph> {
-        self.whole.graph.as_ref()
     }
 
     /// Types by place.
@@ -178,7 +206,7 @@ impl Analysis {
     }
 }
 
-fn is_scene(whole: &Whole) -> bool {
+fn is_scene(whole: &Checked) -> bool {
     let draws = |kind: &ItemKind| matches!(kind, ItemKind::Image(_) | ItemKind::Draw { .. });
     let own = whole.trees.iter().filter(|(_, library)| !library);
     own.flat_map(|(file, _)| &file.items)

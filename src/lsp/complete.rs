@@ -122,13 +122,20 @@ fn patched(text: &str, (start, end): (usize, usize)) -> String {
         text.get(end..).unwrap_or(""),
     );
     let ways = ["zz", "zz;", "zz,", "", ";", "zz: zz", "zz = zz;", "zz; zz"];
-    let ways = ways.map(|way| format!("{before}{way}{behind}"));
-    let best = ways.into_iter().min_by_key(|text| {
+    let mut best: Option<((usize, usize), String)> = None;
+    for way in ways {
+        let text = format!("{before}{way}{behind}");
         // Items that are gone take their names along.
-        let (tree, said) = parse(text, 0);
-        (said.len(), usize::MAX - tree.items.len())
-    });
-    best.unwrap_or_default()
+        let (tree, said) = parse(&text, 0);
+        let unread = (said.len(), usize::MAX - tree.items.len());
+        if best.as_ref().is_none_or(|(least, _)| unread < *least) {
+            best = Some((unread, text));
+        }
+        if unread.0 == 0 {
+            break;
+        }
+    }
+    best.map_or(String::new(), |(_, text)| text)
 }
 
 fn types(of: &Analysis, offers: &mut Offers) {

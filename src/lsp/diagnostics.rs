@@ -17,13 +17,7 @@ pub fn of(analysis: &Analysis) -> BTreeMap<String, (Uri, Vec<Diagnostic>)> {
             all.insert(uri.as_str().to_owned(), (uri, Vec::new()));
         }
     }
-    let said = analysis
-        .whole
-        .scene
-        .diagnostics
-        .iter()
-        .chain(&analysis.warnings);
-    for one in said {
+    for one in analysis.said() {
         // What goes wrong inside of the library is shown where the scene has to do with it.
         let place = own(analysis, one).unwrap_or_else(|| Span::new(0, 0, 0));
         let uri = analysis.uri(place.file);

@@ -20,8 +20,8 @@ pub struct Facts {
 pub struct Known {
     /// What its value changes with, the seldomest first; nothing for a constant.
     pub rate: Vec<&'static str>,
-    /// The least and the greatest value, where both are known.
-    pub range: Option<(f64, f64)>,
+    /// The least and the greatest value, infinite where none is known.
+    pub range: (f64, f64),
 }
 
 impl Facts {
@@ -40,20 +40,16 @@ impl Facts {
         let inner: BTreeSet<NodeId> = here.iter().flat_map(|id| graph.references(*id)).collect();
         let results: Vec<NodeId> = here.difference(&inner).copied().collect();
         let mut words = BTreeSet::new();
-        let mut range: Option<(f64, f64)> = None;
-        let mut bounded = true;
+        let mut range = (f64::INFINITY, f64::NEG_INFINITY);
         for id in &results {
             words.extend(self.rates.rate(*id).iter().map(word));
-            let Some(found) = self.ranges.result.get(id.0 as usize) else {
-                continue;
-            };
-            bounded &= found.lo.is_finite() && found.hi.is_finite();
-            let all = range.unwrap_or((found.lo, found.hi));
-            range = Some((all.0.min(found.lo), all.1.max(found.hi)));
+            if let Some(found) = self.ranges.result.get(id.0 as usize) {
+                range = (range.0.min(found.lo), range.1.max(found.hi));
+            }
         }
         (!results.is_empty()).then(|| Known {
             rate: words.into_iter().map(|(_, word)| word).collect(),
-            range: range.filter(|_| bounded),
+            range,
         })
     }
 }

@@ -3,7 +3,7 @@
 use super::analysis::Analysis;
 use super::describe::{builtin, code, told};
 use super::names::Kind;
-use super::text::range_of;
+use super::text::{Lines, range_of};
 use lsp_types::{DocumentHighlight, Hover, HoverContents, Location, MarkupContent, MarkupKind};
 use slowlight_compiler::sema::Ty;
 use slowlight_compiler::source::Span;
@@ -121,14 +121,25 @@ fn facts(at: At<'_>, span: Span) -> Option<String> {
         .types()
         .ty(span)
         .is_some_and(|ty| matches!(ty, Ty::Int | Ty::Real | Ty::Angle | Ty::Ink));
-    let range = known
-        .range
-        .filter(|_| number)
-        .map(|(low, high)| match low == high {
-            true => format!("; is {}", shown(low)),
-            false => format!("; {} to {}", shown(low), shown(high)),
-        });
-    Some(changes + &range.unwrap_or_default())
+    let range = if number {
+        bounds(known.range)
+    } else {
+        String::new()
+    };
+    Some(changes + &range)
+}
+
+/// Between which bounds a value stays, as far as they say anything.
+fn bounds((low, high): (f64, f64)) -> String {
+    // What comes from the end of a format is no bound that anybody meant.
+    let told = |bound: f64| bound.abs() < 1e30;
+    match (told(low), told(high)) {
+        (true, true) if low == high => format!("; is {}", shown(low)),
+        (true, true) => format!("; {} to {}", shown(low), shown(high)),
+        (true, false) => format!("; at least {}", shown(low)),
+        (false, true) => format!("; at most {}", shown(high)),
+        (false, false) => String::new(),
+    }
 }
 
 /// A bound to a few digits.
@@ -150,7 +161,7 @@ pub fn definition(at: At<'_>) -> Vec<Location> {
         return Vec::new();
     };
     // Where the checker came so far it chose one.
-    let certain = at.of.is_right();
+    let certain = at.of.is_checked();
     let wanted = if certain { 1 } else { to.len() };
     let defs = to
         .iter()
@@ -203,8 +214,9 @@ pub fn highlights(at: At<'_>) -> Vec<DocumentHighlight> {
         .first()
         .map_or(Vec::new(), |def| at.of.names().places(*def));
     let here = places.into_iter().filter(|span| span.file == at.file);
+    let lines = Lines::new(at.text);
     let highlight = |span| DocumentHighlight {
-        range: range_of(at.text, span),
+        range: lines.range(at.text, span),
         kind: None,
     };
     here.map(highlight).collect()

@@ -1,33 +1,43 @@
 //! A text as a whole: its outline, and its form.
 
-use super::text::{Lines, range_of};
+use super::text::Lines;
 use lsp_types::{DocumentSymbol, Position, Range, SymbolKind, TextEdit};
 use slowlight_compiler::source::Span;
 use slowlight_compiler::syntax::format::format;
 use slowlight_compiler::syntax::tree::{File, Item, ItemKind, Name};
 
+/// A text and its lines.
+type Text<'t> = (&'t Lines, &'t str);
+
 /// The items of a file, with their parts.
 pub fn symbols(file: &File, text: &str) -> Vec<DocumentSymbol> {
+    let text = (&Lines::new(text), text);
     let all = file.items.iter().filter_map(|item| symbol(item, text));
     all.collect()
 }
 
 // A field that the protocol has given up must be filled in.
 #[allow(deprecated)]
-fn one(name: &str, kind: SymbolKind, (whole, own): (Span, Span), text: &str) -> DocumentSymbol {
+fn one(
+    name: &str,
+    kind: SymbolKind,
+    (whole, own): (Span, Span),
+    (lines, text): Text<'_>,
+) -> DocumentSymbol {
+    let range = |span: Span| lines.range(text, span);
     DocumentSymbol {
         name: name.to_owned(),
         detail: None,
         kind,
         tags: None,
         deprecated: None,
-        range: range_of(text, whole),
-        selection_range: range_of(text, own),
+        range: range(whole),
+        selection_range: range(own),
         children: None,
     }
 }
 
-fn symbol(item: &Item, text: &str) -> Option<DocumentSymbol> {
+fn symbol(item: &Item, text: Text<'_>) -> Option<DocumentSymbol> {
     let named = |name: &Name, kind| one(&name.text, kind, (item.span, name.span), text);
     let bare = |name: &str, kind, own: Span| one(name, kind, (item.span, own), text);
     let part = |name: &Name, whole: Span, kind| {

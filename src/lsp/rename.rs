@@ -6,7 +6,7 @@
 use super::analysis::Analysis;
 use super::look::At;
 use super::names::{Kind, Names};
-use super::text::range_of;
+use super::text::{Lines, range_of};
 use lsp_types::{PrepareRenameResponse, TextEdit, Uri};
 use slowlight_compiler::source::Span;
 use slowlight_compiler::syntax::is_name;
@@ -42,7 +42,7 @@ fn target(at: At<'_>) -> Result<(Span, usize), String> {
     // Which of several is meant, and what has parts, is known where all types are.
     let by_types = to.len() > 1 || matches!(def.kind, Kind::Field | Kind::Argument);
     let several = names.items(&def.name, false).len() > 1 && def.kind.is_item();
-    if (by_types || several) && !at.of.is_right() {
+    if (by_types || several) && !at.of.is_checked() {
         let why = "the scene has mistakes, so not all places that mean it are known";
         return Err(format!("`{}` cannot be renamed: {why}", def.name));
     }
@@ -95,7 +95,8 @@ pub fn rename(
             text.replace_range(span.range(), name);
         }
         texts.push((file, text));
-        let edit = |span: &Span| TextEdit::new(range_of(&found.text, *span), name.to_owned());
+        let lines = Lines::new(&found.text);
+        let edit = |span: &Span| TextEdit::new(lines.range(&found.text, *span), name.to_owned());
         edits.push((uri, here.iter().map(edit).collect()));
     }
     let after = remake(&texts);

@@ -21,9 +21,11 @@ use serde_json::{Value, json};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::time::{Duration, Instant};
 
-/// How long the first edit of several waits for the others, at least and at most.
+/// How long an edit waits for others before it is looked at, and before it is looked at
+/// closely, at least; and how long the first of several waits at most.
 const SETTLE: Duration = Duration::from_millis(10);
-const PATIENCE: Duration = Duration::from_millis(150);
+const CALM: Duration = Duration::from_millis(60);
+const PATIENCE: Duration = Duration::from_millis(400);
 
 /// The server.
 struct Server {
@@ -104,25 +106,37 @@ impl Server {
 
     /// How long nothing has to be done.
     fn wait(&self) -> Duration {
-        let look = self
-            .waiting
-            .map(|since| SETTLE.min(PATIENCE.saturating_sub(since.elapsed())));
+        let look = self.waiting.map(|since| {
+            let least = if self.state.is_dirty() { SETTLE } else { CALM };
+            least.min(PATIENCE.saturating_sub(since.elapsed()))
+        });
         let all = [look, self.inlays.due()];
         let next = all.into_iter().flatten().min();
         next.unwrap_or(Duration::from_secs(3600))
     }
 
     fn idle(&mut self) {
-        self.look();
+        let late = (self.waiting).is_some_and(|since| since.elapsed() >= PATIENCE);
+        if self.waiting.is_some() {
+            self.look(late || !self.state.is_dirty());
+        }
         if self.inlays.due() == Some(Duration::ZERO) {
             self.inlays.begin(&self.state);
         }
     }
 
-    /// Looks at what was edited, and says what is to be said of it.
-    fn look(&mut self) {
-        self.waiting = None;
-        let found = catch_unwind(AssertUnwindSafe(|| self.state.refresh()));
+    /// Looks at what was edited, closely or not, and says what is to be said of it.
+    fn look(&mut self, closely: bool) {
+        let found = catch_unwind(AssertUnwindSafe(|| {
+            let mut said = self.state.refresh();
+            if closely {
+                said.extend(self.state.finish());
+            }
+            said
+        }));
+        if !self.state.is_unsaid() {
+            self.waiting = None;
+        }
         match found {
             Ok(said) => said.into_iter().for_each(|one: PublishDiagnosticsParams| {
                 self.notify::<told::PublishDiagnostics>(one);
@@ -167,8 +181,9 @@ impl Server {
                 Ok(Value::Null)
             }
             _ => {
-                if self.state.is_dirty() {
-                    self.look();
+                let closely = request.method == asked::DocumentDiagnosticRequest::METHOD;
+                if self.state.is_dirty() || closely {
+                    self.look(closely);
                 }
                 let found = catch_unwind(AssertUnwindSafe(|| self.about_texts(&request)));
                 found.unwrap_or_else(|_| {
@@ -188,6 +203,11 @@ impl Server {
             let uri = &asked.text_document.uri;
             let at = self.state.at(uri, asked.range.start);
             return value(at.map(|at| self.inlays.hints(at, uri, asked.range)));
+        }
+        if request.method == asked::DocumentDiagnosticRequest::METHOD {
+            let asked = params::<asked::DocumentDiagnosticRequest>(request)?;
+            let items = self.state.shown(&asked.text_document.uri);
+            return value(json!({ "kind": "full", "items": items }));
         }
         let found = answer(&self.state, request);
         found.unwrap_or_else(|| {

@@ -34,6 +34,8 @@ pub struct State {
     said: BTreeMap<String, Said>,
     /// What is to be looked at again.
     dirty: BTreeSet<String>,
+    /// What was looked at and not closely.
+    unsaid: BTreeSet<String>,
     /// What the editor shows.
     shown: Said,
 }
@@ -71,6 +73,7 @@ impl State {
         self.known.remove(uri.as_str());
         self.said.remove(uri.as_str());
         self.dirty.remove(uri.as_str());
+        self.unsaid.remove(uri.as_str());
     }
 
     /// The other open texts that use a text.
@@ -117,12 +120,15 @@ impl State {
         own.collect()
     }
 
-    /// Looks at what is to be looked at; answers what the editor is to show otherwise.
+    /// Whether something that was looked at is not said yet.
+    pub fn is_unsaid(&self) -> bool {
+        !self.unsaid.is_empty()
+    }
+
+    /// Looks at what is to be looked at; answers what the editor is to show otherwise. Of
+    /// what the checker finds no mistake in nothing is said yet.
     pub fn refresh(&mut self) -> Vec<PublishDiagnosticsParams> {
         let dirty = std::mem::take(&mut self.dirty);
-        if dirty.is_empty() && self.known.len() == self.said.len() {
-            return self.publish();
-        }
         let overlay = self.overlay();
         for key in dirty {
             let Some(document) = self.documents.get(&key) else {
@@ -133,11 +139,33 @@ impl State {
                 true => "",
                 false => &document.text,
             };
-            let known = Analysis::new(&document.uri, text, &overlay, true);
-            self.said.insert(key.clone(), diagnostics::of(&known));
+            let known = Analysis::new(&document.uri, text, &overlay);
+            match known.is_checked() {
+                true => self.unsaid.insert(key.clone()),
+                false => {
+                    self.said.insert(key.clone(), diagnostics::of(&known));
+                    self.unsaid.remove(&key)
+                }
+            };
             self.known.insert(key, known);
         }
         self.publish()
+    }
+
+    /// Looks closer at what is not said yet; answers as [`State::refresh`].
+    pub fn finish(&mut self) -> Vec<PublishDiagnosticsParams> {
+        for key in std::mem::take(&mut self.unsaid) {
+            if let Some(known) = self.known.get(&key) {
+                self.said.insert(key, diagnostics::of(known));
+            }
+        }
+        self.publish()
+    }
+
+    /// What is shown of a text.
+    pub fn shown(&self, uri: &Uri) -> Vec<Diagnostic> {
+        let shown = self.shown.get(uri.as_str());
+        shown.map_or(Vec::new(), |(_, list)| list.clone())
     }
 
     /// What is shown otherwise than before.
@@ -209,8 +237,7 @@ impl State {
         })
     }
 
-    /// What would be known of a scene with other texts in the place of some of its own; its
-    /// graph is not made.
+    /// What would be known of a scene with other texts in the place of some of its own.
     pub fn remake(&self, of: &Analysis, texts: &[(u16, String)]) -> Analysis {
         let mut overlay = self.overlay();
         let mut root = of.files().first().map_or("", |f| f.text.as_str());
@@ -223,6 +250,6 @@ impl State {
                 _ => {}
             }
         }
-        Analysis::new(of.root_uri(), root, &overlay, false)
+        Analysis::new(of.root_uri(), root, &overlay)
     }
 }

@@ -59,16 +59,16 @@ impl Lines {
         start + line.len()
     }
 
-    /// The range of bytes between two.
-    pub fn range(&self, text: &str, (start, end): (usize, usize)) -> Range {
-        Range::new(self.position(text, start), self.position(text, end))
+    /// The range of a place in the text.
+    pub fn range(&self, text: &str, span: Span) -> Range {
+        let at = span.range();
+        Range::new(self.position(text, at.start), self.position(text, at.end))
     }
 }
 
 /// The range of a place in a text.
 pub fn range_of(text: &str, span: Span) -> Range {
-    let at = span.range();
-    Lines::new(text).range(text, (at.start, at.end))
+    Lines::new(text).range(text, span)
 }
 
 /// The greatest boundary of characters that is not behind a byte.

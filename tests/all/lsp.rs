@@ -10,15 +10,15 @@ use std::path::Path;
 const SCENE: &str = "// A ball; \u{1f600}
 image 24 x 16 inks black, grey, white;
 param light: vec3 = (-1, 1, 1) in (-2, 0, 0.5) .. (2, 2, 2);
-record paint { shade: real, gloss: real = 0.5 }
+record paint { shade: real, gloss: real }
 // How bright a hit is.
 effect shine(h: hit, lit: real = 1) -> real else 0.5 = lit * max(dot(h.normal, unit(light)), 0);
 fn twice(a: real) -> real = 2 * a;
 fn twice(a: vec3) -> vec3 = 2 * a;
 scene world { sphere((0, 0, 0), 1) is 0.5 + p.x / 8; }
 draw (x, y) = {
-  let coat = paint(0.25);
-  /* no comment */ let r = ray((0, 0, 3), unit(((x - 11.5) / 12, (7.5 - y) / 12, -1.5)));
+  let coat = paint(0.25, 0.5);
+  /* let r = ray((0, 0, 3), unit(((x - 11.5) / 12, (7.5 - y) / 12, -1.5)));
   let v = if let h = world.trace(r, far: 9) then shine(h, lit: twice(0.5)) else coat.shade;
   threshold(v, bayer(2)[x mod 2, y mod 2])
 };
@@ -26,7 +26,7 @@ draw (x, y) = {
 
 /// The scene without what cannot be read.
 fn scene() -> String {
-    SCENE.replace("/* no comment */ ", "")
+    SCENE.replace("/* ", "")
 }
 
 fn at(uri: &str, place: Value) -> Value {
@@ -214,7 +214,7 @@ fn what_is_being_written_is_completed() {
     has(&found, &["shade", "gloss"]);
     let found = offered(&mut client, "shine(h, lit", "shine(h.n, lit", "shine(h.n");
     has(&found, &["point", "normal", "tag", "shine"]);
-    let found = offered(&mut client, "world.trace(r", "world.", "world.");
+    let found = offered(&mut client, "world.trace(r, far: 9)", "world.", "= world.");
     has(&found, &["trace", "blocked", "dist"]);
     let found = offered(&mut client, "far: 9", "f", "trace(r, f");
     has(&found, &["floor", "fog", "far:"]);

@@ -163,12 +163,12 @@ impl Client {
 
     /// What is shown of a text, once all that was sent is looked at.
     pub fn diagnostics(&mut self, uri: &str) -> Vec<Value> {
-        self.ask(
-            "textDocument/documentSymbol",
-            json!({"textDocument": {"uri": uri}}),
-        );
+        let of = json!({"textDocument": {"uri": uri}});
+        let given = self.ask("textDocument/diagnostic", of);
         let shown = self.shown.get(uri).and_then(Value::as_array);
-        shown.cloned().unwrap_or_default()
+        let shown = shown.cloned().unwrap_or_default();
+        assert_eq!(given["items"], json!(shown));
+        shown
     }
 
     /// Ends the server as an editor does; its exit status.

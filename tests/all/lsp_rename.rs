@@ -7,7 +7,7 @@ use serde_json::{Value, json};
 
 /// A scene with names of all kinds.
 pub const SCENE: &str = "image 4 x 4 inks black, white;
-record paint { shade: real, gloss: real = 0.5 }
+record paint { shade: real, gloss: real }
 const half = 0.5;
 fn twice(a: real) -> real = 2 * a;
 fn twice(a: vec3) -> vec3 = 2 * a;
@@ -15,7 +15,7 @@ fn apply(f: fn(real) -> real, v: real) -> real = f(v);
 fn plain(v: real) -> real = v;
 scene world { each k in 0 .. 2 { sphere((k, 0, 0), half) is p.x + k; } }
 draw (x, y) = {
-  let v = paint(twice(0.25) + x / 9);
+  let v = paint(twice(0.25) + x / 9, 0.5);
   let w = { let v = length(twice((1, 0, 0))); v };
   let n = loop (i = 0) max 3 { if i > 1 then i else next(i + 1) } else 9;
   ink(floor(apply(plain, v.shade * w * n)))
@@ -56,7 +56,7 @@ fn names_are_renamed_in_their_scope_or_not_at_all() {
             "v = paint",
             0,
             "coat",
-            "let coat = paint(twice(0.25) + x / 9);",
+            "let coat = paint(twice(0.25) + x / 9, 0.5);",
             2,
         ),
         (

@@ -102,6 +102,8 @@ fn diagnostics_are_those_of_check() {
         client.open(&here, text);
         let shown = client.diagnostics(&here);
         let mut shown: Vec<(usize, String)> = shown.iter().map(line_and_message).collect();
+        // What a screen makes of inks takes looking at every pixel.
+        wanted.retain(|(_, message)| !message.starts_with("ink numbers"));
         wanted.sort();
         shown.sort();
         assert_eq!(shown, wanted, "{text}");
@@ -166,10 +168,12 @@ fn what_is_no_message_ends_nothing() {
     client.tell("textDocument/didOpen", json!({"textDocument": 3}));
     client.ask("initialize", json!({"capabilities": null}));
     client.refused("initialize", json!({}));
-    client.raw("Content-Length: 3\r\n\r\n{{{");
     client.raw("Content-Length: x\r\nNothing\r\n\r\n");
-    client.raw("Content-Length: 2\r\n\r\n[]");
-    client.raw("Content-Length: 42\r\n\r\n{\"jsonrpc\":\"2.0\",\"id\":1.5,\"method\":\"hover\"}");
+    let id = "{\"jsonrpc\":\"2.0\",\"id\":1.5,\"method\":\"hover\"}";
+    let answer = "{\"jsonrpc\":\"2.0\",\"id\":7,\"result\":null}";
+    for body in ["{{{", "[]", "", "3", id, answer] {
+        client.raw(&format!("Content-Length: {}\r\n\r\n{body}", body.len()));
+    }
     for params in [
         json!(null),
         json!([]),
@@ -179,8 +183,6 @@ fn what_is_no_message_ends_nothing() {
         client.refused(hover, params);
     }
     client.refused("textDocument/semanticTokens/full", json!({}));
-    // Answers that nobody asked for.
-    client.raw("Content-Length: 38\r\n\r\n{\"jsonrpc\":\"2.0\",\"id\":7,\"result\":null}");
     let all = [
         hover,
         "textDocument/definition",

@@ -24,6 +24,7 @@ mod cli_wrong;
 mod colours;
 mod columns;
 mod drawings;
+mod editors;
 mod effects;
 mod explain;
 mod fit;
@@ -68,6 +69,8 @@ mod peers_chromium;
 mod peers_dialect;
 #[cfg(feature = "peers")]
 mod peers_drawings;
+#[cfg(feature = "peers")]
+mod peers_editors;
 #[cfg(feature = "peers")]
 mod peers_jsbeeb;
 mod planning;
