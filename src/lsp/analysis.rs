@@ -20,8 +20,8 @@ use std::cell::OnceCell;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
-/// The texts that an editor has open, by their files' full names.
-pub type Open = BTreeMap<PathBuf, String>;
+/// The texts that an editor has open, with its addresses for them, by their files' full names.
+pub type Open = BTreeMap<PathBuf, (Uri, String)>;
 
 /// A scene and what is known of it.
 #[derive(Debug)]
@@ -30,6 +30,8 @@ pub struct Analysis {
     pub whole: Checked,
     /// Where its first text is.
     uri: Uri,
+    /// The editor's addresses for texts that are open.
+    open: BTreeMap<PathBuf, Uri>,
     lowered: OnceCell<Lowered>,
     types: OnceCell<Types>,
     names: OnceCell<Names>,
@@ -53,7 +55,7 @@ fn used(open: &Open, from: &str, path: &str) -> Result<(String, String), String>
         ));
     }
     let path = full(&from.parent().unwrap_or(from).join(path));
-    if let Some(text) = open.get(&path) {
+    if let Some((_, text)) = open.get(&path) {
         return Ok((path.display().to_string(), text.clone()));
     }
     scene::text(&path).map_err(|failure| failure.reason())
@@ -82,6 +84,9 @@ impl Analysis {
         Analysis {
             whole,
             uri: uri.clone(),
+            open: (open.iter())
+                .map(|(path, (uri, _))| (path.clone(), uri.clone()))
+                .collect(),
             lowered: OnceCell::new(),
             types: OnceCell::new(),
             names: OnceCell::new(),
@@ -195,7 +200,10 @@ impl Analysis {
         match (file, found.library) {
             (_, true) => shelf::uri(&found.name),
             (0, false) => Some(self.uri.clone()),
-            _ => uri_of(Path::new(&found.name)),
+            _ => {
+                let path = Path::new(&found.name);
+                self.open.get(path).cloned().or_else(|| uri_of(path))
+            }
         }
     }
 

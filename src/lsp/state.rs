@@ -116,7 +116,8 @@ impl State {
 
     fn overlay(&self) -> Open {
         let open = self.documents.values();
-        let own = open.filter_map(|d| Some((full(&path_of(&d.uri)?), d.text.clone())));
+        let own =
+            open.filter_map(|d| Some((full(&path_of(&d.uri)?), (d.uri.clone(), d.text.clone()))));
         own.collect()
     }
 
@@ -245,7 +246,9 @@ impl State {
             match (number, of.files().get(usize::from(*number))) {
                 (0, _) => root = text,
                 (_, Some(file)) => {
-                    overlay.insert(PathBuf::from(&file.name), text.clone());
+                    let path = PathBuf::from(&file.name);
+                    let uri = of.uri(*number).unwrap_or_else(|| of.root_uri().clone());
+                    overlay.insert(path, (uri, text.clone()));
                 }
                 _ => {}
             }

@@ -82,6 +82,7 @@ fn the_extension_packs() {
         "package",
         "--no-dependencies",
         "--allow-missing-repository",
+        "--skip-license",
         "-o",
         "own.vsix",
     ];
