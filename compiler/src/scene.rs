@@ -7,6 +7,7 @@ use crate::sema::{self, Options, Program, Ty};
 use crate::source::{Diagnostic, SourceFile, Sources, Span};
 use crate::syntax::tree::{File, ItemKind};
 use crate::syntax::{self};
+use rustc_hash::FxHashMap;
 use std::collections::BTreeMap;
 use std::sync::{Arc, Mutex};
 
@@ -53,7 +54,9 @@ pub fn check(name: &str, text: &str) -> Scene {
 /// A scene from its text; `prelude` (names and texts) replaces the embedded
 /// library. Never fails: what is wrong is in [`Scene::diagnostics`].
 pub fn load(name: &str, text: &str, prelude: Option<&[(String, String)]>, read: Read<'_>) -> Scene {
-    let mut scene = load_checked(name, text, prelude, read).scene;
+    let (sources, files, said) = read_all(name, text, prelude, read);
+    let (program, more) = sema::check(&files);
+    let mut scene = joined(sources, program, said, more);
     if scene.is_right()
         && let Err(said) = sema::lower(&scene.program, &Options::default())
     {
@@ -71,7 +74,7 @@ pub struct Checked {
     /// The tree of each of its texts, and whether it is the library's.
     pub trees: Vec<(File, bool)>,
     /// The types of the scene's own expressions, as far as they were found.
-    pub types: Vec<(Span, Ty)>,
+    pub types: FxHashMap<Span, Ty>,
 }
 
 /// As [`load`] up to the lowering.
@@ -81,6 +84,22 @@ pub fn load_checked(
     prelude: Option<&[(String, String)]>,
     read: Read<'_>,
 ) -> Checked {
+    let (sources, trees, said) = read_all(name, text, prelude, read);
+    let (program, more, types) = sema::check_noting(&trees);
+    Checked {
+        scene: joined(sources, program, said, more),
+        trees,
+        types,
+    }
+}
+
+/// Reads and parses all texts of a scene.
+fn read_all(
+    name: &str,
+    text: &str,
+    prelude: Option<&[(String, String)]>,
+    read: Read<'_>,
+) -> (Sources, Vec<(File, bool)>, Vec<Diagnostic>) {
     let mut loader = Loader {
         sources: Sources::default(),
         files: Vec::new(),
@@ -96,26 +115,26 @@ pub fn load_checked(
         }
         None => loader.add_library(),
     }
-    let Loader {
-        sources,
-        files,
-        mut diagnostics,
-    } = loader;
+    (loader.sources, loader.files, loader.diagnostics)
+}
+
+/// A scene of what the parser said and what the checker said.
+fn joined(
+    sources: Sources,
+    program: Program,
+    mut diagnostics: Vec<Diagnostic>,
+    more: Vec<Diagnostic>,
+) -> Scene {
     // Where an item could not be read, what refers to it would be called
     // unknown: the mistakes of the text come first.
-    let (program, said, types) = sema::check_noting(&files);
     if !diagnostics.iter().any(Diagnostic::is_error) {
-        diagnostics.extend(said);
+        diagnostics.extend(more);
     }
     sema::tidy(&mut diagnostics);
-    Checked {
-        scene: Scene {
-            sources,
-            program,
-            diagnostics,
-        },
-        trees: files,
-        types,
+    Scene {
+        sources,
+        program,
+        diagnostics,
     }
 }
 

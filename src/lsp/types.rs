@@ -30,7 +30,7 @@ pub struct Types {
 
 impl Types {
     /// Of a program, as far as it was understood, and of expressions beside it.
-    pub fn new(program: &Program, noted: &[(Span, Ty)]) -> Types {
+    pub fn new(program: &Program, noted: &FxHashMap<Span, Ty>) -> Types {
         let mut all = Walk {
             program,
             out: Types {

@@ -26,8 +26,10 @@ impl<'a> Checker<'a> {
         self.depth += 1;
         let found = self.expr_inner(tree, tail);
         self.depth -= 1;
-        if !self.cx.library {
-            self.noted.push((found.span, found.ty.clone()));
+        if let Some(noted) = &mut self.noted
+            && !self.cx.library
+        {
+            noted.insert(found.span, found.ty.clone());
         }
         found
     }
