@@ -2,7 +2,7 @@
 
 use slowlight_compiler::prelude::PRELUDE;
 use slowlight_compiler::syntax::parse;
-use slowlight_compiler::syntax::tree::{Binding, ExprKind, Item, ItemKind};
+use slowlight_compiler::syntax::tree::{Binding, ExprKind, File, Item, ItemKind};
 
 /// Files that only the compiler calls.
 const INNER: [&str; 2] = ["solve.scn", "instances.scn"];
@@ -71,9 +71,14 @@ impl Comment {
     }
 }
 
+/// Whether only the compiler calls what a file of the library has.
+pub fn is_inner(file: &str) -> bool {
+    INNER.contains(&file)
+}
+
 /// The library for those who write scenes, file by file.
 pub fn pages() -> Vec<Page> {
-    let outer = PRELUDE.iter().filter(|(file, _)| !INNER.contains(file));
+    let outer = PRELUDE.iter().filter(|(file, _)| !is_inner(file));
     outer.map(|(file, text)| page(file, text)).collect()
 }
 
@@ -85,6 +90,21 @@ fn page(file: &'static str, text: &str) -> Page {
         groups: Vec::new(),
     };
     let (tree, _) = parse(text, 0);
+    for (about, items) in groups(&tree, text) {
+        let own = |item: &Item| file == SHAPES && matches!(item.kind, ItemKind::Fn(_));
+        let scenes = items.into_iter().filter(|item| !own(item));
+        page.groups.push(Group {
+            about,
+            entries: scenes.filter_map(|item| entry(item, text)).collect(),
+        });
+    }
+    page.groups.retain(|group| !group.entries.is_empty());
+    page
+}
+
+/// The items of a file as they stand together, with the comments before them.
+pub fn groups<'t>(tree: &'t File, text: &str) -> Vec<(Comment, Vec<&'t Item>)> {
+    let mut found: Vec<(Comment, Vec<&Item>)> = Vec::new();
     let mut end = 0;
     for item in &tree.items {
         let start = item.span.start as usize;
@@ -92,24 +112,28 @@ fn page(file: &'static str, text: &str) -> Page {
         end = item.span.end as usize;
         // After its semicolon.
         let apart = between.trim_matches(|c| c != '\n') != "\n";
-        if apart || page.groups.is_empty() {
-            page.groups.push(Group {
-                about: Comment::before(between),
-                entries: Vec::new(),
-            });
-        }
-        let own = file == SHAPES && matches!(item.kind, ItemKind::Fn(_));
-        if let (Some(entry), Some(group), false) = (entry(item, text), page.groups.last_mut(), own)
-        {
-            group.entries.push(entry);
+        match found.last_mut() {
+            Some((_, items)) if !apart => items.push(item),
+            _ => found.push((Comment::before(between), vec![item])),
         }
     }
-    page.groups.retain(|group| !group.entries.is_empty());
-    page
+    found
+}
+
+/// The comment right before an item, or else behind it on its line.
+pub fn comment(text: &str, item: &Item) -> Comment {
+    let before = text.get(..item.span.start as usize).unwrap_or_default();
+    let before = Comment::before(before.trim_end_matches([' ', '\t']));
+    let behind = text.get(item.span.end as usize..).unwrap_or_default();
+    let line = behind.lines().next().unwrap_or_default();
+    match line.trim_start_matches([';', ' ']).strip_prefix("//") {
+        Some(behind) if before.0.is_empty() => Comment(vec![behind.trim().to_owned()]),
+        _ => before,
+    }
 }
 
 /// An item's name and head; none of what no scene needs.
-fn entry(item: &Item, text: &str) -> Option<Entry> {
+pub fn entry(item: &Item, text: &str) -> Option<Entry> {
     let to = |end: u32| part(text, item.span.start, end);
     let end = |binding: &Binding| {
         let default = binding.default.as_ref();

@@ -3,10 +3,13 @@
 
 use crate::ir::graph::Graph;
 use crate::prelude::PRELUDE;
-use crate::sema::{self, Options, Program};
+use crate::sema::{self, Options, Program, Ty};
 use crate::source::{Diagnostic, SourceFile, Sources, Span};
 use crate::syntax::tree::{File, ItemKind};
 use crate::syntax::{self};
+use rustc_hash::FxHashMap;
+use std::collections::BTreeMap;
+use std::sync::{Arc, Mutex};
 
 /// How many files a scene may have, those that it uses included.
 const FILES: usize = 64;
@@ -51,6 +54,52 @@ pub fn check(name: &str, text: &str) -> Scene {
 /// A scene from its text; `prelude` (names and texts) replaces the embedded
 /// library. Never fails: what is wrong is in [`Scene::diagnostics`].
 pub fn load(name: &str, text: &str, prelude: Option<&[(String, String)]>, read: Read<'_>) -> Scene {
+    let (sources, files, said) = read_all(name, text, prelude, read);
+    let (program, more) = sema::check(&files);
+    let mut scene = joined(sources, program, said, more);
+    if scene.is_right()
+        && let Err(said) = sema::lower(&scene.program, &Options::default())
+    {
+        scene.diagnostics.extend(said);
+        sema::tidy(&mut scene.diagnostics);
+    }
+    scene
+}
+
+/// A scene with what was found on the way to it.
+#[derive(Clone, Debug)]
+pub struct Checked {
+    /// The scene; mistakes that only the lowering finds are not said.
+    pub scene: Scene,
+    /// The tree of each of its texts, and whether it is the library's.
+    pub trees: Vec<(File, bool)>,
+    /// The types of the scene's own expressions, as far as they were found.
+    pub types: FxHashMap<Span, Ty>,
+}
+
+/// As [`load`] up to the lowering.
+pub fn load_checked(
+    name: &str,
+    text: &str,
+    prelude: Option<&[(String, String)]>,
+    read: Read<'_>,
+) -> Checked {
+    let (sources, trees, said) = read_all(name, text, prelude, read);
+    let (program, more, types) = sema::check_noting(&trees);
+    Checked {
+        scene: joined(sources, program, said, more),
+        trees,
+        types,
+    }
+}
+
+/// Reads and parses all texts of a scene.
+fn read_all(
+    name: &str,
+    text: &str,
+    prelude: Option<&[(String, String)]>,
+    read: Read<'_>,
+) -> (Sources, Vec<(File, bool)>, Vec<Diagnostic>) {
     let mut loader = Loader {
         sources: Sources::default(),
         files: Vec::new(),
@@ -64,27 +113,22 @@ pub fn load(name: &str, text: &str, prelude: Option<&[(String, String)]>, read: 
                 loader.add(name.clone(), text.clone(), true);
             }
         }
-        None => {
-            for (name, text) in PRELUDE {
-                loader.add((*name).to_owned(), (*text).to_owned(), true);
-            }
-        }
+        None => loader.add_library(),
     }
-    let Loader {
-        sources,
-        files,
-        mut diagnostics,
-    } = loader;
+    (loader.sources, loader.files, loader.diagnostics)
+}
+
+/// A scene of what the parser said and what the checker said.
+fn joined(
+    sources: Sources,
+    program: Program,
+    mut diagnostics: Vec<Diagnostic>,
+    more: Vec<Diagnostic>,
+) -> Scene {
     // Where an item could not be read, what refers to it would be called
     // unknown: the mistakes of the text come first.
-    let (program, said) = sema::check(&files);
     if !diagnostics.iter().any(Diagnostic::is_error) {
-        diagnostics.extend(said);
-    }
-    if !diagnostics.iter().any(Diagnostic::is_error)
-        && let Err(said) = sema::lower(&program, &Options::default())
-    {
-        diagnostics.extend(said);
+        diagnostics.extend(more);
     }
     sema::tidy(&mut diagnostics);
     Scene {
@@ -92,6 +136,26 @@ pub fn load(name: &str, text: &str, prelude: Option<&[(String, String)]>, read: 
         program,
         diagnostics,
     }
+}
+
+/// Trees, and what is to be said of them.
+type Parsed = Vec<(File, Vec<Diagnostic>)>;
+
+/// The embedded library's trees, where its first file has a number: parsed once, since that
+/// takes as long as all else that is done to most scenes.
+fn library(first: usize) -> Arc<Parsed> {
+    static KNOWN: Mutex<BTreeMap<usize, Arc<Parsed>>> = Mutex::new(BTreeMap::new());
+    let known = KNOWN.lock().ok().and_then(|k| k.get(&first).cloned());
+    known.unwrap_or_else(|| {
+        let number = |k: usize| u16::try_from(first + k).unwrap_or(u16::MAX);
+        let texts = PRELUDE.iter().enumerate();
+        let parsed = texts.map(|(k, (_, text))| syntax::parse(text, number(k)));
+        let parsed = Arc::new(parsed.collect());
+        if let Ok(mut known) = KNOWN.lock() {
+            known.insert(first, Arc::clone(&parsed));
+        }
+        parsed
+    })
 }
 
 struct Loader {
@@ -111,6 +175,20 @@ impl Loader {
         });
         self.files.push((tree, library));
         self.diagnostics.extend(said);
+    }
+
+    /// Adds the embedded library.
+    fn add_library(&mut self) {
+        let parsed = library(self.sources.files.len());
+        for ((name, text), (tree, said)) in PRELUDE.iter().zip(parsed.iter()) {
+            self.sources.add(SourceFile {
+                name: (*name).to_owned(),
+                text: (*text).to_owned(),
+                library: true,
+            });
+            self.files.push((tree.clone(), true));
+            self.diagnostics.extend(said.iter().cloned());
+        }
     }
 
     /// Reads what `use` names, each file once.

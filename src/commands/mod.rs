@@ -8,6 +8,7 @@ mod doc;
 mod effects;
 mod explain;
 mod fmt;
+mod lsp;
 mod man;
 mod new;
 mod render;
@@ -50,6 +51,8 @@ pub enum Command {
     Fmt(fmt::Args),
     /// Say what the library has: shapes, lights, vectors and so on
     Doc(doc::Args),
+    /// Serve an editor: diagnostics, completion, cycles behind lines (docs/editors.md)
+    Lsp(lsp::Args),
     /// Run any program on a bundled machine
     Vm(vm::Args),
     /// List the targets, their modes and formats
@@ -80,6 +83,7 @@ impl Command {
             Command::Snapshot(args) => snapshot::run(args),
             Command::Fmt(args) => fmt::run(args),
             Command::Doc(args) => doc::run(args),
+            Command::Lsp(args) => lsp::run(args),
             Command::Vm(args) => vm::run(args),
             Command::Targets(args) => targets::run(args),
             Command::Completions(args) => completions::run(args),

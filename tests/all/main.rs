@@ -24,6 +24,7 @@ mod cli_wrong;
 mod colours;
 mod columns;
 mod drawings;
+mod editors;
 mod effects;
 mod explain;
 mod fit;
@@ -39,6 +40,11 @@ mod jack_fixed;
 mod jack_formats;
 mod library;
 mod listing;
+mod lsp;
+mod lsp_client;
+mod lsp_edits;
+mod lsp_rename;
+mod lsp_wrong;
 mod mos6502;
 mod mos6502_fixed;
 mod mos6502_logs;
@@ -64,6 +70,8 @@ mod peers_chromium;
 mod peers_dialect;
 #[cfg(feature = "peers")]
 mod peers_drawings;
+#[cfg(feature = "peers")]
+mod peers_editors;
 #[cfg(feature = "peers")]
 mod peers_jsbeeb;
 mod planning;

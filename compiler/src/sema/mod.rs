@@ -21,8 +21,8 @@ mod ty;
 #[cfg(test)]
 mod tests;
 
-pub use builtins::Builtin;
-pub use check::{check, tidy};
+pub use builtins::{Builtin, Signature, signatures};
+pub use check::{check, check_noting, known, tidy};
 pub use lower::{
     Freeze, INSTANCES, Instancing, Millionths, Options, Search, Ways, lower, most_shapes, params,
 };

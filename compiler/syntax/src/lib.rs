@@ -18,6 +18,7 @@ pub mod walk;
 pub use cut::MAX_DEPTH;
 pub use lexer::{MAX_BYTES, decode};
 pub use parser::parse;
+pub use token::{ITEMS, PLACED, WORDS, is_name};
 
 #[cfg(test)]
 mod tests;

@@ -12,6 +12,27 @@
 use logos::Logos;
 use std::fmt;
 
+/// Reserved words that begin an item.
+pub const ITEMS: [&str; 12] = [
+    "image", "param", "const", "fn", "effect", "shape", "scene", "record", "map", "dither", "draw",
+    "use",
+];
+
+/// The other reserved words.
+pub const WORDS: [&str; 19] = [
+    "if", "let", "then", "else", "loop", "next", "spread", "each", "and", "or", "not", "div",
+    "mod", "true", "false", "none", "is", "in", "where",
+];
+
+/// Words that mean something in one place only, and are names elsewhere.
+pub const PLACED: [&str; 6] = ["inks", "max", "to", "frame", "row", "column"];
+
+/// Whether a text is one name, and no reserved word.
+pub fn is_name(text: &str) -> bool {
+    let mut tokens = Token::lexer(text);
+    matches!(tokens.next(), Some(Ok(Token::Ident(name))) if name.len() == text.len())
+}
+
 /// A token; text is borrowed from the source.
 #[derive(Logos, Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[logos(skip r"[ \t\r\n\f]+")]

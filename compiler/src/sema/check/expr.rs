@@ -1,6 +1,6 @@
 //! Expressions: literals, names, parts.
 
-use super::names::{Entity, KNOWN};
+use super::names::{Entity, KNOWN, type_of};
 use super::{Checker, DEPTH, STEPS};
 use crate::sema::program::*;
 use crate::sema::ty::Ty;
@@ -26,6 +26,11 @@ impl<'a> Checker<'a> {
         self.depth += 1;
         let found = self.expr_inner(tree, tail);
         self.depth -= 1;
+        if let Some(noted) = &mut self.noted
+            && !self.cx.library
+        {
+            noted.insert(found.span, found.ty.clone());
+        }
         found
     }
 
@@ -129,13 +134,7 @@ impl<'a> Checker<'a> {
             Entity::Scene(id) => (ExprKind::Scene(id), self.scene(id)),
             Entity::Map(id) => (ExprKind::Map(id), Ty::Map),
             Entity::Known(k) => match KNOWN.get(k) {
-                Some((_, known @ (Known::Offset | Known::Epsilon))) => {
-                    (ExprKind::Known(*known), Ty::Real)
-                }
-                Some((_, known @ (Known::Floats | Known::Mantissas))) => {
-                    (ExprKind::Known(*known), Ty::Bool)
-                }
-                Some((_, known)) => (ExprKind::Known(*known), Ty::Int),
+                Some((_, known)) => (ExprKind::Known(*known), type_of(*known)),
                 None => (ExprKind::Error, Ty::Error),
             },
             _ => (ExprKind::Error, Ty::Error),

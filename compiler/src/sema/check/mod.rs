@@ -27,8 +27,10 @@ use super::program::*;
 use super::ty::Ty;
 use crate::source::{Diagnostic, Span};
 use crate::syntax::tree;
+pub use names::known;
 use names::{Entity, Layers};
 pub(super) use ops::symbol;
+use rustc_hash::FxHashMap;
 use scopes::Scopes;
 
 /// How deep expressions may nest, constants that refer to constants included.
@@ -102,6 +104,8 @@ struct Checker<'a> {
     /// loop that is checked again must not forget it.
     settled: Vec<Diagnostic>,
     settled_mentions: Vec<(Entity, Entity, Span)>,
+    /// Types of the scene's own expressions, as they are found, if somebody asks for them.
+    noted: Option<FxHashMap<Span, Ty>>,
     depth: usize,
     steps: usize,
 }
@@ -109,6 +113,22 @@ struct Checker<'a> {
 /// Checks the files' items together. A program comes back in any case; it may
 /// be lowered only where no diagnostic is an error.
 pub fn check(files: &[(tree::File, bool)]) -> (Program, Vec<Diagnostic>) {
+    let (program, diagnostics, _) = check_with(files, None);
+    (program, diagnostics)
+}
+
+/// The same, with the types of the scene's own expressions, those of what is wrong elsewhere
+/// included: of an expression that is checked more than once the last stands.
+pub fn check_noting(
+    files: &[(tree::File, bool)],
+) -> (Program, Vec<Diagnostic>, FxHashMap<Span, Ty>) {
+    check_with(files, Some(FxHashMap::default()))
+}
+
+fn check_with(
+    files: &[(tree::File, bool)],
+    noted: Option<FxHashMap<Span, Ty>>,
+) -> (Program, Vec<Diagnostic>, FxHashMap<Span, Ty>) {
     let mut checker = Checker {
         program: Program::default(),
         diagnostics: Vec::new(),
@@ -121,6 +141,7 @@ pub fn check(files: &[(tree::File, bool)]) -> (Program, Vec<Diagnostic>) {
         mentions: Vec::new(),
         settled: Vec::new(),
         settled_mentions: Vec::new(),
+        noted,
         depth: 0,
         steps: 0,
     };
@@ -135,10 +156,11 @@ pub fn check(files: &[(tree::File, bool)]) -> (Program, Vec<Diagnostic>) {
     let Checker {
         program,
         mut diagnostics,
+        noted,
         ..
     } = checker;
     tidy(&mut diagnostics);
-    (program, diagnostics)
+    (program, diagnostics, noted.unwrap_or_default())
 }
 
 /// In source order, each once, and not more than anyone reads.

@@ -3,6 +3,7 @@
 use super::Checker;
 use crate::sema::colours::colour;
 use crate::sema::program::*;
+use crate::sema::ty::Ty;
 use crate::source::{Diagnostic, Span};
 use std::collections::BTreeMap;
 
@@ -59,6 +60,20 @@ pub(super) const KNOWN: [(&str, Known); 8] = [
     ("mantissas", Known::Mantissas),
     ("samples", Known::Samples),
 ];
+
+/// The names of the values that the language knows, with their types.
+pub fn known() -> impl Iterator<Item = (&'static str, Ty)> {
+    KNOWN.iter().map(|(name, known)| (*name, type_of(*known)))
+}
+
+/// The type of a value that the language knows by name.
+pub(super) fn type_of(known: Known) -> Ty {
+    match known {
+        Known::Offset | Known::Epsilon => Ty::Real,
+        Known::Floats | Known::Mantissas => Ty::Bool,
+        Known::Inks | Known::Width | Known::Height | Known::Samples => Ty::Int,
+    }
+}
 
 /// Functions that other languages have, and what stands for them in this one.
 const FOREIGN: [(&[&str], &str); 18] = [

@@ -5,6 +5,7 @@ mod each;
 mod formatted;
 mod good;
 mod hard;
+mod words;
 mod wrong;
 
 use super::parse;
