@@ -4,7 +4,7 @@
 use crate::cli::{directory, json};
 
 /// Machines and formats whose ends are near, and those whose are not.
-const FORMATS: [(&str, &str); 12] = [
+const FORMATS: [(&str, &str); 13] = [
     ("jack", "f316"),
     ("jack", "f316r"),
     ("jack", "log10"),
