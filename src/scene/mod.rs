@@ -95,7 +95,7 @@ pub struct ScenesArgs {
 }
 
 /// A scene that was read and found right.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub struct Scene {
     /// The file's name without extension; names the generated files.
     pub name: String,
@@ -146,8 +146,11 @@ fn decoded(name: String, bytes: &[u8]) -> Outcome<(String, String)> {
     Err(wrong(sources, said))
 }
 
-/// A file that a scene uses, beside the file that uses it.
-fn used(from: &str, path: &str) -> Result<(String, String), String> {
+/// A file that a scene uses, beside the file that uses it: its name and text.
+///
+/// # Errors
+/// Why it cannot be read.
+pub fn used(from: &str, path: &str) -> Result<(String, String), String> {
     let beside = Path::new(from).parent().unwrap_or(Path::new(""));
     // Without `.` and `..`, one file has one name.
     let path = beside.join(path);
@@ -185,8 +188,22 @@ impl Scene {
     /// As [`Scene::load`].
     pub fn open(path: &Path, changes: &Changes) -> Outcome<Scene> {
         let (name, text) = given(path)?;
+        Scene::of_text((&name, &text), path, changes, &mut used)
+    }
+
+    /// Checks a scene whose text is at hand, by the name that diagnostics give it. Other files
+    /// that it uses are read by `read`.
+    ///
+    /// # Errors
+    /// As [`Scene::load`].
+    pub fn of_text(
+        (name, text): (&str, &str),
+        path: &Path,
+        changes: &Changes,
+        read: scene::Read<'_>,
+    ) -> Outcome<Scene> {
         let library = changes.prelude.as_deref().map(prelude).transpose()?;
-        let checked = scene::load(&name, &text, library.as_deref(), &mut used);
+        let checked = scene::load(name, text, library.as_deref(), read);
         if !checked.is_right() {
             return Err(wrong(checked.sources, checked.diagnostics));
         }
@@ -202,6 +219,25 @@ impl Scene {
             name: name_of(path),
             options,
             checked,
+        })
+    }
+
+    /// The same scene with other values for some params.
+    ///
+    /// # Errors
+    /// Where a value is outside its param's range.
+    pub fn setting(&self, set: Vec<(String, Vec<f64>)>) -> Outcome<Scene> {
+        let options = Options {
+            set,
+            ..self.options.clone()
+        };
+        if let Err(said) = settable(&self.checked.program, &options) {
+            return Err(self.wrong(said));
+        }
+        Ok(Scene {
+            name: self.name.clone(),
+            checked: self.checked.clone(),
+            options,
         })
     }
 

@@ -1,0 +1,197 @@
+//! The scene's file: read, watched, and written whole or not at all.
+
+use super::desk::{Change, Desk};
+use crate::failure::{Failure, Outcome};
+use crate::{files, interrupt, scene};
+use notify_debouncer_mini::notify::{RecommendedWatcher, RecursiveMode};
+use notify_debouncer_mini::{DebounceEventResult, Debouncer, new_debouncer};
+use std::path::{Path, PathBuf};
+use std::sync::{Arc, Mutex, MutexGuard};
+use std::time::Duration;
+
+/// How long writes to the file must rest before it is read: editors write in several steps.
+const REST: Duration = Duration::from_millis(60);
+
+/// A scene's file.
+pub struct SceneFile {
+    /// As the user named it.
+    named: PathBuf,
+    /// Through links to what it names.
+    path: PathBuf,
+    /// What is known to be in it.
+    known: Mutex<Known>,
+}
+
+struct Known {
+    /// With lines that end in a line feed alone, as the page has them.
+    text: String,
+    /// Whether they end in two characters in the file.
+    two: bool,
+}
+
+impl Known {
+    fn of(text: String) -> Known {
+        let two = text.contains("\r\n");
+        Known {
+            text: if two {
+                text.replace("\r\n", "\n")
+            } else {
+                text
+            },
+            two,
+        }
+    }
+}
+
+/// What became of saving.
+#[derive(Debug, PartialEq, Eq)]
+pub enum Saved {
+    /// It is written.
+    Yes,
+    /// Somebody else wrote another text to the file; nothing is written.
+    Elsewhere,
+}
+
+impl SceneFile {
+    /// Reads a scene's file.
+    ///
+    /// # Errors
+    /// Where it cannot be read.
+    pub fn open(named: &Path) -> Outcome<SceneFile> {
+        let (_, text) = scene::text(named)?;
+        let wrong = |e: std::io::Error| Failure::Wrong(format!("{}: {e}", named.display()));
+        Ok(SceneFile {
+            named: named.to_path_buf(),
+            path: std::fs::canonicalize(named).map_err(wrong)?,
+            known: Mutex::new(Known::of(text)),
+        })
+    }
+
+    fn known(&self) -> MutexGuard<'_, Known> {
+        self.known.lock().unwrap_or_else(|e| e.into_inner())
+    }
+
+    /// As the user named it.
+    pub fn name(&self) -> String {
+        self.named.display().to_string()
+    }
+
+    /// The path as the user named it.
+    pub fn named(&self) -> &Path {
+        &self.named
+    }
+
+    /// The directory that nothing outside of is read or written.
+    pub fn directory(&self) -> &Path {
+        self.path.parent().unwrap_or(Path::new("."))
+    }
+
+    /// The text that is known to be in it.
+    pub fn text(&self) -> String {
+        self.known().text.clone()
+    }
+
+    /// Whether it holds a text.
+    pub fn holds(&self, text: &str) -> bool {
+        self.known().text == text
+    }
+
+    /// Writes a text to it; not over one that is not known, unless that is `forced`.
+    ///
+    /// # Errors
+    /// Where it cannot be written.
+    pub fn save(&self, text: &str, forced: bool) -> Outcome<Saved> {
+        let mut known = self.known();
+        if !forced
+            && let Ok((_, now)) = scene::text(&self.path)
+            && Known::of(now).text != known.text
+        {
+            return Ok(Saved::Elsewhere);
+        }
+        let _writing = interrupt::writing();
+        let written = match known.two {
+            true => text.replace('\n', "\r\n"),
+            false => text.to_owned(),
+        };
+        files::write(&self.path, written.as_bytes())?;
+        text.clone_into(&mut known.text);
+        Ok(Saved::Yes)
+    }
+
+    /// Waits until what is being saved is saved.
+    pub fn finish(&self) {
+        drop(self.known());
+    }
+
+    /// Reads it again; answers its new text, and the one before, where that was another.
+    ///
+    /// # Errors
+    /// Where it cannot be read.
+    pub fn again(&self) -> Outcome<Option<(String, String)>> {
+        let mut known = self.known();
+        let now = Known::of(scene::text(&self.path)?.1);
+        if now.text == known.text {
+            return Ok(None);
+        }
+        let before = std::mem::replace(&mut *known, now);
+        Ok(Some((known.text.clone(), before.text)))
+    }
+
+    /// A file that a scene uses: only one in the scene's directory.
+    ///
+    /// # Errors
+    /// Why it is not read.
+    pub fn used(&self, from: &str, path: &str) -> Result<(String, String), String> {
+        let beside = Path::new(from).parent().unwrap_or(Path::new(""));
+        let full = std::fs::canonicalize(beside.join(path));
+        match full {
+            Ok(full) if !full.starts_with(self.directory()) => Err(format!(
+                "`{path}` is outside of the scene's directory, and this page reads nothing there"
+            )),
+            _ => scene::used(from, path),
+        }
+    }
+}
+
+/// Watches the file, and others beside it that the scene may use; none where the system
+/// cannot. It ends when it is dropped.
+pub fn watch(desk: &Arc<Desk>) -> Option<Debouncer<RecommendedWatcher>> {
+    let told = desk.clone();
+    let mut watching = new_debouncer(REST, move |events: DebounceEventResult| {
+        let events = events.unwrap_or_default();
+        let own = &told.file().path;
+        if events.iter().any(|event| event.path == *own) {
+            reload(&told, false);
+        }
+        let is_scene = |path: &Path| path.extension().is_some_and(|e| e == "scn");
+        if events.iter().any(|e| e.path != *own && is_scene(&e.path)) {
+            told.wish(Change::default());
+        }
+    });
+    let watching = watching
+        .as_mut()
+        .ok()
+        .and_then(|watching| {
+            let watched = desk.file().directory();
+            let mode = RecursiveMode::NonRecursive;
+            watching.watcher().watch(watched, mode).ok()
+        })
+        .and(watching.ok());
+    watching
+}
+
+/// Reads the file again; with `force` its text replaces one that was not saved.
+pub fn reload(desk: &Desk, force: bool) {
+    match desk.file().again() {
+        Ok(Some((text, was))) => desk.file_changed(&text, &was, force),
+        Ok(None) if force => {
+            let text = desk.file().text();
+            desk.file_changed(&text, &text, true);
+        }
+        Ok(None) => {}
+        Err(failure) => {
+            let why = failure.reason();
+            desk.show(|shown, _| shown.file.wrong = Some(why));
+        }
+    }
+}

@@ -1,0 +1,265 @@
+//! The worker for native pictures: reads what is wanted, says what is wrong, and draws, a
+//! coarse picture first where the whole one takes long.
+
+use super::desk::{Desk, Wish};
+use super::said;
+use super::shown::{Native as State, Stage};
+use crate::draw::{self, Window};
+use crate::failure::{Failure, Outcome, Said};
+use crate::interrupt::{self, Job};
+use crate::picture::{FileFormat, png};
+use crate::scene::{Changes, Precision, Scene};
+use rayon::prelude::*;
+use slowlight_compiler::eval::native::{Native, Pixel};
+use slowlight_compiler::ir::graph::Graph;
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::sync::Arc;
+use std::time::{Duration, Instant};
+
+/// How long a whole picture may take for no coarse one to come before it.
+const QUICK: Duration = Duration::from_millis(80);
+
+/// How long a coarse picture may take.
+const COARSE: Duration = Duration::from_millis(50);
+
+/// Columns and rows for one pixel of coarse pictures, the coarsest first.
+const STEPS: [u32; 3] = [16, 8, 4];
+
+/// Operations for the coarsest picture at most, over all its rows: a quarter of a second.
+const MOST: u64 = 50_000_000;
+
+/// Parts that the rows of a coarse picture are shared out in.
+const PARTS: usize = 8;
+
+/// The scene that was read last, to be drawn again with other values.
+type Read = Option<(Arc<str>, Instant, Scene)>;
+
+/// How long a scene that was read stands for its text: files that it uses may change.
+const FRESH: Duration = Duration::from_millis(400);
+
+/// Draws whatever is wanted until the end.
+pub fn work(desk: &Desk, changes: &Changes) {
+    let mut last = 0;
+    let mut read: Read = None;
+    while let Some((wish, job)) = desk.next_native(last) {
+        last = wish.serial;
+        let drawn = catch_unwind(AssertUnwindSafe(|| {
+            drawn(desk, &wish, &job, changes, &mut read)
+        }));
+        let drawn = drawn.unwrap_or_else(|_| {
+            read = None;
+            Err(Failure::Wrong(
+                "this scene breaks slowlight, which is no fault of the scene's".to_owned(),
+            ))
+        });
+        if let Err(failure) = drawn {
+            refused(desk, &wish, failure);
+        }
+    }
+}
+
+/// Why there is no picture.
+fn refused(desk: &Desk, wish: &Wish, failure: Failure) {
+    let serial = wish.serial;
+    let (why, problems) = match failure {
+        Failure::Interrupted => {
+            return desk.show_of(serial, |shown, _| shown.native.stage = Stage::Stopped);
+        }
+        Failure::Scene(said) | Failure::Options(said) => {
+            let Said {
+                sources,
+                diagnostics,
+            } = *said;
+            (None, Some(said::problems(serial, &sources, &diagnostics)))
+        }
+        other => (Some(other.reason()), None),
+    };
+    desk.show_of(serial, |shown, _| {
+        if let Some(problems) = problems {
+            shown.problems = problems;
+        }
+        shown.native.serial = serial;
+        shown.native.stage = Stage::Wrong;
+        shown.native.wrong = why;
+        shown.machine.stage = Stage::Idle;
+    });
+}
+
+/// Reads the wish's scene, unless it is the text of the last one.
+fn scene(desk: &Desk, wish: &Wish, changes: &Changes, read: &mut Read) -> Outcome<Scene> {
+    if let Some((text, at, scene)) = read
+        && **text == *wish.text
+        && at.elapsed() < FRESH
+    {
+        *at = Instant::now();
+        return Ok(scene.clone());
+    }
+    *read = None;
+    let file = desk.file();
+    let mut used = |from: &str, path: &str| file.used(from, path);
+    let named = (&*file.name(), &*wish.text);
+    let scene = Scene::of_text(named, file.named(), changes, &mut used)?;
+    *read = Some((wish.text.clone(), Instant::now(), scene.clone()));
+    Ok(scene)
+}
+
+/// Draws a wish: what comes first is drawn even where a newer wish is there already, so that
+/// a hand that does not rest sees something.
+fn drawn(desk: &Desk, wish: &Wish, job: &Job, changes: &Changes, read: &mut Read) -> Outcome<()> {
+    let serial = wish.serial;
+    let scene = scene(desk, wish, changes, read)?;
+    let usual = scene.graph(None, Precision::NATIVE)?;
+    let sources = &scene.checked.sources;
+    let problems = said::problems(serial, sources, &scene.checked.diagnostics);
+    let params = said::params(sources, &scene.checked.program, &usual);
+    let size = scene.size();
+    desk.show(|shown, _| {
+        shown.problems = problems;
+        shown.params = params;
+    });
+    // A param that is gone, or has become another, has the value that the text gives it.
+    let fits = |name: &str, values: &[f64]| {
+        let scalars = usual.params.iter().filter(|p| p.name == name);
+        scalars.count() == values.len()
+    };
+    let set = wish.set.iter().filter(|(name, values)| fits(name, values));
+    let set: Vec<(String, Vec<f64>)> = set.map(|(n, v)| (n.clone(), v.clone())).collect();
+    let (scene, graph) = match set.is_empty() {
+        true => (scene, usual),
+        false => {
+            let scene = scene.setting(set)?;
+            let graph = scene.graph(None, Precision::NATIVE)?;
+            (scene, graph)
+        }
+    };
+    let window = Window::whole(size.0, size.1);
+    let since = || u64::try_from(wish.at.elapsed().as_millis()).unwrap_or(u64::MAX);
+    let state = |stage, picture| State {
+        serial,
+        stage,
+        picture,
+        size,
+        ..State::default()
+    };
+    let mut first = None;
+    if let Some(coarse) = coarse(&graph, window) {
+        first = Some(since());
+        desk.show(|shown, pictures| {
+            pictures.native = Arc::new(coarse);
+            shown.native = State {
+                first_ms: first,
+                ..state(Stage::Coarse, shown.native.picture + 1)
+            };
+        });
+    } else if job.is_stopped() {
+        // A quick picture is drawn in any case.
+        let whole = job_of(None, || draw::native(&graph, window))?;
+        let png = whole.picture().encode(FileFormat::Png)?;
+        desk.show(|shown, pictures| {
+            pictures.native = Arc::new(png);
+            shown.native = state(Stage::Coarse, shown.native.picture + 1);
+        });
+        return Err(Failure::Interrupted);
+    }
+    let whole = job_of(Some(job), || draw::native(&graph, window))?;
+    let png = whole.picture().encode(FileFormat::Png)?;
+    desk.show(|shown, pictures| {
+        pictures.native = Arc::new(png);
+        shown.native = State {
+            first_ms: first.or(Some(since())),
+            whole_ms: Some(since()),
+            ..state(Stage::Done, shown.native.picture + 1)
+        };
+    });
+    desk.ready(wish.clone(), Arc::new(scene));
+    Ok(())
+}
+
+fn job_of<T>(job: Option<&Job>, work: impl FnOnce() -> T) -> T {
+    interrupt::on_behalf(job, work)
+}
+
+/// A coarse picture as a PNG, as fine as there is time for; none where the whole picture is
+/// there as soon, or its pixels cannot be had one by one.
+fn coarse(graph: &Graph, window: Window) -> Option<Vec<u8>> {
+    if graph.is_in_order() || window.count() < 64 * 64 {
+        return None;
+    }
+    let mut best = None;
+    for step in STEPS {
+        let begun = Instant::now();
+        let most = MOST / PARTS as u64;
+        let Some(shades) = grid(graph, window, step, most) else {
+            break;
+        };
+        let taken = begun.elapsed();
+        // Starting takes its time, too, so that this is more than the whole picture takes.
+        if taken * step.pow(2) < QUICK {
+            return None;
+        }
+        best = Some((step, shades));
+        if taken * 4 > COARSE {
+            break;
+        }
+    }
+    let (step, shades) = best?;
+    let columns = window.width().div_ceil(step);
+    let palette = &graph.image.palette;
+    let rgb: Vec<u8> = (shades.iter())
+        .flat_map(|pixel| between(palette, pixel.shade))
+        .collect();
+    png(columns, window.height().div_ceil(step), None, &rgb).ok()
+}
+
+/// A pixel for each square of so many, row by row; none where they take more operations.
+fn grid(graph: &Graph, window: Window, step: u32, most: u64) -> Option<Vec<Pixel>> {
+    let middle = |k: u32, count: u32| (k * step + step / 2).min(count - 1) as i32;
+    let (width, height) = (window.width(), window.height());
+    let columns: Vec<i32> = (0..width.div_ceil(step))
+        .map(|k| middle(k, width))
+        .collect();
+    let rows: Vec<u32> = (0..height.div_ceil(step)).collect();
+    let parts: Option<Vec<Vec<Pixel>>> = rows
+        .par_chunks(rows.len().div_ceil(PARTS).max(1))
+        .map(|rows| {
+            let mut native = Native::within(graph, most);
+            let mut out = Vec::with_capacity(rows.len() * columns.len());
+            for row in rows {
+                native.scattered(&columns, middle(*row, height), &mut out);
+            }
+            (!native.spent()).then_some(out)
+        })
+        .collect();
+    Some(parts?.concat())
+}
+
+/// The colour of a shade between the inks, which are dark to light.
+fn between(palette: &[[u8; 3]], shade: f64) -> [u8; 3] {
+    let steps = palette.len().saturating_sub(1);
+    let at = if shade.is_nan() {
+        0.0
+    } else {
+        shade.clamp(0.0, 1.0)
+    } * steps as f64;
+    let low = (at.floor() as usize).min(steps);
+    let ink = |k: usize| palette.get(k.min(steps)).copied().unwrap_or_default();
+    let (a, b, part) = (ink(low), ink(low + 1), at - low as f64);
+    std::array::from_fn(|k| {
+        let (a, b) = (f64::from(a[k]), f64::from(b[k]));
+        (a + (b - a) * part).round() as u8
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn shades_are_between_inks() {
+        let palette = [[0, 0, 0], [100, 0, 0], [200, 200, 200]];
+        assert_eq!(between(&palette, 0.25), [50, 0, 0]);
+        assert_eq!(between(&palette, 1.0), [200, 200, 200]);
+        assert_eq!(between(&palette, f64::NAN), [0, 0, 0]);
+        assert_eq!(between(&palette, 7.0), [200, 200, 200]);
+    }
+}
