@@ -11,6 +11,7 @@ use slowlight_compiler::targets::Target;
 use std::collections::BTreeMap;
 use std::sync::{Arc, Condvar, Mutex, MutexGuard};
 use std::time::{Duration, Instant};
+use tokio::sync::watch;
 
 /// How long the text must rest before a machine is put to work.
 const REST: Duration = Duration::from_millis(350);
@@ -93,6 +94,8 @@ struct Inner {
 pub struct Desk {
     inner: Mutex<Inner>,
     changed: Condvar,
+    /// The number of what is shown, for pages that wait.
+    news: watch::Sender<u64>,
     file: SceneFile,
 }
 
@@ -132,6 +135,7 @@ impl Desk {
         Desk {
             inner: Mutex::new(inner),
             changed: Condvar::new(),
+            news: watch::Sender::new(1),
             file,
         }
     }
@@ -218,6 +222,7 @@ impl Desk {
 
     fn seen(&self, mut inner: MutexGuard<'_, Inner>) {
         inner.version += 1;
+        self.news.send_replace(inner.version);
         drop(inner);
         self.changed.notify_all();
     }
@@ -255,14 +260,9 @@ impl Desk {
         (inner.version, inner.shown.clone())
     }
 
-    /// Waits until something newer is shown than `after`, or for so long; answers whether work
-    /// goes on at all.
-    pub fn wait(&self, after: u64, long: Duration) -> bool {
-        let inner = self.lock();
-        let old = |inner: &mut Inner| inner.version <= after && !inner.ends;
-        let waited = self.changed.wait_timeout_while(inner, long, old);
-        let inner = waited.unwrap_or_else(|e| e.into_inner()).0;
-        !inner.ends
+    /// The number of what is shown, to wait for another.
+    pub fn news(&self) -> watch::Receiver<u64> {
+        self.news.subscribe()
     }
 
     /// The next wish to be drawn natively, with the job to work for; none at the end.

@@ -1,42 +1,46 @@
-//! The server: on the loopback alone, with few threads however many pages ask.
-//!
-//! A page that waits for news is kept as an open request, not as a thread ([`Waiting`]).
+//! The server: on the loopback alone, one thread for however many pages ask.
 
 use super::desk::Desk;
 use super::guard::{Asker, Guard};
 use super::routes::{self, Answer};
 use crate::failure::{Failure, Outcome, plain};
-use std::io::Read;
+use http_body_util::{BodyExt, Full, Limited};
+use hyper::body::{Bytes, Incoming};
+use hyper::header::{self, HeaderName, HeaderValue};
+use hyper::server::conn::http1;
+use hyper::service::service_fn;
+use hyper::{HeaderMap, Method, Request, Response, StatusCode};
+use hyper_util::rt::{TokioIo, TokioTimer};
+use std::convert::Infallible;
 use std::net::{Ipv4Addr, SocketAddr, TcpListener};
-use std::sync::atomic::{AtomicBool, Ordering};
-use std::sync::{Arc, Mutex};
+use std::sync::Arc;
 use std::thread::JoinHandle;
-use std::time::{Duration, Instant};
-use tiny_http::{Header, Method, Request, Response, Server};
-
-/// Threads that answer.
-const THREADS: usize = 2;
+use std::time::Duration;
+use tokio::sync::oneshot;
 
 /// The longest text that is taken, in bytes of JSON.
-const MOST: u64 = 8 * crate::files::MAX_BYTES as u64;
+const MOST: usize = 8 * crate::files::MAX_BYTES;
 
 /// How long a page that waits for news is kept waiting.
 const PATIENCE: Duration = Duration::from_secs(20);
 
-/// How many may wait; of more the first are told that there is no news.
-const WAITING: usize = 32;
+/// How long a connection on which nothing is asked stays open.
+const IDLE: Duration = Duration::from_secs(30);
+
+/// How long to wait where the system takes no more connections.
+const CROWDED: Duration = Duration::from_millis(100);
 
 /// What no page but this server's own may do with what is answered.
 const HEADERS: &[(&str, &str)] = &[
-    ("Cache-Control", "no-store"),
-    ("X-Content-Type-Options", "nosniff"),
-    ("Referrer-Policy", "no-referrer"),
-    ("X-Frame-Options", "DENY"),
-    ("Cross-Origin-Resource-Policy", "same-origin"),
-    ("Cross-Origin-Opener-Policy", "same-origin"),
+    ("cache-control", "no-store"),
+    ("x-content-type-options", "nosniff"),
+    ("referrer-policy", "no-referrer"),
+    ("x-frame-options", "DENY"),
+    ("cross-origin-resource-policy", "same-origin"),
+    ("cross-origin-opener-policy", "same-origin"),
     // The editor writes its styles into the page.
     (
-        "Content-Security-Policy",
+        "content-security-policy",
         "default-src 'none'; script-src 'self'; style-src 'self' 'unsafe-inline'; \
          img-src 'self' data:; connect-src 'self'; base-uri 'none'; form-action 'none'; \
          frame-ancestors 'none'",
@@ -45,7 +49,7 @@ const HEADERS: &[(&str, &str)] = &[
 
 /// A server that listens.
 pub struct Listening {
-    server: Server,
+    listener: TcpListener,
     /// Where.
     pub port: u16,
 }
@@ -55,184 +59,142 @@ pub struct Listening {
 /// # Errors
 /// Where the port is taken.
 pub fn listen(port: u16) -> Outcome<Listening> {
-    let wrong = |why: String| {
-        let way = "leave --port out for one that is free";
+    let wrong = |e: std::io::Error| {
+        let (why, way) = (plain(&e), "leave --port out for one that is free");
         Failure::Wrong(format!("cannot listen at port {port}: {why}; {way}"))
     };
     let address = SocketAddr::from((Ipv4Addr::LOCALHOST, port));
-    let listener = TcpListener::bind(address).map_err(|e| wrong(plain(&e)))?;
-    let port = listener.local_addr().map_err(|e| wrong(plain(&e)))?.port();
-    let server = Server::from_listener(listener, None).map_err(|e| wrong(e.to_string()))?;
-    Ok(Listening { server, port })
+    let listener = TcpListener::bind(address).map_err(wrong)?;
+    // As the runtime wants it.
+    listener.set_nonblocking(true).map_err(wrong)?;
+    let port = listener.local_addr().map_err(wrong)?.port();
+    Ok(Listening { listener, port })
 }
 
-/// Requests that wait for news, with what they have seen and when they came.
-type Waiting = Mutex<Vec<(u64, Instant, Request)>>;
-
-/// What the threads share.
-struct Serving {
-    server: Server,
-    desk: Arc<Desk>,
-    guard: Guard,
-    waiting: Waiting,
-    ends: AtomicBool,
+/// A thread that serves until this is dropped.
+pub struct Serving {
+    ends: Option<oneshot::Sender<()>>,
+    thread: Option<JoinHandle<()>>,
 }
 
-/// Threads that serve until this is dropped.
-pub struct Threads {
-    serving: Arc<Serving>,
-    threads: Vec<JoinHandle<()>>,
-}
-
-/// Serves a desk.
-///
-/// # Errors
-/// Where no thread can be had.
-pub fn serve(listening: Listening, desk: &Arc<Desk>, guard: Guard) -> Outcome<Threads> {
-    let serving = Arc::new(Serving {
-        server: listening.server,
-        desk: desk.clone(),
-        guard,
-        waiting: Mutex::default(),
-        ends: AtomicBool::new(false),
-    });
-    let mut threads = Vec::new();
-    let works: [fn(&Serving); 2] = [Serving::answers, Serving::tells];
-    for work in std::iter::repeat_n(works[0], THREADS).chain([works[1]]) {
-        let shared = serving.clone();
-        let thread = std::thread::Builder::new().spawn(move || work(&shared));
-        threads.push(thread.map_err(|e| Failure::Wrong(format!("cannot start a thread: {e}")))?);
-    }
-    Ok(Threads { serving, threads })
-}
-
-impl Drop for Threads {
+impl Drop for Serving {
     fn drop(&mut self) {
-        self.serving.ends.store(true, Ordering::SeqCst);
-        for _ in 0..THREADS {
-            self.serving.server.unblock();
-        }
-        for thread in self.threads.drain(..) {
-            // One that panicked has said so.
+        drop(self.ends.take());
+        if let Some(thread) = self.thread.take() {
+            // Where it panicked, it has said so.
             let _ = thread.join();
         }
     }
 }
 
-impl Serving {
-    fn ends(&self) -> bool {
-        self.ends.load(Ordering::SeqCst)
-    }
-
-    /// Answers requests.
-    fn answers(&self) {
-        while !self.ends() {
-            if let Ok(Some(request)) = self.server.recv_timeout(Duration::from_millis(100)) {
-                self.answer(request);
+/// Serves a desk.
+///
+/// # Errors
+/// Where the system gives no thread.
+pub fn serve(listening: Listening, desk: &Arc<Desk>, guard: Guard) -> Outcome<Serving> {
+    let wrong = |e: std::io::Error| Failure::Wrong(format!("cannot serve: {}", plain(&e)));
+    let runtime = tokio::runtime::Builder::new_current_thread()
+        .enable_io()
+        .enable_time()
+        .build()
+        .map_err(wrong)?;
+    let (desk, guard) = (desk.clone(), Arc::new(guard));
+    let (ends, ended) = oneshot::channel();
+    let work = move || {
+        runtime.block_on(async {
+            if let Ok(listener) = tokio::net::TcpListener::from_std(listening.listener) {
+                tokio::spawn(accepts(listener, desk, guard));
+                // The sender says nothing: it is dropped.
+                let _ = ended.await;
             }
-        }
-    }
+        });
+    };
+    let thread = std::thread::Builder::new().name("page".to_owned());
+    Ok(Serving {
+        ends: Some(ends),
+        thread: Some(thread.spawn(work).map_err(wrong)?),
+    })
+}
 
-    fn answer(&self, mut request: Request) {
-        let url = request.url().to_owned();
-        let header = |name: &'static str| {
-            let mut all = request.headers().iter();
-            let found = all.find(|header| header.field.equiv(name));
-            found.map(|header| header.value.as_str().to_owned())
+/// Takes connections, and answers what is asked on each.
+async fn accepts(listener: tokio::net::TcpListener, desk: Arc<Desk>, guard: Arc<Guard>) {
+    loop {
+        let Ok((stream, _)) = listener.accept().await else {
+            tokio::time::sleep(CROWDED).await;
+            continue;
         };
-        let (host, origin) = (header("Host"), header("Origin"));
-        let (site, kind) = (header("Sec-Fetch-Site"), header("Content-Type"));
-        let asker = Asker {
-            path: &url,
-            host: host.as_deref(),
-            origin: origin.as_deref(),
-            site: site.as_deref(),
-        };
-        let Some(below) = self.guard.admitted(&asker) else {
-            return send(request, Answer::text(403, "this page is not yours\n"));
-        };
-        let (path, query) = below.split_once('?').unwrap_or((below, ""));
-        let answer = match request.method() {
-            Method::Get if path == "state" => {
-                let after = query.strip_prefix("after=").and_then(|n| n.parse().ok());
-                return self.news(after.unwrap_or(0), request);
-            }
-            Method::Get => routes::got(&self.desk, path),
-            Method::Post if kind.as_deref() != Some("application/json") => {
-                Answer::text(415, "send application/json\n")
-            }
-            Method::Post => match body(&mut request) {
-                Ok(body) => routes::posted(&self.desk, path, &body),
-                Err(answer) => answer,
-            },
-            _ => Answer::text(405, "GET and POST only\n"),
-        };
-        send(request, answer);
-    }
-
-    /// Answers with the state where that is newer, or else keeps the request.
-    fn news(&self, after: u64, request: Request) {
-        let (version, shown) = self.desk.shown();
-        if version != after {
-            return send(request, routes::state(version, &shown));
-        }
-        let mut waiting = self.waiting.lock().unwrap_or_else(|e| e.into_inner());
-        waiting.push((after, Instant::now(), request));
-        let late = (waiting.len() > WAITING).then(|| waiting.remove(0).2);
-        drop(waiting);
-        if let Some(late) = late {
-            send(late, Answer::text(204, ""));
-        }
-    }
-
-    /// Tells those that wait what is new.
-    fn tells(&self) {
-        let mut seen = 0;
-        while !self.ends() {
-            // Some may have begun to wait since, which the next look finds.
-            self.desk.wait(seen, Duration::from_millis(250));
-            let (version, shown) = self.desk.shown();
-            seen = version;
-            let due = |(after, since, _): &mut (u64, Instant, Request)| {
-                *after != version || since.elapsed() > PATIENCE
-            };
-            let mut waiting = self.waiting.lock().unwrap_or_else(|e| e.into_inner());
-            let told: Vec<_> = waiting.extract_if(.., due).collect();
-            drop(waiting);
-            for (after, _, request) in told {
-                let answer = match after == version {
-                    true => Answer::text(204, ""),
-                    false => routes::state(version, &shown),
-                };
-                send(request, answer);
-            }
-        }
+        let (desk, guard) = (desk.clone(), guard.clone());
+        let service = service_fn(move |request| {
+            let (desk, guard) = (desk.clone(), guard.clone());
+            async move { Ok::<_, Infallible>(response(answer(&desk, &guard, request).await)) }
+        });
+        let mut builder = http1::Builder::new();
+        builder.timer(TokioTimer::new()).header_read_timeout(IDLE);
+        let connection = builder.serve_connection(TokioIo::new(stream), service);
+        // One that breaks off has nobody to be told.
+        tokio::spawn(async move { drop(connection.await) });
     }
 }
 
-/// What a request brings.
-fn body(request: &mut Request) -> Result<Vec<u8>, Answer> {
-    let too_long = || Answer::text(413, "this is too long for a scene\n");
-    if request.body_length().is_some_and(|n| n as u64 > MOST) {
-        return Err(too_long());
-    }
-    let mut bytes = Vec::new();
-    let read = request.as_reader().take(MOST + 1).read_to_end(&mut bytes);
-    match read {
-        Ok(_) if bytes.len() as u64 > MOST => Err(too_long()),
-        Ok(_) => Ok(bytes),
-        Err(_) => Err(Answer::text(400, "the request was cut off\n")),
+/// A header's value, where it is text.
+fn value(headers: &HeaderMap, name: impl header::AsHeaderName) -> Option<&str> {
+    headers.get(name)?.to_str().ok()
+}
+
+async fn answer(desk: &Desk, guard: &Guard, request: Request<Incoming>) -> Answer {
+    let (head, body) = request.into_parts();
+    let target = head.uri.path_and_query().map_or("", |path| path.as_str());
+    let asker = Asker {
+        path: target,
+        host: value(&head.headers, header::HOST),
+        origin: value(&head.headers, header::ORIGIN),
+        site: value(&head.headers, "sec-fetch-site"),
+    };
+    let Some(below) = guard.admitted(&asker) else {
+        return Answer::text(403, "this page is not yours\n");
+    };
+    let (path, query) = below.split_once('?').unwrap_or((below, ""));
+    match head.method {
+        Method::GET if path == "state" => {
+            let after = query.strip_prefix("after=").and_then(|n| n.parse().ok());
+            news(desk, after.unwrap_or(0)).await
+        }
+        Method::GET => routes::got(desk, path),
+        Method::POST if value(&head.headers, header::CONTENT_TYPE) != Some("application/json") => {
+            Answer::text(415, "send application/json\n")
+        }
+        Method::POST => match Limited::new(body, MOST).collect().await {
+            Ok(body) => routes::posted(desk, path, &body.to_bytes()),
+            Err(_) => Answer::text(413, "this is cut off, or too long for a scene\n"),
+        },
+        _ => Answer::text(405, "GET and POST only\n"),
     }
 }
 
-/// Answers; a page that has gone away hears nothing.
-fn send(request: Request, answer: Answer) {
-    let mut response = Response::from_data(answer.bytes).with_status_code(answer.status);
-    let kind = ("Content-Type", answer.kind);
-    for (name, value) in HEADERS.iter().copied().chain([kind]) {
-        if let Ok(header) = Header::from_bytes(name, value) {
-            response.add_header(header);
+/// The state, once it is another than that of a number; nothing where that takes long.
+async fn news(desk: &Desk, after: u64) -> Answer {
+    let mut told = desk.news();
+    let other = told.wait_for(|version| *version != after);
+    match tokio::time::timeout(PATIENCE, other).await {
+        Ok(Ok(_)) => {
+            let (version, shown) = desk.shown();
+            routes::state(version, &shown)
         }
+        _ => Answer::text(204, ""),
     }
-    let _ = request.respond(response);
+}
+
+fn response(answer: Answer) -> Response<Full<Bytes>> {
+    let mut response = Response::new(Full::new(Bytes::from(answer.bytes.into_owned())));
+    *response.status_mut() =
+        StatusCode::from_u16(answer.status).unwrap_or(StatusCode::INTERNAL_SERVER_ERROR);
+    let headers = response.headers_mut();
+    headers.insert(header::CONTENT_TYPE, HeaderValue::from_static(answer.kind));
+    for (name, value) in HEADERS {
+        headers.insert(
+            HeaderName::from_static(name),
+            HeaderValue::from_static(value),
+        );
+    }
+    response
 }

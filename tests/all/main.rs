@@ -39,6 +39,8 @@ mod jack_fixed;
 mod jack_formats;
 mod library;
 mod listing;
+mod live;
+mod live_client;
 mod mos6502;
 mod mos6502_fixed;
 mod mos6502_logs;
