@@ -222,8 +222,14 @@ impl Desk {
 
     fn seen(&self, mut inner: MutexGuard<'_, Inner>) {
         inner.version += 1;
-        self.news.send_replace(inner.version);
+        let version = inner.version;
         drop(inner);
+        // Of two that come here at once, the later number stands.
+        self.news.send_if_modified(|news| {
+            let later = version > *news;
+            *news = version.max(*news);
+            later
+        });
         self.changed.notify_all();
     }
 

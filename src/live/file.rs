@@ -6,6 +6,7 @@ use crate::{files, interrupt, scene};
 use notify_debouncer_mini::notify::{RecommendedWatcher, RecursiveMode};
 use notify_debouncer_mini::{DebounceEventResult, Debouncer, new_debouncer};
 use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex, MutexGuard};
 use std::time::Duration;
 
@@ -20,6 +21,8 @@ pub struct SceneFile {
     path: PathBuf,
     /// What is known to be in it.
     known: Mutex<Known>,
+    /// Whether the text that was read last uses other files.
+    uses: AtomicBool,
 }
 
 struct Known {
@@ -64,6 +67,7 @@ impl SceneFile {
             named: named.to_path_buf(),
             path: std::fs::canonicalize(named).map_err(wrong)?,
             known: Mutex::new(Known::of(text)),
+            uses: AtomicBool::new(false),
         })
     }
 
@@ -137,11 +141,17 @@ impl SceneFile {
         Ok(Some((known.text.clone(), before.text)))
     }
 
+    /// A text is about to be read that may use other files.
+    pub fn begin(&self) {
+        self.uses.store(false, Ordering::SeqCst);
+    }
+
     /// A file that a scene uses: only one in the scene's directory.
     ///
     /// # Errors
     /// Why it is not read.
     pub fn used(&self, from: &str, path: &str) -> Result<(String, String), String> {
+        self.uses.store(true, Ordering::SeqCst);
         let beside = Path::new(from).parent().unwrap_or(Path::new(""));
         let full = std::fs::canonicalize(beside.join(path));
         match full {
@@ -164,7 +174,8 @@ pub fn watch(desk: &Arc<Desk>) -> Option<Debouncer<RecommendedWatcher>> {
             reload(&told, false);
         }
         let is_scene = |path: &Path| path.extension().is_some_and(|e| e == "scn");
-        if events.iter().any(|e| e.path != *own && is_scene(&e.path)) {
+        let uses = told.file().uses.load(Ordering::SeqCst);
+        if uses && events.iter().any(|e| e.path != *own && is_scene(&e.path)) {
             told.wish(Change::default());
         }
     });

@@ -175,12 +175,16 @@ async fn answer(desk: &Desk, guard: &Guard, request: Request<Incoming>) -> Answe
 async fn news(desk: &Desk, after: u64) -> Answer {
     let mut told = desk.news();
     let other = told.wait_for(|version| *version != after);
-    match tokio::time::timeout(PATIENCE, other).await {
-        Ok(Ok(_)) => {
+    // What is found locks the number, which must not be held when the desk is asked.
+    let found = tokio::time::timeout(PATIENCE, other).await;
+    let is_new = matches!(&found, Ok(Ok(_)));
+    drop(found);
+    match is_new {
+        true => {
             let (version, shown) = desk.shown();
             routes::state(version, &shown)
         }
-        _ => Answer::text(204, ""),
+        false => Answer::text(204, ""),
     }
 }
 

@@ -4,7 +4,7 @@
 use super::desk::{Desk, Wish};
 use super::said;
 use super::shown::{Native as State, Stage};
-use crate::draw::{self, Window};
+use crate::draw::{Drawn, Window};
 use crate::failure::{Failure, Outcome, Said};
 use crate::interrupt::{self, Job};
 use crate::picture::{FileFormat, png};
@@ -14,6 +14,7 @@ use slowlight_compiler::eval::native::{Native, Pixel};
 use slowlight_compiler::ir::graph::Graph;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 
 /// How long a whole picture may take for no coarse one to come before it.
@@ -27,6 +28,17 @@ const STEPS: [u32; 3] = [16, 8, 4];
 
 /// Operations for the coarsest picture at most, over all its rows: a quarter of a second.
 const MOST: u64 = 50_000_000;
+
+/// Rows that are drawn by one evaluation, and pixels between looks at whether to go on.
+const ROWS: usize = 4;
+const BLOCK: usize = 64;
+
+/// Operations for a row of the whole picture at most: some tenths of a second.
+const ROW: u64 = 50_000_000;
+
+/// What is said of a picture that takes more.
+const DEAR: &str =
+    "this picture takes more work than the page gives it; `slowlight render` has no limit";
 
 /// Parts that the rows of a coarse picture are shared out in.
 const PARTS: usize = 8;
@@ -96,6 +108,7 @@ fn scene(desk: &Desk, wish: &Wish, changes: &Changes, read: &mut Read) -> Outcom
     }
     *read = None;
     let file = desk.file();
+    file.begin();
     let mut used = |from: &str, path: &str| file.used(from, path);
     let named = (&*file.name(), &*wish.text);
     let scene = Scene::of_text(named, file.named(), changes, &mut used)?;
@@ -153,7 +166,7 @@ fn drawn(desk: &Desk, wish: &Wish, job: &Job, changes: &Changes, read: &mut Read
         });
     } else if job.is_stopped() {
         // A quick picture is drawn in any case.
-        let whole = job_of(None, || draw::native(&graph, window))?;
+        let whole = whole(&graph, window, None)?;
         let png = whole.picture().encode(FileFormat::Png)?;
         desk.show(|shown, pictures| {
             pictures.native = Arc::new(png);
@@ -161,7 +174,7 @@ fn drawn(desk: &Desk, wish: &Wish, job: &Job, changes: &Changes, read: &mut Read
         });
         return Err(Failure::Interrupted);
     }
-    let whole = job_of(Some(job), || draw::native(&graph, window))?;
+    let whole = whole(&graph, window, Some(job))?;
     let png = whole.picture().encode(FileFormat::Png)?;
     desk.show(|shown, pictures| {
         pictures.native = Arc::new(png);
@@ -175,8 +188,47 @@ fn drawn(desk: &Desk, wish: &Wish, job: &Job, changes: &Changes, read: &mut Read
     Ok(())
 }
 
-fn job_of<T>(job: Option<&Job>, work: impl FnOnce() -> T) -> T {
-    interrupt::on_behalf(job, work)
+/// The whole picture, as `render` draws it, if it takes no more work than a page gives it:
+/// what is in the middle of a pixel is not stopped.
+fn whole(graph: &Graph, window: Window, job: Option<&Job>) -> Outcome<Drawn> {
+    let rows: Vec<u32> = (window.rows.0..=window.rows.1).collect();
+    let share = match graph.is_in_order() {
+        true => rows.len(),
+        false => ROWS,
+    };
+    let most = ROW * share as u64;
+    let over = AtomicBool::new(false);
+    let stopped = || interrupt::ends() || job.is_some_and(Job::is_stopped);
+    let parts: Outcome<Vec<Vec<Pixel>>> = rows
+        .par_chunks(share.max(1))
+        .map(|rows| {
+            let mut native = Native::within(graph, most);
+            let mut out = Vec::with_capacity(rows.len() * window.width() as usize);
+            let end = window.columns.1 as i32 + 1;
+            for y in rows {
+                for x in (window.columns.0 as i32..end).step_by(BLOCK) {
+                    if stopped() {
+                        return Err(Failure::Interrupted);
+                    }
+                    if native.spent() || over.load(Ordering::Relaxed) {
+                        over.store(true, Ordering::Relaxed);
+                        return Err(Failure::Wrong(DEAR.to_owned()));
+                    }
+                    native.pixels(x..end.min(x + BLOCK as i32), *y as i32, &mut out);
+                }
+            }
+            match native.spent() {
+                true => Err(Failure::Wrong(DEAR.to_owned())),
+                false => Ok(out),
+            }
+        })
+        .collect();
+    Ok(Drawn {
+        window,
+        palette: graph.image.palette.clone(),
+        pixels: parts?.concat(),
+        traced: None,
+    })
 }
 
 /// A coarse picture as a PNG, as fine as there is time for; none where the whole picture is

@@ -14,6 +14,10 @@ draw (x, y) = {
 };
 ";
 
+/// A picture that takes minutes, its pixels some microseconds each.
+const SLOW: &str = "image 4096 x 4096 inks black, white;
+draw (x, y) = ink(loop (n = x + y) max 2000 { if n < 0 then n else next(n + 1) } else 1);";
+
 /// What `render` and `run` write.
 fn picture(dir: &Path, args: &[&str]) -> Vec<u8> {
     success(dir, &[args, &["-o", "there.png"]].concat());
@@ -25,6 +29,10 @@ fn only_its_own_page_is_answered() {
     let dir = directory(&[("ball.scn", BALL), ("secret.txt", "a secret")]);
     let live = Live::begin(dir.path(), &["ball.scn"]);
     assert_eq!(live.get("").0, 200);
+    assert!(
+        live.address
+            .ends_with(&format!(":{}/{}/", live.port, live.token))
+    );
     let path = format!("/{}/scene", live.token);
     let host = format!("Host: 127.0.0.1:{}\r\n", live.port);
     assert_eq!(live.ask("GET", &path, &host, "").0, 200);
@@ -246,15 +254,18 @@ fn cycles_by_line_and_builds_are_those_of_the_commands() {
 #[cfg(unix)]
 #[test]
 fn it_is_stopped_by_the_page_and_ended_by_ctrl_c() {
-    let dir = directory(&[("long.scn", crate::cli::LONG)]);
-    let live = Live::begin(dir.path(), &["long.scn", "-t", "6502"]);
-    let shown = live.state(0).1;
-    assert_ne!(shown["native"]["stage"], "done");
+    let dir = directory(&[("slow.scn", SLOW)]);
+    let live = Live::begin(dir.path(), &["slow.scn", "-t", "6502"]);
+    live.until("a coarse picture", |s| s["native"]["stage"] == "coarse");
     live.post("stop", &json!({}));
     live.until("stopped", |s| s["native"]["stage"] == "stopped");
     live.edit(json!({"text": BALL}));
     live.until("another picture", |s| s["native"]["stage"] == "done");
+    // A picture of hours, each pixel of it, does not stand in the way of the next.
     live.edit(json!({"text": crate::cli::LONG}));
+    live.until("that it is dear", |s| s["native"]["wrong"].is_string());
+    live.drawn(live.edit(json!({"text": BALL})));
+    live.edit(json!({"text": SLOW}));
     assert_eq!(live.interrupted().code(), Some(0));
 }
 

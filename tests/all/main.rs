@@ -67,6 +67,8 @@ mod peers_dialect;
 mod peers_drawings;
 #[cfg(feature = "peers")]
 mod peers_jsbeeb;
+#[cfg(feature = "peers")]
+mod peers_live;
 mod planning;
 mod precise;
 mod predicted;

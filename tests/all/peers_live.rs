@@ -10,9 +10,15 @@ use std::process::Command;
 /// A picture that takes the machine some seconds.
 const SCENE: &str = "image 320 x 240 inks black, red, yellow, white;
 param light: vec3 = (0.5, 0.7, 0.5) in (-1, -1, 0) .. (1, 1, 1);
-draw (x, y) = {
-  let r = ray((0, 0, 4), unit(((x - 159.5) / 160, (119.5 - y) / 160, -1)));
-  let v = if let h = torus((0, 0, 0), 1.5, 0.5).hit(r) then 0.1 + 0.8 * max(dot(h.normal, light), 0) else y / 400;
+
+fn shade(r: ray, sky: real) -> real =
+  if let h = torus((0, 0, 0), 1.5, 0.5).hit(r) then 0.1 + 0.8 * max(dot(h.normal, light), 0) else sky;
+
+draw (x, y) = {                    // eight rays a pixel
+  let v = loop (k = 0, sum = 0.0) max 9 {
+    if k >= 8 then sum / 8
+    else next(k + 1, sum + shade(ray((0, 0, 4), unit(((x - 159.5 + k / 8) / 160, (119.5 - y) / 160, -1))), y / 400))
+  } else 0.5;
   threshold(v, bayer(4)[x mod 4, y mod 4])
 };
 ";
@@ -38,13 +44,22 @@ fn a_scene_is_written_on_a_page() {
     let rows = found["rows"].as_array().expect("rows");
     assert!(rows.len() >= 3, "{rows:?}");
     let rows: Vec<u64> = rows.iter().filter_map(Value::as_u64).collect();
-    assert!(rows.is_sorted() && rows[0] < rows[rows.len() - 1], "{rows:?}");
+    assert!(
+        rows.is_sorted() && rows[0] < rows[rows.len() - 1],
+        "{rows:?}"
+    );
     assert_eq!(found["typed"]["changed"], true);
     let problem = &found["problem"];
-    assert!(problem["said"].to_string().contains("line 5: "), "{problem}");
+    assert!(
+        problem["said"].to_string().contains("line 5: "),
+        "{problem}"
+    );
     let kept = found["dragged"]["line"].to_string();
     let value = found["dragged"]["value"].as_str().expect("a value");
-    assert!(kept.contains(&format!("= ({value}, 0.7, 0.5) in")), "{kept} {value}");
+    assert!(
+        kept.contains(&format!("= ({value}, 0.7, 0.5) in")),
+        "{kept} {value}"
+    );
     assert_ne!(value, "0.5");
     let cost = &found["cost"];
     assert_eq!(cost["title"], "Line 5");

@@ -79,5 +79,5 @@ function words() {
     ? [line.error.share < 0 ? "Its errors cancel others." : percent(line.error.share) + " of the picture’s mean square error goes without its own."]
     : [];
   const part = (kind) => (p) => percent(p.share) + " " + kind + p.name + ", " + count(p.times) + " times";
-  return [first, ...error, ...line.parts.slice(0, 8).map(part("")), ...line.library.slice(0, 8).map(part("in the library’s "))];
+  return [first, ...error, ...line.parts.slice(0, 5).map(part("")), ...line.library.slice(0, 5).map(part("in the library’s "))];
 }

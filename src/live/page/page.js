@@ -51,9 +51,9 @@ function showChoices() {
   target.title = machine.about;
   if (place("format").dataset.of !== machine.name) {
     place("format").dataset.of = machine.name;
-    place("format").replaceChildren(option("", "the quickest good one"), ...machine.formats.map((f) => option(f, f)));
+    place("format").replaceChildren(option("", "automatic"), ...machine.formats.map((f) => option(f, f)));
     const mode = (m) => option(m.name, m.name + " (" + m.width + " × " + m.height + ", " + m.inks + " inks)");
-    place("mode").replaceChildren(option("", "the best one"), ...machine.modes.map(mode));
+    place("mode").replaceChildren(option("", "automatic"), ...machine.modes.map(mode));
     place("modes").hidden = machine.modes.length === 0;
   }
   if (isSending()) return;
