@@ -178,17 +178,12 @@ pub fn watch(desk: &Arc<Desk>) -> Option<Debouncer<RecommendedWatcher>> {
         if uses && events.iter().any(|e| e.path != *own && is_scene(&e.path)) {
             told.wish(Change::default());
         }
-    });
-    let watching = watching
-        .as_mut()
-        .ok()
-        .and_then(|watching| {
-            let watched = desk.file().directory();
-            let mode = RecursiveMode::NonRecursive;
-            watching.watcher().watch(watched, mode).ok()
-        })
-        .and(watching.ok());
-    watching
+    })
+    .ok()?;
+    let watched = desk.file().directory();
+    let mode = RecursiveMode::NonRecursive;
+    watching.watcher().watch(watched, mode).ok()?;
+    Some(watching)
 }
 
 /// Reads the file again; with `force` its text replaces one that was not saved.
