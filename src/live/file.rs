@@ -1,17 +1,10 @@
-//! The scene's file: read, watched, and written whole or not at all.
+//! The scene's file: read, and written whole or not at all.
 
-use super::desk::{Change, Desk};
 use crate::failure::{Failure, Outcome};
 use crate::{files, interrupt, scene};
-use notify_debouncer_mini::notify::{RecommendedWatcher, RecursiveMode};
-use notify_debouncer_mini::{DebounceEventResult, Debouncer, new_debouncer};
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, Ordering};
-use std::sync::{Arc, Mutex, MutexGuard};
-use std::time::Duration;
-
-/// How long writes to the file must rest before it is read: editors write in several steps.
-const REST: Duration = Duration::from_millis(60);
+use std::sync::{Mutex, MutexGuard};
 
 /// A scene's file.
 pub struct SceneFile {
@@ -141,6 +134,16 @@ impl SceneFile {
         Ok(Some((known.text.clone(), before.text)))
     }
 
+    /// Whether a path is its own.
+    pub fn is(&self, path: &Path) -> bool {
+        path == self.path
+    }
+
+    /// Whether the text that was read last uses other files.
+    pub fn uses(&self) -> bool {
+        self.uses.load(Ordering::SeqCst)
+    }
+
     /// A text is about to be read that may use other files.
     pub fn begin(&self) {
         self.uses.store(false, Ordering::SeqCst);
@@ -159,45 +162,6 @@ impl SceneFile {
                 "`{path}` is outside of the scene's directory, and this page reads nothing there"
             )),
             _ => scene::used(from, path),
-        }
-    }
-}
-
-/// Watches the file, and others beside it that the scene may use; none where the system
-/// cannot. It ends when it is dropped.
-pub fn watch(desk: &Arc<Desk>) -> Option<Debouncer<RecommendedWatcher>> {
-    let told = desk.clone();
-    let mut watching = new_debouncer(REST, move |events: DebounceEventResult| {
-        let events = events.unwrap_or_default();
-        let own = &told.file().path;
-        if events.iter().any(|event| event.path == *own) {
-            reload(&told, false);
-        }
-        let is_scene = |path: &Path| path.extension().is_some_and(|e| e == "scn");
-        let uses = told.file().uses.load(Ordering::SeqCst);
-        if uses && events.iter().any(|e| e.path != *own && is_scene(&e.path)) {
-            told.wish(Change::default());
-        }
-    })
-    .ok()?;
-    let watched = desk.file().directory();
-    let mode = RecursiveMode::NonRecursive;
-    watching.watcher().watch(watched, mode).ok()?;
-    Some(watching)
-}
-
-/// Reads the file again; with `force` its text replaces one that was not saved.
-pub fn reload(desk: &Desk, force: bool) {
-    match desk.file().again() {
-        Ok(Some((text, was))) => desk.file_changed(&text, &was, force),
-        Ok(None) if force => {
-            let text = desk.file().text();
-            desk.file_changed(&text, &text, true);
-        }
-        Ok(None) => {}
-        Err(failure) => {
-            let why = failure.reason();
-            desk.show(|shown, _| shown.file.wrong = Some(why));
         }
     }
 }

@@ -16,6 +16,7 @@ mod page;
 mod routes;
 mod said;
 mod shown;
+mod watching;
 
 use crate::draw::STACK;
 use crate::failure::{Failure, Outcome};
@@ -65,7 +66,7 @@ pub fn serve(start: &Start<'_>) -> Outcome<()> {
     let guard = Guard::new(server.port)?;
     let address = guard.address();
     let desk = Arc::new(Desk::new(file, start.target));
-    let watching = file::watch(&desk);
+    let watching = watching::watch(&desk);
     if watching.is_none() {
         crate::output::remark("note: the file cannot be watched; the page has a button to load it");
     }

@@ -155,7 +155,8 @@ fn drawn(desk: &Desk, wish: &Wish, job: &Job, changes: &Changes, read: &mut Read
         ..State::default()
     };
     let mut first = None;
-    if let Some(coarse) = coarse(&graph, window) {
+    let soon = soon(&graph, window);
+    if let Soon::Coarse(coarse) = soon {
         first = Some(since());
         desk.show(|shown, pictures| {
             pictures.native = Arc::new(coarse);
@@ -164,7 +165,7 @@ fn drawn(desk: &Desk, wish: &Wish, job: &Job, changes: &Changes, read: &mut Read
                 ..state(Stage::Coarse, shown.native.picture + 1)
             };
         });
-    } else if job.is_stopped() {
+    } else if matches!(soon, Soon::Whole) && job.is_stopped() {
         // A quick picture is drawn in any case.
         let whole = whole(&graph, window, None)?;
         let png = whole.picture().encode(FileFormat::Png)?;
@@ -231,11 +232,23 @@ fn whole(graph: &Graph, window: Window, job: Option<&Job>) -> Outcome<Drawn> {
     })
 }
 
-/// A coarse picture as a PNG, as fine as there is time for; none where the whole picture is
-/// there as soon, or its pixels cannot be had one by one.
-fn coarse(graph: &Graph, window: Window) -> Option<Vec<u8>> {
-    if graph.is_in_order() || window.count() < 64 * 64 {
-        return None;
+/// What there is soon of a picture.
+enum Soon {
+    /// All of it.
+    Whole,
+    /// A coarse one, as a PNG.
+    Coarse(Vec<u8>),
+    /// Nothing: it is dear, or its pixels cannot be had one by one.
+    Nothing,
+}
+
+/// A coarse picture, as fine as there is time for, unless the whole one is there as soon.
+fn soon(graph: &Graph, window: Window) -> Soon {
+    if graph.is_in_order() {
+        return Soon::Nothing;
+    }
+    if window.count() < 64 * 64 {
+        return Soon::Whole;
     }
     let mut best = None;
     for step in STEPS {
@@ -247,20 +260,23 @@ fn coarse(graph: &Graph, window: Window) -> Option<Vec<u8>> {
         let taken = begun.elapsed();
         // Starting takes its time, too, so that this is more than the whole picture takes.
         if taken * step.pow(2) < QUICK {
-            return None;
+            return Soon::Whole;
         }
         best = Some((step, shades));
         if taken * 4 > COARSE {
             break;
         }
     }
-    let (step, shades) = best?;
+    let Some((step, shades)) = best else {
+        return Soon::Nothing;
+    };
     let columns = window.width().div_ceil(step);
     let palette = &graph.image.palette;
     let rgb: Vec<u8> = (shades.iter())
         .flat_map(|pixel| between(palette, pixel.shade))
         .collect();
-    png(columns, window.height().div_ceil(step), None, &rgb).ok()
+    let made = png(columns, window.height().div_ceil(step), None, &rgb);
+    made.map_or(Soon::Nothing, Soon::Coarse)
 }
 
 /// A pixel for each square of so many, row by row; none where they take more operations.

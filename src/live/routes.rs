@@ -1,9 +1,10 @@
 //! What can be asked: a table of names, none of which is a path of a file.
 
 use super::desk::{Change, Desk, Task};
-use super::file::{self, Saved};
+use super::file::Saved;
 use super::page;
 use super::shown::Shown;
+use super::watching;
 use crate::files;
 use serde::Deserialize;
 use serde_json::{Value, json};
@@ -150,7 +151,7 @@ pub fn posted(desk: &Desk, path: &str, body: &[u8]) -> Answer {
             Ok(save) => saved(desk, save),
             Err(e) => Answer::wrong(&e.to_string()),
         },
-        "reload" => done(|| file::reload(desk, true)),
+        "reload" => done(|| watching::reload(desk, true)),
         "stop" => done(|| desk.stop()),
         "run" => done(|| {
             desk.wish(Change::default());

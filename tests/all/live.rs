@@ -256,7 +256,7 @@ fn cycles_by_line_and_builds_are_those_of_the_commands() {
 fn it_is_stopped_by_the_page_and_ended_by_ctrl_c() {
     let dir = directory(&[("slow.scn", SLOW)]);
     let live = Live::begin(dir.path(), &["slow.scn", "-t", "6502"]);
-    live.until("a coarse picture", |s| s["native"]["stage"] == "coarse");
+    live.until("it is read", |s| s["problems"]["serial"] == 1);
     live.post("stop", &json!({}));
     live.until("stopped", |s| s["native"]["stage"] == "stopped");
     live.edit(json!({"text": BALL}));
