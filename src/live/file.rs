@@ -2,9 +2,10 @@
 
 use crate::failure::{Failure, Outcome};
 use crate::{files, interrupt, scene};
+use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
-use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Mutex, MutexGuard};
+use std::time::SystemTime;
 
 /// A scene's file.
 pub struct SceneFile {
@@ -14,8 +15,8 @@ pub struct SceneFile {
     path: PathBuf,
     /// What is known to be in it.
     known: Mutex<Known>,
-    /// Whether the text that was read last uses other files.
-    uses: AtomicBool,
+    /// The files that the text which was read last uses, and when they were written.
+    used: Mutex<BTreeMap<PathBuf, Option<SystemTime>>>,
 }
 
 struct Known {
@@ -60,7 +61,7 @@ impl SceneFile {
             named: named.to_path_buf(),
             path: std::fs::canonicalize(named).map_err(wrong)?,
             known: Mutex::new(Known::of(text)),
-            uses: AtomicBool::new(false),
+            used: Mutex::default(),
         })
     }
 
@@ -139,14 +140,21 @@ impl SceneFile {
         path == self.path
     }
 
-    /// Whether the text that was read last uses other files.
-    pub fn uses(&self) -> bool {
-        self.uses.load(Ordering::SeqCst)
+    /// Whether a path is of a file that the text uses, and was written since that was read.
+    pub fn is_stale(&self, path: &Path) -> bool {
+        let used = self.used.lock().unwrap_or_else(|e| e.into_inner());
+        used.get(path).is_some_and(|then| *then != written(path))
+    }
+
+    /// Whether any file that the text uses was written since.
+    pub fn is_any_stale(&self) -> bool {
+        let used = self.used.lock().unwrap_or_else(|e| e.into_inner());
+        used.iter().any(|(path, then)| *then != written(path))
     }
 
     /// A text is about to be read that may use other files.
     pub fn begin(&self) {
-        self.uses.store(false, Ordering::SeqCst);
+        self.used.lock().unwrap_or_else(|e| e.into_inner()).clear();
     }
 
     /// A file that a scene uses: only one in the scene's directory.
@@ -154,9 +162,12 @@ impl SceneFile {
     /// # Errors
     /// Why it is not read.
     pub fn used(&self, from: &str, path: &str) -> Result<(String, String), String> {
-        self.uses.store(true, Ordering::SeqCst);
         let beside = Path::new(from).parent().unwrap_or(Path::new(""));
         let full = std::fs::canonicalize(beside.join(path));
+        if let Ok(full) = &full {
+            let mut used = self.used.lock().unwrap_or_else(|e| e.into_inner());
+            used.insert(full.clone(), written(full));
+        }
         match full {
             Ok(full) if !full.starts_with(self.directory()) => Err(format!(
                 "`{path}` is outside of the scene's directory, and this page reads nothing there"
@@ -164,4 +175,11 @@ impl SceneFile {
             _ => scene::used(from, path),
         }
     }
+}
+
+/// When a file was written, if that can be told.
+fn written(path: &Path) -> Option<SystemTime> {
+    std::fs::metadata(path)
+        .and_then(|meta| meta.modified())
+        .ok()
 }

@@ -44,10 +44,7 @@ const DEAR: &str =
 const PARTS: usize = 8;
 
 /// The scene that was read last, to be drawn again with other values.
-type Read = Option<(Arc<str>, Instant, Scene)>;
-
-/// How long a scene that was read stands for its text: files that it uses may change.
-const FRESH: Duration = Duration::from_millis(400);
+type Read = Option<(Arc<str>, Scene)>;
 
 /// Draws whatever is wanted until the end.
 pub fn work(desk: &Desk, changes: &Changes) {
@@ -99,11 +96,10 @@ fn refused(desk: &Desk, wish: &Wish, failure: Failure) {
 
 /// Reads the wish's scene, unless it is the text of the last one.
 fn scene(desk: &Desk, wish: &Wish, changes: &Changes, read: &mut Read) -> Outcome<Scene> {
-    if let Some((text, at, scene)) = read
+    if let Some((text, scene)) = read
         && **text == *wish.text
-        && at.elapsed() < FRESH
+        && !desk.file().is_any_stale()
     {
-        *at = Instant::now();
         return Ok(scene.clone());
     }
     *read = None;
@@ -112,7 +108,7 @@ fn scene(desk: &Desk, wish: &Wish, changes: &Changes, read: &mut Read) -> Outcom
     let mut used = |from: &str, path: &str| file.used(from, path);
     let named = (&*file.name(), &*wish.text);
     let scene = Scene::of_text(named, file.named(), changes, &mut used)?;
-    *read = Some((wish.text.clone(), Instant::now(), scene.clone()));
+    *read = Some((wish.text.clone(), scene.clone()));
     Ok(scene)
 }
 

@@ -3,7 +3,6 @@
 use super::desk::{Change, Desk};
 use notify_debouncer_mini::notify::{RecommendedWatcher, RecursiveMode};
 use notify_debouncer_mini::{DebounceEventResult, Debouncer, new_debouncer};
-use std::path::Path;
 use std::sync::Arc;
 use std::time::Duration;
 
@@ -20,8 +19,8 @@ pub fn watch(desk: &Arc<Desk>) -> Option<Debouncer<RecommendedWatcher>> {
         if events.iter().any(|event| file.is(&event.path)) {
             reload(&told, false);
         }
-        let other = |path: &Path| !file.is(path) && path.extension().is_some_and(|e| e == "scn");
-        if file.uses() && events.iter().any(|event| other(&event.path)) {
+        // To be read is an event, too.
+        if events.iter().any(|event| file.is_stale(&event.path)) {
             told.wish(Change::default());
         }
     })
