@@ -28,6 +28,7 @@ mod said;
 
 use crate::estimate;
 use crate::failure::{Failure, Outcome};
+use crate::interrupt;
 use crate::need::Need;
 use crate::scene::Scene;
 use crate::target_args::ScreenArgs;
@@ -144,6 +145,7 @@ fn quickest(
     let (mut tries, mut too_large) = (0, 0);
     let is_first = |one: &Candidate| one.target.runtime.format == target.runtime.format;
     loop {
+        interrupt::check()?;
         // Logarithms with a bit more are only looked for where those without are quick and wrong.
         let worth = |first: &Candidate| {
             let (far, none) = (!first.may(goal), tries > 0);

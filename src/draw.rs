@@ -282,6 +282,8 @@ where
     let band = graph.refinement.map_or(1, |r| 4 * r.step as usize);
     let share = share.next_multiple_of(band);
     let rows: Vec<u32> = (window.rows.0..=window.rows.1).collect();
+    let job = interrupt::job();
+    let stopped = || interrupt::ends() || job.as_ref().is_some_and(interrupt::Job::is_stopped);
     let parts: Vec<Option<Vec<Pixel>>> = rows
         .par_chunks(share.max(1))
         .map(|rows| {
@@ -290,7 +292,7 @@ where
             let mut out = Vec::with_capacity(rows.len() * window.width() as usize);
             for &y in rows {
                 for x in (from..to).step_by(BLOCK) {
-                    if interrupt::pressed() {
+                    if stopped() {
                         return None;
                     }
                     pixels(x..to.min(x + BLOCK as i32), y as i32, &mut out);

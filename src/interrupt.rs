@@ -1,8 +1,10 @@
-//! Ctrl-C: a flag that rows, machines and watchers look at.
+//! Ctrl-C: a flag that rows, machines and watchers look at; and jobs, works that can be
+//! stopped by themselves while the process goes on.
 
 use crate::failure::{Failure, Outcome};
-use std::sync::Mutex;
+use std::cell::RefCell;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
+use std::sync::{Arc, Mutex};
 use std::time::{Duration, Instant};
 
 static INTERRUPTED: AtomicBool = AtomicBool::new(false);
@@ -89,8 +91,58 @@ pub fn quietly() {
     }
 }
 
-/// Whether somebody pressed Ctrl-C.
+/// Work that can be stopped while the process goes on; a copy is of the same work.
+#[derive(Clone, Debug, Default)]
+pub struct Job(Arc<AtomicBool>);
+
+thread_local! {
+    /// What this thread works for.
+    static JOB: RefCell<Option<Job>> = const { RefCell::new(None) };
+}
+
+impl Job {
+    /// Stops it: whoever works for it finds Ctrl-C pressed.
+    pub fn stop(&self) {
+        self.0.store(true, Ordering::Relaxed);
+    }
+
+    /// Whether it was stopped.
+    pub fn is_stopped(&self) -> bool {
+        self.0.load(Ordering::Relaxed)
+    }
+
+    /// Does something on this thread for the job; what it hands to other threads is for it
+    /// where these are told so ([`job`], [`on_behalf`]).
+    pub fn doing<T>(&self, work: impl FnOnce() -> T) -> T {
+        on_behalf(Some(self), work)
+    }
+}
+
+/// What this thread works for, if that can be stopped by itself.
+pub fn job() -> Option<Job> {
+    JOB.with_borrow(Clone::clone)
+}
+
+/// Does something on this thread for the job that another thread works for.
+pub fn on_behalf<T>(of: Option<&Job>, work: impl FnOnce() -> T) -> T {
+    struct Before(Option<Job>);
+    impl Drop for Before {
+        fn drop(&mut self) {
+            JOB.set(self.0.take());
+        }
+    }
+    let _before = Before(JOB.replace(of.cloned()));
+    work()
+}
+
+/// Whether somebody pressed Ctrl-C, or stopped what this thread works for.
 pub fn pressed() -> bool {
+    INTERRUPTED.load(Ordering::Relaxed)
+        || JOB.with_borrow(|job| job.as_ref().is_some_and(Job::is_stopped))
+}
+
+/// Whether somebody pressed Ctrl-C.
+pub fn ends() -> bool {
     INTERRUPTED.load(Ordering::Relaxed)
 }
 
@@ -103,5 +155,29 @@ pub fn check() -> Outcome<()> {
         Err(Failure::Interrupted)
     } else {
         Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_job_is_stopped_by_itself() {
+        let (one, other) = (Job::default(), Job::default());
+        one.stop();
+        assert!(!pressed());
+        one.doing(|| {
+            assert!(pressed());
+            other.doing(|| assert!(!pressed()));
+            assert!(pressed());
+            let known = job();
+            let found = std::thread::scope(|scope| {
+                let thread = scope.spawn(|| (pressed(), on_behalf(known.as_ref(), pressed)));
+                thread.join().expect("no panic")
+            });
+            assert_eq!(found, (false, true));
+        });
+        assert!(!pressed() && !ends());
     }
 }

@@ -21,12 +21,15 @@ pub fn each<T: Sync, R: Send>(
 ) -> Outcome<Vec<Outcome<R>>> {
     let next = AtomicUsize::new(0);
     let done: Vec<Mutex<Option<Outcome<R>>>> = items.iter().map(|_| Mutex::new(None)).collect();
+    let job = interrupt::job();
+    let work = |item: &T| interrupt::on_behalf(job.as_ref(), || work(item));
+    let stopped = || interrupt::on_behalf(job.as_ref(), interrupt::pressed);
     let serve = || {
         while let Some((item, place)) = {
             let k = next.fetch_add(1, Ordering::Relaxed);
             items.get(k).zip(done.get(k))
         } {
-            if interrupt::pressed() {
+            if stopped() {
                 return;
             }
             let answer = work(item);

@@ -29,6 +29,7 @@ pub mod jobs;
 pub mod keys;
 pub mod library;
 pub mod listing;
+pub mod live;
 pub mod lsp;
 pub mod machine;
 pub mod measure;

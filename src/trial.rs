@@ -16,6 +16,7 @@ use slowlight_compiler::ir::tree::Place;
 use slowlight_compiler::plan::Plan;
 use slowlight_compiler::planner::PlannedScene;
 use slowlight_routine::Format;
+use slowlight_vm::Screen;
 use std::collections::BTreeSet;
 
 /// Cycles after which a run is given up, unless the user says otherwise.
@@ -107,19 +108,35 @@ pub fn run(
 ///
 /// # Errors
 /// Where it does not end by itself.
-pub fn ran(scene: &Scene, plan: &Plan, mut loaded: Loaded, limit: u64) -> Outcome<MachineRun> {
+pub fn ran(scene: &Scene, plan: &Plan, loaded: Loaded, limit: u64) -> Outcome<MachineRun> {
     let window = Window::on_screen(plan);
     let progress = Progress::new(
         format!("{} {}", scene.name, plan.target.name),
         u64::from(window.height()),
     );
-    let top = i64::from(window.rows.0) + i64::from(plan.offset.1);
-    let mut run = loaded.run(limit, &mut |now| {
-        if let Some(row) = now.row {
-            progress.reach(u64::try_from(i64::from(row) - top).unwrap_or(0));
-        }
-    })?;
-    drop(progress);
+    ran_watched(plan, loaded, limit, &mut |now| {
+        progress.reach(rows_drawn(plan, &now).unwrap_or(0));
+    })
+}
+
+/// How many of a plan's rows a running program has come past, if it has drawn.
+pub fn rows_drawn(plan: &Plan, now: &slowlight_vm::Progress<'_>) -> Option<u64> {
+    let top = i64::from(Window::on_screen(plan).rows.0) + i64::from(plan.offset.1);
+    let row = i64::from(now.row?) - top;
+    Some(u64::try_from(row).unwrap_or(0))
+}
+
+/// The same with somebody who watches it run.
+///
+/// # Errors
+/// As for [`ran`].
+pub fn ran_watched(
+    plan: &Plan,
+    mut loaded: Loaded,
+    limit: u64,
+    watch: &mut dyn FnMut(slowlight_vm::Progress<'_>),
+) -> Outcome<MachineRun> {
+    let mut run = loaded.run(limit, watch)?;
     if let Some(wrong) = complaint(&run, limit) {
         let name = plan.target.name;
         return Err(Failure::Wrong(format!("{name}: {wrong}")));
@@ -150,7 +167,8 @@ pub fn held_with(
     modelled: Drawn,
 ) -> Outcome<Trial> {
     let window = native.window;
-    let picture = plan.plot.then(|| shown(&plan, &run)).transpose()?;
+    let picture = plan.plot.then(|| shown(&plan, run.screen.as_ref()));
+    let picture = picture.transpose()?;
     let differences = |other: &Drawn| {
         let inks = picture.as_ref().map(|p| &p.inks)?;
         Some(measure::differences(window.places(), inks, &other.pixels))
@@ -203,9 +221,12 @@ fn table_bytes(plan: &Plan) -> u64 {
 }
 
 /// The part of the screen that the plan draws, in the picture's inks.
-fn shown(plan: &Plan, run: &MachineRun) -> Outcome<Picture> {
+///
+/// # Errors
+/// Where there is no screen, or it does not hold the picture.
+pub fn shown(plan: &Plan, screen: Option<&Screen>) -> Outcome<Picture> {
     let name = plan.target.name;
-    let Some(screen) = &run.screen else {
+    let Some(screen) = screen else {
         return Err(Failure::Wrong(format!("{name}: the program drew nothing")));
     };
     let window = Window::on_screen(plan);

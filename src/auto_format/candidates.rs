@@ -120,7 +120,11 @@ pub(super) fn candidates(
     left: &mut Vec<Candidate>,
 ) -> Vec<Candidate> {
     let (_waiting, _blind) = (Waiting::new("formats"), interrupt::blind());
+    let job = interrupt::job();
     let sampled = |&target: &&'static Target| {
+        if job.as_ref().is_some_and(interrupt::Job::is_stopped) {
+            return None;
+        }
         let mut plan = screen.unsearched(scene, target).ok()?;
         plan.lean = plan.target.lean == Lean::Calls;
         let modes = screen.modes(target, scene).ok()?;

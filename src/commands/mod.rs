@@ -8,6 +8,7 @@ mod doc;
 mod effects;
 mod explain;
 mod fmt;
+mod live;
 mod lsp;
 mod man;
 mod new;
@@ -41,6 +42,8 @@ pub enum Command {
     Explain(explain::Args),
     /// What each effect of a scene and of the library costs, and what it adds
     Effects(effects::Args),
+    /// Write a scene on a local page, and see its picture grow
+    Live(live::Args),
     /// Show what accuracy costs in time: measured cycles against error, to choose from
     Tune(tune::Args),
     /// Tune several scenes on several machines, and write what was found as a document
@@ -78,6 +81,7 @@ impl Command {
             Command::Compare(args) => compare::run(args),
             Command::Explain(args) => explain::run(args),
             Command::Effects(args) => effects::run(args),
+            Command::Live(args) => live::run(args),
             Command::Tune(args) => tune::run(args),
             Command::Survey(args) => survey::run(args),
             Command::Snapshot(args) => snapshot::run(args),

@@ -298,7 +298,7 @@ pub fn run(args: &Args) -> Outcome<()> {
         return profile(&mut loaded, args.limit);
     }
     let progress = Bar::new("cycles", args.limit);
-    let reach = &mut |now: Progress| progress.reach(now.cycles);
+    let reach = &mut |now: Progress<'_>| progress.reach(now.cycles);
     let (run, keyboard) = loaded.play(keyboard, args.limit, reach)?;
     drop(progress);
     let picture = run.picture();

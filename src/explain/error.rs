@@ -70,11 +70,13 @@ pub fn errors_with(
     let graph = pixel_blocks(&written, plan.graph.image.block);
     let mut native = Native::within(&graph, MOST);
     let native: Vec<Pixel> = places.iter().map(|(x, y)| native.pixel(*x, *y)).collect();
+    let job = interrupt::job();
+    let stopped = || interrupt::ends() || job.as_ref().is_some_and(interrupt::Job::is_stopped);
     let look = |nodes: Vec<bool>| -> Option<(f64, usize)> {
         let mut run = RaisedRun::within(shaded, nodes, 2 * each);
         let (mut squares, mut differ) = (0.0, 0);
         for ((x, y), native) in places.iter().zip(&native) {
-            if interrupt::pressed() {
+            if stopped() {
                 return None;
             }
             let pixel = run.pixel(*x, *y);

@@ -43,9 +43,9 @@ impl Loaded {
         &mut self,
         limit: u64,
         roles: LineRoles<'_>,
-        progress: &mut dyn FnMut(Progress),
+        progress: &mut dyn FnMut(Progress<'_>),
     ) -> Outcome<(MachineRun, Lines)> {
-        let mut watch = |now: Progress| {
+        let mut watch = |now: Progress<'_>| {
             progress(now);
             !interrupt::pressed()
         };

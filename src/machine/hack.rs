@@ -291,7 +291,7 @@ fn told(on: &OnVm, machine: &vm::Machine<'_>, mut run: vm::Run) -> MachineRun {
 
 /// The same for machine code; and before that on the VM, where that is to count.
 pub fn run_cpu(on: &mut OnCpu, sizes: Sizes, limit: u64, watch: Watch<'_>) -> MachineRun {
-    let quiet = &mut |now: Progress| watch(Progress { row: None, ..now });
+    let quiet = &mut |now: Progress<'_>| watch(Progress { row: None, ..now });
     let counted = on.counted.as_ref();
     let counted = counted.map(|program| vm::Machine::new(program).run(limit, quiet));
     if let Some(Stop::Interrupted) = counted.as_ref().map(|run| &run.stop) {

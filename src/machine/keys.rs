@@ -17,9 +17,9 @@ impl Loaded {
         &mut self,
         mut keyboard: Keyboard,
         limit: u64,
-        progress: &mut dyn FnMut(Progress),
+        progress: &mut dyn FnMut(Progress<'_>),
     ) -> Outcome<(MachineRun, Keyboard)> {
-        let mut watch = |now: Progress| {
+        let mut watch = |now: Progress<'_>| {
             progress(now);
             !interrupt::pressed()
         };

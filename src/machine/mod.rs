@@ -216,8 +216,12 @@ impl Loaded {
     ///
     /// # Errors
     /// Only an interruption: how a program ended is in the answer.
-    pub fn run(&mut self, limit: u64, progress: &mut dyn FnMut(Progress)) -> Outcome<MachineRun> {
-        let mut watch = |now: Progress| {
+    pub fn run(
+        &mut self,
+        limit: u64,
+        progress: &mut dyn FnMut(Progress<'_>),
+    ) -> Outcome<MachineRun> {
+        let mut watch = |now: Progress<'_>| {
             progress(now);
             !interrupt::pressed()
         };

@@ -1,11 +1,12 @@
 //! From a scene's file to a graph: reading, parsing, checking, lowering.
 
 mod changes;
+mod read;
 
 pub use changes::Changes;
+pub use read::{STANDARD_INPUT, given, is_standard_input, text, used};
 
 use crate::failure::{Failure, Outcome, Said};
-use crate::files;
 use changes::{options, settable};
 use clap::Args;
 use slowlight_compiler::ir::graph::Graph;
@@ -91,78 +92,13 @@ pub struct ScenesArgs {
 }
 
 /// A scene that was read and found right.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub struct Scene {
     /// The file's name without extension; names the generated files.
     pub name: String,
     /// Texts, program and warnings.
     pub checked: scene::Scene,
     options: Options,
-}
-
-/// What stands for standard input where a scene's file is named.
-pub const STANDARD_INPUT: &str = "-";
-
-/// Whether a scene is read from standard input.
-pub fn is_standard_input(path: &Path) -> bool {
-    path.as_os_str() == STANDARD_INPUT
-}
-
-/// The name and text of a scene as the command line names it: a file's, or what standard
-/// input has.
-///
-/// # Errors
-/// As for [`text`].
-pub fn given(path: &Path) -> Outcome<(String, String)> {
-    match is_standard_input(path) {
-        true => decoded("standard input".to_owned(), files::standard_input()?),
-        false => text(path),
-    }
-}
-
-/// Reads a scene's name and text; bytes that are no text are a diagnostic.
-///
-/// # Errors
-/// Where it cannot be read, or is no text.
-pub fn text(path: &Path) -> Outcome<(String, String)> {
-    decoded(path.display().to_string(), &files::read(path)?)
-}
-
-fn decoded(name: String, bytes: &[u8]) -> Outcome<(String, String)> {
-    let (text, said) = syntax::decode(bytes, 0);
-    if said.is_empty() {
-        return Ok((name, text));
-    }
-    let mut sources = Sources::default();
-    sources.add(SourceFile {
-        name,
-        text,
-        library: false,
-    });
-    Err(wrong(sources, said))
-}
-
-/// A file that a scene uses, beside the file that uses it.
-fn used(from: &str, path: &str) -> Result<(String, String), String> {
-    let beside = Path::new(from).parent().unwrap_or(Path::new(""));
-    // Without `.` and `..`, one file has one name.
-    let path = beside.join(path);
-    let path = std::fs::canonicalize(&path)
-        .ok()
-        .and_then(|full| {
-            let here = std::env::current_dir().ok()?;
-            Some(full.strip_prefix(here).map_or(full.clone(), Path::to_owned))
-        })
-        .unwrap_or(path);
-    text(&path).map_err(|failure| match failure {
-        Failure::Wrong(why) => why,
-        _ => format!("{} is not UTF-8", path.display()),
-    })
-}
-
-fn prelude(dir: &Path) -> Outcome<Vec<(String, String)>> {
-    let paths = files::list(dir, "scn")?;
-    paths.iter().map(|path| text(path)).collect()
 }
 
 impl Scene {
@@ -181,8 +117,22 @@ impl Scene {
     /// As [`Scene::load`].
     pub fn open(path: &Path, changes: &Changes) -> Outcome<Scene> {
         let (name, text) = given(path)?;
-        let library = changes.prelude.as_deref().map(prelude).transpose()?;
-        let checked = scene::load(&name, &text, library.as_deref(), &mut used);
+        Scene::of_text((&name, &text), path, changes, &mut used)
+    }
+
+    /// Checks a scene whose text is at hand, by the name that diagnostics give it. Other files
+    /// that it uses are read by `read`.
+    ///
+    /// # Errors
+    /// As [`Scene::load`].
+    pub fn of_text(
+        (name, text): (&str, &str),
+        path: &Path,
+        changes: &Changes,
+        read: scene::Read<'_>,
+    ) -> Outcome<Scene> {
+        let library = changes.prelude.as_deref().map(read::prelude).transpose()?;
+        let checked = scene::load(name, text, library.as_deref(), read);
         if !checked.is_right() {
             return Err(wrong(checked.sources, checked.diagnostics));
         }
@@ -198,6 +148,25 @@ impl Scene {
             name: name_of(path),
             options,
             checked,
+        })
+    }
+
+    /// The same scene with other values for some params.
+    ///
+    /// # Errors
+    /// Where a value is outside its param's range.
+    pub fn setting(&self, set: Vec<(String, Vec<f64>)>) -> Outcome<Scene> {
+        let options = Options {
+            set,
+            ..self.options.clone()
+        };
+        if let Err(said) = settable(&self.checked.program, &options) {
+            return Err(self.wrong(said));
+        }
+        Ok(Scene {
+            name: self.name.clone(),
+            checked: self.checked.clone(),
+            options,
         })
     }
 

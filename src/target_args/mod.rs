@@ -273,6 +273,8 @@ impl ScreenArgs {
         target: &'static Target,
         set: &[(String, Vec<f64>)],
     ) -> Outcome<PlannedScene> {
+        // Whoever wanted it may have stopped the work: a plan takes a second, and a format many.
+        interrupt::check()?;
         if self.os.is_some() && target.system != System::Hack {
             let message = format!("--os is Jack's, and {} has its own", target.name);
             return Err(Failure::Usage(message));

@@ -166,8 +166,11 @@ pub fn encoded(drawn: &Drawn) -> Outcome<String> {
 }
 
 /// How far each ink is from the native one: grey where it is the same, red where it is
-/// darker than it should be, blue where it is lighter, stronger the further.
-fn difference(picture: &Picture, native: &Drawn) -> Outcome<Vec<u8>> {
+/// darker than it should be, blue where it is lighter, stronger the further: a PNG.
+///
+/// # Errors
+/// Where it cannot be made.
+pub fn difference(picture: &Picture, native: &Drawn) -> Outcome<Vec<u8>> {
     let steps = picture.palette.len().saturating_sub(1).max(1) as i32;
     // Index 0 is equal; then so many steps darker, then lighter.
     let strength = |k: i32| (120 + 135 * k / steps) as u8;

@@ -40,6 +40,8 @@ mod jack_fixed;
 mod jack_formats;
 mod library;
 mod listing;
+mod live;
+mod live_client;
 mod lsp;
 mod lsp_client;
 mod lsp_edits;
@@ -74,6 +76,8 @@ mod peers_drawings;
 mod peers_editors;
 #[cfg(feature = "peers")]
 mod peers_jsbeeb;
+#[cfg(feature = "peers")]
+mod peers_live;
 mod planning;
 mod precise;
 mod predicted;

@@ -72,13 +72,16 @@ pub enum Stop {
 }
 
 /// How far a run has come; given to the watcher now and then.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Progress {
+#[derive(Clone, Copy)]
+pub struct Progress<'m> {
     /// The machine's own cycles so far (VM instructions on the Hack VM).
     pub cycles: u64,
     /// The row of the last pixel drawn, from the top of the screen; `None` before the first.
     pub row: Option<u32>,
+    /// What the screen shows at this moment, made when it is asked for; `None` where the
+    /// program has opened none.
+    pub screen: &'m dyn Fn() -> Option<Screen>,
 }
 
 /// Called about every ten million cycles; answers whether to go on.
-pub type Watch<'a> = &'a mut dyn FnMut(Progress) -> bool;
+pub type Watch<'a> = &'a mut dyn FnMut(Progress<'_>) -> bool;

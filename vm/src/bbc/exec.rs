@@ -67,9 +67,11 @@ impl State {
             return Err(Error::Halt);
         }
         self.next_check = (self.cycles + CHECK_EVERY).min(p.limit);
+        let shown = || Some(self.display.screen(&self.mem)).filter(|s| !s.pixels.is_empty());
         let progress = Progress {
             cycles: self.cycles,
             row: self.display.last_row(),
+            screen: &shown,
         };
         let go_on = match p.watch.try_borrow_mut() {
             Ok(mut watch) => watch(progress),

@@ -256,6 +256,7 @@ impl<B: Board> Computer<B> {
             let progress = Progress {
                 cycles: B::shown(self.board.cycles()),
                 row: self.board.row(),
+                screen: &|| self.board.screen(),
             };
             if !watch(progress) {
                 break Stop::Interrupted;

@@ -211,7 +211,12 @@ impl Cpu {
                 Exit::Pause if self.count >= limit => return Stop::CycleLimit,
                 Exit::Pause => {}
             }
-            let progress = self.progress();
+            self.find_row();
+            let progress = Progress {
+                cycles: self.count,
+                row: self.row,
+                screen: &|| Some(screen(self.screen_words())),
+            };
             if !watch(progress) {
                 break;
             }
@@ -230,16 +235,12 @@ impl Cpu {
 
     /// Stores are not watched: the row is the last one that has changed since
     /// the last call.
-    fn progress(&mut self) -> Progress {
+    fn find_row(&mut self) {
         let now = self.memory.get(SCREEN..KEYBOARD).unwrap_or(&[]);
         let changed = now.iter().zip(&self.seen).rposition(|(a, b)| a != b);
         if let Some(word) = changed {
             self.row = Some(word as u32 / 32);
             self.seen.copy_from_slice(now);
-        }
-        Progress {
-            cycles: self.count,
-            row: self.row,
         }
     }
 }

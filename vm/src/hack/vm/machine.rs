@@ -134,7 +134,7 @@ impl<'p> Machine<'p> {
             if self.os.effort >= EFFORT_LIMIT || self.count >= next_watch {
                 self.os.effort = 0;
                 next_watch = self.count.saturating_add(WATCH_EVERY);
-                if !watch(self.progress()) {
+                if !self.watched(&mut *watch) {
                     break Stop::Interrupted;
                 }
             }
@@ -175,7 +175,7 @@ impl<'p> Machine<'p> {
             if self.os.effort >= EFFORT_LIMIT || self.count >= next_watch {
                 self.os.effort = 0;
                 next_watch = self.count.saturating_add(WATCH_EVERY);
-                if !watch(self.progress()) {
+                if !self.watched(&mut *watch) {
                     return Stop::Interrupted;
                 }
             }
@@ -201,12 +201,14 @@ impl<'p> Machine<'p> {
         }
     }
 
-    fn progress(&self) -> Progress {
+    /// Whether the watcher wants to go on.
+    fn watched(&self, watch: Watch) -> bool {
         let row = |address: u16| u32::from((address - SCREEN) / 32);
-        Progress {
+        watch(Progress {
             cycles: self.count,
             row: self.os.drawn.map(row),
-        }
+            screen: &|| Some(self.screen()),
+        })
     }
 
     /// What becomes of a command that did not work; `None` if the program's

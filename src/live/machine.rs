@@ -1,0 +1,281 @@
+//! The worker for machines: plans a scene that has rested, runs it so that its picture is seen
+//! to grow, and counts; one at a time.
+
+use super::Build;
+use super::desk::{Desk, Task, Wish};
+use super::shown::{Built, Costs, Machine as State, Planned, Stage};
+use crate::auto_format;
+use crate::draw::{self, Window};
+use crate::explain::{self, Explained, error};
+use crate::failure::{Failure, Outcome};
+use crate::machine::{MachineRun, Sizes};
+use crate::measure::differences;
+use crate::picture::{FileFormat, Picture};
+use crate::scene::{Precision, Scene};
+use crate::target_args::ScreenArgs;
+use crate::trial::{self, LIMIT};
+use crate::tune::point::difference;
+use crate::{forecast, interrupt};
+use slowlight_compiler::planner::PlannedScene;
+use slowlight_compiler::report::profile;
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::sync::Arc;
+use std::time::{Duration, Instant};
+
+/// How often a growing picture is shown.
+const FRAME: Duration = Duration::from_millis(90);
+
+/// The last plan, for what is asked of the same wish.
+type Kept = Option<(u64, PlannedScene)>;
+
+/// One thing that is to be done.
+struct Work<'w> {
+    desk: &'w Desk,
+    wish: &'w Wish,
+    scene: &'w Scene,
+    screen: ScreenArgs,
+}
+
+/// Does what is asked for until the end.
+pub fn work(desk: &Desk, build: Build) {
+    let mut kept: Kept = None;
+    while let Some((task, wish, scene, job)) = desk.next_task() {
+        let work = Work {
+            desk,
+            wish: &wish,
+            scene: &scene,
+            screen: ScreenArgs {
+                format: wish.format.clone(),
+                mode: wish.mode.clone(),
+                ..ScreenArgs::default()
+            },
+        };
+        let done = catch_unwind(AssertUnwindSafe(|| {
+            job.doing(|| match task {
+                Task::Run => work.run(&mut kept),
+                Task::Costs => work.costs(&mut kept),
+                Task::Build => work.build(&mut kept, build),
+            })
+        }));
+        let done = done.unwrap_or_else(|_| {
+            kept = None;
+            Err(Failure::Wrong(
+                "this program breaks slowlight, which is no fault of the scene's".to_owned(),
+            ))
+        });
+        work.ended(task, done);
+    }
+}
+
+impl Work<'_> {
+    /// Shows something of the machine, unless a newer wish has come.
+    fn show(&self, change: impl FnOnce(&mut State)) {
+        let serial = self.wish.serial;
+        self.desk.show_of(serial, |shown, _| {
+            shown.machine.serial = serial;
+            change(&mut shown.machine);
+        });
+    }
+
+    /// How it ended.
+    fn ended(&self, task: Task, done: Outcome<()>) {
+        let failed = done.err().map(|failure| match failure {
+            Failure::Interrupted => None,
+            Failure::TooLarge(large) => Some(large.text),
+            other => Some(other.reason()),
+        });
+        // Whoever's work it was: no machine runs now.
+        self.desk.show(|shown, _| shown.machine.at_work = 0);
+        self.desk.show_of(self.wish.serial, |shown, _| {
+            shown.machine.stage = match &failed {
+                None => Stage::Done,
+                Some(None) => Stage::Stopped,
+                Some(Some(_)) if task == Task::Run => Stage::Wrong,
+                Some(Some(_)) => Stage::Done,
+            };
+            let why = failed.flatten();
+            match task {
+                Task::Run => shown.machine.wrong = why,
+                Task::Costs => shown.costs.wrong = why,
+                Task::Build if why.is_some() => {
+                    let count = shown.built.as_ref().map_or(1, |built| built.count + 1);
+                    shown.built = Some(Built {
+                        count,
+                        wrong: why,
+                        ..Built::default()
+                    });
+                }
+                Task::Build => {}
+            }
+        });
+    }
+
+    /// The wish's plan, made or kept.
+    fn plan(&self, kept: &mut Kept) -> Outcome<PlannedScene> {
+        if let Some((serial, plan)) = kept
+            && *serial == self.wish.serial
+        {
+            return Ok(plan.clone());
+        }
+        *kept = None;
+        self.show(|machine| machine.stage = Stage::Planning);
+        let chosen = auto_format::plan(&self.screen, self.scene, self.wish.target)?;
+        interrupt::check()?;
+        let plan = chosen.plan;
+        let planned = Planned {
+            target: plan.target.name,
+            format: plan.runtime.format,
+            mode: plan.mode.name,
+            inks: plan.graph.image.palette.len(),
+            expected: chosen.why.as_ref().map(|why| why.expected),
+            goal: chosen.why.as_ref().map(|why| why.goal),
+        };
+        self.show(|machine| machine.plan = Some(planned));
+        *kept = Some((self.wish.serial, plan.clone()));
+        Ok(plan)
+    }
+
+    /// Runs the program, and counts.
+    fn run(&self, kept: &mut Kept) -> Outcome<()> {
+        self.show(|machine| {
+            *machine = State {
+                serial: self.wish.serial,
+                stage: Stage::Planning,
+                picture: machine.picture,
+                size: machine.size,
+                ..State::default()
+            }
+        });
+        let plan = self.plan(kept)?;
+        let run = self.watched(&plan)?;
+        let picture = trial::shown(&plan, run.screen.as_ref())?;
+        self.show_picture(&plan, &picture, run.cycles, |_| {})?;
+        let graph = (self.scene).graph(Some(plan.mode.inks), Precision::NATIVE)?;
+        let window = Window::on_screen(&plan);
+        let native = draw::native(&graph, window)?;
+        let unlike = differences(window.places(), &picture.inks, &native.pixels).len();
+        let image = Arc::new(difference(&picture, &native)?);
+        let Sizes { code, tables, ram } = run.sizes;
+        self.desk.show_of(self.wish.serial, |shown, pictures| {
+            pictures.difference = image;
+            let machine = &mut shown.machine;
+            machine.stage = Stage::Comparing;
+            machine.difference = true;
+            machine.bytes = [code, tables, ram];
+            machine.pixels = picture.inks.len() as u64;
+            machine.unlike_native = Some(unlike as u64);
+        });
+        let modelled = draw::model_with(&plan, None)?;
+        let unlike = differences(window.places(), &picture.inks, &modelled.pixels).len();
+        self.show(|machine| machine.unlike_model = Some(unlike as u64));
+        Ok(())
+    }
+
+    /// Runs the program on its machine, and shows its picture now and then.
+    fn watched(&self, plan: &PlannedScene) -> Outcome<MachineRun> {
+        let machine = self.screen.machine(plan.target);
+        let loaded = trial::build_for(plan, machine)?.loaded;
+        let window = Window::on_screen(plan);
+        self.show(|machine| {
+            machine.stage = Stage::Running;
+            machine.at_work = 1;
+            machine.size = (window.width(), window.height());
+        });
+        let mut last = Instant::now();
+        let run = trial::ran_watched(plan, loaded, LIMIT, &mut |now| {
+            if last.elapsed() < FRAME {
+                return;
+            }
+            last = Instant::now();
+            let screen = (now.screen)();
+            // Before its first mode is set, a machine's screen does not hold the picture.
+            if let Ok(picture) = trial::shown(plan, screen.as_ref()) {
+                let rows = trial::rows_drawn(plan, &now).map_or(0, |row| row + 1);
+                // A picture that cannot be encoded is not shown; the last one is an error.
+                let _ = self.show_picture(plan, &picture, now.cycles, |machine| {
+                    machine.rows = rows.min(u64::from(window.height()));
+                });
+            }
+        });
+        self.show(|machine| machine.at_work = 0);
+        let run = run?;
+        self.show(|machine| {
+            machine.rows = u64::from(window.height());
+            machine.unit = explain::unit(&run);
+        });
+        Ok(run)
+    }
+
+    /// Shows the machine's picture as it is now.
+    fn show_picture(
+        &self,
+        plan: &PlannedScene,
+        picture: &Picture,
+        cycles: u64,
+        more: impl FnOnce(&mut State),
+    ) -> Outcome<()> {
+        let png = Arc::new(picture.encode(FileFormat::Png)?);
+        let hertz = forecast::hertz(plan, self.screen.machine(plan.target));
+        self.desk.show_of(self.wish.serial, |shown, pictures| {
+            pictures.machine = png;
+            let machine = &mut shown.machine;
+            machine.picture += 1;
+            machine.cycles = cycles;
+            machine.seconds = cycles as f64 / hertz;
+            more(machine);
+        });
+        Ok(())
+    }
+
+    /// Counts what each line takes.
+    fn costs(&self, kept: &mut Kept) -> Outcome<()> {
+        let plan = self.plan(kept)?;
+        self.show(|machine| {
+            machine.stage = Stage::Counting;
+            machine.at_work = 1;
+        });
+        let counted = explain::count_lines(self.scene, plan, &self.screen, LIMIT)?;
+        let profile = profile::profile(&self.scene.checked, &counted.plan, counted.measured());
+        let errors = error::errors(self.scene, &counted.plan)?;
+        let found = Explained {
+            scene: self.scene.clone(),
+            plan: counted.plan,
+            run: counted.run,
+            profile,
+            errors,
+        };
+        let report = serde_json::to_vec(&found.report());
+        let report = Arc::new(report.map_err(|e| Failure::Wrong(e.to_string()))?);
+        let revision = self.wish.revision;
+        self.desk.show_of(self.wish.serial, |shown, pictures| {
+            pictures.costs = report;
+            shown.costs = Costs {
+                revision,
+                count: shown.costs.count + 1,
+                wrong: None,
+            }
+        });
+        Ok(())
+    }
+
+    /// Writes the program's files into the scene's directory.
+    fn build(&self, kept: &mut Kept, build: Build) -> Outcome<()> {
+        let plan = self.plan(kept)?;
+        self.show(|machine| machine.stage = Stage::Building);
+        let paths = build(&plan, &self.screen, self.desk.file().directory())?;
+        let name = |path: &std::path::PathBuf| {
+            let name = path.file_name().unwrap_or(path.as_os_str());
+            name.to_string_lossy().into_owned()
+        };
+        let files = paths.iter().map(name).collect();
+        self.desk.show_of(self.wish.serial, |shown, _| {
+            let count = shown.built.as_ref().map_or(1, |built| built.count + 1);
+            shown.built = Some(Built {
+                count,
+                files,
+                wrong: None,
+            });
+        });
+        Ok(())
+    }
+}

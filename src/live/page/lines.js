@@ -1,0 +1,83 @@
+// What each line of the scene costs on the machine, in the editor's gutter and in words.
+
+import { get, post } from "./server.js";
+import { count, percent, say } from "./pictures.js";
+
+let editor = null;
+let report = null;
+let known = 0;
+let asked = null;
+let state = null;
+
+const place = (id) => document.getElementById(id);
+
+// Begins, with the editor.
+export function begin(of) {
+  editor = of;
+}
+
+// Counts, if it was not done, and then tells of a line.
+export function look(line) {
+  asked = line;
+  if (!isKnown()) post("costs");
+  tell();
+}
+
+// The line that the cursor is in is told of where it is known.
+export function at(line) {
+  if (asked === null) return;
+  asked = line;
+  tell();
+}
+
+const isKnown = () => report !== null && state?.costs.revision === state?.text.revision;
+
+// Takes the news.
+export async function showCosts(shown) {
+  state = shown;
+  if (shown.costs.count !== known) {
+    known = shown.costs.count;
+    report = known ? await get("costs").catch(() => null) : null;
+    if (isKnown()) editor.costs(own().map(({ line, share }) => ({ line, share })));
+  }
+  if (!isKnown() && report) {
+    report = null;
+    editor.costs([]);
+  }
+  tell();
+}
+
+// The lines of the scene's own file.
+const own = () => (report?.lines ?? []).filter((line) => line.file === state.file.name);
+
+function tell() {
+  const panel = place("line");
+  panel.hidden = asked === null || !state;
+  if (panel.hidden) return;
+  say("line-title", "Line " + asked);
+  const said = place("line-said");
+  const text = words();
+  const key = JSON.stringify(text);
+  if (said.dataset.key === key) return;
+  said.dataset.key = key;
+  const list = document.createElement("ul");
+  list.append(...text.slice(1).map((t) => Object.assign(document.createElement("li"), { textContent: t })));
+  said.replaceChildren(Object.assign(document.createElement("p"), { textContent: text[0] }));
+  if (text.length > 1) said.append(list);
+}
+
+function words() {
+  if (state.costs.wrong) return [state.costs.wrong];
+  if (!isKnown()) {
+    return [state.machine.stage === "counting" ? "The machine counts what each line takes." : "Press “Cycles by line” to count again: the scene has changed."];
+  }
+  const line = own().find((line) => line.line === asked);
+  if (!line) return ["Nothing on the machine comes from this line."];
+  const first = percent(line.share) + " of all " + report.unit + ": " + count(line.cycles) + ", begun " + count(line.executions) +
+    " times, " + count(line.size) + " " + report.size_unit + ".";
+  const error = line.error && Math.abs(line.error.share) >= 0.001
+    ? [line.error.share < 0 ? "Its errors cancel others." : percent(line.error.share) + " of the picture’s mean square error goes without its own."]
+    : [];
+  const part = (kind) => (p) => percent(p.share) + " " + kind + p.name + ", " + count(p.times) + " times";
+  return [first, ...error, ...line.parts.slice(0, 5).map(part("")), ...line.library.slice(0, 5).map(part("in the library’s "))];
+}

@@ -1,0 +1,155 @@
+// The page: what is chosen and written goes to slowlight, and what it says is shown.
+
+import { editor as makeEditor } from "./editor.js";
+import { follow, get, isSending, me, post, want } from "./server.js";
+import { say, showMachine, showNative } from "./pictures.js";
+import { showParams } from "./params.js";
+import * as lines from "./lines.js";
+
+const place = (id) => document.getElementById(id);
+const choices = ["target", "format", "mode"];
+
+const [start, machines] = await Promise.all([get("scene"), get("machines")]);
+let revision = start.revision;
+let shown = null;
+
+const editor = makeEditor(place("editor"), start.text, {
+  changed: (text) => {
+    unsaved();
+    want({ text });
+  },
+  save: () => save(false),
+  line: lines.look,
+  at: lines.at,
+});
+lines.begin(editor);
+
+async function save(force) {
+  const { ok, said } = await post("save", { page: me, text: editor.text(), force }).catch(() => ({ ok: false, said: {} }));
+  if (!ok) say("saved", "not saved" + (said.wrong ? ": " + said.wrong : ""));
+}
+
+function unsaved() {
+  say("saved", "not saved yet");
+  place("save").disabled = false;
+}
+
+// Another text, from the file or from another page.
+async function another() {
+  const now = await get("scene");
+  revision = now.revision;
+  editor.become(now.text);
+}
+
+const option = (value, text) => Object.assign(document.createElement("option"), { value, textContent: text });
+
+function showChoices() {
+  const chosen = shown.chosen;
+  const machine = machines.find((m) => m.name === chosen.target);
+  const target = place("target");
+  if (!target.options.length) target.append(...machines.map((m) => option(m.name, m.name)));
+  target.title = machine.about;
+  if (place("format").dataset.of !== machine.name) {
+    place("format").dataset.of = machine.name;
+    place("format").replaceChildren(option("", "automatic"), ...machine.formats.map((f) => option(f, f)));
+    const mode = (m) => option(m.name, m.name + " (" + m.width + " × " + m.height + ", " + m.inks + " inks)");
+    place("mode").replaceChildren(option("", "automatic"), ...machine.modes.map(mode));
+    place("modes").hidden = machine.modes.length === 0;
+  }
+  if (isSending()) return;
+  for (const id of choices) {
+    const value = chosen[id] ?? "";
+    if (place(id).value !== value && document.activeElement !== place(id)) place(id).value = value;
+  }
+}
+
+function showFile() {
+  const file = shown.file;
+  say("name", file.name);
+  document.title = file.name + " – Slowlight";
+  place("elsewhere").hidden = !file.elsewhere;
+  const saved = file.saved && shown.text.revision === revision && !isSending();
+  place("save").disabled = saved;
+  say("saved", file.wrong ? file.wrong : saved ? "saved" : "not saved yet");
+}
+
+function showProblems() {
+  const problems = shown.problems;
+  const key = JSON.stringify(problems.list);
+  const at = place("problems");
+  if (at.dataset.key === key) return;
+  at.dataset.key = key;
+  const own = problems.list.filter((p) => p.file === null);
+  editor.problems(own.map(({ from, to, severity, message }) => ({ from, to, severity, message })));
+  at.replaceChildren(...problems.list.map((problem) => {
+    const where = (problem.file ? problem.file + ", " : "") + "line " + problem.line;
+    const button = Object.assign(document.createElement("button"), { type: "button", className: "problem " + problem.severity });
+    const strong = Object.assign(document.createElement("b"), { textContent: where + ": " });
+    button.append(strong, problem.message);
+    button.addEventListener("click", () => problem.file === null && editor.go(problem.from));
+    return button;
+  }));
+}
+
+let built = 0;
+function showBuilt() {
+  const now = shown.built;
+  if (!now || now.count === built) return;
+  built = now.count;
+  say("built", now.wrong ?? "Written to " + shown.file.directory + ": " + now.files.join(", "));
+}
+
+follow((news) => {
+  place("lost").hidden = news !== null;
+  if (news === null) return;
+  shown = news;
+  if (shown.text.revision !== revision) {
+    if (shown.text.by === me) revision = shown.text.revision;
+    else if (!isSending()) another();
+  }
+  showFile();
+  showChoices();
+  if (shown.problems.serial === shown.chosen.serial || shown.text.by !== me) showProblems();
+  showNative(shown);
+  showMachine(shown, place("unlike").checked);
+  showParams(shown.params, shown.chosen.set, {
+    want: (set) => want({ set }),
+    keep(param, text, set) {
+      // Where the value stands is known of the text that was read last.
+      if (shown.text.revision !== revision || shown.problems.serial < shown.chosen.serial) return;
+      editor.replace(param.place[0], param.place[1], text);
+      want({ set });
+    },
+  });
+  lines.showCosts(shown);
+  showBuilt();
+  const busy = ["planning", "running", "comparing", "counting", "building"].includes(shown.machine.stage);
+  place("stop").disabled = !busy && shown.native.stage !== "coarse";
+  const ready = shown.native.stage === "done";
+  for (const id of ["run", "costs", "build"]) place(id).disabled = !ready && !(id === "run" && shown.native.stage === "stopped");
+});
+
+place("target").addEventListener("change", (e) => want({ target: e.target.value }));
+place("format").addEventListener("change", (e) => want({ format: e.target.value || null }));
+place("mode").addEventListener("change", (e) => want({ mode: e.target.value || null }));
+place("save").addEventListener("click", () => save(false));
+place("force").addEventListener("click", () => save(true));
+place("load").addEventListener("click", () => post("reload"));
+place("run").addEventListener("click", () => post("run"));
+place("stop").addEventListener("click", () => post("stop"));
+place("build").addEventListener("click", () => post("build"));
+place("costs").addEventListener("click", () => lines.look(editor.line()));
+place("unlike").addEventListener("change", (e) => showMachine(shown, e.target.checked));
+addEventListener("keydown", (e) => {
+  if (e.defaultPrevented) return;
+  const control = e.ctrlKey || e.metaKey;
+  if (control && e.key === "Enter") post("run");
+  else if (control && e.key === ".") post("stop");
+  else if (control && e.key === "s") save(false);
+  else if (e.altKey && e.key === "l") lines.look(editor.line());
+  else return;
+  e.preventDefault();
+});
+addEventListener("beforeunload", (e) => {
+  if (!shown?.file.saved) e.preventDefault();
+});

@@ -1,0 +1,246 @@
+//! What the page is told: the state of everything, as one object.
+
+use serde::Serialize;
+use std::collections::BTreeMap;
+
+/// Everything but the text and the pictures' pixels, which are asked for apart.
+#[derive(Clone, Debug, Default, Serialize)]
+pub struct Shown {
+    /// The scene's text: who changed it last, and how often it was.
+    pub text: Text,
+    /// The scene's file.
+    pub file: File,
+    /// What was chosen.
+    pub chosen: Chosen,
+    /// The native picture.
+    pub native: Native,
+    /// What is said about the text.
+    pub problems: Problems,
+    /// The params of the last text that was right.
+    pub params: Vec<Param>,
+    /// The machine.
+    pub machine: Machine,
+    /// What the scene's lines cost, once somebody asked.
+    pub costs: Costs,
+    /// What was built last.
+    pub built: Option<Built>,
+}
+
+/// The text's state.
+#[derive(Clone, Debug, Default, Serialize)]
+pub struct Text {
+    /// Goes up with each change of the text.
+    pub revision: u64,
+    /// The page that changed it, or `file`.
+    pub by: String,
+}
+
+/// The file's state.
+#[derive(Clone, Debug, Default, Serialize)]
+pub struct File {
+    /// As it was named.
+    pub name: String,
+    /// Where programs are built.
+    pub directory: String,
+    /// Whether it holds the text.
+    pub saved: bool,
+    /// Whether another text was written to it, while the page's was not saved.
+    pub elsewhere: bool,
+    /// What went wrong with it last.
+    pub wrong: Option<String>,
+}
+
+/// What was chosen on the page.
+#[derive(Clone, Debug, Default, Serialize)]
+pub struct Chosen {
+    /// Goes up with each wish: text, values, machine, format or mode.
+    pub serial: u64,
+    /// The machine.
+    pub target: String,
+    /// The format, if one was asked for.
+    pub format: Option<String>,
+    /// The mode, if one was asked for.
+    pub mode: Option<String>,
+    /// Values of params that are not the text's, in the language's units (radians).
+    pub set: BTreeMap<String, Vec<f64>>,
+}
+
+/// How far a picture is.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Stage {
+    /// Nothing was begun.
+    #[default]
+    Idle,
+    /// Native: the text is being read, or only a coarse picture is there.
+    Coarse,
+    /// The program is being planned.
+    Planning,
+    /// The machine runs.
+    Running,
+    /// The figures are there; the model is still to be compared.
+    Comparing,
+    /// Each line's cycles are being counted.
+    Counting,
+    /// The program is being written.
+    Building,
+    /// All is there.
+    Done,
+    /// Something is wrong, and said.
+    Wrong,
+    /// Somebody stopped it.
+    Stopped,
+}
+
+/// The native picture's state.
+#[derive(Clone, Debug, Default, Serialize)]
+pub struct Native {
+    /// Whose wish it is.
+    pub serial: u64,
+    /// How far it is.
+    pub stage: Stage,
+    /// The picture that can be asked for; 0 for none.
+    pub picture: u64,
+    /// The image's columns and rows.
+    pub size: (u32, u32),
+    /// Milliseconds from the wish to the first picture, and to the whole one.
+    pub first_ms: Option<u64>,
+    /// The same of the whole one.
+    pub whole_ms: Option<u64>,
+    /// What went wrong.
+    pub wrong: Option<String>,
+}
+
+/// What is said about the text.
+#[derive(Clone, Debug, Default, Serialize)]
+pub struct Problems {
+    /// Of which wish.
+    pub serial: u64,
+    /// Each, with its place.
+    pub list: Vec<Problem>,
+    /// All as the terminal shows them.
+    pub text: String,
+}
+
+/// Something that is said about the text.
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+pub struct Problem {
+    /// `error` or `warning`.
+    pub severity: &'static str,
+    /// What is said.
+    pub message: String,
+    /// The file, where it is another than the scene's own.
+    pub file: Option<String>,
+    /// From 1.
+    pub line: usize,
+    /// From 1, in characters.
+    pub column: usize,
+    /// Where it begins in the scene's text, in UTF-16.
+    pub from: usize,
+    /// And ends.
+    pub to: usize,
+}
+
+/// A param.
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+pub struct Param {
+    /// Its name.
+    pub name: String,
+    /// `bool`, `int` or `real`.
+    pub kind: &'static str,
+    /// What an angle is written in: `deg`, `turn` or `rad`; empty for others.
+    pub unit: &'static str,
+    /// How much of the language's own unit that is.
+    pub scale: f64,
+    /// One part for a scalar, else as many as the vector has.
+    pub parts: Vec<Part>,
+    /// Where its value is written in the scene's text, in UTF-16; none where it is in another.
+    pub place: Option<(usize, usize)>,
+}
+
+/// A component of a param.
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+pub struct Part {
+    /// `x`, `y`, `z`, or empty.
+    pub name: &'static str,
+    /// The text's value.
+    pub value: f64,
+    /// The range, where there is one.
+    pub range: Option<(f64, f64)>,
+}
+
+/// The machine's state.
+#[derive(Clone, Debug, Default, Serialize)]
+pub struct Machine {
+    /// Whose wish it is.
+    pub serial: u64,
+    /// How far it is.
+    pub stage: Stage,
+    /// The picture that can be asked for; 0 for none.
+    pub picture: u64,
+    /// Whether a picture of what is unlike can be asked for.
+    pub difference: bool,
+    /// Columns and rows.
+    pub size: (u32, u32),
+    /// Rows that the program has come past.
+    pub rows: u64,
+    /// Machines that run now: 0 or 1.
+    pub at_work: u32,
+    /// What it counts by.
+    pub unit: &'static str,
+    /// Its cycles so far.
+    pub cycles: u64,
+    /// Its own seconds so far.
+    pub seconds: f64,
+    /// What is known of the plan.
+    pub plan: Option<Planned>,
+    /// Bytes of code, tables and memory beside; what is not known is null.
+    pub bytes: [Option<u64>; 3],
+    /// Pixels of the picture.
+    pub pixels: u64,
+    /// Those unlike the native ones in the same inks.
+    pub unlike_native: Option<u64>,
+    /// Those unlike the model's, which should be none.
+    pub unlike_model: Option<u64>,
+    /// What went wrong.
+    pub wrong: Option<String>,
+}
+
+/// What is known of a plan.
+#[derive(Clone, Debug, Default, Serialize)]
+pub struct Planned {
+    /// The machine's name.
+    pub target: &'static str,
+    /// How reals are held.
+    pub format: &'static str,
+    /// The screen's mode.
+    pub mode: &'static str,
+    /// Inks of the picture there.
+    pub inks: usize,
+    /// The share of pixels that is expected to be wrong, where a format was chosen by it.
+    pub expected: Option<f64>,
+    /// The share that may be.
+    pub goal: Option<f64>,
+}
+
+/// What lines cost.
+#[derive(Clone, Debug, Default, Serialize)]
+pub struct Costs {
+    /// Of which revision of the text.
+    pub revision: u64,
+    /// Goes up with each; 0 where there are none.
+    pub count: u64,
+    /// Why there is none.
+    pub wrong: Option<String>,
+}
+
+/// What was built.
+#[derive(Clone, Debug, Default, Serialize)]
+pub struct Built {
+    /// Goes up with each.
+    pub count: u64,
+    /// The files' names in the scene's directory.
+    pub files: Vec<String>,
+    /// Why there are none.
+    pub wrong: Option<String>,
+}

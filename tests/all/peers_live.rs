@@ -1,0 +1,74 @@
+//! The page of `live` in a browser: written on, dragged, by the keyboard, on a telephone and in
+//! the dark, without a request that leaves this computer.
+
+use crate::cli::directory;
+use crate::live_client::Live;
+use serde_json::{Value, json};
+use std::path::Path;
+use std::process::Command;
+
+/// A picture that takes the machine some seconds.
+const SCENE: &str = "image 320 x 240 inks black, red, yellow, white;
+param light: vec3 = (0.5, 0.7, 0.5) in (-1, -1, 0) .. (1, 1, 1);
+
+fn shade(r: ray, sky: real) -> real =
+  if let h = torus((0, 0, 0), 1.5, 0.5).hit(r) then 0.1 + 0.8 * max(dot(h.normal, light), 0) else sky;
+
+draw (x, y) = {                    // eight rays a pixel
+  let v = loop (k = 0, sum = 0.0) max 9 {
+    if k >= 8 then sum / 8
+    else next(k + 1, sum + shade(ray((0, 0, 4), unit(((x - 159.5 + k / 8) / 160, (119.5 - y) / 160, -1))), y / 400))
+  } else 0.5;
+  threshold(v, bayer(4)[x mod 4, y mod 4])
+};
+";
+
+#[test]
+fn a_scene_is_written_on_a_page() {
+    let dir = directory(&[("ring.scn", SCENE)]);
+    let live = Live::begin(dir.path(), &["ring.scn", "-t", "6502"]);
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let output = Command::new("node")
+        .arg(root.join("tests/peers/live.mjs"))
+        .arg(root.join("target/peers/node_modules/puppeteer-core"))
+        .arg(&live.address)
+        .arg(root.join("target/peers/live"))
+        .output()
+        .expect("node is installed: see tests/peers/setup");
+    let said = String::from_utf8_lossy(&output.stderr);
+    assert!(output.status.success(), "{said}");
+    let found: Value = serde_json::from_slice(&output.stdout).expect("the answer is JSON");
+    for none in ["errors", "asked", "serious"] {
+        assert_eq!(found[none], json!([]), "{none}");
+    }
+    let rows = found["rows"].as_array().expect("rows");
+    assert!(rows.len() >= 3, "{rows:?}");
+    let rows: Vec<u64> = rows.iter().filter_map(Value::as_u64).collect();
+    assert!(
+        rows.is_sorted() && rows[0] < rows[rows.len() - 1],
+        "{rows:?}"
+    );
+    assert_eq!(found["typed"]["changed"], true);
+    let problem = &found["problem"];
+    assert!(
+        problem["said"].to_string().contains("line 5: "),
+        "{problem}"
+    );
+    let kept = found["dragged"]["line"].to_string();
+    let value = found["dragged"]["value"].as_str().expect("a value");
+    assert!(
+        kept.contains(&format!("= ({value}, 0.7, 0.5) in")),
+        "{kept} {value}"
+    );
+    assert_ne!(value, "0.5");
+    let cost = &found["cost"];
+    assert_eq!(cost["title"], "Line 5");
+    assert!(cost["gutter"].as_u64() >= Some(3), "{cost}");
+    let keys = found["keys"].to_string();
+    assert!(!keys.starts_with("[\"cm-content"), "{keys}");
+    assert!(keys.contains("costs") && keys.contains("build"), "{keys}");
+    assert!(found["width"].as_f64() <= Some(390.0), "{}", found["width"]);
+    let luma = |scheme: &str, k: usize| found["luma"][scheme][k].as_f64().expect("a luma");
+    assert!(luma("light", 0) > 200.0 && luma("light", 1) < 80.0);
+    assert!(luma("dark", 0) < 50.0 && luma("dark", 1) > 180.0);
+}

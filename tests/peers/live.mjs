@@ -1,0 +1,171 @@
+// Opens the page of `slowlight live` in headless Chromium and works with it: by mouse, by
+// keyboard, on a telephone, in the dark.
+//
+//   node live.mjs PATH-OF-PUPPETEER-CORE ADDRESS SCREENSHOT-STEM
+//
+// The answer, on standard output as JSON:
+//   "errors"      what the console said as an error, and what was thrown
+//   "asked"       requests to anywhere but the address and the page's own data
+//   "typed"       whether the native picture changed after a number was edited, and in what time
+//   "problem"     what is said of a mistake, and where the editor marks it
+//   "dragged"     whether the native picture changed while a slider was moved, and what was kept
+//   "rows"        the rows at which the machine's picture was seen to grow
+//   "cost"        what is said of a line after a click beside it
+//   "keys"        what has the focus after Escape and Tab in the editor, and what Tab then reaches
+//   "width"       the width of the page on a screen of 390 pixels
+//   "luma"        of paper and ink, light and dark
+//   "serious"     what axe-core finds serious or critical, light, dark and small
+
+import path from "node:path";
+import { readFileSync } from "node:fs";
+import { execFileSync } from "node:child_process";
+import { createRequire } from "node:module";
+
+const [root, address, stem] = process.argv.slice(2);
+const require = createRequire(path.join(path.resolve(root), "package.json"));
+const puppeteer = require("puppeteer-core");
+const axe = readFileSync(require.resolve("axe-core/axe.min.js"), "utf8");
+const pause = (ms) => new Promise((done) => setTimeout(done, ms));
+
+const browser = await puppeteer.launch({
+  executablePath: execFileSync("which", ["chromium"]).toString().trim(),
+  headless: true,
+  // As root, as in a container, Chromium has no sandbox.
+  args: ["--no-sandbox", "--disable-gpu", "--disable-dev-shm-usage"],
+});
+try {
+  const page = await browser.newPage();
+  const [errors, asked, out] = [[], [], { serious: [] }];
+  page.on("pageerror", (error) => errors.push(String(error)));
+  page.on("console", (said) => { if (said.type() === "error") errors.push(said.text()); });
+  page.on("request", (request) => {
+    const to = request.url();
+    if (!to.startsWith(address) && !to.startsWith("data:")) asked.push(to);
+  });
+  await page.setViewport({ width: 1280, height: 860 });
+  await page.emulateMediaFeatures([{ name: "prefers-color-scheme", value: "light" }]);
+  await page.goto(address, { waitUntil: "load" });
+
+  const source = (id) => page.$eval("#" + id, (image) => image.getAttribute("src") ?? "");
+  const words = (id) => page.$eval("#" + id, (e) => e.textContent);
+  const until = (what, holds, ...given) =>
+    page.waitForFunction(holds, { timeout: 60000, polling: 20 }, ...given).catch((e) => { throw new Error(what + ": " + e); });
+  const native = () => until("a native picture", () => /, in \d+ ms/.test(document.getElementById("native-said").textContent));
+  const done = () => until("the machine's figures", () => document.getElementById("figures").textContent.includes("unlike the model"));
+  // axe-core is no script of the page's, which allows none but its own.
+  const look = async (when) => {
+    await page.evaluate(axe + ";0");
+    const found = await page.evaluate(async () => (await window.axe.run()).violations
+      .filter((v) => v.impact === "serious" || v.impact === "critical")
+      .map((v) => v.id + ": " + v.nodes.map((n) => n.target.join(" ")).join(", ")));
+    out.serious.push(...found.map((f) => when + ": " + f));
+  };
+
+  await native();
+  // The machine's picture grows: rows go up while it runs.
+  out.rows = [];
+  let seen = "";
+  for (let k = 0; k < 1500; k++) {
+    const said = await words("machine-said");
+    const [shot, row] = [await source("machine"), said.match(/row (\d+)/)];
+    if (row && shot !== seen) out.rows.push(Number(row[1]));
+    if (row && out.rows.length === 3) await page.screenshot({ path: stem + "-grows.png" });
+    seen = shot;
+    if ((await words("figures")).includes("unlike the model")) break;
+    await pause(20);
+  }
+  await done();
+  await page.screenshot({ path: stem + "-wide.png" });
+  await look("light");
+
+  // A number is edited.
+  const old = await source("native");
+  const place = await page.evaluate(() => {
+    const walk = document.createTreeWalker(document.querySelector(".cm-content"), NodeFilter.SHOW_TEXT);
+    while (walk.nextNode()) {
+      const at = walk.currentNode.data.indexOf("0.8");
+      if (at < 0) continue;
+      const range = document.createRange();
+      range.setStart(walk.currentNode, at);
+      range.setEnd(walk.currentNode, at + 3);
+      const box = range.getBoundingClientRect();
+      return [box.right, box.top + box.height / 2];
+    }
+    throw new Error("no 0.8");
+  });
+  await page.mouse.click(...place);
+  const begun = Date.now();
+  await page.keyboard.press("Backspace");
+  await page.keyboard.type("3");
+  await until("another picture", (old) => {
+    const image = document.getElementById("native");
+    return image.getAttribute("src") !== old && image.complete;
+  }, old);
+  out.typed = { changed: (await source("native")) !== old, ms: Date.now() - begun };
+  await native();
+
+  // A mistake, and its end.
+  await page.keyboard.type("x");
+  await until("a problem", () => document.querySelector("#problems .problem.error") && document.querySelector(".cm-lintRange-error"));
+  out.problem = { said: await words("problems"), marked: await page.$eval(".cm-lintRange-error", (e) => e.textContent) };
+  await pause(250);
+  await page.screenshot({ path: stem + "-problem.png" });
+  await page.keyboard.press("Backspace");
+  await until("no problem", () => !document.querySelector("#problems .problem"));
+
+  // A slider, by the keyboard; and its value is kept.
+  await native();
+  const still = await source("native");
+  await page.focus("#sliders input[type=range]");
+  for (let k = 0; k < 10; k++) await page.keyboard.press("ArrowLeft");
+  await until("a dragged picture", (old) => document.getElementById("native").getAttribute("src") !== old, still);
+  const value = await page.$eval("#sliders input[type=range]", (e) => e.value);
+  await native();
+  await until("to keep", () => !document.querySelector("#sliders .param button").disabled);
+  await page.click("#sliders .param button");
+  await until("kept", () => document.querySelector("#sliders .param button").disabled);
+  out.dragged = { value, line: await page.$$eval(".cm-line", (all) => all.map((l) => l.textContent).find((l) => l.startsWith("param"))) };
+
+  // Cycles by line, by a click beside one.
+  await done();
+  const beside = await page.evaluate(() => {
+    const lines = [...document.querySelectorAll(".cm-lineNumbers .cm-gutterElement")];
+    const box = lines.find((l) => l.textContent === "5").getBoundingClientRect();
+    return [box.left + box.width / 2, box.top + box.height / 2];
+  });
+  await page.mouse.click(...beside);
+  await until("cycles", () => document.getElementById("line-said").textContent.includes("of all"));
+  out.cost = { title: await words("line-title"), said: await words("line-said"), gutter: await page.$$eval(".cost", (all) => all.length) };
+  await page.screenshot({ path: stem + "-costs.png" });
+
+  // The keyboard leaves the editor, and reaches everything.
+  await page.focus(".cm-content");
+  await page.keyboard.press("Escape");
+  await page.keyboard.press("Tab");
+  const focus = () => page.evaluate(() => document.activeElement.id || document.activeElement.className || document.activeElement.getAttribute("aria-label"));
+  out.keys = [];
+  for (let k = 0; k < 8; k++) {
+    out.keys.push(await focus());
+    await page.keyboard.press("Tab");
+  }
+
+  // In the dark, and on a telephone.
+  const luma = () => page.evaluate(() => ["backgroundColor", "color"].map((part) => {
+    const [r, g, b] = getComputedStyle(document.body)[part].match(/\d+/g).map(Number);
+    return 0.2126 * r + 0.7152 * g + 0.0722 * b;
+  }));
+  out.luma = { light: await luma() };
+  await page.emulateMediaFeatures([{ name: "prefers-color-scheme", value: "dark" }]);
+  await pause(200);
+  out.luma.dark = await luma();
+  await page.screenshot({ path: stem + "-dark.png" });
+  await look("dark");
+  await page.setViewport({ width: 390, height: 844 });
+  await pause(300);
+  out.width = await page.evaluate(() => document.documentElement.scrollWidth);
+  await page.screenshot({ path: stem + "-small.png", fullPage: true });
+  await look("small");
+  process.stdout.write(JSON.stringify({ errors, asked, ...out }));
+} finally {
+  await browser.close();
+}
