@@ -1,4 +1,5 @@
 //! How far wide Floats are from the exact results: what the routines state.
+#![allow(clippy::unwrap_used)]
 
 use super::F416;
 use super::model::Wide;

@@ -80,8 +80,7 @@ pub fn allowance(runtime: &Runtime) -> f64 {
         // Each value has all its bits where its point is its own, and ints have more: what
         // they make exact is gained.
         (Format::Scaled { bits }, Format::Int { bits: whole }) if whole > bits => ONCE_MORE,
-        // A fixed point has no relative roundings. `f416` has bits to spare, but what is whole
-        // is put in ints of 31 bits, of which Jack has 15.
+        // A fixed point has no relative roundings; `f416` has, but Jack no ints of 31 bits.
         _ => 0.0,
     }
 }
