@@ -73,11 +73,11 @@ fn line_end(bytes: &[u8], at: usize) -> usize {
     at + end.unwrap_or(rest.len())
 }
 
-/// Behind what is quoted, which ends with its line.
+/// Behind what is quoted, which ends with its line; behind the text where nothing ends it.
 fn closed(bytes: &[u8], at: usize, quote: u8) -> usize {
     let rest = bytes.get(at + 1..).unwrap_or_default();
     let end = rest.iter().position(|b| *b == quote || *b == b'\n');
-    at + 1 + end.map_or(rest.len(), |end| end + 1)
+    at + 1 + end.unwrap_or(rest.len()) + 1
 }
 
 /// A call around a place.

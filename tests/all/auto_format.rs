@@ -133,8 +133,13 @@ fn the_error_that_is_allowed_decides() {
 
 #[test]
 fn where_no_format_is_within_the_goal_the_nearest_is_taken_and_that_is_said() {
-    let dir = directory(&[("heart.scn", HEART)]);
-    let args = ["build", "heart.scn", "-t", "jack", "-o", "out"];
+    // An orbit that doubles what is between two of its points faster than any format has digits.
+    let scene = "image 32 x 24 inks black, white;
+        draw (x, y) = threshold(loop (k = 0, a = 0.2 + x / 100 + y / 1000) max 160 {
+          if k == 150 then a else next(k + 1, 3.9 * a * (1 - a))
+        } else a, 0.5);";
+    let dir = directory(&[("orbit.scn", scene)]);
+    let args = ["build", "orbit.scn", "-t", "jack", "-o", "out"];
     let output = slowlight(dir.path(), &[&args[..], &["--error", "0.2%"]].concat());
     let said = String::from_utf8_lossy(&output.stderr);
     assert!(said.contains("none that was tried is nearer"), "{said}");

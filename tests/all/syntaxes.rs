@@ -121,9 +121,10 @@ fn builds(scenes: &[PathBuf]) -> Vec<Build> {
             add("fixed16", &[]);
             add("fixed24", &[]);
         }
-        // All that logarithms have.
+        // All that logarithms have, and floats.
         if named("tests/scenes/routines.scn") {
             add("log10", &[]);
+            add("real40", &[]);
         }
         // Opcodes that the data sheet leaves out.
         if named("examples/maze.scn") || named("examples/masks.scn") {

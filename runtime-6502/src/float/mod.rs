@@ -42,6 +42,7 @@ pub static REAL40: Runtime = Runtime {
     param_most: PARAM,
     param_digits: |greatest, ranged| Some(scale::param_digits(greatest, ranged, PARAM)),
     param_bits,
+    reciprocals: true,
     ..crate::USUAL
 };
 

@@ -30,6 +30,7 @@ pub static F416: Runtime = Runtime {
     encode,
     decode,
     param_bits,
+    reciprocals: true,
     ..crate::CUT
 };
 

@@ -176,8 +176,8 @@ pub static RULES: &[Rule] = &[
         name: "difference of squares",
         left: &[form!((Sub (p = (Mul a a)) (q = (Mul b b))))],
         right: form!((Mul (Sub a b) (Add a b))),
-        when: |s| may_cancel(s.range("p"), s.range("q")),
-        condition: "a*a may be near b*b",
+        when: |s| (s.once("p") || s.once("q")) && may_cancel(s.range("p"), s.range("q")),
+        condition: "a*a may be near b*b; one of them is needed for nothing else, as both are for |z|^2 beside z^2",
         source: GOLDBERG,
     },
     Rule {
