@@ -64,13 +64,16 @@ impl Function {
 }
 
 impl Program {
-    /// Links `.vm` files, each a name and a text.
+    /// Links `.vm` files, each a name and a text, in the order of their names: where statics
+    /// stand, and so a word here and there of what is translated, hangs on it.
     ///
     /// # Errors
     /// What is wrong with them, by file and line; at most a hundred faults.
     pub fn link(files: &[(String, String)]) -> Result<Program, Vec<Fault>> {
         let mut faults = Vec::new();
         let mut sources: Vec<Source> = Vec::new();
+        let mut files: Vec<&(String, String)> = files.iter().collect();
+        files.sort_by(|(a, _), (b, _)| a.cmp(b));
         for (name, text) in files {
             let lines = parse(name, text, &mut faults);
             sources.push(Source { name, lines });
