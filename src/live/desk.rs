@@ -87,6 +87,8 @@ struct Inner {
     ready: Option<(Wish, Arc<Scene>)>,
     /// What the machines' worker is to do; runs come by themselves.
     tasks: Vec<Task>,
+    /// What it does, and for which wish.
+    doing: Option<(Task, u64)>,
     ends: bool,
 }
 
@@ -129,6 +131,7 @@ impl Desk {
             running: Job::default(),
             ready: None,
             tasks: vec![Task::Run],
+            doing: None,
             ends: false,
         };
         inner.chosen("file");
@@ -189,11 +192,11 @@ impl Desk {
         serial
     }
 
-    /// Asks the machines' worker for something; what it does now is stopped.
+    /// Asks the machines' worker for something, once it has done what it does now.
     pub fn ask(&self, task: Task) {
         let mut inner = self.lock();
-        inner.running.stop();
-        if !inner.tasks.contains(&task) {
+        let is_done_now = inner.doing == Some((task, inner.wish.serial));
+        if !is_done_now && !inner.tasks.contains(&task) {
             inner.tasks.push(task);
         }
         self.seen(inner);
@@ -235,7 +238,14 @@ impl Desk {
 
     /// Changes what is shown.
     pub fn show(&self, change: impl FnOnce(&mut Shown, &mut Pictures)) {
-        let mut inner = self.lock();
+        self.change(self.lock(), change);
+    }
+
+    fn change(
+        &self,
+        mut inner: MutexGuard<'_, Inner>,
+        change: impl FnOnce(&mut Shown, &mut Pictures),
+    ) {
         let Inner {
             shown, pictures, ..
         } = &mut *inner;
@@ -245,8 +255,9 @@ impl Desk {
 
     /// The same on behalf of a wish, unless a newer one has come.
     pub fn show_of(&self, serial: u64, change: impl FnOnce(&mut Shown, &mut Pictures)) {
-        if self.lock().wish.serial == serial {
-            self.show(change);
+        let inner = self.lock();
+        if inner.wish.serial == serial {
+            self.change(inner, change);
         }
     }
 
@@ -292,6 +303,7 @@ impl Desk {
     /// The next thing for a machine, of a wish that has rested; none at the end.
     pub fn next_task(&self) -> Option<(Task, Wish, Arc<Scene>, Job)> {
         let mut inner = self.lock();
+        inner.doing = None;
         loop {
             if inner.ends {
                 return None;
@@ -307,6 +319,7 @@ impl Desk {
                     let found = (tasks.remove(0), wish.clone(), scene.clone());
                     let job = Job::default();
                     inner.running = job.clone();
+                    inner.doing = Some((found.0, found.1.serial));
                     return Some((found.0, found.1, found.2, job));
                 }
                 Some(_) if !tasks.is_empty() => {

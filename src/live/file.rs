@@ -100,10 +100,12 @@ impl SceneFile {
     /// Where it cannot be written.
     pub fn save(&self, text: &str, forced: bool) -> Outcome<Saved> {
         let mut known = self.known();
-        if !forced
-            && let Ok((_, now)) = scene::text(&self.path)
-            && Known::of(now).text != known.text
-        {
+        let is_known = || match scene::text(&self.path) {
+            Ok((_, now)) => Known::of(now).text == known.text,
+            // What is there and cannot be read is somebody's, too.
+            Err(_) => !self.path.exists(),
+        };
+        if !forced && !is_known() {
             return Ok(Saved::Elsewhere);
         }
         let _writing = interrupt::writing();

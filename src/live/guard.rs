@@ -46,7 +46,12 @@ impl Guard {
 
     /// The path below the token, where the asker may ask.
     pub fn admitted<'r>(&self, asker: &Asker<'r>) -> Option<&'r str> {
-        let hosts = ["127.0.0.1", "localhost"].map(|name| format!("{name}:{}", self.port));
+        // Browsers leave out the port that is the usual one.
+        let port = match self.port {
+            80 => String::new(),
+            port => format!(":{port}"),
+        };
+        let hosts = ["127.0.0.1", "localhost"].map(|name| format!("{name}{port}"));
         let host = asker.host.filter(|host| hosts.iter().any(|h| h == host))?;
         let own = |origin: &str| origin.strip_prefix("http://") == Some(host);
         if !asker.origin.is_none_or(own) || asker.site == Some("cross-site") {

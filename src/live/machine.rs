@@ -50,6 +50,7 @@ pub fn work(desk: &Desk, build: Build) {
                 ..ScreenArgs::default()
             },
         };
+        let before = desk.shown().1.machine.stage;
         let done = catch_unwind(AssertUnwindSafe(|| {
             job.doing(|| match task {
                 Task::Run => work.run(&mut kept),
@@ -63,7 +64,7 @@ pub fn work(desk: &Desk, build: Build) {
                 "this program breaks slowlight, which is no fault of the scene's".to_owned(),
             ))
         });
-        work.ended(task, done);
+        work.ended((task, before), done);
     }
 }
 
@@ -77,8 +78,8 @@ impl Work<'_> {
         });
     }
 
-    /// How it ended.
-    fn ended(&self, task: Task, done: Outcome<()>) {
+    /// How it ended: where it was no run, the last one's picture is what it was before.
+    fn ended(&self, (task, before): (Task, Stage), done: Outcome<()>) {
         let failed = done.err().map(|failure| match failure {
             Failure::Interrupted => None,
             Failure::TooLarge(large) => Some(large.text),
@@ -88,15 +89,18 @@ impl Work<'_> {
         self.desk.show(|shown, _| shown.machine.at_work = 0);
         self.desk.show_of(self.wish.serial, |shown, _| {
             shown.machine.stage = match &failed {
+                _ if task != Task::Run => before,
                 None => Stage::Done,
                 Some(None) => Stage::Stopped,
-                Some(Some(_)) if task == Task::Run => Stage::Wrong,
-                Some(Some(_)) => Stage::Done,
+                Some(Some(_)) => Stage::Wrong,
             };
             let why = failed.flatten();
             match task {
                 Task::Run => shown.machine.wrong = why,
-                Task::Costs => shown.costs.wrong = why,
+                Task::Costs if why.is_some() => {
+                    (shown.costs.serial, shown.costs.wrong) = (self.wish.serial, why);
+                }
+                Task::Costs => {}
                 Task::Build if why.is_some() => {
                     let count = shown.built.as_ref().map_or(1, |built| built.count + 1);
                     shown.built = Some(Built {
@@ -246,11 +250,11 @@ impl Work<'_> {
         };
         let report = serde_json::to_vec(&found.report());
         let report = Arc::new(report.map_err(|e| Failure::Wrong(e.to_string()))?);
-        let revision = self.wish.revision;
-        self.desk.show_of(self.wish.serial, |shown, pictures| {
+        let serial = self.wish.serial;
+        self.desk.show_of(serial, |shown, pictures| {
             pictures.costs = report;
             shown.costs = Costs {
-                revision,
+                serial,
                 count: shown.costs.count + 1,
                 wrong: None,
             }
@@ -262,7 +266,13 @@ impl Work<'_> {
     fn build(&self, kept: &mut Kept, build: Build) -> Outcome<()> {
         let plan = self.plan(kept)?;
         self.show(|machine| machine.stage = Stage::Building);
-        let paths = build(&plan, &self.screen, self.desk.file().directory())?;
+        let file = self.desk.file();
+        // A scene that is called like one of its program's files would be written over.
+        if file.named().extension().is_none_or(|e| e != "scn") {
+            let why = "the program's files could take the scene's own place: call it NAME.scn";
+            return Err(Failure::Wrong(why.to_owned()));
+        }
+        let paths = build(&plan, &self.screen, file.directory())?;
         let name = |path: &std::path::PathBuf| {
             let name = path.file_name().unwrap_or(path.as_os_str());
             name.to_string_lossy().into_owned()

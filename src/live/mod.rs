@@ -112,7 +112,10 @@ fn open(address: &str) {
     command.args(first).arg(address);
     let quiet = std::process::Stdio::null;
     let started = command.stdout(quiet()).stderr(quiet()).spawn();
-    if started.is_err() {
+    if let Ok(mut started) = started {
+        // Whether it could show the page, it says itself.
+        std::thread::spawn(move || started.wait());
+    } else {
         crate::output::remark("note: no browser could be opened; open the address yourself");
     }
 }

@@ -12,6 +12,7 @@ use crate::scene::{Changes, Precision, Scene};
 use rayon::prelude::*;
 use slowlight_compiler::eval::native::{Native, Pixel};
 use slowlight_compiler::ir::graph::Graph;
+use slowlight_routine::Type;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -128,8 +129,18 @@ fn drawn(desk: &Desk, wish: &Wish, job: &Job, changes: &Changes, read: &mut Read
     });
     // A param that is gone, or has become another, has the value that the text gives it.
     let fits = |name: &str, values: &[f64]| {
-        let scalars = usual.params.iter().filter(|p| p.name == name);
-        scalars.count() == values.len()
+        let scalars: Vec<Type> = usual
+            .params
+            .iter()
+            .filter(|p| p.name == name)
+            .map(|p| p.ty)
+            .collect();
+        let may_be = |(ty, value): (&Type, &f64)| match ty {
+            Type::Bool => *value == 0.0 || *value == 1.0,
+            Type::Int => value.fract() == 0.0,
+            _ => true,
+        };
+        scalars.len() == values.len() && scalars.iter().zip(values).all(may_be)
     };
     let set = wish.set.iter().filter(|(name, values)| fits(name, values));
     let set: Vec<(String, Vec<f64>)> = set.map(|(n, v)| (n.clone(), v.clone())).collect();

@@ -200,7 +200,11 @@ fn saved(desk: &Desk, save: Save) -> Answer {
     if text.len() > files::MAX_BYTES {
         return Answer::wrong("a scene is no longer than some megabytes");
     }
-    let written = desk.file().save(&text, save.force);
+    // What the watch has seen of another's text is known, and still not what the page has.
+    let written = match !save.force && desk.shown().1.file.elsewhere {
+        true => Ok(Saved::Elsewhere),
+        false => desk.file().save(&text, save.force),
+    };
     match written {
         Ok(Saved::Yes) => {
             if *desk.wanted().text != *text {

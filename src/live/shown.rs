@@ -226,8 +226,8 @@ pub struct Planned {
 /// What lines cost.
 #[derive(Clone, Debug, Default, Serialize)]
 pub struct Costs {
-    /// Of which revision of the text.
-    pub revision: u64,
+    /// Of which wish.
+    pub serial: u64,
     /// Goes up with each; 0 where there are none.
     pub count: u64,
     /// Why there is none.

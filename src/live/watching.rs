@@ -39,10 +39,14 @@ pub fn reload(desk: &Desk, force: bool) {
             let text = desk.file().text();
             desk.file_changed(&text, &text, true);
         }
-        Ok(None) => {}
+        // Perhaps again what it was before it could not be read.
+        Ok(None) => {
+            let saved = desk.file().holds(&desk.wanted().text);
+            desk.show(|shown, _| (shown.file.wrong, shown.file.saved) = (None, saved));
+        }
         Err(failure) => {
             let why = failure.reason();
-            desk.show(|shown, _| shown.file.wrong = Some(why));
+            desk.show(|shown, _| (shown.file.wrong, shown.file.saved) = (Some(why), false));
         }
     }
 }

@@ -30,7 +30,9 @@ export function at(line) {
   tell();
 }
 
-const isKnown = () => report !== null && state?.costs.revision === state?.text.revision;
+// Whether what was counted is of the text, values, machine and format that are chosen.
+const isOfThese = () => state?.costs.serial === state?.chosen.serial;
+const isKnown = () => report !== null && !state?.costs.wrong && isOfThese();
 
 // Takes the news.
 export async function showCosts(shown) {
@@ -67,7 +69,7 @@ function tell() {
 }
 
 function words() {
-  if (state.costs.wrong) return [state.costs.wrong];
+  if (state.costs.wrong && isOfThese()) return [state.costs.wrong];
   if (!isKnown()) {
     return [state.machine.stage === "counting" ? "The machine counts what each line takes." : "Press “Cycles by line” to count again: the scene has changed."];
   }

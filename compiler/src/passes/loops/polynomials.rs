@@ -19,8 +19,7 @@
 //! ```text
 //! |o + t d - c|^2   is   (t + u)^2 + |o - c - u d|^2   where   u = (o - c) . d
 //! ```
-//! (Cocke and Kennedy, An algorithm for reduction of operator strength, CACM 1977, reduce
-//! further, to sums, where steps are equal; those of a march are not.)
+//! Where steps are equal, [`differences`] goes further, to sums; those of a march are not.
 
 mod coefficients;
 pub mod differences;
@@ -250,11 +249,16 @@ impl<'g> Loops<'g> {
         all
     }
 
-    /// Whether the terms may be rounded by themselves.
-    fn is_sound(&self, of: &Polynomial) -> bool {
+    /// The greatest magnitude of one of a polynomial's terms.
+    fn greatest_term(&self, of: &Polynomial) -> f64 {
         let at = of.atom.map_or(f64::INFINITY, |atom| self.size(atom));
         let [low, linear, square] = of.sizes;
-        let most = low.max(linear * at).max(square * at * at);
+        low.max(linear * at).max(square * at * at)
+    }
+
+    /// Whether the terms may be rounded by themselves.
+    fn is_sound(&self, of: &Polynomial) -> bool {
+        let most = self.greatest_term(of);
         match of.degree {
             2 => most * self.runtime.real.epsilon() <= SOUND,
             _ => most <= LARGER * of.most && of.most.is_finite(),

@@ -10,32 +10,38 @@
 //! of operator strength, CACM 1977.) The differences are put together from those of the parts,
 //! not subtracted, which would lose what parts have in common.
 //!
-//! Each turn's sum is rounded, and a difference to begin with; so it is done only as far as all
-//! turns together lose no more than [`LOST`] of a value.
+//! Each turn's sum is rounded, and a difference to begin with. So it is done only where what all
+//! turns lose is no more than [`LOST`] of the greatest value on the way, and of a square, which
+//! ends near 0 where something is hit, no more than [`SQUARE`] in the scene's own units.
 
 use super::{Loops, Polynomial};
 use crate::analysis::range::Ranges;
+use crate::analysis::rate::Dependence;
 use crate::ir::graph::*;
 use crate::passes::rewrite::arena::Arena;
 use rustc_hash::{FxHashMap, FxHashSet};
 use slowlight_routine::{Format, Op, Runtime, Type};
 
-/// What part of a value the roundings of all turns may come to.
+/// What part of the greatest value the roundings of all turns may come to.
 const LOST: f64 = 1.0 / 128.0;
 
-/// How long a chain of operations may be that is worked out before a loop.
-const DEEP: u32 = 64;
+/// What those of a square may come to.
+const SQUARE: f64 = 1.0 / 8.0;
 
 /// The graph with such sums; nothing where there are none that pay.
 pub fn forward_differences(graph: &Graph, ranges: &Ranges, runtime: &Runtime) -> Option<Graph> {
     let found = Loops::new(graph, ranges, runtime);
+    let moves = moves(graph);
     let mut all: FxHashMap<LoopId, Vec<NodeId>> = FxHashMap::default();
-    for (of, mut candidates) in found.candidates_by(|id, polynomial| {
-        found
-            .home(id)
-            .is_some_and(|of| found.is_exact(of, polynomial))
-            && found.step(polynomial).is_some()
-    }) {
+    let differs = |id: NodeId, polynomial: &Polynomial| {
+        let by = found.step(polynomial, &moves);
+        by.is_some_and(|by| found.differs(id, &by, &moves, &mut FxHashMap::default()))
+    };
+    let may_be = |id: NodeId, polynomial: &Polynomial| {
+        let home = found.home(id);
+        home.is_some_and(|of| found.is_exact(of, polynomial)) && differs(id, polynomial)
+    };
+    for (of, mut candidates) in found.candidates_by(may_be) {
         candidates.sort_unstable();
         let put = found.worth_by(candidates, |_, degree| {
             degree as f64 * found.cycles(Op::Add)
@@ -47,7 +53,7 @@ pub fn forward_differences(graph: &Graph, ranges: &Ranges, runtime: &Runtime) ->
     if all.is_empty() {
         return None;
     }
-    Reduced::new(&found).graph(&all)
+    Reduced::new(&found, &moves).graph(&all)
 }
 
 impl Loops<'_> {
@@ -61,11 +67,12 @@ impl Loops<'_> {
             Format::Fixed { .. } => turns.powi(degree),
             _ => turns * f64::from(degree),
         };
-        sums * self.runtime.real.epsilon() <= LOST
+        let lost = sums * self.runtime.real.epsilon();
+        lost <= LOST && (degree < 2 || lost * self.greatest_term(polynomial) <= SQUARE)
     }
 
     /// The carried value in which a polynomial is one, and by what it grows at each turn.
-    fn step(&self, polynomial: &Polynomial) -> Option<Stepped> {
+    fn step(&self, polynomial: &Polynomial, moves: &[bool]) -> Option<Stepped> {
         let atom = polynomial.atom?;
         let (carried, ahead) = match self.graph.node(atom) {
             Node::Carried { .. } => (atom, None),
@@ -79,7 +86,7 @@ impl Loops<'_> {
         let Node::Carried { of, index } = self.graph.node(carried) else {
             return None;
         };
-        let still = |id: NodeId| self.is_still(of, id);
+        let still = |id: NodeId| self.is_still(of, id, moves);
         let turns = self.graph.loops.get(of.0 as usize)?;
         let by = match self.graph.node(*turns.next.get(index as usize)?) {
             Node::Apply(Op::Add, [a, b]) if a == carried => (Op::Add, b),
@@ -97,24 +104,53 @@ impl Loops<'_> {
     }
 
     /// Whether a value is the same at each turn of a loop, and may be worked out before it.
-    fn is_still(&self, of: LoopId, id: NodeId) -> bool {
-        !self
-            .rates
-            .depends(id, crate::analysis::rate::Dependence::Loop(of))
-            && self.moves(id, DEEP)
+    fn is_still(&self, of: LoopId, id: NodeId, moves: &[bool]) -> bool {
+        !self.rates.depends(id, Dependence::Loop(of)) && moves[id.0 as usize]
     }
 
-    /// Whether nothing that a value is made of is a loop's but what is there before.
-    fn moves(&self, id: NodeId, deep: u32) -> bool {
-        match self.graph.node(id) {
-            Node::Apply(..) | Node::Select { .. } | Node::Lookup { .. } => {
-                let mut parts = self.graph.node(id).operands();
-                deep > 0 && parts.all(|part| self.moves(part, deep - 1))
-            }
-            Node::Const(_) | Node::Param(_) | Node::Axis(_) => true,
-            _ => false,
+    /// Whether a value's differences can be told before the loop: all else than the stepped value
+    /// that it is made of is still.
+    fn differs(
+        &self,
+        id: NodeId,
+        by: &Stepped,
+        moves: &[bool],
+        known: &mut FxHashMap<NodeId, bool>,
+    ) -> bool {
+        if id == by.atom {
+            return true;
         }
+        if let Some(known) = known.get(&id) {
+            return *known;
+        }
+        let of = self.home(by.atom);
+        let found = match self.graph.node(id) {
+            _ if self.home(id) != of => of.is_some_and(|of| self.is_still(of, id, moves)),
+            node @ Node::Apply(..) => {
+                let mut parts = node.operands();
+                parts.all(|part| self.differs(part, by, moves, known))
+            }
+            _ => false,
+        };
+        known.insert(id, found);
+        found
     }
+}
+
+/// Which values nothing of a loop goes into, so that they may be worked out earlier.
+fn moves(graph: &Graph) -> Vec<bool> {
+    let mut all: Vec<bool> = Vec::with_capacity(graph.nodes.len());
+    for id in graph.ids() {
+        let node = graph.node(id);
+        all.push(match node {
+            Node::Const(_) | Node::Param(_) | Node::Axis(_) => true,
+            Node::Apply(..) | Node::Select { .. } | Node::Lookup { .. } => {
+                node.operands().all(|part| all[part.0 as usize])
+            }
+            _ => false,
+        });
+    }
+    all
 }
 
 /// A carried value that grows by the same at each turn.
@@ -139,6 +175,7 @@ struct Differences {
 /// The new graph while it is made.
 struct Reduced<'l, 'g> {
     loops: &'l Loops<'g>,
+    moves: &'l [bool],
     out: Arena<'g>,
     moved: Vec<Option<NodeId>>,
     /// What is carried besides: the value at the start, and what the next turn has.
@@ -146,9 +183,10 @@ struct Reduced<'l, 'g> {
 }
 
 impl<'l, 'g> Reduced<'l, 'g> {
-    fn new(loops: &'l Loops<'g>) -> Reduced<'l, 'g> {
+    fn new(loops: &'l Loops<'g>, moves: &'l [bool]) -> Reduced<'l, 'g> {
         Reduced {
             loops,
+            moves,
             out: Arena::new(loops.graph),
             moved: vec![None; loops.graph.nodes.len()],
             carried: FxHashMap::default(),
@@ -205,7 +243,7 @@ impl<'l, 'g> Reduced<'l, 'g> {
         let mut known = FxHashMap::default();
         let mut made = Vec::new();
         for id in put {
-            let stepped = self.loops.step(&self.loops.of(*id)?)?;
+            let stepped = self.loops.step(&self.loops.of(*id)?, self.moves)?;
             made.push((*id, self.differences(*id, &stepped, &mut known)?));
         }
         // Behind all that they start with.
@@ -274,7 +312,10 @@ impl<'l, 'g> Reduced<'l, 'g> {
         }
         let of = self.loops.home(by.atom)?;
         if self.loops.home(id) != Some(of) {
-            let start = self.loops.is_still(of, id).then(|| self.at(id))?;
+            let start = self
+                .loops
+                .is_still(of, id, self.moves)
+                .then(|| self.at(id))?;
             return Some(Differences {
                 start,
                 first: None,
