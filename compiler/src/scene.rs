@@ -78,13 +78,8 @@ pub struct Checked {
 }
 
 /// As [`load`] up to the lowering.
-pub fn load_checked(
-    name: &str,
-    text: &str,
-    prelude: Option<&[(String, String)]>,
-    read: Read<'_>,
-) -> Checked {
-    let (sources, trees, said) = read_all(name, text, prelude, read);
+pub fn load_checked(name: &str, text: &str, read: Read<'_>) -> Checked {
+    let (sources, trees, said) = read_all(name, text, None, read);
     let (program, more, types) = sema::check_noting(&trees);
     Checked {
         scene: joined(sources, program, said, more),

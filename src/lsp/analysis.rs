@@ -73,7 +73,7 @@ impl Analysis {
     pub fn new(uri: &Uri, text: &str, open: &Open) -> Analysis {
         let name = name_of(uri);
         let mut read = |from: &str, path: &str| used(open, from, path);
-        let mut whole = load_checked(&name, text, None, &mut read);
+        let mut whole = load_checked(&name, text, &mut read);
         if !is_scene(&whole) {
             // A file for others to use needs neither.
             let whole_file = |d: &Diagnostic| d.span == Span::new(0, 0, 0);

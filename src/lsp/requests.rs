@@ -85,6 +85,13 @@ pub fn answer(state: &State, request: &Request) -> Option<Answer> {
             let remake = |texts: &[(u16, String)]| state.remake(at.of, texts);
             let edits = rename(at, &p.new_name, &remake)
                 .map_err(|why| refused(ErrorCode::InvalidParams, why))?;
+            if let Some(other) = state.other_user(at.of, &edits, &p.new_name) {
+                let why = format!(
+                    "{} has that name, or the new one, too: open it alone, or rename there by hand",
+                    other.as_str()
+                );
+                return Err(refused(ErrorCode::InvalidParams, why));
+            }
             value(workspace_edit(state, edits))
         }),
         asked::DocumentSymbolRequest::METHOD => params::<asked::DocumentSymbolRequest>(request)

@@ -121,7 +121,10 @@ impl Server {
             self.look(late || !self.state.is_dirty());
         }
         if self.inlays.due() == Some(Duration::ZERO) {
-            self.inlays.begin(&self.state);
+            let begun = catch_unwind(AssertUnwindSafe(|| self.inlays.begin(&self.state)));
+            if begun.is_err() {
+                self.log("a mistake of slowlight's: a text could not be measured");
+            }
         }
     }
 
@@ -274,7 +277,8 @@ impl Server {
         let about = response.id.to_string();
         if about.trim_matches('"').starts_with(settings::ASKED)
             && let Ok(Value::Array(given)) = response.response_result
-            && let Some(first) = given.first()
+            // Editors that were given settings only at the start have none to say.
+            && let Some(first) = given.first().filter(|first| !first.is_null())
         {
             self.set(first);
         }
@@ -317,9 +321,11 @@ impl Server {
             }
             told::DidChangeWatchedFiles::METHOD => {
                 if let Some(p) = read::<told::DidChangeWatchedFiles>(one) {
-                    p.changes
-                        .iter()
-                        .for_each(|c| self.state.changed_on_disk(&c.uri));
+                    for change in &p.changes {
+                        let users = self.state.users(&change.uri);
+                        users.iter().for_each(|uri| self.inlays.edited(uri));
+                        self.state.changed_on_disk(&change.uri);
+                    }
                     self.touched();
                 }
             }

@@ -6,7 +6,7 @@ use super::look::At;
 use super::shelf;
 use super::text::{Lines, edit, full, path_of};
 use lsp_types::{
-    Diagnostic, Position, PublishDiagnosticsParams, TextDocumentContentChangeEvent, Uri,
+    Diagnostic, Position, PublishDiagnosticsParams, TextDocumentContentChangeEvent, TextEdit, Uri,
 };
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::PathBuf;
@@ -81,6 +81,32 @@ impl State {
         let known = self.known.values().filter(|known| known.root_uri() != uri);
         let users = known.filter(|known| known.file(uri).is_some());
         users.map(|known| known.root_uri().clone()).collect()
+    }
+
+    /// Another open scene that uses a text which is to be edited, and that speaks in another of its
+    /// texts of what is renamed, or of the new name: what the edits would make of it is not known.
+    pub fn other_user(
+        &self,
+        of: &Analysis,
+        edits: &[(Uri, Vec<TextEdit>)],
+        new: &str,
+    ) -> Option<Uri> {
+        let old = edits.iter().find_map(|(uri, list)| {
+            let (_, text) = of.file(uri)?;
+            let range = list.first()?.range;
+            let lines = Lines::new(text);
+            text.get(lines.byte(text, range.start)..lines.byte(text, range.end))
+        })?;
+        let is_edited = |uri: &Uri| edits.iter().any(|(edited, _)| edited == uri);
+        let speaks = |known: &Analysis| {
+            (0u16..).zip(known.files()).any(|(number, file)| {
+                let other = known.uri(number).is_some_and(|uri| !is_edited(&uri));
+                let mut words = (file.text).split(|c: char| !c.is_alphanumeric() && c != '_');
+                other && !file.library && words.any(|word| word == old || word == new)
+            })
+        };
+        let mut users = edits.iter().flat_map(|(uri, _)| self.users(uri));
+        users.find(|user| user != of.root_uri() && self.known(user).is_some_and(speaks))
     }
 
     /// What a text is used by, and itself, is to be looked at again.

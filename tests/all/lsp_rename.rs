@@ -196,3 +196,29 @@ fn texts_are_formatted_as_fmt_does() {
     assert_eq!(client.ask("textDocument/formatting", asked), json!([]));
     assert_eq!(client.stop(), Some(0));
 }
+
+/// What two open scenes use is not renamed for one of them alone.
+#[test]
+fn names_that_another_open_scene_has_are_not_renamed() {
+    let user = "use \"p.scn\";\nimage 4 x 4 inks black, white;\n\
+                draw (x, y) = threshold(level(), 0.5);\n";
+    let part = "fn level() -> real = own(0.4);\nfn own(a: real) -> real = a;\n";
+    let dir = directory(&[("p.scn", part), ("a.scn", user), ("b.scn", user)]);
+    let cache = directory(&[]);
+    let mut client = Client::start(cache.path(), Value::Null);
+    let uri = |name: &str| format!("file://{}", dir.path().join(name).display());
+    for (name, text) in [("p.scn", part), ("a.scn", user), ("b.scn", user)] {
+        client.open(&uri(name), text);
+    }
+    assert_eq!(client.diagnostics(&uri("b.scn")), Vec::<Value>::new());
+    let asked =
+        |name: &str, text: &str, of: &str| rename(&uri(name), place(text, of, 0, 0), "height");
+    for asked in [asked("a.scn", user, "level"), asked("p.scn", part, "level")] {
+        let said = client.refused("textDocument/rename", asked);
+        assert!(said.contains("has that name"), "{said}");
+    }
+    // What only the used text speaks of is renamed there.
+    let edits = client.ask("textDocument/rename", asked("p.scn", part, "own"));
+    assert!(edits.to_string().contains("p.scn"), "{edits}");
+    assert_eq!(client.stop(), Some(0));
+}
