@@ -72,6 +72,7 @@ fn done(scene: &str, change: &str) -> String {
     match change.split_once(' ') {
         Some(("param" | "const", rest)) => replaced(&name(rest)),
         Some(("bound", _)) => scene.replacen("\n}", &format!("\n{change} }}"), 1),
+        Some(("max", _)) => scene.replace("max 24", change),
         Some(("far:", _)) => scene.replace("trace(r)", &format!("trace(r, {change})")),
         _ => panic!("{change}"),
     }
@@ -195,6 +196,24 @@ fn an_end_of_rays_lets_them_end() {
         &[
             "rays that meet nothing near are followed on, as `world.trace` has no `far`; `far: ",
             "` there, if nothing farther is to be seen, would spare ",
+        ],
+    );
+}
+
+#[test]
+fn fewer_turns_keep_what_is_carried_small() {
+    let scene = "image 32 x 24 inks black, white;
+fn sum(u: real) -> real = loop (s = u, w = 1.0) max 24 {
+  if s * w > 1.2 then s else next(s + w * 0.4, w + 0.1)
+} else s;
+draw (x, y) = threshold(sum(x / 40 + y / 60) / 2, bayer(4)[x mod 4, y mod 4]);
+";
+    any(
+        &hold(scene, &["-t", "jack"]),
+        &[
+            " not done by the cheaper routine (",
+            "as its loop may take `max 24` turns; `max ",
+            "`, if so many are enough, would spare ",
         ],
     );
 }

@@ -161,10 +161,10 @@ impl Listener<Bits> for Counted {
 }
 
 /// What a plan could not do at a line that another can.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub enum Missed {
     /// Compute an operation by a cheaper routine: as it is, and as it would be.
-    Cheaper(Done, Done),
+    Cheaper(Box<[Done; 2]>),
     /// Leave so many operations out, of so many at a pixel.
     Fewer { left_out: f64, of: f64 },
     /// Neither: what it gains is not in the operations of this line's pixels.
@@ -200,7 +200,7 @@ pub fn missed(now: &Work, then: &Work, line: Place) -> Missed {
     }
     let of = now.values().map(|done| done.times).sum();
     match dearest {
-        Some((now, then)) if cheaper > fewer => Missed::Cheaper(now, then),
+        Some((now, then)) if cheaper > fewer => Missed::Cheaper(Box::new([now, then])),
         _ if fewer > 0.0 && left_out >= 0.05 => Missed::Fewer { left_out, of },
         _ => Missed::Elsewhere,
     }

@@ -228,7 +228,7 @@ fn turns(scene: &Scene, sample: &Sample, max: &Expr) -> Vec<Way> {
         };
         ways.push(Way {
             kind: Kind::Turns,
-            cause: format!("`max {most}` turns may be asked for"),
+            cause: format!("its loop may take `max {most}` turns"),
             change: format!("max {fewer}"),
             said: format!("`max {fewer}`, if so many are enough,"),
             scene,

@@ -22,7 +22,10 @@ pub fn could_not(found: &Explained, tried: &Tried<'_>, missed: Missed) -> String
         (Kind::Turns, _) if tried.plan.graph.loops.len() < found.plan.graph.loops.len() => {
             "not unrolled".to_owned()
         }
-        (_, Missed::Cheaper(now, then)) => cheaper(found, &now, &then),
+        (_, Missed::Cheaper(done)) => {
+            let [now, then] = *done;
+            cheaper(found, &now, &then)
+        }
         (Kind::Constant, Missed::Fewer { left_out, of }) => {
             format!("{} not folded", operations(left_out, of))
         }
