@@ -1,5 +1,6 @@
 //! `explain`: what each line of a scene costs on a machine.
 
+use crate::explain::why::whys;
 use crate::explain::{explain, html, terminal};
 use crate::failure::Outcome;
 use crate::files;
@@ -20,6 +21,10 @@ pub struct Args {
     target: &'static Target,
     #[command(flatten)]
     screen: ScreenArgs,
+    /// Say for each line what its plan could not do and what would let it: a range, a bound or a
+    /// constant. What may help is tried on the machine, so it takes several times as long
+    #[arg(long)]
+    why: bool,
     /// Write a page that shows the same, for any browser, without the network
     #[arg(long, value_name = "FILE")]
     html: Option<PathBuf>,
@@ -38,7 +43,10 @@ pub struct Args {
 pub fn run(args: &Args) -> Outcome<()> {
     files::may_write_each([args.html.as_ref(), args.svg.as_ref()])?;
     let scene = Scene::load(&args.scene)?;
-    let found = explain(scene, args.target, &args.screen, args.limit)?;
+    let mut found = explain(scene, args.target, &args.screen, args.limit)?;
+    if args.why {
+        found.why = Some(whys(&found, args.target, &args.screen, args.limit)?);
+    }
     if let Some(path) = &args.html {
         files::write(path, html::page(&found).as_bytes())?;
     }

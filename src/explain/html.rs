@@ -1,7 +1,7 @@
 //! A profile as one page of HTML: no scripts, no network, nothing beside it.
 
 use super::Explained;
-use super::terminal::{error, percent, rate};
+use super::terminal::{error, percent, place, rate};
 use crate::draw::Window;
 use crate::format::count;
 use crate::sheet::{escaped, marked};
@@ -23,6 +23,7 @@ summary::-webkit-details-marker{display:none}
 summary::after{content:' \\25B8';color:var(--soft)}
 details[open]>summary::after{content:' \\25BE'}
 summary:focus-visible{outline:2px solid #3584e4;outline-offset:1px}
+ul.why{max-width:60em}ul.why li{margin:.4em 0}
 ul{margin:2px 0 6px;padding-left:2em;font:12px/1.5 system-ui,sans-serif;color:var(--soft)}
 dl{display:grid;grid-template-columns:max-content 1fr;gap:2px 1em;max-width:60em}
 dt{font-weight:600}dd{margin:0}
@@ -119,8 +120,34 @@ pub fn page(found: &Explained) -> String {
         }
         out.push_str("</table>\n");
     }
+    why(&mut out, found);
     out.push_str("</html>\n");
     out
+}
+
+/// What lines' plans could not do, the dearest line first, if that was asked.
+fn why(out: &mut String, found: &Explained) {
+    let Some(all) = &found.why else {
+        return;
+    };
+    out.push_str("<h2>What lines could not do</h2>\n");
+    if all.is_empty() {
+        out.push_str(
+            "<p>No line would be cheaper by a range, a bound or a constant that was tried.</p>\n",
+        );
+        return;
+    }
+    out.push_str("<ul class=\"why\">\n");
+    for (line, why) in found.whys() {
+        let _ = writeln!(
+            out,
+            "<li>{} ({}): {}",
+            escaped(&place(found, line)),
+            percent(found.share(line.cycles)),
+            marked(&why.text)
+        );
+    }
+    out.push_str("</ul>\n");
 }
 
 fn row(

@@ -4,6 +4,7 @@
 pub mod error;
 pub mod html;
 pub mod terminal;
+pub mod why;
 
 use crate::auto_format;
 use crate::draw::Window;
@@ -21,6 +22,7 @@ use slowlight_compiler::planner::PlannedScene;
 use slowlight_compiler::report::profile::{self, Cost, Measured, Part, Profile, SourceLine};
 use slowlight_compiler::targets::Target;
 use std::collections::BTreeMap;
+use why::{Why, Whys};
 
 /// A profile and what is needed to show it.
 pub struct Explained {
@@ -34,6 +36,8 @@ pub struct Explained {
     pub profile: Profile,
     /// The picture's error by the scene's lines.
     pub errors: Errors,
+    /// What lines' plans could not do, if that was looked for.
+    pub why: Option<Whys>,
 }
 
 /// A program that was run, with what its lines took.
@@ -131,6 +135,7 @@ pub fn explain(
         run,
         profile,
         errors,
+        why: None,
     })
 }
 
@@ -184,6 +189,18 @@ impl Explained {
         self.errors.lines.get(&(line.file, line.line)).copied()
     }
 
+    /// What is said of lines, the dearest line first.
+    pub fn whys(&self) -> Vec<(&SourceLine, &Why)> {
+        let mut all = Vec::new();
+        for line in &self.profile.lines {
+            let known = self.why.iter();
+            let why = known.filter_map(|all| all.get(&(line.file, line.line)));
+            all.extend(why.map(|why| (line, why)));
+        }
+        all.sort_by_key(|(line, _)| std::cmp::Reverse(line.cycles));
+        all
+    }
+
     /// What `explain --json` prints.
     pub fn report(&self) -> Report<'_> {
         let plan = &self.plan;
@@ -213,6 +230,15 @@ impl Explained {
                 }),
                 parts: self.part_reports(&line.parts),
                 library: self.part_reports(&line.within),
+                why: self.why.as_ref().map(|all| {
+                    let why = all.get(&(line.file, line.line));
+                    why.map(|why| WhyReport {
+                        text: &why.text,
+                        change: &why.change,
+                        saves: why.saves,
+                        saves_in_all: why.saves_in_all,
+                    })
+                }),
             }
         };
         Report {
@@ -276,12 +302,12 @@ pub struct Report<'e> {
     /// Over their shades, model against native.
     rmse: f64,
     differs_from_native: usize,
-    lines: Vec<LineReport>,
+    lines: Vec<LineReport<'e>>,
 }
 
 /// A line in the object of `explain --json`.
 #[derive(Serialize)]
-struct LineReport {
+struct LineReport<'e> {
     file: String,
     line: usize,
     text: String,
@@ -296,6 +322,19 @@ struct LineReport {
     parts: Vec<PartReport>,
     /// Of its cycles: the library's functions.
     library: Vec<PartReport>,
+    /// What its plan could not do: absent where nobody asked, null where nothing was found.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    why: Option<Option<WhyReport<'e>>>,
+}
+
+#[derive(Serialize)]
+struct WhyReport<'e> {
+    text: &'e str,
+    /// What is to be written.
+    change: &'e str,
+    /// Cycles of the line, and of all.
+    saves: u64,
+    saves_in_all: u64,
 }
 
 /// What is left of the error where a line's values are in `f64`.

@@ -24,7 +24,33 @@ pub fn text(found: &Explained) -> String {
         }
     }
     out.push_str(&foot(found));
+    out.push_str(&why(found));
     out
+}
+
+/// What lines' plans could not do, the dearest line first, if that was asked.
+fn why(found: &Explained) -> String {
+    let Some(all) = &found.why else {
+        return String::new();
+    };
+    if all.is_empty() {
+        return "\nno line would be cheaper by a range, a bound or a constant that was tried\n"
+            .to_owned();
+    }
+    let told = found.whys().into_iter().map(|(line, why)| {
+        let (place, share) = (place(found, line), percent(found.share(line.cycles)));
+        format!("{place} ({share}): {}\n", why.text)
+    });
+    "\nwhat lines could not do, the dearest first\n".to_owned() + &told.collect::<String>()
+}
+
+/// `line 12`, with its file where the scene has several.
+pub fn place(found: &Explained, line: &SourceLine) -> String {
+    let file = found.files().find(|(k, ..)| *k == line.file);
+    match file.filter(|_| found.files().count() > 1) {
+        Some((_, name, _)) => format!("{name}, line {}", line.line),
+        None => format!("line {}", line.line),
+    }
 }
 
 /// The same as a picture, whose bars stand behind the source's lines.

@@ -246,6 +246,7 @@ impl Work<'_> {
             plan: counted.plan,
             run: counted.run,
             profile,
+            why: None,
             errors,
         };
         let report = serde_json::to_vec(&found.report());

@@ -1,9 +1,11 @@
 //! From a scene's file to a graph: reading, parsing, checking, lowering.
 
 mod changes;
+mod edited;
 mod read;
 
 pub use changes::Changes;
+pub use edited::Edit;
 pub use read::{STANDARD_INPUT, given, is_standard_input, text, used};
 
 use crate::failure::{Failure, Outcome, Said};
@@ -12,8 +14,7 @@ use clap::Args;
 use slowlight_compiler::ir::graph::Graph;
 use slowlight_compiler::scene;
 use slowlight_compiler::sema::{self, Options, Ways};
-use slowlight_compiler::source::{Diagnostic, SourceFile, Sources, Span};
-use slowlight_compiler::syntax;
+use slowlight_compiler::source::{Diagnostic, Sources, Span};
 use slowlight_compiler::targets::Target;
 use std::path::{Path, PathBuf};
 
@@ -179,43 +180,6 @@ impl Scene {
             checked: self.checked.clone(),
             options,
         }
-    }
-
-    /// The same scene from texts in which the item at a place does not stand; none where
-    /// something needs it. Other items keep their places.
-    pub fn without_item(&self, at: Span) -> Option<Scene> {
-        let mut files = self.checked.sources.files.clone();
-        let text = &mut files.get_mut(usize::from(at.file))?.text;
-        let items = syntax::parse(text, at.file).0.items;
-        let item = items
-            .iter()
-            .map(|item| item.span.range())
-            .find(|range| range.contains(&(at.start as usize)))?;
-        let blank = |c: char| {
-            if c == '\n' {
-                "\n".to_owned()
-            } else {
-                " ".repeat(c.len_utf8())
-            }
-        };
-        let gone: String = text.get(item.clone())?.chars().map(blank).collect();
-        text.replace_range(item, &gone);
-        let (library, own): (Vec<SourceFile>, Vec<SourceFile>) =
-            files.into_iter().partition(|file| file.library);
-        let library: Vec<(String, String)> =
-            library.into_iter().map(|f| (f.name, f.text)).collect();
-        let first = own.first()?;
-        let mut read = |from: &str, path: &str| {
-            let (name, text) = used(from, path)?;
-            let known = own.iter().find(|file| file.name == name);
-            Ok((name, known.map_or(text, |file| file.text.clone())))
-        };
-        let checked = scene::load(&first.name, &first.text, Some(&library), &mut read);
-        checked.is_right().then(|| Scene {
-            name: self.name.clone(),
-            options: self.options.clone(),
-            checked,
-        })
     }
 
     /// The image's columns and rows.

@@ -99,5 +99,6 @@ mod tune_effort;
 mod varied;
 mod ways;
 mod whole;
+mod why;
 mod written;
 mod wrong;

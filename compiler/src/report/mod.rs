@@ -10,6 +10,7 @@ pub mod effects;
 pub mod fragile;
 pub mod frontier;
 pub mod inks;
+pub mod missed;
 pub mod profile;
 #[cfg(test)]
 mod profile_tests;
