@@ -23,6 +23,8 @@ pub enum Builtin {
     Count,
     /// The nearest hit of a shape.
     ShapeHit,
+    /// A distance before which a ray meets no surface that a shape is made of.
+    ShapeCrossing,
     /// A bool that may be taken for false where that costs less.
     Early,
     /// The unit normal of a shape at a point of its surface.
@@ -55,6 +57,7 @@ impl Builtin {
             Builtin::Count => "count".into(),
             Builtin::Early => "early".into(),
             Builtin::ShapeHit => "shape.hit".into(),
+            Builtin::ShapeCrossing => "shape.crossing".into(),
             Builtin::ShapeNormal => "shape.normal".into(),
             Builtin::ShapeDist => "shape.dist".into(),
             Builtin::ShapeImplicit => "shape.f".into(),
@@ -152,6 +155,12 @@ pub fn signatures() -> Vec<Signature> {
     parts.push(need("t", Real));
     add("hit", Builtin::Hit, parts, Hit(None));
     add("hit", Builtin::ShapeHit, on(Shape, one("r", Ray)), hit());
+    add(
+        "crossing",
+        Builtin::ShapeCrossing,
+        on(Shape, one("r", Ray)),
+        Optional(Box::new(Real)),
+    );
     add(
         "normal",
         Builtin::ShapeNormal,

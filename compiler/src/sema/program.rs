@@ -108,6 +108,8 @@ pub enum FacetKind {
     Implicit,
     /// Distance along a ray, if it hits.
     Hit,
+    /// Distance along a ray before which it meets no surface that the shape is made of.
+    Crossing,
     /// Unit normal at a point of the surface.
     Normal,
     /// A shape that encloses this one.
@@ -123,6 +125,7 @@ impl FacetKind {
             FacetKind::Dist => "dist",
             FacetKind::Implicit => "f",
             FacetKind::Hit => "hit",
+            FacetKind::Crossing => "crossing",
             FacetKind::Normal => "normal",
             FacetKind::Bound => "bound",
             FacetKind::Steps => "steps",

@@ -2,8 +2,8 @@
 //! computing.
 //!
 //! A value that can only be one value is a constant; a minimum or maximum that
-//! one side always wins is that side; a select whose condition is decided is
-//! its arm.
+//! one side always wins is that side; the low bits of what has no others are
+//! itself; a select whose condition is decided is its arm.
 
 use crate::analysis::range::Ranges;
 use crate::analysis::rate::{Dependence, rates};
@@ -14,6 +14,12 @@ use std::cell::LazyCell;
 
 /// Whole numbers within this are no end of an int.
 const WHOLE: f64 = i32::MAX as f64;
+
+/// Whether an int has one value, whose low bits are all 1 and the others 0.
+fn is_mask(range: Range) -> bool {
+    let mask = range.constant().map(|mask| mask as i64);
+    mask.is_some_and(|mask| mask >= 0 && mask & (mask + 1) == 0)
+}
 
 /// The graph with every decided operation replaced.
 ///
@@ -55,6 +61,9 @@ pub fn fold_by_ranges(graph: &Graph, ranges: &Ranges, without_ends: &dyn Fn() ->
             Op::Max | Op::IntMax if left.lo >= right.hi => Some(a),
             Op::Max | Op::IntMax if right.lo >= left.hi => Some(b),
             Op::Abs | Op::IntAbs if left.lo >= 0.0 => Some(a),
+            // A remainder, or the low bits, of what is below the divisor.
+            Op::IntMod if left.lo >= 0.0 && left.hi < right.lo => Some(a),
+            Op::BitAnd if is_mask(right) && left.within(0.0, right.lo) => Some(a),
             Op::IntAdd | Op::IntSub
                 if exact.within(-WHOLE, WHOLE) && left.within(-WHOLE, WHOLE) =>
             {

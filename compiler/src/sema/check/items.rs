@@ -154,15 +154,16 @@ impl<'a> Checker<'a> {
                 "dist" => (FacetKind::Dist, Some(Ty::Vector(3)), Ty::Real),
                 "f" => (FacetKind::Implicit, Some(Ty::Vector(3)), Ty::Real),
                 "hit" => (FacetKind::Hit, Some(Ty::Ray), Ty::Real.optional()),
+                "crossing" => (FacetKind::Crossing, Some(Ty::Ray), Ty::Real.optional()),
                 "normal" => (FacetKind::Normal, Some(Ty::Vector(3)), Ty::Vector(3)),
                 "bound" => (FacetKind::Bound, None, Ty::Shape),
                 "steps" => (FacetKind::Steps, None, Ty::Int),
                 other => {
-                    let names = ["dist", "f", "hit", "normal", "bound", "steps"];
+                    let names = ["dist", "f", "hit", "crossing", "normal", "bound", "steps"];
                     let message = format!("a shape has no facet `{other}`");
                     let help = self.among(other, names.into_iter());
                     let help = help.or(Some(
-                        "facets are dist, f, hit, normal, bound and steps".into(),
+                        "facets are dist, f, hit, crossing, normal, bound and steps".into(),
                     ));
                     let mut error = Diagnostic::error(tree.name.span, message);
                     error.help = help;
@@ -180,6 +181,7 @@ impl<'a> Checker<'a> {
             if argument.is_some() != tree.argument.is_some() {
                 let form = match kind {
                     FacetKind::Hit => "hit(r) = ..",
+                    FacetKind::Crossing => "crossing(r) = ..",
                     FacetKind::Bound => "bound = ..",
                     FacetKind::Steps => "steps = ..",
                     _ => "dist(p), f(p) and normal(p) take a point",

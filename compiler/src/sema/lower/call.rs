@@ -213,6 +213,7 @@ impl<'a> Lower<'a> {
             },
             Builtin::Bayer => Err(self.confused(span)),
             Builtin::ShapeHit
+            | Builtin::ShapeCrossing
             | Builtin::ShapeNormal
             | Builtin::ShapeDist
             | Builtin::ShapeImplicit => match (self.force(value)?, second) {

@@ -96,6 +96,7 @@ impl<'a> Lower<'a> {
     ) -> Found<Val> {
         match what {
             Builtin::ShapeHit => self.shape_hit(shape, arg, span),
+            Builtin::ShapeCrossing => self.crossing(shape, arg, span),
             Builtin::ShapeNormal => self.shape_normal(shape, arg, span),
             Builtin::ShapeDist => self.required(shape, FacetKind::Dist, arg, span),
             _ => self.required(shape, FacetKind::Implicit, arg, span),
@@ -294,6 +295,19 @@ impl<'a> Lower<'a> {
             parts.push(Val::Node(sum));
         }
         Ok(Val::parts(parts))
+    }
+
+    /// A distance before which a ray meets no surface of a shape: what it says of that, or else
+    /// where the ray hits it.
+    fn crossing(&mut self, shape: &Rc<Shape>, ray: Val, span: Span) -> Found<Val> {
+        if let Some(t) = self.facet(shape, FacetKind::Crossing, ray.clone(), span)? {
+            return Ok(t);
+        }
+        let found = self.solved(shape, ray, None, span)?;
+        Ok(Val::Optional {
+            present: found.present,
+            value: Rc::new(Val::Node(found.t)),
+        })
     }
 
     /// A hit of a bare shape; its point and normal are worked out if used.
