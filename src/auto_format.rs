@@ -38,6 +38,7 @@ use candidates::{
 use said::Others;
 pub use said::Why;
 use slowlight_compiler::planner::PlannedScene;
+use slowlight_compiler::planner::pipeline::Pass;
 use slowlight_compiler::targets::{Target, formats};
 use slowlight_routine::{Format, Op, Runtime};
 
@@ -224,14 +225,27 @@ fn quickest(
             Err(Failure::Scene(_)) => continue,
             plan => plan?,
         };
-        let mut whole = plan.clone();
-        whole.rows = candidate.rows;
-        // Where too little of it was seen, as the plan without a search has it.
-        let share = expected(scene, &whole, goal);
-        let (expected, most) = share.map_or((candidate.wrong, candidate.wrong), |share| {
-            (share.expected, share.most)
-        });
-        let within = most <= goal;
+        let seen = |plan: &PlannedScene| {
+            let mut whole = plan.clone();
+            whole.rows = candidate.rows;
+            // Where too little of it was seen, as the plan without a search has it.
+            let wrong = (candidate.wrong, candidate.wrong);
+            let share = expected(scene, &whole, goal);
+            let (expected, most) = share.map_or(wrong, |share| (share.expected, share.most));
+            (whole, expected, most <= goal)
+        };
+        let (mut plan, (mut whole, mut expected, mut within)) = {
+            let found = seen(&plan);
+            (plan, found)
+        };
+        // Functions in tables are not as exact as the format is.
+        if !within && plan.pipeline().count(Pass::FunctionTables).kept > 0 {
+            let exact = format.without(Pass::FunctionTables);
+            if let Ok(other) = exact.plan(scene, target, &[]) {
+                (whole, expected, within) = seen(&other);
+                plan = other;
+            }
+        }
         others.seen.push(candidate.seen(expected));
         let why = |expected| Why {
             goal,

@@ -23,6 +23,13 @@ impl PassArgs {
         all.fold(after, |all, pass| all.with(*pass))
     }
 
+    /// The same without one more.
+    #[must_use]
+    pub fn without(mut self, pass: Pass) -> PassArgs {
+        self.without_pass.push(pass);
+        self
+    }
+
     /// Ways, without what passes before the planner's find where those are left out.
     pub fn ways(&self, ways: Ways, as_written: bool, instancing: Instancing) -> Ways {
         Ways {

@@ -14,6 +14,7 @@ use crate::passes::loops::polynomials::differences::forward_differences;
 use crate::passes::loops::polynomials::polynomials;
 use crate::passes::loops::trip_counts::trip_counts;
 use crate::passes::simplify::constant_factors::constant_factors;
+use crate::passes::simplify::function_tables::function_tables;
 use crate::passes::simplify::reciprocals::reciprocals;
 use crate::passes::simplify::remainders::remainders;
 use crate::schedule::analysed::Analysed;
@@ -76,6 +77,7 @@ passes! {
     PruneMinima "prune-minima" "passes/branches/prune_minima" "branch and bound on minima and maxima"
     ConstantFactors "constant-factors" "passes/simplify/constant_factors" "constant factors joined"
     Remainders "remainders" "passes/simplify/remainders" "remainders by constants as differences"
+    FunctionTables "function-tables" "passes/simplify/function_tables" "tables of functions of one real of a short range"
     Reciprocals "reciprocals" "passes/simplify/reciprocals" "division as multiplication by a shared reciprocal"
     Phases "phases" "passes/loops/strength_reduction" "phase accumulators for periodic functions of the column"
     ScanlineRuns "scanline-runs" "passes/loops/strength_reduction/runs" "values stepped along runs of columns"
@@ -101,6 +103,7 @@ pub const REWRITES: &[(Pass, Rewrite)] = &[
     (Pass::PruneMinima, prune_minima),
     (Pass::ConstantFactors, constant_factors),
     (Pass::Remainders, remainders),
+    (Pass::FunctionTables, function_tables),
     (Pass::Reciprocals, reciprocals),
 ];
 

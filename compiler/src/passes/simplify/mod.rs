@@ -1,5 +1,6 @@
 //! Simplification: values that are equal by algebra or by their ranges, in fewer operations.
 
+pub mod function_tables;
 pub mod constant_factors;
 pub mod fold;
 pub mod integer_parts;

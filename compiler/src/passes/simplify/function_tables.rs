@@ -1,0 +1,296 @@
+//! Tabulation: functions of one real that stays within a short range become tables, read at the
+//! place where the real stands among 256.
+//!
+//! A fade between two numbers of noise is a cubic of what is left of a coordinate: two products
+//! and four sums that clamp. Formats of few bits hold no more of it than a table of 256 does,
+//! and a table takes no product. What a table has for a part of the range is the middle of what
+//! the function has there. A function that changes by more than [`ROUGH`] of all its values
+//! within one part is left. Whether a picture takes that is looked at when its format is chosen.
+//!
+//! What is left above the whole number below is looked up by the last bits of the real itself:
+//! `x - floor(x)` need not be made.
+
+use crate::analysis::range::Ranges;
+use crate::ir::build::Builder;
+use crate::ir::graph::*;
+use crate::passes::rewrite::rebuild::rebuild_old;
+use crate::source::Span;
+use rustc_hash::FxHashMap;
+use slowlight_routine::{Format, Op, Runtime, Type, Value};
+
+/// How many entries a table has.
+const ENTRIES: u32 = 256;
+
+/// How much a function may change within an entry, as a part of the span of its values.
+const ROUGH: f64 = 1.0 / 128.0;
+
+/// At how many places of an entry's part a function is looked at, its ends included.
+const PLACES: u32 = 9;
+
+/// How many operations are looked through for what they are a function of.
+const DEEP: usize = 32;
+
+/// What the name of such a table begins with.
+const NAME: &str = "function";
+
+/// The graph with such tables; nothing where there are none that pay, or its format has digits
+/// for more than they give.
+pub fn function_tables(graph: &Graph, ranges: &Ranges, runtime: &Runtime) -> Option<Graph> {
+    if !is_short(runtime.real) {
+        return None;
+    }
+    let site = Site {
+        graph,
+        ranges,
+        runtime,
+    };
+    let all = site.found();
+    if all.is_empty() {
+        return None;
+    }
+    Some(rebuild_old(graph, &mut |builder, made, id, span| {
+        let found = all.get(&id)?;
+        let new = |old: NodeId| made.get(old.0 as usize).copied().flatten();
+        let index = site.index(builder, &new, found, span)?;
+        let entries = found.entries.iter().map(|x| Constant::new(Value::Real(*x)));
+        let table = builder.table(Table {
+            name: NAME.to_owned(),
+            width: ENTRIES,
+            height: 1,
+            ty: Type::Real,
+            entries: entries.collect(),
+            seed: Vec::new(),
+        });
+        let row = builder.constant(Value::Int(0), span);
+        Some(builder.lookup(table, index, row, span))
+    }))
+}
+
+/// Whether a graph reads such tables.
+pub fn has_function_tables(graph: &Graph) -> bool {
+    graph.tables.iter().any(|table| table.name == NAME)
+}
+
+/// Whether a format has so few digits that a table of 256 is as good.
+fn is_short(real: Format) -> bool {
+    let few = match real {
+        Format::Scaled { bits } => bits <= 16,
+        Format::Log { .. } => true,
+        _ => false,
+    };
+    few
+}
+
+/// A function of a real.
+struct Function {
+    /// The real that it is a function of, clamped or not.
+    of: NodeId,
+    /// Between which of its values.
+    within: [f64; 2],
+    entries: Vec<f64>,
+    /// What its operations take.
+    cycles: f64,
+    /// How many nodes it was made of, itself included.
+    through: Vec<NodeId>,
+}
+
+struct Site<'g> {
+    graph: &'g Graph,
+    ranges: &'g Ranges,
+    runtime: &'g Runtime,
+}
+
+impl Site<'_> {
+    /// Which values become tables: the last ones of each chain, but none that a table is made of.
+    fn found(&self) -> FxHashMap<NodeId, Function> {
+        let mut all: FxHashMap<NodeId, Function> = FxHashMap::default();
+        let mut taken = vec![false; self.graph.nodes.len()];
+        for id in self.graph.ids().rev() {
+            if taken[id.0 as usize] || !self.is_function(id) {
+                continue;
+            }
+            if let Some(found) = self.function(id) {
+                found.through.iter().for_each(|id| taken[id.0 as usize] = true);
+                all.insert(id, found);
+            }
+        }
+        all
+    }
+
+    /// Whether a value may be looked through: a real made of reals.
+    fn is_function(&self, id: NodeId) -> bool {
+        matches!(self.graph.node(id), Node::Apply(op, _)
+            if op.result() == Type::Real && op.args().iter().all(|ty| *ty == Type::Real))
+    }
+
+    /// What a value is a function of where a table pays: of all reals that everything it is made
+    /// of goes through, that one from which on most is spared.
+    fn function(&self, root: NodeId) -> Option<Function> {
+        let mut best: Option<Function> = None;
+        let mut open = vec![root];
+        let mut through: Vec<NodeId> = Vec::new();
+        for _ in 0..DEEP {
+            // Operands stand before what is made of them.
+            open.sort_unstable();
+            open.dedup();
+            let last = open.pop()?;
+            if open.is_empty() && last != root {
+                let found = self.table(root, last, &through);
+                let more = |found: &Function| {
+                    best.as_ref().is_none_or(|best| found.cycles > best.cycles)
+                };
+                best = found.filter(more).or(best);
+            }
+            if !self.is_function(last) {
+                break;
+            }
+            through.push(last);
+            let operands = self.graph.node(last).operands();
+            open.extend(operands.filter(|id| self.graph.constant(*id).is_none()));
+            if open.is_empty() {
+                break;
+            }
+        }
+        best
+    }
+
+    /// A value as a table of another, where the operations between are dearer.
+    fn table(&self, root: NodeId, of: NodeId, through: &[NodeId]) -> Option<Function> {
+        let cycles = |op: Op| {
+            let routine = self.runtime.usual(op);
+            routine.map_or(0.0, |routine| f64::from(routine.cycles))
+        };
+        let ops = through.iter().filter_map(|id| match self.graph.node(*id) {
+            Node::Apply(op, _) => Some(cycles(op)),
+            _ => None,
+        });
+        let cycles_of_all: f64 = ops.sum();
+        if cycles_of_all < 2.0 * cycles(Op::Mul) + cycles(Op::Add) {
+            return None;
+        }
+        let range = self.ranges.result.get(of.0 as usize)?;
+        let within = match self.is_rest(self.unclamped(of)) {
+            true => [0.0, 1.0],
+            false => [range.lo, range.hi],
+        };
+        let wide = within[1] - within[0];
+        if !(wide > 1e-3 && wide < 1e3) {
+            return None;
+        }
+        let entries = self.entries(root, of, through, within)?;
+        Some(Function {
+            of,
+            within,
+            entries,
+            cycles: cycles_of_all,
+            through: through.to_vec(),
+        })
+    }
+
+    /// What stands in the table; nothing where the function is too steep for it.
+    fn entries(
+        &self,
+        root: NodeId,
+        of: NodeId,
+        through: &[NodeId],
+        [low, high]: [f64; 2],
+    ) -> Option<Vec<f64>> {
+        let mut known: FxHashMap<NodeId, f64> = FxHashMap::default();
+        let part = (high - low) / f64::from(ENTRIES);
+        let step = part / f64::from(PLACES - 1);
+        let mut all = Vec::new();
+        let (mut least, mut most, mut rough) = (f64::INFINITY, f64::NEG_INFINITY, 0.0f64);
+        for k in 0..ENTRIES {
+            let (mut lo, mut hi) = (f64::INFINITY, f64::NEG_INFINITY);
+            for place in 0..PLACES {
+                let at = low + f64::from(k) * part + f64::from(place) * step;
+                known.clear();
+                known.insert(of, at);
+                // The last one that was looked through comes first.
+                for id in through.iter().rev() {
+                    let Node::Apply(op, args) = self.graph.node(*id) else {
+                        return None;
+                    };
+                    let value = |id: NodeId| match self.graph.constant(id) {
+                        Some(value) => Some(value.real()),
+                        None => known.get(&id).copied(),
+                    };
+                    let found = op.eval_real(value(args[0])?, value(args[1])?).real();
+                    known.insert(*id, found);
+                }
+                let found = *known.get(&root)?;
+                (lo, hi) = (lo.min(found), hi.max(found));
+            }
+            (least, most, rough) = (least.min(lo), most.max(hi), rough.max(hi - lo));
+            all.push((lo + hi) / 2.0);
+        }
+        (rough.is_finite() && rough <= ROUGH * (most - least)).then_some(all)
+    }
+
+    /// What is clamped to a value: a place in a table is.
+    fn unclamped(&self, mut id: NodeId) -> NodeId {
+        while let Node::Apply(Op::Min | Op::Max, [a, b]) = self.graph.node(id) {
+            let bounds = [a, b].map(|id| self.graph.constant(id).map(Value::real));
+            id = match bounds {
+                [Some(0.0 | 1.0), None] => b,
+                [None, Some(0.0 | 1.0)] => a,
+                _ => return id,
+            };
+        }
+        id
+    }
+
+    /// Whether a value is what is left of another above the whole number below.
+    fn is_rest(&self, id: NodeId) -> bool {
+        self.whole_of(id).is_some()
+    }
+
+    fn whole_of(&self, id: NodeId) -> Option<NodeId> {
+        let Node::Apply(Op::Sub, [whole, floor]) = self.graph.node(id) else {
+            return None;
+        };
+        let Node::Apply(Op::ToReal, [int, _]) = self.graph.node(floor) else {
+            return None;
+        };
+        let rest = matches!(self.graph.node(int), Node::Apply(Op::Floor, [of, _]) if of == whole);
+        rest.then_some(whole)
+    }
+
+    /// The place in the table.
+    fn index(
+        &self,
+        b: &mut Builder,
+        new: &dyn Fn(NodeId) -> Option<NodeId>,
+        found: &Function,
+        span: Span,
+    ) -> Option<NodeId> {
+        let entries = f64::from(ENTRIES);
+        let mut real = |b: &mut Builder, x: f64| b.constant(Value::Real(x), span);
+        let rest = self.unclamped(found.of);
+        if let Some(whole) = self.whole_of(rest) {
+            let range = self.ranges.result.get(whole.0 as usize)?;
+            let fits = range.magnitude() * entries < self.runtime.int.most() - 1.0;
+            let of = if fits { whole } else { rest };
+            let by = real(b, entries);
+            let place = b.apply(Op::Mul, &[new(of)?, by], span);
+            let place = b.apply(Op::Floor, &[place], span);
+            let mask = b.constant(Value::Int(ENTRIES as i32 - 1), span);
+            return Some(match fits {
+                true => b.apply(Op::BitAnd, &[place, mask], span),
+                false => place,
+            });
+        }
+        let [low, high] = found.within;
+        let by = real(b, entries / (high - low));
+        let place = b.apply(Op::Mul, &[new(found.of)?, by], span);
+        let first = real(b, low * entries / (high - low));
+        let place = match low == 0.0 {
+            true => place,
+            false => b.apply(Op::Sub, &[place, first], span),
+        };
+        Some(b.apply(Op::Floor, &[place], span))
+    }
+}
+
+#[cfg(test)]
+mod tests;
