@@ -5,7 +5,11 @@ use crate::failure::{Failure, Outcome};
 use std::cell::RefCell;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::sync::{Arc, Mutex};
-use std::time::{Duration, Instant};
+
+#[cfg(not(target_family = "wasm"))]
+mod pressing;
+#[cfg(not(target_family = "wasm"))]
+pub use pressing::install;
 
 static INTERRUPTED: AtomicBool = AtomicBool::new(false);
 
@@ -15,12 +19,6 @@ static LAST_WORDS: Mutex<Option<Box<dyn FnOnce() + Send>>> = Mutex::new(None);
 /// How many works go on that never look at the flag, and how many that write files.
 static BLIND: AtomicUsize = AtomicUsize::new(0);
 static WRITING: AtomicUsize = AtomicUsize::new(0);
-
-/// How long work has to notice the flag before the process ends regardless.
-const PATIENCE: Duration = Duration::from_secs(1);
-
-/// How often it is looked at whether there is anything to wait for.
-const LOOK: Duration = Duration::from_millis(5);
 
 /// Something goes on until this is dropped.
 pub struct GoesOn(&'static AtomicUsize);
@@ -48,32 +46,6 @@ pub fn blind() -> GoesOn {
 /// removed: that is waited for.
 pub fn writing() -> GoesOn {
     GoesOn::new(&WRITING)
-}
-
-/// Waits until there is nothing to wait for, or no longer.
-fn wait() {
-    let begun = Instant::now();
-    let going = |count: &AtomicUsize| count.load(Ordering::SeqCst) > 0;
-    while begun.elapsed() < PATIENCE && (going(&WRITING) || !going(&BLIND)) {
-        std::thread::sleep(LOOK);
-    }
-}
-
-/// From now on Ctrl-C sets the flag instead of ending the process, so that
-/// temporary files are removed on the way out. A single pixel may take long,
-/// and nothing is being written meanwhile: then the process ends after a second, and at once
-/// where it is known that nobody looks ([`blind`]).
-pub fn install() {
-    // Where it cannot be installed, Ctrl-C ends the process as it always did.
-    let _ = ctrlc::set_handler(|| {
-        INTERRUPTED.store(true, Ordering::Relaxed);
-        wait();
-        let words = LAST_WORDS.lock().ok().and_then(|mut words| words.take());
-        if let Some(words) = words {
-            words();
-        }
-        std::process::exit(i32::from(Failure::Interrupted.status()));
-    });
 }
 
 /// Says something before the process ends because of Ctrl-C, where work did not notice in

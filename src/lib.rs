@@ -8,7 +8,10 @@ pub mod against;
 pub mod ascii;
 pub mod auto_format;
 pub mod cases;
+#[cfg(not(target_family = "wasm"))]
+mod cli;
 pub mod colours;
+#[cfg(not(target_family = "wasm"))]
 pub mod commands;
 pub mod diagnostics;
 pub mod digest;
@@ -30,6 +33,7 @@ pub mod keys;
 pub mod library;
 pub mod listing;
 pub mod live;
+#[cfg(not(target_family = "wasm"))]
 pub mod lsp;
 pub mod machine;
 pub mod measure;
@@ -41,73 +45,18 @@ pub mod program;
 pub mod progress;
 pub mod scene;
 pub mod sheet;
+#[cfg(not(target_family = "wasm"))]
 pub mod snapshot;
+#[cfg(not(target_family = "wasm"))]
 pub mod survey;
 pub mod target_args;
 pub mod together;
 pub mod trial;
+#[cfg(not(target_family = "wasm"))]
 pub mod tune;
+pub mod unlike;
 pub mod ways;
 
-use clap::error::{ContextKind, ErrorKind};
-use clap::{CommandFactory, Parser};
-use failure::{Failure, Outcome};
+#[cfg(not(target_family = "wasm"))]
+pub use cli::{command_line, main};
 pub use output::{say, say_json};
-use std::process::ExitCode;
-
-/// Compiles ray-traced scenes for machines where light is slow, runs the
-/// programs on bundled machines, and shows what accuracy costs in time.
-#[derive(Parser, Debug)]
-#[command(version, propagate_version = true)]
-struct Cli {
-    #[command(subcommand)]
-    command: commands::Command,
-}
-
-/// What the command line takes.
-pub fn command_line() -> clap::Command {
-    Cli::command()
-}
-
-/// Runs the command line; answers the exit status.
-pub fn main() -> ExitCode {
-    let done = match Cli::try_parse() {
-        Ok(cli) => {
-            interrupt::install();
-            draw::set_up_threads();
-            draw::deep(|| cli.command.run())
-        }
-        Err(other) => usage(&other),
-    };
-    match done {
-        Ok(()) => ExitCode::SUCCESS,
-        Err(failure) => crate::diagnostics::report(&failure),
-    }
-}
-
-/// What a command line that says nothing to do comes to: help, a version, or what is wrong
-/// with it; where a machine is missing, those that there are.
-fn usage(found: &clap::Error) -> Outcome<()> {
-    if !found.use_stderr() {
-        return output::written(found.print());
-    }
-    // Nothing is left to say it on where standard error cannot be written.
-    let _ = found.print();
-    let missing = found.get(ContextKind::InvalidArg).map(ToString::to_string);
-    if found.kind() == ErrorKind::MissingRequiredArgument
-        && missing.is_some_and(|args| args.contains("--target"))
-    {
-        output::remark(&format!("\n{}", target_args::known_targets()));
-    }
-    Err(Failure::Several(
-        u8::try_from(found.exit_code()).unwrap_or(2),
-    ))
-}
-
-#[cfg(test)]
-mod tests {
-    #[test]
-    fn the_command_line_is_sound() {
-        super::command_line().debug_assert();
-    }
-}

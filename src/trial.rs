@@ -34,6 +34,16 @@ pub struct Built {
     pub loaded: Loaded,
 }
 
+impl Built {
+    /// All files of the program, as `build` writes them.
+    pub fn files(&self) -> impl Iterator<Item = &File> {
+        let loaded = &self.loaded;
+        (self.sources.iter())
+            .chain(&loaded.system)
+            .chain(&loaded.binaries)
+    }
+}
+
 /// Writes a plan down and gives it to the machine.
 ///
 /// # Errors

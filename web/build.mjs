@@ -1,5 +1,5 @@
 // Bundles the editor into ../src/live/page/editor.js, with the notices of what is in it in
-// ../src/live/page/editor.licences.txt: `npm install`, then `npm run build`.
+// ../src/live/page/editor.licences.txt: `npm install`, then `npm run editor`.
 
 import { build } from "esbuild";
 import { readFileSync, writeFileSync, existsSync } from "node:fs";

@@ -206,10 +206,7 @@ pub fn write(
     }
     files::make(dir)?;
     let written: Vec<(PathBuf, &[u8])> = built
-        .sources
-        .iter()
-        .chain(&built.loaded.system)
-        .chain(&built.loaded.binaries)
+        .files()
         .chain(more)
         .map(|f| (dir.join(&f.name), f.bytes.as_slice()))
         .collect();

@@ -1,8 +1,7 @@
-//! The worker for machines: plans a scene that has rested, runs it so that its picture is seen
-//! to grow, and counts; one at a time.
+//! What a machine is asked for: a scene that has rested is planned, run so that its picture is
+//! seen to grow, and counted; one thing at a time.
 
-use super::Build;
-use super::desk::{Desk, Task, Wish};
+use super::board::{Board, Task, Wish};
 use super::shown::{Built, Costs, Machine as State, Planned, Stage};
 use crate::auto_format;
 use crate::draw::{self, Window};
@@ -14,80 +13,77 @@ use crate::picture::{FileFormat, Picture};
 use crate::scene::{Precision, Scene};
 use crate::target_args::ScreenArgs;
 use crate::trial::{self, LIMIT};
-use crate::tune::point::difference;
+use crate::unlike::difference;
 use crate::{forecast, interrupt};
 use slowlight_compiler::planner::PlannedScene;
 use slowlight_compiler::report::profile;
-use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::Arc;
-use std::time::{Duration, Instant};
+use std::time::Duration;
+use web_time::Instant;
 
 /// How often a growing picture is shown.
 const FRAME: Duration = Duration::from_millis(90);
 
 /// The last plan, for what is asked of the same wish.
-type Kept = Option<(u64, PlannedScene)>;
+pub type Kept = Option<(u64, PlannedScene)>;
+
+/// Writes the program of a plan; answers the names of its files.
+pub type Build<'b> = &'b dyn Fn(&PlannedScene, &ScreenArgs) -> Outcome<Vec<String>>;
 
 /// One thing that is to be done.
-struct Work<'w> {
-    desk: &'w Desk,
+pub struct Work<'w, B> {
+    board: &'w B,
     wish: &'w Wish,
     scene: &'w Scene,
     screen: ScreenArgs,
 }
 
-/// Does what is asked for until the end.
-pub fn work(desk: &Desk, build: Build) {
-    let mut kept: Kept = None;
-    while let Some((task, wish, scene, job)) = desk.next_task() {
-        let work = Work {
-            desk,
-            wish: &wish,
-            scene: &scene,
+impl<'w, B: Board> Work<'w, B> {
+    /// What is to be done of a wish, whose scene is right.
+    pub fn new(board: &'w B, wish: &'w Wish, scene: &'w Scene) -> Work<'w, B> {
+        Work {
+            board,
+            wish,
+            scene,
             screen: ScreenArgs {
                 format: wish.format.clone(),
                 mode: wish.mode.clone(),
                 ..ScreenArgs::default()
             },
-        };
-        let before = desk.shown().1.machine.stage;
-        let done = catch_unwind(AssertUnwindSafe(|| {
-            job.doing(|| match task {
-                Task::Run => work.run(&mut kept),
-                Task::Costs => work.costs(&mut kept),
-                Task::Build => work.build(&mut kept, build),
-            })
-        }));
-        let done = done.unwrap_or_else(|_| {
-            kept = None;
-            Err(Failure::Wrong(
-                "this program breaks slowlight, which is no fault of the scene's".to_owned(),
-            ))
-        });
-        work.ended((task, before), done);
+        }
     }
-}
 
-impl Work<'_> {
+    /// Does it.
+    ///
+    /// # Errors
+    /// What the page is to say of it ([`Work::ended`]).
+    pub fn done(&self, task: Task, kept: &mut Kept, build: Build<'_>) -> Outcome<()> {
+        match task {
+            Task::Run => self.run(kept),
+            Task::Costs => self.costs(kept),
+            Task::Build => self.build(kept, build),
+        }
+    }
+
     /// Shows something of the machine, unless a newer wish has come.
     fn show(&self, change: impl FnOnce(&mut State)) {
         let serial = self.wish.serial;
-        self.desk.show_of(serial, |shown, _| {
+        self.board.show_of(serial, |shown, _| {
             shown.machine.serial = serial;
             change(&mut shown.machine);
         });
     }
 
     /// How it ended: where it was no run, the last one's picture is what it was before.
-    fn ended(&self, (task, before): (Task, Stage), done: Outcome<()>) {
+    pub fn ended(&self, (task, before): (Task, Stage), done: Outcome<()>) {
         let failed = done.err().map(|failure| match failure {
             Failure::Interrupted => None,
             Failure::TooLarge(large) => Some(large.text),
             other => Some(other.reason()),
         });
         // Whoever's work it was: no machine runs now.
-        self.desk.show(|shown, _| shown.machine.at_work = 0);
-        self.desk.show_of(self.wish.serial, |shown, _| {
+        self.board.show(|shown, _| shown.machine.at_work = 0);
+        self.board.show_of(self.wish.serial, |shown, _| {
             shown.machine.stage = match &failed {
                 _ if task != Task::Run => before,
                 None => Stage::Done,
@@ -160,7 +156,7 @@ impl Work<'_> {
         let unlike = differences(window.places(), &picture.inks, &native.pixels).len();
         let image = Arc::new(difference(&picture, &native)?);
         let Sizes { code, tables, ram } = run.sizes;
-        self.desk.show_of(self.wish.serial, |shown, pictures| {
+        self.board.show_of(self.wish.serial, |shown, pictures| {
             pictures.difference = image;
             let machine = &mut shown.machine;
             machine.stage = Stage::Comparing;
@@ -220,7 +216,7 @@ impl Work<'_> {
     ) -> Outcome<()> {
         let png = Arc::new(picture.encode(FileFormat::Png)?);
         let hertz = forecast::hertz(plan, self.screen.machine(plan.target));
-        self.desk.show_of(self.wish.serial, |shown, pictures| {
+        self.board.show_of(self.wish.serial, |shown, pictures| {
             pictures.machine = png;
             let machine = &mut shown.machine;
             machine.picture += 1;
@@ -252,7 +248,7 @@ impl Work<'_> {
         let report = serde_json::to_vec(&found.report());
         let report = Arc::new(report.map_err(|e| Failure::Wrong(e.to_string()))?);
         let serial = self.wish.serial;
-        self.desk.show_of(serial, |shown, pictures| {
+        self.board.show_of(serial, |shown, pictures| {
             pictures.costs = report;
             shown.costs = Costs {
                 serial,
@@ -263,23 +259,12 @@ impl Work<'_> {
         Ok(())
     }
 
-    /// Writes the program's files into the scene's directory.
-    fn build(&self, kept: &mut Kept, build: Build) -> Outcome<()> {
+    /// Writes the program's files.
+    fn build(&self, kept: &mut Kept, build: Build<'_>) -> Outcome<()> {
         let plan = self.plan(kept)?;
         self.show(|machine| machine.stage = Stage::Building);
-        let file = self.desk.file();
-        // A scene that is called like one of its program's files would be written over.
-        if file.named().extension().is_none_or(|e| e != "scn") {
-            let why = "the program's files could take the scene's own place: call it NAME.scn";
-            return Err(Failure::Wrong(why.to_owned()));
-        }
-        let paths = build(&plan, &self.screen, file.directory())?;
-        let name = |path: &std::path::PathBuf| {
-            let name = path.file_name().unwrap_or(path.as_os_str());
-            name.to_string_lossy().into_owned()
-        };
-        let files = paths.iter().map(name).collect();
-        self.desk.show_of(self.wish.serial, |shown, _| {
+        let files = build(&plan, &self.screen)?;
+        self.board.show_of(self.wish.serial, |shown, _| {
             let count = shown.built.as_ref().map_or(1, |built| built.count + 1);
             shown.built = Some(Built {
                 count,

@@ -1,22 +1,23 @@
 //! The worker for native pictures: reads what is wanted, says what is wrong, and draws, a
 //! coarse picture first where the whole one takes long.
 
-use super::desk::{Desk, Wish};
+use super::board::{Board, Wish};
 use super::said;
 use super::shown::{Native as State, Stage};
 use crate::draw::{Drawn, Window};
 use crate::failure::{Failure, Outcome, Said};
 use crate::interrupt::{self, Job};
 use crate::picture::{FileFormat, png};
-use crate::scene::{Changes, Precision, Scene};
+use crate::scene::{Precision, Scene};
 use rayon::prelude::*;
 use slowlight_compiler::eval::native::{Native, Pixel};
 use slowlight_compiler::ir::graph::Graph;
 use slowlight_routine::Type;
-use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::collections::BTreeMap;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
-use std::time::{Duration, Instant};
+use std::time::Duration;
+use web_time::Instant;
 
 /// How long a whole picture may take for no coarse one to come before it.
 const QUICK: Duration = Duration::from_millis(80);
@@ -44,36 +45,12 @@ const DEAR: &str =
 /// Parts that the rows of a coarse picture are shared out in.
 const PARTS: usize = 8;
 
-/// The scene that was read last, to be drawn again with other values.
-type Read = Option<(Arc<str>, Scene)>;
-
-/// Draws whatever is wanted until the end.
-pub fn work(desk: &Desk, changes: &Changes) {
-    let mut last = 0;
-    let mut read: Read = None;
-    while let Some((wish, job)) = desk.next_native(last) {
-        last = wish.serial;
-        let drawn = catch_unwind(AssertUnwindSafe(|| {
-            drawn(desk, &wish, &job, changes, &mut read)
-        }));
-        let drawn = drawn.unwrap_or_else(|_| {
-            read = None;
-            Err(Failure::Wrong(
-                "this scene breaks slowlight, which is no fault of the scene's".to_owned(),
-            ))
-        });
-        if let Err(failure) = drawn {
-            refused(desk, &wish, failure);
-        }
-    }
-}
-
 /// Why there is no picture.
-fn refused(desk: &Desk, wish: &Wish, failure: Failure) {
+pub fn refused(board: &impl Board, wish: &Wish, failure: Failure) {
     let serial = wish.serial;
     let (why, problems) = match failure {
         Failure::Interrupted => {
-            return desk.show_of(serial, |shown, _| shown.native.stage = Stage::Stopped);
+            return board.show_of(serial, |shown, _| shown.native.stage = Stage::Stopped);
         }
         Failure::Scene(said) | Failure::Options(said) => {
             let Said {
@@ -84,7 +61,7 @@ fn refused(desk: &Desk, wish: &Wish, failure: Failure) {
         }
         other => (Some(other.reason()), None),
     };
-    desk.show_of(serial, |shown, _| {
+    board.show_of(serial, |shown, _| {
         if let Some(problems) = problems {
             shown.problems = problems;
         }
@@ -95,39 +72,13 @@ fn refused(desk: &Desk, wish: &Wish, failure: Failure) {
     });
 }
 
-/// Reads the wish's scene, unless it is the text of the last one.
-fn scene(desk: &Desk, wish: &Wish, changes: &Changes, read: &mut Read) -> Outcome<Scene> {
-    if let Some((text, scene)) = read
-        && **text == *wish.text
-        && !desk.file().is_any_stale()
-    {
-        return Ok(scene.clone());
-    }
-    *read = None;
-    let file = desk.file();
-    file.begin();
-    let mut used = |from: &str, path: &str| file.used(from, path);
-    let named = (&*file.name(), &*wish.text);
-    let scene = Scene::of_text(named, file.named(), changes, &mut used)?;
-    *read = Some((wish.text.clone(), scene.clone()));
-    Ok(scene)
-}
-
-/// Draws a wish: what comes first is drawn even where a newer wish is there already, so that
-/// a hand that does not rest sees something.
-fn drawn(desk: &Desk, wish: &Wish, job: &Job, changes: &Changes, read: &mut Read) -> Outcome<()> {
-    let serial = wish.serial;
-    let scene = scene(desk, wish, changes, read)?;
-    let usual = scene.graph(None, Precision::NATIVE)?;
-    let sources = &scene.checked.sources;
-    let problems = said::problems(serial, sources, &scene.checked.diagnostics);
-    let params = said::params(sources, &scene.checked.program, &usual);
-    let size = scene.size();
-    desk.show(|shown, _| {
-        shown.problems = problems;
-        shown.params = params;
-    });
-    // A param that is gone, or has become another, has the value that the text gives it.
+/// A scene and its graph with values for its params. A param that is gone, or has become
+/// another, has the value that the text gives it.
+pub fn set(
+    scene: Scene,
+    usual: Graph,
+    set: &BTreeMap<String, Vec<f64>>,
+) -> Outcome<(Scene, Graph)> {
     let fits = |name: &str, values: &[f64]| {
         let scalars: Vec<Type> = usual
             .params
@@ -142,16 +93,30 @@ fn drawn(desk: &Desk, wish: &Wish, job: &Job, changes: &Changes, read: &mut Read
         };
         scalars.len() == values.len() && scalars.iter().zip(values).all(may_be)
     };
-    let set = wish.set.iter().filter(|(name, values)| fits(name, values));
+    let set = set.iter().filter(|(name, values)| fits(name, values));
     let set: Vec<(String, Vec<f64>)> = set.map(|(n, v)| (n.clone(), v.clone())).collect();
-    let (scene, graph) = match set.is_empty() {
-        true => (scene, usual),
-        false => {
-            let scene = scene.setting(set)?;
-            let graph = scene.graph(None, Precision::NATIVE)?;
-            (scene, graph)
-        }
-    };
+    if set.is_empty() {
+        return Ok((scene, usual));
+    }
+    let scene = scene.setting(set)?;
+    let graph = scene.graph(None, Precision::NATIVE)?;
+    Ok((scene, graph))
+}
+
+/// Draws a wish: what comes first is drawn even where a newer wish is there already, so that
+/// a hand that does not rest sees something.
+pub fn drawn(board: &impl Board, wish: &Wish, job: &Job, scene: Scene) -> Outcome<Scene> {
+    let serial = wish.serial;
+    let usual = scene.graph(None, Precision::NATIVE)?;
+    let sources = &scene.checked.sources;
+    let problems = said::problems(serial, sources, &scene.checked.diagnostics);
+    let params = said::params(sources, &scene.checked.program, &usual);
+    let size = scene.size();
+    board.show(|shown, _| {
+        shown.problems = problems;
+        shown.params = params;
+    });
+    let (scene, graph) = set(scene, usual, &wish.set)?;
     let window = Window::whole(size.0, size.1);
     let since = || u64::try_from(wish.at.elapsed().as_millis()).unwrap_or(u64::MAX);
     let state = |stage, picture| State {
@@ -165,7 +130,7 @@ fn drawn(desk: &Desk, wish: &Wish, job: &Job, changes: &Changes, read: &mut Read
     let soon = soon(&graph, window);
     if let Soon::Coarse(coarse) = soon {
         first = Some(since());
-        desk.show(|shown, pictures| {
+        board.show(|shown, pictures| {
             pictures.native = Arc::new(coarse);
             shown.native = State {
                 first_ms: first,
@@ -176,7 +141,7 @@ fn drawn(desk: &Desk, wish: &Wish, job: &Job, changes: &Changes, read: &mut Read
         // A quick picture is drawn in any case.
         let whole = whole(&graph, window, None)?;
         let png = whole.picture().encode(FileFormat::Png)?;
-        desk.show(|shown, pictures| {
+        board.show(|shown, pictures| {
             pictures.native = Arc::new(png);
             shown.native = state(Stage::Coarse, shown.native.picture + 1);
         });
@@ -184,7 +149,7 @@ fn drawn(desk: &Desk, wish: &Wish, job: &Job, changes: &Changes, read: &mut Read
     }
     let whole = whole(&graph, window, Some(job))?;
     let png = whole.picture().encode(FileFormat::Png)?;
-    desk.show(|shown, pictures| {
+    board.show(|shown, pictures| {
         pictures.native = Arc::new(png);
         shown.native = State {
             first_ms: first.or(Some(since())),
@@ -192,8 +157,7 @@ fn drawn(desk: &Desk, wish: &Wish, job: &Job, changes: &Changes, read: &mut Read
             ..state(Stage::Done, shown.native.picture + 1)
         };
     });
-    desk.ready(wish.clone(), Arc::new(scene));
-    Ok(())
+    Ok(scene)
 }
 
 /// The whole picture, as `render` draws it, if it takes no more work than a page gives it:

@@ -9,6 +9,7 @@ use crate::need;
 use crate::scene::{Limits, Precision, Scene};
 use slowlight_compiler::ir::graph::Graph;
 use slowlight_compiler::plan::Goal;
+use slowlight_compiler::planner::pipeline::Pass;
 use slowlight_compiler::planner::{PlannedScene, plan_among};
 use slowlight_compiler::sema::{INSTANCES, Instancing, Ways};
 use slowlight_compiler::targets::Target;
@@ -83,6 +84,15 @@ impl ScreenArgs {
     pub fn in_format_of(&self, target: &Target) -> ScreenArgs {
         ScreenArgs {
             format: Some(target.runtime.format.to_owned()),
+            ..self.clone()
+        }
+    }
+
+    /// The same without one of the planner's passes.
+    #[must_use]
+    pub fn without(&self, pass: Pass) -> ScreenArgs {
+        ScreenArgs {
+            passes: self.passes.clone().without(pass),
             ..self.clone()
         }
     }

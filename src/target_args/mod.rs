@@ -255,15 +255,6 @@ impl ScreenArgs {
         whole.plan_in((mode, 0), scene, target, &[])
     }
 
-    /// The same without one of the planner's passes.
-    #[must_use]
-    pub fn without(&self, pass: Pass) -> ScreenArgs {
-        ScreenArgs {
-            passes: self.passes.clone().without(pass),
-            ..self.clone()
-        }
-    }
-
     /// Plans a scene for the best mode, whether or not its program fits.
     ///
     /// # Errors

@@ -55,6 +55,7 @@ fn arrows_point_down_only() {
         ("slowlight-syntax", &[]),
         ("slowlight-vm", &["slowlight-isa"]),
         ("slowlight-isa", &[]),
+        ("slowlight-web", &["slowlight"]),
     ];
     let found = arrows();
     assert_eq!(
@@ -128,6 +129,7 @@ fn files_are_short() {
         "runtime-bbc",
         "runtime-6502",
         "vm",
+        "web/wasm",
         "tests",
     ] {
         folders.push(root.join(name));

@@ -1,6 +1,7 @@
 //! One integration-test binary: a file a subject.
 
 mod accuracy;
+mod alone;
 mod any_assembler;
 mod auto_format;
 mod basic_discs;

@@ -1,11 +1,12 @@
 //! The page of `live` in a browser: written on, dragged, by the keyboard, on a telephone and in
-//! the dark, without a request that leaves this computer.
+//! the dark, without a request that leaves this computer; and the page by itself.
 
 use crate::cli::directory;
 use crate::live_client::Live;
 use serde_json::{Value, json};
+use std::io::{BufRead, BufReader};
 use std::path::Path;
-use std::process::Command;
+use std::process::{Child, Command, Stdio};
 
 /// A picture that takes the machine some seconds.
 const SCENE: &str = "image 320 x 240 inks black, red, yellow, white;
@@ -23,21 +24,26 @@ draw (x, y) = {                    // eight rays a pixel
 };
 ";
 
-#[test]
-fn a_scene_is_written_on_a_page() {
-    let dir = directory(&[("ring.scn", SCENE)]);
-    let live = Live::begin(dir.path(), &["ring.scn", "-t", "6502"]);
+/// Works with the page at an address in a browser; with a scene's file it is a page by itself.
+fn worked(address: &str, pictures: &str, scene: Option<&Path>) -> Value {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
     let output = Command::new("node")
         .arg(root.join("tests/peers/live.mjs"))
         .arg(root.join("target/peers/node_modules/puppeteer-core"))
-        .arg(&live.address)
-        .arg(root.join("target/peers/live"))
+        .arg(address)
+        .arg(root.join("target/peers").join(pictures))
+        .args(scene)
         .output()
         .expect("node is installed: see tests/peers/setup");
     let said = String::from_utf8_lossy(&output.stderr);
     assert!(output.status.success(), "{said}");
-    let found: Value = serde_json::from_slice(&output.stdout).expect("the answer is JSON");
+    let found = serde_json::from_slice(&output.stdout).expect("the answer is JSON");
+    holds(&found);
+    found
+}
+
+/// What holds of both pages.
+fn holds(found: &Value) {
     for none in ["errors", "asked", "serious"] {
         assert_eq!(found[none], json!([]), "{none}");
     }
@@ -71,4 +77,71 @@ fn a_scene_is_written_on_a_page() {
     let luma = |scheme: &str, k: usize| found["luma"][scheme][k].as_f64().expect("a luma");
     assert!(luma("light", 0) > 200.0 && luma("light", 1) < 80.0);
     assert!(luma("dark", 0) < 50.0 && luma("dark", 1) > 180.0);
+}
+
+#[test]
+fn a_scene_is_written_on_a_page() {
+    let dir = directory(&[("ring.scn", SCENE)]);
+    let live = Live::begin(dir.path(), &["ring.scn", "-t", "6502"]);
+    worked(&live.address, "live", None);
+}
+
+/// A file server, until this is dropped.
+struct Files(Child);
+
+impl Drop for Files {
+    fn drop(&mut self) {
+        // It may have ended already.
+        let _ = self.0.kill();
+        let _ = self.0.wait();
+    }
+}
+
+/// Serves a folder's files; answers the address.
+fn served(folder: &Path) -> (Files, String) {
+    let mut child = Command::new("python3")
+        .args(["-u", "-m", "http.server", "--bind", "127.0.0.1", "0"])
+        .current_dir(folder)
+        .stdout(Stdio::piped())
+        .stderr(Stdio::null())
+        .spawn()
+        .expect("python3 is installed: see tests/peers/setup");
+    let mut line = String::new();
+    let mut out = BufReader::new(child.stdout.take().expect("its output"));
+    out.read_line(&mut line).expect("a line");
+    let address = line.split_once('(').and_then(|(_, r)| r.split_once(')'));
+    let address = address.expect("an address").0.to_owned();
+    (Files(child), address)
+}
+
+#[test]
+fn the_page_by_itself_does_the_same_from_a_file_server() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    if !root.join("target/site/slowlight.wasm").exists() {
+        println!("skipped: target/site is not built (`npm run build` in web/, see docs/live.md)");
+        return;
+    }
+    let dir = directory(&[("ring.scn", SCENE)]);
+    // In a folder of another, as any address that only has to end in a slash.
+    let (_files, address) = served(&root.join("target"));
+    let scene = dir.path().join("ring.scn");
+    let found = worked(&format!("{address}site/"), "alone", Some(&scene));
+    let files = found["files"].to_string();
+    assert!(files.contains("ring.asm"), "{files}");
+    assert!(found["files"]["bytes"].as_u64() > Some(0), "{files}");
+    let restored = &found["restored"];
+    assert_eq!(
+        (&restored["text"], &restored["target"]),
+        (&json!(true), &json!(true))
+    );
+    let gallery = &found["gallery"];
+    assert!(
+        gallery["names"].as_array().map(Vec::len) > Some(10),
+        "{gallery}"
+    );
+    assert_eq!(found["broken"], "this link holds no scene");
+    println!(
+        "planned in {} ms, {} MHz",
+        found["planned"], found["megahertz"]
+    );
 }

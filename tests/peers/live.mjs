@@ -1,7 +1,9 @@
 // Opens the page of `slowlight live` in headless Chromium and works with it: by mouse, by
 // keyboard, on a telephone, in the dark.
 //
-//   node live.mjs PATH-OF-PUPPETEER-CORE ADDRESS SCREENSHOT-STEM
+//   node live.mjs PATH-OF-PUPPETEER-CORE ADDRESS SCREENSHOT-STEM [SCENE]
+//
+// With a scene's file the page is one by itself, and a link brings it the scene.
 //
 // The answer, on standard output as JSON:
 //   "errors"      what the console said as an error, and what was thrown
@@ -15,17 +17,32 @@
 //   "width"       the width of the page on a screen of 390 pixels
 //   "luma"        of paper and ink, light and dark
 //   "serious"     what axe-core finds serious or critical, light, dark and small
+// and of a page by itself
+//   "files"       the buttons after Build, and the bytes of the last one's file
+//   "restored"    whether the page's own address brings text, machine and picture back
+//   "gallery"     the scenes to choose from, and what the editor has of one that is chosen
+//   "broken"      what is said of a link that holds no scene
+//   "planned"     milliseconds from the first wish for a machine to its first cycle
+//   "megahertz"   of the machine, by its cycles and the time until its figures stood there
 
 import path from "node:path";
-import { readFileSync } from "node:fs";
+import { mkdtempSync, readFileSync, readdirSync, rmSync, statSync } from "node:fs";
+import { tmpdir } from "node:os";
+import { deflateRawSync } from "node:zlib";
 import { execFileSync } from "node:child_process";
 import { createRequire } from "node:module";
 
-const [root, address, stem] = process.argv.slice(2);
+const [root, address, stem, scene] = process.argv.slice(2);
 const require = createRequire(path.join(path.resolve(root), "package.json"));
 const puppeteer = require("puppeteer-core");
 const axe = readFileSync(require.resolve("axe-core/axe.min.js"), "utf8");
 const pause = (ms) => new Promise((done) => setTimeout(done, ms));
+
+// Whatever hangs, somebody is told.
+setTimeout(() => { process.stderr.write("no end in five minutes\n"); process.exit(3); }, 300000).unref();
+
+const link = (given) => address + "#s=" + deflateRawSync(JSON.stringify(given)).toString("base64url");
+const first = scene ? link({ name: path.basename(scene, ".scn"), text: readFileSync(scene, "utf8"), target: "6502" }) : address;
 
 const browser = await puppeteer.launch({
   executablePath: execFileSync("which", ["chromium"]).toString().trim(),
@@ -40,11 +57,20 @@ try {
   page.on("console", (said) => { if (said.type() === "error") errors.push(said.text()); });
   page.on("request", (request) => {
     const to = request.url();
-    if (!to.startsWith(address) && !to.startsWith("data:")) asked.push(to);
+    if (!to.startsWith(address) && !to.startsWith("data:") && !to.startsWith("blob:" + new URL(address).origin)) asked.push(to);
   });
   await page.setViewport({ width: 1280, height: 860 });
   await page.emulateMediaFeatures([{ name: "prefers-color-scheme", value: "light" }]);
-  await page.goto(address, { waitUntil: "load" });
+  // When the machine was seen to begin what.
+  await page.evaluateOnNewDocument(() => {
+    window.times = {};
+    document.addEventListener("DOMContentLoaded", () => {
+      const said = document.getElementById("machine-said");
+      new MutationObserver(() => { window.times[said.textContent.split(",")[0]] ??= performance.now(); })
+        .observe(said, { childList: true, subtree: true, characterData: true });
+    });
+  });
+  await page.goto(first, { waitUntil: "load" });
 
   const source = (id) => page.$eval("#" + id, (image) => image.getAttribute("src") ?? "");
   const words = (id) => page.$eval("#" + id, (e) => e.textContent);
@@ -75,6 +101,12 @@ try {
     await pause(20);
   }
   await done();
+  if (scene) {
+    const times = await page.evaluate(() => window.times);
+    const cycles = await page.$eval("#figures dd", (e) => Number(e.textContent.replaceAll(",", "")));
+    out.planned = times.running - times.planning;
+    out.megahertz = cycles / (times["comparing with the model"] - times.running) / 1000;
+  }
   await page.screenshot({ path: stem + "-wide.png" });
   await look("light");
 
@@ -165,7 +197,43 @@ try {
   out.width = await page.evaluate(() => document.documentElement.scrollWidth);
   await page.screenshot({ path: stem + "-small.png", fullPage: true });
   await look("small");
+  if (scene) await by_itself(page, out, until, words);
   process.stdout.write(JSON.stringify({ errors, asked, ...out }));
 } finally {
   await browser.close();
+}
+
+// What only a page by itself has.
+async function by_itself(page, out, until, words) {
+  const text = () => page.$$eval(".cm-line", (all) => all.map((l) => l.textContent).join("\n"));
+  await page.setViewport({ width: 1280, height: 860 });
+  await until("figures", () => document.getElementById("figures").textContent.includes("unlike the model"));
+  await page.click("#build");
+  await until("files", () => document.querySelector("#built button"));
+  const folder = mkdtempSync(path.join(tmpdir(), "slowlight-"));
+  const session = await page.createCDPSession();
+  await session.send("Browser.setDownloadBehavior", { behavior: "allow", downloadPath: folder });
+  await page.$$eval("#built button", (all) => all[all.length - 1].click());
+  const arrived = () => readdirSync(folder).find((name) => !name.endsWith(".crdownload"));
+  for (let k = 0; k < 200 && !arrived(); k++) await pause(50);
+  out.files = { names: await page.$$eval("#built button", (all) => all.map((b) => b.textContent)), saved: arrived(), bytes: statSync(path.join(folder, arrived())).size };
+  rmSync(folder, { recursive: true });
+
+  // The address has all that was written since; another page is opened there.
+  await pause(500);
+  const [was, href, chosen] = [await text(), page.url(), await page.$eval("#target", (e) => e.value)];
+  const other = await page.browser().newPage();
+  await other.goto(href, { waitUntil: "load" });
+  await other.waitForFunction(() => /, in \d+ ms/.test(document.getElementById("native-said").textContent), { timeout: 60000 });
+  const again = await other.$$eval(".cm-line", (all) => all.map((l) => l.textContent).join("\n"));
+  out.restored = { text: again === was, length: href.length, target: (await other.$eval("#target", (e) => e.value)) === chosen };
+  await other.close();
+
+  out.gallery = { names: await page.$$eval("#scene option", (all) => all.map((o) => o.textContent)) };
+  await page.select("#scene", out.gallery.names[1]);
+  await until("another text", (was) => [...document.querySelectorAll(".cm-line")].map((l) => l.textContent).join("\n") !== was, was);
+  out.gallery.name = await words("name");
+  await page.evaluate(() => { location.hash = "#s=!"; });
+  await until("a word on the link", () => document.getElementById("saved").textContent !== "");
+  out.broken = await words("saved");
 }

@@ -1,6 +1,6 @@
 // What each line of the scene costs on the machine, in the editor's gutter and in words.
 
-import { get, post } from "./server.js";
+import { get, post } from "./desk.js";
 import { count, percent, say } from "./pictures.js";
 
 let editor = null;

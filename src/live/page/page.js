@@ -1,7 +1,7 @@
 // The page: what is chosen and written goes to slowlight, and what it says is shown.
 
 import { editor as makeEditor } from "./editor.js";
-import { follow, get, isSending, me, post, want } from "./server.js";
+import { alone, follow, get, isSending, me, post, want } from "./desk.js";
 import { say, showMachine, showNative } from "./pictures.js";
 import { showParams } from "./params.js";
 import * as lines from "./lines.js";
@@ -30,6 +30,7 @@ async function save(force) {
 }
 
 function unsaved() {
+  if (alone) return;
   say("saved", "not saved yet");
   place("save").disabled = false;
 }
@@ -68,6 +69,8 @@ function showFile() {
   say("name", file.name);
   document.title = file.name + " – Slowlight";
   place("elsewhere").hidden = !file.elsewhere;
+  // The address of a page by itself has the text.
+  if (alone) return say("saved", file.wrong ?? "");
   const saved = file.saved && shown.text.revision === revision && !isSending();
   place("save").disabled = saved;
   say("saved", file.wrong ? file.wrong : saved ? "saved" : "not saved yet");
@@ -91,11 +94,19 @@ function showProblems() {
   }));
 }
 
+// A button that saves a file of the program.
+function toSave(name) {
+  const button = Object.assign(document.createElement("button"), { type: "button", textContent: name });
+  button.addEventListener("click", () => alone.save(name));
+  return button;
+}
+
 let built = 0;
 function showBuilt() {
   const now = shown.built;
   if (!now || now.count === built) return;
   built = now.count;
+  if (alone && !now.wrong) return place("built").replaceChildren("Save: ", ...now.files.map(toSave));
   say("built", now.wrong ?? "Written to " + shown.file.directory + ": " + now.files.join(", "));
 }
 
@@ -128,6 +139,20 @@ follow((news) => {
   const ready = shown.native.stage === "done";
   for (const id of ["run", "costs", "build"]) place(id).disabled = !ready && !(id === "run" && shown.native.stage === "stopped");
 });
+
+if (alone) {
+  const scene = place("scene");
+  scene.append(option("", "gallery"), ...alone.scenes.map((name) => option(name, name)));
+  scene.addEventListener("change", () => {
+    if (scene.value) alone.open(scene.value);
+    scene.value = "";
+  });
+  place("scenes").hidden = place("link").hidden = false;
+  place("link").addEventListener("click", async () => {
+    const done = await alone.copy().then(() => true, () => false);
+    say("saved", done ? "the link is copied" : "the link is this page's address");
+  });
+}
 
 place("target").addEventListener("change", (e) => want({ target: e.target.value }));
 place("format").addEventListener("change", (e) => want({ format: e.target.value || null }));

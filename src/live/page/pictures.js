@@ -1,5 +1,7 @@
 // The two pictures, and the machine's figures.
 
+import { picture as address } from "./desk.js";
+
 const place = (id) => document.getElementById(id);
 
 // An image that is asked for again only once the last one has come.
@@ -78,7 +80,7 @@ export function showNative(shown) {
   frame.classList.toggle("coarse", state.stage === "coarse");
   frame.classList.toggle("old", state.stage === "wrong");
   if (state.size[0]) frame.style.aspectRatio = state.size.join(" / ");
-  if (state.picture) native.show("native.png?" + state.picture);
+  if (state.picture) native.show(address("native.png", state.picture));
   native.image.alt = "Native picture, " + state.size.join(" by ") + " pixels";
   const size = state.size.join(" × ");
   const said = {
@@ -99,8 +101,8 @@ export function showMachine(shown, unlike) {
   say("machine-name", shown.chosen.target);
   frame.classList.toggle("old", state.picture > 0 && (old || state.stage === "planning" || state.stage === "wrong"));
   if (state.size[0]) frame.style.aspectRatio = state.size.join(" / ");
-  const what = unlike && state.difference && !old ? "difference.png?" : "machine.png?";
-  if (state.picture) machine.show(what + state.picture);
+  const what = unlike && state.difference && !old ? "difference.png" : "machine.png";
+  if (state.picture) machine.show(address(what, state.picture));
   machine.image.alt = unlike ? "Where the machine's picture is unlike the native one: darker in red, lighter in blue"
     : "The machine's picture, " + state.size.join(" by ") + " pixels";
   let said = wrong ? "waits for a right scene" : old ? "waits" : stages[state.stage];

@@ -4,8 +4,9 @@
 //! by which a page asks for what it has not seen.
 
 use super::file::SceneFile;
-use super::shown::{Chosen, File, Shown, Stage};
 use crate::interrupt::Job;
+use crate::live::board::{Board, Pictures, Task, Wish};
+use crate::live::shown::{Chosen, File, Shown, Stage};
 use crate::scene::Scene;
 use slowlight_compiler::targets::Target;
 use std::collections::BTreeMap;
@@ -15,27 +16,6 @@ use tokio::sync::watch;
 
 /// How long the text must rest before a machine is put to work.
 const REST: Duration = Duration::from_millis(350);
-
-/// What is wanted.
-#[derive(Clone, Debug)]
-pub struct Wish {
-    /// Goes up with each.
-    pub serial: u64,
-    /// When it came.
-    pub at: Instant,
-    /// The scene's text.
-    pub text: Arc<str>,
-    /// The revision of that.
-    pub revision: u64,
-    /// Values of params that are not the text's.
-    pub set: BTreeMap<String, Vec<f64>>,
-    /// The machine.
-    pub target: &'static Target,
-    /// The format, if one is asked for.
-    pub format: Option<String>,
-    /// The mode, if one is asked for.
-    pub mode: Option<String>,
-}
 
 /// What a page may change of a wish; what is none stays.
 #[derive(Default)]
@@ -52,32 +32,10 @@ pub struct Change {
     pub mode: Option<Option<String>>,
 }
 
-/// What a machine can be asked to do beside running.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Task {
-    /// Run the program.
-    Run,
-    /// Count what each line takes.
-    Costs,
-    /// Write the program's files.
-    Build,
-}
-
-/// What is asked for apart from the state: pictures, as PNGs.
-#[derive(Clone, Default)]
-pub struct Pictures {
-    /// The native one.
-    pub native: Arc<Vec<u8>>,
-    /// The machine's.
-    pub machine: Arc<Vec<u8>>,
-    /// Where they are unlike.
-    pub difference: Arc<Vec<u8>>,
-    /// What `explain --json` prints.
-    pub costs: Arc<Vec<u8>>,
-}
-
 struct Inner {
     wish: Wish,
+    /// Goes up with each text.
+    revision: u64,
     shown: Shown,
     version: u64,
     pictures: Pictures,
@@ -108,7 +66,6 @@ impl Desk {
             serial: 1,
             at: Instant::now(),
             text: file.text().into(),
-            revision: 1,
             set: BTreeMap::new(),
             target,
             format: None,
@@ -125,6 +82,7 @@ impl Desk {
                 ..Shown::default()
             },
             wish,
+            revision: 1,
             version: 1,
             pictures: Pictures::default(),
             drawing: Job::default(),
@@ -156,7 +114,7 @@ impl Desk {
     /// Takes a wish; answers its number.
     pub fn wish(&self, change: Change) -> u64 {
         let mut inner = self.lock();
-        let wish = &mut inner.wish;
+        let Inner { wish, revision, .. } = &mut *inner;
         wish.serial += 1;
         wish.at = Instant::now();
         let mut by = None;
@@ -164,7 +122,7 @@ impl Desk {
             && *wish.text != *text
         {
             wish.text = text.into();
-            wish.revision += 1;
+            *revision += 1;
             by = Some(page);
         }
         if let Some(set) = change.set {
@@ -236,11 +194,6 @@ impl Desk {
         self.changed.notify_all();
     }
 
-    /// Changes what is shown.
-    pub fn show(&self, change: impl FnOnce(&mut Shown, &mut Pictures)) {
-        self.change(self.lock(), change);
-    }
-
     fn change(
         &self,
         mut inner: MutexGuard<'_, Inner>,
@@ -253,17 +206,15 @@ impl Desk {
         self.seen(inner);
     }
 
-    /// The same on behalf of a wish, unless a newer one has come.
-    pub fn show_of(&self, serial: u64, change: impl FnOnce(&mut Shown, &mut Pictures)) {
-        let inner = self.lock();
-        if inner.wish.serial == serial {
-            self.change(inner, change);
-        }
-    }
-
     /// What is wanted now.
     pub fn wanted(&self) -> Wish {
         self.lock().wish.clone()
+    }
+
+    /// The text that is wanted now, and how often it was another.
+    pub fn text(&self) -> (Arc<str>, u64) {
+        let inner = self.lock();
+        (inner.wish.text.clone(), inner.revision)
     }
 
     /// The pictures.
@@ -352,11 +303,24 @@ impl Desk {
     }
 }
 
+impl Board for Desk {
+    fn show(&self, change: impl FnOnce(&mut Shown, &mut Pictures)) {
+        self.change(self.lock(), change);
+    }
+
+    fn show_of(&self, serial: u64, change: impl FnOnce(&mut Shown, &mut Pictures)) {
+        let inner = self.lock();
+        if inner.wish.serial == serial {
+            self.change(inner, change);
+        }
+    }
+}
+
 impl Inner {
     /// What was chosen is shown.
     fn chosen(&mut self, by: &str) {
         let wish = &self.wish;
-        self.shown.text.revision = wish.revision;
+        self.shown.text.revision = self.revision;
         by.clone_into(&mut self.shown.text.by);
         self.shown.chosen = Chosen {
             serial: wish.serial,

@@ -1,4 +1,5 @@
-// Talks to slowlight: asks for news, and sends what is wanted, the newest only.
+// The desk of a page that slowlight serves: asks it for news, and sends what is wanted, the
+// newest only. A page by itself has another desk with the same names (web/src/alone.js).
 
 // This page's own name, so that it is not told its own edits.
 export const me = crypto.randomUUID();
@@ -64,3 +65,9 @@ export async function follow(told) {
     }
   }
 }
+
+// The address of a picture, whose number is another with each.
+export const picture = (name, number) => name + "?" + number;
+
+// What a page has that stands by itself: scenes, a link, files to save. None here.
+export const alone = null;

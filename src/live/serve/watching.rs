@@ -1,6 +1,7 @@
 //! A watch on the scene's directory: what is saved elsewhere is read again.
 
 use super::desk::{Change, Desk};
+use crate::live::board::Board;
 use notify_debouncer_mini::notify::{RecommendedWatcher, RecursiveMode};
 use notify_debouncer_mini::{DebounceEventResult, Debouncer, new_debouncer};
 use std::sync::Arc;

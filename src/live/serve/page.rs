@@ -19,7 +19,7 @@ macro_rules! asset {
         Asset {
             name: $name,
             kind: $kind,
-            bytes: include_bytes!(concat!("page/", $name)),
+            bytes: include_bytes!(concat!("../page/", $name)),
         }
     };
 }
@@ -29,7 +29,7 @@ static ASSETS: &[Asset] = &[
     asset!("index.html", "text/html; charset=utf-8"),
     asset!("page.css", "text/css; charset=utf-8"),
     asset!("page.js", SCRIPT),
-    asset!("server.js", SCRIPT),
+    asset!("desk.js", SCRIPT),
     asset!("pictures.js", SCRIPT),
     asset!("params.js", SCRIPT),
     asset!("lines.js", SCRIPT),

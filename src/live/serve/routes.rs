@@ -1,14 +1,16 @@
 //! What can be asked: a table of names, none of which is a path of a file.
 
-use super::desk::{Change, Desk, Task};
+use super::desk::{Change, Desk};
 use super::file::Saved;
 use super::page;
-use super::shown::Shown;
 use super::watching;
 use crate::files;
+use crate::live::board::{Board, Task};
+use crate::live::choices::machines;
+use crate::live::shown::Shown;
 use serde::Deserialize;
 use serde_json::{Value, json};
-use slowlight_compiler::targets::{TARGETS, Target, find, formats};
+use slowlight_compiler::targets::find;
 use std::borrow::Cow;
 use std::collections::BTreeMap;
 
@@ -68,14 +70,11 @@ pub fn state(version: u64, shown: &Shown) -> Answer {
 pub fn got(desk: &Desk, path: &str) -> Answer {
     match path {
         "scene" => {
-            let wish = desk.wanted();
-            let text = json!({"text": &*wish.text, "revision": wish.revision});
+            let (text, revision) = desk.text();
+            let text = json!({"text": &*text, "revision": revision});
             Answer::json(200, &text)
         }
-        "machines" => {
-            let machines = TARGETS.iter().map(|target| machine(target));
-            Answer::json(200, &Value::Array(machines.collect()))
-        }
+        "machines" => Answer::json(200, &machines()),
         "costs" => match desk.pictures().costs.to_vec() {
             bytes if bytes.is_empty() => Answer::text(404, "nothing was counted yet\n"),
             bytes => Answer {
@@ -96,14 +95,6 @@ pub fn got(desk: &Desk, path: &str) -> Answer {
             None => Answer::text(404, "there is nothing of that name\n"),
         },
     }
-}
-
-fn machine(target: &Target) -> Value {
-    let formats: Vec<&str> = formats(target).map(|t| t.runtime.format).collect();
-    let named = target.modes.iter().filter(|mode| !mode.name.is_empty());
-    let mode = |mode: &slowlight_compiler::targets::Mode| json!({"name": mode.name, "width": mode.width, "height": mode.height, "inks": mode.inks});
-    let modes: Vec<Value> = named.map(mode).collect();
-    json!({"name": target.name, "about": target.about, "formats": formats, "modes": modes})
 }
 
 /// What an edit may bring; what is not there stays as it is, what is null is none.
