@@ -20,7 +20,7 @@
 //!
 //! Formats of few bits are looked at first. Where the quickest of those is within the goal, and
 //! no slower than fixed point in 16 bits, the wider ones are not: they take longer. Formats that are
-//! exact and slow ([`Target::last`]) are looked at where no other may keep the goal, or two that
+//! exact and slow ([`Target::last`]) are looked at where no other may keep the goal, or three that
 //! might have kept it do not.
 
 mod candidates;
@@ -43,7 +43,10 @@ use slowlight_compiler::targets::{Target, formats};
 use slowlight_routine::{Format, Op, Runtime};
 
 /// How many formats are planned in earnest; the last is the one with fewest pixels wrong.
-const TRIES: usize = 3;
+const TRIES: usize = 4;
+
+/// The last but one is the quickest with at most such a part of the pixels wrong that may be.
+const SURE: f64 = 0.5;
 
 /// A plan, and what is known of its format.
 pub struct Chosen {
@@ -166,7 +169,7 @@ fn quickest(
             known.extend(candidates(screen, scene, &more, goal, &mut left));
             sort(&mut known, goal);
         }
-        // The exact ones are looked at where no other may be within the goal, or two that might
+        // The exact ones are looked at where no other may be within the goal, or three that might
         // have been are not.
         let none = !known.iter().any(|one| one.may(goal)) || tries + 1 == TRIES;
         let some = tries > 0 || !known.is_empty();
@@ -184,13 +187,14 @@ fn quickest(
             }
             (known, tries) = (vec![left.remove(0)], TRIES - 1);
         }
-        // The last try is for the surest.
-        let next = match tries + 1 < TRIES || kept.is_some() {
+        // The last try is for the surest, and that before for one that is nearly so and quicker.
+        let next = match tries + 2 < TRIES || kept.is_some() {
             true => 0,
             false => {
+                let sure = |one: &Candidate| one.wrong <= SURE * goal && tries + 1 < TRIES;
                 let all = known.iter().map(|one| one.wrong).enumerate();
-                let surest = all.min_by(|(_, a), (_, b)| a.total_cmp(b));
-                surest.map_or(0, |(k, _)| k)
+                let surest = all.min_by(|(_, a), (_, b)| a.total_cmp(b)).map(|(k, _)| k);
+                known.iter().position(sure).or(surest).unwrap_or(0)
             }
         };
         if next >= known.len() {

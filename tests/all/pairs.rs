@@ -24,7 +24,12 @@ fn cycles_with(scene: &str, target: &str, options: &[&str]) -> f64 {
 
 /// Holds what the first scene takes to what the second does.
 pub(crate) fn is_as_quick(written: &str, by_hand: &str) {
-    for target in ["jack", "6502:plain", "bbc:micro"] {
+    is_as_quick_on(&["jack", "6502:plain", "bbc:micro"], written, by_hand);
+}
+
+/// The same on some machines.
+pub(crate) fn is_as_quick_on(targets: &[&str], written: &str, by_hand: &str) {
+    for target in targets {
         let [written, by_hand] = [written, by_hand].map(|scene| cycles(scene, target));
         let times = written / by_hand;
         assert!(

@@ -1,7 +1,7 @@
 //! Pairs as in [`crate::pairs`], of single expressions and loops: what is written where it is
 //! needed takes no longer than what somebody moves, shares or folds by hand.
 
-use crate::pairs::{HEAD, is_as_quick};
+use crate::pairs::{HEAD, is_as_quick, is_as_quick_on};
 
 /// A picture by a value.
 fn shade(before: &str) -> String {
@@ -206,5 +206,81 @@ fn a_number_times_a_vector_is_three_products() {
     is_as_quick(
         &far("r.at(t)"),
         &far("(r.from.x + t * r.dir.x, r.from.y + t * r.dir.y, r.from.z + t * r.dir.z)"),
+    );
+}
+
+/// A table of 65 entries, and what is between two of them in proportion.
+fn between(name: &str, entry: &dyn Fn(f64) -> f64, place: &str, at: &str) -> String {
+    let entries: Vec<String> = (0..=64)
+        .map(|k| format!("{:.9}", entry(f64::from(k))))
+        .collect();
+    format!(
+        "const {name}s = [{}];
+         fn {name}(a: real) -> real = {{
+           let p = {place}; let k = floor(p); let i = {at};
+           {name}s[i] + ({name}s[i + 1] - {name}s[i]) * (p - k)
+         }};",
+        entries.join(", ")
+    )
+}
+
+/// BASIC's own functions have nine digits, and a table has four.
+const SHORT: [&str; 2] = ["jack", "6502:plain"];
+
+#[test]
+fn sines_and_exponentials_are_tables_with_steps_between() {
+    let turn = std::f64::consts::TAU / 64.0;
+    let scene = |item: &str, v: &str| {
+        let drawn = shade(&format!(
+            "let a = r.dir.x * 4 + r.dir.y * r.dir.z; let v = {v}"
+        ));
+        let (head, rest) = drawn.split_at(HEAD.len());
+        format!("{head}{item}\n{rest}")
+    };
+    let sine = between("sine", &|k| (k * turn).sin(), "a * 10.18591636", "k mod 64");
+    is_as_quick_on(
+        &SHORT,
+        &scene("", "0.5 + 0.5 * sin(a * 1rad)"),
+        &scene(&sine, "0.5 + 0.5 * sine(a)"),
+    );
+    let fall = between("fall", &|k| (-k / 8.0).exp(), "a * 8", "k");
+    is_as_quick_on(
+        &SHORT,
+        &scene("", "exp(-abs(a))"),
+        &scene(&fall, "fall(min(abs(a), 7.9))"),
+    );
+}
+
+#[test]
+fn noise_is_no_dearer_than_in_whole_numbers() {
+    let fades: Vec<String> = (0..128)
+        .map(|k| f64::from(k) / 128.0)
+        .map(|t| format!("{:.0}", 128.0 * t * t * (3.0 - 2.0 * t)))
+        .collect();
+    let items = format!(
+        "const fades = [{}];
+         fn between(a: int, b: int, u: int) -> int = a + (b - a) * u div 128;",
+        fades.join(", ")
+    );
+    let scene = |items: &str, v: &str| {
+        format!(
+            "{HEAD}{items}
+             draw (x, y) = {{ {v}; threshold(v, bayer(4)[x mod 4, y mod 4]) }};"
+        )
+    };
+    is_as_quick(
+        &scene(
+            "",
+            "let v = noise((x * 0.23 + y * 0.07, y * 0.31 - x * 0.05))",
+        ),
+        &scene(
+            &items,
+            "let p = floor((x * 0.23 + y * 0.07) * 128);
+             let q = floor((y * 0.31 - x * 0.05) * 128);
+             let i = p div 128; let j = q div 128; let u = fades[p mod 128];
+             let near = between(hash(i, j), hash(i + 1, j), u);
+             let far = between(hash(i, j + 1), hash(i + 1, j + 1), u);
+             let v = between(near, far, fades[q mod 128]) / 255",
+        ),
     );
 }

@@ -139,6 +139,13 @@ fn what_subroutines_are_given_and_leave_keeps_its_bits() {
     );
     // Choices are left behind as well.
     let twist = include_str!("../../../examples/twist.scn").replace("320 x 240", "160 x 120");
+    let screw = "shape screw(a: shape, by: angle, radius: real) {
+          dist(p) = a.dist(turned(p, (0, 1, 0), p.y * by)) / stretch(abs(by) / 1rad * max(length(p.xz), radius));
+        }
+        scene forms";
+    let twist = twist
+        .replace("twist(box", "screw(box")
+        .replace("scene forms", screw);
     for (text, target) in [
         (text.as_str(), &mos6502::PLAIN_FIXED16),
         (twist.as_str(), &mos6502::PLAIN_FIXED16),

@@ -11,7 +11,7 @@ use crate::sema::Options;
 use slowlight_routine::{Op, Runtime};
 
 /// A scene of 24 by 16 pixels, as passes have it.
-pub(super) fn analysed(source: &str, runtime: &'static Runtime) -> Analysed {
+pub(in crate::passes) fn analysed(source: &str, runtime: &'static Runtime) -> Analysed {
     let checked = scene::check("test", source);
     assert!(checked.is_right(), "{source}: {:?}", checked.diagnostics);
     let graph = checked.lower(&Options::default()).unwrap();
@@ -19,7 +19,7 @@ pub(super) fn analysed(source: &str, runtime: &'static Runtime) -> Analysed {
 }
 
 /// Products of reals at each turn.
-pub(super) fn products(graph: &Graph) -> usize {
+pub(in crate::passes) fn products(graph: &Graph) -> usize {
     let (reached, rates) = (graph.reached(), rates(graph));
     let counts = |id: &NodeId| {
         let mut by = rates.rate(*id).iter();
@@ -31,7 +31,7 @@ pub(super) fn products(graph: &Graph) -> usize {
 }
 
 /// All of its shades, natively.
-pub(super) fn shades(graph: &Graph) -> Vec<f64> {
+pub(in crate::passes) fn shades(graph: &Graph) -> Vec<f64> {
     let mut native = Native::new(graph);
     let places = (0..16).flat_map(|y| (0..24).map(move |x| (x, y)));
     places.map(|(x, y)| native.pixel(x, y).shade).collect()

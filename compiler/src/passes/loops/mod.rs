@@ -3,7 +3,7 @@
 pub mod bypass;
 pub mod collect;
 #[cfg(test)]
-mod drawn;
+pub(in crate::passes) mod drawn;
 pub mod guard;
 #[cfg(test)]
 mod guard_tests;

@@ -1,14 +1,14 @@
-//! Tabulation: functions of one real that stays within a short range become tables, read at the
-//! place where the real stands among 256.
+//! Tabulation: functions of one real that is clamped to a short range, or is what a floor leaves,
+//! become tables, read at the place where the real stands among 256.
 //!
 //! A fade between two numbers of noise is a cubic of what is left of a coordinate: two products
 //! and four sums that clamp. Formats of few bits hold no more of it than a table of 256 does,
-//! and a table takes no product. What a table has for a part of the range is the middle of what
-//! the function has there. A function that changes by more than [`ROUGH`] of all its values
-//! within one part is left. Whether a picture takes that is looked at when its format is chosen.
+//! and a table takes no product. The nearest place is taken, so that what was rounded to one is
+//! looked up there. A function that changes by more than [`ROUGH`] of all its values between two
+//! is left. Whether a picture takes that is looked at when its format is chosen.
 //!
-//! What is left above the whole number below is looked up by the last bits of the real itself:
-//! `x - floor(x)` need not be made.
+//! Places in tables are clamped, so that what is clamped before need not be. (The last bits of
+//! `x` itself are no place of `x - floor(x)`: 256 `x` may be rounded up where `x` is cut.)
 
 use crate::analysis::range::Ranges;
 use crate::ir::build::Builder;
@@ -18,14 +18,14 @@ use crate::source::Span;
 use rustc_hash::FxHashMap;
 use slowlight_routine::{Format, Op, Runtime, Type, Value};
 
-/// How many entries a table has.
-const ENTRIES: u32 = 256;
+/// Into how many parts a range is cut; a table has an entry for each end of them.
+const PARTS: u32 = 256;
 
 /// How much a function may change within an entry, as a part of the span of its values.
 const ROUGH: f64 = 1.0 / 128.0;
 
-/// At how many places of an entry's part a function is looked at, its ends included.
-const PLACES: u32 = 9;
+/// At how many places about an entry a function is looked at, its own in the middle.
+const PLACES: usize = 9;
 
 /// How many operations are looked through for what they are a function of.
 const DEEP: usize = 32;
@@ -55,7 +55,7 @@ pub fn function_tables(graph: &Graph, ranges: &Ranges, runtime: &Runtime) -> Opt
         let entries = found.entries.iter().map(|x| Constant::new(Value::Real(*x)));
         let table = builder.table(Table {
             name: NAME.to_owned(),
-            width: ENTRIES,
+            width: PARTS + 1,
             height: 1,
             ty: Type::Real,
             entries: entries.collect(),
@@ -73,12 +73,11 @@ pub fn has_function_tables(graph: &Graph) -> bool {
 
 /// Whether a format has so few digits that a table of 256 is as good.
 fn is_short(real: Format) -> bool {
-    let few = match real {
+    match real {
         Format::Scaled { bits } => bits <= 16,
         Format::Log { .. } => true,
         _ => false,
-    };
-    few
+    }
 }
 
 /// A function of a real.
@@ -110,7 +109,10 @@ impl Site<'_> {
                 continue;
             }
             if let Some(found) = self.function(id) {
-                found.through.iter().for_each(|id| taken[id.0 as usize] = true);
+                found
+                    .through
+                    .iter()
+                    .for_each(|id| taken[id.0 as usize] = true);
                 all.insert(id, found);
             }
         }
@@ -136,9 +138,8 @@ impl Site<'_> {
             let last = open.pop()?;
             if open.is_empty() && last != root {
                 let found = self.table(root, last, &through);
-                let more = |found: &Function| {
-                    best.as_ref().is_none_or(|best| found.cycles > best.cycles)
-                };
+                let more =
+                    |found: &Function| best.as_ref().is_none_or(|best| found.cycles > best.cycles);
                 best = found.filter(more).or(best);
             }
             if !self.is_function(last) {
@@ -168,9 +169,12 @@ impl Site<'_> {
         if cycles_of_all < 2.0 * cycles(Op::Mul) + cycles(Op::Add) {
             return None;
         }
+        let bare = self.unclamped(of);
         let range = self.ranges.result.get(of.0 as usize)?;
-        let within = match self.is_rest(self.unclamped(of)) {
+        let within = match self.is_rest(bare) {
             true => [0.0, 1.0],
+            // What nobody clamps is a place or a direction, of which every digit counts.
+            false if bare == of => return None,
             false => [range.lo, range.hi],
         };
         let wide = within[1] - within[0];
@@ -195,36 +199,40 @@ impl Site<'_> {
         through: &[NodeId],
         [low, high]: [f64; 2],
     ) -> Option<Vec<f64>> {
-        let mut known: FxHashMap<NodeId, f64> = FxHashMap::default();
-        let part = (high - low) / f64::from(ENTRIES);
-        let step = part / f64::from(PLACES - 1);
+        let part = (high - low) / f64::from(PARTS);
         let mut all = Vec::new();
         let (mut least, mut most, mut rough) = (f64::INFINITY, f64::NEG_INFINITY, 0.0f64);
-        for k in 0..ENTRIES {
-            let (mut lo, mut hi) = (f64::INFINITY, f64::NEG_INFINITY);
-            for place in 0..PLACES {
-                let at = low + f64::from(k) * part + f64::from(place) * step;
-                known.clear();
-                known.insert(of, at);
-                // The last one that was looked through comes first.
-                for id in through.iter().rev() {
-                    let Node::Apply(op, args) = self.graph.node(*id) else {
-                        return None;
-                    };
-                    let value = |id: NodeId| match self.graph.constant(id) {
-                        Some(value) => Some(value.real()),
-                        None => known.get(&id).copied(),
-                    };
-                    let found = op.eval_real(value(args[0])?, value(args[1])?).real();
-                    known.insert(*id, found);
-                }
-                let found = *known.get(&root)?;
-                (lo, hi) = (lo.min(found), hi.max(found));
+        for k in 0..=PARTS {
+            let mut entry = [0.0; PLACES];
+            for (place, found) in entry.iter_mut().enumerate() {
+                let off = place as f64 / (PLACES - 1) as f64 - 0.5;
+                let at = low + (f64::from(k) + off) * part;
+                *found = self.value(root, (of, at.clamp(low, high)), through)?;
             }
+            let lo = entry.iter().copied().fold(f64::INFINITY, f64::min);
+            let hi = entry.iter().copied().fold(f64::NEG_INFINITY, f64::max);
             (least, most, rough) = (least.min(lo), most.max(hi), rough.max(hi - lo));
-            all.push((lo + hi) / 2.0);
+            all.push(entry[PLACES / 2]);
         }
         (rough.is_finite() && rough <= ROUGH * (most - least)).then_some(all)
+    }
+
+    /// What a value comes to where that which it is a function of is so much.
+    fn value(&self, root: NodeId, (of, at): (NodeId, f64), through: &[NodeId]) -> Option<f64> {
+        let mut known: FxHashMap<NodeId, f64> = FxHashMap::default();
+        known.insert(of, at);
+        // The last one that was looked through is made first.
+        for id in through.iter().rev() {
+            let Node::Apply(op, [a, b]) = self.graph.node(*id) else {
+                return None;
+            };
+            let value = |id: NodeId| match self.graph.constant(id) {
+                Some(value) => Some(value.real()),
+                None => known.get(&id).copied(),
+            };
+            known.insert(*id, op.eval_real(value(a)?, value(b)?).real());
+        }
+        known.get(&root).copied()
     }
 
     /// What is clamped to a value: a place in a table is.
@@ -242,18 +250,17 @@ impl Site<'_> {
 
     /// Whether a value is what is left of another above the whole number below.
     fn is_rest(&self, id: NodeId) -> bool {
-        self.whole_of(id).is_some()
-    }
-
-    fn whole_of(&self, id: NodeId) -> Option<NodeId> {
-        let Node::Apply(Op::Sub, [whole, floor]) = self.graph.node(id) else {
-            return None;
+        let part = |id: NodeId| match self.graph.node(id) {
+            Node::Apply(op, args) => Some((op, args)),
+            _ => None,
         };
-        let Node::Apply(Op::ToReal, [int, _]) = self.graph.node(floor) else {
-            return None;
+        let Some((Op::Sub, [whole, below])) = part(id) else {
+            return false;
         };
-        let rest = matches!(self.graph.node(int), Node::Apply(Op::Floor, [of, _]) if of == whole);
-        rest.then_some(whole)
+        let Some((Op::ToReal, [int, _])) = part(below) else {
+            return false;
+        };
+        part(int).is_some_and(|(op, [of, _])| op == Op::Floor && of == whole)
     }
 
     /// The place in the table.
@@ -264,31 +271,21 @@ impl Site<'_> {
         found: &Function,
         span: Span,
     ) -> Option<NodeId> {
-        let entries = f64::from(ENTRIES);
-        let mut real = |b: &mut Builder, x: f64| b.constant(Value::Real(x), span);
-        let rest = self.unclamped(found.of);
-        if let Some(whole) = self.whole_of(rest) {
-            let range = self.ranges.result.get(whole.0 as usize)?;
-            let fits = range.magnitude() * entries < self.runtime.int.most() - 1.0;
-            let of = if fits { whole } else { rest };
-            let by = real(b, entries);
-            let place = b.apply(Op::Mul, &[new(of)?, by], span);
-            let place = b.apply(Op::Floor, &[place], span);
-            let mask = b.constant(Value::Int(ENTRIES as i32 - 1), span);
-            return Some(match fits {
-                true => b.apply(Op::BitAnd, &[place, mask], span),
-                false => place,
-            });
-        }
+        let parts = f64::from(PARTS);
+        let real = |b: &mut Builder, x: f64| b.constant(Value::Real(x), span);
+        let of = match self.is_rest(self.unclamped(found.of)) {
+            true => self.unclamped(found.of),
+            false => found.of,
+        };
         let [low, high] = found.within;
-        let by = real(b, entries / (high - low));
-        let place = b.apply(Op::Mul, &[new(found.of)?, by], span);
-        let first = real(b, low * entries / (high - low));
+        let by = real(b, parts / (high - low));
+        let place = b.apply(Op::Mul, &[new(of)?, by], span);
+        let first = real(b, low * parts / (high - low));
         let place = match low == 0.0 {
             true => place,
             false => b.apply(Op::Sub, &[place, first], span),
         };
-        Some(b.apply(Op::Floor, &[place], span))
+        Some(b.apply(Op::Round, &[place], span))
     }
 }
 

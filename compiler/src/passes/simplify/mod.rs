@@ -1,8 +1,8 @@
 //! Simplification: values that are equal by algebra or by their ranges, in fewer operations.
 
-pub mod function_tables;
 pub mod constant_factors;
 pub mod fold;
+pub mod function_tables;
 pub mod integer_parts;
 pub mod range_folding;
 pub mod reciprocals;

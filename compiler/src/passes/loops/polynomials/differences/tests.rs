@@ -118,7 +118,7 @@ fn squares_are_summed_up_where_their_roundings_do_not_matter() {
         made.map_or(products(&plain.graph), |made| products(&made))
     };
     assert_eq!(put(2), 0);
-    assert_eq!(put(40), 3);
+    assert_eq!(put(80), 3);
 }
 
 /// What one loop cannot have keeps no other from it, and what is shared is looked at once.
