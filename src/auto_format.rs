@@ -37,6 +37,7 @@ use candidates::{
 };
 use said::Others;
 pub use said::Why;
+use slowlight_compiler::passes::simplify::function_tables::has_function_tables;
 use slowlight_compiler::planner::PlannedScene;
 use slowlight_compiler::planner::pipeline::Pass;
 use slowlight_compiler::targets::{Target, formats};
@@ -243,11 +244,18 @@ fn quickest(
             (plan, found)
         };
         // Functions in tables are not as exact as the format is.
-        if !within && plan.pipeline().count(Pass::FunctionTables).kept > 0 {
-            let exact = format.without(Pass::FunctionTables);
-            if let Ok(other) = exact.plan(scene, target, &[]) {
-                (whole, expected, within) = seen(&other);
-                plan = other;
+        let mut slower = false;
+        if !within && has_function_tables(&plan.graph) {
+            match (format.without(Pass::FunctionTables)).plan(scene, target, &[]) {
+                Err(Failure::TooLarge(_) | Failure::Scene(_)) => {}
+                other => {
+                    let other = other?;
+                    let looked = seen(&other);
+                    if looked.2 || looked.1 < expected {
+                        slower = true;
+                        ((whole, expected, within), plan) = (looked, other);
+                    }
+                }
             }
         }
         others.seen.push(candidate.seen(expected));
@@ -261,7 +269,9 @@ fn quickest(
             others: Others::default(),
         };
         let close = |next: &Candidate| next.may(goal) && next.is_close(candidate.cycles);
-        let sure = !plan.is_made_small() && !known.first().is_some_and(close);
+        let quicker = |next: &Candidate| next.may(goal) && slower;
+        let first = known.first();
+        let sure = !plan.is_made_small() && !first.is_some_and(|next| close(next) || quicker(next));
         if within && kept.is_none() && sure {
             let why = Some(why(expected));
             return Ok(Some(Chosen { plan, why }));

@@ -120,6 +120,10 @@ impl Alone {
             other => return Err(format!("no task `{other}`")),
         };
         let (name, wish) = wished(wish)?;
+        if matches!(task, Task::Build) {
+            // What was built before is shown by the page.
+            self.shown.built = None;
+        }
         let board = self.board(tell);
         let read = self.scene(&name, &wish).and_then(|scene| {
             let usual = scene.graph(None, Precision::NATIVE)?;

@@ -25,7 +25,9 @@ const NEAR: f64 = 1e-4;
 /// Half the side of the largest box that is tried, and the greatest distance.
 const FARTHEST: f64 = 256.0;
 /// How much larger than it must be a box is.
-const ROOM: f64 = 1.3;
+const ROOM: f64 = 1.5;
+/// Half the side of a box that holds no shape.
+const TINY: f64 = 1e-3;
 /// How often a box's side is halved towards its shape.
 const HALVINGS: u32 = 5;
 
@@ -145,6 +147,10 @@ fn boxed(scene: &Scene, sample: &Sample, name: &Name, at: Span) -> Option<Way> {
         vec![Edit { at, text }]
     };
     let holds = |low, high| sample.is_of(scene.edited(&edits(low, high))).is_some();
+    // Of a shape that is not seen nothing is known.
+    if holds([-TINY; 3], [TINY; 3]) {
+        return None;
+    }
     let mut half = 1.0;
     while !holds([-half; 3], [half; 3]) {
         half *= 4.0;

@@ -193,6 +193,9 @@ fn tried<'w>(
     if plan.mode.name != found.plan.mode.name {
         return Err(Failure::Wrong("another mode".to_owned()));
     }
+    if way.kind == Kind::Formats && plan.runtime.format == found.plan.runtime.format {
+        return Err(Failure::Wrong("the same format".to_owned()));
+    }
     let counted = count_lines(&way.scene, plan, screen, limit)?;
     let checked = &way.scene.checked;
     Ok(Tried {

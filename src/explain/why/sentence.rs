@@ -66,9 +66,10 @@ fn cheaper(found: &Explained, now: &Done, then: &Done) -> String {
         None => String::new(),
     };
     format!(
-        "`{}`{what} not done by the cheaper routine ({:.0} cycles a time, not {:.0}{wide})",
+        "`{}`{what} not done by the cheaper routine ({:.0} {} a time, not {:.0}{wide})",
         now.op.name(),
         then.cycles,
+        found.unit(),
         now.cycles
     )
 }

@@ -88,6 +88,10 @@ pub fn of_params(scene: &Scene, formats: bool) -> Outcome<Vec<Vec<Way>>> {
             };
             let same = |p: &&Param| p.name == written.name.text;
             let parts: Vec<Param> = numbers.iter().filter(same).cloned().collect();
+            // What is said of the text's value need not hold for one that was set.
+            if parts.iter().any(|part| part.value != part.usual) {
+                continue;
+            }
             let known = program.params.iter().find(|p| p.name == written.name.text);
             // None of it is live where it is frozen already.
             if let Some(known) = known.filter(|_| !parts.is_empty() && all.len() < PARAMS) {
@@ -156,6 +160,13 @@ fn listed(all: &[String]) -> String {
     }
 }
 
+/// A piece of a scene without its comments and ends of lines.
+fn on_a_line(text: &str) -> String {
+    let code = text.lines().filter_map(|line| line.split("//").next());
+    let words: Vec<&str> = code.flat_map(str::split_whitespace).collect();
+    words.join(" ")
+}
+
 type Range = Vec<(f64, f64)>;
 
 impl Known<'_> {
@@ -173,7 +184,7 @@ impl Known<'_> {
 
     fn frozen(&self, scene: &Scene) -> Way {
         let name = self.name();
-        let value = self.text_of(self.written.value.span);
+        let value = &on_a_line(self.text_of(self.written.value.span));
         // A constant has the type that it is written in.
         let real = match *self.ty == Ty::Real && value.parse::<i64>().is_ok() {
             true => ".0",
@@ -251,13 +262,14 @@ impl Known<'_> {
             None => format!(" in {range}"),
         };
         let before = self.text.get(self.item.start as usize..start)?;
-        let whole = format!("{before}{put};");
-        let whole: Vec<&str> = whole.split_whitespace().collect();
+        let whole = format!("{}{put};", on_a_line(before));
+        // Lines behind it keep their numbers.
+        let lines = self.text.get(start..end)?.matches('\n').count();
         let edit = Edit {
             at: Span::new(self.file, start, end),
-            text: put,
+            text: put + &"\n".repeat(lines),
         };
-        Some((edit, whole.join(" ")))
+        Some((edit, whole))
     }
 
     /// An end of a range as it is written; beside the value it is nearly at.

@@ -17,6 +17,7 @@ use crate::passes::rewrite::rebuild::rebuild_old;
 use crate::source::Span;
 use rustc_hash::FxHashMap;
 use slowlight_routine::{Format, Op, Runtime, Type, Value};
+use std::cell::Cell;
 
 /// Into how many parts a range is cut; a table has an entry for each end of them.
 const PARTS: u32 = 256;
@@ -29,6 +30,12 @@ const PLACES: usize = 9;
 
 /// How many operations are looked through for what they are a function of.
 const DEEP: usize = 32;
+
+/// How many parts apart a function is looked at first, so that steep ones are left soon.
+const COARSE: u32 = 8;
+
+/// How many operations may be worked out for all tables together.
+const WORK: u64 = 4_000_000;
 
 /// What the name of such a table begins with.
 const NAME: &str = "function";
@@ -43,6 +50,7 @@ pub fn function_tables(graph: &Graph, ranges: &Ranges, runtime: &Runtime) -> Opt
         graph,
         ranges,
         runtime,
+        left: Cell::new(WORK),
     };
     let all = site.found();
     if all.is_empty() {
@@ -97,6 +105,8 @@ struct Site<'g> {
     graph: &'g Graph,
     ranges: &'g Ranges,
     runtime: &'g Runtime,
+    /// How many operations may still be worked out.
+    left: Cell<u64>,
 }
 
 impl Site<'_> {
@@ -157,6 +167,14 @@ impl Site<'_> {
 
     /// A value as a table of another, where the operations between are dearer.
     fn table(&self, root: NodeId, of: NodeId, through: &[NodeId]) -> Option<Function> {
+        let bare = self.unclamped(of);
+        let range = self.ranges.result.get(of.0 as usize)?;
+        let within = match self.is_rest(bare) {
+            true => [0.0, 1.0],
+            // What nobody clamps is a place or a direction, of which every digit counts.
+            false if bare == of => return None,
+            false => [range.lo, range.hi],
+        };
         let cycles = |op: Op| {
             let routine = self.runtime.usual(op);
             routine.map_or(0.0, |routine| f64::from(routine.cycles))
@@ -169,14 +187,6 @@ impl Site<'_> {
         if cycles_of_all < 2.0 * cycles(Op::Mul) + cycles(Op::Add) {
             return None;
         }
-        let bare = self.unclamped(of);
-        let range = self.ranges.result.get(of.0 as usize)?;
-        let within = match self.is_rest(bare) {
-            true => [0.0, 1.0],
-            // What nobody clamps is a place or a direction, of which every digit counts.
-            false if bare == of => return None,
-            false => [range.lo, range.hi],
-        };
         let wide = within[1] - within[0];
         if !(wide > 1e-3 && wide < 1e3) {
             return None;
@@ -200,14 +210,29 @@ impl Site<'_> {
         [low, high]: [f64; 2],
     ) -> Option<Vec<f64>> {
         let part = (high - low) / f64::from(PARTS);
+        let value = |at: f64| {
+            let at = (low + at * part).clamp(low, high);
+            self.value(root, (of, at), through)
+        };
+        // No steeper on the way than it may be.
+        let coarse = (0..=PARTS)
+            .step_by(COARSE as usize)
+            .map(|k| value(f64::from(k)));
+        let coarse: Vec<f64> = coarse.collect::<Option<_>>()?;
+        let steps = coarse.windows(2).map(|pair| (pair[1] - pair[0]).abs());
+        let steepest = steps.fold(0.0, f64::max);
+        let lowest = coarse.iter().copied().fold(f64::INFINITY, f64::min);
+        let highest = coarse.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+        if steepest > f64::from(2 * COARSE) * ROUGH * (highest - lowest) {
+            return None;
+        }
         let mut all = Vec::new();
         let (mut least, mut most, mut rough) = (f64::INFINITY, f64::NEG_INFINITY, 0.0f64);
         for k in 0..=PARTS {
             let mut entry = [0.0; PLACES];
             for (place, found) in entry.iter_mut().enumerate() {
                 let off = place as f64 / (PLACES - 1) as f64 - 0.5;
-                let at = low + (f64::from(k) + off) * part;
-                *found = self.value(root, (of, at.clamp(low, high)), through)?;
+                *found = value(f64::from(k) + off)?;
             }
             let lo = entry.iter().copied().fold(f64::INFINITY, f64::min);
             let hi = entry.iter().copied().fold(f64::NEG_INFINITY, f64::max);
@@ -219,8 +244,9 @@ impl Site<'_> {
 
     /// What a value comes to where that which it is a function of is so much.
     fn value(&self, root: NodeId, (of, at): (NodeId, f64), through: &[NodeId]) -> Option<f64> {
-        let mut known: FxHashMap<NodeId, f64> = FxHashMap::default();
-        known.insert(of, at);
+        self.left
+            .set(self.left.get().checked_sub(through.len() as u64)?);
+        let mut known: Vec<(NodeId, f64)> = vec![(of, at)];
         // The last one that was looked through is made first.
         for id in through.iter().rev() {
             let Node::Apply(op, [a, b]) = self.graph.node(*id) else {
@@ -228,20 +254,25 @@ impl Site<'_> {
             };
             let value = |id: NodeId| match self.graph.constant(id) {
                 Some(value) => Some(value.real()),
-                None => known.get(&id).copied(),
+                None => known
+                    .iter()
+                    .rev()
+                    .find(|(of, _)| *of == id)
+                    .map(|(_, x)| *x),
             };
-            known.insert(*id, op.eval_real(value(a)?, value(b)?).real());
+            known.push((*id, op.eval_real(value(a)?, value(b)?).real()));
         }
-        known.get(&root).copied()
+        let (last, found) = *known.last()?;
+        (last == root && found.is_finite()).then_some(found)
     }
 
     /// What is clamped to a value: a place in a table is.
     fn unclamped(&self, mut id: NodeId) -> NodeId {
-        while let Node::Apply(Op::Min | Op::Max, [a, b]) = self.graph.node(id) {
-            let bounds = [a, b].map(|id| self.graph.constant(id).map(Value::real));
-            id = match bounds {
-                [Some(0.0 | 1.0), None] => b,
-                [None, Some(0.0 | 1.0)] => a,
+        while let Node::Apply(op @ (Op::Min | Op::Max), [a, b]) = self.graph.node(id) {
+            let end = Some(if op == Op::Min { 1.0 } else { 0.0 });
+            id = match [a, b].map(|id| self.graph.constant(id).map(Value::real)) {
+                [bound, None] if bound == end => b,
+                [None, bound] if bound == end => a,
                 _ => return id,
             };
         }
