@@ -239,13 +239,12 @@ fn quickest(
             let (expected, most) = share.map_or(wrong, |share| (share.expected, share.most));
             (whole, expected, most <= goal)
         };
-        let (mut plan, (mut whole, mut expected, mut within)) = {
-            let found = seen(&plan);
-            (plan, found)
-        };
+        let mut plan = plan;
+        let (mut whole, mut expected, mut within) = seen(&plan);
         // Functions in tables are not as exact as the format is.
         let mut slower = false;
-        if !within && has_function_tables(&plan.graph) {
+        let tabled = plan.pipeline().count(Pass::FunctionTables).kept > 0;
+        if !within && tabled && has_function_tables(&plan.graph) {
             match (format.without(Pass::FunctionTables)).plan(scene, target, &[]) {
                 Err(Failure::TooLarge(_) | Failure::Scene(_)) => {}
                 other => {

@@ -37,7 +37,7 @@ const COARSE: u32 = 8;
 /// How many operations may be worked out for all tables together.
 const WORK: u64 = 4_000_000;
 
-/// What the name of such a table begins with.
+/// The name of such a table; a scene's own may have it, too.
 const NAME: &str = "function";
 
 /// The graph with such tables; nothing where there are none that pay, or its format has digits
