@@ -49,16 +49,17 @@ impl Listener<Value> for Compared<'_> {
     }
 }
 
-/// Directions and what is made of them. They are trusted to have their length, which is so where
-/// there is a hit; where a plan works them out before it asks for that, nothing is made of them
-/// (csg, for rays that miss).
-fn directions(graph: &Graph) -> Vec<bool> {
-    let mut made = vec![false; graph.nodes.len()];
+/// What is made of what a loop has found. Normals of hits are trusted to have their length, which
+/// is so where there is a hit; where a plan works them out before it asks for that, nothing is
+/// made of them (csg, for rays that miss).
+fn behind_loops(graph: &Graph) -> Vec<bool> {
+    let mut behind = vec![false; graph.nodes.len()];
     for id in graph.ids() {
-        let trusted = graph.directions.contains_key(&id);
-        made[id.0 as usize] = trusted || graph.node(id).operands().any(|id| made[id.0 as usize]);
+        let node = graph.node(id);
+        let made = node.operands().any(|id| behind[id.0 as usize]);
+        behind[id.0 as usize] = made || matches!(node, Node::Result { .. });
     }
-    made
+    behind
 }
 
 /// What is said wrongly of the values at some pixels of a scene.
@@ -131,7 +132,7 @@ fn holds_for(name: &str, text: &str) {
     let plan = planned(name, &lowered(name, text));
     // The one where that happens.
     let left = |graph: &Graph| match name.ends_with("csg.scn") {
-        true => directions(graph),
+        true => behind_loops(graph),
         false => vec![false; graph.nodes.len()],
     };
     let found = wrong_but(&plan.graph, &plan.tree, &plan.ranges, left(&plan.graph));
