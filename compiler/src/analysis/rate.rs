@@ -188,3 +188,34 @@ pub fn rates(graph: &Graph) -> Rates {
         of,
     }
 }
+/// Which values somebody reads who changes more often: in a loop, or from pixel to pixel, that
+/// they do not change with. Linear in the graph, but for loops in loops.
+pub fn invariant_operands(graph: &Graph) -> Vec<bool> {
+    let rates = rates(graph);
+    let mut inside: FxHashMap<LoopId, &[Dependence]> = FxHashMap::default();
+    for id in graph.ids() {
+        if let Node::Result { of, .. } = graph.node(id) {
+            inside.insert(of, rates.rate(id));
+        }
+    }
+    // Whether a loop that a value changes with stands in another one.
+    let nested = |on: &Dependence, around: Dependence| match on {
+        Dependence::Loop(of) => (inside.get(of)).is_some_and(|rate| rate.contains(&around)),
+        _ => false,
+    };
+    let mut found = vec![false; graph.nodes.len()];
+    for id in graph.ids() {
+        let reader = rates.rate(id);
+        for of in graph.node(id).operands() {
+            let own = rates.rate(of);
+            let is_still = |on: &Dependence| {
+                matches!(on, Dependence::Loop(_))
+                    && !own.contains(on)
+                    && !own.iter().any(|own| nested(own, *on))
+            };
+            let moves = |rate: &[Dependence]| rate.iter().any(|on| on.within_pass());
+            found[of.0 as usize] |= reader.iter().any(is_still) || !moves(own) && moves(reader);
+        }
+    }
+    found
+}

@@ -157,10 +157,13 @@ impl<'b> Enclosure<'b> {
                 Some(false) => self.get(no),
                 None => self.get(yes).join(self.get(no)),
             },
-            Node::Lookup { table, .. } => {
+            Node::Lookup { table, column, row } => {
                 let table = self.builder.table_of(table);
-                let all = table.into_iter().flat_map(|t| &t.entries);
-                let all = all.map(|entry| Range::point(entry.value().real()));
+                let [column, row] = [column, row].map(|id| self.builder.value(id));
+                let all = table.into_iter().flat_map(|t| {
+                    let all = t.candidates(column, row);
+                    all.map(|at| Range::point(t.entries[at].value().real()))
+                });
                 all.reduce(Range::join).unwrap_or(Range::ALL)
             }
             Node::Result { of, .. } => {

@@ -86,6 +86,26 @@ impl Table {
         clamp(row, self.height) * self.width as usize + clamp(column, self.width)
     }
 
+    /// Where the entries stand that a lookup may give, where its column or its row is known.
+    pub fn candidates(
+        &self,
+        column: Option<Value>,
+        row: Option<Value>,
+    ) -> impl Iterator<Item = usize> + use<> {
+        let (width, height) = (self.width as usize, self.height as usize);
+        let all = |of: Option<Value>, many: usize| match of {
+            Some(of) => {
+                let at = (of.real().max(0.0) as usize).min(many.saturating_sub(1));
+                at..at + 1
+            }
+            None => 0..many,
+        };
+        let (columns, rows) = (all(column, width), all(row, height));
+        let entries = self.entries.len();
+        let row = move |row| columns.clone().map(move |column| row * width + column);
+        rows.flat_map(row).filter(move |at| *at < entries)
+    }
+
     /// The entry at a column and row, both clamped.
     pub fn at(&self, column: i32, row: i32) -> Value {
         self.entries

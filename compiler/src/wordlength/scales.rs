@@ -76,7 +76,7 @@ fn long(bits: u8) -> i8 {
 const WIDE: i8 = 3;
 
 /// The scale at which a constant is 1 or -1.
-fn power(graph: &Graph, id: NodeId) -> Option<i8> {
+pub(super) fn power(graph: &Graph, id: NodeId) -> Option<i8> {
     let (scale, units) = least(graph, id)?;
     (units == 1.0).then_some(scale)
 }

@@ -28,9 +28,14 @@ impl Points {
 
     /// What is held at one scale, read at another.
     fn moved_range(&self, range: Range, from: i8, to: (i8, u8)) -> Range {
-        // Ends are ints of either scale, so rounding moves them by half a unit.
-        let units = if to.0 < from { 0.5 } else { 0.0 };
-        self.held(range, to, units)
+        if to.0 >= from {
+            return self.held(range, to, 0.0);
+        }
+        // The nearest, be it the one or the other where it is between two.
+        let unit = Points::unit(to.0);
+        let lo = (range.lo / unit - 0.5).ceil() * unit;
+        let hi = (range.hi / unit + 0.5).floor() * unit;
+        self.held(Range::new(lo, hi), to, 0.0)
     }
 
     /// An operand's range as it is read.
@@ -49,6 +54,12 @@ impl Points {
             (_, Some(Type::Int)) if op == Op::ToReal => self.moved_range(range, 0, wide),
             _ => range,
         }
+    }
+
+    /// A real that the program has, as a node's value.
+    pub fn nearest(&self, id: NodeId, real: f64) -> Range {
+        let unit = Points::unit(self.own(id));
+        self.rounded(id, Range::point((real / unit).round() * unit), 0.0)
     }
 
     /// What a real has that may be so many last places off.

@@ -11,6 +11,7 @@ mod accelerate;
 mod around;
 mod assuming;
 mod contract;
+mod correlated;
 mod fresh;
 #[cfg(test)]
 mod hold_tests;
@@ -321,7 +322,7 @@ impl Walk<'_> {
                 match self.once.computed(id) {
                     Some(range) => range,
                     None => {
-                        let range = self.entries(id, table);
+                        let range = self.entries(id, table, [column, row]);
                         self.once.keep(id, range)
                     }
                 }
@@ -365,26 +366,6 @@ impl Walk<'_> {
             Some(true) => [a.join(args[0]), b.join(args[1])],
             _ => args,
         };
-    }
-
-    /// What a table's entries stay within, as a lookup has them.
-    fn entries(&self, id: NodeId, table: TableId) -> Range {
-        let table = self.graph.tables.get(table.0 as usize);
-        let entries = table.into_iter().flat_map(|t| &t.entries);
-        let values = entries.map(|e| match &self.slack.points {
-            Some(_) => Range::point(e.value().real()),
-            // As it is held, where all reals have one point.
-            None => self.slack.constant(e.value()),
-        });
-        let all = values.reduce(Range::join).unwrap_or(Range::ALL);
-        let all = match (&self.slack.points, self.graph.ty(id)) {
-            (Some(points), Type::Real) => points.rounded(id, all, 0.5),
-            _ => all,
-        };
-        match table.is_some_and(|t| !t.seed.is_empty()) {
-            true => self.slack.entry(all),
-            false => all,
-        }
     }
 }
 

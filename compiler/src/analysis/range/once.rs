@@ -2,6 +2,7 @@
 //! comes by: loops are walked turn by turn, and in most turns most values are what they were in
 //! the turn before.
 
+use super::correlated::interpolation;
 use super::parity::is_odd;
 use super::{Ranges, Walk, trust};
 use crate::ir::graph::*;
@@ -164,6 +165,7 @@ impl Walk<'_> {
             Node::Apply(Op::Mul, [a, b]) if self.slack.direction.is_none() => {
                 [a, b].map(op_of).contains(&Some(Op::Sub))
             }
+            Node::Apply(Op::Add, operands) => interpolation(self.graph, operands).is_some(),
             _ => false,
         }
     }

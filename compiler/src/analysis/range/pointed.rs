@@ -5,10 +5,31 @@ use super::Walk;
 use crate::analysis::carried::held_by;
 use crate::ir::graph::*;
 use crate::ir::tree::*;
-use slowlight_routine::{Op, Range, Type};
+use slowlight_routine::{Op, Range, Type, Value};
 use std::collections::BTreeSet;
 
 impl Walk<'_> {
+    /// What a table's entries stay within, as a lookup has them, where it may read all of them or
+    /// only those of a column or row.
+    pub(super) fn entries(&self, id: NodeId, table: TableId, at: [NodeId; 2]) -> Range {
+        let table = self.graph.tables.get(table.0 as usize);
+        let [column, row] = at.map(|id| self.graph.constant(id));
+        let held = |value: Value| match (&self.slack.points, value) {
+            (Some(points), Value::Real(real)) => points.nearest(id, real),
+            // As it is held, where all reals have one point.
+            _ => self.slack.constant(value),
+        };
+        let values = table.into_iter().flat_map(|t| {
+            let all = t.candidates(column, row);
+            all.map(|at| held(t.entries[at].value()))
+        });
+        let all = values.reduce(Range::join).unwrap_or(Range::ALL);
+        match table.is_some_and(|t| !t.seed.is_empty()) {
+            true => self.slack.entry(all),
+            false => all,
+        }
+    }
+
     /// The ranges of an operation's operands as they are read, and whether both are one value.
     pub(super) fn operands(&self, id: NodeId, op: Op, [a, b]: [NodeId; 2]) -> ([Range; 2], bool) {
         let mut args = [self.read(a), self.read(b)];

@@ -218,6 +218,11 @@ impl Slack {
         self.points.is_none() && !self.expects() && !self.unknown
     }
 
+    /// Whether reals have no points, or it does not matter yet where these are.
+    pub(super) fn is_placed(&self) -> bool {
+        self.points.is_none() && !self.unknown
+    }
+
     /// Whether an operation rounds nothing in a range, nor leaves what ints are.
     pub(super) fn is_exact(&self, op: Op, range: Range) -> bool {
         range.within(self.ints.lo, self.ints.hi) && self.enlarge(op, &[range], range) == range

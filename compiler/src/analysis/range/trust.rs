@@ -104,15 +104,16 @@ impl Walk<'_> {
             Node::Apply(Op::Div, [part, whole]) if self.is_share(part, whole) => {
                 exact.meet(Range::new(0.0, 1.0))
             }
+            Node::Apply(Op::Sub, [whole, floor]) if self.is_floor(id, floor, whole) => {
+                exact.meet(Range::new(0.0, 1.0))
+            }
+            Node::Apply(Op::Add, operands) => self.interpolated(id, operands, exact),
             _ if !self.slack.relative => exact,
             Node::Apply(Op::Div, [part, length]) if self.has_part(length, part) => {
                 let most = self.most_of_length(part);
                 exact.meet(Range::new(-most, most))
             }
             Node::Apply(Op::Div, [part, by]) => self.multiple_over_factor((part, by), exact),
-            Node::Apply(Op::Sub, [whole, floor]) if self.is_floor(floor, whole) => {
-                exact.meet(Range::new(0.0, 1.0))
-            }
             Node::Apply(Op::Mul, [a, b]) => {
                 let shorter = self.shortened(a, b).or_else(|| self.shortened(b, a));
                 shorter.map_or(exact, |shorter| exact.meet(shorter))
@@ -130,19 +131,6 @@ impl Walk<'_> {
             }
             _ => false,
         }
-    }
-
-    /// Whether a value is another one's floor, exactly: what is left of this is from 0 to 1.
-    fn is_floor(&self, floor: NodeId, of: NodeId) -> bool {
-        let Node::Apply(Op::ToReal, [int, _]) = self.graph.node(floor) else {
-            return false;
-        };
-        let Node::Apply(Op::Floor, [real, _]) = self.graph.node(int) else {
-            return false;
-        };
-        // Neither is beyond what ints are, nor is the int rounded.
-        let all = self.read(real);
-        real == of && self.slack.inverts() && self.slack.is_exact(Op::ToReal, all)
     }
 
     /// A part times c - d / length is c times the part less d times a part of a unit

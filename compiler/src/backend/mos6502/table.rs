@@ -2,7 +2,8 @@
 //!
 //! A table is kept as planes: the low bytes of all entries, row by row, then
 //! their next bytes, and so on; a plane whose bytes are all alike is left out.
-//! Up to 256 entries are indexed by x. A larger table is read through a pointer.
+//! Up to 256 entries are indexed by x, and up to 512 in a row by x in one of two pages. A larger
+//! table is read through a pointer.
 
 use super::super::starts::tables;
 use super::Text;
@@ -48,6 +49,12 @@ pub(super) fn any_large(plan: &Plan) -> bool {
 
 fn is_large(table: &Table) -> bool {
     table.entries.len() > 256
+}
+
+/// Whether the first two bytes of a place are all that an index of such a range has.
+fn has_two_bytes(place: &Operand, range: Range) -> bool {
+    let short = matches!(place, Operand::Held(_, shape) if shape.bytes < 2);
+    range.within(if short { 0.0 } else { -32768.0 }, 32767.0)
 }
 
 /// Writes the tables that are used.
@@ -128,13 +135,8 @@ impl Code<'_> {
             }
         });
         let planes = planes(plan, of, table);
-        for (k, plane) in planes.iter().enumerate().take(usize::from(bytes)) {
-            let to = write::byte_at(&home, k as u8);
-            self.text.code(&match uniform(plane) {
-                Some(byte) => format!("lda #${byte:02x} | sta {to}"),
-                None => format!("lda {},x | sta {to}", label(of, k)),
-            });
-        }
+        let planes = planes.get(..usize::from(bytes)).unwrap_or(&planes);
+        self.entry(&home, (of, planes), "");
     }
 
     /// One byte that holds an index, clamped to 0..n-1: the operand itself where
@@ -157,6 +159,56 @@ impl Code<'_> {
         self.clamps = true;
     }
 
+    /// In the page that the index's second byte says, clamped where the index may be outside.
+    fn paged_lookup(
+        &mut self,
+        home: &str,
+        (of, planes): (TableId, &[Vec<u8>]),
+        (place, range): (&Operand, Range),
+    ) {
+        let n = self.text.next_serial();
+        let entries = planes.iter().map(Vec::len).max().unwrap_or(0);
+        let last = entries.saturating_sub(1);
+        let [low, high] = [0, 1].map(|k| write::byte(place, k));
+        self.text
+            .code(&format!("ldx {low} | lda {high} | beq first{n}"));
+        if range.lo < 0.0 {
+            self.text.code(&format!("bmi below{n}"));
+        }
+        if range.hi > last as f64 {
+            if last > 256 {
+                self.text
+                    .code(&format!("cmp #1 | bne above{n} | cpx #{}", last - 256));
+                self.text.code(&format!("bcc inside{n}"));
+                self.text.label(&format!("above{n}"));
+            }
+            self.text.code(&format!("ldx #{}", last - 256));
+            if last > 256 {
+                self.text.label(&format!("inside{n}"));
+            }
+        }
+        self.entry(home, (of, planes), "+256");
+        self.text.code(&format!("jmp read{n}"));
+        if range.lo < 0.0 {
+            self.text.label(&format!("below{n}"));
+            self.text.code("ldx #0");
+        }
+        self.text.label(&format!("first{n}"));
+        self.entry(home, (of, planes), "");
+        self.text.label(&format!("read{n}"));
+    }
+
+    /// Copies the entry at x, so far behind a table's first.
+    fn entry(&mut self, home: &str, (of, planes): (TableId, &[Vec<u8>]), behind: &str) {
+        for (k, plane) in planes.iter().enumerate() {
+            let to = write::byte_at(home, k as u8);
+            self.text.code(&match uniform(plane) {
+                Some(byte) => format!("lda #${byte:02x} | sta {to}"),
+                None => format!("lda {}{behind},x | sta {to}", label(of, k)),
+            });
+        }
+    }
+
     /// Through a pointer to the entry's first byte that is not that of all; the other planes follow.
     fn large_lookup(
         &mut self,
@@ -166,6 +218,12 @@ impl Code<'_> {
         row: NodeId,
     ) {
         let [columns, _] = self.plan.ranges.args[id.0 as usize];
+        let mut place = self.homes.operand(self.plan, column);
+        if table.height == 1 && table.entries.len() <= 512 && has_two_bytes(&place, columns) {
+            let planes = planes(self.plan, of, table);
+            let planes = planes.get(..usize::from(bytes)).unwrap_or(&planes);
+            return self.paged_lookup(home, (of, planes), (&place, columns));
+        }
         if table.height > 1 {
             let row = self.homes.operand(self.plan, row);
             self.clamp(&row, table.height);
@@ -173,7 +231,6 @@ impl Code<'_> {
             self.text
                 .code("jsr int_multiply | lda acc | sta prod+4 | lda acc+1 | sta prod+5");
         }
-        let mut place = self.homes.operand(self.plan, column);
         if !columns.within(0.0, f64::from(table.width) - 1.0) {
             self.clamp(&place, table.width);
             place = Operand::At("acc".to_owned());

@@ -24,6 +24,7 @@ mod limits;
 mod smooth;
 
 use crate::analysis::range::Ranges;
+use crate::analysis::rate::invariant_operands;
 use crate::ir::build::Builder;
 use crate::ir::graph::*;
 use crate::passes::rewrite::rebuild::rebuild_old;
@@ -62,6 +63,8 @@ struct Site<'g> {
     ranges: &'g Ranges,
     /// How many nodes read each.
     reads: Vec<u32>,
+    /// Which are computed less often than somebody reads them.
+    at_hand: Vec<bool>,
     /// Cycles of each node with what nothing else reads of its operands.
     cycles: Vec<f64>,
     /// Those of a comparison.
@@ -156,6 +159,7 @@ impl<'g> Site<'g> {
                 .fold(f64::INFINITY, f64::min)
         };
         let comparison = least(Op::Less);
+        let at_hand = invariant_operands(graph);
         let mut cycles: Vec<f64> = Vec::with_capacity(graph.nodes.len());
         for id in graph.ids() {
             let own = match graph.node(id) {
@@ -165,7 +169,8 @@ impl<'g> Site<'g> {
                 _ => 0.0,
             };
             let operands: BTreeSet<NodeId> = graph.node(id).operands().collect();
-            let alone = operands.iter().filter(|of| reads[of.0 as usize] == 1);
+            let alone = |of: &&NodeId| reads[of.0 as usize] == 1 && !at_hand[of.0 as usize];
+            let alone = operands.iter().filter(alone);
             let below: f64 = alone.map(|of| cycles[of.0 as usize]).sum();
             cycles.push(own + below);
         }
@@ -174,6 +179,7 @@ impl<'g> Site<'g> {
             graph,
             ranges,
             reads,
+            at_hand,
             cycles,
             comparison,
             joins,
@@ -184,9 +190,10 @@ impl<'g> Site<'g> {
         self.reads[id.0 as usize] == 1
     }
 
-    /// Whether a value is worth some questions: what somebody else reads is at hand.
+    /// Whether a value is worth some questions: what somebody else reads is at hand, and so is
+    /// what does not change from turn to turn.
     fn is_dear(&self, id: NodeId) -> bool {
-        self.is_read_once(id) && self.takes_long(id)
+        self.is_read_once(id) && !self.at_hand[id.0 as usize] && self.takes_long(id)
     }
 
     fn takes_long(&self, id: NodeId) -> bool {

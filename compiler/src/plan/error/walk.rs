@@ -303,7 +303,7 @@ impl<'p> Walk<'p> {
                     error: passed.plus(&made),
                 }
             }
-            Node::Lookup { table, .. } => self.entries(table),
+            Node::Lookup { table, column, row } => self.entries(table, [column, row]),
             Node::Ramp { .. } => self.ramp(id),
             // As the column's block has left it.
             Node::Tabulated(_) => self.held(Place::Node(id)),
@@ -334,16 +334,17 @@ impl<'p> Walk<'p> {
     }
 
     /// What lies between the entries of a table.
-    fn entries(&self, table: TableId) -> Value {
-        let format = self.plan.entry_format(table);
-        let entries = self.graph.tables.get(table.0 as usize);
-        let entries = entries.into_iter().flat_map(|t| &t.entries).enumerate();
-        let values = entries.map(|(at, e)| {
-            let exact = e.value();
-            let made = (self.plan.runtime.decode)(self.plan.entry(table, at), format).real();
+    fn entries(&self, id: TableId, at: [NodeId; 2]) -> Value {
+        let format = self.plan.entry_format(id);
+        let [column, row] = at.map(|id| self.graph.constant(id));
+        let table = self.graph.tables.get(id.0 as usize);
+        let places = table.into_iter().flat_map(|t| t.candidates(column, row));
+        let values = places.map(|at| {
+            let exact = table.map_or(0.0, |t| t.entries[at].value().real());
+            let made = (self.plan.runtime.decode)(self.plan.entry(id, at), format).real();
             Value {
-                range: Range::point(exact.real()),
-                error: Form::within((made - exact.real()).abs()),
+                range: Range::point(exact),
+                error: Form::within((made - exact).abs()),
             }
         });
         values.reduce(|a, b| a.join(&b)).unwrap_or_else(unknown)

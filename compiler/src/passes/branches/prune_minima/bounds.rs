@@ -43,9 +43,9 @@ impl Site<'_> {
         match op {
             Op::Sqrt => {
                 let parts = self.squared(a).into_iter();
-                let parts = parts.filter_map(|factor| match self.beside_0(Op::Max, factor) {
-                    Some(inner) => self.is_cheap(inner).then(|| plain(inner, false, true)),
-                    None => self.is_cheap(factor).then(|| plain(factor, true, true)),
+                let parts = parts.map(|factor| match self.beside_0(Op::Max, factor) {
+                    Some(inner) => plain(inner, false, true),
+                    None => plain(factor, true, true),
                 });
                 parts.collect()
             }
