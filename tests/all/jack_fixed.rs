@@ -112,6 +112,19 @@ fn most_off(shade: &str) -> u32 {
     off.into_iter().max().unwrap()
 }
 
+/// Coordinates of many bits and of few, and a factor that is beyond 0 and 1.
+#[test]
+fn what_floors_leave_and_what_is_interpolated_stay_within_bounds() {
+    for by in ["0.37", "11.3", "0.0021"] {
+        let off = most_off(&format!(
+            "noise((x * {by} * (eye + 0.1) - 20, y * {by} - eye))"
+        ));
+        assert!(off <= 12, "{by}: {off}");
+    }
+    let off = most_off("mix(x * 0.1 - eye, y * y * 0.01, x * 0.07 * eye - 0.4)");
+    assert!(off <= 12, "{off}");
+}
+
 #[test]
 fn powers_logarithms_tangents_and_arcs_are_drawn() {
     for (shade, most) in [

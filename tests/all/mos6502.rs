@@ -165,6 +165,32 @@ fn large_tables_long_loops_and_wide_pictures() {
     assert_eq!(differences(&plan, &run), 0);
 }
 
+/// Up to 512 entries in a row are in one of two pages; what is beyond an end is the end.
+#[test]
+fn rows_of_two_pages_are_read_at_both_ends_and_beyond() {
+    for entries in [257, 300, 511, 512] {
+        let row: Vec<String> = (0..entries)
+            .map(|n| ((n * 7919) % 4001 - 2000).to_string())
+            .collect();
+        let source = format!(
+            "image 270 x 2 inks black, red, yellow, white;
+             const row = [{}];
+             draw (x, y) = {{
+               let inside = row[x];
+               let below = row[2 * x - 30 - 40 * y];
+               let above = row[{} + x * y];
+               ink(abs(inside + 3 * below + 5 * above) div 7 mod 4)
+             }};",
+            row.join(", "),
+            entries - 200
+        );
+        let plan = planned(&source, &[], None);
+        let run = run(&text(&plan));
+        assert_eq!(run.stop, Stop::Ended, "{entries}");
+        assert_eq!(differences(&plan, &run), 0, "{entries}");
+    }
+}
+
 /// Scenes of random expressions over everything that the target computes.
 pub(crate) struct Scribe(pub(crate) u64);
 

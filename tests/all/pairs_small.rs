@@ -59,6 +59,38 @@ fn what_an_arm_alone_wants_is_moved_out_of_the_loop() {
     is_as_quick(&turns("", "unit(d)"), &turns("let u = unit(d);", "u"));
 }
 
+/// Most balls of a table are further away along one axis than the nearest so far is.
+#[test]
+fn the_least_of_a_tables_distances_is_bounded_before_it_is_worked_out() {
+    let march = |distance: &str| {
+        shade(&format!(
+            "let v = loop (t = 0.5) max 24 {{
+              let p = r.at(t);
+              let d = loop (k = 0, d = 9.0) max 5 {{
+                if k == 4 then d else next(k + 1, {distance})
+              }} else d;
+              if d < 0.02 then 1 - t / 6 else if t > 6 then 0 else next(t + d)
+            }} else 0"
+        ))
+    };
+    is_as_quick(
+        &march("min(d, length(p - (balls[0, k], balls[1, k], balls[2, k])) - balls[3, k])"),
+        &march(
+            "{
+              let limit = d + balls[3, k];
+              let x = p.x - balls[0, k];
+              if abs(x) < limit then {
+                let y = p.y - balls[1, k];
+                if abs(y) < limit then {
+                  let z = p.z - balls[2, k];
+                  if abs(z) < limit then min(d, sqrt(x * x + y * y + z * z) - balls[3, k]) else d
+                } else d
+              } else d
+            }",
+        ),
+    );
+}
+
 #[test]
 fn a_point_in_equal_steps_is_stepped() {
     let steps = |carried: &str, point: &str, next: &str| {

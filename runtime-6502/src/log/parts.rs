@@ -34,7 +34,7 @@ macro_rules! parts {
             part("log_whole", concat!(asm!("whole"), $octaves, asm!("whole_part")), &["log_page", "log_parts"], $whole),
             part("log_is_whole", asm!("is_whole"), &["log_page", "log_logs_low", "log_logs_high"], 38),
             part("log_floor", asm!("floor"), &["log_whole", "log_is_whole"], 73),
-            part("log_round", asm!("round"), &["log_floor", "log_add"], 16),
+            part("log_round", asm!("round"), &["log_floor"], 46),
             part("log_from_int", asm!("from_int"), &["log_is_whole", "log_plus", "log_keep"], 168),
             part("log_param", asm!("param"), &["log_from_int"], 57),
             part("log_series", asm!("series"), &["log_minus", "log_terms"], 94),

@@ -127,7 +127,7 @@ impl<const FRAC: u8> Of<FRAC> {
         routine!("zero_max" Max(R, R) -> R, t::ZERO_MAX, [], from_zero, EXACT, |_a, b| L::<FRAC>::ZERO.max(b), [23, 23], [25, 25]),
         routine!("max" Max(R, R) -> R, t::MAX, [], everywhere, EXACT, |a, b| a.max(b), [42, 42], [65, 65]),
         routine!("floor" Floor(R) -> I, "log_floor", ["log_floor"], everywhere, STEP, |a| a.wide_floor(), [178, 176], [31, 31]),
-        routine!("round" Round(R) -> I, "log_round", ["log_round"], everywhere, STEP, |a| a.wide_round(), [303, 315], [31, 31]),
+        routine!("round" Round(R) -> I, "log_round", ["log_round"], everywhere, STEP, |a| a.wide_round(), [189, 194], [31, 31]),
         routine!("sign" Sign(R) -> I, t::SIGN, [], everywhere, EXACT, |a| a.sign(), [24, 24], [18, 18]),
         routine!("byte_from_int" ToReal(I) -> R, t::OF_BYTE, ["log_is_whole"], byte, L::<FRAC>::WHOLE, |a| L::<FRAC>::from_wide_int(a), [22, 22], [16, 16]),
         routine!("from_int" ToReal(I) -> R, "log_from_int", ["log_from_int"], everywhere, L::<FRAC>::WHOLE, |a| L::<FRAC>::from_wide_int(a), [224, 230], [31, 31]),

@@ -63,7 +63,7 @@ const REALS: &[Routine] = &[
     routine!("max_plus_second" Max(R, R) -> R, Do("if ((~{0+}) | ({0} < {1})) {\nlet {r} = {1};\n}\nelse {\nlet {r} = {0};\n}\nlet {r+} = true;"), [], second_plus, EXACT, |a, b| a.max(b), 10, 44),
     routine!("max" Max(R, R) -> R, Do("if (Log.less({0}, {0+}, {1}, {1+})) {\nlet {r} = {1};\nlet {r+} = {1+};\n}\nelse {\nlet {r} = {0};\nlet {r+} = {0+};\n}"), ["Log.less"], everywhere, EXACT, |a, b| a.max(b), 18, 60),
     routine!("floor" Floor(R) -> I, call("Log.floor({0}, {0+})"), ["Log.floor"], everywhere, STEP, |a| a.floor(), 173, 20),
-    routine!("round" Round(R) -> I, call("Log.round({0}, {0+})"), ["Log.round"], everywhere, STEP, |a| a.round(), 229, 20),
+    routine!("round" Round(R) -> I, call("Log.round({0}, {0+})"), ["Log.round"], everywhere, STEP, |a| a.round(), 185, 20),
     routine!("sign" Sign(R) -> I, call("Log.sign({0+})"), ["Log.sign"], everywhere, EXACT, |a| a.sign(), 7, 14),
     routine!("from_int" ToReal(I) -> R, Do("let {r+} = ~({0} < 0);\nlet {r} = Log.fromInt({0});"), ["Log.fromInt"], everywhere, Log::WHOLE, |a| Log::from_int(a), 41, 24),
     routine!("negative" Less(R, R) -> B, sum("~{0+}"), [], against_zero, EXACT, |a, _b| !a.plus, 0, 6),

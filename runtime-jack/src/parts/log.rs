@@ -192,10 +192,13 @@ pub(crate) const FLOOR: &str = "    /** The greatest whole number not above. */
     }
 ";
 
-pub(crate) const ROUND: &str = "    /** The nearest whole number. */
+pub(crate) const ROUND: &str = "    /** The nearest whole number, halves away from 0. */
     function int round(int a, boolean aPlus) {
-        let a = Log.add(a, aPlus, -1024, true);
-        return Log.floor(a, plus);
+        var int n;
+        let n = Log.whole(a);
+        if (a < 8192) { if (a > (logs[n + n + 1] - 1025)) { let n = n + 1; } }
+        if (aPlus) { return n; }
+        return -n;
     }
 ";
 

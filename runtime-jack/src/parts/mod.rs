@@ -104,7 +104,7 @@ pub(crate) static ALL: &[Part] = &[
     part!("Log.less", [], 60, log::LESS),
     part!("Log.fromInt", ["Log.sum", "Log.makeLogs"], 130, log::FROM_INT),
     part!("Log.floor", ["Log.whole"], 100, log::FLOOR),
-    part!("Log.round", ["Log.add", "Log.floor"], 60, log::ROUND),
+    part!("Log.round", ["Log.whole"], 60, log::ROUND),
     part!("Log.sign", [], 30, log::SIGN),
     part!("Log.mod", ["Log.add", "Log.floor", "Log.fromInt", "Log.clamp"], 120, log::MOD),
     part!("Log.sine", ["Log.whole", "Log.add", "Log.leave"], 300, log_functions::SINE),

@@ -45,11 +45,6 @@ impl<const FRAC: u8, const WIDE: bool> Logarithm<FRAC, WIDE> {
         log: Self::LEAST,
     };
 
-    const HALF: Self = Self {
-        plus: true,
-        log: -Self::OCTAVE,
-    };
-
     /// The format.
     pub const FORMAT: Format = Format::Log {
         frac: FRAC,
@@ -208,13 +203,19 @@ impl<const FRAC: u8, const WIDE: bool> Logarithm<FRAC, WIDE> {
         }
     }
 
+    /// The nearest whole number, halves away from 0.
     pub fn round(self) -> i32 {
-        self.add(Self::HALF).floor()
+        self.wide_round().clamp(-32767, 32767)
     }
 
-    /// The same where ints have more than 16 bits.
+    /// The same where ints have more than 16 bits, halves away from 0: half of twice the
+    /// magnitude's whole part, which from 512 on has no more digits.
     pub fn wide_round(self) -> i32 {
-        self.add(Self::HALF).wide_floor()
+        let n = match self.log < 8 * Self::OCTAVE {
+            true => (Self::wide_whole(self.log + Self::OCTAVE) + 1) / 2,
+            false => Self::wide_whole(self.log),
+        };
+        if self.plus { n } else { -n }
     }
 
     /// There is no 0.
