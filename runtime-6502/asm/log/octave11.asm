@@ -2,10 +2,7 @@
 log_octave = 8
 log_of_quarter = 1334   ; a quarter turn
 log_of_half_turn = 3382   ; half a turn
-log_of_eighth = 64822  ; an eighth of a turn
 log_of_natural = 23611  ; what an int of units is too large by to be a natural logarithm
-log_of_steep = 62932  ; the root of 2 less 1
-log_of_short_series = 54784  ; below it a series is its first term
 ; Pages of distances with an upper byte each, and from where it lies behind the lower one.
 log_sums_pages = 16
 log_lost_pages = 16

@@ -83,22 +83,20 @@ log_sine_angle:
         rol
         eor log_side
         sta acc+2
-        ldx #0
-        ldy #6
-        jmp log_series
-
-; acc = what is left of the magnitude in arg less the one in acc; log_side is its sign.
-log_sine_sides:
-        sec
-        lda arg
-        sbc acc
-        lda arg+1
-        sbc acc+1
-        bvc log_sine_told
-        eor #$80
-log_sine_told:
-        asl
-        lda #0
-        rol
-        sta log_side
-        jmp log_minus
+        sec                 ; log_z = acc less a quarter turn and 1, below 0
+        lda acc
+        sbc #<(log_of_quarter+1)
+        sta log_z
+        lda acc+1
+        sbc #>(log_of_quarter+1)
+        bvs log_sine_same
+        sta log_z+1
+        bmi log_sine_below
+        lda #$ff
+        sta log_z
+        sta log_z+1
+log_sine_below:
+        cmp #254
+        bcs log_sine_last
+        cmp #256-4*log_octave
+        bcc log_sine_small

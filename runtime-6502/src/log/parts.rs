@@ -11,11 +11,33 @@ macro_rules! asm {
     };
 }
 
+/// acc = log_z, in the last four octaves below 0, less what stands for it in the three tables of
+/// such a name.
+macro_rules! curve {
+    ($frac:literal, $name:literal) => {
+        concat!(
+            asm!("curve_place", $frac),
+            asm!("curve"),
+            "        clc\n        lda ",
+            $name,
+            "_low,y\n        adc ",
+            $name,
+            "_steps,x\n",
+            "        sta log_x\n        lda ",
+            $name,
+            "_high,y\n        adc #0\n",
+            "        sta log_x+1\n        sec\n        lda log_z\n        sbc log_x\n",
+            "        sta acc\n        lda log_z+1\n        sbc log_x+1\n        sta acc+1\n",
+            "        rts\n"
+        )
+    };
+}
+
 /// In the order in which they stand in a program, for so many bits behind the point: what of
 /// it hangs on these, sizes of tables among it, is given.
 macro_rules! parts {
     ($frac:literal, $sums:literal, $lost:literal, $parts:literal, $octaves:literal,
-     [$($far:expr),*], $rest:literal, [$sum:literal, $difference:literal, $whole:literal]) => {
+     [$($far:expr),*], $rest:literal, [$sum:literal, $difference:literal, $whole:literal, $arc:literal, $sine:literal]) => {
         &[
             part("log_page", concat!(asm!("page"), asm!("octave", $frac)), &["zero_page"], 0),
             terms("log_sums", Bytes::<$frac>::sums, $sums),
@@ -23,7 +45,6 @@ macro_rules! parts {
             terms("log_parts", Bytes::<$frac>::parts, $parts),
             terms("log_logs_low", Bytes::<$frac>::logs_low, 513),
             terms("log_logs_high", Bytes::<$frac>::logs_high, 513),
-            terms("log_terms", Bytes::<$frac>::terms, 10),
             $($far,)*
             part("log_sum", concat!(asm!("sum"), asm!("sum_far", $frac)), &[$rest, "log_sums"], $sum),
             part("log_difference", concat!(asm!("difference"), asm!("difference_far", $frac)), &[$rest, "log_lost"], $difference),
@@ -37,10 +58,17 @@ macro_rules! parts {
             part("log_round", asm!("round"), &["log_floor"], 46),
             part("log_from_int", asm!("from_int"), &["log_is_whole", "log_plus", "log_keep"], 168),
             part("log_param", asm!("param"), &["log_from_int"], 57),
-            part("log_series", asm!("series"), &["log_minus", "log_terms"], 94),
-            part("log_sine", asm!("sine"), &["log_series", "log_whole", "log_is_whole"], 172),
+            part("log_curve", asm!("curve_less"), &["log_minus"], 12),
+            terms("log_sine_low", Bytes::<$frac>::sine_low, 256),
+            terms("log_sine_high", Bytes::<$frac>::sine_high, 256),
+            terms("log_sine_steps", Bytes::<$frac>::sine_steps, 256),
+            terms("log_sine_last_units", Bytes::<$frac>::sine_last, 256),
+            part("log_sine", concat!(asm!("sine"), curve!($frac, "log_sine"), asm!("sine_last"), asm!("sine_end")), &["log_curve", "log_whole", "log_is_whole", "log_sine_low", "log_sine_high", "log_sine_steps", "log_sine_last_units"], $sine),
             part("log_tangent", asm!("tangent"), &["log_sine"], 50),
-            part("log_arc", asm!("arc"), &["log_series"], 296),
+            terms("log_arc_low", Bytes::<$frac>::arc_low, 256),
+            terms("log_arc_high", Bytes::<$frac>::arc_high, 256),
+            terms("log_arc_steps", Bytes::<$frac>::arc_steps, 256),
+            part("log_arc", concat!(asm!("arc"), curve!($frac, "log_arc"), asm!("arc_end")), &["log_curve", "log_arc_low", "log_arc_high", "log_arc_steps"], $arc),
             part("log_units", asm!("units"), &["log_whole", "log_is_whole"], 162),
             part("log_exponential", asm!("exponential"), &["log_units", "log_keep"], 46),
             part("log_natural", asm!("logarithm"), &["log_from_int"], 87),
@@ -59,14 +87,14 @@ const TEN: &[Part] = parts!(
         terms("log_rest_high", super::tables::rest_high, 24),
         part("log_rest", asm!("rest"), &["log_page", "log_rest_first", "log_rest_low", "log_rest_high"], 40)
     ],
-    "log_rest", [78, 89, 142]
+    "log_rest", [78, 89, 142, 284, 279]
 );
 
 #[rustfmt::skip]
 const ELEVEN: &[Part] = parts!(
     11, 14_849, 15_105, 2048, "        lsr\n        lsr\n        lsr\n",
     [part("log_sixteenth", asm!("sixteenth"), &["log_page"], 32)],
-    "log_sixteenth", [103, 107, 143]
+    "log_sixteenth", [103, 107, 143, 286, 281]
 );
 
 /// Those of ten bits, and of eleven, behind the usual ones, which ints need.

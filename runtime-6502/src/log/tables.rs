@@ -1,6 +1,6 @@
 //! The tables of logarithms as bytes.
 
-use slowlight_routine::log::model::{Logarithm, WHOLE};
+use slowlight_routine::log::model::WHOLE;
 use slowlight_routine::log::tables::{STEPS, tables};
 
 /// Pages of entries of one table of distances, and of upper bytes: behind these a sum's entry
@@ -75,11 +75,33 @@ impl<const FRAC: u8> Bytes<FRAC> {
         logs
     }
 
-    /// Of the sine's series, then of the arc's.
-    pub fn terms() -> Vec<i32> {
-        let of = Logarithm::<FRAC, true>::CONSTANTS;
-        let all = of.sine.iter().chain(&of.arc);
-        all.flat_map(|term| [low(term), high(term)]).collect()
+    /// What an arc is less than its tangent by, and a sine than its angle.
+    pub fn arc_low() -> Vec<i32> {
+        tables(FRAC).arc.entries.iter().map(low).collect()
+    }
+
+    pub fn arc_high() -> Vec<i32> {
+        tables(FRAC).arc.entries.iter().map(high).collect()
+    }
+
+    pub fn arc_steps() -> Vec<i32> {
+        tables(FRAC).arc.steps.clone()
+    }
+
+    pub fn sine_low() -> Vec<i32> {
+        tables(FRAC).sine.entries.iter().map(low).collect()
+    }
+
+    pub fn sine_high() -> Vec<i32> {
+        tables(FRAC).sine.entries.iter().map(high).collect()
+    }
+
+    pub fn sine_last() -> Vec<i32> {
+        tables(FRAC).sine.last.iter().map(low).collect()
+    }
+
+    pub fn sine_steps() -> Vec<i32> {
+        tables(FRAC).sine.steps.clone()
     }
 }
 

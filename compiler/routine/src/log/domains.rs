@@ -9,8 +9,10 @@ pub const STEP: Error = Error::Mixed {
     relative: 1.0 / 256.0,
     absolute: 1.0,
 };
-/// Of angles up to 1: one unit of 1.
+/// Of angles up to 1: one unit of 1 of ten bits.
 pub const NEAR_SINE: Error = Error::Absolute(6.8e-4);
+/// The same by tables ([`super::tables::Curve`]): 1.3 of them.
+pub const NEAR_SINE_BY_TABLE: Error = Error::Absolute(8.8e-4);
 /// The whole quarter turns of an angle are taken away as a value of the format: of 64, half a
 /// unit is 0.02.
 pub const SINE: Error = Error::Absolute(0.022);

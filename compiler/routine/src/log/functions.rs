@@ -1,10 +1,13 @@
 //! Sines, arcs, powers and logarithms, bit for bit as runtimes compute them.
 //!
-//! Series are summed up with the tables, `1 - z k1 (1 - z k2 (1 - ...))` for the square z:
+//! Sines and arcs are read off tables of how far they are below their arguments ([`Curve`]),
+//! where these are to be had; else series are summed up with the tables, `1 - z k1 (1 - z k2 (1 - ...))` for the square z:
 //! each further term is smaller, so its rounding counts less. What is linear in a
 //! logarithm, a power, is computed with that as an int.
 
 use super::model::{Logarithm, WHOLE};
+#[cfg(doc)]
+use super::tables::Curve;
 
 /// What hangs on how many units an octave has.
 pub struct Constants {
@@ -61,6 +64,9 @@ impl<const FRAC: u8, const WIDE: bool> Logarithm<FRAC, WIDE> {
 
     /// The angle of a ratio of at most 1.
     fn arc(x: i32) -> i32 {
+        if WIDE {
+            return Self::tables().arc.at(x, Self::OCTAVE);
+        }
         let Constants { arc, eighth, .. } = Self::CONSTANTS;
         if x < Self::CONSTANTS.steep {
             return Self::series(x, &arc);
@@ -121,7 +127,10 @@ impl<const FRAC: u8, const WIDE: bool> Logarithm<FRAC, WIDE> {
         let back = (turns + quarter) & 2 != 0;
         Self {
             plus: angle.plus != back,
-            log: Self::series(angle.log, &Self::CONSTANTS.sine),
+            log: match WIDE {
+                true => Self::tables().sine.flat_at(angle.log, Self::OCTAVE),
+                false => Self::series(angle.log, &Self::CONSTANTS.sine),
+            },
         }
     }
 

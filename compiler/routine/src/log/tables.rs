@@ -12,6 +12,93 @@ pub struct Tables {
     pub differences: ByDistance,
     /// OCTAVE log2(n) for n to [`WHOLE`]; the least for 0.
     pub logs: Vec<i32>,
+    /// Of the angle of a tangent of at most 1, and of the sine of at most a quarter turn.
+    pub arc: Curve,
+    pub sine: Curve,
+}
+
+/// How far the logarithm of a function is below that of its argument, where the function is the
+/// argument for small ones: for each of 256 parts of the last [`CURVE_OCTAVES`] octaves up to
+/// `top`, and what it grows by in a part, which is taken to be linear in each sixteenth of the
+/// octaves. Counted from what is 1 above the argument's distance from the top.
+pub struct Curve {
+    /// The logarithm of the greatest argument.
+    pub top: i32,
+    pub entries: Vec<i32>,
+    /// By which sixteenth, and by the first four bits of a place in a part.
+    pub steps: Vec<i32>,
+    /// The function itself for each two of the last 512 units.
+    pub last: Vec<i32>,
+}
+
+/// Further down it is less than 3 units of ten bits.
+pub const CURVE_OCTAVES: i32 = 4;
+
+impl Curve {
+    /// Hangs on no last place of `f64`: none of those here is nearer to a half than 1/3,000.
+    fn new(frac: u8, top: i32, of: fn(f64) -> f64) -> Curve {
+        let octave = 1i32 << frac;
+        let (first, part) = (-CURVE_OCTAVES * octave, CURVE_OCTAVES * octave / 256);
+        let less = |x: i32| {
+            let argument = (f64::from(x + top + 1) / f64::from(octave)).exp2();
+            f64::from(x) - f64::from(octave) * of(argument).log2()
+        };
+        // By places in a part that have the same first four bits, in all parts of a sixteenth.
+        let wide = (part / 16).max(1);
+        let steps = (0..256).map(|at| {
+            let from = first + at / 16 * 16 * part;
+            let grown = |nth: i32| {
+                let start = from + nth / wide * part;
+                less(start + at % 16 * wide + nth % wide) - less(start)
+            };
+            let all = 16 * wide;
+            ((0..all).map(grown).sum::<f64>() / f64::from(all)).round() as i32
+        });
+        let steps: Vec<i32> = steps.collect();
+        let entries = (0..256).map(|at| {
+            let step = |k: i32| steps[(at / 16 * 16 + k * 16 / part) as usize];
+            let left = |k: i32| less(first + at * part + k) - f64::from(step(k));
+            let all = (0..part).map(left);
+            let (least, most) = (f64::INFINITY, f64::NEG_INFINITY);
+            let (least, most) = all.fold((least, most), |(l, m), x| (l.min(x), m.max(x)));
+            ((least + most) / 2.0).round() as i32
+        });
+        let last = (0..256).map(|at| {
+            let below = (at - 256) * 2;
+            let of = |k: i32| f64::from(below + k) - less(below + k);
+            ((of(0) + of(1)) / 2.0).round() as i32
+        });
+        Curve {
+            top,
+            entries: entries.collect(),
+            steps,
+            last: last.collect(),
+        }
+    }
+
+    /// The same where the function is flat at its end, as a sine is: that is read off by itself.
+    pub fn flat_at(&self, x: i32, octave: i32) -> i32 {
+        let below = (x - self.top - 1).min(-1);
+        let at = 256 + below.div_euclid(2);
+        match self.last.get(at as usize) {
+            Some(last) => *last,
+            None => self.at(x, octave),
+        }
+    }
+
+    /// The logarithm of the function of an argument. In the octave below the entries it is a unit
+    /// of ten bits less, and below that the argument.
+    pub fn at(&self, x: i32, octave: i32) -> i32 {
+        let below = (x - self.top - 1).min(-1);
+        let at = below + CURVE_OCTAVES * octave;
+        if at < 0 {
+            return if at < -octave { x } else { x - octave / 1024 };
+        }
+        let part = CURVE_OCTAVES * octave / 256;
+        let entry = at / part;
+        let step = entry / 16 * 16 + at % part * 16 / part;
+        below - self.entries[entry as usize] - self.steps[step as usize]
+    }
 }
 
 /// What hangs on how far apart two logarithms are: an entry for each distance up to where a
@@ -50,6 +137,11 @@ pub fn tables(frac: u8) -> &'static Tables {
     if frac == 10 { &TEN } else { &ELEVEN }
 }
 
+/// The logarithm of a quarter turn.
+fn quarter<const FRAC: u8>() -> i32 {
+    Logarithm::<FRAC, true>::CONSTANTS.quarter
+}
+
 /// As a program in Jack makes them.
 fn ten() -> Tables {
     let powers = powers();
@@ -63,6 +155,8 @@ fn ten() -> Tables {
         sums: by_distance(sums(&powers)),
         differences: by_distance(differences(&powers, &logs)),
         logs,
+        arc: Curve::new(10, 0, f64::atan),
+        sine: Curve::new(10, quarter::<10>(), f64::sin),
     }
 }
 
@@ -110,6 +204,8 @@ fn eleven() -> Tables {
             .into_iter()
             .chain((1..=WHOLE).map(log))
             .collect(),
+        arc: Curve::new(11, 0, f64::atan),
+        sine: Curve::new(11, quarter::<11>(), f64::sin),
     }
 }
 

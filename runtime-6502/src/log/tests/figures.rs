@@ -118,10 +118,7 @@ fn numbers_by_name_are_the_models_of<const FRAC: u8>() {
     for (name, n) in [
         ("log_of_quarter", of.quarter),
         ("log_of_half_turn", of.half_turn),
-        ("log_of_eighth", of.eighth),
         ("log_of_natural", of.units),
-        ("log_of_steep", of.steep),
-        ("log_of_short_series", of.short),
         ("log_octave", L::<FRAC>::OCTAVE / 256),
     ] {
         assert_eq!(symbols[name], i64::from(n as u16), "{name}");

@@ -1,0 +1,3 @@
+        lda log_z
+        sta log_x
+        lda log_z+1
