@@ -55,6 +55,7 @@ mod need;
 mod numbers;
 mod objects;
 mod packages;
+mod pages;
 mod pairs;
 mod pairs_small;
 #[cfg(feature = "peers")]
