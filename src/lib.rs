@@ -30,6 +30,8 @@ pub mod inks;
 pub mod interrupt;
 pub mod jobs;
 pub mod keys;
+#[cfg(not(target_family = "wasm"))]
+pub mod labels;
 pub mod library;
 pub mod listing;
 pub mod live;

@@ -39,6 +39,7 @@ mod imports;
 mod jack;
 mod jack_fixed;
 mod jack_formats;
+mod labels;
 mod library;
 mod listing;
 mod live;
