@@ -95,6 +95,7 @@ mod snapshots;
 mod spread;
 mod started;
 mod stress;
+mod survey_parts;
 mod syntaxes;
 mod torus;
 mod tune;

@@ -120,8 +120,9 @@ fn what_pages_say_to_type_is_understood() {
     for page in all {
         for words in commands(&read(&page)) {
             let line = std::iter::once("slowlight".to_owned()).chain(words.clone());
-            // Words in capitals stand for something.
-            let open = |w: &String| w.len() > 1 && w.chars().all(|c| c.is_ascii_uppercase());
+            // Words in capitals, and a shell's variables, stand for something.
+            let capitals = |w: &String| w.len() > 1 && w.chars().all(|c| c.is_ascii_uppercase());
+            let open = |w: &String| capitals(w) || w.contains('$');
             if words.iter().any(open) {
                 continue;
             }
