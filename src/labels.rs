@@ -19,7 +19,7 @@ use std::fmt::Write as _;
 pub enum Labels {
     /// NAME.vs: `al C:0810 .name` a line, for VICE (`x64sc -moncommands NAME.vs`) and others
     Vice,
-    /// NAME.labels: one line, as beebasm's -d writes it, for b-em (`swiftsym NAME.labels`), b2
+    /// NAME.labels: one line, as beebasm's -d writes it, for b-em (`swiftsym NAME.labels`)
     Beebasm,
     /// NAME.dbg: as ld65's --dbgfile writes it, with the lines of the assembly and of the scene
     Ca65,

@@ -101,6 +101,7 @@ mod torus;
 mod tune;
 mod tune_effort;
 mod varied;
+mod watch;
 mod ways;
 mod whole;
 mod why;
