@@ -26,10 +26,14 @@ pub mod fit;
 pub mod forecast;
 pub mod format;
 pub mod given;
+#[cfg(not(target_family = "wasm"))]
+pub mod grow;
 pub mod inks;
 pub mod interrupt;
 pub mod jobs;
 pub mod keys;
+#[cfg(not(target_family = "wasm"))]
+pub mod labels;
 pub mod library;
 pub mod listing;
 pub mod live;
@@ -46,6 +50,8 @@ pub mod progress;
 pub mod scene;
 pub mod sheet;
 #[cfg(not(target_family = "wasm"))]
+pub mod show;
+#[cfg(not(target_family = "wasm"))]
 pub mod snapshot;
 #[cfg(not(target_family = "wasm"))]
 pub mod survey;
@@ -55,6 +61,8 @@ pub mod trial;
 #[cfg(not(target_family = "wasm"))]
 pub mod tune;
 pub mod unlike;
+#[cfg(not(target_family = "wasm"))]
+pub mod watch;
 pub mod ways;
 
 #[cfg(not(target_family = "wasm"))]

@@ -20,15 +20,24 @@ const PART: &str = "; ---- ";
 /// # Errors
 /// Where the assembler refuses the program, which is a fault of ours.
 pub fn listing(scene: &Scene, plan: &Plan) -> Outcome<File> {
+    let (document, assembly) = assembled(plan)?;
+    let mut text = memory(&document, &assembly);
+    text.push_str(&operations(plan));
+    text.push_str(&program(scene, &document, &assembly));
+    Ok(File::text(&format!("{}.lst", plan.name), &text))
+}
+
+/// A plan's program for the 6502 as the bundled assembler reads it, and what that makes of it.
+///
+/// # Errors
+/// Where the assembler refuses the program, which is a fault of ours.
+pub fn assembled(plan: &Plan) -> Outcome<(Document, Assembly)> {
     let document = slowlight_compiler::backend::emit(plan).remove(0);
     let assembly = assemble(&document.text).map_err(|faults| {
         let said: Vec<String> = faults.iter().map(ToString::to_string).collect();
         Failure::Wrong(said.join("\n"))
     })?;
-    let mut text = memory(&document, &assembly);
-    text.push_str(&operations(plan));
-    text.push_str(&program(scene, &document, &assembly));
-    Ok(File::text(&format!("{}.lst", plan.name), &text))
+    Ok((document, assembly))
 }
 
 /// A table under a headline.

@@ -5,11 +5,12 @@ use crate::colours;
 use crate::failure::{Failure, Outcome};
 use crate::forecast::{self, Forecast, forecast};
 use crate::format::{count, duration, table};
+use crate::labels::{self, Labels};
 use crate::listing::listing;
 use crate::machine::{File, Sizes};
 use crate::need::{Need, need_beside};
 use crate::scene::{Precision, Scene, SceneArgs};
-use crate::target_args::{self, ScreenArgs, Style};
+use crate::target_args::{self, Os, ScreenArgs, Style};
 use crate::trial::{self, mode_json};
 use crate::{files, inks, say, say_json};
 use clap::ValueEnum;
@@ -41,6 +42,10 @@ pub struct Args {
     /// or xa [default: ca65]
     #[arg(long, value_name = "SYNTAX", value_parser = target_args::syntax)]
     syntax: Option<&'static Syntax>,
+    /// Files of names beside the program, by which an emulator's debugger shows its labels and
+    /// the scene's lines
+    #[arg(long, value_enum, value_name = "FORM", value_delimiter = ',')]
+    labels: Vec<Labels>,
     /// The directory to write to
     #[arg(short, long, value_name = "DIR", default_value = ".")]
     output: PathBuf,
@@ -82,23 +87,37 @@ pub fn run(args: &Args) -> Outcome<()> {
         return say(&emit(args, &scene, stage)?);
     }
     let target = target(args)?;
+    let machine = args.screen.machine(target);
+    for form in &args.labels {
+        form.check(target, args.screen.os == Some(Os::Jack))?;
+    }
+    // Its lines are those of the source as ca65 reads it.
+    if args.labels.contains(&Labels::Ca65) && args.syntax.is_some_and(|s| s.name != "ca65") {
+        let message = "--labels ca65 names lines of ca65's source: leave --syntax out";
+        return Err(Failure::Usage(message.to_owned()));
+    }
     files::may_hold(&args.output)?;
     scene.warn();
     let plan = auto_format::plan(&args.screen, &scene, target)?.said();
     inks::warn(&scene, &plan)?;
     colours::warn(&scene, plan.target);
-    let more = match args.screen.style {
+    let mut more = match args.screen.style {
         Some(Style::Listing) if target_args::is_6502(plan.target) => vec![listing(&scene, &plan)?],
         _ => Vec::new(),
     };
     let text = backend::emit(&plan);
+    more.extend(labels::files(
+        &args.labels,
+        &scene,
+        (&plan, &text),
+        machine,
+    )?);
     let written = write(
         (&plan, &text),
         &args.screen,
         (args.syntax, &more),
         &args.output,
     )?;
-    let machine = args.screen.machine(plan.target);
     let forecast = forecast((&plan, &text), machine)?;
     let seconds = |cycles: f64| cycles / forecast::hertz(&plan, machine);
     let sizes = written.sizes;

@@ -38,7 +38,8 @@ pub fn run(args: &Args) -> Outcome<()> {
     say(&format!(
         "{shown} is written; next:\n  \
          slowlight render {scene} -o {picture}\n  \
-         slowlight run {scene} --target jack\n"
+         slowlight run {scene} --target jack\n  \
+         slowlight live {scene} --target 6502 --open\n"
     ))
 }
 

@@ -5,7 +5,7 @@ use crate::failure::Outcome;
 use crate::picture::PictureFile;
 use crate::scene::{Precision, Scene, SceneArgs};
 use crate::target_args::{self, ScreenArgs};
-use crate::{ascii, diagnostics, inks, say, say_json};
+use crate::{ascii, diagnostics, inks, say, say_json, show};
 use serde_json::json;
 use slowlight_compiler::targets::Target;
 use std::path::PathBuf;
@@ -27,8 +27,8 @@ pub struct Args {
     /// Where to write the picture: .png, .pgm (ink indices) or .pbm (two inks)
     #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
-    /// Show the picture as text, and print nothing else; text also stands for a file that
-    /// is not named
+    /// Show the picture as text, and print nothing else; without it and a file's name, a
+    /// terminal shows the picture as it can, and what is no terminal gets text
     #[arg(long)]
     ascii: bool,
     /// Print size and digest as JSON
@@ -74,7 +74,10 @@ pub fn run(args: &Args) -> Outcome<()> {
     }
     let mut text = String::new();
     if args.ascii || !output.wanted() {
-        text += &ascii::text(&picture, ascii::COLUMNS);
+        text += &match show::means().filter(|_| !args.ascii) {
+            Some(means) => show::text(&picture, means, (show::room().0, None))?,
+            None => ascii::text(&picture, ascii::COLUMNS),
+        };
     }
     if !args.ascii {
         let (width, height, inks) = (picture.width, picture.height, picture.palette.len());

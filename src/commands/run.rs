@@ -11,18 +11,19 @@ use crate::picture::PictureFile;
 use crate::scene::{Scene, SceneArgs};
 use crate::target_args::{self, HeapOf, ScreenArgs};
 use crate::trial::{self, LIMIT, Trial};
-use crate::{inks, program, say, say_json};
+use crate::{grow, inks, program, say, say_json, watch};
 use serde::Serialize;
 use slowlight_compiler::planner::PlannedScene;
 use slowlight_compiler::targets::{Target, formats};
 use std::collections::BTreeMap;
 use std::path::PathBuf;
+use std::sync::Arc;
 
 /// How many differing pixels are listed.
 const LISTED: usize = 10;
 
 /// Options of `run`.
-#[derive(clap::Args, Debug)]
+#[derive(clap::Args, Clone, Debug)]
 pub struct Args {
     #[command(flatten)]
     scene: SceneArgs,
@@ -37,6 +38,12 @@ pub struct Args {
     /// Count the pixels unlike those of another picture, too: .png, .pgm or .pbm, as `-o` writes
     #[arg(long, value_name = "FILE", conflicts_with = "no_plot")]
     against: Vec<PathBuf>,
+    /// Show the machine's picture in the terminal, as it grows where that can be shown
+    #[arg(long, conflicts_with_all = ["no_plot", "json"])]
+    show: bool,
+    /// Run it again each time that the scene or a file that it uses is saved, until Ctrl-C
+    #[arg(long, conflicts_with = "program")]
+    watch: bool,
     /// Print one JSON object
     #[arg(long)]
     json: bool,
@@ -52,8 +59,21 @@ pub struct Args {
     heap: Option<HeapOf>,
 }
 
-/// Runs, reports, and fails where machine and model differ.
+/// Runs it, and again whenever it is saved where that is asked for.
 pub fn run(args: &Args) -> Outcome<()> {
+    if !args.watch {
+        return once(args);
+    }
+    let (scene, own) = (&args.scene, args.clone());
+    watch::each_save(
+        &scene.scene,
+        &scene.changes,
+        &(Arc::new(move || once(&own)) as watch::Work),
+    )
+}
+
+/// Runs, reports, and fails where machine and model differ.
+fn once(args: &Args) -> Outcome<()> {
     let output = PictureFile::named(args.output.as_deref())?;
     let others: Vec<Reference> = (args.against.iter())
         .map(|path| Reference::read(path))
@@ -63,7 +83,10 @@ pub fn run(args: &Args) -> Outcome<()> {
     let (plan, set, loaded) = prepare(args, &scene)?;
     inks::warn(&scene, &plan)?;
     colours::warn(&scene, plan.target);
-    let trial = trial::run(&scene, plan, &set, loaded, args.limit)?;
+    let trial = match args.show {
+        true => grow::run(&scene, plan, &set, loaded, args.limit)?,
+        false => trial::run(&scene, plan, &set, loaded, args.limit)?,
+    };
     if let Some(picture) = &trial.picture {
         output.write(picture)?;
     }

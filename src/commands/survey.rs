@@ -5,7 +5,9 @@ use crate::files;
 use crate::scene::is_standard_input;
 use crate::survey::by_scene::{self, ByScene, Written};
 use crate::survey::document::document;
-use crate::survey::{Survey, survey};
+use crate::survey::part::{self, Asked, Part, Shard};
+use crate::survey::section::Section;
+use crate::survey::survey;
 use crate::target_args;
 use crate::tune::goal::Measure;
 use slowlight_compiler::targets::{TARGETS, Target};
@@ -15,14 +17,22 @@ use std::path::{Path, PathBuf};
 #[derive(clap::Args, Debug)]
 pub struct Args {
     /// The scenes' files
-    #[arg(required = true, value_name = "SCENE")]
+    #[arg(required_unless_present = "merge", value_name = "SCENE")]
     scenes: Vec<PathBuf>,
     /// A machine; all where none is named
     #[arg(short, long, value_name = "T", value_parser = target_args::target)]
     target: Vec<&'static Target>,
-    /// The document to write, in Markdown
+    /// The document to write, in Markdown; with --shard the part, as JSON
     #[arg(short, long, value_name = "FILE.md")]
     output: PathBuf,
+    /// Do every Nth scene on its machine only, the Kth of each N, and write what was found as a
+    /// part for --merge
+    #[arg(long, value_name = "K/N", value_parser = Shard::read, conflicts_with = "pictures")]
+    shard: Option<Shard>,
+    /// Join the parts that --shard wrote, all N of them, to the document that one run writes
+    #[arg(long, value_name = "PART", num_args = 1..,
+          conflicts_with_all = ["scenes", "target", "measure", "settings", "limit", "no_cache", "shard"])]
+    merge: Vec<PathBuf>,
     /// The directory for its plots, beside or below the document [default: the document's]
     #[arg(long, value_name = "DIR")]
     pictures: Option<PathBuf>,
@@ -59,7 +69,8 @@ fn settings(text: &str) -> Result<Written, String> {
     by_scene::read(text, SETTINGS, ("a number", 8))
 }
 
-/// Tunes all, then writes the document and its plots, whole or not at all.
+/// Tunes all, then writes the document and its plots, or a part, whole or not at all; or joins
+/// parts.
 pub fn run(args: &Args) -> Outcome<()> {
     if args.scenes.iter().any(|path| is_standard_input(path)) {
         let message = "plots are named after scenes: give their files, not standard input";
@@ -82,23 +93,26 @@ pub fn run(args: &Args) -> Outcome<()> {
         files::may_write(&args.output)?;
     }
     alike(&args.scenes)?;
-    let asked = Survey {
-        scenes: args.scenes.clone(),
-        targets: match args.target.is_empty() {
-            true => TARGETS.to_vec(),
-            false => args.target.clone(),
-        },
-        measure: args.measure,
-        settings: args.settings(),
-        limit: args.limit(),
-        cached: !args.no_cache,
+    let (asked, sections) = match args.merge.is_empty() {
+        false => part::joined(&args.merge)?,
+        true => {
+            let asked = args.asked();
+            let mut all = asked.survey(numbers(&asked))?;
+            (all.cached, all.shard) = (!args.no_cache, args.shard);
+            let found = survey(&all)?;
+            if let Some(shard) = args.shard {
+                return parted(args, beside, Part::new(shard, asked, found)?);
+            }
+            let sections = found.into_iter().map(|(_, section)| section);
+            (asked, sections.collect())
+        }
     };
-    let sections = survey(&asked)?;
     let pictures = match way.as_os_str().is_empty() {
         true => String::new(),
         false => format!("{}/", way.display()),
     };
-    let text = document(&asked, &sections, &own(args), &pictures);
+    let all = asked.survey(numbers(&asked))?;
+    let text = document(&all, &sections, &own(args, &asked), &pictures);
     let plots: Vec<(PathBuf, String)> = (sections.iter())
         .map(|s| (directory.join(s.picture()), format!("{}\n", s.svg)))
         .collect();
@@ -110,19 +124,47 @@ pub fn run(args: &Args) -> Outcome<()> {
         files::make(made)?;
     }
     files::write_all(&files)?;
-    match sections.iter().any(|s| s.wrong > 0) {
+    held(sections.iter())
+}
+
+/// Writes a part.
+fn parted(args: &Args, beside: &Path, part: Part) -> Outcome<()> {
+    files::make(beside)?;
+    files::write(&args.output, part.text()?.as_bytes())?;
+    held(part.sections())
+}
+
+/// Fails where a program's pixels were not its model's.
+fn held<'s>(mut sections: impl Iterator<Item = &'s Section>) -> Outcome<()> {
+    match sections.any(|s| s.wrong > 0) {
         true => Err(Failure::Differs),
         false => Ok(()),
     }
 }
 
-impl Args {
-    fn settings(&self) -> ByScene {
-        ByScene::new("settings", 5, &self.settings)
-    }
+/// The settings and the limits of what was asked for.
+fn numbers(asked: &Asked) -> (ByScene, ByScene) {
+    (
+        ByScene::new("settings", 5, &asked.settings),
+        ByScene::new("limit", LIMIT, &asked.limit),
+    )
+}
 
-    fn limit(&self) -> ByScene {
-        ByScene::new("limit", LIMIT, &self.limit)
+impl Args {
+    /// What is asked for; all machines where none is named.
+    fn asked(&self) -> Asked {
+        let targets: &[&Target] = match self.target.is_empty() {
+            true => TARGETS,
+            false => &self.target,
+        };
+        Asked {
+            scenes: self.scenes.clone(),
+            targets: targets.iter().map(|t| t.name.to_owned()).collect(),
+            named: !self.target.is_empty(),
+            measure: self.measure,
+            settings: self.settings.clone(),
+            limit: self.limit.clone(),
+        }
     }
 }
 
@@ -143,16 +185,18 @@ fn alike(scenes: &[PathBuf]) -> Outcome<()> {
 }
 
 /// The command that writes the same document.
-fn own(args: &Args) -> String {
+fn own(args: &Args, asked: &Asked) -> String {
     let mut words = vec!["slowlight survey".to_owned()];
-    words.extend(args.scenes.iter().map(|s| s.display().to_string()));
-    words.extend(args.target.iter().map(|t| format!("--target {}", t.name)));
-    if args.measure != Measure::default() {
-        let name = format!("{:?}", args.measure).to_lowercase();
+    words.extend(asked.scenes.iter().map(|s| s.display().to_string()));
+    let named = asked.targets.iter().filter(|_| asked.named);
+    words.extend(named.map(|t| format!("--target {t}")));
+    if asked.measure != Measure::default() {
+        let name = format!("{:?}", asked.measure).to_lowercase();
         words.push(format!("--measure {name}"));
     }
-    words.extend(args.settings().words());
-    words.extend(args.limit().words());
+    let (settings, limit) = numbers(asked);
+    words.extend(settings.words());
+    words.extend(limit.words());
     words.push(format!("-o {}", args.output.display()));
     words.extend(
         args.pictures

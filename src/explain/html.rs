@@ -1,7 +1,8 @@
 //! A profile as one page of HTML: no scripts, no network, nothing beside it.
 
 use super::Explained;
-use super::terminal::{error, percent, place, rate};
+use super::terminal::{error, percent, places, rate, spared};
+use super::told::told;
 use crate::draw::Window;
 use crate::format::count;
 use crate::sheet::{escaped, marked};
@@ -138,13 +139,14 @@ fn why(out: &mut String, found: &Explained) {
         return;
     }
     out.push_str("<ul class=\"why\">\n");
-    for (line, why) in found.whys() {
+    for told in told(found) {
+        let spared = spared(found, told.saves, told.cycles);
         let _ = writeln!(
             out,
             "<li>{} ({}): {}",
-            escaped(&place(found, line)),
-            percent(found.share(line.cycles)),
-            marked(&why.text)
+            escaped(&places(found, &told.lines)),
+            percent(found.share(told.cycles)),
+            marked(&format!("{} {spared}", told.head))
         );
     }
     out.push_str("</ul>\n");

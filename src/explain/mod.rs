@@ -4,6 +4,7 @@
 pub mod error;
 pub mod html;
 pub mod terminal;
+mod told;
 pub mod why;
 
 use crate::auto_format;
@@ -22,7 +23,7 @@ use slowlight_compiler::planner::PlannedScene;
 use slowlight_compiler::report::profile::{self, Cost, Measured, Part, Profile, SourceLine};
 use slowlight_compiler::targets::Target;
 use std::collections::BTreeMap;
-use why::{Why, Whys};
+use why::Whys;
 
 /// A profile and what is needed to show it.
 pub struct Explained {
@@ -187,18 +188,6 @@ impl Explained {
     /// What is left of the error without that of a line, where it computes reals.
     pub fn error(&self, line: &SourceLine) -> Option<Without> {
         self.errors.lines.get(&(line.file, line.line)).copied()
-    }
-
-    /// What is said of lines, the dearest line first.
-    pub fn whys(&self) -> Vec<(&SourceLine, &Why)> {
-        let mut all = Vec::new();
-        for line in &self.profile.lines {
-            let known = self.why.iter();
-            let why = known.filter_map(|all| all.get(&(line.file, line.line)));
-            all.extend(why.map(|why| (line, why)));
-        }
-        all.sort_by_key(|(line, _)| std::cmp::Reverse(line.cycles));
-        all
     }
 
     /// What `explain --json` prints.

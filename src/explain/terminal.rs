@@ -37,11 +37,43 @@ fn why(found: &Explained) -> String {
         return "\nno line would be cheaper by a range, a bound or a constant that was tried\n"
             .to_owned();
     }
-    let told = found.whys().into_iter().map(|(line, why)| {
-        let (place, share) = (place(found, line), percent(found.share(line.cycles)));
-        format!("{place} ({share}): {}\n", why.text)
+    let told = super::told::told(found).into_iter().map(|told| {
+        let (places, share) = (
+            places(found, &told.lines),
+            percent(found.share(told.cycles)),
+        );
+        let spared = spared(found, told.saves, told.cycles);
+        format!("{places} ({share}): {} {spared}\n", told.head)
     });
     "\nwhat lines could not do, the dearest first\n".to_owned() + &told.collect::<String>()
+}
+
+/// The end of a sentence: how many of some lines' cycles, and of all, something spares.
+pub fn spared(found: &Explained, saves: u64, cycles: u64) -> String {
+    format!(
+        "would spare {} of these {} {} ({} of all)",
+        count(saves),
+        count(cycles),
+        found.unit(),
+        percent(found.share(saves)),
+    )
+}
+
+/// `line 12` or `lines 7, 9 and 12`, with their files where the scene has several.
+pub fn places(found: &Explained, lines: &[&SourceLine]) -> String {
+    let of_file = |lines: &[&SourceLine]| match lines {
+        [] => String::new(),
+        [line] => place(found, line),
+        [before @ .., last] => {
+            let numbers: Vec<String> = before.iter().map(|l| l.line.to_string()).collect();
+            let end = place(found, last);
+            let file = end.strip_suffix(&format!("line {}", last.line));
+            let file = file.unwrap_or_default();
+            format!("{file}lines {} and {}", numbers.join(", "), last.line)
+        }
+    };
+    let files = lines.chunk_by(|a, b| a.file == b.file).map(of_file);
+    files.collect::<Vec<String>>().join("; ")
 }
 
 /// `line 12`, with its file where the scene has several.

@@ -69,8 +69,18 @@ impl<'w, B: Board> Work<'w, B> {
     fn show(&self, change: impl FnOnce(&mut State)) {
         let serial = self.wish.serial;
         self.board.show_of(serial, |shown, _| {
-            shown.machine.serial = serial;
-            change(&mut shown.machine);
+            let machine = &mut shown.machine;
+            if machine.serial != serial {
+                // Another wish's figures are none of this one's.
+                *machine = State {
+                    serial,
+                    stage: machine.stage,
+                    picture: machine.picture,
+                    size: machine.size,
+                    ..State::default()
+                };
+            }
+            change(machine);
         });
     }
 

@@ -69,7 +69,7 @@ fn summary(asked: &Survey, sections: &[Section]) -> String {
 }
 
 fn part(section: &Section, pictures: &str) -> String {
-    let (scene, target) = (&section.scene, section.target);
+    let (scene, target) = (&section.scene, &section.target);
     let mut out = format!(
         "\n### {scene} on {target}\n`{}`\n\n{}\n\n![{scene} on {target}: time against error]({pictures}{})\n\n",
         section.command,

@@ -8,6 +8,7 @@
 
 pub mod by_scene;
 pub mod document;
+pub mod part;
 pub mod section;
 
 use crate::failure::{Failure, Outcome};
@@ -23,6 +24,7 @@ use crate::tune::marks;
 use crate::tune::search::Search;
 use crate::tune::tell::Told;
 use by_scene::ByScene;
+use part::Shard;
 use section::Section;
 use slowlight_compiler::targets::Target;
 use std::path::{Path, PathBuf};
@@ -42,9 +44,17 @@ pub struct Survey {
     pub limit: ByScene,
     /// Whether what was measured before is looked up.
     pub cached: bool,
+    /// The part that is done; all where there is none.
+    pub shard: Option<Shard>,
 }
 
 impl Survey {
+    /// Those of [`Survey::all`] that are of this part, with their places.
+    fn own(&self) -> impl Iterator<Item = (usize, Base)> {
+        let all = self.all().enumerate();
+        all.filter(|(place, _)| self.shard.is_none_or(|shard| shard.has(*place)))
+    }
+
     /// Each scene on each machine, in the document's order.
     fn all(&self) -> impl Iterator<Item = Base> {
         (self.scenes.iter())
@@ -52,11 +62,12 @@ impl Survey {
     }
 }
 
-/// Tunes each scene on each machine.
+/// Tunes each scene on each machine, or those that are of this part; answers their sections with
+/// their places in the document.
 ///
 /// # Errors
 /// Where a scene is wrong, or the user interrupts.
-pub fn survey(asked: &Survey) -> Outcome<Vec<Section>> {
+pub fn survey(asked: &Survey) -> Outcome<Vec<(usize, Section)>> {
     let all: Vec<Base> = asked.all().collect();
     for numbers in [&asked.settings, &asked.limit] {
         if let Some(name) = numbers.stranger(&all) {
@@ -74,11 +85,11 @@ pub fn survey(asked: &Survey) -> Outcome<Vec<Section>> {
             marks::of_scene(&scene, &base(path, target))?;
         }
     }
-    let count = asked.scenes.len() * asked.targets.len();
+    let count = asked.own().count();
     let progress = Progress::new("scenes, machines", count as u64);
     let mut sections = Vec::new();
-    for base in asked.all() {
-        sections.push(tuned(asked, &base)?);
+    for (place, base) in asked.own() {
+        sections.push((place, tuned(asked, &base)?));
         progress.step(1);
     }
     Ok(sections)

@@ -7,19 +7,22 @@ use crate::tune::point::Point;
 use crate::tune::search::Search;
 use crate::tune::settings::Drafted;
 use crate::tune::tell::Told;
+use serde::{Deserialize, Serialize};
 use std::path::PathBuf;
 
 /// How many digits of a program's digest are told: enough to see that it is another.
 const DIGITS: usize = 12;
 
 /// What is written of one scene on one machine.
+#[derive(Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct Section {
     /// The scene's file.
     pub path: PathBuf,
     /// The scene's name.
     pub scene: String,
     /// The machine's name.
-    pub target: &'static str,
+    pub target: String,
     /// The command that finds the same.
     pub command: String,
     /// The conclusion.
@@ -56,7 +59,7 @@ impl Section {
         Section {
             path: base.path.clone(),
             scene: base.name(),
-            target: base.target.name,
+            target: base.target.name.to_owned(),
             command,
             sentence: told.sentence(),
             rows: rows(told),

@@ -5,10 +5,10 @@ use crate::failure::{Failure, Outcome};
 use crate::format::{count, duration};
 use crate::measure::Errors;
 use clap::ValueEnum;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 /// The error that decides.
-#[derive(ValueEnum, Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
+#[derive(ValueEnum, Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Measure {
     /// The share of pixels whose ink is not the native one

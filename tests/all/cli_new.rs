@@ -31,7 +31,8 @@ fn a_new_scene_compiles_everywhere() {
     assert_eq!(
         said,
         "ball.scn is written; next:\n  slowlight render ball.scn -o ball.png\n  \
-         slowlight run ball.scn --target jack\n"
+         slowlight run ball.scn --target jack\n  \
+         slowlight live ball.scn --target 6502 --open\n"
     );
     assert_eq!(names(dir), ["ball.scn"]);
     // What it says to type works, and there is nothing to remark.

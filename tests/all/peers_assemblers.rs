@@ -4,6 +4,7 @@ use crate::cli::{directory, json, slowlight};
 use crate::syntaxes::{Program, programs};
 use slowlight_compiler::backend::mos6502::document;
 use slowlight_compiler::backend::mos6502::syntax;
+use std::collections::BTreeMap;
 use std::path::Path;
 use std::process::Command;
 
@@ -159,5 +160,44 @@ fn what_the_bundled_assembler_does_not_read_runs_from_its_binary() {
         assert_eq!(refused.status.code(), Some(1), "{source}");
         let said = String::from_utf8_lossy(&refused.stderr);
         assert!(said.contains("is not read"), "{said}");
+    }
+}
+
+/// What `build --labels` says of a program's names is what ca65 and ld65 make of its source.
+#[test]
+fn ca65_has_our_labels_at_their_addresses() {
+    let dir = directory(&[("ball.scn", include_str!("../scenes/ball.scn"))]);
+    let dir = dir.path();
+    let labels = |name: &str| -> BTreeMap<String, u32> {
+        let text = std::fs::read_to_string(dir.join(name)).expect("labels");
+        let entries = text.lines().filter_map(|line| {
+            let (at, name) = line.strip_prefix("al ")?.split_once(" .")?;
+            let at = u32::from_str_radix(at.trim_start_matches("C:"), 16).ok()?;
+            Some((name.to_owned(), at))
+        });
+        entries.collect()
+    };
+    for target in ["6502:plain", "6502:bbc", "6502:c64"] {
+        let build = ["build", "ball.scn", "-t", target, "--labels", "vice"];
+        assert!(slowlight(dir, &build).status.success());
+        let listing = std::fs::read_to_string(dir.join("ball.asm")).expect("a source");
+        run(
+            dir,
+            &quoted(&listing, "ca65 ")[0].replacen("ca65 ", "ca65 -g ", 1),
+        );
+        run(
+            dir,
+            &format!("{} -Ln real.lbl", quoted(&listing, "ld65 ")[0]),
+        );
+        let (ours, real) = (labels("ball.vs"), labels("real.lbl"));
+        // The linker adds names of its own.
+        let real: Vec<_> = real
+            .iter()
+            .filter(|(name, _)| !name.starts_with("__"))
+            .collect();
+        assert!(real.len() > 50, "{}", real.len());
+        for (name, at) in real {
+            assert_eq!(ours.get(name), Some(at), "{target}: {name}");
+        }
     }
 }

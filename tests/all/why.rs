@@ -261,3 +261,35 @@ fn remarks_are_in_the_text_and_on_the_page() {
     let out = slowlight(dir.path(), &[&args[..], &["--whys"]].concat());
     assert_eq!(out.status.code(), Some(2));
 }
+
+/// A sentence that holds of several lines of a shape is said once, of all of them, and the file
+/// is named where what it asks for is not the scene's own.
+#[test]
+fn what_is_true_of_several_lines_is_said_once() {
+    let (shape, rest) = SCREW.split_at(SCREW.find("scene world").expect("its scene"));
+    let (image, shape) = shape.split_once('\n').expect("two lines");
+    let rest = rest.replace("trace(r)", "trace(r, far: 20)");
+    let scene = format!("{image}\nuse \"screw.scn\";\n{rest}");
+    let dir = directory(&[("s.scn", &scene), ("screw.scn", shape)]);
+    let args = ["explain", "s.scn", "-t", "jack", "--format", "f316r"];
+    let text = success(
+        dir.path(),
+        &[&args[..], &["--rows", "7..8", "--why"]].concat(),
+    );
+    let (_, said) = text.split_once("what lines could not do").expect("remarks");
+    let sentences: Vec<&str> = (said.lines().skip(1))
+        .filter_map(|line| line.split_once("): ")?.1.split(" would spare ").next())
+        .collect();
+    let mut once = sentences.clone();
+    once.sort_unstable();
+    once.dedup();
+    assert_eq!(once.len(), sentences.len(), "{said}");
+    assert!(
+        said.contains("s.scn, line 6; screw.scn, lines 3, "),
+        "{said}"
+    );
+    assert!(
+        said.contains("`screw` in screw.scn has no bound and none was derived"),
+        "{said}"
+    );
+}

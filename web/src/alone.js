@@ -14,9 +14,12 @@ const drawing = new Crew(drawn);
 const running = new Crew(ran);
 
 // The machines, the gallery's scenes, and what is shown of nothing.
-const about = await new Promise((known) => {
-  drawing.told = ({ done }) => known(done);
+const about = await new Promise((known, unknown) => {
+  drawing.told = ({ done, broken }) => (done ? known(done) : unknown(new Error(broken)));
   drawing.does("about", { serial: 0 });
+}).catch((error) => {
+  document.getElementById("saved").textContent = "this page cannot begin: " + error.message;
+  throw error;
 });
 drawing.told = drawn;
 
@@ -40,6 +43,7 @@ function scene(name) {
 }
 
 function fromLink() {
+  shown.file.wrong = null;
   try {
     return unpack(location.hash);
   } catch {
@@ -102,7 +106,7 @@ function work() {
   if (rest || running.doing || ready !== wish.serial || !tasks.length) return;
   const task = tasks.shift();
   if (task === "build") files.clear();
-  running.does(task, asked());
+  running.does(task, asked(), shown.machine.stage);
 }
 
 // What a worker's end was for.
@@ -128,9 +132,10 @@ function drawn(said, of) {
     Object.assign(shown, { native: { ...native, picture: counts.native }, problems, params });
     if (native.stage === "wrong") shown.machine.stage = "idle";
   } else {
-    if (said.broken) Object.assign(shown.native, { serial: of.serial, stage: "wrong", wrong: broken(said.broken) });
-    if (said.done) ready = of.serial;
-    if (of.serial !== wish.serial) draw();
+    const serial = of?.serial ?? wish.serial;
+    if (said.broken) Object.assign(shown.native, { serial, stage: "wrong", wrong: broken(said.broken) });
+    if (said.done) ready = serial;
+    if (serial !== wish.serial) draw();
     else work();
   }
   tell();
@@ -147,11 +152,12 @@ function ran(said, of) {
     if (said.name === "machine.png") counts.machine += 1;
   } else if (said.shown) {
     const { machine, costs: cost, built } = said.shown;
-    Object.assign(shown, { machine: { ...machine, picture: counts.machine }, costs: { ...cost, count: counts.costs } });
+    Object.assign(shown, { machine: { ...figured(machine, of), picture: counts.machine }, costs: { ...cost, count: counts.costs } });
     if (of?.task === "build" && built) shown.built = { ...built, count: counts.built + 1 };
   } else {
-    if (said.broken) Object.assign(shown.machine, { serial: of.serial, stage: "wrong", wrong: broken(said.broken), at_work: 0 });
-    if (of.task === "build") counts.built += 1;
+    const serial = of?.serial ?? wish.serial;
+    if (said.broken) Object.assign(shown.machine, { serial, stage: "wrong", wrong: broken(said.broken), at_work: 0 });
+    if (of?.task === "build") counts.built += 1;
     work();
   }
   tell();
@@ -202,10 +208,11 @@ export async function get(path) {
 
 export async function want(change) {
   const { text, set, target, format, mode } = change;
+  // What was wrong with a link has been read by who goes on.
+  shown.file.wrong = null;
   if (text !== undefined && text !== wish.text) {
     wish.text = text;
     shown.text = { revision: shown.text.revision + 1, by: me };
-    shown.file.wrong = null;
   }
   if (set !== undefined) wish.set = set;
   if (target !== undefined) Object.assign(wish, { target, format: null, mode: null });
@@ -221,6 +228,16 @@ export async function post(path, body = {}) {
   if (path === "costs" || path === "build") ask(path);
   tell();
   return { ok: true, status: 200, said: {} };
+}
+
+// A run's figures stay while its lines are counted or its program is written: a worker that
+// stood up since does not know them.
+function figured(machine, of) {
+  const known = shown.machine;
+  if (!of || of.task === "run" || known.serial !== machine.serial) return machine;
+  const { stage, at_work, plan } = machine;
+  const ended = !["planning", "counting", "building"].includes(stage);
+  return { ...known, stage: ended ? of.before : stage, at_work, plan: plan ?? known.plan };
 }
 
 function ask(task) {
@@ -250,7 +267,10 @@ export const picture = (name) => urls.get(name) ?? "";
 
 export const alone = {
   scenes: about.gallery.map((s) => s.name),
-  open: (name) => begin(scene(name)),
+  open(name) {
+    shown.file.wrong = null;
+    begin(scene(name));
+  },
   copy() {
     const address = new URL(hash(), location.href).href;
     return navigator.clipboard.writeText(address);

@@ -31,13 +31,25 @@ export class Crew {
       if (data.broken !== undefined) this.stop();
       this.told(data, of);
     };
+    // What ends a worker outside of a task: it could not be loaded, or what it said not be read.
+    const ended = (event) => {
+      if (this.worker !== worker) return;
+      const of = this.doing;
+      event.preventDefault();
+      // Only where it had begun with something is another one likely to get as far.
+      if (of) this.stop();
+      this.told({ broken: event.message || "a worker ended" }, of);
+    };
+    worker.onerror = ended;
+    worker.onmessageerror = ended;
     worker.postMessage({ module });
     this.worker = worker;
   }
 
-  // Does something; whoever asks has seen that nothing is being done.
-  does(task, wish) {
-    this.doing = { task, serial: wish.serial };
+  // Does something; whoever asks has seen that nothing is being done. `before`: the stage that
+  // its end leads back to.
+  does(task, wish, before) {
+    this.doing = { task, serial: wish.serial, before };
     this.worker.postMessage({ task, wish: JSON.stringify(wish) });
   }
 

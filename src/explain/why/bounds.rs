@@ -5,7 +5,7 @@
 //! pixel that was looked at changes, with room to spare.
 
 use super::number;
-use super::ways::{Kind, Way, trees};
+use super::ways::{Kind, Way, trees, within};
 use crate::draw::Window;
 use crate::interrupt;
 use crate::scene::{Edit, Precision, Scene};
@@ -177,7 +177,11 @@ fn boxed(scene: &Scene, sample: &Sample, name: &Name, at: Span) -> Option<Way> {
     let edits = edits(low, high);
     Some(Way {
         kind: Kind::Bound,
-        cause: format!("`{}` has no bound and none was derived", name.text),
+        cause: format!(
+            "`{}`{} has no bound and none was derived",
+            name.text,
+            within(scene, at.file)
+        ),
         change: written(low, high),
         said: format!("`{}` in it, if all of it is inside,", written(low, high)),
         scene: sample.is_of(scene.edited(&edits))?,
@@ -192,6 +196,7 @@ fn ended(scene: &Scene, sample: &Sample, call: &str, expr: &Expr, text: &str) ->
         return Vec::new();
     };
     let at = Span::new(expr.span.file, at, at);
+    let file = within(scene, at.file);
     let mut ways = Vec::new();
     let mut far = FARTHEST;
     while far >= 1.0 {
@@ -205,7 +210,7 @@ fn ended(scene: &Scene, sample: &Sample, call: &str, expr: &Expr, text: &str) ->
         };
         ways.push(Way {
             kind: Kind::Far,
-            cause: format!("`{call}` has no `far`"),
+            cause: format!("`{call}`{file} has no `far`"),
             said: format!("`{said}` there, if nothing farther is to be seen,"),
             change: said,
             scene,
@@ -221,6 +226,7 @@ fn turns(scene: &Scene, sample: &Sample, max: &Expr) -> Vec<Way> {
     let ExprKind::Int(most) = max.kind else {
         return Vec::new();
     };
+    let file = within(scene, max.span.file);
     let mut ways = Vec::new();
     for part in [0.75, 0.5, 0.25, 0.125] {
         let fewer = (most * part).ceil();
@@ -236,7 +242,7 @@ fn turns(scene: &Scene, sample: &Sample, max: &Expr) -> Vec<Way> {
             kind: Kind::Turns,
             cause: format!("its loop may take `max {most}` turns"),
             change: format!("max {fewer}"),
-            said: format!("`max {fewer}`, if so many are enough,"),
+            said: format!("`max {fewer}`{file}, if so many are enough,"),
             scene,
             edits,
         });

@@ -49,6 +49,8 @@ const GRID: u32 = 16;
 pub struct Why {
     /// The whole sentence.
     pub text: String,
+    /// It without what would be spared, which several lines may have alike.
+    pub head: String,
     /// What is to be written.
     pub change: String,
     /// How many of the line's cycles that spares.
@@ -237,19 +239,13 @@ fn told(found: &Explained, now: &Work, helped: &[Tried<'_>]) -> Whys {
         };
         let not_done = missed(now, &tried.work, place);
         let could_not = sentence::could_not(found, tried, not_done);
-        let text = format!(
-            "{could_not}, as {}; {} would spare {} of these {} {} ({} of all)",
-            tried.way.cause,
-            tried.way.said,
-            crate::format::count(saves),
-            crate::format::count(line.cycles),
-            found.unit(),
-            super::terminal::percent(saves as f64 / all),
-        );
+        let head = format!("{could_not}, as {}; {}", tried.way.cause, tried.way.said);
+        let spared = super::terminal::spared(found, saves, line.cycles);
         whys.insert(
             place,
             Why {
-                text,
+                text: format!("{head} {spared}"),
+                head,
                 change: tried.way.change.clone(),
                 saves,
                 saves_in_all: tried.saves,

@@ -62,9 +62,20 @@ pub fn trees(scene: &Scene) -> Vec<(u16, &str, File)> {
         .collect()
 }
 
+/// ` in NAME`, where a file is not the one that was given, but one that it uses.
+pub fn within(scene: &Scene, file: u16) -> String {
+    let named = scene.checked.sources.files.get(usize::from(file));
+    match named.filter(|_| file != 0) {
+        Some(file) => format!(" in {}", file.name),
+        None => String::new(),
+    }
+}
+
 /// A param: as it is written, and its numbers.
 struct Known<'s> {
     file: u16,
+    /// ` in NAME`, where that is none of its own.
+    within: String,
     text: &'s str,
     item: Span,
     written: Written,
@@ -97,6 +108,7 @@ pub fn of_params(scene: &Scene, formats: bool) -> Outcome<Vec<Vec<Way>>> {
             if let Some(known) = known.filter(|_| !parts.is_empty() && all.len() < PARAMS) {
                 all.push(Known {
                     file,
+                    within: within(scene, file),
                     text,
                     item: item.span,
                     written,
@@ -127,16 +139,18 @@ pub fn of_params(scene: &Scene, formats: bool) -> Outcome<Vec<Vec<Way>>> {
 /// All params that have no range with one.
 fn open_ones(scene: &Scene, open: &[&Known<'_>]) -> Option<Way> {
     let mut edits = Vec::new();
-    let mut texts = Vec::new();
+    let (mut texts, mut said) = (Vec::new(), Vec::new());
     // From the last to the first, so that none moves another.
     for known in open.iter().rev() {
         let ranges = known.ranges();
         let range = ranges.get(2).or(ranges.last())?;
         let (edit, text) = known.edit(range)?;
         edits.push(edit);
+        said.push(format!("`{text}`{}", known.within));
         texts.push(text);
     }
     texts.reverse();
+    said.reverse();
     let names = open.iter().map(|k| format!("`{}`", k.written.name.text));
     Some(Way {
         kind: Kind::Formats,
@@ -145,7 +159,7 @@ fn open_ones(scene: &Scene, open: &[&Known<'_>]) -> Option<Way> {
             listed(&names.collect::<Vec<_>>()),
             if open.len() == 1 { "has" } else { "have" }
         ),
-        said: listed(&texts.iter().map(|t| format!("`{t}`")).collect::<Vec<_>>()),
+        said: listed(&said),
         change: texts.join(" "),
         scene: scene.edited(&edits)?,
         edits,
@@ -194,7 +208,10 @@ impl Known<'_> {
             kind: Kind::Constant,
             cause: format!("`{name}` may be changed in the program"),
             change: format!("const {name} = {value}{real};"),
-            said: format!("`const {name} = {value}{real};` or `--freeze {name}`"),
+            said: format!(
+                "`const {name} = {value}{real};`{} or `--freeze {name}`",
+                self.within
+            ),
             scene: scene.freezing(name),
             edits: Vec::new(),
         }
@@ -305,7 +322,7 @@ impl Known<'_> {
         Some(Way {
             kind: Kind::Range,
             cause,
-            said: format!("`{text}`"),
+            said: format!("`{text}`{}", self.within),
             change: text,
             scene: scene.edited(&edits)?,
             edits,

@@ -13,10 +13,14 @@ const [start, machines] = await Promise.all([get("scene"), get("machines")]);
 let revision = start.revision;
 let shown = null;
 
+// A half of a pair of UTF-16, alone, is no character, and JSON that holds it is refused.
+// (`toWellFormed` does the same in newer browsers.)
+const wellFormed = (text) => text.replace(/[\uD800-\uDFFF]/gu, "\uFFFD");
+
 const editor = makeEditor(place("editor"), start.text, {
   changed: (text) => {
     unsaved();
-    want({ text });
+    want({ text: wellFormed(text) });
   },
   save: () => save(false),
   line: lines.look,
@@ -25,7 +29,7 @@ const editor = makeEditor(place("editor"), start.text, {
 lines.begin(editor);
 
 async function save(force) {
-  const { ok, said } = await post("save", { page: me, text: editor.text(), force }).catch(() => ({ ok: false, said: {} }));
+  const { ok, said } = await post("save", { page: me, text: wellFormed(editor.text()), force }).catch(() => ({ ok: false, said: {} }));
   if (!ok) say("saved", "not saved" + (said.wrong ? ": " + said.wrong : ""));
 }
 
