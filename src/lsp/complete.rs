@@ -213,7 +213,7 @@ fn values(of: &Analysis, at: At<'_>, byte: usize, around: &Around, offers: &mut 
             );
         }
     }
-    for (name, _) in known() {
+    for (name, _) in known(&of.whole.scene.program) {
         offers.add(
             name,
             CompletionItemKind::CONSTANT,

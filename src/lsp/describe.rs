@@ -160,7 +160,7 @@ pub fn builtin(of: &Analysis, name: &str) -> Option<Told> {
         .filter(|s| s.name == name)
         .map(|s| builtin_head(of, s));
     let mut heads: Vec<String> = heads.collect();
-    let values = known().filter(|(known, _)| *known == name);
+    let values = known(&of.whole.scene.program).filter(|(known, _)| *known == name);
     heads.extend(values.map(|(name, ty)| format!("{name}: {}", ty.show(&of.whole.scene.program))));
     (!heads.is_empty()).then(|| Told {
         head: heads.join("\n"),

@@ -51,6 +51,7 @@ mod lsp_wrong;
 mod mos6502;
 mod mos6502_fixed;
 mod mos6502_logs;
+mod moving;
 mod need;
 mod numbers;
 mod objects;

@@ -165,6 +165,7 @@ impl Walk<'_> {
                     self.expr(low);
                     self.expr(high);
                 }
+                param.next.iter().for_each(|next| self.expr(next));
             }
             ItemKind::Const { value, .. } => self.expr(value),
             ItemKind::Fn(function) | ItemKind::Dither(function) => {

@@ -60,6 +60,7 @@ impl Uses<'_> {
             (&tree.pass, 1 << 10),
             (&tree.segment, 1 << 11),
             (&tree.pixel, 1 << 16),
+            (&tree.step, 1),
         ] {
             self.weight = weight;
             self.block(block);
