@@ -234,7 +234,7 @@ fn offered(of: &Analysis, file: u16) -> bool {
 fn symbol(kind: Kind) -> CompletionItemKind {
     match kind {
         Kind::Const | Kind::Map => CompletionItemKind::CONSTANT,
-        Kind::Param => CompletionItemKind::VARIABLE,
+        Kind::Param | Kind::State => CompletionItemKind::VARIABLE,
         Kind::Shape | Kind::Record => CompletionItemKind::CONSTRUCTOR,
         Kind::Scene => CompletionItemKind::MODULE,
         _ => CompletionItemKind::FUNCTION,

@@ -90,7 +90,7 @@ fn item_told(of: &Analysis, def: &Def) -> Option<Told> {
             let value = def.value.map_or(String::new(), |value| of.line(value));
             format!("const {}{ty} = {}", def.name, shortened(&value))
         }
-        Kind::Param => of.line(item.span).trim_end_matches(';').to_owned(),
+        Kind::Param | Kind::State => of.line(item.span).trim_end_matches(';').to_owned(),
         kind => match library::entry(item, &file.text) {
             Some(entry) => entry.signature,
             None => format!("{} {}", kind.text(), def.name),

@@ -301,6 +301,36 @@ fn what_cannot_move_yet_says_so() {
     }
 }
 
+/// Where memory is short parts become subroutines; the step stays behind the picture.
+#[test]
+fn programs_with_subroutines_walk_too() {
+    let dir = directory(&[("odd.scn", ODD)]);
+    let walk = example("walk").to_string_lossy().into_owned();
+    for scene in ["odd.scn", walk.as_str()] {
+        for target in ["jack", "6502:plain"] {
+            let args = [
+                "run",
+                scene,
+                "-t",
+                target,
+                "--format",
+                "fixed16",
+                "--outlined",
+                "--pictures",
+                "9",
+                "--keys",
+                "up*3 right*3",
+                "--json",
+            ];
+            let found = json(dir.path(), &args);
+            assert_eq!(found["differs_from_model"], 0, "{scene} {target}");
+            assert_eq!(found["states_differ"], 0, "{scene} {target}");
+            let moved = found["pictures"][8]["states"] != found["pictures"][0]["states"];
+            assert!(moved, "{scene} {target}");
+        }
+    }
+}
+
 /// What moves is nothing to a scene that does not: its programs stay the same to the byte.
 #[test]
 fn a_scene_without_states_has_the_programs_that_it_had() {

@@ -25,7 +25,8 @@ pub fn head(item: &Item) -> Option<Head<'_>> {
         ItemKind::Record { name, fields } => (name, &fields[..], (Kind::Record, None, None)),
         ItemKind::Param(p) => {
             let ty = Some(p.ty.span);
-            (&p.name, &[][..], (Kind::Param, Some(p.value.span), ty))
+            let kind = p.next.as_ref().map_or(Kind::Param, |_| Kind::State);
+            (&p.name, &[][..], (kind, Some(p.value.span), ty))
         }
         ItemKind::Const { name, value } => (name, &[][..], (Kind::Const, Some(value.span), None)),
         ItemKind::Scene { name, .. } => (name, &[][..], (Kind::Scene, None, None)),

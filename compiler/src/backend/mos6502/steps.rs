@@ -1,7 +1,6 @@
 //! Between two pictures on the plain machine: what is held, and the states' next values.
 
 use super::code::Code;
-use super::memory::Machine;
 use super::ports::{HANDS, HELD};
 use super::slots::Slot;
 use crate::backend::mos6502::homes::Homes;
@@ -17,9 +16,7 @@ pub(super) const NEXT: &str = "next_picture";
 pub(super) fn between(code: &mut Code<'_>) {
     code.text.span = None;
     code.text.headline("what is held now");
-    if Machine::of(code.plan) == Machine::Plain {
-        code.text.code(&format!("sta {HANDS}"));
-    }
+    code.text.code(&format!("sta {HANDS}"));
     let plan = code.plan;
     for (id, button) in plan.graph.buttons() {
         let slot = Slot::Param(id.0);

@@ -54,13 +54,13 @@ impl Uses<'_> {
             self.add(Slot::Column(id));
         }
         for (block, weight) in [
+            (&tree.step, 1),
             (&tree.frame, 1),
             (&tree.column, 1 << 8),
             (&tree.row, 1 << 8),
             (&tree.pass, 1 << 10),
             (&tree.segment, 1 << 11),
             (&tree.pixel, 1 << 16),
-            (&tree.step, 1),
         ] {
             self.weight = weight;
             self.block(block);
