@@ -191,7 +191,7 @@ impl<'p> Follow<'p> {
                 param.bits = bits;
             }
         }
-        self.should = ModelRun::new(&self.now).next();
+        self.should = ModelRun::new(&self.now).next_states();
     }
 }
 

@@ -127,7 +127,7 @@ impl<'p> ModelRun<'p> {
 
     /// The bits of the states in the next picture, in the order of the graph's: what each next
     /// value is as the state holds it. No pixel need have been asked for.
-    pub fn next(&mut self) -> Vec<(ParamId, Bits)> {
+    pub fn next_states(&mut self) -> Vec<(ParamId, Bits)> {
         let plan = self.plan;
         let values = self.run.reports();
         let steps = plan.graph.steps().zip(values);

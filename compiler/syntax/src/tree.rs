@@ -101,7 +101,7 @@ pub struct Param {
     /// The range that may be trusted, lowest and highest, component by component.
     pub range: Option<(Expr, Expr)>,
     /// A state's value in the next picture; none of a param.
-    pub next: Option<Expr>,
+    pub next: Option<Box<Expr>>,
 }
 
 /// A pure function's head and body (also a dither's and an effect's).

@@ -110,7 +110,7 @@ fn state<'t>(expr: Rule<'t, Expr>) -> Rule<'t, ItemKind> {
                 ty,
                 value,
                 range,
-                next: Some(next),
+                next: Some(Box::new(next)),
             })
         })
         .boxed()
