@@ -41,6 +41,7 @@ pub mod live;
 pub mod lsp;
 pub mod machine;
 pub mod measure;
+pub mod moving;
 pub mod need;
 pub mod output;
 pub mod picture;

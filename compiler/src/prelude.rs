@@ -23,4 +23,5 @@ pub const PRELUDE: &[Text] = texts! {
     "noise.scn"
     "forms.scn"
     "stable.scn"
+    "input.scn"
 };

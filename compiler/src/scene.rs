@@ -58,12 +58,20 @@ pub fn load(name: &str, text: &str, prelude: Option<&[(String, String)]>, read: 
     let (program, more) = sema::check(&files);
     let mut scene = joined(sources, program, said, more);
     if scene.is_right()
-        && let Err(said) = sema::lower(&scene.program, &Options::default())
+        && let Err(said) = sema::lower(&scene.program, &moving())
     {
         scene.diagnostics.extend(said);
         sema::tidy(&mut scene.diagnostics);
     }
     scene
+}
+
+/// The options of a lowering that comes to all of a scene, what moves too.
+fn moving() -> Options {
+    Options {
+        moves: true,
+        ..Options::default()
+    }
 }
 
 /// A scene with what was found on the way to it.

@@ -46,6 +46,7 @@ static PLAIN: Target = Target {
     lean: Lean::Nothing,
     last: false,
     windows: false,
+    moves: false,
 };
 
 /// Where the eye may be, the default first.

@@ -36,6 +36,7 @@ module.exports = grammar({
       choice(
         $.image,
         $.param,
+        $.state,
         $.const,
         $.function,
         $.effect,
@@ -72,6 +73,20 @@ module.exports = grammar({
         "=",
         field("value", $._expression),
         optional(seq("in", field("low", $._expression), "..", field("high", $._expression))),
+        ";",
+      ),
+
+    state: ($) =>
+      seq(
+        "state",
+        field("name", $._name),
+        ":",
+        field("type", $._type),
+        "=",
+        field("value", $._expression),
+        optional(seq("in", field("low", $._expression), "..", field("high", $._expression))),
+        "->",
+        field("next", $._expression),
         ";",
       ),
 

@@ -163,8 +163,7 @@ pub fn lost(plan: &Plan) -> Option<Lost> {
     let reports = {
         let mut run = Run::new(&plan.graph, &plan.tree, &losing);
         run.pixel(0, 0);
-        let ids = plan.graph.reports.iter();
-        ids.map(|&id| run.report(id)).collect()
+        run.reports()
     };
     Some(Lost {
         reports,

@@ -52,6 +52,9 @@ pub struct Args {
     /// Print a stage instead of writing files
     #[arg(long, value_name = "STAGE")]
     emit: Option<Stage>,
+    /// Of a scene that moves, the first picture alone
+    #[arg(long)]
+    still: bool,
     /// Print what was written as JSON
     #[arg(long, conflicts_with = "emit")]
     json: bool,
@@ -83,6 +86,7 @@ enum Stage {
 /// Builds.
 pub fn run(args: &Args) -> Outcome<()> {
     let scene = Scene::load(&args.scene)?;
+    let scene = if args.still { scene } else { scene.moving() };
     if let Some(stage) = args.emit {
         return say(&emit(args, &scene, stage)?);
     }
@@ -118,7 +122,15 @@ pub fn run(args: &Args) -> Outcome<()> {
         (args.syntax, &more),
         &args.output,
     )?;
-    let forecast = forecast((&plan, &text), machine)?;
+    let forecast = match plan.graph.is_moving() {
+        true => {
+            // Its first picture.
+            let mut still = plan.clone();
+            still.graph.reports.clear();
+            forecast((&still, &backend::emit(&still)), machine)?
+        }
+        false => forecast((&plan, &text), machine)?,
+    };
     let seconds = |cycles: f64| cycles / forecast::hertz(&plan, machine);
     let sizes = written.sizes;
     if args.json {
@@ -150,7 +162,14 @@ pub fn run(args: &Args) -> Outcome<()> {
     }
     say(&written.text())?;
     say(&match &forecast {
-        Forecast::Whole(cycles) => format!("{} on the machine\n", duration(seconds(*cycles))),
+        Forecast::Whole(cycles) => {
+            let each = if plan.graph.is_moving() {
+                "a picture "
+            } else {
+                ""
+            };
+            format!("{} {each}on the machine\n", duration(seconds(*cycles)))
+        }
         Forecast::Rows(cycles, rows) => format!(
             "about {} on the machine, by {rows} of its {} rows (`run` runs all)\n",
             duration(seconds(*cycles)),

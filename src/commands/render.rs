@@ -1,7 +1,12 @@
 //! `render`: the native picture.
 
 use crate::draw::{Window, native};
-use crate::failure::Outcome;
+use crate::failure::{Failure, Outcome};
+use crate::moving::film::FilmFile;
+use crate::moving::sweep;
+use crate::moving::walk::{Step, walk};
+use crate::moving::{MovingArgs, must_move};
+use crate::picture::Picture;
 use crate::picture::PictureFile;
 use crate::scene::{Precision, Scene, SceneArgs};
 use crate::target_args::{self, ScreenArgs};
@@ -24,7 +29,8 @@ pub struct Args {
     /// Only these rows, both ends included
     #[arg(long, value_name = "A..B")]
     rows: Option<String>,
-    /// Where to write the picture: .png, .pgm (ink indices) or .pbm (two inks)
+    /// Where to write the picture: .png, .pgm (ink indices) or .pbm (two inks); pictures that
+    /// move: .gif or .png, animated
     #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
     /// Show the picture as text, and print nothing else; without it and a file's name, a
@@ -34,10 +40,19 @@ pub struct Args {
     /// Print size and digest as JSON
     #[arg(long, conflicts_with = "ascii")]
     json: bool,
+    #[command(flatten)]
+    moving: MovingArgs,
 }
 
 /// Draws and writes it.
 pub fn run(args: &Args) -> Outcome<()> {
+    if let Some(pictures) = args.moving.pictures {
+        return film(args, pictures);
+    }
+    if let Some(set) = args.scene.changes.set.iter().find(|set| set.contains("..")) {
+        let message = format!("--set {set}: over how many pictures? say --pictures N");
+        return Err(Failure::Usage(message));
+    }
     let output = PictureFile::named(args.output.as_deref())?;
     let scene = Scene::load(&args.scene)?;
     let (width, height) = scene.size();
@@ -84,4 +99,77 @@ pub fn run(args: &Args) -> Outcome<()> {
         text += &format!("{}: {width} x {height} pixels, {inks} inks\n", scene.name);
     }
     say(&text)
+}
+
+/// Draws and writes the pictures of a scene that moves, or of a param that goes from one value
+/// to another.
+fn film(args: &Args, pictures: u32) -> Outcome<()> {
+    if args.ascii {
+        let message = "--ascii is of one picture: leave --pictures out".to_owned();
+        return Err(Failure::Usage(message));
+    }
+    let output = FilmFile::named(args.output.as_deref())?;
+    if !output.wanted() && !args.json {
+        let message = "--pictures: where to? say -o walk.gif or walk.png".to_owned();
+        return Err(Failure::Usage(message));
+    }
+    let hands = args.moving.hands()?;
+    let changes = &args.scene.changes;
+    let ends = sweep::ends(changes)?;
+    let open = |changes| Scene::open(&args.scene.scene, changes).map(Scene::moving);
+    let scene = open(ends.as_ref().map_or(changes, |(first, _)| first))?;
+    let screen = ScreenArgs {
+        mode: args.mode.clone(),
+        ..ScreenArgs::default()
+    };
+    let shown = match args.target {
+        Some(target) => Some(screen.mode(target, &scene)?.inks),
+        None => None,
+    };
+    let (width, height) = scene.size();
+    let mut window = Window::whole(width, height);
+    if let Some(rows) = &args.rows {
+        window.rows = target_args::rows(rows, height)?;
+    }
+    scene.warn();
+    let graph = scene.graph(shown, Precision::NATIVE)?;
+    let sweeps = match &ends {
+        Some((_, last)) => {
+            let last = open(last)?.graph(shown, Precision::NATIVE)?;
+            sweep::between(&graph, &last, changes)?
+        }
+        None => {
+            must_move(&graph)?;
+            Vec::new()
+        }
+    };
+    let steps = walk(&graph, window, pictures, &hands, &sweeps)?;
+    let states: Vec<_> = steps.iter().map(states_json).collect();
+    let drawn: Vec<Picture> = steps.into_iter().map(|step| step.picture).collect();
+    output.write(&drawn, args.moving.fps)?;
+    let inks = graph.image.palette.len();
+    let (width, height) = (window.width(), window.height());
+    if args.json {
+        let all = states.into_iter().zip(&drawn);
+        let all =
+            all.map(|(states, picture)| json!({"inks_sha256": picture.sha256(), "states": states}));
+        return say_json(&json!({
+            "scene": scene.name,
+            "inks": inks,
+            "width": width,
+            "height": height,
+            "pictures": all.collect::<Vec<_>>(),
+        }));
+    }
+    say(&format!(
+        "{}: {pictures} pictures of {width} x {height} pixels, {inks} inks\n",
+        scene.name
+    ))
+}
+
+/// A picture's states, by name.
+fn states_json(step: &Step) -> serde_json::Map<String, serde_json::Value> {
+    let all = step.states.iter();
+    let all = all.map(|(name, value)| (name.clone(), json!(value)));
+    all.collect()
 }

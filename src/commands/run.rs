@@ -7,8 +7,11 @@ use crate::failure::{Failure, Outcome};
 use crate::format::{count, duration, table};
 use crate::machine::{File, Loaded};
 use crate::measure::{Difference, psnr};
-use crate::picture::PictureFile;
-use crate::scene::{Scene, SceneArgs};
+use crate::moving::film::FilmFile;
+use crate::moving::run::run as walked;
+use crate::moving::{MovingArgs, few_to_follow, must_move};
+use crate::picture::{Picture, PictureFile};
+use crate::scene::{Precision, Scene, SceneArgs};
 use crate::target_args::{self, HeapOf, ScreenArgs};
 use crate::trial::{self, LIMIT, Trial};
 use crate::{grow, inks, program, say, say_json, watch};
@@ -32,7 +35,8 @@ pub struct Args {
     target: &'static Target,
     #[command(flatten)]
     screen: ScreenArgs,
-    /// Where to write the machine's picture (the rows asked for): .png, .pgm or .pbm
+    /// Where to write the machine's picture (the rows asked for): .png, .pgm or .pbm; pictures
+    /// that move: .gif or .png, animated
     #[arg(short, long, value_name = "FILE", conflicts_with = "no_plot")]
     output: Option<PathBuf>,
     /// Count the pixels unlike those of another picture, too: .png, .pgm or .pbm, as `-o` writes
@@ -57,6 +61,8 @@ pub struct Args {
     /// `.vm` files [default: built-in]
     #[arg(long, value_name = "SYSTEM")]
     heap: Option<HeapOf>,
+    #[command(flatten)]
+    moving: MovingArgs,
 }
 
 /// Runs it, and again whenever it is saved where that is asked for.
@@ -74,6 +80,9 @@ pub fn run(args: &Args) -> Outcome<()> {
 
 /// Runs, reports, and fails where machine and model differ.
 fn once(args: &Args) -> Outcome<()> {
+    if let Some(pictures) = args.moving.pictures {
+        return walk(args, pictures);
+    }
     let output = PictureFile::named(args.output.as_deref())?;
     let others: Vec<Reference> = (args.against.iter())
         .map(|path| Reference::read(path))
@@ -107,6 +116,53 @@ fn once(args: &Args) -> Outcome<()> {
     match &trial.from_model {
         Some(differences) if !differences.is_empty() => Err(Failure::Differs),
         _ => Ok(()),
+    }
+}
+
+/// Runs the pictures of a scene that moves.
+fn walk(args: &Args, pictures: u32) -> Outcome<()> {
+    let asked = [
+        ("--program", args.program.is_some()),
+        ("--against", !args.against.is_empty()),
+        ("--no-plot", args.screen.no_plot),
+        ("--show", args.show),
+    ];
+    if let Some((option, _)) = asked.iter().find(|(_, asked)| *asked) {
+        let message = format!("{option} is of one picture: leave it or --pictures out");
+        return Err(Failure::Usage(message));
+    }
+    few_to_follow(pictures)?;
+    let output = FilmFile::named(args.output.as_deref())?;
+    let hands = args.moving.hands()?;
+    let scene = Scene::load(&args.scene)?.moving();
+    must_move(&scene.graph(None, Precision::NATIVE)?)?;
+    scene.warn();
+    let machine = args.screen.machine(args.target);
+    let machine = HeapOf::of(args.heap, args.screen.os, machine)?;
+    let plan = auto_format::plan(&args.screen, &scene, args.target)?.said();
+    colours::warn(&scene, plan.target);
+    let loaded = trial::build_for(&plan, machine)?.loaded;
+    let walk = walked(
+        &scene,
+        plan,
+        (loaded, machine),
+        (pictures, &hands),
+        args.limit,
+    )?;
+    let drawn: Vec<Picture> = walk
+        .pictures
+        .iter()
+        .map(|shown| shown.picture.clone())
+        .collect();
+    output.write(&drawn, args.moving.fps)?;
+    if args.json {
+        say_json(&walk.report(&scene.name))?;
+    } else {
+        say(&walk.text(&scene.name))?;
+    }
+    match walk.differs() {
+        true => Err(Failure::Differs),
+        false => Ok(()),
     }
 }
 

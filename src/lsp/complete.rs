@@ -213,7 +213,7 @@ fn values(of: &Analysis, at: At<'_>, byte: usize, around: &Around, offers: &mut 
             );
         }
     }
-    for (name, _) in known() {
+    for (name, _) in known(&of.whole.scene.program) {
         offers.add(
             name,
             CompletionItemKind::CONSTANT,
@@ -234,7 +234,7 @@ fn offered(of: &Analysis, file: u16) -> bool {
 fn symbol(kind: Kind) -> CompletionItemKind {
     match kind {
         Kind::Const | Kind::Map => CompletionItemKind::CONSTANT,
-        Kind::Param => CompletionItemKind::VARIABLE,
+        Kind::Param | Kind::State => CompletionItemKind::VARIABLE,
         Kind::Shape | Kind::Record => CompletionItemKind::CONSTRUCTOR,
         Kind::Scene => CompletionItemKind::MODULE,
         _ => CompletionItemKind::FUNCTION,

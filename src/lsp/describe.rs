@@ -90,7 +90,7 @@ fn item_told(of: &Analysis, def: &Def) -> Option<Told> {
             let value = def.value.map_or(String::new(), |value| of.line(value));
             format!("const {}{ty} = {}", def.name, shortened(&value))
         }
-        Kind::Param => of.line(item.span).trim_end_matches(';').to_owned(),
+        Kind::Param | Kind::State => of.line(item.span).trim_end_matches(';').to_owned(),
         kind => match library::entry(item, &file.text) {
             Some(entry) => entry.signature,
             None => format!("{} {}", kind.text(), def.name),
@@ -160,7 +160,7 @@ pub fn builtin(of: &Analysis, name: &str) -> Option<Told> {
         .filter(|s| s.name == name)
         .map(|s| builtin_head(of, s));
     let mut heads: Vec<String> = heads.collect();
-    let values = known().filter(|(known, _)| *known == name);
+    let values = known(&of.whole.scene.program).filter(|(known, _)| *known == name);
     heads.extend(values.map(|(name, ty)| format!("{name}: {}", ty.show(&of.whole.scene.program))));
     (!heads.is_empty()).then(|| Told {
         head: heads.join("\n"),

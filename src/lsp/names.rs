@@ -19,6 +19,8 @@ pub enum Kind {
     Dither,
     Const,
     Param,
+    /// What a param is, and what it is in the next picture.
+    State,
     Shape,
     Scene,
     Record,
@@ -44,6 +46,7 @@ impl Kind {
             Kind::Dither => "dither",
             Kind::Const => "constant",
             Kind::Param => "param",
+            Kind::State => "state",
             Kind::Shape => "shape",
             Kind::Scene => "scene",
             Kind::Record => "record",
@@ -66,7 +69,11 @@ impl Kind {
 
     /// Whether it is an item's.
     pub fn is_item(self) -> bool {
-        self.callable() || matches!(self, Kind::Const | Kind::Param | Kind::Scene | Kind::Map)
+        self.callable()
+            || matches!(
+                self,
+                Kind::Const | Kind::Param | Kind::State | Kind::Scene | Kind::Map
+            )
     }
 }
 

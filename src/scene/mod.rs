@@ -264,6 +264,14 @@ impl Scene {
         (!name.is_empty() && path.chars().all(|c| word(c) || c == '.')).then(|| name.to_owned())
     }
 
+    /// The same scene with what is between two pictures, where it moves; its graphs are then of
+    /// pictures that follow each other.
+    #[must_use]
+    pub fn moving(mut self) -> Scene {
+        self.options.moves = true;
+        self
+    }
+
     /// A failure with something said about this scene.
     pub fn wrong(&self, said: Vec<Diagnostic>) -> Failure {
         wrong(self.checked.sources.clone(), said)

@@ -5,6 +5,7 @@ use super::ScreenArgs;
 use crate::estimate;
 use crate::failure::{Failure, Outcome};
 use crate::fit;
+use crate::moving;
 use crate::need;
 use crate::scene::{Limits, Precision, Scene};
 use slowlight_compiler::ir::graph::Graph;
@@ -102,6 +103,20 @@ impl ScreenArgs {
     /// # Errors
     /// Where it does not compile.
     pub(super) fn lowered(
+        &self,
+        scene: &Scene,
+        target: &'static Target,
+        goal: &Goal,
+        set: &[(String, Vec<f64>)],
+    ) -> Outcome<Graph> {
+        let graph = self.of_ways(scene, target, goal, set)?;
+        match moving::refused(&graph, target, self.refine.is_some()) {
+            Some(refused) => Err(scene.wrong(vec![refused])),
+            None => Ok(graph),
+        }
+    }
+
+    fn of_ways(
         &self,
         scene: &Scene,
         target: &'static Target,

@@ -299,7 +299,36 @@ fn wrong_scripts_are_wrong_usage() {
     assert!(said.contains("2:3: there is no key `spcae`"), "{said}");
     assert_eq!(run("@gone.keys").0, Some(1));
     assert_eq!(run("a shot one.gif").0, Some(2));
-    let plain = ["vm", "6502", "x.asm", "--keys", "a"];
-    std::fs::write(dir.join("x.asm"), "* = $1000\n rts\n").expect("a file");
-    assert_eq!(typed(dir, &plain, "").0, Some(2));
+}
+
+/// The plain machine's port: what is held when a picture is done.
+#[test]
+fn a_program_of_the_plain_machine_sees_what_is_held() {
+    let text = "hands = $ff0c
+ * = $1000
+ ldx #0
+again: sta hands
+ lda $ff0d
+ sta $2000,x
+ inx
+ cpx #6
+ bne again
+ lda $2000
+ cmp #2
+ bne wrong
+ lda $2001
+ bne wrong
+ lda $2002
+ cmp #16
+ bne wrong
+ lda #0
+ sta $ff0a
+wrong: lda #7
+ sta $ff0a
+";
+    let dir = directory(&[("held.asm", text)]);
+    let run = |keys: &str| typed(dir.path(), &["vm", "6502", "held.asm", "--keys", keys], "");
+    let (status, _, said) = run("by calls right space left");
+    assert_eq!(status, Some(0), "{said}");
+    assert_eq!(run("by calls left").0, Some(1));
 }

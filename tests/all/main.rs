@@ -52,6 +52,7 @@ mod lsp_wrong;
 mod mos6502;
 mod mos6502_fixed;
 mod mos6502_logs;
+mod moving;
 mod need;
 mod numbers;
 mod objects;

@@ -3,7 +3,7 @@
 import { StreamLanguage, HighlightStyle, syntaxHighlighting } from "@codemirror/language";
 import { tags } from "@lezer/highlight";
 
-const items = /^(?:image|param|const|fn|effect|shape|scene|record|map|dither|draw|use)\b/;
+const items = /^(?:image|param|state|const|fn|effect|shape|scene|record|map|dither|draw|use)\b/;
 const words = /^(?:if|let|then|else|loop|next|spread|each|and|or|not|div|mod|true|false|none|is|in|where)\b/;
 
 const scene = StreamLanguage.define({

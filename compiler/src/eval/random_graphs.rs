@@ -199,6 +199,7 @@ fn made(seed: u64, counts: bool) -> Graph {
             b.param(Param {
                 name: format!("p{ty:?}"),
                 component: "",
+                role: Role::Param,
                 ty,
                 value: 2.0,
                 usual: 2.0,

@@ -110,8 +110,7 @@ impl<'t, A: Arithmetic> Run<'t, A> {
         }
     }
 
-    /// Whether all statements that were allowed have run: what the last pixel came to is of
-    /// no use then.
+    /// Whether all statements that were allowed have run: the last pixel is of no use then.
     pub fn spent(&self) -> bool {
         self.left == 0
     }
@@ -226,9 +225,11 @@ impl<'t, A: Arithmetic> Run<'t, A> {
         self.held.get(id.0 as usize).copied().flatten()
     }
 
-    /// A value that the graph reports, after the last pixel.
-    pub fn report(&mut self, id: NodeId) -> A::Value {
-        self.read(id)
+    /// What the graph reports, behind the picture.
+    pub fn reports(&mut self) -> Vec<A::Value> {
+        self.block(&self.tree.step);
+        let reports = self.graph.reports.iter();
+        reports.map(|&id| self.read(id)).collect()
     }
 
     fn forget(&mut self, row: bool) {

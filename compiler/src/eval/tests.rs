@@ -106,6 +106,7 @@ fn mirrors() -> Graph {
         h.0.param(Param {
             name: "eye".to_owned(),
             component,
+            role: Role::Param,
             ty: Type::Real,
             value,
             usual: value,

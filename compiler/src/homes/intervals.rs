@@ -63,6 +63,7 @@ pub fn shared_homes(plan: &Plan) -> FxHashMap<Place, usize> {
     lives.block(&plan.tree.pixel);
     lives.read(plan.graph.ink);
     plan.graph.left_to_others().for_each(|id| lives.read(id));
+    lives.block(&plan.tree.step);
     plan.graph.reports.iter().for_each(|&id| lives.read(id));
     lives.steps();
     lives.extend();

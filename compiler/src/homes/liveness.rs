@@ -96,6 +96,12 @@ impl<'p> Flow<'p> {
             flow.steps[end].jumps.push(top);
             flow.loops.push((top, end));
         }
+        // Behind the picture.
+        if !tree.step.is_empty() {
+            flow.block(&tree.step);
+            let last = flow.step();
+            (graph.reports.iter()).for_each(|&id| flow.reads(last, id));
+        }
         flow.spans();
         flow
     }

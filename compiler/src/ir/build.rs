@@ -92,6 +92,14 @@ impl Builder {
         self.params.get(id.0 as usize)
     }
 
+    /// The param that a node is.
+    pub fn param_at(&self, node: NodeId) -> Option<&Param> {
+        match self.nodes.get(node.0 as usize) {
+            Some(Node::Param(id)) => self.param_of(*id),
+            _ => None,
+        }
+    }
+
     /// A loop, which is whole once it is closed.
     pub fn loop_of(&self, id: LoopId) -> Option<&Loop> {
         self.loops.get(id.0 as usize)

@@ -114,6 +114,55 @@ impl Table {
     }
 }
 
+/// Who gives a param its value.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Role {
+    /// Whoever edits the program.
+    #[default]
+    Param,
+    /// The program, from picture to picture: the graph's reports are the next values.
+    State,
+    /// Whoever plays, between two pictures.
+    Input(Button),
+}
+
+/// What a player may hold.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum Button {
+    /// To the left.
+    Left,
+    /// To the right.
+    Right,
+    /// Up.
+    Up,
+    /// Down.
+    Down,
+    /// Whatever a game does with a button.
+    Fire,
+}
+
+impl Button {
+    /// All of them, as the library's record has them.
+    pub const ALL: [Button; 5] = [
+        Button::Left,
+        Button::Right,
+        Button::Up,
+        Button::Down,
+        Button::Fire,
+    ];
+
+    /// What the language calls it.
+    pub fn name(self) -> &'static str {
+        match self {
+            Button::Left => "left",
+            Button::Right => "right",
+            Button::Up => "up",
+            Button::Down => "down",
+            Button::Fire => "fire",
+        }
+    }
+}
+
 /// A scalar that stays changeable in the generated program.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Param {
@@ -121,6 +170,8 @@ pub struct Param {
     pub name: String,
     /// `x`, `y`, `z` for a vector's components, else empty.
     pub component: &'static str,
+    /// Who gives it its value.
+    pub role: Role,
     /// Bool, int or real (angles in radians).
     pub ty: Type,
     /// Its value.
@@ -243,6 +294,27 @@ pub struct Graph {
 }
 
 impl Graph {
+    /// The states, each with its value in the next picture; none in a graph of one picture.
+    pub fn steps(&self) -> impl Iterator<Item = (ParamId, NodeId)> + '_ {
+        let states = (0..).map(ParamId).zip(&self.params);
+        let states = states.filter(|(_, p)| p.role == Role::State);
+        states.map(|(id, _)| id).zip(self.reports.iter().copied())
+    }
+
+    /// Whether the picture moves.
+    pub fn is_moving(&self) -> bool {
+        self.steps().next().is_some()
+    }
+
+    /// What of a player's hands it asks for.
+    pub fn buttons(&self) -> impl Iterator<Item = (ParamId, Button)> + '_ {
+        let params = (0..).map(ParamId).zip(&self.params);
+        params.filter_map(|(id, p)| match p.role {
+            Role::Input(button) => Some((id, button)),
+            _ => None,
+        })
+    }
+
     /// A node; [`Node::Undefined`] for an id that is not of this graph.
     pub fn node(&self, id: NodeId) -> Node {
         self.nodes

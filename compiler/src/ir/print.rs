@@ -105,6 +105,11 @@ impl Display for Graph {
             if let Some(range) = p.range {
                 write!(f, " in {}..{}", range.lo, range.hi)?;
             }
+            match p.role {
+                Role::Param => {}
+                Role::State => f.write_str(" by state")?,
+                Role::Input(button) => write!(f, " by {}", button.name())?,
+            }
             writeln!(f)?;
         }
         for (k, t) in self.tables.iter().enumerate() {

@@ -204,6 +204,10 @@ fn param(graph: &mut Graph, text: &str) -> Read<()> {
         .into_iter()
         .find(|c| label.ends_with(&format!("_{c}")));
     let name = component.map_or(label, |_| &label[..label.len() - 2]);
+    let (rest, role) = match rest.split_once(" by ") {
+        Some((rest, role)) => (rest, self::role(role)?),
+        None => (rest, Role::Param),
+    };
     let (value, range) = match rest.split_once(" in ") {
         Some((value, range)) => {
             let (lo, hi) = range.split_once("..").ok_or("no `..`")?;
@@ -215,6 +219,7 @@ fn param(graph: &mut Graph, text: &str) -> Read<()> {
     graph.params.push(Param {
         name: name.to_owned(),
         component: component.unwrap_or(""),
+        role,
         ty: scalar(ty)?,
         value,
         usual: value,
@@ -222,6 +227,14 @@ fn param(graph: &mut Graph, text: &str) -> Read<()> {
         span: Span::default(),
     });
     Ok(())
+}
+
+fn role(text: &str) -> Read<Role> {
+    if text == "state" {
+        return Ok(Role::State);
+    }
+    let found = Button::ALL.into_iter().find(|b| b.name() == text);
+    found.map(Role::Input).ok_or("no such role".into())
 }
 
 fn table(graph: &mut Graph, text: &str) -> Read<()> {

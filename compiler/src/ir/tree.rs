@@ -201,13 +201,16 @@ pub struct Tree {
     pub segment: Block,
     /// Once a pixel; after it the ink is known.
     pub pixel: Block,
+    /// Behind a picture that moves: what only the states' next values need
+    /// ([`crate::schedule::step`]).
+    pub step: Block,
     /// What these call, and what they call themselves; none reaches itself.
     pub subroutines: Vec<Subroutine>,
 }
 
 impl Tree {
     /// The blocks around all others, outermost first.
-    pub fn outer(&self) -> [&Block; 6] {
+    pub fn outer(&self) -> [&Block; 7] {
         let Tree {
             frame,
             column,
@@ -215,9 +218,10 @@ impl Tree {
             pass,
             segment,
             pixel,
+            step,
             ..
         } = self;
-        [frame, column, row, pass, segment, pixel]
+        [frame, column, row, pass, segment, pixel, step]
     }
 
     /// Every block that is written down: those, then the subroutines'.
@@ -236,9 +240,10 @@ impl Tree {
             pass,
             segment,
             pixel,
+            step,
             subroutines,
         } = self;
-        [frame, column, row, pass, segment, pixel]
+        [frame, column, row, pass, segment, pixel, step]
             .into_iter()
             .chain(subroutines.iter_mut().map(|s| &mut s.body))
     }
@@ -362,8 +367,9 @@ impl Display for Tree {
             ("pass", &self.pass),
             ("segment", &self.segment),
             ("pixel", &self.pixel),
+            ("step", &self.step),
         ] {
-            if matches!(name, "column" | "pass" | "segment") && statements.is_empty() {
+            if matches!(name, "column" | "pass" | "segment" | "step") && statements.is_empty() {
                 continue;
             }
             writeln!(f, "{name}:")?;

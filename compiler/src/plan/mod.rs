@@ -34,6 +34,9 @@
 //! - [`Node::Stepped`], let in the pixel's block, is kept where its first value is,
 //!   which the segment's block sets: there it is stepped, `home = home + step`.
 //! - A loop needs a count of its turns; see [`Statement::Loop`].
+//! - Where the graph moves ([`Graph::is_moving`]), `tree.step` stands behind the picture, before
+//!   it what is held is read into the params of [`Graph::buttons`], and behind it each state of
+//!   [`Graph::steps`] is given its next value, all at once, as [`Plan::given`] says.
 //! - Where the graph spreads its error ([`Plan::error_rows`]), [`Node::Received`] is what has
 //!   come to the pixel, and after `tree.pixel` each share is added, by [`Plan::gather`], to what
 //!   its pixel has received so far. Then [`Plan::computed_rows`] and columns are more than drawn.
@@ -49,6 +52,7 @@ pub mod model;
 mod error_rows;
 mod kept_rows;
 pub(crate) mod params;
+mod placing;
 pub mod print;
 mod semantics;
 pub mod table_init;
@@ -56,6 +60,7 @@ pub mod table_init;
 pub use error_rows::ErrorRows;
 pub use kept_rows::KeptRows;
 pub use params::ParamPlan;
+pub(crate) use placing::placed;
 
 use crate::analysis::points::Points;
 use crate::analysis::range::Ranges;
@@ -268,6 +273,12 @@ impl Plan {
         self.read_as(ty, |node| matches!(node, Node::Param(p) if p == id))
     }
 
+    /// The node that reads a param, if something does.
+    pub fn param_node(&self, id: ParamId) -> Option<NodeId> {
+        let mut ids = self.graph.ids();
+        ids.find(|node| self.graph.node(*node) == Node::Param(id))
+    }
+
     /// The format of a table's entries.
     pub fn entry_format(&self, id: TableId) -> Format {
         let ty = self
@@ -381,20 +392,4 @@ impl Plan {
             .flat_map(|r| r.needs.iter().copied());
         self.runtime.closure(names)
     }
-}
-
-/// Where the picture stands on the screen, and which of it is seen: centred
-/// where the screen is larger, cropped where it is smaller.
-pub(crate) fn placed(image: &Image, mode: &Mode) -> ((i32, i32), (u32, u32), (u32, u32)) {
-    let axis = |count: u32, block: u32, screen: u32| {
-        let (count, block, screen) = (i64::from(count), i64::from(block), i64::from(screen));
-        let offset = (screen - count * block).div_euclid(2);
-        // Whole blocks only.
-        let first = (-offset).max(0).div_euclid(block) + i64::from((-offset).max(0) % block > 0);
-        let last = ((screen - offset).div_euclid(block) - 1).min(count - 1);
-        (offset as i32, (first as u32, last.max(first) as u32))
-    };
-    let (left, columns) = axis(image.width, image.block.0, mode.width);
-    let (top, rows) = axis(image.height, image.block.1, mode.height);
-    ((left, top), columns, rows)
 }

@@ -122,8 +122,18 @@ impl<'p> ModelRun<'p> {
 
     /// The bits of what the graph reports, after the last pixel.
     pub fn reports(&mut self) -> Vec<Bits> {
-        let ids = self.plan.graph.reports.iter();
-        ids.map(|&id| self.run.report(id)).collect()
+        self.run.reports()
+    }
+
+    /// The bits of the states in the next picture, in the order of the graph's: what each next
+    /// value is as the state holds it. No pixel need have been asked for.
+    pub fn next_states(&mut self) -> Vec<(ParamId, Bits)> {
+        let plan = self.plan;
+        let values = self.run.reports();
+        let steps = plan.graph.steps().zip(values);
+        steps
+            .map(|((state, next), bits)| (state, plan.given(state, next, bits)))
+            .collect()
     }
 
     /// How often the schedule read what it had not written; 0 if it is right.

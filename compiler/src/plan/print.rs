@@ -110,8 +110,9 @@ impl Display for Plan {
             ("pass", &self.tree.pass),
             ("segment", &self.tree.segment),
             ("pixel", &self.tree.pixel),
+            ("step", &self.tree.step),
         ] {
-            if matches!(name, "column" | "pass" | "segment") && block.is_empty() {
+            if matches!(name, "column" | "pass" | "segment" | "step") && block.is_empty() {
                 continue;
             }
             writeln!(f, "{name}:")?;

@@ -159,6 +159,21 @@ impl Plan {
         }
     }
 
+    /// What a state holds that is given a node's bits.
+    pub fn given(&self, state: ParamId, from: NodeId, bits: Bits) -> Bits {
+        match &self.points {
+            Some(points) if self.graph.ty(from) == Type::Real => {
+                let held = self.param_node(state);
+                let held = held.map(|id| (points.own(id), points.widths().place(Place::Node(id))));
+                match held {
+                    Some(held) => points.read(&self.graph, from, bits, held),
+                    None => bits,
+                }
+            }
+            _ => bits,
+        }
+    }
+
     /// What a place holds that is given a node's bits.
     pub fn copied(&self, place: Place, from: NodeId, bits: Bits) -> Bits {
         match &self.points {

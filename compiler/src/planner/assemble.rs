@@ -9,6 +9,7 @@ use crate::plan::params::ParamPlan;
 use crate::plan::placed;
 use crate::plan::{Copies, Goal, Plan, table_init};
 use crate::schedule::constant_runs::still;
+use crate::schedule::step::sink;
 use crate::selection::integer_roots::int_roots;
 use crate::selection::reciprocal_roots::reciprocal_roots;
 use crate::selection::routines;
@@ -52,6 +53,7 @@ pub(super) fn assemble(
         (points, ranges_now) = (Some(found), ranges);
     }
     let routines = routines::choose(&graph, &tree, &ranges_now, runtime, points.as_ref())?;
+    sink(&graph, &mut tree);
     let gather = graph.diffusion.as_ref().and_then(|_| gathering(runtime));
     let runs = !tree.segment.is_empty();
     let still = runs.then(|| still(&graph)).flatten();

@@ -9,6 +9,7 @@ use crate::ir::tree::*;
 use crate::schedule::locality::{by_first_use, down_to_runs};
 use crate::schedule::outline::{Extent, outline};
 use crate::schedule::statements::schedule_together;
+use crate::schedule::step::sink;
 use crate::source::{Diagnostic, Span};
 use crate::targets::Sizes;
 
@@ -44,7 +45,8 @@ impl PlannedScene {
         {
             return plain.outlined_until(enough, name);
         }
-        let tree = schedule_together(&self.graph);
+        let mut tree = schedule_together(&self.graph);
+        sink(&self.graph, &mut tree);
         let sizes = &self.target.sizes;
         let (graph, tree) = self.with_subroutines(tree, (Extent::All, enough), sizes, name);
         self.of(graph, tree)

@@ -80,7 +80,7 @@ fn leaves(graph: &Graph, id: NodeId) -> BTreeSet<NodeId> {
 
 /// The still inks of a graph whose pixels do not depend on each other, if it has any.
 pub fn still(graph: &Graph) -> Option<Still> {
-    if graph.is_in_order() || !graph.reports.is_empty() {
+    if graph.is_in_order() || !graph.reports.is_empty() && !graph.is_moving() {
         return None;
     }
     let known = Known::of(graph);

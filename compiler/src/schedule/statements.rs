@@ -90,6 +90,7 @@ fn schedule_by(graph: &Graph, order: Order, segments: bool) -> (Tree, u64) {
         pass: emitter.block(PASS, &roots, &[SEGMENT]),
         segment: emitter.block(SEGMENT, &roots, &[PIXEL]),
         pixel: emitter.block(PIXEL, &roots, &[]),
+        step: Block::new(),
         subroutines: Vec::new(),
     };
     (tree, emitter.visits)

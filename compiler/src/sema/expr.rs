@@ -36,6 +36,10 @@ pub enum Known {
     Offset,
     /// How many rays a pixel may have; the largest int where nobody says less.
     Samples,
+    /// How many pictures there were before this one.
+    Picture,
+    /// What a player holds between two pictures: the library's record of it.
+    Input,
 }
 
 /// What a call calls.

@@ -43,10 +43,22 @@ impl fmt::Display for Program {
         }
         for param in &self.params {
             let value = printer.expr(&param.value, &param.value.value, 0);
-            write!(f, "param {}: {} = {value}", param.name, param.ty.show(self))?;
+            let what = match param.next {
+                Some(_) => "state",
+                None => "param",
+            };
+            write!(
+                f,
+                "{what} {}: {} = {value}",
+                param.name,
+                param.ty.show(self)
+            )?;
             if let Some((lo, hi)) = &param.range {
                 let lo = printer.expr(lo, &lo.value, 0);
                 write!(f, " in {lo} .. {}", printer.expr(hi, &hi.value, 0))?;
+            }
+            if let Some(next) = &param.next {
+                write!(f, " -> {}", printer.expr(next, &next.value, 0))?;
             }
             writeln!(f)?;
         }

@@ -84,7 +84,7 @@ pub struct Const {
     pub span: Span,
 }
 
-/// A param.
+/// A param, or a state: what a param is to one picture, and what it is to the next.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Param {
     /// Its name.
@@ -95,6 +95,8 @@ pub struct Param {
     pub value: Body,
     /// Lowest and highest, of the same type.
     pub range: Option<(Body, Body)>,
+    /// A state's value in the next picture.
+    pub next: Option<Body>,
     /// Where its name stands.
     pub span: Span,
 }

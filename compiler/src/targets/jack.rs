@@ -57,6 +57,7 @@ const FLOATS: Target = Target {
     lean: Lean::Short,
     last: false,
     windows: false,
+    moves: true,
     // VM commands a second of the official VM emulator. Its calls of the operating
     // system take longer, about 10 microseconds each, which one rate cannot say.
     hertz: 12.6e6,

@@ -99,6 +99,8 @@ pub struct Target {
     pub last: bool,
     /// Whether its programs set up a screen no larger than the picture, whatever the mode.
     pub windows: bool,
+    /// Whether its programs show scenes that move.
+    pub moves: bool,
 }
 
 /// What [`crate::plan::Plan::lean`] makes of a machine's programs.

@@ -90,6 +90,7 @@ pub static BBC: Target = Target {
     about: "a BBC Micro in machine code, with a disc drive",
     modes: BBC_MODES,
     windows: true,
+    moves: false,
     drawing: 55,
     ..USUAL
 };
@@ -146,6 +147,7 @@ pub static BBC_REAL40: Target = Target {
 pub static C64: Target = Target {
     name: "6502:c64",
     system: System::C64,
+    moves: false,
     about: "a Commodore 64 (PAL) in machine code",
     modes: C64_MODES,
     drawing: 90,
@@ -222,6 +224,7 @@ const USUAL: Target = Target {
     lean: Lean::Nothing,
     last: false,
     windows: false,
+    moves: true,
     hertz: 2_000_000.0,
     wraps: false,
     columns: 512,

@@ -119,7 +119,13 @@ fn item(item: &Item) -> Node {
             if let Some((low, high)) = &param.range {
                 parts.push(Node::list("in", [expr(low), expr(high)]));
             }
-            Node::list("param", parts)
+            match &param.next {
+                Some(next) => {
+                    parts.push(Node::list("->", [expr(next)]));
+                    Node::list("state", parts)
+                }
+                None => Node::list("param", parts),
+            }
         }
         ItemKind::Const { name, value } => {
             Node::list(format!("const {}", name.text), [expr(value)])

@@ -13,9 +13,9 @@ use logos::Logos;
 use std::fmt;
 
 /// Reserved words that begin an item.
-pub const ITEMS: [&str; 12] = [
-    "image", "param", "const", "fn", "effect", "shape", "scene", "record", "map", "dither", "draw",
-    "use",
+pub const ITEMS: [&str; 13] = [
+    "image", "param", "state", "const", "fn", "effect", "shape", "scene", "record", "map",
+    "dither", "draw", "use",
 ];
 
 /// The other reserved words.
@@ -42,7 +42,7 @@ pub enum Token<'a> {
     Ident(&'a str),
     /// A reserved word that begins an item.
     #[regex(
-        "image|param|const|fn|effect|shape|scene|record|map|dither|draw|use",
+        "image|param|state|const|fn|effect|shape|scene|record|map|dither|draw|use",
         priority = 60
     )]
     Item(&'a str),

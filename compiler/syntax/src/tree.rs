@@ -36,7 +36,8 @@ pub struct Item {
 pub enum ItemKind {
     /// `image 320 x 240 inks black, red;`
     Image(Image),
-    /// `param eye: vec3 = (0, 0, 3) in (..) .. (..);`
+    /// `param eye: vec3 = (0, 0, 3) in (..) .. (..);`, or
+    /// `state eye: vec3 = (0, 0, 3) in (..) .. (..) -> eye + (0, 0, 1);`
     Param(Param),
     /// `const bayer4 = [0, 24; 36, 12];`
     Const { name: Name, value: Expr },
@@ -88,7 +89,7 @@ pub struct InkColour {
     pub span: Span,
 }
 
-/// A value that stays changeable in the generated program.
+/// A value that stays changeable in the generated program, or moves from picture to picture.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Param {
     /// Its name.
@@ -99,6 +100,8 @@ pub struct Param {
     pub value: Expr,
     /// The range that may be trusted, lowest and highest, component by component.
     pub range: Option<(Expr, Expr)>,
+    /// A state's value in the next picture; none of a param.
+    pub next: Option<Box<Expr>>,
 }
 
 /// A pure function's head and body (also a dither's and an effect's).

@@ -92,6 +92,7 @@ pub fn item_roots<'t>(item: &'t ItemKind, visit: &mut dyn FnMut(&'t Expr)) {
                 visit(low);
                 visit(high);
             }
+            param.next.iter().for_each(|next| visit(next));
         }
         ItemKind::Const { value, .. } => visit(value),
         ItemKind::Fn(function) | ItemKind::Dither(function) => {

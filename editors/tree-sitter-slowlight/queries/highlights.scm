@@ -14,7 +14,7 @@
 (none) @constant.builtin
 
 [
-  "image" "param" "const" "fn" "effect" "shape" "scene" "record" "map" "dither" "draw" "use"
+  "image" "param" "state" "const" "fn" "effect" "shape" "scene" "record" "map" "dither" "draw" "use"
   "let" "loop" "next" "spread" "each" "is" "in" "where" "inks" "x" "max" "to"
 ] @keyword
 

@@ -97,6 +97,10 @@ pub fn of_params(scene: &Scene, formats: bool) -> Outcome<Vec<Vec<Way>>> {
             let ItemKind::Param(written) = item.kind else {
                 continue;
             };
+            // What moves is no constant.
+            if written.next.is_some() {
+                continue;
+            }
             let same = |p: &&Param| p.name == written.name.text;
             let parts: Vec<Param> = numbers.iter().filter(same).cloned().collect();
             // What is said of the text's value need not hold for one that was set.

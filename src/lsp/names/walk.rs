@@ -25,7 +25,8 @@ pub fn head(item: &Item) -> Option<Head<'_>> {
         ItemKind::Record { name, fields } => (name, &fields[..], (Kind::Record, None, None)),
         ItemKind::Param(p) => {
             let ty = Some(p.ty.span);
-            (&p.name, &[][..], (Kind::Param, Some(p.value.span), ty))
+            let kind = p.next.as_ref().map_or(Kind::Param, |_| Kind::State);
+            (&p.name, &[][..], (kind, Some(p.value.span), ty))
         }
         ItemKind::Const { name, value } => (name, &[][..], (Kind::Const, Some(value.span), None)),
         ItemKind::Scene { name, .. } => (name, &[][..], (Kind::Scene, None, None)),
@@ -165,6 +166,7 @@ impl Walk<'_> {
                     self.expr(low);
                     self.expr(high);
                 }
+                param.next.iter().for_each(|next| self.expr(next));
             }
             ItemKind::Const { value, .. } => self.expr(value),
             ItemKind::Fn(function) | ItemKind::Dither(function) => {

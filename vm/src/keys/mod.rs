@@ -73,6 +73,8 @@ pub struct Keyboard {
     /// Looks that saw no key when none was left.
     late: u64,
     shots: Vec<(String, Option<Screen>)>,
+    /// The memory at each look, where that is wanted.
+    memories: Option<Vec<Vec<i16>>>,
 }
 
 impl Keyboard {
@@ -89,6 +91,28 @@ impl Keyboard {
             down: false,
             late: 0,
             shots: Vec::new(),
+            memories: None,
+        }
+    }
+
+    /// The same that keeps the memory at every look.
+    #[must_use]
+    pub fn remembering(self) -> Keyboard {
+        Keyboard {
+            memories: Some(Vec::new()),
+            ..self
+        }
+    }
+
+    /// The memory at each look, on machines that tell it.
+    pub fn memories(&self) -> &[Vec<i16>] {
+        self.memories.as_deref().unwrap_or_default()
+    }
+
+    /// The program is about to look, and its memory is this.
+    pub(crate) fn remember(&mut self, memory: impl FnOnce() -> Vec<i16>) {
+        if let Some(memories) = &mut self.memories {
+            memories.push(memory());
         }
     }
 

@@ -60,6 +60,22 @@ enum End {
 }
 
 impl Script {
+    /// The same a unit a look at the keyboard, with a shot at each of the first `count` looks;
+    /// the run ends at the last of these.
+    #[must_use]
+    pub fn filmed(mut self, count: u64) -> Script {
+        let last = count.saturating_sub(1);
+        self.by = Some(Unit::Calls);
+        self.spans.retain(|span| span.from < last);
+        for span in &mut self.spans {
+            span.to = span.to.min(last);
+        }
+        self.shots = (0..count).map(|at| (at, at.to_string())).collect();
+        self.length = last;
+        self.end = End::Quit;
+        self
+    }
+
     /// What it counts, if it says so.
     pub fn unit(&self) -> Option<Unit> {
         self.by

@@ -294,3 +294,21 @@ proptest! {
         prop_assert!(found >= tail + circle && found < 4 * (tail + circle) + 4, "{}", found);
     }
 }
+
+/// A film is a shot at each look, and ends at the last; what is held is what the script says.
+#[test]
+fn films_have_a_shot_at_every_look() {
+    let script: Script = "up*2 left*9".parse().expect("a script");
+    let mut keyboard = Keyboard::new(script.filmed(5), Unit::Frames, |_| None).remembering();
+    let screen = || None;
+    let seen: Vec<Seen> = (0..5)
+        .map(|at| {
+            keyboard.remember(|| vec![at]);
+            keyboard.look(99, screen)
+        })
+        .collect();
+    let (up, left) = (Seen::Key(Key::Up), Seen::Key(Key::Left));
+    assert_eq!(seen, [up, up, Seen::Nothing, left, Seen::Quit]);
+    assert_eq!(keyboard.shots().len(), 5);
+    assert_eq!(keyboard.memories().concat(), [0, 1, 2, 3, 4]);
+}

@@ -15,6 +15,7 @@
 //! | $FF09 | INK | the pixel's ink; then X + 1, and at the row's end X = 0, Y + 1 |
 //! | $FF0A | EXIT | ends the program: 0 is success, another status a fault with that number |
 //! | $FF0B | PALETTE | red, green and blue of ink 0, then of ink 1, and so on |
+//! | $FF0C | HANDS | **the picture is done**: what a player holds then is to be read at $FF0D, left 1, right 2, up 4, down 8 and fire 16 |
 //!
 //! X and Y follow the position: they can be read back. Inks that are not told
 //! are greys from black to white. Every access is a cycle, as on every 6502;
@@ -27,6 +28,7 @@
 
 use super::computer::{Board, Computer, fault};
 use super::cpu::Bus;
+use crate::keys::{Key, Keyboard, Seen};
 use crate::{Screen, Stop};
 
 /// The ports' addresses.
@@ -47,7 +49,14 @@ pub mod port {
     pub const EXIT: u16 = 0xFF0A;
     /// The palette, a byte at a time.
     pub const PALETTE: u16 = 0xFF0B;
+    /// A picture is done, and the next may hang on what is held.
+    pub const HANDS: u16 = 0xFF0C;
+    /// What is held, once that was asked for.
+    pub const HELD: u16 = 0xFF0D;
 }
+
+/// Cycles of a frame, where keys come by frames: a fiftieth of a second at 2 MHz.
+const FRAME: u64 = 40_000;
 
 /// The greatest width and height.
 const SIDE: u16 = 4096;
@@ -65,6 +74,7 @@ pub struct Ports {
     inks: u16,
     palette_bytes: usize,
     row: Option<u32>,
+    keyboard: Option<Box<Keyboard>>,
     /// Set where the program has ended, by itself or by a fault at a port.
     stop: Option<Stop>,
 }
@@ -104,12 +114,36 @@ impl Ports {
             port::INKS => self.open(value),
             port::INK => self.plot(value),
             port::PALETTE => self.palette(value),
+            port::HANDS => self.look(),
             port::EXIT if value == 0 => {
                 self.stop.get_or_insert(Stop::Ended);
             }
             port::EXIT => self.fail(format!("the program ended with status {value}")),
             _ => {}
         }
+    }
+
+    /// Looks at what is held; nothing is where there is no keyboard.
+    fn look(&mut self) {
+        let Some(mut keyboard) = self.keyboard.take() else {
+            self.ram[usize::from(port::HELD)] = 0;
+            return;
+        };
+        keyboard.remember(|| self.ram.iter().map(|byte| i16::from(*byte)).collect());
+        let held = match keyboard.look(self.cycles / FRAME, || self.screen.clone()) {
+            Seen::Key(Key::Left) => 1,
+            Seen::Key(Key::Right) => 2,
+            Seen::Key(Key::Up) => 4,
+            Seen::Key(Key::Down) => 8,
+            Seen::Key(Key::Char(b' ')) => 16,
+            Seen::Key(_) | Seen::Nothing => 0,
+            Seen::Quit => {
+                self.stop.get_or_insert(Stop::Ended);
+                0
+            }
+        };
+        self.ram[usize::from(port::HELD)] = held;
+        self.keyboard = Some(keyboard);
     }
 
     fn open(&mut self, inks: u8) {
@@ -191,6 +225,7 @@ impl Default for Ports {
             inks: 0,
             palette_bytes: 0,
             row: None,
+            keyboard: None,
             stop: None,
         }
     }
@@ -235,6 +270,15 @@ impl Board for Ports {
 
     fn screen(&self) -> Option<Screen> {
         self.screen.clone()
+    }
+
+    fn plug(&mut self, keyboard: Keyboard) -> bool {
+        self.keyboard = Some(Box::new(keyboard));
+        true
+    }
+
+    fn unplug(&mut self) -> Option<Keyboard> {
+        self.keyboard.take().map(|keyboard| *keyboard)
     }
 }
 

@@ -48,6 +48,8 @@ pub(super) struct Code<'p> {
     pub methods: Vec<Method>,
     /// Values that are written where they are read.
     pub folded: FxHashMap<NodeId, Expression>,
+    /// A variable for exchanges of objects, where there are such.
+    pub spare: Option<String>,
     text: Text,
 }
 
@@ -66,6 +68,7 @@ impl<'p> Code<'p> {
             same_signs: BTreeMap::new(),
             methods: Vec::new(),
             folded: FxHashMap::default(),
+            spare: None,
             text: Text::default(),
         }
     }

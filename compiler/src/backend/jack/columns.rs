@@ -38,23 +38,52 @@ impl Code<'_> {
         if found.is_empty() {
             return;
         }
+        // Picture after picture in the same arrays.
+        if !plan.graph.is_moving() {
+            self.make_columns(picture);
+        }
+        self.along_columns(column, picture);
+    }
+
+    /// Makes the arrays.
+    fn make_columns(&self, text: &mut Text) {
+        let plan = self.plan;
         let length = plan.graph.image.width;
-        for &id in &found {
-            let name = self.names.column(id).to_owned();
+        for id in tabulated(&plan.graph, &plan.tree) {
+            let name = self.names.column(id);
             let about = if self.is_float(id) { OF_FLOATS } else { "" };
-            picture.line(format!("let {name} = Array.new({length});{about}"));
+            text.line(format!("let {name} = Array.new({length});{about}"));
             if self.has_sign(id) {
-                picture.line(format!("let {name}_plus = Array.new({length});"));
+                text.line(format!("let {name}_plus = Array.new({length});"));
             }
         }
+    }
+
+    /// The same for pictures that move, with objects in those that are of objects.
+    pub fn make_columns_once(&self) -> Vec<Line> {
+        let mut text = Text::default();
+        self.make_columns(&mut text);
+        let found = tabulated(&self.plan.graph, &self.plan.tree);
+        let objects = found.into_iter().filter(|id| self.is_float(*id));
+        let new = |id| format!("let {} = Float.new();", self.column(id).0.text);
+        let mut lines = Text::default();
+        objects.for_each(|id| lines.line(new(id)));
+        if !lines.lines.is_empty() {
+            self.along_columns(lines.lines, &mut text);
+        }
+        text.lines
+    }
+
+    /// A loop over the columns.
+    fn along_columns(&self, column: Vec<Line>, text: &mut Text) {
         let x = self.names.axes[0].clone();
-        let (first, last) = plan.computed_columns();
-        picture.line(format!("let {x} = {first};"));
-        picture.open(format!("while ({x} < {}) {{", last.saturating_add(1)));
-        picture.append(column);
-        picture.span = plan.drawn;
-        picture.line(format!("let {x} = {x} + 1;"));
-        picture.close("}");
+        let (first, last) = self.plan.computed_columns();
+        text.line(format!("let {x} = {first};"));
+        text.open(format!("while ({x} < {}) {{", last.saturating_add(1)));
+        text.append(column);
+        text.span = self.plan.drawn;
+        text.line(format!("let {x} = {x} + 1;"));
+        text.close("}");
     }
 
     /// Keeps a value that has just been set at its column.
@@ -67,10 +96,21 @@ impl Code<'_> {
         }
         let home = self.names.home(place).to_owned();
         let (entry, sign) = self.column(id);
-        self.line(format!("let {} = {home};", entry.text));
-        if self.is_float(id) {
+        let entry = entry.text;
+        match (self.is_float(id), self.plan.graph.is_moving()) {
+            (false, _) => self.line(format!("let {entry} = {home};")),
             // The entry is the home's object.
-            self.line(format!("let {home} = Float.new();"));
+            (true, false) => {
+                self.line(format!("let {entry} = {home};"));
+                self.line(format!("let {home} = Float.new();"));
+            }
+            // They change places: nothing is made while pictures move.
+            (true, true) => {
+                let spare = self.spare();
+                self.line(format!("let {spare} = {entry};"));
+                self.line(format!("let {entry} = {home};"));
+                self.line(format!("let {home} = {spare};"));
+            }
         }
         if let Some(entry) = sign {
             let sign = self.sign_of(&home);

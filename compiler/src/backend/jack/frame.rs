@@ -18,17 +18,12 @@ use std::collections::BTreeSet;
 
 /// Writes a plan down as the classes of a program, `Main` first.
 pub(in crate::backend) fn program(plan: &Plan) -> Vec<Document> {
-    let mut code = Code::new(plan);
-    let mut drawing = drawing(&mut code);
-    let mut making = making(&mut code);
-    let checks = checks(&mut code);
-    let signs = code.names.signs();
-    if !signs.is_empty() {
-        let bodies = drawing.iter_mut().chain(&mut making).map(|s| &mut s.body);
-        let mut all: Vec<&mut Vec<Line>> = bodies.collect();
-        all.extend(code.methods.iter_mut().map(|m| &mut m.lines));
-        without_idle_signs(&signs, &mut all);
-    }
+    let Parts {
+        code,
+        drawing,
+        making,
+        checks,
+    } = parts(plan);
     let class = code.names.class.clone();
     let mut needs: Vec<&str> = plan.parts().iter().map(|p| p.name).collect();
     needs.extend(&code.needs);
@@ -51,7 +46,7 @@ pub(in crate::backend) fn program(plan: &Plan) -> Vec<Document> {
     };
     let scene = scene(&code, &fixed, making, checks, drawing);
     let mut documents = vec![
-        main(&class, &parts).document("Main"),
+        main(&class, plan.graph.is_moving(), &parts).document("Main"),
         scene.document(&class),
     ];
     for (name, text) in library {
@@ -62,9 +57,54 @@ pub(in crate::backend) fn program(plan: &Plan) -> Vec<Document> {
     documents
 }
 
-fn main(class: &str, parts: &[&slowlight_routine::Part]) -> Text {
+/// What a scene's class is made of.
+struct Parts<'p> {
+    code: Code<'p>,
+    drawing: Vec<Subroutine>,
+    making: Vec<Subroutine>,
+    checks: Vec<Line>,
+}
+
+fn parts(plan: &Plan) -> Parts<'_> {
+    let mut code = Code::new(plan);
+    let mut drawing = drawing(&mut code);
+    let mut making = making(&mut code);
+    let checks = checks(&mut code);
+    let signs = code.names.signs();
+    if !signs.is_empty() {
+        let bodies = drawing.iter_mut().chain(&mut making).map(|s| &mut s.body);
+        let mut all: Vec<&mut Vec<Line>> = bodies.collect();
+        all.extend(code.methods.iter_mut().map(|m| &mut m.lines));
+        without_idle_signs(&signs, &mut all);
+    }
+    Parts {
+        code,
+        drawing,
+        making,
+        checks,
+    }
+}
+
+/// A plan's code, the fields of its scene's object in their order, where none is a static, and
+/// whether a line has a name.
+pub(super) fn declared_names(plan: &Plan) -> (Code<'_>, Vec<String>, impl Fn(&str) -> bool) {
+    let Parts { code, drawing, .. } = parts(plan);
+    let names = declared(&code).into_iter().flat_map(|(_, names, _)| names);
+    let names = names.collect();
+    let methods = code.methods.iter().flat_map(|m| &m.lines);
+    let lines = drawing.iter().flat_map(|s| &s.body).chain(methods);
+    let lines: Vec<String> = lines.map(|line| line.text.clone()).collect();
+    (code, names, move |name: &str| {
+        lines.iter().any(|line| line.contains(name))
+    })
+}
+
+fn main(class: &str, moves: bool, parts: &[&slowlight_routine::Part]) -> Text {
     let mut text = Text::default();
-    text.line("/** Draws the scene, and stops. */");
+    text.line(match moves {
+        true => "/** Shows the scene, picture after picture. */",
+        false => "/** Draws the scene, and stops. */",
+    });
     text.open("class Main {");
     text.open("function void main() {");
     text.line(format!("var {class} scene;"));
@@ -74,7 +114,8 @@ fn main(class: &str, parts: &[&slowlight_routine::Part]) -> Text {
         }
     }
     text.line(format!("let scene = {class}.new();"));
-    text.line("if (scene.inRange()) { do scene.drawPicture(); }");
+    let draw = if moves { "showPictures" } else { "drawPicture" };
+    text.line(format!("if (scene.inRange()) {{ do scene.{draw}(); }}"));
     text.line("do Sys.halt();");
     text.line("return;");
     text.close("}");

@@ -25,6 +25,7 @@
 //! - `names`: what everything is called; `code`: statements and expressions; `copies`: of values; `logs`:
 //!   those of logarithmic reals; `fixed`: those in fixed point; `lookup`: entries of tables;
 //! - `object`: constants and params; `making`: what fills the fields at the start;
+//! - `steps`: what a picture that moves has between two pictures;
 //! - `frame`: the classes around; `canvas`: words of the screen; `spread`: error diffusion; `statics`: which values
 //!   are statics, for the processor.
 
@@ -49,6 +50,7 @@ mod report;
 mod spread;
 mod starts;
 mod statics;
+mod steps;
 
 /// A subroutine under construction: what stands over it, its first line, its body.
 struct Subroutine {
@@ -81,6 +83,7 @@ pub use slowlight_runtime_jack::os;
 
 pub(super) use frame::program as emit;
 pub(super) use starts::starts;
+pub use steps::{Held, held};
 
 use super::Document;
 use crate::source::Span;

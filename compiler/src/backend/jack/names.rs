@@ -63,6 +63,9 @@ const METHODS: &[&str] = &[
     "reportFloat",
 ];
 
+/// Those of a picture that moves.
+const STEPS: &[&str] = &["showPictures", "readKeys", "takeStep"];
+
 /// Values that can have a static each; more share them.
 const SHARED_BEYOND: usize = 100;
 
@@ -94,6 +97,8 @@ impl Names {
     pub fn new(plan: &Plan) -> Names {
         let taken = KEYWORDS.iter().chain(CLASSES).chain(METHODS);
         let taken = taken.map(|w| (*w).to_owned());
+        let moving = plan.graph.is_moving();
+        let more = STEPS.iter().filter(|_| moving).map(|w| (*w).to_owned());
         let mut names = Names {
             class: class_name(&plan.name),
             params: Vec::new(),
@@ -107,7 +112,7 @@ impl Names {
             signs: BTreeMap::new(),
             canvas: None,
             shared: false,
-            taken: taken.collect(),
+            taken: taken.chain(more).collect(),
         };
         names.taken.insert(names.class.clone());
         names.params = plan.params.iter().map(|p| names.fresh(&p.label)).collect();

@@ -4,6 +4,7 @@ use super::code::Code;
 use super::expression::int;
 use super::line;
 use super::{Line, Text};
+use crate::ir::graph::Role;
 use crate::plan::ParamPlan;
 use slowlight_runtime_jack::TERM;
 use slowlight_runtime_jack::model::MOST;
@@ -22,7 +23,15 @@ pub(super) fn parameters(code: &Code) -> Vec<Line> {
         Some(digits) if digits > 0 => format!("times {}, ", 10u32.pow(u32::from(digits))),
         _ => String::new(),
     };
-    for (name, param) in code.names.params.iter().zip(&plan.params) {
+    let written_by_hand = |at: &usize| {
+        let param = plan.graph.params.get(*at);
+        !param.is_some_and(|p| matches!(p.role, Role::Input(_)))
+    };
+    let all = code.names.params.iter().zip(&plan.params).enumerate();
+    for (name, param) in all
+        .filter(|(at, _)| written_by_hand(at))
+        .map(|(_, both)| both)
+    {
         let range = match &param.range {
             Some((least, greatest)) => format!("from {} to {}", written(least), written(greatest)),
             None => "in no range".to_owned(),
@@ -53,9 +62,10 @@ pub(super) fn checks(code: &mut Code) -> Vec<Line> {
     let plan = code.plan;
     let rows = plan.shown_rows();
     let names = code.names.params.iter().chain(&code.names.rows).cloned();
-    let ranges = plan.params.iter().map(|p| {
+    let ranges = plan.params.iter().zip(&plan.graph.params).map(|(p, of)| {
         let (least, greatest) = p.range.as_ref()?;
-        Some((written(least), written(greatest)))
+        let given = matches!(of.role, Role::Input(_));
+        (!given).then(|| (written(least), written(greatest)))
     });
     let ranges = ranges.chain([Some((rows.0 as i32, rows.1 as i32)); 2]);
     let all: Vec<_> = names.zip(ranges).collect();

@@ -238,6 +238,13 @@ impl<'p> Code<'p> {
         lines.iter().for_each(|line| self.text.line(line));
     }
 
+    /// A copy into so many bytes.
+    pub fn copy_bytes(&mut self, from: &Operand, (to, bytes): (&str, u8)) {
+        let mut lines = Vec::new();
+        write::copy_bytes(from, to, bytes, &mut lines);
+        lines.iter().for_each(|line| self.text.line(line));
+    }
+
     /// Copies an int or a real.
     pub fn copy_to(&mut self, from: &Operand, to: &str) {
         self.copy(from, to, self.plan.runtime.int);

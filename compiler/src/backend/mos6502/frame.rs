@@ -10,7 +10,7 @@ use super::rows::Rows;
 use super::screen::Screen;
 use super::squares::Squares;
 use super::syntax::Syntax;
-use super::{Text, bbc, c64, ports, table};
+use super::{Text, bbc, c64, ports, steps, table};
 use crate::ir::tree::SubroutineId;
 use crate::plan::Plan;
 use slowlight_routine::{Format, Part, Source, Type};
@@ -198,7 +198,7 @@ fn head(plan: &Plan, homes: &Homes, entries: &[Entry], syntax: &Syntax, text: &m
 fn symbols(plan: &Plan, homes: &Homes, parts: &[&'static Part], text: &mut Text) -> usize {
     let machine = Machine::of(plan);
     match machine {
-        Machine::Plain => ports::symbols(text),
+        Machine::Plain => ports::symbols(plan, text),
         Machine::Bbc => bbc::symbols(text),
         Machine::C64 => c64::symbols(text),
     }
@@ -269,6 +269,10 @@ fn main(plan: &Plan, homes: &Homes, text: &mut Text) -> (bool, Vec<&'static str>
     if let Some(rows) = &errors {
         code.start_errors(rows);
     }
+    let moves = plan.graph.is_moving();
+    if moves {
+        code.text.label(steps::NEXT);
+    }
     if !plan.tree.frame.is_empty() {
         code.text.headline("once a picture");
         code.block(&plan.tree.frame);
@@ -281,10 +285,17 @@ fn main(plan: &Plan, homes: &Homes, text: &mut Text) -> (bool, Vec<&'static str>
     let refined = Refined::new(plan, homes);
     let others = (errors.as_ref(), refined.as_ref());
     Rows::new(&code, screen.as_ref(), others).write(&mut code);
+    if moves {
+        code.text.label("picture_done");
+        steps::between(&mut code);
+    }
     let (clamps, mut needs) = (code.clamps, std::mem::take(&mut code.needs));
     let text = &mut *code.text;
-    text.label("picture_done");
+    if !moves {
+        text.label("picture_done");
+    }
     match machine {
+        _ if moves => {}
         Machine::Plain => {
             reports(plan, homes, text);
             text.code("lda #0 | sta exit_port");

@@ -145,6 +145,16 @@ impl Homes {
         all
     }
 
+    /// How many bytes a slot has.
+    pub fn bytes(&self, plan: &Plan, slot: Slot) -> u16 {
+        size(plan, self.shapes.as_ref(), slot)
+    }
+
+    /// A slot's address.
+    pub fn address(&self, slot: Slot) -> Option<u16> {
+        self.homes.get(&slot).map(|home| home.address)
+    }
+
     pub fn name(&self, slot: Slot) -> &str {
         self.homes.get(&slot).map_or("acc", |home| &home.name)
     }

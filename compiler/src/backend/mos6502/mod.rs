@@ -64,7 +64,9 @@ mod slots;
 mod spread;
 mod squares;
 mod starts;
+mod steps;
 pub mod syntax;
+pub use steps::{Held, held};
 mod table;
 #[cfg(test)]
 mod tests;

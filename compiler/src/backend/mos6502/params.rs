@@ -76,6 +76,10 @@ pub(super) fn entries(plan: &Plan, homes: &Homes) -> Vec<Entry> {
     };
     let mut all: Vec<Entry> = Vec::new();
     for (k, (p, symbol)) in plan.params.iter().zip(&homes.params).enumerate() {
+        let role = plan.graph.params.get(k).map(|p| p.role);
+        if matches!(role, Some(Role::Input(_))) {
+            continue;
+        }
         let digits = u32::from(p.digits.unwrap_or(0));
         let real = plan.graph.params.get(k).is_some_and(|p| p.ty == Type::Real);
         all.push(Entry {

@@ -10,8 +10,21 @@ use crate::plan::Plan;
 use slowlight_runtime_6502::write::{self, Place as Operand};
 
 /// The ports' addresses.
-pub(super) fn symbols(text: &mut Text) {
+pub(super) fn symbols(plan: &Plan, text: &mut Text) {
     text.headline("the machine's ports");
+    let moving = [
+        (
+            HANDS,
+            "ff0c",
+            "a picture is done: what is held then is to be",
+        ),
+        (
+            HELD,
+            "ff0d",
+            "seen here: left 1, right 2, up 4, down 8, fire 16",
+        ),
+    ];
+    let moving = moving.into_iter().filter(|_| plan.graph.is_moving());
     let ports = [
         ("width_port", "ff00", "the picture's size: two bytes"),
         ("height_port", "ff02", "two bytes"),
@@ -22,10 +35,14 @@ pub(super) fn symbols(text: &mut Text) {
         ("exit_port", "ff0a", "ends the program"),
         ("palette_port", "ff0b", "red, green, blue of each ink"),
     ];
-    for (name, address, about) in ports {
+    for (name, address, about) in ports.into_iter().chain(moving) {
         text.line(format!("{:<24}; {about}", format!("{name} = ${address}")));
     }
 }
+
+/// Tells that a picture is done, and what is held then.
+pub(super) const HANDS: &str = "hands_port";
+pub(super) const HELD: &str = "held_port";
 
 /// How pixels go to the ports.
 pub(super) struct Ports {

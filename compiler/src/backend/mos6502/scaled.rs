@@ -187,6 +187,20 @@ impl Code<'_> {
         })
     }
 
+    /// Gives a param, which is a state, a real of another scale.
+    pub(super) fn give_real(&mut self, state: ParamId, to: (&str, u8), from: NodeId) {
+        let known = self.plan.points().zip(self.plan.param_node(state));
+        let Some((points, node)) = known else {
+            return;
+        };
+        let (own, width) = (points.own(node), points.widths().place(Place::Node(node)));
+        let read = self.read_into(points, from, (own, width), to);
+        let there = matches!(&read, Operand::At(name) | Operand::Held(name, _) if name == to.0);
+        if !there {
+            self.copy_bytes(&read, to);
+        }
+    }
+
     /// Gives a place a real of another scale.
     pub(super) fn set_real(&mut self, place: Place, to: &str, from: NodeId) {
         let Some(points) = self.plan.points() else {

@@ -54,6 +54,7 @@ impl Uses<'_> {
             self.add(Slot::Column(id));
         }
         for (block, weight) in [
+            (&tree.step, 1),
             (&tree.frame, 1),
             (&tree.column, 1 << 8),
             (&tree.row, 1 << 8),

@@ -32,7 +32,8 @@ pub fn strip_mined(graph: &Graph, multiple: u32) -> Option<Graph> {
         .nodes
         .iter()
         .any(|node| matches!(node, Node::Ramp { .. }));
-    if graph.is_in_order() || !graph.reports.is_empty() || stepped {
+    let reports = !graph.reports.is_empty() && !graph.is_moving();
+    if graph.is_in_order() || reports || stepped {
         return None;
     }
     let reached = graph.reached();

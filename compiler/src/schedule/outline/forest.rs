@@ -69,7 +69,7 @@ impl Forest {
             open: Vec::new(),
         };
         let mut above = None;
-        let outer = match extent {
+        let mut outer = match extent {
             // Such programs are not cut into segments.
             Extent::All => vec![
                 (tree.frame, true),
@@ -86,6 +86,10 @@ impl Forest {
                 (tree.pixel, false),
             ],
         };
+        // What stands behind a picture that moves stays there.
+        if !tree.step.is_empty() {
+            outer.push((tree.step, false));
+        }
         for (block, open) in outer {
             let end = block.len();
             let first = forest.blocks.len();
@@ -288,6 +292,8 @@ impl Forest {
     }
 
     pub fn into_tree(mut self) -> Tree {
+        let usual = if self.extent == Extent::All { 4 } else { 6 };
+        let steps = self.tops.len() > usual + self.named.len();
         let mut tops = std::mem::take(&mut self.tops).into_iter();
         let mut next = |forest: &mut Forest| tops.next().map_or(Block::new(), |b| forest.take(b));
         let mut tree = Tree {
@@ -301,6 +307,9 @@ impl Forest {
             tree.segment = next(&mut self);
         }
         tree.pixel = next(&mut self);
+        if steps {
+            tree.step = next(&mut self);
+        }
         for (name, span) in std::mem::take(&mut self.named) {
             tree.subroutines.push(Subroutine {
                 name,

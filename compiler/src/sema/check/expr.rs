@@ -134,12 +134,26 @@ impl<'a> Checker<'a> {
             Entity::Scene(id) => (ExprKind::Scene(id), self.scene(id)),
             Entity::Map(id) => (ExprKind::Map(id), Ty::Map),
             Entity::Known(k) => match KNOWN.get(k) {
-                Some((_, known)) => (ExprKind::Known(*known), type_of(*known)),
+                Some((_, Known::Picture | Known::Input)) if self.in_constant() => {
+                    self.no_constant(name, span);
+                    (ExprKind::Error, Ty::Error)
+                }
+                Some((_, known)) => (ExprKind::Known(*known), type_of(*known, &self.program)),
                 None => (ExprKind::Error, Ty::Error),
             },
             _ => (ExprKind::Error, Ty::Error),
         };
         Expr { kind, ty, span }
+    }
+
+    fn in_constant(&self) -> bool {
+        matches!(self.cx.item, Some(Entity::Const(_) | Entity::Param(_)))
+    }
+
+    fn no_constant(&mut self, name: &str, span: Span) {
+        let message = format!("a constant cannot depend on `{name}`");
+        let error = Diagnostic::error(span, message);
+        self.report(error.help("make it a function, or a `let` in `draw`"));
     }
 
     /// A function's name as a value.

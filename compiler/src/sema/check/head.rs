@@ -81,6 +81,7 @@ impl<'a> Checker<'a> {
                     ty: Ty::Error,
                     value: empty(),
                     range: None,
+                    next: param.next.is_some().then(empty),
                     span: param.name.span,
                 });
                 let id = ParamId(program.params.len() - 1);
@@ -220,8 +221,14 @@ impl<'a> Checker<'a> {
                 );
                 if !allowed {
                     let a = self.a(&ty);
-                    let error = Diagnostic::error(param.ty.span, format!("a param cannot be {a}"));
-                    self.report(error.help("params are bool, int, real, angle, vec2 or vec3"));
+                    let what = match param.next {
+                        Some(_) => "state",
+                        None => "param",
+                    };
+                    let message = format!("a {what} cannot be {a}");
+                    let error = Diagnostic::error(param.ty.span, message);
+                    let help = format!("{what}s are bool, int, real, angle, vec2 or vec3");
+                    self.report(error.help(help));
                 }
                 self.program.params[id.0].ty = if allowed { ty } else { Ty::Error };
                 Pending::Param(id, param)

@@ -235,8 +235,22 @@ impl<'a> Checker<'a> {
         let value = body(&tree.value, "value");
         let range = tree.range.as_ref();
         let range = range.map(|(lo, hi)| (body(lo, "least value"), body(hi, "greatest value")));
+        // A state is made of others and of itself: that is no cycle, as it is of the picture
+        // before.
+        let next = tree.next.as_ref().map(|next| {
+            let cx = Self::context(Entity::Draw, library);
+            let what = format!("the next value of `{name}`");
+            self.body(cx, &[], next, Some((&ty, &what)))
+        });
+        if next.is_some() && range.is_none() && !matches!(ty, Ty::Bool | Ty::Error) {
+            let message = format!("the state `{name}` has no range");
+            let error = Diagnostic::error(tree.name.span, message);
+            self.report(
+                error.help("say how far it may go: `.. = start in least .. greatest -> next;`"),
+            );
+        }
         let param = &mut self.program.params[id.0];
-        (param.value, param.range) = (value, range);
+        (param.value, param.range, param.next) = (value, range, next);
     }
 
     fn draw(&mut self, x: &tree::Name, y: &tree::Name, tree: &tree::Expr, span: Span) {

@@ -50,7 +50,7 @@ impl Entity {
 }
 
 /// Values that the language knows by name.
-pub(super) const KNOWN: [(&str, Known); 8] = [
+pub(super) const KNOWN: [(&str, Known); 10] = [
     ("inks", Known::Inks),
     ("width", Known::Width),
     ("height", Known::Height),
@@ -59,19 +59,30 @@ pub(super) const KNOWN: [(&str, Known); 8] = [
     ("floats", Known::Floats),
     ("mantissas", Known::Mantissas),
     ("samples", Known::Samples),
+    ("picture", Known::Picture),
+    ("input", Known::Input),
 ];
 
 /// The names of the values that the language knows, with their types.
-pub fn known() -> impl Iterator<Item = (&'static str, Ty)> {
-    KNOWN.iter().map(|(name, known)| (*name, type_of(*known)))
+pub fn known(program: &Program) -> impl Iterator<Item = (&'static str, Ty)> {
+    let ty = |known| type_of(known, program);
+    KNOWN.iter().map(move |(name, known)| (*name, ty(*known)))
 }
 
+/// The library's record of what a player holds.
+const HELD: &str = "held";
+
 /// The type of a value that the language knows by name.
-pub(super) fn type_of(known: Known) -> Ty {
+pub(super) fn type_of(known: Known, program: &Program) -> Ty {
     match known {
         Known::Offset | Known::Epsilon => Ty::Real,
         Known::Floats | Known::Mantissas => Ty::Bool,
-        Known::Inks | Known::Width | Known::Height | Known::Samples => Ty::Int,
+        Known::Inks | Known::Width | Known::Height | Known::Samples | Known::Picture => Ty::Int,
+        Known::Input => {
+            let mut records = program.records.iter();
+            let held = records.position(|r| r.library && r.name == HELD);
+            held.map_or(Ty::Error, |k| Ty::Record(RecordId(k)))
+        }
     }
 }
 

@@ -47,6 +47,8 @@ impl<'a> Lower<'a> {
             ExprKind::Map(id) => Ok(Val::Map(*id)),
             ExprKind::Scene(id) => Ok(Val::Scene(*id)),
             ExprKind::Known(known) => Ok(Val::Node(match known {
+                Known::Picture => return self.picture_number(span),
+                Known::Input => return self.input(span),
                 Known::Inks => self.int(self.image.palette.len() as i32, span),
                 Known::Width => self.int(self.image.width as i32, span),
                 Known::Height => self.int(self.image.height as i32, span),
@@ -79,6 +81,9 @@ impl<'a> Lower<'a> {
             ExprKind::Unary(op, of) => self.unary(*op, of, span),
             ExprKind::Binary(op, a, b) => self.binary(*op, a, b, span),
             ExprKind::Call { callee, args } => self.call(callee, args, &e.ty, span),
+            ExprKind::Part(base, at) if base.kind == ExprKind::Known(Known::Input) => {
+                Ok(Val::Node(self.held(*at, span)?))
+            }
             ExprKind::Part(base, at) => {
                 let base = self.expr(base)?;
                 self.part(base, *at, span)

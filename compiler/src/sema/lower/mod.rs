@@ -33,6 +33,7 @@ mod scene;
 mod shape;
 mod slope;
 mod spread;
+mod steps;
 mod tables;
 mod value;
 mod view;
@@ -109,6 +110,8 @@ pub struct Options {
     /// A function without parameters whose result's scalars the graph reports,
     /// beside the picture.
     pub report: Option<String>,
+    /// Whether the graph has the states' next values; without, it is of the first picture.
+    pub moves: bool,
 }
 
 impl Default for Options {
@@ -127,6 +130,7 @@ impl Default for Options {
             max_steps: None,
             ways: Ways::default(),
             report: None,
+            moves: false,
         }
     }
 }
@@ -145,6 +149,7 @@ struct Lower<'a> {
     effect: Option<u16>,
     image: Image,
     params: Vec<Val>,
+    steps_on: steps::Steps,
     consts: FxHashMap<ConstId, Val>,
     scenes: FxHashMap<SceneId, Vec<std::rc::Rc<value::Shape>>>,
     placed: FxHashMap<SceneId, std::rc::Rc<[each::Placed<'a>]>>,
@@ -194,6 +199,9 @@ pub fn lower(program: &Program, options: &Options) -> Result<Graph, Vec<Diagnost
     }
     let (ink, shade) = lower.picture(draw).map_err(|e| vec![*e])?;
     lower.report().map_err(|e| vec![*e])?;
+    if options.moves && options.report.is_none() {
+        lower.next_values().map_err(|e| vec![*e])?;
+    }
     let claims = std::mem::take(&mut lower.claims);
     let graph = lower.b.finish(lower.image, ink, shade);
     let broken = claims::check(&graph, &claims);
@@ -221,6 +229,7 @@ impl<'a> Lower<'a> {
                 palette: params::thin(&image.palette, options.inks),
             },
             params: Vec::new(),
+            steps_on: steps::Steps::default(),
             consts: FxHashMap::default(),
             scenes: FxHashMap::default(),
             placed: FxHashMap::default(),

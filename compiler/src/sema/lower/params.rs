@@ -138,6 +138,8 @@ impl<'a> Lower<'a> {
             Freeze::All => true,
             Freeze::Some(names) => names.contains(&param.name),
         };
+        // What moves is no constant.
+        let frozen = frozen && !(self.options.moves && param.next.is_some());
         let mut nodes = Vec::new();
         let values = values.into_iter().zip(usual);
         for (k, ((value, usual), range)) in values.zip(ranges).enumerate() {
@@ -146,6 +148,10 @@ impl<'a> Lower<'a> {
                 false => self.b.param(graph::Param {
                     name: param.name.clone(),
                     component: component(param, k),
+                    role: match param.next {
+                        Some(_) if self.options.moves => graph::Role::State,
+                        _ => graph::Role::Param,
+                    },
                     ty: value.ty(),
                     value: value.real(),
                     usual: usual.real(),

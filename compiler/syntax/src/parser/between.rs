@@ -5,9 +5,9 @@ use crate::source::Diagnostic;
 use crate::token::Token;
 
 /// The words that begin items.
-const ITEMS: [&str; 12] = [
-    "image", "param", "const", "fn", "effect", "shape", "scene", "record", "map", "dither", "draw",
-    "use",
+const ITEMS: [&str; 13] = [
+    "image", "param", "state", "const", "fn", "effect", "shape", "scene", "record", "map",
+    "dither", "draw", "use",
 ];
 
 /// Reports what stands where an item should begin; nothing where the lexer has spoken.

@@ -273,6 +273,7 @@ impl Spot<'_> {
         let example = match self.item() {
             "image" => "image 320 x 240 inks black, white;",
             "param" => "param a: real = 1 in 0 .. 2;",
+            "state" => "state a: int = 0 in 0 .. 9 -> a + 1;",
             "const" => "const a = 1;",
             "fn" => "fn f(a: real) -> real = a;",
             "effect" => "effect f(a: real) -> real else 0 = a;",

@@ -17,6 +17,7 @@ pub fn item<'t>() -> Rule<'t, Item> {
     choice((
         image(expr.clone()),
         param(expr.clone()),
+        state(expr.clone()),
         constant(expr.clone()),
         function(expr.clone()),
         effect(expr.clone()),
@@ -71,19 +72,12 @@ fn image<'t>(expr: Rule<'t, Expr>) -> Rule<'t, ItemKind> {
 
 /// `param eye: vec3 = (0, 0, 3) in (..) .. (..);`
 fn param<'t>(expr: Rule<'t, Expr>) -> Rule<'t, ItemKind> {
-    let range = word("in")
-        .ignore_then(expr.clone())
-        .then_ignore(sign(".."))
-        .then(expr.clone());
     let value = expr
-        .then(range.or_not())
+        .clone()
+        .then(range(expr).or_not())
         .then_ignore(semicolon())
         .recover_with(via_parser(skip().map(|span| (error(span), None))));
-    begins("param")
-        .ignore_then(name())
-        .then_ignore(sign(":"))
-        .then(ty())
-        .then_ignore(sign("="))
+    declared("param")
         .then(value)
         .map(|((name, ty), (value, range))| {
             ItemKind::Param(Param {
@@ -91,8 +85,53 @@ fn param<'t>(expr: Rule<'t, Expr>) -> Rule<'t, ItemKind> {
                 ty,
                 value,
                 range,
+                next: None,
             })
         })
+        .boxed()
+}
+
+/// `state eye: vec3 = (0, 0, 3) in (..) .. (..) -> eye + (0, 0, 1);`
+fn state<'t>(expr: Rule<'t, Expr>) -> Rule<'t, ItemKind> {
+    let value = expr
+        .clone()
+        .then(range(expr.clone()).or_not())
+        .then_ignore(sign("->"))
+        .then(expr)
+        .then_ignore(semicolon())
+        .recover_with(via_parser(
+            skip().map(|span| ((error(span), None), error(span))),
+        ));
+    declared("state")
+        .then(value)
+        .map(|((name, ty), ((value, range), next))| {
+            ItemKind::Param(Param {
+                name,
+                ty,
+                value,
+                range,
+                next: Some(Box::new(next)),
+            })
+        })
+        .boxed()
+}
+
+/// `param eye: vec3 =`
+fn declared<'t>(word: &'static str) -> Rule<'t, (Name, Type)> {
+    begins(word)
+        .ignore_then(name())
+        .then_ignore(sign(":"))
+        .then(ty())
+        .then_ignore(sign("="))
+        .boxed()
+}
+
+/// `in (..) .. (..)`
+fn range<'t>(expr: Rule<'t, Expr>) -> Rule<'t, (Expr, Expr)> {
+    word("in")
+        .ignore_then(expr.clone())
+        .then_ignore(sign(".."))
+        .then(expr)
         .boxed()
 }
 

@@ -191,12 +191,12 @@ fn a_number_beyond_every_format_stays_finite() {
     assert!(!print::tree(&file).contains("inf"));
 }
 
-const SOUP: [&str; 79] = [
-    "image", "param", "const", "fn", "effect", "shape", "scene", "record", "map", "dither", "draw",
-    "use", "if", "let", "then", "else", "loop", "next", "spread", "each", "and", "or", "not",
-    "div", "mod", "true", "none", "is", "in", "where", "x", "y", "inks", "max", "to", "frame",
-    "row", "a", "f", "vec3", "real", "1", "0.5", "90deg", "#ff0000", "\"##\"", "'#'", "(", ")",
-    "[", "]", "{", "}", ",", ";", ":", ".", "?", "<", ">", "=", "+", "*", "/", "^", "-", "..",
+const SOUP: [&str; 80] = [
+    "image", "param", "state", "const", "fn", "effect", "shape", "scene", "record", "map",
+    "dither", "draw", "use", "if", "let", "then", "else", "loop", "next", "spread", "each", "and",
+    "or", "not", "div", "mod", "true", "none", "is", "in", "where", "x", "y", "inks", "max", "to",
+    "frame", "row", "a", "f", "vec3", "real", "1", "0.5", "90deg", "#ff0000", "\"##\"", "'#'", "(",
+    ")", "[", "]", "{", "}", ",", ";", ":", ".", "?", "<", ">", "=", "+", "*", "/", "^", "-", "..",
     "->", "=>", "==", "<=", "//", "\n", "5.", "'", "\"", "&&", "é", "\0",
 ];
 

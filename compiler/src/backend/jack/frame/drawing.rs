@@ -4,6 +4,7 @@ use super::super::Text;
 use super::super::code::Code;
 use super::super::error_names::Spread;
 use super::super::report::reports;
+use super::super::steps::moves;
 use super::{Subroutine, subroutine};
 use crate::plan::Plan;
 use slowlight_runtime_jack::TERM;
@@ -80,6 +81,7 @@ pub(super) fn drawing(code: &mut Code) -> Vec<Subroutine> {
     let column = code.body(&plan.tree.column, "drawColumn");
     let row = code.body(&plan.tree.row, "drawRow");
     let pixel = code.body(&plan.tree.pixel, "drawPixel");
+    let steps = moves(code);
     code.subroutines();
     let ink = code.read(plan.graph.ink);
     let spread = code.spread.clone();
@@ -88,21 +90,24 @@ pub(super) fn drawing(code: &mut Code) -> Vec<Subroutine> {
     let refined = code.refined.clone();
 
     let mut picture = Text::default();
-    if code.object.values().next().is_some() {
+    if code.object.values().next().is_some() && steps.is_empty() {
         picture.line("do takeParameters();");
     }
     picture.append(frame);
     code.fill_columns(column, &mut picture);
     picture.span = plan.drawn;
     let canvas = code.names.canvas.clone();
-    if plan.plot && canvas.is_none() {
+    if plan.plot && canvas.is_none() && steps.is_empty() {
         picture.line("do Screen.setColor(true);");
     }
     match &refined {
         Some(refined) => refined.picture(&y, &rows, &mut picture),
         None => down(&y, &rows, spread.as_ref(), &mut picture),
     }
-    let told = reports(code, &mut picture);
+    let told = match steps.is_empty() {
+        true => reports(code, &mut picture),
+        false => None,
+    };
 
     let mut across = Text {
         span: plan.drawn,
@@ -141,9 +146,15 @@ pub(super) fn drawing(code: &mut Code) -> Vec<Subroutine> {
         canvas.pixel(&black(&ink.at(TERM), &[]), &mut dot);
     } else if plan.plot {
         let seen = seen(code, &code.names.axes, &rows);
-        dot.open(format!("if ({}) {{", black(&ink.at(TERM), &seen)));
-        dot.line(drawn(plan, [&x, &y]));
-        dot.close("}");
+        if !steps.is_empty() {
+            // The picture before is still there.
+            dot.line(format!("do Screen.setColor({} = 0);", ink.at(TERM)));
+            dot.line(drawn(plan, [&x, &y]));
+        } else {
+            dot.open(format!("if ({}) {{", black(&ink.at(TERM), &seen)));
+            dot.line(drawn(plan, [&x, &y]));
+            dot.close("}");
+        }
     } else if let Some(place) = plan.place(plan.graph.ink) {
         // Worked out, not drawn.
         let home = code.home(place, plan.runtime.int);
@@ -176,6 +187,7 @@ pub(super) fn drawing(code: &mut Code) -> Vec<Subroutine> {
         ),
     ];
     all.extend(told);
+    all.extend(steps);
     let next = refined.iter().flat_map(|r| r.methods(&code.names.axes));
     all.extend(next);
     all

@@ -45,6 +45,9 @@ pub(in crate::hack::vm) fn look(memory: &mut Memory, os: &mut Os) -> Result<(), 
         return Ok(());
     };
     let frame = (os.now + keys.waited) / VM_FRAME;
+    let words = memory.iter().take(usize::from(SCREEN));
+    keys.keyboard
+        .remember(|| words.map(|word| *word as i16).collect());
     memory[usize::from(KEYBOARD)] = match keys.keyboard.look(frame, || shown(memory)) {
         Seen::Nothing => 0,
         Seen::Key(key) => code(key),

@@ -1,0 +1,230 @@
+//! Between two pictures on the plain machine: what is held, and the states' next values.
+
+use super::code::Code;
+use super::ports::{HANDS, HELD};
+use super::slots::Slot;
+use crate::backend::mos6502::homes::Homes;
+use crate::ir::graph::*;
+use crate::plan::Plan;
+use slowlight_routine::{Format, Type};
+use std::collections::BTreeSet;
+
+/// Where the next picture begins.
+pub(super) const NEXT: &str = "next_picture";
+
+/// What stands behind a picture that moves.
+pub(super) fn between(code: &mut Code<'_>) {
+    code.text.span = None;
+    code.text.headline("what is held now");
+    code.text.code(&format!("sta {HANDS}"));
+    let plan = code.plan;
+    for (id, button) in plan.graph.buttons() {
+        let slot = Slot::Param(id.0);
+        let (home, bytes) = (
+            code.homes.name(slot).to_owned(),
+            code.homes.bytes(plan, slot),
+        );
+        let skip = format!("not_{}", button.name());
+        let bit = 1 << button as u8;
+        code.text.code(&format!(
+            "ldx #0 | lda {HELD} | and #{bit} | beq {skip} | inx"
+        ));
+        code.text.label(&skip);
+        code.text.code(&format!("stx {home} | lda #0"));
+        for k in 1..bytes {
+            code.text.code(&format!("sta {home}+{k}"));
+        }
+    }
+    code.text.headline("the states in the next picture");
+    code.block(&plan.tree.step);
+    code.text.span = None;
+    for step in in_turn(&plan.graph) {
+        code.give(step);
+    }
+    code.text.code(&format!("jmp {NEXT}"));
+}
+
+/// One of the copies that give all states their next values at once.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Move {
+    /// Gives a state a node's value.
+    Give(ParamId, NodeId),
+    /// Puts a state's value aside, before it is given another.
+    Aside(ParamId),
+    /// Gives a state what was put aside.
+    Back(ParamId),
+}
+
+/// The copies in an order in which none spoils what a later one reads: a state that others are
+/// given is read before it is written, and of a ring of such one is put aside.
+fn in_turn(graph: &Graph) -> Vec<Move> {
+    let source = |next: NodeId| match graph.node(next) {
+        Node::Param(other) => Some(other),
+        _ => None,
+    };
+    let steps = graph
+        .steps()
+        .filter(|(state, next)| source(*next) != Some(*state));
+    let mut waiting: Vec<(ParamId, NodeId)> = steps.collect();
+    let mut aside: BTreeSet<ParamId> = BTreeSet::new();
+    let mut done = Vec::new();
+    while !waiting.is_empty() {
+        let read = |state: ParamId| {
+            let readers = waiting
+                .iter()
+                .filter(|(_, next)| source(*next) == Some(state));
+            readers.count() > 0 && !aside.contains(&state)
+        };
+        match waiting.iter().position(|(state, _)| !read(*state)) {
+            Some(at) => {
+                let (state, next) = waiting.remove(at);
+                let from = source(next).filter(|from| aside.remove(from));
+                done.push(match from {
+                    Some(_) => Move::Back(state),
+                    None => Move::Give(state, next),
+                });
+            }
+            None => {
+                let Some((state, _)) = waiting.first() else {
+                    break;
+                };
+                aside.insert(*state);
+                done.push(Move::Aside(*state));
+            }
+        }
+    }
+    done
+}
+
+impl Code<'_> {
+    fn give(&mut self, copy: Move) {
+        let plan = self.plan;
+        let home = |code: &Self, state: ParamId| {
+            let slot = Slot::Param(state.0);
+            (
+                code.homes.name(slot).to_owned(),
+                code.homes.bytes(plan, slot),
+            )
+        };
+        match copy {
+            Move::Aside(state) => {
+                let (home, bytes) = home(self, state);
+                for k in 0..bytes {
+                    self.text.code(&format!("lda {home}+{k} | pha"));
+                }
+            }
+            Move::Back(state) => {
+                let (home, bytes) = home(self, state);
+                for k in (0..bytes).rev() {
+                    self.text.code(&format!("pla | sta {home}+{k}"));
+                }
+            }
+            Move::Give(state, next) => {
+                let (home, bytes) = home(self, state);
+                let bytes = match plan.graph.ty(next) {
+                    Type::Bool => 1,
+                    _ => bytes as u8,
+                };
+                self.text.line(format!("        ; {home}"));
+                let real = plan.graph.ty(next) == Type::Real;
+                if real && plan.points().is_some() {
+                    return self.give_real(state, (&home, bytes), next);
+                }
+                let from = self.homes.operand(plan, next);
+                match plan.runtime.real {
+                    format @ Format::Real40 if real => self.copy(&from, &home, format),
+                    _ => self.copy_bytes(&from, (&home, bytes)),
+                }
+            }
+        }
+    }
+}
+
+/// Where a state is in memory.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Held {
+    /// Which state.
+    pub state: ParamId,
+    /// The address of its lowest byte.
+    pub address: u16,
+    /// How many bytes it has.
+    pub bytes: u8,
+}
+
+/// Where the program has its states, in their order.
+pub fn held(plan: &Plan) -> Vec<Held> {
+    let homes = Homes::new(plan);
+    let steps = plan.graph.steps();
+    let held = steps.filter_map(|(state, next)| {
+        let slot = Slot::Param(state.0);
+        let size = homes.bytes(plan, slot) as u8;
+        Some(Held {
+            state,
+            address: homes.address(slot)?,
+            bytes: match plan.graph.ty(next) {
+                Type::Bool => 1,
+                Type::Real if plan.runtime.real == Format::Real40 => 5,
+                _ => size,
+            },
+        })
+    });
+    held.collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::check;
+    use crate::sema::Options;
+
+    /// What copies make of the values 1, 2, 3 and so on, where a computed one gives 100.
+    fn given(text: &str) -> Vec<u32> {
+        let text = format!("image 8 x 4 inks black, white; {text} draw (x, y) = ink(a);");
+        let scene = check("test", &text);
+        assert!(scene.is_right(), "{:?}", scene.diagnostics);
+        let options = Options {
+            moves: true,
+            ..Options::default()
+        };
+        let graph = scene.lower(&options).expect("a graph");
+        let mut values: Vec<u32> = (1..).take(graph.params.len()).collect();
+        let mut aside = Vec::new();
+        for copy in in_turn(&graph) {
+            match copy {
+                Move::Aside(state) => aside.push(values[state.0 as usize]),
+                Move::Back(state) => values[state.0 as usize] = aside.pop().expect("one"),
+                Move::Give(state, next) => {
+                    values[state.0 as usize] = match graph.node(next) {
+                        Node::Param(other) => values[other.0 as usize],
+                        _ => 100,
+                    };
+                }
+            }
+        }
+        assert!(aside.is_empty());
+        values
+    }
+
+    fn state(name: &str, next: &str) -> String {
+        format!("state {name}: bool = true -> {next};")
+    }
+
+    #[test]
+    fn states_are_given_each_other_s_values_at_once() {
+        let all = |pairs: &[(&str, &str)]| {
+            let a = "state a: int = 1 in 0 .. 9 -> a + 1;".to_owned();
+            let rest = pairs.iter().map(|(name, next)| state(name, next));
+            given(&std::iter::once(a).chain(rest).collect::<String>())
+        };
+        assert_eq!(all(&[("p", "q"), ("q", "p")]), [100, 3, 2]);
+        assert_eq!(all(&[("p", "q"), ("q", "r"), ("r", "p")]), [100, 3, 4, 2]);
+        assert_eq!(
+            all(&[("p", "q"), ("q", "not q"), ("r", "q")]),
+            [100, 3, 100, 3]
+        );
+        assert_eq!(
+            all(&[("p", "q"), ("q", "p"), ("r", "p"), ("s", "t"), ("t", "s")]),
+            [100, 3, 2, 2, 6, 5]
+        );
+    }
+}

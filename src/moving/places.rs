@@ -1,0 +1,90 @@
+//! States in a machine's memory: where a program has them, and what they are.
+
+use slowlight_compiler::backend::{jack, mos6502};
+use slowlight_compiler::ir::graph::ParamId;
+use slowlight_compiler::plan::Plan;
+use slowlight_compiler::targets::Language;
+use slowlight_routine::log::model::Log;
+use slowlight_routine::{Bits, Format};
+
+/// A state's bits at the start.
+pub fn bits_of(plan: &Plan, id: ParamId) -> Bits {
+    plan.params.get(id.0 as usize).map_or(0, |p| p.bits)
+}
+
+/// Where a program has its states.
+pub enum Places {
+    /// In the scene's object.
+    Hack(Vec<jack::Held>),
+    /// At addresses.
+    Mos6502(Vec<mos6502::Held>),
+}
+
+impl Places {
+    /// Those of a plan's program.
+    pub fn of(plan: &Plan) -> Places {
+        match plan.target.system.language() {
+            Language::Assembly => Places::Mos6502(mos6502::held(plan)),
+            Language::Jack | Language::Basic => Places::Hack(jack::held(plan)),
+        }
+    }
+
+    /// A state's bits, if it is in memory, and if the memory is such.
+    pub fn held(&self, plan: &Plan, id: ParamId, memory: &[i16]) -> Option<Option<Bits>> {
+        match self {
+            Places::Hack(all) => {
+                let held = all.iter().find(|held| held.state == id)?;
+                Some(on_hack(plan, *held, memory))
+            }
+            Places::Mos6502(all) => {
+                let held = all.iter().find(|held| held.state == id)?;
+                Some(on_6502(plan, *held, memory))
+            }
+        }
+    }
+}
+
+/// A state's bits in a 6502's memory, low byte first.
+fn on_6502(plan: &Plan, held: mos6502::Held, memory: &[i16]) -> Option<Bits> {
+    let from = usize::from(held.address);
+    let bytes = memory.get(from..from + usize::from(held.bytes))?;
+    let bits = bytes
+        .iter()
+        .rev()
+        .fold(0, |bits: u64, byte| bits << 8 | u64::from(*byte as u8));
+    let upper = 64 - 8 * u32::from(held.bytes);
+    let signed = (bits << upper) as i64 >> upper;
+    Some(match plan.param_format(held.state) {
+        Format::Bool => Bits::from(bits != 0),
+        Format::Log { .. } | Format::Real40 => bits,
+        _ => signed as Bits,
+    })
+}
+
+/// A state's bits in the Hack's memory, where `this` is the scene's object.
+fn on_hack(plan: &Plan, held: jack::Held, memory: &[i16]) -> Option<Bits> {
+    const THIS: usize = 3;
+    let at = |address: usize| memory.get(address).copied();
+    let object = usize::from(at(THIS)? as u16);
+    let word = at(object + held.word)?;
+    let format = plan.param_format(held.state);
+    Some(match format {
+        Format::Bool => Bits::from(word != 0),
+        Format::Log { .. } => {
+            let plus = match held.sign {
+                Some(sign) => at(object + sign)? != 0,
+                None => Log::from_bits(bits_of(plan, held.state)).plus,
+            };
+            Bits::from(word as u16) | Bits::from(!plus) << 16
+        }
+        real if real.is_object() => {
+            let from = usize::from(word as u16);
+            let words = (0..usize::from(real.words())).map(|k| at(from + k));
+            words
+                .collect::<Option<Vec<i16>>>()?
+                .into_iter()
+                .fold(0, |bits, word| bits << 16 | Bits::from(word as u16))
+        }
+        _ => i64::from(word) as Bits,
+    })
+}
