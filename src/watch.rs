@@ -5,6 +5,7 @@ use crate::diagnostics;
 use crate::digest;
 use crate::draw::STACK;
 use crate::failure::{Failure, Outcome};
+use crate::files;
 use crate::interrupt::{self, Job};
 use crate::output::remark;
 use crate::scene::{Changes, Scene, is_standard_input};
@@ -40,6 +41,8 @@ pub fn each_save(scene: &Path, changes: &Changes, work: &Work) -> Outcome<()> {
         let message = "--watch watches a file, and standard input is none";
         return Err(Failure::Usage(message.to_owned()));
     }
+    // What was never there is a wrong name, not a scene that is about to be saved.
+    files::read_text(scene)?;
     // Ctrl-C is how it ends, and what it waits for.
     let _attentive = interrupt::writing();
     let mut watched = Watched::new()?;

@@ -23,6 +23,12 @@ impl Hands {
             None => given.to_owned(),
         };
         let wrong = |what: String| Failure::Usage(format!("--keys: {what}"));
+        if let Some(word) = foreign(&text) {
+            let known = "left, right, up, down, fire, wait and counts (docs/moving.md)";
+            return Err(wrong(format!(
+                "`{word}` is nothing a player holds: {known}"
+            )));
+        }
         let script: Script = fired(&text)
             .parse()
             .map_err(|fault| wrong(format!("{fault}")))?;
@@ -62,6 +68,16 @@ impl Hands {
     }
 }
 
+/// The first word that is no part of what a player holds.
+fn foreign(text: &str) -> Option<&str> {
+    const HELD: [&str; 7] = ["left", "right", "up", "down", "fire", "space", "wait"];
+    text.split_whitespace().find(|word| {
+        let (name, count) = word.split_once('*').unwrap_or((word, "1"));
+        let is_count = |text: &str| text.parse::<u64>().is_ok();
+        !(HELD.contains(&name) && is_count(count) || is_count(word))
+    })
+}
+
 /// A script with `fire` as the key that it is.
 fn fired(text: &str) -> String {
     let line = |line: &str| {
@@ -80,11 +96,11 @@ mod tests {
 
     #[test]
     fn a_script_says_what_is_held_after_each_picture() {
-        let hands = Hands::of("up*2 fire wait 1 left x").expect("a script");
+        let hands = Hands::of("up*2 fire wait 1 left wait 1").expect("a script");
         let held: Vec<Option<Button>> = (0..9).map(|at| hands.held(at)).collect();
         let (up, fire, left) = (Some(Button::Up), Some(Button::Fire), Some(Button::Left));
         assert_eq!(held, [up, up, None, fire, None, None, left, None, None]);
-        for wrong in ["up*", "shot a.png", "sideways"] {
+        for wrong in ["up*", "shot a.png", "sideways", "a", "quit"] {
             assert!(
                 matches!(Hands::of(wrong), Err(Failure::Usage(_))),
                 "{wrong}"

@@ -29,8 +29,14 @@ impl Places {
         }
     }
 
-    /// A state's bits, if it is in memory, and if the memory is such.
-    pub fn held(&self, plan: &Plan, id: ParamId, memory: &[i16]) -> Option<Option<Bits>> {
+    /// A state's bits, if it is in memory, and if the memory is such; what of them the program
+    /// never reads is as it should be.
+    pub fn held(
+        &self,
+        plan: &Plan,
+        (id, should): (ParamId, Bits),
+        memory: &[i16],
+    ) -> Option<Option<Bits>> {
         match self {
             Places::Hack(all) => {
                 let held = all.iter().find(|held| held.state == id)?;
@@ -38,20 +44,24 @@ impl Places {
             }
             Places::Mos6502(all) => {
                 let held = all.iter().find(|held| held.state == id)?;
-                Some(on_6502(plan, *held, memory))
+                Some(on_6502(plan, *held, should, memory))
             }
         }
     }
 }
 
 /// A state's bits in a 6502's memory, low byte first.
-fn on_6502(plan: &Plan, held: mos6502::Held, memory: &[i16]) -> Option<Bits> {
+fn on_6502(plan: &Plan, held: mos6502::Held, should: Bits, memory: &[i16]) -> Option<Bits> {
     let from = usize::from(held.address);
     let bytes = memory.get(from..from + usize::from(held.bytes))?;
-    let bits = bytes
-        .iter()
-        .rev()
-        .fold(0, |bits: u64, byte| bits << 8 | u64::from(*byte as u8));
+    let mut bits = 0;
+    for (k, (byte, should)) in bytes.iter().zip(should.to_le_bytes()).enumerate() {
+        let byte = match held.read >> k & 1 {
+            0 => should,
+            _ => *byte as u8,
+        };
+        bits |= u64::from(byte) << (8 * k);
+    }
     let upper = 64 - 8 * u32::from(held.bytes);
     let signed = (bits << upper) as i64 >> upper;
     Some(match plan.param_format(held.state) {

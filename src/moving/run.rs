@@ -142,7 +142,7 @@ impl<'p> Follow<'p> {
         let mut states = Vec::new();
         for (id, should) in self.should.clone() {
             // What nothing reads is nowhere, and as it should be.
-            let is = match self.places.held(plan, id, memory) {
+            let is = match self.places.held(plan, (id, should), memory) {
                 Some(None) => {
                     let message = "the machine's memory does not hold the states".to_owned();
                     return Err(Failure::Wrong(message));

@@ -14,4 +14,5 @@ pub mod print;
 pub mod ramp;
 pub mod read;
 pub mod refinement;
+pub mod table;
 pub mod tree;

@@ -9,7 +9,6 @@ use crate::ir::tree::*;
 use crate::schedule::locality::{by_first_use, down_to_runs};
 use crate::schedule::outline::{Extent, outline};
 use crate::schedule::statements::schedule_together;
-use crate::schedule::step::sink;
 use crate::source::{Diagnostic, Span};
 use crate::targets::Sizes;
 
@@ -45,8 +44,11 @@ impl PlannedScene {
         {
             return plain.outlined_until(enough, name);
         }
-        let mut tree = schedule_together(&self.graph);
-        sink(&self.graph, &mut tree);
+        // Ranges of what is stepped behind the picture do not reach through subroutines.
+        if self.graph.is_moving() {
+            return Ok(self.clone());
+        }
+        let tree = schedule_together(&self.graph);
         let sizes = &self.target.sizes;
         let (graph, tree) = self.with_subroutines(tree, (Extent::All, enough), sizes, name);
         self.of(graph, tree)
@@ -60,6 +62,9 @@ impl PlannedScene {
         runs: bool,
         name: &dyn Fn(Span) -> Option<String>,
     ) -> Option<PlannedScene> {
+        if self.graph.is_moving() {
+            return None;
+        }
         let mut tree = self.tree.clone();
         if runs {
             down_to_runs(&self.graph, &mut tree);

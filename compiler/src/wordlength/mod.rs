@@ -43,7 +43,7 @@ use crate::analysis::range::{Ranges, Slack, ranges};
 use crate::ir::graph::*;
 use crate::ir::tree::*;
 use rustc_hash::{FxHashMap, FxHashSet};
-use scales::{cap, power, wanted};
+use scales::{cap, only_cut, power, wanted};
 use slowlight_routine::scale::{self, Scales, finest, fitting};
 use slowlight_routine::{Format, Op, Range, Routine, Runtime, Type};
 
@@ -242,8 +242,10 @@ const BEYOND: f64 = 32768.0;
 const ABOVE: f64 = 3.0;
 
 /// Leaves what is one of its operands, or the sum of them, no more bits than the finest of
-/// these has; and what is a power of two of another one those that this has, moved.
+/// these has; and a power of two of another value, of which only whole numbers are read, those
+/// that this has, moved.
 fn no_finer(graph: &Graph, copies: &Copies, own: &mut [i8]) {
+    let places = only_cut(graph);
     let computed = |id: &NodeId| graph.ty(*id) == Type::Real && !copies.is_copy(*id);
     for id in graph.ids().filter(computed) {
         let Node::Apply(op, args) = graph.node(id) else {
@@ -255,7 +257,9 @@ fn no_finer(graph: &Graph, copies: &Copies, own: &mut [i8]) {
         let finest = live.map(|arg| own[arg.0 as usize]).max();
         let moved = args.iter().find_map(|arg| power(graph, *arg));
         let finest = match (op, moved) {
-            (Op::Mul, Some(by)) => finest.map(|finest| (finest + by).max(scale::FEWEST)),
+            (Op::Mul, Some(by)) if places[id.0 as usize] => {
+                finest.map(|finest| (finest + by).max(scale::FEWEST))
+            }
             _ => finest.filter(|_| at_one_scale(op)),
         };
         if let Some(finest) = finest {

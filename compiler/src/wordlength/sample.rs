@@ -86,7 +86,8 @@ impl Sample {
 /// Looks at pixels, for values of so many bits at most, until so many statements have run. The
 /// parts are the same on any number of threads, and are added up in their order.
 pub fn seen(graph: &Graph, tree: &Tree, bits: u8, most: u64) -> Sample {
-    let live = graph.params.iter().any(|p| p.range.is_some());
+    let is_live = |p: &Param| p.range.is_some() || p.ty == Type::Bool;
+    let live = graph.params.iter().any(is_live);
     let [choices, parts] = if live { [CHOICES, 1] } else { [1, PARTS] };
     let looked_at = match !live && bits > BRIEF {
         true => CLOSELY,

@@ -75,6 +75,21 @@ fn long(bits: u8) -> i8 {
 /// count for: smaller ones count for less, a square's most of all.
 const WIDE: i8 = 3;
 
+/// Which values are read as whole numbers alone.
+pub(super) fn only_cut(graph: &Graph) -> Vec<bool> {
+    let mut only = vec![true; graph.nodes.len()];
+    let mut read = |id: NodeId| only[id.0 as usize] = false;
+    for id in graph.ids() {
+        let node = graph.node(id);
+        if !matches!(node, Node::Apply(Op::Round | Op::Floor, _)) {
+            node.operands().for_each(&mut read);
+        }
+    }
+    graph.loops.iter().flat_map(Loop::roots).for_each(&mut read);
+    graph.outputs().for_each(&mut read);
+    only
+}
+
 /// The scale at which a constant is 1 or -1.
 pub(super) fn power(graph: &Graph, id: NodeId) -> Option<i8> {
     let (scale, units) = least(graph, id)?;

@@ -9,7 +9,7 @@ use crate::ir::tree::*;
 use crate::wordlength::adjoint::Asked;
 use crate::wordlength::low_discrepancy::GOLDEN;
 use crate::wordlength::rates::{Often, first_of_pixels};
-use slowlight_routine::{Op, Type, Value};
+use slowlight_routine::{Op, Range, Type, Value};
 use std::cell::{Cell, RefCell};
 
 /// Values by which a way or an entry was chosen: of the picture, the row and the pixel.
@@ -134,7 +134,12 @@ impl<'g> Watch<'g> {
     fn chosen(&self, id: ParamId) -> Value {
         let own = self.exact.param(id);
         let found = self.exact.0.params.get(id.0 as usize);
-        let Some((param, range)) = found.and_then(|p| Some((p, p.range?))) else {
+        // A bool may be either, whatever is said of it.
+        let range = |p: &Param| {
+            p.range
+                .or((p.ty == Type::Bool).then(|| Range::new(0.0, 1.0)))
+        };
+        let Some((param, range)) = found.and_then(|p| Some((p, range(p)?))) else {
             return own;
         };
         let part = self.part(id.0);

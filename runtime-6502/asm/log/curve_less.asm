@@ -2,7 +2,7 @@
 log_curve_less:
         sec
         lda acc
-        sbc #log_octave/4
+        sbc #log_unit_of_ten
         sta acc
         bcs log_curve_done
         dec acc+1

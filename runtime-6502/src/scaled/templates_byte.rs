@@ -92,8 +92,8 @@ pub(crate) const MULTIPLY_5: &str = product!("" "" "");
 pub(crate) const MULTIPLY_4: &str = product!("" "" "" "");
 pub(crate) const MULTIPLY_RIGHT: &str = "
     ldy {1.0} | lda {0.0} | jsr product8 | ldy {#n-8}
-    lower{n}:
-    cmp #$80 | ror | dey | bne lower{n}
+    below{n}:
+    cmp #$80 | ror | dey | bne below{n}
     adc #0 | sta {r.0}";
 pub(crate) const MULTIPLY_DOWN: &str = "
     ldy {1.0} | lda {0.0} | jsr product8 | jsr take_product8

@@ -106,6 +106,13 @@ impl Walk<'_> {
             return exact;
         };
         let [from, to] = [found.from, found.to].map(|id| self.read(id));
+        // As the sum reads it, it ends where it does by itself.
+        let (summed, _) = self.operands(id, Op::Add, operands);
+        let start = summed[usize::from(operands[1] == found.from)];
+        let unit = self.readings(id);
+        if start.lo > from.lo + unit || start.hi < from.hi - unit {
+            return exact;
+        }
         let Node::Apply(_, factors) = self.graph.node(found.product) else {
             return exact;
         };

@@ -149,11 +149,40 @@ pub struct Held {
     pub address: u16,
     /// How many bytes it has.
     pub bytes: u8,
+    /// Which of them the program reads, by bit: the others are not kept.
+    pub read: u8,
+}
+
+/// Which bytes of a home a program reads, by bit: all where it takes the home's address.
+fn read(lines: &[&str], home: &str) -> u8 {
+    let mut read = 0;
+    for line in lines {
+        let mut words = line.split_whitespace();
+        let (Some(name), Some(operand)) = (words.next(), words.next()) else {
+            continue;
+        };
+        let named = |word: &str| {
+            let mut symbols = word.split(|c: char| !(c.is_alphanumeric() || c == '_'));
+            symbols.any(|symbol| symbol == home)
+        };
+        if matches!(name, "sta" | "stx" | "sty") || name.starts_with(';') || !named(operand) {
+            continue;
+        }
+        let byte = match operand.strip_prefix(home) {
+            Some("") => Some(0),
+            Some(rest) => rest.strip_prefix('+').and_then(|k| k.parse::<u32>().ok()),
+            None => None,
+        };
+        read |= byte.and_then(|k| 1u8.checked_shl(k)).unwrap_or(0xFF);
+    }
+    read
 }
 
 /// Where the program has its states, in their order.
 pub fn held(plan: &Plan) -> Vec<Held> {
     let homes = Homes::new(plan);
+    let text = super::document(plan, super::syntax::USUAL).text;
+    let lines: Vec<&str> = text.lines().filter(|line| line.starts_with(' ')).collect();
     let steps = plan.graph.steps();
     let held = steps.filter_map(|(state, next)| {
         let slot = Slot::Param(state.0);
@@ -166,6 +195,7 @@ pub fn held(plan: &Plan) -> Vec<Held> {
                 Type::Real if plan.runtime.real == Format::Real40 => 5,
                 _ => size,
             },
+            read: read(&lines, homes.name(slot)),
         })
     });
     held.collect()

@@ -120,6 +120,7 @@ fn numbers_by_name_are_the_models_of<const FRAC: u8>() {
         ("log_of_half_turn", of.half_turn),
         ("log_of_natural", of.units),
         ("log_octave", L::<FRAC>::OCTAVE / 256),
+        ("log_unit_of_ten", L::<FRAC>::OCTAVE / 1024),
     ] {
         assert_eq!(symbols[name], i64::from(n as u16), "{name}");
     }

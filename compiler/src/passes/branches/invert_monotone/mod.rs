@@ -65,8 +65,13 @@ pub fn invert_monotone(graph: &Graph, ranges: &Ranges, runtime: &Runtime) -> Opt
         let next = rebuild_by(graph, &mut comparing);
         (comparing.done && !comparing.failed).then_some(next)
     };
-    // What selects a threshold may not be there yet where a loop ends.
-    compared(sunk::results(graph, &chain)).or_else(|| compared(Vec::new()))
+    // What selects a threshold may not be there yet where a loop ends, and states' next values
+    // may hang on what a loop's results were.
+    let sunk = match graph.is_moving() {
+        true => Vec::new(),
+        false => sunk::results(graph, &chain),
+    };
+    compared(sunk).or_else(|| compared(Vec::new()))
 }
 
 /// Finds the ink by comparisons while a graph is rebuilt.
