@@ -271,7 +271,7 @@ fn a_param_goes_from_value_to_value() {
     fails(&with(&["--set", "at=0,0..7,0", "--freeze", "at"]), "folded");
     fails(&["--pictures", "2", "--set", "at=0,0..7,0"], "where to?");
     fails(&["--pictures", "2", "-o", "a.pgm"], "no film's name");
-    fails(&with(&["--keys", "sideways"]), "no key");
+    fails(&with(&["--keys", "sideways"]), "nothing a player holds");
     assert!(!dir.join("a.gif").exists());
 }
 
