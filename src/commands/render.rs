@@ -56,14 +56,7 @@ pub fn run(args: &Args) -> Outcome<()> {
     let output = PictureFile::named(args.output.as_deref())?;
     let scene = Scene::load(&args.scene)?;
     let (width, height) = scene.size();
-    let screen = ScreenArgs {
-        mode: args.mode.clone(),
-        ..ScreenArgs::default()
-    };
-    let shown = match args.target {
-        Some(target) => Some(screen.mode(target, &scene)?.inks),
-        None => None,
-    };
+    let shown = shown_inks(args, &scene)?;
     let mut window = Window::whole(width, height);
     if let Some(rows) = &args.rows {
         window.rows = target_args::rows(rows, height)?;
@@ -118,14 +111,7 @@ fn film(args: &Args, pictures: u32) -> Outcome<()> {
     let ends = sweep::ends(changes)?;
     let open = |changes| Scene::open(&args.scene.scene, changes).map(Scene::moving);
     let scene = open(ends.as_ref().map_or(changes, |(first, _)| first))?;
-    let screen = ScreenArgs {
-        mode: args.mode.clone(),
-        ..ScreenArgs::default()
-    };
-    let shown = match args.target {
-        Some(target) => Some(screen.mode(target, &scene)?.inks),
-        None => None,
-    };
+    let shown = shown_inks(args, &scene)?;
     let (width, height) = scene.size();
     let mut window = Window::whole(width, height);
     if let Some(rows) = &args.rows {
@@ -172,4 +158,16 @@ fn states_json(step: &Step) -> serde_json::Map<String, serde_json::Value> {
     let all = step.states.iter();
     let all = all.map(|(name, value)| (name.clone(), json!(value)));
     all.collect()
+}
+
+/// How many inks the screen has that the picture is for, if it is for one.
+fn shown_inks(args: &Args, scene: &Scene) -> Outcome<Option<u32>> {
+    let screen = ScreenArgs {
+        mode: args.mode.clone(),
+        ..ScreenArgs::default()
+    };
+    let target = args.target;
+    target
+        .map(|target| Ok(screen.mode(target, scene)?.inks))
+        .transpose()
 }

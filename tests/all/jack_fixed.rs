@@ -112,6 +112,18 @@ fn most_off(shade: &str) -> u32 {
     off.into_iter().max().unwrap()
 }
 
+/// Where it is added to half of what has few bits: 128 pixels are off where it has no more.
+#[test]
+fn a_constant_keeps_its_bits() {
+    let source = "image 24 x 16 inks black, white; param k: real = 20 in -20 .. 20;
+        draw (x, y) = threshold((0.02 + 0.5 * ((x * k * y) mod 1)) * x, 0.7);";
+    let plan = planned(source, &[], None).unwrap();
+    let run = agrees(&plan, &documents(&plan), source);
+    let mut native = Native::new(&plan.graph);
+    let off = differences(&plan, &run, |x, y| native.pixel(x, y).ink);
+    assert!(off <= 16, "{off}");
+}
+
 /// Coordinates of many bits and of few, and a factor that is beyond 0 and 1.
 #[test]
 fn what_floors_leave_and_what_is_interpolated_stay_within_bounds() {

@@ -10,10 +10,10 @@
 use crate::ir::graph::*;
 use crate::ir::tree::*;
 
-/// Moves statements that no pixel needs to the tree's last block, in a graph that moves. What
-/// calls subroutines was parted before: of their parts the graph does not tell who needs them.
+/// Moves statements that no pixel needs to the tree's last block, in a graph that moves; there
+/// are no subroutines in it ([`crate::planner`]'s outlining leaves it).
 pub fn sink(graph: &Graph, tree: &mut Tree) {
-    if !graph.is_moving() || !tree.subroutines.is_empty() {
+    if !graph.is_moving() {
         return;
     }
     let mut drawn = graph.clone();

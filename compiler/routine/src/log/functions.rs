@@ -1,9 +1,10 @@
 //! Sines, arcs, powers and logarithms, bit for bit as runtimes compute them.
 //!
-//! Sines and arcs are read off tables of how far they are below their arguments ([`Curve`]),
-//! where these are to be had; else series are summed up with the tables, `1 - z k1 (1 - z k2 (1 - ...))` for the square z:
-//! each further term is smaller, so its rounding counts less. What is linear in a
-//! logarithm, a power, is computed with that as an int.
+//! Sines and arcs are read off tables of how far they are below their arguments ([`Curve`])
+//! where the machine has these, in wide formats. Elsewhere series are summed up with the tables
+//! of sums, `1 - z k1 (1 - z k2 (1 - ...))` for the square z: each further term is smaller, so
+//! its rounding counts less. What is linear in a logarithm, a power, is computed with that as
+//! an int.
 
 use super::model::{Logarithm, WHOLE};
 #[cfg(doc)]
@@ -11,43 +12,38 @@ use super::tables::Curve;
 
 /// What hangs on how many units an octave has.
 pub struct Constants {
-    /// The logarithms of a quarter, a half and an eighth of a turn.
+    /// The logarithms of a quarter and a half of a turn.
     pub quarter: i32,
     pub half_turn: i32,
-    pub eighth: i32,
     /// What an int that counts units of logarithms is too large by, to be a natural one.
     pub units: i32,
-    /// Of the sine's series; its relative error is 9.3e-6 up to a quarter turn.
-    pub sine: [i32; 3],
-    /// Of the arc tangent's; 6.6e-5 up to the root of 2 less 1.
-    pub arc: [i32; 2],
-    /// Below it a series is its first term, to half a unit.
-    pub short: i32,
-    /// From the root of 2 less 1 on an arc is told by that of (1 - x)/(1 + x).
-    pub steep: i32,
 }
 
 const TEN: Constants = Constants {
     quarter: 667,
     half_turn: 1691,
-    eighth: -357,
     units: 10781,
-    sine: [-5575, -4426, -2647],
-    arc: [-907, -1623],
-    short: -5632,
-    steep: -1302,
 };
 
 const ELEVEN: Constants = Constants {
     quarter: 1334,
     half_turn: 3382,
-    eighth: -714,
     units: 23611,
-    sine: [-11150, -8851, -5294],
-    arc: [-1814, -3246],
-    short: -10752,
-    steep: -2604,
 };
+
+/// The terms of series, as logarithms of ten bits: only the Hack sums them, and has no others.
+mod series {
+    /// Of the sine's; its relative error is 9.3e-6 up to a quarter turn.
+    pub const SINE: [i32; 3] = [-5575, -4426, -2647];
+    /// Of the arc tangent's; 6.6e-5 up to the root of 2 less 1.
+    pub const ARC: [i32; 2] = [-907, -1623];
+    /// Below it a series is its first term, to half a unit.
+    pub const SHORT: i32 = -5632;
+    /// From the root of 2 less 1 on an arc is told by that of (1 - x)/(1 + x).
+    pub const STEEP: i32 = -1302;
+    /// The logarithm of an eighth of a turn.
+    pub const EIGHTH: i32 = -357;
+}
 
 impl<const FRAC: u8, const WIDE: bool> Logarithm<FRAC, WIDE> {
     /// Those of this format.
@@ -55,7 +51,7 @@ impl<const FRAC: u8, const WIDE: bool> Logarithm<FRAC, WIDE> {
 
     /// x times the series in x^2.
     fn series(x: i32, terms: &[i32]) -> i32 {
-        if x < Self::CONSTANTS.short {
+        if x < series::SHORT {
             return x;
         }
         let next = |rest, term| Self::difference(0, x + x + rest + term);
@@ -67,13 +63,12 @@ impl<const FRAC: u8, const WIDE: bool> Logarithm<FRAC, WIDE> {
         if WIDE {
             return Self::tables().arc.at(x, Self::OCTAVE);
         }
-        let Constants { arc, eighth, .. } = Self::CONSTANTS;
-        if x < Self::CONSTANTS.steep {
-            return Self::series(x, &arc);
+        if x < series::STEEP {
+            return Self::series(x, &series::ARC);
         }
         // In a word.
         let other = (Self::difference(0, x) - Self::sum(0, x)).max(i32::from(i16::MIN));
-        Self::difference(eighth, Self::series(other, &arc))
+        Self::difference(series::EIGHTH, Self::series(other, &series::ARC))
     }
 
     /// The angle of (x, y) = (b, a), both positive.
@@ -129,7 +124,7 @@ impl<const FRAC: u8, const WIDE: bool> Logarithm<FRAC, WIDE> {
             plus: angle.plus != back,
             log: match WIDE {
                 true => Self::tables().sine.flat_at(angle.log, Self::OCTAVE),
-                false => Self::series(angle.log, &Self::CONSTANTS.sine),
+                false => Self::series(angle.log, &series::SINE),
             },
         }
     }
