@@ -57,6 +57,7 @@ pub fn each_save(scene: &Path, changes: &Changes, work: &Work) -> Outcome<()> {
                 scene.display()
             ));
         }
+        let mut fresh = true;
         loop {
             if interrupt::ends() {
                 job.stop();
@@ -73,7 +74,9 @@ pub fn each_save(scene: &Path, changes: &Changes, work: &Work) -> Outcome<()> {
             {
                 let _ = diagnostics::report(&failure);
             }
-            if watched.news.recv_timeout(LOOK).is_err() {
+            // What was saved while the files were opened may have been told of before.
+            let told = watched.news.recv_timeout(LOOK).is_ok();
+            if !told && !std::mem::take(&mut fresh) {
                 continue;
             }
             if let Some(name) = changed(&texts) {
@@ -136,13 +139,14 @@ impl Watched {
 
     /// The scene's own files as they are now, all of which are watched from now on.
     fn files(&mut self, scene: &Path, changes: &Changes) -> Texts {
-        let mut paths: BTreeSet<PathBuf> = match Scene::open(scene, changes) {
+        let mut texts = match Scene::open(scene, changes) {
             Ok(read) => own(&read.checked.sources),
             Err(Failure::Scene(said) | Failure::Options(said)) => own(&said.sources),
-            Err(_) => BTreeSet::new(),
+            Err(_) => Texts::new(),
         };
-        paths.insert(scene.to_owned());
-        for path in &paths {
+        // One that cannot be read yet is news as soon as it can.
+        texts.entry(scene.to_owned()).or_default();
+        for path in texts.keys() {
             let directory = match path.parent() {
                 Some(parent) if !parent.as_os_str().is_empty() => parent,
                 _ => Path::new("."),
@@ -155,19 +159,19 @@ impl Watched {
                 }
             }
         }
-        let known = |path: PathBuf| {
-            // One that cannot be read yet is news as soon as it can.
-            let text = text(&path).unwrap_or_default();
-            (path, text)
-        };
-        paths.into_iter().map(known).collect()
+        texts
     }
 }
 
-/// The files that are the user's.
-fn own(sources: &Sources) -> BTreeSet<PathBuf> {
+/// The files that are the user's, by the texts that were opened: one that is saved meanwhile is
+/// news, and may use other files.
+fn own(sources: &Sources) -> Texts {
     let own = sources.files.iter().filter(|file| !file.library);
-    own.map(|file| PathBuf::from(&file.name)).collect()
+    own.map(|file| {
+        let digest = digest::bytes(file.text.as_bytes());
+        (PathBuf::from(&file.name), digest)
+    })
+    .collect()
 }
 
 fn cannot(why: notify_debouncer_mini::notify::Error) -> Failure {
