@@ -62,6 +62,10 @@ fn bytes(args: &[Range], _: Range) -> bool {
     args.iter().take(2).all(|a| a.within(0.0, 255.0))
 }
 
+fn of_byte(args: &[Range], _: Range) -> bool {
+    args.first().is_some_and(|a| a.within(0.0, 255.0))
+}
+
 /// An int that 16.16 holds.
 fn from_short(args: &[Range], _: Range) -> bool {
     args.first().is_some_and(|a| a.within(-32768.0, 32767.0))
@@ -178,6 +182,10 @@ pub(crate) const INTS: &[Routine] = &[
     routine!("int_four_times" IntMul(I, I) -> I, t::FOUR_TIMES, [], with!(1 = 4.0, fits_int), EXACT, |a, _b| a.wrapping_mul(4), 52, 28),
     routine!("byte_product" IntMul(I, I) -> I, t::BYTE_PRODUCT, ["squares"], bytes, EXACT, |a, b| a.wrapping_mul(b), 64, 39),
     routine!("int_mul" IntMul(I, I) -> I, "int_multiply", ["int_multiply"], everywhere, EXACT, |a, b| a.saturating_mul(b), 636, 51),
+    routine!("byte_div_2" IntDiv(I, I) -> I, t::BYTE_HALF, [], with!(1 = 2.0, of_byte), EXACT, |a, _b| a >> 1, 23, 17),
+    routine!("byte_div_4" IntDiv(I, I) -> I, t::BYTE_QUARTER, [], with!(1 = 4.0, of_byte), EXACT, |a, _b| a >> 2, 25, 18),
+    routine!("byte_div_8" IntDiv(I, I) -> I, t::BYTE_EIGHTH, [], with!(1 = 8.0, of_byte), EXACT, |a, _b| a >> 3, 27, 19),
+    routine!("byte_div_16" IntDiv(I, I) -> I, t::BYTE_SIXTEENTH, [], with!(1 = 16.0, of_byte), EXACT, |a, _b| a >> 4, 29, 20),
     routine!("int_div_2" IntDiv(I, I) -> I, t::INT_HALF, [], with!(1 = 2.0), EXACT, |a, _b| a >> 1, 34, 22),
     routine!("int_div_4" IntDiv(I, I) -> I, t::INT_QUARTER, [], with!(1 = 4.0), EXACT, |a, _b| a >> 2, 59, 34),
     routine!("int_div_8" IntDiv(I, I) -> I, t::INT_EIGHTH, [], with!(1 = 8.0), EXACT, |a, _b| a >> 3, 84, 46),

@@ -196,6 +196,22 @@ pub(crate) const INT_QUARTER: &str = concat!(halve!(), again!());
 pub(crate) const INT_EIGHTH: &str = concat!(halve!(), again!(), again!());
 pub(crate) const INT_SIXTEENTH: &str = concat!(halve!(), again!(), again!(), again!());
 
+/// The same of a byte.
+macro_rules! byte_shifted {
+    ($shifts:literal) => {
+        concat!(
+            "~[+lda #0 | sta {r.k}] lda {0.0} | ",
+            $shifts,
+            " | sta {r.0}"
+        )
+    };
+}
+
+pub(crate) const BYTE_HALF: &str = byte_shifted!("lsr");
+pub(crate) const BYTE_QUARTER: &str = byte_shifted!("lsr | lsr");
+pub(crate) const BYTE_EIGHTH: &str = byte_shifted!("lsr | lsr | lsr");
+pub(crate) const BYTE_SIXTEENTH: &str = byte_shifted!("lsr | lsr | lsr | lsr");
+
 /// Argument 0 doubled, wrapping.
 macro_rules! double {
     () => {

@@ -15,6 +15,7 @@ use crate::passes::loops::polynomials::polynomials;
 use crate::passes::loops::trip_counts::trip_counts;
 use crate::passes::simplify::constant_factors::constant_factors;
 use crate::passes::simplify::function_tables::function_tables;
+use crate::passes::simplify::quotient_tables::quotient_tables;
 use crate::passes::simplify::reciprocals::reciprocals;
 use crate::passes::simplify::remainders::remainders;
 use crate::schedule::analysed::Analysed;
@@ -78,6 +79,7 @@ passes! {
     ConstantFactors "constant-factors" "passes/simplify/constant_factors" "constant factors joined"
     Remainders "remainders" "passes/simplify/remainders" "remainders by constants as differences"
     FunctionTables "function-tables" "passes/simplify/function_tables" "tables of functions of one real of a short range"
+    QuotientTables "quotient-tables" "passes/simplify/quotient_tables" "tables of integer quotients and remainders by constants"
     Reciprocals "reciprocals" "passes/simplify/reciprocals" "division as multiplication by a shared reciprocal"
     Phases "phases" "passes/loops/strength_reduction" "phase accumulators for periodic functions of the column"
     ScanlineRuns "scanline-runs" "passes/loops/strength_reduction/runs" "values stepped along runs of columns"
@@ -104,6 +106,7 @@ pub const REWRITES: &[(Pass, Rewrite)] = &[
     (Pass::ConstantFactors, constant_factors),
     (Pass::Remainders, remainders),
     (Pass::FunctionTables, function_tables),
+    (Pass::QuotientTables, quotient_tables),
     (Pass::Reciprocals, reciprocals),
 ];
 
