@@ -240,8 +240,20 @@ impl Checker<'_> {
             error = error.help(help);
         } else if let Some((close, _)) = close {
             error = error.help(format!("did you mean `{close}`?"));
+        } else if let Some(longer) = self.longer(name) {
+            error = error.help(format!("did you mean {longer}?"));
         }
         self.report(error);
+    }
+
+    /// The library's functions of whose names one is a word.
+    fn longer(&self, name: &str) -> Option<String> {
+        let has = |longer: &str| longer.split('_').any(|word| word == name);
+        let items = self.layers.library.iter();
+        let items = items.filter(|(n, list)| has(n) && list.iter().any(|e| e.callable()));
+        let mut names: Vec<String> = items.map(|(n, _)| format!("`{n}`")).collect();
+        names.sort();
+        (!names.is_empty()).then(|| names.join(" or "))
     }
 
     /// `did you mean` among a few names.
