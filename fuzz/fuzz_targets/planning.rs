@@ -9,7 +9,7 @@ mod library;
 
 use libfuzzer_sys::fuzz_target;
 use library::with_library;
-use slowlight_compiler::planner::pipeline::PassSet;
+use slowlight_compiler::planner::pass_manager::PassSet;
 use slowlight_compiler::plan::Goal;
 use slowlight_compiler::planner::plan_within;
 use slowlight_compiler::sema::{self, Options};

@@ -1,7 +1,8 @@
 //! Options that leave passes of the planner out, to see what each is good for.
 
 use clap::Args;
-use slowlight_compiler::planner::pipeline::{PASSES, Pass, PassSet};
+use slowlight_compiler::planner::pass_manager::PassSet;
+use slowlight_compiler::planner::pipeline::{PASSES, Pass};
 use slowlight_compiler::sema::{Instancing, Ways};
 
 /// Passes that are left out.

@@ -5,7 +5,8 @@
 //! ranges and its cycles: only what is kept of it does. So a plan that is made
 //! again finds most of what it tries here, as far as there is room to keep it.
 
-use super::pipeline::{Pass, Pipeline};
+use super::pass_manager::Pipeline;
+use super::pipeline::Pass;
 use crate::analysis::range::{Slack, ranges_counted};
 use crate::cost::pixels::Pixels;
 use crate::cost::price::Price;

@@ -2,7 +2,8 @@
 
 use super::SEARCH;
 use super::assemble::{Scheduled, assemble};
-use super::pipeline::{Pass, PassSet, Pipeline};
+use super::pass_manager::{PassSet, Pipeline};
+use super::pipeline::Pass;
 use super::planned::{PlannedScene, Rewriting};
 use crate::analysis::verify::verify;
 use crate::cost::size_budget::SizeBudget;

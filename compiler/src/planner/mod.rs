@@ -11,6 +11,7 @@ pub(crate) mod context;
 mod context_tests;
 pub(crate) mod made;
 pub(crate) mod outlined;
+pub mod pass_manager;
 pub mod pipeline;
 pub(crate) mod planned;
 pub(crate) mod replan;

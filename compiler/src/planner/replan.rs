@@ -1,7 +1,7 @@
 //! Replanning: other plans of the scene that a plan is of, for less memory or another question.
 
 use super::made::{Candidate, candidate};
-use super::pipeline::Pipeline;
+use super::pass_manager::Pipeline;
 use super::planned::{PlannedScene, Rewriting};
 use crate::cost::size_budget::SizeBudget;
 use crate::fuel::Fuel;
