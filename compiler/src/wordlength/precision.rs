@@ -33,10 +33,10 @@ use slowlight_routine::{Format, Narrow, Type};
 use std::cell::{Cell, RefCell};
 
 /// How often groups are looked for.
-const ROUNDS: u32 = 4;
+const ROUNDS: u32 = 2;
 
 /// How many nodes may be planned in a round, all plans together.
-const WORK: usize = 60_000;
+const WORK: usize = 15_000;
 
 /// How many pixels at stake are looked at, at most.
 const AT_STAKE: usize = 500;

@@ -23,7 +23,10 @@ pub fn quotient_tables(graph: &Graph, ranges: &Ranges, _: &Runtime) -> Option<Gr
         let Node::Apply(op @ (Op::IntDiv | Op::IntMod), [a, b]) = graph.node(id) else {
             return None;
         };
-        let by = graph.constant(b)?;
+        // By a power of two machines shift.
+        let by = graph
+            .constant(b)
+            .filter(|by| !by.int().unsigned_abs().is_power_of_two())?;
         let [range, _] = ranges.args.get(id.0 as usize)?;
         let of = made.get(a.0 as usize).copied().flatten()?;
         // From 0 on nothing is to be taken off for its place.
@@ -113,5 +116,6 @@ mod tests {
     fn others_stay() {
         assert_eq!(tables("(x * y * y) div 7"), None);
         assert_eq!(tables("x div (y + 1)"), None);
+        assert_eq!(tables("x div 4"), None);
     }
 }
