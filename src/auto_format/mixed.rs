@@ -4,7 +4,7 @@
 //! Which values are short is found by trials (`wordlength/precision.rs` of the compiler), so
 //! that is not looked for in formats that others are quicker than.
 
-use super::candidates::{expected, is_short};
+use super::candidates::{CANDIDATE, expected, is_short};
 use super::{Chosen, Why};
 use crate::estimate;
 use crate::failure::{Failure, Outcome};
@@ -39,10 +39,11 @@ pub(super) fn mixed(screen: &ScreenArgs, scene: &Scene, chosen: Chosen) -> Outco
         whole.rows = rows;
         whole
     };
+    let cycles = |plan: &PlannedScene| estimate::sampled(plan, CANDIDATE.0, CANDIDATE.1).cycles();
     let (before, now) = (whole(&chosen.plan), whole(&plan));
     let share = expected(scene, &now, why.goal);
     match share.filter(|share| share.most <= why.goal) {
-        Some(share) if estimate::cycles(&now) < estimate::cycles(&before) => {
+        Some(share) if cycles(&now) < cycles(&before) => {
             let why = Some(Why {
                 expected: share.expected,
                 ..why.clone()

@@ -43,7 +43,7 @@ const AT_STAKE: usize = 500;
 
 /// How many statements may run in `f64`; and rows are gone through in steps of so many, so
 /// that something of every part of the picture is seen where patience ends before its rows do.
-const PATIENCE: u64 = 24_000_000;
+const PATIENCE: u64 = 8_000_000;
 const APART: i32 = 8;
 
 /// How many statements may run in the routines' models, all plans together, before no more
