@@ -186,7 +186,7 @@ fn stella_has_the_same_banks() {
         same(kind, kind, 262, &rom);
         // With the Superchip: what a line stores is what lines below it show.
         let kernel = "lines: txa\n and #$3F\n tay\n lda $F080,y\n sta $09\n lda $FF00,x\n sta $F000,y\n \
-                      sta $0E\n lda $F085,y\n sta $0F\n sta $02\n dex\n bne lines\n";
+                      sta $0E\n tya\n eor #21\n tay\n lda $F080,y\n sta $0F\n sta $02\n dex\n bne lines\n";
         let mut own = bank(262, kernel, noise);
         own[0] = 0;
         let rom = own.repeat(usize::from(banks));
