@@ -13,6 +13,7 @@ mod computer;
 pub mod cpu;
 pub mod plain;
 pub mod vcs;
+pub mod worst;
 
 pub use asm::{Assembly, Dialect, LineSpan, Parsed, Taken, assemble, assemble_as, extent};
 pub use bbc::Bbc;
