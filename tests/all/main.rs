@@ -109,5 +109,6 @@ mod watch;
 mod ways;
 mod whole;
 mod why;
+mod worst;
 mod written;
 mod wrong;

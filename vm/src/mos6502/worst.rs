@@ -33,7 +33,7 @@ use std::fmt;
 use std::ops::RangeInclusive;
 
 /// Instructions that are interpreted before there is no answer.
-const FUEL: u64 = 40_000_000;
+const FUEL: u64 = 20_000_000;
 
 /// A program, and what is known of it.
 #[derive(Clone, Debug)]
@@ -47,6 +47,8 @@ pub struct Question<'a> {
     pub turns: BTreeMap<u16, u32>,
     /// Where a way ends, before what is there is run.
     pub ends: BTreeSet<u16>,
+    /// A store to which ends the program.
+    pub exit: Option<u16>,
 }
 
 /// Why there is no answer.
@@ -73,6 +75,8 @@ pub enum Why {
     Fuel,
     /// No way comes to an end.
     Endless,
+    /// A slice that is not over where its routine returns.
+    Returns,
 }
 
 /// A place in a program, and why the time from there is not known.
@@ -97,6 +101,7 @@ impl fmt::Display for Why {
             Why::Decimal => "decimal arithmetic begins",
             Why::Fuel => "it takes too long to find out",
             Why::Endless => "no way from there comes to an end",
+            Why::Returns => "a slice is not over where its routine returns",
         })
     }
 }
@@ -108,6 +113,23 @@ impl Question<'_> {
     /// Where there is no bound, or none is found: why, and where.
     pub fn worst(&self, from: u16) -> Result<u64, Unknown> {
         walk::Walk::new(self, FUEL).worst(from)
+    }
+
+    /// The most cycles from behind one of the ends, or from `start`, to the next end: how long a
+    /// program runs at most that asks at each of them, by an instruction there which leaves
+    /// registers and memory as it likes, whether there is time to go on. All of them stand in
+    /// the routine that begins at `start`.
+    ///
+    /// # Errors
+    /// Where a slice has no bound: why, and where.
+    pub fn slices(&self, start: u16) -> Result<u64, Unknown> {
+        let mut walk = walk::Walk::new(self, FUEL);
+        let mut longest = walk.slice(start)?;
+        for end in &self.ends {
+            let begin = flow::Instruction::at(self, *end)?.next;
+            longest = longest.max(walk.slice(begin)?);
+        }
+        Ok(longest)
     }
 
     /// The addresses of labels with bounds written behind them, as in

@@ -5,6 +5,7 @@ use crate::keys::{Script, Unit};
 use crate::mos6502::{Run, assemble};
 
 mod picture;
+mod slices;
 mod timer;
 
 /// A cartridge of 4K that begins at $F000 with this.

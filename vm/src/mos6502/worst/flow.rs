@@ -18,10 +18,12 @@ pub(super) struct Instruction {
     pub operand: u16,
     /// The address behind it.
     pub next: u16,
+    /// Whether the program ends with it.
+    pub exits: bool,
 }
 
 impl Instruction {
-    fn at(question: &Question<'_>, address: u16) -> Result<Instruction, Unknown> {
+    pub fn at(question: &Question<'_>, address: u16) -> Result<Instruction, Unknown> {
         let assembly = question.assembly;
         let none = Unknown {
             address,
@@ -44,17 +46,21 @@ impl Instruction {
             (Mode::Relative, distance) => next.wrapping_add_signed(i16::from(distance as i8)),
             _ => operand,
         };
+        let stores = matches!(opcode.mnemonic, "sta" | "stx" | "sty");
+        let exits = stores && opcode.mode == Mode::Absolute && question.exit == Some(operand);
         Ok(Instruction {
             address,
             opcode,
             operand,
             next,
+            exits,
         })
     }
 
     /// Where it may go on within its routine.
     fn ways(&self) -> Result<Vec<u16>, Unknown> {
         match (self.opcode.mnemonic, self.opcode.mode) {
+            _ if self.exits => Ok(Vec::new()),
             ("jmp", Mode::Absolute) => Ok(vec![self.operand]),
             ("rts", _) => Ok(Vec::new()),
             ("jmp" | "rti" | "brk", _) => Err(Unknown {
@@ -67,7 +73,8 @@ impl Instruction {
     }
 
     fn is_last(&self) -> bool {
-        self.opcode.mode == Mode::Relative || matches!(self.opcode.mnemonic, "jmp" | "rts")
+        let jumps = matches!(self.opcode.mnemonic, "jmp" | "rts");
+        self.exits || jumps || self.opcode.mode == Mode::Relative
     }
 }
 

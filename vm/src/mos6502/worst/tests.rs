@@ -14,6 +14,7 @@ fn asked(source: &str) -> (Result<u64, Unknown>, Assembly) {
         ram: 0..=0xFF,
         turns: Question::turns_of(&assembly, &text),
         ends: BTreeSet::from([assembly.symbols["end_"] as u16]),
+        exit: None,
     };
     (question.worst(assembly.origin), assembly)
 }
@@ -160,12 +161,58 @@ fn calls_are_what_they_call() {
         ram: 0..=0xFF,
         turns: BTreeMap::new(),
         ends: BTreeSet::new(),
+        exit: None,
     };
     let entry = assembly.symbols["twice"] as u16;
     assert_eq!(
         question.worst(entry),
         Ok(2 + 6 + (2 + 2) + 6 + 2 + (2 + 3) + (2 + 2) + 6)
     );
+}
+
+/// To the store that ends the program, though it goes on behind that.
+#[test]
+fn a_store_may_be_the_end() {
+    let source = " lda $70\n bne on\n jsr quit\non: ldx #4\n jsr wait\n lda #0\n sta $FF0A\nwait: dex\n bne wait\n \
+                  rts\nquit: lda #0\n sta $FF0A\n";
+    let assembly = asked(source).1;
+    let question = Question {
+        assembly: &assembly,
+        ram: 0..=0xFF,
+        turns: BTreeMap::new(),
+        ends: BTreeSet::new(),
+        exit: Some(0xFF0A),
+    };
+    // `taken` leaves out the two last instructions.
+    assert_eq!(question.worst(assembly.origin), Ok(most(source) + 6));
+}
+
+/// Between the places where it asks; a loop that asks in every turn needs no bound.
+#[test]
+fn slices_are_as_long_as_the_longest_between_two_asks() {
+    let slices = |source: &str| {
+        let text = format!("* = $0800\nstart:\n{source}\nask: rts\n");
+        let assembly = assemble(&text).unwrap();
+        let names = ["one", "two"];
+        let at = |name: &&str| assembly.symbols.get(*name).map(|at| *at as u16);
+        let question = Question {
+            assembly: &assembly,
+            ram: 0..=0xFF,
+            turns: Question::turns_of(&assembly, &text),
+            ends: names.iter().filter_map(at).collect(),
+            exit: None,
+        };
+        question.slices(assembly.origin)
+    };
+    let found = slices(
+        " ldx $70\nl: lda $71\none: jsr ask\n nop\n dex\n bne l\n ldy #3\nm: dey\n bne m\ntwo: jsr ask\n jmp l\n",
+    );
+    // From one to two: nop, dex, bne, and the loop of three turns.
+    assert_eq!(found, Ok(2 + 2 + 2 + 2 + 3 * 5 - 1));
+    let without = slices("one: jsr ask\n ldx $70\nl: dex\n bne l\n jmp one\n").unwrap_err();
+    assert_eq!(without.why, Why::Loop);
+    let returns = slices("one: jsr ask\n rts\n").unwrap_err();
+    assert_eq!(returns.why, Why::Returns);
 }
 
 #[test]

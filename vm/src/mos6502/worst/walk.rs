@@ -75,6 +75,16 @@ impl<'q> Walk<'q> {
         })
     }
 
+    /// The most cycles from an address to one of the ends.
+    pub fn slice(&mut self, from: u16) -> Result<u64, Unknown> {
+        let out = self.call(from, State::default())?;
+        match (out.returns, out.ends) {
+            (None, Some(cycles)) => Ok(cycles),
+            (None, None) => unknown(from, Why::Endless),
+            (Some(_), _) => unknown(from, Why::Returns),
+        }
+    }
+
     /// Runs a routine from its first instruction.
     fn call(&mut self, entry: u16, state: State) -> Result<Outcome, Unknown> {
         let key = (entry, state);
@@ -83,6 +93,11 @@ impl<'q> Walk<'q> {
         }
         if self.depth >= DEPTH {
             return unknown(entry, Why::Depth);
+        }
+        if self.question.ends.contains(&entry) {
+            let mut out = Outcome::default();
+            out.end(0);
+            return Ok(out);
         }
         let routine = match self.routines.get(&entry) {
             Some(routine) => Rc::clone(routine),
@@ -264,6 +279,10 @@ impl<'q> Walk<'q> {
         for instruction in instructions {
             next = instruction.next;
             let base = u64::from(instruction.opcode.cycles);
+            if instruction.exits {
+                out.end(cycles + base);
+                return Ok(());
+            }
             match (instruction.opcode.mnemonic, instruction.opcode.mode) {
                 (name, Mode::Relative) => {
                     let known = taken(name, &state);
