@@ -112,7 +112,15 @@ impl Question<'_> {
     /// # Errors
     /// Where there is no bound, or none is found: why, and where.
     pub fn worst(&self, from: u16) -> Result<u64, Unknown> {
-        walk::Walk::new(self, FUEL).worst(from)
+        self.worst_within(from, FUEL)
+    }
+
+    /// The same where no more than so many instructions are interpreted for it.
+    ///
+    /// # Errors
+    /// As [`Question::worst`].
+    pub fn worst_within(&self, from: u16, fuel: u64) -> Result<u64, Unknown> {
+        walk::Walk::new(self, fuel).worst(from)
     }
 
     /// The most cycles from behind one of the ends, or from `start`, to the next end: how long a
