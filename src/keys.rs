@@ -28,6 +28,18 @@ impl KeyArgs {
     /// # Errors
     /// What is wrong with the script, and where.
     pub fn keyboard(&self, machine: Machine) -> Outcome<Keyboard> {
+        let unit = match machine {
+            Machine::Hack(_) => Unit::Calls,
+            _ => Unit::Frames,
+        };
+        Ok(Keyboard::new(self.script()?, unit, line))
+    }
+
+    /// The script; empty where none is given.
+    ///
+    /// # Errors
+    /// What is wrong with it, and where.
+    pub fn script(&self) -> Outcome<Script> {
         let text = match self.keys.as_deref() {
             None => String::new(),
             Some(given) => match given.strip_prefix('@') {
@@ -41,11 +53,7 @@ impl KeyArgs {
         for name in script.pictures() {
             FileFormat::of(Path::new(name))?;
         }
-        let unit = match machine {
-            Machine::Hack(_) => Unit::Calls,
-            _ => Unit::Frames,
-        };
-        Ok(Keyboard::new(script, unit, line))
+        Ok(script)
     }
 }
 

@@ -65,6 +65,7 @@ pub mod unlike;
 #[cfg(not(target_family = "wasm"))]
 pub mod watch;
 pub mod ways;
+pub mod worst;
 
 #[cfg(not(target_family = "wasm"))]
 pub use cli::{command_line, main};

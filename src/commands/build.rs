@@ -12,7 +12,7 @@ use crate::need::{Need, need_beside};
 use crate::scene::{Precision, Scene, SceneArgs};
 use crate::target_args::{self, Os, ScreenArgs, Style};
 use crate::trial::{self, mode_json};
-use crate::{files, inks, say, say_json};
+use crate::{files, inks, say, say_json, worst};
 use clap::ValueEnum;
 use serde_json::json;
 use slowlight_compiler::analysis::rate::rates;
@@ -56,6 +56,10 @@ pub struct Args {
     /// Of a scene that moves, the first picture alone
     #[arg(long)]
     still: bool,
+    /// Say how many cycles a program for the plain 6502 takes at most, whatever its params
+    /// and what is held, found without running it
+    #[arg(long, conflicts_with = "emit")]
+    worst: bool,
     /// Print what was written as JSON
     #[arg(long, conflicts_with = "emit")]
     json: bool,
@@ -101,6 +105,9 @@ pub fn run(args: &Args) -> Outcome<()> {
         let message = "--labels ca65 names lines of ca65's source: leave --syntax out";
         return Err(Failure::Usage(message.to_owned()));
     }
+    if args.worst {
+        worst::check(target)?;
+    }
     files::may_hold(&args.output)?;
     scene.warn();
     let plan = auto_format::plan(&args.screen, &scene, target)?.said();
@@ -133,6 +140,7 @@ pub fn run(args: &Args) -> Outcome<()> {
         false => forecast((&plan, &text), machine)?,
     };
     let seconds = |cycles: f64| cycles / forecast::hertz(&plan, machine);
+    let worst = args.worst.then(|| worst::worst(&plan, &text));
     let sizes = written.sizes;
     if args.json {
         let files: Vec<_> = written
@@ -140,7 +148,7 @@ pub fn run(args: &Args) -> Outcome<()> {
             .iter()
             .map(|(path, bytes)| json!({"path": path.display().to_string(), "bytes": bytes}))
             .collect();
-        return say_json(&json!({
+        let mut said = json!({
             "scene": scene.name,
             "target": plan.target.name,
             "mode": mode_json(plan.mode.name),
@@ -159,7 +167,11 @@ pub fn run(args: &Args) -> Outcome<()> {
                 Forecast::Rows(_, rows) => Some(rows),
                 Forecast::Whole(_) | Forecast::Not(_) => None,
             },
-        }));
+        });
+        if let Some(worst) = worst {
+            said["worst_cycles"] = json!(worst.ok());
+        }
+        return say_json(&said);
     }
     say(&written.text())?;
     say(&match &forecast {
@@ -177,7 +189,11 @@ pub fn run(args: &Args) -> Outcome<()> {
             plan.rows.1 - plan.rows.0 + 1
         ),
         Forecast::Not(why) => format!("its time is not known: {why}\n"),
-    })
+    })?;
+    match worst {
+        Some(worst) => say(&worst::text(&plan, worst, seconds)),
+        None => Ok(()),
+    }
 }
 
 /// The files of a program that were written.

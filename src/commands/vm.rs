@@ -1,5 +1,7 @@
 //! `vm`: any program on a bundled machine.
 
+mod frames;
+
 use crate::failure::{Failure, Outcome};
 use crate::format::{count, table};
 use crate::machine::{
@@ -73,6 +75,10 @@ pub struct Args {
     /// Where a program for the 6502 begins, if not with its first byte
     #[arg(long, value_name = "ADDR", value_parser = address)]
     start: Option<u16>,
+    /// How many frames an Atari VCS shows; all of them become a film where -o is a .gif
+    /// [default: 60, or as many as the keys' script has]
+    #[arg(long, value_name = "N")]
+    frames: Option<u32>,
     #[command(flatten)]
     keys: keys::KeyArgs,
 }
@@ -132,6 +138,9 @@ enum Kind {
     /// The same on a Commodore 64 without its ROMs, with a line of BASIC that starts it
     #[value(name = "6502:c64")]
     MosC64,
+    /// A cartridge of 2K to 32K, or assembly of one, on an Atari VCS
+    #[value(name = "6502:vcs")]
+    MosVcs,
 }
 
 /// What `--json` prints.
@@ -206,7 +215,8 @@ fn write_image(path: &Path, loaded: &Loaded) -> Outcome<()> {
 /// Where one is given: whose it is, and how it is used there.
 fn check_options(args: &Args) -> Outcome<()> {
     let basic = args.machine == Kind::Bbc;
-    let assembles = matches!(args.machine, Kind::Mos6502 | Kind::MosBbc | Kind::MosC64);
+    let placed = matches!(args.machine, Kind::Mos6502 | Kind::MosBbc | Kind::MosC64);
+    let assembles = placed || args.machine == Kind::MosVcs;
     let hack = matches!(args.machine, Kind::Jack | Kind::Hack);
     let is_code = |path: &PathBuf| path.extension().is_some_and(|e| e == "asm" || e == "hack");
     let wrong = [
@@ -223,8 +233,12 @@ fn check_options(args: &Args) -> Outcome<()> {
             "--syntax is the 6502's: `slowlight vm 6502 --syntax beebasm FILE`",
         ),
         (
-            (args.at.is_some() || args.start.is_some()) && !assembles,
+            (args.at.is_some() || args.start.is_some()) && !placed,
             "--at and --start are the 6502's: `slowlight vm 6502 --at 0x2000 FILE`",
+        ),
+        (
+            args.frames.is_some() && args.machine != Kind::MosVcs,
+            "--frames is the Atari VCS's: `slowlight vm 6502:vcs --frames 60 FILE`",
         ),
         (
             args.cpu && !hack,
@@ -251,8 +265,12 @@ fn check_options(args: &Args) -> Outcome<()> {
 
 /// Runs the program to its end.
 pub fn run(args: &Args) -> Outcome<()> {
-    let output = PictureFile::named(args.output.as_deref())?;
     check_options(args)?;
+    let film = frames::film(args)?;
+    let output = match film {
+        Some(_) => PictureFile::named(None)?,
+        None => PictureFile::named(args.output.as_deref())?,
+    };
     let on = |board| {
         let dialect = match args.syntax {
             Some(Syntax::Beebasm) => Dialect::Beebasm,
@@ -275,9 +293,13 @@ pub fn run(args: &Args) -> Outcome<()> {
         Kind::Mos6502 => on(Board::Plain),
         Kind::MosBbc => on(Board::Bbc),
         Kind::MosC64 => on(Board::C64),
+        Kind::MosVcs => on(Board::Vcs),
     };
     let machine = HeapOf::of(args.heap, args.os, machine)?;
-    let keyboard = args.keys.keyboard(machine)?;
+    let (keyboard, limit) = match args.machine {
+        Kind::MosVcs => frames::keyboard(args, film.is_some())?,
+        _ => (args.keys.keyboard(machine)?, args.limit),
+    };
     let hack = machine.many_sources();
     let mut program = Vec::new();
     for path in paths(args)? {
@@ -297,9 +319,9 @@ pub fn run(args: &Args) -> Outcome<()> {
     if args.profile {
         return profile(&mut loaded, args.limit);
     }
-    let progress = Bar::new("cycles", args.limit);
+    let progress = Bar::new("cycles", limit);
     let reach = &mut |now: Progress<'_>| progress.reach(now.cycles);
-    let (run, keyboard) = loaded.play(keyboard, args.limit, reach)?;
+    let (run, keyboard) = loaded.play(keyboard, limit, reach)?;
     drop(progress);
     let picture = run.picture();
     // Also where the program was stopped: many draw, and then wait for ever.
@@ -321,8 +343,11 @@ pub fn run(args: &Args) -> Outcome<()> {
         say(&String::from_utf8_lossy(&run.output))?;
         remark(&format!("{} cycles", count(run.cycles)));
     }
-    let shots = keys::write_shots(&keyboard);
-    match keys::waits(&run, args.limit, &keyboard) {
+    let shots = match &film {
+        Some(film) => frames::write(film, &keyboard),
+        None => keys::write_shots(&keyboard),
+    };
+    match keys::waits(&run, limit, &keyboard) {
         Some(wrong) => Err(Failure::Wrong(match shots {
             Err(Failure::Wrong(missed)) => format!("{wrong}\n{missed}"),
             _ => wrong,

@@ -14,6 +14,9 @@ use slowlight_vm::Fault;
 /// Names by which assembly is known that holds bytes other than UTF-8, in remarks say.
 const SOURCES: [&str; 7] = ["asm", "s", "a65", "inc", "a", "src", "6502"];
 
+/// Where a VCS has its cartridge, whose vectors say where it begins.
+const CARTRIDGE: u16 = 0xF000;
+
 /// Bytes for a place in memory.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct Binary {
@@ -69,6 +72,11 @@ pub(super) fn read(file: &File, config: Config) -> Outcome<Binary> {
     let usage = |message: String| Err(Failure::Usage(message));
     let said = at.is_some() || start.is_some();
     match file.extension().as_str() {
+        _ if board == Board::Vcs => Ok(Binary {
+            at: CARTRIDGE,
+            start: None,
+            bytes: file.bytes.clone(),
+        }),
         "ssd" if board != Board::Bbc => usage(format!(
             "{name} is a BBC Micro's disc: `slowlight vm 6502:bbc {name}`"
         )),

@@ -2,7 +2,7 @@
 
 use super::File;
 use super::dfs::{self, DISC_PAGE};
-use slowlight_vm::mos6502::{Bbc, C64, Dialect, Machine, Plain};
+use slowlight_vm::mos6502::{Bbc, C64, Dialect, Machine, Plain, Vcs};
 
 /// Which machine, how its assembly is written, and where binaries lie.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -27,6 +27,8 @@ pub enum Board {
     Bbc,
     /// A Commodore 64.
     C64,
+    /// An Atari VCS.
+    Vcs,
 }
 
 impl Board {
@@ -35,6 +37,7 @@ impl Board {
             Board::Plain => Box::new(Plain::new()),
             Board::Bbc => Box::new(Bbc::new()),
             Board::C64 => Box::new(C64::new()),
+            Board::Vcs => Box::new(Vcs::new()),
         }
     }
 
@@ -61,10 +64,14 @@ impl Board {
             name: format!("{stem}.{extension}"),
             bytes,
         };
-        let loaded = self.loaded(&image);
+        let mut loaded = self.loaded(&image);
+        if self == Board::Vcs {
+            // A cartridge says nowhere where it lies.
+            return vec![named("a26", loaded.split_off(2.min(loaded.len())))];
+        }
         let disc = match self {
             Board::Bbc => dfs::bootable_code(stem, &loaded),
-            Board::Plain | Board::C64 => None,
+            Board::Plain | Board::C64 | Board::Vcs => None,
         };
         let mut files = vec![named("prg", loaded)];
         files.extend(disc.map(|bytes| named("ssd", bytes)));

@@ -21,6 +21,7 @@ mod cli_params;
 mod cli_run;
 mod cli_said;
 mod cli_snapshot;
+mod cli_vcs;
 mod cli_wrong;
 mod colours;
 mod columns;
@@ -82,6 +83,8 @@ mod peers_editors;
 mod peers_jsbeeb;
 #[cfg(feature = "peers")]
 mod peers_live;
+#[cfg(feature = "peers")]
+mod peers_stella;
 mod planning;
 mod precise;
 mod predicted;
@@ -106,5 +109,6 @@ mod watch;
 mod ways;
 mod whole;
 mod why;
+mod worst;
 mod written;
 mod wrong;

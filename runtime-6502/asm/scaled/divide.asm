@@ -53,7 +53,7 @@ divide16_divisor:
 divide16_up:
         cmp #$40
         bcs divide16_times
-divide16_more:
+divide16_more:              ; at most 6 turns
         dex
         asl acc
         rol
@@ -176,14 +176,14 @@ divide16_right:
         tax
         lda #0
         beq divide16_low
-divide16_bit:
+divide16_bit:               ; at most 8 turns
         lsr
         ror prod+2
         dex
         bne divide16_bit
         bcc divide16_sign
         bcs divide16_nearest
-divide16_low:
+divide16_low:               ; at most 8 turns
         lsr prod+2
         dex
         bne divide16_low

@@ -123,7 +123,7 @@ exponential16_split:        ; the whole part, and 16 bits behind the point
         sbc #8
         tay
         lda #0
-exponential16_right:
+exponential16_right:        ; at most 9 turns
         lsr
         ror prod
         dey

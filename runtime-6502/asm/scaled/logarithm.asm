@@ -10,7 +10,7 @@ table_logarithm:
         lda acc+3
         bmi table_logarithm_least
         bne table_logarithm_bit
-table_logarithm_byte:
+table_logarithm_byte:       ; at most 4 turns
         tya
         sec
         sbc #8
@@ -26,7 +26,7 @@ table_logarithm_byte:
         tax
         beq table_logarithm_byte
         bmi table_logarithm_index
-table_logarithm_bit:
+table_logarithm_bit:        ; at most 7 turns
         dey
         asl acc
         rol acc+1

@@ -1,5 +1,5 @@
 ; a and x (high) = a and prod+2, y bits to the right, rounded; y from 1 to 15.
-lower24:
+lower24:                    ; at most 15 turns
         cmp #$80
         ror
         ror prod+2

@@ -31,7 +31,7 @@ modulo16_divisor:
         sta acc+1
 modulo16_start:
         ldy #0
-modulo16_up:
+modulo16_up:                ; at most 16 turns
         lda acc
         cmp arg
         lda acc+1
@@ -43,7 +43,7 @@ modulo16_up:
         bcs modulo16_none   ; both are 32768
         bpl modulo16_up
         bmi modulo16_try
-modulo16_down:
+modulo16_down:              ; at most 17 turns
         dey
         bmi modulo16_rest
         lsr arg+1

@@ -26,7 +26,7 @@ one_over_plus:
         bcs one_over_small
         tax
         lda prod+5
-one_over_right:
+one_over_right:             ; at most 16 turns
         lsr
         ror prod+4
         dex

@@ -11,7 +11,7 @@ reciprocal:
         lda arg
         sty arg
         bmi reciprocal_look
-reciprocal_up:
+reciprocal_up:              ; at most 7 turns
         inx
         asl arg
         rol

@@ -28,7 +28,7 @@ reciprocal_root_begin:      ; y: halvings of the result that are left
         dey
         cmp #$40
         bcs reciprocal_root_look
-reciprocal_root_up:
+reciprocal_root_up:         ; at most 3 turns
         asl acc
         rol
         asl acc
@@ -57,7 +57,7 @@ reciprocal_root_look:
         bmi reciprocal_root_most
         cpy #16
         bcs reciprocal_root_none
-reciprocal_root_half:
+reciprocal_root_half:       ; at most 15 turns
         lsr
         ror prod
         dey

@@ -28,7 +28,7 @@ root16_begin:               ; y: halvings of the result that are left
         iny
         cmp #$40
         bcs root16_look
-root16_scale:
+root16_scale:               ; at most 3 turns
         asl acc
         rol
         asl acc

@@ -127,7 +127,7 @@ quarters_point:             ; a, prod+2, prod+1 and prod have 24 bits behind the
         bcs quarters_byte
         dey
         bmi quarters_done
-quarters_left:
+quarters_left:              ; at most 4 turns
         asl prod
         rol prod+1
         rol prod+2
@@ -158,7 +158,7 @@ quarters_byte:              ; eight bits to the left, and some of them back
         stx prod+1
         cpy #8
         beq quarters_whole
-quarters_right:
+quarters_right:             ; at most 3 turns
         lsr
         ror prod+2
         ror prod+1

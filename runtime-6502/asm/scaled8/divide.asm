@@ -51,7 +51,7 @@ divide8_divisor:
         lda arg
         sty arg
         bmi divide8_look
-divide8_up:
+divide8_up:                 ; at most 7 turns
         inx
         asl arg
         rol
@@ -76,7 +76,7 @@ divide8_look:
         lda acc
         sty acc
         bmi divide8_times
-divide8_scale:
+divide8_scale:              ; at most 7 turns
         dex
         asl acc
         rol
@@ -108,7 +108,7 @@ divide8_made:               ; from 2^14 to 2^16 in prod+1 and a
         cmp #$f8
         bcc divide8_under
         lda prod+1
-divide8_right:
+divide8_right:              ; at most 8 turns
         lsr
         inx
         bne divide8_right

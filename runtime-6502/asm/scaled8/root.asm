@@ -20,7 +20,7 @@ isqrt16_small:
         ldx #4
         cmp #$40
         bcs isqrt16_look
-isqrt16_up:
+isqrt16_up:                 ; at most 3 turns
         inx
         asl acc
         rol
@@ -34,7 +34,7 @@ isqrt16_look:
         cmp isqrt_next-64,y
         lda isqrt_root-64,y
         adc #0
-isqrt16_down:
+isqrt16_down:               ; at most 7 turns
         lsr
         dex
         bne isqrt16_down

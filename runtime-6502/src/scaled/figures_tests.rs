@@ -50,7 +50,7 @@ const FIGURES: &[Figure] = &[
 
 #[test]
 fn figures_are_as_documented() {
-    let mut moved = String::new();
+    let (mut moved, mut bounded) = (String::new(), 0);
     for figure in FIGURES {
         let write = |lines: &mut Vec<String>| {
             lines.extend(
@@ -82,10 +82,18 @@ fn figures_are_as_documented() {
             .iter()
             .map(|name| part_bytes(&crate::FIXED16_16, name))
             .sum();
-        println!("{}: {mean} cycles, {bytes} bytes", figure.name);
+        let most = bench.worst.map(|most| most - figure.around);
+        bounded += usize::from(most.is_some());
+        println!(
+            "{}: {mean} cycles, at most {most:?}, {bytes} bytes",
+            figure.name
+        );
         if (mean, bytes) != figure.wanted {
             moved += &format!("{}: {mean}, {bytes}\n", figure.name);
         }
     }
     assert!(moved.is_empty(), "figures that moved:\n{moved}");
+    // All runs were held against what is found from the programs, but of roots: how far theirs
+    // are shifted back hangs on what they are of.
+    assert_eq!(bounded, FIGURES.len() - 1);
 }

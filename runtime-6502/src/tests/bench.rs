@@ -3,6 +3,8 @@
 use slowlight_routine::{Format, Routine, Source};
 use slowlight_vm::mos6502::assemble;
 use slowlight_vm::mos6502::cpu::{Bus, Cpu, Step};
+use slowlight_vm::mos6502::worst::Question;
+use std::collections::BTreeSet;
 
 use crate::FIXED16_16 as RUNTIME;
 use crate::write::{Goal, Place, Use, instructions};
@@ -19,6 +21,9 @@ impl Random {
         self.0
     }
 }
+
+/// Instructions that are interpreted for a bound: what has none is found out soon.
+const FUEL: u64 = 20_000;
 
 struct Ram {
     bytes: Vec<u8>,
@@ -88,6 +93,9 @@ pub struct Bench {
     pub bytes: u32,
     /// Cycles of what stands before it.
     pub prepared: u64,
+    /// The most cycles of a use, found from the program, where all its loops are bounded: every
+    /// run is held against it.
+    pub worst: Option<u64>,
 }
 
 const FIRST: u16 = 0x80;
@@ -188,9 +196,18 @@ impl Bench {
             end: at("start"),
             bytes: u32::from(at("end") - at("start")),
             prepared: 0,
+            worst: None,
         };
         bench.prepared = bench.go();
         (bench.start, bench.end) = (at("start"), at("end"));
+        let question = Question {
+            assembly: &program,
+            ram: 0..=0xFF,
+            turns: Question::turns_of(&program, &source),
+            ends: BTreeSet::from([bench.end]),
+            exit: None,
+        };
+        bench.worst = question.worst_within(bench.start, FUEL).ok();
         bench
     }
 
@@ -213,6 +230,8 @@ impl Bench {
             assert!(self.ram.cycles < 100_000, "{} does not end", self.name);
         }
         assert_eq!(cpu.sp, 0xFF, "{} leaves the stack as it was", self.name);
+        let (took, most) = (self.ram.cycles, self.worst.unwrap_or(u64::MAX));
+        assert!(took <= most, "{} took {took} cycles of {most}", self.name);
         self.ram.cycles
     }
 

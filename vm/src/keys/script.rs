@@ -76,6 +76,16 @@ impl Script {
         self
     }
 
+    /// The same that ends at a unit, `count`, whatever it says itself; what it would do later
+    /// is left out, but for its shots, which are then missed.
+    #[must_use]
+    pub fn ended(mut self, count: u64) -> Script {
+        self.spans.retain(|span| span.from < count);
+        self.length = count;
+        self.end = End::Quit;
+        self
+    }
+
     /// What it counts, if it says so.
     pub fn unit(&self) -> Option<Unit> {
         self.by
@@ -96,7 +106,8 @@ impl Script {
         self.shots.iter().map(|(_, name)| name.as_str())
     }
 
-    pub(super) fn quits(&self) -> bool {
+    /// Whether the run ends where it does.
+    pub fn quits(&self) -> bool {
         self.end == End::Quit
     }
 

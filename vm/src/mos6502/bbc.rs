@@ -221,12 +221,12 @@ impl Micro {
 }
 
 impl Board for Micro {
-    fn ram(&self) -> &[u8; 0x1_0000] {
-        &self.ram
+    fn peek(&self, address: u16) -> u8 {
+        self.ram[usize::from(address)]
     }
 
-    fn ram_mut(&mut self) -> &mut [u8; 0x1_0000] {
-        &mut self.ram
+    fn poke(&mut self, address: u16, value: u8) {
+        self.ram[usize::from(address)] = value;
     }
 
     fn room(&self) -> (u16, &'static str) {

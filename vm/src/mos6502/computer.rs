@@ -33,12 +33,30 @@ pub struct Run {
 pub trait Board: Bus + Default {
     /// Whether pixels are no part of the memory.
     const DRAWS_APART: bool = false;
-    /// All RAM, by address.
-    fn ram(&self) -> &[u8; 0x1_0000];
-    /// All RAM, to change it from outside: neither a cycle nor an effect.
-    fn ram_mut(&mut self) -> &mut [u8; 0x1_0000];
+    /// A byte of memory, for whoever looks on: neither a cycle nor an effect.
+    fn peek(&self, address: u16) -> u8;
+    /// Changes a byte of memory from outside: neither a cycle nor an effect.
+    fn poke(&mut self, address: u16, value: u8);
     /// The first address that no program may be loaded to, and what is there.
     fn room(&self) -> (u16, &'static str);
+    /// Puts a program where it belongs.
+    ///
+    /// # Errors
+    /// Where there is no room for it.
+    fn place(&mut self, at: u16, bytes: &[u8]) -> Result<(), Fault> {
+        let (limit, what) = self.room();
+        let begin = usize::from(at);
+        if begin + bytes.len() > usize::from(limit) {
+            let end = begin + bytes.len() - 1;
+            return Err(fault(format!(
+                "the program lies at ${begin:04X} to ${end:04X}, but {what} begin at ${limit:04X}"
+            )));
+        }
+        for (address, byte) in (at..).zip(bytes) {
+            self.poke(address, *byte);
+        }
+        Ok(())
+    }
     /// Where a program that was loaded at an address is entered, where nobody says.
     ///
     /// # Errors
@@ -181,18 +199,8 @@ impl<B: Board> Computer<B> {
         if bytes.is_empty() {
             return Err(fault("the program has no bytes".to_owned()));
         }
+        self.board.place(at, bytes)?;
         let (limit, what) = self.board.room();
-        let begin = usize::from(at);
-        let room = self.board.ram_mut().get_mut(begin..usize::from(limit));
-        match room.and_then(|room| room.get_mut(..bytes.len())) {
-            Some(room) => room.copy_from_slice(bytes),
-            None => {
-                let end = begin + bytes.len() - 1;
-                return Err(fault(format!(
-                    "the program lies at ${begin:04X} to ${end:04X}, but {what} begin at ${limit:04X}"
-                )));
-            }
-        }
         let start = match start {
             Some(start) if start >= limit => {
                 return Err(fault(format!(
@@ -209,12 +217,12 @@ impl<B: Board> Computer<B> {
 
     /// A byte of memory, for whoever looks on: neither a cycle nor an effect.
     pub fn peek(&self, address: u16) -> u8 {
-        self.board.ram()[usize::from(address)]
+        self.board.peek(address)
     }
 
     /// Changes a byte of memory from outside: neither a cycle nor an effect.
     pub fn poke(&mut self, address: u16, value: u8) {
-        self.board.ram_mut()[usize::from(address)] = value;
+        self.board.poke(address, value);
     }
 
     /// The processor, to set up or to look at.
