@@ -6,6 +6,7 @@ mod any_assembler;
 mod auto_format;
 mod basic_discs;
 mod bbc;
+mod bits;
 mod blue_noise;
 mod boxes;
 mod cli;
@@ -58,6 +59,7 @@ mod numbers;
 mod objects;
 mod packages;
 mod pages;
+mod paint;
 mod pairs;
 mod pairs_small;
 #[cfg(feature = "peers")]

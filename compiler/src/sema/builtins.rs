@@ -5,6 +5,30 @@
 use super::ty::Ty;
 use slowlight_routine::Op;
 
+/// What is told of two inks that are mixed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Mixture {
+    /// The first of them.
+    First,
+    /// The second.
+    Second,
+    /// The second's share, from 0 to 1.
+    Share,
+}
+
+impl Mixture {
+    const ALL: [Mixture; 3] = [Mixture::First, Mixture::Second, Mixture::Share];
+
+    /// How scenes call it.
+    pub fn name(self) -> &'static str {
+        match self {
+            Mixture::First => "mixed_first",
+            Mixture::Second => "mixed_second",
+            Mixture::Share => "mixed_share",
+        }
+    }
+}
+
 /// An operation of the language.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Builtin {
@@ -14,6 +38,8 @@ pub enum Builtin {
     Ink,
     /// The n x n ordered-dither matrix over n^2; n a power of two.
     Bayer,
+    /// Of the mixtures of two inks that stand for a lattice of colours: a table over its points.
+    Mixture(Mixture),
     /// A ray from a point; the direction has length 1 by contract.
     Ray,
     /// A hit from its point, unit normal and distance along the ray; what a
@@ -52,6 +78,7 @@ impl Builtin {
             Builtin::Op(op) => op.name().to_owned(),
             Builtin::Ink => "ink".into(),
             Builtin::Bayer => "bayer".into(),
+            Builtin::Mixture(which) => which.name().into(),
             Builtin::Ray => "ray".into(),
             Builtin::Hit => "hit".into(),
             Builtin::Count => "count".into(),
@@ -128,7 +155,13 @@ pub fn signatures() -> Vec<Signature> {
     let pair = |a, b, ty: Ty| vec![need(a, ty.clone()), need(b, ty)];
     add("atan2", Builtin::Op(Op::Atan2), pair("y", "x", Real), Angle);
     add("early", Builtin::Early, one("c", Bool), Bool);
-    add("bit_and", Builtin::Op(Op::BitAnd), pair("a", "b", Int), Int);
+    for (name, op) in [
+        ("bit_and", Op::BitAnd),
+        ("bit_or", Op::BitOr),
+        ("bit_xor", Op::BitXor),
+    ] {
+        add(name, Builtin::Op(op), pair("a", "b", Int), Int);
+    }
     add("ink", Builtin::Ink, one("i", Int), Ink);
     add(
         "bayer",
@@ -136,6 +169,19 @@ pub fn signatures() -> Vec<Signature> {
         one("n", Int),
         Table(Box::new(Real)),
     );
+    for which in Mixture::ALL {
+        let entry = match which {
+            Mixture::First | Mixture::Second => Int,
+            Mixture::Share => Real,
+        };
+        let table = Table(Box::new(entry));
+        add(
+            which.name(),
+            Builtin::Mixture(which),
+            one("side", Int),
+            table,
+        );
+    }
     add("ray", Builtin::Ray, pair("from", "dir", Vector(3)), Ray);
     add(
         "count",

@@ -148,6 +148,9 @@ impl<'a> Lower<'a> {
         if builtin == Builtin::Bayer {
             return self.bayer(first, span);
         }
+        if let Builtin::Mixture(which) = builtin {
+            return self.mixture(which, first, span);
+        }
         let value = self.expr(first)?;
         let mut rest: Vec<Option<(&'a Expr, Val)>> = Vec::new();
         for arg in args.iter().skip(1) {
@@ -211,7 +214,7 @@ impl<'a> Lower<'a> {
                 }
                 _ => Err(self.confused(span)),
             },
-            Builtin::Bayer => Err(self.confused(span)),
+            Builtin::Bayer | Builtin::Mixture(_) => Err(self.confused(span)),
             Builtin::ShapeHit
             | Builtin::ShapeCrossing
             | Builtin::ShapeNormal
