@@ -54,6 +54,7 @@ mod mos6502;
 mod mos6502_fixed;
 mod mos6502_logs;
 mod moving;
+mod moving_films;
 mod need;
 mod numbers;
 mod objects;
