@@ -27,7 +27,10 @@ impl Walk {
             ),
             row(
                 "pictures a second",
-                format!("{:.2}", self.pictures_a_second()),
+                match self.pictures_a_second() {
+                    few @ ..1.0 => format!("{few:.3}"),
+                    many => format!("{many:.2}"),
+                },
             ),
             row("pixels unlike the model's", count(model as u64)),
             row(

@@ -34,23 +34,24 @@ fn off(a: [f64; 3], b: [f64; 3]) -> f64 {
 }
 
 #[test]
-fn what_two_inks_mix_is_mixed() {
+fn the_mean_is_the_colour_where_inks_lie_evenly() {
     let two = "black, white";
+    let greys = "black, #808080, white";
     let eight = "black, red, green, blue, yellow, magenta, cyan, white";
     for grey in [0.0, 0.1, 0.25, 0.4, 0.5, 0.77, 0.9, 1.0] {
-        for inks in [two, eight] {
+        for inks in [two, greys, eight] {
             let found = mean(inks, [grey; 3]);
             assert!(off(found, [grey; 3]) < 0.04, "{inks} {grey}: {found:?}");
         }
     }
-    for red in [0.2, 0.5, 0.8] {
-        let found = mean(eight, [red, 0.0, 0.0]);
-        assert!(off(found, [red, 0.0, 0.0]) < 0.04, "{red}: {found:?}");
+    for colour in [[0.2, 0.0, 0.0], [0.5, 0.3, 0.9], [0.8, 1.0, 0.1]] {
+        let found = mean(eight, colour);
+        assert!(off(found, colour) < 0.04, "{colour:?}: {found:?}");
     }
     // An ink by itself has no grain, and what is beyond the ends is the end.
     assert_eq!(mean(eight, [1.0, 1.0, 0.0]), [1.0, 1.0, 0.0]);
     assert_eq!(mean(eight, [-3.0, 7.0, 0.0]), [0.0, 1.0, 0.0]);
-    // What no two inks mix is nearer than either of them alone would be.
+    // What no inks mix is nearer than the nearest of them alone would be.
     let found = mean(two, [1.0, 0.0, 0.0]);
     assert!(found[0] > 0.1 && found[0] < 0.7, "{found:?}");
 }

@@ -5,30 +5,6 @@
 use super::ty::Ty;
 use slowlight_routine::Op;
 
-/// What is told of two inks that are mixed.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum Mixture {
-    /// The first of them.
-    First,
-    /// The second.
-    Second,
-    /// The second's share, from 0 to 1.
-    Share,
-}
-
-impl Mixture {
-    const ALL: [Mixture; 3] = [Mixture::First, Mixture::Second, Mixture::Share];
-
-    /// How scenes call it.
-    pub fn name(self) -> &'static str {
-        match self {
-            Mixture::First => "mixed_first",
-            Mixture::Second => "mixed_second",
-            Mixture::Share => "mixed_share",
-        }
-    }
-}
-
 /// An operation of the language.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Builtin {
@@ -38,8 +14,10 @@ pub enum Builtin {
     Ink,
     /// The n x n ordered-dither matrix over n^2; n a power of two.
     Bayer,
-    /// Of the mixtures of two inks that stand for a lattice of colours: a table over its points.
-    Mixture(Mixture),
+    /// The inks that are nearest to the cells of a cube of colours.
+    NearestInks,
+    /// How far the palette's levels of a primary are apart.
+    InkStep,
     /// A ray from a point; the direction has length 1 by contract.
     Ray,
     /// A hit from its point, unit normal and distance along the ray; what a
@@ -78,7 +56,8 @@ impl Builtin {
             Builtin::Op(op) => op.name().to_owned(),
             Builtin::Ink => "ink".into(),
             Builtin::Bayer => "bayer".into(),
-            Builtin::Mixture(which) => which.name().into(),
+            Builtin::NearestInks => "nearest_inks".into(),
+            Builtin::InkStep => "ink_step".into(),
             Builtin::Ray => "ray".into(),
             Builtin::Hit => "hit".into(),
             Builtin::Count => "count".into(),
@@ -169,19 +148,9 @@ pub fn signatures() -> Vec<Signature> {
         one("n", Int),
         Table(Box::new(Real)),
     );
-    for which in Mixture::ALL {
-        let entry = match which {
-            Mixture::First | Mixture::Second => Int,
-            Mixture::Share => Real,
-        };
-        let table = Table(Box::new(entry));
-        add(
-            which.name(),
-            Builtin::Mixture(which),
-            one("side", Int),
-            table,
-        );
-    }
+    let inks = Table(Box::new(Int));
+    add("nearest_inks", Builtin::NearestInks, one("side", Int), inks);
+    add("ink_step", Builtin::InkStep, one("primary", Int), Real);
     add("ray", Builtin::Ray, pair("from", "dir", Vector(3)), Ray);
     add(
         "count",

@@ -24,7 +24,7 @@ mod grid;
 mod instances;
 mod leaving;
 mod merge;
-mod mixtures;
+mod nearest;
 mod ops;
 mod params;
 mod pencil;

@@ -4,7 +4,6 @@ use super::value::{Table, Val};
 use super::{Found, Lower};
 use crate::ir::graph;
 use crate::ir::graph::{Constant, NodeId, TableId};
-use crate::sema::builtins::Mixture;
 use crate::sema::program::*;
 use crate::sema::ty::Ty;
 use crate::source::Span;
@@ -22,7 +21,7 @@ pub(super) struct Made {
     /// By address; the table is kept, so that no other gets its address.
     columns: FxHashMap<*const Table, (Rc<Table>, Rc<[TableId]>)>,
     bayer: FxHashMap<i32, Rc<Table>>,
-    pub mixtures: FxHashMap<(Mixture, i32), Rc<Table>>,
+    pub nearest: FxHashMap<i32, Rc<Table>>,
 }
 
 impl<'a> Lower<'a> {
