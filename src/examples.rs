@@ -4,13 +4,17 @@
 type Example = (&'static str, &'static str);
 
 macro_rules! texts {
-    ($($name:literal)*) => {
-        &[$(($name, include_str!(concat!("../examples/", $name, ".scn"))),)*]
+    ($($name:literal)* moving $($moves:literal)*) => {
+        &[
+            $(($name, include_str!(concat!("../examples/", $name, ".scn"))),)*
+            $(($moves, include_str!(concat!("../examples/moving/", $moves, ".scn"))),)*
+        ]
     };
 }
 
-/// The repository's examples, by name.
+/// The repository's examples, by name; those that move stand last.
 pub const EXAMPLES: &[Example] = texts! {
+    "colours"
     "csg"
     "fifty"
     "focus"
@@ -28,6 +32,10 @@ pub const EXAMPLES: &[Example] = texts! {
     "torus-original"
     "twist"
     "wave"
+    moving
+    "bounce"
+    "plasma"
+    "walk"
 };
 
 /// What a new scene is where no example is asked for.

@@ -194,6 +194,8 @@ pub(crate) const INTS: &[Routine] = &[
     routine!("int_mod_power" IntMod(I, I) -> I, t::MOD_POWER, [], by_small_power, EXACT, |a, b| a & (b.wrapping_sub(1) & 0xFF), 24, 17),
     routine!("int_mod" IntMod(I, I) -> I, "modulo", ["modulo"], everywhere, EXACT, |a, b| model::modulo(a, b), 444, 51),
     routine!("and" BitAnd(I, I) -> I, t::AND, [], everywhere, EXACT, |a, b| a & b, 36, 24),
+    routine!("or" BitOr(I, I) -> I, t::OR, [], everywhere, EXACT, |a, b| a | b, 36, 24),
+    routine!("xor" BitXor(I, I) -> I, t::XOR, [], everywhere, EXACT, |a, b| a ^ b, 36, 24),
     routine!("int_negative" IntLess(I, I) -> B, t::NEGATIVE, [], with!(1 = 0.0), EXACT, |a, _b| i32::from(a < 0), 12, 8),
     routine!("int_positive" IntLess(I, I) -> B, t::POSITIVE, [], with!(0 = 0.0), EXACT, |_a, b| i32::from(b > 0), 19, 27),
     routine!("int_less" IntLess(I, I) -> B, t::LESS, [], everywhere, EXACT, |a, b| i32::from(a < b), 36, 26),

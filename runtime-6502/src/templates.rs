@@ -153,6 +153,8 @@ pub(crate) const TO_REAL: &str =
     "lda #0 | sta {r.0} | sta {r.1} | lda {0.0} | sta {r.2} | lda {0.1} | sta {r.3}";
 
 pub(crate) const AND: &str = "~[lda {0.k} | and {1.k} | sta {r.k}]";
+pub(crate) const OR: &str = "~[lda {0.k} | ora {1.k} | sta {r.k}]";
+pub(crate) const XOR: &str = "~[lda {0.k} | eor {1.k} | sta {r.k}]";
 
 /// By a power of two up to 128: the bits below it.
 pub(crate) const MOD_POWER: &str = "~

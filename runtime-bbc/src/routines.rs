@@ -8,7 +8,7 @@
 use slowlight_isa::real40::{Real40, arith, elementary};
 use slowlight_routine::{Error, Form, Format, Op, Range, Routine, everywhere};
 
-use crate::level::{AND, COMPARE, OPERAND, POWER, PRODUCT, SUM};
+use crate::level::{AND, COMPARE, OPERAND, OR, POWER, PRODUCT, SUM};
 use crate::model::{self as m, from_int, int, plain, real};
 use crate::{INT as I, REAL as R, nearest};
 
@@ -306,6 +306,8 @@ pub(crate) static ALL: &[Routine] = &[
     routine!("FNimax" IntMax(I, I) -> I, call("FNimax({0},{1})"), ["FNimax"], everywhere, EXACT, |a: int, b: int| a.max(b), 7800, 9),
     routine!("int_sgn" IntSign(I) -> I, call("SGN({0})"), [], everywhere, EXACT, |a: int| a.signum(), 400, 3),
     routine!("and" BitAnd(I, I) -> I, form("{0} AND {1}", AND, &[AND, COMPARE]), [], everywhere, EXACT, |a: int, b: int| a & b, 218, 3),
+    routine!("or" BitOr(I, I) -> I, form("{0} OR {1}", OR, &[OR, AND]), [], everywhere, EXACT, |a: int, b: int| a | b, 218, 3),
+    routine!("eor" BitXor(I, I) -> I, form("{0} EOR {1}", OR, &[OR, AND]), [], everywhere, EXACT, |a: int, b: int| a ^ b, 218, 3),
     routine!("int_less" IntLess(I, I) -> B, LESS, [], everywhere, EXACT, |a: int, b: int| a < b, 200, 1),
     routine!("int_less_equal" IntLessEqual(I, I) -> B, LESS_EQUAL, [], everywhere, EXACT, |a: int, b: int| a <= b, 200, 2),
     routine!("int_equal" IntEqual(I, I) -> B, EQUAL, [], everywhere, EXACT, |a: int, b: int| a == b, 200, 1),

@@ -180,6 +180,8 @@ pub(crate) const INTS: &[Routine] = &[
     routine!("int_far_max" IntMax(I, I) -> I, call("Int.max({0}, {1})"), ["Int.max"], everywhere, EXACT, |a, b| a.max(b), 22, 36),
     routine!("int_sign" IntSign(I) -> I, call("Int.sign({0})"), ["Int.sign"], everywhere, EXACT, |a| a.signum(), 11, 36),
     routine!("and" BitAnd(I, I) -> I, sum("{0} & {1}"), [], everywhere, EXACT, |a, b| a & b, 1, 7),
+    routine!("or" BitOr(I, I) -> I, sum("{0} | {1}"), [], everywhere, EXACT, |a, b| a | b, 1, 7),
+    routine!("xor" BitXor(I, I) -> I, call("Int.xor({0}, {1})"), ["Int.xor"], everywhere, EXACT, |a, b| a ^ b, 10, 36),
     routine!("int_less" IntLess(I, I) -> B, sum("{0} < {1}"), [], near, EXACT, |a, b| a < b, 1, 12),
     routine!("int_far_less" IntLess(I, I) -> B, call("Int.less({0}, {1})"), ["Int.less"], everywhere, EXACT, |a, b| a < b, 14, 36),
     routine!("int_less_equal" IntLessEqual(I, I) -> B, sum("~({0} > {1})"), [], near, EXACT, |a, b| a <= b, 2, 14),

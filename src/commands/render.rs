@@ -5,7 +5,7 @@ use crate::failure::{Failure, Outcome};
 use crate::moving::film::FilmFile;
 use crate::moving::sweep;
 use crate::moving::walk::{Step, walk};
-use crate::moving::{MovingArgs, must_move};
+use crate::moving::{MovingArgs, must_move, pictures_in_words};
 use crate::picture::Picture;
 use crate::picture::PictureFile;
 use crate::scene::{Precision, Scene, SceneArgs};
@@ -129,6 +129,7 @@ fn film(args: &Args, pictures: u32) -> Outcome<()> {
             Vec::new()
         }
     };
+    args.moving.keys_are_asked_for(&graph)?;
     let steps = walk(&graph, window, pictures, &hands, &sweeps)?;
     let states: Vec<_> = steps.iter().map(states_json).collect();
     let drawn: Vec<Picture> = steps.into_iter().map(|step| step.picture).collect();
@@ -148,8 +149,9 @@ fn film(args: &Args, pictures: u32) -> Outcome<()> {
         }));
     }
     say(&format!(
-        "{}: {pictures} pictures of {width} x {height} pixels, {inks} inks\n",
-        scene.name
+        "{}: {} of {width} x {height} pixels, {inks} inks\n",
+        scene.name,
+        pictures_in_words(pictures)
     ))
 }
 

@@ -135,7 +135,9 @@ fn walk(args: &Args, pictures: u32) -> Outcome<()> {
     let output = FilmFile::named(args.output.as_deref())?;
     let hands = args.moving.hands()?;
     let scene = Scene::load(&args.scene)?.moving();
-    must_move(&scene.graph(None, Precision::NATIVE)?)?;
+    let graph = scene.graph(None, Precision::NATIVE)?;
+    must_move(&graph)?;
+    args.moving.keys_are_asked_for(&graph)?;
     scene.warn();
     let machine = args.screen.machine(args.target);
     let machine = HeapOf::of(args.heap, args.screen.os, machine)?;

@@ -4,11 +4,13 @@ pub mod film;
 pub mod hands;
 pub mod places;
 pub mod run;
+mod said;
 pub mod sweep;
 pub mod walk;
 
 use crate::draw::Window;
 use crate::failure::{Failure, Outcome};
+use crate::format::count;
 use hands::Hands;
 use slowlight_compiler::ir::graph::Graph;
 use slowlight_compiler::source::Diagnostic;
@@ -24,8 +26,9 @@ const FOLLOWED: u32 = 1_000;
 /// Options of what moves.
 #[derive(clap::Args, Clone, Debug)]
 pub struct MovingArgs {
-    /// So many pictures of a scene that moves, one after the other
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=i64::from(MOST)))]
+    /// So many pictures of a scene that moves, one after the other: 10,000 at most, and of a
+    /// program that is followed 1,000
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
     pub pictures: Option<u32>,
     /// What is held, a unit a picture: "up*40 right*10 fire wait 5" (docs/moving.md), or @FILE,
     /// a file of it
@@ -45,6 +48,18 @@ impl MovingArgs {
     pub fn hands(&self) -> Outcome<Hands> {
         Hands::of(self.keys.as_deref().unwrap_or_default())
     }
+
+    /// Fails where there is a script of keys, and nothing in a scene asks for them.
+    ///
+    /// # Errors
+    /// Where its graph has no buttons.
+    pub fn keys_are_asked_for(&self, graph: &Graph) -> Outcome<()> {
+        if self.keys.is_none() || graph.buttons().next().is_some() {
+            return Ok(());
+        }
+        let message = "--keys: no state of this scene asks for `input`".to_owned();
+        Err(Failure::Usage(message))
+    }
 }
 
 /// Fails where the pictures of a film are more than are kept.
@@ -52,13 +67,15 @@ impl MovingArgs {
 /// # Errors
 /// How many pixels there may be.
 pub fn few_enough(window: Window, pictures: u32) -> Outcome<()> {
+    no_more_than(MOST, "a film has", pictures)?;
     let pixels = window.count() as u64 * u64::from(pictures);
     if pixels <= PIXELS {
         return Ok(());
     }
     let most = PIXELS / window.count().max(1) as u64;
     Err(Failure::Usage(format!(
-        "--pictures {pictures}: of pictures so large there may be {most}; say fewer, or fewer --rows"
+        "--pictures {pictures}: of pictures so large there may be {}; say fewer, or fewer --rows",
+        count(most)
     )))
 }
 
@@ -67,11 +84,24 @@ pub fn few_enough(window: Window, pictures: u32) -> Outcome<()> {
 /// # Errors
 /// How many pictures there may be.
 pub fn few_to_follow(pictures: u32) -> Outcome<()> {
-    if pictures <= FOLLOWED {
+    no_more_than(FOLLOWED, "a program is followed for", pictures)
+}
+
+fn no_more_than(most: u32, what: &str, pictures: u32) -> Outcome<()> {
+    if pictures <= most {
         return Ok(());
     }
-    let message = format!("--pictures {pictures}: a program is followed for {FOLLOWED} at most");
+    let most = count(u64::from(most));
+    let message = format!("--pictures {pictures}: {what} {most} at most");
     Err(Failure::Usage(message))
+}
+
+/// Pictures in words: `1 picture`, `1,000 pictures`.
+pub fn pictures_in_words(pictures: u32) -> String {
+    match pictures {
+        1 => "1 picture".to_owned(),
+        n => format!("{} pictures", count(u64::from(n))),
+    }
 }
 
 /// What is said of a graph that a target cannot move.

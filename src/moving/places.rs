@@ -1,11 +1,11 @@
 //! States in a machine's memory: where a program has them, and what they are.
 
-use slowlight_compiler::backend::{jack, mos6502};
+use slowlight_compiler::backend::{bbc, jack, mos6502};
 use slowlight_compiler::ir::graph::ParamId;
 use slowlight_compiler::plan::Plan;
-use slowlight_compiler::targets::Language;
+use slowlight_compiler::targets::{Language, System};
 use slowlight_routine::log::model::Log;
-use slowlight_routine::{Bits, Format};
+use slowlight_routine::{Bits, Format, Value};
 
 /// A state's bits at the start.
 pub fn bits_of(plan: &Plan, id: ParamId) -> Bits {
@@ -18,6 +18,21 @@ pub enum Places {
     Hack(Vec<jack::Held>),
     /// At addresses.
     Mos6502(Vec<mos6502::Held>),
+    /// In variables of BASIC.
+    Bbc(Vec<bbc::Held>),
+}
+
+/// How often a program looks at the keyboard behind a picture: once, or once for each key where
+/// the machine's system is asked for one at a time.
+pub fn looks(plan: &Plan) -> u64 {
+    let one_by_one = match plan.target.system {
+        System::BbcBasic | System::Agon | System::BasicV | System::BbcCode => true,
+        System::Hack | System::Plain6502 | System::C64 => false,
+    };
+    match one_by_one {
+        true => plan.graph.buttons().count().max(1) as u64,
+        false => 1,
+    }
 }
 
 impl Places {
@@ -25,7 +40,8 @@ impl Places {
     pub fn of(plan: &Plan) -> Places {
         match plan.target.system.language() {
             Language::Assembly => Places::Mos6502(mos6502::held(plan)),
-            Language::Jack | Language::Basic => Places::Hack(jack::held(plan)),
+            Language::Jack => Places::Hack(jack::held(plan)),
+            Language::Basic => Places::Bbc(bbc::held(plan)),
         }
     }
 
@@ -46,8 +62,35 @@ impl Places {
                 let held = all.iter().find(|held| held.state == id)?;
                 Some(on_6502(plan, *held, should, memory))
             }
+            Places::Bbc(all) => {
+                let held = all.iter().find(|held| held.state == id)?;
+                Some(in_basic(plan, held, memory))
+            }
         }
     }
+}
+
+/// A state's bits among the variables of BASIC: of each the length of its name, the name, and
+/// its bits in four words, the highest first.
+fn in_basic(plan: &Plan, held: &bbc::Held, told: &[i16]) -> Option<Bits> {
+    const WORDS: usize = 4;
+    let mut rest = told;
+    while let [length, behind @ ..] = rest {
+        let (name, behind) = behind.split_at_checked(usize::try_from(*length).ok()?)?;
+        let (words, behind) = behind.split_at_checked(WORDS)?;
+        let is_it = || name.iter().copied().eq(held.name.bytes().map(i16::from));
+        if is_it() {
+            let shifted = |bits: u64, word: &i16| bits << 16 | u64::from(*word as u16);
+            let bits = words.iter().fold(0, shifted);
+            return Some(match plan.param_format(held.state) {
+                Format::Bool => Bits::from(bits != 0),
+                Format::Real40 => bits,
+                whole => (plan.runtime.encode)(Value::Int(bits as i32), whole),
+            });
+        }
+        rest = behind;
+    }
+    None
 }
 
 /// A state's bits in a 6502's memory, low byte first.

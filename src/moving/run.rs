@@ -2,28 +2,24 @@
 //! machine's own states.
 
 use super::hands::Hands;
-use super::places::{Places, bits_of};
-use super::walk::label;
+use super::places::{Places, bits_of, looks};
+use super::walk::{label, next};
 use crate::draw::{Drawn, Window, model_with, native};
 use crate::failure::{Failure, Outcome};
-use crate::format::{count, table};
 use crate::machine::{Loaded, Machine, MachineRun, complaint};
 use crate::measure::{Difference, differences};
 use crate::picture::Picture;
 use crate::progress::{Progress, Waiting};
 use crate::scene::{Precision, Scene};
-use crate::trial::{mode_json, shown};
-use serde_json::{Value as Json, json};
+use crate::trial::shown;
 use slowlight_compiler::ir::graph::{Graph, Param, ParamId};
 use slowlight_compiler::plan::Plan;
 use slowlight_compiler::plan::model::ModelRun;
 use slowlight_compiler::planner::PlannedScene;
-use slowlight_routine::{Bits, Value};
+use slowlight_routine::{Bits, Type, Value};
 use slowlight_vm::Screen;
 use slowlight_vm::keys::{Keyboard, Unit};
-
-/// How many pictures that are unlike the model's are listed.
-const LISTED: usize = 10;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// A state in a picture.
 #[derive(Clone, Debug)]
@@ -36,6 +32,21 @@ pub struct State {
     pub should: f64,
     /// Whether the two have the same bits.
     pub same: bool,
+    /// What the native step makes of the machine's picture before, of an int or a bool that is
+    /// another.
+    pub natively: Option<f64>,
+    /// Whether it is an angle.
+    pub is_angle: bool,
+}
+
+impl State {
+    /// A value of it in words: an angle in degrees.
+    pub fn written(&self, value: f64) -> String {
+        match self.is_angle {
+            true => format!("{:.4}deg", value.to_degrees()),
+            false => format!("{value:.6}"),
+        }
+    }
 }
 
 /// A picture of the walk.
@@ -56,6 +67,8 @@ pub struct Walk {
     pub plan: PlannedScene,
     /// The machine's counts.
     pub run: MachineRun,
+    /// Its cycles until each picture is there.
+    pub times: Vec<u64>,
     /// Picture by picture.
     pub pictures: Vec<Shown>,
 }
@@ -73,15 +86,15 @@ pub fn run(
 ) -> Outcome<Walk> {
     let followed = match machine {
         Machine::Hack(config) => !config.cpu && !config.os,
-        Machine::Mos6502(_) => true,
-        Machine::Bbc(_) => false,
+        Machine::Mos6502(_) | Machine::Bbc(_) => true,
     };
     if !followed {
         let message = "--pictures: of the Hack, only the VM with its native system is followed yet";
         return Err(Failure::Usage(message.to_owned()));
     }
     let script = hands.script().clone().filmed(u64::from(pictures));
-    let keyboard = Keyboard::new(script, Unit::Calls, |_| None).remembering();
+    let keyboard = Keyboard::new(script, Unit::Calls, |_| None);
+    let keyboard = keyboard.remembering().looked_at(looks(&plan));
     let (run, keyboard) = {
         let _waiting = Waiting::new("the machine");
         loaded.play(keyboard, limit, &mut |_| {})?
@@ -97,7 +110,8 @@ pub fn run(
         return Err(Failure::Wrong(message));
     }
     let native_graph = scene.graph(Some(plan.mode.inks), Precision::NATIVE)?;
-    let mut follow = Follow::new(&plan, native_graph);
+    let angles = scene.angles();
+    let mut follow = Follow::new(&plan, native_graph, &angles);
     let progress = Progress::new("pictures", u64::from(pictures));
     let mut found = Vec::new();
     for (at, (screen, memory)) in (0..).zip(seen) {
@@ -106,6 +120,7 @@ pub fn run(
         progress.step(1);
     }
     Ok(Walk {
+        times: keyboard.times().to_vec(),
         plan,
         run,
         pictures: found,
@@ -121,10 +136,14 @@ struct Follow<'p> {
     places: Places,
     /// What the states should be.
     should: Vec<(ParamId, Bits)>,
+    /// What the native step makes of the machine's states.
+    natively: BTreeMap<String, f64>,
+    /// Which of them are angles.
+    angles: &'p BTreeSet<String>,
 }
 
 impl<'p> Follow<'p> {
-    fn new(plan: &'p Plan, native: Graph) -> Follow<'p> {
+    fn new(plan: &'p Plan, native: Graph, angles: &'p BTreeSet<String>) -> Follow<'p> {
         let steps = plan.graph.steps();
         let start = steps.map(|(id, _)| (id, bits_of(plan, id)));
         Follow {
@@ -132,6 +151,8 @@ impl<'p> Follow<'p> {
             native,
             places: Places::of(plan),
             should: start.collect(),
+            natively: BTreeMap::new(),
+            angles,
             plan,
         }
     }
@@ -160,11 +181,15 @@ impl<'p> Follow<'p> {
             native_param(&mut self.native, param)
                 .iter_mut()
                 .for_each(|own| own.value = is_value);
+            let name = label(param);
+            let natively = self.natively.get(&name).copied();
             states.push(State {
-                name: label(param),
                 is: is_value,
                 should: should_value,
                 same: is == should,
+                natively: natively.filter(|value| *value != is_value),
+                is_angle: self.angles.contains(&param.name),
+                name,
             });
         }
         let window = Window::on_screen(plan);
@@ -192,6 +217,13 @@ impl<'p> Follow<'p> {
             }
         }
         self.should = ModelRun::new(&self.now).next_states();
+        hands.give(picture, &mut self.native);
+        let graph = &self.native;
+        let whole = next(graph).into_iter().filter_map(|(id, value)| {
+            let param = graph.params.get(id.0 as usize)?;
+            (param.ty != Type::Real).then(|| (label(param), value))
+        });
+        self.natively = whole.collect();
     }
 }
 
@@ -231,96 +263,29 @@ impl Walk {
         states.filter(|state| !state.same).count()
     }
 
-    /// The machine's cycles a picture, what comes before the first among them.
+    /// How many ints and bools are unlike what the native step makes of the machine's states
+    /// before.
+    pub fn steps_unlike(&self) -> usize {
+        let states = self.pictures.iter().flat_map(|shown| &shown.states);
+        states.filter(|state| state.natively.is_some()).count()
+    }
+
+    /// The machine's cycles until the first picture is there, what it makes before among them.
+    pub fn first_cycles(&self) -> u64 {
+        self.times.first().copied().unwrap_or(self.run.cycles)
+    }
+
+    /// The machine's cycles a picture: from the first to the last, where there are several.
     pub fn cycles_a_picture(&self) -> f64 {
-        self.run.cycles as f64 / self.pictures.len().max(1) as f64
+        let last = self.times.last().copied().unwrap_or_default();
+        match self.times.len() {
+            0 | 1 => self.first_cycles() as f64,
+            n => last.saturating_sub(self.first_cycles()) as f64 / (n - 1) as f64,
+        }
     }
 
-    /// What `run --pictures` prints.
-    pub fn text(&self, scene: &str) -> String {
-        let plan = &self.plan;
-        let window = Window::on_screen(plan);
-        let (model, native) = self.pixels_unlike();
-        let row = |what: &str, value: String| vec![what.to_owned(), value];
-        let pixels = window.count() * self.pictures.len();
-        let a_second = plan.target.hertz / self.cycles_a_picture();
-        let mut rows = vec![
-            row("pictures", count(self.pictures.len() as u64)),
-            row("pixels", count(pixels as u64)),
-            row("cycles", count(self.run.cycles)),
-            row(
-                "cycles a picture",
-                count(self.cycles_a_picture().round() as u64),
-            ),
-            row("pictures a second", format!("{a_second:.2}")),
-            row("pixels unlike the model's", count(model as u64)),
-            row(
-                "states unlike the model's",
-                count(self.states_unlike() as u64),
-            ),
-            row("pixels unlike the native ones", count(native as u64)),
-        ];
-        let last = self.pictures.last();
-        for state in last.iter().flat_map(|shown| &shown.states) {
-            rows.push(row(
-                &format!("{} at last", state.name),
-                format!("{:.6}", state.is),
-            ));
-        }
-        let (width, height) = (window.width(), window.height());
-        let (target, format) = (plan.target.name, plan.runtime.format);
-        let title = format!("{scene}: {target}, {format}, {width} x {height} pixels\n");
-        let mut text = title + &table(&rows);
-        let unlike = |shown: &&(usize, &Shown)| {
-            !shown.1.from_model.is_empty() || shown.1.states.iter().any(|state| !state.same)
-        };
-        let all: Vec<(usize, &Shown)> = self.pictures.iter().enumerate().collect();
-        for (at, shown) in all.iter().filter(unlike).take(LISTED) {
-            let pixels = shown.from_model.len();
-            text.push_str(&format!("picture {at}: {pixels} pixels unlike the model's"));
-            for state in shown.states.iter().filter(|state| !state.same) {
-                let State {
-                    name, is, should, ..
-                } = state;
-                text.push_str(&format!(", {name} is {is} and should be {should}"));
-            }
-            text.push('\n');
-        }
-        text
-    }
-
-    /// What `run --pictures --json` prints.
-    pub fn report(&self, scene: &str) -> Json {
-        let plan = &self.plan;
-        let (model, native) = self.pixels_unlike();
-        let window = Window::on_screen(plan);
-        let pictures = self.pictures.iter().map(|shown| {
-            let states = shown.states.iter();
-            let states = states.map(|state| (state.name.clone(), json!(state.is)));
-            let unlike = shown.states.iter().filter(|state| !state.same);
-            let unlike = unlike.map(|state| (state.name.clone(), json!(state.should)));
-            json!({
-                "inks_sha256": shown.picture.sha256(),
-                "differs_from_model": shown.from_model.len(),
-                "differs_from_native": shown.from_native.len(),
-                "states": states.collect::<serde_json::Map<_, _>>(),
-                "states_of_model": unlike.collect::<serde_json::Map<_, _>>(),
-            })
-        });
-        json!({
-            "scene": scene,
-            "target": plan.target.name,
-            "mode": mode_json(plan.mode.name),
-            "format": plan.runtime.format,
-            "width": window.width(),
-            "height": window.height(),
-            "cycles": self.run.cycles,
-            "cycles_per_picture": self.cycles_a_picture(),
-            "pictures_per_second": plan.target.hertz / self.cycles_a_picture(),
-            "differs_from_model": model,
-            "differs_from_native": native,
-            "states_differ": self.states_unlike(),
-            "pictures": pictures.collect::<Vec<_>>(),
-        })
+    /// Pictures a second at the machine's own speed.
+    pub fn pictures_a_second(&self) -> f64 {
+        self.plan.target.hertz / self.cycles_a_picture().max(1.0)
     }
 }

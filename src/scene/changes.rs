@@ -11,10 +11,10 @@ use std::path::PathBuf;
 /// What is changed about a scene.
 #[derive(Args, Clone, Debug, Default)]
 pub struct Changes {
-    /// Give a param another value: eye=0.35,0.25,3.6 or heading=45deg
+    /// Give a param another value, a state another start: eye=0.35,0.25,3.6 or heading=45deg
     #[arg(long, value_name = "PARAM=VALUE", allow_hyphen_values = true)]
     pub set: Vec<String>,
-    /// Fold a param like a constant: its name, or all
+    /// Fold a param, or a state of a still picture, like a constant: its name, or all
     #[arg(long, value_name = "PARAM|all")]
     pub freeze: Vec<String>,
     /// Replace an effect by its `else`
@@ -52,7 +52,7 @@ pub(super) fn options(args: &Changes, program: &Program) -> Outcome<Options> {
             return Ok(());
         }
         let names: Vec<&str> = params().collect();
-        let message = unknown("param", name, names.iter().copied());
+        let message = unknown(program.declared(), name, names.iter().copied());
         Err(Failure::Usage(message))
     };
     let mut set = Vec::new();

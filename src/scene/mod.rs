@@ -16,6 +16,7 @@ use slowlight_compiler::scene;
 use slowlight_compiler::sema::{self, Options, Ways};
 use slowlight_compiler::source::{Diagnostic, Sources, Span};
 use slowlight_compiler::targets::Target;
+use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
 /// What a scene knows of the number format that it is computed in.
@@ -103,6 +104,13 @@ pub struct Scene {
 }
 
 impl Scene {
+    /// The names of its params and states that are angles.
+    pub fn angles(&self) -> BTreeSet<String> {
+        let params = self.checked.program.params.iter();
+        let angles = params.filter(|param| param.ty == sema::Ty::Angle);
+        angles.map(|param| param.name.clone()).collect()
+    }
+
     /// Reads and checks a scene.
     ///
     /// # Errors

@@ -102,7 +102,7 @@ pub struct ScreenArgs {
     /// With subroutines for what the program has several times, also where it fits without
     #[arg(long)]
     pub outlined: bool,
-    /// Spend less memory on speed, from 0, the default, to 18, also where the program fits
+    /// Spend less memory on speed, from 0, the default, to 6, also where the program fits
     #[arg(long, value_name = "STEP", value_parser = thrift)]
     pub thrift: Option<u8>,
     /// How shapes that are alike may be found.

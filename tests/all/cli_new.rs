@@ -12,15 +12,20 @@ fn read(path: &Path) -> String {
 
 #[test]
 fn the_binary_has_all_examples() {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("examples");
-    let all = names(&folder);
-    let mut scenes: Vec<&str> = all.iter().filter_map(|n| n.strip_suffix(".scn")).collect();
-    scenes.sort_unstable();
-    let known: Vec<&str> = EXAMPLES.iter().map(|(name, _)| *name).collect();
-    assert_eq!(known, scenes, "src/examples.rs lists them");
-    for (name, text) in EXAMPLES {
-        assert_eq!(*text, read(&folder.join(format!("{name}.scn"))));
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let mut known = EXAMPLES.iter();
+    for folder in ["examples", "examples/moving"] {
+        let folder = root.join(folder);
+        let all = names(&folder);
+        let mut scenes: Vec<&str> = all.iter().filter_map(|n| n.strip_suffix(".scn")).collect();
+        scenes.sort_unstable();
+        assert!(!scenes.is_empty());
+        for name in scenes {
+            let text = read(&folder.join(format!("{name}.scn")));
+            assert_eq!(known.next(), Some(&(name, text.as_str())), "{name}");
+        }
     }
+    assert_eq!(known.next(), None);
 }
 
 #[test]

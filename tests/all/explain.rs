@@ -33,6 +33,7 @@ const OTHERS: &[(&str, &str)] = &[
     ("torus-march", "20"),
     ("torus-original", "20"),
     ("primitives", "0"),
+    ("colours", "100"),
 ];
 
 /// Scenes that take long even so: on one machine.

@@ -143,6 +143,8 @@ ops! {
     IntSign "isign" (Int) -> Int;
     /// Two's complement.
     BitAnd "and" (Int, Int) -> Int;
+    BitOr "or" (Int, Int) -> Int;
+    BitXor "xor" (Int, Int) -> Int;
     IntLess "ilt" (Int, Int) -> Bool;
     IntLessEqual "ile" (Int, Int) -> Bool;
     IntEqual "ieq" (Int, Int) -> Bool;
@@ -295,6 +297,8 @@ impl Op {
             Op::IntMax => a.max(b),
             Op::IntSign => a.signum(),
             Op::BitAnd => a & b,
+            Op::BitOr => a | b,
+            Op::BitXor => a ^ b,
             _ => 0,
         })
     }

@@ -76,6 +76,7 @@ pub fn interval(op: Op, [a, b]: [Range; 2], same: bool) -> Range {
         Op::IntNeg => ints(-a.hi, -a.lo),
         Op::IntAbs => magnitude(a),
         Op::BitAnd => mask(a, b),
+        Op::BitOr | Op::BitXor => joined(op, a, b),
         Op::Less | Op::LessEqual | Op::Equal | Op::Not => truth(op, a, b),
         Op::IntLess | Op::IntLessEqual | Op::IntEqual => truth(op, a, b),
     }
@@ -226,6 +227,22 @@ fn mask(a: Range, b: Range) -> Range {
         (false, true) => Range::new(0.0, b.hi),
         (false, false) => Range::ALL,
     }
+}
+
+/// Bits that one of two ints has, or just one: none above the greatest bit of both.
+fn joined(op: Op, a: Range, b: Range) -> Range {
+    let most = [a.hi, b.hi, -1.0 - a.lo, -1.0 - b.lo];
+    let most = most.into_iter().fold(0.0, f64::max);
+    let end = (0..31)
+        .map(|bits| f64::from(bits).exp2())
+        .find(|end| most < *end);
+    let end = end.unwrap_or(31f64.exp2());
+    let least = match (a.lo >= 0.0 && b.lo >= 0.0, op) {
+        (true, Op::BitOr) => a.lo.max(b.lo),
+        (true, _) => 0.0,
+        (false, _) => -end,
+    };
+    ints(least, end - 1.0)
 }
 
 fn truth(op: Op, a: Range, b: Range) -> Range {

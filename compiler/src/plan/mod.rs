@@ -273,6 +273,11 @@ impl Plan {
         self.read_as(ty, |node| matches!(node, Node::Param(p) if p == id))
     }
 
+    /// Whether a param is what a player holds, which nobody writes down.
+    pub fn is_held(&self, id: ParamId) -> bool {
+        self.graph.buttons().any(|(button, _)| button == id)
+    }
+
     /// The node that reads a param, if something does.
     pub fn param_node(&self, id: ParamId) -> Option<NodeId> {
         let mut ids = self.graph.ids();

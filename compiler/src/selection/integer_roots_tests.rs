@@ -45,7 +45,7 @@ fn statements(tree: &Tree) -> usize {
 #[test]
 fn roots_of_ints_draw_the_same() {
     let (mut made, mut fewer) = (0, 0);
-    for seed in 0..400 {
+    for seed in 0..500 {
         let graph = graph(seed);
         let tree = schedule(&graph);
         let found = ranges(&graph, &tree, &Slack::exact());

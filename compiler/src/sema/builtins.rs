@@ -14,6 +14,10 @@ pub enum Builtin {
     Ink,
     /// The n x n ordered-dither matrix over n^2; n a power of two.
     Bayer,
+    /// The inks that are nearest to the cells of a cube of colours.
+    NearestInks,
+    /// How far the palette's levels of a primary are apart.
+    InkStep,
     /// A ray from a point; the direction has length 1 by contract.
     Ray,
     /// A hit from its point, unit normal and distance along the ray; what a
@@ -52,6 +56,8 @@ impl Builtin {
             Builtin::Op(op) => op.name().to_owned(),
             Builtin::Ink => "ink".into(),
             Builtin::Bayer => "bayer".into(),
+            Builtin::NearestInks => "nearest_inks".into(),
+            Builtin::InkStep => "ink_step".into(),
             Builtin::Ray => "ray".into(),
             Builtin::Hit => "hit".into(),
             Builtin::Count => "count".into(),
@@ -128,7 +134,13 @@ pub fn signatures() -> Vec<Signature> {
     let pair = |a, b, ty: Ty| vec![need(a, ty.clone()), need(b, ty)];
     add("atan2", Builtin::Op(Op::Atan2), pair("y", "x", Real), Angle);
     add("early", Builtin::Early, one("c", Bool), Bool);
-    add("bit_and", Builtin::Op(Op::BitAnd), pair("a", "b", Int), Int);
+    for (name, op) in [
+        ("bit_and", Op::BitAnd),
+        ("bit_or", Op::BitOr),
+        ("bit_xor", Op::BitXor),
+    ] {
+        add(name, Builtin::Op(op), pair("a", "b", Int), Int);
+    }
     add("ink", Builtin::Ink, one("i", Int), Ink);
     add(
         "bayer",
@@ -136,6 +148,9 @@ pub fn signatures() -> Vec<Signature> {
         one("n", Int),
         Table(Box::new(Real)),
     );
+    let inks = Table(Box::new(Int));
+    add("nearest_inks", Builtin::NearestInks, one("side", Int), inks);
+    add("ink_step", Builtin::InkStep, one("primary", Int), Real);
     add("ray", Builtin::Ray, pair("from", "dir", Vector(3)), Ray);
     add(
         "count",

@@ -101,6 +101,31 @@ pub struct Param {
     pub span: Span,
 }
 
+impl Param {
+    /// What it is called in messages.
+    pub fn what(&self) -> &'static str {
+        match self.next {
+            Some(_) => "state",
+            None => "param",
+        }
+    }
+}
+
+impl Program {
+    /// What its params and states are called together.
+    pub fn declared(&self) -> &'static str {
+        let is_state = |param: &Param| param.next.is_some();
+        match (
+            self.params.iter().any(is_state),
+            self.params.iter().all(is_state),
+        ) {
+            (true, true) => "state",
+            (true, false) => "param or state",
+            (false, _) => "param",
+        }
+    }
+}
+
 /// A facet's name.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum FacetKind {

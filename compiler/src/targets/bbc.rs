@@ -74,7 +74,7 @@ pub static MICRO: Target = Target {
     lean: Lean::Short,
     last: false,
     windows: false,
-    moves: false,
+    moves: true,
     hertz: 2_000_000.0,
     sizes: SIZES,
     wraps: true,
@@ -99,7 +99,7 @@ pub static AGON: Target = Target {
     lean: Lean::Short,
     last: false,
     windows: false,
-    moves: false,
+    moves: true,
     // Measured: the two mirrors in 11.6 minutes for BASIC II's 17.8e9 cycles.
     hertz: 25_500_000.0,
     sizes: SIZES,
@@ -121,7 +121,7 @@ pub static BASIC_V: Target = Target {
     lean: Lean::Short,
     last: false,
     windows: false,
-    moves: false,
+    moves: true,
     // Measured: 0.15 seconds for the same program.
     hertz: 1.2e11,
     sizes: SIZES,

@@ -90,7 +90,7 @@ pub static BBC: Target = Target {
     about: "a BBC Micro in machine code, with a disc drive",
     modes: BBC_MODES,
     windows: true,
-    moves: false,
+    moves: true,
     drawing: 55,
     ..USUAL
 };
@@ -147,7 +147,7 @@ pub static BBC_REAL40: Target = Target {
 pub static C64: Target = Target {
     name: "6502:c64",
     system: System::C64,
-    moves: false,
+    moves: true,
     about: "a Commodore 64 (PAL) in machine code",
     modes: C64_MODES,
     drawing: 90,

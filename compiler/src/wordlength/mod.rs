@@ -341,6 +341,8 @@ fn read_at_most(graph: &Graph, copies: &Copies, widths: &Widths, own: &mut [i8])
         let set = match graph.node(id) {
             Node::Lookup { .. } | Node::Received | Node::Slot(_) => true,
             Node::Apply(op, _) => scale::given(op, widths.value(id)).is_some(),
+            // A state that nothing reads is still what it is.
+            Node::Param(p) => read[at] == scale::FEWEST && is_state(graph, p),
             _ => false,
         };
         if !set {
@@ -361,6 +363,12 @@ fn read_at_most(graph: &Graph, copies: &Copies, widths: &Widths, own: &mut [i8])
             *read = (*read).max(most);
         }
     }
+}
+
+/// Whether a param is a state.
+fn is_state(graph: &Graph, id: ParamId) -> bool {
+    let param = graph.params.get(id.0 as usize);
+    param.is_some_and(|param| param.role == Role::State)
 }
 
 /// Whether a value is added to itself.

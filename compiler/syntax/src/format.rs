@@ -1,6 +1,7 @@
 //! The formatter of `slowlight fmt`.
 //!
-//! Line breaks are the author's; what stands on a line and how far in is not.
+//! Line breaks are the author's, but that an item begins a line; what stands on a line and how
+//! far in is not.
 //! Tokens and comments are laid out again in their order, so nothing can be
 //! lost: one space around operators, none inside parentheses, two columns for
 //! each line that holds something open, two more where a statement goes on.
@@ -198,6 +199,8 @@ impl<'t, 'a> Layout<'t, 'a> {
         };
         if self.begins.contains(&at) {
             self.starts = true;
+            // No two items share a line; what else breaks lines is the author's.
+            self.newlines(1);
         }
         let closes = matches!(token, Token::Sym(")" | "]" | "}"));
         if self.fresh {

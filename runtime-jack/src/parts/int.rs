@@ -81,6 +81,12 @@ pub(crate) const DIV: &str =
     }
 ";
 
+pub(crate) const XOR: &str = "    /** The bits that one of a and b has, and not both. */
+    function int xor(int a, int b) {
+        return (a | b) - (a & b);
+    }
+";
+
 pub(crate) const MOD: &str =
     "    /** What is left of a after taking away whole b; with the sign of b. */
     function int mod(int a, int b) {

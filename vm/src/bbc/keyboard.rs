@@ -4,6 +4,7 @@
 //! like others (`*FX 229,1`); internal numbers are those of INKEY with a negative argument
 //! (*BBC Microcomputer User Guide*, chapters 33 and 43).
 
+use super::ast::Kind;
 use super::cost;
 use super::error::Error;
 use super::state::State;
@@ -161,8 +162,32 @@ impl State {
         Ok(None)
     }
 
+    /// The numbers among the variables, for who looks on: of each the length of its name, the
+    /// name, and its bits, in four words, the highest first.
+    fn numbers(&self) -> Vec<i16> {
+        let mut told = Vec::new();
+        let mut tell = |name: Vec<u8>, bits: u64| {
+            told.push(name.len() as i16);
+            told.extend(name.into_iter().map(i16::from));
+            told.extend((0..4).rev().map(|k| (bits >> (16 * k)) as u16 as i16));
+        };
+        for (slot, own) in (0..).zip(&self.ints) {
+            let bits = i64::from(own.value) as u64;
+            tell(self.names.spelt(Kind::Int, slot), bits);
+        }
+        for (slot, own) in (0..).zip(&self.reals) {
+            tell(self.names.spelt(Kind::Real, slot), own.value.to_bits());
+        }
+        told
+    }
+
     /// INKEY of a negative number: whether the key of an internal number is held.
     pub fn held(&mut self, number: u8) -> Result<bool, Error> {
+        if let Some(mut keyboard) = self.keyboard.take() {
+            let cycles = cost::with_interrupts(self.cycles);
+            keyboard.remember(cycles, || self.numbers());
+            self.keyboard = Some(keyboard);
+        }
         let Some((keyboard, frame, shown)) = self.keys() else {
             return Ok(false);
         };

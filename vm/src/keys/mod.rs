@@ -61,8 +61,9 @@ pub struct Keyboard {
     script: Script,
     by: Unit,
     read: ReadLine,
-    /// Units that have passed, by calls.
+    /// Looks that the program has taken, and how many of them are a unit.
     calls: u64,
+    looks: u64,
     /// The unit whose key was typed last.
     typed: Option<u64>,
     /// What was read of standard input and not yet typed.
@@ -73,8 +74,9 @@ pub struct Keyboard {
     /// Looks that saw no key when none was left.
     late: u64,
     shots: Vec<(String, Option<Screen>)>,
-    /// The memory at each look, where that is wanted.
+    /// The memory at each look, where that is wanted, and the machine's cycles until then.
     memories: Option<Vec<Vec<i16>>>,
+    times: Vec<u64>,
 }
 
 impl Keyboard {
@@ -85,6 +87,7 @@ impl Keyboard {
             script,
             read,
             calls: 0,
+            looks: 1,
             typed: None,
             line: VecDeque::new(),
             ended: false,
@@ -92,6 +95,7 @@ impl Keyboard {
             late: 0,
             shots: Vec::new(),
             memories: None,
+            times: Vec::new(),
         }
     }
 
@@ -104,15 +108,33 @@ impl Keyboard {
         }
     }
 
+    /// The same for a program that takes so many looks in a row, one for each key that it asks
+    /// for: only the first of them counts.
+    #[must_use]
+    pub fn looked_at(self, looks: u64) -> Keyboard {
+        Keyboard {
+            looks: looks.max(1),
+            ..self
+        }
+    }
+
     /// The memory at each look, on machines that tell it.
     pub fn memories(&self) -> &[Vec<i16>] {
         self.memories.as_deref().unwrap_or_default()
     }
 
-    /// The program is about to look, and its memory is this.
-    pub(crate) fn remember(&mut self, memory: impl FnOnce() -> Vec<i16>) {
-        if let Some(memories) = &mut self.memories {
+    /// The machine's cycles until each of those looks.
+    pub fn times(&self) -> &[u64] {
+        &self.times
+    }
+
+    /// The program is about to look, after so many cycles, and its memory is this.
+    pub(crate) fn remember(&mut self, cycles: u64, memory: impl FnOnce() -> Vec<i16>) {
+        if let Some(memories) = &mut self.memories
+            && self.calls.is_multiple_of(self.looks)
+        {
             memories.push(memory());
+            self.times.push(cycles);
         }
     }
 
@@ -248,7 +270,7 @@ impl Keyboard {
     fn at(&self, frame: u64) -> u64 {
         match self.by {
             Unit::Frames => frame,
-            Unit::Calls => self.calls,
+            Unit::Calls => self.calls / self.looks,
         }
     }
 

@@ -303,7 +303,7 @@ fn films_have_a_shot_at_every_look() {
     let screen = || None;
     let seen: Vec<Seen> = (0..5)
         .map(|at| {
-            keyboard.remember(|| vec![at]);
+            keyboard.remember(7 * at as u64, || vec![at]);
             keyboard.look(99, screen)
         })
         .collect();
@@ -311,4 +311,25 @@ fn films_have_a_shot_at_every_look() {
     assert_eq!(seen, [up, up, Seen::Nothing, left, Seen::Quit]);
     assert_eq!(keyboard.shots().len(), 5);
     assert_eq!(keyboard.memories().concat(), [0, 1, 2, 3, 4]);
+}
+
+/// A program that asks for three keys one after the other looks three times at one picture.
+#[test]
+fn looks_in_a_row_are_one() {
+    let script: Script = "up left".parse().expect("a script");
+    let keyboard = Keyboard::new(script.filmed(3), Unit::Calls, |_| None);
+    let mut keyboard = keyboard.remembering().looked_at(3);
+    let seen: Vec<Seen> = (0..7)
+        .map(|at| {
+            keyboard.remember(7 * at as u64, || vec![at]);
+            keyboard.look(0, || None)
+        })
+        .collect();
+    let up = Seen::Key(Key::Up);
+    assert_eq!(seen[..3], [up; 3]);
+    assert_eq!(seen[3..6], [Seen::Nothing; 3]);
+    assert_eq!(seen[6], Seen::Quit);
+    assert_eq!(keyboard.shots().len(), 3);
+    assert_eq!(keyboard.memories().concat(), [0, 3, 6]);
+    assert_eq!(keyboard.times(), [0, 21, 42]);
 }

@@ -9,7 +9,7 @@
 //! CINT ($FF81), and the return to BASIC, which **ends** the program. So does a look at
 //! the keyboard ($DC01) where there is none: nobody presses a key, unless [`C64::press`]
 //! says so. With a keyboard ([`keyboard`]), $DC01 reads the matrix as $DC00 selects it,
-//! and GETIN ($FFE4), CHRIN ($FFCF) and SCNKEY ($FF9F, which has nothing to do) are there.
+//! $DC00 a joystick in port 2 where the program has stored ones to it, and GETIN ($FFE4), CHRIN ($FFCF) and SCNKEY ($FF9F, which has nothing to do) are there.
 //!
 //! # Cycles
 //! Of the PAL machine's 985,248 Hz, 63 to a line, 312 lines to a picture. The video
@@ -158,6 +158,7 @@ impl Circuits {
             return 0;
         }
         match address {
+            0xDC00 if self.keys.is_some() && self.register(address) & 31 == 31 => self.stick(),
             0xDC01 if self.keys.is_some() => self.rows(),
             0xDC01 if self.pressed => 0xFE,
             0xDC01 => {

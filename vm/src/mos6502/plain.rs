@@ -129,7 +129,9 @@ impl Ports {
             self.ram[usize::from(port::HELD)] = 0;
             return;
         };
-        keyboard.remember(|| self.ram.iter().map(|byte| i16::from(*byte)).collect());
+        keyboard.remember(self.cycles, || {
+            self.ram.iter().map(|byte| i16::from(*byte)).collect()
+        });
         let held = match keyboard.look(self.cycles / FRAME, || self.screen.clone()) {
             Seen::Key(Key::Left) => 1,
             Seen::Key(Key::Right) => 2,

@@ -8,8 +8,8 @@ use crate::plan::Plan;
 /// How often a column's statements are carried out, beside those of the picture: about.
 const COLUMN: u64 = 8;
 
-/// Makes and fills the arrays.
-pub fn fill(plan: &Plan, code: &mut Code<'_>) {
+/// Makes the arrays.
+pub fn make(plan: &Plan, code: &mut Code<'_>) {
     let found = tabulated(&plan.graph, &plan.tree);
     if found.is_empty() {
         return;
@@ -20,6 +20,13 @@ pub fn fill(plan: &Plan, code: &mut Code<'_>) {
         .map(|id| format!("{}({last})", array(code, *id)))
         .collect();
     code.statement(format!("DIM {}", all.join(",")));
+}
+
+/// Fills them.
+pub fn fill(plan: &Plan, code: &mut Code<'_>) {
+    if tabulated(&plan.graph, &plan.tree).is_empty() {
+        return;
+    }
     let weight = std::mem::replace(&mut code.lines.weight, COLUMN);
     let (from, to) = plan.computed_columns();
     code.line(format!("FOR X%={from} TO {to}"));

@@ -89,7 +89,10 @@ impl<'p> Expressions<'p> {
         match (plan.graph.node(id), plan.place(id)) {
             (Node::Const(c), _) => self.constant(c.value()),
             (Node::Param(p), _) => match self.style {
-                Style::Fast | Style::Lean => Text::operand(self.names.copy(p.0 as usize)),
+                // What is held is read behind the picture alone.
+                Style::Fast | Style::Lean if !plan.is_held(p) => {
+                    Text::operand(self.names.copy(p.0 as usize))
+                }
                 _ => Text::operand(self.names.param(p.0 as usize)),
             },
             (Node::Axis(Axis::X | Axis::Run), _) => Text::operand("X%"),

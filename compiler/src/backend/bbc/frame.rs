@@ -17,10 +17,12 @@ use super::screen;
 use super::segment::{SEGMENT, Segments};
 use super::short::{Known, short};
 use super::spread::Spread;
+use super::steps;
 use super::tables;
 use super::tail;
 use super::thread::threaded;
 use super::ways;
+use crate::ir::graph::ParamId;
 use crate::plan::{Copies, Plan};
 use crate::source::Span;
 use behind::{called, called_rarely, functions, procedures, reports, setup};
@@ -133,6 +135,9 @@ fn parameters(plan: &Plan, code: &mut Code<'_>, first: &str, last: &str) {
         code.line("REM Change what you like here:");
     }
     for (k, (param, written)) in plan.graph.params.iter().zip(&plan.params).enumerate() {
+        if plan.is_held(ParamId(k as u32)) {
+            continue;
+        }
         let name = code.values.names.param(k);
         let range = match &written.range {
             Some((lo, hi)) => remark(format!("{lo} to {hi}")),
@@ -164,13 +169,26 @@ fn picture(plan: &Plan, code: &mut Code<'_>, first: &str, last: &str, spread: Op
     if let Some(spread) = spread {
         spread.start(code);
     }
+    // What a program that goes on makes once stands before its first picture.
+    let again = plan.graph.is_moving().then(|| {
+        columns::make(plan, code);
+        let screen = in_memory(plan, code);
+        let label = code.labels.next();
+        code.lines.place(label);
+        (screen, label)
+    });
     code.block(&plan.tree.frame);
+    if again.is_none() {
+        columns::make(plan, code);
+    }
     columns::fill(plan, code);
     let refined = Refined::new(plan, code);
     // Errors come from the rows above, drawn or not.
     let top = if spread.is_some() { "0" } else { first };
-    let passes = Passes::new(plan, code);
-    let poke = passes.is_none().then(|| Poke::new(plan, code)).flatten();
+    let ((passes, poke), again) = match again {
+        Some((screen, label)) => (screen, Some(label)),
+        None => (in_memory(plan, code), None),
+    };
     code.frame = plan.drawn;
     match &refined {
         Some(refined) => refined.begin(code, (first, last)),
@@ -289,9 +307,24 @@ fn picture(plan: &Plan, code: &mut Code<'_>, first: &str, last: &str, spread: Op
     }
     code.lines.weight = 1;
     code.frame = None;
-    reports(plan, code);
-    code.line("END");
+    match again {
+        Some(again) => {
+            steps::between(plan, code, plan.plot && poke.is_none());
+            code.line(format!("GOTO {again}"));
+        }
+        None => {
+            reports(plan, code);
+            code.line("END");
+        }
+    }
     apart.into_iter().for_each(|lines| code.lines.append(lines));
+}
+
+/// How pixels are put into memory: in passes, or byte by byte.
+fn in_memory(plan: &Plan, code: &mut Code<'_>) -> (Option<Passes>, Option<Poke>) {
+    let passes = Passes::new(plan, code);
+    let poke = passes.is_none().then(|| Poke::new(plan, code)).flatten();
+    (passes, poke)
 }
 
 /// What a pixel that is computed must pass beside to be drawn.

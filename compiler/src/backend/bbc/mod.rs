@@ -48,6 +48,7 @@ mod segment;
 mod short;
 mod spread;
 mod starts;
+mod steps;
 mod tables;
 mod tail;
 mod terse;
@@ -62,6 +63,8 @@ mod ways;
 
 pub(super) use screen::{colours, first_colour};
 pub(super) use starts::starts;
+pub(super) use steps::key;
+pub use steps::{Held, held};
 
 use super::Document;
 use crate::plan::Plan;

@@ -148,6 +148,12 @@ impl Names {
         name
     }
 
+    /// The assignment of a param's copy, if it has one.
+    pub fn copied(&self, at: usize) -> Option<String> {
+        let copy = self.copies.get(at)?.as_ref()?;
+        Some(format!("{copy}={}", self.param(at)))
+    }
+
     /// Assignments of all copies of params.
     pub fn copies(&self) -> impl Iterator<Item = String> + '_ {
         let pairs = self.copies.iter().zip(&self.params);

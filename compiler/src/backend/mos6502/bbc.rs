@@ -31,14 +31,17 @@ pub(super) fn symbols(text: &mut Text) {
 }
 
 /// How the program comes to the machine.
-pub(super) fn how(places: &Places, text: &mut Text) {
+pub(super) fn how(plan: &Plan, places: &Places, text: &mut Text) {
     text.line(format!(
         "; On a disc its load and execution addresses are ${:04x}; *RUN it, in MODE 7.",
         loaded_at(places)
     ));
-    text.line(
-        "; It stops with the picture standing, and a key brings BASIC back, without its program.",
-    );
+    text.line(match plan.graph.is_moving() {
+        true => "; The arrow keys and space are heard between two pictures; BREAK ends it.",
+        false => {
+            "; It stops with the picture standing, and a key brings BASIC back, without its program."
+        }
+    });
 }
 
 /// Where the file is loaded, if that is not where the program is at home.
@@ -90,16 +93,57 @@ pub(super) fn open(plan: &Plan, text: &mut Text) {
     text.headline("the picture");
     text.label(PICTURE);
     if let Some(layout) = screen {
-        let [lo, hi] = layout.start.to_le_bytes();
-        text.line(format!(
-            "        ; the screen, from ${:04x}, empty",
-            layout.start
-        ));
+        let lowest = layout.lowest(plan);
+        let [lo, hi] = lowest.to_le_bytes();
+        text.line(format!("        ; the screen, from ${lowest:04x}, empty"));
         text.code(&format!(
             "lda #${hi:02x} | sta prod+1 | ldy #${lo:02x} | lda #0 | sta prod"
         ));
         text.label("clear_byte");
         text.code("sta (prod),y | iny | bne clear_byte | inc prod+1 | bpl clear_byte");
+    }
+}
+
+/// Shows the screen that was drawn on, where there are two, and goes on with the other.
+pub(super) fn turn(plan: &Plan, text: &mut Text) {
+    let second = Layout::of(plan).and_then(|layout| layout.second(plan));
+    if second.is_none() {
+        return;
+    }
+    text.line("        ; the picture is shown, and the next one drawn on the other screen");
+    text.code("ldx hidden | lda #12 | sta $fe00 | lda shown_high,x | sta $fe01");
+    text.code("lda #13 | sta $fe00 | lda shown_low,x | sta $fe01");
+    text.code("txa | eor #1 | sta hidden");
+}
+
+/// Which of two screens is drawn on, from where on, and what the 6845 is told to show it.
+pub(super) fn turned(plan: &Plan, first: u32, text: &mut Text) {
+    let Some((layout, second)) =
+        Layout::of(plan).and_then(|layout| Some((layout, layout.second(plan)?)))
+    else {
+        return;
+    };
+    text.line("; the screen that is not shown; its first row that is drawn; the 6845's start");
+    text.label("hidden");
+    text.line("        .byte 0");
+    let both = [second, layout.start];
+    let drawn = both.map(|start| u32::from(start) + first);
+    let shown = both.map(|start| u32::from(start / 8));
+    for (name, places, high) in [
+        ("hidden_low", drawn, false),
+        ("hidden_high", drawn, true),
+        ("shown_low", shown, false),
+        ("shown_high", shown, true),
+    ] {
+        let bytes = places.map(|place| match high {
+            true => place >> 8 & 0xFF,
+            false => place & 0xFF,
+        });
+        text.label(name);
+        text.line(format!(
+            "        .byte ${:02x}, ${:02x}",
+            bytes[0], bytes[1]
+        ));
     }
 }
 

@@ -34,6 +34,8 @@ pub(super) struct Bitmap {
     unseen: Option<String>,
     /// Whether rows come in another order than down the screen.
     jumps: bool,
+    /// Whether there are two screens.
+    turns: bool,
     /// The pixel's column, its row, and the first row to draw.
     axes: [String; 3],
     byte: String,
@@ -72,6 +74,7 @@ impl Bitmap {
             seen: (plan.computed_columns() != plan.columns).then_some(from..=to),
             unseen: plan.graph.is_in_order().then_some(unseen),
             jumps: plan.kept_rows().is_some(),
+            turns: layout.second(plan).is_some(),
             axes,
             byte: name(Slot::ScreenByte),
             at: name(Slot::ScreenAt),
@@ -79,21 +82,30 @@ impl Bitmap {
         })
     }
 
+    /// Where on the screen the first row's first byte is.
+    pub fn first_byte(&self) -> u32 {
+        let Layout { row, pixels, .. } = self.layout;
+        self.top / 8 * row + self.left / pixels * 8 + self.top % 8
+    }
+
     /// At the picture's beginning: to its first row.
     pub fn open(&self, text: &mut Text) {
-        let Layout {
-            start, row, pixels, ..
-        } = self.layout;
-        let place = self.top / 8 * row + self.left / pixels * 8 + self.top % 8;
-        let [lo, hi, ..] = (u32::from(start) + place).to_le_bytes();
+        let start = self.layout.start;
         if self.jumps {
             return;
         }
         let (line, [_, _, first]) = (&self.line, &self.axes);
         text.line("        ; to the first row");
-        text.code(&format!(
-            "lda #{lo} | sta {line} | lda #{hi} | sta {line}+1"
-        ));
+        if self.turns {
+            text.code(&format!(
+                "ldx hidden | lda hidden_low,x | sta {line} | lda hidden_high,x | sta {line}+1"
+            ));
+        } else {
+            let [lo, hi, ..] = (u32::from(start) + self.first_byte()).to_le_bytes();
+            text.code(&format!(
+                "lda #{lo} | sta {line} | lda #{hi} | sta {line}+1"
+            ));
+        }
         text.code(&format!("lda {first}"));
         if self.first > 0 {
             text.code(&format!("sec | sbc #{}", self.first));

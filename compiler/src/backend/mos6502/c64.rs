@@ -15,11 +15,14 @@ use crate::plan::Plan;
 const KEPT: &str = "$cb00";
 
 /// How the program comes to the machine.
-pub(super) fn how(text: &mut Text) {
+pub(super) fn how(plan: &Plan, text: &mut Text) {
     text.line(
         "; In a .prg its load address, $0801, comes first, low byte before high; LOAD and RUN it.",
     );
-    text.line("; It stops with the picture standing, and a key brings BASIC back.");
+    text.line(match plan.graph.is_moving() {
+        true => "; A joystick in port 2 is asked between two pictures; a reset ends it.",
+        false => "; It stops with the picture standing, and a key brings BASIC back.",
+    });
 }
 
 /// Calls and places of the hardware.

@@ -49,6 +49,8 @@ fn operation(op: Op, a: &str, b: &str) -> String {
         Op::IntDiv => "div",
         Op::Mod | Op::IntMod => "mod",
         Op::BitAnd => "and",
+        Op::BitOr => "or",
+        Op::BitXor => "xor",
         Op::Less | Op::IntLess => "<",
         Op::LessEqual | Op::IntLessEqual => "<=",
         Op::Equal | Op::IntEqual => "=",

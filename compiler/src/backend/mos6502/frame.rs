@@ -169,8 +169,8 @@ fn head(plan: &Plan, homes: &Homes, entries: &[Entry], syntax: &Syntax, text: &m
     }
     match machine {
         Machine::Plain => {}
-        Machine::Bbc => bbc::how(&homes.places, text),
-        Machine::C64 => c64::how(text),
+        Machine::Bbc => bbc::how(plan, &homes.places, text),
+        Machine::C64 => c64::how(plan, text),
     }
     syntax.first().iter().for_each(|line| text.line(line));
     text.headline("parameters: change them here");
@@ -261,47 +261,53 @@ fn set_up(plan: &Plan, parts: &[&'static Part], text: &mut Text) {
 fn main(plan: &Plan, homes: &Homes, text: &mut Text) -> (bool, Vec<&'static str>) {
     let machine = Machine::of(plan);
     let screen = plan.plot.then(|| Screen::new(plan, homes));
+    let moves = plan.graph.is_moving();
     if let Some(screen) = &screen {
         screen.open(plan, text);
+        if !moves {
+            screen.begin(text);
+        }
     }
     let mut code = Code::new(plan, homes, text);
     let errors = plan.error_rows();
     if let Some(rows) = &errors {
         code.start_errors(rows);
     }
-    let moves = plan.graph.is_moving();
     if moves {
+        // All of a picture is written by the next one, so the screen is cleared once.
+        if machine == Machine::Bbc {
+            bbc::open(plan, code.text);
+        }
         code.text.label(steps::NEXT);
+        screen.iter().for_each(|screen| screen.begin(code.text));
     }
     if !plan.tree.frame.is_empty() {
         code.text.headline("once a picture");
         code.block(&plan.tree.frame);
     }
     code.fill_columns(plan.computed_columns());
-    if machine == Machine::Bbc {
+    if machine == Machine::Bbc && !moves {
         bbc::open(plan, code.text);
     }
     code.text.span = plan.drawn;
     let refined = Refined::new(plan, homes);
     let others = (errors.as_ref(), refined.as_ref());
     Rows::new(&code, screen.as_ref(), others).write(&mut code);
+    code.text.label("picture_done");
     if moves {
-        code.text.label("picture_done");
         steps::between(&mut code);
     }
     let (clamps, mut needs) = (code.clamps, std::mem::take(&mut code.needs));
     let text = &mut *code.text;
-    if !moves {
-        text.label("picture_done");
-    }
     match machine {
-        _ if moves => {}
+        Machine::Plain if moves => {}
         Machine::Plain => {
             reports(plan, homes, text);
             text.code("lda #0 | sta exit_port");
             text.label("halted");
             text.code("jmp halted");
         }
+        // What moves comes here only where a param is outside its range.
         Machine::Bbc => bbc::end(text),
         Machine::C64 => c64::end(text),
     }

@@ -15,6 +15,9 @@ pub(super) enum Lie {
     Pairs,
 }
 
+/// The largest screen that there are two of, in bytes.
+const SECOND: u16 = 0x800;
+
 /// A screen in memory.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Layout {
@@ -52,6 +55,19 @@ impl Layout {
             (System::C64, "multicolour") => layout(Lie::Pairs, 4, 0xE000, 320),
             _ => None,
         }
+    }
+
+    /// Where a second screen stands, which a picture is drawn on while the first is shown: on a
+    /// BBC Micro, where what moves is small.
+    pub fn second(&self, plan: &Plan) -> Option<u16> {
+        let turns = plan.target.system == System::BbcCode && plan.plot && plan.graph.is_moving();
+        let bytes = 0x8000u16.checked_sub(self.start).filter(|_| turns)?;
+        (bytes <= SECOND).then(|| self.start - bytes)
+    }
+
+    /// The first byte of all screens.
+    pub fn lowest(&self, plan: &Plan) -> u16 {
+        self.second(plan).unwrap_or(self.start)
     }
 
     /// How many bytes stand side by side.

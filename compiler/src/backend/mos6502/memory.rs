@@ -140,7 +140,7 @@ impl Machine {
         match self {
             Machine::Plain => (0, 0xFF00),
             Machine::Bbc => {
-                let screen = Layout::of(plan).map_or(TEXT_SCREEN, |layout| layout.start);
+                let screen = Layout::of(plan).map_or(TEXT_SCREEN, |layout| layout.lowest(plan));
                 (plan.page.unwrap_or(LEAST_PAGE), screen.min(TEXT_SCREEN))
             }
             Machine::C64 => (C64_ORIGIN, C64_END),

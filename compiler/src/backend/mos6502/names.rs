@@ -1,5 +1,6 @@
 //! What things are called in a program.
 
+use super::memory::Machine;
 use crate::plan::Plan;
 use slowlight_isa::opcodes;
 use slowlight_routine::Source;
@@ -105,6 +106,22 @@ const RESERVED: &[&str] = &[
     "no_interrupt",
 ];
 
+/// What else programs for a BBC Micro have.
+const ON_BBC: [&str; 12] = [
+    "set_up",
+    "picture",
+    "shape",
+    "colour",
+    "screen_shape",
+    "screen_colour",
+    "clear_byte",
+    "hidden",
+    "hidden_low",
+    "hidden_high",
+    "shown_low",
+    "shown_high",
+];
+
 /// Words that some assembler keeps for itself beside the 6502's instructions: those of
 /// its successors, aliases of branches, other names of undocumented opcodes, operators,
 /// constants. In small letters.
@@ -127,6 +144,9 @@ impl Names {
         let mut taken: BTreeSet<String> = RESERVED.iter().map(|n| (*n).to_owned()).collect();
         taken.extend(["a", "x", "y", "s"].map(str::to_owned));
         taken.extend(FOREIGN.iter().map(|n| (*n).to_owned()));
+        if Machine::of(plan) == Machine::Bbc {
+            taken.extend(ON_BBC.iter().map(|n| (*n).to_owned()));
+        }
         for part in plan.runtime.parts {
             let Source::Text(text) = part.source else {
                 continue;

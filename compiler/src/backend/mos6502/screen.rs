@@ -4,7 +4,7 @@ use super::bitmap::Bitmap;
 use super::homes::Homes;
 use super::memory::Machine;
 use super::ports::{self, Ports};
-use super::{Text, c64};
+use super::{Text, bbc, c64};
 use crate::plan::Plan;
 
 /// How a plan's pixels are drawn.
@@ -21,17 +21,20 @@ impl Screen {
         }
     }
 
+    /// At a picture's beginning.
+    pub fn begin(&self, text: &mut Text) {
+        if let Screen::Bitmap(bitmap) = self {
+            bitmap.open(text);
+        }
+    }
+
     /// Before everything that is drawn.
     pub fn open(&self, plan: &Plan, text: &mut Text) {
         match self {
             Screen::Ports(ports) => ports.open(plan, text),
-            Screen::Bitmap(bitmap) => {
-                // A BBC Micro's may be where what is done before the picture stands.
-                if Machine::of(plan) == Machine::C64 {
-                    c64::open(plan, text);
-                }
-                bitmap.open(text);
-            }
+            // A BBC Micro's may be where what is done before the picture stands.
+            Screen::Bitmap(_) if Machine::of(plan) == Machine::C64 => c64::open(plan, text),
+            Screen::Bitmap(_) => {}
         }
     }
 
@@ -86,6 +89,7 @@ impl Screen {
             Screen::Ports(_) => ports::colours(plan, text),
             Screen::Bitmap(bitmap) => {
                 bitmap.data(text);
+                bbc::turned(plan, bitmap.first_byte(), text);
                 if Machine::of(plan) == Machine::C64 {
                     c64::data(text);
                 }

@@ -1,8 +1,11 @@
-//! Between two pictures on the plain machine: what is held, and the states' next values.
+//! Between two pictures: what is held, and the states' next values.
 
+use super::bbc;
 use super::code::Code;
+use super::memory::Machine;
 use super::ports::{HANDS, HELD};
 use super::slots::Slot;
+use crate::backend::bbc::key as bbc_key;
 use crate::backend::mos6502::homes::Homes;
 use crate::ir::graph::*;
 use crate::plan::Plan;
@@ -15,9 +18,28 @@ pub(super) const NEXT: &str = "next_picture";
 /// What stands behind a picture that moves.
 pub(super) fn between(code: &mut Code<'_>) {
     code.text.span = None;
-    code.text.headline("what is held now");
-    code.text.code(&format!("sta {HANDS}"));
     let plan = code.plan;
+    bbc::turn(plan, code.text);
+    code.text.headline("what is held now");
+    let machine = Machine::of(plan);
+    // Looks once, whatever is asked for: who runs the program sees that a picture is drawn.
+    match machine {
+        Machine::Plain => code.text.code(&format!("sta {HANDS}")),
+        Machine::C64 => {
+            code.text
+                .line("        ; a joystick in port 2, where no keys are selected");
+            code.text
+                .code("lda #$ff | sta $dc00 | lda $dc00 | sta prod");
+        }
+        Machine::Bbc if plan.graph.buttons().next().is_none() => {
+            code.text.code(&is_held(Button::Fire));
+        }
+        Machine::Bbc => {
+            code.text
+                .line("        ; keys that are held are typed as well: a full buffer beeps");
+            code.text.code("lda #21 | ldx #0 | jsr osbyte");
+        }
+    }
     for (id, button) in plan.graph.buttons() {
         let slot = Slot::Param(id.0);
         let (home, bytes) = (
@@ -25,12 +47,25 @@ pub(super) fn between(code: &mut Code<'_>) {
             code.homes.bytes(plan, slot),
         );
         let skip = format!("not_{}", button.name());
-        let bit = 1 << button as u8;
-        code.text.code(&format!(
-            "ldx #0 | lda {HELD} | and #{bit} | beq {skip} | inx"
-        ));
-        code.text.label(&skip);
-        code.text.code(&format!("stx {home} | lda #0"));
+        let tested = match machine {
+            Machine::Plain => Some((HELD, 1 << button as u8, "beq")),
+            Machine::C64 => Some(("prod", stick(button), "bne")),
+            Machine::Bbc => None,
+        };
+        match tested {
+            Some((held, bit, branch)) => {
+                code.text.code(&format!(
+                    "ldx #0 | lda {held} | and #{bit} | {branch} {skip} | inx"
+                ));
+                code.text.label(&skip);
+                code.text.code(&format!("stx {home} | lda #0"));
+            }
+            None => {
+                code.text.code(&is_held(button));
+                code.text
+                    .code(&format!("txa | and #1 | sta {home} | lda #0"));
+            }
+        }
         for k in 1..bytes {
             code.text.code(&format!("sta {home}+{k}"));
         }
@@ -42,6 +77,23 @@ pub(super) fn between(code: &mut Code<'_>) {
         code.give(step);
     }
     code.text.code(&format!("jmp {NEXT}"));
+}
+
+/// A button's bit of a joystick, which is 0 where it is held.
+fn stick(button: Button) -> u8 {
+    match button {
+        Button::Up => 1,
+        Button::Down => 2,
+        Button::Left => 4,
+        Button::Right => 8,
+        Button::Fire => 16,
+    }
+}
+
+/// Asks a BBC Micro whether a button's key is held: x is 255 then, else 0.
+fn is_held(button: Button) -> String {
+    let number = bbc_key(button).wrapping_neg();
+    format!("lda #129 | ldx #{number} | ldy #255 | jsr osbyte")
 }
 
 /// One of the copies that give all states their next values at once.

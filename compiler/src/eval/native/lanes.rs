@@ -305,7 +305,7 @@ impl Lanes {
                 let args = [before.slot(a), before.slot(b)];
                 compiled!(
                     op,
-                    [IntAdd IntSub IntMul IntNeg IntMin IntMax BitAnd],
+                    [IntAdd IntSub IntMul IntNeg IntMin IntMax BitAnd BitOr BitXor],
                     |a, b| op.eval_int(a, b).int(),
                     |f| map(mask, args, out, f)
                 );

@@ -123,9 +123,10 @@ impl<'a> Checker<'a> {
             Entity::Const(id) => (ExprKind::Const(id), self.constant(id)),
             Entity::Param(id) => {
                 if let Some(Entity::Const(_)) = self.cx.item {
+                    let what = self.program.params[id.0].what();
                     let error = Diagnostic::error(
                         span,
-                        format!("a constant cannot depend on the param `{name}`"),
+                        format!("a constant cannot depend on the {what} `{name}`"),
                     );
                     self.report(error.help("make it a function, or a `let` in `draw`"));
                 }

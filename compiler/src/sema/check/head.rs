@@ -221,10 +221,7 @@ impl<'a> Checker<'a> {
                 );
                 if !allowed {
                     let a = self.a(&ty);
-                    let what = match param.next {
-                        Some(_) => "state",
-                        None => "param",
-                    };
+                    let what = self.program.params[id.0].what();
                     let message = format!("a {what} cannot be {a}");
                     let error = Diagnostic::error(param.ty.span, message);
                     let help = format!("{what}s are bool, int, real, angle, vec2 or vec3");

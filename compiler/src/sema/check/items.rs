@@ -249,6 +249,12 @@ impl<'a> Checker<'a> {
                 error.help("say how far it may go: `.. = start in least .. greatest -> next;`"),
             );
         }
+        if let (Ty::Bool, Some((least, _))) = (&ty, &range) {
+            let what = self.program.params[id.0].what();
+            let message = format!("the {what} `{name}` is a bool, which has no range");
+            let error = Diagnostic::error(least.value.span, message);
+            self.report(error.help("leave the `in` and what is behind it out"));
+        }
         let param = &mut self.program.params[id.0];
         (param.value, param.range, param.next) = (value, range, next);
     }

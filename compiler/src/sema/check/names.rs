@@ -232,7 +232,11 @@ impl Checker<'_> {
         };
         let mut error = Diagnostic::error(span, format!("no {kind} `{name}`"));
         if let Some(entity) = self.entities(name).first() {
-            error.message = format!("`{name}` is a {}, it cannot be called", entity.kind());
+            let kind = match entity {
+                Entity::Param(id) => self.program.params[id.0].what(),
+                _ => entity.kind(),
+            };
+            error.message = format!("`{name}` is a {kind}, it cannot be called");
         } else if self.find_local(name).is_some() {
             error.message = format!("`{name}` is a value, it cannot be called");
         } else if let Some(help) = foreign(name) {

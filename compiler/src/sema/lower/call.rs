@@ -145,8 +145,11 @@ impl<'a> Lower<'a> {
         let Some(Some(first)) = args.first() else {
             return Err(self.confused(span));
         };
-        if builtin == Builtin::Bayer {
-            return self.bayer(first, span);
+        match builtin {
+            Builtin::Bayer => return self.bayer(first, span),
+            Builtin::NearestInks => return self.nearest_inks(first, span),
+            Builtin::InkStep => return self.ink_step(first, span),
+            _ => {}
         }
         let value = self.expr(first)?;
         let mut rest: Vec<Option<(&'a Expr, Val)>> = Vec::new();
@@ -211,7 +214,7 @@ impl<'a> Lower<'a> {
                 }
                 _ => Err(self.confused(span)),
             },
-            Builtin::Bayer => Err(self.confused(span)),
+            Builtin::Bayer | Builtin::NearestInks | Builtin::InkStep => Err(self.confused(span)),
             Builtin::ShapeHit
             | Builtin::ShapeCrossing
             | Builtin::ShapeNormal

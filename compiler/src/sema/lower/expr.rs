@@ -38,8 +38,9 @@ impl<'a> Lower<'a> {
             ExprKind::Param(id) => match self.params.get(id.0) {
                 Some(value) => Ok(value.clone()),
                 None => {
-                    let name = self.program.params.get(id.0).map_or("", |p| &p.name);
-                    let message = format!("a constant cannot depend on the param `{name}`");
+                    let param = self.program.params.get(id.0);
+                    let (what, name) = param.map_or(("param", ""), |p| (p.what(), &p.name));
+                    let message = format!("a constant cannot depend on the {what} `{name}`");
                     Err(Box::new(self.error(span, message)))
                 }
             },

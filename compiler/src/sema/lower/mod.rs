@@ -24,6 +24,7 @@ mod grid;
 mod instances;
 mod leaving;
 mod merge;
+mod nearest;
 mod ops;
 mod params;
 mod pencil;

@@ -49,12 +49,13 @@ impl<'a> Lower<'a> {
                 });
             }
         };
+        let declared = self.program.declared();
         for (name, _) in &self.options.set {
-            unknown("param", name, &params);
+            unknown(declared, name, &params);
         }
         if let Freeze::Some(names) = &self.options.freeze {
             for name in names {
-                unknown("param", name, &params);
+                unknown(declared, name, &params);
             }
         }
         for name in &self.options.without {
@@ -123,9 +124,15 @@ impl<'a> Lower<'a> {
                 && !(range.lo..=range.hi).contains(&value)
             {
                 let label = label(param, k);
+                let written = |value: f64| match param.ty {
+                    Ty::Angle => format!("{}deg", (value.to_degrees() * 1e6).round() / 1e6),
+                    _ => value.to_string(),
+                };
                 let message = format!(
-                    "`{label}` is {value}, outside its range {} .. {}",
-                    range.lo, range.hi
+                    "`{label}` is {}, outside its range {} .. {}",
+                    written(value),
+                    written(range.lo),
+                    written(range.hi)
                 );
                 let error = Diagnostic::error(place, message);
                 return Err(Box::new(

@@ -21,6 +21,7 @@ pub(super) struct Made {
     /// By address; the table is kept, so that no other gets its address.
     columns: FxHashMap<*const Table, (Rc<Table>, Rc<[TableId]>)>,
     bayer: FxHashMap<i32, Rc<Table>>,
+    pub nearest: FxHashMap<i32, Rc<Table>>,
 }
 
 impl<'a> Lower<'a> {

@@ -204,7 +204,7 @@ impl Spot<'_> {
             }
             (_, Some(Token::Sym("?"))) => "a choice is written `if condition then a else b`",
             (_, Some(Token::Sym(".."))) => {
-                "`..` stands between the ends of a `param`'s range, or of an `each`'s, only"
+                "`..` stands between the ends of a `param`'s or a `state`'s range, or of an `each`'s, only"
             }
             (Some(Token::Sym("[")), Some(Token::Sym("]"))) => {
                 "a table or an index has at least one value"
@@ -232,7 +232,9 @@ impl Spot<'_> {
                     "`{word}` begins an item; items stand at the top of a file"
                 ));
             }
-            _ if self.expects("`..`") => return self.usage(),
+            _ if self.expects("`..`") || self.item() == "state" && self.expects("`->`") => {
+                return self.usage();
+            }
             _ if self.expects("`to`")
                 || self.behind(1) == Some(Token::Ident("to"))
                 || self.behind(2) == Some(Token::Ident("to")) =>

@@ -72,6 +72,14 @@ fn spacing_and_lines() {
 }
 
 #[test]
+fn no_two_items_share_a_line() {
+    let text =
+        "const a = 1;const b = [1,  2;\n3, 4]; // b\nscene w { s() is 1; } fn f() -> int = a;";
+    let wanted = "const a = 1;\nconst b = [1, 2;\n  3, 4];  // b\nscene w { s() is 1; }\nfn f() -> int = a;\n";
+    assert_eq!(formatted(text), wanted);
+}
+
+#[test]
 fn what_is_wrong_is_left_alone() {
     let diagnostics = format("const a = ;", 0).unwrap_err();
     assert_eq!(diagnostics.len(), 1);

@@ -82,6 +82,7 @@ pub(crate) static ALL: &[Part] = &[
     part!("Int.mul", ["Int.magnitude"], 140, int::MUL),
     part!("Int.div", ["Int.magnitude"], 160, int::DIV),
     part!("Int.mod", ["Int.magnitude"], 160, int::MOD),
+    part!("Int.xor", [], 60, int::XOR),
     part!("Int.sign", [], 60, int::SIGN),
     part!("Int.less", [], 100, int::LESS),
     part!("Int.min", ["Int.less"], 60, int::MIN),

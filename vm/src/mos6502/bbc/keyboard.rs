@@ -47,7 +47,13 @@ impl Micro {
     /// X and C clear, or Y 255 and C set; else whether the key of the number X is held.
     pub(super) fn inkey(&mut self, cpu: &mut Cpu) {
         if cpu.y >= 128 {
-            let seen = self.with_keyboard(|keys, frame, micro| keys.look(frame, || micro.screen()));
+            let seen = self.with_keyboard(|keys, frame, micro| {
+                let cycles = cost::with_interrupts(micro.cycles);
+                keys.remember(cycles, || {
+                    micro.ram.iter().map(|byte| i16::from(*byte)).collect()
+                });
+                keys.look(frame, || micro.screen())
+            });
             let held = seen.is_some_and(|seen| self.goes_on(seen) && is_held(seen, !cpu.x));
             (cpu.x, cpu.y) = if held { (255, 255) } else { (0, 0) };
             return set_carry(cpu, false);

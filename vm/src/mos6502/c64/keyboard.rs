@@ -126,6 +126,27 @@ impl Circuits {
         }
     }
 
+    /// What $DC00 reads, where nothing is selected: a joystick in port 2, which the arrow keys and
+    /// space move. A bit is 0 where it is held: up, down, left, right, fire.
+    pub(super) fn stick(&mut self) -> u8 {
+        let stored = self.register(0xDC00);
+        let seen = self.with_keys(|keys, c64| {
+            keys.keyboard.remember(c64.cycles, || {
+                c64.ram.iter().map(|byte| i16::from(*byte)).collect()
+            });
+            keys.keyboard.look(c64.frame(), || c64.screen())
+        });
+        let held = match self.seen(seen) {
+            Some(Key::Up) => 1,
+            Some(Key::Down) => 2,
+            Some(Key::Left) => 4,
+            Some(Key::Right) => 8,
+            Some(Key::Char(b' ')) => 16,
+            _ => 0,
+        };
+        stored & !held
+    }
+
     /// What $DC01 reads, where there is a keyboard: a bit is 0 where a key of its row is held
     /// in a column for which $DC00 has a 0.
     pub(super) fn rows(&mut self) -> u8 {

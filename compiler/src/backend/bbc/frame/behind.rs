@@ -6,6 +6,7 @@ use super::super::pieces::{Piece, pieces};
 use super::super::short::SELDOM;
 use super::super::tables;
 use super::super::{Style, is_first};
+use crate::ir::graph::ParamId;
 use crate::ir::tree::SubroutineId;
 use crate::plan::Plan;
 use slowlight_routine::{Part, Source, Type};
@@ -69,6 +70,9 @@ pub(super) fn setup(plan: &Plan, code: &mut Code<'_>, parts: &[&Part], first: &s
         false => " must be from",
     };
     for (k, (param, written)) in plan.graph.params.iter().zip(&plan.params).enumerate() {
+        if plan.is_held(ParamId(k as u32)) {
+            continue;
+        }
         let name = code.values.names.param(k).to_owned();
         if let Some((lo, hi)) = &written.range {
             code.lines.line(

@@ -87,7 +87,11 @@ impl Lines {
     /// As few lines as their meaning and a width allow: an `IF` takes the rest
     /// of its line with it, a `DEF` and `DATA` begin one.
     pub fn joined(self, width: usize) -> Lines {
-        let ends = |text: &str| ["IF", "REM", "DATA"].iter().any(|w| text.contains(w));
+        let ends = |text: &str| {
+            ["IF", "REM", "DATA", "*FX"]
+                .iter()
+                .any(|w| text.contains(w))
+        };
         let begins = |text: &str| text.starts_with("DEF") || text.starts_with("DATA");
         let asked: FxHashSet<Label> = self.texts().flat_map(Label::all_of).collect();
         let mut all = Lines::default();

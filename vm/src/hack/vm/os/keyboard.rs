@@ -46,8 +46,9 @@ pub(in crate::hack::vm) fn look(memory: &mut Memory, os: &mut Os) -> Result<(), 
     };
     let frame = (os.now + keys.waited) / VM_FRAME;
     let words = memory.iter().take(usize::from(SCREEN));
+    let now = os.now;
     keys.keyboard
-        .remember(|| words.map(|word| *word as i16).collect());
+        .remember(now, || words.map(|word| *word as i16).collect());
     memory[usize::from(KEYBOARD)] = match keys.keyboard.look(frame, || shown(memory)) {
         Seen::Nothing => 0,
         Seen::Key(key) => code(key),
