@@ -48,7 +48,7 @@ const ALIKE: f64 = 0.1;
 /// A candidate that takes no more than so many times as much without a search may be the quicker
 /// one after it: a search in equal steps takes half in fixed point, by differences, and as much as
 /// before in logarithms.
-const CLOSE: f64 = 1.6;
+const CLOSE: f64 = 1.7;
 
 /// A format as its plan without a search has it.
 pub(super) struct Candidate {
