@@ -358,3 +358,17 @@ fn what_a_scene_does_not_call_costs_nothing() {
         Some(1)
     );
 }
+
+/// A sign of what may be 0 at the end of its range.
+#[test]
+fn signs_of_what_ends_at_zero() {
+    for sign in ["sign(x - 15)", "sign(-x * y)", "-sign(x)"] {
+        let scene = format!("image 16 x 2 inks black, red, white; draw (x, y) = ink(1 + {sign});");
+        let dir = directory(&[("s.scn", &scene)]);
+        for target in ["bbc:micro", "6502:plain", "jack"] {
+            let args = ["run", "s.scn", "-t", target, "--json"];
+            let said = json(dir.path(), &args);
+            assert_eq!(said["differs_from_native"], 0, "{target} {sign}");
+        }
+    }
+}

@@ -16,7 +16,7 @@
 //! there on, and groups are looked for once more.
 //!
 //! Where pixels depend on each other, none can be looked at alone, and all values are wide;
-//! so they are in programs with subroutines. Live params have the scene's own values here.
+//! so they are in programs with subroutines and in scenes that move. Live params have the scene's own values here.
 
 use crate::analysis::points::widths::Widths;
 use crate::cost::meter::Meter;
@@ -57,7 +57,8 @@ pub(crate) fn narrowed(mut plan: Plan, modelled: u64) -> (Plan, u64) {
     let (Some(narrow), Format::Scaled { bits }) = (plan.runtime.narrow, plan.runtime.real) else {
         return (plan, 0);
     };
-    if plan.graph.diffusion.is_some() {
+    // Of what states become, no pixel of the picture says how exact it must be.
+    if plan.graph.diffusion.is_some() || plan.graph.is_moving() {
         return (plan, 0);
     }
     if modelled == 0 {

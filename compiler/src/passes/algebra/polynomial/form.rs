@@ -148,13 +148,13 @@ impl<'g> Forms<'g> {
             return None;
         }
         let (low, high) = (range.lo as i32, range.hi as i32);
-        let sign = || match self.graph.node(id) {
-            Node::Apply(Op::Sign | Op::IntSign, [a, _]) => {
-                self.get(a).is_some_and(|f| self.never_zero(f))
+        // The greater sign is told from the less by whether something is above 0.
+        let fits = match self.graph.node(id) {
+            Node::Apply(Op::Sign | Op::IntSign, [a, _]) if low == -1 => {
+                high == 1 && self.get(a).is_some_and(|f| self.never_zero(f))
             }
-            _ => false,
+            _ => high - low == 1,
         };
-        let fits = high - low == 1 || (low == -1 && high == 1 && sign());
         fits.then_some(Two { low, high })
     }
 
