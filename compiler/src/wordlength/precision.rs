@@ -16,7 +16,8 @@
 //! there on, and groups are looked for once more.
 //!
 //! Where pixels depend on each other, none can be looked at alone, and all values are wide;
-//! so they are in programs with subroutines and in scenes that move. Live params have the scene's own values here.
+//! so they are in programs with subroutines and in scenes that move. Live params have the scene's
+//! own values here.
 
 use crate::analysis::points::widths::Widths;
 use crate::cost::meter::Meter;
@@ -33,17 +34,17 @@ use slowlight_routine::{Format, Narrow, Type};
 use std::cell::{Cell, RefCell};
 
 /// How often groups are looked for.
-const ROUNDS: u32 = 2;
+const ROUNDS: u32 = 4;
 
 /// How many nodes may be planned in a round, all plans together.
-const WORK: usize = 15_000;
+const WORK: usize = 60_000;
 
 /// How many pixels at stake are looked at, at most.
 const AT_STAKE: usize = 500;
 
 /// How many statements may run in `f64`; and rows are gone through in steps of so many, so
 /// that something of every part of the picture is seen where patience ends before its rows do.
-const PATIENCE: u64 = 8_000_000;
+const PATIENCE: u64 = 24_000_000;
 const APART: i32 = 8;
 
 /// How many statements may run in the routines' models, all plans together, before no more

@@ -91,7 +91,7 @@ mod tests {
     /// How many entries the tables have that an int is given, and whether it is the same by them.
     fn tables(int: &str) -> Option<Vec<usize>> {
         let source = format!(
-            "image 24 x 16 inks black, white; draw (x, y) = threshold(({int}) / 64.0, 0.5);"
+            "image 24 x 16 inks black, white; draw (x, y) = threshold(({int}) / 2.0, 0.5);"
         );
         let plain = analysed(&source, &FIXED16);
         let next = quotient_tables(&plain.graph, &plain.ranges, &FIXED16)?;
