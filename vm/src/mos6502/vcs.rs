@@ -93,8 +93,8 @@ impl Console {
     /// The processor reads, and has to wait for the next line where this one has begun.
     fn wait(&mut self) {
         self.waits = false;
-        self.tia.draw_to(self.cycles * CLOCKS);
-        self.cycles = self.tia.next_line().div_ceil(CLOCKS).max(self.cycles);
+        let next = self.tia.next_line(self.cycles * CLOCKS);
+        self.cycles = next.div_ceil(CLOCKS).max(self.cycles);
     }
 
     fn store(&mut self, address: u16, value: u8) {

@@ -83,6 +83,20 @@ fn frames_of_262_and_312_lines_are_those_of_the_two_systems() {
 
 /// A store to WSYNC that ends with the line's last cycle waits for nothing; one cycle later it
 /// costs a whole line.
+/// A push into WSYNC, and the next one into VBLANK, by the line's last cycle: the wait is for
+/// the end of that line, though a clock of the next one has been drawn.
+#[test]
+fn a_wait_at_the_end_of_a_line_is_for_no_other() {
+    for more in 54..=59 {
+        let body = format!(
+            " stx $90\n ldx #2\n txs\n{} jsr on\non: ldx $90\n",
+            picture::spend(more)
+        );
+        let (_, machine) = play(&cart(&frames("", 100, &body)), "wait 2 quit");
+        assert_eq!(machine.frames(), [4 + 100 * 2; 2], "{more}");
+    }
+}
+
 #[test]
 fn sync_stops_until_the_line_is_over() {
     for more in [20, 64, 65, 66, 70] {
