@@ -15,7 +15,8 @@
 //!
 //! **Every frame is counted in lines.** The first that has nearer to 262 than to 312 makes
 //! the television one for NTSC, else it is one for PAL; a run that ends by its script ends
-//! with a fault where any frame has another number of lines than its television wants.
+//! with a fault where any frame has another number of lines than its television wants. So does
+//! one that comes to its limit, and also where a vertical sync is long overdue then.
 //!
 //! Not there: players, missiles and the ball, which are said to be missing where a program
 //! shows one, collisions, and sound.
@@ -180,6 +181,10 @@ impl Board for Console {
 
     fn fail(&mut self, message: String) {
         self.stop.get_or_insert(Stop::Fault(fault(message)));
+    }
+
+    fn late(&self) -> Option<String> {
+        self.tia.late(self.cycles * CLOCKS)
     }
 
     fn row(&self) -> Option<u32> {

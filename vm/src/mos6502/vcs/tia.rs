@@ -103,6 +103,13 @@ impl Tia {
         now + (2 * LINE - beam) % LINE
     }
 
+    /// What is wrong with the frames where a run is stopped at clock `now`; lines that have not
+    /// been drawn by then are only counted.
+    pub fn late(&self, now: u64) -> Option<String> {
+        let missing = now.saturating_sub(self.drawn) / LINE;
+        self.television.late(now / LINE, missing)
+    }
+
     /// A store whose cycle ends before clock `now`; says whether a frame begins with it.
     pub fn store(&mut self, register: u16, value: u8, now: u64) -> bool {
         let delay = match register {
