@@ -16,9 +16,9 @@ const FILM: u64 = 3_000;
 /// PAL's.
 const FRAME: u64 = 3 * 312 * 76;
 
-/// Pictures a second of NTSC's frames and of PAL's, about, and the lines of NTSC's that are seen.
-const RATES: (u16, u16) = (60, 50);
-const NTSC: u32 = 240;
+/// Pictures a second: a GIF's delays are hundredths, and below two viewers take their own time, so
+/// NTSC's sixty cannot be had.
+const RATE: u16 = 50;
 
 /// Where all frames go: of the VCS, where `-o` names a GIF.
 ///
@@ -72,15 +72,13 @@ pub(super) fn keyboard(args: &Args, filmed: bool) -> Outcome<(Keyboard, u64)> {
 /// # Errors
 /// Where it cannot be written, or there was none.
 pub(super) fn write(film: &FilmFile<'_>, keyboard: &Keyboard) -> Outcome<()> {
-    let shots = keyboard.shots().iter();
-    let shown: Vec<_> = shots.filter_map(|(_, screen)| screen.as_ref()).collect();
-    let rate = match shown.first() {
-        Some(screen) if screen.height == NTSC => RATES.0,
-        _ => RATES.1,
-    };
-    let pictures: Vec<Picture> = shown.into_iter().map(Picture::from).collect();
+    let shown = keyboard
+        .shots()
+        .iter()
+        .filter_map(|(_, screen)| screen.as_ref());
+    let pictures: Vec<Picture> = shown.map(Picture::from).collect();
     if pictures.is_empty() {
         return Err(Failure::Wrong("the program showed no picture".to_owned()));
     }
-    film.write(&pictures, rate)
+    film.write(&pictures, RATE)
 }

@@ -80,7 +80,6 @@ pub trait Board: Bus + Default {
     fn stop(&self) -> Option<&Stop>;
     /// Stops with a fault, unless the program has stopped already.
     fn fail(&mut self, message: String);
-
     /// What is wrong with a program that is stopped at its limit of cycles, beside that.
     fn late(&self) -> Option<String> {
         None

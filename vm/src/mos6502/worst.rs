@@ -45,6 +45,7 @@ pub struct Question<'a> {
     /// Addresses that keep what is stored to them.
     pub ram: RangeInclusive<u16>,
     /// Whether the stack's page is the zero page once more, as on machines with little memory.
+    /// Stores to yet other mirrors of it are not looked for.
     pub mirrored: bool,
     /// How many turns loops take at most each time that they are entered, by the addresses at
     /// which their turns begin.

@@ -91,7 +91,7 @@ impl Store<'_> {
             }
             Place::From(base) => {
                 self.is_data(base, 0xFF)?;
-                self.is_free(base.saturating_add(0xFF), state)?;
+                self.is_free(base.checked_add(0xFF).unwrap_or(0xFF), state)?;
                 state.memory.retain(|at, _| at.wrapping_sub(base) > 0xFF);
             }
             Place::Zero => {
