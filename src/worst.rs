@@ -52,6 +52,7 @@ pub fn worst(plan: &Plan, text: &[Document]) -> Result<u64, String> {
     let mut question = Question {
         assembly: &assembly,
         ram: 0..=0xFF,
+        mirrored: false,
         turns,
         ends: picture.map_or_else(BTreeSet::new, |picture| jumps(&assembly, picture)),
         exit: Some(port::EXIT),

@@ -203,6 +203,7 @@ impl Bench {
         let question = Question {
             assembly: &program,
             ram: 0..=0xFF,
+            mirrored: false,
             turns: Question::turns_of(&program, &source),
             ends: BTreeSet::from([bench.end]),
             exit: None,

@@ -16,7 +16,8 @@ const FILM: u64 = 3_000;
 /// PAL's.
 const FRAME: u64 = 3 * 312 * 76;
 
-/// Pictures a second.
+/// Pictures a second: a GIF's delays are hundredths, and below two viewers take their own time, so
+/// NTSC's sixty cannot be had.
 const RATE: u16 = 50;
 
 /// Where all frames go: of the VCS, where `-o` names a GIF.

@@ -63,17 +63,11 @@ impl Script {
     /// The same a unit a look at the keyboard, with a shot at each of the first `count` looks;
     /// the run ends at the last of these.
     #[must_use]
-    pub fn filmed(mut self, count: u64) -> Script {
-        let last = count.saturating_sub(1);
-        self.by = Some(Unit::Calls);
-        self.spans.retain(|span| span.from < last);
-        for span in &mut self.spans {
-            span.to = span.to.min(last);
-        }
-        self.shots = (0..count).map(|at| (at, at.to_string())).collect();
-        self.length = last;
-        self.end = End::Quit;
-        self
+    pub fn filmed(self, count: u64) -> Script {
+        let mut script = self.ended(count.saturating_sub(1));
+        script.by = Some(Unit::Calls);
+        script.shots = (0..count).map(|at| (at, at.to_string())).collect();
+        script
     }
 
     /// The same that ends at a unit, `count`, whatever it says itself; what it would do later
@@ -81,6 +75,9 @@ impl Script {
     #[must_use]
     pub fn ended(mut self, count: u64) -> Script {
         self.spans.retain(|span| span.from < count);
+        for span in &mut self.spans {
+            span.to = span.to.min(count);
+        }
         self.length = count;
         self.end = End::Quit;
         self

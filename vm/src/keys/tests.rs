@@ -62,6 +62,15 @@ fn words_are_keys_in_time() {
     assert_eq!(script("by frames").unit(), Some(Unit::Frames));
 }
 
+/// A key that is held across the end is let go there, and does not put it off.
+#[test]
+fn a_script_ends_where_it_is_cut() {
+    let mut keyboard = Keyboard::new(script("right*20 a").ended(3), Unit::Frames, |_| None);
+    let seen: Vec<Seen> = (0..4).map(|frame| keyboard.look(frame, none)).collect();
+    let right = Seen::Key(Key::Right);
+    assert_eq!(seen, [right, right, right, Seen::Quit]);
+}
+
 #[test]
 fn wrong_words_are_named_with_their_place() {
     for (text, message) in [

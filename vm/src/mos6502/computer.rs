@@ -80,6 +80,10 @@ pub trait Board: Bus + Default {
     fn stop(&self) -> Option<&Stop>;
     /// Stops with a fault, unless the program has stopped already.
     fn fail(&mut self, message: String);
+    /// What is wrong with a program that is stopped at its limit of cycles, beside that.
+    fn late(&self) -> Option<String> {
+        None
+    }
     /// Does what the machine's own programs would do at the processor's address,
     /// before an instruction there is begun.
     #[inline(always)]
@@ -259,7 +263,8 @@ impl<B: Board> Computer<B> {
                 break stop;
             }
             if self.board.cycles() >= end {
-                break Stop::CycleLimit;
+                let late = self.board.late();
+                break late.map_or(Stop::CycleLimit, |message| Stop::Fault(fault(message)));
             }
             let progress = Progress {
                 cycles: B::shown(self.board.cycles()),

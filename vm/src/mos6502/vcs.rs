@@ -15,7 +15,8 @@
 //!
 //! **Every frame is counted in lines.** The first that has nearer to 262 than to 312 makes
 //! the television one for NTSC, else it is one for PAL; a run that ends by its script ends
-//! with a fault where any frame has another number of lines than its television wants.
+//! with a fault where any frame has another number of lines than its television wants. So does
+//! one that comes to its limit, and also where a vertical sync is long overdue then.
 //!
 //! Not there: players, missiles and the ball, which are said to be missing where a program
 //! shows one, collisions, and sound.
@@ -93,8 +94,8 @@ impl Console {
     /// The processor reads, and has to wait for the next line where this one has begun.
     fn wait(&mut self) {
         self.waits = false;
-        self.tia.draw_to(self.cycles * CLOCKS);
-        self.cycles = self.tia.next_line().div_ceil(CLOCKS).max(self.cycles);
+        let next = self.tia.next_line(self.cycles * CLOCKS);
+        self.cycles = next.div_ceil(CLOCKS).max(self.cycles);
     }
 
     fn store(&mut self, address: u16, value: u8) {
@@ -180,6 +181,10 @@ impl Board for Console {
 
     fn fail(&mut self, message: String) {
         self.stop.get_or_insert(Stop::Fault(fault(message)));
+    }
+
+    fn late(&self) -> Option<String> {
+        self.tia.late(self.cycles * CLOCKS)
     }
 
     fn row(&self) -> Option<u32> {

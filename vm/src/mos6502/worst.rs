@@ -12,10 +12,12 @@
 //! - **a call** is what it calls, with what is known where it is called.
 //!
 //! What has no answer is told with its place: a loop without a bound, one that is entered in
-//! its middle, jumps through a pointer, stores into the program itself, a stack that is not
-//! left as it was found. Interrupts are not counted, nor is what a board makes the processor
-//! wait. Believed without proof: what is said of turns, and that stores through pointers hit
-//! neither the stack nor the program.
+//! its middle and has no block that is said to be come to so often at most, jumps through a
+//! pointer, stores that may be into the program itself or the stack, flags that are pulled and
+//! were not pushed as such, a stack that is not left as it was found. Interrupts are not
+//! counted, nor is what a board makes the processor wait. Believed without proof: what is said
+//! of turns, that stores through pointers hit neither the stack nor the program, and, where the
+//! stack is in the zero page, that it is empty at $FF where the program or a slice begins.
 //!
 //! `flow` reads the program's blocks and loops, `state` is what is known, `step` what an
 //! instruction makes of it, `walk` follows the ways.
@@ -42,6 +44,9 @@ pub struct Question<'a> {
     pub assembly: &'a Assembly,
     /// Addresses that keep what is stored to them.
     pub ram: RangeInclusive<u16>,
+    /// Whether the stack's page is the zero page once more, as on machines with little memory.
+    /// Stores to yet other mirrors of it are not looked for.
+    pub mirrored: bool,
     /// How many turns loops take at most each time that they are entered, by the addresses at
     /// which their turns begin.
     pub turns: BTreeMap<u16, u32>,

@@ -118,6 +118,9 @@ pub struct Television {
 /// So many wrong frames are told by number.
 const TOLD: usize = 10;
 
+/// Lines after which a vertical sync is overdue: three frames of PAL.
+const LONG: u64 = 3 * 312;
+
 impl Television {
     /// A vertical sync begins.
     pub fn begin(&mut self) {
@@ -201,6 +204,23 @@ impl Television {
                 system.name()
             ),
         }
+    }
+
+    /// What is wrong where a run is stopped after so many lines, of which the last ones are
+    /// missing here: a vertical sync that does not come, and frames that have not as many lines
+    /// as the television wants.
+    pub fn late(&self, all: u64, missing: u64) -> Option<String> {
+        let now = self.count.map(|lines| u64::from(lines) + missing);
+        let frame = self.frames;
+        let overdue = match now {
+            None if all > LONG => Some(format!("no vertical sync began in {all} lines")),
+            Some(lines) if lines > LONG => Some(format!(
+                "no vertical sync ended frame {frame} in {lines} lines"
+            )),
+            _ => None,
+        };
+        let all: Vec<String> = self.complaint().into_iter().chain(overdue).collect();
+        (!all.is_empty()).then(|| all.join("; "))
     }
 
     /// Which frames have not as many lines as the television wants, if there are any.

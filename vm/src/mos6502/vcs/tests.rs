@@ -81,8 +81,51 @@ fn frames_of_262_and_312_lines_are_those_of_the_two_systems() {
     }
 }
 
+/// At the limit of cycles it is said what is wrong with the frames so far.
+#[test]
+fn frames_that_do_not_come_are_said() {
+    let long = frames("", 255, &" sta $02\n".repeat(4));
+    for (source, said) in [
+        (" jmp start\n", "no vertical sync began in 131"),
+        (
+            " lda #2\n sta $00\nl: jmp l\n",
+            "no vertical sync ended frame 0 in 131",
+        ),
+        (
+            &long,
+            "102 of 102 frames have not 312 lines: frame 0 has 1279, frame 1 has 1279, ",
+        ),
+    ] {
+        let (run, _) = play(&cart(source), "wait 500 quit");
+        let Stop::Fault(fault) = run.stop else {
+            panic!("{:?}", run.stop)
+        };
+        assert!(fault.message.starts_with(said), "{}", fault.message);
+    }
+    let sound =
+        frames("", 255, " nop").replace("jmp frame", "sta $02\n sta $02\n sta $02\n jmp frame");
+    let (run, _) = play(&cart(&sound), "wait 5000 quit");
+    assert_eq!(run.stop, Stop::CycleLimit);
+}
+
 /// A store to WSYNC that ends with the line's last cycle waits for nothing; one cycle later it
 /// costs a whole line.
+/// A push into WSYNC, and the next one into VBLANK, by the line's last cycle: the wait is for
+/// the end of that line, though a clock of the next one has been drawn.
+#[test]
+fn a_wait_at_the_end_of_a_line_is_for_no_other() {
+    for more in 54..=59 {
+        let body = format!(
+            " stx $90\n ldx #2\n txs\n{} jsr on\non: ldx $90\n",
+            picture::spend(more)
+        );
+        let (_, machine) = play(&cart(&frames("", 100, &body)), "wait 2 quit");
+        // The first turn begins two cycles later in its line.
+        let late = u32::from(more > 57);
+        assert_eq!(machine.frames(), [4 + 100 * 2 + late; 2], "{more}");
+    }
+}
+
 #[test]
 fn sync_stops_until_the_line_is_over() {
     for more in [20, 64, 65, 66, 70] {

@@ -94,9 +94,20 @@ impl Tia {
         self.latch = self.latch.map(|latched| latched || held);
     }
 
-    /// The clock at which the line begins that the beam comes to next, or is at the start of.
-    pub fn next_line(&self) -> u64 {
-        self.drawn + (LINE - self.beam) % LINE
+    /// The clock at which the line begins that the beam, which is at clock `now`, comes to next
+    /// or is at the start of. Up to two clocks more may have been drawn by then, of a store that
+    /// takes effect late.
+    pub fn next_line(&mut self, now: u64) -> u64 {
+        self.draw_to(now);
+        let beam = self.beam + LINE - self.drawn.saturating_sub(now);
+        now + (2 * LINE - beam) % LINE
+    }
+
+    /// What is wrong with the frames where a run is stopped at clock `now`; lines that have not
+    /// been drawn by then are only counted.
+    pub fn late(&self, now: u64) -> Option<String> {
+        let missing = now.saturating_sub(self.drawn) / LINE;
+        self.television.late(now / LINE, missing)
     }
 
     /// A store whose cycle ends before clock `now`; says whether a frame begins with it.

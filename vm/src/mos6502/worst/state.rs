@@ -12,8 +12,11 @@ pub(super) struct State {
     pub z: Option<bool>,
     pub c: Option<bool>,
     pub v: Option<bool>,
-    /// Bytes on the stack since the routine was entered.
-    pub depth: u8,
+    /// The bytes on the stack since the routine was entered: whether they are the flags.
+    pub pushed: Vec<bool>,
+    /// Bytes on the stack before that. Where the stack is apart from the rest of memory it is
+    /// only known whether there are any.
+    pub below: u8,
     pub memory: BTreeMap<u16, u8>,
 }
 
@@ -24,9 +27,10 @@ fn both<T: PartialEq + Copy>(one: Option<T>, other: Option<T>) -> Option<T> {
 impl State {
     /// What is known in both; nothing where their stacks differ.
     pub fn join(&self, other: &State) -> Option<State> {
-        if self.depth != other.depth {
+        if self.pushed.len() != other.pushed.len() || self.below != other.below {
             return None;
         }
+        let flags = self.pushed.iter().zip(&other.pushed);
         let same = |(at, value): (&u16, &u8)| {
             (other.memory.get(at) == Some(value)).then_some((*at, *value))
         };
@@ -38,9 +42,15 @@ impl State {
             z: both(self.z, other.z),
             c: both(self.c, other.c),
             v: both(self.v, other.v),
-            depth: self.depth,
+            pushed: flags.map(|(one, other)| *one && *other).collect(),
+            below: self.below,
             memory: self.memory.iter().filter_map(same).collect(),
         })
+    }
+
+    /// Bytes on the stack.
+    pub fn depth(&self) -> usize {
+        usize::from(self.below) + self.pushed.len()
     }
 
     /// Sets the two flags that a value sets, and gives it on.

@@ -1,5 +1,6 @@
 //! Transfer functions: what an instruction makes of what is known, and what it costs.
 
+use super::super::LineSpan;
 use super::flow::Instruction;
 use super::state::State;
 use super::{Question, Unknown, Why};
@@ -77,7 +78,8 @@ impl Store<'_> {
         match place {
             Place::Accumulator => state.a = value,
             Place::At(at) => {
-                self.is_data(at)?;
+                self.is_data(at, 0)?;
+                self.is_free(at, state)?;
                 match value.filter(|_| self.question.ram.contains(&at)) {
                     Some(value) => {
                         state.memory.insert(at, value);
@@ -88,31 +90,79 @@ impl Store<'_> {
                 }
             }
             Place::From(base) => {
-                self.is_data(base)?;
+                self.is_data(base, 0xFF)?;
+                self.is_free(base.checked_add(0xFF).unwrap_or(0xFF), state)?;
                 state.memory.retain(|at, _| at.wrapping_sub(base) > 0xFF);
             }
-            Place::Zero => state.memory.retain(|at, _| *at > 0xFF),
+            Place::Zero => {
+                self.is_free(0xFF, state)?;
+                state.memory.retain(|at, _| *at > 0xFF);
+            }
             Place::Anywhere => state.memory.clear(),
             Place::Nowhere | Place::Number(_) => {}
         }
         Ok(())
     }
 
-    /// Fails where a place is one of the program's instructions.
-    fn is_data(&self, at: u16) -> Result<(), Unknown> {
-        let lines = &self.question.assembly.lines;
-        let behind = lines.partition_point(|span| span.address <= at);
-        let span = behind.checked_sub(1).and_then(|k| lines.get(k));
-        let hit =
-            |span: &super::super::LineSpan| span.code && u32::from(at - span.address) < span.length;
-        match span.is_some_and(hit) {
+    /// Fails where the stack is in the zero page and a store there may be as far up as it.
+    fn is_free(&self, to: u16, state: &State) -> Result<(), Unknown> {
+        let used = u16::try_from(state.depth()).unwrap_or(0x100);
+        match self.question.mirrored && to <= 0xFF && to + used > 0xFF {
             true => Err(Unknown {
                 address: self.address,
-                why: Why::Modifies,
+                why: Why::Stack,
             }),
             false => Ok(()),
         }
     }
+
+    /// Whether one of the program's instructions is at one of these addresses.
+    fn is_code(&self, from: u32, to: u32) -> bool {
+        let lines = &self.question.assembly.lines;
+        let behind = lines.partition_point(|span| u32::from(span.address) <= to);
+        let before = lines.get(..behind).unwrap_or_default().iter().rev();
+        let spans = before.filter(|span| span.length > 0);
+        let reaches = |span: &&LineSpan| u32::from(span.address) + span.length > from;
+        spans.take_while(reaches).any(|span| span.code)
+    }
+
+    /// Fails where an address, or one of the `reach` behind it, is one of the program's
+    /// instructions or on the stack.
+    fn is_data(&self, at: u16, reach: u16) -> Result<(), Unknown> {
+        let wrong = |why| {
+            Err(Unknown {
+                address: self.address,
+                why,
+            })
+        };
+        let (from, to) = (u32::from(at), u32::from(at) + u32::from(reach));
+        // Behind the last address the first comes again.
+        let (again, last) = (to.checked_sub(0x10000), to.min(0xFFFF));
+        if self.is_code(from, last) || again.is_some_and(|to| self.is_code(0, to)) {
+            return wrong(Why::Modifies);
+        }
+        let stack = from <= 0x1FF && to >= 0x100 || again.is_some_and(|to| to >= 0x100);
+        match stack {
+            true => wrong(Why::Stack),
+            false => Ok(()),
+        }
+    }
+}
+
+/// Puts a byte on the stack, which may be the flags; says whether there is room.
+pub(super) fn push(question: &Question<'_>, state: &mut State, flags: bool) -> bool {
+    let depth = state.depth();
+    if question.mirrored {
+        let at = u16::try_from(depth)
+            .ok()
+            .and_then(|d| 0xFF_u16.checked_sub(d));
+        let Some(at) = at.filter(|at| question.ram.contains(at)) else {
+            return false;
+        };
+        state.memory.remove(&at);
+    }
+    state.pushed.push(flags);
+    depth < 0xFF
 }
 
 /// Runs an instruction that is no jump, branch, call or return; answers its cycles.
@@ -182,30 +232,27 @@ pub(super) fn step(
         "sec" => s.c = Some(true),
         "clv" => s.v = Some(false),
         "cld" | "sei" | "cli" | "nop" => {}
-        "pha" | "php" => match s.depth.checked_add(1) {
-            Some(depth) => s.depth = depth,
-            None => return wrong(Why::Stack),
-        },
-        "pla" | "plp" => {
-            let Some(depth) = s.depth.checked_sub(1) else {
+        "pha" | "php" => {
+            if !push(question, s, opcode.mnemonic == "php") {
                 return wrong(Why::Stack);
-            };
-            s.depth = depth;
-            if opcode.mnemonic == "pla" {
-                s.a = s.flags(None);
-            } else {
-                (s.n, s.z, s.c, s.v) = (None, None, None, None);
             }
         }
+        "pla" | "plp" => match (s.pushed.pop(), opcode.mnemonic) {
+            (None, _) => return wrong(Why::Stack),
+            (Some(_), "pla") => s.a = s.flags(None),
+            (Some(true), _) => (s.n, s.z, s.c, s.v) = (None, None, None, None),
+            // Any byte may be decimal mode's.
+            (Some(false), _) => return wrong(Why::Decimal),
+        },
         // The stack may be emptied where a program begins.
-        "txs" if s.depth == 0 && s.x == Some(0xFF) => {}
+        "txs" if s.depth() == 0 && s.x == Some(0xFF) => {}
         "tsx" => s.x = s.flags(None),
         "txs" => return wrong(Why::Stack),
         "sed" => return wrong(Why::Decimal),
         // Undocumented: nothing is known of what they leave.
         _ => {
             (s.a, s.x, s.n, s.z, s.c, s.v) = (None, None, None, None, None, None);
-            if !matches!(place, Place::Accumulator) {
+            if !matches!(place, Place::Accumulator) && opcode.mnemonic != "lax" {
                 store.write(place, None, s)?;
             }
         }

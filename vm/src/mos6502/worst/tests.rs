@@ -12,6 +12,7 @@ fn asked(source: &str) -> (Result<u64, Unknown>, Assembly) {
     let question = Question {
         assembly: &assembly,
         ram: 0..=0xFF,
+        mirrored: false,
         turns: Question::turns_of(&assembly, &text),
         ends: BTreeSet::from([assembly.symbols["end_"] as u16]),
         exit: None,
@@ -159,6 +160,7 @@ fn calls_are_what_they_call() {
     let question = Question {
         assembly: &assembly,
         ram: 0..=0xFF,
+        mirrored: false,
         turns: BTreeMap::new(),
         ends: BTreeSet::new(),
         exit: None,
@@ -179,6 +181,7 @@ fn a_store_may_be_the_end() {
     let question = Question {
         assembly: &assembly,
         ram: 0..=0xFF,
+        mirrored: false,
         turns: BTreeMap::new(),
         ends: BTreeSet::new(),
         exit: Some(0xFF0A),
@@ -198,6 +201,7 @@ fn slices_are_as_long_as_the_longest_between_two_asks() {
         let question = Question {
             assembly: &assembly,
             ram: 0..=0xFF,
+            mirrored: false,
             turns: Question::turns_of(&assembly, &text),
             ends: names.iter().filter_map(at).collect(),
             exit: None,
@@ -228,6 +232,14 @@ fn what_has_no_answer_is_refused() {
         (" lda $70\n beq one\n pha\none: nop\n", Why::Stack),
         (" ldx #$80\n txs\n", Why::Stack),
         (" sed\n", Why::Decimal),
+        (" lda #8\n pha\n plp\n", Why::Decimal),
+        (" sta $01F0\n", Why::Stack),
+        (" ldy $70\n sta $00F0,y\n", Why::Stack),
+        (
+            " ldx #$FF\n jsr one\n jmp end_\none: txs\n rts\n",
+            Why::Stack,
+        ),
+        (" ldx $70\n sta $0790,x\n", Why::Modifies),
         (" jsr one\none: jsr one\n rts\n", Why::Depth),
         (" lda $70\n beq m\nl: inx\nm: dey\n bne l\n", Why::Irregular),
         (" .byte 2\n", Why::Instruction),
@@ -242,6 +254,37 @@ fn what_has_no_answer_is_refused() {
     }
     let unknown = asked(" ldx #1\nl: lda $70\n bne l\n").0.unwrap_err();
     assert_eq!(unknown.address, 0x802);
+}
+
+/// Where the stack is in the zero page, what is pushed may be in no counter's place, nor may a
+/// store be in that of a return.
+#[test]
+fn a_stack_in_the_zero_page_is_kept_apart() {
+    let asked = |source: &str| {
+        let assembly = assemble(&format!("* = $0800\n{source} rts\n")).unwrap();
+        let question = Question {
+            assembly: &assembly,
+            ram: 0x80..=0xFF,
+            mirrored: true,
+            turns: BTreeMap::new(),
+            ends: BTreeSet::new(),
+            exit: None,
+        };
+        question
+            .worst(assembly.origin)
+            .map_err(|unknown| unknown.why)
+    };
+    let counter = |at: &str, body: &str| {
+        asked(&format!(
+            " lda #5\n sta {at}\nl: {body}\n dec {at}\n bne l\n jmp over\none: lda #1\n sta $90,x\n rts\nover:\n"
+        ))
+    };
+    assert!(counter("$FC", "pha\n pha\n pla\n pla").is_ok());
+    assert_eq!(counter("$FE", "pha\n pha\n pla\n pla"), Err(Why::Loop));
+    assert!(counter("$FC", "ldx #3\n jsr one").is_ok());
+    assert_eq!(counter("$FE", "ldx #3\n jsr one"), Err(Why::Loop));
+    assert_eq!(counter("$FC", "ldx $98\n jsr one"), Err(Why::Stack));
+    assert_eq!(counter("$FC", "ldx #$6E\n jsr one"), Err(Why::Stack));
 }
 
 /// A piece of a program, nested as deep as `depth`; `name` makes its labels its own.

@@ -2,7 +2,7 @@
 
 use super::flow::{Instruction, Loop, Part, Routine};
 use super::state::State;
-use super::step::{learn, step, taken};
+use super::step::{learn, push, step, taken};
 use super::{Question, Unknown, Why};
 use slowlight_isa::opcodes::Mode;
 use std::collections::{BTreeMap, HashMap};
@@ -302,13 +302,23 @@ impl<'q> Walk<'q> {
                     return meet(inbox, instruction.operand, cycles + base, state);
                 }
                 ("rts", _) => {
-                    if state.depth > 0 {
+                    if !state.pushed.is_empty() {
                         return unknown(instruction.address, Why::Stack);
                     }
                     return returned(out, instruction.address, cycles + base, state);
                 }
                 ("jsr", _) => {
-                    let depth = std::mem::take(&mut state.depth);
+                    let (pushed, below) = (state.pushed.clone(), state.below);
+                    for _ in 0..2 {
+                        if !push(self.question, &mut state, false) {
+                            return unknown(instruction.address, Why::Stack);
+                        }
+                    }
+                    state.below = match self.question.mirrored {
+                        true => u8::try_from(state.depth()).unwrap_or(u8::MAX),
+                        false => 1,
+                    };
+                    state.pushed.clear();
                     let called = self.call(instruction.operand, state)?;
                     if let Some(ends) = called.ends {
                         out.end(cycles + base + ends);
@@ -317,7 +327,11 @@ impl<'q> Walk<'q> {
                         return Ok(());
                     };
                     cycles = cycles.saturating_add(base + taken);
-                    state = State { depth, ..after };
+                    state = State {
+                        pushed,
+                        below,
+                        ..after
+                    };
                 }
                 _ => cycles += step(self.question, instruction, &mut state)?,
             }

@@ -106,6 +106,7 @@ fn longest(assembly: &Assembly) -> u64 {
     let question = Question {
         assembly,
         ram: 0x80..=0xFF,
+        mirrored: true,
         turns: BTreeMap::new(),
         ends: BTreeSet::from([at("ask1"), at("ask2")]),
         exit: None,
