@@ -34,7 +34,8 @@ pub fn quotient_tables(graph: &Graph, ranges: &Ranges, _: &Runtime) -> Option<Gr
             true => 0.0,
             false => range.lo,
         };
-        if !(range.hi - first < MOST) || graph.constant(a).is_some() {
+        let few = range.hi - first < MOST;
+        if !few || graph.constant(a).is_some() {
             return None;
         }
         done = true;
