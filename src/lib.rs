@@ -62,6 +62,7 @@ pub mod trial;
 #[cfg(not(target_family = "wasm"))]
 pub mod tune;
 pub mod unlike;
+pub mod vcs;
 #[cfg(not(target_family = "wasm"))]
 pub mod watch;
 pub mod ways;

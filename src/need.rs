@@ -7,9 +7,10 @@
 mod basic;
 mod heap;
 
-use crate::failure::Outcome;
+use crate::failure::{Failure, Outcome};
 use crate::format::count;
 use crate::machine::File;
+use crate::vcs;
 use basic::{basic, basic_machine, basic_room};
 use heap::heap;
 use slowlight_compiler::backend::mos6502;
@@ -191,6 +192,9 @@ impl Need {
 /// # Errors
 /// Where the machine's tools refuse the text, which is a fault of ours.
 pub fn need(plan: &Plan) -> Outcome<Option<Need>> {
+    if vcs::is_cartridge(plan) {
+        return cartridge(plan).map(Some);
+    }
     if is_assembly(plan) {
         let mut draft = mos6502::Draft::new(plan);
         draft.tidy();
@@ -202,6 +206,23 @@ pub fn need(plan: &Plan) -> Outcome<Option<Need>> {
         (None, Some(_)) if plan.target.system == System::Hack => Ok(Some(heap(&documents, &[]))),
         _ => Ok(None),
     }
+}
+
+/// What a cartridge has at most.
+const CARTRIDGE: u64 = 0x8000;
+
+/// What a cartridge takes.
+fn cartridge(plan: &Plan) -> Outcome<Need> {
+    let wrong = |why| Failure::Wrong(format!("{}: {why}", plan.target.name));
+    let made = mos6502::vcs::cartridge(plan).map_err(wrong)?;
+    Ok(Need {
+        unit: "bytes",
+        parts: vec![("program", u64::from(made.rom))],
+        room: CARTRIDGE,
+        largest: None,
+        system: false,
+        of: Measured::Whole,
+    })
 }
 
 /// Whether a plan is written in assembly.
@@ -222,6 +243,7 @@ fn dialect(plan: &Plan) -> Option<Dialect> {
 /// What a plan's machine has for its program, in its mode; `None` where nothing is known of it.
 pub fn room(plan: &Plan) -> Option<u64> {
     match dialect(plan) {
+        _ if vcs::is_cartridge(plan) => Some(CARTRIDGE),
         Some(dialect) => basic_room(plan, &basic_machine(plan, dialect)),
         None if is_assembly(plan) => Some(mos6502::bytes_of_room(plan)),
         None => (plan.target.system == System::Hack).then_some(HEAP),
@@ -248,6 +270,9 @@ pub fn room_in(plan: &PlannedScene, mode: Mode) -> Option<u64> {
 /// # Errors
 /// As for [`need`].
 pub fn about(plan: &Plan, fuel: &Fuel, kept: &Cell<f64>) -> Outcome<Option<Need>> {
+    if vcs::is_cartridge(plan) {
+        return need(plan);
+    }
     let mut statements = 0;
     for block in plan.tree.blocks() {
         walk(block, &mut |_| statements += 1);

@@ -8,6 +8,7 @@ use crate::measure::{self, Difference};
 use crate::picture::Picture;
 use crate::progress::Progress;
 use crate::scene::{Precision, Scene};
+use crate::vcs;
 use serde::Serialize;
 use serde_json::{Value, json};
 use slowlight_compiler::backend::Document;
@@ -17,6 +18,7 @@ use slowlight_compiler::plan::Plan;
 use slowlight_compiler::planner::PlannedScene;
 use slowlight_routine::Format;
 use slowlight_vm::Screen;
+use slowlight_vm::keys::{Keyboard, Script, Unit};
 use std::collections::BTreeSet;
 
 /// Cycles after which a run is given up, unless the user says otherwise.
@@ -65,6 +67,13 @@ pub fn build_for(plan: &Plan, machine: Machine) -> Outcome<Built> {
 /// # Errors
 /// As for [`build_for`].
 pub fn build_written(documents: &[Document], plan: &Plan, machine: Machine) -> Outcome<Built> {
+    if vcs::is_cartridge(plan) {
+        let (made, _) = vcs::proved(plan)?;
+        let sources = vec![File::text(&made.document.name, &made.document.text)];
+        let mut loaded = machine.load(&sources)?;
+        loaded.sizes = vcs::sizes(&made);
+        return Ok(Built { sources, loaded });
+    }
     let sources: Vec<File> = documents
         .iter()
         .map(|d| File::text(&d.name, &d.text))
@@ -146,12 +155,26 @@ pub fn ran_watched(
     limit: u64,
     watch: &mut dyn FnMut(slowlight_vm::Progress<'_>),
 ) -> Outcome<MachineRun> {
-    let mut run = loaded.run(limit, watch)?;
+    let mut run = match vcs::is_cartridge(plan) {
+        true => first_picture(&mut loaded, limit)?,
+        false => loaded.run(limit, watch)?,
+    };
     if let Some(wrong) = complaint(&run, limit) {
         let name = plan.target.name;
         return Err(Failure::Wrong(format!("{name}: {wrong}")));
     }
     run.sizes.tables = run.sizes.tables.or(Some(table_bytes(plan)));
+    Ok(run)
+}
+
+/// Runs a program that goes on for ever until its first picture is there.
+fn first_picture(loaded: &mut Loaded, limit: u64) -> Outcome<MachineRun> {
+    let script = Script::default().filmed(1);
+    let keyboard = Keyboard::new(script, Unit::Calls, |_| None).remembering();
+    let (mut run, keyboard) = loaded.play(keyboard, limit, &mut |_| {})?;
+    let shot = keyboard.shots().first();
+    run.screen = shot.and_then(|(_, screen)| screen.clone());
+    run.cycles = keyboard.times().first().copied().unwrap_or(run.cycles);
     Ok(run)
 }
 
@@ -235,6 +258,9 @@ fn table_bytes(plan: &Plan) -> u64 {
 /// # Errors
 /// Where there is no screen, or it does not hold the picture.
 pub fn shown(plan: &Plan, screen: Option<&Screen>) -> Outcome<Picture> {
+    if let Some(shape) = vcs::shape(plan) {
+        return vcs::picture(plan, &shape, screen);
+    }
     let name = plan.target.name;
     let Some(screen) = screen else {
         return Err(Failure::Wrong(format!("{name}: the program drew nothing")));

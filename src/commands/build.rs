@@ -131,6 +131,9 @@ pub fn run(args: &Args) -> Outcome<()> {
         &args.output,
     )?;
     let forecast = match plan.graph.is_moving() {
+        _ if plan.target.columns_only => {
+            Forecast::Not("`run --pictures` says how many a second there are".to_owned())
+        }
         true => {
             // Its first picture.
             let mut still = plan.clone();

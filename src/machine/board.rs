@@ -4,6 +4,10 @@ use super::File;
 use super::dfs::{self, DISC_PAGE};
 use slowlight_vm::mos6502::{Bbc, C64, Dialect, Machine, Plain, Vcs};
 
+/// Where the first bank of a VCS's cartridge is, and how long each is.
+const CARTRIDGE: u16 = 0x1000;
+const BANK: usize = 0x1000;
+
 /// Which machine, how its assembly is written, and where binaries lie.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Config {
@@ -49,6 +53,11 @@ impl Board {
         };
         let at = u16::from_le_bytes([*lo, *hi]);
         match self {
+            // Banks of 4K that stand 8K apart, as the machine's addresses repeat.
+            Board::Vcs if at == CARTRIDGE && bytes.len() > BANK => {
+                let banks = bytes.chunks(2 * BANK).flat_map(|two| two.iter().take(BANK));
+                [*lo, *hi].into_iter().chain(banks.copied()).collect()
+            }
             Board::Bbc if at < DISC_PAGE => {
                 let mut moved = DISC_PAGE.to_le_bytes().to_vec();
                 moved.extend(bytes);

@@ -150,6 +150,7 @@ impl Machine {
             System::Plain6502 => mos6502(Board::Plain),
             System::BbcCode => mos6502(Board::Bbc),
             System::C64 => mos6502(Board::C64),
+            System::Vcs => mos6502(Board::Vcs),
         }
     }
 

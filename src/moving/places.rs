@@ -1,5 +1,6 @@
 //! States in a machine's memory: where a program has them, and what they are.
 
+use slowlight_compiler::backend::mos6502::vcs;
 use slowlight_compiler::backend::{bbc, jack, mos6502};
 use slowlight_compiler::ir::graph::ParamId;
 use slowlight_compiler::plan::Plan;
@@ -27,7 +28,7 @@ pub enum Places {
 pub fn looks(plan: &Plan) -> u64 {
     let one_by_one = match plan.target.system {
         System::BbcBasic | System::Agon | System::BasicV | System::BbcCode => true,
-        System::Hack | System::Plain6502 | System::C64 => false,
+        System::Hack | System::Plain6502 | System::C64 | System::Vcs => false,
     };
     match one_by_one {
         true => plan.graph.buttons().count().max(1) as u64,
@@ -39,7 +40,10 @@ impl Places {
     /// Those of a plan's program.
     pub fn of(plan: &Plan) -> Places {
         match plan.target.system.language() {
-            Language::Assembly => Places::Mos6502(mos6502::held(plan)),
+            Language::Assembly => Places::Mos6502(match plan.target.system {
+                System::Vcs => vcs::cartridge(plan).map(|made| made.states).unwrap_or_default(),
+                _ => mos6502::held(plan),
+            }),
             Language::Jack => Places::Hack(jack::held(plan)),
             Language::Basic => Places::Bbc(bbc::held(plan)),
         }

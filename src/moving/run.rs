@@ -12,6 +12,8 @@ use crate::picture::Picture;
 use crate::progress::{Progress, Waiting};
 use crate::scene::{Precision, Scene};
 use crate::trial::shown;
+use crate::vcs;
+use slowlight_compiler::backend::mos6502::vcs::Shape;
 use slowlight_compiler::ir::graph::{Graph, Param, ParamId};
 use slowlight_compiler::plan::Plan;
 use slowlight_compiler::plan::model::ModelRun;
@@ -134,6 +136,8 @@ struct Follow<'p> {
     now: Plan,
     native: Graph,
     places: Places,
+    /// How a picture of columns is shown.
+    shape: Option<Shape>,
     /// What the states should be.
     should: Vec<(ParamId, Bits)>,
     /// What the native step makes of the machine's states.
@@ -150,6 +154,7 @@ impl<'p> Follow<'p> {
             now: plan.clone(),
             native,
             places: Places::of(plan),
+            shape: vcs::shape(plan),
             should: start.collect(),
             natively: BTreeMap::new(),
             angles,
@@ -195,7 +200,10 @@ impl<'p> Follow<'p> {
         let window = Window::on_screen(plan);
         let modelled = model_with(&self.now, None)?;
         let native = native(&self.native, window)?;
-        let picture = shown(plan, screen)?;
+        let picture = match &self.shape {
+            Some(shape) => vcs::picture(plan, shape, screen)?,
+            None => shown(plan, screen)?,
+        };
         let unlike = |other: &Drawn| differences(window.places(), &picture.inks, &other.pixels);
         Ok(Shown {
             from_model: unlike(&modelled),

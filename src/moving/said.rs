@@ -43,6 +43,10 @@ impl Walk {
                 count(self.steps_unlike() as u64),
             ),
         ];
+        if plan.target.columns_only {
+            let said = String::from_utf8_lossy(&self.run.output).into_owned();
+            rows.push(row("frames", said.trim().to_owned()));
+        }
         let last = self.pictures.last();
         for state in last.iter().flat_map(|shown| &shown.states) {
             rows.push(row(

@@ -26,6 +26,9 @@ use crate::scene::Scene;
 use crate::ways::WayArgs;
 use clap::Args;
 use slowlight_compiler::plan::Goal;
+use slowlight_compiler::plan::columns::columns;
+use slowlight_compiler::planner::pass_manager::PassSet;
+use slowlight_compiler::planner::pipeline::Pass;
 use slowlight_compiler::planner::{PlannedScene, SEARCH};
 use slowlight_compiler::planner::{plan_among, plan_as_written, plan_with_every_shade};
 use slowlight_compiler::sema::Instancing;
@@ -266,6 +269,16 @@ impl ScreenArgs {
         self.plan_in((mode, SEARCH), scene, target, &[])
     }
 
+    /// The passes that are left out: where pictures are of columns, those that step along rows.
+    fn left_out(&self, target: &Target) -> PassSet {
+        let along_rows = [Pass::StripMine, Pass::ScanlineRuns, Pass::ScanlineSpans, Pass::Phases];
+        let own = self.passes.left_out();
+        match target.columns_only {
+            true => along_rows.into_iter().fold(own, PassSet::with),
+            false => own,
+        }
+    }
+
     fn plan_in(
         &self,
         (mode, fuel): (Mode, u64),
@@ -295,6 +308,13 @@ impl ScreenArgs {
             let message = format!("--page is the BBC Micro's; {} has none", target.name);
             return Err(Failure::Usage(message));
         }
+        if target.columns_only && (self.block.is_some() || self.refine.is_some() || self.rows.is_some()) {
+            let message = format!(
+                "--block, --refine and --rows are for pixels; {} draws columns",
+                target.name
+            );
+            return Err(Failure::Usage(message));
+        }
         let (_, height) = scene.size();
         let block = self.block.unwrap_or((1, 1));
         let asked = self.rows.as_deref().map(|r| rows(r, height)).transpose()?;
@@ -312,7 +332,7 @@ impl ScreenArgs {
             (_, true) => plan_with_every_shade(&graph, target, &goal),
             _ => {
                 let fuel = (fuel, self.fuel.map_or(u64::MAX, |fuel| fuel.modelled));
-                plan_among(&graph, target, &goal, fuel, self.passes.left_out())
+                plan_among(&graph, target, &goal, fuel, self.left_out(target))
             }
         };
         let planned = planned.map(|plan| self.thrifty(plan));
@@ -321,6 +341,12 @@ impl ScreenArgs {
             false => planned,
         };
         let mut plan = planned.map_err(|said| scene.wrong(said))?;
+        if target.columns_only {
+            let refused = columns(&plan).err();
+            if let Some(refusal) = refused {
+                return Err(scene.wrong(vec![refusal.diagnostic(target.name)]));
+            }
+        }
         plan.listing = basic && self.style == Some(Style::Listing);
         plan.page = self.page;
         plan.undocumented = self.undocumented;

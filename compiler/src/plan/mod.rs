@@ -46,6 +46,7 @@
 //!
 //! The model ([`crate::plan::model`]) runs the same plan bit for bit.
 
+pub mod columns;
 pub mod error;
 pub mod model;
 

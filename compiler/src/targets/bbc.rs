@@ -75,6 +75,7 @@ pub static MICRO: Target = Target {
     last: false,
     windows: false,
     moves: true,
+    columns_only: false,
     hertz: 2_000_000.0,
     sizes: SIZES,
     wraps: true,
@@ -100,6 +101,7 @@ pub static AGON: Target = Target {
     last: false,
     windows: false,
     moves: true,
+    columns_only: false,
     // Measured: the two mirrors in 11.6 minutes for BASIC II's 17.8e9 cycles.
     hertz: 25_500_000.0,
     sizes: SIZES,
@@ -122,6 +124,7 @@ pub static BASIC_V: Target = Target {
     last: false,
     windows: false,
     moves: true,
+    columns_only: false,
     // Measured: 0.15 seconds for the same program.
     hertz: 1.2e11,
     sizes: SIZES,

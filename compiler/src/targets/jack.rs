@@ -58,6 +58,7 @@ const FLOATS: Target = Target {
     last: false,
     windows: false,
     moves: true,
+    columns_only: false,
     // VM commands a second of the official VM emulator. Its calls of the operating
     // system take longer, about 10 microseconds each, which one rate cannot say.
     hertz: 12.6e6,

@@ -35,6 +35,8 @@ pub enum System {
     BbcCode,
     /// A Commodore 64 in machine code.
     C64,
+    /// An Atari VCS.
+    Vcs,
 }
 
 impl System {
@@ -43,7 +45,9 @@ impl System {
         match self {
             System::Hack => Language::Jack,
             System::BbcBasic | System::Agon | System::BasicV => Language::Basic,
-            System::Plain6502 | System::BbcCode | System::C64 => Language::Assembly,
+            System::Plain6502 | System::BbcCode | System::C64 | System::Vcs => {
+                Language::Assembly
+            },
         }
     }
 }
@@ -101,6 +105,9 @@ pub struct Target {
     pub windows: bool,
     /// Whether its programs show scenes that move.
     pub moves: bool,
+    /// Whether its pictures are of columns only ([`crate::plan::columns`]): it has no memory for
+    /// one of pixels.
+    pub columns_only: bool,
 }
 
 /// What [`crate::plan::Plan::lean`] makes of a machine's programs.
@@ -156,6 +163,7 @@ pub static TARGETS: &[&Target] = &[
     &mos6502::PLAIN,
     &mos6502::BBC,
     &mos6502::C64,
+    &mos6502::VCS,
 ];
 
 /// The same machines with other formats of reals.

@@ -205,6 +205,18 @@ pub static C64_REAL40: Target = Target {
     ..C64
 };
 
+/// An Atari VCS, for PAL: a picture is columns, whose heights are found between its frames.
+pub static VCS: Target = Target {
+    name: "6502:vcs",
+    system: System::Vcs,
+    about: "an Atari VCS (PAL) with a cartridge: column scenes only",
+    runtime: &FIXED16,
+    moves: true,
+    columns_only: true,
+    hertz: 1_182_298.0,
+    ..USUAL
+};
+
 const USUAL: Target = Target {
     name: "6502:plain",
     system: System::Plain6502,
@@ -225,6 +237,7 @@ const USUAL: Target = Target {
     last: false,
     windows: false,
     moves: true,
+    columns_only: false,
     hertz: 2_000_000.0,
     wraps: false,
     columns: 512,

@@ -154,6 +154,13 @@ impl Keyboard {
         &self.shots
     }
 
+    /// Another screen for a shot, which was not there yet.
+    pub(crate) fn retake(&mut self, at: usize, screen: Option<Screen>) {
+        if let Some((_, shot)) = self.shots.get_mut(at) {
+            *shot = screen;
+        }
+    }
+
     /// The shots that the program has not come to.
     pub fn missed(&self) -> impl Iterator<Item = &str> {
         let names = self.script.shots().iter().skip(self.shots.len());

@@ -32,7 +32,7 @@ pub mod tia;
 
 use super::computer::{Board, Computer, fault};
 use super::cpu::Bus;
-use crate::keys::{Key, Keyboard, Seen};
+use crate::keys::{Key, Keyboard, Seen, Unit};
 use crate::{Fault, Screen, Stop};
 use cartridge::Cartridge;
 use riot::Riot;
@@ -56,8 +56,22 @@ pub struct Console {
     riot: Riot,
     tia: Tia,
     keyboard: Option<Box<Keyboard>>,
+    /// Pictures of the keyboard's that are taken when the beam has drawn them.
+    pending: Vec<usize>,
+    /// Whether the script is at its end but for those.
+    quits: bool,
     stop: Option<Stop>,
 }
+
+/// Where a cartridge's own RAM is.
+const CHIP: u16 = 0x1000;
+
+/// SWCHA, where programs look at the joysticks.
+const STICKS: u16 = 0x0280;
+
+/// The register that blanks the picture, and its bit that does.
+const VBLANK: u16 = 0x01;
+const BLANKS: u8 = 2;
 
 impl Bus for Console {
     #[inline(always)]
@@ -71,6 +85,9 @@ impl Bus for Console {
         } else if address & 0x80 == 0 {
             self.tia.read(address) | self.bus & 0x3F
         } else {
+            if address & 0x1287 == STICKS {
+                self.look();
+            }
             self.riot.read(address, self.cycles)
         };
         self.bus
@@ -106,13 +123,17 @@ impl Console {
                 if begins {
                     self.frame();
                 }
+                if register == VBLANK && value & BLANKS != 0 && !self.pending.is_empty() {
+                    self.shown();
+                }
             }
         }
     }
 
     /// A frame begins: what is held now is held all through it.
     fn frame(&mut self) {
-        let Some(mut keyboard) = self.keyboard.take() else {
+        let by_frames = |keyboard: &mut Box<Keyboard>| keyboard.unit() == Unit::Frames;
+        let Some(mut keyboard) = self.keyboard.take_if(by_frames) else {
             return;
         };
         let frames = self.tia.television.frames();
@@ -120,12 +141,63 @@ impl Console {
             Seen::Key(key) => Some(key),
             Seen::Nothing => None,
             Seen::Quit => {
-                let wrong = self.tia.television.complaint();
-                let stop = wrong.map_or(Stop::Ended, |message| Stop::Fault(fault(message)));
-                self.stop.get_or_insert(stop);
+                self.quit();
                 None
             }
         };
+        self.hold(held);
+        self.keyboard = Some(keyboard);
+    }
+
+    /// The script is at its end.
+    fn quit(&mut self) {
+        let wrong = self.tia.television.complaint();
+        let stop = wrong.map_or(Stop::Ended, |message| Stop::Fault(fault(message)));
+        self.stop.get_or_insert(stop);
+    }
+
+    /// The program looks at the joystick, which a script by looks holds from now to the next
+    /// look. What it shows now is what the beam draws next.
+    fn look(&mut self) {
+        let by_looks = |keyboard: &mut Box<Keyboard>| keyboard.unit() == Unit::Calls;
+        let Some(mut keyboard) = self.keyboard.take_if(by_looks) else {
+            return;
+        };
+        let last = CHIP + 0x80;
+        let memory = || (0..last).map(|at| i16::from(self.peek(at))).collect();
+        keyboard.remember(self.cycles, memory);
+        let before = keyboard.shots().len();
+        let seen = keyboard.look(self.tia.television.frames(), || None);
+        self.pending.extend(before..keyboard.shots().len());
+        match seen {
+            Seen::Key(key) => self.hold(Some(key)),
+            Seen::Nothing => self.hold(None),
+            Seen::Quit => {
+                self.hold(None);
+                self.quits = true;
+            }
+        }
+        self.keyboard = Some(keyboard);
+        if self.quits && self.pending.is_empty() {
+            self.quit();
+        }
+    }
+
+    /// The beam has drawn a picture.
+    fn shown(&mut self) {
+        let screen = self.tia.television.drawn();
+        for at in std::mem::take(&mut self.pending) {
+            if let Some(keyboard) = &mut self.keyboard {
+                keyboard.retake(at, screen.clone());
+            }
+        }
+        if self.quits {
+            self.quit();
+        }
+    }
+
+    /// The joystick is held so.
+    fn hold(&mut self, held: Option<Key>) {
         self.riot.stick = match held {
             Some(Key::Up) => 0xEF,
             Some(Key::Down) => 0xDF,
@@ -134,7 +206,6 @@ impl Console {
             _ => 0xFF,
         };
         self.tia.fire(held == Some(Key::Char(b' ')));
-        self.keyboard = Some(keyboard);
     }
 }
 

@@ -28,6 +28,8 @@ pub(super) struct Code<'p> {
     pub in_run: bool,
     /// Whether memory is spent for speed here: at pixels, if the program has it.
     pub quick: bool,
+    /// Whether the timer is asked where a loop's turn begins.
+    pub asks: bool,
     /// The factors of the products that follow in this block.
     pub ahead: Vec<NodeId>,
 }
@@ -49,6 +51,7 @@ impl<'p> Code<'p> {
             needs: Vec::new(),
             in_run: false,
             quick: false,
+            asks: false,
             ahead: Vec::new(),
         }
     }
@@ -72,6 +75,7 @@ impl<'p> Code<'p> {
         let mut code = Code::new(self.plan, self.homes, &mut text);
         code.in_run = self.in_run;
         code.quick = self.quick;
+        code.asks = self.asks;
         write(&mut code);
         self.clamps |= code.clamps;
         let needs = std::mem::take(&mut code.needs);
@@ -322,6 +326,9 @@ impl<'p> Code<'p> {
             self.text.code(&format!("lda #{hi} | sta {counter}+1"));
         }
         self.text.label(&format!("loop{n}"));
+        if self.asks {
+            self.text.code("jsr ask");
+        }
         self.block(&turns.body);
         let (fails, holds) = self.test(turns.again);
         let turn = self.apart(|code| code.block(&turns.next));

@@ -71,10 +71,12 @@ mod table;
 #[cfg(test)]
 mod tests;
 mod uses;
+pub mod vcs;
 
 use super::Document;
 use crate::plan::Plan;
 use crate::source::Span;
+use crate::targets::System;
 pub use draft::Draft;
 use memory::Machine;
 pub use memory::{DISC_PAGE, Room, bytes_of_room};
@@ -84,6 +86,9 @@ use syntax::Syntax;
 
 /// Writes a plan down as one file of assembly.
 pub(super) fn emit(plan: &Plan) -> Vec<Document> {
+    if plan.target.system == System::Vcs {
+        return vcs::cartridge(plan).map(|made| made.document).into_iter().collect();
+    }
     vec![document(plan, syntax::USUAL)]
 }
 

@@ -98,7 +98,7 @@ fn is_held(button: Button) -> String {
 
 /// One of the copies that give all states their next values at once.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Move {
+pub(super) enum Move {
     /// Gives a state a node's value.
     Give(ParamId, NodeId),
     /// Puts a state's value aside, before it is given another.
@@ -109,7 +109,7 @@ enum Move {
 
 /// The copies in an order in which none spoils what a later one reads: a state that others are
 /// given is read before it is written, and of a ring of such one is put aside.
-fn in_turn(graph: &Graph) -> Vec<Move> {
+pub(super) fn in_turn(graph: &Graph) -> Vec<Move> {
     let source = |next: NodeId| match graph.node(next) {
         Node::Param(other) => Some(other),
         _ => None,
@@ -149,7 +149,7 @@ fn in_turn(graph: &Graph) -> Vec<Move> {
 }
 
 impl Code<'_> {
-    fn give(&mut self, copy: Move) {
+    pub(super) fn give(&mut self, copy: Move) {
         let plan = self.plan;
         let home = |code: &Self, state: ParamId| {
             let slot = Slot::Param(state.0);
@@ -206,7 +206,7 @@ pub struct Held {
 }
 
 /// Which bytes of a home a program reads, by bit: all where it takes the home's address.
-fn read(lines: &[&str], home: &str) -> u8 {
+pub(super) fn read(lines: &[&str], home: &str) -> u8 {
     let mut read = 0;
     for line in lines {
         let mut words = line.split_whitespace();

@@ -178,9 +178,18 @@ impl Television {
 
     /// What is seen of the last complete frame.
     pub fn screen(&self) -> Option<Screen> {
+        self.seen(&self.last)
+    }
+
+    /// What is seen of the frame that is drawn, as far as it is.
+    pub fn drawn(&self) -> Option<Screen> {
+        self.seen(&self.now)
+    }
+
+    fn seen(&self, lines: &[u8]) -> Option<Screen> {
         let system = self.system?;
         let (first, count) = system.window();
-        let seen = self.last.iter().skip(first * COLUMNS);
+        let seen = lines.iter().skip(first * COLUMNS);
         let mut pixels: Vec<u8> = seen.map(|colour| colour / 2).collect();
         pixels.resize(count * COLUMNS, 0);
         Some(Screen {
