@@ -95,7 +95,10 @@ impl Units {
 
     /// The units whose labels a line names.
     fn named(&self, line: &str) -> Vec<usize> {
-        words(line).filter_map(|word| self.labels.get(word).copied()).collect()
+        let labelled = words(line).filter_map(|word| self.labels.get(word).copied());
+        // The pointers into the quarter squares are the same for all banks.
+        let pointed = line.contains("(sum") || line.contains("(dif");
+        labelled.chain(pointed.then_some(OF_SQUARES)).collect()
     }
 
     /// All units that lines need.
