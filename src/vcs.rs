@@ -119,6 +119,19 @@ pub fn sizes(made: &Cartridge) -> Sizes {
     }
 }
 
+/// What `build` says of a cartridge: its memory, and how long its slices are.
+///
+/// # Errors
+/// As for [`proved`].
+pub fn text(plan: &Plan) -> Outcome<String> {
+    let (made, proof) = proved(plan)?;
+    Ok(format!(
+        "{} banks of 4K; {} bytes of the machine's 128 (8 of them for the stack), {} of the \
+         cartridge's 128\nat most {} cycles between two looks at the timer, {} to make playfield\n",
+        made.banks, made.ram, made.chip, proof.slice, proof.convert
+    ))
+}
+
 /// Colour clocks of a column, and those before the first of 32.
 const COLUMN: u32 = 4;
 const BORDER: u32 = 16;

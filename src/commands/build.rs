@@ -12,7 +12,7 @@ use crate::need::{Need, need_beside};
 use crate::scene::{Precision, Scene, SceneArgs};
 use crate::target_args::{self, Os, ScreenArgs, Style};
 use crate::trial::{self, mode_json};
-use crate::{files, inks, say, say_json, worst};
+use crate::{files, inks, say, say_json, vcs, worst};
 use clap::ValueEnum;
 use serde_json::json;
 use slowlight_compiler::analysis::rate::rates;
@@ -193,6 +193,9 @@ pub fn run(args: &Args) -> Outcome<()> {
         ),
         Forecast::Not(why) => format!("its time is not known: {why}\n"),
     })?;
+    if vcs::is_cartridge(&plan) {
+        say(&vcs::text(&plan)?)?;
+    }
     match worst {
         Some(worst) => say(&worst::text(&plan, worst, seconds)),
         None => Ok(()),

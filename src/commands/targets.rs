@@ -6,7 +6,7 @@ use crate::trial::mode_json;
 use crate::{say, say_json};
 use serde_json::{Value, json};
 use slowlight_compiler::targets;
-use slowlight_compiler::targets::{TARGETS, Target};
+use slowlight_compiler::targets::{Target, every};
 
 /// Options of `targets`.
 #[derive(clap::Args, Debug)]
@@ -19,10 +19,10 @@ pub struct Args {
 /// Lists them.
 pub fn run(args: &Args) -> Outcome<()> {
     if args.json {
-        let all: Vec<Value> = TARGETS.iter().map(|t| object(t)).collect();
+        let all: Vec<Value> = every().map(object).collect();
         return say_json(&Value::Array(all));
     }
-    for target in TARGETS {
+    for target in every() {
         let format = formats(target).join(" or ");
         say(&format!(
             "{}: {}; reals are {format}\n",

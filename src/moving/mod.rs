@@ -14,7 +14,7 @@ use crate::format::count;
 use hands::Hands;
 use slowlight_compiler::ir::graph::Graph;
 use slowlight_compiler::source::Diagnostic;
-use slowlight_compiler::targets::{TARGETS, Target};
+use slowlight_compiler::targets::{Target, every};
 use std::collections::BTreeSet;
 
 /// Pictures at most, and pixels of all of them; pictures of a machine, whose memory is kept
@@ -110,7 +110,7 @@ pub fn refused(graph: &Graph, target: &Target, refines: bool) -> Option<Diagnost
     let span = graph.params.get(state.0 as usize).map(|p| p.span);
     let wrong = |message: String| Diagnostic::error(span.unwrap_or_default(), message);
     if !target.moves {
-        let able: BTreeSet<&str> = TARGETS.iter().filter(|t| t.moves).map(|t| t.name).collect();
+        let able: BTreeSet<&str> = every().filter(|t| t.moves).map(|t| t.name).collect();
         let able: Vec<&str> = able.into_iter().collect();
         let message = format!(
             "the scene moves, and programs for {} do not yet",

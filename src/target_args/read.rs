@@ -5,7 +5,7 @@ use slowlight_compiler::backend::mos6502::syntax;
 use slowlight_compiler::backend::mos6502::syntax::{SYNTAXES, Syntax};
 use slowlight_compiler::planner::THRIFTS;
 use slowlight_compiler::targets;
-use slowlight_compiler::targets::{TARGETS, Target};
+use slowlight_compiler::targets::Target;
 use std::collections::BTreeSet;
 
 /// Reads `--target`.
@@ -13,13 +13,13 @@ use std::collections::BTreeSet;
 /// # Errors
 /// Where there is no such target: what there is.
 pub fn target(name: &str) -> Result<&'static Target, String> {
-    let names = TARGETS.iter().map(|t| t.name);
+    let names = targets::every().map(|t| t.name);
     targets::find(name).ok_or_else(|| unknown("target", name, names))
 }
 
 /// What there is for `--target`, in one line.
 pub fn known_targets() -> String {
-    let names: Vec<&str> = TARGETS.iter().map(|t| t.name).collect();
+    let names: Vec<&str> = targets::every().map(|t| t.name).collect();
     format!(
         "targets: {} (`slowlight targets` says more)",
         names.join(", ")
@@ -43,7 +43,7 @@ pub const ALL_FORMATS: &str = "all";
 /// # Errors
 /// Where no machine has it: what there is.
 pub fn format_or_all(name: &str) -> Result<String, String> {
-    let formats = TARGETS.iter().flat_map(|t| targets::formats(t));
+    let formats = targets::every().flat_map(targets::formats);
     let names: BTreeSet<&str> = formats.map(|t| t.runtime.format).collect();
     match name == ALL_FORMATS || names.contains(name) {
         true => Ok(name.to_owned()),

@@ -51,6 +51,8 @@ pub struct Context {
     pub every_shade: bool,
     /// Whether plans are only judged, not run: less is looked at to place their points.
     pub draft: bool,
+    /// Whether memory for tables is cheap: a cartridge has more of it than of anything else.
+    pub tables: bool,
     /// What searches for a plan may do yet.
     pub fuel: Fuel,
     /// How many statements may run in the routines' models to find the widths of values.
@@ -105,6 +107,7 @@ impl Context {
             proofs: Arc::default(),
             every_shade: false,
             draft: false,
+            tables: false,
             fuel: Fuel::new(u64::MAX),
             modelled: MODELLED,
             ran: Arc::default(),
@@ -123,6 +126,7 @@ impl Context {
             proofs: self.proofs.clone(),
             every_shade: self.every_shade,
             draft: self.draft,
+            tables: self.tables,
             fuel,
             modelled: self.modelled,
             ran: self.ran.clone(),

@@ -73,6 +73,7 @@ pub fn plan_among(
         steps: Steps::All,
     };
     let mut cx = Context::new(graph.clone(), target.runtime);
+    cx.tables = target.columns_only;
     cx.draft = fuel == 0;
     cx.modelled = modelled.min(MODELLED);
     cx.pipeline = Pipeline::without(without);
@@ -87,6 +88,7 @@ pub fn plan_with_every_shade(
     goal: &Goal,
 ) -> Result<PlannedScene, Vec<Diagnostic>> {
     let mut cx = Context::new(graph.clone(), target.runtime);
+    cx.tables = target.columns_only;
     cx.every_shade = true;
     let all = Rewriting::Fast {
         budget: SizeBudget::default(),

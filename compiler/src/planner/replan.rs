@@ -53,6 +53,7 @@ impl PlannedScene {
         let mut graph = Graph::clone(&self.cx.origin);
         graph.reports.extend(graph.shade);
         let mut cx = Context::new(graph, self.runtime);
+        cx.tables = self.target.columns_only;
         cx.pipeline = Pipeline::without(self.pipeline().without);
         let mut plan = self.again(&Arc::new(cx), self.rewriting)?;
         if self.calls_at_pixels() {

@@ -154,7 +154,7 @@ impl Sizes {
     }
 }
 
-/// Every target.
+/// Every target that shows any scene.
 pub static TARGETS: &[&Target] = &[
     &jack::JACK,
     &bbc::MICRO,
@@ -163,8 +163,10 @@ pub static TARGETS: &[&Target] = &[
     &mos6502::PLAIN,
     &mos6502::BBC,
     &mos6502::C64,
-    &mos6502::VCS,
 ];
+
+/// Those that show column scenes only ([`Target::columns_only`]).
+pub static OF_COLUMNS: &[&Target] = &[&mos6502::VCS];
 
 /// The same machines with other formats of reals.
 pub static OTHER_FORMATS: &[&Target] = &[
@@ -195,7 +197,12 @@ pub static OTHER_FORMATS: &[&Target] = &[
     &mos6502::C64_REAL40,
 ];
 
-/// Every target in every format.
+/// Every target, whatever scenes it shows.
+pub fn every() -> impl Iterator<Item = &'static Target> + Clone {
+    TARGETS.iter().chain(OF_COLUMNS).copied()
+}
+
+/// Every target that shows any scene, in every format.
 pub fn in_all_formats() -> impl Iterator<Item = &'static Target> {
     TARGETS.iter().chain(OTHER_FORMATS).copied()
 }
@@ -203,17 +210,16 @@ pub fn in_all_formats() -> impl Iterator<Item = &'static Target> {
 /// The formats of reals that a target's machine has, its usual one first.
 pub fn formats(target: &Target) -> impl Iterator<Item = &'static Target> {
     let name = target.name;
-    in_all_formats().filter(move |t| t.name == name)
+    let all = every().chain(OTHER_FORMATS.iter().copied());
+    all.filter(move |t| t.name == name)
 }
 
 /// A target by its name; a family's name alone means its first.
 pub fn find(name: &str) -> Option<&'static Target> {
-    let family = |t: &&&Target| t.name.split(':').next() == Some(name);
-    TARGETS
-        .iter()
+    let family = |t: &&Target| t.name.split(':').next() == Some(name);
+    every()
         .find(|t| t.name == name)
-        .or_else(|| TARGETS.iter().find(family))
-        .copied()
+        .or_else(|| every().find(family))
 }
 
 /// The mode for a picture of as many inks as there are: of those that hold it whole the one

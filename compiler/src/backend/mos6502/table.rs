@@ -146,9 +146,28 @@ impl Code<'_> {
         if range.within(0.0, f64::from(n) - 1.0) {
             return write::byte(&place, 0);
         }
+        if self.asks && n <= 0x80 && range.within(-128.0, 127.0) {
+            self.clamp_byte(&place, (range, n), to);
+            return to.to_owned();
+        }
         self.clamp(&place, n);
         self.text.code(&format!("lda acc | sta {to}"));
         to.to_owned()
+    }
+
+    /// The same of an index of one byte.
+    fn clamp_byte(&mut self, place: &Operand, (range, n): (Range, u32), to: &str) {
+        let serial = self.text.next_serial();
+        self.text.code(&format!("lda {}", write::byte(place, 0)));
+        if range.lo < 0.0 {
+            self.text
+                .code(&format!("bpl above{serial} | lda #0 | beq within{serial}"));
+            self.text.label(&format!("above{serial}"));
+        }
+        self.text
+            .code(&format!("cmp #{n} | bcc within{serial} | lda #{}", n - 1));
+        self.text.label(&format!("within{serial}"));
+        self.text.code(&format!("sta {to}"));
     }
 
     /// `acc` = the index in a place, clamped.

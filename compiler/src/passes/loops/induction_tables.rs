@@ -29,12 +29,17 @@ pub fn induction_tables(graph: &Graph, worth: u32) -> Option<Graph> {
 }
 
 /// The same of what hangs on ints that are rounded and stay within few values.
-pub fn tables_of_ints(graph: &Graph, ranges: &Ranges, worth: u32) -> Option<Graph> {
+/// Where memory for tables is cheap, so is the column's number, and what a remainder leaves.
+pub fn tables_of_ints(
+    graph: &Graph,
+    ranges: &Ranges,
+    (worth, cheap): (u32, bool),
+) -> Option<Graph> {
     let mut tables = Tables {
         graph,
         counters: graph
             .ids()
-            .filter_map(|id| few(graph, ranges, id))
+            .filter_map(|id| few(graph, ranges, id, cheap))
             .collect(),
         known: Vec::new(),
     };
@@ -324,8 +329,9 @@ fn counter(graph: &Graph, id: NodeId) -> Option<Counter> {
 }
 
 /// The int that a node rounds to, or is looked up, where it stays within few values.
-fn few(graph: &Graph, ranges: &Ranges, id: NodeId) -> Option<Counter> {
+fn few(graph: &Graph, ranges: &Ranges, id: NodeId, cheap: bool) -> Option<Counter> {
     let most = match graph.node(id) {
+        Node::Axis(Axis::X) | Node::Apply(Op::IntMod, _) if cheap => MOST as f64,
         Node::Apply(Op::Round | Op::Floor, _) => FEW,
         Node::Lookup { .. } if graph.ty(id) == Type::Int => MOST as f64,
         _ => return None,

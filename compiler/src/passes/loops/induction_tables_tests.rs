@@ -144,7 +144,7 @@ fn sines_of_rounded_ints_are_looked_up_and_draw_the_same() {
         let graph = scene(shade);
         let slack = crate::analysis::range::Slack::of(crate::targets::bbc::MICRO.runtime);
         let ranges = crate::analysis::range::ranges(&graph, &schedule(&graph), &slack);
-        let other = tables_of_ints(&graph, &ranges, 4 * ENTRY).map(|graph| fold(&graph));
+        let other = tables_of_ints(&graph, &ranges, (4 * ENTRY, false)).map(|graph| fold(&graph));
         let entries = other.as_ref().map(|other| {
             draws_the_same(&graph, other, shade);
             other.tables.iter().map(|t| t.entries.len()).max().unwrap()

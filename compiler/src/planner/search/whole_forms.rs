@@ -70,9 +70,11 @@ fn forms(origin: &Graph, cx: &Context, budget: SizeBudget) -> Vec<Graph> {
 
 /// The graph with tables of what hangs on ints that are rounded and stay within few values.
 fn with_few_ints(graph: Graph, cx: &Context) -> Graph {
+    let cheap = cx.tables;
     let rounds = |id: NodeId| match graph.node(id) {
         Node::Apply(Op::Round | Op::Floor, _) => true,
         Node::Lookup { .. } => graph.ty(id) == Type::Int,
+        Node::Axis(Axis::X) | Node::Apply(Op::IntMod, _) => cheap,
         _ => false,
     };
     if !graph.ids().any(rounds) {
@@ -81,7 +83,7 @@ fn with_few_ints(graph: Graph, cx: &Context) -> Graph {
     let known = cx.scheduled(graph);
     // An int must be moved to where the table begins, and be held to its ends perhaps.
     let tables = cx.always(Pass::IntegerTables, || {
-        tables_of_ints(&known.graph, &known.ranges, 4 * ENTRY)
+        tables_of_ints(&known.graph, &known.ranges, (if cheap { 2 } else { 4 } * ENTRY, cheap))
     });
     tables.map_or_else(|| known.graph.clone(), |graph| fold(&graph))
 }

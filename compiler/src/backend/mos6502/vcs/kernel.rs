@@ -153,7 +153,11 @@ pub(super) fn boot(
             continue;
         }
         for byte in 0..homes.bytes(plan, slot) {
+            // All memory is 0 by now.
             let value = (param.bits >> (8 * byte)) & 0xFF;
+            if value == 0 {
+                continue;
+            }
             push(l, &format!("lda #{value} | sta {name}+{byte}"));
         }
     }

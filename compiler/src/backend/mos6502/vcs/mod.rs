@@ -93,7 +93,7 @@ pub fn cartridge(plan: &Plan) -> Result<Cartridge, String> {
     let mut names = work::cells(&work.lines);
     // Tables have names like bytes.
     names.retain(|cell| !units.labels.contains_key(&cell.name));
-    let code = work.code_lines();
+    let code = without_unread(plan, &homes, work.code_lines());
     let beside = units.lines(&code);
     let boot = kernel::boot(plan, &homes, &shape, &[&code, &beside]);
     let places = ram::Places::new(plan, &names, &[&code, &beside, &boot])?;
@@ -143,6 +143,22 @@ fn reduced(plan: &Plan, columns: &crate::plan::columns::Columns) -> Plan {
     let kinds = columns.kinds.iter().map(|(id, _, _)| *id);
     plan.graph.reports.extend(kinds);
     plan
+}
+
+/// The work without the bytes of what is held that nobody reads.
+fn without_unread(plan: &Plan, homes: &Homes, mut lines: Vec<Line>) -> Vec<Line> {
+    for (id, _) in plan.graph.buttons() {
+        let name = homes.name(Slot::Param(id.0));
+        let texts: Vec<&str> = lines.iter().map(|(line, _)| line.as_str()).collect();
+        let read = super::steps::read(&texts, name);
+        let unread = |line: &str| {
+            let stored = line.trim().strip_prefix("sta ").and_then(|to| to.strip_prefix(name));
+            let byte = stored.and_then(|rest| rest.strip_prefix('+')?.parse::<u32>().ok());
+            byte.is_some_and(|k| read.checked_shr(k).unwrap_or(0) & 1 == 0)
+        };
+        lines.retain(|(line, _)| !unread(line));
+    }
+    lines
 }
 
 /// Where the program has its states.
