@@ -56,6 +56,7 @@ pub mod show;
 pub mod snapshot;
 #[cfg(not(target_family = "wasm"))]
 pub mod survey;
+pub mod tables;
 pub mod target_args;
 pub mod together;
 pub mod trial;

@@ -8,18 +8,14 @@ use crate::measure::{self, Difference};
 use crate::picture::Picture;
 use crate::progress::Progress;
 use crate::scene::{Precision, Scene};
+use crate::tables::table_bytes;
 use crate::vcs;
 use serde::Serialize;
 use serde_json::{Value, json};
 use slowlight_compiler::backend::Document;
-use slowlight_compiler::ir::graph::{Node, TableId};
-use slowlight_compiler::ir::tree::Place;
 use slowlight_compiler::plan::Plan;
 use slowlight_compiler::planner::PlannedScene;
-use slowlight_routine::Format;
 use slowlight_vm::Screen;
-use slowlight_vm::keys::{Keyboard, Script, Unit};
-use std::collections::BTreeSet;
 
 /// Cycles after which a run is given up, unless the user says otherwise.
 pub const LIMIT: u64 = 1_000_000_000_000;
@@ -156,7 +152,7 @@ pub fn ran_watched(
     watch: &mut dyn FnMut(slowlight_vm::Progress<'_>),
 ) -> Outcome<MachineRun> {
     let mut run = match vcs::is_cartridge(plan) {
-        true => first_picture(&mut loaded, limit)?,
+        true => vcs::first_picture(&mut loaded, limit)?,
         false => loaded.run(limit, watch)?,
     };
     if let Some(wrong) = complaint(&run, limit) {
@@ -164,17 +160,6 @@ pub fn ran_watched(
         return Err(Failure::Wrong(format!("{name}: {wrong}")));
     }
     run.sizes.tables = run.sizes.tables.or(Some(table_bytes(plan)));
-    Ok(run)
-}
-
-/// Runs a program that goes on for ever until its first picture is there.
-fn first_picture(loaded: &mut Loaded, limit: u64) -> Outcome<MachineRun> {
-    let script = Script::default().filmed(1);
-    let keyboard = Keyboard::new(script, Unit::Calls, |_| None).remembering();
-    let (mut run, keyboard) = loaded.play(keyboard, limit, &mut |_| {})?;
-    let shot = keyboard.shots().first();
-    run.screen = shot.and_then(|(_, screen)| screen.clone());
-    run.cycles = keyboard.times().first().copied().unwrap_or(run.cycles);
     Ok(run)
 }
 
@@ -217,40 +202,6 @@ pub fn held_with(
         modelled,
         native,
     })
-}
-
-/// Bytes of the tables that a plan looks into, as its machine holds them.
-fn table_bytes(plan: &Plan) -> u64 {
-    let bytes = |format: Format| match format {
-        Format::Real40 => 5,
-        // An object of three words or four.
-        Format::Float316 { .. } | Format::Float416 => 2 * u64::from(format.words()),
-        // A logarithm and a sign.
-        Format::Log { .. } => 4,
-        Format::Int { bits } | Format::Fixed { bits, .. } | Format::Scaled { bits } => {
-            u64::from(bits.div_ceil(8))
-        }
-        Format::Bool => match plan.runtime.int {
-            Format::Int { bits } => u64::from(bits.div_ceil(8)),
-            _ => 1,
-        },
-    };
-    let graph = &plan.graph;
-    let used: BTreeSet<TableId> = plan
-        .places()
-        .into_iter()
-        .filter_map(|(place, _)| match place {
-            Place::Node(id) => match graph.node(id) {
-                Node::Lookup { table, .. } => Some(table),
-                _ => None,
-            },
-            _ => None,
-        })
-        .collect();
-    used.into_iter()
-        .filter_map(|t| graph.tables.get(t.0 as usize))
-        .map(|t| t.entries.len() as u64 * bytes(plan.runtime.format_of(t.ty)))
-        .sum()
 }
 
 /// The part of the screen that the plan draws, in the picture's inks.

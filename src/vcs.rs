@@ -2,7 +2,7 @@
 //! proved from the program, and what the beam drew is read as the scene's picture.
 
 use crate::failure::{Failure, Outcome};
-use crate::machine::Sizes;
+use crate::machine::{Loaded, MachineRun, Sizes};
 use crate::picture::Picture;
 use slowlight_compiler::backend::Document;
 use slowlight_compiler::backend::mos6502::vcs::{
@@ -11,8 +11,9 @@ use slowlight_compiler::backend::mos6502::vcs::{
 use slowlight_compiler::plan::Plan;
 use slowlight_compiler::targets::System;
 use slowlight_vm::Screen;
-use slowlight_vm::mos6502::worst::Question;
+use slowlight_vm::keys::{Keyboard, Script, Unit};
 use slowlight_vm::mos6502::assemble;
+use slowlight_vm::mos6502::worst::Question;
 use std::collections::BTreeSet;
 
 /// Cycles of a tick of the timer.
@@ -79,7 +80,10 @@ fn proof(document: &Document) -> Result<Proof, String> {
         said.join("\n")
     })?;
     let labels = |head: &str| -> BTreeSet<u16> {
-        let all = assembly.symbols.iter().filter(|(name, _)| name.starts_with(head));
+        let all = assembly
+            .symbols
+            .iter()
+            .filter(|(name, _)| name.starts_with(head));
         all.filter_map(|(_, at)| u16::try_from(*at).ok()).collect()
     };
     let question = Question {
@@ -87,7 +91,10 @@ fn proof(document: &Document) -> Result<Proof, String> {
         ram: 0x80..=0xFF,
         mirrored: true,
         turns: Question::turns_of(&assembly, &document.text),
-        ends: [ASKED, CROSSED, PUBLISHED].into_iter().flat_map(labels).collect(),
+        ends: [ASKED, CROSSED, PUBLISHED]
+            .into_iter()
+            .flat_map(labels)
+            .collect(),
         exit: None,
     };
     let at = |name: &str| {
@@ -132,6 +139,20 @@ pub fn text(plan: &Plan) -> Outcome<String> {
     ))
 }
 
+/// Runs a program that goes on for ever until its first picture is there.
+///
+/// # Errors
+/// An interruption.
+pub fn first_picture(loaded: &mut Loaded, limit: u64) -> Outcome<MachineRun> {
+    let script = Script::default().filmed(1);
+    let keyboard = Keyboard::new(script, Unit::Calls, |_| None).remembering();
+    let (mut run, keyboard) = loaded.play(keyboard, limit, &mut |_| {})?;
+    let shot = keyboard.shots().first();
+    run.screen = shot.and_then(|(_, screen)| screen.clone());
+    run.cycles = keyboard.times().first().copied().unwrap_or(run.cycles);
+    Ok(run)
+}
+
 /// Colour clocks of a column, and those before the first of 32.
 const COLUMN: u32 = 4;
 const BORDER: u32 = 16;
@@ -151,7 +172,10 @@ pub fn picture(plan: &Plan, shape: &Shape, screen: Option<&Screen>) -> Outcome<P
     let (width, height) = shape.size;
     let at = |x: u32, line: u32| {
         let row = line.checked_sub(seen)?;
-        screen.pixels.get((row * screen.width + x) as usize).copied()
+        screen
+            .pixels
+            .get((row * screen.width + x) as usize)
+            .copied()
     };
     let [wall, colours @ ..] = shape.colours.map(|colour| colour / 2);
     let mut inks = Vec::new();

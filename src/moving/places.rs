@@ -41,7 +41,9 @@ impl Places {
     pub fn of(plan: &Plan) -> Places {
         match plan.target.system.language() {
             Language::Assembly => Places::Mos6502(match plan.target.system {
-                System::Vcs => vcs::cartridge(plan).map(|made| made.states).unwrap_or_default(),
+                System::Vcs => vcs::cartridge(plan)
+                    .map(|made| made.states)
+                    .unwrap_or_default(),
                 _ => mos6502::held(plan),
             }),
             Language::Jack => Places::Hack(jack::held(plan)),

@@ -1,6 +1,7 @@
 //! Which machine and screen: the options that choose a target, and the plan
 //! that they lead to.
 
+mod columns;
 mod heap;
 mod items;
 mod lowered;
@@ -15,6 +16,7 @@ pub use read::*;
 pub use sampling::{Refining, refining};
 pub use values::*;
 
+use columns::of_columns;
 use items::items;
 
 use crate::failure::{Failure, Outcome};
@@ -26,9 +28,6 @@ use crate::scene::Scene;
 use crate::ways::WayArgs;
 use clap::Args;
 use slowlight_compiler::plan::Goal;
-use slowlight_compiler::plan::columns::columns;
-use slowlight_compiler::planner::pass_manager::PassSet;
-use slowlight_compiler::planner::pipeline::Pass;
 use slowlight_compiler::planner::{PlannedScene, SEARCH};
 use slowlight_compiler::planner::{plan_among, plan_as_written, plan_with_every_shade};
 use slowlight_compiler::sema::Instancing;
@@ -269,16 +268,6 @@ impl ScreenArgs {
         self.plan_in((mode, SEARCH), scene, target, &[])
     }
 
-    /// The passes that are left out: where pictures are of columns, those that step along rows.
-    fn left_out(&self, target: &Target) -> PassSet {
-        let along_rows = [Pass::StripMine, Pass::ScanlineRuns, Pass::ScanlineSpans, Pass::Phases];
-        let own = self.passes.left_out();
-        match target.columns_only {
-            true => along_rows.into_iter().fold(own, PassSet::with),
-            false => own,
-        }
-    }
-
     fn plan_in(
         &self,
         (mode, fuel): (Mode, u64),
@@ -308,13 +297,7 @@ impl ScreenArgs {
             let message = format!("--page is the BBC Micro's; {} has none", target.name);
             return Err(Failure::Usage(message));
         }
-        if target.columns_only && (self.block.is_some() || self.refine.is_some() || self.rows.is_some()) {
-            let message = format!(
-                "--block, --refine and --rows are for pixels; {} draws columns",
-                target.name
-            );
-            return Err(Failure::Usage(message));
-        }
+        self.check_columns(target)?;
         let (_, height) = scene.size();
         let block = self.block.unwrap_or((1, 1));
         let asked = self.rows.as_deref().map(|r| rows(r, height)).transpose()?;
@@ -341,12 +324,7 @@ impl ScreenArgs {
             false => planned,
         };
         let mut plan = planned.map_err(|said| scene.wrong(said))?;
-        if target.columns_only {
-            let refused = columns(&plan).err();
-            if let Some(refusal) = refused {
-                return Err(scene.wrong(vec![refusal.diagnostic(target.name)]));
-            }
-        }
+        of_columns(scene, &plan)?;
         plan.listing = basic && self.style == Some(Style::Listing);
         plan.page = self.page;
         plan.undocumented = self.undocumented;
@@ -379,17 +357,6 @@ fn say_cut() {
              scene, or a nest of loops): there may be a quicker one"
         );
     });
-}
-
-/// Rows of a picture as rows of blocks.
-fn blocks_of((first, last): (u32, u32), high: u32) -> Outcome<(u32, u32)> {
-    if first % high == 0 && (last + 1) % high == 0 {
-        return Ok((first / high, last / high));
-    }
-    Err(Failure::Usage(format!(
-        "--rows {first}..{last}: blocks are {high} rows high, so rows begin at a multiple of \
-         {high} and end before one"
-    )))
 }
 
 /// The rows of a picture that a screen shows: the middle ones.

@@ -1,5 +1,6 @@
 //! What options may be set to, by name.
 
+use crate::failure::{Failure, Outcome};
 use clap::ValueEnum;
 
 /// What may be done for the plan of one way among many.
@@ -49,4 +50,15 @@ pub enum Style {
     Fast,
     /// To be read: in BASIC the scene's names, a remark for each of its items
     Listing,
+}
+
+/// Rows of a picture as rows of blocks.
+pub(super) fn blocks_of((first, last): (u32, u32), high: u32) -> Outcome<(u32, u32)> {
+    if first % high == 0 && (last + 1) % high == 0 {
+        return Ok((first / high, last / high));
+    }
+    Err(Failure::Usage(format!(
+        "--rows {first}..{last}: blocks are {high} rows high, so rows begin at a multiple of \
+         {high} and end before one"
+    )))
 }

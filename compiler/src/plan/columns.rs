@@ -8,25 +8,26 @@
 //! tall of each side of every comparison: so what is found is what the model draws, whatever the
 //! planner made of the formulas.
 
+mod slice;
+mod walls;
+
 use crate::analysis::rate::{Dependence, Rates, rates};
 use crate::eval::arithmetic::Arithmetic;
 use crate::ir::graph::*;
 use crate::ir::tree::*;
 use crate::plan::Plan;
-use crate::plan::model::{self, Model};
+use crate::plan::model;
 use crate::source::{Diagnostic, Span};
-use rustc_hash::FxHashMap;
-use slowlight_routine::{Bits, Format, Op, Range, Type, Value, scale};
+use slice::Slice;
+use slowlight_routine::{Bits, Format, Op, Range, Type, scale};
 use std::collections::BTreeSet;
+use walls::Walls;
 
 /// The most columns and rows of such a picture.
 pub const MOST: (u32, u32) = (32, 32);
 
 /// How many kinds of columns there may be.
 const KINDS: i64 = 16;
-
-/// How many nodes are evaluated at most for all pixels.
-const FUEL: u64 = 30_000_000;
 
 /// A picture of columns.
 #[derive(Clone, Debug, PartialEq)]
@@ -67,14 +68,12 @@ impl Refusal {
     /// As it is told.
     pub fn diagnostic(&self, target: &str) -> Diagnostic {
         let message = format!("{target} draws column scenes only, and this is none");
-        Diagnostic::error(self.span, message)
-            .label(&self.why)
-            .help(
-                "in a column scene every column is a wall of one ink about the middle row, whose \
+        Diagnostic::error(self.span, message).label(&self.why).help(
+            "in a column scene every column is a wall of one ink about the middle row, whose \
                  height and ink hang on the column alone, before one ink above and one below: \
                  `draw` compares one number of the column with the row, as in `if abs(y - 15.5) \
                  >= tall then 0 else 1 - 0.5 * wall.side`",
-            )
+        )
     }
 }
 
@@ -100,7 +99,9 @@ pub fn columns(plan: &Plan) -> Result<Columns, Refusal> {
         return Err(Refusal::at(
             graph,
             graph.ink,
-            format!("a picture of at most {width} columns and {height} rows, and an even number of these"),
+            format!(
+                "a picture of at most {width} columns and {height} rows, and an even number of these"
+            ),
         ));
     }
     let mut cut = Cut {
@@ -239,14 +240,7 @@ impl Cut<'_> {
     fn found(self, tall: NodeId) -> Result<Columns, Refusal> {
         let graph = &self.plan.graph;
         let (width, height) = (graph.image.width as i32, graph.image.height as i32);
-        let mut slice = Slice {
-            plan: self.plan,
-            model: Model::of(self.plan),
-            given: FxHashMap::default(),
-            held: FxHashMap::default(),
-            at: (0, 0),
-            fuel: FUEL,
-        };
+        let mut slice = Slice::of(self.plan);
         let bits = |id: NodeId, value: i64| match self.plan.format(id) {
             Format::Bool => Bits::from(value != 0),
             _ => value as Bits,
@@ -303,9 +297,9 @@ impl Cut<'_> {
                 }
             }
         }
-        let (heights, inks, backs) = walls.read().map_err(|why| {
-            Refusal::at(graph, graph.ink, why)
-        })?;
+        let (heights, inks, backs) = walls
+            .read()
+            .map_err(|why| Refusal::at(graph, graph.ink, why))?;
         let mut found = Columns {
             tall,
             unsigned: lo >= 0,
@@ -339,142 +333,5 @@ impl Columns {
     pub fn walls(&self) -> Vec<u8> {
         let all: BTreeSet<u8> = self.inks.iter().copied().collect();
         all.into_iter().collect()
-    }
-}
-
-/// The ink's slice at a pixel, some values given.
-struct Slice<'p> {
-    plan: &'p Plan,
-    model: Model<'p>,
-    given: FxHashMap<NodeId, Bits>,
-    held: FxHashMap<NodeId, Bits>,
-    at: (i32, i32),
-    fuel: u64,
-}
-
-impl Slice<'_> {
-    fn begin(&mut self, at: (i32, i32)) {
-        self.at = at;
-        self.given.clear();
-        self.held.clear();
-    }
-
-    fn value(&mut self, id: NodeId) -> Result<Bits, Refusal> {
-        let known = self.given.get(&id).or(self.held.get(&id));
-        if let Some(bits) = known {
-            return Ok(*bits);
-        }
-        let graph = &self.plan.graph;
-        let refused = |why: &str| Err(Refusal::at(graph, id, why));
-        let Some(left) = self.fuel.checked_sub(1) else {
-            return refused("the ink takes too much work to see what it hangs on");
-        };
-        self.fuel = left;
-        let int = |slice: &Self, value: i32| slice.model.constant(Value::Int(value));
-        let bits = match graph.node(id) {
-            Node::Const(c) => self.model.constant(c.value()),
-            Node::Axis(Axis::X | Axis::Run) => int(self, self.at.0),
-            Node::Axis(Axis::Y) => int(self, self.at.1),
-            Node::Axis(Axis::Pass(n)) => int(self, self.at.0.rem_euclid(n as i32)),
-            Node::Apply(op, [a, b]) => {
-                let a = self.value(a)?;
-                let b = if op.arity() > 1 { self.value(b)? } else { a };
-                self.model.apply(id, op, &[a, b][..op.arity()])
-            }
-            Node::Select { cond, yes, no } => {
-                let cond = self.value(cond)?;
-                let arm = if self.model.truth(cond) { yes } else { no };
-                let value = self.value(arm)?;
-                self.model.copied(Place::Node(id), arm, value)
-            }
-            Node::Lookup { table, column, row } => {
-                let (column, row) = (self.value(column)?, self.value(row)?);
-                let (column, row) = (self.model.int(column), self.model.int(row));
-                let found = graph.tables.get(table.0 as usize);
-                self.plan.entry(table, found.map_or(0, |t| t.index(column, row)))
-            }
-            Node::Tabulated(of) => {
-                let value = self.value(of)?;
-                self.model.copied(Place::Node(id), of, value)
-            }
-            _ => return refused("the ink hangs on this"),
-        };
-        self.held.insert(id, bits);
-        Ok(bits)
-    }
-}
-
-/// What was seen of columns: by kind and by steps reached, the inks from top to bottom.
-struct Walls {
-    rows: usize,
-    seen: Vec<((usize, usize), Vec<u8>)>,
-}
-
-type Read = (Vec<u8>, Vec<u8>, [u8; 2]);
-
-impl Walls {
-    fn new(rows: usize) -> Walls {
-        let seen = Vec::new();
-        Walls { rows, seen }
-    }
-
-    fn see(&mut self, of: (usize, usize), inks: Vec<u8>) {
-        if self.seen.last().is_none_or(|last| *last != (of, inks.clone())) {
-            self.seen.push((of, inks));
-        }
-    }
-
-    /// Heights by steps, inks by kinds, and what is above and below.
-    fn read(&self) -> Result<Read, String> {
-        let half = self.rows / 2;
-        let backs = self.backs()?;
-        let mut heights: FxHashMap<usize, usize> = FxHashMap::default();
-        let mut inks: FxHashMap<usize, u8> = FxHashMap::default();
-        for ((kind, step), seen) in &self.seen {
-            let above = seen.iter().take(half).take_while(|ink| **ink == backs[0]);
-            let height = half - above.count();
-            let wall = seen.get(half).copied().filter(|_| height > 0);
-            let should = (0..self.rows).map(|y| match wall {
-                Some(wall) if (half - height..half + height).contains(&y) => wall,
-                _ => backs[usize::from(y >= half)],
-            });
-            if !should.eq(seen.iter().copied()) {
-                return Err("a column is not a wall of one ink about the middle row".to_owned());
-            }
-            if *heights.entry(*step).or_insert(height) != height {
-                return Err("how tall a wall is hangs on more than one number".to_owned());
-            }
-            if let Some(wall) = wall
-                && *inks.entry(*kind).or_insert(wall) != wall
-            {
-                return Err("a wall's ink hangs on the column's number, or on how tall it is".to_owned());
-            }
-        }
-        let kinds = self.seen.iter().map(|((kind, _), _)| *kind).max();
-        let steps = self.seen.iter().map(|((_, step), _)| *step).max();
-        let height = |step| heights.get(&step).map_or(0, |h| *h as u8);
-        let ink = |kind| inks.get(&kind).copied().unwrap_or(backs[0]);
-        Ok((
-            (0..=steps.unwrap_or(0)).map(height).collect(),
-            (0..=kinds.unwrap_or(0)).map(ink).collect(),
-            backs,
-        ))
-    }
-
-    /// What is above and below the walls: the ends of the column with most of the same at them.
-    fn backs(&self) -> Result<[u8; 2], String> {
-        let half = self.rows / 2;
-        let run = |seen: &Vec<u8>| {
-            let first = seen.first().copied();
-            seen.iter().take(half).take_while(|ink| Some(**ink) == first).count()
-        };
-        // A column that is one ink from top to bottom may be a wall.
-        let whole = |seen: &Vec<u8>| seen.iter().all(|ink| Some(ink) == seen.first());
-        let parted = self.seen.iter().map(|(_, seen)| seen).filter(|seen| !whole(seen));
-        let lowest = parted.max_by_key(|seen| run(seen));
-        match lowest.map(|seen| (seen.first().copied(), seen.last().copied())) {
-            Some((Some(above), Some(below))) => Ok([above, below]),
-            _ => Err("no column has anything above or below a wall".to_owned()),
-        }
     }
 }

@@ -45,9 +45,7 @@ impl System {
         match self {
             System::Hack => Language::Jack,
             System::BbcBasic | System::Agon | System::BasicV => Language::Basic,
-            System::Plain6502 | System::BbcCode | System::C64 | System::Vcs => {
-                Language::Assembly
-            },
+            System::Plain6502 | System::BbcCode | System::C64 | System::Vcs => Language::Assembly,
         }
     }
 }

@@ -327,7 +327,7 @@ impl<'p> Code<'p> {
         }
         self.text.label(&format!("loop{n}"));
         if self.asks {
-            self.text.code("jsr ask");
+            self.text.code("jsr vcs_ask");
         }
         self.block(&turns.body);
         let (fails, holds) = self.test(turns.again);

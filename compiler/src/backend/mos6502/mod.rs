@@ -87,7 +87,10 @@ use syntax::Syntax;
 /// Writes a plan down as one file of assembly.
 pub(super) fn emit(plan: &Plan) -> Vec<Document> {
     if plan.target.system == System::Vcs {
-        return vcs::cartridge(plan).map(|made| made.document).into_iter().collect();
+        return vcs::cartridge(plan)
+            .map(|made| made.document)
+            .into_iter()
+            .collect();
     }
     vec![document(plan, syntax::USUAL)]
 }

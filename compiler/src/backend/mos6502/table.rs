@@ -160,13 +160,16 @@ impl Code<'_> {
         let serial = self.text.next_serial();
         self.text.code(&format!("lda {}", write::byte(place, 0)));
         if range.lo < 0.0 {
-            self.text
-                .code(&format!("bpl above{serial} | lda #0 | beq within{serial}"));
-            self.text.label(&format!("above{serial}"));
+            self.text.code(&format!(
+                "bpl vcs_above{serial} | lda #0 | beq vcs_within{serial}"
+            ));
+            self.text.label(&format!("vcs_above{serial}"));
         }
-        self.text
-            .code(&format!("cmp #{n} | bcc within{serial} | lda #{}", n - 1));
-        self.text.label(&format!("within{serial}"));
+        self.text.code(&format!(
+            "cmp #{n} | bcc vcs_within{serial} | lda #{}",
+            n - 1
+        ));
+        self.text.label(&format!("vcs_within{serial}"));
         self.text.code(&format!("sta {to}"));
     }
 

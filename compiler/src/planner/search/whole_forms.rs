@@ -83,7 +83,11 @@ fn with_few_ints(graph: Graph, cx: &Context) -> Graph {
     let known = cx.scheduled(graph);
     // An int must be moved to where the table begins, and be held to its ends perhaps.
     let tables = cx.always(Pass::IntegerTables, || {
-        tables_of_ints(&known.graph, &known.ranges, (if cheap { 2 } else { 4 } * ENTRY, cheap))
+        tables_of_ints(
+            &known.graph,
+            &known.ranges,
+            (if cheap { 2 } else { 4 } * ENTRY, cheap),
+        )
     });
     tables.map_or_else(|| known.graph.clone(), |graph| fold(&graph))
 }

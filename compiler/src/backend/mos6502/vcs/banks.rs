@@ -58,7 +58,10 @@ pub(super) fn packed(
             format!("a piece of it has no length: {line}")
         })?;
         // What asks behind it, asks in it, and a way on.
-        let asks = piece.lines.iter().filter(|(l, _)| instruction(l) == Some(("jsr", "ask")));
+        let asks = piece
+            .lines
+            .iter()
+            .filter(|(l, _)| instruction(l) == Some(("jsr", "vcs_ask")));
         let own = own + 13 + 10 * asks.count() as u32;
         let added = |bank: &Bank| {
             let more = needs.difference(&bank.units);
@@ -124,17 +127,17 @@ pub(super) fn packed(
             let Some(piece) = pieces.get(*k) else {
                 continue;
             };
-            push(format!("piece_{k}:"), None);
+            push(format!("vcs_piece_{k}:"), None);
             for (line, span) in &piece.lines {
                 match instruction(line) {
-                    Some(("jsr", "ask")) => {
+                    Some(("jsr", "vcs_ask")) => {
                         ask(asked, own).into_iter().for_each(|l| push(l, *span));
                         asked += 1;
                     }
                     Some(("jmp", to)) if of_label.get(to).is_some_and(|to| bank_of(*to) != own) => {
                         let to_bank = of_label.get(to).map_or(0, |to| bank_of(*to));
                         ways.insert(to.to_owned(), to_bank);
-                        push(format!("        jmp go_{to}"), *span);
+                        push(format!("        jmp vcs_go_{to}"), *span);
                     }
                     Some((branch, to)) if branch.starts_with('b') && branch != "bit" => {
                         if of_label.get(to) != Some(k) {
@@ -150,16 +153,16 @@ pub(super) fn packed(
                 End::Ask => ask(asked, own).into_iter().for_each(|l| push(l, None)),
                 End::Publish => {
                     push(format!("{}{asked}:", super::PUBLISHED), None);
-                    push(format!("        jsr publish_{own}"), None);
+                    push(format!("        jsr vcs_publish_{own}"), None);
                 }
             }
             asked += 1;
             let next = k + 1;
             if bank_of(next) != own {
-                ways.insert(format!("piece_{next}"), bank_of(next));
-                push(format!("        jmp go_piece_{next}"), None);
+                ways.insert(format!("vcs_piece_{next}"), bank_of(next));
+                push(format!("        jmp vcs_go_vcs_piece_{next}"), None);
             } else if bank.pieces.get(at + 1) != Some(&next) {
-                push(format!("        jmp piece_{next}"), None);
+                push(format!("        jmp vcs_piece_{next}"), None);
             }
         }
         for unit in bank.units.iter().filter(|unit| **unit != OF_SQUARES) {
@@ -194,7 +197,7 @@ pub(super) fn packed(
                 rows.for_each(|row| push(&mut lines, format!("        .byte {row}")));
             }
             lines.extend(boot.iter().map(|(line, span)| (places.line(line), *span)));
-            push(&mut lines, format!("        jmp go_{}", super::WORK));
+            push(&mut lines, format!("        jmp vcs_go_{}", super::WORK));
             lines.extend(kernel.iter().cloned());
         }
         let bank = (k as usize).checked_sub(1).and_then(|k| banks.get(k));
@@ -216,7 +219,10 @@ pub(super) fn packed(
             return Err("a bank of its program is too long".to_owned());
         }
         rom += used + (0x1000 - COMMON);
-        push(&mut lines, format!("        .res ${:04x}-*, 255", base + COMMON));
+        push(
+            &mut lines,
+            format!("        .res ${:04x}-*, 255", base + COMMON),
+        );
         common(&mut lines, k, count, &ways, hotspot)?;
     }
     Ok(Packed {
@@ -232,10 +238,10 @@ fn ask(number: u32, bank: u32) -> Vec<String> {
         format!("{}{number}:", super::ASKED),
         "        lda $0284".to_owned(),
         format!("        cmp #{}", super::ASK),
-        format!("        bcs on_{number}"),
+        format!("        bcs vcs_on_{number}"),
         format!("{}{number}:", super::CROSSED),
-        format!("        jsr cross_{bank}"),
-        format!("on_{number}:"),
+        format!("        jsr vcs_cross_{bank}"),
+        format!("vcs_on_{number}:"),
     ]
 }
 
@@ -258,12 +264,18 @@ fn common(
         }
     };
     let to = |bank: u32| format!("bit ${:04x}", hotspot(bank));
-    put("reset".to_owned(), &[to(0), "jmp boot".to_owned()]);
+    put("vcs_reset".to_owned(), &[to(0), "jmp vcs_boot".to_owned()]);
     for (name, bank) in ways {
-        put(format!("go_{name}"), &[to(*bank), format!("jmp {name}")]);
+        put(
+            format!("vcs_go_{name}"),
+            &[to(*bank), format!("jmp {name}")],
+        );
     }
     for bank in 1..count {
-        for (name, what) in [("cross", "frame_part"), ("publish", "publish")] {
+        for (name, what) in [
+            ("vcs_cross", "vcs_frame_part"),
+            ("vcs_publish", "vcs_publish"),
+        ] {
             let code = [to(0), format!("jsr {what}"), to(bank), "rts".to_owned()];
             put(format!("{name}_{bank}"), &code);
         }
@@ -273,7 +285,10 @@ fn common(
     }
     let vectors = 0x1FFA + 0x2000 * bank;
     lines.push((format!("        .res ${vectors:04x}-*, 255"), None));
-    lines.push(("        .word reset, reset, reset".to_owned(), None));
+    lines.push((
+        "        .word vcs_reset, vcs_reset, vcs_reset".to_owned(),
+        None,
+    ));
     Ok(())
 }
 

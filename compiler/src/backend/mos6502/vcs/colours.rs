@@ -15,7 +15,10 @@ fn shown(colour: u8) -> Option<[f64; 3]> {
         hue => 196.0 + 28.0 * f64::from(hue / 2 - 1),
     };
     let angle = f64::to_radians(angle);
-    let (u, v) = (255.0 * STRENGTH * angle.cos(), 255.0 * STRENGTH * angle.sin());
+    let (u, v) = (
+        255.0 * STRENGTH * angle.cos(),
+        255.0 * STRENGTH * angle.sin(),
+    );
     let parts = [y + 1.14 * v, y - 0.395 * u - 0.581 * v, y + 2.032 * u];
     Some(parts.map(|part| part.clamp(0.0, 255.0)))
 }

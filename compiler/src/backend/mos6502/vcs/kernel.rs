@@ -92,7 +92,9 @@ impl Shape {
         let backs = columns.backs;
         let far = |ink: &u8| {
             let squares = rgb(*ink).into_iter().zip(rgb(backs[0]));
-            squares.map(|(a, b)| (i32::from(a) - i32::from(b)).pow(2)).sum::<i32>()
+            squares
+                .map(|(a, b)| (i32::from(a) - i32::from(b)).pow(2))
+                .sum::<i32>()
         };
         let mut walls = columns.walls();
         walls.sort_by_key(far);
@@ -111,7 +113,9 @@ impl Shape {
 }
 
 fn push(lines: &mut Vec<Line>, code: &str) {
-    let each = code.split('|').map(|c| (format!("        {}", c.trim()), None));
+    let each = code
+        .split('|')
+        .map(|c| (format!("        {}", c.trim()), None));
     lines.extend(each);
 }
 
@@ -120,12 +124,7 @@ fn label(lines: &mut Vec<Line>, name: &str) {
 }
 
 /// What the machine begins with.
-pub(super) fn boot(
-    plan: &Plan,
-    homes: &Homes,
-    shape: &Shape,
-    texts: &[&Vec<Line>],
-) -> Vec<Line> {
+pub(super) fn boot(plan: &Plan, homes: &Homes, shape: &Shape, texts: &[&Vec<Line>]) -> Vec<Line> {
     let uses = |name: &str| {
         let lines = texts.iter().flat_map(|text| text.iter());
         let mut instructions = lines.filter_map(|(line, _)| instruction(line));
@@ -133,19 +132,22 @@ pub(super) fn boot(
     };
     let mut lines = Vec::new();
     let l = &mut lines;
-    label(l, "boot");
+    label(l, "vcs_boot");
     push(l, "sei | cld | ldx #$ff | txs | lda #0 | tax");
-    label(l, "boot_clear");
-    push(l, "sta $00,x | inx | bne boot_clear | ldx #$7f");
-    label(l, "boot_chip");
-    push(l, &format!("sta ${CHIP:04x},x | dex | bpl boot_chip"));
+    label(l, "vcs_boot_clear");
+    push(l, "sta $00,x | inx | bne vcs_boot_clear | ldx #$7f");
+    label(l, "vcs_boot_chip");
+    push(l, &format!("sta ${CHIP:04x},x | dex | bpl vcs_boot_chip"));
     if shape.walls.1.is_none() {
         push(l, "lda #$ff");
         for k in 0..4 {
             push(l, &format!("sta ${:04x}", MASKS + k));
         }
     }
-    push(l, &format!("lda #1 | sta $0a | lda #{} | sta $08", shape.colours[0]));
+    push(
+        l,
+        &format!("lda #1 | sta $0a | lda #{} | sta $08", shape.colours[0]),
+    );
     for (param, k) in plan.params.iter().zip(0..) {
         let slot = Slot::Param(k);
         let name = homes.name(slot);
@@ -175,7 +177,10 @@ pub(super) fn boot(
             }
         }
     }
-    push(l, &format!("lda #2 | sta $01 | lda #{} | sta $0296", shape.timers[1]));
+    push(
+        l,
+        &format!("lda #2 | sta $01 | lda #{} | sta $0296", shape.timers[1]),
+    );
     lines
 }
 
@@ -183,43 +188,70 @@ pub(super) fn boot(
 pub(super) fn text(shape: &Shape) -> Vec<Line> {
     let mut lines = Vec::new();
     let l = &mut lines;
-    label(l, "frame_part");
-    push(l, "lda $0284 | bne frame_part | sta $02");
-    push(l, &format!("lda {PHASE} | eor #1 | sta {PHASE} | beq show"));
-    push(l, "lda #2 | sta $00 | sta $02 | sta $02 | sta $02 | lda #0 | sta $00");
+    label(l, "vcs_frame_part");
+    push(l, "lda $0284 | bne vcs_frame_part | sta $02");
+    push(
+        l,
+        &format!("lda {PHASE} | eor #1 | sta {PHASE} | beq vcs_show"),
+    );
+    push(
+        l,
+        "lda #2 | sta $00 | sta $02 | sta $02 | sta $02 | lda #0 | sta $00",
+    );
     push(l, &format!("lda #{} | sta $0296 | rts", shape.timers[0]));
     let last = shape.pairs * shape.size.1 - 1;
     let rows = |k: u16| format!("lda ${:04x},y", CHIP + READ + k * ROWS);
     let masked = |k: u16| format!("{} | and ${:04x}", rows(k), MASKS + READ + k);
-    label(l, "show");
-    push(l, &format!("ldx #{last} | ldy kernel_rows+{last} | lda #0 | sta $01"));
-    label(l, "kernel");
+    label(l, "vcs_show");
+    push(
+        l,
+        &format!("ldx #{last} | ldy vcs_kernel_rows+{last} | lda #0 | sta $01"),
+    );
+    label(l, "vcs_kernel");
     push(l, "sta $02");
     push(l, &format!("{} | sta $0e | {} | sta $0f", rows(0), rows(1)));
-    push(l, "lda kernel_backs,x | sta $09");
+    push(l, "lda vcs_kernel_backs,x | sta $09");
     // Twenty cycles, of which nobody has need.
     push(l, &["nop"; 10].join("|"));
-    push(l, &format!("{} | sta $0f | {} | sta $0e | sta $02", rows(2), rows(3)));
-    push(l, &format!("{} | sta $0e | {} | sta $0f", masked(0), masked(1)));
+    push(
+        l,
+        &format!("{} | sta $0f | {} | sta $0e | sta $02", rows(2), rows(3)),
+    );
+    push(
+        l,
+        &format!("{} | sta $0e | {} | sta $0f", masked(0), masked(1)),
+    );
     push(l, &format!("{} | bit $80", ["nop"; 6].join("|")));
-    push(l, &format!("{} | sta $0f | {} | sta $0e", masked(2), masked(3)));
-    push(l, "dex | bmi shown | ldy kernel_rows,x | jmp kernel");
-    label(l, "shown");
-    push(l, "sta $02 | lda #2 | sta $01 | lda #0 | sta $0e | sta $0f | sta $09");
-    push(l, &format!("sta {FRESH} | lda #{} | sta $0296 | rts", shape.timers[1]));
+    push(
+        l,
+        &format!("{} | sta $0f | {} | sta $0e", masked(2), masked(3)),
+    );
+    push(
+        l,
+        "dex | bmi vcs_shown | ldy vcs_kernel_rows,x | jmp vcs_kernel",
+    );
+    label(l, "vcs_shown");
+    push(
+        l,
+        "sta $02 | lda #2 | sta $01 | lda #0 | sta $0e | sta $0f | sta $09",
+    );
+    push(
+        l,
+        &format!("sta {FRESH} | lda #{} | sta $0296 | rts", shape.timers[1]),
+    );
     convert(shape, l);
     lines
 }
 
 /// All columns are there: they become playfield, and what is held is looked at.
 fn convert(shape: &Shape, l: &mut Vec<Line>) {
-    label(l, "publish");
+    label(l, "vcs_publish");
     // What was made before is shown first.
-    push(l, &format!("lda {FRESH} | bne publish_wait"));
-    push(l, "lda $0284 | cmp #publish_least | bcs convert");
-    label(l, "publish_wait");
-    push(l, "jsr frame_part | jmp publish");
-    label(l, "convert");
+    push(l, &format!("lda {FRESH} | bne vcs_publish_wait"));
+    push(l, "lda $0284 | cmp #vcs_publish_least | bcs vcs_convert");
+    label(l, "vcs_publish_wait");
+    push(l, "jsr vcs_frame_part | jmp vcs_publish");
+    label(l, "vcs_convert");
     push(l, "lda #0");
     for at in 0..4 * ROWS {
         push(l, &format!("sta ${:04x}", CHIP + at));
@@ -241,16 +273,26 @@ fn convert(shape: &Shape, l: &mut Vec<Line>) {
         let rows = CHIP + byte * ROWS;
         push(l, &format!("lda ${:04x}", rows + READ));
         for row in 1..ROWS - 1 {
-            push(l, &format!("ora ${:04x} | sta ${:04x}", rows + READ + row, rows + row));
+            push(
+                l,
+                &format!("ora ${:04x} | sta ${:04x}", rows + READ + row, rows + row),
+            );
         }
     }
     if shape.walls.1.is_some() {
         for byte in 0..4 {
-            push(l, &format!("lda ${:04x} | sta ${:04x}", NEW_MASKS + READ + byte, MASKS + byte));
+            push(
+                l,
+                &format!(
+                    "lda ${:04x} | sta ${:04x}",
+                    NEW_MASKS + READ + byte,
+                    MASKS + byte
+                ),
+            );
         }
     }
-    push(l, "lda $0280 | and #$f0 | bit $0c | bpl fires | ora #1");
-    label(l, "fires");
+    push(l, "lda $0280 | and #$f0 | bit $0c | bpl vcs_fires | ora #1");
+    label(l, "vcs_fires");
     push(l, &format!("sta {HANDS} | lda #1 | sta {FRESH} | rts"));
 }
 
@@ -268,7 +310,7 @@ pub(super) fn tables(shape: &Shape) -> Vec<(&'static str, Vec<u8>)> {
     let back = |k: u32| shape.colours[1 + usize::from(row(k) >= half)];
     let all = 0..pairs * height;
     vec![
-        ("kernel_rows", all.clone().map(shown).collect()),
-        ("kernel_backs", all.map(back).collect()),
+        ("vcs_kernel_rows", all.clone().map(shown).collect()),
+        ("vcs_kernel_backs", all.map(back).collect()),
     ]
 }

@@ -38,20 +38,20 @@ pub use kernel::{LINES, Shape};
 
 /// The symbol whose value says how long the timer must have for the next slice of the work, and
 /// that for making playfield.
-pub const ASK: &str = "ask_least";
+pub const ASK: &str = "vcs_ask_least";
 /// See [`ASK`].
-pub const PUBLISH: &str = "publish_least";
+pub const PUBLISH: &str = "vcs_publish_least";
 /// Before the numbers of labels at which the timer is asked, and at which the kernel is called
 /// where there is no time.
-pub const ASKED: &str = "at_ask_";
+pub const ASKED: &str = "vcs_at_ask_";
 /// See [`ASKED`].
-pub const CROSSED: &str = "at_cross_";
+pub const CROSSED: &str = "vcs_at_cross_";
 /// Before those at which all columns are made playfield.
-pub const PUBLISHED: &str = "at_publish_";
+pub const PUBLISHED: &str = "vcs_at_publish_";
 /// Where the work begins, and the conversion.
 pub const WORK: &str = "next_picture";
 /// See [`WORK`].
-pub const CONVERT: &str = "convert";
+pub const CONVERT: &str = "vcs_convert";
 
 /// A line and the place in the scene that it comes from.
 type Line = (String, Option<Span>);
@@ -152,7 +152,10 @@ fn without_unread(plan: &Plan, homes: &Homes, mut lines: Vec<Line>) -> Vec<Line>
         let texts: Vec<&str> = lines.iter().map(|(line, _)| line.as_str()).collect();
         let read = super::steps::read(&texts, name);
         let unread = |line: &str| {
-            let stored = line.trim().strip_prefix("sta ").and_then(|to| to.strip_prefix(name));
+            let stored = line
+                .trim()
+                .strip_prefix("sta ")
+                .and_then(|to| to.strip_prefix(name));
             let byte = stored.and_then(|rest| rest.strip_prefix('+')?.parse::<u32>().ok());
             byte.is_some_and(|k| read.checked_shr(k).unwrap_or(0) & 1 == 0)
         };

@@ -71,14 +71,20 @@ impl Units {
         }
         let mut labels = BTreeMap::new();
         for (k, text) in texts.iter().enumerate() {
-            labels.extend(text.iter().filter_map(|line| Some((label(line)?.to_owned(), k))));
+            labels.extend(
+                text.iter()
+                    .filter_map(|line| Some((label(line)?.to_owned(), k))),
+            );
         }
         let mut units = Units {
             all: Vec::new(),
             labels,
         };
         for (k, lines) in texts.into_iter().enumerate() {
-            let needs = lines.iter().flat_map(|line| units.named(line)).filter(|n| *n != k);
+            let needs = lines
+                .iter()
+                .flat_map(|line| units.named(line))
+                .filter(|n| *n != k);
             let needs = needs.collect();
             let bytes = match k {
                 OF_SQUARES => SQUARES,
@@ -124,7 +130,9 @@ impl Units {
 
     /// A line with the labels that a bank has of its own.
     pub fn renamed(&self, line: &str, bank: u32) -> String {
-        let (code, remark) = line.split_once(';').map_or((line, None), |(c, r)| (c, Some(r)));
+        let (code, remark) = line
+            .split_once(';')
+            .map_or((line, None), |(c, r)| (c, Some(r)));
         let mut out = String::new();
         let mut rest = code;
         let letter = |c: char| c.is_ascii_alphanumeric() || c == '_';
@@ -150,7 +158,9 @@ impl Units {
 fn lines(text: Text) -> Vec<String> {
     let lines = text.lines.into_iter().map(|(line, _)| line);
     let lines = lines.flat_map(|line| line.split('\n').map(str::to_owned).collect::<Vec<_>>());
-    lines.filter(|line| !line.is_empty() && !line.starts_with(';')).collect()
+    lines
+        .filter(|line| !line.is_empty() && !line.starts_with(';'))
+        .collect()
 }
 
 /// The label that a line is.
@@ -162,7 +172,8 @@ pub(super) fn label(line: &str) -> Option<&str> {
 fn words(line: &str) -> impl Iterator<Item = &str> {
     let code = line.split(';').next().unwrap_or(line);
     let letter = |c: char| c.is_ascii_alphanumeric() || c == '_';
-    code.split(move |c| !letter(c)).filter(|word| !word.is_empty())
+    code.split(move |c| !letter(c))
+        .filter(|word| !word.is_empty())
 }
 
 /// Bytes of lines, given those that name places.

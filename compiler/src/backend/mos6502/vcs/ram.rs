@@ -70,8 +70,21 @@ impl Places {
             let plain = !operand.contains(['(', ',', '<', '>', '#']);
             let moves = matches!(
                 mnemonic,
-                "lda" | "ldx" | "ldy" | "sta" | "stx" | "sty" | "adc" | "sbc" | "and" | "ora"
-                    | "eor" | "cmp" | "cpx" | "cpy" | "bit"
+                "lda"
+                    | "ldx"
+                    | "ldy"
+                    | "sta"
+                    | "stx"
+                    | "sty"
+                    | "adc"
+                    | "sbc"
+                    | "and"
+                    | "ora"
+                    | "eor"
+                    | "cmp"
+                    | "cpx"
+                    | "cpy"
+                    | "bit"
             );
             if !plain || !moves {
                 near.insert(name);
@@ -89,7 +102,8 @@ impl Places {
             cells.iter().filter_map(move |cell| {
                 let name = cell.name.as_str();
                 let bytes = used.get(name)?;
-                (near.contains(name) == near_only).then_some((name, (*bytes).max(cell.bytes.min(*bytes))))
+                (near.contains(name) == near_only)
+                    .then_some((name, (*bytes).max(cell.bytes.min(*bytes))))
             })
         };
         for (name, bytes) in order(true).chain(order(false)) {

@@ -35,13 +35,13 @@ pub(super) fn keep(code: &mut Code<'_>, columns: &Columns, first: u32) {
             _ => format!("txa | adc #{less} | tax"),
         };
         code.text.code(&format!(
-            "lda {lo} | cmp steps_low+{less},x | {upper} | sbc steps_high+{less},x | bcc lower{n} | {next}"
+            "lda {lo} | cmp vcs_steps_low+{less},x | {upper} | sbc vcs_steps_high+{less},x | bcc vcs_lower{n} | {next}"
         ));
-        code.text.label(&format!("lower{n}"));
+        code.text.label(&format!("vcs_lower{n}"));
         step /= 2;
     }
     code.text.code(&format!(
-        "lda begins,x | ldy {x} | sta ${:04x},y",
+        "lda vcs_begins,x | ldy {x} | sta ${:04x},y",
         HEIGHTS + first as u16
     ));
     if columns.walls().len() < 2 {
@@ -52,21 +52,22 @@ pub(super) fn keep(code: &mut Code<'_>, columns: &Columns, first: u32) {
     if let Some(((id, _, _), _)) = kinds.next() {
         let operand = code.homes.operand(plan, *id);
         code.text.code(&format!("ldx {}", write::byte(&operand, 0)));
-        code.text.code("lda kind_0,x");
+        code.text.code("lda vcs_kind_0,x");
     }
     for ((id, _, _), k) in kinds {
         let operand = code.homes.operand(plan, *id);
         code.text.code(&format!(
-            "ldx {} | clc | adc kind_{k},x",
+            "ldx {} | clc | adc vcs_kind_{k},x",
             write::byte(&operand, 0)
         ));
     }
     code.text.code(&format!(
-        "tax | lda whole,x | beq striped | ldx {x} | ldy column_byte,x | lda column_bit,x | \
+        "tax | lda vcs_whole,x | beq vcs_striped | ldx {x} | ldy vcs_column_byte,x \
+         | lda vcs_column_bit,x | \
          ora ${:04x},y | sta ${NEW_MASKS:04x},y",
         NEW_MASKS + READ
     ));
-    code.text.label("striped");
+    code.text.label("vcs_striped");
 }
 
 /// The tables that this reads, by their labels.
@@ -89,9 +90,9 @@ pub(super) fn tables(columns: &Columns, first: u32, full: u8) -> Vec<(String, Ve
     let last = begin.last().copied().unwrap_or(0);
     begin.resize(size, last);
     let mut all = vec![
-        ("steps_low".to_owned(), low_bytes),
-        ("steps_high".to_owned(), high_bytes),
-        ("begins".to_owned(), begin),
+        ("vcs_steps_low".to_owned(), low_bytes),
+        ("vcs_steps_high".to_owned(), high_bytes),
+        ("vcs_begins".to_owned(), begin),
     ];
     let mut stride = 1;
     for ((_, lo, hi), k) in columns.kinds.iter().zip(0..) {
@@ -101,15 +102,21 @@ pub(super) fn tables(columns: &Columns, first: u32, full: u8) -> Vec<(String, Ve
             0.. => (0..=*hi).map(entry).collect(),
             _ => (0..256).map(|v| entry(i64::from(v as u8 as i8))).collect(),
         };
-        all.push((format!("kind_{k}"), table));
+        all.push((format!("vcs_kind_{k}"), table));
         stride *= hi - lo + 1;
     }
     let whole = columns.inks.iter().map(|ink| u8::from(*ink == full));
-    all.push(("whole".to_owned(), whole.collect()));
+    all.push(("vcs_whole".to_owned(), whole.collect()));
     let at = |x: u32| byte_and_bit(x + first);
     let columns = 0..32 - first;
-    all.push(("column_byte".to_owned(), columns.clone().map(|x| at(x).0).collect()));
-    all.push(("column_bit".to_owned(), columns.map(|x| at(x).1).collect()));
+    all.push((
+        "vcs_column_byte".to_owned(),
+        columns.clone().map(|x| at(x).0).collect(),
+    ));
+    all.push((
+        "vcs_column_bit".to_owned(),
+        columns.map(|x| at(x).1).collect(),
+    ));
     all
 }
 

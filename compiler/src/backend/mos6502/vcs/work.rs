@@ -67,9 +67,9 @@ impl Work {
         let code = symbols.end..symbols.end + body.lines.len();
         text.append(body);
         let rest = text.lines.len();
-        text.line("ask:");
-        text.line("ask_top:");
-        text.line("publish:");
+        text.line("vcs_ask:");
+        text.line("vcs_ask_top:");
+        text.line("vcs_publish:");
         text.code("lda $0284 | tax | tay | cmp $0284 | rts");
         if clamps {
             text.line(table::CLAMP);
@@ -154,8 +154,8 @@ pub(super) fn pieces(lines: Vec<Line>) -> Vec<Piece> {
     let mut now = Vec::new();
     for line in lines {
         let end = match instruction(&line.0) {
-            Some(("jsr", "ask_top")) => End::Ask,
-            Some(("jsr", "publish")) => End::Publish,
+            Some(("jsr", "vcs_ask_top")) => End::Ask,
+            Some(("jsr", "vcs_publish")) => End::Publish,
             _ => {
                 now.push(line);
                 continue;
@@ -191,9 +191,9 @@ fn write(
     code.copy_axis(&Operand::Constant(0), &x);
     code.text.headline("once a column");
     code.text.label("next_entry");
-    code.text.code("jsr ask_top");
+    code.text.code("jsr vcs_ask_top");
     slices(&mut code, &plan.tree.column);
-    code.text.code("jsr ask_top");
+    code.text.code("jsr vcs_ask_top");
     let first = (32 - plan.graph.image.width.min(32)) / 2;
     tall::keep(&mut code, columns, first);
     code.text.code(&format!(
@@ -202,11 +202,11 @@ fn write(
     ));
     code.text.label("entries_done");
     code.text.span = None;
-    code.text.code("jsr publish");
+    code.text.code("jsr vcs_publish");
     held(&mut code);
     code.text.headline("the states in the next picture");
     slices(&mut code, &plan.tree.step);
-    code.text.code("jsr ask_top");
+    code.text.code("jsr vcs_ask_top");
     code.text.span = None;
     let mut steps = in_turn(&plan.graph).into_iter().peekable();
     let mut aside = 0u32;
@@ -218,7 +218,7 @@ fn write(
         }
         code.give(step);
         if aside == 0 && steps.peek().is_some() {
-            code.text.code("jsr ask_top");
+            code.text.code("jsr vcs_ask_top");
         }
     }
     code.text.code(&format!("jmp {}", super::WORK));
@@ -239,8 +239,9 @@ fn held(code: &mut Code<'_>) {
             Button::Fire => 1,
         };
         let skip = format!("not_{}", button.name());
-        code.text
-            .code(&format!("ldx #0 | lda {HANDS} | and #{bit} | bne {skip} | inx"));
+        code.text.code(&format!(
+            "ldx #0 | lda {HANDS} | and #{bit} | bne {skip} | inx"
+        ));
         code.text.label(&skip);
         code.text.code(&format!("stx {home}"));
         let bytes = code.homes.bytes(plan, slot);
@@ -271,7 +272,7 @@ fn slices(code: &mut Code<'_>, block: &Block) {
         code.block(&one);
         let all = cycles(code.text, since);
         if all > SLICE && from > since && !fused {
-            let ask = ("        jsr ask_top".to_owned(), None);
+            let ask = ("        jsr vcs_ask_top".to_owned(), None);
             code.text.lines.insert(from, ask);
             since = from + 1;
         }
