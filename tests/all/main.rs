@@ -9,6 +9,7 @@ mod bbc;
 mod bits;
 mod blue_noise;
 mod boxes;
+mod cartridges;
 mod cli;
 mod cli_compare;
 mod cli_doc;

@@ -62,7 +62,8 @@ pub(super) fn packed(
             .lines
             .iter()
             .filter(|(l, _)| instruction(l) == Some(("jsr", "vcs_ask")));
-        let own = own + 13 + 10 * asks.count() as u32;
+        let leaving = piece.lines.iter().filter(|(line, _)| leaves(piece, line));
+        let own = own + 13 + 10 * asks.count() as u32 + 3 * leaving.count() as u32;
         let added = |bank: &Bank| {
             let more = needs.difference(&bank.units);
             let more: u32 = more.filter_map(|n| Some(units.all.get(*n)?.bytes)).sum();
@@ -139,11 +140,20 @@ pub(super) fn packed(
                         ways.insert(to.to_owned(), to_bank);
                         push(format!("        jmp vcs_go_{to}"), *span);
                     }
-                    Some((branch, to)) if branch.starts_with('b') && branch != "bit" => {
-                        if of_label.get(to) != Some(k) {
-                            return Err(format!("`{branch} {to}` leaves its piece"));
+                    Some((branch, to)) if leaves(piece, line) => {
+                        let opposite = opposite(branch);
+                        let to_bank = of_label.get(to).map_or(0, |to| bank_of(*to));
+                        let way = match to_bank == own {
+                            true => to.to_owned(),
+                            false => format!("vcs_go_{to}"),
+                        };
+                        if to_bank != own {
+                            ways.insert(to.to_owned(), to_bank);
                         }
-                        push(line.clone(), *span);
+                        push(format!("        {opposite} vcs_stays_{asked}"), *span);
+                        push(format!("        jmp {way}"), *span);
+                        push(format!("vcs_stays_{asked}:"), *span);
+                        asked += 1;
                     }
                     _ => push(units.renamed(&places.line(line), own), *span),
                 }
@@ -230,6 +240,29 @@ pub(super) fn packed(
         banks: count,
         rom,
     })
+}
+
+/// Whether a line branches out of its piece.
+fn leaves(piece: &Piece, line: &str) -> bool {
+    let Some((branch, to)) = instruction(line) else {
+        return false;
+    };
+    let branches = branch.starts_with('b') && branch != "bit";
+    branches && !piece.lines.iter().any(|(line, _)| label(line) == Some(to))
+}
+
+/// The branch that is taken where another is not.
+fn opposite(branch: &str) -> &'static str {
+    match branch {
+        "bne" => "beq",
+        "beq" => "bne",
+        "bcc" => "bcs",
+        "bcs" => "bcc",
+        "bpl" => "bmi",
+        "bmi" => "bpl",
+        "bvc" => "bvs",
+        _ => "bvc",
+    }
 }
 
 /// Asks the timer.

@@ -181,6 +181,10 @@ pub(super) fn boot(plan: &Plan, homes: &Homes, shape: &Shape, texts: &[&Vec<Line
         l,
         &format!("lda #2 | sta $01 | lda #{} | sta $0296", shape.timers[1]),
     );
+    // Two frames of nothing: televisions want to see what comes.
+    for _ in 0..4 {
+        push(l, "jsr vcs_frame_part");
+    }
     lines
 }
 
