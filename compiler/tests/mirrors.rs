@@ -47,6 +47,7 @@ static PLAIN: Target = Target {
     last: false,
     windows: false,
     moves: false,
+    columns_only: false,
 };
 
 /// Where the eye may be, the default first.

@@ -48,10 +48,9 @@
 
 pub mod columns;
 pub mod error;
-pub mod model;
-
 mod error_rows;
 mod kept_rows;
+pub mod model;
 pub(crate) mod params;
 mod placing;
 pub mod print;

@@ -118,6 +118,11 @@ impl Keyboard {
         }
     }
 
+    /// Whether it keeps the memory at every look.
+    pub(crate) fn remembers(&self) -> bool {
+        self.memories.is_some()
+    }
+
     /// The memory at each look, on machines that tell it.
     pub fn memories(&self) -> &[Vec<i16>] {
         self.memories.as_deref().unwrap_or_default()

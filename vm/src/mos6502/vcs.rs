@@ -11,7 +11,9 @@
 //! All of them appear many times over, as only some of the address lines are looked at.
 //! Programs end never: a run ends at its limit of cycles, or at the frame in which a
 //! keyboard's script says `quit`. The keyboard is looked at once a frame, when the vertical
-//! sync begins: the arrows and the space bar are the left joystick and its button.
+//! sync begins: the arrows and the space bar are the left joystick and its button. One that
+//! keeps the memory at each look is asked where the program reads SWCHA, and its pictures are
+//! what the beam has drawn when the picture is blanked next.
 //!
 //! **Every frame is counted in lines.** The first that has nearer to 262 than to 312 makes
 //! the television one for NTSC, else it is one for PAL; a run that ends by its script ends
@@ -32,7 +34,7 @@ pub mod tia;
 
 use super::computer::{Board, Computer, fault};
 use super::cpu::Bus;
-use crate::keys::{Key, Keyboard, Seen, Unit};
+use crate::keys::{Key, Keyboard, Seen};
 use crate::{Fault, Screen, Stop};
 use cartridge::Cartridge;
 use riot::Riot;
@@ -132,7 +134,7 @@ impl Console {
 
     /// A frame begins: what is held now is held all through it.
     fn frame(&mut self) {
-        let by_frames = |keyboard: &mut Box<Keyboard>| keyboard.unit() == Unit::Frames;
+        let by_frames = |keyboard: &mut Box<Keyboard>| !keyboard.remembers();
         let Some(mut keyboard) = self.keyboard.take_if(by_frames) else {
             return;
         };
@@ -156,10 +158,10 @@ impl Console {
         self.stop.get_or_insert(stop);
     }
 
-    /// The program looks at the joystick, which a script by looks holds from now to the next
-    /// look. What it shows now is what the beam draws next.
+    /// The program looks at the joystick, which a keyboard that keeps the memory holds from now
+    /// to the next look. What it shows now is what the beam draws next.
     fn look(&mut self) {
-        let by_looks = |keyboard: &mut Box<Keyboard>| keyboard.unit() == Unit::Calls;
+        let by_looks = |keyboard: &mut Box<Keyboard>| keyboard.remembers();
         let Some(mut keyboard) = self.keyboard.take_if(by_looks) else {
             return;
         };
