@@ -82,5 +82,6 @@ fn object(target: &Target) -> Value {
         "offset": target.offset,
         "operations": operations,
         "modes": modes,
+        "columns_only": target.columns_only,
     })
 }
