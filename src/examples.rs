@@ -34,6 +34,7 @@ pub const EXAMPLES: &[Example] = texts! {
     "wave"
     moving
     "bounce"
+    "cartridge"
     "plasma"
     "walk"
 };
