@@ -21,9 +21,11 @@
 //! Formats of few bits are looked at first. Where the quickest of those is within the goal, and
 //! no slower than fixed point in 16 bits, the wider ones are not: they take longer. Formats that are
 //! exact and slow ([`Target::last`]) are looked at where no other may keep the goal, or three that
-//! might have kept it do not.
+//! might have kept it do not. Where the quickest is one of long numbers, some of them may be short
+//! in the end.
 
 mod candidates;
+mod mixed;
 mod said;
 
 use crate::estimate;
@@ -93,7 +95,7 @@ pub fn plan(screen: &ScreenArgs, scene: &Scene, target: &'static Target) -> Outc
         false => quickest(screen, scene, target)?,
     };
     match chosen {
-        Some(chosen) => Ok(chosen),
+        Some(chosen) => mixed::mixed(screen, scene, chosen),
         None => {
             let plan = screen.plan(scene, target, &[])?;
             let cut = plan.runtime.real == Format::Float316 { rounded: false };
@@ -131,8 +133,8 @@ fn quickest(
     target: &'static Target,
 ) -> Outcome<Option<Chosen>> {
     let goal = screen.error_goal();
-    // Where values have two widths, which of them are narrow is found by a search of its own,
-    // that takes longer than it gains.
+    // Where values have two widths, which of them are narrow is found by a search of its own
+    // ([`mixed`]).
     let one_width = |t: &&Target| t.runtime.narrow.is_none();
     let all = formats(target).filter(one_width);
     let (mut last, all): (Vec<&'static Target>, Vec<_>) = all.partition(|t| t.last);

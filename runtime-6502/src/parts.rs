@@ -2,7 +2,7 @@
 
 use slowlight_routine::{Part, Source};
 
-use crate::model::{ARCTANGENT, LOGARITHM, POWER_OF_TWO, SINE};
+use crate::model::{ARCTANGENT, LOGARITHM, POWER_OF_TWO, SINE, wide_sines};
 use crate::scaled;
 
 pub(crate) const fn part(
@@ -114,16 +114,31 @@ const USUAL: &[Part] = &[
     ),
     terms("sine_terms", || SINE.table(), 22),
     part(
-        "sine",
-        include_str!("../asm/sine.asm"),
+        "quadrant_sine",
+        include_str!("../asm/quadrant_sine.asm"),
         &["sign", "series", "sine_terms"],
-        140,
+        69,
     ),
     part(
         "tangent",
         include_str!("../asm/tangent.asm"),
-        &["sine", "fixed_divide"],
+        &["quadrant_sine", "fixed_divide"],
         110,
+    ),
+    terms("wide_sines_low", || wide_sines(0), 257),
+    terms("wide_sines_middle", || wide_sines(1), 257),
+    terms("wide_sines_high", || wide_sines(2), 256),
+    part(
+        "sine",
+        include_str!("../asm/sine.asm"),
+        &[
+            "squares",
+            "sign",
+            "wide_sines_low",
+            "wide_sines_middle",
+            "wide_sines_high",
+        ],
+        368,
     ),
     terms("arctangent_terms", || ARCTANGENT.table(), 30),
     part(

@@ -16,7 +16,7 @@ use slowlight_routine::Format;
 
 /// Rows and columns of a candidate's sample and of its final plan's, and how many statements the
 /// model may run for each.
-const CANDIDATE: (u32, u64) = (36, 8_000_000);
+pub(super) const CANDIDATE: (u32, u64) = (36, 8_000_000);
 const FINAL: (u32, u64) = (64, 16_000_000);
 
 /// The same where that is so near to the goal that other pixels may say otherwise.

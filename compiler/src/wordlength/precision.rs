@@ -33,18 +33,40 @@ use crate::wordlength::{placed, sample};
 use slowlight_routine::{Format, Narrow, Type};
 use std::cell::{Cell, RefCell};
 
-/// How often groups are looked for.
-const ROUNDS: u32 = 4;
+/// How far narrow values are looked for.
+struct Effort {
+    /// How often groups are.
+    rounds: u32,
+    /// How many nodes may be planned in a round, all plans together.
+    work: usize,
+    /// How many statements may run in `f64`.
+    patience: u64,
+}
 
-/// How many nodes may be planned in a round, all plans together.
-const WORK: usize = 60_000;
+/// Where wide values have two bytes.
+const SHORT: Effort = Effort {
+    rounds: 4,
+    work: 60_000,
+    patience: 24_000_000,
+};
+
+/// Where they have more: a plan whose graph has long numbers takes as long, and its format is
+/// tried unasked.
+const LONG: Effort = Effort {
+    rounds: 2,
+    work: 15_000,
+    patience: 8_000_000,
+};
+
+fn effort(bits: u8) -> &'static Effort {
+    if bits > 16 { &LONG } else { &SHORT }
+}
 
 /// How many pixels at stake are looked at, at most.
 const AT_STAKE: usize = 500;
 
-/// How many statements may run in `f64`; and rows are gone through in steps of so many, so
-/// that something of every part of the picture is seen where patience ends before its rows do.
-const PATIENCE: u64 = 24_000_000;
+/// Rows are gone through in steps of so many, so that something of every part of the picture is
+/// seen where patience ends before its rows do.
 const APART: i32 = 8;
 
 /// How many statements may run in the routines' models, all plans together, before no more
@@ -75,7 +97,7 @@ pub(crate) fn narrowed(mut plan: Plan, modelled: u64) -> (Plan, u64) {
     let own = std::mem::replace(&mut plan.params, usual);
     plan.hold();
     let sample = sample::seen(&plan.graph, &plan.tree, bits, sample::PATIENCE);
-    let (pixels, often) = looked_at(&plan);
+    let (pixels, often) = looked_at(&plan, effort(bits).patience);
     let mut search = Search {
         plan,
         sample,
@@ -112,7 +134,7 @@ fn as_usual(graph: &Graph) -> Graph {
 type Pixel = (i32, i32, u8);
 
 /// The pixels that are looked at, and how often each of them computes each node.
-fn looked_at(plan: &Plan) -> (Vec<Pixel>, Vec<f64>) {
+fn looked_at(plan: &Plan, patience: u64) -> (Vec<Pixel>, Vec<f64>) {
     let graph = &plan.graph;
     let often = RefCell::new(vec![0.0; graph.nodes.len()]);
     let count = Meter::new(graph, |statement: &Statement| {
@@ -123,12 +145,12 @@ fn looked_at(plan: &Plan) -> (Vec<Pixel>, Vec<f64>) {
         }
         0.0
     });
-    let mut run = Run::within(graph, &plan.tree, &count, 2 * PATIENCE);
+    let mut run = Run::within(graph, &plan.tree, &count, 2 * patience);
     let top = graph.image.palette.len().saturating_sub(1) as i32;
     let (width, height) = (graph.image.width as i32, graph.image.height as i32);
     let mut pixels = Vec::new();
     let rows = (0..APART).flat_map(|first| (first..height).step_by(APART as usize));
-    for y in rows.take_while(|_| count.ran.get() < PATIENCE) {
+    for y in rows.take_while(|_| count.ran.get() < patience) {
         for x in 0..width {
             let ink = run.pixel(x, y).int().clamp(0, top);
             if run.spent() {
@@ -178,7 +200,7 @@ impl Search {
         let limit = least + most.len().saturating_sub(least) / self.narrow.wrong.max(1);
         at_stake.extend(most);
         let mut best = (usize::MAX, wide);
-        for _ in 0..ROUNDS {
+        for _ in 0..effort(self.bits).rounds {
             at_stake.sort_unstable();
             at_stake.dedup();
             let narrow = self.halved(&reals, &at_stake, limit);
@@ -212,7 +234,7 @@ impl Search {
         self.hold(&narrow);
         let mut cost = self.cost();
         let mut groups = vec![reals];
-        let mut left = WORK / narrow.len().max(1);
+        let mut left = effort(self.bits).work / narrow.len().max(1);
         while let Some(group) = groups.pop().filter(|_| left > 0 && self.left.get() > 0) {
             left -= 1;
             let mut tried = narrow.clone();
@@ -249,8 +271,8 @@ impl Search {
     fn wrong(&self, pixels: &[Pixel]) -> Vec<Pixel> {
         // In fewer bits a loop may go on for longer: what does not end in time is wrong.
         let most = match self.few {
-            true => self.left.get().min(4 * PATIENCE),
-            false => 4 * PATIENCE,
+            true => self.left.get().min(4 * effort(self.bits).patience),
+            false => 4 * effort(self.bits).patience,
         };
         let mut run = ModelRun::within(&self.plan, most);
         let mut all = pixels.to_vec();

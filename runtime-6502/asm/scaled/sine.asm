@@ -1,5 +1,5 @@
 ; The sine or cosine of the angle in a and x (high), radians with 16 - y bits behind the point,
-; y to 8: 14 bits behind the point in a and x (high). A quarter of a turn is looked up by eight
+; y to 11: 14 bits behind the point in a and x (high). A quarter of a turn is looked up by eight
 ; bits, the next eight in proportion.
 cosine16:
         jsr quarters
@@ -158,6 +158,7 @@ quarters_byte:              ; eight bits to the left, and some of them back
         stx prod+1
         cpy #8
         beq quarters_whole
+        bcs quarters_more
 quarters_right:             ; at most 3 turns
         lsr
         ror prod+2
@@ -166,5 +167,14 @@ quarters_right:             ; at most 3 turns
         cpy #8
         bne quarters_right
 quarters_whole:
+        clc
+        rts
+quarters_more:              ; at most 3 turns
+        asl prod+1
+        rol prod+2
+        rol
+        dey
+        cpy #8
+        bne quarters_more
         clc
         rts

@@ -1,12 +1,14 @@
 //! Sines, logarithms and what comes of them, bit for bit as `asm/` computes them.
 //!
-//! All rest on one thing: a polynomial in 32-bit fractions ([`series`]), whose
+//! All but sines and cosines, which are looked up, rest on one thing: a polynomial in 32-bit fractions ([`series`]), whose
 //! terms come from Remez's exchange for the interval that the argument is
 //! reduced to. The terms' own error is stated with each; what a step cuts off
 //! adds at most 2^-31. In 16.16 both are far below the last place, so that
 //! nearly every result is the nearest or the one beside it.
 
 use super::{fixed_divide, root, signed};
+use std::f64::consts::FRAC_PI_2;
+use std::sync::OnceLock;
 
 /// A polynomial c0 -+ c1 x +- ...: terms in 1.31, the last first.
 pub struct Terms {
@@ -127,32 +129,67 @@ fn quadrants(a: i32) -> (u32, u32) {
     (upper(product) >> 16, (product >> 16) as u32)
 }
 
-/// The magnitude of a sine, 63 bits behind the point, and whether it is negative.
-fn quadrant_sine(quadrant: u32, into: u32) -> (u64, bool) {
-    let into = if quadrant & 1 == 1 { !into } else { into };
-    (odd_series(&SINE, into), quadrant & 2 == 2)
+/// The magnitude of a sine, 63 bits behind the point.
+fn quadrant_sine(quadrant: u32, into: u32) -> u64 {
+    odd_series(&SINE, if quadrant & 1 == 1 { !into } else { into })
 }
 
-fn sine_round((magnitude, negative): (u64, bool)) -> i32 {
-    signed(((magnitude >> 46) + 1) >> 1, negative)
+/// A quarter of a turn's sines, 257 with 23 bits behind the point. Between two the chord lies below
+/// the arc, by 0.31 of the last place of 16.16 at most: so they are raised by half of that.
+fn quarter_sines() -> &'static [u32] {
+    static SINES: OnceLock<Vec<u32>> = OnceLock::new();
+    SINES.get_or_init(|| {
+        let sine = |k: u32| (f64::from(k) / 256.0 * FRAC_PI_2).sin();
+        let held = |k| (sine(k) * (f64::from(1 << 23) + 19.7)).round() as u32;
+        (0..=256).map(held).collect()
+    })
+}
+
+/// Their bytes, the lowest first; of the highest there are 256.
+pub(crate) fn wide_sines(which: u32) -> Vec<i32> {
+    let bytes = quarter_sines().iter().map(|sine| sine >> (8 * which) & 255);
+    let bytes = bytes.map(|byte| byte as i32);
+    bytes.take(if which == 2 { 256 } else { 257 }).collect()
+}
+
+/// A magnitude in quarters of a turn, 24 bits behind the point: byte by byte from the lowest.
+fn quarters(a: u32) -> u64 {
+    let bytes = a.to_le_bytes().into_iter();
+    bytes.fold(0, |sum, byte| {
+        (sum >> 8) + times(u32::from(byte), TWO_OVER_PI)
+    })
+}
+
+/// The sine of so many quarters of a turn, by the table: 256 parts of each, and in proportion.
+fn looked_up(quarters: u64) -> i32 {
+    let (quarter, into) = (quarters >> 24, quarters as u32 & 0xFF_FFFF);
+    let into = if quarter & 1 == 1 {
+        into ^ 0xFF_FFFF
+    } else {
+        into
+    };
+    let pair = &quarter_sines()[(into >> 16) as usize..];
+    let [less, more] = [pair[0], pair[1]];
+    let (step, on) = (more - less, into & 0xFFFF);
+    let product =
+        (step >> 8) * (on >> 8) + ((step >> 8) * (on & 255) >> 8) + ((step & 255) * (on >> 8) >> 8);
+    signed(u64::from((less + product + 64) >> 7), quarter & 2 == 2)
 }
 
 /// The sine of radians.
 pub fn sine(a: i32) -> i32 {
-    let (quadrant, into) = quadrants(a);
-    sine_round(quadrant_sine(quadrant + if a < 0 { 2 } else { 0 }, into))
+    looked_up(quarters(a.unsigned_abs()) + if a < 0 { 2 << 24 } else { 0 })
 }
 
 /// The cosine of radians: the sine a quadrant on.
 pub fn cosine(a: i32) -> i32 {
-    let (quadrant, into) = quadrants(a);
-    sine_round(quadrant_sine(quadrant + 1, into))
+    looked_up(quarters(a.unsigned_abs()) + (1 << 24))
 }
 
 /// The tangent of radians: sine over cosine; saturates.
 pub fn tangent(a: i32) -> i32 {
     let (quadrant, into) = quadrants(a);
-    let half = |quadrant| upper(quadrant_sine(quadrant, into).0) >> 1;
+    let half = |quadrant| upper(quadrant_sine(quadrant, into)) >> 1;
     let quotient = fixed_divide(half(quadrant) as i32, half(quadrant ^ 1) as i32);
     if (quadrant & 1 == 1) != (a < 0) {
         -quotient

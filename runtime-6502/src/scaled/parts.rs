@@ -232,7 +232,7 @@ pub(crate) const ALL: &[Part] = &[
         "sine16",
         include_str!("../../asm/scaled/sine.asm"),
         &["squares", "sines_low", "sines_high"],
-        270,
+        284,
     ),
     terms("powers_low", || super::powers::bytes(0), 257),
     terms("powers_high", || super::powers::bytes(1), 256),

@@ -42,6 +42,7 @@ const BYTE_ROOT: Error = Error::Absolute(0.51);
 /// with ten bits behind the point or more, and with eight.
 const SINE: Error = Error::Absolute(1.3);
 const WIDE_SINE: Error = Error::Absolute(2.05);
+const FAR_SINE: Error = Error::Absolute(9.05);
 /// The same of a power of e.
 const POWER: Error = Error::Absolute(1.25);
 const ANY: Error = Error::Absolute(65536.0);
@@ -183,8 +184,8 @@ macro_rules! of_bytes {
             scaled!("times_minus_one" Mul($r, $r) -> $r, templates::NEGATE, [], number!(0 to 0, is(1, -1.0)), EXACT, |a, b, n| -a, 2 + 8 * $w, 1 + 6 * $w),
             scaled!("one_times" Mul($r, $r) -> $r, t::COPY_SECOND, [], number!(0 to 0, is(0, 1.0)), EXACT, |a, b, n| b, 6 * $w, 4 * $w),
             scaled!("minus_one_times" Mul($r, $r) -> $r, t::NEGATE_SECOND, [], number!(0 to 0, is(0, -1.0)), EXACT, |a, b, n| -b, 2 + 8 * $w, 1 + 6 * $w),
-            scaled!("sin" Sin($r) -> $r, $t::SINE, [$widen, "sine", $narrow], |args, _| (8 * $w - 16..=16).contains(&number(args)), Error::Absolute(0.8), |a, b, n| model::function(wide::sine, a, [n as i8, $sine], 8 * $w), 8400, 18 + 5 * $w),
-            scaled!("cos" Cos($r) -> $r, $t::COSINE, [$widen, "sine", $narrow], |args, _| (8 * $w - 16..=16).contains(&number(args)), Error::Absolute(0.8), |a, b, n| model::function(wide::cosine, a, [n as i8, $sine], 8 * $w), 8400, 18 + 5 * $w),
+            scaled!("sin" Sin($r) -> $r, $t::SINE, [$widen, "sine", $narrow], |args, _| (8 * $w - 16..=16).contains(&number(args)), Error::Absolute(0.8), |a, b, n| model::function(wide::sine, a, [n as i8, $sine], 8 * $w), 1300, 18 + 5 * $w),
+            scaled!("cos" Cos($r) -> $r, $t::COSINE, [$widen, "sine", $narrow], |args, _| (8 * $w - 16..=16).contains(&number(args)), Error::Absolute(0.8), |a, b, n| model::function(wide::cosine, a, [n as i8, $sine], 8 * $w), 1300, 18 + 5 * $w),
             scaled!("tan" Tan($r) -> $r, $t::TANGENT[0], [$widen, "tangent", $narrow], sides!(true, true), ANY, |a, b, n| function(wide::tangent, a, n, 8 * $w), 15400, 18 + 5 * $w),
             scaled!("tan_10" Tan($r) -> $r, $t::TANGENT[1], [$widen, "tangent", $narrow], sides!(false, true), ANY, |a, b, n| function(wide::tangent, a, n, 8 * $w), 15400, 18 + 5 * $w),
             scaled!("tan_01" Tan($r) -> $r, $t::TANGENT[2], [$widen, "tangent", $narrow], sides!(true, false), ANY, |a, b, n| function(wide::tangent, a, n, 8 * $w), 15400, 18 + 5 * $w),
@@ -264,8 +265,10 @@ const PLUS_INT_MUL: Routine = Routine {
 const TABULATED: &[Routine] = &[
     scaled!("sin_16" Sin(R) -> R, t::SINE_16, ["sine16"], number!(10 to 16), SINE, |a, b, n| sines::sine(a, n), 397, 13),
     scaled!("wide_sin_16" Sin(R) -> R, t::SINE_16, ["sine16"], number!(8 to 9), WIDE_SINE, |a, b, n| sines::sine(a, n), 397, 13),
+    scaled!("far_sin_16" Sin(R) -> R, t::SINE_16, ["sine16"], number!(5 to 7), FAR_SINE, |a, b, n| sines::sine(a, n), 412, 13),
     scaled!("cos_16" Cos(R) -> R, t::COSINE_16, ["sine16"], number!(10 to 16), SINE, |a, b, n| sines::cosine(a, n), 404, 13),
     scaled!("wide_cos_16" Cos(R) -> R, t::COSINE_16, ["sine16"], number!(8 to 9), WIDE_SINE, |a, b, n| sines::cosine(a, n), 404, 13),
+    scaled!("far_cos_16" Cos(R) -> R, t::COSINE_16, ["sine16"], number!(5 to 7), FAR_SINE, |a, b, n| sines::cosine(a, n), 419, 13),
     scaled!("exp_16" Exp(R) -> R, t::EXPONENTIAL_16, ["exponential16"], |args, _| powers::has(Scales::unpacked(number(args))), POWER, |a, b, n| powers::exponential(a, Scales::unpacked(n)), 464, 17),
 ];
 

@@ -5,9 +5,9 @@ use super::model::{right, upper};
 use std::f64::consts::FRAC_PI_2;
 use std::sync::OnceLock;
 
-/// Fraction bits of angles for which this is right: with fewer the product with 2 / pi is
-/// more than a place of the result off.
-pub const POINTS: std::ops::RangeInclusive<i32> = 8..=16;
+/// Fraction bits of angles for which this is of use: with fewer the product with 2 / pi is more
+/// than eight places of the result off.
+pub const POINTS: std::ops::RangeInclusive<i32> = 5..=16;
 
 /// Sines with 15 bits behind the point. An angle's 16 bits are what is left of more, so they
 /// stand for what lies half a unit further on; then the way back is the other bits, too.
@@ -40,7 +40,7 @@ fn quarters(a: i32, n: i32) -> i64 {
     let (low, high) = (wide & 255, wide >> 8);
     let less = (13 * high + upper(13, low)) >> 1;
     let below = if a < 0 { (163 << 16) - (13 << 7) } else { 0 };
-    (163 * wide - less - below) << (16 - n).clamp(0, 8) >> 8
+    (163 * wide - less - below) << (16 - n).clamp(0, 11) >> 8
 }
 
 /// What a table has for 16 bits: the entry of the upper eight, and as much of what leads to the

@@ -1,7 +1,8 @@
 //! Instancing: shapes of a scene that are alike but for numbers, as rows of a table.
 //!
-//! Neighbours among a scene's shapes that are made by one item from constants (or from the same
-//! values) become one group. What a ray meets of it is found by a loop over the table, and by
+//! A scene's shapes that are made by one item from constants (or from the same values) become one
+//! group, which stands where the first of them does; others may stand between as long as their
+//! surfaces cannot be the same, for of such the later is seen (`coincide`). What a ray meets of it is found by a loop over the table, and by
 //! cells where the shapes have boxes (`among`); what is asked of the nearest one alone, its normal
 //! or its tag, is made from the row that it stands in.
 
@@ -9,7 +10,7 @@ use super::value::{Instances, Shape, Val};
 use super::ways::{INSTANCES, Instancing};
 use super::{Found, Lower};
 use crate::ir::graph::{self, Constant, NodeId, TableId};
-use crate::sema::program::*;
+use crate::sema::program::{self, *};
 use crate::sema::ty::Ty;
 use crate::source::Span;
 use slowlight_routine::Type;
@@ -34,6 +35,16 @@ struct Row {
     scalars: Scalars,
 }
 
+/// Whether a shape is made of numbers and says in one way where its surface is, so that nothing
+/// can speak against it.
+fn says_it_once(item: &program::Shape) -> bool {
+    let says = |facet: &&Facet| {
+        let kinds = [FacetKind::Dist, FacetKind::Implicit, FacetKind::Hit];
+        kinds.contains(&facet.kind)
+    };
+    item.facets.iter().filter(says).count() == 1 && item.params.iter().all(|p| p.ty.is_data())
+}
+
 impl<'a> Lower<'a> {
     /// A scene's shapes, those of a kind together.
     pub(super) fn members_of(&mut self, id: SceneId, span: Span) -> Found<Rc<[Member]>> {
@@ -41,83 +52,102 @@ impl<'a> Lower<'a> {
             return Ok(found.clone());
         }
         let shapes = self.shapes_of(id, span)?;
+        let mut rows = Vec::new();
+        for shape in shapes.iter() {
+            rows.push(self.row_of(shape, span)?);
+        }
         let mut found = Vec::new();
-        let mut at = 0;
-        while at < shapes.len() {
-            let group = self.group_from(id, &shapes, at, span)?;
-            match group {
-                Some(group) => {
-                    at += group.shapes.len();
-                    found.push(Member::Group(Rc::new(group)));
-                }
-                None => {
-                    found.push(Member::One(at, shapes[at].clone()));
-                    at += 1;
-                }
+        let mut taken = vec![false; shapes.len()];
+        for at in 0..shapes.len() {
+            if taken[at] {
+                continue;
             }
+            let alike = self.alike(&shapes, &rows, &taken, at, span)?;
+            let tags = match alike.len() >= INSTANCES {
+                true => self.tags_of(id, &alike, span)?,
+                false => Vec::new(),
+            };
+            if tags.len() < INSTANCES {
+                found.push(Member::One(at, shapes[at].clone()));
+                continue;
+            }
+            let places = &alike[..tags.len()];
+            for &k in places {
+                taken[k] = true;
+            }
+            if self.options.ways.instancing == Instancing::Separate {
+                let one = |&k: &usize| Member::One(k, shapes[k].clone());
+                found.extend(places.iter().map(one));
+                continue;
+            }
+            let of: Vec<&Row> = places.iter().filter_map(|&k| rows[k].as_ref()).collect();
+            let of = of.into_iter().map(|row| &row.scalars).collect();
+            let shapes: Vec<Rc<Shape>> = places.iter().map(|&k| shapes[k].clone()).collect();
+            found.push(Member::Group(Rc::new(Instances {
+                at,
+                columns: self.columns_of(of),
+                tags: self.columns_of(tags.iter().collect()),
+                boxes: self.boxes_of(&shapes, span)?,
+                shapes: shapes.into(),
+                grid: OnceCell::new(),
+                views: RefCell::default(),
+            })));
         }
         let found: Rc<[Member]> = found.into();
         self.members.insert(id, found.clone());
         Ok(found)
     }
 
-    /// The group that begins at a shape, if it is large enough.
-    fn group_from(
+    /// The shapes that one table may hold with the one at a place, by their places: those of its
+    /// kind behind it, as far as no other stands between whose surface may lie on theirs.
+    fn alike(
         &mut self,
-        id: SceneId,
         shapes: &[Rc<Shape>],
+        rows: &[Option<Row>],
+        taken: &[bool],
         at: usize,
         span: Span,
-    ) -> Found<Option<Instances>> {
-        let first = &shapes[at];
-        if self.options.ways.instancing == Instancing::Separate || !self.is_instance(first, span)? {
-            return Ok(None);
-        }
-        let Some(start) = self.row_of(first, span)? else {
-            return Ok(None);
+    ) -> Found<Vec<usize>> {
+        let mut found = vec![at];
+        let Some(first) = &rows[at] else {
+            return Ok(found);
         };
-        let mut rows = vec![start];
-        for shape in &shapes[at + 1..] {
-            match self.row_of(shape, span)? {
-                Some(row) if self.are_alike(&rows[0], &row) => rows.push(row),
+        for k in at + 1..shapes.len() {
+            match &rows[k] {
+                _ if taken[k] => {}
+                Some(row) if self.are_alike(first, row) => found.push(k),
+                _ if self.may_coincide(&shapes[at], &shapes[k])? => break,
+                _ => {}
+            }
+        }
+        if found.len() >= INSTANCES && !self.is_instance(&shapes[at], span)? {
+            found.truncate(1);
+        }
+        Ok(found)
+    }
+
+    /// The tags of shapes of one kind, as far as they are alike.
+    fn tags_of(&mut self, id: SceneId, places: &[usize], span: Span) -> Found<Vec<Scalars>> {
+        let mut tags: Vec<Scalars> = Vec::new();
+        for &k in places {
+            match self.tag_scalars(id, k, span)? {
+                Some(tag) if tags.first().is_none_or(|first| self.all_alike(first, &tag)) => {
+                    tags.push(tag);
+                }
                 _ => break,
             }
         }
-        let mut tags: Vec<Scalars> = Vec::new();
-        if rows.len() >= INSTANCES {
-            for k in 0..rows.len() {
-                match self.tag_scalars(id, at + k, span)? {
-                    Some(tag) if tags.first().is_none_or(|first| self.all_alike(first, &tag)) => {
-                        tags.push(tag);
-                    }
-                    _ => break,
-                }
-            }
-        }
-        if tags.len() < INSTANCES {
-            return Ok(None);
-        }
-        rows.truncate(tags.len());
-        let count = rows.len();
-        let rows: Vec<Scalars> = rows.into_iter().map(|row| row.scalars).collect();
-        let shapes = &shapes[at..at + count];
-        Ok(Some(Instances {
-            shapes: shapes.into(),
-            at,
-            columns: self.columns_of(&rows),
-            tags: self.columns_of(&tags),
-            boxes: self.boxes_of(shapes, span)?,
-            grid: OnceCell::new(),
-            views: RefCell::default(),
-        }))
+        Ok(tags)
     }
 
     /// Whether loops may stand for shapes of this kind: found by a formula, which says what its
     /// distance says; and not flat, as such leave out what a ray starts on.
     fn is_instance(&mut self, shape: &Rc<Shape>, span: Span) -> Found<bool> {
-        let item = self.program.shapes.get(shape.id.0);
-        let library = item.is_some_and(|item| item.library);
-        Ok(library && !self.approached(shape)? && !self.flat(shape, span)?)
+        let Some(item) = self.program.shapes.get(shape.id.0) else {
+            return Err(self.confused(span));
+        };
+        let agrees = item.library || says_it_once(item);
+        Ok(agrees && !self.approached(shape)? && !self.flat(shape, span)?)
     }
 
     fn row_of(&mut self, shape: &Rc<Shape>, span: Span) -> Found<Option<Row>> {
@@ -187,7 +217,7 @@ impl<'a> Lower<'a> {
     }
 
     /// Tables of what differs from row to row.
-    fn columns_of(&mut self, rows: &[Scalars]) -> Vec<Option<TableId>> {
+    fn columns_of(&mut self, rows: Vec<&Scalars>) -> Vec<Option<TableId>> {
         let Some(first) = rows.first() else {
             return Vec::new();
         };

@@ -14,6 +14,7 @@ mod bounds;
 mod call;
 mod cells;
 mod claims;
+mod coincide;
 mod compact;
 mod derive;
 mod dual;
