@@ -10,7 +10,7 @@ use super::value::{Instances, Shape, Val};
 use super::ways::{INSTANCES, Instancing};
 use super::{Found, Lower};
 use crate::ir::graph::{self, Constant, NodeId, TableId};
-use crate::sema::program::{self, *};
+use crate::sema::program::*;
 use crate::sema::ty::Ty;
 use crate::source::Span;
 use slowlight_routine::Type;
@@ -33,16 +33,6 @@ type Scalars = Vec<(String, Type, NodeId)>;
 struct Row {
     kinds: Vec<ShapeId>,
     scalars: Scalars,
-}
-
-/// Whether a shape is made of numbers and says in one way where its surface is, so that nothing
-/// can speak against it.
-fn says_it_once(item: &program::Shape) -> bool {
-    let says = |facet: &&Facet| {
-        let kinds = [FacetKind::Dist, FacetKind::Implicit, FacetKind::Hit];
-        kinds.contains(&facet.kind)
-    };
-    item.facets.iter().filter(says).count() == 1 && item.params.iter().all(|p| p.ty.is_data())
 }
 
 impl<'a> Lower<'a> {
@@ -143,11 +133,9 @@ impl<'a> Lower<'a> {
     /// Whether loops may stand for shapes of this kind: found by a formula, which says what its
     /// distance says; and not flat, as such leave out what a ray starts on.
     fn is_instance(&mut self, shape: &Rc<Shape>, span: Span) -> Found<bool> {
-        let Some(item) = self.program.shapes.get(shape.id.0) else {
-            return Err(self.confused(span));
-        };
-        let agrees = item.library || says_it_once(item);
-        Ok(agrees && !self.approached(shape)? && !self.flat(shape, span)?)
+        let item = self.program.shapes.get(shape.id.0);
+        let library = item.is_some_and(|item| item.library);
+        Ok(library && !self.approached(shape)? && !self.flat(shape, span)?)
     }
 
     fn row_of(&mut self, shape: &Rc<Shape>, span: Span) -> Found<Option<Row>> {
