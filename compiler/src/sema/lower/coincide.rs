@@ -1,8 +1,9 @@
 //! Surfaces that may lie on each other: of such the shape that is named later is seen, so they
 //! keep their order.
 //!
-//! Two irreducible surfaces of different families (spheres, cylinders, cones, tori, planes) share
-//! curves at most, and which of two is seen along a curve shows nowhere.
+//! Two irreducible surfaces of different families (spheres, cylinders, planes) share curves at
+//! most, and which of two is seen along a curve shows nowhere. Cones and tori may degenerate into
+//! planes and spheres.
 
 use super::value::{Shape, Val};
 use super::{Found, Lower};
@@ -13,8 +14,6 @@ use std::rc::Rc;
 enum Family {
     Spheres,
     Cylinders,
-    Cones,
-    Tori,
     Planes,
 }
 
@@ -23,8 +22,6 @@ fn family(name: &str) -> Option<Family> {
     Some(match name {
         "sphere" => Family::Spheres,
         "cylinder" => Family::Cylinders,
-        "cone" => Family::Cones,
-        "torus" => Family::Tori,
         "plane" | "slab" | "box" | "polygon" => Family::Planes,
         _ => return None,
     })
