@@ -171,8 +171,9 @@ fn looked_up(quarters: u64) -> i32 {
     let pair = &quarter_sines()[(into >> 16) as usize..];
     let [less, more] = [pair[0], pair[1]];
     let (step, on) = (more - less, into & 0xFFFF);
-    let product =
-        (step >> 8) * (on >> 8) + ((step >> 8) * (on & 255) >> 8) + ((step & 255) * (on >> 8) >> 8);
+    let product = (step >> 8) * (on >> 8)
+        + (((step >> 8) * (on & 255)) >> 8)
+        + (((step & 255) * (on >> 8)) >> 8);
     signed(u64::from((less + product + 64) >> 7), quarter & 2 == 2)
 }
 
