@@ -133,9 +133,7 @@ impl<'a> Lower<'a> {
     /// Whether loops may stand for shapes of this kind: found by a formula, which says what its
     /// distance says; and not flat, as such leave out what a ray starts on.
     fn is_instance(&mut self, shape: &Rc<Shape>, span: Span) -> Found<bool> {
-        let item = self.program.shapes.get(shape.id.0);
-        let library = item.is_some_and(|item| item.library);
-        Ok(library && !self.approached(shape)? && !self.flat(shape, span)?)
+        Ok(!self.approached(shape)? && !self.flat(shape, span)?)
     }
 
     fn row_of(&mut self, shape: &Rc<Shape>, span: Span) -> Found<Option<Row>> {
@@ -147,12 +145,17 @@ impl<'a> Lower<'a> {
         Ok(whole.then_some(row))
     }
 
-    /// Whether all of a shape's arguments are numbers or shapes of numbers.
+    /// Whether a shape is the library's, and all of its arguments are numbers or such shapes. In one
+    /// of somebody's own a number that differs from row to row may be an exponent, or how often a
+    /// loop turns, and is no constant any more.
     fn read_row(&mut self, shape: &Rc<Shape>, row: &mut Row, span: Span) -> Found<bool> {
         row.kinds.push(shape.id);
         let Some(item) = self.program.shapes.get(shape.id.0) else {
             return Err(self.confused(span));
         };
+        if !item.library {
+            return Ok(false);
+        }
         for (arg, param) in shape.args.iter().zip(&item.params) {
             if param.ty.is_data() {
                 let layout = self.layout(&param.ty, &param.name, span)?;

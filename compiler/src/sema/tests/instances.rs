@@ -216,3 +216,17 @@ fn shapes_whose_faces_may_be_the_same_keep_their_order() {
     assert_eq!(size(&mixed), size(&one_by_one));
     assert!(size(&graph_of(&sorted, Ways::default())) < size(&mixed) / 2);
 }
+
+/// What one is made of may hang on its numbers as no row of a table can.
+#[test]
+fn shapes_of_ones_own_are_code_each_whatever_moves_them() {
+    let text = in_turn("quartic(0.4).translation(AT)", true).replace(
+        "scene s",
+        "shape quartic(s: real) { f(p) = p.x^4 + p.y^4 + p.z^4 - s^4; }\nscene s",
+    );
+    let (mixed, one_by_one) = (
+        graph_of(&text, Ways::default()),
+        graph_of(&text, separate()),
+    );
+    assert_eq!(size(&mixed), size(&one_by_one));
+}
