@@ -22,8 +22,9 @@ use crate::syntax::tree::BinaryOp;
 use slowlight_routine::Op;
 use std::rc::Rc;
 
-/// How many nodes are evaluated at most: for a shape's box, and for all of a lowering.
-const WORK: u64 = 400_000;
+/// How many nodes are evaluated at most: for a shape's box, which no more than a quarter of what
+/// is left is spent for, and for all of a lowering.
+const WORK: u64 = 1_500_000;
 pub(super) const ALL_WORK: u64 = 10_000_000;
 
 /// A shape's surface is where its distance is below this, at least; and that far outside of
@@ -97,7 +98,7 @@ impl Lower<'_> {
         let found = match self.extents.get(&key) {
             Some(found) => *found,
             None => {
-                let work = WORK.min(self.extent_work);
+                let work = WORK.min(self.extent_work / 4);
                 let mut enclosure = Enclosure::new(&self.b, formula.markers, formula.root, work);
                 let found = extent(&mut enclosure, level);
                 self.extent_work -= work - enclosure.left();

@@ -1,12 +1,13 @@
 //! Derived bounding boxes: they hold all of their shapes, closely, and nothing that a ray meets
 //! is lost by them.
 
+use super::compositions::compositions;
 use super::right;
 use crate::eval::native::Native;
 use crate::ir::extent::Extent;
 use crate::scene::{Scene, check};
 use crate::sema::lower::extents;
-use crate::sema::{Options, Ways};
+use crate::sema::{Instancing, Options, Ways};
 
 const SHAPES: &[&str] = &[
     "sphere((0.3, 0.1, 0.2), 0.9)",
@@ -55,7 +56,11 @@ shape lens() { f(p) = max(length(p - (0.5, 0, 0)) - 1, length(p + (0.5, 0, 0)) -
 ";
 
 fn text_of(shape: &str, draw: &str) -> String {
-    let head = format!("image 160 x 160 inks black, white;\n{OWN}");
+    sized(160, shape, draw)
+}
+
+fn sized(side: i32, shape: &str, draw: &str) -> String {
+    let head = format!("image {side} x {side} inks black, white;\n{OWN}");
     format!("{head}scene s {{ {shape} is 1; }}\ndraw (x, y) = {draw};")
 }
 
@@ -69,63 +74,96 @@ fn box_of(shape: &str) -> Option<Extent> {
     found.first().copied().flatten()
 }
 
-/// The points of a cuboid that a scene of 160 x 160 pixels asks for, one a pixel: evenly across,
+/// The points of a cuboid that a scene of so many pixels asks for, one a pixel: evenly across,
 /// in the third direction by the golden ratio.
-fn at(low: [f64; 3], high: [f64; 3], (x, y): (i32, i32)) -> [f64; 3] {
-    let third = (f64::from(160 * y + x) * 0.618_033_988_75).fract();
+fn at(low: [f64; 3], high: [f64; 3], side: i32, (x, y): (i32, i32)) -> [f64; 3] {
+    let third = (f64::from(side * y + x) * 0.618_033_988_75).fract();
     let part = [
-        (f64::from(x) + 0.5) / 160.0,
-        (f64::from(y) + 0.5) / 160.0,
+        (f64::from(x) + 0.5) / f64::from(side),
+        (f64::from(y) + 0.5) / f64::from(side),
         third,
     ];
     [0, 1, 2].map(|k| low[k] + (high[k] - low[k]) * part[k])
 }
 
+/// How much wider a shape's box is than what is in it, by `side` times as many points in twice
+/// the box, all of which that are in the shape are in its box; nothing where it has no box, or
+/// no point is in it.
+fn widths(shape: &str, side: i32) -> Option<[f64; 3]> {
+    let of = box_of(shape).filter(Extent::is_finite)?;
+    // Half as wide again to each side.
+    let more = [0, 1, 2].map(|k| (of.high[k] - of.low[k]) / 2.0);
+    let low = [0, 1, 2].map(|k| of.low[k] - more[k]);
+    let high = [0, 1, 2].map(|k| of.high[k] + more[k]);
+    let [a, b, c] = [0, 1, 2].map(|k| (low[k], high[k] - low[k]));
+    let place = format!(
+        "(({}) + {} * (x + 0.5) / {side}, ({}) + {} * (y + 0.5) / {side}, ({}) + {} * (({side} * y + x) * 0.61803398875 mod 1))",
+        a.0, a.1, b.0, b.1, c.0, c.1
+    );
+    let inside = format!("if {shape}.f({place}) <= 0 then ink(1) else ink(0)");
+    let graph = right(&sized(side, shape, &inside)).lower(&Options::default());
+    let graph = graph.expect(shape);
+    let mut native = Native::new(&graph);
+    let mut seen = [(f64::INFINITY, f64::NEG_INFINITY); 3];
+    for (x, y) in (0..side).flat_map(|y| (0..side).map(move |x| (x, y))) {
+        if native.pixel(x, y).ink == 0 {
+            continue;
+        }
+        let point = at(low, high, side, (x, y));
+        for k in 0..3 {
+            assert!(
+                (of.low[k]..=of.high[k]).contains(&point[k]),
+                "{shape} at {point:?} is not in {of:?}"
+            );
+            seen[k] = (seen[k].0.min(point[k]), seen[k].1.max(point[k]));
+        }
+    }
+    // What is seen is less than what is there, by what lies between points.
+    let found = [0, 1, 2].map(|k| (of.high[k] - of.low[k]) / (seen[k].1 - seen[k].0));
+    found.iter().all(|w| *w >= 1.0).then_some(found)
+}
+
+/// Of so many shapes, how many axes are how wide, and how many shapes have no box.
+fn boxes_hold(shapes: &[String], side: i32) {
+    let (mut all, mut unknown) = (Vec::new(), Vec::new());
+    for shape in shapes {
+        match widths(shape, side) {
+            Some(of) => all.extend(of.into_iter().map(|width| (width, shape))),
+            None => unknown.push(shape),
+        }
+    }
+    all.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let wide = all.iter().filter(|w| w.0 > 1.5).count();
+    let median = all.get(all.len() / 2).map_or(0.0, |w| w.0);
+    println!(
+        "{} shapes, {side} x {side} points each: {} have no box or nothing in it; of {} axes {wide} are more than 1.5 times as wide as what is seen, the median {median:.2}",
+        shapes.len(),
+        unknown.len(),
+        all.len()
+    );
+    let widest = &all[all.len() - wide..];
+    assert!(10 * wide <= all.len(), "{widest:?}");
+    assert!(10 * unknown.len() <= shapes.len(), "{unknown:?}");
+}
+
 #[test]
 fn boxes_hold_their_shapes_and_hold_them_closely() {
-    let (mut widths, mut unknown) = (Vec::new(), 0);
-    for shape in SHAPES {
-        let Some(of) = box_of(shape).filter(Extent::is_finite) else {
-            unknown += 1;
-            continue;
-        };
-        // Half as wide again to each side.
-        let more = [0, 1, 2].map(|k| (of.high[k] - of.low[k]) / 2.0);
-        let low = [0, 1, 2].map(|k| of.low[k] - more[k]);
-        let high = [0, 1, 2].map(|k| of.high[k] + more[k]);
-        let [a, b, c] = [0, 1, 2].map(|k| (low[k], high[k] - low[k]));
-        let place = format!(
-            "(({}) + {} * (x + 0.5) / 160, ({}) + {} * (y + 0.5) / 160, ({}) + {} * ((160 * y + x) * 0.61803398875 mod 1))",
-            a.0, a.1, b.0, b.1, c.0, c.1
-        );
-        let inside = format!("if {shape}.f({place}) <= 0 then ink(1) else ink(0)");
-        let graph = scene_of(shape, &inside).lower(&Options::default());
-        let graph = graph.expect(shape);
-        let mut native = Native::new(&graph);
-        let mut seen = [(f64::INFINITY, f64::NEG_INFINITY); 3];
-        for (x, y) in (0..160).flat_map(|y| (0..160).map(move |x| (x, y))) {
-            if native.pixel(x, y).ink == 0 {
-                continue;
-            }
-            let point = at(low, high, (x, y));
-            for k in 0..3 {
-                assert!(
-                    (of.low[k]..=of.high[k]).contains(&point[k]),
-                    "{shape} at {point:?} is not in {of:?}"
-                );
-                seen[k] = (seen[k].0.min(point[k]), seen[k].1.max(point[k]));
-            }
-        }
-        // What is seen is less than what is there, by what lies between points.
-        widths.extend((0..3).map(|k| {
-            let width = of.high[k] - of.low[k];
-            (width / (seen[k].1 - seen[k].0), shape, k)
-        }));
-    }
-    widths.sort_by(|a, b| a.0.total_cmp(&b.0));
-    let wide = widths.iter().filter(|w| w.0 > 1.5).count();
-    assert!(10 * wide <= widths.len(), "{widths:?}");
-    assert!(10 * unknown <= SHAPES.len(), "{unknown} have no box");
+    let shapes: Vec<String> = SHAPES.iter().map(|s| (*s).to_owned()).collect();
+    boxes_hold(&shapes, 160);
+}
+
+#[test]
+fn boxes_hold_random_compositions() {
+    boxes_hold(&compositions(40), 100);
+}
+
+/// `cargo test --release -p slowlight-compiler --lib a_million_points -- --ignored --nocapture`
+#[test]
+#[ignore = "takes some minutes"]
+fn boxes_hold_a_million_points_of_each_shape() {
+    let shapes: Vec<String> = SHAPES.iter().map(|s| (*s).to_owned()).collect();
+    boxes_hold(&shapes, 1000);
+    boxes_hold(&compositions(200), 1000);
 }
 
 #[test]
@@ -147,8 +185,9 @@ fn params_are_anywhere_in_their_ranges() {
     assert!(of.low[0] <= -1.0 && of.high[0] >= 11.0, "{of:?}");
 }
 
-#[test]
-fn nothing_is_lost_by_boxes() {
+/// Draws shapes with and without boxes, whose pictures must be one: how many pictures, and what
+/// was not seen in its.
+fn nothing_is_lost(shapes: &[String]) -> (usize, Vec<(&String, &'static str)>) {
     // By the last a row and a column of rays are along the axes. Steps that begin at the box may
     // end a part of an offset farther, so that only what is hit is compared there.
     let aside = "pinhole((5, 3, 7), at: (0.2, 0.3, 0), field: 40deg).through(x, y)";
@@ -161,7 +200,7 @@ fn nothing_is_lost_by_boxes() {
         (along, "trace(r, far: 30)", "1", "trace along axes"),
     ];
     let (mut pictures, mut unseen) = (0, Vec::new());
-    for shape in SHAPES {
+    for shape in shapes {
         for (ray, find, shade, how) in views {
             let draw = format!(
                 "{{ let r = {ray}; \
@@ -200,6 +239,81 @@ fn nothing_is_lost_by_boxes() {
             assert_eq!(differ, [], "{shape} by {how}");
         }
     }
+    (pictures, unseen)
+}
+
+#[test]
+fn nothing_is_lost_by_boxes() {
+    let shapes: Vec<String> = SHAPES.iter().map(|s| (*s).to_owned()).collect();
+    let (pictures, unseen) = nothing_is_lost(&shapes);
     // Two are out of sight.
     assert!(pictures > 75 && unseen.len() <= 6, "{pictures} {unseen:?}");
+}
+
+/// `cargo test --release -p slowlight-compiler --lib hundreds_of -- --ignored --nocapture`
+#[test]
+#[ignore = "takes some minutes"]
+fn nothing_is_lost_by_boxes_of_hundreds_of_compositions() {
+    let shapes = compositions(250);
+    let (pictures, unseen) = nothing_is_lost(&shapes);
+    println!("{pictures} pictures, {} of nothing", unseen.len());
+    assert!(pictures >= 500 && 4 * unseen.len() <= pictures);
+}
+
+/// Every so manieth pixel of the scenes of a folder, with boxes and tables and without.
+fn nothing_is_lost_in(folder: &str, step: i32) {
+    let mut scenes = 0;
+    let files = std::fs::read_dir(folder).unwrap();
+    let mut files: Vec<_> = files.map(|file| file.unwrap().path()).collect();
+    files.sort();
+    for file in files
+        .iter()
+        .filter(|f| f.extension().is_some_and(|e| e == "scn"))
+    {
+        let scene = check("scene", &std::fs::read_to_string(file).unwrap());
+        // One that uses another file is no scene by itself.
+        if !scene.is_right() {
+            continue;
+        }
+        let inks = |ways| {
+            let options = Options {
+                ways,
+                ..Options::default()
+            };
+            let graph = scene.lower(&options).unwrap();
+            let mut native = Native::new(&graph);
+            let (width, height) = (graph.image.width as i32, graph.image.height as i32);
+            let rows = (0..height).step_by(step as usize);
+            let places = rows.flat_map(|y| (0..width).step_by(step as usize).map(move |x| (x, y)));
+            let inks = places.map(|(x, y)| native.pixel(x, y).ink);
+            inks.collect::<Vec<_>>()
+        };
+        let (with, without) = (
+            inks(Ways::default()),
+            inks(Ways {
+                unbounded: true,
+                instancing: Instancing::Separate,
+                ..Ways::default()
+            }),
+        );
+        let differ = with.iter().zip(&without).filter(|(a, b)| a != b).count();
+        println!("{}: {differ} of {} pixels", file.display(), with.len());
+        assert_eq!(differ, 0, "{}", file.display());
+        scenes += 1;
+    }
+    assert!(scenes > 10);
+}
+
+#[test]
+fn nothing_is_lost_in_the_examples() {
+    nothing_is_lost_in("../examples", 16);
+}
+
+/// `cargo test --release -p slowlight-compiler --lib hundreds_of -- --ignored --nocapture`;
+/// `SCENES=DIR` for the scenes of another folder.
+#[test]
+#[ignore = "takes some minutes"]
+fn nothing_is_lost_in_hundreds_of_thousands_of_pixels() {
+    let folder = std::env::var("SCENES");
+    nothing_is_lost_in(folder.as_deref().unwrap_or("../examples"), 2);
 }

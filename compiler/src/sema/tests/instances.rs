@@ -109,49 +109,77 @@ fn separate() -> Ways {
     }
 }
 
+/// What scenes had that were compared.
+#[derive(Default)]
+struct Had {
+    tables: usize,
+    grids: usize,
+    views: usize,
+    bright: usize,
+}
+
+/// Compares pictures of a random scene by tables, grids and views with those by shapes one by
+/// one.
+fn compare(text: &str, had: &mut Had) {
+    let one_by_one = graph_of(text, separate());
+    let expected = inks(&one_by_one);
+    had.bright += usize::from(expected.contains(&2));
+    let together = graph_of(text, Ways::default());
+    let by = |instancing| Ways {
+        instancing,
+        ..Ways::default()
+    };
+    let rows = graph_of(text, by(Instancing::Rows));
+    let few = graph_of(text, by(Instancing::FewCells));
+    let seen = graph_of(text, by(Instancing::Seen));
+    let has = |graph: &Graph, name: &str| graph.tables.iter().any(|t| t.name == name);
+    had.tables += usize::from(size(&together) < size(&one_by_one));
+    had.grids += usize::from(has(&together, "list"));
+    // Of what rays from the eye meet, of what hides the lamp, and of what stands in the sun.
+    had.views += together.tables.iter().filter(|t| t.name == "first").count();
+    assert!(!has(&rows, "list"));
+    let all = [
+        (together, "a grid"),
+        (few, "few cells"),
+        (rows, "a table"),
+        (seen, "views and code for each"),
+    ];
+    for (graph, how) in all {
+        let differ = inks(&graph)
+            .iter()
+            .zip(&expected)
+            .filter(|(a, b)| a != b)
+            .count();
+        assert_eq!(differ, 0, "{how}: {text}");
+    }
+}
+
 #[test]
 fn pictures_are_those_of_shapes_one_by_one() {
-    let n = &mut Numbers(5);
-    let (mut tables, mut grids, mut views, mut bright) = (0, 0, 0, 0);
+    let (n, mut had) = (&mut Numbers(5), Had::default());
     for round in 0..12 {
-        let (kind, count) = (round % 6, [12, 30][round / 6]);
-        let text = scene(kind, count, n);
-        let one_by_one = graph_of(&text, separate());
-        let expected = inks(&one_by_one);
-        bright += usize::from(expected.contains(&2));
-        let together = graph_of(&text, Ways::default());
-        let by = |instancing| Ways {
-            instancing,
-            ..Ways::default()
-        };
-        let rows = graph_of(&text, by(Instancing::Rows));
-        let few = graph_of(&text, by(Instancing::FewCells));
-        let seen = graph_of(&text, by(Instancing::Seen));
-        let has = |graph: &Graph, name: &str| graph.tables.iter().any(|t| t.name == name);
-        tables += usize::from(size(&together) < size(&one_by_one));
-        grids += usize::from(has(&together, "list"));
-        // Of what rays from the eye meet, of what hides the lamp, and of what stands in the sun.
-        views += together.tables.iter().filter(|t| t.name == "first").count();
-        assert!(!has(&rows, "list"));
-        let all = [
-            (together, "a grid"),
-            (few, "few cells"),
-            (rows, "a table"),
-            (seen, "views and code for each"),
-        ];
-        for (graph, how) in all {
-            let differ = inks(&graph)
-                .iter()
-                .zip(&expected)
-                .filter(|(a, b)| a != b)
-                .count();
-            assert_eq!(differ, 0, "{how}: {text}");
-        }
+        compare(&scene(round % 6, [12, 30][round / 6], n), &mut had);
     }
     // Spheres that hang on a param are code each.
+    let (tables, grids) = (had.tables, had.grids);
     assert!(tables >= 8 && grids >= 7, "{tables} {grids}");
-    assert!(bright >= 10, "{bright}");
-    assert!(views >= 3 * grids, "{views} {grids}");
+    assert!(had.bright >= 10, "{}", had.bright);
+    assert!(had.views >= 3 * grids, "{} {grids}", had.views);
+}
+
+/// `cargo test --release -p slowlight-compiler --lib hundreds_of -- --ignored --nocapture`
+#[test]
+#[ignore = "takes some minutes"]
+fn hundreds_of_pictures_are_those_of_shapes_one_by_one() {
+    let (n, mut had) = (&mut Numbers(77), Had::default());
+    for round in 0..250 {
+        compare(&scene(round % 6, [4, 12, 30, 60][round % 4], n), &mut had);
+    }
+    println!(
+        "250 scenes: {} smaller by tables, {} with grids",
+        had.tables, had.grids
+    );
+    assert!(had.tables >= 150 && had.grids >= 100);
 }
 
 #[test]

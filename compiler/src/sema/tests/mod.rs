@@ -3,6 +3,7 @@
 
 mod any;
 mod bounds;
+mod compositions;
 mod each;
 mod hard;
 mod instances;
