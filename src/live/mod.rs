@@ -12,8 +12,10 @@ mod serve;
 mod alone;
 mod board;
 mod choices;
+mod frontier;
 mod machine;
 mod native;
+mod run;
 mod said;
 mod shown;
 
