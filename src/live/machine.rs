@@ -97,7 +97,7 @@ pub fn ended<B: Board>(board: &B, run: &Run, (task, before): (Task, Stage), done
             let machine = &mut panel.machine;
             if machine.serial != run.serial {
                 // It has failed before anything was shown.
-                *machine = begun(run.serial, stage, machine);
+                *machine = machine.begun(run.serial, stage);
             }
             machine.stage = stage;
             if task == Task::Run {
@@ -153,7 +153,7 @@ impl<B: Board> Work<'_, B> {
                 };
                 if machine.serial != serial {
                     // Another run's figures are none of this one's.
-                    *machine = begun(serial, machine.stage, machine);
+                    *machine = machine.begun(serial, machine.stage);
                 }
                 change(machine, views);
             });
@@ -186,7 +186,7 @@ impl<B: Board> Work<'_, B> {
 
     /// Runs the program, and counts.
     fn run(&self, kept: &mut Last) -> Outcome<()> {
-        self.show(|machine| *machine = begun(self.run.serial, Stage::Planning, machine));
+        self.show(|machine| *machine = machine.begun(self.run.serial, Stage::Planning));
         let plan = self.plan(kept)?;
         let run = self.watched(&plan)?;
         let picture = trial::shown(&plan, run.screen.as_ref())?;
@@ -308,16 +308,5 @@ impl<B: Board> Work<'_, B> {
             build_shown(shown, self.run, files, None);
         });
         Ok(())
-    }
-}
-
-/// A machine of which nothing is known yet; the last picture stays until there is another.
-fn begun(serial: u64, stage: Stage, before: &State) -> State {
-    State {
-        serial,
-        stage,
-        picture: before.picture,
-        size: before.size,
-        ..State::default()
     }
 }

@@ -239,6 +239,21 @@ pub struct Machine {
     pub wrong: Option<String>,
 }
 
+impl Machine {
+    /// Of another run, of which nothing is known yet; the last picture stays until there is
+    /// another.
+    #[must_use]
+    pub fn begun(&self, serial: u64, stage: Stage) -> Machine {
+        Machine {
+            serial,
+            stage,
+            picture: self.picture,
+            size: self.size,
+            ..Machine::default()
+        }
+    }
+}
+
 /// What is known of a plan.
 #[derive(Clone, Debug, Default, Serialize)]
 pub struct Planned {

@@ -119,8 +119,10 @@ fn a_search_is_stopped_by_the_page_and_by_another_text() {
     live.until("more of it", |s| {
         frontier(s)["measured"].as_u64() > Some(1) || !searching(s)
     });
-    live.post("stop", &json!({}));
+    live.post("stop-search", &json!({"panel": 0}));
     live.until("its end", |s| frontier(s)["stage"] == "stopped");
+    let shown = live.run(serial);
+    assert_eq!(shown["panels"][0]["machine"]["cycles"], dot["cycles"]);
     let other = live.edit(json!({"text": BALL}));
     assert!(other > serial);
     let shown = live.run(other);

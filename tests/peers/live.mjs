@@ -67,9 +67,12 @@ try {
   await page.evaluateOnNewDocument(() => {
     window.times = {};
     document.addEventListener("DOMContentLoaded", () => {
-      const said = document.getElementById("machine-said");
-      new MutationObserver(() => { window.times[said.textContent.split(",")[0]] ??= performance.now(); })
-        .observe(said, { childList: true, subtree: true, characterData: true });
+      // The page makes what each machine has.
+      const heard = () => {
+        const said = document.getElementById("machine-said");
+        if (said) window.times[said.textContent.split(",")[0]] ??= performance.now();
+      };
+      new MutationObserver(heard).observe(document.body, { childList: true, subtree: true, characterData: true });
     });
   });
   await page.goto(first, { waitUntil: "load" });
@@ -174,7 +177,7 @@ try {
 
   const with_page = { until, words, look, done };
   await costs_of_accuracy(page, out, with_page);
-  await beside(page, out, with_page);
+  await second_machine(page, out, with_page);
 
   // The keyboard leaves the editor, and reaches everything.
   await page.focus(".cm-content");
@@ -252,7 +255,7 @@ async function costs_of_accuracy(page, out, { until, words, look, done }) {
 }
 
 // A second machine, chosen by the keyboard; its program is built.
-async function beside(page, out, { until, words, look }) {
+async function second_machine(page, out, { until, words, look }) {
   await page.focus("#target-2");
   await page.keyboard.type("6502:bbc");
   await page.keyboard.press("Enter");

@@ -289,6 +289,10 @@ export async function post(path, body = {}) {
   if (path === "save") download(shown.file.name, body.text);
   if (path === "run") wished(wish.runs, true, false);
   if (path === "stop") stop();
+  if (path === "stop-search") {
+    noMore(body.panel, (task) => task === "tune");
+    work();
+  }
   if (["costs", "build", "tune"].includes(path) && wish.runs[body.panel]) {
     queue(path, body.panel);
     work();
@@ -313,9 +317,11 @@ function stop() {
     shown.native.stage = "stopped";
   }
   if (running.doing) halt();
-  for (const { panel } of wish.runs) {
+  for (const { panel, serial } of wish.runs) {
     const { machine } = shown.panels[panel];
-    if (!["done", "wrong"].includes(machine.stage)) Object.assign(machine, { stage: "stopped", at_work: 0 });
+    const { picture, size } = machine;
+    if (machine.serial !== serial) Object.assign(machine, blank().machine, { serial, picture, size, stage: "stopped" });
+    else if (!["done", "wrong"].includes(machine.stage)) Object.assign(machine, { stage: "stopped", at_work: 0 });
   }
 }
 

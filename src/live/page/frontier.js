@@ -1,7 +1,7 @@
 // What accuracy costs in time on a machine: its ways that are worth choosing, as a plot and as a
 // table whose rows are chosen. They come in while the machine's worker searches.
 
-import { count, duration, percent, say } from "./pictures.js";
+import { count, duration, percent, say, sayOptions } from "./pictures.js";
 import { plot } from "./plot.js";
 
 const keyOf = (point) => point.format + " " + point.options;
@@ -38,7 +38,9 @@ export function frontier(section, place, told) {
     head.append(label);
     const cell = (text) => Object.assign(document.createElement("td"), { textContent: text });
     const options = cell("");
-    options.append(Object.assign(document.createElement("code"), { textContent: words(point, told.formats() > 1) }));
+    options.append(document.createElement("code"));
+    sayOptions(options.firstChild, words(point, told.formats() > 1));
+    radio.setAttribute("aria-label", figures(point));
     made.append(head, cell(count(point.cycles)), cell(percent(point.error)), cell(count(point.memory)), options);
     rows.set(keyOf(point), made);
     return made;
@@ -115,7 +117,7 @@ export function frontier(section, place, told) {
       table();
       draw();
       const at = taken();
-      say(place("point-said").id, at < 0 ? "" : figures(points[at]));
+      sayOptions(place("point-said"), at < 0 ? "" : figures(points[at]));
     },
   };
 }

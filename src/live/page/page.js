@@ -57,7 +57,7 @@ const panels = [0, 1].map((k) => panel(k, machines, {
     want({ runs: mine });
   },
   ask: (task) => (task === "costs" ? lines.look(editor.line(), k) : post(task, { panel: k })),
-  stop: () => post("stop"),
+  stop: () => post("stop-search", { panel: k }),
   formats: () => machines.find((m) => m.name === runs()[k]?.target)?.formats.length ?? 0,
 }));
 

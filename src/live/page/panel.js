@@ -2,7 +2,7 @@
 // costs there.
 
 import { picture as address } from "./desk.js";
-import { count, duration, percent, picture, say } from "./pictures.js";
+import { count, duration, percent, picture, say, sayOptions } from "./pictures.js";
 import { frontier } from "./frontier.js";
 
 const stages = {
@@ -14,7 +14,7 @@ const busy = ["planning", "running", "comparing", "counting", "building"];
 export const option = (value, text) => Object.assign(document.createElement("option"), { value, textContent: text });
 
 // Machine `k` of `machines`. `told` has `run(change)`, which wants it otherwise, `ask(task)` and
-// `stop()`.
+// `stop()`, which ends its search.
 export function panel(k, machines, told) {
   const id = (name) => name + (k ? "-" + (k + 1) : "");
   const place = (name) => document.getElementById(id(name));
@@ -70,7 +70,7 @@ export function panel(k, machines, told) {
   }
 
   function showMachine(shown, run, two) {
-    const { machine: state, frontier: known } = shown.panels[k];
+    const state = shown.panels[k].machine;
     const frame = place("machine-frame");
     const wrong = shown.native.stage === "wrong";
     const old = state.serial !== run.serial || wrong;
@@ -87,7 +87,7 @@ export function panel(k, machines, told) {
     const which = two ? run.target : "The machine";
     image.image.alt = unlike ? "Where the picture of " + (two ? run.target : "the machine") + " is unlike the native one: darker in red, lighter in blue"
       : which + "’s picture, " + state.size.join(" by ") + " pixels";
-    const waits = known.stage === "running" ? "waits for the search" : "waits";
+    const waits = shown.panels.some((p) => p.frontier.stage === "running") ? "waits for the search" : "waits";
     let said = wrong ? "waits for a right scene" : old ? waits : stages[state.stage];
     if (state.stage === "running" && !old) said = "running, row " + state.rows + " of " + state.size[1];
     if (state.stage === "done" && !old) said = state.size.join(" × ");
@@ -104,7 +104,7 @@ export function panel(k, machines, told) {
     say(id("machine-wrong"), old ? "" : state.wrong || "");
     place("unlike").disabled = !state.difference || old;
     place("taken").hidden = !run.options;
-    say(id("options"), run.options);
+    sayOptions(place("options"), run.options);
     figures(place("figures"), old ? [] : factsOf(state));
   }
 

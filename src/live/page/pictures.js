@@ -90,3 +90,12 @@ export function showNative(shown) {
   place("native-said").classList.toggle("wrong", Boolean(wrong));
   if (wrong) say("native-said", wrong);
 }
+
+// Options of the command line in an element, none of them broken at its hyphens.
+export function sayOptions(at, text) {
+  if (at.textContent === text) return;
+  at.replaceChildren(...text.split(/ (?=--)/).flatMap((one, k) => {
+    const span = Object.assign(document.createElement("span"), { textContent: one });
+    return k ? [" ", span] : [span];
+  }));
+}

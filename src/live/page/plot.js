@@ -28,8 +28,8 @@ function axis(values, from, to) {
     for (let k = Math.floor(low); k <= Math.ceil(high); k++) out.push(...factors.map((f) => f * 10 ** k).filter(inside));
     return out;
   };
-  const tens = marks([1]);
-  return { at, inside, marks: tens.length > 3 ? tens : marks([1, 2, 5]) };
+  const enough = [[1], [1, 2, 5], [1, 2, 3, 4, 5, 6, 7, 8, 9]].map(marks).find((all) => all.length > 3);
+  return { at, inside, marks: enough ?? marks([1, 1.5, 2, 3, 4, 5, 6, 7, 8, 9]) };
 }
 
 // A mark's time, in one unit.

@@ -4,7 +4,7 @@
 //! by which a page asks for what it has not seen.
 
 use super::file::SceneFile;
-use super::queue::Queue;
+use super::queue::{Errand, Queue};
 use crate::interrupt::Job;
 use crate::live::board::{Board, Pictures, Task, Views, Wish};
 use crate::live::run::{MOST, Run};
@@ -30,18 +30,6 @@ pub struct Change {
     pub runs: Option<Vec<Run>>,
     /// Whether other files that the scene uses are no more what they were.
     pub files: bool,
-}
-
-/// Something for a machine: a run, its scene, and what ends it.
-pub struct Errand {
-    /// What.
-    pub task: Task,
-    /// For which machine.
-    pub run: Run,
-    /// The scene, right and drawn.
-    pub scene: Arc<Scene>,
-    /// To be worked for.
-    pub job: Job,
 }
 
 struct Inner {
@@ -179,12 +167,21 @@ impl Desk {
         let mut inner = self.lock();
         inner.drawing.stop();
         inner.queue.clear();
-        let count = inner.wish.runs.len();
-        for panel in inner.shown.panels.iter_mut().take(count) {
-            if !matches!(panel.machine.stage, Stage::Done | Stage::Wrong) {
-                panel.machine.stage = Stage::Stopped;
+        let Inner { wish, shown, .. } = &mut *inner;
+        for (Panel { machine, .. }, run) in shown.panels.iter_mut().zip(&wish.runs) {
+            if machine.serial != run.serial {
+                *machine = machine.begun(run.serial, Stage::Stopped);
+            } else if !matches!(machine.stage, Stage::Done | Stage::Wrong) {
+                machine.stage = Stage::Stopped;
             }
         }
+        self.seen(inner);
+    }
+
+    /// Stops a machine's search alone: what waits for it has its turn.
+    pub fn stop_search(&self, panel: usize) {
+        let mut inner = self.lock();
+        inner.queue.no_more(panel, |task| task == Task::Tune);
         self.seen(inner);
     }
 

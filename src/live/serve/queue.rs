@@ -4,9 +4,24 @@
 
 use crate::interrupt::Job;
 use crate::live::board::Task;
+use crate::live::run::Run;
+use crate::scene::Scene;
+use std::sync::Arc;
 
 /// What is to be done for which machine.
 pub type Place = (Task, usize);
+
+/// Something for a machine: a run, its scene, and what ends it.
+pub struct Errand {
+    /// What.
+    pub task: Task,
+    /// For which machine.
+    pub run: Run,
+    /// The scene, right and drawn.
+    pub scene: Arc<Scene>,
+    /// To be worked for.
+    pub job: Job,
+}
 
 /// The queue.
 pub struct Queue {

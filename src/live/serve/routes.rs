@@ -148,9 +148,10 @@ pub fn posted(desk: &Desk, path: &str, body: &[u8]) -> Answer {
         "run" => done(|| {
             desk.wish(Change::default());
         }),
-        "costs" => asked(desk, Task::Costs, body),
-        "build" => asked(desk, Task::Build, body),
-        "tune" => asked(desk, Task::Tune, body),
+        "costs" => of(body, |panel| desk.ask(Task::Costs, panel)),
+        "build" => of(body, |panel| desk.ask(Task::Build, panel)),
+        "tune" => of(body, |panel| desk.ask(Task::Tune, panel)),
+        "stop-search" => of(body, |panel| desk.stop_search(panel)),
         _ => Answer::text(404, "there is nothing of that name\n"),
     }
 }
@@ -160,9 +161,10 @@ fn done(work: impl FnOnce()) -> Answer {
     Answer::json(200, &json!({}))
 }
 
-fn asked(desk: &Desk, task: Task, body: &[u8]) -> Answer {
+/// Does something for the machine that is named.
+fn of(body: &[u8], work: impl FnOnce(usize)) -> Answer {
     match serde_json::from_slice(body) {
-        Ok(Of { panel }) => done(|| desk.ask(task, panel)),
+        Ok(Of { panel }) => done(|| work(panel)),
         Err(e) => Answer::wrong(&e.to_string()),
     }
 }

@@ -1,7 +1,8 @@
 //! The two workers of a desk: one reads scenes and draws them, one runs machines.
 
 use super::Build;
-use super::desk::{Desk, Errand};
+use super::desk::Desk;
+use super::queue::Errand;
 use crate::failure::{Failure, Outcome};
 use crate::live::board::Wish;
 use crate::live::machine::{self, Kept};
