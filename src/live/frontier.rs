@@ -145,7 +145,7 @@ fn dot(run: &Run, point: &Point, error: f64) -> Dot {
         seconds: measured.seconds,
         cycles: measured.cycles,
         error,
-        unlike_native: measured.errors.pixels as u64,
+        unlike_native: measured.errors.pixels,
         unlike_model: measured.differs_from_model,
         memory: measured.memory(),
         mode: measured.mode.clone(),

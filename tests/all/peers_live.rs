@@ -79,6 +79,8 @@ fn holds(found: &Value) {
     // What was taken is run with its options, and takes what was measured.
     assert!(frontier["options"].to_string().contains("--"), "{frontier}");
     assert_eq!(frontier["cycles"], frontier["row"], "{frontier}");
+    let older = frontier["older"].to_string();
+    assert!(older.contains("as it was"), "{older}");
     let said = frontier["said"].to_string();
     assert!(said.contains("of the pixels"), "{said}");
     let second = &found["second"];

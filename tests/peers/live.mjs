@@ -206,6 +206,12 @@ try {
   out.width = await page.evaluate(() => document.documentElement.scrollWidth);
   await page.screenshot({ path: stem + "-small.png", fullPage: true });
   await look("small");
+  // Another value: what accuracy costs is that of the scene as it was.
+  await page.focus("#sliders input[type=range]");
+  await page.keyboard.press("ArrowRight");
+  await until("an older frontier", () => document.querySelector(".frontier.stale #points input:disabled"));
+  out.frontier.older = await words("frontier-said");
+  await look("older");
   if (scene) await by_itself(page, out, until, words);
   process.stdout.write(JSON.stringify({ errors, asked, ...out }));
 } finally {

@@ -56,7 +56,8 @@ function fromLink() {
   }
 }
 
-// Takes what a link or the gallery has; where it names no machine, those that are there stay.
+// Takes what a link or the gallery has; where it names no machine, those that are there stay,
+// without what was taken there of what another scene costs.
 function begin({ name, text, runs, set }) {
   Object.assign(wish, { name: (name || "scene").slice(0, 80), text, set });
   const named = runs.map(({ target, format, mode, options }) => {
@@ -68,9 +69,10 @@ function begin({ name, text, runs, set }) {
     };
   }).filter(Boolean);
   const first = { target: about.machines[0].name, format: null, mode: null, options: "" };
+  const there = wish.runs.map((run) => (run.options ? { ...run, format: null, options: "" } : run));
   shown.file.name = wish.name + ".scn";
   shown.text = { revision: shown.text.revision + 1, by: "link" };
-  wished(named.length ? named : wish.runs.length ? wish.runs : [first], true, true);
+  wished(named.length ? named : there.length ? there : [first], true, true);
 }
 
 const like = (a, b, names) => Boolean(a && b) && names.every((name) => a[name] === b[name]);

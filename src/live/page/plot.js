@@ -5,7 +5,7 @@
 const TIMES = [0.001, 0.01, 0.1, 1, 3, 10, 30, 60, 180, 600, 1800, 3600, 10800, 36000, 86400, 259200, 864000, 2592000];
 // Room around the axes, and below them for pictures without error, which a logarithm has no
 // place for.
-const [LEFT, RIGHT, TOP, BOTTOM, NOTHING] = [54, 16, 12, 42, 26];
+const [LEFT, RIGHT, TOP, BOTTOM, NOTHING] = [66, 16, 12, 42, 26];
 
 function element(name, attributes, text) {
   const made = document.createElementNS("http://www.w3.org/2000/svg", name);
