@@ -1,8 +1,8 @@
 // What accuracy costs in time on a machine: its ways that are worth choosing, as a plot and as a
 // table whose rows are chosen. They come in while the machine's worker searches.
 
-import { count, duration, percent, say, sayOptions } from "./pictures.js";
-import { plot } from "./plot.js";
+import { count, duration, say, sayOptions } from "./pictures.js";
+import { plot, share } from "./plot.js";
 
 const keyOf = (point) => point.format + " " + point.options;
 const words = (point, formats) => [formats ? "--format " + point.format : "", point.options].filter(Boolean).join(" ") || "none";
@@ -41,7 +41,7 @@ export function frontier(section, place, told) {
     options.append(document.createElement("code"));
     sayOptions(options.firstChild, words(point, told.formats() > 1));
     radio.setAttribute("aria-label", figures(point));
-    made.append(head, cell(count(point.cycles)), cell(percent(point.error)), cell(count(point.memory)), options);
+    made.append(head, cell(count(point.cycles)), cell(share(point.error)), cell(count(point.memory)), options);
     rows.set(keyOf(point), made);
     return made;
   }
@@ -84,7 +84,7 @@ export function frontier(section, place, told) {
   }
   new ResizeObserver(draw).observe(place("plot"));
 
-  const figures = (p) => duration(p.seconds) + ", " + count(p.cycles) + " cycles, " + percent(p.error) + " of the pixels (" + count(p.unlike_native) +
+  const figures = (p) => duration(p.seconds) + ", " + count(p.cycles) + " cycles, " + share(p.error) + " of the pixels (" + count(p.unlike_native) +
     ") in another ink, " + count(p.memory) + " bytes" + (p.mode ? ", mode " + p.mode : "") + ": " + words(p, told.formats() > 1);
 
   function said() {

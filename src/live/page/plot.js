@@ -39,7 +39,8 @@ function time(seconds) {
   return Number((seconds / size).toPrecision(3)) + " " + unit;
 }
 
-const share = (error) => Number((100 * error).toPrecision(3)) + "%";
+// An error as a share with three digits that count.
+export const share = (error) => Number((100 * error).toPrecision(3)) + "%";
 
 // The plot, so many pixels wide. `points` are [{ seconds, error, said }], from the quickest;
 // `taken` is the number of the one that is chosen, and `take` is told another.
