@@ -253,9 +253,6 @@ async function costs_of_accuracy(page, out, { until, words, look, done }) {
   await done();
   await page.focus("#points input:checked");
   await page.screenshot({ path: stem + "-frontier.png" });
-  await page.$eval("#frontier-title", (e) => e.scrollIntoView());
-  await pause(200);
-  await page.screenshot({ path: stem + "-plot.png" });
   await page.evaluate(() => scrollTo(0, 0));
   await look("frontier");
 }
