@@ -144,8 +144,6 @@ mod tests {
 
     #[test]
     fn options_are_those_of_the_command_line() {
-        let scene = slowlight_compiler::scene::check("a.scn", "image 8 x 8 inks black, white;\n");
-        assert!(!scene.is_right());
         let text = "image 8 x 8 inks black, white;\ndraw (x, y) = ink(x mod 2);\n";
         let scene = Scene::of_text(
             ("a.scn", text),
