@@ -10,7 +10,7 @@ use slowlight_routine::{Op, Type};
 /// Fraction bits that a result cannot have more of, given those that the operands have
 /// room for, and those it has room for itself.
 pub fn cap(graph: &Graph, of: (Op, [NodeId; 2]), own: (i8, u8), room: &[i8]) -> i8 {
-    let finer = if own.1 > BYTE { WIDE } else { 0 };
+    let finer = if own.1 > BYTE { wide(own.1) } else { 0 };
     given(graph, of, own, room, finer)
 }
 
@@ -73,7 +73,15 @@ fn long(bits: u8) -> i8 {
 /// By how many bits a product may be shorter than that all the same. Where its range leaves
 /// room for them it has as many more fraction bits than its greatest operands' last places
 /// count for: smaller ones count for less, a square's most of all.
-const WIDE: i8 = 3;
+///
+/// In 24 bits products that are shorter by a byte are not dearer than those that have to be
+/// shifted to where the upper half begins.
+fn wide(bits: u8) -> i8 {
+    match bits {
+        24.. => 7,
+        _ => 3,
+    }
+}
 
 /// Which values are read as whole numbers alone.
 pub(super) fn only_cut(graph: &Graph) -> Vec<bool> {
@@ -224,7 +232,7 @@ fn middle([a, b]: [i8; 2], [room_a, room_b]: [i8; 2], result: i8) -> Option<[i8;
 /// Operands of all their bits, so that the product is rounded in its upper half.
 fn product([mut a, mut b]: [i8; 2], [room_a, room_b]: [i8; 2], result: i8, most: i8) -> [i8; 2] {
     let short = match most - (a + b - result) {
-        ..=WIDE => 0,
+        short if short <= wide(most as u8 + 1) => 0,
         short => short,
     };
     let up = short.clamp(0, (room_a - a).max(0));

@@ -1,19 +1,19 @@
 ; prod+3, prod+4 and a (high) = the upper 24 bits of prod+2, prod+3, prod+4 and a, y bits to
 ; the left, rounded; saturates. y from 1 to 4.
 up24:
-        sta prod+5
         sta sign
+        clc
+        adc up24_half-1,y   ; are the bits that are shifted out all signs?
+        cmp up24_room-1,y
+        bcs up24_large
+        lda sign
 up24_bit:
         asl prod+2
         rol prod+3
         rol prod+4
-        rol prod+5
-        lda prod+5
-        eor sign
-        bmi up24_large
+        rol
         dey
         bne up24_bit
-        lda prod+5
         bit prod+2
         bpl up24_edge
         inc prod+3
@@ -51,3 +51,7 @@ up24_least:
         sta prod+4
         lda #$80
         rts
+up24_half:
+        .byte 64,32,16,8
+up24_room:
+        .byte 128,64,32,16

@@ -287,7 +287,19 @@ pub(crate) const ALL: &[Part] = &[
         "up24",
         include_str!("../../asm/scaled24/up.asm"),
         &["scaled24_page"],
-        80,
+        88,
+    ),
+    part(
+        "whole24",
+        include_str!("../../asm/scaled24/whole.asm"),
+        &["product24"],
+        164,
+    ),
+    part(
+        "round40",
+        include_str!("../../asm/scaled24/round40.asm"),
+        &["up24"],
+        57,
     ),
     part(
         "lower32",

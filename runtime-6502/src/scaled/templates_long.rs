@@ -117,6 +117,13 @@ products! {
     MULTIPLY_RIGHT SQUARE_RIGHT: "| ldy {#n-24} | jsr lower32", made!();
 }
 
+pub(crate) const MULTIPLY_16: &str = concat!(factors!(), "| jsr whole24 | jsr round40", made!());
+pub(crate) const MULTIPLY_MIDDLE: &str = concat!(
+    factors!(),
+    "| jsr whole24 | ldy {#n-16} | jsr round40_right",
+    made!()
+);
+
 pub(crate) const MULTIPLY_DOWN: &str =
     concat!(both!(), "| ldy {#n} | jsr exact24_right", result!());
 pub(crate) const MULTIPLY_UP: &str = concat!(both!(), "| ldy {#0-n} | jsr exact24_left", result!());

@@ -308,17 +308,19 @@ fn costs_of_what_is_met_most() {
         ("mod", 10, 280),
         ("add", 0, 25),
     ];
-    let long: [(&str, i32, u64); 7] = [
+    let long: [(&str, i32, u64); 9] = [
         ("long_mul_24", 24, 470),
         ("long_mul_23", 23, 490),
-        ("long_mul_up", 22, 570),
+        ("long_mul_up", 22, 560),
+        ("long_mul_16", 16, 600),
+        ("long_mul_middle", 18, 700),
         ("long_div", 22, 1500),
         ("long_odd_root", 21, 740),
         ("mod", 14, 700),
         ("add", 0, 30),
     ];
-    for (kind, bounds) in [(SHORT, short), (LONG, long)] {
-        for (name, n, most) in bounds {
+    for (kind, bounds) in [(SHORT, &short[..]), (LONG, &long[..])] {
+        for &(name, n, most) in bounds {
             let routine = kind.routine(name);
             let mut bench = Bench::of(kind.setting, routine, &[], n);
             let mut random = Random(5);
