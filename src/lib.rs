@@ -60,7 +60,6 @@ pub mod tables;
 pub mod target_args;
 pub mod together;
 pub mod trial;
-#[cfg(not(target_family = "wasm"))]
 pub mod tune;
 pub mod unlike;
 pub mod vcs;

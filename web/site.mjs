@@ -47,7 +47,7 @@ cpSync(path.join(target, "tools/bound/slowlight_bg.wasm"), path.join(site, "slow
 cpSync(path.join(target, "tools/bound/slowlight.js"), path.join(site, "slowlight.js"));
 
 // The page's own files, with another desk and a policy of its own: a file server may send none.
-for (const name of ["page.css", "page.js", "pictures.js", "params.js", "lines.js", "editor.js", "editor.licences.txt"]) {
+for (const name of ["page.css", "page.js", "pictures.js", "panel.js", "frontier.js", "plot.js", "params.js", "lines.js", "editor.js", "editor.licences.txt"]) {
   cpSync(path.join(page, name), path.join(site, name));
 }
 const policy = "default-src 'none'; script-src 'self' 'wasm-unsafe-eval'; worker-src 'self'; connect-src 'self'; " +

@@ -10,7 +10,7 @@ use crate::scene::{Scene, SceneArgs};
 use crate::target_args::{self, Os, ScreenArgs};
 use crate::trial::LIMIT;
 use crate::tune::cache::Cache;
-use crate::tune::choice::Base;
+use crate::tune::choice::{Base, Choice};
 use crate::tune::effort::Effort;
 use crate::tune::explore::{Found, explore};
 use crate::tune::goal::{self, Goals, Measure};
@@ -18,6 +18,7 @@ use crate::tune::marks::{self, Mark};
 use crate::tune::page::page;
 use crate::tune::plot::svg;
 use crate::tune::point::{Natives, Point, encoded};
+use crate::tune::rows::Look;
 use crate::tune::search::Search;
 use crate::tune::tell::Told;
 use crate::{say, say_json};
@@ -107,7 +108,8 @@ pub fn run(args: &Args) -> Outcome<()> {
         files::may_hold(&args.output)?;
     }
     let base = base(args);
-    let mut marks = marks::of_scene(&Scene::open(&base.path, &base.changes)?, &base)?;
+    let scene = Scene::open(&base.path, &base.changes)?;
+    let mut marks = marks::of_scene(&scene, &base)?;
     marks.extend_from_slice(&args.mark);
     let found = Arc::new(Mutex::new(Found::default()));
     let search = Search {
@@ -139,7 +141,9 @@ pub fn run(args: &Args) -> Outcome<()> {
             }
         });
     }
-    let searched = explore(&search, &found);
+    scene.warn();
+    let mut hear = |choice: &Choice, look: &Look, whole: bool| search.tell(choice, look, whole);
+    let searched = explore(&search, scene, &found, &mut hear);
     interrupt::quietly();
     let mut found = found.lock().map(|f| f.clone()).unwrap_or_default();
     // Threads find them in any order.

@@ -4,8 +4,9 @@
 //! worker.
 
 use super::board::{Board, Pictures, Task, Wish};
-use super::machine::{Kept, Work};
+use super::machine::{self, Kept};
 use super::native;
+use super::run::{self, Run};
 use super::shown::Shown;
 use crate::failure::Outcome;
 use crate::interrupt::Job;
@@ -15,7 +16,6 @@ use crate::target_args::ScreenArgs;
 use crate::trial;
 use serde::Deserialize;
 use slowlight_compiler::planner::PlannedScene;
-use slowlight_compiler::targets;
 use std::cell::RefCell;
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -40,9 +40,17 @@ struct Asked {
     name: String,
     text: String,
     set: BTreeMap<String, Vec<f64>>,
-    target: String,
-    format: Option<String>,
-    mode: Option<String>,
+    /// The machine that something is wanted of, where it is.
+    run: Option<AskedRun>,
+}
+
+/// A machine as the page says it.
+#[derive(Deserialize)]
+struct AskedRun {
+    panel: usize,
+    serial: u64,
+    #[serde(flatten)]
+    asked: run::Asked,
 }
 
 /// A worker.
@@ -54,6 +62,10 @@ pub struct Alone {
     /// The scene that was read last, to be drawn again with other values.
     read: Option<(String, String, Scene)>,
 }
+
+/// What the machines' pictures are called.
+const MACHINES: [&str; run::MOST] = ["1/machine.png", "2/machine.png"];
+const DIFFERENCES: [&str; run::MOST] = ["1/difference.png", "2/difference.png"];
 
 /// What is shown, with who hears of it.
 struct Heard<'t, T> {
@@ -69,10 +81,16 @@ impl<T: Tell> Board for Heard<'_, T> {
         change(shown, pictures);
         let all = [
             ("native.png", &before.native, &pictures.native),
-            ("machine.png", &before.machine, &pictures.machine),
-            ("difference.png", &before.difference, &pictures.difference),
             ("costs", &before.costs, &pictures.costs),
         ];
+        let views = |k: usize| {
+            let (before, now) = (&before.machines[k], &pictures.machines[k]);
+            [
+                (MACHINES[k], &before.machine, &now.machine),
+                (DIFFERENCES[k], &before.difference, &now.difference),
+            ]
+        };
+        let all = all.into_iter().chain((0..run::MOST).flat_map(views));
         for (name, before, now) in all {
             if !Arc::ptr_eq(before, now) {
                 self.tell.bytes(name, now);
@@ -85,6 +103,10 @@ impl<T: Tell> Board for Heard<'_, T> {
     }
 
     fn show_of(&self, _: u64, change: impl FnOnce(&mut Shown, &mut Pictures)) {
+        self.show(change);
+    }
+
+    fn show_run(&self, _: &Run, change: impl FnOnce(&mut Shown, &mut Pictures)) {
         self.show(change);
     }
 }
@@ -108,7 +130,8 @@ impl Alone {
         Ok(right)
     }
 
-    /// Runs a wish's program, counts its lines' cycles (`costs`) or makes its files (`build`).
+    /// Runs a wish's program, counts its lines' cycles (`costs`), makes its files (`build`) or
+    /// searches for what accuracy costs in time (`tune`).
     ///
     /// # Errors
     /// Where the wish itself is none.
@@ -117,6 +140,7 @@ impl Alone {
             "run" => Task::Run,
             "costs" => Task::Costs,
             "build" => Task::Build,
+            "tune" => Task::Tune,
             other => return Err(format!("no task `{other}`")),
         };
         let (name, wish) = wished(wish)?;
@@ -129,12 +153,14 @@ impl Alone {
             let usual = scene.graph(None, Precision::NATIVE)?;
             Ok(native::set(scene, usual, &wish.set)?.0)
         });
-        let before = self.shown.machine.stage;
+        let run = wish.runs.first().ok_or("no machine")?;
+        let before = (self.shown.panels.get(run.panel)).map(|panel| panel.machine.stage);
         match read {
             Ok(scene) => {
                 let build = |plan: &PlannedScene, screen: &ScreenArgs| built(plan, screen, tell);
-                let work = Work::new(&board, &wish, &scene);
-                work.ended((task, before), work.done(task, &mut self.kept, &build));
+                let more = (&mut self.kept, &build as machine::Build<'_>);
+                let done = machine::done(&board, run, &scene, task, more);
+                machine::ended(&board, run, (task, before.unwrap_or_default()), done);
             }
             Err(failure) => native::refused(&board, &wish, failure),
         }
@@ -169,15 +195,13 @@ impl Alone {
 
 fn wished(wish: &str) -> Result<(String, Wish), String> {
     let asked: Asked = serde_json::from_str(wish).map_err(|e| e.to_string())?;
-    let target = targets::find(&asked.target);
+    let run = |asked: AskedRun| Run::asked(asked.panel, asked.serial, asked.asked);
     let wish = Wish {
         serial: asked.serial,
         at: Instant::now(),
         text: asked.text.into(),
         set: asked.set,
-        target: target.ok_or_else(|| format!("no target `{}`", asked.target))?,
-        format: asked.format,
-        mode: asked.mode,
+        runs: asked.run.map(run).transpose()?.into_iter().collect(),
     };
     Ok((asked.name, wish))
 }

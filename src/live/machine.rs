@@ -1,8 +1,10 @@
 //! What a machine is asked for: a scene that has rested is planned, run so that its picture is
 //! seen to grow, and counted; one thing at a time.
 
-use super::board::{Board, Task, Wish};
-use super::shown::{Built, Costs, Machine as State, Planned, Stage};
+use super::board::{Board, Pictures, Task, Views};
+use super::frontier;
+use super::run::{MOST, Run};
+use super::shown::{Built, Costs, Machine as State, Panel, Planned, Shown, Stage};
 use crate::auto_format;
 use crate::draw::{self, Window};
 use crate::explain::{self, Explained, error};
@@ -24,112 +26,149 @@ use web_time::Instant;
 /// How often a growing picture is shown.
 const FRAME: Duration = Duration::from_millis(90);
 
-/// The last plan, for what is asked of the same wish.
-pub type Kept = Option<(u64, PlannedScene)>;
+/// The last plan of each machine, for what is asked of the same run.
+pub type Kept = [Last; MOST];
+
+/// The plan of one.
+type Last = Option<(u64, PlannedScene)>;
 
 /// Writes the program of a plan; answers the names of its files.
 pub type Build<'b> = &'b dyn Fn(&PlannedScene, &ScreenArgs) -> Outcome<Vec<String>>;
 
 /// One thing that is to be done.
-pub struct Work<'w, B> {
+struct Work<'w, B> {
     board: &'w B,
-    wish: &'w Wish,
+    run: &'w Run,
+    /// As the run's options have it.
     scene: &'w Scene,
     screen: ScreenArgs,
 }
 
-impl<'w, B: Board> Work<'w, B> {
-    /// What is to be done of a wish, whose scene is right.
-    pub fn new(board: &'w B, wish: &'w Wish, scene: &'w Scene) -> Work<'w, B> {
-        Work {
-            board,
-            wish,
-            scene,
-            screen: ScreenArgs {
-                format: wish.format.clone(),
-                mode: wish.mode.clone(),
-                ..ScreenArgs::default()
-            },
-        }
+/// Does something for a run, whose scene is right.
+///
+/// # Errors
+/// What the page is to say of it ([`ended`]).
+pub fn done<B: Board>(
+    board: &B,
+    run: &Run,
+    scene: &Scene,
+    task: Task,
+    (kept, build): (&mut Kept, Build<'_>),
+) -> Outcome<()> {
+    if task == Task::Tune {
+        return frontier::search(board, run, scene);
     }
+    let (screen, scene) = run.planned_with(scene)?;
+    let work = Work {
+        board,
+        run,
+        scene: &scene,
+        screen,
+    };
+    let kept = (kept.get_mut(run.panel)).ok_or(Failure::Interrupted)?;
+    match task {
+        Task::Run | Task::Tune => work.run(kept),
+        Task::Costs => work.costs(kept),
+        Task::Build => work.build(kept, build),
+    }
+}
 
-    /// Does it.
-    ///
-    /// # Errors
-    /// What the page is to say of it ([`Work::ended`]).
-    pub fn done(&self, task: Task, kept: &mut Kept, build: Build<'_>) -> Outcome<()> {
+/// How it ended: where it was no run, the last one's picture is what it was before.
+pub fn ended<B: Board>(board: &B, run: &Run, (task, before): (Task, Stage), done: Outcome<()>) {
+    if task == Task::Tune {
+        return frontier::ended(board, run, done);
+    }
+    let failed = done.err().map(|failure| match failure {
+        Failure::Interrupted => None,
+        Failure::TooLarge(large) => Some(large.text),
+        other => Some(other.reason()),
+    });
+    // Whoever's work it was: no machine runs now.
+    board.show(|shown, _| with_panel(shown, run, |panel| panel.machine.at_work = 0));
+    board.show_run(run, |shown, _| {
+        let stage = match &failed {
+            _ if task != Task::Run => before,
+            None => Stage::Done,
+            Some(None) => Stage::Stopped,
+            Some(Some(_)) => Stage::Wrong,
+        };
+        let why = failed.flatten();
+        with_panel(shown, run, |panel| {
+            let machine = &mut panel.machine;
+            if machine.serial != run.serial {
+                // It has failed before anything was shown.
+                *machine = machine.begun(run.serial, stage);
+            }
+            machine.stage = stage;
+            if task == Task::Run {
+                machine.wrong.clone_from(&why);
+            }
+        });
         match task {
-            Task::Run => self.run(kept),
-            Task::Costs => self.costs(kept),
-            Task::Build => self.build(kept, build),
-        }
-    }
-
-    /// Shows something of the machine, unless a newer wish has come.
-    fn show(&self, change: impl FnOnce(&mut State)) {
-        let serial = self.wish.serial;
-        self.board.show_of(serial, |shown, _| {
-            let machine = &mut shown.machine;
-            if machine.serial != serial {
-                // Another wish's figures are none of this one's.
-                *machine = State {
-                    serial,
-                    stage: machine.stage,
-                    picture: machine.picture,
-                    size: machine.size,
-                    ..State::default()
+            Task::Costs if why.is_some() => {
+                shown.costs = Costs {
+                    panel: run.panel,
+                    serial: run.serial,
+                    wrong: why,
+                    ..shown.costs
                 };
             }
-            change(machine);
-        });
+            Task::Build if why.is_some() => build_shown(shown, run, Vec::new(), why),
+            _ => {}
+        }
+    });
+}
+
+/// Another program was built, or was not.
+fn build_shown(shown: &mut Shown, run: &Run, files: Vec<String>, wrong: Option<String>) {
+    shown.built = Some(Built {
+        target: run.target.name,
+        count: shown.built.as_ref().map_or(1, |built| built.count + 1),
+        files,
+        wrong,
+    });
+}
+
+/// What is shown of a run's machine.
+fn with_panel(shown: &mut Shown, run: &Run, change: impl FnOnce(&mut Panel)) {
+    if let Some(panel) = shown.panels.get_mut(run.panel) {
+        change(panel);
+    }
+}
+
+impl<B: Board> Work<'_, B> {
+    /// Shows something of the machine, unless a newer run is wanted.
+    fn show(&self, change: impl FnOnce(&mut State)) {
+        self.show_with(|machine, _| change(machine));
     }
 
-    /// How it ended: where it was no run, the last one's picture is what it was before.
-    pub fn ended(&self, (task, before): (Task, Stage), done: Outcome<()>) {
-        let failed = done.err().map(|failure| match failure {
-            Failure::Interrupted => None,
-            Failure::TooLarge(large) => Some(large.text),
-            other => Some(other.reason()),
-        });
-        // Whoever's work it was: no machine runs now.
-        self.board.show(|shown, _| shown.machine.at_work = 0);
-        self.board.show_of(self.wish.serial, |shown, _| {
-            shown.machine.stage = match &failed {
-                _ if task != Task::Run => before,
-                None => Stage::Done,
-                Some(None) => Stage::Stopped,
-                Some(Some(_)) => Stage::Wrong,
-            };
-            let why = failed.flatten();
-            match task {
-                Task::Run => shown.machine.wrong = why,
-                Task::Costs if why.is_some() => {
-                    (shown.costs.serial, shown.costs.wrong) = (self.wish.serial, why);
+    /// The same with its pictures.
+    fn show_with(&self, change: impl FnOnce(&mut State, &mut Views)) {
+        let Run { panel, serial, .. } = *self.run;
+        self.board
+            .show_run(self.run, |shown: &mut Shown, pictures: &mut Pictures| {
+                let places = (shown.panels.get_mut(panel)).zip(pictures.machines.get_mut(panel));
+                let Some((Panel { machine, .. }, views)) = places else {
+                    return;
+                };
+                if machine.serial != serial {
+                    // Another run's figures are none of this one's.
+                    *machine = machine.begun(serial, machine.stage);
                 }
-                Task::Costs => {}
-                Task::Build if why.is_some() => {
-                    let count = shown.built.as_ref().map_or(1, |built| built.count + 1);
-                    shown.built = Some(Built {
-                        count,
-                        wrong: why,
-                        ..Built::default()
-                    });
-                }
-                Task::Build => {}
-            }
-        });
+                change(machine, views);
+            });
     }
 
-    /// The wish's plan, made or kept.
-    fn plan(&self, kept: &mut Kept) -> Outcome<PlannedScene> {
+    /// The run's plan, made or kept.
+    fn plan(&self, kept: &mut Last) -> Outcome<PlannedScene> {
         if let Some((serial, plan)) = kept
-            && *serial == self.wish.serial
+            && *serial == self.run.serial
         {
             return Ok(plan.clone());
         }
         *kept = None;
         self.show(|machine| machine.stage = Stage::Planning);
-        let chosen = auto_format::plan(&self.screen, self.scene, self.wish.target)?;
+        let chosen = auto_format::plan(&self.screen, self.scene, self.run.target)?;
         interrupt::check()?;
         let plan = chosen.plan;
         let planned = Planned {
@@ -141,21 +180,13 @@ impl<'w, B: Board> Work<'w, B> {
             goal: chosen.why.as_ref().map(|why| why.goal),
         };
         self.show(|machine| machine.plan = Some(planned));
-        *kept = Some((self.wish.serial, plan.clone()));
+        *kept = Some((self.run.serial, plan.clone()));
         Ok(plan)
     }
 
     /// Runs the program, and counts.
-    fn run(&self, kept: &mut Kept) -> Outcome<()> {
-        self.show(|machine| {
-            *machine = State {
-                serial: self.wish.serial,
-                stage: Stage::Planning,
-                picture: machine.picture,
-                size: machine.size,
-                ..State::default()
-            }
-        });
+    fn run(&self, kept: &mut Last) -> Outcome<()> {
+        self.show(|machine| *machine = machine.begun(self.run.serial, Stage::Planning));
         let plan = self.plan(kept)?;
         let run = self.watched(&plan)?;
         let picture = trial::shown(&plan, run.screen.as_ref())?;
@@ -166,9 +197,8 @@ impl<'w, B: Board> Work<'w, B> {
         let unlike = differences(window.places(), &picture.inks, &native.pixels).len();
         let image = Arc::new(difference(&picture, &native)?);
         let Sizes { code, tables, ram } = run.sizes;
-        self.board.show_of(self.wish.serial, |shown, pictures| {
-            pictures.difference = image;
-            let machine = &mut shown.machine;
+        self.show_with(|machine, views| {
+            views.difference = image;
             machine.stage = Stage::Comparing;
             machine.difference = true;
             machine.bytes = [code, tables, ram];
@@ -226,9 +256,8 @@ impl<'w, B: Board> Work<'w, B> {
     ) -> Outcome<()> {
         let png = Arc::new(picture.encode(FileFormat::Png)?);
         let hertz = forecast::hertz(plan, self.screen.machine(plan.target));
-        self.board.show_of(self.wish.serial, |shown, pictures| {
-            pictures.machine = png;
-            let machine = &mut shown.machine;
+        self.show_with(|machine, views| {
+            views.machine = png;
             machine.picture += 1;
             machine.cycles = cycles;
             machine.seconds = cycles as f64 / hertz;
@@ -238,7 +267,7 @@ impl<'w, B: Board> Work<'w, B> {
     }
 
     /// Counts what each line takes.
-    fn costs(&self, kept: &mut Kept) -> Outcome<()> {
+    fn costs(&self, kept: &mut Last) -> Outcome<()> {
         let plan = self.plan(kept)?;
         self.show(|machine| {
             machine.stage = Stage::Counting;
@@ -257,10 +286,11 @@ impl<'w, B: Board> Work<'w, B> {
         };
         let report = serde_json::to_vec(&found.report());
         let report = Arc::new(report.map_err(|e| Failure::Wrong(e.to_string()))?);
-        let serial = self.wish.serial;
-        self.board.show_of(serial, |shown, pictures| {
+        let Run { panel, serial, .. } = *self.run;
+        self.board.show_run(self.run, |shown, pictures| {
             pictures.costs = report;
             shown.costs = Costs {
+                panel,
                 serial,
                 count: shown.costs.count + 1,
                 wrong: None,
@@ -270,17 +300,12 @@ impl<'w, B: Board> Work<'w, B> {
     }
 
     /// Writes the program's files.
-    fn build(&self, kept: &mut Kept, build: Build<'_>) -> Outcome<()> {
+    fn build(&self, kept: &mut Last, build: Build<'_>) -> Outcome<()> {
         let plan = self.plan(kept)?;
         self.show(|machine| machine.stage = Stage::Building);
         let files = build(&plan, &self.screen)?;
-        self.board.show_of(self.wish.serial, |shown, _| {
-            let count = shown.built.as_ref().map_or(1, |built| built.count + 1);
-            shown.built = Some(Built {
-                count,
-                files,
-                wrong: None,
-            });
+        (self.board).show_run(self.run, |shown, _| {
+            build_shown(shown, self.run, files, None);
         });
         Ok(())
     }

@@ -68,7 +68,9 @@ pub fn refused(board: &impl Board, wish: &Wish, failure: Failure) {
         shown.native.serial = serial;
         shown.native.stage = Stage::Wrong;
         shown.native.wrong = why;
-        shown.machine.stage = Stage::Idle;
+        for panel in &mut shown.panels {
+            panel.machine.stage = Stage::Idle;
+        }
     });
 }
 

@@ -1,5 +1,6 @@
 //! What the page is told: the state of everything, as one object.
 
+use super::run::{MOST, Run};
 use serde::Serialize;
 use std::collections::BTreeMap;
 
@@ -18,8 +19,8 @@ pub struct Shown {
     pub problems: Problems,
     /// The params of the last text that was right.
     pub params: Vec<Param>,
-    /// The machine.
-    pub machine: Machine,
+    /// The machines that stand beside each other; as many as may.
+    pub panels: [Panel; MOST],
     /// What the scene's lines cost, once somebody asked.
     pub costs: Costs,
     /// What was built last.
@@ -53,16 +54,48 @@ pub struct File {
 /// What was chosen on the page.
 #[derive(Clone, Debug, Default, Serialize)]
 pub struct Chosen {
-    /// Goes up with each wish: text, values, machine, format or mode.
+    /// Goes up with text and values.
+    pub serial: u64,
+    /// Values of params that are not the text's, in the language's units (radians).
+    pub set: BTreeMap<String, Vec<f64>>,
+    /// The machines.
+    pub runs: Vec<ChosenRun>,
+}
+
+/// A machine that was chosen.
+#[derive(Clone, Debug, Default, Serialize)]
+pub struct ChosenRun {
+    /// Goes up with whatever it hangs on.
     pub serial: u64,
     /// The machine.
-    pub target: String,
+    pub target: &'static str,
     /// The format, if one was asked for.
     pub format: Option<String>,
     /// The mode, if one was asked for.
     pub mode: Option<String>,
-    /// Values of params that are not the text's, in the language's units (radians).
-    pub set: BTreeMap<String, Vec<f64>>,
+    /// Other options, as the command line has them.
+    pub options: String,
+}
+
+impl From<&Run> for ChosenRun {
+    fn from(run: &Run) -> ChosenRun {
+        ChosenRun {
+            serial: run.serial,
+            target: run.target.name,
+            format: run.format.clone(),
+            mode: run.mode.clone(),
+            options: run.options.clone(),
+        }
+    }
+}
+
+/// What is shown of a machine.
+#[derive(Clone, Debug, Default, Serialize)]
+pub struct Panel {
+    /// Its run.
+    pub machine: Machine,
+    /// What is worth choosing there, once somebody asked.
+    pub frontier: Frontier,
 }
 
 /// How far a picture is.
@@ -172,7 +205,7 @@ pub struct Part {
 /// The machine's state.
 #[derive(Clone, Debug, Default, Serialize)]
 pub struct Machine {
-    /// Whose wish it is.
+    /// Whose run it is.
     pub serial: u64,
     /// How far it is.
     pub stage: Stage,
@@ -206,6 +239,21 @@ pub struct Machine {
     pub wrong: Option<String>,
 }
 
+impl Machine {
+    /// Of another run, of which nothing is known yet; the last picture stays until there is
+    /// another.
+    #[must_use]
+    pub fn begun(&self, serial: u64, stage: Stage) -> Machine {
+        Machine {
+            serial,
+            stage,
+            picture: self.picture,
+            size: self.size,
+            ..Machine::default()
+        }
+    }
+}
+
 /// What is known of a plan.
 #[derive(Clone, Debug, Default, Serialize)]
 pub struct Planned {
@@ -223,10 +271,56 @@ pub struct Planned {
     pub goal: Option<f64>,
 }
 
+/// What accuracy costs in time.
+#[derive(Clone, Debug, Default, Serialize)]
+pub struct Frontier {
+    /// Of which run.
+    pub serial: u64,
+    /// How far the search is: `running` until it ends.
+    pub stage: Stage,
+    /// Whether a search is still to begin.
+    pub waits: bool,
+    /// Whether text, values or mode are others by now.
+    pub stale: bool,
+    /// What is worth choosing so far, from the quickest to the slowest.
+    pub points: Vec<Dot>,
+    /// Ways that were run whole so far.
+    pub measured: usize,
+    /// Ways that there are.
+    pub tried: usize,
+    /// Why there is none.
+    pub wrong: Option<String>,
+}
+
+/// A way that is worth choosing, and what was measured of it.
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+pub struct Dot {
+    /// How reals are held.
+    pub format: String,
+    /// Its other options, as the command line has them.
+    pub options: String,
+    /// The machine's time.
+    pub seconds: f64,
+    /// The machine's cycles.
+    pub cycles: u64,
+    /// The share of pixels whose ink is not the native one.
+    pub error: f64,
+    /// How many these are.
+    pub unlike_native: u64,
+    /// Pixels unlike the model's: none, or something is broken.
+    pub unlike_model: u64,
+    /// Bytes of code, tables and memory beside.
+    pub memory: u64,
+    /// The screen's mode.
+    pub mode: String,
+}
+
 /// What lines cost.
 #[derive(Clone, Debug, Default, Serialize)]
 pub struct Costs {
-    /// Of which wish.
+    /// On which machine.
+    pub panel: usize,
+    /// Of which run.
     pub serial: u64,
     /// Goes up with each; 0 where there are none.
     pub count: u64,
@@ -237,6 +331,8 @@ pub struct Costs {
 /// What was built.
 #[derive(Clone, Debug, Default, Serialize)]
 pub struct Built {
+    /// For which machine.
+    pub target: &'static str,
     /// Goes up with each.
     pub count: u64,
     /// The files' names in the scene's directory.

@@ -87,6 +87,14 @@ impl Scene {
         self.edited(&[Edit { at: item, text }])
     }
 
+    /// The same scene with all params folded like constants.
+    #[must_use]
+    pub fn frozen(&self) -> Scene {
+        let mut frozen = self.clone();
+        frozen.options.freeze = Freeze::All;
+        frozen
+    }
+
     /// The same scene with a param folded like a constant.
     pub fn freezing(&self, param: &str) -> Scene {
         let mut options = self.options.clone();

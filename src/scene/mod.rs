@@ -179,6 +179,11 @@ impl Scene {
         })
     }
 
+    /// The values that params have in the place of the text's own.
+    pub fn values(&self) -> &[(String, Vec<f64>)] {
+        &self.options.set
+    }
+
     /// The same scene with an effect replaced by its `else`.
     pub fn leaving_out(&self, effect: &str) -> Scene {
         let mut options = self.options.clone();

@@ -16,11 +16,12 @@ use crate::progress::Progress;
 use crate::scene::{Changes, Scene};
 use crate::target_args::ScreenArgs;
 use crate::tune::cache::Cache;
-use crate::tune::choice::Base;
+use crate::tune::choice::{Base, Choice};
 use crate::tune::effort::Effort;
 use crate::tune::explore::{Found, explore};
 use crate::tune::goal::Measure;
 use crate::tune::marks;
+use crate::tune::rows::Look;
 use crate::tune::search::Search;
 use crate::tune::tell::Told;
 use by_scene::ByScene;
@@ -107,7 +108,8 @@ fn base(path: &Path, target: &'static Target) -> Base {
 
 /// One scene on one machine.
 fn tuned(asked: &Survey, base: &Base) -> Outcome<Section> {
-    let marks = marks::of_scene(&Scene::open(&base.path, &base.changes)?, base)?;
+    let scene = Scene::open(&base.path, &base.changes)?;
+    let marks = marks::of_scene(&scene, base)?;
     let search = Search {
         base: base.clone(),
         measure: asked.measure,
@@ -123,7 +125,8 @@ fn tuned(asked: &Survey, base: &Base) -> Outcome<Section> {
         },
     };
     let found = Arc::new(Mutex::new(Found::default()));
-    explore(&search, &found)?;
+    let mut hear = |choice: &Choice, look: &Look, whole: bool| search.tell(choice, look, whole);
+    explore(&search, scene, &found, &mut hear)?;
     let mut found = found.lock().map(|f| f.clone()).unwrap_or_default();
     // Threads find them in any order.
     found.failed.sort();

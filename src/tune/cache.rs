@@ -29,7 +29,14 @@ impl Cache {
         Cache { dir: None }
     }
 
+    /// The user's; a browser has none.
+    #[cfg(target_family = "wasm")]
+    pub fn of_user() -> Cache {
+        Cache::none()
+    }
+
     /// The user's; none where there is no such directory, or the program cannot read itself.
+    #[cfg(not(target_family = "wasm"))]
     pub fn of_user() -> Cache {
         let program = std::env::current_exe().and_then(std::fs::read);
         let (Some(dir), Ok(program)) = (dirs::cache_dir(), program) else {

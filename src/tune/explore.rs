@@ -49,6 +49,10 @@ struct Scenes {
     frozen: Scene,
 }
 
+/// Who hears what a choice comes to as soon as that is known, and whether that is of the whole
+/// picture: then its point is among what was found.
+pub type Hear<'h> = &'h mut dyn FnMut(&Choice, &Look, bool);
+
 impl Scenes {
     fn of(&self, choice: &Choice) -> &Scene {
         match choice.frozen {
@@ -70,22 +74,28 @@ struct Going<'s> {
 type Rest = (Choice, Look, Mutex<Option<Planned>>);
 
 /// Searches; what is found goes to `found` as it is found, so that it can be told
-/// whenever the user has had enough.
+/// whenever the user has had enough. The scene is as the search's base changes it.
 ///
 /// # Errors
 /// Where the scene is wrong, or the user interrupts: what was found until then stays.
-pub fn explore(search: &Search, found: &Arc<Mutex<Found>>) -> Outcome<()> {
-    let base = &search.base;
-    let live = Scene::open(&base.path, &base.changes)?;
-    live.warn();
-    let frozen = Scene::open(&base.path, &base.changes(true))?;
+pub fn explore(
+    search: &Search,
+    scene: Scene,
+    found: &Arc<Mutex<Found>>,
+    hear: Hear<'_>,
+) -> Outcome<()> {
+    let frozen = scene.frozen();
+    let scenes = Scenes {
+        live: scene,
+        frozen,
+    };
     let going = Going {
         search,
-        scenes: &Scenes { live, frozen },
+        scenes: &scenes,
         natives: &Natives::default(),
         found,
     };
-    let quick = going.quick()?;
+    let quick = going.quick(hear)?;
     let drafts = going.drafts()?;
     let settings: Vec<Setting> = drafts.chosen.iter().map(|d| d.setting).collect();
     let folds = going.folds();
@@ -99,14 +109,14 @@ pub fn explore(search: &Search, found: &Arc<Mutex<Found>>) -> Outcome<()> {
         (f.drafted, f.whole_work) = (drafts.left.clone(), drafts.whole_work);
     });
     let progress = Progress::new("formats", whole.len() as u64);
-    let mut seen = going.begin(whole, &progress)?;
+    let mut seen = going.begin(whole, &progress, hear)?;
     drop(progress);
     let others = going.worth_a_look(others, &seen, &drafts);
     let progress = Progress::new("choices", others.len() as u64);
-    seen.extend(going.begin(others, &progress)?);
+    seen.extend(going.begin(others, &progress, hear)?);
     seen.extend(quick);
     drop(progress);
-    going.run_whole(going.worth_a_run(seen))
+    going.run_whole(going.worth_a_run(seen), hear)
 }
 
 impl Going<'_> {
@@ -122,7 +132,7 @@ impl Going<'_> {
 
     /// A coarse picture, which is there at once: something to look at while settings are
     /// drawn.
-    fn quick(&self) -> Outcome<Option<(Choice, Begun)>> {
+    fn quick(&self, hear: Hear<'_>) -> Outcome<Option<(Choice, Begun)>> {
         let Some(block) = quick_block(self.scenes.live.size()) else {
             return Ok(None);
         };
@@ -138,6 +148,7 @@ impl Going<'_> {
             thrift: 0,
         };
         let begun = self.look(&choice)?;
+        self.heard(&choice, &begun.first, hear);
         // Why it cannot be had is said of the whole picture.
         Ok(matches!(begun.first, First::Whole(_)).then_some((choice, begun)))
     }
@@ -159,37 +170,45 @@ impl Going<'_> {
         (self.search.cache).known_or(scene, base.target, &words, work)
     }
 
-    /// A first look at a choice, which is told.
+    /// A first look at a choice.
     fn look(&self, choice: &Choice) -> Outcome<Begun> {
-        let begun = begun(self.search, self.scenes.of(choice), self.natives, choice)?;
-        match &begun.first {
+        begun(self.search, self.scenes.of(choice), self.natives, choice)
+    }
+
+    /// What was seen is kept, where it is a point, and told.
+    fn heard(&self, choice: &Choice, first: &First, hear: Hear<'_>) {
+        match first {
             First::Whole(point) => {
-                let look = Look::of(point, self.measure());
-                self.search.tell(choice, &look, "");
                 note(self.found, |f| f.points.push((**point).clone()));
+                hear(choice, &Look::of(point, self.measure()), true);
             }
-            First::Rows(look) if look.pixels > 0.0 => self.search.tell(choice, look, "about "),
+            First::Rows(look) if look.pixels > 0.0 => hear(choice, look, false),
             First::Rows(_) | First::Not(_) | First::Dear => {}
         }
-        Ok(begun)
     }
 
     /// First looks at choices.
-    fn begin(&self, choices: Vec<Choice>, progress: &Progress) -> Outcome<Vec<(Choice, Begun)>> {
-        let begun = jobs::each(&choices, |choice| {
-            let begun = self.look(choice)?;
-            let why = match &begun.first {
-                First::Not(why) => Some(why.as_str()),
-                First::Dear => Some(TOO_DEAR),
-                _ => None,
-            };
-            if let Some(why) = why {
-                note(self.found, |f| {
-                    f.failed.push((choice.clone(), why.to_owned()))
-                });
-            }
+    fn begin(
+        &self,
+        choices: Vec<Choice>,
+        progress: &Progress,
+        hear: Hear<'_>,
+    ) -> Outcome<Vec<(Choice, Begun)>> {
+        let look = |choice: &Choice| self.look(choice);
+        let begun = jobs::each_told(&choices, look, |choice, begun| {
             progress.step(1);
-            Ok(begun)
+            let Ok(begun) = begun else {
+                return;
+            };
+            self.heard(choice, &begun.first, hear);
+            let why = match &begun.first {
+                First::Not(why) => why.as_str(),
+                First::Dear => TOO_DEAR,
+                First::Whole(_) | First::Rows(_) => return,
+            };
+            note(self.found, |f| {
+                f.failed.push((choice.clone(), why.to_owned()))
+            });
         })?;
         // What cannot be had is told; all else ends the search.
         let begun = begun.into_iter().collect::<Outcome<Vec<Begun>>>()?;
@@ -279,29 +298,32 @@ impl Going<'_> {
     }
 
     /// Runs whole pictures.
-    fn run_whole(&self, rest: Vec<Rest>) -> Outcome<()> {
+    fn run_whole(&self, rest: Vec<Rest>, hear: Hear<'_>) -> Outcome<()> {
         let base = &self.search.base;
         let cycles = |look: &Look| (look.cycles / 1e6) as u64;
         let all = rest.iter().map(|(_, look, _)| cycles(look)).sum();
         let progress = Progress::new("whole pictures", all);
-        let each = jobs::each(&rest, |(choice, look, plan)| {
+        let work = |(choice, _, plan): &Rest| {
             let scene = self.scenes.of(choice);
             let plan = plan.lock().ok().and_then(|mut plan| plan.take());
             let words = self.search.words(choice);
             let work = || tried(self.search, scene, self.natives, choice, plan);
-            let tried: Tried = (self.search.cache).known_or(scene, base.target, &words, work)?;
+            (self.search.cache).known_or(scene, base.target, &words, work)
+        };
+        let each = jobs::each_told(&rest, work, |(choice, look, _), tried| {
             progress.step(cycles(look));
-            if let Ok(point) = &tried {
-                let look = Look::of(point, self.measure());
-                self.search.tell(choice, &look, "");
-            }
+            let Ok(tried) = tried else {
+                return;
+            };
             note(self.found, |f| match tried {
-                Ok(point) => f.points.push(point),
-                Err(why) => f.failed.push((choice.clone(), why)),
+                Ok(point) => f.points.push(point.clone()),
+                Err(why) => f.failed.push((choice.clone(), why.clone())),
             });
-            Ok(())
+            if let Ok(point) = tried {
+                hear(choice, &Look::of(point, self.measure()), true);
+            }
         })?;
-        each.into_iter().collect::<Outcome<Vec<()>>>()?;
+        each.into_iter().collect::<Outcome<Vec<Tried>>>()?;
         Ok(())
     }
 }

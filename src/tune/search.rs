@@ -31,8 +31,9 @@ pub struct Search {
 }
 
 impl Search {
-    /// Says what a choice comes to as soon as that is known.
-    pub fn tell(&self, choice: &Choice, look: &Look, about: &str) {
+    /// Says what a choice comes to, by the whole picture or by some rows.
+    pub fn tell(&self, choice: &Choice, look: &Look, whole: bool) {
+        let about = if whole { "" } else { "about " };
         let time = duration(look.cycles / self.base.hertz());
         let (error, phrase) = (percent(look.error), self.measure.phrase());
         let options = self.base.words(choice).join(" ");

@@ -48,8 +48,12 @@ impl Heard {
     }
 }
 
+fn run(panel: usize, target: &str) -> Value {
+    json!({"panel": panel, "serial": 2, "target": target, "format": null, "mode": null, "options": ""})
+}
+
 fn wish(text: &str) -> Value {
-    json!({"serial": 2, "name": "ball.scn", "text": text, "set": {}, "target": "6502", "format": null, "mode": null})
+    json!({"serial": 2, "name": "ball.scn", "text": text, "set": {}, "run": run(0, "6502")})
 }
 
 #[test]
@@ -69,13 +73,13 @@ fn a_scene_is_drawn_run_counted_and_built() {
     let shown = heard.last();
     assert_eq!(
         (
-            &shown["machine"]["stage"],
-            &shown["machine"]["unlike_model"]
+            &shown["panels"][0]["machine"]["stage"],
+            &shown["panels"][0]["machine"]["unlike_model"]
         ),
         (&json!("done"), &json!(0))
     );
     let bytes = heard.bytes.borrow();
-    for name in ["native.png", "machine.png", "difference.png"] {
+    for name in ["native.png", "1/machine.png", "1/difference.png"] {
         assert!(bytes[name].starts_with(b"\x89PNG"), "{name}");
     }
     let costs: Value = serde_json::from_slice(&bytes["costs"]).expect("JSON");
@@ -123,7 +127,7 @@ fn what_is_wrong_has_its_place() {
     let said = heard.last()["problems"]["text"].to_string();
     assert!(said.contains("this page has none"), "{said}");
     let mut other = wish(BALL);
-    other["target"] = json!("abacus");
+    other["run"]["target"] = json!("abacus");
     for wrong in ["", "{}", &other.to_string()] {
         assert!(worker.draw(wrong, &heard).is_err(), "{wrong}");
     }
@@ -144,7 +148,7 @@ fn a_param_is_set_for_both_pictures() {
     assert_eq!(worker.draw(&set.to_string(), &heard), Ok(true));
     assert!(heard.bytes.borrow()["native.png"] != usual);
     assert_eq!(worker.work("run", &set.to_string(), &heard), Ok(()));
-    assert_eq!(heard.last()["machine"]["unlike_model"], 0);
+    assert_eq!(heard.last()["panels"][0]["machine"]["unlike_model"], 0);
 }
 
 #[test]
@@ -155,5 +159,44 @@ fn a_page_begins_with_machines_and_scenes() {
         about["machines"].as_array().map(Vec::len),
         Some(slowlight_compiler::targets::TARGETS.len())
     );
-    assert_eq!(about["blank"]["machine"]["stage"], "idle");
+    assert_eq!(about["blank"]["panels"][1]["machine"]["stage"], "idle");
+}
+
+#[test]
+fn two_machines_have_plans_of_their_own_and_a_frontier_is_found() {
+    let (mut worker, heard) = (Alone::default(), Heard::default());
+    let (first, mut second) = (wish(BALL), wish(BALL));
+    second["run"] = run(1, "jack");
+    for wish in [&first, &second] {
+        assert_eq!(worker.work("run", &wish.to_string(), &heard), Ok(()));
+    }
+    let shown = heard.last();
+    let targets = [0, 1].map(|k| shown["panels"][k]["machine"]["plan"]["target"].clone());
+    assert_eq!(targets, ["6502:plain", "jack"]);
+    assert_eq!(worker.work("tune", &second.to_string(), &heard), Ok(()));
+    let shown = heard.last();
+    let frontier = &shown["panels"][1]["frontier"];
+    assert_eq!(
+        (&frontier["stage"], &frontier["serial"]),
+        (&json!("done"), &json!(2))
+    );
+    let points = frontier["points"].as_array().expect("points");
+    assert!(points.len() > 2, "{frontier}");
+    assert_eq!(shown["panels"][0]["frontier"]["stage"], "idle");
+    // One is taken.
+    second["run"]["format"] = points[0]["format"].clone();
+    second["run"]["options"] = points[0]["options"].clone();
+    second["run"]["serial"] = json!(3);
+    assert_eq!(worker.work("run", &second.to_string(), &heard), Ok(()));
+    let machine = heard.last()["panels"][1]["machine"].clone();
+    assert_eq!(machine["cycles"], points[0]["cycles"]);
+    // A link may bring anything.
+    second["run"]["options"] = json!("--prelude /");
+    assert_eq!(worker.work("run", &second.to_string(), &heard), Ok(()));
+    let machine = heard.last()["panels"][1]["machine"].clone();
+    assert_eq!(machine["stage"], "wrong");
+    assert!(
+        machine["wrong"].to_string().contains("--prelude"),
+        "{machine}"
+    );
 }

@@ -19,7 +19,7 @@ const SLOW: &str = "image 4096 x 4096 inks black, white;
 draw (x, y) = ink(loop (n = x + y) max 2000 { if n < 0 then n else next(n + 1) } else 1);";
 
 /// What `render` and `run` write.
-fn picture(dir: &Path, args: &[&str]) -> Vec<u8> {
+pub fn picture(dir: &Path, args: &[&str]) -> Vec<u8> {
     success(dir, &[args, &["-o", "there.png"]].concat());
     std::fs::read(dir.join("there.png")).expect("a picture")
 }
@@ -127,7 +127,7 @@ fn the_machines_picture_is_what_run_shows() {
     let dir = directory(&[("ball.scn", BALL)]);
     let live = Live::begin(dir.path(), &["ball.scn", "--target", "6502"]);
     let shown = live.run(1);
-    let machine = &shown["machine"];
+    let machine = &shown["panels"][0]["machine"];
     let run = json(dir.path(), &["run", "ball.scn", "-t", "6502", "--json"]);
     for (mine, its) in [
         (&machine["cycles"], "cycles"),
@@ -140,16 +140,26 @@ fn the_machines_picture_is_what_run_shows() {
     assert_eq!(machine["unlike_model"], 0);
     assert!(machine["plan"]["expected"].is_number());
     let there = picture(dir.path(), &["run", "ball.scn", "-t", "6502"]);
-    assert_eq!(live.get("machine.png").1, there);
+    assert_eq!(live.get("1/machine.png").1, there);
     // Another machine, in a format of its own.
-    let shown = live.run(live.edit(json!({"target": "jack", "format": "log10"})));
-    let planned = &shown["machine"]["plan"];
+    let other = json!({"runs": [{"target": "jack", "format": "log10"}]});
+    let shown = live.run(live.edit(other));
+    let planned = &shown["panels"][0]["machine"]["plan"];
     assert_eq!(
         (&planned["target"], &planned["format"]),
         (&"jack".into(), &"log10".into())
     );
-    let (status, said) = live.post("edit", &json!({"page": "test", "target": "pdp"}));
-    assert_eq!((status, &said["wrong"]), (400, &"no target `pdp`".into()));
+    for (runs, wrong) in [
+        (json!([{"target": "pdp"}]), "no target `pdp`"),
+        (json!([]), "there are one machine or two"),
+        (
+            json!([{"target": "jack"}, {"target": "jack"}, {"target": "jack"}]),
+            "there are one machine or two",
+        ),
+    ] {
+        let (status, said) = live.post("edit", &json!({"page": "test", "runs": runs}));
+        assert_eq!((status, &said["wrong"]), (400, &wrong.into()));
+    }
 }
 
 #[test]
@@ -171,7 +181,7 @@ fn of_many_edits_the_last_stands_and_one_machine_runs() {
     let render = picture(dir.path(), &["render", "last.scn"]);
     assert_eq!(live.get("native.png").1, render);
     let run = json(dir.path(), &["run", "last.scn", "-t", "6502", "--json"]);
-    assert_eq!(shown["machine"]["cycles"], run["cycles"]);
+    assert_eq!(shown["panels"][0]["machine"]["cycles"], run["cycles"]);
     #[cfg(target_os = "linux")]
     {
         let after = live.threads();

@@ -32,6 +32,7 @@ impl Live {
             .arg("live")
             .args(args)
             .current_dir(dir)
+            .env("XDG_CACHE_HOME", env!("CARGO_TARGET_TMPDIR"))
             .stdout(Stdio::piped())
             .stderr(Stdio::null())
             .spawn()
@@ -124,9 +125,7 @@ impl Live {
     }
 
     pub fn run(&self, serial: u64) -> Value {
-        self.until("a machine's picture", |shown| {
-            shown["machine"]["serial"] == serial && shown["machine"]["stage"] == "done"
-        })
+        self.until("a machine's picture", |shown| is_run(shown, 0, serial))
     }
 
     /// Threads of the process by name.
@@ -147,4 +146,10 @@ impl Live {
         assert!(kill.expect("kill runs").success());
         self.child.wait().expect("it ends")
     }
+}
+
+/// Whether a machine has run its program for a wish.
+pub fn is_run(shown: &Value, panel: usize, serial: u64) -> bool {
+    let machine = &shown["panels"][panel]["machine"];
+    machine["serial"] == serial && machine["stage"] == "done"
 }

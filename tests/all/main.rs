@@ -47,6 +47,7 @@ mod library;
 mod listing;
 mod live;
 mod live_client;
+mod live_machines;
 mod lsp;
 mod lsp_client;
 mod lsp_edits;

@@ -70,6 +70,27 @@ fn holds(found: &Value) {
     let cost = &found["cost"];
     assert_eq!(cost["title"], "Line 5");
     assert!(cost["gutter"].as_u64() >= Some(3), "{cost}");
+    let frontier = &found["frontier"];
+    assert_eq!(frontier["busy"], "Stop the search");
+    assert!(
+        frontier["rows"].as_u64() > Some(2) && frontier["dots"] == frontier["rows"],
+        "{frontier}"
+    );
+    // What was taken is run with its options, and takes what was measured.
+    assert!(frontier["options"].to_string().contains("--"), "{frontier}");
+    assert_eq!(frontier["cycles"], frontier["row"], "{frontier}");
+    let older = frontier["older"].to_string();
+    assert!(older.contains("as it was"), "{older}");
+    let said = frontier["said"].to_string();
+    assert!(said.contains("of the pixels"), "{said}");
+    let second = &found["second"];
+    assert_eq!(second["names"], json!(["6502:plain", "6502:bbc"]));
+    assert_ne!(second["cycles"][0], second["cycles"][1], "{second}");
+    assert!(second["shown"].as_u64() > Some(0), "{second}");
+    assert!(
+        second["built"].to_string().contains("6502:bbc: "),
+        "{second}"
+    );
     let keys = found["keys"].to_string();
     assert!(!keys.starts_with("[\"cm-content"), "{keys}");
     assert!(keys.contains("costs") && keys.contains("build"), "{keys}");
@@ -126,9 +147,10 @@ fn the_page_by_itself_does_the_same_from_a_file_server() {
     let (_files, address) = served(&root.join("target"));
     let scene = dir.path().join("ring.scn");
     let found = worked(&format!("{address}site/"), "alone", Some(&scene));
-    let files = found["files"].to_string();
-    assert!(files.contains("ring.asm"), "{files}");
-    assert!(found["files"]["bytes"].as_u64() > Some(0), "{files}");
+    let files = &found["files"];
+    assert_eq!(files["saved"], "ring.ssd", "{files}");
+    assert!(files["bytes"].as_u64() > Some(0), "{files}");
+    assert_eq!(files["first"], json!(["ring.asm", "ring.prg"]));
     let restored = &found["restored"];
     assert_eq!(
         (&restored["text"], &restored["target"]),

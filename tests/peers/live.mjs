@@ -12,6 +12,8 @@
 //   "problem"     what is said of a mistake, and where the editor marks it
 //   "dragged"     whether the native picture changed while a slider was moved, and what was kept
 //   "rows"        the rows at which the machine's picture was seen to grow
+//   "frontier"    what is said of a search, its points as dots and rows, and of one that is taken
+//   "second"      a second machine's name, cycles and picture, and what was built for it
 //   "cost"        what is said of a line after a click beside it
 //   "keys"        what has the focus after Escape and Tab in the editor, and what Tab then reaches
 //   "width"       the width of the page on a screen of 390 pixels
@@ -39,7 +41,7 @@ const axe = readFileSync(require.resolve("axe-core/axe.min.js"), "utf8");
 const pause = (ms) => new Promise((done) => setTimeout(done, ms));
 
 // Whatever hangs, somebody is told.
-setTimeout(() => { process.stderr.write("no end in five minutes\n"); process.exit(3); }, 300000).unref();
+setTimeout(() => { process.stderr.write("no end in ten minutes\n"); process.exit(3); }, 600000).unref();
 
 const link = (given) => address + "#s=" + deflateRawSync(JSON.stringify(given)).toString("base64url");
 const first = scene ? link({ name: path.basename(scene, ".scn"), text: readFileSync(scene, "utf8"), target: "6502" }) : address;
@@ -65,9 +67,12 @@ try {
   await page.evaluateOnNewDocument(() => {
     window.times = {};
     document.addEventListener("DOMContentLoaded", () => {
-      const said = document.getElementById("machine-said");
-      new MutationObserver(() => { window.times[said.textContent.split(",")[0]] ??= performance.now(); })
-        .observe(said, { childList: true, subtree: true, characterData: true });
+      // The page makes what each machine has.
+      const heard = () => {
+        const said = document.getElementById("machine-said");
+        if (said) window.times[said.textContent.split(",")[0]] ??= performance.now();
+      };
+      new MutationObserver(heard).observe(document.body, { childList: true, subtree: true, characterData: true });
     });
   });
   await page.goto(first, { waitUntil: "load" });
@@ -75,7 +80,7 @@ try {
   const source = (id) => page.$eval("#" + id, (image) => image.getAttribute("src") ?? "");
   const words = (id) => page.$eval("#" + id, (e) => e.textContent);
   const until = (what, holds, ...given) =>
-    page.waitForFunction(holds, { timeout: 60000, polling: 20 }, ...given).catch((e) => { throw new Error(what + ": " + e); });
+    page.waitForFunction(holds, { timeout: 180000, polling: 20 }, ...given).catch((e) => { throw new Error(what + ": " + e); });
   const native = () => until("a native picture", () => /, in \d+ ms/.test(document.getElementById("native-said").textContent));
   const done = () => until("the machine's figures", () => document.getElementById("figures").textContent.includes("unlike the model"));
   // axe-core is no script of the page's, which allows none but its own.
@@ -170,6 +175,10 @@ try {
   out.cost = { title: await words("line-title"), said: await words("line-said"), gutter: await page.$$eval(".cost", (all) => all.length) };
   await page.screenshot({ path: stem + "-costs.png" });
 
+  const with_page = { until, words, look, done };
+  await costs_of_accuracy(page, out, with_page);
+  await second_machine(page, out, with_page);
+
   // The keyboard leaves the editor, and reaches everything.
   await page.focus(".cm-content");
   await page.keyboard.press("Escape");
@@ -190,17 +199,80 @@ try {
   await page.emulateMediaFeatures([{ name: "prefers-color-scheme", value: "dark" }]);
   await pause(200);
   out.luma.dark = await luma();
-  await page.screenshot({ path: stem + "-dark.png" });
+  await page.screenshot({ path: stem + "-dark.png", fullPage: true });
   await look("dark");
   await page.setViewport({ width: 390, height: 844 });
   await pause(300);
   out.width = await page.evaluate(() => document.documentElement.scrollWidth);
   await page.screenshot({ path: stem + "-small.png", fullPage: true });
   await look("small");
+  // Another value: what accuracy costs is that of the scene as it was.
+  await page.focus("#sliders input[type=range]");
+  await page.keyboard.press("ArrowRight");
+  await until("an older frontier", () => document.querySelector(".frontier.stale #points input:disabled"));
+  out.frontier.older = await words("frontier-said");
+  await look("older");
   if (scene) await by_itself(page, out, until, words);
   process.stdout.write(JSON.stringify({ errors, asked, ...out }));
 } finally {
   await browser.close();
+}
+
+// What accuracy costs, and a point of it, by the keyboard alone: it is taken while the search
+// goes on, which is then stopped.
+async function costs_of_accuracy(page, out, { until, words, look, done }) {
+  const press = async (id) => {
+    await page.focus("#" + id);
+    await page.keyboard.press("Enter");
+  };
+  const points = () => page.$$eval("#points tr", (all) => all.length);
+  await press("tune");
+  await until("a search", () => /Searching/.test(document.getElementById("frontier-said").textContent));
+  out.frontier = { busy: await words("tune") };
+  await until("points", () => document.querySelectorAll("#points tr").length > 2);
+  out.frontier.dots = await page.$$eval("#plot .point", (all) => all.length);
+  out.frontier.rows = await points();
+  await page.focus("#points input");
+  await page.keyboard.press("Space");
+  await until("a point's figures", () => document.getElementById("point-said").textContent !== "");
+  out.frontier.said = await words("point-said");
+  if ((await words("tune")) === "Stop the search") await press("tune");
+  await until("its end", () => document.getElementById("tune").textContent === "Search again");
+  await until("its run", () => document.getElementById("options").textContent !== "");
+  await done();
+  out.frontier.options = await words("options");
+  out.frontier.cycles = await page.$eval("#figures dd", (e) => e.textContent);
+  out.frontier.row = await page.$eval("#points tr.taken td", (e) => e.textContent);
+  // Another is taken by a click on its dot.
+  out.frontier.clicked = await page.evaluate(() => {
+    const other = document.querySelector("#plot .point:not(.taken) .reach");
+    other.dispatchEvent(new MouseEvent("click", { bubbles: true }));
+    return other.parentNode.dataset.point;
+  });
+  await until("another point", (k) => document.querySelectorAll("#points tr")[k].classList.contains("taken"), out.frontier.clicked);
+  await done();
+  await page.focus("#points input:checked");
+  await page.screenshot({ path: stem + "-frontier.png" });
+  await page.evaluate(() => scrollTo(0, 0));
+  await look("frontier");
+}
+
+// A second machine, chosen by the keyboard; its program is built.
+async function second_machine(page, out, { until, words, look }) {
+  await page.focus("#target-2");
+  await page.keyboard.type("6502:bbc");
+  await page.keyboard.press("Enter");
+  await until("a second machine", () => document.getElementById("figures-2").textContent.includes("unlike the model"));
+  await page.focus("#build-2");
+  await page.keyboard.press("Enter");
+  await until("files", () => /ssd/.test(document.getElementById("built").textContent));
+  out.second = {
+    names: [await words("machine-name"), await words("machine-name-2")],
+    cycles: await page.evaluate(() => ["figures", "figures-2"].map((id) => document.querySelector("#" + id + " dd").textContent)),
+    built: await words("built"), shown: await page.$eval("#machine-2", (e) => e.naturalWidth),
+  };
+  await page.screenshot({ path: stem + "-two.png", fullPage: true });
+  await look("two");
 }
 
 // What only a page by itself has.
@@ -208,8 +280,7 @@ async function by_itself(page, out, until, words) {
   const text = () => page.$$eval(".cm-line", (all) => all.map((l) => l.textContent).join("\n"));
   await page.setViewport({ width: 1280, height: 860 });
   await until("figures", () => document.getElementById("figures").textContent.includes("unlike the model"));
-  await page.click("#build");
-  await until("files", () => document.querySelector("#built button"));
+  // The disc of the second machine is there to be saved.
   const folder = mkdtempSync(path.join(tmpdir(), "slowlight-"));
   const session = await page.createCDPSession();
   await session.send("Browser.setDownloadBehavior", { behavior: "allow", downloadPath: folder });
@@ -218,15 +289,19 @@ async function by_itself(page, out, until, words) {
   for (let k = 0; k < 200 && !arrived(); k++) await pause(50);
   out.files = { names: await page.$$eval("#built button", (all) => all.map((b) => b.textContent)), saved: arrived(), bytes: statSync(path.join(folder, arrived())).size };
   rmSync(folder, { recursive: true });
+  await page.click("#build");
+  await until("the first one's files", () => document.getElementById("built").textContent.startsWith("6502:plain"));
+  out.files.first = await page.$$eval("#built button", (all) => all.map((b) => b.textContent));
 
   // The address has all that was written since; another page is opened there.
   await pause(500);
-  const [was, href, chosen] = [await text(), page.url(), await page.$eval("#target", (e) => e.value)];
+  const [was, href] = [await text(), page.url()];
   const other = await page.browser().newPage();
   await other.goto(href, { waitUntil: "load" });
   await other.waitForFunction(() => /, in \d+ ms/.test(document.getElementById("native-said").textContent), { timeout: 60000 });
   const again = await other.$$eval(".cm-line", (all) => all.map((l) => l.textContent).join("\n"));
-  out.restored = { text: again === was, length: href.length, target: (await other.$eval("#target", (e) => e.value)) === chosen };
+  const machines = (of) => of.evaluate(() => ["target", "format", "target-2"].map((id) => document.getElementById(id).value).join() + document.getElementById("options").textContent);
+  out.restored = { text: again === was, length: href.length, target: (await machines(other)) === (await machines(page)) };
   await other.close();
 
   out.gallery = { names: await page.$$eval("#scene option", (all) => all.map((o) => o.textContent)) };

@@ -25,9 +25,11 @@ const browser = await puppeteer.launch({
 function watch() {
   window.times = {};
   document.addEventListener("DOMContentLoaded", () => {
-    const said = document.getElementById("machine-said");
-    const heard = () => { window.times[said.textContent.split(",")[0]] ??= performance.now(); };
-    new MutationObserver(heard).observe(said, { childList: true, subtree: true, characterData: true });
+    const heard = () => {
+      const said = document.getElementById("machine-said");
+      if (said) window.times[said.textContent.split(",")[0]] ??= performance.now();
+    };
+    new MutationObserver(heard).observe(document.body, { childList: true, subtree: true, characterData: true });
   });
 }
 
@@ -37,7 +39,7 @@ async function once(scene) {
     await page.evaluateOnNewDocument(watch);
     const given = { name: path.basename(scene, ".scn"), text: readFileSync(scene, "utf8"), target };
     await page.goto(address + "#s=" + deflateRawSync(JSON.stringify(given)).toString("base64url"));
-    await page.waitForFunction(() => document.getElementById("figures").textContent.includes("unlike the model"), { timeout: 300000 });
+    await page.waitForFunction(() => document.getElementById("figures")?.textContent.includes("unlike the model"), { timeout: 300000 });
     const times = await page.evaluate(() => window.times);
     const words = (id) => page.$eval(id, (e) => e.textContent);
     const cycles = Number((await words("#figures dd")).replaceAll(",", ""));

@@ -26,6 +26,8 @@ drawing.told = drawn;
 const urls = new Map();
 const files = new Map();
 const counts = { native: 0, machine: 0, costs: 0, built: 0 };
+// What is shown of a machine of which nothing is known.
+const blank = () => structuredClone(about.blank.panels[0]);
 const heard = [];
 let costs = null;
 let ready = 0;
@@ -33,13 +35,15 @@ let tasks = [];
 let rest = 0;
 let patience = 0;
 
-const shown = about.blank;
+const shown = structuredClone(about.blank);
 shown.file.saved = true;
-const wish = { serial: 1, name: "", text: "", set: {}, target: about.machines[0].name, format: null, mode: null };
+const wish = { serial: 1, name: "", text: "", set: {}, runs: [] };
+// The last number of a wish or a machine's run.
+let last = 1;
 shown.text = { revision: 1, by: "link" };
 
 function scene(name) {
-  return { ...about.gallery.find((s) => s.name === name), set: {} };
+  return { ...about.gallery.find((s) => s.name === name), set: {}, runs: [] };
 }
 
 function fromLink() {
@@ -52,38 +56,93 @@ function fromLink() {
   }
 }
 
-// Takes what a link or the gallery has.
-function begin({ name, text, target, format, mode, set }) {
-  const machine = about.machines.find((m) => m.name === target || m.name.split(":")[0] === target);
+// Takes what a link or the gallery has; where it names no machine, those that are there stay,
+// without what was taken there of what another scene costs.
+function begin({ name, text, runs, set }) {
   Object.assign(wish, { name: (name || "scene").slice(0, 80), text, set });
-  if (machine) {
-    wish.target = machine.name;
-    wish.format = machine.formats.includes(format) ? format : null;
-    wish.mode = machine.modes.some((m) => m.name === mode) ? mode : null;
-  }
+  const named = runs.map(({ target, format, mode, options }) => {
+    const machine = about.machines.find((m) => m.name === target || m.name.split(":")[0] === target);
+    return machine && {
+      target: machine.name, options,
+      format: machine.formats.includes(format) ? format : null,
+      mode: machine.modes.some((m) => m.name === mode) ? mode : null,
+    };
+  }).filter(Boolean);
+  const first = { target: about.machines[0].name, format: null, mode: null, options: "" };
+  const there = wish.runs.map((run) => (run.options ? { ...run, format: null, options: "" } : run));
   shown.file.name = wish.name + ".scn";
   shown.text = { revision: shown.text.revision + 1, by: "link" };
-  wished();
+  wished(named.length ? named : there.length ? there : [first], true, true);
 }
 
-// A wish has come: what is done for older ones is in vain.
-function wished() {
-  wish.serial += 1;
-  const { serial, target, format, mode, set } = wish;
-  shown.chosen = { serial, target, format, mode, set: { ...set } };
-  tasks = ["run"];
-  if (running.doing) running.stop();
+const like = (a, b, names) => Boolean(a && b) && names.every((name) => a[name] === b[name]);
+
+// A wish has come, for all (`whole`) or for those machines that are others than before: what is
+// done for older ones is in vain. Where text or values are others (`other`), what accuracy costs
+// is known of an older scene alone.
+function wished(runs, whole, other) {
+  last += 1;
+  whole ||= shown.native.stage === "stopped";
+  const before = wish.runs;
+  wish.runs = runs.slice(0, 2).map(({ target, format, mode, options }, panel) => {
+    const run = { panel, serial: last, target, format, mode, options };
+    const same = !whole && like(run, before[panel], ["target", "format", "mode", "options"]);
+    return same ? before[panel] : run;
+  });
+  for (const panel of [0, 1]) {
+    const [now, old] = [wish.runs[panel], before[panel]];
+    if (!now) {
+      shown.panels[panel] = blank();
+      noMore(panel, () => true);
+    } else if (now !== old) {
+      const same = !other && like(now, old, ["target", "mode"]);
+      const { frontier } = shown.panels[panel];
+      if (like(now, old, ["target"])) frontier.stale ||= !same;
+      else shown.panels[panel].frontier = blank().frontier;
+      // A search goes on while others of its points are looked at.
+      noMore(panel, (task) => whole || !same || task !== "tune");
+      queue("run", panel);
+    }
+  }
+  if (whole) {
+    wish.serial = last;
+    clearTimeout(patience);
+    if (drawing.doing) patience = setTimeout(overtake, PATIENCE);
+    else draw();
+  }
+  shown.chosen = { serial: wish.serial, set: { ...wish.set }, runs: wish.runs };
   clearTimeout(rest);
-  clearTimeout(patience);
-  if (drawing.doing) patience = setTimeout(overtake, PATIENCE);
-  else draw();
   rest = setTimeout(rested, REST);
   link();
   tell();
 }
 
-function asked() {
-  return { ...wish, name: shown.file.name };
+// Something is to be done for a machine; whoever asked for more than runs waits for these.
+function queue(task, panel) {
+  const now = running.doing;
+  const doing = now?.task === task && now.panel === panel && now.serial === wish.runs[panel]?.serial;
+  if (!doing && !tasks.some((t) => t.task === task && t.panel === panel)) tasks.push({ task, panel });
+  tasks.sort((a, b) => (a.task !== "run") - (b.task !== "run"));
+}
+
+// Nothing of some kind is done for a machine any more.
+function noMore(panel, kind) {
+  tasks = tasks.filter((t) => t.panel !== panel || !kind(t.task));
+  if (running.doing?.panel === panel && kind(running.doing.task)) halt();
+}
+
+// Ends what the machines' worker does.
+function halt() {
+  const { task, panel } = running.doing;
+  running.stop();
+  const { machine, frontier } = shown.panels[panel];
+  if (task === "tune" && frontier.stage === "running") frontier.stage = "stopped";
+  machine.at_work = 0;
+}
+
+function asked(run) {
+  const { serial, text, set } = wish;
+  return { serial, name: shown.file.name, text, set, run };
 }
 
 function draw() {
@@ -104,9 +163,9 @@ function rested() {
 // The next thing for a machine, of a wish that has rested and is right.
 function work() {
   if (rest || running.doing || ready !== wish.serial || !tasks.length) return;
-  const task = tasks.shift();
+  const { task, panel } = tasks.shift();
   if (task === "build") files.clear();
-  running.does(task, asked(), shown.machine.stage);
+  running.does(task, asked(wish.runs[panel]), shown.panels[panel].machine.stage);
 }
 
 // What a worker's end was for.
@@ -130,7 +189,7 @@ function drawn(said, of) {
   } else if (said.shown) {
     const { native, problems, params } = said.shown;
     Object.assign(shown, { native: { ...native, picture: counts.native }, problems, params });
-    if (native.stage === "wrong") shown.machine.stage = "idle";
+    if (native.stage === "wrong") for (const panel of shown.panels) panel.machine.stage = "idle";
   } else {
     const serial = of?.serial ?? wish.serial;
     if (said.broken) Object.assign(shown.native, { serial, stage: "wrong", wrong: broken(said.broken) });
@@ -142,6 +201,7 @@ function drawn(said, of) {
 }
 
 function ran(said, of) {
+  const panel = shown.panels[of?.panel ?? 0];
   if (said.file) {
     files.set(said.file, said.bytes);
   } else if (said.name === "costs") {
@@ -149,14 +209,20 @@ function ran(said, of) {
     counts.costs += 1;
   } else if (said.bytes) {
     keep(said.name, said.bytes);
-    if (said.name === "machine.png") counts.machine += 1;
-  } else if (said.shown) {
-    const { machine, costs: cost, built } = said.shown;
-    Object.assign(shown, { machine: { ...figured(machine, of), picture: counts.machine }, costs: { ...cost, count: counts.costs } });
-    if (of?.task === "build" && built) shown.built = { ...built, count: counts.built + 1 };
-  } else {
+    counts.machine += 1;
+    if (said.name.endsWith("machine.png")) panel.machine.picture = counts.machine;
+  } else if (said.shown && of) {
+    const { panels, costs: cost, built } = said.shown;
+    const { machine, frontier } = panels[of.panel];
+    // A search's worker knows nothing of what ran before it, and whoever runs nothing of a search.
+    if (of.task === "tune") panel.frontier = frontier;
+    else panel.machine = { ...figured(machine, panel.machine, of), picture: panel.machine.picture };
+    if (of.task === "costs") shown.costs = { ...cost, count: counts.costs };
+    if (of.task === "build" && built) shown.built = { ...built, count: counts.built + 1 };
+  } else if (!said.shown) {
     const serial = of?.serial ?? wish.serial;
-    if (said.broken) Object.assign(shown.machine, { serial, stage: "wrong", wrong: broken(said.broken), at_work: 0 });
+    if (said.broken && of?.task === "tune") Object.assign(panel.frontier, { stage: "wrong", wrong: broken(said.broken) });
+    else if (said.broken) Object.assign(panel.machine, { serial, stage: "wrong", wrong: broken(said.broken), at_work: 0 });
     if (of?.task === "build") counts.built += 1;
     work();
   }
@@ -169,13 +235,15 @@ function tell() {
   telling = true;
   setTimeout(() => {
     telling = false;
+    shown.panels.forEach((panel, k) => { panel.frontier.waits = tasks.some((t) => t.task === "tune" && t.panel === k); });
     for (const each of heard) each({ ...shown });
   });
 }
 
 function hash() {
-  const { name, text, target, format, mode, set } = wish;
-  return pack({ name, text, target, format, mode, set });
+  const { name, text, set } = wish;
+  const runs = wish.runs.map(({ target, format, mode, options }) => ({ target, format, mode, options }));
+  return pack({ name, text, runs, set });
 }
 
 let linking = 0;
@@ -206,44 +274,42 @@ export async function get(path) {
   throw new Error("there is nothing of that name");
 }
 
-export async function want(change) {
-  const { text, set, target, format, mode } = change;
+export async function want({ text, set, runs }) {
   // What was wrong with a link has been read by who goes on.
   shown.file.wrong = null;
+  let other = false;
   if (text !== undefined && text !== wish.text) {
     wish.text = text;
     shown.text = { revision: shown.text.revision + 1, by: me };
+    other = true;
   }
-  if (set !== undefined) wish.set = set;
-  if (target !== undefined) Object.assign(wish, { target, format: null, mode: null });
-  if (format !== undefined) wish.format = format;
-  if (mode !== undefined) wish.mode = mode;
-  wished();
+  if (set !== undefined) [wish.set, other] = [set, true];
+  wished(runs ?? wish.runs, other || !runs, other);
 }
 
 export async function post(path, body = {}) {
   if (path === "save") download(shown.file.name, body.text);
-  if (path === "run") wished();
+  if (path === "run") wished(wish.runs, true, false);
   if (path === "stop") stop();
-  if (path === "costs" || path === "build") ask(path);
+  if (path === "stop-search") {
+    noMore(body.panel, (task) => task === "tune");
+    work();
+  }
+  if (["costs", "build", "tune"].includes(path) && wish.runs[body.panel]) {
+    queue(path, body.panel);
+    work();
+  }
   tell();
   return { ok: true, status: 200, said: {} };
 }
 
 // A run's figures stay while its lines are counted or its program is written: a worker that
 // stood up since does not know them.
-function figured(machine, of) {
-  const known = shown.machine;
+function figured(machine, known, of) {
   if (!of || of.task === "run" || known.serial !== machine.serial) return machine;
   const { stage, at_work, plan } = machine;
   const ended = !["planning", "counting", "building"].includes(stage);
   return { ...known, stage: ended ? of.before : stage, at_work, plan: plan ?? known.plan };
-}
-
-function ask(task) {
-  const now = running.doing;
-  if (!tasks.includes(task) && !(now?.task === task && now.serial === wish.serial)) tasks.push(task);
-  work();
 }
 
 function stop() {
@@ -252,8 +318,13 @@ function stop() {
     drawing.stop();
     shown.native.stage = "stopped";
   }
-  if (running.doing) running.stop();
-  if (!["done", "wrong"].includes(shown.machine.stage)) Object.assign(shown.machine, { stage: "stopped", at_work: 0 });
+  if (running.doing) halt();
+  for (const { panel, serial } of wish.runs) {
+    const { machine } = shown.panels[panel];
+    const { picture, size } = machine;
+    if (machine.serial !== serial) Object.assign(machine, blank().machine, { serial, picture, size, stage: "stopped" });
+    else if (!["done", "wrong"].includes(machine.stage)) Object.assign(machine, { stage: "stopped", at_work: 0 });
+  }
 }
 
 export const isSending = () => false;

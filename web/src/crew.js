@@ -49,7 +49,7 @@ export class Crew {
   // Does something; whoever asks has seen that nothing is being done. `before`: the stage that
   // its end leads back to.
   does(task, wish, before) {
-    this.doing = { task, serial: wish.serial, before };
+    this.doing = { task, serial: wish.run?.serial ?? wish.serial, panel: wish.run?.panel, before };
     this.worker.postMessage({ task, wish: JSON.stringify(wish) });
   }
 

@@ -57,5 +57,8 @@ export function unpack(hash) {
   for (const [name, values] of Object.entries(found.set ?? {})) {
     if (Array.isArray(values) && values.length <= 4 && values.every(Number.isFinite)) set[name] = values;
   }
-  return { name: word(found.name), text: scene, target: word(found.target), format: word(found.format), mode: word(found.mode), set };
+  // Links of before there were two machines have the one beside the text.
+  const runs = (Array.isArray(found.runs) ? found.runs : [found]).slice(0, 2).map((run) => (
+    { target: word(run?.target), format: word(run?.format), mode: word(run?.mode), options: word(run?.options) ?? "" }));
+  return { name: word(found.name), text: scene, runs, set };
 }

@@ -8,6 +8,7 @@ let report = null;
 let known = 0;
 let asked = null;
 let state = null;
+let panel = 0;
 
 const place = (id) => document.getElementById(id);
 
@@ -16,10 +17,12 @@ export function begin(of) {
   editor = of;
 }
 
-// Counts, if it was not done, and then tells of a line.
-export function look(line) {
+// Counts on a machine, if it was not done, and then tells of a line; on the last one asked for
+// where none is said.
+export function look(line, on = panel) {
   asked = line;
-  if (!isKnown()) post("costs");
+  panel = state?.chosen.runs[on] ? on : 0;
+  if (!isKnown()) post("costs", { panel });
   tell();
 }
 
@@ -31,7 +34,7 @@ export function at(line) {
 }
 
 // Whether what was counted is of the text, values, machine and format that are chosen.
-const isOfThese = () => state?.costs.serial === state?.chosen.serial;
+const isOfThese = () => state?.costs.panel === panel && state?.costs.serial === state?.chosen.runs[panel]?.serial;
 const isKnown = () => report !== null && !state?.costs.wrong && isOfThese();
 
 // Takes the news.
@@ -53,10 +56,11 @@ export async function showCosts(shown) {
 const own = () => (report?.lines ?? []).filter((line) => line.file === state.file.name);
 
 function tell() {
-  const panel = place("line");
-  panel.hidden = asked === null || !state;
-  if (panel.hidden) return;
-  say("line-title", "Line " + asked);
+  const told = place("line");
+  told.hidden = asked === null || !state;
+  if (told.hidden) return;
+  const { runs } = state.chosen;
+  say("line-title", "Line " + asked + (runs.length > 1 && runs[panel] ? " on " + runs[panel].target : ""));
   const said = place("line-said");
   const text = words();
   const key = JSON.stringify(text);
@@ -71,7 +75,7 @@ function tell() {
 function words() {
   if (state.costs.wrong && isOfThese()) return [state.costs.wrong];
   if (!isKnown()) {
-    return [state.machine.stage === "counting" ? "The machine counts what each line takes." : "Press “Cycles by line” to count again: the scene has changed."];
+    return [state.panels[panel].machine.stage === "counting" ? "The machine counts what each line takes." : "Press “Cycles by line” to count again: the scene has changed."];
   }
   const line = own().find((line) => line.line === asked);
   if (!line) return ["Nothing on the machine comes from this line."];

@@ -2,12 +2,12 @@
 
 import { editor as makeEditor } from "./editor.js";
 import { alone, follow, get, isSending, me, post, want } from "./desk.js";
-import { say, showMachine, showNative } from "./pictures.js";
+import { say, showNative } from "./pictures.js";
+import { option, panel } from "./panel.js";
 import { showParams } from "./params.js";
 import * as lines from "./lines.js";
 
 const place = (id) => document.getElementById(id);
-const choices = ["target", "format", "mode"];
 
 const [start, machines] = await Promise.all([get("scene"), get("machines")]);
 let revision = start.revision;
@@ -46,27 +46,20 @@ async function another() {
   editor.become(now.text);
 }
 
-const option = (value, text) => Object.assign(document.createElement("option"), { value, textContent: text });
-
-function showChoices() {
-  const chosen = shown.chosen;
-  const machine = machines.find((m) => m.name === chosen.target);
-  const target = place("target");
-  if (!target.options.length) target.append(...machines.map((m) => option(m.name, m.name)));
-  target.title = machine.about;
-  if (place("format").dataset.of !== machine.name) {
-    place("format").dataset.of = machine.name;
-    place("format").replaceChildren(option("", "automatic"), ...machine.formats.map((f) => option(f, f)));
-    const mode = (m) => option(m.name, m.name + " (" + m.width + " × " + m.height + ", " + m.inks + " inks)");
-    place("mode").replaceChildren(option("", "automatic"), ...machine.modes.map(mode));
-    place("modes").hidden = machine.modes.length === 0;
-  }
-  if (isSending()) return;
-  for (const id of choices) {
-    const value = chosen[id] ?? "";
-    if (place(id).value !== value && document.activeElement !== place(id)) place(id).value = value;
-  }
-}
+// The machines that are wanted: what was chosen here, until slowlight has heard of it.
+let mine = null;
+const runs = () => mine ?? shown.chosen.runs.map(({ target, format, mode, options }) => ({ target, format, mode, options }));
+const panels = [0, 1].map((k) => panel(k, machines, {
+  run(change) {
+    const next = runs();
+    next[k] = { ...next[k], ...change };
+    mine = next.filter((run) => run.target);
+    want({ runs: mine });
+  },
+  ask: (task) => (task === "costs" ? lines.look(editor.line(), k) : post(task, { panel: k })),
+  stop: () => post("stop-search", { panel: k }),
+  formats: () => machines.find((m) => m.name === runs()[k]?.target)?.formats.length ?? 0,
+}));
 
 function showFile() {
   const file = shown.file;
@@ -110,8 +103,9 @@ function showBuilt() {
   const now = shown.built;
   if (!now || now.count === built) return;
   built = now.count;
-  if (alone && !now.wrong) return place("built").replaceChildren("Save: ", ...now.files.map(toSave));
-  say("built", now.wrong ?? "Written to " + shown.file.directory + ": " + now.files.join(", "));
+  const of = shown.chosen.runs.length > 1 ? now.target + ": " : "";
+  if (alone && !now.wrong) return place("built").replaceChildren(of + "Save: ", ...now.files.map(toSave));
+  say("built", of + (now.wrong ?? "Written to " + shown.file.directory + ": " + now.files.join(", ")));
 }
 
 follow((news) => {
@@ -122,11 +116,14 @@ follow((news) => {
     if (shown.text.by === me) revision = shown.text.revision;
     else if (!isSending()) another();
   }
+  if (!isSending()) mine = null;
   showFile();
-  showChoices();
   if (shown.problems.serial === shown.chosen.serial || shown.text.by !== me) showProblems();
   showNative(shown);
-  showMachine(shown, place("unlike").checked);
+  const chosen = mine ? shown.chosen.runs.map((run, k) => ({ ...run, ...mine[k] })) : shown.chosen.runs;
+  const two = chosen.length > 1;
+  document.body.classList.toggle("two", two);
+  const busy = panels.map((panel, k) => panel.show(shown, chosen[k], two)).some(Boolean);
   showParams(shown.params, shown.chosen.set, {
     want: (set) => want({ set }),
     keep(param, text, set) {
@@ -138,10 +135,8 @@ follow((news) => {
   });
   lines.showCosts(shown);
   showBuilt();
-  const busy = ["planning", "running", "comparing", "counting", "building"].includes(shown.machine.stage);
   place("stop").disabled = !busy && shown.native.stage !== "coarse";
-  const ready = shown.native.stage === "done";
-  for (const id of ["run", "costs", "build"]) place(id).disabled = !ready && !(id === "run" && shown.native.stage === "stopped");
+  place("run").disabled = !["done", "stopped"].includes(shown.native.stage);
 });
 
 if (alone) {
@@ -158,17 +153,11 @@ if (alone) {
   });
 }
 
-place("target").addEventListener("change", (e) => want({ target: e.target.value }));
-place("format").addEventListener("change", (e) => want({ format: e.target.value || null }));
-place("mode").addEventListener("change", (e) => want({ mode: e.target.value || null }));
 place("save").addEventListener("click", () => save(false));
 place("force").addEventListener("click", () => save(true));
 place("load").addEventListener("click", () => post("reload"));
 place("run").addEventListener("click", () => post("run"));
 place("stop").addEventListener("click", () => post("stop"));
-place("build").addEventListener("click", () => post("build"));
-place("costs").addEventListener("click", () => lines.look(editor.line()));
-place("unlike").addEventListener("change", (e) => showMachine(shown, e.target.checked));
 addEventListener("keydown", (e) => {
   if (e.defaultPrevented) return;
   const control = e.ctrlKey || e.metaKey;

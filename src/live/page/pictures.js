@@ -1,11 +1,11 @@
-// The two pictures, and the machine's figures.
+// Pictures that are asked for again and again, the native one, and how figures are written.
 
 import { picture as address } from "./desk.js";
 
 const place = (id) => document.getElementById(id);
 
 // An image that is asked for again only once the last one has come.
-function picture(id) {
+export function picture(id) {
   const image = place(id);
   let wanted = "";
   let loading = false;
@@ -32,13 +32,16 @@ function picture(id) {
     image,
     show(src) {
       wanted = src;
+      if (!src) {
+        image.hidden = true;
+        image.removeAttribute("src");
+      }
       load();
     },
   };
 }
 
 const native = picture("native");
-const machine = picture("machine");
 
 const number = new Intl.NumberFormat("en");
 export const count = (n) => number.format(n);
@@ -61,11 +64,6 @@ export function duration(s) {
   if (s < 86400) return whole(s / 3600) + " h " + whole((s % 3600) / 60) + " min";
   return whole(s / 86400) + " d " + whole((s % 86400) / 3600) + " h";
 }
-
-const stages = {
-  idle: "", planning: "planning", running: "running", comparing: "comparing with the model",
-  counting: "counting cycles by line", building: "writing files", done: "", wrong: "", stopped: "stopped",
-};
 
 // Shows a text only where it changed: what is said aloud is said once.
 export function say(id, text) {
@@ -93,82 +91,11 @@ export function showNative(shown) {
   if (wrong) say("native-said", wrong);
 }
 
-export function showMachine(shown, unlike) {
-  const state = shown.machine;
-  const frame = place("machine-frame");
-  const wrong = shown.native.stage === "wrong";
-  const old = state.serial !== shown.chosen.serial || wrong;
-  say("machine-name", shown.chosen.target);
-  frame.classList.toggle("old", state.picture > 0 && (old || state.stage === "planning" || state.stage === "wrong"));
-  if (state.size[0]) frame.style.aspectRatio = state.size.join(" / ");
-  const what = unlike && state.difference && !old ? "difference.png" : "machine.png";
-  if (state.picture) machine.show(address(what, state.picture));
-  machine.image.alt = unlike ? "Where the machine's picture is unlike the native one: darker in red, lighter in blue"
-    : "The machine's picture, " + state.size.join(" by ") + " pixels";
-  let said = wrong ? "waits for a right scene" : old ? "waits" : stages[state.stage];
-  if (state.stage === "running" && !old) said = "running, row " + state.rows + " of " + state.size[1];
-  if (state.stage === "done" && !old) said = state.size.join(" × ");
-  say("machine-said", said);
-  const rows = place("rows");
-  rows.hidden = old || !(state.stage === "running" || state.stage === "planning");
-  if (state.stage === "running") {
-    rows.max = Math.max(1, state.size[1]);
-    rows.value = state.rows;
-  } else {
-    rows.removeAttribute("value");
-  }
-  const complaint = place("machine-wrong");
-  complaint.hidden = old || !state.wrong;
-  say("machine-wrong", old ? "" : state.wrong || "");
-  place("unlike").disabled = !state.difference || old;
-  figures(state, old);
-}
-
-function figures(state, old) {
-  const list = place("figures");
-  const all = old ? [] : facts(state);
-  const text = JSON.stringify(all);
-  if (list.dataset.text === text) return;
-  list.dataset.text = text;
-  list.replaceChildren(...all.map(([name, value, more]) => {
-    const group = document.createElement("div");
-    const term = document.createElement("dt");
-    const data = document.createElement("dd");
-    term.textContent = name;
-    data.textContent = value;
-    if (more) data.append(Object.assign(document.createElement("small"), { textContent: more }));
-    group.append(term, data);
-    return group;
+// Options of the command line in an element, none of them broken at its hyphens.
+export function sayOptions(at, text) {
+  if (at.textContent === text) return;
+  at.replaceChildren(...text.split(/ (?=--)/).flatMap((one, k) => {
+    const span = Object.assign(document.createElement("span"), { textContent: one });
+    return k ? [" ", span] : [span];
   }));
-}
-
-// What is known of the machine's run: name, value, and a word more.
-function facts(state) {
-  const out = [];
-  const [code, tables, ram] = state.bytes;
-  if (state.cycles) {
-    out.push([state.unit || "cycles", count(state.cycles)]);
-    out.push(["machine time", duration(state.seconds)]);
-  }
-  if (state.unlike_native !== null) {
-    const share = percent(state.unlike_native / Math.max(1, state.pixels));
-    out.push(["unlike native", count(state.unlike_native) + " pixels", share + " of " + count(state.pixels)]);
-  }
-  if (code !== null || tables || ram !== null) {
-    const parts = [["code", code], ["tables", tables], ["RAM", ram]].filter((p) => p[1] !== null);
-    const sum = parts.reduce((all, p) => all + p[1], 0);
-    out.push(["memory", count(sum) + " bytes", parts.map((p) => p[0] + " " + count(p[1])).join(", ")]);
-  }
-  if (state.plan) {
-    const mode = state.plan.mode ? "mode " + state.plan.mode + ", " : "";
-    out.push(["format", state.plan.format, mode + state.plan.inks + " inks"]);
-    if (state.plan.expected !== null) {
-      out.push(["expected error", percent(state.plan.expected), "of the pixels; " + percent(state.plan.goal) + " may be"]);
-    }
-  }
-  if (state.unlike_model !== null) {
-    const same = state.unlike_model === 0;
-    out.push(["unlike the model", same ? "none" : count(state.unlike_model), same ? "in any pixel" : "a fault of slowlight's"]);
-  }
-  return out;
 }

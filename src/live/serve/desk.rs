@@ -4,9 +4,11 @@
 //! by which a page asks for what it has not seen.
 
 use super::file::SceneFile;
+use super::queue::{Errand, Queue};
 use crate::interrupt::Job;
-use crate::live::board::{Board, Pictures, Task, Wish};
-use crate::live::shown::{Chosen, File, Shown, Stage};
+use crate::live::board::{Board, Pictures, Task, Views, Wish};
+use crate::live::run::{MOST, Run};
+use crate::live::shown::{Chosen, ChosenRun, File, Frontier, Panel, Shown, Stage};
 use crate::scene::Scene;
 use slowlight_compiler::targets::Target;
 use std::collections::BTreeMap;
@@ -24,12 +26,10 @@ pub struct Change {
     pub text: Option<(String, String)>,
     /// Values of params.
     pub set: Option<BTreeMap<String, Vec<f64>>>,
-    /// The machine.
-    pub target: Option<&'static Target>,
-    /// A format, or none.
-    pub format: Option<Option<String>>,
-    /// A mode, or none.
-    pub mode: Option<Option<String>>,
+    /// The machines, whose places and numbers the desk gives.
+    pub runs: Option<Vec<Run>>,
+    /// Whether other files that the scene uses are no more what they were.
+    pub files: bool,
 }
 
 struct Inner {
@@ -40,13 +40,11 @@ struct Inner {
     version: u64,
     pictures: Pictures,
     drawing: Job,
-    running: Job,
     /// The wish's scene, once it is read, right and drawn.
     ready: Option<(Wish, Arc<Scene>)>,
-    /// What the machines' worker is to do; runs come by themselves.
-    tasks: Vec<Task>,
-    /// What it does, and for which wish.
-    doing: Option<(Task, u64)>,
+    /// The last number of a wish or a run.
+    last: u64,
+    queue: Queue,
     ends: bool,
 }
 
@@ -67,9 +65,14 @@ impl Desk {
             at: Instant::now(),
             text: file.text().into(),
             set: BTreeMap::new(),
-            target,
-            format: None,
-            mode: None,
+            runs: vec![Run {
+                panel: 0,
+                serial: 1,
+                target,
+                format: None,
+                mode: None,
+                options: String::new(),
+            }],
         };
         let mut inner = Inner {
             shown: Shown {
@@ -86,10 +89,9 @@ impl Desk {
             version: 1,
             pictures: Pictures::default(),
             drawing: Job::default(),
-            running: Job::default(),
             ready: None,
-            tasks: vec![Task::Run],
-            doing: None,
+            last: 1,
+            queue: Queue::new(),
             ends: false,
         };
         inner.chosen("file");
@@ -114,36 +116,37 @@ impl Desk {
     /// Takes a wish; answers its number.
     pub fn wish(&self, change: Change) -> u64 {
         let mut inner = self.lock();
-        let Inner { wish, revision, .. } = &mut *inner;
-        wish.serial += 1;
-        wish.at = Instant::now();
+        inner.last += 1;
+        let serial = inner.last;
         let mut by = None;
+        // Without machines of its own it is a wish for all of it, even where that is the same.
+        let stopped = inner.shown.native.stage == Stage::Stopped;
+        let Inner { wish, revision, .. } = &mut *inner;
+        let mut whole = change.runs.is_none() || change.files || stopped;
+        let mut other = change.files;
+        wish.at = Instant::now();
         if let Some((text, page)) = change.text
             && *wish.text != *text
         {
             wish.text = text.into();
             *revision += 1;
             by = Some(page);
+            (whole, other) = (true, true);
         }
-        if let Some(set) = change.set {
+        if let Some(set) = change.set
+            && wish.set != set
+        {
             wish.set = set;
+            (whole, other) = (true, true);
         }
-        if let Some(target) = change.target {
-            wish.target = target;
-            (wish.format, wish.mode) = (None, None);
-        }
-        if let Some(format) = change.format {
-            wish.format = format;
-        }
-        if let Some(mode) = change.mode {
-            wish.mode = mode;
-        }
-        let serial = wish.serial;
         let by = by.unwrap_or_else(|| inner.shown.text.by.clone());
+        if whole {
+            inner.wish.serial = serial;
+            inner.drawing.stop();
+        }
+        let runs = change.runs.unwrap_or_else(|| inner.wish.runs.clone());
+        inner.runs(runs, serial, (whole, other));
         inner.chosen(&by);
-        inner.drawing.stop();
-        inner.running.stop();
-        inner.tasks = vec![Task::Run];
         let saved = self.file.holds(&inner.wish.text);
         inner.shown.file.saved = saved;
         self.seen(inner);
@@ -151,24 +154,34 @@ impl Desk {
     }
 
     /// Asks the machines' worker for something, once it has done what it does now.
-    pub fn ask(&self, task: Task) {
+    pub fn ask(&self, task: Task, panel: usize) {
         let mut inner = self.lock();
-        let is_done_now = inner.doing == Some((task, inner.wish.serial));
-        if !is_done_now && !inner.tasks.contains(&task) {
-            inner.tasks.push(task);
+        if let Some(serial) = inner.wish.runs.get(panel).map(|run| run.serial) {
+            inner.queue.ask((task, panel), serial);
+            self.seen(inner);
         }
-        self.seen(inner);
     }
 
     /// Stops what goes on.
     pub fn stop(&self) {
         let mut inner = self.lock();
         inner.drawing.stop();
-        inner.running.stop();
-        inner.tasks.clear();
-        if !matches!(inner.shown.machine.stage, Stage::Done | Stage::Wrong) {
-            inner.shown.machine.stage = Stage::Stopped;
+        inner.queue.clear();
+        let Inner { wish, shown, .. } = &mut *inner;
+        for (Panel { machine, .. }, run) in shown.panels.iter_mut().zip(&wish.runs) {
+            if machine.serial != run.serial {
+                *machine = machine.begun(run.serial, Stage::Stopped);
+            } else if !matches!(machine.stage, Stage::Done | Stage::Wrong) {
+                machine.stage = Stage::Stopped;
+            }
         }
+        self.seen(inner);
+    }
+
+    /// Stops a machine's search alone: what waits for it has its turn.
+    pub fn stop_search(&self, panel: usize) {
+        let mut inner = self.lock();
+        inner.queue.no_more(panel, |task| task == Task::Tune);
         self.seen(inner);
     }
 
@@ -177,12 +190,16 @@ impl Desk {
         let mut inner = self.lock();
         inner.ends = true;
         inner.drawing.stop();
-        inner.running.stop();
+        inner.queue.clear();
         self.seen(inner);
     }
 
     fn seen(&self, mut inner: MutexGuard<'_, Inner>) {
         inner.version += 1;
+        let Inner { queue, shown, .. } = &mut *inner;
+        for (k, panel) in shown.panels.iter_mut().enumerate() {
+            panel.frontier.waits = queue.has((Task::Tune, k));
+        }
         let version = inner.version;
         drop(inner);
         // Of two that come here at once, the later number stands.
@@ -252,36 +269,40 @@ impl Desk {
     }
 
     /// The next thing for a machine, of a wish that has rested; none at the end.
-    pub fn next_task(&self) -> Option<(Task, Wish, Arc<Scene>, Job)> {
+    pub fn next_task(&self) -> Option<Errand> {
         let mut inner = self.lock();
-        inner.doing = None;
+        inner.queue.idle();
         loop {
             if inner.ends {
                 return None;
             }
             let rested = inner.wish.at.elapsed();
-            let Inner {
-                ready, wish, tasks, ..
-            } = &mut *inner;
-            let ready = ready.as_ref();
-            let current = ready.filter(|(ready, _)| ready.serial == wish.serial);
-            match current {
-                Some((wish, scene)) if rested >= REST && !tasks.is_empty() => {
-                    let found = (tasks.remove(0), wish.clone(), scene.clone());
-                    let job = Job::default();
-                    inner.running = job.clone();
-                    inner.doing = Some((found.0, found.1.serial));
-                    return Some((found.0, found.1, found.2, job));
+            let ready = (inner.ready.as_ref())
+                .filter(|(ready, _)| ready.serial == inner.wish.serial)
+                .map(|(_, scene)| scene.clone());
+            let waited = match (ready, inner.queue.is_empty()) {
+                (Some(scene), false) if rested >= REST => {
+                    let Some((task, panel)) = inner.queue.take() else {
+                        continue;
+                    };
+                    let Some(run) = inner.wish.runs.get(panel).cloned() else {
+                        continue;
+                    };
+                    let job = inner.queue.begin((task, panel), run.serial);
+                    return Some(Errand {
+                        task,
+                        run,
+                        scene,
+                        job,
+                    });
                 }
-                Some(_) if !tasks.is_empty() => {
+                (Some(_), false) => {
                     let waited = self.changed.wait_timeout(inner, REST - rested);
-                    inner = waited.unwrap_or_else(|e| e.into_inner()).0;
+                    waited.map(|waited| waited.0).map_err(|e| e.into_inner().0)
                 }
-                _ => {
-                    let waited = self.changed.wait(inner);
-                    inner = waited.unwrap_or_else(|e| e.into_inner());
-                }
-            }
+                _ => self.changed.wait(inner).map_err(|e| e.into_inner()),
+            };
+            inner = waited.unwrap_or_else(|inner| inner);
         }
     }
 
@@ -314,9 +335,54 @@ impl Board for Desk {
             self.change(inner, change);
         }
     }
+
+    fn show_run(&self, run: &Run, change: impl FnOnce(&mut Shown, &mut Pictures)) {
+        let inner = self.lock();
+        let now = inner.wish.runs.get(run.panel);
+        if now.is_some_and(|now| now.serial == run.serial) {
+            self.change(inner, change);
+        }
+    }
 }
 
 impl Inner {
+    /// Takes machines, all as if they were new (`whole`) or only those that are others than
+    /// before; what was begun for the old ones is in vain. Where text, values or files are
+    /// others (`other`), what accuracy costs is known of an older scene alone.
+    fn runs(&mut self, mut runs: Vec<Run>, serial: u64, (whole, other): (bool, bool)) {
+        runs.truncate(MOST);
+        for (panel, run) in runs.iter_mut().enumerate() {
+            run.panel = panel;
+            let before = self.wish.runs.get(panel);
+            let same = before.filter(|before| !whole && before.is_like(run));
+            run.serial = same.map_or(serial, |before| before.serial);
+        }
+        let before = std::mem::replace(&mut self.wish.runs, runs);
+        for panel in 0..MOST {
+            let (now, before) = (self.wish.runs.get(panel), before.get(panel));
+            let Some(now) = now else {
+                self.shown.panels[panel] = Panel::default();
+                self.pictures.machines[panel] = Views::default();
+                self.queue.no_more(panel, |_| true);
+                continue;
+            };
+            if before.is_some_and(|before| before.serial == now.serial) {
+                continue;
+            }
+            let same = !other && before.is_some_and(|before| now.has_frontier_of(before));
+            let frontier = &mut self.shown.panels[panel].frontier;
+            match before.is_some_and(|before| before.target.name == now.target.name) {
+                true => frontier.stale |= !same,
+                // None of its points can be had there.
+                false => *frontier = Frontier::default(),
+            }
+            // A search goes on while others of its points are looked at.
+            self.queue
+                .no_more(panel, |task| whole || !same || task != Task::Tune);
+            self.queue.ask((Task::Run, panel), now.serial);
+        }
+    }
+
     /// What was chosen is shown.
     fn chosen(&mut self, by: &str) {
         let wish = &self.wish;
@@ -324,10 +390,8 @@ impl Inner {
         by.clone_into(&mut self.shown.text.by);
         self.shown.chosen = Chosen {
             serial: wish.serial,
-            target: wish.target.name.to_owned(),
-            format: wish.format.clone(),
-            mode: wish.mode.clone(),
             set: wish.set.clone(),
+            runs: wish.runs.iter().map(ChosenRun::from).collect(),
         };
     }
 }

@@ -5,6 +5,7 @@ mod file;
 mod guard;
 mod http;
 mod page;
+mod queue;
 mod routes;
 mod watching;
 mod workers;

@@ -7,10 +7,10 @@ use super::watching;
 use crate::files;
 use crate::live::board::{Board, Task};
 use crate::live::choices::machines;
+use crate::live::run::{self, Asked, Run};
 use crate::live::shown::Shown;
 use serde::Deserialize;
 use serde_json::{Value, json};
-use slowlight_compiler::targets::find;
 use std::borrow::Cow;
 use std::collections::BTreeMap;
 
@@ -84,8 +84,10 @@ pub fn got(desk: &Desk, path: &str) -> Answer {
             },
         },
         "native.png" => Answer::png(&desk.pictures().native),
-        "machine.png" => Answer::png(&desk.pictures().machine),
-        "difference.png" => Answer::png(&desk.pictures().difference),
+        "1/machine.png" => Answer::png(&desk.pictures().machines[0].machine),
+        "2/machine.png" => Answer::png(&desk.pictures().machines[1].machine),
+        "1/difference.png" => Answer::png(&desk.pictures().machines[0].difference),
+        "2/difference.png" => Answer::png(&desk.pictures().machines[1].difference),
         name => match page::asset(name) {
             Some(asset) => Answer {
                 status: 200,
@@ -97,7 +99,7 @@ pub fn got(desk: &Desk, path: &str) -> Answer {
     }
 }
 
-/// What an edit may bring; what is not there stays as it is, what is null is none.
+/// What an edit may bring; what is not there stays as it is.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 struct Edit {
@@ -105,16 +107,15 @@ struct Edit {
     page: String,
     text: Option<String>,
     set: Option<BTreeMap<String, Vec<f64>>>,
-    target: Option<String>,
-    #[serde(default, deserialize_with = "present")]
-    format: Option<Option<String>>,
-    #[serde(default, deserialize_with = "present")]
-    mode: Option<Option<String>>,
+    runs: Option<Vec<Asked>>,
 }
 
-/// Null is something else than nothing.
-fn present<'d, D: serde::Deserializer<'d>>(from: D) -> Result<Option<Option<String>>, D::Error> {
-    Option::deserialize(from).map(Some)
+/// Which machine something is wanted of.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Of {
+    #[serde(default)]
+    panel: usize,
 }
 
 /// What saving brings.
@@ -147,8 +148,10 @@ pub fn posted(desk: &Desk, path: &str, body: &[u8]) -> Answer {
         "run" => done(|| {
             desk.wish(Change::default());
         }),
-        "costs" => done(|| desk.ask(Task::Costs)),
-        "build" => done(|| desk.ask(Task::Build)),
+        "costs" => of(body, |panel| desk.ask(Task::Costs, panel)),
+        "build" => of(body, |panel| desk.ask(Task::Build, panel)),
+        "tune" => of(body, |panel| desk.ask(Task::Tune, panel)),
+        "stop-search" => of(body, |panel| desk.stop_search(panel)),
         _ => Answer::text(404, "there is nothing of that name\n"),
     }
 }
@@ -158,14 +161,26 @@ fn done(work: impl FnOnce()) -> Answer {
     Answer::json(200, &json!({}))
 }
 
+/// Does something for the machine that is named.
+fn of(body: &[u8], work: impl FnOnce(usize)) -> Answer {
+    match serde_json::from_slice(body) {
+        Ok(Of { panel }) => done(|| work(panel)),
+        Err(e) => Answer::wrong(&e.to_string()),
+    }
+}
+
 /// An edit as a change, where all that it names is there.
 fn change(edit: Edit) -> Result<Change, String> {
     let too_long = |text: &String| text.len() > files::MAX_BYTES;
     if edit.text.as_ref().is_some_and(too_long) {
         return Err("a scene is no longer than some megabytes".to_owned());
     }
-    let name = edit.target.as_deref();
-    let target = name.map(|name| find(name).ok_or_else(|| format!("no target `{name}`")));
+    let runs = edit.runs.map(|runs| match runs.len() {
+        1..=run::MOST => (runs.into_iter())
+            .map(|asked| Run::asked(0, 0, asked))
+            .collect::<Result<Vec<Run>, String>>(),
+        _ => Err("there are one machine or two".to_owned()),
+    });
     let fits = |set: &BTreeMap<String, Vec<f64>>| {
         let numbers =
             |values: &Vec<f64>| values.len() <= MOST.1 && values.iter().all(|v| v.is_finite());
@@ -179,9 +194,8 @@ fn change(edit: Edit) -> Result<Change, String> {
             .text
             .map(|text| (text.replace("\r\n", "\n"), edit.page)),
         set: edit.set,
-        target: target.transpose()?,
-        format: edit.format,
-        mode: edit.mode,
+        runs: runs.transpose()?,
+        files: false,
     })
 }
 

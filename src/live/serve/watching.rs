@@ -22,7 +22,10 @@ pub fn watch(desk: &Arc<Desk>) -> Option<Debouncer<RecommendedWatcher>> {
         }
         // To be read is an event, too.
         if events.iter().any(|event| file.is_stale(&event.path)) {
-            told.wish(Change::default());
+            told.wish(Change {
+                files: true,
+                ..Change::default()
+            });
         }
     })
     .ok()?;

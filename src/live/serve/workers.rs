@@ -2,9 +2,10 @@
 
 use super::Build;
 use super::desk::Desk;
+use super::queue::Errand;
 use crate::failure::{Failure, Outcome};
 use crate::live::board::Wish;
-use crate::live::machine::{Kept, Work};
+use crate::live::machine::{self, Kept};
 use crate::live::native;
 use crate::scene::{Changes, Scene};
 use crate::target_args::ScreenArgs;
@@ -57,23 +58,29 @@ fn scene(desk: &Desk, wish: &Wish, changes: &Changes, read: &mut Read) -> Outcom
     Ok(scene)
 }
 
-/// Does what machines are asked for until the end.
+/// Does what machines are asked for until the end, one thing after the other: the native
+/// picture has a processor of its own, however many machines stand beside each other.
 pub fn machine(desk: &Desk, build: Build) {
-    let mut kept: Kept = None;
+    let mut kept = Kept::default();
     let build = |plan: &PlannedScene, screen: &ScreenArgs| built(desk, build, plan, screen);
-    while let Some((task, wish, scene, job)) = desk.next_task() {
-        let work = Work::new(desk, &wish, &scene);
-        let before = desk.shown().1.machine.stage;
+    while let Some(errand) = desk.next_task() {
+        let Errand {
+            task,
+            run,
+            scene,
+            job,
+        } = &errand;
+        let before = (desk.shown().1.panels.get(run.panel)).map(|panel| panel.machine.stage);
         let done = catch_unwind(AssertUnwindSafe(|| {
-            job.doing(|| work.done(task, &mut kept, &build))
+            job.doing(|| machine::done(desk, run, scene, *task, (&mut kept, &build)))
         }));
         let done = done.unwrap_or_else(|_| {
-            kept = None;
+            kept = Kept::default();
             Err(Failure::Wrong(
                 "this program breaks slowlight, which is no fault of the scene's".to_owned(),
             ))
         });
-        work.ended((task, before), done);
+        machine::ended(desk, run, (*task, before.unwrap_or_default()), done);
     }
 }
 
