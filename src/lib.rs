@@ -59,6 +59,7 @@ pub mod survey;
 pub mod tables;
 pub mod target_args;
 pub mod together;
+pub mod toot;
 pub mod trial;
 #[cfg(not(target_family = "wasm"))]
 pub mod tune;

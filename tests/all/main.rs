@@ -88,6 +88,10 @@ mod peers_jsbeeb;
 #[cfg(feature = "peers")]
 mod peers_live;
 #[cfg(feature = "peers")]
+mod peers_neovim;
+#[cfg(feature = "peers")]
+mod peers_sixel;
+#[cfg(feature = "peers")]
 mod peers_stella;
 mod planning;
 mod precise;
