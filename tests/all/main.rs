@@ -93,6 +93,8 @@ mod peers_neovim;
 mod peers_sixel;
 #[cfg(feature = "peers")]
 mod peers_stella;
+#[cfg(feature = "peers")]
+mod peers_toots;
 mod planning;
 mod precise;
 mod predicted;
@@ -109,6 +111,7 @@ mod started;
 mod stress;
 mod survey_parts;
 mod syntaxes;
+mod toots;
 mod torus;
 mod tune;
 mod tune_effort;

@@ -96,7 +96,6 @@ fn neovim_does_as_the_page_says() {
         ("vec3", "type"),
         ("mirrors", "function"),
         ("sphere", "function"),
-        ("bayer4", "constant"),
         ("yellow", "constant"),
         ("first", "variable"),
         ("dir", "property"),

@@ -59,3 +59,44 @@ fn a_reader_of_sixels_gives_the_picture_back() {
     };
     assert_eq!(read("shown.png"), read("native.png"));
 }
+
+/// What `render` sends to a terminal that answers so.
+fn sent(answer: &str, variables: &[(&str, &str)]) -> String {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let mut command = Command::new("python3");
+    command
+        .arg(root.join("tests/peers/terminal.py"))
+        .args([answer, env!("CARGO_BIN_EXE_slowlight"), "render"])
+        .arg(root.join("tests/scenes/ball.scn"))
+        .env("TERM", "xterm-256color");
+    for name in [
+        "NO_COLOR",
+        "TERM_PROGRAM",
+        "KITTY_WINDOW_ID",
+        "TMUX",
+        "SLOWLIGHT_SHOW",
+    ] {
+        command.env_remove(name);
+    }
+    let output = command.envs(variables.iter().copied()).output();
+    let output = output.expect("python3 is installed: see tests/peers/setup");
+    assert!(output.status.success(), "{answer}");
+    String::from_utf8(output.stdout).expect("text")
+}
+
+#[test]
+fn terminals_are_asked_for_sixels() {
+    assert!(sent("62;4;22c", &[]).contains("\x1bP0;1q"));
+    // None of its attributes is 4, or it does not answer in time: half blocks.
+    for answer in ["4;6c", "62;22c", "", "62;4;"] {
+        let shown = sent(answer, &[]);
+        assert!(
+            shown.contains('▀') && !shown.contains("\x1bP"),
+            "{answer}: {shown}"
+        );
+    }
+    // Nobody is asked where that is known, or not wanted.
+    assert!(sent("62;4c", &[("SLOWLIGHT_SHOW", "blocks")]).contains('▀'));
+    assert!(sent("62;4c", &[("TERM", "xterm-kitty")]).contains("\x1b_G"));
+    assert!(!sent("62;4c", &[("NO_COLOR", "1")]).contains('\x1b'));
+}

@@ -20,7 +20,7 @@ use seen::{Seen, Way};
 use slowlight_runtime_bbc::{RUNTIME, guards};
 
 /// How many statements may run to observe a picture: some seconds' worth.
-const STATEMENTS: u64 = 4_000_000_000;
+const STATEMENTS: u64 = 500_000_000;
 
 /// Into how many parts a picture is cut, for threads to take.
 const SHARES: usize = 16;
@@ -192,9 +192,10 @@ fn substitute(plan: &mut Plan, seen: &Seen) {
         let stays = |id: &NodeId| {
             use crate::ir::graph::Node;
             let node = graph.node(*id);
-            matches!(
+            let kept = matches!(node, Node::Apply(..) | Node::Lookup { .. } | Node::Axis(_));
+            kept || matches!(
                 node,
-                Node::Apply(..) | Node::Lookup { .. } | Node::Const(_) | Node::Axis(_)
+                Node::Select { .. } | Node::Result { .. } | Node::Const(_)
             )
         };
         let operands = graph.node(id).operands().zip(same);

@@ -35,8 +35,9 @@ use std::collections::BTreeSet;
 /// How often ways are split at most.
 const ROUNDS: usize = 2;
 
-/// A sum whose first part is negative the other way round, and a negative sum part by part: the
-/// same bits, since rounding knows no sign.
+/// A sum whose first part is negative the other way round, a negative sum part by part, and a
+/// product with a power of two below 1 as a quotient: the same bits, since rounding knows neither
+/// signs nor exponents.
 pub fn turned(form: Form, operands: &[Text]) -> Option<Text> {
     let Form::Expression { template, .. } = form else {
         return None;
@@ -47,6 +48,14 @@ pub fn turned(form: Form, operands: &[Text]) -> Option<Text> {
             let whole = !second.text.starts_with('-');
             whole.then(|| Text::new(format!("{}-{rest}", second.text), SUM))
         }
+        ("{0}*{1}", [first, second]) => {
+            let (by, other) = match (power(&first.text), power(&second.text)) {
+                (_, Some(by)) => (by, first),
+                (Some(by), _) if second.level > PRODUCT => (by, second),
+                _ => return None,
+            };
+            Some(Text::new(format!("{}/{by}", other.at(PRODUCT)), PRODUCT))
+        }
         ("-{0}", [sum]) if sum.level == SUM => {
             let (first, second) = sum.text.split_once('+')?;
             let plain = |text: &str| Text::operand(text).is_simple() && !text.starts_with('-');
@@ -55,6 +64,12 @@ pub fn turned(form: Form, operands: &[Text]) -> Option<Text> {
         }
         _ => None,
     }
+}
+
+/// What a number is one part of, if that is a power of two.
+fn power(text: &str) -> Option<u32> {
+    let x: f64 = text.parse().ok()?;
+    (1..=16).map(|k| 1 << k).find(|n| x * f64::from(*n) == 1.0)
 }
 
 /// Writes a plan as a post.

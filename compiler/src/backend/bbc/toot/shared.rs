@@ -19,16 +19,7 @@ const LIMITS: [(&str, &str); 8] = [
     ("QUARTER", "PI/2"),
 ];
 
-/// Products with powers of two below 1 as quotients, which are as exact.
-const HALVES: [(&str, &str); 5] = [
-    ("*.5", "/2"),
-    ("*.25", "/4"),
-    ("*.125", "/8"),
-    ("*.0625", "/16"),
-    ("*.03125", "/32"),
-];
-
-/// A text with limits as numbers, and quotients for products.
+/// A text with limits as numbers.
 fn plain(text: &str) -> String {
     let put = |piece| match piece {
         Piece::Name(name) => {
@@ -38,25 +29,7 @@ fn plain(text: &str) -> String {
         Piece::Word(t) | Piece::Fixed(t) | Piece::Sign(t) => t,
         Piece::Space => " ",
     };
-    let mut out: String = pieces(text).into_iter().map(put).collect();
-    for (product, quotient) in HALVES {
-        for zero in ["", "0"] {
-            let product = product.replace('.', &format!("{zero}."));
-            let parts: Vec<&str> = out.split(&product).collect();
-            let mut joined = String::new();
-            for (k, part) in parts.iter().enumerate() {
-                let longer = part.starts_with(|c: char| c.is_ascii_digit() || "E^.".contains(c));
-                match k {
-                    0 => {}
-                    _ if longer => joined.push_str(&product),
-                    _ => joined.push_str(quotient),
-                }
-                joined.push_str(part);
-            }
-            out = joined;
-        }
-    }
-    out
+    pieces(text).into_iter().map(put).collect()
 }
 
 /// A number as it is shortest.
@@ -72,6 +45,26 @@ fn is_number(word: &str) -> bool {
     word.starts_with(|c: char| c.is_ascii_digit() || c == '.')
 }
 
+/// A text's pieces, an exponent below 0 with its number; and whether each is a number.
+fn parts(text: &str) -> Vec<(String, bool)> {
+    let mut out: Vec<(String, bool)> = Vec::new();
+    for piece in pieces(text) {
+        let (text, is_word) = match piece {
+            Piece::Word(t) => (t, true),
+            Piece::Name(t) | Piece::Fixed(t) | Piece::Sign(t) => (t, false),
+            Piece::Space => (" ", false),
+        };
+        if let Some((last, true)) = out.last_mut()
+            && (last.ends_with('E') && text == "-" || last.ends_with("E-") && is_word)
+        {
+            last.push_str(text);
+            continue;
+        }
+        out.push((text.to_owned(), is_word && is_number(text)));
+    }
+    out
+}
+
 /// The lines with numbers that are met often in variables, which are set first.
 pub fn shared(mut lines: Lines) -> Lines {
     lines.each_text(|text| {
@@ -82,11 +75,9 @@ pub fn shared(mut lines: Lines) -> Lines {
     });
     let mut met: BTreeMap<String, usize> = BTreeMap::new();
     for text in lines.texts() {
-        for piece in pieces(text) {
-            if let Piece::Word(word) = piece
-                && is_number(word)
-            {
-                *met.entry(number(word)).or_default() += 1;
+        for (part, is_number) in parts(text) {
+            if is_number {
+                *met.entry(number(&part)).or_default() += 1;
             }
         }
     }
@@ -99,17 +90,38 @@ pub fn shared(mut lines: Lines) -> Lines {
         first.statement(format!("{name}={text}"), None);
         names.insert(text, name);
     }
-    let mut body = lines;
-    body.each_text(|text| {
-        let put = |piece| match piece {
-            Piece::Word(word) if is_number(word) => names
-                .get(&number(word))
+    lines.each_text(|text| {
+        let put = |(part, is_number): (String, bool)| match is_number {
+            true => names
+                .get(&number(&part))
                 .cloned()
-                .unwrap_or_else(|| number(word)),
-            Piece::Name(t) | Piece::Word(t) | Piece::Fixed(t) | Piece::Sign(t) => t.to_owned(),
-            Piece::Space => " ".to_owned(),
+                .unwrap_or_else(|| number(&part)),
+            false => part,
         };
-        *text = pieces(text).into_iter().map(put).collect();
+        *text = parts(text).into_iter().map(put).collect();
     });
-    first.followed_by(body)
+    first.followed_by(lines)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_that_are_met_often_are_variables() {
+        let mut lines = Lines::default();
+        for text in ["a=1E-5*b+0.5", "c=1E-5<d*0.25", "IF d<1E-5 THEN a=ROOT"] {
+            lines.line(text, None);
+        }
+        let texts: Vec<String> = shared(lines).texts().map(str::to_owned).collect();
+        assert_eq!(
+            texts,
+            [
+                "number_0=1E-5",
+                "a=number_0*b+.5",
+                "c=number_0<d*.25",
+                "IF d<number_0 THEN a=1E18"
+            ]
+        );
+    }
 }
