@@ -1,8 +1,8 @@
 //! Programs in the form of a post (`--style toot`), for a bot that runs what is posted to it.
 
 use crate::failure::{Failure, Outcome};
-use crate::format::count;
-use crate::scene::SceneArgs;
+use crate::format::{count, duration};
+use crate::scene::{Scene, SceneArgs};
 use crate::target_args::{ScreenArgs, Style};
 use slowlight_compiler::backend::{self, Document};
 use slowlight_compiler::plan::Plan;
@@ -14,6 +14,9 @@ pub const POST: usize = 500;
 
 /// What a post to the bot has beside its program: to run three hours, and whom it is for.
 pub const TAG: &str = "\u{1f680}#bbcmicrobot";
+
+/// How long the bot lets a program run, in seconds of its machine.
+const LONGEST: f64 = 3.0 * 3600.0;
 
 /// How dear memory is to a plan for a post: as dear as can be.
 pub const THRIFT: u8 = 6;
@@ -31,6 +34,14 @@ impl ScreenArgs {
             args.changes.freeze = vec!["all".to_owned()];
         }
         args
+    }
+
+    /// The scene as it moves, unless its first picture alone is wanted, as it is for this style.
+    pub fn moving(&self, scene: Scene, still: bool) -> Scene {
+        match still || self.is_toot() {
+            true => scene,
+            false => scene.moving(),
+        }
     }
 
     /// Refuses the style for other machines than the bot's.
@@ -68,9 +79,9 @@ pub fn characters(documents: &[Document]) -> usize {
     documents.iter().map(|d| d.text.chars().count()).sum()
 }
 
-/// What is said of a program that is to be posted; nothing of others. Warns where it is too long
-/// for that.
-pub fn said(plan: &Plan, documents: &[Document]) -> String {
+/// What is said of a program that is to be posted and takes so many seconds, if that is known;
+/// nothing of others. Warns where it is too long for that, or takes too long.
+pub fn said(plan: &Plan, documents: &[Document], seconds: Option<f64>) -> String {
     if !plan.toot {
         return String::new();
     }
@@ -80,6 +91,12 @@ pub fn said(plan: &Plan, documents: &[Document]) -> String {
         eprintln!(
             "warning: {} characters too many for a post of {POST}",
             count((all - POST) as u64)
+        );
+    }
+    if seconds.is_some_and(|seconds| seconds > LONGEST) {
+        eprintln!(
+            "warning: the bot ends a program after {}",
+            duration(LONGEST)
         );
     }
     format!(

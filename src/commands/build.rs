@@ -91,11 +91,7 @@ enum Stage {
 /// Builds.
 pub fn run(args: &Args) -> Outcome<()> {
     let scene = Scene::load(&args.screen.scene_args(&args.scene))?;
-    let scene = if args.still || args.screen.is_toot() {
-        scene
-    } else {
-        scene.moving()
-    };
+    let scene = args.screen.moving(scene, args.still);
     if let Some(stage) = args.emit {
         return say(&emit(args, &scene, stage)?);
     }
@@ -180,7 +176,7 @@ pub fn run(args: &Args) -> Outcome<()> {
         }
         return say_json(&said);
     }
-    say(&(written.text() + &toot::said(&plan, &text)))?;
+    say(&(written.text() + &toot::said(&plan, &text, forecast.cycles().map(seconds))))?;
     say(&match &forecast {
         Forecast::Whole(cycles) => {
             let each = if plan.graph.is_moving() {

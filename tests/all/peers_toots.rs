@@ -61,6 +61,7 @@ fn posts_are_tokenised_and_run_as_here() {
             640 => 0,
             320 if run.screen.palette.len() == 2 => 4,
             320 => 1,
+            160 if run.screen.palette.len() == 4 => 5,
             _ => 2,
         };
         assert_eq!(result["stopped"], "prompt", "{name}");

@@ -123,8 +123,7 @@ pub struct Plan {
     /// Whether to write it for reading rather than for speed, where the target
     /// knows the difference; the values are the same.
     pub listing: bool,
-    /// Whether to write it in as few characters as it goes, to be posted, where the target
-    /// knows such a form; the values are the same.
+    /// Whether to write it in as few characters as it goes, to be posted.
     pub toot: bool,
     /// Whether the values that are met most are kept at fixed addresses, where the
     /// machine finds them faster there (the Hack computer's processor, in Jack).
@@ -392,9 +391,7 @@ impl Plan {
     /// The names of the parts of the runtime that the routines need, closed
     /// over what those need; in the runtime's order.
     pub fn parts(&self) -> Vec<&'static slowlight_routine::Part> {
-        let names = self
-            .routines
-            .iter()
+        let names = (self.routines.iter())
             .chain([&self.gather])
             .flatten()
             .flat_map(|r| r.needs.iter().copied());

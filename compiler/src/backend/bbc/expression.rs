@@ -3,9 +3,8 @@
 use super::Style;
 use super::names::Names;
 use super::pieces::{depth, short_length};
-use super::text::filled;
 use super::text::{Fast, Text};
-use super::toot::turned;
+use super::text::{filled, turned};
 use crate::ir::graph::*;
 use crate::plan::Plan;
 use rustc_hash::FxHashMap;

@@ -21,7 +21,6 @@ use super::steps;
 use super::tables;
 use super::tail;
 use super::thread::threaded;
-use super::toot;
 use super::ways;
 use crate::ir::graph::ParamId;
 use crate::plan::{Copies, Plan};
@@ -270,7 +269,7 @@ pub(super) fn picture(
         code.assign("I%", &ink);
     }
     if posted {
-        toot::draw(plan, code);
+        screen::draw(plan, code);
     } else if let Some(poke) = &poke {
         poke.gather(code);
     } else if let Some(row) = passes.as_ref().filter(|row| row.pokes()) {

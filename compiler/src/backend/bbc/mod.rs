@@ -23,7 +23,7 @@
 //! - `poke`: pixels put into the Micro's memory; `passes`: rows drawn every nth column at a time;
 //! - `ramp`: ints that are stepped from column to column; `reads`: what a pixel reads;
 //! - `spread`: error diffusion; `thread`, `tail`, `dead`: fewer jumps and flags; `short`: short names and lines, for speed and for size;
-//! - `toot`: a program in as few characters as it goes, in the form of a post;
+//! - `toot`: a program in as few characters as it goes, in the form of a post; `strings`: its tables;
 //! - `pieces`: statements cut into names and words; `terse`: the same said shorter.
 
 mod asked;
@@ -50,6 +50,7 @@ mod short;
 mod spread;
 mod starts;
 mod steps;
+mod strings;
 mod tables;
 mod tail;
 mod terse;

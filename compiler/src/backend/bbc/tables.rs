@@ -5,7 +5,7 @@
 //! they are, then the others are worked out ([`Recipe`]).
 
 use super::code::Code;
-use super::toot;
+use super::strings;
 use crate::ir::graph::{Table, TableId};
 use crate::plan::Plan;
 use crate::plan::table_init::{From, Recipe};
@@ -28,7 +28,7 @@ pub(super) struct Group<'p> {
 pub(super) fn groups(plan: &Plan) -> Vec<Group<'_>> {
     let mut groups: Vec<Group<'_>> = Vec::new();
     for (k, table) in plan.graph.tables.iter().enumerate() {
-        if toot::string(plan, TableId(k as u32)).is_some() {
+        if strings::string(plan, TableId(k as u32)).is_some() {
             continue;
         }
         let (id, size) = (TableId(k as u32), (table.width, table.height));

@@ -6,7 +6,7 @@
 //! are wanted, and a GOTO takes its number as a plain expression. Whole numbers live in real
 //! variables, which saves the `%`.
 //!
-//! - `strings`: tables as strings; `shared`: numbers that are met often; `post`: characters.
+//! - `shared`: numbers that are met often; `encode`: characters; `post`: lines.
 //!
 //! The rest of the program is what other styles have ([`super::frame`]), with jumps shortened
 //! in each of several ways, of which the shortest is taken.
@@ -14,9 +14,6 @@
 mod encode;
 mod post;
 mod shared;
-mod strings;
-
-pub use strings::string;
 
 use super::super::Document;
 use super::code::Code;
@@ -24,53 +21,13 @@ use super::frame::{self, called, functions, procedures};
 use super::lines::{Labels, Lines};
 use super::spread::Spread;
 use super::terse::terse;
-use super::text::Text;
 use super::thread::threaded;
-use super::{dead, screen, tables, ways};
+use super::{dead, screen, strings, tables, ways};
 use crate::plan::{Copies, Plan};
-use slowlight_routine::Form;
-use slowlight_runtime_bbc::level::{PRODUCT, SUM};
 use std::collections::BTreeSet;
 
 /// How often ways are split at most.
 const ROUNDS: usize = 2;
-
-/// A sum whose first part is negative the other way round, a negative sum part by part, and a
-/// product with a power of two below 1 as a quotient: the same bits, since rounding knows neither
-/// signs nor exponents.
-pub fn turned(form: Form, operands: &[Text]) -> Option<Text> {
-    let Form::Expression { template, .. } = form else {
-        return None;
-    };
-    match (template, operands) {
-        ("{0}+{1}", [first, second]) if first.level >= PRODUCT && second.level >= SUM => {
-            let rest = first.text.strip_prefix('-')?;
-            let whole = !second.text.starts_with('-');
-            whole.then(|| Text::new(format!("{}-{rest}", second.text), SUM))
-        }
-        ("{0}*{1}", [first, second]) => {
-            let (by, other) = match (power(&first.text), power(&second.text)) {
-                (_, Some(by)) => (by, first),
-                (Some(by), _) if second.level > PRODUCT => (by, second),
-                _ => return None,
-            };
-            Some(Text::new(format!("{}/{by}", other.at(PRODUCT)), PRODUCT))
-        }
-        ("-{0}", [sum]) if sum.level == SUM => {
-            let (first, second) = sum.text.split_once('+')?;
-            let plain = |text: &str| Text::operand(text).is_simple() && !text.starts_with('-');
-            let both = plain(first) && plain(second);
-            both.then(|| Text::new(format!("-{first}-{second}"), SUM))
-        }
-        _ => None,
-    }
-}
-
-/// What a number is one part of, if that is a power of two.
-fn power(text: &str) -> Option<u32> {
-    let x: f64 = text.parse().ok()?;
-    (1..=16).map(|k| 1 << k).find(|n| x * f64::from(*n) == 1.0)
-}
 
 /// Writes a plan as a post.
 pub fn emit(plan: &Plan) -> Vec<Document> {
@@ -129,24 +86,4 @@ fn prepared(mut lines: Lines, flags: &BTreeSet<String>) -> Lines {
     lines.remove_empty();
     lines.each_text(|text| *text = terse(text, flags, true));
     shared::shared(lines)
-}
-
-/// Draws the pixel in its ink, whatever that is: the screen is ink 0 at first, but to ask takes
-/// more characters. With two inks points are drawn in the other as they are.
-pub fn draw(plan: &Plan, code: &mut Code<'_>) {
-    let ink = code.values.read(plan.graph.ink).text;
-    let point = screen::point(plan);
-    match plan.mode.inks {
-        2 => {
-            let shown = ink
-                .strip_prefix("-(")
-                .and_then(|rest| rest.strip_suffix(')'));
-            let shown = shown.filter(|inner| !inner.contains(['(', ')']));
-            code.line(format!("IF {} THEN {point}", shown.unwrap_or(&ink)));
-        }
-        _ => {
-            code.statement(format!("GCOL 0,{ink}"));
-            code.statement(point);
-        }
-    }
 }

@@ -3,7 +3,7 @@
 use super::super::lines::MARK;
 use super::super::pieces::{Piece, pieces};
 use super::super::screen::OWN;
-use super::strings::NAME;
+use super::super::strings::NAME;
 use slowlight_isa::basic_tokens::KEYWORDS;
 use std::collections::BTreeMap;
 

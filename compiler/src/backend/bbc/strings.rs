@@ -1,7 +1,7 @@
 //! Tables of small whole numbers as strings, whose characters are the entries.
 
-use super::super::expression::Expressions;
-use super::super::text::Text;
+use super::expression::Expressions;
+use super::text::Text;
 use crate::ir::graph::{Node, NodeId, TableId};
 use crate::plan::Plan;
 use slowlight_routine::{Range, Type, Value};
@@ -78,7 +78,7 @@ pub fn texts(plan: &Plan) -> Vec<Option<Vec<u8>>> {
 
 impl Expressions<'_> {
     /// What reads an entry of a table that is a string.
-    pub fn in_string(
+    pub(super) fn in_string(
         &mut self,
         table: TableId,
         [column, row]: [NodeId; 2],
