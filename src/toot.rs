@@ -1,13 +1,9 @@
 //! Programs in the form of a post (`--style toot`), for a bot that runs what is posted to it.
 
-use crate::failure::{Failure, Outcome};
 use crate::format::{count, duration};
-use crate::scene::{Scene, SceneArgs};
-use crate::target_args::{ScreenArgs, Style};
 use slowlight_compiler::backend::{self, Document};
 use slowlight_compiler::plan::Plan;
 use slowlight_compiler::planner::PlannedScene;
-use slowlight_compiler::targets::{System, Target};
 
 /// How many characters a post may have where the bot lives.
 pub const POST: usize = 500;
@@ -20,45 +16,6 @@ const LONGEST: f64 = 3.0 * 3600.0;
 
 /// How dear memory is to a plan for a post: as dear as can be.
 pub const THRIFT: u8 = 6;
-
-impl ScreenArgs {
-    /// Whether the program is to be posted.
-    pub fn is_toot(&self) -> bool {
-        self.style == Some(Style::Toot)
-    }
-
-    /// The scene's arguments as they are for this style: params cannot be changed in a post.
-    pub fn scene_args(&self, args: &SceneArgs) -> SceneArgs {
-        let mut args = args.clone();
-        if self.is_toot() {
-            args.changes.freeze = vec!["all".to_owned()];
-        }
-        args
-    }
-
-    /// The scene as it moves, unless its first picture alone is wanted, as it is for this style.
-    pub fn moving(&self, scene: Scene, still: bool) -> Scene {
-        match still || self.is_toot() {
-            true => scene,
-            false => scene.moving(),
-        }
-    }
-
-    /// Refuses the style for other machines than the bot's.
-    ///
-    /// # Errors
-    /// Where it is asked for such a machine.
-    pub fn check_toot(&self, target: &Target) -> Outcome<()> {
-        if !self.is_toot() || target.system == System::BbcBasic {
-            return Ok(());
-        }
-        let message = format!(
-            "--style toot is for bbc:micro, which the bot has; {} is another machine",
-            target.name
-        );
-        Err(Failure::Usage(message))
-    }
-}
 
 /// The plan whose program has fewest characters, of a plan and that of the scene's formulas as
 /// they stand: without what no pixel needs.

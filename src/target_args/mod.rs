@@ -6,6 +6,7 @@ mod heap;
 mod items;
 mod lowered;
 mod passes;
+mod post;
 mod read;
 mod sampling;
 mod values;

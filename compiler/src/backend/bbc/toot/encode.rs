@@ -7,12 +7,14 @@ use super::super::strings::NAME;
 use slowlight_isa::basic_tokens::KEYWORDS;
 use std::collections::BTreeMap;
 
-/// The character that stands for a byte in a post. What might be taken for a space, for nothing
-/// or for a control character is written as its number and 256.
+/// The character that stands for a byte in a post. What might be taken for a space, for nothing,
+/// for a control character or for the beginning of a tag or of somebody's name is written as its
+/// number and 256.
 pub fn character(byte: u8) -> char {
-    match byte {
-        b' '..=b'~' | 0xa1..=0xac | 0xae..=0xff => char::from(byte),
-        _ => char::from_u32(0x100 + u32::from(byte)).unwrap_or('?'),
+    let plain = matches!(byte, b' '..=b'~' | 0xa1..=0xac | 0xae..=0xff);
+    match plain && !b"#@".contains(&byte) {
+        true => char::from(byte),
+        false => char::from_u32(0x100 + u32::from(byte)).unwrap_or('?'),
     }
 }
 
